@@ -1,0 +1,8 @@
+include(CMakeFindDependencyMacro)
+foreach(package Threads TBB assimp OpenMesh meshoptimizer fmt nlohmann_json ZLIB Eigen3)
+  find_dependency(${package})
+endforeach()
+find_dependency(PkgConfig)
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
+include("${CMAKE_CURRENT_LIST_DIR}/bp-targets.cmake")

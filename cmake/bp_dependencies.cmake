@@ -1,0 +1,20 @@
+# Distribution packages (Debian 12, Ubuntu 24.04); the scripts of samples/ and tests/ install them.
+find_package(Threads REQUIRED)
+find_package(TBB REQUIRED)
+find_package(assimp REQUIRED)
+find_package(OpenMesh REQUIRED)
+find_package(meshoptimizer REQUIRED)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+
+# zstd and xxHash ship pkg-config files everywhere, CMake packages only here and there.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
+
+if(BP_TESTS)
+  find_package(Catch2 REQUIRED)  # 2.13 (Debian 12) or 3 (Ubuntu 24.04); tests/catch.h hides the difference
+endif()

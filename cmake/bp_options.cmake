@@ -1,0 +1,29 @@
+# One interface target carries the language level, the warnings and the floating-point rules of every target.
+add_library(bp_compile_options INTERFACE)
+target_compile_features(bp_compile_options INTERFACE cxx_std_20)
+target_include_directories(bp_compile_options INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>"
+                                                        "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+target_compile_definitions(bp_compile_options INTERFACE BP_VERSION="${PROJECT_VERSION}")
+
+# Same bytes from every build: no contraction of a*b+c, no reassociation. Exact predicates depend on it.
+target_compile_options(bp_compile_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+target_compile_options(
+  bp_compile_options
+  INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual>)
+if(BP_WERROR)
+  target_compile_options(bp_compile_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
+endif()
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_CXX_EXTENSIONS ON)  # __int128 is an extension; -Wpedantic stays on, uses are marked __extension__
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+find_program(BP_CCACHE ccache)
+if(BP_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${BP_CCACHE}")
+  set(CMAKE_CUDA_COMPILER_LAUNCHER "${BP_CCACHE}")
+endif()
+
+install(TARGETS bp_compile_options EXPORT bp)

@@ -1,0 +1,196 @@
+#include "io/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::size_t kBufferBytes = std::size_t(1) << 20;
+
+[[noreturn]] void fail_write(const std::string& name) {
+  const int e = errno;
+  if (e == EPIPE) fail(ErrorCode::closed_pipe, "{}: the reader closed the pipe", name);
+  if (e == ENOSPC || e == EDQUOT || e == EFBIG)
+    fail(ErrorCode::out_of_resource, "{}: {}; free some space or write elsewhere", name, std::strerror(e));
+  fail(ErrorCode::failed, "{}: cannot write: {}", name, std::strerror(e));
+}
+
+void write_all(int fd, const std::byte* data, std::size_t n, const std::string& name) {
+  while (n > 0) {
+    const ssize_t done = ::write(fd, data, n);
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) fail_write(name);
+    data += done;
+    n -= std::size_t(done);
+  }
+}
+
+}  // namespace
+
+InputFile::InputFile(const std::string& path) : name_(path == "-" ? "stdin" : path) {
+  fd_ = path == "-" ? ::dup(0) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd_ < 0) fail(ErrorCode::bad_input, "{}: {}", name_, std::strerror(errno));
+  struct stat info {};
+  if (::fstat(fd_, &info) != 0) fail(ErrorCode::bad_input, "{}: {}", name_, std::strerror(errno));
+  if (S_ISDIR(info.st_mode)) fail(ErrorCode::bad_input, "{}: is a directory, not a file", name_);
+  seekable_ = S_ISREG(info.st_mode) && ::lseek(fd_, 0, SEEK_CUR) == 0;
+  if (seekable_) size_ = std::uint64_t(info.st_size);
+}
+
+InputFile::~InputFile() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+std::size_t InputFile::read(std::span<std::byte> buffer) {
+  std::size_t got = 0;
+  while (got < buffer.size()) {
+    const ssize_t n = ::read(fd_, buffer.data() + got, buffer.size() - got);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(ErrorCode::bad_input, "{}: cannot read at byte {}: {}", name_, offset_ + got, std::strerror(errno));
+    if (n == 0) break;
+    got += std::size_t(n);
+  }
+  offset_ += got;
+  return got;
+}
+
+std::size_t InputFile::read_at(std::uint64_t offset, std::span<std::byte> buffer) const {
+  std::size_t got = 0;
+  while (got < buffer.size()) {
+    const ssize_t n = ::pread(fd_, buffer.data() + got, buffer.size() - got, off_t(offset + got));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(ErrorCode::bad_input, "{}: cannot read at byte {}: {}", name_, offset + got, std::strerror(errno));
+    if (n == 0) break;
+    got += std::size_t(n);
+  }
+  return got;
+}
+
+void InputFile::seek(std::uint64_t offset) {
+  if (::lseek(fd_, off_t(offset), SEEK_SET) < 0)
+    fail(ErrorCode::bad_input, "{}: cannot seek: {}", name_, std::strerror(errno));
+  offset_ = offset;
+}
+
+OutputFile::OutputFile(const std::string& path, bool overwrite)
+    : name_(path == "-" ? "stdout" : path), buffer_(new std::byte[kBufferBytes]) {
+  if (path == "-") {
+    fd_ = ::dup(1);
+    if (fd_ < 0) fail_write(name_);
+    return;
+  }
+  struct stat info {};
+  const bool exists = ::stat(path.c_str(), &info) == 0;
+  if (exists && S_ISDIR(info.st_mode)) fail(ErrorCode::bad_argument, "{}: is a directory; name a file", path);
+  if (exists && !S_ISREG(info.st_mode)) {  // a device or a named pipe: written in place, as a shell would
+    fd_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (fd_ < 0) fail_write(name_);
+    return;
+  }
+  if (exists && !overwrite) fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", path);
+  static std::atomic<int> serial{0};
+  temporary_ = fmt::format("{}.partial-{}-{}", path, ::getpid(), serial++);
+  fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd_ < 0) {
+    temporary_.clear();
+    fail_write(name_);
+  }
+}
+
+OutputFile::~OutputFile() {
+  if (fd_ >= 0) ::close(fd_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void OutputFile::write(std::span<const std::byte> bytes) {
+  bytes_ += bytes.size();
+  if (used_ + bytes.size() > kBufferBytes) flush();
+  if (bytes.size() >= kBufferBytes) return write_all(fd_, bytes.data(), bytes.size(), name_);
+  std::memcpy(buffer_.get() + used_, bytes.data(), bytes.size());
+  used_ += bytes.size();
+}
+
+void OutputFile::flush() {
+  write_all(fd_, buffer_.get(), used_, name_);
+  used_ = 0;
+}
+
+void OutputFile::commit() {
+  flush();
+  if (!temporary_.empty() && ::fsync(fd_) != 0) fail_write(name_);
+  const int fd = std::exchange(fd_, -1);
+  if (::close(fd) != 0) fail_write(name_);
+  if (temporary_.empty()) return;
+  if (::rename(temporary_.c_str(), name_.c_str()) != 0) fail_write(name_);
+  temporary_.clear();
+}
+
+struct ScratchFile::State {
+  int fd = -1;
+  std::string name;
+  std::atomic<std::uint64_t> size{0};
+};
+
+ScratchFile::ScratchFile(const std::string& directory) : state_(new State) {
+  state_->name = directory + "/bp-scratch-XXXXXX";
+  state_->fd = ::mkstemp(state_->name.data());
+  if (state_->fd < 0) {
+    fail(ErrorCode::out_of_resource, "{}: cannot create a scratch file: {}; choose another --temp", directory,
+         std::strerror(errno));
+  }
+  ::unlink(state_->name.c_str());
+}
+
+ScratchFile::~ScratchFile() {
+  if (state_->fd >= 0) ::close(state_->fd);
+}
+
+std::uint64_t ScratchFile::append(std::span<const std::byte> bytes) {
+  const std::uint64_t offset = state_->size.fetch_add(bytes.size());
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t n = ::pwrite(state_->fd, bytes.data() + done, bytes.size() - done, off_t(offset + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) fail_write(state_->name);
+    done += std::size_t(n);
+  }
+  return offset;
+}
+
+void ScratchFile::read_at(std::uint64_t offset, std::span<std::byte> buffer) const {
+  std::size_t got = 0;
+  while (got < buffer.size()) {
+    const ssize_t n = ::pread(state_->fd, buffer.data() + got, buffer.size() - got, off_t(offset + got));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) fail(ErrorCode::failed, "{}: scratch file lost bytes at {}", state_->name, offset + got);
+    got += std::size_t(n);
+  }
+}
+
+std::uint64_t ScratchFile::size() const {
+  return state_->size;
+}
+
+std::string read_text(const std::string& path, std::uint64_t limit) {
+  InputFile file(path);
+  std::string text;
+  std::byte block[65536];
+  while (const std::size_t n = file.read(block)) {
+    text.append(reinterpret_cast<const char*>(block), n);
+    if (text.size() > limit)
+      fail(ErrorCode::bad_input, "{}: larger than {} bytes; is it the right file?", file.name(), limit);
+  }
+  return text;
+}
+
+}  // namespace bp

@@ -1,0 +1,32 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lib/closing/closing.h"
+#include "lib/voxel/fixed_triangle.h"
+
+/// The tile operations, behind which CpuBackend and CudaBackend stand. One Backend per worker thread: it owns its
+/// scratch (on a GPU: its stream and buffers), allocated on the first call and kept. Results do not depend on threads,
+/// tile size or backend.
+namespace bp {
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  [[nodiscard]] virtual std::string name() const = 0;  ///< "cpu", "cuda:0 NVIDIA H100 80GB HBM3"
+
+  /// Sets, in `out`, every voxel whose closed cube meets a triangle (grown by kFixedSlack); keeps what is set.
+  /// Triangles may reach outside the box. Exact in integers; [SS10].
+  virtual void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) = 0;
+
+  /// See close_tile in lib/closing/closing.h.
+  virtual void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
+                     const VoxelBox& interior, BitBox& closed) = 0;
+};
+
+/// One backend per worker thread. Stages hand tile i to any idle backend.
+using Backends = std::vector<std::unique_ptr<Backend>>;
+
+}  // namespace bp

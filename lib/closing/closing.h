@@ -1,0 +1,37 @@
+#pragma once
+#include "lib/grid/bit_box.h"
+#include "lib/grid/scale_field.h"
+#include "lib/grid/stream.h"
+
+/// Spatially varying closing, after [CB17] §3.3, Alg. 1-2 (docs/references.md), exact in integers. With G the voxels of
+/// the input, r(p) = floor(S(p)), w(p) = ceil(S(p)^2):
+///   D  = { p : exists g in G with max|p-g| <= r(p) }  (cube)   or   { p : exists g in G with |p-g|^2 < w(p) }  (ball)
+///   Dc = { q not in D : a 6-neighbour of q is in D }
+///   E  = G  united with  { p in D : no q in Dc has |p-q|^2 < w(q) }
+/// Hence G ⊆ E ⊆ D: a closing always encloses its input. S < 1 is the identity. Outside the grid everything is empty.
+namespace bp {
+
+struct ClosingParams {
+  StructuringElement element = StructuringElement::cube;
+};
+
+/// Voxels of context around a tile that make its interior exact: ceil(s1) + 1 + ceil(s2), where s1 is the largest scale
+/// of any voxel whose erosion ball can reach the tile and s2 the largest scale on what is left of the reach
+/// (docs/pipeline.md, "Halo").
+struct Halo {
+  std::int32_t erosion_vox = 0;   ///< D and Dc must be exact this far from the tile
+  std::int32_t dilation_vox = 0;  ///< and G this much further
+  [[nodiscard]] std::int32_t total_vox() const { return erosion_vox + dilation_vox; }
+};
+[[nodiscard]] Halo halo_of(const VoxelBox& tile, const ScaleField& scale, const GridFrame& frame);
+
+/// Closes the interior of a tile on the calling thread.
+///   solid     G over the tile and its halo; what it does not hold is empty
+///   scale     S over solid.box(), at least
+///   interior  the tile; `closed` is reset to it
+///   scratch   reused between calls; one per thread
+class ClosingScratch;
+void close_tile(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
+                const VoxelBox& interior, BitBox& closed, ClosingScratch& scratch);
+
+}  // namespace bp

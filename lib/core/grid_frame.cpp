@@ -1,0 +1,61 @@
+#include "lib/core/grid_frame.h"
+
+#include <cmath>
+
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+/// `x` rounded up to `bits` significant bits.
+double round_up_to_bits(double x, int bits) {
+  int exponent = 0;
+  const double mantissa = std::frexp(x, &exponent);  // in [0.5, 1)
+  return std::ldexp(std::ceil(std::ldexp(mantissa, bits)), exponent - bits);
+}
+
+/// Bits of the largest lattice integer (counted from the scene's origin) that a grid over `bounds` can hold. The reach
+/// of dilations is bounded by 2^12 voxels (scales are 16-bit, 1/16 voxel); twice that is left as margin.
+int lattice_bits(const Bounds3d& bounds, double voxel) {
+  double reach = 0;
+  for (std::size_t i = 0; i < 3; ++i) reach = std::max({reach, std::abs(bounds.min[i]), std::abs(bounds.max[i])});
+  return int(std::ceil(std::log2((reach / voxel + 8192) * kLatticePerVoxel + 1))) + 1;
+}
+
+}  // namespace
+
+GridFrame make_frame(const Bounds3d& bounds, double voxel, UpAxis up) {
+  if (bounds.empty()) fail(ErrorCode::bad_input, "the scene has no bounds; it holds no usable triangle");
+  if (!(voxel > 0) || !std::isfinite(voxel))
+    fail(ErrorCode::bad_argument, "a voxel size of {} is not positive and finite", voxel);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double side = (bounds.max[i] - bounds.min[i]) / voxel;
+    if (!(side < 2147483648.0 - 16384)) {
+      fail(ErrorCode::bad_argument,
+           "a grid of {:.0f} voxels a side exceeds 2^31; use a larger --voxel or a smaller --resolution", side);
+    }
+  }
+  const int bits = std::clamp(53 - lattice_bits(bounds, voxel), 8, 24);
+  if (lattice_bits(bounds, voxel) + 8 > 53) {
+    fail(ErrorCode::bad_argument,
+         "the scene lies too far from its origin for a voxel size of {}; move it or use larger voxels", voxel);
+  }
+  GridFrame frame;
+  frame.voxel = round_up_to_bits(voxel, bits);
+  frame.up = up;
+  for (std::size_t i = 0; i < 3; ++i) frame.origin[i] = std::int64_t(std::floor(bounds.min[i] / frame.voxel));
+  return frame;
+}
+
+VoxelBox voxel_bounds(const GridFrame& frame, const Bounds3d& bounds) {
+  const Vec3d lo = frame.to_voxels(bounds.min), hi = frame.to_voxels(bounds.max);
+  VoxelBox box;
+  for (int i = 0; i < 3; ++i) {
+    box.min[i] = std::int32_t(std::floor(lo[std::size_t(i)])) - 1;
+    box.max[i] = std::int32_t(std::floor(hi[std::size_t(i)])) + 2;
+  }
+  return box;
+}
+
+}  // namespace bp

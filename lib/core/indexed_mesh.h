@@ -1,0 +1,17 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lib/core/coords.h"
+
+/// A whole mesh in memory, scene units: what bpcheck and bpinfo read (proxies; scenes are streamed instead).
+namespace bp {
+
+struct IndexedMesh {
+  std::vector<Vec3d> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+}  // namespace bp

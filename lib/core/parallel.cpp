@@ -1,0 +1,49 @@
+#include "lib/core/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+
+namespace bp {
+
+ThreadLimit::ThreadLimit(int threads)
+    : control_(new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                       std::size_t(threads > 0 ? threads : tbb::info::default_concurrency()))) {}
+ThreadLimit::~ThreadLimit() {
+  delete static_cast<tbb::global_control*>(control_);
+}
+
+int thread_count() {
+  return int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+void parallel_for(std::int64_t n, const std::function<void(std::int64_t)>& body) {
+  tbb::parallel_for(std::int64_t(0), n, [&](std::int64_t i) { body(i); });
+}
+
+void parallel_chunks(std::int64_t n, std::int64_t grain, const std::function<void(std::int64_t, std::int64_t)>& body) {
+  const std::int64_t chunks = (n + grain - 1) / grain;  // fixed boundaries: they do not depend on the thread count
+  tbb::parallel_for(std::int64_t(0), chunks, [&](std::int64_t c) { body(c * grain, std::min(n, (c + 1) * grain)); });
+}
+
+namespace detail {
+
+void run_pipeline(int in_flight, const std::function<void*()>& produce, const std::function<void(void*)>& work,
+                  const std::function<void(void*)>& consume) {
+  tbb::parallel_pipeline(
+      std::size_t(in_flight),
+      tbb::make_filter<void, void*>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> void* {
+        void* item = produce();
+        if (item == nullptr) control.stop();
+        return item;
+      }) & tbb::make_filter<void*, void*>(tbb::filter_mode::parallel, [&](void* item) -> void* {
+        work(item);
+        return item;
+      }) & tbb::make_filter<void*, void>(tbb::filter_mode::serial_in_order, [&](void* item) { consume(item); }));
+}
+
+}  // namespace detail
+
+}  // namespace bp

@@ -1,0 +1,58 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+/// The only door to oneTBB. Results never depend on the number of threads: work items are independent and are combined
+/// in order.
+namespace bp {
+
+/// Limits this process to `threads` computing threads (0: all cores). Keep it alive while work runs.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  void* control_;
+};
+
+[[nodiscard]] int thread_count();
+
+/// body(i) for i in [0, n), in any order, in parallel. The first exception is rethrown.
+void parallel_for(std::int64_t n, const std::function<void(std::int64_t)>& body);
+
+/// body(begin, end) over consecutive chunks of at most `grain` items.
+void parallel_chunks(std::int64_t n, std::int64_t grain, const std::function<void(std::int64_t, std::int64_t)>& body);
+
+/// A pipeline with at most `in_flight` items: produce() in order on one thread at a time until it returns false, work()
+/// in parallel, consume() in the order of production. `Item` is default-constructible and movable.
+///   produce: bool(Item&)   work: void(Item&)   consume: void(Item&)
+template <class Item>
+void pipeline(int in_flight, const std::function<bool(Item&)>& produce, const std::function<void(Item&)>& work,
+              const std::function<void(Item&)>& consume);
+
+namespace detail {
+void run_pipeline(int in_flight, const std::function<void*()>& produce, const std::function<void(void*)>& work,
+                  const std::function<void(void*)>& consume);
+}
+
+template <class Item>
+void pipeline(int in_flight, const std::function<bool(Item&)>& produce, const std::function<void(Item&)>& work,
+              const std::function<void(Item&)>& consume) {
+  detail::run_pipeline(
+      in_flight,
+      [&]() -> void* {
+        auto item = std::make_unique<Item>();
+        return produce(*item) ? item.release() : nullptr;
+      },
+      [&](void* p) { work(*static_cast<Item*>(p)); },
+      [&](void* p) {
+        const std::unique_ptr<Item> item(static_cast<Item*>(p));
+        consume(*item);
+      });
+}
+
+}  // namespace bp

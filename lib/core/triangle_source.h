@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lib/core/coords.h"
+
+/// A stream of triangles in scene units. Readers of scenes implement it (io/), stages pull from it; nothing else of a
+/// scene is known to lib/.
+namespace bp {
+
+/// What a source met on its way. Skipped triangles are counted, never silently lost.
+struct SceneCounts {
+  std::uint64_t triangles = 0;   ///< delivered
+  std::uint64_t non_finite = 0;  ///< skipped: a coordinate is NaN or infinite
+  std::uint64_t degenerate = 0;  ///< skipped: exactly zero area (two equal corners, or exactly collinear)
+  std::uint64_t bad_faces =
+      0;  ///< skipped: a face that names a vertex that does not exist, or has fewer than 3 corners
+  std::uint64_t instances = 0;  ///< mesh instances met (1 for formats without a scene graph)
+  void add(const SceneCounts& c) {
+    triangles += c.triangles, non_finite += c.non_finite, degenerate += c.degenerate;
+    bad_faces += c.bad_faces, instances += c.instances;
+  }
+};
+
+class TriangleSource {
+ public:
+  virtual ~TriangleSource() = default;
+
+  /// Replaces `out` by the next triangles (at most some tens of thousands). False, and `out` empty, at the end.
+  /// Polygons arrive as triangle fans. Throws bad_input with file, place and remedy if the scene is broken.
+  virtual bool read(std::vector<TriangleD>& out) = 0;
+
+  /// Starts over from the first triangle; the same triangles follow in the same order.
+  virtual void rewind() = 0;
+
+  [[nodiscard]] virtual const SceneCounts& counts() const = 0;  ///< since the last rewind
+  [[nodiscard]] virtual std::string name() const = 0;           ///< for messages: file names
+};
+
+}  // namespace bp

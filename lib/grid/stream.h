@@ -1,0 +1,86 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/core/grid_frame.h"
+#include "lib/grid/bit_box.h"
+#include "lib/grid/brick.h"
+#include "lib/grid/scale_field.h"
+
+/// Streams and shelves of bricks, as the stages see them. io/ implements them with zstd, checksums and scratch files.
+namespace bp {
+
+enum class StructuringElement : std::uint8_t {
+  ball = 0,
+  cube = 1
+};  ///< of the dilation; the erosion is always the ball
+enum class FillMode : std::uint8_t { flood = 0, winding = 1, none = 2 };
+
+/// One step of the chain that made a stream or a mesh: no paths, no time of day.
+struct Provenance {
+  std::string tool, version;
+  std::string options;     ///< canonical text: those that change the result, defaults included, fixed order
+  std::string input_hash;  ///< XXH3-128 of what it read, hex; empty if unknown
+  friend bool operator==(const Provenance&, const Provenance&) = default;
+};
+
+/// Everything a reader must know before the first brick.
+struct StreamHeader {
+  GridFrame frame;
+  BrickBox bricks;           ///< every brick of the stream lies in it
+  int slab_axis = 2;         ///< bricks come in slabs across this axis (the longest), see slab_order
+  bool has_closing = false;  ///< the closing layer is present beside the solid layer
+  FillMode fill = FillMode::flood;
+  ScaleField scale;  ///< of the closing; meaningful if has_closing
+  StructuringElement element = StructuringElement::cube;
+  std::vector<Provenance> provenance;
+  friend bool operator==(const StreamHeader&, const StreamHeader&) = default;
+};
+
+/// Longest axis of a box of bricks (the last one among equals).
+[[nodiscard]] int longest_axis(const BrickBox& bricks);
+
+/// Order of the stream: slab (coordinate along slab_axis), then the higher of the two other axes, then the lower, then
+/// the layer.
+[[nodiscard]] bool slab_order(int slab_axis, const Brick& a, const Brick& b);
+[[nodiscard]] bool slab_order(int slab_axis, BrickCoord a, BrickCoord b);
+
+/// Bricks in slab order; non-empty bricks only.
+class BrickSource {
+ public:
+  virtual ~BrickSource() = default;
+  [[nodiscard]] virtual const StreamHeader& header() const = 0;
+  /// Next brick; false at the end, after the end record was verified. Throws bad_input on a truncated or damaged
+  /// stream.
+  virtual bool read(Brick& out) = 0;
+};
+
+class BrickSink {
+ public:
+  virtual ~BrickSink() = default;
+  virtual void write(const Brick& brick) = 0;  ///< in slab order; empty bricks are dropped
+  virtual void finish() = 0;                   ///< end record: a stream without it is reported as truncated
+};
+
+/// Bricks that wait, by coordinate: compressed in memory, spilled to scratch beyond a budget. Thread-safe for distinct
+/// bricks.
+class BrickShelf {
+ public:
+  virtual ~BrickShelf() = default;
+  virtual void put(BrickCoord coord, BrickFill fill, const BrickBits& bits) = 0;  ///< replaces; empty removes
+  virtual BrickFill get(BrickCoord coord, BrickBits& out) const = 0;              ///< fills `out` in each case
+  [[nodiscard]] virtual BrickFill fill(BrickCoord coord) const = 0;
+  virtual void drop(BrickCoord coord) = 0;
+  [[nodiscard]] virtual std::vector<BrickCoord> coords() const = 0;  ///< of non-empty bricks, sorted x, y, z
+};
+/// Makes an empty shelf; stages get one from the tool, which knows --memory and --temp.
+using ShelfFactory = std::function<std::unique_ptr<BrickShelf>()>;
+
+/// Fills `box` with the voxels of the shelf.
+void load_voxels(const BrickShelf& shelf, BitBox& box);
+/// Stores the whole bricks that `box` covers; its box must be a box of bricks.
+void store_voxels(const BitBox& box, BrickShelf& shelf);
+
+}  // namespace bp
