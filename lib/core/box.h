@@ -69,7 +69,7 @@ struct Bounds3d {
       max[i] = std::max(max[i], p[i]);
     }
   }
-  void add(const Bounds3d& b) {
+  void merge(const Bounds3d& b) {
     if (b.empty()) return;
     add(b.min);
     add(b.max);
