@@ -1,0 +1,351 @@
+// The brush-based scale field of [CB17] Appendix A, and its samples.
+//
+// The paper's kernel, with p the position, sigma the support and s the target of a stroke, t = |x - p|:
+//   phi(x, s_prev, s) = (1 - gamma(t)) s_prev + gamma(t) s
+//   gamma(t) = 1 for t in [0, s[,  (1 - (t / sigma)^2)^2 for t in [s, s + sigma],  0 otherwise
+// Read literally, gamma jumps at t = s, is not 0 at t = s + sigma, and exceeds 1 there when s > (sqrt 2 - 1) sigma, so
+// that a stroke would overshoot its own target. We keep the three intervals and measure the middle one from its start:
+//   gamma(t) = (1 - ((t - s) / sigma)^2)^2 for t in [s, s + sigma]
+// which is 1 at s, 0 at s + sigma and smooth at both. Full effect reaches s because a ball of that radius is what the
+// closing places at p. In erase mode the paper calls phi with s = s_base; so does the radius of full effect.
+// Boxes are not in the paper: they replace the base before the first stroke.
+#include "lib/grid/scale_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+using NodeCoord = decltype(ScaleLattice::origin);
+constexpr double kMaxScaleVoxels = 4095;
+constexpr std::int32_t kBlock = 8;  // nodes along one side of a block that shares one culled list: 64 voxels
+
+double goal(const BrushStroke& stroke, double base) {
+  return stroke.mode == BrushMode::erase ? base : stroke.target;
+}
+
+double falloff(double t, double s, double sigma) {
+  if (t < s) return 1;
+  if (!(t < s + sigma)) return 0;
+  const double u = (t - s) / sigma, v = 1 - u * u;
+  return v * v;
+}
+
+/// One stroke. Stays between `s_prev` and the goal to the last bit, so that upper_bound() is one.
+double apply(const BrushStroke& stroke, double base, const Vec3d& x, double s_prev) {
+  const double s = goal(stroke, base);
+  const double dx = x[0] - stroke.position[0], dy = x[1] - stroke.position[1], dz = x[2] - stroke.position[2];
+  const double gamma = falloff(std::sqrt(dx * dx + dy * dy + dz * dz), s, stroke.support);
+  const double phi = std::clamp((1 - gamma) * s_prev + gamma * s, std::min(s_prev, s), std::max(s_prev, s));
+  switch (stroke.mode) {
+    case BrushMode::increase:
+      return std::max(phi, s_prev);
+    case BrushMode::decrease:
+      return std::min(phi, s_prev);
+    case BrushMode::erase:
+      break;
+  }
+  return gamma == 0 ? s_prev : phi;
+}
+
+bool inside(const ScaleBox& box, const Vec3d& p) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(p[i] >= box.min[i] && p[i] <= box.max[i])) return false;
+  }
+  return true;
+}
+
+Scale quantise(double scale, double voxel) {
+  return Scale(std::floor(scale / voxel * kScaleOne + 0.5));
+}
+
+/// Centre of the voxel that node `n` samples, scene units.
+Vec3d node_world(const GridFrame& frame, std::int64_t x, std::int64_t y, std::int64_t z) {
+  const std::int64_t step = std::int64_t(kScaleStep) * kLatticePerVoxel, half = kLatticePerVoxel / 2;
+  return frame.world({x * step + half, y * step + half, z * step + half});
+}
+
+Bounds3d bounds_of_nodes(const GridFrame& frame, NodeCoord first, NodeCoord count) {
+  Bounds3d bounds;
+  bounds.add(node_world(frame, first.x, first.y, first.z));
+  bounds.add(node_world(frame, std::int64_t(first.x) + count.x - 1, std::int64_t(first.y) + count.y - 1,
+                        std::int64_t(first.z) + count.z - 1));
+  return bounds;
+}
+
+/// True unless `stroke` changes nothing anywhere in `where`. The margin covers the rounding of the distances.
+bool reaches(const BrushStroke& stroke, double base, const Bounds3d& where) {
+  double d2 = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double d = std::max({where.min[i] - stroke.position[i], stroke.position[i] - where.max[i], 0.0});
+    d2 += d * d;
+  }
+  return !(std::sqrt(d2) > (goal(stroke, base) + stroke.support) * (1 + 1e-9));
+}
+
+bool reaches(const ScaleBox& box, const Bounds3d& where) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (box.min[i] > where.max[i] || box.max[i] < where.min[i]) return false;
+  }
+  return true;
+}
+
+/// The part of `field` that can matter in `where`; evaluates to the same there, to the last bit.
+void cull(const ScaleField& field, const Bounds3d& where, ScaleField& out) {
+  out.base = field.base;
+  out.strokes.clear();
+  out.boxes.clear();
+  for (const BrushStroke& s : field.strokes) {
+    if (reaches(s, field.base, where)) out.strokes.push_back(s);
+  }
+  for (const ScaleBox& b : field.boxes) {
+    if (reaches(b, where)) out.boxes.push_back(b);
+  }
+}
+
+void check_scale(double scale, double voxel, const char* what) {
+  if (!(scale >= 0) || !std::isfinite(scale))
+    fail(ErrorCode::bad_argument, "a {} of {} is not a length; give a number from 0 up", what, scale);
+  if (scale > kMaxScaleVoxels * voxel) {
+    fail(ErrorCode::bad_argument, "a {} of {} is {:.0f} voxels, more than {:.0f}; use larger voxels", what, scale,
+         scale / voxel, kMaxScaleVoxels);
+  }
+}
+
+void check_point(const Vec3d& p, const char* what) {
+  if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+    fail(ErrorCode::bad_argument, "the {} of the scale field is not finite", what);
+}
+
+}  // namespace
+
+Scale ScaleLattice::at(VoxelCoord p) const {
+  const auto cell = [](std::int32_t v, std::int32_t first) { return std::size_t(floor_div(v, kScaleStep) - first); };
+  const auto fraction = [](std::int32_t v) { return std::uint32_t(v - floor_div(v, kScaleStep) * kScaleStep); };
+  const std::size_t row = std::size_t(size.x), slice = row * std::size_t(size.y);
+  const Scale* s = &samples[(cell(p.z, origin.z) * slice) + (cell(p.y, origin.y) * row) + cell(p.x, origin.x)];
+  const std::uint32_t fx = fraction(p.x), fy = fraction(p.y), fz = fraction(p.z);
+  const auto along_x = [&](const Scale* t) { return t[0] * (kScaleStep - fx) + t[1] * fx; };
+  const auto along_y = [&](const Scale* t) { return along_x(t) * (kScaleStep - fy) + along_x(t + row) * fy; };
+  return Scale((along_y(s) * (kScaleStep - fz) + along_y(s + slice) * fz) / (kScaleStep * kScaleStep * kScaleStep));
+}
+
+double ScaleField::evaluate(const Vec3d& p) const {
+  double s = base;
+  for (auto box = boxes.rbegin(); box != boxes.rend(); ++box) {  // the last one that holds p wins
+    if (!inside(*box, p)) continue;
+    s = box->scale;
+    break;
+  }
+  for (const BrushStroke& stroke : strokes) s = apply(stroke, base, p, s);
+  return s;
+}
+
+ScaleLattice ScaleField::sample(const GridFrame& frame, const VoxelBox& box) const {
+  (void)upper_bound(frame);  // refuses what has no samples
+  ScaleLattice lattice;
+  lattice.min = lattice.max = quantise(base, frame.voxel);
+  if (box.empty()) return lattice;
+  for (int axis = 0; axis < 3; ++axis) {
+    lattice.origin[axis] = floor_div(box.min[axis], kScaleStep);
+    lattice.size[axis] = floor_div(box.max[axis] - 1, kScaleStep) + 2 - lattice.origin[axis];
+  }
+  const NodeCoord origin = lattice.origin, size = lattice.size;
+  lattice.samples.assign(std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z), lattice.min);
+
+  ScaleField here, block;
+  cull(*this, bounds_of_nodes(frame, origin, size), here);
+  if (here.constant()) return lattice;
+  for (std::int32_t z0 = 0; z0 < size.z; z0 += kBlock) {
+    for (std::int32_t y0 = 0; y0 < size.y; y0 += kBlock) {
+      for (std::int32_t x0 = 0; x0 < size.x; x0 += kBlock) {
+        const NodeCoord first{x0, y0, z0},
+            count{std::min(kBlock, size.x - x0), std::min(kBlock, size.y - y0), std::min(kBlock, size.z - z0)};
+        cull(here, bounds_of_nodes(frame, origin + first, count), block);
+        if (block.constant()) continue;
+        for (std::int32_t z = z0; z < z0 + count.z; ++z) {
+          for (std::int32_t y = y0; y < y0 + count.y; ++y) {
+            Scale* row =
+                &lattice.samples[(std::size_t(z) * std::size_t(size.y) + std::size_t(y)) * std::size_t(size.x)];
+            for (std::int32_t x = x0; x < x0 + count.x; ++x) {
+              const Vec3d p =
+                  node_world(frame, std::int64_t(origin.x) + x, std::int64_t(origin.y) + y, std::int64_t(origin.z) + z);
+              row[x] = quantise(block.evaluate(p), frame.voxel);
+            }
+          }
+        }
+      }
+    }
+  }
+  const auto [low, high] = std::minmax_element(lattice.samples.begin(), lattice.samples.end());
+  lattice.min = *low;
+  lattice.max = *high;
+  return lattice;
+}
+
+Scale ScaleField::upper_bound(const GridFrame& frame) const {
+  check_scale(base, frame.voxel, "scale");
+  double bound = base;
+  for (const ScaleBox& box : boxes) {
+    check_scale(box.scale, frame.voxel, "box scale");
+    check_point(box.min, "box");
+    check_point(box.max, "box");
+    bound = std::max(bound, box.scale);
+  }
+  for (const BrushStroke& stroke : strokes) {
+    check_scale(stroke.target, frame.voxel, "stroke target");
+    check_point(stroke.position, "stroke");
+    if (!(stroke.support >= 0) || !std::isfinite(stroke.support))
+      fail(ErrorCode::bad_argument, "a stroke support of {} is not a length; give a number from 0 up", stroke.support);
+    if (stroke.mode == BrushMode::increase) bound = std::max(bound, stroke.target);
+  }
+  return quantise(bound, frame.voxel);
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Reads one JSON value, knowing where it is: "strokes[3].support".
+class Node {
+ public:
+  Node(const Json& json, std::string path, const std::string& name)
+      : json_(json), path_(std::move(path)), name_(name) {}
+
+  [[noreturn]] void refuse(const std::string& fact) const {
+    fail(ErrorCode::bad_input, "{}: scale field: {} {}", name_, path_.empty() ? "the document" : path_, fact);
+  }
+  void expect_keys(std::initializer_list<const char*> known) const {
+    if (!json_.is_object()) refuse("is not an object");
+    for (const auto& [key, value] : json_.items()) {
+      if (std::find(known.begin(), known.end(), key) == known.end()) {
+        fail(ErrorCode::bad_input, "{}: scale field: unknown key '{}'; known here: {}", name_, join(key).path_,
+             fmt::join(known, ", "));
+      }
+    }
+  }
+  [[nodiscard]] bool has(const char* key) const { return json_.contains(key); }
+  [[nodiscard]] Node at(const char* key) const {
+    if (!has(key)) join(key).refuse("is missing");
+    return {json_[key], join(key).path_, name_};
+  }
+  [[nodiscard]] Node item(std::size_t i) const { return {json_[i], fmt::format("{}[{}]", path_, i), name_}; }
+  [[nodiscard]] std::size_t list_size() const {
+    if (!json_.is_array()) refuse("is not a list");
+    return json_.size();
+  }
+  [[nodiscard]] double number() const {
+    if (!json_.is_number()) refuse("is not a number");
+    const double x = json_.get<double>();
+    if (!std::isfinite(x)) refuse("is not finite");
+    return x;
+  }
+  [[nodiscard]] double length() const {
+    const double x = number();
+    if (x < 0) refuse("is negative");
+    return x;
+  }
+  [[nodiscard]] Vec3d point() const {
+    if (list_size() != 3) refuse("is not a list of three numbers");
+    return {item(0).number(), item(1).number(), item(2).number()};
+  }
+  [[nodiscard]] std::string text() const {
+    if (!json_.is_string()) refuse("is not a text");
+    return json_.get<std::string>();
+  }
+
+ private:
+  [[nodiscard]] Node join(const std::string& key) const {
+    return {json_, path_.empty() ? key : path_ + "." + key, name_};
+  }
+  const Json& json_;
+  std::string path_;
+  const std::string& name_;
+};
+
+constexpr const char* kModeNames[] = {"increase", "decrease", "erase"};
+
+BrushStroke stroke_of(const Node& node) {
+  node.expect_keys({"mode", "position", "support", "target"});
+  BrushStroke stroke;
+  const std::string mode = node.at("mode").text();
+  const auto found = std::find(std::begin(kModeNames), std::end(kModeNames), mode);
+  if (found == std::end(kModeNames)) node.at("mode").refuse("is none of increase, decrease, erase");
+  stroke.mode = BrushMode(found - std::begin(kModeNames));
+  stroke.position = node.at("position").point();
+  stroke.support = node.at("support").length();
+  if (stroke.mode != BrushMode::erase || node.has("target")) stroke.target = node.at("target").length();
+  return stroke;
+}
+
+ScaleBox box_of(const Node& node) {
+  node.expect_keys({"min", "max", "scale"});
+  const ScaleBox box{node.at("min").point(), node.at("max").point(), node.at("scale").length()};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (box.min[i] > box.max[i]) node.refuse("has its min above its max");
+  }
+  return box;
+}
+
+/// nlohmann keeps the last of two equal keys without a word; we refuse them.
+Json parse_without_repeats(const std::string& text, const std::string& name) {
+  std::vector<std::set<std::string>> keys;
+  const auto watch = [&](int, Json::parse_event_t event, Json& value) {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+      fail(ErrorCode::bad_input, "{}: scale field: key '{}' appears twice", name, value.get<std::string>());
+    return true;
+  };
+  try {
+    return Json::parse(text, watch);
+  } catch (const nlohmann::json::parse_error& e) {
+    fail(ErrorCode::bad_input, "{}: scale field: not valid JSON at byte {}", name, e.byte);
+  } catch (const nlohmann::json::exception&) {
+    fail(ErrorCode::bad_input, "{}: scale field: a number is too large, or a text is not UTF-8", name);
+  }
+}
+
+Json json_of(const Vec3d& p) {
+  return Json::array({p[0] + 0.0, p[1] + 0.0, p[2] + 0.0});  // -0 becomes 0: equal fields, equal text
+}
+
+}  // namespace
+
+ScaleField parse_scale_field(const std::string& json, const std::string& name) {
+  const Json document = parse_without_repeats(json, name);
+  const Node root(document, "", name);
+  root.expect_keys({"base", "strokes", "boxes"});
+  ScaleField field;
+  field.base = root.at("base").length();
+  if (root.has("strokes")) {
+    const Node list = root.at("strokes");
+    for (std::size_t i = 0; i < list.list_size(); ++i) field.strokes.push_back(stroke_of(list.item(i)));
+  }
+  if (root.has("boxes")) {
+    const Node list = root.at("boxes");
+    for (std::size_t i = 0; i < list.list_size(); ++i) field.boxes.push_back(box_of(list.item(i)));
+  }
+  return field;
+}
+
+std::string to_json(const ScaleField& field) {
+  Json strokes = Json::array(), boxes = Json::array();
+  for (const BrushStroke& s : field.strokes) {
+    strokes.push_back(Json{{"mode", kModeNames[int(s.mode)]},
+                           {"position", json_of(s.position)},
+                           {"support", s.support + 0.0},
+                           {"target", s.target + 0.0}});
+  }
+  for (const ScaleBox& b : field.boxes)
+    boxes.push_back(Json{{"min", json_of(b.min)}, {"max", json_of(b.max)}, {"scale", b.scale + 0.0}});
+  return Json{{"base", field.base + 0.0}, {"strokes", strokes}, {"boxes", boxes}}.dump();
+}
+
+}  // namespace bp
