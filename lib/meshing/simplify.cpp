@@ -1,0 +1,305 @@
+// Sources: [GH97] quadric error metrics; [SGG00] and [DLCW11] for the constraint that the merged vertex lies on or outside the plane of every
+// face around the edge; [CB17] §3.4 for the limit on edge lengths. Where we differ from [CB17]: every collapse is also checked
+// exactly against the whole proxy (guard.h), which turns the local constraint into a global guarantee; candidates are solved
+// lazily, from a lower bound (the unconstrained minimum of the summed quadrics), instead of eagerly for the two-ring.
+#include "lib/meshing/simplify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <queue>
+
+#include "lib/core/error.h"
+#include "lib/core/predicates.h"
+#include "lib/meshing/constrained_minimum.h"
+#include "lib/meshing/flatten.h"
+#include "lib/meshing/guard.h"
+#include "lib/meshing/half_edge_mesh.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kQualityFloor = 0.05;  // of 1 for the equilateral triangle; or no worse than half of what was there
+constexpr double kLeastTurn = 0.1;      // cosine between a face's normal before and after
+
+Vec3d to_double(const LatticeCoord& d) { return {double(d.x), double(d.y), double(d.z)}; }
+double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// 4 sqrt(3) area / sum of squared edges.
+double quality(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
+  const Vec3d n = to_double(normal_of(a, b, c)), ab = to_double(b - a), ac = to_double(c - a), bc = to_double(c - b);
+  return 3.4641016151377544 * std::sqrt(dot(n, n)) / (dot(ab, ab) + dot(ac, ac) + dot(bc, bc));
+}
+
+struct Entry {
+  double cost;
+  HalfEdgeId edge;
+  std::uint32_t serial;
+  bool solved;  // cost is that of the constrained minimum, not a lower bound
+  bool operator<(const Entry& o) const { return cost != o.cost ? cost > o.cost : edge > o.edge; }  // least first
+};
+
+/// A collapse that passed every test but the guard.
+struct Candidate {
+  LatticeCoord position;
+  double cost = 0;  // of the summed quadrics at `position`
+};
+
+class Simplifier {
+ public:
+  Simplifier(HalfEdgeMesh& mesh, const SimplifyParams& params, SimplifyCounts& counts)
+      : mesh_(mesh),
+        params_(params),
+        counts_(counts),
+        tree_(mesh),
+        guard_(mesh, tree_),
+        quadric_(mesh.vertex_capacity()),
+        serial_(3 * mesh.face_capacity(), 0),
+        parked_(3 * mesh.face_capacity(), 0) {
+    for (FaceId f = 0; f < mesh.face_capacity(); ++f) {
+      if (mesh.alive(f)) add_face_quadric(f);
+    }
+    for (HalfEdgeId h = 0; h < 3 * mesh.face_capacity(); ++h) {
+      if (mesh.alive(HalfEdgeMesh::face(h)) && mesh.edge(h) == h) push(h);
+    }
+  }
+
+  StopReason run() {
+    while (params_.faces == 0 || mesh_.face_count() > params_.faces) {
+      if (heap_.empty()) return StopReason::nothing_left;
+      const Entry top = heap_.top();
+      heap_.pop();
+      if (!mesh_.alive(HalfEdgeMesh::face(top.edge)) || mesh_.edge(top.edge) != top.edge || serial_[top.edge] != top.serial) continue;
+      const std::optional<Candidate> candidate = solve(top.edge);
+      if (!candidate) {
+        parked_[top.edge] = 1;
+        continue;
+      }
+      if (candidate->cost > top.cost && !heap_.empty() && candidate->cost > heap_.top().cost) {  // not the best after all
+        heap_.push({candidate->cost, top.edge, top.serial, true});
+        continue;
+      }
+      if (params_.error_vox > 0 && rms_vox(top.edge, candidate->cost) > params_.error_vox) return StopReason::error;
+      if (!take(top.edge, *candidate)) parked_[top.edge] = 1;
+    }
+    return StopReason::faces;
+  }
+
+ private:
+  void add_face_quadric(FaceId f) {
+    const Vec3d n = to_double(normal_of(mesh_.corner(f, 0), mesh_.corner(f, 1), mesh_.corner(f, 2)));
+    const double length = std::sqrt(dot(n, n));
+    for (std::uint32_t k = 0; k < 3; ++k) {  // about the corner itself, where the plane's offset is zero
+      quadric_[mesh_.from(3 * f + k)].add_plane({n[0] / length, n[1] / length, n[2] / length}, 0, length / 2);
+    }
+  }
+
+  /// Both quadrics, about the position of from(h).
+  [[nodiscard]] Quadric summed(HalfEdgeId h) const {
+    const VertexId u = mesh_.from(h), w = mesh_.to(h);
+    Quadric q = quadric_[w].about(to_double(mesh_.position(u) - mesh_.position(w)));
+    q.add(quadric_[u]);
+    return q;
+  }
+
+  [[nodiscard]] Vec3d midpoint(HalfEdgeId h) const {  // relative to from(h)
+    const Vec3d e = to_double(mesh_.position(mesh_.to(h)) - mesh_.position(mesh_.from(h)));
+    return {e[0] / 2, e[1] / 2, e[2] / 2};
+  }
+
+  void push(HalfEdgeId h) {
+    const HalfEdgeId e = mesh_.edge(h);
+    const Quadric q = summed(e);
+    parked_[e] = 0;
+    heap_.push({std::max(0.0, q.value(minimum(q, midpoint(e)))), e, ++serial_[e], false});
+  }
+
+  [[nodiscard]] double rms_vox(HalfEdgeId h, double cost) const {
+    const double weight = quadric_[mesh_.from(h)].weight + quadric_[mesh_.to(h)].weight;
+    return std::sqrt(std::max(0.0, cost) / weight) / kLatticePerVoxel;
+  }
+
+  /// Best position for the collapse of h that keeps all constraints; nothing if there is none.
+  std::optional<Candidate> solve(HalfEdgeId h) {
+    if (!mesh_.can_collapse(h)) {
+      ++counts_.refused_link;
+      return std::nullopt;
+    }
+    ++counts_.solved;
+    gather_star(h);
+    const Quadric q = summed(h);
+    const Vec3d prior = midpoint(h);
+    bool feasible = false;
+    for (const double margin : {0.0, 0.9}) {  // 0.9 > sqrt(3)/2: rounding cannot leave the half-spaces then
+      for (HalfSpace& s : half_spaces_) s.d += margin;
+      const auto x = constrained_minimum(q, prior, half_spaces_);
+      if (!x) break;
+      const auto rounded = round_inside(*x, q);
+      if (!rounded) continue;
+      feasible = true;
+      const LatticeCoord p = mesh_.position(mesh_.from(h)) + *rounded;
+      if (!shape_is_fine(h, p)) break;
+      return Candidate{p, q.value(to_double(*rounded))};
+    }
+    if (!feasible) ++counts_.refused_constraints;
+    return std::nullopt;
+  }
+
+  /// Faces around the edge, and the half-spaces outside their planes, relative to from(h).
+  void gather_star(HalfEdgeId h) {
+    star_.clear();
+    half_spaces_.clear();
+    const VertexId u = mesh_.from(h), w = mesh_.to(h);
+    mesh_.for_each_outgoing(u, [&](HalfEdgeId g) { star_.push_back(g); });
+    mesh_.for_each_outgoing(w, [&](HalfEdgeId g) {
+      if (mesh_.to(g) != u && mesh_.opposite(g) != u) star_.push_back(g);
+    });
+    const LatticeCoord origin = mesh_.position(u);
+    for (const HalfEdgeId g : star_) {
+      const LatticeCoord a = mesh_.position(mesh_.from(g));
+      const Vec3d n = to_double(normal_of(a, mesh_.position(mesh_.to(g)), mesh_.position(mesh_.opposite(g))));
+      const double length = std::sqrt(dot(n, n));
+      const Vec3d unit = {n[0] / length, n[1] / length, n[2] / length};
+      const double d = dot(unit, to_double(a - origin));
+      const bool known = std::any_of(half_spaces_.begin(), half_spaces_.end(), [&](const HalfSpace& s) {
+        return dot(s.n, unit) > 1 - 1e-12 && std::abs(s.d - d) < 1e-6;
+      });
+      if (!known) half_spaces_.push_back({unit, d});
+    }
+  }
+
+  /// The lattice point near x, on or outside all planes exactly, that costs least.
+  std::optional<LatticeCoord> round_inside(const Vec3d& x, const Quadric& q) const {
+    const LatticeCoord near{std::llround(x[0]), std::llround(x[1]), std::llround(x[2])};
+    if (outside_all(near)) return near;
+    std::optional<LatticeCoord> best;
+    double best_cost = 0;
+    for (int i = 0; i < 8; ++i) {
+      const LatticeCoord p{std::int64_t(std::floor(x[0])) + (i & 1), std::int64_t(std::floor(x[1])) + ((i >> 1) & 1),
+                           std::int64_t(std::floor(x[2])) + (i >> 2)};
+      const double cost = q.value(to_double(p));
+      if ((!best || cost < best_cost) && outside_all(p)) {
+        best = p;
+        best_cost = cost;
+      }
+    }
+    return best;
+  }
+
+  /// Exact: p (relative to the first face's apex) is on or outside the plane of every face of the star.
+  [[nodiscard]] bool outside_all(const LatticeCoord& p) const {
+    const LatticeCoord q = mesh_.position(mesh_.from(star_[0])) + p;
+    return std::all_of(star_.begin(), star_.end(), [&](HalfEdgeId g) {
+      return orient3d(mesh_.position(mesh_.from(g)), mesh_.position(mesh_.to(g)), mesh_.position(mesh_.opposite(g)), q) >= 0;
+    });
+  }
+
+  /// No face flips, vanishes, becomes a needle, or gets an edge beyond the limit.
+  bool shape_is_fine(HalfEdgeId h, const LatticeCoord& p) {
+    const VertexId u = mesh_.from(h), w = mesh_.to(h);
+    double before = 1, after = 1, longest = 0;
+    for (const HalfEdgeId g : star_) {
+      const LatticeCoord &apex = mesh_.position(mesh_.from(g)), &a = mesh_.position(mesh_.to(g)), &b = mesh_.position(mesh_.opposite(g));
+      before = std::min(before, quality(apex, a, b));
+      if (mesh_.to(g) == w || mesh_.opposite(g) == w || mesh_.to(g) == u || mesh_.opposite(g) == u) continue;  // the edge's own two faces
+      const Vec3d n0 = to_double(normal_of(apex, a, b)), n1 = to_double(normal_of(p, a, b));
+      const double l1 = dot(n1, n1);
+      if (l1 == 0 || dot(n0, n1) < kLeastTurn * std::sqrt(dot(n0, n0) * l1)) {
+        ++counts_.refused_shape;
+        return false;
+      }
+      after = std::min(after, quality(p, a, b));
+      const Vec3d e = to_double(a - p);
+      longest = std::max(longest, dot(e, e));
+    }
+    if (after < std::min(kQualityFloor, before / 2)) {
+      ++counts_.refused_shape;
+      return false;
+    }
+    if (params_.edge_limit) {
+      const double limit = params_.edge_limit(p);
+      if (longest > limit * limit) {
+        ++counts_.refused_length;
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool take(HalfEdgeId h, const Candidate& candidate) {
+    const VertexId u = mesh_.from(h), w = mesh_.to(h);
+    new_faces_.clear();
+    replaced_.clear();
+    for (const HalfEdgeId g : star_) {  // solve() gathered it
+      replaced_.push_back(HalfEdgeMesh::face(g));
+      const VertexId a = mesh_.to(g), b = mesh_.opposite(g);
+      if (a == w || b == w || a == u || b == u) continue;
+      new_faces_.push_back({{u, a, b}, {candidate.position, mesh_.position(a), mesh_.position(b)}});
+    }
+    if (!guard_.star_is_free(new_faces_, replaced_)) {
+      ++counts_.refused_guard;
+      return false;
+    }
+    const LatticeCoord pu = mesh_.position(u);
+    Quadric q = summed(h).about(to_double(candidate.position - pu));
+    mesh_.collapse(h, candidate.position);
+    quadric_[u] = q;
+    ++counts_.collapses;
+    mesh_.for_each_outgoing(u, [&](HalfEdgeId g) { tree_.update(HalfEdgeMesh::face(g)); });
+    tree_.maintain();
+    renew_around(u);
+    return true;
+  }
+
+  /// New entries for the edges at u, and another chance for parked edges one step further out.
+  void renew_around(VertexId u) {
+    mesh_.for_each_outgoing(u, [&](HalfEdgeId g) {
+      push(g);
+      mesh_.for_each_outgoing(mesh_.to(g), [&](HalfEdgeId k) {
+        if (parked_[mesh_.edge(k)]) push(k);
+      });
+    });
+  }
+
+  HalfEdgeMesh& mesh_;
+  const SimplifyParams& params_;
+  SimplifyCounts& counts_;
+  FaceTree tree_;
+  Guard guard_;
+  std::vector<Quadric> quadric_;       // per vertex, about its position
+  std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
+  std::vector<char> parked_;           // refused until its neighbourhood changes
+  std::priority_queue<Entry> heap_;
+  std::vector<HalfEdgeId> star_;       // of the edge solved last: outgoing half-edges of both ends
+  std::vector<HalfSpace> half_spaces_;
+  std::vector<NewFace> new_faces_;
+  std::vector<FaceId> replaced_;
+};
+
+}  // namespace
+
+std::string to_string(StopReason reason) {
+  switch (reason) {
+    case StopReason::faces: return "faces";
+    case StopReason::error: return "error";
+    case StopReason::nothing_left: return "no collapse left that keeps the guarantee";
+  }
+  return "";
+}
+
+LatticeMesh simplify(const LatticeMesh& dense, const SimplifyParams& params, SimplifyCounts& counts) {
+  counts = {};
+  counts.faces_in = dense.triangles.size();
+  if (dense.triangles.empty()) return dense;
+  HalfEdgeMesh mesh(dense);
+  merge_flat_regions(mesh);
+  counts.faces_flat = mesh.face_count();
+  counts.stop = Simplifier(mesh, params, counts).run();
+  counts.faces_out = mesh.face_count();
+  LatticeMesh out = mesh.compact(dense.frame);
+  out.provenance = dense.provenance;
+  return out;
+}
+
+}  // namespace bp
