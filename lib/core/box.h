@@ -74,6 +74,7 @@ struct Bounds3d {
     add(b.min);
     add(b.max);
   }
+  friend bool operator==(const Bounds3d&, const Bounds3d&) = default;
   [[nodiscard]] double diagonal() const;  ///< length of the diagonal, 0 when empty
 };
 

@@ -29,6 +29,7 @@ struct Provenance {
 /// Everything a reader must know before the first brick.
 struct StreamHeader {
   GridFrame frame;
+  Bounds3d bounds;           ///< of the scene, scene units: what a LENGTH in percent refers to
   BrickBox bricks;           ///< every brick of the stream lies in it
   int slab_axis = 2;         ///< bricks come in slabs across this axis (the longest), see slab_order
   bool has_closing = false;  ///< the closing layer is present beside the solid layer

@@ -1,7 +1,7 @@
-// Sources: [Se91] Seidel, small-dimensional linear programming, incremental: if the optimum of the first i constraints violates
-// constraint i + 1, the new optimum lies on its boundary, where the problem has one variable less. It carries over to convex
-// quadratic objectives, whose minimum over a convex set is on the boundary of the violated constraint for the same reason.
-// Constraints are few (about 10), so their order is kept as given: deterministic, no shuffling.
+// Sources: [Se91] Seidel, small-dimensional linear programming, incremental: if the optimum of the first i constraints
+// violates constraint i + 1, the new optimum lies on its boundary, where the problem has one variable less. It carries
+// over to convex quadratic objectives, whose minimum over a convex set is on the boundary of the violated constraint
+// for the same reason. Constraints are few (about 10), so their order is kept as given: deterministic, no shuffling.
 #include "lib/meshing/constrained_minimum.h"
 
 #include <algorithm>
@@ -13,13 +13,18 @@ namespace {
 
 constexpr double kEps = 1e-7;  // lattice units; far below the rounding of 1/2 unit that follows
 
-double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Vec3d& a, const Vec3d& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 Vec3d cross(const Vec3d& a, const Vec3d& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Vec3d at(const Vec3d& p, double s, const Vec3d& u) { return {p[0] + s * u[0], p[1] + s * u[1], p[2] + s * u[2]}; }
+Vec3d at(const Vec3d& p, double s, const Vec3d& u) {
+  return {p[0] + s * u[0], p[1] + s * u[1], p[2] + s * u[2]};
+}
 Vec3d times(const Quadric& q, const Vec3d& x) {
-  return {q.xx * x[0] + q.xy * x[1] + q.xz * x[2], q.xy * x[0] + q.yy * x[1] + q.yz * x[2], q.xz * x[0] + q.yz * x[1] + q.zz * x[2]};
+  return {q.xx * x[0] + q.xy * x[1] + q.xz * x[2], q.xy * x[0] + q.yy * x[1] + q.yz * x[2],
+          q.xz * x[0] + q.yz * x[1] + q.zz * x[2]};
 }
 /// Half of the gradient.
 Vec3d gradient(const Quadric& q, const Vec3d& x) {
@@ -39,7 +44,8 @@ Vec3d free_minimum(const Quadric& q) {
   const double a = q.yy * q.zz - q.yz * q.yz, b = q.xz * q.yz - q.xy * q.zz, c = q.xy * q.yz - q.xz * q.yy;
   const double det = q.xx * a + q.xy * b + q.xz * c;
   const double d = q.xx * q.zz - q.xz * q.xz, e = q.xy * q.xz - q.xx * q.yz, f = q.xx * q.yy - q.xy * q.xy;
-  return {-(a * q.bx + b * q.by + c * q.bz) / det, -(b * q.bx + d * q.by + e * q.bz) / det, -(c * q.bx + e * q.by + f * q.bz) / det};
+  return {-(a * q.bx + b * q.by + c * q.bz) / det, -(b * q.bx + d * q.by + e * q.bz) / det,
+          -(c * q.bx + e * q.by + f * q.bz) / det};
 }
 
 /// Minimum on the line p + s u within the half-spaces.
@@ -120,7 +126,9 @@ double Quadric::value(const Vec3d& x) const {
   return dot(ax, x) + 2 * (bx * x[0] + by * x[1] + bz * x[2]) + c;
 }
 
-Vec3d minimum(const Quadric& q, const Vec3d& prior) { return free_minimum(regularised(q, prior)); }
+Vec3d minimum(const Quadric& q, const Vec3d& prior) {
+  return free_minimum(regularised(q, prior));
+}
 
 std::optional<Vec3d> constrained_minimum(const Quadric& q, const Vec3d& prior, std::span<const HalfSpace> constraints) {
   const Quadric r = regularised(q, prior);

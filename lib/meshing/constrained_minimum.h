@@ -8,8 +8,8 @@
 /// Seidel's incremental scheme [Se91]: expected linear in the number of constraints.
 namespace bp {
 
-/// A quadratic form about a point of its own: value(x) = x'Ax + 2 b'x + c, with x relative to that point. Quadrics of [GH97] are sums of
-/// squared distances to planes, each weighted by its triangle's area; `weight` sums the areas.
+/// A quadratic form about a point of its own: value(x) = x'Ax + 2 b'x + c, with x relative to that point. Quadrics of
+/// [GH97] are sums of squared distances to planes, each weighted by its triangle's area; `weight` sums the areas.
 struct Quadric {
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   double bx = 0, by = 0, bz = 0;
@@ -30,11 +30,12 @@ struct HalfSpace {
   double d;
 };
 
-/// Point that minimises `q`, pulled slightly (a share 1e-3 of the mean eigenvalue) towards `prior` so that flat directions have one
-/// answer.
+/// Point that minimises `q`, pulled slightly (a share 1e-3 of the mean eigenvalue) towards `prior` so that flat
+/// directions have one answer.
 [[nodiscard]] Vec3d minimum(const Quadric& q, const Vec3d& prior);
 
 /// The same under the constraints; nothing if they contradict each other. Rounded: the caller checks exactly.
-[[nodiscard]] std::optional<Vec3d> constrained_minimum(const Quadric& q, const Vec3d& prior, std::span<const HalfSpace> constraints);
+[[nodiscard]] std::optional<Vec3d> constrained_minimum(const Quadric& q, const Vec3d& prior,
+                                                       std::span<const HalfSpace> constraints);
 
 }  // namespace bp

@@ -8,7 +8,9 @@ namespace {
 
 constexpr std::uint32_t kLeafFaces = 4;
 
-LatticeBox box_of_face(const HalfEdgeMesh& mesh, FaceId f) { return box_of(mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2)); }
+LatticeBox box_of_face(const HalfEdgeMesh& mesh, FaceId f) {
+  return box_of(mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2));
+}
 
 void add(LatticeBox& to, const LatticeBox& b) {
   to.add(b.min);
@@ -24,7 +26,9 @@ LatticeBox box_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoo
   return box;
 }
 
-FaceTree::FaceTree(const HalfEdgeMesh& mesh) : mesh_(mesh) { build(); }
+FaceTree::FaceTree(const HalfEdgeMesh& mesh) : mesh_(mesh) {
+  build();
+}
 
 void FaceTree::maintain() {
   if (mesh_.face_count() * 2 < built_for_) build();

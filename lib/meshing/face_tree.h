@@ -4,22 +4,25 @@
 #include "lib/core/box.h"
 #include "lib/meshing/half_edge_mesh.h"
 
-/// Broad phase of the guard: a bounding volume hierarchy over the live faces that follows the mesh as it changes. Changed faces
-/// only ever grow their node's box; when half of the faces are gone the tree is rebuilt, so its cost stays that of a fresh one.
+/// Broad phase of the guard: a bounding volume hierarchy over the live faces that follows the mesh as it changes.
+/// Changed faces only ever grow their node's box; when half of the faces are gone the tree is rebuilt, so its cost
+/// stays that of a fresh one.
 namespace bp {
 
 /// Closed box of lattice points.
 struct LatticeBox {
   LatticeCoord min{}, max{};
   [[nodiscard]] bool meets(const LatticeBox& b) const {
-    return min.x <= b.max.x && b.min.x <= max.x && min.y <= b.max.y && b.min.y <= max.y && min.z <= b.max.z && b.min.z <= max.z;
+    return min.x <= b.max.x && b.min.x <= max.x && min.y <= b.max.y && b.min.y <= max.y && min.z <= b.max.z &&
+           b.min.z <= max.z;
   }
   void add(const LatticeCoord& p) {
     min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
     max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
   }
   [[nodiscard]] bool contains(const LatticeBox& b) const {
-    return min.x <= b.min.x && min.y <= b.min.y && min.z <= b.min.z && max.x >= b.max.x && max.y >= b.max.y && max.z >= b.max.z;
+    return min.x <= b.min.x && min.y <= b.min.y && min.z <= b.min.z && max.x >= b.max.x && max.y >= b.max.y &&
+           max.z >= b.max.z;
   }
 };
 [[nodiscard]] LatticeBox box_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c);
@@ -59,8 +62,8 @@ class FaceTree {
  private:
   struct Node {
     LatticeBox box;
-    std::uint32_t first = 0;   // leaf: first face in order_; inner: left child, the right one follows it
-    std::uint32_t count = 0;   // faces of a leaf, 0 for inner nodes
+    std::uint32_t first = 0;  // leaf: first face in order_; inner: left child, the right one follows it
+    std::uint32_t count = 0;  // faces of a leaf, 0 for inner nodes
     std::uint32_t parent = 0;
   };
   void build();

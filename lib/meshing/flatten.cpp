@@ -88,7 +88,9 @@ class Flattener {
         least = 0;
         return;
       }
-      const auto square = [](const LatticeCoord& d) { return double(d.x) * double(d.x) + double(d.y) * double(d.y) + double(d.z) * double(d.z); };
+      const auto square = [](const LatticeCoord& d) {
+        return double(d.x) * double(d.x) + double(d.y) * double(d.y) + double(d.z) * double(d.z);
+      };
       const double edges = square(pa - p) + square(pb - p) + square(pb - pa);
       least = std::min(least, 3.4641016151377544 * std::sqrt(square(n)) / edges);
     });
@@ -108,6 +110,8 @@ class Flattener {
 
 }  // namespace
 
-std::uint64_t merge_flat_regions(HalfEdgeMesh& mesh) { return Flattener(mesh).run(); }
+std::uint64_t merge_flat_regions(HalfEdgeMesh& mesh) {
+  return Flattener(mesh).run();
+}
 
 }  // namespace bp

@@ -16,15 +16,19 @@ bool meet(const NewFace& a, const NewFace& b) {
   }
   const LatticeCoord *ta = a.corners.data(), *tb = b.corners.data();
   switch (shared) {
-    case 0: return triangles_intersect(ta, tb);
-    case 1: return triangles_meet_beyond_shared_vertex(ta, ia[0], tb, ib[0]);
-    case 2: return triangles_meet_beyond_shared_edge(ta[ia[0]], ta[ia[1]], ta[3 - ia[0] - ia[1]], tb[3 - ib[0] - ib[1]]);
-    default: return true;
+    case 0:
+      return triangles_intersect(ta, tb);
+    case 1:
+      return triangles_meet_beyond_shared_vertex(ta, ia[0], tb, ib[0]);
+    case 2:
+      return triangles_meet_beyond_shared_edge(ta[ia[0]], ta[ia[1]], ta[3 - ia[0] - ia[1]], tb[3 - ib[0] - ib[1]]);
+    default:
+      return true;
   }
 }
 
-/// Sufficient and cheap: seen along some axis all faces turn the same way around the apex, and once. Then the fan is a graph over
-/// its shadow. Holds for nearly every star; the others are compared pair by pair.
+/// Sufficient and cheap: seen along some axis all faces turn the same way around the apex, and once. Then the fan is a
+/// graph over its shadow. Holds for nearly every star; the others are compared pair by pair.
 bool is_graph_along_axis(std::span<const NewFace> star) {
   bool positive[3] = {true, true, true}, negative[3] = {true, true, true};
   for (const NewFace& f : star) {

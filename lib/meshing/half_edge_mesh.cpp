@@ -27,7 +27,8 @@ HalfEdgeMesh::HalfEdgeMesh(const LatticeMesh& mesh)
   for (std::size_t v = 0; v < position_.size(); ++v) {
     for (std::uint32_t i = start[v]; i < start[v + 1]; ++i) {
       for (std::uint32_t j = i + 1; j < start[v + 1] && twin_[bucket[i]] == kNoId; ++j) {
-        if (twin_[bucket[j]] == kNoId && from(bucket[i]) == to(bucket[j]) && to(bucket[i]) == from(bucket[j])) glue(bucket[i], bucket[j]);
+        if (twin_[bucket[j]] == kNoId && from(bucket[i]) == to(bucket[j]) && to(bucket[i]) == from(bucket[j]))
+          glue(bucket[i], bucket[j]);
       }
       if (twin_[bucket[i]] == kNoId) fail(ErrorCode::failed, "the surface is not closed at vertex {}", v);
     }
@@ -38,7 +39,8 @@ HalfEdgeMesh::HalfEdgeMesh(const LatticeMesh& mesh)
     ++degree[from(h)];
   }
   for (VertexId v = 0; v < position_.size(); ++v) {
-    if (out_[v] != kNoId && std::uint32_t(valence(v)) != degree[v]) fail(ErrorCode::failed, "the surface is not 2-manifold at vertex {}", v);
+    if (out_[v] != kNoId && std::uint32_t(valence(v)) != degree[v])
+      fail(ErrorCode::failed, "the surface is not 2-manifold at vertex {}", v);
   }
 }
 
@@ -90,7 +92,8 @@ void HalfEdgeMesh::flip(HalfEdgeId h) {
   // Faces (u, w, a) and (w, u, b) become (b, a, u)... written so that h runs b -> a and its twin a -> b.
   const HalfEdgeId t = twin(h);
   const VertexId u = from(h), w = to(h), a = opposite(h), b = opposite(t);
-  const HalfEdgeId wa = twin(next(h)), au = twin(prev(h)), ub = twin(next(t)), bw = twin(prev(t));  // outer halves, reversed
+  const HalfEdgeId wa = twin(next(h)), au = twin(prev(h)), ub = twin(next(t)),
+                   bw = twin(prev(t));  // outer halves, reversed
   from_[h] = b;
   from_[next(h)] = a;
   from_[prev(h)] = u;  // face (b, a, u): halves b->a, a->u, u->b

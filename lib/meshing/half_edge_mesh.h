@@ -4,8 +4,9 @@
 
 #include "lib/meshing/lattice_mesh.h"
 
-/// A closed triangle mesh one can collapse edges, flip edges and move vertices of. Half-edge h = 3 f + k of face f runs from
-/// corner k to corner k + 1; 28 bytes a face, 36 a vertex (docs/decisions/0002-half-edges.md says why not OpenMesh here).
+/// A closed triangle mesh one can collapse edges, flip edges and move vertices of. Half-edge h = 3 f + k of face f runs
+/// from corner k to corner k + 1; 28 bytes a face, 36 a vertex (docs/decisions/0002-half-edges.md says why not OpenMesh
+/// here).
 namespace bp {
 
 using VertexId = std::uint32_t;
@@ -31,9 +32,13 @@ class HalfEdgeMesh {
   [[nodiscard]] VertexId from(HalfEdgeId h) const { return from_[h]; }
   [[nodiscard]] VertexId to(HalfEdgeId h) const { return from_[next(h)]; }
   [[nodiscard]] VertexId opposite(HalfEdgeId h) const { return from_[prev(h)]; }
-  [[nodiscard]] HalfEdgeId edge(HalfEdgeId h) const { return h < twin_[h] ? h : twin_[h]; }  ///< one name for both halves
+  [[nodiscard]] HalfEdgeId edge(HalfEdgeId h) const {
+    return h < twin_[h] ? h : twin_[h];
+  }  ///< one name for both halves
   [[nodiscard]] HalfEdgeId outgoing(VertexId v) const { return out_[v]; }
-  [[nodiscard]] HalfEdgeId rotate(HalfEdgeId h) const { return twin_[prev(h)]; }  ///< next outgoing one, counter-clockwise
+  [[nodiscard]] HalfEdgeId rotate(HalfEdgeId h) const {
+    return twin_[prev(h)];
+  }  ///< next outgoing one, counter-clockwise
 
   [[nodiscard]] const LatticeCoord& position(VertexId v) const { return position_[v]; }
   [[nodiscard]] const LatticeCoord& corner(FaceId f, int k) const { return position_[from_[3 * f + std::uint32_t(k)]]; }
@@ -71,8 +76,8 @@ class HalfEdgeMesh {
     twin_[b] = a;
   }
   std::vector<LatticeCoord> position_;
-  std::vector<HalfEdgeId> out_;    // per vertex, kNoId when dead
-  std::vector<VertexId> from_;     // per half-edge, kNoId when dead
+  std::vector<HalfEdgeId> out_;  // per vertex, kNoId when dead
+  std::vector<VertexId> from_;   // per half-edge, kNoId when dead
   std::vector<HalfEdgeId> twin_;
   std::size_t face_count_ = 0;
 };

@@ -52,7 +52,9 @@ unsigned repaired_squares(unsigned block) {
 
 }  // namespace
 
-bool corner_is_manifold(Corner block) { return parts_of(block) <= 1 && parts_of(~unsigned(block) & 0xff) <= 1; }
+bool corner_is_manifold(Corner block) {
+  return parts_of(block) <= 1 && parts_of(~unsigned(block) & 0xff) <= 1;
+}
 
 Corner corner_repair(Corner block) {
   if (corner_is_manifold(block)) return 0;
@@ -96,7 +98,8 @@ bool additions(const Neighbourhood& n, const std::array<Corner, 256>& table, Bri
   for (std::int32_t z = -1; z < kBrickEdge; ++z) {
     for (std::int32_t y = -1; y < kBrickEdge; ++y) {
       const std::uint64_t* rows[4] = {n.bits.row(first.y + y, first.z + z), n.bits.row(first.y + y + 1, first.z + z),
-                                      n.bits.row(first.y + y, first.z + z + 1), n.bits.row(first.y + y + 1, first.z + z + 1)};
+                                      n.bits.row(first.y + y, first.z + z + 1),
+                                      n.bits.row(first.y + y + 1, first.z + z + 1)};
       for (int word = 0; word < 2; ++word) {  // word 0: only its last block, x = -1, reaches the brick
         std::uint64_t v[8];
         std::uint64_t some = 0, all = ~std::uint64_t(0);
@@ -109,7 +112,9 @@ bool additions(const Neighbourhood& n, const std::array<Corner, 256>& table, Bri
         std::uint64_t mixed = some & ~all;
         if (word == 0) mixed &= std::uint64_t(1) << 63;
         if (mixed == 0) continue;
-        const auto crossed = [&](int a, int b, int c, int d) { return ~(v[a] ^ v[d]) & ~(v[b] ^ v[c]) & (v[a] ^ v[b]); };
+        const auto crossed = [&](int a, int b, int c, int d) {
+          return ~(v[a] ^ v[d]) & ~(v[b] ^ v[c]) & (v[a] ^ v[b]);
+        };
         std::uint64_t bad = crossed(0, 1, 2, 3) | crossed(4, 5, 6, 7) | crossed(0, 1, 4, 5) | crossed(2, 3, 6, 7) |
                             crossed(0, 2, 4, 6) | crossed(1, 3, 5, 7);
         for (int low = 0; low < 4; ++low) {  // a space diagonal that differs from all six others

@@ -1,7 +1,8 @@
-// Sources: [GH97] quadric error metrics; [SGG00] and [DLCW11] for the constraint that the merged vertex lies on or outside the plane of every
-// face around the edge; [CB17] §3.4 for the limit on edge lengths. Where we differ from [CB17]: every collapse is also checked
-// exactly against the whole proxy (guard.h), which turns the local constraint into a global guarantee; candidates are solved
-// lazily, from a lower bound (the unconstrained minimum of the summed quadrics), instead of eagerly for the two-ring.
+// Sources: [GH97] quadric error metrics; [SGG00] and [DLCW11] for the constraint that the merged vertex lies on or
+// outside the plane of every face around the edge; [CB17] §3.4 for the limit on edge lengths. Where we differ from
+// [CB17]: every collapse is also checked exactly against the whole proxy (guard.h), which turns the local constraint
+// into a global guarantee; candidates are solved lazily, from a lower bound (the unconstrained minimum of the summed
+// quadrics), instead of eagerly for the two-ring.
 #include "lib/meshing/simplify.h"
 
 #include <algorithm>
@@ -23,8 +24,12 @@ namespace {
 constexpr double kQualityFloor = 0.05;  // of 1 for the equilateral triangle; or no worse than half of what was there
 constexpr double kLeastTurn = 0.1;      // cosine between a face's normal before and after
 
-Vec3d to_double(const LatticeCoord& d) { return {double(d.x), double(d.y), double(d.z)}; }
-double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vec3d to_double(const LatticeCoord& d) {
+  return {double(d.x), double(d.y), double(d.z)};
+}
+double dot(const Vec3d& a, const Vec3d& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /// 4 sqrt(3) area / sum of squared edges.
 double quality(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
@@ -70,13 +75,16 @@ class Simplifier {
       if (heap_.empty()) return StopReason::nothing_left;
       const Entry top = heap_.top();
       heap_.pop();
-      if (!mesh_.alive(HalfEdgeMesh::face(top.edge)) || mesh_.edge(top.edge) != top.edge || serial_[top.edge] != top.serial) continue;
+      if (!mesh_.alive(HalfEdgeMesh::face(top.edge)) || mesh_.edge(top.edge) != top.edge ||
+          serial_[top.edge] != top.serial)
+        continue;
       const std::optional<Candidate> candidate = solve(top.edge);
       if (!candidate) {
         parked_[top.edge] = 1;
         continue;
       }
-      if (candidate->cost > top.cost && !heap_.empty() && candidate->cost > heap_.top().cost) {  // not the best after all
+      if (candidate->cost > top.cost && !heap_.empty() &&
+          candidate->cost > heap_.top().cost) {  // not the best after all
         heap_.push({candidate->cost, top.edge, top.serial, true});
         continue;
       }
@@ -191,7 +199,8 @@ class Simplifier {
   [[nodiscard]] bool outside_all(const LatticeCoord& p) const {
     const LatticeCoord q = mesh_.position(mesh_.from(star_[0])) + p;
     return std::all_of(star_.begin(), star_.end(), [&](HalfEdgeId g) {
-      return orient3d(mesh_.position(mesh_.from(g)), mesh_.position(mesh_.to(g)), mesh_.position(mesh_.opposite(g)), q) >= 0;
+      return orient3d(mesh_.position(mesh_.from(g)), mesh_.position(mesh_.to(g)), mesh_.position(mesh_.opposite(g)),
+                      q) >= 0;
     });
   }
 
@@ -200,9 +209,11 @@ class Simplifier {
     const VertexId u = mesh_.from(h), w = mesh_.to(h);
     double before = 1, after = 1, longest = 0;
     for (const HalfEdgeId g : star_) {
-      const LatticeCoord &apex = mesh_.position(mesh_.from(g)), &a = mesh_.position(mesh_.to(g)), &b = mesh_.position(mesh_.opposite(g));
+      const LatticeCoord &apex = mesh_.position(mesh_.from(g)), &a = mesh_.position(mesh_.to(g)),
+                         &b = mesh_.position(mesh_.opposite(g));
       before = std::min(before, quality(apex, a, b));
-      if (mesh_.to(g) == w || mesh_.opposite(g) == w || mesh_.to(g) == u || mesh_.opposite(g) == u) continue;  // the edge's own two faces
+      if (mesh_.to(g) == w || mesh_.opposite(g) == w || mesh_.to(g) == u || mesh_.opposite(g) == u)
+        continue;  // the edge's own two faces
       const Vec3d n0 = to_double(normal_of(apex, a, b)), n1 = to_double(normal_of(p, a, b));
       const double l1 = dot(n1, n1);
       if (l1 == 0 || dot(n0, n1) < kLeastTurn * std::sqrt(dot(n0, n0) * l1)) {
@@ -271,7 +282,7 @@ class Simplifier {
   std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
   std::vector<char> parked_;           // refused until its neighbourhood changes
   std::priority_queue<Entry> heap_;
-  std::vector<HalfEdgeId> star_;       // of the edge solved last: outgoing half-edges of both ends
+  std::vector<HalfEdgeId> star_;  // of the edge solved last: outgoing half-edges of both ends
   std::vector<HalfSpace> half_spaces_;
   std::vector<NewFace> new_faces_;
   std::vector<FaceId> replaced_;
@@ -281,9 +292,12 @@ class Simplifier {
 
 std::string to_string(StopReason reason) {
   switch (reason) {
-    case StopReason::faces: return "faces";
-    case StopReason::error: return "error";
-    case StopReason::nothing_left: return "no collapse left that keeps the guarantee";
+    case StopReason::faces:
+      return "faces";
+    case StopReason::error:
+      return "error";
+    case StopReason::nothing_left:
+      return "no collapse left that keeps the guarantee";
   }
   return "";
 }

@@ -5,13 +5,15 @@
 
 #include "lib/meshing/lattice_mesh.h"
 
-/// Bounding simplification: quadric edge collapses [GH97] that only ever grow the solid ([SGG00], [DLCW11]; [CB17] §3.4), each
-/// checked exactly, so the result encloses the input surface and does not intersect itself (docs/bounding.md).
+/// Bounding simplification: quadric edge collapses [GH97] that only ever grow the solid ([SGG00], [DLCW11]; [CB17]
+/// §3.4), each checked exactly, so the result encloses the input surface and does not intersect itself
+/// (docs/bounding.md).
 namespace bp {
 
 struct SimplifyParams {
-  std::uint64_t faces = 0;     ///< stop at this many triangles; 0: no target
-  double error_vox = 0;        ///< stop when the next collapse's root mean square distance to its planes exceeds this; 0: no limit
+  std::uint64_t faces = 0;  ///< stop at this many triangles; 0: no target
+  double error_vox =
+      0;  ///< stop when the next collapse's root mean square distance to its planes exceeds this; 0: no limit
   /// Longest edge that a collapse may make near a point, lattice units; empty: no limit. The paper's c * S.
   std::function<double(const LatticeCoord&)> edge_limit;
 };
@@ -28,7 +30,8 @@ struct SimplifyCounts {
 };
 
 /// `dense`: closed, oriented, 2-manifold, embedded (dense_surface of a repaired shelf). Deterministic, single-threaded.
-/// Cost: about n log n in its triangles. Throws `failed` if the mesh is not closed and manifold or spans over 2^29 lattice units.
+/// Cost: about n log n in its triangles. Throws `failed` if the mesh is not closed and manifold or spans over 2^29
+/// lattice units.
 [[nodiscard]] LatticeMesh simplify(const LatticeMesh& dense, const SimplifyParams& params, SimplifyCounts& counts);
 
 }  // namespace bp

@@ -115,7 +115,8 @@ LatticeMesh dense_surface(const BrickShelf& shelf, const GridFrame& frame) {
     triangles += p.triangles.size();
   }
   if (triangles >= (std::size_t(1) << 32) / 3) {
-    fail(ErrorCode::out_of_resource, "the dense surface has {} triangles, more than one piece can index; use larger voxels", triangles);
+    fail(ErrorCode::out_of_resource,
+         "the dense surface has {} triangles, more than one piece can index; use larger voxels", triangles);
   }
   mesh.vertices.reserve(vertices);
   mesh.triangles.reserve(triangles);

@@ -2,8 +2,8 @@
 #include "lib/grid/stream.h"
 #include "lib/meshing/lattice_mesh.h"
 
-/// Dense surface: the boundary of the union of voxels, as the faces between an occupied and an empty voxel, each split into two
-/// triangles, counter-clockwise from outside. Exact: it contours the solid and nothing else.
+/// Dense surface: the boundary of the union of voxels, as the faces between an occupied and an empty voxel, each split
+/// into two triangles, counter-clockwise from outside. Exact: it contours the solid and nothing else.
 namespace bp {
 
 /// Faces of the voxels of one brick. Vertices on the brick's border (the seam) also belong to its neighbours.
@@ -13,9 +13,9 @@ struct SurfacePiece {
 };
 [[nodiscard]] SurfacePiece extract_piece(const BrickShelf& shelf, BrickCoord brick);
 
-/// Welds the pieces of all bricks by lattice name: vertices are equal if their integers are. Bricks in the order z, y, x;
-/// the result does not depend on threads. Closed and 2-manifold if the shelf was repaired (repair.h).
-/// Cost: linear in the faces; 2 triangles per face, 12 bytes each, 24 bytes per vertex.
+/// Welds the pieces of all bricks by lattice name: vertices are equal if their integers are. Bricks in the order z, y,
+/// x; the result does not depend on threads. Closed and 2-manifold if the shelf was repaired (repair.h). Cost: linear
+/// in the faces; 2 triangles per face, 12 bytes each, 24 bytes per vertex.
 [[nodiscard]] LatticeMesh dense_surface(const BrickShelf& shelf, const GridFrame& frame);
 
 }  // namespace bp

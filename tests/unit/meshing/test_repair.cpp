@@ -6,8 +6,9 @@ using namespace bp;
 namespace {
 
 /// By the definition: around the centre of a block, the faces between occupied and empty cells form one closed fan.
-/// Each of the 12 inner squares (pairs of face-neighbours) is a face if exactly one of its cells is occupied; squares that share one
-/// of the 6 half-edges from the centre are linked; manifold if every half-edge has 0 or 2 faces and the faces form one cycle.
+/// Each of the 12 inner squares (pairs of face-neighbours) is a face if exactly one of its cells is occupied; squares
+/// that share one of the 6 half-edges from the centre are linked; manifold if every half-edge has 0 or 2 faces and the
+/// faces form one cycle.
 bool manifold_by_definition(unsigned block) {
   struct Face {
     int edges[2];
