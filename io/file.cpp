@@ -157,6 +157,11 @@ ScratchFile::~ScratchFile() {
 
 std::uint64_t ScratchFile::append(std::span<const std::byte> bytes) {
   const std::uint64_t offset = state_->size.fetch_add(bytes.size());
+  write_at(offset, bytes);
+  return offset;
+}
+
+void ScratchFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t n = ::pwrite(state_->fd, bytes.data() + done, bytes.size() - done, off_t(offset + done));
@@ -164,7 +169,6 @@ std::uint64_t ScratchFile::append(std::span<const std::byte> bytes) {
     if (n <= 0) fail_write(state_->name);
     done += std::size_t(n);
   }
-  return offset;
 }
 
 void ScratchFile::read_at(std::uint64_t offset, std::span<std::byte> buffer) const {

@@ -71,6 +71,8 @@ class ScratchFile {
 
   /// Appends and returns the offset of the first byte.
   std::uint64_t append(std::span<const std::byte> bytes);
+  /// Writes at `offset`, growing the file if need be. Do not mix with append().
+  void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
   void read_at(std::uint64_t offset, std::span<std::byte> buffer) const;
   [[nodiscard]] std::uint64_t size() const;
 

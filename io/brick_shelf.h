@@ -1,0 +1,42 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "lib/grid/stream.h"
+
+/// Shelves: bricks that wait, in memory while they fit, then compressed, then on disk.
+namespace bp {
+
+/// What the shelves of one pool hold now, and held at most.
+struct ShelfUse {
+  std::uint64_t memory_bytes = 0, peak_memory_bytes = 0;    ///< bricks and their index
+  std::uint64_t scratch_bytes = 0, peak_scratch_bytes = 0;  ///< in the scratch file; its size is the peak
+};
+
+/// The memory and the scratch file that the shelves of a process share.
+///   Mixed bricks stay as they are (32 KiB) while memory in use is below half of `memory_bytes`; then they are
+///   compressed (about 20 to 1), first the newcomers, then, near the budget, those of the same shelf that lay raw; what
+///   still does not fit goes to a scratch file in `temp_dir`, made when it is first needed. Its free space is reused.
+///   Full and empty bricks have no bits to store. The index (about 80 bytes a brick) counts, but is never refused.
+/// Thread-safe. put() takes about 5 us raw, 50 us compressed or spilled; get() 3 us and 30 us.
+class ShelfPool {
+ public:
+  ShelfPool(std::uint64_t memory_bytes, std::string temp_dir);
+  [[nodiscard]] std::unique_ptr<BrickShelf> make() const;  ///< an empty shelf; it keeps the pool's memory alive
+  [[nodiscard]] ShelfFactory factory() const;
+  [[nodiscard]] ShelfUse use() const;
+
+  struct State;
+
+ private:
+  std::shared_ptr<State> state_;
+};
+
+/// One shelf with a budget of its own.
+[[nodiscard]] std::unique_ptr<BrickShelf> make_shelf(std::uint64_t memory_bytes, const std::string& temp_dir);
+
+/// A factory of shelves that share one budget.
+[[nodiscard]] ShelfFactory make_shelf_factory(std::uint64_t memory_bytes, const std::string& temp_dir);
+
+}  // namespace bp
