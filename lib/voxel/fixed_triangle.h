@@ -15,11 +15,15 @@ constexpr std::int64_t kFixedSlack = 1;
 
 struct FixedPoint {
   std::int64_t x = 0, y = 0, z = 0;
+  friend bool operator==(const FixedPoint&, const FixedPoint&) = default;
 };
 struct FixedTriangle {
   FixedPoint a, b, c;
+  friend bool operator==(const FixedTriangle&, const FixedTriangle&) = default;
 };
 
+/// Nearest fixed-point position; the point must lie within the bounds the frame was made for (|result| < 2^47).
+[[nodiscard]] FixedPoint to_fixed(const GridFrame& frame, const Vec3d& point);
 [[nodiscard]] FixedTriangle to_fixed(const GridFrame& frame, const TriangleD& triangle);
 
 }  // namespace bp

@@ -1,0 +1,217 @@
+#include "lib/voxel/voxelize.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "lib/voxel/overlap.h"
+
+// [SS10] Schwarz and Seidel, Fast parallel surface and solid voxelization on GPUs, 2010. We differ in that all
+// decisions are made in integers, and in that a large triangle is walked by rows: each half-space is linear, so that
+// along a row it leaves an interval.
+
+namespace bp {
+
+namespace {
+
+CellRange intersect(const CellRange& a, const VoxelBox& b) {
+  CellRange r = a;
+  for (int axis = 0; axis < 3; ++axis) {
+    r.min[axis] = std::max<std::int64_t>(r.min[axis], b.min[axis]);
+    r.max[axis] = std::min<std::int64_t>(r.max[axis], b.max[axis]);
+  }
+  return r;
+}
+
+/// Sets bits [begin, end] of a row of words.
+void set_bits(std::uint64_t* row, std::int64_t begin, std::int64_t end) {
+  const std::uint64_t head = ~std::uint64_t(0) << (begin & 63), tail = ~std::uint64_t(0) >> (63 - (end & 63));
+  std::uint64_t* word = row + (begin >> 6);
+  std::uint64_t* const last = row + (end >> 6);
+  if (word == last) {
+    *word |= head & tail;
+    return;
+  }
+  *word++ |= head;
+  while (word != last) *word++ = ~std::uint64_t(0);
+  *word |= tail;
+}
+
+void set_box(const CellRange& r, BitBox& out) {
+  const std::int64_t x0 = r.min[0] - out.box().min.x;
+  for (std::int64_t z = r.min[2]; z < r.max[2]; ++z) {
+    for (std::int64_t y = r.min[1]; y < r.max[1]; ++y) {
+      set_bits(out.row(std::int32_t(y), std::int32_t(z)), x0, x0 + r.size(0) - 1);
+    }
+  }
+}
+
+/// emit(x0, x1, y, z) for each row of cells, first and last included, that the triangle meets.
+template <class EdgeInt, class PlaneInt, class Emit>
+void for_each_row(const TriangleCells<EdgeInt, PlaneInt>& t, const Emit& emit) {
+  const std::int32_t nx = std::int32_t(t.range.size(0)), ny = std::int32_t(t.range.size(1)),
+                     nz = std::int32_t(t.range.size(2));
+  // In a slice, a half-space can only hold in rows where it holds at the better end: that bounds y.
+  const auto clip_slice = [&](const auto& h, std::int32_t z, std::int32_t& y0, std::int32_t& y1) {
+    const std::int32_t best = h.step[0] > 0 ? nx - 1 : 0;
+    return clip(h.value(best, 0, z), h.step[1], y0, y1);
+  };
+  for (std::int32_t z = 0; z < nz; ++z) {
+    std::int32_t y0 = 0, y1 = ny - 1;
+    bool any = true;
+    for (int i = 0; i < 9 && any; ++i) any = clip_slice(t.edges[i], z, y0, y1);
+    for (int i = 0; i < 2 && any; ++i) any = clip_slice(t.plane[i], z, y0, y1);
+    for (std::int32_t y = y0; any && y <= y1; ++y) {
+      std::int32_t x0 = 0, x1 = nx - 1;
+      bool row = true;
+      for (int i = 0; i < 2 && row; ++i) row = clip(t.plane[i].value(0, y, z), t.plane[i].step[0], x0, x1);
+      for (int i = 3; i < 9 && row; ++i) row = clip(t.edges[i].value(0, y, z), t.edges[i].step[0], x0, x1);
+      if (row && x0 <= x1) emit(x0, x1, y, z);
+    }
+  }
+}
+
+template <class Triangle>
+void voxelize_rows(const Corners& corners, const CellRange& range, BitBox& out) {
+  const Triangle t(corners, range, kFixedOne);
+  const std::int64_t offset = range.min[0] - out.box().min.x;
+  for_each_row(t, [&](std::int32_t x0, std::int32_t x1, std::int32_t y, std::int32_t z) {
+    set_bits(out.row(std::int32_t(range.min[1] + y), std::int32_t(range.min[2] + z)), offset + x0, offset + x1);
+  });
+}
+
+/// ORs the low `n` <= 64 bits, from voxel (range.min.x, y, z) on; y and z from the range's first.
+void set_row(const CellRange& range, std::int32_t y, std::int32_t z, std::uint64_t bits, BitBox& out) {
+  const std::int64_t x = range.min[0] - out.box().min.x;
+  std::uint64_t* word = out.row(std::int32_t(range.min[1] + y), std::int32_t(range.min[2] + z)) + (x >> 6);
+  word[0] |= bits << (x & 63);
+  const std::uint64_t rest = (bits >> 1) >> (63 - (x & 63));
+  if (rest != 0) word[1] |= rest;
+}
+
+/// Bit x is set where all the half-spaces hold, given their values at the row's first voxel.
+template <int kCount>
+std::uint64_t row_bits(std::int64_t (&value)[kCount], const std::int64_t (&step)[kCount], std::int32_t nx) {
+  std::uint64_t bits = 0;
+  for (std::int32_t x = 0; x < nx; ++x) {
+    std::int64_t sign = value[0];
+    for (int i = 1; i < kCount; ++i) sign |= value[i];
+    bits |= std::uint64_t(sign >= 0) << x;
+    for (int i = 0; i < kCount; ++i) value[i] += step[i];
+  }
+  return bits;
+}
+
+/// Tests each voxel of a range of a few.
+void voxelize_few(const Corners& corners, const CellRange& range, BitBox& out) {
+  const SmallTriangle t(corners, range, kFixedOne);
+  const std::int32_t nx = std::int32_t(range.size(0)), ny = std::int32_t(range.size(1)),
+                     nz = std::int32_t(range.size(2));
+  std::int64_t step[8];
+  for (int i = 0; i < 6; ++i) step[i] = t.edges[3 + i].step[0];
+  for (int i = 0; i < 2; ++i) step[6 + i] = t.plane[i].step[0];
+  for (std::int32_t z = 0; z < nz; ++z) {
+    for (std::int32_t y = 0; y < ny; ++y) {
+      if ((t.edges[0].value(0, y, z) | t.edges[1].value(0, y, z) | t.edges[2].value(0, y, z)) < 0) continue;
+      std::int64_t value[8];
+      for (int i = 0; i < 6; ++i) value[i] = t.edges[3 + i].value(0, y, z);
+      for (int i = 0; i < 2; ++i) value[6 + i] = t.plane[i].value(0, y, z);
+      set_row(range, y, z, row_bits(value, step, nx), out);
+    }
+  }
+}
+
+/// The triangle lies between the cubes' faces along `thin`: only the projection along it decides.
+void voxelize_flat(const Corners& corners, const CellRange& range, int thin, BitBox& out) {
+  const bool clockwise = normal_component<std::int64_t>(corners, thin) < 0;
+  HalfSpace<std::int64_t> edges[3];
+  std::int64_t step[3];
+  for (int e = 0; e < 3; ++e) {
+    edges[e] = edge_space<std::int64_t>(corners, e, thin, clockwise, range, kFixedOne);
+    step[e] = edges[e].step[0];
+  }
+  for (std::int32_t z = 0; z < range.size(2); ++z) {
+    for (std::int32_t y = 0; y < range.size(1); ++y) {
+      std::int64_t value[3];
+      for (int e = 0; e < 3; ++e) value[e] = edges[e].value(0, y, z);
+      set_row(range, y, z, row_bits(value, step, std::int32_t(range.size(0))), out);
+    }
+  }
+}
+
+/// In blocks, so that the plane's values stay within 128 bits.
+void voxelize_wide(const Corners& corners, const CellRange& range, BitBox& out) {
+  CellRange block;
+  for (block.min[2] = range.min[2]; block.min[2] < range.max[2]; block.min[2] += kWideCells) {
+    for (block.min[1] = range.min[1]; block.min[1] < range.max[1]; block.min[1] += kWideCells) {
+      for (block.min[0] = range.min[0]; block.min[0] < range.max[0]; block.min[0] += kWideCells) {
+        for (int i = 0; i < 3; ++i) block.max[i] = std::min(block.min[i] + kWideCells, range.max[i]);
+        voxelize_rows<WideTriangle>(corners, block, out);
+      }
+    }
+  }
+}
+
+void voxelize_triangle(const FixedTriangle& triangle, BitBox& out) {
+  const Corners corners(triangle);
+  const CellRange whole = voxel_range(corners), range = intersect(whole, out.box());
+  if (range.empty()) return;
+  const int thin = int(whole.size(0) == 1) + int(whole.size(1) == 1) + int(whole.size(2) == 1);
+  if (thin >= 2) return set_box(range, out);  // connected, and inside the cubes in two axes: it meets each in the third
+  const std::int64_t extent = corners.extent();
+  if (extent > kMediumExtent) return voxelize_wide(corners, range, out);
+  if (extent > kSmallExtent) return voxelize_rows<MediumTriangle>(corners, range, out);
+  if (thin == 1) return voxelize_flat(corners, range, whole.size(0) == 1 ? 0 : whole.size(1) == 1 ? 1 : 2, out);
+  constexpr std::int64_t kFew = 64;
+  if (range.size(0) * range.size(1) * range.size(2) <= kFew) return voxelize_few(corners, range, out);
+  voxelize_rows<SmallTriangle>(corners, range, out);
+}
+
+}  // namespace
+
+void voxelize_surface(std::span<const FixedTriangle> triangles, BitBox& out) {
+  if (out.box().empty()) return;
+  for (const FixedTriangle& t : triangles) voxelize_triangle(t, out);
+}
+
+namespace {
+
+template <class Triangle>
+void walk_tiles(const Corners& corners, const CellRange& range, std::int64_t edge,
+                const std::function<void(TileCoord)>& emit) {
+  Triangle t(corners, range, edge);
+  // Beyond 2^40 units the plane's values could leave 128 bits: the edges alone decide.
+  if (corners.extent() > (std::int64_t(1) << 40)) t.plane[0] = t.plane[1] = {};
+  for_each_row(t, [&](std::int32_t x0, std::int32_t x1, std::int32_t y, std::int32_t z) {
+    for (std::int32_t x = x0; x <= x1; ++x) {
+      emit({std::int32_t(range.min[0]) + x, std::int32_t(range.min[1]) + y, std::int32_t(range.min[2]) + z});
+    }
+  });
+}
+
+}  // namespace
+
+void for_each_tile(const FixedTriangle& triangle, VoxelCoord first, std::int32_t edge_vox, TileCoord count,
+                   const std::function<void(TileCoord)>& emit) {
+  Corners corners(triangle);
+  const std::int64_t edge = std::int64_t(edge_vox) * kFixedOne;
+  CellRange range;
+  bool one = true;  // the triangle's box touches one tile
+  for (int axis = 0; axis < 3; ++axis) {
+    for (auto& p : corners.p) p[axis] -= std::int64_t(first[axis]) * kFixedOne;
+    range.min[axis] = floor_div(corners.low(axis) - kFixedSlack - 1, edge);
+    range.max[axis] = floor_div(corners.high(axis) + kFixedSlack, edge) + 1;
+    if (range.size(axis) > 1) one = false;
+    range.min[axis] = std::max<std::int64_t>(0, range.min[axis]);
+    range.max[axis] = std::min<std::int64_t>(count[axis], range.max[axis]);
+  }
+  if (range.empty()) return;
+  if (one) {
+    emit({std::int32_t(range.min[0]), std::int32_t(range.min[1]), std::int32_t(range.min[2])});
+  } else if (corners.extent() <= kMediumExtent && edge <= (std::int64_t(1) << 28)) {
+    walk_tiles<MediumTriangle>(corners, range, edge, emit);
+  } else {
+    walk_tiles<WideTriangle>(corners, range, edge, emit);
+  }
+}
+
+}  // namespace bp
