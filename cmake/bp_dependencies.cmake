@@ -6,7 +6,6 @@ find_package(OpenMesh REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(CLI11 REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 

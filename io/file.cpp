@@ -100,6 +100,7 @@ OutputFile::OutputFile(const std::string& path, bool overwrite)
   if (exists && !overwrite) fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", path);
   static std::atomic<int> serial{0};
   temporary_ = fmt::format("{}.partial-{}-{}", path, ::getpid(), serial++);
+  partial_ = PartialOutput(temporary_);
   fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (fd_ < 0) {
     temporary_.clear();

@@ -5,6 +5,8 @@
 #include <span>
 #include <string>
 
+#include "io/partial_outputs.h"
+
 /// Files, stdin, stdout. Every read, write, flush and close is checked; failures are Errors with the right code:
 /// missing or unreadable input bad_input, full disk out_of_resource, EPIPE closed_pipe, anything else failed.
 namespace bp {
@@ -36,7 +38,7 @@ class InputFile {
 };
 
 /// Sequential output. "-" is stdout. A named file is written beside its name and renamed by commit(): without commit()
-/// nothing stays behind. Throws bad_argument if the name exists and `overwrite` is false.
+/// nothing stays behind, not even when a signal ends the process. Throws bad_argument if the name exists and `overwrite` is false.
 class OutputFile {
  public:
   OutputFile(const std::string& path, bool overwrite);
@@ -55,6 +57,7 @@ class OutputFile {
  private:
   void flush();
   std::string name_, temporary_;
+  PartialOutput partial_;  ///< of temporary_, for signal handlers
   int fd_ = -1;
   std::uint64_t bytes_ = 0;
   std::unique_ptr<std::byte[]> buffer_;

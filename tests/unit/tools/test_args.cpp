@@ -1,0 +1,123 @@
+#include "lib/core/error.h"
+#include "tests/catch.h"
+#include "tools/common/args.h"
+
+using namespace bp;
+
+namespace {
+
+enum class Element { cube, ball };
+
+struct Options {
+  std::string in = "-", out = "-";
+  Length scale{2, Length::Unit::percent};
+  std::optional<int> faces;
+  Element element = Element::cube;
+  bool keep = false, loud = false;
+  std::vector<std::string> names;
+  std::string progress = "off";
+};
+
+Options parse(std::vector<const char*> words) {
+  words.insert(words.begin(), "bptest");
+  Options o;
+  Args args("bptest", int(words.size()), words.data());
+  args.positional("INPUT", o.in, "what to read");
+  args.option("-o,--output", "FILE", o.out, "where to");
+  args.option("-s,--scale", "LENGTH", o.scale, "how far");
+  args.option("--faces", "N", o.faces, "how many");
+  args.option("--element", {{"cube", Element::cube}, {"ball", Element::ball}}, o.element, "which");
+  args.option("--name", "NAME", o.names, "several");
+  args.flag("-k,--keep", o.keep, "keep it");
+  args.flag("-l", o.loud, "loudly");
+  args.flag_with_word(
+      "--progress", {"json"}, [&](const std::string& word) { o.progress = word; }, "show it");
+  args.parse();
+  return o;
+}
+
+std::string complaint(const std::vector<const char*>& words) {
+  try {
+    parse(words);
+  } catch (const Error& e) {
+    CHECK(e.code() == ErrorCode::bad_argument);
+    return e.what();
+  }
+  return "none";
+}
+
+}  // namespace
+
+TEST_CASE("options that are not given keep their defaults", "[quick][tools]") {
+  const Options o = parse({});
+  CHECK(o.in == "-");
+  CHECK(o.scale == Length{2, Length::Unit::percent});
+  CHECK_FALSE(o.faces);
+  CHECK(o.element == Element::cube);
+}
+
+TEST_CASE("a value follows its option, an equals sign or a short name", "[quick][tools]") {
+  CHECK(parse({"--scale", "3"}).scale.value == 3);
+  CHECK(parse({"--scale=3"}).scale.value == 3);
+  CHECK(parse({"-s", "3"}).scale.value == 3);
+  CHECK(parse({"-s3"}).scale.value == 3);
+  CHECK(parse({"-kls3"}).scale.value == 3);
+  CHECK(parse({"-kls3"}).keep);
+  CHECK(parse({"--faces", "12"}).faces == 12);
+  CHECK(parse({"--element", "ball"}).element == Element::ball);
+  CHECK(parse({"--name", "a", "--name=b"}).names == std::vector<std::string>{"a", "b"});
+  CHECK(parse({"-o", "-"}).out == "-");
+  CHECK(parse({"--output="}).out.empty());
+}
+
+TEST_CASE("an optional word never swallows a file name", "[quick][tools]") {
+  CHECK(parse({}).progress == "off");
+  CHECK(parse({"--progress", "scene.glb"}).progress.empty());
+  CHECK(parse({"--progress", "scene.glb"}).in == "scene.glb");
+  CHECK(parse({"--progress", "json", "scene.glb"}).progress == "json");
+  CHECK(parse({"--progress=json"}).progress == "json");
+}
+
+TEST_CASE("after two dashes everything is an argument", "[quick][tools]") {
+  CHECK(parse({"--", "--scale"}).in == "--scale");
+  CHECK(parse({"-"}).in == "-");
+}
+
+TEST_CASE("a usage error names the option and the fact", "[quick][tools]") {
+  CHECK(complaint({"--scale", "-1"}) == "--scale: '-1' is negative; a length is at least 0 (see bptest --help)");
+  CHECK(complaint({"--scale"}) == "--scale needs a value (see bptest --help)");
+  CHECK(complaint({"--scal", "1"}) == "there is no option --scal (see bptest --help)");
+  CHECK(complaint({"-x"}) == "there is no option -x (see bptest --help)");
+  CHECK(complaint({"-s1", "--scale=1"}) == "--scale is given twice (see bptest --help)");
+  CHECK(complaint({"a", "b"}) == "'b' is one argument too many (see bptest --help)");
+  CHECK(complaint({"--keep=1"}) == "--keep takes no value (see bptest --help)");
+  CHECK(complaint({"--element", "Cube"}) == "--element: 'Cube' is none of cube|ball (see bptest --help)");
+  CHECK(complaint({"--faces", "-1"}) == "--faces: '-1' is not a whole number from 0 to 2147483647 (see bptest --help)");
+  CHECK(complaint({"--progress=xml"}) == "--progress: 'xml' is none of [json] (see bptest --help)");
+}
+
+TEST_CASE("a required list of files is asked for", "[quick][tools]") {
+  std::vector<std::string> files;
+  const char* words[] = {"bptest", "a", "b"};
+  Args full("bptest", 3, words);
+  full.positional("SCENE", files, "scenes");
+  full.parse();
+  CHECK(files == std::vector<std::string>{"a", "b"});
+  Args none("bptest", 1, words);
+  none.positional("SCENE", files, "scenes");
+  CHECK_THROWS_AS(none.parse(), Error);
+}
+
+TEST_CASE("the help shows names, defaults and the example within 80 columns", "[quick][tools]") {
+  Args args("bptest", 0, nullptr);
+  double x = 0.5;
+  args.about("Tests.");
+  args.example("bptest --edge 1");
+  args.option("-e,--edge", "LENGTH", x, "a text that is long enough to be wrapped at the right margin, and then some");
+  const std::string help = args.help_text();
+  CHECK(help.find("-e, --edge LENGTH") != std::string::npos);
+  CHECK(help.find("(default: 0.5)") != std::string::npos);
+  CHECK(help.find("bptest --edge 1") != std::string::npos);
+  for (std::size_t begin = 0; begin < help.size(); begin = help.find('\n', begin) + 1)
+    CHECK(help.find('\n', begin) - begin <= 80);
+}

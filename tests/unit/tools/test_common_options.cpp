@@ -1,0 +1,85 @@
+#include <filesystem>
+#include <fstream>
+
+#include "lib/core/error.h"
+#include "tests/catch.h"
+#include "tools/common/common_options.h"
+#include "tools/common/make_backend.h"
+#include "tools/common/provenance.h"
+
+using namespace bp;
+
+namespace {
+
+CommonOptions parse(std::vector<const char*> words) {
+  words.insert(words.begin(), "bptest");
+  CommonOptions o;
+  Args args("bptest", int(words.size()), words.data());
+  o.add_to(args);
+  args.parse();
+  return o;
+}
+
+}  // namespace
+
+TEST_CASE("devices are auto, cpu, cuda or a list", "[quick][tools]") {
+  using Kind = DeviceChoice::Kind;
+  CHECK(parse_device("auto").kind == Kind::automatic);
+  CHECK(parse_device("cpu").kind == Kind::cpu);
+  CHECK(parse_device("cuda") == DeviceChoice{Kind::cuda, {}});
+  CHECK(parse_device("cuda:0,3") == DeviceChoice{Kind::cuda, {0, 3}});
+  const std::string bad = GENERATE("", "gpu", "cuda:", "cuda:a", "cuda:0,", "cuda:-1", "CPU", "cuda:0,,1");
+  CAPTURE(bad);
+  CHECK_THROWS_AS(parse_device(bad), Error);
+}
+
+TEST_CASE("common options mean the same in every tool", "[quick][tools]") {
+  const CommonOptions o = parse({"-j2", "--memory", "1G", "--device=cpu", "--progress", "json", "--overwrite"});
+  CHECK(o.threads == 2);
+  CHECK(o.memory_bytes == std::uint64_t(1) << 30);
+  CHECK(o.device.kind == DeviceChoice::Kind::cpu);
+  CHECK(o.progress == ProgressMode::json);
+  CHECK(o.overwrite);
+  CHECK(parse({"-q"}).progress == ProgressMode::quiet);
+}
+
+TEST_CASE("a scratch directory that cannot be used is noticed before the work", "[quick][tools]") {
+  CommonOptions missing = parse({"--temp", "/nonexistent/directory"});
+  CHECK_THROWS_AS(missing.prepare(), Error);
+  CommonOptions file = parse({"--temp", "/dev/null"});
+  CHECK_THROWS_AS(file.prepare(), Error);
+  CommonOptions small = parse({"--memory", "1K"});
+  CHECK_THROWS_AS(small.prepare(), Error);
+  CommonOptions good = parse({});
+  good.prepare();
+  CHECK_FALSE(good.temp.empty());
+  CHECK(good.memory_bytes == default_memory());
+}
+
+TEST_CASE("a report that exists is noticed before the work", "[quick][tools]") {
+  const auto path = std::filesystem::temp_directory_path() / "bp-test-report-exists.json";
+  std::ofstream(path) << "kept";
+  CommonOptions o = parse({"--report", path.c_str()});
+  CHECK_THROWS_AS(o.prepare(), Error);
+  o.overwrite = true;
+  CHECK_NOTHROW(o.prepare());
+  std::filesystem::remove(path);
+}
+
+TEST_CASE("a GPU that a CPU build is asked for is a missing resource", "[quick][tools]") {
+#ifndef BP_HAVE_CUDA
+  try {
+    (void)make_backends(parse({"--device", "cuda"}));
+    FAIL("no error");
+  } catch (const Error& e) {
+    CHECK(e.code() == ErrorCode::out_of_resource);
+  }
+#endif
+}
+
+TEST_CASE("the option text is canonical", "[quick][tools]") {
+  OptionText text;
+  text.add("voxel", 0.1).add("fill", "flood").add("tile", 256).add("keep", false).add("scale", parse_length("2.50%"));
+  CHECK(text.text() == "voxel=0.1 fill=flood tile=256 keep=no scale=2.5%");
+  CHECK(make_provenance("bpvox", text).options == text.text());
+}

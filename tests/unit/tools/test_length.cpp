@@ -1,0 +1,44 @@
+#include "lib/core/error.h"
+#include "tests/catch.h"
+#include "tools/common/length.h"
+
+using namespace bp;
+
+TEST_CASE("a length is scene units, a percentage of the diagonal, or voxels", "[quick][tools]") {
+  CHECK(parse_length("0.5").in_world(10, 2) == 0.5);
+  CHECK(parse_length("2%").in_world(10, 2) == 0.2);
+  CHECK(parse_length("20vx").in_world(10, 2) == 40);
+  CHECK(parse_length("1e-3").in_world(0, 0) == 1e-3);
+  CHECK_THROWS_AS(parse_length("2%").in_world(0, 2), Error);
+  CHECK_THROWS_AS(parse_length("20vx").in_world(10, 0), Error);
+}
+
+TEST_CASE("a length reads back from its own text", "[quick][tools]") {
+  const std::string text = GENERATE("0.1", "2%", "20vx", "1e-300", "123456789.125%");
+  CHECK(parse_length(parse_length(text).text()) == parse_length(text));
+}
+
+TEST_CASE("what is not a length is refused", "[quick][tools]") {
+  const std::string text = GENERATE("", " 1", "1 ", "1m", "%", "vx", "1v", "1%%", "-1", "-0.001vx", "nan", "inf",
+                                    "-inf", "1e999", "0x10", "1,5", "+1", "--");
+  CAPTURE(text);
+  CHECK_THROWS_AS(parse_length(text), Error);
+}
+
+TEST_CASE("sizes are powers of 1024", "[quick][tools]") {
+  CHECK(parse_size("4096") == 4096);
+  CHECK(parse_size("1K") == 1024);
+  CHECK(parse_size("1.5M") == 3u << 19);
+  CHECK(parse_size("4G") == std::uint64_t(4) << 30);
+  CHECK(parse_size("4GiB") == std::uint64_t(4) << 30);
+  CHECK(parse_size("2TB") == std::uint64_t(2) << 40);
+  CHECK(parse_size("7B") == 7);
+  CHECK(size_text(3u << 19) == "1.5 MiB");
+  CHECK(size_text(17) == "17 B");
+}
+
+TEST_CASE("what is not a size is refused", "[quick][tools]") {
+  const std::string text = GENERATE("", "G", "-1G", "4g", "4Gi", "4 G", "nan", "1e30", "9999999999T", "4GG", "4iB");
+  CAPTURE(text);
+  CHECK_THROWS_AS(parse_size(text), Error);
+}

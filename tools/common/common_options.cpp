@@ -1,0 +1,113 @@
+#include "tools/common/common_options.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::uint64_t kLeastMemory = std::uint64_t(64) << 20;
+
+std::string default_temp() {
+  const char* dir = std::getenv("TMPDIR");
+  return dir != nullptr && *dir != '\0' ? dir : "/tmp";
+}
+
+void check_temp(const std::string& dir) {
+  struct stat info {};
+  if (::stat(dir.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
+    fail(ErrorCode::bad_argument, "{}: no such directory for scratch files; name one with --temp", dir);
+  if (::access(dir.c_str(), W_OK | X_OK) != 0)
+    fail(ErrorCode::bad_argument, "{}: scratch files cannot be written there; name another directory with --temp", dir);
+}
+
+/// Number on the first line of a file of the kernel; 0 if there is none ("max").
+std::uint64_t kernel_number(const char* path) {
+  unsigned long long value = 0;
+  if (std::FILE* file = std::fopen(path, "r")) {
+    if (std::fscanf(file, "%llu", &value) != 1) value = 0;
+    std::fclose(file);
+  }
+  return value;
+}
+
+}  // namespace
+
+DeviceChoice parse_device(const std::string& text) {
+  DeviceChoice choice;
+  if (text == "auto") return choice;
+  if (text == "cpu") return {DeviceChoice::Kind::cpu, {}};
+  choice.kind = DeviceChoice::Kind::cuda;
+  if (text == "cuda") return choice;
+  if (text.rfind("cuda:", 0) != 0) fail(ErrorCode::bad_argument, "'{}' is none of auto, cpu, cuda, cuda:0,1", text);
+  for (std::size_t begin = 5; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    choice.ids.push_back(int(parse_integer(std::string_view(text).substr(begin, end - begin), 0, 1023)));
+    begin = end + 1;
+  }
+  return choice;
+}
+
+void CommonOptions::add_to(Args& args, unsigned parts) {
+  parts_ = parts;
+  if (parts & threads_part) args.option("-j,--threads", "N", threads, "computing threads; 0 is all cores");
+  if (parts & memory_part) {
+    args.option(
+        "--memory", "SIZE", [this](const std::string& t) { memory_bytes = parse_size(t); },
+        "keep peak memory below SIZE by spilling to --temp (default: a quarter of this machine's)");
+    args.option("--temp", "DIR", temp, "directory for scratch files (default: $TMPDIR, or /tmp)");
+  }
+  if (parts & device_part) {
+    args.option(
+        "--device", "DEVICE", [this](const std::string& t) { device = parse_device(t); },
+        "auto, cpu, cuda or cuda:0,1 (default: auto, a GPU where there is one)");
+  }
+  if (parts & progress_part) {
+    args.flag_with_word(
+        "--progress", {"json"},
+        [this](const std::string& word) { progress = word.empty() ? ProgressMode::bar : ProgressMode::json; },
+        "show progress on stderr even if it is no terminal; json: as lines of JSON");
+    args.flag(
+        "-q,--quiet", [this] { progress = ProgressMode::quiet; }, "never show progress");
+  }
+  if (parts & report_part)
+    args.option("--report", "FILE", report, "write options, counts, seconds per stage and peak memory as JSON");
+  if (parts & overwrite_part) args.flag("--overwrite", overwrite, "replace output files that exist");
+}
+
+void CommonOptions::prepare() {
+  if (memory_bytes == 0) memory_bytes = default_memory();
+  if (memory_bytes < kLeastMemory) fail(ErrorCode::bad_argument, "--memory {}: at least 64M is needed", memory_bytes);
+  if (parts_ & memory_part) {
+    if (temp.empty()) temp = default_temp();
+    check_temp(temp);
+  }
+  struct stat info {};
+  if (!report.empty() && !overwrite && ::stat(report.c_str(), &info) == 0 && S_ISREG(info.st_mode))
+    fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", report);
+}
+
+std::uint64_t default_memory() {
+  std::uint64_t bytes = std::uint64_t(::sysconf(_SC_PHYS_PAGES)) * std::uint64_t(::sysconf(_SC_PAGESIZE));
+  const std::uint64_t limit = kernel_number("/sys/fs/cgroup/memory.max");
+  if (limit > 0) bytes = std::min(bytes, limit);
+  return std::max(bytes / 4, kLeastMemory);
+}
+
+void refuse_terminal(const std::string& path) {
+  if (path == "-" && ::isatty(1) != 0)
+    fail(ErrorCode::bad_argument, "binary data does not go to a terminal; name a file with -o, or pipe it on");
+}
+
+std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary) {
+  if (binary) refuse_terminal(path);
+  return std::make_unique<OutputFile>(path, overwrite);
+}
+
+}  // namespace bp

@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/file.h"
+#include "tools/common/args.h"
+#include "tools/common/progress.h"
+
+/// The options that every tool shares, with one meaning everywhere (docs/pipeline.md).
+namespace bp {
+
+struct DeviceChoice {
+  enum class Kind { automatic, cpu, cuda };
+  Kind kind = Kind::automatic;
+  std::vector<int> ids;  ///< of --device cuda:0,1; empty: all
+  friend bool operator==(const DeviceChoice&, const DeviceChoice&) = default;
+};
+/// `auto`, `cpu`, `cuda`, `cuda:0,1`. Throws bad_argument.
+[[nodiscard]] DeviceChoice parse_device(const std::string& text);
+
+struct CommonOptions {
+  /// Groups of options; a tool that has no use for one does not offer it.
+  enum Part : unsigned {
+    threads_part = 1,
+    memory_part = 2,
+    device_part = 4,
+    progress_part = 8,
+    report_part = 16,
+    overwrite_part = 32,
+    all_parts = 63
+  };
+
+  int threads = 0;                 ///< 0: all cores
+  std::uint64_t memory_bytes = 0;  ///< peak resident memory to keep below; prepare() replaces 0 by the default
+  std::string temp;                ///< directory for scratch; prepare() replaces "" by $TMPDIR or /tmp
+  DeviceChoice device;
+  ProgressMode progress = ProgressMode::automatic;
+  std::string report;  ///< file name; empty: none
+  bool overwrite = false;
+
+  void add_to(Args& args, unsigned parts = all_parts);
+  /// Fills in the defaults that depend on the machine, and fails early: bad_argument if the scratch directory cannot be
+  /// written or the report's file exists. run_tool calls it before the tool runs.
+  void prepare();
+
+ private:
+  unsigned parts_ = all_parts;
+};
+
+/// A quarter of the memory of this machine (or of this container), so that the tools of one pipe fit together.
+[[nodiscard]] std::uint64_t default_memory();
+
+/// The tool's data output. Throws bad_argument if binary data would go to a terminal, or if the file exists and
+/// `overwrite` is false.
+[[nodiscard]] std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary = true);
+/// The same check, for a writer that opens the file itself.
+void refuse_terminal(const std::string& path);
+
+}  // namespace bp

@@ -1,0 +1,51 @@
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+
+/// One line on stderr: bar, share, rate and time left. Silent unless stderr is a terminal and the work is long; in a
+/// pipe of tools only the last one draws. stdout is never touched.
+namespace bp {
+
+enum class ProgressMode { automatic, bar, json, quiet };
+
+class Progress {
+ public:
+  Progress(std::string tool, ProgressMode mode);
+  ~Progress();  ///< clears the line
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Ends the stage before, and begins one of `total` steps (0: not known). unit: "bricks", "triangles".
+  void begin(const std::string& stage, std::uint64_t total, const std::string& unit);
+  /// Thread-safe and cheap: an atomic add, and a look at the clock.
+  void add(std::uint64_t steps = 1);
+  /// Sets the steps done and the total; thread-safe.
+  void set(std::uint64_t done, std::uint64_t total);
+  void end();
+
+  /// For stages, which know nothing of terminals: callback(done, total).
+  [[nodiscard]] std::function<void(std::uint64_t, std::uint64_t)> callback(const std::string& stage,
+                                                                           const std::string& unit);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void maybe_show();
+  void show(bool last);
+  [[nodiscard]] std::string bar_line(double seconds) const;
+  [[nodiscard]] std::string json_line(double seconds) const;
+
+  const std::string tool_;
+  ProgressMode mode_;
+  std::mutex mutex_;  ///< guards the output and the strings
+  std::string stage_, unit_;
+  std::atomic<std::uint64_t> done_{0}, total_{0};
+  Clock::time_point begin_;
+  std::atomic<std::int64_t> next_ms_{0};  ///< since begin_: when the line is due again
+  bool drawn_ = false;
+};
+
+}  // namespace bp
