@@ -1,71 +1,22 @@
-// Expansion arithmetic: a number is kept as an unevaluated sum of doubles that do not overlap, smallest first, so the
-// sign is that of the last one. The error-free transformations are due to Dekker and Knuth, the growing of expansions
-// to Shewchuk (docs/references.md: [Knu69] [Dek71] [She97]). We enumerate all terms of the determinant rather than
-// refine in stages: a scene seldom comes here, and what comes here (coplanar faces, shared edges) mostly has exact
-// differences and many zero terms, which cost nothing.
+// All terms of the determinant are enumerated and added (expansion.h) rather than refined in stages: a scene seldom
+// comes here, and what does (coplanar faces, shared edges) mostly has exact differences and many zero terms, which cost
+// nothing.
 #include "lib/core/predicates.h"
+
+#include "lib/core/expansion.h"
 
 namespace bp::detail {
 
 namespace {
 
-/// value + error, exactly.
-struct Pair {
-  double value, error;
-};
-
-Pair two_sum(double a, double b) {
-  const double s = a + b, bb = s - a;
-  return {s, (a - (s - bb)) + (b - bb)};
-}
-Pair two_diff(double a, double b) {
-  return two_sum(a, -b);
-}
-Pair two_product(double a, double b) {
-  const double p = a * b;
-  return {p, std::fma(a, b, -p)};
-}
-
-/// Exact sum of at most `kMax` doubles. Components are non-zero, do not overlap, and grow in magnitude.
 template <int kMax>
-class Expansion {
- public:
-  void add(double x) {
-    if (x == 0) return;
-    int n = 0;
-    for (int i = 0; i < n_; ++i) {
-      const Pair s = two_sum(x, part_[i]);
-      if (s.error != 0) part_[n++] = s.error;  // n <= i: never overwrites a part still to be read
-      x = s.value;
-    }
-    if (x != 0) part_[n++] = x;
-    n_ = n;
-  }
-  void add_product(double x, double y) {
-    if (x == 0 || y == 0) return;
-    const Pair p = two_product(x, y);
-    add(p.error), add(p.value);
-  }
-  void add_product(double x, double y, double z) {
-    if (x == 0 || y == 0 || z == 0) return;
-    const Pair p = two_product(x, y);
-    add_product(p.error, z), add_product(p.value, z);
-  }
-  [[nodiscard]] int sign() const { return n_ == 0 ? 0 : sign_of(part_[n_ - 1]); }
-
- private:
-  int n_ = 0;
-  double part_[kMax];
-};
-
-template <int kMax>
-void add_product(Expansion<kMax>& e, const Pair& x, const Pair& y, double sign) {
+void add_product(Expansion<kMax>& e, const ExactPair& x, const ExactPair& y, double sign) {
   for (const double a : {x.error, x.value})
     for (const double b : {y.error, y.value}) e.add_product(sign * a, b);
 }
 
 template <int kMax>
-void add_product(Expansion<kMax>& e, const Pair& x, const Pair& y, const Pair& z, double sign) {
+void add_product(Expansion<kMax>& e, const ExactPair& x, const ExactPair& y, const ExactPair& z, double sign) {
   for (const double a : {x.error, x.value})
     for (const double b : {y.error, y.value})
       for (const double c : {z.error, z.value}) e.add_product(sign * a, b, c);
@@ -74,7 +25,7 @@ void add_product(Expansion<kMax>& e, const Pair& x, const Pair& y, const Pair& z
 }  // namespace
 
 int orient3d_exact(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
-  Pair u[3], v[3], w[3];
+  ExactPair u[3], v[3], w[3];
   for (std::size_t i = 0; i < 3; ++i) {
     u[i] = two_diff(b[i], a[i]);
     v[i] = two_diff(c[i], a[i]);

@@ -1,0 +1,119 @@
+#include "lib/check/check_proxy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/check/distance.h"
+#include "lib/check/enclosure.h"
+#include "lib/check/surface.h"
+
+namespace bp {
+
+namespace {
+
+Vec3d minus(const Vec3d& a, const Vec3d& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double dot(const Vec3d& a, const Vec3d& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Vec3d cross(const Vec3d& a, const Vec3d& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Volume, side lengths (each triangle's three), least angle.
+void measure(const WeldedMesh& mesh, CheckReport& report) {
+  if (mesh.triangles.empty()) return;
+  const Vec3d origin = mesh.corners(0)[0];
+  double shortest = HUGE_VAL, longest = 0, sum = 0, least_angle = M_PI, volume = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const TriangleD c = mesh.corners(t);
+    volume += dot(minus(c[0], origin), cross(minus(c[1], origin), minus(c[2], origin)));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d u = minus(c[(k + 1) % 3], c[k]), v = minus(c[(k + 2) % 3], c[k]);
+      const double length = std::sqrt(dot(u, u)), area = std::sqrt(dot(cross(u, v), cross(u, v)));
+      shortest = std::min(shortest, length), longest = std::max(longest, length);
+      sum += length;
+      if (mesh.degenerate[t] == 0) least_angle = std::min(least_angle, std::atan2(area, dot(u, v)));
+    }
+  }
+  report.volume = volume / 6;
+  report.edge_min = shortest, report.edge_max = longest;
+  report.edge_mean = sum / (3 * double(mesh.triangles.size()));
+  report.angle_min_degrees = least_angle * 180 / M_PI;
+}
+
+/// What the distances need of the scene: a sample of it, and all of it as long as it fits.
+struct SceneMemory {
+  SceneMemory(const CheckOptions& options)
+      : sample(options.distances ? options.distance_samples : 0),
+        keep(options.distances),
+        limit(options.scene_memory_bytes / TriangleBvh::bytes_needed(1)) {}
+
+  void see(std::uint64_t first, const std::vector<TriangleD>& triangles) {
+    for (std::size_t i = 0; i < triangles.size(); ++i) sample.see(first + i, triangles[i]);
+    if (keep && all.size() + triangles.size() > limit) {
+      keep = false;
+      all = {};
+    }
+    if (keep) all.insert(all.end(), triangles.begin(), triangles.end());
+  }
+
+  TriangleSample sample;
+  bool keep;
+  std::uint64_t limit;
+  std::vector<TriangleD> all;
+};
+
+void measure_distances(const Surface& surface, const SceneMemory& scene, const CheckOptions& options,
+                       CheckReport& report) {
+  if (!options.distances || surface.bvh().empty() || report.scene_triangles == 0) return;
+  if (report.undecidable_scene.count != 0) {
+    report.distance_note = "no distances: the scene has coordinates that are too large or too small";
+    return;
+  }
+  report.scene_to_proxy = distances(scene.sample.points(), surface.bvh());
+  if (!scene.keep) {
+    report.distance_note =
+        fmt::format("no distance from the proxy to the scene: {} triangles do not fit the {} MiB set aside for them",
+                    report.scene_triangles, options.scene_memory_bytes >> 20);
+    return;
+  }
+  TriangleSample proxy(options.distance_samples);
+  for (std::size_t i = 0; i < surface.bvh().size(); ++i)
+    proxy.see(surface.bvh().item(i).id, surface.bvh().item(i).corners);
+  report.proxy_to_scene = distances(proxy.points(), TriangleBvh(scene.all));
+}
+
+void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, const CheckOptions& options,
+                 CheckReport& report) {
+  SceneMemory memory(options);
+  const Enclosure e = check_enclosure(mesh, surface, scene, report.sides_decided, options.max_examples,
+                                      [&](std::uint64_t first, const auto& t) { memory.see(first, t); });
+  report.has_scene = true;
+  report.scene_name = scene.name();
+  report.scene_counts = scene.counts();
+  report.scene_triangles = e.triangles;
+  report.touching = e.touching, report.outside = e.outside, report.undecidable_scene = e.undecidable;
+  report.scene_volume = e.volume;
+  measure_distances(surface, memory, options, report);
+}
+
+}  // namespace
+
+CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene, const CheckOptions& options) {
+  CheckReport report;
+  WeldedMesh mesh = weld(proxy, options.max_examples, report);
+  check_topology(mesh, options.max_examples, report);
+  measure(mesh, report);
+  const Surface surface(mesh);
+  report.self_intersections = surface.self_intersections(options.max_examples);
+  report.sides_decided = report.readable() && report.closed() && report.oriented();
+  if (report.sides_decided) report.inverted_components = inverted_components(mesh, surface, options.max_examples);
+  if (scene != nullptr) check_scene(mesh, surface, *scene, options, report);
+  return report;
+}
+
+}  // namespace bp

@@ -1,0 +1,25 @@
+#pragma once
+#include "lib/check/check_report.h"
+#include "lib/core/indexed_mesh.h"
+
+/// The exact verdict on a proxy. Shares nothing with the code that makes proxies but the predicates, so that it can
+/// catch that code's mistakes. All yes/no answers are exact for the doubles as given; the measures are ordinary
+/// floating point.
+namespace bp {
+
+struct CheckOptions {
+  std::size_t max_examples = 5;                     ///< kept per finding
+  bool distances = true;                            ///< sample distances between scene and proxy
+  std::size_t distance_samples = 20000;             ///< triangles sampled on each side, at most
+  std::uint64_t scene_memory_bytes = 256ull << 20;  ///< the scene is kept for distances only if it fits
+};
+
+/// Checks that `proxy` is a closed, oriented, embedded 2-manifold and, if `scene` is not null, that it strictly
+/// encloses every triangle of the scene. Reads the scene once from its start (it is rewound). Memory: about 300 bytes
+/// per proxy triangle, plus scene_memory_bytes; it does not grow with the scene beyond that. Time: linear in the scene,
+/// times log of the proxy. The result does not depend on the number of threads. Never throws because of what the proxy
+/// is; passes on what the scene's reader throws.
+[[nodiscard]] CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene,
+                                      const CheckOptions& options = {});
+
+}  // namespace bp

@@ -1,0 +1,104 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/core/coords.h"
+#include "lib/core/triangle_source.h"
+
+/// The verdict of check_proxy(): what was counted, and the first few places of each kind.
+namespace bp {
+
+/// One place where something is wrong. What the numbers name depends on the finding: triangles or vertices of the
+/// proxy, triangles of the scene.
+struct Example {
+  std::uint64_t index = 0;  ///< counted from 0, in the order of the input
+  std::uint64_t other = 0;  ///< second triangle of a pair, or other end of an edge
+  Vec3d position{};         ///< a point of it, scene units
+};
+
+struct Finding {
+  std::uint64_t count = 0;
+  std::vector<Example> examples;  ///< the first ones by number; at most CheckOptions::max_examples
+
+  void add(const Example& e, std::size_t max_examples) {
+    ++count;
+    if (examples.size() < max_examples) examples.push_back(e);
+  }
+  /// Appends what was found behind this.
+  void append(const Finding& f, std::size_t max_examples) {
+    count += f.count;
+    for (const Example& e : f.examples)
+      if (examples.size() < max_examples) examples.push_back(e);
+  }
+};
+
+/// A distance estimated from samples: `max` is a lower bound of the one-sided Hausdorff distance.
+struct SampledDistance {
+  std::uint64_t samples = 0;
+  double max = 0, mean = 0;  ///< scene units
+  Vec3d where{};             ///< the sample that is farthest
+};
+
+struct CheckReport {
+  // The proxy as a mesh. Vertices of equal position count as one, whatever the file's indices say.
+  std::uint64_t vertices = 0;         ///< distinct, used by a triangle
+  std::uint64_t triangles = 0;        ///< as given
+  std::uint64_t merged_vertices = 0;  ///< repeated positions in the input
+  std::uint64_t components = 0;       ///< triangles connected by edges
+  std::int64_t euler = 0;             ///< vertices - edges + triangles
+  std::optional<std::int64_t> genus;  ///< sum over components; of a closed, oriented 2-manifold only
+
+  Finding bad_faces;             ///< index: triangle that names a vertex that does not exist
+  Finding non_finite_vertices;   ///< index: vertex with a NaN or infinite coordinate
+  Finding undecidable_vertices;  ///< index: vertex outside the domain of exact predicates (1e-90 to 1e90, or 0)
+  Finding degenerate_triangles;  ///< index: triangle of exactly zero area
+  Finding duplicate_triangles;   ///< index: triangle, other: earlier one with the same three corners
+  Finding boundary_edges;        ///< index, other: vertices of an edge with one triangle
+  Finding misoriented_edges;     ///< index, other: vertices of an edge not used equally often in both directions
+  Finding nonmanifold_edges;     ///< index, other: vertices of an edge with more than two triangles
+  Finding nonmanifold_vertices;  ///< index: vertex whose triangles form more than one fan
+  Finding self_intersections;    ///< index < other: triangles that meet beyond the corner or edge they share
+  Finding inverted_components;   ///< index: first triangle of a closed component that no other surrounds and whose
+                                 ///< signed volume is not positive
+
+  // The scene against the proxy.
+  bool has_scene = false;
+  bool sides_decided = false;  ///< false: the proxy is not closed, so "outside" has no meaning and was not counted
+  std::string scene_name;
+  SceneCounts scene_counts;
+  std::uint64_t scene_triangles = 0;  ///< tested
+  Finding touching;                   ///< index: scene triangle, other: proxy triangle that it touches or crosses
+  Finding outside;                    ///< index: scene triangle that touches nothing and has winding number < 1
+  Finding undecidable_scene;          ///< index: scene triangle outside the domain of exact predicates
+
+  // Measures, in doubles.
+  double volume = 0;                   ///< signed, cubed scene units
+  std::optional<double> scene_volume;  ///< signed sum over all triangles: meaningful only for closed scenes
+  double edge_min = 0, edge_mean = 0, edge_max = 0;
+  double angle_min_degrees = 0;
+  std::optional<SampledDistance> scene_to_proxy, proxy_to_scene;
+  std::string distance_note;  ///< why a distance is missing
+
+  [[nodiscard]] bool empty() const { return triangles == 0; }
+  [[nodiscard]] bool readable() const {
+    return !empty() && bad_faces.count == 0 && non_finite_vertices.count == 0 && undecidable_vertices.count == 0;
+  }
+  [[nodiscard]] bool sound() const { return degenerate_triangles.count == 0 && duplicate_triangles.count == 0; }
+  [[nodiscard]] bool closed() const { return !empty() && boundary_edges.count == 0 && bad_faces.count == 0; }
+  [[nodiscard]] bool oriented() const { return misoriented_edges.count == 0; }
+  [[nodiscard]] bool manifold() const { return nonmanifold_edges.count == 0 && nonmanifold_vertices.count == 0; }
+  [[nodiscard]] bool embedded() const { return self_intersections.count == 0; }
+  [[nodiscard]] bool outward() const { return inverted_components.count == 0; }
+  /// Strict: every scene triangle, boundary included, lies in the open interior of the proxy.
+  [[nodiscard]] bool encloses() const {
+    return has_scene && sides_decided && touching.count == 0 && outside.count == 0 && undecidable_scene.count == 0;
+  }
+  [[nodiscard]] bool holds() const {
+    return readable() && sound() && closed() && oriented() && manifold() && embedded() && outward() &&
+           (!has_scene || encloses());
+  }
+};
+
+}  // namespace bp

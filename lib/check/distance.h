@@ -1,0 +1,29 @@
+#pragma once
+#include "lib/check/check_report.h"
+#include "lib/check/triangle_bvh.h"
+
+/// Distances estimated from samples. Which triangles are sampled depends on their numbers alone.
+namespace bp {
+
+/// Keeps at most `capacity` of a stream of numbered triangles: those whose hashed number is lowest, roughly.
+class TriangleSample {
+ public:
+  explicit TriangleSample(std::size_t capacity) : capacity_(capacity) {}
+  void see(std::uint64_t number, const TriangleD& t);
+  /// Corners and centroids of the kept triangles, each position once, in lexicographic order.
+  [[nodiscard]] std::vector<Vec3d> points() const;
+
+ private:
+  struct Kept {
+    std::uint64_t hash;
+    TriangleD triangle;
+  };
+  std::size_t capacity_;
+  std::uint64_t mask_ = 0;  // a triangle is kept while (hash & mask_) == 0
+  std::vector<Kept> kept_;
+};
+
+/// Distances from the points to the nearest triangle. Parallel. Neither may be empty.
+[[nodiscard]] SampledDistance distances(const std::vector<Vec3d>& points, const TriangleBvh& to);
+
+}  // namespace bp

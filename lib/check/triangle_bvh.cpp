@@ -1,0 +1,245 @@
+// Top-down build, splits chosen by the surface area heuristic over bins (docs/references.md: [Wald07]). The upper
+// levels are split one after the other, then the subtrees are built in parallel and appended in order: where they start
+// depends on n alone, so the tree does not depend on the number of threads.
+#include "lib/check/triangle_bvh.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "lib/core/parallel.h"
+
+namespace bp {
+
+namespace {
+
+constexpr int kBins = 16;
+constexpr int kMaxHeuristicDepth = 58;  // below it the median halves the count: 31 more levels at most
+
+Vec3d operator-(const Vec3d& a, const Vec3d& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double dot(const Vec3d& a, const Vec3d& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Vec3d cross(const Vec3d& a, const Vec3d& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double half_area(const Bounds3d& b) {
+  if (b.empty()) return 0;
+  const Vec3d s = b.max - b.min;
+  return s[0] * s[1] + s[1] * s[2] + s[2] * s[0];
+}
+
+double segment_distance_squared(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
+  const Vec3d ab = b - a, ap = p - a;
+  const double length = dot(ab, ab);
+  const double t = length > 0 ? std::clamp(dot(ap, ab) / length, 0.0, 1.0) : 0;
+  const Vec3d d{ap[0] - t * ab[0], ap[1] - t * ab[1], ap[2] - t * ab[2]};
+  return dot(d, d);
+}
+
+double distance_squared(const Vec3d& p, const Bounds3d& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double d = std::max({b.min[i] - p[i], 0.0, p[i] - b.max[i]});
+    sum += d * d;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double distance_squared(const Vec3d& p, const TriangleD& t) {
+  const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
+  const double nn = dot(n, n);
+  bool over = nn > 0;
+  for (std::size_t e = 0; e < 3 && over; ++e) over = dot(cross(t[(e + 1) % 3] - t[e], p - t[e]), n) >= 0;
+  if (over) {
+    const double height = dot(p - t[0], n);
+    return height * height / nn;
+  }
+  return std::min({segment_distance_squared(p, t[0], t[1]), segment_distance_squared(p, t[1], t[2]),
+                   segment_distance_squared(p, t[2], t[0])});
+}
+
+struct TriangleBvh::Builder {
+  struct Primitive {
+    Bounds3d box;
+    std::uint32_t id;
+    [[nodiscard]] double centre(std::size_t axis) const { return box.min[axis] + box.max[axis]; }  // doubled
+  };
+  struct Task {
+    std::uint32_t begin, end, node;
+    int depth;
+  };
+  struct Bin {
+    Bounds3d box;
+    std::uint32_t count = 0;
+  };
+
+  std::vector<Primitive> primitives;
+
+  explicit Builder(const std::vector<TriangleD>& triangles) : primitives(triangles.size()) {
+    parallel_chunks(std::int64_t(triangles.size()), 1 << 14, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i)
+        primitives[std::size_t(i)] = {bounds_of(triangles[std::size_t(i)]), std::uint32_t(i)};
+    });
+  }
+
+  [[nodiscard]] Bounds3d bounds(std::uint32_t begin, std::uint32_t end) const {
+    Bounds3d b;
+    for (std::uint32_t i = begin; i < end; ++i) b.merge(primitives[i].box);
+    return b;
+  }
+
+  /// Where to divide [begin, end), which is reordered; strictly inside.
+  std::uint32_t split(std::uint32_t begin, std::uint32_t end, int depth) {
+    Vec3d low, high;
+    centre_range(begin, end, low, high);
+    const Vec3d extent = high - low;
+    const std::size_t axis = std::size_t(std::max_element(extent.begin(), extent.end()) - extent.begin());
+    // Also taken when the extent is zero (all centres equal) or not finite.
+    if (depth >= kMaxHeuristicDepth || !(extent[axis] > 0) || !(kBins / extent[axis] < HUGE_VAL))
+      return median(begin, end, axis);
+    const double factor = kBins / extent[axis];
+    const auto bin_of = [&](const Primitive& p) {
+      return std::clamp(int((p.centre(axis) - low[axis]) * factor), 0, kBins - 1);
+    };
+    Bin bins[kBins];
+    for (std::uint32_t i = begin; i < end; ++i) {
+      Bin& b = bins[bin_of(primitives[i])];
+      b.box.merge(primitives[i].box);
+      ++b.count;
+    }
+    const int cut = best_cut(bins);
+    const auto first = primitives.begin() + begin, last = primitives.begin() + end;
+    const auto middle = std::stable_partition(first, last, [&](const Primitive& p) { return bin_of(p) < cut; });
+    return middle == first || middle == last ? median(begin, end, axis) : std::uint32_t(middle - primitives.begin());
+  }
+
+  void centre_range(std::uint32_t begin, std::uint32_t end, Vec3d& low, Vec3d& high) const {
+    Bounds3d b;
+    for (std::uint32_t i = begin; i < end; ++i)
+      b.add({primitives[i].centre(0), primitives[i].centre(1), primitives[i].centre(2)});
+    low = b.min, high = b.max;
+  }
+
+  std::uint32_t median(std::uint32_t begin, std::uint32_t end, std::size_t axis) {
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    std::nth_element(primitives.begin() + begin, primitives.begin() + middle, primitives.begin() + end,
+                     [&](const Primitive& a, const Primitive& b) {
+                       return a.centre(axis) != b.centre(axis) ? a.centre(axis) < b.centre(axis) : a.id < b.id;
+                     });
+    return middle;
+  }
+
+  /// The bin that starts the right side, so that the sum of area times count is least.
+  static int best_cut(const Bin (&bins)[kBins]) {
+    double right_cost[kBins] = {};
+    Bounds3d box;
+    std::uint32_t count = 0;
+    for (int i = kBins - 1; i > 0; --i) {
+      box.merge(bins[i].box);
+      right_cost[i] = half_area(box) * (count += bins[i].count);
+    }
+    box = {}, count = 0;
+    int best = kBins / 2;
+    double least = HUGE_VAL;
+    for (int i = 1; i < kBins; ++i) {
+      box.merge(bins[i - 1].box);
+      count += bins[i - 1].count;
+      const double cost = half_area(box) * count + right_cost[i];
+      if (cost < least) least = cost, best = i;
+    }
+    return best;
+  }
+
+  /// Builds below `tasks`, leaving those of at most `stop` triangles undone; returns them in the order of their
+  /// triangles.
+  std::vector<Task> build(std::vector<Node>& nodes, std::vector<Task> tasks, std::uint32_t stop) {
+    std::vector<Task> left;
+    while (!tasks.empty()) {
+      const Task t = tasks.back();
+      tasks.pop_back();
+      if (t.end - t.begin <= stop && stop > kLeaf) {
+        left.push_back(t);
+        continue;
+      }
+      nodes[t.node].box = bounds(t.begin, t.end);
+      if (t.end - t.begin <= std::uint32_t(kLeaf)) {
+        nodes[t.node].first = t.begin, nodes[t.node].count = t.end - t.begin;
+        continue;
+      }
+      const std::uint32_t middle = split(t.begin, t.end, t.depth), child = std::uint32_t(nodes.size());
+      nodes[t.node].first = child, nodes[t.node].count = 0;
+      nodes.resize(nodes.size() + 2);
+      tasks.push_back({middle, t.end, child + 1, t.depth + 1});
+      tasks.push_back({t.begin, middle, child, t.depth + 1});
+    }
+    return left;
+  }
+};
+
+TriangleBvh::TriangleBvh(const std::vector<TriangleD>& triangles) {
+  if (triangles.empty()) return;
+  const auto n = std::uint32_t(triangles.size());
+  Builder builder(triangles);
+  nodes_.resize(1);
+  const auto subtrees = builder.build(nodes_, {{0, n, 0, 0}}, std::max(2048u, n / 64));
+  std::vector<std::vector<Node>> built(subtrees.size());
+  parallel_for(std::int64_t(subtrees.size()), [&](std::int64_t i) {
+    Builder::Task task = subtrees[std::size_t(i)];
+    task.node = 0;
+    built[std::size_t(i)].resize(1);
+    (void)builder.build(built[std::size_t(i)], {task}, 0);
+  });
+  for (std::size_t i = 0; i < subtrees.size(); ++i) {  // the root replaces its placeholder, the rest is appended
+    const auto shift = std::uint32_t(nodes_.size()) - 1;
+    for (Node& node : built[i])
+      if (node.count == 0) node.first += shift;
+    nodes_[subtrees[i].node] = built[i][0];
+    nodes_.insert(nodes_.end(), built[i].begin() + 1, built[i].end());
+    built[i] = {};
+  }
+  items_.resize(n);
+  parallel_chunks(n, 1 << 14, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::uint32_t id = builder.primitives[std::size_t(i)].id;
+      items_[std::size_t(i)] = {triangles[id], id};
+    }
+  });
+}
+
+std::uint64_t TriangleBvh::bytes_needed(std::uint64_t n) {
+  return n * (sizeof(Item) + 2 * sizeof(Node) + sizeof(Builder::Primitive));
+}
+
+TriangleBvh::Nearest TriangleBvh::nearest(const Vec3d& p) const {
+  struct Entry {
+    double distance;
+    std::uint32_t node;
+  };
+  Entry stack[kStack];
+  int top = 0;
+  stack[top++] = {distance_squared(p, nodes_[0].box), 0};
+  Nearest best{HUGE_VAL, 0};
+  while (top > 0) {
+    const Entry e = stack[--top];
+    if (e.distance > best.distance_squared) continue;
+    const Node& n = nodes_[e.node];
+    for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
+      const double d = bp::distance_squared(p, items_[i].corners);
+      if (d < best.distance_squared || (d == best.distance_squared && items_[i].id < best.id)) best = {d, items_[i].id};
+    }
+    if (n.count != 0) continue;
+    Entry near{distance_squared(p, nodes_[n.first].box), n.first};
+    Entry far{distance_squared(p, nodes_[n.first + 1].box), n.first + 1};
+    if (far.distance < near.distance) std::swap(near, far);
+    stack[top++] = far;
+    stack[top++] = near;
+  }
+  return best;
+}
+
+}  // namespace bp

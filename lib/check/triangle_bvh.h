@@ -1,0 +1,96 @@
+#pragma once
+#include <cmath>
+#include <vector>
+
+#include "lib/core/box.h"
+
+/// Bounding volume hierarchy over triangles of doubles, for the checks. A box is the exact bounds of its triangles
+/// (minima and maxima of doubles round nowhere), so no triangle is ever missed.
+namespace bp {
+
+[[nodiscard]] inline Bounds3d bounds_of(const TriangleD& t) {
+  Bounds3d b;
+  for (const Vec3d& p : t) b.add(p);
+  return b;
+}
+/// Closed boxes: touching counts.
+[[nodiscard]] inline bool overlap(const Bounds3d& a, const Bounds3d& b) {
+  return a.min[0] <= b.max[0] && b.min[0] <= a.max[0] && a.min[1] <= b.max[1] && b.min[1] <= a.max[1] &&
+         a.min[2] <= b.max[2] && b.min[2] <= a.max[2];
+}
+
+class TriangleBvh {
+ public:
+  struct Item {
+    TriangleD corners;
+    std::uint32_t id;  ///< position in the vector that the hierarchy was built from
+  };
+  struct Nearest {
+    double distance_squared;
+    std::uint32_t id;
+  };
+
+  /// O(n log n), parallel, the same tree for any number of threads. Coordinates must be finite; at most 2^31 triangles.
+  explicit TriangleBvh(const std::vector<TriangleD>& triangles);
+
+  [[nodiscard]] bool empty() const { return items_.empty(); }
+  [[nodiscard]] std::size_t size() const { return items_.size(); }
+  /// In an order of spatial neighbours.
+  [[nodiscard]] const Item& item(std::size_t i) const { return items_[i]; }
+  [[nodiscard]] std::uint64_t bytes() const { return items_.size() * sizeof(Item) + nodes_.size() * sizeof(Node); }
+
+  /// Calls f(item) for each triangle whose bounds meet `box`, until f returns true. Returns whether it did.
+  template <class F>
+  bool visit(const Bounds3d& box, F&& f) const {
+    return walk([&](const Bounds3d& b) { return overlap(b, box); }, f);
+  }
+  /// Calls f(item) for each triangle whose bounds meet the ray from p upwards (+z).
+  template <class F>
+  void visit_above(const Vec3d& p, F&& f) const {
+    const auto meets = [&](const Bounds3d& b) {
+      return b.min[0] <= p[0] && p[0] <= b.max[0] && b.min[1] <= p[1] && p[1] <= b.max[1] && b.max[2] >= p[2];
+    };
+    walk(meets, [&](const Item& item) { return f(item), false; });
+  }
+  /// The nearest triangle, in floating point; of equally near ones the lowest id. Must not be empty.
+  [[nodiscard]] Nearest nearest(const Vec3d& p) const;
+
+  /// Bytes that a hierarchy over n triangles takes, the build included; an upper bound.
+  [[nodiscard]] static std::uint64_t bytes_needed(std::uint64_t n);
+
+ private:
+  static constexpr int kLeaf = 4;    // triangles in a leaf, at most
+  static constexpr int kStack = 96;  // depth of the tree is limited to 90
+
+  struct Node {
+    Bounds3d box;
+    std::uint32_t first;  // leaf: its first item; else its first child, the second follows
+    std::uint32_t count;  // leaf: number of items; else 0
+  };
+  struct Builder;
+
+  template <class Meets, class F>
+  bool walk(const Meets& meets, F&& f) const {
+    if (items_.empty() || !meets(nodes_[0].box)) return false;
+    std::uint32_t stack[kStack];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+      const Node& n = nodes_[stack[--top]];
+      for (std::uint32_t i = n.first; i < n.first + n.count; ++i)
+        if (meets(bounds_of(items_[i].corners)) && f(items_[i])) return true;
+      if (n.count != 0) continue;
+      for (std::uint32_t child = n.first + 2; child-- > n.first;)
+        if (meets(nodes_[child].box)) stack[top++] = child;
+    }
+    return false;
+  }
+
+  std::vector<Node> nodes_;
+  std::vector<Item> items_;
+};
+
+/// Square of the distance from p to the closed triangle, in floating point.
+[[nodiscard]] double distance_squared(const Vec3d& p, const TriangleD& t);
+
+}  // namespace bp
