@@ -1,0 +1,69 @@
+#include "io/detail/raw_source.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace bp {
+
+bool PolygonSource::read(std::vector<TriangleD>& out) {
+  out.clear();
+  while (out.size() < kBatch) {
+    if (fan_ == 0) {
+      if (!next_face(corners_)) break;
+      if (!good_face()) {
+        ++bad_faces_;
+        continue;
+      }
+      first_ = vertex(corners_[0]);
+      previous_ = vertex(corners_[1]);
+      fan_ = 2;
+    }
+    const Vec3d next = vertex(corners_[fan_]);
+    out.push_back({first_, previous_, next});
+    previous_ = next;
+    if (++fan_ == corners_.size()) fan_ = 0;
+  }
+  return !out.empty();
+}
+
+void PolygonSource::rewind() {
+  fan_ = 0;
+  bad_faces_ = 0;
+  rewind_faces();
+}
+
+bool PolygonSource::good_face() const {
+  if (corners_.size() < 3) return false;
+  const std::uint64_t n = vertex_count();
+  for (const std::uint64_t corner : corners_) {
+    if (corner >= n) return false;
+  }
+  return true;
+}
+
+void normalize(TriangleD& t) {
+  for (Vec3d& p : t) {
+    for (double& c : p) {
+      const double size = std::abs(c);
+      if (size < 1e-90) c = 0;
+      if (size > 1e90) c = std::copysign(std::numeric_limits<double>::infinity(), c);
+    }
+  }
+}
+
+bool is_finite(const TriangleD& t) {
+  bool finite = true;
+  for (const Vec3d& p : t) {
+    for (const double c : p) finite &= std::abs(c) <= std::numeric_limits<double>::max();
+  }
+  return finite;
+}
+
+std::string temp_dir_of(const SceneOptions& options) {
+  if (!options.temp_dir.empty()) return options.temp_dir;
+  const char* const set = std::getenv("TMPDIR");
+  return set != nullptr && *set != 0 ? set : "/tmp";
+}
+
+}  // namespace bp

@@ -1,0 +1,67 @@
+#pragma once
+#include "io/detail/scene_file.h"
+#include "io/scene_reader.h"
+
+/// What each format implements: triangles as they stand in the file, nothing dropped but faces that name no corners.
+namespace bp {
+
+class RawSource {
+ public:
+  static constexpr std::size_t kBatch = 1 << 14;  ///< triangles per read(), about
+
+  virtual ~RawSource() = default;
+  /// Replaces `out` by the next triangles; false, and `out` empty, at the end.
+  virtual bool read(std::vector<TriangleD>& out) = 0;
+  virtual void rewind() = 0;
+  [[nodiscard]] virtual std::uint64_t instances() const { return 1; }
+  [[nodiscard]] std::uint64_t bad_faces() const { return bad_faces_; }  ///< since the last rewind
+
+ protected:
+  std::uint64_t bad_faces_ = 0;
+};
+using RawSourcePtr = std::unique_ptr<RawSource>;
+
+/// Formats whose faces are lists of vertex numbers. A format gives faces and vertices; fans and checks are here.
+class PolygonSource : public RawSource {
+ public:
+  static constexpr std::size_t kMaxCorners = std::size_t(1) << 20;  ///< of a face; more is taken for a broken file
+
+  bool read(std::vector<TriangleD>& out) final;
+  void rewind() final;
+
+ protected:
+  static constexpr std::uint64_t kNoVertex = ~std::uint64_t(0);
+
+  /// Replaces `corners` by those of the next face (kNoVertex for one that cannot exist); false at the end.
+  virtual bool next_face(std::vector<std::uint64_t>& corners) = 0;
+  [[nodiscard]] virtual std::uint64_t vertex_count() const = 0;
+  [[nodiscard]] virtual Vec3d vertex(std::uint64_t i) = 0;
+  virtual void rewind_faces() = 0;
+
+ private:
+  [[nodiscard]] bool good_face() const;
+
+  std::vector<std::uint64_t> corners_;
+  std::size_t fan_ = 0;  // next corner to close a triangle of the fan; 0: no face is open
+  Vec3d first_{}, previous_{};
+};
+
+/// A triangle with its corners as the rest of the suite wants them (scene_reader.h): tiny and negative zeros are 0,
+/// huge coordinates infinite.
+void normalize(TriangleD& t);
+[[nodiscard]] bool is_finite(const TriangleD& t);
+
+/// Directory of scratch files.
+[[nodiscard]] std::string temp_dir_of(const SceneOptions& options);
+
+[[nodiscard]] RawSourcePtr open_ply(SceneFilePtr file, const SceneOptions& options);
+[[nodiscard]] RawSourcePtr open_stl(SceneFilePtr file, const SceneOptions& options);
+[[nodiscard]] RawSourcePtr open_obj(SceneFilePtr file, const SceneOptions& options);
+[[nodiscard]] RawSourcePtr open_off(SceneFilePtr file, const SceneOptions& options);
+[[nodiscard]] RawSourcePtr open_gltf(SceneFilePtr file, const SceneOptions& options);
+/// Any other format; `extension` (lower case) says which.
+[[nodiscard]] RawSourcePtr open_with_assimp(SceneFilePtr file, const std::string& extension,
+                                            const SceneOptions& options);
+[[nodiscard]] bool assimp_reads(const std::string& extension);
+
+}  // namespace bp

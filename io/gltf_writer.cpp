@@ -1,0 +1,164 @@
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "io/detail/base64.h"
+#include "io/detail/mesh_writers.h"
+#include "lib/core/box.h"
+#include "lib/core/error.h"
+
+// glTF 2.0 without loss. Vertices are written as lattice integers relative to a whole-number centre, which float32
+// holds up to 2^24 exactly. The node's scale is the lattice unit (a double of few bits) and its translation the centre
+// in scene units (a whole multiple of the unit). A reader that works in double finds frame.world(v): the product of
+// integer and unit is exact (24 + 24 bits), and the sum is a lattice point, which the frame makes a double, so it is
+// not rounded.
+
+namespace bp {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::int64_t kFloatInteger = std::int64_t(1) << 24;  // float32 holds integers up to this
+
+LatticeCoord centre_of(const LatticeMesh& mesh, const std::string& name) {
+  LatticeCoord lo = mesh.vertices.front(), hi = lo, centre;
+  for (const LatticeCoord v : mesh.vertices) {
+    for (int i = 0; i < 3; ++i) {
+      lo[i] = std::min(lo[i], v[i]);
+      hi[i] = std::max(hi[i], v[i]);
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    centre[i] = lo[i] + (hi[i] - lo[i]) / 2;
+    if (hi[i] - centre[i] <= kFloatInteger && centre[i] - lo[i] <= kFloatInteger) continue;
+    fail(ErrorCode::bad_argument,
+         "{}: the mesh spans {} voxels, and glTF's 32-bit floats hold 2^19 of them exactly; write PLY, or use larger "
+         "voxels",
+         name, (hi[i] - lo[i]) / kLatticePerVoxel);
+  }
+  return centre;
+}
+
+struct Buffer {
+  std::string bytes;  // positions, then indices
+  std::array<float, 3> min, max;
+  std::uint64_t index_offset = 0;
+};
+
+void append(std::string& bytes, const void* from, std::size_t n) {
+  bytes.append(static_cast<const char*>(from), n);
+}
+
+Buffer buffer_of(const LatticeMesh& mesh, LatticeCoord centre) {
+  Buffer b;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  b.min = {kInfinity, kInfinity, kInfinity};
+  b.max = {-kInfinity, -kInfinity, -kInfinity};
+  b.bytes.reserve(12 * (mesh.vertices.size() + mesh.triangles.size()));
+  for (const LatticeCoord v : mesh.vertices) {
+    const LatticeCoord d = v - centre;
+    const std::array<float, 3> p{float(d.x), float(d.y), float(d.z)};
+    for (std::size_t i = 0; i < 3; ++i) {
+      b.min[i] = std::min(b.min[i], p[i]);
+      b.max[i] = std::max(b.max[i], p[i]);
+    }
+    append(b.bytes, p.data(), sizeof p);
+  }
+  b.index_offset = b.bytes.size();
+  append(b.bytes, mesh.triangles.data(), mesh.triangles.size() * sizeof mesh.triangles[0]);
+  return b;
+}
+
+Json nodes_of(const LatticeMesh& mesh, LatticeCoord centre, const MeshWriteOptions& options) {
+  const double unit = mesh.frame.voxel / kLatticePerVoxel;
+  Vec3d translation = mesh.frame.world(centre);
+  for (std::size_t i = 0; i < 3; ++i) translation[i] = translation[i] - options.origin[i] + 0.0;
+  Json nodes = Json::array();
+  nodes.push_back(
+      {{"name", "proxy"}, {"mesh", 0}, {"translation", translation}, {"scale", Json::array({unit, unit, unit})}});
+  if (mesh.frame.up == UpAxis::z) {  // columns of (x,y,z) -> (x,z,-y); a quaternion would round
+    nodes.push_back({{"name", "z up to y up"},
+                     {"matrix", Json::array({1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1})},
+                     {"children", Json::array({0})}});
+  }
+  return nodes;
+}
+
+Json asset_of(const LatticeMesh& mesh, const MeshWriteOptions& options) {
+  Json steps = Json::array();
+  for (const Provenance& p : mesh.provenance) {
+    Json step{{"tool", p.tool}, {"version", p.version}, {"options", p.options}};
+    if (!p.input_hash.empty()) step["input"] = p.input_hash;
+    steps.push_back(std::move(step));
+  }
+  Json extras{{"up", mesh.frame.up == UpAxis::z ? "z" : "y"}};
+  if (options.origin != Vec3d{}) extras["origin"] = options.origin;
+  extras["provenance"] = std::move(steps);
+  return {{"version", "2.0"}, {"generator", "bpmesh " BP_VERSION}, {"extras", std::move(extras)}};
+}
+
+Json accessors_of(const LatticeMesh& mesh, const Buffer& buffer) {
+  constexpr int kFloat = 5126, kUint32 = 5125;
+  const Json positions{{"bufferView", 0}, {"componentType", kFloat}, {"count", mesh.vertices.size()},
+                       {"type", "VEC3"},  {"min", buffer.min},       {"max", buffer.max}};
+  const Json indices{
+      {"bufferView", 1}, {"componentType", kUint32}, {"count", 3 * mesh.triangles.size()}, {"type", "SCALAR"}};
+  return Json::array({positions, indices});
+}
+
+Json views_of(const Buffer& buffer) {
+  constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+  const Json positions{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", buffer.index_offset}, {"target", kArrayBuffer}};
+  const Json indices{{"buffer", 0},
+                     {"byteOffset", buffer.index_offset},
+                     {"byteLength", buffer.bytes.size() - buffer.index_offset},
+                     {"target", kElementArrayBuffer}};
+  return Json::array({positions, indices});
+}
+
+Json document_of(const LatticeMesh& mesh, const Buffer& buffer, LatticeCoord centre, const MeshWriteOptions& options) {
+  const Json primitive{{"attributes", {{"POSITION", 0}}}, {"indices", 1}};
+  Json doc;
+  doc["asset"] = asset_of(mesh, options);
+  doc["scene"] = 0;
+  doc["scenes"] = Json::array({{{"nodes", Json::array({mesh.frame.up == UpAxis::z ? 1 : 0})}}});
+  doc["nodes"] = nodes_of(mesh, centre, options);
+  doc["meshes"] = Json::array({{{"primitives", Json::array({primitive})}}});
+  doc["accessors"] = accessors_of(mesh, buffer);
+  doc["bufferViews"] = views_of(buffer);
+  doc["buffers"] = Json::array({{{"byteLength", buffer.bytes.size()}}});
+  return doc;
+}
+
+std::string little_endian(std::uint64_t x) {
+  std::string bytes(4, '\0');
+  for (int i = 0; i < 4; ++i) bytes[std::size_t(i)] = char(x >> (8 * i));
+  return bytes;
+}
+
+void write_glb(std::string json, const Buffer& buffer, OutputFile& out) {
+  json.append((4 - json.size() % 4) % 4, ' ');
+  const std::uint64_t total = 12 + 8 + json.size() + 8 + buffer.bytes.size();
+  if (total > std::numeric_limits<std::uint32_t>::max())
+    fail(ErrorCode::bad_argument, "{}: a GLB is limited to 4 GiB, and this mesh takes {}; write PLY", out.name(),
+         total);
+  out.write("glTF" + little_endian(2) + little_endian(total));
+  out.write(little_endian(json.size()) + "JSON" + json);
+  out.write(little_endian(buffer.bytes.size()) + std::string("BIN\0", 4));
+  out.write(buffer.bytes);
+}
+
+}  // namespace
+
+void write_gltf(const LatticeMesh& mesh, OutputFile& out, bool binary, const MeshWriteOptions& options) {
+  const LatticeCoord centre = centre_of(mesh, out.name());
+  const Buffer buffer = buffer_of(mesh, centre);
+  Json doc = document_of(mesh, buffer, centre, options);
+  if (binary) return write_glb(doc.dump(), buffer, out);
+  doc["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64_of(buffer.bytes);
+  out.write(doc.dump(1) + "\n");
+}
+
+}  // namespace bp

@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+
+#include "io/file.h"
+#include "lib/meshing/lattice_mesh.h"
+
+/// Meshes to files, without loss: read back, each vertex is exactly frame.world(v) - origin, or the write is refused.
+///   .glb .gltf  POSITION float32 holds lattice integers relative to a whole-number centre, the node's scale is the
+///               lattice unit, its translation a whole multiple of it: integer * scale + translation is exact in
+///               double. A z-up frame gets a root node that maps (x,y,z) to (x,z,-y), and asset.extras.up = "z".
+///   .ply        binary little endian, doubles    .obj  decimals that read back to the same double
+///   .stl        binary, float32: only if each coordinate is a float
+namespace bp {
+
+enum class MeshFormat { glb, gltf, ply, obj, stl };
+
+struct MeshWriteOptions {
+  Vec3d origin{};  ///< scene units, subtracted from each vertex; each difference must be an exact double
+};
+
+/// Format by extension, case ignored. Throws bad_argument for any other.
+[[nodiscard]] MeshFormat mesh_format_of(const std::string& path);
+
+/// Writes `mesh`; the caller commits `out`. Same mesh, same bytes.
+/// Throws bad_argument if the mesh has no triangle, or if the format cannot hold its coordinates exactly; the message
+/// names another format or a fitting origin. Nothing is written then.
+void write_mesh(const LatticeMesh& mesh, OutputFile& out, MeshFormat format, const MeshWriteOptions& options = {});
+
+}  // namespace bp

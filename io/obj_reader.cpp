@@ -1,0 +1,119 @@
+#include <limits>
+
+#include "io/detail/raw_source.h"
+#include "io/detail/text_scanner.h"
+#include "io/detail/vertex_pool.h"
+
+// Wavefront OBJ: the lines "v" and "f", everything else is passed over. One pass streams faces while the vertices
+// before them collect in the pool. A face that names a vertex further down makes the rest of the vertices load at once,
+// so that "there is no such vertex" is never said too early.
+
+namespace bp {
+
+namespace {
+
+class ObjSource final : public PolygonSource {
+ public:
+  ObjSource(const SceneFilePtr& file, const SceneOptions& options)
+      : file_(file), text_(file), pool_(options.memory_bytes, temp_dir_of(options)) {}
+
+ private:
+  bool next_face(std::vector<std::uint64_t>& corners) override;
+  [[nodiscard]] std::uint64_t vertex_count() const override { return pool_.size(); }
+  [[nodiscard]] Vec3d vertex(std::uint64_t i) override { return pool_[i]; }
+  void rewind_faces() override {
+    text_.seek({});
+    seen_ = 0;
+  }
+
+  /// Consumes the keyword: 'v' or 'f' if that is all of it, 0 for any other, comments included.
+  static char keyword(TextScanner& text);
+  static Vec3d read_vertex(TextScanner& text);
+  void read_corners(std::vector<std::uint64_t>& corners);
+  std::uint64_t resolve(std::int64_t index);
+  void load_ahead();
+
+  SceneFilePtr file_;
+  TextScanner text_;
+  VertexPool pool_;
+  std::uint64_t seen_ = 0;   // "v" lines of this pass
+  bool all_loaded_ = false;  // the pool holds every vertex of the file
+};
+
+bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
+  for (; !text_.at_end(); text_.next_line()) {
+    if (!text_.word_on_line()) continue;
+    const char key = keyword(text_);
+    if (key == 'v') {
+      if (seen_ == pool_.size()) pool_.push(read_vertex(text_));
+      ++seen_;
+    } else if (key == 'f') {
+      read_corners(corners);
+      text_.next_line();
+      return true;
+    }
+  }
+  all_loaded_ = true;
+  return false;
+}
+
+char ObjSource::keyword(TextScanner& text) {
+  const char first = text.peek();
+  if (first != 'v' && first != 'f') return 0;
+  const std::string_view word = text.word();
+  return word.size() == 1 ? first : 0;
+}
+
+Vec3d ObjSource::read_vertex(TextScanner& text) {
+  Vec3d p;
+  for (double& c : p) {
+    if (!text.word_on_line() || !text.real(c))
+      text.fail_here("a vertex needs three numbers; repair or re-export the file");
+  }
+  return p;
+}
+
+// Corners are "v", "v/vt", "v//vn", "v/vt/vn", with any of the later numbers missing.
+void ObjSource::read_corners(std::vector<std::uint64_t>& corners) {
+  corners.clear();
+  while (text_.word_on_line() && text_.peek() != '#') {
+    std::int64_t index = 0;
+    if (!text_.integer(index)) text_.fail_here("a face corner is not a number; repair or re-export the file");
+    if (text_.peek() == '/') text_.skip_word();
+    if (static_cast<unsigned char>(text_.peek()) > ' ' && text_.peek() != '\\')
+      text_.fail_here("a face corner is not of the form v/vt/vn; repair or re-export the file");
+    if (corners.size() == kMaxCorners)
+      text_.fail_here("a face of more than {} corners; is the file intact?", kMaxCorners);
+    corners.push_back(resolve(index));
+  }
+}
+
+std::uint64_t ObjSource::resolve(std::int64_t index) {
+  if (index == 0 || index < -std::int64_t(seen_)) return kNoVertex;
+  const std::uint64_t i = index > 0 ? std::uint64_t(index) - 1 : seen_ - std::uint64_t(-index);
+  if (i >= pool_.size() && !all_loaded_) load_ahead();
+  return i;
+}
+
+// An earlier pass that was cut short may have left the pool ahead of this one: those vertices are not read twice.
+void ObjSource::load_ahead() {
+  std::uint64_t known = pool_.size() - seen_;
+  TextScanner ahead(file_, text_.mark());
+  for (ahead.next_line(); !ahead.at_end(); ahead.next_line()) {
+    if (!ahead.word_on_line() || keyword(ahead) != 'v') continue;
+    if (known > 0) {
+      --known;
+    } else {
+      pool_.push(read_vertex(ahead));
+    }
+  }
+  all_loaded_ = true;
+}
+
+}  // namespace
+
+RawSourcePtr open_obj(SceneFilePtr file, const SceneOptions& options) {
+  return std::make_unique<ObjSource>(file, options);
+}
+
+}  // namespace bp

@@ -1,0 +1,236 @@
+#include "io/scene_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cctype>
+#include <cstring>
+
+#include "io/detail/degenerate.h"
+#include "io/detail/position_index.h"
+#include "io/detail/raw_source.h"
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+enum class Reader { ply, stl, obj, off, gltf, other, unknown };
+
+std::string lower(std::string s) {
+  for (char& c : s) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return s;
+}
+
+std::string extension_of(const std::string& path) {
+  const std::size_t dot = path.find_last_of("./");
+  return dot == std::string::npos || path[dot] != '.' ? std::string() : lower(path.substr(dot + 1));
+}
+
+Reader reader_of(const std::string& extension) {
+  if (extension == "ply") return Reader::ply;
+  if (extension == "stl" || extension == "stla" || extension == "stlb") return Reader::stl;
+  if (extension == "obj") return Reader::obj;
+  if (extension == "off") return Reader::off;
+  return Reader::unknown;
+}
+
+bool is_binary_stl(const std::string& start, std::uint64_t size) {
+  if (start.size() < 84) return false;
+  std::uint32_t triangles = 0;
+  std::memcpy(&triangles, start.data() + 80, sizeof triangles);
+  return 84 + std::uint64_t(50) * triangles == size;
+}
+
+/// What the first bytes of a file tell; `extension` is set for a format that goes to Assimp.
+Reader reader_by_content(const SceneFile& file, std::string& extension) {
+  std::string start(1024, '\0');
+  start.resize(file.read_at(0, std::as_writable_bytes(std::span(start))));
+  if (is_binary_stl(start, file.size())) return Reader::stl;
+  const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  const std::string text = first == std::string::npos ? std::string() : start.substr(first);
+  const auto begins = [&](const char* word) { return text.compare(0, std::strlen(word), word) == 0; };
+  if (begins("ply\n") || begins("ply\r")) return Reader::ply;
+  if (begins("glTF") || (begins("{") && text.find('"') != std::string::npos)) return Reader::gltf;
+  if (lower(text.substr(0, 5)) == "solid") return Reader::stl;
+  for (const char* keyword : {"OFF", "COFF", "NOFF", "CNOFF", "STOFF"}) {
+    if (begins(keyword)) return Reader::off;
+  }
+  for (const char* line : {"\nv ", "\nf ", "\nmtllib "}) {
+    if (("\n" + text).find(line) != std::string::npos) return Reader::obj;
+  }
+  if (begins("AC3D")) extension = "ac";
+  return extension.empty() ? Reader::unknown : Reader::other;
+}
+
+RawSourcePtr open_raw(const std::string& path, const SceneOptions& options) {
+  const SceneFilePtr file = open_scene_file(path, temp_dir_of(options));
+  std::string extension = path == "-" ? std::string() : extension_of(path);
+  Reader reader = reader_of(extension);
+  if (reader == Reader::unknown && !options.format.empty()) {
+    extension = lower(options.format);
+    reader = reader_of(extension);
+    if (reader == Reader::unknown)
+      fail(ErrorCode::bad_argument, "'{}' is not a scene format; name one of ply stl obj off gltf glb", options.format);
+  }
+  if (reader == Reader::unknown) {
+    extension.clear();
+    reader = reader_by_content(*file, extension);
+  }
+  switch (reader) {
+    case Reader::ply:
+      return open_ply(file, options);
+    case Reader::stl:
+      return open_stl(file, options);
+    case Reader::obj:
+      return open_obj(file, options);
+    case Reader::off:
+      return open_off(file, options);
+    case Reader::gltf:
+    case Reader::other:
+    case Reader::unknown:
+      break;
+  }
+  fail(ErrorCode::bad_input, "{}: neither its name nor its first bytes tell its format; name it with --format",
+       file->name());
+}
+
+/// Drops what has no area or no place, and counts it.
+class FilteredScene final : public TriangleSource {
+ public:
+  FilteredScene(std::string name, RawSourcePtr raw) : name_(std::move(name)), raw_(std::move(raw)) {}
+
+  bool read(std::vector<TriangleD>& out) override {
+    while (raw_->read(out)) {
+      keep_good(out);
+      if (!out.empty()) break;
+    }
+    counts_.bad_faces = raw_->bad_faces();
+    counts_.instances = raw_->instances();
+    return !out.empty();
+  }
+  void rewind() override {
+    raw_->rewind();
+    counts_ = {};
+  }
+  [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
+  [[nodiscard]] std::string name() const override { return name_; }
+
+ private:
+  void keep_good(std::vector<TriangleD>& triangles) {
+    std::size_t kept = 0;
+    for (TriangleD& t : triangles) {
+      normalize(t);
+      if (!is_finite(t)) {
+        ++counts_.non_finite;
+      } else if (is_degenerate(t)) {
+        ++counts_.degenerate;
+      } else {
+        triangles[kept++] = t;
+      }
+    }
+    triangles.resize(kept);
+    counts_.triangles += kept;
+  }
+
+  std::string name_;
+  RawSourcePtr raw_;
+  SceneCounts counts_;
+};
+
+/// Files in a row. Only one is open at a time, so that vertices and file handles of the others take nothing; stdin,
+/// which cannot be opened again, stays open once it is.
+class SceneRow final : public TriangleSource {
+ public:
+  SceneRow(std::vector<std::string> paths, const SceneOptions& options) : paths_(std::move(paths)), options_(options) {
+    for (const std::string& path : paths_) {
+      if (path != "-") InputFile probe(path);  // a missing file should not wait for hours of reading
+    }
+  }
+  bool read(std::vector<TriangleD>& out) override {
+    out.clear();
+    for (; next_ < paths_.size(); leave()) {
+      TriangleSource& scene = enter();
+      const bool more = scene.read(out);
+      counts_ = finished_;
+      counts_.add(scene.counts());
+      if (more) return true;
+    }
+    return false;
+  }
+  void rewind() override {
+    scene_.reset();
+    entered_ = false;
+    next_ = 0;
+    counts_ = finished_ = {};
+  }
+  [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
+  [[nodiscard]] std::string name() const override {
+    return paths_.size() == 1 ? paths_[0] : fmt::format("{} scenes", paths_.size());
+  }
+
+ private:
+  TriangleSource& enter() {
+    const bool piped = paths_[next_] == "-";
+    std::unique_ptr<TriangleSource>& slot = piped ? stdin_ : scene_;
+    if (!slot) {
+      slot = open_scene(paths_[next_], options_);
+    } else if (!entered_) {
+      slot->rewind();
+    }
+    entered_ = true;
+    return *slot;
+  }
+  void leave() {
+    finished_ = counts_;
+    scene_.reset();
+    entered_ = false;
+    ++next_;
+  }
+
+  std::vector<std::string> paths_;
+  SceneOptions options_;
+  std::size_t next_ = 0;
+  bool entered_ = false;
+  std::unique_ptr<TriangleSource> scene_, stdin_;
+  SceneCounts finished_, counts_;
+};
+
+}  // namespace
+
+std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneOptions& options) {
+  return std::make_unique<FilteredScene>(path == "-" ? "stdin" : path, open_raw(path, options));
+}
+
+std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, const SceneOptions& options) {
+  if (paths.empty()) fail(ErrorCode::bad_argument, "no scene was named; name a file, or - for stdin");
+  if (std::count(paths.begin(), paths.end(), "-") > 1) fail(ErrorCode::bad_argument, "stdin (-) was named twice");
+  if (paths.size() == 1) return open_scene(paths[0], options);
+  return std::make_unique<SceneRow>(std::move(paths), options);
+}
+
+IndexedMesh read_mesh(const std::string& path, const SceneOptions& options, SceneCounts* counts) {
+  const RawSourcePtr raw = open_raw(path, options);
+  IndexedMesh mesh;
+  PositionIndex index(mesh.vertices);
+  SceneCounts met;
+  std::vector<TriangleD> batch;
+  while (raw->read(batch)) {
+    for (TriangleD& t : batch) {
+      normalize(t);
+      if (!is_finite(t)) {
+        ++met.non_finite;
+      } else if (is_degenerate(t)) {
+        ++met.degenerate;
+      }
+      mesh.triangles.push_back({index.add(t[0]), index.add(t[1]), index.add(t[2])});
+    }
+  }
+  met.triangles = mesh.triangles.size();
+  met.bad_faces = raw->bad_faces();
+  met.instances = raw->instances();
+  if (counts != nullptr) *counts = met;
+  return mesh;
+}
+
+}  // namespace bp

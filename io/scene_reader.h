@@ -1,0 +1,47 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/core/indexed_mesh.h"
+#include "lib/core/triangle_source.h"
+
+/// Scenes and meshes from files. PLY, STL, OBJ, OFF and glTF/GLB are streamed by readers of our own: their memory is
+/// bounded by SceneOptions::memory_bytes, whatever the file holds. Every other format goes through Assimp, in a child
+/// process, so that a crash in an importer is an Error here.
+///
+/// What all readers share:
+///   - Coordinates are doubles from the file to the caller; node transforms are composed in double.
+///   - Below 1e-90 in magnitude a coordinate is read as 0, above 1e90 it counts as non-finite: exact predicates need
+///     the range. -0 is read as 0.
+///   - Polygons become fans. The fan of a polygon that is not convex still covers it (its signed sum is the polygon),
+///     so what encloses the fan encloses the polygon.
+///   - A mesh used by many nodes is streamed through each transform; mirrored transforms keep the outside outside.
+///   - A glTF asset whose `extras.up` is "z" (mesh_writer.h) is delivered in its own z-up coordinates.
+namespace bp {
+
+struct SceneOptions {
+  std::string format;  ///< of "-", or of a file whose name says nothing: ply stl obj off gltf glb, or one of Assimp's
+  std::uint64_t memory_bytes = std::uint64_t(256) << 20;  ///< for vertices; more of them go to a scratch file
+  std::string temp_dir;                                   ///< of scratch files; empty: $TMPDIR, else /tmp
+};
+
+/// Triangles of one file; "-" is stdin, which is spooled to a scratch file. The reader is chosen by the file's
+/// extension, else by its first bytes. Triangles that are non-finite or have exactly no area, and faces that name
+/// vertices that do not exist, are skipped and counted. A scene without triangles is an empty source.
+/// Throws bad_input if the file is missing or broken (here, or while reading); out_of_resource if scratch is full.
+[[nodiscard]] std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneOptions& options = {});
+
+/// All files, one after the other; one is open at a time. Missing files are reported at once.
+[[nodiscard]] std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths,
+                                                          const SceneOptions& options = {});
+
+/// A whole mesh in memory. Vertices with equal coordinates become one, with no tolerance. Nothing is dropped but bad
+/// faces: degenerate and non-finite triangles stay (non-finite coordinates as infinities or NaN), in the order of the
+/// file, and `counts`, if given, says how many there are. For proxies: memory grows with the mesh.
+/// Throws as open_scene(), and out_of_resource beyond 2^32 - 1 vertices.
+[[nodiscard]] IndexedMesh read_mesh(const std::string& path, const SceneOptions& options = {},
+                                    SceneCounts* counts = nullptr);
+
+}  // namespace bp
