@@ -32,6 +32,7 @@ Reader reader_of(const std::string& extension) {
   if (extension == "stl" || extension == "stla" || extension == "stlb") return Reader::stl;
   if (extension == "obj") return Reader::obj;
   if (extension == "off") return Reader::off;
+  if (extension == "gltf" || extension == "glb") return Reader::gltf;
   return Reader::unknown;
 }
 
@@ -87,6 +88,7 @@ RawSourcePtr open_raw(const std::string& path, const SceneOptions& options) {
     case Reader::off:
       return open_off(file, options);
     case Reader::gltf:
+      return open_gltf(file, options);
     case Reader::other:
     case Reader::unknown:
       break;

@@ -66,7 +66,7 @@ std::string refusal(const LatticeMesh& mesh, const std::string& name, const Mesh
 }  // namespace
 
 TEST_CASE("a written mesh reads back to exactly the same coordinates", "[quick][io]") {
-  const std::string name = GENERATE(as<std::string>(), "m.ply", "m.obj");
+  const std::string name = GENERATE(as<std::string>(), "m.ply", "m.obj", "m.glb", "m.gltf");
   const UpAxis up = GENERATE(UpAxis::y, UpAxis::z);
   const GridFrame frame =
       GENERATE_COPY(frame_at({0, 0, 0}, 300, 0.1, up), frame_at({6801760.25, -455564.7, 31.3}, 8000, 0.37, up),
@@ -112,6 +112,31 @@ TEST_CASE("meshes that cannot be written are refused and leave no file", "[quick
   CHECK_THAT(refusal(mesh, name), Contains("no triangle"));
 }
 
+TEST_CASE("a mesh too wide for exact floats is refused as glTF", "[quick][io]") {
+  LatticeMesh mesh = random_mesh(frame_at({0, 0, 0}, 1e6, 1, UpAxis::y), std::int64_t(1) << 24, 5);
+  mesh.vertices[0].x = -(std::int64_t(1) << 24);
+  mesh.vertices[1].x = std::int64_t(1) << 24;
+  const TempDir dir;
+  CHECK(soup(read_mesh(write(dir, mesh, "m.glb"))) == soup(mesh));
+  ++mesh.vertices[1].x;
+  ++mesh.vertices[1].x;
+  CHECK_THAT(refusal(mesh, "m.glb"), Contains("PLY"));
+}
+
+TEST_CASE("a z-up mesh stands upright in glTF, and comes back z-up", "[quick][io]") {
+  LatticeMesh mesh = random_mesh(frame_at({10, 20, 30}, 300, 0.5, UpAxis::z), 640, 5);
+  const TempDir dir;
+  const std::string path = write(dir, mesh, "m.gltf");
+  CHECK(soup(read_mesh(path)) == soup(mesh));
+  CHECK(read_all(path) == soup(mesh));
+  // A reader that knows nothing of extras sees y up.
+  std::string text = bytes_of_file(path);
+  text.replace(text.find("\"up\": \"z\""), 9, "\"up\": \"?\"");
+  const auto upright = soup(read_mesh(dir.file("other.gltf", text)));
+  const Vec3d p = mesh.frame.world(mesh.vertices[mesh.triangles[0][0]]);
+  CHECK(upright[0][0] == Vec3d{p[0], p[2], -p[1]});
+}
+
 TEST_CASE("mesh formats are known by extension", "[quick][io]") {
   CHECK(mesh_format_of("a/b.GLB") == MeshFormat::glb);
   CHECK(mesh_format_of("x.gltf") == MeshFormat::gltf);
@@ -129,4 +154,8 @@ TEST_CASE("the chain of tools is written into each mesh", "[quick][io]") {
     CHECK_THAT(bytes, Contains("two lines\n"));
     CHECK(bytes_of_file(write(dir, mesh, name)) == bytes);
   }
+  const std::string gltf = bytes_of_file(write(dir, mesh, "m.gltf"));
+  CHECK_THAT(gltf, Contains("\"generator\": \"bpmesh " BP_VERSION "\""));
+  CHECK_THAT(gltf, Contains("\"options\": \"two\\nlines\""));
+  CHECK_THAT(gltf, Contains("\"input\": \"00ff\""));
 }

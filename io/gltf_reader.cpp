@@ -1,0 +1,172 @@
+#include <unordered_map>
+
+#include "io/detail/gltf_document.h"
+
+// glTF 2.0 and GLB (Khronos, glTF 2.0 specification, section 3.7 on geometry, 3.5 on nodes). Only what says where
+// triangles are is looked at: the default scene, nodes, POSITION and indices, sparse accessors, quantized positions
+// (KHR_mesh_quantization) and instance arrays (EXT_mesh_gpu_instancing). Skins and morph targets are left at rest.
+
+namespace bp {
+
+namespace {
+
+class SceneBuilder {
+ public:
+  SceneBuilder(const SceneFilePtr& file, const SceneOptions& options) : doc_(file, options), root_(doc_.root()) {}
+
+  InstancedScene build() {
+    visited_.resize(root_.array("nodes").size());
+    add_nodes(scene_roots(), world());
+    scene_.bytes = doc_.bytes();
+    return std::move(scene_);
+  }
+
+ private:
+  struct Range {
+    std::uint32_t first, end;
+  };
+  struct Pending {
+    std::uint64_t node;
+    Affine parent;
+  };
+  [[nodiscard]] Affine world() const;
+  [[nodiscard]] std::vector<std::uint64_t> scene_roots() const;
+  void add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world);
+  void add_mesh_node(const GltfObject& node, const Affine& transform);
+  Range mesh(std::uint64_t i);
+  void add_primitive(const GltfObject& p);
+  std::optional<std::uint32_t> instance_array(const GltfObject& node);
+  static Affine transform_of(const GltfObject& node);
+
+  GltfDocument doc_;
+  GltfObject root_;
+  InstancedScene scene_;
+  std::unordered_map<std::uint64_t, Range> meshes_;
+  std::vector<bool> visited_;
+};
+
+// Files of ours that stand upright in glTF's y-up world were z-up: back to their own coordinates.
+Affine SceneBuilder::world() const {
+  Affine a;
+  const GltfObject asset = root_.object("asset");
+  if (!asset.holds_text("extras", "up", "z")) return a;
+  a.m = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
+  return a;
+}
+
+// The default scene, else the first; a document without scenes shows every node that is no child.
+std::vector<std::uint64_t> SceneBuilder::scene_roots() const {
+  std::vector<std::uint64_t> roots;
+  if (root_.array("scenes").empty()) {
+    const std::size_t nodes = root_.array("nodes").size();
+    std::vector<bool> child(nodes);
+    for (std::size_t i = 0; i < nodes; ++i) {
+      const GltfObject node = root_.item("nodes", i);
+      for (std::size_t k = 0; k < node.array("children").size(); ++k) {
+        if (node.index("children", k) < nodes) child[std::size_t(node.index("children", k))] = true;
+      }
+    }
+    for (std::size_t i = 0; i < nodes; ++i) {
+      if (!child[i]) roots.push_back(i);
+    }
+    return roots;
+  }
+  const GltfObject scene = root_.item("scenes", root_.number("scene", 0));
+  for (std::size_t k = 0; k < scene.array("nodes").size(); ++k) roots.push_back(scene.index("nodes", k));
+  return roots;
+}
+
+// Depth first, without recursion: a chain of nodes may be as long as the file.
+void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world) {
+  std::vector<Pending> stack;
+  for (std::size_t i = roots.size(); i-- > 0;) stack.push_back({roots[i], world});
+  while (!stack.empty()) {
+    const Pending next = stack.back();
+    stack.pop_back();
+    const GltfObject node = root_.item("nodes", next.node);
+    if (visited_[std::size_t(next.node)]) node.broken("is reached twice, and nodes must form trees");
+    visited_[std::size_t(next.node)] = true;
+    const Affine transform = next.parent * transform_of(node);
+    if (node.has("mesh")) add_mesh_node(node, transform);
+    for (std::size_t k = node.array("children").size(); k-- > 0;)
+      stack.push_back({node.index("children", k), transform});
+  }
+}
+
+Affine SceneBuilder::transform_of(const GltfObject& node) {
+  if (node.has("matrix")) {  // by columns
+    const auto m = node.numbers<16>("matrix", {});
+    Affine a;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) a.m[i][j] = m[4 * j + i];
+    }
+    return a;
+  }
+  return affine_of(node.numbers<3>("translation", {0, 0, 0}), node.numbers<4>("rotation", {0, 0, 0, 1}),
+                   node.numbers<3>("scale", {1, 1, 1}));
+}
+
+void SceneBuilder::add_mesh_node(const GltfObject& node, const Affine& transform) {
+  const Range range = mesh(node.number("mesh"));
+  if (range.first == range.end) return;
+  scene_.nodes.push_back({transform, range.first, range.end, instance_array(node)});
+}
+
+SceneBuilder::Range SceneBuilder::mesh(std::uint64_t i) {
+  const auto known = meshes_.find(i);
+  if (known != meshes_.end()) return known->second;
+  const GltfObject mesh = root_.item("meshes", i);
+  Range range{std::uint32_t(scene_.primitives.size()), 0};
+  for (std::size_t k = 0; k < mesh.array("primitives").size(); ++k) add_primitive(mesh.item("primitives", k));
+  range.end = std::uint32_t(scene_.primitives.size());
+  meshes_.emplace(i, range);
+  return range;
+}
+
+void SceneBuilder::add_primitive(const GltfObject& p) {
+  constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;
+  const std::uint64_t mode = p.number("mode", kTriangles);
+  if (mode > kFan) p.broken(fmt::format("has the unknown mode {}", mode));
+  const GltfObject attributes = p.object("attributes");
+  if (mode < kTriangles || !attributes.has("POSITION")) return;  // points and lines
+  if (p.has("extensions") && p.object("extensions").has("KHR_draco_mesh_compression"))
+    p.broken(
+        "is compressed (KHR_draco_mesh_compression), which is not read: unpack it, for instance with gltf-transform");
+  Primitive primitive;
+  primitive.mode = mode == kFan     ? Primitive::Mode::fan
+                   : mode == kStrip ? Primitive::Mode::strip
+                                    : Primitive::Mode::triangles;
+  primitive.positions = doc_.accessor(attributes.number("POSITION"), 3);
+  if (p.has("indices")) {
+    primitive.indices = doc_.accessor(p.number("indices"), 1);
+    const ComponentType type = primitive.indices->type;
+    if (type != ComponentType::u8 && type != ComponentType::u16 && type != ComponentType::u32)
+      p.broken("has indices that are not unsigned integers");
+  }
+  scene_.primitives.push_back(primitive);
+}
+
+std::optional<std::uint32_t> SceneBuilder::instance_array(const GltfObject& node) {
+  if (!node.has("extensions") || !node.object("extensions").has("EXT_mesh_gpu_instancing")) return {};
+  const GltfObject attributes = node.object("extensions").object("EXT_mesh_gpu_instancing").object("attributes");
+  InstanceArray array;
+  const auto take = [&](const char* name, std::size_t components, Accessor& a) {
+    if (!attributes.has(name)) return;
+    a = doc_.accessor(attributes.number(name), components);
+    if (array.count != 0 && array.count != a.count) attributes.broken("have different counts");
+    array.count = a.count;
+  };
+  take("TRANSLATION", 3, array.translation);
+  take("ROTATION", 4, array.rotation);
+  take("SCALE", 3, array.scale);
+  scene_.arrays.push_back(array);
+  return std::uint32_t(scene_.arrays.size() - 1);
+}
+
+}  // namespace
+
+RawSourcePtr open_gltf(SceneFilePtr file, const SceneOptions& options) {
+  return stream_instances(SceneBuilder(file, options).build(), options);
+}
+
+}  // namespace bp
