@@ -8,33 +8,17 @@ namespace {
 
 constexpr std::uint32_t kLeafFaces = 4;
 
-LatticeBox box_of_face(const HalfEdgeMesh& mesh, FaceId f) {
-  return box_of(mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2));
-}
-
-void add(LatticeBox& to, const LatticeBox& b) {
-  to.add(b.min);
-  to.add(b.max);
-}
-
 }  // namespace
 
-LatticeBox box_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
-  LatticeBox box{a, a};
-  box.add(b);
-  box.add(c);
-  return box;
-}
-
 FaceTree::FaceTree(const HalfEdgeMesh& mesh) : mesh_(mesh) {
-  build();
+  rebuild();
 }
 
 void FaceTree::maintain() {
-  if (mesh_.face_count() * 2 < built_for_) build();
+  if (mesh_.face_count() * 2 < built_for_) rebuild();
 }
 
-void FaceTree::build() {
+void FaceTree::rebuild() {
   order_.clear();
   nodes_.clear();
   centre_.assign(mesh_.face_capacity(), {});
@@ -46,6 +30,7 @@ void FaceTree::build() {
   }
   built_for_ = order_.size();
   if (order_.empty()) return;
+  base_ = mesh_.corner(order_[0], 0);
   nodes_.reserve(order_.size());
   nodes_.emplace_back();
   split(0, 0, std::uint32_t(order_.size()));
@@ -54,9 +39,9 @@ void FaceTree::build() {
 
 void FaceTree::split(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
   if (end - begin <= kLeafFaces) {
-    LatticeBox box = box_of_face(mesh_, order_[begin]);
+    SmallBox box = small_box_of(order_[begin]);
     for (std::uint32_t i = begin; i < end; ++i) {
-      add(box, box_of_face(mesh_, order_[i]));
+      box.add(small_box_of(order_[i]));
       leaf_of_[order_[i]] = node;
     }
     nodes_[node].box = box;
@@ -79,14 +64,14 @@ void FaceTree::split(std::uint32_t node, std::uint32_t begin, std::uint32_t end)
   split(left, begin, middle);
   split(left + 1, middle, end);
   nodes_[node].box = nodes_[left].box;
-  add(nodes_[node].box, nodes_[left + 1].box);
+  nodes_[node].box.add(nodes_[left + 1].box);
 }
 
 void FaceTree::update(FaceId f) {
-  const LatticeBox box = box_of_face(mesh_, f);
+  const SmallBox box = small_box_of(f);
   std::uint32_t n = leaf_of_[f];
   while (!nodes_[n].box.contains(box)) {
-    add(nodes_[n].box, box);
+    nodes_[n].box.add(box);
     if (n == 0) break;
     n = nodes_[n].parent;
   }

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "lib/core/box.h"
@@ -20,12 +22,13 @@ struct LatticeBox {
     min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
     max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
   }
-  [[nodiscard]] bool contains(const LatticeBox& b) const {
-    return min.x <= b.min.x && min.y <= b.min.y && min.z <= b.min.z && max.x >= b.max.x && max.y >= b.max.y &&
-           max.z >= b.max.z;
-  }
 };
-[[nodiscard]] LatticeBox box_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c);
+[[nodiscard]] inline LatticeBox box_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
+  LatticeBox box{a, a};
+  box.add(b);
+  box.add(c);
+  return box;
+}
 
 class FaceTree {
  public:
@@ -33,6 +36,8 @@ class FaceTree {
 
   /// Call after the corners of a live face moved.
   void update(FaceId f);
+  /// Boxes as tight as the mesh is now.
+  void rebuild();
   /// Call now and then; rebuilds when half of the faces are dead.
   void maintain();
 
@@ -41,12 +46,13 @@ class FaceTree {
   template <class Visit>
   bool query(const LatticeBox& box, Visit&& visit) const {
     if (nodes_.empty()) return true;
+    const SmallBox small = to_small(box);
     std::uint32_t stack[64];
     int top = 0;
     stack[top++] = 0;
     while (top > 0) {
       const Node& n = nodes_[stack[--top]];
-      if (!n.box.meets(box)) continue;
+      if (!n.box.meets(small)) continue;
       if (n.count > 0) {
         for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
           if (mesh_.alive(order_[i]) && !visit(order_[i])) return false;
@@ -60,16 +66,43 @@ class FaceTree {
   }
 
  private:
+  /// Relative to base_, clamped: 24 bytes, so that a node is 36.
+  struct SmallBox {
+    std::array<std::int32_t, 3> min, max;
+    [[nodiscard]] bool meets(const SmallBox& b) const {
+      return min[0] <= b.max[0] && b.min[0] <= max[0] && min[1] <= b.max[1] && b.min[1] <= max[1] &&
+             min[2] <= b.max[2] && b.min[2] <= max[2];
+    }
+    [[nodiscard]] bool contains(const SmallBox& b) const {
+      return min[0] <= b.min[0] && min[1] <= b.min[1] && min[2] <= b.min[2] && max[0] >= b.max[0] &&
+             max[1] >= b.max[1] && max[2] >= b.max[2];
+    }
+    void add(const SmallBox& b) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        min[i] = std::min(min[i], b.min[i]);
+        max[i] = std::max(max[i], b.max[i]);
+      }
+    }
+  };
+  [[nodiscard]] SmallBox to_small(const LatticeBox& b) const {
+    const auto clamp = [](std::int64_t v) { return std::int32_t(std::clamp<std::int64_t>(v, INT32_MIN, INT32_MAX)); };
+    return {{clamp(b.min.x - base_.x), clamp(b.min.y - base_.y), clamp(b.min.z - base_.z)},
+            {clamp(b.max.x - base_.x), clamp(b.max.y - base_.y), clamp(b.max.z - base_.z)}};
+  }
+  [[nodiscard]] SmallBox small_box_of(FaceId f) const {
+    return to_small(box_of(mesh_.corner(f, 0), mesh_.corner(f, 1), mesh_.corner(f, 2)));
+  }
+
   struct Node {
-    LatticeBox box;
+    SmallBox box;
     std::uint32_t first = 0;  // leaf: first face in order_; inner: left child, the right one follows it
     std::uint32_t count = 0;  // faces of a leaf, 0 for inner nodes
     std::uint32_t parent = 0;
   };
-  void build();
   void split(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
 
   const HalfEdgeMesh& mesh_;
+  LatticeCoord base_{};
   std::vector<Node> nodes_;
   std::vector<FaceId> order_;
   std::vector<std::uint32_t> leaf_of_;  // per face

@@ -88,11 +88,7 @@ class Flattener {
         least = 0;
         return;
       }
-      const auto square = [](const LatticeCoord& d) {
-        return double(d.x) * double(d.x) + double(d.y) * double(d.y) + double(d.z) * double(d.z);
-      };
-      const double edges = square(pa - p) + square(pb - p) + square(pb - pa);
-      least = std::min(least, 3.4641016151377544 * std::sqrt(square(n)) / edges);
+      least = std::min(least, triangle_quality(p, pa, pb));
     });
     return least;
   }

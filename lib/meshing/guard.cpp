@@ -73,24 +73,28 @@ bool Guard::faces_are_free(std::span<const NewFace> faces, std::span<const FaceI
 bool Guard::clear_of_mesh(std::span<const NewFace> faces, std::span<const FaceId> replaced) {
   ++stamp_;
   for (const FaceId f : replaced) removed_[f] = stamp_;
-  LatticeBox box = box_of(faces[0].corners[0], faces[0].corners[1], faces[0].corners[2]);
+  boxes_.clear();
+  LatticeBox all{faces[0].corners[0], faces[0].corners[0]};
   for (const NewFace& f : faces) {
-    for (const LatticeCoord& p : f.corners) box.add(p);
+    boxes_.push_back(box_of(f.corners[0], f.corners[1], f.corners[2]));
+    all.add(boxes_.back().min);
+    all.add(boxes_.back().max);
   }
-  return tree_.query(box, [&](FaceId other) {
-    if (removed_[other] == stamp_) return true;
-    NewFace o;
-    for (std::size_t k = 0; k < 3; ++k) {
-      o.ids[k] = mesh_.from(3 * other + HalfEdgeId(k));
-      o.corners[k] = mesh_.position(o.ids[k]);
-    }
-    const LatticeBox other_box = box_of(o.corners[0], o.corners[1], o.corners[2]);
-    if (!other_box.meets(box)) return true;
-    for (const NewFace& f : faces) {
-      if (box_of(f.corners[0], f.corners[1], f.corners[2]).meets(other_box) && meet(f, o)) return false;
-    }
-    return true;
-  });
+  return tree_.query(all, [&](FaceId other) { return removed_[other] == stamp_ || clear_of_face(faces, all, other); });
+}
+
+bool Guard::clear_of_face(std::span<const NewFace> faces, const LatticeBox& all, FaceId other) const {
+  NewFace o;
+  for (std::size_t k = 0; k < 3; ++k) {
+    o.ids[k] = mesh_.from(3 * other + HalfEdgeId(k));
+    o.corners[k] = mesh_.position(o.ids[k]);
+  }
+  const LatticeBox box = box_of(o.corners[0], o.corners[1], o.corners[2]);
+  if (!box.meets(all)) return true;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (boxes_[i].meets(box) && meet(faces[i], o)) return false;
+  }
+  return true;
 }
 
 }  // namespace bp

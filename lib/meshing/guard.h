@@ -4,6 +4,7 @@
 
 #include "lib/meshing/face_tree.h"
 #include "lib/meshing/half_edge_mesh.h"
+#include "lib/meshing/lattice_geometry.h"
 
 /// The guard: a change of the mesh is taken only if the new faces keep it embedded, decided exactly in integers.
 /// Together with the local constraints it proves that the new proxy contains the old one (docs/bounding.md,
@@ -31,16 +32,13 @@ class Guard {
  private:
   [[nodiscard]] bool clear_of_mesh(std::span<const NewFace> faces, std::span<const FaceId> replaced);
 
+  [[nodiscard]] bool clear_of_face(std::span<const NewFace> faces, const LatticeBox& all, FaceId other) const;
+
   const HalfEdgeMesh& mesh_;
   const FaceTree& tree_;
+  std::vector<LatticeBox> boxes_;       // of the new faces
   std::vector<std::uint32_t> removed_;  // stamp per face
   std::uint32_t stamp_ = 0;
 };
-
-/// Exact cross product of two edges of a face, lattice units squared; needs edges below 2^30 lattice units.
-[[nodiscard]] inline LatticeCoord normal_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
-  const LatticeCoord u = b - a, v = c - a;
-  return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
-}
 
 }  // namespace bp

@@ -6,6 +6,7 @@
 #include "lib/meshing/repair.h"
 #include "lib/meshing/simplify.h"
 #include "lib/meshing/surface.h"
+#include "lib/meshing/tighten.h"
 #include "tests/catch.h"
 #include "tests/support/memory_shelf.h"
 
@@ -135,5 +136,9 @@ TEST_CASE("a simplified proxy encloses its voxels and does not meet itself", "[q
   CAPTURE(counts.faces_in, counts.faces_flat, counts.faces_out);
   if (proxy.triangles.size() < 4000) check_proxy(proxy, box, solids[shape]);
   CHECK(counts.faces_out == proxy.triangles.size());
+  TightenCounts tightened;
+  const LatticeMesh tight = tighten(proxy, EnclosedVoxels(shelf), {}, tightened);
+  CHECK(tightened.volume_after <= tightened.volume_before);
+  if (tight.triangles.size() < 4000) check_proxy(tight, box, solids[shape]);
   if (counts.stop == StopReason::faces) CHECK(proxy.triangles.size() <= std::size_t(faces));
 }

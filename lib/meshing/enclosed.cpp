@@ -1,0 +1,165 @@
+#include "lib/meshing/enclosed.h"
+
+#include <bit>
+
+#include "lib/core/parallel.h"
+#include "lib/core/predicates.h"
+
+namespace bp {
+
+/// Separating axes of one tetrahedron against axis-aligned cubes: the cube's 3 face normals (its bounding box), the 4
+/// face normals, and the 6 x 3 cross products of edges. Two convex bodies have disjoint interiors iff one of these axes
+/// separates them weakly.
+class Separator {
+ public:
+  explicit Separator(const Tetrahedron& t) : box_{t[0], t[0]} {
+    for (const LatticeCoord& p : t) box_.add(p);
+    for (int skip = 0; skip < 4; ++skip) {
+      add_axis(t, normal_of(t[std::size_t(skip + 1) % 4], t[std::size_t(skip + 2) % 4], t[std::size_t(skip + 3) % 4]));
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        const LatticeCoord e = t[j] - t[i];
+        add_axis(t, {0, e.z, -e.y});
+        add_axis(t, {-e.z, 0, e.x});
+        add_axis(t, {e.y, -e.x, 0});
+      }
+    }
+  }
+
+  [[nodiscard]] const LatticeBox& box() const { return box_; }
+
+  /// True if the open cube [corner, corner + edge]^3 and the open tetrahedron are disjoint.
+  [[nodiscard]] bool separates(const LatticeCoord& corner, std::int64_t edge) const {
+    for (int i = 0; i < 3; ++i) {
+      if (corner[i] >= box_.max[i] || corner[i] + edge <= box_.min[i]) return true;
+    }
+    for (int a = 0; a < count_; ++a) {
+      const Axis& axis = axes_[std::size_t(a)];
+      const int128 at = int128(axis.n.x) * corner.x + int128(axis.n.y) * corner.y + int128(axis.n.z) * corner.z;
+      const int128 low = at + int128(axis.negative) * edge, high = at + int128(axis.positive) * edge;
+      if (low >= axis.max || high <= axis.min) return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Axis {
+    LatticeCoord n;
+    std::int64_t negative, positive;  // sums of the negative and of the positive components: extent of a unit cube
+    int128 min, max;                  // of the tetrahedron
+  };
+
+  void add_axis(const Tetrahedron& t, const LatticeCoord& n) {
+    if (n == LatticeCoord{}) return;
+    Axis axis{n, 0, 0, 0, 0};
+    for (int i = 0; i < 3; ++i) (n[i] < 0 ? axis.negative : axis.positive) += n[i];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int128 at = int128(n.x) * t[i].x + int128(n.y) * t[i].y + int128(n.z) * t[i].z;
+      axis.min = i == 0 || at < axis.min ? at : axis.min;
+      axis.max = i == 0 || at > axis.max ? at : axis.max;
+    }
+    axes_[std::size_t(count_++)] = axis;
+  }
+
+  LatticeBox box_;
+  std::array<Axis, 22> axes_;
+  int count_ = 0;
+};
+
+namespace {
+
+/// Occupied voxels of a brick with an empty one among their 26 neighbours.
+BrickBits boundary_of(const BrickShelf& shelf, BrickCoord coord) {
+  const VoxelCoord first = first_voxel(coord);
+  BitBox bits({{first.x - 64, first.y - 1, first.z - 1}, {first.x + 128, first.y + 65, first.z + 65}});
+  load_voxels(shelf, bits);
+  BrickBits out;
+  for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+    for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+      std::uint64_t inner = ~std::uint64_t(0);
+      for (int i = 0; i < 9; ++i) {
+        const std::uint64_t* r = bits.row(first.y + y + i % 3 - 1, first.z + z + i / 3 - 1);
+        inner &= r[1] & ((r[1] << 1) | (r[0] >> 63)) & ((r[1] >> 1) | (r[2] << 63));
+      }
+      out[std::size_t(z * kBrickEdge + y)] = bits.row(first.y + y, first.z + z)[1] & ~inner;
+    }
+  }
+  return out;
+}
+
+std::array<std::uint64_t, 8> blocks_of(const BrickBits& bits) {
+  std::array<std::uint64_t, 8> blocks{};
+  for (std::size_t i = 0; i < kBrickWords; ++i) {
+    for (std::size_t bx = 0; bx < 8; ++bx) {
+      if ((bits[i] >> (8 * bx)) & 0xff) blocks[i / 512] |= std::uint64_t(1) << (i % 64 / 8 * 8 + bx);
+    }
+  }
+  return blocks;
+}
+
+}  // namespace
+
+EnclosedVoxels::EnclosedVoxels(const BrickShelf& shelf) {
+  const std::vector<BrickCoord> coords = shelf.coords();
+  std::vector<BoundaryBrick> found(coords.size());
+  parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
+    BoundaryBrick& b = found[std::size_t(i)];
+    b.bits = boundary_of(shelf, coords[std::size_t(i)]);
+    b.blocks = blocks_of(b.bits);
+  });
+  for (std::size_t i = 0; i < coords.size(); ++i) {
+    if (classify(found[i].bits) != BrickFill::empty) bricks_.emplace(coords[i], found[i]);
+  }
+}
+
+bool EnclosedVoxels::allows(std::span<const NewFace>, std::span<const Tetrahedron> swept) const {
+  return std::all_of(swept.begin(), swept.end(), [&](const Tetrahedron& t) { return clear(t); });
+}
+
+bool EnclosedVoxels::clear(const Tetrahedron& t) const {
+  const Separator separator(t);
+  constexpr std::int64_t edge = std::int64_t(kBrickEdge) * kLatticePerVoxel;
+  const LatticeBox& box = separator.box();
+  BrickCoord low, high;
+  for (int i = 0; i < 3; ++i) {
+    low[i] = std::int32_t(floor_div(box.min[i], edge));
+    high[i] = std::int32_t(floor_div(box.max[i] - 1, edge));
+  }
+  for (std::int32_t z = low.z; z <= high.z; ++z) {
+    for (std::int32_t y = low.y; y <= high.y; ++y) {
+      for (std::int32_t x = low.x; x <= high.x; ++x) {
+        const auto it = bricks_.find({x, y, z});
+        if (it == bricks_.end() || separator.separates({x * edge, y * edge, z * edge}, edge)) continue;
+        if (!brick_clear(separator, {x, y, z}, it->second)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool EnclosedVoxels::brick_clear(const Separator& separator, BrickCoord coord, const BoundaryBrick& brick) const {
+  constexpr std::int64_t voxel = kLatticePerVoxel, block = 8 * voxel;
+  const VoxelCoord first = first_voxel(coord);
+  const LatticeCoord origin{first.x * voxel, first.y * voxel, first.z * voxel};
+  for (std::int64_t bz = 0; bz < 8; ++bz) {
+    for (std::uint64_t rest = brick.blocks[std::size_t(bz)]; rest != 0; rest &= rest - 1) {
+      const int bit = std::countr_zero(rest);
+      const std::int64_t bx = bit % 8, by = bit / 8;
+      const LatticeCoord corner = origin + LatticeCoord{bx * block, by * block, bz * block};
+      if (separator.separates(corner, block)) continue;
+      for (std::int64_t z = 0; z < 8; ++z) {
+        for (std::int64_t y = 0; y < 8; ++y) {
+          std::uint64_t row = (brick.bits[std::size_t((bz * 8 + z) * kBrickEdge + by * 8 + y)] >> (8 * bx)) & 0xff;
+          for (; row != 0; row &= row - 1) {
+            if (!separator.separates(corner + LatticeCoord{std::countr_zero(row) * voxel, y * voxel, z * voxel}, voxel))
+              return false;
+          }
+        }
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace bp

@@ -1,0 +1,32 @@
+#pragma once
+#include <cmath>
+
+#include "lib/core/coords.h"
+
+/// Small vector helpers over lattice points. Exact where they return integers.
+namespace bp {
+
+[[nodiscard]] inline Vec3d to_double(const LatticeCoord& d) {
+  return {double(d.x), double(d.y), double(d.z)};
+}
+[[nodiscard]] inline double dot(const Vec3d& a, const Vec3d& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+[[nodiscard]] inline double length(const Vec3d& v) {
+  return std::sqrt(dot(v, v));
+}
+
+/// Cross product of two edges of a face: twice its area vector, lattice units squared. Exact for edges below 2^30
+/// lattice units.
+[[nodiscard]] inline LatticeCoord normal_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
+  const LatticeCoord u = b - a, v = c - a;
+  return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+}
+
+/// Shape of a triangle: 4 sqrt(3) area over the sum of its squared edges; 1 if equilateral, 0 if collinear.
+[[nodiscard]] inline double triangle_quality(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
+  const Vec3d ab = to_double(b - a), ac = to_double(c - a), bc = to_double(c - b);
+  return 3.4641016151377544 * length(to_double(normal_of(a, b, c))) / (dot(ab, ab) + dot(ac, ac) + dot(bc, bc));
+}
+
+}  // namespace bp

@@ -1,0 +1,75 @@
+#include "lib/stage/mesh_stage.h"
+
+#include <bit>
+#include <cmath>
+
+#include "lib/core/error.h"
+#include "lib/core/predicates.h"
+#include "lib/meshing/repair.h"
+#include "lib/meshing/surface.h"
+
+namespace bp {
+
+namespace {
+
+std::unique_ptr<BrickShelf> read_layer(BrickSource& source, const ShelfFactory& make_shelf, MeshCounts& counts) {
+  const Layer layer = source.header().has_closing ? Layer::closing : Layer::solid;
+  auto shelf = make_shelf();
+  for (Brick brick; source.read(brick);) {
+    if (brick.layer != layer) continue;
+    for (const std::uint64_t w : brick.bits) counts.voxels += std::uint64_t(std::popcount(w));
+    shelf->put(brick.coord, brick.fill, brick.bits);
+  }
+  if (counts.voxels == 0) fail(ErrorCode::bad_input, "the stream holds no occupied voxel; there is nothing to mesh");
+  return shelf;
+}
+
+/// S at a lattice point, lattice units.
+double scale_at(const StreamHeader& header, const LatticeCoord& p) {
+  return header.scale.evaluate(header.frame.world(p)) / header.frame.voxel * kLatticePerVoxel;
+}
+
+SimplifyParams simplify_params(const StreamHeader& header, const MeshParams& params) {
+  SimplifyParams out;
+  out.faces = params.faces;
+  double error_world = params.error_world;
+  if (params.faces == 0 && error_world == 0) {
+    const bool cube = header.has_closing && header.element == StructuringElement::cube;
+    error_world = header.bounds.diagonal() * (cube ? MeshParams::kErrorShareCube : MeshParams::kErrorShareBall);
+  }
+  out.error_vox = error_world / header.frame.voxel;
+  if (params.edge_factor > 0) {
+    out.edge_limit = [&header, factor = params.edge_factor](const LatticeCoord& p) {
+      // Never below two voxels, or nothing could be merged where the scale vanishes.
+      return std::max(factor * scale_at(header, p), 2.0 * kLatticePerVoxel);
+    };
+  }
+  return out;
+}
+
+/// Enclosed volume, scene units cubed. Exact sum over the faces, rounded once.
+double volume_world(const LatticeMesh& mesh) {
+  int128 sum = 0;
+  for (const auto& t : mesh.triangles) {
+    sum += orient3d_value(mesh.vertices[0], mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+  }
+  return double(sum) / 6 * std::pow(mesh.frame.voxel / kLatticePerVoxel, 3);
+}
+
+}  // namespace
+
+LatticeMesh mesh_stream(BrickSource& source, const ShelfFactory& make_shelf, const MeshParams& params,
+                        MeshCounts& counts) {
+  counts = {};
+  const StreamHeader& header = source.header();
+  const auto shelf = read_layer(source, make_shelf, counts);
+  counts.repaired = repair_contacts(*shelf);
+  LatticeMesh proxy = simplify(dense_surface(*shelf, header.frame), simplify_params(header, params), counts.simplify);
+  if (params.tighten) proxy = tighten(proxy, EnclosedVoxels(*shelf), {}, counts.tighten);
+  counts.volume_world = volume_world(proxy);
+  counts.solid_volume_world = double(counts.voxels) * std::pow(header.frame.voxel, 3);
+  proxy.provenance = header.provenance;
+  return proxy;
+}
+
+}  // namespace bp
