@@ -1,6 +1,8 @@
 #include "lib/meshing/enclosed.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "lib/core/parallel.h"
 #include "lib/core/predicates.h"
@@ -14,15 +16,17 @@ class Separator {
  public:
   explicit Separator(const Tetrahedron& t) : box_{t[0], t[0]} {
     for (const LatticeCoord& p : t) box_.add(p);
-    for (int skip = 0; skip < 4; ++skip) {
-      add_axis(t, normal_of(t[std::size_t(skip + 1) % 4], t[std::size_t(skip + 2) % 4], t[std::size_t(skip + 3) % 4]));
-    }
+    for (std::size_t i = 0; i < 4; ++i) corners_[i] = t[i] - box_.min;
+    const LatticeCoord side = box_.max - box_.min;
+    size_ = double(side.x) + double(side.y) + double(side.z);
+    for (std::size_t skip = 0; skip < 4; ++skip)
+      add_axis(normal_of(t[(skip + 1) % 4], t[(skip + 2) % 4], t[(skip + 3) % 4]));
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = i + 1; j < 4; ++j) {
         const LatticeCoord e = t[j] - t[i];
-        add_axis(t, {0, e.z, -e.y});
-        add_axis(t, {-e.z, 0, e.x});
-        add_axis(t, {e.y, -e.x, 0});
+        add_axis({0, e.z, -e.y});
+        add_axis({-e.z, 0, e.x});
+        add_axis({e.y, -e.x, 0});
       }
     }
   }
@@ -34,34 +38,57 @@ class Separator {
     for (int i = 0; i < 3; ++i) {
       if (corner[i] >= box_.max[i] || corner[i] + edge <= box_.min[i]) return true;
     }
+    const LatticeCoord c = corner - box_.min;
+    const double x = double(c.x), y = double(c.y), z = double(c.z), e = double(edge);
+    const double reach = std::abs(x) + std::abs(y) + std::abs(z) + e + size_;  // what an axis is multiplied with
     for (int a = 0; a < count_; ++a) {
       const Axis& axis = axes_[std::size_t(a)];
-      const int128 at = int128(axis.n.x) * corner.x + int128(axis.n.y) * corner.y + int128(axis.n.z) * corner.z;
-      const int128 low = at + int128(axis.negative) * edge, high = at + int128(axis.positive) * edge;
-      if (low >= axis.max || high <= axis.min) return true;
+      const double at = axis.x * x + axis.y * y + axis.z * z;
+      const double over = std::max(at + axis.negative * e - axis.max, axis.min - (at + axis.positive * e));
+      const double slack = axis.slack * reach;
+      if (over > slack || (over >= -slack && separates_exactly(axis.n, c, edge))) return true;
     }
     return false;
   }
 
  private:
+  /// Coordinates are relative to the low corner of the tetrahedron's box. The doubles decide unless they are within
+  /// rounding.
   struct Axis {
     LatticeCoord n;
-    std::int64_t negative, positive;  // sums of the negative and of the positive components: extent of a unit cube
-    int128 min, max;                  // of the tetrahedron
+    double x, y, z;
+    double negative, positive;  // sums of the negative and of the positive components: extent of a unit cube
+    double min, max;            // of the tetrahedron
+    double slack;               // a dozen roundings of terms below |n|_1 * reach
   };
 
-  void add_axis(const Tetrahedron& t, const LatticeCoord& n) {
-    if (n == LatticeCoord{}) return;
-    Axis axis{n, 0, 0, 0, 0};
-    for (int i = 0; i < 3; ++i) (n[i] < 0 ? axis.negative : axis.positive) += n[i];
-    for (std::size_t i = 0; i < 4; ++i) {
-      const int128 at = int128(n.x) * t[i].x + int128(n.y) * t[i].y + int128(n.z) * t[i].z;
-      axis.min = i == 0 || at < axis.min ? at : axis.min;
-      axis.max = i == 0 || at > axis.max ? at : axis.max;
+  [[nodiscard]] bool separates_exactly(const LatticeCoord& n, const LatticeCoord& c, std::int64_t edge) const {
+    const auto along = [&](const LatticeCoord& p) { return int128(n.x) * p.x + int128(n.y) * p.y + int128(n.z) * p.z; };
+    int128 min = along(corners_[0]), max = min, low = along(c), high = low;
+    for (const LatticeCoord& p : corners_) {
+      min = std::min(min, along(p));
+      max = std::max(max, along(p));
     }
+    for (int i = 0; i < 3; ++i) (n[i] < 0 ? low : high) += int128(n[i]) * edge;
+    return low >= max || high <= min;
+  }
+
+  void add_axis(const LatticeCoord& n) {
+    if (n == LatticeCoord{}) return;
+    Axis axis{n, double(n.x), double(n.y), double(n.z), 0, 0, 0, 0, 0};
+    for (int i = 0; i < 3; ++i) (n[i] < 0 ? axis.negative : axis.positive) += double(n[i]);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double at =
+          axis.x * double(corners_[i].x) + axis.y * double(corners_[i].y) + axis.z * double(corners_[i].z);
+      axis.min = i == 0 ? at : std::min(axis.min, at);
+      axis.max = i == 0 ? at : std::max(axis.max, at);
+    }
+    axis.slack = 0x1p-49 * (axis.positive - axis.negative);
     axes_[std::size_t(count_++)] = axis;
   }
 
+  Tetrahedron corners_;  // relative to box_.min
+  double size_ = 0;      // sum of the sides of the box
   LatticeBox box_;
   std::array<Axis, 22> axes_;
   int count_ = 0;

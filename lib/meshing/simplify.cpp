@@ -51,7 +51,8 @@ class Simplifier {
         guard_(mesh, tree_),
         quadric_(mesh.vertex_capacity()),
         serial_(3 * mesh.face_capacity(), 0),
-        parked_(3 * mesh.face_capacity(), 0) {
+        parked_(3 * mesh.face_capacity(), 0),
+        bound_(3 * mesh.face_capacity(), -1) {
     for (FaceId f = 0; f < mesh.face_capacity(); ++f) {
       if (mesh.alive(f)) add_face_quadric(f);
     }
@@ -69,7 +70,7 @@ class Simplifier {
       std::uint64_t taken = 0;
       for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity() && mesh_.face_count() > enough; ++h) {
         if (!mesh_.alive(HalfEdgeMesh::face(h)) || mesh_.edge(h) != h || parked_[h]) continue;
-        if (merged_in[mesh_.from(h)] == sweep || merged_in[mesh_.to(h)] == sweep || lower_bound(h) > bound) continue;
+        if (merged_in[mesh_.from(h)] == sweep || merged_in[mesh_.to(h)] == sweep || known_bound(h) > bound) continue;
         const std::optional<Candidate> candidate = solve(h);
         if (candidate && (candidate->cost > bound || too_far(h, candidate->cost))) continue;
         const VertexId u = mesh_.from(h);
@@ -148,6 +149,12 @@ class Simplifier {
   [[nodiscard]] double lower_bound(HalfEdgeId h) const {
     const Quadric q = summed(h);
     return std::max(0.0, q.value(minimum(q, midpoint(h))));
+  }
+
+  /// The lower bound, computed once until the neighbourhood changes.
+  [[nodiscard]] double known_bound(HalfEdgeId e) {
+    if (bound_[e] < 0) bound_[e] = float(lower_bound(e)) * (1 - 0x1p-22f);  // rounded down
+    return double(bound_[e]);
   }
 
   void push(HalfEdgeId h) {
@@ -299,6 +306,7 @@ class Simplifier {
 
   void unpark_around(VertexId u) {
     mesh_.for_each_outgoing(u, [&](HalfEdgeId g) {
+      bound_[mesh_.edge(g)] = -1;
       mesh_.for_each_outgoing(mesh_.to(g), [&](HalfEdgeId k) { parked_[mesh_.edge(k)] = 0; });
     });
   }
@@ -321,6 +329,7 @@ class Simplifier {
   std::vector<Quadric> quadric_;       // per vertex, about its position
   std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
   std::vector<char> parked_;           // refused until its neighbourhood changes
+  std::vector<float> bound_;           // per half-edge: lower bound of its edge's cost, negative if unknown
   bool far_ = false;                   // some collapse was refused for its error
   std::priority_queue<Entry> heap_;
   std::vector<HalfEdgeId> star_;  // of the edge solved last: outgoing half-edges of both ends
