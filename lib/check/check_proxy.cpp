@@ -50,7 +50,7 @@ struct SceneMemory {
   SceneMemory(const CheckOptions& options)
       : sample(options.distances ? options.distance_samples : 0),
         keep(options.distances),
-        limit(options.scene_memory_bytes / TriangleBvh::bytes_needed(1)) {}
+        limit(options.scene_memory_bytes / (TriangleBvh::bytes_needed(1) + 2 * sizeof(TriangleD))) {}
 
   void see(std::uint64_t first, const std::vector<TriangleD>& triangles) {
     for (std::size_t i = 0; i < triangles.size(); ++i) sample.see(first + i, triangles[i]);
@@ -82,7 +82,7 @@ void measure_distances(const Surface& surface, const SceneMemory& scene, const C
     return;
   }
   TriangleSample proxy(options.distance_samples);
-  for (std::size_t i = 0; i < surface.bvh().size(); ++i)
+  for (std::size_t i = 0; i < surface.bvh().size(); ++i)  // in an order of neighbours
     proxy.see(surface.bvh().item(i).id, surface.bvh().item(i).corners);
   report.proxy_to_scene = distances(proxy.points(), TriangleBvh(scene.all));
 }

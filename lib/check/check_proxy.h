@@ -10,8 +10,8 @@ namespace bp {
 struct CheckOptions {
   std::size_t max_examples = 5;                     ///< kept per finding
   bool distances = true;                            ///< sample distances between scene and proxy
-  std::size_t distance_samples = 20000;             ///< triangles sampled on each side, at most
-  std::uint64_t scene_memory_bytes = 256ull << 20;  ///< the scene is kept for distances only if it fits
+  std::size_t distance_samples = 5000;              ///< triangles sampled on each side, at most
+  std::uint64_t scene_memory_bytes = 512ull << 20;  ///< the scene is kept for distances only if it fits
 };
 
 /// Checks that `proxy` is a closed, oriented, embedded 2-manifold and, if `scene` is not null, that it strictly

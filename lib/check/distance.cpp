@@ -28,25 +28,40 @@ void TriangleSample::see(std::uint64_t number, const TriangleD& t) {
 }
 
 std::vector<Vec3d> TriangleSample::points() const {
-  std::vector<Vec3d> points;
+  struct Numbered {
+    Vec3d point;
+    std::size_t number;
+  };
+  std::vector<Numbered> all;
+  const auto add = [&](const Vec3d& p) { all.push_back({p, all.size()}); };
   for (const Kept& k : kept_) {
     Vec3d centroid{};
     for (const Vec3d& p : k.triangle) {
-      points.push_back(p);
+      add(p);
       for (std::size_t i = 0; i < 3; ++i) centroid[i] += p[i] / 3;
     }
-    points.push_back(centroid);
+    add(centroid);
   }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+  std::sort(all.begin(), all.end(), [](const Numbered& a, const Numbered& b) {
+    return a.point != b.point ? a.point < b.point : a.number < b.number;
+  });
+  const auto same = [](const Numbered& a, const Numbered& b) { return a.point == b.point; };
+  all.erase(std::unique(all.begin(), all.end(), same), all.end());
+  std::sort(all.begin(), all.end(), [](const Numbered& a, const Numbered& b) { return a.number < b.number; });
+  std::vector<Vec3d> points;
+  for (const Numbered& n : all) points.push_back(n.point);
   return points;
 }
 
 SampledDistance distances(const std::vector<Vec3d>& points, const TriangleBvh& to) {
   std::vector<double> d(points.size());
   parallel_chunks(std::int64_t(points.size()), 1024, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
-      d[i] = std::sqrt(to.nearest(points[i]).distance_squared);
+    std::uint32_t guess = 0;  // neighbours in the stream are mostly neighbours in space
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+      const TriangleBvh::Nearest nearest = to.nearest(points[i], guess);
+      d[i] = std::sqrt(nearest.distance_squared);
+      guess = nearest.item;
+    }
   });
   SampledDistance result;
   result.samples = points.size();

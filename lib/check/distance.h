@@ -10,7 +10,7 @@ class TriangleSample {
  public:
   explicit TriangleSample(std::size_t capacity) : capacity_(capacity) {}
   void see(std::uint64_t number, const TriangleD& t);
-  /// Corners and centroids of the kept triangles, each position once, in lexicographic order.
+  /// Corners and centroids of the kept triangles, each position once, in the order of the stream.
   [[nodiscard]] std::vector<Vec3d> points() const;
 
  private:

@@ -215,7 +215,7 @@ std::uint64_t TriangleBvh::bytes_needed(std::uint64_t n) {
   return n * (sizeof(Item) + 2 * sizeof(Node) + sizeof(Builder::Primitive));
 }
 
-TriangleBvh::Nearest TriangleBvh::nearest(const Vec3d& p) const {
+TriangleBvh::Nearest TriangleBvh::nearest(const Vec3d& p, std::uint32_t guess) const {
   struct Entry {
     double distance;
     std::uint32_t node;
@@ -223,21 +223,21 @@ TriangleBvh::Nearest TriangleBvh::nearest(const Vec3d& p) const {
   Entry stack[kStack];
   int top = 0;
   stack[top++] = {distance_squared(p, nodes_[0].box), 0};
-  Nearest best{HUGE_VAL, 0};
+  Nearest best{bp::distance_squared(p, items_[guess].corners), guess};
   while (top > 0) {
     const Entry e = stack[--top];
-    if (e.distance > best.distance_squared) continue;
+    if (e.distance >= best.distance_squared) continue;
     const Node& n = nodes_[e.node];
     for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
       const double d = bp::distance_squared(p, items_[i].corners);
-      if (d < best.distance_squared || (d == best.distance_squared && items_[i].id < best.id)) best = {d, items_[i].id};
+      if (d < best.distance_squared) best = {d, i};
     }
     if (n.count != 0) continue;
     Entry near{distance_squared(p, nodes_[n.first].box), n.first};
     Entry far{distance_squared(p, nodes_[n.first + 1].box), n.first + 1};
     if (far.distance < near.distance) std::swap(near, far);
-    stack[top++] = far;
-    stack[top++] = near;
+    if (far.distance < best.distance_squared) stack[top++] = far;
+    if (near.distance < best.distance_squared) stack[top++] = near;
   }
   return best;
 }

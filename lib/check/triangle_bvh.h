@@ -27,7 +27,7 @@ class TriangleBvh {
   };
   struct Nearest {
     double distance_squared;
-    std::uint32_t id;
+    std::uint32_t item;  ///< for item()
   };
 
   /// O(n log n), parallel, the same tree for any number of threads. Coordinates must be finite; at most 2^31 triangles.
@@ -52,8 +52,9 @@ class TriangleBvh {
     };
     walk(meets, [&](const Item& item) { return f(item), false; });
   }
-  /// The nearest triangle, in floating point; of equally near ones the lowest id. Must not be empty.
-  [[nodiscard]] Nearest nearest(const Vec3d& p) const;
+  /// The nearest triangle (one of them), in floating point. `guess` is where the search starts: the answer for a point
+  /// close by makes it fast. The distance does not depend on it. Must not be empty.
+  [[nodiscard]] Nearest nearest(const Vec3d& p, std::uint32_t guess = 0) const;
 
   /// Bytes that a hierarchy over n triangles takes, the build included; an upper bound.
   [[nodiscard]] static std::uint64_t bytes_needed(std::uint64_t n);
