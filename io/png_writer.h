@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "io/file.h"
+#include "lib/image/image.h"
+
+namespace bp {
+
+/// 8-bit RGB, no metadata: the same bytes for the same picture (and zlib). Throws bad_argument if a side is 0.
+[[nodiscard]] std::vector<std::byte> encode_png(const Image& image);
+
+/// Appears under its name when complete. Throws as OutputFile does.
+void write_png(const Image& image, const std::string& path, bool overwrite);
+
+}  // namespace bp

@@ -1,0 +1,50 @@
+#pragma once
+#include <cmath>
+
+#include "lib/image/render.h"
+
+namespace bp {
+
+/// Orthographic: x to the right and y down in samples, depth away from the viewer in samples too.
+class Camera {
+ public:
+  explicit Camera(const RenderOptions& o) : z_up_(o.up == UpAxis::z) {
+    const double a = o.azimuth * (M_PI / 180), e = o.elevation * (M_PI / 180);
+    right_ = {std::cos(a), std::sin(a), 0};
+    forward_ = {-std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), -std::sin(e)};  // from the viewer
+    up_ = {-std::sin(a) * std::sin(e), std::cos(a) * std::sin(e), std::cos(e)};
+  }
+
+  /// Point of the scene that the following are relative to; keeps precision far from the scene's origin.
+  void look_at(const Vec3d& p) { origin_ = p; }
+
+  /// Right, up, forward of a point of the scene, in scene units from the point looked at.
+  [[nodiscard]] Vec3d seen(const Vec3d& p) const {
+    const Vec3d d{p[0] - origin_[0], p[1] - origin_[1], p[2] - origin_[2]};
+    const Vec3d v = z_up_ ? d : Vec3d{d[0], -d[2], d[1]};
+    return {dot(v, right_), dot(v, up_), dot(v, forward_)};
+  }
+
+  /// Shows what lies within these bounds of seen() in width x height samples, with a margin.
+  void fit(const Bounds3d& bounds, int width, int height) {
+    const double w = bounds.max[0] - bounds.min[0], h = bounds.max[1] - bounds.min[1];
+    const double scale = 0.92 * std::min(width / w, height / h);
+    scale_ = std::isfinite(scale) && scale > 0 ? scale : 1;
+    offset_x_ = width / 2.0 - scale_ * (bounds.min[0] / 2 + bounds.max[0] / 2);
+    offset_y_ = height / 2.0 + scale_ * (bounds.min[1] / 2 + bounds.max[1] / 2);
+  }
+
+  [[nodiscard]] Vec3d project(const Vec3d& p) const {
+    const Vec3d d = seen(p);
+    return {offset_x_ + scale_ * d[0], offset_y_ - scale_ * d[1], scale_ * d[2]};
+  }
+
+ private:
+  static double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+  bool z_up_;
+  Vec3d right_{}, up_{}, forward_{}, origin_{};
+  double scale_ = 1, offset_x_ = 0, offset_y_ = 0;
+};
+
+}  // namespace bp

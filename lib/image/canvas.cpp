@@ -1,0 +1,203 @@
+#include "lib/image/canvas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/core/parallel.h"
+
+namespace bp {
+
+namespace {
+
+constexpr int kSubBits = 8;  // corners snap to 1/256 sample: edges are then decided in integers, without cracks
+constexpr double kSub = 1 << kSubBits;
+constexpr double kMaxCoordinate = 1 << 22;  // samples; products of two differences stay below 2^63
+constexpr int kBand = 32;                   // rows per work item
+
+double shade(const Vec3d& n) {
+  // Key light from the upper left, fill light from the right, both from the viewer's side; a normal turned away is
+  // turned.
+  const double s = n[2] > 0 ? -1 : 1;
+  const double key = s * (-0.41 * n[0] - 0.62 * n[1] - 0.67 * n[2]);
+  const double fill = s * (0.74 * n[0] - 0.12 * n[1] - 0.66 * n[2]);
+  return 0.42 + 0.56 * std::max(0.0, key) + 0.16 * std::max(0.0, fill);
+}
+
+std::uint8_t to_byte(double x) {
+  return std::uint8_t(std::clamp(x + 0.5, 0.0, 255.0));
+}
+Color scaled(Color c, double s) {
+  return {to_byte(c.r * s), to_byte(c.g * s), to_byte(c.b * s)};
+}
+Color blend(Color below, Color above, double a) {
+  return {to_byte(below.r + a * (above.r - below.r)), to_byte(below.g + a * (above.g - below.g)),
+          to_byte(below.b + a * (above.b - below.b))};
+}
+
+bool drawable(const Vec3d& p) {
+  return std::abs(p[0]) < kMaxCoordinate && std::abs(p[1]) < kMaxCoordinate &&
+         std::abs(p[2]) < std::numeric_limits<float>::max();
+}
+
+/// Right or below the edge counts as inside, so that samples on a shared edge belong to one triangle.
+bool owns_its_samples(std::int64_t dx, std::int64_t dy) {
+  return dy > 0 || (dy == 0 && dx < 0);
+}
+
+}  // namespace
+
+/// A triangle made ready: snapped corners in counter-clockwise order on the screen, colour, depth as a plane.
+struct Canvas::Shaded {
+  std::int32_t x[3], y[3];
+  int x_min = 0, x_max = -1, y_min = 0, y_max = -1;  // samples whose centres may be inside; empty if x_max < x_min
+  double z, dz_dx, dz_dy;                            // depth at sample (0, 0), clamped to [z_low, z_high]
+  float z_low, z_high;
+  Color color;
+
+  Shaded() = default;
+  Shaded(const TriangleD& t, Color base, int width, int height) {
+    if (!drawable(t[0]) || !drawable(t[1]) || !drawable(t[2])) return;
+    const Vec3d u{t[1][0] - t[0][0], t[1][1] - t[0][1], t[1][2] - t[0][2]};
+    const Vec3d v{t[2][0] - t[0][0], t[2][1] - t[0][1], t[2][2] - t[0][2]};
+    Vec3d n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (!(length > 0) || !std::isfinite(length) || n[2] == 0) return;
+    dz_dx = -n[0] / n[2], dz_dy = -n[1] / n[2];
+    z = t[0][2] + (0.5 - t[0][0]) * dz_dx + (0.5 - t[0][1]) * dz_dy;
+    z_low = float(std::min({t[0][2], t[1][2], t[2][2]})), z_high = float(std::max({t[0][2], t[1][2], t[2][2]}));
+    color = scaled(base, shade({n[0] / length, n[1] / length, n[2] / length}));
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t from = n[2] > 0 ? std::size_t(k) : std::size_t(2 - k);
+      x[k] = std::int32_t(std::lround(t[from][0] * kSub)), y[k] = std::int32_t(std::lround(t[from][1] * kSub));
+    }
+    const auto [x0, x1] = std::minmax({x[0], x[1], x[2]});
+    const auto [y0, y1] = std::minmax({y[0], y[1], y[2]});
+    x_min = std::max(0, sample_at_or_after(x0)), x_max = std::min(width - 1, sample_at_or_before(x1));
+    y_min = std::max(0, sample_at_or_after(y0)), y_max = std::min(height - 1, sample_at_or_before(y1));
+  }
+
+  /// Sample i has its centre at (i + 1/2) * 256.
+  static int sample_at_or_after(std::int32_t c) { return (c + (1 << (kSubBits - 1)) - 1) >> kSubBits; }
+  static int sample_at_or_before(std::int32_t c) { return (c - (1 << (kSubBits - 1))) >> kSubBits; }
+};
+
+Canvas::Canvas(int width, int height, Color background)
+    : width_(width),
+      height_(height),
+      depth_(std::size_t(width) * std::size_t(height), std::numeric_limits<float>::infinity()),
+      color_(depth_.size(), background) {}
+
+void Canvas::for_each_band(const std::function<void(Row)>& body) const {
+  parallel_for((height_ + kBand - 1) / kBand, [&](std::int64_t i) {
+    body({int(i) * kBand, std::min(height_, int(i + 1) * kBand)});
+  });
+}
+
+void Canvas::draw(std::span<const TriangleD> triangles, Color color) {
+  constexpr std::size_t kBatch = 1 << 15;
+  std::vector<Shaded> ready;
+  for (std::size_t begin = 0; begin < triangles.size(); begin += kBatch) {
+    const std::size_t n = std::min(kBatch, triangles.size() - begin);
+    ready.resize(n);
+    parallel_chunks(std::int64_t(n), 1024, [&](std::int64_t b, std::int64_t e) {
+      for (auto i = std::size_t(b); i < std::size_t(e); ++i)
+        ready[i] = Shaded(triangles[begin + i], color, width_, height_);
+    });
+    for_each_band([&](Row rows) {
+      for (const Shaded& t : ready)
+        if (t.y_min < rows.end && t.y_max >= rows.begin && t.x_min <= t.x_max) fill(t, rows);
+    });
+  }
+}
+
+void Canvas::fill(const Shaded& t, Row rows) {
+  // Twice the signed areas of (edge, sample centre), stepped from sample to sample. Inside: positive, or zero on an
+  // edge that owns its samples.
+  std::int64_t row_value[3], step_x[3], step_y[3];
+  const int y_begin = std::max(t.y_min, rows.begin), y_end = std::min(t.y_max + 1, rows.end);
+  for (int e = 0; e < 3; ++e) {
+    const int f = (e + 1) % 3;
+    const std::int64_t dx = std::int64_t(t.x[f]) - t.x[e], dy = std::int64_t(t.y[f]) - t.y[e];
+    const std::int64_t cx = (std::int64_t(t.x_min) << kSubBits) + (1 << (kSubBits - 1)) - t.x[e];
+    const std::int64_t cy = (std::int64_t(y_begin) << kSubBits) + (1 << (kSubBits - 1)) - t.y[e];
+    row_value[e] = dx * cy - dy * cx - (owns_its_samples(dx, dy) ? 0 : 1);
+    step_x[e] = -dy * (1 << kSubBits), step_y[e] = dx * (1 << kSubBits);
+  }
+  for (int y = y_begin; y < y_end; ++y) {
+    std::int64_t a = row_value[0], b = row_value[1], c = row_value[2];
+    const std::size_t row = std::size_t(y) * std::size_t(width_);
+    for (int x = t.x_min; x <= t.x_max; ++x, a += step_x[0], b += step_x[1], c += step_x[2]) {
+      if ((a | b | c) < 0) continue;
+      const float z = std::clamp(float(t.z + x * t.dz_dx + y * t.dz_dy), t.z_low, t.z_high);
+      if (z >= depth_[row + std::size_t(x)]) continue;
+      depth_[row + std::size_t(x)] = z;
+      color_[row + std::size_t(x)] = t.color;
+    }
+    for (int e = 0; e < 3; ++e) row_value[e] += step_y[e];
+  }
+}
+
+/// The farthest of the samples around: a steep face next to its own edge then hides nothing.
+bool Canvas::hidden(double x, double y, double depth) const {
+  const int cx = int(std::floor(x)), cy = int(std::floor(y));
+  float farthest = -std::numeric_limits<float>::infinity();
+  for (int j = std::max(0, cy - 1); j <= std::min(height_ - 1, cy + 1); ++j)
+    for (int i = std::max(0, cx - 1); i <= std::min(width_ - 1, cx + 1); ++i)
+      farthest = std::max(farthest, depth_[std::size_t(j) * std::size_t(width_) + std::size_t(i)]);
+  return depth > double(farthest) + 0.5;
+}
+
+void Canvas::draw_lines(std::span<const std::array<Vec3d, 2>> lines, Color color, double half_width) {
+  for_each_band([&](Row rows) {
+    for (const auto& line : lines) {
+      if (!drawable(line[0]) || !drawable(line[1])) continue;
+      const double low = std::min(line[0][1], line[1][1]) - half_width - 1;
+      const double high = std::max(line[0][1], line[1][1]) + half_width + 1;
+      if (low < rows.end && high >= rows.begin) draw_line(line, color, half_width, rows);
+    }
+  });
+}
+
+void Canvas::draw_line(const std::array<Vec3d, 2>& line, Color color, double half_width, Row rows) {
+  const Vec3d &p = line[0], &q = line[1];
+  const double dx = q[0] - p[0], dy = q[1] - p[1], length_squared = dx * dx + dy * dy;
+  const double reach = half_width + 0.5;
+  const int y_begin = std::max(rows.begin, int(std::floor(std::min(p[1], q[1]) - reach)));
+  const int y_end = std::min(rows.end, int(std::ceil(std::max(p[1], q[1]) + reach)));
+  for (int y = y_begin; y < y_end; ++y) {
+    // Part of the line within reach of this row, as parameters along it.
+    double t0 = 0, t1 = 1;
+    if (dy != 0) {
+      const double a = (y + 0.5 - reach * 1.5 - p[1]) / dy, b = (y + 0.5 + reach * 1.5 - p[1]) / dy;
+      t0 = std::clamp(std::min(a, b), 0.0, 1.0), t1 = std::clamp(std::max(a, b), 0.0, 1.0);
+    }
+    const double xa = p[0] + t0 * dx, xb = p[0] + t1 * dx;
+    const int x_begin = std::max(0, int(std::floor(std::min(xa, xb) - 1.5 * reach)));
+    const int x_end = std::min(width_, int(std::ceil(std::max(xa, xb) + 1.5 * reach)));
+    for (int x = x_begin; x < x_end; ++x) {
+      const double px = x + 0.5 - p[0], py = y + 0.5 - p[1];
+      const double t = length_squared > 0 ? std::clamp((px * dx + py * dy) / length_squared, 0.0, 1.0) : 0;
+      const double ex = px - t * dx, ey = py - t * dy;
+      const double coverage = std::clamp(reach - std::sqrt(ex * ex + ey * ey), 0.0, 1.0);
+      if (coverage == 0 || hidden(p[0] + t * dx, p[1] + t * dy, p[2] + t * (q[2] - p[2]))) continue;
+      Color& c = color_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
+      c = blend(c, color, coverage * 0.8);
+    }
+  }
+}
+
+void Canvas::resolve(Image& image, int x, int y) const {
+  for (int j = 0; j < height_ / 2; ++j) {
+    for (int i = 0; i < width_ / 2; ++i) {
+      const Color* upper = &color_[std::size_t(2 * j) * std::size_t(width_) + std::size_t(2 * i)];
+      const Color* lower = upper + width_;
+      const auto mean = [&](auto channel) {
+        return std::uint8_t((upper[0].*channel + upper[1].*channel + lower[0].*channel + lower[1].*channel + 2) / 4);
+      };
+      image.at(x + i, y + j) = {mean(&Color::r), mean(&Color::g), mean(&Color::b)};
+    }
+  }
+}
+
+}  // namespace bp

@@ -1,0 +1,40 @@
+#pragma once
+#include <functional>
+#include <span>
+
+#include "lib/core/box.h"
+#include "lib/image/image.h"
+
+namespace bp {
+
+/// Samples with depth. Triangles and lines come in sample coordinates: x to the right, y down, z away from the viewer.
+/// Which triangle wins at equal depth is decided by their order, so the picture does not depend on threads.
+class Canvas {
+ public:
+  Canvas(int width, int height, Color background);
+
+  /// Flat shaded, facing either way. Coordinates that are not finite or beyond 2^22 samples are left out. Parallel.
+  void draw(std::span<const TriangleD> triangles, Color color);
+
+  /// Antialiased, where nothing lies in front. Parallel.
+  void draw_lines(std::span<const std::array<Vec3d, 2>> lines, Color color, double half_width);
+
+  /// Mean of each 2 x 2 samples, copied into `image` with the upper left corner at (x, y).
+  void resolve(Image& image, int x, int y) const;
+
+ private:
+  struct Shaded;
+  struct Row {
+    int begin, end;
+  };
+  void fill(const Shaded& t, Row rows);
+  void draw_line(const std::array<Vec3d, 2>& line, Color color, double half_width, Row rows);
+  [[nodiscard]] bool hidden(double x, double y, double depth) const;
+  void for_each_band(const std::function<void(Row)>& body) const;
+
+  int width_, height_;
+  std::vector<float> depth_;
+  std::vector<Color> color_;
+};
+
+}  // namespace bp

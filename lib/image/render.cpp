@@ -1,0 +1,180 @@
+#include "lib/image/render.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/image/camera.h"
+#include "lib/image/canvas.h"
+#include "lib/image/font.h"
+
+namespace bp {
+
+namespace {
+
+constexpr int kSamples = 2;      // per pixel and direction
+constexpr int kTextScale = 2;    // pixels a dot
+constexpr int kLineHeight = 20;  // pixels
+constexpr std::size_t kBatch = 1 << 15;
+
+bool finite(const Vec3d& p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
+/// Triangle t of the mesh; false if it names a vertex that does not exist.
+bool corners_of(const IndexedMesh& mesh, std::size_t t, TriangleD& corners) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (mesh.triangles[t][k] >= mesh.vertices.size()) return false;
+    corners[k] = mesh.vertices[mesh.triangles[t][k]];
+  }
+  return true;
+}
+
+/// f(p) for each finite corner of the meshes and triangles.
+template <class F>
+void for_each_corner(std::span<const View> views, const F& f) {
+  TriangleD corners;
+  const auto visit = [&](const Vec3d& p) {
+    if (finite(p)) f(p);
+  };
+  for (const View& v : views) {
+    for (std::size_t t = 0; v.mesh != nullptr && t < v.mesh->triangles.size(); ++t)
+      if (corners_of(*v.mesh, t, corners)) std::for_each(corners.begin(), corners.end(), visit);
+    for (const TriangleD& t : v.triangles) std::for_each(t.begin(), t.end(), visit);
+  }
+}
+
+/// Aims at the given bounds or, without them, at what there is. False if that is nothing.
+bool aim(Camera& camera, std::span<const View> views, const RenderOptions& options) {
+  Bounds3d bounds = options.bounds, seen;
+  if (bounds.empty()) for_each_corner(views, [&](const Vec3d& p) { bounds.add(p); });
+  if (bounds.empty()) return false;
+  Vec3d centre;
+  for (std::size_t i = 0; i < 3; ++i) centre[i] = bounds.min[i] / 2 + bounds.max[i] / 2;
+  camera.look_at(centre);
+  if (options.bounds.empty()) {
+    for_each_corner(views, [&](const Vec3d& p) { seen.add(camera.seen(p)); });
+  } else {
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      Vec3d p;
+      for (std::size_t i = 0; i < 3; ++i) p[i] = (corner >> i & 1) != 0 ? bounds.max[i] : bounds.min[i];
+      seen.add(camera.seen(p));
+    }
+  }
+  camera.fit(seen, options.panel_width * kSamples, options.panel_height * kSamples);
+  return true;
+}
+
+/// Draws batches of projected triangles.
+class PanelPainter {
+ public:
+  PanelPainter(const Camera& camera, Canvas& canvas, Color color) : camera_(camera), canvas_(canvas), color_(color) {}
+
+  /// corner(i) -> TriangleD in scene units, for i in [0, n).
+  template <class Corners>
+  void paint(std::size_t n, const Corners& corners) {
+    for (std::size_t begin = 0; begin < n; begin += kBatch) {
+      projected_.resize(std::min(kBatch, n - begin));
+      parallel_chunks(std::int64_t(projected_.size()), 2048, [&](std::int64_t b, std::int64_t e) {
+        for (auto i = std::size_t(b); i < std::size_t(e); ++i) {
+          const TriangleD t = corners(begin + i);
+          for (std::size_t k = 0; k < 3; ++k) projected_[i][k] = camera_.project(t[k]);
+        }
+      });
+      canvas_.draw(projected_, color_);
+    }
+  }
+
+ private:
+  const Camera& camera_;
+  Canvas& canvas_;
+  Color color_;
+  std::vector<TriangleD> projected_;
+};
+
+TriangleD corners_or_nothing(const IndexedMesh& mesh, std::size_t t) {
+  TriangleD corners{};  // no area: draws nothing
+  if (!corners_of(mesh, t, corners)) corners = {};
+  return corners;
+}
+
+void paint_faces(const View& view, const Camera& camera, Canvas& canvas) {
+  PanelPainter painter(camera, canvas, view.color);
+  if (view.mesh != nullptr)
+    painter.paint(view.mesh->triangles.size(), [&](std::size_t t) { return corners_or_nothing(*view.mesh, t); });
+  painter.paint(view.triangles.size(), [&](std::size_t t) { return view.triangles[t]; });
+  if (view.source == nullptr) return;
+  std::vector<TriangleD> batch, part;
+  view.source->rewind();
+  while (view.source->read(part)) {  // parts may be small
+    batch.insert(batch.end(), part.begin(), part.end());
+    if (batch.size() < kBatch) continue;
+    painter.paint(batch.size(), [&](std::size_t t) { return batch[t]; });
+    batch.clear();
+  }
+  painter.paint(batch.size(), [&](std::size_t t) { return batch[t]; });
+}
+
+/// Each edge once, in lexicographic order of its ends on the screen.
+std::vector<std::array<Vec3d, 2>> edges_of(const View& view, const Camera& camera) {
+  std::vector<std::array<Vec3d, 2>> edges;
+  const auto add = [&](const TriangleD& t) {
+    for (std::size_t e = 0; e < 3; ++e) {
+      const Vec3d p = camera.project(t[e]), q = camera.project(t[(e + 1) % 3]);
+      if (finite(p) && finite(q)) edges.push_back(p < q ? std::array{p, q} : std::array{q, p});
+    }
+  };
+  for (std::size_t t = 0; view.mesh != nullptr && t < view.mesh->triangles.size(); ++t)
+    add(corners_or_nothing(*view.mesh, t));
+  std::for_each(view.triangles.begin(), view.triangles.end(), add);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+int lines_in(std::string_view label) {
+  return label.empty() ? 0 : 1 + int(std::count(label.begin(), label.end(), '\n'));
+}
+
+/// Centred lines below a panel; a line too long for the panel keeps its end, where names differ.
+void write_label(Image& image, int x, int y, int width, std::string_view label, Color ink) {
+  while (!label.empty()) {
+    const std::size_t end = std::min(label.find('\n'), label.size());
+    std::string_view line = label.substr(0, end);
+    int scale = kTextScale;
+    if (text_width(line, scale) > width) scale = 1;
+    const auto fitting = std::size_t(std::max(1, width / (kGlyphAdvance * scale)));
+    if (line.size() > fitting) line.remove_prefix(line.size() - fitting);
+    draw_text(image, x + (width - text_width(line, scale)) / 2, y, line, scale, ink);
+    label.remove_prefix(std::min(end + 1, label.size()));
+    y += kLineHeight;
+  }
+}
+
+}  // namespace
+
+Image render(std::span<const View> views, const RenderOptions& options) {
+  const int w = options.panel_width, h = options.panel_height;
+  const int columns = std::max(1, int(views.size()));
+  if (w < 16 || h < 16 || h > 16384 || std::int64_t(w) * columns > 16384)
+    fail(ErrorCode::bad_argument, "image of {} panels, {} x {} pixels each: sides must be 16 to 16384", columns, w, h);
+  int lines = 0;
+  for (const View& v : views) lines = std::max(lines, lines_in(v.label));
+  Image image(w * columns, h + (lines > 0 ? lines * kLineHeight + 8 : 0), options.background);
+
+  Camera camera(options);
+  const bool anything = aim(camera, views, options);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    Canvas canvas(w * kSamples, h * kSamples, options.background);
+    if (anything) {
+      paint_faces(views[i], camera, canvas);
+      if (views[i].edges) canvas.draw_lines(edges_of(views[i], camera), options.ink, 0.9);
+    }
+    canvas.resolve(image, int(i) * w, 0);
+    write_label(image, int(i) * w, h, w, views[i].label, options.ink);
+  }
+  return image;
+}
+
+}  // namespace bp

@@ -1,0 +1,40 @@
+#pragma once
+#include <span>
+#include <string>
+
+#include "lib/core/grid_frame.h"
+#include "lib/core/indexed_mesh.h"
+#include "lib/core/triangle_source.h"
+#include "lib/image/image.h"
+
+/// A small software rasteriser: meshes side by side, each with its label below. Needs no display. The same bytes on
+/// every run and for any number of threads.
+namespace bp {
+
+/// One panel. What is set among `mesh`, `triangles` and `source` is drawn, all in one colour, in this order.
+struct View {
+  const IndexedMesh* mesh = nullptr;
+  std::span<const TriangleD> triangles;
+  TriangleSource* source =
+      nullptr;  ///< streamed from its start, in bounded memory; RenderOptions::bounds must cover it
+  Color color{176, 188, 204};
+  bool edges = false;  ///< draws the edges of `mesh` and `triangles` as dark lines
+  std::string label;   ///< lines separated by \n
+};
+
+struct RenderOptions {
+  int panel_width = 720, panel_height = 720;  ///< pixels; the labels come below
+  double azimuth = 35;  ///< degrees that the viewer stands to the right of the front (-y of a z-up scene, +z of a y-up)
+  double elevation = 22;  ///< degrees above the horizon
+  UpAxis up = UpAxis::y;
+  Bounds3d bounds;  ///< what to show, scene units; empty: the bounds of all meshes and triangles
+  Color background{255, 255, 255}, ink{40, 44, 52};
+};
+
+/// Orthographic, all panels at one scale and around one centre, so that they can be compared; z-buffer, flat shading
+/// from both sides under two lights, 2 x 2 samples a pixel. A panel without anything finite to draw stays empty.
+/// Memory: 32 bytes a pixel of one panel. Throws bad_argument if a side is below 16 or above 16384 pixels; passes on
+/// what a source throws.
+[[nodiscard]] Image render(std::span<const View> views, const RenderOptions& options = {});
+
+}  // namespace bp

@@ -1,0 +1,204 @@
+#include <cmath>
+
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/image/canvas.h"
+#include "lib/image/font.h"
+#include "lib/image/render.h"
+#include "tests/catch.h"
+#include "tests/unit/check/meshes.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+const Color kWhite{255, 255, 255};
+
+Image picture(const std::vector<View>& views, RenderOptions options = {}) {
+  options.panel_width = options.panel_height = 64;
+  return render(views, options);
+}
+
+std::size_t count_other(const Image& image, Color background) {
+  return std::size_t(std::count_if(image.pixels.begin(), image.pixels.end(), [&](Color c) { return c != background; }));
+}
+
+View view_of(const IndexedMesh& m) {
+  View v;
+  v.mesh = &m;
+  return v;
+}
+
+}  // namespace
+
+TEST_CASE("triangles that share an edge leave no gap and cover no sample twice", "[quick][image]") {
+  // A fan around an odd point fills a square; each triangle alone is drawn on a canvas of its own and counted.
+  const Vec3d corners[4] = {{3.3, 2.7, 0}, {28.5, 4.5, 0}, {27.1, 29.9, 0}, {4.5, 28.5, 0}}, hub{15.5, 16.5, 0};
+  std::vector<TriangleD> fan;
+  for (std::size_t i = 0; i < 4; ++i) fan.push_back({hub, corners[i], corners[(i + 1) % 4]});
+  const auto covered = [](std::span<const TriangleD> t) {
+    Canvas canvas(32, 32, {0, 0, 0});
+    canvas.draw(t, {255, 255, 255});
+    Image image(16, 16, {});
+    canvas.resolve(image, 0, 0);
+    double sum = 0;
+    for (const Color c : image.pixels) sum += c.r;
+    return std::lround(sum);
+  };
+  const std::vector<TriangleD> square = {{corners[0], corners[1], corners[2]}, {corners[0], corners[2], corners[3]}};
+  long one_by_one = 0;
+  for (const TriangleD& t : fan) one_by_one += covered(std::span(&t, 1));
+  CHECK(covered(fan) == covered(square));
+  CHECK(std::abs(one_by_one - covered(fan)) <= 64);  // rounding of means along the inner edges
+}
+
+TEST_CASE("each sample of a grid of triangles belongs to exactly one of them", "[quick][image]") {
+  // 5 x 5 samples between integer corners, every corner and diagonal through sample centres.
+  std::vector<TriangleD> grid;
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x) {
+      const Vec3d a{x + 0.5, y + 0.5, 0}, b{x + 1.5, y + 0.5, 0}, c{x + 1.5, y + 1.5, 0}, d{x + 0.5, y + 1.5, 0};
+      grid.push_back({a, b, c});
+      grid.push_back({a, c, d});
+    }
+  int total = 0;
+  for (const TriangleD& t : grid) {
+    Canvas canvas(20, 20, {0, 0, 0});
+    canvas.draw(std::span(&t, 1), {4, 4, 4});  // below 4/4 after the mean only if nothing is drawn
+    Image image(10, 10, {});
+    canvas.resolve(image, 0, 0);
+    for (const Color c : image.pixels) total += c.r;
+  }
+  CHECK(total == 64);  // 8 x 8 samples in a half-open square, each worth 1
+}
+
+TEST_CASE("the nearer triangle wins in whichever order they come", "[quick][image]") {
+  const TriangleD near{{{0, 0, 1}, {20, 0, 1}, {0, 20, 1}}}, far{{{0, 0, 2}, {20, 0, 2}, {0, 20, 2}}};
+  const auto draw = [](const TriangleD& a, Color ca, const TriangleD& b, Color cb) {
+    Canvas canvas(8, 8, {0, 0, 0});
+    canvas.draw(std::span(&a, 1), ca);
+    canvas.draw(std::span(&b, 1), cb);
+    Image image(4, 4, {});
+    canvas.resolve(image, 0, 0);
+    return image.at(1, 1);
+  };
+  const Color c = draw(near, {200, 0, 0}, far, {0, 200, 0});
+  CHECK(c.r > 50);
+  CHECK(c.g == 0);
+  CHECK(draw(far, {0, 200, 0}, near, {200, 0, 0}) == c);
+}
+
+TEST_CASE("lines behind a face do not show, lines on it and before it do", "[quick][image]") {
+  const std::vector<TriangleD> face = {{{{2, 2, 10}, {30, 2, 10}, {2, 30, 30}}}};
+  const auto dark_samples = [&](double depth_offset) {
+    Canvas canvas(32, 32, {255, 255, 255});
+    canvas.draw(face, {255, 255, 255});
+    const double z = 10 + 20.0 * (8 - 2) / 28;  // of the face at y = 8
+    const std::array<Vec3d, 2> line{Vec3d{4, 8, z + depth_offset}, Vec3d{20, 8, z + depth_offset}};
+    canvas.draw_lines(std::span(&line, 1), {0, 0, 0}, 0.9);
+    Image image(16, 16, {});
+    canvas.resolve(image, 0, 0);
+    return std::count_if(image.pixels.begin(), image.pixels.end(), [](Color c) { return c.r < 100; });
+  };
+  CHECK(dark_samples(0) >= 7);
+  CHECK(dark_samples(-5) >= 7);
+  CHECK(dark_samples(5) == 0);
+}
+
+TEST_CASE("the picture does not depend on threads or on how triangles arrive", "[quick][image]") {
+  const IndexedMesh m = sphere(5, 3, {6e6, 0, -6e6});
+  std::vector<TriangleD> list = triangles_of(m);
+  VectorSource source(list, 100);
+  View meshes = view_of(m), spans, streamed;
+  meshes.edges = true;
+  spans.triangles = list;
+  spans.edges = true;
+  const auto drawn = [&](int threads, const View& v) {
+    const ThreadLimit limit(threads);
+    return picture({v}).pixels;
+  };
+  const auto expected = drawn(1, meshes);
+  CHECK(count_other(picture({meshes}), kWhite) > 1000);
+  CHECK(drawn(2, meshes) == expected);
+  CHECK(drawn(2, spans) == expected);
+  streamed.source = &source;
+  spans.edges = false;
+  RenderOptions options;
+  options.bounds.add({6e6 - 3, -3, -6e6 - 3});
+  options.bounds.add({6e6 + 3, 3, -6e6 + 3});
+  CHECK(picture({streamed}, options).pixels == picture({spans}, options).pixels);
+}
+
+TEST_CASE("azimuth, elevation and up axis choose what is seen", "[quick][image]") {
+  // A box with a long x, middle y, short z, seen from the front of a z-up scene: as wide as x, as high as z.
+  const IndexedMesh m = box({0, 0, 0}, {4, 2, 1});
+  const auto extent = [&](double azimuth, double elevation, UpAxis up) {
+    RenderOptions options;
+    options.azimuth = azimuth, options.elevation = elevation, options.up = up;
+    const Image image = picture({view_of(m)}, options);
+    int x0 = 99, x1 = -1, y0 = 99, y1 = -1;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        if (image.at(x, y) != kWhite)
+          x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
+    return double(x1 - x0 + 1) / (y1 - y0 + 1);
+  };
+  CHECK(std::abs(extent(0, 0, UpAxis::z) - 4) < 0.4);
+  CHECK(std::abs(extent(90, 0, UpAxis::z) - 2) < 0.2);
+  CHECK(std::abs(extent(0, 90, UpAxis::z) - 2) < 0.2);
+  CHECK(std::abs(extent(0, 0, UpAxis::y) - 2) < 0.2);
+  CHECK(std::abs(extent(90, 0, UpAxis::y) - 0.5) < 0.1);
+}
+
+TEST_CASE("what cannot be drawn leaves an empty panel and no crash", "[quick][image]") {
+  IndexedMesh m = cube(1);
+  for (Vec3d& p : m.vertices) p[1] = std::nan("");
+  m.triangles.push_back({0, 1, 99});
+  View v = view_of(m);
+  v.edges = true;
+  CHECK(count_other(picture({v}), kWhite) == 0);
+  CHECK(count_other(picture({View{}}), kWhite) == 0);
+  CHECK(render({}).width == 720);
+  m = cube(1);
+  m.vertices[7] = {HUGE_VAL, 1e300, -1e300};
+  CHECK(picture({view_of(m)}).width == 64);
+  m.vertices[7] = m.vertices[6];
+  for (Vec3d& p : m.vertices) p = {3, 3, 3};  // no extent
+  CHECK(count_other(picture({view_of(m)}), kWhite) == 0);
+  RenderOptions tiny;
+  tiny.panel_width = 3;
+  CHECK_THROWS_AS(render({}, tiny), Error);
+}
+
+TEST_CASE("panels stand side by side at one scale, labels below", "[quick][image]") {
+  const IndexedMesh large = sphere(3, 2), small = sphere(3, 1);
+  View a = view_of(large), b = view_of(small);
+  a.label = "a";
+  b.label = "two\nlines";
+  const Image image = picture({a, b});
+  CHECK(image.width == 128);
+  CHECK(image.height == 64 + 48);
+  std::size_t left = 0, right = 0, text = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      if (image.at(x, y) == kWhite) continue;
+      ++(y >= 64 ? text : x < 64 ? left : right);
+    }
+  CHECK(std::abs(double(left) / double(right) - 4) < 0.4);
+  CHECK(text > 50);
+}
+
+TEST_CASE("text covers the pixels that its width says and clips at the border", "[quick][image]") {
+  Image image(40, 10, kWhite);
+  draw_text(image, 0, 0, "HI", 1, {0, 0, 0});
+  CHECK(text_width("HI", 1) == 11);
+  CHECK(image.at(0, 0) == Color{});  // H
+  CHECK(image.at(4, 6) == Color{});  // H
+  CHECK(image.at(5, 3) == kWhite);   // between
+  CHECK(image.at(8, 3) == Color{});  // I
+  CHECK(count_other(image, kWhite) == 17 + 11);
+  draw_text(image, 35, 5, "clipped \xff", 3, {0, 0, 0});
+  draw_text(image, -300, -5, "clipped", 3, {0, 0, 0});
+  CHECK(text_width("", 2) == 0);
+}
