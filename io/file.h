@@ -38,7 +38,8 @@ class InputFile {
 };
 
 /// Sequential output. "-" is stdout. A named file is written beside its name and renamed by commit(): without commit()
-/// nothing stays behind, not even when a signal ends the process. Throws bad_argument if the name exists and `overwrite` is false.
+/// nothing stays behind, not even when a signal ends the process. Throws bad_argument if the name exists and
+/// `overwrite` is false.
 class OutputFile {
  public:
   OutputFile(const std::string& path, bool overwrite);

@@ -1,0 +1,21 @@
+# Every tracked source is as clang-format leaves it. Versions of clang-format differ in small things, so only the one
+# that we write with (14, as in Debian 12) judges.
+#   cmake -DROOT=<repository> -P tests/arch/check_format.cmake
+find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
+find_program(GIT git)
+if(NOT CLANG_FORMAT OR NOT GIT OR NOT EXISTS "${ROOT}/.git")
+  message("SKIPPED: needs clang-format, git and a checkout")
+  return()
+endif()
+execute_process(COMMAND ${CLANG_FORMAT} --version OUTPUT_VARIABLE version)
+if(NOT version MATCHES "version 14\\.")
+  message("SKIPPED: needs clang-format 14")
+  return()
+endif()
+execute_process(COMMAND ${GIT} ls-files -- *.h *.cpp *.cu *.cuh WORKING_DIRECTORY "${ROOT}" OUTPUT_VARIABLE files)
+string(REGEX REPLACE "\n$" "" files "${files}")
+string(REPLACE "\n" ";" files "${files}")
+execute_process(COMMAND ${CLANG_FORMAT} --dry-run -Werror ${files} WORKING_DIRECTORY "${ROOT}" RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "run clang-format -i on the files above")
+endif()

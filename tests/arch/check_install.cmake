@@ -1,0 +1,23 @@
+# Installs into a fresh prefix, then builds and runs a small project against it.
+#   cmake -DBUILD=<build> -DCONSUMER=<project> -DPREFIX=<dir> -DCXX=<compiler> -P tests/arch/check_install.cmake
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    string(REPLACE ";" " " command "${ARGV}")
+    message(FATAL_ERROR "${command}: ${status}\n${output}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${PREFIX} ${PREFIX}-build)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX})
+run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${PREFIX}-build -DCMAKE_PREFIX_PATH=${PREFIX} -DCMAKE_CXX_COMPILER=${CXX})
+run(${CMAKE_COMMAND} --build ${PREFIX}-build)
+run(${PREFIX}-build/consumer)
+file(GLOB_RECURSE exports ${PREFIX}/*.cmake)
+foreach(file ${exports})
+  file(READ ${file} text)
+  string(FIND "${text}" "${BUILD}" at)
+  if(NOT at EQUAL -1)
+    message(FATAL_ERROR "${file} names the build folder")
+  endif()
+endforeach()
