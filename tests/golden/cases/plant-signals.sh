@@ -1,0 +1,10 @@
+# A signal ends the work, and the unfinished file goes with it.
+for signal in INT TERM HUP; do
+  # Background jobs ignore SIGINT, so a fresh process group has to set it back: env does.
+  env --default-signal=INT bp-plant --triangles 50000000 -o plant.ply &
+  until [ -n "$(ls -A)" ]; do sleep 0.01; done
+  kill -s $signal $!
+  wait $!
+  echo "$signal: $?"
+  files
+done 2> /dev/null
