@@ -1,0 +1,36 @@
+# To be sourced by samples/run and tests/run: installs missing packages, builds a release. Quick if nothing is to be done.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$root/build/release
+
+install_packages() {
+  command -v dpkg-query > /dev/null || {
+    echo "no Debian or Ubuntu here: these packages are needed, under your system's names: $(packages)" >&2
+    return 0
+  }
+  local missing=()
+  for package in $(packages); do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null || true)" = installed ] || missing+=("$package")
+  done
+  [ ${#missing[@]} = 0 ] && return 0
+  echo "installing ${missing[*]}"
+  local as_root=()
+  [ "$(id -u)" = 0 ] || as_root=(sudo)
+  "${as_root[@]}" apt-get update -q
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
+}
+
+packages() { sed -e 's/#.*//' "$root/.ci/packages.txt" | tr '\n' ' '; }
+
+# build_release [TARGET...]: all targets by default.
+build_release() {
+  local log=$root/build/configure.log
+  mkdir -p "$root/build"
+  cmake -S "$root" --preset release > "$log" 2>&1 || {
+    cat "$log" >&2
+    return 1
+  }
+  local targets=()
+  [ $# = 0 ] || targets=(--target "$@")
+  cmake --build "$build" "${targets[@]}"
+}
