@@ -1,3 +1,5 @@
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <functional>
 #include <random>
 
@@ -63,8 +65,44 @@ bool inside(const LatticeMesh& m, LatticeCoord p) {
   return winding > 0;
 }
 
+/// A second opinion on connectivity, by code that shares nothing with ours.
+bool manifold_by_open_mesh(const LatticeMesh& m) {
+  OpenMesh::TriMesh_ArrayKernelT<> kernel;
+  std::vector<OpenMesh::VertexHandle> handles;
+  for (const LatticeCoord& v : m.vertices) handles.push_back(kernel.add_vertex({float(v.x), float(v.y), float(v.z)}));
+  for (const auto& t : m.triangles) {
+    if (!kernel.add_face(handles[t[0]], handles[t[1]], handles[t[2]]).is_valid()) return false;
+  }
+  for (const auto e : kernel.edges()) {
+    if (kernel.is_boundary(e)) return false;
+  }
+  for (const auto v : kernel.vertices()) {
+    if (kernel.is_isolated(v) || !kernel.is_manifold(v)) return false;
+  }
+  return true;
+}
+
+/// A second opinion on connectivity, by code that shares nothing with ours.
+bool manifold_by_open_mesh(const LatticeMesh& m) {
+  OpenMesh::TriMesh_ArrayKernelT<> kernel;
+  std::vector<OpenMesh::VertexHandle> handles;
+  for (const LatticeCoord& v : m.vertices) handles.push_back(kernel.add_vertex({float(v.x), float(v.y), float(v.z)}));
+  for (const auto& t : m.triangles) {
+    if (!kernel.add_face(handles[t[0]], handles[t[1]], handles[t[2]]).is_valid()) return false;
+  }
+  for (const auto e : kernel.edges()) {
+    if (kernel.is_boundary(e)) return false;
+  }
+  for (const auto v : kernel.vertices()) {
+    if (kernel.is_isolated(v) || !kernel.is_manifold(v)) return false;
+  }
+  return true;
+}
+
 void check_proxy(const LatticeMesh& proxy, const VoxelBox& box, const Solid& solid) {
   REQUIRE_NOTHROW(HalfEdgeMesh(proxy));  // closed, oriented, 2-manifold
+  CHECK(manifold_by_open_mesh(proxy));
+  CHECK(manifold_by_open_mesh(proxy));
   CHECK(self_intersections(proxy) == 0);
   int outside = 0;
   for (int z = box.min.z; z < box.max.z; ++z) {
