@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lib/core/parallel.h"
-#include "lib/core/predicates.h"
+#include "lib/core/triangle_intersection.h"
 
 namespace bp {
 
@@ -187,6 +187,76 @@ bool EnclosedVoxels::brick_clear(const Separator& separator, BrickCoord coord, c
     }
   }
   return true;
+}
+
+namespace {
+
+/// Lattice box that surely holds a triangle: to_voxels errs by less than 2^-20 voxel.
+LatticeBox box_around(const GridFrame& frame, const TriangleD& t) {
+  LatticeBox box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d v = frame.to_voxels(t[k]);
+    LatticeCoord low, high;
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::int64_t(std::floor(v[std::size_t(i)] * kLatticePerVoxel)) - 1;
+      high[i] = low[i] + 3;
+    }
+    if (k == 0) box = {low, high};
+    box.add(low);
+    box.add(high);
+  }
+  return box;
+}
+
+/// Point in the closed tetrahedron, exact. A flat tetrahedron holds none: nothing is swept.
+bool holds(const std::array<Vec3d, 4>& t, const Vec3d& p) {
+  const int turn = orient3d(t[0], t[1], t[2], t[3]);
+  return turn != 0 && orient3d(t[0], t[1], t[2], p) * turn >= 0 && orient3d(t[0], t[3], t[1], p) * turn >= 0 &&
+         orient3d(t[1], t[3], t[2], p) * turn >= 0 && orient3d(t[2], t[3], t[0], p) * turn >= 0;
+}
+
+}  // namespace
+
+EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame)
+    : triangles_(std::move(triangles)), frame_(frame) {
+  std::vector<LatticeBox> boxes(triangles_.size());
+  std::vector<std::uint32_t> items(triangles_.size());
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    boxes[i] = box_around(frame_, triangles_[i]);
+    items[i] = std::uint32_t(i);
+  }
+  tree_.build(boxes, std::move(items));
+}
+
+// A triangle meets neither the old faces (it was enclosed) nor, once tested, the new ones. So it lies wholly in one
+// part of space that they bound together, and one of its corners tells whether a tetrahedron that leaves the solid
+// holds it.
+bool EnclosedTriangles::allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept) const {
+  LatticeBox box{star[0].corners[0], star[0].corners[0]};
+  std::vector<std::array<Vec3d, 3>> faces;
+  std::vector<std::array<Vec3d, 4>> solids;
+  std::vector<LatticeBox> face_boxes;
+  for (const NewFace& f : star) {
+    face_boxes.push_back(box_of(f.corners[0], f.corners[1], f.corners[2]));
+    faces.push_back({frame_.world(f.corners[0]), frame_.world(f.corners[1]), frame_.world(f.corners[2])});
+    for (const LatticeCoord& p : f.corners) box.add(p);
+  }
+  for (const Tetrahedron& t : swept) {
+    solids.push_back({frame_.world(t[0]), frame_.world(t[1]), frame_.world(t[2]), frame_.world(t[3])});
+    for (const LatticeCoord& p : t) box.add(p);
+  }
+  return tree_.query(box, [&](std::uint32_t i) {
+    const TriangleD& t = triangles_[i];
+    const LatticeBox around = box_around(frame_, t);
+    if (!around.meets(box)) return true;
+    for (const auto& s : solids) {
+      if (holds(s, t[0])) return false;
+    }
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (face_boxes[f].meets(around) && triangles_intersect(faces[f].data(), t.data())) return false;
+    }
+    return true;
+  });
 }
 
 }  // namespace bp

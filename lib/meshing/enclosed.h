@@ -45,4 +45,18 @@ class EnclosedVoxels : public Enclosed {
   std::unordered_map<BrickCoord, BoundaryBrick, Hash> bricks_;
 };
 
+/// The triangles of a scene, in scene units and exactly as read: the proxy must not even touch them. All in memory: 72
+/// bytes each and about 80 for the tree. `frame` is the proxy's; its vertices are exact doubles, so the predicates on
+/// doubles are exact too.
+class EnclosedTriangles : public Enclosed {
+ public:
+  EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame);
+  [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept) const override;
+
+ private:
+  std::vector<TriangleD> triangles_;
+  GridFrame frame_;
+  BoxTree tree_;
+};
+
 }  // namespace bp

@@ -1,113 +1,32 @@
 #pragma once
-#include <algorithm>
-#include <array>
-#include <vector>
-
-#include "lib/core/box.h"
+#include "lib/meshing/box_tree.h"
 #include "lib/meshing/half_edge_mesh.h"
 
-/// Broad phase of the guard: a bounding volume hierarchy over the live faces that follows the mesh as it changes.
-/// Changed faces only ever grow their node's box; when half of the faces are gone the tree is rebuilt, so its cost
-/// stays that of a fresh one.
+/// The tree of a mesh's live faces, which follows the mesh as it changes: changed faces grow their node's box; when
+/// half of the faces are gone the tree is rebuilt, so its cost stays that of a fresh one.
 namespace bp {
-
-/// Closed box of lattice points.
-struct LatticeBox {
-  LatticeCoord min{}, max{};
-  [[nodiscard]] bool meets(const LatticeBox& b) const {
-    return min.x <= b.max.x && b.min.x <= max.x && min.y <= b.max.y && b.min.y <= max.y && min.z <= b.max.z &&
-           b.min.z <= max.z;
-  }
-  void add(const LatticeCoord& p) {
-    min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
-    max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
-  }
-};
-[[nodiscard]] inline LatticeBox box_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
-  LatticeBox box{a, a};
-  box.add(b);
-  box.add(c);
-  return box;
-}
 
 class FaceTree {
  public:
-  explicit FaceTree(const HalfEdgeMesh& mesh);
+  explicit FaceTree(const HalfEdgeMesh& mesh) : mesh_(mesh) { rebuild(); }
 
-  /// Call after the corners of a live face moved.
-  void update(FaceId f);
-  /// Boxes as tight as the mesh is now.
-  void rebuild();
-  /// Call now and then; rebuilds when half of the faces are dead.
-  void maintain();
-
-  /// visit(FaceId) for every live face in a leaf that meets `box` (a superset of the faces whose own box does);
-  /// stops when visit returns false, and returns false then.
+  void update(FaceId f) { tree_.grow(f, box_of_face(f)); }  ///< call after the corners of a live face moved
+  void rebuild();                                           ///< boxes as tight as the mesh is now
+  void maintain() {                                         ///< rebuilds when half of the faces are dead
+    if (mesh_.face_count() * 2 < tree_.size()) rebuild();
+  }
+  /// As BoxTree::query, live faces only.
   template <class Visit>
   bool query(const LatticeBox& box, Visit&& visit) const {
-    if (nodes_.empty()) return true;
-    const SmallBox small = to_small(box);
-    std::uint32_t stack[64];
-    int top = 0;
-    stack[top++] = 0;
-    while (top > 0) {
-      const Node& n = nodes_[stack[--top]];
-      if (!n.box.meets(small)) continue;
-      if (n.count > 0) {
-        for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
-          if (mesh_.alive(order_[i]) && !visit(order_[i])) return false;
-        }
-      } else {
-        stack[top++] = n.first;
-        stack[top++] = n.first + 1;
-      }
-    }
-    return true;
+    return tree_.query(box, [&](FaceId f) { return !mesh_.alive(f) || visit(f); });
   }
 
  private:
-  /// Relative to base_, clamped: 24 bytes, so that a node is 36.
-  struct SmallBox {
-    std::array<std::int32_t, 3> min, max;
-    [[nodiscard]] bool meets(const SmallBox& b) const {
-      return min[0] <= b.max[0] && b.min[0] <= max[0] && min[1] <= b.max[1] && b.min[1] <= max[1] &&
-             min[2] <= b.max[2] && b.min[2] <= max[2];
-    }
-    [[nodiscard]] bool contains(const SmallBox& b) const {
-      return min[0] <= b.min[0] && min[1] <= b.min[1] && min[2] <= b.min[2] && max[0] >= b.max[0] &&
-             max[1] >= b.max[1] && max[2] >= b.max[2];
-    }
-    void add(const SmallBox& b) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        min[i] = std::min(min[i], b.min[i]);
-        max[i] = std::max(max[i], b.max[i]);
-      }
-    }
-  };
-  [[nodiscard]] SmallBox to_small(const LatticeBox& b) const {
-    const auto clamp = [](std::int64_t v) { return std::int32_t(std::clamp<std::int64_t>(v, INT32_MIN, INT32_MAX)); };
-    return {{clamp(b.min.x - base_.x), clamp(b.min.y - base_.y), clamp(b.min.z - base_.z)},
-            {clamp(b.max.x - base_.x), clamp(b.max.y - base_.y), clamp(b.max.z - base_.z)}};
+  [[nodiscard]] LatticeBox box_of_face(FaceId f) const {
+    return box_of(mesh_.corner(f, 0), mesh_.corner(f, 1), mesh_.corner(f, 2));
   }
-  [[nodiscard]] SmallBox small_box_of(FaceId f) const {
-    return to_small(box_of(mesh_.corner(f, 0), mesh_.corner(f, 1), mesh_.corner(f, 2)));
-  }
-
-  struct Node {
-    SmallBox box;
-    std::uint32_t first = 0;  // leaf: first face in order_; inner: left child, the right one follows it
-    std::uint32_t count = 0;  // faces of a leaf, 0 for inner nodes
-    std::uint32_t parent = 0;
-  };
-  void split(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
-
   const HalfEdgeMesh& mesh_;
-  LatticeCoord base_{};
-  std::vector<Node> nodes_;
-  std::vector<FaceId> order_;
-  std::vector<std::uint32_t> leaf_of_;  // per face
-  std::vector<LatticeCoord> centre_;    // per face, sum of its corners; only while building
-  std::size_t built_for_ = 0;
+  BoxTree tree_;
 };
 
 }  // namespace bp

@@ -189,12 +189,39 @@ class Simplifier {
       const auto rounded = round_inside(*x, q);
       if (!rounded) continue;
       feasible = true;
+      if (params_.enclosed != nullptr) {
+        if (const auto tighter = solve_enclosed(h, q, minimum(q, prior), *x)) return tighter;
+      }
       const LatticeCoord p = mesh_.position(mesh_.from(h)) + *rounded;
       if (!shape_is_fine(h, p)) break;
       return Candidate{p, q.value(to_double(*rounded))};
     }
     if (!feasible) ++counts_.refused_constraints;
     return std::nullopt;
+  }
+
+  /// Between the free minimum, which may cut into the solid, and the constrained one, which only grows it: the first
+  /// point that keeps inside what must stay inside.
+  std::optional<Candidate> solve_enclosed(HalfEdgeId h, const Quadric& q, const Vec3d& free, const Vec3d& grown) {
+    for (const double share : {0.0, 0.25, 0.5, 0.75}) {
+      Vec3d x;
+      for (std::size_t i = 0; i < 3; ++i) x[i] = free[i] + share * (grown[i] - free[i]);
+      const LatticeCoord offset{std::llround(x[0]), std::llround(x[1]), std::llround(x[2])};
+      const LatticeCoord p = mesh_.position(mesh_.from(h)) + offset;
+      if (shape_is_fine(h, p) && keeps_inside(h, p)) return Candidate{p, q.value(to_double(offset))};
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool keeps_inside(HalfEdgeId h, const LatticeCoord& p) {
+    gather_new_faces(h, p);
+    swept_.clear();
+    for (const HalfEdgeId g : star_) {
+      const Tetrahedron t = {mesh_.position(mesh_.from(g)), mesh_.position(mesh_.to(g)),
+                             mesh_.position(mesh_.opposite(g)), p};
+      if (orient3d(t[0], t[1], t[2], t[3]) < 0) swept_.push_back(t);
+    }
+    return params_.enclosed->allows(new_faces_, swept_);
   }
 
   /// Faces around the edge, and the half-spaces outside their planes, relative to from(h).
@@ -280,16 +307,22 @@ class Simplifier {
     return true;
   }
 
-  bool take(HalfEdgeId h, const Candidate& candidate) {
+  /// The fan that replaces the star which solve() gathered, if the edge collapses to p.
+  void gather_new_faces(HalfEdgeId h, const LatticeCoord& p) {
     const VertexId u = mesh_.from(h), w = mesh_.to(h);
     new_faces_.clear();
     replaced_.clear();
-    for (const HalfEdgeId g : star_) {  // solve() gathered it
+    for (const HalfEdgeId g : star_) {
       replaced_.push_back(HalfEdgeMesh::face(g));
       const VertexId a = mesh_.to(g), b = mesh_.opposite(g);
       if (a == w || b == w) continue;
-      new_faces_.push_back({{u, a, b}, {candidate.position, mesh_.position(a), mesh_.position(b)}});
+      new_faces_.push_back({{u, a, b}, {p, mesh_.position(a), mesh_.position(b)}});
     }
+  }
+
+  bool take(HalfEdgeId h, const Candidate& candidate) {
+    const VertexId u = mesh_.from(h);
+    gather_new_faces(h, candidate.position);
     if (!guard_.star_is_free(new_faces_, replaced_)) {
       ++counts_.refused_guard;
       return false;
@@ -336,6 +369,7 @@ class Simplifier {
   std::vector<HalfSpace> half_spaces_;
   std::vector<NewFace> new_faces_;
   std::vector<FaceId> replaced_;
+  std::vector<Tetrahedron> swept_;
 };
 
 }  // namespace
@@ -352,15 +386,27 @@ std::string to_string(StopReason reason) {
   return "";
 }
 
+void SimplifyCounts::add(const SimplifyCounts& next) {
+  faces_out = next.faces_out;
+  collapses += next.collapses;
+  solved += next.solved;
+  refused_link += next.refused_link;
+  refused_constraints += next.refused_constraints;
+  refused_shape += next.refused_shape;
+  refused_length += next.refused_length;
+  refused_guard += next.refused_guard;
+  stop = next.stop;
+}
+
 LatticeMesh simplify(const LatticeMesh& dense, const SimplifyParams& params, SimplifyCounts& counts) {
   counts = {};
   counts.faces_in = dense.triangles.size();
   if (dense.triangles.empty()) return dense;
   HalfEdgeMesh mesh(dense);
-  merge_flat_regions(mesh);
+  if (params.dense) merge_flat_regions(mesh);
   counts.faces_flat = mesh.face_count();
   Simplifier simplifier(mesh, params, counts);
-  if (params.faces > 0) simplifier.run_bulk();
+  if (params.faces > 0 && params.dense) simplifier.run_bulk();
   counts.stop = simplifier.run();
   counts.faces_out = mesh.face_count();
   LatticeMesh out = mesh.compact(dense.frame);

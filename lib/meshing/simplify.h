@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "lib/meshing/enclosed.h"
 #include "lib/meshing/lattice_mesh.h"
 
 /// Bounding simplification: quadric edge collapses [GH97] that only ever grow the solid ([SGG00], [DLCW11]; [CB17]
@@ -16,6 +17,11 @@ struct SimplifyParams {
       0;  ///< stop when the next collapse's root mean square distance to its planes exceeds this; 0: no limit
   /// Longest edge that a collapse may make near a point, lattice units; empty: no limit. The paper's c * S.
   std::function<double(const LatticeCoord&)> edge_limit;
+  /// The input is a dense voxel surface: its flat regions are merged first, then sweeps take the bulk. False: strict
+  /// order at once.
+  bool dense = true;
+  /// If given, a collapse need not grow the solid: it must only keep this inside. Tighter by far; slower per collapse.
+  const Enclosed* enclosed = nullptr;
 };
 
 /// Why simplification ended.
@@ -27,6 +33,7 @@ struct SimplifyCounts {
   std::uint64_t collapses = 0, solved = 0;                    ///< taken; quadratic programs solved
   std::uint64_t refused_link = 0, refused_constraints = 0, refused_shape = 0, refused_length = 0, refused_guard = 0;
   StopReason stop = StopReason::nothing_left;
+  void add(const SimplifyCounts& next);  ///< of a run that took over where this one ended
 };
 
 /// `dense`: closed, oriented, 2-manifold, embedded (dense_surface of a repaired shelf). Deterministic, single-threaded.
