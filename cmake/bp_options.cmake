@@ -14,6 +14,11 @@ if(BP_WERROR)
   target_compile_options(bp_compile_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
 endif()
 
+if(BP_FUZZ)  # coverage for the fuzzers of tests/fuzz, and sanitizers everywhere
+  target_compile_options(bp_compile_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+  target_link_options(bp_compile_options INTERFACE -fsanitize=address,undefined)
+endif()
+
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()

@@ -46,7 +46,7 @@ class BrickReader final : public BrickSource {
 /// 24 bytes a slab. Call finish(), then commit the file. Throws `failed` if bricks come out of order or out of the box.
 class BrickWriter final : public BrickSink {
  public:
-  /// Writes the header. `level` is zstd's; 1 writes some 800 MB/s of bricks per core at 10 to 40 to 1, higher levels
+  /// Writes the header. `level` is zstd's; 1 writes some 600 MB/s of bricks per core at 10 to 40 to 1, higher levels
   /// gain little. Throws bad_argument if the header is out of the format's range.
   BrickWriter(OutputFile& out, const StreamHeader& header, int level = 1);
   ~BrickWriter() override;
