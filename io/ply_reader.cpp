@@ -110,6 +110,7 @@ class BinaryCursor {
     for (const PlyProperty& p : element.properties) size += p.is_list ? bytes_of(p.count_type) : 0;
     check_count(element, size);
   }
+  void end_record() {}
   [[noreturn]] void fail_here(const std::string& what) const {
     fail(ErrorCode::bad_input, "{}: byte {}: {}", bytes_.file().name(), bytes_.offset(), what);
   }
@@ -153,6 +154,8 @@ class AsciiCursor {
     text_.fail_here("promises {} records '{}', but has {} bytes left; the file is truncated", element.count,
                     element.name, text_.remaining());
   }
+  /// A record ends with its line. Words beyond what the header declares occur, and are passed over.
+  void end_record() { text_.next_line(); }
   [[noreturn]] void fail_here(const std::string& what) const { text_.fail_here("{}", what); }
   [[nodiscard]] Mark mark() const { return text_.mark(); }
   void seek(Mark mark) { text_.seek(mark); }
@@ -271,6 +274,7 @@ class PlySource final : public PolygonSource {
   std::uint64_t corner(const PlyProperty& list);
   void read_face(const PlyElement& element, std::size_t list, std::vector<std::uint64_t>& corners);
   bool next_of_strip(const PlyElement& element, std::size_t list, std::vector<std::uint64_t>& corners);
+  void end_strip(const PlyElement& element, std::size_t list);
   static bool holds_faces(const PlyElement& e) { return e.name == "face" || e.name == "tristrips"; }
   static std::size_t vertex_list(const PlyElement& e);
 
@@ -339,6 +343,7 @@ void PlySource<Cursor>::load_vertices(const PlyElement& element, const Position&
       }
     }
     pool_->push(p);
+    cursor_.end_record();
   }
 }
 
@@ -352,6 +357,7 @@ void PlySource<Cursor>::skip_element(const PlyElement& element) {
   if (element.properties.empty() || cursor_.skip_records(element)) return;
   for (std::uint64_t i = 0; i < element.count; ++i) {
     for (const PlyProperty& p : element.properties) skip_property(p);
+    cursor_.end_record();
   }
 }
 
@@ -408,6 +414,7 @@ void PlySource<Cursor>::read_face(const PlyElement& element, std::size_t list, s
     if (size > kMaxCorners) cursor_.fail_here(fmt::format("a face of {} corners; is the file damaged?", size));
     for (std::uint64_t i = 0; i < size; ++i) corners.push_back(corner(p));
   }
+  cursor_.end_record();
 }
 
 // One triangle at a time: a strip may be as long as the file.
@@ -416,13 +423,10 @@ bool PlySource<Cursor>::next_of_strip(const PlyElement& element, std::size_t lis
                                       std::vector<std::uint64_t>& corners) {
   for (;;) {
     while (strip_left_ > 0) {
-      --strip_left_;
       const std::int64_t index = cursor_.integer(element.properties[list].type);
       const bool closes = index >= 0 && strip_.add(std::uint64_t(index), corners);
       if (index < 0) strip_.restart();
-      if (strip_left_ == 0) {
-        for (std::size_t k = list + 1; k < element.properties.size(); ++k) skip_property(element.properties[k]);
-      }
+      if (--strip_left_ == 0) end_strip(element, list);
       if (closes) return true;
     }
     if (record_ == element.count) return false;
@@ -430,10 +434,14 @@ bool PlySource<Cursor>::next_of_strip(const PlyElement& element, std::size_t lis
     for (std::size_t k = 0; k < list; ++k) skip_property(element.properties[k]);
     strip_left_ = list_size(element.properties[list]);
     strip_.restart();
-    if (strip_left_ == 0) {
-      for (std::size_t k = list + 1; k < element.properties.size(); ++k) skip_property(element.properties[k]);
-    }
+    if (strip_left_ == 0) end_strip(element, list);
   }
+}
+
+template <class Cursor>
+void PlySource<Cursor>::end_strip(const PlyElement& element, std::size_t list) {
+  for (std::size_t k = list + 1; k < element.properties.size(); ++k) skip_property(element.properties[k]);
+  cursor_.end_record();
 }
 
 }  // namespace

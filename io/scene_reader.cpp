@@ -33,7 +33,7 @@ Reader reader_of(const std::string& extension) {
   if (extension == "obj") return Reader::obj;
   if (extension == "off") return Reader::off;
   if (extension == "gltf" || extension == "glb") return Reader::gltf;
-  return Reader::unknown;
+  return assimp_reads(extension) ? Reader::other : Reader::unknown;
 }
 
 bool is_binary_stl(const std::string& start, std::uint64_t size) {
@@ -90,6 +90,7 @@ RawSourcePtr open_raw(const std::string& path, const SceneOptions& options) {
     case Reader::gltf:
       return open_gltf(file, options);
     case Reader::other:
+      return open_with_assimp(file, extension, options);
     case Reader::unknown:
       break;
   }

@@ -181,7 +181,11 @@ SceneFilePtr GltfDocument::open_beside(const GltfObject& buffer, const std::stri
   const std::size_t slash = path.find_last_of('/');
   const std::string name = percent_decoded(uri);
   const bool absolute = !name.empty() && name[0] == '/';
-  return open_scene_file(absolute || slash == std::string::npos ? name : path.substr(0, slash + 1) + name, temp_dir_);
+  try {
+    return open_scene_file(absolute || slash == std::string::npos ? name : path.substr(0, slash + 1) + name, temp_dir_);
+  } catch (const Error& e) {
+    fail(e.code(), "{}: its data are missing: {}; put that file beside it", file_->name(), e.what());
+  }
 }
 
 SceneFilePtr GltfDocument::open_buffer(std::uint64_t i) {

@@ -135,7 +135,8 @@ class InstancedSource final : public RawSource {
   }
   void rewind() override {
     node_ = 0;
-    bad_faces_ = instances_ = 0;
+    instances_ = 0;
+    bad_faces_ = scene_.bad_faces;
     enter_node();
   }
   [[nodiscard]] std::uint64_t instances() const override { return instances_; }

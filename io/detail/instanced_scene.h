@@ -59,6 +59,7 @@ struct InstancedScene {
   std::vector<Primitive> primitives;
   std::vector<InstanceArray> arrays;
   std::vector<MeshNode> nodes;
+  std::uint64_t bad_faces = 0;  ///< met before, while the scene was put together
 };
 
 /// Streams the triangles of each node in order. Memory: options.memory_bytes and the scene's description.

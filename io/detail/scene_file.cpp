@@ -24,20 +24,21 @@ class PlainFile : public SceneFile {
 
 class ScratchView : public SceneFile {
  public:
-  ScratchView(std::shared_ptr<const ScratchFile> scratch, std::string name)
-      : scratch_(std::move(scratch)), name_(std::move(name)) {}
+  ScratchView(std::shared_ptr<const ScratchFile> scratch, std::string name, std::optional<std::uint64_t> size)
+      : scratch_(std::move(scratch)), name_(std::move(name)), size_(size) {}
   std::size_t read_at(std::uint64_t offset, std::span<std::byte> buffer) const override {
     if (offset >= size()) return 0;
     const std::size_t n = std::size_t(std::min<std::uint64_t>(buffer.size(), size() - offset));
     scratch_->read_at(offset, buffer.first(n));
     return n;
   }
-  [[nodiscard]] std::uint64_t size() const override { return scratch_->size(); }
+  [[nodiscard]] std::uint64_t size() const override { return size_ ? *size_ : scratch_->size(); }
   [[nodiscard]] std::string name() const override { return name_; }
 
  private:
   std::shared_ptr<const ScratchFile> scratch_;
   std::string name_;
+  std::optional<std::uint64_t> size_;
 };
 
 class FilePart : public SceneFile {
@@ -73,8 +74,9 @@ SceneFilePtr open_scene_file(const std::string& path, const std::string& temp_di
   return std::make_shared<PlainFile>(std::move(file));
 }
 
-SceneFilePtr view_of(std::shared_ptr<const ScratchFile> scratch, const std::string& name) {
-  return std::make_shared<ScratchView>(std::move(scratch), name);
+SceneFilePtr view_of(std::shared_ptr<const ScratchFile> scratch, const std::string& name,
+                     std::optional<std::uint64_t> size) {
+  return std::make_shared<ScratchView>(std::move(scratch), name, size);
 }
 
 SceneFilePtr part_of(SceneFilePtr file, std::uint64_t offset, std::uint64_t size) {

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,8 +26,9 @@ using SceneFilePtr = std::shared_ptr<const SceneFile>;
 /// Opens a file; a pipe ("-" or a named one) is spooled to a scratch file first.
 [[nodiscard]] SceneFilePtr open_scene_file(const std::string& path, const std::string& temp_dir);
 
-/// Bytes of a scratch file that someone else appends to.
-[[nodiscard]] SceneFilePtr view_of(std::shared_ptr<const ScratchFile> scratch, const std::string& name);
+/// Bytes of a scratch file that someone else appends to; `size` where another process did.
+[[nodiscard]] SceneFilePtr view_of(std::shared_ptr<const ScratchFile> scratch, const std::string& name,
+                                   std::optional<std::uint64_t> size = {});
 
 /// `size` bytes at `offset` of `file`; the range need not exist, reads end where the file ends.
 [[nodiscard]] SceneFilePtr part_of(SceneFilePtr file, std::uint64_t offset, std::uint64_t size);

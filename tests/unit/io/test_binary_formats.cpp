@@ -83,6 +83,16 @@ TEST_CASE("PLY elements may come in any order, and vertices may hold lists", "[q
   CHECK(read_all(dir.file("b.ply", text + "4 0 1 2 3.0\n0 0 0\n0 1 0\n0 1 1\n0\n0 1")) == kQuadFan);
 }
 
+TEST_CASE("an ASCII PLY record ends with its line, whatever the header forgot", "[quick][io]") {
+  const TempDir dir;
+  const std::string header =
+      ply_header("ascii",
+                 "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+                 "element face 1\nproperty list uchar int vertex_indices\nproperty uchar red\n");
+  CHECK(read_all(dir.file("a.ply", header + "0 0 0 9 9 9\n\n1 0 0 9\n1 1 0 9 9\n0 1 0\n9\n4 0 1 2 3 9 1 1 1\n")) ==
+        kQuadFan);
+}
+
 TEST_CASE("PLY triangle strips turn every other triangle, and restart at a negative index", "[quick][io]") {
   const TempDir dir;
   const std::string header =
