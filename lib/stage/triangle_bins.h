@@ -1,0 +1,65 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "lib/core/chunk_store.h"
+#include "lib/grid/tile_grid.h"
+#include "lib/voxel/fixed_triangle.h"
+
+/// Triangles sorted by the tiles they meet, in memory up to a budget, then in a ChunkStore.
+namespace bp {
+
+/// Nine coordinates relative to the tile's corner, fixed point, 36 bytes: for triangles within 2^15 voxels of it.
+using NarrowTriangle = std::array<std::int32_t, 9>;
+
+/// The triangles of some tiles: what one call of sort() found.
+struct TriangleBatch {
+  struct Bin {
+    std::uint64_t tile = 0;
+    std::vector<NarrowTriangle> narrow;
+    std::vector<FixedTriangle> wide;
+  };
+  std::vector<Bin> bins;
+};
+
+class TriangleBins {
+ public:
+  TriangleBins(const TileGrid& grid, ChunkStore& store) : grid_(grid), store_(store) {}
+
+  /// Thread-safe. A triangle goes into each tile that it meets (lib/voxel/voxelize.h, for_each_tile).
+  [[nodiscard]] TriangleBatch sort(std::span<const FixedTriangle> triangles) const;
+  /// On one thread.
+  void add(TriangleBatch&& batch);
+
+  [[nodiscard]] std::uint64_t memory_bytes() const { return memory_bytes_; }  ///< of the triangles held
+  [[nodiscard]] std::uint64_t records() const { return records_; }            ///< added so far
+  [[nodiscard]] std::vector<std::uint64_t> tiles() const;                     ///< ever added to; sorted
+  [[nodiscard]] std::uint64_t memory_bytes(std::uint64_t tile) const;         ///< held for one tile
+  /// Calls body with the tile's triangles, some thousands at a time. Thread-safe for distinct tiles.
+  void for_each(std::uint64_t tile, const std::function<void(std::span<const FixedTriangle>)>& body) const;
+  /// Puts into the store what the tiles hold in memory, in parallel.
+  void spill(std::span<const std::uint64_t> tiles);
+  /// Forgets the triangles of a tile, wherever they are. Thread-safe for distinct tiles, but not beside add().
+  void release(std::uint64_t tile);
+  /// After release() of many tiles: counts the memory anew.
+  void recount();
+
+ private:
+  struct Bin {
+    std::vector<NarrowTriangle> narrow;
+    std::vector<FixedTriangle> wide;
+    std::vector<ChunkStore::Handle> narrow_chunks, wide_chunks;
+    [[nodiscard]] std::uint64_t bytes() const {
+      return narrow.capacity() * sizeof(NarrowTriangle) + wide.capacity() * sizeof(FixedTriangle);
+    }
+  };
+  TileGrid grid_;
+  ChunkStore& store_;
+  std::unordered_map<std::uint64_t, Bin> bins_;
+  std::uint64_t memory_bytes_ = 0, records_ = 0;
+};
+
+}  // namespace bp

@@ -1,0 +1,512 @@
+#include "lib/stage/voxelize_stage.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <condition_variable>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/grid/outside.h"
+#include "lib/stage/triangle_bins.h"
+#include "lib/voxel/voxelize.h"
+#include "lib/voxel/winding.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kMaxTiles = 1 << 27;      // the fills visit every tile; beyond, a grid is a slip of the finger
+constexpr std::int32_t kMaxTileVox = 512;  // Crossing has 9 bits
+
+/// A backend with the scratch of its worker.
+struct Worker {
+  Backend* backend = nullptr;  ///< null: on this thread
+  BitBox bits;
+  std::vector<Crossing> crossings;
+
+  void voxelize(std::span<const FixedTriangle> triangles) {
+    if (backend != nullptr) return backend->voxelize(triangles, bits);
+    voxelize_surface(triangles, bits);
+  }
+};
+
+/// Hands workers to tasks; a task waits until one is idle.
+class Workers {
+ public:
+  explicit Workers(Backends& backends) {
+    for (const auto& b : backends) add(b.get());
+    for (int i = 0; backends.empty() && i < thread_count(); ++i) add(nullptr);
+  }
+  class Lease {
+   public:
+    explicit Lease(Workers& w) : workers_(w), worker_(w.take()) {}
+    ~Lease() { workers_.give(worker_); }
+    Lease(const Lease&) = delete;
+    Lease& operator=(const Lease&) = delete;
+    Worker* operator->() const { return worker_; }
+
+   private:
+    Workers& workers_;
+    Worker* worker_;
+  };
+
+ private:
+  void add(Backend* backend) {
+    all_.push_back(std::make_unique<Worker>());
+    all_.back()->backend = backend;
+    idle_.push_back(all_.back().get());
+  }
+  Worker* take() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return !idle_.empty(); });
+    Worker* w = idle_.back();
+    idle_.pop_back();
+    return w;
+  }
+  void give(Worker* w) {
+    {
+      const std::lock_guard lock(mutex_);
+      idle_.push_back(w);
+    }
+    changed_.notify_one();
+  }
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::unique_ptr<Worker>> all_;
+  std::vector<Worker*> idle_;
+};
+
+/// Steps of one stage of the work, reported from any thread.
+class Steps {
+ public:
+  Steps(const VoxelizeOptions& options, const char* stage, const char* unit, std::uint64_t total)
+      : options_(options), stage_(stage), unit_(unit), total_(total) {}
+  void add(std::uint64_t n) {
+    if (!options_.progress) return;
+    const std::lock_guard lock(mutex_);
+    done_ += n;
+    options_.progress(stage_, unit_, done_, total_);
+  }
+
+ private:
+  const VoxelizeOptions& options_;
+  const char *stage_, *unit_;
+  std::uint64_t total_, done_ = 0;
+  std::mutex mutex_;
+};
+
+/// XXH3-128 of what was read.
+class InputHash {
+ public:
+  InputHash() : state_(XXH3_createState()) { XXH3_128bits_reset(state_.get()); }
+  void add(std::span<const std::byte> bytes) { XXH3_128bits_update(state_.get(), bytes.data(), bytes.size()); }
+  [[nodiscard]] std::string hex() const {
+    const XXH128_hash_t h = XXH3_128bits_digest(state_.get());
+    return fmt::format("{:016x}{:016x}", h.high64, h.low64);
+  }
+
+ private:
+  struct Free {
+    void operator()(XXH3_state_t* s) const { XXH3_freeState(s); }
+  };
+  std::unique_ptr<XXH3_state_t, Free> state_;
+};
+
+std::int32_t default_tile(const VoxelBox& grid) {
+  const VoxelCoord s = grid.size();
+  const std::int32_t longest = std::max({s.x, s.y, s.z});
+  return longest <= 768 ? 128 : longest <= 8192 ? 256 : 512;  // small grids: enough tiles for the threads
+}
+
+/// One run of voxelize_stream().
+class Run {
+ public:
+  Run(TriangleSource& source, Backends& backends, const VoxelizeOptions& options)
+      : source_(source),
+        options_(options),
+        workers_(backends),
+        shelf_(options.make_shelf()),
+        store_(options.make_store()) {}
+
+  VoxelizeCounts operator()(const OpenSink& open) {
+    measure();
+    lay_grid();
+    BrickSink& sink = open(header_, counts_);
+    bin();
+    voxelize();
+    fill_and_emit(sink);
+    counts_.scratch_bytes = store_->scratch_bytes();
+    return counts_;
+  }
+
+ private:
+  /// What waits for a tile beside its triangles.
+  struct Tile {
+    bool on_shelf = false;  ///< some of its triangles were voxelized early
+    std::vector<ChunkStore::Handle> crossings;
+  };
+  struct Slab;
+
+  void measure();
+  void lay_grid();
+  void bin();
+  void bin_chunks(const std::function<bool(std::vector<TriangleD>&)>& next);
+  void make_room();
+  void voxelize();
+  void voxelize_tile(std::uint64_t tile, Tile& state, bool last);
+  void put_crossings(Tile& state, std::span<const Crossing> crossings);
+  void get_crossings(std::uint64_t tile, std::vector<Crossing>& out) const;
+  void fill_and_emit(BrickSink& sink);
+  void fill_flood(std::uint64_t tile);
+  void fill_winding_columns();
+  void fill_winding_column(std::int32_t tx, std::int32_t ty);
+  void list_bricks(Slab& slab) const;
+  void emit(const Slab& slab, BrickSink& sink);
+  [[nodiscard]] VoxelBox tile_box(std::uint64_t tile) const { return tiles_.box(tiles_.coord(tile)); }
+
+  TriangleSource& source_;
+  const VoxelizeOptions& options_;
+  Workers workers_;
+  std::unique_ptr<BrickShelf> shelf_;
+  std::unique_ptr<ChunkStore> store_;
+  VoxelizeCounts counts_;
+
+  Bounds3d bounds_;
+  std::vector<std::vector<TriangleD>> kept_;
+  StreamHeader header_;
+  TileGrid tiles_;
+  std::unique_ptr<TriangleBins> bins_;
+  std::unordered_map<std::uint64_t, Tile> touched_;
+  std::mutex join_mutex_;
+  std::unique_ptr<OutsideFlood> flood_;
+  std::atomic<std::uint64_t> surface_voxels_{0}, open_columns_{0};
+};
+
+/// First pass: bounds and counts. The triangles stay while they fit in three fifths of the memory; their bins, half as
+/// large, then fit beside them.
+void Run::measure() {
+  Steps steps(options_, "reading", "triangles", 0);
+  const std::uint64_t limit = options_.memory_bytes / 5 * 3;
+  std::uint64_t bytes = 0;
+  std::vector<TriangleD> chunk;
+  InputHash hash;
+  while (source_.read(chunk)) {
+    hash.add(std::as_bytes(std::span(chunk)));
+    for (const TriangleD& t : chunk) {
+      for (const Vec3d& p : t) bounds_.add(p);
+    }
+    steps.add(chunk.size());
+    bytes += chunk.size() * sizeof(TriangleD);
+    if (bytes <= limit) {
+      kept_.emplace_back(chunk.begin(), chunk.end());
+    } else if (!counts_.read_twice) {
+      counts_.read_twice = true;
+      std::vector<std::vector<TriangleD>>().swap(kept_);
+    }
+  }
+  counts_.scene = source_.counts();
+  counts_.input_hash = hash.hex();
+  if (bounds_.empty())
+    fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one with an area", source_.name());
+}
+
+void Run::lay_grid() {
+  counts_.voxel_asked = options_.voxel_size(bounds_);
+  header_.frame = make_frame(bounds_, counts_.voxel_asked, options_.up);
+  header_.bounds = bounds_;
+  header_.bricks = bricks_of(voxel_bounds(header_.frame, bounds_));
+  header_.slab_axis = longest_axis(header_.bricks);
+  header_.fill = options_.fill;
+  const VoxelBox grid = voxels_of(header_.bricks);
+  const std::int32_t edge = options_.tile_vox > 0 ? options_.tile_vox : default_tile(grid);
+  if (edge % kBrickEdge != 0 || edge > kMaxTileVox)
+    fail(ErrorCode::bad_argument, "a tile of {} voxels a side is no multiple of 64 up to {}", edge, kMaxTileVox);
+  tiles_ = TileGrid(grid, edge);
+  const VoxelCoord size = grid.size();
+  if (tiles_.total() > kMaxTiles) {
+    fail(ErrorCode::bad_argument,
+         "a grid of {} x {} x {} voxels is too fine; use a larger --voxel or a smaller --resolution", size.x, size.y,
+         size.z);
+  }
+  if (options_.fill == FillMode::winding && std::max({size.x, size.y, size.z}) > kWindingVoxels)
+    fail(ErrorCode::bad_argument, "a grid over 2^24 voxels a side cannot be filled by winding; use --fill flood");
+  counts_.tiles = std::uint64_t(tiles_.total());
+  if (options_.fill != FillMode::none) flood_ = std::make_unique<OutsideFlood>(grid, VoxelCoord{edge, edge, edge});
+}
+
+/// Second pass: triangles to fixed point, into the bins of their tiles.
+void Run::bin() {
+  bins_ = std::make_unique<TriangleBins>(tiles_, *store_);
+  if (!counts_.read_twice) {
+    std::size_t i = 0;
+    bin_chunks([&](std::vector<TriangleD>& chunk) {
+      if (i == kept_.size()) return false;
+      chunk = std::move(kept_[i++]);
+      return true;
+    });
+    kept_.clear();
+    return;
+  }
+  source_.rewind();
+  bin_chunks([&](std::vector<TriangleD>& chunk) { return source_.read(chunk); });
+  if (source_.counts().triangles != counts_.scene.triangles)
+    fail(ErrorCode::bad_input, "{}: changed between the first and the second reading", source_.name());
+}
+
+void Run::bin_chunks(const std::function<bool(std::vector<TriangleD>&)>& next) {
+  struct Item {
+    std::vector<TriangleD> triangles;
+    std::size_t count = 0;
+    TriangleBatch batch;
+  };
+  Steps steps(options_, "sorting", "triangles", counts_.scene.triangles);
+  pipeline<Item>(
+      thread_count() + 2, [&](Item& item) { return next(item.triangles); },
+      [&](Item& item) {
+        std::vector<FixedTriangle> fixed;
+        fixed.reserve(item.triangles.size());
+        for (const TriangleD& t : item.triangles) fixed.push_back(to_fixed(header_.frame, t));
+        item.count = item.triangles.size();
+        std::vector<TriangleD>().swap(item.triangles);
+        item.batch = bins_->sort(fixed);
+      },
+      [&](Item& item) {
+        bins_->add(std::move(item.batch));
+        steps.add(item.count);
+        if (bins_->memory_bytes() > options_.memory_bytes / 5 * 4) make_room();
+      });
+}
+
+/// Tiles with many triangles are voxelized now: their bits are far smaller. The triangles of the others go to the
+/// store.
+void Run::make_room() {
+  const std::uint64_t tile_bytes =
+      std::uint64_t(tiles_.edge_vox) * std::uint64_t(tiles_.edge_vox) * std::uint64_t(tiles_.edge_vox) / 8;
+  std::vector<std::uint64_t> many, few;
+  for (const std::uint64_t tile : bins_->tiles()) {
+    const std::uint64_t bytes = bins_->memory_bytes(tile);
+    if (bytes > 4 * tile_bytes) {
+      many.push_back(tile);
+    } else if (bytes > 0) {
+      few.push_back(tile);
+    }
+  }
+  for (const std::uint64_t tile : many) touched_[tile];  // no insertion while threads look up
+  parallel_for(std::int64_t(many.size()), [&](std::int64_t i) {
+    const std::uint64_t tile = many[std::size_t(i)];
+    voxelize_tile(tile, touched_.at(tile), false);
+    bins_->release(tile);
+  });
+  bins_->spill(few);
+}
+
+void Run::voxelize() {
+  const std::vector<std::uint64_t> tiles = bins_->tiles();
+  for (const std::uint64_t tile : tiles) touched_[tile];
+  counts_.tiles_touched = tiles.size();
+  Steps steps(options_, "voxelizing", "tiles", tiles.size());
+  parallel_for(std::int64_t(tiles.size()), [&](std::int64_t i) {
+    const std::uint64_t tile = tiles[std::size_t(i)];
+    voxelize_tile(tile, touched_.at(tile), true);
+    bins_->release(tile);
+    steps.add(1);
+  });
+  if (flood_) flood_->resolve();
+  counts_.surface_voxels = surface_voxels_;
+}
+
+/// Adds the tile's waiting triangles to its voxels; `last`: there will be no more of them.
+void Run::voxelize_tile(std::uint64_t tile, Tile& state, bool last) {
+  const Workers::Lease worker(workers_);
+  const VoxelBox box = tile_box(tile);
+  worker->bits.reset(box);
+  if (state.on_shelf) load_voxels(*shelf_, worker->bits);
+  state.on_shelf = true;
+  bins_->for_each(tile, [&](std::span<const FixedTriangle> triangles) {
+    worker->voxelize(triangles);
+    if (options_.fill == FillMode::winding) {
+      worker->crossings.clear();
+      find_crossings(triangles, box, worker->crossings);
+      put_crossings(state, worker->crossings);
+    }
+  });
+  store_voxels(worker->bits, *shelf_);
+  if (!last) return;
+  surface_voxels_ += worker->bits.count();
+  if (!flood_) return;
+  OutsideFlood::Labels labels = OutsideFlood::label(worker->bits, box);
+  const std::lock_guard lock(join_mutex_);
+  flood_->join(std::move(labels));
+}
+
+void Run::put_crossings(Tile& state, std::span<const Crossing> crossings) {
+  if (!crossings.empty()) state.crossings.push_back(store_->put(std::as_bytes(crossings)));
+}
+
+void Run::get_crossings(std::uint64_t tile, std::vector<Crossing>& out) const {
+  out.clear();
+  const auto at = touched_.find(tile);
+  if (at == touched_.end()) return;
+  std::vector<std::byte> bytes;
+  for (const ChunkStore::Handle h : at->second.crossings) {
+    store_->get(h, bytes);
+    const std::size_t old = out.size();
+    out.resize(old + bytes.size() / sizeof(Crossing));
+    std::memcpy(static_cast<void*>(out.data() + old), bytes.data(), bytes.size());
+  }
+}
+
+/// The tiles, and then the bricks, of one step across the slab axis.
+struct Run::Slab {
+  std::vector<std::uint64_t> tiles;
+  std::vector<BrickCoord> bricks;  ///< not empty, in slab order
+};
+
+void Run::fill_and_emit(BrickSink& sink) {
+  if (options_.fill == FillMode::winding) fill_winding_columns();
+  const int axis = header_.slab_axis;
+  const int a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
+  Steps steps(options_, "filling", "slabs", std::uint64_t(tiles_.count[axis]));
+  TileCoord at{};
+  pipeline<Slab>(
+      2,
+      [&](Slab& slab) {
+        if (at[axis] == tiles_.count[axis]) return false;
+        for (at[b] = 0; at[b] < tiles_.count[b]; ++at[b]) {
+          for (at[a] = 0; at[a] < tiles_.count[a]; ++at[a]) slab.tiles.push_back(tiles_.index(at));
+        }
+        ++at[axis];
+        return true;
+      },
+      [&](Slab& slab) {
+        if (options_.fill == FillMode::flood) {
+          parallel_for(std::int64_t(slab.tiles.size()),
+                       [&](std::int64_t i) { fill_flood(slab.tiles[std::size_t(i)]); });
+        }
+        list_bricks(slab);
+      },
+      [&](Slab& slab) {
+        emit(slab, sink);
+        steps.add(1);
+      });
+}
+
+void Run::fill_flood(std::uint64_t tile) {
+  const VoxelBox box = tile_box(tile);
+  if (!flood_->has_enclosed(box)) return;
+  const Workers::Lease worker(workers_);
+  worker->bits.reset(box);
+  load_voxels(*shelf_, worker->bits);
+  flood_->fill_enclosed(box, worker->bits);
+  store_voxels(worker->bits, *shelf_);
+}
+
+void Run::list_bricks(Slab& slab) const {
+  for (const std::uint64_t tile : slab.tiles) {
+    const BrickBox bricks = bricks_of(tile_box(tile));
+    for (std::int32_t z = bricks.min.z; z < bricks.max.z; ++z) {
+      for (std::int32_t y = bricks.min.y; y < bricks.max.y; ++y) {
+        for (std::int32_t x = bricks.min.x; x < bricks.max.x; ++x) {
+          if (shelf_->fill({x, y, z}) != BrickFill::empty) slab.bricks.push_back({x, y, z});
+        }
+      }
+    }
+  }
+  std::sort(slab.bricks.begin(), slab.bricks.end(),
+            [&](BrickCoord p, BrickCoord q) { return slab_order(header_.slab_axis, p, q); });
+}
+
+void Run::emit(const Slab& slab, BrickSink& sink) {
+  Brick brick;
+  for (const BrickCoord c : slab.bricks) {
+    brick.coord = c;
+    brick.fill = shelf_->get(c, brick.bits);
+    shelf_->drop(c);
+    for (const std::uint64_t w : brick.bits) counts_.solid_voxels += std::uint64_t(std::popcount(w));
+    ++counts_.bricks;
+    if (brick.fill == BrickFill::full) ++counts_.full_bricks;
+    sink.write(brick);
+  }
+}
+
+void Run::fill_winding_columns() {
+  Steps steps(options_, "filling", "columns", std::uint64_t(tiles_.count.x) * std::uint64_t(tiles_.count.y));
+  const std::int64_t nx = tiles_.count.x;
+  parallel_for(nx * tiles_.count.y, [&](std::int64_t i) {
+    fill_winding_column(std::int32_t(i % nx), std::int32_t(i / nx));
+    steps.add(1);
+  });
+  counts_.open_columns = open_columns_;
+}
+
+/// One column of tiles: first the columns of voxels whose crossings cancel, then the fill from below.
+void Run::fill_winding_column(std::int32_t tx, std::int32_t ty) {
+  const Workers::Lease worker(workers_);
+  const VoxelCoord size = tiles_.box({tx, ty, 0}).size();
+  const std::size_t width = std::size_t(size.x), words = (width + 63) / 64;
+  std::vector<std::int32_t> numbers(width * std::size_t(size.y), 0);
+  for (std::int32_t tz = 0; tz < tiles_.count.z; ++tz) {
+    get_crossings(tiles_.index({tx, ty, tz}), worker->crossings);
+    add_crossings(worker->crossings, tiles_.box({tx, ty, tz}), numbers);
+  }
+  std::vector<std::uint64_t> open(words * std::size_t(size.y), 0);
+  std::uint64_t open_count = 0;
+  for (std::size_t y = 0; y < std::size_t(size.y); ++y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      if (numbers[x + y * width] == 0) continue;
+      open[y * words + x / 64] |= std::uint64_t(1) << (x % 64);
+      ++open_count;
+    }
+  }
+  open_columns_ += open_count;
+  numbers.assign(numbers.size(), 0);
+  BitBox flooded;
+  for (std::int32_t tz = 0; tz < tiles_.count.z; ++tz) {
+    const std::uint64_t tile = tiles_.index({tx, ty, tz});
+    const VoxelBox box = tile_box(tile);
+    get_crossings(tile, worker->crossings);
+    const bool flood = open_count > 0 && flood_->has_enclosed(box);
+    const bool wound = std::any_of(numbers.begin(), numbers.end(), [](std::int32_t n) { return n != 0; });
+    if (worker->crossings.empty() && !flood && !wound) continue;
+    worker->bits.reset(box);
+    load_voxels(*shelf_, worker->bits);
+    if (flood) {
+      flooded = worker->bits;
+      flood_->fill_enclosed(box, flooded);
+    }
+    fill_winding(worker->crossings, box, open, numbers, worker->bits);
+    for (std::int32_t z = box.min.z; flood && z < box.max.z; ++z) {
+      for (std::size_t w = 0; w < open.size(); ++w) {
+        worker->bits.row(box.min.y, z)[w] |= flooded.row(box.min.y, z)[w] & open[w];
+      }
+    }
+    store_voxels(worker->bits, *shelf_);
+  }
+}
+
+}  // namespace
+
+double voxel_size_of(const Bounds3d& bounds, std::int64_t voxels) {
+  double side = 0, reach = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    side = std::max(side, bounds.max[i] - bounds.min[i]);
+    reach = std::max({reach, std::abs(bounds.min[i]), std::abs(bounds.max[i])});
+  }
+  if (side > 0) return side / double(voxels);
+  return reach > 0 ? reach / (1 << 20) : 1;
+}
+
+VoxelizeCounts voxelize_stream(TriangleSource& source, const OpenSink& open, Backends& backends,
+                               const VoxelizeOptions& options) {
+  return Run(source, backends, options)(open);
+}
+
+}  // namespace bp
