@@ -1,0 +1,195 @@
+// bpvox: scenes in, a stream of solid bricks out. Manual: docs/bpvox.1.md
+#include <sys/stat.h>
+
+#include <cstdio>
+#include <optional>
+
+#include "io/brick_shelf.h"
+#include "io/brick_stream.h"
+#include "io/chunk_store.h"
+#include "io/scene_reader.h"
+#include "lib/core/error.h"
+#include "lib/stage/voxelize_stage.h"
+#include "tools/common/make_backend.h"
+#include "tools/common/provenance.h"
+#include "tools/common/report.h"
+#include "tools/common/run_tool.h"
+
+namespace {
+
+using bp::ErrorCode;
+using bp::fail;
+
+constexpr std::int64_t kDefaultResolution = 256;
+
+struct Options {
+  bp::CommonOptions common;
+  std::vector<std::string> scenes;
+  std::string out = "-", format;
+  std::optional<bp::Length> voxel;
+  std::optional<std::int64_t> resolution;
+  bp::FillMode fill = bp::FillMode::flood;
+  bp::UpAxis up = bp::UpAxis::y;
+};
+
+const char* name_of(bp::FillMode fill) {
+  return fill == bp::FillMode::flood ? "flood" : fill == bp::FillMode::winding ? "winding" : "none";
+}
+
+Options parse(bp::Args& args) {
+  Options o;
+  args.about(
+      "Turns scenes, however large, into a stream of voxels: every voxel that a triangle touches, and the inside.");
+  args.example("bpvox plant.glb --voxel 0.1 | bpclose --scale 2 | bpmesh --faces 5000 -o proxy.glb");
+  args.positional("SCENE", o.scenes, "scenes, voxelized together; - is stdin and needs --format");
+  args.option("-o,--output", "FILE", o.out, "stream of bricks; - is stdout");
+  args.option("--voxel", "LENGTH", o.voxel, "edge of a voxel: scene units, or 0.5% of the scene's diagonal");
+  args.option("--resolution", "N", o.resolution,
+              "voxels along the longest side of the scene (default: 256, if there is no --voxel)");
+  args.option(
+      "--fill", {{"flood", bp::FillMode::flood}, {"winding", bp::FillMode::winding}, {"none", bp::FillMode::none}},
+      o.fill, "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing");
+  args.option("--up", {{"y", bp::UpAxis::y}, {"z", bp::UpAxis::z}}, o.up, "axis of the scene that points up");
+  args.option("--format", "NAME", o.format,
+              "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");
+  o.common.add_to(args);
+  args.parse();
+  if (o.voxel && o.resolution) fail(ErrorCode::bad_argument, "--voxel and --resolution exclude each other");
+  if (o.voxel && o.voxel->unit == bp::Length::Unit::voxels)
+    fail(ErrorCode::bad_argument, "--voxel {}: a voxel is not measured in voxels", o.voxel->text());
+  if (o.voxel && !(o.voxel->value > 0)) fail(ErrorCode::bad_argument, "--voxel {}: must be above 0", o.voxel->text());
+  if (o.resolution && *o.resolution < 1) fail(ErrorCode::bad_argument, "--resolution 0: at least 1 voxel is needed");
+  return o;
+}
+
+/// How --memory is shared out. The rest is for the program, the tiles at work and the writer's batches.
+struct Budget {
+  std::uint64_t reader, triangles, shelf, store;
+  explicit Budget(std::uint64_t memory) {
+    const std::uint64_t fixed = std::uint64_t(128) << 20;
+    const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
+    reader = usable / 10 * 3;
+    triangles = usable / 10 * 3;
+    shelf = usable / 10 * 3;
+    store = usable / 20;
+  }
+};
+
+bp::OptionText option_text(const Options& o) {
+  bp::OptionText text;
+  if (o.voxel) {
+    text.add("voxel", *o.voxel);
+  } else {
+    text.add("resolution", o.resolution.value_or(kDefaultResolution));
+  }
+  text.add("fill", name_of(o.fill)).add("up", o.up == bp::UpAxis::y ? "y" : "z");
+  if (!o.format.empty()) text.add("format", o.format);
+  return text;
+}
+
+bp::VoxelizeOptions stage_options(const Options& o, const Budget& budget, bp::Progress& progress) {
+  bp::VoxelizeOptions v;
+  v.voxel_size = [&o](const bp::Bounds3d& bounds) {
+    return o.voxel ? o.voxel->in_world(bounds.diagonal(), 0)
+                   : bp::voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
+  };
+  v.fill = o.fill;
+  v.up = o.up;
+  v.memory_bytes = budget.triangles;
+  v.make_shelf = bp::make_shelf_factory(budget.shelf, o.common.temp);
+  v.make_store = [&o, budget] { return bp::make_chunk_store(budget.store, o.common.temp); };
+  v.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
+                                                 std::uint64_t total) mutable {
+    if (last != stage) progress.begin(last = stage, total, unit);
+    progress.set(done, total);
+  };
+  return v;
+}
+
+/// "12 degenerate triangles, 1 bad face"; empty if nothing was skipped.
+std::string skipped(const bp::SceneCounts& c) {
+  std::string text;
+  const auto add = [&](std::uint64_t n, const char* what) {
+    if (n > 0) text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", n, what, n == 1 ? "" : "s");
+  };
+  add(c.degenerate, "degenerate triangle");
+  add(c.non_finite, "non-finite triangle");
+  add(c.bad_faces, "bad face");
+  return text;
+}
+
+std::uint64_t size_of_files(const std::vector<std::string>& paths) {
+  std::uint64_t bytes = 0;
+  for (const std::string& path : paths) {
+    struct stat info {};
+    if (path != "-" && ::stat(path.c_str(), &info) == 0) bytes += std::uint64_t(info.st_size);
+  }
+  return bytes;
+}
+
+void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& header, const bp::VoxelizeCounts& c) {
+  report.options["options"] = option_text(o).text();
+  report.options["memory"] = o.common.memory_bytes;
+  report.bytes_in = size_of_files(o.scenes);
+  report.counts["triangles"] = c.scene.triangles;
+  report.counts["degenerate"] = c.scene.degenerate;
+  report.counts["non_finite"] = c.scene.non_finite;
+  report.counts["bad_faces"] = c.scene.bad_faces;
+  report.counts["instances"] = c.scene.instances;
+  report.counts["voxel_asked"] = c.voxel_asked;
+  report.counts["voxel"] = header.frame.voxel;
+  const bp::BrickCoord bricks = header.bricks.size();
+  report.counts["grid_bricks"] = {bricks.x, bricks.y, bricks.z};
+  report.counts["tiles"] = c.tiles;
+  report.counts["tiles_touched"] = c.tiles_touched;
+  report.counts["surface_voxels"] = c.surface_voxels;
+  report.counts["solid_voxels"] = c.solid_voxels;
+  report.counts["bricks"] = c.bricks;
+  report.counts["full_bricks"] = c.full_bricks;
+  report.counts["open_columns"] = c.open_columns;
+  report.counts["scene_read_twice"] = c.read_twice;
+  report.counts["scratch_bytes"] = c.scratch_bytes;
+  if (header.frame.voxel != c.voxel_asked) {
+    report.notes.push_back(
+        fmt::format("the voxel size was rounded from {} to {}, so that every vertex of a proxy is an exact double",
+                    c.voxel_asked, header.frame.voxel));
+  }
+  if (const std::string text = skipped(c.scene); !text.empty()) report.notes.push_back("skipped " + text);
+  if (c.open_columns > 0) {
+    report.notes.push_back(fmt::format(
+        "{} columns cross an open or inconsistently oriented surface; the flood decided there", c.open_columns));
+  }
+}
+
+void run(const Options& o) {
+  const Budget budget(o.common.memory_bytes);
+  bp::Report report("bpvox");
+  bp::Progress progress("bpvox", o.common.progress);
+  bp::Backends backends = bp::make_backends(o.common);
+  const auto source = bp::open_scenes(o.scenes, {o.format, budget.reader, o.common.temp});
+  const auto file = bp::open_output(o.out, o.common.overwrite);
+  std::optional<bp::BrickWriter> writer;
+  bp::StreamHeader header;
+  report.stage("read");
+  const auto open = [&](const bp::StreamHeader& h, const bp::VoxelizeCounts& counts) -> bp::BrickSink& {
+    report.stage("voxelize");
+    header = h;
+    header.provenance.push_back(bp::make_provenance("bpvox", option_text(o), counts.input_hash));
+    return writer.emplace(*file, header);
+  };
+  const bp::VoxelizeCounts counts = bp::voxelize_stream(*source, open, backends, stage_options(o, budget, progress));
+  writer->finish();
+  file->commit();
+  progress.end();
+  report.bytes_out = file->bytes();
+  fill_report(report, o, header, counts);
+  report.write(o.common);
+  if (const std::string text = skipped(counts.scene); !text.empty())
+    std::fprintf(stderr, "bpvox: skipped %s\n", text.c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return bp::run_tool("bpvox", argc, argv, parse, run);
+}
