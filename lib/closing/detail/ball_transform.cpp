@@ -1,0 +1,455 @@
+// The power transform  m(p) = min over seeds q of |p - q|^2 - w(q),  one axis after the other (squared Euclidean
+// distances are separable: Saito and Toriwaki 1994; the offset per seed rides along). Differences from the textbook form:
+// - Only m < 0 matters, so every pass stops at 0 and looks no further than R = floor(sqrt(w_max - 1)). Values stay in
+//   [-w_max, 0]: 16 bits for scales up to 128 voxels.
+// - x: 64 voxels of a row at once. A row gives min over its seeds s of (x - s)^2 - w(s), one vector minimum per seed; with
+//   one w for the row only the ends of runs of seeds and the nearest seed to either side count.
+// - y: for 64 voxels, minimum over the rows within R that hold seeds, of the row's values + dy^2.
+// - z: with w at the seed nothing is left to minimise. What reaches a slice at value m < 0 reaches the slices within
+//   dz^2 < -m, so two sweeps that carry "slices to go" decide all voxels, whatever R. With w at the target the minimum
+//   itself is compared, over the slices within the target's own reach.
+// - Passes run only where a target needs them: rows within R in z of a word that holds one.
+#include "lib/closing/detail/ball_transform.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include "lib/closing/detail/simd.h"
+
+namespace bp::detail {
+
+namespace {
+
+constexpr std::int32_t kBlockRows = 64;                       // rows handled together, at most
+constexpr std::size_t kFieldBytes = std::size_t(4) << 20;     // what the values of a block of rows may take
+constexpr std::int32_t kSmallBound = 1 << 14;                 // largest w for 16-bit values
+
+/// need[z][y] = max over slices z' of need[z'][y] - |z - z'|, not below 0.
+BP_CLONES void spread(std::uint16_t* need, std::int32_t slices) {
+  const auto pull = [](const std::uint16_t* from, std::uint16_t* to) __attribute__((always_inline)) {
+    for (int y = 0; y < kBlockRows; ++y) {
+      const std::uint16_t less = from[y] > 0 ? std::uint16_t(from[y] - 1) : std::uint16_t(0);
+      to[y] = std::max(to[y], less);
+    }
+  };
+  for (std::int32_t z = 1; z < slices; ++z) pull(need + (z - 1) * kBlockRows, need + z * kBlockRows);
+  for (std::int32_t z = slices - 2; z >= 0; --z) pull(need + (z + 1) * kBlockRows, need + z * kBlockRows);
+}
+
+/// The seeds of one row around a word: bits of the word itself and of the words to either side within reach.
+struct SeedWords {
+  std::vector<const std::uint64_t*> words;  ///< slices of the columns -side .. side, null where there is none
+  std::int32_t side = 0;
+  std::int32_t y0 = 0;                          ///< row of the first word of a slice
+  std::uint64_t left_mask = 0, right_mask = 0;  ///< bits within reach of the outermost words
+  [[nodiscard]] std::uint64_t bits(std::int32_t k, std::int32_t y) const {
+    const std::uint64_t* w = words[std::size_t(k + side)];
+    if (w == nullptr) return 0;
+    return w[y - y0] & (k == -side ? left_mask : k == side ? right_mask : ~std::uint64_t(0));
+  }
+};
+
+/// `squares[i]` = i^2, saturated; row = min(0, (x - s)^2 - bound) for seed s.
+template <class T>
+BP_INLINE void nearest_seeds(std::uint64_t middle, std::int32_t left, std::int32_t right, std::int32_t none, T bound,
+                             const T* squares, T* row) {
+  Lanes<T> acc;
+  Lanes<T>::fill(0, acc);
+  const std::uint64_t inner = middle & (middle << 1) & (middle >> 1);
+  for (std::uint64_t edges = middle & ~inner; edges != 0; edges &= edges - 1)
+    acc.min_sum(squares - std::countr_zero(edges), T(-bound));
+  if (left != none) acc.min_sum(squares - left, T(-bound));
+  if (right != none) acc.min_sum(squares - right, T(-bound));
+  if (inner != 0) {
+    T masks[kLanes];
+    for (int i = 0; i < 8; ++i) std::memcpy(masks + 8 * i, kByteMasks<T>.rows[(inner >> (8 * i)) & 255].data(), 8 * sizeof(T));
+    for (int i = 0; i < kLanes; ++i) masks[i] = T(masks[i] & T(-bound));
+    acc.min(masks);
+  }
+  acc.store(row);
+}
+BP_CLONES void nearest(std::uint64_t middle, std::int32_t left, std::int32_t right, std::int32_t none,
+                       std::int16_t bound, const std::int16_t* squares, std::int16_t* row) {
+  nearest_seeds(middle, left, right, none, bound, squares, row);
+}
+BP_CLONES void nearest(std::uint64_t middle, std::int32_t left, std::int32_t right, std::int32_t none,
+                       std::int32_t bound, const std::int32_t* squares, std::int32_t* row) {
+  nearest_seeds(middle, left, right, none, bound, squares, row);
+}
+
+/// row = min(row, squares + c): one seed of a row of seeds that differ in w.
+BP_CLONES void lower(const std::int16_t* squares, std::int16_t c, std::int16_t* row) {
+  Lanes<std::int16_t> acc;
+  Lanes<std::int16_t>::load(row, acc);
+  acc.min_sum(squares, c);
+  acc.store(row);
+}
+BP_CLONES void lower(const std::int32_t* squares, std::int32_t c, std::int32_t* row) {
+  Lanes<std::int32_t> acc;
+  Lanes<std::int32_t>::load(row, acc);
+  acc.min_sum(squares, c);
+  acc.store(row);
+}
+
+/// acc = min over j of rows[j] + (row_y[j] - y)^2, not above 0.
+template <class T>
+BP_INLINE void lowest_over_rows(const T* rows, const std::int32_t* row_y, std::int32_t count, std::int32_t y,
+                                Lanes<T>& acc) {
+  Lanes<T>::fill(0, acc);
+  for (std::int32_t j = 0; j < count; ++j) {
+    const std::int32_t dy = row_y[j] - y;
+    acc.min_sum(rows + std::size_t(j) * kLanes, T(dy * dy));
+  }
+}
+
+/// For value m: how many slices, its own included, a seed of this value reaches: the number of dz >= 0 with
+/// m + dz^2 < 0. That is floor(sqrt(-m - 1)) + 1 if m < 0; the root is found bit by bit from `top` down.
+template <class T, class Reach>
+BP_INLINE void store_reach(Lanes<T>& acc, T top, Reach* out) {
+  using Vector = typename Lanes<T>::Vector;
+  T reach[kLanes];
+  for (int i = 0; i < Lanes<T>::kCount; ++i) {
+    const Vector n = ~acc.v[i];  // -m - 1
+    Vector root{};
+    for (T b = top; b > 0; b = T(b >> 1)) {
+      const Vector c = root + b;
+      root += (c * c <= n) & b;
+    }
+    acc.v[i] = root - (n >= 0);  // a mask is -1
+  }
+  acc.store(reach);
+  for (int i = 0; i < kLanes; ++i) out[i] = Reach(reach[i]);
+}
+
+/// The y pass of one slice: rows y0 + i with need[i] != 0 get 64 values at out + i * step.
+struct RowPass {
+  const std::int32_t* row_y;  ///< of the rows that hold seeds, ascending
+  std::int32_t count, y0, radius;
+  const std::uint16_t* need;
+  std::size_t step;
+};
+/// Values are how far they reach along z if Out differs from T, else the minima themselves.
+template <class T, class Out>
+BP_INLINE void pass_rows(const T* rows, const RowPass& p, T top, Out* out) {
+  std::int32_t lo = 0, hi = 0;
+  for (std::int32_t i = 0; i < kBlockRows; ++i) {
+    if (p.need[i] == 0) continue;
+    const std::int32_t y = p.y0 + i;
+    while (lo < p.count && p.row_y[lo] < y - p.radius) ++lo;
+    while (hi < p.count && p.row_y[hi] <= y + p.radius) ++hi;
+    Lanes<T> acc;
+    lowest_over_rows(rows + std::size_t(lo) * kLanes, p.row_y + lo, hi - lo, y, acc);
+    if constexpr (std::is_same_v<T, Out>) {
+      acc.store(out + std::size_t(i) * p.step);
+    } else {
+      store_reach(acc, top, out + std::size_t(i) * p.step);
+    }
+  }
+}
+BP_CLONES void y_pass(const std::int16_t* rows, const RowPass& p, std::int16_t top, std::uint8_t* out) {
+  pass_rows(rows, p, top, out);
+}
+BP_CLONES void y_pass(const std::int32_t* rows, const RowPass& p, std::int32_t top, std::uint16_t* out) {
+  pass_rows(rows, p, top, out);
+}
+BP_CLONES void y_pass(const std::int16_t* rows, const RowPass& p, std::int16_t top, std::int16_t* out) {
+  pass_rows(rows, p, top, out);
+}
+BP_CLONES void y_pass(const std::int32_t* rows, const RowPass& p, std::int32_t top, std::int32_t* out) {
+  pass_rows(rows, p, top, out);
+}
+
+/// One row (column, y) along z: the values and needs of its slices, and where its targets lie among them.
+template <class T>
+struct Line {
+  T* values;  ///< 64 per slice
+  const std::uint16_t* need;
+  std::int32_t slices;
+  std::uint64_t* target;  ///< word of the first slice that has one
+  std::size_t target_step;
+  std::int32_t first_target, target_count;
+};
+
+/// Slices to go, carried up and then down; a target with some left is reached.
+template <class T>
+BP_INLINE void sweep_line(const Line<T>& line) {
+  using Vector = typename Lanes<T>::Vector;
+  Lanes<T> carry;
+  const auto carry_to = [&](std::int32_t z) __attribute__((always_inline)) {
+    Lanes<T> here;
+    Lanes<T>::load(line.values + std::size_t(z) * kLanes, here);
+    for (int i = 0; i < Lanes<T>::kCount; ++i) {
+      const Vector less = carry.v[i] - Vector((carry.v[i] != 0) & 1);
+      carry.v[i] = less > here.v[i] ? less : here.v[i];
+    }
+  };
+  Lanes<T>::fill(0, carry);
+  for (std::int32_t z = 0; z < line.slices; ++z) {
+    if (line.need[std::size_t(z) * kBlockRows] == 0) {
+      Lanes<T>::fill(0, carry);
+      continue;
+    }
+    carry_to(z);
+    carry.store(line.values + std::size_t(z) * kLanes);
+  }
+  Lanes<T>::fill(0, carry);
+  for (std::int32_t z = line.slices - 1; z >= 0; --z) {
+    if (line.need[std::size_t(z) * kBlockRows] == 0) {
+      Lanes<T>::fill(0, carry);
+      continue;
+    }
+    carry_to(z);
+    const std::int32_t t = z - line.first_target;
+    if (t < 0 || t >= line.target_count) continue;
+    std::uint64_t& word = line.target[std::size_t(t) * line.target_step];
+    if (word == 0) continue;
+    T left[kLanes];
+    carry.store(left);
+    word &= nonzero_bits(left);
+  }
+}
+BP_CLONES void z_sweep(const Line<std::uint8_t>& line) {
+  sweep_line(line);
+}
+BP_CLONES void z_sweep(const Line<std::uint16_t>& line) {
+  sweep_line(line);
+}
+
+/// Bits of the 64 targets at slice z whose minimum over the slices within `reach` is below their own `limit`.
+template <class T>
+BP_INLINE std::uint64_t below_limit(const T* values, const std::uint8_t* present, std::int32_t z, std::int32_t slices,
+                                    std::int32_t reach, const T* limit) {
+  Lanes<T> acc;
+  Lanes<T>::fill(0, acc);
+  const std::int32_t end = std::min(z + reach + 1, slices);
+  for (std::int32_t i = std::max(z - reach, 0); i < end; ++i) {
+    if (present[i] != 0) acc.min_sum(values + std::size_t(i) * kLanes, T((i - z) * (i - z)));
+  }
+  T low[kLanes];
+  acc.store(low);
+  std::uint8_t yes[kLanes];
+  for (int i = 0; i < kLanes; ++i) yes[i] = low[i] < limit[i] ? 255 : 0;
+  return nonzero_bits(yes);
+}
+BP_CLONES std::uint64_t z_minimum(const std::int16_t* values, const std::uint8_t* present, std::int32_t z,
+                                  std::int32_t slices, std::int32_t reach, const std::int16_t* limit) {
+  return below_limit(values, present, z, slices, reach, limit);
+}
+BP_CLONES std::uint64_t z_minimum(const std::int32_t* values, const std::uint8_t* present, std::int32_t z,
+                                  std::int32_t slices, std::int32_t reach, const std::int32_t* limit) {
+  return below_limit(values, present, z, slices, reach, limit);
+}
+
+template <class T>
+T* room(std::vector<std::byte>& memory, std::size_t count) {
+  if (memory.size() < count * sizeof(T)) memory.resize(count * sizeof(T));
+  return reinterpret_cast<T*>(memory.data());
+}
+
+}  // namespace
+
+/// One run: all columns of the targets, block of rows by block of rows. T holds the values; Value is what a slice keeps
+/// of them: T itself with the scale at the target, else the reach along z.
+template <class T, class Value>
+struct BallTransform::Columns {
+  BallTransform& scratch;
+  const ColumnBits& seeds;
+  const BallRule& rule;
+  ColumnBits& targets;
+  const std::int32_t radius;  ///< R
+  const T* squares = nullptr;
+  T* rows = nullptr;
+  Value* field = nullptr;         ///< [row of the block][slice][64]
+  std::uint16_t* need = nullptr;  ///< [slice][row]: 1 + slices to the farthest end of a target's reach, 0: not needed
+  std::int32_t z0 = 0, slices = 0, block_rows = 0;  ///< slices of field and need: targets and the seeds they can meet
+  std::size_t row_step = 0;                         ///< values from one row of the field to the next
+  SeedWords words;
+  T top = 0;
+
+  static constexpr bool kKeepsMinima = std::is_same_v<T, Value>;
+
+  Columns(BallTransform& owner, const ColumnBits& q, const BallRule& r, ColumnBits& p)
+      : scratch(owner), seeds(q), rule(r), targets(p), radius(ball_reach(r.bound)) {
+    const VoxelBox &t = targets.box(), &s = seeds.box();
+    z0 = std::min(t.min.z, std::max(s.min.z, t.min.z - radius));
+    slices = std::max(t.max.z, std::min(s.max.z, t.max.z + radius)) - z0;
+    row_step = std::size_t(slices | 1) * kLanes;  // odd: rows must not share a cache set
+    block_rows = std::int32_t(
+        std::clamp<std::size_t>(kFieldBytes / (row_step * sizeof(Value)), 8, std::size_t(kBlockRows)));
+    field = room<Value>(scratch.field_, row_step * std::size_t(block_rows));
+    rows = room<T>(scratch.rows_, std::size_t(block_rows + 2 * radius) * kLanes);
+    scratch.row_y_.resize(std::size_t(block_rows + 2 * radius));
+    scratch.need_.resize(std::size_t(slices) * kBlockRows);
+    need = scratch.need_.data();
+    scratch.present_.resize(std::size_t(slices));
+    make_squares();
+    words.side = (radius + 63) / 64;
+    words.words.resize(std::size_t(2 * words.side + 1));
+    const std::int32_t outer = radius - 64 * (words.side - 1);  // bits of the outermost words, 1 .. 64
+    if (words.side > 0) {
+      words.left_mask = ~std::uint64_t(0) << (64 - outer);
+      words.right_mask = ~std::uint64_t(0) >> (64 - outer);
+    } else {
+      words.left_mask = words.right_mask = ~std::uint64_t(0);
+    }
+    top = T(std::bit_floor(unsigned(radius)));
+  }
+
+  void make_squares() {
+    const std::int32_t half = radius + 2 * kLanes;
+    T* table = room<T>(scratch.squares_, std::size_t(2 * half));
+    // Saturated at the largest bound: minus any w <= bound that is still not negative.
+    for (std::int32_t i = -half; i < half; ++i)
+      table[i + half] = T(std::min<std::int64_t>(std::int64_t(i) * i, rule.bound));
+    squares = table + half;
+  }
+
+  void run() {
+    const VoxelBox& box = targets.box();
+    for (std::int32_t column = 0; column < targets.columns(); ++column) {
+      for (std::int32_t y = box.min.y; y < box.max.y; y += block_rows)
+        run_block(column, y, std::min(block_rows, box.max.y - y));
+    }
+  }
+
+  /// Rows [y0, y0 + count) of one column.
+  void run_block(std::int32_t column, std::int32_t y0, std::int32_t count) {
+    if (!find_needs(column, y0, count)) return;
+    const std::int32_t x0 = targets.box().min.x + 64 * column;
+    for (std::int32_t i = 0; i < slices; ++i) run_slice(x0, y0, i);
+    for (std::int32_t i = 0; i < count; ++i) decide_row(column, x0, y0, i);
+  }
+
+  /// Fills `need`. False if the block holds no target.
+  bool find_needs(std::int32_t column, std::int32_t y0, std::int32_t count) {
+    std::fill_n(need, std::size_t(slices) * kBlockRows, std::uint16_t(0));
+    std::uint64_t any = 0;
+    for (std::int32_t z = targets.box().min.z; z < targets.box().max.z; ++z) {
+      const std::uint64_t* words_ = targets.slice(column, z) + (y0 - targets.box().min.y);
+      std::uint16_t* to = need + std::size_t(z - z0) * kBlockRows;
+      for (std::int32_t i = 0; i < count; ++i) {
+        to[i] = words_[i] != 0 ? std::uint16_t(radius + 1) : std::uint16_t(0);
+        any |= words_[i];
+      }
+    }
+    if (any != 0) spread(need, slices);
+    return any != 0;
+  }
+
+  /// x and y passes of slice z0 + i: fills the field where it is needed.
+  void run_slice(std::int32_t x0, std::int32_t y0, std::int32_t i) {
+    const std::uint16_t* wanted = need + std::size_t(i) * kBlockRows;
+    std::int32_t first = 0, last = block_rows - 1;
+    while (first <= last && wanted[first] == 0) ++first;
+    while (first <= last && wanted[last] == 0) --last;
+    scratch.present_[std::size_t(i)] = 0;
+    if (first > last) return;
+    const std::int32_t found = collect_rows(x0, y0 + first - radius, y0 + last + radius + 1, z0 + i);
+    Value* out = field + std::size_t(i) * kLanes;
+    if (found == 0) {
+      for (std::int32_t y = first; y <= last; ++y) std::fill_n(out + std::size_t(y) * row_step, kLanes, Value(0));
+    } else {
+      y_pass(rows, RowPass{scratch.row_y_.data(), found, y0, radius, wanted, row_step}, top, out);
+    }
+    scratch.present_[std::size_t(i)] = found != 0;
+  }
+
+  /// x pass: the rows y in [begin, end) of slice z that hold a seed within reach of the column. Returns their number.
+  std::int32_t collect_rows(std::int32_t x0, std::int32_t begin, std::int32_t end, std::int32_t z) {
+    const VoxelBox& box = seeds.box();
+    if (z < box.min.z || z >= box.max.z) return 0;
+    begin = std::max(begin, box.min.y);
+    end = std::min(end, box.max.y);
+    for (std::int32_t k = -words.side; k <= words.side; ++k) {
+      const std::int32_t column = floor_div(x0 - box.min.x, 64) + k;
+      words.words[std::size_t(k + words.side)] =
+          column >= 0 && column < seeds.columns() ? seeds.slice(column, z) : nullptr;
+    }
+    words.y0 = box.min.y;
+    std::int32_t found = 0;
+    for (std::int32_t y = begin; y < end; ++y) {
+      std::uint64_t any = 0;
+      for (std::int32_t k = -words.side; k <= words.side; ++k) any |= words.bits(k, y);
+      if (any == 0) continue;
+      x_pass(x0, y, z, rows + std::size_t(found) * kLanes);
+      scratch.row_y_[std::size_t(found++)] = y;
+    }
+    return found;
+  }
+
+  void x_pass(std::int32_t x0, std::int32_t y, std::int32_t z, T* row) {
+    if (rule.scale != BallScale::at_seed) return x_pass_of_one(y, rule.bound, row);
+    scratch.scales_.set(*rule.lattice, y, z, x0 - 64 * words.side, x0 + 64 * (words.side + 1));
+    if (scratch.scales_.constant()) return x_pass_of_one(y, ball_bound(scratch.scales_.min()), row);
+    std::fill_n(row, kLanes, T(0));
+    for (std::int32_t k = -words.side; k <= words.side; ++k) {
+      for (std::uint64_t bits = words.bits(k, y); bits != 0; bits &= bits - 1) {
+        const std::int32_t s = 64 * k + std::countr_zero(bits);
+        lower(squares - s, T(-ball_bound(scratch.scales_.at(x0 + s))), row);
+      }
+    }
+  }
+
+  /// All seeds of the row have the same bound.
+  void x_pass_of_one(std::int32_t y, std::int32_t bound, T* row) {
+    constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::min();
+    std::int32_t left = kNone, right = kNone;
+    for (std::int32_t k = 1; k <= words.side && left == kNone; ++k) {
+      const std::uint64_t bits = words.bits(-k, y);
+      if (bits != 0) left = -64 * k + 63 - std::countl_zero(bits);
+    }
+    for (std::int32_t k = 1; k <= words.side && right == kNone; ++k) {
+      const std::uint64_t bits = words.bits(k, y);
+      if (bits != 0) right = 64 * k + std::countr_zero(bits);
+    }
+    nearest(words.bits(0, y), left, right, kNone, T(bound), squares, row);
+  }
+
+  /// z pass of row y0 + i: clears the targets that nothing reaches.
+  void decide_row(std::int32_t column, std::int32_t x0, std::int32_t y0, std::int32_t i) {
+    const VoxelBox& box = targets.box();
+    Line<Value> line{field + std::size_t(i) * row_step,
+                     need + i,
+                     slices,
+                     targets.slice(column, box.min.z) + (y0 + i - box.min.y),
+                     std::size_t(box.max.y - box.min.y),
+                     box.min.z - z0,
+                     box.max.z - box.min.z};
+    if constexpr (kKeepsMinima) {
+      compare_line(line, x0, y0 + i);
+    } else {
+      z_sweep(line);
+    }
+  }
+
+  void compare_line(const Line<Value>& line, std::int32_t x0, std::int32_t y) {
+    T limit[kLanes];
+    for (std::int32_t t = 0; t < line.target_count; ++t) {
+      std::uint64_t& word = line.target[std::size_t(t) * line.target_step];
+      if (word == 0) continue;
+      const std::int32_t i = line.first_target + t;
+      scratch.scales_.set(*rule.lattice, y, z0 + i, x0, x0 + 64);
+      scratch.scales_.bounds(x0, limit);
+      for (T& w : limit) w = T(w - rule.bound);
+      word &= z_minimum(line.values, scratch.present_.data(), i, slices, ball_reach(ball_bound(scratch.scales_.max())),
+                        limit);
+    }
+  }
+};
+
+void BallTransform::run(const ColumnBits& seeds, const BallRule& rule, ColumnBits& targets) {
+  if (targets.box().empty()) return;
+  const bool small = rule.bound <= kSmallBound;
+  if (rule.scale == BallScale::at_target) {
+    small ? Columns<std::int16_t, std::int16_t>(*this, seeds, rule, targets).run()
+          : Columns<std::int32_t, std::int32_t>(*this, seeds, rule, targets).run();
+  } else {
+    small ? Columns<std::int16_t, std::uint8_t>(*this, seeds, rule, targets).run()
+          : Columns<std::int32_t, std::uint16_t>(*this, seeds, rule, targets).run();
+  }
+}
+
+}  // namespace bp::detail

@@ -1,0 +1,95 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+/// Vectors of small integers, 64 voxels at a time. Plain loops over the vector type of GCC and Clang, so that one source
+/// serves SSE2, AVX2 and NEON; BP_CLONES has the compiler emit an AVX2 version beside the baseline and choose at load
+/// time. Sanitizer builds take the baseline only: the choice runs before their runtimes are up.
+#if defined(__x86_64__) && defined(__GNUC__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(__clang__)
+#define BP_CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define BP_CLONES
+#endif
+#define BP_INLINE inline __attribute__((always_inline))
+
+namespace bp::detail {
+
+constexpr int kLanes = 64;  ///< voxels of a word
+
+/// 64 integers of type T as registers. `load` and `store` need no alignment.
+template <class T>
+struct Lanes {
+  typedef T Vector __attribute__((vector_size(32)));
+  typedef T Unaligned __attribute__((vector_size(32), aligned(1), may_alias));
+  static constexpr int kCount = kLanes * int(sizeof(T)) / 32;
+  Vector v[kCount];
+
+  static BP_INLINE void load(const T* p, Lanes& out) {
+    for (int i = 0; i < kCount; ++i) out.v[i] = reinterpret_cast<const Unaligned*>(p)[i];
+  }
+  BP_INLINE void store(T* p) const {
+    for (int i = 0; i < kCount; ++i) reinterpret_cast<Unaligned*>(p)[i] = v[i];
+  }
+  static BP_INLINE void fill(T x, Lanes& out) {
+    for (int i = 0; i < kCount; ++i) out.v[i] = Vector{} + x;
+  }
+  /// this = min(this, p[0..63] + c)
+  BP_INLINE void min_sum(const T* p, T c) {
+    for (int i = 0; i < kCount; ++i) {
+      const Vector b = reinterpret_cast<const Unaligned*>(p)[i] + c;
+      v[i] = b < v[i] ? b : v[i];
+    }
+  }
+  /// this = min(this, p[0..63])
+  BP_INLINE void min(const T* p) {
+    for (int i = 0; i < kCount; ++i) {
+      const Vector b = reinterpret_cast<const Unaligned*>(p)[i];
+      v[i] = b < v[i] ? b : v[i];
+    }
+  }
+};
+
+/// Bit i set: byte i is not zero. Also works where 64 bytes are 0 or 255.
+BP_INLINE std::uint64_t nonzero_bits(const std::uint8_t* p) {
+#if defined(__SSE2__)
+  std::uint64_t bits = 0;
+  for (int i = 0; i < 4; ++i) {
+    const __m128i v = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p) + i);
+    const auto zero = unsigned(_mm_movemask_epi8(_mm_cmpeq_epi8(v, _mm_setzero_si128())));
+    bits |= std::uint64_t(~zero & 0xFFFFU) << (16 * i);
+  }
+  return bits;
+#else
+  std::uint64_t bits = 0;
+  for (int i = 0; i < kLanes; ++i) bits |= std::uint64_t(p[i] != 0) << i;
+  return bits;
+#endif
+}
+
+template <class U>
+BP_INLINE std::uint64_t nonzero_bits(const U* p) {
+  std::uint8_t bytes[kLanes];
+  for (int i = 0; i < kLanes; ++i) bytes[i] = std::uint8_t(p[i] != 0);
+  return nonzero_bits(bytes);
+}
+
+/// out[i] = -1 (all bits) where bit i is set, else 0.
+template <class T>
+struct ByteMasks {
+  std::array<std::array<T, 8>, 256> rows{};
+  constexpr ByteMasks() {
+    for (unsigned b = 0; b < 256; ++b) {
+      for (unsigned i = 0; i < 8; ++i) rows[b][i] = (b >> i) & 1 ? T(-1) : T(0);
+    }
+  }
+};
+template <class T>
+inline constexpr ByteMasks<T> kByteMasks{};
+
+}  // namespace bp::detail

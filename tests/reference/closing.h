@@ -1,0 +1,16 @@
+#pragma once
+#include "lib/closing/closing.h"
+
+/// The closing, straight from its definition (docs/pipeline.md, "The closing"): loops over all voxels in reach, no
+/// cleverness. For small grids only.
+namespace bp::reference {
+
+/// D over `box`: the dilation of `solid`, outside of which everything is empty. `scale` covers `box`.
+[[nodiscard]] BitBox dilate(const BitBox& solid, const ScaleLattice& scale, StructuringElement element,
+                            const VoxelBox& box);
+
+/// E over `box`, all other voxels of the result empty. `scale` covers `box` grown by its largest sample + 2 voxels.
+[[nodiscard]] BitBox close(const BitBox& solid, const ScaleLattice& scale, StructuringElement element,
+                           const VoxelBox& box);
+
+}  // namespace bp::reference
