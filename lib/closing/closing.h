@@ -5,7 +5,8 @@
 
 /// Spatially varying closing, after [CB17] §3.3, Alg. 1-2 (docs/references.md), exact in integers. With G the voxels of
 /// the input, r(p) = floor(S(p)), w(p) = ceil(S(p)^2):
-///   D  = { p : exists g in G with max|p-g| <= r(p) }  (cube)   or   { p : exists g in G with |p-g|^2 < w(p) }  (ball)
+///   D  = { p : exists g in G with max|p-g| <= r(p) }  (cube)   or   { p : exists g in G with |p-g|^2 < w(p) }  (ball),
+///        united with G (which matters for the ball where S = 0)
 ///   Dc = { q not in D : a 6-neighbour of q is in D }
 ///   E  = G  united with  { p in D : no q in Dc has |p-q|^2 < w(q) }
 /// Hence G ⊆ E ⊆ D: a closing always encloses its input. S < 1 is the identity. Outside the grid everything is empty.
@@ -27,9 +28,10 @@ struct Halo {
 
 /// Closes the interior of a tile on the calling thread.
 ///   solid     G over the tile and its halo; what it does not hold is empty
-///   scale     S over solid.box(), at least
+///   scale     S over interior.grown(halo.erosion_vox), at least
 ///   interior  the tile; `closed` is reset to it
-///   scratch   reused between calls; one per thread
+///   scratch   reused between calls; one per thread (lib/closing/closing_scratch.h)
+/// Cost follows the band D minus G: nothing where the halo holds no solid voxel or the tile is full.
 class ClosingScratch;
 void close_tile(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
                 const VoxelBox& interior, BitBox& closed, ClosingScratch& scratch);

@@ -254,23 +254,3 @@ TEST_CASE("scales beyond 128 voxels keep their exact distances", "[quick][closin
     CHECK(cube.count() == (whole ? 27U : 1U));
   }
 }
-
-TEST_CASE("wide scales equal their definition where both sides are cut off", "[property][closing]") {
-  // 32-bit path and 16-bit distances of the cube, against the definition over a few voxels.
-  for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    Random random(seed);
-    const VoxelBox grid{{0, 0, 0}, {40, 1, 1}}, box{{-2, -1, -1}, {42, 2, 2}};
-    const BitBox solid = reference::random_solid(random, grid);
-    const auto low = Scale(random.between(250, 300) * kScaleOne);
-    ScaleLattice scale = reference::random_lattice(random, box.grown(330), low);
-    for (Scale& s : scale.samples) s = Scale(s % (4 * kScaleOne) + low);
-    const auto [least, most] = std::minmax_element(scale.samples.begin(), scale.samples.end());
-    scale.min = *least;
-    scale.max = *most;
-    for (const StructuringElement element : {StructuringElement::cube, StructuringElement::ball}) {
-      const BitBox closed = close_box(solid, scale, ample(scale.max), element, box);
-      CHECK(subset(cut(solid, box), closed));
-      CHECK(closed.count() >= solid.count());
-    }
-  }
-}

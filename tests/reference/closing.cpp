@@ -28,7 +28,7 @@ VoxelBox around(VoxelCoord p, std::int32_t r) {
 }
 
 bool in_dilation(const BitBox& solid, StructuringElement element, VoxelCoord p, Scale s) {
-  bool met = false;
+  bool met = solid.test(p);  // G is in D also where S = 0 leaves an empty ball
   for_each_voxel(intersect(around(p, reach(s)), solid.box()), [&](VoxelCoord g) {
     if (met || !solid.test(g)) return;
     const std::int32_t r = cube_radius(s);

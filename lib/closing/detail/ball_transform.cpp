@@ -56,8 +56,7 @@ struct SeedWords {
 template <class T>
 BP_INLINE void nearest_seeds(std::uint64_t middle, std::int32_t left, std::int32_t right, std::int32_t none, T bound,
                              const T* squares, T* row) {
-  Lanes<T> acc;
-  Lanes<T>::fill(0, acc);
+  Lanes<T> acc{};
   const std::uint64_t inner = middle & (middle << 1) & (middle >> 1);
   for (std::uint64_t edges = middle & ~inner; edges != 0; edges &= edges - 1)
     acc.min_sum(squares - std::countr_zero(edges), T(-bound));
@@ -82,23 +81,20 @@ BP_CLONES void nearest(std::uint64_t middle, std::int32_t left, std::int32_t rig
 
 /// row = min(row, squares + c): one seed of a row of seeds that differ in w.
 BP_CLONES void lower(const std::int16_t* squares, std::int16_t c, std::int16_t* row) {
-  Lanes<std::int16_t> acc;
-  Lanes<std::int16_t>::load(row, acc);
+  Lanes<std::int16_t> acc = Lanes<std::int16_t>::load(row);
   acc.min_sum(squares, c);
   acc.store(row);
 }
 BP_CLONES void lower(const std::int32_t* squares, std::int32_t c, std::int32_t* row) {
-  Lanes<std::int32_t> acc;
-  Lanes<std::int32_t>::load(row, acc);
+  Lanes<std::int32_t> acc = Lanes<std::int32_t>::load(row);
   acc.min_sum(squares, c);
   acc.store(row);
 }
 
-/// acc = min over j of rows[j] + (row_y[j] - y)^2, not above 0.
+/// acc = min(acc, min over j of rows[j] + (row_y[j] - y)^2).
 template <class T>
 BP_INLINE void lowest_over_rows(const T* rows, const std::int32_t* row_y, std::int32_t count, std::int32_t y,
                                 Lanes<T>& acc) {
-  Lanes<T>::fill(0, acc);
   for (std::int32_t j = 0; j < count; ++j) {
     const std::int32_t dy = row_y[j] - y;
     acc.min_sum(rows + std::size_t(j) * kLanes, T(dy * dy));
@@ -140,7 +136,7 @@ BP_INLINE void pass_rows(const T* rows, const RowPass& p, T top, Out* out) {
     const std::int32_t y = p.y0 + i;
     while (lo < p.count && p.row_y[lo] < y - p.radius) ++lo;
     while (hi < p.count && p.row_y[hi] <= y + p.radius) ++hi;
-    Lanes<T> acc;
+    Lanes<T> acc{};
     lowest_over_rows(rows + std::size_t(lo) * kLanes, p.row_y + lo, hi - lo, y, acc);
     if constexpr (std::is_same_v<T, Out>) {
       acc.store(out + std::size_t(i) * p.step);
@@ -177,28 +173,26 @@ struct Line {
 template <class T>
 BP_INLINE void sweep_line(const Line<T>& line) {
   using Vector = typename Lanes<T>::Vector;
-  Lanes<T> carry;
+  Lanes<T> carry{};
   const auto carry_to = [&](std::int32_t z) __attribute__((always_inline)) {
-    Lanes<T> here;
-    Lanes<T>::load(line.values + std::size_t(z) * kLanes, here);
+    const Lanes<T> here = Lanes<T>::load(line.values + std::size_t(z) * kLanes);
     for (int i = 0; i < Lanes<T>::kCount; ++i) {
       const Vector less = carry.v[i] - Vector((carry.v[i] != 0) & 1);
       carry.v[i] = less > here.v[i] ? less : here.v[i];
     }
   };
-  Lanes<T>::fill(0, carry);
   for (std::int32_t z = 0; z < line.slices; ++z) {
     if (line.need[std::size_t(z) * kBlockRows] == 0) {
-      Lanes<T>::fill(0, carry);
+      carry = {};
       continue;
     }
     carry_to(z);
     carry.store(line.values + std::size_t(z) * kLanes);
   }
-  Lanes<T>::fill(0, carry);
+  carry = {};
   for (std::int32_t z = line.slices - 1; z >= 0; --z) {
     if (line.need[std::size_t(z) * kBlockRows] == 0) {
-      Lanes<T>::fill(0, carry);
+      carry = {};
       continue;
     }
     carry_to(z);
@@ -222,8 +216,7 @@ BP_CLONES void z_sweep(const Line<std::uint16_t>& line) {
 template <class T>
 BP_INLINE std::uint64_t below_limit(const T* values, const std::uint8_t* present, std::int32_t z, std::int32_t slices,
                                     std::int32_t reach, const T* limit) {
-  Lanes<T> acc;
-  Lanes<T>::fill(0, acc);
+  Lanes<T> acc{};
   const std::int32_t end = std::min(z + reach + 1, slices);
   for (std::int32_t i = std::max(z - reach, 0); i < end; ++i) {
     if (present[i] != 0) acc.min_sum(values + std::size_t(i) * kLanes, T((i - z) * (i - z)));

@@ -22,7 +22,7 @@ namespace bp::detail {
 
 constexpr int kLanes = 64;  ///< voxels of a word
 
-/// 64 integers of type T as registers. `load` and `store` need no alignment.
+/// 64 integers of type T as registers. `load` and `store` need no alignment. Zero when made with {}.
 template <class T>
 struct Lanes {
   typedef T Vector __attribute__((vector_size(32)));
@@ -30,14 +30,13 @@ struct Lanes {
   static constexpr int kCount = kLanes * int(sizeof(T)) / 32;
   Vector v[kCount];
 
-  static BP_INLINE void load(const T* p, Lanes& out) {
+  static BP_INLINE Lanes load(const T* p) {
+    Lanes out{};
     for (int i = 0; i < kCount; ++i) out.v[i] = reinterpret_cast<const Unaligned*>(p)[i];
+    return out;
   }
   BP_INLINE void store(T* p) const {
     for (int i = 0; i < kCount; ++i) reinterpret_cast<Unaligned*>(p)[i] = v[i];
-  }
-  static BP_INLINE void fill(T x, Lanes& out) {
-    for (int i = 0; i < kCount; ++i) out.v[i] = Vector{} + x;
   }
   /// this = min(this, p[0..63] + c)
   BP_INLINE void min_sum(const T* p, T c) {
