@@ -1,7 +1,7 @@
 // The closing of [CB17] §3.3 by distance transforms instead of the paper's walk down a tree per voxel: the same voxels,
-// at a cost that does not depend on how far the walk would go. Dilation: windowed ORs for a cube, a threshold on a squared
-// distance for a ball. Erosion: a threshold on a power transform of the contour. Both only over the band D minus G, and
-// only around what is occupied.
+// at a cost that does not depend on how far the walk would go. Dilation: windowed ORs for a cube, a threshold on a
+// squared distance for a ball. Erosion: a threshold on a power transform of the contour. Both only over the band D
+// minus G, and only around what is occupied.
 #include "lib/closing/closing.h"
 
 #include <algorithm>
@@ -50,7 +50,8 @@ VoxelBox occupied_bounds(const BitBox& bits, const VoxelBox& box) {
 }
 
 bool full(const BitBox& bits) {
-  return std::all_of(bits.data(), bits.data() + bits.word_count(), [](std::uint64_t w) { return w == ~std::uint64_t(0); });
+  return std::all_of(bits.data(), bits.data() + bits.word_count(),
+                     [](std::uint64_t w) { return w == ~std::uint64_t(0); });
 }
 
 /// body(words of the row, words per row, y, z) for the rows of `bits` in `box`, from the word at box.min.x on.
@@ -194,7 +195,7 @@ void add_closing(const BitBox& solid, const ScaleLattice& scale, const Halo& hal
   if (occupied.empty()) return;
   const ScaleRange range = detail::scale_range(scale, needed);
   const std::int32_t reach = std::max(cube_radius(range.max), detail::ball_reach(ball_bound(range.max)));
-  if (reach == 0) return;  // D = G
+  if (reach == 0) return;                              // D = G
   const VoxelBox touched = occupied.grown(reach + 1);  // D and Dc lie in it
   const VoxelBox dilated = intersect(needed, touched);
   if (intersect(dilated, interior).empty()) return;

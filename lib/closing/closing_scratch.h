@@ -9,7 +9,7 @@ namespace bp {
 
 class ClosingScratch {
  public:
-  BitBox dilation, inner;                  ///< D; what needs no distance to be in D
+  BitBox dilation, inner;                   ///< D; what needs no distance to be in D
   detail::ColumnBits seeds, contour, band;  ///< G or Dc, by columns; D minus G, by columns
   detail::CubeDilation cube;
   detail::VaryingCubeDilation varying;

@@ -1,11 +1,13 @@
 // Halo of a tile T. Written out, with |.| the Euclidean and ||.|| the Chebyshev distance, which is never larger:
-// - E on T needs the voxels q of Dc with |p - q|^2 < w(q) for some p in T. Such a q is at t = ||q - T|| <= |p - q|, hence
-//   t <= reach(q) := floor(sqrt(w(q) - 1)). With e the largest t of any voxel with t <= reach, all of them lie in T + e.
+// - E on T needs the voxels q of Dc with |p - q|^2 < w(q) for some p in T. Such a q is at t = ||q - T|| <= |p - q|,
+// hence
+//   t <= reach(q) := floor(sqrt(w(q) - 1)). With e the largest t of any voxel with t <= reach, all of them lie in T +
+//   e.
 // - Dc on T + e needs D on T + (e + 1): `erosion_vox`.
 // - D at p needs the voxels g of G within floor(S(p)) (cube) or reach(p) (ball) of p. With d the larger of both over
 //   T + (e + 1), it needs G on T + (e + 1) + d: `dilation_vox` is d.
-// Nothing else enters, so a solid cut to T + (e + 1 + d) gives the same E on T as the whole grid. Both bounds are read off
-// the samples: S at a voxel is at most the largest of the eight samples around it.
+// Nothing else enters, so a solid cut to T + (e + 1 + d) gives the same E on T as the whole grid. Both bounds are read
+// off the samples: S at a voxel is at most the largest of the eight samples around it.
 #include <algorithm>
 
 #include "lib/closing/closing.h"
@@ -69,8 +71,7 @@ class ErosionReach {
     }
     if (box.size()[longest] <= kLeaf) return scan(box, here);
     VoxelBox lower = box, upper = box;
-    lower.max[longest] = upper.min[longest] =
-        box.min[longest] + box.size()[longest] / (2 * kScaleStep) * kScaleStep;
+    lower.max[longest] = upper.min[longest] = box.min[longest] + box.size()[longest] / (2 * kScaleStep) * kScaleStep;
     visit(lower);
     visit(upper);
   }
@@ -92,8 +93,8 @@ class ErosionReach {
     Bounds3d where;
     const VoxelBox wide = box.grown(2 * kScaleStep);
     for (const VoxelCoord c : {wide.min, wide.max}) {
-      where.add(frame_.world(
-          {std::int64_t(c.x) * kLatticePerVoxel, std::int64_t(c.y) * kLatticePerVoxel, std::int64_t(c.z) * kLatticePerVoxel}));
+      where.add(frame_.world({std::int64_t(c.x) * kLatticePerVoxel, std::int64_t(c.y) * kLatticePerVoxel,
+                              std::int64_t(c.z) * kLatticePerVoxel}));
     }
     ScaleField part;
     part.base = field_.base;
@@ -134,8 +135,8 @@ class ErosionReach {
 Halo halo_of(const VoxelBox& tile, const ScaleField& scale, const GridFrame& frame) {
   Halo halo;
   halo.erosion_vox = ErosionReach(tile, scale, frame).find() + 1;
-  const Scale largest = scale.constant() ? scale.upper_bound(frame)
-                                         : scale.sample(frame, tile.grown(halo.erosion_vox)).max;
+  const Scale largest =
+      scale.constant() ? scale.upper_bound(frame) : scale.sample(frame, tile.grown(halo.erosion_vox)).max;
   halo.dilation_vox = std::max(cube_radius(largest), reach_of(largest));
   return halo;
 }

@@ -49,8 +49,7 @@ void add_shape(Random& random, const VoxelBox& box, BitBox& bits) {
 
 VoxelBox random_box(Random& random, std::int32_t longest) {
   const VoxelCoord min{random.between(-140, 140), random.between(-40, 40), random.between(-40, 40)};
-  return {min,
-          min + VoxelCoord{random.between(1, longest), random.between(1, longest), random.between(1, longest)}};
+  return {min, min + VoxelCoord{random.between(1, longest), random.between(1, longest), random.between(1, longest)}};
 }
 
 BitBox random_solid(Random& random, const VoxelBox& box) {

@@ -1,8 +1,10 @@
 // The power transform  m(p) = min over seeds q of |p - q|^2 - w(q),  one axis after the other (squared Euclidean
-// distances are separable: Saito and Toriwaki 1994; the offset per seed rides along). Differences from the textbook form:
+// distances are separable: Saito and Toriwaki 1994; the offset per seed rides along). Differences from the textbook
+// form:
 // - Only m < 0 matters, so every pass stops at 0 and looks no further than R = floor(sqrt(w_max - 1)). Values stay in
 //   [-w_max, 0]: 16 bits for scales up to 128 voxels.
-// - x: 64 voxels of a row at once. A row gives min over its seeds s of (x - s)^2 - w(s), one vector minimum per seed; with
+// - x: 64 voxels of a row at once. A row gives min over its seeds s of (x - s)^2 - w(s), one vector minimum per seed;
+// with
 //   one w for the row only the ends of runs of seeds and the nearest seed to either side count.
 // - y: for 64 voxels, minimum over the rows within R that hold seeds, of the row's values + dy^2.
 // - z: with w at the seed nothing is left to minimise. What reaches a slice at value m < 0 reaches the slices within
@@ -23,9 +25,9 @@ namespace bp::detail {
 
 namespace {
 
-constexpr std::int32_t kBlockRows = 64;                       // rows handled together, at most
-constexpr std::size_t kFieldBytes = std::size_t(4) << 20;     // what the values of a block of rows may take
-constexpr std::int32_t kSmallBound = 1 << 14;                 // largest w for 16-bit values
+constexpr std::int32_t kBlockRows = 64;                    // rows handled together, at most
+constexpr std::size_t kFieldBytes = std::size_t(4) << 20;  // what the values of a block of rows may take
+constexpr std::int32_t kSmallBound = 1 << 14;              // largest w for 16-bit values
 
 /// need[z][y] = max over slices z' of need[z'][y] - |z - z'|, not below 0.
 BP_CLONES void spread(std::uint16_t* need, std::int32_t slices) {
@@ -64,7 +66,8 @@ BP_INLINE void nearest_seeds(std::uint64_t middle, std::int32_t left, std::int32
   if (right != none) acc.min_sum(squares - right, T(-bound));
   if (inner != 0) {
     T masks[kLanes];
-    for (int i = 0; i < 8; ++i) std::memcpy(masks + 8 * i, kByteMasks<T>.rows[(inner >> (8 * i)) & 255].data(), 8 * sizeof(T));
+    for (int i = 0; i < 8; ++i)
+      std::memcpy(masks + 8 * i, kByteMasks<T>.rows[(inner >> (8 * i)) & 255].data(), 8 * sizeof(T));
     for (int i = 0; i < kLanes; ++i) masks[i] = T(masks[i] & T(-bound));
     acc.min(masks);
   }
@@ -270,8 +273,8 @@ struct BallTransform::Columns {
     z0 = std::min(t.min.z, std::max(s.min.z, t.min.z - radius));
     slices = std::max(t.max.z, std::min(s.max.z, t.max.z + radius)) - z0;
     row_step = std::size_t(slices | 1) * kLanes;  // odd: rows must not share a cache set
-    block_rows = std::int32_t(
-        std::clamp<std::size_t>(kFieldBytes / (row_step * sizeof(Value)), 8, std::size_t(kBlockRows)));
+    block_rows =
+        std::int32_t(std::clamp<std::size_t>(kFieldBytes / (row_step * sizeof(Value)), 8, std::size_t(kBlockRows)));
     field = room<Value>(scratch.field_, row_step * std::size_t(block_rows));
     rows = room<T>(scratch.rows_, std::size_t(block_rows + 2 * radius) * kLanes);
     scratch.row_y_.resize(std::size_t(block_rows + 2 * radius));

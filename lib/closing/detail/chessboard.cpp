@@ -75,8 +75,7 @@ template <class T>
 void distances_along_row(const std::uint64_t* words, std::int32_t count, T far, T* row) {
   const std::int32_t n = 64 * count;
   std::fill_n(row, n, far);
-  for (std::int32_t end = 0, begin = next_bit(words, count, 0, 0); begin < n;
-       begin = next_bit(words, count, end, 0)) {
+  for (std::int32_t end = 0, begin = next_bit(words, count, 0, 0); begin < n; begin = next_bit(words, count, end, 0)) {
     for (std::int32_t x = begin - 1; x >= std::max(begin + 1 - far, end); --x) row[x] = std::min(row[x], T(begin - x));
     end = next_bit(words, count, begin, ~std::uint64_t(0));
     std::fill(row + begin, row + end, T(0));

@@ -3,8 +3,9 @@
 
 #include "lib/grid/bit_box.h"
 
-/// A box of voxels as bits, stored column by column: all words that cover the same 64 x lie together, y fastest, then z.
-/// The ball transforms work on one such column at a time and would fetch each cache line of a BitBox once per column.
+/// A box of voxels as bits, stored column by column: all words that cover the same 64 x lie together, y fastest, then
+/// z. The ball transforms work on one such column at a time and would fetch each cache line of a BitBox once per
+/// column.
 namespace bp::detail {
 
 class ColumnBits {

@@ -35,7 +35,8 @@ class ScaleRow {
     return Scale((a[0] * (kScaleStep - f) + a[1] * f) / (kScaleStep * kScaleStep * kScaleStep));
   }
 
-  /// floor(S) of the 64 voxels from x on, a multiple of 64. Saturates nowhere: T must hold the largest radius of the row.
+  /// floor(S) of the 64 voxels from x on, a multiple of 64. Saturates nowhere: T must hold the largest radius of the
+  /// row.
   template <class T>
   void radii(std::int32_t x, T* out) const {
     each_scale(x, [&](int i, std::uint32_t s) { out[i] = T(s / kScaleOne); });
@@ -52,8 +53,8 @@ class ScaleRow {
     const std::uint32_t* a = &sums_[std::size_t(floor_div(x, kScaleStep) - first_cell_)];
     for (int cell = 0; cell < 64 / kScaleStep; ++cell) {
       for (std::uint32_t f = 0; f < std::uint32_t(kScaleStep); ++f) {
-        body(cell * kScaleStep + int(f), (a[cell] * (kScaleStep - f) + a[cell + 1] * f) /
-                                             (kScaleStep * kScaleStep * kScaleStep));
+        body(cell * kScaleStep + int(f),
+             (a[cell] * (kScaleStep - f) + a[cell + 1] * f) / (kScaleStep * kScaleStep * kScaleStep));
       }
     }
   }

@@ -32,14 +32,15 @@ void fill(detail::ColumnBits& bits, const VoxelBox& box, const std::vector<Voxel
 }
 
 bool test(const detail::ColumnBits& bits, VoxelCoord p) {
-  return (bits.slice((p.x - bits.box().min.x) / 64, p.z)[p.y - bits.box().min.y] >> ((p.x - bits.box().min.x) % 64)) & 1;
+  return (bits.slice((p.x - bits.box().min.x) / 64, p.z)[p.y - bits.box().min.y] >> ((p.x - bits.box().min.x) % 64)) &
+         1;
 }
 
 /// Whether some ball reaches p, from the pairs.
 bool reached(const detail::BallRule& rule, const std::vector<VoxelCoord>& seeds, VoxelCoord p) {
   return std::any_of(seeds.begin(), seeds.end(), [&](VoxelCoord q) {
     const VoxelCoord d = p - q;
-    const std::int64_t w = rule.scale == detail::BallScale::uniform ? rule.bound
+    const std::int64_t w = rule.scale == detail::BallScale::uniform   ? rule.bound
                            : rule.scale == detail::BallScale::at_seed ? ball_bound(rule.lattice->at(q))
                                                                       : ball_bound(rule.lattice->at(p));
     return std::int64_t(d.x) * d.x + std::int64_t(d.y) * d.y + std::int64_t(d.z) * d.z < w;
@@ -54,7 +55,8 @@ TEST_CASE("the ball transform equals all pairs of seeds and targets at any radiu
     Random random(seed);
     const std::int32_t largest_vox = random.one_in(2) ? random.between(0, 140) : random.between(1, 9);
     const std::int32_t spread = largest_vox + random.between(1, 20);
-    const VoxelBox targets_box{{64 * random.between(-2, 2), -random.between(1, 30), -7}, {64 * 4, spread / 2 + 1, spread}},
+    const VoxelBox targets_box{{64 * random.between(-2, 2), -random.between(1, 30), -7},
+                               {64 * 4, spread / 2 + 1, spread}},
         seeds_box{{-64 * random.between(1, 3), -7, -spread / 2}, {64 * random.between(0, 3), 20, spread / 2 + 1}};
     const std::vector<VoxelCoord> seeds = scattered(random, seeds_box, random.between(1, 25)),
                                   targets = scattered(random, targets_box, 150);

@@ -1,0 +1,19 @@
+#pragma once
+#include "lib/backend/backend.h"
+#include "lib/closing/closing_scratch.h"
+
+namespace bp {
+
+/// The tile operations on the calling thread.
+class CpuBackend final : public Backend {
+ public:
+  [[nodiscard]] std::string name() const override { return "cpu"; }
+  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) override;
+  void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
+             const VoxelBox& interior, BitBox& closed) override;
+
+ private:
+  ClosingScratch scratch_;
+};
+
+}  // namespace bp
