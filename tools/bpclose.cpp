@@ -1,0 +1,130 @@
+// bpclose: solid bricks in, solid and closing out. Manual: docs/bpclose.1.md
+#include <optional>
+
+#include "io/brick_shelf.h"
+#include "io/brick_stream.h"
+#include "lib/core/error.h"
+#include "lib/stage/close_stage.h"
+#include "tools/common/make_backend.h"
+#include "tools/common/provenance.h"
+#include "tools/common/report.h"
+#include "tools/common/run_tool.h"
+
+namespace {
+
+using bp::ErrorCode;
+using bp::fail;
+
+struct Options {
+  bp::CommonOptions common;
+  std::string in = "-", out = "-", field;
+  std::optional<bp::Length> scale;
+  bp::ClosingParams closing;
+  int tile_vox = 0;
+  bool keep_cavities = false;
+};
+
+Options parse(bp::Args& args) {
+  Options o;
+  args.about(
+      "Closes a stream of solid voxels: gaps, holes and concavities narrower than the scale disappear; nothing is cut "
+      "off.");
+  args.example("bpvox plant.glb --voxel 0.1 | bpclose --scale 2 | bpmesh --faces 5000 -o proxy.glb");
+  args.positional("INPUT", o.in, "stream of bricks; - is stdin");
+  args.option("-o,--output", "FILE", o.out, "stream of bricks with both layers; - is stdout");
+  args.option("-s,--scale", "LENGTH", o.scale, "closing radius: scene units, 2% of the scene's diagonal, or 20vx");
+  args.option("--element", {{"cube", bp::StructuringElement::cube}, {"ball", bp::StructuringElement::ball}},
+              o.closing.element, "of the dilation; cube: large flat areas survive");
+  args.option("--field", "FILE", o.field, "scale field as JSON (docs/bpclose.1.md) instead of --scale");
+  args.option("--tile", "N", o.tile_vox, "voxels along a tile, a multiple of 64; 0: chosen by memory and scale");
+  args.flag("--keep-cavities", o.keep_cavities, "leave enclosed hollows empty");
+  o.common.add_to(args);
+  args.parse();
+  if (!o.scale && o.field.empty()) fail(ErrorCode::bad_argument, "give a --scale or a --field");
+  if (o.scale && !o.field.empty()) fail(ErrorCode::bad_argument, "--scale and --field exclude each other");
+  return o;
+}
+
+bp::ScaleField scale_field(const Options& o, const bp::StreamHeader& header) {
+  if (!o.field.empty()) return bp::parse_scale_field(bp::read_text(o.field), o.field);
+  bp::ScaleField field;
+  field.base = o.scale->in_world(header.bounds.diagonal(), header.frame.voxel);
+  return field;
+}
+
+bp::OptionText option_text(const Options& o, const bp::ScaleField& field) {
+  bp::OptionText text;
+  if (o.scale) {
+    text.add("scale", *o.scale);
+  } else {
+    text.add("field", bp::to_json(field));
+  }
+  text.add("element", o.closing.element == bp::StructuringElement::cube ? "cube" : "ball");
+  text.add("keep-cavities", o.keep_cavities);
+  return text;
+}
+
+/// How --memory is shared out: the program and the stream's batches, the shelves, the tiles at work.
+bp::CloseOptions stage_options(const Options& o, bp::Progress& progress) {
+  const std::uint64_t fixed = std::uint64_t(96) << 20, memory = o.common.memory_bytes;
+  const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
+  bp::CloseOptions options;
+  options.tile_vox = o.tile_vox;
+  options.keep_cavities = o.keep_cavities;
+  options.memory_bytes = usable / 2;
+  options.make_shelf = bp::make_shelf_factory(usable / 5 * 2, o.common.temp);
+  options.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
+                                                       std::uint64_t total) mutable {
+    if (last != stage) progress.begin(last = stage, total, unit);
+    progress.set(done, total);
+  };
+  return options;
+}
+
+bp::StreamHeader closed_header(const Options& o, const bp::StreamHeader& in, const bp::ScaleField& field) {
+  bp::StreamHeader header = in;
+  header.bricks = bp::closing_bricks(in, field);
+  header.slab_axis = in.slab_axis;
+  header.has_closing = true;
+  header.scale = field;
+  header.element = o.closing.element;
+  header.provenance.push_back(bp::make_provenance("bpclose", option_text(o, field)));
+  return header;
+}
+
+void run(const Options& o) {
+  bp::Report report("bpclose");
+  bp::Progress progress("bpclose", o.common.progress);
+  report.stage("open");
+  const auto output = bp::open_output(o.out, o.common.overwrite);
+  bp::BrickReader source(o.in);
+  const bp::ScaleField field = scale_field(o, source.header());
+  bp::Backends backends = bp::make_backends(o.common);
+  bp::BrickWriter sink(*output, closed_header(o, source.header(), field));
+
+  report.stage("close");
+  const bp::CloseCounts counts = bp::close_stream(source, sink, backends, field, o.closing, stage_options(o, progress));
+  sink.finish();
+  output->commit();
+
+  report.options["options"] = option_text(o, field).text();
+  report.options["memory"] = o.common.memory_bytes;
+  report.bytes_in = source.totals().bytes;
+  report.bytes_out = output->bytes();
+  report.counts = {{"backend", backends.front()->name()},
+                   {"tile_vox", counts.tile_vox},
+                   {"tiles", counts.tiles},
+                   {"tiles_closed", counts.tiles_closed},
+                   {"halo_vox", counts.halo_vox},
+                   {"solid_bricks", counts.solid_bricks},
+                   {"closing_bricks", counts.closing_bricks},
+                   {"cavity_voxels", counts.cavity_voxels}};
+  if (counts.ignored_bricks > 0) report.notes.push_back("the input's closing layer was made anew from its solid layer");
+  report.write(o.common);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return bp::run_tool("bpclose", argc, argv, parse, run);
+}
