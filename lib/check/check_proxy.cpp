@@ -110,7 +110,7 @@ CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene, const C
   measure(mesh, report);
   const Surface surface(mesh);
   report.self_intersections = surface.self_intersections(options.max_examples);
-  report.sides_decided = report.readable() && report.closed() && report.oriented();
+  report.sides_decided = report.closed() && report.oriented();
   if (report.sides_decided) report.inverted_components = inverted_components(mesh, surface, options.max_examples);
   if (scene != nullptr) check_scene(mesh, surface, *scene, options, report);
   return report;

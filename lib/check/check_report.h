@@ -86,7 +86,7 @@ struct CheckReport {
     return !empty() && bad_faces.count == 0 && non_finite_vertices.count == 0 && undecidable_vertices.count == 0;
   }
   [[nodiscard]] bool sound() const { return degenerate_triangles.count == 0 && duplicate_triangles.count == 0; }
-  [[nodiscard]] bool closed() const { return !empty() && boundary_edges.count == 0 && bad_faces.count == 0; }
+  [[nodiscard]] bool closed() const { return readable() && boundary_edges.count == 0; }
   [[nodiscard]] bool oriented() const { return misoriented_edges.count == 0; }
   [[nodiscard]] bool manifold() const { return nonmanifold_edges.count == 0 && nonmanifold_vertices.count == 0; }
   [[nodiscard]] bool embedded() const { return self_intersections.count == 0; }

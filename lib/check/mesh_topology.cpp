@@ -248,7 +248,7 @@ void check_topology(WeldedMesh& mesh, std::size_t max_examples, CheckReport& rep
   const auto faces = std::count_if(mesh.triangles.begin(), mesh.triangles.end(),
                                    [](const auto& t) { return !has_repeated_corner(t); });
   report.euler = std::int64_t(report.vertices) - std::int64_t(edges) + std::int64_t(faces);
-  if (report.readable() && report.closed() && report.oriented() && report.manifold())
+  if (report.closed() && report.oriented() && report.manifold())
     report.genus = std::int64_t(report.components) - report.euler / 2;
 }
 

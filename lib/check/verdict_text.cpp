@@ -1,0 +1,202 @@
+#include "lib/check/verdict_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace bp {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// How a finding is named, and what its examples' numbers are.
+struct FindingText {
+  Finding CheckReport::*finding;
+  const char* key;
+  const char* text;
+  const char* index;  ///< nullptr: none
+  const char* other;
+};
+
+constexpr FindingText kFindings[] = {
+    {&CheckReport::bad_faces, "bad_faces", "triangles name a vertex that does not exist", "triangle", nullptr},
+    {&CheckReport::non_finite_vertices, "non_finite_vertices", "vertices are not finite", "vertex", nullptr},
+    {&CheckReport::undecidable_vertices, "undecidable_vertices",
+     "vertices have coordinates beyond 1e90 or below 1e-90, where nothing can be proven", "vertex", nullptr},
+    {&CheckReport::degenerate_triangles, "degenerate_triangles", "triangles have no area", "triangle", nullptr},
+    {&CheckReport::duplicate_triangles, "duplicate_triangles", "triangles repeat another one", "triangle",
+     "earlier_triangle"},
+    {&CheckReport::boundary_edges, "boundary_edges", "edges have one triangle only: holes", "vertex", "other_vertex"},
+    {&CheckReport::misoriented_edges, "misoriented_edges", "edges join triangles of opposite orientation", "vertex",
+     "other_vertex"},
+    {&CheckReport::nonmanifold_edges, "nonmanifold_edges", "edges have more than two triangles", "vertex",
+     "other_vertex"},
+    {&CheckReport::nonmanifold_vertices, "nonmanifold_vertices", "vertices join separate fans of triangles", "vertex",
+     nullptr},
+    {&CheckReport::self_intersections, "self_intersections", "pairs of triangles intersect", "triangle",
+     "other_triangle"},
+    {&CheckReport::inverted_components, "inverted_components", "outer components face inwards", "triangle", nullptr},
+    {&CheckReport::touching, "touching", "scene triangles touch or cross the proxy", "scene_triangle", "triangle"},
+    {&CheckReport::outside, "outside", "scene triangles lie outside the proxy", "scene_triangle", nullptr},
+    {&CheckReport::undecidable_scene, "undecidable_scene",
+     "scene triangles have coordinates beyond 1e90 or below 1e-90, where nothing can be proven", "scene_triangle",
+     nullptr},
+};
+
+/// The scene may face inwards: its sign does not matter.
+double volume_ratio(const CheckReport& r) {
+  return r.volume / std::abs(*r.scene_volume);
+}
+
+std::string point_text(const Vec3d& p) {
+  return fmt::format("({:.9g}, {:.9g}, {:.9g})", p[0], p[1], p[2]);
+}
+
+std::string spaced(std::string s) {
+  for (char& c : s)
+    if (c == '_') c = ' ';
+  return s;
+}
+
+std::string finding_lines(const Finding& f, const FindingText& t) {
+  if (f.count == 0) return "";
+  std::string text = fmt::format("    {} {}\n", f.count, t.text);
+  for (const Example& e : f.examples) {
+    text += fmt::format("      {} {}", spaced(t.index), e.index);
+    if (t.other != nullptr) text += fmt::format(", {} {}", spaced(t.other), e.other);
+    text += fmt::format(" at {}\n", point_text(e.position));
+  }
+  if (f.count > f.examples.size() && !f.examples.empty()) text += "      ...\n";
+  return text;
+}
+
+std::string row(const char* question, bool yes) {
+  return fmt::format("  {:<28}{}\n", question, yes ? "yes" : "NO");
+}
+
+std::string undecided_row(const char* question) {
+  return fmt::format("  {:<28}NO (only a closed, oriented surface has an outside)\n", question);
+}
+
+std::string enclosure_row(const CheckReport& r) {
+  if (!r.has_scene) return "";
+  const char* question = "strictly encloses the scene";
+  return r.sides_decided ? row(question, r.encloses()) : undecided_row(question);
+}
+
+std::string scene_lines(const CheckReport& r) {
+  if (!r.has_scene) return "";
+  const SceneCounts& c = r.scene_counts;
+  std::string text = fmt::format("scene {}: {} triangles\n", r.scene_name, r.scene_triangles);
+  if (c.non_finite + c.degenerate + c.bad_faces != 0)
+    text += fmt::format("  left out: {} without area, {} not finite, {} faces without corners\n", c.degenerate,
+                        c.non_finite, c.bad_faces);
+  return text;
+}
+
+std::string distance_line(const char* name, const std::optional<SampledDistance>& d) {
+  if (!d) return "";
+  return fmt::format("  {:<28}{:.6g} largest, {:.6g} mean, of {} sampled points\n", name, d->max, d->mean, d->samples);
+}
+
+std::string measure_lines(const CheckReport& r) {
+  std::string text = fmt::format("  {:<28}{:.9g}\n", "volume", r.volume);
+  if (r.scene_volume)
+    text += fmt::format("  {:<28}{:.9g} (ratio {:.6g}; means something only if the scene is closed)\n",
+                        "volume of the scene", *r.scene_volume, volume_ratio(r));
+  text +=
+      fmt::format("  {:<28}{:.6g} to {:.6g}, {:.6g} on average\n", "edge lengths", r.edge_min, r.edge_max, r.edge_mean);
+  text += fmt::format("  {:<28}{:.4g} degrees\n", "least angle", r.angle_min_degrees);
+  text += distance_line("distance scene to proxy", r.scene_to_proxy);
+  text += distance_line("distance proxy to scene", r.proxy_to_scene);
+  if (!r.distance_note.empty()) text += fmt::format("  {}\n", r.distance_note);
+  return text;
+}
+
+Json json_of(const Finding& f, const FindingText& t) {
+  Json examples = Json::array();
+  for (const Example& e : f.examples) {
+    Json one = {{t.index, e.index}};
+    if (t.other != nullptr) one[t.other] = e.other;
+    one["position"] = e.position;
+    examples.push_back(std::move(one));
+  }
+  return {{"count", f.count}, {"examples", std::move(examples)}};
+}
+
+Json json_of(const std::optional<SampledDistance>& d) {
+  if (!d) return nullptr;
+  return {{"sampled", true}, {"samples", d->samples}, {"max", d->max}, {"mean", d->mean}, {"where", d->where}};
+}
+
+Json scene_json(const CheckReport& r) {
+  if (!r.has_scene) return nullptr;
+  const SceneCounts& c = r.scene_counts;
+  return {{"name", r.scene_name},
+          {"triangles", r.scene_triangles},
+          {"skipped", {{"degenerate", c.degenerate}, {"non_finite", c.non_finite}, {"bad_faces", c.bad_faces}}},
+          {"instances", c.instances}};
+}
+
+Json verdict_of(const CheckReport& r) {
+  Json v = {{"readable", r.readable()},
+            {"sound", r.sound()},
+            {"closed", r.closed()},
+            {"oriented", r.oriented()},
+            {"manifold", r.manifold()},
+            {"embedded", r.embedded()},
+            {"outward", r.sides_decided && r.outward()}};
+  v["encloses"] = r.has_scene ? Json(r.encloses()) : Json(nullptr);
+  return v;
+}
+
+}  // namespace
+
+std::string failures(const CheckReport& r) {
+  std::string text = r.empty() ? "the proxy is empty" : "";
+  for (const FindingText& t : kFindings) {
+    if ((r.*t.finding).count == 0) continue;
+    if (!text.empty()) text += "; ";
+    text += fmt::format("{} {}", (r.*t.finding).count, t.text);
+  }
+  return text;
+}
+
+std::string verdict_text(const CheckReport& r, const std::string& proxy_name) {
+  std::string text = fmt::format("proxy {}: {} triangles, {} vertices, {} component{}", proxy_name, r.triangles,
+                                 r.vertices, r.components, r.components == 1 ? "" : "s");
+  if (r.genus) text += fmt::format(", genus {}", *r.genus);
+  text += "\n" + scene_lines(r);
+  text += row("closed", r.closed()) + row("oriented", r.oriented()) + row("2-manifold", r.manifold());
+  text += row("free of self-intersections", r.embedded());
+  text += r.sides_decided ? row("facing outwards", r.outward()) : undecided_row("facing outwards");
+  text += row("no degenerate triangles", r.readable() && r.sound());
+  text += enclosure_row(r);
+  for (const FindingText& t : kFindings) text += finding_lines(r.*t.finding, t);
+  text += measure_lines(r);
+  return text + (r.holds() ? "holds\n" : fmt::format("does not hold: {}\n", failures(r)));
+}
+
+std::string verdict_json(const CheckReport& r, const std::string& proxy_name) {
+  Json findings = Json::object();
+  for (const FindingText& t : kFindings) findings[t.key] = json_of(r.*t.finding, t);
+  Json proxy = {{"name", proxy_name},         {"triangles", r.triangles},
+                {"vertices", r.vertices},     {"merged_vertices", r.merged_vertices},
+                {"components", r.components}, {"euler", r.euler}};
+  proxy["genus"] = r.genus ? Json(*r.genus) : Json(nullptr);
+  Json measures = {{"volume", r.volume}};
+  measures["scene_volume"] = r.scene_volume ? Json(*r.scene_volume) : Json(nullptr);
+  measures["volume_ratio"] = r.scene_volume ? Json(volume_ratio(r)) : Json(nullptr);
+  measures["edge_length"] = {{"min", r.edge_min}, {"mean", r.edge_mean}, {"max", r.edge_max}};
+  measures["angle_min_degrees"] = r.angle_min_degrees;
+  measures["scene_to_proxy"] = json_of(r.scene_to_proxy);
+  measures["proxy_to_scene"] = json_of(r.proxy_to_scene);
+  measures["note"] = r.distance_note;
+  const Json all = {{"holds", r.holds()},     {"verdict", verdict_of(r)}, {"proxy", proxy},
+                    {"scene", scene_json(r)}, {"findings", findings},     {"measures", measures}};
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace bp

@@ -1,0 +1,16 @@
+#pragma once
+#include "lib/check/check_report.h"
+
+/// The report for people and for programs. The same report gives the same bytes.
+namespace bp {
+
+/// Lines for a terminal, the last one the verdict: "holds" or "does not hold: ...".
+[[nodiscard]] std::string verdict_text(const CheckReport& report, const std::string& proxy_name);
+
+/// One JSON object, indented; numbers that are not finite become null. Keys and their order are part of the interface.
+[[nodiscard]] std::string verdict_json(const CheckReport& report, const std::string& proxy_name);
+
+/// What does not hold, in a few words: "not closed, 3 scene triangles outside"; empty if all holds.
+[[nodiscard]] std::string failures(const CheckReport& report);
+
+}  // namespace bp

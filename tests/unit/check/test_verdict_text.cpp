@@ -1,0 +1,51 @@
+#include <nlohmann/json.hpp>
+
+#include "lib/check/verdict_text.h"
+#include "tests/catch.h"
+#include "tests/unit/check/meshes.h"
+
+using namespace bp;
+using namespace bp::test;
+
+TEST_CASE("the text of a proxy that holds says so last", "[quick][check]") {
+  const std::string text = verdict_text(check(cube(2), triangles_of(cube(1))), "p.ply");
+  CHECK(text.find("proxy p.ply: 12 triangles, 8 vertices, 1 component, genus 0\n") == 0);
+  CHECK(text.find("strictly encloses the scene yes") != std::string::npos);
+  CHECK(text.find("NO") == std::string::npos);
+  CHECK(text.size() > 6);
+  CHECK(text.substr(text.size() - 6) == "holds\n");
+}
+
+TEST_CASE("the text of a failure names what, how often and where", "[quick][check]") {
+  const CheckReport r = check(cube(1), triangles_of(cube(0.5, {4, 0, 0})));
+  const std::string text = verdict_text(r, "p.ply");
+  CHECK(text.find("strictly encloses the scene NO") != std::string::npos);
+  CHECK(text.find("12 scene triangles lie outside the proxy") != std::string::npos);
+  CHECK(text.find("scene triangle 0 at (") != std::string::npos);
+  CHECK(text.find("\ndoes not hold: 12 scene triangles lie outside the proxy\n") != std::string::npos);
+  IndexedMesh open = cube(1);
+  open.triangles.pop_back();
+  CHECK(failures(check(open)) == "3 edges have one triangle only: holes");
+  CHECK(failures(check(IndexedMesh{})) == "the proxy is empty");
+  CHECK(failures(check(cube(1))).empty());
+}
+
+TEST_CASE("the JSON holds each answer, each finding and null for what was not measured", "[quick][check]") {
+  const auto alone = nlohmann::json::parse(verdict_json(check(cube(1)), "p.ply"));
+  CHECK(alone["holds"] == true);
+  CHECK(alone["scene"].is_null());
+  CHECK(alone["verdict"]["encloses"].is_null());
+  CHECK(alone["proxy"]["genus"] == 0);
+  CHECK(alone["findings"].size() == 14);
+  const auto both =
+      nlohmann::json::parse(verdict_json(check(cube(1), triangles_of(cube(0.5, {4, 0, 0}))), "bad \xff name"));
+  CHECK(both["holds"] == false);
+  CHECK(both["verdict"]["closed"] == true);
+  CHECK(both["verdict"]["encloses"] == false);
+  CHECK(both["findings"]["outside"]["count"] == 12);
+  CHECK(both["findings"]["outside"]["examples"].size() == 5);
+  CHECK(both["findings"]["outside"]["examples"][0]["scene_triangle"] == 0);
+  CHECK(both["measures"]["volume"] == 8);
+  CHECK(both["measures"]["scene_to_proxy"]["sampled"] == true);
+  CHECK(nlohmann::json::parse(verdict_json(check(IndexedMesh{}), ""))["proxy"]["genus"].is_null());
+}

@@ -1,0 +1,161 @@
+// bpcheck: scene and proxy in, verdict out. Manual: docs/bpcheck.1.md
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/png_writer.h"
+#include "io/scene_reader.h"
+#include "lib/check/check_proxy.h"
+#include "lib/check/verdict_text.h"
+#include "lib/core/predicates.h"
+#include "lib/image/render.h"
+#include "tools/common/report.h"
+#include "tools/common/run_tool.h"
+
+namespace {
+
+struct Options {
+  bp::CommonOptions common;
+  std::vector<std::string> files;  // scenes, then the proxy
+  std::string format;
+  bool json = false, no_distances = false;
+  std::uint64_t examples = 5, samples = 5000;
+  std::string image;
+  int image_size = 720;
+  bp::UpAxis up = bp::UpAxis::y;
+  double azimuth = 35, elevation = 22;
+};
+
+Options parse(bp::Args& args) {
+  Options o;
+  args.about(
+      "Proves that a proxy is closed, oriented, 2-manifold, free of self-intersections and strictly encloses its "
+      "scenes, or says where not. Exact for the coordinates as read. Exit status: 0 all holds, 1 not.");
+  args.positional("[SCENE...] PROXY", o.files, "scenes and their proxy; PROXY alone is checked as a mesh");
+  args.option("--format", "NAME", o.format, "format of a scene that is -, or whose name does not tell");
+  args.flag("--json", o.json, "print the verdict as JSON");
+  args.option("--examples", "N", o.examples, "places named per kind of failure");
+  args.flag("--no-distances", o.no_distances, "leave the sampled distances out");
+  args.option("--samples", "N", o.samples, "triangles sampled for distances, on either side");
+  args.option("--image", "FILE", o.image, "draw scene and proxy side by side as PNG");
+  args.option("--image-size", "PIXELS", o.image_size, "side of a panel of the image");
+  args.option("--up", {{"y", bp::UpAxis::y}, {"z", bp::UpAxis::z}}, o.up, "axis that points up in the image");
+  args.option("--azimuth", "DEGREES", o.azimuth, "where the viewer stands, from the front to the right");
+  args.option("--elevation", "DEGREES", o.elevation, "how far above the horizon the viewer stands");
+  o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
+  args.example("bpcheck scene.glb proxy.glb --image both.png");
+  args.parse();
+  return o;
+}
+
+/// Counts what passes through.
+class WatchedSource : public bp::TriangleSource {
+ public:
+  WatchedSource(bp::TriangleSource& source, bp::Progress& progress) : source_(source), progress_(progress) {}
+  bool read(std::vector<bp::TriangleD>& out) override {
+    const bool more = source_.read(out);
+    progress_.add(out.size());
+    return more;
+  }
+  void rewind() override { source_.rewind(); }
+  [[nodiscard]] const bp::SceneCounts& counts() const override { return source_.counts(); }
+  [[nodiscard]] std::string name() const override { return source_.name(); }
+
+ private:
+  bp::TriangleSource& source_;
+  bp::Progress& progress_;
+};
+
+bp::Bounds3d bounds_of(const bp::IndexedMesh& mesh, bp::TriangleSource* scene) {
+  bp::Bounds3d bounds;
+  const auto add = [&](const bp::Vec3d& p) {
+    if (bp::in_predicate_domain(p)) bounds.add(p);
+  };
+  std::for_each(mesh.vertices.begin(), mesh.vertices.end(), add);
+  if (scene == nullptr) return bounds;
+  std::vector<bp::TriangleD> batch;
+  for (scene->rewind(); scene->read(batch);)
+    for (const bp::TriangleD& t : batch) std::for_each(t.begin(), t.end(), add);
+  return bounds;
+}
+
+std::string file_name(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+void draw(const Options& o, const bp::IndexedMesh& proxy, bp::TriangleSource* scene, const bp::CheckReport& report) {
+  std::vector<bp::View> views;
+  if (scene != nullptr) {
+    views.emplace_back();
+    views[0].source = scene;
+    views[0].label = fmt::format("{}\n{} triangles", file_name(o.files[0]), report.scene_triangles);
+    if (o.files.size() > 2)
+      views[0].label.insert(0, fmt::format("{} and {} more: ", file_name(o.files[0]), o.files.size() - 2));
+  }
+  bp::View& view = views.emplace_back();
+  view.mesh = &proxy;
+  view.edges = true;
+  view.color = {238, 192, 130};
+  view.label = fmt::format("{}\n{} triangles, {}", file_name(o.files.back()), report.triangles,
+                           report.holds() ? "holds" : "does not hold");
+  bp::RenderOptions options;
+  options.panel_width = options.panel_height = o.image_size;
+  options.azimuth = o.azimuth, options.elevation = o.elevation, options.up = o.up;
+  options.bounds = bounds_of(proxy, scene);
+  bp::write_png(bp::render(views, options), o.image, o.common.overwrite);
+}
+
+void fill_report(bp::Report& report, const Options& o, const bp::CheckReport& verdict) {
+  report.options = {{"distances", !o.no_distances}, {"samples", o.samples}, {"examples", o.examples}};
+  report.counts = {{"holds", verdict.holds()},
+                   {"proxy_triangles", verdict.triangles},
+                   {"scene_triangles", verdict.scene_triangles},
+                   {"self_intersections", verdict.self_intersections.count},
+                   {"touching", verdict.touching.count},
+                   {"outside", verdict.outside.count}};
+  if (!verdict.distance_note.empty()) report.notes.push_back(verdict.distance_note);
+}
+
+int run(const Options& o) {
+  bp::Report report("bpcheck");
+  report.stage("read the proxy");
+  bp::SceneOptions scene_options;
+  scene_options.format = o.format;
+  scene_options.memory_bytes = o.common.memory_bytes / 4;
+  scene_options.temp_dir = o.common.temp;
+  const bp::IndexedMesh proxy = bp::read_mesh(o.files.back(), scene_options);
+  std::unique_ptr<bp::TriangleSource> scene;
+  if (o.files.size() > 1) scene = bp::open_scenes({o.files.begin(), o.files.end() - 1}, scene_options);
+
+  report.stage("check");
+  bp::CheckOptions check_options;
+  check_options.max_examples = o.examples;
+  check_options.distances = !o.no_distances;
+  check_options.distance_samples = o.samples;
+  check_options.scene_memory_bytes = o.common.memory_bytes / 2;
+  bp::Progress progress("bpcheck", o.common.progress);
+  progress.begin("check", 0, "triangles");
+  std::unique_ptr<WatchedSource> watched;
+  if (scene) watched = std::make_unique<WatchedSource>(*scene, progress);
+  const bp::CheckReport verdict = bp::check_proxy(proxy, watched.get(), check_options);
+  progress.end();
+
+  if (!o.image.empty()) {
+    report.stage("draw");
+    draw(o, proxy, scene.get(), verdict);
+  }
+  const std::string name = file_name(o.files.back());
+  bp::OutputFile out("-", true);
+  out.write(o.json ? bp::verdict_json(verdict, name) : bp::verdict_text(verdict, name));
+  out.commit();
+  report.bytes_out = out.bytes();
+  fill_report(report, o, verdict);
+  report.write(o.common);
+  return verdict.holds() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return bp::run_tool("bpcheck", argc, argv, parse, run);
+}
