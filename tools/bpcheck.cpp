@@ -1,13 +1,10 @@
 // bpcheck: scene and proxy in, verdict out. Manual: docs/bpcheck.1.md
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "io/png_writer.h"
 #include "io/scene_reader.h"
 #include "lib/check/check_proxy.h"
 #include "lib/check/verdict_text.h"
-#include "lib/core/predicates.h"
 #include "lib/image/render.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
@@ -66,19 +63,6 @@ class WatchedSource : public bp::TriangleSource {
   bp::Progress& progress_;
 };
 
-bp::Bounds3d bounds_of(const bp::IndexedMesh& mesh, bp::TriangleSource* scene) {
-  bp::Bounds3d bounds;
-  const auto add = [&](const bp::Vec3d& p) {
-    if (bp::in_predicate_domain(p)) bounds.add(p);
-  };
-  std::for_each(mesh.vertices.begin(), mesh.vertices.end(), add);
-  if (scene == nullptr) return bounds;
-  std::vector<bp::TriangleD> batch;
-  for (scene->rewind(); scene->read(batch);)
-    for (const bp::TriangleD& t : batch) std::for_each(t.begin(), t.end(), add);
-  return bounds;
-}
-
 std::string file_name(const std::string& path) {
   return path.substr(path.rfind('/') + 1);
 }
@@ -101,7 +85,6 @@ void draw(const Options& o, const bp::IndexedMesh& proxy, bp::TriangleSource* sc
   bp::RenderOptions options;
   options.panel_width = options.panel_height = o.image_size;
   options.azimuth = o.azimuth, options.elevation = o.elevation, options.up = o.up;
-  options.bounds = bounds_of(proxy, scene);
   bp::write_png(bp::render(views, options), o.image, o.common.overwrite);
 }
 

@@ -31,37 +31,44 @@ bool corners_of(const IndexedMesh& mesh, std::size_t t, TriangleD& corners) {
   return true;
 }
 
-/// f(p) for each finite corner of the meshes and triangles.
+/// f(p) for each finite corner of all that is to be drawn.
 template <class F>
 void for_each_corner(std::span<const View> views, const F& f) {
   TriangleD corners;
-  const auto visit = [&](const Vec3d& p) {
-    if (finite(p)) f(p);
+  std::vector<TriangleD> batch;
+  const auto visit = [&](const TriangleD& t) {
+    for (const Vec3d& p : t)
+      if (finite(p)) f(p);
   };
   for (const View& v : views) {
     for (std::size_t t = 0; v.mesh != nullptr && t < v.mesh->triangles.size(); ++t)
-      if (corners_of(*v.mesh, t, corners)) std::for_each(corners.begin(), corners.end(), visit);
-    for (const TriangleD& t : v.triangles) std::for_each(t.begin(), t.end(), visit);
+      if (corners_of(*v.mesh, t, corners)) visit(corners);
+    std::for_each(v.triangles.begin(), v.triangles.end(), visit);
+    if (v.source == nullptr) continue;
+    for (v.source->rewind(); v.source->read(batch);) std::for_each(batch.begin(), batch.end(), visit);
   }
+}
+
+std::vector<Vec3d> corners_of(const Bounds3d& b) {
+  std::vector<Vec3d> corners(b.empty() ? 0 : 8);
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    for (std::size_t i = 0; i < 3; ++i) corners[c][i] = (c >> i & 1) != 0 ? b.max[i] : b.min[i];
+  return corners;
 }
 
 /// Aims at the given bounds or, without them, at what there is. False if that is nothing.
 bool aim(Camera& camera, std::span<const View> views, const RenderOptions& options) {
-  Bounds3d bounds = options.bounds, seen;
-  if (bounds.empty()) for_each_corner(views, [&](const Vec3d& p) { bounds.add(p); });
-  if (bounds.empty()) return false;
-  Vec3d centre;
-  for (std::size_t i = 0; i < 3; ++i) centre[i] = bounds.min[i] / 2 + bounds.max[i] / 2;
-  camera.look_at(centre);
+  Bounds3d seen;
+  const auto see = [&](const Vec3d& p) {
+    if (seen.empty()) camera.look_at(p);  // any point of the scene will do
+    seen.add(camera.seen(p));
+  };
   if (options.bounds.empty()) {
-    for_each_corner(views, [&](const Vec3d& p) { seen.add(camera.seen(p)); });
+    for_each_corner(views, see);
   } else {
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      Vec3d p;
-      for (std::size_t i = 0; i < 3; ++i) p[i] = (corner >> i & 1) != 0 ? bounds.max[i] : bounds.min[i];
-      seen.add(camera.seen(p));
-    }
+    for (const Vec3d& p : corners_of(options.bounds)) see(p);
   }
+  if (seen.empty()) return false;
   camera.fit(seen, options.panel_width * kSamples, options.panel_height * kSamples);
   return true;
 }

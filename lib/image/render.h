@@ -27,7 +27,7 @@ struct RenderOptions {
   double azimuth = 35;  ///< degrees that the viewer stands to the right of the front (-y of a z-up scene, +z of a y-up)
   double elevation = 22;  ///< degrees above the horizon
   UpAxis up = UpAxis::y;
-  Bounds3d bounds;  ///< what to show, scene units; empty: the bounds of all meshes and triangles
+  Bounds3d bounds;  ///< what to show, scene units; empty: all that is drawn, as large as it fits
   Color background{255, 255, 255}, ink{40, 44, 52};
 };
 
