@@ -83,7 +83,6 @@ bp::OptionText option_text(const Options& o) {
     text.add("resolution", o.resolution.value_or(kDefaultResolution));
   }
   text.add("fill", name_of(o.fill)).add("up", o.up == bp::UpAxis::y ? "y" : "z");
-  if (!o.format.empty()) text.add("format", o.format);
   return text;
 }
 

@@ -214,8 +214,13 @@ void Run::measure() {
   }
   counts_.scene = source_.counts();
   counts_.input_hash = hash.hex();
-  if (bounds_.empty())
-    fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one with an area", source_.name());
+  if (bounds_.empty()) {
+    const SceneCounts& c = counts_.scene;
+    fail(ErrorCode::bad_input,
+         "{}: no triangles ({} degenerate, {} non-finite, {} bad faces skipped); a scene needs at least one with an "
+         "area",
+         source_.name(), c.degenerate, c.non_finite, c.bad_faces);
+  }
 }
 
 void Run::lay_grid() {

@@ -1,0 +1,30 @@
+# What bpvox refuses, what it says, and that no output stays behind.
+write_cube cube.obj
+: > empty.obj
+printf 'v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' > nan.obj
+printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\nf 1 2 9\n' > partly.obj
+try bpvox
+try bpvox missing.obj -o out.bp
+try bpvox empty.obj -o out.bp
+try bpvox nan.obj -o out.bp
+try bpvox . -o out.bp
+try bpvox cube.obj --voxel 0 -o out.bp
+try bpvox cube.obj --voxel -1 -o out.bp
+try bpvox cube.obj --voxel nan -o out.bp
+try bpvox cube.obj --voxel 3vx -o out.bp
+try bpvox cube.obj --voxel 1 --resolution 5 -o out.bp
+try bpvox cube.obj --resolution 0 -o out.bp
+try bpvox cube.obj --voxel 1e-7 -o out.bp
+try bpvox cube.obj --voxel 1e-12 -o out.bp
+try bpvox cube.obj --fill concrete -o out.bp
+try bpvox cube.obj --up x -o out.bp
+try bpvox - -o out.bp
+try bpvox cube.obj --temp missing -o out.bp
+try bpvox cube.obj -o missing/out.bp
+touch out.bp
+try bpvox cube.obj -o out.bp
+rm out.bp
+try bpvox cube.obj -o /dev/full
+said 'bpvox cube.obj --resolution 300 | head -c 10 | wc -c'
+try bpvox partly.obj --voxel 0.25 -o partly.bp
+files
