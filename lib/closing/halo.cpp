@@ -141,4 +141,8 @@ Halo halo_of(const VoxelBox& tile, const ScaleField& scale, const GridFrame& fra
   return halo;
 }
 
+std::int32_t element_reach(Scale s) {
+  return std::max(cube_radius(s), detail::ball_reach(ball_bound(s)));
+}
+
 }  // namespace bp

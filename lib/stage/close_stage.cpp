@@ -9,7 +9,6 @@
 #include <mutex>
 #include <set>
 
-#include "lib/closing/detail/scale_row.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/outside.h"
@@ -22,14 +21,9 @@ namespace {
 constexpr double kMaxTiles = 1 << 27;      // the fill asks every tile; beyond, a grid is a slip of the finger
 constexpr std::int32_t kMaxTileVox = 512;  // beyond, halos cost little and tiles get few
 
-/// Farthest that anything reaches at scale `s`, voxels.
-std::int32_t reach_of(Scale s) {
-  return std::max(cube_radius(s), detail::ball_reach(ball_bound(s)));
-}
-
 /// The halo of any tile where `s` is the largest scale.
 Halo widest_halo(Scale s) {
-  return {reach_of(s) + 1, reach_of(s)};
+  return {element_reach(s) + 1, element_reach(s)};
 }
 
 /// Bytes that closing one tile of a grid takes, every voxel of tile and halo in play: the boxes of close_tile, and as
@@ -413,7 +407,7 @@ void Run::emit(const LayerTiles& tiles) {
 
 BrickBox closing_bricks(const StreamHeader& header, const ScaleField& scale) {
   if (header.bricks.empty()) return header.bricks;
-  const std::int32_t margin = ceil_div(reach_of(scale.upper_bound(header.frame)) + 1, kBrickEdge);
+  const std::int32_t margin = ceil_div(element_reach(scale.upper_bound(header.frame)) + 1, kBrickEdge);
   constexpr std::int32_t kLimit = std::numeric_limits<std::int32_t>::max() / kBrickEdge - 128;  // halos included
   for (int axis = 0; axis < 3; ++axis) {
     if (header.bricks.min[axis] < margin - kLimit || header.bricks.max[axis] > kLimit - margin)
