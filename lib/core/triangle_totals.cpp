@@ -1,0 +1,57 @@
+#include "lib/core/triangle_totals.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bp {
+
+namespace {
+
+Vec3d minus(const Vec3d& a, const Vec3d& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Vec3d cross(const Vec3d& a, const Vec3d& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Vec3d& a, const Vec3d& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+XXH128_hash_t hash_of(TriangleD t) {
+  for (Vec3d& p : t) {
+    for (double& c : p) c = std::isnan(c) ? std::numeric_limits<double>::quiet_NaN() : c + 0.0;
+  }
+  if (t[0] == t[0] && t[1] == t[1] && t[2] == t[2])
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  static_assert(sizeof(TriangleD) == 72);
+  return XXH3_128bits(&t, sizeof t);
+}
+
+}  // namespace
+
+void TriangleTotals::add(std::span<const TriangleD> batch) {
+  for (const TriangleD& t : batch) {
+    const XXH128_hash_t hash = hash_of(t);
+    checksum_low += hash.low64;
+    checksum_high += hash.high64 + (checksum_low < hash.low64 ? 1 : 0);
+    ++triangles;
+    const Vec3d normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+    const double twice_area = std::sqrt(dot(normal, normal));
+    if (!std::isfinite(twice_area)) continue;
+    if (bounds.empty()) origin_ = t[0];
+    for (const Vec3d& p : t) bounds.add(p);
+    area += twice_area / 2;
+    six_volumes_ += dot(minus(t[0], origin_), cross(minus(t[1], origin_), minus(t[2], origin_)));
+  }
+  volume = six_volumes_ / 6;
+}
+
+std::string TriangleTotals::checksum() const {
+  return fmt::format("{:016x}{:016x}", checksum_high, checksum_low);
+}
+
+}  // namespace bp

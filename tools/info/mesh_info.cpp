@@ -1,0 +1,134 @@
+#include "tools/info/mesh_info.h"
+
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+
+#include "io/file.h"
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::size_t kHeadBytes = 65536;  // comments stand at the start
+constexpr std::size_t kMaxJsonBytes = 64u << 20;
+
+std::uint64_t count_positions(const std::vector<TriangleD>& triangles) {
+  std::vector<Vec3d> points;
+  points.reserve(triangles.size() * 3);
+  for (const TriangleD& t : triangles) points.insert(points.end(), t.begin(), t.end());
+  std::sort(points.begin(), points.end());
+  return std::uint64_t(std::unique(points.begin(), points.end()) - points.begin());
+}
+
+/// Up to `n` bytes from `offset`.
+std::string bytes_at(const InputFile& file, std::uint64_t offset, std::size_t n) {
+  std::string bytes(n, '\0');
+  bytes.resize(file.read_at(offset, std::as_writable_bytes(std::span(bytes))));
+  return bytes;
+}
+
+std::vector<std::string> from_comments(const std::string& head) {
+  std::vector<std::string> steps;
+  std::istringstream lines(head);
+  for (std::string line; std::getline(lines, line);) {
+    for (const std::string start : {"comment provenance: ", "# provenance: "}) {
+      if (line.compare(0, start.size(), start) == 0) steps.push_back(line.substr(start.size()));
+    }
+  }
+  return steps;
+}
+
+std::vector<std::string> from_gltf(const std::string& text) {
+  const Json document = Json::parse(text, nullptr, false);
+  const Json none = Json::array();
+  const Json* steps = &document;
+  for (const char* key : {"asset", "extras", "provenance"}) {
+    if (!steps->is_object() || !steps->contains(key)) return {};
+    steps = &steps->at(key);
+  }
+  std::vector<std::string> lines;
+  for (const Json& step : steps->is_array() ? *steps : none) {
+    std::string line;
+    for (const char* key : {"tool", "version", "options"}) {
+      if (!step.is_object() || !step.contains(key) || !step.at(key).is_string()) return {};
+      line += (line.empty() ? "" : " ") + step.at(key).get<std::string>();
+    }
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace
+
+MeshInfo measure(TriangleSource& source) {
+  MeshInfo info;
+  std::vector<TriangleD> batch;
+  while (source.read(batch)) {
+    info.totals.add(batch);
+    if (info.totals.triangles <= MeshInfo::kMaxKept) {
+      info.triangles.insert(info.triangles.end(), batch.begin(), batch.end());
+    } else {
+      info.triangles = {};
+    }
+  }
+  info.counts = source.counts();
+  if (info.triangles.size() == info.totals.triangles) info.vertices = count_positions(info.triangles);
+  return info;
+}
+
+std::vector<std::string> mesh_provenance(const std::string& path) {
+  if (path == "-") return {};
+  const InputFile file(path);
+  if (!file.seekable()) return {};
+  const std::string head = bytes_at(file, 0, kHeadBytes);
+  if (head.compare(0, 4, "glTF") == 0 && head.size() >= 20) {
+    std::uint32_t json_bytes;
+    std::memcpy(&json_bytes, head.data() + 12, 4);
+    return json_bytes > kMaxJsonBytes ? std::vector<std::string>{} : from_gltf(bytes_at(file, 20, json_bytes));
+  }
+  const std::size_t first = head.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && head[first] == '{')
+    return file.size() > kMaxJsonBytes ? std::vector<std::string>{} : from_gltf(bytes_at(file, 0, file.size()));
+  return from_comments(head);
+}
+
+std::string mesh_text(const MeshInfo& info, const std::string& name) {
+  const TriangleTotals& t = info.totals;
+  const auto point = [](const Vec3d& p) { return fmt::format("{} {} {}", p[0], p[1], p[2]); };
+  std::string s = fmt::format("{}: mesh\n", name);
+  s += fmt::format("triangles   {}\n", t.triangles);
+  if (info.vertices) s += fmt::format("vertices    {}\n", *info.vertices);
+  const SceneCounts& c = info.counts;
+  if (c.instances > 1) s += fmt::format("instances   {}\n", c.instances);
+  if (c.degenerate + c.non_finite + c.bad_faces > 0) {
+    s += fmt::format("skipped     {} degenerate, {} not finite, {} broken\n", c.degenerate, c.non_finite, c.bad_faces);
+  }
+  if (!t.bounds.empty()) {
+    s += fmt::format("bounds      {} to {}, diagonal {:.6g}\n", point(t.bounds.min), point(t.bounds.max),
+                     t.bounds.diagonal());
+    s += fmt::format("area        {:.6g}\nvolume      {:.6g}\n", t.area, t.volume);
+  }
+  for (const std::string& step : info.provenance) s += fmt::format("made by     {}\n", step);
+  return s + fmt::format("checksum    {}\n", t.checksum());
+}
+
+Json mesh_json(const MeshInfo& info) {
+  const TriangleTotals& t = info.totals;
+  const SceneCounts& c = info.counts;
+  Json j{{"kind", "mesh"}, {"checksum", t.checksum()}, {"triangles", t.triangles}};
+  if (info.vertices) j["vertices"] = *info.vertices;
+  j["instances"] = c.instances;
+  j["skipped"] = {{"degenerate", c.degenerate}, {"non_finite", c.non_finite}, {"bad_faces", c.bad_faces}};
+  if (!t.bounds.empty()) {
+    j["bounds"] = {{"min", t.bounds.min}, {"max", t.bounds.max}};
+    j["area"] = t.area;
+    j["volume"] = t.volume;
+  }
+  j["provenance"] = info.provenance;
+  return j;
+}
+
+}  // namespace bp

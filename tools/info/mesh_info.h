@@ -1,0 +1,33 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/core/triangle_source.h"
+#include "lib/core/triangle_totals.h"
+#include "tools/common/report.h"
+
+/// What bpinfo says of a mesh or scene.
+namespace bp {
+
+struct MeshInfo {
+  SceneCounts counts;
+  TriangleTotals totals;
+  std::optional<std::uint64_t> vertices;  ///< distinct positions; unknown for scenes above kMaxKept triangles
+  std::vector<TriangleD> triangles;       ///< all of them, or none if there are more than kMaxKept
+  std::vector<std::string> provenance;    ///< a line each step, as written by bpmesh
+
+  static constexpr std::size_t kMaxKept = 1000000;
+};
+
+/// Streams `source` once; memory is bounded by kMaxKept.
+[[nodiscard]] MeshInfo measure(TriangleSource& source);
+
+/// The steps that bpmesh wrote into a mesh: comments of PLY and OBJ, asset.extras of glTF and GLB. Empty if there are
+/// none, or if the file cannot be understood.
+[[nodiscard]] std::vector<std::string> mesh_provenance(const std::string& path);
+
+[[nodiscard]] std::string mesh_text(const MeshInfo& info, const std::string& name);
+[[nodiscard]] Json mesh_json(const MeshInfo& info);
+
+}  // namespace bp

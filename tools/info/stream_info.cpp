@@ -1,0 +1,137 @@
+#include "tools/info/stream_info.h"
+
+#include <fmt/ranges.h>
+
+#include <bit>
+
+#include "tools/common/length.h"
+
+namespace bp {
+
+namespace {
+
+constexpr const char* kLayerNames[] = {"solid", "closing"};
+
+const char* name_of(FillMode fill) {
+  return fill == FillMode::flood ? "flood" : fill == FillMode::winding ? "winding" : "none";
+}
+const char* name_of(StructuringElement element) {
+  return element == StructuringElement::ball ? "ball" : "cube";
+}
+const char* name_of(UpAxis up) {
+  return up == UpAxis::y ? "y" : "z";
+}
+const char* axis_name(int axis) {
+  return axis == 0 ? "x" : axis == 1 ? "y" : "z";
+}
+
+int layer_count(const StreamHeader& h) {
+  return h.has_closing ? 2 : 1;
+}
+
+double volume_world(const StreamHeader& h, std::uint64_t voxels) {
+  return double(voxels) * h.frame.voxel * h.frame.voxel * h.frame.voxel;
+}
+
+std::string point(const Vec3d& p) {
+  return fmt::format("{} {} {}", p[0], p[1], p[2]);
+}
+
+std::string coord(BrickCoord c) {
+  return fmt::format("{} {} {}", c.x, c.y, c.z);
+}
+
+std::string scale_text(const ScaleField& s) {
+  if (s.constant()) return fmt::format("{}", s.base);
+  return fmt::format("{}, {} boxes, {} brush strokes", s.base, s.boxes.size(), s.strokes.size());
+}
+
+/// How much smaller the file is than the bits of the voxels of its bricks.
+double ratio(const StreamTotals& t) {
+  const std::uint64_t bricks = t.layers[0].bricks + t.layers[1].bricks;
+  return double(bricks) * kBrickWords * 8 / double(t.bytes);
+}
+
+std::string layer_text(const StreamHeader& h, const StreamTotals& t, int layer) {
+  const LayerTotals& l = t.layers[std::size_t(layer)];
+  return fmt::format("{:<11} {} voxels, volume {:.6g}, {} bricks ({} full, {} mixed)\n", kLayerNames[layer], l.voxels,
+                     volume_world(h, l.voxels), l.bricks, l.full, l.bricks - l.full);
+}
+
+}  // namespace
+
+std::string stream_text(const StreamHeader& h, const StreamTotals& t, const std::string& name) {
+  const BrickCoord size = h.bricks.size();
+  std::string s = fmt::format("{}: brick stream, {}\n", name, size_text(t.bytes));
+  s += fmt::format("voxel       {}\n", h.frame.voxel);
+  s += fmt::format("grid        {} x {} x {} bricks from {}; {} is up, slabs across {}\n", size.x, size.y, size.z,
+                   coord(h.bricks.min), name_of(h.frame.up), axis_name(h.slab_axis));
+  if (!h.bounds.empty())
+    s += fmt::format("scene       {} to {}, diagonal {:.6g}\n", point(h.bounds.min), point(h.bounds.max),
+                     h.bounds.diagonal());
+  s += fmt::format("fill        {}\n", name_of(h.fill));
+  if (h.has_closing) s += fmt::format("element     {}\nscale       {}\n", name_of(h.element), scale_text(h.scale));
+  for (const Provenance& p : h.provenance) s += fmt::format("made by     {} {} {}\n", p.tool, p.version, p.options);
+  for (int layer = 0; layer < layer_count(h); ++layer) s += layer_text(h, t, layer);
+  if (h.has_closing && t.layers[0].voxels > 0)
+    s += fmt::format("grown       {:.4g} times\n", double(t.layers[1].voxels) / double(t.layers[0].voxels));
+  s += fmt::format("compressed  {:.3g} to 1\n", ratio(t));
+  return s + fmt::format("checksum    {}\n", t.checksum());
+}
+
+Json stream_json(const StreamHeader& h, const StreamTotals& t) {
+  const auto list = [](BrickCoord c) { return Json::array({c.x, c.y, c.z}); };
+  Json j{{"kind", "brick stream"}, {"bytes", t.bytes}, {"checksum", t.checksum()}};
+  j["voxel"] = h.frame.voxel;
+  j["origin_voxels"] = h.frame.origin;
+  j["up"] = name_of(h.frame.up);
+  if (!h.bounds.empty()) j["bounds"] = {{"min", h.bounds.min}, {"max", h.bounds.max}};
+  j["bricks"] = {{"min", list(h.bricks.min)}, {"max", list(h.bricks.max)}};
+  j["slab_axis"] = axis_name(h.slab_axis);
+  j["fill"] = name_of(h.fill);
+  if (h.has_closing) {
+    j["element"] = name_of(h.element);
+    j["scale"] = Json::parse(to_json(h.scale));
+  }
+  j["layers"] = Json::object();
+  for (int layer = 0; layer < layer_count(h); ++layer) {
+    const LayerTotals& l = t.layers[std::size_t(layer)];
+    j["layers"][kLayerNames[layer]] = {{"voxels", l.voxels},
+                                       {"volume", volume_world(h, l.voxels)},
+                                       {"bricks", l.bricks},
+                                       {"full", l.full},
+                                       {"mixed", l.bricks - l.full}};
+  }
+  j["ratio"] = ratio(t);
+  j["provenance"] = Json::array();
+  for (const Provenance& p : h.provenance) {
+    j["provenance"].push_back(
+        {{"tool", p.tool}, {"version", p.version}, {"options", p.options}, {"input_hash", p.input_hash}});
+  }
+  return j;
+}
+
+std::string dump_header(const StreamHeader& h) {
+  const auto& o = h.frame.origin;
+  std::string s = fmt::format("voxel {} origin {} {} {} up {}\n", h.frame.voxel, o[0], o[1], o[2], name_of(h.frame.up));
+  if (!h.bounds.empty()) s += fmt::format("bounds {} to {}\n", point(h.bounds.min), point(h.bounds.max));
+  s += fmt::format("bricks {} to {} slabs {}\n", coord(h.bricks.min), coord(h.bricks.max), axis_name(h.slab_axis));
+  s += fmt::format("fill {}\n", name_of(h.fill));
+  if (h.has_closing) s += fmt::format("element {}\nscale {}\n", name_of(h.element), to_json(h.scale));
+  for (const Provenance& p : h.provenance)
+    s += fmt::format("provenance {} {} [{}] {}\n", p.tool, p.version, p.options, p.input_hash);
+  return s;
+}
+
+std::string dump_brick(const Brick& brick) {
+  std::uint64_t voxels = 0;
+  for (const std::uint64_t w : brick.bits) voxels += std::uint64_t(std::popcount(w));
+  return fmt::format("{} {} {} {}\n", coord(brick.coord), kLayerNames[int(brick.layer)],
+                     brick.fill == BrickFill::full ? "full" : "mixed", voxels);
+}
+
+std::string dump_end(const StreamTotals& t) {
+  return fmt::format("end solid {} closing {} checksum {}\n", t.layers[0].voxels, t.layers[1].voxels, t.checksum());
+}
+
+}  // namespace bp
