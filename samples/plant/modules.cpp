@@ -12,6 +12,12 @@ void ground(Parts& p) {
   p.box({-0.1, -0.5, -0.1}, {kPlot + 0.1, 0, kPlot + 0.1});
 }
 
+void drums(Parts& p, Vec corner, int rows) {
+  for (int k = 0; k < rows; ++k) {
+    for (int i = 0; i < 20; ++i) p.drum(corner + Vec{0.7 * i, 0, 0.7 * k});
+  }
+}
+
 /// Steel frames with vessels inside, distillation columns beside them, pumps in front, pipes between all of them.
 void process(Parts& p) {
   const int bays = p.random.integer(3, 4), levels = p.random.integer(2, 4);
@@ -43,7 +49,8 @@ void tanks(Parts& p) {
   for (const double z : {0.8, 25.0, 49.0}) p.box({1, 0, z - 0.2}, {59, 1.5, z + 0.2});  // bund walls
   for (const double x : {1.0, 30.0, 59.0}) p.box({x - 0.2, 0, 0.8}, {x + 0.2, 1.5, 49});
   for (int i = 0; i < 14; ++i) {
-    const double z = 23.0 + 0.6 * (i % 7), x = p.random.uniform(3, 10), y = 0.7 + 0.45 * (i / 7);
+    const int layer = i / 7;
+    const double z = 23.0 + 0.6 * (i % 7), x = p.random.uniform(3, 10), y = 0.7 + 0.45 * layer;
     const double far = p.random.uniform(40, 57);
     p.pipe({{x, y, z}, {far, y, z}, {far, y + 0.9, z}, {far, y + 0.9, z + 14}, {far, 0.3, z + 14}},
            p.random.uniform(0.08, 0.2));
@@ -96,7 +103,7 @@ void hall(Parts& p) {
     p.cylinder({x + 5 + 9.0 * i, ridge - 1, z + d / 2}, kUp, 0.7, 2.2, 12);
     p.ladder({x - 0.4, 0, z + 4 + 6.0 * i}, h, kX * -1, true);
   }
-  for (int i = 0; i < 40; ++i) p.drum({x + 2 + 0.7 * (i % 20), 0, z + 2 + 0.7 * (i / 20)});
+  drums(p, {x + 2, 0, z + 2}, 2);
 }
 
 void spheres(Parts& p) {
@@ -105,7 +112,8 @@ void spheres(Parts& p) {
   p.platform({3, 5, 36}, 48, 3, true);
   p.stairs({2, 0, 35}, {0, 0, -7}, 5, 1);
   for (int i = 0; i < 20; ++i) {
-    const double z = 26 + 0.5 * (i % 10), y = 1.0 + 1.2 * (i / 10), x = p.random.uniform(3, 12);
+    const int layer = i / 10;
+    const double z = 26 + 0.5 * (i % 10), y = 1.0 + 1.2 * layer, x = p.random.uniform(3, 12);
     const double far = x + p.random.uniform(18, 40);
     p.pipe({{x, y, z + 6}, {x, y, z}, {far, y, z}, {far, y, z - 5}, {far, 0.4, z - 5}}, p.random.uniform(0.06, 0.16));
   }
@@ -127,7 +135,7 @@ void silos(Parts& p) {
     }
     p.zigzag({2, lo.y + 3.1, lo.z - 0.2}, {56, 0, 0}, {0, 0, 3.4}, 120, kUp * 0.1);
     p.sheet({2, lo.y + 1.2, lo.z + 0.8}, {56, 0, 0}, {0, 0, 1.4}, 56, 2);
-    p.frame({3, 0, z + 6}, 1, 1, int(height / 5), 4, 5);
+    p.frame({3, 0, z + 6}, 1, 1, int(height / 5), 4.0, 5.0);
     p.beam({1, 1, z}, {58, 1, z}, 1.2, 0.4);
   }
 }
@@ -201,7 +209,7 @@ void exchangers(Parts& p) {
     for (int k = -1; k <= 1 && i < 3; ++k)
       p.cable(foot + Vec{0, 11.2, 1.8 * k}, foot + Vec{0, 11.2, 12 + 1.8 * k}, 1, 0.03);
   }
-  for (int i = 0; i < 100; ++i) p.drum({36 + 0.7 * (i % 20), 0, 44 + 0.7 * (i / 20)});
+  drums(p, {36, 0, 44}, 5);
 }
 
 /// A stretch of pipe rack along the plot's far edge. Its pipes have the same places on every plot, so that they meet.

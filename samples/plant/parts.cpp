@@ -71,7 +71,7 @@ const std::vector<Turn>& turns(int n) {
 }
 
 int Parts::sides(int n) const {
-  return std::max(5, int(n * detail_ + 0.5));
+  return std::max(5, int(std::lround(n * detail_)));
 }
 
 void Parts::box(Vec lo, Vec hi) {
@@ -189,7 +189,7 @@ void Parts::ring(Vec center, Vec axis, double radius, double thickness, int side
 }
 
 void Parts::tube(const std::vector<Vec>& points, double radius, int sides, double bend, bool capped) {
-  const std::vector<Vec> path = rounded(points, bend, std::max(2, int(3 * detail_ + 0.5)));
+  const std::vector<Vec> path = rounded(points, bend, std::max(2, int(std::lround(3 * detail_))));
   const auto n = std::uint32_t(sides), rings = std::uint32_t(path.size());
   const Sink::Wants wants = sink_.part(n * rings, 2 * n * (rings - 1) + (capped ? 2 * (n - 2) : 0));
   if (wants & Sink::vertices) {

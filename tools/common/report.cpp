@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 
@@ -13,7 +14,7 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return double(std::int64_t(s * 1e6 + 0.5)) / 1e6;  // microseconds are plenty to read
+  return std::round(s * 1e6) / 1e6;  // microseconds are plenty to read
 }
 
 Json versions() {
