@@ -12,29 +12,31 @@ namespace {
 
 constexpr std::size_t kHelpColumn = 28, kHelpWidth = 80;
 
-/// One option of --help: its names, then its text, wrapped into the right-hand column.
-std::string help_entry(const std::string& left, const std::string& help) {
-  std::string out = "  " + left;
-  std::size_t column = out.size();
-  if (column + 2 > kHelpColumn) {
-    out += '\n';
-    column = 0;
-  }
-  out.append(kHelpColumn - column, ' ');
-  column = kHelpColumn;
-  for (std::size_t begin = 0; begin < help.size();) {
-    const std::size_t end = std::min(help.find(' ', begin), help.size());
-    if (column + end - begin > kHelpWidth && column > kHelpColumn) {
+/// Words of `text`, as many to a line as fit, from `column` on; the first line is already begun.
+std::string wrapped(const std::string& text, std::size_t column) {
+  std::string out;
+  std::size_t at = column;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    if (at + end - begin > kHelpWidth && at > column) {
       out.back() = '\n';  // the blank after the last word
-      out.append(kHelpColumn, ' ');
-      column = kHelpColumn;
+      out.append(column, ' ');
+      at = column;
     }
-    out.append(help, begin, end - begin) += ' ';
-    column += end - begin + 1;
+    out.append(text, begin, end - begin) += ' ';
+    at += end - begin + 1;
     begin = end + 1;
   }
-  out.back() = '\n';
+  if (!out.empty()) out.back() = '\n';
   return out;
+}
+
+/// One option of --help: its names, then its text in the right-hand column.
+std::string help_entry(const std::string& left, const std::string& help) {
+  std::string out = "  " + left;
+  if (out.size() + 2 > kHelpColumn) out += "\n" + std::string(kHelpColumn, ' ');
+  if (out.size() < kHelpColumn) out.append(kHelpColumn - out.size(), ' ');
+  return out + wrapped(help, kHelpColumn);
 }
 
 /// "-s,--scale" as people write it: "-s, --scale".
@@ -238,9 +240,9 @@ std::string Args::help_text() const {
       entries += help_entry(left, o.help + (o.shown_default.empty() ? "" : " (default: " + o.shown_default + ")"));
     }
   }
-  std::string text = usage + "\n" + state_->about + "\n\n" + entries;
+  std::string text = usage + "\n" + wrapped(state_->about, 0) + "\n" + entries;
   if (!state_->example.empty()) text += "\nExample:\n  " + state_->example + "\n";
-  return text + "\nManual: " + state_->tool + ".1\n";
+  return text;
 }
 
 }  // namespace bp
