@@ -16,13 +16,12 @@ struct ClosingParams {
   StructuringElement element = StructuringElement::cube;
 };
 
-/// Voxels of context around a tile that make its interior exact: ceil(s1) + 1 + ceil(s2), where s1 is the largest scale
-/// of any voxel whose erosion ball can reach the tile and s2 the largest scale on what is left of the reach
-/// (docs/pipeline.md, "Halo").
 /// Farthest that an element of scale `s`, cube or ball, reaches along an axis, voxels.
 [[nodiscard]] std::int32_t element_reach(Scale s);
 
-/// Halo: see halo_of.
+/// Voxels of context around a tile that make its interior exact: ceil(s1) + 1 + ceil(s2), where s1 is the largest scale
+/// of any voxel whose erosion ball can reach the tile and s2 the largest scale on what is left of the reach
+/// (docs/pipeline.md, "Halo").
 struct Halo {
   std::int32_t erosion_vox = 0;   ///< D and Dc must be exact this far from the tile
   std::int32_t dilation_vox = 0;  ///< and G this much further
