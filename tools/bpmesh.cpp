@@ -1,4 +1,5 @@
 // bpmesh: brick stream in, proxy out. Manual: docs/bpmesh.1.md
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <optional>
@@ -6,6 +7,7 @@
 #include "io/brick_shelf.h"
 #include "io/brick_stream.h"
 #include "io/mesh_writer.h"
+#include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/stage/mesh_stage.h"
 #include "tools/common/provenance.h"
@@ -20,6 +22,7 @@ struct Options {
   std::uint64_t faces = 0;
   std::optional<bp::Length> error;
   double edge_length = 0;
+  std::vector<std::string> enclose;
   bool loose = false;  // --no-tighten
   bp::Vec3d origin{};
 };
@@ -45,6 +48,9 @@ Options parse(bp::Args& args) {
   args.option("--faces", "N", o.faces, "stop at N triangles; 0: no target");
   args.option("--error", "LENGTH", o.error, "stop where merging would move the surface further (root mean square)");
   args.option("--edge-length", "C", o.edge_length, "no edge longer than C times the scale there; 0: no limit");
+  args.option(
+      "--enclose", "WHAT", o.enclose,
+      "what stays inside while the proxy is tightened: closing, input (the voxels of the scene), or scene files");
   args.flag("--no-tighten", o.loose, "leave out the last step, which lowers the volume");
   args.option(
       "--origin", "X,Y,Z", [&o](const std::string& text) { o.origin = parse_origin(text); },
@@ -55,11 +61,46 @@ Options parse(bp::Args& args) {
   return o;
 }
 
+bool is_layer(const std::string& what) {
+  return what == "closing" || what == "input";
+}
+
+/// The option as given, with files by name only: a path is nobody's business in a provenance chain.
+std::string enclose_text(const Options& o) {
+  std::string text;
+  for (const std::string& what : o.enclose) text += (text.empty() ? "" : ",") + what.substr(what.rfind('/') + 1);
+  return text.empty() ? "closing" : text;
+}
+
+/// Sets what must stay inside; reads the scenes named.
+void set_enclosed(const Options& o, bp::MeshParams& params) {
+  if (o.enclose.empty() || o.enclose == std::vector<std::string>{"closing"}) return;
+  if (o.enclose == std::vector<std::string>{"input"}) {
+    params.enclose = bp::Enclose::input;
+    return;
+  }
+  if (std::any_of(o.enclose.begin(), o.enclose.end(), is_layer)) {
+    bp::fail(bp::ErrorCode::bad_argument, "--enclose takes closing, or input, or scene files, not a mixture");
+  }
+  params.enclose = bp::Enclose::scene;
+  bp::SceneOptions options;
+  options.temp_dir = o.common.temp;
+  const auto scene = bp::open_scenes(o.enclose, options);
+  for (std::vector<bp::TriangleD> chunk; scene->read(chunk);) {
+    params.scene.insert(params.scene.end(), chunk.begin(), chunk.end());
+    if (params.scene.size() * 160 > o.common.memory_bytes / 2) {
+      bp::fail(bp::ErrorCode::out_of_resource, "{}: its triangles need more than half of --memory; use --enclose input",
+               scene->name());
+    }
+  }
+}
+
 bp::Provenance provenance(const Options& o, const std::string& input) {
   bp::OptionText text;
   text.add("faces", o.faces)
       .add("error", o.error ? o.error->text() : "")
       .add("edge-length", o.edge_length)
+      .add("enclose", enclose_text(o))
       .add("tighten", !o.loose);
   return bp::make_provenance("bpmesh", text, input);
 }
@@ -68,6 +109,7 @@ void fill_report(bp::Report& report, const Options& o, const bp::MeshCounts& c) 
   report.options = {{"faces", o.faces},
                     {"error", o.error ? o.error->text() : ""},
                     {"edge-length", o.edge_length},
+                    {"enclose", enclose_text(o)},
                     {"tighten", !o.loose}};
   const bp::SimplifyCounts& s = c.simplify;
   report.counts = {{"voxels", c.voxels},
@@ -116,9 +158,10 @@ void run(const Options& o) {
   if (o.error) params.error_world = o.error->in_world(header.bounds.diagonal(), header.frame.voxel);
   params.edge_factor = o.edge_length;
   params.tighten = !o.loose;
+  if (params.tighten) set_enclosed(o, params);
   bp::MeshCounts counts;
-  bp::LatticeMesh proxy =
-      bp::mesh_stream(source, bp::make_shelf_factory(o.common.memory_bytes / 2, o.common.temp), params, counts);
+  bp::LatticeMesh proxy = bp::mesh_stream(source, bp::make_shelf_factory(o.common.memory_bytes / 2, o.common.temp),
+                                          std::move(params), counts);
   report.bytes_in = source.totals().bytes;
   proxy.provenance.push_back(provenance(o, source.totals().checksum()));
 

@@ -8,13 +8,6 @@ namespace bp {
 
 namespace {
 
-/// `x` rounded up to `bits` significant bits.
-double round_up_to_bits(double x, int bits) {
-  int exponent = 0;
-  const double mantissa = std::frexp(x, &exponent);  // in [0.5, 1)
-  return std::ldexp(std::ceil(std::ldexp(mantissa, bits)), exponent - bits);
-}
-
 /// Bits of the largest lattice integer (counted from the scene's origin) that a grid over `bounds` can hold. The reach
 /// of dilations is bounded by 2^12 voxels (scales are 16-bit, 1/16 voxel); twice that is left as margin.
 int lattice_bits(const Bounds3d& bounds, double voxel) {
@@ -24,6 +17,12 @@ int lattice_bits(const Bounds3d& bounds, double voxel) {
 }
 
 }  // namespace
+
+double round_up_to_bits(double x, int bits) {
+  int exponent = 0;
+  const double mantissa = std::frexp(x, &exponent);  // in [0.5, 1)
+  return std::ldexp(std::ceil(std::ldexp(mantissa, bits)), exponent - bits);
+}
 
 GridFrame make_frame(const Bounds3d& bounds, double voxel, UpAxis up) {
   if (bounds.empty()) fail(ErrorCode::bad_input, "the scene has no bounds; it holds no usable triangle");

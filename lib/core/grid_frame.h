@@ -30,6 +30,9 @@ struct GridFrame {
   friend bool operator==(const GridFrame&, const GridFrame&) = default;
 };
 
+/// `x` rounded up to `bits` significant bits.
+[[nodiscard]] double round_up_to_bits(double x, int bits);
+
 /// Frame for a scene with these bounds and (about) this voxel size: rounds `voxel` up to the most significant bits (8
 /// to 24) that keep every lattice point of the grid, halo included, an exact double. Voxel (0,0,0) holds or touches
 /// bounds.min. Throws bad_argument if the voxel size is not positive and finite, or if a side would exceed 2^31 voxels;

@@ -12,16 +12,27 @@ namespace bp {
 
 namespace {
 
-std::unique_ptr<BrickShelf> read_layer(BrickSource& source, const ShelfFactory& make_shelf, MeshCounts& counts) {
+struct Shelves {
+  std::unique_ptr<BrickShelf> meshed;  // the closing, or the solid of a stream without one
+  std::unique_ptr<BrickShelf> input;   // the solid; null if nobody asks for it
+};
+
+Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool want_input, MeshCounts& counts) {
   const Layer layer = source.header().has_closing ? Layer::closing : Layer::solid;
-  auto shelf = make_shelf();
+  Shelves shelves{make_shelf(), want_input ? make_shelf() : nullptr};
   for (Brick brick; source.read(brick);) {
+    if (shelves.input && brick.layer == Layer::solid) shelves.input->put(brick.coord, brick.fill, brick.bits);
     if (brick.layer != layer) continue;
     for (const std::uint64_t w : brick.bits) counts.voxels += std::uint64_t(std::popcount(w));
-    shelf->put(brick.coord, brick.fill, brick.bits);
+    shelves.meshed->put(brick.coord, brick.fill, brick.bits);
   }
   if (counts.voxels == 0) fail(ErrorCode::bad_input, "the stream holds no occupied voxel; there is nothing to mesh");
-  return shelf;
+  return shelves;
+}
+
+std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& params, const GridFrame& frame) {
+  if (params.enclose == Enclose::scene) return std::make_unique<EnclosedTriangles>(std::move(params.scene), frame);
+  return std::make_unique<EnclosedVoxels>(params.enclose == Enclose::input ? *shelves.input : *shelves.meshed);
 }
 
 /// S at a lattice point, lattice units.
@@ -81,16 +92,16 @@ double volume_world(const LatticeMesh& mesh) {
 
 }  // namespace
 
-LatticeMesh mesh_stream(BrickSource& source, const ShelfFactory& make_shelf, const MeshParams& params,
-                        MeshCounts& counts) {
+LatticeMesh mesh_stream(BrickSource& source, const ShelfFactory& make_shelf, MeshParams params, MeshCounts& counts) {
   counts = {};
   const StreamHeader& header = source.header();
-  const auto shelf = read_layer(source, make_shelf, counts);
-  counts.repaired = repair_contacts(*shelf);
+  const Shelves shelves = read_layers(source, make_shelf, params.tighten && params.enclose == Enclose::input, counts);
+  counts.repaired = repair_contacts(*shelves.meshed);
   const SimplifyParams simplify = simplify_params(header, params);
-  const LatticeMesh dense = dense_surface(*shelf, header.frame);
-  LatticeMesh proxy = params.tighten ? tight_proxy(dense, EnclosedVoxels(*shelf), simplify, counts)
-                                     : bp::simplify(dense, simplify, counts.simplify);
+  const LatticeMesh dense = dense_surface(*shelves.meshed, header.frame);
+  LatticeMesh proxy = params.tighten
+                          ? tight_proxy(dense, *make_enclosed(shelves, params, header.frame), simplify, counts)
+                          : bp::simplify(dense, simplify, counts.simplify);
   counts.volume_world = volume_world(proxy);
   counts.solid_volume_world = double(counts.voxels) * std::pow(header.frame.voxel, 3);
   proxy.provenance = header.provenance;

@@ -6,12 +6,18 @@
 /// The last stage of the pipe: bricks in, proxy out (bpmesh).
 namespace bp {
 
+/// What must stay inside while the proxy is made tighter: the layer that is meshed, the stream's solid layer (the
+/// scene, to a voxel), or triangles of the scene itself.
+enum class Enclose { closing, input, scene };
+
 struct MeshParams {
   std::uint64_t faces = 0;  ///< triangles wanted; 0: none
   double error_world =
       0;  ///< largest root mean square distance of a collapse to the planes it merges, scene units; 0: none
   double edge_factor = 0;  ///< edges at most edge_factor * S long, S the scale field there; 0: no limit
-  bool tighten = true;     ///< afterwards, lower the volume while the meshed voxels stay inside
+  Enclose enclose = Enclose::closing;
+  std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
+  bool tighten = true;           ///< afterwards, lower the volume while the meshed voxels stay inside
   /// With neither faces nor error: the error at which [CB17] §3.4 stops, as a share of the scene's diagonal.
   static constexpr double kErrorShareBall = 1e-3, kErrorShareCube = 1e-2;
 };
@@ -25,8 +31,9 @@ struct MeshCounts {
   double solid_volume_world = 0;  ///< of the meshed voxels
 };
 
+/// `params` by value: the scene's triangles are moved out of it.
 /// Meshes the closing layer if the stream has one, else the solid layer. Throws bad_input if that layer is empty.
-[[nodiscard]] LatticeMesh mesh_stream(BrickSource& source, const ShelfFactory& make_shelf, const MeshParams& params,
+[[nodiscard]] LatticeMesh mesh_stream(BrickSource& source, const ShelfFactory& make_shelf, MeshParams params,
                                       MeshCounts& counts);
 
 }  // namespace bp

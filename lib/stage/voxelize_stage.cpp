@@ -505,7 +505,9 @@ double voxel_size_of(const Bounds3d& bounds, std::int64_t voxels) {
     side = std::max(side, bounds.max[i] - bounds.min[i]);
     reach = std::max({reach, std::abs(bounds.min[i]), std::abs(bounds.max[i])});
   }
-  if (side > 0) return side / double(voxels);
+  // Eight bits: with them the lattice of a few hundred voxels a side, near the origin, fits the 24 bits of a float32
+  // (STL).
+  if (side > 0) return round_up_to_bits(side / double(voxels), 8);
   return reach > 0 ? reach / (1 << 20) : 1;
 }
 

@@ -38,8 +38,8 @@ struct VoxelizeCounts {
   std::uint64_t scratch_bytes = 0;  ///< triangles and crossings put aside, compressed
 };
 
-/// The voxel size that gives `voxels` along the longest side of the bounds; a scene that is one point gets some size
-/// that its frame can hold.
+/// The voxel size that gives `voxels` along the longest side of the bounds, or up to 1/128 fewer: it has 8 significant
+/// bits; a scene that is one point gets some size that its frame can hold.
 [[nodiscard]] double voxel_size_of(const Bounds3d& bounds, std::int64_t voxels);
 
 /// What begins the output: gets the header (without provenance) and the counts of the scene once the frame is known,

@@ -1,0 +1,44 @@
+# What the rest of the pipe refuses, what it says, and that no output stays behind.
+write_cube cube.obj
+bpvox cube.obj --resolution 20 -o cube.bp
+bpclose cube.bp --scale 2vx -o closed.bp
+bpmesh closed.bp --faces 12 -o cube.glb
+size=$(stat -c %s closed.bp)
+head -c $((size / 2)) closed.bp > short.bp
+head -c $((size - 1)) closed.bp > almost.bp
+{ head -c $((size / 2)) closed.bp; tail -c +$((size / 2 + 1)) closed.bp | head -c 1 | tr '\000-\377' '\001-\377\000'; tail -c +$((size / 2 + 2)) closed.bp; } > flipped.bp
+echo "this is no stream" > text.bp
+rm closed.bp cube.bp
+bpvox cube.obj --resolution 20 -o cube.bp
+files
+try bpclose cube.bp -o out.bp
+try bpclose cube.bp --scale -1 -o out.bp
+try bpclose cube.bp --scale nan -o out.bp
+try bpclose cube.bp --scale 1e9 -o out.bp
+try bpclose cube.bp --scale 1 --tile 100 -o out.bp
+try bpclose cube.bp --field missing.json -o out.bp
+echo '{"base": -1}' > field.json
+try bpclose cube.bp --field field.json -o out.bp
+echo '{"base": 1, "boxen": []}' > field.json
+try bpclose cube.bp --field field.json -o out.bp
+rm field.json
+try bpclose missing.bp --scale 1 -o out.bp
+try bpclose text.bp --scale 1 -o out.bp
+try bpclose cube.glb --scale 1 -o out.bp
+try bpmesh text.bp -o out.glb
+try bpmesh short.bp -o out.glb
+try bpmesh almost.bp -o out.glb
+try bpmesh flipped.bp -o out.glb
+try bpmesh cube.bp
+try bpmesh cube.bp -o out.xyz
+try bpmesh cube.bp --origin 1,2 -o out.glb
+try bpmesh cube.bp -o cube.glb
+try bpmesh cube.bp -o out.glb --enclose input --enclose cube.obj
+try bpmesh cube.bp --format glb -o /dev/full
+try bpclose cube.bp --scale 1vx -o /dev/full
+stdin=text.bp try bpclose --scale 1 -o out.bp
+said 'bpvox missing.obj | bpclose --scale 1 | bpmesh -o out.glb'
+said 'bpvox cube.obj --resolution 64 | bpclose --scale 2vx | head -c 10 | wc -c'
+try bpcheck cube.obj missing.glb
+try bpcheck cube.obj text.bp
+files

@@ -1,0 +1,13 @@
+# The main job on a cube: three processes, one stream, one proof. The same bytes whatever the threads, tiles and memory.
+write_cube cube.obj 3
+said 'bpvox cube.obj --resolution 40 | bpclose --scale 2vx --element ball | bpmesh --faces 12 -o proxy.glb'
+try bpcheck cube.obj proxy.glb --no-distances
+said 'bpvox cube.obj --resolution 40 -j 1 --memory 200M | bpclose --scale 2vx --element ball --tile 64 -j 1 | bpmesh --faces 12 -j 1 -o again.glb'
+cmp proxy.glb again.glb
+for format in ply obj stl gltf; do
+  bpvox cube.obj --resolution 40 | bpclose --scale 2vx | bpmesh --faces 12 -o proxy.$format
+  bpcheck cube.obj proxy.$format --no-distances | tail -1
+done
+write_cube large.obj 5
+try bpcheck large.obj proxy.glb --no-distances --examples 1
+files
