@@ -67,7 +67,8 @@ std::string file_name(const std::string& path) {
   return path.substr(path.rfind('/') + 1);
 }
 
-void draw(const Options& o, const bp::IndexedMesh& proxy, bp::TriangleSource* scene, const bp::CheckReport& report) {
+bp::Image draw(const Options& o, const bp::IndexedMesh& proxy, bp::TriangleSource* scene,
+               const bp::CheckReport& report) {
   std::vector<bp::View> views;
   if (scene != nullptr) {
     views.emplace_back();
@@ -85,7 +86,7 @@ void draw(const Options& o, const bp::IndexedMesh& proxy, bp::TriangleSource* sc
   bp::RenderOptions options;
   options.panel_width = options.panel_height = o.image_size;
   options.azimuth = o.azimuth, options.elevation = o.elevation, options.up = o.up;
-  bp::write_png(bp::render(views, options), o.image, o.common.overwrite);
+  return bp::render(views, options);
 }
 
 void fill_report(bp::Report& report, const Options& o, const bp::CheckReport& verdict) {
@@ -102,6 +103,8 @@ void fill_report(bp::Report& report, const Options& o, const bp::CheckReport& ve
 int run(const Options& o) {
   bp::Report report("bpcheck");
   report.stage("read the proxy");
+  std::unique_ptr<bp::OutputFile> picture;  // opened first: a name that cannot be written fails before the work
+  if (!o.image.empty()) picture = bp::open_output(o.image, o.common.overwrite);
   bp::SceneOptions scene_options;
   scene_options.format = o.format;
   scene_options.memory_bytes = o.common.memory_bytes / 4;
@@ -123,9 +126,10 @@ int run(const Options& o) {
   const bp::CheckReport verdict = bp::check_proxy(proxy, watched.get(), check_options);
   progress.end();
 
-  if (!o.image.empty()) {
+  if (picture) {
     report.stage("draw");
-    draw(o, proxy, scene.get(), verdict);
+    picture->write(bp::encode_png(draw(o, proxy, scene.get(), verdict)));
+    picture->commit();
   }
   const std::string name = file_name(o.files.back());
   bp::OutputFile out("-", true);

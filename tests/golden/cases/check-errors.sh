@@ -1,0 +1,14 @@
+# What bpcheck cannot read or do: one line and the status that docs/exit-codes.md says.
+write_cube cube.obj 1
+try bpcheck
+try bpcheck missing.obj
+try bpcheck missing.obj cube.obj
+try bpcheck cube.obj missing.obj
+echo nothing > noise.xyz
+try bpcheck noise.xyz
+: > empty.obj
+try bpcheck empty.obj --no-distances
+try bpcheck cube.obj --image missing/cube.png
+try bpcheck cube.obj --image cube.png --image-size 3
+said 'bpcheck cube.obj > /dev/full'
+files
