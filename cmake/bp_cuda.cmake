@@ -1,6 +1,6 @@
 # BP_CUDA: AUTO builds the GPU backend when nvcc is found; ON fails without it; OFF never looks.
 set(BP_HAVE_CUDA OFF)
-if(NOT BP_CUDA STREQUAL "OFF")
+if(NOT BP_CUDA STREQUAL "OFF" AND IS_DIRECTORY "${PROJECT_SOURCE_DIR}/gpu")
   include(CheckLanguage)
   if(NOT CMAKE_CUDA_COMPILER AND NOT DEFINED ENV{CUDACXX} AND EXISTS /usr/local/cuda/bin/nvcc)
     set(CMAKE_CUDA_COMPILER /usr/local/cuda/bin/nvcc)
