@@ -49,9 +49,10 @@ Vec3d free_minimum(const Quadric& q) {
 }
 
 /// Minimum on the line p + s u within the half-spaces.
-std::optional<Vec3d> on_line(const Quadric& q, const Vec3d& p, const Vec3d& u, std::span<const HalfSpace> constraints) {
+std::optional<Vec3d> on_line(const Quadric& q, const Vec3d& p, const Vec3d& u,
+                             std::span<const PlaneConstraint> constraints) {
   double low = -1e300, high = 1e300;
-  for (const HalfSpace& h : constraints) {
+  for (const PlaneConstraint& h : constraints) {
     const double slope = dot(h.n, u), gap = h.d - dot(h.n, p);
     if (std::abs(slope) < 1e-9) {
       if (gap > 1e-4) return std::nullopt;
@@ -67,7 +68,8 @@ std::optional<Vec3d> on_line(const Quadric& q, const Vec3d& p, const Vec3d& u, s
 }
 
 /// Minimum on the plane n . x = d within the half-spaces.
-std::optional<Vec3d> on_plane(const Quadric& q, const HalfSpace& plane, std::span<const HalfSpace> constraints) {
+std::optional<Vec3d> on_plane(const Quadric& q, const PlaneConstraint& plane,
+                              std::span<const PlaneConstraint> constraints) {
   const Vec3d& n = plane.n;
   const Vec3d axis = std::abs(n[0]) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
   Vec3d u = cross(n, axis);
@@ -79,7 +81,7 @@ std::optional<Vec3d> on_plane(const Quadric& q, const HalfSpace& plane, std::spa
   const double det = uu * vv - uv * uv;
   Vec3d x = at(at(p, (uv * gv - vv * gu) / det, u), (uv * gu - uu * gv) / det, v);
   for (std::size_t i = 0; i < constraints.size(); ++i) {
-    const HalfSpace& h = constraints[i];
+    const PlaneConstraint& h = constraints[i];
     if (dot(h.n, x) >= h.d - kEps) continue;
     const double hu = dot(h.n, u), hv = dot(h.n, v), norm2 = hu * hu + hv * hv;
     if (norm2 < 1e-18) {  // parallel planes: x cannot move towards h
@@ -130,7 +132,8 @@ Vec3d minimum(const Quadric& q, const Vec3d& prior) {
   return free_minimum(regularised(q, prior));
 }
 
-std::optional<Vec3d> constrained_minimum(const Quadric& q, const Vec3d& prior, std::span<const HalfSpace> constraints) {
+std::optional<Vec3d> constrained_minimum(const Quadric& q, const Vec3d& prior,
+                                         std::span<const PlaneConstraint> constraints) {
   const Quadric r = regularised(q, prior);
   Vec3d x = free_minimum(r);
   for (std::size_t i = 0; i < constraints.size(); ++i) {

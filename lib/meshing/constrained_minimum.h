@@ -25,7 +25,7 @@ struct Quadric {
 };
 
 /// The half-space n . x >= d; n has unit length.
-struct HalfSpace {
+struct PlaneConstraint {
   Vec3d n;
   double d;
 };
@@ -36,6 +36,6 @@ struct HalfSpace {
 
 /// The same under the constraints; nothing if they contradict each other. Rounded: the caller checks exactly.
 [[nodiscard]] std::optional<Vec3d> constrained_minimum(const Quadric& q, const Vec3d& prior,
-                                                       std::span<const HalfSpace> constraints);
+                                                       std::span<const PlaneConstraint> constraints);
 
 }  // namespace bp

@@ -183,8 +183,8 @@ class Simplifier {
     const Vec3d prior = midpoint(h);
     bool feasible = false;
     for (const double margin : {0.0, 0.9}) {  // 0.9 > sqrt(3)/2: rounding cannot leave the half-spaces then
-      for (HalfSpace& s : half_spaces_) s.d += margin;
-      const auto x = constrained_minimum(q, prior, half_spaces_);
+      for (PlaneConstraint& s : constraints_) s.d += margin;
+      const auto x = constrained_minimum(q, prior, constraints_);
       if (!x) break;
       const auto rounded = round_inside(*x, q);
       if (!rounded) continue;
@@ -227,7 +227,7 @@ class Simplifier {
   /// Faces around the edge, and the half-spaces outside their planes, relative to from(h).
   void gather_star(HalfEdgeId h) {
     star_.clear();
-    half_spaces_.clear();
+    constraints_.clear();
     const VertexId u = mesh_.from(h), w = mesh_.to(h);
     mesh_.for_each_outgoing(u, [&](HalfEdgeId g) { star_.push_back(g); });
     mesh_.for_each_outgoing(w, [&](HalfEdgeId g) {
@@ -240,10 +240,10 @@ class Simplifier {
       const double length = std::sqrt(dot(n, n));
       const Vec3d unit = {n[0] / length, n[1] / length, n[2] / length};
       const double d = dot(unit, to_double(a - origin));
-      const bool known = std::any_of(half_spaces_.begin(), half_spaces_.end(), [&](const HalfSpace& s) {
+      const bool known = std::any_of(constraints_.begin(), constraints_.end(), [&](const PlaneConstraint& s) {
         return dot(s.n, unit) > 1 - 1e-12 && std::abs(s.d - d) < 1e-6;
       });
-      if (!known) half_spaces_.push_back({unit, d});
+      if (!known) constraints_.push_back({unit, d});
     }
   }
 
@@ -366,7 +366,7 @@ class Simplifier {
   bool far_ = false;                   // some collapse was refused for its error
   std::priority_queue<Entry> heap_;
   std::vector<HalfEdgeId> star_;  // of the edge solved last: outgoing half-edges of both ends
-  std::vector<HalfSpace> half_spaces_;
+  std::vector<PlaneConstraint> constraints_;
   std::vector<NewFace> new_faces_;
   std::vector<FaceId> replaced_;
   std::vector<Tetrahedron> swept_;

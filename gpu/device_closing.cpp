@@ -1,0 +1,218 @@
+#include "gpu/device_closing.h"
+
+#include <algorithm>
+
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+std::int32_t round_down(std::int32_t v, std::int32_t to) {
+  return floor_div(v, to) * to;
+}
+std::int32_t round_up(std::int32_t v, std::int32_t to) {
+  return ceil_div(v, to) * to;
+}
+
+VoxelRange range_in(const VoxelBox& box, VoxelCoord origin) {
+  const VoxelCoord a = box.min - origin, b = box.max - origin;
+  return {a.x, a.y, a.z, b.x, b.y, b.z};
+}
+
+/// The words of the BitBox of `box`: whole 64-voxel words.
+BoxOfWords words_in(const VoxelBox& box, VoxelCoord origin) {
+  const std::int32_t x0 = round_down(box.min.x, 64), x1 = round_up(box.max.x, 64);
+  return {(x1 - x0) / 32,       box.max.y - box.min.y, box.max.z - box.min.z,
+          (x0 - origin.x) / 32, box.min.y - origin.y,  box.min.z - origin.z};
+}
+
+std::int32_t floor_sqrt(std::uint32_t v) {
+  std::int32_t r = 0;
+  while (std::uint64_t(r + 1) * std::uint64_t(r + 1) <= v) ++r;
+  return r;
+}
+
+void zero(void* p, std::size_t bytes, cudaStream_t stream) {
+  BP_CUDA_CHECK(cudaMemsetAsync(p, 0, bytes, stream));
+}
+
+}  // namespace
+
+TileLayout lay_out(const VoxelBox& solid, const ScaleLattice& scale, const Halo& halo, const VoxelBox& interior) {
+  const VoxelBox dilated = interior.grown(halo.erosion_vox), reach = dilated.grown(halo.dilation_vox);
+  const VoxelCoord low{round_down(reach.min.x, 32), round_down(reach.min.y, kCell), round_down(reach.min.z, kCell)};
+  const VoxelCoord high{round_up(reach.max.x, 32), low.y + round_up(reach.max.y - low.y, kUnit),
+                        low.z + round_up(reach.max.z - low.z, kUnit)};
+  const VoxelBox domain{low, high};
+  if (domain.volume() / 32 >= std::int64_t(1) << 31) {
+    fail(ErrorCode::out_of_resource, "GPU: a tile of {} x {} x {} voxels is too large; use smaller tiles",
+         high.x - low.x, high.y - low.y, high.z - low.z);
+  }
+  TileLayout t;
+  t.shape = {(high.x - low.x) / 32, high.y - low.y, high.z - low.z};
+  t.solid = words_in(solid, low);
+  t.closed = words_in(interior, low);
+  t.dilated = range_in(dilated, low);
+  t.interior = range_in(interior, low);
+  t.ox = low.x / kScaleStep - scale.origin.x;
+  t.oy = low.y / kScaleStep - scale.origin.y;
+  t.oz = low.z / kScaleStep - scale.origin.z;
+  return t;
+}
+
+void DeviceClosing::grow(const TileLayout& layout) {
+  const std::size_t words = layout.shape.word_count(), quads = layout.shape.quad_count();
+  solid_.grow(words);
+  dilated_.grow(words);
+  contour_.grow(words);
+  closed_.grow(words);
+  flags_.grow(2 * quads + 2 * ((quads + 3) / 4));
+  answers_.grow(2 * quads);
+  cells_.grow(2 * 4 * quads);
+  counts_.grow(1);
+}
+
+void DeviceClosing::enqueue(const TileLayout& layout, const std::uint32_t* solid, const ScaleLattice& scale,
+                            const Scale* samples, StructuringElement element, std::uint32_t* closed,
+                            cudaStream_t stream, const Mark& mark) {
+  const auto done = [&](const char* stage) {
+    if (mark) mark(stage);
+  };
+  grow(layout);
+  const GridShape& shape = layout.shape;
+  const std::size_t quads = shape.quad_count();
+  std::uint32_t *solid_cells = flags_.data(), *contour_cells = solid_cells + quads;
+  auto* wanted = reinterpret_cast<std::uint8_t*>(contour_cells + quads);  // one byte per quad, twice
+  zero(flags_.data(), (2 * quads + 2 * ((quads + 3) / 4)) * 4, stream);
+  ScaleView view;
+  view.constant = scale.max;
+  if (!scale.constant()) {
+    view.samples = samples;
+    view.nx = scale.size.x, view.ny = scale.size.y, view.nz = scale.size.z;
+    view.ox = layout.ox, view.oy = layout.oy, view.oz = layout.oz;
+    bound_cells(view, shape, w_of_cells_.grow(4 * quads), stream);
+  }
+  pack_bits(solid, layout.solid, shape, solid_.data(), solid_cells, stream);
+  done("pack");
+
+  TransformBounds bounds;
+  bounds.wide = tuning_.wide;
+  bounds.limit = std::uint32_t(ball_bound(scale.max));
+  bounds.reach = bounds.limit == 0 ? 0 : floor_sqrt(bounds.limit - 1);
+  const bool cube = element == StructuringElement::cube;
+  const std::uint32_t* result = solid_.data();
+  if (cube && cube_radius(scale.max) > 0) {
+    dilate_by_cube(layout, scale, view, stream);
+    result = dilated_.data();
+  } else if (!cube && bounds.reach > 0) {
+    TransformBounds b = bounds;
+    b.bound_at_voxel = !scale.constant();
+    transform(layout, view, {false, b, solid_.data(), solid_cells, wanted, layout.dilated, dilated_.data()}, stream,
+              mark);
+    result = dilated_.data();
+  }
+  done("dilate");
+  if (bounds.reach > 0) {  // else no ball of the erosion leaves its centre, and E = D
+    outer_contour(dilated_.data(), shape, contour_.data(), contour_cells, stream);
+    done("contour");
+    bounds.offset_at_seed = !scale.constant();
+    transform(
+        layout, view,
+        {true, bounds, contour_.data(), contour_cells, wanted + (quads + 3) / 4 * 4, layout.interior, closed_.data()},
+        stream, mark);
+    done("erode");
+    result = closed_.data();
+  }
+  unpack_bits(result, shape, layout.closed, layout.interior, closed, stream);
+  done("unpack");
+}
+
+void DeviceClosing::dilate_by_cube(const TileLayout& layout, const ScaleLattice& scale, const ScaleView& view,
+                                   cudaStream_t stream) {
+  const GridShape& shape = layout.shape;
+  const int least = cube_radius(scale.min), most = cube_radius(scale.max);
+  bool first = true;
+  for (int length = 2; length <= 2 * most + 1; length *= 2) {  // radius 0 is G, with which every call starts
+    if (length - 1 < least) continue;                          // this octave holds the radii length / 2 .. length - 1
+    window_table(solid_.data(), shape, length, contour_.data(), closed_.data(), stream);
+    dilate_cube(closed_.data(), length, solid_.data(), shape, layout.dilated, view, first, dilated_.data(), stream);
+    first = false;
+  }
+}
+
+int DeviceClosing::slab_words(const TileLayout& layout, const TransformBounds& bounds, int words) {
+  const std::size_t one = 2 * transform_bytes(bounds, layout.shape, 1).values;
+  int n = int(std::clamp<std::size_t>(tuning_.slab_bytes / one, 1, std::size_t(words)));
+  for (;;) {
+    try {
+      values_.grow(one * std::size_t(n));
+      return n;
+    } catch (const Error& e) {
+      if (e.code() != ErrorCode::out_of_resource || n == 1) throw;
+      n = (n + 1) / 2;  // the device is fuller than expected: go in smaller steps
+    }
+  }
+}
+
+void DeviceClosing::transform(const TileLayout& layout, const ScaleView& view, const Transform& t, cudaStream_t stream,
+                              const Mark& mark) {
+  const auto done = [&](const char* stage) {
+    if (mark) mark(stage);
+  };
+  const GridShape& shape = layout.shape;
+  const std::size_t quads = shape.quad_count();
+  const CellAnswers answers{answers_.data(), answers_.data() + quads};
+  answer_cells(t.seed_cells, w_of_cells_.data(), t.bounds, shape, cells_.data(), cells_.data() + 4 * quads, answers,
+               stream);
+  apply_answers(t.erosion, solid_.data(), dilated_.data(), answers, t.region, shape, t.out, t.wanted, stream);
+  done(t.erosion ? "erode: cells" : "dilate: cells");
+
+  const int first = std::max(t.region.x0 / 32, 0), last = std::min((t.region.x1 + 31) / 32, shape.words);
+  const int step = slab_words(layout, t.bounds, last - first);
+  const WorkSizes sizes = work_sizes(shape, step);
+  const TransformBytes bytes = transform_bytes(t.bounds, shape, step);
+  const std::size_t row_bytes = (bytes.row_flags + 15) / 16 * 16;
+  lists_.grow(sizes.rows + sizes.ys + sizes.zs);
+  columns_.grow(sizes.ys);
+  pass_flags_.grow(row_bytes + bytes.slice_flags);
+  const WorkLists lists{counts_.data(), lists_.data(), lists_.data() + sizes.rows,
+                        lists_.data() + sizes.rows + sizes.ys, columns_.data()};
+  for (int w0 = first; w0 < last; w0 += step) {
+    const Slab slab{w0, std::min(step, last - w0)};
+    zero(counts_.data(), sizeof(WorkCounts), stream);
+    zero(pass_flags_.data(), row_bytes + bytes.slice_flags, stream);
+    plan_work(t.wanted, t.seed_cells, t.bounds, shape, slab, lists, stream);
+    done(t.erosion ? "erode: plan" : "dilate: plan");
+    const TransformArgs args{t.seeds,
+                             shape,
+                             slab,
+                             t.bounds,
+                             view,
+                             {values_.data(), values_.data() + bytes.values, pass_flags_.data(),
+                              pass_flags_.data() + row_bytes, bytes.slice_stride},
+                             lists};
+    row_pass(args, tuning_.multiprocessors, stream);
+    done(t.erosion ? "erode: x" : "dilate: x");
+    y_pass(args, tuning_.multiprocessors, stream);
+    done(t.erosion ? "erode: y" : "dilate: y");
+    z_pass(args, {t.erosion, solid_.data(), dilated_.data(), answers.open, t.region, t.out}, tuning_.multiprocessors,
+           stream);
+    done(t.erosion ? "erode: z" : "dilate: z");
+  }
+}
+
+std::size_t DeviceClosing::bytes() const {
+  return solid_.bytes() + dilated_.bytes() + contour_.bytes() + closed_.bytes() + flags_.bytes() + answers_.bytes() +
+         cells_.bytes() + w_of_cells_.bytes() + values_.bytes() + pass_flags_.bytes() + columns_.bytes() +
+         lists_.bytes() + counts_.bytes();
+}
+
+void DeviceClosing::release() {
+  for (auto* b : {&solid_, &dilated_, &contour_, &closed_, &flags_, &answers_, &lists_}) b->release();
+  for (auto* b : {&cells_, &w_of_cells_}) b->release();
+  for (auto* b : {&values_, &pass_flags_, &columns_}) b->release();
+  counts_.release();
+}
+
+}  // namespace bp

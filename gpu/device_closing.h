@@ -1,0 +1,74 @@
+#pragma once
+#include <cuda_runtime.h>
+
+#include <functional>
+
+#include "gpu/bit_kernels.h"
+#include "gpu/device_buffer.h"
+#include "gpu/distance_kernels.h"
+#include "lib/closing/closing.h"
+
+/// The closing of one tile whose voxels are on the device already: a fixed sequence of kernels on one stream, no
+/// allocation once the sizes are known, no synchronisation with the host. After lib/closing/closing.h, to the bit.
+namespace bp {
+
+/// Where a tile lies on the device: computed on the host from its boxes.
+struct TileLayout {
+  GridShape shape;
+  BoxOfWords solid, closed;             ///< the caller's boxes in the domain
+  VoxelRange dilated, interior;         ///< where D is needed, and where E is
+  std::int32_t ox = 0, oy = 0, oz = 0;  ///< sample of the scale lattice at voxel (0,0,0) of the domain
+};
+/// Throws out_of_resource if the domain has 2^31 words or more.
+[[nodiscard]] TileLayout lay_out(const VoxelBox& solid, const ScaleLattice& scale, const Halo& halo,
+                                 const VoxelBox& interior);
+
+struct ClosingTuning {
+  int multiprocessors = 1;
+  std::size_t slab_bytes = 0;  ///< memory for distances; at least that of one word of columns is taken
+  bool wide = false;           ///< 32-bit distances even where 16 bits suffice
+};
+
+class DeviceClosing {
+ public:
+  /// Called between the stages with their names, for measurements.
+  using Mark = std::function<void(const char* stage)>;
+
+  explicit DeviceClosing(const ClosingTuning& tuning) : tuning_(tuning) {}
+
+  /// Enqueues the closing of a tile. `scale` gives bounds and shape; its samples are at `samples` on the device (unused
+  /// where constant). All pointers stay in use until the stream has passed.
+  void enqueue(const TileLayout& layout, const std::uint32_t* solid, const ScaleLattice& scale, const Scale* samples,
+               StructuringElement element, std::uint32_t* closed, cudaStream_t stream, const Mark& mark = {});
+
+  /// Device memory held, bytes.
+  [[nodiscard]] std::size_t bytes() const;
+  void release();
+
+ private:
+  struct Transform {
+    bool erosion;
+    TransformBounds bounds;
+    const std::uint32_t *seeds, *seed_cells;
+    std::uint8_t* wanted;
+    VoxelRange region;
+    std::uint32_t* out;
+  };
+  void grow(const TileLayout& layout);
+  void dilate_by_cube(const TileLayout& layout, const ScaleLattice& scale, const ScaleView& view, cudaStream_t stream);
+  void transform(const TileLayout& layout, const ScaleView& view, const Transform& t, cudaStream_t stream,
+                 const Mark& mark);
+  [[nodiscard]] int slab_words(const TileLayout& layout, const TransformBounds& bounds, int words);
+
+  ClosingTuning tuning_;
+  DeviceBuffer<std::uint32_t> solid_, dilated_, contour_, closed_;
+  DeviceBuffer<std::uint32_t>
+      flags_;  ///< what is zeroed at the start of a tile: cells of G and of the contour, wanted quads
+  DeviceBuffer<std::uint32_t> answers_;
+  DeviceBuffer<uint2> cells_, w_of_cells_;
+  DeviceBuffer<std::uint8_t> values_, pass_flags_, columns_;
+  DeviceBuffer<std::uint32_t> lists_;
+  DeviceBuffer<WorkCounts> counts_;
+};
+
+}  // namespace bp

@@ -1,0 +1,43 @@
+#pragma once
+#include <cuda_runtime.h>
+
+#include <cstdint>
+
+/// Two neighbouring voxels' squared distances in one value, and the step of the separable transforms on them:
+/// min(best, value + d^2). Voxels x and x + 16 of a word share one, so that a ballot of each half gives 16 bits in
+/// order.
+namespace bp {
+
+/// 16 bits each: while squared bounds stay below kLimit. One instruction a step on Hopper (DPX), a few elsewhere.
+struct Packed16 {
+  std::uint32_t v;
+  static constexpr std::uint32_t kFar = 0x7fff;  ///< farther than any bound; kFar + (160 + 15)^2 still fits 16 bits
+  static constexpr std::uint32_t kLimit = 160u * 160u;  ///< bounds up to here
+
+  __device__ static Packed16 far_away() { return {kFar | kFar << 16}; }
+  __device__ static Packed16 of(std::uint32_t low, std::uint32_t high) { return {low | high << 16}; }
+  /// What the table of squares holds for d^2.
+  __device__ static std::uint32_t square(std::uint32_t d2) { return (d2 < kFar ? d2 : kFar) * 0x10001u; }
+  __device__ void step(Packed16 from, std::uint32_t d2) { v = __viaddmin_u16x2(from.v, d2, v); }
+  __device__ std::uint32_t low() const { return v & 0xffff; }
+  __device__ std::uint32_t high() const { return v >> 16; }
+};
+
+/// 32 bits each, for larger scales.
+struct Packed32 {
+  uint2 v;
+  static constexpr std::uint32_t kFar = 0x3fffffff;
+  static constexpr std::uint32_t kLimit = kFar;
+
+  __device__ static Packed32 far_away() { return {make_uint2(kFar, kFar)}; }
+  __device__ static Packed32 of(std::uint32_t low, std::uint32_t high) { return {make_uint2(low, high)}; }
+  __device__ static std::uint32_t square(std::uint32_t d2) { return d2; }
+  __device__ void step(Packed32 from, std::uint32_t d2) {
+    v.x = __viaddmin_u32(from.v.x, d2, v.x);
+    v.y = __viaddmin_u32(from.v.y, d2, v.y);
+  }
+  __device__ std::uint32_t low() const { return v.x; }
+  __device__ std::uint32_t high() const { return v.y; }
+};
+
+}  // namespace bp

@@ -1,0 +1,48 @@
+#include "gpu/staging.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "gpu/tuning.h"
+
+namespace bp {
+
+Staging::Staging(cudaStream_t stream) : stream_(stream) {
+  for (Block& b : blocks_) BP_CUDA_CHECK(cudaEventCreateWithFlags(&b.free, cudaEventDisableTiming));
+}
+
+Staging::~Staging() {
+  for (Block& b : blocks_) (void)cudaEventDestroy(b.free);
+}
+
+void Staging::upload(void* to, const void* from, std::size_t bytes) {
+  for (std::size_t at = 0, i = 0; at < bytes; at += kStagingBytes, ++i) {
+    Block& b = blocks_[i % 2];
+    const std::size_t n = std::min(kStagingBytes, bytes - at);
+    BP_CUDA_CHECK(cudaEventSynchronize(b.free));
+    std::memcpy(b.memory.grow(kStagingBytes), static_cast<const std::byte*>(from) + at, n);
+    BP_CUDA_CHECK(
+        cudaMemcpyAsync(static_cast<std::byte*>(to) + at, b.memory.data(), n, cudaMemcpyHostToDevice, stream_));
+    BP_CUDA_CHECK(cudaEventRecord(b.free, stream_));
+  }
+}
+
+void Staging::download(void* to, const void* from, std::size_t bytes) {
+  const std::size_t count = (bytes + kStagingBytes - 1) / kStagingBytes;
+  const auto size = [&](std::size_t i) { return std::min(kStagingBytes, bytes - i * kStagingBytes); };
+  for (std::size_t i = 0; i <= count; ++i) {
+    if (i < count) {
+      Block& b = blocks_[i % 2];
+      BP_CUDA_CHECK(cudaMemcpyAsync(b.memory.grow(kStagingBytes),
+                                    static_cast<const std::byte*>(from) + i * kStagingBytes, size(i),
+                                    cudaMemcpyDeviceToHost, stream_));
+      BP_CUDA_CHECK(cudaEventRecord(b.free, stream_));
+    }
+    if (i == 0) continue;
+    Block& b = blocks_[(i - 1) % 2];
+    BP_CUDA_CHECK(cudaEventSynchronize(b.free));
+    std::memcpy(static_cast<std::byte*>(to) + (i - 1) * kStagingBytes, b.memory.data(), size(i - 1));
+  }
+}
+
+}  // namespace bp

@@ -1,0 +1,20 @@
+#pragma once
+#include <cstddef>
+
+/// Sizes of units of work and launch numbers of the GPU backend, in one place.
+namespace bp {
+
+constexpr int kCell = 8;           ///< voxels along one side of the cells in which whole answers are sought first
+constexpr int kUnit = 16;          ///< outputs that one thread of the y and z passes holds in registers
+constexpr int kRowGroup = 8;       ///< inputs that the y and z passes take or skip at a time
+constexpr int kPassThreads = 256;  ///< threads of a block in all passes
+constexpr int kWindowRun = 32;     ///< outputs of one thread of a window pass, at most
+/// Seeds in reach of a row from which on the row pass looks around each voxel rather than at each seed (varying scale).
+constexpr int kFewSeeds = 12;
+
+/// Memory for the distances of a slab of a tile; wider domains go in several slabs.
+constexpr std::size_t kSlabBytes = std::size_t(3) << 29;
+/// Page-locked block for copies; two per backend.
+constexpr std::size_t kStagingBytes = std::size_t(4) << 20;
+
+}  // namespace bp

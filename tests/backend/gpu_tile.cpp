@@ -1,0 +1,39 @@
+#include "tests/backend/gpu_tile.h"
+
+namespace bp {
+
+GpuTile::GpuTile(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const VoxelBox& interior)
+    : scale_(scale), interior_(interior), layout_(lay_out(solid.box(), scale, halo, interior)) {
+  const std::size_t bytes = std::size_t(solid.word_count()) * 8;
+  solid_.grow(bytes / 4);
+  samples_.grow(scale.samples.size());
+  closed_.grow(std::size_t(BitBox(interior).word_count()) * 2);
+  BP_CUDA_CHECK(cudaMemcpyAsync(solid_.data(), solid.data(), bytes, cudaMemcpyHostToDevice, nullptr));
+  BP_CUDA_CHECK(cudaMemcpyAsync(samples_.data(), scale.samples.data(), scale.samples.size() * sizeof(Scale),
+                                cudaMemcpyHostToDevice, nullptr));
+  BP_CUDA_CHECK(cudaDeviceSynchronize());
+}
+
+void GpuTile::close(DeviceClosing& closing, StructuringElement element, cudaStream_t stream,
+                    const DeviceClosing::Mark& mark) {
+  closing.enqueue(layout_, solid_.data(), scale_, samples_.data(), element, closed_.data(), stream, mark);
+}
+
+void GpuTile::close(HierarchicalClosing& closing, StructuringElement element, HierarchicalVariant variant,
+                    cudaStream_t stream, const DeviceClosing::Mark& mark) {
+  closing.enqueue(layout_, solid_.data(), scale_, samples_.data(), element, variant, closed_.data(), stream, mark);
+}
+
+void GpuTile::poison(cudaStream_t stream) {
+  BP_CUDA_CHECK(cudaMemsetAsync(closed_.data(), 0x5a, closed_.bytes(), stream));
+}
+
+BitBox GpuTile::result(cudaStream_t stream) const {
+  BitBox out(interior_);
+  BP_CUDA_CHECK(
+      cudaMemcpyAsync(out.data(), closed_.data(), std::size_t(out.word_count()) * 8, cudaMemcpyDeviceToHost, stream));
+  BP_CUDA_CHECK(cudaStreamSynchronize(stream));
+  return out;
+}
+
+}  // namespace bp

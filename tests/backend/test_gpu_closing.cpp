@@ -1,0 +1,70 @@
+// Paths through gpu/ that the Backend chooses by itself, each forced here. Runs on a GPU, or emulated.
+#include "gpu/cuda_backend.h"
+#include "tests/backend/gpu_tile.h"
+#include "tests/catch.h"
+#include "tests/reference/closing.h"
+#include "tests/reference/random_closing.h"
+
+using namespace bp;
+
+namespace {
+
+bool no_gpu() {
+  if (!cuda_devices().empty()) return false;
+  WARN("no GPU here: skipped");
+  return true;
+}
+
+struct Case {
+  ScaleLattice scale;
+  BitBox solid;
+  VoxelBox interior;
+  Halo halo;
+  StructuringElement element;
+};
+Case random_case(int seed, int largest_vox) {
+  reference::Random random{std::uint64_t(seed) + 1000};
+  const Scale largest = Scale(random.between(8, largest_vox * kScaleOne));
+  Case c;
+  c.interior = reference::random_box(random, 40);
+  c.halo = {largest / kScaleOne + 2, largest / kScaleOne + 1};
+  const VoxelBox box = c.interior.grown(c.halo.total_vox());
+  c.solid = reference::random_solid(random, box);
+  c.scale = reference::random_lattice(random, box, largest);
+  c.element = random.one_in(2) ? StructuringElement::cube : StructuringElement::ball;
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("narrow slabs and 32-bit distances change no bit", "[quick][gpu]") {
+  if (no_gpu()) return;
+  const int seed = GENERATE(range(0, 12));
+  const Case c = random_case(seed, 7);
+  const BitBox want = reference::close(c.solid, c.scale, c.element, c.interior);
+  GpuTile tile(c.solid, c.scale, c.halo, c.interior);
+  for (const bool wide : {false, true}) {
+    for (const std::size_t slab_bytes : {std::size_t(1), std::size_t(1) << 28}) {
+      CAPTURE(seed, wide, slab_bytes);
+      DeviceClosing closing({4, slab_bytes, wide});
+      tile.poison(nullptr);
+      tile.close(closing, c.element, nullptr);
+      CHECK(tile.result(nullptr) == want);
+    }
+  }
+}
+
+TEST_CASE("the paper's hierarchical collision gives the same voxels", "[quick][gpu]") {
+  if (no_gpu()) return;
+  const int seed = GENERATE(range(0, 24));
+  const Case c = random_case(seed, 6);
+  const BitBox want = reference::close(c.solid, c.scale, c.element, c.interior);
+  GpuTile tile(c.solid, c.scale, c.halo, c.interior);
+  for (const auto variant : {HierarchicalVariant::plain, HierarchicalVariant::half_resolution}) {
+    CAPTURE(seed, int(variant), c.scale.constant(), c.element == StructuringElement::cube);
+    HierarchicalClosing closing(4);
+    tile.poison(nullptr);
+    tile.close(closing, c.element, variant, nullptr);
+    CHECK(tile.result(nullptr) == want);
+  }
+}

@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+
+#include "lib/grid/bit_box.h"
+#include "lib/grid/scale_field.h"
+
+/// Inputs of the closing benchmark: solids voxelized from real models, or generated, and scale fields that are the same
+/// integers on every machine.
+namespace bp {
+
+struct BenchSolid {
+  std::string name;
+  BitBox bits;     ///< filled
+  VoxelBox tight;  ///< voxels of the model, one of margin
+};
+
+/// `what`: an OBJ file, or "plant": generated tanks, pipes and plates. `resolution`: voxels along the longest side.
+[[nodiscard]] BenchSolid load_bench_solid(const std::string& what, int resolution);
+
+/// S over `box`: constant, or smooth bumps between `least` and `most`. Sixteenths of a voxel.
+[[nodiscard]] ScaleLattice bench_scale(const VoxelBox& box, Scale least, Scale most);
+
+/// FNV-1a of the words: to compare results between machines.
+[[nodiscard]] std::uint64_t bits_hash(const BitBox& bits);
+
+}  // namespace bp
