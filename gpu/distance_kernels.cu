@@ -131,7 +131,7 @@ __device__ Offsets load_offsets(const TransformArgs& a, std::uint32_t* memory, i
     o.least = min(o.least, offset);
     o.seeds += __popc(bits);
   }
-  o.least = __reduce_min_sync(kAllLanes, o.least);
+  o.least = warp_min(o.least);
   __syncwarp();
   return o;
 }
@@ -155,7 +155,7 @@ __device__ std::uint32_t offset_value(const TransformArgs& a, const Offsets& o, 
     for (int d = 0; d <= a.bounds.reach; ++d) {
       const std::uint32_t d2 = std::uint32_t(d * d);
       best = min(best, d2 + min(o.at[here - d], o.at[here + d]));
-      if ((d & 3) == 3 && d2 + o.least >= __reduce_max_sync(kAllLanes, best)) break;  // farther seeds cannot do better
+      if ((d & 3) == 3 && d2 + o.least >= warp_max(best)) break;  // farther seeds cannot do better
     }
   }
   return best < a.bounds.limit ? best : P::kFar;
