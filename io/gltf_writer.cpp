@@ -73,8 +73,7 @@ Buffer buffer_of(const LatticeMesh& mesh, LatticeCoord centre) {
 
 Json nodes_of(const LatticeMesh& mesh, LatticeCoord centre, const MeshWriteOptions& options) {
   const double unit = mesh.frame.voxel / kLatticePerVoxel;
-  Vec3d translation = mesh.frame.world(centre);
-  for (std::size_t i = 0; i < 3; ++i) translation[i] = translation[i] - options.origin[i] + 0.0;
+  const Vec3d translation = moved_exactly(mesh.frame, mesh.frame.world(centre), options.origin);
   Json nodes = Json::array();
   nodes.push_back(
       {{"name", "proxy"}, {"mesh", 0}, {"translation", translation}, {"scale", Json::array({unit, unit, unit})}});

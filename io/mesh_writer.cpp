@@ -45,18 +45,7 @@ Vec3d rounded_to_voxels(const GridFrame& frame, const Vec3d& p) {
 WorldVertices world_vertices(const LatticeMesh& mesh, const Vec3d& origin) {
   WorldVertices vertices;
   vertices.reserve(mesh.vertices.size());
-  for (const LatticeCoord v : mesh.vertices) {
-    Vec3d p = mesh.frame.world(v);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Difference d(p[i], origin[i]);
-      if (!d.exact) {
-        fail(ErrorCode::bad_argument, "vertices cannot be moved by the origin {} without rounding; use {}",
-             text_of(origin), text_of(rounded_to_voxels(mesh.frame, origin)));
-      }
-      p[i] = d.value + 0.0;  // -0 becomes 0
-    }
-    vertices.push_back(p);
-  }
+  for (const LatticeCoord v : mesh.vertices) vertices.push_back(moved_exactly(mesh.frame, mesh.frame.world(v), origin));
   return vertices;
 }
 
@@ -115,6 +104,19 @@ std::array<float, 3> normal_of(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
 }
 
 }  // namespace
+
+Vec3d moved_exactly(const GridFrame& frame, const Vec3d& p, const Vec3d& origin) {
+  Vec3d moved;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Difference d(p[i], origin[i]);
+    if (!d.exact) {
+      fail(ErrorCode::bad_argument, "vertices cannot be moved by the origin {} without rounding; use {}",
+           text_of(origin), text_of(rounded_to_voxels(frame, origin)));
+    }
+    moved[i] = d.value + 0.0;  // -0 becomes 0
+  }
+  return moved;
+}
 
 MeshFormat mesh_format_of(const std::string& path) {
   const std::size_t dot = path.find_last_of("./");

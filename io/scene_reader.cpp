@@ -69,7 +69,7 @@ RawSourcePtr open_raw(const std::string& path, const SceneOptions& options) {
   std::string extension = path == "-" ? std::string() : extension_of(path);
   Reader reader = reader_of(extension);
   if (reader == Reader::unknown && !options.format.empty()) {
-    extension = lower(options.format);
+    extension = lower(options.format.substr(options.format[0] == '.' ? 1 : 0));
     reader = reader_of(extension);
     if (reader == Reader::unknown)
       fail(ErrorCode::bad_argument, "'{}' is not a scene format; name one of ply stl obj off gltf glb", options.format);

@@ -42,6 +42,19 @@ std::string percent_decoded(const std::string& uri) {
   return path;
 }
 
+// Some exporters write names in Latin-1, which is no JSON. Names do not matter here.
+GltfJson parse_json(std::string text) {
+  try {
+    return GltfJson::parse(text);
+  } catch (const GltfJson::parse_error& e) {
+    if (std::strstr(e.what(), "UTF-8") == nullptr) throw;
+  }
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) >= 128) c = '?';
+  }
+  return GltfJson::parse(text);
+}
+
 }  // namespace
 
 // --- GltfObject
@@ -159,7 +172,7 @@ void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
   LeanJson lean = read_lean_json(file_, offset, size, temp_dir_);
   lifted_ = std::move(lean.data);
   try {
-    json_ = GltfJson::parse(lean.text);
+    json_ = parse_json(std::move(lean.text));
   } catch (const GltfJson::exception& e) {
     fail(ErrorCode::bad_input, "{}: broken JSON: {}", file_->name(), e.what());
   }

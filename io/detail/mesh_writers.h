@@ -10,6 +10,9 @@ using WorldVertices = std::vector<Vec3d>;
 /// Lines without line ends that say what made the mesh.
 [[nodiscard]] std::vector<std::string> provenance_lines(const LatticeMesh& mesh, const MeshWriteOptions& options);
 
+/// `p` - `origin`, which must be exact; throws bad_argument naming an origin that fits the frame.
+[[nodiscard]] Vec3d moved_exactly(const GridFrame& frame, const Vec3d& p, const Vec3d& origin);
+
 void write_gltf(const LatticeMesh& mesh, OutputFile& out, bool binary, const MeshWriteOptions& options);
 void write_ply(const LatticeMesh& mesh, const WorldVertices& vertices, OutputFile& out,
                const MeshWriteOptions& options);

@@ -11,6 +11,10 @@ namespace {
 bool is_line_end(char c) {
   return c == '\n' || c == '\r';
 }
+/// Vertical tab, form feed, and the mark that DOS set behind the last line.
+bool is_odd_blank(char c) {
+  return c == '\v' || c == '\f' || c == '\x1A';
+}
 /// Ends a word: blank, line end, other control characters of ASCII.
 bool ends_word(char c) {
   return static_cast<unsigned char>(c) <= ' ';
@@ -65,7 +69,7 @@ TextScanner::Next TextScanner::look_ahead() {
     line_end();
     return Next::blank;
   }
-  if (*cur_ == '\v' || *cur_ == '\f') {
+  if (is_odd_blank(*cur_)) {
     ++cur_;
     return Next::blank;
   }
@@ -80,7 +84,7 @@ bool TextScanner::word_anywhere(char comment) {
       line_end();
     } else if (comment != 0 && *cur_ == comment) {
       next_line();
-    } else if (*cur_ == ' ' || *cur_ == '\t' || *cur_ == '\v' || *cur_ == '\f') {
+    } else if (*cur_ == ' ' || *cur_ == '\t' || is_odd_blank(*cur_)) {
       ++cur_;
     } else {
       return true;

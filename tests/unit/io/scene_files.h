@@ -40,6 +40,7 @@ class TempDir {
   [[nodiscard]] std::string path(const std::string& name) const { return (path_ / name).string(); }
   /// Writes a file and returns its path.
   [[nodiscard]] std::string file(const std::string& name, const std::string& bytes) const {
+    std::filesystem::remove(path(name));  // truncating an old file would wait for the disk
     std::ofstream(path(name), std::ios::binary) << bytes;
     return path(name);
   }

@@ -338,6 +338,15 @@ TEST_CASE("a GLB cut anywhere is refused", "[quick][io]") {
   CHECK_THAT(complaint_of(dir.file("j.gltf", "{\"asset\": {\"version\": \"2.0\"}")), Contains("JSON"));
 }
 
+TEST_CASE("a glTF name in Latin-1 does not matter", "[quick][io]") {
+  Document d;
+  d.node({{"mesh", d.quad_mesh()}, {"name", "T?r"}});
+  const TempDir dir;
+  std::string bytes = d.glb();
+  bytes[bytes.find("T?r") + 1] = '\xFC';
+  CHECK(read_all(dir.file("a.glb", bytes)) == kQuadFan);
+}
+
 TEST_CASE("glTF extras of others are left alone", "[quick][io]") {
   Document d;
   d.node({{"mesh", d.quad_mesh()}});

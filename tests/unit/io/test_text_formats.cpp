@@ -16,7 +16,7 @@ TEST_CASE("an OBJ face may name its corners in every form", "[quick][io]") {
   const std::string face = GENERATE(as<std::string>(), "f 1 2 3 4", "f 1/1 2/2 3/3 4/4", "f 1//1 2//1 3//1 4//1",
                                     "f 1/1/1 2/2/1 3/3/1 4/4/1", "f -4 -3 -2 -1", "f 1// 2/ 3 4//1", "f 1 2 3 4 # quad",
                                     "f 1 2 \\\n 3 \\\n4", "  f\t1  2\t3 4  ", "f 1 2 \\\r\n3 4");
-  const std::string end = GENERATE(as<std::string>(), "\n", "\r\n", "\r", "");
+  const std::string end = GENERATE(as<std::string>(), "\n", "\r\n", "\r", "", "\n\x1A");
   const TempDir dir;
   const std::string path = dir.file("a.obj",
                                     "# comment\nmtllib C:\\x\\\nv 0 0 0\nv 1 0 0 0.5 0.5 0.5\nv 1.0 1e0 -0\nvt 0 0\n"
