@@ -31,8 +31,8 @@ std::string text_of(double x) {
   return std::string(digits, std::to_chars(digits, digits + sizeof digits, x).ptr);
 }
 
-std::string text_of(const Vec3d& p) {
-  return text_of(p[0]) + " " + text_of(p[1]) + " " + text_of(p[2]);
+std::string text_of(const Vec3d& p, const char* between = " ") {
+  return text_of(p[0]) + between + text_of(p[1]) + between + text_of(p[2]);
 }
 
 /// The multiple of a voxel nearest to `p`: subtracting it from a lattice point is exact.
@@ -64,9 +64,9 @@ void check_floats(const LatticeMesh& mesh, const WorldVertices& vertices, const 
     for (const double c : p) {
       if (double(float(c)) == c) continue;
       fail(ErrorCode::bad_argument,
-           "{}: STL holds 32-bit floats, and the coordinate {} is none; move the mesh with --origin \"{}\", or write "
+           "{}: STL holds 32-bit floats, and the coordinate {} is none; move the mesh with --origin={}, or write "
            "GLB, PLY or OBJ",
-           name, text_of(c), text_of(rounded_to_voxels(mesh.frame, vertices.front())));
+           name, text_of(c), text_of(rounded_to_voxels(mesh.frame, vertices.front()), ","));
     }
   }
 }
@@ -111,7 +111,7 @@ Vec3d moved_exactly(const GridFrame& frame, const Vec3d& p, const Vec3d& origin)
     const Difference d(p[i], origin[i]);
     if (!d.exact) {
       fail(ErrorCode::bad_argument, "vertices cannot be moved by the origin {} without rounding; use {}",
-           text_of(origin), text_of(rounded_to_voxels(frame, origin)));
+           text_of(origin), text_of(rounded_to_voxels(frame, origin), ","));
     }
     moved[i] = d.value + 0.0;  // -0 becomes 0
   }

@@ -73,7 +73,7 @@ std::string enclose_text(const Options& o) {
 }
 
 /// Sets what must stay inside; reads the scenes named.
-void set_enclosed(const Options& o, bp::MeshParams& params) {
+void set_enclosed(const Options& o, const bp::Bounds3d& bounds, bp::MeshParams& params) {
   if (o.enclose.empty() || o.enclose == std::vector<std::string>{"closing"}) return;
   if (o.enclose == std::vector<std::string>{"input"}) {
     params.enclose = bp::Enclose::input;
@@ -87,6 +87,13 @@ void set_enclosed(const Options& o, bp::MeshParams& params) {
   options.temp_dir = o.common.temp;
   const auto scene = bp::open_scenes(o.enclose, options);
   for (std::vector<bp::TriangleD> chunk; scene->read(chunk);) {
+    for (const bp::TriangleD& t : chunk) {  // what the voxels do not enclose cannot be kept inside
+      bp::Bounds3d both = bounds;
+      for (const bp::Vec3d& p : t) both.add(p);
+      if (both == bounds) continue;
+      bp::fail(bp::ErrorCode::bad_input, "{}: reaches beyond the scene that the stream was made from; name that scene",
+               scene->name());
+    }
     params.scene.insert(params.scene.end(), chunk.begin(), chunk.end());
     if (params.scene.size() * 160 > o.common.memory_bytes / 2) {
       bp::fail(bp::ErrorCode::out_of_resource, "{}: its triangles need more than half of --memory; use --enclose input",
@@ -158,7 +165,7 @@ void run(const Options& o) {
   if (o.error) params.error_world = o.error->in_world(header.bounds.diagonal(), header.frame.voxel);
   params.edge_factor = o.edge_length;
   params.tighten = !o.loose;
-  if (params.tighten) set_enclosed(o, params);
+  if (params.tighten) set_enclosed(o, header.bounds, params);
   bp::MeshCounts counts;
   bp::LatticeMesh proxy = bp::mesh_stream(source, bp::make_shelf_factory(o.common.memory_bytes / 2, o.common.temp),
                                           std::move(params), counts);

@@ -72,7 +72,12 @@ class Simplifier {
         if (!mesh_.alive(HalfEdgeMesh::face(h)) || mesh_.edge(h) != h || parked_[h]) continue;
         if (merged_in[mesh_.from(h)] == sweep || merged_in[mesh_.to(h)] == sweep || known_bound(h) > bound) continue;
         const std::optional<Candidate> candidate = solve(h);
-        if (candidate && (candidate->cost > bound || too_far(h, candidate->cost))) continue;
+        if (candidate && too_far(h, candidate->cost)) {
+          far_ = true;
+          parked_[h] = 1;
+          continue;
+        }
+        if (candidate && candidate->cost > bound) continue;
         const VertexId u = mesh_.from(h);
         if (!candidate || !take(h, *candidate)) {
           parked_[h] = 1;
@@ -403,7 +408,7 @@ LatticeMesh simplify(const LatticeMesh& dense, const SimplifyParams& params, Sim
   counts.faces_in = dense.triangles.size();
   if (dense.triangles.empty()) return dense;
   HalfEdgeMesh mesh(dense);
-  if (params.dense) merge_flat_regions(mesh);
+  if (params.dense && !params.edge_limit) merge_flat_regions(mesh);  // it minds no edge length
   counts.faces_flat = mesh.face_count();
   Simplifier simplifier(mesh, params, counts);
   if (params.faces > 0 && params.dense) simplifier.run_bulk();

@@ -135,7 +135,7 @@ class Tightener {
       longest = std::max(longest, length(to_double(a - q)));
     });
     if (gain <= 0 || after < std::min(kQualityFloor, least_quality) || after == 0) return false;
-    if (params_.edge_limit > 0 && longest > params_.edge_limit) return false;
+    if (params_.edge_limit && longest > params_.edge_limit(q)) return false;
     if (!enclosed_.allows(star_, swept_) || !guard_.star_is_free(star_, replaced_)) return false;
     mesh_.move(v, q);
     for (const FaceId f : replaced_) tree_.update(f);
@@ -154,6 +154,7 @@ class Tightener {
     const double before = std::min(triangle_quality(p[0], p[1], p[2]), triangle_quality(p[1], p[0], p[3]));
     const double after = std::min(triangle_quality(p[3], p[2], p[0]), triangle_quality(p[2], p[3], p[1]));
     if (after < std::min(kQualityFloor, before) || after == 0 || !mesh_.can_flip(h)) return;
+    if (params_.edge_limit && length(to_double(p[3] - p[2])) > params_.edge_limit(p[2])) return;
     const std::array<NewFace, 2> faces = {NewFace{{id[3], id[2], id[0]}, {p[3], p[2], p[0]}},
                                           NewFace{{id[2], id[3], id[1]}, {p[2], p[3], p[1]}}};
     const std::array<FaceId, 2> replaced = {HalfEdgeMesh::face(h), HalfEdgeMesh::face(mesh_.twin(h))};

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 
 #include "lib/meshing/enclosed.h"
 #include "lib/meshing/lattice_mesh.h"
@@ -12,7 +13,8 @@ namespace bp {
 struct TightenParams {
   int sweeps = 40;  ///< at most; stops earlier when a sweep gains less than `least_gain` of the volume
   double least_gain = 5e-4;
-  double edge_limit = 0;  ///< longest edge a move may make, lattice units; 0: no limit
+  /// As in SimplifyParams: longest edge that a move or a flip may make near a point, lattice units; empty: no limit.
+  std::function<double(const LatticeCoord&)> edge_limit;
 };
 
 struct TightenCounts {

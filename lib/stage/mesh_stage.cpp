@@ -42,7 +42,8 @@ double scale_at(const StreamHeader& header, const LatticeCoord& p) {
 
 SimplifyParams simplify_params(const StreamHeader& header, const MeshParams& params) {
   SimplifyParams out;
-  out.faces = params.faces;
+  out.faces =
+      std::min<std::uint64_t>(params.faces, std::uint64_t(1) << 32);  // a mesh indexes fewer; multiples stay exact
   double error_world = params.error_world;
   if (params.faces == 0 && error_world == 0) {
     const bool cube = header.has_closing && header.element == StructuringElement::cube;
@@ -69,6 +70,7 @@ LatticeMesh tight_proxy(const LatticeMesh& dense, const Enclosed& enclosed, cons
   if (params.faces > 0) {
     TightenParams few;
     few.sweeps = 6;
+    few.edge_limit = params.edge_limit;
     proxy = tighten(proxy, enclosed, few, counts.tighten);
     SimplifyParams late = params;
     late.dense = false;
@@ -78,7 +80,9 @@ LatticeMesh tight_proxy(const LatticeMesh& dense, const Enclosed& enclosed, cons
     grown.add(counts.simplify);
     counts.simplify = grown;
   }
-  return tighten(proxy, enclosed, {}, counts.tighten);
+  TightenParams last;
+  last.edge_limit = params.edge_limit;
+  return tighten(proxy, enclosed, last, counts.tighten);
 }
 
 /// Enclosed volume, scene units cubed. Exact sum over the faces, rounded once.

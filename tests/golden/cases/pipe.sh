@@ -9,5 +9,9 @@ for format in ply obj stl gltf; do
   bpcheck cube.obj proxy.$format --no-distances | tail -1
 done
 write_cube large.obj 5
+bpvox cube.obj --resolution 40 -o cube.bp
+try bpmesh cube.bp --faces 12 --enclose large.obj -o wrong.glb
+try bpmesh cube.bp --faces 12 --enclose cube.obj -o tight.glb
+bpcheck cube.obj tight.glb --no-distances | tail -1
 try bpcheck large.obj proxy.glb --no-distances --examples 1
 files
