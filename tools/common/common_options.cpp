@@ -12,6 +12,7 @@ namespace bp {
 
 namespace {
 
+constexpr int kMostThreads = 4096;  ///< each has a backend of its own
 constexpr std::uint64_t kLeastMemory = std::uint64_t(64) << 20;
 
 std::string default_temp() {
@@ -56,7 +57,11 @@ DeviceChoice parse_device(const std::string& text) {
 
 void CommonOptions::add_to(Args& args, unsigned parts) {
   parts_ = parts;
-  if (parts & threads_part) args.option("-j,--threads", "N", threads, "computing threads; 0 is all cores");
+  if (parts & threads_part) {
+    args.option(
+        "-j,--threads", "N", [this](const std::string& t) { threads = int(parse_integer(t, 0, kMostThreads)); },
+        "computing threads; 0 is all cores (default: 0)");
+  }
   if (parts & memory_part) {
     args.option(
         "--memory", "SIZE", [this](const std::string& t) { memory_bytes = parse_size(t); },
