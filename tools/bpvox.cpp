@@ -68,8 +68,8 @@ struct Budget {
   explicit Budget(std::uint64_t memory) {
     const std::uint64_t fixed = std::uint64_t(128) << 20;
     const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
-    reader = usable / 10 * 3;
-    triangles = usable / 10 * 3;
+    reader = usable / 10;  // vertices of an indexed file: neighbours in the file are neighbours in space
+    triangles = usable / 10 * 4;
     shelf = usable / 10 * 3;
     store = usable / 20;
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
 #include "lib/core/parallel.h"
 #include "lib/voxel/voxelize.h"
@@ -11,7 +10,7 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kBlock = 4096;                       // triangles handed out at a time
+constexpr std::size_t kBlock = 32768;                      // triangles handed out at a time, about
 constexpr std::size_t kChunkBytes = std::size_t(1) << 20;  // bytes put into the store at a time
 
 FixedPoint corner_of(const TileGrid& grid, std::uint64_t tile) {
@@ -69,18 +68,19 @@ class BatchSorter {
 };
 
 template <class T>
-void append(std::vector<T>& to, std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
-
-template <class T>
-void put_chunks(ChunkStore& store, std::vector<T>& records, std::vector<ChunkStore::Handle>& handles) {
+void put_chunks(ChunkStore& store, Blocks<T>& records, std::vector<ChunkStore::Handle>& handles) {
   constexpr std::size_t kRecords = kChunkBytes / sizeof(T);
-  const std::span<const T> all(records);
-  for (std::size_t i = 0; i < all.size(); i += kRecords) {
-    handles.push_back(store.put(std::as_bytes(all.subspan(i, std::min(kRecords, all.size() - i)))));
+  std::vector<T> chunk;
+  const auto put = [&] {
+    if (!chunk.empty()) handles.push_back(store.put(std::as_bytes(std::span<const T>(chunk))));
+    chunk.clear();
+  };
+  for (const std::vector<T>& block : records.all()) {
+    if (chunk.size() + block.size() > kRecords) put();
+    chunk.insert(chunk.end(), block.begin(), block.end());
   }
-  std::vector<T>().swap(records);
+  put();
+  records = {};
 }
 
 /// body(span of T) for each chunk.
@@ -112,8 +112,8 @@ void TriangleBins::add(TriangleBatch&& batch) {
   for (TriangleBatch::Bin& from : batch.bins) {
     Bin& to = bins_[from.tile];
     const std::uint64_t before = to.bytes();
-    append(to.narrow, from.narrow);
-    append(to.wide, from.wide);
+    to.narrow.append(from.narrow);
+    to.wide.append(from.wide);
     records_ += from.narrow.size() + from.wide.size();
     memory_bytes_ += to.bytes() - before;
   }
@@ -137,20 +137,25 @@ void TriangleBins::for_each(std::uint64_t tile, const std::function<void(std::sp
   if (at == bins_.end()) return;
   const Bin& bin = at->second;
   const FixedPoint corner = corner_of(grid_, tile);
-  std::vector<FixedTriangle> block;
+  std::vector<FixedTriangle> block;  // a body is called with many at once: a device pays for each call
+  const auto flush = [&](std::size_t room) {
+    if (block.size() + room <= kBlock) return;
+    body(block);
+    block.clear();
+  };
   const auto narrow_records = [&](std::span<const NarrowTriangle> records) {
-    for (std::size_t i = 0; i < records.size(); i += kBlock) {
-      block.clear();
-      for (const NarrowTriangle& n : records.subspan(i, std::min(kBlock, records.size() - i))) {
-        block.push_back(widen(n, corner));
-      }
-      body(block);
-    }
+    flush(records.size());
+    for (const NarrowTriangle& n : records) block.push_back(widen(n, corner));
+  };
+  const auto wide_records = [&](std::span<const FixedTriangle> records) {
+    flush(records.size());
+    block.insert(block.end(), records.begin(), records.end());
   };
   get_chunks<NarrowTriangle>(store_, bin.narrow_chunks, narrow_records);
-  get_chunks<FixedTriangle>(store_, bin.wide_chunks, body);
-  narrow_records(bin.narrow);
-  if (!bin.wide.empty()) body(bin.wide);
+  get_chunks<FixedTriangle>(store_, bin.wide_chunks, wide_records);
+  for (const auto& records : bin.narrow.all()) narrow_records(records);
+  for (const auto& records : bin.wide.all()) wide_records(records);
+  if (!block.empty()) body(block);
 }
 
 void TriangleBins::spill(std::span<const std::uint64_t> tiles) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <span>
@@ -25,6 +26,34 @@ struct TriangleBatch {
   std::vector<Bin> bins;
 };
 
+/// Records in blocks that grow with their number up to 64 KiB: nothing is copied when there are more, and blocks of one
+/// size, freed and made again, leave no holes.
+template <class T>
+class Blocks {
+ public:
+  void append(std::span<const T> records) {
+    while (!records.empty()) {
+      if (blocks_.empty() || blocks_.back().size() == blocks_.back().capacity()) grow();
+      std::vector<T>& last = blocks_.back();
+      const std::size_t n = std::min(records.size(), last.capacity() - last.size());
+      last.insert(last.end(), records.begin(), records.begin() + std::ptrdiff_t(n));
+      records = records.subspan(n);
+    }
+  }
+  [[nodiscard]] std::uint64_t bytes() const { return capacity_ * sizeof(T); }
+  [[nodiscard]] const std::vector<std::vector<T>>& all() const { return blocks_; }
+
+ private:
+  void grow() {
+    constexpr std::size_t kMost = 65536 / sizeof(T);
+    blocks_.emplace_back();
+    blocks_.back().reserve(std::clamp<std::size_t>(capacity_, 16, kMost));
+    capacity_ += blocks_.back().capacity();
+  }
+  std::vector<std::vector<T>> blocks_;
+  std::size_t capacity_ = 0;
+};
+
 class TriangleBins {
  public:
   TriangleBins(const TileGrid& grid, ChunkStore& store) : grid_(grid), store_(store) {}
@@ -38,7 +67,7 @@ class TriangleBins {
   [[nodiscard]] std::uint64_t records() const { return records_; }            ///< added so far
   [[nodiscard]] std::vector<std::uint64_t> tiles() const;                     ///< ever added to; sorted
   [[nodiscard]] std::uint64_t memory_bytes(std::uint64_t tile) const;         ///< held for one tile
-  /// Calls body with the tile's triangles, some thousands at a time. Thread-safe for distinct tiles.
+  /// Calls body with the tile's triangles, some ten thousand at a time. Thread-safe for distinct tiles.
   void for_each(std::uint64_t tile, const std::function<void(std::span<const FixedTriangle>)>& body) const;
   /// Puts into the store what the tiles hold in memory, in parallel.
   void spill(std::span<const std::uint64_t> tiles);
@@ -49,12 +78,10 @@ class TriangleBins {
 
  private:
   struct Bin {
-    std::vector<NarrowTriangle> narrow;
-    std::vector<FixedTriangle> wide;
+    Blocks<NarrowTriangle> narrow;
+    Blocks<FixedTriangle> wide;
     std::vector<ChunkStore::Handle> narrow_chunks, wide_chunks;
-    [[nodiscard]] std::uint64_t bytes() const {
-      return narrow.capacity() * sizeof(NarrowTriangle) + wide.capacity() * sizeof(FixedTriangle);
-    }
+    [[nodiscard]] std::uint64_t bytes() const { return narrow.bytes() + wide.bytes(); }
   };
   TileGrid grid_;
   ChunkStore& store_;
