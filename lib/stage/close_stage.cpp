@@ -259,7 +259,10 @@ void Run::read_before(std::int64_t end_vox) {
 }
 
 void Run::take_brick() {
-  if (brick_.layer != Layer::solid) return;
+  if (brick_.layer != Layer::solid) {
+    ++counts_.ignored_bricks;
+    return;
+  }
   solid_->put(brick_.coord, brick_.fill, brick_.bits);
   const BrickCoord next{brick_.coord.x + 1, brick_.coord.y + 1, brick_.coord.z + 1};
   const VoxelBox reach = intersect(voxels_of({brick_.coord, next}).grown(widest_.dilation_vox), tiles_.voxels);

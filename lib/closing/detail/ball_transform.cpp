@@ -378,7 +378,7 @@ struct BallTransform::Columns {
 
   void x_pass(std::int32_t x0, std::int32_t y, std::int32_t z, T* row) {
     if (rule.scale != BallScale::at_seed) return x_pass_of_one(y, rule.bound, row);
-    scratch.scales_.set(*rule.lattice, y, z, x0 - 64 * words.side, x0 + 64 * (words.side + 1));
+    scratch.scales_.set(*rule.lattice, y, z, x0 - radius, x0 + 64 + radius);
     if (scratch.scales_.constant()) return x_pass_of_one(y, ball_bound(scratch.scales_.min()), row);
     std::fill_n(row, kLanes, T(0));
     for (std::int32_t k = -words.side; k <= words.side; ++k) {

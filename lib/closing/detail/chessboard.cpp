@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "lib/closing/detail/simd.h"
 
@@ -35,6 +36,12 @@ BP_INLINE std::uint64_t within_word(const T* distance, const T* radius) {
   for (int i = 0; i < kLanes; ++i) yes[i] = distance[i] <= radius[i] ? 255 : 0;
   return nonzero_bits(yes);
 }
+template <class T>
+BP_INLINE std::uint64_t within_one(const T* distance, T radius) {
+  std::uint8_t yes[kLanes];
+  for (int i = 0; i < kLanes; ++i) yes[i] = distance[i] <= radius ? 255 : 0;
+  return nonzero_bits(yes);
+}
 
 using Byte = std::uint8_t;
 using Short = std::uint16_t;
@@ -55,6 +62,12 @@ BP_CLONES std::uint64_t within(const Byte* distance, const Byte* radius) {
 }
 BP_CLONES std::uint64_t within(const Short* distance, const Short* radius) {
   return within_word(distance, radius);
+}
+BP_CLONES std::uint64_t within(const Byte* distance, Byte radius) {
+  return within_one(distance, radius);
+}
+BP_CLONES std::uint64_t within(const Short* distance, Short radius) {
+  return within_one(distance, radius);
 }
 
 bool any(const std::uint64_t* words, std::int32_t n) {
@@ -174,15 +187,39 @@ struct VaryingCubeDilation::Sweep {
     step(lowest + kPad, to, width(), far);
   }
 
+  /// Sets the voxels of slice z within their radius. Bounds of the radii decide most words; only where the distances
+  /// straddle them does each voxel take its own.
   void emit(std::int32_t z) {
+    std::int32_t cell = std::numeric_limits<std::int32_t>::min();
     for (std::int32_t y = region.min.y; y < region.max.y; ++y) {
+      if (floor_div(y, kScaleStep) != cell) {
+        cell = floor_div(y, kScaleStep);
+        bound_radii(y, z);
+      }
       const T* distance = row(now, y - work.min.y) + (region.min.x - work.min.x);
-      scratch.scales_.set(scale, y, z, region.min.x, region.max.x);
       std::uint64_t* words = out.row(y, z) + (region.min.x - out.box().min.x) / 64;
       for (std::int32_t x = 0; x < region.max.x - region.min.x; x += 64) {
-        scratch.scales_.radii(region.min.x + x, radii);
+        const ScaleRange& radius = scratch.bounds_[std::size_t(x / 64)];
+        const std::uint64_t perhaps = within(distance + x, T(radius.max)) & ~words[x / 64];
+        if (perhaps == 0) continue;
+        const std::uint64_t surely = within(distance + x, T(radius.min));
+        words[x / 64] |= surely;
+        if ((perhaps & ~surely) == 0) continue;
+        const std::int32_t x0 = region.min.x + x;
+        scratch.scales_.set(scale, y, z, x0, x0 + 64);
+        scratch.scales_.radii(x0, radii);
         words[x / 64] |= within(distance + x, radii);
       }
+    }
+  }
+
+  /// Least and largest radius of each word, for the rows of one cell of the lattice.
+  void bound_radii(std::int32_t y, std::int32_t z) {
+    scratch.bounds_.resize(std::size_t(region.max.x - region.min.x) / 64);
+    for (std::size_t i = 0; i < scratch.bounds_.size(); ++i) {
+      const std::int32_t x = region.min.x + 64 * std::int32_t(i);
+      const ScaleRange s = scale_range(scale, {{x, y, z}, {x + 64, y + kScaleStep, z + 1}});
+      scratch.bounds_[i] = {Scale(cube_radius(s.min)), Scale(cube_radius(s.max))};
     }
   }
 };

@@ -19,6 +19,7 @@ class VaryingCubeDilation {
   struct Sweep;
   ScaleRow scales_;
   std::vector<std::uint64_t> line_;
+  std::vector<ScaleRange> bounds_;  ///< radii of the words of a row
   std::vector<std::uint8_t> bytes_;
   std::vector<std::uint16_t> shorts_;
 };

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "lib/closing/detail/simd.h"
+
 namespace bp::detail {
 
 namespace {
@@ -9,6 +11,17 @@ namespace {
 /// Index of sample `i` (in samples from the world's origin) along one axis, moved into the lattice.
 std::size_t clamped(std::int32_t i, std::int32_t origin, std::int32_t size) {
   return std::size_t(std::clamp(i - origin, 0, size - 1));
+}
+
+/// Four samples around a row (at y and y + 1, z and z + 1), and their weights, which add up to 64.
+struct Corners {
+  const Scale* sample[4];
+  std::uint32_t weight[4];
+};
+BP_CLONES void combine(const Corners& c, std::size_t first, std::size_t count, std::uint32_t* sums) {
+  const Scale *a = c.sample[0] + first, *b = c.sample[1] + first, *d = c.sample[2] + first, *e = c.sample[3] + first;
+  for (std::size_t i = 0; i < count; ++i)
+    sums[i] = a[i] * c.weight[0] + b[i] * c.weight[1] + d[i] * c.weight[2] + e[i] * c.weight[3];
 }
 
 }  // namespace
@@ -50,17 +63,25 @@ void ScaleRow::set(const ScaleLattice& lattice, std::int32_t y, std::int32_t z, 
                              clamped(sy, lattice.origin.y, lattice.size.y)) *
                             std::size_t(lattice.size.x)];
   };
-  const Scale *s00 = row(cy, cz), *s10 = row(cy + 1, cz), *s01 = row(cy, cz + 1), *s11 = row(cy + 1, cz + 1);
-  const std::uint32_t w00 = (kScaleStep - fy) * (kScaleStep - fz), w10 = fy * (kScaleStep - fz),
-                      w01 = (kScaleStep - fy) * fz, w11 = fy * fz;
-  min_ = ~std::uint32_t(0);
-  max_ = 0;
-  for (std::int32_t i = 0; i < count; ++i) {
-    const std::size_t x = clamped(first_cell_ + i, lattice.origin.x, lattice.size.x);
-    const std::uint32_t sum = s00[x] * w00 + s10[x] * w10 + s01[x] * w01 + s11[x] * w11;
-    sums_[std::size_t(i)] = sum;
-    min_ = std::min(min_, sum);
-    max_ = std::max(max_, sum);
+  const Corners corners{
+      {row(cy, cz), row(cy + 1, cz), row(cy, cz + 1), row(cy + 1, cz + 1)},
+      {(kScaleStep - fy) * (kScaleStep - fz), fy * (kScaleStep - fz), (kScaleStep - fy) * fz, fy * fz}};
+  const std::int32_t lo = std::clamp(lattice.origin.x - first_cell_, 0, count),
+                     hi = std::clamp(lattice.origin.x + lattice.size.x - first_cell_, lo, count);
+  std::uint32_t *begin = sums_.data(), *end = begin + count;
+  if (lo < hi) combine(corners, std::size_t(first_cell_ + lo - lattice.origin.x), std::size_t(hi - lo), begin + lo);
+  if (lo > 0) {  // beyond the lattice: its outermost samples
+    combine(corners, 0, 1, begin);
+    std::fill(begin + 1, begin + lo, *begin);
+  }
+  if (hi < count) {
+    combine(corners, std::size_t(lattice.size.x - 1), 1, begin + hi);
+    std::fill(begin + hi + 1, end, begin[hi]);
+  }
+  min_ = max_ = *begin;
+  for (const std::uint32_t* sum = begin; sum < end; ++sum) {
+    min_ = std::min(min_, *sum);
+    max_ = std::max(max_, *sum);
   }
 }
 
