@@ -334,6 +334,8 @@ class PooledShelf final : public BrickShelf {
     return all;
   }
 
+  [[nodiscard]] std::uint64_t memory_bytes() const override { return pool_->used; }
+
  private:
   // The top bits: the map inside uses the low ones.
   static std::size_t index(BrickCoord coord) { return HashCoord()(coord) >> 58; }

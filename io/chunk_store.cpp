@@ -70,6 +70,10 @@ class ZstdChunkStore final : public ChunkStore {
     chunks_.erase(at);
   }
 
+  [[nodiscard]] std::uint64_t memory_bytes() const override {
+    const std::lock_guard lock(mutex_);
+    return used_;
+  }
   [[nodiscard]] std::uint64_t scratch_bytes() const override {
     const std::lock_guard lock(mutex_);
     return file_ ? file_->size() : 0;

@@ -62,16 +62,17 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-/// How --memory is shared out. The rest is for the program, the tiles at work and the writer's batches.
+/// How --memory is shared out. The rest is for the program, and for what the threads and the writer have in hand.
 struct Budget {
-  std::uint64_t reader, triangles, shelf, store;
+  std::uint64_t reader, waiting, store, shelf, tiles;
   explicit Budget(std::uint64_t memory) {
-    const std::uint64_t fixed = std::uint64_t(128) << 20;
+    const std::uint64_t fixed = (std::uint64_t(96) << 20) + std::uint64_t(bp::thread_count()) * (8 << 20);
     const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
     reader = usable / 10;  // vertices of an indexed file: neighbours in the file are neighbours in space
-    triangles = usable / 10 * 4;
-    shelf = usable / 10 * 3;
-    store = usable / 20;
+    waiting = usable / 10 * 7;
+    store = waiting / 14;
+    shelf = waiting / 14 * 6;
+    tiles = usable / 10;
   }
 };
 
@@ -94,7 +95,8 @@ bp::VoxelizeOptions stage_options(const Options& o, const Budget& budget, bp::Pr
   };
   v.fill = o.fill;
   v.up = o.up;
-  v.memory_bytes = budget.triangles;
+  v.memory_bytes = budget.waiting;
+  v.tile_memory_bytes = budget.tiles;
   v.make_shelf = bp::make_shelf_factory(budget.shelf, o.common.temp);
   v.make_store = [&o, budget] { return bp::make_chunk_store(budget.store, o.common.temp); };
   v.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,

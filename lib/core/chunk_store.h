@@ -19,6 +19,7 @@ class ChunkStore {
   virtual Handle put(std::span<const std::byte> bytes) = 0;
   virtual void get(Handle handle, std::vector<std::byte>& out) const = 0;  ///< replaces `out`
   virtual void drop(Handle handle) = 0;                                    ///< never read again; frees its memory
+  [[nodiscard]] virtual std::uint64_t memory_bytes() const = 0;            ///< held in memory, compressed
   [[nodiscard]] virtual std::uint64_t scratch_bytes() const = 0;           ///< in the scratch file
 };
 /// Makes an empty store; stages get one from the tool, which knows --memory and --temp.

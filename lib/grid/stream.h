@@ -75,6 +75,7 @@ class BrickShelf {
   [[nodiscard]] virtual BrickFill fill(BrickCoord coord) const = 0;
   virtual void drop(BrickCoord coord) = 0;
   [[nodiscard]] virtual std::vector<BrickCoord> coords() const = 0;  ///< of non-empty bricks, sorted x, y, z
+  [[nodiscard]] virtual std::uint64_t memory_bytes() const = 0;      ///< held in memory, by all that share its budget
 };
 /// Makes an empty shelf; stages get one from the tool, which knows --memory and --temp.
 using ShelfFactory = std::function<std::unique_ptr<BrickShelf>()>;

@@ -75,10 +75,10 @@ void put_chunks(ChunkStore& store, Blocks<T>& records, std::vector<ChunkStore::H
     if (!chunk.empty()) handles.push_back(store.put(std::as_bytes(std::span<const T>(chunk))));
     chunk.clear();
   };
-  for (const std::vector<T>& block : records.all()) {
+  records.for_each([&](std::span<const T> block) {
     if (chunk.size() + block.size() > kRecords) put();
     chunk.insert(chunk.end(), block.begin(), block.end());
-  }
+  });
   put();
   records = {};
 }
@@ -153,8 +153,8 @@ void TriangleBins::for_each(std::uint64_t tile, const std::function<void(std::sp
   };
   get_chunks<NarrowTriangle>(store_, bin.narrow_chunks, narrow_records);
   get_chunks<FixedTriangle>(store_, bin.wide_chunks, wide_records);
-  for (const auto& records : bin.narrow.all()) narrow_records(records);
-  for (const auto& records : bin.wide.all()) wide_records(records);
+  bin.narrow.for_each(narrow_records);
+  bin.wide.for_each(wide_records);
   if (!block.empty()) body(block);
 }
 

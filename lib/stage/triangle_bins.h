@@ -1,12 +1,15 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <functional>
 #include <span>
+#include <type_traits>
 #include <unordered_map>
 #include <vector>
 
 #include "lib/core/chunk_store.h"
+#include "lib/core/page_block.h"
 #include "lib/grid/tile_grid.h"
 #include "lib/voxel/fixed_triangle.h"
 
@@ -26,32 +29,41 @@ struct TriangleBatch {
   std::vector<Bin> bins;
 };
 
-/// Records in blocks that grow with their number up to 64 KiB: nothing is copied when there are more, and blocks of one
-/// size, freed and made again, leave no holes.
+/// Records in blocks that grow with their number up to 64 KiB: nothing is copied when there are more.
 template <class T>
 class Blocks {
  public:
   void append(std::span<const T> records) {
     while (!records.empty()) {
-      if (blocks_.empty() || blocks_.back().size() == blocks_.back().capacity()) grow();
-      std::vector<T>& last = blocks_.back();
-      const std::size_t n = std::min(records.size(), last.capacity() - last.size());
-      last.insert(last.end(), records.begin(), records.begin() + std::ptrdiff_t(n));
+      if (last_size_ == last_capacity_) grow();
+      const std::size_t n = std::min(records.size(), last_capacity_ - last_size_);
+      std::memcpy(blocks_.back().data() + last_size_ * sizeof(T), records.data(), n * sizeof(T));
+      last_size_ += n;
       records = records.subspan(n);
     }
   }
-  [[nodiscard]] std::uint64_t bytes() const { return capacity_ * sizeof(T); }
-  [[nodiscard]] const std::vector<std::vector<T>>& all() const { return blocks_; }
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }  ///< taken from memory
+  /// body(span of T) for each block.
+  template <class Body>
+  void for_each(const Body& body) const {
+    for (const PageBlock& block : blocks_) {
+      const std::size_t n = &block == &blocks_.back() ? last_size_ : block.bytes() / sizeof(T);
+      body(std::span<const T>(reinterpret_cast<const T*>(block.data()), n));
+    }
+  }
 
  private:
+  static_assert(std::is_trivially_copyable_v<T>);
   void grow() {
-    constexpr std::size_t kMost = 65536 / sizeof(T);
-    blocks_.emplace_back();
-    blocks_.back().reserve(std::clamp<std::size_t>(capacity_, 16, kMost));
-    capacity_ += blocks_.back().capacity();
+    constexpr std::size_t kLeast = 512, kMost = 65536;
+    const PageBlock& block = blocks_.emplace_back(std::clamp<std::size_t>(bytes_, kLeast, kMost));
+    bytes_ += block.bytes();
+    last_capacity_ = block.bytes() / sizeof(T);
+    last_size_ = 0;
   }
-  std::vector<std::vector<T>> blocks_;
-  std::size_t capacity_ = 0;
+  std::vector<PageBlock> blocks_;
+  std::size_t last_size_ = 0, last_capacity_ = 0;  ///< of the last block, in records; the others are full
+  std::uint64_t bytes_ = 0;
 };
 
 class TriangleBins {

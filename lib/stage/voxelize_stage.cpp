@@ -41,9 +41,9 @@ struct Worker {
 /// Hands workers to tasks; a task waits until one is idle.
 class Workers {
  public:
-  explicit Workers(Backends& backends) {
-    for (const auto& b : backends) add(b.get());
-    for (int i = 0; backends.empty() && i < thread_count(); ++i) add(nullptr);
+  Workers(Backends& backends, std::size_t most) {
+    const std::size_t count = backends.empty() ? std::size_t(thread_count()) : backends.size();
+    for (std::size_t i = 0; i < std::min(count, most); ++i) add(backends.empty() ? nullptr : backends[i].get());
   }
   class Lease {
    public:
@@ -126,13 +126,19 @@ std::int32_t default_tile(const VoxelBox& grid) {
   return longest <= 768 ? 128 : longest <= 8192 ? 256 : 512;  // small grids: enough tiles for the threads
 }
 
+/// A tile at work: its bits, those of its fill, the labels of its faces and runs; and a block of triangles.
+std::uint64_t work_bytes(std::int32_t edge_vox) {
+  const auto edge = std::uint64_t(edge_vox);
+  return 3 * edge * edge * edge / 8 + (std::uint64_t(4) << 20);
+}
+
 /// One run of voxelize_stream().
 class Run {
  public:
   Run(TriangleSource& source, Backends& backends, const VoxelizeOptions& options)
       : source_(source),
+        backends_(backends),
         options_(options),
-        workers_(backends),
         shelf_(options.make_shelf()),
         store_(options.make_store()) {}
 
@@ -159,6 +165,7 @@ class Run {
   void lay_grid();
   void bin();
   void bin_chunks(const std::function<bool(std::vector<TriangleD>&)>& next);
+  [[nodiscard]] std::uint64_t waiting_bytes() const;
   void make_room();
   void voxelize();
   void voxelize_tile(std::uint64_t tile, Tile& state, bool last);
@@ -173,8 +180,9 @@ class Run {
   [[nodiscard]] VoxelBox tile_box(std::uint64_t tile) const { return tiles_.box(tiles_.coord(tile)); }
 
   TriangleSource& source_;
+  Backends& backends_;
   const VoxelizeOptions& options_;
-  Workers workers_;
+  std::unique_ptr<Workers> workers_;
   std::unique_ptr<BrickShelf> shelf_;
   std::unique_ptr<ChunkStore> store_;
   VoxelizeCounts counts_;
@@ -244,6 +252,8 @@ void Run::lay_grid() {
   if (options_.fill == FillMode::winding && std::max({size.x, size.y, size.z}) > kWindingVoxels)
     fail(ErrorCode::bad_argument, "a grid over 2^24 voxels a side cannot be filled by winding; use --fill flood");
   counts_.tiles = std::uint64_t(tiles_.total());
+  workers_ = std::make_unique<Workers>(
+      backends_, std::max<std::size_t>(1, std::size_t(options_.tile_memory_bytes / work_bytes(edge))));
   if (options_.fill != FillMode::none) flood_ = std::make_unique<OutsideFlood>(grid, VoxelCoord{edge, edge, edge});
 }
 
@@ -286,8 +296,14 @@ void Run::bin_chunks(const std::function<bool(std::vector<TriangleD>&)>& next) {
       [&](Item& item) {
         bins_->add(std::move(item.batch));
         steps.add(item.count);
-        if (bins_->memory_bytes() > options_.memory_bytes / 5 * 4) make_room();
+        if (waiting_bytes() > options_.memory_bytes) make_room();
       });
+}
+
+/// What fills memory_bytes. Were more than half of it put aside, the bins would have nothing to grow in.
+std::uint64_t Run::waiting_bytes() const {
+  const std::uint64_t aside = store_->memory_bytes() + shelf_->memory_bytes();
+  return bins_->memory_bytes() + std::min(aside, options_.memory_bytes / 2);
 }
 
 /// Tiles with many triangles are voxelized now: their bits are far smaller. The triangles of the others go to the
@@ -330,7 +346,7 @@ void Run::voxelize() {
 
 /// Adds the tile's waiting triangles to its voxels; `last`: there will be no more of them.
 void Run::voxelize_tile(std::uint64_t tile, Tile& state, bool last) {
-  const Workers::Lease worker(workers_);
+  const Workers::Lease worker(*workers_);
   const VoxelBox box = tile_box(tile);
   worker->bits.reset(box);
   if (state.on_shelf) load_voxels(*shelf_, worker->bits);
@@ -407,7 +423,7 @@ void Run::fill_and_emit(BrickSink& sink) {
 void Run::fill_flood(std::uint64_t tile) {
   const VoxelBox box = tile_box(tile);
   if (!flood_->has_enclosed(box)) return;
-  const Workers::Lease worker(workers_);
+  const Workers::Lease worker(*workers_);
   worker->bits.reset(box);
   load_voxels(*shelf_, worker->bits);
   flood_->fill_enclosed(box, worker->bits);
@@ -454,7 +470,7 @@ void Run::fill_winding_columns() {
 
 /// One column of tiles: first the columns of voxels whose crossings cancel, then the fill from below.
 void Run::fill_winding_column(std::int32_t tx, std::int32_t ty) {
-  const Workers::Lease worker(workers_);
+  const Workers::Lease worker(*workers_);
   const VoxelCoord size = tiles_.box({tx, ty, 0}).size();
   const std::size_t width = std::size_t(size.x), words = (width + 63) / 64;
   std::vector<std::int32_t> numbers(width * std::size_t(size.y), 0);

@@ -18,10 +18,15 @@ struct VoxelizeOptions {
   std::function<double(const Bounds3d&)> voxel_size;
   FillMode fill = FillMode::flood;
   UpAxis up = UpAxis::y;
-  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for triangles that wait; tiles at work come on top
-  std::int32_t tile_vox = 0;                              ///< 0: by the size of the grid; else a multiple of 64, <= 512
-  ShelfFactory make_shelf;                                ///< bricks between voxelizing and filling
-  ChunkStoreFactory make_store;                           ///< triangles beyond memory_bytes, crossings of columns
+  /// For what waits: triangles, as they are or compressed in the store, and bricks on the shelf. The store and the
+  /// shelf have their own bounds, together at most half of this; triangles get what these leave, and when it is spent,
+  /// tiles are voxelized or go to the store. What a thread has in hand, and the tiles at work, come on top.
+  std::uint64_t memory_bytes = std::uint64_t(512) << 20;
+  std::uint64_t tile_memory_bytes = std::uint64_t(512)
+                                    << 20;  ///< for tiles at work: at least one, at most one a thread
+  std::int32_t tile_vox = 0;                ///< 0: by the size of the grid; else a multiple of 64, <= 512
+  ShelfFactory make_shelf;                  ///< bricks between voxelizing and filling
+  ChunkStoreFactory make_store;             ///< triangles beyond memory_bytes, crossings of columns
   /// Called now and then: what is done, of how many (0: not known) units. May be empty. On any thread, one at a time.
   std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
 };

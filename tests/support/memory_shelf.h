@@ -37,6 +37,10 @@ class MemoryShelf : public BrickShelf {
     for (const auto& [coord, bits] : bricks_) all.push_back(coord);
     return all;
   }
+  [[nodiscard]] std::uint64_t memory_bytes() const override {
+    const std::lock_guard lock(mutex_);
+    return bricks_.size() * sizeof(BrickBits);
+  }
 
  private:
   mutable std::mutex mutex_;

@@ -26,6 +26,10 @@ TEST_CASE("chunks come back as they were, from memory and from scratch", "[quick
     REQUIRE(back == chunks[i]);
   }
   CHECK((store->scratch_bytes() > 0) == (memory < 100000));
+  CHECK((store->memory_bytes() > 0) == (memory > 0));
+  CHECK(store->memory_bytes() <= memory);
+  for (std::size_t i = 0; i < chunks.size(); ++i) store->drop(handles[i]);
+  CHECK(store->memory_bytes() == 0);
 }
 
 TEST_CASE("a store whose directory is missing fails when it needs it", "[quick][io]") {
