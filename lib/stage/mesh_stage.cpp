@@ -7,6 +7,7 @@
 #include "lib/core/predicates.h"
 #include "lib/meshing/repair.h"
 #include "lib/meshing/surface.h"
+#include "lib/meshing/tight_proxy.h"
 
 namespace bp {
 
@@ -59,32 +60,6 @@ SimplifyParams simplify_params(const StreamHeader& header, const MeshParams& par
   return out;
 }
 
-/// Growing collapses to a few times the target, tightening, then collapses that only keep the voxels inside, tightening
-/// again: growth that a coarse face could not take back is never made (docs/decisions/0003-order-of-steps.md).
-LatticeMesh tight_proxy(const LatticeMesh& dense, const Enclosed& enclosed, const SimplifyParams& params,
-                        MeshCounts& counts) {
-  constexpr std::uint64_t kEarlyFactor = 6;
-  SimplifyParams early = params;
-  early.faces = kEarlyFactor * params.faces;
-  LatticeMesh proxy = simplify(dense, early, counts.simplify);
-  if (params.faces > 0) {
-    TightenParams few;
-    few.sweeps = 6;
-    few.edge_limit = params.edge_limit;
-    proxy = tighten(proxy, enclosed, few, counts.tighten);
-    SimplifyParams late = params;
-    late.dense = false;
-    late.enclosed = &enclosed;
-    SimplifyCounts grown = counts.simplify;
-    proxy = simplify(proxy, late, counts.simplify);
-    grown.add(counts.simplify);
-    counts.simplify = grown;
-  }
-  TightenParams last;
-  last.edge_limit = params.edge_limit;
-  return tighten(proxy, enclosed, last, counts.tighten);
-}
-
 /// Enclosed volume, scene units cubed. Exact sum over the faces, rounded once.
 double volume_world(const LatticeMesh& mesh) {
   int128 sum = 0;
@@ -103,9 +78,9 @@ LatticeMesh mesh_stream(BrickSource& source, const ShelfFactory& make_shelf, Mes
   counts.repaired = repair_contacts(*shelves.meshed);
   const SimplifyParams simplify = simplify_params(header, params);
   const LatticeMesh dense = dense_surface(*shelves.meshed, header.frame);
-  LatticeMesh proxy = params.tighten
-                          ? tight_proxy(dense, *make_enclosed(shelves, params, header.frame), simplify, counts)
-                          : bp::simplify(dense, simplify, counts.simplify);
+  LatticeMesh proxy = params.tighten ? tight_proxy(dense, *make_enclosed(shelves, params, header.frame), simplify,
+                                                   counts.simplify, counts.tighten)
+                                     : bp::simplify(dense, simplify, counts.simplify);
   counts.volume_world = volume_world(proxy);
   counts.solid_volume_world = double(counts.voxels) * std::pow(header.frame.voxel, 3);
   proxy.provenance = header.provenance;
