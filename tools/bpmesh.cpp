@@ -19,13 +19,27 @@ namespace {
 struct Options {
   bp::CommonOptions common;
   std::string in = "-", out = "-", format;
-  std::uint64_t faces = 0;
+  std::vector<std::uint64_t> faces;  // one per level
   std::optional<bp::Length> error;
-  double edge_length = 0;
+  double volume = 0, edge_length = 0;
   std::vector<std::string> enclose;
   bool loose = false;  // --no-tighten
+  bool measure = false;
   bp::Vec3d origin{};
 };
+
+std::vector<std::uint64_t> parse_faces(const std::string& text) {
+  std::vector<std::uint64_t> faces;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    faces.push_back(std::uint64_t(bp::parse_integer(std::string_view(text).substr(begin, end - begin), 0, INT64_MAX)));
+    begin = end + 1;
+  }
+  if (faces == std::vector<std::uint64_t>{0}) return {};
+  if (std::count(faces.begin(), faces.end(), 0u) > 0)
+    bp::fail(bp::ErrorCode::bad_argument, "--faces {}: a level of 0 faces", text);
+  return faces;
+}
 
 bp::Vec3d parse_origin(const std::string& text) {
   bp::Vec3d p{};
@@ -45,13 +59,18 @@ Options parse(bp::Args& args) {
   args.positional("INPUT", o.in, "brick stream; - is stdin");
   args.option("-o,--output", "FILE", o.out, "proxy: .glb .gltf .ply .obj .stl; - is stdout, with --format");
   args.option("--format", "NAME", o.format, "format of the output, if its name does not tell");
-  args.option("--faces", "N", o.faces, "stop at N triangles; 0: no target");
-  args.option("--error", "LENGTH", o.error, "stop where merging would move the surface further (root mean square)");
+  args.option(
+      "--faces", "N[,N...]", [&o](const std::string& text) { o.faces = parse_faces(text); },
+      "stop at N triangles; several falling numbers: a chain of levels, each enclosing the one before");
+  args.option("--error", "LENGTH", o.error, "no point of the proxy farther from what it encloses");
+  args.option("--volume", "RATIO", o.volume,
+              "at most RATIO times the volume of the voxels that are meshed; 0: no limit");
   args.option("--edge-length", "C", o.edge_length, "no edge longer than C times the scale there; 0: no limit");
   args.option(
       "--enclose", "WHAT", o.enclose,
       "what stays inside while the proxy is tightened: closing, input (the voxels of the scene), or scene files");
   args.flag("--no-tighten", o.loose, "leave out the last step, which lowers the volume");
+  args.flag("--measure", o.measure, "measure distances, and print volume, edges and distances on stderr");
   args.option(
       "--origin", "X,Y,Z", [&o](const std::string& text) { o.origin = parse_origin(text); },
       "subtract this point from every vertex, for formats with short numbers");
@@ -102,53 +121,133 @@ void set_enclosed(const Options& o, const bp::Bounds3d& bounds, bp::MeshParams& 
   }
 }
 
-bp::Provenance provenance(const Options& o, const std::string& input) {
+/// "1000" or "5000,1000,200"; "0" without a target.
+std::string faces_text(const Options& o) {
+  std::string text;
+  for (const std::uint64_t n : o.faces) text += (text.empty() ? "" : ",") + std::to_string(n);
+  return text.empty() ? "0" : text;
+}
+
+bp::Provenance provenance(const Options& o, const std::string& input, std::size_t level) {
   bp::OptionText text;
-  text.add("faces", o.faces)
+  text.add("faces", faces_text(o))
       .add("error", o.error ? o.error->text() : "")
+      .add("volume", o.volume)
       .add("edge-length", o.edge_length)
       .add("enclose", enclose_text(o))
       .add("tighten", !o.loose);
+  if (o.faces.size() > 1) text.add("level", level);
   return bp::make_provenance("bpmesh", text, input);
 }
 
-void fill_report(bp::Report& report, const Options& o, const bp::MeshCounts& c) {
-  report.options = {{"faces", o.faces},
-                    {"error", o.error ? o.error->text() : ""},
-                    {"edge-length", o.edge_length},
-                    {"enclose", enclose_text(o)},
-                    {"tighten", !o.loose}};
+/// proxy.glb, or proxy.0.glb and so on if there are several levels.
+std::string level_name(const Options& o, std::size_t level) {
+  if (o.faces.size() < 2) return o.out;
+  const std::size_t dot = o.out.rfind('.');
+  if (o.out == "-" || dot == std::string::npos || o.out.find('/', dot) != std::string::npos)
+    bp::fail(bp::ErrorCode::bad_argument, "-o {}: several levels need a name with an extension", o.out);
+  return o.out.substr(0, dot) + "." + std::to_string(level) + o.out.substr(dot);
+}
+
+bp::Json json_of(const bp::SurfaceDistance& d) {
+  return {{"at_most", d.at_most}, {"at_least", d.at_least}, {"mean", d.mean}, {"where", d.where}};
+}
+
+bp::Json json_of(const bp::LevelCounts& c) {
   const bp::SimplifyCounts& s = c.simplify;
-  report.counts = {{"voxels", c.voxels},
-                   {"voxels_repaired", c.repaired},
+  const bp::MeshMeasures& m = c.measures;
+  bp::Json json = {{"faces", s.faces_out},
+                   {"stopped_by", c.stopped_by},
+                   {"volume", m.volume},
+                   {"edge_length", {{"min", m.edge_min}, {"mean", m.edge_mean}, {"max", m.edge_max}}},
+                   {"angle_min_degrees", m.angle_min_degrees},
                    {"faces_dense", s.faces_in},
                    {"faces_flat_merged", s.faces_flat},
-                   {"faces", s.faces_out},
                    {"collapses", s.collapses},
                    {"refused",
                     {{"link", s.refused_link},
                      {"constraints", s.refused_constraints},
                      {"shape", s.refused_shape},
                      {"length", s.refused_length},
-                     {"guard", s.refused_guard}}},
+                     {"guard", s.refused_guard},
+                     {"limits", s.refused_limits}}},
                    {"moves", c.tighten.moves},
-                   {"flips", c.tighten.flips},
-                   {"stopped_by", bp::to_string(s.stop)},
-                   {"volume", c.volume_world},
-                   {"volume_of_voxels", c.solid_volume_world}};
+                   {"flips", c.tighten.flips}};
+  if (m.proxy_to_enclosed) {
+    json["distance"] = {{"proxy_to_enclosed", json_of(*m.proxy_to_enclosed)},
+                        {"enclosed_to_proxy", json_of(*m.enclosed_to_proxy)},
+                        {"hausdorff_at_most", m.hausdorff()}};
+  }
+  return json;
 }
 
-/// One line if the target was out of reach: the user gets the best there is, and the reason.
-void note_shortfall(bp::Report& report, const Options& o, const bp::MeshCounts& c) {
-  const bp::SimplifyCounts& s = c.simplify;
-  if (o.faces == 0 || s.faces_out <= o.faces || s.stop == bp::StopReason::error) return;
-  const std::string note = fmt::format(
-      "{} faces instead of {}: no further edge can be merged (refused last: {} by topology, {} by enclosure, {} by "
-      "shape, {} by length, {} by "
-      "intersection); a larger --scale joins parts and closes holes",
-      s.faces_out, o.faces, s.refused_link, s.refused_constraints, s.refused_shape, s.refused_length, s.refused_guard);
-  report.notes.push_back(note);
-  if (o.common.progress != bp::ProgressMode::quiet) std::fprintf(stderr, "bpmesh: note: %s\n", note.c_str());
+void fill_report(bp::Report& report, const Options& o, const bp::MeshCounts& c) {
+  report.options = {{"faces", o.faces},           {"error", o.error ? o.error->text() : ""},
+                    {"volume", o.volume},         {"edge-length", o.edge_length},
+                    {"enclose", enclose_text(o)}, {"tighten", !o.loose}};
+  bp::Json levels = bp::Json::array();
+  for (const bp::LevelCounts& level : c.levels) levels.push_back(json_of(level));
+  report.counts = {{"voxels", c.voxels},
+                   {"voxels_repaired", c.repaired},
+                   {"volume_of_voxels", c.solid_volume_world},
+                   {"levels", levels}};
+}
+
+void note(bp::Report& report, const Options& o, const std::string& text) {
+  report.notes.push_back(text);
+  if (o.common.progress != bp::ProgressMode::quiet) std::fprintf(stderr, "bpmesh: note: %s\n", text.c_str());
+}
+
+/// One line for each target that was out of reach: the user gets the best there is, and the reason.
+void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts& c, double error_world) {
+  for (std::size_t i = 0; i < c.levels.size(); ++i) {
+    const bp::SimplifyCounts& s = c.levels[i].simplify;
+    const std::string which = c.levels.size() > 1 ? fmt::format("level {}: ", i) : "";
+    if (s.stop == bp::StopReason::nothing_left && i < o.faces.size() && s.faces_out > o.faces[i]) {
+      note(report, o,
+           fmt::format("{}{} faces instead of {}: no further edge can be merged (refused last: {} by topology, {} by "
+                       "enclosure, {} by shape, {} by length, {} by intersection); a larger --scale joins parts and "
+                       "closes holes",
+                       which, s.faces_out, o.faces[i], s.refused_link, s.refused_constraints, s.refused_shape,
+                       s.refused_length, s.refused_guard));
+    }
+    const auto& distance = c.levels[i].measures.proxy_to_enclosed;
+    if (error_world > 0 && distance && distance->at_least > error_world * (1 + 1e-9)) {
+      note(report, o,
+           fmt::format("{}the proxy is up to {:.4g} from what it encloses instead of {:.4g}: the voxels around it are "
+                       "as far; use a smaller --scale or smaller voxels, or --enclose closing",
+                       which, distance->at_least, error_world));
+    }
+  }
+}
+
+std::string distance_text(const char* name, const bp::SurfaceDistance& d) {
+  return fmt::format("  {}: at most {:.4g}, {:.4g} on average\n", name, d.at_most, d.mean);
+}
+
+std::string text_of(const bp::LevelCounts& level, const bp::MeshCounts& all) {
+  const bp::MeshMeasures& m = level.measures;
+  std::string text = fmt::format("{} faces, stopped by: {}\n", level.simplify.faces_out, level.stopped_by);
+  text +=
+      fmt::format("  volume {:.6g}, {:.4g} times that of the voxels\n", m.volume, m.volume / all.solid_volume_world);
+  text += fmt::format("  edges {:.4g} to {:.4g}, {:.4g} on average; least angle {:.3g} degrees\n", m.edge_min,
+                      m.edge_max, m.edge_mean, m.angle_min_degrees);
+  if (!m.proxy_to_enclosed) return text;
+  text += distance_text("from the proxy to what it encloses", *m.proxy_to_enclosed);
+  text += distance_text("from what it encloses to the proxy", *m.enclosed_to_proxy);
+  return text + fmt::format("  Hausdorff distance: at most {:.4g}\n", m.hausdorff());
+}
+
+bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
+  bp::MeshParams params;
+  params.faces = o.faces;
+  if (o.error) params.error_world = o.error->in_world(header.bounds.diagonal(), header.frame.voxel);
+  params.volume_ratio = o.volume;
+  params.edge_factor = o.edge_length;
+  params.tighten = !o.loose;
+  params.distances = o.measure || (o.error && !o.enclose.empty());
+  if (params.tighten || params.distances) set_enclosed(o, header.bounds, params);
+  return params;
 }
 
 void run(const Options& o) {
@@ -157,27 +256,30 @@ void run(const Options& o) {
   const bp::MeshFormat format = bp::mesh_format_of(o.format.empty() ? o.out : "x." + o.format);
   bp::Report report("bpmesh");
   report.stage("read and mesh");
-  const auto output = bp::open_output(o.out, o.common.overwrite);
+  std::vector<std::unique_ptr<bp::OutputFile>> outputs;
+  for (std::size_t i = 0; i < std::max<std::size_t>(o.faces.size(), 1); ++i)
+    outputs.push_back(bp::open_output(level_name(o, i), o.common.overwrite));
   bp::BrickReader source(o.in);
-  const bp::StreamHeader& header = source.header();
-  bp::MeshParams params;
-  params.faces = o.faces;
-  if (o.error) params.error_world = o.error->in_world(header.bounds.diagonal(), header.frame.voxel);
-  params.edge_factor = o.edge_length;
-  params.tighten = !o.loose;
-  if (params.tighten) set_enclosed(o, header.bounds, params);
+  bp::MeshParams params = mesh_params(o, source.header());
+  const double error_world = params.error_world;
   bp::MeshCounts counts;
-  bp::LatticeMesh proxy = bp::mesh_stream(source, bp::make_shelf_factory(o.common.memory_bytes / 2, o.common.temp),
-                                          std::move(params), counts);
+  std::vector<bp::LatticeMesh> levels = bp::mesh_stream(
+      source, bp::make_shelf_factory(o.common.memory_bytes / 2, o.common.temp), std::move(params), counts);
   report.bytes_in = source.totals().bytes;
-  proxy.provenance.push_back(provenance(o, source.totals().checksum()));
 
   report.stage("write");
-  bp::write_mesh(proxy, *output, format, {o.origin});
-  output->commit();
-  report.bytes_out = output->bytes();
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    levels[i].provenance.push_back(provenance(o, source.totals().checksum(), i));
+    bp::write_mesh(levels[i], *outputs[i], format, {o.origin});
+  }
+  for (const auto& output : outputs) {
+    output->commit();
+    report.bytes_out += output->bytes();
+  }
   fill_report(report, o, counts);
-  note_shortfall(report, o, counts);
+  note_shortfalls(report, o, counts, error_world);
+  for (std::size_t i = 0; o.measure && i < levels.size(); ++i)
+    std::fprintf(stderr, "%s: %s", level_name(o, i).c_str(), text_of(counts.levels[i], counts).c_str());
   report.write(o.common);
 }
 

@@ -97,7 +97,7 @@ class Simplifier {
       if (mesh_.alive(HalfEdgeMesh::face(h)) && mesh_.edge(h) == h) push(h);
     }
     while (params_.faces == 0 || mesh_.face_count() > params_.faces) {
-      if (heap_.empty()) return far_ ? StopReason::error : StopReason::nothing_left;
+      if (heap_.empty()) return reason_to_end();
       const Entry top = heap_.top();
       heap_.pop();
       if (!mesh_.alive(HalfEdgeMesh::face(top.edge)) || mesh_.edge(top.edge) != top.edge ||
@@ -129,6 +129,13 @@ class Simplifier {
   }
 
  private:
+  [[nodiscard]] StopReason reason_to_end() const {
+    return far_       ? StopReason::error
+           : limited_ ? StopReason::limits
+           : long_    ? StopReason::edge_length
+                      : StopReason::nothing_left;
+  }
+
   void add_face_quadric(FaceId f) {
     const Vec3d n = to_double(normal_of(mesh_.corner(f, 0), mesh_.corner(f, 1), mesh_.corner(f, 2)));
     const double length = std::sqrt(dot(n, n));
@@ -306,6 +313,7 @@ class Simplifier {
       const double limit = params_.edge_limit(p);
       if (longest > limit * limit) {
         ++counts_.refused_length;
+        long_ = true;
         return false;
       }
     }
@@ -330,6 +338,11 @@ class Simplifier {
     gather_new_faces(h, candidate.position);
     if (!guard_.star_is_free(new_faces_, replaced_)) {
       ++counts_.refused_guard;
+      return false;
+    }
+    if (!within_limits(params_.limits, mesh_, replaced_, new_faces_)) {
+      ++counts_.refused_limits;
+      limited_ = true;
       return false;
     }
     const LatticeCoord pu = mesh_.position(u);
@@ -368,7 +381,9 @@ class Simplifier {
   std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
   std::vector<char> parked_;           // refused until its neighbourhood changes
   std::vector<float> bound_;           // per half-edge: lower bound of its edge's cost, negative if unknown
-  bool far_ = false;                   // some collapse was refused for its error
+  bool far_ = false;                   // some collapse was refused for its error,
+  bool limited_ = false;               // by the limits,
+  bool long_ = false;                  // for an edge too long
   std::priority_queue<Entry> heap_;
   std::vector<HalfEdgeId> star_;  // of the edge solved last: outgoing half-edges of both ends
   std::vector<PlaneConstraint> constraints_;
@@ -385,6 +400,10 @@ std::string to_string(StopReason reason) {
       return "faces";
     case StopReason::error:
       return "error";
+    case StopReason::limits:
+      return "limits";
+    case StopReason::edge_length:
+      return "edge-length";
     case StopReason::nothing_left:
       return "no collapse left that keeps the guarantee";
   }
@@ -400,6 +419,7 @@ void SimplifyCounts::add(const SimplifyCounts& next) {
   refused_shape += next.refused_shape;
   refused_length += next.refused_length;
   refused_guard += next.refused_guard;
+  refused_limits += next.refused_limits;
   stop = next.stop;
 }
 

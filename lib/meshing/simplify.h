@@ -5,6 +5,7 @@
 
 #include "lib/meshing/enclosed.h"
 #include "lib/meshing/lattice_mesh.h"
+#include "lib/meshing/step_limits.h"
 
 /// Bounding simplification: quadric edge collapses [GH97] that only ever grow the solid ([SGG00], [DLCW11]; [CB17]
 /// §3.4), each checked exactly, so the result encloses the input surface and does not intersect itself
@@ -22,16 +23,19 @@ struct SimplifyParams {
   bool dense = true;
   /// If given, a collapse need not grow the solid: it must only keep this inside. Tighter by far; slower per collapse.
   const Enclosed* enclosed = nullptr;
+  StepLimits* limits = nullptr;  ///< if given, every collapse keeps them
 };
 
-/// Why simplification ended.
-enum class StopReason { faces, error, nothing_left };
+/// Why simplification ended: the target is reached, or no collapse is left that keeps the guarantee and, beside it, the
+/// error, the limits or the edge length.
+enum class StopReason { faces, error, limits, edge_length, nothing_left };
 [[nodiscard]] std::string to_string(StopReason reason);
 
 struct SimplifyCounts {
   std::uint64_t faces_in = 0, faces_flat = 0, faces_out = 0;  ///< given, after merging flat regions, left
   std::uint64_t collapses = 0, solved = 0;                    ///< taken; quadratic programs solved
-  std::uint64_t refused_link = 0, refused_constraints = 0, refused_shape = 0, refused_length = 0, refused_guard = 0;
+  std::uint64_t refused_link = 0, refused_constraints = 0, refused_shape = 0, refused_length = 0, refused_guard = 0,
+                refused_limits = 0;
   StopReason stop = StopReason::nothing_left;
   void add(const SimplifyCounts& next);  ///< of a run that took over where this one ended
 };

@@ -8,10 +8,11 @@ LatticeMesh tight_proxy(const LatticeMesh& dense, const Enclosed& enclosed, cons
   SimplifyParams early = params;
   early.faces = kEarlyFactor * params.faces;
   LatticeMesh proxy = simplify(dense, early, simplified);
-  if (params.faces > 0) {
+  if (params.faces > 0 || params.limits != nullptr) {
     TightenParams few;
     few.sweeps = 6;
     few.edge_limit = params.edge_limit;
+    few.limits = params.limits;
     proxy = tighten(proxy, enclosed, few, tightened);
     SimplifyParams late = params;
     late.dense = false;
@@ -23,6 +24,7 @@ LatticeMesh tight_proxy(const LatticeMesh& dense, const Enclosed& enclosed, cons
   }
   TightenParams last;
   last.edge_limit = params.edge_limit;
+  last.limits = params.limits;
   return tighten(proxy, enclosed, last, tightened);
 }
 

@@ -57,7 +57,7 @@ class Tightener {
       if (sweep % 8 == 7) tree_.rebuild();  // boxes only grow; after some sweeps a fresh tree pays
       ++counts_.sweeps;
       const double now = volume();
-      if (last - now < params_.least_gain * last) break;
+      if (last - now < params_.least_gain * std::abs(last)) break;
       last = now;
     }
     counts_.volume_after = volume();
@@ -137,6 +137,7 @@ class Tightener {
     if (gain <= 0 || after < std::min(kQualityFloor, least_quality) || after == 0) return false;
     if (params_.edge_limit && longest > params_.edge_limit(q)) return false;
     if (!enclosed_.allows(star_, swept_) || !guard_.star_is_free(star_, replaced_)) return false;
+    if (!within_limits(params_.limits, mesh_, replaced_, star_)) return false;
     mesh_.move(v, q);
     for (const FaceId f : replaced_) tree_.update(f);
     return true;
@@ -160,6 +161,7 @@ class Tightener {
     const std::array<FaceId, 2> replaced = {HalfEdgeMesh::face(h), HalfEdgeMesh::face(mesh_.twin(h))};
     const std::array<Tetrahedron, 1> swept = {p};
     if (!enclosed_.allows(faces, swept) || !guard_.faces_are_free(faces, replaced)) return;
+    if (!within_limits(params_.limits, mesh_, replaced, faces)) return;
     mesh_.flip(h);
     for (const FaceId f : replaced) tree_.update(f);
     ++counts_.flips;

@@ -4,6 +4,7 @@
 
 #include "lib/meshing/enclosed.h"
 #include "lib/meshing/lattice_mesh.h"
+#include "lib/meshing/step_limits.h"
 
 /// Tightening: vertex moves and edge flips that lower the proxy's volume while everything in `enclosed` stays inside
 /// and the proxy stays embedded. Simplification under constraints against its own faces can only grow; this takes the
@@ -15,6 +16,7 @@ struct TightenParams {
   double least_gain = 5e-4;
   /// As in SimplifyParams: longest edge that a move or a flip may make near a point, lattice units; empty: no limit.
   std::function<double(const LatticeCoord&)> edge_limit;
+  StepLimits* limits = nullptr;  ///< if given, every step keeps them
 };
 
 struct TightenCounts {

@@ -59,13 +59,14 @@ def one_proxy(args, tool, tmp, path, closed, faces, row):
     if done.returncode != 0:
         return {**row, "ok": False, "exit": done.returncode, "message": done.stderr.strip()[-300:]}
     counts = json.load(open(report))["counts"]
+    level = counts["levels"][0]
     start = time.time()
     check = run([tool("bpcheck"), path, proxy, "--json", "--threads", "1"])
     try:
         verdict = json.loads(check.stdout)
     except ValueError:
         return {**row, "ok": False, "exit": check.returncode, "message": check.stderr.strip()[-300:]}
-    return {**row, "faces": counts["faces"], "stopped_by": counts["stopped_by"], "volume": counts["volume"], "volume_of_voxels": counts["volume_of_voxels"],
+    return {**row, "faces": level["faces"], "stopped_by": level["stopped_by"], "volume": level["volume"], "volume_of_voxels": counts["volume_of_voxels"],
             "seconds_check": round(time.time() - start, 3), "ok": check.returncode == 0, "exit": check.returncode,
             **({} if check.returncode == 0 else {"verdict": verdict})}
 

@@ -1,0 +1,27 @@
+#pragma once
+#include <vector>
+
+#include "lib/check/triangle_bvh.h"
+
+/// Distances between surfaces with a bound on their error: branch and bound over parts of triangles. What bounds a
+/// part: distance is 1-Lipschitz, so d(centre) + radius; and the distance to one triangle is convex, so its largest
+/// value over a part is at a corner. Both hold for real numbers; doubles add their rounding.
+namespace bp {
+
+/// From each point of one surface to the nearest point of another, scene units.
+struct SurfaceDistance {
+  double at_most = 0, at_least = 0;  ///< bounds of the largest: the one-sided Hausdorff distance lies between
+  double mean = 0;                   ///< over the area; midpoint rule
+  Vec3d where{};                     ///< a point as far as at_least
+};
+
+/// Neither may be empty. at_most exceeds at_least by at most 0.1 % of it, or 1e-7 of the bounds of `from`. Parallel;
+/// the result does not depend on the number of threads. Cost: some 10^5 searches for the mean, few per triangle for the
+/// rest.
+[[nodiscard]] SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to);
+
+/// True only if no point of `t` is farther from `to` than `limit` > 0. False also for triangles that come within about
+/// 1 % of it: the search for a proof ends there.
+[[nodiscard]] bool surely_within(const TriangleD& t, const TriangleBvh& to, double limit);
+
+}  // namespace bp

@@ -1,0 +1,30 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "lib/meshing/guard.h"
+
+/// Bounds on the proxy as a whole (distance, volume) that each step of simplification and tightening keeps.
+namespace bp {
+
+using LatticeTriangle = std::array<LatticeCoord, 3>;
+
+class StepLimits {
+ public:
+  virtual ~StepLimits() = default;
+  /// Asked last, right before the faces `before` give way to `after`, which have the same rim. True: every bound is
+  /// kept, and the step is counted as taken.
+  [[nodiscard]] virtual bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) = 0;
+};
+
+/// take() for a change of `mesh`; true without limits.
+[[nodiscard]] inline bool within_limits(StepLimits* limits, const HalfEdgeMesh& mesh, std::span<const FaceId> replaced,
+                                        std::span<const NewFace> faces) {
+  if (limits == nullptr) return true;
+  std::vector<LatticeTriangle> before, after;
+  for (const FaceId f : replaced) before.push_back({mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2)});
+  for (const NewFace& f : faces) after.push_back(f.corners);
+  return limits->take(before, after);
+}
+
+}  // namespace bp

@@ -1,0 +1,82 @@
+#include "lib/stage/proxy_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/check/hausdorff.h"
+
+namespace bp {
+
+namespace {
+
+/// Lattice units cubed in a cubed scene unit, times six.
+double volume6_per_world(const GridFrame& frame) {
+  return 6 * std::pow(kLatticePerVoxel / frame.voxel, 3);
+}
+
+/// Six times the volume that the change adds, in lattice units cubed; exact.
+int128 growth_of(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) {
+  int128 sum = 0;
+  const LatticeCoord& o = after[0][0];
+  for (const LatticeTriangle& t : after) sum += orient3d_value(o, t[0], t[1], t[2]);
+  for (const LatticeTriangle& t : before) sum -= orient3d_value(o, t[0], t[1], t[2]);
+  return sum;
+}
+
+}  // namespace
+
+int128 volume6_of(const LatticeMesh& mesh) {
+  int128 sum = 0;
+  for (const auto& t : mesh.triangles) {
+    sum += orient3d_value(mesh.vertices[0], mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+  }
+  return sum;
+}
+
+double volume_world(const LatticeMesh& mesh) {
+  return double(volume6_of(mesh)) / volume6_per_world(mesh.frame);
+}
+
+ProxyLimits::ProxyLimits(const ProxyBounds& bounds, const LatticeMesh& proxy, const TriangleBvh* enclosed)
+    : bounds_(bounds), frame_(proxy.frame), enclosed_(enclosed), volume6_(volume6_of(proxy)) {
+  constexpr double kMost = 0x1p120;  // int128 holds it, and no grid reaches it
+  if (bounds.volume_world > 0) limit6_ = int128(std::min(kMost, bounds.volume_world * volume6_per_world(frame_)));
+}
+
+bool ProxyLimits::take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) {
+  const int128 growth = growth_of(before, after);
+  if (bounds_.volume_world > 0 && growth > 0 && volume6_ + growth > limit6_) {
+    last_refusal_ = "volume";
+    return false;
+  }
+  if (bounds_.error_world > 0 && !near_enough(before, after)) {
+    last_refusal_ = "error";
+    return false;
+  }
+  volume6_ += growth;
+  return true;
+}
+
+bool ProxyLimits::near_enough(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) const {
+  double limit = bounds_.error_world;
+  bool widened = false;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    if (surely_within(world(after[i]), *enclosed_, limit)) continue;
+    if (widened) return false;
+    widened = true;
+    double was = 0;
+    for (const LatticeTriangle& t : before) {
+      for (const LatticeCoord& p : t) was = std::max(was, enclosed_->nearest(frame_.world(p)).distance_squared);
+    }
+    if (std::sqrt(was) <= limit) return false;
+    limit = std::sqrt(was);
+    --i;  // once more
+  }
+  return true;
+}
+
+TriangleD ProxyLimits::world(const LatticeTriangle& t) const {
+  return {frame_.world(t[0]), frame_.world(t[1]), frame_.world(t[2])};
+}
+
+}  // namespace bp

@@ -1,0 +1,44 @@
+#pragma once
+#include "lib/check/triangle_bvh.h"
+#include "lib/core/predicates.h"
+#include "lib/meshing/lattice_mesh.h"
+#include "lib/meshing/step_limits.h"
+
+/// The targets --error and --volume of bpmesh, as bounds that each step keeps.
+namespace bp {
+
+struct ProxyBounds {
+  double error_world = 0;   ///< largest distance of a point of the proxy to what it encloses, scene units; 0: none
+  double volume_world = 0;  ///< scene units cubed; 0: none
+};
+
+/// No step takes a face farther from what is enclosed than error_world, or, where the faces it replaces were farther
+/// already, than their corners were. So the largest distance over the proxy is at most
+///   max(error_world, the largest distance over the surface that simplification began with),
+/// up to the rounding of doubles; with the closing enclosed, that is error_world. No step adds volume beyond
+/// volume_world.
+class ProxyLimits final : public StepLimits {
+ public:
+  /// `proxy`: what the steps will change. `enclosed`: may be null without an error bound.
+  ProxyLimits(const ProxyBounds& bounds, const LatticeMesh& proxy, const TriangleBvh* enclosed);
+  bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) override;
+  /// "error" or "volume": the bound that refused the last step that was refused; empty if none was.
+  [[nodiscard]] const char* last_refusal() const { return last_refusal_; }
+
+ private:
+  [[nodiscard]] bool near_enough(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) const;
+  [[nodiscard]] TriangleD world(const LatticeTriangle& t) const;
+
+  ProxyBounds bounds_;
+  GridFrame frame_;
+  const TriangleBvh* enclosed_;
+  int128 volume6_ = 0, limit6_ = 0;  // six times the volume, lattice units cubed
+  const char* last_refusal_ = "";
+};
+
+/// Six times the enclosed volume, lattice units cubed; exact.
+[[nodiscard]] int128 volume6_of(const LatticeMesh& mesh);
+/// Enclosed volume, scene units cubed; exact but for one rounding.
+[[nodiscard]] double volume_world(const LatticeMesh& mesh);
+
+}  // namespace bp

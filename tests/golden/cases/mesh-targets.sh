@@ -1,0 +1,26 @@
+# Targets of bpmesh: what stops, what is said, and what is refused. A cube of 3 with a closing of 2 voxels.
+write_cube cube.obj 3
+bpvox cube.obj --resolution 40 | bpclose --scale 2vx -o cube.bpv
+try bpmesh cube.bpv --faces 12 --measure -o one.glb
+try bpmesh cube.bpv --faces 40,20,12 --measure -o chain.ply
+for i in 0 1; do bpcheck chain.$i.ply chain.$((i + 1)).ply --no-distances | tail -1; done
+bpcheck cube.obj chain.0.ply --no-distances | tail -1
+said 'bpmesh cube.bpv --faces 40,20,12 -j 1 -o again.ply && for i in 0 1 2; do cmp chain.$i.ply again.$i.ply; done'
+printf 'v 0 0 0\nv 9 1 0\nv 2 8 1\nv 3 2 7\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' > slanted.obj
+bpvox slanted.obj --resolution 50 -o slanted.bpv
+for target in '--faces 100' '--error 1vx' '--volume 1.05' '--faces 20 --volume 1.5 --error 9'; do
+  try bpmesh slanted.bpv $target --report report.json -o proxy.glb --overwrite
+  grep stopped_by report.json
+  bpcheck slanted.obj proxy.glb --no-distances | tail -1
+done
+try bpmesh cube.bpv --edge-length 2 --overwrite --report report.json -o short.glb
+grep stopped_by report.json
+try bpmesh slanted.bpv --enclose slanted.obj --error 0.1vx -o near.glb
+try bpmesh cube.bpv --faces 12,40 -o wrong.glb
+try bpmesh cube.bpv --faces 12,0 -o wrong.glb
+try bpmesh cube.bpv --faces 12, -o wrong.glb
+try bpmesh cube.bpv --faces 40,12 --format glb
+try bpmesh cube.bpv --volume 0.5 -o wrong.glb
+touch kept.1.glb
+try bpmesh cube.bpv --faces 40,12 -o kept.glb
+files

@@ -1,0 +1,90 @@
+#include <random>
+
+#include "lib/check/hausdorff.h"
+#include "lib/core/parallel.h"
+#include "tests/catch.h"
+
+using namespace bp;
+
+namespace {
+
+std::vector<TriangleD> random_triangles(unsigned seed, int n, double size) {
+  std::mt19937 random{seed};
+  std::uniform_real_distribution<double> at(0, 1), by(-size, size);
+  std::vector<TriangleD> all;
+  for (int i = 0; i < n; ++i) {
+    const Vec3d c{at(random), at(random), at(random)};
+    TriangleD t;
+    for (Vec3d& p : t) p = {c[0] + by(random), c[1] + by(random), c[2] + by(random)};
+    all.push_back(t);
+  }
+  return all;
+}
+
+/// Largest distance over a grid of points of t.
+double sampled(const TriangleD& t, const TriangleBvh& to, int n) {
+  double largest = 0;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; i + j <= n; ++j) {
+      Vec3d p;
+      for (std::size_t k = 0; k < 3; ++k) p[k] = (i * t[0][k] + j * t[1][k] + (n - i - j) * t[2][k]) / n;
+      largest = std::max(largest, to.nearest(p).distance_squared);
+    }
+  }
+  return std::sqrt(largest);
+}
+
+}  // namespace
+
+TEST_CASE("the distance between two squares, one above the other and twice as large, is known", "[quick][check]") {
+  const auto square = [](double half, double z) {
+    const Vec3d a{-half, -half, z}, b{half, -half, z}, c{half, half, z}, d{-half, half, z};
+    return std::vector<TriangleD>{{a, b, c}, {a, c, d}};
+  };
+  const std::vector<TriangleD> small = square(1, 0), large = square(2, 0.5);
+  const SurfaceDistance up = surface_distance(small, TriangleBvh(large));
+  CHECK(up.at_least == 0.5);
+  CHECK(up.at_most == 0.5);
+  CHECK(std::abs(up.mean - 0.5) < 1e-12);
+  const SurfaceDistance down = surface_distance(large, TriangleBvh(small));  // farthest at the corners: (1, 1, 0.5)
+  CHECK(down.at_least <= 1.5);
+  CHECK(down.at_most >= 1.5);
+  CHECK(down.at_most - down.at_least <= 1.001e-3 * 1.5);
+  CHECK(down.mean > 0.5);
+  CHECK(down.mean < 1.5);
+}
+
+TEST_CASE("the largest distance lies between its bounds, for any number of threads", "[quick][check]") {
+  const unsigned seed = GENERATE(1u, 2u, 3u, 4u);
+  const std::vector<TriangleD> from = random_triangles(seed, 700, 0.2), to = random_triangles(seed + 100, 50, 0.3);
+  const TriangleBvh tree(to);
+  const SurfaceDistance d = surface_distance(from, tree);
+  double largest = 0;
+  for (const TriangleD& t : from) largest = std::max(largest, sampled(t, tree, 6));
+  CHECK(largest <= d.at_most * (1 + 1e-12));
+  CHECK(d.at_least <= d.at_most);
+  CHECK(d.at_most <= d.at_least * 1.0011);
+  CHECK(std::sqrt(tree.nearest(d.where).distance_squared) == d.at_least);
+  CHECK(d.mean > 0);
+  CHECK(d.mean < d.at_most);
+  const ThreadLimit one(1);
+  const SurfaceDistance again = surface_distance(from, tree);
+  CHECK(again.mean == d.mean);
+  CHECK(again.at_most == d.at_most);
+}
+
+TEST_CASE("a triangle is surely within a limit only if all of its points are", "[quick][check]") {
+  const TriangleBvh tree(random_triangles(5, 40, 0.3));
+  int yes = 0, no = 0;
+  for (const TriangleD& t : random_triangles(6, 200, 0.4)) {
+    const double largest = sampled(t, tree, 24);
+    for (const double factor : {0.5, 0.9, 1.1, 1.5}) {
+      const bool within = surely_within(t, tree, largest * factor);
+      if (factor < 1) CHECK_FALSE(within);
+      if (factor > 1.2) CHECK(within);
+      (within ? yes : no) += 1;
+    }
+  }
+  CHECK(yes > 200);
+  CHECK(no >= 400);
+}

@@ -1,0 +1,168 @@
+#include <cmath>
+
+#include "lib/check/check_proxy.h"
+#include "lib/core/error.h"
+#include "lib/meshing/surface.h"
+#include "lib/stage/mesh_stage.h"
+#include "lib/stage/proxy_limits.h"
+#include "lib/stage/surface_around.h"
+#include "tests/catch.h"
+#include "tests/support/memory_scene.h"
+#include "tests/support/voxel_source.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+const VoxelBox kBox{{0, 0, 0}, {48, 48, 48}};
+
+double length_of(double x, double y, double z) {
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+/// Two balls that a rod joins, and a crumb beside them.
+bool dumbbell(VoxelCoord p) {
+  return length_of(p.x - 14, p.y - 24, p.z - 24) < 10 || length_of(p.x - 36, p.y - 24, p.z - 24) < 7 ||
+         (p.x > 10 && p.x < 40 && length_of(0, p.y - 24, p.z - 24) < 3) || length_of(p.x - 40, p.y - 6, p.z - 8) < 3;
+}
+
+std::vector<LatticeMesh> mesh(const MeshParams& params, MeshCounts& counts, const Solid& solid = dumbbell) {
+  VoxelSource source(kBox, solid);
+  return mesh_stream(source, memory_shelves(), params, counts);
+}
+
+/// A sound proxy that strictly encloses `inner`, if given.
+void check(const LatticeMesh& proxy, const std::vector<TriangleD>* inner) {
+  const IndexedMesh mesh = indexed(proxy);
+  std::unique_ptr<MemorySource> scene;
+  if (inner != nullptr) scene = std::make_unique<MemorySource>(*inner);
+  CheckOptions options;
+  options.distances = false;
+  const CheckReport report = check_proxy(mesh, scene.get(), options);
+  CHECK(report.holds());
+}
+
+/// Triangles of the voxels' cubes, moved inwards so little that they stay in the open solid.
+std::vector<TriangleD> points_inside() {
+  std::vector<TriangleD> all;
+  for (VoxelCoord p = kBox.min; p.z < kBox.max.z; ++p.z) {
+    for (p.y = 0; p.y < 48; ++p.y) {
+      for (p.x = 0; p.x < 48; ++p.x) {
+        if (!dumbbell(p)) continue;
+        const double l = 1.0 / 128, h = 1 - l, x = p.x, y = p.y, z = p.z;
+        all.push_back({Vec3d{x + l, y + l, z + l}, Vec3d{x + h, y + h, z + l}, Vec3d{x + l, y + h, z + h}});
+        all.push_back({Vec3d{x + h, y + l, z + h}, Vec3d{x + h, y + l, z + l}, Vec3d{x + l, y + l, z + h}});
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("levels have their faces, enclose what is meshed, and each encloses the level before", "[quick][stage]") {
+  const bool tighten = GENERATE(true, false);
+  MeshParams params;
+  params.faces = {1500, 400, 100, 40};
+  params.tighten = tighten;
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh(params, counts);
+  REQUIRE(levels.size() == 4);
+  REQUIRE(counts.levels.size() == 4);
+  std::vector<TriangleD> inner = points_inside();
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    CAPTURE(i, counts.levels[i].stopped_by);
+    CHECK(levels[i].triangles.size() <= params.faces[i]);
+    CHECK(levels[i].triangles.size() >= params.faces[i] - 2);
+    CHECK(counts.levels[i].stopped_by == "faces");
+    check(levels[i], &inner);
+    inner = world_triangles(levels[i]);
+  }
+}
+
+TEST_CASE("levels whose numbers do not fall are refused", "[quick][stage]") {
+  MeshParams params;
+  params.faces = GENERATE(std::vector<std::uint64_t>{100, 100}, std::vector<std::uint64_t>{100, 50, 60});
+  MeshCounts counts;
+  CHECK_THROWS_AS(mesh(params, counts), Error);
+}
+
+TEST_CASE("a volume below that of the voxels is refused", "[quick][stage]") {
+  MeshParams params;
+  params.volume_ratio = 0.9;
+  MeshCounts counts;
+  CHECK_THROWS_AS(mesh(params, counts), Error);
+}
+
+TEST_CASE("no point of the proxy is farther from the closing than --error", "[quick][stage]") {
+  MeshParams params;
+  params.error_world = GENERATE(1.0, 2.0, 4.0);
+  params.distances = true;
+  params.tighten = GENERATE(true, false);
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh(params, counts);
+  CAPTURE(params.error_world, levels[0].triangles.size());
+  const std::vector<TriangleD> inner = points_inside();
+  check(levels[0], &inner);
+  CHECK(counts.levels[0].stopped_by == "error");
+  CHECK(counts.levels[0].measures.proxy_to_enclosed->at_least <= params.error_world * (1 + 1e-9));
+  CHECK(counts.levels[0].measures.proxy_to_enclosed->at_most > params.error_world / 2);  // the room is used
+  CHECK(counts.levels[0].simplify.faces_out < counts.levels[0].simplify.faces_flat / 2);
+}
+
+TEST_CASE("the error holds against the input too, where the closing is near it", "[quick][stage]") {
+  VoxelSource source(kBox, dumbbell, [](VoxelCoord p) {  // the closing: one voxel thicker in x
+    return dumbbell(p) || dumbbell({p.x + 1, p.y, p.z}) || dumbbell({p.x - 1, p.y, p.z});
+  });
+  MeshParams params;
+  params.enclose = Enclose::input;
+  params.error_world = 1.5;
+  params.distances = true;
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  const std::vector<TriangleD> inner = points_inside();
+  check(levels[0], &inner);
+  CHECK(counts.levels[0].measures.proxy_to_enclosed->at_least <= 1.5 * (1 + 1e-9));
+}
+
+TEST_CASE("the volume stays below --volume, and the first target that is reached is named", "[quick][stage]") {
+  MeshParams params;
+  params.volume_ratio = GENERATE(1.02, 1.1, 1.4);
+  params.faces = {300};
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh(params, counts);
+  const LevelCounts& level = counts.levels[0];
+  CAPTURE(level.stopped_by, level.simplify.faces_out);
+  const std::vector<TriangleD> inner = points_inside();
+  check(levels[0], &inner);
+  CHECK(level.measures.volume <= params.volume_ratio * counts.solid_volume_world);
+  CHECK(level.measures.volume == volume_world(levels[0]));
+  CHECK((level.stopped_by == "volume") == (levels[0].triangles.size() > 300));
+  CHECK((level.stopped_by == "faces") == (levels[0].triangles.size() <= 300));
+  if (params.volume_ratio < 1.05) CHECK(level.stopped_by == "volume");
+  if (params.volume_ratio > 1.3) CHECK(level.stopped_by == "faces");
+}
+
+TEST_CASE("edges stay below --edge-length times the scale", "[quick][stage]") {
+  VoxelSource source(kBox, dumbbell);
+  source.header().scale.base = 3;
+  MeshParams params;
+  params.edge_factor = 2;
+  params.faces = {50};
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  CHECK(counts.levels[0].stopped_by == "edge-length");
+  CHECK(counts.levels[0].measures.edge_max <= 6 * std::sqrt(1.0) + 1e-9);
+  check(levels[0], nullptr);
+}
+
+TEST_CASE("the surface around a mesh strictly encloses it, whatever the voxels", "[quick][stage]") {
+  MeshParams params;
+  params.faces = {120};
+  MeshCounts counts;
+  const LatticeMesh inner = mesh(params, counts)[0];
+  const LatticeMesh around = surface_around(inner, GENERATE(0.7, 1.0, 3.3), memory_shelves());
+  const std::vector<TriangleD> triangles = world_triangles(inner);
+  check(around, &triangles);
+}
