@@ -42,16 +42,16 @@ LatticeCoord centre_of(const LatticeMesh& mesh, const std::string& name) {
 }
 
 struct Buffer {
-  std::string bytes;  // positions, then indices
+  std::string bytes;  // positions, normals if asked for, indices
   std::array<float, 3> min, max;
-  std::uint64_t index_offset = 0;
+  std::uint64_t normal_offset = 0, index_offset = 0;  // normal_offset is 0 without normals
 };
 
 void append(std::string& bytes, const void* from, std::size_t n) {
   bytes.append(static_cast<const char*>(from), n);
 }
 
-Buffer buffer_of(const LatticeMesh& mesh, LatticeCoord centre) {
+Buffer buffer_of(const LatticeMesh& mesh, LatticeCoord centre, bool normals) {
   Buffer b;
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   b.min = {kInfinity, kInfinity, kInfinity};
@@ -65,6 +65,10 @@ Buffer buffer_of(const LatticeMesh& mesh, LatticeCoord centre) {
       b.max[i] = std::max(b.max[i], p[i]);
     }
     append(b.bytes, p.data(), sizeof p);
+  }
+  if (normals) {
+    b.normal_offset = b.bytes.size();
+    for (const std::array<float, 3>& n : vertex_normals(mesh)) append(b.bytes, n.data(), sizeof n);
   }
   b.index_offset = b.bytes.size();
   append(b.bytes, mesh.triangles.data(), mesh.triangles.size() * sizeof mesh.triangles[0]);
@@ -102,23 +106,27 @@ Json accessors_of(const LatticeMesh& mesh, const Buffer& buffer) {
   constexpr int kFloat = 5126, kUint32 = 5125;
   const Json positions{{"bufferView", 0}, {"componentType", kFloat}, {"count", mesh.vertices.size()},
                        {"type", "VEC3"},  {"min", buffer.min},       {"max", buffer.max}};
+  const Json normals{{"bufferView", 2}, {"componentType", kFloat}, {"count", mesh.vertices.size()}, {"type", "VEC3"}};
   const Json indices{
       {"bufferView", 1}, {"componentType", kUint32}, {"count", 3 * mesh.triangles.size()}, {"type", "SCALAR"}};
-  return Json::array({positions, indices});
+  return buffer.normal_offset == 0 ? Json::array({positions, indices}) : Json::array({positions, indices, normals});
 }
 
 Json views_of(const Buffer& buffer) {
   constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
-  const Json positions{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", buffer.index_offset}, {"target", kArrayBuffer}};
+  const std::uint64_t end = buffer.normal_offset == 0 ? buffer.index_offset : buffer.normal_offset;
+  const Json positions{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", end}, {"target", kArrayBuffer}};
+  const Json normals{{"buffer", 0}, {"byteOffset", end}, {"byteLength", end}, {"target", kArrayBuffer}};
   const Json indices{{"buffer", 0},
                      {"byteOffset", buffer.index_offset},
                      {"byteLength", buffer.bytes.size() - buffer.index_offset},
                      {"target", kElementArrayBuffer}};
-  return Json::array({positions, indices});
+  return buffer.normal_offset == 0 ? Json::array({positions, indices}) : Json::array({positions, indices, normals});
 }
 
 Json document_of(const LatticeMesh& mesh, const Buffer& buffer, LatticeCoord centre, const MeshWriteOptions& options) {
-  const Json primitive{{"attributes", {{"POSITION", 0}}}, {"indices", 1}};
+  Json primitive{{"attributes", {{"POSITION", 0}}}, {"indices", 1}};
+  if (buffer.normal_offset != 0) primitive["attributes"]["NORMAL"] = 2;
   Json doc;
   doc["asset"] = asset_of(mesh, options);
   doc["scene"] = 0;
@@ -153,7 +161,7 @@ void write_glb(std::string json, const Buffer& buffer, OutputFile& out) {
 
 void write_gltf(const LatticeMesh& mesh, OutputFile& out, bool binary, const MeshWriteOptions& options) {
   const LatticeCoord centre = centre_of(mesh, out.name());
-  const Buffer buffer = buffer_of(mesh, centre);
+  const Buffer buffer = buffer_of(mesh, centre, options.normals);
   Json doc = document_of(mesh, buffer, centre, options);
   if (binary) return write_glb(doc.dump(), buffer, out);
   doc["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64_of(buffer.bytes);

@@ -146,6 +146,31 @@ void write_mesh(const LatticeMesh& mesh, OutputFile& out, MeshFormat format, con
   }
 }
 
+std::vector<std::array<float, 3>> vertex_normals(const LatticeMesh& mesh) {
+  std::vector<Vec3d> sums(mesh.vertices.size(), Vec3d{});
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const LatticeCoord &a = mesh.vertices[t[k]], u = mesh.vertices[t[(k + 1) % 3]] - a,
+                         v = mesh.vertices[t[(k + 2) % 3]] - a;
+      const Vec3d n{double(u.y) * double(v.z) - double(u.z) * double(v.y),
+                    double(u.z) * double(v.x) - double(u.x) * double(v.z),
+                    double(u.x) * double(v.y) - double(u.y) * double(v.x)};
+      const double area = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+      const double along = double(u.x) * double(v.x) + double(u.y) * double(v.y) + double(u.z) * double(v.z);
+      if (!(area > 0)) continue;
+      const double weight = std::atan2(area, along) / area;
+      for (std::size_t i = 0; i < 3; ++i) sums[t[k]][i] += weight * n[i];
+    }
+  }
+  std::vector<std::array<float, 3>> normals;
+  for (const Vec3d& s : sums) {
+    const double l = std::sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+    normals.push_back(l > 0 ? std::array<float, 3>{float(s[0] / l), float(s[1] / l), float(s[2] / l)}
+                            : std::array<float, 3>{0, 0, 1});
+  }
+  return normals;
+}
+
 std::vector<std::string> provenance_lines(const LatticeMesh& mesh, const MeshWriteOptions& options) {
   std::vector<std::string> lines{"made by bpmesh " BP_VERSION};
   for (const Provenance& step : mesh.provenance) {
@@ -163,11 +188,20 @@ void write_ply(const LatticeMesh& mesh, const WorldVertices& vertices, OutputFil
   for (const std::string& line : provenance_lines(mesh, options)) header += "comment " + line + "\n";
   header +=
       fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n", vertices.size());
+  if (options.normals) header += "property float nx\nproperty float ny\nproperty float nz\n";
   header +=
       fmt::format("element face {}\nproperty list uchar uint vertex_indices\nend_header\n", mesh.triangles.size());
   out.write(header);
-  out.write(std::as_bytes(std::span(vertices)));
   Bytes bytes(out);
+  if (options.normals) {
+    const std::vector<std::array<float, 3>> normals = vertex_normals(mesh);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      bytes.put(vertices[i]);
+      bytes.put(normals[i]);
+    }
+  } else {
+    out.write(std::as_bytes(std::span(vertices)));
+  }
   for (const auto& t : mesh.triangles) {
     bytes.put(std::uint8_t(3));
     bytes.put(t);
@@ -180,8 +214,13 @@ void write_obj(const LatticeMesh& mesh, const WorldVertices& vertices, OutputFil
   for (const std::string& line : provenance_lines(mesh, options)) text += "# " + line + "\n";
   out.write(text);
   for (const Vec3d& p : vertices) out.write("v " + text_of(p) + "\n");
-  for (const auto& t : mesh.triangles)
-    out.write(fmt::format("f {} {} {}\n", std::uint64_t(t[0]) + 1, std::uint64_t(t[1]) + 1, std::uint64_t(t[2]) + 1));
+  if (options.normals) {
+    for (const auto& n : vertex_normals(mesh)) out.write(fmt::format("vn {} {} {}\n", n[0], n[1], n[2]));
+  }
+  const auto corner = [&](std::uint32_t v) {
+    return options.normals ? fmt::format(" {0}//{0}", std::uint64_t(v) + 1) : fmt::format(" {}", std::uint64_t(v) + 1);
+  };
+  for (const auto& t : mesh.triangles) out.write("f" + corner(t[0]) + corner(t[1]) + corner(t[2]) + "\n");
 }
 
 void write_stl(const LatticeMesh& mesh, const WorldVertices& vertices, OutputFile& out) {

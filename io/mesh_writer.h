@@ -15,7 +15,8 @@ namespace bp {
 enum class MeshFormat { glb, gltf, ply, obj, stl };
 
 struct MeshWriteOptions {
-  Vec3d origin{};  ///< scene units, subtracted from each vertex; each difference must be an exact double
+  Vec3d origin{};        ///< scene units, subtracted from each vertex; each difference must be an exact double
+  bool normals = false;  ///< write unit vertex normals, weighted by angle; STL has none
 };
 
 /// Format by extension, case ignored. Throws bad_argument for any other.

@@ -15,7 +15,7 @@ struct Options {
   bp::CommonOptions common;
   std::vector<std::string> files;  // scenes, then the proxy
   std::string format;
-  bool json = false, no_distances = false;
+  bool json = false, no_distances = false, inside = false;
   std::uint64_t examples = 5, samples = 5000;
   std::string image;
   int image_size = 720;
@@ -30,6 +30,7 @@ Options parse(bp::Args& args) {
       "scenes, or says where not. Exact for the coordinates as read. Exit status: 0 all holds, 1 not.");
   args.positional("[SCENE...] PROXY", o.files, "scenes and their proxy; PROXY alone is checked as a mesh");
   args.option("--format", "NAME", o.format, "format of a scene that is -, or whose name does not tell");
+  args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
   args.flag("--json", o.json, "print the verdict as JSON");
   args.option("--examples", "N", o.examples, "places named per kind of failure");
   args.flag("--no-distances", o.no_distances, "leave the sampled distances out");
@@ -90,7 +91,8 @@ bp::Image draw(const Options& o, const bp::IndexedMesh& proxy, bp::TriangleSourc
 }
 
 void fill_report(bp::Report& report, const Options& o, const bp::CheckReport& verdict) {
-  report.options = {{"distances", !o.no_distances}, {"samples", o.samples}, {"examples", o.examples}};
+  report.options = {
+      {"inside", o.inside}, {"distances", !o.no_distances}, {"samples", o.samples}, {"examples", o.examples}};
   report.counts = {{"holds", verdict.holds()},
                    {"proxy_triangles", verdict.triangles},
                    {"scene_triangles", verdict.scene_triangles},
@@ -116,6 +118,7 @@ int run(const Options& o) {
   report.stage("check");
   bp::CheckOptions check_options;
   check_options.max_examples = o.examples;
+  check_options.inside = o.inside;
   check_options.distances = !o.no_distances;
   check_options.distance_samples = o.samples;
   check_options.scene_memory_bytes = o.common.memory_bytes / 2;

@@ -5,6 +5,7 @@
 #include "io/brick_stream.h"
 #include "lib/core/error.h"
 #include "lib/stage/close_stage.h"
+#include "lib/stage/complement.h"
 #include "tools/common/make_backend.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
@@ -21,7 +22,7 @@ struct Options {
   std::optional<bp::Length> scale;
   bp::ClosingParams closing;
   int tile_vox = 0;
-  bool keep_cavities = false;
+  bool keep_cavities = false, inner = false;
 };
 
 Options parse(bp::Args& args) {
@@ -38,6 +39,10 @@ Options parse(bp::Args& args) {
   args.option("--field", "FILE", o.field, "scale field as JSON (docs/bpclose.1.md) instead of --scale");
   args.option("--tile", "N", o.tile_vox, "voxels along a tile, a multiple of 64; 0: chosen by memory and scale");
   args.flag("--keep-cavities", o.keep_cavities, "leave enclosed hollows empty");
+  args.flag(
+      "--inner", o.inner,
+      "open instead of close: parts narrower than the scale disappear, nothing is added; for bpmesh --mode inside, "
+      "of a stream of bpvox --fill inside");
   o.common.add_to(args);
   args.parse();
   if (!o.scale && o.field.empty()) fail(ErrorCode::bad_argument, "give a --scale or a --field");
@@ -61,6 +66,7 @@ bp::OptionText option_text(const Options& o, const bp::ScaleField& field) {
   }
   text.add("element", o.closing.element == bp::StructuringElement::cube ? "cube" : "ball");
   text.add("keep-cavities", o.keep_cavities);
+  if (o.inner) text.add("inner", o.inner);
   return text;
 }
 
@@ -70,7 +76,7 @@ bp::CloseOptions stage_options(const Options& o, bp::Progress& progress) {
   const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
   bp::CloseOptions options;
   options.tile_vox = o.tile_vox;
-  options.keep_cavities = o.keep_cavities;
+  options.keep_cavities = o.keep_cavities || o.inner;  // the cavities of the complement are the solid
   options.memory_bytes = usable / 2;
   options.make_shelf = bp::make_shelf_factory(usable / 5 * 2, o.common.temp);
   options.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
@@ -83,7 +89,7 @@ bp::CloseOptions stage_options(const Options& o, bp::Progress& progress) {
 
 bp::StreamHeader closed_header(const Options& o, const bp::StreamHeader& in, const bp::ScaleField& field) {
   bp::StreamHeader header = in;
-  header.bricks = bp::closing_bricks(in, field);
+  if (!o.inner) header.bricks = bp::closing_bricks(in, field);
   header.slab_axis = in.slab_axis;
   header.has_closing = true;
   header.scale = field;
@@ -92,18 +98,42 @@ bp::StreamHeader closed_header(const Options& o, const bp::StreamHeader& in, con
   return header;
 }
 
+/// A closing would leave the inside of the scene; an opening of what triangles touch would not be strictly inside.
+void check_fill(const Options& o, const bp::StreamHeader& header) {
+  const bool inside = header.fill == bp::FillMode::inside;
+  if (o.inner && !inside)
+    fail(ErrorCode::bad_input, "the stream holds voxels that the scene touches; --inner needs bpvox --fill inside");
+  if (!o.inner && inside) {
+    fail(ErrorCode::bad_input,
+         "the stream holds the inside of the scene only (bpvox --fill inside); add --inner, or fill otherwise");
+  }
+}
+
+/// The opening is the complement of the closing of the complement.
+bp::CloseCounts open_stream(bp::BrickSource& source, bp::BrickSink& sink, bp::Backends& backends,
+                            const bp::ScaleField& field, const bp::ClosingParams& params,
+                            const bp::CloseOptions& options) {
+  bp::ComplementSource complement(source);
+  bp::ComplementSink opened(sink, source.header());
+  const bp::CloseCounts counts = bp::close_stream(complement, opened, backends, field, params, options);
+  opened.finish();
+  return counts;
+}
+
 void run(const Options& o) {
   bp::Report report("bpclose");
   bp::Progress progress("bpclose", o.common.progress);
   report.stage("open");
   const auto output = bp::open_output(o.out, o.common.overwrite);
   bp::BrickReader source(o.in);
+  check_fill(o, source.header());
   const bp::ScaleField field = scale_field(o, source.header());
   bp::Backends backends = bp::make_backends(o.common);
   bp::BrickWriter sink(*output, closed_header(o, source.header(), field));
 
   report.stage("close");
-  const bp::CloseCounts counts = bp::close_stream(source, sink, backends, field, o.closing, stage_options(o, progress));
+  const auto close = o.inner ? open_stream : bp::close_stream;
+  const bp::CloseCounts counts = close(source, sink, backends, field, o.closing, stage_options(o, progress));
   sink.finish();
   output->commit();
 

@@ -19,6 +19,7 @@ namespace {
 struct Options {
   bp::CommonOptions common;
   std::string in = "-", out = "-", format;
+  bp::MeshMode mode = bp::MeshMode::bounding;
   std::vector<std::uint64_t> faces;  // one per level
   std::optional<bp::Length> error;
   double volume = 0, edge_length = 0;
@@ -59,6 +60,10 @@ Options parse(bp::Args& args) {
   args.positional("INPUT", o.in, "brick stream; - is stdin");
   args.option("-o,--output", "FILE", o.out, "proxy: .glb .gltf .ply .obj .stl; - is stdout, with --format");
   args.option("--format", "NAME", o.format, "format of the output, if its name does not tell");
+  args.option(
+      "--mode", {{"bounding", bp::MeshMode::bounding}, {"inside", bp::MeshMode::inside}, {"fit", bp::MeshMode::fit}},
+      o.mode,
+      "around what is meshed; strictly inside the scene, of a stream of bpvox --fill inside; or as near as can be");
   args.option(
       "--faces", "N[,N...]", [&o](const std::string& text) { o.faces = parse_faces(text); },
       "stop at N triangles; several falling numbers: a chain of levels, each enclosing the one before");
@@ -128,9 +133,15 @@ std::string faces_text(const Options& o) {
   return text.empty() ? "0" : text;
 }
 
+const char* name_of(bp::MeshMode mode) {
+  constexpr const char* kNames[] = {"bounding", "inside", "fit"};
+  return kNames[std::size_t(mode)];
+}
+
 bp::Provenance provenance(const Options& o, const std::string& input, std::size_t level) {
   bp::OptionText text;
-  text.add("faces", faces_text(o))
+  text.add("mode", name_of(o.mode))
+      .add("faces", faces_text(o))
       .add("error", o.error ? o.error->text() : "")
       .add("volume", o.volume)
       .add("edge-length", o.edge_length)
@@ -182,9 +193,13 @@ bp::Json json_of(const bp::LevelCounts& c) {
 }
 
 void fill_report(bp::Report& report, const Options& o, const bp::MeshCounts& c) {
-  report.options = {{"faces", o.faces},           {"error", o.error ? o.error->text() : ""},
-                    {"volume", o.volume},         {"edge-length", o.edge_length},
-                    {"enclose", enclose_text(o)}, {"tighten", !o.loose}};
+  report.options = {{"mode", name_of(o.mode)},
+                    {"faces", o.faces},
+                    {"error", o.error ? o.error->text() : ""},
+                    {"volume", o.volume},
+                    {"edge-length", o.edge_length},
+                    {"enclose", enclose_text(o)},
+                    {"tighten", !o.loose}};
   bp::Json levels = bp::Json::array();
   for (const bp::LevelCounts& level : c.levels) levels.push_back(json_of(level));
   report.counts = {{"voxels", c.voxels},
@@ -221,11 +236,14 @@ void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts&
   }
 }
 
-std::string distance_text(const char* name, const bp::SurfaceDistance& d) {
+std::string distance_text(const std::string& name, const bp::SurfaceDistance& d) {
   return fmt::format("  {}: at most {:.4g}, {:.4g} on average\n", name, d.at_most, d.mean);
 }
 
-std::string text_of(const bp::LevelCounts& level, const bp::MeshCounts& all) {
+std::string text_of(const Options& o, const bp::LevelCounts& level, const bp::MeshCounts& all) {
+  const std::string other = o.mode == bp::MeshMode::inside ? "what it lies in"
+                            : o.mode == bp::MeshMode::fit  ? "what it is drawn to"
+                                                           : "what it encloses";
   const bp::MeshMeasures& m = level.measures;
   std::string text = fmt::format("{} faces, stopped by: {}\n", level.simplify.faces_out, level.stopped_by);
   text +=
@@ -233,20 +251,21 @@ std::string text_of(const bp::LevelCounts& level, const bp::MeshCounts& all) {
   text += fmt::format("  edges {:.4g} to {:.4g}, {:.4g} on average; least angle {:.3g} degrees\n", m.edge_min,
                       m.edge_max, m.edge_mean, m.angle_min_degrees);
   if (!m.proxy_to_enclosed) return text;
-  text += distance_text("from the proxy to what it encloses", *m.proxy_to_enclosed);
-  text += distance_text("from what it encloses to the proxy", *m.enclosed_to_proxy);
+  text += distance_text("from the proxy to " + other, *m.proxy_to_enclosed);
+  text += distance_text("from " + other + " to the proxy", *m.enclosed_to_proxy);
   return text + fmt::format("  Hausdorff distance: at most {:.4g}\n", m.hausdorff());
 }
 
 bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
   bp::MeshParams params;
+  params.mode = o.mode;
   params.faces = o.faces;
   if (o.error) params.error_world = o.error->in_world(header.bounds.diagonal(), header.frame.voxel);
   params.volume_ratio = o.volume;
   params.edge_factor = o.edge_length;
   params.tighten = !o.loose;
   params.distances = o.measure || (o.error && !o.enclose.empty());
-  if (params.tighten || params.distances) set_enclosed(o, header.bounds, params);
+  if (params.tighten || params.distances || o.mode == bp::MeshMode::fit) set_enclosed(o, header.bounds, params);
   return params;
 }
 
@@ -270,7 +289,7 @@ void run(const Options& o) {
   report.stage("write");
   for (std::size_t i = 0; i < levels.size(); ++i) {
     levels[i].provenance.push_back(provenance(o, source.totals().checksum(), i));
-    bp::write_mesh(levels[i], *outputs[i], format, {o.origin});
+    bp::write_mesh(levels[i], *outputs[i], format, {o.origin, o.mode == bp::MeshMode::fit});
   }
   for (const auto& output : outputs) {
     output->commit();
@@ -279,7 +298,7 @@ void run(const Options& o) {
   fill_report(report, o, counts);
   note_shortfalls(report, o, counts, error_world);
   for (std::size_t i = 0; o.measure && i < levels.size(); ++i)
-    std::fprintf(stderr, "%s: %s", level_name(o, i).c_str(), text_of(counts.levels[i], counts).c_str());
+    std::fprintf(stderr, "%s: %s", level_name(o, i).c_str(), text_of(o, counts.levels[i], counts).c_str());
   report.write(o.common);
 }
 

@@ -33,7 +33,8 @@ struct Options {
 };
 
 const char* name_of(bp::FillMode fill) {
-  return fill == bp::FillMode::flood ? "flood" : fill == bp::FillMode::winding ? "winding" : "none";
+  constexpr const char* kNames[] = {"flood", "winding", "none", "inside"};
+  return kNames[std::size_t(fill)];
 }
 
 Options parse(bp::Args& args) {
@@ -47,8 +48,14 @@ Options parse(bp::Args& args) {
   args.option("--resolution", "N", o.resolution,
               "voxels along the longest side of the scene (default: 256, if there is no --voxel)");
   args.option(
-      "--fill", {{"flood", bp::FillMode::flood}, {"winding", bp::FillMode::winding}, {"none", bp::FillMode::none}},
-      o.fill, "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing");
+      "--fill",
+      {{"flood", bp::FillMode::flood},
+       {"winding", bp::FillMode::winding},
+       {"none", bp::FillMode::none},
+       {"inside", bp::FillMode::inside}},
+      o.fill,
+      "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing; the first "
+      "without the voxels that triangles touch, for bpclose --inner and bpmesh --mode inside");
   args.option("--up", {{"y", bp::UpAxis::y}, {"z", bp::UpAxis::z}}, o.up, "axis of the scene that points up");
   args.option("--format", "NAME", o.format,
               "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");

@@ -7,6 +7,9 @@ namespace bp {
 /// frame.world(v) - origin for each vertex, in order.
 using WorldVertices = std::vector<Vec3d>;
 
+/// Unit normal of each vertex, its faces weighted by their angle there; (0, 0, 1) where they cancel.
+[[nodiscard]] std::vector<std::array<float, 3>> vertex_normals(const LatticeMesh& mesh);
+
 /// Lines without line ends that say what made the mesh.
 [[nodiscard]] std::vector<std::string> provenance_lines(const LatticeMesh& mesh, const MeshWriteOptions& options);
 

@@ -170,7 +170,7 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
   if ((flags & ~kFlagClosing) != 0)
     fail(ErrorCode::bad_input, "{}: header: unknown flags {:#x}; update this tool", name, flags);
   h.has_closing = (flags & kFlagClosing) != 0;
-  h.fill = enum_of<FillMode>(in.get<std::uint8_t>(), 3, "fill mode", name);
+  h.fill = enum_of<FillMode>(in.get<std::uint8_t>(), 4, "fill mode", name);
   const auto element = enum_of<StructuringElement>(in.get<std::uint8_t>(), h.has_closing ? 2 : 1, "element", name);
   if (h.has_closing) h.element = element;
   h.slab_axis = in.get<std::uint8_t>();

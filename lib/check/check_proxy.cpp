@@ -7,6 +7,7 @@
 
 #include "lib/check/distance.h"
 #include "lib/check/enclosure.h"
+#include "lib/check/inside.h"
 #include "lib/check/surface.h"
 
 namespace bp {
@@ -101,6 +102,19 @@ void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource&
   measure_distances(surface, memory, options, report);
 }
 
+void check_scene_around(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
+                        const CheckOptions& options, CheckReport& report) {
+  report.has_scene = report.wants_inside = true;
+  if (!report.sides_decided) return;
+  const InsideReport inside = check_inside(mesh, surface, scene, options.max_examples);
+  report.scene_name = scene.name();
+  report.scene_counts = scene.counts();
+  report.scene_triangles = inside.triangles;
+  report.scene_closed = inside.scene_closed;
+  report.touching = inside.touching, report.swallowed = inside.swallowed, report.outside_parts = inside.outside;
+  report.undecidable_scene = inside.undecidable;
+}
+
 }  // namespace
 
 CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene, const CheckOptions& options) {
@@ -112,7 +126,7 @@ CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene, const C
   report.self_intersections = surface.self_intersections(options.max_examples);
   report.sides_decided = report.closed() && report.oriented();
   if (report.sides_decided) report.inverted_components = inverted_components(mesh, surface, options.max_examples);
-  if (scene != nullptr) check_scene(mesh, surface, *scene, options, report);
+  if (scene != nullptr) (options.inside ? check_scene_around : check_scene)(mesh, surface, *scene, options, report);
   return report;
 }
 

@@ -73,6 +73,12 @@ struct CheckReport {
   Finding outside;                    ///< index: scene triangle that touches nothing and has winding number < 1
   Finding undecidable_scene;          ///< index: scene triangle outside the domain of exact predicates
 
+  // The proxy inside the scene (inside.h).
+  bool wants_inside = false;  ///< asked for, instead of enclosure
+  bool scene_closed = false;
+  Finding swallowed;      ///< index: scene triangle that lies inside the proxy
+  Finding outside_parts;  ///< index: first triangle of a component that the scene does not wind around
+
   // Measures, in doubles.
   double volume = 0;                   ///< signed, cubed scene units
   std::optional<double> scene_volume;  ///< signed sum over all triangles: meaningful only for closed scenes
@@ -97,7 +103,12 @@ struct CheckReport {
   }
   [[nodiscard]] bool holds() const {
     return readable() && sound() && closed() && oriented() && manifold() && embedded() && outward() &&
-           (!has_scene || encloses());
+           (!has_scene || (wants_inside ? inside() : encloses()));
+  }
+  /// Strict: the solid of the proxy meets no scene triangle, and the scene, which is closed, winds around all of it.
+  [[nodiscard]] bool inside() const {
+    return has_scene && sides_decided && scene_closed && touching.count == 0 && swallowed.count == 0 &&
+           outside_parts.count == 0 && undecidable_scene.count == 0;
   }
 };
 

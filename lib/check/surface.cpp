@@ -46,15 +46,6 @@ int side_in_plan(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
   return sign_of(b[0] - a[0]);                    // d/dy is b.x - a.x; the difference of distinct doubles is not 0
 }
 
-/// Signed crossing of triangle t with the ray from p upwards: +1 where it leaves through a face turned upwards.
-int crossing(const TriangleD& t, const Vec3d& p) {
-  const int facing = orient2d(t[0], t[1], t[2], 2);
-  if (facing == 0) return 0;
-  for (std::size_t e = 0; e < 3; ++e)
-    if (side_in_plan(t[e], t[(e + 1) % 3], p) != facing) return 0;
-  return orient3d(t[0], t[1], t[2], p) == -facing ? facing : 0;  // p below the plane
-}
-
 /// Sign of the signed volume under triangles of one closed component.
 class VolumeSign {
  public:
@@ -98,6 +89,14 @@ int exact_volume_sign(const WeldedMesh& mesh, const std::vector<std::uint32_t>& 
 }
 
 }  // namespace
+
+int crossing_above(const TriangleD& t, const Vec3d& p) {
+  const int facing = orient2d(t[0], t[1], t[2], 2);
+  if (facing == 0) return 0;
+  for (std::size_t e = 0; e < 3; ++e)
+    if (side_in_plan(t[e], t[(e + 1) % 3], p) != facing) return 0;
+  return orient3d(t[0], t[1], t[2], p) == -facing ? facing : 0;  // p below the plane
+}
 
 Surface::Surface(const WeldedMesh& mesh) : mesh_(mesh), triangle_(with_area(mesh)), bvh_(corners_of(mesh, triangle_)) {
   for (std::size_t i = 0; i < bvh_.size(); ++i) bounds_.merge(bounds_of(bvh_.item(i).corners));
@@ -143,7 +142,7 @@ std::int64_t Surface::touched_by(const TriangleD& t) const {
 int Surface::winding(const Vec3d& p, std::uint32_t ignored) const {
   int sum = 0;
   bvh_.visit_above(p, [&](const TriangleBvh::Item& t) {
-    if (ignored == kNoComponent || mesh_.component[triangle_[t.id]] != ignored) sum += crossing(t.corners, p);
+    if (ignored == kNoComponent || mesh_.component[triangle_[t.id]] != ignored) sum += crossing_above(t.corners, p);
   });
   return sum;
 }

@@ -39,6 +39,10 @@ class Surface {
   TriangleBvh bvh_;
 };
 
+/// Signed crossing of triangle t with the ray from p upwards, p moved as in Surface::winding: +1 where the ray leaves
+/// through a face turned upwards, -1 downwards, else 0. Exact.
+[[nodiscard]] int crossing_above(const TriangleD& t, const Vec3d& p);
+
 /// Closed components that nothing surrounds must have a positive signed volume, decided exactly. Needs a closed,
 /// oriented mesh.
 [[nodiscard]] Finding inverted_components(const WeldedMesh& mesh, const Surface& surface, std::size_t max_examples);

@@ -40,6 +40,8 @@ constexpr FindingText kFindings[] = {
     {&CheckReport::inverted_components, "inverted_components", "outer components face inwards", "triangle", nullptr},
     {&CheckReport::touching, "touching", "scene triangles touch or cross the proxy", "scene_triangle", "triangle"},
     {&CheckReport::outside, "outside", "scene triangles lie outside the proxy", "scene_triangle", nullptr},
+    {&CheckReport::swallowed, "swallowed", "scene triangles lie inside the proxy", "scene_triangle", nullptr},
+    {&CheckReport::outside_parts, "outside_parts", "parts of the proxy lie outside the scene", "triangle", nullptr},
     {&CheckReport::undecidable_scene, "undecidable_scene",
      "scene triangles have coordinates beyond 1e90 or below 1e-90, where nothing can be proven", "scene_triangle",
      nullptr},
@@ -82,6 +84,12 @@ std::string undecided_row(const char* question) {
 
 std::string enclosure_row(const CheckReport& r) {
   if (!r.has_scene) return "";
+  if (r.wants_inside) {
+    const char* question = "strictly inside the scene";
+    if (!r.sides_decided) return undecided_row(question);
+    if (r.scene_closed) return row(question, r.inside());
+    return fmt::format("  {:<28}NO (only a closed, oriented scene has an inside)\n", question);
+  }
   const char* question = "strictly encloses the scene";
   return r.sides_decided ? row(question, r.encloses()) : undecided_row(question);
 }
@@ -148,7 +156,8 @@ Json verdict_of(const CheckReport& r) {
             {"manifold", r.manifold()},
             {"embedded", r.embedded()},
             {"outward", r.sides_decided && r.outward()}};
-  v["encloses"] = r.has_scene ? Json(r.encloses()) : Json(nullptr);
+  v["encloses"] = r.has_scene && !r.wants_inside ? Json(r.encloses()) : Json(nullptr);
+  if (r.wants_inside) v["inside"] = r.inside();
   return v;
 }
 
@@ -161,6 +170,8 @@ std::string failures(const CheckReport& r) {
     if (!text.empty()) text += "; ";
     text += fmt::format("{} {}", (r.*t.finding).count, t.text);
   }
+  if (r.wants_inside && r.sides_decided && !r.scene_closed)
+    text += std::string(text.empty() ? "" : "; ") + "the scene is not closed, so it has no inside";
   return text;
 }
 

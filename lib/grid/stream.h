@@ -16,7 +16,9 @@ enum class StructuringElement : std::uint8_t {
   ball = 0,
   cube = 1
 };  ///< of the dilation; the erosion is always the ball
-enum class FillMode : std::uint8_t { flood = 0, winding = 1, none = 2 };
+/// What the solid layer holds beside the voxels that triangles touch. inside: the flood's inside *without* those
+/// voxels, the ground of proxies that lie strictly inside the scene.
+enum class FillMode : std::uint8_t { flood = 0, winding = 1, none = 2, inside = 3 };
 
 /// One step of the chain that made a stream or a mesh: no paths, no time of day.
 struct Provenance {

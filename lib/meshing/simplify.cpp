@@ -193,6 +193,7 @@ class Simplifier {
     gather_star(h);
     const Quadric q = summed(h);
     const Vec3d prior = midpoint(h);
+    if (params_.free) return solve_free(h, q, minimum(q, prior));
     bool feasible = false;
     for (const double margin : {0.0, 0.9}) {  // 0.9 > sqrt(3)/2: rounding cannot leave the half-spaces then
       for (PlaneConstraint& s : constraints_) s.d += margin;
@@ -210,6 +211,13 @@ class Simplifier {
     }
     if (!feasible) ++counts_.refused_constraints;
     return std::nullopt;
+  }
+
+  std::optional<Candidate> solve_free(HalfEdgeId h, const Quadric& q, const Vec3d& x) {
+    const LatticeCoord offset{std::llround(x[0]), std::llround(x[1]), std::llround(x[2])};
+    const LatticeCoord p = mesh_.position(mesh_.from(h)) + offset;
+    if (!shape_is_fine(h, p)) return std::nullopt;
+    return Candidate{p, q.value(to_double(offset))};
   }
 
   /// Between the free minimum, which may cut into the solid, and the constrained one, which only grows it: the first

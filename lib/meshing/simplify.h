@@ -23,6 +23,8 @@ struct SimplifyParams {
   bool dense = true;
   /// If given, a collapse need not grow the solid: it must only keep this inside. Tighter by far; slower per collapse.
   const Enclosed* enclosed = nullptr;
+  /// A collapse need neither grow the solid nor keep anything inside: it takes the least error, and stays embedded.
+  bool free = false;
   StepLimits* limits = nullptr;  ///< if given, every collapse keeps them
 };
 

@@ -10,6 +10,9 @@
 #include "lib/meshing/repair.h"
 #include "lib/meshing/surface.h"
 #include "lib/meshing/tight_proxy.h"
+#include "lib/stage/complement.h"
+#include "lib/stage/components.h"
+#include "lib/stage/fit_target.h"
 #include "lib/stage/proxy_limits.h"
 #include "lib/stage/surface_around.h"
 
@@ -41,9 +44,28 @@ void check(const MeshParams& params) {
     fail(ErrorCode::bad_argument, "{} faces after {}: each level must have fewer than the one before", params.faces[i],
          params.faces[i - 1]);
   }
-  if (params.volume_ratio != 0 && params.volume_ratio < 1)
+  if (params.mode == MeshMode::inside && params.enclose == Enclose::scene)
+    fail(ErrorCode::bad_argument, "a proxy inside a scene is kept by voxels; --enclose takes closing or input");
+  if (params.mode == MeshMode::fit && params.enclose == Enclose::input)
+    fail(ErrorCode::bad_argument, "a fit is drawn to the closing or to scene files; --enclose input has no meaning");
+  if (params.mode == MeshMode::fit && params.volume_ratio != 0)
+    fail(ErrorCode::bad_argument, "a fit encloses nothing; --volume has no meaning");
+  if (params.mode == MeshMode::inside && params.volume_ratio > 1)
+    fail(ErrorCode::bad_argument, "a volume ratio of {} is above 1, and what lies inside is no larger",
+         params.volume_ratio);
+  if (params.mode == MeshMode::bounding && params.volume_ratio != 0 && params.volume_ratio < 1)
     fail(ErrorCode::bad_argument, "a volume ratio of {} is below 1, and a proxy is no smaller than what it encloses",
          params.volume_ratio);
+}
+
+void check_fill(const MeshParams& params, const StreamHeader& header) {
+  const bool inside = header.fill == FillMode::inside;
+  if (params.mode == MeshMode::inside && !inside) {
+    fail(ErrorCode::bad_input,
+         "the stream holds voxels that the scene touches; --mode inside needs bpvox --fill inside");
+  }
+  if (params.mode == MeshMode::inside || !inside) return;
+  fail(ErrorCode::bad_input, "the stream holds the inside of the scene only (bpvox --fill inside); use --mode inside");
 }
 
 /// What must stay inside, and its surface where distances to it are asked for.
@@ -60,21 +82,46 @@ std::vector<TriangleD> merged_triangles(const LatticeMesh& dense) {
   return world_triangles(mesh.compact(dense.frame));
 }
 
-Ground make_ground(const Shelves& shelves, MeshParams& params, const LatticeMesh& dense) {
+/// The surface that simplification begins with. A proxy inside is one around the complement, turned over: what must
+/// stay "inside" is then what surrounds it.
+struct Start {
+  LatticeMesh dense;
+  std::unique_ptr<BrickShelf> around;  // inside: the complement of the layer that is meshed
+};
+
+Start make_start(const Shelves& shelves, MeshMode mode, const GridFrame& frame, const ShelfFactory& make_shelf) {
+  if (mode != MeshMode::inside) return {dense_surface(*shelves.meshed, frame), nullptr};
+  Start start{{}, make_shelf()};
+  start.dense = inward_surface(*shelves.meshed, frame, make_shelf, *start.around);
+  if (start.dense.triangles.empty())
+    fail(ErrorCode::bad_input, "the inside of the scene is too thin to mesh; use smaller voxels or a smaller --scale");
+  return start;
+}
+
+std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& params, const Start& start,
+                                        const ShelfFactory& make_shelf) {
+  if (params.enclose == Enclose::scene)
+    return std::make_unique<EnclosedTriangles>(std::move(params.scene), start.dense.frame);
+  if (params.enclose == Enclose::closing)
+    return std::make_unique<EnclosedVoxels>(start.around ? *start.around : *shelves.meshed);
+  if (params.mode == MeshMode::bounding) return std::make_unique<EnclosedVoxels>(*shelves.input);
+  const auto around = make_shelf();
+  complement(*shelves.input, bricks_around(*shelves.input), *around);
+  return std::make_unique<EnclosedVoxels>(*around);
+}
+
+Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& start, const ShelfFactory& make_shelf) {
   Ground ground;
-  if (params.error_world > 0 || params.distances) {
-    ground.surface = params.enclose == Enclose::scene   ? params.scene
-                     : params.enclose == Enclose::input ? world_triangles(dense_surface(*shelves.input, dense.frame))
-                                                        : merged_triangles(dense);
+  const bool target = params.mode == MeshMode::fit && params.enclose == Enclose::scene;
+  if (params.error_world > 0 || params.distances || target) {
+    ground.surface = params.enclose == Enclose::scene ? params.scene
+                     : params.enclose == Enclose::input
+                         ? world_triangles(dense_surface(*shelves.input, start.dense.frame))
+                         : merged_triangles(start.dense);
     ground.tree = std::make_unique<TriangleBvh>(ground.surface);
   }
-  if (!params.tighten) return ground;
-  if (params.enclose == Enclose::scene) {
-    ground.enclosed = std::make_unique<EnclosedTriangles>(std::move(params.scene), dense.frame);
-  } else {
-    ground.enclosed =
-        std::make_unique<EnclosedVoxels>(params.enclose == Enclose::input ? *shelves.input : *shelves.meshed);
-  }
+  if (params.tighten && params.mode != MeshMode::fit)
+    ground.enclosed = make_enclosed(shelves, params, start, make_shelf);
   return ground;
 }
 
@@ -148,30 +195,68 @@ class LevelMaker {
   LevelMaker(const StreamHeader& header, const ShelfFactory& make_shelf, MeshParams params, MeshCounts& counts)
       : header_(header), make_shelf_(make_shelf), params_(std::move(params)), counts_(counts) {
     bounds_.error_world = params_.error_world;
-    bounds_.volume_world = params_.volume_ratio * counts.solid_volume_world;
+    bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts.solid_volume_world;
   }
 
   std::vector<LatticeMesh> run(const Shelves& shelves) {
     const std::vector<std::uint64_t> faces = params_.faces.empty() ? std::vector<std::uint64_t>{0} : params_.faces;
-    LatticeMesh dense = dense_surface(*shelves.meshed, header_.frame);
-    ground_ = make_ground(shelves, params_, dense);
-    std::vector<LatticeMesh> levels{finish(dense, ground_.enclosed.get(), faces[0])};
+    Start start = make_start(shelves, params_.mode, header_.frame, make_shelf_);
+    if (inside()) counts_.repaired = counts_.voxels - voxels_within(start.dense);
+    ground_ = make_ground(shelves, params_, start, make_shelf_);
+    if (params_.mode == MeshMode::fit) return fits(start.dense, faces);
+    std::vector<LatticeMesh> levels{finish(start.dense, ground_.enclosed.get(), faces[0])};
     for (std::size_t i = 1; i < faces.size(); ++i) {
-      const LatticeMesh& inner = levels.back();
-      dense = surface_around(inner, level_voxel(inner, header_.frame.voxel, faces[i]), make_shelf_);
-      const EnclosedTriangles enclosed(world_triangles(inner), dense.frame);
+      const LatticeMesh& before = levels.back();
+      const double voxel = level_voxel(before, header_.frame.voxel, faces[i]);
+      const LatticeMesh dense =
+          inside() ? surface_within(before, voxel, make_shelf_) : surface_around(before, voxel, make_shelf_);
+      const EnclosedTriangles enclosed(world_triangles(before), dense.frame);
       levels.push_back(finish(dense, params_.tighten ? &enclosed : nullptr, faces[i]));
     }
     return levels;
   }
 
  private:
+  /// Levels of detail that do not enclose: each of the same fine surface.
+  std::vector<LatticeMesh> fits(const LatticeMesh& dense, const std::vector<std::uint64_t>& faces) {
+    const FitTarget target =
+        params_.enclose == Enclose::scene ? scene_target(*ground_.tree, dense.frame) : inset_target();
+    const LatticeMesh fine = fine_fit(dense, faces[0], target);
+    std::vector<LatticeMesh> levels;
+    for (const std::uint64_t n : faces) {
+      levels.push_back(finish(fine, n, [&](const SimplifyParams& params, LevelCounts& counts) {
+        return fit_level(fine, params, counts.simplify);
+      }));
+    }
+    return levels;
+  }
+
+  [[nodiscard]] bool inside() const { return params_.mode == MeshMode::inside; }
+
+  /// Voxels that a surface turned inwards has on its other side.
+  static std::uint64_t voxels_within(const LatticeMesh& dense) {
+    constexpr int kVolume6 = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
+    return std::uint64_t(-volume6_of(dense) / kVolume6);
+  }
+
   LatticeMesh finish(const LatticeMesh& dense, const Enclosed* enclosed, std::uint64_t faces) {
+    return finish(dense, faces, [&](const SimplifyParams& params, LevelCounts& counts) {
+      return make_level(dense, enclosed, params, counts);
+    });
+  }
+
+  /// One level by make(params, counts), with its counts and measures.
+  template <class Make>
+  LatticeMesh finish(const LatticeMesh& dense, std::uint64_t faces, const Make& make) {
     LevelCounts& counts = counts_.levels.emplace_back();
     SimplifyParams params = simplify_params(header_, dense.frame, params_, faces);
     ProxyLimits limits(bounds_, dense, ground_.tree.get());
-    if (bounds_.error_world > 0 || bounds_.volume_world > 0) params.limits = &limits;
-    LatticeMesh proxy = make_level(dense, enclosed, params, counts);
+    if (bounds_.error_world > 0 || bounds_.volume_world != 0) params.limits = &limits;
+    LatticeMesh proxy = make(params, counts);
+    if (inside()) {
+      turn_over(proxy);
+      counts.simplify.faces_out -= drop_inverted_components(proxy);
+    }
     const StopReason stop = counts.simplify.stop;
     counts.stopped_by = stop == StopReason::limits ? limits.last_refusal() : to_string(stop);
     counts.measures = measure(proxy);
@@ -195,11 +280,12 @@ std::vector<LatticeMesh> mesh_stream(BrickSource& source, const ShelfFactory& ma
   counts = {};
   check(params);
   const StreamHeader& header = source.header();
+  check_fill(params, header);
   const bool distances = params.error_world > 0 || params.distances;
   const bool want_input = (params.tighten || distances) && params.enclose == Enclose::input;
   const Shelves shelves = read_layers(source, make_shelf, want_input, counts);
-  counts.repaired = repair_contacts(*shelves.meshed);
   counts.solid_volume_world = double(counts.voxels) * std::pow(header.frame.voxel, 3);
+  if (params.mode != MeshMode::inside) counts.repaired = repair_contacts(*shelves.meshed);
   return LevelMaker(header, make_shelf, std::move(params), counts).run(shelves);
 }
 

@@ -7,16 +7,21 @@
 /// The last stage of the pipe: bricks in, proxies out (bpmesh).
 namespace bp {
 
+/// bounding: around everything that is meshed. inside: within it, for occluders; of a stream of bpvox --fill inside.
+/// fit: as near as can be, neither around nor within (fit.h).
+enum class MeshMode { bounding, inside, fit };
+
 /// What must stay inside while the proxy is made tighter: the layer that is meshed, the stream's solid layer (the
 /// scene, to a voxel), or triangles of the scene itself.
-enum class Enclose { closing, input, scene };
+enum class Enclose { closing, input, scene };  // of a fit: what it is drawn to; closing, or the scene where it is near
 
 struct MeshParams {
+  MeshMode mode = MeshMode::bounding;
   /// Triangles wanted, one number per level, falling; each level strictly encloses the one before. Empty: one level,
   /// whose faces the other targets decide.
   std::vector<std::uint64_t> faces;
   double error_world = 0;  ///< largest distance of the proxy to what it encloses (proxy_limits.h), scene units; 0: none
-  double volume_ratio = 0;  ///< largest volume, in volumes of the meshed voxels, at least 1; 0: none
+  double volume_ratio = 0;  ///< largest volume, in volumes of the meshed voxels, at least 1; inside: least, at most 1
   double edge_factor = 0;   ///< edges at most edge_factor * S long, S the scale field there; 0: no limit
   Enclose enclose = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
@@ -34,15 +39,15 @@ struct LevelCounts {
 };
 
 struct MeshCounts {
-  std::uint64_t voxels = 0;       ///< of the layer that is meshed
-  std::uint64_t repaired = 0;     ///< voxels added where others touched only along an edge or at a corner
+  std::uint64_t voxels = 0;    ///< of the layer that is meshed
+  std::uint64_t repaired = 0;  ///< voxels added (inside: taken away) where others touched only along an edge or corner
   double solid_volume_world = 0;  ///< of the meshed voxels, scene units cubed
   std::vector<LevelCounts> levels;
 };
 
 /// The proxies, finest first: one per number in params.faces, or one. `params` by value: the scene's triangles are
 /// moved out of it. Meshes the closing layer if the stream has one, else the solid layer. Throws bad_input if that
-/// layer is empty, bad_argument if the targets make no sense.
+/// layer is empty or not what the mode needs, bad_argument if the targets make no sense.
 [[nodiscard]] std::vector<LatticeMesh> mesh_stream(BrickSource& source, const ShelfFactory& make_shelf,
                                                    MeshParams params, MeshCounts& counts);
 

@@ -40,12 +40,12 @@ double volume_world(const LatticeMesh& mesh) {
 ProxyLimits::ProxyLimits(const ProxyBounds& bounds, const LatticeMesh& proxy, const TriangleBvh* enclosed)
     : bounds_(bounds), frame_(proxy.frame), enclosed_(enclosed), volume6_(volume6_of(proxy)) {
   constexpr double kMost = 0x1p120;  // int128 holds it, and no grid reaches it
-  if (bounds.volume_world > 0) limit6_ = int128(std::min(kMost, bounds.volume_world * volume6_per_world(frame_)));
+  limit6_ = int128(std::clamp(bounds.volume_world * volume6_per_world(frame_), -kMost, kMost));
 }
 
 bool ProxyLimits::take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) {
   const int128 growth = growth_of(before, after);
-  if (bounds_.volume_world > 0 && growth > 0 && volume6_ + growth > limit6_) {
+  if (bounds_.volume_world != 0 && growth > 0 && volume6_ + growth > limit6_) {
     last_refusal_ = "volume";
     return false;
   }

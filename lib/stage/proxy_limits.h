@@ -9,7 +9,7 @@ namespace bp {
 
 struct ProxyBounds {
   double error_world = 0;   ///< largest distance of a point of the proxy to what it encloses, scene units; 0: none
-  double volume_world = 0;  ///< scene units cubed; 0: none
+  double volume_world = 0;  ///< scene units cubed, negative for a surface turned inwards; 0: none
 };
 
 /// No step takes a face farther from what is enclosed than error_world, or, where the faces it replaces were farther

@@ -3,6 +3,7 @@
 #include "lib/core/error.h"
 #include "lib/meshing/repair.h"
 #include "lib/meshing/surface.h"
+#include "lib/stage/complement.h"
 #include "lib/stage/voxelize_stage.h"
 
 namespace bp {
@@ -59,13 +60,17 @@ std::vector<TriangleD> world_triangles(const LatticeMesh& mesh) {
   return out;
 }
 
-LatticeMesh surface_around(const LatticeMesh& inner, double voxel, const ShelfFactory& make_shelf) {
-  MeshSource source(inner);
-  const auto shelf = make_shelf();
-  ShelfSink sink(*shelf);
+namespace {
+
+/// Voxels of a mesh, as bpvox would find them; returns their frame.
+GridFrame voxelize_mesh(const LatticeMesh& mesh, double voxel, FillMode fill, const ShelfFactory& make_shelf,
+                        BrickShelf& shelf) {
+  MeshSource source(mesh);
+  ShelfSink sink(shelf);
   VoxelizeOptions options;
   options.voxel_size = [voxel](const Bounds3d&) { return voxel; };
-  options.up = inner.frame.up;
+  options.fill = fill;
+  options.up = mesh.frame.up;
   options.memory_bytes = UINT64_MAX / 8;
   options.make_shelf = make_shelf;
   options.make_store = [] { return std::make_unique<NoStore>(); };
@@ -76,10 +81,44 @@ LatticeMesh surface_around(const LatticeMesh& inner, double voxel, const ShelfFa
   };
   Backends on_threads;
   voxelize_stream(source, open, on_threads, options);
+  return frame;
+}
+
+}  // namespace
+
+LatticeMesh surface_around(const LatticeMesh& inner, double voxel, const ShelfFactory& make_shelf) {
+  const auto shelf = make_shelf();
+  const GridFrame frame = voxelize_mesh(inner, voxel, FillMode::flood, make_shelf, *shelf);
   repair_contacts(*shelf);
   LatticeMesh surface = dense_surface(*shelf, frame);
   surface.provenance = inner.provenance;
   return surface;
+}
+
+LatticeMesh surface_within(const LatticeMesh& outer, double voxel, const ShelfFactory& make_shelf) {
+  const auto shelf = make_shelf(), around = make_shelf();
+  const GridFrame frame = voxelize_mesh(outer, voxel, FillMode::inside, make_shelf, *shelf);
+  LatticeMesh surface = inward_surface(*shelf, frame, make_shelf, *around);
+  if (surface.triangles.empty())
+    fail(ErrorCode::failed, "no voxel lies inside a level of {} faces; use smaller voxels", outer.triangles.size());
+  surface.provenance = outer.provenance;
+  return surface;
+}
+
+LatticeMesh inward_surface(const BrickShelf& solid, const GridFrame& frame, const ShelfFactory& make_shelf,
+                           BrickShelf& around) {
+  const BrickBox box = bricks_around(solid);
+  complement(solid, box, around);
+  repair_contacts(around);
+  const auto left = make_shelf();
+  complement(around, box, *left);
+  LatticeMesh surface = dense_surface(*left, frame);
+  turn_over(surface);
+  return surface;
+}
+
+void turn_over(LatticeMesh& mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
 }
 
 }  // namespace bp

@@ -11,6 +11,19 @@ namespace bp {
 /// `make_shelf`. Throws as voxelize_stream() and dense_surface().
 [[nodiscard]] LatticeMesh surface_around(const LatticeMesh& inner, double voxel, const ShelfFactory& make_shelf);
 
+/// The same on the other side, for proxies inside a solid: the surface of the voxels that `outer` encloses and does not
+/// touch, turned inwards (its solid is what surrounds it). Throws `failed` if there is no such voxel.
+[[nodiscard]] LatticeMesh surface_within(const LatticeMesh& outer, double voxel, const ShelfFactory& make_shelf);
+
+/// The dense surface of `solid` turned inwards, after taking away voxels where the complement touches itself only along
+/// edges or at corners; `around` gets the complement, in the bricks of `solid` and those around them. Returns no
+/// triangle if nothing is left.
+[[nodiscard]] LatticeMesh inward_surface(const BrickShelf& solid, const GridFrame& frame,
+                                         const ShelfFactory& make_shelf, BrickShelf& around);
+
+/// Every triangle turned over.
+void turn_over(LatticeMesh& mesh);
+
 /// Triangles of a lattice mesh in scene units, exactly.
 [[nodiscard]] std::vector<TriangleD> world_triangles(const LatticeMesh& mesh);
 

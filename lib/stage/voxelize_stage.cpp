@@ -408,7 +408,7 @@ void Run::fill_and_emit(BrickSink& sink) {
         return true;
       },
       [&](Slab& slab) {
-        if (options_.fill == FillMode::flood) {
+        if (options_.fill == FillMode::flood || options_.fill == FillMode::inside) {
           parallel_for(std::int64_t(slab.tiles.size()),
                        [&](std::int64_t i) { fill_flood(slab.tiles[std::size_t(i)]); });
         }
@@ -422,11 +422,15 @@ void Run::fill_and_emit(BrickSink& sink) {
 
 void Run::fill_flood(std::uint64_t tile) {
   const VoxelBox box = tile_box(tile);
-  if (!flood_->has_enclosed(box)) return;
+  const bool without_surface = options_.fill == FillMode::inside && touched_.count(tile) > 0;
+  if (!flood_->has_enclosed(box) && !without_surface) return;
   const Workers::Lease worker(*workers_);
   worker->bits.reset(box);
   load_voxels(*shelf_, worker->bits);
+  BitBox surface;
+  if (without_surface) surface = worker->bits;
   flood_->fill_enclosed(box, worker->bits);
+  for (std::int64_t i = 0; i < surface.word_count(); ++i) worker->bits.data()[i] &= ~surface.data()[i];
   store_voxels(worker->bits, *shelf_);
 }
 

@@ -32,11 +32,14 @@ class VoxelSource final : public BrickSource {
     begin(box, solid);
     header_.has_closing = true;
     add(Layer::closing, bits_of(box, closing));
-    std::stable_sort(bricks_.begin(), bricks_.end(),
-                     [this](const Brick& a, const Brick& b) { return slab_order(header_.slab_axis, a, b); });
+    sort();
   }
   [[nodiscard]] const StreamHeader& header() const override { return header_; }
   [[nodiscard]] StreamHeader& header() { return header_; }
+  void set_slab_axis(int axis) {
+    header_.slab_axis = axis;
+    sort();
+  }
   bool read(Brick& out) override {
     if (next_ == bricks_.size()) return false;
     out = bricks_[next_++];
@@ -48,6 +51,9 @@ class VoxelSource final : public BrickSource {
     header_.bricks = bricks_of(box);
     for (const VoxelCoord& p : {box.min, box.max}) header_.bounds.add({double(p.x), double(p.y), double(p.z)});
     add(Layer::solid, bits_of(box, solid));
+    sort();
+  }
+  void sort() {
     std::sort(bricks_.begin(), bricks_.end(),
               [this](const Brick& a, const Brick& b) { return slab_order(header_.slab_axis, a, b); });
   }

@@ -13,7 +13,8 @@ namespace {
 constexpr const char* kLayerNames[] = {"solid", "closing"};
 
 const char* name_of(FillMode fill) {
-  return fill == FillMode::flood ? "flood" : fill == FillMode::winding ? "winding" : "none";
+  constexpr const char* kNames[] = {"flood", "winding", "none", "inside"};
+  return kNames[std::size_t(fill)];
 }
 const char* name_of(StructuringElement element) {
   return element == StructuringElement::ball ? "ball" : "cube";

@@ -66,7 +66,7 @@ StreamHeader random_header(std::uint32_t seed) {
     h.bricks.max[i] = h.bricks.min[i] + 1 + int(random() % 5);
   }
   h.slab_axis = longest_axis(h.bricks);
-  h.fill = FillMode(random() % 3);
+  h.fill = FillMode(random() % 4);
   h.has_closing = random() % 3 != 0;
   if (h.has_closing) {
     h.element = StructuringElement(random() % 2);

@@ -153,7 +153,7 @@ TEST_CASE("a version, flag or value from the future is refused", "[quick][io]") 
   };
   CHECK(says(changed(8, 2), "byte 16: version 2 of the brick stream; this tool reads version 1"));
   CHECK(says(changed(10, 3), "unknown flags 0x3"));
-  CHECK(says(changed(12, 3), "unknown fill mode 3"));
+  CHECK(says(changed(12, 4), "unknown fill mode 4"));
   CHECK(says(changed(13, 2), "unknown element 2"));
   CHECK(says(changed(14, 3), "slab axis"));
   CHECK(says(changed(15, 2), "unknown up axis 2"));

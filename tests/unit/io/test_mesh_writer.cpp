@@ -1,5 +1,6 @@
 #include <random>
 
+#include "io/detail/mesh_writers.h"
 #include "io/mesh_writer.h"
 #include "tests/catch.h"
 #include "tests/unit/io/scene_files.h"
@@ -158,4 +159,23 @@ TEST_CASE("the chain of tools is written into each mesh", "[quick][io]") {
   CHECK_THAT(gltf, Contains("\"generator\": \"bpmesh " BP_VERSION "\""));
   CHECK_THAT(gltf, Contains("\"options\": \"two\\nlines\""));
   CHECK_THAT(gltf, Contains("\"input\": \"00ff\""));
+}
+
+TEST_CASE("a mesh with normals reads back to the same coordinates, and its normals point outwards", "[quick][io]") {
+  const std::string name = GENERATE(as<std::string>(), "m.ply", "m.obj", "m.glb", "m.gltf");
+  LatticeMesh mesh;
+  mesh.frame = frame_at({0, 0, 0}, 300, 0.1, UpAxis::y);
+  mesh.vertices = {{600, 0, 0}, {-600, 0, 0}, {0, 600, 0}, {0, -600, 0}, {0, 0, 600}, {0, 0, -600}};
+  mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  const std::vector<std::array<float, 3>> normals = vertex_normals(mesh);
+  for (std::size_t i = 0; i < 6; ++i) {  // an octahedron: the normal is the direction of the vertex
+    const LatticeCoord& p = mesh.vertices[i];
+    for (int k = 0; k < 3; ++k) CHECK(std::abs(normals[i][std::size_t(k)] - float(p[k]) / 600) < 1e-6f);
+  }
+  const TempDir dir;
+  MeshWriteOptions options;
+  options.normals = true;
+  CHECK(soup(read_mesh(write(dir, mesh, name, options))) == soup(mesh));
+  const auto size = std::filesystem::file_size(dir.path(name));
+  CHECK(size > std::filesystem::file_size(write(dir, mesh, "plain-" + name)));
 }

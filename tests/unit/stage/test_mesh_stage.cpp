@@ -166,3 +166,59 @@ TEST_CASE("the surface around a mesh strictly encloses it, whatever the voxels",
   const std::vector<TriangleD> triangles = world_triangles(inner);
   check(around, &triangles);
 }
+
+TEST_CASE("a proxy inside lies in the voxels that are meshed, and each level in the one before", "[quick][stage]") {
+  VoxelSource source(kBox, dumbbell);
+  source.header().fill = FillMode::inside;
+  MeshParams params;
+  params.mode = MeshMode::inside;
+  params.faces = {600, 150, 50};
+  params.tighten = GENERATE(true, false);
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  REQUIRE(levels.size() == 3);
+  std::vector<TriangleD> outer;  // what is not meshed, as the scene; closed
+  for (VoxelCoord p = kBox.min; p.z < kBox.max.z; ++p.z) {
+    for (p.y = 0; p.y < 48; ++p.y) {
+      for (p.x = 0; p.x < 48; ++p.x) {
+        const double l = 1.0 / 128, h = 1 - l, x = p.x, y = p.y, z = p.z;
+        if (!dumbbell(p)) add_box(outer, {x + l, y + l, z + l}, {x + h, y + h, z + h});
+      }
+    }
+  }
+  add_box(outer, {-9, -9, -9}, {99, 99, 99});
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    CAPTURE(i, counts.levels[i].stopped_by, levels[i].triangles.size());
+    CHECK(levels[i].triangles.size() <= params.faces[i]);
+    MemorySource scene(outer);
+    CheckOptions options;
+    options.inside = true;
+    const CheckReport report = check_proxy(indexed(levels[i]), &scene, options);
+    CHECK(report.holds());
+    CHECK(report.volume > 0);
+    outer = world_triangles(levels[i]);
+  }
+  CHECK(counts.levels[0].measures.volume <= counts.solid_volume_world);
+  CHECK(counts.levels[0].measures.volume > 0.5 * counts.solid_volume_world);
+}
+
+TEST_CASE("a stream that does not hold what the mode needs is refused", "[quick][stage]") {
+  VoxelSource source(kBox, dumbbell);
+  MeshParams params;
+  params.mode = GENERATE(MeshMode::inside, MeshMode::bounding);
+  if (params.mode == MeshMode::bounding) source.header().fill = FillMode::inside;
+  MeshCounts counts;
+  CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
+}
+
+TEST_CASE("the volume of a proxy inside stays above --volume", "[quick][stage]") {
+  VoxelSource source(kBox, dumbbell);
+  source.header().fill = FillMode::inside;
+  MeshParams params;
+  params.mode = MeshMode::inside;
+  params.volume_ratio = 0.9;
+  MeshCounts counts;
+  (void)mesh_stream(source, memory_shelves(), params, counts);
+  CHECK(counts.levels[0].stopped_by == "volume");
+  CHECK(counts.levels[0].measures.volume >= 0.9 * counts.solid_volume_world * (1 - 1e-12));
+}

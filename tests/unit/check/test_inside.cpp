@@ -1,0 +1,62 @@
+#include "tests/catch.h"
+#include "tests/unit/check/meshes.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+CheckReport inside_of(const IndexedMesh& proxy, const IndexedMesh& scene) {
+  VectorSource source(triangles_of(scene));
+  CheckOptions options;
+  options.inside = true;
+  return check_proxy(proxy, &source, options);
+}
+
+}  // namespace
+
+TEST_CASE("a cube inside a cube is strictly inside, whichever way the outer one faces", "[quick][check]") {
+  CHECK(inside_of(cube(1), cube(2)).holds());
+  CHECK(inside_of(cube(1), inverted(cube(2))).holds());
+  CHECK(inside_of(cube(1), join(cube(2), cube(1.5, {3, 0, 0}))).holds());  // overlapping closed parts
+}
+
+TEST_CASE("a proxy that touches the scene is not inside", "[quick][check]") {
+  const CheckReport r = inside_of(cube(1), cube(1));
+  CHECK_FALSE(r.holds());
+  CHECK(r.touching.count > 0);
+}
+
+TEST_CASE("a proxy beside the scene, or around it, is not inside", "[quick][check]") {
+  const CheckReport beside = inside_of(join(cube(0.5), cube(0.5, {5, 0, 0})), cube(2));
+  CHECK_FALSE(beside.holds());
+  CHECK(beside.outside_parts.count == 1);
+  CHECK(beside.outside_parts.examples[0].index == 12);
+  const CheckReport around = inside_of(cube(3), cube(2));
+  CHECK_FALSE(around.holds());
+  CHECK(around.swallowed.count == 12);
+}
+
+TEST_CASE("a proxy that swallows a part of the scene is not inside", "[quick][check]") {
+  const CheckReport r = inside_of(cube(1), join(cube(2), cube(0.25, {0.1, 0.2, 0.3})));
+  CHECK_FALSE(r.holds());
+  CHECK(r.swallowed.count == 12);
+  CHECK(r.outside_parts.count == 0);
+}
+
+TEST_CASE("a proxy in a cavity of the scene is not inside", "[quick][check]") {
+  const CheckReport r = inside_of(cube(1), join(cube(3), inverted(cube(2))));
+  CHECK_FALSE(r.holds());
+  CHECK(r.outside_parts.count == 1);
+}
+
+TEST_CASE("nothing is inside an open scene", "[quick][check]") {
+  IndexedMesh open = cube(2);
+  open.triangles.pop_back();
+  const CheckReport r = inside_of(cube(1), open);
+  CHECK_FALSE(r.scene_closed);
+  CHECK_FALSE(r.holds());
+  IndexedMesh turned = cube(2);
+  std::swap(turned.triangles[0][1], turned.triangles[0][2]);
+  CHECK_FALSE(inside_of(cube(1), turned).holds());
+}

@@ -1,0 +1,108 @@
+#include <cmath>
+
+#include "lib/check/check_proxy.h"
+#include "lib/core/error.h"
+#include "lib/meshing/fit.h"
+#include "lib/stage/fit_target.h"
+#include "lib/stage/mesh_stage.h"
+#include "lib/stage/surface_around.h"
+#include "tests/catch.h"
+#include "tests/support/memory_scene.h"
+#include "tests/support/voxel_source.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+const VoxelBox kBox{{0, 0, 0}, {48, 48, 48}};
+const Vec3d kCentre{24.3, 23.9, 24.1};
+constexpr double kRadius = 17;
+
+/// Voxels that the closed ball's surface, or the ball, touches: as bpvox would find them.
+bool ball(VoxelCoord p) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double lo = p[i] - kCentre[std::size_t(i)], hi = lo + 1;
+    const double d = lo > 0 ? lo : hi < 0 ? hi : 0;
+    sum += d * d;
+  }
+  return sum <= kRadius * kRadius;
+}
+
+double mean_distance_to_sphere(const LatticeMesh& mesh) {
+  double sum = 0;
+  for (const LatticeCoord& v : mesh.vertices) {
+    const Vec3d p = mesh.frame.world(v);
+    sum += std::sqrt(std::pow(p[0] - kCentre[0], 2) + std::pow(p[1] - kCentre[1], 2) + std::pow(p[2] - kCentre[2], 2)) -
+           kRadius;
+  }
+  return sum / double(mesh.vertices.size());
+}
+
+}  // namespace
+
+TEST_CASE("a fit loses the half voxel that voxels stand out, and stays sound", "[quick][meshing]") {
+  VoxelSource source(kBox, ball);
+  MeshParams params;
+  params.mode = MeshMode::fit;
+  params.faces = {1200, 300};
+  const bool to_scene = GENERATE(false, true);
+  if (to_scene) {
+    add_sphere(params.scene, kCentre, kRadius, 40);
+    params.enclose = Enclose::scene;
+  }
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  REQUIRE(levels.size() == 2);
+  const double volume = 4 * M_PI / 3 * std::pow(kRadius, 3);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CAPTURE(i, to_scene);
+    CHECK(levels[i].triangles.size() <= params.faces[i]);
+    CHECK(check_proxy(indexed(levels[i]), nullptr).holds());
+    CHECK(std::abs(mean_distance_to_sphere(levels[i])) < (i == 0 ? 0.15 : 0.4));
+    CHECK(std::abs(counts.levels[i].measures.volume - volume) < (i == 0 ? 0.02 : 0.05) * volume);
+  }
+  CHECK(counts.solid_volume_world > 1.1 * volume);  // what was lost
+}
+
+TEST_CASE("vertices are drawn to their targets only as far as the surface stays embedded", "[quick][meshing]") {
+  VoxelSource source(kBox, [](VoxelCoord p) {  // two plates, two voxels apart, joined at one end
+    const bool plates = (p.z >= 10 && p.z < 12) || (p.z >= 14 && p.z < 16);
+    return p.x > 4 && p.x < 30 && p.y > 4 && p.y < 20 && (plates || (p.x < 8 && p.z >= 10 && p.z < 16));
+  });
+  MeshParams params;
+  params.tighten = false;
+  params.faces = {400};
+  MeshCounts counts;
+  const LatticeMesh start = mesh_stream(source, memory_shelves(), params, counts)[0];
+  HalfEdgeMesh mesh(start);
+  const LatticeCoord point{17 * 64, 12 * 64, 13 * 64};  // all to one point: most cannot get there
+  const std::uint64_t moves = draw_to_targets(
+      mesh, [&](const LatticeCoord&, const Vec3d&) { return point; }, 6);
+  CHECK(moves > 10);
+  CHECK(check_proxy(indexed(mesh.compact(start.frame)), nullptr).holds());
+}
+
+TEST_CASE("the nearest point of a triangle is nearer than any other", "[quick][meshing]") {
+  const TriangleD t{Vec3d{0, 0, 0}, Vec3d{4, 1, 0}, Vec3d{1, 3, 2}};
+  for (const Vec3d& p : {Vec3d{1, 1, 5}, Vec3d{-3, -2, 1}, Vec3d{9, 0, 0}, Vec3d{0, 6, 1}, Vec3d{2, -4, 2}}) {
+    const Vec3d q = nearest_point(p, t);
+    CHECK(std::abs(distance_squared(p, t) -
+                   (std::pow(p[0] - q[0], 2) + std::pow(p[1] - q[1], 2) + std::pow(p[2] - q[2], 2))) < 1e-12);
+    CHECK(distance_squared(q, t) < 1e-24);
+  }
+}
+
+TEST_CASE("targets without a meaning for a fit are refused", "[quick][meshing]") {
+  VoxelSource source(kBox, ball);
+  MeshParams params;
+  params.mode = MeshMode::fit;
+  if (GENERATE(true, false)) {
+    params.volume_ratio = 1.1;
+  } else {
+    params.enclose = Enclose::input;
+  }
+  MeshCounts counts;
+  CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
+}
