@@ -9,6 +9,7 @@
 
 #include "io/detail/mesh_writers.h"
 #include "lib/core/error.h"
+#include "lib/meshing/quads.h"
 
 namespace bp {
 
@@ -189,8 +190,9 @@ void write_ply(const LatticeMesh& mesh, const WorldVertices& vertices, OutputFil
   header +=
       fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n", vertices.size());
   if (options.normals) header += "property float nx\nproperty float ny\nproperty float nz\n";
-  header +=
-      fmt::format("element face {}\nproperty list uchar uint vertex_indices\nend_header\n", mesh.triangles.size());
+  const PolygonFaces faces = polygon_faces(mesh);
+  header += fmt::format("element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+                        faces.triangles.size() + faces.quads.size());
   out.write(header);
   Bytes bytes(out);
   if (options.normals) {
@@ -202,9 +204,13 @@ void write_ply(const LatticeMesh& mesh, const WorldVertices& vertices, OutputFil
   } else {
     out.write(std::as_bytes(std::span(vertices)));
   }
-  for (const auto& t : mesh.triangles) {
+  for (const auto& t : faces.triangles) {
     bytes.put(std::uint8_t(3));
     bytes.put(t);
+  }
+  for (const Quad& q : faces.quads) {
+    bytes.put(std::uint8_t(4));
+    bytes.put(q);
   }
 }
 
@@ -220,7 +226,9 @@ void write_obj(const LatticeMesh& mesh, const WorldVertices& vertices, OutputFil
   const auto corner = [&](std::uint32_t v) {
     return options.normals ? fmt::format(" {0}//{0}", std::uint64_t(v) + 1) : fmt::format(" {}", std::uint64_t(v) + 1);
   };
-  for (const auto& t : mesh.triangles) out.write("f" + corner(t[0]) + corner(t[1]) + corner(t[2]) + "\n");
+  const PolygonFaces faces = polygon_faces(mesh);
+  for (const auto& t : faces.triangles) out.write("f" + corner(t[0]) + corner(t[1]) + corner(t[2]) + "\n");
+  for (const Quad& q : faces.quads) out.write("f" + corner(q[0]) + corner(q[1]) + corner(q[2]) + corner(q[3]) + "\n");
 }
 
 void write_stl(const LatticeMesh& mesh, const WorldVertices& vertices, OutputFile& out) {

@@ -9,6 +9,7 @@
 ///               lattice unit, its translation a whole multiple of it: integer * scale + translation is exact in
 ///               double. A z-up frame gets a root node that maps (x,y,z) to (x,z,-y), and asset.extras.up = "z".
 ///   .ply        binary little endian, doubles    .obj  decimals that read back to the same double
+///   .obj and .ply hold the quads of mesh.quads as such, after the triangles that are left; the others hold triangles
 ///   .stl        binary, float32: only if each coordinate is a float
 namespace bp {
 

@@ -25,7 +25,7 @@ struct Options {
   double volume = 0, edge_length = 0;
   std::vector<std::string> enclose;
   bool loose = false;  // --no-tighten
-  bool measure = false;
+  bool measure = false, quads = false;
   bp::Vec3d origin{};
 };
 
@@ -75,6 +75,7 @@ Options parse(bp::Args& args) {
       "--enclose", "WHAT", o.enclose,
       "what stays inside while the proxy is tightened: closing, input (the voxels of the scene), or scene files");
   args.flag("--no-tighten", o.loose, "leave out the last step, which lowers the volume");
+  args.flag("--quads", o.quads, "join triangles to quads, safe for either diagonal; in OBJ and PLY");
   args.flag("--measure", o.measure, "measure distances, and print volume, edges and distances on stderr");
   args.option(
       "--origin", "X,Y,Z", [&o](const std::string& text) { o.origin = parse_origin(text); },
@@ -147,6 +148,7 @@ bp::Provenance provenance(const Options& o, const std::string& input, std::size_
       .add("edge-length", o.edge_length)
       .add("enclose", enclose_text(o))
       .add("tighten", !o.loose);
+  if (o.quads) text.add("quads", o.quads);
   if (o.faces.size() > 1) text.add("level", level);
   return bp::make_provenance("bpmesh", text, input);
 }
@@ -264,6 +266,7 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
   params.volume_ratio = o.volume;
   params.edge_factor = o.edge_length;
   params.tighten = !o.loose;
+  params.quads = o.quads;
   params.distances = o.measure || (o.error && !o.enclose.empty());
   if (params.tighten || params.distances || o.mode == bp::MeshMode::fit) set_enclosed(o, header.bounds, params);
   return params;
@@ -273,6 +276,8 @@ void run(const Options& o) {
   if (o.out == "-" && o.format.empty())
     bp::fail(bp::ErrorCode::bad_argument, "name the output with -o, or its --format");
   const bp::MeshFormat format = bp::mesh_format_of(o.format.empty() ? o.out : "x." + o.format);
+  if (o.quads && format != bp::MeshFormat::obj && format != bp::MeshFormat::ply)
+    bp::fail(bp::ErrorCode::bad_argument, "--quads: only .obj and .ply hold quads");
   bp::Report report("bpmesh");
   report.stage("read and mesh");
   std::vector<std::unique_ptr<bp::OutputFile>> outputs;

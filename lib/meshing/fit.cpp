@@ -9,6 +9,7 @@ namespace bp {
 namespace {
 
 constexpr std::uint64_t kFineFactor = 10, kFineFaces = 20000;
+constexpr double kLongest = 2.5;  // edges, times the square root of a face's share of the area
 constexpr int kSweeps = 4;
 constexpr double kQualityFloor = 0.05;
 constexpr double kLeastTurn = 0.3;  // cosine between a face's normal before and after
@@ -63,6 +64,13 @@ class Mover {
   std::vector<FaceId> replaced_;
 };
 
+double area(const LatticeMesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles)
+    sum += length(to_double(normal_of(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]))) / 2;
+  return sum;
+}
+
 LatticeCoord part_of_way(const LatticeCoord& p, const LatticeCoord& q, double share) {
   return {p.x + std::llround(share * double(q.x - p.x)), p.y + std::llround(share * double(q.y - p.y)),
           p.z + std::llround(share * double(q.z - p.z))};
@@ -96,6 +104,9 @@ LatticeMesh fine_fit(const LatticeMesh& dense, std::uint64_t faces, const FitTar
   SimplifyParams params;
   params.faces = std::max(kFineFactor * faces, kFineFaces);
   params.free = true;
+  // Flat steps of a curved surface must keep vertices inside, to be drawn onto it.
+  const double limit = std::max(2.0 * kLatticePerVoxel, kLongest * std::sqrt(area(dense) / double(params.faces)));
+  params.edge_limit = [limit](const LatticeCoord&) { return limit; };
   SimplifyCounts counts;
   const LatticeMesh fine = simplify(dense, params, counts);
   HalfEdgeMesh mesh(fine);

@@ -14,6 +14,7 @@ struct LatticeMesh {
   GridFrame frame;
   std::vector<LatticeCoord> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 2>> quads;  ///< pairs of triangles that a file joins (quads.h); mostly none
   std::vector<Provenance> provenance;
 };
 

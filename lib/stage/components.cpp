@@ -27,6 +27,7 @@ std::uint64_t drop_inverted_components(LatticeMesh& mesh) {
   }
   const std::uint64_t taken = mesh.triangles.size() - left.size();
   mesh.triangles = std::move(left);
+  mesh.quads.clear();  // they named triangles by number
   return taken;
 }
 

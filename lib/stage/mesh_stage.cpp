@@ -7,6 +7,7 @@
 #include "lib/core/error.h"
 #include "lib/meshing/flatten.h"
 #include "lib/meshing/lattice_geometry.h"
+#include "lib/meshing/quads.h"
 #include "lib/meshing/repair.h"
 #include "lib/meshing/surface.h"
 #include "lib/meshing/tight_proxy.h"
@@ -225,7 +226,9 @@ class LevelMaker {
     std::vector<LatticeMesh> levels;
     for (const std::uint64_t n : faces) {
       levels.push_back(finish(fine, n, [&](const SimplifyParams& params, LevelCounts& counts) {
-        return fit_level(fine, params, counts.simplify);
+        LatticeMesh level = fit_level(fine, params, counts.simplify);
+        if (params_.quads) level.quads = pair_triangles(level, QuadKeeps::nothing, nullptr);
+        return level;
       }));
     }
     return levels;
@@ -241,7 +244,9 @@ class LevelMaker {
 
   LatticeMesh finish(const LatticeMesh& dense, const Enclosed* enclosed, std::uint64_t faces) {
     return finish(dense, faces, [&](const SimplifyParams& params, LevelCounts& counts) {
-      return make_level(dense, enclosed, params, counts);
+      LatticeMesh proxy = make_level(dense, enclosed, params, counts);
+      if (params_.quads) proxy.quads = pair_triangles(proxy, QuadKeeps::enclosed, enclosed);
+      return proxy;
     });
   }
 

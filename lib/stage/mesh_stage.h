@@ -26,6 +26,7 @@ struct MeshParams {
   Enclose enclose = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
   bool tighten = true;           ///< afterwards, lower the volume while what is enclosed stays inside
+  bool quads = false;            ///< join triangles in pairs (quads.h)
   bool distances = false;        ///< measure the distances between the proxies and what they enclose
   /// With no target at all: the quadric error at which [CB17] §3.4 stops, as a share of the scene's diagonal.
   static constexpr double kErrorShareBall = 1e-3, kErrorShareCube = 1e-2;
