@@ -1,5 +1,6 @@
 // bpinfo: what a brick stream or a mesh holds. Manual: docs/bpinfo.1.md
 #include <cstdio>
+#include <optional>
 
 #include "io/brick_stream.h"
 #include "io/png_writer.h"
@@ -13,31 +14,46 @@
 
 namespace {
 
+bp::UpAxis parse_up(const std::string& text) {
+  if (text != "y" && text != "z") bp::fail(bp::ErrorCode::bad_argument, "'{}' is none of y|z", text);
+  return text == "z" ? bp::UpAxis::z : bp::UpAxis::y;
+}
+
 struct Options {
   bp::CommonOptions common;
-  std::string in = "-", format, image;
-  bp::UpAxis up = bp::UpAxis::y;
+  std::vector<std::string> in;
+  std::string format, image;
+  std::optional<bp::UpAxis> up;
   bool json = false, checksum = false, dump = false;
+  int image_size = 720;
+  double azimuth = 35, elevation = 22;
 };
 
 Options parse(bp::Args& args) {
   Options o;
-  args.about("Says what a brick stream or a mesh holds, and checks a stream to its end.");
-  args.positional("INPUT", o.in, "brick stream, mesh or scene; - is stdin");
+  args.about("Says what brick streams or meshes hold, and checks a stream to its end.");
+  args.positional("[INPUT...]", o.in, "brick streams, meshes or scenes; - is stdin (default: -)");
   args.flag("--json", o.json, "as JSON");
   args.flag(
       "--checksum", o.checksum,
       "print the checksum of the content only: of the voxels, or of the triangles as a set; it does not depend on "
       "order, tiles or compression");
   args.flag("--dump", o.dump, "print a stream as text, one line a brick");
-  args.option("--image", "FILE", o.image, "draw what it holds into a PNG");
-  args.option("--up", {{"y", bp::UpAxis::y}, {"z", bp::UpAxis::z}}, o.up, "axis that points up in the image of a mesh");
-  args.option("--format", "NAME", o.format, "INPUT is a mesh of this format, whatever its name; needed for stdin");
+  args.option("--image", "FILE", o.image, "draw what they hold into a PNG, side by side at one scale");
+  args.option("--image-size", "PIXELS", o.image_size, "side of a panel of the image");
+  args.option(
+      "--up", "y|z", [&o](const std::string& text) { o.up = parse_up(text); },
+      "axis that points up in the image of meshes (default: y, or that of the first stream)");
+  args.option("--azimuth", "DEGREES", o.azimuth, "where the viewer stands, from the front to the right");
+  args.option("--elevation", "DEGREES", o.elevation, "how far above the horizon the viewer stands");
+  args.option("--format", "NAME", o.format, "an INPUT is a mesh of this format, whatever its name; needed for stdin");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::overwrite_part);
-  args.example("bpvox scene.glb --resolution 256 | bpinfo --image voxels.png");
+  args.example("bpinfo scene.glb closed.bpv proxy.glb --image all.png");
   args.parse();
+  if (o.in.empty()) o.in = {"-"};
   if (int(o.json) + int(o.checksum) + int(o.dump) > 1)
     bp::fail(bp::ErrorCode::bad_argument, "--json, --checksum and --dump exclude each other");
+  if (o.in.size() > 1 && (o.json || o.dump)) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump take one INPUT");
   return o;
 }
 
@@ -48,15 +64,19 @@ void print(const std::string& text) {
 }
 
 /// stdin and pipes are brick streams, for they cannot be tried twice; files by their first bytes.
-bool is_stream(const Options& o) {
+bool is_stream(const Options& o, const std::string& in) {
   if (!o.format.empty()) return false;
-  if (o.in == "-") return true;
-  const bp::InputFile file(o.in);
+  if (in == "-") return true;
+  const bp::InputFile file(in);
   if (!file.seekable() || file.size() == 0) return true;
   std::array<std::byte, 4> magic{};
   (void)file.read_at(0, magic);
   return magic == std::array{std::byte(0x5b), std::byte(0x2a), std::byte(0x4d), std::byte(0x18)} ||
-         o.in.ends_with(".bpv");
+         in.ends_with(".bpv");
+}
+
+std::string shown_name(const std::string& in) {
+  return in == "-" ? "stdin" : in.substr(in.rfind('/') + 1);
 }
 
 bp::Bounds3d bounds_of(const bp::StreamHeader& header) {
@@ -71,46 +91,101 @@ bp::Bounds3d bounds_of(const bp::StreamHeader& header) {
   return bounds;
 }
 
-void draw(std::vector<bp::View> views, const bp::RenderOptions& options, const Options& o) {
-  bp::write_png(bp::render(views, options), o.image, o.common.overwrite);
-}
+/// One panel of the image, and what it draws.
+struct Panel {
+  std::vector<bp::TriangleD> triangles;
+  std::unique_ptr<bp::TriangleSource> source;  // of a mesh too large to keep
+  bp::View view;
+};
 
-void draw_stream(const bp::CoarseView& cells, const bp::StreamHeader& header, const bp::StreamTotals& totals,
-                 const Options& o) {
-  bp::RenderOptions options;
-  options.up = header.frame.up;
-  if (totals.layers[0].bricks + totals.layers[1].bricks == 0) options.bounds = bounds_of(header);
-  const bp::Color colors[] = {{168, 182, 202}, {214, 178, 132}};
-  std::vector<bp::TriangleD> surfaces[2];
-  std::vector<bp::View> views;
-  for (const bp::Layer layer : {bp::Layer::solid, bp::Layer::closing}) {
-    if (layer == bp::Layer::closing && !header.has_closing) continue;
-    const auto i = std::size_t(layer);
-    surfaces[i] = cells.surface(layer, header.frame);
-    bp::View view;
-    view.triangles = surfaces[i];
-    view.color = colors[i];
-    view.label = fmt::format("{}: {} voxels of {:.4g}", i == 0 ? "solid" : "closing", totals.layers[i].voxels,
-                             header.frame.voxel);
-    if (cells.cell_voxels() > 1) view.label += fmt::format("\ndrawn in cells of {} voxels", cells.cell_voxels());
-    views.push_back(std::move(view));
+/// The panels, left to right, at one scale.
+class Picture {
+ public:
+  /// Opens the file: a name that cannot be written fails before the work.
+  explicit Picture(const Options& o) : o_(o) {
+    if (!o.image.empty()) file_ = bp::open_output(o.image, o.common.overwrite);
   }
-  draw(std::move(views), options, o);
-}
+  [[nodiscard]] bool wanted() const { return file_ != nullptr; }
+  [[nodiscard]] bool several() const { return o_.in.size() > 1; }
 
-void show_stream(const Options& o) {
-  bp::BrickReader source(o.in);
+  /// The layers of a stream; of one among several inputs only the last.
+  void add_stream(const bp::CoarseView& cells, const bp::StreamHeader& header, const bp::StreamTotals& totals) {
+    if (!up_) up_ = header.frame.up;
+    if (totals.layers[0].bricks + totals.layers[1].bricks == 0) bounds_.merge(bounds_of(header));
+    const bool closing = header.has_closing;
+    if (!closing || !several()) add_layer(bp::Layer::solid, cells, header, totals);
+    if (closing) add_layer(bp::Layer::closing, cells, header, totals);
+  }
+
+  void add_mesh(bp::MeshInfo& info, std::unique_ptr<bp::TriangleSource> source, const std::string& in) {
+    auto panel = std::make_unique<Panel>();
+    bounds_.merge(info.totals.bounds);
+    panel->view.label = fmt::format("{} triangles", info.totals.triangles);
+    if (several()) panel->view.label.insert(0, shown_name(in) + "\n");
+    if (info.triangles.size() == info.totals.triangles) {
+      panel->triangles = std::move(info.triangles);
+      panel->view.triangles = panel->triangles;
+      panel->view.edges = panel->triangles.size() <= (several() ? kEdgesOfMany : kEdges);
+      if (several() && panel->view.edges) panel->view.color = {238, 192, 130};
+    } else {
+      panel->source = std::move(source);
+      panel->view.source = panel->source.get();
+    }
+    panels_.push_back(std::move(panel));
+  }
+
+  void write() {
+    std::vector<bp::View> views;
+    for (const auto& panel : panels_) views.push_back(panel->view);
+    bp::RenderOptions options;
+    options.panel_width = options.panel_height = o_.image_size;
+    options.azimuth = o_.azimuth, options.elevation = o_.elevation;
+    options.bounds = bounds_;
+    options.up = o_.up ? *o_.up : up_.value_or(bp::UpAxis::y);
+    file_->write(bp::encode_png(bp::render(views, options)));
+    file_->commit();
+  }
+
+ private:
+  static constexpr std::size_t kEdges = 50000, kEdgesOfMany = 20000;  // more would only darken the picture
+
+  void add_layer(bp::Layer layer, const bp::CoarseView& cells, const bp::StreamHeader& header,
+                 const bp::StreamTotals& totals) {
+    constexpr bp::Color kColors[] = {{168, 182, 202}, {214, 178, 132}};
+    const auto i = std::size_t(layer);
+    auto panel = std::make_unique<Panel>();
+    panel->triangles = cells.surface(layer, header.frame);
+    for (const bp::TriangleD& t : panel->triangles) {
+      for (const bp::Vec3d& p : t) bounds_.add(p);
+    }
+    panel->view.triangles = panel->triangles;
+    panel->view.color = several() ? kColors[0] : kColors[i];
+    panel->view.label = fmt::format("{}: {} voxels of {:.4g}", i == 0 ? "solid" : "closing", totals.layers[i].voxels,
+                                    header.frame.voxel);
+    if (cells.cell_voxels() > 1) panel->view.label += fmt::format("\ndrawn in cells of {} voxels", cells.cell_voxels());
+    panels_.push_back(std::move(panel));
+  }
+
+  const Options& o_;
+  std::unique_ptr<bp::OutputFile> file_;
+  std::vector<std::unique_ptr<Panel>> panels_;
+  bp::Bounds3d bounds_;
+  std::optional<bp::UpAxis> up_;
+};
+
+void show_stream(const Options& o, const std::string& in, Picture& picture) {
+  bp::BrickReader source(in);
   bp::OutputFile out("-", false);
   bp::CoarseView cells(source.header().bricks);
   if (o.dump) out.write(bp::dump_header(source.header()));
   bp::Brick brick;
   while (source.read(brick)) {
-    if (!o.image.empty()) cells.add(brick);
+    if (picture.wanted()) cells.add(brick);
     if (o.dump) out.write(bp::dump_brick(brick));
   }
   const bp::StreamHeader& header = source.header();
   const bp::StreamTotals& totals = source.totals();
-  if (!o.image.empty()) draw_stream(cells, header, totals, o);
+  if (picture.wanted()) picture.add_stream(cells, header, totals);
   if (o.dump) {
     out.write(bp::dump_end(totals));
   } else if (o.checksum) {
@@ -118,45 +193,30 @@ void show_stream(const Options& o) {
   } else if (o.json) {
     out.write(bp::stream_json(header, totals).dump(2) + "\n");
   } else {
-    out.write(bp::stream_text(header, totals, o.in == "-" ? "stdin" : o.in));
+    out.write(bp::stream_text(header, totals, in == "-" ? "stdin" : in));
   }
   out.commit();
 }
 
-void draw_mesh(const bp::MeshInfo& info, bp::TriangleSource& source, const Options& o) {
-  bp::RenderOptions options;
-  options.bounds = info.totals.bounds;
-  options.up = o.up;
-  bp::View view;
-  view.label = fmt::format("{} triangles", info.totals.triangles);
-  if (info.triangles.size() == info.totals.triangles) {
-    view.triangles = info.triangles;
-    view.edges = info.triangles.size() <= 50000;  // more would only darken the picture
-  } else {
-    view.source = &source;
-  }
-  draw({view}, options, o);
-}
-
-void show_mesh(const Options& o) {
-  if (o.dump) bp::fail(bp::ErrorCode::bad_argument, "{}: --dump is for brick streams, and this is none", o.in);
+void show_mesh(const Options& o, const std::string& in, Picture& picture) {
+  if (o.dump) bp::fail(bp::ErrorCode::bad_argument, "{}: --dump is for brick streams, and this is none", in);
   bp::SceneOptions scene;
   scene.format = o.format;
-  const auto source = bp::open_scene(o.in, scene);
+  auto source = bp::open_scene(in, scene);
   bp::MeshInfo info = bp::measure(*source);
-  info.provenance = bp::mesh_provenance(o.in);
-  if (!o.image.empty()) draw_mesh(info, *source, o);
-  const std::string name = o.in == "-" ? "stdin" : o.in;
-  if (o.checksum) return print(info.totals.checksum() + "\n");
-  print(o.json ? bp::mesh_json(info).dump(2) + "\n" : bp::mesh_text(info, name));
+  info.provenance = bp::mesh_provenance(in);
+  if (o.checksum) {
+    print(info.totals.checksum() + "\n");
+  } else {
+    print(o.json ? bp::mesh_json(info).dump(2) + "\n" : bp::mesh_text(info, in == "-" ? "stdin" : in));
+  }
+  if (picture.wanted()) picture.add_mesh(info, std::move(source), in);
 }
 
 void run(const Options& o) {
-  if (is_stream(o)) {
-    show_stream(o);
-  } else {
-    show_mesh(o);
-  }
+  Picture picture(o);
+  for (const std::string& in : o.in) (is_stream(o, in) ? show_stream : show_mesh)(o, in, picture);
+  if (picture.wanted()) picture.write();
 }
 
 }  // namespace

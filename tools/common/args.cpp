@@ -99,7 +99,8 @@ void Args::positional(const std::string& name, std::string& value, const std::st
 void Args::positional(const std::string& name, std::vector<std::string>& values, const std::string& help) {
   const auto set = [&values](const std::string& text) { values.push_back(text); };
   const std::string shown_name = name + (name.find("...") == std::string::npos ? "..." : "");
-  state_->positionals.push_back({shown_name, shown_name, help, "", set, Value::required, true});
+  const Value needed = name.ends_with("...]") ? Value::optional : Value::required;
+  state_->positionals.push_back({shown_name, shown_name, help, "", set, needed, true});
 }
 
 void Args::option(const std::string& names, const std::string& value_name, std::vector<std::string>& values,

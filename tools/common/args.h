@@ -39,7 +39,7 @@ class Args {
 
   /// `value` keeps its default if the argument is absent.
   void positional(const std::string& name, std::string& value, const std::string& help);
-  /// At least one.
+  /// At least one; any number if the name is of the form [NAME...].
   void positional(const std::string& name, std::vector<std::string>& values, const std::string& help);
 
   /// names "-s,--scale"; T is string, int, int64_t, uint64_t, double, Length, Bytes, or an optional of one of them. The

@@ -13,3 +13,11 @@ stdin=cube.obj try bpinfo
 (echo '# provenance: bpvox 0.1.0 voxel=1'; echo '# provenance: bpmesh 0.1.0 faces=12'; cat cube.obj) > made.obj
 said 'bpinfo made.obj | grep made'
 files
+# Several inputs: one after the other, and side by side.
+bpvox cube.obj --resolution 12 | bpclose --scale 2vx -o closed.bpv
+said 'bpinfo cube.obj closed.bpv turned.obj --image all.png --image-size 64 | grep -c .'
+head -c 24 all.png | tail -c 8 | od -An -tx1
+try bpinfo cube.obj turned.obj --checksum
+try bpinfo cube.obj turned.obj --json
+try bpinfo cube.obj --up x
+files
