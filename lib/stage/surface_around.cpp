@@ -46,6 +46,7 @@ class NoStore final : public ChunkStore {
   void get(Handle, std::vector<std::byte>& out) const override { out.clear(); }
   void drop(Handle) override {}
   [[nodiscard]] std::uint64_t scratch_bytes() const override { return 0; }
+  [[nodiscard]] std::uint64_t memory_bytes() const override { return 0; }
 };
 
 }  // namespace
