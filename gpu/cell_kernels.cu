@@ -1,11 +1,10 @@
 #include "gpu/cell_kernels.h"
 #include "gpu/launch.h"
+#include "gpu/packed_min.h"
 
 namespace bp {
 
 namespace {
-
-constexpr std::uint32_t kNever = 0x3fffffff;  ///< no seed in reach; with a few squares added still below 2^32
 
 unsigned blocks_for(std::uint64_t threads) {
   return unsigned((threads + kPassThreads - 1) / kPassThreads);
@@ -50,56 +49,82 @@ __global__ void __launch_bounds__(kPassThreads)
   w[i] = make_uint2(std::uint32_t(ball_bound(Scale(least))), std::uint32_t(ball_bound(Scale(most))));
 }
 
-/// (lower, upper) bound of the transform in each cell. First axis: from the seeds' flags.
+/// Bounds of the transform in the four cells of a quad, as P holds two numbers: lower in the low, upper in the high
+/// half.
+template <class P>
+struct alignas(16) Quad {
+  P cell[4];
+  __device__ static Quad far_away() { return {{P::far_away(), P::far_away(), P::far_away(), P::far_away()}}; }
+};
+
+/// First axis: from the seeds' flags.
+template <class P>
 __global__ void __launch_bounds__(kPassThreads)
-    cells_x_kernel(const std::uint8_t* __restrict__ seeds, const uint2* __restrict__ w_of_cells, TransformBounds bounds,
-                   GridShape shape, uint2* __restrict__ out) {
+    cells_x_kernel(const std::uint8_t* __restrict__ seeds, const uint2* __restrict__ w_of_cells,
+                   const __grid_constant__ TransformBounds bounds, GridShape shape, Quad<P>* __restrict__ out) {
   const unsigned i = thread_in_grid();
-  if (i >= 4 * shape.quad_count()) return;
-  const int cx = cell_at(shape, i).cx, m = cell_reach(bounds.reach), nx = 4 * shape.words;
-  uint2 v = make_uint2(kNever, kNever);
-  for (int k = max(-m, -cx); k <= min(m, nx - 1 - cx); ++k) {
-    if (seeds[int(i) + k] == 0) continue;
-    uint2 own = make_uint2(0, 0);
+  if (i >= shape.quad_count()) return;
+  const int first = 4 * quad_at(shape, i).w, m = cell_reach(bounds.reach), nx = 4 * shape.words;
+  Quad<P> v = Quad<P>::far_away();
+  for (int k = max(-m, -first); k <= min(m + 3, nx - 1 - first); ++k) {
+    const int from = int(4 * i) + k;
+    if (seeds[from] == 0) continue;
+    P own = P::of(0, 0);
     if (bounds.offset_at_seed) {
-      const uint2 w = w_of_cells[int(i) + k];
-      own = make_uint2(bounds.limit - w.y, bounds.limit - w.x);
+      const uint2 w = w_of_cells[from];
+      own = P::of(bounds.limit - w.y, bounds.limit - w.x);
     }
-    v.x = min(v.x, own.x + least_square(abs(k)));
-    v.y = min(v.y, own.y + largest_square(abs(k)));
+#pragma unroll
+    for (int t = 0; t < 4; ++t) {
+      const int d = abs(k - t);
+      if (d <= m) v.cell[t].step_each(own, least_square(d), largest_square(d));
+    }
   }
   out[i] = v;
 }
 
-__device__ uint2 cells_along(const uint2* __restrict__ in, unsigned i, int at, int n, int stride, int m) {
-  uint2 v = make_uint2(kNever, kNever);
+/// One more axis: `at` of `n` cells, `stride` quads apart.
+template <class P>
+__device__ Quad<P> cells_along(const Quad<P>* __restrict__ in, unsigned i, int at, int n, int stride, int m) {
+  Quad<P> v = Quad<P>::far_away();
+#pragma unroll 4
   for (int k = max(-m, -at); k <= min(m, n - 1 - at); ++k) {
-    const uint2 from = in[std::int64_t(i) + std::int64_t(k) * stride];
-    v.x = min(v.x, from.x + least_square(abs(k)));
-    v.y = min(v.y, from.y + largest_square(abs(k)));
+    const Quad<P> from = in[int(i) + k * stride];
+    const std::uint32_t least = least_square(abs(k)), largest = largest_square(abs(k));
+#pragma unroll
+    for (int t = 0; t < 4; ++t) v.cell[t].step_each(from.cell[t], least, largest);
   }
   return v;
 }
 
+template <class P>
 __global__ void __launch_bounds__(kPassThreads)
-    cells_y_kernel(const uint2* __restrict__ in, TransformBounds bounds, GridShape shape, uint2* __restrict__ out) {
+    cells_y_kernel(const Quad<P>* __restrict__ in, const __grid_constant__ TransformBounds bounds, GridShape shape,
+                   Quad<P>* __restrict__ out) {
   const unsigned i = thread_in_grid();
-  if (i >= 4 * shape.quad_count()) return;
-  out[i] = cells_along(in, i, cell_at(shape, i).cy, shape.cells_y(), 4 * shape.words, cell_reach(bounds.reach));
+  if (i >= shape.quad_count()) return;
+  out[i] = cells_along(in, i, quad_at(shape, i).cy, shape.cells_y(), shape.words, cell_reach(bounds.reach));
 }
 
+template <class P>
 __global__ void __launch_bounds__(kPassThreads)
-    cells_z_kernel(const uint2* __restrict__ in, const uint2* __restrict__ w_of_cells, TransformBounds bounds,
-                   GridShape shape, std::uint8_t* __restrict__ near, std::uint8_t* __restrict__ open) {
+    cells_z_kernel(const Quad<P>* __restrict__ in, const uint2* __restrict__ w_of_cells,
+                   const __grid_constant__ TransformBounds bounds, GridShape shape, std::uint32_t* __restrict__ near,
+                   std::uint32_t* __restrict__ open) {
   const unsigned i = thread_in_grid();
-  if (i >= 4 * shape.quad_count()) return;
-  const uint2 v = cells_along(in, i, cell_at(shape, i).cz, shape.cells_z(), 4 * shape.words * shape.cells_y(),
-                              cell_reach(bounds.reach));
-  uint2 w = make_uint2(bounds.limit, bounds.limit);
-  if (bounds.bound_at_voxel) w = w_of_cells[i];
-  const bool all_within = v.y < w.x, none_within = v.x >= w.y;
-  near[i] = all_within ? 0xff : 0;
-  open[i] = !all_within && !none_within ? 0xff : 0;
+  if (i >= shape.quad_count()) return;
+  const Quad<P> v = cells_along(in, i, quad_at(shape, i).cz, shape.cells_z(), shape.words * shape.cells_y(),
+                                cell_reach(bounds.reach));
+  std::uint32_t is_near = 0, is_open = 0;
+#pragma unroll
+  for (int t = 0; t < 4; ++t) {
+    const uint2 w = bounds.bound_at_voxel ? w_of_cells[4 * i + unsigned(t)] : make_uint2(bounds.limit, bounds.limit);
+    const bool all_within = v.cell[t].high() < w.x, none_within = v.cell[t].low() >= w.y;
+    is_near |= all_within ? 0xffu << (8 * t) : 0;
+    is_open |= !all_within && !none_within ? 0xffu << (8 * t) : 0;
+  }
+  near[i] = is_near;
+  open[i] = is_open;
 }
 
 __global__ void __launch_bounds__(kPassThreads)
@@ -181,19 +206,40 @@ __global__ void __launch_bounds__(kPassThreads)
 
 }  // namespace
 
+bool fits_16_bits(const TransformBounds& bounds) {
+  return !bounds.wide && bounds.limit <= Packed16::kLimit;
+}
+
 void bound_cells(const ScaleView& scale, const GridShape& shape, uint2* w_of_cells, cudaStream_t stream) {
   launch("bound_cells_kernel", bound_cells_kernel, blocks_for(4 * shape.quad_count()), kPassThreads, 0, stream, scale,
          shape, w_of_cells);
 }
 
-void answer_cells(const std::uint32_t* seeds, const uint2* w_of_cells, const TransformBounds& bounds,
-                  const GridShape& shape, uint2* a, uint2* b, const CellAnswers& answers, cudaStream_t stream) {
-  const unsigned blocks = blocks_for(4 * shape.quad_count());
-  launch("cells_x_kernel", cells_x_kernel, blocks, kPassThreads, 0, stream,
+namespace {
+
+template <class P>
+void answer_cells_as(const std::uint32_t* seeds, const uint2* w_of_cells, const TransformBounds& bounds,
+                     const GridShape& shape, void* scratch, const CellAnswers& answers, cudaStream_t stream) {
+  const unsigned blocks = blocks_for(shape.quad_count());
+  Quad<P>*a = static_cast<Quad<P>*>(scratch), *b = a + shape.quad_count();
+  launch("cells_x_kernel", cells_x_kernel<P>, blocks, kPassThreads, 0, stream,
          reinterpret_cast<const std::uint8_t*>(seeds), w_of_cells, bounds, shape, a);
-  launch("cells_y_kernel", cells_y_kernel, blocks, kPassThreads, 0, stream, a, bounds, shape, b);
-  launch("cells_z_kernel", cells_z_kernel, blocks, kPassThreads, 0, stream, b, w_of_cells, bounds, shape,
-         reinterpret_cast<std::uint8_t*>(answers.near), reinterpret_cast<std::uint8_t*>(answers.open));
+  launch("cells_y_kernel", cells_y_kernel<P>, blocks, kPassThreads, 0, stream, a, bounds, shape, b);
+  launch("cells_z_kernel", cells_z_kernel<P>, blocks, kPassThreads, 0, stream, b, w_of_cells, bounds, shape,
+         answers.near, answers.open);
+}
+
+}  // namespace
+
+std::size_t answer_bytes(const TransformBounds& bounds, const GridShape& shape) {
+  return 2 * shape.quad_count() * (fits_16_bits(bounds) ? sizeof(Quad<Packed16>) : sizeof(Quad<Packed32>));
+}
+
+void answer_cells(const std::uint32_t* seeds, const uint2* w_of_cells, const TransformBounds& bounds,
+                  const GridShape& shape, void* scratch, const CellAnswers& answers, cudaStream_t stream) {
+  if (fits_16_bits(bounds))
+    return answer_cells_as<Packed16>(seeds, w_of_cells, bounds, shape, scratch, answers, stream);
+  answer_cells_as<Packed32>(seeds, w_of_cells, bounds, shape, scratch, answers, stream);
 }
 
 void apply_answers(bool erosion, const std::uint32_t* solid, const std::uint32_t* dilated, const CellAnswers& answers,

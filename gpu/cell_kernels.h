@@ -18,6 +18,9 @@ struct TransformBounds {
   bool bound_at_voxel = false;  ///< ball dilation with varying scale: the ball belongs to the voxel; bound(p) = w(p)
 };
 
+/// Whether 16 bits hold the values of a transform.
+[[nodiscard]] bool fits_16_bits(const TransformBounds& bounds);
+
 /// Flags of cells, a byte each, 0xff or 0: every voxel within its bound; and undecided.
 struct CellAnswers {
   std::uint32_t* near;
@@ -27,10 +30,10 @@ struct CellAnswers {
 /// Least and largest w over each cell, from the lattice (varying scale only).
 void bound_cells(const ScaleView& scale, const GridShape& shape, uint2* w_of_cells, cudaStream_t stream);
 
-/// answers := bounds of the transform of the seeds in the cells flagged by `seeds`. `a` and `b` are scratch, one
-/// element per cell (four per quad).
+/// answers := bounds of the transform of the seeds in the cells flagged by `seeds`. `scratch` holds answer_bytes().
 void answer_cells(const std::uint32_t* seeds, const uint2* w_of_cells, const TransformBounds& bounds,
-                  const GridShape& shape, uint2* a, uint2* b, const CellAnswers& answers, cudaStream_t stream);
+                  const GridShape& shape, void* scratch, const CellAnswers& answers, cudaStream_t stream);
+[[nodiscard]] std::size_t answer_bytes(const TransformBounds& bounds, const GridShape& shape);
 
 /// Dilation: out := (G or near) in `region`; erosion: out := G or (D and neither near nor open). `wanted`, a byte per
 /// quad that must be zero before, is set where an undecided voxel of `region` is in an open cell.

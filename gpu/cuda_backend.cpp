@@ -3,12 +3,14 @@
 #include <cuda_runtime.h>
 
 #include <algorithm>
+#include <cstring>
+#include <new>
 
 #include "gpu/device_closing.h"
 #include "gpu/staging.h"
 #include "gpu/tuning.h"
+#include "gpu/voxelize_kernels.h"
 #include "lib/core/error.h"
-#include "lib/voxel/voxelize.h"
 
 namespace bp {
 
@@ -50,13 +52,26 @@ class CudaBackend final : public Backend {
         properties_(properties(device)),
         name_(fmt::format("cuda:{} {}", device, properties_.name)),
         staging_(stream_.get()),
-        closing_({properties_.multiProcessorCount, std::min(kSlabBytes, properties_.totalGlobalMem / 8)}) {}
+        closing_({properties_.multiProcessorCount, std::min(kSlabBytes, properties_.totalGlobalMem / 32)}),
+        voxelizer_(properties_.multiProcessorCount) {}
   ~CudaBackend() override { (void)cudaStreamSynchronize(stream_.get()); }
 
   [[nodiscard]] std::string name() const override { return name_; }
 
-  /// On the host, by the code of the CPU backend: the same bits.
-  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) override { voxelize_surface(triangles, out); }
+  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) override {
+    stream_.select();
+    const VoxelBox box = out.box();
+    if (box.empty() || triangles.empty()) return;
+    const std::int64_t plane = std::int64_t(out.words_per_row()) * (box.max.y - box.min.y);
+    const std::int64_t slices = std::max<std::int64_t>(1, std::int64_t(kVoxelizeBytes / 8) / plane);
+    for (std::int64_t z = box.min.z; z < box.max.z; z += slices) {
+      VoxelBox part = box;
+      part.min.z = std::int32_t(z);
+      part.max.z = std::int32_t(std::min<std::int64_t>(z + slices, box.max.z));
+      voxelize_part(triangles, part, std::size_t(plane) * std::size_t(part.max.z - part.min.z),
+                    out.row(box.min.y, part.min.z));
+    }
+  }
 
   void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
              const VoxelBox& interior, BitBox& closed) override {
@@ -71,7 +86,36 @@ class CudaBackend final : public Backend {
     }
   }
 
+  void close_from_shelf(const BrickShelf& solid, const BrickBox& bricks, const ScaleLattice& scale, const Halo& halo,
+                        const ClosingParams& params, const VoxelBox& interior, BitBox& closed) override {
+    stream_.select();
+    if (whole_bricks(interior)) {
+      try {
+        return close_bricks(solid, bricks, scale, halo, params, interior, closed);
+      } catch (const Error& e) {
+        if (e.code() != ErrorCode::out_of_resource) throw;
+        BP_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
+        release();
+      }
+    }
+    Backend::close_from_shelf(solid, bricks, scale, halo, params, interior, closed);
+  }
+
  private:
+  /// `bits`: the words of `part` on the host, contiguous.
+  void voxelize_part(std::span<const FixedTriangle> triangles, const VoxelBox& part, std::size_t words,
+                     std::uint64_t* bits) {
+    out_.grow(2 * words);
+    triangles_.grow(std::min(triangles.size(), kTriangleBatch));
+    BP_CUDA_CHECK(cudaMemsetAsync(out_.data(), 0, words * 8, stream_.get()));
+    for (std::size_t at = 0; at < triangles.size(); at += kTriangleBatch) {
+      const std::size_t n = std::min(kTriangleBatch, triangles.size() - at);
+      staging_.upload(triangles_.data(), triangles.data() + at, n * sizeof(FixedTriangle));
+      voxelizer_.enqueue(triangles_.data(), std::uint32_t(n), part, out_.data(), stream_.get());
+    }
+    staging_.download_bits(bits, out_.data(), words);
+  }
+
   void close_at_once(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
                      const VoxelBox& interior, BitBox& closed) {
     const TileLayout layout = lay_out(solid.box(), scale, halo, interior);
@@ -87,25 +131,125 @@ class CudaBackend final : public Backend {
     staging_.download(closed.data(), out_.data(), words_out * 4);
   }
 
+  static bool whole_bricks(const VoxelBox& box) { return !box.empty() && voxels_of(bricks_of(box)) == box; }
+
+  /// Only bricks that are neither empty nor full travel, in both directions.
+  void close_bricks(const BrickShelf& solid, const BrickBox& bricks, const ScaleLattice& scale, const Halo& halo,
+                    const ClosingParams& params, const VoxelBox& interior, BitBox& closed) {
+    const BrickBox seen = intersect(bricks_of(interior.grown(halo.total_vox())), bricks), made = bricks_of(interior);
+    if (seen.empty()) return closed.reset(interior);
+    const TileLayout layout = lay_out(voxels_of(seen), scale, halo, interior);
+    const BrickTable in = upload_bricks(solid, seen, layout.solid);
+    if (!scale.constant()) {
+      samples_.grow(scale.samples.size());
+      staging_.upload(samples_.data(), scale.samples.data(), scale.samples.size() * sizeof(Scale));
+    }
+    const std::size_t n = volume(made);
+    BrickTable out = table_of(made, layout.closed);
+    out.bits = reinterpret_cast<std::uint64_t*>(out_.grow(n * kBrickWords * 2));
+    out.slots = out_slots_.grow(n + 1);
+    closing_.enqueue(layout, in, scale, samples_.data(), params.element, out, out.slots + n, stream_.get());
+    slots_.resize(n + 1);
+    staging_.download(slots_.data(), out.slots, (n + 1) * sizeof(std::uint32_t));
+    closed.reset(interior);
+    take_bricks(made, out.bits, closed);
+  }
+
+  static std::size_t volume(const BrickBox& box) {
+    return std::size_t(box.size().x) * std::size_t(box.size().y) * std::size_t(box.size().z);
+  }
+  static BrickCoord brick_at(const BrickBox& box, std::size_t i) {
+    const auto nx = std::size_t(box.size().x), ny = std::size_t(box.size().y);
+    return {box.min.x + std::int32_t(i % nx), box.min.y + std::int32_t(i / nx % ny),
+            box.min.z + std::int32_t(i / nx / ny)};
+  }
+  static BrickTable table_of(const BrickBox& box, const BoxOfWords& where) {
+    BrickTable t;
+    t.nx = box.size().x, t.ny = box.size().y, t.nz = box.size().z;
+    t.w0 = where.w0, t.y0 = where.y0, t.z0 = where.z0;
+    return t;
+  }
+
+  BrickTable upload_bricks(const BrickShelf& solid, const BrickBox& seen, const BoxOfWords& where) {
+    const std::size_t n = volume(seen);
+    slots_.assign(n, kEmptyBrick);
+    std::size_t at = 0, mixed = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const BrickFill fill = solid.fill(brick_at(seen, i));
+      if (fill == BrickFill::full) slots_[i] = kFullBrick;
+      if (fill == BrickFill::mixed) slots_[i] = std::uint32_t(mixed++);
+    }
+    BrickTable table = table_of(seen, where);
+    table.bits = reinterpret_cast<std::uint64_t*>(in_.grow(n * kBrickWords * 2));
+    table.slots = in_slots_.grow(n);
+    staging_.upload_pieces(table.bits, kBrickWords * 8, mixed, [&](std::byte* piece) {
+      while (at < n && slots_[at] >= kFullBrick) ++at;
+      if (at == n) return false;
+      (void)solid.get(brick_at(seen, at++), *new (piece) BrickBits);
+      return true;
+    });
+    staging_.upload(table.slots, slots_.data(), n * sizeof(std::uint32_t));
+    return table;
+  }
+
+  /// The bricks of `made` into `closed`, which is empty; slots_ says where each is.
+  void take_bricks(const BrickBox& made, const std::uint64_t* bits, BitBox& closed) {
+    const std::size_t n = slots_.size() - 1, mixed = slots_[n];
+    std::vector<std::size_t> brick_of(mixed);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (slots_[i] < kFullBrick) brick_of[slots_[i]] = i;
+      if (slots_[i] == kFullBrick) put_brick(brick_at(made, i), nullptr, closed);
+    }
+    staging_.download_blocks(
+        bits, mixed * kBrickWords * 8, [&](std::size_t first, const std::byte* block, std::size_t bytes) {
+          for (std::size_t at = 0; at < bytes; at += kBrickWords * 8)
+            put_brick(brick_at(made, brick_of[(first + at) / (kBrickWords * 8)]), block + at, closed);
+        });
+  }
+
+  /// `rows`: words of the brick; null: all ones.
+  static void put_brick(BrickCoord brick, const std::byte* rows, BitBox& closed) {
+    const VoxelCoord first = first_voxel(brick);
+    const std::int32_t column = (first.x - closed.box().min.x) / kBrickEdge;
+    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+        std::uint64_t word = ~std::uint64_t(0);
+        if (rows != nullptr) std::memcpy(&word, rows + 8 * (z * kBrickEdge + y), 8);
+        closed.row(first.y + y, first.z + z)[column] = word;
+      }
+    }
+  }
+
+  void release() {
+    closing_.release();
+    in_.release();
+    out_.release();
+  }
+
+  /// The longest axis along which a tile holds two units that may be closed apart; -1 if there is none.
+  static int longest_divisible_axis(const VoxelBox& tile) {
+    int axis = -1;
+    for (int i = 0; i < 3; ++i) {
+      const bool divisible = tile.size()[i] >= 2 * (i == 0 ? kBrickEdge : kUnit);
+      if (divisible && (axis < 0 || tile.size()[i] >= tile.size()[axis])) axis = i;
+    }
+    return axis;
+  }
+
   /// A tile too large for the device: each half of the interior with what it needs of the solid.
   void close_in_halves(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
                        const VoxelBox& interior, BitBox& closed) {
     BP_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
-    closing_.release();
-    in_.release();
-    out_.release();
-    int axis = 0;
-    for (int i = 1; i < 3; ++i) {
-      if (interior.size()[i] >= interior.size()[axis]) axis = i;
-    }
-    if (interior.size()[axis] <= 2 * kBrickEdge) {
+    release();
+    VoxelBox lower = interior, upper = interior;
+    const int axis = longest_divisible_axis(interior);
+    if (axis < 0) {
       fail(ErrorCode::out_of_resource,
            "{}: not enough device memory for a tile of {} x {} x {} voxels; use --device cpu", name_, interior.size().x,
            interior.size().y, interior.size().z);
     }
-    VoxelBox lower = interior, upper = interior;
-    lower.max[axis] = upper.min[axis] =
-        floor_div(interior.min[axis] + interior.size()[axis] / 2, kBrickEdge) * kBrickEdge;
+    const std::int32_t unit = axis == 0 ? kBrickEdge : kUnit;  // whole words along x
+    lower.max[axis] = upper.min[axis] = floor_div(interior.min[axis] + (interior.size()[axis] + unit) / 2, unit) * unit;
     for (const VoxelBox& half : {lower, upper}) {
       BitBox part_solid(intersect(half.grown(halo.total_vox()), solid.box())), part_closed;
       copy_voxels(solid, part_solid);
@@ -119,8 +263,11 @@ class CudaBackend final : public Backend {
   std::string name_;
   Staging staging_;
   DeviceClosing closing_;
-  DeviceBuffer<std::uint32_t> in_, out_;
+  DeviceVoxelizer voxelizer_;
+  DeviceBuffer<std::uint32_t> in_, out_, in_slots_, out_slots_;
+  std::vector<std::uint32_t> slots_;
   DeviceBuffer<Scale> samples_;
+  DeviceBuffer<FixedTriangle> triangles_;
 };
 
 }  // namespace

@@ -69,22 +69,46 @@ void DeviceClosing::grow(const TileLayout& layout) {
   closed_.grow(words);
   flags_.grow(2 * quads + 2 * ((quads + 3) / 4));
   answers_.grow(2 * quads);
-  cells_.grow(2 * 4 * quads);
   counts_.grow(1);
 }
 
 void DeviceClosing::enqueue(const TileLayout& layout, const std::uint32_t* solid, const ScaleLattice& scale,
                             const Scale* samples, StructuringElement element, std::uint32_t* closed,
                             cudaStream_t stream, const Mark& mark) {
+  start(layout, stream);
+  pack_bits(solid, layout.solid, layout.shape, solid_.data(), flags_.data(), stream);
+  if (mark) mark("pack");
+  const std::uint32_t* result = close(layout, scale, samples, element, stream, mark);
+  unpack_bits(result, layout.shape, layout.closed, layout.interior, closed, stream);
+  if (mark) mark("unpack");
+}
+
+void DeviceClosing::enqueue(const TileLayout& layout, const BrickTable& solid, const ScaleLattice& scale,
+                            const Scale* samples, StructuringElement element, const BrickTable& closed,
+                            std::uint32_t* count, cudaStream_t stream) {
+  start(layout, stream);
+  pack_bricks(solid, layout.shape, solid_.data(), flags_.data(), stream);
+  const std::uint32_t* result = close(layout, scale, samples, element, stream, {});
+  zero(count, sizeof(std::uint32_t), stream);
+  unpack_bricks(result, layout.shape, closed, count, stream);
+}
+
+void DeviceClosing::start(const TileLayout& layout, cudaStream_t stream) {
+  grow(layout);
+  const std::size_t quads = layout.shape.quad_count();
+  zero(flags_.data(), (2 * quads + 2 * ((quads + 3) / 4)) * 4, stream);
+}
+
+/// The closing of the voxels in solid_, whose cells are flagged.
+const std::uint32_t* DeviceClosing::close(const TileLayout& layout, const ScaleLattice& scale, const Scale* samples,
+                                          StructuringElement element, cudaStream_t stream, const Mark& mark) {
   const auto done = [&](const char* stage) {
     if (mark) mark(stage);
   };
-  grow(layout);
   const GridShape& shape = layout.shape;
   const std::size_t quads = shape.quad_count();
   std::uint32_t *solid_cells = flags_.data(), *contour_cells = solid_cells + quads;
   auto* wanted = reinterpret_cast<std::uint8_t*>(contour_cells + quads);  // one byte per quad, twice
-  zero(flags_.data(), (2 * quads + 2 * ((quads + 3) / 4)) * 4, stream);
   ScaleView view;
   view.constant = scale.max;
   if (!scale.constant()) {
@@ -92,9 +116,8 @@ void DeviceClosing::enqueue(const TileLayout& layout, const std::uint32_t* solid
     view.nx = scale.size.x, view.ny = scale.size.y, view.nz = scale.size.z;
     view.ox = layout.ox, view.oy = layout.oy, view.oz = layout.oz;
     bound_cells(view, shape, w_of_cells_.grow(4 * quads), stream);
+    done("bounds of scale");
   }
-  pack_bits(solid, layout.solid, shape, solid_.data(), solid_cells, stream);
-  done("pack");
 
   TransformBounds bounds;
   bounds.wide = tuning_.wide;
@@ -113,32 +136,40 @@ void DeviceClosing::enqueue(const TileLayout& layout, const std::uint32_t* solid
     result = dilated_.data();
   }
   done("dilate");
-  if (bounds.reach > 0) {  // else no ball of the erosion leaves its centre, and E = D
-    outer_contour(dilated_.data(), shape, contour_.data(), contour_cells, stream);
-    done("contour");
-    bounds.offset_at_seed = !scale.constant();
-    transform(
-        layout, view,
-        {true, bounds, contour_.data(), contour_cells, wanted + (quads + 3) / 4 * 4, layout.interior, closed_.data()},
-        stream, mark);
-    done("erode");
-    result = closed_.data();
-  }
-  unpack_bits(result, shape, layout.closed, layout.interior, closed, stream);
-  done("unpack");
+  if (bounds.reach == 0) return result;  // no ball of the erosion leaves its centre, and E = D
+  outer_contour(dilated_.data(), shape, contour_.data(), contour_cells, stream);
+  done("contour");
+  bounds.offset_at_seed = !scale.constant();
+  transform(
+      layout, view,
+      {true, bounds, contour_.data(), contour_cells, wanted + (quads + 3) / 4 * 4, layout.interior, closed_.data()},
+      stream, mark);
+  done("erode");
+  return closed_.data();
 }
 
 void DeviceClosing::dilate_by_cube(const TileLayout& layout, const ScaleLattice& scale, const ScaleView& view,
                                    cudaStream_t stream) {
   const GridShape& shape = layout.shape;
-  const int least = cube_radius(scale.min), most = cube_radius(scale.max);
-  bool first = true;
-  for (int length = 2; length <= 2 * most + 1; length *= 2) {  // radius 0 is G, with which every call starts
-    if (length - 1 < least) continue;                          // this octave holds the radii length / 2 .. length - 1
-    window_table(solid_.data(), shape, length, contour_.data(), closed_.data(), stream);
-    dilate_cube(closed_.data(), length, solid_.data(), shape, layout.dilated, view, first, dilated_.data(), stream);
-    first = false;
+  const int most = cube_radius(scale.max), last = octave_of(most),
+            first = std::max(1, octave_of(cube_radius(scale.min)));
+  WindowTables tables{};
+  tables.table[0] = solid_.data();
+  const std::size_t words = shape.word_count();
+  if (last > first) tables_.grow(std::size_t(last - first) * words);
+  for (int k = first; k <= last; ++k) {  // the arrays of the contour and of E are free until later
+    std::uint32_t* table = k == first ? closed_.data() : tables_.data() + std::size_t(k - first - 1) * words;
+    if (k == first) {
+      window_table(solid_.data(), shape, 1 << k, contour_.data(), table, stream);
+    } else {
+      double_windows(tables.table[k - 1], shape, 1 << (k - 1), table, stream);
+    }
+    tables.table[k] = table;
   }
+  if (view.samples == nullptr) return dilate_cube(tables, shape, layout.dilated, most, dilated_.data(), stream);
+  zero(counts_.data(), sizeof(WorkCounts), stream);
+  dilate_cube_varying(tables, solid_.data(), shape, layout.dilated, view, most, tuning_.multiprocessors,
+                      dilated_.data(), contour_.data(), &counts_.data()->rows, stream);
 }
 
 int DeviceClosing::slab_words(const TileLayout& layout, const TransformBounds& bounds, int words) {
@@ -163,7 +194,7 @@ void DeviceClosing::transform(const TileLayout& layout, const ScaleView& view, c
   const GridShape& shape = layout.shape;
   const std::size_t quads = shape.quad_count();
   const CellAnswers answers{answers_.data(), answers_.data() + quads};
-  answer_cells(t.seed_cells, w_of_cells_.data(), t.bounds, shape, cells_.data(), cells_.data() + 4 * quads, answers,
+  answer_cells(t.seed_cells, w_of_cells_.data(), t.bounds, shape, cells_.grow(answer_bytes(t.bounds, shape)), answers,
                stream);
   apply_answers(t.erosion, solid_.data(), dilated_.data(), answers, t.region, shape, t.out, t.wanted, stream);
   done(t.erosion ? "erode: cells" : "dilate: cells");
@@ -203,15 +234,15 @@ void DeviceClosing::transform(const TileLayout& layout, const ScaleView& view, c
 }
 
 std::size_t DeviceClosing::bytes() const {
-  return solid_.bytes() + dilated_.bytes() + contour_.bytes() + closed_.bytes() + flags_.bytes() + answers_.bytes() +
-         cells_.bytes() + w_of_cells_.bytes() + values_.bytes() + pass_flags_.bytes() + columns_.bytes() +
-         lists_.bytes() + counts_.bytes();
+  return solid_.bytes() + tables_.bytes() + dilated_.bytes() + contour_.bytes() + closed_.bytes() + flags_.bytes() +
+         answers_.bytes() + cells_.bytes() + w_of_cells_.bytes() + values_.bytes() + pass_flags_.bytes() +
+         columns_.bytes() + lists_.bytes() + counts_.bytes();
 }
 
 void DeviceClosing::release() {
-  for (auto* b : {&solid_, &dilated_, &contour_, &closed_, &flags_, &answers_, &lists_}) b->release();
-  for (auto* b : {&cells_, &w_of_cells_}) b->release();
-  for (auto* b : {&values_, &pass_flags_, &columns_}) b->release();
+  for (auto* b : {&solid_, &tables_, &dilated_, &contour_, &closed_, &flags_, &answers_, &lists_}) b->release();
+  w_of_cells_.release();
+  for (auto* b : {&cells_, &values_, &pass_flags_, &columns_}) b->release();
   counts_.release();
 }
 

@@ -40,6 +40,10 @@ class DeviceClosing {
   /// where constant). All pointers stay in use until the stream has passed.
   void enqueue(const TileLayout& layout, const std::uint32_t* solid, const ScaleLattice& scale, const Scale* samples,
                StructuringElement element, std::uint32_t* closed, cudaStream_t stream, const Mark& mark = {});
+  /// The same from bricks into bricks: `closed` has room for all of the interior, which is made of whole bricks.
+  ///   count  out: bricks of `closed` that are neither empty nor full
+  void enqueue(const TileLayout& layout, const BrickTable& solid, const ScaleLattice& scale, const Scale* samples,
+               StructuringElement element, const BrickTable& closed, std::uint32_t* count, cudaStream_t stream);
 
   /// Device memory held, bytes.
   [[nodiscard]] std::size_t bytes() const;
@@ -55,18 +59,21 @@ class DeviceClosing {
     std::uint32_t* out;
   };
   void grow(const TileLayout& layout);
+  void start(const TileLayout& layout, cudaStream_t stream);
+  [[nodiscard]] const std::uint32_t* close(const TileLayout& layout, const ScaleLattice& scale, const Scale* samples,
+                                           StructuringElement element, cudaStream_t stream, const Mark& mark);
   void dilate_by_cube(const TileLayout& layout, const ScaleLattice& scale, const ScaleView& view, cudaStream_t stream);
   void transform(const TileLayout& layout, const ScaleView& view, const Transform& t, cudaStream_t stream,
                  const Mark& mark);
   [[nodiscard]] int slab_words(const TileLayout& layout, const TransformBounds& bounds, int words);
 
   ClosingTuning tuning_;
-  DeviceBuffer<std::uint32_t> solid_, dilated_, contour_, closed_;
+  DeviceBuffer<std::uint32_t> solid_, dilated_, contour_, closed_, tables_;
   DeviceBuffer<std::uint32_t>
       flags_;  ///< what is zeroed at the start of a tile: cells of G and of the contour, wanted quads
   DeviceBuffer<std::uint32_t> answers_;
-  DeviceBuffer<uint2> cells_, w_of_cells_;
-  DeviceBuffer<std::uint8_t> values_, pass_flags_, columns_;
+  DeviceBuffer<uint2> w_of_cells_;
+  DeviceBuffer<std::uint8_t> cells_, values_, pass_flags_, columns_;
   DeviceBuffer<std::uint32_t> lists_;
   DeviceBuffer<WorkCounts> counts_;
 };

@@ -2,187 +2,11 @@
 // form min(best, value + d^2): on a window of some tens of voxels, two voxels to a register and skipping rows without
 // seeds, it beats the lower-envelope form, whose branches diverge. An offset per seed turns distance into power at no
 // cost after the first pass.
-#include "gpu/distance_kernels.h"
-#include "gpu/launch.h"
-#include "gpu/packed_min.h"
+#include "gpu/transform_device.h"
 
 namespace bp {
 
 namespace {
-
-constexpr int kPairs = 16;  ///< pairs of voxels in a word
-
-/// Values of Packed16 or Packed32 at a place of the slab.
-template <class P>
-__device__ P* values_at(void* buffer, const TransformArgs& a, int wl, int z, int y) {
-  return static_cast<P*>(buffer) +
-         ((std::size_t(wl) * std::size_t(a.shape.nz) + std::size_t(z)) * std::size_t(a.shape.ny) + std::size_t(y)) *
-             kPairs;
-}
-
-// ---------------------------------------------------------------- rows
-
-/// Where a row's seeds lie around one word: its own bits, and the distance from its first and last voxel to the nearest
-/// seed in the words before and after.
-struct RowSeeds {
-  std::uint32_t here;
-  int before, after;
-};
-constexpr int kNone = 1 << 20;
-
-__device__ RowSeeds row_seeds(const TransformArgs& a, int w, int y, int z) {
-  const std::uint32_t* row = a.seeds + a.shape.word(0, y, z);
-  RowSeeds s{row[w], kNone, kNone};
-  for (int k = 1; 32 * (k - 1) < a.bounds.reach; ++k) {
-    const std::uint32_t left = w - k >= 0 ? row[w - k] : 0, right = w + k < a.shape.words ? row[w + k] : 0;
-    if (left != 0 && s.before == kNone) s.before = 32 * (k - 1) + __clz(int(left)) + 1;
-    if (right != 0 && s.after == kNone) s.after = 32 * (k - 1) + __ffs(int(right));
-  }
-  return s;
-}
-
-/// Squared distance of voxel x of the word to the nearest seed of the row.
-__device__ std::uint32_t row_value(std::uint32_t here, int before, int after, int x, int reach, std::uint32_t far) {
-  const std::uint32_t left = here << (31 - x), right = here >> x;
-  const int to_left = left ? __clz(int(left)) : x + before, to_right = right ? __ffs(int(right)) - 1 : 31 - x + after;
-  const int d = min(to_left, to_right);
-  return d <= reach ? std::uint32_t(d * d) : far;
-}
-
-/// Reads the seeds of the 64 rows of a cell row, two per lane, and stores which rows have any in reach.
-struct CellRows {
-  RowSeeds low, high;  ///< rows `lane` and `lane + 32`; row i is (y = i & 7, z = i >> 3)
-  std::uint64_t mask;
-};
-__device__ CellRows load_rows(const TransformArgs& a, int wl, int cy, int cz) {
-  const int lane = lane_id(), w = a.slab.w0 + wl, y = kCell * cy + (lane & 7), z = kCell * cz + (lane >> 3);
-  CellRows r{row_seeds(a, w, y, z), row_seeds(a, w, y, z + 4), 0};
-  const auto any = [&](const RowSeeds& s) {
-    return s.here != 0 || s.before <= a.bounds.reach || s.after <= a.bounds.reach;
-  };
-  const std::uint32_t low = __ballot_sync(kAllLanes, any(r.low)), high = __ballot_sync(kAllLanes, any(r.high));
-  r.mask = std::uint64_t(high) << 32 | low;
-  if (lane < kCell) {
-    const std::size_t at =
-        (std::size_t(wl) * std::size_t(a.shape.nz) + std::size_t(kCell * cz + lane)) * std::size_t(a.shape.cells_y());
-    a.buffers.row_flags[at + std::size_t(cy)] = std::uint8_t(r.mask >> (8 * lane));
-  }
-  return r;
-}
-
-struct UnitCoord {
-  int wl, y, z;
-};
-__device__ UnitCoord unit_at(std::uint32_t id, int words, int ny) {
-  const std::uint32_t rest = id / std::uint32_t(words);
-  return {int(id - rest * std::uint32_t(words)), int(rest % std::uint32_t(ny)), int(rest / std::uint32_t(ny))};
-}
-
-/// Distance transform along x. A warp takes 8 x 8 rows; each half of it computes a row, each lane voxels x and x + 16.
-template <class P>
-__global__ void __launch_bounds__(kPassThreads) row_pass_kernel(const __grid_constant__ TransformArgs a) {
-  const int lane = lane_id(), half = lane >> 4, x = lane & 15;
-  const unsigned count = a.lists.counts->rows;
-  for (unsigned item = next_item(&a.lists.counts->row_next); item < count;
-       item = next_item(&a.lists.counts->row_next)) {
-    const UnitCoord u = unit_at(a.lists.rows[item], a.slab.words, a.shape.cells_y());
-    const CellRows r = load_rows(a, u.wl, u.y, u.z);
-    for (std::uint64_t left = r.mask; left != 0;) {
-      const int first = __ffsll((long long)left) - 1;
-      left &= left - 1;
-      const int second = left != 0 ? __ffsll((long long)left) - 1 : first;  // an odd one out is computed twice
-      left &= left - 1;
-      const int row = half ? second : first;
-      const std::uint32_t here_low = __shfl_sync(kAllLanes, r.low.here, row),
-                          here_high = __shfl_sync(kAllLanes, r.high.here, row);
-      // both distances of a row in one register: reach is below 2^15
-      const auto both = [](const RowSeeds& s) {
-        return std::uint32_t(min(s.before, 0x7fff)) | std::uint32_t(min(s.after, 0x7fff)) << 16;
-      };
-      const std::uint32_t sides_low = __shfl_sync(kAllLanes, both(r.low), row),
-                          sides_high = __shfl_sync(kAllLanes, both(r.high), row);
-      const std::uint32_t here = row < 32 ? here_low : here_high, sides = row < 32 ? sides_low : sides_high;
-      const int before = int(sides & 0xffff), after = int(sides >> 16);
-      const P v = P::of(row_value(here, before, after, x, a.bounds.reach, P::kFar),
-                        row_value(here, before, after, x + 16, a.bounds.reach, P::kFar));
-      values_at<P>(a.buffers.rows, a, u.wl, kCell * u.z + (row >> 3), kCell * u.y + (row & 7))[x] = v;
-    }
-  }
-}
-
-/// The offsets of the seeds around one word of a row, in shared memory: kFar where there is none.
-struct Offsets {
-  std::uint32_t* at;  ///< [(2 side + 1) * 32]; voxel x of the word is at[32 side + x]
-  int side;           ///< words on each side
-  int seeds;          ///< in all
-  std::uint32_t least;
-};
-template <class P>
-__device__ Offsets load_offsets(const TransformArgs& a, std::uint32_t* memory, int side, int w, int y, int z) {
-  Offsets o{memory, side, 0, P::kFar};
-  const int lane = lane_id();
-  const std::uint32_t* row = a.seeds + a.shape.word(0, y, z);
-  __syncwarp();  // the row before has been read
-  for (int k = -side; k <= side; ++k) {
-    const std::uint32_t bits = w + k >= 0 && w + k < a.shape.words ? row[w + k] : 0;
-    std::uint32_t offset = P::kFar;
-    if (bits >> lane & 1) offset = a.bounds.limit - std::uint32_t(ball_bound(a.scale.at(32 * (w + k) + lane, y, z)));
-    o.at[32 * (k + side) + lane] = offset;
-    o.least = min(o.least, offset);
-    o.seeds += __popc(bits);
-  }
-  o.least = warp_min(o.least);
-  __syncwarp();
-  return o;
-}
-
-/// min over the seeds in reach of d^2 + offset, at voxel `lane` of the word; at least kFar (or exact) if beyond the
-/// limit.
-template <class P>
-__device__ std::uint32_t offset_value(const TransformArgs& a, const Offsets& o, int w, int y, int z) {
-  const int lane = lane_id(), here = 32 * o.side + lane;
-  std::uint32_t best = P::kFar;
-  if (o.seeds <= kFewSeeds) {
-    const std::uint32_t* row = a.seeds + a.shape.word(0, y, z);
-    for (int k = -o.side; k <= o.side; ++k) {
-      std::uint32_t bits = w + k >= 0 && w + k < a.shape.words ? row[w + k] : 0;
-      for (; bits != 0; bits &= bits - 1) {
-        const int q = 32 * (k + o.side) + __ffs(int(bits)) - 1, d = here - q;
-        best = min(best, std::uint32_t(d * d) + o.at[q]);
-      }
-    }
-  } else {
-    for (int d = 0; d <= a.bounds.reach; ++d) {
-      const std::uint32_t d2 = std::uint32_t(d * d);
-      best = min(best, d2 + min(o.at[here - d], o.at[here + d]));
-      if ((d & 3) == 3 && d2 + o.least >= warp_max(best)) break;  // farther seeds cannot do better
-    }
-  }
-  return best < a.bounds.limit ? best : P::kFar;
-}
-
-/// Power transform along x (scale varies at the seed). A warp takes 8 x 8 rows, one row at a time, a voxel per lane.
-template <class P>
-__global__ void __launch_bounds__(kPassThreads)
-    row_pass_offset_kernel(const __grid_constant__ TransformArgs a, int side) {
-  const int lane = lane_id();
-  std::uint32_t* memory =
-      static_cast<std::uint32_t*>(dynamic_shared_memory()) + warp_in_block() * unsigned(2 * side + 1) * 32;
-  const unsigned count = a.lists.counts->rows;
-  for (unsigned item = next_item(&a.lists.counts->row_next); item < count;
-       item = next_item(&a.lists.counts->row_next)) {
-    const UnitCoord u = unit_at(a.lists.rows[item], a.slab.words, a.shape.cells_y());
-    for (std::uint64_t left = load_rows(a, u.wl, u.y, u.z).mask; left != 0; left &= left - 1) {
-      const int row = __ffsll((long long)left) - 1, y = kCell * u.y + (row & 7), z = kCell * u.z + (row >> 3),
-                w = a.slab.w0 + u.wl;
-      const Offsets o = load_offsets<P>(a, memory, side, w, y, z);
-      const std::uint32_t v = offset_value<P>(a, o, w, y, z), other = __shfl_xor_sync(kAllLanes, v, 16);
-      if (lane < kPairs) values_at<P>(a.buffers.rows, a, u.wl, z, y)[lane] = P::of(v, other);
-    }
-  }
-}
-
-// ---------------------------------------------------------------- y and z
 
 __host__ __device__ int padded_reach(int reach) {
   return (reach + kRowGroup - 1) / kRowGroup * kRowGroup;
@@ -353,22 +177,7 @@ std::size_t table_bytes(const TransformArgs& a) {
   return std::size_t(table_size(a.bounds.reach)) * 4;
 }
 
-template <class F>
-void with_packing(const TransformArgs& a, F f) {
-  if (fits_16_bits(a.bounds)) {
-    f(Packed16{});
-  } else {
-    f(Packed32{});
-  }
-}
-
-constexpr std::size_t kSharedLimit = 48 * 1024;  ///< what every device gives without asking
-
 }  // namespace
-
-bool fits_16_bits(const TransformBounds& bounds) {
-  return !bounds.wide && bounds.limit <= Packed16::kLimit;
-}
 
 TransformBytes transform_bytes(const TransformBounds& bounds, const GridShape& shape, int slab_words) {
   const std::size_t words = std::size_t(slab_words), ny = std::size_t(shape.ny), nz = std::size_t(shape.nz);
@@ -378,23 +187,6 @@ TransformBytes transform_bytes(const TransformBounds& bounds, const GridShape& s
   b.slice_stride = std::int32_t((nz + 31) / 32 * 4);
   b.slice_flags = words * (ny / kUnit) * std::size_t(b.slice_stride);
   return b;
-}
-
-void row_pass(const TransformArgs& a, int multiprocessors, cudaStream_t stream) {
-  const unsigned blocks = unsigned(multiprocessors) * 4;
-  with_packing(a, [&](auto packing) {
-    using P = decltype(packing);
-    if (!a.bounds.offset_at_seed) {
-      launch("row_pass_kernel", row_pass_kernel<P>, blocks, kPassThreads, 0, stream, a);
-      return;
-    }
-    const int side = (a.bounds.reach + 31) / 32;
-    const std::size_t per_warp = std::size_t(2 * side + 1) * 32 * 4;
-    unsigned warps = kPassThreads / kWarp;
-    while (warps > 1 && warps * per_warp > kSharedLimit) warps /= 2;
-    launch("row_pass_offset_kernel", row_pass_offset_kernel<P>, blocks * (kPassThreads / kWarp / warps), warps * kWarp,
-           warps * per_warp, stream, a, side);
-  });
 }
 
 void y_pass(const TransformArgs& a, int multiprocessors, cudaStream_t stream) {

@@ -17,8 +17,6 @@ struct TransformBuffers {
   std::int32_t slice_stride;  ///< bytes, a multiple of 4
 };
 
-/// Whether 16 bits hold the values of a transform.
-[[nodiscard]] bool fits_16_bits(const TransformBounds& bounds);
 /// Bytes of `rows` (and again of `planes`), of the flags of rows and of those of slices, for a slab of this many words.
 struct TransformBytes {
   std::size_t values, row_flags, slice_flags;

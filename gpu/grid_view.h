@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "gpu/tuning.h"
+#include "lib/closing/rotation.h"
 #include "lib/grid/scale_field.h"
 
 /// How a tile lies in device memory, and how its scale is read there. Plain structs, passed to kernels by value.
@@ -73,6 +74,21 @@ struct ScaleView {
   [[nodiscard]] BP_HD Scale at(std::int32_t x, std::int32_t y, std::int32_t z) const {
     const std::uint32_t fx = std::uint32_t(x & 7);
     return Scale(((8 - fx) * column(x >> 3, y, z) + fx * column((x >> 3) + 1, y, z)) >> 9);
+  }
+
+ private:
+  static BP_HD std::int32_t clamp(std::int32_t i, std::int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : i; }
+};
+
+/// Rotations on the device, a cell of 8^3 voxels each; outside of the lattice the nearest one.
+struct RotationView {
+  const Rotation* cells = nullptr;
+  std::int32_t nx = 0, ny = 0, nz = 0;  ///< cells held
+  std::int32_t ox = 0, oy = 0, oz = 0;  ///< index of the cell at voxel (0,0,0) of the domain
+
+  [[nodiscard]] BP_HD const Rotation& at(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    const std::int32_t i = clamp((x >> 3) + ox, nx), j = clamp((y >> 3) + oy, ny), k = clamp((z >> 3) + oz, nz);
+    return cells[(std::uint32_t(k) * std::uint32_t(ny) + std::uint32_t(j)) * std::uint32_t(nx) + std::uint32_t(i)];
   }
 
  private:

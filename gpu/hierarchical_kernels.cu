@@ -144,6 +144,27 @@ struct BallElement {
     return d * d + e * e + f * f < least ? Meets::wholly : Meets::partly;
   }
 };
+/// A cube of its own orientation: separated from a node along one of the cube's axes, or not. Doubled coordinates, so
+/// that centres are whole numbers.
+struct OrientedElement {
+  int x, y, z, edge, least, most, radius;  ///< least, most: of S
+  Rotation rotation;
+  __device__ int reach() const { return radius; }
+  __device__ Meets meets(const PyramidView&, int level, int cx, int cy, int cz) const {
+    const int m = 1 << level, half = edge + m - 2;
+    const int dx = 2 * (x - cx * m) + edge - m, dy = 2 * (y - cy * m) + edge - m, dz = 2 * (z - cz * m) + edge - m;
+    bool wholly = true;
+#pragma unroll
+    for (int i = 0; i < 3; ++i) {
+      const int a = rotation.row[i][0], b = rotation.row[i][1], c = rotation.row[i][2];
+      const int along = abs(a * dx + b * dy + c * dz), spread = (abs(a) + abs(b) + abs(c)) * half;
+      if (along - spread > most * kDoubledUnit) return Meets::no;
+      wholly = wholly && along + spread <= least * kDoubledUnit;
+    }
+    return wholly ? Meets::wholly : Meets::partly;
+  }
+  static constexpr int kDoubledUnit = 2 * (1 << kRotationBits) / kScaleOne;
+};
 /// Alg. 2: the ball belongs to the seed; a node is as large as its largest scale.
 struct SeedBallElement {
   int x, y, z, edge, radius;
@@ -214,13 +235,16 @@ __device__ Meets walk(const PyramidView& t, const Element& e) {
   return partly ? Meets::partly : Meets::no;
 }
 
+enum class Shape { ball, cube, oriented };
+
 /// What is asked at a block of voxels, after which field.
 struct Question {
   bool erosion;
-  bool cube;        ///< of the dilation
+  Shape shape;      ///< of the dilation
   int radius;       ///< largest
   int bound;        ///< largest w
   ScaleView scale;  ///< samples null: constant
+  RotationView rotations;
 };
 
 /// S over a block of 2^3 voxels, or at one: bounds.
@@ -232,12 +256,15 @@ __device__ void scale_over(const ScaleView& s, int x, int y, int z, int edge, in
   }
 }
 
-template <bool kErosion, bool kCube, bool kVarying>
+template <bool kErosion, Shape kShape, bool kVarying>
 __device__ Meets ask(const PyramidView& t, const Question& q, int x, int y, int z, int edge) {
   if (kErosion && kVarying) return walk(t, SeedBallElement{x, y, z, edge, q.radius, q.scale});
   int least = q.scale.constant, most = least;
   if (kVarying) scale_over(q.scale, x, y, z, edge, least, most);
-  if (kCube) return walk(t, CubeElement{x, y, z, edge, cube_radius(Scale(least)), cube_radius(Scale(most))});
+  if (kShape == Shape::cube)
+    return walk(t, CubeElement{x, y, z, edge, cube_radius(Scale(least)), cube_radius(Scale(most))});
+  if (kShape == Shape::oriented)
+    return walk(t, OrientedElement{x, y, z, edge, least, most, q.radius, q.rotations.at(x, y, z)});
   int radius = q.radius;
   if (kVarying) radius = most / kScaleOne + 1;
   return walk(t, BallElement{x, y, z, edge, ball_bound(Scale(least)), ball_bound(Scale(most)), radius});
@@ -258,7 +285,7 @@ struct WarpBlock {
 };
 
 /// Alg. 1 and 2 at every voxel. out := D, or E.
-template <bool kErosion, bool kCube, bool kVarying>
+template <bool kErosion, Shape kShape, bool kVarying>
 __global__ void __launch_bounds__(kPassThreads)
     every_voxel_kernel(const __grid_constant__ PyramidView t, const __grid_constant__ Question q, GridShape shape,
                        VoxelRange region, const std::uint32_t* __restrict__ solid,
@@ -270,7 +297,7 @@ __global__ void __launch_bounds__(kPassThreads)
     const bool g = solid[at] & one, asked = region.mask(b.x >> 5, b.y, b.z) & one;
     bit = g && asked;
     if (asked && !g && (!kErosion || (dilated[at] & one))) {
-      const bool met = ask<kErosion, kCube, kVarying>(t, q, b.x, b.y, b.z, 1) == Meets::wholly;
+      const bool met = ask<kErosion, kShape, kVarying>(t, q, b.x, b.y, b.z, 1) == Meets::wholly;
       bit = kErosion ? !met : met;
     }
   }
@@ -280,7 +307,7 @@ __global__ void __launch_bounds__(kPassThreads)
 }
 
 /// The half-resolution pass: one lane per block of 2^3 voxels. Settled blocks are written, the others listed.
-template <bool kErosion, bool kCube, bool kVarying>
+template <bool kErosion, Shape kShape, bool kVarying>
 __global__ void __launch_bounds__(kPassThreads)
     every_block_kernel(const __grid_constant__ PyramidView t, const __grid_constant__ Question q, GridShape shape,
                        VoxelRange region, const std::uint32_t* __restrict__ solid,
@@ -300,7 +327,7 @@ __global__ void __launch_bounds__(kPassThreads)
       asked = asked || (v >> s & 3) != 0;
     }
     if (asked) {
-      const Meets m = ask<kErosion, kCube, kVarying>(t, q, 2 * b.x, 2 * b.y, 2 * b.z, 2);
+      const Meets m = ask<kErosion, kShape, kVarying>(t, q, 2 * b.x, 2 * b.y, 2 * b.z, 2);
       open = m == Meets::partly;
       all = kErosion ? m == Meets::no : m == Meets::wholly;
     }
@@ -328,7 +355,7 @@ __global__ void __launch_bounds__(kPassThreads)
 }
 
 /// The open blocks, voxel by voxel: four to a warp.
-template <bool kErosion, bool kCube, bool kVarying>
+template <bool kErosion, Shape kShape, bool kVarying>
 __global__ void __launch_bounds__(kPassThreads)
     open_blocks_kernel(const __grid_constant__ PyramidView t, const __grid_constant__ Question q, GridShape shape,
                        VoxelRange region, const std::uint32_t* __restrict__ solid,
@@ -342,33 +369,35 @@ __global__ void __launch_bounds__(kPassThreads)
               z = 2 * int(block / row / unsigned(shape.ny / 2)) + int(c >> 2);
     const std::uint32_t at = shape.word(x >> 5, y, z), one = 1u << (x & 31);
     if (!(region.mask(x >> 5, y, z) & one) || (solid[at] & one) || (kErosion && !(dilated[at] & one))) continue;
-    const bool met = ask<kErosion, kCube, kVarying>(t, q, x, y, z, 1) == Meets::wholly;
+    const bool met = ask<kErosion, kShape, kVarying>(t, q, x, y, z, 1) == Meets::wholly;
     if (met != kErosion) atomicOr(&out[at], one);
   }
 }
 
-/// Calls f(erosion, cube, varying) with the three as compile-time constants.
-template <bool kErosion, bool kCube, class F>
+/// Calls f(erosion, shape, varying) with the three as compile-time constants.
+template <bool kErosion, Shape kShape, class F>
 void with_varying(bool varying, F f) {
   if (varying) {
-    f.template operator()<kErosion, kCube, true>();
+    f.template operator()<kErosion, kShape, true>();
   } else {
-    f.template operator()<kErosion, kCube, false>();
+    f.template operator()<kErosion, kShape, false>();
   }
 }
 template <class F>
 void with_question(const Question& q, F f) {
   const bool varying = q.scale.samples != nullptr;
-  if (q.erosion) return with_varying<true, false>(varying, f);
-  if (q.cube) return with_varying<false, true>(varying, f);
-  with_varying<false, false>(varying, f);
+  if (q.erosion) return with_varying<true, Shape::ball>(varying, f);
+  if (q.shape == Shape::cube) return with_varying<false, Shape::cube>(varying, f);
+  if (q.shape == Shape::oriented) return with_varying<false, Shape::oriented>(varying, f);
+  with_varying<false, Shape::ball>(varying, f);
 }
 
 }  // namespace
 
 void HierarchicalClosing::enqueue(const TileLayout& layout, const std::uint32_t* solid, const ScaleLattice& scale,
                                   const Scale* samples, StructuringElement element, HierarchicalVariant variant,
-                                  std::uint32_t* closed, cudaStream_t stream, const DeviceClosing::Mark& mark) {
+                                  std::uint32_t* closed, cudaStream_t stream, const DeviceClosing::Mark& mark,
+                                  const RotationView* rotations) {
   const GridShape& shape = layout.shape;
   const std::size_t words = shape.word_count();
   solid_.grow(words), dilated_.grow(words), contour_.grow(words), closed_.grow(words);
@@ -378,7 +407,7 @@ void HierarchicalClosing::enqueue(const TileLayout& layout, const std::uint32_t*
 
   PyramidView t{};
   t.nx = 32 * shape.words, t.ny = shape.ny, t.nz = shape.nz;
-  const int reach = scale.max / kScaleOne + 1;
+  const int reach = rotations != nullptr ? oriented_reach(scale.max) : scale.max / kScaleOne + 1;
   t.top = kScaleLevel;
   while (t.top < kMaxTop && (1 << t.top) < 2 * reach + 1) ++t.top;
   std::uint32_t nodes = 0, scales = 0;
@@ -401,7 +430,11 @@ void HierarchicalClosing::enqueue(const TileLayout& layout, const std::uint32_t*
       launch("next_level_kernel", next_level_kernel, blocks_for(level_nodes(k)), kPassThreads, 0, stream, t, k,
              nodes_.data());
   };
-  Question q{false, element == StructuringElement::cube, reach, ball_bound(scale.max), {}};
+  const Shape shape_of_element = rotations != nullptr                  ? Shape::oriented
+                                 : element == StructuringElement::cube ? Shape::cube
+                                                                       : Shape::ball;
+  Question q{false, shape_of_element, reach, ball_bound(scale.max), {}, {}};
+  if (rotations != nullptr) q.rotations = *rotations;
   q.scale.constant = scale.max;
   if (!scale.constant()) {
     q.scale.samples = samples;
@@ -413,19 +446,19 @@ void HierarchicalClosing::enqueue(const TileLayout& layout, const std::uint32_t*
              k, scales_.data());
   }
   const auto collide = [&](const VoxelRange& region, std::uint32_t* out) {
-    with_question(q, [&]<bool kErosion, bool kCube, bool kVarying>() {
+    with_question(q, [&]<bool kErosion, Shape kShape, bool kVarying>() {
       if (variant == HierarchicalVariant::plain) {
-        launch("every_voxel_kernel", every_voxel_kernel<kErosion, kCube, kVarying>, blocks_for(words * 32),
+        launch("every_voxel_kernel", every_voxel_kernel<kErosion, kShape, kVarying>, blocks_for(words * 32),
                kPassThreads, 0, stream, t, q, shape, region, solid_.data(), dilated_.data(),
                reinterpret_cast<std::uint8_t*>(out));
         return;
       }
       blocks_.grow(words * 4);
       BP_CUDA_CHECK(cudaMemsetAsync(count_.grow(1), 0, 4, stream));
-      launch("every_block_kernel", every_block_kernel<kErosion, kCube, kVarying>, blocks_for(words * 4), kPassThreads,
+      launch("every_block_kernel", every_block_kernel<kErosion, kShape, kVarying>, blocks_for(words * 4), kPassThreads,
              0, stream, t, q, shape, region, solid_.data(), dilated_.data(), reinterpret_cast<std::uint16_t*>(out),
              blocks_.data(), count_.data());
-      launch("open_blocks_kernel", open_blocks_kernel<kErosion, kCube, kVarying>, unsigned(multiprocessors_) * 8,
+      launch("open_blocks_kernel", open_blocks_kernel<kErosion, kShape, kVarying>, unsigned(multiprocessors_) * 8,
              kPassThreads, 0, stream, t, q, shape, region, solid_.data(), dilated_.data(), blocks_.data(),
              count_.data(), out);
     });

@@ -22,10 +22,11 @@ class HierarchicalClosing {
  public:
   explicit HierarchicalClosing(int multiprocessors) : multiprocessors_(multiprocessors) {}
 
-  /// As DeviceClosing::enqueue, same bits.
+  /// As DeviceClosing::enqueue, same bits. With `rotations` the dilation is by cubes of these orientations (and
+  /// `element` is not looked at); the halo must then allow for oriented_reach().
   void enqueue(const TileLayout& layout, const std::uint32_t* solid, const ScaleLattice& scale, const Scale* samples,
                StructuringElement element, HierarchicalVariant variant, std::uint32_t* closed, cudaStream_t stream,
-               const DeviceClosing::Mark& mark = {});
+               const DeviceClosing::Mark& mark = {}, const RotationView* rotations = nullptr);
 
  private:
   int multiprocessors_;

@@ -19,6 +19,10 @@ struct Packed16 {
   /// What the table of squares holds for d^2.
   __device__ static std::uint32_t square(std::uint32_t d2) { return (d2 < kFar ? d2 : kFar) * 0x10001u; }
   __device__ void step(Packed16 from, std::uint32_t d2) { v = __viaddmin_u16x2(from.v, d2, v); }
+  /// With a number of its own for each half, below 2^15.
+  __device__ void step_each(Packed16 from, std::uint32_t low_d2, std::uint32_t high_d2) {
+    v = __viaddmin_u16x2(from.v, low_d2 | high_d2 << 16, v);
+  }
   __device__ std::uint32_t low() const { return v & 0xffff; }
   __device__ std::uint32_t high() const { return v >> 16; }
 };
@@ -35,6 +39,10 @@ struct Packed32 {
   __device__ void step(Packed32 from, std::uint32_t d2) {
     v.x = __viaddmin_u32(from.v.x, d2, v.x);
     v.y = __viaddmin_u32(from.v.y, d2, v.y);
+  }
+  __device__ void step_each(Packed32 from, std::uint32_t low_d2, std::uint32_t high_d2) {
+    v.x = __viaddmin_u32(from.v.x, low_d2, v.x);
+    v.y = __viaddmin_u32(from.v.y, high_d2, v.y);
   }
   __device__ std::uint32_t low() const { return v.x; }
   __device__ std::uint32_t high() const { return v.y; }

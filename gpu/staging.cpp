@@ -27,7 +27,26 @@ void Staging::upload(void* to, const void* from, std::size_t bytes) {
   }
 }
 
-void Staging::download(void* to, const void* from, std::size_t bytes) {
+std::size_t Staging::upload_pieces(void* to, std::size_t piece_bytes, std::size_t most,
+                                   const std::function<bool(std::byte*)>& fill) {
+  const std::size_t per_block = kStagingBytes / piece_bytes;
+  std::size_t done = 0;
+  for (std::size_t i = 0, n = per_block; n == per_block; ++i) {
+    Block& b = blocks_[i % 2];
+    BP_CUDA_CHECK(cudaEventSynchronize(b.free));
+    std::byte* piece = b.memory.grow(kStagingBytes);
+    for (n = 0; n < per_block && done + n < most && fill(piece); ++n) piece += piece_bytes;
+    if (n == 0) break;
+    BP_CUDA_CHECK(cudaMemcpyAsync(static_cast<std::byte*>(to) + done * piece_bytes, b.memory.data(), n * piece_bytes,
+                                  cudaMemcpyHostToDevice, stream_));
+    BP_CUDA_CHECK(cudaEventRecord(b.free, stream_));
+    done += n;
+  }
+  return done;
+}
+
+void Staging::download_blocks(const void* from, std::size_t bytes,
+                              const std::function<void(std::size_t, const std::byte*, std::size_t)>& take) {
   const std::size_t count = (bytes + kStagingBytes - 1) / kStagingBytes;
   const auto size = [&](std::size_t i) { return std::min(kStagingBytes, bytes - i * kStagingBytes); };
   for (std::size_t i = 0; i <= count; ++i) {
@@ -41,8 +60,24 @@ void Staging::download(void* to, const void* from, std::size_t bytes) {
     if (i == 0) continue;
     Block& b = blocks_[(i - 1) % 2];
     BP_CUDA_CHECK(cudaEventSynchronize(b.free));
-    std::memcpy(static_cast<std::byte*>(to) + (i - 1) * kStagingBytes, b.memory.data(), size(i - 1));
+    take((i - 1) * kStagingBytes, b.memory.data(), size(i - 1));
   }
+}
+
+void Staging::download(void* to, const void* from, std::size_t bytes) {
+  download_blocks(from, bytes, [&](std::size_t at, const std::byte* block, std::size_t n) {
+    std::memcpy(static_cast<std::byte*>(to) + at, block, n);
+  });
+}
+
+void Staging::download_bits(std::uint64_t* to, const void* from, std::size_t count) {
+  download_blocks(from, count * 8, [&](std::size_t at, const std::byte* block, std::size_t n) {
+    for (std::size_t i = 0; i < n; i += 8) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, block + i, 8);
+      to[(at + i) / 8] |= word;
+    }
+  });
 }
 
 }  // namespace bp

@@ -1,5 +1,8 @@
 #pragma once
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 
 #include "gpu/device_buffer.h"
 
@@ -16,8 +19,17 @@ class Staging {
 
   /// Returns when `from` may be reused; the device has the data once the stream has passed.
   void upload(void* to, const void* from, std::size_t bytes);
+  /// Uploads pieces of `piece_bytes` (at most kStagingBytes) one after the other: fill(piece) writes one, straight into
+  /// page-locked memory, and returns false when there is none left. At most `most` pieces. Returns their number.
+  std::size_t upload_pieces(void* to, std::size_t piece_bytes, std::size_t most,
+                            const std::function<bool(std::byte* piece)>& fill);
+  /// Calls take(first byte, block, bytes) for consecutive blocks of `from`, in order.
+  void download_blocks(const void* from, std::size_t bytes,
+                       const std::function<void(std::size_t at, const std::byte* block, std::size_t n)>& take);
   /// Returns when `to` holds the data: everything enqueued before has run.
   void download(void* to, const void* from, std::size_t bytes);
+  /// The same, but adds the bits of `count` words to those of `to`.
+  void download_bits(std::uint64_t* to, const void* from, std::size_t count);
 
  private:
   struct Block {

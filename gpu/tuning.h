@@ -9,11 +9,16 @@ constexpr int kUnit = 16;          ///< outputs that one thread of the y and z p
 constexpr int kRowGroup = 8;       ///< inputs that the y and z passes take or skip at a time
 constexpr int kPassThreads = 256;  ///< threads of a block in all passes
 constexpr int kWindowRun = 32;     ///< outputs of one thread of a window pass, at most
-/// Seeds in reach of a row from which on the row pass looks around each voxel rather than at each seed (varying scale).
+/// Seeds around a word of a row beyond which the row pass looks around each voxel rather than at each seed (varying
+/// scale).
 constexpr int kFewSeeds = 12;
 
 /// Memory for the distances of a slab of a tile; wider domains go in several slabs.
 constexpr std::size_t kSlabBytes = std::size_t(3) << 29;
+/// Bits voxelized at a time; taller boxes go in several parts.
+constexpr std::size_t kVoxelizeBytes = std::size_t(512) << 20;
+/// Triangles on the device at a time.
+constexpr std::size_t kTriangleBatch = std::size_t(1) << 18;
 /// Page-locked block for copies; two per backend.
 constexpr std::size_t kStagingBytes = std::size_t(4) << 20;
 

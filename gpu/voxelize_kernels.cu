@@ -1,6 +1,4 @@
 // After [SS10], with the half-spaces of lib/voxel/overlap.h: the same integers as the CPU, so the same voxels.
-#include <new>
-
 #include "gpu/launch.h"
 #include "gpu/tuning.h"
 #include "gpu/voxelize_kernels.h"
@@ -133,7 +131,7 @@ __global__ void __launch_bounds__(kPassThreads)
         const std::uint64_t mask = cells_met(corners, whole, range);
         if (mask != 0) set_cells(out, range, mask);
       } else {
-        grid = range.size(1) * range.size(2) > kManyRows;
+        grid = range.size(1) * range.size(2) > kManyRows || corners.extent() > kMediumExtent;
         warp = !grid;
       }
     }
@@ -158,14 +156,18 @@ __device__ void set_rows(const Triangle& t, const BitsView& out, unsigned worker
     const auto bound = [&](const auto& h) {
       any = any && clip(h.value(h.step[0] > 0 ? nx - 1 : 0, 0, std::int32_t(z)), h.step[1], y0, y1);
     };
+#pragma unroll 1
     for (int i = 0; i < 9; ++i) bound(t.edges[i]);
+#pragma unroll 1
     for (int i = 0; i < 2; ++i) bound(t.plane[i]);
     if (!any) continue;
     for (std::int32_t y = y0 + std::int32_t(part); y <= y1; y += std::int32_t(parts)) {
       std::int32_t x0 = 0, x1 = nx - 1;
       bool row = true;
       const auto narrow = [&](const auto& h) { row = row && clip(h.value(0, y, std::int32_t(z)), h.step[0], x0, x1); };
+#pragma unroll 1
       for (int i = 0; i < 2; ++i) narrow(t.plane[i]);
+#pragma unroll 1
       for (int i = 3; i < 9; ++i) narrow(t.edges[i]);
       if (row && x0 <= x1)
         out.set_run(out.row(t.range.min[1] + y, t.range.min[2] + std::int32_t(z)), offset + x0, offset + x1);
@@ -173,58 +175,98 @@ __device__ void set_rows(const Triangle& t, const BitsView& out, unsigned worker
   }
 }
 
-/// Builds the half-spaces of a triangle in shared memory by one of the workers. `meet` is a barrier of them.
-template <class Triangle, class Meet>
-__device__ void set_triangle(void* shared, const Corners& corners, const CellRange& range, const BitsView& out,
-                             bool builder, unsigned worker, unsigned workers, const Meet& meet) {
-  meet();
-  if (builder) new (shared) Triangle(corners, range, kFixedOne);
-  meet();
-  set_rows(*static_cast<const Triangle*>(shared), out, worker, workers);
-}
+/// A triangle in shared memory: loops over its half-spaces and corners index it at run time, which registers cannot.
+template <class Triangle>
+struct SharedTriangle {
+  FixedTriangle triangle;
+  alignas(16) Triangle cells;
+};
+/// Those who work on one triangle together: a warp, or the grid (a copy of the triangle per block).
+struct WarpTeam {
+  __device__ static void meet() { __syncwarp(); }
+  __device__ static unsigned builder() { return unsigned(lane_id()); }
+  __device__ static unsigned worker() { return unsigned(lane_id()); }
+  __device__ static unsigned workers() { return kWarp; }
+};
+struct GridTeam {
+  __device__ static void meet() { __syncthreads(); }
+  __device__ static unsigned builder() { return threadIdx.x; }
+  __device__ static unsigned worker() { return thread_in_grid(); }
+  __device__ static unsigned workers() { return gridDim.x * blockDim.x; }
+};
 
-/// A triangle of any size, by its smallest sufficient integers.
-template <class Meet>
-__device__ void set_any_triangle(void* shared, const FixedTriangle& triangle, const BitsView& out, bool builder,
-                                 unsigned worker, unsigned workers, const Meet& meet) {
-  const Corners corners(triangle);
-  const CellRange range = out.inside(voxel_range(corners));
-  const std::int64_t extent = corners.extent();
-  if (extent <= kSmallExtent)
-    return set_triangle<SmallTriangle>(shared, corners, range, out, builder, worker, workers, meet);
-  if (extent <= kMediumExtent)
-    return set_triangle<MediumTriangle>(shared, corners, range, out, builder, worker, workers, meet);
-  CellRange block = range;  // in blocks, so that the plane's values stay within 128 bits
-  for (block.min[2] = range.min[2]; block.min[2] < range.max[2]; block.min[2] += kWideCells) {
-    for (block.min[1] = range.min[1]; block.min[1] < range.max[1]; block.min[1] += kWideCells) {
-      for (block.min[0] = range.min[0]; block.min[0] < range.max[0]; block.min[0] += kWideCells) {
-        for (int i = 0; i < 3; ++i)
-          block.max[i] = block.min[i] + kWideCells < range.max[i] ? block.min[i] + kWideCells : range.max[i];
-        set_triangle<WideTriangle>(shared, corners, block, out, builder, worker, workers, meet);
-      }
+template <class EdgeInt, class PlaneInt>
+__device__ void build(TriangleCells<EdgeInt, PlaneInt>& t, const Corners& corners, const CellRange& range,
+                      unsigned builder) {
+  if (builder < 9) {
+    const int w = int(builder) / 3;
+    t.edges[builder] =
+        edge_space<EdgeInt>(corners, int(builder) % 3, w, normal_component<PlaneInt>(corners, w) < 0, range, kFixedOne);
+  } else if (builder < 11) {
+    PlaneInt normal[3];
+#pragma unroll
+    for (int w = 0; w < 3; ++w) {
+      normal[w] = normal_component<PlaneInt>(corners, w);
+      if (builder == 10) normal[w] = -normal[w];
     }
+    t.plane[builder - 9] = plane_space(corners, normal, range, kFixedOne);
+  } else if (builder == 11) {
+    t.range = range;
   }
 }
 
-constexpr std::size_t kTriangleBytes = (sizeof(WideTriangle) + 15) / 16 * 16;
+/// Sets the voxels of `range` that the triangle in `shared` meets.
+template <class Team, class Triangle>
+__device__ void set_triangle(SharedTriangle<Triangle>& shared, const CellRange& range, const BitsView& out) {
+  if (Team::builder() < 12) build(shared.cells, Corners(shared.triangle), range, Team::builder());
+  Team::meet();
+  set_rows(shared.cells, out, Team::worker(), Team::workers());
+  Team::meet();
+}
 
+template <class Team>
+__device__ void load_triangle(FixedTriangle& shared, const FixedTriangle& from) {
+  constexpr unsigned kWords = sizeof(FixedTriangle) / sizeof(std::uint64_t);
+  const unsigned i = Team::builder();
+  if (i < kWords) reinterpret_cast<std::uint64_t*>(&shared)[i] = reinterpret_cast<const std::uint64_t*>(&from)[i];
+  Team::meet();
+}
+
+using WarpTriangle = SharedTriangle<MediumTriangle>;
+using GridTriangle = SharedTriangle<WideTriangle>;
+
+/// Triangles up to kMediumExtent.
 __global__ void __launch_bounds__(kPassThreads)
     voxelize_warp_kernel(const FixedTriangle* __restrict__ triangles, BitsView out, Lists lists) {
-  std::uint8_t* shared = static_cast<std::uint8_t*>(dynamic_shared_memory()) + warp_in_block() * kTriangleBytes;
+  WarpTriangle& shared = static_cast<WarpTriangle*>(dynamic_shared_memory())[warp_in_block()];
   const unsigned count = lists.counts[0];
   for (unsigned i = next_item(&lists.counts[2]); i < count; i = next_item(&lists.counts[2])) {
-    set_any_triangle(shared, triangles[lists.warp[i]], out, lane_id() == 0, unsigned(lane_id()), kWarp,
-                     [] { __syncwarp(); });
+    load_triangle<WarpTeam>(shared.triangle, triangles[lists.warp[i]]);
+    set_triangle<WarpTeam>(shared, out.inside(voxel_range(Corners(shared.triangle))), out);
   }
 }
 
+/// Any triangle; in blocks, so that the plane's values stay within 128 bits.
 __global__ void __launch_bounds__(kPassThreads)
     voxelize_grid_kernel(const FixedTriangle* __restrict__ triangles, BitsView out, Lists lists) {
-  void* shared = dynamic_shared_memory();
+  GridTriangle& shared = *static_cast<GridTriangle*>(dynamic_shared_memory());
   const unsigned count = lists.counts[1];
   for (unsigned i = 0; i < count; ++i) {
-    set_any_triangle(shared, triangles[lists.grid[i]], out, threadIdx.x == 0, thread_in_grid(), gridDim.x * blockDim.x,
-                     [] { __syncthreads(); });
+    load_triangle<GridTeam>(shared.triangle, triangles[lists.grid[i]]);
+    const CellRange range = out.inside(voxel_range(Corners(shared.triangle)));
+    const int nx = int((range.size(0) + kWideCells - 1) / kWideCells),
+              ny = int((range.size(1) + kWideCells - 1) / kWideCells),
+              nz = int((range.size(2) + kWideCells - 1) / kWideCells);
+    for (int b = 0; b < nx * ny * nz; ++b) {
+      CellRange block = range;
+      block.min[0] += kWideCells * (b % nx), block.min[1] += kWideCells * (b / nx % ny),
+          block.min[2] += kWideCells * (b / (nx * ny));
+#pragma unroll
+      for (int k = 0; k < 3; ++k) {
+        if (block.min[k] + kWideCells < block.max[k]) block.max[k] = block.min[k] + kWideCells;
+      }
+      set_triangle<GridTeam>(shared, block, out);
+    }
   }
 }
 
@@ -241,9 +283,9 @@ void DeviceVoxelizer::enqueue(const FixedTriangle* triangles, std::uint32_t coun
   launch("voxelize_few_kernel", voxelize_few_kernel, (count + kPassThreads - 1) / kPassThreads, kPassThreads, 0, stream,
          triangles, count, out, lists);
   launch("voxelize_warp_kernel", voxelize_warp_kernel, unsigned(multiprocessors_) * 4, kPassThreads,
-         kTriangleBytes * (kPassThreads / kWarp), stream, triangles, out, lists);
-  launch("voxelize_grid_kernel", voxelize_grid_kernel, unsigned(multiprocessors_) * 4, kPassThreads, kTriangleBytes,
-         stream, triangles, out, lists);
+         sizeof(WarpTriangle) * (kPassThreads / kWarp), stream, triangles, out, lists);
+  launch("voxelize_grid_kernel", voxelize_grid_kernel, unsigned(multiprocessors_) * 4, kPassThreads,
+         sizeof(GridTriangle), stream, triangles, out, lists);
 }
 
 void DeviceVoxelizer::release() {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/closing/closing.h"
+#include "lib/grid/stream.h"
 #include "lib/voxel/fixed_triangle.h"
 
 /// The tile operations, behind which CpuBackend and CudaBackend stand. One Backend per worker thread: it owns its
@@ -24,6 +25,15 @@ class Backend {
   /// See close_tile in lib/closing/closing.h.
   virtual void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
                      const VoxelBox& interior, BitBox& closed) = 0;
+
+  /// The same where the solid voxels lie on a shelf, all of them in `bricks`. A GPU takes and gives only the bricks
+  /// that are neither empty nor full; by default the tile and its halo are loaded into a box.
+  virtual void close_from_shelf(const BrickShelf& solid, const BrickBox& bricks, const ScaleLattice& scale,
+                                const Halo& halo, const ClosingParams& params, const VoxelBox& interior,
+                                BitBox& closed);
+
+ private:
+  BitBox loaded_;  ///< of close_from_shelf; kept
 };
 
 /// One backend per worker thread. Stages hand tile i to any idle backend.

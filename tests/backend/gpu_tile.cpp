@@ -21,7 +21,22 @@ void GpuTile::close(DeviceClosing& closing, StructuringElement element, cudaStre
 
 void GpuTile::close(HierarchicalClosing& closing, StructuringElement element, HierarchicalVariant variant,
                     cudaStream_t stream, const DeviceClosing::Mark& mark) {
-  closing.enqueue(layout_, solid_.data(), scale_, samples_.data(), element, variant, closed_.data(), stream, mark);
+  closing.enqueue(layout_, solid_.data(), scale_, samples_.data(), element, variant, closed_.data(), stream, mark,
+                  rotations_.cells != nullptr ? &rotations_ : nullptr);
+}
+
+void GpuTile::orient(const RotationLattice& rotations) {
+  const VoxelCoord n = rotations.size, first = rotations.origin;
+  rotations_ = {rotation_cells_.grow(rotations.cells.size()),
+                n.x,
+                n.y,
+                n.z,
+                layout_.ox + scale_.origin.x - first.x,
+                layout_.oy + scale_.origin.y - first.y,
+                layout_.oz + scale_.origin.z - first.z};
+  BP_CUDA_CHECK(cudaMemcpyAsync(rotation_cells_.data(), rotations.cells.data(),
+                                rotations.cells.size() * sizeof(Rotation), cudaMemcpyHostToDevice, nullptr));
+  BP_CUDA_CHECK(cudaDeviceSynchronize());
 }
 
 void GpuTile::poison(cudaStream_t stream) {

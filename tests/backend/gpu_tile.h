@@ -12,6 +12,8 @@ class GpuTile {
              const DeviceClosing::Mark& mark = {});
   void close(HierarchicalClosing& closing, StructuringElement element, HierarchicalVariant variant, cudaStream_t stream,
              const DeviceClosing::Mark& mark = {});
+  /// From now on the hierarchical path dilates by cubes of these orientations.
+  void orient(const RotationLattice& rotations);
   /// Overwrites the device's result with garbage, so that a stale one cannot pass for a new one.
   void poison(cudaStream_t stream);
   [[nodiscard]] BitBox result(cudaStream_t stream) const;
@@ -23,6 +25,8 @@ class GpuTile {
   TileLayout layout_;
   DeviceBuffer<std::uint32_t> solid_, closed_;
   DeviceBuffer<Scale> samples_;
+  DeviceBuffer<Rotation> rotation_cells_;
+  RotationView rotations_;
 };
 
 }  // namespace bp

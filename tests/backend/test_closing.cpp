@@ -1,7 +1,9 @@
+#include "lib/backend/cpu_backend.h"
 #include "tests/backend/available_backends.h"
 #include "tests/catch.h"
 #include "tests/reference/closing.h"
 #include "tests/reference/random_closing.h"
+#include "tests/support/memory_shelf.h"
 
 using namespace bp;
 
@@ -52,5 +54,41 @@ TEST_CASE("a tile of nothing closes to nothing and a full one stays full on each
     for (std::int64_t i = 0; i < solid.word_count(); ++i) solid.data()[i] = ~std::uint64_t(0);
     backend->close(solid, scale, {6, 5}, {}, interior, closed);
     CHECK(closed.count() == std::uint64_t(interior.volume()));
+  }
+}
+
+TEST_CASE("closing from a shelf of bricks equals closing a box on each backend", "[quick][backend]") {
+  const auto backends = available_backends();
+  const int seed = GENERATE(range(0, 6));
+  reference::Random random{std::uint64_t(seed) + 77};
+  const Scale largest = Scale(random.between(1, 200));
+  // The last one: an interior that is not whole bricks.
+  VoxelBox interior{{-64, 0, 64}, {64 * random.between(0, 2), 64 * random.between(1, 2), 128}};
+  if (seed == 5) interior = interior.grown(-random.between(1, 9));
+  const Halo halo{largest / kScaleOne + 2, largest / kScaleOne + 1};
+  const BrickBox bricks{{-2, 0, 0}, {random.between(0, 2), 3, 2}};  // does not cover all that is asked for
+  BitBox solid = reference::random_solid(random, voxels_of(bricks));
+  for (int i = 0; i < 2; ++i) {  // a full brick and an empty one
+    const BrickCoord c{random.between(-2, -1), random.between(0, 2), random.between(0, 1)};
+    const VoxelCoord first = first_voxel(c);
+    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+      for (std::int32_t y = 0; y < kBrickEdge; ++y)
+        solid.row(first.y + y, first.z + z)[c.x - bricks.min.x] = i == 0 ? ~std::uint64_t(0) : 0;
+    }
+  }
+  test::MemoryShelf shelf;
+  store_voxels(solid, shelf);
+  const ScaleLattice scale = reference::random_lattice(random, interior.grown(64 + halo.total_vox()), largest);
+  for (const auto element : {StructuringElement::cube, StructuringElement::ball}) {
+    BitBox want;
+    CpuBackend().close(solid, scale, widest_halo(scale), {element}, interior, want);
+    for (const auto& backend : backends) {
+      CAPTURE(backend->name(), seed, element == StructuringElement::cube, largest);
+      BitBox got;
+      for (int again = 0; again < 2; ++again) {
+        backend->close_from_shelf(shelf, bricks, scale, widest_halo(scale), {element}, interior, got);
+        CHECK(got == want);
+      }
+    }
   }
 }

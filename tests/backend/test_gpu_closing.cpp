@@ -68,3 +68,42 @@ TEST_CASE("the paper's hierarchical collision gives the same voxels", "[quick][g
     CHECK(tile.result(nullptr) == want);
   }
 }
+
+TEST_CASE("oriented cubes close as their definition says", "[quick][gpu]") {
+  if (no_gpu()) return;
+  const int seed = GENERATE(range(0, 16));
+  reference::Random random{std::uint64_t(seed) + 5000};
+  const Scale largest = Scale(random.between(8, 5 * kScaleOne));
+  const VoxelBox interior = reference::random_box(random, 32);
+  const Halo halo{largest / kScaleOne + 2, oriented_reach(largest) + 1};
+  const VoxelBox box = interior.grown(halo.total_vox());
+  const BitBox solid = reference::random_solid(random, box);
+  const ScaleLattice scale = reference::random_lattice(random, box, largest);
+  const RotationLattice rotations = reference::random_rotations(random, box);
+  const BitBox want = reference::close_oriented(solid, scale, rotations, interior);
+  GpuTile tile(solid, scale, halo, interior);
+  tile.orient(rotations);
+  for (const auto variant : {HierarchicalVariant::plain, HierarchicalVariant::half_resolution}) {
+    CAPTURE(seed, int(variant), scale.constant());
+    HierarchicalClosing closing(4);
+    tile.poison(nullptr);
+    tile.close(closing, StructuringElement::cube, variant, nullptr);
+    CHECK(tile.result(nullptr) == want);
+  }
+}
+
+TEST_CASE("cubes that are not turned close like cubes", "[quick][gpu]") {
+  if (no_gpu()) return;
+  Case c = random_case(3, 6);
+  c.element = StructuringElement::cube;
+  const BitBox want = reference::close(c.solid, c.scale, c.element, c.interior);
+  const VoxelBox box = c.solid.box();
+  reference::Random random{1};
+  RotationLattice rotations = reference::random_rotations(random, box);
+  for (Rotation& r : rotations.cells) r = Rotation{};
+  GpuTile tile(c.solid, c.scale, c.halo, c.interior);
+  tile.orient(rotations);
+  HierarchicalClosing closing(4);
+  tile.close(closing, c.element, HierarchicalVariant::half_resolution, nullptr);
+  CHECK(tile.result(nullptr) == want);
+}

@@ -61,6 +61,7 @@ namespace emulator {
 unsigned exchange(unsigned mask, std::uint64_t value,
                   std::uint64_t* all);  ///< warp collective: every lane's value; returns lanes
 void barrier();                         ///< __syncthreads
+unsigned barrier_count(bool vote);      ///< the same; returns how many threads of the block voted for it
 void* dynamic_shared();
 void run(dim3 grid, dim3 block, std::size_t shared_bytes, const std::function<void()>& thread);
 /// Order in which the threads of a block run between barriers: 0 ascending, 1 descending, else shuffled by this seed.
@@ -75,6 +76,12 @@ extern dim3 threadIdx, blockIdx, blockDim, gridDim;  // of the running fiber
 
 inline void __syncthreads() {
   emulator::barrier();
+}
+inline int __syncthreads_or(int predicate) {
+  return emulator::barrier_count(predicate != 0) != 0;
+}
+inline int __syncthreads_and(int predicate) {
+  return emulator::barrier_count(predicate == 0) == 0;
 }
 inline void __syncwarp(unsigned mask = 0xffffffffu) {
   std::uint64_t all[32];

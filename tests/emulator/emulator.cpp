@@ -95,7 +95,7 @@ struct Device {
   std::vector<std::uint64_t> shared;
   Context scheduler;
   const std::function<void()>* thread = nullptr;
-  unsigned current = 0, live = 0, at_barrier = 0;
+  unsigned current = 0, live = 0, at_barrier = 0, votes = 0, vote_result = 0;
   unsigned long barrier_generation = 0, progress = 0;
   unsigned order_seed = 0;
   std::size_t limit = std::size_t(-1), used = 0;
@@ -122,6 +122,8 @@ void finish_collective(Warp& w) {
 
 void release_barrier() {
   g.at_barrier = 0;
+  g.vote_result = g.votes;
+  g.votes = 0;
   ++g.barrier_generation;
   ++g.progress;
 }
@@ -189,6 +191,12 @@ void barrier() {
   const unsigned long generation = g.barrier_generation;
   if (++g.at_barrier == g.live) return release_barrier();
   while (g.barrier_generation == generation) give_way();
+}
+
+unsigned barrier_count(bool vote) {
+  if (vote) ++g.votes;
+  barrier();
+  return g.vote_result;
 }
 
 void* dynamic_shared() {

@@ -54,9 +54,25 @@ BitBox dilate(const BitBox& solid, const ScaleLattice& scale, StructuringElement
   return out;
 }
 
-BitBox close(const BitBox& solid, const ScaleLattice& scale, StructuringElement element, const VoxelBox& box) {
-  const std::int32_t far = reach(scale.max);
-  const BitBox dilation = dilate(solid, scale, element, box.grown(far + 1));
+BitBox dilate_oriented(const BitBox& solid, const ScaleLattice& scale, const RotationLattice& rotations,
+                       const VoxelBox& box) {
+  BitBox out(box);
+  for_each_voxel(box, [&](VoxelCoord p) {
+    const Scale s = scale.at(p);
+    bool met = solid.test(p);
+    for_each_voxel(intersect(around(p, oriented_reach(s)), solid.box()), [&](VoxelCoord g) {
+      met = met || (solid.test(g) && in_oriented_cube(rotations.at(p), s, p.x - g.x, p.y - g.y, p.z - g.z));
+    });
+    if (met) out.set(p);
+  });
+  return out;
+}
+
+namespace {
+
+/// E from D, which is known over `box` grown by `far` + 1 voxels.
+BitBox erode(const BitBox& solid, const BitBox& dilation, const ScaleLattice& scale, std::int32_t far,
+             const VoxelBox& box) {
   BitBox contour(box.grown(far));
   for_each_voxel(box.grown(far), [&](VoxelCoord q) {
     if (in_contour(dilation, q)) contour.set(q);
@@ -70,6 +86,19 @@ BitBox close(const BitBox& solid, const ScaleLattice& scale, StructuringElement 
     if (solid.test(p) || (dilation.test(p) && !removed)) out.set(p);
   });
   return out;
+}
+
+}  // namespace
+
+BitBox close(const BitBox& solid, const ScaleLattice& scale, StructuringElement element, const VoxelBox& box) {
+  const std::int32_t far = reach(scale.max);
+  return erode(solid, dilate(solid, scale, element, box.grown(far + 1)), scale, far, box);
+}
+
+BitBox close_oriented(const BitBox& solid, const ScaleLattice& scale, const RotationLattice& rotations,
+                      const VoxelBox& box) {
+  const std::int32_t far = reach(scale.max);
+  return erode(solid, dilate_oriented(solid, scale, rotations, box.grown(far + 1)), scale, far, box);
 }
 
 }  // namespace bp::reference

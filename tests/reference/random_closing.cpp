@@ -118,4 +118,20 @@ ScaleField random_field(Random& random, const VoxelBox& box, double largest) {
   return field;
 }
 
+RotationLattice random_rotations(Random& random, const VoxelBox& box) {
+  RotationLattice r;
+  for (int axis = 0; axis < 3; ++axis) {
+    r.origin[axis] = floor_div(box.min[axis], kScaleStep);
+    r.size[axis] = floor_div(box.max[axis] - 1, kScaleStep) + 1 - r.origin[axis];
+  }
+  const std::int32_t kind = random.between(0, 3), finest = kind == 1 ? 1 : 100;
+  const auto any = [&] {
+    const auto part = [&] { return double(random.between(-finest, finest)); };
+    return rotation_of(part() + 0.01, part(), part(), part());
+  };
+  const Rotation one = kind == 0 ? Rotation{} : any();
+  for (std::int32_t i = r.size.x * r.size.y * r.size.z; i > 0; --i) r.cells.push_back(kind == 3 ? any() : one);
+  return r;
+}
+
 }  // namespace bp::reference

@@ -2,6 +2,7 @@
 #include <random>
 
 #include "lib/closing/closing.h"
+#include "lib/closing/rotation.h"
 
 /// Random inputs of the closing: grids, scale lattices, scale fields. Same seed, same input, on every machine.
 namespace bp::reference {
@@ -27,6 +28,9 @@ class Random {
 
 /// Samples for all voxels of `box`: constant, smooth, two-valued or white noise; at most `largest`.
 [[nodiscard]] ScaleLattice random_lattice(Random& random, const VoxelBox& box, Scale largest);
+
+/// Rotations for all voxels of `box`: none, near a turn by 90 or 120 degrees, one for all, or one for each cell.
+[[nodiscard]] RotationLattice random_rotations(Random& random, const VoxelBox& box);
 
 /// Base, boxes and strokes around `box` in scene units of one voxel; at most `largest` voxels.
 [[nodiscard]] ScaleField random_field(Random& random, const VoxelBox& box, double largest);
