@@ -87,6 +87,12 @@ bp::CloseOptions stage_options(const Options& o, bp::Progress& progress) {
   return options;
 }
 
+/// Seconds that the closing takes on one core, about: measured at 4 to 9 e-11 a voxel of the grid and voxel of scale.
+double core_seconds(const bp::StreamHeader& header, const bp::ScaleField& field) {
+  const bp::VoxelCoord size = bp::voxels_of(header.bricks).size();
+  return 4e-11 * double(size.x) * size.y * size.z * field.upper_bound(header.frame) / bp::kScaleOne;
+}
+
 bp::StreamHeader closed_header(const Options& o, const bp::StreamHeader& in, const bp::ScaleField& field) {
   bp::StreamHeader header = in;
   if (!o.inner) header.bricks = bp::closing_bricks(in, field);
@@ -128,7 +134,7 @@ void run(const Options& o) {
   bp::BrickReader source(o.in);
   check_fill(o, source.header());
   const bp::ScaleField field = scale_field(o, source.header());
-  bp::Backends backends = bp::make_backends(o.common);
+  bp::Backends backends = bp::make_backends(o.common, core_seconds(source.header(), field));
   bp::BrickWriter sink(*output, closed_header(o, source.header(), field));
 
   report.stage("close");
@@ -149,6 +155,10 @@ void run(const Options& o) {
                    {"solid_bricks", counts.solid_bricks},
                    {"closing_bricks", counts.closing_bricks},
                    {"cavity_voxels", counts.cavity_voxels}};
+  const bp::CloseTimes& t = counts.seconds;
+  report.counts["thread_seconds"] = {{"reading", t.reading},     {"waiting", t.waiting},   {"closing", t.closing},
+                                     {"labelling", t.labelling}, {"shelving", t.shelving}, {"filling", t.filling},
+                                     {"writing", t.writing}};
   if (counts.ignored_bricks > 0) report.notes.push_back("the input's closing layer was made anew from its solid layer");
   report.write(o.common);
 }

@@ -173,7 +173,7 @@ void run(const Options& o) {
   const Budget budget(o.common.memory_bytes);
   bp::Report report("bpvox");
   bp::Progress progress("bpvox", o.common.progress);
-  bp::Backends backends = bp::make_backends(o.common);
+  bp::Backends backends = bp::make_backends(o.common, 0);  // reading takes far longer than voxelizing
   const auto source = bp::open_scenes(o.scenes, {o.format, budget.reader, o.common.temp});
   const auto file = bp::open_output(o.out, o.common.overwrite);
   std::optional<bp::BrickWriter> writer;

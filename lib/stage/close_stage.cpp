@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <limits>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 
 #include "lib/core/error.h"
@@ -18,8 +20,9 @@ namespace bp {
 
 namespace {
 
-constexpr double kMaxTiles = 1 << 27;      // the fill asks every tile; beyond, a grid is a slip of the finger
-constexpr std::int32_t kMaxTileVox = 512;  // beyond, halos cost little and tiles get few
+constexpr double kMaxTiles = 1 << 27;        // the fill asks every tile; beyond, a grid is a slip of the finger
+constexpr std::size_t kBricksAtATime = 128;  // taken off the shelf together to be written: 8 MiB
+constexpr std::int32_t kMaxTileVox = 512;    // beyond, halos cost little and tiles get few
 
 /// The halo of any tile where `s` is the largest scale.
 Halo widest_halo(Scale s) {
@@ -62,56 +65,60 @@ std::int32_t choose_tile(const VoxelCoord& grid, const Halo& halo, std::size_t w
   return best;
 }
 
-/// A backend and the boxes of the tile it works on.
-struct Worker {
-  Backend* backend = nullptr;
-  BitBox solid, closed;
-};
-
-/// Hands workers to tasks; a task waits until one is idle.
-class Workers {
+/// Things that tasks take and give back; a task waits until one is idle.
+template <class T>
+class Pool {
  public:
-  Workers(Backends& backends, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      all_.push_back(std::make_unique<Worker>());
-      all_.back()->backend = backends[i].get();
-      idle_.push_back(all_.back().get());
-    }
-  }
-  [[nodiscard]] int count() const { return int(all_.size()); }
+  explicit Pool(std::vector<T> things) : count_(int(things.size())), idle_(std::move(things)) {}
+  [[nodiscard]] int count() const { return count_; }
 
   class Lease {
    public:
-    explicit Lease(Workers& w) : workers_(w), worker_(w.take()) {}
-    ~Lease() { workers_.give(worker_); }
+    explicit Lease(Pool& pool) : pool_(pool), thing_(pool.take()) {}
+    ~Lease() { pool_.give(std::move(thing_)); }
     Lease(const Lease&) = delete;
     Lease& operator=(const Lease&) = delete;
-    Worker* operator->() const { return worker_; }
+    auto* operator->() const { return &*thing_; }
+    auto& operator*() const { return *thing_; }
 
    private:
-    Workers& workers_;
-    Worker* worker_;
+    Pool& pool_;
+    T thing_;
   };
 
  private:
-  Worker* take() {
+  T take() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return !idle_.empty(); });
-    Worker* w = idle_.back();
+    T thing = std::move(idle_.back());
     idle_.pop_back();
-    return w;
+    return thing;
   }
-  void give(Worker* w) {
+  void give(T thing) {
     {
       const std::lock_guard lock(mutex_);
-      idle_.push_back(w);
+      idle_.push_back(std::move(thing));
     }
     changed_.notify_one();
   }
+  const int count_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<std::unique_ptr<Worker>> all_;
-  std::vector<Worker*> idle_;
+  std::vector<T> idle_;
+};
+
+/// Adds the time of its scope to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::atomic<double>& sum) : sum_(sum), start_(Clock::now()) {}
+  ~Stopwatch() { sum_.fetch_add(std::chrono::duration<double>(Clock::now() - start_).count()); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::atomic<double>& sum_;
+  Clock::time_point start_;
 };
 
 /// body(brick) for each brick of `box`.
@@ -145,7 +152,7 @@ class Run {
   CloseCounts operator()() {
     more_ = source_.read(brick_);
     pipeline<TileCoord>(
-        workers_->count() + 2, [&](TileCoord& tile) { return next_tile(tile); },
+        boxes_->count() + 2, [&](TileCoord& tile) { return next_tile(tile); },
         [&](const TileCoord& tile) { close(tile); },
         [&](const TileCoord& tile) {
           report("closing", "tiles", ++done_, 0);
@@ -157,6 +164,7 @@ class Run {
     counts_.tiles_closed = tiles_closed_;
     counts_.cavity_voxels = cavity_voxels_;
     counts_.halo_vox = halo_vox_;
+    counts_.seconds = {reading_, waiting_, closing_time_, labelling_, shelving_, filling_, writing_};
     return counts_;
   }
 
@@ -168,6 +176,7 @@ class Run {
   void read_before(std::int64_t end_vox);
   void take_brick();
   void close(TileCoord tile);
+  void close_by_backend(const VoxelBox& box, const Halo& halo, const ScaleLattice& lattice, BitBox& closed);
   [[nodiscard]] BrickFill fill_of(const VoxelBox& voxels) const;
   void keep(TileCoord tile, const BitBox& bits);
   void finish_layers();
@@ -193,12 +202,14 @@ class Run {
   const Halo widest_;
   const std::unique_ptr<BrickShelf> solid_, closing_;
   TileGrid tiles_;
-  std::unique_ptr<Workers> workers_;
+  std::unique_ptr<Pool<Backend*>> backends_;
+  std::unique_ptr<Pool<std::unique_ptr<BitBox>>> boxes_;  ///< of closed tiles: as many as threads work on them
   std::unique_ptr<OutsideFlood> flood_;
   CloseCounts counts_;
   std::uint64_t done_ = 0;
   std::atomic<std::uint64_t> tiles_closed_{0}, cavity_voxels_{0};
   std::atomic<std::int32_t> halo_vox_{0};
+  std::atomic<double> reading_{0}, waiting_{0}, closing_time_{0}, labelling_{0}, shelving_{0}, filling_{0}, writing_{0};
 
   Brick brick_;  ///< read, not yet taken
   bool more_ = true;
@@ -211,9 +222,10 @@ class Run {
 void Run::lay_tiles(Backends& backends) {
   if (backends.empty()) fail(ErrorCode::bad_argument, "closing needs a backend, and none was made");
   const VoxelBox grid = voxels_of(closing_bricks(header_, scale_));
-  const std::int32_t edge = options_.tile_vox != 0
-                                ? options_.tile_vox
-                                : choose_tile(grid.size(), widest_, backends.size(), options_.memory_bytes);
+  // A GPU has few backends: while they compute, the other threads label and shelve what came back.
+  const std::size_t workers = std::max(backends.size(), std::size_t(thread_count()));
+  const std::int32_t edge =
+      options_.tile_vox != 0 ? options_.tile_vox : choose_tile(grid.size(), widest_, workers, options_.memory_bytes);
   if (edge < 0 || edge % kBrickEdge != 0)
     fail(ErrorCode::bad_argument, "a tile of {} voxels a side is no multiple of {}", edge, kBrickEdge);
   const double bytes = tile_bytes(grid.size(), edge, widest_);
@@ -226,8 +238,13 @@ void Run::lay_tiles(Backends& backends) {
   tiles_ = TileGrid(grid, edge);
   if (tiles_.total() > kMaxTiles)
     fail(ErrorCode::bad_argument, "the grid has {:.0f} tiles of {} voxels; use a larger --tile", tiles_.total(), edge);
-  const double fit = std::min(double(backends.size()), double(options_.memory_bytes) / bytes);
-  workers_ = std::make_unique<Workers>(backends, std::size_t(std::max(1.0, fit)));
+  const auto fit = std::size_t(std::max(1.0, std::min(double(workers), double(options_.memory_bytes) / bytes)));
+  std::vector<Backend*> at_work;
+  for (std::size_t i = 0; i < std::min(fit, backends.size()); ++i) at_work.push_back(backends[i].get());
+  backends_ = std::make_unique<Pool<Backend*>>(std::move(at_work));
+  std::vector<std::unique_ptr<BitBox>> boxes(fit);
+  for (auto& box : boxes) box = std::make_unique<BitBox>();
+  boxes_ = std::make_unique<Pool<std::unique_ptr<BitBox>>>(std::move(boxes));
   if (!options_.keep_cavities) flood_ = std::make_unique<OutsideFlood>(grid, VoxelCoord{edge, edge, edge});
   counts_.tile_vox = edge;
   counts_.tiles = std::uint64_t(tiles_.total());
@@ -252,6 +269,7 @@ bool Run::next_tile(TileCoord& tile) {
 
 /// Takes the bricks that begin before `end_vox` across the slab axis.
 void Run::read_before(std::int64_t end_vox) {
+  const Stopwatch watch(reading_);
   while (more_ && std::int64_t(brick_.coord[axis_]) * kBrickEdge < end_vox) {
     take_brick();
     more_ = source_.read(brick_);
@@ -301,22 +319,35 @@ void Run::close(TileCoord tile) {
   for (std::int32_t most = halo_vox_;
        most < halo.total_vox() && !halo_vox_.compare_exchange_weak(most, halo.total_vox());)
     ;
-  const Workers::Lease worker(*workers_);
+  const Pool<std::unique_ptr<BitBox>>::Lease closed(*boxes_);
   if (fill_of(box) == BrickFill::full) {
-    worker->closed.reset(box);
-    std::fill_n(worker->closed.data(), worker->closed.word_count(), ~std::uint64_t(0));
+    closed->reset(box);
+    std::fill_n(closed->data(), closed->word_count(), ~std::uint64_t(0));
   } else {
-    worker->solid.reset(intersect(seen, voxels_of(header_.bricks)));
-    load_voxels(*solid_, worker->solid);
-    const ScaleLattice lattice = scale_.sample(header_.frame, hull(worker->solid.box(), box.grown(halo.erosion_vox)));
-    worker->backend->close(worker->solid, lattice, halo, params_, box, worker->closed);
+    VoxelBox sampled = hull(intersect(seen, voxels_of(header_.bricks)), box.grown(halo.erosion_vox));
+    sampled.min.x = floor_div(sampled.min.x, kBrickEdge) * kBrickEdge;  // whole words are computed
+    sampled.max.x = ceil_div(sampled.max.x, kBrickEdge) * kBrickEdge;
+    const ScaleLattice lattice = scale_.sample(header_.frame, sampled);
+    close_by_backend(box, halo, lattice, *closed);
   }
-  keep(tile, worker->closed);
+  keep(tile, *closed);
+}
+
+void Run::close_by_backend(const VoxelBox& box, const Halo& halo, const ScaleLattice& lattice, BitBox& closed) {
+  std::optional<Stopwatch> waits(waiting_);
+  const Pool<Backend*>::Lease backend(*backends_);
+  waits.reset();
+  const Stopwatch works(closing_time_);
+  backend->close_from_shelf(*solid_, header_.bricks, lattice, halo, params_, box, closed);
 }
 
 void Run::keep(TileCoord tile, const BitBox& bits) {
-  store_voxels(bits, *closing_);
+  {
+    const Stopwatch watch(shelving_);
+    store_voxels(bits, *closing_);
+  }
   if (!flood_) return;
+  const Stopwatch watch(labelling_);
   OutsideFlood::Labels labels = OutsideFlood::label(bits, tiles_.box(tile));
   const std::lock_guard lock(flood_mutex_);
   flood_->join(std::move(labels));
@@ -359,12 +390,13 @@ void Run::fill_cavities(std::int32_t layer, LayerTiles& tiles) {
 }
 
 void Run::fill_tile(TileCoord tile) {
-  const Workers::Lease worker(*workers_);
+  const Stopwatch watch(filling_);
+  const Pool<std::unique_ptr<BitBox>>::Lease closed(*boxes_);
   const VoxelBox box = tiles_.box(tile);
-  worker->closed.reset(box);
-  load_voxels(*closing_, worker->closed);
-  cavity_voxels_ += flood_->fill_enclosed(box, worker->closed);
-  store_voxels(worker->closed, *closing_);
+  closed->reset(box);
+  load_voxels(*closing_, *closed);
+  cavity_voxels_ += flood_->fill_enclosed(box, *closed);
+  store_voxels(*closed, *closing_);
 }
 
 /// Emits the layers before `current` that no tile from there on can see.
@@ -384,6 +416,7 @@ void Run::emit_done(std::int32_t current) {
 
 /// Both layers of the bricks of these tiles, in slab order. Every solid brick lies in the closing.
 void Run::emit(const LayerTiles& tiles) {
+  const Stopwatch watch(writing_);
   std::vector<BrickCoord> bricks;
   for (const TileCoord& tile : tiles) {
     for_each_brick(bricks_of(tiles_.box(tile)), [&](BrickCoord c) {
@@ -391,17 +424,29 @@ void Run::emit(const LayerTiles& tiles) {
     });
   }
   std::sort(bricks.begin(), bricks.end(), [&](BrickCoord a, BrickCoord b) { return slab_order(axis_, a, b); });
-  Brick brick;
-  for (const BrickCoord c : bricks) {
-    brick.coord = c;
-    for (const Layer layer : {Layer::solid, Layer::closing}) {
-      BrickShelf& shelf = layer == Layer::solid ? *solid_ : *closing_;
-      brick.layer = layer;
-      brick.fill = shelf.get(c, brick.bits);
-      if (brick.fill == BrickFill::empty) continue;
-      ++(layer == Layer::solid ? counts_.solid_bricks : counts_.closing_bricks);
-      shelf.drop(c);
-      sink_.write(brick);
+  struct Layers {
+    Brick solid, closing;
+  };
+  std::vector<Layers> some(std::min(bricks.size(), kBricksAtATime));
+  const auto fetch = [](BrickShelf& shelf, BrickCoord c, Layer layer, Brick& out) {
+    out.coord = c;
+    out.layer = layer;
+    out.fill = shelf.get(c, out.bits);
+    if (out.fill != BrickFill::empty) shelf.drop(c);
+  };
+  for (std::size_t at = 0; at < bricks.size(); at += some.size()) {
+    const std::size_t n = std::min(some.size(), bricks.size() - at);
+    parallel_for(std::int64_t(n), [&](std::int64_t i) {
+      const BrickCoord c = bricks[at + std::size_t(i)];
+      fetch(*solid_, c, Layer::solid, some[std::size_t(i)].solid);
+      fetch(*closing_, c, Layer::closing, some[std::size_t(i)].closing);
+    });
+    for (std::size_t i = 0; i < n; ++i) {
+      for (const Brick* brick : {&some[i].solid, &some[i].closing}) {
+        if (brick->fill == BrickFill::empty) continue;
+        ++(brick->layer == Layer::solid ? counts_.solid_bricks : counts_.closing_bricks);
+        sink_.write(*brick);
+      }
     }
   }
 }

@@ -22,6 +22,17 @@ struct CloseOptions {
   std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
 };
 
+/// Where the time went, in seconds, summed over the threads at work.
+struct CloseTimes {
+  double reading = 0;    ///< waiting for bricks and shelving them; one thread at a time
+  double waiting = 0;    ///< for an idle backend
+  double closing = 0;    ///< in Backend: from the shelf to the closed tile, copies to and from a GPU included
+  double labelling = 0;  ///< of the empty components of each tile
+  double shelving = 0;   ///< closed tiles
+  double filling = 0;    ///< cavities
+  double writing = 0;    ///< one thread at a time
+};
+
 struct CloseCounts {
   std::int32_t tile_vox = 0;
   std::uint64_t tiles = 0;                             ///< of the grid
@@ -29,6 +40,7 @@ struct CloseCounts {
   std::int32_t halo_vox = 0;                           ///< largest of any visited tile
   std::uint64_t solid_bricks = 0, closing_bricks = 0;  ///< written
   std::uint64_t cavity_voxels = 0;                     ///< enclosed by the closing, and filled
+  CloseTimes seconds;
   std::uint64_t ignored_bricks = 0;  ///< of a closing layer in the input: it is made anew from the solid layer
 };
 

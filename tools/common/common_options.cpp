@@ -71,7 +71,7 @@ void CommonOptions::add_to(Args& args, unsigned parts) {
   if (parts & device_part) {
     args.option(
         "--device", "DEVICE", [this](const std::string& t) { device = parse_device(t); },
-        "auto, cpu, cuda or cuda:0,1 (default: auto, a GPU where there is one)");
+        "auto, cpu, cuda or cuda:0,1 (default: auto, a GPU where one is there and worth it)");
   }
   if (parts & progress_part) {
     args.flag_with_word(
