@@ -14,6 +14,7 @@
 #include "lib/core/error.h"
 #include "tests/backend/gpu_tile.h"
 #include "tests/bench/bench_scenes.h"
+#include "tests/bench/gpu_clock.h"
 #if __has_include("lib/backend/cpu_backend.h")
 #include "lib/backend/cpu_backend.h"
 #define BP_BENCH_CPU 1
@@ -26,7 +27,7 @@ struct Options {
   std::vector<std::string> models;
   std::vector<int> resolutions{512};
   std::vector<double> scales{20.8};
-  std::vector<std::string> elements{"cube"}, fields{"constant", "varying"};
+  std::vector<std::string> elements{"cube"}, fields{"constant", "varying", "oriented"};
   std::string commit = "unknown";
   int repeats = 21;
   std::size_t slab_bytes = kSlabBytes;
@@ -80,55 +81,6 @@ Options parse(int argc, char** argv) {
   if (o.models.empty()) fail(ErrorCode::bad_argument, "usage: bench_closing_gpu [options] plant|FILE.obj...");
   return o;
 }
-
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v.empty() ? 0 : v[v.size() / 2];
-}
-
-/// Events on a stream, by name.
-class Clock {
- public:
-  explicit Clock(cudaStream_t stream) : stream_(stream) {}
-  ~Clock() {
-    for (auto& e : events_) (void)cudaEventDestroy(e);
-  }
-  void start() {
-    used_ = 0;
-    names_.clear();
-    mark("");
-  }
-  void mark(const char* name) {
-    if (used_ == events_.size()) {
-      events_.emplace_back();
-      BP_CUDA_CHECK(cudaEventCreateWithFlags(&events_.back(), cudaEventDefault));
-    }
-    names_.emplace_back(name);
-    BP_CUDA_CHECK(cudaEventRecord(events_[used_++], stream_));
-  }
-  /// Milliseconds between consecutive marks; stages that occur several times add up.
-  std::vector<std::pair<std::string, double>> read() {
-    BP_CUDA_CHECK(cudaEventSynchronize(events_[used_ - 1]));
-    std::vector<std::pair<std::string, double>> out;
-    for (std::size_t i = 1; i < used_; ++i) {
-      float ms = 0;
-      BP_CUDA_CHECK(cudaEventElapsedTime(&ms, events_[i - 1], events_[i]));
-      const auto at = std::find_if(out.begin(), out.end(), [&](const auto& p) { return p.first == names_[i]; });
-      if (at == out.end()) {
-        out.emplace_back(names_[i], ms);
-      } else {
-        at->second += double(ms);
-      }
-    }
-    return out;
-  }
-
- private:
-  cudaStream_t stream_;
-  std::vector<cudaEvent_t> events_;
-  std::vector<std::string> names_;
-  std::size_t used_ = 0;
-};
 
 struct Timing {
   double total = 0;
@@ -199,13 +151,20 @@ class Bench {
            const std::string& field) {
     const Scale most = Scale(std::lround(scale_vox * kScaleOne));
     // "varying": the largest scale is the constant one's; "around": the mean is.
-    const Scale least = field == "constant" ? most : field == "varying" ? Scale(most / 2) : Scale(most * 3 / 4);
+    const bool oriented = field == "oriented";  // constant S, turned from cell to cell
+    const Scale least = field == "constant" || oriented ? most
+                        : field == "varying"            ? Scale(most / 2)
+                                                        : Scale(most * 3 / 4);
     const Scale top = field == "around" ? Scale(most * 5 / 4) : most;
     const auto element = element_name == "ball" ? StructuringElement::ball : StructuringElement::cube;
     VoxelBox interior = s.tight.grown(1);
-    const Halo halo{top / kScaleOne + 2, top / kScaleOne + 1};
+    const Halo halo{top / kScaleOne + 2, oriented ? oriented_reach(top) + 1 : top / kScaleOne + 1};
     const ScaleLattice scale = bench_scale(interior.grown(halo.total_vox() + 8), least, top);
     GpuTile tile(s.bits, scale, halo, interior);
+    if (oriented) {
+      tile.orient(bench_rotations(interior.grown(halo.total_vox() + 8)));
+      return compare_walks(s, resolution, scale_vox, element_name, field, tile, element, nullptr);
+    }
     DeviceClosing ours({device_.multiprocessors, options_.slab_bytes, false});
     const auto go = [&](const DeviceClosing::Mark& mark) { tile.close(ours, element, stream_, mark); };
     tile.poison(stream_);
@@ -226,18 +185,26 @@ class Bench {
 #endif
     print(s, resolution, scale_vox, element_name, field, "distance", tile, t, result, compared);
     failed_ = failed_ || compared.rfind("NOT", 0) == 0;
-    if (!options_.hierarchical) return;
+    if (options_.hierarchical) compare_walks(s, resolution, scale_vox, element_name, field, tile, element, &result);
+  }
+
+  /// Both variants of the tree walk; equal to `ours`, or to each other where there is no other.
+  void compare_walks(const BenchSolid& s, int resolution, double scale_vox, const std::string& element_name,
+                     const std::string& field, GpuTile& tile, StructuringElement element, const BitBox* ours) {
     HierarchicalClosing walk(device_.multiprocessors);
+    std::optional<BitBox> plain;
     for (const auto variant : {HierarchicalVariant::plain, HierarchicalVariant::half_resolution}) {
       const auto climb = [&](const DeviceClosing::Mark& mark) { tile.close(walk, element, variant, stream_, mark); };
       tile.poison(stream_);
       const Timing w = measure(climb);
       const BitBox other = tile.result(stream_);
-      const std::string same = other == result ? "distance" : "NOT distance";
-      failed_ = failed_ || same.rfind("NOT", 0) == 0;
+      const std::string to = ours != nullptr ? "distance" : plain ? "hierarchical" : "nothing";
+      const bool same = other == (ours != nullptr ? *ours : plain ? *plain : other);
+      failed_ = failed_ || !same;
       print(s, resolution, scale_vox, element_name, field,
             variant == HierarchicalVariant::plain ? "hierarchical" : "hierarchical, half resolution first", tile, w,
-            other, same);
+            other, same ? to : "NOT " + to);
+      plain = other;
     }
   }
 

@@ -50,20 +50,31 @@ void fill_inside(BitBox& bits) {
   flood.fill_enclosed(box, bits);
 }
 
-BenchSolid from_obj(const std::string& path, int resolution) {
-  const std::vector<TriangleD> triangles = read_obj(path);
+struct Placed {
+  std::vector<TriangleD> triangles;
+  GridFrame frame;
+  VoxelBox box;
+};
+Placed place(const std::string& path, int resolution) {
+  Placed p{read_obj(path), {}, {}};
   Bounds3d bounds;
-  for (const TriangleD& t : triangles) {
-    for (const Vec3d& p : t) bounds.add(p);
+  for (const TriangleD& t : p.triangles) {
+    for (const Vec3d& v : t) bounds.add(v);
   }
   double longest = 0;
   for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, bounds.max[i] - bounds.min[i]);
-  const GridFrame frame = make_frame(bounds, longest / resolution);
+  p.frame = make_frame(bounds, longest / resolution);
+  p.box = voxel_bounds(p.frame, bounds);
+  return p;
+}
+
+BenchSolid from_obj(const std::string& path, int resolution) {
+  const Placed p = place(path, resolution);
   BenchSolid s;
-  s.tight = voxel_bounds(frame, bounds);
+  s.tight = p.box;
   s.bits.reset(s.tight.grown(1));
   std::vector<FixedTriangle> fixed;
-  for (const TriangleD& t : triangles) fixed.push_back(to_fixed(frame, t));
+  for (const TriangleD& t : p.triangles) fixed.push_back(to_fixed(p.frame, t));
   voxelize_surface(fixed, s.bits);
   fill_inside(s.bits);
   s.name = path.substr(path.find_last_of('/') + 1);
@@ -140,6 +151,28 @@ BenchSolid load_bench_solid(const std::string& what, int resolution) {
   return what == "plant" ? plant(resolution) : from_obj(what, resolution);
 }
 
+std::vector<FixedTriangle> load_bench_triangles(const std::string& path, int resolution, int pieces, VoxelBox& box) {
+  const Placed p = place(path, resolution);
+  box = p.box;
+  std::vector<FixedTriangle> out;
+  out.reserve(p.triangles.size() * std::size_t(pieces) * std::size_t(pieces));
+  for (const TriangleD& t : p.triangles) {
+    const auto at = [&](int i, int j) {  // barycentric lattice
+      Vec3d v{};
+      for (std::size_t k = 0; k < 3; ++k)
+        v[k] = t[0][k] + (t[1][k] - t[0][k]) * i / pieces + (t[2][k] - t[0][k]) * j / pieces;
+      return v;
+    };
+    for (int i = 0; i < pieces; ++i) {
+      for (int j = 0; i + j < pieces; ++j) {
+        out.push_back(to_fixed(p.frame, {at(i, j), at(i + 1, j), at(i, j + 1)}));
+        if (i + j + 1 < pieces) out.push_back(to_fixed(p.frame, {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}));
+      }
+    }
+  }
+  return out;
+}
+
 ScaleLattice bench_scale(const VoxelBox& box, Scale least, Scale most) {
   ScaleLattice s;
   for (int axis = 0; axis < 3; ++axis) {
@@ -157,6 +190,23 @@ ScaleLattice bench_scale(const VoxelBox& box, Scale least, Scale most) {
   s.min = *std::min_element(s.samples.begin(), s.samples.end());
   s.max = *std::max_element(s.samples.begin(), s.samples.end());
   return s;
+}
+
+RotationLattice bench_rotations(const VoxelBox& box) {
+  RotationLattice r;
+  for (int axis = 0; axis < 3; ++axis) {
+    r.origin[axis] = floor_div(box.min[axis], kScaleStep);
+    r.size[axis] = floor_div(box.max[axis], kScaleStep) + 1 - r.origin[axis];
+  }
+  for (std::int32_t z = 0; z < r.size.z; ++z) {
+    for (std::int32_t y = 0; y < r.size.y; ++y) {
+      for (std::int32_t x = 0; x < r.size.x; ++x) {
+        r.cells.push_back(
+            rotation_of(256, wave(x + r.origin.x, 38), wave(y + r.origin.y, 30), wave(z + r.origin.z, 26)));
+      }
+    }
+  }
+  return r;
 }
 
 std::uint64_t bits_hash(const BitBox& bits) {
