@@ -130,6 +130,13 @@ class Neighbours {
   const Run *at_, *end_;
 };
 
+/// True if bits [first, last) of `row` are zero, both multiples of 64.
+bool empty_words(const std::uint64_t* row, std::int32_t first, std::int32_t last) {
+  std::uint64_t any = 0;
+  for (std::int32_t word = first / 64; word < last / 64; ++word) any |= row[word];
+  return any == 0;
+}
+
 /// Scans the empty runs of `tile` in a fixed order. Each gets the provisional label of the first run that overlaps it
 /// in the row before, else in the slice before, else fresh(); unite(a, b) reports every other overlap. Then
 /// visit(run, y, z), y and z from the tile's corner. Two scans of the same bits give the same labels.
@@ -137,11 +144,27 @@ template <class Fresh, class Unite, class Visit>
 void scan(const BitBox& solid, const VoxelBox& tile, const Fresh& fresh, const Unite& unite, const Visit& visit) {
   const VoxelCoord size = tile.size();
   const std::int32_t first = tile.min.x - solid.box().min.x;
+  const bool aligned = first % 64 == 0 && size.x % 64 == 0;
   Slice before, now;
   for (std::int32_t z = 0; z < size.z; ++z) {
     now.clear();
     for (std::int32_t y = 0; y < size.y; ++y) {
       now.reserve_row(size.x);  // the pointers below stay valid
+      // Most rows are empty beside empty ones: the run beside takes them in, whatever lies below.
+      const Run* last = now.runs.empty() ? nullptr : &now.runs.back();
+      if (aligned && y > 0 && now.end(y - 1) - now.begin(y - 1) == 1 && last->begin == 0 && last->end == size.x &&
+          empty_words(solid.row(tile.min.y + y, tile.min.z + z), first, first + size.x)) {
+        const std::uint32_t label = last->label;
+        if (z > 0) {
+          for (const Run* r = before.begin(y); r != before.end(y); ++r) {
+            if (r->label != label) unite(label, r->label);
+          }
+        }
+        now.runs.push_back({0, size.x, label});
+        visit(now.runs.back(), y, z);
+        now.rows.push_back(std::uint32_t(now.runs.size()));
+        continue;
+      }
       Neighbours beside = y > 0 ? Neighbours(now.begin(y - 1), now.end(y - 1)) : Neighbours(nullptr, nullptr);
       Neighbours below = z > 0 ? Neighbours(before.begin(y), before.end(y)) : Neighbours(nullptr, nullptr);
       for_empty_runs(solid.row(tile.min.y + y, tile.min.z + z), first, first + size.x,

@@ -47,10 +47,11 @@ double tile_bytes(const VoxelCoord& grid, std::int32_t tile, const Halo& halo) {
 
 /// The tile size that promises most: workers that fit in memory and find enough tiles, times the share of the voxels
 /// they read that are not halo.
-std::int32_t choose_tile(const VoxelCoord& grid, const Halo& halo, std::size_t workers, std::uint64_t memory_bytes) {
+std::int32_t choose_tile(const VoxelCoord& grid, const Halo& halo, std::size_t workers, std::uint64_t memory_bytes,
+                         std::int32_t largest) {
   std::int32_t best = kBrickEdge;
   double best_score = 0;
-  for (std::int32_t tile = kBrickEdge; tile <= kMaxTileVox; tile += kBrickEdge) {
+  for (std::int32_t tile = kBrickEdge; tile <= largest; tile += kBrickEdge) {
     const double fit = std::floor(double(memory_bytes) / tile_bytes(grid, tile, halo));
     double count = 1;
     for (int axis = 0; axis < 3; ++axis) count *= std::ceil(double(grid[axis]) / tile);
@@ -224,8 +225,11 @@ void Run::lay_tiles(Backends& backends) {
   const VoxelBox grid = voxels_of(closing_bricks(header_, scale_));
   // A GPU has few backends: while they compute, the other threads label and shelve what came back.
   const std::size_t workers = std::max(backends.size(), std::size_t(thread_count()));
-  const std::int32_t edge =
-      options_.tile_vox != 0 ? options_.tile_vox : choose_tile(grid.size(), widest_, workers, options_.memory_bytes);
+  // And its halos are cheap, so that small tiles keep all busy.
+  const bool small = backends.size() < workers && widest_.total_vox() <= kMaxTileVox / 8;
+  const std::int32_t edge = options_.tile_vox != 0 ? options_.tile_vox
+                                                   : choose_tile(grid.size(), widest_, workers, options_.memory_bytes,
+                                                                 small ? kMaxTileVox / 2 : kMaxTileVox);
   if (edge < 0 || edge % kBrickEdge != 0)
     fail(ErrorCode::bad_argument, "a tile of {} voxels a side is no multiple of {}", edge, kBrickEdge);
   const double bytes = tile_bytes(grid.size(), edge, widest_);

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <deque>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,7 +54,7 @@ class Clock {
 
  private:
   cudaStream_t stream_;
-  std::vector<cudaEvent_t> events_;
+  std::deque<cudaEvent_t> events_;
   std::vector<std::string> names_;
   std::size_t used_ = 0;
 };
