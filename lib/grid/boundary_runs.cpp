@@ -1,0 +1,72 @@
+#include "lib/grid/boundary_runs.h"
+
+#include <bit>
+
+#include "lib/core/parallel.h"
+
+namespace bp {
+
+namespace {
+
+/// The six neighbours of a row of voxels, moved onto it.
+std::array<std::uint64_t, 6> neighbours(const BitBox& box, std::int32_t y, std::int32_t z) {
+  const std::uint64_t* row = box.row(y, z);
+  return {row[1] << 1 | row[0] >> 63, row[1] >> 1 | row[2] << 63, box.row(y - 1, z)[1],
+          box.row(y + 1, z)[1],       box.row(y, z - 1)[1],       box.row(y, z + 1)[1]};
+}
+
+void add_runs(std::uint64_t boundary, VoxelCoord row, std::vector<VoxelRun>& runs) {
+  while (boundary != 0) {
+    const int begin = std::countr_zero(boundary), length = std::countr_one(boundary >> begin);
+    runs.push_back({{row.x + begin, row.y, row.z}, length});
+    if (begin + length == kBrickEdge) return;
+    boundary &= ~std::uint64_t(0) << (begin + length);
+  }
+}
+
+bool buried(const BrickShelf& solid, BrickCoord b) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int step : {-1, 1}) {
+      BrickCoord n = b;
+      n[axis] += step;
+      if (solid.fill(n) != BrickFill::full) return false;
+    }
+  }
+  return solid.fill(b) == BrickFill::full;
+}
+
+void scan(const BrickShelf& solid, BrickCoord brick, Boundary& out) {
+  if (buried(solid, brick)) return;
+  const VoxelCoord first = first_voxel(brick);
+  BitBox box(voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(1));
+  load_voxels(solid, box);
+  for (std::int32_t z = first.z; z < first.z + kBrickEdge; ++z) {
+    for (std::int32_t y = first.y; y < first.y + kBrickEdge; ++y) {
+      const std::uint64_t occupied = box.row(y, z)[1];
+      std::uint64_t boundary = 0;
+      for (const std::uint64_t n : neighbours(box, y, z)) {
+        boundary |= occupied & ~n;
+        out.faces += std::uint64_t(std::popcount(occupied & ~n));
+      }
+      add_runs(boundary, {first.x, y, z}, out.runs);
+    }
+  }
+}
+
+}  // namespace
+
+Boundary boundary_of(const BrickShelf& solid) {
+  const std::vector<BrickCoord> bricks = solid.coords();
+  std::vector<Boundary> parts(bricks.size());
+  parallel_for(std::int64_t(bricks.size()),
+               [&](std::int64_t i) { scan(solid, bricks[std::size_t(i)], parts[std::size_t(i)]); });
+  Boundary all;
+  for (Boundary& part : parts) {
+    all.faces += part.faces;
+    all.runs.insert(all.runs.end(), part.runs.begin(), part.runs.end());
+    part = {};
+  }
+  return all;
+}
+
+}  // namespace bp

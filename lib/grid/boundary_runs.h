@@ -1,0 +1,24 @@
+#pragma once
+#include <vector>
+
+#include "lib/grid/stream.h"
+
+/// The boundary voxels of a solid (occupied, with an empty 6-neighbour) as runs along x: a compact stand-in for the
+/// surface that lies in them.
+namespace bp {
+
+struct VoxelRun {
+  VoxelCoord first;         ///< lowest in x
+  std::int32_t length = 0;  ///< voxels, within one brick
+  friend bool operator==(const VoxelRun&, const VoxelRun&) = default;
+};
+
+struct Boundary {
+  std::vector<VoxelRun> runs;  ///< by brick (x, y, z), then z, y, x
+  std::uint64_t faces = 0;     ///< between an occupied and an empty voxel: half the triangles of the dense surface
+};
+
+/// Parallel; the result depends on the voxels alone. Cost: linear in the bricks, 16 bytes a run.
+[[nodiscard]] Boundary boundary_of(const BrickShelf& solid);
+
+}  // namespace bp
