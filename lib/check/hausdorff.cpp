@@ -127,7 +127,7 @@ std::vector<Chunk> examine_all(const std::vector<TriangleD>& from, const Triangl
 
 }  // namespace
 
-SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to) {
+SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance) {
   Bounds3d bounds;
   for (const TriangleD& t : from) bounds.merge(bounds_of(t));
   const std::vector<Chunk> chunks = examine_all(from, to, bounds.diagonal() / kMeanPieces);
@@ -145,7 +145,7 @@ SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const Trian
     for (const Part& part : chunk.parts) see(part);
   }
   if (area > 0) result.mean /= area;
-  const double smallest = kSmallestError * bounds.diagonal();
+  const double smallest = std::max(tolerance, kSmallestError * bounds.diagonal());
   while (!open.empty() && open.top().at_most > result.at_least + std::max(smallest, kRelativeError * result.at_least)) {
     const Part part = open.top();
     open.pop();

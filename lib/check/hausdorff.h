@@ -15,10 +15,12 @@ struct SurfaceDistance {
   Vec3d where{};                     ///< a point as far as at_least
 };
 
-/// Neither may be empty. at_most exceeds at_least by at most 0.1 % of it, or 1e-7 of the bounds of `from`. Parallel;
+/// Neither may be empty. at_most exceeds at_least by at most 0.1 % of it, 1e-7 of the bounds of `from`, or `tolerance`
+/// (scene units), whatever is most: where many places are equally far, a little tolerance saves much. Parallel;
 /// the result does not depend on the number of threads. Cost: some 10^5 searches for the mean, few per triangle for the
 /// rest.
-[[nodiscard]] SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to);
+[[nodiscard]] SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to,
+                                               double tolerance = 0);
 
 /// True only if no point of `t` is farther from `to` than `limit` > 0. False also for triangles that come within about
 /// 1 % of it: the search for a proof ends there.

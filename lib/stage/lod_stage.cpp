@@ -1,0 +1,214 @@
+#include "lib/stage/lod_stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/check/hausdorff.h"
+#include "lib/core/error.h"
+#include "lib/grid/boundary_runs.h"
+#include "lib/grid/reduce.h"
+#include "lib/grid/shelf_stream.h"
+#include "lib/stage/surface_around.h"
+
+namespace bp {
+
+namespace {
+
+// What a level needs of its voxels. Fewer dense triangles per face than this, and the steps of the voxels show.
+constexpr double kDenseFacesPerFace = 100;
+constexpr double kVoxelsPerError = 8;  // the error holds the voxels' diagonal, the closing and the simplification
+constexpr double kScalesPerError = 4;  // the cube's dilation reaches sqrt(3) scales
+constexpr double kScalesPerEdge = 4;
+constexpr double kLeastScaleVox = 1;   // below, closing is the identity
+constexpr double kLeastSideVox = 48;   // of a reduced grid
+constexpr double kSlantedSteps = 1.5;  // a slanted plane has 1.5 times its area of voxel faces, on average over angles
+
+// A boundary run is a segment through the middles of its voxels, and each of them holds a point of the scene.
+const double kSegmentToPoint = std::sqrt(1.5);  // from a point of the segment to any point of its voxel, in voxels
+const double kPointToSegment = std::sqrt(0.5);
+constexpr double kTolerance = 0.5;  // of the search, in voxels
+
+/// What the solid shows to the outside. With the inside filled, every boundary voxel is touched by the scene.
+struct Outside {
+  std::vector<TriangleD> segments;
+  std::unique_ptr<TriangleBvh> tree;
+  double voxel = 0;
+  std::uint64_t dense_faces = 0;
+  VoxelBox box{};
+
+  Outside(const BrickShelf& solid, const GridFrame& frame) : voxel(frame.voxel) {
+    const Boundary boundary = boundary_of(solid);
+    dense_faces = 2 * boundary.faces;
+    segments.reserve(boundary.runs.size());
+    for (const VoxelRun& run : boundary.runs) {
+      constexpr std::int64_t kHalf = kLatticePerVoxel / 2;
+      const LatticeCoord a{std::int64_t(run.first.x) * kLatticePerVoxel,
+                           std::int64_t(run.first.y) * kLatticePerVoxel + kHalf,
+                           std::int64_t(run.first.z) * kLatticePerVoxel + kHalf};
+      const LatticeCoord b{a.x + run.length * kLatticePerVoxel, a.y, a.z};
+      segments.push_back({frame.world(a), frame.world(b), frame.world(b)});
+      const VoxelCoord end{run.first.x + run.length, run.first.y + 1, run.first.z + 1};
+      box = hull(box, VoxelBox{run.first, end});
+    }
+    tree = std::make_unique<TriangleBvh>(segments);
+  }
+
+  /// Upper bound of the distance between the scene's outside and `mesh`, in both directions.
+  [[nodiscard]] double distance(const LatticeMesh& mesh) const {
+    const std::vector<TriangleD> triangles = world_triangles(mesh);
+    const double there = surface_distance(triangles, *tree, kTolerance * voxel).at_most + kSegmentToPoint * voxel;
+    const double back =
+        surface_distance(segments, TriangleBvh(triangles), kTolerance * voxel).at_most + kPointToSegment * voxel;
+    return std::max(there, back);
+  }
+};
+
+}  // namespace
+
+struct LodChain::State {
+  State(const StreamHeader& h, std::unique_ptr<BrickShelf> s, Backends& b, LodOptions o)
+      : options(std::move(o)), backends(b), header(h), solid(std::move(s)), diagonal(h.bounds.diagonal()) {
+    if (solid->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
+    outside = std::make_unique<Outside>(*solid, header.frame);
+  }
+
+  LodLevel make(const LodTarget& target) {
+    double scale = begin_scale(target);
+    for (int attempt = 1;; ++attempt) {
+      reduce_to(reductions_for(target, scale));
+      LodLevel level = attempt_at(target, scale);
+      level.attempts = attempt;
+      level.reached = target.faces == 0 || level.mesh.triangles.size() <= target.faces;
+      if (!level.reached && 2 * scale <= diagonal / 2 && attempt < options.max_attempts) {
+        scale *= 2;
+        continue;
+      }
+      last_scale = scale;
+      report("measuring", "levels", 0, 1);
+      level.error_world = outside->distance(level.mesh);
+      return level;
+    }
+  }
+
+  [[nodiscard]] std::int64_t longest_side() const {
+    const VoxelCoord size = outside->box.size();
+    return std::max({size.x, size.y, size.z});
+  }
+
+  LodOptions options;
+  Backends& backends;
+  StreamHeader header;  // of `solid`
+  std::unique_ptr<BrickShelf> solid;
+  double diagonal;
+  std::unique_ptr<Outside> outside;
+  int reductions = 0;
+  double last_scale = 0;
+
+ private:
+  /// Length of an edge of `faces` equilateral triangles over the scene's surface.
+  [[nodiscard]] double edge_of(std::uint64_t faces) const {
+    const double area = double(outside->dense_faces) / 2 / kSlantedSteps * outside->voxel * outside->voxel;
+    return std::sqrt(4 / std::sqrt(3.0) * area / double(faces));
+  }
+
+  [[nodiscard]] double begin_scale(const LodTarget& target) const {
+    if (target.scale_world) return *target.scale_world;
+    double scale = diagonal;
+    if (target.faces > 0) scale = std::min(scale, edge_of(target.faces) / kScalesPerEdge);
+    if (target.error_world > 0) scale = std::min(scale, target.error_world / kScalesPerError);
+    // Never below the level before: a coarser level closes at least as much.
+    return std::max({scale, last_scale, kLeastScaleVox * outside->voxel});
+  }
+
+  /// How often the voxels may be doubled: while the target leaves enough of them, and the scale is not below one.
+  [[nodiscard]] int reductions_for(const LodTarget& target, double scale) const {
+    double coarsest = std::min(scale / kLeastScaleVox, double(longest_side()) / kLeastSideVox * outside->voxel);
+    if (target.faces > 0) {
+      const double per_face = double(outside->dense_faces) / double(target.faces);
+      coarsest = std::min(coarsest, std::sqrt(per_face / kDenseFacesPerFace) * outside->voxel);
+    }
+    if (target.error_world > 0) coarsest = std::min(coarsest, target.error_world / kVoxelsPerError);
+    int n = reductions;
+    while (outside->voxel * std::ldexp(1.0, n + 1) <= coarsest) ++n;
+    return n;
+  }
+
+  void reduce_to(int n) {
+    for (; reductions < n; ++reductions) {
+      auto coarse = options.make_shelf();
+      reduce(*solid, header.frame, *coarse);
+      header = reduced(header);
+      solid = std::move(coarse);
+    }
+  }
+
+  [[nodiscard]] StreamHeader closed_header(const ScaleField& field) const {
+    StreamHeader closed = header;
+    closed.bricks = closing_bricks(header, field);
+    closed.has_closing = true;
+    closed.scale = field;
+    closed.element = options.closing.element;
+    return closed;
+  }
+
+  void close(const ScaleField& field, BrickShelf& closing) {
+    CloseOptions o;
+    o.keep_cavities = options.keep_cavities;
+    o.memory_bytes = options.memory_bytes;
+    o.make_shelf = options.make_shelf;
+    o.progress = options.progress;
+    ShelfSource source(header, *solid, nullptr, ShelfSource::Keep::all);
+    ShelfSink sink(nullptr, &closing);
+    close_stream(source, sink, backends, field, options.closing, o);
+  }
+
+  LodLevel attempt_at(const LodTarget& target, double scale) {
+    LodLevel level;
+    level.scale_world = scale;
+    level.reductions = reductions;
+    ScaleField field;
+    field.base = scale;
+    const auto closing = options.make_shelf();
+    close(field, *closing);
+    report("meshing", "levels", 0, 1);
+    ShelfSource source(closed_header(field), *solid, closing.get(), ShelfSource::Keep::solid);
+    level.mesh = std::move(mesh_stream(source, options.make_shelf, mesh_params(target), level.counts).front());
+    return level;
+  }
+
+  [[nodiscard]] MeshParams mesh_params(const LodTarget& target) const {
+    MeshParams params;
+    if (target.faces > 0) params.faces = {target.faces};
+    // What is enclosed is within a diagonal of a voxel of the scene.
+    if (target.error_world > 0)
+      params.error_world =
+          std::max(target.error_world - std::sqrt(3.0) * (header.frame.voxel + outside->voxel), target.error_world / 4);
+    params.enclose = options.enclose;
+    params.tighten = options.tighten;
+    return params;
+  }
+
+  void report(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total) const {
+    if (options.progress) options.progress(stage, unit, done, total);
+  }
+};
+
+LodChain::LodChain(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends,
+                   LodOptions options)
+    : state_(std::make_unique<State>(header, std::move(solid), backends, std::move(options))) {}
+
+LodChain::~LodChain() = default;
+
+std::uint64_t LodChain::dense_faces() const {
+  return state_->outside->dense_faces;
+}
+
+std::int64_t LodChain::longest_side_vox() const {
+  return state_->longest_side();
+}
+
+LodLevel LodChain::make(const LodTarget& target) {
+  return state_->make(target);
+}
+
+}  // namespace bp

@@ -1,0 +1,70 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "lib/backend/backend.h"
+#include "lib/stage/close_stage.h"
+#include "lib/stage/mesh_stage.h"
+
+/// bplod's work: a chain of levels of detail from one solid. The scene is voxelized once; each level is closed at a
+/// scale of its own, coarser ones on conservative reductions of the voxels (lib/grid/reduce.h), and meshed to its
+/// target. Each level strictly encloses the scene by itself; it need not enclose the level before.
+namespace bp {
+
+/// What a level is asked to be. With no scale, faces decide it: a quarter of the edge that `faces` equilateral
+/// triangles over the scene's surface would have; and an error: a quarter of it.
+struct LodTarget {
+  std::uint64_t faces = 0;            ///< 0: none
+  double error_world = 0;             ///< largest distance to the scene, scene units; 0: none
+  std::optional<double> scale_world;  ///< closing radius to begin with, scene units
+};
+
+struct LodOptions {
+  ClosingParams closing;
+  Enclose enclose = Enclose::input;  ///< closing or input
+  bool tighten = true;
+  bool keep_cavities = false;
+  int max_attempts = 12;                                  ///< at most so many scales for one level
+  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work
+  ShelfFactory make_shelf;
+  /// Called now and then, as in CloseOptions. May be empty.
+  std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
+};
+
+struct LodLevel {
+  LatticeMesh mesh;        ///< in the frame of its voxels
+  double scale_world = 0;  ///< that it was closed at
+  int reductions = 0;      ///< the voxels are 2^reductions times those of the solid
+  int attempts = 0;        ///< scales that were tried
+  bool reached = true;     ///< it has at most the faces asked for
+  /// Upper bound of the Hausdorff distance between the level and the outside of the scene (what its solid shows to the
+  /// outside), scene units.
+  double error_world = 0;
+  MeshCounts counts;
+};
+
+class LodChain {
+ public:
+  /// `solid` holds the bricks of `header`, a solid layer. Keeps references to `backends` and `options.make_shelf`.
+  LodChain(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends, LodOptions options);
+  ~LodChain();
+  LodChain(const LodChain&) = delete;
+  LodChain& operator=(const LodChain&) = delete;
+
+  /// Triangles of the dense surface of the solid: what budgets are measured against.
+  [[nodiscard]] std::uint64_t dense_faces() const;
+  /// Length of the longest side of the solid, in voxels.
+  [[nodiscard]] std::int64_t longest_side_vox() const;
+
+  /// The next level; targets come finest first. A face budget that cannot be met, because parts stay apart or keep
+  /// holes, is tried again at twice the scale, on coarser voxels where the budget allows, until it is met or the scale
+  /// is half the scene; LodLevel says at what. Throws as close_stream() and mesh_stream().
+  [[nodiscard]] LodLevel make(const LodTarget& target);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bp

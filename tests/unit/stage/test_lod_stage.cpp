@@ -1,0 +1,169 @@
+#include <random>
+
+#include "lib/backend/cpu_backend.h"
+#include "lib/check/check_proxy.h"
+#include "lib/grid/reduce.h"
+#include "lib/grid/shelf_stream.h"
+#include "lib/stage/lod_stage.h"
+#include "lib/stage/surface_around.h"
+#include "lib/stage/voxelize_stage.h"
+#include "tests/catch.h"
+#include "tests/support/memory_scene.h"
+#include "tests/support/voxel_source.h"
+
+namespace bp::test {
+
+namespace {
+
+class NoStore final : public ChunkStore {
+ public:
+  Handle put(std::span<const std::byte>) override { fail(ErrorCode::failed, "triangles left memory"); }
+  void get(Handle, std::vector<std::byte>&) const override {}
+  void drop(Handle) override {}
+  [[nodiscard]] std::uint64_t scratch_bytes() const override { return 0; }
+};
+
+struct Solid3 {
+  StreamHeader header;
+  std::unique_ptr<BrickShelf> shelf = std::make_unique<MemoryShelf>();
+};
+
+Solid3 voxelized(const Triangles& scene, double voxel) {
+  Solid3 out;
+  ShelfSink sink(out.shelf.get());
+  MemorySource source(scene);
+  Backends backends = plain_backends(2);
+  VoxelizeOptions options;
+  options.voxel_size = [&](const Bounds3d&) { return voxel; };
+  options.make_shelf = memory_shelves();
+  options.make_store = [] { return std::make_unique<NoStore>(); };
+  const auto open = [&](const StreamHeader& h, const VoxelizeCounts&) -> BrickSink& {
+    out.header = h;
+    return sink;
+  };
+  voxelize_stream(source, open, backends, options);
+  return out;
+}
+
+Backends cpu_backends() {
+  Backends all;
+  for (int i = 0; i < 2; ++i) all.push_back(std::make_unique<CpuBackend>());
+  return all;
+}
+
+LodOptions lod_options() {
+  LodOptions options;
+  options.make_shelf = memory_shelves();
+  return options;
+}
+
+/// 3 x 3 x 2 boxes that lie apart.
+Triangles boxes() {
+  Triangles scene;
+  for (int i = 0; i < 18; ++i) {
+    const Vec3d lo{10.0 * (i % 3), 11.0 * (i / 3 % 3), 9.0 * (i / 9)};
+    add_box(scene, lo, {lo[0] + 6, lo[1] + 5, lo[2] + 4});
+  }
+  return scene;
+}
+
+bool encloses(const LatticeMesh& mesh, const Triangles& scene) {
+  MemorySource source(scene);
+  return check_proxy(indexed(mesh), &source).holds();
+}
+
+Vec3d point_on(const TriangleD& t, std::mt19937& random) {
+  double u = double(random()) / 4294967296.0, v = double(random()) / 4294967296.0;
+  if (u + v > 1) u = 1 - u, v = 1 - v;
+  Vec3d p;
+  for (std::size_t i = 0; i < 3; ++i) p[i] = t[0][i] + u * (t[1][i] - t[0][i]) + v * (t[2][i] - t[0][i]);
+  return p;
+}
+
+/// Largest distance of sampled points of one to the other.
+double sampled_distance(const std::vector<TriangleD>& from, const std::vector<TriangleD>& to, int per_triangle) {
+  std::mt19937 random(7);
+  const TriangleBvh tree(to);
+  double largest = 0;
+  for (const TriangleD& t : from)
+    for (int i = 0; i < per_triangle; ++i)
+      largest = std::max(largest, std::sqrt(tree.nearest(point_on(t, random)).distance_squared));
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("each level of a chain encloses the scene, on coarser voxels", "[quick][stage][lod]") {
+  Triangles scene;
+  add_sphere(scene, {3, 4, 5}, 40, 24);
+  add_box(scene, {-30, 30, -10}, {-10, 70, 10});
+  Backends backends = cpu_backends();
+  Solid3 solid = voxelized(scene, 1);
+  LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
+  CHECK(chain.longest_side_vox() > 80);
+  int reductions = -1;
+  double error = 0;
+  for (const std::uint64_t faces : {2000, 400, 80}) {
+    CAPTURE(faces);
+    const LodLevel level = chain.make({faces, 0, {}});
+    CHECK(level.reached);
+    CHECK(level.mesh.triangles.size() <= faces);
+    CHECK(encloses(level.mesh, scene));
+    CHECK(level.reductions >= reductions);
+    CHECK(level.error_world > error);
+    reductions = level.reductions;
+    error = level.error_world;
+  }
+  CHECK(reductions > 0);
+}
+
+TEST_CASE("a budget below what the parts need is met by closing them together", "[quick][stage][lod]") {
+  const Triangles scene = boxes();
+  Backends backends = cpu_backends();
+  Solid3 solid = voxelized(scene, 0.5);
+  LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
+  const LodLevel level = chain.make({40, 0, 0.5});  // 18 parts need 72
+  CHECK(level.reached);
+  CHECK(level.mesh.triangles.size() <= 40);
+  CHECK(level.attempts > 1);
+  CHECK(level.scale_world == std::ldexp(0.5, level.attempts - 1));
+  CHECK(encloses(level.mesh, scene));
+}
+
+TEST_CASE("a budget that nothing meets is reported, and what there is encloses", "[quick][stage][lod]") {
+  const Triangles scene = boxes();
+  Backends backends = cpu_backends();
+  Solid3 solid = voxelized(scene, 1);
+  LodOptions options = lod_options();
+  options.max_attempts = 2;
+  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+  const LodLevel level = chain.make({3, 0, 1.0});
+  CHECK_FALSE(level.reached);
+  CHECK(level.attempts == 2);
+  CHECK(encloses(level.mesh, scene));
+}
+
+TEST_CASE("the measured error bounds the distance both ways, and not by far", "[quick][stage][lod]") {
+  const Triangles scene = boxes();
+  const double voxel = 0.5;
+  Backends backends = cpu_backends();
+  Solid3 solid = voxelized(scene, voxel);
+  LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
+  for (const LodTarget& target : {LodTarget{300, 0, 0.0}, LodTarget{60, 0, 4.0}, LodTarget{0, 5, {}}}) {
+    const LodLevel level = chain.make(target);
+    const std::vector<TriangleD> proxy = world_triangles(level.mesh);
+    const double there = sampled_distance(proxy, scene, 200), back = sampled_distance(scene, proxy, 40);
+    CAPTURE(target.faces, there, back);
+    CHECK(level.error_world >= std::max(there, back));
+    CHECK(level.error_world <= 1.3 * std::max(there, back) + 2.5 * voxel);
+    if (target.error_world > 0) CHECK(there <= target.error_world);
+  }
+}
+
+TEST_CASE("an empty solid is refused", "[quick][stage][lod]") {
+  Backends backends = cpu_backends();
+  StreamHeader header;
+  CHECK_THROWS_AS(LodChain(header, std::make_unique<MemoryShelf>(), backends, lod_options()), Error);
+}
+
+}  // namespace bp::test
