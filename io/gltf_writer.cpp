@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/detail/base64.h"
+#include "io/detail/glb_file.h"
 #include "io/detail/mesh_writers.h"
 #include "lib/core/box.h"
 #include "lib/core/error.h"
@@ -18,7 +19,7 @@ namespace bp {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = GltfOutJson;
 
 constexpr std::int64_t kFloatInteger = std::int64_t(1) << 24;  // float32 holds integers up to this
 
@@ -89,19 +90,6 @@ Json nodes_of(const LatticeMesh& mesh, LatticeCoord centre, const MeshWriteOptio
   return nodes;
 }
 
-Json asset_of(const LatticeMesh& mesh, const MeshWriteOptions& options) {
-  Json steps = Json::array();
-  for (const Provenance& p : mesh.provenance) {
-    Json step{{"tool", p.tool}, {"version", p.version}, {"options", p.options}};
-    if (!p.input_hash.empty()) step["input"] = p.input_hash;
-    steps.push_back(std::move(step));
-  }
-  Json extras{{"up", mesh.frame.up == UpAxis::z ? "z" : "y"}};
-  if (options.origin != Vec3d{}) extras["origin"] = options.origin;
-  extras["provenance"] = std::move(steps);
-  return {{"version", "2.0"}, {"generator", "bpmesh " BP_VERSION}, {"extras", std::move(extras)}};
-}
-
 Json accessors_of(const LatticeMesh& mesh, const Buffer& buffer) {
   constexpr int kFloat = 5126, kUint32 = 5125;
   const Json positions{{"bufferView", 0}, {"componentType", kFloat}, {"count", mesh.vertices.size()},
@@ -128,7 +116,7 @@ Json document_of(const LatticeMesh& mesh, const Buffer& buffer, LatticeCoord cen
   Json primitive{{"attributes", {{"POSITION", 0}}}, {"indices", 1}};
   if (buffer.normal_offset != 0) primitive["attributes"]["NORMAL"] = 2;
   Json doc;
-  doc["asset"] = asset_of(mesh, options);
+  doc["asset"] = gltf_asset("bpmesh", mesh.provenance, mesh.frame.up, options.origin);
   doc["scene"] = 0;
   doc["scenes"] = Json::array({{{"nodes", Json::array({mesh.frame.up == UpAxis::z ? 1 : 0})}}});
   doc["nodes"] = nodes_of(mesh, centre, options);
@@ -139,31 +127,13 @@ Json document_of(const LatticeMesh& mesh, const Buffer& buffer, LatticeCoord cen
   return doc;
 }
 
-std::string little_endian(std::uint64_t x) {
-  std::string bytes(4, '\0');
-  for (int i = 0; i < 4; ++i) bytes[std::size_t(i)] = char(x >> (8 * i));
-  return bytes;
-}
-
-void write_glb(std::string json, const Buffer& buffer, OutputFile& out) {
-  json.append((4 - json.size() % 4) % 4, ' ');
-  const std::uint64_t total = 12 + 8 + json.size() + 8 + buffer.bytes.size();
-  if (total > std::numeric_limits<std::uint32_t>::max())
-    fail(ErrorCode::bad_argument, "{}: a GLB is limited to 4 GiB, and this mesh takes {}; write PLY", out.name(),
-         total);
-  out.write("glTF" + little_endian(2) + little_endian(total));
-  out.write(little_endian(json.size()) + "JSON" + json);
-  out.write(little_endian(buffer.bytes.size()) + std::string("BIN\0", 4));
-  out.write(buffer.bytes);
-}
-
 }  // namespace
 
 void write_gltf(const LatticeMesh& mesh, OutputFile& out, bool binary, const MeshWriteOptions& options) {
   const LatticeCoord centre = centre_of(mesh, out.name());
   const Buffer buffer = buffer_of(mesh, centre, options.normals);
   Json doc = document_of(mesh, buffer, centre, options);
-  if (binary) return write_glb(doc.dump(), buffer, out);
+  if (binary) return write_glb(doc.dump(), buffer.bytes, out);
   doc["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64_of(buffer.bytes);
   out.write(doc.dump(1) + "\n");
 }

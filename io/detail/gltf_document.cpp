@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "io/detail/data_uri.h"
+#include "io/detail/meshopt_codec.h"
 
 namespace bp {
 
@@ -53,6 +54,26 @@ GltfJson parse_json(std::string text) {
     if (static_cast<unsigned char>(c) >= 128) c = '?';
   }
   return GltfJson::parse(text);
+}
+
+MeshoptView meshopt_view(const GltfObject& packed) {
+  MeshoptView view;
+  view.count = packed.number("count");
+  view.stride = packed.number("byteStride");
+  const std::string mode = packed.text("mode");
+  const std::string filter = packed.has("filter") ? packed.text("filter") : "NONE";
+  if (mode != "ATTRIBUTES" && mode != "TRIANGLES" && mode != "INDICES")
+    packed.broken(fmt::format("has the unknown mode {}", mode));
+  view.mode = mode == "TRIANGLES" ? MeshoptMode::triangles
+              : mode == "INDICES" ? MeshoptMode::indices
+                                  : MeshoptMode::attributes;
+  if (filter == "NONE") return view;
+  if (filter != "OCTAHEDRAL" && filter != "QUATERNION" && filter != "EXPONENTIAL")
+    packed.broken(fmt::format("has the unknown filter {}", filter));
+  view.filter = filter == "OCTAHEDRAL"   ? MeshoptFilter::octahedral
+                : filter == "QUATERNION" ? MeshoptFilter::quaternion
+                                         : MeshoptFilter::exponential;
+  return view;
 }
 
 }  // namespace
@@ -231,8 +252,7 @@ const GltfDocument::Data& GltfDocument::buffer(std::uint64_t i) {
 GltfDocument::View GltfDocument::view(std::uint64_t i) {
   const GltfObject object = root().item("bufferViews", i);
   if (object.has("extensions") && object.object("extensions").has("EXT_meshopt_compression"))
-    object.broken(
-        "is compressed (EXT_meshopt_compression), which is not read: unpack it, for instance with gltf-transform");
+    return unpacked(i, object);
   const Data& data = buffer(object.number("buffer"));
   const std::uint64_t offset = object.number("byteOffset", 0), size = object.number("byteLength");
   if (offset > data.size || size > data.size - offset) {
@@ -240,6 +260,29 @@ GltfDocument::View GltfDocument::view(std::uint64_t i) {
                               offset + size, data.size));
   }
   return {data.address + offset, size, object.number("byteStride", 0)};
+}
+
+// The unpacked bytes go to a scratch file: memory does not grow with what a file unpacks to.
+GltfDocument::View GltfDocument::unpacked(std::uint64_t i, const GltfObject& object) {
+  const auto known = unpacked_.find(i);
+  if (known != unpacked_.end()) return known->second;
+  const GltfObject packed = object.object("extensions").object("EXT_meshopt_compression");
+  const MeshoptView what = meshopt_view(packed);
+  const Data& data = buffer(packed.number("buffer"));
+  const std::uint64_t offset = packed.number("byteOffset", 0), size = packed.number("byteLength");
+  if (offset > data.size || size > data.size - offset)
+    packed.broken(fmt::format("spans bytes {} to {} of a buffer that has {}, so the data are truncated", offset,
+                              offset + size, data.size));
+  std::vector<std::byte> bytes(size), plain;
+  if (bytes_->read_at(data.address + offset, bytes) != size) packed.broken("lies beyond the end of the file");
+  const std::string wrong = decode_meshopt(what, bytes, plain);
+  if (!wrong.empty()) packed.broken("holds data that " + wrong);
+  if (!scratch_) scratch_ = std::make_shared<ScratchFile>(temp_dir_);
+  const std::uint64_t begin = scratch_->append(plain);
+  const SceneFilePtr file = part_of(view_of(scratch_, file_->name(), begin + plain.size()), begin, plain.size());
+  const View view{bytes_->add(file), plain.size(), what.stride};
+  unpacked_.emplace(i, view);
+  return view;
 }
 
 Accessor GltfDocument::accessor(std::uint64_t i, std::size_t components) {

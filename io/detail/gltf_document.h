@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "io/detail/instanced_scene.h"
@@ -75,6 +76,7 @@ class GltfDocument {
   SceneFilePtr open_buffer(std::uint64_t i);
   SceneFilePtr open_beside(const GltfObject& buffer, const std::string& uri) const;
   View view(std::uint64_t i);
+  View unpacked(std::uint64_t i, const GltfObject& object);  ///< a view with EXT_meshopt_compression
   void read_sparse(const GltfObject& sparse, Accessor& a);
 
   SceneFilePtr file_;
@@ -84,6 +86,8 @@ class GltfDocument {
   SceneFilePtr glb_data_;             // the binary chunk
   std::shared_ptr<JoinedFile> bytes_ = std::make_shared<JoinedFile>();
   std::vector<std::optional<Data>> buffers_;
+  std::map<std::uint64_t, View> unpacked_;
+  std::shared_ptr<ScratchFile> scratch_;  // of unpacked views
 };
 
 }  // namespace bp

@@ -112,7 +112,7 @@ struct LodChain::State {
   }
 
   [[nodiscard]] double begin_scale(const LodTarget& target) const {
-    if (target.scale_world) return *target.scale_world;
+    if (target.scale_world) return std::max(*target.scale_world, last_scale);
     double scale = diagonal;
     if (target.faces > 0) scale = std::min(scale, edge_of(target.faces) / kScalesPerEdge);
     if (target.error_world > 0) scale = std::min(scale, target.error_world / kScalesPerError);

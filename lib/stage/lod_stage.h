@@ -17,7 +17,7 @@ namespace bp {
 struct LodTarget {
   std::uint64_t faces = 0;            ///< 0: none
   double error_world = 0;             ///< largest distance to the scene, scene units; 0: none
-  std::optional<double> scale_world;  ///< closing radius to begin with, scene units
+  std::optional<double> scale_world;  ///< closing radius to begin with, scene units; never below the level before's
 };
 
 struct LodOptions {

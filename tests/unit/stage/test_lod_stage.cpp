@@ -149,7 +149,7 @@ TEST_CASE("the measured error bounds the distance both ways, and not by far", "[
   Backends backends = cpu_backends();
   Solid3 solid = voxelized(scene, voxel);
   LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
-  for (const LodTarget& target : {LodTarget{300, 0, 0.0}, LodTarget{60, 0, 4.0}, LodTarget{0, 5, {}}}) {
+  for (const LodTarget& target : {LodTarget{0, 5, {}}, LodTarget{300, 0, 1.5}, LodTarget{60, 0, 4.0}}) {
     const LodLevel level = chain.make(target);
     const std::vector<TriangleD> proxy = world_triangles(level.mesh);
     const double there = sampled_distance(proxy, scene, 200), back = sampled_distance(scene, proxy, 40);

@@ -1,0 +1,45 @@
+#include "io/detail/glb_file.h"
+
+#include <limits>
+
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+std::string little_endian(std::uint64_t x) {
+  std::string bytes(4, '\0');
+  for (int i = 0; i < 4; ++i) bytes[std::size_t(i)] = char(x >> (8 * i));
+  return bytes;
+}
+
+}  // namespace
+
+GltfOutJson gltf_asset(const std::string& tool, const std::vector<Provenance>& provenance, UpAxis up,
+                       const Vec3d& origin) {
+  GltfOutJson steps = GltfOutJson::array();
+  for (const Provenance& p : provenance) {
+    GltfOutJson step{{"tool", p.tool}, {"version", p.version}, {"options", p.options}};
+    if (!p.input_hash.empty()) step["input"] = p.input_hash;
+    steps.push_back(std::move(step));
+  }
+  GltfOutJson extras{{"up", up == UpAxis::z ? "z" : "y"}};
+  if (origin != Vec3d{}) extras["origin"] = origin;
+  extras["provenance"] = std::move(steps);
+  return {{"version", "2.0"}, {"generator", tool + " " BP_VERSION}, {"extras", std::move(extras)}};
+}
+
+void write_glb(std::string json, const std::string& data, OutputFile& out) {
+  json.append((4 - json.size() % 4) % 4, ' ');
+  const std::uint64_t total = 12 + 8 + json.size() + 8 + data.size();
+  if (total > std::numeric_limits<std::uint32_t>::max())
+    fail(ErrorCode::bad_argument, "{}: a GLB is limited to 4 GiB, and this mesh takes {}; write PLY", out.name(),
+         total);
+  out.write("glTF" + little_endian(2) + little_endian(total));
+  out.write(little_endian(json.size()) + "JSON" + json);
+  out.write(little_endian(data.size()) + std::string("BIN\0", 4));
+  out.write(data);
+}
+
+}  // namespace bp

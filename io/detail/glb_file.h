@@ -1,0 +1,24 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/file.h"
+#include "lib/core/grid_frame.h"
+#include "lib/grid/stream.h"
+
+/// What all writers of glTF share: the container and the asset that says where a file comes from.
+namespace bp {
+
+using GltfOutJson = nlohmann::ordered_json;  ///< keys keep their order: same mesh, same bytes
+
+/// Member "asset": generator "TOOL VERSION", and in extras the chain of tools, the axis that is up in the scene
+/// (readers of ours go back to it, scene_reader.h) and the origin that was subtracted, if any.
+[[nodiscard]] GltfOutJson gltf_asset(const std::string& tool, const std::vector<Provenance>& provenance, UpAxis up,
+                                     const Vec3d& origin);
+
+/// A GLB of one JSON and one binary chunk. Throws bad_argument beyond 4 GiB. `data` must be a multiple of 4 bytes.
+void write_glb(std::string json, const std::string& data, OutputFile& out);
+
+}  // namespace bp

@@ -1,0 +1,39 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+/// The byte codecs of EXT_meshopt_compression (Khronos, glTF extension registry), by meshoptimizer. Lossless: no filter
+/// is ever applied when encoding.
+namespace bp {
+
+using TriangleIndices = std::vector<std::array<std::uint32_t, 3>>;
+
+/// Puts triangles into an order that compresses well, and vertices into the order of their first use. Returns, for each
+/// new vertex, its old number; vertices without a triangle are left out. Deterministic.
+[[nodiscard]] std::vector<std::uint32_t> optimize_order(TriangleIndices& triangles, std::size_t vertices);
+
+/// `data`: count * stride bytes; stride a multiple of 4, at most 256.
+[[nodiscard]] std::string encode_attributes(const std::string& data, std::size_t stride);
+/// Decoding may turn a triangle's corners around, and keeps their cyclic order.
+[[nodiscard]] std::string encode_triangles(const TriangleIndices& triangles, std::size_t vertices);
+
+enum class MeshoptMode { attributes, triangles, indices };
+enum class MeshoptFilter { none, octahedral, quaternion, exponential };
+
+/// What a view says of its compressed bytes.
+struct MeshoptView {
+  MeshoptMode mode = MeshoptMode::attributes;
+  MeshoptFilter filter = MeshoptFilter::none;
+  std::uint64_t count = 0, stride = 0;
+};
+
+/// Decodes into count * stride bytes. Empty text: done; else what is wrong with the bytes, "have ..." or "are ...".
+/// Reads and writes nowhere else, whatever the bytes are.
+[[nodiscard]] std::string decode_meshopt(const MeshoptView& view, std::span<const std::byte> bytes,
+                                         std::vector<std::byte>& out);
+
+}  // namespace bp

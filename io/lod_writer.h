@@ -1,0 +1,41 @@
+#pragma once
+#include <span>
+#include <string>
+
+#include "io/file.h"
+#include "lib/meshing/lattice_mesh.h"
+
+/// Levels of detail as GLB, without loss: vertices are lattice integers, the node holds unit and offset, so a reader
+/// that works in double finds frame.world(v) exactly (mesh_writer.h). Same meshes, same bytes; the caller commits.
+/// All throw bad_argument if a mesh has no triangle or spans more than float32 holds exactly (2^19 voxels).
+namespace bp {
+
+struct NamedMesh {
+  std::string name;  ///< of its node and mesh
+  const LatticeMesh* mesh = nullptr;
+};
+
+/// All levels, finest first, in one file: the finest one's node is the scene's first and only one, and carries MSFT_lod
+/// (Microsoft, glTF extension registry) with the others and their screen coverages; readers without it see the finest.
+///   coverage  one for each level: the least share of the screen's area, covered by the level's bounding sphere, at
+///   which
+///             it is drawn; falling
+void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out);
+
+/// All meshes as nodes of one scene.
+void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out);
+
+/// The content of a tile: EXT_meshopt_compression and KHR_mesh_quantization, with 16-bit integers where they hold the
+/// mesh, else float32. The node has a scale and no offset: vertices are relative to `origin`, which the tile's
+/// transform gives back, in double. `origin`: scene units, a lattice point of the mesh's frame. A z-up mesh is turned
+/// to glTF's y up, which 3D Tiles turns back; unlike in other files of ours, extras.up does not ask a reader to.
+void write_tile_glb(const NamedMesh& level, const Vec3d& origin, OutputFile& out);
+
+/// The lattice point of `frame` that lies at `p`. Throws `failed` if there is none.
+[[nodiscard]] LatticeCoord lattice_point(const GridFrame& frame, const Vec3d& p);
+
+/// What the share of a 1920 x 1080 screen is that a sphere covers when a length of `error` inside it, `diameter` being
+/// its own, spans one pixel; at most 1.
+[[nodiscard]] double coverage_at_one_pixel(double diameter, double error);
+
+}  // namespace bp
