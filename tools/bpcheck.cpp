@@ -6,6 +6,7 @@
 #include "lib/check/check_proxy.h"
 #include "lib/check/verdict_text.h"
 #include "lib/image/render.h"
+#include "tools/check/tileset_verdict.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
 
@@ -102,7 +103,23 @@ void fill_report(bp::Report& report, const Options& o, const bp::CheckReport& ve
   if (!verdict.distance_note.empty()) report.notes.push_back(verdict.distance_note);
 }
 
+/// A tileset is many proxies and what holds them together.
+int run_tileset(const Options& o) {
+  bp::Report report("bpcheck");
+  report.stage("check");
+  const bp::SceneOptions options{o.format, o.common.memory_bytes / 4, o.common.temp};
+  const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
+  const bp::TilesetVerdict verdict = bp::check_tileset_file(o.files.back(), scenes, options);
+  bp::OutputFile out("-", true);
+  out.write(verdict.text(file_name(o.files.back())));
+  out.commit();
+  report.counts = {{"holds", verdict.holds()}, {"tiles", verdict.tiles}, {"findings", verdict.findings}};
+  report.write(o.common);
+  return verdict.holds() ? 0 : 1;
+}
+
 int run(const Options& o) {
+  if (bp::is_tileset(o.files.back())) return run_tileset(o);
   bp::Report report("bpcheck");
   report.stage("read the proxy");
   std::unique_ptr<bp::OutputFile> picture;  // opened first: a name that cannot be written fails before the work

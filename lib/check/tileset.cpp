@@ -1,0 +1,142 @@
+#include "lib/check/tileset.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace bp {
+
+namespace {
+
+constexpr double kSlack = 1e-9;  // of the size of a box
+
+double dot(const Vec3d& a, const Vec3d& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Vec3d cross(const Vec3d& a, const Vec3d& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// How far p lies outside of the box along one of its axes, in half-lengths of that axis beyond 1; 0 inside. A flat box
+/// has a thickness of nothing.
+double beyond(const TileBox& box, const Vec3d& p) {
+  double worst = 0;
+  const Vec3d d{p[0] - box.centre[0], p[1] - box.centre[1], p[2] - box.centre[2]};
+  for (std::size_t i = 0; i < 3; ++i) {
+    // Coordinates along half-axes that need not be orthogonal: Cramer's rule.
+    const Vec3d n = cross(box.axes[(i + 1) % 3], box.axes[(i + 2) % 3]);
+    const double height = dot(box.axes[i], n);
+    const double along = height != 0 ? std::abs(dot(d, n) / height) : std::abs(dot(d, n)) > 0 ? HUGE_VAL : 0;
+    worst = std::max(worst, along - 1);
+  }
+  return worst;
+}
+
+class Checker {
+ public:
+  Checker(const Tileset& tileset, const std::vector<TileContent>& contents) : tileset_(tileset), contents_(contents) {}
+
+  std::vector<std::string> run() {
+    if (tileset_.version != "1.1") say("asset.version is \"{}\"; this checks 1.1", tileset_.version);
+    if (!usable(tileset_.geometric_error)) say("tileset: geometricError {} is no length", tileset_.geometric_error);
+    if (tileset_.root.refine.empty()) say("root: has no 'refine', and nothing to inherit it from");
+    if (tileset_.geometric_error < tileset_.root.geometric_error)
+      say("tileset: geometricError {} is below the root's {}", tileset_.geometric_error, tileset_.root.geometric_error);
+    check(tileset_.root, "root");
+    return std::move(findings_);
+  }
+
+ private:
+  template <class... Args>
+  void say(fmt::format_string<Args...> format, Args&&... args) {
+    findings_.push_back(fmt::format(format, std::forward<Args>(args)...));
+  }
+  static bool usable(double error) { return std::isfinite(error) && error >= 0; }
+
+  void check(const Tile& tile, const std::string& path) {
+    if (!usable(tile.geometric_error)) say("{}: geometricError {} is no length", path, tile.geometric_error);
+    if (!tile.refine.empty() && tile.refine != "ADD" && tile.refine != "REPLACE")
+      say("{}: refine is \"{}\", neither ADD nor REPLACE", path, tile.refine);
+    if (!tile.uri.empty()) check_content(tile, path);
+    for (std::size_t i = 0; i < tile.children.size(); ++i)
+      check_child(tile, tile.children[i], path + ".children[" + std::to_string(i) + "]");
+  }
+
+  void check_content(const Tile& tile, const std::string& path) {
+    const TileContent& content = contents_.at(next_content_++);
+    if (!content.found) return say("{}: content {}: {}", path, tile.uri, content.complaint);
+    if (!tile.box) return;
+    std::uint64_t outside = 0;
+    double worst = 0;
+    for (const Vec3d& p : content.vertices) {
+      const double by = beyond(*tile.box, p);
+      outside += by > kSlack;
+      worst = std::max(worst, by);
+    }
+    if (outside > 0)
+      say("{}: {} of {} vertices of {} lie outside the tile's box, by up to {:.3g} of its half-length", path, outside,
+          content.vertices.size(), tile.uri, worst);
+  }
+
+  void check_child(const Tile& parent, const Tile& child, const std::string& path) {
+    if (child.geometric_error > parent.geometric_error)
+      say("{}: geometricError {} is above its parent's {}", path, child.geometric_error, parent.geometric_error);
+    if (parent.box && child.box) {
+      double worst = 0;
+      for (const Vec3d& corner : child.box->corners())
+        worst = std::max(worst, beyond(*parent.box, transformed(child.transform, corner)));
+      if (worst > kSlack)
+        say("{}: its box reaches out of its parent's, by {:.3g} of the half-length of that", path, worst);
+    }
+    check(child, path);
+  }
+
+  const Tileset& tileset_;
+  const std::vector<TileContent>& contents_;
+  std::size_t next_content_ = 0;
+  std::vector<std::string> findings_;
+};
+
+}  // namespace
+
+std::array<Vec3d, 8> TileBox::corners() const {
+  std::array<Vec3d, 8> all;
+  for (std::size_t i = 0; i < 8; ++i) {
+    all[i] = centre;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double sign = (i >> axis & 1) != 0 ? 1 : -1;
+      for (std::size_t k = 0; k < 3; ++k) all[i][k] += sign * axes[axis][k];
+    }
+  }
+  return all;
+}
+
+TileBox box_of(const Bounds3d& bounds) {
+  TileBox box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.centre[i] = bounds.min[i] + (bounds.max[i] - bounds.min[i]) / 2;
+    box.axes[i][i] = std::max(bounds.max[i] - box.centre[i], box.centre[i] - bounds.min[i]);
+  }
+  return box;
+}
+
+std::vector<std::string> check_tileset(const Tileset& tileset, const std::vector<TileContent>& contents) {
+  return Checker(tileset, contents).run();
+}
+
+Transform product(const Transform& a, const Transform& b) {
+  Transform m{};
+  for (std::size_t column = 0; column < 4; ++column)
+    for (std::size_t row = 0; row < 4; ++row)
+      for (std::size_t k = 0; k < 4; ++k) m[4 * column + row] += a[4 * k + row] * b[4 * column + k];
+  return m;
+}
+
+Vec3d transformed(const Transform& m, const Vec3d& p) {
+  Vec3d out;
+  for (std::size_t row = 0; row < 3; ++row)
+    out[row] = m[row] * p[0] + m[4 + row] * p[1] + m[8 + row] * p[2] + m[12 + row];
+  return out;
+}
+
+}  // namespace bp

@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "io/scene_reader.h"
+
+namespace bp {
+
+struct TilesetVerdict {
+  std::vector<std::string> findings;  ///< one line each; empty: all holds
+  std::uint64_t tiles = 0, contents = 0, triangles = 0;
+  bool scene = false;  ///< the contents were checked against scenes
+  [[nodiscard]] bool holds() const { return findings.empty(); }
+  [[nodiscard]] std::string text(const std::string& name) const;  ///< the findings, then one line of summary
+};
+
+/// What bpcheck says of a tileset.json: check_tileset() on it and the contents that lie beside it. With scenes:
+/// besides, each content must be a closed, embedded proxy that strictly encloses them (check_proxy), wherever its
+/// transforms put it. The scenes are in their own axes, the tileset says which one is up. Throws bad_input if the
+/// tileset or a scene cannot be read; a content that cannot is a finding.
+[[nodiscard]] TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std::string>& scenes,
+                                                const SceneOptions& options);
+
+[[nodiscard]] bool is_tileset(const std::string& path);  ///< by its name: *.json
+
+}  // namespace bp

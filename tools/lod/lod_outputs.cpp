@@ -1,0 +1,146 @@
+#include "tools/lod/lod_outputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "io/lod_writer.h"
+#include "io/mesh_writer.h"
+#include "io/tileset_file.h"
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+std::vector<NamedMesh> named(const std::string& name, const std::vector<LodLevel>& levels) {
+  std::vector<NamedMesh> meshes;
+  for (std::size_t i = 0; i < levels.size(); ++i) meshes.push_back({level_name(name, i), &levels[i].mesh});
+  return meshes;
+}
+
+void write_gltf_profile(const std::string& name, const std::vector<LodLevel>& levels, double diameter,
+                        OutputFolder& out) {
+  const std::vector<NamedMesh> meshes = named(name, levels);
+  for (const NamedMesh& level : meshes) write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"));
+  std::vector<double> coverage;  // a level is drawn until the next one's error is a pixel; the last one always
+  for (std::size_t i = 1; i < levels.size(); ++i)
+    coverage.push_back(coverage_at_one_pixel(diameter, levels[i].error_world));
+  coverage.push_back(0);
+  write_lod_glb(meshes, coverage, out.file(name + ".glb"));
+}
+
+Bounds3d bounds_of(const LatticeMesh& mesh) {
+  Bounds3d bounds;
+  for (const LatticeCoord v : mesh.vertices) bounds.add(mesh.frame.world(v));
+  return bounds;
+}
+
+/// A point that is a lattice point of every level: a corner of the largest voxels, near the middle.
+Vec3d common_origin(const std::vector<LodLevel>& levels, const Bounds3d& bounds) {
+  double voxel = 0;
+  for (const LodLevel& level : levels) voxel = std::max(voxel, level.mesh.frame.voxel);
+  Vec3d origin;
+  for (std::size_t i = 0; i < 3; ++i)
+    origin[i] = std::nearbyint((bounds.min[i] / 2 + bounds.max[i] / 2) / voxel) * voxel + 0.0;
+  return origin;
+}
+
+/// Scene to 3D Tiles: z up. Exact.
+Vec3d z_up(const Vec3d& p, UpAxis up) {
+  return up == UpAxis::z ? p : Vec3d{p[0], 0.0 - p[2], p[1]};
+}
+
+Bounds3d tile_bounds(const LatticeMesh& mesh, const Vec3d& origin) {
+  const Bounds3d bounds = bounds_of(mesh);
+  Bounds3d out;
+  for (Vec3d p : {bounds.min, bounds.max}) {
+    for (std::size_t i = 0; i < 3; ++i) p[i] -= origin[i];  // both are lattice points: exact
+    out.add(z_up(p, mesh.frame.up));
+  }
+  return out;
+}
+
+void write_tiles_profile(const std::string& name, const std::vector<LodLevel>& levels, double diameter,
+                         OutputFolder& out) {
+  Bounds3d bounds;
+  for (const LodLevel& level : levels) bounds.merge(bounds_of(level.mesh));
+  const Vec3d origin = common_origin(levels, bounds);
+  Tile tile;  // from the finest to the root
+  Bounds3d box;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const LodLevel& level = levels[i];
+    const std::string file = level_name(name, i) + ".glb";
+    write_tile_glb({level_name(name, i), &level.mesh}, origin, out.file(file));
+    Tile parent;
+    if (i > 0) parent.children.push_back(std::move(tile));
+    box.merge(tile_bounds(level.mesh, origin));
+    parent.box = box_of(box);
+    parent.geometric_error = level.error_world;
+    parent.uri = file;
+    tile = std::move(parent);
+  }
+  const UpAxis up = levels.front().mesh.frame.up;
+  const Vec3d offset = z_up(origin, up);
+  for (std::size_t i = 0; i < 3; ++i) tile.transform[12 + i] = offset[i];
+  tile.refine = "REPLACE";
+  Tileset tileset;
+  tileset.up = up == UpAxis::z ? "z" : "y";
+  tileset.geometric_error = std::max(diameter, tile.geometric_error);  // of drawing nothing at all
+  tileset.root = std::move(tile);
+  write_tileset(tileset, levels.front().mesh.provenance, out.file("tileset.json"));
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite)
+    : path_(std::move(path)), names_(names) {
+  std::error_code error;
+  std::filesystem::create_directories(path_, error);
+  if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", path_, error.message());
+  for (const std::string& name : names) files_.push_back(open_output(path_ + "/" + name, overwrite));
+}
+
+OutputFile& OutputFolder::file(const std::string& name) {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) fail(ErrorCode::failed, "{}: is none of the files of this profile", name);
+  return *files_[std::size_t(found - names_.begin())];
+}
+
+void OutputFolder::commit() {
+  for (const auto& file : files_) file->commit();
+}
+
+std::uint64_t OutputFolder::bytes() const {
+  std::uint64_t sum = 0;
+  for (const auto& file : files_) sum += file->bytes();
+  return sum;
+}
+
+std::uint64_t OutputFolder::bytes(const std::string& name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  return found == names_.end() ? 0 : files_[std::size_t(found - names_.begin())]->bytes();
+}
+
+std::string level_name(const std::string& name, std::size_t level) {
+  return name + "_LOD" + std::to_string(level);
+}
+
+std::vector<std::string> profile_files(LodProfile profile, const std::string& name, std::size_t levels) {
+  std::vector<std::string> files;
+  for (std::size_t i = 0; i < levels; ++i) files.push_back(level_name(name, i) + ".glb");
+  files.push_back(profile == LodProfile::gltf ? name + ".glb" : "tileset.json");
+  return files;
+}
+
+void write_profile(LodProfile profile, const std::string& name, const std::vector<LodLevel>& levels, double diameter,
+                   OutputFolder& out) {
+  switch (profile) {
+    case LodProfile::gltf:
+      return write_gltf_profile(name, levels, diameter, out);
+    case LodProfile::tiles:
+      return write_tiles_profile(name, levels, diameter, out);
+  }
+}
+
+}  // namespace bp

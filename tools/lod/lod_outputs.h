@@ -1,0 +1,40 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/file.h"
+#include "lib/stage/lod_stage.h"
+#include "tools/common/common_options.h"
+
+/// What bplod writes of a chain: the files of a profile, in one folder.
+namespace bp {
+
+enum class LodProfile { gltf, tiles };
+
+/// Files that appear together: all are opened before the work, so that a name that cannot be written fails at once, and
+/// committed after it, in the order in which they were opened; what names other files comes last.
+class OutputFolder {
+ public:
+  /// Makes the folder if it is not there. Throws bad_argument if a file exists and `overwrite` is false.
+  OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite);
+  [[nodiscard]] OutputFile& file(const std::string& name);
+  void commit();
+  [[nodiscard]] std::uint64_t bytes() const;
+  [[nodiscard]] std::uint64_t bytes(const std::string& name) const;
+
+ private:
+  std::string path_;
+  std::vector<std::string> names_;
+  std::vector<std::unique_ptr<OutputFile>> files_;
+};
+
+/// "NAME_LOD0": Unity's and others' convention.
+[[nodiscard]] std::string level_name(const std::string& name, std::size_t level);
+/// The files of a profile, in the order of their commit; the file of level i is the i-th.
+[[nodiscard]] std::vector<std::string> profile_files(LodProfile profile, const std::string& name, std::size_t levels);
+/// Writes them. `levels`: finest first; errors must not fall towards coarser ones. diameter: of the scene, scene units.
+void write_profile(LodProfile profile, const std::string& name, const std::vector<LodLevel>& levels, double diameter,
+                   OutputFolder& out);
+
+}  // namespace bp

@@ -1,0 +1,105 @@
+#include "tools/lod/lod_targets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::uint64_t kDefaultLevels = 4, kMostLevels = 32;
+constexpr std::uint64_t kDensePerFace = 100, kLeastFirstFaces = 200, kLeastFaces = 4;
+
+void for_each_item(const std::string& text, const std::function<void(std::string_view)>& f) {
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    f(std::string_view(text).substr(begin, end - begin));
+    begin = end + 1;
+  }
+}
+
+std::size_t list_size(const LodRequest& r) {
+  return std::max({r.faces.size(), r.errors.size(), r.pixels.size()});
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> parse_faces(const std::string& text) {
+  std::vector<std::uint64_t> all;
+  for_each_item(text, [&](std::string_view item) {
+    all.push_back(std::uint64_t(parse_integer(item, 1, INT64_MAX)));
+    if (all.size() > 1 && all.back() >= all[all.size() - 2])
+      fail(ErrorCode::bad_argument, "--faces {}: each level must have fewer than the one before", text);
+  });
+  return all;
+}
+
+std::vector<Length> parse_errors(const std::string& text) {
+  std::vector<Length> all;
+  for_each_item(text, [&](std::string_view item) {
+    all.push_back(parse_length(item));
+    const Length& last = all.back();
+    if (last.unit == Length::Unit::voxels)
+      fail(ErrorCode::bad_argument, "--error {}: the voxels follow from the errors; use scene units or percent", text);
+    if (!(last.value > 0)) fail(ErrorCode::bad_argument, "--error {}: an error must be above 0", text);
+    if (last.unit != all.front().unit) fail(ErrorCode::bad_argument, "--error {}: mixes units", text);
+    if (all.size() > 1 && last.value <= all[all.size() - 2].value)
+      fail(ErrorCode::bad_argument, "--error {}: each level must have a larger one than the one before", text);
+  });
+  return all;
+}
+
+std::vector<double> parse_pixels(const std::string& text) {
+  std::vector<double> all;
+  for_each_item(text, [&](std::string_view item) {
+    all.push_back(parse_number(item));
+    if (!(all.back() > 0)) fail(ErrorCode::bad_argument, "--screen {}: a size must be above 0 pixels", text);
+    if (all.size() > 1 && all.back() >= all[all.size() - 2])
+      fail(ErrorCode::bad_argument, "--screen {}: each level must be for a smaller size than the one before", text);
+  });
+  return all;
+}
+
+void check(const LodRequest& r) {
+  if (int(!r.faces.empty()) + int(!r.errors.empty()) + int(!r.pixels.empty()) > 1)
+    fail(ErrorCode::bad_argument, "--faces, --error and --screen exclude each other");
+  if (r.levels && (*r.levels < 1 || *r.levels > kMostLevels))
+    fail(ErrorCode::bad_argument, "--levels {}: must be 1 to {}", *r.levels, kMostLevels);
+  if (r.levels && list_size(r) > 1 && list_size(r) != *r.levels)
+    fail(ErrorCode::bad_argument, "--levels {}, and a list of {}; leave one of them out", *r.levels, list_size(r));
+}
+
+std::size_t level_count(const LodRequest& r) {
+  if (r.levels) return std::size_t(*r.levels);
+  return list_size(r) > 0 ? list_size(r) : std::size_t(kDefaultLevels);
+}
+
+double finest_error(const LodRequest& r, double diagonal) {
+  if (!r.errors.empty()) return r.errors[0].in_world(diagonal, 0);
+  if (!r.pixels.empty()) return diagonal / r.pixels[0];
+  return 0;
+}
+
+LodTarget target_of(const LodRequest& r, std::size_t i, double diagonal, double voxel, std::uint64_t dense_faces) {
+  LodTarget target;
+  const int n = int(i);
+  if (!r.errors.empty()) {
+    target.error_world =
+        i < r.errors.size() ? r.errors[i].in_world(diagonal, 0) : std::ldexp(r.errors[0].in_world(diagonal, 0), n);
+  } else if (!r.pixels.empty()) {
+    target.error_world = diagonal / (i < r.pixels.size() ? r.pixels[i] : std::ldexp(r.pixels[0], -n));
+  } else if (i < r.faces.size()) {
+    target.faces = r.faces[i];
+  } else {
+    const std::uint64_t first =
+        r.faces.empty() ? std::max(dense_faces / kDensePerFace, kLeastFirstFaces) : r.faces.front();
+    target.faces = std::max(n < 32 ? first >> (2 * n) : 0, kLeastFaces);
+  }
+  if (r.scale) target.scale_world = std::ldexp(r.scale->in_world(diagonal, voxel), n);
+  return target;
+}
+
+}  // namespace bp

@@ -1,0 +1,43 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/stage/lod_stage.h"
+#include "tools/common/length.h"
+
+/// The levels that a command line asks for.
+namespace bp {
+
+/// One of faces, errors and pixels may be given; each as a list, or as the finest level's number, from which the others
+/// follow.
+struct LodRequest {
+  std::optional<std::uint64_t> levels;
+  std::vector<std::uint64_t> faces;
+  std::vector<Length> errors;
+  std::vector<double> pixels;
+  std::optional<Length> scale;
+};
+
+/// Comma-separated lists. Throw bad_argument if a number is none, is zero, or if the list does not fall (errors: rise).
+[[nodiscard]] std::vector<std::uint64_t> parse_faces(const std::string& text);
+[[nodiscard]] std::vector<Length> parse_errors(const std::string& text);
+[[nodiscard]] std::vector<double> parse_pixels(const std::string& text);
+
+/// Throws bad_argument if the request contradicts itself.
+void check(const LodRequest& request);
+[[nodiscard]] std::size_t level_count(const LodRequest& request);
+/// Error of the finest level in scene units; 0 if the request is for faces.
+[[nodiscard]] double finest_error(const LodRequest& request, double diagonal);
+
+/// Of level `i`:
+///   faces   as listed, or F / 4^i; F without any list: a hundredth of the dense surface's triangles, at least 200
+///   errors  as listed, or E * 2^i
+///   pixels  the scene's diagonal spans at most P pixels when the level is drawn, and its error at most one of them:
+///           error = diagonal / P, with P as listed, or P / 2^i
+///   scale   --scale * 2^i, if given
+[[nodiscard]] LodTarget target_of(const LodRequest& request, std::size_t i, double diagonal, double voxel,
+                                  std::uint64_t dense_faces);
+
+}  // namespace bp
