@@ -1,0 +1,124 @@
+#include "lib/check/tileset.h"
+#include "tests/catch.h"
+
+using namespace bp;
+
+namespace {
+
+TileBox cube(const Vec3d& centre, double half) {
+  return {centre, {Vec3d{half, 0, 0}, Vec3d{0, half, 0}, Vec3d{0, 0, half}}};
+}
+
+Transform moved(const Vec3d& by) {
+  Transform m = kNoTransform;
+  for (std::size_t i = 0; i < 3; ++i) m[12 + i] = by[i];
+  return m;
+}
+
+/// Root with a content, and two children with contents, one of them moved.
+Tileset good() {
+  Tileset t;
+  t.geometric_error = 100;
+  t.root.box = cube({0, 0, 0}, 10);
+  t.root.transform = moved({1e6, 5e6, 3});
+  t.root.geometric_error = 8;
+  t.root.refine = "REPLACE";
+  t.root.uri = "root.glb";
+  Tile child;
+  child.box = cube({-5, 0, 0}, 5);
+  child.geometric_error = 2;
+  child.uri = "a.glb";
+  t.root.children.push_back(child);
+  child.transform = moved({10, 0, 0});
+  child.geometric_error = 0;
+  child.uri = "b.glb";
+  t.root.children.push_back(child);
+  return t;
+}
+
+std::vector<TileContent> contents() {
+  return {{true, "", {{10, 10, -10}, {0, 0, 0}}}, {true, "", {{-10, 5, 5}}}, {true, "", {{-0.5, -5, 5}}}};
+}
+
+/// The only finding.
+std::string finding(const Tileset& t, const std::vector<TileContent>& c = contents()) {
+  const std::vector<std::string> all = check_tileset(t, c);
+  return all.size() == 1 ? all[0] : std::to_string(all.size()) + " findings";
+}
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a sound tileset has no findings", "[quick][check][tileset]") {
+  CHECK(check_tileset(good(), contents()).empty());
+}
+
+TEST_CASE("each thing that may be wrong with a tileset is found where it is", "[quick][check][tileset]") {
+  Tileset t = good();
+  t.version = "1.0";
+  CHECK(says(finding(t), "asset.version"));
+  t = good();
+  t.geometric_error = 7;
+  CHECK(says(finding(t), "tileset: geometricError 7 is below the root's 8"));
+  t = good();
+  t.root.children[1].geometric_error = 9;
+  CHECK(says(finding(t), "root.children[1]: geometricError 9 is above its parent's 8"));
+  t = good();
+  t.root.refine.clear();
+  CHECK(says(finding(t), "refine"));
+  t = good();
+  t.root.children[0].refine = "replace";
+  CHECK(says(finding(t), "root.children[0]: refine is \"replace\""));
+  t = good();
+  t.root.children[0].geometric_error = -1;
+  CHECK(says(finding(t), "no length"));
+  t = good();
+  t.root.children[1].transform = moved({10.001, 0, 0});
+  CHECK(says(finding(t), "root.children[1]: its box reaches out of its parent's"));
+  std::vector<TileContent> c = contents();
+  c[2].vertices.push_back({-0.5, -5.001, 5});
+  CHECK(says(finding(good(), c), "root.children[1]: 1 of 2 vertices of b.glb lie outside"));
+  c = contents();
+  c[1] = {false, "a.glb: no such file", {}};
+  CHECK(says(finding(good(), c), "root.children[0]: content a.glb: a.glb: no such file"));
+}
+
+TEST_CASE("boxes may be turned, skewed or flat", "[quick][check][tileset]") {
+  Tileset t = good();
+  t.root.children.clear();
+  std::vector<TileContent> c{{true, "", {{3, 3, 0}, {-3, 3, 1}}}};
+  t.root.box = TileBox{{0, 3, 0}, {Vec3d{3, 3, 0}, Vec3d{-3, 3, 0}, Vec3d{0, 0, 1}}};  // a diamond
+  CHECK(check_tileset(t, c).empty());
+  c[0].vertices.push_back({3.1, 0, 0});
+  CHECK(check_tileset(t, c).size() == 1);
+  c[0].vertices = {{3, 3, 0}};
+  t.root.box->axes[2] = {0, 0, 0};
+  CHECK(check_tileset(t, c).empty());
+  c[0].vertices = {{3, 3, 0.5}};
+  CHECK(check_tileset(t, c).size() == 1);
+}
+
+TEST_CASE("transforms compose from the root down", "[quick][check][tileset]") {
+  const Tileset t = good();
+  std::vector<std::string> paths;
+  for_each_tile(t, [&](const Tile& tile, const std::string& path, const Transform& m) {
+    paths.push_back(path);
+    if (tile.uri == "b.glb") CHECK(transformed(m, {-5, 0, 1}) == Vec3d{1e6 + 5, 5e6, 4});
+  });
+  CHECK(paths == std::vector<std::string>{"root", "root.children[0]", "root.children[1]"});
+  const Transform turn{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // x to y
+  CHECK(transformed(product(moved({1, 0, 0}), turn), {2, 0, 0}) == Vec3d{1, 2, 0});
+}
+
+TEST_CASE("the box around bounds holds them", "[quick][check][tileset]") {
+  Bounds3d bounds;
+  bounds.add({-1, 2, 3});
+  bounds.add({0.1, 2, 7});
+  const TileBox box = box_of(bounds);
+  CHECK(box.corners()[0][1] == 2);
+  CHECK(box.corners()[7][2] >= 7);
+  CHECK(box.corners()[0][2] <= 3);
+}

@@ -1,0 +1,75 @@
+#include "io/tileset_file.h"
+#include "tests/catch.h"
+#include "tests/unit/io/scene_files.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+std::string complaint(const TempDir& dir, const std::string& json) {
+  try {
+    (void)read_tileset(dir.file("tileset.json", json));
+  } catch (const Error& e) {
+    return e.code() == ErrorCode::bad_input ? e.what() : "wrong code";
+  }
+  return "";
+}
+
+const std::string kBox = R"("boundingVolume": {"box": [0,0,0, 1,0,0, 0,1,0, 0,0,1]})";
+
+std::string tileset(const std::string& root) {
+  return R"({"asset": {"version": "1.1"}, "geometricError": 3, "root": {)" + root + "}}";
+}
+
+}  // namespace
+
+TEST_CASE("a tileset that is written is read back the same", "[quick][io][lod]") {
+  Tileset t;
+  t.up = GENERATE("y", "z");
+  t.geometric_error = 1.0 / 3;
+  t.root.box = TileBox{{0.1, 0.2, 0.3}, {Vec3d{1, 2, 3}, Vec3d{4, 5, 6}, Vec3d{7, 8, 9}}};
+  t.root.transform[12] = 4.9e5 + 1.0 / 7;
+  t.root.geometric_error = 0.3;
+  t.root.refine = "REPLACE";
+  t.root.children.resize(2);
+  t.root.children[0].box = TileBox{};
+  t.root.children[1].box = TileBox{};
+  t.root.children[1].uri = "a.glb";
+  const TempDir dir;
+  OutputFile out(dir.path("tileset.json"), true);
+  write_tileset(t, {{"bplod", "0.1.0", "level=0", "00ff"}}, out);
+  out.commit();
+  const Tileset back = read_tileset(dir.path("tileset.json"));
+  CHECK(back.version == "1.1");
+  CHECK(back.up == t.up);
+  CHECK(back.geometric_error == t.geometric_error);
+  CHECK(back.root.box->centre == t.root.box->centre);
+  CHECK(back.root.box->axes == t.root.box->axes);
+  CHECK(back.root.transform == t.root.transform);
+  CHECK(back.root.refine == "REPLACE");
+  CHECK(back.root.uri.empty());
+  REQUIRE(back.root.children.size() == 2);
+  CHECK(back.root.children[1].uri == "a.glb");
+  CHECK(back.root.children[0].children.empty());
+}
+
+TEST_CASE("a broken tileset is refused with the place", "[quick][io][lod]") {
+  const TempDir dir;
+  CHECK_THAT(complaint(dir, "{"), Contains("broken JSON"));
+  CHECK_THAT(complaint(dir, "[]"), Contains("not an object"));
+  CHECK_THAT(complaint(dir, R"({"asset": {"version": "1.1"}, "geometricError": 3})"), Contains("root"));
+  CHECK_THAT(complaint(dir, tileset(R"("geometricError": 3)")), Contains("boundingVolume"));
+  CHECK_THAT(complaint(dir, tileset(R"("geometricError": 3, "boundingVolume": {})")), Contains("neither a box"));
+  CHECK_THAT(complaint(dir, tileset(R"("geometricError": 3, "boundingVolume": {"box": [1]})")), Contains("12"));
+  CHECK_THAT(complaint(dir, tileset(kBox)), Contains("geometricError"));
+  CHECK_THAT(complaint(dir, tileset(kBox + R"(, "geometricError": 3, "children": [])")), Contains("children"));
+  CHECK_THAT(complaint(dir, tileset(kBox + R"(, "geometricError": 3, "children": [7])")), Contains("root.children[0]"));
+  CHECK_THAT(complaint(dir, tileset(kBox + R"(, "geometricError": 3, "implicitTiling": {})")), Contains("implicit"));
+  CHECK_THAT(complaint(dir, tileset(kBox + R"(, "geometricError": 3, "content": {"uri": "a.json"})")),
+             Contains("tileset of its own"));
+  std::string deep = kBox + R"(, "geometricError": 0)";
+  for (int i = 0; i < 70; ++i) deep = kBox + R"(, "geometricError": 0, "children": [{)" + deep + "}]";
+  CHECK_THAT(complaint(dir, tileset(deep)), Contains("below 64"));
+  CHECK(complaint(dir, tileset(kBox + R"(, "geometricError": 3)")).empty());
+}
