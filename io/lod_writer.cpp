@@ -16,6 +16,7 @@ namespace {
 using Json = GltfOutJson;
 
 constexpr std::int64_t kFloatInteger = std::int64_t(1) << 24;  // float32 holds integers up to this
+constexpr std::int64_t kShortInteger = 32767;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr int kShort = 5122, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
 
@@ -53,7 +54,9 @@ struct Positions {
     max.fill(std::numeric_limits<Number>::lowest());
     bytes.reserve(order.size() * stride);
     for (const std::uint32_t i : order) {
-      const LatticeCoord d = mesh.vertices[i] - centre;
+      LatticeCoord d = mesh.vertices[i] - centre;
+      // z up to y up. Not by a rotation of the node: tools make a quaternion of it, which rounds.
+      if (mesh.frame.up == UpAxis::z) d = {d.x, d.z, -d.y};
       const std::array<Number, 3> p{Number(d.x), Number(d.y), Number(d.z)};
       for (std::size_t k = 0; k < 3; ++k) {
         min[k] = std::min(min[k], p[k]);
@@ -119,7 +122,7 @@ class GlbBuilder {
     TriangleIndices triangles = mesh.triangles;
     const std::vector<std::uint32_t> order = optimize_order(triangles, mesh.vertices.size());
     std::size_t positions = 0;
-    if (compressed_ && extent.within(centre, -32768, 32767)) {
+    if (compressed_ && extent.within(centre, -kShortInteger, kShortInteger)) {
       quantized_ = true;
       positions = add_positions(Positions<std::int16_t>(mesh, order, centre, 8), 8, kShort, order.size());
     } else {
@@ -185,17 +188,14 @@ class GlbBuilder {
     return doc_["accessors"].size() - 1;
   }
 
-  /// Integers to scene units, and z up to y up: exact, since each number of the matrix is a product of one.
   Json node_of(const NamedMesh& named, const LatticeCoord* centre) {
     const GridFrame& frame = named.mesh->frame;
     const double u = frame.voxel / kLatticePerVoxel;
-    const Vec3d t = centre != nullptr ? frame.world(*centre) : Vec3d{};
     Json node{{"name", named.name}, {"mesh", doc_["meshes"].size() - 1}};
-    if (frame.up == UpAxis::z) {  // (x,y,z) -> (x,z,-y), by columns
-      node["matrix"] = Json::array({u, 0, 0, 0, 0, 0, -u, 0, 0, u, 0, 0, t[0], t[2], 0.0 - t[1], 1});
-      return node;
+    if (centre != nullptr) {
+      const Vec3d t = frame.world(*centre);
+      node["translation"] = frame.up == UpAxis::z ? Vec3d{t[0], t[2], 0.0 - t[1]} : t;
     }
-    if (centre != nullptr) node["translation"] = t;
     node["scale"] = Json::array({u, u, u});
     return node;
   }

@@ -96,9 +96,26 @@ void write_tiles_profile(const std::string& name, const std::vector<LodLevel>& l
 OutputFolder::OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite)
     : path_(std::move(path)), names_(names) {
   std::error_code error;
-  std::filesystem::create_directories(path_, error);
+  made_ = std::filesystem::create_directories(path_, error);
   if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", path_, error.message());
-  for (const std::string& name : names) files_.push_back(open_output(path_ + "/" + name, overwrite));
+  try {
+    for (const std::string& name : names) files_.push_back(open_output(path_ + "/" + name, overwrite));
+  } catch (...) {
+    give_up();
+    throw;
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  give_up();
+}
+
+/// Removes the folder if this made it and it is empty again.
+void OutputFolder::give_up() {
+  if (!made_) return;
+  files_.clear();
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
 }
 
 OutputFile& OutputFolder::file(const std::string& name) {
@@ -109,6 +126,7 @@ OutputFile& OutputFolder::file(const std::string& name) {
 
 void OutputFolder::commit() {
   for (const auto& file : files_) file->commit();
+  made_ = false;
 }
 
 std::uint64_t OutputFolder::bytes() const {

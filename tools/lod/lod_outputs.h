@@ -18,13 +18,18 @@ class OutputFolder {
  public:
   /// Makes the folder if it is not there. Throws bad_argument if a file exists and `overwrite` is false.
   OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite);
+  ~OutputFolder();  ///< without commit() nothing stays behind, a folder that was made included
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
   [[nodiscard]] OutputFile& file(const std::string& name);
   void commit();
   [[nodiscard]] std::uint64_t bytes() const;
   [[nodiscard]] std::uint64_t bytes(const std::string& name) const;
 
  private:
+  void give_up();
   std::string path_;
+  bool made_ = false;  ///< and not committed
   std::vector<std::string> names_;
   std::vector<std::unique_ptr<OutputFile>> files_;
 };

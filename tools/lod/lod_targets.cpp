@@ -32,7 +32,7 @@ std::vector<std::uint64_t> parse_faces(const std::string& text) {
   for_each_item(text, [&](std::string_view item) {
     all.push_back(std::uint64_t(parse_integer(item, 1, INT64_MAX)));
     if (all.size() > 1 && all.back() >= all[all.size() - 2])
-      fail(ErrorCode::bad_argument, "--faces {}: each level must have fewer than the one before", text);
+      fail(ErrorCode::bad_argument, "{}: each level must have fewer than the one before", text);
   });
   return all;
 }
@@ -43,11 +43,11 @@ std::vector<Length> parse_errors(const std::string& text) {
     all.push_back(parse_length(item));
     const Length& last = all.back();
     if (last.unit == Length::Unit::voxels)
-      fail(ErrorCode::bad_argument, "--error {}: the voxels follow from the errors; use scene units or percent", text);
-    if (!(last.value > 0)) fail(ErrorCode::bad_argument, "--error {}: an error must be above 0", text);
-    if (last.unit != all.front().unit) fail(ErrorCode::bad_argument, "--error {}: mixes units", text);
+      fail(ErrorCode::bad_argument, "{}: the voxels follow from the errors; use scene units or percent", text);
+    if (!(last.value > 0)) fail(ErrorCode::bad_argument, "{}: an error must be above 0", text);
+    if (last.unit != all.front().unit) fail(ErrorCode::bad_argument, "{}: mixes units", text);
     if (all.size() > 1 && last.value <= all[all.size() - 2].value)
-      fail(ErrorCode::bad_argument, "--error {}: each level must have a larger one than the one before", text);
+      fail(ErrorCode::bad_argument, "{}: each level must have a larger one than the one before", text);
   });
   return all;
 }
@@ -56,9 +56,9 @@ std::vector<double> parse_pixels(const std::string& text) {
   std::vector<double> all;
   for_each_item(text, [&](std::string_view item) {
     all.push_back(parse_number(item));
-    if (!(all.back() > 0)) fail(ErrorCode::bad_argument, "--screen {}: a size must be above 0 pixels", text);
+    if (!(all.back() > 0)) fail(ErrorCode::bad_argument, "{}: a size must be above 0 pixels", text);
     if (all.size() > 1 && all.back() >= all[all.size() - 2])
-      fail(ErrorCode::bad_argument, "--screen {}: each level must be for a smaller size than the one before", text);
+      fail(ErrorCode::bad_argument, "{}: each level must be for a smaller size than the one before", text);
   });
   return all;
 }

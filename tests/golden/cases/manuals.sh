@@ -1,5 +1,5 @@
 # Each tool's --help and its manual name the same options, in the same order.
-for tool in bpvox bpclose bpmesh bpcheck bpinfo; do
+for tool in bpvox bpclose bpmesh bpcheck bpinfo bplod; do
   command -v $tool > /dev/null || { echo "$tool: missing"; continue; }
   $tool --version
   $tool --help | sed -n 's/^  \(\(-\|\[*[A-Z][A-Z]\)[^ ]*\( [^ ]\+\)*\).*/\1/p' | grep -v "^$tool" > options.help

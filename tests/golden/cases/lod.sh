@@ -1,0 +1,36 @@
+# Levels of detail in one process. What the meshes look like may change; that they enclose, keep budgets and fit together may not.
+write_cube cube.obj 3
+for i in 0 1 2 3 4 5 6 7; do  # eight cubes that lie apart: 96 faces at least, unless closed together
+  sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 7 * ($i % 2))) \$((\2 + 7 * ($i \/ 2 % 2))) \$((\3 + 7 * ($i \/ 4)))/e" cube.obj > part$i.obj
+done
+budgets() { awk -F '\t' -v want="$1" 'BEGIN { split(want, n, ",") } NR > 1 { print $1, ($2 <= n[NR - 1] ? "keeps" : "breaks") " its budget, error " ($3 > last ? "rises" : "falls"); last = $3 }'; }
+
+bplod part*.obj --name cubes --faces 200,20 --resolution 60 -o gltf > list
+budgets 200,20 < list
+for f in cubes_LOD0 cubes_LOD1 cubes; do bpcheck part*.obj gltf/$f.glb --no-distances | tail -1; done
+bplod part*.obj --name cubes --faces 200,20 --resolution 60 --up z --profile 3dtiles -o tiles -j 1 --memory 300M > list
+budgets 200,20 < list
+try bpcheck part*.obj tiles/tileset.json
+bplod part*.obj --name cubes --faces 200,20 --resolution 60 --up z --profile 3dtiles -o again -j 2 > list
+diff -r tiles again && echo "the same bytes"
+bplod part*.obj --name cubes --error 1,2 -o errors > list
+awk -F '\t' 'NR > 1 { print $1, ($3 <= 1.5 * (NR - 1) ? "keeps" : "breaks") " its error" }' list
+bplod part*.obj --name cubes --screen 50 --levels 2 -q -o screen | cut -f 1
+
+# Findings of a tileset.
+cp -r tiles broken
+rm broken/cubes_LOD0.glb
+sed -i '0,/"geometricError": .*/s//"geometricError": 1e-3,/' broken/tileset.json
+bpcheck broken/tileset.json | sed 's/the root.s .*/the root/'
+cp gltf/cubes_LOD0.glb tiles/  # not relative to the tileset's transform
+bpcheck tiles/tileset.json | sed 's/[0-9]* of [0-9]*/some/; s/by up to.*//'
+try bpcheck cube.obj nothing.json
+try bplod cube.obj
+try bplod cube.obj -o gltf --name cubes
+try bplod cube.obj -o x --faces 5,10
+try bplod cube.obj -o x --faces 50,10 --error 1
+try bplod cube.obj -o x --levels 3 --faces 50,10
+try bplod cube.obj -o x --error 3vx
+try bplod missing.obj -o x
+try bplod cube.obj --name a/b -o x
+files

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Second opinions on what bplod and bpmesh write: Khronos' validator, and glTF-Transform, whose decoder of
+# EXT_meshopt_compression is not ours. They come from npm, pinned; without node or network there is nothing to run, and the
+# test is skipped (77).
+#   tests/validators/run.sh FOLDER      FOLDER keeps the installed packages; the tools are on PATH
+set -euo pipefail
+packages=(gltf-validator@2.0.0-dev.3.10 @gltf-transform/cli@4.5.1)
+here=$(cd "$(dirname "$0")" && pwd)
+skip() { echo "skipped: $1"; exit 77; }
+command -v node > /dev/null && command -v npm > /dev/null || skip "node and npm are not installed"
+mkdir -p "$1" && cd "$1"
+if [ "$(cat installed 2> /dev/null)" != "${packages[*]}" ]; then
+  [ -f package.json ] || echo '{"private": true}' > package.json
+  timeout 300 npm install --no-audit --no-fund --loglevel=error "${packages[@]}" > npm.log 2>&1 || skip "npm cannot install ${packages[*]}: $(tail -1 npm.log)"
+  echo "${packages[*]}" > installed
+fi
+export NODE_PATH=$PWD/node_modules PATH=$PWD/node_modules/.bin:$PATH
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+bp-plant --triangles 20000 -o "$work/plant.ply"
+cd "$work"
+for up in y z; do
+  bplod plant.ply --levels 3 --resolution 96 --up $up -o gltf-$up > /dev/null
+  bplod plant.ply --levels 3 --resolution 96 --up $up --profile 3dtiles -o tiles-$up > /dev/null
+  bpvox plant.ply --resolution 96 --up $up | bpclose --scale 2% | bpmesh --faces 400 -o gltf-$up/bpmesh.glb
+done
+node "$here/validate.cjs" gltf-*/*.glb tiles-*/*.glb
+
+# The same triangles, bit for bit, by another decoder.
+for tile in tiles-*/*.glb; do
+  gltf-transform cp "$tile" decoded.glb > /dev/null
+  [ "$(bpinfo --checksum decoded.glb)" = "$(bpinfo --checksum "$tile")" ] || { echo "$tile: decodes to other triangles"; exit 1; }
+  rm decoded.glb
+done
+for up in y z; do bpcheck plant.ply tiles-$up/tileset.json; done
+echo "validated $(ls gltf-*/*.glb tiles-*/*.glb | wc -l) files"

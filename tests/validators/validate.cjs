@@ -1,0 +1,18 @@
+// Khronos' glTF validator over files; exit status 1 if one has an error or a warning. It knows neither
+// EXT_meshopt_compression nor MSFT_lod, and says so as information.
+const fs = require('fs');
+const validator = require('gltf-validator');
+
+async function main(files) {
+  let bad = 0;
+  for (const file of files) {
+    const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)));
+    for (const m of report.issues.messages.filter((m) => m.severity < 2)) {
+      console.log(`${file}: ${m.code} ${m.pointer || ''} ${m.message}`);
+      ++bad;
+    }
+  }
+  process.exit(bad > 0 ? 1 : 0);
+}
+
+main(process.argv.slice(2));
