@@ -16,6 +16,7 @@ class SceneBuilder {
 
   InstancedScene build() {
     visited_.resize(root_.array("nodes").size());
+    scene_.up = up();
     add_nodes(scene_roots(), world());
     scene_.bytes = doc_.bytes();
     return std::move(scene_);
@@ -29,6 +30,7 @@ class SceneBuilder {
     std::uint64_t node;
     Affine parent;
   };
+  [[nodiscard]] std::optional<UpAxis> up() const;
   [[nodiscard]] Affine world() const;
   [[nodiscard]] std::vector<std::uint64_t> scene_roots() const;
   void add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world);
@@ -45,12 +47,17 @@ class SceneBuilder {
   std::vector<bool> visited_;
 };
 
+std::optional<UpAxis> SceneBuilder::up() const {
+  const GltfObject asset = root_.object("asset");
+  if (asset.holds_text("extras", "up", "z")) return UpAxis::z;
+  if (asset.holds_text("extras", "up", "y")) return UpAxis::y;
+  return {};
+}
+
 // Files of ours that stand upright in glTF's y-up world were z-up: back to their own coordinates.
 Affine SceneBuilder::world() const {
   Affine a;
-  const GltfObject asset = root_.object("asset");
-  if (!asset.holds_text("extras", "up", "z")) return a;
-  a.m = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
+  if (scene_.up == UpAxis::z) a.m = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
   return a;
 }
 

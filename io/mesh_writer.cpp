@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include "io/detail/mesh_writers.h"
 #include "lib/core/error.h"
@@ -104,6 +105,16 @@ std::array<float, 3> normal_of(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return {float(n[0] / length), float(n[1] / length), float(n[2] / length)};
 }
 
+std::optional<MeshFormat> format_of(std::string extension) {
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  if (extension == "glb") return MeshFormat::glb;
+  if (extension == "gltf") return MeshFormat::gltf;
+  if (extension == "ply") return MeshFormat::ply;
+  if (extension == "obj") return MeshFormat::obj;
+  if (extension == "stl") return MeshFormat::stl;
+  return {};
+}
+
 }  // namespace
 
 Vec3d moved_exactly(const GridFrame& frame, const Vec3d& p, const Vec3d& origin) {
@@ -121,14 +132,14 @@ Vec3d moved_exactly(const GridFrame& frame, const Vec3d& p, const Vec3d& origin)
 
 MeshFormat mesh_format_of(const std::string& path) {
   const std::size_t dot = path.find_last_of("./");
-  std::string extension = dot == std::string::npos || path[dot] != '.' ? std::string() : path.substr(dot + 1);
-  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-  if (extension == "glb") return MeshFormat::glb;
-  if (extension == "gltf") return MeshFormat::gltf;
-  if (extension == "ply") return MeshFormat::ply;
-  if (extension == "obj") return MeshFormat::obj;
-  if (extension == "stl") return MeshFormat::stl;
+  const bool has_extension = dot != std::string::npos && path[dot] == '.';
+  if (const auto format = format_of(has_extension ? path.substr(dot + 1) : std::string())) return *format;
   fail(ErrorCode::bad_argument, "{}: no mesh format; end the name with .glb .gltf .ply .obj or .stl", path);
+}
+
+MeshFormat mesh_format_named(const std::string& name) {
+  if (const auto format = format_of(name)) return *format;
+  fail(ErrorCode::bad_argument, "--format: '{}' is none of glb gltf ply obj stl", name);
 }
 
 void write_mesh(const LatticeMesh& mesh, OutputFile& out, MeshFormat format, const MeshWriteOptions& options) {
@@ -227,8 +238,9 @@ void write_obj(const LatticeMesh& mesh, const WorldVertices& vertices, OutputFil
     return options.normals ? fmt::format(" {0}//{0}", std::uint64_t(v) + 1) : fmt::format(" {}", std::uint64_t(v) + 1);
   };
   const PolygonFaces faces = polygon_faces(mesh);
-  for (const auto& t : faces.triangles) out.write("f" + corner(t[0]) + corner(t[1]) + corner(t[2]) + "\n");
-  for (const Quad& q : faces.quads) out.write("f" + corner(q[0]) + corner(q[1]) + corner(q[2]) + corner(q[3]) + "\n");
+  for (const auto& t : faces.triangles) out.write(fmt::format("f{}{}{}\n", corner(t[0]), corner(t[1]), corner(t[2])));
+  for (const Quad& q : faces.quads)
+    out.write(fmt::format("f{}{}{}{}\n", corner(q[0]), corner(q[1]), corner(q[2]), corner(q[3])));
 }
 
 void write_stl(const LatticeMesh& mesh, const WorldVertices& vertices, OutputFile& out) {

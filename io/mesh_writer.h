@@ -23,6 +23,9 @@ struct MeshWriteOptions {
 /// Format by extension, case ignored. Throws bad_argument for any other.
 [[nodiscard]] MeshFormat mesh_format_of(const std::string& path);
 
+/// Format by its name, case ignored: glb gltf ply obj stl. Throws bad_argument for any other.
+[[nodiscard]] MeshFormat mesh_format_named(const std::string& name);
+
 /// Writes `mesh`; the caller commits `out`. Same mesh, same bytes.
 /// Throws bad_argument if the mesh has no triangle, or if the format cannot hold its coordinates exactly; the message
 /// names another format or a fitting origin. Nothing is written then.

@@ -3,6 +3,8 @@
 
 #include <zlib.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 
 #include "lib/core/error.h"
@@ -69,6 +71,13 @@ std::vector<std::byte> encode_png(const Image& image) {
   std::vector<std::byte> bytes(out.size());
   for (std::size_t i = 0; i < out.size(); ++i) bytes[i] = std::byte(out[i]);
   return bytes;
+}
+
+void check_png_name(const std::string& path) {
+  std::string end = path.substr(path.size() - std::min<std::size_t>(path.size(), 4));
+  for (char& c : end) c = char(std::tolower(static_cast<unsigned char>(c)));
+  if (!path.empty() && end != ".png")
+    fail(ErrorCode::bad_argument, "{}: pictures are PNG; end the name with .png", path);
 }
 
 void write_png(const Image& image, const std::string& path, bool overwrite) {

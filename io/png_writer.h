@@ -10,6 +10,10 @@ namespace bp {
 /// 8-bit RGB, no metadata: the same bytes for the same picture (and zlib). Throws bad_argument if a side is 0.
 [[nodiscard]] std::vector<std::byte> encode_png(const Image& image);
 
+/// Throws bad_argument if the name ends in anything but .png (case ignored), so that no PNG is called otherwise. The
+/// empty name passes: no picture is wanted.
+void check_png_name(const std::string& path);
+
 /// Appears under its name when complete. Throws as OutputFile does.
 void write_png(const Image& image, const std::string& path, bool overwrite);
 

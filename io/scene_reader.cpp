@@ -9,6 +9,7 @@
 #include "io/detail/degenerate.h"
 #include "io/detail/position_index.h"
 #include "io/detail/raw_source.h"
+#include "io/detail/stream_format.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -64,8 +65,16 @@ Reader reader_by_content(const SceneFile& file, std::string& extension) {
   return extension.empty() ? Reader::unknown : Reader::other;
 }
 
+void refuse_brick_stream(const SceneFile& file) {
+  std::uint32_t magic = 0;
+  file.read_at(0, std::as_writable_bytes(std::span(&magic, 1)));
+  if (magic == detail::kFrameMagic)
+    fail(ErrorCode::bad_input, "{}: a brick stream, not a scene or a mesh; bpmesh makes a mesh of it", file.name());
+}
+
 RawSourcePtr open_raw(const std::string& path, const SceneOptions& options) {
   const SceneFilePtr file = open_scene_file(path, temp_dir_of(options));
+  refuse_brick_stream(*file);
   std::string extension = path == "-" ? std::string() : extension_of(path);
   Reader reader = reader_of(extension);
   if (reader == Reader::unknown && !options.format.empty()) {
@@ -118,6 +127,7 @@ class FilteredScene final : public TriangleSource {
   }
   [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
   [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] std::optional<UpAxis> up() const override { return raw_->up(); }
 
  private:
   void keep_good(std::vector<TriangleD>& triangles) {
@@ -155,6 +165,7 @@ class SceneRow final : public TriangleSource {
     for (; next_ < paths_.size(); leave()) {
       TriangleSource& scene = enter();
       const bool more = scene.read(out);
+      if (!up_) up_ = scene.up();
       counts_ = finished_;
       counts_.add(scene.counts());
       if (more) return true;
@@ -171,6 +182,7 @@ class SceneRow final : public TriangleSource {
   [[nodiscard]] std::string name() const override {
     return paths_.size() == 1 ? paths_[0] : fmt::format("{} scenes", paths_.size());
   }
+  [[nodiscard]] std::optional<UpAxis> up() const override { return up_; }  // of the first one that tells
 
  private:
   TriangleSource& enter() {
@@ -197,6 +209,7 @@ class SceneRow final : public TriangleSource {
   bool entered_ = false;
   std::unique_ptr<TriangleSource> scene_, stdin_;
   SceneCounts finished_, counts_;
+  std::optional<UpAxis> up_;
 };
 
 }  // namespace
@@ -229,6 +242,7 @@ IndexedMesh read_mesh(const std::string& path, const SceneOptions& options, Scen
       mesh.triangles.push_back({index.add(t[0]), index.add(t[1]), index.add(t[2])});
     }
   }
+  mesh.up = raw->up();
   met.triangles = mesh.triangles.size();
   met.bad_faces = raw->bad_faces();
   met.instances = raw->instances();

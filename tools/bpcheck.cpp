@@ -1,10 +1,14 @@
 // bpcheck: scene and proxy in, verdict out. Manual: docs/bpcheck.1.md
 #include <fmt/format.h>
 
+#include <cmath>
+#include <optional>
+
 #include "io/png_writer.h"
 #include "io/scene_reader.h"
 #include "lib/check/check_proxy.h"
 #include "lib/check/verdict_text.h"
+#include "lib/core/error.h"
 #include "lib/image/render.h"
 #include "tools/check/tileset_verdict.h"
 #include "tools/common/report.h"
@@ -20,7 +24,8 @@ struct Options {
   std::uint64_t examples = 5, samples = 5000;
   std::string image;
   int image_size = 720;
-  bp::UpAxis up = bp::UpAxis::y;
+  std::optional<bp::UpAxis> up;
+  bp::Vec3d origin{};
   double azimuth = 35, elevation = 22;
 };
 
@@ -31,6 +36,8 @@ Options parse(bp::Args& args) {
       "scenes, or says where not. Exact for the coordinates as read. Exit status: 0 all holds, 1 not.");
   args.positional("[SCENE...] PROXY", o.files, "scenes and their proxy; PROXY alone is checked as a mesh");
   args.option("--format", "NAME", o.format, "format of a scene that is -, or whose name does not tell");
+  args.option("--origin", "X,Y,Z", o.origin,
+              "add this point to every vertex of the proxy, exactly: what bpmesh --origin subtracted");
   args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
   args.flag("--json", o.json, "print the verdict as JSON");
   args.option("--examples", "N", o.examples, "places named per kind of failure");
@@ -38,13 +45,28 @@ Options parse(bp::Args& args) {
   args.option("--samples", "N", o.samples, "triangles sampled for distances, on either side");
   args.option("--image", "FILE", o.image, "draw scene and proxy side by side as PNG");
   args.option("--image-size", "PIXELS", o.image_size, "side of a panel of the image");
-  args.option("--up", {{"y", bp::UpAxis::y}, {"z", bp::UpAxis::z}}, o.up, "axis that points up in the image");
+  args.option("--up", "y|z", o.up, "axis that points up in the image (default: y, or what the proxy or scene tells)");
   args.option("--azimuth", "DEGREES", o.azimuth, "where the viewer stands, from the front to the right");
   args.option("--elevation", "DEGREES", o.elevation, "how far above the horizon the viewer stands");
   o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
   args.example("bpcheck scene.glb proxy.glb --image both.png");
   args.parse();
   return o;
+}
+
+/// Undoes bpmesh --origin. An answer for rounded vertices would be one for another proxy, so rounding is refused.
+void move(bp::IndexedMesh& mesh, const bp::Vec3d& by) {
+  if (by == bp::Vec3d{}) return;
+  for (bp::Vec3d& p : mesh.vertices) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double sum = p[i] + by[i], part = sum - by[i];
+      if (std::isfinite(sum) && (sum - part != by[i] || part != p[i])) {
+        bp::fail(bp::ErrorCode::bad_argument,
+                 "--origin: {} + {} is no exact double; give the origin that bpmesh was given", p[i], by[i]);
+      }
+      p[i] = sum;
+    }
+  }
 }
 
 /// Counts what passes through.
@@ -87,13 +109,20 @@ bp::Image draw(const Options& o, const bp::IndexedMesh& proxy, bp::TriangleSourc
                            report.holds() ? "holds" : "does not hold");
   bp::RenderOptions options;
   options.panel_width = options.panel_height = o.image_size;
-  options.azimuth = o.azimuth, options.elevation = o.elevation, options.up = o.up;
+  options.azimuth = o.azimuth, options.elevation = o.elevation;
+  options.up = bp::UpAxis::y;
+  if (scene != nullptr && scene->up()) options.up = *scene->up();
+  if (proxy.up) options.up = *proxy.up;
+  if (o.up) options.up = *o.up;
   return bp::render(views, options);
 }
 
 void fill_report(bp::Report& report, const Options& o, const bp::CheckReport& verdict) {
-  report.options = {
-      {"inside", o.inside}, {"distances", !o.no_distances}, {"samples", o.samples}, {"examples", o.examples}};
+  report.options = {{"inside", o.inside},
+                    {"origin", o.origin},
+                    {"distances", !o.no_distances},
+                    {"samples", o.samples},
+                    {"examples", o.examples}};
   report.counts = {{"holds", verdict.holds()},
                    {"proxy_triangles", verdict.triangles},
                    {"scene_triangles", verdict.scene_triangles},
@@ -119,6 +148,7 @@ int run_tileset(const Options& o) {
 }
 
 int run(const Options& o) {
+  bp::check_png_name(o.image);
   if (bp::is_tileset(o.files.back())) return run_tileset(o);
   bp::Report report("bpcheck");
   report.stage("read the proxy");
@@ -128,7 +158,8 @@ int run(const Options& o) {
   scene_options.format = o.format;
   scene_options.memory_bytes = o.common.memory_bytes / 4;
   scene_options.temp_dir = o.common.temp;
-  const bp::IndexedMesh proxy = bp::read_mesh(o.files.back(), scene_options);
+  bp::IndexedMesh proxy = bp::read_mesh(o.files.back(), scene_options);
+  move(proxy, o.origin);
   std::unique_ptr<bp::TriangleSource> scene;
   if (o.files.size() > 1) scene = bp::open_scenes({o.files.begin(), o.files.end() - 1}, scene_options);
 

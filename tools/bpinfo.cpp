@@ -14,11 +14,6 @@
 
 namespace {
 
-bp::UpAxis parse_up(const std::string& text) {
-  if (text != "y" && text != "z") bp::fail(bp::ErrorCode::bad_argument, "'{}' is none of y|z", text);
-  return text == "z" ? bp::UpAxis::z : bp::UpAxis::y;
-}
-
 struct Options {
   bp::CommonOptions common;
   std::vector<std::string> in;
@@ -41,9 +36,8 @@ Options parse(bp::Args& args) {
   args.flag("--dump", o.dump, "print a stream as text, one line a brick");
   args.option("--image", "FILE", o.image, "draw what they hold into a PNG, side by side at one scale");
   args.option("--image-size", "PIXELS", o.image_size, "side of a panel of the image");
-  args.option(
-      "--up", "y|z", [&o](const std::string& text) { o.up = parse_up(text); },
-      "axis that points up in the image of meshes (default: y, or that of the first stream)");
+  args.option("--up", "y|z", o.up,
+              "axis that points up in the image of meshes (default: y, or that of the first INPUT that tells)");
   args.option("--azimuth", "DEGREES", o.azimuth, "where the viewer stands, from the front to the right");
   args.option("--elevation", "DEGREES", o.elevation, "how far above the horizon the viewer stands");
   args.option("--format", "NAME", o.format, "an INPUT is a mesh of this format, whatever its name; needed for stdin");
@@ -103,6 +97,7 @@ class Picture {
  public:
   /// Opens the file: a name that cannot be written fails before the work.
   explicit Picture(const Options& o) : o_(o) {
+    bp::check_png_name(o.image);
     if (!o.image.empty()) file_ = bp::open_output(o.image, o.common.overwrite);
   }
   [[nodiscard]] bool wanted() const { return file_ != nullptr; }
@@ -119,6 +114,7 @@ class Picture {
 
   void add_mesh(bp::MeshInfo& info, std::unique_ptr<bp::TriangleSource> source, const std::string& in) {
     auto panel = std::make_unique<Panel>();
+    if (!up_) up_ = source->up();
     bounds_.merge(info.totals.bounds);
     panel->view.label = fmt::format("{} triangles", info.totals.triangles);
     if (several()) panel->view.label.insert(0, shown_name(in) + "\n");

@@ -42,18 +42,6 @@ std::vector<std::uint64_t> parse_faces(const std::string& text) {
   return faces;
 }
 
-bp::Vec3d parse_origin(const std::string& text) {
-  bp::Vec3d p{};
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t end = i < 2 ? text.find(',', begin) : text.size();
-    if (end == std::string::npos) bp::fail(bp::ErrorCode::bad_argument, "'{}' is not three numbers X,Y,Z", text);
-    p[i] = bp::parse_number(std::string_view(text).substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return p;
-}
-
 Options parse(bp::Args& args) {
   Options o;
   args.about("Meshes a brick stream into a coarse proxy that encloses its voxels and does not intersect itself.");
@@ -77,9 +65,7 @@ Options parse(bp::Args& args) {
   args.flag("--no-tighten", o.loose, "leave out the last step, which lowers the volume");
   args.flag("--quads", o.quads, "join triangles to quads, safe for either diagonal; in OBJ and PLY");
   args.flag("--measure", o.measure, "measure distances, and print volume, edges and distances on stderr");
-  args.option(
-      "--origin", "X,Y,Z", [&o](const std::string& text) { o.origin = parse_origin(text); },
-      "subtract this point from every vertex, for formats with short numbers");
+  args.option("--origin", "X,Y,Z", o.origin, "subtract this point from every vertex, for formats with short numbers");
   o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
   args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
   args.parse();
@@ -275,7 +261,7 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
 void run(const Options& o) {
   if (o.out == "-" && o.format.empty())
     bp::fail(bp::ErrorCode::bad_argument, "name the output with -o, or its --format");
-  const bp::MeshFormat format = bp::mesh_format_of(o.format.empty() ? o.out : "x." + o.format);
+  const bp::MeshFormat format = o.format.empty() ? bp::mesh_format_of(o.out) : bp::mesh_format_named(o.format);
   if (o.quads && format != bp::MeshFormat::obj && format != bp::MeshFormat::ply)
     bp::fail(bp::ErrorCode::bad_argument, "--quads: only .obj and .ply hold quads");
   bp::Report report("bpmesh");

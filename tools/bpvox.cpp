@@ -29,7 +29,7 @@ struct Options {
   std::optional<bp::Length> voxel;
   std::optional<std::int64_t> resolution;
   bp::FillMode fill = bp::FillMode::flood;
-  bp::UpAxis up = bp::UpAxis::y;
+  std::optional<bp::UpAxis> up;
 };
 
 const char* name_of(bp::FillMode fill) {
@@ -56,7 +56,7 @@ Options parse(bp::Args& args) {
       o.fill,
       "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing; the first "
       "without the voxels that triangles touch, for bpclose --inner and bpmesh --mode inside");
-  args.option("--up", {{"y", bp::UpAxis::y}, {"z", bp::UpAxis::z}}, o.up, "axis of the scene that points up");
+  args.option("--up", "y|z", o.up, "axis of the scene that points up (default: y, or what a proxy of ours tells)");
   args.option("--format", "NAME", o.format,
               "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");
   o.common.add_to(args);
@@ -83,14 +83,14 @@ struct Budget {
   }
 };
 
-bp::OptionText option_text(const Options& o) {
+bp::OptionText option_text(const Options& o, bp::UpAxis up) {
   bp::OptionText text;
   if (o.voxel) {
     text.add("voxel", *o.voxel);
   } else {
     text.add("resolution", o.resolution.value_or(kDefaultResolution));
   }
-  text.add("fill", name_of(o.fill)).add("up", o.up == bp::UpAxis::y ? "y" : "z");
+  text.add("fill", name_of(o.fill)).add("up", up == bp::UpAxis::y ? "y" : "z");
   return text;
 }
 
@@ -136,7 +136,7 @@ std::uint64_t size_of_files(const std::vector<std::string>& paths) {
 }
 
 void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& header, const bp::VoxelizeCounts& c) {
-  report.options["options"] = option_text(o).text();
+  report.options["options"] = option_text(o, header.frame.up).text();
   report.options["memory"] = o.common.memory_bytes;
   report.bytes_in = size_of_files(o.scenes);
   report.counts["triangles"] = c.scene.triangles;
@@ -182,7 +182,7 @@ void run(const Options& o) {
   const auto open = [&](const bp::StreamHeader& h, const bp::VoxelizeCounts& counts) -> bp::BrickSink& {
     report.stage("voxelize");
     header = h;
-    header.provenance.push_back(bp::make_provenance("bpvox", option_text(o), counts.input_hash));
+    header.provenance.push_back(bp::make_provenance("bpvox", option_text(o, h.frame.up), counts.input_hash));
     return writer.emplace(*file, header);
   };
   const bp::VoxelizeCounts counts = bp::voxelize_stream(*source, open, backends, stage_options(o, budget, progress));

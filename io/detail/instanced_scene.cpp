@@ -140,6 +140,7 @@ class InstancedSource final : public RawSource {
     enter_node();
   }
   [[nodiscard]] std::uint64_t instances() const override { return instances_; }
+  [[nodiscard]] std::optional<UpAxis> up() const override { return scene_.up; }
 
  private:
   static constexpr std::size_t kWindow = 3 * 1024;  // indices at a time: whole triangles, within a cache block

@@ -59,6 +59,7 @@ struct InstancedScene {
   std::vector<Primitive> primitives;
   std::vector<InstanceArray> arrays;
   std::vector<MeshNode> nodes;
+  std::optional<UpAxis> up;     ///< if the file tells
   std::uint64_t bad_faces = 0;  ///< met before, while the scene was put together
 };
 

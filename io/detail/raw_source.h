@@ -14,7 +14,8 @@ class RawSource {
   virtual bool read(std::vector<TriangleD>& out) = 0;
   virtual void rewind() = 0;
   [[nodiscard]] virtual std::uint64_t instances() const { return 1; }
-  [[nodiscard]] std::uint64_t bad_faces() const { return bad_faces_; }  ///< since the last rewind
+  [[nodiscard]] virtual std::optional<UpAxis> up() const { return {}; }  ///< TriangleSource::up()
+  [[nodiscard]] std::uint64_t bad_faces() const { return bad_faces_; }   ///< since the last rewind
 
  protected:
   std::uint64_t bad_faces_ = 0;

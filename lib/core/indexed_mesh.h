@@ -1,10 +1,11 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "lib/core/coords.h"
+#include "lib/core/grid_frame.h"
 
 /// A whole mesh in memory, scene units: what bpcheck and bpinfo read (proxies; scenes are streamed instead).
 namespace bp {
@@ -12,6 +13,7 @@ namespace bp {
 struct IndexedMesh {
   std::vector<Vec3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::optional<UpAxis> up;  ///< if its file tells
 };
 
 }  // namespace bp

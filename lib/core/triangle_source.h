@@ -1,9 +1,11 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lib/core/coords.h"
+#include "lib/core/grid_frame.h"
 
 /// A stream of triangles in scene units. Readers of scenes implement it (io/), stages pull from it; nothing else of a
 /// scene is known to lib/.
@@ -36,6 +38,8 @@ class TriangleSource {
 
   [[nodiscard]] virtual const SceneCounts& counts() const = 0;  ///< since the last rewind
   [[nodiscard]] virtual std::string name() const = 0;           ///< for messages: file names
+  /// Axis that points up, if the scene tells (proxies of ours do); known from the first read() on.
+  [[nodiscard]] virtual std::optional<UpAxis> up() const { return {}; }
 };
 
 }  // namespace bp

@@ -233,7 +233,8 @@ void Run::measure() {
 
 void Run::lay_grid() {
   counts_.voxel_asked = options_.voxel_size(bounds_);
-  header_.frame = make_frame(bounds_, counts_.voxel_asked, options_.up);
+  header_.frame =
+      make_frame(bounds_, counts_.voxel_asked, options_.up ? *options_.up : source_.up().value_or(UpAxis::y));
   header_.bounds = bounds_;
   header_.bricks = bricks_of(voxel_bounds(header_.frame, bounds_));
   header_.slab_axis = longest_axis(header_.bricks);

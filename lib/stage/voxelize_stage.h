@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 
 #include "lib/backend/backend.h"
 #include "lib/core/chunk_store.h"
@@ -17,7 +18,7 @@ struct VoxelizeOptions {
   /// Voxel size in scene units, given the scene's bounds; make_frame rounds it up a little.
   std::function<double(const Bounds3d&)> voxel_size;
   FillMode fill = FillMode::flood;
-  UpAxis up = UpAxis::y;
+  std::optional<UpAxis> up;  ///< of the header; empty: what the scene tells, else y
   /// For what waits: triangles, as they are or compressed in the store, and bricks on the shelf. The store and the
   /// shelf have their own bounds, together at most half of this; triangles get what these leave, and when it is spent,
   /// tiles are voxelized or go to the store. What a thread has in hand, and the tiles at work, come on top.

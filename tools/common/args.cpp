@@ -133,6 +133,11 @@ void Args::refuse_word(const std::string& text, const std::string& words) {
   fail(ErrorCode::bad_argument, "'{}' is none of {}", text, words);
 }
 
+void Args::parse_into(const std::string& text, UpAxis& value) {
+  if (text != "y" && text != "z") refuse_word(text, "y|z");
+  value = text == "z" ? UpAxis::z : UpAxis::y;
+}
+
 std::string Args::shown(double value) {
   return fmt::format("{}", value);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/core/grid_frame.h"
 #include "tools/common/length.h"
 
 /// Options of a tool, declared once: parsing, checks, --help and --version follow from the declarations. Opens no file.
@@ -42,7 +43,8 @@ class Args {
   /// At least one; any number if the name is of the form [NAME...].
   void positional(const std::string& name, std::vector<std::string>& values, const std::string& help);
 
-  /// names "-s,--scale"; T is string, int, int64_t, uint64_t, double, Length, Bytes, or an optional of one of them. The
+  /// names "-s,--scale"; T is string, int, int64_t, uint64_t, double, Length, Bytes, UpAxis, Vec3d, or an optional of
+  /// one of them. The
   /// help shows the default, except of an empty string or optional. Whole numbers are not negative.
   template <class T>
   void option(const std::string& names, const std::string& value_name, T& value, const std::string& help) {
@@ -105,6 +107,8 @@ class Args {
   }
   static void parse_into(const std::string& text, Length& value) { value = parse_length(text); }
   static void parse_into(const std::string& text, Bytes& value) { value.count = parse_size(text); }
+  static void parse_into(const std::string& text, Vec3d& value) { value = parse_point(text); }
+  static void parse_into(const std::string& text, UpAxis& value);
   template <class T>
   static void parse_into(const std::string& text, std::optional<T>& value) {
     T parsed{};
@@ -119,6 +123,8 @@ class Args {
   static std::string shown(std::uint64_t value) { return std::to_string(value); }
   static std::string shown(const Length& value) { return value.text(); }
   static std::string shown(const Bytes& value) { return size_text(value.count); }
+  static std::string shown(const Vec3d&) { return ""; }
+  static std::string shown(UpAxis value) { return value == UpAxis::y ? "y" : "z"; }
   template <class T>
   static std::string shown(const std::optional<T>& value) {
     return value ? shown(*value) : "";

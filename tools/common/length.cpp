@@ -1,5 +1,6 @@
 #include "tools/common/length.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -28,9 +29,23 @@ double parse_number(std::string_view text) {
 std::int64_t parse_integer(std::string_view text, std::int64_t lo, std::int64_t hi) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < lo || value > hi)
-    fail(ErrorCode::bad_argument, "'{}' is not a whole number from {} to {}", text, lo, hi);
-  return value;
+  const bool whole = end == text.data() + text.size() && error != std::errc::invalid_argument;
+  if (whole && error == std::errc() && value >= lo && value <= hi) return value;
+  if (hi < INT64_MAX) fail(ErrorCode::bad_argument, "'{}' is not a whole number from {} to {}", text, lo, hi);
+  if (whole && text[0] != '-') fail(ErrorCode::bad_argument, "'{}' is too large a number", text);
+  fail(ErrorCode::bad_argument, "'{}' is not a whole number of at least {}", text, lo);
+}
+
+Vec3d parse_point(std::string_view text) {
+  Vec3d p{};
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t end = i < 2 ? rest.find(',') : rest.size();
+    if (end == std::string_view::npos) fail(ErrorCode::bad_argument, "'{}' is not three numbers X,Y,Z", text);
+    p[i] = parse_number(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return p;
 }
 
 std::uint64_t parse_size(std::string_view text) {

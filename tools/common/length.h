@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "lib/core/coords.h"
+
 /// Quantities as the command line writes them. Parsing is strict: a number, its unit, nothing else; no locale.
 namespace bp {
 
@@ -10,6 +12,9 @@ namespace bp {
 [[nodiscard]] double parse_number(std::string_view text);
 /// The integer in [lo, hi] that `text` spells, whole. Throws bad_argument otherwise.
 [[nodiscard]] std::int64_t parse_integer(std::string_view text, std::int64_t lo, std::int64_t hi);
+
+/// `X,Y,Z`. Throws bad_argument otherwise.
+[[nodiscard]] Vec3d parse_point(std::string_view text);
 
 /// Bytes: `4096`, `512K`, `1.5G`, `4GiB`; units are powers of 1024. Throws bad_argument if it is not a size below 2^62.
 [[nodiscard]] std::uint64_t parse_size(std::string_view text);

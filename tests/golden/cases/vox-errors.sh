@@ -13,6 +13,9 @@ try bpvox cube.obj --voxel -1 -o out.bp
 try bpvox cube.obj --voxel nan -o out.bp
 try bpvox cube.obj --voxel 3vx -o out.bp
 try bpvox cube.obj --voxel 1 --resolution 5 -o out.bp
+try bpvox cube.obj --resolution 99999999999 -o out.bp
+try bpvox cube.obj --resolution 99999999999999999999 -o out.bp
+try bpvox cube.obj --resolution 1e3 -o out.bp
 try bpvox cube.obj --resolution 0 -o out.bp
 try bpvox cube.obj --voxel 1e-7 -o out.bp
 try bpvox cube.obj --voxel 1e-12 -o out.bp
@@ -21,6 +24,10 @@ try bpvox cube.obj --up x -o out.bp
 try bpvox - -o out.bp
 try bpvox cube.obj --temp missing -o out.bp
 try bpvox cube.obj -o missing/out.bp
+bpvox cube.obj --resolution 10 > stream
+try bpvox stream -o out.bp
+stdin=stream try bpvox - --format glb -o out.bp
+rm stream
 touch out.bp
 try bpvox cube.obj -o out.bp
 rm out.bp

@@ -347,6 +347,27 @@ TEST_CASE("a glTF name in Latin-1 does not matter", "[quick][io]") {
   CHECK(read_all(dir.file("a.glb", bytes)) == kQuadFan);
 }
 
+TEST_CASE("a proxy of ours tells which axis points up, other glTF does not", "[quick][io]") {
+  const TempDir dir;
+  Document d;
+  d.node({{"mesh", d.quad_mesh()}});
+  const auto up_of = [&](const Json& extras) {
+    if (!extras.is_null()) d.json["asset"]["extras"] = extras;
+    const std::string path = dir.file("a.glb", d.glb());
+    const auto row = open_scenes({dir.file("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), path});
+    for (std::vector<TriangleD> chunk; row->read(chunk);) {
+    }
+    const std::optional<UpAxis> up = open_scene(path)->up();
+    CHECK(read_mesh(path).up == up);
+    CHECK(row->up() == up);
+    return up;
+  };
+  CHECK_FALSE(up_of(nullptr).has_value());
+  CHECK_FALSE(up_of({{"up", 3}}).has_value());
+  CHECK(up_of({{"up", "y"}}) == UpAxis::y);
+  CHECK(up_of({{"up", "z"}}) == UpAxis::z);
+}
+
 TEST_CASE("glTF extras of others are left alone", "[quick][io]") {
   Document d;
   d.node({{"mesh", d.quad_mesh()}});

@@ -60,6 +60,11 @@ TEST_CASE("a PNG reads back as the picture that was written", "[quick][io]") {
   CHECK(encode_png(image) == encode_png(image));
 }
 
+TEST_CASE("a picture whose name says another format is refused", "[quick][io]") {
+  for (const char* name : {"", "a.png", "b/c.d.PNG"}) CHECK_NOTHROW(check_png_name(name));
+  for (const char* name : {"a.jpg", "png", "a.png.glb", "-", ".pn"}) CHECK_THROWS_AS(check_png_name(name), Error);
+}
+
 TEST_CASE("an image without pixels is refused", "[quick][io]") {
   CHECK_THROWS_AS(encode_png(Image{}), Error);
 }

@@ -25,6 +25,23 @@ TEST_CASE("what is not a length is refused", "[quick][tools]") {
   CHECK_THROWS_AS(parse_length(text), Error);
 }
 
+TEST_CASE("a point is three numbers", "[quick][tools]") {
+  CHECK(parse_point("1,-2.5,3e6") == Vec3d{1, -2.5, 3e6});
+  const std::string text = GENERATE("", "1", "1,2", "1,2,", "1,2,3,", "1,2,3,4", "1, 2,3", "a,b,c", ",,", "1;2;3");
+  CAPTURE(text);
+  CHECK_THROWS_AS(parse_point(text), Error);
+}
+
+TEST_CASE("a whole number out of range is named with the range that matters", "[quick][tools]") {
+  CHECK(parse_integer("9223372036854775807", 0, INT64_MAX) == INT64_MAX);
+  CHECK_THROWS_WITH(parse_integer("9223372036854775808", 0, INT64_MAX), "'9223372036854775808' is too large a number");
+  CHECK_THROWS_WITH(parse_integer("-1", 0, INT64_MAX), "'-1' is not a whole number of at least 0");
+  CHECK_THROWS_WITH(parse_integer("1e3", 0, INT64_MAX), "'1e3' is not a whole number of at least 0");
+  CHECK_THROWS_WITH(parse_integer("", 0, INT64_MAX), "'' is not a whole number of at least 0");
+  CHECK_THROWS_WITH(parse_integer("99999999999999999999", 0, 64),
+                    "'99999999999999999999' is not a whole number from 0 to 64");
+}
+
 TEST_CASE("sizes are powers of 1024", "[quick][tools]") {
   CHECK(parse_size("4096") == 4096);
   CHECK(parse_size("1K") == 1024);
