@@ -10,6 +10,7 @@
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
+#include "tools/common/scale_notes.h"
 
 namespace {
 
@@ -134,6 +135,7 @@ void run(const Options& o) {
   bp::BrickReader source(o.in);
   check_fill(o, source.header());
   const bp::ScaleField field = scale_field(o, source.header());
+  for (const std::string& text : bp::scale_notes(field, source.header())) report.note(text, o.common);
   bp::Backends backends = bp::make_backends(o.common, core_seconds(source.header(), field));
   bp::BrickWriter sink(*output, closed_header(o, source.header(), field));
 

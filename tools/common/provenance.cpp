@@ -5,6 +5,7 @@
 namespace bp {
 
 OptionText& OptionText::add(const std::string& key, const std::string& value) {
+  if (value.empty()) return *this;
   if (!text_.empty()) text_ += ' ';
   text_ += key + "=" + value;
   return *this;

@@ -11,7 +11,7 @@ namespace bp {
 
 class OptionText {
  public:
-  OptionText& add(const std::string& key, const std::string& value);
+  OptionText& add(const std::string& key, const std::string& value);  ///< nothing if the value is empty
   OptionText& add(const std::string& key, const char* value) { return add(key, std::string(value)); }
   OptionText& add(const std::string& key, double value);  ///< shortest text that reads back the same
   OptionText& add(const std::string& key, bool value) { return add(key, value ? "yes" : "no"); }

@@ -31,6 +31,11 @@ void Report::close_stage() {
   stage_.clear();
 }
 
+void Report::note(const std::string& text, const CommonOptions& common) {
+  notes.push_back(text);
+  if (common.progress != ProgressMode::quiet) std::fprintf(stderr, "%s: note: %s\n", tool_.c_str(), text.c_str());
+}
+
 void Report::stage(const std::string& name) {
   close_stage();
   stage_ = name;

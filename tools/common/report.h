@@ -21,6 +21,9 @@ class Report {
   Json notes = Json::array();     ///< sentences worth a look: what was skipped, why a target was not reached
   std::uint64_t bytes_in = 0, bytes_out = 0;
 
+  /// Adds a note, and says it on stderr unless the tool is to be quiet: one line, as an error would be.
+  void note(const std::string& text, const CommonOptions& common);
+
   /// Seconds from here to the next stage() or to write(), under this name; a name met again adds up.
   void stage(const std::string& name);
 

@@ -22,6 +22,11 @@ try bpclose cube.bp --field field.json -o out.bp
 echo '{"base": 1, "boxen": []}' > field.json
 try bpclose cube.bp --field field.json -o out.bp
 rm field.json
+try bpclose cube.bp --scale 0.5vx -o noted.bp
+try bpclose cube.bp --scale 0.5vx --quiet -o noted.bp --overwrite
+echo '{"base": 0.3, "boxes": [{"min": [0, 0, 0], "max": [1, 1, 1], "scale": 0.2}, {"min": [5, 5, 5], "max": [6, 6, 6], "scale": 0.1}]}' > field.json
+try bpclose cube.bp --field field.json -o noted.bp --overwrite
+rm field.json noted.bp
 try bpclose missing.bp --scale 1 -o out.bp
 try bpclose text.bp --scale 1 -o out.bp
 try bpclose cube.glb --scale 1 -o out.bp
@@ -31,6 +36,8 @@ try bpmesh almost.bp -o out.glb
 try bpmesh flipped.bp -o out.glb
 try bpmesh cube.bp
 try bpmesh cube.bp -o out.xyz
+try bpmesh cube.bp --format foo -o out
+try bpmesh cube.bp --faces 99999999999999999999 -o out.glb
 try bpmesh cube.bp --origin 1,2 -o out.glb
 try bpmesh cube.bp -o cube.glb
 try bpmesh cube.bp -o out.glb --enclose input --enclose cube.obj

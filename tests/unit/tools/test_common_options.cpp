@@ -79,7 +79,12 @@ TEST_CASE("a GPU that a CPU build is asked for is a missing resource", "[quick][
 
 TEST_CASE("the option text is canonical", "[quick][tools]") {
   OptionText text;
-  text.add("voxel", 0.1).add("fill", "flood").add("tile", 256).add("keep", false).add("scale", parse_length("2.50%"));
+  text.add("voxel", 0.1)
+      .add("error", "")
+      .add("fill", "flood")
+      .add("tile", 256)
+      .add("keep", false)
+      .add("scale", parse_length("2.50%"));
   CHECK(text.text() == "voxel=0.1 fill=flood tile=256 keep=no scale=2.5%");
   CHECK(make_provenance("bpvox", text).options == text.text());
 }
