@@ -80,8 +80,9 @@ struct CheckReport {
   Finding outside_parts;  ///< index: first triangle of a component that the scene does not wind around
 
   // Measures, in doubles.
-  double volume = 0;                   ///< signed, cubed scene units
-  std::optional<double> scene_volume;  ///< signed sum over all triangles: meaningful only for closed scenes
+  double volume = 0;  ///< signed, cubed scene units
+  /// Signed sum over all triangles, seen from the centre of their bounds: meaningful only for closed scenes.
+  std::optional<double> scene_volume;
   double edge_min = 0, edge_mean = 0, edge_max = 0;
   double angle_min_degrees = 0;
   std::optional<SampledDistance> scene_to_proxy, proxy_to_scene;

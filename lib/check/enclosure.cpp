@@ -11,10 +11,43 @@ namespace {
 
 constexpr std::size_t kBatch = 8192;  // triangles per work item
 
+/// The signed volume of a stream of triangles. It is summed about a point that is known from the start and moved to
+/// the centre of the bounds at the end: where the scene is open the value depends on the point, and it must not depend
+/// on the proxy.
+class SceneVolume {
+ public:
+  SceneVolume() = default;
+  explicit SceneVolume(const Vec3d& origin) : origin_(origin) {}
+  void add(const TriangleD& t) {
+    Vec3d a, u, v;
+    for (std::size_t i = 0; i < 3; ++i) a[i] = t[0][i] - origin_[i], u[i] = t[1][i] - t[0][i], v[i] = t[2][i] - t[0][i];
+    const Vec3d n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    for (std::size_t i = 0; i < 3; ++i) six_volumes_ += a[i] * n[i], two_areas_[i] += n[i];
+    for (const Vec3d& p : t) bounds_.add(p);
+  }
+  void add(const SceneVolume& v) {
+    six_volumes_ += v.six_volumes_;
+    for (std::size_t i = 0; i < 3; ++i) two_areas_[i] += v.two_areas_[i];
+    bounds_.merge(v.bounds_);
+  }
+  [[nodiscard]] double about_centre() const {
+    double six = six_volumes_;
+    if (bounds_.empty()) return 0;
+    for (std::size_t i = 0; i < 3; ++i) six -= ((bounds_.min[i] + bounds_.max[i]) / 2 - origin_[i]) * two_areas_[i];
+    return six / 6;
+  }
+
+ private:
+  Vec3d origin_{}, two_areas_{};
+  double six_volumes_ = 0;
+  Bounds3d bounds_;
+};
+
 struct Batch {
   std::uint64_t first = 0;
   std::vector<TriangleD> triangles;
   Enclosure result;
+  SceneVolume volume;
 };
 
 /// Pulls from a source whose reads are of any size, hands out batches of about one size.
@@ -88,17 +121,11 @@ Vec3d centre(const TriangleD& t) {
   return c;
 }
 
-/// Six times the signed volume of the tetrahedron over t.
-double volume_over(const TriangleD& t, const Vec3d& o) {
-  Vec3d a, b, c;
-  for (std::size_t i = 0; i < 3; ++i) a[i] = t[0][i] - o[i], b[i] = t[1][i] - o[i], c[i] = t[2][i] - o[i];
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
 void check_batch(const WeldedMesh& mesh, const Surface& surface, bool decide_sides, const Vec3d& origin,
                  std::size_t max_examples, Batch& batch) {
   SideCache cache;
   Enclosure& e = batch.result;
+  batch.volume = SceneVolume(origin);
   for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
     const TriangleD& t = batch.triangles[i];
     const std::uint64_t number = batch.first + i;
@@ -106,7 +133,7 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, bool decide_sid
       e.undecidable.add({number, 0, t[0]}, max_examples);
       continue;
     }
-    e.volume += volume_over(t, origin);
+    batch.volume.add(t);
     const std::int64_t touched = surface.touched_by(t);
     if (touched != Surface::kNone)
       e.touching.add({number, mesh.number[std::size_t(touched)], centre(t)}, max_examples);
@@ -124,6 +151,7 @@ Enclosure check_enclosure(const WeldedMesh& mesh, const Surface& surface, Triang
   Enclosure all;
   Vec3d origin{};
   if (!surface.bounds().empty()) origin = surface.bounds().min;
+  SceneVolume volume(origin);
   scene.rewind();
   Batcher batcher(scene);
   pipeline<Batch>(
@@ -135,9 +163,9 @@ Enclosure check_enclosure(const WeldedMesh& mesh, const Surface& surface, Triang
         all.touching.append(batch.result.touching, max_examples);
         all.outside.append(batch.result.outside, max_examples);
         all.undecidable.append(batch.result.undecidable, max_examples);
-        all.volume += batch.result.volume;
+        volume.add(batch.volume);
       });
-  all.volume /= 6;
+  all.volume = volume.about_centre();
   return all;
 }
 

@@ -10,7 +10,7 @@ namespace bp {
 struct Enclosure {
   std::uint64_t triangles = 0;
   Finding touching, outside, undecidable;  ///< as in CheckReport
-  double volume = 0;                       ///< signed sum over the scene
+  double volume = 0;                       ///< signed sum over the scene, seen from the centre of its bounds
 };
 
 /// Tests every triangle of `scene` from its start, in parallel, in bounded memory. A triangle that touches nothing lies

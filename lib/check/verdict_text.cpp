@@ -179,7 +179,7 @@ std::string verdict_text(const CheckReport& r, const std::string& proxy_name) {
   std::string text = fmt::format("proxy {}: {} triangles, {} vertices, {} component{}", proxy_name, r.triangles,
                                  r.vertices, r.components, r.components == 1 ? "" : "s");
   if (r.genus) text += fmt::format(", genus {}", *r.genus);
-  text += "\n" + scene_lines(r);
+  text.append("\n").append(scene_lines(r));
   text += row("closed", r.closed()) + row("oriented", r.oriented()) + row("2-manifold", r.manifold());
   text += row("free of self-intersections", r.embedded());
   text += r.sides_decided ? row("facing outwards", r.outward()) : undecided_row("facing outwards");

@@ -41,6 +41,15 @@ TEST_CASE("a scene inside is enclosed, also far from the origin", "[quick][check
   CHECK(r.proxy_to_scene.has_value());
 }
 
+TEST_CASE("the volume of an open scene does not depend on the proxy", "[quick][check]") {
+  std::vector<TriangleD> open = triangles_of(sphere(3, 1, {5, 6, 7}));
+  open.resize(open.size() / 2);
+  const double volume = *check(box({0, 0, 0}, {20, 20, 20}), open).scene_volume;
+  CHECK(std::abs(*check(box({-3, 2, 1}, {9, 9, 9}), open).scene_volume - volume) < 1e-12);
+  std::reverse(open.begin(), open.end());
+  CHECK(std::abs(*check(box({-3, 2, 1}, {9, 9, 9}), open).scene_volume - volume) < 1e-12);
+}
+
 TEST_CASE("a scene triangle that pokes out by one unit in the last place touches", "[quick][check]") {
   const double far = GENERATE(1.0, 6e6);
   const IndexedMesh proxy = box({far, far, far}, {far + 2, far + 2, far + 2});
