@@ -93,7 +93,7 @@ void Progress::show(bool last) {
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
   if (mode_ == ProgressMode::json) return put(json_line(seconds));
   if (!last) {
-    put("\r" + bar_line(seconds) + "\x1b[K");
+    put(fmt::format("\r{}\x1b[K", bar_line(seconds)));
     drawn_ = true;
   } else if (drawn_) {
     put("\r\x1b[K");
