@@ -242,7 +242,7 @@ void run(const Options& o) {
   bp::Report report("bplod");
   bp::Progress progress("bplod", o.common.progress);
   bp::OutputFolder out(o.out, bp::profile_files(o.profile, o.name, bp::level_count(o.request)), o.common.overwrite);
-  bp::Backends backends = bp::make_backends(o.common);
+  bp::Backends backends = bp::make_backends(o.common, 0);  // reading and meshing take far longer than closing
   const bp::ShelfFactory make_shelf = bp::make_shelf_factory(budget.shelf, o.common.temp);
   const StageProgress show = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
                                                                std::uint64_t total) mutable {
