@@ -105,6 +105,11 @@ __host__ __device__ std::size_t row_memory_bytes(int side) {
 }
 /// Blocks to a multiprocessor: the pass waits for memory more than it computes.
 constexpr int kPowerBlocks = 5;
+#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ < 800
+constexpr int kPowerResident = 4;  ///< no more threads fit on a multiprocessor of compute capability 7.5
+#else
+constexpr int kPowerResident = kPowerBlocks;
+#endif
 /// Groups of kRun inputs in reach of kRun outputs, and the reach they come to.
 __host__ __device__ int run_reach(int reach) {
   return (reach + kRun - 1) / kRun * kRun;
@@ -279,7 +284,7 @@ __device__ void take_rows(std::uint64_t& left, int (&rows)[2 * kRowPairs]) {
 }
 
 /// Power transform along x (the ball belongs to the seed and its size varies), 16 bits. A warp takes 8 x 8 rows.
-__global__ void __launch_bounds__(kPassThreads, kPowerBlocks)
+__global__ void __launch_bounds__(kPassThreads, kPowerResident)
     row_pass_power_kernel(const __grid_constant__ TransformArgs a, int side) {
   std::uint32_t* squares = static_cast<std::uint32_t*>(dynamic_shared_memory());
   const int groups = run_groups(a.bounds.reach), reach = run_reach(a.bounds.reach);
