@@ -69,7 +69,7 @@ TEST_CASE("a report that exists is noticed before the work", "[quick][tools]") {
 TEST_CASE("a GPU that a CPU build is asked for is a missing resource", "[quick][tools]") {
 #ifndef BP_HAVE_CUDA
   try {
-    (void)make_backends(parse({"--device", "cuda"}));
+    (void)make_backends(parse({"--device", "cuda"}), 0);
     FAIL("no error");
   } catch (const Error& e) {
     CHECK(e.code() == ErrorCode::out_of_resource);
