@@ -1,6 +1,6 @@
 #pragma once
 #include "lib/check/check_report.h"
-#include "lib/check/triangle_bvh.h"
+#include "lib/geometry/triangle_bvh.h"
 
 /// Distances estimated from samples. Which triangles are sampled depends on their numbers alone.
 namespace bp {

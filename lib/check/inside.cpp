@@ -4,6 +4,7 @@
 
 #include "lib/core/parallel.h"
 #include "lib/core/predicates.h"
+#include "lib/geometry/crossing.h"
 
 namespace bp {
 

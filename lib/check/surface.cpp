@@ -6,6 +6,7 @@
 #include "lib/core/expansion.h"
 #include "lib/core/parallel.h"
 #include "lib/core/triangle_intersection.h"
+#include "lib/geometry/crossing.h"
 
 namespace bp {
 
@@ -37,13 +38,6 @@ void add_sorted(Finding& f, const Example& e, std::size_t n) {
   if (n == 0 || (f.examples.size() == n && !before(e, f.examples.back()))) return;
   if (f.examples.size() == n) f.examples.pop_back();
   f.examples.insert(std::upper_bound(f.examples.begin(), f.examples.end(), e, before), e);
-}
-
-/// Side of the infinitesimally moved p of the line from a to b, seen from above; 0 only if a and b coincide in plan.
-int side_in_plan(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
-  if (const int s = orient2d(a, b, p, 2); s != 0) return s;
-  if (a[1] != b[1]) return a[1] > b[1] ? 1 : -1;  // d/dx of the determinant is a.y - b.y
-  return sign_of(b[0] - a[0]);                    // d/dy is b.x - a.x; the difference of distinct doubles is not 0
 }
 
 /// Sign of the signed volume under triangles of one closed component.
@@ -89,14 +83,6 @@ int exact_volume_sign(const WeldedMesh& mesh, const std::vector<std::uint32_t>& 
 }
 
 }  // namespace
-
-int crossing_above(const TriangleD& t, const Vec3d& p) {
-  const int facing = orient2d(t[0], t[1], t[2], 2);
-  if (facing == 0) return 0;
-  for (std::size_t e = 0; e < 3; ++e)
-    if (side_in_plan(t[e], t[(e + 1) % 3], p) != facing) return 0;
-  return orient3d(t[0], t[1], t[2], p) == -facing ? facing : 0;  // p below the plane
-}
 
 Surface::Surface(const WeldedMesh& mesh) : mesh_(mesh), triangle_(with_area(mesh)), bvh_(corners_of(mesh, triangle_)) {
   for (std::size_t i = 0; i < bvh_.size(); ++i) bounds_.merge(bounds_of(bvh_.item(i).corners));

@@ -1,6 +1,6 @@
 #pragma once
 #include "lib/check/mesh_topology.h"
-#include "lib/check/triangle_bvh.h"
+#include "lib/geometry/triangle_bvh.h"
 
 /// The proxy as a surface in space: which triangles cross, which side a point is on. Exact.
 namespace bp {
@@ -25,10 +25,6 @@ class Surface {
 
   /// Winding number of the surface around p, which must not lie on it (there, an arbitrary but fixed side). Triangles
   /// of component `ignored` do not count. Means something only if every edge is used equally often in both directions.
-  ///
-  /// Counts signed crossings of the ray from p upwards. To have no special cases, p is moved by (e, e^2, 0) with e
-  /// infinitesimal: the ray then passes no edge and no vertical triangle, and since the signs below are antisymmetric
-  /// in the ends of an edge, exactly one of two triangles on either side of an edge is hit.
   [[nodiscard]] int winding(const Vec3d& p, std::uint32_t ignored = kNoComponent) const;
   static constexpr std::uint32_t kNoComponent = std::uint32_t(-2);
 
@@ -38,10 +34,6 @@ class Surface {
   Bounds3d bounds_;
   TriangleBvh bvh_;
 };
-
-/// Signed crossing of triangle t with the ray from p upwards, p moved as in Surface::winding: +1 where the ray leaves
-/// through a face turned upwards, -1 downwards, else 0. Exact.
-[[nodiscard]] int crossing_above(const TriangleD& t, const Vec3d& p);
 
 /// Closed components that nothing surrounds must have a positive signed volume, decided exactly. Needs a closed,
 /// oriented mesh.

@@ -1,34 +1,146 @@
 #include "lib/stage/components.h"
 
 #include <algorithm>
-#include <set>
+#include <cmath>
+#include <numeric>
 
-#include "lib/check/surface.h"
+#include "lib/core/box.h"
+#include "lib/core/predicates.h"
+#include "lib/geometry/crossing.h"
+#include "lib/meshing/lattice_geometry.h"
 
 namespace bp {
 
-std::uint64_t drop_inverted_components(LatticeMesh& mesh) {
-  IndexedMesh indexed;
-  for (const LatticeCoord& p : mesh.vertices) indexed.vertices.push_back(mesh.frame.world(p));
-  indexed.triangles = mesh.triangles;
-  CheckReport report;
-  WeldedMesh welded = weld(indexed, 0, report);
-  check_topology(welded, 0, report);
-  const Finding inverted = inverted_components(welded, Surface(welded), welded.triangles.size());
-  if (inverted.count == 0) return 0;
-  std::set<std::uint32_t> dropped;
-  for (const Example& e : inverted.examples) {
-    const auto at = std::find(welded.number.begin(), welded.number.end(), e.index);
-    dropped.insert(welded.component[std::size_t(at - welded.number.begin())]);
+namespace {
+
+struct Shell {
+  int128 volume6 = 0;  // signed, six times, cubed lattice units
+  std::vector<std::uint32_t> triangles;
+  Bounds3d bounds;  // lattice units
+};
+
+std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+/// By first triangle.
+std::vector<Shell> shells_of(const LatticeMesh& mesh) {
+  constexpr auto kNone = std::uint32_t(-1);
+  std::vector<std::uint32_t> parent(mesh.vertices.size()), shell_of(mesh.vertices.size(), kNone);
+  std::iota(parent.begin(), parent.end(), 0u);
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 1; k < 3; ++k) parent[root_of(parent, t[0])] = root_of(parent, t[k]);
   }
-  std::vector<std::array<std::uint32_t, 3>> left;
-  for (std::size_t i = 0; i < welded.triangles.size(); ++i) {
-    if (dropped.count(welded.component[i]) == 0) left.push_back(mesh.triangles[welded.number[i]]);
+  std::vector<Shell> shells;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    std::uint32_t& number = shell_of[root_of(parent, t[0])];
+    if (number == kNone) number = std::uint32_t(shells.size()), shells.emplace_back();
+    Shell& shell = shells[number];
+    // Towards a vertex of the shell, so that numbers stay small.
+    const LatticeCoord& apex =
+        mesh.vertices[shell.triangles.empty() ? t[0] : mesh.triangles[shell.triangles.front()][0]];
+    shell.volume6 -= orient3d_value(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], apex);
+    shell.triangles.push_back(std::uint32_t(i));
+    for (const std::uint32_t v : t) shell.bounds.add(to_double(mesh.vertices[v]));
   }
-  const std::uint64_t taken = mesh.triangles.size() - left.size();
-  mesh.triangles = std::move(left);
+  return shells;
+}
+
+/// Winding number of `shell` around a point that does not lie on it; 1 or -1 inside, 0 outside.
+int winding(const LatticeMesh& mesh, const Shell& shell, const Vec3d& p) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (p[i] < shell.bounds.min[i] || p[i] > shell.bounds.max[i]) return 0;
+  }
+  int sum = 0;
+  for (const std::uint32_t i : shell.triangles) {
+    const auto& t = mesh.triangles[i];
+    sum += crossing_above(
+        {to_double(mesh.vertices[t[0]]), to_double(mesh.vertices[t[1]]), to_double(mesh.vertices[t[2]])}, p);
+  }
+  return sum;
+}
+
+Vec3d point_of(const LatticeMesh& mesh, const Shell& shell) {
+  return to_double(mesh.vertices[mesh.triangles[shell.triangles.front()][0]]);
+}
+
+/// Takes away the triangles of the shells that are marked, and the vertices that only they used; the rest keeps its
+/// order.
+std::uint64_t drop(LatticeMesh& mesh, const std::vector<Shell>& shells, const std::vector<bool>& marked) {
+  std::vector<bool> gone(mesh.triangles.size()), used(mesh.vertices.size());
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    for (const std::uint32_t i : shells[s].triangles) {
+      gone[i] = marked[s];
+      for (const std::uint32_t v : mesh.triangles[i]) used[v] = !marked[s];
+    }
+  }
+  std::vector<std::uint32_t> number(mesh.vertices.size());
+  std::vector<LatticeCoord> vertices;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    number[v] = std::uint32_t(vertices.size());
+    if (used[v]) vertices.push_back(mesh.vertices[v]);
+  }
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    if (!gone[i]) triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  }
+  const std::uint64_t taken = mesh.triangles.size() - triangles.size();
+  mesh.vertices = std::move(vertices);
+  mesh.triangles = std::move(triangles);
   mesh.quads.clear();  // they named triangles by number
   return taken;
+}
+
+}  // namespace
+
+std::uint64_t drop_inverted_components(LatticeMesh& mesh) {
+  const std::vector<Shell> shells = shells_of(mesh);
+  std::vector<bool> inverted(shells.size());
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    if (shells[s].volume6 > 0) continue;
+    int around = 0;
+    for (std::size_t other = 0; other < shells.size(); ++other) {
+      if (other != s) around += winding(mesh, shells[other], point_of(mesh, shells[s]));
+    }
+    inverted[s] = around == 0;
+  }
+  const bool none = std::find(inverted.begin(), inverted.end(), true) == inverted.end();
+  return none ? 0 : drop(mesh, shells, inverted);
+}
+
+DroppedParts drop_small_parts(LatticeMesh& mesh, double share) {
+  constexpr double kVolume6OfVoxel = 6.0 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
+  const std::vector<Shell> shells = shells_of(mesh);
+  double largest = 0;  // in magnitude; an outer shell, since a cavity is smaller than the shell around it
+  for (const Shell& s : shells) {
+    if (std::abs(double(s.volume6)) > std::abs(largest)) largest = double(s.volume6);
+  }
+  DroppedParts dropped;
+  std::vector<bool> marked(shells.size());
+  std::vector<std::size_t> small;
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    const bool outer = (shells[s].volume6 > 0) == (largest > 0);
+    if (!outer || std::abs(double(shells[s].volume6)) >= share * std::abs(largest)) continue;
+    marked[s] = true;
+    small.push_back(s);
+  }
+  for (std::size_t s = 0; s < shells.size(); ++s) {  // cavities go with what they are in; larger parts are in none
+    if (marked[s] || (shells[s].volume6 > 0) == (largest > 0)) continue;
+    marked[s] = std::any_of(small.begin(), small.end(), [&](std::size_t part) {
+      return winding(mesh, shells[part], point_of(mesh, shells[s])) != 0;
+    });
+  }
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    if (!marked[s]) continue;
+    const bool outer = (shells[s].volume6 > 0) == (largest > 0);
+    dropped.parts += outer ? 1 : 0;
+    dropped.volume_vox += (largest > 0 ? 1 : -1) * double(shells[s].volume6) / kVolume6OfVoxel;
+  }
+  if (dropped.parts > 0) drop(mesh, shells, marked);
+  return dropped;
 }
 
 }  // namespace bp

@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/check/triangle_bvh.h"
+#include "lib/geometry/triangle_bvh.h"
 #include "lib/meshing/fit.h"
 
 /// Where the vertices of a fitted level of detail go.

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "lib/check/hausdorff.h"
+#include "lib/geometry/surface_distance.h"
 #include "lib/meshing/lattice_mesh.h"
 
 /// What bpmesh reports of a proxy: measures in doubles, proving nothing (bpcheck does).

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/check/hausdorff.h"
+#include "lib/geometry/surface_distance.h"
 
 namespace bp {
 

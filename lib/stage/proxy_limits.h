@@ -1,6 +1,6 @@
 #pragma once
-#include "lib/check/triangle_bvh.h"
 #include "lib/core/predicates.h"
+#include "lib/geometry/triangle_bvh.h"
 #include "lib/meshing/lattice_mesh.h"
 #include "lib/meshing/step_limits.h"
 

@@ -1,7 +1,7 @@
 #include <random>
 
-#include "lib/check/hausdorff.h"
 #include "lib/core/parallel.h"
+#include "lib/geometry/surface_distance.h"
 #include "tests/catch.h"
 
 using namespace bp;

@@ -4,7 +4,7 @@
 
 #include "lib/core/box.h"
 
-/// Bounding volume hierarchy over triangles of doubles, for the checks. A box is the exact bounds of its triangles
+/// Bounding volume hierarchy over triangles of doubles. A box is the exact bounds of its triangles
 /// (minima and maxima of doubles round nowhere), so no triangle is ever missed.
 namespace bp {
 

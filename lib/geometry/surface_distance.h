@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "lib/check/triangle_bvh.h"
+#include "lib/geometry/triangle_bvh.h"
 
 /// Distances between surfaces with a bound on their error: branch and bound over parts of triangles. What bounds a
 /// part: distance is 1-Lipschitz, so d(centre) + radius; and the distance to one triangle is convex, so its largest

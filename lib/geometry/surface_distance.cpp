@@ -1,4 +1,4 @@
-#include "lib/check/hausdorff.h"
+#include "lib/geometry/surface_distance.h"
 
 #include <algorithm>
 #include <queue>

@@ -1,7 +1,7 @@
 // Top-down build, splits chosen by the surface area heuristic over bins (docs/references.md: [Wald07]). The upper
 // levels are split one after the other, then the subtrees are built in parallel and appended in order: where they start
 // depends on n alone, so the tree does not depend on the number of threads.
-#include "lib/check/triangle_bvh.h"
+#include "lib/geometry/triangle_bvh.h"
 
 #include <algorithm>
 #include <numeric>
