@@ -1,4 +1,6 @@
 // bpmesh: brick stream in, proxy out. Manual: docs/bpmesh.1.md
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -16,6 +18,9 @@
 
 namespace {
 
+/// A tenth of the diameter: what hides a hundredth of the largest part costs as many triangles.
+constexpr double kLeastPart = 1e-3;
+
 struct Options {
   bp::CommonOptions common;
   std::string in = "-", out = "-", format;
@@ -23,6 +28,7 @@ struct Options {
   std::vector<std::uint64_t> faces;  // one per level
   std::optional<bp::Length> error;
   double volume = 0, edge_length = 0;
+  std::optional<double> least_part;  // 0.001 inside
   std::vector<std::string> enclose;
   bool loose = false;  // --no-tighten
   bool measure = false, quads = false;
@@ -62,6 +68,8 @@ Options parse(bp::Args& args) {
   args.option(
       "--enclose", "WHAT", o.enclose,
       "what stays inside while the proxy is tightened: closing, input (the voxels of the scene), or scene files");
+  args.option("--least-part", "RATIO", o.least_part,
+              "inside: leave out parts smaller than RATIO times the largest, by volume (0.001; 0: none)");
   args.flag("--no-tighten", o.loose, "leave out the last step, which lowers the volume");
   args.flag("--quads", o.quads, "join triangles to quads, safe for either diagonal; in OBJ and PLY");
   args.flag("--measure", o.measure, "measure distances, and print volume, edges and distances on stderr");
@@ -78,9 +86,9 @@ bool is_layer(const std::string& what) {
 
 /// The option as given, with files by name only: a path is nobody's business in a provenance chain.
 std::string enclose_text(const Options& o) {
-  std::string text;
-  for (const std::string& what : o.enclose) text += (text.empty() ? "" : ",") + what.substr(what.rfind('/') + 1);
-  return text.empty() ? "closing" : text;
+  std::vector<std::string> names;
+  for (const std::string& what : o.enclose) names.push_back(what.substr(what.rfind('/') + 1));
+  return names.empty() ? "closing" : fmt::format("{}", fmt::join(names, ","));
 }
 
 /// Sets what must stay inside; reads the scenes named.
@@ -115,9 +123,7 @@ void set_enclosed(const Options& o, const bp::Bounds3d& bounds, bp::MeshParams& 
 
 /// "1000" or "5000,1000,200"; "0" without a target.
 std::string faces_text(const Options& o) {
-  std::string text;
-  for (const std::uint64_t n : o.faces) text += (text.empty() ? "" : ",") + std::to_string(n);
-  return text.empty() ? "0" : text;
+  return o.faces.empty() ? "0" : fmt::format("{}", fmt::join(o.faces, ","));
 }
 
 const char* name_of(bp::MeshMode mode) {
@@ -134,6 +140,7 @@ bp::Provenance provenance(const Options& o, const std::string& input, std::size_
       .add("edge-length", o.edge_length)
       .add("enclose", enclose_text(o))
       .add("tighten", !o.loose);
+  if (o.least_part) text.add("least-part", *o.least_part);
   if (o.quads) text.add("quads", o.quads);
   if (o.faces.size() > 1) text.add("level", level);
   return bp::make_provenance("bpmesh", text, input);
@@ -192,6 +199,8 @@ void fill_report(bp::Report& report, const Options& o, const bp::MeshCounts& c) 
   for (const bp::LevelCounts& level : c.levels) levels.push_back(json_of(level));
   report.counts = {{"voxels", c.voxels},
                    {"voxels_repaired", c.repaired},
+                   {"parts_dropped", c.dropped_parts},
+                   {"voxels_dropped", c.dropped_voxels},
                    {"volume_of_voxels", c.solid_volume_world},
                    {"levels", levels}};
 }
@@ -203,6 +212,11 @@ void note(bp::Report& report, const Options& o, const std::string& text) {
 
 /// One line for each target that was out of reach: the user gets the best there is, and the reason.
 void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts& c, double error_world) {
+  if (c.dropped_parts > 0) {
+    note(report, o,
+         fmt::format("small parts left out: {}, with {} of {} voxels; --least-part 0 keeps them", c.dropped_parts,
+                     c.dropped_voxels, c.voxels));
+  }
   for (std::size_t i = 0; i < c.levels.size(); ++i) {
     const bp::SimplifyCounts& s = c.levels[i].simplify;
     const std::string which = c.levels.size() > 1 ? fmt::format("level {}: ", i) : "";
@@ -251,6 +265,7 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
   if (o.error) params.error_world = o.error->in_world(header.bounds.diagonal(), header.frame.voxel);
   params.volume_ratio = o.volume;
   params.edge_factor = o.edge_length;
+  params.least_part = o.least_part.value_or(o.mode == bp::MeshMode::inside ? kLeastPart : 0);
   params.tighten = !o.loose;
   params.quads = o.quads;
   params.distances = o.measure || (o.error && !o.enclose.empty());

@@ -51,6 +51,10 @@ void check(const MeshParams& params) {
     fail(ErrorCode::bad_argument, "a fit is drawn to the closing or to scene files; --enclose input has no meaning");
   if (params.mode == MeshMode::fit && params.volume_ratio != 0)
     fail(ErrorCode::bad_argument, "a fit encloses nothing; --volume has no meaning");
+  if (params.least_part < 0 || params.least_part > 1)
+    fail(ErrorCode::bad_argument, "the least part is a share of the largest, from 0 to 1, not {}", params.least_part);
+  if (params.mode != MeshMode::inside && params.least_part != 0)
+    fail(ErrorCode::bad_argument, "only a proxy inside a scene may leave parts out; --least-part needs --mode inside");
   if (params.mode == MeshMode::inside && params.volume_ratio > 1)
     fail(ErrorCode::bad_argument, "a volume ratio of {} is above 1, and what lies inside is no larger",
          params.volume_ratio);
@@ -196,21 +200,25 @@ class LevelMaker {
   LevelMaker(const StreamHeader& header, const ShelfFactory& make_shelf, MeshParams params, MeshCounts& counts)
       : header_(header), make_shelf_(make_shelf), params_(std::move(params)), counts_(counts) {
     bounds_.error_world = params_.error_world;
-    bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts.solid_volume_world;
   }
 
   std::vector<LatticeMesh> run(const Shelves& shelves) {
     const std::vector<std::uint64_t> faces = params_.faces.empty() ? std::vector<std::uint64_t>{0} : params_.faces;
     Start start = make_start(shelves, params_.mode, header_.frame, make_shelf_);
-    if (inside()) counts_.repaired = counts_.voxels - voxels_within(start.dense);
+    if (inside()) {
+      counts_.repaired = counts_.voxels - voxels_within(start.dense);
+      drop_crumbs(start.dense);
+    }
+    bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
     ground_ = make_ground(shelves, params_, start, make_shelf_);
     if (params_.mode == MeshMode::fit) return fits(start.dense, faces);
     std::vector<LatticeMesh> levels{finish(start.dense, ground_.enclosed.get(), faces[0])};
     for (std::size_t i = 1; i < faces.size(); ++i) {
       const LatticeMesh& before = levels.back();
       const double voxel = level_voxel(before, header_.frame.voxel, faces[i]);
-      const LatticeMesh dense =
+      LatticeMesh dense =
           inside() ? surface_within(before, voxel, make_shelf_) : surface_around(before, voxel, make_shelf_);
+      if (inside()) drop_small_parts(dense, params_.least_part);  // a level may fall into parts
       const EnclosedTriangles enclosed(world_triangles(before), dense.frame);
       levels.push_back(finish(dense, params_.tighten ? &enclosed : nullptr, faces[i]));
     }
@@ -235,6 +243,13 @@ class LevelMaker {
   }
 
   [[nodiscard]] bool inside() const { return params_.mode == MeshMode::inside; }
+
+  void drop_crumbs(LatticeMesh& dense) {
+    const DroppedParts dropped = drop_small_parts(dense, params_.least_part);
+    counts_.dropped_parts = dropped.parts;
+    counts_.dropped_voxels = std::uint64_t(std::llround(dropped.volume_vox));
+    counts_.solid_volume_world -= dropped.volume_vox * std::pow(header_.frame.voxel, 3);
+  }
 
   /// Voxels that a surface turned inwards has on its other side.
   static std::uint64_t voxels_within(const LatticeMesh& dense) {

@@ -26,8 +26,10 @@ struct MeshParams {
   Enclose enclose = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
   bool tighten = true;           ///< afterwards, lower the volume while what is enclosed stays inside
-  bool quads = false;            ///< join triangles in pairs (quads.h)
-  bool distances = false;        ///< measure the distances between the proxies and what they enclose
+  /// inside: parts whose volume is below this share of the largest one's are left out, at each level; 0: none.
+  double least_part = 0;
+  bool quads = false;      ///< join triangles in pairs (quads.h)
+  bool distances = false;  ///< measure the distances between the proxies and what they enclose
   /// With no target at all: the quadric error at which [CB17] §3.4 stops, as a share of the scene's diagonal.
   static constexpr double kErrorShareBall = 1e-3, kErrorShareCube = 1e-2;
 };
@@ -42,7 +44,8 @@ struct LevelCounts {
 struct MeshCounts {
   std::uint64_t voxels = 0;    ///< of the layer that is meshed
   std::uint64_t repaired = 0;  ///< voxels added (inside: taken away) where others touched only along an edge or corner
-  double solid_volume_world = 0;  ///< of the meshed voxels, scene units cubed
+  std::uint64_t dropped_parts = 0, dropped_voxels = 0;  ///< below least_part, of the voxels
+  double solid_volume_world = 0;  ///< of the meshed voxels without those dropped, scene units cubed
   std::vector<LevelCounts> levels;
 };
 

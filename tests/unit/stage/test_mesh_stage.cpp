@@ -222,3 +222,37 @@ TEST_CASE("the volume of a proxy inside stays above --volume", "[quick][stage]")
   CHECK(counts.levels[0].stopped_by == "volume");
   CHECK(counts.levels[0].measures.volume >= 0.9 * counts.solid_volume_world * (1 - 1e-12));
 }
+
+TEST_CASE("a proxy inside leaves out small parts, and says how much that is", "[quick][stage]") {
+  const auto with_crumbs = [](VoxelCoord p) {
+    const bool block = p.x >= 4 && p.x < 24 && p.y >= 4 && p.y < 24 && p.z >= 4 && p.z < 24;
+    const bool crumb = p.x >= 30 && p.x < 32 && p.y >= 30 && p.y < 32 && (p.z == 8 || p.z == 20);
+    return block || crumb;
+  };
+  VoxelSource source(kBox, with_crumbs);
+  source.header().fill = FillMode::inside;
+  MeshParams params;
+  params.mode = MeshMode::inside;
+  params.faces = {200};
+  params.least_part = GENERATE(0.0, 4.0 / 8000, 0.001);  // 4 voxels are not less than 4 of 8000
+  MeshCounts counts;
+  const LatticeMesh proxy = mesh_stream(source, memory_shelves(), params, counts)[0];
+  const std::uint64_t parts = params.least_part == 0.001 ? 2 : 0;
+  CHECK(counts.dropped_parts == parts);
+  CHECK(counts.dropped_voxels == 4 * parts);
+  CHECK(counts.solid_volume_world == 8008 - 4 * double(parts));
+  CHECK(check_proxy(indexed(proxy), nullptr).components == 3 - parts);
+}
+
+TEST_CASE("a least part without a meaning is refused", "[quick][stage]") {
+  VoxelSource source(kBox, dumbbell);
+  MeshParams params;
+  params.least_part = 0.1;
+  if (GENERATE(true, false)) {
+    source.header().fill = FillMode::inside;
+    params.mode = MeshMode::inside;
+    params.least_part = GENERATE(-0.1, 1.5);
+  }
+  MeshCounts counts;
+  CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
+}

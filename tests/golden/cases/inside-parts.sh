@@ -1,0 +1,13 @@
+# Small parts are left out of a proxy inside, and the note says so; --least-part keeps them.
+write_cube cube.obj 20
+{ cat cube.obj; sed -n 's/^v \(.*\) \(.*\) \(.*\)$/\1 \2 \3/p' cube.obj | awk '{ print "v", 25 + $1 / 10, $2 / 10, $3 / 10 }'
+  awk '$1 == "f" { printf "f"; for (i = 2; i <= NF; ++i) printf " %d", $i + 8; print "" }' cube.obj; } > two.obj
+bpvox two.obj --resolution 108 --fill inside -q | bpclose --inner --scale 0 -q -o inner.bpv
+try bpmesh inner.bpv --mode inside --faces 100 -o one.ply --report one.json
+try bpmesh inner.bpv --mode inside --faces 100 --least-part 0 -o two.ply
+for proxy in one.ply two.ply; do bpcheck --inside two.obj $proxy | sed -n '1p;$p'; done
+grep -E '"(parts|voxels)_dropped"' one.json
+try bpmesh inner.bpv --mode inside --least-part 2 -o wrong.ply
+bpvox two.obj --resolution 20 -q -o solid.bpv
+try bpmesh solid.bpv --least-part 0.1 -o wrong.ply
+files
