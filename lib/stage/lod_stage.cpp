@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/check/hausdorff.h"
+#include "lib/geometry/surface_distance.h"
 #include "lib/core/error.h"
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/reduce.h"

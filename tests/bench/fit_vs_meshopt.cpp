@@ -1,0 +1,125 @@
+// Levels of detail against meshoptimizer's simplifier at the same count of faces, by distances to the closing's
+// surface.
+//   fit_vs_meshopt CLOSED.bpv SCENE FIT...
+// For each FIT, a file of bpmesh --mode fit: one JSON line each for it, for meshopt_simplify of the scene itself, and
+// for meshopt_simplify of the closing's dense surface. Distances in voxels, means over the area, both ways; to the
+// surface of the closing's voxels, and to the scene.
+#include <meshoptimizer.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "io/brick_shelf.h"
+#include "io/brick_stream.h"
+#include "io/scene_reader.h"
+#include "lib/core/error.h"
+#include "lib/geometry/surface_distance.h"
+#include "lib/meshing/flatten.h"
+#include "lib/meshing/repair.h"
+#include "lib/meshing/surface.h"
+#include "lib/stage/surface_around.h"
+
+namespace {
+
+using Triangles = std::vector<bp::TriangleD>;
+
+Triangles read_triangles(const std::string& path) {
+  const auto scene = bp::open_scenes({path}, {});
+  Triangles all;
+  for (Triangles chunk; scene->read(chunk);) all.insert(all.end(), chunk.begin(), chunk.end());
+  return all;
+}
+
+bp::LatticeMesh closing_surface(const std::string& path) {
+  bp::BrickReader source(path);
+  const auto shelf = bp::make_shelf_factory(std::uint64_t(1) << 30, "/tmp")();
+  for (bp::Brick brick; source.read(brick);) {
+    if (brick.layer == bp::Layer::closing) shelf->put(brick.coord, brick.fill, brick.bits);
+  }
+  bp::repair_contacts(*shelf);
+  return bp::dense_surface(*shelf, source.header().frame);
+}
+
+/// With equal positions merged, as meshoptimizer wants it; in floats relative to the middle of the bounds.
+Triangles simplified(const Triangles& in, std::size_t faces) {
+  bp::Bounds3d bounds;
+  for (const bp::TriangleD& t : in) {
+    for (const bp::Vec3d& p : t) bounds.add(p);
+  }
+  std::map<bp::Vec3d, unsigned> number;
+  std::vector<float> points;
+  std::vector<unsigned> indices;
+  const auto from_middle = [&](const bp::Vec3d& p, std::size_t i) {
+    return p[i] - (bounds.min[i] + bounds.max[i]) / 2;
+  };
+  for (const bp::TriangleD& t : in) {
+    for (const bp::Vec3d& p : t) {
+      const auto [at, fresh] = number.try_emplace(p, unsigned(number.size()));
+      for (std::size_t i = 0; fresh && i < 3; ++i) points.push_back(float(from_middle(p, i)));
+      indices.push_back(at->second);
+    }
+  }
+  constexpr float kAnyError = 1e9f;
+  std::vector<unsigned> out(indices.size());
+  out.resize(meshopt_simplify(out.data(), indices.data(), indices.size(), points.data(), number.size(),
+                              3 * sizeof(float), 3 * faces, kAnyError, 0, nullptr));
+  Triangles result(out.size() / 3);
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    for (std::size_t i = 0; i < 3; ++i)
+      result[k / 3][k % 3][i] = double(points[3 * out[k] + i]) + (bounds.min[i] + bounds.max[i]) / 2;
+  }
+  return result;
+}
+
+/// The surface of a closing with few triangles.
+struct Reference {
+  Triangles triangles;
+  bp::TriangleBvh tree;
+  explicit Reference(const bp::LatticeMesh& dense) : triangles(merged(dense)), tree(triangles) {}
+
+  static Triangles merged(const bp::LatticeMesh& dense) {
+    bp::HalfEdgeMesh mesh(dense);
+    bp::merge_flat_regions(mesh);
+    return bp::world_triangles(mesh.compact(dense.frame));
+  }
+};
+
+void print(const char* what, const Triangles& mesh, const Reference& closing, const Reference& finer, double voxel) {
+  const bp::TriangleBvh tree(mesh);
+  const auto mean = [&](const Triangles& from, const bp::TriangleBvh& to) {
+    return bp::surface_distance(from, to).mean / voxel;
+  };
+  std::printf(
+      "{\"mesh\": \"%s\", \"faces\": %zu, \"to_closing\": %.3f, \"from_closing\": %.3f, \"to_finer\": %.3f, "
+      "\"from_finer\": %.3f}\n",
+      what, mesh.size(), mean(mesh, closing.tree), mean(closing.triangles, tree), mean(mesh, finer.tree),
+      mean(finer.triangles, tree));
+}
+
+void run(int argc, char** argv) {
+  const bp::LatticeMesh dense = closing_surface(argv[1]);
+  const double voxel = dense.frame.voxel;
+  const Reference closing(dense), finer(closing_surface(argv[2]));
+  const Triangles scene = read_triangles(argv[3]), surface = bp::world_triangles(dense);
+  for (int i = 4; i < argc; ++i) {
+    const Triangles fit = read_triangles(argv[i]);
+    print("fit", fit, closing, finer, voxel);
+    print("meshopt of the scene", simplified(scene, fit.size()), closing, finer, voxel);
+    print("meshopt of the closing", simplified(surface, fit.size()), closing, finer, voxel);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc < 5) {
+    std::fprintf(stderr, "usage: fit_vs_meshopt CLOSED.bpv FINER.bpv SCENE FIT...\n");
+    return 2;
+  }
+  run(argc, argv);
+  return 0;
+} catch (const bp::Error& e) {
+  std::fprintf(stderr, "fit_vs_meshopt: %s\n", e.what());
+  return bp::exit_code(e.code());
+}
