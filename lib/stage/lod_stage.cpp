@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/geometry/surface_distance.h"
 #include "lib/core/error.h"
+#include "lib/geometry/surface_distance.h"
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/reduce.h"
 #include "lib/grid/shelf_stream.h"

@@ -23,7 +23,7 @@ set(foreign
   "assimp/:^io/"
   "zstd:^(io|tests)/"
   "OpenMesh/:^(lib/meshing/.*\\.cpp$|tests/)"
-  "meshoptimizer:^((lib/meshing|tests/bench)/.*\.cpp|io/detail/meshopt_codec\.cpp)$"
+  "meshoptimizer:^((lib/meshing|tests/bench)/.*\\.cpp|io/detail/meshopt_codec\\.cpp)$"
   "tbb/:^lib/core/parallel\\.(h|cpp)$"
   "oneapi/:^lib/core/parallel\\.(h|cpp)$"
   "cuda:^(gpu/|tests/)"
