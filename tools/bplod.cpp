@@ -29,6 +29,7 @@ struct Options {
   std::vector<std::string> scenes;
   std::string out, name, format;
   bp::LodProfile profile = bp::LodProfile::gltf;
+  bp::MeshMode mode = bp::MeshMode::bounding;
   bp::LodRequest request;
   std::optional<bp::Length> voxel;
   std::optional<std::int64_t> resolution;
@@ -39,6 +40,16 @@ struct Options {
   bool loose = false;  // --no-tighten
 };
 
+const char* name_of(bp::LodProfile profile) {
+  constexpr const char* kNames[] = {"gltf", "3dtiles", "collision"};
+  return kNames[std::size_t(profile)];
+}
+
+/// The file of a level; of a collision mesh, one of its three.
+std::string file_of(const Options& o, std::size_t level) {
+  return o.profile == bp::LodProfile::collision ? o.name + "_godot.glb" : bp::level_name(o.name, level) + ".glb";
+}
+
 /// The first scene's file name without folder and extension.
 std::string base_name(const std::string& path) {
   const std::string file = path.substr(path.rfind('/') + 1);
@@ -46,6 +57,12 @@ std::string base_name(const std::string& path) {
 }
 
 void check_options(Options& o) {
+  const bool listed = !o.request.faces.empty() || !o.request.errors.empty() || !o.request.pixels.empty();
+  if (o.profile == bp::LodProfile::collision && !listed && !o.request.levels) o.request.levels = 1;
+  if (o.profile == bp::LodProfile::collision && bp::level_count(o.request) != 1)
+    fail(ErrorCode::bad_argument, "--profile collision has one level");
+  if (o.profile == bp::LodProfile::collision && o.mode != bp::MeshMode::bounding)
+    fail(ErrorCode::bad_argument, "--profile collision needs --mode bounding");
   bp::check(o.request);
   if (o.out.empty()) fail(ErrorCode::bad_argument, "name the folder of the levels with -o");
   if (o.voxel && o.resolution) fail(ErrorCode::bad_argument, "--voxel and --resolution exclude each other");
@@ -62,8 +79,14 @@ Options parse(bp::Args& args) {
   args.about("Makes levels of detail of scenes: coarser and coarser proxies that strictly enclose them.");
   args.positional("SCENE", o.scenes, "scenes, taken together; - is stdin and needs --format");
   args.option("-o,--output", "DIR", o.out, "folder of the levels; it is made if it is not there");
-  args.option("--profile", {{"gltf", bp::LodProfile::gltf}, {"3dtiles", bp::LodProfile::tiles}}, o.profile,
-              "gltf: a GLB a level, and one with all (MSFT_lod); 3dtiles: a tileset of compressed GLB, coarse root");
+  args.option(
+      "--profile",
+      {{"gltf", bp::LodProfile::gltf}, {"3dtiles", bp::LodProfile::tiles}, {"collision", bp::LodProfile::collision}},
+      o.profile,
+      "gltf: a GLB a level, and one with all (MSFT_lod); 3dtiles: a tileset of compressed GLB, coarse root; collision: "
+      "one level, named for Godot, Unreal and Unity");
+  args.option("--mode", {{"bounding", bp::MeshMode::bounding}, {"fit", bp::MeshMode::fit}}, o.mode,
+              "around the scene; or as near to it as can be, enclosing nothing");
   args.option("--name", "NAME", o.name, "first part of the names of files and nodes (default: the first scene's)");
   args.option("--levels", "N", o.request.levels, "number of levels (default: as many as are listed, or 4)");
   args.option(
@@ -115,7 +138,7 @@ struct Budget {
 
 bp::OptionText option_text(const Options& o, const bp::LodTarget& target, const bp::LodLevel& level, std::size_t i) {
   bp::OptionText text;
-  text.add("level", i);
+  text.add("level", i).add("mode", o.mode == bp::MeshMode::fit ? "fit" : "bounding");
   if (target.faces > 0) text.add("faces", target.faces);
   if (target.error_world > 0) text.add("error", target.error_world);
   text.add("scale", level.scale_world)
@@ -165,10 +188,25 @@ Voxelized voxelize(const Options& o, const Budget& budget, const bp::ShelfFactor
   return out;
 }
 
+/// What a fit is drawn to; nothing if it does not fit in memory.
+std::vector<bp::TriangleD> scene_triangles(const Options& o, const Budget& budget) {
+  constexpr std::uint64_t kBytesEach = 400;  // twice, and a hierarchy over them
+  std::vector<bp::TriangleD> all;
+  if (std::count(o.scenes.begin(), o.scenes.end(), "-") > 0) return all;  // stdin cannot be read again
+  const auto source = bp::open_scenes(o.scenes, {o.format, budget.reader, o.common.temp});
+  for (std::vector<bp::TriangleD> chunk; source->read(chunk);) {
+    all.insert(all.end(), chunk.begin(), chunk.end());
+    if (all.size() * kBytesEach > budget.triangles) return {};
+  }
+  return all;
+}
+
 bp::LodOptions lod_options(const Options& o, const Budget& budget, const bp::ShelfFactory& make_shelf,
                            const StageProgress& progress) {
   bp::LodOptions lod;
   lod.closing.element = o.element;
+  lod.mode = o.mode;
+  if (o.mode == bp::MeshMode::fit) lod.scene = scene_triangles(o, budget);
   lod.enclose = o.enclose;
   lod.tighten = !o.loose;
   lod.memory_bytes = budget.tiles;
@@ -194,14 +232,12 @@ bp::Json json_of(const bp::LodLevel& level, const std::string& file, std::uint64
 
 void fill_report(bp::Report& report, const Options& o, const Voxelized& scene, const std::vector<bp::LodLevel>& levels,
                  const bp::OutputFolder& out) {
-  report.options = {{"profile", o.profile == bp::LodProfile::gltf ? "gltf" : "3dtiles"},
-                    {"levels", levels.size()},
-                    {"memory", o.common.memory_bytes}};
+  report.options = {{"profile", name_of(o.profile)}, {"levels", levels.size()}, {"memory", o.common.memory_bytes}};
   report.counts = {{"triangles", scene.counts.scene.triangles},   {"degenerate", scene.counts.scene.degenerate},
                    {"non_finite", scene.counts.scene.non_finite}, {"bad_faces", scene.counts.scene.bad_faces},
                    {"voxel", scene.header.frame.voxel},           {"solid_voxels", scene.counts.solid_voxels}};
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    const std::string file = bp::level_name(o.name, i) + ".glb";
+    const std::string file = file_of(o, i);
     report.counts["levels"].push_back(json_of(levels[i], file, out.bytes(file)));
   }
   report.bytes_out = out.bytes();
@@ -211,7 +247,7 @@ void fill_report(bp::Report& report, const Options& o, const Voxelized& scene, c
 std::string listing(const Options& o, const std::vector<bp::LodLevel>& levels, const bp::OutputFolder& out) {
   std::string text = "file\tfaces\terror\tscale\tvoxel\tbytes\n";
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    const std::string file = bp::level_name(o.name, i) + ".glb";
+    const std::string file = file_of(o, i);
     text += fmt::format("{}\t{}\t{:.4g}\t{:.4g}\t{:.4g}\t{}\n", file, levels[i].mesh.triangles.size(),
                         levels[i].error_world, levels[i].scale_world, levels[i].mesh.frame.voxel, out.bytes(file));
   }

@@ -183,8 +183,13 @@ struct LodChain::State {
     if (target.error_world > 0)
       params.error_world =
           std::max(target.error_world - std::sqrt(3.0) * (header.frame.voxel + outside->voxel), target.error_world / 4);
-    params.enclose = options.enclose;
+    params.mode = options.mode;
     params.tighten = options.tighten;
+    params.enclose = options.enclose;
+    if (options.mode == MeshMode::fit) {
+      params.enclose = options.scene.empty() ? Enclose::closing : Enclose::scene;
+      params.scene = options.scene;
+    }
     return params;
   }
 

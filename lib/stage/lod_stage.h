@@ -9,7 +9,8 @@
 
 /// bplod's work: a chain of levels of detail from one solid. The scene is voxelized once; each level is closed at a
 /// scale of its own, coarser ones on conservative reductions of the voxels (lib/grid/reduce.h), and meshed to its
-/// target. Each level strictly encloses the scene by itself; it need not enclose the level before.
+/// target. A bounding level strictly encloses the scene by itself; it need not enclose the level before. A fitted one
+/// encloses nothing.
 namespace bp {
 
 /// What a level is asked to be. With no scale, faces decide it: a quarter of the edge that `faces` equilateral
@@ -22,7 +23,9 @@ struct LodTarget {
 
 struct LodOptions {
   ClosingParams closing;
-  Enclose enclose = Enclose::input;  ///< closing or input
+  MeshMode mode = MeshMode::bounding;  ///< bounding or fit
+  Enclose enclose = Enclose::input;    ///< of bounding levels: closing or input
+  std::vector<TriangleD> scene;        ///< what fits are drawn to, scene units; empty: they follow the closing
   bool tighten = true;
   bool keep_cavities = false;
   int max_attempts = 12;                                  ///< at most so many scales for one level

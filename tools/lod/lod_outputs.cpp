@@ -8,6 +8,7 @@
 #include "io/mesh_writer.h"
 #include "io/tileset_file.h"
 #include "lib/core/error.h"
+#include "lib/meshing/convex_parts.h"
 
 namespace bp {
 
@@ -91,6 +92,21 @@ void write_tiles_profile(const std::string& name, const std::vector<LodLevel>& l
   write_tileset(tileset, levels.front().mesh.provenance, out.file("tileset.json"));
 }
 
+/// What importers go by: Godot by the suffix "-colonly" (collision only, the mesh itself), Unreal by the prefix
+/// "UCX_MESH_" (convex, so: the hulls of the parts), Unity by nothing, and people by "_Collider".
+void write_collision_profile(const std::string& name, const LatticeMesh& mesh, OutputFolder& out) {
+  const NamedMesh godot{name + "-colonly", &mesh}, unity{name + "_Collider", &mesh};
+  write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"));
+  write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"));
+  std::vector<LatticeMesh> hulls = components_of(mesh);
+  std::vector<NamedMesh> unreal;
+  for (LatticeMesh& part : hulls) {
+    part = convex_hull(part);
+    unreal.push_back({fmt::format("UCX_{}_{:02}", name, unreal.size()), &part});
+  }
+  write_parts_glb(unreal, out.file(name + "_unreal.glb"));
+}
+
 }  // namespace
 
 OutputFolder::OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite)
@@ -145,6 +161,7 @@ std::string level_name(const std::string& name, std::size_t level) {
 }
 
 std::vector<std::string> profile_files(LodProfile profile, const std::string& name, std::size_t levels) {
+  if (profile == LodProfile::collision) return {name + "_godot.glb", name + "_unreal.glb", name + "_unity.glb"};
   std::vector<std::string> files;
   for (std::size_t i = 0; i < levels; ++i) files.push_back(level_name(name, i) + ".glb");
   files.push_back(profile == LodProfile::gltf ? name + ".glb" : "tileset.json");
@@ -158,6 +175,8 @@ void write_profile(LodProfile profile, const std::string& name, const std::vecto
       return write_gltf_profile(name, levels, diameter, out);
     case LodProfile::tiles:
       return write_tiles_profile(name, levels, diameter, out);
+    case LodProfile::collision:
+      return write_collision_profile(name, levels.front().mesh, out);
   }
 }
 

@@ -10,7 +10,7 @@
 /// What bplod writes of a chain: the files of a profile, in one folder.
 namespace bp {
 
-enum class LodProfile { gltf, tiles };
+enum class LodProfile { gltf, tiles, collision };
 
 /// Files that appear together: all are opened before the work, so that a name that cannot be written fails at once, and
 /// committed after it, in the order in which they were opened; what names other files comes last.
@@ -36,9 +36,10 @@ class OutputFolder {
 
 /// "NAME_LOD0": Unity's and others' convention.
 [[nodiscard]] std::string level_name(const std::string& name, std::size_t level);
-/// The files of a profile, in the order of their commit; the file of level i is the i-th.
+/// The files of a profile, in the order of their commit; but for collision, that of level i is the i-th.
 [[nodiscard]] std::vector<std::string> profile_files(LodProfile profile, const std::string& name, std::size_t levels);
-/// Writes them. `levels`: finest first; errors must not fall towards coarser ones. diameter: of the scene, scene units.
+/// Writes them. `levels`: finest first; errors must not fall towards coarser ones; collision: one. diameter: of the
+/// scene, scene units.
 void write_profile(LodProfile profile, const std::string& name, const std::vector<LodLevel>& levels, double diameter,
                    OutputFolder& out);
 

@@ -17,6 +17,14 @@ bplod part*.obj --name cubes --error 1,2 -o errors > list
 awk -F '\t' 'NR > 1 { print $1, ($3 <= 1.5 * (NR - 1) ? "keeps" : "breaks") " its error" }' list
 bplod part*.obj --name cubes --screen 50 --levels 2 -q -o screen | cut -f 1
 
+# Collision: names that importers go by; the convex pieces enclose, too.
+bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision | cut -f 1
+for f in godot unity unreal; do bpcheck part*.obj collision/cubes_$f.glb --no-distances | tail -1; done
+grep -ao '"name":"[^"]*"' collision/cubes_unreal.glb | sort -u | tr '\n' ' '
+grep -ao '"name":"[^"]*"' collision/cubes_godot.glb collision/cubes_unity.glb | sort -u
+bplod part*.obj --name cubes --faces 100 --mode fit --resolution 60 -o fit | cut -f 1
+bpcheck fit/cubes_LOD0.glb | tail -1
+
 # Findings of a tileset.
 cp -r tiles broken
 rm broken/cubes_LOD0.glb
@@ -31,6 +39,7 @@ try bplod cube.obj -o x --faces 5,10
 try bplod cube.obj -o x --faces 50,10 --error 1
 try bplod cube.obj -o x --levels 3 --faces 50,10
 try bplod cube.obj -o x --error 3vx
+try bplod cube.obj -o x --profile collision --faces 50,10
 try bplod missing.obj -o x
 try bplod cube.obj --name a/b -o x
 files

@@ -161,6 +161,27 @@ TEST_CASE("the measured error bounds the distance both ways, and not by far", "[
   }
 }
 
+TEST_CASE("fitted levels keep their budgets and lie nearer to the scene than bounding ones", "[quick][stage][lod]") {
+  Triangles scene;
+  add_sphere(scene, {3, 4, 5}, 20, 24);
+  Backends backends = cpu_backends();
+  LodOptions options = lod_options();
+  double error[2] = {};
+  for (const bool fit : {false, true}) {
+    options.mode = fit ? MeshMode::fit : MeshMode::bounding;
+    if (fit) options.scene = scene;
+    Solid3 solid = voxelized(scene, 1);
+    LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+    const LodLevel level = chain.make({200, 0, {}});
+    CHECK(level.mesh.triangles.size() <= 200);
+    CHECK(check_proxy(indexed(level.mesh), nullptr).holds());
+    const std::vector<TriangleD> proxy = world_triangles(level.mesh);
+    error[fit] = std::max(sampled_distance(proxy, scene, 50), sampled_distance(scene, proxy, 5));
+    CHECK(error[fit] <= level.error_world);
+  }
+  CHECK(error[1] < error[0]);
+}
+
 TEST_CASE("an empty solid is refused", "[quick][stage][lod]") {
   Backends backends = cpu_backends();
   StreamHeader header;

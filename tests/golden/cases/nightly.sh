@@ -1,0 +1,20 @@
+# The nightly sample: only what changed is made again, a broken scene does not stop the others, what is gone goes.
+mkdir scenes
+write_cube scenes/a.obj 3
+write_cube "scenes/b c.obj" 2
+echo "v 1 2" > scenes/broken.obj
+echo "no scene" > scenes/notes.txt
+table() { sed 's/made in [0-9]* s/made/' | cut -f 1-3; }
+options=(--faces 60,20 --resolution 24 --profile 3dtiles)
+"$BP_ROOT/samples/nightly" scenes out "${options[@]}" | table
+"$BP_ROOT/samples/nightly" scenes out "${options[@]}" | table
+write_cube scenes/a.obj 4
+rm "scenes/b c.obj" scenes/broken.obj
+"$BP_ROOT/samples/nightly" scenes out "${options[@]}" | table
+"$BP_ROOT/samples/nightly" scenes out --faces 60,20 --resolution 24 | table
+LC_ALL=C ls -A out out/a.obj
+try "$BP_ROOT/samples/nightly" nowhere out | sed "s|$BP_ROOT/||"
+if command -v parallel > /dev/null; then
+  "$BP_ROOT/samples/nightly-parallel" scenes parallel --faces 60,20 --resolution 24 2> /dev/null | table > table
+  grep -q "^a.obj.made.2$" table || cat table
+fi
