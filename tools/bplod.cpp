@@ -122,18 +122,21 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-/// How --memory is shared out: the reader, triangles that wait, shelves (of all stages), tiles at work.
+/// How --memory is shared out, as in bpvox while it voxelizes, then between shelves and the tiles at work. The rest is
+/// for the program, and for what the threads have in hand.
 struct Budget {
-  std::uint64_t reader, triangles, shelf, store, tiles;
+  std::uint64_t reader, waiting, store, shelf, tiles;
   explicit Budget(std::uint64_t memory) {
-    const std::uint64_t fixed = std::uint64_t(128) << 20;
+    const std::uint64_t fixed = (std::uint64_t(96) << 20) + std::uint64_t(bp::thread_count()) * (8 << 20);
     const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
     reader = usable / 10;
-    triangles = usable / 10 * 4;
-    shelf = usable / 10 * 3;
-    store = usable / 20;
-    tiles = usable / 10 * 4;  // when the triangles have gone
+    waiting = usable / 10 * 7;
+    store = waiting / 14;
+    shelf = waiting / 14 * 6;
+    tiles = usable / 10;
   }
+  /// For the closing: the triangles have gone.
+  [[nodiscard]] std::uint64_t closing_tiles() const { return waiting - shelf; }
 };
 
 bp::OptionText option_text(const Options& o, const bp::LodTarget& target, const bp::LodLevel& level, std::size_t i) {
@@ -172,7 +175,8 @@ Voxelized voxelize(const Options& o, const Budget& budget, const bp::ShelfFactor
   };
   v.fill = o.fill;
   v.up = o.up;
-  v.memory_bytes = budget.triangles;
+  v.memory_bytes = budget.waiting;
+  v.tile_memory_bytes = budget.tiles;
   v.make_shelf = make_shelf;
   v.make_store = [&o, &budget] { return bp::make_chunk_store(budget.store, o.common.temp); };
   v.progress = progress;
@@ -196,7 +200,7 @@ std::vector<bp::TriangleD> scene_triangles(const Options& o, const Budget& budge
   const auto source = bp::open_scenes(o.scenes, {o.format, budget.reader, o.common.temp});
   for (std::vector<bp::TriangleD> chunk; source->read(chunk);) {
     all.insert(all.end(), chunk.begin(), chunk.end());
-    if (all.size() * kBytesEach > budget.triangles) return {};
+    if (all.size() * kBytesEach > budget.closing_tiles()) return {};
   }
   return all;
 }
@@ -209,7 +213,7 @@ bp::LodOptions lod_options(const Options& o, const Budget& budget, const bp::She
   if (o.mode == bp::MeshMode::fit) lod.scene = scene_triangles(o, budget);
   lod.enclose = o.enclose;
   lod.tighten = !o.loose;
-  lod.memory_bytes = budget.tiles;
+  lod.memory_bytes = budget.closing_tiles();
   lod.make_shelf = make_shelf;
   lod.progress = progress;
   return lod;

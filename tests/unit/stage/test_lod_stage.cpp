@@ -20,6 +20,7 @@ class NoStore final : public ChunkStore {
   Handle put(std::span<const std::byte>) override { fail(ErrorCode::failed, "triangles left memory"); }
   void get(Handle, std::vector<std::byte>&) const override {}
   void drop(Handle) override {}
+  [[nodiscard]] std::uint64_t memory_bytes() const override { return 0; }
   [[nodiscard]] std::uint64_t scratch_bytes() const override { return 0; }
   [[nodiscard]] std::uint64_t memory_bytes() const override { return 0; }
 };
