@@ -22,7 +22,6 @@ class NoStore final : public ChunkStore {
   void drop(Handle) override {}
   [[nodiscard]] std::uint64_t memory_bytes() const override { return 0; }
   [[nodiscard]] std::uint64_t scratch_bytes() const override { return 0; }
-  [[nodiscard]] std::uint64_t memory_bytes() const override { return 0; }
 };
 
 struct Solid3 {
