@@ -41,6 +41,13 @@ class BoxTree {
   /// returns false, and returns false then.
   template <class Visit>
   bool query(const LatticeBox& box, Visit&& visit) const {
+    return query(
+        box, [](const LatticeBox&) { return true; }, visit);
+  }
+  /// The same, without the subtrees whose box keep(box) refuses. Boxes beyond 2^31 lattice units of the first item are
+  /// clamped, so `keep` must be for boxes within.
+  template <class Keep, class Visit>
+  bool query(const LatticeBox& box, Keep&& keep, Visit&& visit) const {
     if (nodes_.empty()) return true;
     const SmallBox small = to_small(box);
     std::uint32_t stack[64];
@@ -48,7 +55,7 @@ class BoxTree {
     stack[top++] = 0;
     while (top > 0) {
       const Node& n = nodes_[stack[--top]];
-      if (!n.box.meets(small)) continue;
+      if (!n.box.meets(small) || !keep(to_lattice(n.box))) continue;
       if (n.count > 0) {
         for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
           if (!visit(order_[i])) return false;
@@ -91,6 +98,10 @@ class BoxTree {
     const auto clamp = [](std::int64_t v) { return std::int32_t(std::clamp<std::int64_t>(v, INT32_MIN, INT32_MAX)); };
     return {{clamp(b.min.x - base_.x), clamp(b.min.y - base_.y), clamp(b.min.z - base_.z)},
             {clamp(b.max.x - base_.x), clamp(b.max.y - base_.y), clamp(b.max.z - base_.z)}};
+  }
+  [[nodiscard]] LatticeBox to_lattice(const SmallBox& b) const {
+    return {{base_.x + b.min[0], base_.y + b.min[1], base_.z + b.min[2]},
+            {base_.x + b.max[0], base_.y + b.max[1], base_.z + b.max[2]}};
   }
   void split(std::span<const LatticeBox> boxes, std::uint32_t node, std::uint32_t begin, std::uint32_t end);
 

@@ -125,26 +125,68 @@ std::array<std::uint64_t, 8> blocks_of(const BrickBits& bits) {
   return blocks;
 }
 
+/// Corners of voxels, those at the low sides of a brick's voxels, with one occupied voxel around them.
+std::vector<VoxelCoord> tips_of(const BrickShelf& shelf, BrickCoord coord) {
+  const VoxelCoord first = first_voxel(coord);
+  BitBox bits({{first.x - 64, first.y - 1, first.z - 1}, {first.x + 64, first.y + 64, first.z + 64}});
+  load_voxels(shelf, bits);
+  std::vector<VoxelCoord> tips;
+  for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+    for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+      std::uint64_t once = 0, twice = 0;
+      for (int i = 0; i < 4; ++i) {
+        const std::uint64_t* r = bits.row(first.y + y - i % 2, first.z + z - i / 2);
+        for (const std::uint64_t w : {r[1], (r[1] << 1) | (r[0] >> 63)}) {
+          twice |= once & w;
+          once |= w;
+        }
+      }
+      for (std::uint64_t row = once & ~twice; row != 0; row &= row - 1)
+        tips.push_back({first.x + std::countr_zero(row), first.y + y, first.z + z});
+    }
+  }
+  return tips;
+}
+
+Blocker cube(const LatticeCoord& low, std::int64_t edge) {
+  Blocker b;
+  b.count = 8;
+  for (int i = 0; i < 8; ++i)
+    b.points[std::size_t(i)] = to_double(low + LatticeCoord{i & 1, (i >> 1) & 1, i >> 2} * edge);
+  return b;
+}
+
 }  // namespace
 
 EnclosedVoxels::EnclosedVoxels(const BrickShelf& shelf) {
   const std::vector<BrickCoord> coords = shelf.coords();
   std::vector<BoundaryBrick> found(coords.size());
+  std::vector<std::vector<VoxelCoord>> tips(coords.size());
   parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
     BoundaryBrick& b = found[std::size_t(i)];
     b.bits = boundary_of(shelf, coords[std::size_t(i)]);
     b.blocks = blocks_of(b.bits);
+    tips[std::size_t(i)] = tips_of(shelf, coords[std::size_t(i)]);
   });
   for (std::size_t i = 0; i < coords.size(); ++i) {
     if (classify(found[i].bits) != BrickFill::empty) bricks_.emplace(coords[i], found[i]);
+    tips_.insert(tips_.end(), tips[i].begin(), tips[i].end());
   }
 }
 
-bool EnclosedVoxels::allows(std::span<const NewFace>, std::span<const Tetrahedron> swept) const {
-  return std::all_of(swept.begin(), swept.end(), [&](const Tetrahedron& t) { return clear(t); });
+bool EnclosedVoxels::allows(std::span<const NewFace>, std::span<const Tetrahedron> swept, Blocker* blocker) const {
+  return std::all_of(swept.begin(), swept.end(), [&](const Tetrahedron& t) { return clear(t, blocker); });
 }
 
-bool EnclosedVoxels::clear(const Tetrahedron& t) const {
+std::vector<Vec3d> EnclosedVoxels::contact_points(const LatticeCoord& origin) const {
+  std::vector<Vec3d> points;
+  points.reserve(tips_.size());
+  for (const VoxelCoord& c : tips_)
+    points.push_back(to_double(LatticeCoord{c.x, c.y, c.z} * kLatticePerVoxel - origin));
+  return points;
+}
+
+bool EnclosedVoxels::clear(const Tetrahedron& t, Blocker* blocker) const {
   const Separator separator(t);
   constexpr std::int64_t edge = std::int64_t(kBrickEdge) * kLatticePerVoxel;
   const LatticeBox& box = separator.box();
@@ -158,14 +200,15 @@ bool EnclosedVoxels::clear(const Tetrahedron& t) const {
       for (std::int32_t x = low.x; x <= high.x; ++x) {
         const auto it = bricks_.find({x, y, z});
         if (it == bricks_.end() || separator.separates({x * edge, y * edge, z * edge}, edge)) continue;
-        if (!brick_clear(separator, {x, y, z}, it->second)) return false;
+        if (!brick_clear(separator, {x, y, z}, it->second, blocker)) return false;
       }
     }
   }
   return true;
 }
 
-bool EnclosedVoxels::brick_clear(const Separator& separator, BrickCoord coord, const BoundaryBrick& brick) const {
+bool EnclosedVoxels::brick_clear(const Separator& separator, BrickCoord coord, const BoundaryBrick& brick,
+                                 Blocker* blocker) const {
   constexpr std::int64_t voxel = kLatticePerVoxel, block = 8 * voxel;
   const VoxelCoord first = first_voxel(coord);
   const LatticeCoord origin{first.x * voxel, first.y * voxel, first.z * voxel};
@@ -179,8 +222,10 @@ bool EnclosedVoxels::brick_clear(const Separator& separator, BrickCoord coord, c
         for (std::int64_t y = 0; y < 8; ++y) {
           std::uint64_t row = (brick.bits[std::size_t((bz * 8 + z) * kBrickEdge + by * 8 + y)] >> (8 * bx)) & 0xff;
           for (; row != 0; row &= row - 1) {
-            if (!separator.separates(corner + LatticeCoord{std::countr_zero(row) * voxel, y * voxel, z * voxel}, voxel))
-              return false;
+            const LatticeCoord low = corner + LatticeCoord{std::countr_zero(row) * voxel, y * voxel, z * voxel};
+            if (separator.separates(low, voxel)) continue;
+            if (blocker != nullptr) *blocker = cube(low, voxel);
+            return false;
           }
         }
       }
@@ -208,17 +253,69 @@ LatticeBox box_around(const GridFrame& frame, const TriangleD& t) {
   return box;
 }
 
-/// Point in the closed tetrahedron, exact. A flat tetrahedron holds none: nothing is swept.
-bool holds(const std::array<Vec3d, 4>& t, const Vec3d& p) {
-  const int turn = orient3d(t[0], t[1], t[2], t[3]);
-  return turn != 0 && orient3d(t[0], t[1], t[2], p) * turn >= 0 && orient3d(t[0], t[3], t[1], p) * turn >= 0 &&
-         orient3d(t[1], t[3], t[2], p) * turn >= 0 && orient3d(t[2], t[3], t[0], p) * turn >= 0;
+/// The plane of a face, to tell boxes that lie strictly on its inner side: nothing in them meets the face, nor a
+/// tetrahedron that it closes towards the inside. Doubles with a margin for their rounding.
+class InnerSide {
+ public:
+  InnerSide(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c)
+      : a_(a), n_(to_double(normal_of(a, b, c))) {}
+  [[nodiscard]] bool holds(const LatticeBox& box) const {
+    double far = 0, size = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double n = n_[std::size_t(i)];
+      const double term = n * double((n > 0 ? box.max[i] : box.min[i]) - a_[i]);
+      far += term;
+      size += std::abs(term);
+    }
+    return far < -0x1p-50 * size;  // normal, product and sums: fewer than 8 roundings
+  }
+
+ private:
+  LatticeCoord a_;
+  Vec3d n_;
+};
+
+/// A closed tetrahedron in scene units, turned so that each of its four planes has the inside on its negative side.
+struct Solid {
+  std::array<Vec3d, 4> corners;
+  LatticeBox box;
+
+  /// Exact. The plane of the first three corners is asked first.
+  [[nodiscard]] bool holds(const Vec3d& p) const {
+    const auto& [a, b, c, d] = corners;
+    return orient3d(a, b, c, p) <= 0 && orient3d(a, d, b, p) <= 0 && orient3d(b, d, c, p) <= 0 &&
+           orient3d(c, d, a, p) <= 0;
+  }
+};
+
+/// Interleaved bits of a corner's place in the bounds: what is near in space is near in memory.
+std::uint64_t morton(const Vec3d& p, const Bounds3d& bounds) {
+  std::uint64_t code = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double side = bounds.max[axis] - bounds.min[axis];
+    auto bits = side > 0 ? std::uint64_t((p[axis] - bounds.min[axis]) / side * 0xffff) : 0;
+    for (int i = 0; i < 16; ++i) code |= ((bits >> i) & 1) << (3 * i + int(axis));
+  }
+  return code;
+}
+
+void sort_in_space(std::vector<TriangleD>& triangles) {
+  Bounds3d bounds;
+  for (const TriangleD& t : triangles) bounds.add(t[0]);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) order[i] = {morton(triangles[i][0], bounds), std::uint32_t(i)};
+  std::sort(order.begin(), order.end());
+  std::vector<TriangleD> sorted;
+  sorted.reserve(triangles.size());
+  for (const auto& [code, i] : order) sorted.push_back(triangles[i]);
+  triangles = std::move(sorted);
 }
 
 }  // namespace
 
 EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame)
     : triangles_(std::move(triangles)), frame_(frame) {
+  sort_in_space(triangles_);
   std::vector<LatticeBox> boxes(triangles_.size());
   std::vector<std::uint32_t> items(triangles_.size());
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
@@ -230,33 +327,59 @@ EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const Gri
 
 // A triangle meets neither the old faces (it was enclosed) nor, once tested, the new ones. So it lies wholly in one
 // part of space that they bound together, and one of its corners tells whether a tetrahedron that leaves the solid
-// holds it.
-bool EnclosedTriangles::allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept) const {
-  LatticeBox box{star[0].corners[0], star[0].corners[0]};
-  std::vector<std::array<Vec3d, 3>> faces;
-  std::vector<std::array<Vec3d, 4>> solids;
-  std::vector<LatticeBox> face_boxes;
+// holds it. Nearly all triangles near a face lie wholly on its inner side: three orientations, and no more.
+bool EnclosedTriangles::allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
+                               Blocker* blocker) const {
   for (const NewFace& f : star) {
-    face_boxes.push_back(box_of(f.corners[0], f.corners[1], f.corners[2]));
-    faces.push_back({frame_.world(f.corners[0]), frame_.world(f.corners[1]), frame_.world(f.corners[2])});
-    for (const LatticeCoord& p : f.corners) box.add(p);
+    const std::array<Vec3d, 3> face = {frame_.world(f.corners[0]), frame_.world(f.corners[1]),
+                                       frame_.world(f.corners[2])};
+    const InnerSide inner(f.corners[0], f.corners[1], f.corners[2]);
+    const bool free = tree_.query(
+        box_of(f.corners[0], f.corners[1], f.corners[2]), [&](const LatticeBox& b) { return !inner.holds(b); },
+        [&](std::uint32_t i) {
+          return !triangles_intersect(triangles_[i].data(), face.data()) || !blocks(i, blocker);
+        });
+    if (!free) return false;
   }
   for (const Tetrahedron& t : swept) {
-    solids.push_back({frame_.world(t[0]), frame_.world(t[1]), frame_.world(t[2]), frame_.world(t[3])});
-    for (const LatticeCoord& p : t) box.add(p);
+    // A swept tetrahedron (a, b, c, q) has q on the inner side of its old face; a flat one holds nothing.
+    const int turn = orient3d(t[0], t[1], t[2], t[3]);
+    if (turn == 0) continue;
+    const std::size_t second = turn > 0 ? 1 : 2;
+    Solid solid{{frame_.world(t[3]), frame_.world(t[second]), frame_.world(t[3 - second]), frame_.world(t[0])}, {}};
+    LatticeBox box = box_of(t[0], t[1], t[2]);
+    box.add(t[3]);
+    const InnerSide inner(t[3], t[3 - second], t[second]);  // of the new face: the tetrahedron is beyond it
+    const bool free = tree_.query(
+        box, [&](const LatticeBox& b) { return !inner.holds(b); },
+        [&](std::uint32_t i) { return !solid.holds(triangles_[i][0]) || !blocks(i, blocker); });
+    if (!free) return false;
   }
-  return tree_.query(box, [&](std::uint32_t i) {
-    const TriangleD& t = triangles_[i];
-    const LatticeBox around = box_around(frame_, t);
-    if (!around.meets(box)) return true;
-    for (const auto& s : solids) {
-      if (holds(s, t[0])) return false;
-    }
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      if (face_boxes[f].meets(around) && triangles_intersect(faces[f].data(), t.data())) return false;
-    }
-    return true;
-  });
+  return true;
+}
+
+/// Always true.
+bool EnclosedTriangles::blocks(std::uint32_t triangle, Blocker* blocker) const {
+  if (blocker == nullptr) return true;
+  blocker->count = 3;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d v = frame_.to_voxels(triangles_[triangle][k]);
+    for (std::size_t i = 0; i < 3; ++i) blocker->points[k][i] = v[i] * kLatticePerVoxel;
+  }
+  return true;
+}
+
+std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin) const {
+  std::vector<Vec3d> points;
+  points.reserve(3 * triangles_.size());
+  for (const TriangleD& t : triangles_) points.insert(points.end(), t.begin(), t.end());
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  for (Vec3d& p : points) {
+    const Vec3d v = frame_.to_voxels(p);
+    for (std::size_t i = 0; i < 3; ++i) p[i] = v[i] * kLatticePerVoxel - double(origin[int(i)]);
+  }
+  return points;
 }
 
 }  // namespace bp

@@ -1,192 +1,137 @@
-// With the others fixed, the volume is linear in one vertex: it falls fastest against the area vector of its link. A
-// step is tried that way and, where something blocks it, in directions scattered around it (so that vertices slide
-// along what blocks them); each vertex keeps its own step length, doubled after success, halved after failure.
+// Sweeps over all vertices, then all edges. Where something that must stay inside blocks a vertex's best place, the fit
+// learns of it and is solved again (cutting planes with the exact test as the oracle).
 #include "lib/meshing/tighten.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "lib/core/predicates.h"
-#include "lib/meshing/face_tree.h"
-#include "lib/meshing/half_edge_mesh.h"
+#include "lib/meshing/fan_fit.h"
+#include "lib/meshing/vec3.h"
 
 namespace bp {
 
 namespace {
 
-constexpr double kQualityFloor = 0.08;
-constexpr int kDirections = 5;
-
-/// Small deterministic generator, one stream per (vertex, sweep, try).
-class Scatter {
- public:
-  Scatter(std::uint64_t a, std::uint64_t b) : state_(a * 0x9e3779b97f4a7c15u + b * 0xbf58476d1ce4e5b9u) {}
-  double next() {  // in [-1, 1)
-    state_ += 0x9e3779b97f4a7c15u;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return double(std::int64_t(z ^ (z >> 31)) >> 11) * 0x1p-52;
-  }
-
- private:
-  std::uint64_t state_;
-};
+constexpr double kReach = 0.5;  // of the mean spoke: how far a vertex may move at once
+constexpr double kWeightFall = 0.7;
+constexpr int kAvoidRounds = 4;
+constexpr int kSweepsPerRefresh = 8;
 
 class Tightener {
  public:
-  Tightener(HalfEdgeMesh& mesh, const Enclosed& enclosed, const TightenParams& params, TightenCounts& counts)
-      : mesh_(mesh),
-        enclosed_(enclosed),
-        params_(params),
-        counts_(counts),
-        tree_(mesh),
-        guard_(mesh, tree_),
-        step_(mesh.vertex_capacity(), 0) {}
+  Tightener(ProxyEditor& editor, const TightenParams& params, TightenCounts& counts)
+      : editor_(editor), mesh_(editor.mesh()), params_(params), counts_(counts) {}
 
   void run() {
-    counts_.volume_before = volume();
-    double last = counts_.volume_before;
-    for (int sweep = 0; sweep < params_.sweeps; ++sweep) {
-      for (VertexId v = 0; v < mesh_.vertex_capacity(); ++v) {
-        if (mesh_.vertex_alive(v)) move_vertex(v, std::uint64_t(sweep));
-      }
-      for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
-        if (mesh_.alive(HalfEdgeMesh::face(h)) && mesh_.edge(h) == h) flip_edge(h);
-      }
-      if (sweep % 8 == 7) tree_.rebuild();  // boxes only grow; after some sweeps a fresh tree pays
-      ++counts_.sweeps;
-      const double now = volume();
-      if (last - now < params_.least_gain * std::abs(last)) break;
+    const double volume = editor_.volume(), least_gain = params_.least_gain * std::abs(volume);
+    weight_ = params_.first_weight * std::abs(volume) / double(editor_.contacts().size() + 1);
+    double last = volume;
+    for (int i = 0; i < params_.sweeps; ++i) {
+      const double now = sweep();
+      weight_ *= kWeightFall;
+      if (i > 0 && last - now < least_gain) break;
       last = now;
     }
-    counts_.volume_after = volume();
+    weight_ = 0;
+    for (int i = 0; i < params_.final_sweeps; ++i) {
+      const double now = sweep();
+      if (last - now < least_gain) break;
+      last = now;
+    }
   }
 
  private:
-  [[nodiscard]] double volume() const {
-    double sum = 0;
-    const LatticeCoord o = mesh_.corner(first_face(), 0);
-    for (FaceId f = 0; f < mesh_.face_capacity(); ++f) {
-      if (mesh_.alive(f)) sum += double(orient3d_value(o, mesh_.corner(f, 0), mesh_.corner(f, 1), mesh_.corner(f, 2)));
+  double sweep() {
+    for (VertexId v = 0; v < mesh_.vertex_capacity(); ++v) {
+      if (mesh_.vertex_alive(v)) move_vertex(v);
     }
-    return sum / 6;
-  }
-  [[nodiscard]] FaceId first_face() const {
-    FaceId f = 0;
-    while (!mesh_.alive(f)) ++f;
-    return f;
+    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
+      if (mesh_.alive(HalfEdgeMesh::face(h)) && mesh_.edge(h) == h && is_convex(h)) counts_.flips += editor_.flip(h);
+    }
+    if (++counts_.sweeps % kSweepsPerRefresh == 0) editor_.refresh();
+    return editor_.volume();
   }
 
-  void move_vertex(VertexId v, std::uint64_t sweep) {
+  /// Flipping a convex edge cuts a tetrahedron off the solid.
+  [[nodiscard]] bool is_convex(HalfEdgeId h) const {
+    return orient3d(mesh_.position(mesh_.from(h)), mesh_.position(mesh_.to(h)), mesh_.position(mesh_.opposite(h)),
+                    mesh_.position(mesh_.opposite(mesh_.twin(h)))) < 0;
+  }
+
+  void move_vertex(VertexId v) {
+    const double reach = kReach * gather(v);
+    if (!fit_.close()) return;
+    const Vec3d shift = to_double(mesh_.position(v) - editor_.contacts().origin());
+    for (int round = 0;; ++round) {
+      const std::optional<Vec3d> x =
+          weight_ > 0 ? std::optional(fit_.balanced({}, weight_, reach)) : fit_.least_volume({}, reach);
+      if (!x || !worth_trying(*x) || try_move(v, *x)) return;
+      if (round < kAvoidRounds && editor_.blocker() != nullptr && fit_.avoid(*x, *editor_.blocker(), shift)) continue;
+      for (double share = 0.5; share > 0.1 && worth_trying(share * *x); share /= 2) {
+        if (try_move(v, share * *x)) return;
+      }
+      return;
+    }
+  }
+
+  [[nodiscard]] static LatticeCoord rounded(const Vec3d& x) {
+    return {std::llround(x[0]), std::llround(x[1]), std::llround(x[2])};
+  }
+  [[nodiscard]] bool worth_trying(const Vec3d& x) const {
+    const LatticeCoord d = rounded(x);
+    return d != LatticeCoord{} && (weight_ > 0 || fit_.volume(to_double(d)) < 0);
+  }
+  bool try_move(VertexId v, const Vec3d& x) {
+    const bool taken = editor_.move(v, mesh_.position(v) + rounded(x));
+    counts_.moves += taken;
+    return taken;
+  }
+
+  /// The star as a fan about the vertex; its mean spoke.
+  double gather(VertexId v) {
+    const ContactPoints& contacts = editor_.contacts();
     const LatticeCoord p = mesh_.position(v);
-    Vec3d down{};  // against the area vector of the link, which is the gradient of the volume times 6
-    double edges = 0, least_quality = 1;
-    int n = 0;
+    const Vec3d shift = to_double(p - contacts.origin());
+    fit_.clear();
+    double edges = 0;
+    std::uint32_t sector = 0;
     mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
-      const LatticeCoord a = mesh_.position(mesh_.to(h)), b = mesh_.position(mesh_.opposite(h));
-      const Vec3d area = to_double(normal_of(p, a, b));
-      for (std::size_t i = 0; i < 3; ++i) down[i] -= area[i];
-      edges += length(to_double(a - p));
-      least_quality = std::min(least_quality, triangle_quality(p, a, b));
-      ++n;
+      const Vec3d a = to_double(mesh_.position(mesh_.to(h)) - p);
+      fit_.add_rim(a);
+      edges += length(a);
+      for (const std::uint32_t i : contacts.of(HalfEdgeMesh::face(h))) fit_.add_point(contacts[i] - shift, sector);
+      ++sector;
     });
-    const double size = length(down);
-    if (size == 0) return;
-    for (double& d : down) d /= size;
-    double& step = step_[v];
-    if (step == 0) step = edges / n / 4;
-    if (step < 1) step = 1;
-    Scatter scatter(v, sweep);
-    for (int i = 0; i < kDirections; ++i) {
-      Vec3d d = down;
-      if (i > 0) {
-        for (double& x : d) x += 1.2 * scatter.next();
-        const double l = length(d);
-        const double along = (d[0] * down[0] + d[1] * down[1] + d[2] * down[2]) / l;
-        if (along < 0.05) continue;
-        for (double& x : d) x /= l;
-      }
-      const LatticeCoord q{p.x + std::llround(step * d[0]), p.y + std::llround(step * d[1]),
-                           p.z + std::llround(step * d[2])};
-      if (q != p && try_move(v, q, least_quality)) {
-        ++counts_.moves;
-        step *= 2;
-        return;
-      }
-    }
-    step *= 0.5;
+    return edges / sector;
   }
 
-  bool try_move(VertexId v, const LatticeCoord& q, double least_quality) {
-    ++counts_.tries;
-    star_.clear();
-    replaced_.clear();
-    swept_.clear();
-    double gain = 0, after = 1, longest = 0;
-    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
-      const LatticeCoord p = mesh_.position(v), a = mesh_.position(mesh_.to(h)), b = mesh_.position(mesh_.opposite(h));
-      star_.push_back({{v, mesh_.to(h), mesh_.opposite(h)}, {q, a, b}});
-      replaced_.push_back(HalfEdgeMesh::face(h));
-      const int128 grown = orient3d_value(p, a, b, q);  // negative: the tetrahedron leaves the solid
-      if (grown < 0) swept_.push_back({p, a, b, q});
-      gain -= double(grown);
-      after = std::min(after, triangle_quality(q, a, b));
-      longest = std::max(longest, length(to_double(a - q)));
-    });
-    if (gain <= 0 || after < std::min(kQualityFloor, least_quality) || after == 0) return false;
-    if (params_.edge_limit && longest > params_.edge_limit(q)) return false;
-    if (!enclosed_.allows(star_, swept_) || !guard_.star_is_free(star_, replaced_)) return false;
-    if (!within_limits(params_.limits, mesh_, replaced_, star_)) return false;
-    mesh_.move(v, q);
-    for (const FaceId f : replaced_) tree_.update(f);
-    return true;
-  }
-
-  void flip_edge(HalfEdgeId h) {
-    const HalfEdgeId t = mesh_.twin(h);
-    const VertexId u = mesh_.from(h), w = mesh_.to(h), a = mesh_.opposite(h), b = mesh_.opposite(t);
-    const LatticeCoord pu = mesh_.position(u), pw = mesh_.position(w), pa = mesh_.position(a), pb = mesh_.position(b);
-    if (orient3d(pu, pw, pa, pb) >= 0) return;  // only a convex edge: its flip cuts a tetrahedron off the solid
-    flip_to(h, {u, w, a, b}, {pu, pw, pa, pb});
-  }
-
-  void flip_to(HalfEdgeId h, const std::array<VertexId, 4>& id, const Tetrahedron& p) {
-    const double before = std::min(triangle_quality(p[0], p[1], p[2]), triangle_quality(p[1], p[0], p[3]));
-    const double after = std::min(triangle_quality(p[3], p[2], p[0]), triangle_quality(p[2], p[3], p[1]));
-    if (after < std::min(kQualityFloor, before) || after == 0 || !mesh_.can_flip(h)) return;
-    if (params_.edge_limit && length(to_double(p[3] - p[2])) > params_.edge_limit(p[2])) return;
-    const std::array<NewFace, 2> faces = {NewFace{{id[3], id[2], id[0]}, {p[3], p[2], p[0]}},
-                                          NewFace{{id[2], id[3], id[1]}, {p[2], p[3], p[1]}}};
-    const std::array<FaceId, 2> replaced = {HalfEdgeMesh::face(h), HalfEdgeMesh::face(mesh_.twin(h))};
-    const std::array<Tetrahedron, 1> swept = {p};
-    if (!enclosed_.allows(faces, swept) || !guard_.faces_are_free(faces, replaced)) return;
-    if (!within_limits(params_.limits, mesh_, replaced, faces)) return;
-    mesh_.flip(h);
-    for (const FaceId f : replaced) tree_.update(f);
-    ++counts_.flips;
-  }
-
-  HalfEdgeMesh& mesh_;
-  const Enclosed& enclosed_;
+  ProxyEditor& editor_;
+  const HalfEdgeMesh& mesh_;
   const TightenParams& params_;
   TightenCounts& counts_;
-  FaceTree tree_;
-  Guard guard_;
-  std::vector<double> step_;  // per vertex, lattice units
-  std::vector<NewFace> star_;
-  std::vector<FaceId> replaced_;
-  std::vector<Tetrahedron> swept_;
+  FanFit fit_;
+  double weight_ = 0;  // of the barrier, volume per point; 0: none
 };
 
 }  // namespace
+
+void tighten(ProxyEditor& editor, const TightenParams& params, TightenCounts& counts) {
+  counts = {};
+  const std::uint64_t tries = editor.counts().tries;
+  counts.volume_before = editor.volume();
+  Tightener(editor, params, counts).run();
+  counts.volume_after = editor.volume();
+  counts.tries = editor.counts().tries - tries;
+}
 
 LatticeMesh tighten(const LatticeMesh& proxy, const Enclosed& enclosed, const TightenParams& params,
                     TightenCounts& counts) {
   counts = {};
   if (proxy.triangles.empty()) return proxy;
   HalfEdgeMesh mesh(proxy);
-  Tightener(mesh, enclosed, params, counts).run();
+  ProxyEditor editor(mesh, enclosed, params.edge_limit, params.limits);
+  tighten(editor, params, counts);
+  if (counts.volume_after > counts.volume_before) return proxy;  // it was as tight as can be
   LatticeMesh out = mesh.compact(proxy.frame);
   out.provenance = proxy.provenance;
   return out;

@@ -2,9 +2,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "lib/meshing/enclosed.h"
-#include "lib/meshing/lattice_mesh.h"
-#include "lib/meshing/step_limits.h"
+#include "lib/meshing/proxy_editor.h"
 
 /// Tightening: vertex moves and edge flips that lower the proxy's volume while everything in `enclosed` stays inside
 /// and the proxy stays embedded. Simplification under constraints against its own faces can only grow; this takes the
@@ -12,8 +10,10 @@
 namespace bp {
 
 struct TightenParams {
-  int sweeps = 40;  ///< at most; stops earlier when a sweep gains less than `least_gain` of the volume
-  double least_gain = 5e-4;
+  int sweeps = 7;              ///< at most, that keep faces off what they need not touch yet, less and less so
+  int final_sweeps = 3;        ///< then, at most, that move each vertex as far as it goes
+  double least_gain = 1e-4;    ///< sweeps of a kind end when one gains less than this share of the volume
+  double first_weight = 0.01;  ///< of the first sweep's barrier: the share of the volume that it weighs
   /// As in SimplifyParams: longest edge that a move or a flip may make near a point, lattice units; empty: no limit.
   std::function<double(const LatticeCoord&)> edge_limit;
   StepLimits* limits = nullptr;  ///< if given, every step keeps them
@@ -24,8 +24,10 @@ struct TightenCounts {
   double volume_before = 0, volume_after = 0;  ///< lattice units cubed
 };
 
-/// `proxy`: closed, 2-manifold, embedded, enclosing. Deterministic. Every step is checked exactly before it is taken,
-/// so the result has the same properties and at most the same volume.
+/// Deterministic. Every step is checked exactly before it is taken. Cost: a few exact tests per vertex and sweep.
+void tighten(ProxyEditor& editor, const TightenParams& params, TightenCounts& counts);
+
+/// `proxy`: closed, 2-manifold, embedded, enclosing. The result has the same properties and at most the same volume.
 [[nodiscard]] LatticeMesh tighten(const LatticeMesh& proxy, const Enclosed& enclosed, const TightenParams& params,
                                   TightenCounts& counts);
 

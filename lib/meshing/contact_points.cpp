@@ -1,0 +1,103 @@
+#include "lib/meshing/contact_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/meshing/vec3.h"
+
+namespace bp {
+
+// Regions of the plane around the triangle, one corner or edge after the other ([Eri04] 5.1.5).
+double squared_distance(const Vec3d& p, const std::array<Vec3d, 3>& t) {
+  const Vec3d ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
+  const auto from = [&](const Vec3d& q) {
+    const Vec3d d = p - q;
+    return dot(d, d);
+  };
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return dot(ap, ap);
+  const Vec3d bp = p - t[1];
+  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return dot(bp, bp);
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return from(t[0] + (d1 / (d1 - d3)) * ab);
+  const Vec3d cp = p - t[2];
+  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return dot(cp, cp);
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return from(t[0] + (d2 / (d2 - d6)) * ac);
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+    return from(t[1] + ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (t[2] - t[1]));
+  const Vec3d n = cross(ab, ac);
+  const double s = dot(n, ap), nn = dot(n, n);
+  return nn > 0 ? s * s / nn : dot(ap, ap);
+}
+
+ContactPoints::ContactPoints(const Enclosed& enclosed, const HalfEdgeMesh& mesh, const FaceTree& tree)
+    : mesh_(mesh), of_face_(mesh.face_capacity()) {
+  VertexId first = 0;
+  while (!mesh.vertex_alive(first)) ++first;
+  origin_ = mesh.position(first);
+  double edges = 0;
+  for (FaceId f = 0; f < mesh.face_capacity(); ++f) {
+    if (mesh.alive(f)) edges += length(to_double(mesh.corner(f, 1) - mesh.corner(f, 0)));
+  }
+  const double reach = edges / double(mesh.face_count());
+  points_ = enclosed.contact_points(origin_);
+  std::size_t kept = 0;
+  for (const Vec3d& p : points_) {
+    const FaceId f = nearest(p, tree, reach);
+    if (f == kNoId) continue;  // deep inside
+    of_face_[f].push_back(std::uint32_t(kept));
+    points_[kept++] = p;
+  }
+  points_.resize(kept);
+}
+
+std::array<Vec3d, 3> ContactPoints::corners(FaceId f) const {
+  return {to_double(mesh_.corner(f, 0) - origin_), to_double(mesh_.corner(f, 1) - origin_),
+          to_double(mesh_.corner(f, 2) - origin_)};
+}
+
+FaceId ContactPoints::nearest(const Vec3d& p, const FaceTree& tree, double reach) const {
+  const LatticeCoord at = origin_ + LatticeCoord{std::llround(p[0]), std::llround(p[1]), std::llround(p[2])};
+  FaceId best = kNoId;
+  double least = 1e300;
+  for (double r = reach / 16; r <= 2 * reach && best == kNoId; r *= 4) {
+    const auto d = std::int64_t(r) + 1;
+    tree.query({at - LatticeCoord{d, d, d}, at + LatticeCoord{d, d, d}}, [&](FaceId f) {
+      const double distance = squared_distance(p, corners(f));
+      if (distance <= r * r && (distance < least || (distance == least && f < best))) {
+        least = distance;
+        best = f;
+      }
+      return true;
+    });
+  }
+  return best;
+}
+
+void ContactPoints::hand_over(std::span<const FaceId> from, std::span<const FaceId> to) {
+  moving_.clear();
+  for (const FaceId f : from) {
+    moving_.insert(moving_.end(), of_face_[f].begin(), of_face_[f].end());
+    of_face_[f].clear();
+  }
+  faces_.clear();
+  for (const FaceId f : to) faces_.push_back(corners(f));
+  for (const std::uint32_t i : moving_) {
+    std::size_t best = 0;
+    double least = 1e300;
+    for (std::size_t k = 0; k < faces_.size(); ++k) {
+      const double d = squared_distance(points_[i], faces_[k]);
+      if (d < least) {
+        least = d;
+        best = k;
+      }
+    }
+    of_face_[to[best]].push_back(i);
+  }
+}
+
+}  // namespace bp

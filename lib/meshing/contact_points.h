@@ -1,0 +1,38 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "lib/meshing/enclosed.h"
+
+/// Points of what must stay inside, each listed with the face of the proxy that it is nearest to. They guide where
+/// vertices go; nothing is proved by them.
+namespace bp {
+
+class ContactPoints {
+ public:
+  ContactPoints(const Enclosed& enclosed, const HalfEdgeMesh& mesh, const FaceTree& tree);
+
+  [[nodiscard]] const std::vector<std::uint32_t>& of(FaceId f) const { return of_face_[f]; }
+  [[nodiscard]] const Vec3d& operator[](std::uint32_t i) const { return points_[i]; }  ///< relative to origin()
+  [[nodiscard]] const LatticeCoord& origin() const { return origin_; }
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
+
+  /// Lists the points of the faces `from` with the nearest of the faces `to`, which are as they are in the mesh now.
+  void hand_over(std::span<const FaceId> from, std::span<const FaceId> to);
+
+ private:
+  [[nodiscard]] std::array<Vec3d, 3> corners(FaceId f) const;
+  [[nodiscard]] FaceId nearest(const Vec3d& p, const FaceTree& tree, double reach) const;
+
+  const HalfEdgeMesh& mesh_;
+  LatticeCoord origin_{};
+  std::vector<Vec3d> points_;
+  std::vector<std::vector<std::uint32_t>> of_face_;
+  std::vector<std::uint32_t> moving_;
+  std::vector<std::array<Vec3d, 3>> faces_;
+};
+
+/// Squared distance of p from the triangle.
+[[nodiscard]] double squared_distance(const Vec3d& p, const std::array<Vec3d, 3>& t);
+
+}  // namespace bp

@@ -1,0 +1,236 @@
+// Sources: cutting planes for a linear objective ([Kel60]), here few enough for Seidel's scheme [Se91] to solve them at
+// once; logarithmic barrier ([FM68]). Vertices jam when each is moved alone as far as it goes: a face that rests on
+// three points can no longer follow. The barrier is smooth in all vertices, so moving one at a time still goes where
+// moving all would.
+#include "lib/meshing/fan_fit.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "lib/meshing/vec3.h"
+
+namespace bp {
+
+namespace {
+
+constexpr int kCutRounds = 12;
+constexpr int kHoldRounds = 4;
+constexpr int kNewtonSteps = 3;
+constexpr double kMargin = 0.6;      // lattice units: rounding an apex moves it by up to 0.87, but rarely straight down
+constexpr double kShareOfGap = 0.9;  // of the way to the nearest obstacle that a Newton step may go
+
+/// Solves a symmetric, positive definite system (Cramer). Order: xx xy xz yy yz zz.
+Vec3d solve(const std::array<double, 6>& m, const Vec3d& r) {
+  const double a = m[3] * m[5] - m[4] * m[4], b = m[2] * m[4] - m[1] * m[5], c = m[1] * m[4] - m[2] * m[3];
+  const double d = m[0] * m[5] - m[2] * m[2], e = m[1] * m[2] - m[0] * m[4], f = m[0] * m[3] - m[1] * m[1];
+  const double det = m[0] * a + m[1] * b + m[2] * c;
+  return {(a * r[0] + b * r[1] + c * r[2]) / det, (b * r[0] + d * r[1] + e * r[2]) / det,
+          (c * r[0] + e * r[1] + f * r[2]) / det};
+}
+
+void add_square(std::array<double, 6>& m, double weight, const Vec3d& n) {
+  m[0] += weight * n[0] * n[0], m[1] += weight * n[0] * n[1], m[2] += weight * n[0] * n[2];
+  m[3] += weight * n[1] * n[1], m[4] += weight * n[1] * n[2], m[5] += weight * n[2] * n[2];
+}
+
+}  // namespace
+
+void FanFit::clear() {
+  rim_.clear();
+  points_.clear();
+  sector_.clear();
+  avoided_.clear();
+}
+
+bool FanFit::close() {
+  gradient_ = {};
+  for (std::size_t i = 0; i < rim_.size(); ++i) gradient_ = gradient_ + cross(rim_[i], rim_[(i + 1) % rim_.size()]);
+  gradient_ = (1.0 / 6) * gradient_;
+  const double size = length(gradient_);
+  if (!(size > 0)) return false;
+  outward_ = (1 / size) * gradient_;
+  return true;
+}
+
+double FanFit::volume(const Vec3d& x) const {
+  return dot(gradient_, x);
+}
+
+/// Of the plane through the point and the rim's edge of its sector: the apex must be above.
+Vec3d FanFit::normal_over(std::size_t point) const {
+  const std::uint32_t s = sector_[point];
+  return cross(rim_[s] - points_[point], rim_[s + 1 == rim_.size() ? 0 : s + 1] - points_[point]);
+}
+
+/// Walks each point to the face that it lies under, at most once around.
+void FanFit::bind(const Vec3d& apex) {
+  const auto n = std::uint32_t(rim_.size());
+  spokes_.clear();
+  for (const Vec3d& r : rim_) spokes_.push_back(cross(outward_, r - apex));
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Vec3d p = points_[i] - apex;
+    std::uint32_t s = sector_[i];
+    int turned = 0;
+    for (std::uint32_t step = 0; step < n; ++step) {
+      const std::uint32_t next = s + 1 == n ? 0 : s + 1;
+      if (turned <= 0 && dot(spokes_[s], p) < 0) {
+        s = s == 0 ? n - 1 : s - 1;
+        turned = -1;
+      } else if (turned >= 0 && dot(spokes_[next], p) >= 0) {
+        s = next;
+        turned = 1;
+      } else {
+        break;
+      }
+    }
+    sector_[i] = s;
+  }
+}
+
+/// Adds the deepest violation of each face to cuts_; false if there is none.
+bool FanFit::cut(const Vec3d& apex) {
+  deepest_.assign(rim_.size(), 0);
+  deepest_point_.assign(rim_.size(), 0);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Vec3d n = normal_over(i);
+    const double height = dot(n, apex - points_[i]) - kMargin / 2 * length(n);
+    if (height < deepest_[sector_[i]]) {
+      deepest_[sector_[i]] = height;
+      deepest_point_[sector_[i]] = i;
+    }
+  }
+  const std::size_t before = cuts_.size();
+  for (std::size_t s = 0; s < rim_.size(); ++s) {
+    if (deepest_[s] >= 0) continue;
+    const std::size_t i = deepest_point_[s];
+    const Vec3d normal = normal_over(i), n = (1 / length(normal)) * normal;
+    cuts_.push_back({n, dot(n, points_[i]) + kMargin});
+  }
+  return cuts_.size() > before;
+}
+
+void FanFit::add_plane(const Vec3d& normal, const Vec3d& through) {
+  const double size = length(normal);
+  if (!(size > 0)) return;
+  const Vec3d n = (1 / size) * normal;
+  avoided_.push_back({n, dot(n, through) + kMargin});
+}
+
+/// The face over p, seen along outward_, must pass above it.
+void FanFit::avoid_corner(const Vec3d& apex, const Vec3d& p) {
+  for (std::size_t s = 0; s < rim_.size(); ++s) {
+    const Vec3d &a = rim_[s], &b = rim_[s + 1 == rim_.size() ? 0 : s + 1];
+    if (dot(cross(outward_, a - apex), p - apex) < 0 || dot(cross(outward_, b - apex), p - apex) >= 0) continue;
+    const Vec3d normal = cross(a - p, b - p);
+    if (dot(normal, outward_) > 0 && dot(normal, apex - p) < kMargin * length(normal)) add_plane(normal, p);
+  }
+}
+
+/// A spoke that crosses pq, seen along outward_, must pass above it.
+void FanFit::avoid_edge(const Vec3d& apex, const Vec3d& p, const Vec3d& q) {
+  const Vec3d across = cross(outward_, q - p);
+  for (const Vec3d& r : rim_) {
+    const Vec3d spoke = cross(outward_, r - apex);
+    if (dot(spoke, p - apex) * dot(spoke, q - apex) > 0 || dot(across, apex - p) * dot(across, r - p) > 0) continue;
+    Vec3d normal = cross(r - p, q - p);
+    if (dot(normal, outward_) < 0) normal = -1.0 * normal;
+    if (dot(normal, apex - p) < kMargin * length(normal)) add_plane(normal, p);
+  }
+}
+
+bool FanFit::avoid(const Vec3d& apex, const Blocker& blocker, const Vec3d& shift) {
+  const std::size_t before = avoided_.size();
+  std::array<Vec3d, 8> p;
+  for (std::size_t i = 0; i < blocker.count; ++i) {
+    p[i] = blocker.points[i] - shift;
+    avoid_corner(apex, p[i]);
+  }
+  for (std::size_t i = 0; i < blocker.count; ++i) {
+    for (std::size_t j = i + 1; j < blocker.count; ++j) {
+      const bool edge = blocker.count == 3 || std::popcount(i ^ j) == 1;
+      if (edge) avoid_edge(apex, p[i], p[j]);
+    }
+  }
+  return avoided_.size() > before;
+}
+
+std::optional<Vec3d> FanFit::least_volume(const Vec3d& start, double reach) {
+  Quadric q;  // gradient . x + |gradient| / (2 reach) |x - start|^2: without cuts, x is `reach` from start
+  const double pull = length(gradient_) / (2 * reach);
+  q.xx = q.yy = q.zz = pull;
+  q.bx = gradient_[0] / 2 - pull * start[0];
+  q.by = gradient_[1] / 2 - pull * start[1];
+  q.bz = gradient_[2] / 2 - pull * start[2];
+  cuts_ = avoided_;
+  std::optional<Vec3d> x = constrained_minimum(q, start, cuts_);
+  for (int round = 0; x && round < kCutRounds; ++round) {
+    bind(*x);
+    if (!cut(*x)) break;
+    x = constrained_minimum(q, start, cuts_);
+  }
+  return x;
+}
+
+/// Heights over all points at `start`, each over the face it is under there, and over the planes of avoid().
+void FanFit::hold_all(const Vec3d& start) {
+  heights_.clear();
+  bind(start);
+  held_ = sector_;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Vec3d n = normal_over(i);
+    const double height = dot(n, start - points_[i]);
+    if (height > 0) heights_.push_back((1 / height) * n);
+  }
+  for (const PlaneConstraint& c : avoided_) {
+    const double height = dot(c.n, start) - c.d;
+    if (height > 0) heights_.push_back((1 / height) * c.n);
+  }
+}
+
+/// Adds the points that are above the face they would be under at `apex`; false if there is none.
+bool FanFit::hold_crossed(const Vec3d& apex, const Vec3d& start) {
+  const std::size_t before = heights_.size();
+  bind(apex);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (held_[i] == sector_[i]) continue;
+    const Vec3d n = normal_over(i);
+    const double height = dot(n, start - points_[i]);
+    if (height > 0 && dot(n, apex - points_[i]) <= 0) heights_.push_back((1 / height) * n);
+  }
+  return heights_.size() > before;
+}
+
+/// From the start, as an offset.
+Vec3d FanFit::newton(double weight, double reach) const {
+  const double stiffness = length(gradient_) / reach;
+  Vec3d x{};
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    std::array<double, 6> h = {stiffness, 0, 0, stiffness, 0, stiffness};
+    Vec3d down = -1.0 * gradient_;
+    for (const Vec3d& m : heights_) {
+      const Vec3d n = (1 / (1 + dot(m, x))) * m;
+      down = down + weight * n;
+      add_square(h, weight, n);
+    }
+    Vec3d d = solve(h, down);
+    const double size = length(d);
+    if (size > reach) d = (reach / size) * d;
+    double most = 1;
+    for (const Vec3d& m : heights_) {
+      const double slope = dot(m, d);
+      if (slope < 0) most = std::min(most, kShareOfGap * (1 + dot(m, x)) / -slope);
+    }
+    x = x + most * d;
+  }
+  return x;
+}
+
+Vec3d FanFit::balanced(const Vec3d& start, double weight, double reach) {
+  hold_all(start);
+  Vec3d x = start + newton(weight, reach);
+  for (int round = 1; round < kHoldRounds && hold_crossed(x, start); ++round) x = start + newton(weight, reach);
+  return x;
+}
+
+}  // namespace bp

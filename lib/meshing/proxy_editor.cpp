@@ -1,0 +1,153 @@
+#include "lib/meshing/proxy_editor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/predicates.h"
+#include "lib/meshing/vec3.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kQualityFloor = 0.08;  // of 1 for the equilateral triangle; or no worse than what was there
+
+}  // namespace
+
+ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed,
+                         std::function<double(const LatticeCoord&)> edge_limit, StepLimits* limits)
+    : mesh_(mesh),
+      enclosed_(enclosed),
+      edge_limit_(std::move(edge_limit)),
+      limits_(limits),
+      tree_(mesh),
+      guard_(mesh, tree_),
+      contacts_(enclosed, mesh, tree_) {}
+
+double ProxyEditor::volume() const {
+  double sum = 0;
+  const LatticeCoord& o = contacts_.origin();
+  for (FaceId f = 0; f < mesh_.face_capacity(); ++f) {
+    if (mesh_.alive(f)) sum += double(orient3d_value(o, mesh_.corner(f, 0), mesh_.corner(f, 1), mesh_.corner(f, 2)));
+  }
+  return sum / 6;
+}
+
+void ProxyEditor::begin() {
+  ++counts_.tries;
+  blocked_ = false;
+  faces_.clear();
+  replaced_.clear();
+  swept_.clear();
+  least_quality_ = 1;
+}
+
+void ProxyEditor::add_old_face(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c,
+                               const LatticeCoord& to) {
+  least_quality_ = std::min(least_quality_, triangle_quality(a, b, c));
+  if (orient3d(a, b, c, to) < 0) swept_.push_back({a, b, c, to});
+}
+
+/// New edges run from the first to the second corner of each new face.
+bool ProxyEditor::shape_is_fine(const LatticeCoord& apex) {
+  const double floor = std::min(kQualityFloor, least_quality_), limit = edge_limit_ ? edge_limit_(apex) : 0;
+  const bool fine = std::all_of(faces_.begin(), faces_.end(), [&](const NewFace& f) {
+    const double quality = triangle_quality(f.corners[0], f.corners[1], f.corners[2]);
+    return quality > 0 && quality >= floor && (limit <= 0 || length(to_double(f.corners[1] - f.corners[0])) <= limit);
+  });
+  counts_.refused_shape += !fine;
+  return fine;
+}
+
+bool ProxyEditor::keeps_enclosed() {
+  if (enclosed_.allows(faces_, swept_, &blocker_)) return true;
+  ++counts_.refused_enclosed;
+  blocked_ = true;
+  const Vec3d origin = to_double(contacts_.origin());
+  for (std::size_t i = 0; i < blocker_.count; ++i) blocker_.points[i] = blocker_.points[i] - origin;
+  return false;
+}
+
+/// The last question, given the guard's answer: limits count what they allow as taken.
+bool ProxyEditor::is_free(bool free) {
+  const bool within = free && within_limits(limits_, mesh_, replaced_, faces_);
+  counts_.refused_guard += !free;
+  counts_.refused_limits += free && !within;
+  return within;
+}
+
+bool ProxyEditor::fan_is_fine(const LatticeCoord& apex) {
+  if (!shape_is_fine(apex) || !keeps_enclosed()) return false;
+  return is_free(guard_.star_is_free(faces_, replaced_));
+}
+
+bool ProxyEditor::move(VertexId v, const LatticeCoord& to) {
+  begin();
+  const LatticeCoord p = mesh_.position(v);
+  mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
+    const VertexId a = mesh_.to(h), b = mesh_.opposite(h);
+    const LatticeCoord &pa = mesh_.position(a), &pb = mesh_.position(b);
+    faces_.push_back({{v, a, b}, {to, pa, pb}});
+    replaced_.push_back(HalfEdgeMesh::face(h));
+    add_old_face(p, pa, pb, to);
+  });
+  if (!fan_is_fine(to)) return false;
+  mesh_.move(v, to);
+  update_around(v);
+  return true;
+}
+
+bool ProxyEditor::collapse(HalfEdgeId h, const LatticeCoord& to) {
+  if (!mesh_.can_collapse(h)) return false;
+  begin();
+  const VertexId u = mesh_.from(h), w = mesh_.to(h);
+  const auto add = [&](HalfEdgeId g) {
+    const VertexId a = mesh_.to(g), b = mesh_.opposite(g);
+    const LatticeCoord &pa = mesh_.position(a), &pb = mesh_.position(b);
+    replaced_.push_back(HalfEdgeMesh::face(g));
+    add_old_face(mesh_.position(mesh_.from(g)), pa, pb, to);
+    if (a != w && b != w) faces_.push_back({{u, a, b}, {to, pa, pb}});
+  };
+  mesh_.for_each_outgoing(u, add);
+  mesh_.for_each_outgoing(w, [&](HalfEdgeId g) {
+    if (mesh_.to(g) != u && mesh_.opposite(g) != u) add(g);
+  });
+  if (!fan_is_fine(to)) return false;
+  mesh_.collapse(h, to);
+  update_around(u);
+  tree_.maintain();
+  return true;
+}
+
+bool ProxyEditor::flip(HalfEdgeId h) {
+  if (!mesh_.can_flip(h)) return false;
+  begin();
+  const HalfEdgeId t = mesh_.twin(h);
+  const VertexId u = mesh_.from(h), w = mesh_.to(h), a = mesh_.opposite(h), b = mesh_.opposite(t);
+  const LatticeCoord &pu = mesh_.position(u), &pw = mesh_.position(w), &pa = mesh_.position(a), &pb = mesh_.position(b);
+  faces_ = {{{b, a, u}, {pb, pa, pu}}, {{a, b, w}, {pa, pb, pw}}};
+  replaced_ = {HalfEdgeMesh::face(h), HalfEdgeMesh::face(t)};
+  add_old_face(pu, pw, pa, pb);
+  least_quality_ = std::min(least_quality_, triangle_quality(pw, pu, pb));
+  if (!shape_is_fine(pa) || !keeps_enclosed() || !is_free(guard_.faces_are_free(faces_, replaced_))) return false;
+  mesh_.flip(h);
+  for (const FaceId f : replaced_) tree_.update(f);
+  contacts_.hand_over(replaced_, replaced_);
+  return true;
+}
+
+/// Boxes of the star's faces, and their points: faces beyond the rim may be nearer now.
+void ProxyEditor::update_around(VertexId apex) {
+  around_.clear();
+  mesh_.for_each_outgoing(apex, [&](HalfEdgeId h) {
+    tree_.update(HalfEdgeMesh::face(h));
+    around_.push_back(HalfEdgeMesh::face(h));
+  });
+  mesh_.for_each_outgoing(apex, [&](HalfEdgeId h) {
+    const FaceId beyond = HalfEdgeMesh::face(mesh_.twin(HalfEdgeMesh::next(h)));
+    if (std::find(around_.begin(), around_.end(), beyond) == around_.end()) around_.push_back(beyond);
+  });
+  contacts_.hand_over(replaced_, around_);
+}
+
+}  // namespace bp

@@ -1,0 +1,67 @@
+#pragma once
+#include <functional>
+
+#include "lib/meshing/contact_points.h"
+#include "lib/meshing/enclosed.h"
+#include "lib/meshing/guard.h"
+#include "lib/meshing/step_limits.h"
+
+/// Changes of a proxy, each taken only if the proxy stays embedded and keeps inside what must stay inside, both decided
+/// exactly (docs/bounding.md, "Tightening"), and if it makes no needle and no edge too long.
+namespace bp {
+
+struct EditCounts {
+  std::uint64_t tries = 0, refused_shape = 0, refused_enclosed = 0, refused_guard = 0, refused_limits = 0;
+};
+
+class ProxyEditor {
+ public:
+  /// `mesh`: closed, 2-manifold, embedded, enclosing; it and `enclosed` must outlive the editor.
+  /// `edge_limit`: longest edge that a change may make near a point, lattice units; empty: no limit.
+  /// `limits`: if given, every change keeps them.
+  ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, std::function<double(const LatticeCoord&)> edge_limit,
+              StepLimits* limits);
+
+  [[nodiscard]] const HalfEdgeMesh& mesh() const { return mesh_; }
+  [[nodiscard]] const ContactPoints& contacts() const { return contacts_; }
+  [[nodiscard]] const EditCounts& counts() const { return counts_; }
+  [[nodiscard]] double volume() const;  ///< lattice units cubed
+
+  /// Each returns true if the change was taken.
+  [[nodiscard]] bool move(VertexId v, const LatticeCoord& to);
+  [[nodiscard]] bool collapse(HalfEdgeId h, const LatticeCoord& to);  ///< the merged vertex keeps the id from(h)
+  [[nodiscard]] bool flip(HalfEdgeId h);
+
+  /// What must stay inside and stood in the way of the change refused last, in the coordinates of contacts(); null if
+  /// something else did.
+  [[nodiscard]] const Blocker* blocker() const { return blocked_ ? &blocker_ : nullptr; }
+
+  void refresh() { tree_.rebuild(); }  ///< boxes only grow with the changes; after many of them fresh ones pay
+
+ private:
+  void begin();
+  void add_old_face(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c, const LatticeCoord& to);
+  [[nodiscard]] bool shape_is_fine(const LatticeCoord& apex);
+  [[nodiscard]] bool keeps_enclosed();
+  [[nodiscard]] bool fan_is_fine(const LatticeCoord& apex);
+  [[nodiscard]] bool is_free(bool free);
+  void update_around(VertexId apex);
+
+  HalfEdgeMesh& mesh_;
+  const Enclosed& enclosed_;
+  std::function<double(const LatticeCoord&)> edge_limit_;
+  StepLimits* limits_;
+  FaceTree tree_;
+  Guard guard_;
+  ContactPoints contacts_;
+  EditCounts counts_;
+  // Of the change at hand:
+  std::vector<NewFace> faces_;
+  std::vector<FaceId> replaced_, around_;
+  std::vector<Tetrahedron> swept_;
+  double least_quality_ = 1;  // of the faces replaced
+  Blocker blocker_;
+  bool blocked_ = false;
+};
+
+}  // namespace bp

@@ -1,0 +1,184 @@
+#include "lib/meshing/thin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <queue>
+
+#include "lib/meshing/fan_fit.h"
+#include "lib/meshing/vec3.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kReach = 0.5;  // of the mean spoke: how far the merged vertex may leave the edge's middle
+constexpr int kAvoidRounds = 4;
+
+struct Entry {
+  double cost;  // volume added; an estimate where the neighbourhood changed since
+  HalfEdgeId edge;
+  std::uint32_t serial;
+  bool operator<(const Entry& o) const { return cost != o.cost ? cost > o.cost : edge > o.edge; }  // least first
+};
+
+struct Candidate {
+  Vec3d offset;  // from the position of from(h)
+  double cost;   // volume added
+};
+
+class Thinner {
+ public:
+  Thinner(ProxyEditor& editor, SimplifyCounts& counts)
+      : editor_(editor),
+        mesh_(editor.mesh()),
+        counts_(counts),
+        serial_(3 * mesh_.face_capacity(), 0),
+        stale_(3 * mesh_.face_capacity(), 0) {}
+
+  StopReason run(std::uint64_t faces) {
+    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
+      if (mesh_.alive(HalfEdgeMesh::face(h)) && mesh_.edge(h) == h) push(h);
+    }
+    while (mesh_.face_count() > faces) {
+      if (heap_.empty()) return StopReason::nothing_left;
+      const Entry top = heap_.top();
+      heap_.pop();
+      const HalfEdgeId e = top.edge;
+      if (!mesh_.alive(HalfEdgeMesh::face(e)) || mesh_.edge(e) != e || serial_[e] != top.serial) continue;
+      const std::optional<Candidate> candidate = solve(e);
+      if (!candidate) continue;
+      const double next = heap_.empty() ? candidate->cost : heap_.top().cost;
+      if (stale_[e] && candidate->cost > std::max(top.cost, next)) {
+        stale_[e] = 0;
+        heap_.push({candidate->cost, e, top.serial});
+        continue;
+      }
+      const VertexId u = mesh_.from(e);
+      const double dearer = take(e, *candidate, std::max({top.cost, candidate->cost, next}));
+      if (dearer > 0) heap_.push({dearer, e, top.serial});
+      if (dearer == 0) renew_around(u);
+    }
+    return StopReason::faces;
+  }
+
+ private:
+  void push(HalfEdgeId h) {
+    const HalfEdgeId e = mesh_.edge(h);
+    stale_[e] = 0;
+    ++serial_[e];
+    if (const auto c = solve(e)) heap_.push({c->cost, e, serial_[e]});
+  }
+
+  /// Collapses for at most `most`: 0 if done, the cost if it is dearer than that, negative if it cannot be.
+  double take(HalfEdgeId h, Candidate c, double most) {
+    const LatticeCoord p = mesh_.position(mesh_.from(h));
+    const Vec3d shift = to_double(p - editor_.contacts().origin());
+    const double before = fit_.volume(c.offset) - c.cost;
+    for (int round = 0; round < kAvoidRounds; ++round) {
+      if (try_at(h, p, c.offset)) return 0;
+      if (editor_.blocker() == nullptr || !fit_.avoid(c.offset, *editor_.blocker(), shift)) break;
+      const auto x = fit_.least_volume(middle_, kReach * size_);
+      if (!x) return -1;
+      c = {*x, fit_.volume(*x) - before};
+      if (c.cost > most) return c.cost;
+    }
+    for (const double lift : {0.004, 0.016, 0.064}) {
+      const Vec3d x = c.offset + (lift * size_) * fit_.outward();
+      const double cost = fit_.volume(x) - before;
+      if (cost > most) return cost;
+      if (try_at(h, p, x)) return 0;
+    }
+    return -1;
+  }
+
+  bool try_at(HalfEdgeId h, const LatticeCoord& p, const Vec3d& x) {
+    const bool taken =
+        editor_.collapse(h, p + LatticeCoord{std::llround(x[0]), std::llround(x[1]), std::llround(x[2])});
+    counts_.collapses += taken;
+    return taken;
+  }
+
+  std::optional<Candidate> solve(HalfEdgeId h) {
+    if (!mesh_.can_collapse(h)) {
+      ++counts_.refused_link;
+      return std::nullopt;
+    }
+    ++counts_.solved;
+    const double before = gather(h);
+    if (!fit_.close()) return std::nullopt;
+    const auto x = fit_.least_volume(middle_, kReach * size_);
+    if (!x) {
+      ++counts_.refused_constraints;
+      return std::nullopt;
+    }
+    return Candidate{*x, fit_.volume(*x) - before};
+  }
+
+  /// The fan that would replace both stars; the volume under them now.
+  double gather(HalfEdgeId h) {
+    const HalfEdgeId t = mesh_.twin(h);
+    const LatticeCoord origin = mesh_.position(mesh_.from(h));
+    const Vec3d w = to_double(mesh_.position(mesh_.to(h)) - origin);
+    middle_ = 0.5 * w;
+    size_ = 0;
+    fit_.clear();
+    double before = 0;  // the faces at from(h), the origin, add none
+    std::uint32_t sector = 0, sector_of_t = 0;
+    for (const HalfEdgeId spoke : {h, t}) {
+      if (spoke == t) sector_of_t = sector;
+      for (HalfEdgeId g = mesh_.rotate(spoke); mesh_.rotate(g) != spoke; g = mesh_.rotate(g)) {
+        const Vec3d a = to_double(mesh_.position(mesh_.to(g)) - origin);
+        if (spoke == t) before += dot(w, cross(a, to_double(mesh_.position(mesh_.opposite(g)) - origin))) / 6;
+        size_ += length(a - middle_);
+        fit_.add_rim(a);
+        add_points(HalfEdgeMesh::face(g), origin, sector++);
+      }
+    }
+    size_ /= double(sector);
+    add_points(HalfEdgeMesh::face(h), origin, 0);  // the faces that vanish lie under the spokes to their far corners
+    add_points(HalfEdgeMesh::face(t), origin, sector_of_t);
+    return before;
+  }
+
+  void add_points(FaceId f, const LatticeCoord& origin, std::uint32_t sector) {
+    const Vec3d shift = to_double(origin - editor_.contacts().origin());
+    for (const std::uint32_t i : editor_.contacts().of(f)) fit_.add_point(editor_.contacts()[i] - shift, sector);
+  }
+
+  /// New entries for the edges at u; those one step further out keep theirs as an estimate.
+  void renew_around(VertexId u) {
+    mesh_.for_each_outgoing(u, [&](HalfEdgeId g) {
+      push(g);
+      mesh_.for_each_outgoing(mesh_.to(g), [&](HalfEdgeId k) {
+        if (mesh_.to(k) != u) stale_[mesh_.edge(k)] = 1;
+      });
+    });
+  }
+
+  ProxyEditor& editor_;
+  const HalfEdgeMesh& mesh_;
+  SimplifyCounts& counts_;
+  FanFit fit_;
+  Vec3d middle_{};                     // of the edge solved last, from its start
+  double size_ = 0;                    // mean spoke of its fan
+  std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
+  std::vector<char> stale_;            // its entry's cost is an estimate
+  std::priority_queue<Entry> heap_;
+};
+
+}  // namespace
+
+void thin(ProxyEditor& editor, std::uint64_t faces, SimplifyCounts& counts) {
+  counts = {};
+  counts.faces_in = counts.faces_flat = editor.mesh().face_count();
+  const EditCounts before = editor.counts();
+  counts.stop = Thinner(editor, counts).run(faces);
+  counts.refused_shape = editor.counts().refused_shape - before.refused_shape;
+  counts.refused_constraints += editor.counts().refused_enclosed - before.refused_enclosed;
+  counts.refused_guard = editor.counts().refused_guard - before.refused_guard;
+  counts.refused_limits = editor.counts().refused_limits - before.refused_limits;
+  counts.faces_out = editor.mesh().face_count();
+}
+
+}  // namespace bp

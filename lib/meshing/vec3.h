@@ -1,0 +1,20 @@
+#pragma once
+#include "lib/meshing/lattice_geometry.h"
+
+/// Arithmetic of Vec3d.
+namespace bp {
+
+[[nodiscard]] inline Vec3d operator+(const Vec3d& a, const Vec3d& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+[[nodiscard]] inline Vec3d operator-(const Vec3d& a, const Vec3d& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+[[nodiscard]] inline Vec3d operator*(double s, const Vec3d& a) {
+  return {s * a[0], s * a[1], s * a[2]};
+}
+[[nodiscard]] inline Vec3d cross(const Vec3d& a, const Vec3d& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+}  // namespace bp
