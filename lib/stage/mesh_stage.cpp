@@ -15,6 +15,7 @@
 #include "lib/stage/components.h"
 #include "lib/stage/fit_target.h"
 #include "lib/stage/proxy_limits.h"
+#include "lib/stage/scene_check.h"
 #include "lib/stage/surface_around.h"
 
 namespace bp {
@@ -105,8 +106,14 @@ Start make_start(const Shelves& shelves, MeshMode mode, const GridFrame& frame, 
 
 std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& params, const Start& start,
                                         const ShelfFactory& make_shelf) {
-  if (params.enclose == Enclose::scene)
+  if (params.enclose == Enclose::scene) {
+    if (params.mode == MeshMode::bounding && !lies_within(params.scene, start.dense.frame, *shelves.meshed)) {
+      fail(ErrorCode::bad_input,
+           "--enclose: the scene named lies not inside the voxels of the stream, so the stream was made from another "
+           "one; name the scene that bpvox read");
+    }
     return std::make_unique<EnclosedTriangles>(std::move(params.scene), start.dense.frame);
+  }
   if (params.enclose == Enclose::closing)
     return std::make_unique<EnclosedVoxels>(start.around ? *start.around : *shelves.meshed);
   if (params.mode == MeshMode::bounding) return std::make_unique<EnclosedVoxels>(*shelves.input);

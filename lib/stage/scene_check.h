@@ -1,0 +1,14 @@
+#pragma once
+#include <span>
+
+#include "lib/grid/stream.h"
+
+/// Whether triangles are inside a set of voxels: what tightening against a scene must know before it begins.
+namespace bp {
+
+/// True if every voxel that voxelization would set for `triangles` is in `shelf`, so that each of them lies strictly
+/// inside the voxels (docs/bounding.md, section 2). False if one is not, wherever it is. Cost: that of voxelizing their
+/// surface, one brick at a time.
+[[nodiscard]] bool lies_within(std::span<const TriangleD> triangles, const GridFrame& frame, const BrickShelf& shelf);
+
+}  // namespace bp
