@@ -50,13 +50,19 @@ void ProxyEditor::add_old_face(const LatticeCoord& a, const LatticeCoord& b, con
 
 /// New edges run from the first to the second corner of each new face.
 bool ProxyEditor::shape_is_fine(const LatticeCoord& apex) {
-  const double floor = std::min(kQualityFloor, least_quality_), limit = edge_limit_ ? edge_limit_(apex) : 0;
-  const bool fine = std::all_of(faces_.begin(), faces_.end(), [&](const NewFace& f) {
+  const double floor = std::min(kQualityFloor, least_quality_);
+  double longest = 0;
+  for (const NewFace& f : faces_) {
     const double quality = triangle_quality(f.corners[0], f.corners[1], f.corners[2]);
-    return quality > 0 && quality >= floor && (limit <= 0 || length(to_double(f.corners[1] - f.corners[0])) <= limit);
-  });
-  counts_.refused_shape += !fine;
-  return fine;
+    if (quality == 0 || quality < floor) {
+      ++counts_.refused_shape;
+      return false;
+    }
+    longest = std::max(longest, length(to_double(f.corners[1] - f.corners[0])));
+  }
+  const bool too_long = edge_limit_ && longest > edge_limit_(apex);
+  counts_.refused_length += too_long;
+  return !too_long;
 }
 
 bool ProxyEditor::keeps_enclosed() {

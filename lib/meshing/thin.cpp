@@ -177,6 +177,8 @@ void thin(ProxyEditor& editor, std::uint64_t faces, SimplifyCounts& counts) {
   counts.refused_shape = editor.counts().refused_shape - before.refused_shape;
   counts.refused_constraints += editor.counts().refused_enclosed - before.refused_enclosed;
   counts.refused_guard = editor.counts().refused_guard - before.refused_guard;
+  counts.refused_length = editor.counts().refused_length - before.refused_length;
+  if (counts.stop == StopReason::nothing_left && counts.refused_length > 0) counts.stop = StopReason::edge_length;
   counts.refused_limits = editor.counts().refused_limits - before.refused_limits;
   counts.faces_out = editor.mesh().face_count();
 }

@@ -131,7 +131,10 @@ LatticeMesh tighten(const LatticeMesh& proxy, const Enclosed& enclosed, const Ti
   HalfEdgeMesh mesh(proxy);
   ProxyEditor editor(mesh, enclosed, params.edge_limit, params.limits);
   tighten(editor, params, counts);
-  if (counts.volume_after > counts.volume_before) return proxy;  // it was as tight as can be
+  if (counts.volume_after > counts.volume_before) {  // it was as tight as the barrier lets it be, or tighter
+    counts.volume_after = counts.volume_before;
+    return proxy;
+  }
   LatticeMesh out = mesh.compact(proxy.frame);
   out.provenance = proxy.provenance;
   return out;
