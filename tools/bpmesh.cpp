@@ -176,7 +176,9 @@ bp::Json json_of(const bp::LevelCounts& c) {
                      {"shape", s.refused_shape},
                      {"length", s.refused_length},
                      {"guard", s.refused_guard},
-                     {"limits", s.refused_limits}}},
+                     {"limits", s.refused_limits},
+                     {"enclosed", s.refused_enclosed},
+                     {"error", s.refused_error}}},
                    {"moves", c.tighten.moves},
                    {"flips", c.tighten.flips}};
   if (m.proxy_to_enclosed) {
@@ -222,11 +224,11 @@ void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts&
     const std::string which = c.levels.size() > 1 ? fmt::format("level {}: ", i) : "";
     if (s.stop == bp::StopReason::nothing_left && i < o.faces.size() && s.faces_out > o.faces[i]) {
       note(report, o,
-           fmt::format("{}{} faces instead of {}: no further edge can be merged (refused last: {} by topology, {} by "
+           fmt::format("{}{} faces instead of {}: no further edge can be merged (edges refused: {} by topology, {} by "
                        "enclosure, {} by shape, {} by length, {} by intersection); a larger --scale joins parts and "
                        "closes holes",
-                       which, s.faces_out, o.faces[i], s.refused_link, s.refused_constraints, s.refused_shape,
-                       s.refused_length, s.refused_guard));
+                       which, s.faces_out, o.faces[i], s.refused_link, s.refused_constraints + s.refused_enclosed,
+                       s.refused_shape, s.refused_length, s.refused_guard));
     }
     const auto& distance = c.levels[i].measures.proxy_to_enclosed;
     if (error_world > 0 && distance && distance->at_least > error_world * (1 + 1e-9)) {

@@ -17,6 +17,14 @@ struct LatticeBox {
     return min.x <= b.max.x && b.min.x <= max.x && min.y <= b.max.y && b.min.y <= max.y && min.z <= b.max.z &&
            b.min.z <= max.z;
   }
+  /// Strictly inside: not on the boundary.
+  [[nodiscard]] bool holds_inside(const LatticeCoord& p) const {
+    return min.x < p.x && p.x < max.x && min.y < p.y && p.y < max.y && min.z < p.z && p.z < max.z;
+  }
+  [[nodiscard]] bool holds(const LatticeBox& b) const {
+    return min.x <= b.min.x && b.max.x <= max.x && min.y <= b.min.y && b.max.y <= max.y && min.z <= b.min.z &&
+           b.max.z <= max.z;
+  }
   void add(const LatticeCoord& p) {
     min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
     max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
@@ -33,12 +41,11 @@ class BoxTree {
  public:
   /// Item i has the box boxes[i]; only those listed in `items` are in the tree. O(n log n).
   void build(std::span<const LatticeBox> boxes, std::vector<std::uint32_t> items);
-  /// Makes room for a changed item: boxes only grow, build() makes them tight again. O(depth).
-  void grow(std::uint32_t item, const LatticeBox& box);
+  /// A changed item: its own box is exact again, those above it only grow, build() makes them tight. O(depth).
+  void update(std::uint32_t item, const LatticeBox& box);
   [[nodiscard]] std::size_t size() const { return order_.size(); }
 
-  /// visit(item) for every item in a leaf that meets `box` (a superset of those whose own box does); stops when visit
-  /// returns false, and returns false then.
+  /// visit(item) for every item whose box meets `box`; stops when visit returns false, and returns false then.
   template <class Visit>
   bool query(const LatticeBox& box, Visit&& visit) const {
     return query(
@@ -52,17 +59,18 @@ class BoxTree {
     const SmallBox small = to_small(box);
     std::uint32_t stack[64];
     int top = 0;
-    stack[top++] = 0;
+    if (nodes_[0].box.meets(small)) stack[top++] = 0;
     while (top > 0) {
       const Node& n = nodes_[stack[--top]];
-      if (!n.box.meets(small) || !keep(to_lattice(n.box))) continue;
+      if (!keep(to_lattice(n.box))) continue;
+>>>>>>> 6b4652c (meshing: the surface is simplified by cells, in parallel; the guard looks one way first)
       if (n.count > 0) {
         for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
-          if (!visit(order_[i])) return false;
+          if (boxes_[i].meets(small) && !visit(order_[i])) return false;
         }
       } else {
-        stack[top++] = n.first;
-        stack[top++] = n.first + 1;
+        if (nodes_[n.first].box.meets(small)) stack[top++] = n.first;
+        if (nodes_[n.first + 1].box.meets(small)) stack[top++] = n.first + 1;
       }
     }
     return true;
@@ -73,8 +81,8 @@ class BoxTree {
   struct SmallBox {
     std::array<std::int32_t, 3> min, max;
     [[nodiscard]] bool meets(const SmallBox& b) const {
-      return min[0] <= b.max[0] && b.min[0] <= max[0] && min[1] <= b.max[1] && b.min[1] <= max[1] &&
-             min[2] <= b.max[2] && b.min[2] <= max[2];
+      return (min[0] <= b.max[0]) & (b.min[0] <= max[0]) & (min[1] <= b.max[1]) & (b.min[1] <= max[1]) &
+             (min[2] <= b.max[2]) & (b.min[2] <= max[2]);  // no branches: they would be guesses
     }
     [[nodiscard]] bool contains(const SmallBox& b) const {
       return min[0] <= b.min[0] && min[1] <= b.min[1] && min[2] <= b.min[2] && max[0] >= b.max[0] &&
@@ -103,11 +111,16 @@ class BoxTree {
     return {{base_.x + b.min[0], base_.y + b.min[1], base_.z + b.min[2]},
             {base_.x + b.max[0], base_.y + b.max[1], base_.z + b.max[2]}};
   }
-  void split(std::span<const LatticeBox> boxes, std::uint32_t node, std::uint32_t begin, std::uint32_t end);
+  struct Centre {  // of an item's box
+    std::array<std::int32_t, 3> at;
+    std::uint32_t item;
+  };
+  void split(std::span<const LatticeBox> boxes, std::span<Centre> centres, std::uint32_t node, std::uint32_t begin);
 
   LatticeCoord base_{};
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
+  std::vector<SmallBox> boxes_;         // of the items, beside order_
   std::vector<std::uint32_t> leaf_of_;  // per item
 };
 

@@ -2,7 +2,7 @@
 #include "lib/meshing/box_tree.h"
 #include "lib/meshing/half_edge_mesh.h"
 
-/// The tree of a mesh's live faces, which follows the mesh as it changes: changed faces grow their node's box; when
+/// The tree of a mesh's live faces, which follows the mesh as it changes: changed faces grow their nodes' boxes; when
 /// half of the faces are gone the tree is rebuilt, so its cost stays that of a fresh one.
 namespace bp {
 
@@ -10,9 +10,9 @@ class FaceTree {
  public:
   explicit FaceTree(const HalfEdgeMesh& mesh) : mesh_(mesh) { rebuild(); }
 
-  void update(FaceId f) { tree_.grow(f, box_of_face(f)); }  ///< call after the corners of a live face moved
-  void rebuild();                                           ///< boxes as tight as the mesh is now
-  void maintain() {                                         ///< rebuilds when half of the faces are dead
+  void update(FaceId f) { tree_.update(f, box_of_face(f)); }  ///< call after the corners of a live face moved
+  void rebuild();                                             ///< boxes as tight as the mesh is now
+  void maintain() {                                           ///< rebuilds when half of the faces are dead
     if (mesh_.face_count() * 2 < tree_.size()) rebuild();
   }
   /// As BoxTree::query, live faces only.

@@ -1,12 +1,18 @@
 #pragma once
+#include <functional>
+
 #include "lib/meshing/half_edge_mesh.h"
 
 /// Merges the flat regions of a voxel surface without changing its shape: a vertex inside a flat region, or on a
 /// straight crease between two, is collapsed into a neighbour in the same plane (on the same crease). The surface as a
-/// set of points stays the same, so no guard is needed. Linear in the faces. Needs axis-aligned faces.
+/// set of points stays the same, so neither a guard nor the link condition is needed: an edge that the link condition
+/// would find in its way would lie in the interior of the merged faces already. Linear in the faces.
 namespace bp {
 
-/// Returns the number of collapses.
-std::uint64_t merge_flat_regions(HalfEdgeMesh& mesh);
+/// Longest edge that may be made near a point, lattice units; empty: no limit.
+using EdgeLimit = std::function<double(const LatticeCoord&)>;
+
+/// Needs axis-aligned faces. Locked vertices stay. Returns the number of collapses.
+std::uint64_t merge_flat_regions(HalfEdgeMesh& mesh, const EdgeLimit& edge_limit = {});
 
 }  // namespace bp

@@ -6,41 +6,66 @@
 
 namespace bp {
 
-HalfEdgeMesh::HalfEdgeMesh(const LatticeMesh& mesh)
-    : position_(mesh.vertices),
-      out_(mesh.vertices.size(), kNoId),
-      from_(3 * mesh.triangles.size()),
-      twin_(3 * mesh.triangles.size(), kNoId),
-      face_count_(mesh.triangles.size()) {
-  // Buckets of half-edges by their lower vertex: linear, no hashing.
-  std::vector<std::uint32_t> start(position_.size() + 1, 0);
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k) from_[3 * f + k] = mesh.triangles[f][k];
-  }
+HalfEdgeMesh::HalfEdgeMesh(std::vector<LatticeCoord> vertices, std::span<const Triangle> triangles,
+                           const LatticeBox& cell)
+    : position_(std::move(vertices)),
+      out_(position_.size(), kNoId),
+      from_(3 * triangles.size()),
+      twin_(3 * triangles.size(), kNoId),
+      locked_(position_.size(), 0),
+      face_count_(triangles.size()),
+      cell_(cell) {
+  for (std::size_t f = 0; f < triangles.size(); ++f) std::copy_n(triangles[f].begin(), 3, from_.begin() + 3 * f);
+  check_span();
+  connect();
+  check_fans();
+}
+
+void HalfEdgeMesh::check_span() const {
+  if (position_.empty()) return;
+  LatticeBox box{position_[0], position_[0]};
+  for (const LatticeCoord& p : position_) box.add(p);
+  const LatticeCoord size = box.max - box.min;
+  if (std::max({size.x, size.y, size.z}) >= kMaxSpan)
+    fail(ErrorCode::failed, "the surface spans {} lattice units, more than 2^29; use larger voxels",
+         std::max({size.x, size.y, size.z}));
+}
+
+/// Buckets of half-edges by their lower vertex: linear, no hashing.
+void HalfEdgeMesh::connect() {
   const auto low = [&](HalfEdgeId h) { return std::min(from(h), to(h)); };
   const auto edges = HalfEdgeId(from_.size());
-  for (HalfEdgeId h = 0; h < edges; ++h) ++start[low(h) + 1];
+  std::vector<std::uint32_t> start(position_.size() + 1, 0);
+  for (HalfEdgeId h = 0; h < edges; ++h) {
+    ++start[low(h) + 1];
+    out_[from(h)] = h;
+  }
   for (std::size_t v = 0; v < position_.size(); ++v) start[v + 1] += start[v];
   std::vector<HalfEdgeId> bucket(from_.size());
   std::vector<std::uint32_t> cursor(start.begin(), start.end() - 1);
   for (HalfEdgeId h = 0; h < edges; ++h) bucket[cursor[low(h)]++] = h;
-  for (std::size_t v = 0; v < position_.size(); ++v) {
+  for (VertexId v = 0; v < position_.size(); ++v) {
     for (std::uint32_t i = start[v]; i < start[v + 1]; ++i) {
-      for (std::uint32_t j = i + 1; j < start[v + 1] && twin_[bucket[i]] == kNoId; ++j) {
-        if (twin_[bucket[j]] == kNoId && from(bucket[i]) == to(bucket[j]) && to(bucket[i]) == from(bucket[j]))
-          glue(bucket[i], bucket[j]);
+      const HalfEdgeId h = bucket[i];
+      for (std::uint32_t j = i + 1; j < start[v + 1] && twin_[h] == kNoId; ++j) {
+        const HalfEdgeId g = bucket[j];
+        if (twin_[g] == kNoId && from(h) == to(g) && to(h) == from(g)) glue(h, g);
       }
-      if (twin_[bucket[i]] == kNoId) fail(ErrorCode::failed, "the surface is not closed at vertex {}", v);
+      if (twin_[h] != kNoId) continue;
+      locked_[from(h)] = locked_[to(h)] = 1;
+      if (cell_.holds_inside(position_[from(h)]) || cell_.holds_inside(position_[to(h)]))
+        fail(ErrorCode::failed, "the surface is not closed at vertex {}", v);
     }
   }
+}
+
+void HalfEdgeMesh::check_fans() {
   std::vector<std::uint32_t> degree(position_.size(), 0);
-  for (HalfEdgeId h = 0; h < edges; ++h) {
-    out_[from(h)] = h;
-    ++degree[from(h)];
-  }
+  for (const VertexId v : from_) ++degree[v];
   for (VertexId v = 0; v < position_.size(); ++v) {
-    if (out_[v] != kNoId && std::uint32_t(valence(v)) != degree[v])
-      fail(ErrorCode::failed, "the surface is not 2-manifold at vertex {}", v);
+    if (out_[v] == kNoId || locked(v) || std::uint32_t(valence(v)) == degree[v]) continue;
+    locked_[v] = 1;  // a fan that leaves the cell and comes back
+    if (cell_.holds_inside(position_[v])) fail(ErrorCode::failed, "the surface is not 2-manifold at vertex {}", v);
   }
 }
 
@@ -50,15 +75,24 @@ int HalfEdgeMesh::valence(VertexId v) const {
   return n;
 }
 
+// The ends have two common neighbours, those of the edge's faces. With an apex of valence 3 they have another one, or
+// else all four vertices are a tetrahedron, and both ends have valence 3 themselves.
 bool HalfEdgeMesh::can_collapse(HalfEdgeId h) const {
-  const VertexId u = from(h), w = to(h), a = opposite(h), b = opposite(twin(h));
-  if (a == b || valence(a) <= 3 || valence(b) <= 3) return false;
-  int common = 0;
+  const VertexId u = from(h), w = to(h);
+  if (locked(u) || locked(w) || opposite(h) == opposite(twin(h))) return false;
+  constexpr int kChunk = 16;  // neighbours of u that are looked for in one round about w
+  VertexId near[kChunk];
+  int common = 0, n = 0;
+  const auto count_common = [&] {
+    for_each_outgoing(w, [&](HalfEdgeId g) { common += int(std::count(near, near + n, to(g))); });
+    n = 0;
+  };
   for_each_outgoing(u, [&](HalfEdgeId g) {
-    const VertexId n = to(g);
-    if (n != w) for_each_outgoing(w, [&](HalfEdgeId k) { common += to(k) == n; });
+    near[n++] = to(g);  // w itself is no neighbour of w
+    if (n == kChunk) count_common();
   });
-  return common == 2;
+  count_common();
+  return common == 2 && !(valence(u) == 3 && valence(w) == 3);
 }
 
 void HalfEdgeMesh::collapse(HalfEdgeId h, const LatticeCoord& p) {
@@ -68,10 +102,11 @@ void HalfEdgeMesh::collapse(HalfEdgeId h, const LatticeCoord& p) {
   for_each_outgoing(w, [&](HalfEdgeId g) { from_[g] = u; });
   glue(a_left, a_right);  // u -> a and a -> u
   glue(b_left, b_right);
-  // a_left was the twin of a -> u, so it leaves u; a_right was the twin of w -> a, so it leaves a. The same for b.
-  out_[u] = a_left;
+  // a_right was the twin of w -> a, so it leaves a, and b_left that of b -> w, so it leaves u. The two others are not
+  // there if u is locked and its edge to a or b lies in the rim.
+  out_[u] = b_left;
   out_[a] = a_right;
-  out_[b] = b_right;
+  out_[b] = next(b_left);
   out_[w] = kNoId;
   for (const FaceId f : {face(h), face(t)}) {
     for (std::uint32_t k = 0; k < 3; ++k) from_[3 * f + k] = kNoId;
@@ -110,19 +145,18 @@ void HalfEdgeMesh::flip(HalfEdgeId h) {
   out_[b] = h;
 }
 
+void HalfEdgeMesh::erase(FaceId f) {
+  for (HalfEdgeId h = 3 * f; h < 3 * f + 3; ++h) {
+    out_[from_[h]] = kNoId;
+    from_[h] = kNoId;
+  }
+  --face_count_;
+}
+
 LatticeMesh HalfEdgeMesh::compact(const GridFrame& frame) const {
   LatticeMesh mesh;
   mesh.frame = frame;
-  std::vector<std::uint32_t> id(position_.size(), kNoId);
-  for (VertexId v = 0; v < position_.size(); ++v) {
-    if (!vertex_alive(v)) continue;
-    id[v] = std::uint32_t(mesh.vertices.size());
-    mesh.vertices.push_back(position_[v]);
-  }
-  mesh.triangles.reserve(face_count_);
-  for (FaceId f = 0; f < face_capacity(); ++f) {
-    if (alive(f)) mesh.triangles.push_back({id[from_[3 * f]], id[from_[3 * f + 1]], id[from_[3 * f + 2]]});
-  }
+  mesh.triangles = live_faces([&](VertexId v, VertexId) { mesh.vertices.push_back(position_[v]); });
   return mesh;
 }
 

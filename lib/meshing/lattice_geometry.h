@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-#include "lib/core/coords.h"
+#include "lib/core/predicates.h"
 
 /// Small vector helpers over lattice points. Exact where they return integers.
 namespace bp {
@@ -21,6 +21,17 @@ namespace bp {
 [[nodiscard]] inline LatticeCoord normal_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
   const LatticeCoord u = b - a, v = c - a;
   return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+}
+
+/// Sign of n . d, exact for |n| < 2^62 and |d| < 2^31: with n the normal of a face and d from one of its corners to a
+/// point, the point's side of the face.
+[[nodiscard]] inline int side_along(const LatticeCoord& n, const LatticeCoord& d) {
+  constexpr std::int64_t n_max = std::int64_t(1) << 40, d_max = std::int64_t(1) << 20;  // 3 * 2^60 < 2^63
+  const auto within = [](std::int64_t v, std::int64_t max) { return std::uint64_t(v + max) < std::uint64_t(2 * max); };
+  if (within(n.x, n_max) & within(n.y, n_max) & within(n.z, n_max) & within(d.x, d_max) & within(d.y, d_max) &
+      within(d.z, d_max))
+    return sign_of(n.x * d.x + n.y * d.y + n.z * d.z);
+  return sign_of(int128(n.x) * d.x + int128(n.y) * d.y + int128(n.z) * d.z);
 }
 
 /// Shape of a triangle: 4 sqrt(3) area over the sum of its squared edges; 1 if equilateral, 0 if collinear.

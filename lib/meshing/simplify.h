@@ -1,23 +1,22 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <string>
 
 #include "lib/meshing/enclosed.h"
+#include "lib/meshing/flatten.h"
 #include "lib/meshing/lattice_mesh.h"
 #include "lib/meshing/step_limits.h"
 
-/// Bounding simplification: quadric edge collapses [GH97] that only ever grow the solid ([SGG00], [DLCW11]; [CB17]
-/// §3.4), each checked exactly, so the result encloses the input surface and does not intersect itself
-/// (docs/bounding.md).
+/// Bounding simplification: quadric edge collapses [GH97] that grow the solid ([SGG00], [DLCW11]; [CB17] §3.4) or,
+/// given what must stay inside, only keep that inside; each is checked exactly, so the result encloses the input
+/// surface, or that, and does not intersect itself (docs/bounding.md).
 namespace bp {
 
 struct SimplifyParams {
   std::uint64_t faces = 0;  ///< stop at this many triangles; 0: no target
   double error_vox =
       0;  ///< stop when the next collapse's root mean square distance to its planes exceeds this; 0: no limit
-  /// Longest edge that a collapse may make near a point, lattice units; empty: no limit. The paper's c * S.
-  std::function<double(const LatticeCoord&)> edge_limit;
+  EdgeLimit edge_limit;  ///< of what a collapse makes; the paper's c * S
   /// The input is a dense voxel surface: its flat regions are merged first, then sweeps take the bulk. False: strict
   /// order at once.
   bool dense = true;
@@ -36,15 +35,17 @@ enum class StopReason { faces, error, limits, edge_length, nothing_left };
 struct SimplifyCounts {
   std::uint64_t faces_in = 0, faces_flat = 0, faces_out = 0;  ///< given, after merging flat regions, left
   std::uint64_t collapses = 0, solved = 0;                    ///< taken; quadratic programs solved
-  std::uint64_t refused_link = 0, refused_constraints = 0, refused_shape = 0, refused_length = 0, refused_guard = 0,
-                refused_limits = 0;
+  /// Edges of the result that were tried and cannot be merged as it is, by the test that the best try failed.
+  std::uint64_t refused_link = 0, refused_constraints = 0, refused_shape = 0, refused_length = 0, refused_enclosed = 0,
+                refused_guard = 0, refused_limits = 0, refused_error = 0;
   StopReason stop = StopReason::nothing_left;
   void add(const SimplifyCounts& next);  ///< of a run that took over where this one ended
 };
 
-/// `dense`: closed, oriented, 2-manifold, embedded (dense_surface of a repaired shelf). Deterministic, single-threaded.
-/// Cost: about n log n in its triangles. Throws `failed` if the mesh is not closed and manifold or spans over 2^29
-/// lattice units.
+/// `dense`: closed, oriented, 2-manifold, embedded; with params.dense a dense_surface (of a repaired shelf), which is
+/// simplified by cells, in parallel, down to a few times the faces wanted (surface_tree.h). Deterministic, the same for
+/// every number of threads. Cost: about n log n in its triangles. Throws `failed` if the mesh is not closed and
+/// manifold or spans 2^29 lattice units.
 [[nodiscard]] LatticeMesh simplify(const LatticeMesh& dense, const SimplifyParams& params, SimplifyCounts& counts);
 
 }  // namespace bp

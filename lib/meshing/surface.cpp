@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <unordered_map>
+#include <tuple>
 
-#include "lib/core/error.h"
 #include "lib/core/parallel.h"
 
 namespace bp {
@@ -16,18 +15,27 @@ constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
 class PieceBuilder {
  public:
-  SurfacePiece build(const BrickShelf& shelf, BrickCoord brick) {
+  Piece build(const BrickShelf& shelf, BrickCoord brick) {
     first_ = first_voxel(brick);
     bits_.reset({{first_.x - 64, first_.y - 1, first_.z - 1}, {first_.x + 128, first_.y + 65, first_.z + 65}});
     load_voxels(shelf, bits_);
-    index_.assign(std::size_t(kCorners) * kCorners * kCorners, kNone);
+    index_.resize(std::size_t(kCorners) * kCorners * kCorners, kNone);
+    piece_.cell = {lattice({0, 0, 0}), lattice({kBrickEdge, kBrickEdge, kBrickEdge})};
     for (std::int32_t z = 0; z < kBrickEdge; ++z) {
       for (std::int32_t y = 0; y < kBrickEdge; ++y) row(y, z);
     }
+    for (const std::size_t slot : used_) index_[slot] = kNone;
+    used_.clear();
     return std::move(piece_);
   }
 
  private:
+  /// Lattice point of a corner of the brick's voxels, (0, 0, 0) to (64, 64, 64).
+  [[nodiscard]] LatticeCoord lattice(VoxelCoord c) const {
+    const auto at = [](std::int32_t a, std::int32_t b) { return (std::int64_t(a) + b) * kLatticePerVoxel; };
+    return {at(first_.x, c.x), at(first_.y, c.y), at(first_.z, c.z)};
+  }
+
   /// Faces of the 64 voxels (0..63, y, z).
   void row(std::int32_t y, std::int32_t z) {
     const std::uint64_t* r = bits_.row(first_.y + y, first_.z + z);
@@ -64,37 +72,25 @@ class PieceBuilder {
   }
 
   std::uint32_t vertex(VoxelCoord c) {
-    std::uint32_t& slot = index_[std::size_t((c.z * kCorners + c.y) * kCorners + c.x)];
-    if (slot == kNone) {
-      slot = std::uint32_t(piece_.vertices.size());
-      const auto lattice = [](std::int32_t a, std::int32_t b) { return (std::int64_t(a) + b) * kLatticePerVoxel; };
-      piece_.vertices.push_back({lattice(first_.x, c.x), lattice(first_.y, c.y), lattice(first_.z, c.z)});
+    const auto slot = std::size_t((c.z * kCorners + c.y) * kCorners + c.x);
+    if (index_[slot] == kNone) {
+      index_[slot] = std::uint32_t(piece_.vertices.size());
+      used_.push_back(slot);
+      piece_.vertices.push_back(lattice(c));
     }
-    return slot;
+    return index_[slot];
   }
 
   VoxelCoord first_;
   BitBox bits_;
-  std::vector<std::uint32_t> index_;
-  SurfacePiece piece_;
+  std::vector<std::uint32_t> index_;  // of the vertex at each corner
+  std::vector<std::size_t> used_;     // corners that have one
+  Piece piece_;
 };
-
-struct LatticeHash {
-  std::size_t operator()(const LatticeCoord& c) const {
-    std::uint64_t h = std::uint64_t(c.x) * 0x9e3779b97f4a7c15u ^ std::uint64_t(c.y) * 0xc2b2ae3d27d4eb4fu ^
-                      std::uint64_t(c.z) * 0x165667b19e3779f9u;
-    return std::size_t(h ^ (h >> 29));
-  }
-};
-
-bool on_seam(LatticeCoord p) {
-  constexpr std::int64_t edge = std::int64_t(kBrickEdge) * kLatticePerVoxel;
-  return p.x % edge == 0 || p.y % edge == 0 || p.z % edge == 0;
-}
 
 }  // namespace
 
-SurfacePiece extract_piece(const BrickShelf& shelf, BrickCoord brick) {
+Piece extract_piece(const BrickShelf& shelf, BrickCoord brick) {
   thread_local PieceBuilder builder;
   return builder.build(shelf, brick);
 }
@@ -103,36 +99,14 @@ LatticeMesh dense_surface(const BrickShelf& shelf, const GridFrame& frame) {
   std::vector<BrickCoord> bricks = shelf.coords();
   std::sort(bricks.begin(), bricks.end(),
             [](BrickCoord a, BrickCoord b) { return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x); });
-  std::vector<SurfacePiece> pieces(bricks.size());
+  std::vector<Piece> pieces(bricks.size());
   parallel_for(std::int64_t(bricks.size()),
                [&](std::int64_t i) { pieces[std::size_t(i)] = extract_piece(shelf, bricks[std::size_t(i)]); });
-
+  Piece whole = weld(pieces);
   LatticeMesh mesh;
   mesh.frame = frame;
-  std::size_t vertices = 0, triangles = 0;
-  for (const SurfacePiece& p : pieces) {
-    vertices += p.vertices.size();
-    triangles += p.triangles.size();
-  }
-  if (triangles >= (std::size_t(1) << 32) / 3) {
-    fail(ErrorCode::out_of_resource,
-         "the dense surface has {} triangles, more than one piece can index; use larger voxels", triangles);
-  }
-  mesh.vertices.reserve(vertices);
-  mesh.triangles.reserve(triangles);
-  std::unordered_map<LatticeCoord, std::uint32_t, LatticeHash> seam;
-  std::vector<std::uint32_t> to_mesh;
-  for (SurfacePiece& piece : pieces) {
-    to_mesh.clear();
-    for (const LatticeCoord& v : piece.vertices) {
-      const auto fresh = std::uint32_t(mesh.vertices.size());
-      const std::uint32_t id = on_seam(v) ? seam.try_emplace(v, fresh).first->second : fresh;
-      if (id == fresh) mesh.vertices.push_back(v);
-      to_mesh.push_back(id);
-    }
-    for (const auto& t : piece.triangles) mesh.triangles.push_back({to_mesh[t[0]], to_mesh[t[1]], to_mesh[t[2]]});
-    piece = {};
-  }
+  mesh.vertices = std::move(whole.vertices);
+  mesh.triangles = std::move(whole.triangles);
   return mesh;
 }
 

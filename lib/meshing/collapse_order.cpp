@@ -1,0 +1,197 @@
+#include "lib/meshing/collapse_order.h"
+
+#include <limits>
+#include <queue>
+
+namespace bp {
+
+namespace {
+
+constexpr float kNever = std::numeric_limits<float>::infinity();
+constexpr float kUnknown = -1;
+
+class Bulk {
+ public:
+  explicit Bulk(Collapser& collapser)
+      : collapser_(collapser),
+        mesh_(collapser.mesh()),
+        worth_(3 * mesh_.face_capacity(), kUnknown),
+        merged_in_(mesh_.vertex_capacity(), 0) {
+    for (FaceId f = 0; f < mesh_.face_capacity(); ++f) {
+      if (mesh_.alive(f)) faces_.push_back(f);
+    }
+  }
+
+  /// Returns the number of collapses.
+  std::uint64_t sweep(double bound, std::uint64_t enough) {
+    ++sweep_;
+    std::uint64_t taken = 0;
+    std::size_t kept = 0;
+    for (const FaceId f : faces_) {
+      for (HalfEdgeId h = 3 * f; h < 3 * f + 3 && mesh_.alive(f) && mesh_.face_count() > enough; ++h) {
+        if (mesh_.edge(h) == h) taken += try_edge(h, bound);
+      }
+      if (mesh_.alive(f)) faces_[kept++] = f;
+    }
+    faces_.resize(kept);
+    return taken;
+  }
+
+ private:
+  bool try_edge(HalfEdgeId h, double bound) {
+    if (double(worth_[h]) > bound) return false;
+    const VertexId u = mesh_.from(h), w = mesh_.to(h);
+    if (merged_in_[u] == sweep_ || merged_in_[w] == sweep_ || mesh_.locked(u) || mesh_.locked(w)) return false;
+    if (worth_[h] == kUnknown) {
+      worth_[h] = rounded_down(collapser_.lower_bound(h));
+      if (double(worth_[h]) > bound) return false;
+    }
+    const std::optional<Candidate> candidate = collapser_.solve(h);
+    if (candidate && candidate->cost > bound) {
+      worth_[h] = rounded_down(candidate->cost);
+      return false;
+    }
+    if (!collapser_.take(h, candidate)) {
+      worth_[h] = kNever;
+      return false;
+    }
+    merged_in_[u] = sweep_;
+    if (mesh_.vertex_alive(u)) reconsider_around(u);
+    return true;
+  }
+
+  static float rounded_down(double cost) { return float(cost) * (1 - 0x1p-22f); }
+
+  /// The edges of u cost something else now, and those refused in the two-ring get another chance.
+  void reconsider_around(VertexId u) {
+    mesh_.for_each_outgoing(u, [&](HalfEdgeId g) {
+      worth_[mesh_.edge(g)] = kUnknown;
+      const VertexId n = mesh_.to(g);
+      if (mesh_.locked(n)) return;
+      mesh_.for_each_outgoing(n, [&](HalfEdgeId k) {
+        float& worth = worth_[mesh_.edge(k)];
+        if (worth == kNever) worth = kUnknown;
+      });
+    });
+  }
+
+  Collapser& collapser_;
+  HalfEdgeMesh& mesh_;
+  std::vector<FaceId> faces_;             // those to sweep over
+  std::vector<float> worth_;              // per edge: below this bound no try is worth it
+  std::vector<std::uint32_t> merged_in_;  // per vertex: sweep
+  std::uint32_t sweep_ = 0;
+};
+
+struct Entry {
+  double cost;  // of the constrained minimum, or a lower bound of it
+  HalfEdgeId edge;
+  std::uint32_t serial;
+  bool operator<(const Entry& o) const { return cost != o.cost ? cost > o.cost : edge > o.edge; }  // least first
+};
+
+class Strict {
+ public:
+  explicit Strict(Collapser& collapser)
+      : collapser_(collapser),
+        mesh_(collapser.mesh()),
+        serial_(3 * mesh_.face_capacity(), 0),
+        refusal_(3 * mesh_.face_capacity(), Refusal::none) {}
+
+  StopReason run() {
+    const std::uint64_t enough = collapser_.params().faces;
+    for (HalfEdgeId h = 0; h < serial_.size(); ++h) {
+      if (is_edge(h)) push(h);
+    }
+    while (mesh_.face_count() > enough) {
+      if (heap_.empty()) return reason_to_end();
+      const Entry top = heap_.top();
+      heap_.pop();
+      if (is_edge(top.edge) && serial_[top.edge] == top.serial) try_entry(top);
+    }
+    return StopReason::faces;
+  }
+
+  void count(SimplifyCounts& counts) const {
+    std::uint64_t n[std::size_t(Refusal::error) + 1] = {};
+    for (HalfEdgeId h = 0; h < refusal_.size(); ++h) {
+      if (is_edge(h)) ++n[std::size_t(refusal_[h])];
+    }
+    counts.refused_link = n[std::size_t(Refusal::link)];
+    counts.refused_constraints = n[std::size_t(Refusal::constraints)];
+    counts.refused_shape = n[std::size_t(Refusal::shape)];
+    counts.refused_length = n[std::size_t(Refusal::length)];
+    counts.refused_enclosed = n[std::size_t(Refusal::enclosed)];
+    counts.refused_guard = n[std::size_t(Refusal::guard)];
+    counts.refused_limits = n[std::size_t(Refusal::limits)];
+    counts.refused_error = n[std::size_t(Refusal::error)];
+  }
+
+ private:
+  [[nodiscard]] bool is_edge(HalfEdgeId h) const { return mesh_.alive(HalfEdgeMesh::face(h)) && mesh_.edge(h) == h; }
+
+  void push(HalfEdgeId h) {
+    const HalfEdgeId e = mesh_.edge(h);
+    refusal_[e] = Refusal::none;
+    heap_.push({collapser_.lower_bound(e), e, ++serial_[e]});
+  }
+
+  void try_entry(const Entry& top) {
+    const std::optional<Candidate> candidate = collapser_.solve(top.edge);
+    if (candidate && candidate->cost > top.cost && !heap_.empty() && candidate->cost > heap_.top().cost) {
+      heap_.push({candidate->cost, top.edge, top.serial});  // not the best after all
+      return;
+    }
+    const VertexId u = mesh_.from(top.edge);
+    if (collapser_.take(top.edge, candidate)) {
+      if (mesh_.vertex_alive(u)) renew_around(u);
+    } else {
+      refusal_[top.edge] = collapser_.refusal();
+    }
+  }
+
+  /// New entries for the edges at u, and another chance for refused edges one step further out.
+  void renew_around(VertexId u) {
+    mesh_.for_each_outgoing(u, [&](HalfEdgeId g) {
+      push(g);
+      mesh_.for_each_outgoing(mesh_.to(g), [&](HalfEdgeId k) {
+        if (refusal_[mesh_.edge(k)] != Refusal::none) push(k);
+      });
+    });
+  }
+
+  [[nodiscard]] StopReason reason_to_end() const {
+    SimplifyCounts counts;
+    count(counts);
+    return counts.refused_error > 0    ? StopReason::error
+           : counts.refused_limits > 0 ? StopReason::limits
+           : counts.refused_length > 0 ? StopReason::edge_length
+                                       : StopReason::nothing_left;
+  }
+
+  Collapser& collapser_;
+  HalfEdgeMesh& mesh_;
+  std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
+  std::vector<Refusal> refusal_;       // per half-edge: why its edge must wait until its neighbourhood changes
+  std::priority_queue<Entry> heap_;
+};
+
+}  // namespace
+
+void collapse_bulk(Collapser& collapser, BulkRange range, std::uint64_t enough) {
+  Bulk bulk(collapser);
+  const HalfEdgeMesh& mesh = collapser.mesh();
+  for (double bound = range.first; mesh.face_count() > enough && bound <= range.last;) {
+    const std::uint64_t taken = bulk.sweep(bound, enough);
+    if (taken * 20 < mesh.face_count()) bound *= 4;
+  }
+}
+
+StopReason collapse_strict(Collapser& collapser, SimplifyCounts& counts) {
+  Strict strict(collapser);
+  const StopReason reason = strict.run();
+  strict.count(counts);
+  return reason;
+}
+
+}  // namespace bp

@@ -1,0 +1,14 @@
+#pragma once
+#include "lib/meshing/half_edge_mesh.h"
+
+/// Shells: the connected parts of a closed surface. Where collapses grow one over another that it does not touch, the
+/// other stays inside as a shell that bounds nothing.
+namespace bp {
+
+/// Erases the shells across which the winding number W does not change between 0 and 1: those left bound the same solid
+/// W >= 1 (docs/bounding.md, "Simplification"). Where outermost shells
+/// face inwards, the solid is what surrounds them. Exact. Needs an embedded mesh that is closed. Returns the number of
+/// faces erased. Cost: linear in the faces, and for each further shell a query of a tree.
+std::uint64_t erase_inner_shells(HalfEdgeMesh& mesh);
+
+}  // namespace bp

@@ -1,0 +1,102 @@
+#include <cmath>
+#include <random>
+
+#include "lib/core/parallel.h"
+#include "lib/meshing/flatten.h"
+#include "lib/meshing/repair.h"
+#include "lib/meshing/simplify.h"
+#include "lib/meshing/surface.h"
+#include "lib/meshing/surface_tree.h"
+#include "tests/support/proxy_checks.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+const VoxelBox kBox{{-70, -40, -20}, {80, 70, 75}};  // 3 x 3 x 3 bricks, around the origin
+
+const Solid kSolids[] = {
+    [](VoxelCoord p) { return std::hypot(p.x * 0.5, p.y - 10.0, p.z - 25.0) < 30 + (p.x & 1); },
+    [](VoxelCoord p) { return p.z < 0 || (p.z < 20 && p.x > -40 && p.x < 0 && p.y > 0); },  // faces in the cells' sides
+    [](VoxelCoord p) { return std::abs(p.x + 2 * p.y - 3 * p.z) < 5; },                     // a slanted sheet
+    [](VoxelCoord p) { return (p.x & 63) < 2 || (p.y & 63) == 63; },  // walls along the cells' sides
+};
+
+std::int64_t volume6(const std::vector<LatticeCoord>& v, const std::vector<Triangle>& triangles) {
+  std::int64_t sum = 0;
+  for (const Triangle& t : triangles) sum += std::int64_t(orient3d_value({0, 0, 0}, v[t[0]], v[t[1]], v[t[2]]));
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a proxy simplified brick by brick encloses its voxels and does not meet itself", "[quick][meshing]") {
+  const int shape = GENERATE(range(0, 4));
+  MemoryShelf shelf;
+  fill_shelf(shelf, kBox, kSolids[shape]);
+  repair_contacts(shelf);
+  SimplifyParams params;
+  params.faces = 200;
+  SimplifyCounts counts;
+  const LatticeMesh proxy = simplify(dense_surface(shelf, {}), params, counts);
+  CAPTURE(shape, counts.faces_in, counts.faces_flat, counts.faces_out);
+  CHECK(proxy.triangles.size() <= 400);
+  const Solid thinned = [&](VoxelCoord p) { return (p.x + 2 * p.y + 3 * p.z) % 7 == 0 && kSolids[shape](p); };
+  check_proxy(proxy, kBox, thinned);
+}
+
+TEST_CASE("brick by brick, the result does not depend on the number of threads", "[quick][meshing]") {
+  MemoryShelf shelf;
+  fill_shelf(shelf, kBox, kSolids[0]);
+  repair_contacts(shelf);
+  SimplifyParams params;
+  params.faces = 100;
+  const auto with_threads = [&](int threads) {
+    const ThreadLimit limit(threads);
+    SimplifyCounts counts;
+    return simplify(dense_surface(shelf, {}), params, counts);
+  };
+  const LatticeMesh one = with_threads(1), two = with_threads(2), five = with_threads(5);
+  CHECK(one.vertices == two.vertices);
+  CHECK(one.triangles == two.triangles);
+  CHECK(one.vertices == five.vertices);
+  CHECK(one.triangles == five.triangles);
+}
+
+TEST_CASE("merging flat regions brick by brick keeps the surface as a set", "[quick][meshing]") {
+  const int shape = GENERATE(range(0, 4));
+  MemoryShelf shelf;
+  fill_shelf(shelf, kBox, kSolids[shape]);
+  repair_contacts(shelf);
+  const LatticeMesh dense = dense_surface(shelf, {});
+  SimplifyCounts counts;
+  Piece merged = simplified_surface(dense, {}, 0, counts);
+  CHECK(merged.quadrics.empty());
+  CHECK(merged.triangles.size() < dense.triangles.size());
+  CHECK(volume6(merged.vertices, merged.triangles) == volume6(dense.vertices, dense.triangles));
+  HalfEdgeMesh mesh(merged.vertices, merged.triangles, kEverywhere);
+  for (FaceId f = 0; f < mesh.face_capacity(); ++f) {  // still axis-aligned
+    int zeros = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      zeros += mesh.corner(f, 0)[axis] == mesh.corner(f, 1)[axis] && mesh.corner(f, 0)[axis] == mesh.corner(f, 2)[axis];
+    REQUIRE(zeros == 1);
+  }
+  const std::size_t before = mesh.face_count();
+  merge_flat_regions(mesh);  // only what the cells' sides kept apart is left
+  CHECK(mesh.face_count() <= before);
+  if (mesh.face_count() < 3000) CHECK(self_intersections(mesh.compact(GridFrame{})) == 0);
+}
+
+TEST_CASE("merging flat regions keeps the edge limit", "[quick][meshing]") {
+  MemoryShelf shelf;
+  fill_shelf(shelf, {{0, 0, 0}, {50, 40, 30}}, [](VoxelCoord) { return true; });
+  HalfEdgeMesh mesh(dense_surface(shelf, {}));
+  merge_flat_regions(mesh, [](const LatticeCoord&) { return 5.0 * kLatticePerVoxel; });
+  CHECK(mesh.face_count() < 18800 / 4);
+  for (HalfEdgeId h = 0; h < 3 * mesh.face_capacity(); ++h) {
+    if (!mesh.alive(HalfEdgeMesh::face(h))) continue;
+    const LatticeCoord e = mesh.position(mesh.to(h)) - mesh.position(mesh.from(h));
+    REQUIRE(e.x * e.x + e.y * e.y + e.z * e.z <= 25 * kLatticePerVoxel * kLatticePerVoxel);
+  }
+}
