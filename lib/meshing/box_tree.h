@@ -63,7 +63,6 @@ class BoxTree {
     while (top > 0) {
       const Node& n = nodes_[stack[--top]];
       if (!keep(to_lattice(n.box))) continue;
->>>>>>> 6b4652c (meshing: the surface is simplified by cells, in parallel; the guard looks one way first)
       if (n.count > 0) {
         for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
           if (boxes_[i].meets(small) && !visit(order_[i])) return false;
