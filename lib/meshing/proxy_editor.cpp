@@ -11,6 +11,17 @@ namespace bp {
 namespace {
 
 constexpr double kQualityFloor = 0.08;  // of 1 for the equilateral triangle; or no worse than what was there
+constexpr double kOverhang = 0.1;       // of the star's longest side: how far beyond its box an apex may go
+
+/// A fin has next to no volume and well-shaped faces: what betrays it is an apex far from all that was there.
+bool sticks_out(const LatticeCoord& apex, const LatticeBox& star) {
+  double side = 0, over = 0;
+  for (int i = 0; i < 3; ++i) {
+    side = std::max(side, double(star.max[i] - star.min[i]));
+    over = std::max({over, double(apex[i] - star.max[i]), double(star.min[i] - apex[i])});
+  }
+  return over > kOverhang * side;
+}
 
 }  // namespace
 
@@ -40,11 +51,14 @@ void ProxyEditor::begin() {
   replaced_.clear();
   swept_.clear();
   least_quality_ = 1;
+  star_ = {};
 }
 
 void ProxyEditor::add_old_face(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c,
                                const LatticeCoord& to) {
   least_quality_ = std::min(least_quality_, triangle_quality(a, b, c));
+  if (replaced_.size() == 1) star_ = {a, a};
+  for (const LatticeCoord& p : {a, b, c}) star_.add(p);
   if (orient3d(a, b, c, to) < 0) swept_.push_back({a, b, c, to});
 }
 
@@ -83,6 +97,10 @@ bool ProxyEditor::is_free(bool free) {
 }
 
 bool ProxyEditor::fan_is_fine(const LatticeCoord& apex) {
+  if (sticks_out(apex, star_)) {
+    ++counts_.refused_shape;
+    return false;
+  }
   if (!shape_is_fine(apex) || !keeps_enclosed()) return false;
   return is_free(guard_.star_is_free(faces_, replaced_));
 }

@@ -61,6 +61,7 @@ class ProxyEditor {
   std::vector<FaceId> replaced_, around_;
   std::vector<Tetrahedron> swept_;
   double least_quality_ = 1;  // of the faces replaced
+  LatticeBox star_;           // around them
   Blocker blocker_;
   bool blocked_ = false;
 };

@@ -36,8 +36,9 @@ void finish(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& 
     thin(editor, params.faces, now);
     simplified.add(now);
   }
-  tighten(editor, tightening, tightened);
   proxy = mesh.compact(proxy.frame);
+  tighten(editor, tightening, tightened);
+  if (tightened.volume_after < tightened.volume_before) proxy = mesh.compact(proxy.frame);
 }
 
 }  // namespace

