@@ -6,6 +6,7 @@
 
 #include "lib/core/parallel.h"
 #include "lib/core/triangle_intersection.h"
+#include "lib/meshing/vec3.h"
 
 namespace bp {
 
@@ -358,6 +359,26 @@ bool EnclosedTriangles::allows(std::span<const NewFace> star, std::span<const Te
   return true;
 }
 
+namespace {
+
+/// The corners, and inside a large triangle a grid of points.
+void add_samples(const TriangleD& t, double voxel, std::vector<Vec3d>& points) {
+  constexpr double kSpacingVox = 8;
+  constexpr int kMostPerEdge = 16;
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d e = t[(k + 1) % 3] - t[k];
+    longest = std::max(longest, dot(e, e));
+  }
+  const int n = int(std::clamp(std::sqrt(longest) / (kSpacingVox * voxel), 1.0, double(kMostPerEdge)));
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; i + j <= n; ++j)
+      points.push_back(t[0] + (double(i) / n) * (t[1] - t[0]) + (double(j) / n) * (t[2] - t[0]));
+  }
+}
+
+}  // namespace
+
 /// Always true.
 bool EnclosedTriangles::blocks(std::uint32_t triangle, Blocker* blocker) const {
   if (blocker == nullptr) return true;
@@ -372,7 +393,7 @@ bool EnclosedTriangles::blocks(std::uint32_t triangle, Blocker* blocker) const {
 std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin) const {
   std::vector<Vec3d> points;
   points.reserve(3 * triangles_.size());
-  for (const TriangleD& t : triangles_) points.insert(points.end(), t.begin(), t.end());
+  for (const TriangleD& t : triangles_) add_samples(t, frame_.voxel, points);
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
   for (Vec3d& p : points) {

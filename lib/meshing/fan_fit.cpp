@@ -139,6 +139,16 @@ void FanFit::avoid_edge(const Vec3d& apex, const Vec3d& p, const Vec3d& q) {
   }
 }
 
+/// The apex must be above pqr, if it is over it, seen along outward_.
+void FanFit::avoid_face(const Vec3d& apex, const Vec3d& p, const Vec3d& q, const Vec3d& r) {
+  Vec3d normal = cross(q - p, r - p);
+  const double turn = dot(normal, outward_) < 0 ? -1 : 1;
+  normal = turn * normal;
+  const auto beside = [&](const Vec3d& a, const Vec3d& b) { return turn * dot(cross(outward_, b - a), apex - a) < 0; };
+  if (beside(p, q) || beside(q, r) || beside(r, p)) return;
+  if (dot(normal, apex - p) < kMargin * length(normal)) add_plane(normal, p);
+}
+
 bool FanFit::avoid(const Vec3d& apex, const Blocker& blocker, const Vec3d& shift) {
   const std::size_t before = avoided_.size();
   std::array<Vec3d, 8> p;
@@ -151,6 +161,13 @@ bool FanFit::avoid(const Vec3d& apex, const Blocker& blocker, const Vec3d& shift
       const bool edge = blocker.count == 3 || std::popcount(i ^ j) == 1;
       if (edge) avoid_edge(apex, p[i], p[j]);
     }
+  }
+  if (blocker.count == 3) avoid_face(apex, p[0], p[1], p[2]);
+  for (std::size_t axis = 0; blocker.count == 8 && axis < 3; ++axis) {  // the side that looks outward, as two triangles
+    const std::size_t u = std::size_t(1) << (axis + 1) % 3, v = std::size_t(1) << (axis + 2) % 3;
+    const std::size_t at = outward_[axis] > 0 ? std::size_t(1) << axis : 0;
+    avoid_face(apex, p[at], p[at + u], p[at + u + v]);
+    avoid_face(apex, p[at], p[at + u + v], p[at + v]);
   }
   return avoided_.size() > before;
 }

@@ -31,7 +31,8 @@ class FanFit {
   [[nodiscard]] const Vec3d& outward() const { return outward_; }  ///< unit area vector of the rim
 
   /// Keeps the fan over something that a fan with its apex at `apex` cuts into: the faces over its corners, the spokes
-  /// over its edges. `shift`: the fan's origin in the blocker's coordinates. False if neither is in the way.
+  /// over its edges, the apex over its faces. `shift`: the fan's origin in the blocker's coordinates. False if neither
+  /// is in the way.
   bool avoid(const Vec3d& apex, const Blocker& blocker, const Vec3d& shift);
 
   /// The apex of least volume, about `reach` from `start` at most. Cutting planes: the deepest violation of each face
@@ -49,6 +50,7 @@ class FanFit {
   void add_plane(const Vec3d& normal, const Vec3d& through);
   void avoid_corner(const Vec3d& apex, const Vec3d& p);
   void avoid_edge(const Vec3d& apex, const Vec3d& p, const Vec3d& q);
+  void avoid_face(const Vec3d& apex, const Vec3d& p, const Vec3d& q, const Vec3d& r);
   void hold_all(const Vec3d& start);
   [[nodiscard]] bool hold_crossed(const Vec3d& apex, const Vec3d& start);
   [[nodiscard]] Vec3d newton(double weight, double reach) const;

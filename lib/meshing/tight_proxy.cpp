@@ -1,5 +1,7 @@
 #include "lib/meshing/tight_proxy.h"
 
+#include <algorithm>
+
 #include "lib/meshing/thin.h"
 
 namespace bp {
@@ -38,7 +40,35 @@ void finish(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& 
   }
   proxy = mesh.compact(proxy.frame);
   tighten(editor, tightening, tightened);
-  if (tightened.volume_after < tightened.volume_before) proxy = mesh.compact(proxy.frame);
+  if (tightened.volume_after > tightened.volume_before) {  // it was as tight as can be: a box around a box
+    tightened.volume_after = tightened.volume_before;
+  } else {
+    proxy = mesh.compact(proxy.frame);
+  }
+}
+
+/// Early tightening and collapses by volume find a finer balance, but jam in a few places where growing goes on.
+LatticeMesh attempt(const LatticeMesh& dense, const Enclosed& enclosed, const SimplifyParams& params, bool tight_early,
+                    SimplifyCounts& simplified, TightenCounts& tightened) {
+  TightenParams tightening;
+  tightening.edge_limit = params.edge_limit;
+  tightening.limits = params.limits;
+  if (params.limits != nullptr) {  // they refuse what the barrier takes back first
+    tightening.sweeps = 0;
+    tightening.final_sweeps = 10;
+  }
+  SimplifyParams early = params;
+  if (tight_early) early.faces = kEarlyFactor * params.faces;
+  LatticeMesh proxy = simplify(dense, early, simplified);
+  if (tight_early && (params.faces > 0 || params.limits != nullptr)) {
+    TightenParams few = tightening;
+    few.sweeps = std::min(few.sweeps, kEarlySweeps);
+    proxy = tighten(proxy, enclosed, few, tightened);
+    const double factor = by_volume(params) ? kLateFactor : 1;
+    simplify_late(proxy, enclosed, params, std::uint64_t(factor * double(params.faces)), simplified);
+  }
+  finish(proxy, enclosed, params, tightening, simplified, tightened);
+  return proxy;
 }
 
 }  // namespace
@@ -48,23 +78,16 @@ LatticeMesh tight_proxy(const LatticeMesh& dense, const Enclosed& enclosed, cons
   simplified = {};
   tightened = {};
   if (dense.triangles.empty()) return dense;
-  TightenParams tightening;
-  tightening.edge_limit = params.edge_limit;
-  tightening.limits = params.limits;
-  SimplifyParams early = params;
-  early.faces = kEarlyFactor * params.faces;
-  LatticeMesh proxy = simplify(dense, early, simplified);
-  if (params.faces > 0 || params.limits != nullptr) {
-    TightenParams few = tightening;
-    few.sweeps = kEarlySweeps;
-    proxy = tighten(proxy, enclosed, few, tightened);
-    const double factor = by_volume(params) ? kLateFactor : 1;
-    simplify_late(proxy, enclosed, params, std::uint64_t(factor * double(params.faces)), simplified);
-  }
-  finish(proxy, enclosed, params, tightening, simplified, tightened);
-  if (by_volume(params) && proxy.triangles.size() > params.faces) {  // growing may go on where nothing else does
-    simplify_late(proxy, enclosed, params, params.faces, simplified);
-    finish(proxy, enclosed, params, tightening, simplified, tightened);
+  LatticeMesh proxy = attempt(dense, enclosed, params, true, simplified, tightened);
+  if (by_volume(params) && proxy.triangles.size() > params.faces) {
+    SimplifyCounts simplified_again;
+    TightenCounts tightened_again;
+    LatticeMesh grown = attempt(dense, enclosed, params, false, simplified_again, tightened_again);
+    if (grown.triangles.size() < proxy.triangles.size()) {
+      proxy = std::move(grown);
+      simplified = simplified_again;
+      tightened = tightened_again;
+    }
   }
   proxy.provenance = dense.provenance;
   return proxy;

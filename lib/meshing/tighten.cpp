@@ -67,10 +67,20 @@ class Tightener {
           weight_ > 0 ? std::optional(fit_.balanced({}, weight_, reach)) : fit_.least_volume({}, reach);
       if (!x || !worth_trying(*x) || try_move(v, *x)) return;
       if (round < kAvoidRounds && editor_.blocker() != nullptr && fit_.avoid(*x, *editor_.blocker(), shift)) continue;
-      for (double share = 0.5; share > 0.1 && worth_trying(share * *x); share /= 2) {
-        if (try_move(v, share * *x)) return;
-      }
+      shorten(v, *x, reach);
       return;
+    }
+  }
+
+  /// Less of the way; and where limits may mind a step aside, straight inwards.
+  void shorten(VertexId v, const Vec3d& x, double reach) {
+    for (double share = 0.5; share > 0.1 && worth_trying(share * x); share /= 2) {
+      if (try_move(v, share * x)) return;
+    }
+    if (params_.limits == nullptr) return;
+    const Vec3d inwards = -reach * fit_.outward();
+    for (double share = 0.5; share > 0.01 && worth_trying(share * inwards); share /= 2) {
+      if (try_move(v, share * inwards)) return;
     }
   }
 
