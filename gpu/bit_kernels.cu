@@ -9,10 +9,6 @@ namespace bp {
 
 namespace {
 
-unsigned blocks_for(std::uint64_t threads) {
-  return unsigned((threads + kPassThreads - 1) / kPassThreads);
-}
-
 /// Thread number -> word w of cell row cy in slice z; one thread walks the 8 rows of the cell row.
 struct CellRow {
   std::int32_t w, cy, z;

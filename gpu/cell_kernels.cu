@@ -6,10 +6,6 @@ namespace bp {
 
 namespace {
 
-unsigned blocks_for(std::uint64_t threads) {
-  return unsigned((threads + kPassThreads - 1) / kPassThreads);
-}
-
 /// Cells: x fastest, four per quad.
 struct CellCoord {
   std::int32_t cx, cy, cz;

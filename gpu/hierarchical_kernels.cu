@@ -34,10 +34,6 @@ struct PyramidView {
   }
 };
 
-unsigned blocks_for(std::uint64_t threads) {
-  return unsigned((threads + kPassThreads - 1) / kPassThreads);
-}
-
 // ---------------------------------------------------------------- building
 
 __global__ void __launch_bounds__(kPassThreads)

@@ -5,12 +5,18 @@
 #include <cstdint>
 
 #include "gpu/cuda_check.h"
+#include "gpu/tuning.h"
 
 /// Kernel launches and the few device idioms that all kernels share. Device code only.
 namespace bp {
 
 constexpr int kWarp = 32;
 constexpr unsigned kAllLanes = 0xffffffffu;
+
+/// Blocks of kPassThreads for this many threads.
+inline unsigned blocks_for(std::uint64_t threads) {
+  return unsigned((threads + kPassThreads - 1) / kPassThreads);
+}
 
 /// Launches `kernel`; throws Error if the launch is refused. With BP_DEBUG_SYNC=1 waits, so that a fault names its
 /// kernel.

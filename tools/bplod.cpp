@@ -10,6 +10,7 @@
 #include "lib/stage/lod_stage.h"
 #include "lib/stage/voxelize_stage.h"
 #include "tools/common/make_backend.h"
+#include "tools/common/memory_shares.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
@@ -122,19 +123,9 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-/// How --memory is shared out, as in bpvox while it voxelizes, then between shelves and the tiles at work. The rest is
-/// for the program, and for what the threads have in hand.
-struct Budget {
-  std::uint64_t reader, waiting, store, shelf, tiles;
-  explicit Budget(std::uint64_t memory) {
-    const std::uint64_t fixed = (std::uint64_t(96) << 20) + std::uint64_t(bp::thread_count()) * (8 << 20);
-    const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
-    reader = usable / 10;
-    waiting = usable / 10 * 7;
-    store = waiting / 14;
-    shelf = waiting / 14 * 6;
-    tiles = usable / 10;
-  }
+/// As in bpvox while it voxelizes, then between shelves and the tiles at work.
+struct Budget : bp::VoxelizeBudget {
+  using VoxelizeBudget::VoxelizeBudget;
   /// For the closing: the triangles have gone.
   [[nodiscard]] std::uint64_t closing_tiles() const { return waiting - shelf; }
 };

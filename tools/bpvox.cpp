@@ -11,6 +11,7 @@
 #include "lib/core/error.h"
 #include "lib/stage/voxelize_stage.h"
 #include "tools/common/make_backend.h"
+#include "tools/common/memory_shares.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
@@ -69,20 +70,6 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-/// How --memory is shared out. The rest is for the program, and for what the threads and the writer have in hand.
-struct Budget {
-  std::uint64_t reader, waiting, store, shelf, tiles;
-  explicit Budget(std::uint64_t memory) {
-    const std::uint64_t fixed = (std::uint64_t(96) << 20) + std::uint64_t(bp::thread_count()) * (8 << 20);
-    const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
-    reader = usable / 10;  // vertices of an indexed file: neighbours in the file are neighbours in space
-    waiting = usable / 10 * 7;
-    store = waiting / 14;
-    shelf = waiting / 14 * 6;
-    tiles = usable / 10;
-  }
-};
-
 bp::OptionText option_text(const Options& o, bp::UpAxis up) {
   bp::OptionText text;
   if (o.voxel) {
@@ -94,7 +81,7 @@ bp::OptionText option_text(const Options& o, bp::UpAxis up) {
   return text;
 }
 
-bp::VoxelizeOptions stage_options(const Options& o, const Budget& budget, bp::Progress& progress) {
+bp::VoxelizeOptions stage_options(const Options& o, const bp::VoxelizeBudget& budget, bp::Progress& progress) {
   bp::VoxelizeOptions v;
   v.voxel_size = [&o](const bp::Bounds3d& bounds) {
     return o.voxel ? o.voxel->in_world(bounds.diagonal(), 0)
@@ -170,7 +157,7 @@ void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& h
 }
 
 void run(const Options& o) {
-  const Budget budget(o.common.memory_bytes);
+  const bp::VoxelizeBudget budget(o.common.memory_bytes);
   bp::Report report("bpvox");
   bp::Progress progress("bpvox", o.common.progress);
   bp::Backends backends = bp::make_backends(o.common, 0);  // reading takes far longer than voxelizing
