@@ -8,10 +8,12 @@
 
 #include "io/brick_shelf.h"
 #include "io/brick_stream.h"
+#include "io/chunk_store.h"
 #include "io/mesh_writer.h"
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/stage/mesh_stage.h"
+#include "tools/common/memory_shares.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
@@ -290,8 +292,11 @@ void run(const Options& o) {
   bp::MeshParams params = mesh_params(o, source.header());
   const double error_world = params.error_world;
   bp::MeshCounts counts;
-  std::vector<bp::LatticeMesh> levels = bp::mesh_stream(
-      source, bp::make_shelf_factory(o.common.memory_bytes / 2, o.common.temp), std::move(params), counts);
+  const bp::MeshBudget budget(o.common.memory_bytes);
+  params.memory.bytes = budget.pieces;
+  params.memory.make_store = [&o, budget] { return bp::make_chunk_store(budget.store, o.common.temp); };
+  std::vector<bp::LatticeMesh> levels =
+      bp::mesh_stream(source, bp::make_shelf_factory(budget.shelves, o.common.temp), std::move(params), counts);
   report.bytes_in = source.totals().bytes;
 
   report.stage("write");

@@ -64,13 +64,6 @@ class Mover {
   std::vector<FaceId> replaced_;
 };
 
-double area(const LatticeMesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles)
-    sum += length(to_double(normal_of(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]))) / 2;
-  return sum;
-}
-
 LatticeCoord part_of_way(const LatticeCoord& p, const LatticeCoord& q, double share) {
   return {p.x + std::llround(share * double(q.x - p.x)), p.y + std::llround(share * double(q.y - p.y)),
           p.z + std::llround(share * double(q.z - p.z))};
@@ -100,20 +93,22 @@ std::uint64_t draw_to_targets(HalfEdgeMesh& mesh, const FitTarget& target, int s
   return moves;
 }
 
-LatticeMesh fine_fit(const LatticeMesh& dense, std::uint64_t faces, const FitTarget& target) {
+LatticeMesh fine_fit(const SurfaceSource& dense, std::uint64_t faces, const FitTarget& target,
+                     const PieceMemory& memory) {
   SimplifyParams params;
   params.faces = std::max(kFineFactor * faces, kFineFaces);
   params.free = true;
+  params.memory = memory;
+  constexpr double kAreaOfFace = kLatticePerVoxel * kLatticePerVoxel / 2.0;
+  const double area = kAreaOfFace * double(count_faces(dense));
   // Flat steps of a curved surface must keep vertices inside, to be drawn onto it.
-  const double limit = std::max(2.0 * kLatticePerVoxel, kLongest * std::sqrt(area(dense) / double(params.faces)));
+  const double limit = std::max(2.0 * kLatticePerVoxel, kLongest * std::sqrt(area / double(params.faces)));
   params.edge_limit = [limit](const LatticeCoord&) { return limit; };
   SimplifyCounts counts;
   const LatticeMesh fine = simplify(dense, params, counts);
   HalfEdgeMesh mesh(fine);
   draw_to_targets(mesh, target, kSweeps);
-  LatticeMesh out = mesh.compact(dense.frame);
-  out.provenance = dense.provenance;
-  return out;
+  return mesh.compact(dense.frame());
 }
 
 LatticeMesh fit_level(const LatticeMesh& fine, const SimplifyParams& params, SimplifyCounts& counts) {

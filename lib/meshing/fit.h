@@ -11,9 +11,10 @@ namespace bp {
 /// Where a vertex at `p` should be, given the unit normal of the surface there; lattice units.
 using FitTarget = std::function<LatticeCoord(const LatticeCoord& p, const Vec3d& normal)>;
 
-/// `dense` freely simplified to some ten times `faces` (at least 20,000), each vertex then drawn to its target, as far
-/// as the surface stays embedded. The start of every level. Deterministic.
-[[nodiscard]] LatticeMesh fine_fit(const LatticeMesh& dense, std::uint64_t faces, const FitTarget& target);
+/// `dense`, the surface of repaired voxels, freely simplified to some ten times `faces` (at least 20,000), each vertex
+/// then drawn to its target, as far as the surface stays embedded. The start of every level. Deterministic.
+[[nodiscard]] LatticeMesh fine_fit(const SurfaceSource& dense, std::uint64_t faces, const FitTarget& target,
+                                   const PieceMemory& memory = {});
 
 /// A level: `fine` freely simplified with the targets of `params`.
 [[nodiscard]] LatticeMesh fit_level(const LatticeMesh& fine, const SimplifyParams& params, SimplifyCounts& counts);

@@ -31,25 +31,47 @@ void SimplifyCounts::add(const SimplifyCounts& next) {
   solved += before.solved;
 }
 
-LatticeMesh simplify(const LatticeMesh& dense, const SimplifyParams& params, SimplifyCounts& counts) {
-  counts = {};
-  counts.faces_in = dense.triangles.size();
-  if (dense.triangles.empty()) return dense;
-  const bool by_cells = params.dense && params.limits == nullptr;  // limits are of the whole, step by step
-  Piece whole = by_cells ? simplified_surface(dense, params, kBulkFactor * params.faces, counts)
-                         : Piece{kEverywhere, dense.vertices, dense.triangles, {}};
+namespace {
+
+/// All of the surface, with quadrics or not, to the end.
+LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyParams& params, SimplifyCounts& counts) {
   HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
   whole.triangles = {};
   // Where quadrics are given, edges have been collapsed, and faces are no longer axis-aligned.
   if (params.dense && whole.quadrics.empty()) merge_flat_regions(mesh, params.edge_limit);
-  if (!by_cells) counts.faces_flat = mesh.face_count();
   Collapser collapser(mesh, std::move(whole.quadrics), params, counts);
   if (params.faces > 0 && params.dense) collapse_bulk(collapser, {kFirstBound, kLastBound}, kBulkFactor * params.faces);
   counts.stop = collapse_strict(collapser, counts);
   if (!params.free) erase_inner_shells(mesh);
   counts.faces_out = mesh.face_count();
-  LatticeMesh out = mesh.compact(dense.frame);
-  out.provenance = dense.provenance;
+  return mesh.compact(frame);
+}
+
+}  // namespace
+
+LatticeMesh simplify(const SurfaceSource& dense, const SimplifyParams& params, SimplifyCounts& counts) {
+  counts = {};
+  const bool bulk = params.limits == nullptr;  // limits are of the whole, step by step
+  Piece whole = simplified_surface(dense, params, bulk ? kBulkFactor * params.faces : 0, counts);
+  if (whole.triangles.empty()) {
+    LatticeMesh none;
+    none.frame = dense.frame();
+    return none;
+  }
+  return simplify_whole(std::move(whole), dense.frame(), params, counts);
+}
+
+LatticeMesh simplify(const LatticeMesh& mesh, const SimplifyParams& params, SimplifyCounts& counts) {
+  counts = {};
+  if (mesh.triangles.empty()) return mesh;
+  LatticeMesh out;
+  if (params.dense) {
+    out = simplify(MeshSurface(mesh), params, counts);
+  } else {
+    counts.faces_in = counts.faces_flat = mesh.triangles.size();
+    out = simplify_whole({kEverywhere, mesh.vertices, mesh.triangles, {}}, mesh.frame, params, counts);
+  }
+  out.provenance = mesh.provenance;
   return out;
 }
 

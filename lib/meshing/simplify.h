@@ -5,7 +5,9 @@
 #include "lib/meshing/enclosed.h"
 #include "lib/meshing/flatten.h"
 #include "lib/meshing/lattice_mesh.h"
+#include "lib/meshing/piece_store.h"
 #include "lib/meshing/step_limits.h"
+#include "lib/meshing/surface.h"
 
 /// Bounding simplification: quadric edge collapses [GH97] that grow the solid ([SGG00], [DLCW11]; [CB17] §3.4) or,
 /// given what must stay inside, only keep that inside; each is checked exactly, so the result encloses the input
@@ -25,6 +27,7 @@ struct SimplifyParams {
   /// A collapse need neither grow the solid nor keep anything inside: it takes the least error, and stays embedded.
   bool free = false;
   StepLimits* limits = nullptr;  ///< if given, every collapse keeps them
+  PieceMemory memory;            ///< of a surface that is simplified by cells; does not change the result
 };
 
 /// Why simplification ended: the target is reached, or no collapse is left that keeps the guarantee and, beside it, the
@@ -42,10 +45,13 @@ struct SimplifyCounts {
   void add(const SimplifyCounts& next);  ///< of a run that took over where this one ended
 };
 
-/// `dense`: closed, oriented, 2-manifold, embedded; with params.dense a dense_surface (of a repaired shelf), which is
-/// simplified by cells, in parallel, down to a few times the faces wanted (surface_tree.h). Deterministic, the same for
-/// every number of threads. Cost: about n log n in its triangles. Throws `failed` if the mesh is not closed and
-/// manifold or spans 2^29 lattice units.
-[[nodiscard]] LatticeMesh simplify(const LatticeMesh& dense, const SimplifyParams& params, SimplifyCounts& counts);
+/// A dense surface of repaired voxels, simplified by cells, in parallel, down to a few times the faces wanted
+/// (surface_tree.h), then in strict order. Deterministic, the same for every number of threads and every memory. Cost:
+/// about n log n in its triangles. Throws out_of_resource if params.memory does not suffice, `failed` if the surface is
+/// not closed and manifold or spans 2^29 lattice units.
+[[nodiscard]] LatticeMesh simplify(const SurfaceSource& dense, const SimplifyParams& params, SimplifyCounts& counts);
+
+/// The same of a mesh: with params.dense a dense_surface, else any that is closed, oriented, 2-manifold and embedded.
+[[nodiscard]] LatticeMesh simplify(const LatticeMesh& mesh, const SimplifyParams& params, SimplifyCounts& counts);
 
 }  // namespace bp

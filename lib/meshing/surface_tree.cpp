@@ -1,9 +1,10 @@
 #include "lib/meshing/surface_tree.h"
 
 #include <algorithm>
-#include <map>
+#include <atomic>
 #include <tuple>
 
+#include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/meshing/collapse_order.h"
 #include "lib/meshing/flatten.h"
@@ -15,90 +16,60 @@ namespace {
 constexpr std::uint64_t kMargin = 3;   // cells stop where the next round might pass the wanted number of faces
 constexpr double kBoundPerLevel = 16;  // of the last bound: a round leaves about 40 % of the faces
 constexpr std::int64_t kBrickLattice = std::int64_t(kBrickEdge) * kLatticePerVoxel;
+constexpr std::uint64_t kWorkPerFace = 256;  // bytes: the piece, its half-edges, quadrics, boxes and their tree
+
+/// body(i) for i in [0, n), with at most `in_flight` of them begun and not ended.
+template <class Body>
+void parallel_few(std::size_t n, std::size_t in_flight, const Body& body) {
+  std::atomic<std::size_t> next = 0;
+  parallel_for(std::int64_t(std::min(n, in_flight)), [&](std::int64_t) {
+    for (std::size_t i = next++; i < n; i = next++) body(i);
+  });
+}
 
 struct Node {
-  BrickCoord coord;  // of the cell, in cells of its level, from the lowest brick on
-  Piece piece;
+  BrickCoord coord;                 // of the cell, in cells of its level, from the lowest brick on
+  std::vector<WaitingPiece> parts;  // one, or those of the cells that it is made of, not yet welded
   SimplifyCounts counts;
-};
 
-/// The faces of a dense surface by brick: each lies in the one that its least corner lies in.
-class Splitter {
- public:
-  explicit Splitter(const LatticeMesh& dense) : dense_(dense), id_(dense.vertices.size()), owner_(id_.size(), 0) {}
-
-  [[nodiscard]] BrickCoord brick(std::uint32_t face) const {
-    BrickCoord brick;
-    const auto& t = dense_.triangles[face];
-    for (int i = 0; i < 3; ++i) {
-      const std::int64_t least =
-          std::min({dense_.vertices[t[0]][i], dense_.vertices[t[1]][i], dense_.vertices[t[2]][i]});
-      brick[i] = std::int32_t(floor_div(least, kBrickLattice));
-    }
-    return brick;
+  [[nodiscard]] std::uint64_t face_count() const {
+    std::uint64_t n = 0;
+    for (const WaitingPiece& part : parts) n += part.face_count();
+    return n;
   }
-
-  /// Appends a node for each brick, with its coordinates from `origin` on.
-  void split(BrickCoord origin, std::vector<Node>& nodes) {
-    std::map<std::array<std::int32_t, 3>, std::vector<std::uint32_t>> faces;  // by z, y, x
-    for (std::uint32_t f = 0; f < dense_.triangles.size(); ++f) {
-      const BrickCoord b = brick(f) - origin;
-      faces[{b.z, b.y, b.x}].push_back(f);
-    }
-    for (auto& [zyx, list] : faces) {
-      Node& node = nodes.emplace_back();
-      node.coord = {zyx[2], zyx[1], zyx[0]};
-      fill(std::uint32_t(nodes.size()), list, node.piece);
-      list = {};
-    }
-  }
-
- private:
-  void fill(std::uint32_t owner, const std::vector<std::uint32_t>& faces, Piece& piece) {
-    for (const std::uint32_t f : faces) {
-      Triangle triangle{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t v = dense_.triangles[f][k];
-        if (owner_[v] != owner) {
-          owner_[v] = owner;
-          id_[v] = std::uint32_t(piece.vertices.size());
-          piece.vertices.push_back(dense_.vertices[v]);
-        }
-        triangle[k] = id_[v];
-      }
-      piece.triangles.push_back(triangle);
-    }
-  }
-
-  const LatticeMesh& dense_;
-  std::vector<std::uint32_t> id_, owner_;  // per vertex: its place in the piece that had it last, and which
 };
 
 class SurfaceTree {
  public:
-  SurfaceTree(const LatticeMesh& dense, const SimplifyParams& params) : params_(params) {
-    Splitter splitter(dense);
-    for (std::uint32_t f = 0; f < dense.triangles.size(); ++f) {
-      const BrickCoord b = splitter.brick(f);
-      origin_ = {std::min(origin_.x, b.x), std::min(origin_.y, b.y), std::min(origin_.z, b.z)};
-    }
-    splitter.split(origin_, nodes_);
-    for (Node& node : nodes_) node.piece.cell = cell_box(node.coord);
-  }
+  SurfaceTree(const SurfaceSource& surface, const SimplifyParams& params)
+      : surface_(surface), params_(params), store_(params.memory) {}
 
-  void merge_flat() {
-    for_each_node([&](Node& node) {
-      HalfEdgeMesh mesh(std::move(node.piece.vertices), node.piece.triangles, node.piece.cell);
-      merge_flat_regions(mesh, params_.edge_limit);
-      node.piece.vertices = {};
-      node.piece.triangles =
-          mesh.live_faces([&](VertexId v, VertexId) { node.piece.vertices.push_back(mesh.position(v)); });
+  /// The cells of the first level: bricks, with their flat regions merged. Returns the faces there were.
+  std::uint64_t begin() {
+    const std::vector<BrickCoord> bricks = surface_.bricks();
+    for (const BrickCoord& b : bricks) {
+      for (int i = 0; i < 3; ++i) origin_[i] = std::min(origin_[i], b[i]);
+    }
+    nodes_.resize(bricks.size());
+    std::atomic<std::uint64_t> faces = 0;
+    parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
+      Piece piece = surface_.piece(bricks[std::size_t(i)]);
+      if (piece.triangles.empty()) return;
+      faces += piece.triangles.size();
+      merge_flat(piece);
+      Node& node = nodes_[std::size_t(i)];
+      node.coord = bricks[std::size_t(i)] - origin_;
+      node.parts.push_back(store_.put(std::move(piece)));
     });
+    std::erase_if(nodes_, [](const Node& node) { return node.parts.empty(); });
+    return faces;
   }
 
   void collapse(BulkRange range) {
-    for_each_node([&](Node& node) {
-      Piece& piece = node.piece;
+    const std::size_t in_flight = nodes_in_hand();
+    parallel_few(nodes_.size(), in_flight, [&](std::size_t i) {
+      Node& node = nodes_[i];
+      Piece piece = welded(node);
       HalfEdgeMesh mesh(std::move(piece.vertices), piece.triangles, piece.cell);
       Collapser collapser(mesh, std::move(piece.quadrics), params_, node.counts);
       collapse_bulk(collapser, range, 0);
@@ -108,11 +79,12 @@ class SurfaceTree {
         piece.vertices.push_back(mesh.position(v));
         piece.quadrics.push_back(collapser.quadric(v));
       });
+      node.parts.push_back(store_.put(std::move(piece)));
     });
   }
 
-  /// One level up: the cells of twice the edge.
-  void weld_cells() {
+  /// One level up: the cells of twice the edge. Their parts weld when they are needed.
+  void join_cells() {
     edge_ *= 2;
     const auto parent = [](BrickCoord c) { return BrickCoord{c.x / 2, c.y / 2, c.z / 2}; };
     const auto key = [&](const Node& n) {
@@ -120,34 +92,51 @@ class SurfaceTree {
       return std::tuple(p.z, p.y, p.x);
     };
     std::stable_sort(nodes_.begin(), nodes_.end(), [&](const Node& a, const Node& b) { return key(a) < key(b); });
-    std::vector<std::pair<std::size_t, std::size_t>> groups;
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      if (i == 0 || key(nodes_[i]) != key(nodes_[i - 1])) groups.emplace_back(i, i);
-      groups.back().second = i + 1;
+    std::vector<Node> parents;
+    for (Node& node : nodes_) {
+      const BrickCoord coord = parent(node.coord);
+      if (parents.empty() || parents.back().coord != coord) parents.emplace_back().coord = coord;
+      Node& to = parents.back();
+      for (WaitingPiece& part : node.parts) to.parts.push_back(std::move(part));
+      to.counts.collapses += node.counts.collapses;
+      to.counts.solved += node.counts.solved;
     }
-    std::vector<Node> parents(groups.size());
-    parallel_for(std::int64_t(groups.size()), [&](std::int64_t i) {
-      const auto [begin, end] = groups[std::size_t(i)];
-      Node& node = parents[std::size_t(i)];
-      node.coord = parent(nodes_[begin].coord);
-      node.piece = weld_nodes(begin, end, node.counts);
-      node.piece.cell = cell_box(node.coord);
-    });
     nodes_ = std::move(parents);
   }
 
-  [[nodiscard]] Piece weld_all(SimplifyCounts& counts) { return weld_nodes(0, nodes_.size(), counts); }
+  [[nodiscard]] Piece weld_all(SimplifyCounts& counts) {
+    check_work(faces(), params_.memory.bytes);
+    std::vector<Piece> pieces;
+    for (Node& node : nodes_) {
+      pieces.push_back(welded(node));
+      counts.collapses += node.counts.collapses;
+      counts.solved += node.counts.solved;
+    }
+    return weld(pieces);
+  }
+
   [[nodiscard]] bool whole() const { return nodes_.size() < 2; }
   [[nodiscard]] std::uint64_t faces() const {
     std::uint64_t n = 0;
-    for (const Node& node : nodes_) n += node.piece.triangles.size();
+    for (const Node& node : nodes_) n += node.face_count();
     return n;
   }
 
  private:
-  template <class Body>
-  void for_each_node(Body&& body) {
-    parallel_for(std::int64_t(nodes_.size()), [&](std::int64_t i) { body(nodes_[std::size_t(i)]); });
+  void merge_flat(Piece& piece) const {
+    HalfEdgeMesh mesh(std::move(piece.vertices), piece.triangles, piece.cell);
+    merge_flat_regions(mesh, params_.edge_limit);
+    piece.vertices = {};
+    piece.triangles = mesh.live_faces([&](VertexId v, VertexId) { piece.vertices.push_back(mesh.position(v)); });
+  }
+
+  /// How many nodes may be in work, each as large as the largest.
+  [[nodiscard]] std::size_t nodes_in_hand() const {
+    std::uint64_t largest = 1;
+    for (const Node& node : nodes_) largest = std::max(largest, node.face_count());
+    const std::uint64_t bytes = params_.memory.bytes / 2;
+    check_work(largest, bytes);
+    return std::size_t(std::min<std::uint64_t>(bytes / (largest * kWorkPerFace), thread_count()));
   }
 
   [[nodiscard]] LatticeBox cell_box(BrickCoord coord) const {
@@ -159,17 +148,19 @@ class SurfaceTree {
     return box;
   }
 
-  [[nodiscard]] Piece weld_nodes(std::size_t begin, std::size_t end, SimplifyCounts& counts) {
+  /// The piece of a node, which is left without.
+  [[nodiscard]] Piece welded(Node& node) {
     std::vector<Piece> pieces;
-    for (std::size_t i = begin; i < end; ++i) {
-      pieces.push_back(std::move(nodes_[i].piece));
-      counts.collapses += nodes_[i].counts.collapses;
-      counts.solved += nodes_[i].counts.solved;
-    }
-    return weld(pieces);
+    for (WaitingPiece& part : node.parts) pieces.push_back(store_.take(std::move(part)));
+    node.parts.clear();
+    Piece piece = pieces.size() == 1 ? std::move(pieces.front()) : weld(pieces);
+    piece.cell = cell_box(node.coord);
+    return piece;
   }
 
+  const SurfaceSource& surface_;
   const SimplifyParams& params_;
+  PieceStore store_;
   BrickCoord origin_{INT32_MAX, INT32_MAX, INT32_MAX};  // lowest brick in each coordinate: all weld into one cell
   std::int64_t edge_ = kBrickLattice;                   // of a cell
   std::vector<Node> nodes_;                             // by cell: z, y, x
@@ -177,21 +168,30 @@ class SurfaceTree {
 
 }  // namespace
 
-Piece simplified_surface(const LatticeMesh& dense, const SimplifyParams& params, std::uint64_t enough,
+void check_work(std::uint64_t faces, std::uint64_t bytes) {
+  const std::uint64_t needed = faces * kWorkPerFace;
+  if (needed <= bytes) return;
+  fail(
+      ErrorCode::out_of_resource,
+      "simplifying {} triangles at once needs {} MiB, and --memory leaves {} MiB for it; raise --memory, or use larger "
+      "voxels or fewer faces",
+      faces, (needed >> 20) + 1, bytes >> 20);
+}
+
+Piece simplified_surface(const SurfaceSource& surface, const SimplifyParams& params, std::uint64_t enough,
                          SimplifyCounts& counts) {
-  SurfaceTree tree(dense, params);
-  tree.merge_flat();
-  const std::uint64_t flat = tree.faces();
+  SurfaceTree tree(surface, params);
+  counts.faces_in = tree.begin();
+  counts.faces_flat = tree.faces();
   if (enough > 0) {
     for (double last = 4 * kFirstBound; tree.faces() > kMargin * enough; last *= kBoundPerLevel) {
       tree.collapse({kFirstBound, last});
       if (tree.whole()) break;
-      tree.weld_cells();
+      tree.join_cells();
     }
   }
   Piece root = tree.weld_all(counts);
   root.cell = kEverywhere;
-  counts.faces_flat = flat;
   return root;
 }
 

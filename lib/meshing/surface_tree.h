@@ -1,16 +1,23 @@
 #pragma once
 #include "lib/meshing/piece.h"
 #include "lib/meshing/simplify.h"
+#include "lib/meshing/surface.h"
 
 /// A dense surface, simplified by cells: in each brick flat regions are merged and edges collapsed; then the pieces of
 /// eight cells weld into one that is simplified inside the larger cell, and so on. All work is done on pieces that fit
-/// a cache, and cells run in parallel with a result that knows neither threads nor order (docs/decisions/0004).
+/// a cache, and cells run in parallel with a result that knows neither threads nor order nor memory
+/// (docs/decisions/0004).
 namespace bp {
 
 /// The whole surface with its quadrics, or without where nothing but flat regions was merged. Collapses stop well above
-/// `enough` faces, at bounds on their cost that are the same in all cells: the rest is for the strict order.
-/// `counts`: faces_flat, collapses, solved. `dense`: a dense_surface (surface.h).
-[[nodiscard]] Piece simplified_surface(const LatticeMesh& dense, const SimplifyParams& params, std::uint64_t enough,
+/// `enough` faces (0: none is made), at bounds on their cost that are the same in all cells: the rest is for the strict
+/// order. `counts`: faces_in, faces_flat, collapses, solved.
+/// The dense surface is never in memory as a whole: pieces wait as params.memory says, and no more of them are in hand
+/// than it allows. Throws out_of_resource if one cell, or the result, takes more than that.
+[[nodiscard]] Piece simplified_surface(const SurfaceSource& surface, const SimplifyParams& params, std::uint64_t enough,
                                        SimplifyCounts& counts);
+
+/// Throws out_of_resource if simplifying `faces` triangles at once takes more than `bytes`.
+void check_work(std::uint64_t faces, std::uint64_t bytes);
 
 }  // namespace bp

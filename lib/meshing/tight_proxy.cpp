@@ -48,7 +48,8 @@ void finish(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& 
 }
 
 /// Early tightening and collapses by volume find a finer balance, but jam in a few places where growing goes on.
-LatticeMesh attempt(const LatticeMesh& dense, const Enclosed& enclosed, const SimplifyParams& params, bool tight_early,
+template <class Surface>
+LatticeMesh attempt(const Surface& dense, const Enclosed& enclosed, const SimplifyParams& params, bool tight_early,
                     SimplifyCounts& simplified, TightenCounts& tightened) {
   TightenParams tightening;
   tightening.edge_limit = params.edge_limit;
@@ -60,6 +61,7 @@ LatticeMesh attempt(const LatticeMesh& dense, const Enclosed& enclosed, const Si
   SimplifyParams early = params;
   if (tight_early) early.faces = kEarlyFactor * params.faces;
   LatticeMesh proxy = simplify(dense, early, simplified);
+  if (proxy.triangles.empty()) return proxy;
   if (tight_early && (params.faces > 0 || params.limits != nullptr)) {
     TightenParams few = tightening;
     few.sweeps = std::min(few.sweeps, kEarlySweeps);
@@ -71,13 +73,12 @@ LatticeMesh attempt(const LatticeMesh& dense, const Enclosed& enclosed, const Si
   return proxy;
 }
 
-}  // namespace
-
-LatticeMesh tight_proxy(const LatticeMesh& dense, const Enclosed& enclosed, const SimplifyParams& params,
-                        SimplifyCounts& simplified, TightenCounts& tightened) {
+/// Of a SurfaceSource or a LatticeMesh.
+template <class Surface>
+LatticeMesh better_attempt(const Surface& dense, const Enclosed& enclosed, const SimplifyParams& params,
+                           SimplifyCounts& simplified, TightenCounts& tightened) {
   simplified = {};
   tightened = {};
-  if (dense.triangles.empty()) return dense;
   LatticeMesh proxy = attempt(dense, enclosed, params, true, simplified, tightened);
   if (by_volume(params) && proxy.triangles.size() > params.faces) {
     SimplifyCounts simplified_again;
@@ -89,7 +90,20 @@ LatticeMesh tight_proxy(const LatticeMesh& dense, const Enclosed& enclosed, cons
       tightened = tightened_again;
     }
   }
-  proxy.provenance = dense.provenance;
+  return proxy;
+}
+
+}  // namespace
+
+LatticeMesh tight_proxy(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params,
+                        SimplifyCounts& simplified, TightenCounts& tightened) {
+  return better_attempt(dense, enclosed, params, simplified, tightened);
+}
+
+LatticeMesh tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params,
+                        SimplifyCounts& simplified, TightenCounts& tightened) {
+  LatticeMesh proxy = better_attempt(mesh, enclosed, params, simplified, tightened);
+  proxy.provenance = mesh.provenance;
   return proxy;
 }
 

@@ -5,9 +5,15 @@
 /// From the dense surface to a tight proxy of a given number of faces.
 namespace bp {
 
-/// Growing collapses to a few times the target, tightening, then collapses that only keep `enclosed` inside, tightening
-/// again: growth that a coarse face could not take back is never made (docs/decisions/0003-order-of-steps.md).
-[[nodiscard]] LatticeMesh tight_proxy(const LatticeMesh& dense, const Enclosed& enclosed, const SimplifyParams& params,
+/// `dense`: a dense surface of repaired voxels. Growing collapses to a few times the target, tightening, then collapses
+/// that only keep `enclosed` inside, tightening again: growth that a coarse face could not take back is never made
+/// (docs/decisions/0003-order-of-steps.md).
+[[nodiscard]] LatticeMesh tight_proxy(const SurfaceSource& dense, const Enclosed& enclosed,
+                                      const SimplifyParams& params, SimplifyCounts& simplified,
+                                      TightenCounts& tightened);
+
+/// The same from a mesh, dense or not as params.dense tells.
+[[nodiscard]] LatticeMesh tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params,
                                       SimplifyCounts& simplified, TightenCounts& tightened);
 
 }  // namespace bp

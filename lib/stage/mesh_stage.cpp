@@ -9,7 +9,7 @@
 #include "lib/meshing/lattice_geometry.h"
 #include "lib/meshing/quads.h"
 #include "lib/meshing/repair.h"
-#include "lib/meshing/surface.h"
+#include "lib/meshing/surface_tree.h"
 #include "lib/meshing/tight_proxy.h"
 #include "lib/stage/complement.h"
 #include "lib/stage/components.h"
@@ -81,38 +81,41 @@ struct Ground {
   std::unique_ptr<TriangleBvh> tree;
 };
 
-/// The same surface with few triangles.
-std::vector<TriangleD> merged_triangles(const LatticeMesh& dense) {
-  HalfEdgeMesh mesh(dense);
-  merge_flat_regions(mesh);
-  return world_triangles(mesh.compact(dense.frame));
-}
-
 /// The surface that simplification begins with. A proxy inside is one around the complement, turned over: what must
 /// stay "inside" is then what surrounds it.
 struct Start {
-  LatticeMesh dense;
   std::unique_ptr<BrickShelf> around;  // inside: the complement of the layer that is meshed
+  std::unique_ptr<LatticeMesh> mesh;   // inside: its surface
+  std::unique_ptr<SurfaceSource> surface;
 };
 
-Start make_start(const Shelves& shelves, MeshMode mode, const GridFrame& frame, const ShelfFactory& make_shelf) {
-  if (mode != MeshMode::inside) return {dense_surface(*shelves.meshed, frame), nullptr};
-  Start start{{}, make_shelf()};
-  start.dense = inward_surface(*shelves.meshed, frame, make_shelf, *start.around);
-  if (start.dense.triangles.empty())
-    fail(ErrorCode::bad_input, "the inside of the scene is too thin to mesh; use smaller voxels or a smaller --scale");
-  return start;
+/// The same surface with few triangles.
+std::vector<TriangleD> merged_triangles(const SurfaceSource& surface, const PieceMemory& memory) {
+  SimplifyParams params;
+  params.memory = memory;
+  SimplifyCounts counts;
+  Piece whole = simplified_surface(surface, params, 0, counts);
+  HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
+  merge_flat_regions(mesh);
+  return world_triangles(mesh.compact(surface.frame()));
+}
+
+/// The surface of the voxels as they are, which may touch along edges.
+std::vector<TriangleD> unmerged_triangles(const BrickShelf& shelf, const GridFrame& frame, const PieceMemory& memory) {
+  check_work(count_faces(ShelfSurface(shelf, frame)), memory.bytes);
+  return world_triangles(dense_surface(shelf, frame));
 }
 
 std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& params, const Start& start,
                                         const ShelfFactory& make_shelf) {
   if (params.enclose == Enclose::scene) {
-    if (params.mode == MeshMode::bounding && !lies_within(params.scene, start.dense.frame, *shelves.meshed)) {
+    const GridFrame& frame = start.surface->frame();
+    if (params.mode == MeshMode::bounding && !lies_within(params.scene, frame, *shelves.meshed)) {
       fail(ErrorCode::bad_input,
            "--enclose: the scene named lies not inside the voxels of the stream, so the stream was made from another "
            "one; name the scene that bpvox read");
     }
-    return std::make_unique<EnclosedTriangles>(std::move(params.scene), start.dense.frame);
+    return std::make_unique<EnclosedTriangles>(std::move(params.scene), frame);
   }
   if (params.enclose == Enclose::closing)
     return std::make_unique<EnclosedVoxels>(start.around ? *start.around : *shelves.meshed);
@@ -128,8 +131,8 @@ Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& star
   if (params.error_world > 0 || params.distances || target) {
     ground.surface = params.enclose == Enclose::scene ? params.scene
                      : params.enclose == Enclose::input
-                         ? world_triangles(dense_surface(*shelves.input, start.dense.frame))
-                         : merged_triangles(start.dense);
+                         ? unmerged_triangles(*shelves.input, start.surface->frame(), params.memory)
+                         : merged_triangles(*start.surface, params.memory);
     ground.tree = std::make_unique<TriangleBvh>(ground.surface);
   }
   if (params.tighten && params.mode != MeshMode::fit)
@@ -145,6 +148,7 @@ double scale_at(const StreamHeader& header, const GridFrame& frame, const Lattic
 SimplifyParams simplify_params(const StreamHeader& header, const GridFrame& frame, const MeshParams& params,
                                std::uint64_t faces) {
   SimplifyParams out;
+  out.memory = params.memory;
   out.faces = std::min<std::uint64_t>(faces, std::uint64_t(1) << 32);  // a mesh indexes fewer; multiples stay exact
   if (faces == 0 && params.error_world == 0 && params.volume_ratio == 0) {
     const bool cube = header.has_closing && header.element == StructuringElement::cube;
@@ -180,7 +184,7 @@ LatticeMesh use_room(LatticeMesh proxy, const Enclosed& enclosed, SimplifyParams
 }
 
 /// One level, from the surface of all that it must enclose.
-LatticeMesh make_level(const LatticeMesh& dense, const Enclosed* enclosed, const SimplifyParams& params,
+LatticeMesh make_level(const SurfaceSource& dense, const Enclosed* enclosed, const SimplifyParams& params,
                        LevelCounts& counts) {
   if (enclosed == nullptr) return simplify(dense, params, counts.simplify);
   LatticeMesh proxy = tight_proxy(dense, *enclosed, params, counts.simplify, counts.tighten);
@@ -201,6 +205,8 @@ double level_voxel(const LatticeMesh& inner, double voxel, std::uint64_t faces) 
   return std::max(voxel, std::sqrt(kFacesPerVoxelFace * area_world(inner) / (kFacesPerFace * double(faces))));
 }
 
+constexpr int kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
+
 /// All levels, one after the other.
 class LevelMaker {
  public:
@@ -211,15 +217,11 @@ class LevelMaker {
 
   std::vector<LatticeMesh> run(const Shelves& shelves) {
     const std::vector<std::uint64_t> faces = params_.faces.empty() ? std::vector<std::uint64_t>{0} : params_.faces;
-    Start start = make_start(shelves, params_.mode, header_.frame, make_shelf_);
-    if (inside()) {
-      counts_.repaired = counts_.voxels - voxels_within(start.dense);
-      drop_crumbs(start.dense);
-    }
+    const Start start = make_start(shelves);
     bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
     ground_ = make_ground(shelves, params_, start, make_shelf_);
-    if (params_.mode == MeshMode::fit) return fits(start.dense, faces);
-    std::vector<LatticeMesh> levels{finish(start.dense, ground_.enclosed.get(), faces[0])};
+    if (params_.mode == MeshMode::fit) return fits(*start.surface, faces);
+    std::vector<LatticeMesh> levels{finish(*start.surface, volume6(start), ground_.enclosed.get(), faces[0])};
     for (std::size_t i = 1; i < faces.size(); ++i) {
       const LatticeMesh& before = levels.back();
       const double voxel = level_voxel(before, header_.frame.voxel, faces[i]);
@@ -227,20 +229,44 @@ class LevelMaker {
           inside() ? surface_within(before, voxel, make_shelf_) : surface_around(before, voxel, make_shelf_);
       if (inside()) drop_small_parts(dense, params_.least_part);  // a level may fall into parts
       const EnclosedTriangles enclosed(world_triangles(before), dense.frame);
-      levels.push_back(finish(dense, params_.tighten ? &enclosed : nullptr, faces[i]));
+      levels.push_back(finish(MeshSurface(dense), volume6_of(dense), params_.tighten ? &enclosed : nullptr, faces[i]));
     }
     return levels;
   }
 
  private:
+  Start make_start(const Shelves& shelves) {
+    Start start;
+    if (!inside()) {
+      start.surface = std::make_unique<ShelfSurface>(*shelves.meshed, header_.frame);
+      return start;
+    }
+    start.around = make_shelf_();
+    check_work(count_faces(ShelfSurface(*shelves.meshed, header_.frame)), params_.memory.bytes);
+    start.mesh =
+        std::make_unique<LatticeMesh>(inward_surface(*shelves.meshed, header_.frame, make_shelf_, *start.around));
+    if (start.mesh->triangles.empty())
+      fail(ErrorCode::bad_input,
+           "the inside of the scene is too thin to mesh; use smaller voxels or a smaller --scale");
+    counts_.repaired = counts_.voxels - std::uint64_t(-volume6_of(*start.mesh) / kVolume6OfVoxel);
+    drop_crumbs(*start.mesh);
+    start.surface = std::make_unique<MeshSurface>(*start.mesh);
+    return start;
+  }
+
+  /// Of the surface, cubed lattice units.
+  [[nodiscard]] int128 volume6(const Start& start) const {
+    return start.mesh ? volume6_of(*start.mesh) : int128(counts_.voxels + counts_.repaired) * kVolume6OfVoxel;
+  }
+
   /// Levels of detail that do not enclose: each of the same fine surface.
-  std::vector<LatticeMesh> fits(const LatticeMesh& dense, const std::vector<std::uint64_t>& faces) {
+  std::vector<LatticeMesh> fits(const SurfaceSource& dense, const std::vector<std::uint64_t>& faces) {
     const FitTarget target =
-        params_.enclose == Enclose::scene ? scene_target(*ground_.tree, dense.frame) : inset_target();
-    const LatticeMesh fine = fine_fit(dense, faces[0], target);
+        params_.enclose == Enclose::scene ? scene_target(*ground_.tree, dense.frame()) : inset_target();
+    const LatticeMesh fine = fine_fit(dense, faces[0], target, params_.memory);
     std::vector<LatticeMesh> levels;
     for (const std::uint64_t n : faces) {
-      levels.push_back(finish(fine, n, [&](const SimplifyParams& params, LevelCounts& counts) {
+      levels.push_back(finish(fine.frame, volume6_of(fine), n, [&](const SimplifyParams& params, LevelCounts& counts) {
         LatticeMesh level = fit_level(fine, params, counts.simplify);
         if (params_.quads) level.quads = pair_triangles(level, QuadKeeps::nothing, nullptr);
         return level;
@@ -258,26 +284,20 @@ class LevelMaker {
     counts_.solid_volume_world -= dropped.volume_vox * std::pow(header_.frame.voxel, 3);
   }
 
-  /// Voxels that a surface turned inwards has on its other side.
-  static std::uint64_t voxels_within(const LatticeMesh& dense) {
-    constexpr int kVolume6 = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
-    return std::uint64_t(-volume6_of(dense) / kVolume6);
-  }
-
-  LatticeMesh finish(const LatticeMesh& dense, const Enclosed* enclosed, std::uint64_t faces) {
-    return finish(dense, faces, [&](const SimplifyParams& params, LevelCounts& counts) {
+  LatticeMesh finish(const SurfaceSource& dense, int128 volume6, const Enclosed* enclosed, std::uint64_t faces) {
+    return finish(dense.frame(), volume6, faces, [&](const SimplifyParams& params, LevelCounts& counts) {
       LatticeMesh proxy = make_level(dense, enclosed, params, counts);
       if (params_.quads) proxy.quads = pair_triangles(proxy, QuadKeeps::enclosed, enclosed);
       return proxy;
     });
   }
 
-  /// One level by make(params, counts), with its counts and measures.
+  /// One level by make(params, counts), with its counts and measures; from a surface of volume6 / 6 in `frame`.
   template <class Make>
-  LatticeMesh finish(const LatticeMesh& dense, std::uint64_t faces, const Make& make) {
+  LatticeMesh finish(const GridFrame& frame, int128 volume6, std::uint64_t faces, const Make& make) {
     LevelCounts& counts = counts_.levels.emplace_back();
-    SimplifyParams params = simplify_params(header_, dense.frame, params_, faces);
-    ProxyLimits limits(bounds_, dense, ground_.tree.get());
+    SimplifyParams params = simplify_params(header_, frame, params_, faces);
+    ProxyLimits limits(bounds_, frame, volume6, ground_.tree.get());
     if (bounds_.error_world > 0 || bounds_.volume_world != 0) params.limits = &limits;
     LatticeMesh proxy = make(params, counts);
     if (inside()) {

@@ -49,12 +49,12 @@ struct Bench {
     const auto shelf = make_shelf_factory(std::uint64_t(8) << 30, "/tmp")();
     time(read, [&] { load(path, *shelf); });
     time(repair, [&] { repair_contacts(*shelf); });
-    LatticeMesh dense;
-    time(extract, [&] { dense = dense_surface(*shelf, {}); });
+    const ShelfSurface surface(*shelf, {});
+    time(extract, [&] { (void)count_faces(surface); });
     SimplifyCounts ignored;
-    time(leaves, [&] { (void)simplified_surface(dense, params, 0, ignored); });
-    time(cells, [&] { (void)simplified_surface(dense, params, kBulkFactor * params.faces, ignored); });
-    time(all, [&] { (void)simplify(dense, params, counts); });
+    time(leaves, [&] { (void)simplified_surface(surface, params, 0, ignored); });
+    time(cells, [&] { (void)simplified_surface(surface, params, kBulkFactor * params.faces, ignored); });
+    time(all, [&] { (void)simplify(surface, params, counts); });
   }
 
   static void load(const std::string& path, BrickShelf& shelf) {

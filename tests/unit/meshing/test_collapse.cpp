@@ -68,7 +68,7 @@ TEST_CASE("a cell's collapses leave its rim as it was and stay strictly inside",
   fill_shelf(shelf, {{-20, -20, -20}, {20, 20, 20}},
              [](VoxelCoord p) { return p.x * p.x + p.y * p.y + p.z * p.z < 300; });
   repair_contacts(shelf);
-  const Piece piece = extract_piece(shelf, {0, -1, 0});
+  const Piece piece = ShelfSurface(shelf, {}).piece({0, -1, 0});
   HalfEdgeMesh mesh(piece.vertices, piece.triangles, piece.cell);
   const SimplifyParams params;
   SimplifyCounts counts;

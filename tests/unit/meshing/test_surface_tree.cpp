@@ -1,12 +1,14 @@
 #include <cmath>
 #include <random>
 
+#include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/meshing/flatten.h"
 #include "lib/meshing/repair.h"
 #include "lib/meshing/simplify.h"
 #include "lib/meshing/surface.h"
 #include "lib/meshing/surface_tree.h"
+#include "tests/support/memory_store.h"
 #include "tests/support/proxy_checks.h"
 
 using namespace bp;
@@ -64,6 +66,57 @@ TEST_CASE("brick by brick, the result does not depend on the number of threads",
   CHECK(one.triangles == five.triangles);
 }
 
+TEST_CASE("brick by brick, the result does not depend on memory, and nothing stays in the store", "[quick][meshing]") {
+  MemoryShelf shelf;
+  fill_shelf(shelf, kBox, kSolids[0]);
+  repair_contacts(shelf);
+  SimplifyParams params;
+  params.faces = 20;
+  SimplifyCounts counts;
+  const LatticeMesh roomy = simplify(ShelfSurface(shelf, {}), params, counts);
+  std::uint64_t put = 0, held = 0;
+  // A little for what waits, and too much for all of it; what is in hand fits once, twice, and five times.
+  const std::uint64_t megabytes = GENERATE(1, 2, 5);
+  params.memory.bytes = megabytes << 20;
+  params.memory.make_store = [&] { return std::make_unique<MemoryStore>(put, held); };
+  const LatticeMesh tight = simplify(ShelfSurface(shelf, {}), params, counts);
+  CHECK(put > 0);
+  CHECK(held == 0);
+  CHECK(tight.vertices == roomy.vertices);
+  CHECK(tight.triangles == roomy.triangles);
+}
+
+TEST_CASE("a cell that is too large for the memory is refused", "[quick][meshing]") {
+  MemoryShelf shelf;
+  fill_shelf(shelf, kBox, kSolids[0]);
+  repair_contacts(shelf);
+  SimplifyParams params;
+  params.faces = 20;
+  params.memory.bytes = 100000;
+  SimplifyCounts counts;
+  CHECK_THROWS_AS(simplify(ShelfSurface(shelf, {}), params, counts), Error);
+}
+
+TEST_CASE("the surface of a shelf and that of the mesh of it have the same pieces", "[quick][meshing]") {
+  const int shape = GENERATE(range(0, 4));
+  MemoryShelf shelf;
+  fill_shelf(shelf, kBox, kSolids[shape]);
+  const ShelfSurface of_shelf(shelf, {});
+  const LatticeMesh dense = dense_surface(shelf, {});
+  const MeshSurface of_mesh(dense);
+  std::size_t bricks = 0, faces = 0;
+  for (const BrickCoord& b : of_shelf.bricks()) {
+    const Piece one = of_shelf.piece(b), other = of_mesh.piece(b);
+    CHECK(one.vertices == other.vertices);
+    CHECK(one.triangles == other.triangles);
+    bricks += one.triangles.empty() ? 0 : 1;
+    faces += one.triangles.size();
+  }
+  CHECK(bricks == of_mesh.bricks().size());
+  CHECK(faces == dense.triangles.size());
+  CHECK(faces == count_faces(of_mesh));
+}
+
 TEST_CASE("merging flat regions brick by brick keeps the surface as a set", "[quick][meshing]") {
   const int shape = GENERATE(range(0, 4));
   MemoryShelf shelf;
@@ -71,7 +124,7 @@ TEST_CASE("merging flat regions brick by brick keeps the surface as a set", "[qu
   repair_contacts(shelf);
   const LatticeMesh dense = dense_surface(shelf, {});
   SimplifyCounts counts;
-  Piece merged = simplified_surface(dense, {}, 0, counts);
+  Piece merged = simplified_surface(ShelfSurface(shelf, {}), {}, 0, counts);
   CHECK(merged.quadrics.empty());
   CHECK(merged.triangles.size() < dense.triangles.size());
   CHECK(volume6(merged.vertices, merged.triangles) == volume6(dense.vertices, dense.triangles));
