@@ -1,7 +1,8 @@
 #include "lib/geometry/surface_distance.h"
 
 #include <algorithm>
-#include <queue>
+#include <array>
+#include <optional>
 
 #include "lib/core/parallel.h"
 
@@ -28,13 +29,6 @@ Vec3d centre_of(const TriangleD& t) {
   return c;
 }
 
-double area_of(const TriangleD& t) {
-  Vec3d u, v;
-  for (std::size_t i = 0; i < 3; ++i) u[i] = t[1][i] - t[0][i], v[i] = t[2][i] - t[0][i];
-  const Vec3d n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  return std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
-}
-
 /// Corner opposite the longest edge.
 std::size_t apex_of(const TriangleD& t) {
   std::size_t apex = 0;
@@ -55,15 +49,31 @@ std::array<TriangleD, 2> halves(const TriangleD& t) {
   return {TriangleD{apex, a, m}, TriangleD{apex, m, b}};
 }
 
+Vec3d minus(const Vec3d& a, const Vec3d& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Vec3d cross(const Vec3d& u, const Vec3d& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+double dot(const Vec3d& u, const Vec3d& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+double area_of(const TriangleD& t) {
+  const Vec3d n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+  return std::sqrt(dot(n, n)) / 2;
+}
+
 /// A part of a triangle and what is known of the distances of its points.
 struct Part {
   TriangleD corners;
   double at_most = 0, at_least = 0;  // of the largest distance of its points
-  Vec3d where{};
-  std::uint32_t nearest = 0;  // where the next search starts
+  Vec3d where{};                     // as far as at_least
+  std::uint32_t nearest = 0;         // to its centre; where the next search starts
 };
 
-Part examine(const TriangleD& t, const TriangleBvh& to, std::uint32_t guess) {
+/// `bar`: parts that surely lie below it are of no interest.
+Part examine(const TriangleD& t, const TriangleBvh& to, std::uint32_t guess, double bar = 0) {
   Part part;
   part.corners = t;
   const Vec3d c = centre_of(t);
@@ -71,14 +81,68 @@ Part examine(const TriangleD& t, const TriangleBvh& to, std::uint32_t guess) {
   part.nearest = found.item;
   part.at_least = std::sqrt(found.distance_squared);
   part.where = c;
-  double radius = 0, corner = 0;
+  double radius = 0, corner = -1;
+  const Vec3d* farthest = nullptr;
   for (const Vec3d& p : t) {
     radius = std::max(radius, length_squared(p, c));
-    corner = std::max(corner, distance_squared(p, to.item(found.item).corners));
+    const double d = distance_squared(p, to.item(found.item).corners);
+    if (d > corner) corner = d, farthest = &p;
   }
   part.at_most = std::min(part.at_least + std::sqrt(radius), std::sqrt(corner));
   part.at_most = std::max(part.at_most, part.at_least);
+  if (part.at_most <= bar) return part;
+  const double there = std::sqrt(to.nearest(*farthest, found.item).distance_squared);
+  if (there > part.at_least) part.at_least = there, part.where = *farthest;
+  part.at_most = std::max(part.at_most, part.at_least);  // of rounding
   return part;
+}
+
+/// A convex polygon's corners on one side of a plane, and those on the other; both with the points where it is cut.
+struct CutPolygon {
+  std::vector<Vec3d> inside, outside;
+};
+
+CutPolygon cut(const std::vector<Vec3d>& polygon, const Vec3d& through, const Vec3d& inwards) {
+  CutPolygon out;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec3d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    const double sa = dot(inwards, minus(a, through)), sb = dot(inwards, minus(b, through));
+    (sa >= 0 ? out.inside : out.outside).push_back(a);
+    if ((sa >= 0) == (sb >= 0)) continue;
+    Vec3d crossing;
+    for (std::size_t i = 0; i < 3; ++i) crossing[i] = a[i] + sa / (sa - sb) * (b[i] - a[i]);
+    out.inside.push_back(crossing);
+    out.outside.push_back(crossing);
+  }
+  return out;
+}
+
+/// What lies over the triangle nearest to a part is cut out if that settles it (`bar`: see examine()): there, corners
+/// bound the distance best. Appends the rest to `out` and returns the bound of what is settled; nothing if that is
+/// little, or the part so thin that rounding would decide.
+std::optional<double> cut_out(const TriangleD& part, const TriangleD& nearest, double bar,
+                              std::vector<TriangleD>& out) {
+  constexpr double kThin = 1e-6;            // area over the longest edge squared
+  constexpr double kWorthwhile = 1.0 / 16;  // of the area
+  const std::size_t apex = apex_of(part);
+  const double whole = area_of(part);
+  if (whole <= kThin * length_squared(part[(apex + 1) % 3], part[(apex + 2) % 3])) return std::nullopt;
+  const std::size_t before = out.size();
+  const Vec3d normal = cross(minus(nearest[1], nearest[0]), minus(nearest[2], nearest[0]));
+  std::vector<Vec3d> inside(part.begin(), part.end());
+  for (std::size_t k = 0; k < 3 && !inside.empty(); ++k) {
+    CutPolygon pieces = cut(inside, nearest[k], cross(normal, minus(nearest[(k + 1) % 3], nearest[k])));
+    inside = std::move(pieces.inside);
+    for (std::size_t i = 2; i < pieces.outside.size(); ++i)
+      out.push_back({pieces.outside[0], pieces.outside[i - 1], pieces.outside[i]});
+  }
+  double farthest = 0, area = 0;
+  for (const Vec3d& p : inside) farthest = std::max(farthest, distance_squared(p, nearest));
+  for (std::size_t i = 2; i < inside.size(); ++i) area += area_of({inside[0], inside[i - 1], inside[i]});
+  farthest = std::sqrt(farthest);
+  if (area >= kWorthwhile * whole && farthest <= bar) return farthest;
+  out.resize(before);
+  return std::nullopt;
 }
 
 /// Sum of distance times area over `t`, in pieces no longer than `step`.
@@ -113,7 +177,7 @@ std::vector<Chunk> examine_all(const std::vector<TriangleD>& from, const Triangl
     std::uint32_t guess = 0, guess_mean = 0;
     double at_least = 0;
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
-      Part part = examine(from[i], to, guess);
+      Part part = examine(from[i], to, guess, at_least);
       guess = part.nearest;
       chunk.integral += integral(from[i], to, step, guess_mean);
       chunk.area += area_of(from[i]);
@@ -125,6 +189,79 @@ std::vector<Chunk> examine_all(const std::vector<TriangleD>& from, const Triangl
   return chunks;
 }
 
+/// Best first, in rounds: the parts of a round are split in parallel. Rounds do not depend on the number of threads.
+class Search {
+ public:
+  Search(const TriangleBvh& to, SurfaceDistance& result, double smallest)
+      : to_(to), result_(result), smallest_(smallest) {}
+
+  void see(Part part) {
+    if (part.at_least > result_.at_least) result_.at_least = part.at_least, result_.where = part.where;
+    if (part.at_most <= bar()) {
+      settled_ = std::max(settled_, part.at_most);
+      return;
+    }
+    open_.push_back(std::move(part));
+    std::push_heap(open_.begin(), open_.end(), kLess);
+  }
+
+  void run() {
+    constexpr std::size_t kRound = 2048, kGrainOfRound = 16;
+    std::vector<Part> round;
+    std::vector<Found> found;
+    while (!done()) {
+      round.clear();
+      while (!done() && round.size() < kRound) round.push_back(pop());
+      found.resize(round.size());
+      parallel_chunks(std::int64_t(round.size()), kGrainOfRound, [&](std::int64_t begin, std::int64_t end) {
+        std::vector<TriangleD> pieces;
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+          pieces.clear();
+          found[i].parts.clear();
+          const auto settled = cut_out(round[i].corners, to_.item(round[i].nearest).corners, bar(), pieces);
+          found[i].settled = settled.value_or(0);
+          if (!settled) {
+            for (const TriangleD& half : halves(round[i].corners)) pieces.push_back(half);
+          }
+          for (const TriangleD& piece : pieces) {
+            Part part = examine(piece, to_, round[i].nearest, bar());
+            part.at_most = std::min(part.at_most, round[i].at_most);
+            found[i].parts.push_back(std::move(part));
+          }
+        }
+      });
+      for (const Found& of : found) {
+        settled_ = std::max(settled_, of.settled);
+        for (const Part& part : of.parts) see(part);
+      }
+    }
+    result_.at_most = std::max(settled_, result_.at_least);
+    if (!open_.empty()) result_.at_most = std::max(result_.at_most, open_.front().at_most);
+  }
+
+ private:
+  /// In one part.
+  struct Found {
+    std::vector<Part> parts;
+    double settled = 0;  // bound for the rest of it
+  };
+  static constexpr auto kLess = [](const Part& a, const Part& b) { return a.at_most < b.at_most; };
+
+  [[nodiscard]] double bar() const { return result_.at_least + std::max(smallest_, kRelativeError * result_.at_least); }
+  [[nodiscard]] bool done() const { return open_.empty() || open_.front().at_most <= bar(); }
+  Part pop() {
+    std::pop_heap(open_.begin(), open_.end(), kLess);
+    Part part = std::move(open_.back());
+    open_.pop_back();
+    return part;
+  }
+
+  const TriangleBvh& to_;
+  SurfaceDistance& result_;
+  double smallest_, settled_ = 0;  // least error of interest; bound of all parts that are not open
+  std::vector<Part> open_;         // a heap
+};
+
 }  // namespace
 
 SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance) {
@@ -132,30 +269,16 @@ SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const Trian
   for (const TriangleD& t : from) bounds.merge(bounds_of(t));
   const std::vector<Chunk> chunks = examine_all(from, to, bounds.diagonal() / kMeanPieces);
   SurfaceDistance result;
+  result.where = from.front()[0];
   double area = 0;
-  const auto less = [](const Part& a, const Part& b) { return a.at_most < b.at_most; };
-  std::priority_queue<Part, std::vector<Part>, decltype(less)> open(less);
-  const auto see = [&](const Part& part) {
-    if (part.at_least > result.at_least) result.at_least = part.at_least, result.where = part.where;
-    open.push(part);
-  };
+  Search search(to, result, std::max(tolerance, kSmallestError * bounds.diagonal()));
   for (const Chunk& chunk : chunks) {
     result.mean += chunk.integral;
     area += chunk.area;
-    for (const Part& part : chunk.parts) see(part);
+    for (const Part& part : chunk.parts) search.see(part);
   }
   if (area > 0) result.mean /= area;
-  const double smallest = std::max(tolerance, kSmallestError * bounds.diagonal());
-  while (!open.empty() && open.top().at_most > result.at_least + std::max(smallest, kRelativeError * result.at_least)) {
-    const Part part = open.top();
-    open.pop();
-    for (const TriangleD& half : halves(part.corners)) {
-      Part next = examine(half, to, part.nearest);
-      next.at_most = std::min(next.at_most, part.at_most);
-      see(next);
-    }
-  }
-  result.at_most = open.empty() ? result.at_least : std::max(open.top().at_most, result.at_least);
+  search.run();
   return result;
 }
 

@@ -5,7 +5,8 @@
 
 /// Distances between surfaces with a bound on their error: branch and bound over parts of triangles. What bounds a
 /// part: distance is 1-Lipschitz, so d(centre) + radius; and the distance to one triangle is convex, so its largest
-/// value over a part is at a corner. Both hold for real numbers; doubles add their rounding.
+/// value over a part is at a corner. Parts are cut at the edges of the triangle nearest to them, so that this is sharp
+/// where surfaces run side by side. Both bounds hold for real numbers; doubles add their rounding.
 namespace bp {
 
 /// From each point of one surface to the nearest point of another, scene units.

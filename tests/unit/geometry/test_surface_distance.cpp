@@ -54,6 +54,44 @@ TEST_CASE("the distance between two squares, one above the other and twice as la
   CHECK(down.mean < 1.5);
 }
 
+TEST_CASE(
+    "surfaces that are equally far everywhere are measured part by part of the nearest, not by ever smaller parts",
+    "[quick][check]") {
+  std::vector<TriangleD> fine, shifted;  // tens of millions of halves, were they not cut at edges
+  constexpr int kCells = 96;
+  for (int i = 0; i < kCells; ++i) {
+    for (int j = 0; j < kCells; ++j) {
+      const auto add = [](std::vector<TriangleD>& to, double x, double y, double z, double angle) {
+        const double c = std::cos(angle), s = std::sin(angle);
+        const auto at = [&](double u, double v) { return Vec3d{c * u - s * v, s * u + c * v, z}; };
+        to.push_back({at(x, y), at(x + 1, y), at(x + 1, y + 1)});
+        to.push_back({at(x, y), at(x + 1, y + 1), at(x, y + 1)});
+      };
+      add(fine, i - kCells / 2, j - kCells / 2, 0, 0);
+      if (std::hypot(i - kCells / 2, j - kCells / 2) < 40) add(shifted, i - kCells / 2, j - kCells / 2, 0.01, 0.3);
+    }
+  }
+  const SurfaceDistance d = surface_distance(shifted, TriangleBvh(fine));
+  CHECK(d.at_least == 0.01);
+  CHECK(d.at_most <= 0.01 + 120 * 1e-7);  // of the diagonal
+}
+
+TEST_CASE("needles and triangles without area are measured too", "[quick][check]") {
+  std::vector<TriangleD> to;
+  for (int i = 0; i < 40; ++i) {
+    const double x = i;
+    to.push_back({Vec3d{x, -30, 0}, Vec3d{x + 1, -30, 0}, Vec3d{x, 30, 0}});
+    to.push_back({Vec3d{x + 1, -30, 0}, Vec3d{x + 1, 30, 0}, Vec3d{x, 30, 0}});
+  }
+  const Vec3d a{4.4157954328344191, 2.1708984375, 0.66796875},
+      b{33.9886933257318615, 2.5048828125, 0.33398437499999989};
+  const Vec3d beside{4.4157954328344191, 2.1708984375, 0.66796875000000033};
+  const std::vector<TriangleD> from{{a, b, a}, {beside, b, a}, {b, b, b}};
+  const SurfaceDistance d = surface_distance(from, TriangleBvh(to));
+  CHECK(d.at_least == 0.66796875000000033);
+  CHECK(d.at_most <= d.at_least * 1.0011);
+}
+
 TEST_CASE("the largest distance lies between its bounds, for any number of threads", "[quick][check]") {
   const unsigned seed = GENERATE(1u, 2u, 3u, 4u);
   const std::vector<TriangleD> from = random_triangles(seed, 700, 0.2), to = random_triangles(seed + 100, 50, 0.3);
