@@ -7,7 +7,10 @@ set -u
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 : "${BP_BIN:=$root/build/release/tools:$root/build/release/samples}"
-export PATH="$BP_BIN:$PATH" LC_ALL=C BP_ROOT=$root
+bin=
+IFS=: read -ra folders <<< "$BP_BIN"
+for one in "${folders[@]}"; do bin+=$(cd "$one" && pwd): || exit 1; done  # cases run elsewhere
+export PATH="$bin$PATH" LC_ALL=C BP_ROOT=$root
 unset TMPDIR BP_BACKEND
 accept=false
 if [ "${1:-}" = --accept ]; then

@@ -2,7 +2,7 @@
 for signal in INT TERM HUP; do
   # Background jobs ignore SIGINT, so a fresh process group has to set it back: env does.
   env --default-signal=INT bp-plant --triangles 50000000 -o plant.ply &
-  until [ -n "$(ls -A)" ]; do sleep 0.01; done
+  for _ in $(seq 1000); do [ -n "$(ls -A)" ] && break; sleep 0.01; done
   kill -s $signal $!
   wait $!
   echo "$signal: $?"
