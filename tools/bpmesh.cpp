@@ -31,6 +31,7 @@ struct Options {
   std::optional<bp::Length> error;
   double volume = 0, edge_length = 0;
   std::optional<double> least_part;  // 0.001 inside
+  std::optional<double> inset;       // 0.5 for fits
   std::vector<std::string> enclose;
   bool loose = false;  // --no-tighten
   bool measure = false, quads = false;
@@ -70,6 +71,9 @@ Options parse(bp::Args& args) {
   args.option(
       "--enclose", "WHAT", o.enclose,
       "what stays inside while the proxy is tightened: closing, input (the voxels of the scene), or scene files");
+  args.option(
+      "--inset", "RATIO", o.inset,
+      "fit: how far inside the voxels' surface to lie, in extents of a voxel (0.5, as the scene does on average)");
   args.option("--least-part", "RATIO", o.least_part,
               "inside: leave out parts smaller than RATIO times the largest, by volume (0.001; 0: none)");
   args.flag("--no-tighten", o.loose, "leave out the last step, which lowers the volume");
@@ -143,6 +147,7 @@ bp::Provenance provenance(const Options& o, const std::string& input, std::size_
       .add("enclose", enclose_text(o))
       .add("tighten", !o.loose);
   if (o.least_part) text.add("least-part", *o.least_part);
+  if (o.inset) text.add("inset", *o.inset);
   if (o.quads) text.add("quads", o.quads);
   if (o.faces.size() > 1) text.add("level", level);
   return bp::make_provenance("bpmesh", text, input);
@@ -269,6 +274,9 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
   if (o.error) params.error_world = o.error->in_world(header.bounds.diagonal(), header.frame.voxel);
   params.volume_ratio = o.volume;
   params.edge_factor = o.edge_length;
+  if (o.inset && o.mode != bp::MeshMode::fit)
+    bp::fail(bp::ErrorCode::bad_argument, "--inset is for fits; it needs --mode fit");
+  if (o.inset) params.inset = *o.inset;
   params.least_part = o.least_part.value_or(o.mode == bp::MeshMode::inside ? kLeastPart : 0);
   params.tighten = !o.loose;
   params.quads = o.quads;

@@ -63,6 +63,34 @@ double distance_squared(const Vec3d& p, const TriangleD& t) {
                    segment_distance_squared(p, t[2], t[0])});
 }
 
+Vec3d nearest_point(const Vec3d& p, const TriangleD& t) {
+  const auto along = [](const Vec3d& a, const Vec3d& d, double s) {
+    return Vec3d{a[0] + s * d[0], a[1] + s * d[1], a[2] + s * d[2]};
+  };
+  const Vec3d u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
+  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+  const double det = uu * vv - uv * uv, s = vv * uw - uv * vw, r = uu * vw - uv * uw;
+  if (det > 0 && s >= 0 && r >= 0 && s + r <= det) return along(along(t[0], u, s / det), v, r / det);
+  Vec3d best = t[0];
+  double least = HUGE_VAL;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d &a = t[k], d = t[(k + 1) % 3] - a;
+    const double l = dot(d, d);
+    const Vec3d q = l > 0 ? along(a, d, std::clamp(dot(p - a, d) / l, 0.0, 1.0)) : a;
+    const double far = dot(p - q, p - q);
+    if (far < least) least = far, best = q;
+  }
+  return best;
+}
+
+std::array<double, 3> barycentric(const TriangleD& t, const Vec3d& p) {
+  const Vec3d u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
+  const double nn = dot(n, n);
+  if (!(nn > 0)) return {1, 0, 0};
+  const double s = dot(n, cross(p - t[0], v)) / nn, r = dot(n, cross(u, p - t[0])) / nn;
+  return {1 - s - r, s, r};
+}
+
 struct TriangleBvh::Builder {
   struct Primitive {
     Bounds3d box;

@@ -93,5 +93,9 @@ class TriangleBvh {
 
 /// Square of the distance from p to the closed triangle, in floating point.
 [[nodiscard]] double distance_squared(const Vec3d& p, const TriangleD& t);
+/// The point of the closed triangle nearest to p, in floating point.
+[[nodiscard]] Vec3d nearest_point(const Vec3d& p, const TriangleD& t);
+/// Barycentric coordinates of a point of the triangle, in floating point; its first corner if it has no area.
+[[nodiscard]] std::array<double, 3> barycentric(const TriangleD& t, const Vec3d& p);
 
 }  // namespace bp

@@ -2,120 +2,132 @@
 
 #include <algorithm>
 
-#include "lib/meshing/guard.h"
+#include "lib/core/parallel.h"
+#include "lib/geometry/triangle_bvh.h"
+#include "lib/meshing/settle.h"
+#include "lib/meshing/vec3.h"
+#include "lib/meshing/vertex_mover.h"
 
 namespace bp {
 
 namespace {
 
 constexpr std::uint64_t kFineFactor = 10, kFineFaces = 20000;
+constexpr std::uint64_t kPointsPerFace = 30, kLeastPoints = 30000;
 constexpr double kLongest = 2.5;  // edges, times the square root of a face's share of the area
-constexpr int kSweeps = 4;
-constexpr double kQualityFloor = 0.05;
-constexpr double kLeastTurn = 0.3;  // cosine between a face's normal before and after
+constexpr int kSweeps = 4, kRounds = 8;
 
-/// Moves vertices, each move checked.
-class Mover {
- public:
-  explicit Mover(HalfEdgeMesh& mesh) : mesh_(mesh), tree_(mesh), guard_(mesh, tree_) {}
-
-  /// Unit normal by area; zero if the areas cancel.
-  [[nodiscard]] Vec3d normal(VertexId v) const {
-    Vec3d sum{};
-    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
-      const Vec3d n =
-          to_double(normal_of(mesh_.position(v), mesh_.position(mesh_.to(h)), mesh_.position(mesh_.opposite(h))));
-      for (std::size_t i = 0; i < 3; ++i) sum[i] += n[i];
-    });
-    const double l = length(sum);
-    if (l > 0) {
-      for (double& x : sum) x /= l;
+/// Middles of faces, which are all of the same size: about the given share of them, chosen by a hash of where they are,
+/// because regular choices beat with the steps of the surface.
+std::vector<Vec3d> spread_points(const SurfaceSource& dense, double share) {
+  constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
+  const std::vector<BrickCoord> bricks = dense.bricks();
+  std::vector<std::vector<Vec3d>> chosen(bricks.size());
+  parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
+    const Piece piece = dense.piece(bricks[std::size_t(i)]);
+    for (const auto& t : piece.triangles) {
+      const LatticeCoord sum = piece.vertices[t[0]] + piece.vertices[t[1]] + piece.vertices[t[2]];
+      std::uint64_t hash = 0;
+      for (int k = 0; k < 3; ++k) hash = ((hash ^ std::uint64_t(sum[k])) * kMix) ^ (hash >> 29);
+      if (double((hash * kMix) >> 32) < share * 0x1p32) chosen[std::size_t(i)].push_back(1.0 / 3 * to_double(sum));
     }
-    return sum;
+  });
+  std::vector<Vec3d> points;
+  for (const auto& some : chosen) points.insert(points.end(), some.begin(), some.end());
+  return points;
+}
+
+/// A surface's normals, smoothed: between those of its vertices.
+class SmoothNormals {
+ public:
+  explicit SmoothNormals(const HalfEdgeMesh& mesh) {
+    for (FaceId f = 0; f < mesh.face_capacity(); ++f) {
+      if (!mesh.alive(f)) continue;
+      triangles_.push_back({to_double(mesh.corner(f, 0)), to_double(mesh.corner(f, 1)), to_double(mesh.corner(f, 2))});
+      normals_.push_back({vertex_normal(mesh, mesh.from(3 * f)), vertex_normal(mesh, mesh.from(3 * f + 1)),
+                          vertex_normal(mesh, mesh.from(3 * f + 2))});
+    }
+    tree_ = std::make_unique<TriangleBvh>(triangles_);
   }
 
-  bool try_move(VertexId v, const LatticeCoord& q) {
-    star_.clear();
-    replaced_.clear();
-    bool fine = true;
-    double before = 1, after = 1;
-    const LatticeCoord p = mesh_.position(v);
-    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
-      const LatticeCoord a = mesh_.position(mesh_.to(h)), b = mesh_.position(mesh_.opposite(h));
-      const Vec3d n0 = to_double(normal_of(p, a, b)), n1 = to_double(normal_of(q, a, b));
-      const double l1 = dot(n1, n1);
-      fine = fine && l1 > 0 && dot(n0, n1) > kLeastTurn * std::sqrt(dot(n0, n0) * l1);
-      before = std::min(before, triangle_quality(p, a, b));
-      after = std::min(after, triangle_quality(q, a, b));
-      star_.push_back({{v, mesh_.to(h), mesh_.opposite(h)}, {q, a, b}});
-      replaced_.push_back(HalfEdgeMesh::face(h));
-    });
-    if (!fine || after < std::min(kQualityFloor, before) || !guard_.star_is_free(star_, replaced_)) return false;
-    mesh_.move(v, q);
-    for (const FaceId f : replaced_) tree_.update(f);
-    return true;
+  /// At the point nearest to `p`; `guess` as for TriangleBvh::nearest().
+  [[nodiscard]] Vec3d at(const Vec3d& p, std::uint32_t& guess) const {
+    guess = tree_->nearest(p, guess).item;
+    const TriangleBvh::Item& item = tree_->item(guess);
+    const std::array<double, 3> share = barycentric(item.corners, nearest_point(p, item.corners));
+    const std::array<Vec3d, 3>& n = normals_[item.id];
+    const Vec3d sum = share[0] * n[0] + share[1] * n[1] + share[2] * n[2];
+    const double l = length(sum);
+    return l > 0 ? 1 / l * sum : sum;
   }
 
  private:
-  HalfEdgeMesh& mesh_;
-  FaceTree tree_;
-  Guard guard_;
-  std::vector<NewFace> star_;
-  std::vector<FaceId> replaced_;
+  std::vector<TriangleD> triangles_;
+  std::vector<std::array<Vec3d, 3>> normals_;
+  std::unique_ptr<TriangleBvh> tree_;
 };
 
-LatticeCoord part_of_way(const LatticeCoord& p, const LatticeCoord& q, double share) {
-  return {p.x + std::llround(share * double(q.x - p.x)), p.y + std::llround(share * double(q.y - p.y)),
-          p.z + std::llround(share * double(q.z - p.z))};
+void move_to_targets(std::vector<Vec3d>& points, const HalfEdgeMesh& surface, const FitTarget& target) {
+  const SmoothNormals normals(surface);
+  parallel_chunks(std::int64_t(points.size()), 256, [&](std::int64_t begin, std::int64_t end) {
+    std::uint32_t guess = 0;
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+      points[i] = target(points[i], normals.at(points[i], guess));
+  });
+}
+
+LatticeCoord rounded(const Vec3d& p) {
+  return {std::llround(p[0]), std::llround(p[1]), std::llround(p[2])};
 }
 
 }  // namespace
 
 std::uint64_t draw_to_targets(HalfEdgeMesh& mesh, const FitTarget& target, int sweeps) {
-  Mover mover(mesh);
+  VertexMover mover(mesh, nullptr);
   std::vector<LatticeCoord> targets(mesh.vertex_capacity());
   for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {  // all from where the surface is now: no drift
-    if (mesh.vertex_alive(v)) targets[v] = target(mesh.position(v), mover.normal(v));
+    if (mesh.vertex_alive(v)) targets[v] = rounded(target(to_double(mesh.position(v)), vertex_normal(mesh, v)));
   }
   std::uint64_t moves = 0;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {
-      if (!mesh.vertex_alive(v)) continue;
-      for (const double share : {1.0, 0.5, 0.25}) {
-        const LatticeCoord p = mesh.position(v), q = part_of_way(p, targets[v], share);
-        if (q == p) break;
-        if (!mover.try_move(v, q)) continue;
-        ++moves;
-        break;
-      }
+      if (mesh.vertex_alive(v)) moves += mover.draw(v, targets[v]);
     }
   }
   return moves;
 }
 
-LatticeMesh fine_fit(const SurfaceSource& dense, std::uint64_t faces, const FitTarget& target,
-                     const PieceMemory& memory) {
+FineFit fine_fit(const SurfaceSource& dense, std::uint64_t faces, const FitTarget& target, const PieceMemory& memory) {
   SimplifyParams params;
   params.faces = std::max(kFineFactor * faces, kFineFaces);
   params.free = true;
   params.memory = memory;
+  const auto dense_faces = double(count_faces(dense));
   constexpr double kAreaOfFace = kLatticePerVoxel * kLatticePerVoxel / 2.0;
-  const double area = kAreaOfFace * double(count_faces(dense));
   // Flat steps of a curved surface must keep vertices inside, to be drawn onto it.
-  const double limit = std::max(2.0 * kLatticePerVoxel, kLongest * std::sqrt(area / double(params.faces)));
+  const double limit =
+      std::max(2.0 * kLatticePerVoxel, kLongest * std::sqrt(kAreaOfFace * dense_faces / double(params.faces)));
   params.edge_limit = [limit](const LatticeCoord&) { return limit; };
   SimplifyCounts counts;
-  const LatticeMesh fine = simplify(dense, params, counts);
-  HalfEdgeMesh mesh(fine);
+  HalfEdgeMesh mesh(simplify(dense, params, counts));
+  FineFit fine;
+  fine.points = spread_points(dense, double(std::max(kPointsPerFace * faces, kLeastPoints)) / dense_faces);
+  move_to_targets(fine.points, mesh, target);
   draw_to_targets(mesh, target, kSweeps);
-  return mesh.compact(dense.frame());
+  fine.surface = mesh.compact(dense.frame());
+  return fine;
 }
 
-LatticeMesh fit_level(const LatticeMesh& fine, const SimplifyParams& params, SimplifyCounts& counts) {
+LatticeMesh fit_level(const FineFit& fine, const SimplifyParams& params, SimplifyCounts& counts) {
   SimplifyParams free = params;
   free.free = true;
   free.dense = false;
-  return simplify(fine, free, counts);
+  const LatticeMesh level = simplify(fine.surface, free, counts);
+  HalfEdgeMesh mesh(level);
+  settle(mesh, fine.points, params.limits, kRounds);
+  LatticeMesh out = mesh.compact(level.frame);
+  out.provenance = level.provenance;
+  return out;
 }
 
 }  // namespace bp

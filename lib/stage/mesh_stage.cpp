@@ -52,6 +52,8 @@ void check(const MeshParams& params) {
     fail(ErrorCode::bad_argument, "a fit is drawn to the closing or to scene files; --enclose input has no meaning");
   if (params.mode == MeshMode::fit && params.volume_ratio != 0)
     fail(ErrorCode::bad_argument, "a fit encloses nothing; --volume has no meaning");
+  if (!(params.inset >= 0 && params.inset <= 1))
+    fail(ErrorCode::bad_argument, "the inset of a fit is 0 to 1 extents of a voxel, not {}", params.inset);
   if (params.least_part < 0 || params.least_part > 1)
     fail(ErrorCode::bad_argument, "the least part is a share of the largest, from 0 to 1, not {}", params.least_part);
   if (params.mode != MeshMode::inside && params.least_part != 0)
@@ -261,12 +263,14 @@ class LevelMaker {
 
   /// Levels of detail that do not enclose: each of the same fine surface.
   std::vector<LatticeMesh> fits(const SurfaceSource& dense, const std::vector<std::uint64_t>& faces) {
-    const FitTarget target =
-        params_.enclose == Enclose::scene ? scene_target(*ground_.tree, dense.frame()) : inset_target();
-    const LatticeMesh fine = fine_fit(dense, faces[0], target, params_.memory);
+    const FitTarget target = params_.enclose == Enclose::scene
+                                 ? scene_target(*ground_.tree, dense.frame(), params_.inset)
+                                 : inset_target(params_.inset);
+    const FineFit fine = fine_fit(dense, faces[0], target, params_.memory);
+    const int128 volume6 = volume6_of(fine.surface);
     std::vector<LatticeMesh> levels;
     for (const std::uint64_t n : faces) {
-      levels.push_back(finish(fine.frame, volume6_of(fine), n, [&](const SimplifyParams& params, LevelCounts& counts) {
+      levels.push_back(finish(dense.frame(), volume6, n, [&](const SimplifyParams& params, LevelCounts& counts) {
         LatticeMesh level = fit_level(fine, params, counts.simplify);
         if (params_.quads) level.quads = pair_triangles(level, QuadKeeps::nothing, nullptr);
         return level;

@@ -28,6 +28,10 @@ struct MeshParams {
   bool tighten = true;           ///< afterwards, lower the volume while what is enclosed stays inside
   /// inside: parts whose volume is below this share of the largest one's are left out, at each level; 0: none.
   double least_part = 0;
+  /// fit: how far inside the surface of the voxels the surface of what they stand for is taken to lie, in extents of a
+  /// voxel along the normal, 0 to 1. Half of one is right on average for the voxels that a surface touches, and for
+  /// their closing; 0 fits the voxels.
+  double inset = 0.5;
   bool quads = false;      ///< join triangles in pairs (quads.h)
   PieceMemory memory;      ///< for the surface, which is never whole in memory unless limits or distances need it
   bool distances = false;  ///< measure the distances between the proxies and what they enclose

@@ -7,7 +7,7 @@ set(rules
   "lib/grid:lib/core"
   "lib/voxel:lib/core lib/grid"
   "lib/closing:lib/core lib/grid"
-  "lib/meshing:lib/core lib/grid"
+  "lib/meshing:lib/core lib/geometry lib/grid"
   "lib/check:lib/core lib/geometry"
   "lib/image:lib/core"
   "lib/backend:lib/core lib/grid lib/voxel lib/closing"

@@ -1,14 +1,16 @@
 // Levels of detail against meshoptimizer's simplifier at the same count of faces, by distances to the closing's
 // surface.
-//   fit_vs_meshopt CLOSED.bpv SCENE FIT...
-// For each FIT, a file of bpmesh --mode fit: one JSON line each for it, for meshopt_simplify of the scene itself, and
-// for meshopt_simplify of the closing's dense surface. Distances in voxels, means over the area, both ways; to the
+//   fit_vs_meshopt CLOSED.bpv FINER.bpv SCENE FIT...
+// One JSON line for each FIT, a file of bpmesh --mode fit, and for each count of faces among them: meshopt_simplify of
+// the scene itself, and of the closing's dense surface. Distances in voxels, means over the area, both ways; to the
 // surface of the closing's voxels, and to the scene.
 #include <meshoptimizer.h>
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
+#include <set>
 
 #include "io/brick_shelf.h"
 #include "io/brick_stream.h"
@@ -102,9 +104,11 @@ void run(int argc, char** argv) {
   const double voxel = dense.frame.voxel;
   const Reference closing(dense), finer(closing_surface(argv[2]));
   const Triangles scene = read_triangles(argv[3]), surface = bp::world_triangles(dense);
+  std::set<std::size_t> counts;
   for (int i = 4; i < argc; ++i) {
     const Triangles fit = read_triangles(argv[i]);
-    print("fit", fit, closing, finer, voxel);
+    print(std::filesystem::path(argv[i]).stem().stem().c_str(), fit, closing, finer, voxel);
+    if (!counts.insert(fit.size()).second) continue;
     print("meshopt of the scene", simplified(scene, fit.size()), closing, finer, voxel);
     print("meshopt of the closing", simplified(surface, fit.size()), closing, finer, voxel);
   }

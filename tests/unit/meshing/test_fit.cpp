@@ -2,8 +2,11 @@
 
 #include "lib/check/check_proxy.h"
 #include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/geometry/surface_distance.h"
 #include "lib/meshing/fit.h"
-#include "lib/stage/fit_target.h"
+#include "lib/meshing/settle.h"
+#include "lib/meshing/vec3.h"
 #include "lib/stage/mesh_stage.h"
 #include "lib/stage/surface_around.h"
 #include "tests/catch.h"
@@ -66,6 +69,49 @@ TEST_CASE("a fit loses the half voxel that voxels stand out, and stays sound", "
   CHECK(counts.solid_volume_world > 1.1 * volume);  // what was lost
 }
 
+TEST_CASE("without inset a fit is nearer to the voxels, and as large as they are", "[quick][meshing]") {
+  VoxelSource source(kBox, ball), again(kBox, ball);
+  MeshParams params;
+  params.mode = MeshMode::fit;
+  params.faces = {300};
+  MeshCounts inset, flush;
+  (void)mesh_stream(source, memory_shelves(), params, inset);
+  params.inset = 0;
+  (void)mesh_stream(again, memory_shelves(), params, flush);
+  const double voxels = flush.solid_volume_world;
+  CHECK(std::abs(flush.levels[0].measures.volume / voxels - 1) < 0.01);
+  CHECK(inset.levels[0].measures.volume < 0.95 * voxels);
+  params.inset = 1.5;
+  VoxelSource third(kBox, ball);
+  CHECK_THROWS_AS(mesh_stream(third, memory_shelves(), params, inset), Error);
+}
+
+TEST_CASE("vertices settle where the surface is nearest to given points, on any number of threads",
+          "[quick][meshing]") {
+  VoxelSource source(kBox, ball);
+  MeshParams params;
+  params.tighten = false;
+  params.faces = {120};  // far out, and coarse
+  MeshCounts counts;
+  const LatticeMesh start = mesh_stream(source, memory_shelves(), params, counts)[0];
+  std::vector<TriangleD> sphere;
+  add_sphere(sphere, kCentre, kRadius, 24);
+  std::vector<Vec3d> points;
+  for (const TriangleD& t : sphere) points.push_back(kLatticePerVoxel * (1.0 / 3 * (t[0] + t[1] + t[2])));
+  const TriangleBvh tree(sphere);
+  const auto distance = [&](const LatticeMesh& mesh) { return surface_distance(world_triangles(mesh), tree).mean; };
+  HalfEdgeMesh mesh(start);
+  CHECK(settle(mesh, points, nullptr, 8) > 60);
+  const LatticeMesh settled = mesh.compact(start.frame);
+  CHECK(check_proxy(indexed(settled), nullptr).holds());
+  CHECK(distance(start) > 0.7);
+  CHECK(distance(settled) < 0.35);
+  const ThreadLimit one(1);
+  HalfEdgeMesh twin(start);
+  settle(twin, points, nullptr, 8);
+  CHECK(twin.compact(start.frame).vertices == settled.vertices);
+}
+
 TEST_CASE("vertices are drawn to their targets only as far as the surface stays embedded", "[quick][meshing]") {
   VoxelSource source(kBox, [](VoxelCoord p) {  // two plates, two voxels apart, joined at one end
     const bool plates = (p.z >= 10 && p.z < 12) || (p.z >= 14 && p.z < 16);
@@ -77,9 +123,9 @@ TEST_CASE("vertices are drawn to their targets only as far as the surface stays 
   MeshCounts counts;
   const LatticeMesh start = mesh_stream(source, memory_shelves(), params, counts)[0];
   HalfEdgeMesh mesh(start);
-  const LatticeCoord point{17 * 64, 12 * 64, 13 * 64};  // all to one point: most cannot get there
+  const Vec3d point{17 * 64, 12 * 64, 13 * 64};  // all to one point: most cannot get there
   const std::uint64_t moves = draw_to_targets(
-      mesh, [&](const LatticeCoord&, const Vec3d&) { return point; }, 6);
+      mesh, [&](const Vec3d&, const Vec3d&) { return point; }, 6);
   CHECK(moves > 10);
   CHECK(check_proxy(indexed(mesh.compact(start.frame)), nullptr).holds());
 }

@@ -1,0 +1,34 @@
+#pragma once
+#include <vector>
+
+#include "lib/meshing/face_tree.h"
+#include "lib/meshing/step_limits.h"
+
+/// Vertices that move freely, neither out nor in, while the mesh stays embedded.
+namespace bp {
+
+class VertexMover {
+ public:
+  /// `limits`: kept by every move; may be null.
+  VertexMover(HalfEdgeMesh& mesh, StepLimits* limits)
+      : mesh_(mesh), tree_(mesh), guard_(mesh, tree_), limits_(limits) {}
+
+  /// Moves v to q, or half or a quarter of the way. A move that would let faces meet, turn over or become needles is
+  /// not made. True if v has moved.
+  bool draw(VertexId v, const LatticeCoord& q);
+
+ private:
+  bool try_move(VertexId v, const LatticeCoord& q);
+
+  HalfEdgeMesh& mesh_;
+  FaceTree tree_;
+  Guard guard_;
+  StepLimits* limits_;
+  std::vector<NewFace> star_;
+  std::vector<FaceId> replaced_;
+};
+
+/// Unit normal at v by the areas of its faces; zero if they cancel.
+[[nodiscard]] Vec3d vertex_normal(const HalfEdgeMesh& mesh, VertexId v);
+
+}  // namespace bp
