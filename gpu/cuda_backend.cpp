@@ -10,6 +10,7 @@
 #include "gpu/staging.h"
 #include "gpu/tuning.h"
 #include "gpu/voxelize_kernels.h"
+#include "gpu/winding_kernels.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -53,7 +54,8 @@ class CudaBackend final : public Backend {
         name_(fmt::format("cuda:{} {}", device, properties_.name)),
         staging_(stream_.get()),
         closing_({properties_.multiProcessorCount, std::min(kSlabBytes, properties_.totalGlobalMem / 32)}),
-        voxelizer_(properties_.multiProcessorCount) {}
+        voxelizer_(properties_.multiProcessorCount),
+        winding_(properties_.multiProcessorCount) {}
   ~CudaBackend() override { (void)cudaStreamSynchronize(stream_.get()); }
 
   [[nodiscard]] std::string name() const override { return name_; }
@@ -71,6 +73,27 @@ class CudaBackend final : public Backend {
       voxelize_part(triangles, part, std::size_t(plane) * std::size_t(part.max.z - part.min.z),
                     out.row(box.min.y, part.min.z));
     }
+  }
+
+  void find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,
+                      std::vector<Crossing>& out) override {
+    stream_.select();
+    for (std::size_t at = 0; at < triangles.size(); at += kTriangleBatch)
+      find_batch(triangles.subspan(at, std::min(kTriangleBatch, triangles.size() - at)), tile, out);
+  }
+
+  void fill_winding(std::vector<Crossing>& crossings, std::span<const std::uint64_t> skip,
+                    std::span<std::int32_t> numbers, BitBox& bits) override {
+    stream_.select();
+    if (bits.box().empty()) return;
+    staging_.upload(crossings_.grow(crossings.size()), crossings.data(), crossings.size() * sizeof(Crossing));
+    staging_.upload(numbers_.grow(numbers.size()), numbers.data(), numbers.size_bytes());
+    if (!skip.empty()) staging_.upload(skip_.grow(2 * skip.size()), skip.data(), skip.size_bytes());
+    out_.grow(2 * std::size_t(bits.word_count()));
+    winding_.fill(crossings_.data(), std::uint32_t(crossings.size()), bits.box(), skip.empty() ? nullptr : skip_.data(),
+                  numbers_.data(), out_.data(), stream_.get());
+    staging_.download_bits(bits.data(), out_.data(), std::size_t(bits.word_count()));
+    staging_.download(numbers.data(), numbers_.data(), numbers.size_bytes());
   }
 
   void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
@@ -114,6 +137,22 @@ class CudaBackend final : public Backend {
       voxelizer_.enqueue(triangles_.data(), std::uint32_t(n), part, out_.data(), stream_.get());
     }
     staging_.download_bits(bits, out_.data(), words);
+  }
+
+  /// Once more, with room for all, if there are more crossings than were expected.
+  void find_batch(std::span<const FixedTriangle> triangles, const VoxelBox& tile, std::vector<Crossing>& out) {
+    staging_.upload(triangles_.grow(triangles.size()), triangles.data(), triangles.size_bytes());
+    std::uint32_t capacity = kCrossingBatch, found = 0;
+    for (;;) {
+      winding_.find(triangles_.data(), std::uint32_t(triangles.size()), tile, crossings_.grow(capacity), capacity,
+                    count_.grow(1), stream_.get());
+      staging_.download(&found, count_.data(), sizeof(found));
+      if (found <= capacity) break;
+      capacity = found;
+    }
+    const std::size_t old = out.size();
+    out.resize(old + found);
+    staging_.download(out.data() + old, crossings_.data(), found * sizeof(Crossing));
   }
 
   void close_at_once(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
@@ -264,10 +303,13 @@ class CudaBackend final : public Backend {
   Staging staging_;
   DeviceClosing closing_;
   DeviceVoxelizer voxelizer_;
-  DeviceBuffer<std::uint32_t> in_, out_, in_slots_, out_slots_;
+  DeviceWinding winding_;
+  DeviceBuffer<std::uint32_t> in_, out_, in_slots_, out_slots_, skip_, count_;
   std::vector<std::uint32_t> slots_;
   DeviceBuffer<Scale> samples_;
   DeviceBuffer<FixedTriangle> triangles_;
+  DeviceBuffer<Crossing> crossings_;
+  DeviceBuffer<std::int32_t> numbers_;
 };
 
 }  // namespace

@@ -59,14 +59,20 @@ __device__ inline unsigned next_item(std::uint32_t* queue) {
   return __shfl_sync(kAllLanes, item, 0);
 }
 
-/// Appends `value` of the lanes where `wanted`, with one atomic per warp. All lanes of the warp must call it.
-__device__ inline void append(bool wanted, std::uint32_t value, std::uint32_t* list, std::uint32_t* count) {
+/// Places at the end of a list for the lanes where `wanted`, with one atomic per warp. All lanes of the warp must call
+/// it.
+__device__ inline unsigned place_in_list(bool wanted, std::uint32_t* count) {
   const unsigned mask = __ballot_sync(kAllLanes, wanted);
   unsigned first = 0;
-  if (mask == 0) return;
+  if (mask == 0) return first;
   if (lane_id() == 0) first = atomicAdd(count, unsigned(__popc(mask)));
-  first = __shfl_sync(kAllLanes, first, 0);
-  if (wanted) list[first + unsigned(__popc(mask & ((1u << lane_id()) - 1)))] = value;
+  return __shfl_sync(kAllLanes, first, 0) + unsigned(__popc(mask & ((1u << lane_id()) - 1)));
+}
+
+/// Appends `value` of the lanes where `wanted`. All lanes of the warp must call it.
+__device__ inline void append(bool wanted, std::uint32_t value, std::uint32_t* list, std::uint32_t* count) {
+  const unsigned at = place_in_list(wanted, count);
+  if (wanted) list[at] = value;
 }
 
 }  // namespace bp

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 
 /// Sizes of units of work and launch numbers of the GPU backend, in one place.
 namespace bp {
@@ -19,6 +20,8 @@ constexpr std::size_t kSlabBytes = std::size_t(3) << 29;
 constexpr std::size_t kVoxelizeBytes = std::size_t(512) << 20;
 /// Triangles on the device at a time.
 constexpr std::size_t kTriangleBatch = std::size_t(1) << 18;
+/// Crossings for which there is room at first; a batch of triangles that has more is gone through twice.
+constexpr std::uint32_t kCrossingBatch = 1u << 20;
 /// Page-locked block for copies; two per backend.
 constexpr std::size_t kStagingBytes = std::size_t(4) << 20;
 

@@ -7,6 +7,7 @@
 #include "lib/closing/closing.h"
 #include "lib/grid/stream.h"
 #include "lib/voxel/fixed_triangle.h"
+#include "lib/voxel/winding.h"
 
 /// The tile operations, behind which CpuBackend and CudaBackend stand. One Backend per worker thread: it owns its
 /// scratch (on a GPU: its stream and buffers), allocated on the first call and kept. Results do not depend on threads,
@@ -21,6 +22,13 @@ class Backend {
   /// Sets, in `out`, every voxel whose closed cube meets a triangle (grown by kFixedSlack); keeps what is set.
   /// Triangles may reach outside the box. Exact in integers; [SS10].
   virtual void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) = 0;
+
+  /// Appends the crossings of the tile's columns that lie in the tile, in any order; see lib/voxel/winding.h.
+  virtual void find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,
+                              std::vector<Crossing>& out) = 0;
+  /// fill_winding in lib/voxel/winding.h, for the tile that `bits` is.
+  virtual void fill_winding(std::vector<Crossing>& crossings, std::span<const std::uint64_t> skip,
+                            std::span<std::int32_t> numbers, BitBox& bits) = 0;
 
   /// See close_tile in lib/closing/closing.h.
   virtual void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,

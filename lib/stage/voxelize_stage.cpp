@@ -36,6 +36,14 @@ struct Worker {
     if (backend != nullptr) return backend->voxelize(triangles, bits);
     voxelize_surface(triangles, bits);
   }
+  void find_crossings(std::span<const FixedTriangle> triangles) {
+    if (backend != nullptr) return backend->find_crossings(triangles, bits.box(), crossings);
+    bp::find_crossings(triangles, bits.box(), crossings);
+  }
+  void fill_winding(std::span<const std::uint64_t> skip, std::span<std::int32_t> numbers) {
+    if (backend != nullptr) return backend->fill_winding(crossings, skip, numbers, bits);
+    bp::fill_winding(crossings, bits.box(), skip, numbers, bits);
+  }
 };
 
 /// Hands workers to tasks; a task waits until one is idle.
@@ -356,7 +364,7 @@ void Run::voxelize_tile(std::uint64_t tile, Tile& state, bool last) {
     worker->voxelize(triangles);
     if (options_.fill == FillMode::winding) {
       worker->crossings.clear();
-      find_crossings(triangles, box, worker->crossings);
+      worker->find_crossings(triangles);
       put_crossings(state, worker->crossings);
     }
   });
@@ -508,7 +516,7 @@ void Run::fill_winding_column(std::int32_t tx, std::int32_t ty) {
       flooded = worker->bits;
       flood_->fill_enclosed(box, flooded);
     }
-    fill_winding(worker->crossings, box, open, numbers, worker->bits);
+    worker->fill_winding(open, numbers);
     for (std::int32_t z = box.min.z; flood && z < box.max.z; ++z) {
       for (std::size_t w = 0; w < open.size(); ++w) {
         worker->bits.row(box.min.y, z)[w] |= flooded.row(box.min.y, z)[w] & open[w];
