@@ -58,6 +58,7 @@ struct InBatch {
   BrickCoord first, last;
   std::vector<std::byte> packed, raw;
   std::vector<Record> records;
+  std::vector<BrickBits> mixed;  ///< as many as records say; those behind are of a batch before
   StreamTotals totals;
   std::string fault;  ///< why it cannot be used; empty if it can
 
@@ -97,15 +98,15 @@ std::string read_records(const StreamHeader& header, InBatch& batch) {
   return "";
 }
 
-/// Mixed data is neither all zeros nor all ones; null if all is well.
-std::string check_data(const InBatch& batch) {
-  const std::byte* data = batch.planes().data();
+/// Voxels of the mixed bricks, neither all empty nor all full; null if all is well.
+std::string read_voxels(InBatch& batch) {
+  const std::span<const std::byte> planes = batch.planes();
+  batch.mixed.resize(std::max(batch.mixed.size(), planes.size() / kBrickBytes));
+  std::size_t i = 0;
   for (const Record& r : batch.records) {
     if (r.fill != BrickFill::mixed) continue;
-    BrickBits bits;
-    std::memcpy(bits.data(), data, kBrickBytes);
-    data += kBrickBytes;
-    if (classify(bits) != BrickFill::mixed)
+    from_planes(planes.data() + i * kBrickBytes, batch.mixed[i]);
+    if (classify(batch.mixed[i++]) != BrickFill::mixed)
       return fmt::format("brick {}: is called mixed, but all its voxels are alike", brick_name(r.coord));
   }
   return "";
@@ -113,16 +114,16 @@ std::string check_data(const InBatch& batch) {
 
 void decode(const StreamHeader& header, InBatch& batch) {
   batch.raw.resize(batch.raw_bytes);
+  batch.records.clear();
   if ((std::uint8_t(batch.packed.size() > 4 ? batch.packed[4] : std::byte(0)) & 4) == 0) {
     batch.fault = "the zstd frame has no checksum";
   } else if (const char* fault = decompress(batch.packed, batch.raw)) {
     batch.fault = fmt::format("the zstd frame cannot be read ({})", fault);
   } else {
     batch.fault = read_records(header, batch);
-    if (batch.fault.empty()) batch.fault = check_data(batch);
+    if (batch.fault.empty()) batch.fault = read_voxels(batch);
     if (batch.fault.empty()) batch.totals = total(batch.records, batch.planes());
   }
-  batch.packed.clear();
 }
 
 }  // namespace
@@ -131,9 +132,10 @@ struct BrickReader::State {
   InputFile file;
   StreamHeader header;
   StreamTotals totals;
-  std::vector<InBatch> batches;                           // decoded
-  std::size_t at_batch = 0, at_record = 0, at_plane = 0;  // next to hand out
-  std::exception_ptr pending;                             // met while reading ahead; thrown when its turn comes
+  std::vector<InBatch> batches = std::vector<InBatch>(batches_ahead());  // kept, with their memory
+  std::size_t ready = 0;                                                 // batches that hold bricks
+  std::size_t at_batch = 0, at_record = 0, at_mixed = 0;                 // next to hand out
+  std::exception_ptr pending;  // met while reading ahead; thrown when its turn comes
   std::uint64_t index_offset = 0;
   std::uint32_t index_size = 0;  // not 0: the index has begun
   std::optional<Record> previous;
@@ -317,30 +319,25 @@ void BrickReader::State::read_end() {
 /// Reads some batches. What goes wrong waits in `pending` until the bricks before it were handed out, so that a
 /// stream gives the same bricks before the same error whatever the number of threads.
 void BrickReader::State::fetch_ahead() {
-  batches.clear();
-  at_batch = at_record = at_plane = 0;
+  ready = at_batch = at_record = at_mixed = 0;
   try {
-    while (batches.size() < batches_ahead()) {
-      InBatch next;
-      if (!fetch(next)) break;
-      batches.push_back(std::move(next));
-    }
+    while (ready < batches.size() && fetch(batches[ready])) ++ready;
   } catch (const Error&) {
     pending = std::current_exception();
   }
 }
 
 void BrickReader::State::decode_ahead() {
-  parallel_for(std::int64_t(batches.size()), [&](std::int64_t i) { decode(header, batches[std::size_t(i)]); });
+  parallel_for(std::int64_t(ready), [&](std::int64_t i) { decode(header, batches[std::size_t(i)]); });
   std::size_t good = 0;
   try {
-    for (; good < batches.size(); ++good) accept(batches[good]);
+    for (; good < ready; ++good) accept(batches[good]);
     if (index_size == 0) return;
     read_index();
     read_end();
   } catch (const Error&) {
     pending = std::current_exception();
-    batches.resize(good);
+    ready = good;
   }
 }
 
@@ -359,7 +356,7 @@ const StreamTotals& BrickReader::totals() const {
 
 bool BrickReader::read(Brick& out) {
   State& s = *state_;
-  while (s.at_batch == s.batches.size()) {
+  while (s.at_batch == s.ready) {
     if (s.pending) std::rethrow_exception(s.pending);
     if (s.index_size > 0) return false;
     s.fetch_ahead();
@@ -371,13 +368,13 @@ bool BrickReader::read(Brick& out) {
   out.layer = record.layer;
   out.fill = record.fill;
   if (record.fill == BrickFill::mixed) {
-    from_planes(batch.planes().data() + s.at_plane++ * kBrickBytes, out.bits);
+    out.bits = batch.mixed[s.at_mixed++];
   } else {
     out.bits.fill(~std::uint64_t(0));
   }
   if (s.at_record == batch.records.size()) {
     ++s.at_batch;
-    s.at_record = s.at_plane = 0;
+    s.at_record = s.at_mixed = 0;
   }
   return true;
 }

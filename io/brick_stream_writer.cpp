@@ -15,22 +15,25 @@ namespace {
 /// A batch on its way out.
 struct OutBatch {
   std::vector<Record> records;
-  std::vector<std::byte> planes;  // of the mixed ones
+  std::vector<BrickBits> mixed;
   std::vector<std::byte> packed;
   std::size_t raw_bytes = 0;
   StreamTotals totals;
 
-  [[nodiscard]] bool full() const { return records.size() == kMaxRecords || planes.size() == kMaxMixed * kBrickBytes; }
+  [[nodiscard]] bool full() const { return records.size() == kMaxRecords || mixed.size() == kMaxMixed; }
 };
 
 /// Section 6.
 void encode(OutBatch& batch, int level) {
   ByteSink raw;
   for (const Record& r : batch.records) put_record(raw, r);
-  raw.bytes().insert(raw.bytes().end(), batch.planes.begin(), batch.planes.end());
-  batch.raw_bytes = raw.bytes().size();
+  const std::size_t head_bytes = raw.bytes().size();
+  batch.raw_bytes = head_bytes + batch.mixed.size() * kBrickBytes;
+  raw.bytes().resize(batch.raw_bytes);
+  const std::span<std::byte> planes = std::span(raw.bytes()).subspan(head_bytes);
+  for (std::size_t i = 0; i < batch.mixed.size(); ++i) to_planes(batch.mixed[i], planes.data() + i * kBrickBytes);
   compress(raw.bytes(), level, true, batch.packed);
-  batch.totals = total(batch.records, batch.planes);
+  batch.totals = total(batch.records, planes);
 }
 
 /// Section 5.
@@ -52,7 +55,8 @@ struct BrickWriter::State {
   StreamHeader header;
   int level;
   std::uint64_t bytes = 0;
-  std::vector<OutBatch> batches{1};  // the last one is being filled
+  std::vector<OutBatch> batches = std::vector<OutBatch>(batches_ahead());  // kept, with their memory
+  std::size_t filling = 0;                                                 // the batch that bricks go to
   std::optional<Record> previous;
   std::vector<IndexEntry> slabs;
   StreamTotals totals;
@@ -80,15 +84,13 @@ void BrickWriter::State::check(const Record& r) const {
 
 /// Closes the batch that is being filled. Where batches are cut depends on the bricks alone.
 void BrickWriter::State::next_batch() {
-  if (batches.back().records.empty()) return;
-  if (batches.size() == batches_ahead()) write_batches();
-  batches.emplace_back();
+  if (++filling == batches.size()) write_batches();
 }
 
+/// Writes the batches before the one that is being filled, which has no bricks or is not there.
 void BrickWriter::State::write_batches() {
-  if (batches.back().records.empty()) batches.pop_back();
-  parallel_for(std::int64_t(batches.size()), [&](std::int64_t i) { encode(batches[std::size_t(i)], level); });
-  for (const OutBatch& batch : batches) {
+  parallel_for(std::int64_t(filling), [&](std::int64_t i) { encode(batches[std::size_t(i)], level); });
+  for (OutBatch& batch : std::span(batches).first(filling)) {
     const std::int32_t slab = batch.records.front().coord[header.slab_axis];
     if (slabs.empty() || slabs.back().slab != slab) slabs.push_back({slab, 0, bytes, 0});
     ++slabs.back().batches;
@@ -96,8 +98,10 @@ void BrickWriter::State::write_batches() {
     write(head_of(batch));
     write(batch.packed);
     totals.add(batch.totals);
+    batch.records.clear();
+    batch.mixed.clear();
   }
-  batches.clear();
+  filling = 0;
 }
 
 BrickWriter::BrickWriter(OutputFile& out, const StreamHeader& header, int level)
@@ -113,18 +117,18 @@ void BrickWriter::write(const Brick& brick) {
   if (record.fill == BrickFill::empty) return;
   s.check(record);
   const bool new_slab = s.previous && s.previous->coord[s.header.slab_axis] != brick.coord[s.header.slab_axis];
-  if (new_slab || s.batches.back().full()) s.next_batch();
-  OutBatch& batch = s.batches.back();
+  if (new_slab || s.batches[s.filling].full()) s.next_batch();
+  OutBatch& batch = s.batches[s.filling];
   batch.records.push_back(record);
   s.previous = record;
   if (record.fill != BrickFill::mixed) return;
-  if (batch.planes.empty()) batch.planes.reserve(kMaxMixed * kBrickBytes);
-  batch.planes.resize(batch.planes.size() + kBrickBytes);
-  to_planes(brick.bits, batch.planes.data() + batch.planes.size() - kBrickBytes);
+  if (batch.mixed.empty()) batch.mixed.reserve(kMaxMixed);
+  batch.mixed.push_back(brick.bits);
 }
 
 void BrickWriter::finish() {
   State& s = *state_;
+  if (!s.batches[s.filling].records.empty()) ++s.filling;
   s.write_batches();
   const std::uint64_t index_offset = s.bytes;
   ByteSink index, entries;
