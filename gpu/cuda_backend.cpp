@@ -65,13 +65,20 @@ class CudaBackend final : public Backend {
     const VoxelBox box = out.box();
     if (box.empty() || triangles.empty()) return;
     const std::int64_t plane = std::int64_t(out.words_per_row()) * (box.max.y - box.min.y);
-    const std::int64_t slices = std::max<std::int64_t>(1, std::int64_t(kVoxelizeBytes / 8) / plane);
-    for (std::int64_t z = box.min.z; z < box.max.z; z += slices) {
+    std::int64_t slices = std::max<std::int64_t>(1, std::int64_t(kVoxelizeBytes / 8) / plane);
+    for (std::int64_t z = box.min.z; z < box.max.z;) {
       VoxelBox part = box;
       part.min.z = std::int32_t(z);
       part.max.z = std::int32_t(std::min<std::int64_t>(z + slices, box.max.z));
-      voxelize_part(triangles, part, std::size_t(plane) * std::size_t(part.max.z - part.min.z),
-                    out.row(box.min.y, part.min.z));
+      try {
+        voxelize_part(triangles, part, std::size_t(plane) * std::size_t(part.max.z - part.min.z),
+                      out.row(box.min.y, part.min.z));
+        z = part.max.z;
+      } catch (const Error& e) {  // the device is fuller than expected: go in smaller steps
+        slices = (part.max.z - part.min.z) / 2;
+        if (e.code() != ErrorCode::out_of_resource || slices == 0) throw;
+        make_room();
+      }
     }
   }
 
@@ -117,8 +124,7 @@ class CudaBackend final : public Backend {
         return close_bricks(solid, bricks, scale, halo, params, interior, closed);
       } catch (const Error& e) {
         if (e.code() != ErrorCode::out_of_resource) throw;
-        BP_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
-        release();
+        make_room();
       }
     }
     Backend::close_from_shelf(solid, bricks, scale, halo, params, interior, closed);
@@ -259,8 +265,12 @@ class CudaBackend final : public Backend {
     }
   }
 
-  void release() {
+  /// Gives back the memory of tiles.
+  void make_room() {
+    BP_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
     closing_.release();
+    voxelizer_.release();
+    winding_.release();
     in_.release();
     out_.release();
   }
@@ -278,8 +288,7 @@ class CudaBackend final : public Backend {
   /// A tile too large for the device: each half of the interior with what it needs of the solid.
   void close_in_halves(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
                        const VoxelBox& interior, BitBox& closed) {
-    BP_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
-    release();
+    make_room();
     VoxelBox lower = interior, upper = interior;
     const int axis = longest_divisible_axis(interior);
     if (axis < 0) {

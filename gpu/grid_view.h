@@ -52,6 +52,11 @@ struct VoxelRange {
   }
 };
 
+/// The place of a lattice of n nearest to i.
+[[nodiscard]] BP_HD inline std::int32_t nearest_index(std::int32_t i, std::int32_t n) {
+  return i < 0 ? 0 : i >= n ? n - 1 : i;
+}
+
 /// The scale field over the domain: samples every 8 voxels, or one number.
 struct ScaleView {
   const Scale* samples = nullptr;
@@ -61,7 +66,7 @@ struct ScaleView {
 
   /// Sample at the corner of cell (cx, cy, cz); outside of the lattice the nearest one (no voxel there counts).
   [[nodiscard]] BP_HD std::uint32_t sample(std::int32_t cx, std::int32_t cy, std::int32_t cz) const {
-    const std::int32_t i = clamp(cx + ox, nx), j = clamp(cy + oy, ny), k = clamp(cz + oz, nz);
+    const std::int32_t i = nearest_index(cx + ox, nx), j = nearest_index(cy + oy, ny), k = nearest_index(cz + oz, nz);
     return samples[(std::uint32_t(k) * std::uint32_t(ny) + std::uint32_t(j)) * std::uint32_t(nx) + std::uint32_t(i)];
   }
   /// 64 times S at x = 8 cx, interpolated in y and z. ScaleLattice::at is the definition.
@@ -75,9 +80,6 @@ struct ScaleView {
     const std::uint32_t fx = std::uint32_t(x & 7);
     return Scale(((8 - fx) * column(x >> 3, y, z) + fx * column((x >> 3) + 1, y, z)) >> 9);
   }
-
- private:
-  static BP_HD std::int32_t clamp(std::int32_t i, std::int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : i; }
 };
 
 /// Rotations on the device, a cell of 8^3 voxels each; outside of the lattice the nearest one.
@@ -87,12 +89,10 @@ struct RotationView {
   std::int32_t ox = 0, oy = 0, oz = 0;  ///< index of the cell at voxel (0,0,0) of the domain
 
   [[nodiscard]] BP_HD const Rotation& at(std::int32_t x, std::int32_t y, std::int32_t z) const {
-    const std::int32_t i = clamp((x >> 3) + ox, nx), j = clamp((y >> 3) + oy, ny), k = clamp((z >> 3) + oz, nz);
+    const std::int32_t i = nearest_index((x >> 3) + ox, nx), j = nearest_index((y >> 3) + oy, ny),
+                       k = nearest_index((z >> 3) + oz, nz);
     return cells[(std::uint32_t(k) * std::uint32_t(ny) + std::uint32_t(j)) * std::uint32_t(nx) + std::uint32_t(i)];
   }
-
- private:
-  static BP_HD std::int32_t clamp(std::int32_t i, std::int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : i; }
 };
 
 }  // namespace bp

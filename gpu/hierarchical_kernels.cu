@@ -20,10 +20,25 @@ struct PyramidView {
   std::uint32_t offset[kMaxTop + 1], scale_offset[kMaxTop + 1];
   std::int32_t top;
 
-  __host__ __device__ static std::int32_t size(std::int32_t n, int level) { return (n + (1 << level) - 1) >> level; }
+  /// Cells of a level along each axis, and in all.
+  __host__ __device__ int3 size(int level) const {
+    const int up = (1 << level) - 1;
+    return make_int3((nx + up) >> level, (ny + up) >> level, (nz + up) >> level);
+  }
+  __host__ __device__ std::uint32_t count(int level) const {
+    const int3 n = size(level);
+    return std::uint32_t(n.x) * std::uint32_t(n.y) * std::uint32_t(n.z);
+  }
   __device__ std::uint32_t index(int level, int x, int y, int z) const {
-    return (std::uint32_t(z) * std::uint32_t(size(ny, level)) + std::uint32_t(y)) * std::uint32_t(size(nx, level)) +
-           std::uint32_t(x);
+    const int3 n = size(level);
+    return (std::uint32_t(z) * std::uint32_t(n.y) + std::uint32_t(y)) * std::uint32_t(n.x) + std::uint32_t(x);
+  }
+  /// The cell with this index.
+  __device__ int3 cell(int level, std::uint32_t i) const {
+    const int3 n = size(level);
+    const std::uint32_t rest = i / std::uint32_t(n.x);
+    return make_int3(int(i - rest * std::uint32_t(n.x)), int(rest % std::uint32_t(n.y)),
+                     int(rest / std::uint32_t(n.y)));
   }
   __device__ std::uint32_t node(int level, int x, int y, int z) const {
     return nodes[offset[level] + index(level, x, y, z)];
@@ -60,19 +75,14 @@ __global__ void __launch_bounds__(kPassThreads)
 
 __global__ void __launch_bounds__(kPassThreads)
     next_level_kernel(const __grid_constant__ PyramidView t, int level, std::uint8_t* __restrict__ nodes) {
-  const int nx = PyramidView::size(t.nx, level), ny = PyramidView::size(t.ny, level),
-            nz = PyramidView::size(t.nz, level);
   const unsigned i = thread_in_grid();
-  if (i >= unsigned(nx) * unsigned(ny) * unsigned(nz)) return;
-  const int x = int(i % unsigned(nx)), y = int(i / unsigned(nx) % unsigned(ny)),
-            z = int(i / (unsigned(nx) * unsigned(ny)));
-  const int cx = PyramidView::size(t.nx, level - 1), cy = PyramidView::size(t.ny, level - 1),
-            cz = PyramidView::size(t.nz, level - 1);
+  if (i >= t.count(level)) return;
+  const int3 own = t.cell(level, i), end = t.size(level - 1);
   std::uint32_t mask = 0;
 #pragma unroll
   for (int c = 0; c < 8; ++c) {
-    const int qx = 2 * x + (c & 1), qy = 2 * y + (c >> 1 & 1), qz = 2 * z + (c >> 2);
-    if (qx < cx && qy < cy && qz < cz && t.node(level - 1, qx, qy, qz) != 0) mask |= 1u << c;
+    const int x = 2 * own.x + (c & 1), y = 2 * own.y + (c >> 1 & 1), z = 2 * own.z + (c >> 2);
+    if (x < end.x && y < end.y && z < end.z && t.node(level - 1, x, y, z) != 0) mask |= 1u << c;
   }
   nodes[t.offset[level] + i] = std::uint8_t(mask);
 }
@@ -80,23 +90,19 @@ __global__ void __launch_bounds__(kPassThreads)
 /// Largest S of each cell of level kScaleLevel, and of each coarser one from eight below.
 __global__ void __launch_bounds__(kPassThreads)
     scale_level_kernel(const __grid_constant__ PyramidView t, ScaleView scale, int level, Scale* __restrict__ out) {
-  const int nx = PyramidView::size(t.nx, level), ny = PyramidView::size(t.ny, level),
-            nz = PyramidView::size(t.nz, level);
   const unsigned i = thread_in_grid();
-  if (i >= unsigned(nx) * unsigned(ny) * unsigned(nz)) return;
-  const int x = int(i % unsigned(nx)), y = int(i / unsigned(nx) % unsigned(ny)),
-            z = int(i / (unsigned(nx) * unsigned(ny)));
+  if (i >= t.count(level)) return;
+  const int3 own = t.cell(level, i);
   std::uint32_t most = 0;
   if (level == kScaleLevel) {
 #pragma unroll
-    for (int c = 0; c < 8; ++c) most = max(most, scale.sample(x + (c & 1), y + (c >> 1 & 1), z + (c >> 2)));
+    for (int c = 0; c < 8; ++c) most = max(most, scale.sample(own.x + (c & 1), own.y + (c >> 1 & 1), own.z + (c >> 2)));
   } else {
-    const int cx = PyramidView::size(t.nx, level - 1), cy = PyramidView::size(t.ny, level - 1),
-              cz = PyramidView::size(t.nz, level - 1);
+    const int3 end = t.size(level - 1);
     for (int c = 0; c < 8; ++c) {
-      const int qx = min(2 * x + (c & 1), cx - 1), qy = min(2 * y + (c >> 1 & 1), cy - 1),
-                qz = min(2 * z + (c >> 2), cz - 1);
-      most = max(most, std::uint32_t(out[t.scale_offset[level - 1] + t.index(level - 1, qx, qy, qz)]));
+      const int x = min(2 * own.x + (c & 1), end.x - 1), y = min(2 * own.y + (c >> 1 & 1), end.y - 1),
+                z = min(2 * own.z + (c >> 2), end.z - 1);
+      most = max(most, std::uint32_t(out[t.scale_offset[level - 1] + t.index(level - 1, x, y, z)]));
     }
   }
   out[t.scale_offset[level] + i] = Scale(most);
@@ -408,22 +414,16 @@ void HierarchicalClosing::enqueue(const TileLayout& layout, const std::uint32_t*
   while (t.top < kMaxTop && (1 << t.top) < 2 * reach + 1) ++t.top;
   std::uint32_t nodes = 0, scales = 0;
   for (int k = 1; k <= t.top; ++k) {
-    const std::uint32_t n = std::uint32_t(PyramidView::size(t.nx, k)) * std::uint32_t(PyramidView::size(t.ny, k)) *
-                            std::uint32_t(PyramidView::size(t.nz, k));
     t.offset[k] = nodes, t.scale_offset[k] = scales;
-    nodes += (n + 3) / 4 * 4;
-    if (k >= kScaleLevel) scales += n;
+    nodes += (t.count(k) + 3) / 4 * 4;
+    if (k >= kScaleLevel) scales += t.count(k);
   }
   t.nodes = nodes_.grow(nodes);
-  const auto level_nodes = [&](int k) {
-    return std::uint64_t(PyramidView::size(t.nx, k)) * std::uint64_t(PyramidView::size(t.ny, k)) *
-           std::uint64_t(PyramidView::size(t.nz, k));
-  };
   const auto build = [&](const std::uint32_t* bits) {
     launch("first_level_kernel", first_level_kernel, blocks_for(words / 4), kPassThreads, 0, stream, bits, shape,
            nodes_.data());
     for (int k = 2; k <= t.top; ++k)
-      launch("next_level_kernel", next_level_kernel, blocks_for(level_nodes(k)), kPassThreads, 0, stream, t, k,
+      launch("next_level_kernel", next_level_kernel, blocks_for(t.count(k)), kPassThreads, 0, stream, t, k,
              nodes_.data());
   };
   const Shape shape_of_element = rotations != nullptr                  ? Shape::oriented
@@ -438,8 +438,8 @@ void HierarchicalClosing::enqueue(const TileLayout& layout, const std::uint32_t*
     q.scale.ox = layout.ox, q.scale.oy = layout.oy, q.scale.oz = layout.oz;
     t.scales = scales_.grow(scales);
     for (int k = kScaleLevel; k <= t.top; ++k)
-      launch("scale_level_kernel", scale_level_kernel, blocks_for(level_nodes(k)), kPassThreads, 0, stream, t, q.scale,
-             k, scales_.data());
+      launch("scale_level_kernel", scale_level_kernel, blocks_for(t.count(k)), kPassThreads, 0, stream, t, q.scale, k,
+             scales_.data());
   }
   const auto collide = [&](const VoxelRange& region, std::uint32_t* out) {
     with_question(q, [&]<bool kErosion, Shape kShape, bool kVarying>() {

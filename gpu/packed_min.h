@@ -48,15 +48,7 @@ struct Packed32 {
   __device__ std::uint32_t high() const { return v.y; }
 };
 
-/// Least and largest value of a warp, all lanes: one instruction from compute capability 8.0 on, five shuffles before.
-__device__ inline std::uint32_t warp_min(std::uint32_t v) {
-#if !defined(__CUDA_ARCH__) || __CUDA_ARCH__ >= 800
-  return __reduce_min_sync(0xffffffffu, v);
-#else
-  for (int step = 16; step > 0; step /= 2) v = min(v, __shfl_xor_sync(0xffffffffu, v, step));
-  return v;
-#endif
-}
+/// Largest and least value of a warp, all lanes: one instruction from compute capability 8.0 on, five shuffles before.
 __device__ inline std::uint32_t warp_max(std::uint32_t v) {
 #if !defined(__CUDA_ARCH__) || __CUDA_ARCH__ >= 800
   return __reduce_max_sync(0xffffffffu, v);
@@ -64,6 +56,9 @@ __device__ inline std::uint32_t warp_max(std::uint32_t v) {
   for (int step = 16; step > 0; step /= 2) v = max(v, __shfl_xor_sync(0xffffffffu, v, step));
   return v;
 #endif
+}
+__device__ inline std::uint32_t warp_min(std::uint32_t v) {
+  return ~warp_max(~v);
 }
 
 }  // namespace bp

@@ -20,8 +20,8 @@ struct BitsView {
   __device__ CellRange inside(CellRange r) const {
 #pragma unroll
     for (int i = 0; i < 3; ++i) {
-      r.min[i] = max_of(r.min[i], min[i]);
-      r.max[i] = min_of(r.max[i], max[i]);
+      r.min[i] = larger<std::int64_t>(r.min[i], min[i]);
+      r.max[i] = smaller<std::int64_t>(r.max[i], max[i]);
     }
     return r;
   }
@@ -40,14 +40,6 @@ struct BitsView {
     set(row + a, head);
     for (std::int32_t i = a + 1; i < b; ++i) set(row + i, ~0u);
     set(row + b, tail);
-  }
-
- private:
-  __device__ static std::int64_t max_of(std::int64_t a, std::int64_t b) {
-    return a > b ? a : b;
-  }
-  __device__ static std::int64_t min_of(std::int64_t a, std::int64_t b) {
-    return a < b ? a : b;
   }
 };
 
@@ -280,8 +272,8 @@ void DeviceVoxelizer::enqueue(const FixedTriangle* triangles, std::uint32_t coun
   lists_.grow(2 * std::size_t(count));
   BP_CUDA_CHECK(cudaMemsetAsync(counts_.grow(3), 0, 3 * sizeof(std::uint32_t), stream));
   const Lists lists{lists_.data(), lists_.data() + count, counts_.data()};
-  launch("voxelize_few_kernel", voxelize_few_kernel, (count + kPassThreads - 1) / kPassThreads, kPassThreads, 0, stream,
-         triangles, count, out, lists);
+  launch("voxelize_few_kernel", voxelize_few_kernel, blocks_for(count), kPassThreads, 0, stream, triangles, count, out,
+         lists);
   launch("voxelize_warp_kernel", voxelize_warp_kernel, unsigned(multiprocessors_) * 4, kPassThreads,
          sizeof(WarpTriangle) * (kPassThreads / kWarp), stream, triangles, out, lists);
   launch("voxelize_grid_kernel", voxelize_grid_kernel, unsigned(multiprocessors_) * 4, kPassThreads,

@@ -40,10 +40,10 @@ class ColumnCrossings {
     if (clockwise) {
       for (PlaneInt& n : normal_) n = -n;  // up
     }
-    x0_ = larger(first_centre(t.low(0)), tile.min.x);
-    y0_ = larger(first_centre(t.low(1)), tile.min.y);
-    const std::int64_t x1 = smaller(last_centre(t.high(0)), tile.max.x - 1),
-                       y1 = smaller(last_centre(t.high(1)), tile.max.y - 1);
+    x0_ = larger<std::int64_t>(first_centre(t.low(0)), tile.min.x);
+    y0_ = larger<std::int64_t>(first_centre(t.low(1)), tile.min.y);
+    const std::int64_t x1 = smaller<std::int64_t>(last_centre(t.high(0)), tile.max.x - 1),
+                       y1 = smaller<std::int64_t>(last_centre(t.high(1)), tile.max.y - 1);
     if (normal_[2] == 0 || x0_ > x1 || y0_ > y1) return;  // no rows
     width_ = std::int32_t(x1 - x0_) + 1;
     row_count_ = std::int32_t(y1 - y0_) + 1;
@@ -66,9 +66,6 @@ class ColumnCrossings {
   }
 
  private:
-  BP_HD static std::int64_t larger(std::int64_t a, std::int64_t b) { return a > b ? a : b; }
-  BP_HD static std::int64_t smaller(std::int64_t a, std::int64_t b) { return a < b ? a : b; }
-
   /// Columns on the inner side of edge e of the projection along z, counted from (x0_, y0_).
   BP_HD HalfSpace<EdgeInt> edge(const Corners& t, int e, bool clockwise) const {
     const std::int64_t* from = t.p[clockwise ? (e + 1) % 3 : e];

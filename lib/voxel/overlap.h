@@ -29,6 +29,16 @@ __extension__ typedef __int128 Int128;
 constexpr std::int64_t kSmallExtent = std::int64_t(1) << 20;
 constexpr std::int64_t kMediumExtent = std::int64_t(1) << 30;
 
+/// std::min and std::max, for host and device.
+template <class T>
+[[nodiscard]] BP_HD constexpr T smaller(T a, T b) {
+  return b < a ? b : a;
+}
+template <class T>
+[[nodiscard]] BP_HD constexpr T larger(T a, T b) {
+  return a < b ? b : a;
+}
+
 /// at + step . cell >= 0, cells counted from the range's first.
 template <class Int>
 struct HalfSpace {
@@ -51,20 +61,11 @@ struct Corners {
   std::int64_t p[3][3];
   BP_HD explicit Corners(const FixedTriangle& t)
       : p{{t.a.x, t.a.y, t.a.z}, {t.b.x, t.b.y, t.b.z}, {t.c.x, t.c.y, t.c.z}} {}
-  [[nodiscard]] BP_HD std::int64_t low(int axis) const {
-    const std::int64_t ab = p[0][axis] < p[1][axis] ? p[0][axis] : p[1][axis];
-    return ab < p[2][axis] ? ab : p[2][axis];
-  }
-  [[nodiscard]] BP_HD std::int64_t high(int axis) const {
-    const std::int64_t ab = p[0][axis] > p[1][axis] ? p[0][axis] : p[1][axis];
-    return ab > p[2][axis] ? ab : p[2][axis];
-  }
+  [[nodiscard]] BP_HD std::int64_t low(int axis) const { return smaller(smaller(p[0][axis], p[1][axis]), p[2][axis]); }
+  [[nodiscard]] BP_HD std::int64_t high(int axis) const { return larger(larger(p[0][axis], p[1][axis]), p[2][axis]); }
   [[nodiscard]] BP_HD std::int64_t extent() const {
     std::int64_t e = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::int64_t side = high(axis) - low(axis);
-      if (side > e) e = side;
-    }
+    for (int axis = 0; axis < 3; ++axis) e = larger(e, high(axis) - low(axis));
     return e;
   }
 };

@@ -3,6 +3,7 @@
 
 #include "gpu/cuda_backend.h"
 #include "lib/core/error.h"
+#include "lib/voxel/voxelize.h"
 #include "tests/catch.h"
 #include "tests/reference/closing.h"
 #include "tests/reference/random_closing.h"
@@ -42,7 +43,8 @@ TEST_CASE("the order in which a block's threads run changes no bit", "[quick][em
   emulator::set_thread_order(0);
 }
 
-TEST_CASE("a tile that does not fit in device memory is closed in parts, to the same bits", "[quick][emulated]") {
+TEST_CASE("a tile that does not fit in device memory is closed or voxelized in parts, to the same bits",
+          "[quick][emulated]") {
   const Tile tile;
   std::size_t whole = 0;
   {
@@ -54,6 +56,17 @@ TEST_CASE("a tile that does not fit in device memory is closed in parts, to the 
     CHECK(got == tile.want);
   }
   CHECK(emulator::memory_in_use() == 0);
+  {
+    const VoxelBox box{{0, 0, 0}, {256, 128, 200}};
+    const std::vector<FixedTriangle> triangles{
+        {{0, 0, 0}, {250 * kFixedOne, 3, 190 * kFixedOne}, {7, 120 * kFixedOne, 90 * kFixedOne}}};
+    BitBox got(box), want(box);
+    voxelize_surface(triangles, want);
+    emulator::set_memory_limit(std::size_t(want.word_count()) * 8 / 3);
+    make_cuda_backend(0)->voxelize(triangles, got);
+    CHECK(got == want);
+    emulator::set_memory_limit(std::size_t(-1));
+  }
   const auto backend = make_cuda_backend(0);
   for (const std::size_t share : {2, 4}) {
     CAPTURE(whole, share);

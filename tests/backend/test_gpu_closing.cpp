@@ -1,9 +1,11 @@
 // Paths through gpu/ that the Backend chooses by itself, each forced here. Runs on a GPU, or emulated.
 #include "gpu/cuda_backend.h"
+#include "lib/backend/cpu_backend.h"
 #include "tests/backend/gpu_tile.h"
 #include "tests/catch.h"
 #include "tests/reference/closing.h"
 #include "tests/reference/random_closing.h"
+#include "tests/support/memory_shelf.h"
 
 using namespace bp;
 
@@ -36,6 +38,84 @@ Case random_case(int seed, int largest_vox) {
 }
 
 }  // namespace
+
+#ifndef BP_EMULATED_CUDA  // there, tests/backend/test_emulated_gpu.cpp limits the memory
+namespace {
+
+std::size_t free_memory() {
+  std::size_t free = 0, total = 0;
+  BP_CUDA_CHECK(cudaMemGetInfo(&free, &total));
+  return free;
+}
+
+/// Takes the device's memory but for about `left_bytes`, as other programs on it might.
+class FullDevice {
+ public:
+  explicit FullDevice(std::size_t left_bytes) {
+    for (std::size_t most = free_memory(); most >= kLeast && free_memory() > left_bytes + kLeast;) {
+      most = std::min(most, free_memory() - left_bytes);
+      void* p = nullptr;
+      if (cudaMalloc(&p, most) == cudaSuccess) {
+        taken_.push_back(p);
+      } else {
+        (void)cudaGetLastError();
+        most /= 2;
+      }
+    }
+  }
+  ~FullDevice() {
+    for (void* p : taken_) (void)cudaFree(p);
+  }
+  FullDevice(const FullDevice&) = delete;
+  FullDevice& operator=(const FullDevice&) = delete;
+
+ private:
+  static constexpr std::size_t kLeast = std::size_t(4) << 20;
+  std::vector<void*> taken_;
+};
+
+}  // namespace
+
+TEST_CASE("on a device that is nearly full, tiles are closed and voxelized in parts, to the same bits",
+          "[quick][gpu]") {
+  if (no_gpu()) return;
+  constexpr std::size_t kLeft = std::size_t(48) << 20;
+  reference::Random random{11};
+  const VoxelBox interior{{0, 0, 0}, {512, 448, 448}};
+  const Halo halo{8, 7};
+  const ScaleLattice scale = reference::random_lattice(random, interior.grown(halo.total_vox() + 8), 6 * kScaleOne);
+  BitBox solid(interior.grown(halo.total_vox()));
+  for (int i = 0; i < 3000; ++i) solid.set({random.between(0, 511), random.between(0, 447), random.between(0, 447)});
+  test::MemoryShelf shelf;
+  store_voxels(solid, shelf);
+  const ClosingParams params{StructuringElement::ball};
+  const std::vector<FixedTriangle> triangles{
+      {{0, 0, 0}, {500 * kFixedOne, 3, 440 * kFixedOne}, {7, 440 * kFixedOne, 200 * kFixedOne}}};
+  const VoxelBox large{{0, 0, 0}, {1024, 1024, 1024}};
+  BitBox want, want_surface(large);
+  CpuBackend().close(solid, scale, halo, params, interior, want);
+  CpuBackend().voxelize(triangles, want_surface);
+  {
+    const std::size_t before = free_memory();
+    const auto backend = make_cuda_backend(0);
+    BitBox got;
+    backend->close(solid, scale, halo, params, interior, got);  // loads the kernels, too
+    CHECK(got == want);
+    REQUIRE(before - free_memory() > 3 * kLeft);
+  }
+  const FullDevice full(kLeft);
+  const auto backend = make_cuda_backend(0);
+  for (int run = 0; run < 2; ++run) {
+    BitBox got, surface(large);
+    backend->close(solid, scale, halo, params, interior, got);
+    CHECK(got == want);
+    backend->close_from_shelf(shelf, bricks_of(solid.box()), scale, halo, params, interior, got);
+    CHECK(got == want);
+    backend->voxelize(triangles, surface);
+    CHECK(surface == want_surface);
+  }
+}
+#endif
 
 TEST_CASE("narrow slabs and 32-bit distances change no bit", "[quick][gpu]") {
   if (no_gpu()) return;

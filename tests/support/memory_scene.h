@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/backend/backend.h"
+#include "lib/backend/cpu_backend.h"
 #include "lib/core/error.h"
 #include "lib/core/triangle_source.h"
 #include "lib/grid/stream.h"
@@ -67,19 +67,9 @@ class MemorySink final : public BrickSink {
   }
 };
 
-/// Voxelizes on the calling thread; cannot close.
-class PlainBackend final : public Backend {
- public:
-  [[nodiscard]] std::string name() const override { return "plain"; }
-  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) override { voxelize_surface(triangles, out); }
-  void close(const BitBox&, const ScaleLattice&, const Halo&, const ClosingParams&, const VoxelBox&, BitBox&) override {
-    fail(ErrorCode::failed, "this backend only voxelizes");
-  }
-};
-
 [[nodiscard]] inline Backends plain_backends(int n) {
   Backends all;
-  for (int i = 0; i < n; ++i) all.push_back(std::make_unique<PlainBackend>());
+  for (int i = 0; i < n; ++i) all.push_back(std::make_unique<CpuBackend>());
   return all;
 }
 
