@@ -1,4 +1,5 @@
 // docs/brick-stream.md is the specification; section numbers below are its own.
+#include <algorithm>
 #include <optional>
 
 #include "io/brick_stream.h"
@@ -16,8 +17,7 @@ namespace {
 struct OutBatch {
   std::vector<Record> records;
   std::vector<BrickBits> mixed;
-  std::vector<std::byte> packed;
-  std::size_t raw_bytes = 0;
+  std::vector<std::byte> raw, packed;
   StreamTotals totals;
 
   [[nodiscard]] bool full() const { return records.size() == kMaxRecords || mixed.size() == kMaxMixed; }
@@ -25,14 +25,14 @@ struct OutBatch {
 
 /// Section 6.
 void encode(OutBatch& batch, int level) {
-  ByteSink raw;
-  for (const Record& r : batch.records) put_record(raw, r);
-  const std::size_t head_bytes = raw.bytes().size();
-  batch.raw_bytes = head_bytes + batch.mixed.size() * kBrickBytes;
-  raw.bytes().resize(batch.raw_bytes);
-  const std::span<std::byte> planes = std::span(raw.bytes()).subspan(head_bytes);
+  ByteSink heads;
+  for (const Record& r : batch.records) put_record(heads, r);
+  const std::size_t head_bytes = heads.bytes().size();
+  batch.raw.resize(head_bytes + batch.mixed.size() * kBrickBytes);
+  std::copy(heads.bytes().begin(), heads.bytes().end(), batch.raw.begin());
+  const std::span<std::byte> planes = std::span(batch.raw).subspan(head_bytes);
   for (std::size_t i = 0; i < batch.mixed.size(); ++i) to_planes(batch.mixed[i], planes.data() + i * kBrickBytes);
-  compress(raw.bytes(), level, true, batch.packed);
+  compress(batch.raw, level, true, batch.packed);
   batch.totals = total(batch.records, planes);
 }
 
@@ -41,7 +41,7 @@ std::vector<std::byte> head_of(const OutBatch& batch) {
   ByteSink head;
   head.put_text(kBatchTag);
   head.put(std::uint32_t(batch.records.size()));
-  head.put(std::uint32_t(batch.raw_bytes));
+  head.put(std::uint32_t(batch.raw.size()));
   head.put(std::uint32_t(batch.packed.size()));
   head.put_coord(batch.records.front().coord);
   head.put_coord(batch.records.back().coord);
