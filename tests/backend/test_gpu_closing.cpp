@@ -83,8 +83,8 @@ TEST_CASE("on a device that is nearly full, tiles are closed and voxelized in pa
   reference::Random random{11};
   const VoxelBox interior{{0, 0, 0}, {512, 448, 448}};
   const Halo halo{8, 7};
-  const ScaleLattice scale = reference::random_lattice(random, interior.grown(halo.total_vox() + 8), 6 * kScaleOne);
-  BitBox solid(interior.grown(halo.total_vox()));
+  const ScaleLattice scale = reference::random_lattice(random, interior.grown(64), 6 * kScaleOne);
+  BitBox solid(voxels_of(bricks_of(interior.grown(halo.total_vox()))));
   for (int i = 0; i < 3000; ++i) solid.set({random.between(0, 511), random.between(0, 447), random.between(0, 447)});
   test::MemoryShelf shelf;
   store_voxels(solid, shelf);
