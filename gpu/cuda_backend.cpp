@@ -7,11 +7,11 @@
 #include <new>
 
 #include "gpu/device_closing.h"
+#include "gpu/device_error.h"
 #include "gpu/staging.h"
 #include "gpu/tuning.h"
 #include "gpu/voxelize_kernels.h"
 #include "gpu/winding_kernels.h"
-#include "lib/core/error.h"
 
 namespace bp {
 
@@ -74,9 +74,9 @@ class CudaBackend final : public Backend {
         voxelize_part(triangles, part, std::size_t(plane) * std::size_t(part.max.z - part.min.z),
                       out.row(box.min.y, part.min.z));
         z = part.max.z;
-      } catch (const Error& e) {  // the device is fuller than expected: go in smaller steps
+      } catch (const OutOfDeviceMemory&) {  // the device is fuller than expected: go in smaller steps
         slices = (part.max.z - part.min.z) / 2;
-        if (e.code() != ErrorCode::out_of_resource || slices == 0) throw;
+        if (slices == 0) throw;
         make_room();
       }
     }
@@ -110,8 +110,7 @@ class CudaBackend final : public Backend {
     if (interior.empty()) return;
     try {
       close_at_once(solid, scale, halo, params, interior, closed);
-    } catch (const Error& e) {
-      if (e.code() != ErrorCode::out_of_resource) throw;
+    } catch (const OutOfDeviceMemory&) {
       close_in_halves(solid, scale, halo, params, interior, closed);
     }
   }
@@ -122,8 +121,7 @@ class CudaBackend final : public Backend {
     if (whole_bricks(interior)) {
       try {
         return close_bricks(solid, bricks, scale, halo, params, interior, closed);
-      } catch (const Error& e) {
-        if (e.code() != ErrorCode::out_of_resource) throw;
+      } catch (const OutOfDeviceMemory&) {
         make_room();
       }
     }

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "lib/core/error.h"
+#include "gpu/device_error.h"
 
 namespace bp {
 
@@ -22,8 +22,8 @@ void check_cuda(cudaError_t error, const char* what) {
   if (error == cudaSuccess) return;
   (void)cudaGetLastError();  // an error that is not sticky must not show up in the next call
   if (error == cudaErrorMemoryAllocation) {
-    fail(ErrorCode::out_of_resource,
-         "GPU: out of device memory in {}; use smaller tiles, fewer tools on this GPU, or --device cpu", what);
+    throw OutOfDeviceMemory(fmt::format(
+        "GPU: out of device memory in {}; use smaller tiles, fewer tools on this GPU, or --device cpu", what));
   }
 #ifndef BP_EMULATED_CUDA
   if (error == cudaErrorInsufficientDriver) {
@@ -36,8 +36,9 @@ void check_cuda(cudaError_t error, const char* what) {
     fail(ErrorCode::out_of_resource, "GPU: this build holds no code for this GPU; use --device cpu");
   }
 #endif
-  fail(ErrorCode::failed, "GPU: {} failed: {} ({}); rerun with BP_DEBUG_SYNC=1 to name the kernel, or use --device cpu",
-       what, cudaGetErrorString(error), cudaGetErrorName(error));
+  fail(ErrorCode::out_of_resource,
+       "GPU: {} failed: {} ({}); rerun with BP_DEBUG_SYNC=1 to name the kernel, or use --device cpu", what,
+       cudaGetErrorString(error), cudaGetErrorName(error));
 }
 
 void check_launch(cudaError_t error, const char* kernel, cudaStream_t stream) {

@@ -1,8 +1,8 @@
 #pragma once
 #include <cuda_runtime.h>
 
-/// Turns CUDA error codes into Errors: out of device memory, no device or an old driver is out_of_resource, anything
-/// else failed.
+/// Turns CUDA error codes into Errors, all of them out_of_resource: tools end with the exit code of devices. Out of
+/// device memory is OutOfDeviceMemory.
 namespace bp {
 
 /// Throws unless `error` is cudaSuccess; `what` names the call or kernel.

@@ -18,7 +18,7 @@ class DeviceBuffer {
   DeviceBuffer(const DeviceBuffer&) = delete;
   DeviceBuffer& operator=(const DeviceBuffer&) = delete;
 
-  /// At least `count` elements; throws out_of_resource and is empty if the device has no room.
+  /// At least `count` elements; throws OutOfDeviceMemory and is empty if the device has no room.
   T* grow(std::size_t count) {
     if (count <= capacity_) return data_;
     release();

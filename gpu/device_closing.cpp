@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lib/core/error.h"
+#include "gpu/device_error.h"
 
 namespace bp {
 
@@ -46,8 +46,8 @@ TileLayout lay_out(const VoxelBox& solid, const ScaleLattice& scale, const Halo&
                         low.z + round_up(reach.max.z - low.z, kUnit)};
   const VoxelBox domain{low, high};
   if (domain.volume() / 32 >= std::int64_t(1) << 31) {
-    fail(ErrorCode::out_of_resource, "GPU: a tile of {} x {} x {} voxels is too large; use smaller tiles",
-         high.x - low.x, high.y - low.y, high.z - low.z);
+    throw OutOfDeviceMemory(fmt::format("GPU: a tile of {} x {} x {} voxels is too large; use smaller tiles",
+                                        high.x - low.x, high.y - low.y, high.z - low.z));
   }
   TileLayout t;
   t.shape = {(high.x - low.x) / 32, high.y - low.y, high.z - low.z};
@@ -179,8 +179,8 @@ int DeviceClosing::slab_words(const TileLayout& layout, const TransformBounds& b
     try {
       values_.grow(one * std::size_t(n));
       return n;
-    } catch (const Error& e) {
-      if (e.code() != ErrorCode::out_of_resource || n == 1) throw;
+    } catch (const OutOfDeviceMemory&) {
+      if (n == 1) throw;
       n = (n + 1) / 2;  // the device is fuller than expected: go in smaller steps
     }
   }

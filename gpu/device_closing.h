@@ -19,7 +19,7 @@ struct TileLayout {
   VoxelRange dilated, interior;         ///< where D is needed, and where E is
   std::int32_t ox = 0, oy = 0, oz = 0;  ///< sample of the scale lattice at voxel (0,0,0) of the domain
 };
-/// Throws out_of_resource if the domain has 2^31 words or more.
+/// Throws OutOfDeviceMemory if the domain has 2^31 words or more.
 [[nodiscard]] TileLayout lay_out(const VoxelBox& solid, const ScaleLattice& scale, const Halo& halo,
                                  const VoxelBox& interior);
 

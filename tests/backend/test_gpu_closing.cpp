@@ -1,5 +1,6 @@
 // Paths through gpu/ that the Backend chooses by itself, each forced here. Runs on a GPU, or emulated.
 #include "gpu/cuda_backend.h"
+#include "gpu/device_error.h"
 #include "lib/backend/cpu_backend.h"
 #include "tests/backend/gpu_tile.h"
 #include "tests/catch.h"
@@ -116,6 +117,19 @@ TEST_CASE("on a device that is nearly full, tiles are closed and voxelized in pa
   }
 }
 #endif
+
+TEST_CASE("what fails on a device ends tools with the code of devices, and says where", "[quick][gpu]") {
+  CHECK_THROWS_AS(check_cuda(cudaErrorMemoryAllocation, "x_kernel"), OutOfDeviceMemory);
+  try {
+    check_cuda(cudaErrorLaunchFailure, "x_kernel");
+    FAIL("no error");
+  } catch (const OutOfDeviceMemory&) {
+    FAIL("a failed launch is not closed in parts");
+  } catch (const Error& e) {
+    CHECK(exit_code(e.code()) == 4);
+    CHECK(std::string(e.what()).find("x_kernel") != std::string::npos);
+  }
+}
 
 TEST_CASE("narrow slabs and 32-bit distances change no bit", "[quick][gpu]") {
   if (no_gpu()) return;
