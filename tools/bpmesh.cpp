@@ -301,7 +301,8 @@ void run(const Options& o) {
   const double error_world = params.error_world;
   bp::MeshCounts counts;
   const bp::MeshBudget budget(o.common.memory_bytes);
-  params.memory.bytes = budget.pieces;
+  params.memory.waiting_bytes = budget.waiting;
+  params.memory.work_bytes = budget.work;
   params.memory.make_store = [&o, budget] { return bp::make_chunk_store(budget.store, o.common.temp); };
   std::vector<bp::LatticeMesh> levels =
       bp::mesh_stream(source, bp::make_shelf_factory(budget.shelves, o.common.temp), std::move(params), counts);

@@ -95,7 +95,7 @@ Piece PieceStore::take(WaitingPiece&& waiting) {
 
 bool PieceStore::reserve(std::uint64_t bytes) {
   const std::lock_guard lock(mutex_);
-  if (memory_.make_store && used_ + bytes > memory_.bytes / 2) return false;
+  if (memory_.make_store && used_ + bytes > memory_.waiting_bytes) return false;
   used_ += bytes;
   return true;
 }

@@ -9,10 +9,10 @@ namespace bp {
 
 /// What a surface that is simplified by cells may take of memory.
 struct PieceMemory {
-  /// Half for pieces that wait as they are, half for those in hand and all that simplification needs beside them; at
-  /// the end all of it for the whole.
-  std::uint64_t bytes = UINT64_MAX;
-  ChunkStoreFactory make_store;  ///< for pieces that wait beyond that; without one, they all wait as they are
+  std::uint64_t waiting_bytes = UINT64_MAX / 2;  ///< pieces that wait as they are
+  std::uint64_t work_bytes = UINT64_MAX / 2;     ///< those in hand, and all that simplification needs beside them
+  ChunkStoreFactory make_store;                  ///< for further ones that wait; without it, all wait as they are
+  [[nodiscard]] std::uint64_t bytes() const { return waiting_bytes + work_bytes; }  ///< for the whole, at the end
 };
 
 /// A piece that waits. Movable; to be taken exactly once.

@@ -90,6 +90,21 @@ std::uint64_t next_voxel(const std::uint64_t* r, int word) {
   return (r[word] >> 1) | (word + 1 < kRow ? r[word + 1] << 63 : 0);
 }
 
+/// Voxels to add to a brick; few bricks have many.
+struct Addition {
+  BrickCoord brick;
+  std::vector<std::pair<std::uint16_t, std::uint64_t>> words;  // index, bits
+};
+
+std::vector<std::pair<std::uint16_t, std::uint64_t>> words_of(const BrickBits& bits) {
+  std::vector<std::pair<std::uint16_t, std::uint64_t>> words;
+  for (std::size_t i = 0; i < kBrickWords; ++i) {
+    if (bits[i] != 0) words.emplace_back(std::uint16_t(i), bits[i]);
+  }
+  words.shrink_to_fit();
+  return words;
+}
+
 /// The voxels that blocks add to the brick. False if there are none.
 /// Finds blocks that are not manifold 64 at a time; those few then use the table.
 bool additions(const Neighbourhood& n, const std::array<Corner, 256>& table, BrickBits& add) {
@@ -161,23 +176,24 @@ std::uint64_t repair_contacts(BrickShelf& shelf) {
   std::vector<BrickCoord> changed = shelf.coords();
   while (!changed.empty()) {
     const std::vector<BrickCoord> active = with_neighbours(changed);
-    std::vector<std::pair<BrickCoord, BrickBits>> found;
+    std::vector<Addition> found;
     std::mutex mutex;
     parallel_for(std::int64_t(active.size()), [&](std::int64_t i) {
       thread_local Neighbourhood n;
       BrickBits add{};
       n.load(shelf, active[std::size_t(i)]);
       if (!additions(n, table, add)) return;
+      Addition addition{active[std::size_t(i)], words_of(add)};
       const std::lock_guard lock(mutex);
-      found.emplace_back(active[std::size_t(i)], add);
+      found.push_back(std::move(addition));
     });
     changed.clear();
-    for (auto& [coord, add] : found) {  // all blocks looked at the same solid: only now it grows
+    for (const auto& [coord, words] : found) {  // all blocks looked at the same solid: only now it grows
       BrickBits bits;
       shelf.get(coord, bits);
-      for (std::size_t i = 0; i < kBrickWords; ++i) {
-        added += std::uint64_t(std::popcount(add[i] & ~bits[i]));
-        bits[i] |= add[i];
+      for (const auto& [i, add] : words) {
+        added += std::uint64_t(std::popcount(add & ~bits[i]));
+        bits[i] |= add;
       }
       shelf.put(coord, classify(bits), bits);
       changed.push_back(coord);

@@ -105,7 +105,7 @@ class SurfaceTree {
   }
 
   [[nodiscard]] Piece weld_all(SimplifyCounts& counts) {
-    check_work(faces(), params_.memory.bytes);
+    check_work(faces(), params_.memory.bytes());
     std::vector<Piece> pieces;
     for (Node& node : nodes_) {
       pieces.push_back(welded(node));
@@ -134,7 +134,7 @@ class SurfaceTree {
   [[nodiscard]] std::size_t nodes_in_hand() const {
     std::uint64_t largest = 1;
     for (const Node& node : nodes_) largest = std::max(largest, node.face_count());
-    const std::uint64_t bytes = params_.memory.bytes / 2;
+    const std::uint64_t bytes = params_.memory.work_bytes;
     check_work(largest, bytes);
     return std::size_t(std::min<std::uint64_t>(bytes / (largest * kWorkPerFace), thread_count()));
   }

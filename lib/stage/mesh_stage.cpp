@@ -104,7 +104,7 @@ std::vector<TriangleD> merged_triangles(const SurfaceSource& surface, const Piec
 
 /// The surface of the voxels as they are, which may touch along edges.
 std::vector<TriangleD> unmerged_triangles(const BrickShelf& shelf, const GridFrame& frame, const PieceMemory& memory) {
-  check_work(count_faces(ShelfSurface(shelf, frame)), memory.bytes);
+  check_work(count_faces(ShelfSurface(shelf, frame)), memory.bytes());
   return world_triangles(dense_surface(shelf, frame));
 }
 
@@ -244,7 +244,7 @@ class LevelMaker {
       return start;
     }
     start.around = make_shelf_();
-    check_work(count_faces(ShelfSurface(*shelves.meshed, header_.frame)), params_.memory.bytes);
+    check_work(count_faces(ShelfSurface(*shelves.meshed, header_.frame)), params_.memory.bytes());
     start.mesh =
         std::make_unique<LatticeMesh>(inward_surface(*shelves.meshed, header_.frame, make_shelf_, *start.around));
     if (start.mesh->triangles.empty())

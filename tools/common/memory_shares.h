@@ -25,14 +25,15 @@ struct VoxelizeBudget {
 
 /// How bpmesh shares out --memory, bytes.
 struct MeshBudget {
-  std::uint64_t shelves;  ///< voxels
-  std::uint64_t pieces;   ///< of the surface, waiting and in hand
-  std::uint64_t store;    ///< pieces that wait, compressed
+  std::uint64_t shelves;        ///< voxels
+  std::uint64_t waiting, work;  ///< pieces of the surface, those in hand
+  std::uint64_t store;          ///< further ones that wait, compressed
   explicit MeshBudget(std::uint64_t memory) {
     const std::uint64_t fixed = (std::uint64_t(48) << 20) + std::uint64_t(thread_count()) * (8 << 20);
     const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
     shelves = usable / 20 * 5;
-    pieces = usable / 20 * 11;
+    waiting = usable / 20 * 5;
+    work = usable / 20 * 6;
     store = usable / 20;
   }
 };

@@ -67,17 +67,18 @@ TEST_CASE("brick by brick, the result does not depend on the number of threads",
 }
 
 TEST_CASE("brick by brick, the result does not depend on memory, and nothing stays in the store", "[quick][meshing]") {
-  MemoryShelf shelf;
-  fill_shelf(shelf, kBox, kSolids[0]);
-  repair_contacts(shelf);
+  MemoryShelf shelf;  // a ball in each of 64 bricks
+  fill_shelf(shelf, {{-128, -128, -128}, {128, 128, 128}},
+             [](VoxelCoord p) { return std::hypot((p.x & 63) - 31.5, (p.y & 63) - 31.5, (p.z & 63) - 31.5) < 12; });
   SimplifyParams params;
-  params.faces = 20;
+  params.faces = 300;
   SimplifyCounts counts;
   const LatticeMesh roomy = simplify(ShelfSurface(shelf, {}), params, counts);
   std::uint64_t put = 0, held = 0;
-  // A little for what waits, and too much for all of it; what is in hand fits once, twice, and five times.
-  const std::uint64_t megabytes = GENERATE(1, 2, 5);
-  params.memory.bytes = megabytes << 20;
+  const std::uint64_t waiting = GENERATE(0, 1000000);  // bytes
+  CAPTURE(waiting);
+  params.memory.waiting_bytes = waiting;
+  params.memory.work_bytes = 40 << 20;  // the whole takes 33 MiB at the end
   params.memory.make_store = [&] { return std::make_unique<MemoryStore>(put, held); };
   const LatticeMesh tight = simplify(ShelfSurface(shelf, {}), params, counts);
   CHECK(put > 0);
@@ -92,7 +93,7 @@ TEST_CASE("a cell that is too large for the memory is refused", "[quick][meshing
   repair_contacts(shelf);
   SimplifyParams params;
   params.faces = 20;
-  params.memory.bytes = 100000;
+  params.memory.work_bytes = 100000;
   SimplifyCounts counts;
   CHECK_THROWS_AS(simplify(ShelfSurface(shelf, {}), params, counts), Error);
 }
