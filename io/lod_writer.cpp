@@ -95,8 +95,18 @@ class GlbBuilder {
   Json& node(std::size_t i) { return doc_["nodes"][i]; }
   void use(const char* extension) { used_.push_back(extension); }
 
-  void write(const LatticeMesh& first, const Vec3d& origin, const std::vector<std::size_t>& roots, bool turned,
-             OutputFile& out) {
+  void write(const LatticeMesh& first, const std::vector<std::size_t>& roots, OutputFile& out) {
+    write_glb(document(first, {}, roots, true), data_, out);
+  }
+  /// `turned`: extras.up asks readers of ours to turn back to the axes of the scene.
+  [[nodiscard]] std::string bytes(const LatticeMesh& first, const Vec3d& origin, const std::vector<std::size_t>& roots,
+                                  bool turned) {
+    return glb_head(document(first, origin, roots, turned), data_.size(), file_) + data_;
+  }
+
+ private:
+  std::string document(const LatticeMesh& first, const Vec3d& origin, const std::vector<std::size_t>& roots,
+                       bool turned) {
     Json doc;
     doc["asset"] = gltf_asset("bplod", first.provenance, turned ? first.frame.up : UpAxis::y, origin);
     if (compressed_) {
@@ -113,10 +123,9 @@ class GlbBuilder {
       doc["buffers"].push_back(
           {{"byteLength", fallback_}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
     }
-    write_glb(doc.dump(), data_, out);
+    return doc.dump();
   }
 
- private:
   void add_mesh(const NamedMesh& named, const Extent& extent, LatticeCoord centre) {
     const LatticeMesh& mesh = *named.mesh;
     TriangleIndices triangles = mesh.triangles;
@@ -224,21 +233,20 @@ void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> co
     builder.node(0)["extensions"] = {{"MSFT_lod", {{"ids", coarser}}}};
     builder.node(0)["extras"] = {{"MSFT_screencoverage", std::vector<double>(coverage.begin(), coverage.end())}};
   }
-  builder.write(*levels.front().mesh, {}, {0}, true, out);
+  builder.write(*levels.front().mesh, {0}, out);
 }
 
 void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out) {
   GlbBuilder builder(out.name(), GlbBuilder::Data::plain);
   std::vector<std::size_t> roots;
   for (const NamedMesh& part : parts) roots.push_back(builder.add(part, nullptr));
-  builder.write(*parts.front().mesh, {}, roots, true, out);
+  builder.write(*parts.front().mesh, roots, out);
 }
 
-void write_tile_glb(const NamedMesh& level, const Vec3d& origin, OutputFile& out) {
-  GlbBuilder builder(out.name(), GlbBuilder::Data::compressed);
-  const LatticeCoord centre = lattice_point(level.mesh->frame, origin);
-  builder.add(level, &centre);
-  builder.write(*level.mesh, origin, {0}, false, out);
+std::string tile_glb(const NamedMesh& tile, LatticeCoord origin) {
+  GlbBuilder builder(tile.name + ".glb", GlbBuilder::Data::compressed);
+  builder.add(tile, &origin);
+  return builder.bytes(*tile.mesh, tile.mesh->frame.world(origin), {0}, false);
 }
 
 LatticeCoord lattice_point(const GridFrame& frame, const Vec3d& p) {

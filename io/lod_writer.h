@@ -25,11 +25,11 @@ void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> co
 /// All meshes as nodes of one scene.
 void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out);
 
-/// The content of a tile: EXT_meshopt_compression and KHR_mesh_quantization, with 16-bit integers where they hold the
-/// mesh, else float32. The node has a scale and no offset: vertices are relative to `origin`, which the tile's
-/// transform gives back, in double. `origin`: scene units, a lattice point of the mesh's frame. A z-up mesh is turned
-/// to glTF's y up, which 3D Tiles turns back; unlike in other files of ours, extras.up does not ask a reader to.
-void write_tile_glb(const NamedMesh& level, const Vec3d& origin, OutputFile& out);
+/// The content of a tile, as the bytes of a GLB: EXT_meshopt_compression and KHR_mesh_quantization, with 16-bit
+/// integers where they hold the mesh, else float32. The node has a scale and no offset: vertices are relative to
+/// `origin`, which the tile's transform gives back, in double. A z-up mesh is turned to glTF's y up, which 3D Tiles
+/// turns back; unlike in other files of ours, extras.up does not ask a reader to.
+[[nodiscard]] std::string tile_glb(const NamedMesh& tile, LatticeCoord origin);
 
 /// The lattice point of `frame` that lies at `p`. Throws `failed` if there is none.
 [[nodiscard]] LatticeCoord lattice_point(const GridFrame& frame, const Vec3d& p);

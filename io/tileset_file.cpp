@@ -64,6 +64,10 @@ class Reader {
     tile.geometric_error = number_of(json, object, "geometricError");
     if (object.has("refine")) tile.refine = object.text("refine");
     if (object.has("content")) tile.uri = content(object.object("content"));
+    if (object.has("extras") && object.object("extras").has("cell")) {
+      const auto cell = object.object("extras").numbers<6>("cell", {});
+      tile.cell = Bounds3d{{cell[0], cell[1], cell[2]}, {cell[3], cell[4], cell[5]}};
+    }
     if (object.has("children") && object.array("children").empty()) object.broken("has 'children', and none in it");
     for (std::size_t i = 0; i < object.array("children").size(); ++i)
       tile.children.push_back(this->tile(object.item("children", i), json["children"][i], depth + 1));
@@ -97,6 +101,10 @@ Json json_of(const Tile& tile) {
   json["geometricError"] = tile.geometric_error;
   if (!tile.refine.empty()) json["refine"] = tile.refine;
   if (!tile.uri.empty()) json["content"] = {{"uri", tile.uri}};
+  if (tile.cell) {
+    const auto& [min, max] = *tile.cell;
+    json["extras"] = {{"cell", {min[0], min[1], min[2], max[0], max[1], max[2]}}};
+  }
   for (const Tile& child : tile.children) json["children"].push_back(json_of(child));
   return json;
 }
@@ -107,12 +115,12 @@ Tileset read_tileset(const std::string& path) {
   return Reader(path).run();
 }
 
-void write_tileset(const Tileset& tileset, const std::vector<Provenance>& provenance, OutputFile& out) {
+std::string tileset_text(const Tileset& tileset, const std::vector<Provenance>& provenance) {
   Json asset = gltf_asset("bplod", provenance, tileset.up == "z" ? UpAxis::z : UpAxis::y, {});
   asset["version"] = tileset.version;
   asset.erase("generator");
   const Json doc{{"asset", asset}, {"geometricError", tileset.geometric_error}, {"root", json_of(tileset.root)}};
-  out.write(doc.dump(1) + "\n");
+  return doc.dump(1) + "\n";
 }
 
 }  // namespace bp

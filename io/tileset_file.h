@@ -2,7 +2,6 @@
 #include <string>
 #include <vector>
 
-#include "io/file.h"
 #include "lib/check/tileset.h"
 #include "lib/grid/stream.h"
 
@@ -14,7 +13,8 @@ namespace bp {
 /// Implicit tiling and tilesets within tilesets are refused: they are not looked into.
 [[nodiscard]] Tileset read_tileset(const std::string& path);
 
-/// Writes an explicit tileset; the chain of tools goes into asset.extras. Same tileset, same bytes.
-void write_tileset(const Tileset& tileset, const std::vector<Provenance>& provenance, OutputFile& out);
+/// The text of an explicit tileset; the chain of tools goes into asset.extras, the cell of a tile into its extras. Same
+/// tileset, same bytes.
+[[nodiscard]] std::string tileset_text(const Tileset& tileset, const std::vector<Provenance>& provenance);
 
 }  // namespace bp

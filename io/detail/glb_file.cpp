@@ -30,15 +30,20 @@ GltfOutJson gltf_asset(const std::string& tool, const std::vector<Provenance>& p
   return {{"version", "2.0"}, {"generator", tool + " " BP_VERSION}, {"extras", std::move(extras)}};
 }
 
-void write_glb(std::string json, const std::string& data, OutputFile& out) {
+std::string glb_head(std::string json, std::size_t data_bytes, const std::string& name) {
   json.append((4 - json.size() % 4) % 4, ' ');
-  const std::uint64_t total = 12 + 8 + json.size() + 8 + data.size();
+  const std::uint64_t total = 12 + 8 + json.size() + 8 + data_bytes;
   if (total > std::numeric_limits<std::uint32_t>::max())
-    fail(ErrorCode::bad_argument, "{}: a GLB is limited to 4 GiB, and this mesh takes {}; write PLY", out.name(),
-         total);
-  out.write("glTF" + little_endian(2) + little_endian(total));
-  out.write(little_endian(json.size()) + "JSON" + json);
-  out.write(little_endian(data.size()) + std::string("BIN\0", 4));
+    fail(ErrorCode::bad_argument, "{}: a GLB is limited to 4 GiB, and this mesh takes {}; write PLY", name, total);
+  std::string head = "glTF";
+  head.append(little_endian(2)).append(little_endian(total));
+  head.append(little_endian(json.size())).append("JSON").append(json);
+  head.append(little_endian(data_bytes)).append("BIN\0", 4);
+  return head;
+}
+
+void write_glb(std::string json, const std::string& data, OutputFile& out) {
+  out.write(glb_head(std::move(json), data.size(), out.name()));
   out.write(data);
 }
 

@@ -18,6 +18,9 @@ using GltfOutJson = nlohmann::ordered_json;  ///< keys keep their order: same me
 [[nodiscard]] GltfOutJson gltf_asset(const std::string& tool, const std::vector<Provenance>& provenance, UpAxis up,
                                      const Vec3d& origin);
 
+/// What a GLB holds before the bytes of its binary chunk. Throws as write_glb(), for the file `name`.
+[[nodiscard]] std::string glb_head(std::string json, std::size_t data_bytes, const std::string& name);
+
 /// A GLB of one JSON and one binary chunk. Throws bad_argument beyond 4 GiB. `data` must be a multiple of 4 bytes.
 void write_glb(std::string json, const std::string& data, OutputFile& out);
 

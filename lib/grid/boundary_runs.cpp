@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "lib/core/parallel.h"
+#include "lib/grid/clip.h"
 
 namespace bp {
 
@@ -35,7 +36,9 @@ bool buried(const BrickShelf& solid, BrickCoord b) {
   return solid.fill(b) == BrickFill::full;
 }
 
-void scan(const BrickShelf& solid, BrickCoord brick, Boundary& out) {
+/// body(row, boundary voxels of it, their faces) for each row of a brick.
+template <class Body>
+void scan(const BrickShelf& solid, BrickCoord brick, const Body& body) {
   if (buried(solid, brick)) return;
   const VoxelCoord first = first_voxel(brick);
   BitBox box(voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(1));
@@ -43,12 +46,12 @@ void scan(const BrickShelf& solid, BrickCoord brick, Boundary& out) {
   for (std::int32_t z = first.z; z < first.z + kBrickEdge; ++z) {
     for (std::int32_t y = first.y; y < first.y + kBrickEdge; ++y) {
       const std::uint64_t occupied = box.row(y, z)[1];
-      std::uint64_t boundary = 0;
+      std::uint64_t boundary = 0, faces = 0;
       for (const std::uint64_t n : neighbours(box, y, z)) {
         boundary |= occupied & ~n;
-        out.faces += std::uint64_t(std::popcount(occupied & ~n));
+        faces += std::uint64_t(std::popcount(occupied & ~n));
       }
-      add_runs(boundary, {first.x, y, z}, out.runs);
+      body(VoxelCoord{first.x, y, z}, boundary, faces);
     }
   }
 }
@@ -58,8 +61,13 @@ void scan(const BrickShelf& solid, BrickCoord brick, Boundary& out) {
 Boundary boundary_of(const BrickShelf& solid) {
   const std::vector<BrickCoord> bricks = solid.coords();
   std::vector<Boundary> parts(bricks.size());
-  parallel_for(std::int64_t(bricks.size()),
-               [&](std::int64_t i) { scan(solid, bricks[std::size_t(i)], parts[std::size_t(i)]); });
+  parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
+    Boundary& part = parts[std::size_t(i)];
+    scan(solid, bricks[std::size_t(i)], [&](VoxelCoord row, std::uint64_t boundary, std::uint64_t faces) {
+      part.faces += faces;
+      add_runs(boundary, row, part.runs);
+    });
+  });
   Boundary all;
   for (Boundary& part : parts) {
     all.faces += part.faces;
@@ -67,6 +75,42 @@ Boundary boundary_of(const BrickShelf& solid) {
     part = {};
   }
   return all;
+}
+
+std::uint64_t boundary_faces(const BrickShelf& solid, BrickCoord brick) {
+  std::uint64_t sum = 0;
+  scan(solid, brick, [&](VoxelCoord, std::uint64_t, std::uint64_t faces) { sum += faces; });
+  return sum;
+}
+
+void boundary_layer(const BrickShelf& solid, BrickShelf& boundary) {
+  const std::vector<BrickCoord> bricks = solid.coords();
+  parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
+    const BrickCoord brick = bricks[std::size_t(i)];
+    BrickBits bits{};
+    scan(solid, brick, [&](VoxelCoord row, std::uint64_t voxels, std::uint64_t) {
+      const VoxelCoord p = row - first_voxel(brick);
+      bits[std::size_t(p.z * kBrickEdge + p.y)] = voxels;
+    });
+    const BrickFill fill = classify(bits);
+    if (fill != BrickFill::empty) boundary.put(brick, fill, bits);
+  });
+}
+
+std::vector<VoxelRun> runs_of(const BrickShelf& shelf, const VoxelBox& box) {
+  std::vector<VoxelRun> runs;
+  BrickBits bits;
+  for_each_brick(box, [&](BrickCoord c) {
+    if (shelf.get(c, bits) == BrickFill::empty) return;
+    const VoxelCoord first = first_voxel(c);
+    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+        const std::uint64_t row = bits[std::size_t(z * kBrickEdge + y)] & row_within(c, y, z, box);
+        add_runs(row, {first.x, first.y + y, first.z + z}, runs);
+      }
+    }
+  });
+  return runs;
 }
 
 }  // namespace bp

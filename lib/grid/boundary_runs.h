@@ -21,4 +21,13 @@ struct Boundary {
 /// Parallel; the result depends on the voxels alone. Cost: linear in the bricks, 16 bytes a run.
 [[nodiscard]] Boundary boundary_of(const BrickShelf& solid);
 
+/// Faces between an occupied voxel of `brick` and an empty one, there or in the next brick.
+[[nodiscard]] std::uint64_t boundary_faces(const BrickShelf& solid, BrickCoord brick);
+
+/// The boundary voxels of `solid` as a layer of their own. Parallel.
+void boundary_layer(const BrickShelf& solid, BrickShelf& boundary);
+
+/// The voxels of `shelf` that lie in `box`, as runs; ordered by brick (z, y, x), then z, y, x.
+[[nodiscard]] std::vector<VoxelRun> runs_of(const BrickShelf& shelf, const VoxelBox& box);
+
 }  // namespace bp

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "lib/core/error.h"
-#include "lib/geometry/surface_distance.h"
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/reduce.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/stage/surface_around.h"
+#include "lib/stage/voxel_distance.h"
 
 namespace bp {
 
@@ -23,11 +23,6 @@ constexpr double kLeastScaleVox = 1;   // below, closing is the identity
 constexpr double kLeastSideVox = 48;   // of a reduced grid
 constexpr double kSlantedSteps = 1.5;  // a slanted plane has 1.5 times its area of voxel faces, on average over angles
 
-// A boundary run is a segment through the middles of its voxels, and each of them holds a point of the scene.
-const double kSegmentToPoint = std::sqrt(1.5);  // from a point of the segment to any point of its voxel, in voxels
-const double kPointToSegment = std::sqrt(0.5);
-constexpr double kTolerance = 0.5;  // of the search, in voxels
-
 /// What the solid shows to the outside. With the inside filled, every boundary voxel is touched by the scene.
 struct Outside {
   std::vector<TriangleD> segments;
@@ -36,30 +31,22 @@ struct Outside {
   std::uint64_t dense_faces = 0;
   VoxelBox box{};
 
-  Outside(const BrickShelf& solid, const GridFrame& frame) : voxel(frame.voxel) {
-    const Boundary boundary = boundary_of(solid);
+  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame) : voxel(frame.voxel) {
+    Boundary boundary = boundary_of(solid);
     dense_faces = 2 * boundary.faces;
-    segments.reserve(boundary.runs.size());
     for (const VoxelRun& run : boundary.runs) {
-      constexpr std::int64_t kHalf = kLatticePerVoxel / 2;
-      const LatticeCoord a{std::int64_t(run.first.x) * kLatticePerVoxel,
-                           std::int64_t(run.first.y) * kLatticePerVoxel + kHalf,
-                           std::int64_t(run.first.z) * kLatticePerVoxel + kHalf};
-      const LatticeCoord b{a.x + run.length * kLatticePerVoxel, a.y, a.z};
-      segments.push_back({frame.world(a), frame.world(b), frame.world(b)});
       const VoxelCoord end{run.first.x + run.length, run.first.y + 1, run.first.z + 1};
       box = hull(box, VoxelBox{run.first, end});
     }
+    if (surface != nullptr) boundary.runs = runs_of(*surface, box);
+    segments = segments_of(boundary.runs, frame);
     tree = std::make_unique<TriangleBvh>(segments);
   }
 
   /// Upper bound of the distance between the scene's outside and `mesh`, in both directions.
   [[nodiscard]] double distance(const LatticeMesh& mesh) const {
     const std::vector<TriangleD> triangles = world_triangles(mesh);
-    const double there = surface_distance(triangles, *tree, kTolerance * voxel).at_most + kSegmentToPoint * voxel;
-    const double back =
-        surface_distance(segments, TriangleBvh(triangles), kTolerance * voxel).at_most + kPointToSegment * voxel;
-    return std::max(there, back);
+    return std::max(distance_from_mesh(triangles, *tree, voxel), distance_to_mesh(segments, triangles, voxel));
   }
 };
 
@@ -69,7 +56,9 @@ struct LodChain::State {
   State(const StreamHeader& h, std::unique_ptr<BrickShelf> s, Backends& b, LodOptions o)
       : options(std::move(o)), backends(b), header(h), solid(std::move(s)), diagonal(h.bounds.diagonal()) {
     if (solid->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
-    outside = std::make_unique<Outside>(*solid, header.frame);
+    outside = std::make_unique<Outside>(*solid, options.surface.get(), header.frame);
+    options.surface.reset();
+    last_scale = options.least_scale_world;
   }
 
   LodLevel make(const LodTarget& target) {

@@ -26,6 +26,9 @@ struct LodOptions {
   MeshMode mode = MeshMode::bounding;  ///< bounding or fit
   Enclose enclose = Enclose::input;    ///< of bounding levels: closing or input
   std::vector<TriangleD> scene;        ///< what fits are drawn to, scene units; empty: they follow the closing
+  /// Voxels of the solid that hold a point of what the scene shows to the outside; null: those of its boundary.
+  std::shared_ptr<const BrickShelf> surface;
+  double least_scale_world = 0;  ///< no level is closed at less
   bool tighten = true;
   bool keep_cavities = false;
   int max_attempts = 12;                                  ///< at most so many scales for one level

@@ -14,6 +14,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/grid/cells.h"
 #include "lib/grid/outside.h"
 #include "lib/stage/triangle_bins.h"
 #include "lib/voxel/voxelize.h"
@@ -243,6 +244,7 @@ void Run::lay_grid() {
   counts_.voxel_asked = options_.voxel_size(bounds_);
   header_.frame =
       make_frame(bounds_, counts_.voxel_asked, options_.up ? *options_.up : source_.up().value_or(UpAxis::y));
+  if (options_.cell_vox > 0) header_.frame = aligned_to_cells(header_.frame, bounds_, options_.cell_vox);
   header_.bounds = bounds_;
   header_.bricks = bricks_of(voxel_bounds(header_.frame, bounds_));
   header_.slab_axis = longest_axis(header_.bricks);

@@ -17,6 +17,7 @@ namespace bp {
 struct VoxelizeOptions {
   /// Voxel size in scene units, given the scene's bounds; make_frame rounds it up a little.
   std::function<double(const Bounds3d&)> voxel_size;
+  std::int32_t cell_vox = 0;  ///< edge of cells that the frame is aligned to (lib/grid/cells.h); 0: none
   FillMode fill = FillMode::flood;
   std::optional<UpAxis> up;  ///< of the header; empty: what the scene tells, else y
   /// For what waits: triangles, as they are or compressed in the store, and bricks on the shelf. The store and the

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "io/tileset_file.h"
 #include "lib/check/check_proxy.h"
+#include "lib/check/tile_cover.h"
 #include "lib/check/tileset.h"
 #include "lib/core/error.h"
 
@@ -56,6 +59,59 @@ std::string complaint_of(const CheckReport& r) {
   return text.empty() ? "does not hold" : text;
 }
 
+bool has_cells(const Tileset& tileset) {
+  bool any = false;
+  for_each_tile(tileset, [&](const Tile& tile, const std::string&, const Transform&) { any = any || tile.cell; });
+  return any;
+}
+
+/// The tileset as check_cover() wants it, filled depth first.
+class CoverTiles {
+ public:
+  explicit CoverTiles(const Tileset& tileset) : up_(tileset.up) {}
+
+  void add(const Tile& tile, const std::string& place, const Transform& transform, IndexedMesh* content) {
+    CoverTile& out = tiles_.emplace_back();
+    out.place = place;
+    out.uri = tile.uri;
+    if (content != nullptr) out.content = std::move(*content);
+    if (tile.cell) out.cell = moved(*tile.cell, transform);
+    places_[place] = tiles_.size() - 1;
+    const std::size_t end = place.rfind(".children[");
+    if (end != std::string::npos) tiles_[places_.at(place.substr(0, end))].children.push_back(tiles_.size() - 1);
+  }
+  [[nodiscard]] const std::vector<CoverTile>& tiles() const { return tiles_; }
+  [[nodiscard]] Vec3d to_scene(const Transform& transform, const Vec3d& p) const {
+    const Vec3d q = transformed(transform, p);
+    return up_ == "y" ? y_up(q) : q;
+  }
+
+ private:
+  [[nodiscard]] Bounds3d moved(const Bounds3d& cell, const Transform& transform) const {
+    Transform turn = transform;
+    for (std::size_t i = 12; i < 15; ++i) turn[i] = 0;
+    if (turn != kNoTransform) fail(ErrorCode::bad_input, "a tile with a cell is turned or scaled, which is not read");
+    Bounds3d out;
+    for (const Vec3d& p : {cell.min, cell.max}) out.add(to_scene(transform, p));
+    return out;
+  }
+  std::string up_;
+  std::vector<CoverTile> tiles_;
+  std::map<std::string, std::size_t> places_;
+};
+
+/// Each content must enclose the whole scene by itself.
+void check_whole(const CoverTiles& cover, TriangleSource& scene, std::vector<std::string>& findings) {
+  for (const CoverTile& tile : cover.tiles()) {
+    if (!tile.content) continue;
+    CheckOptions check;
+    check.distances = false;
+    scene.rewind();
+    const CheckReport report = check_proxy(*tile.content, &scene, check);
+    if (!report.holds()) findings.push_back(fmt::format("{}: {} {}", tile.place, tile.uri, complaint_of(report)));
+  }
+}
+
 }  // namespace
 
 bool is_tileset(const std::string& path) {
@@ -79,28 +135,25 @@ TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std
   std::unique_ptr<TriangleSource> scene;
   if (verdict.scene) scene = open_scenes(scenes, options);
   std::vector<TileContent> contents;
-  std::vector<std::string> proxies;  // findings of them
+  CoverTiles cover(tileset);
   for_each_tile(tileset, [&](const Tile& tile, const std::string& place, const Transform& transform) {
     ++verdict.tiles;
-    if (tile.uri.empty()) return;
+    if (tile.uri.empty()) return cover.add(tile, place, transform, nullptr);
     ++verdict.contents;
     Content content = read_content(folder + tile.uri, options);
     verdict.triangles += content.mesh.triangles.size();
-    if (scene && content.known.found) {
-      for (Vec3d& p : content.mesh.vertices) {
-        p = transformed(transform, p);
-        if (tileset.up == "y") p = y_up(p);
-      }
-      CheckOptions check;
-      check.distances = false;
-      scene->rewind();
-      const CheckReport report = check_proxy(content.mesh, scene.get(), check);
-      if (!report.holds()) proxies.push_back(fmt::format("{}: {} {}", place, tile.uri, complaint_of(report)));
-    }
+    for (Vec3d& p : content.mesh.vertices) p = cover.to_scene(transform, p);
+    cover.add(tile, place, transform, scene && content.known.found ? &content.mesh : nullptr);
     contents.push_back(std::move(content.known));
   });
   verdict.findings = check_tileset(tileset, contents);
-  verdict.findings.insert(verdict.findings.end(), proxies.begin(), proxies.end());
+  if (!scene) return verdict;
+  if (has_cells(tileset)) {
+    const std::vector<std::string> findings = check_cover(cover.tiles(), *scene);
+    verdict.findings.insert(verdict.findings.end(), findings.begin(), findings.end());
+  } else {
+    check_whole(cover, *scene, verdict.findings);
+  }
   return verdict;
 }
 

@@ -6,7 +6,6 @@
 
 #include "io/lod_writer.h"
 #include "io/mesh_writer.h"
-#include "io/tileset_file.h"
 #include "lib/core/error.h"
 #include "lib/meshing/convex_parts.h"
 
@@ -29,67 +28,6 @@ void write_gltf_profile(const std::string& name, const std::vector<LodLevel>& le
     coverage.push_back(coverage_at_one_pixel(diameter, levels[i].error_world));
   coverage.push_back(0);
   write_lod_glb(meshes, coverage, out.file(name + ".glb"));
-}
-
-Bounds3d bounds_of(const LatticeMesh& mesh) {
-  Bounds3d bounds;
-  for (const LatticeCoord v : mesh.vertices) bounds.add(mesh.frame.world(v));
-  return bounds;
-}
-
-/// A point that is a lattice point of every level: a corner of the largest voxels, near the middle.
-Vec3d common_origin(const std::vector<LodLevel>& levels, const Bounds3d& bounds) {
-  double voxel = 0;
-  for (const LodLevel& level : levels) voxel = std::max(voxel, level.mesh.frame.voxel);
-  Vec3d origin;
-  for (std::size_t i = 0; i < 3; ++i)
-    origin[i] = std::nearbyint((bounds.min[i] / 2 + bounds.max[i] / 2) / voxel) * voxel + 0.0;
-  return origin;
-}
-
-/// Scene to 3D Tiles: z up. Exact.
-Vec3d z_up(const Vec3d& p, UpAxis up) {
-  return up == UpAxis::z ? p : Vec3d{p[0], 0.0 - p[2], p[1]};
-}
-
-Bounds3d tile_bounds(const LatticeMesh& mesh, const Vec3d& origin) {
-  const Bounds3d bounds = bounds_of(mesh);
-  Bounds3d out;
-  for (Vec3d p : {bounds.min, bounds.max}) {
-    for (std::size_t i = 0; i < 3; ++i) p[i] -= origin[i];  // both are lattice points: exact
-    out.add(z_up(p, mesh.frame.up));
-  }
-  return out;
-}
-
-void write_tiles_profile(const std::string& name, const std::vector<LodLevel>& levels, double diameter,
-                         OutputFolder& out) {
-  Bounds3d bounds;
-  for (const LodLevel& level : levels) bounds.merge(bounds_of(level.mesh));
-  const Vec3d origin = common_origin(levels, bounds);
-  Tile tile;  // from the finest to the root
-  Bounds3d box;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const LodLevel& level = levels[i];
-    const std::string file = level_name(name, i) + ".glb";
-    write_tile_glb({level_name(name, i), &level.mesh}, origin, out.file(file));
-    Tile parent;
-    if (i > 0) parent.children.push_back(std::move(tile));
-    box.merge(tile_bounds(level.mesh, origin));
-    parent.box = box_of(box);
-    parent.geometric_error = level.error_world;
-    parent.uri = file;
-    tile = std::move(parent);
-  }
-  const UpAxis up = levels.front().mesh.frame.up;
-  const Vec3d offset = z_up(origin, up);
-  for (std::size_t i = 0; i < 3; ++i) tile.transform[12 + i] = offset[i];
-  tile.refine = "REPLACE";
-  Tileset tileset;
-  tileset.up = up == UpAxis::z ? "z" : "y";
-  tileset.geometric_error = std::max(diameter, tile.geometric_error);  // of drawing nothing at all
-  tileset.root = std::move(tile);
-  write_tileset(tileset, levels.front().mesh.provenance, out.file("tileset.json"));
 }
 
 /// What importers go by: Godot by the suffix "-colonly" (collision only, the mesh itself), Unreal by the prefix
@@ -164,7 +102,7 @@ std::vector<std::string> profile_files(LodProfile profile, const std::string& na
   if (profile == LodProfile::collision) return {name + "_godot.glb", name + "_unreal.glb", name + "_unity.glb"};
   std::vector<std::string> files;
   for (std::size_t i = 0; i < levels; ++i) files.push_back(level_name(name, i) + ".glb");
-  files.push_back(profile == LodProfile::gltf ? name + ".glb" : "tileset.json");
+  files.push_back(name + ".glb");
   return files;
 }
 
@@ -174,7 +112,7 @@ void write_profile(LodProfile profile, const std::string& name, const std::vecto
     case LodProfile::gltf:
       return write_gltf_profile(name, levels, diameter, out);
     case LodProfile::tiles:
-      return write_tiles_profile(name, levels, diameter, out);
+      break;  // tile_build.h
     case LodProfile::collision:
       return write_collision_profile(name, levels.front().mesh, out);
   }

@@ -4,13 +4,10 @@
 #include <vector>
 
 #include "io/file.h"
-#include "lib/stage/lod_stage.h"
-#include "tools/common/common_options.h"
+#include "tools/lod/build_options.h"
 
-/// What bplod writes of a chain: the files of a profile, in one folder.
+/// What bplod writes of a chain: the files of a profile other than tiles, in one folder.
 namespace bp {
-
-enum class LodProfile { gltf, tiles, collision };
 
 /// Files that appear together: all are opened before the work, so that a name that cannot be written fails at once, and
 /// committed after it, in the order in which they were opened; what names other files comes last.

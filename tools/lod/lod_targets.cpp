@@ -77,13 +77,17 @@ std::size_t level_count(const LodRequest& r) {
   return list_size(r) > 0 ? list_size(r) : std::size_t(kDefaultLevels);
 }
 
+bool is_explicit(const LodRequest& r) {
+  return r.levels || list_size(r) > 1;
+}
+
 double finest_error(const LodRequest& r, double diagonal) {
   if (!r.errors.empty()) return r.errors[0].in_world(diagonal, 0);
   if (!r.pixels.empty()) return diagonal / r.pixels[0];
   return 0;
 }
 
-LodTarget target_of(const LodRequest& r, std::size_t i, double diagonal, double voxel, std::uint64_t dense_faces) {
+LodTarget tile_target_of(const LodRequest& r, std::size_t i, double diagonal, double voxel) {
   LodTarget target;
   const int n = int(i);
   if (!r.errors.empty()) {
@@ -91,14 +95,21 @@ LodTarget target_of(const LodRequest& r, std::size_t i, double diagonal, double 
         i < r.errors.size() ? r.errors[i].in_world(diagonal, 0) : std::ldexp(r.errors[0].in_world(diagonal, 0), n);
   } else if (!r.pixels.empty()) {
     target.error_world = diagonal / (i < r.pixels.size() ? r.pixels[i] : std::ldexp(r.pixels[0], -n));
-  } else if (i < r.faces.size()) {
-    target.faces = r.faces[i];
-  } else {
-    const std::uint64_t first =
-        r.faces.empty() ? std::max(dense_faces / kDensePerFace, kLeastFirstFaces) : r.faces.front();
-    target.faces = std::max(n < 32 ? first >> (2 * n) : 0, kLeastFaces);
+  } else if (!r.faces.empty()) {
+    target.faces = i < r.faces.size() ? r.faces[i] : r.faces[0];
   }
   if (r.scale) target.scale_world = std::ldexp(r.scale->in_world(diagonal, voxel), n);
+  return target;
+}
+
+LodTarget target_of(const LodRequest& r, std::size_t i, std::size_t since, double diagonal, double voxel,
+                    std::uint64_t dense_faces) {
+  LodTarget target = tile_target_of(r, i, diagonal, voxel);
+  if (target.error_world > 0 || i < r.faces.size()) return target;
+  const std::uint64_t first =
+      r.faces.empty() ? std::max(dense_faces / kDensePerFace, kLeastFirstFaces) : r.faces.front();
+  const int n = int(i - since);
+  target.faces = std::max(n < 32 ? first >> (2 * n) : 0, kLeastFaces);
   return target;
 }
 

@@ -28,16 +28,23 @@ struct LodRequest {
 /// Throws bad_argument if the request contradicts itself.
 void check(const LodRequest& request);
 [[nodiscard]] std::size_t level_count(const LodRequest& request);
+[[nodiscard]] bool is_explicit(const LodRequest& request);  ///< the number of levels was asked for, or listed
 /// Error of the finest level in scene units; 0 if the request is for faces.
 [[nodiscard]] double finest_error(const LodRequest& request, double diagonal);
 
-/// Of level `i`:
-///   faces   as listed, or F / 4^i; F without any list: a hundredth of the dense surface's triangles, at least 200
+/// Of level `i`, of which `since` (0, or where the levels of a tileset need not be cut any more) is the first in one
+/// mesh:
+///   faces   as listed, or F / 4^(i - since); F without any list: a hundredth of the dense surface's triangles, at
+///   least
+///           200
 ///   errors  as listed, or E * 2^i
 ///   pixels  the scene's diagonal spans at most P pixels when the level is drawn, and its error at most one of them:
 ///           error = diagonal / P, with P as listed, or P / 2^i
 ///   scale   --scale * 2^i, if given
-[[nodiscard]] LodTarget target_of(const LodRequest& request, std::size_t i, double diagonal, double voxel,
-                                  std::uint64_t dense_faces);
+[[nodiscard]] LodTarget target_of(const LodRequest& request, std::size_t i, std::size_t since, double diagonal,
+                                  double voxel, std::uint64_t dense_faces);
+
+/// Of each tile of level `i`, which is cut: faces as listed, or F; none without any list.
+[[nodiscard]] LodTarget tile_target_of(const LodRequest& request, std::size_t i, double diagonal, double voxel);
 
 }  // namespace bp

@@ -17,6 +17,20 @@ bplod part*.obj --name cubes --error 1,2 -o errors > list
 awk -F '\t' 'NR > 1 { print $1, ($3 <= 1.5 * (NR - 1) ? "keeps" : "breaks") " its error" }' list
 bplod part*.obj --name cubes --screen 50 --levels 2 -q -o screen | cut -f 1
 
+# Levels that are cut into tiles.
+bplod part*.obj --name cubes --resolution 160 --tile 128 --profile 3dtiles -o cut -j 1 --memory 300M | cut -f 1
+bpcheck part*.obj cut/tileset.json | sed 's/[0-9]* triangles/some triangles/'
+bplod part*.obj --name cubes --resolution 160 --tile 128 --profile 3dtiles -o cut2 -j 2 > list
+diff -r cut cut2 && echo "the same bytes"
+bplod part*.obj --name cubes --resolution 160 --tile 128 --levels 1 --faces 500 --up z --profile 3dtiles -o cut2 --overwrite -q | cut -f 1
+bpcheck part*.obj cut2/tileset.json | sed 's/[0-9]* triangles/some triangles/'
+LC_ALL=C ls -A cut2
+tiles=(cut2/cubes_LOD0/*)
+rm "${tiles[0]}"
+cp "${tiles[1]}" "${tiles[2]}"
+bpcheck part*.obj cut2/tileset.json | sed 's/[0-9]* triangles/some triangles/; s/[0-9][0-9]* of [0-9][0-9]*/some/; s/by up to.*//'
+try bplod cube.obj -o x --tile 100
+
 # Collision: names that importers go by; the convex pieces enclose, too.
 bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision | cut -f 1
 for f in godot unity unreal; do bpcheck part*.obj collision/cubes_$f.glb --no-distances | tail -1; done

@@ -83,7 +83,9 @@ TEST_CASE("a tile read back is the mesh, to the bit, relative to its origin", "[
   const LatticeMesh mesh = random_mesh(frame_at(place, 0.3, up), reach, 5);
   const Vec3d origin = mesh.frame.world({0, 0, 0});
   const TempDir dir;
-  const std::string path = written(dir, [&](OutputFile& out) { write_tile_glb({"tile", &mesh}, origin, out); });
+  const std::string path = written(dir, [&](OutputFile& out) {
+    out.write(tile_glb({"tile", &mesh}, lattice_point(mesh.frame, origin)));
+  });
   std::vector<TriangleD> expected = soup(mesh, origin);
   if (up == UpAxis::z) {
     for (TriangleD& t : expected)
@@ -102,7 +104,9 @@ TEST_CASE("a tile away from its lattice, or too wide for floats, is refused", "[
   const TempDir dir;
   LatticeMesh mesh = random_mesh(frame_at({0, 0, 0}, 0.5, UpAxis::y), 100, 1);
   const auto write = [&](const Vec3d& origin) {
-    return written(dir, [&](OutputFile& out) { write_tile_glb({"tile", &mesh}, origin, out); });
+    return written(dir, [&](OutputFile& out) {
+      out.write(tile_glb({"tile", &mesh}, lattice_point(mesh.frame, origin)));
+    });
   };
   CHECK_THROWS_AS(write({0.001, 0, 0}), Error);
   mesh.vertices[3].y = (1 << 24) + 1;
@@ -141,7 +145,7 @@ TEST_CASE("parts of a file are all in its scene", "[quick][io][lod]") {
 TEST_CASE("a damaged compressed view is an error or other numbers, never a crash", "[quick][io][lod]") {
   const TempDir dir;
   const LatticeMesh mesh = random_mesh(frame_at({0, 0, 0}, 0.5, UpAxis::y), 3000, 9);
-  const std::string path = written(dir, [&](OutputFile& out) { write_tile_glb({"tile", &mesh}, {}, out); });
+  const std::string path = written(dir, [&](OutputFile& out) { out.write(tile_glb({"tile", &mesh}, {})); });
   const std::string good = bytes_of_file(path);
   const std::size_t data = good.find("BIN") + 4;
   std::mt19937 random(3);

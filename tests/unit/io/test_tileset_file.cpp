@@ -37,10 +37,8 @@ TEST_CASE("a tileset that is written is read back the same", "[quick][io][lod]")
   t.root.children[1].box = TileBox{};
   t.root.children[1].uri = "a.glb";
   const TempDir dir;
-  OutputFile out(dir.path("tileset.json"), true);
-  write_tileset(t, {{"bplod", "0.1.0", "level=0", "00ff"}}, out);
-  out.commit();
-  const Tileset back = read_tileset(dir.path("tileset.json"));
+  t.root.children[1].cell = Bounds3d{{-1.0 / 3, 2, 3}, {4, 5, 1e6 + 1.0 / 7}};
+  const Tileset back = read_tileset(dir.file("tileset.json", tileset_text(t, {{"bplod", "0.1.0", "level=0", "00ff"}})));
   CHECK(back.version == "1.1");
   CHECK(back.up == t.up);
   CHECK(back.geometric_error == t.geometric_error);
@@ -51,6 +49,8 @@ TEST_CASE("a tileset that is written is read back the same", "[quick][io][lod]")
   CHECK(back.root.uri.empty());
   REQUIRE(back.root.children.size() == 2);
   CHECK(back.root.children[1].uri == "a.glb");
+  CHECK(back.root.children[1].cell == t.root.children[1].cell);
+  CHECK(!back.root.cell);
   CHECK(back.root.children[0].children.empty());
 }
 

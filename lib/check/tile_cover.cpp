@@ -1,0 +1,318 @@
+#include "lib/check/tile_cover.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+#include <memory>
+
+#include "lib/check/surface.h"
+#include "lib/core/parallel.h"
+#include "lib/core/triangle_intersection.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kGrowth = 1e-9;  // of a cell, in its edges
+constexpr double kNear = 1e-12;   // a point in doubles and one of the triangle, in edges of the cell
+
+/// The determinant of orient3d and a bound of its error (predicates.h, "Filter").
+struct Side {
+  double value, error;
+};
+Side side_of(const TriangleD& t, const Vec3d& p) {
+  Vec3d u, v, w;
+  for (std::size_t i = 0; i < 3; ++i) u[i] = t[1][i] - t[0][i], v[i] = t[2][i] - t[0][i], w[i] = p[i] - t[0][i];
+  double value = 0, permanent = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    const double l = u[j] * v[k], r = u[k] * v[j];
+    value += (l - r) * w[i];
+    permanent += (std::abs(l) + std::abs(r)) * std::abs(w[i]);
+  }
+  return {std::abs(value), 16 * 0x1p-53 * permanent};
+}
+
+/// Bounds of where segment pq, which meets triangle t, crosses the plane of t: by the ratio of the distances of its
+/// ends.
+void add_crossing(const Vec3d& p, const Vec3d& q, const TriangleD& t, Bounds3d& bounds) {
+  const Side a = side_of(t, p), b = side_of(t, q);
+  const double a_lo = std::max(a.value - a.error, 0.0), a_hi = a.value + a.error;
+  const double b_lo = std::max(b.value - b.error, 0.0), b_hi = b.value + b.error;
+  const double lo = a_lo + b_hi > 0 ? a_lo / (a_lo + b_hi) * (1 - 1e-15) : 0;
+  const double hi = a_hi + b_lo > 0 ? std::min(a_hi / (a_hi + b_lo) * (1 + 1e-15), 1.0) : 1;
+  for (const double s : {lo, hi}) {
+    Vec3d low, high;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double x = p[i] + s * (q[i] - p[i]), error = 0x1p-50 * (std::abs(p[i]) + std::abs(q[i]));
+      low[i] = x - error, high[i] = x + error;
+    }
+    bounds.add(low), bounds.add(high);
+  }
+}
+
+void add_crossings(const TriangleD& a, const TriangleD& b, Bounds3d& bounds) {
+  for (std::size_t e = 0; e < 3; ++e) {
+    if (segment_meets_triangle(a[e], a[(e + 1) % 3], b.data())) add_crossing(a[e], a[(e + 1) % 3], b, bounds);
+  }
+}
+
+/// Bounds of what two triangles have in common: the hull of where edges of one meet the other.
+Bounds3d common_bounds(const TriangleD& a, const TriangleD& b) {
+  Bounds3d bounds;
+  add_crossings(a, b, bounds);
+  add_crossings(b, a, bounds);
+  return bounds;
+}
+
+double edge_of(const Bounds3d& box) {
+  return std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
+}
+
+Bounds3d grown(const Bounds3d& box, double share) {
+  const double by = edge_of(box) * share;
+  Bounds3d out = box;
+  for (std::size_t i = 0; i < 3; ++i) out.min[i] -= by, out.max[i] += by;
+  return out;
+}
+
+/// Triangle ∩ box, a convex polygon; in doubles, relative to the box's corner, so that errors are small beside it.
+class ClippedTriangle {
+ public:
+  ClippedTriangle(const TriangleD& t, const Bounds3d& box) {
+    Vec3d size;
+    for (std::size_t i = 0; i < 3; ++i) size[i] = box.max[i] - box.min[i];
+    for (const Vec3d& p : t) points_.push_back({p[0] - box.min[0], p[1] - box.min[1], p[2] - box.min[2]});
+    for (std::size_t i = 0; i < 3 && !points_.empty(); ++i) {
+      cut([&](const Vec3d& p) { return p[i]; });
+      cut([&](const Vec3d& p) { return size[i] - p[i]; });
+    }
+    origin_ = box.min;
+  }
+  [[nodiscard]] bool empty() const { return points_.empty(); }
+  [[nodiscard]] Vec3d middle() const {
+    Vec3d sum{};
+    for (const Vec3d& p : points_)
+      for (std::size_t i = 0; i < 3; ++i) sum[i] += p[i] / double(points_.size());
+    return {origin_[0] + sum[0], origin_[1] + sum[1], origin_[2] + sum[2]};
+  }
+
+ private:
+  /// Keeps where height() is not negative (Sutherland and Hodgman).
+  template <class Height>
+  void cut(const Height& height) {
+    std::vector<Vec3d> kept;
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      const Vec3d &p = points_[k], &q = points_[(k + 1) % points_.size()];
+      const double hp = height(p), hq = height(q);
+      if (hp >= 0) kept.push_back(p);
+      if ((hp >= 0) == (hq >= 0)) continue;
+      const double s = hp / (hp - hq);
+      kept.push_back({p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1]), p[2] + s * (q[2] - p[2])});
+    }
+    points_ = std::move(kept);
+  }
+  std::vector<Vec3d> points_;
+  Vec3d origin_{};
+};
+
+enum class Verdict { fine, touching, outside, undecided };
+
+/// The content of a tile as a surface, and the triangles of the scene that it fails.
+struct Body {
+  WeldedMesh mesh;
+  std::unique_ptr<Surface> surface;
+  bool closed = false;
+};
+
+struct Counts {
+  std::atomic<std::uint64_t> touching{0}, outside{0}, undecided{0}, uncovered{0}, bare{0};
+};
+
+class Checker {
+ public:
+  explicit Checker(const std::vector<CoverTile>& tiles) : tiles_(tiles), bodies_(tiles.size()), counts_(tiles.size()) {
+    for (std::size_t i = 0; i < tiles.size(); ++i) add(i);
+  }
+
+  std::vector<std::string> run(TriangleSource& scene) {
+    scene.rewind();
+    std::atomic<std::uint64_t> astray{0};
+    pipeline<std::vector<TriangleD>>(
+        2 * thread_count(), [&](std::vector<TriangleD>& chunk) { return scene.read(chunk); },
+        [&](std::vector<TriangleD>& chunk) {
+          for (const TriangleD& t : chunk) {
+            if (!in_root(t)) {
+              ++astray;
+            } else {
+              visit(0, t);
+            }
+          }
+        },
+        [](std::vector<TriangleD>&) {});
+    if (astray > 0)
+      findings_.push_back(fmt::format("{}: {} triangles of the scene leave its cell", tiles_[0].place, astray.load()));
+    for (std::size_t i = 0; i < tiles_.size(); ++i) say(i);
+    return std::move(findings_);
+  }
+
+ private:
+  void add(std::size_t i) {
+    const CoverTile& tile = tiles_[i];
+    if (tile.content) {
+      Body& body = bodies_[i];
+      CheckReport report;
+      body.mesh = weld(*tile.content, 1, report);
+      check_topology(body.mesh, 1, report);
+      body.surface = std::make_unique<Surface>(body.mesh);
+      report.self_intersections = body.surface->self_intersections(1);
+      body.closed = report.closed() && report.oriented();
+      if (body.closed) report.inverted_components = inverted_components(body.mesh, *body.surface, 1);
+      if (!report.holds())
+        findings_.push_back(fmt::format("{}: {} is no closed, oriented, embedded 2-manifold", tile.place, tile.uri));
+    }
+    for (const std::size_t child : tile.children) {
+      if (!fits(i, child))
+        findings_.push_back(
+            fmt::format("{}: its cell is neither its parent's nor an octant of it", tiles_[child].place));
+    }
+  }
+
+  [[nodiscard]] bool fits(std::size_t parent, std::size_t child) const {
+    const auto &p = tiles_[parent].cell, &c = tiles_[child].cell;
+    if (p == c) return tiles_[parent].children.size() == 1;
+    if (!p || !c) return false;
+    for (int k = 0; k < 8; ++k) {
+      if (octant(*p, k) == *c) return true;
+    }
+    return false;
+  }
+
+  static Bounds3d octant(const Bounds3d& box, int k) {
+    Bounds3d out = box;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double middle = box.min[i] + (box.max[i] - box.min[i]) / 2;
+      ((k >> i & 1) != 0 ? out.min[i] : out.max[i]) = middle;
+    }
+    return out;
+  }
+
+  [[nodiscard]] bool in_root(const TriangleD& t) const {
+    if (!tiles_[0].cell) return true;
+    const Bounds3d& cell = *tiles_[0].cell;
+    for (const Vec3d& p : t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (!(p[i] >= cell.min[i] && p[i] <= cell.max[i])) return false;
+      }
+    }
+    return true;
+  }
+
+  /// True unless t surely avoids the closed cell.
+  [[nodiscard]] static bool meets(const TriangleD& t, const std::optional<Bounds3d>& cell) {
+    if (!cell) return true;
+    const Bounds3d box = grown(*cell, kGrowth / 2);
+    return overlap(bounds_of(t), box) && !ClippedTriangle(t, box).empty();
+  }
+
+  /// t meets the cell of tile i.
+  void visit(std::size_t i, const TriangleD& t) {
+    const CoverTile& tile = tiles_[i];
+    if (!tile.content && tile.children.empty()) ++counts_[i].bare;
+    if (tile.content) {
+      const Verdict verdict = examine(i, t);
+      counts_[i].touching += verdict == Verdict::touching;
+      counts_[i].outside += verdict == Verdict::outside;
+      counts_[i].undecided += verdict == Verdict::undecided;
+    }
+    if (tile.children.empty()) return;
+    if (tile.children.size() == 1 && tiles_[tile.children[0]].cell == tile.cell) return visit(tile.children[0], t);
+    if (!tile.cell) return;
+    for (int k = 0; k < 8; ++k) {
+      const Bounds3d box = octant(*tile.cell, k);
+      if (!meets(t, box)) continue;
+      const std::size_t child = child_at(tile, box);
+      if (child == 0) {
+        ++counts_[i].uncovered;
+      } else {
+        visit(child, t);
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t child_at(const CoverTile& tile, const Bounds3d& box) const {
+    for (const std::size_t child : tile.children) {
+      if (tiles_[child].cell == box) return child;
+    }
+    return 0;
+  }
+
+  [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t) const {
+    const Body& body = bodies_[i];
+    if (!body.closed) return Verdict::undecided;
+    for (const Vec3d& p : t) {
+      if (!in_predicate_domain(p)) return Verdict::undecided;
+    }
+    const std::optional<Bounds3d>& cell = tiles_[i].cell;
+    if (!cell) {
+      if (body.surface->touched_by(t) != Surface::kNone) return Verdict::touching;
+      return body.surface->winding(t[0]) < 1 ? Verdict::outside : Verdict::fine;
+    }
+    const Bounds3d box = grown(*cell, kGrowth);
+    if (touches_within(body, t, box)) return Verdict::touching;
+    // No face meets t in the grown cell, so all of t there lies on the side of any point of it.
+    for (const Vec3d& p : t) {
+      if (contains(*cell, p)) return body.surface->winding(p) < 1 ? Verdict::outside : Verdict::fine;
+    }
+    return side_near(body, ClippedTriangle(t, grown(*cell, kGrowth / 2)).middle(), *cell);
+  }
+
+  [[nodiscard]] static bool contains(const Bounds3d& box, const Vec3d& p) { return overlap(box, Bounds3d{p, p}); }
+
+  [[nodiscard]] static bool touches_within(const Body& body, const TriangleD& t, const Bounds3d& box) {
+    Bounds3d reach = bounds_of(t);
+    for (std::size_t i = 0; i < 3; ++i) {
+      reach.min[i] = std::max(reach.min[i], box.min[i]);
+      reach.max[i] = std::min(reach.max[i], box.max[i]);
+    }
+    return body.surface->bvh().visit(reach, [&](const TriangleBvh::Item& face) {
+      return triangles_intersect(t.data(), face.corners.data()) && overlap(common_bounds(t, face.corners), box);
+    });
+  }
+
+  /// The side of a point of the triangle that lies beside `p`: the same, if the surface is farther than that.
+  [[nodiscard]] static Verdict side_near(const Body& body, const Vec3d& p, const Bounds3d& cell) {
+    double radius = kNear * edge_of(cell);
+    for (const double x : p) radius = std::max(radius, 0x1p-50 * std::abs(x));
+    if (radius > kGrowth / 4 * edge_of(cell)) return Verdict::undecided;
+    if (body.surface->bvh().nearest(p).distance_squared <= 16 * radius * radius) return Verdict::undecided;
+    return body.surface->winding(p) < 1 ? Verdict::outside : Verdict::fine;
+  }
+
+  void say(std::size_t i) {
+    const CoverTile& tile = tiles_[i];
+    const Counts& c = counts_[i];
+    const auto add = [&](std::uint64_t n, const char* what) {
+      if (n > 0) findings_.push_back(fmt::format("{}: {} {} {} triangles of the scene", tile.place, tile.uri, what, n));
+    };
+    add(c.touching, "is touched by");
+    add(c.outside, "leaves outside");
+    add(c.undecided, "cannot be decided for");
+    add(c.bare, "draws nothing for");
+    add(c.uncovered, "has no child where there are");
+  }
+
+  const std::vector<CoverTile>& tiles_;
+  std::vector<Body> bodies_;
+  std::vector<Counts> counts_;
+  std::vector<std::string> findings_;
+};
+
+}  // namespace
+
+std::vector<std::string> check_cover(const std::vector<CoverTile>& tiles, TriangleSource& scene) {
+  return Checker(tiles).run(scene);
+}
+
+}  // namespace bp

@@ -1,0 +1,23 @@
+#include "lib/grid/cells.h"
+
+namespace bp {
+
+namespace {
+
+// A closing reaches one voxel beyond what it closes, and reductions round outwards.
+constexpr std::int64_t kMarginVox = 2;
+
+}  // namespace
+
+GridFrame aligned_to_cells(const GridFrame& frame, const Bounds3d& bounds, std::int32_t edge_vox) {
+  const VoxelCoord size = voxel_bounds(frame, bounds).size();
+  const std::int64_t longest = std::max({size.x, size.y, size.z});
+  int n = 0;
+  while ((std::int64_t(edge_vox) - kBrickEdge - 2 * kMarginVox) << n < longest) ++n;
+  const std::int64_t step = std::int64_t(kBrickEdge) << n;
+  GridFrame aligned = frame;
+  for (std::int64_t& o : aligned.origin) o = floor_div(o - (kMarginVox << n), step) * step;
+  return aligned;
+}
+
+}  // namespace bp

@@ -1,0 +1,33 @@
+#pragma once
+#include "lib/core/box.h"
+#include "lib/core/grid_frame.h"
+
+/// Cells: a grid cut into cubes, so that eight cells of one level of detail (whose voxels are twice those of the level
+/// before, lib/grid/reduce.h) are one cell of the next: an octree without a list.
+namespace bp {
+
+using CellCoord = Coord3<struct CellSpace, std::int32_t>;  ///< cell of a level: voxels [edge c, edge c + edge)
+
+struct Cells {
+  std::int32_t edge_vox = 0;  ///< a multiple of 64, at least kLeastCellVox; the same at all levels
+
+  [[nodiscard]] CellCoord of(VoxelCoord p) const {
+    return {floor_div(p.x, edge_vox), floor_div(p.y, edge_vox), floor_div(p.z, edge_vox)};
+  }
+  [[nodiscard]] VoxelBox box(CellCoord c) const {
+    const VoxelCoord first{c.x * edge_vox, c.y * edge_vox, c.z * edge_vox};
+    return {first, {first.x + edge_vox, first.y + edge_vox, first.z + edge_vox}};
+  }
+};
+constexpr std::int32_t kLeastCellVox = 128;
+
+[[nodiscard]] inline CellCoord parent_of(CellCoord c) {
+  return {floor_div(c.x, 2), floor_div(c.y, 2), floor_div(c.z, 2)};
+}
+
+/// The frame with its origin moved down so that cells of all levels fall on voxels, on bricks and on each other: to a
+/// multiple of 64 * 2^n voxels from the scene's own origin, at least 2^(n+1) below the bounds, where n is the least
+/// number of reductions that bring the scene into one cell. So a scene that grows a little keeps its cells.
+[[nodiscard]] GridFrame aligned_to_cells(const GridFrame& frame, const Bounds3d& bounds, std::int32_t edge_vox);
+
+}  // namespace bp

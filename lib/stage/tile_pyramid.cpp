@@ -1,0 +1,61 @@
+#include "lib/stage/tile_pyramid.h"
+
+#include "lib/core/error.h"
+#include "lib/grid/boundary_runs.h"
+#include "lib/grid/reduce.h"
+#include "lib/grid/shelf_stream.h"
+
+namespace bp {
+
+TilePyramid::TilePyramid(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends,
+                         PyramidOptions options)
+    : header_(header), solid_(std::move(solid)), backends_(backends), options_(std::move(options)) {
+  if (solid_->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
+  surface_ = options_.make_shelf();
+  boundary_layer(*solid_, *surface_);
+}
+
+bool TilePyramid::in_one_cell() const {
+  const std::vector<BrickCoord> bricks = solid_->coords();
+  const CellCoord first = options_.cells.of(first_voxel(bricks.front()));
+  for (const BrickCoord c : bricks) {
+    if (options_.cells.of(first_voxel(c)) != first) return false;
+  }
+  return true;
+}
+
+std::unique_ptr<BrickShelf> TilePyramid::close(const ScaleField& field) {
+  CloseOptions o;
+  o.keep_cavities = options_.keep_cavities;
+  o.memory_bytes = options_.memory_bytes;
+  o.make_shelf = options_.make_shelf;
+  o.progress = options_.progress;
+  auto closing = options_.make_shelf();
+  ShelfSource source(header_, *solid_, nullptr, ShelfSource::Keep::all);
+  ShelfSink sink(nullptr, closing.get());
+  close_stream(source, sink, backends_, field, options_.closing, o);
+  return closing;
+}
+
+void TilePyramid::make(double scale_world, TileParams params, const TileEncoder& encode,
+                       const std::function<void(LevelTile&&)>& consume) {
+  ScaleField field;
+  field.base = params.scale_world = scale_world;
+  const auto closing = close(field);
+  params.element = options_.closing.element;
+  params.memory_bytes = options_.memory_bytes;
+  params.make_shelf = options_.make_shelf;
+  params.progress = options_.progress;
+  make_tiles({header_, *solid_, *surface_, *closing, options_.cells}, params, encode, consume);
+}
+
+void TilePyramid::reduce() {
+  auto solid = options_.make_shelf(), surface = options_.make_shelf();
+  bp::reduce(*solid_, header_.frame, *solid);
+  bp::reduce(*surface_, header_.frame, *surface);
+  header_ = reduced(header_);
+  solid_ = std::move(solid);
+  surface_ = std::move(surface);
+}
+
+}  // namespace bp

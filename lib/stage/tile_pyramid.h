@@ -1,0 +1,49 @@
+#pragma once
+#include "lib/backend/backend.h"
+#include "lib/stage/close_stage.h"
+#include "lib/stage/tile_stage.h"
+
+/// The levels of a scene that are too large for one mesh: level n has the voxels of the solid reduced n times, closed,
+/// and cut into tiles (tile_stage.h). What the scene shows to the outside is reduced along, so that errors are measured
+/// against the scene and not against the level before.
+namespace bp {
+
+struct PyramidOptions {
+  Cells cells;
+  ClosingParams closing;
+  bool keep_cavities = false;
+  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work
+  ShelfFactory make_shelf;
+  /// Called now and then, as in CloseOptions. May be empty.
+  std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
+};
+
+class TilePyramid {
+ public:
+  /// Begins at level 0. `solid` holds the bricks of `header`, whose frame is aligned_to_cells(). Keeps a reference to
+  /// `backends`. Throws bad_input if the solid is empty.
+  TilePyramid(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends,
+              PyramidOptions options);
+
+  [[nodiscard]] const StreamHeader& header() const { return header_; }  ///< of the level's solid
+  [[nodiscard]] bool in_one_cell() const;                               ///< the level need not be cut
+
+  /// Makes the tiles of the level; sets scale, element, memory and shelves of `params`. As make_tiles() and
+  /// close_stream().
+  void make(double scale_world, TileParams params, const TileEncoder& encode,
+            const std::function<void(LevelTile&&)>& consume);
+  void reduce();  ///< to the next level
+
+  /// What a LodChain goes on with; ends this pyramid.
+  [[nodiscard]] std::unique_ptr<BrickShelf> take_solid() { return std::move(solid_); }
+  [[nodiscard]] std::unique_ptr<BrickShelf> take_surface() { return std::move(surface_); }
+
+ private:
+  [[nodiscard]] std::unique_ptr<BrickShelf> close(const ScaleField& field);
+  StreamHeader header_;
+  std::unique_ptr<BrickShelf> solid_, surface_;
+  Backends& backends_;
+  PyramidOptions options_;
+};
+
+}  // namespace bp

@@ -1,0 +1,183 @@
+#include "lib/stage/tile_stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/grid/clip.h"
+#include "lib/grid/shelf_stream.h"
+#include "lib/stage/components.h"
+#include "lib/stage/surface_around.h"
+#include "lib/stage/voxel_distance.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::uint64_t kBytesPerDenseFace = 200, kBytesPerTile = std::uint64_t(4) << 20;
+
+/// A cell with something to mesh.
+struct Job {
+  CellCoord cell{};
+  std::uint64_t dense_faces = 0;  // about: of the closing in the cell, without walls
+};
+
+/// Cells of the closing's bricks, and how much there is to do in each.
+std::vector<Job> jobs_of(const TileLevel& level) {
+  const std::vector<BrickCoord> bricks = level.closing.coords();
+  std::vector<std::pair<CellCoord, std::uint64_t>> parts(bricks.size());
+  parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
+    const BrickCoord brick = bricks[std::size_t(i)];
+    parts[std::size_t(i)] = {level.cells.of(first_voxel(brick)), 2 * boundary_faces(level.closing, brick)};
+  });
+  std::sort(parts.begin(), parts.end());
+  std::vector<Job> jobs;
+  for (const auto& [cell, faces] : parts) {
+    if (jobs.empty() || jobs.back().cell != cell) jobs.push_back({cell, 0});
+    jobs.back().dense_faces += faces;
+  }
+  return jobs;
+}
+
+/// One tile: see the header of this stage.
+class Maker {
+ public:
+  Maker(const TileLevel& level, const TileParams& params, CellCoord cell)
+      : level_(level), params_(params), cell_(level.cells.box(cell)), grown_(cell_.grown(1)) {
+    solid_ = clipped(level.solid, grown_, params.make_shelf);
+    closing_ = clipped(level.closing, grown_, params.make_shelf);
+  }
+
+  /// A cell in a cavity that the closing filled: no voxel of the scene, and nothing to be seen.
+  [[nodiscard]] bool hidden() const { return solid_->coords().empty() && is_full(*closing_, cell_); }
+
+  LatticeMesh make(TileMeasures& measures) {
+    const Boundary boundary = boundary_of(*solid_);
+    MeshCounts counts;
+    LatticeMesh mesh = mesh_cell(2 * boundary.faces, measures, counts);
+    // A part of the closing without a voxel of the scene in this cell has nothing to stop it as it shrinks.
+    (void)drop_inverted_components(mesh);
+    measure(mesh, boundary.runs, measures);
+    measures.faces_dense = counts.levels.front().simplify.faces_in;
+    measures.volume = counts.levels.front().measures.volume;
+    return mesh;
+  }
+
+ private:
+  LatticeMesh mesh_cell(std::uint64_t solid_faces, TileMeasures& measures, MeshCounts& counts) {
+    MeshParams mesh;
+    mesh.mode = params_.mode;
+    mesh.tighten = params_.tighten;
+    mesh.enclose = solid_->coords().empty() ? Enclose::closing : params_.enclose;
+    mesh.error_world = params_.error_world;
+    if (params_.error_world == 0) {
+      measures.faces_asked = params_.faces > 0
+                                 ? params_.faces
+                                 : std::max(solid_faces / TileParams::kDenseFacesPerFace, TileParams::kLeastFaces);
+      mesh.faces = {measures.faces_asked};
+    }
+    if (params_.mode == MeshMode::fit) {
+      mesh.scene = scene_nearby();
+      mesh.enclose = mesh.scene.empty() ? Enclose::closing : Enclose::scene;
+    }
+    ShelfSource source(header(), *solid_, closing_.get(), ShelfSource::Keep::solid);
+    return std::move(mesh_stream(source, params_.make_shelf, std::move(mesh), counts).front());
+  }
+
+  [[nodiscard]] StreamHeader header() const {
+    StreamHeader header = level_.header;
+    header.bricks = bricks_of(grown_);
+    header.slab_axis = longest_axis(header.bricks);
+    header.has_closing = true;
+    header.scale = {};
+    header.scale.base = params_.scale_world;
+    header.element = params_.element;
+    return header;
+  }
+
+  /// Triangles that a fit may be drawn to.
+  [[nodiscard]] std::vector<TriangleD> scene_nearby() const {
+    std::vector<std::pair<std::uint32_t, TriangleD>> found;
+    if (params_.scene == nullptr) return {};
+    const VoxelBox reach = grown_.grown(4);
+    Bounds3d bounds;
+    for (const VoxelCoord p : {reach.min, reach.max}) {
+      bounds.add(level_.header.frame.world({std::int64_t(p.x) * kLatticePerVoxel, std::int64_t(p.y) * kLatticePerVoxel,
+                                            std::int64_t(p.z) * kLatticePerVoxel}));
+    }
+    params_.scene->visit(bounds, [&](const TriangleBvh::Item& item) {
+      found.emplace_back(item.id, item.corners);
+      return false;
+    });
+    std::sort(found.begin(), found.end());
+    std::vector<TriangleD> triangles;
+    for (const auto& [id, corners] : found) triangles.push_back(corners);
+    return triangles;
+  }
+
+  void measure(const LatticeMesh& mesh, const std::vector<VoxelRun>& walls, TileMeasures& measures) const {
+    measures.faces = mesh.triangles.size();
+    measures.min = measures.max = mesh.vertices.front();
+    for (const LatticeCoord& v : mesh.vertices) {
+      for (int i = 0; i < 3; ++i) {
+        measures.min[i] = std::min(measures.min[i], v[i]);
+        measures.max[i] = std::max(measures.max[i], v[i]);
+      }
+    }
+    const GridFrame& frame = mesh.frame;
+    const std::vector<TriangleD> triangles = world_triangles(mesh);
+    const auto reach = std::int32_t(std::ceil(params_.scale_world / frame.voxel)) + 2;
+    std::vector<VoxelRun> near = runs_of(level_.surface, grown_.grown(reach));
+    near.insert(near.end(), walls.begin(), walls.end());
+    const std::vector<TriangleD> inside = segments_of(runs_of(level_.surface, cell_), frame);
+    measures.error_world = std::max(distance_from_mesh(triangles, TriangleBvh(segments_of(near, frame)), frame.voxel),
+                                    distance_to_mesh(inside, triangles, frame.voxel));
+  }
+
+  const TileLevel& level_;
+  const TileParams& params_;
+  const VoxelBox cell_, grown_;
+  std::unique_ptr<BrickShelf> solid_, closing_;
+};
+
+struct Item {
+  Job job;
+  LevelTile tile;
+  bool made = false;
+};
+
+}  // namespace
+
+void make_tiles(const TileLevel& level, const TileParams& params, const TileEncoder& encode,
+                const std::function<void(LevelTile&&)>& consume) {
+  if (level.cells.edge_vox < kLeastCellVox || level.cells.edge_vox % kBrickEdge != 0)
+    fail(ErrorCode::bad_argument, "a cell of {} voxels a side is no multiple of 64, or below {}", level.cells.edge_vox,
+         kLeastCellVox);
+  const std::vector<Job> jobs = jobs_of(level);
+  std::uint64_t largest = 0;
+  for (const Job& job : jobs) largest = std::max(largest, job.dense_faces * kBytesPerDenseFace + kBytesPerTile);
+  const std::uint64_t fit = params.memory_bytes / std::max<std::uint64_t>(largest, 1);
+  const int in_flight = int(std::clamp<std::uint64_t>(fit, 1, std::uint64_t(thread_count()) + 1));
+  std::size_t next = 0, done = 0;
+  pipeline<Item>(
+      in_flight,
+      [&](Item& item) {
+        if (next == jobs.size()) return false;
+        item.job = jobs[next++];
+        return true;
+      },
+      [&](Item& item) {
+        Maker maker(level, params, item.job.cell);
+        if (maker.hidden()) return;
+        item.tile.cell = item.job.cell;
+        item.tile.content = encode(item.job.cell, maker.make(item.tile.measures));
+        item.made = true;
+      },
+      [&](Item& item) {
+        if (params.progress) params.progress("meshing", "tiles", ++done, jobs.size());
+        if (item.made) consume(std::move(item.tile));
+      });
+}
+
+}  // namespace bp

@@ -1,0 +1,69 @@
+#pragma once
+#include <functional>
+
+#include "lib/core/result_store.h"
+#include "lib/grid/cells.h"
+#include "lib/stage/mesh_stage.h"
+
+/// A level of detail in pieces: one proxy for each cell of the grid, as an independent job.
+///
+/// A tile is the proxy of (closing ∩ its cell grown by one voxel), closed by walls where the cell ends. By section 2 of
+/// docs/bounding.md the scene's part in the closed cell lies in the open interior of the solid's voxels in the grown
+/// cell, so each tile strictly encloses its part by itself: neighbours overlap by two voxels, and no crack can open,
+/// whichever levels are drawn side by side. A job reads nothing but the voxels of its cell and the parameters: same
+/// voxels, same bytes.
+namespace bp {
+
+/// The voxels of one level, on whole bricks; cells are aligned to them.
+struct TileLevel {
+  StreamHeader header;  ///< of `solid`
+  const BrickShelf& solid;
+  const BrickShelf& surface;  ///< voxels that hold a point of what the scene shows to the outside
+  const BrickShelf& closing;  ///< of solid; its bricks may lie outside header.bricks
+  Cells cells;
+};
+
+struct TileParams {
+  MeshMode mode = MeshMode::bounding;  ///< bounding or fit
+  Enclose enclose = Enclose::input;    ///< of bounding tiles: closing or input
+  bool tighten = true;
+  double scale_world = 0;  ///< that the closing was made with
+  StructuringElement element = StructuringElement::cube;
+  std::uint64_t faces = 0;  ///< of each tile; 0: kDenseFacesPerFace
+  /// Largest distance of a tile to what it encloses; 0: none. A budget of faces has no meaning then.
+  double error_world = 0;
+  const TriangleBvh* scene = nullptr;                     ///< what fits are drawn to; null: the closing
+  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work; one is always at work
+  ShelfFactory make_shelf;
+  /// Called now and then, as in CloseOptions. May be empty.
+  std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
+
+  static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastFaces = 60;  ///< of a tile without a budget
+};
+
+struct TileMeasures {
+  LatticeCoord min{}, max{};                 ///< of its vertices, in the frame of the level
+  std::uint64_t faces = 0, faces_asked = 0;  ///< asked 0: an error was asked for
+  std::uint64_t faces_dense = 0;
+  double volume = 0;  ///< scene units cubed
+  /// Upper bound of the Hausdorff distance between the tile's surface and that of the solid's part in the cell, walls
+  /// included, scene units; where tiles are drawn together, walls lie inside, and it bounds the distance to the scene.
+  double error_world = 0;
+};
+
+struct LevelTile {
+  CellCoord cell{};
+  TileMeasures measures;
+  std::string content;  ///< what encode() made of it
+};
+
+/// The file of a tile; its mesh is in the frame of the level. On any thread.
+using TileEncoder = std::function<std::string(CellCoord, const LatticeMesh&)>;
+
+/// All tiles of a level, in the order of their cells: those whose cell holds voxels of the closing, but for cavities
+/// that the closing fills. consume() on any thread, one at a time. Memory: 200 bytes for each triangle of the dense
+/// surface of a tile at work.
+void make_tiles(const TileLevel& level, const TileParams& params, const TileEncoder& encode,
+                const std::function<void(LevelTile&&)>& consume);
+
+}  // namespace bp

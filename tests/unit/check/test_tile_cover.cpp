@@ -1,0 +1,123 @@
+#include "lib/check/tile_cover.h"
+#include "tests/catch.h"
+#include "tests/support/memory_scene.h"
+
+namespace bp::test {
+
+namespace {
+
+IndexedMesh box_mesh(const Vec3d& lo, const Vec3d& hi) {
+  Triangles soup;
+  add_box(soup, lo, hi);
+  IndexedMesh mesh;
+  for (const TriangleD& t : soup) {
+    const auto n = std::uint32_t(mesh.vertices.size());
+    for (const Vec3d& p : t) mesh.vertices.push_back(p);
+    mesh.triangles.push_back({n, n + 1, n + 2});
+  }
+  return mesh;
+}
+
+Bounds3d bounds(const Vec3d& lo, const Vec3d& hi) {
+  return {lo, hi};
+}
+
+/// A root of edge 16 around a bar along x, and two children that each hold half of it.
+std::vector<CoverTile> good() {
+  return {{"root", "r", box_mesh({1, 1, 1}, {15, 4, 4}), bounds({0, 0, 0}, {16, 16, 16}), {1, 2}},
+          {"root.0", "a", box_mesh({1, 1, 1}, {8.5, 4, 4}), bounds({0, 0, 0}, {8, 8, 8}), {}},
+          {"root.1", "b", box_mesh({7.5, 1, 1}, {15, 4, 4}), bounds({8, 0, 0}, {16, 8, 8}), {}}};
+}
+
+Triangles bar() {
+  Triangles scene;
+  add_box(scene, {2, 2, 2}, {14, 3, 3});
+  return scene;
+}
+
+std::vector<std::string> findings(const std::vector<CoverTile>& tiles, const Triangles& scene = bar()) {
+  MemorySource source(scene, 5);
+  return check_cover(tiles, source);
+}
+
+std::string only(const std::vector<std::string>& all) {
+  return all.size() == 1 ? all[0] : std::to_string(all.size()) + " findings";
+}
+
+}  // namespace
+
+TEST_CASE("tiles that overlap where their cells meet cover a scene together", "[quick][check][tileset]") {
+  CHECK(findings(good()).empty());
+  std::vector<CoverTile> tiles = good();
+  tiles[0].content.reset();  // drawn by its children only
+  CHECK(findings(tiles).empty());
+  for (CoverTile& tile : tiles) tile.cell.reset();
+  tiles[0].children = {1};
+  tiles[1].content = box_mesh({1, 1, 1}, {15, 4, 4});
+  CHECK(findings(tiles).empty());  // each for the whole scene
+}
+
+TEST_CASE("a tile that ends where its cell does leaves the scene uncovered", "[quick][check][tileset]") {
+  std::vector<CoverTile> tiles = good();
+  tiles[1].content = box_mesh({1, 1, 1}, {8, 4, 4});  // the scene touches its wall
+  CHECK_THAT(only(findings(tiles)), Catch::Contains("root.0: a is touched by 8 triangles"));
+  tiles[1].content = box_mesh({1, 1, 1}, {6, 4, 4});
+  CHECK_THAT(only(findings(tiles)), Catch::Contains("root.0: a is touched by 8 triangles"));
+  tiles[1].content = box_mesh({1, 5, 1}, {8.5, 6, 4});
+  CHECK_THAT(only(findings(tiles)), Catch::Contains("root.0: a leaves outside 10 triangles"));
+}
+
+TEST_CASE("a triangle without a corner in the cell is placed by what is in the cell", "[quick][check][tileset]") {
+  Triangles scene{{Vec3d{2, 2, 2}, Vec3d{14, 2, 2}, Vec3d{14, 3, 2}}};
+  std::vector<CoverTile> tiles = good();
+  tiles[0].cell = bounds({-8, 0, 0}, {24, 32, 32});
+  tiles[0].content.reset();
+  tiles[1].cell = bounds({-8, 0, 0}, {8, 16, 16});
+  tiles[2].cell = bounds({8, 0, 0}, {24, 16, 16});
+  tiles[2].children = {3};
+  tiles.push_back(tiles[2]);
+  tiles[3].children.clear();
+  CHECK(findings(tiles, scene).empty());
+  scene[0] = {Vec3d{2, 2, 2}, Vec3d{14, 2, 2}, Vec3d{20, 2, 3}};  // leaves b
+  CHECK(findings(tiles, scene).size() == 2);
+  tiles = good();
+  tiles[0] = {"root", "r", {}, bounds({0, 0, 0}, {32, 32, 32}), {1}};
+  tiles[1] = {"root.0", "a", {}, bounds({0, 0, 0}, {16, 16, 16}), {2}};
+  tiles[2] = {"root.0.0", "b", box_mesh({7.5, 1, 1}, {16.5, 4, 4}), bounds({8, 0, 0}, {16, 8, 8}), {}};
+  tiles.push_back({"root.0.1", "c", box_mesh({-1, 1, 1}, {8.5, 4, 4}), bounds({0, 0, 0}, {8, 8, 8}), {}});
+  tiles.push_back({"root.1", "d", box_mesh({15.5, 1, 1}, {31, 4, 4}), bounds({16, 0, 0}, {32, 16, 16}), {}});
+  tiles[1].children = {2, 3};
+  tiles[0].children = {1, 4};
+  scene[0] = {Vec3d{2, 2, 2}, Vec3d{30, 2, 2}, Vec3d{30, 3, 2}};  // no corner in the cell of b
+  CHECK(findings(tiles, scene).empty());
+  tiles[2].content = box_mesh({7.5, 5, 1}, {16.5, 6, 4});
+  CHECK_THAT(only(findings(tiles, scene)), Catch::Contains("root.0.0: b leaves outside 1 triangles"));
+}
+
+TEST_CASE("a face that meets a triangle beyond the cell does no harm, a near one does", "[quick][check][tileset]") {
+  const Triangles scene{{Vec3d{2, 2, 2}, Vec3d{14, 2, 2}, Vec3d{14, 3, 2}}};
+  std::vector<CoverTile> tiles = good();
+  const double wall = GENERATE(8.001, 8.5, 7.999);
+  tiles[1].content = box_mesh({1, 1, 1}, {wall, 4, 4});
+  CHECK(findings(tiles, scene).empty() == (wall > 8));
+}
+
+TEST_CASE("missing and misplaced tiles are found", "[quick][check][tileset]") {
+  std::vector<CoverTile> tiles = good();
+  tiles[0].children = {1};
+  CHECK_THAT(only(findings(tiles)), Catch::Contains("root: r has no child where there are 10 triangles"));
+  tiles = good();
+  tiles[2].cell->max[0] = 15;
+  CHECK_THAT(findings(tiles)[0], Catch::Contains("root.1: its cell is neither"));
+  tiles = good();
+  tiles[2].content.reset();
+  CHECK_THAT(only(findings(tiles)), Catch::Contains("root.1: b draws nothing for 10 triangles"));
+  tiles = good();
+  std::swap(tiles[1].content->triangles[0][0], tiles[1].content->triangles[0][1]);
+  CHECK_THAT(findings(tiles)[0], Catch::Contains("root.0: a is no closed"));
+  Triangles scene = bar();
+  add_box(scene, {-3, 2, 2}, {-2, 3, 3});
+  CHECK_THAT(only(findings(good(), scene)), Catch::Contains("root: 12 triangles of the scene leave its cell"));
+}
+
+}  // namespace bp::test

@@ -1,0 +1,211 @@
+#include <map>
+
+#include "lib/backend/cpu_backend.h"
+#include "lib/check/check_proxy.h"
+#include "lib/check/tile_cover.h"
+#include "lib/core/parallel.h"
+#include "lib/grid/shelf_stream.h"
+#include "lib/stage/surface_around.h"
+#include "lib/stage/tile_pyramid.h"
+#include "lib/stage/voxelize_stage.h"
+#include "tests/catch.h"
+#include "tests/support/memory_scene.h"
+#include "tests/support/voxel_source.h"
+
+namespace bp::test {
+
+namespace {
+
+constexpr std::int32_t kEdge = 128;
+const Cells kCells{kEdge};
+
+/// Boxes along a diagonal, some of them across the borders of cells, and a plate through all.
+Triangles scene() {
+  Triangles all;
+  for (int i = 0; i < 8; ++i) add_box(all, {20.0 * i, 12.0 * i, 3}, {20.0 * i + 13, 12.0 * i + 9, 30.0 + i});
+  add_box(all, {0, 0, 0}, {160, 100, 2});
+  return all;
+}
+
+struct Voxelized {
+  StreamHeader header;
+  std::unique_ptr<BrickShelf> shelf = std::make_unique<MemoryShelf>();
+};
+
+Voxelized voxelized(const Triangles& scene) {
+  Voxelized out;
+  ShelfSink sink(out.shelf.get());
+  MemorySource source(scene);
+  Backends backends = plain_backends(2);
+  VoxelizeOptions options;
+  options.voxel_size = [](const Bounds3d&) { return 1.0; };
+  options.cell_vox = kEdge;
+  options.make_shelf = memory_shelves();
+  options.make_store = []() -> std::unique_ptr<ChunkStore> { return nullptr; };
+  options.memory_bytes = UINT64_MAX / 8;
+  struct NoStore final : ChunkStore {
+    Handle put(std::span<const std::byte>) override { fail(ErrorCode::failed, "triangles left memory"); }
+    void get(Handle, std::vector<std::byte>&) const override {}
+    void drop(Handle) override {}
+    [[nodiscard]] std::uint64_t memory_bytes() const override { return 0; }
+    [[nodiscard]] std::uint64_t scratch_bytes() const override { return 0; }
+  };
+  options.make_store = [] { return std::make_unique<NoStore>(); };
+  const auto open = [&](const StreamHeader& h, const VoxelizeCounts&) -> BrickSink& {
+    out.header = h;
+    return sink;
+  };
+  voxelize_stream(source, open, backends, options);
+  return out;
+}
+
+struct Made {
+  LatticeMesh mesh;
+  TileMeasures measures;
+};
+using Level = std::map<CellCoord, Made>;
+
+TilePyramid pyramid(const Triangles& scene, Backends& backends) {
+  Voxelized solid = voxelized(scene);
+  PyramidOptions options;
+  options.cells = kCells;
+  options.make_shelf = memory_shelves();
+  return TilePyramid(solid.header, std::move(solid.shelf), backends, options);
+}
+
+Level make(TilePyramid& pyramid, const TileParams& params, double scale = 0) {
+  Level level;
+  std::map<CellCoord, LatticeMesh> meshes;
+  std::mutex mutex;
+  pyramid.make(
+      scale > 0 ? scale : 2 * pyramid.header().frame.voxel, params,
+      [&](CellCoord cell, const LatticeMesh& mesh) {
+        const std::lock_guard lock(mutex);
+        meshes[cell] = mesh;
+        return std::to_string(cell.x);
+      },
+      [&](LevelTile&& tile) {
+        CHECK(tile.content == std::to_string(tile.cell.x));
+        level[tile.cell].measures = tile.measures;
+      });
+  for (auto& [cell, made] : level) made.mesh = std::move(meshes.at(cell));
+  return level;
+}
+
+Bounds3d bounds_of_cell(const GridFrame& frame, CellCoord cell) {
+  const VoxelBox box = kCells.box(cell);
+  Bounds3d bounds;
+  for (const VoxelCoord p : {box.min, box.max})
+    bounds.add(frame.world({std::int64_t(p.x) * 64, std::int64_t(p.y) * 64, std::int64_t(p.z) * 64}));
+  return bounds;
+}
+
+Backends cpu_backends() {
+  Backends all;
+  for (int i = 0; i < 2; ++i) all.push_back(std::make_unique<CpuBackend>());
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("the tiles of all levels cover the scene together", "[quick][stage][lod]") {
+  Backends backends = cpu_backends();
+  TilePyramid levels = pyramid(scene(), backends);
+  REQUIRE_FALSE(levels.in_one_cell());
+  std::vector<CoverTile> tiles(1);
+  std::map<CellCoord, std::size_t> below;
+  TileParams params;
+  params.faces = GENERATE(0, 100);
+  for (int level = 0; !levels.in_one_cell(); ++level, levels.reduce()) {
+    std::map<CellCoord, std::size_t> numbers;
+    for (const auto& [cell, made] : make(levels, params)) {
+      numbers[cell] = tiles.size();
+      tiles.push_back({std::to_string(level) + " " + std::to_string(cell.x),
+                       "",
+                       indexed(made.mesh),
+                       bounds_of_cell(levels.header().frame, cell),
+                       {}});
+      CHECK(made.measures.faces == made.mesh.triangles.size());
+    }
+    for (const auto& [cell, number] : below) tiles[numbers.at(parent_of(cell))].children.push_back(number);
+    below = numbers;
+    REQUIRE(level < 3);
+  }
+  tiles[0].cell = bounds_of_cell(levels.header().frame, {});
+  for (const auto& [cell, number] : below) tiles[0].children.push_back(number);
+  MemorySource source(scene());
+  CHECK(check_cover(tiles, source) == std::vector<std::string>{});
+  CHECK(tiles.size() > 5);
+}
+
+TEST_CASE("tiles do not depend on threads or on memory", "[quick][stage][lod]") {
+  Backends backends = cpu_backends();
+  TilePyramid levels = pyramid(scene(), backends);
+  const Level level = make(levels, {});
+  const ThreadLimit one(1);
+  PyramidOptions options;
+  Voxelized solid = voxelized(scene());
+  options.cells = kCells;
+  options.make_shelf = memory_shelves();
+  options.memory_bytes = std::uint64_t(16) << 20;  // one tile at a time
+  TilePyramid again(solid.header, std::move(solid.shelf), backends, options);
+  const Level other = make(again, {});
+  REQUIRE(level.size() == other.size());
+  for (const auto& [cell, made] : level) {
+    CHECK(made.mesh.vertices == other.at(cell).mesh.vertices);
+    CHECK(made.mesh.triangles == other.at(cell).mesh.triangles);
+    CHECK(made.measures.error_world == other.at(cell).measures.error_world);
+  }
+}
+
+TEST_CASE("a tile far from a change stays the same", "[quick][stage][lod]") {
+  Backends backends = cpu_backends();
+  Triangles changed = scene();
+  for (std::size_t i = 0; i < 12; ++i)  // the first box
+    for (Vec3d& p : changed[i]) p[2] = std::min(p[2], 20.0);
+  TilePyramid levels = pyramid(scene(), backends), other = pyramid(changed, backends);
+  const Level a = make(levels, {}), b = make(other, {});
+  REQUIRE(a.size() == b.size());
+  std::size_t same = 0;
+  for (const auto& [cell, made] : a) {
+    Bounds3d reach = bounds_of_cell(levels.header().frame, cell);
+    for (std::size_t i = 0; i < 3; ++i) reach.min[i] -= 8, reach.max[i] += 8;  // closing and rim
+    if (overlap(reach, Bounds3d{{0, 0, 3}, {13, 9, 30}})) continue;
+    CHECK(made.mesh.vertices == b.at(cell).mesh.vertices);
+    ++same;
+  }
+  CHECK(4 * same > a.size());
+}
+
+TEST_CASE("a tile without a voxel of the scene is made of the closing alone", "[quick][stage][lod]") {
+  Triangles scene;  // two plates whose gap is closed, with a border of cells within the gap
+  add_box(scene, {0, 0, 0}, {300, 20, 4});
+  add_box(scene, {0, 0, 180}, {300, 20, 184});
+  add_box(scene, {0, 0, 0}, {4, 20, 184});
+  add_box(scene, {296, 0, 0}, {300, 20, 184});
+  Backends backends = cpu_backends();
+  TilePyramid levels = pyramid(scene, backends);
+  const Level level = make(levels, {}, 110);
+  for (const auto& [cell, made] : level) {
+    CAPTURE(cell.x, cell.y, cell.z);
+    CHECK(check_proxy(indexed(made.mesh), nullptr).holds());
+    CHECK(made.measures.error_world < 200);
+  }
+}
+
+TEST_CASE("fitted tiles keep their budget", "[quick][stage][lod]") {
+  Backends backends = cpu_backends();
+  TilePyramid levels = pyramid(scene(), backends);
+  TileParams params;
+  params.mode = MeshMode::fit;
+  params.faces = 150;
+  const Triangles triangles = scene();
+  const TriangleBvh tree(triangles);
+  params.scene = GENERATE(false, true) ? &tree : nullptr;
+  for (const auto& [cell, made] : make(levels, params)) {
+    CHECK(made.mesh.triangles.size() <= 150);
+    CHECK(check_proxy(indexed(made.mesh), nullptr).holds());
+  }
+}
+
+}  // namespace bp::test

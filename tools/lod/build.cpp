@@ -1,0 +1,145 @@
+#include "tools/lod/build.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "io/brick_shelf.h"
+#include "io/chunk_store.h"
+#include "io/scene_reader.h"
+#include "lib/grid/shelf_stream.h"
+
+namespace bp {
+
+namespace {
+
+Json json_of(const LevelRow& row) {
+  Json json{{"file", row.file},         {"bytes", row.bytes},       {"tiles", row.tiles}, {"faces", row.faces},
+            {"error", row.error_world}, {"scale", row.scale_world}, {"voxel", row.voxel}};
+  json.update(row.more);
+  return json;
+}
+
+/// What a person wants to know at once, as lines of text on stdout.
+std::string listing(const std::vector<LevelRow>& rows) {
+  std::string text = "file\tfaces\terror\tscale\tvoxel\tbytes\n";
+  for (const LevelRow& row : rows) {
+    text += fmt::format("{}\t{}\t{:.4g}\t{:.4g}\t{:.4g}\t{}\n", row.file, row.faces, row.error_world, row.scale_world,
+                        row.voxel, row.bytes);
+  }
+  return text;
+}
+
+}  // namespace
+
+Build::Build(const BuildOptions& o)
+    : options(o),
+      budget(o.common.memory_bytes),
+      progress("bplod", o.common.progress),
+      backends(make_backends(o.common, 0)),  // reading and meshing take far longer than closing
+      make_shelf(make_shelf_factory(budget.shelf, o.common.temp)) {
+  show = [this, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
+                                      std::uint64_t total) mutable {
+    if (last != stage) progress.begin(last = stage, total, unit);
+    progress.set(done, total);
+  };
+}
+
+VoxelizedScene Build::voxelize(std::int32_t cell_vox) {
+  report.stage("voxelize");
+  VoxelizeOptions v;
+  v.voxel_size = [this](const Bounds3d& bounds) { return voxel_size(options, bounds); };
+  v.cell_vox = cell_vox;
+  v.fill = options.fill;
+  v.up = options.up;
+  v.memory_bytes = budget.waiting;
+  v.tile_memory_bytes = budget.tiles;
+  v.make_shelf = make_shelf;
+  v.make_store = [this] { return make_chunk_store(budget.store, options.common.temp); };
+  v.progress = show;
+  VoxelizedScene out;
+  out.solid = make_shelf();
+  ShelfSink sink(out.solid.get());
+  const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp});
+  const auto open = [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
+    out.header = header;
+    return sink;
+  };
+  out.counts = voxelize_stream(*source, open, backends, v);
+  return out;
+}
+
+std::vector<TriangleD> Build::scene_triangles() const {
+  constexpr std::uint64_t kBytesEach = 400;  // twice, and a hierarchy over them
+  std::vector<TriangleD> all;
+  if (std::count(options.scenes.begin(), options.scenes.end(), "-") > 0) return all;  // stdin cannot be read again
+  const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp});
+  for (std::vector<TriangleD> chunk; source->read(chunk);) {
+    all.insert(all.end(), chunk.begin(), chunk.end());
+    if (all.size() * kBytesEach > budget.closing_tiles()) return {};
+  }
+  return all;
+}
+
+LodOptions Build::lod_options() {
+  LodOptions lod;
+  lod.closing.element = options.element;
+  lod.mode = options.mode;
+  if (options.mode == MeshMode::fit) lod.scene = scene_triangles();
+  lod.enclose = options.enclose;
+  lod.tighten = !options.loose;
+  lod.memory_bytes = budget.closing_tiles();
+  lod.make_shelf = make_shelf;
+  lod.progress = show;
+  return lod;
+}
+
+LodLevel Build::make_level(LodChain& chain, std::size_t i, std::size_t since, double scene_voxel,
+                           const Bounds3d& bounds, const std::string& input_hash) {
+  report.stage(fmt::format("level {}", i));
+  const LodTarget target = target_of(options.request, i, since, bounds.diagonal(), scene_voxel, chain.dense_faces());
+  LodLevel level = chain.make(target);
+  level.mesh.provenance = {
+      make_provenance("bplod", option_text(options, target, i, level.scale_world, level.mesh.frame.voxel), input_hash)};
+  if (!level.reached) {
+    note(fmt::format("level {}: {} faces instead of {}, even closed at {:.4g}: no further edge can be merged", i,
+                     level.mesh.triangles.size(), target.faces, level.scale_world));
+  }
+  if (target.error_world > 0 && level.error_world > target.error_world) {
+    note(fmt::format("level {}: its error is at most {:.4g} instead of {:.4g}: narrow gaps of the scene are closed", i,
+                     level.error_world, target.error_world));
+  }
+  return level;
+}
+
+void Build::note(const std::string& text) {
+  report.notes.push_back(text);
+  if (options.common.progress != ProgressMode::quiet) std::fprintf(stderr, "bplod: note: %s\n", text.c_str());
+}
+
+void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out) {
+  std::fputs(listing(rows).c_str(), stdout);
+  report.options = {
+      {"profile", name_of(options.profile)}, {"levels", rows.size()}, {"memory", options.common.memory_bytes}};
+  report.counts = {{"triangles", scene.counts.scene.triangles},   {"degenerate", scene.counts.scene.degenerate},
+                   {"non_finite", scene.counts.scene.non_finite}, {"bad_faces", scene.counts.scene.bad_faces},
+                   {"voxel", scene.header.frame.voxel},           {"solid_voxels", scene.counts.solid_voxels}};
+  for (const LevelRow& row : rows) report.counts["levels"].push_back(json_of(row));
+  report.bytes_out = bytes_out;
+  report.write(options.common);
+}
+
+LevelRow row_of(const LodLevel& level, const std::string& file, std::uint64_t bytes) {
+  const LevelCounts& mesh = level.counts.levels.front();
+  LevelRow row{
+      file, 1, level.mesh.triangles.size(), bytes, level.error_world, level.scale_world, level.mesh.frame.voxel};
+  row.more = {{"attempts", level.attempts},
+              {"volume", mesh.measures.volume},
+              {"voxels", level.counts.voxels},
+              {"faces_dense", mesh.simplify.faces_in},
+              {"stopped_by", mesh.stopped_by}};
+  return row;
+}
+
+}  // namespace bp

@@ -1,0 +1,69 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/stage/voxelize_stage.h"
+#include "tools/common/make_backend.h"
+#include "tools/common/memory_shares.h"
+#include "tools/common/report.h"
+#include "tools/lod/build_options.h"
+
+/// What all profiles of bplod have in common: the scene as voxels, levels in one mesh, the list and the report.
+namespace bp {
+
+/// As in bpvox while it voxelizes, then between shelves and the tiles at work.
+struct BuildBudget : VoxelizeBudget {
+  using VoxelizeBudget::VoxelizeBudget;
+  /// For the closing: the triangles have gone.
+  [[nodiscard]] std::uint64_t closing_tiles() const { return waiting - shelf; }
+};
+
+struct VoxelizedScene {
+  StreamHeader header;
+  std::unique_ptr<BrickShelf> solid;
+  VoxelizeCounts counts;
+};
+
+/// A line of the list, and of the report.
+struct LevelRow {
+  std::string file;
+  std::uint64_t tiles = 0, faces = 0, bytes = 0;
+  double error_world = 0, scale_world = 0, voxel = 0;
+  Json more = Json::object();  ///< for the report only
+};
+
+class Build {
+ public:
+  explicit Build(const BuildOptions& options);
+  Build(const Build&) = delete;
+  Build& operator=(const Build&) = delete;
+
+  /// cell_vox: as in VoxelizeOptions.
+  [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox);
+  /// For LodChain.
+  [[nodiscard]] LodOptions lod_options();
+  /// What a fit is drawn to; nothing if it does not fit in memory.
+  [[nodiscard]] std::vector<TriangleD> scene_triangles() const;
+
+  /// One level of the chain, with its provenance and the notes on what it missed. `since`: as in target_of().
+  [[nodiscard]] LodLevel make_level(LodChain& chain, std::size_t level, std::size_t since, double scene_voxel,
+                                    const Bounds3d& bounds, const std::string& input_hash);
+  void note(const std::string& text);
+
+  /// Prints the list and writes the report.
+  void finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out);
+
+  const BuildOptions& options;
+  const BuildBudget budget;
+  Report report{"bplod"};
+  Progress progress;
+  Backends backends;
+  const ShelfFactory make_shelf;
+  std::function<void(const char*, const char*, std::uint64_t, std::uint64_t)> show;  ///< progress of stages
+};
+
+[[nodiscard]] LevelRow row_of(const LodLevel& level, const std::string& file, std::uint64_t bytes);
+
+}  // namespace bp

@@ -1,0 +1,120 @@
+#include "tools/lod/build_options.h"
+
+#include "lib/core/error.h"
+#include "lib/grid/cells.h"
+#include "lib/stage/voxelize_stage.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::int64_t kDefaultResolution = 256;
+constexpr double kVoxelsPerError = 8;  // of the finest level
+
+/// The first scene's file name without folder and extension.
+std::string base_name(const std::string& path) {
+  const std::string file = path.substr(path.rfind('/') + 1);
+  return file == "-" ? "scene" : file.substr(0, file.rfind('.'));
+}
+
+void check_options(BuildOptions& o) {
+  const bool listed = !o.request.faces.empty() || !o.request.errors.empty() || !o.request.pixels.empty();
+  if (o.profile == LodProfile::collision && !listed && !o.request.levels) o.request.levels = 1;
+  if (o.profile == LodProfile::collision && level_count(o.request) != 1)
+    fail(ErrorCode::bad_argument, "--profile collision has one level");
+  if (o.profile == LodProfile::collision && o.mode != MeshMode::bounding)
+    fail(ErrorCode::bad_argument, "--profile collision needs --mode bounding");
+  check(o.request);
+  if (o.out.empty()) fail(ErrorCode::bad_argument, "name the folder of the levels with -o");
+  if (o.voxel && o.resolution) fail(ErrorCode::bad_argument, "--voxel and --resolution exclude each other");
+  if (o.voxel && (o.voxel->unit == Length::Unit::voxels || !(o.voxel->value > 0)))
+    fail(ErrorCode::bad_argument, "--voxel {}: must be above 0, in scene units or percent", o.voxel->text());
+  if (o.resolution && *o.resolution < 1) fail(ErrorCode::bad_argument, "--resolution 0: at least 1 voxel is needed");
+  if (o.tile_vox < kLeastCellVox || o.tile_vox % kBrickEdge != 0)
+    fail(ErrorCode::bad_argument, "--tile {}: must be a multiple of 64, and at least {}", o.tile_vox, kLeastCellVox);
+  if (o.name.empty()) o.name = base_name(o.scenes.front());
+  if (o.name.empty() || o.name.find('/') != std::string::npos)
+    fail(ErrorCode::bad_argument, "--name '{}': must be a name without a folder", o.name);
+}
+
+}  // namespace
+
+const char* name_of(LodProfile profile) {
+  constexpr const char* kNames[] = {"gltf", "3dtiles", "collision"};
+  return kNames[std::size_t(profile)];
+}
+
+BuildOptions parse_build_options(Args& args) {
+  BuildOptions o;
+  args.about("Makes levels of detail of scenes: coarser and coarser proxies that strictly enclose them.");
+  args.positional("SCENE", o.scenes, "scenes, taken together; - is stdin and needs --format");
+  args.option("-o,--output", "DIR", o.out, "folder of the levels; it is made if it is not there");
+  args.option(
+      "--profile", {{"gltf", LodProfile::gltf}, {"3dtiles", LodProfile::tiles}, {"collision", LodProfile::collision}},
+      o.profile,
+      "gltf: a GLB a level, and one with all (MSFT_lod); 3dtiles: a tileset of compressed GLB, coarse root; collision: "
+      "one level, named for Godot, Unreal and Unity");
+  args.option("--mode", {{"bounding", MeshMode::bounding}, {"fit", MeshMode::fit}}, o.mode,
+              "around the scene; or as near to it as can be, enclosing nothing");
+  args.option("--name", "NAME", o.name, "first part of the names of files and nodes (default: the first scene's)");
+  args.option("--levels", "N", o.request.levels, "number of levels (default: as many as are listed, or 4)");
+  args.option(
+      "--faces", "N[,N...]", [&o](const std::string& text) { o.request.faces = parse_faces(text); },
+      "triangles of each level, finest first; one number: each further level has a quarter");
+  args.option(
+      "--error", "LENGTH[,...]", [&o](const std::string& text) { o.request.errors = parse_errors(text); },
+      "largest distance between scene and level, finest first; one: each further level has twice that");
+  args.option(
+      "--screen", "PIXELS[,...]", [&o](const std::string& text) { o.request.pixels = parse_pixels(text); },
+      "size on screen, of the scene's diagonal, up to which a level's error is a pixel; one: then half of that");
+  args.option("--voxel", "LENGTH", o.voxel,
+              "edge of a voxel of the finest level: scene units, or 0.5% of the diagonal");
+  args.option("--resolution", "N", o.resolution,
+              "voxels along the longest side (default: 256, or 8 voxels to the error)");
+  args.option("--tile", "N", o.tile_vox,
+              "3dtiles: voxels along the side of a tile; a level that is larger is cut into tiles of its own");
+  args.option("-s,--scale", "LENGTH", o.request.scale,
+              "closing radius of the finest level; it doubles from level to level (default: by the target)");
+  args.option("--element", {{"cube", StructuringElement::cube}, {"ball", StructuringElement::ball}}, o.element,
+              "of the dilation; cube: large flat areas survive");
+  args.option("--enclose", {{"input", Enclose::input}, {"closing", Enclose::closing}}, o.enclose,
+              "what stays inside while a level is tightened: the voxels of the scene, or their closing");
+  args.option("--fill", {{"flood", FillMode::flood}, {"winding", FillMode::winding}, {"none", FillMode::none}}, o.fill,
+              "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing");
+  args.option("--up", {{"y", UpAxis::y}, {"z", UpAxis::z}}, o.up, "axis of the scene that points up");
+  args.option("--format", "NAME", o.format,
+              "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");
+  args.flag("--no-tighten", o.loose, "leave out the step that lowers the volume");
+  o.common.add_to(args);
+  args.example("bplod plant.glb --faces 20000,5000,1000 --profile 3dtiles -o plant-tiles");
+  args.parse();
+  check_options(o);
+  return o;
+}
+
+double voxel_size(const BuildOptions& o, const Bounds3d& bounds) {
+  if (o.voxel) return o.voxel->in_world(bounds.diagonal(), 0);
+  const double error = finest_error(o.request, bounds.diagonal());
+  if (error > 0 && !o.resolution) return error / kVoxelsPerError;
+  return voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
+}
+
+OptionText option_text(const BuildOptions& o, const LodTarget& target, std::size_t i, double scale_world,
+                       double voxel) {
+  OptionText text;
+  text.add("level", i).add("mode", o.mode == MeshMode::fit ? "fit" : "bounding");
+  if (target.faces > 0) text.add("faces", target.faces);
+  if (target.error_world > 0) text.add("error", target.error_world);
+  text.add("scale", scale_world)
+      .add("voxel", voxel)
+      .add("element", o.element == StructuringElement::cube ? "cube" : "ball")
+      .add("enclose", o.enclose == Enclose::input ? "input" : "closing")
+      .add("fill", o.fill == FillMode::flood     ? "flood"
+                   : o.fill == FillMode::winding ? "winding"
+                                                 : "none")
+      .add("up", o.up == UpAxis::y ? "y" : "z")
+      .add("tighten", !o.loose);
+  return text;
+}
+
+}  // namespace bp

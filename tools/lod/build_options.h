@@ -1,0 +1,45 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/stage/lod_stage.h"
+#include "tools/common/common_options.h"
+#include "tools/common/length.h"
+#include "tools/common/provenance.h"
+#include "tools/lod/lod_targets.h"
+
+/// The command line of bplod.
+namespace bp {
+
+enum class LodProfile { gltf, tiles, collision };
+[[nodiscard]] const char* name_of(LodProfile profile);
+
+struct BuildOptions {
+  CommonOptions common;
+  std::vector<std::string> scenes;
+  std::string out, name, format;
+  LodProfile profile = LodProfile::gltf;
+  MeshMode mode = MeshMode::bounding;
+  LodRequest request;
+  std::optional<Length> voxel;
+  std::optional<std::int64_t> resolution;
+  std::int32_t tile_vox = 512;  ///< edge of a cell of a tileset
+  FillMode fill = FillMode::flood;
+  UpAxis up = UpAxis::y;
+  StructuringElement element = StructuringElement::cube;
+  Enclose enclose = Enclose::input;
+  bool loose = false;  ///< --no-tighten
+};
+
+/// Throws bad_argument if options contradict each other.
+[[nodiscard]] BuildOptions parse_build_options(Args& args);
+
+/// Edge of a voxel for a scene with these bounds, scene units.
+[[nodiscard]] double voxel_size(const BuildOptions& options, const Bounds3d& bounds);
+
+/// Of a level, for its provenance.
+[[nodiscard]] OptionText option_text(const BuildOptions& options, const LodTarget& target, std::size_t level,
+                                     double scale_world, double voxel);
+
+}  // namespace bp

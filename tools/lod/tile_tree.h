@@ -1,0 +1,61 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/check/tileset.h"
+#include "lib/grid/cells.h"
+
+namespace bp {
+
+/// What the tree must know of a tile. Scene units; points of the lattice, so that differences are exact.
+struct TreeTile {
+  std::string uri;
+  Vec3d origin{};   ///< that the vertices of its content are relative to
+  Bounds3d bounds;  ///< of its content
+  double error_world = 0;
+};
+
+/// Puts the tiles of all levels together: the root above, each tile above the eight cells that its own is made of; a
+/// level in one mesh is a chain of its own on top.
+class TileTree {
+ public:
+  TileTree(UpAxis up, Cells cells) : up_(up), cells_(cells) {}
+
+  /// A tile of level `level`, which is cut; `frame`: of the level. Levels come finest first.
+  void add(std::size_t level, const GridFrame& frame, CellCoord cell, TreeTile tile);
+  /// A level in one mesh, after all that are cut; coarser ones follow.
+  void add_whole(TreeTile tile);
+
+  /// diameter: of the scene; the error of drawing nothing at all. Errors rise towards the root, whatever was measured.
+  [[nodiscard]] Tileset finish(double diameter);
+  /// Largest error of the tiles of a level, those below them included; after finish().
+  [[nodiscard]] double error_of(std::size_t level) const { return errors_.at(level); }
+
+ private:
+  struct Node {
+    TreeTile tile;
+    std::optional<Bounds3d> cell;  ///< none: whole, with no level cut
+    std::vector<Node> children;
+  };
+  using Level = std::map<CellCoord, Node>;
+
+  void raise();
+  [[nodiscard]] Tile tile_of(const Node& node, const Vec3d& parent) const;
+  [[nodiscard]] Bounds3d local(const Bounds3d& bounds, const Vec3d& origin) const;
+  [[nodiscard]] Vec3d z_up(const Vec3d& p) const;
+
+  UpAxis up_;
+  Cells cells_;
+  Level level_;  ///< the last one that is cut, with all below
+  std::size_t number_ = 0;
+  GridFrame frame_;
+  std::optional<Node> root_;
+  std::vector<double> errors_;
+};
+
+/// Bounds of a cell of a level, scene units.
+[[nodiscard]] Bounds3d cell_bounds(const Cells& cells, const GridFrame& frame, CellCoord cell);
+
+}  // namespace bp

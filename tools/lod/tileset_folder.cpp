@@ -1,0 +1,76 @@
+#include "tools/lod/tileset_folder.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/file.h"
+#include "io/tileset_file.h"
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kTileset = "tileset.json";
+
+/// Contents of the tileset in `folder`, if it is one of ours or at least readable.
+std::vector<std::string> contents_of(const std::string& folder) {
+  std::vector<std::string> uris;
+  try {
+    for_each_tile(read_tileset(folder + "/" + kTileset), [&](const Tile& tile, const std::string&, const Transform&) {
+      if (!tile.uri.empty() && tile.uri.find("..") == std::string::npos && tile.uri[0] != '/') uris.push_back(tile.uri);
+    });
+  } catch (const Error&) {  // then nothing is known to be ours
+    return {};
+  }
+  return uris;
+}
+
+}  // namespace
+
+TilesetFolder::TilesetFolder(std::string path, bool overwrite) : path_(std::move(path)) {
+  while (path_.size() > 1 && path_.back() == '/') path_.pop_back();
+  partial_ = path_ + ".partial";
+  if (!overwrite && fs::exists(path_ + "/" + kTileset))
+    fail(ErrorCode::bad_argument, "{}/{}: exists; add --overwrite to replace it", path_, kTileset);
+  std::error_code error;
+  fs::remove_all(partial_, error);
+  fs::create_directories(partial_, error);
+  if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", partial_, error.message());
+}
+
+TilesetFolder::~TilesetFolder() {
+  std::error_code ignored;
+  fs::remove_all(partial_, ignored);
+}
+
+void TilesetFolder::write(const std::string& name, const std::string& bytes) {
+  fs::create_directories(fs::path(partial_ + "/" + name).parent_path());
+  OutputFile file(partial_ + "/" + name, true);
+  file.write(bytes);
+  file.commit();
+  bytes_ += file.bytes();
+  names_.push_back(name);
+}
+
+void TilesetFolder::commit() {
+  if (!fs::exists(path_)) return fs::rename(partial_, path_);
+  const std::vector<std::string> before = contents_of(path_);
+  std::stable_partition(names_.begin(), names_.end(), [](const std::string& name) { return name != kTileset; });
+  for (const std::string& name : names_) {
+    fs::create_directories(fs::path(path_ + "/" + name).parent_path());
+    fs::rename(partial_ + "/" + name, path_ + "/" + name);
+  }
+  std::sort(names_.begin(), names_.end());
+  for (const std::string& name : before) {
+    if (std::binary_search(names_.begin(), names_.end(), name)) continue;
+    std::error_code ignored;
+    fs::remove(path_ + "/" + name, ignored);
+    const fs::path folder = fs::path(name).parent_path();
+    if (!folder.empty()) fs::remove(path_ / folder, ignored);  // if it is empty now
+  }
+}
+
+}  // namespace bp

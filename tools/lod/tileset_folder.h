@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace bp {
+
+/// A folder with a tileset in it. Files are written in a folder beside it, OUT.partial, and move to their places when
+/// all are there: with the whole folder, if there was none before, else one by one, tileset.json last.
+class TilesetFolder {
+ public:
+  /// Takes away an OUT.partial that an interrupted run left. Throws bad_argument if OUT has a tileset.json and
+  /// `overwrite` is false.
+  TilesetFolder(std::string path, bool overwrite);
+  ~TilesetFolder();  ///< without commit() nothing stays behind
+  TilesetFolder(const TilesetFolder&) = delete;
+  TilesetFolder& operator=(const TilesetFolder&) = delete;
+
+  /// `name` may hold one folder: "level/tile.glb".
+  void write(const std::string& name, const std::string& bytes);
+  /// The files appear; tiles of the tileset that was there before, and that are not among them, go.
+  void commit();
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  std::string path_, partial_;
+  std::vector<std::string> names_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace bp
