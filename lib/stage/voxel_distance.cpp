@@ -1,7 +1,9 @@
 #include "lib/stage/voxel_distance.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "lib/core/parallel.h"
 #include "lib/geometry/surface_distance.h"
 
 namespace bp {
@@ -11,6 +13,46 @@ namespace {
 const double kSegmentToPoint = std::sqrt(1.5);  // from a point of the segment to any point of its voxel, in voxels
 const double kPointToSegment = std::sqrt(0.5);
 constexpr double kTolerance = 0.5;  // of the search, in voxels
+constexpr std::int64_t kGrain = 256;
+
+/// Largest distance of a point of `from` to `to` that is known without a search: of the middles.
+double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh& to) {
+  const auto n = std::int64_t(from.size());
+  std::vector<double> largest(std::size_t((n + kGrain - 1) / kGrain));
+  parallel_chunks(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+    std::uint32_t guess = 0;
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+      Vec3d c{};
+      for (const Vec3d& p : from[i])
+        for (std::size_t k = 0; k < 3; ++k) c[k] += p[k] / 3;
+      const TriangleBvh::Nearest found = to.nearest(c, guess);
+      guess = found.item;
+      largest[std::size_t(begin / kGrain)] = std::max(largest[std::size_t(begin / kGrain)], found.distance_squared);
+    }
+  });
+  return std::sqrt(*std::max_element(largest.begin(), largest.end()));
+}
+
+/// Those of `from` that are not surely within `limit`, in their order.
+std::vector<TriangleD> farther_than(double limit, const std::vector<TriangleD>& from, const TriangleBvh& to) {
+  std::vector<char> far(from.size());
+  parallel_chunks(std::int64_t(from.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) far[i] = !surely_within(from[i], to, limit);
+  });
+  std::vector<TriangleD> left;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    if (far[i] != 0) left.push_back(from[i]);
+  return left;
+}
+
+/// An upper bound of the largest distance, higher by `step` or by a fiftieth. A bound is all that is asked for, so
+/// triangles are settled one by one against a limit that rises while it is too low.
+double upper_bound(const std::vector<TriangleD>& from, const TriangleBvh& to, double step) {
+  double limit = distance_at_middles(from, to) * 1.02 + step;
+  for (std::vector<TriangleD> left = farther_than(limit, from, to); !left.empty(); left = farther_than(limit, left, to))
+    limit = limit * 1.02 + step;
+  return limit;
+}
 
 }  // namespace
 
@@ -29,12 +71,12 @@ std::vector<TriangleD> segments_of(std::span<const VoxelRun> runs, const GridFra
 }
 
 double distance_from_mesh(const std::vector<TriangleD>& mesh, const TriangleBvh& segments, double voxel) {
-  return surface_distance(mesh, segments, kTolerance * voxel).at_most + kSegmentToPoint * voxel;
+  return upper_bound(mesh, segments, kTolerance * voxel) + kSegmentToPoint * voxel;
 }
 
 double distance_to_mesh(const std::vector<TriangleD>& segments, const std::vector<TriangleD>& mesh, double voxel) {
   if (segments.empty()) return 0;
-  return surface_distance(segments, TriangleBvh(mesh), kTolerance * voxel).at_most + kPointToSegment * voxel;
+  return upper_bound(segments, TriangleBvh(mesh), kTolerance * voxel) + kPointToSegment * voxel;
 }
 
 }  // namespace bp
