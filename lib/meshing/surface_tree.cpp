@@ -13,7 +13,9 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kMargin = 3;   // cells stop where the next round might pass the wanted number of faces
+// Cells stop where the next round might pass the wanted number of faces: at kMargin times as many, or, where so many
+// are better not held at once, at fewer.
+constexpr std::uint64_t kMargin = 3, kMarginOfMany = 2, kMany = std::uint64_t(1) << 20;
 constexpr double kBoundPerLevel = 16;  // of the last bound: a round leaves about 40 % of the faces
 constexpr std::int64_t kBrickLattice = std::int64_t(kBrickEdge) * kLatticePerVoxel;
 constexpr std::uint64_t kWorkPerFace = 256;  // bytes: the piece, its half-edges, quadrics, boxes and their tree
@@ -178,13 +180,21 @@ void check_work(std::uint64_t faces, std::uint64_t bytes) {
       faces, (needed >> 20) + 1, bytes >> 20);
 }
 
+namespace {
+
+bool needs_round(std::uint64_t faces, std::uint64_t enough) {
+  return faces > kMargin * enough || (faces > kMany && faces > kMarginOfMany * enough);
+}
+
+}  // namespace
+
 Piece simplified_surface(const SurfaceSource& surface, const SimplifyParams& params, std::uint64_t enough,
                          SimplifyCounts& counts) {
   SurfaceTree tree(surface, params);
   counts.faces_in = tree.begin();
   counts.faces_flat = tree.faces();
   if (enough > 0) {
-    for (double last = 4 * kFirstBound; tree.faces() > kMargin * enough; last *= kBoundPerLevel) {
+    for (double last = 4 * kFirstBound; needs_round(tree.faces(), enough); last *= kBoundPerLevel) {
       tree.collapse({kFirstBound, last});
       if (tree.whole()) break;
       tree.join_cells();

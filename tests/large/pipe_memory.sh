@@ -1,49 +1,73 @@
 #!/usr/bin/env bash
-# Peak memory of `bpvox | bpclose --memory 1G` on generated plants of 20 and 100 million triangles, PLY and GLB: each
-# process stays below --memory, and five times the triangles take at most 5 percent more.
-#   tests/large/pipe_memory.sh BIN_DIR [MILLIONS [MEMORY_MIB [RESOLUTION...]]]
-# BIN_DIR holds tools/ and samples/. MILLIONS (20) is the smaller scene; with fewer triangles give less memory, in
-# proportion, or the smaller scene fits into it and the two do not compare. RESOLUTION: 1024. Scratch: $TMPDIR; 2.5 GB
-# for 20 and 100 million. Prints PASS or FAIL and the figures; exit 1 if any FAIL.
+# Peak memory and time of `bpvox | bpclose | bpmesh --memory 1G` on generated plants of 1, 10 and 100 million triangles.
+#   tests/large/pipe_memory.sh [-m MEMORY_MIB] [-r RESOLUTION] [-s SCALE] [-f FACES] [-t ply|glb] [-c] BIN_DIR [MILLIONS...]
+# BIN_DIR holds tools/ and samples/. Defaults: 1024 MiB, resolution 1024, scale 5vx, 5000 faces, ply, 1 10 100. -c: bpcheck of each
+# result too. MILLIONS must rise. Judged:
+#   memory  no tool's peak (VmHWM) reaches --memory;
+#   growth  no tool's peak is more than 10 percent above that of the scene before, if that one was larger on disk than a quarter
+#           of --memory (what fits into memory is not spilled, and the two do not compare);
+#   time    the pipe takes at most 1.15 times as long per triangle as for the scene before, per decade.
+# Scratch: $TMPDIR; 20 bytes a triangle of the largest scene, and its spilled triangles, about as many. Prints one line of
+# figures for each scene, then PASS or FAIL for each of these; exit 1 if any FAIL.
 set -euo pipefail
+memory=1024 resolution=1024 scale=5vx faces=5000 format=ply check=
+while getopts m:r:s:f:t:c option; do
+  case $option in
+    m) memory=$OPTARG ;; r) resolution=$OPTARG ;; s) scale=$OPTARG ;; f) faces=$OPTARG ;; t) format=$OPTARG ;; c) check=yes ;;
+    *) exit 2 ;;
+  esac
+done
+shift $((OPTIND - 1))
 bin=$1
-millions=${2:-20}
-memory=${3:-1024}
-resolutions=("${@:4}")
-[ ${#resolutions[@]} -gt 0 ] || resolutions=(1024)
+shift
+[ $# -gt 0 ] || set -- 1 10 100
 folder=$(mktemp -d "${TMPDIR:-/tmp}/bp-large-XXXXXX")
 trap 'rm -rf "$folder"' EXIT
+tools=(bpvox bpclose bpmesh)
 verdict=0
 
-# run FORMAT MILLIONS RESOLUTION: sets vox and close, peak resident MiB as the kernel counts them (VmHWM).
-run() {
-  local common=(--memory "${memory}M" --temp "$folder" --overwrite)
-  "$bin/tools/bpvox" "$folder/$2.$1" --resolution "$3" "${common[@]}" --report "$folder/vox.json" |
-    "$bin/tools/bpclose" --scale 20vx "${common[@]}" --report "$folder/close.json" -o "$folder/out.bp"
-  vox=$(peak "$folder/vox.json")
-  close=$(peak "$folder/close.json")
-}
-peak() { sed -n 's/.*"peak_memory_bytes": \([0-9]*\).*/\1/p' "$1" | awk '{ printf "%d", $1 / 1048576 }'; }
+peak() { sed -n 's/.*"peak_memory_bytes": \([0-9]*\).*/\1/p' "$folder/$1.json" | awk '{ printf "%d", $1 / 1048576 }'; }
 
-# judge TOOL FORMAT RESOLUTION SMALL LARGE
+# judge PASSED WHAT...
 judge() {
-  local word=PASS
-  [ "$4" -lt "$memory" ] && [ "$5" -lt "$memory" ] && [ $((100 * $5)) -le $((105 * $4)) ] || word=FAIL
-  echo "$word $1 $2 at $3, --memory $memory MiB: $4 MiB for $millions million triangles, $5 MiB for $((5 * millions))"
-  [ $word = PASS ] || verdict=1
+  local word=FAIL
+  if [ "$1" = 1 ]; then word=PASS; else verdict=1; fi
+  shift
+  echo "$word $*"
 }
+holds() { awk "BEGIN { print ($1) ? 1 : 0 }"; }
 
-for format in ply glb; do
-  for count in "$millions" $((5 * millions)); do
-    "$bin/samples/bp-plant" --triangles "${count}000000" --seed 7 -o "$folder/$count.$format" > /dev/null
+last_millions= last_seconds= last_bytes=0 last_peaks=()
+for millions in "$@"; do
+  scene=$folder/scene.$format
+  begin=$(date +%s.%N)
+  "$bin/samples/bp-plant" --triangles "${millions}000000" --seed 7 -o "$scene" > /dev/null
+  made=$(date +%s.%N)
+  bytes=$(stat -c %s "$scene")
+  common=(--memory "${memory}M" --temp "$folder" --overwrite)
+  "$bin/tools/bpvox" "$scene" --resolution "$resolution" "${common[@]}" --report "$folder/bpvox.json" |
+    "$bin/tools/bpclose" --scale "$scale" "${common[@]}" --report "$folder/bpclose.json" |
+    "$bin/tools/bpmesh" --faces "$faces" "${common[@]}" --report "$folder/bpmesh.json" -o "$folder/proxy.glb"
+  finished=$(date +%s.%N)
+  seconds=$(awk "BEGIN { printf \"%.2f\", $finished - $made }")
+  peaks=()
+  for tool in "${tools[@]}"; do peaks+=("$(peak "$tool")"); done
+  echo "$millions million triangles, $((bytes >> 20)) MiB: made in $(awk "BEGIN { printf \"%.1f\", $made - $begin }") s, pipe $seconds s," \
+    "peaks ${tools[*]}: ${peaks[*]} MiB"
+  for i in "${!tools[@]}"; do
+    judge "$((peaks[i] < memory))" "memory ${tools[i]}: ${peaks[i]} MiB of $memory"
+    [ "$last_bytes" -gt $((memory << 18)) ] || continue
+    judge "$((100 * peaks[i] <= 110 * last_peaks[i]))" "growth ${tools[i]}: ${last_peaks[i]} MiB for $last_millions million, ${peaks[i]} MiB for $millions"
   done
-  for resolution in "${resolutions[@]}"; do
-    run "$format" "$millions" "$resolution"
-    small_vox=$vox small_close=$close
-    run "$format" $((5 * millions)) "$resolution"
-    judge bpvox "$format" "$resolution" "$small_vox" "$vox"
-    judge bpclose "$format" "$resolution" "$small_close" "$close"
-  done
-  rm "$folder"/*."$format"
+  if [ -n "$last_seconds" ]; then
+    judge "$(holds "$seconds <= $last_seconds * $millions / $last_millions * exp(log(1.15) * log($millions / $last_millions) / log(10))")" \
+      "time: $last_seconds s for $last_millions million, $seconds s for $millions"
+  fi
+  if [ -n "$check" ]; then
+    judge "$("$bin/tools/bpcheck" "$scene" "$folder/proxy.glb" > "$folder/check.txt" && echo 1 || echo 0)" \
+      "check: $(tail -n 1 "$folder/check.txt")"
+  fi
+  rm "$scene"
+  last_millions=$millions last_seconds=$seconds last_bytes=$bytes last_peaks=("${peaks[@]}")
 done
 exit $verdict

@@ -3,6 +3,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/meshing/collapse_order.h"
 #include "lib/meshing/flatten.h"
 #include "lib/meshing/repair.h"
 #include "lib/meshing/simplify.h"
@@ -31,7 +32,70 @@ std::int64_t volume6(const std::vector<LatticeCoord>& v, const std::vector<Trian
   return sum;
 }
 
+/// Refuses nothing; but limits are kept by the whole surface, so no cell collapses anything.
+class NoLimits final : public StepLimits {
+ public:
+  bool take(std::span<const LatticeTriangle>, std::span<const LatticeTriangle>) override { return true; }
+};
+
+/// Share of the vertices that are within a voxel of a side of a brick.
+double share_along_walls(const std::vector<LatticeCoord>& vertices) {
+  const auto near = std::count_if(vertices.begin(), vertices.end(), [](const LatticeCoord& p) {
+    bool any = false;
+    for (int i = 0; i < 3; ++i) {
+      const double bricks = double(p[i]) / (kLatticePerVoxel * kBrickEdge);
+      any = any || std::abs(bricks - std::round(bricks)) * kBrickEdge < 1;
+    }
+    return any;
+  });
+  return double(near) / double(vertices.size());
+}
+
+/// Vertices of bricks simplified far, each by itself.
+std::vector<LatticeCoord> with_seams(const SurfaceSource& surface) {
+  std::vector<LatticeCoord> vertices;
+  for (const BrickCoord& b : surface.bricks()) {
+    const Piece piece = surface.piece(b);
+    if (piece.triangles.empty()) continue;
+    HalfEdgeMesh mesh(piece.vertices, piece.triangles, piece.cell);
+    const SimplifyParams params;
+    SimplifyCounts counts;
+    Collapser collapser(mesh, {}, params, counts);
+    collapse_bulk(collapser, {kFirstBound, 1e4 * kFirstBound}, 0);
+    (void)mesh.live_faces([&](VertexId v, VertexId) { vertices.push_back(mesh.position(v)); });
+  }
+  return vertices;
+}
+
 }  // namespace
+
+TEST_CASE("a surface simplified brick by brick shows no seams and is as tight as one done as a whole",
+          "[quick][meshing]") {
+  const std::uint64_t faces = GENERATE(1000, 3000);
+  MemoryShelf shelf;
+  const auto squared = [](double x) { return x * x; };
+  fill_shelf(shelf, {{-75, -70, -65}, {85, 90, 75}}, [&](VoxelCoord p) {
+    const double bumps = std::sin(p.x / 5.0) * std::sin(p.y / 5.0) * std::sin(p.z / 5.0);
+    return squared((p.x - 5) / 75.0) + squared((p.y - 10) / 70.0) + squared((p.z - 3) / 60.0) < 0.8 + 0.1 * bumps;
+  });
+  repair_contacts(shelf);
+  SimplifyParams params;
+  params.faces = faces;
+  SimplifyCounts counts;
+  const LatticeMesh by_cells = simplify(ShelfSurface(shelf, {}), params, counts);
+  NoLimits none;
+  params.limits = &none;
+  const LatticeMesh as_whole = simplify(ShelfSurface(shelf, {}), params, counts);
+  REQUIRE(by_cells.triangles.size() == faces);
+  REQUIRE(as_whole.triangles.size() == faces);
+  const double ratio =
+      double(volume6(by_cells.vertices, by_cells.triangles)) / double(volume6(as_whole.vertices, as_whole.triangles));
+  CAPTURE(faces, ratio, counts.faces_in, counts.faces_flat);
+  CHECK(ratio < 1.02);
+  const double along = share_along_walls(as_whole.vertices);
+  CHECK(share_along_walls(with_seams(ShelfSurface(shelf, {}))) > 3 * along);  // what it would be
+  CHECK(share_along_walls(by_cells.vertices) < 1.3 * along);
+}
 
 TEST_CASE("a proxy simplified brick by brick encloses its voxels and does not meet itself", "[quick][meshing]") {
   const int shape = GENERATE(range(0, 4));
