@@ -4,77 +4,123 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint32_t kLeafItems = 4;
+constexpr int kCodeBits = 10;  // per axis
+
+/// Bit i of a 10-bit number becomes bit 3 i.
+std::uint32_t spread(std::uint32_t v) {
+  v = (v | (v << 16)) & 0x030000ff;
+  v = (v | (v << 8)) & 0x0300f00f;
+  v = (v | (v << 4)) & 0x030c30c3;
+  return (v | (v << 2)) & 0x09249249;
+}
+
+/// A Morton code and, in the low 32 bits, its item.
+using Key = std::uint64_t;
+
+/// By code; equal codes stay in order. Counting sort by bytes, the least first.
+void sort_by_code(std::vector<Key>& keys) {
+  std::vector<Key> sorted(keys.size());
+  for (int shift = 32; shift < 32 + 3 * kCodeBits; shift += 8) {
+    std::array<std::uint32_t, 257> start{};
+    for (const Key k : keys) ++start[((k >> shift) & 255) + 1];
+    for (std::size_t i = 0; i < 256; ++i) start[i + 1] += start[i];
+    for (const Key k : keys) sorted[start[(k >> shift) & 255]++] = k;
+    keys.swap(sorted);
+  }
+}
 
 }  // namespace
 
-void BoxTree::build(std::span<const LatticeBox> boxes, std::vector<std::uint32_t> items) {
-  order_ = std::move(items);
-  nodes_.clear();
-  boxes_.resize(order_.size());
-  leaf_of_.assign(boxes.size(), 0);
-  if (order_.empty()) return;
-  base_ = boxes[order_[0]].min;
-  std::vector<Centre> centres(order_.size());
-  for (std::size_t i = 0; i < order_.size(); ++i) {
-    const SmallBox box = to_small(boxes[order_[i]]);
-    for (std::size_t k = 0; k < 3; ++k) centres[i].at[k] = box.min[k] / 2 + box.max[k] / 2;
-    centres[i].item = order_[i];
+void BoxTree::Group::set(std::uint32_t k, const SmallBox& b) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    min[i][k / 4][k % 4] = b.min[i];
+    max[i][k / 4][k % 4] = b.max[i];
   }
-  nodes_.reserve(order_.size());
-  nodes_.emplace_back();
-  split(boxes, centres, 0, 0);
 }
 
-/// `centres`: of the items below the node, the first of which is number `begin` in the order.
-void BoxTree::split(std::span<const LatticeBox> boxes, std::span<Centre> centres, std::uint32_t node,
-                    std::uint32_t begin) {
-  const auto n = std::uint32_t(centres.size());
-  if (n <= kLeafItems) {
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t item = centres[i].item;
-      order_[begin + i] = item;
-      boxes_[begin + i] = to_small(boxes[item]);
-      leaf_of_[item] = node;
-      if (i == 0) nodes_[node].box = boxes_[begin];
-      nodes_[node].box.add(boxes_[begin + i]);
-    }
-    nodes_[node].first = begin;
-    nodes_[node].count = n;
-    return;
+bool BoxTree::Group::grow(std::uint32_t k, const SmallBox& b) {
+  SmallBox grown = box(k);
+  bool inside = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    inside &= grown.min[i] <= b.min[i] && b.max[i] <= grown.max[i];
+    grown.min[i] = std::min(grown.min[i], b.min[i]);
+    grown.max[i] = std::max(grown.max[i], b.max[i]);
   }
-  std::array<std::int32_t, 3> low = centres[0].at, high = low;
-  for (const Centre& c : centres) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], c.at[k]);
-      high[k] = std::max(high[k], c.at[k]);
+  if (!inside) set(k, grown);
+  return !inside;
+}
+
+BoxTree::SmallBox BoxTree::Group::around() const {
+  SmallBox around = box(0);
+  for (std::uint32_t k = 1; k < kWidth; ++k) {
+    const SmallBox b = box(k);
+    for (std::size_t i = 0; i < 3; ++i) {
+      around.min[i] = std::min(around.min[i], b.min[i]);
+      around.max[i] = std::max(around.max[i], b.max[i]);
     }
   }
-  const auto size = [&](std::size_t k) { return std::int64_t(high[k]) - low[k]; };
-  const std::size_t axis = size(0) >= size(1) && size(0) >= size(2) ? 0 : size(1) >= size(2) ? 1 : 2;
-  std::nth_element(centres.begin(), centres.begin() + n / 2, centres.end(), [&](const Centre& a, const Centre& b) {
-    return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.item < b.item;
-  });
-  const auto left = std::uint32_t(nodes_.size());
-  nodes_.resize(nodes_.size() + 2);
-  nodes_[node].first = left;
-  nodes_[left].parent = nodes_[left + 1].parent = node;
-  split(boxes, centres.first(n / 2), left, begin);
-  split(boxes, centres.subspan(n / 2), left + 1, begin + n / 2);
-  nodes_[node].box = nodes_[left].box;
-  nodes_[node].box.add(nodes_[left + 1].box);
+  return around;
+}
+
+void BoxTree::build(std::span<const LatticeBox> boxes, std::vector<std::uint32_t> items) {
+  order_ = std::move(items);
+  place_of_.assign(boxes.size(), 0);
+  groups_.clear();
+  levels_.clear();
+  if (order_.empty()) return;
+  base_ = boxes[order_[0]].min;
+  sort_in_space(boxes);
+  groups_.reserve(order_.size() / (kWidth - 1) + kMostLevels);
+  groups_.resize((order_.size() + kWidth - 1) / kWidth);
+  for (std::uint32_t i = 0; i < order_.size(); ++i) {
+    groups_[i / kWidth].set(i % kWidth, to_small(boxes[order_[i]]));
+    place_of_[order_[i]] = i;
+  }
+  build_levels();
+}
+
+/// Along a Morton curve through the centres of the boxes.
+void BoxTree::sort_in_space(std::span<const LatticeBox> boxes) {
+  const auto twice_centre = [](const LatticeBox& b) { return b.min + b.max; };
+  LatticeBox all{twice_centre(boxes[order_[0]]), twice_centre(boxes[order_[0]])};
+  for (const std::uint32_t item : order_) all.add(twice_centre(boxes[item]));
+  const LatticeCoord size = all.max - all.min;
+  const int shift = std::max(0, int(std::bit_width(std::uint64_t(std::max({size.x, size.y, size.z})))) - kCodeBits);
+  std::vector<Key> keys;
+  keys.reserve(order_.size());
+  for (const std::uint32_t item : order_) {
+    const LatticeCoord c = twice_centre(boxes[item]) - all.min;
+    const std::uint32_t code = spread(std::uint32_t(c.x >> shift)) | spread(std::uint32_t(c.y >> shift)) << 1 |
+                               spread(std::uint32_t(c.z >> shift)) << 2;
+    keys.push_back(Key(code) << 32 | item);
+  }
+  sort_by_code(keys);
+  std::transform(keys.begin(), keys.end(), order_.begin(), [](Key k) { return std::uint32_t(k); });
+}
+
+/// From the groups of items up to one root.
+void BoxTree::build_levels() {
+  levels_.assign(1, 0);
+  for (auto count = std::uint32_t(groups_.size()); count > 1; count = (count + kWidth - 1) / kWidth) {
+    const std::uint32_t below = levels_.back(), above = below + count;
+    levels_.push_back(above);
+    groups_.resize(above + (count + kWidth - 1) / kWidth);
+    for (std::uint32_t i = 0; i < count; ++i) groups_[above + i / kWidth].set(i % kWidth, groups_[below + i].around());
+  }
+}
+
+void BoxTree::remove(std::uint32_t item) {
+  const std::uint32_t i = place_of_[item];
+  groups_[i / kWidth].set(i % kWidth, kNothing);
 }
 
 void BoxTree::update(std::uint32_t item, const LatticeBox& box) {
   const SmallBox small = to_small(box);
-  std::uint32_t n = leaf_of_[item];
-  std::uint32_t slot = nodes_[n].first;
-  while (order_[slot] != item) ++slot;
-  boxes_[slot] = small;
-  while (!nodes_[n].box.contains(small)) {
-    nodes_[n].box.add(small);
-    if (n == 0) break;
-    n = nodes_[n].parent;
+  std::uint32_t i = place_of_[item];
+  groups_[i / kWidth].set(i % kWidth, small);
+  for (std::size_t level = 1; level < levels_.size(); ++level) {
+    i /= kWidth;
+    if (!groups_[levels_[level] + i / kWidth].grow(i % kWidth, small)) break;
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,13 +38,18 @@ struct LatticeBox {
   return box;
 }
 
+/// Items lie in the order of a space-filling curve; eight in a row are a group, the boxes of eight groups a group of
+/// the next level, and so on. The boxes of a group are compared at once, and what is where follows from numbers: no
+/// pointers, about 32 bytes an item.
 class BoxTree {
  public:
-  /// Item i has the box boxes[i]; only those listed in `items` are in the tree. O(n log n).
+  /// Item i has the box boxes[i]; only those listed in `items` are in the tree. Linear.
   void build(std::span<const LatticeBox> boxes, std::vector<std::uint32_t> items);
   /// A changed item: its own box is exact again, those above it only grow, build() makes them tight. O(depth).
   void update(std::uint32_t item, const LatticeBox& box);
-  [[nodiscard]] std::size_t size() const { return order_.size(); }
+  /// The item is not found any more, nor may it be changed, until the next build(). O(1).
+  void remove(std::uint32_t item);
+  [[nodiscard]] std::size_t size() const { return order_.size(); }  ///< when built
 
   /// visit(item) for every item whose box meets `box`; stops when visit returns false, and returns false then.
   template <class Visit>
@@ -51,58 +57,77 @@ class BoxTree {
     return query(
         box, [](const LatticeBox&) { return true; }, visit);
   }
-  /// The same, without the subtrees whose box keep(box) refuses. Boxes beyond 2^31 lattice units of the first item are
-  /// clamped, so `keep` must be for boxes within.
+  /// The same, without the items and subtrees whose box keep(box) refuses. Boxes beyond 2^31 lattice units of the first
+  /// item are clamped, so `keep` must be for boxes within.
   template <class Keep, class Visit>
   bool query(const LatticeBox& box, Keep&& keep, Visit&& visit) const {
-    if (nodes_.empty()) return true;
+    if (levels_.empty()) return true;
     const SmallBox small = to_small(box);
-    std::uint32_t stack[64];
+    Place stack[kMostLevels * kWidth];
     int top = 0;
-    if (nodes_[0].box.meets(small)) stack[top++] = 0;
+    stack[top++] = {std::uint32_t(levels_.size() - 1), 0};
     while (top > 0) {
-      const Node& n = nodes_[stack[--top]];
-      if (!keep(to_lattice(n.box))) continue;
-      if (n.count > 0) {
-        for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
-          if (boxes_[i].meets(small) && !visit(order_[i])) return false;
+      const Place place = stack[--top];
+      const Group& group = groups_[levels_[place.level] + place.group];
+      for (std::uint32_t hits = group.meeting(small); hits != 0; hits &= hits - 1) {
+        const auto k = std::uint32_t(std::countr_zero(hits));
+        if (!keep(to_lattice(group.box(k)))) continue;
+        const std::uint32_t child = place.group * kWidth + k;
+        if (place.level > 0) {
+          stack[top++] = {place.level - 1, child};
+        } else if (!visit(order_[child])) {
+          return false;
         }
-      } else {
-        if (nodes_[n.first].box.meets(small)) stack[top++] = n.first;
-        if (nodes_[n.first + 1].box.meets(small)) stack[top++] = n.first + 1;
       }
     }
     return true;
   }
 
  private:
-  /// Relative to base_, clamped: 24 bytes, so that a node is 36. Clamping keeps the order, so no meeting is missed.
+  static constexpr std::uint32_t kWidth = 8;
+  static constexpr std::size_t kMostLevels = 11;  // 8^11 > 2^32
+
+  /// Relative to base_, clamped. Clamping keeps the order, so no meeting is missed.
   struct SmallBox {
     std::array<std::int32_t, 3> min, max;
-    [[nodiscard]] bool meets(const SmallBox& b) const {
-      return (min[0] <= b.max[0]) & (b.min[0] <= max[0]) & (min[1] <= b.max[1]) & (b.min[1] <= max[1]) &
-             (min[2] <= b.max[2]) & (b.min[2] <= max[2]);  // no branches: they would be guesses
-    }
-    [[nodiscard]] bool contains(const SmallBox& b) const {
-      return min[0] <= b.min[0] && min[1] <= b.min[1] && min[2] <= b.min[2] && max[0] >= b.max[0] &&
-             max[1] >= b.max[1] && max[2] >= b.max[2];
-    }
-    void add(const SmallBox& b) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        min[i] = std::min(min[i], b.min[i]);
-        max[i] = std::max(max[i], b.max[i]);
-      }
-    }
   };
-  struct Node {
-    SmallBox box;
-    std::uint32_t first = 0;  // leaf: first item in order_; inner: left child, the right one follows it
-    std::uint32_t count = 0;  // items of a leaf, 0 for inner nodes
-    std::uint32_t parent = 0;
+  static constexpr SmallBox kNothing{{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
+  /// The boxes of eight children, side by side in vectors of GCC and Clang.
+  struct Group {
+    typedef std::int32_t Four __attribute__((vector_size(16)));
+    Four min[3][2], max[3][2];
+
+    Group() {  // kNothing meets nothing: it is beyond all that to_small() returns
+      for (std::uint32_t k = 0; k < kWidth; ++k) set(k, kNothing);
+    }
+    /// Bit k: child k meets `b`. No branches: they would be guesses.
+    [[nodiscard]] std::uint32_t meeting(const SmallBox& b) const {
+      const auto apart = [&](std::size_t half) {
+        return (min[0][half] > b.max[0]) | (max[0][half] < b.min[0]) | (min[1][half] > b.max[1]) |
+               (max[1][half] < b.min[1]) | (min[2][half] > b.max[2]) | (max[2][half] < b.min[2]);
+      };
+      const Four hits = (~apart(0) & Four{1, 2, 4, 8}) | (~apart(1) & Four{16, 32, 64, 128});
+      const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(hits);
+      const std::uint64_t both = halves[0] | halves[1];
+      return std::uint32_t(both | both >> 32);
+    }
+    [[nodiscard]] SmallBox box(std::uint32_t k) const {
+      const std::uint32_t half = k / 4, lane = k % 4;
+      return {{min[0][half][lane], min[1][half][lane], min[2][half][lane]},
+              {max[0][half][lane], max[1][half][lane], max[2][half][lane]}};
+    }
+    void set(std::uint32_t k, const SmallBox& b);
+    bool grow(std::uint32_t k, const SmallBox& b);  ///< false if child k holds `b` already
+    [[nodiscard]] SmallBox around() const;
+  };
+  struct Place {
+    std::uint32_t level, group;
   };
 
   [[nodiscard]] SmallBox to_small(const LatticeBox& b) const {
-    const auto clamp = [](std::int64_t v) { return std::int32_t(std::clamp<std::int64_t>(v, INT32_MIN, INT32_MAX)); };
+    const auto clamp = [](std::int64_t v) {
+      return std::int32_t(std::clamp<std::int64_t>(v, INT32_MIN + 1, INT32_MAX - 1));
+    };
     return {{clamp(b.min.x - base_.x), clamp(b.min.y - base_.y), clamp(b.min.z - base_.z)},
             {clamp(b.max.x - base_.x), clamp(b.max.y - base_.y), clamp(b.max.z - base_.z)}};
   }
@@ -110,17 +135,14 @@ class BoxTree {
     return {{base_.x + b.min[0], base_.y + b.min[1], base_.z + b.min[2]},
             {base_.x + b.max[0], base_.y + b.max[1], base_.z + b.max[2]}};
   }
-  struct Centre {  // of an item's box
-    std::array<std::int32_t, 3> at;
-    std::uint32_t item;
-  };
-  void split(std::span<const LatticeBox> boxes, std::span<Centre> centres, std::uint32_t node, std::uint32_t begin);
+  void sort_in_space(std::span<const LatticeBox> boxes);
+  void build_levels();
 
   LatticeCoord base_{};
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> order_;
-  std::vector<SmallBox> boxes_;         // of the items, beside order_
-  std::vector<std::uint32_t> leaf_of_;  // per item
+  std::vector<Group> groups_;            // all groups of items, then those of the groups, ... the root last
+  std::vector<std::uint32_t> levels_;    // where each level begins in groups_
+  std::vector<std::uint32_t> order_;     // items; group g holds those from 8 g on
+  std::vector<std::uint32_t> place_of_;  // per item: in order_
 };
 
 }  // namespace bp

@@ -204,6 +204,7 @@ void Collapser::erase_part(FaceId f) {
   const auto erase = [&](FaceId g) {
     for (HalfEdgeId h = 3 * g; h < 3 * g + 3; ++h) stack.push_back(HalfEdgeMesh::face(mesh_.twin(h)));
     mesh_.erase(g);
+    tree_.remove(g);
   };
   while (!stack.empty()) {
     const FaceId g = stack.back();
@@ -215,6 +216,7 @@ void Collapser::erase_part(FaceId f) {
 void Collapser::collapse_to(HalfEdgeId h, const LatticeCoord& position) {
   const VertexId u = mesh_.from(h);
   const Quadric q = summed(h).about(to_double(position - origin_));
+  for (const HalfEdgeId g : {h, mesh_.twin(h)}) tree_.remove(HalfEdgeMesh::face(g));
   mesh_.collapse(h, position);
   quadric_[u] = q;
   ++counts_.collapses;
@@ -261,7 +263,7 @@ bool Collapser::link_holds() const {
   return common == 2 && !(ring_split_ == 3 && ring_.size() == 5);  // neighbours: 3 and 2, less from(h)
 }
 
-/// The half-spaces outside the planes of the star, each once.
+/// The half-spaces outside the planes of the star. Faces of a flat region follow each other: one for all of them.
 void Collapser::gather_constraints() {
   constraints_.clear();
   for (const StarFace& f : star_) {
@@ -269,9 +271,8 @@ void Collapser::gather_constraints() {
     const double size = length(n);
     const Vec3d unit = {n[0] / size, n[1] / size, n[2] / size};
     const double d = dot(unit, to_double(f.apex));
-    const bool known = std::any_of(constraints_.begin(), constraints_.end(), [&](const PlaneConstraint& s) {
-      return dot(s.n, unit) > 1 - 1e-12 && std::abs(s.d - d) < 1e-6;
-    });
+    const bool known = !constraints_.empty() && dot(constraints_.back().n, unit) > 1 - 1e-12 &&
+                       std::abs(constraints_.back().d - d) < 1e-6;
     if (!known) constraints_.push_back({unit, d});
   }
 }

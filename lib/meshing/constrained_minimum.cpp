@@ -22,32 +22,6 @@ Vec3d cross(const Vec3d& a, const Vec3d& b) {
 Vec3d at(const Vec3d& p, double s, const Vec3d& u) {
   return {p[0] + s * u[0], p[1] + s * u[1], p[2] + s * u[2]};
 }
-Vec3d times(const Quadric& q, const Vec3d& x) {
-  return {q.xx * x[0] + q.xy * x[1] + q.xz * x[2], q.xy * x[0] + q.yy * x[1] + q.yz * x[2],
-          q.xz * x[0] + q.yz * x[1] + q.zz * x[2]};
-}
-/// Half of the gradient.
-Vec3d gradient(const Quadric& q, const Vec3d& x) {
-  const Vec3d ax = times(q, x);
-  return {ax[0] + q.bx, ax[1] + q.by, ax[2] + q.bz};
-}
-
-Quadric regularised(const Quadric& q, const Vec3d& prior) {
-  Quadric r = q;
-  const double pull = 1e-3 * (q.xx + q.yy + q.zz) / 3 + 1e-12;
-  r.xx += pull, r.yy += pull, r.zz += pull;
-  r.bx -= pull * prior[0], r.by -= pull * prior[1], r.bz -= pull * prior[2];
-  return r;
-}
-
-Vec3d free_minimum(const Quadric& q) {
-  const double a = q.yy * q.zz - q.yz * q.yz, b = q.xz * q.yz - q.xy * q.zz, c = q.xy * q.yz - q.xz * q.yy;
-  const double det = q.xx * a + q.xy * b + q.xz * c;
-  const double d = q.xx * q.zz - q.xz * q.xz, e = q.xy * q.xz - q.xx * q.yz, f = q.xx * q.yy - q.xy * q.xy;
-  return {-(a * q.bx + b * q.by + c * q.bz) / det, -(b * q.bx + d * q.by + e * q.bz) / det,
-          -(c * q.bx + e * q.by + f * q.bz) / det};
-}
-
 /// Minimum on the line p + s u within the half-spaces.
 std::optional<Vec3d> on_line(const Quadric& q, const Vec3d& p, const Vec3d& u,
                              std::span<const PlaneConstraint> constraints) {
@@ -63,7 +37,7 @@ std::optional<Vec3d> on_line(const Quadric& q, const Vec3d& p, const Vec3d& u,
     }
   }
   if (low > high + kEps) return std::nullopt;
-  const double s = -dot(gradient(q, p), u) / dot(times(q, u), u);
+  const double s = -dot(q.gradient(p), u) / dot(q.times(u), u);
   return at(p, std::clamp(s, low, std::max(low, high)), u);
 }
 
@@ -76,7 +50,7 @@ std::optional<Vec3d> on_plane(const Quadric& q, const PlaneConstraint& plane,
   const double length = std::sqrt(dot(u, u));
   u = {u[0] / length, u[1] / length, u[2] / length};
   const Vec3d v = cross(n, u), p = {n[0] * plane.d, n[1] * plane.d, n[2] * plane.d};
-  const Vec3d g = gradient(q, p), qu = times(q, u), qv = times(q, v);
+  const Vec3d g = q.gradient(p), qu = q.times(u), qv = q.times(v);
   const double uu = dot(qu, u), uv = dot(qu, v), vv = dot(qv, v), gu = dot(g, u), gv = dot(g, v);
   const double det = uu * vv - uv * uv;
   Vec3d x = at(at(p, (uv * gv - vv * gu) / det, u), (uv * gu - uu * gv) / det, v);
@@ -100,42 +74,10 @@ std::optional<Vec3d> on_plane(const Quadric& q, const PlaneConstraint& plane,
 
 }  // namespace
 
-void Quadric::add_plane(const Vec3d& n, double d, double area) {
-  xx += area * n[0] * n[0], xy += area * n[0] * n[1], xz += area * n[0] * n[2];
-  yy += area * n[1] * n[1], yz += area * n[1] * n[2], zz += area * n[2] * n[2];
-  bx += area * n[0] * d, by += area * n[1] * d, bz += area * n[2] * d;
-  c += area * d * d;
-  weight += area;
-}
-
-void Quadric::add(const Quadric& q) {
-  xx += q.xx, xy += q.xy, xz += q.xz, yy += q.yy, yz += q.yz, zz += q.zz;
-  bx += q.bx, by += q.by, bz += q.bz;
-  c += q.c;
-  weight += q.weight;
-}
-
-Quadric Quadric::about(const Vec3d& p) const {
-  Quadric q = *this;
-  const Vec3d g = gradient(*this, p);
-  q.bx = g[0], q.by = g[1], q.bz = g[2];
-  q.c = value(p);
-  return q;
-}
-
-double Quadric::value(const Vec3d& x) const {
-  const Vec3d ax = times(*this, x);
-  return dot(ax, x) + 2 * (bx * x[0] + by * x[1] + bz * x[2]) + c;
-}
-
-Vec3d minimum(const Quadric& q, const Vec3d& prior) {
-  return free_minimum(regularised(q, prior));
-}
-
 std::optional<Vec3d> constrained_minimum(const Quadric& q, const Vec3d& prior,
                                          std::span<const PlaneConstraint> constraints) {
-  const Quadric r = regularised(q, prior);
-  Vec3d x = free_minimum(r);
+  const Quadric r = q.regularised(prior);
+  Vec3d x = r.minimum();
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     if (dot(constraints[i].n, x) >= constraints[i].d - kEps) continue;
     const auto on = on_plane(r, constraints[i], constraints.first(i));

@@ -11,14 +11,15 @@ class FaceTree {
   explicit FaceTree(const HalfEdgeMesh& mesh) : mesh_(mesh) { rebuild(); }
 
   void update(FaceId f) { tree_.update(f, box_of_face(f)); }  ///< call after the corners of a live face moved
+  void remove(FaceId f) { tree_.remove(f); }                  ///< call for every face that dies
   void rebuild();                                             ///< boxes as tight as the mesh is now
   void maintain() {                                           ///< rebuilds when half of the faces are dead
     if (mesh_.face_count() * 2 < tree_.size()) rebuild();
   }
-  /// As BoxTree::query, live faces only.
+  /// As BoxTree::query.
   template <class Visit>
   bool query(const LatticeBox& box, Visit&& visit) const {
-    return tree_.query(box, [&](FaceId f) { return !mesh_.alive(f) || visit(f); });
+    return tree_.query(box, visit);
   }
 
  private:

@@ -33,23 +33,28 @@ void HalfEdgeMesh::check_span() const {
 
 /// Buckets of half-edges by their lower vertex: linear, no hashing.
 void HalfEdgeMesh::connect() {
-  const auto low = [&](HalfEdgeId h) { return std::min(from(h), to(h)); };
+  struct Half {
+    VertexId high;  // the higher end
+    HalfEdgeId h;
+  };
   const auto edges = HalfEdgeId(from_.size());
-  std::vector<std::uint32_t> start(position_.size() + 1, 0);
+  std::vector<std::uint32_t> start(position_.size() + 2, 0);  // one further: it is the cursor while buckets fill
   for (HalfEdgeId h = 0; h < edges; ++h) {
-    ++start[low(h) + 1];
+    ++start[std::min(from(h), to(h)) + 2];
     out_[from(h)] = h;
   }
-  for (std::size_t v = 0; v < position_.size(); ++v) start[v + 1] += start[v];
-  std::vector<HalfEdgeId> bucket(from_.size());
-  std::vector<std::uint32_t> cursor(start.begin(), start.end() - 1);
-  for (HalfEdgeId h = 0; h < edges; ++h) bucket[cursor[low(h)]++] = h;
+  for (std::size_t v = 0; v < position_.size(); ++v) start[v + 2] += start[v + 1];
+  std::vector<Half> bucket(from_.size());
+  for (HalfEdgeId h = 0; h < edges; ++h) {
+    const VertexId low = std::min(from(h), to(h)), high = std::max(from(h), to(h));
+    bucket[start[low + 1]++] = {high, h};
+  }
   for (VertexId v = 0; v < position_.size(); ++v) {
     for (std::uint32_t i = start[v]; i < start[v + 1]; ++i) {
-      const HalfEdgeId h = bucket[i];
+      const auto [high, h] = bucket[i];
       for (std::uint32_t j = i + 1; j < start[v + 1] && twin_[h] == kNoId; ++j) {
-        const HalfEdgeId g = bucket[j];
-        if (twin_[g] == kNoId && from(h) == to(g) && to(h) == from(g)) glue(h, g);
+        const HalfEdgeId g = bucket[j].h;
+        if (bucket[j].high == high && twin_[g] == kNoId && from(h) != from(g)) glue(h, g);
       }
       if (twin_[h] != kNoId) continue;
       locked_[from(h)] = locked_[to(h)] = 1;

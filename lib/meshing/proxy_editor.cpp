@@ -137,6 +137,7 @@ bool ProxyEditor::collapse(HalfEdgeId h, const LatticeCoord& to) {
     if (mesh_.to(g) != u && mesh_.opposite(g) != u) add(g);
   });
   if (!fan_is_fine(to)) return false;
+  for (const HalfEdgeId g : {h, mesh_.twin(h)}) tree_.remove(HalfEdgeMesh::face(g));
   mesh_.collapse(h, to);
   update_around(u);
   tree_.maintain();
