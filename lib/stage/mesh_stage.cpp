@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "lib/core/error.h"
+#include "lib/meshing/enclosed_triangles.h"
+#include "lib/meshing/enclosed_voxels.h"
 #include "lib/meshing/flatten.h"
 #include "lib/meshing/lattice_geometry.h"
 #include "lib/meshing/quads.h"

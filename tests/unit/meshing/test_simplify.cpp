@@ -1,5 +1,6 @@
 #include <random>
 
+#include "lib/meshing/enclosed_voxels.h"
 #include "lib/meshing/repair.h"
 #include "lib/meshing/simplify.h"
 #include "lib/meshing/surface.h"

@@ -2,6 +2,7 @@
 #include <random>
 
 #include "lib/core/triangle_intersection.h"
+#include "lib/meshing/enclosed_triangles.h"
 #include "lib/meshing/fan_fit.h"
 #include "lib/meshing/tight_proxy.h"
 #include "lib/meshing/vec3.h"

@@ -1,0 +1,305 @@
+#include "lib/meshing/enclosed_voxels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "lib/core/parallel.h"
+#include "lib/meshing/vec3.h"
+
+namespace bp {
+
+/// Separating axes of one tetrahedron against axis-aligned cubes: the cube's 3 face normals (its bounding box), the 4
+/// face normals, and the 6 x 3 cross products of edges. Two convex bodies have disjoint interiors iff one of these axes
+/// separates them weakly.
+class Separator {
+ public:
+  explicit Separator(const Tetrahedron& t) : box_{t[0], t[0]} {
+    for (const LatticeCoord& p : t) box_.add(p);
+    for (std::size_t i = 0; i < 4; ++i) corners_[i] = t[i] - box_.min;
+    const LatticeCoord side = box_.max - box_.min;
+    reach_ = 2 * double(side.x + side.y + side.z) + 4 * double(kLargestCube);
+    for (std::size_t skip = 0; skip < 4; ++skip)
+      add_axis(normal_of(t[(skip + 1) % 4], t[(skip + 2) % 4], t[(skip + 3) % 4]));
+  }
+
+  [[nodiscard]] const LatticeBox& box() const { return box_; }
+
+  /// True if the open cube [corner, corner + edge]^3, which meets the open box, and the open tetrahedron are disjoint.
+  [[nodiscard]] bool separates(const LatticeCoord& corner, std::int64_t edge) {
+    const LatticeCoord c = corner - box_.min;
+    for (std::size_t a = 0; a < axes_.size(); ++a) {
+      if (a == count_) {
+        if (complete_) return false;
+        add_edge_axes();
+        if (a == count_) return false;
+      }
+      if (separates_along(axes_[a], c, edge)) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::int64_t kLargestCube = std::int64_t(kBrickEdge) * kLatticePerVoxel;
+
+  /// Coordinates are relative to the low corner of the tetrahedron's box. The doubles decide unless they are within
+  /// rounding, which those of all but huge tetrahedra are free of.
+  struct Axis {
+    LatticeCoord n;
+    double x, y, z;
+    double negative, positive;  // sums of the negative and of the positive components: extent of a unit cube
+    double min, max;            // of the tetrahedron
+    double slack;               // a dozen roundings of terms below |n|_1 * reach_; 0: integers that doubles hold
+  };
+
+  [[nodiscard]] bool separates_along(const Axis& axis, const LatticeCoord& c, std::int64_t edge) const {
+    const double at = axis.x * double(c.x) + axis.y * double(c.y) + axis.z * double(c.z), e = double(edge);
+    const double over = std::max(at + axis.negative * e - axis.max, axis.min - (at + axis.positive * e));
+    if (over < -axis.slack) return false;
+    return over > axis.slack || axis.slack == 0 || separates_exactly(axis.n, c, edge);
+  }
+
+  [[nodiscard]] bool separates_exactly(const LatticeCoord& n, const LatticeCoord& c, std::int64_t edge) const {
+    const auto along = [&](const LatticeCoord& p) { return int128(n.x) * p.x + int128(n.y) * p.y + int128(n.z) * p.z; };
+    int128 min = along(corners_[0]), max = min, low = along(c), high = low;
+    for (const LatticeCoord& p : corners_) {
+      min = std::min(min, along(p));
+      max = std::max(max, along(p));
+    }
+    for (int i = 0; i < 3; ++i) (n[i] < 0 ? low : high) += int128(n[i]) * edge;
+    return low >= max || high <= min;
+  }
+
+  /// The faces' normals tell nearly all cubes apart: the others wait until one asks.
+  void add_edge_axes() {
+    complete_ = true;
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        const LatticeCoord e = corners_[j] - corners_[i];
+        add_axis({0, e.z, -e.y});
+        add_axis({-e.z, 0, e.x});
+        add_axis({e.y, -e.x, 0});
+      }
+    }
+  }
+
+  void add_axis(const LatticeCoord& n) {
+    if (n == LatticeCoord{}) return;
+    Axis axis{n, double(n.x), double(n.y), double(n.z), 0, 0, 0, 0, 0};
+    for (int i = 0; i < 3; ++i) (n[i] < 0 ? axis.negative : axis.positive) += double(n[i]);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double at =
+          axis.x * double(corners_[i].x) + axis.y * double(corners_[i].y) + axis.z * double(corners_[i].z);
+      axis.min = i == 0 ? at : std::min(axis.min, at);
+      axis.max = i == 0 ? at : std::max(axis.max, at);
+    }
+    const double bound = (axis.positive - axis.negative) * reach_;
+    axis.slack = bound < 0x1p52 ? 0 : 0x1p-49 * bound;
+    axes_[count_++] = axis;
+  }
+
+  Tetrahedron corners_;  // relative to box_.min
+  double reach_;         // bounds the sum of sizes of the coordinates of a corner, of either body
+  LatticeBox box_;
+  std::array<Axis, 22> axes_;
+  std::size_t count_ = 0;
+  bool complete_ = false;  // the edges' axes are there
+};
+
+namespace {
+
+/// Occupied voxels of a brick with an empty one among their 26 neighbours.
+BrickBits boundary_of(const BrickShelf& shelf, BrickCoord coord) {
+  const VoxelCoord first = first_voxel(coord);
+  BitBox bits({{first.x - 64, first.y - 1, first.z - 1}, {first.x + 128, first.y + 65, first.z + 65}});
+  load_voxels(shelf, bits);
+  BrickBits out;
+  for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+    for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+      std::uint64_t inner = ~std::uint64_t(0);
+      for (int i = 0; i < 9; ++i) {
+        const std::uint64_t* r = bits.row(first.y + y + i % 3 - 1, first.z + z + i / 3 - 1);
+        inner &= r[1] & ((r[1] << 1) | (r[0] >> 63)) & ((r[1] >> 1) | (r[2] << 63));
+      }
+      out[std::size_t(z * kBrickEdge + y)] = bits.row(first.y + y, first.z + z)[1] & ~inner;
+    }
+  }
+  return out;
+}
+
+/// Block b = 64 z + 8 y + x of a brick: word z, bit 8 y + x.
+std::array<std::uint64_t, 8> block_of(const BrickBits& bits, std::size_t b) {
+  const std::size_t bx = b % 8, by = b / 8 % 8, bz = b / 64;
+  std::array<std::uint64_t, 8> block{};
+  for (std::size_t z = 0; z < 8; ++z) {
+    for (std::size_t y = 0; y < 8; ++y)
+      block[z] |= ((bits[(bz * 8 + z) * kBrickEdge + by * 8 + y] >> (8 * bx)) & 0xff) << (8 * y);
+  }
+  return block;
+}
+
+/// The bits first to last of 8, both included, and within 0 to 7.
+std::uint64_t bits_between(std::int64_t first, std::int64_t last) {
+  first = std::max<std::int64_t>(first, 0);
+  last = std::min<std::int64_t>(last, 7);
+  return first > last ? 0 : (std::uint64_t(0xff) >> (7 - last + first)) << first;
+}
+
+/// Boxes of 8^3 cells, word z, bit 8 y + x: the bits of the cells that the box around a tetrahedron meets.
+class CellWindow {
+ public:
+  /// `first`: the low corner of cell (0, 0, 0).
+  CellWindow(const LatticeBox& box, const LatticeCoord& first, std::int64_t edge) {
+    const auto low = [&](int i) { return floor_div(box.min[i] - first[i], edge); };
+    const auto high = [&](int i) { return floor_div(box.max[i] - 1 - first[i], edge); };
+    const std::uint64_t columns = bits_between(low(0), high(0));
+    for (std::uint64_t y = bits_between(low(1), high(1)); y != 0; y &= y - 1)
+      word_ |= columns << (8 * std::countr_zero(y));
+    low_z_ = std::max<std::int64_t>(low(2), 0);
+    high_z_ = std::min<std::int64_t>(high(2), 7);
+  }
+  [[nodiscard]] std::int64_t low_z() const { return low_z_; }
+  [[nodiscard]] std::int64_t high_z() const { return high_z_; }  ///< included
+  [[nodiscard]] std::uint64_t word() const { return word_; }     ///< of each z between
+
+ private:
+  std::int64_t low_z_, high_z_;
+  std::uint64_t word_ = 0;
+};
+
+/// Corners of voxels, those at the low sides of a brick's voxels, with one occupied voxel around them.
+std::vector<VoxelCoord> tips_of(const BrickShelf& shelf, BrickCoord coord) {
+  const VoxelCoord first = first_voxel(coord);
+  BitBox bits({{first.x - 64, first.y - 1, first.z - 1}, {first.x + 64, first.y + 64, first.z + 64}});
+  load_voxels(shelf, bits);
+  std::vector<VoxelCoord> tips;
+  for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+    for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+      std::uint64_t once = 0, twice = 0;
+      for (int i = 0; i < 4; ++i) {
+        const std::uint64_t* r = bits.row(first.y + y - i % 2, first.z + z - i / 2);
+        for (const std::uint64_t w : {r[1], (r[1] << 1) | (r[0] >> 63)}) {
+          twice |= once & w;
+          once |= w;
+        }
+      }
+      for (std::uint64_t row = once & ~twice; row != 0; row &= row - 1)
+        tips.push_back({first.x + std::countr_zero(row), first.y + y, first.z + z});
+    }
+  }
+  return tips;
+}
+
+LatticeCoord low_corner(VoxelCoord v) {
+  return LatticeCoord{v.x, v.y, v.z} * kLatticePerVoxel;
+}
+
+Blocker cube(const LatticeCoord& low, std::int64_t edge) {
+  Blocker b;
+  b.count = 8;
+  for (int i = 0; i < 8; ++i)
+    b.points[std::size_t(i)] = to_double(low + LatticeCoord{i & 1, (i >> 1) & 1, i >> 2} * edge);
+  return b;
+}
+
+}  // namespace
+
+EnclosedVoxels::EnclosedVoxels(const BrickShelf& shelf) {
+  const std::vector<BrickCoord> coords = shelf.coords();
+  struct Found {
+    BoundaryBrick brick{};
+    std::vector<Block> blocks;
+    std::vector<VoxelCoord> tips;
+  };
+  std::vector<Found> found(coords.size());
+  parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
+    Found& f = found[std::size_t(i)];
+    const BrickBits bits = boundary_of(shelf, coords[std::size_t(i)]);
+    for (std::size_t b = 0; b < 512; ++b) {
+      const Block block = block_of(bits, b);
+      if (block == Block{}) continue;
+      f.brick.blocks[b / 64] |= std::uint64_t(1) << b % 64;
+      f.blocks.push_back(block);
+    }
+    f.tips = tips_of(shelf, coords[std::size_t(i)]);
+  });
+  for (std::size_t i = 0; i < coords.size(); ++i) {
+    Found& f = found[i];
+    auto first = std::uint32_t(blocks_.size());
+    for (std::size_t z = 0; z < 8; ++z) {
+      f.brick.first[z] = first;
+      first += std::uint32_t(std::popcount(f.brick.blocks[z]));
+    }
+    if (!f.blocks.empty()) bricks_.emplace(coords[i], f.brick);
+    blocks_.insert(blocks_.end(), f.blocks.begin(), f.blocks.end());
+    tips_.insert(tips_.end(), f.tips.begin(), f.tips.end());
+    f = {};
+  }
+}
+
+bool EnclosedVoxels::allows(std::span<const NewFace>, std::span<const Tetrahedron> swept, Blocker* blocker) const {
+  return std::all_of(swept.begin(), swept.end(), [&](const Tetrahedron& t) { return clear(t, blocker); });
+}
+
+std::vector<Vec3d> EnclosedVoxels::contact_points(const LatticeCoord& origin) const {
+  std::vector<Vec3d> points;
+  points.reserve(tips_.size());
+  for (const VoxelCoord& c : tips_)
+    points.push_back(to_double(LatticeCoord{c.x, c.y, c.z} * kLatticePerVoxel - origin));
+  return points;
+}
+
+bool EnclosedVoxels::clear(const Tetrahedron& t, Blocker* blocker) const {
+  Separator separator(t);
+  constexpr std::int64_t edge = std::int64_t(kBrickEdge) * kLatticePerVoxel;
+  const LatticeBox& box = separator.box();
+  BrickCoord low, high;
+  for (int i = 0; i < 3; ++i) {
+    low[i] = std::int32_t(floor_div(box.min[i], edge));
+    high[i] = std::int32_t(floor_div(box.max[i] - 1, edge));
+  }
+  for (std::int32_t z = low.z; z <= high.z; ++z) {
+    for (std::int32_t y = low.y; y <= high.y; ++y) {
+      for (std::int32_t x = low.x; x <= high.x; ++x) {
+        const auto it = bricks_.find({x, y, z});
+        if (it == bricks_.end() || separator.separates({x * edge, y * edge, z * edge}, edge)) continue;
+        if (!brick_clear(separator, {x, y, z}, it->second, blocker)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool EnclosedVoxels::brick_clear(Separator& separator, BrickCoord coord, const BoundaryBrick& brick,
+                                 Blocker* blocker) const {
+  constexpr std::int64_t edge = 8 * kLatticePerVoxel;
+  const VoxelCoord first = first_voxel(coord);
+  const CellWindow window(separator.box(), low_corner(first), edge);
+  for (std::int64_t z = window.low_z(); z <= window.high_z(); ++z) {
+    const std::uint64_t word = brick.blocks[std::size_t(z)];
+    for (std::uint64_t rest = word & window.word(); rest != 0; rest &= rest - 1) {
+      const int bit = std::countr_zero(rest);
+      const VoxelCoord voxel{first.x + bit % 8 * 8, first.y + bit / 8 * 8, first.z + std::int32_t(z) * 8};
+      if (separator.separates(low_corner(voxel), edge)) continue;
+      const auto before = std::uint32_t(std::popcount(word & ((std::uint64_t(1) << bit) - 1)));
+      if (!block_clear(separator, voxel, blocks_[brick.first[std::size_t(z)] + before], blocker)) return false;
+    }
+  }
+  return true;
+}
+
+bool EnclosedVoxels::block_clear(Separator& separator, VoxelCoord first, const Block& block, Blocker* blocker) const {
+  const CellWindow window(separator.box(), low_corner(first), kLatticePerVoxel);
+  for (std::int64_t z = window.low_z(); z <= window.high_z(); ++z) {
+    for (std::uint64_t rest = block[std::size_t(z)] & window.word(); rest != 0; rest &= rest - 1) {
+      const int bit = std::countr_zero(rest);
+      const LatticeCoord low = low_corner({first.x + bit % 8, first.y + bit / 8, first.z + std::int32_t(z)});
+      if (separator.separates(low, kLatticePerVoxel)) continue;
+      if (blocker != nullptr) *blocker = cube(low, kLatticePerVoxel);
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace bp

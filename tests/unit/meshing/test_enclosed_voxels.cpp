@@ -1,0 +1,100 @@
+#include <random>
+
+#include "lib/core/predicates.h"
+#include "lib/meshing/enclosed_voxels.h"
+#include "tests/catch.h"
+#include "tests/support/memory_shelf.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : random_(seed) {}
+  std::int64_t between(std::int64_t low, std::int64_t high) {
+    return std::uniform_int_distribution<std::int64_t>(low, high)(random_);
+  }
+  LatticeCoord point(std::int64_t low, std::int64_t high) {
+    return {between(low, high), between(low, high), between(low, high)};
+  }
+  /// Small or large; every third with corners of voxels only, so that it touches cubes.
+  Tetrahedron tetrahedron() {
+    const bool aligned = between(0, 2) == 0;
+    const std::int64_t size = aligned ? between(1, 12) : between(1, 800);
+    const std::int64_t unit = aligned ? kLatticePerVoxel : 1;
+    const LatticeCoord origin = point(-16 * kLatticePerVoxel / unit, 8 * kLatticePerVoxel / unit);
+    Tetrahedron t;
+    for (LatticeCoord& p : t) p = (origin + point(0, size)) * unit;
+    return t;
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+void add_voxel(MemoryShelf& shelf, VoxelCoord v) {
+  BitBox bits({{v.x & ~63, v.y & ~63, v.z & ~63}, {(v.x & ~63) + 64, (v.y & ~63) + 64, (v.z & ~63) + 64}});
+  load_voxels(shelf, bits);
+  bits.row(v.y, v.z)[0] |= std::uint64_t(1) << (v.x & 63);
+  store_voxels(bits, shelf);
+}
+
+/// Four planes of the tetrahedron at once: p is strictly inside.
+bool holds_inside(const Tetrahedron& t, const LatticeCoord& p) {
+  const int turn = orient3d(t[0], t[1], t[2], t[3]);
+  return turn != 0 && orient3d(t[0], t[1], t[2], p) == turn && orient3d(t[0], t[3], t[1], p) == turn &&
+         orient3d(t[1], t[3], t[2], p) == turn && orient3d(t[2], t[3], t[0], p) == turn;
+}
+
+}  // namespace
+
+TEST_CASE("a set of voxels allows what each of its voxels allows, and says which is in the way", "[quick][meshing]") {
+  Random random(7);
+  MemoryShelf shelf;
+  std::vector<VoxelCoord> voxels;
+  std::vector<EnclosedVoxels> alone;  // each voxel by itself
+  for (int i = 0; i < 60; ++i) {      // sparse, so that all are boundary; around the origin, in several bricks
+    voxels.push_back({std::int32_t(random.between(-10, 9)), std::int32_t(random.between(-10, 9)),
+                      std::int32_t(random.between(-10, 9))});
+    add_voxel(shelf, voxels.back());
+    MemoryShelf one;
+    add_voxel(one, voxels.back());
+    alone.emplace_back(one);
+  }
+  const EnclosedVoxels all(shelf);
+  int refused = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Tetrahedron t = random.tetrahedron();
+    const auto allowed = [&](const EnclosedVoxels& e) { return e.allows({}, {{t}}, nullptr); };
+    Blocker blocker;
+    const bool free = all.allows({}, {{t}}, &blocker);
+    CAPTURE(i);
+    REQUIRE(free == std::all_of(alone.begin(), alone.end(), allowed));
+    REQUIRE((blocker.count == 8) == !free);
+    refused += !free;
+  }
+  CHECK(refused > 200);
+}
+
+TEST_CASE("a tetrahedron that holds a point of a voxel is refused, one beside the voxel is not", "[quick][meshing]") {
+  Random random(8);
+  MemoryShelf shelf;
+  add_voxel(shelf, {-1, 3, 63});
+  const EnclosedVoxels voxel(shelf);
+  const LatticeCoord low{-kLatticePerVoxel, 3 * kLatticePerVoxel, 63 * kLatticePerVoxel};
+  int refused = 0;
+  for (int i = 0; i < 3000; ++i) {
+    Tetrahedron t;
+    for (LatticeCoord& p : t) p = low + random.point(-100, 164);
+    bool held = false;
+    for (int k = 0; k < 40; ++k) held |= holds_inside(t, low + random.point(1, kLatticePerVoxel - 1));
+    if (held) CHECK_FALSE(voxel.allows({}, {{t}}, nullptr));
+    refused += held;
+    const int axis = int(random.between(0, 2));
+    for (LatticeCoord& p : t) p[axis] = std::min(p[axis], low[axis]);  // touches it at most
+    CHECK(voxel.allows({}, {{t}}, nullptr));
+  }
+  CHECK(refused > 200);
+}
