@@ -78,26 +78,49 @@ FaceId ContactPoints::nearest(const Vec3d& p, const FaceTree& tree, double reach
   return best;
 }
 
+ContactPoints::Target ContactPoints::target(FaceId f) const {
+  Target t{corners(f), {}, 0};
+  t.centre = (1.0 / 3) * (t.corners[0] + t.corners[1] + t.corners[2]);
+  for (const Vec3d& c : t.corners) t.radius = std::max(t.radius, length(c - t.centre));
+  return t;
+}
+
+/// `first`: the one that is asked first; the nearer it is, the fewer others are.
+std::size_t ContactPoints::nearest_target(const Vec3d& p, std::size_t first) const {
+  std::size_t best = first;
+  double least = squared_distance(p, targets_[first].corners), distance = std::sqrt(least);
+  for (std::size_t k = 0; k < targets_.size(); ++k) {
+    const Vec3d to_centre = p - targets_[k].centre;
+    const double beyond = distance + targets_[k].radius;
+    if (k == first || dot(to_centre, to_centre) > beyond * beyond) continue;
+    const double d = squared_distance(p, targets_[k].corners);
+    if (d >= least) continue;
+    least = d;
+    distance = std::sqrt(d);
+    best = k;
+  }
+  return best;
+}
+
 void ContactPoints::hand_over(std::span<const FaceId> from, std::span<const FaceId> to) {
   moving_.clear();
   for (const FaceId f : from) {
-    moving_.insert(moving_.end(), of_face_[f].begin(), of_face_[f].end());
+    const auto same = std::find(to.begin(), to.end(), f);
+    const auto first = same == to.end() ? 0 : std::size_t(same - to.begin());
+    for (const std::uint32_t i : of_face_[f]) moving_.emplace_back(i, first);
     of_face_[f].clear();
   }
-  faces_.clear();
-  for (const FaceId f : to) faces_.push_back(corners(f));
-  for (const std::uint32_t i : moving_) {
-    std::size_t best = 0;
-    double least = 1e300;
-    for (std::size_t k = 0; k < faces_.size(); ++k) {
-      const double d = squared_distance(points_[i], faces_[k]);
-      if (d < least) {
-        least = d;
-        best = k;
-      }
-    }
-    of_face_[to[best]].push_back(i);
-  }
+  targets_.clear();
+  for (const FaceId f : to) targets_.push_back(target(f));
+  for (const auto& [i, first] : moving_) of_face_[to[nearest_target(points_[i], first)]].push_back(i);
+}
+
+void ContactPoints::add(const Vec3d& p, std::span<const FaceId> near) {
+  if (!added_.insert({std::llround(p[0]), std::llround(p[1]), std::llround(p[2])}).second) return;
+  targets_.clear();
+  for (const FaceId f : near) targets_.push_back(target(f));
+  of_face_[near[nearest_target(p, 0)]].push_back(std::uint32_t(points_.size()));
+  points_.push_back(p);
 }
 
 }  // namespace bp

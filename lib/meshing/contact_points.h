@@ -1,4 +1,5 @@
 #pragma once
+#include <set>
 #include <span>
 #include <vector>
 
@@ -20,16 +21,29 @@ class ContactPoints {
   /// Lists the points of the faces `from` with the nearest of the faces `to`, which are as they are in the mesh now.
   void hand_over(std::span<const FaceId> from, std::span<const FaceId> to);
 
+  /// A point more, relative to origin(), for the nearest of the faces `near`; nothing if it is there already, to a
+  /// unit.
+  void add(const Vec3d& p, std::span<const FaceId> near);
+
  private:
+  /// A face that points may be nearest to, in a sphere that tells which they are not.
+  struct Target {
+    std::array<Vec3d, 3> corners;
+    Vec3d centre;
+    double radius;
+  };
   [[nodiscard]] std::array<Vec3d, 3> corners(FaceId f) const;
+  [[nodiscard]] Target target(FaceId f) const;
+  [[nodiscard]] std::size_t nearest_target(const Vec3d& p, std::size_t first) const;
   [[nodiscard]] FaceId nearest(const Vec3d& p, const FaceTree& tree, double reach) const;
 
   const HalfEdgeMesh& mesh_;
   LatticeCoord origin_{};
   std::vector<Vec3d> points_;
   std::vector<std::vector<std::uint32_t>> of_face_;
-  std::vector<std::uint32_t> moving_;
-  std::vector<std::array<Vec3d, 3>> faces_;
+  std::vector<std::pair<std::uint32_t, std::size_t>> moving_;  // points, each with the face it had, as a target
+  std::vector<Target> targets_;
+  std::set<std::array<std::int64_t, 3>> added_;
 };
 
 /// Squared distance of p from the triangle.

@@ -110,11 +110,12 @@ bool FanFit::cut(const Vec3d& apex) {
   return cuts_.size() > before;
 }
 
-void FanFit::add_plane(const Vec3d& normal, const Vec3d& through) {
+void FanFit::add_plane(const Vec3d& normal, const Vec3d& through, const Vec3d& obstacle) {
   const double size = length(normal);
   if (!(size > 0)) return;
   const Vec3d n = (1 / size) * normal;
   avoided_.push_back({n, dot(n, through) + kMargin});
+  obstacles_.push_back(obstacle);
 }
 
 /// The face over p, seen along outward_, must pass above it.
@@ -123,7 +124,7 @@ void FanFit::avoid_corner(const Vec3d& apex, const Vec3d& p) {
     const Vec3d &a = rim_[s], &b = rim_[s + 1 == rim_.size() ? 0 : s + 1];
     if (dot(cross(outward_, a - apex), p - apex) < 0 || dot(cross(outward_, b - apex), p - apex) >= 0) continue;
     const Vec3d normal = cross(a - p, b - p);
-    if (dot(normal, outward_) > 0 && dot(normal, apex - p) < kMargin * length(normal)) add_plane(normal, p);
+    if (dot(normal, outward_) > 0 && dot(normal, apex - p) < kMargin * length(normal)) add_plane(normal, p, p);
   }
 }
 
@@ -135,7 +136,10 @@ void FanFit::avoid_edge(const Vec3d& apex, const Vec3d& p, const Vec3d& q) {
     if (dot(spoke, p - apex) * dot(spoke, q - apex) > 0 || dot(across, apex - p) * dot(across, r - p) > 0) continue;
     Vec3d normal = cross(r - p, q - p);
     if (dot(normal, outward_) < 0) normal = -1.0 * normal;
-    if (dot(normal, apex - p) < kMargin * length(normal)) add_plane(normal, p);
+    if (dot(normal, apex - p) >= kMargin * length(normal)) continue;
+    const double at_p = dot(spoke, p - apex), at_q = dot(spoke, q - apex),
+                 share = at_p == at_q ? 0 : at_p / (at_p - at_q);
+    add_plane(normal, p, p + share * (q - p));  // where they cross
   }
 }
 
@@ -146,11 +150,13 @@ void FanFit::avoid_face(const Vec3d& apex, const Vec3d& p, const Vec3d& q, const
   normal = turn * normal;
   const auto beside = [&](const Vec3d& a, const Vec3d& b) { return turn * dot(cross(outward_, b - a), apex - a) < 0; };
   if (beside(p, q) || beside(q, r) || beside(r, p)) return;
-  if (dot(normal, apex - p) < kMargin * length(normal)) add_plane(normal, p);
+  if (dot(normal, apex - p) >= kMargin * length(normal)) return;
+  add_plane(normal, p, apex - (dot(normal, apex - p) / dot(normal, outward_)) * outward_);  // under the apex
 }
 
 bool FanFit::avoid(const Vec3d& apex, const Blocker& blocker, const Vec3d& shift) {
   const std::size_t before = avoided_.size();
+  obstacles_.clear();
   std::array<Vec3d, 8> p;
   for (std::size_t i = 0; i < blocker.count; ++i) {
     p[i] = blocker.points[i] - shift;

@@ -34,6 +34,8 @@ class FanFit {
   /// over its edges, the apex over its faces. `shift`: the fan's origin in the blocker's coordinates. False if neither
   /// is in the way.
   bool avoid(const Vec3d& apex, const Blocker& blocker, const Vec3d& shift);
+  /// Points of the blocker that the last avoid() lifted the fan over: contact points to come.
+  [[nodiscard]] const std::vector<Vec3d>& obstacles() const { return obstacles_; }
 
   /// The apex of least volume, about `reach` from `start` at most. Cutting planes: the deepest violation of each face
   /// is added to a small quadratic program until none is left. Nothing if the cuts contradict each other.
@@ -47,7 +49,7 @@ class FanFit {
   [[nodiscard]] Vec3d normal_over(std::size_t point) const;
   void bind(const Vec3d& apex);
   [[nodiscard]] bool cut(const Vec3d& apex);
-  void add_plane(const Vec3d& normal, const Vec3d& through);
+  void add_plane(const Vec3d& normal, const Vec3d& through, const Vec3d& obstacle);
   void avoid_corner(const Vec3d& apex, const Vec3d& p);
   void avoid_edge(const Vec3d& apex, const Vec3d& p, const Vec3d& q);
   void avoid_face(const Vec3d& apex, const Vec3d& p, const Vec3d& q, const Vec3d& r);
@@ -59,6 +61,7 @@ class FanFit {
   std::vector<std::uint32_t> sector_;     // per point: under face (apex, rim[sector], rim[sector + 1])
   Vec3d gradient_{}, outward_{};          // of the volume
   std::vector<PlaneConstraint> avoided_;  // from avoid()
+  std::vector<Vec3d> obstacles_;          // from the last avoid()
   std::vector<PlaneConstraint> cuts_;     // of least_volume()
   std::vector<Vec3d> heights_;            // of balanced(): 1 + heights . (x - start) is the height over a point, from 1
   std::vector<std::uint32_t> held_;       // per point: the sector whose height is among them

@@ -80,6 +80,17 @@ int HalfEdgeMesh::valence(VertexId v) const {
   return n;
 }
 
+int128 HalfEdgeMesh::volume6() const {
+  FaceId first = 0;
+  while (!alive(first)) ++first;
+  const LatticeCoord& origin = corner(first, 0);
+  int128 sum = 0;
+  for (FaceId f = first; f < face_capacity(); ++f) {
+    if (alive(f)) sum += orient3d_value(origin, corner(f, 0), corner(f, 1), corner(f, 2));
+  }
+  return sum;
+}
+
 // The ends have two common neighbours, those of the edge's faces. With an apex of valence 3 they have another one, or
 // else all four vertices are a tetrahedron, and both ends have valence 3 themselves.
 bool HalfEdgeMesh::can_collapse(HalfEdgeId h) const {

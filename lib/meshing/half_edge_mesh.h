@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "lib/core/predicates.h"
 #include "lib/meshing/box_tree.h"
 #include "lib/meshing/lattice_mesh.h"
 
@@ -75,6 +76,9 @@ class HalfEdgeMesh {
     } while (h != first);
   }
   [[nodiscard]] int valence(VertexId v) const;
+
+  /// Six times the enclosed volume, lattice units cubed; exact. For a whole mesh with a live face. O(faces).
+  [[nodiscard]] int128 volume6() const;
 
   /// The link condition: collapsing h leaves a closed 2-manifold of the same genus. False if an end is locked.
   [[nodiscard]] bool can_collapse(HalfEdgeId h) const;

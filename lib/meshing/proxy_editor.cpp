@@ -35,15 +35,6 @@ ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed,
       guard_(mesh, tree_),
       contacts_(enclosed, mesh, tree_) {}
 
-double ProxyEditor::volume() const {
-  double sum = 0;
-  const LatticeCoord& o = contacts_.origin();
-  for (FaceId f = 0; f < mesh_.face_capacity(); ++f) {
-    if (mesh_.alive(f)) sum += double(orient3d_value(o, mesh_.corner(f, 0), mesh_.corner(f, 1), mesh_.corner(f, 2)));
-  }
-  return sum / 6;
-}
-
 void ProxyEditor::begin() {
   ++counts_.tries;
   blocked_ = false;
@@ -159,6 +150,13 @@ bool ProxyEditor::flip(HalfEdgeId h) {
   for (const FaceId f : replaced_) tree_.update(f);
   contacts_.hand_over(replaced_, replaced_);
   return true;
+}
+
+void ProxyEditor::learn(VertexId v, std::span<const Vec3d> points) {
+  around_.clear();
+  mesh_.for_each_outgoing(v, [&](HalfEdgeId g) { around_.push_back(HalfEdgeMesh::face(g)); });
+  const Vec3d shift = to_double(mesh_.position(v) - contacts_.origin());
+  for (const Vec3d& p : points) contacts_.add(p + shift, around_);
 }
 
 /// Boxes of the star's faces, and their points: faces beyond the rim may be nearer now.

@@ -26,7 +26,6 @@ class ProxyEditor {
   [[nodiscard]] const HalfEdgeMesh& mesh() const { return mesh_; }
   [[nodiscard]] const ContactPoints& contacts() const { return contacts_; }
   [[nodiscard]] const EditCounts& counts() const { return counts_; }
-  [[nodiscard]] double volume() const;  ///< lattice units cubed
 
   /// Each returns true if the change was taken.
   [[nodiscard]] bool move(VertexId v, const LatticeCoord& to);
@@ -36,6 +35,9 @@ class ProxyEditor {
   /// What must stay inside and stood in the way of the change refused last, in the coordinates of contacts(); null if
   /// something else did.
   [[nodiscard]] const Blocker* blocker() const { return blocked_ ? &blocker_ : nullptr; }
+
+  /// More contact points, relative to v, near its faces.
+  void learn(VertexId v, std::span<const Vec3d> points);
 
   void refresh() { tree_.rebuild(); }  ///< boxes only grow with the changes; after many of them fresh ones pay
 

@@ -1,5 +1,7 @@
 #include "lib/meshing/simplify.h"
 
+#include <algorithm>
+
 #include "lib/meshing/collapse_order.h"
 #include "lib/meshing/shells.h"
 #include "lib/meshing/surface_tree.h"
@@ -33,6 +35,10 @@ void SimplifyCounts::add(const SimplifyCounts& next) {
 
 namespace {
 
+std::uint64_t end_of_bulk(const SimplifyParams& params) {
+  return params.strict_from > 0 ? std::max(params.strict_from, params.faces) : kBulkFactor * params.faces;
+}
+
 /// All of the surface, with quadrics or not, to the end.
 LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyParams& params, SimplifyCounts& counts) {
   HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
@@ -40,7 +46,7 @@ LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyPa
   // Where quadrics are given, edges have been collapsed, and faces are no longer axis-aligned.
   if (params.dense && whole.quadrics.empty()) merge_flat_regions(mesh, params.edge_limit);
   Collapser collapser(mesh, std::move(whole.quadrics), params, counts);
-  if (params.faces > 0 && params.dense) collapse_bulk(collapser, {kFirstBound, kLastBound}, kBulkFactor * params.faces);
+  if (params.faces > 0 && params.dense) collapse_bulk(collapser, {kFirstBound, kLastBound}, end_of_bulk(params));
   counts.stop = collapse_strict(collapser, counts);
   if (!params.free) erase_inner_shells(mesh);
   counts.faces_out = mesh.face_count();
@@ -52,7 +58,7 @@ LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyPa
 LatticeMesh simplify(const SurfaceSource& dense, const SimplifyParams& params, SimplifyCounts& counts) {
   counts = {};
   const bool bulk = params.limits == nullptr;  // limits are of the whole, step by step
-  Piece whole = simplified_surface(dense, params, bulk ? kBulkFactor * params.faces : 0, counts);
+  Piece whole = simplified_surface(dense, params, bulk ? end_of_bulk(params) : 0, counts);
   if (whole.triangles.empty()) {
     LatticeMesh none;
     none.frame = dense.frame();

@@ -16,6 +16,9 @@ namespace bp {
 
 struct SimplifyParams {
   std::uint64_t faces = 0;  ///< stop at this many triangles; 0: no target
+  /// A dense surface is in strict order only from this many triangles on: above, what is cheap goes first. 0: from
+  /// kBulkFactor (collapse_order.h) times `faces`.
+  std::uint64_t strict_from = 0;
   double error_vox =
       0;  ///< stop when the next collapse's root mean square distance to its planes exceeds this; 0: no limit
   EdgeLimit edge_limit;  ///< of what a collapse makes; the paper's c * S

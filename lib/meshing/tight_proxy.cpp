@@ -8,49 +8,30 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kEarlyFactor = 6;  // of the wanted faces: where growing collapses end
-constexpr double kLateFactor = 1.5;        // where the order of collapses changes from quadric error to volume
-constexpr int kEarlySweeps = 3;
+constexpr std::uint64_t kEarlyStrict = 16;  // of the wanted faces: where growing collapses turn to strict order
+constexpr std::uint64_t kEarlyFactor = 6;   // of the wanted faces: where growing collapses end
+constexpr double kLateFactor = 1.5;         // where the order of collapses changes from quadric error to volume
+constexpr int kEarlySweeps = 3;             // with the barrier: the later ones of both kinds gain next to nothing here
+constexpr int kEarlyFinalSweeps = 2;        // without it
 
 /// Collapses by volume know neither errors nor limits.
 bool by_volume(const SimplifyParams& params) {
   return params.faces > 0 && params.error_vox <= 0 && params.limits == nullptr;
 }
 
-void simplify_late(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, std::uint64_t faces,
+/// `enclosed`: what must stay inside; null: collapses grow.
+void simplify_late(LatticeMesh& proxy, const Enclosed* enclosed, const SimplifyParams& params, std::uint64_t faces,
                    SimplifyCounts& counts) {
   SimplifyParams late = params;
   late.faces = faces;
   late.dense = false;
-  late.enclosed = &enclosed;
+  late.enclosed = enclosed;
   SimplifyCounts now;
   proxy = simplify(proxy, late, now);
   counts.add(now);
 }
 
-/// Collapses by volume, then the last tightening, on one mesh.
-void finish(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, const TightenParams& tightening,
-            SimplifyCounts& simplified, TightenCounts& tightened) {
-  HalfEdgeMesh mesh(proxy);
-  ProxyEditor editor(mesh, enclosed, params.edge_limit, params.limits);
-  if (by_volume(params) && mesh.face_count() > params.faces) {
-    SimplifyCounts now;
-    thin(editor, params.faces, now);
-    simplified.add(now);
-  }
-  proxy = mesh.compact(proxy.frame);
-  tighten(editor, tightening, tightened);
-  if (tightened.volume_after > tightened.volume_before) {  // it was as tight as can be: a box around a box
-    tightened.volume_after = tightened.volume_before;
-  } else {
-    proxy = mesh.compact(proxy.frame);
-  }
-}
-
-/// Early tightening and collapses by volume find a finer balance, but jam in a few places where growing goes on.
-template <class Surface>
-LatticeMesh attempt(const Surface& dense, const Enclosed& enclosed, const SimplifyParams& params, bool tight_early,
-                    SimplifyCounts& simplified, TightenCounts& tightened) {
+TightenParams tightening_of(const SimplifyParams& params) {
   TightenParams tightening;
   tightening.edge_limit = params.edge_limit;
   tightening.limits = params.limits;
@@ -58,38 +39,65 @@ LatticeMesh attempt(const Surface& dense, const Enclosed& enclosed, const Simpli
     tightening.sweeps = 0;
     tightening.final_sweeps = 10;
   }
-  SimplifyParams early = params;
-  if (tight_early) early.faces = kEarlyFactor * params.faces;
-  LatticeMesh proxy = simplify(dense, early, simplified);
-  if (proxy.triangles.empty()) return proxy;
-  if (tight_early && (params.faces > 0 || params.limits != nullptr)) {
-    TightenParams few = tightening;
-    few.sweeps = std::min(few.sweeps, kEarlySweeps);
-    proxy = tighten(proxy, enclosed, few, tightened);
-    const double factor = by_volume(params) ? kLateFactor : 1;
-    simplify_late(proxy, enclosed, params, std::uint64_t(factor * double(params.faces)), simplified);
-  }
-  finish(proxy, enclosed, params, tightening, simplified, tightened);
-  return proxy;
+  return tightening;
 }
 
-/// Of a SurfaceSource or a LatticeMesh.
-template <class Surface>
-LatticeMesh better_attempt(const Surface& dense, const Enclosed& enclosed, const SimplifyParams& params,
-                           SimplifyCounts& simplified, TightenCounts& tightened) {
-  simplified = {};
-  tightened = {};
-  LatticeMesh proxy = attempt(dense, enclosed, params, true, simplified, tightened);
-  if (by_volume(params) && proxy.triangles.size() > params.faces) {
-    SimplifyCounts simplified_again;
-    TightenCounts tightened_again;
-    LatticeMesh grown = attempt(dense, enclosed, params, false, simplified_again, tightened_again);
-    if (grown.triangles.size() < proxy.triangles.size()) {
-      proxy = std::move(grown);
-      simplified = simplified_again;
-      tightened = tightened_again;
-    }
+/// Collapses by volume, then the last tightening, on one mesh.
+void finish(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, SimplifyCounts& simplified,
+            TightenCounts& tightened) {
+  HalfEdgeMesh mesh(proxy);
+  ProxyEditor editor(mesh, enclosed, params.edge_limit, params.limits);
+  if (by_volume(params) && mesh.face_count() > params.faces) {
+    SimplifyCounts now;
+    thin(editor, params.faces, now);
+    simplified.add(now);
   }
+  proxy = tighten(editor, proxy.frame, tightening_of(params), tightened);
+}
+
+/// Tightening on the way: it finds a finer balance.
+void tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
+                   SimplifyCounts& simplified) {
+  TightenParams few = tightening_of(params);
+  few.sweeps = std::min(few.sweeps, kEarlySweeps);
+  if (params.limits == nullptr) few.final_sweeps = kEarlyFinalSweeps;
+  TightenCounts ignored;
+  proxy = tighten(proxy, enclosed, few, ignored);
+  const double factor = by_volume(params) ? kLateFactor : 1;
+  simplify_late(proxy, &enclosed, params, std::uint64_t(factor * double(params.faces)), simplified);
+}
+
+/// Tight faces jam in a few places where growing goes on: the way there by growing alone, if it leads further.
+void try_growing(const LatticeMesh& grown, LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
+                 SimplifyCounts& simplified, TightenCounts& tightened, SimplifyCounts simplified_again) {
+  LatticeMesh other = grown;
+  simplify_late(other, nullptr, params, params.faces, simplified_again);
+  if (other.triangles.size() >= proxy.triangles.size()) return;
+  TightenCounts tightened_again;
+  finish(other, enclosed, params, simplified_again, tightened_again);
+  proxy = std::move(other);
+  simplified = simplified_again;
+  tightened = tightened_again;
+}
+
+SimplifyParams early_part_of(const SimplifyParams& params) {
+  SimplifyParams early = params;
+  early.faces = kEarlyFactor * params.faces;
+  early.strict_from = kEarlyStrict * params.faces;
+  return early;
+}
+
+/// All that follows the growing collapses, of which `simplified` tells.
+LatticeMesh tight_from(const LatticeMesh& grown, const Enclosed& enclosed, const SimplifyParams& params,
+                       SimplifyCounts& simplified, TightenCounts& tightened) {
+  tightened = {};
+  if (grown.triangles.empty()) return grown;
+  const SimplifyCounts simplified_early = simplified;
+  LatticeMesh proxy = grown;
+  if (params.faces > 0 || params.limits != nullptr) tighten_early(proxy, enclosed, params, simplified);
+  finish(proxy, enclosed, params, simplified, tightened);
+  if (by_volume(params) && proxy.triangles.size() > params.faces)
+    try_growing(grown, proxy, enclosed, params, simplified, tightened, simplified_early);
   return proxy;
 }
 
@@ -97,12 +105,14 @@ LatticeMesh better_attempt(const Surface& dense, const Enclosed& enclosed, const
 
 LatticeMesh tight_proxy(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params,
                         SimplifyCounts& simplified, TightenCounts& tightened) {
-  return better_attempt(dense, enclosed, params, simplified, tightened);
+  const LatticeMesh grown = simplify(dense, early_part_of(params), simplified);
+  return tight_from(grown, enclosed, params, simplified, tightened);
 }
 
 LatticeMesh tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params,
                         SimplifyCounts& simplified, TightenCounts& tightened) {
-  LatticeMesh proxy = better_attempt(mesh, enclosed, params, simplified, tightened);
+  const LatticeMesh grown = simplify(mesh, early_part_of(params), simplified);
+  LatticeMesh proxy = tight_from(grown, enclosed, params, simplified, tightened);
   proxy.provenance = mesh.provenance;
   return proxy;
 }

@@ -17,13 +17,17 @@ constexpr double kWeightFall = 0.7;
 constexpr int kAvoidRounds = 4;
 constexpr int kSweepsPerRefresh = 8;
 
+double volume_of(const HalfEdgeMesh& mesh) {
+  return double(mesh.volume6()) / 6;
+}
+
 class Tightener {
  public:
   Tightener(ProxyEditor& editor, const TightenParams& params, TightenCounts& counts)
       : editor_(editor), mesh_(editor.mesh()), params_(params), counts_(counts) {}
 
   void run() {
-    const double volume = editor_.volume(), least_gain = params_.least_gain * std::abs(volume);
+    const double volume = volume_of(mesh_), least_gain = params_.least_gain * std::abs(volume);
     weight_ = params_.first_weight * std::abs(volume) / double(editor_.contacts().size() + 1);
     double last = volume;
     for (int i = 0; i < params_.sweeps; ++i) {
@@ -49,7 +53,7 @@ class Tightener {
       if (mesh_.alive(HalfEdgeMesh::face(h)) && mesh_.edge(h) == h && is_convex(h)) counts_.flips += editor_.flip(h);
     }
     if (++counts_.sweeps % kSweepsPerRefresh == 0) editor_.refresh();
-    return editor_.volume();
+    return volume_of(mesh_);
   }
 
   /// Flipping a convex edge cuts a tetrahedron off the solid.
@@ -66,7 +70,10 @@ class Tightener {
       const std::optional<Vec3d> x =
           weight_ > 0 ? std::optional(fit_.balanced({}, weight_, reach)) : fit_.least_volume({}, reach);
       if (!x || !worth_trying(*x) || try_move(v, *x)) return;
-      if (round < kAvoidRounds && editor_.blocker() != nullptr && fit_.avoid(*x, *editor_.blocker(), shift)) continue;
+      if (round < kAvoidRounds && editor_.blocker() != nullptr && fit_.avoid(*x, *editor_.blocker(), shift)) {
+        editor_.learn(v, fit_.obstacles());
+        continue;
+      }
       shorten(v, *x, reach);
       return;
     }
@@ -125,13 +132,17 @@ class Tightener {
 
 }  // namespace
 
-void tighten(ProxyEditor& editor, const TightenParams& params, TightenCounts& counts) {
+LatticeMesh tighten(ProxyEditor& editor, const GridFrame& frame, const TightenParams& params, TightenCounts& counts) {
   counts = {};
   const std::uint64_t tries = editor.counts().tries;
-  counts.volume_before = editor.volume();
+  LatticeMesh before = editor.mesh().compact(frame);
+  counts.volume_before = volume_of(editor.mesh());
   Tightener(editor, params, counts).run();
-  counts.volume_after = editor.volume();
+  counts.volume_after = volume_of(editor.mesh());
   counts.tries = editor.counts().tries - tries;
+  if (counts.volume_after <= counts.volume_before) return editor.mesh().compact(frame);
+  counts.volume_after = counts.volume_before;
+  return before;
 }
 
 LatticeMesh tighten(const LatticeMesh& proxy, const Enclosed& enclosed, const TightenParams& params,
@@ -140,12 +151,7 @@ LatticeMesh tighten(const LatticeMesh& proxy, const Enclosed& enclosed, const Ti
   if (proxy.triangles.empty()) return proxy;
   HalfEdgeMesh mesh(proxy);
   ProxyEditor editor(mesh, enclosed, params.edge_limit, params.limits);
-  tighten(editor, params, counts);
-  if (counts.volume_after > counts.volume_before) {  // it was as tight as the barrier lets it be, or tighter
-    counts.volume_after = counts.volume_before;
-    return proxy;
-  }
-  LatticeMesh out = mesh.compact(proxy.frame);
+  LatticeMesh out = tighten(editor, proxy.frame, params, counts);
   out.provenance = proxy.provenance;
   return out;
 }

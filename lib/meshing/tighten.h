@@ -24,8 +24,11 @@ struct TightenCounts {
   double volume_before = 0, volume_after = 0;  ///< lattice units cubed
 };
 
-/// Deterministic. Every step is checked exactly before it is taken. Cost: a few exact tests per vertex and sweep.
-void tighten(ProxyEditor& editor, const TightenParams& params, TightenCounts& counts);
+/// The mesh of the editor, tightened; as it was if that made it larger: it was as tight as the barrier lets it be, or
+/// tighter. Deterministic. Every step is checked exactly before it is taken. Cost: a few exact tests per vertex and
+/// sweep.
+[[nodiscard]] LatticeMesh tighten(ProxyEditor& editor, const GridFrame& frame, const TightenParams& params,
+                                  TightenCounts& counts);
 
 /// `proxy`: closed, 2-manifold, embedded, enclosing. The result has the same properties and at most the same volume.
 [[nodiscard]] LatticeMesh tighten(const LatticeMesh& proxy, const Enclosed& enclosed, const TightenParams& params,
