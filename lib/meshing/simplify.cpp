@@ -45,6 +45,7 @@ LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyPa
   whole.triangles = {};
   // Where quadrics are given, edges have been collapsed, and faces are no longer axis-aligned.
   if (params.dense && whole.quadrics.empty()) merge_flat_regions(mesh, params.edge_limit);
+  if (counts.faces_flat == 0) counts.faces_flat = mesh.face_count();
   Collapser collapser(mesh, std::move(whole.quadrics), params, counts);
   if (params.faces > 0 && params.dense) collapse_bulk(collapser, {kFirstBound, kLastBound}, end_of_bulk(params));
   counts.stop = collapse_strict(collapser, counts);
@@ -56,7 +57,15 @@ LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyPa
 }  // namespace
 
 LatticeMesh simplify(const SurfaceSource& dense, const SimplifyParams& params, SimplifyCounts& counts) {
+  constexpr std::uint64_t kFew = std::uint64_t(1)
+                                 << 18;  // as a whole at once: no vertex along a brick's side is locked
   counts = {};
+  const std::uint64_t faces = params.limits != nullptr ? count_faces(dense) : 0;
+  if (faces > 0 && faces <= kFew) {
+    Piece whole = whole_piece(dense);
+    counts.faces_in = whole.triangles.size();
+    return simplify_whole(std::move(whole), dense.frame(), params, counts);
+  }
   const bool bulk = params.limits == nullptr;  // limits are of the whole, step by step
   Piece whole = simplified_surface(dense, params, bulk ? end_of_bulk(params) : 0, counts);
   if (whole.triangles.empty()) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lib/core/parallel.h"
+#include "lib/meshing/half_edge_mesh.h"
 
 namespace bp {
 
@@ -200,13 +201,18 @@ std::uint64_t count_faces(const SurfaceSource& surface) {
   return faces;
 }
 
-LatticeMesh dense_surface(const BrickShelf& shelf, const GridFrame& frame) {
-  const ShelfSurface surface(shelf, frame);
+Piece whole_piece(const SurfaceSource& surface) {
   const std::vector<BrickCoord> bricks = surface.bricks();
   std::vector<Piece> pieces(bricks.size());
   parallel_for(std::int64_t(bricks.size()),
                [&](std::int64_t i) { pieces[std::size_t(i)] = surface.piece(bricks[std::size_t(i)]); });
   Piece whole = weld(pieces);
+  whole.cell = kEverywhere;
+  return whole;
+}
+
+LatticeMesh dense_surface(const BrickShelf& shelf, const GridFrame& frame) {
+  Piece whole = whole_piece(ShelfSurface(shelf, frame));
   LatticeMesh mesh;
   mesh.frame = frame;
   mesh.vertices = std::move(whole.vertices);

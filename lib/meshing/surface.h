@@ -52,6 +52,9 @@ class MeshSurface final : public SurfaceSource {
 /// Triangles of all bricks. Cost: that of making them.
 [[nodiscard]] std::uint64_t count_faces(const SurfaceSource& surface);
 
+/// All bricks in one piece.
+[[nodiscard]] Piece whole_piece(const SurfaceSource& surface);
+
 /// All bricks in one mesh. The result does not depend on threads. 2 triangles per face, 12 bytes each, 24 bytes per
 /// vertex.
 [[nodiscard]] LatticeMesh dense_surface(const BrickShelf& shelf, const GridFrame& frame);
