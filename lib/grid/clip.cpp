@@ -20,18 +20,20 @@ std::uint64_t row_within(BrickCoord brick, std::int32_t y, std::int32_t z, const
   return ~std::uint64_t(0) << begin & ~std::uint64_t(0) >> (kBrickEdge - end);
 }
 
+BrickFill get_within(const BrickShelf& shelf, BrickCoord c, const VoxelBox& box, BrickBits& bits) {
+  const BrickFill fill = shelf.get(c, bits);
+  if (fill == BrickFill::empty || box.contains(voxels_of(c))) return fill;
+  for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+    for (std::int32_t y = 0; y < kBrickEdge; ++y) bits[std::size_t(z * kBrickEdge + y)] &= row_within(c, y, z, box);
+  }
+  return classify(bits);
+}
+
 std::unique_ptr<BrickShelf> clipped(const BrickShelf& from, const VoxelBox& box, const ShelfFactory& make_shelf) {
   auto out = make_shelf();
   BrickBits bits;
   for_each_brick(box, [&](BrickCoord c) {
-    BrickFill fill = from.get(c, bits);
-    if (fill == BrickFill::empty) return;
-    if (!box.contains(voxels_of(c))) {
-      for (std::int32_t z = 0; z < kBrickEdge; ++z) {
-        for (std::int32_t y = 0; y < kBrickEdge; ++y) bits[std::size_t(z * kBrickEdge + y)] &= row_within(c, y, z, box);
-      }
-      fill = classify(bits);
-    }
+    const BrickFill fill = get_within(from, c, box, bits);
     if (fill != BrickFill::empty) out->put(c, fill, bits);
   });
   return out;
@@ -50,6 +52,18 @@ bool is_full(const BrickShelf& shelf, const VoxelBox& box) {
     }
   });
   return full;
+}
+
+void add_voxels(KeyHash& hash, const BrickShelf& shelf, const VoxelBox& box, BrickCoord origin) {
+  BrickBits bits;
+  for_each_brick(box, [&](BrickCoord c) {
+    const BrickFill fill = get_within(shelf, c, box, bits);
+    if (fill == BrickFill::empty) return;
+    hash.add(std::int64_t(1)).add(std::int64_t(c.x - origin.x)).add(std::int64_t(c.y - origin.y)).add(std::int64_t(c.z - origin.z));
+    hash.add(std::int64_t(fill));
+    if (fill == BrickFill::mixed) hash.add(std::as_bytes(std::span(bits)));
+  });
+  hash.add(std::int64_t(0));
 }
 
 }  // namespace bp

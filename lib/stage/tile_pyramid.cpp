@@ -3,7 +3,6 @@
 #include "lib/core/error.h"
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/reduce.h"
-#include "lib/grid/shelf_stream.h"
 
 namespace bp {
 
@@ -24,27 +23,27 @@ bool TilePyramid::in_one_cell() const {
   return true;
 }
 
-std::unique_ptr<BrickShelf> TilePyramid::close(const ScaleField& field) {
-  CloseOptions o;
+std::unique_ptr<BrickShelf> TilePyramid::close(double scale_world) {
+  CellClosing o;
+  o.cells = options_.cells;
+  o.closing = options_.closing;
   o.keep_cavities = options_.keep_cavities;
   o.memory_bytes = options_.memory_bytes;
-  o.make_shelf = options_.make_shelf;
+  o.store = options_.store;
   o.progress = options_.progress;
   auto closing = options_.make_shelf();
-  ShelfSource source(header_, *solid_, nullptr, ShelfSource::Keep::all);
-  ShelfSink sink(nullptr, closing.get());
-  close_stream(source, sink, backends_, field, options_.closing, o);
+  close_cells(header_, *solid_, backends_, scale_world, o, *closing);
   return closing;
 }
 
 void TilePyramid::make(double scale_world, TileParams params, const TileEncoder& encode,
                        const std::function<void(LevelTile&&)>& consume) {
-  ScaleField field;
-  field.base = params.scale_world = scale_world;
-  const auto closing = close(field);
+  const auto closing = close(scale_world);
+  params.scale_world = scale_world;
   params.element = options_.closing.element;
   params.memory_bytes = options_.memory_bytes;
   params.make_shelf = options_.make_shelf;
+  params.store = options_.store;
   params.progress = options_.progress;
   make_tiles({header_, *solid_, *surface_, *closing, options_.cells}, params, encode, consume);
 }

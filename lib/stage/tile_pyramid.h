@@ -1,6 +1,6 @@
 #pragma once
 #include "lib/backend/backend.h"
-#include "lib/stage/close_stage.h"
+#include "lib/stage/cell_closing.h"
 #include "lib/stage/tile_stage.h"
 
 /// The levels of a scene that are too large for one mesh: level n has the voxels of the solid reduced n times, closed,
@@ -14,6 +14,7 @@ struct PyramidOptions {
   bool keep_cavities = false;
   std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work
   ShelfFactory make_shelf;
+  ResultStore* store = nullptr;  ///< of closings and tiles; null: all are made
   /// Called now and then, as in CloseOptions. May be empty.
   std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
 };
@@ -28,8 +29,8 @@ class TilePyramid {
   [[nodiscard]] const StreamHeader& header() const { return header_; }  ///< of the level's solid
   [[nodiscard]] bool in_one_cell() const;                               ///< the level need not be cut
 
-  /// Makes the tiles of the level; sets scale, element, memory and shelves of `params`. As make_tiles() and
-  /// close_stream().
+  /// Makes the tiles of the level; sets scale, element, memory, shelves and store of `params`. As make_tiles()
+  /// and close_cells().
   void make(double scale_world, TileParams params, const TileEncoder& encode,
             const std::function<void(LevelTile&&)>& consume);
   void reduce();  ///< to the next level
@@ -39,7 +40,7 @@ class TilePyramid {
   [[nodiscard]] std::unique_ptr<BrickShelf> take_surface() { return std::move(surface_); }
 
  private:
-  [[nodiscard]] std::unique_ptr<BrickShelf> close(const ScaleField& field);
+  [[nodiscard]] std::unique_ptr<BrickShelf> close(double scale_world);
   StreamHeader header_;
   std::unique_ptr<BrickShelf> solid_, surface_;
   Backends& backends_;

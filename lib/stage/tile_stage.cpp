@@ -1,7 +1,9 @@
 #include "lib/stage/tile_stage.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -16,6 +18,30 @@ namespace bp {
 namespace {
 
 constexpr std::uint64_t kBytesPerDenseFace = 200, kBytesPerTile = std::uint64_t(4) << 20;
+
+constexpr const char* kJobName = "tile, 1";
+
+/// Measures and content, as the store keeps them.
+std::string packed(const LevelTile& tile) {
+  const TileMeasures& m = tile.measures;
+  std::int64_t words[11];
+  for (int i = 0; i < 3; ++i) words[i] = m.min[i], words[3 + i] = m.max[i];
+  words[6] = std::int64_t(m.faces), words[7] = std::int64_t(m.faces_asked), words[8] = std::int64_t(m.faces_dense);
+  words[9] = std::bit_cast<std::int64_t>(m.volume), words[10] = std::bit_cast<std::int64_t>(m.error_world);
+  return std::string(reinterpret_cast<const char*>(words), sizeof words) + tile.content;
+}
+
+bool unpack(const std::string& bytes, LevelTile& tile) {
+  std::int64_t words[11];
+  if (bytes.size() <= sizeof words) return false;
+  std::memcpy(words, bytes.data(), sizeof words);
+  TileMeasures& m = tile.measures;
+  for (int i = 0; i < 3; ++i) m.min[i] = words[i], m.max[i] = words[3 + i];
+  m.faces = std::uint64_t(words[6]), m.faces_asked = std::uint64_t(words[7]), m.faces_dense = std::uint64_t(words[8]);
+  m.volume = std::bit_cast<double>(words[9]), m.error_world = std::bit_cast<double>(words[10]);
+  tile.content = bytes.substr(sizeof words);
+  return true;
+}
 
 /// A cell with something to mesh.
 struct Job {
@@ -43,14 +69,36 @@ std::vector<Job> jobs_of(const TileLevel& level) {
 /// One tile: see the header of this stage.
 class Maker {
  public:
-  Maker(const TileLevel& level, const TileParams& params, CellCoord cell)
-      : level_(level), params_(params), cell_(level.cells.box(cell)), grown_(cell_.grown(1)) {
-    solid_ = clipped(level.solid, grown_, params.make_shelf);
-    closing_ = clipped(level.closing, grown_, params.make_shelf);
+  Maker(const TileLevel& level, const TileParams& params, CellCoord coord)
+      : level_(level), params_(params), coord_(coord), cell_(level.cells.box(coord)), grown_(cell_.grown(1)) {}
+
+  /// Everything that the tile depends on.
+  [[nodiscard]] ResultKey key() const {
+    const GridFrame& frame = level_.header.frame;
+    KeyHash hash(kJobName);
+    hash.add(std::string_view(params_.encoding)).add(frame.voxel).add(std::int64_t(frame.up));
+    for (std::size_t i = 0; i < 3; ++i) hash.add(frame.origin[i] + cell_.min[int(i)]);
+    for (int i = 0; i < 3; ++i) hash.add(std::int64_t(coord_[i]));
+    hash.add(std::int64_t(level_.cells.edge_vox)).add(std::int64_t(params_.mode)).add(std::int64_t(params_.enclose));
+    hash.add(std::int64_t(params_.tighten)).add(params_.scale_world).add(std::int64_t(params_.element));
+    hash.add(std::int64_t(params_.faces)).add(params_.error_world);
+    const BrickCoord origin = brick_of(cell_.min);
+    add_voxels(hash, level_.closing, grown_, origin);
+    add_voxels(hash, level_.solid, grown_, origin);
+    add_voxels(hash, level_.surface, reach(), origin);
+    if (params_.mode == MeshMode::fit) {
+      const std::vector<TriangleD> scene = scene_nearby();
+      hash.add(std::as_bytes(std::span(scene)));
+    }
+    return hash.key();
   }
 
-  /// A cell in a cavity that the closing filled: no voxel of the scene, and nothing to be seen.
-  [[nodiscard]] bool hidden() const { return solid_->coords().empty() && is_full(*closing_, cell_); }
+  /// False for a cell in a cavity that the closing filled: no voxel of the scene, and nothing to be seen.
+  [[nodiscard]] bool begin() {
+    solid_ = clipped(level_.solid, grown_, params_.make_shelf);
+    closing_ = clipped(level_.closing, grown_, params_.make_shelf);
+    return !(solid_->coords().empty() && is_full(*closing_, cell_));
+  }
 
   LatticeMesh make(TileMeasures& measures) {
     const Boundary boundary = boundary_of(*solid_);
@@ -116,6 +164,11 @@ class Maker {
     return triangles;
   }
 
+  /// Where every voxel of the closing in the cell finds one of the scene.
+  [[nodiscard]] VoxelBox reach() const {
+    return grown_.grown(std::int32_t(std::ceil(params_.scale_world / level_.header.frame.voxel)) + 2);
+  }
+
   void measure(const LatticeMesh& mesh, const std::vector<VoxelRun>& walls, TileMeasures& measures) const {
     measures.faces = mesh.triangles.size();
     measures.min = measures.max = mesh.vertices.front();
@@ -127,8 +180,7 @@ class Maker {
     }
     const GridFrame& frame = mesh.frame;
     const std::vector<TriangleD> triangles = world_triangles(mesh);
-    const auto reach = std::int32_t(std::ceil(params_.scale_world / frame.voxel)) + 2;
-    std::vector<VoxelRun> near = runs_of(level_.surface, grown_.grown(reach));
+    std::vector<VoxelRun> near = runs_of(level_.surface, reach());
     near.insert(near.end(), walls.begin(), walls.end());
     const std::vector<TriangleD> inside = segments_of(runs_of(level_.surface, cell_), frame);
     measures.error_world = std::max(distance_from_mesh(triangles, TriangleBvh(segments_of(near, frame)), frame.voxel),
@@ -137,6 +189,7 @@ class Maker {
 
   const TileLevel& level_;
   const TileParams& params_;
+  const CellCoord coord_;
   const VoxelBox cell_, grown_;
   std::unique_ptr<BrickShelf> solid_, closing_;
 };
@@ -144,8 +197,25 @@ class Maker {
 struct Item {
   Job job;
   LevelTile tile;
-  bool made = false;
+  bool there = false;  // not hidden
 };
+
+/// From the store, or made. A hidden one is kept as no bytes.
+void run(const TileLevel& level, const TileParams& params, const TileEncoder& encode, Item& item) {
+  Maker maker(level, params, item.job.cell);
+  item.tile.cell = item.job.cell;
+  ResultKey key;
+  if (params.store != nullptr) {
+    std::string bytes;
+    key = maker.key();
+    item.tile.kept = params.store->get(key, bytes) && (bytes.empty() || unpack(bytes, item.tile));
+    item.there = !bytes.empty();
+    if (item.tile.kept) return;
+  }
+  item.there = maker.begin();
+  if (item.there) item.tile.content = encode(item.job.cell, maker.make(item.tile.measures));
+  if (params.store != nullptr) params.store->put(key, item.there ? packed(item.tile) : "");
+}
 
 }  // namespace
 
@@ -167,16 +237,10 @@ void make_tiles(const TileLevel& level, const TileParams& params, const TileEnco
         item.job = jobs[next++];
         return true;
       },
-      [&](Item& item) {
-        Maker maker(level, params, item.job.cell);
-        if (maker.hidden()) return;
-        item.tile.cell = item.job.cell;
-        item.tile.content = encode(item.job.cell, maker.make(item.tile.measures));
-        item.made = true;
-      },
+      [&](Item& item) { run(level, params, encode, item); },
       [&](Item& item) {
         if (params.progress) params.progress("meshing", "tiles", ++done, jobs.size());
-        if (item.made) consume(std::move(item.tile));
+        if (item.there) consume(std::move(item.tile));
       });
 }
 

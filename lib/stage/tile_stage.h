@@ -35,6 +35,8 @@ struct TileParams {
   const TriangleBvh* scene = nullptr;                     ///< what fits are drawn to; null: the closing
   std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work; one is always at work
   ShelfFactory make_shelf;
+  ResultStore* store = nullptr;  ///< tiles are looked up there, and put; null: made anew
+  std::string encoding;          ///< all that encode() puts into a file beside cell and mesh, for their keys
   /// Called now and then, as in CloseOptions. May be empty.
   std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
 
@@ -55,6 +57,7 @@ struct LevelTile {
   CellCoord cell{};
   TileMeasures measures;
   std::string content;  ///< what encode() made of it
+  bool kept = false;    ///< found in the store
 };
 
 /// The file of a tile; its mesh is in the frame of the level. On any thread.

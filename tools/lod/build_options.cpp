@@ -32,6 +32,10 @@ void check_options(BuildOptions& o) {
   if (o.resolution && *o.resolution < 1) fail(ErrorCode::bad_argument, "--resolution 0: at least 1 voxel is needed");
   if (o.tile_vox < kLeastCellVox || o.tile_vox % kBrickEdge != 0)
     fail(ErrorCode::bad_argument, "--tile {}: must be a multiple of 64, and at least {}", o.tile_vox, kLeastCellVox);
+  if (o.profile != LodProfile::tiles && (o.resume || !o.cache.empty()))
+    fail(ErrorCode::bad_argument, "--cache and --resume need --profile 3dtiles");
+  if (o.resume && !o.cache.empty())
+    fail(ErrorCode::bad_argument, "--cache keeps what is done as well; leave --resume out");
   if (o.name.empty()) o.name = base_name(o.scenes.front());
   if (o.name.empty() || o.name.find('/') != std::string::npos)
     fail(ErrorCode::bad_argument, "--name '{}': must be a name without a folder", o.name);
@@ -73,6 +77,9 @@ BuildOptions parse_build_options(Args& args) {
               "voxels along the longest side (default: 256, or 8 voxels to the error)");
   args.option("--tile", "N", o.tile_vox,
               "3dtiles: voxels along the side of a tile; a level that is larger is cut into tiles of its own");
+  args.option("--cache", "DIR", o.cache,
+              "3dtiles: keep the results of all jobs in DIR, and take from there what has not changed");
+  args.flag("--resume", o.resume, "3dtiles: keep what is done in OUTPUT.partial, and go on from there after a kill");
   args.option("-s,--scale", "LENGTH", o.request.scale,
               "closing radius of the finest level; it doubles from level to level (default: by the target)");
   args.option("--element", {{"cube", StructuringElement::cube}, {"ball", StructuringElement::ball}}, o.element,

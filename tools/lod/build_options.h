@@ -25,6 +25,8 @@ struct BuildOptions {
   std::optional<Length> voxel;
   std::optional<std::int64_t> resolution;
   std::int32_t tile_vox = 512;  ///< edge of a cell of a tileset
+  std::string cache;            ///< folder of results of earlier builds; empty: none
+  bool resume = false;
   FillMode fill = FillMode::flood;
   UpAxis up = UpAxis::y;
   StructuringElement element = StructuringElement::cube;

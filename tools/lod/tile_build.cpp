@@ -7,6 +7,7 @@
 
 #include "io/chunk_store.h"
 #include "io/lod_writer.h"
+#include "io/result_store.h"
 #include "io/tileset_file.h"
 #include "lib/stage/tile_pyramid.h"
 #include "tools/lod/build.h"
@@ -58,8 +59,10 @@ struct Waiting {
 class TilesetBuild {
  public:
   explicit TilesetBuild(const BuildOptions& o)
-      : options_(o), folder_(o.out, o.common.overwrite), build_(o), cells_{o.tile_vox}, tree_(o.up, cells_) {
+      : options_(o), folder_(o.out, o.common.overwrite, o.resume), build_(o), cells_{o.tile_vox}, tree_(o.up, cells_) {
     store_ = make_chunk_store(build_.budget.store, o.common.temp);
+    if (!o.cache.empty()) results_ = open_result_store(o.cache);
+    if (o.resume) results_ = open_result_store(folder_.results());
   }
 
   void run() {
@@ -72,6 +75,7 @@ class TilesetBuild {
     pyramid_options.closing.element = options_.element;
     pyramid_options.memory_bytes = build_.budget.closing_tiles();
     pyramid_options.make_shelf = build_.make_shelf;
+    pyramid_options.store = results_.get();
     pyramid_options.progress = build_.show;
     TilePyramid pyramid(scene.header, std::move(scene.solid), build_.backends, pyramid_options);
     LodOptions lod = build_.lod_options();
@@ -114,9 +118,11 @@ class TilesetBuild {
     const std::vector<Provenance> provenance{
         make_provenance("bplod", option_text(options_, target, level, scale, frame.voxel))};
     LevelRow row{level_folder + "/*.glb", 0, 0, 0, 0, scale, frame.voxel};
-    std::uint64_t over_faces = 0, dense = 0;
+    std::uint64_t over_faces = 0, dense = 0, kept = 0;
+    TileParams params = tile_params(target, frame, scene);
+    params.encoding = level_folder + " " + provenance[0].options;
     pyramid.make(
-        scale, tile_params(target, frame, scene),
+        scale, std::move(params),
         [&](CellCoord cell, const LatticeMesh& mesh) {
           LatticeMesh named = mesh;
           named.provenance = provenance;
@@ -125,6 +131,7 @@ class TilesetBuild {
         [&](LevelTile&& tile) {
           const TileMeasures& m = tile.measures;
           row.tiles += 1;
+          kept += tile.kept;
           row.faces += m.faces;
           row.bytes += tile.content.size();
           dense += m.faces_dense;
@@ -138,7 +145,7 @@ class TilesetBuild {
           files_.push_back({node.uri, store_->put(std::as_bytes(std::span(tile.content)))});
           tree_.add(level, frame, tile.cell, std::move(node));
         });
-    row.more = {{"faces_dense", dense}};
+    row.more = {{"faces_dense", dense}, {"kept", kept}};
     rows_.push_back(row);
     if (over_faces > 0)
       build_.note(
@@ -218,7 +225,8 @@ class TilesetBuild {
   Build build_;
   Cells cells_;
   TileTree tree_;
-  std::unique_ptr<ChunkStore> store_;
+  std::unique_ptr<ChunkStore> store_;     ///< files, until all are there
+  std::unique_ptr<ResultStore> results_;  ///< of jobs; may be null
   double scene_voxel_ = 0;
   Bounds3d bounds_;
   std::vector<Waiting> files_;

@@ -30,25 +30,26 @@ std::vector<std::string> contents_of(const std::string& folder) {
 
 }  // namespace
 
-TilesetFolder::TilesetFolder(std::string path, bool overwrite) : path_(std::move(path)) {
+TilesetFolder::TilesetFolder(std::string path, bool overwrite, bool resume) : path_(std::move(path)), resume_(resume) {
   while (path_.size() > 1 && path_.back() == '/') path_.pop_back();
   partial_ = path_ + ".partial";
+  files_ = partial_ + "/files";
   if (!overwrite && fs::exists(path_ + "/" + kTileset))
     fail(ErrorCode::bad_argument, "{}/{}: exists; add --overwrite to replace it", path_, kTileset);
   std::error_code error;
-  fs::remove_all(partial_, error);
-  fs::create_directories(partial_, error);
-  if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", partial_, error.message());
+  fs::remove_all(resume ? files_ : partial_, error);
+  fs::create_directories(files_, error);
+  if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", files_, error.message());
 }
 
 TilesetFolder::~TilesetFolder() {
   std::error_code ignored;
-  fs::remove_all(partial_, ignored);
+  fs::remove_all(resume_ ? files_ : partial_, ignored);
 }
 
 void TilesetFolder::write(const std::string& name, const std::string& bytes) {
-  fs::create_directories(fs::path(partial_ + "/" + name).parent_path());
-  OutputFile file(partial_ + "/" + name, true);
+  fs::create_directories(fs::path(files_ + "/" + name).parent_path());
+  OutputFile file(files_ + "/" + name, true);
   file.write(bytes);
   file.commit();
   bytes_ += file.bytes();
@@ -56,12 +57,22 @@ void TilesetFolder::write(const std::string& name, const std::string& bytes) {
 }
 
 void TilesetFolder::commit() {
-  if (!fs::exists(path_)) return fs::rename(partial_, path_);
+  if (fs::exists(path_)) {
+    move_files();
+  } else {
+    fs::rename(files_, path_);
+  }
+  resume_ = false;
+  fs::remove_all(partial_);
+}
+
+/// Into a folder that is there.
+void TilesetFolder::move_files() {
   const std::vector<std::string> before = contents_of(path_);
   std::stable_partition(names_.begin(), names_.end(), [](const std::string& name) { return name != kTileset; });
   for (const std::string& name : names_) {
     fs::create_directories(fs::path(path_ + "/" + name).parent_path());
-    fs::rename(partial_ + "/" + name, path_ + "/" + name);
+    fs::rename(files_ + "/" + name, path_ + "/" + name);
   }
   std::sort(names_.begin(), names_.end());
   for (const std::string& name : before) {

@@ -4,17 +4,19 @@
 
 namespace bp {
 
-/// A folder with a tileset in it. Files are written in a folder beside it, OUT.partial, and move to their places when
+/// A folder with a tileset in it. Files are written below a folder beside it, OUT.partial, and move to their places when
 /// all are there: with the whole folder, if there was none before, else one by one, tileset.json last.
 class TilesetFolder {
  public:
-  /// Takes away an OUT.partial that an interrupted run left. Throws bad_argument if OUT has a tileset.json and
-  /// `overwrite` is false.
-  TilesetFolder(std::string path, bool overwrite);
-  ~TilesetFolder();  ///< without commit() nothing stays behind
+  /// Takes away the files that an interrupted run left in OUT.partial, and, unless `resume`, its results. Throws
+  /// bad_argument if OUT has a tileset.json and `overwrite` is false.
+  TilesetFolder(std::string path, bool overwrite, bool resume);
+  ~TilesetFolder();  ///< without commit() nothing stays behind but, to resume, the results
   TilesetFolder(const TilesetFolder&) = delete;
   TilesetFolder& operator=(const TilesetFolder&) = delete;
 
+  /// Where results wait to be gone on with; removed by commit().
+  [[nodiscard]] std::string results() const { return partial_ + "/results"; }
   /// `name` may hold one folder: "level/tile.glb".
   void write(const std::string& name, const std::string& bytes);
   /// The files appear; tiles of the tileset that was there before, and that are not among them, go.
@@ -22,7 +24,9 @@ class TilesetFolder {
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
  private:
-  std::string path_, partial_;
+  void move_files();
+  std::string path_, partial_, files_;
+  bool resume_;
   std::vector<std::string> names_;
   std::uint64_t bytes_ = 0;
 };

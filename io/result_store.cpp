@@ -1,0 +1,151 @@
+#include "io/result_store.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <vector>
+
+#include "io/detail/brick_codec.h"
+#include "io/file.h"
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+constexpr char kMagic[8] = {'b', 'p', 'r', 'e', 's', 'u', 'l', 1};
+
+/// Before the zstd frame. Little-endian, as all machines that we run on.
+struct Head {
+  char magic[8];
+  std::uint64_t key[2];
+  std::uint64_t size;      ///< of the result
+  std::uint64_t packed;    ///< of the frame
+  std::uint64_t check[2];  ///< XXH3-128 of the frame
+};
+
+XXH128_hash_t check_of(std::span<const std::byte> bytes) {
+  return XXH3_128bits(bytes.data(), bytes.size());
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+[[noreturn]] void fail_with(const std::string& name, const char* what, int error) {
+  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  fail(full ? ErrorCode::out_of_resource : ErrorCode::failed, "{}: cannot {}: {}{}", name, what, std::strerror(error),
+       full ? "; make room, or leave the cache out" : "");
+}
+
+void write_all(int fd, const std::string& name, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail_with(name, "write", errno);
+    bytes = bytes.subspan(std::size_t(n));
+  }
+}
+
+bool read_all(int fd, std::span<std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::read(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    bytes = bytes.subspan(std::size_t(n));
+  }
+  return true;
+}
+
+class FolderStore final : public ResultStore {
+ public:
+  explicit FolderStore(std::string folder) : folder_(std::move(folder)) {
+    std::error_code error;
+    std::filesystem::create_directories(folder_, error);
+    if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", folder_, error.message());
+  }
+
+  bool get(const ResultKey& key, std::string& out) override {
+    const Descriptor file(::open(name_of(key).c_str(), O_RDONLY | O_CLOEXEC));
+    Head head{};
+    struct stat info {};
+    if (file.get() < 0 || ::fstat(file.get(), &info) != 0) return false;
+    if (!read_all(file.get(), std::as_writable_bytes(std::span(&head, 1)))) return false;
+    if (std::memcmp(head.magic, kMagic, sizeof kMagic) != 0 || head.key[0] != key.words[0] ||
+        head.key[1] != key.words[1] || std::uint64_t(info.st_size) != sizeof head + head.packed || head.size >> 40 != 0)
+      return false;
+    std::vector<std::byte> packed(head.packed);
+    if (!read_all(file.get(), packed)) return false;
+    const XXH128_hash_t check = check_of(packed);
+    if (check.high64 != head.check[0] || check.low64 != head.check[1]) return false;
+    out.resize(head.size);
+    return detail::decompress(packed, std::as_writable_bytes(std::span(out.data(), out.size()))) == nullptr;
+  }
+
+  void put(const ResultKey& key, std::string_view bytes) override {
+    std::vector<std::byte> packed;
+    detail::compress(std::as_bytes(std::span(bytes.data(), bytes.size())), detail::kDefaultLevel, false, packed);
+    const XXH128_hash_t check = check_of(packed);
+    Head head{{}, {key.words[0], key.words[1]}, bytes.size(), packed.size(), {check.high64, check.low64}};
+    std::memcpy(head.magic, kMagic, sizeof kMagic);
+    const std::string name = name_of(key), place = name.substr(0, name.rfind('/'));
+    if (::mkdir(place.c_str(), 0777) != 0 && errno != EEXIST) fail_with(place, "make this folder", errno);
+    if (!put_unnamed(place, name, head, packed)) put_beside(name, head, packed);
+  }
+
+ private:
+  [[nodiscard]] std::string name_of(const ResultKey& key) const {
+    const std::string hex = fmt::format("{:016x}{:016x}", key.words[0], key.words[1]);
+    return folder_ + "/" + hex.substr(0, 2) + "/" + hex.substr(2);
+  }
+
+  /// A file without a name gets one when it is complete: nothing is left of it if the process is killed. False where
+  /// the file system has no such files.
+  static bool put_unnamed(const std::string& place, const std::string& name, const Head& head,
+                          std::span<const std::byte> packed) {
+    const Descriptor file(::open(place.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
+    if (file.get() < 0) return false;
+    write_all(file.get(), name, std::as_bytes(std::span(&head, 1)));
+    write_all(file.get(), name, packed);
+    const std::string self = fmt::format("/proc/self/fd/{}", file.get());
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) return true;
+      if (errno != EEXIST) return false;
+      ::unlink(name.c_str());  // get() did not take it
+    }
+    return true;  // another process was faster, twice
+  }
+
+  static void put_beside(const std::string& name, const Head& head, std::span<const std::byte> packed) {
+    OutputFile file(name, true);
+    file.write(std::as_bytes(std::span(&head, 1)));
+    file.write(packed);
+    file.commit();
+  }
+
+  const std::string folder_;
+};
+
+}  // namespace
+
+std::unique_ptr<ResultStore> open_result_store(const std::string& folder) {
+  return std::make_unique<FolderStore>(folder);
+}
+
+}  // namespace bp

@@ -1,0 +1,32 @@
+#pragma once
+#include <functional>
+
+#include "lib/backend/backend.h"
+#include "lib/core/result_store.h"
+#include "lib/grid/cells.h"
+#include "lib/grid/stream.h"
+
+/// The closing of a level cell by cell, each a job whose result can be kept: it depends on the voxels in the cell and
+/// its halo, on the scale and the element, not on where the cell lies. Same voxels as close_stream().
+namespace bp {
+
+struct CellClosing {
+  Cells cells;
+  ClosingParams closing;
+  bool keep_cavities = false;
+  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for cells at work; one is always at work
+  ResultStore* store = nullptr;                           ///< results are looked up there, and put; null: made anew
+  /// Called now and then, as in CloseOptions. May be empty.
+  std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
+};
+
+struct CellClosingCounts {
+  std::uint64_t cells = 0, kept = 0;  ///< with something in reach; of these, found in the store
+};
+
+/// Puts the closing of `solid`, with bricks of `header`, onto `closing`. `scale_world` is the same everywhere. Throws
+/// as close_stream().
+CellClosingCounts close_cells(const StreamHeader& header, const BrickShelf& solid, Backends& backends,
+                              double scale_world, const CellClosing& options, BrickShelf& closing);
+
+}  // namespace bp
