@@ -27,11 +27,13 @@ struct Head {
   std::uint64_t key[2];
   std::uint64_t size;      ///< of the result
   std::uint64_t packed;    ///< of the frame
-  std::uint64_t check[2];  ///< XXH3-128 of the frame
+  std::uint64_t check[2];  ///< XXH3-128 of all that is before, and of the frame
 };
 
-XXH128_hash_t check_of(std::span<const std::byte> bytes) {
-  return XXH3_128bits(bytes.data(), bytes.size());
+XXH128_hash_t check_of(const Head& head, std::span<const std::byte> frame) {
+  const XXH128_hash_t h = XXH3_128bits(frame.data(), frame.size());
+  const std::uint64_t all[] = {head.key[0], head.key[1], head.size, head.packed, h.high64, h.low64};
+  return XXH3_128bits(all, sizeof all);
 }
 
 class Descriptor {
@@ -92,7 +94,7 @@ class FolderStore final : public ResultStore {
       return false;
     std::vector<std::byte> packed(head.packed);
     if (!read_all(file.get(), packed)) return false;
-    const XXH128_hash_t check = check_of(packed);
+    const XXH128_hash_t check = check_of(head, packed);
     if (check.high64 != head.check[0] || check.low64 != head.check[1]) return false;
     out.resize(head.size);
     return detail::decompress(packed, std::as_writable_bytes(std::span(out.data(), out.size()))) == nullptr;
@@ -101,8 +103,9 @@ class FolderStore final : public ResultStore {
   void put(const ResultKey& key, std::string_view bytes) override {
     std::vector<std::byte> packed;
     detail::compress(std::as_bytes(std::span(bytes.data(), bytes.size())), detail::kDefaultLevel, false, packed);
-    const XXH128_hash_t check = check_of(packed);
-    Head head{{}, {key.words[0], key.words[1]}, bytes.size(), packed.size(), {check.high64, check.low64}};
+    Head head{{}, {key.words[0], key.words[1]}, bytes.size(), packed.size(), {}};
+    const XXH128_hash_t check = check_of(head, packed);
+    head.check[0] = check.high64, head.check[1] = check.low64;
     std::memcpy(head.magic, kMagic, sizeof kMagic);
     const std::string name = name_of(key), place = name.substr(0, name.rfind('/'));
     if (::mkdir(place.c_str(), 0777) != 0 && errno != EEXIST) fail_with(place, "make this folder", errno);

@@ -2,6 +2,9 @@
 // overlap, are open, mirrored and repeated, as in real models.
 #include <fmt/core.h>
 
+#include <optional>
+
+#include "lib/core/error.h"
 #include "samples/plant/write.h"
 #include "tools/common/run_tool.h"
 
@@ -11,6 +14,7 @@ enum class Format { by_name, ply, glb };
 
 struct Options {
   std::uint64_t triangles = 200000, seed = 1;
+  std::optional<std::uint64_t> change;
   std::string out = "-";
   Format format = Format::by_name;
   bool overwrite = false;
@@ -22,6 +26,7 @@ Options parse(bp::Args& args) {
   args.example("bp-plant --triangles 1000000 --seed 7 -o plant.glb");
   args.option("--triangles", "N", o.triangles, "how many, about: within 1 percent");
   args.option("--seed", "N", o.seed, "another seed, another plant");
+  args.option("--change", "N", o.change, ".ply: the same plant with its N-th component raised by 0.25 m");
   args.option("-o,--output", "FILE", o.out, ".ply (all triangles) or .glb (instanced)");
   args.option("--format", {{"auto", Format::by_name}, {"ply", Format::ply}, {"glb", Format::glb}}, o.format,
               "instead of the ending of FILE");
@@ -32,9 +37,14 @@ Options parse(bp::Args& args) {
 
 void run(const Options& o) {
   const bool glb = o.format == Format::glb || (o.format == Format::by_name && o.out.ends_with(".glb"));
+  if (glb && o.change) bp::fail(bp::ErrorCode::bad_argument, "--change needs PLY: in a GLB a shape is shared");
   const plant::Site site(o.triangles, o.seed);
   const auto file = bp::open_output(o.out, o.overwrite);
-  glb ? plant::write_glb(site, *file) : plant::write_ply(site, *file);
+  if (o.change) {
+    plant::write_changed_ply(site, *o.change, *file);
+  } else {
+    glb ? plant::write_glb(site, *file) : plant::write_ply(site, *file);
+  }
   file->commit();
   const plant::Counts& c = site.counts();
   if (o.out != "-")

@@ -8,8 +8,8 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/clip.h"
+#include "lib/grid/reach.h"
 #include "lib/grid/shelf_stream.h"
-#include "lib/stage/components.h"
 #include "lib/stage/surface_around.h"
 #include "lib/stage/voxel_distance.h"
 
@@ -97,27 +97,55 @@ class Maker {
   [[nodiscard]] bool begin() {
     solid_ = clipped(level_.solid, grown_, params_.make_shelf);
     closing_ = clipped(level_.closing, grown_, params_.make_shelf);
-    return !(solid_->coords().empty() && is_full(*closing_, cell_));
+    if (solid_->coords().empty() && is_full(*closing_, cell_)) return false;
+    boundary_ = boundary_of(*solid_);
+    hold_stray_parts();
+    return true;
   }
 
   LatticeMesh make(TileMeasures& measures) {
-    const Boundary boundary = boundary_of(*solid_);
     MeshCounts counts;
-    LatticeMesh mesh = mesh_cell(2 * boundary.faces, measures, counts);
-    // A part of the closing without a voxel of the scene in this cell has nothing to stop it as it shrinks.
-    (void)drop_inverted_components(mesh);
-    measure(mesh, boundary.runs, measures);
+    LatticeMesh mesh = mesh_cell(2 * boundary_.faces, measures, counts);
+    measure(mesh, boundary_.runs, measures);
     measures.faces_dense = counts.levels.front().simplify.faces_in;
     measures.volume = counts.levels.front().measures.volume;
     return mesh;
   }
 
  private:
+  /// Where a part of the closing holds no voxel of the solid in this cell, nothing would stop it as it is tightened: it
+  /// might pass through itself. So it is to enclose itself.
+  void hold_stray_parts() {
+    BitBox closing(grown_), held(grown_);
+    load_voxels(*closing_, closing);
+    load_voxels(*solid_, held);
+    grow_within(closing, held);
+    BrickBits bits, before;
+    for_each_brick(grown_, [&](BrickCoord c) {
+      const VoxelCoord first = first_voxel(c);
+      bool stray = false;
+      solid_->get(c, before);
+      for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+        for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+          const VoxelCoord p = first + VoxelCoord{0, y, z};
+          std::uint64_t& word = bits[std::size_t(z * kBrickEdge + y)];
+          word = before[std::size_t(z * kBrickEdge + y)];
+          if (row_within(c, y, z, grown_) == 0) continue;
+          const std::int32_t i = (p.x - closing.box().min.x) / kBrickEdge;
+          const std::uint64_t left = closing.row(p.y, p.z)[i] & ~held.row(p.y, p.z)[i];
+          stray = stray || left != 0;
+          word |= left;
+        }
+      }
+      if (stray) solid_->put(c, classify(bits), bits);
+    });
+  }
+
   LatticeMesh mesh_cell(std::uint64_t solid_faces, TileMeasures& measures, MeshCounts& counts) {
     MeshParams mesh;
     mesh.mode = params_.mode;
     mesh.tighten = params_.tighten;
-    mesh.enclose = solid_->coords().empty() ? Enclose::closing : params_.enclose;
+    mesh.enclose = params_.enclose;
     mesh.error_world = params_.error_world;
     if (params_.error_world == 0) {
       measures.faces_asked = params_.faces > 0
@@ -191,7 +219,8 @@ class Maker {
   const TileParams& params_;
   const CellCoord coord_;
   const VoxelBox cell_, grown_;
-  std::unique_ptr<BrickShelf> solid_, closing_;
+  std::unique_ptr<BrickShelf> solid_, closing_;  // solid_: what must stay inside
+  Boundary boundary_;                            // of the solid
 };
 
 struct Item {

@@ -23,16 +23,24 @@ void put(bp::OutputFile& file, Numbers... numbers) {
 
 class PlyVertices : public Sink {
  public:
-  PlyVertices(bp::OutputFile& file, const Placement& at) : file_(file), at_(at) {}
-  Wants part(std::uint32_t, std::uint32_t) override { return vertices; }
+  /// Parts count from `number`; part `raised` stands higher.
+  PlyVertices(bp::OutputFile& file, const Placement& at, std::uint64_t number = 0, std::uint64_t raised = kNone)
+      : file_(file), at_(at), number_(number), raised_(raised) {}
+  Wants part(std::uint32_t, std::uint32_t) override {
+    rise_ = number_++ == raised_ ? 0.25 : 0;
+    return vertices;
+  }
   void vertex(Vec v) override {
     const Vec p = at_.apply(v);
-    put(file_, float(p.x), float(p.y), float(p.z));
+    put(file_, float(p.x), float(p.y + rise_), float(p.z));
   }
+  static constexpr std::uint64_t kNone = ~std::uint64_t(0);
 
  private:
   bp::OutputFile& file_;
   const Placement& at_;
+  std::uint64_t number_, raised_;
+  double rise_ = 0;
 };
 
 /// Faces, numbered from `first`; with or without the count that PLY wants before each.
@@ -121,7 +129,9 @@ std::string glb_json(const Site& site, const std::vector<int>& mesh_of, std::uin
 
 }  // namespace
 
-void write_ply(const Site& site, bp::OutputFile& file) {
+namespace {
+
+void write_ply(const Site& site, std::uint64_t raised, bp::OutputFile& file) {
   const Counts& counts = site.counts();
   if (counts.vertices > 0xffffffffu) {
     bp::fail(bp::ErrorCode::bad_argument,
@@ -131,9 +141,11 @@ void write_ply(const Site& site, bp::OutputFile& file) {
       "ply\nformat binary_little_endian 1.0\ncomment bp-plant\nelement vertex {}\nproperty float x\nproperty float y\n"
       "property float z\nelement face {}\nproperty list uchar uint vertex_indices\nend_header\n",
       counts.vertices, counts.triangles));
+  std::uint64_t part = 0;
   site.for_each([&](const Placement& p) {
-    PlyVertices sink(file, p);
+    PlyVertices sink(file, p, part, raised);
     site.build_shape(p.shape, sink);
+    part += site.shapes()[p.shape].counts.parts;
   });
   std::uint64_t first = 0;
   site.for_each([&](const Placement& p) {
@@ -141,6 +153,18 @@ void write_ply(const Site& site, bp::OutputFile& file) {
     site.build_shape(p.shape, sink);
     first += site.shapes()[p.shape].counts.vertices;
   });
+}
+
+}  // namespace
+
+void write_ply(const Site& site, bp::OutputFile& file) {
+  write_ply(site, PlyVertices::kNone, file);
+}
+
+void write_changed_ply(const Site& site, std::uint64_t changed, bp::OutputFile& file) {
+  if (changed >= site.counts().parts)
+    bp::fail(bp::ErrorCode::bad_argument, "there is no component {}; the site has {}", changed, site.counts().parts);
+  write_ply(site, changed, file);
 }
 
 void write_glb(const Site& site, bp::OutputFile& file) {

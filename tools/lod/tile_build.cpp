@@ -10,10 +10,10 @@
 #include "io/result_store.h"
 #include "io/tileset_file.h"
 #include "lib/stage/tile_pyramid.h"
-#include "tools/lod/build.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/lod/tile_tree.h"
 #include "tools/lod/tileset_folder.h"
+#include "tools/lod/whole_levels.h"
 
 namespace bp {
 
@@ -28,26 +28,6 @@ LatticeCoord centre_of(const Cells& cells, CellCoord cell) {
   const std::int64_t half = cells.edge_vox / 2;
   return {(first.x + half) * kLatticePerVoxel, (first.y + half) * kLatticePerVoxel,
           (first.z + half) * kLatticePerVoxel};
-}
-
-Bounds3d bounds_of(const LatticeMesh& mesh) {
-  Bounds3d bounds;
-  for (const LatticeCoord v : mesh.vertices) bounds.add(mesh.frame.world(v));
-  return bounds;
-}
-
-/// A point that is a lattice point of every level in one mesh: a corner of the largest voxels, near the middle.
-Vec3d common_origin(const std::vector<LodLevel>& levels) {
-  double voxel = 0;
-  Bounds3d bounds;
-  for (const LodLevel& level : levels) {
-    voxel = std::max(voxel, level.mesh.frame.voxel);
-    bounds.merge(bounds_of(level.mesh));
-  }
-  Vec3d origin;
-  for (std::size_t i = 0; i < 3; ++i)
-    origin[i] = std::nearbyint((bounds.min[i] / 2 + bounds.max[i] / 2) / voxel) * voxel + 0.0;
-  return origin;
 }
 
 /// A file that waits until all are there.
@@ -80,7 +60,7 @@ class TilesetBuild {
     TilePyramid pyramid(scene.header, std::move(scene.solid), build_.backends, pyramid_options);
     LodOptions lod = build_.lod_options();
     const std::size_t cut = make_cut_levels(pyramid, lod.scene);
-    make_whole_levels(pyramid, std::move(lod), cut, scene.counts.input_hash);
+    make_whole(pyramid, std::move(lod), cut, scene.counts.input_hash);
     build_.progress.end();
     write(scene);
   }
@@ -177,24 +157,19 @@ class TilesetBuild {
 
   static std::string name_of(CellCoord c) { return fmt::format("{}_{}_{}", c.x, c.y, c.z); }
 
-  void make_whole_levels(TilePyramid& pyramid, LodOptions lod, std::size_t cut, const std::string& input_hash) {
+  void make_whole(TilePyramid& pyramid, LodOptions lod, std::size_t cut, const std::string& input_hash) {
     if (cut == level_count(cut)) return;
-    lod.surface = pyramid.take_surface();
+    build_.report.stage("levels in one mesh");
     if (cut > 0) lod.least_scale_world = kScaleVox * pyramid.header().frame.voxel;
-    LodChain chain(pyramid.header(), pyramid.take_solid(), build_.backends, std::move(lod));
-    std::vector<LodLevel> levels;
-    for (std::size_t i = cut; i < level_count(cut); ++i)
-      levels.push_back(build_.make_level(chain, i, cut, scene_voxel_, bounds_, cut > 0 ? "" : input_hash));
-    const Vec3d origin = common_origin(levels);
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-      const LatticeMesh& mesh = levels[i].mesh;
-      const std::string name = level_name(options_.name, cut + i), file = name + ".glb";
-      const std::string content = tile_glb({name, &mesh}, lattice_point(mesh.frame, origin));
-      files_.push_back({file, store_->put(std::as_bytes(std::span(content)))});
-      tree_.add_whole({file, origin, bounds_of(mesh), levels[i].error_world});
-      rows_.push_back(row_of(levels[i], file, content.size()));
+    WholeInput input{pyramid.header(),       pyramid.take_solid(), pyramid.take_surface(),   cut,
+                     level_count(cut) - cut, scene_voxel_,         cut > 0 ? "" : input_hash};
+    const WholeLevels whole = make_whole_levels(build_, std::move(input), std::move(lod), results_.get());
+    for (const WholeLevel& level : whole.levels) {
+      files_.push_back({level.row.file, store_->put(std::as_bytes(std::span(level.content)))});
+      tree_.add_whole({level.row.file, whole.origin, level.bounds, level.row.error_world});
+      rows_.push_back(level.row);
     }
-    if (cut == 0) provenance_ = levels.front().mesh.provenance;
+    if (cut == 0) provenance_ = whole.levels.front().provenance;
   }
 
   void write(const VoxelizedScene& scene) {

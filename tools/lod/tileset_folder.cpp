@@ -1,6 +1,11 @@
 #include "tools/lod/tileset_folder.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 
 #include "io/file.h"
@@ -34,17 +39,32 @@ TilesetFolder::TilesetFolder(std::string path, bool overwrite, bool resume) : pa
   while (path_.size() > 1 && path_.back() == '/') path_.pop_back();
   partial_ = path_ + ".partial";
   files_ = partial_ + "/files";
-  if (!overwrite && fs::exists(path_ + "/" + kTileset))
+  const bool interrupted = resume && fs::exists(partial_);  // perhaps while the files were moved
+  if (!overwrite && !interrupted && fs::exists(path_ + "/" + kTileset))
     fail(ErrorCode::bad_argument, "{}/{}: exists; add --overwrite to replace it", path_, kTileset);
+  lock();
   std::error_code error;
-  fs::remove_all(resume ? files_ : partial_, error);
+  if (!resume) fs::remove_all(results(), error);
+  fs::remove_all(files_, error);
   fs::create_directories(files_, error);
   if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", files_, error.message());
+}
+
+void TilesetFolder::lock() {
+  std::error_code error;
+  fs::create_directories(partial_, error);
+  if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", partial_, error.message());
+  lock_ = ::open(partial_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(lock_);
+    fail(ErrorCode::failed, "{}: another process is at work on it", path_);
+  }
 }
 
 TilesetFolder::~TilesetFolder() {
   std::error_code ignored;
   fs::remove_all(resume_ ? files_ : partial_, ignored);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 void TilesetFolder::write(const std::string& name, const std::string& bytes) {

@@ -4,12 +4,13 @@
 
 namespace bp {
 
-/// A folder with a tileset in it. Files are written below a folder beside it, OUT.partial, and move to their places when
-/// all are there: with the whole folder, if there was none before, else one by one, tileset.json last.
+/// A folder with a tileset in it. Files are written below a folder beside it, OUT.partial, and move to their places
+/// when all are there: with the whole folder, if there was none before, else one by one, tileset.json last.
 class TilesetFolder {
  public:
   /// Takes away the files that an interrupted run left in OUT.partial, and, unless `resume`, its results. Throws
-  /// bad_argument if OUT has a tileset.json and `overwrite` is false.
+  /// bad_argument if OUT has a tileset.json, `overwrite` is false, and there is nothing to resume; `failed` if another
+  /// process is at work on OUT.
   TilesetFolder(std::string path, bool overwrite, bool resume);
   ~TilesetFolder();  ///< without commit() nothing stays behind but, to resume, the results
   TilesetFolder(const TilesetFolder&) = delete;
@@ -24,9 +25,11 @@ class TilesetFolder {
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
  private:
+  void lock();
   void move_files();
   std::string path_, partial_, files_;
   bool resume_;
+  int lock_ = -1;  ///< of OUT.partial; the system lets go of it however the process ends
   std::vector<std::string> names_;
   std::uint64_t bytes_ = 0;
 };

@@ -86,6 +86,32 @@ TEST_CASE("a plant is the same scene as PLY and as instanced GLB", "[quick][samp
   CHECK(std::abs(ply.signed_volume - glb.signed_volume) < 1e-4 * std::abs(ply.signed_volume));
 }
 
+TEST_CASE("a changed plant differs in the vertices of one component", "[quick][samples]") {
+  const Site site(20000, 3);
+  const auto vertices = [&](void (*write)(const Site&, bp::OutputFile&)) {
+    const auto path = std::filesystem::temp_directory_path() / "bp-test-changed.ply";
+    bp::OutputFile file(path.string(), true);
+    write(site, file);
+    file.commit();
+    const bp::IndexedMesh mesh = bp::read_mesh(path.string());
+    std::filesystem::remove(path);
+    return mesh;
+  };
+  const bp::IndexedMesh before = vertices(write_ply);
+  const bp::IndexedMesh after =
+      vertices([](const Site& s, bp::OutputFile& file) { write_changed_ply(s, s.counts().parts / 2, file); });
+  REQUIRE(before.vertices.size() == after.vertices.size());
+  CHECK(before.triangles == after.triangles);
+  std::size_t first = before.vertices.size(), last = 0, differ = 0;
+  for (std::size_t i = 0; i < before.vertices.size(); ++i) {
+    if (before.vertices[i] == after.vertices[i]) continue;
+    CHECK(after.vertices[i][1] == Approx(before.vertices[i][1] + 0.25));
+    first = std::min(first, i), last = i, ++differ;
+  }
+  CHECK(differ > 2);
+  CHECK(differ == last + 1 - first);
+}
+
 TEST_CASE("solids of a plant are closed and face outward", "[quick][samples]") {
   EdgeSink edges;
   Parts closed(edges, 1, 1);

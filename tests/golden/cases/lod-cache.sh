@@ -1,0 +1,42 @@
+# Tilesets from what an earlier build made: the same bytes as from nothing, whatever is in the cache.
+for i in 0 1 2; do
+  write_cube cube.obj 3
+  sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 7 * $i)) \2 \$((\3 + $i))/e" cube.obj > part$i.obj
+done
+options=(part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles -q)
+build() { bplod "${options[@]}" "$@" > list; }
+kept() { grep -o '"kept": [0-9]*' "$1" | tr '\n' ' '; echo; }
+build -o whole
+build -o first --cache cache --report first.json
+build -o second --cache cache --report second.json -j 1
+diff -r whole first && diff -r whole second && echo "the same bytes"
+kept first.json
+kept second.json
+find cache -type f | head -1 | while read -r f; do echo damaged > "$f"; done
+build -o second --cache cache --overwrite
+diff -r whole second && echo "the same bytes in spite of damage"
+
+# One part moves: few tiles are made anew.
+sed -i 's/^v \(.*\) 3 \(.*\)$/v \1 2 \2/' part2.obj
+build -o moved --cache cache --report moved.json
+build -o from-nothing
+diff -r moved from-nothing && echo "the same bytes"
+kept moved.json
+
+# Killed at some moment: the same command goes on. What is left without --resume goes.
+for after in 0.05 0.2 0.4; do
+  bplod "${options[@]}" -o resumed --resume > list & job=$!
+  sleep $after
+  kill -9 $job 2> /dev/null
+  wait $job 2> /dev/null
+done 2> /dev/null
+if [ ! -e resumed ] || [ -e resumed.partial ]; then build -o resumed --resume; fi
+diff -r resumed from-nothing && echo "the same bytes"
+mkdir -p again.partial/results/ab
+echo old > again.partial/results/ab/cd
+build -o again
+diff -r again from-nothing && echo "the same bytes"
+try bplod part0.obj -o x --cache cache
+try bplod part0.obj -o x --cache cache --resume --profile 3dtiles
+try bplod part0.obj -o x --profile 3dtiles --cache part0.obj/cache
+files
