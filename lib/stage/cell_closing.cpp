@@ -39,7 +39,7 @@ class IdleBackends {
   std::vector<Backend*> idle_;
 };
 
-/// The bricks of a box that are not empty: place, fill, and bits unless full.
+/// The bricks of a box that are not empty: place, fill, and bits unless full; then the end.
 std::string packed(const BitBox& bits) {
   std::string out;
   for_each_brick(bits.box(), [&](BrickCoord c) {
@@ -58,21 +58,23 @@ std::string packed(const BitBox& bits) {
       out.append(reinterpret_cast<const char*>(&x), sizeof x);
     if (fill == BrickFill::mixed) out.append(reinterpret_cast<const char*>(brick.data()), sizeof brick);
   });
-  return out;
+  return out + 'e';
 }
 
 /// False if the bytes are no bricks of a cell.
 bool unpack(const std::string& in, const VoxelBox& cell, BrickShelf& shelf) {
   const BrickBox bricks = bricks_of(cell);
-  for (std::size_t at = 0; at < in.size();) {
+  if (in.empty() || in.back() != 'e') return false;
+  const std::size_t end = in.size() - 1;
+  for (std::size_t at = 0; at < end;) {
     std::int32_t head[4];
     BrickBits bits;
-    if (in.size() - at < sizeof head) return false;
+    if (end - at < sizeof head) return false;
     std::memcpy(head, in.data() + at, sizeof head);
     at += sizeof head;
     const BrickCoord c = bricks.min + BrickCoord{head[0], head[1], head[2]};
     const bool mixed = head[3] == std::int32_t(BrickFill::mixed);
-    if (!bricks.contains(c) || (mixed && in.size() - at < sizeof bits)) return false;
+    if (!bricks.contains(c) || (mixed && end - at < sizeof bits)) return false;
     if (mixed) {
       std::memcpy(bits.data(), in.data() + at, sizeof bits);
       at += sizeof bits;
