@@ -26,7 +26,7 @@ Options parse(bp::Args& args) {
   args.example("bp-plant --triangles 1000000 --seed 7 -o plant.glb");
   args.option("--triangles", "N", o.triangles, "how many, about: within 1 percent");
   args.option("--seed", "N", o.seed, "another seed, another plant");
-  args.option("--change", "N", o.change, ".ply: the same plant with its N-th component raised by 0.25 m");
+  args.option("--change", "N", o.change, ".ply: the same plant with its N-th component raised by 2 m");
   args.option("-o,--output", "FILE", o.out, ".ply (all triangles) or .glb (instanced)");
   args.option("--format", {{"auto", Format::by_name}, {"ply", Format::ply}, {"glb", Format::glb}}, o.format,
               "instead of the ending of FILE");

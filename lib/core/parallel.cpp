@@ -8,6 +8,20 @@
 
 namespace bp {
 
+namespace {
+
+/// A loop in a pipeline whose other items failed must run to its end all the same: cancelled along with them, it would
+/// return in the middle, and its caller would go on with half of its data.
+class OwnContext {
+ public:
+  [[nodiscard]] tbb::task_group_context& get() { return context_; }
+
+ private:
+  tbb::task_group_context context_{tbb::task_group_context::isolated};
+};
+
+}  // namespace
+
 ThreadLimit::ThreadLimit(int threads)
     : control_(new tbb::global_control(tbb::global_control::max_allowed_parallelism,
                                        std::size_t(threads > 0 ? threads : tbb::info::default_concurrency()))) {}
@@ -20,28 +34,38 @@ int thread_count() {
 }
 
 void parallel_for(std::int64_t n, const std::function<void(std::int64_t)>& body) {
-  tbb::parallel_for(std::int64_t(0), n, [&](std::int64_t i) { body(i); });
+  OwnContext own;
+  tbb::parallel_for(
+      std::int64_t(0), n, [&](std::int64_t i) { body(i); }, own.get());
 }
 
 void parallel_chunks(std::int64_t n, std::int64_t grain, const std::function<void(std::int64_t, std::int64_t)>& body) {
   const std::int64_t chunks = (n + grain - 1) / grain;  // fixed boundaries: they do not depend on the thread count
-  tbb::parallel_for(std::int64_t(0), chunks, [&](std::int64_t c) { body(c * grain, std::min(n, (c + 1) * grain)); });
+  OwnContext own;
+  tbb::parallel_for(
+      std::int64_t(0), chunks, [&](std::int64_t c) { body(c * grain, std::min(n, (c + 1) * grain)); }, own.get());
 }
 
 namespace detail {
 
 void run_pipeline(int in_flight, const std::function<void*()>& produce, const std::function<void(void*)>& work,
                   const std::function<void(void*)>& consume) {
+  OwnContext own;
   tbb::parallel_pipeline(
       std::size_t(in_flight),
-      tbb::make_filter<void, void*>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> void* {
-        void* item = produce();
-        if (item == nullptr) control.stop();
-        return item;
-      }) & tbb::make_filter<void*, void*>(tbb::filter_mode::parallel, [&](void* item) -> void* {
-        work(item);
-        return item;
-      }) & tbb::make_filter<void*, void>(tbb::filter_mode::serial_in_order, [&](void* item) { consume(item); }));
+      tbb::make_filter<void, void*>(tbb::filter_mode::serial_in_order,
+                                    [&](tbb::flow_control& control) -> void* {
+                                      void* item = produce();
+                                      if (item == nullptr) control.stop();
+                                      return item;
+                                    }) &
+          tbb::make_filter<void*, void*>(tbb::filter_mode::parallel,
+                                         [&](void* item) -> void* {
+                                           work(item);
+                                           return item;
+                                         }) &
+          tbb::make_filter<void*, void>(tbb::filter_mode::serial_in_order, [&](void* item) { consume(item); }),
+      own.get());
 }
 
 }  // namespace detail

@@ -59,7 +59,10 @@ void add_voxels(KeyHash& hash, const BrickShelf& shelf, const VoxelBox& box, Bri
   for_each_brick(box, [&](BrickCoord c) {
     const BrickFill fill = get_within(shelf, c, box, bits);
     if (fill == BrickFill::empty) return;
-    hash.add(std::int64_t(1)).add(std::int64_t(c.x - origin.x)).add(std::int64_t(c.y - origin.y)).add(std::int64_t(c.z - origin.z));
+    hash.add(std::int64_t(1))
+        .add(std::int64_t(c.x - origin.x))
+        .add(std::int64_t(c.y - origin.y))
+        .add(std::int64_t(c.z - origin.z));
     hash.add(std::int64_t(fill));
     if (fill == BrickFill::mixed) hash.add(std::as_bytes(std::span(bits)));
   });

@@ -27,7 +27,7 @@ class PlyVertices : public Sink {
   PlyVertices(bp::OutputFile& file, const Placement& at, std::uint64_t number = 0, std::uint64_t raised = kNone)
       : file_(file), at_(at), number_(number), raised_(raised) {}
   Wants part(std::uint32_t, std::uint32_t) override {
-    rise_ = number_++ == raised_ ? 0.25 : 0;
+    rise_ = number_++ == raised_ ? kRise : 0;
     return vertices;
   }
   void vertex(Vec v) override {
@@ -35,6 +35,7 @@ class PlyVertices : public Sink {
     put(file_, float(p.x), float(p.y + rise_), float(p.z));
   }
   static constexpr std::uint64_t kNone = ~std::uint64_t(0);
+  static constexpr double kRise = 2;
 
  private:
   bp::OutputFile& file_;

@@ -10,7 +10,7 @@ namespace plant {
 /// Binary little-endian PLY, every instance expanded, indices of 32 bits. Throws bp::Error (bad_argument) beyond 2^32
 /// vertices.
 void write_ply(const Site& site, bp::OutputFile& file);
-/// The same site a day later: component number `changed`, in the order of the file, stands a quarter of a metre higher.
+/// The same site a day later: component number `changed`, in the order of the file, stands two metres higher.
 /// Throws bp::Error (bad_argument) if there is none.
 void write_changed_ply(const Site& site, std::uint64_t changed, bp::OutputFile& file);
 

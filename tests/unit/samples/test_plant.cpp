@@ -105,7 +105,7 @@ TEST_CASE("a changed plant differs in the vertices of one component", "[quick][s
   std::size_t first = before.vertices.size(), last = 0, differ = 0;
   for (std::size_t i = 0; i < before.vertices.size(); ++i) {
     if (before.vertices[i] == after.vertices[i]) continue;
-    CHECK(after.vertices[i][1] == Approx(before.vertices[i][1] + 0.25));
+    CHECK(after.vertices[i][1] == Approx(before.vertices[i][1] + 2));
     first = std::min(first, i), last = i, ++differ;
   }
   CHECK(differ > 2);

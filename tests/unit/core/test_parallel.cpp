@@ -1,0 +1,48 @@
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "lib/core/parallel.h"
+#include "tests/catch.h"
+
+namespace bp::test {
+
+TEST_CASE("a loop in a pipeline runs to its end though another item fails meanwhile", "[quick][core]") {
+  std::atomic<int> next{0}, halves{0};
+  std::atomic<bool> looping{false};
+  const auto produce = [&](int& item) {
+    item = next++;
+    return item < 2;
+  };
+  const auto work = [&](const int& item) {
+    using namespace std::chrono_literals;
+    if (item == 1) {
+      for (int i = 0; i < 1000 && !looping; ++i) std::this_thread::sleep_for(1ms);
+      throw std::runtime_error("item 1");
+    }
+    std::atomic<int> done{0};
+    parallel_for(200, [&](std::int64_t) {
+      looping = true;
+      std::this_thread::sleep_for(1ms);
+      ++done;
+    });
+    halves += done != 200;
+  };
+  for (int i = 0; i < 5; ++i) {
+    next = 0;
+    looping = false;
+    CHECK_THROWS_AS(pipeline<int>(2, produce, work, [](int&) {}), std::runtime_error);
+  }
+  CHECK(halves == 0);
+}
+
+TEST_CASE("the exception of a loop reaches the caller", "[quick][core]") {
+  CHECK_THROWS_AS(parallel_for(100,
+                               [](std::int64_t i) {
+                                 if (i == 57) throw std::runtime_error("57");
+                               }),
+                  std::runtime_error);
+}
+
+}  // namespace bp::test
