@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/core/predicates.h"
+#include "lib/meshing/shells.h"
 #include "lib/meshing/vec3.h"
 
 namespace bp {
@@ -157,6 +158,10 @@ void ProxyEditor::learn(VertexId v, std::span<const Vec3d> points) {
   mesh_.for_each_outgoing(v, [&](HalfEdgeId g) { around_.push_back(HalfEdgeMesh::face(g)); });
   const Vec3d shift = to_double(mesh_.position(v) - contacts_.origin());
   for (const Vec3d& p : points) contacts_.add(p + shift, around_);
+}
+
+void ProxyEditor::erase_inner_shells() {
+  bp::erase_inner_shells(mesh_);
 }
 
 /// Boxes of the star's faces, and their points: faces beyond the rim may be nearer now.

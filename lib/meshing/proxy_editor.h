@@ -39,6 +39,10 @@ class ProxyEditor {
   /// More contact points, relative to v, near its faces.
   void learn(VertexId v, std::span<const Vec3d> points);
 
+  /// Erases the shells that bound nothing (shells.h): a part over which another one has moved may have moved on,
+  /// through what only that one keeps inside. The last step: nothing may be changed after it.
+  void erase_inner_shells();
+
   void refresh() { tree_.rebuild(); }  ///< boxes only grow with the changes; after many of them fresh ones pay
 
  private:

@@ -8,11 +8,12 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kEarlyStrict = 16;  // of the wanted faces: where growing collapses turn to strict order
-constexpr std::uint64_t kEarlyFactor = 6;   // of the wanted faces: where growing collapses end
-constexpr double kLateFactor = 1.5;         // where the order of collapses changes from quadric error to volume
-constexpr int kEarlySweeps = 3;             // with the barrier: the later ones of both kinds gain next to nothing here
-constexpr int kEarlyFinalSweeps = 2;        // without it
+// Growing collapses turn to strict order at a multiple of the wanted faces; at least at so many: these are quick.
+constexpr std::uint64_t kEarlyStrict = 16, kEarlyStrictLeast = 10000;
+constexpr std::uint64_t kEarlyFactor = 6;  // of the wanted faces: where growing collapses end
+constexpr double kLateFactor = 1.5;        // where the order of collapses changes from quadric error to volume
+constexpr int kEarlySweeps = 3;            // with the barrier: the later ones of both kinds gain next to nothing here
+constexpr int kEarlyFinalSweeps = 2;       // without it
 
 /// Collapses by volume know neither errors nor limits.
 bool by_volume(const SimplifyParams& params) {
@@ -83,7 +84,7 @@ void try_growing(const LatticeMesh& grown, LatticeMesh& proxy, const Enclosed& e
 SimplifyParams early_part_of(const SimplifyParams& params) {
   SimplifyParams early = params;
   early.faces = kEarlyFactor * params.faces;
-  early.strict_from = kEarlyStrict * params.faces;
+  early.strict_from = std::max(kEarlyStrict * params.faces, kEarlyStrictLeast);
   return early;
 }
 

@@ -6,7 +6,6 @@
 
 #include "lib/core/predicates.h"
 #include "lib/meshing/fan_fit.h"
-#include "lib/meshing/shells.h"
 #include "lib/meshing/vec3.h"
 
 namespace bp {
@@ -139,11 +138,10 @@ LatticeMesh tighten(ProxyEditor& editor, const GridFrame& frame, const TightenPa
   LatticeMesh before = editor.mesh().compact(frame);
   counts.volume_before = volume_of(editor.mesh());
   Tightener(editor, params, counts).run();
-  HalfEdgeMesh after = editor.mesh();
-  erase_inner_shells(after);  // moves may have gone around small parts as a whole
-  counts.volume_after = volume_of(after);
+  editor.erase_inner_shells();
+  counts.volume_after = volume_of(editor.mesh());
   counts.tries = editor.counts().tries - tries;
-  if (counts.volume_after <= counts.volume_before) return after.compact(frame);
+  if (counts.volume_after <= counts.volume_before) return editor.mesh().compact(frame);
   counts.volume_after = counts.volume_before;
   return before;
 }
