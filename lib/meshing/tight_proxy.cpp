@@ -61,9 +61,18 @@ void tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyP
                    SimplifyCounts& simplified) {
   TightenParams few = tightening_of(params);
   few.sweeps = std::min(few.sweeps, kEarlySweeps);
-  if (params.limits == nullptr) few.final_sweeps = kEarlyFinalSweeps;
   TightenCounts ignored;
-  proxy = tighten(proxy, enclosed, few, ignored);
+  if (params.limits == nullptr) {
+    few.final_sweeps = kEarlyFinalSweeps;
+    proxy = tighten(proxy, enclosed, few, ignored);
+  } else {  // a surface of voxels may lie beyond the limits, and single steps within them would not lead there
+    few = {};
+    few.edge_limit = params.edge_limit;
+    few.limits = params.limits;
+    params.limits->relax(true);
+    proxy = tighten(proxy, enclosed, few, ignored);
+    params.limits->relax(false);
+  }
   const double factor = by_volume(params) ? kLateFactor : 1;
   simplify_late(proxy, &enclosed, params, std::uint64_t(factor * double(params.faces)), simplified);
 }

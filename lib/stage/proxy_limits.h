@@ -22,6 +22,7 @@ class ProxyLimits final : public StepLimits {
   /// `volume6`: six times the volume of what the steps will change, cubed lattice units of `frame`. `enclosed`: may be
   /// null without an error bound.
   ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, int128 volume6, const TriangleBvh* enclosed);
+  void relax(bool on) override { relaxed_ = on; }
   bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) override;
   /// "error" or "volume": the bound that refused the last step that was refused; empty if none was.
   [[nodiscard]] const char* last_refusal() const { return last_refusal_; }
@@ -34,6 +35,7 @@ class ProxyLimits final : public StepLimits {
   GridFrame frame_;
   const TriangleBvh* enclosed_;
   int128 volume6_ = 0, limit6_ = 0;  // six times the volume, lattice units cubed
+  bool relaxed_ = false;
   const char* last_refusal_ = "";
 };
 
