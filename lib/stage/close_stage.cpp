@@ -4,7 +4,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -13,6 +12,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/core/pool.h"
 #include "lib/grid/outside.h"
 #include "lib/grid/tile_grid.h"
 
@@ -65,48 +65,6 @@ std::int32_t choose_tile(const VoxelCoord& grid, const Halo& halo, std::size_t w
   }
   return best;
 }
-
-/// Things that tasks take and give back; a task waits until one is idle.
-template <class T>
-class Pool {
- public:
-  explicit Pool(std::vector<T> things) : count_(int(things.size())), idle_(std::move(things)) {}
-  [[nodiscard]] int count() const { return count_; }
-
-  class Lease {
-   public:
-    explicit Lease(Pool& pool) : pool_(pool), thing_(pool.take()) {}
-    ~Lease() { pool_.give(std::move(thing_)); }
-    Lease(const Lease&) = delete;
-    Lease& operator=(const Lease&) = delete;
-    auto* operator->() const { return &*thing_; }
-    auto& operator*() const { return *thing_; }
-
-   private:
-    Pool& pool_;
-    T thing_;
-  };
-
- private:
-  T take() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return !idle_.empty(); });
-    T thing = std::move(idle_.back());
-    idle_.pop_back();
-    return thing;
-  }
-  void give(T thing) {
-    {
-      const std::lock_guard lock(mutex_);
-      idle_.push_back(std::move(thing));
-    }
-    changed_.notify_one();
-  }
-  const int count_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<T> idle_;
-};
 
 /// Adds the time of its scope to a sum.
 class Stopwatch {

@@ -6,18 +6,18 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <condition_variable>
 #include <cstring>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
 
+#include "lib/backend/cpu_backend.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/core/pool.h"
 #include "lib/grid/cells.h"
 #include "lib/grid/outside.h"
 #include "lib/stage/triangle_bins.h"
-#include "lib/voxel/voxelize.h"
 #include "lib/voxel/winding.h"
 
 namespace bp {
@@ -27,70 +27,10 @@ namespace {
 constexpr double kMaxTiles = 1 << 27;      // the fills visit every tile; beyond, a grid is a slip of the finger
 constexpr std::int32_t kMaxTileVox = 512;  // Crossing has 9 bits
 
-/// A backend with the scratch of its worker.
-struct Worker {
-  Backend* backend = nullptr;  ///< null: on this thread
+/// A tile at work.
+struct Work {
   BitBox bits;
   std::vector<Crossing> crossings;
-
-  void voxelize(std::span<const FixedTriangle> triangles) {
-    if (backend != nullptr) return backend->voxelize(triangles, bits);
-    voxelize_surface(triangles, bits);
-  }
-  void find_crossings(std::span<const FixedTriangle> triangles) {
-    if (backend != nullptr) return backend->find_crossings(triangles, bits.box(), crossings);
-    bp::find_crossings(triangles, bits.box(), crossings);
-  }
-  void fill_winding(std::span<const std::uint64_t> skip, std::span<std::int32_t> numbers) {
-    if (backend != nullptr) return backend->fill_winding(crossings, skip, numbers, bits);
-    bp::fill_winding(crossings, bits.box(), skip, numbers, bits);
-  }
-};
-
-/// Hands workers to tasks; a task waits until one is idle.
-class Workers {
- public:
-  Workers(Backends& backends, std::size_t most) {
-    const std::size_t count = backends.empty() ? std::size_t(thread_count()) : backends.size();
-    for (std::size_t i = 0; i < std::min(count, most); ++i) add(backends.empty() ? nullptr : backends[i].get());
-  }
-  class Lease {
-   public:
-    explicit Lease(Workers& w) : workers_(w), worker_(w.take()) {}
-    ~Lease() { workers_.give(worker_); }
-    Lease(const Lease&) = delete;
-    Lease& operator=(const Lease&) = delete;
-    Worker* operator->() const { return worker_; }
-
-   private:
-    Workers& workers_;
-    Worker* worker_;
-  };
-
- private:
-  void add(Backend* backend) {
-    all_.push_back(std::make_unique<Worker>());
-    all_.back()->backend = backend;
-    idle_.push_back(all_.back().get());
-  }
-  Worker* take() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return !idle_.empty(); });
-    Worker* w = idle_.back();
-    idle_.pop_back();
-    return w;
-  }
-  void give(Worker* w) {
-    {
-      const std::lock_guard lock(mutex_);
-      idle_.push_back(w);
-    }
-    changed_.notify_one();
-  }
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<std::unique_ptr<Worker>> all_;
-  std::vector<Worker*> idle_;
 };
 
 /// Steps of one stage of the work, reported from any thread.
@@ -145,11 +85,12 @@ std::uint64_t work_bytes(std::int32_t edge_vox) {
 class Run {
  public:
   Run(TriangleSource& source, Backends& backends, const VoxelizeOptions& options)
-      : source_(source),
-        backends_(backends),
-        options_(options),
-        shelf_(options.make_shelf()),
-        store_(options.make_store()) {}
+      : source_(source), options_(options), shelf_(options.make_shelf()), store_(options.make_store()) {
+    for (int i = 0; backends.empty() && i < thread_count(); ++i) own_.push_back(std::make_unique<CpuBackend>());
+    std::vector<Backend*> all;
+    for (const auto& backend : backends.empty() ? own_ : backends) all.push_back(backend.get());
+    backends_ = std::make_unique<Pool<Backend*>>(std::move(all));
+  }
 
   VoxelizeCounts operator()(const OpenSink& open) {
     measure();
@@ -189,9 +130,10 @@ class Run {
   [[nodiscard]] VoxelBox tile_box(std::uint64_t tile) const { return tiles_.box(tiles_.coord(tile)); }
 
   TriangleSource& source_;
-  Backends& backends_;
   const VoxelizeOptions& options_;
-  std::unique_ptr<Workers> workers_;
+  Backends own_;  ///< if none were given
+  std::unique_ptr<Pool<Backend*>> backends_;
+  std::unique_ptr<Pool<std::unique_ptr<Work>>> work_;
   std::unique_ptr<BrickShelf> shelf_;
   std::unique_ptr<ChunkStore> store_;
   VoxelizeCounts counts_;
@@ -263,8 +205,12 @@ void Run::lay_grid() {
   if (options_.fill == FillMode::winding && std::max({size.x, size.y, size.z}) > kWindingVoxels)
     fail(ErrorCode::bad_argument, "a grid over 2^24 voxels a side cannot be filled by winding; use --fill flood");
   counts_.tiles = std::uint64_t(tiles_.total());
-  workers_ = std::make_unique<Workers>(
-      backends_, std::max<std::size_t>(1, std::size_t(options_.tile_memory_bytes / work_bytes(edge))));
+  // A GPU has few backends: the other threads load, label and shelve meanwhile.
+  const std::uint64_t fit = std::max<std::uint64_t>(1, options_.tile_memory_bytes / work_bytes(edge));
+  std::vector<std::unique_ptr<Work>> work(
+      std::min<std::uint64_t>(fit, std::uint64_t(std::max(thread_count(), backends_->count()))));
+  for (auto& w : work) w = std::make_unique<Work>();
+  work_ = std::make_unique<Pool<std::unique_ptr<Work>>>(std::move(work));
   if (options_.fill != FillMode::none) flood_ = std::make_unique<OutsideFlood>(grid, VoxelCoord{edge, edge, edge});
 }
 
@@ -357,24 +303,25 @@ void Run::voxelize() {
 
 /// Adds the tile's waiting triangles to its voxels; `last`: there will be no more of them.
 void Run::voxelize_tile(std::uint64_t tile, Tile& state, bool last) {
-  const Workers::Lease worker(*workers_);
+  const Pool<std::unique_ptr<Work>>::Lease work(*work_);
   const VoxelBox box = tile_box(tile);
-  worker->bits.reset(box);
-  if (state.on_shelf) load_voxels(*shelf_, worker->bits);
+  work->bits.reset(box);
+  if (state.on_shelf) load_voxels(*shelf_, work->bits);
   state.on_shelf = true;
   bins_->for_each(tile, [&](std::span<const FixedTriangle> triangles) {
-    worker->voxelize(triangles);
-    if (options_.fill == FillMode::winding) {
-      worker->crossings.clear();
-      worker->find_crossings(triangles);
-      put_crossings(state, worker->crossings);
+    work->crossings.clear();
+    {
+      const Pool<Backend*>::Lease backend(*backends_);
+      backend->voxelize(triangles, work->bits);
+      if (options_.fill == FillMode::winding) backend->find_crossings(triangles, box, work->crossings);
     }
+    put_crossings(state, work->crossings);
   });
-  store_voxels(worker->bits, *shelf_);
+  store_voxels(work->bits, *shelf_);
   if (!last) return;
-  surface_voxels_ += worker->bits.count();
+  surface_voxels_ += work->bits.count();
   if (!flood_) return;
-  OutsideFlood::Labels labels = OutsideFlood::label(worker->bits, box);
+  OutsideFlood::Labels labels = OutsideFlood::label(work->bits, box);
   const std::lock_guard lock(join_mutex_);
   flood_->join(std::move(labels));
 }
@@ -435,14 +382,14 @@ void Run::fill_flood(std::uint64_t tile) {
   const VoxelBox box = tile_box(tile);
   const bool without_surface = options_.fill == FillMode::inside && touched_.count(tile) > 0;
   if (!flood_->has_enclosed(box) && !without_surface) return;
-  const Workers::Lease worker(*workers_);
-  worker->bits.reset(box);
-  load_voxels(*shelf_, worker->bits);
+  const Pool<std::unique_ptr<Work>>::Lease work(*work_);
+  work->bits.reset(box);
+  load_voxels(*shelf_, work->bits);
   BitBox surface;
-  if (without_surface) surface = worker->bits;
-  flood_->fill_enclosed(box, worker->bits);
-  for (std::int64_t i = 0; i < surface.word_count(); ++i) worker->bits.data()[i] &= ~surface.data()[i];
-  store_voxels(worker->bits, *shelf_);
+  if (without_surface) surface = work->bits;
+  flood_->fill_enclosed(box, work->bits);
+  for (std::int64_t i = 0; i < surface.word_count(); ++i) work->bits.data()[i] &= ~surface.data()[i];
+  store_voxels(work->bits, *shelf_);
 }
 
 void Run::list_bricks(Slab& slab) const {
@@ -485,13 +432,13 @@ void Run::fill_winding_columns() {
 
 /// One column of tiles: first the columns of voxels whose crossings cancel, then the fill from below.
 void Run::fill_winding_column(std::int32_t tx, std::int32_t ty) {
-  const Workers::Lease worker(*workers_);
+  const Pool<std::unique_ptr<Work>>::Lease work(*work_);
   const VoxelCoord size = tiles_.box({tx, ty, 0}).size();
   const std::size_t width = std::size_t(size.x), words = (width + 63) / 64;
   std::vector<std::int32_t> numbers(width * std::size_t(size.y), 0);
   for (std::int32_t tz = 0; tz < tiles_.count.z; ++tz) {
-    get_crossings(tiles_.index({tx, ty, tz}), worker->crossings);
-    add_crossings(worker->crossings, tiles_.box({tx, ty, tz}), numbers);
+    get_crossings(tiles_.index({tx, ty, tz}), work->crossings);
+    add_crossings(work->crossings, tiles_.box({tx, ty, tz}), numbers);
   }
   std::vector<std::uint64_t> open(words * std::size_t(size.y), 0);
   std::uint64_t open_count = 0;
@@ -508,23 +455,23 @@ void Run::fill_winding_column(std::int32_t tx, std::int32_t ty) {
   for (std::int32_t tz = 0; tz < tiles_.count.z; ++tz) {
     const std::uint64_t tile = tiles_.index({tx, ty, tz});
     const VoxelBox box = tile_box(tile);
-    get_crossings(tile, worker->crossings);
+    get_crossings(tile, work->crossings);
     const bool flood = open_count > 0 && flood_->has_enclosed(box);
     const bool wound = std::any_of(numbers.begin(), numbers.end(), [](std::int32_t n) { return n != 0; });
-    if (worker->crossings.empty() && !flood && !wound) continue;
-    worker->bits.reset(box);
-    load_voxels(*shelf_, worker->bits);
+    if (work->crossings.empty() && !flood && !wound) continue;
+    work->bits.reset(box);
+    load_voxels(*shelf_, work->bits);
     if (flood) {
-      flooded = worker->bits;
+      flooded = work->bits;
       flood_->fill_enclosed(box, flooded);
     }
-    worker->fill_winding(open, numbers);
+    Pool<Backend*>::Lease(*backends_)->fill_winding(work->crossings, open, numbers, work->bits);
     for (std::int32_t z = box.min.z; flood && z < box.max.z; ++z) {
       for (std::size_t w = 0; w < open.size(); ++w) {
-        worker->bits.row(box.min.y, z)[w] |= flooded.row(box.min.y, z)[w] & open[w];
+        work->bits.row(box.min.y, z)[w] |= flooded.row(box.min.y, z)[w] & open[w];
       }
     }
-    store_voxels(worker->bits, *shelf_);
+    store_voxels(work->bits, *shelf_);
   }
 }
 

@@ -2,12 +2,9 @@
 // all tiles of a brick stream from a shelf in memory to closed boxes, by the CPU backend on all cores and by each GPU,
 // copies included. One JSON line per backend and tile size: median wall time of RUNS passes, the first (allocations,
 // loading of kernels) apart. Results are compared.
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstdlib>
-#include <mutex>
 #include <vector>
 
 #include "io/brick_shelf.h"
@@ -15,8 +12,10 @@
 #include "lib/backend/cpu_backend.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/core/pool.h"
 #include "lib/grid/tile_grid.h"
 #include "lib/stage/close_stage.h"
+#include "tests/bench/median.h"
 #ifdef BP_HAVE_CUDA
 #include "gpu/cuda_backend.h"
 #endif
@@ -50,11 +49,6 @@ std::uint64_t hash_of(const BitBox& bits) {
   return h;
 }
 
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v.empty() ? 0 : v[v.size() / 2];
-}
-
 /// One pass over all tiles; `check` adds up hashes (not timed).
 struct Pass {
   double ms = 0;
@@ -62,10 +56,9 @@ struct Pass {
 };
 Pass close_all(const Job& job, Backends& backends, std::int32_t edge, bool check) {
   const TileGrid tiles(job.grid, edge);
-  std::vector<Backend*> idle;
-  for (const auto& b : backends) idle.push_back(b.get());
-  std::mutex mutex;
-  std::condition_variable changed;
+  std::vector<Backend*> all;
+  for (const auto& b : backends) all.push_back(b.get());
+  Pool<Backend*> pool(std::move(all));
   std::atomic<std::uint64_t> hash{0};
   const auto start = std::chrono::steady_clock::now();
   parallel_for(std::int64_t(tiles.total()), [&](std::int64_t i) {
@@ -73,19 +66,8 @@ Pass close_all(const Job& job, Backends& backends, std::int32_t edge, bool check
     const Halo halo = halo_of(box, job.field, job.header.frame);
     const ScaleLattice lattice = job.field.sample(job.header.frame, box.grown(halo.erosion_vox + kBrickEdge));
     thread_local BitBox closed;
-    Backend* backend = nullptr;
-    {
-      std::unique_lock lock(mutex);
-      changed.wait(lock, [&] { return !idle.empty(); });
-      backend = idle.back();
-      idle.pop_back();
-    }
-    backend->close_from_shelf(*job.shelf, job.header.bricks, lattice, halo, job.params, box, closed);
-    {
-      const std::lock_guard lock(mutex);
-      idle.push_back(backend);
-    }
-    changed.notify_one();
+    Pool<Backend*>::Lease(pool)->close_from_shelf(*job.shelf, job.header.bricks, lattice, halo, job.params, box,
+                                                  closed);
     if (check) hash += hash_of(closed);
   });
   return {std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(), hash};

@@ -11,14 +11,11 @@
 
 #include "gpu/cuda_backend.h"
 #include "gpu/tuning.h"
+#include "lib/backend/cpu_backend.h"
 #include "lib/core/error.h"
 #include "tests/backend/gpu_tile.h"
 #include "tests/bench/bench_scenes.h"
 #include "tests/bench/gpu_clock.h"
-#if __has_include("lib/backend/cpu_backend.h")
-#include "lib/backend/cpu_backend.h"
-#define BP_BENCH_CPU 1
-#endif
 
 namespace bp {
 namespace {
@@ -175,14 +172,12 @@ class Bench {
     go({});
     const BitBox result = tile.result(stream_);
     std::string compared = first == result ? "itself" : "NOT ITSELF";
-#ifdef BP_BENCH_CPU
     if (options_.cpu) {
       CpuBackend cpu;
       BitBox want;
       cpu.close(s.bits, scale, halo, {element}, interior, want);
       compared = want == result ? "cpu" : "NOT CPU";
     }
-#endif
     print(s, resolution, scale_vox, element_name, field, "distance", tile, t, result, compared);
     failed_ = failed_ || compared.rfind("NOT", 0) == 0;
     if (options_.hierarchical) compare_walks(s, resolution, scale_vox, element_name, field, tile, element, &result);
@@ -208,9 +203,7 @@ class Bench {
     }
   }
 
-  [[nodiscard]] bool failed() const {
-    return failed_;
-  }
+  [[nodiscard]] bool failed() const { return failed_; }
 
  private:
   static constexpr std::size_t kFlushBytes = std::size_t(128) << 20;

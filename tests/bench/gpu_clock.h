@@ -6,14 +6,10 @@
 #include <vector>
 
 #include "gpu/cuda_check.h"
+#include "tests/bench/median.h"
 
 /// Time on a GPU, by events.
 namespace bp {
-
-inline double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v.empty() ? 0 : v[v.size() / 2];
-}
 
 /// Events on a stream, by name.
 class Clock {

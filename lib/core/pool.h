@@ -1,0 +1,52 @@
+#pragma once
+#include <condition_variable>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace bp {
+
+/// Things that tasks take and give back, pointers of some kind; a task waits until one is idle.
+template <class Pointer>
+class Pool {
+ public:
+  explicit Pool(std::vector<Pointer> things) : count_(int(things.size())), idle_(std::move(things)) {}
+  [[nodiscard]] int count() const { return count_; }
+
+  /// Holds one for the length of a scope.
+  class Lease {
+   public:
+    explicit Lease(Pool& pool) : pool_(pool), thing_(pool.take()) {}
+    ~Lease() { pool_.give(std::move(thing_)); }
+    Lease(const Lease&) = delete;
+    Lease& operator=(const Lease&) = delete;
+    auto* operator->() const { return &*thing_; }
+    auto& operator*() const { return *thing_; }
+
+   private:
+    Pool& pool_;
+    Pointer thing_;
+  };
+
+ private:
+  Pointer take() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return !idle_.empty(); });
+    Pointer thing = std::move(idle_.back());
+    idle_.pop_back();
+    return thing;
+  }
+  void give(Pointer thing) {
+    {
+      const std::lock_guard lock(mutex_);
+      idle_.push_back(std::move(thing));
+    }
+    changed_.notify_one();
+  }
+  const int count_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Pointer> idle_;
+};
+
+}  // namespace bp
