@@ -11,13 +11,15 @@
 
 /// The tile operations, behind which CpuBackend and CudaBackend stand. One Backend per worker thread: it owns its
 /// scratch (on a GPU: its stream and buffers), allocated on the first call and kept. Results do not depend on threads,
-/// tile size or backend.
+/// tile size or backend. What fails on a device is a DeviceError; what a call should have changed is then undefined.
 namespace bp {
 
 class Backend {
  public:
   virtual ~Backend() = default;
   [[nodiscard]] virtual std::string name() const = 0;  ///< "cpu", "cuda:0 NVIDIA H100 80GB HBM3"
+  /// Page-locked memory of the host that it holds, bytes, beside what its calls take.
+  [[nodiscard]] virtual std::uint64_t pinned_bytes() const { return 0; }
 
   /// Sets, in `out`, every voxel whose closed cube meets a triangle (grown by kFixedSlack); keeps what is set.
   /// Triangles may reach outside the box. Exact in integers; [SS10].

@@ -1,0 +1,127 @@
+// A device that fails: the CPU finishes the call, from the arguments as they were.
+#include "lib/backend/device_error.h"
+#include "lib/backend/fallback_backend.h"
+#include "tests/backend/random_triangles.h"
+#include "tests/catch.h"
+#include "tests/reference/random_closing.h"
+#include "tests/support/memory_shelf.h"
+
+using namespace bp;
+
+namespace {
+
+/// Works like the CPU for some calls, then spoils what it may write and fails.
+class FailingBackend final : public Backend {
+ public:
+  FailingBackend(int good_calls, int* living) : good_(good_calls), living_(living) { ++*living_; }
+  ~FailingBackend() override { --*living_; }
+  [[nodiscard]] std::string name() const override { return "fake:0"; }
+  [[nodiscard]] std::uint64_t pinned_bytes() const override { return 8; }
+  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) override {
+    if (good_-- > 0) return cpu_.voxelize(triangles, out);
+    spoil(out);
+  }
+  void find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,
+                      std::vector<Crossing>& out) override {
+    if (good_-- > 0) return cpu_.find_crossings(triangles, tile, out);
+    out.resize(out.size() + 7);
+    throw DeviceError("fake:0: on fire");
+  }
+  void fill_winding(std::vector<Crossing>& crossings, std::span<const std::uint64_t> skip,
+                    std::span<std::int32_t> numbers, BitBox& bits) override {
+    if (good_-- > 0) return cpu_.fill_winding(crossings, skip, numbers, bits);
+    crossings.clear();
+    for (std::int32_t& n : numbers) n = 99;
+    spoil(bits);
+  }
+  void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
+             const VoxelBox& interior, BitBox& closed) override {
+    if (good_-- > 0) return cpu_.close(solid, scale, halo, params, interior, closed);
+    closed.reset(interior);
+    spoil(closed);
+  }
+
+ private:
+  [[noreturn]] static void spoil(BitBox& bits) {
+    std::fill_n(bits.data(), bits.word_count(), 0x5a5a5a5a5a5a5a5au);
+    throw DeviceError("fake:0: on fire");
+  }
+  int good_;
+  int* living_;
+  CpuBackend cpu_;
+};
+
+}  // namespace
+
+TEST_CASE("once a device fails, the CPU does the call and all later ones to the same bits, with one warning",
+          "[quick][backend]") {
+  const int good_calls = GENERATE(range(0, 9));
+  int living = 0;
+  std::vector<std::string> warnings;
+  FallbackBackend backend(std::make_unique<FailingBackend>(good_calls, &living),
+                          [&](const std::string& what) { warnings.push_back(what); });
+  CHECK(backend.name() == "fake:0");
+  CHECK(backend.pinned_bytes() == 8);
+  CpuBackend cpu;
+  test::Rng rng(7);
+  const VoxelBox tile{{0, 0, 0}, {64, 40, 50}};
+  std::vector<FixedTriangle> triangles;
+  for (int i = 0; i < 60; ++i) triangles.push_back(test::random_triangle(rng, tile, 3000000));
+  reference::Random random{3};
+  const VoxelBox interior{{0, 0, 0}, {64, 64, 64}};
+  const Halo halo{4, 3};
+  const ScaleLattice scale = reference::random_lattice(random, interior.grown(16), 40);
+  const BitBox solid = reference::random_solid(random, voxels_of(bricks_of(interior.grown(halo.total_vox()))));
+  test::MemoryShelf shelf;
+  store_voxels(solid, shelf);
+  for (int round = 0; round < 2; ++round) {  // 5 calls each
+    CAPTURE(good_calls, round);
+    BitBox start(tile);
+    start.set({3, 4, 5});
+    BitBox want = start, got = start;
+    cpu.voxelize(triangles, want);
+    backend.voxelize(triangles, got);
+    CHECK(got == want);
+
+    std::vector<Crossing> some(3), want_crossings = some, crossings = some;
+    cpu.find_crossings(triangles, tile, want_crossings);
+    backend.find_crossings(triangles, tile, crossings);
+    REQUIRE(crossings.size() == want_crossings.size());
+
+    std::vector<std::int32_t> want_numbers(64 * 40, 1), numbers = want_numbers;
+    cpu.fill_winding(want_crossings, {}, want_numbers, want);
+    backend.fill_winding(crossings, {}, numbers, got);
+    CHECK(numbers == want_numbers);
+    CHECK(got == want);
+
+    BitBox want_closed, closed;
+    cpu.close(solid, scale, halo, {StructuringElement::ball}, interior, want_closed);
+    backend.close(solid, scale, halo, {StructuringElement::ball}, interior, closed);
+    CHECK(closed == want_closed);
+    closed.reset({});
+    backend.close_from_shelf(shelf, bricks_of(solid.box()), scale, halo, {StructuringElement::ball}, interior, closed);
+    CHECK(closed == want_closed);
+  }
+  CHECK(warnings == std::vector<std::string>{"fake:0: on fire"});
+  CHECK(living == 0);
+  CHECK(backend.name() == "fake:0, then cpu");
+  CHECK(backend.pinned_bytes() == 0);
+}
+
+TEST_CASE("an error that is not the device's is not hidden", "[quick][backend]") {
+  class Refusing final : public Backend {
+   public:
+    [[nodiscard]] std::string name() const override { return "fake:0"; }
+    void voxelize(std::span<const FixedTriangle>, BitBox&) override { fail(ErrorCode::bad_input, "no"); }
+    void find_crossings(std::span<const FixedTriangle>, const VoxelBox&, std::vector<Crossing>&) override {}
+    void fill_winding(std::vector<Crossing>&, std::span<const std::uint64_t>, std::span<std::int32_t>,
+                      BitBox&) override {}
+    void close(const BitBox&, const ScaleLattice&, const Halo&, const ClosingParams&, const VoxelBox&,
+               BitBox&) override {}
+  };
+  bool warned = false;
+  FallbackBackend backend(std::make_unique<Refusing>(), [&](const std::string&) { warned = true; });
+  BitBox bits(VoxelBox{{0, 0, 0}, {64, 1, 1}});
+  CHECK_THROWS_AS(backend.voxelize({}, bits), Error);
+  CHECK_FALSE(warned);
+}
