@@ -413,6 +413,11 @@ __global__ void __launch_bounds__(kPassThreads)
 
 }  // namespace
 
+cudaError_t find_code() {
+  cudaFuncAttributes attributes{};
+  return cudaFuncGetAttributes(&attributes, contour_kernel);
+}
+
 void pack_bits(const std::uint32_t* from, const BoxOfWords& box, const GridShape& shape, std::uint32_t* bits,
                std::uint32_t* cells, cudaStream_t stream) {
   launch("pack_kernel", pack_kernel, blocks_for(cell_rows(shape)), kPassThreads, 0, stream, from, box, shape, bits,

@@ -7,6 +7,9 @@
 /// shape.word_count() words, flags of cells one word per quad (a byte is 0xff where the cell holds a set voxel).
 namespace bp {
 
+/// cudaSuccess if this build holds code that the current device can run: else the first launch would fail.
+[[nodiscard]] cudaError_t find_code();
+
 /// A dense box of words elsewhere (a BitBox on the device), and where its first word lies in the domain.
 struct BoxOfWords {
   std::int32_t words = 0, ny = 0, nz = 0;  ///< 32-bit words per row

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <new>
 
+#include "gpu/bit_kernels.h"
 #include "gpu/device_closing.h"
 #include "gpu/device_error.h"
 #include "gpu/staging.h"
@@ -53,12 +54,15 @@ class CudaBackend final : public Backend {
         properties_(properties(device)),
         name_(fmt::format("cuda:{} {}", device, properties_.name)),
         staging_(stream_.get()),
-        closing_({properties_.multiProcessorCount, std::min(kSlabBytes, properties_.totalGlobalMem / 32)}),
+        closing_({properties_.multiProcessorCount, std::min(kSlabBytes, properties_.totalGlobalMem / kSlabShare)}),
         voxelizer_(properties_.multiProcessorCount),
-        winding_(properties_.multiProcessorCount) {}
+        winding_(properties_.multiProcessorCount) {
+    require_code();
+  }
   ~CudaBackend() override { (void)cudaStreamSynchronize(stream_.get()); }
 
   [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] std::uint64_t pinned_bytes() const override { return 2 * kStagingBytes; }
 
   void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) override {
     stream_.select();
@@ -85,22 +89,27 @@ class CudaBackend final : public Backend {
   void find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,
                       std::vector<Crossing>& out) override {
     stream_.select();
-    for (std::size_t at = 0; at < triangles.size(); at += kTriangleBatch)
-      find_batch(triangles.subspan(at, std::min(kTriangleBatch, triangles.size() - at)), tile, out);
+    if (tile.empty()) return;
+    // A triangle crosses each column once at most: in a batch of this size, crossings are counted in 32 bits.
+    const std::uint64_t columns = std::uint64_t(tile.size().x) * std::uint64_t(tile.size().y);
+    const std::size_t most = std::size_t(std::clamp<std::uint64_t>(kCountedCrossings / columns, 1, kTriangleBatch));
+    if (columns > kCountedCrossings) fail(ErrorCode::bad_argument, "a tile of {} columns is too wide", columns);
+    for (std::size_t at = 0; at < triangles.size(); at += most)
+      find_in_batch(triangles.subspan(at, std::min(most, triangles.size() - at)), tile, out);
   }
 
   void fill_winding(std::vector<Crossing>& crossings, std::span<const std::uint64_t> skip,
                     std::span<std::int32_t> numbers, BitBox& bits) override {
     stream_.select();
     if (bits.box().empty()) return;
-    staging_.upload(crossings_.grow(crossings.size()), crossings.data(), crossings.size() * sizeof(Crossing));
-    staging_.upload(numbers_.grow(numbers.size()), numbers.data(), numbers.size_bytes());
-    if (!skip.empty()) staging_.upload(skip_.grow(2 * skip.size()), skip.data(), skip.size_bytes());
-    out_.grow(2 * std::size_t(bits.word_count()));
-    winding_.fill(crossings_.data(), std::uint32_t(crossings.size()), bits.box(), skip.empty() ? nullptr : skip_.data(),
-                  numbers_.data(), out_.data(), stream_.get());
-    staging_.download_bits(bits.data(), out_.data(), std::size_t(bits.word_count()));
-    staging_.download(numbers.data(), numbers_.data(), numbers.size_bytes());
+    if (crossings.size() <= kMostCrossings) {
+      try {
+        return fill_on_device(crossings, skip, numbers, bits);
+      } catch (const OutOfDeviceMemory&) {  // before anything came back
+        make_room();
+      }
+    }
+    bp::fill_winding(crossings, bits.box(), skip, numbers, bits);
   }
 
   void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
@@ -129,6 +138,17 @@ class CudaBackend final : public Backend {
   }
 
  private:
+  void require_code() const {
+    const cudaError_t error = find_code();
+    if (error == cudaErrorMemoryAllocation) check_cuda(error, "loading the kernels");
+    if (error == cudaSuccess) return;
+    (void)cudaGetLastError();
+    throw DeviceError(fmt::format(
+        "{} (compute capability {}.{}): this build holds no code that runs there ({}); rebuild with "
+        "-DCMAKE_CUDA_ARCHITECTURES={}{}, or use --device cpu",
+        name_, properties_.major, properties_.minor, cudaGetErrorName(error), properties_.major, properties_.minor));
+  }
+
   /// `bits`: the words of `part` on the host, contiguous.
   void voxelize_part(std::span<const FixedTriangle> triangles, const VoxelBox& part, std::size_t words,
                      std::uint64_t* bits) {
@@ -143,8 +163,22 @@ class CudaBackend final : public Backend {
     staging_.download_bits(bits, out_.data(), words);
   }
 
-  /// Once more, with room for all, if there are more crossings than were expected.
-  void find_batch(std::span<const FixedTriangle> triangles, const VoxelBox& tile, std::vector<Crossing>& out) {
+  /// In halves where the crossings are too many for the device, or for one batch.
+  void find_in_batch(std::span<const FixedTriangle> triangles, const VoxelBox& tile, std::vector<Crossing>& out) {
+    try {
+      if (find_at_once(triangles, tile, out)) return;
+    } catch (const OutOfDeviceMemory&) {
+      if (triangles.size() == 1) throw;
+      make_room();
+    }
+    const std::size_t half = triangles.size() / 2;
+    find_in_batch(triangles.first(half), tile, out);
+    find_in_batch(triangles.subspan(half), tile, out);
+  }
+
+  /// Once more, with room for all, if there are more crossings than were expected. False, and nothing done, if they
+  /// are too many for several triangles.
+  bool find_at_once(std::span<const FixedTriangle> triangles, const VoxelBox& tile, std::vector<Crossing>& out) {
     staging_.upload(triangles_.grow(triangles.size()), triangles.data(), triangles.size_bytes());
     std::uint32_t capacity = kCrossingBatch, found = 0;
     for (;;) {
@@ -152,11 +186,26 @@ class CudaBackend final : public Backend {
                     count_.grow(1), stream_.get());
       staging_.download(&found, count_.data(), sizeof(found));
       if (found <= capacity) break;
+      if (found > kMostCrossings && triangles.size() > 1) return false;
       capacity = found;
     }
     const std::size_t old = out.size();
     out.resize(old + found);
     staging_.download(out.data() + old, crossings_.data(), found * sizeof(Crossing));
+    return true;
+  }
+
+  /// `numbers` and `bits` are untouched if this throws OutOfDeviceMemory.
+  void fill_on_device(const std::vector<Crossing>& crossings, std::span<const std::uint64_t> skip,
+                      std::span<std::int32_t> numbers, BitBox& bits) {
+    staging_.upload(crossings_.grow(crossings.size()), crossings.data(), crossings.size() * sizeof(Crossing));
+    staging_.upload(numbers_.grow(numbers.size()), numbers.data(), numbers.size_bytes());
+    if (!skip.empty()) staging_.upload(skip_.grow(2 * skip.size()), skip.data(), skip.size_bytes());
+    out_.grow(2 * std::size_t(bits.word_count()));
+    winding_.fill(crossings_.data(), std::uint32_t(crossings.size()), bits.box(), skip.empty() ? nullptr : skip_.data(),
+                  numbers_.data(), out_.data(), stream_.get());
+    staging_.download_bits(bits.data(), out_.data(), std::size_t(bits.word_count()));
+    staging_.download(numbers.data(), numbers_.data(), numbers.size_bytes());
   }
 
   void close_at_once(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
@@ -166,12 +215,14 @@ class CudaBackend final : public Backend {
     in_.grow(words_in);
     out_.grow(words_out);
     staging_.upload(in_.data(), solid.data(), words_in * 4);
-    if (!scale.constant()) {
-      samples_.grow(scale.samples.size());
-      staging_.upload(samples_.data(), scale.samples.data(), scale.samples.size() * sizeof(Scale));
-    }
+    upload_samples(scale);
     closing_.enqueue(layout, in_.data(), scale, samples_.data(), params.element, out_.data(), stream_.get());
     staging_.download(closed.data(), out_.data(), words_out * 4);
+  }
+
+  void upload_samples(const ScaleLattice& scale) {
+    if (scale.constant()) return;
+    staging_.upload(samples_.grow(scale.samples.size()), scale.samples.data(), scale.samples.size() * sizeof(Scale));
   }
 
   static bool whole_bricks(const VoxelBox& box) { return !box.empty() && voxels_of(bricks_of(box)) == box; }
@@ -183,10 +234,7 @@ class CudaBackend final : public Backend {
     if (seen.empty()) return closed.reset(interior);
     const TileLayout layout = lay_out(voxels_of(seen), scale, halo, interior);
     const BrickTable in = upload_bricks(solid, seen, layout.solid);
-    if (!scale.constant()) {
-      samples_.grow(scale.samples.size());
-      staging_.upload(samples_.data(), scale.samples.data(), scale.samples.size() * sizeof(Scale));
-    }
+    upload_samples(scale);
     const std::size_t n = volume(made);
     BrickTable out = table_of(made, layout.closed);
     out.bits = reinterpret_cast<std::uint64_t*>(out_.grow(n * kBrickWords * 2));
@@ -263,14 +311,17 @@ class CudaBackend final : public Backend {
     }
   }
 
-  /// Gives back the memory of tiles.
+  /// Gives back all device memory.
   void make_room() {
     BP_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
     closing_.release();
     voxelizer_.release();
     winding_.release();
-    in_.release();
-    out_.release();
+    for (auto* b : {&in_, &out_, &in_slots_, &out_slots_, &skip_, &count_}) b->release();
+    samples_.release();
+    triangles_.release();
+    crossings_.release();
+    numbers_.release();
   }
 
   /// The longest axis along which a tile holds two units that may be closed apart; -1 if there is none.
@@ -290,9 +341,8 @@ class CudaBackend final : public Backend {
     VoxelBox lower = interior, upper = interior;
     const int axis = longest_divisible_axis(interior);
     if (axis < 0) {
-      fail(ErrorCode::out_of_resource,
-           "{}: not enough device memory for a tile of {} x {} x {} voxels; use --device cpu", name_, interior.size().x,
-           interior.size().y, interior.size().z);
+      throw DeviceError(fmt::format("{}: not enough device memory for a tile of {} x {} x {} voxels; use --device cpu",
+                                    name_, interior.size().x, interior.size().y, interior.size().z));
     }
     const std::int32_t unit = axis == 0 ? kBrickEdge : kUnit;  // whole words along x
     lower.max[axis] = upper.min[axis] = floor_div(interior.min[axis] + (interior.size()[axis] + unit) / 2, unit) * unit;
@@ -322,15 +372,25 @@ class CudaBackend final : public Backend {
 }  // namespace
 
 std::vector<CudaDevice> cuda_devices() {
-  int count = 0;
-  if (cudaGetDeviceCount(&count) != cudaSuccess) {
+  int count = 0, driver = 0;
+  const cudaError_t error = cudaGetDeviceCount(&count);
+  if (error == cudaErrorInsufficientDriver) {  // also said where there is none
+    (void)cudaGetLastError();
+    if (cudaDriverGetVersion(&driver) != cudaSuccess || driver == 0) return {};
+    throw DeviceError(
+        fmt::format("GPU: the driver is for CUDA {}.{}, older than this build needs; update it, or use "
+                    "--device cpu",
+                    driver / 1000, driver % 1000 / 10));
+  }
+  if (error == cudaErrorNoDevice) {
     (void)cudaGetLastError();
     return {};
   }
+  check_cuda(error, "cudaGetDeviceCount");
   std::vector<CudaDevice> devices;
   for (int i = 0; i < count; ++i) {
     const cudaDeviceProp p = properties(i);
-    devices.push_back({i, p.name, p.totalGlobalMem, p.multiProcessorCount});
+    devices.push_back({i, p.name, p.multiProcessorCount});
   }
   return devices;
 }

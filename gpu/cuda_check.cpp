@@ -16,29 +16,33 @@ bool debug_sync() {
   return on;
 }
 
+std::string current_device() {
+  int device = 0;
+  return cudaGetDevice(&device) == cudaSuccess ? fmt::format("cuda:{}", device) : "GPU";
+}
+
 }  // namespace
 
 void check_cuda(cudaError_t error, const char* what) {
   if (error == cudaSuccess) return;
   (void)cudaGetLastError();  // an error that is not sticky must not show up in the next call
+  const std::string device = current_device();
   if (error == cudaErrorMemoryAllocation) {
     throw OutOfDeviceMemory(fmt::format(
-        "GPU: out of device memory in {}; use smaller tiles, fewer tools on this GPU, or --device cpu", what));
+        "{}: out of device memory in {}; use smaller tiles, fewer tools on this GPU, or --device cpu", device, what));
   }
-#ifndef BP_EMULATED_CUDA
-  if (error == cudaErrorInsufficientDriver) {
-    fail(ErrorCode::out_of_resource, "GPU: the driver is older than this build needs; update it, or use --device cpu");
-  }
-  if (error == cudaErrorNoDevice || error == cudaErrorInvalidDevice) {
-    fail(ErrorCode::out_of_resource, "GPU: no such device; use --device cpu");
-  }
-  if (error == cudaErrorNoKernelImageForDevice) {
-    fail(ErrorCode::out_of_resource, "GPU: this build holds no code for this GPU; use --device cpu");
-  }
-#endif
-  fail(ErrorCode::out_of_resource,
-       "GPU: {} failed: {} ({}); rerun with BP_DEBUG_SYNC=1 to name the kernel, or use --device cpu", what,
-       cudaGetErrorString(error), cudaGetErrorName(error));
+  throw DeviceError(
+      fmt::format("{}: {} failed: {} ({}); rerun with BP_DEBUG_SYNC=1 to name the kernel, or use --device cpu", device,
+                  what, cudaGetErrorString(error), cudaGetErrorName(error)));
+}
+
+void check_pinned(cudaError_t error, std::size_t bytes) {
+  if (error != cudaErrorMemoryAllocation) return check_cuda(error, "cudaMallocHost");
+  (void)cudaGetLastError();
+  throw DeviceError(
+      fmt::format("{}: {} MiB of page-locked host memory cannot be had; raise the limit of this container or of "
+                  "ulimit -l, or use --device cpu",
+                  current_device(), bytes >> 20));
 }
 
 void check_launch(cudaError_t error, const char* kernel, cudaStream_t stream) {

@@ -39,7 +39,8 @@ class DeviceBuffer {
   std::size_t capacity_ = 0;
 };
 
-/// Page-locked host memory, for copies that run beside kernels.
+/// Page-locked host memory, for copies that run beside kernels. Too little of it is no OutOfDeviceMemory: smaller tiles
+/// do not help.
 template <class T>
 class PinnedBuffer {
  public:
@@ -54,7 +55,7 @@ class PinnedBuffer {
     if (count <= capacity_) return data_;
     if (data_ != nullptr) (void)cudaFreeHost(std::exchange(data_, nullptr));
     capacity_ = 0;
-    BP_CUDA_CHECK(cudaMallocHost(reinterpret_cast<void**>(&data_), count * sizeof(T)));
+    check_pinned(cudaMallocHost(reinterpret_cast<void**>(&data_), count * sizeof(T)), count * sizeof(T));
     capacity_ = count;
     return data_;
   }

@@ -233,12 +233,6 @@ void DeviceClosing::transform(const TileLayout& layout, const ScaleView& view, c
   }
 }
 
-std::size_t DeviceClosing::bytes() const {
-  return solid_.bytes() + tables_.bytes() + dilated_.bytes() + contour_.bytes() + closed_.bytes() + flags_.bytes() +
-         answers_.bytes() + cells_.bytes() + w_of_cells_.bytes() + values_.bytes() + pass_flags_.bytes() +
-         columns_.bytes() + lists_.bytes() + counts_.bytes();
-}
-
 void DeviceClosing::release() {
   for (auto* b : {&solid_, &tables_, &dilated_, &contour_, &closed_, &flags_, &answers_, &lists_}) b->release();
   w_of_cells_.release();

@@ -45,8 +45,7 @@ class DeviceClosing {
   void enqueue(const TileLayout& layout, const BrickTable& solid, const ScaleLattice& scale, const Scale* samples,
                StructuringElement element, const BrickTable& closed, std::uint32_t* count, cudaStream_t stream);
 
-  /// Device memory held, bytes.
-  [[nodiscard]] std::size_t bytes() const;
+  /// Gives back all device memory.
   void release();
 
  private:

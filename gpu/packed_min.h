@@ -11,7 +11,9 @@ namespace bp {
 /// 16 bits each: while squared bounds stay below kLimit. One instruction a step on Hopper (DPX), a few elsewhere.
 struct Packed16 {
   std::uint32_t v;
-  static constexpr std::uint32_t kFar = 0x7fff;  ///< farther than any bound; kFar + (160 + 15)^2 still fits 16 bits
+  /// Farther than any bound. No step is longer (square() cuts it; between cells in reach it is at most 167^2), and
+  /// kFar + kFar still fits 16 bits.
+  static constexpr std::uint32_t kFar = 0x7fff;
   static constexpr std::uint32_t kLimit = 160u * 160u;  ///< bounds up to here
 
   __device__ static Packed16 far_away() { return {kFar | kFar << 16}; }

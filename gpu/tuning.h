@@ -16,12 +16,18 @@ constexpr int kFewSeeds = 12;
 
 /// Memory for the distances of a slab of a tile; wider domains go in several slabs.
 constexpr std::size_t kSlabBytes = std::size_t(3) << 29;
+constexpr std::size_t kSlabShare = 32;  ///< of all device memory, at most: several backends share a device
 /// Bits voxelized at a time; taller boxes go in several parts.
 constexpr std::size_t kVoxelizeBytes = std::size_t(512) << 20;
 /// Triangles on the device at a time.
 constexpr std::size_t kTriangleBatch = std::size_t(1) << 18;
 /// Crossings for which there is room at first; a batch of triangles that has more is gone through twice.
 constexpr std::uint32_t kCrossingBatch = 1u << 20;
+/// Crossings on the device at a time (256 MiB); a batch of triangles that has more is halved, a tile that has more is
+/// filled on the host.
+constexpr std::uint32_t kMostCrossings = 1u << 26;
+/// Kernels count crossings in 32 bits.
+constexpr std::uint64_t kCountedCrossings = 0xffffffffu;
 /// Page-locked block for copies; two per backend.
 constexpr std::size_t kStagingBytes = std::size_t(4) << 20;
 

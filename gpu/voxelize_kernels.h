@@ -18,7 +18,6 @@ class DeviceVoxelizer {
   /// BitBox of `box` (whole words of 64 voxels). No synchronisation; scratch grows with `count`.
   void enqueue(const FixedTriangle* triangles, std::uint32_t count, const VoxelBox& box, std::uint32_t* bits,
                cudaStream_t stream);
-  [[nodiscard]] std::size_t bytes() const { return lists_.bytes() + counts_.bytes(); }
   void release();
 
  private:

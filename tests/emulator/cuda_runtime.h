@@ -229,9 +229,22 @@ T __ldg(const T* p) {
 enum cudaError_t {
   cudaSuccess = 0,
   cudaErrorMemoryAllocation = 2,
+  cudaErrorInsufficientDriver = 35,
   cudaErrorNoDevice = 100,
+  cudaErrorInvalidDevice = 101,
+  cudaErrorNoKernelImageForDevice = 209,
   cudaErrorLaunchFailure = 719
 };
+
+namespace emulator {
+/// What the runtime answers from now on instead of cudaSuccess: for tests of what happens then.
+struct Faults {
+  cudaError_t device_count = cudaSuccess, code = cudaSuccess, launch = cudaSuccess, page_locked = cudaSuccess;
+  int driver_version = 13000;  ///< 0: there is no driver
+};
+inline Faults faults;
+}  // namespace emulator
+
 enum cudaMemcpyKind { cudaMemcpyHostToDevice, cudaMemcpyDeviceToHost, cudaMemcpyDeviceToDevice, cudaMemcpyDefault };
 using cudaStream_t = struct emulated_stream*;
 using cudaEvent_t = struct emulated_event*;
@@ -267,11 +280,19 @@ inline cudaError_t cudaMemsetAsync(void* to, int v, std::size_t n, cudaStream_t)
   return cudaSuccess;
 }
 inline cudaError_t cudaGetDeviceCount(int* n) {
-  *n = 1;
+  *n = emulator::faults.device_count == cudaSuccess ? 1 : 0;
+  return emulator::faults.device_count;
+}
+inline cudaError_t cudaDriverGetVersion(int* version) {
+  *version = emulator::faults.driver_version;
   return cudaSuccess;
 }
 inline cudaError_t cudaSetDevice(int device) {
-  return device == 0 ? cudaSuccess : cudaErrorNoDevice;
+  return device == 0 ? cudaSuccess : cudaErrorInvalidDevice;
+}
+inline cudaError_t cudaGetDevice(int* device) {
+  *device = 0;
+  return cudaSuccess;
 }
 inline cudaError_t cudaStreamCreateWithFlags(cudaStream_t* s, unsigned) {
   *s = nullptr;
@@ -309,11 +330,32 @@ inline cudaError_t cudaGetLastError() {
 inline cudaError_t cudaPeekAtLastError() {
   return cudaSuccess;
 }
-inline const char* cudaGetErrorString(cudaError_t e) {
-  return e == cudaSuccess ? "no error" : e == cudaErrorMemoryAllocation ? "out of memory" : "no such device";
-}
 inline const char* cudaGetErrorName(cudaError_t e) {
-  return e == cudaErrorMemoryAllocation ? "cudaErrorMemoryAllocation" : "cudaErrorNoDevice";
+  switch (e) {
+    case cudaSuccess:
+      return "cudaSuccess";
+    case cudaErrorMemoryAllocation:
+      return "cudaErrorMemoryAllocation";
+    case cudaErrorInsufficientDriver:
+      return "cudaErrorInsufficientDriver";
+    case cudaErrorNoDevice:
+      return "cudaErrorNoDevice";
+    case cudaErrorInvalidDevice:
+      return "cudaErrorInvalidDevice";
+    case cudaErrorNoKernelImageForDevice:
+      return "cudaErrorNoKernelImageForDevice";
+    case cudaErrorLaunchFailure:
+      return "cudaErrorLaunchFailure";
+  }
+  return "unknown";
+}
+inline const char* cudaGetErrorString(cudaError_t e) {
+  return cudaGetErrorName(e);
+}
+struct cudaFuncAttributes {};
+template <class... P>
+cudaError_t cudaFuncGetAttributes(cudaFuncAttributes*, void (*)(P...)) {
+  return emulator::faults.code;
 }
 template <class... P>
 cudaError_t cudaFuncSetAttribute(void (*)(P...), int, int) {
@@ -326,6 +368,7 @@ cudaError_t cudaOccupancyMaxActiveBlocksPerMultiprocessor(int* n, void (*)(P...)
 }
 template <class... P, class... A>
 cudaError_t cudaLaunchKernelEx(const cudaLaunchConfig_t* c, void (*kernel)(P...), A&&... args) {
+  if (emulator::faults.launch != cudaSuccess) return emulator::faults.launch;
   std::tuple<P...> values(std::forward<A>(args)...);
   emulator::run(c->gridDim, c->blockDim, c->dynamicSmemBytes, [&] { std::apply(kernel, values); });
   return cudaSuccess;

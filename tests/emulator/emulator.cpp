@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <mutex>
 #include <unordered_map>
 #include <vector>
 
@@ -102,6 +103,7 @@ struct Device {
   std::unordered_map<void*, std::size_t> sizes;
 };
 Device g;
+std::mutex mutex;  // several threads of the host may use the device, one at a time
 
 [[noreturn]] void die(const char* what) {
   std::fprintf(stderr, "emulated device: %s (block %u, thread %u)\n", what, blockIdx.x, g.current);
@@ -204,6 +206,7 @@ void* dynamic_shared() {
 }
 
 void run(dim3 grid, dim3 block, std::size_t shared_bytes, const std::function<void()>& thread) {
+  const std::lock_guard lock(mutex);
   const unsigned n = block.x * block.y * block.z;
   while (g.fibers.size() < n) g.fibers.push_back(std::make_unique<Fiber>());
   g.warps.resize((n + 31) / 32);
@@ -244,6 +247,7 @@ std::size_t memory_in_use() {
 using emulator::g;
 
 cudaError_t cudaMalloc(void** p, std::size_t bytes) {
+  const std::lock_guard lock(emulator::mutex);
   if (g.used + bytes > g.limit) return cudaErrorMemoryAllocation;
   *p = std::malloc(bytes);
   std::memset(*p, 0xcd, bytes);  // poison
@@ -252,6 +256,7 @@ cudaError_t cudaMalloc(void** p, std::size_t bytes) {
   return cudaSuccess;
 }
 cudaError_t cudaFree(void* p) {
+  const std::lock_guard lock(emulator::mutex);
   if (p) {
     g.used -= g.sizes[p];
     g.sizes.erase(p);
@@ -260,6 +265,7 @@ cudaError_t cudaFree(void* p) {
   return cudaSuccess;
 }
 cudaError_t cudaMallocHost(void** p, std::size_t bytes) {
+  if (emulator::faults.page_locked != cudaSuccess) return emulator::faults.page_locked;
   *p = std::malloc(bytes);
   return cudaSuccess;
 }
