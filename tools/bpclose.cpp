@@ -44,6 +44,8 @@ Options parse(bp::Args& args) {
       "--inner", o.inner,
       "open instead of close: parts narrower than the scale disappear, nothing is added; for bpmesh --mode inside, "
       "of a stream of bpvox --fill inside");
+  o.common.device_text =
+      "auto, cpu, cuda (every GPU) or cuda:0,1 (default: auto, one GPU where the work is worth its start, or the CPU)";
   o.common.add_to(args);
   args.parse();
   if (!o.scale && o.field.empty()) fail(ErrorCode::bad_argument, "give a --scale or a --field");
@@ -71,9 +73,9 @@ bp::OptionText option_text(const Options& o, const bp::ScaleField& field) {
   return text;
 }
 
-/// How --memory is shared out: the program and the stream's batches, the shelves, the tiles at work.
-bp::CloseOptions stage_options(const Options& o, bp::Progress& progress) {
-  const std::uint64_t fixed = std::uint64_t(96) << 20, memory = o.common.memory_bytes;
+/// How --memory is shared out: the program, the stream's batches and `pinned` memory, the shelves, the tiles at work.
+bp::CloseOptions stage_options(const Options& o, std::uint64_t pinned, bp::Progress& progress) {
+  const std::uint64_t fixed = (std::uint64_t(96) << 20) + pinned, memory = o.common.memory_bytes;
   const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
   bp::CloseOptions options;
   options.tile_vox = o.tile_vox;
@@ -136,12 +138,13 @@ void run(const Options& o) {
   check_fill(o, source.header());
   const bp::ScaleField field = scale_field(o, source.header());
   for (const std::string& text : bp::scale_notes(field, source.header())) report.note(text, o.common);
-  bp::Backends backends = bp::make_backends(o.common, core_seconds(source.header(), field));
+  bp::Backends backends = bp::make_backends(o.common, core_seconds(source.header(), field), &report);
   bp::BrickWriter sink(*output, closed_header(o, source.header(), field));
 
   report.stage("close");
   const auto close = o.inner ? open_stream : bp::close_stream;
-  const bp::CloseCounts counts = close(source, sink, backends, field, o.closing, stage_options(o, progress));
+  const bp::CloseCounts counts =
+      close(source, sink, backends, field, o.closing, stage_options(o, bp::pinned_bytes(backends), progress));
   sink.finish();
   output->commit();
 
@@ -149,7 +152,7 @@ void run(const Options& o) {
   report.options["memory"] = o.common.memory_bytes;
   report.bytes_in = source.totals().bytes;
   report.bytes_out = output->bytes();
-  report.counts = {{"backend", backends.front()->name()},
+  report.counts = {{"backends", bp::names_of(backends)},
                    {"tile_vox", counts.tile_vox},
                    {"tiles", counts.tiles},
                    {"tiles_closed", counts.tiles_closed},

@@ -1,6 +1,7 @@
 // bpvox: scenes in, a stream of solid bricks out. Manual: docs/bpvox.1.md
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -157,10 +158,11 @@ void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& h
 }
 
 void run(const Options& o) {
-  const bp::VoxelizeBudget budget(o.common.memory_bytes);
   bp::Report report("bpvox");
   bp::Progress progress("bpvox", o.common.progress);
   bp::Backends backends = bp::make_backends(o.common, 0);  // reading takes far longer than voxelizing
+  const std::uint64_t pinned = std::min(bp::pinned_bytes(backends), o.common.memory_bytes / 2);
+  const bp::VoxelizeBudget budget(o.common.memory_bytes - pinned);
   const auto source = bp::open_scenes(o.scenes, {o.format, budget.reader, o.common.temp});
   const auto file = bp::open_output(o.out, o.common.overwrite);
   std::optional<bp::BrickWriter> writer;
@@ -177,6 +179,7 @@ void run(const Options& o) {
   file->commit();
   progress.end();
   report.bytes_out = file->bytes();
+  report.counts["backends"] = bp::names_of(backends);
   fill_report(report, o, header, counts);
   report.write(o.common);
   if (const std::string text = skipped(counts.scene); !text.empty())

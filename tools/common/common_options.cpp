@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -49,7 +50,10 @@ DeviceChoice parse_device(const std::string& text) {
   if (text.rfind("cuda:", 0) != 0) fail(ErrorCode::bad_argument, "'{}' is none of auto, cpu, cuda, cuda:0,1", text);
   for (std::size_t begin = 5; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
-    choice.ids.push_back(int(parse_integer(std::string_view(text).substr(begin, end - begin), 0, 1023)));
+    const int id = int(parse_integer(std::string_view(text).substr(begin, end - begin), 0, 1023));
+    if (std::find(choice.ids.begin(), choice.ids.end(), id) != choice.ids.end())
+      fail(ErrorCode::bad_argument, "'{}' names GPU {} twice", text, id);
+    choice.ids.push_back(id);
     begin = end + 1;
   }
   return choice;
@@ -70,8 +74,7 @@ void CommonOptions::add_to(Args& args, unsigned parts) {
   }
   if (parts & device_part) {
     args.option(
-        "--device", "DEVICE", [this](const std::string& t) { device = parse_device(t); },
-        "auto, cpu, cuda or cuda:0,1 (default: auto, a GPU where one is there and worth it)");
+        "--device", "DEVICE", [this](const std::string& t) { device = parse_device(t); }, device_text);
   }
   if (parts & progress_part) {
     args.flag_with_word(

@@ -14,7 +14,7 @@ namespace bp {
 struct DeviceChoice {
   enum class Kind { automatic, cpu, cuda };
   Kind kind = Kind::automatic;
-  std::vector<int> ids;  ///< of --device cuda:0,1; empty: all
+  std::vector<int> ids;  ///< of --device cuda:0,1, each once; empty: all
   friend bool operator==(const DeviceChoice&, const DeviceChoice&) = default;
 };
 /// `auto`, `cpu`, `cuda`, `cuda:0,1`. Throws bad_argument.
@@ -36,6 +36,8 @@ struct CommonOptions {
   std::uint64_t memory_bytes = 0;  ///< peak resident memory to keep below; prepare() replaces 0 by the default
   std::string temp;                ///< directory for scratch; prepare() replaces "" by $TMPDIR or /tmp
   DeviceChoice device;
+  /// What --help says of it; a tool for which auto may mean a GPU says so.
+  const char* device_text = "auto, cpu, cuda (every GPU) or cuda:0,1 (default: auto, the CPU: reading takes longest)";
   ProgressMode progress = ProgressMode::automatic;
   std::string report;  ///< file name; empty: none
   bool overwrite = false;

@@ -1,9 +1,14 @@
 #include "tools/common/make_backend.h"
 
-#include <cstdio>
+#include <algorithm>
 #include <cstdlib>
+#include <mutex>
+#include <numeric>
+#include <optional>
 
 #include "lib/backend/cpu_backend.h"
+#include "lib/backend/device_error.h"
+#include "lib/backend/fallback_backend.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #ifdef BP_HAVE_CUDA
@@ -19,7 +24,11 @@ using Kind = DeviceChoice::Kind;
 DeviceChoice resolve(DeviceChoice choice) {
   const char* forced = std::getenv("BP_BACKEND");
   if (choice.kind != Kind::automatic || forced == nullptr || *forced == '\0') return choice;
-  return parse_device(forced);
+  try {
+    return parse_device(forced);
+  } catch (const Error& e) {
+    fail(e.code(), "BP_BACKEND in the environment: {}", e.what());
+  }
 }
 
 Backends make_cpu_backends() {
@@ -32,37 +41,68 @@ Backends make_cpu_backends() {
 constexpr double kGpuStartSeconds = 0.25;  ///< of the driver, about
 constexpr int kBackendsPerGpu = 8;         ///< some gather and scatter bricks while others copy and compute
 
-std::vector<int> devices_of(const DeviceChoice& choice) {
-  if (!choice.ids.empty()) return choice.ids;
-  std::vector<int> ids;
-  for (const CudaDevice& device : cuda_devices()) ids.push_back(device.index);
-  if (ids.empty() && choice.kind == Kind::cuda)
-    fail(ErrorCode::out_of_resource, "--device cuda: no usable GPU was found; check the driver, or use --device cpu");
-  return ids;
-}
-
-/// Empty if there is no GPU and none was asked for. Neighbours are of different GPUs.
-Backends make_gpu_backends(const DeviceChoice& choice) {
+/// Neighbours are of different GPUs.
+Backends make_backends_on(const std::vector<int>& devices) {
   Backends backends;
-  const std::vector<int> devices = devices_of(choice);
   for (int i = 0; i < kBackendsPerGpu; ++i) {
     for (const int device : devices) backends.push_back(make_cuda_backend(device));
   }
   return backends;
 }
 
-/// What auto means: a GPU if the cores would take longer than it takes to start; without one that works, the CPU.
-Backends make_gpu_backends_if_worth(const DeviceChoice& choice, double core_seconds) {
-  if (core_seconds / thread_count() < kGpuStartSeconds) return {};
-  try {
-    return make_gpu_backends(choice);
-  } catch (const Error& e) {
-    fmt::print(stderr, "warning: {}; the CPU is used\n", e.what());
-    return {};
+std::string list_of(const std::vector<CudaDevice>& devices) {
+  std::string text;
+  for (const CudaDevice& d : devices) text += fmt::format("{}cuda:{} ({})", text.empty() ? "" : ", ", d.index, d.name);
+  return text;
+}
+
+/// --device cuda
+Backends make_gpu_backends(const DeviceChoice& choice) {
+  const std::vector<CudaDevice> there = cuda_devices();
+  if (there.empty())
+    fail(ErrorCode::out_of_resource, "--device cuda: no GPU was found; check the driver, or use --device cpu");
+  std::vector<int> ids = choice.ids;
+  for (const int id : ids) {
+    if (id >= int(there.size()))
+      fail(ErrorCode::out_of_resource, "--device cuda:{}: no such GPU; here are {}", id, list_of(there));
   }
+  if (ids.empty()) {
+    for (const CudaDevice& device : there) ids.push_back(device.index);
+  }
+  return make_backends_on(ids);
+}
+
+/// The first GPU that works; empty if there is none. Throws DeviceError, that of the first, if none of several works.
+Backends make_on_first_gpu() {
+  std::optional<DeviceError> first;
+  for (const CudaDevice& device : cuda_devices()) {
+    try {
+      return make_backends_on({device.index});
+    } catch (const DeviceError& e) {
+      if (!first) first = e;
+    }
+  }
+  if (first) throw DeviceError(*first);
+  return {};
+}
+
+/// --device auto: a GPU if the cores would take longer than it takes to start. Empty if there is none that works.
+Backends make_gpu_backends_if_worth(const CommonOptions& common, double core_seconds, Report* report) {
+  if (report == nullptr || core_seconds / thread_count() < kGpuStartSeconds) return {};
+  Backends backends;
+  try {
+    backends = make_on_first_gpu();
+  } catch (const DeviceError& e) {
+    report->note(fmt::format("{}; the CPU is used", e.what()), common);
+  }
+  const auto warn = [report, &common, said = std::make_shared<std::once_flag>()](const std::string& what) {
+    std::call_once(*said, [&] { report->note(fmt::format("{}; the CPU takes over", what), common); });
+  };
+  for (auto& backend : backends) backend = std::make_unique<FallbackBackend>(std::move(backend), warn);
+  return backends;
 }
 #else
-Backends make_gpu_backends_if_worth(const DeviceChoice&, double) {
+Backends make_gpu_backends_if_worth(const CommonOptions&, double, Report*) {
   return {};
 }
 Backends make_gpu_backends(const DeviceChoice&) {
@@ -73,12 +113,26 @@ Backends make_gpu_backends(const DeviceChoice&) {
 
 }  // namespace
 
-Backends make_backends(const CommonOptions& common, double core_seconds) {
+Backends make_backends(const CommonOptions& common, double core_seconds, Report* report) {
   const DeviceChoice choice = resolve(common.device);
   Backends backends;
   if (choice.kind == Kind::cuda) backends = make_gpu_backends(choice);
-  if (choice.kind == Kind::automatic) backends = make_gpu_backends_if_worth(choice, core_seconds);
+  if (choice.kind == Kind::automatic) backends = make_gpu_backends_if_worth(common, core_seconds, report);
   return backends.empty() ? make_cpu_backends() : std::move(backends);
+}
+
+std::vector<std::string> names_of(const Backends& backends) {
+  std::vector<std::string> names;
+  for (const auto& backend : backends) {
+    const std::string name = backend->name();
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+std::uint64_t pinned_bytes(const Backends& backends) {
+  return std::accumulate(backends.begin(), backends.end(), std::uint64_t(0),
+                         [](std::uint64_t sum, const auto& backend) { return sum + backend->pinned_bytes(); });
 }
 
 }  // namespace bp

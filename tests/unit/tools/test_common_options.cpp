@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -28,7 +29,8 @@ TEST_CASE("devices are auto, cpu, cuda or a list", "[quick][tools]") {
   CHECK(parse_device("cpu").kind == Kind::cpu);
   CHECK(parse_device("cuda") == DeviceChoice{Kind::cuda, {}});
   CHECK(parse_device("cuda:0,3") == DeviceChoice{Kind::cuda, {0, 3}});
-  const std::string bad = GENERATE("", "gpu", "cuda:", "cuda:a", "cuda:0,", "cuda:-1", "CPU", "cuda:0,,1");
+  const std::string bad =
+      GENERATE("", "gpu", "cuda:", "cuda:a", "cuda:0,", "cuda:-1", "CPU", "cuda:0,,1", "cuda:0,0", "cuda:1,0,1");
   CAPTURE(bad);
   CHECK_THROWS_AS(parse_device(bad), Error);
 }
@@ -75,6 +77,20 @@ TEST_CASE("a GPU that a CPU build is asked for is a missing resource", "[quick][
     CHECK(e.code() == ErrorCode::out_of_resource);
   }
 #endif
+}
+
+TEST_CASE("a BP_BACKEND that names no device is a usage error that names the variable", "[quick][tools]") {
+  ::setenv("BP_BACKEND", "gpu", 1);
+  try {
+    (void)make_backends(parse({}), 0);
+    FAIL("no error");
+  } catch (const Error& e) {
+    CHECK(e.code() == ErrorCode::bad_argument);
+    CHECK(std::string(e.what()).find("BP_BACKEND") != std::string::npos);
+  }
+  ::setenv("BP_BACKEND", "cpu", 1);
+  CHECK(names_of(make_backends(parse({"-j2"}), 0)) == std::vector<std::string>{"cpu"});
+  ::unsetenv("BP_BACKEND");
 }
 
 TEST_CASE("the option text is canonical", "[quick][tools]") {
