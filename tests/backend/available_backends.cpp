@@ -2,38 +2,38 @@
 
 #include <cstdlib>
 
-#include "tests/catch.h"
-#if __has_include("lib/backend/cpu_backend.h")
 #include "lib/backend/cpu_backend.h"
-#endif
+#include "lib/core/error.h"
+#include "tests/catch.h"
 #ifdef BP_HAVE_CUDA
 #include "gpu/cuda_backend.h"
 #endif
 
 namespace bp {
 
-namespace {
-
-bool cuda_required() {
-  const char* v = std::getenv("BP_REQUIRE_CUDA");
-  return v != nullptr && v[0] == '1';
+std::vector<int> gpus_or_skip() {
+  std::vector<int> indices;
+  std::string why = "no GPU here";
+#ifdef BP_HAVE_CUDA
+  try {
+    for (const CudaDevice& device : cuda_devices()) indices.push_back(device.index);
+  } catch (const Error& e) {
+    why = e.what();
+  }
+#endif
+  const char* required = std::getenv("BP_REQUIRE_CUDA");
+  if (indices.empty() && required != nullptr && required[0] == '1') FAIL("BP_REQUIRE_CUDA=1, but: " << why);
+  if (indices.empty()) WARN(why << ": the GPU backend was not tested");
+  return indices;
 }
-
-}  // namespace
 
 std::vector<std::unique_ptr<Backend>> available_backends() {
   std::vector<std::unique_ptr<Backend>> backends;
-#if __has_include("lib/backend/cpu_backend.h")
   backends.push_back(std::make_unique<CpuBackend>());
-#endif
+  const std::vector<int> found = gpus_or_skip();
 #ifdef BP_HAVE_CUDA
-  if (!cuda_devices().empty()) backends.push_back(make_cuda_backend(0));
-  const bool skipped = cuda_devices().empty();
-#else
-  const bool skipped = true;
+  if (!found.empty()) backends.push_back(make_cuda_backend(found.front()));
 #endif
-  if (skipped && cuda_required()) FAIL("BP_REQUIRE_CUDA=1, but no GPU can be used here");
-  if (skipped) WARN("no GPU here: the GPU backend was not tested");
   return backends;
 }
 

@@ -1,9 +1,12 @@
-// What only an emulated device can be asked for: another order of its threads, and a memory that is too small.
+// What only an emulated device can be asked for: another order of its threads, a memory that is too small, and
+// failures.
 #include <cuda_runtime.h>
 
 #include "gpu/cuda_backend.h"
-#include "lib/core/error.h"
+#include "gpu/device_error.h"
+#include "lib/backend/fallback_backend.h"
 #include "lib/voxel/voxelize.h"
+#include "lib/voxel/winding.h"
 #include "tests/catch.h"
 #include "tests/reference/closing.h"
 #include "tests/reference/random_closing.h"
@@ -81,5 +84,102 @@ TEST_CASE("a tile that does not fit in device memory is closed or voxelized in p
                   Error);
   emulator::set_memory_limit(std::size_t(-1));
   backend->close(tile.solid, tile.scale, tile.halo, {StructuringElement::ball}, tile.interior, got);
+  CHECK(got == tile.want);
+}
+
+TEST_CASE("crossings and the fill by winding on a device with little memory are the same", "[quick][emulated]") {
+  const VoxelBox tile{{0, 0, 0}, {128, 64, 64}};
+  std::vector<FixedTriangle> triangles;
+  for (std::int64_t i = 0; i < 400; ++i) {
+    const std::int64_t z = i * 5 % 60 * kFixedOne;
+    triangles.push_back({{-kFixedOne, -kFixedOne, z}, {300 * kFixedOne, 0, z}, {0, 300 * kFixedOne, z + 7000}});
+    if (i % 2 == 0) std::swap(triangles.back().b, triangles.back().c);
+  }
+  std::vector<Crossing> want;
+  find_crossings(triangles, tile, want);
+  REQUIRE(want.size() == 400u * 128 * 64);  // more than there is room for at first
+  const auto backend = make_cuda_backend(0);
+  std::vector<Crossing> got;
+  emulator::set_memory_limit(std::size_t(5) << 20);  // a third of them
+  backend->find_crossings(triangles, tile, got);
+  CHECK(got.size() == want.size());
+  std::vector<std::int32_t> numbers(128 * 64, 0), want_numbers = numbers;
+  add_crossings(want, tile, want_numbers);
+  add_crossings(got, tile, numbers);
+  CHECK(numbers == want_numbers);
+
+  BitBox bits(tile), want_bits(tile);
+  numbers.assign(numbers.size(), 1);
+  want_numbers = numbers;
+  backend->fill_winding(got, {}, numbers, bits);  // does not fit: on the host
+  emulator::set_memory_limit(std::size_t(-1));
+  fill_winding(want, tile, {}, want_numbers, want_bits);
+  CHECK(bits == want_bits);
+  CHECK(numbers == want_numbers);
+}
+
+namespace {
+
+/// What a call says when it fails as a device does; empty if it does not fail.
+template <class Call>
+std::string device_error(const Call& call) {
+  std::string text;
+  try {
+    call();
+  } catch (const OutOfDeviceMemory&) {
+    text = "out of device memory";
+  } catch (const DeviceError& e) {
+    CHECK(exit_code(e.code()) == 4);
+    text = e.what();
+  }
+  emulator::faults = {};
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a GPU that the build has no code for is refused at once, with its name", "[quick][emulated]") {
+  emulator::faults.code = cudaErrorNoKernelImageForDevice;
+  const std::string said = device_error([] { (void)make_cuda_backend(0); });
+  CHECK(said.find("cuda:0 emulated (compute capability 9.0)") == 0);
+}
+
+TEST_CASE("no driver and no device mean no GPU; a driver that is too old or broken is told", "[quick][emulated]") {
+  emulator::faults.device_count = cudaErrorNoDevice;
+  CHECK(cuda_devices().empty());
+  emulator::faults.device_count = cudaErrorInsufficientDriver;
+  emulator::faults.driver_version = 0;
+  CHECK(cuda_devices().empty());
+  emulator::faults.driver_version = 11040;
+  CHECK(device_error([] { (void)cuda_devices(); }).find("CUDA 11.4") != std::string::npos);
+  emulator::faults.device_count = cudaErrorLaunchFailure;
+  CHECK(device_error([] { (void)cuda_devices(); }).find("cudaErrorLaunchFailure") != std::string::npos);
+  CHECK(cuda_devices().size() == 1);
+}
+
+TEST_CASE("too little page-locked memory is not out of device memory", "[quick][emulated]") {
+  const Tile tile;
+  const auto backend = make_cuda_backend(0);
+  BitBox got;
+  emulator::faults.page_locked = cudaErrorMemoryAllocation;
+  const std::string said = device_error(
+      [&] { backend->close(tile.solid, tile.scale, tile.halo, {StructuringElement::ball}, tile.interior, got); });
+  CHECK(said.find("cuda:0: 4 MiB of page-locked host memory") == 0);
+}
+
+TEST_CASE("a GPU whose launches fail says which it is, and the CPU takes over where it may", "[quick][emulated]") {
+  const Tile tile;
+  BitBox got;
+  const auto backend = make_cuda_backend(0);
+  emulator::faults.launch = cudaErrorLaunchFailure;
+  const std::string said = device_error(
+      [&] { backend->close(tile.solid, tile.scale, tile.halo, {StructuringElement::ball}, tile.interior, got); });
+  CHECK(said.find("cuda:0: ") == 0);
+  std::string warning;
+  FallbackBackend either(make_cuda_backend(0), [&](const std::string& what) { warning = what; });
+  emulator::faults.launch = cudaErrorLaunchFailure;
+  either.close(tile.solid, tile.scale, tile.halo, {StructuringElement::ball}, tile.interior, got);
+  emulator::faults = {};
+  CHECK(warning == said);
   CHECK(got == tile.want);
 }

@@ -2,6 +2,7 @@
 #include "gpu/cuda_backend.h"
 #include "gpu/device_error.h"
 #include "lib/backend/cpu_backend.h"
+#include "tests/backend/available_backends.h"
 #include "tests/backend/gpu_tile.h"
 #include "tests/catch.h"
 #include "tests/reference/closing.h"
@@ -11,12 +12,6 @@
 using namespace bp;
 
 namespace {
-
-bool no_gpu() {
-  if (!cuda_devices().empty()) return false;
-  WARN("no GPU here: skipped");
-  return true;
-}
 
 struct Case {
   ScaleLattice scale;
@@ -79,7 +74,7 @@ class FullDevice {
 
 TEST_CASE("on a device that is nearly full, tiles are closed and voxelized in parts, to the same bits",
           "[quick][gpu]") {
-  if (no_gpu()) return;
+  if (gpus_or_skip().empty()) return;
   constexpr std::size_t kLeft = std::size_t(48) << 20;
   reference::Random random{11};
   const VoxelBox interior{{0, 0, 0}, {512, 448, 448}};
@@ -132,7 +127,7 @@ TEST_CASE("what fails on a device ends tools with the code of devices, and says 
 }
 
 TEST_CASE("narrow slabs and 32-bit distances change no bit", "[quick][gpu]") {
-  if (no_gpu()) return;
+  if (gpus_or_skip().empty()) return;
   const int seed = GENERATE(range(0, 12));
   const Case c = random_case(seed, 7);
   const BitBox want = reference::close(c.solid, c.scale, c.element, c.interior);
@@ -149,7 +144,7 @@ TEST_CASE("narrow slabs and 32-bit distances change no bit", "[quick][gpu]") {
 }
 
 TEST_CASE("the paper's hierarchical collision gives the same voxels", "[quick][gpu]") {
-  if (no_gpu()) return;
+  if (gpus_or_skip().empty()) return;
   const int seed = GENERATE(range(0, 24));
   const Case c = random_case(seed, 6);
   const BitBox want = reference::close(c.solid, c.scale, c.element, c.interior);
@@ -164,7 +159,7 @@ TEST_CASE("the paper's hierarchical collision gives the same voxels", "[quick][g
 }
 
 TEST_CASE("oriented cubes close as their definition says", "[quick][gpu]") {
-  if (no_gpu()) return;
+  if (gpus_or_skip().empty()) return;
   const int seed = GENERATE(range(0, 16));
   reference::Random random{std::uint64_t(seed) + 5000};
   const Scale largest = Scale(random.between(8, 5 * kScaleOne));
@@ -187,7 +182,7 @@ TEST_CASE("oriented cubes close as their definition says", "[quick][gpu]") {
 }
 
 TEST_CASE("cubes that are not turned close like cubes", "[quick][gpu]") {
-  if (no_gpu()) return;
+  if (gpus_or_skip().empty()) return;
   Case c = random_case(3, 6);
   c.element = StructuringElement::cube;
   const BitBox want = reference::close(c.solid, c.scale, c.element, c.interior);

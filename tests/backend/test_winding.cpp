@@ -73,6 +73,20 @@ TEST_CASE("a batch with more crossings than there was room for gives all of them
   }
 }
 
+TEST_CASE("more triangles than a batch may hold in a wide tile give all crossings", "[quick][backend]") {
+  const VoxelBox tile{{0, 0, 0}, {512, 512, 8}};
+  Rng rng(5);
+  std::vector<FixedTriangle> triangles;
+  for (int i = 0; i < 20000; ++i) triangles.push_back(random_triangle(rng, tile, 90000));
+  CpuBackend cpu;
+  const std::vector<std::uint32_t> want = sorted(crossings_of(cpu, triangles, tile));
+  for (const auto& backend : available_backends()) {
+    CAPTURE(backend->name());
+    const bool equal = sorted(crossings_of(*backend, triangles, tile)) == want;
+    CHECK(equal);
+  }
+}
+
 TEST_CASE("the fill by winding sets the same voxels and leaves the same numbers on each backend", "[quick][backend]") {
   const auto backends = available_backends();
   const int seed = GENERATE(range(0, 10));

@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# Whole streams by the GPU against the CPU, byte by byte: every model through bpvox (flood, winding) and bpclose (cube and
+# ball, constant and varying scale, tiles of 64 and 256 voxels against 128 on the CPU): ten comparisons a model.
+#   tests/large/gpu_streams.sh BIN_DIR [MODELS [RESOLUTION [DEVICE [ONLY]]]]
+# BIN_DIR holds bpvox, bpclose and bpinfo. MODELS: folder of scenes ($BP_MODELS, or ../shared/models). RESOLUTION: 256. DEVICE:
+# cuda. ONLY: a part of the names of the models to take. A model that bpvox refuses on the CPU (status 3) must be refused
+# on the GPU as well. Prints a line per model that differs, and the sums; exit 1 if any does.
+set -euo pipefail
+bin=$1
+models=${2:-${BP_MODELS:-../shared/models}}
+resolution=${3:-256}
+device=${4:-cuda}
+only=${5:-}
+folder=$(mktemp -d "${TMPDIR:-/tmp}/bp-gpu-streams-XXXXXX")
+trap 'rm -rf "$folder"' EXIT
+equal=0 differ=0 refused=0 count=0
+
+# same NAME: counts whether cpu.bp and gpu.bp in $folder are equal
+same() {
+  if cmp -s "$folder/cpu.bp" "$folder/gpu.bp"; then
+    equal=$((equal + 1))
+  else
+    differ=$((differ + 1))
+    echo "DIFFERS $1"
+  fi
+  rm -f "$folder/cpu.bp" "$folder/gpu.bp"
+}
+
+# vox DEVICE FILL OUT: status of bpvox
+vox() {
+  local status=0
+  "$bin/bpvox" "$model" --resolution "$resolution" --fill "$2" --device "$1" -q --overwrite -o "$folder/$3" \
+    2> "$folder/message" || status=$?
+  return $status
+}
+
+# close DEVICE TILE OUT OPTIONS...
+close() {
+  "$bin/bpclose" "$folder/solid.bp" --device "$1" --tile "$2" -q --overwrite -o "$folder/$3" "${@:4}"
+}
+
+# field: half of the scale in one corner of the scene
+field() {
+  "$bin/bpinfo" "$folder/solid.bp" --json | python3 -c '
+import json, sys
+b = json.load(sys.stdin)["bounds"]
+low, high = b["min"], b["max"]
+size = [h - l for l, h in zip(low, high)]
+longest = max(size)
+print(json.dumps({"base": 0.03 * longest,
+                  "boxes": [{"min": low, "max": [l + s / 2 for l, s in zip(low, size)], "scale": 0.015 * longest}]}))' \
+    > "$folder/field.json"
+}
+
+for model in "$models"/*; do
+  case $model in *.md | *.tsv | *.txt) continue ;; *"$only"*) ;; *) continue ;; esac
+  [ -f "$model" ] || continue
+  name=$(basename "$model")
+  if ! vox cpu flood solid.bp; then
+    if vox "$device" flood gpu.bp; then echo "NOT REFUSED $name" && differ=$((differ + 1)); fi
+    refused=$((refused + 1))
+    continue
+  fi
+  count=$((count + 1))
+  for fill in flood winding; do
+    vox cpu $fill cpu.bp
+    vox "$device" $fill gpu.bp || cat "$folder/message"
+    same "$name bpvox $fill"
+  done
+  field
+  for element in cube ball; do
+    for scale in "--scale 3%" "--field $folder/field.json"; do
+      for tile in 64 256; do
+        # shellcheck disable=SC2086
+        close cpu 128 cpu.bp --element $element $scale || true  # no file: differs
+        # shellcheck disable=SC2086
+        close "$device" $tile gpu.bp --element $element $scale || true
+        same "$name bpclose $element ${scale%% *} tile $tile"
+      done
+    done
+  done
+done
+echo "$count models, $refused refused: $equal streams equal, $differ differ"
+[ "$differ" = 0 ] && [ "$equal" -gt 0 ]
