@@ -14,9 +14,9 @@ class StepLimits {
   virtual ~StepLimits() = default;
   /// Asked last, right before the faces `before` give way to `after`, which have the same rim. True: every bound is
   /// kept, and the step is counted as taken.
-  /// While relaxed, take() only counts.
-  virtual void relax(bool on) = 0;
   [[nodiscard]] virtual bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) = 0;
+  /// While relaxed, volume is only counted; and distance does not matter if the first surface was beyond its limit.
+  virtual void relax(bool on) = 0;
 };
 
 /// take() for a change of `mesh`; true without limits.

@@ -49,7 +49,7 @@ bool ProxyLimits::take(std::span<const LatticeTriangle> before, std::span<const 
     last_refusal_ = "volume";
     return false;
   }
-  if (!relaxed_ && bounds_.error_world > 0 && !near_enough(before, after)) {
+  if (bounds_.error_world > 0 && !near_enough(before, after)) {
     last_refusal_ = "error";
     return false;
   }
@@ -57,7 +57,8 @@ bool ProxyLimits::take(std::span<const LatticeTriangle> before, std::span<const 
   return true;
 }
 
-bool ProxyLimits::near_enough(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) const {
+bool ProxyLimits::near_enough(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) {
+  if (relaxed_ && beyond_) return true;
   double limit = bounds_.error_world;
   bool widened = false;
   for (std::size_t i = 0; i < after.size(); ++i) {
@@ -72,6 +73,7 @@ bool ProxyLimits::near_enough(std::span<const LatticeTriangle> before, std::span
     limit = std::sqrt(was);
     --i;  // once more
   }
+  beyond_ = beyond_ || widened;
   return true;
 }
 

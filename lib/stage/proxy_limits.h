@@ -28,7 +28,7 @@ class ProxyLimits final : public StepLimits {
   [[nodiscard]] const char* last_refusal() const { return last_refusal_; }
 
  private:
-  [[nodiscard]] bool near_enough(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) const;
+  [[nodiscard]] bool near_enough(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after);
   [[nodiscard]] TriangleD world(const LatticeTriangle& t) const;
 
   ProxyBounds bounds_;
@@ -36,6 +36,7 @@ class ProxyLimits final : public StepLimits {
   const TriangleBvh* enclosed_;
   int128 volume6_ = 0, limit6_ = 0;  // six times the volume, lattice units cubed
   bool relaxed_ = false;
+  bool beyond_ = false;  // faces beyond the error were allowed because they replaced others as far
   const char* last_refusal_ = "";
 };
 
