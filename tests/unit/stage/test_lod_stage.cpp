@@ -1,56 +1,15 @@
 #include <random>
 
-#include "lib/backend/cpu_backend.h"
 #include "lib/check/check_proxy.h"
 #include "lib/grid/reduce.h"
-#include "lib/grid/shelf_stream.h"
 #include "lib/stage/lod_stage.h"
 #include "lib/stage/surface_around.h"
-#include "lib/stage/voxelize_stage.h"
 #include "tests/catch.h"
-#include "tests/support/memory_scene.h"
-#include "tests/support/voxel_source.h"
+#include "tests/support/voxelized.h"
 
 namespace bp::test {
 
 namespace {
-
-class NoStore final : public ChunkStore {
- public:
-  Handle put(std::span<const std::byte>) override { fail(ErrorCode::failed, "triangles left memory"); }
-  void get(Handle, std::vector<std::byte>&) const override {}
-  void drop(Handle) override {}
-  [[nodiscard]] std::uint64_t memory_bytes() const override { return 0; }
-  [[nodiscard]] std::uint64_t scratch_bytes() const override { return 0; }
-};
-
-struct Solid3 {
-  StreamHeader header;
-  std::unique_ptr<BrickShelf> shelf = std::make_unique<MemoryShelf>();
-};
-
-Solid3 voxelized(const Triangles& scene, double voxel) {
-  Solid3 out;
-  ShelfSink sink(out.shelf.get());
-  MemorySource source(scene);
-  Backends backends = plain_backends(2);
-  VoxelizeOptions options;
-  options.voxel_size = [&](const Bounds3d&) { return voxel; };
-  options.make_shelf = memory_shelves();
-  options.make_store = [] { return std::make_unique<NoStore>(); };
-  const auto open = [&](const StreamHeader& h, const VoxelizeCounts&) -> BrickSink& {
-    out.header = h;
-    return sink;
-  };
-  voxelize_stream(source, open, backends, options);
-  return out;
-}
-
-Backends cpu_backends() {
-  Backends all;
-  for (int i = 0; i < 2; ++i) all.push_back(std::make_unique<CpuBackend>());
-  return all;
-}
 
 LodOptions lod_options() {
   LodOptions options;
@@ -98,8 +57,8 @@ TEST_CASE("each level of a chain encloses the scene, on coarser voxels", "[quick
   Triangles scene;
   add_sphere(scene, {3, 4, 5}, 40, 24);
   add_box(scene, {-30, 30, -10}, {-10, 70, 10});
-  Backends backends = cpu_backends();
-  Solid3 solid = voxelized(scene, 1);
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 1);
   LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
   CHECK(chain.longest_side_vox() > 80);
   int reductions = -1;
@@ -120,8 +79,8 @@ TEST_CASE("each level of a chain encloses the scene, on coarser voxels", "[quick
 
 TEST_CASE("a budget below what the parts need is met by closing them together", "[quick][stage][lod]") {
   const Triangles scene = boxes();
-  Backends backends = cpu_backends();
-  Solid3 solid = voxelized(scene, 0.5);
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 0.5);
   LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
   const LodLevel level = chain.make({40, 0, 0.5});  // 18 parts need 72
   CHECK(level.reached);
@@ -133,8 +92,8 @@ TEST_CASE("a budget below what the parts need is met by closing them together", 
 
 TEST_CASE("a budget that nothing meets is reported, and what there is encloses", "[quick][stage][lod]") {
   const Triangles scene = boxes();
-  Backends backends = cpu_backends();
-  Solid3 solid = voxelized(scene, 1);
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 1);
   LodOptions options = lod_options();
   options.max_attempts = 2;
   LodChain chain(solid.header, std::move(solid.shelf), backends, options);
@@ -147,8 +106,8 @@ TEST_CASE("a budget that nothing meets is reported, and what there is encloses",
 TEST_CASE("the measured error bounds the distance both ways, and not by far", "[quick][stage][lod]") {
   const Triangles scene = boxes();
   const double voxel = 0.5;
-  Backends backends = cpu_backends();
-  Solid3 solid = voxelized(scene, voxel);
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, voxel);
   LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
   for (const LodTarget& target : {LodTarget{0, 5, {}}, LodTarget{300, 0, 1.5}, LodTarget{60, 0, 4.0}}) {
     const LodLevel level = chain.make(target);
@@ -164,13 +123,13 @@ TEST_CASE("the measured error bounds the distance both ways, and not by far", "[
 TEST_CASE("fitted levels keep their budgets and lie nearer to the scene than bounding ones", "[quick][stage][lod]") {
   Triangles scene;
   add_sphere(scene, {3, 4, 5}, 20, 24);
-  Backends backends = cpu_backends();
+  Backends backends = plain_backends(2);
   LodOptions options = lod_options();
   double error[2] = {};
   for (const bool fit : {false, true}) {
     options.mode = fit ? MeshMode::fit : MeshMode::bounding;
     if (fit) options.scene = scene;
-    Solid3 solid = voxelized(scene, 1);
+    Voxelized solid = voxelized(scene, 1);
     LodChain chain(solid.header, std::move(solid.shelf), backends, options);
     const LodLevel level = chain.make({200, 0, {}});
     CHECK(level.mesh.triangles.size() <= 200);
@@ -183,7 +142,7 @@ TEST_CASE("fitted levels keep their budgets and lie nearer to the scene than bou
 }
 
 TEST_CASE("an empty solid is refused", "[quick][stage][lod]") {
-  Backends backends = cpu_backends();
+  Backends backends = plain_backends(2);
   StreamHeader header;
   CHECK_THROWS_AS(LodChain(header, std::make_unique<MemoryShelf>(), backends, lod_options()), Error);
 }

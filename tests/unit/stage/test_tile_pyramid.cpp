@@ -1,16 +1,12 @@
 #include <map>
 
-#include "lib/backend/cpu_backend.h"
 #include "lib/check/check_proxy.h"
 #include "lib/check/tile_cover.h"
 #include "lib/core/parallel.h"
-#include "lib/grid/shelf_stream.h"
 #include "lib/stage/surface_around.h"
 #include "lib/stage/tile_pyramid.h"
-#include "lib/stage/voxelize_stage.h"
 #include "tests/catch.h"
-#include "tests/support/memory_scene.h"
-#include "tests/support/voxel_source.h"
+#include "tests/support/voxelized.h"
 
 namespace bp::test {
 
@@ -27,38 +23,6 @@ Triangles scene() {
   return all;
 }
 
-struct Voxelized {
-  StreamHeader header;
-  std::unique_ptr<BrickShelf> shelf = std::make_unique<MemoryShelf>();
-};
-
-Voxelized voxelized(const Triangles& scene) {
-  Voxelized out;
-  ShelfSink sink(out.shelf.get());
-  MemorySource source(scene);
-  Backends backends = plain_backends(2);
-  VoxelizeOptions options;
-  options.voxel_size = [](const Bounds3d&) { return 1.0; };
-  options.cell_vox = kEdge;
-  options.make_shelf = memory_shelves();
-  options.make_store = []() -> std::unique_ptr<ChunkStore> { return nullptr; };
-  options.memory_bytes = UINT64_MAX / 8;
-  struct NoStore final : ChunkStore {
-    Handle put(std::span<const std::byte>) override { fail(ErrorCode::failed, "triangles left memory"); }
-    void get(Handle, std::vector<std::byte>&) const override {}
-    void drop(Handle) override {}
-    [[nodiscard]] std::uint64_t memory_bytes() const override { return 0; }
-    [[nodiscard]] std::uint64_t scratch_bytes() const override { return 0; }
-  };
-  options.make_store = [] { return std::make_unique<NoStore>(); };
-  const auto open = [&](const StreamHeader& h, const VoxelizeCounts&) -> BrickSink& {
-    out.header = h;
-    return sink;
-  };
-  voxelize_stream(source, open, backends, options);
-  return out;
-}
-
 struct Made {
   LatticeMesh mesh;
   TileMeasures measures;
@@ -66,7 +30,7 @@ struct Made {
 using Level = std::map<CellCoord, Made>;
 
 TilePyramid pyramid(const Triangles& scene, Backends& backends) {
-  Voxelized solid = voxelized(scene);
+  Voxelized solid = voxelized(scene, 1, kEdge);
   PyramidOptions options;
   options.cells = kCells;
   options.make_shelf = memory_shelves();
@@ -144,7 +108,7 @@ TEST_CASE("tiles do not depend on threads or on memory", "[quick][stage][lod]") 
   const Level level = make(levels, {});
   const ThreadLimit one(1);
   PyramidOptions options;
-  Voxelized solid = voxelized(scene());
+  Voxelized solid = voxelized(scene(), 1, kEdge);
   options.cells = kCells;
   options.make_shelf = memory_shelves();
   options.memory_bytes = std::uint64_t(16) << 20;  // one tile at a time

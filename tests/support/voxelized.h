@@ -1,0 +1,45 @@
+#pragma once
+#include "lib/core/error.h"
+#include "lib/grid/shelf_stream.h"
+#include "lib/stage/voxelize_stage.h"
+#include "tests/support/memory_scene.h"
+#include "tests/support/voxel_source.h"
+
+namespace bp::test {
+
+/// For a scene that is in memory already.
+class NoStore final : public ChunkStore {
+ public:
+  Handle put(std::span<const std::byte>) override { fail(ErrorCode::failed, "triangles left memory"); }
+  void get(Handle, std::vector<std::byte>&) const override {}
+  void drop(Handle) override {}
+  [[nodiscard]] std::uint64_t memory_bytes() const override { return 0; }
+  [[nodiscard]] std::uint64_t scratch_bytes() const override { return 0; }
+};
+
+struct Voxelized {
+  StreamHeader header;
+  std::unique_ptr<BrickShelf> shelf = std::make_unique<MemoryShelf>();
+};
+
+/// `scene` as bpvox would voxelize it. cell_vox: see VoxelizeOptions.
+inline Voxelized voxelized(const Triangles& scene, double voxel, std::int32_t cell_vox = 0) {
+  Voxelized out;
+  ShelfSink sink(out.shelf.get());
+  MemorySource source(scene);
+  Backends backends = plain_backends(2);
+  VoxelizeOptions options;
+  options.voxel_size = [&](const Bounds3d&) { return voxel; };
+  options.cell_vox = cell_vox;
+  options.make_shelf = memory_shelves();
+  options.memory_bytes = UINT64_MAX / 8;
+  options.make_store = [] { return std::make_unique<NoStore>(); };
+  const auto open = [&](const StreamHeader& h, const VoxelizeCounts&) -> BrickSink& {
+    out.header = h;
+    return sink;
+  };
+  voxelize_stream(source, open, backends, options);
+  return out;
+}
+
+}  // namespace bp::test
