@@ -9,20 +9,11 @@
 #include "lib/check/enclosure.h"
 #include "lib/check/inside.h"
 #include "lib/check/surface.h"
+#include "lib/core/vec3.h"
 
 namespace bp {
 
 namespace {
-
-Vec3d minus(const Vec3d& a, const Vec3d& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-double dot(const Vec3d& a, const Vec3d& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// Volume, side lengths (each triangle's three), least angle.
 void measure(const WeldedMesh& mesh, CheckReport& report) {
@@ -31,9 +22,9 @@ void measure(const WeldedMesh& mesh, CheckReport& report) {
   double shortest = HUGE_VAL, longest = 0, sum = 0, least_angle = M_PI, volume = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const TriangleD c = mesh.corners(t);
-    volume += dot(minus(c[0], origin), cross(minus(c[1], origin), minus(c[2], origin)));
+    volume += dot(c[0] - origin, cross(c[1] - origin, c[2] - origin));
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d u = minus(c[(k + 1) % 3], c[k]), v = minus(c[(k + 2) % 3], c[k]);
+      const Vec3d u = c[(k + 1) % 3] - c[k], v = c[(k + 2) % 3] - c[k];
       const double length = std::sqrt(dot(u, u)), area = std::sqrt(dot(cross(u, v), cross(u, v)));
       shortest = std::min(shortest, length), longest = std::max(longest, length);
       sum += length;

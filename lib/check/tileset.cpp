@@ -4,18 +4,13 @@
 
 #include <cmath>
 
+#include "lib/core/vec3.h"
+
 namespace bp {
 
 namespace {
 
 constexpr double kSlack = 1e-9;  // of the size of a box
-
-double dot(const Vec3d& a, const Vec3d& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// How far p lies outside of the box along one of its axes, in half-lengths of that axis beyond 1; 0 inside. A flat box
 /// has a thickness of nothing.

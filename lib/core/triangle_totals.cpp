@@ -7,19 +7,11 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/vec3.h"
+
 namespace bp {
 
 namespace {
-
-Vec3d minus(const Vec3d& a, const Vec3d& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vec3d& a, const Vec3d& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 XXH128_hash_t hash_of(TriangleD t) {
   for (Vec3d& p : t) {
@@ -39,13 +31,13 @@ void TriangleTotals::add(std::span<const TriangleD> batch) {
     checksum_low += hash.low64;
     checksum_high += hash.high64 + (checksum_low < hash.low64 ? 1 : 0);
     ++triangles;
-    const Vec3d normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+    const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
     const double twice_area = std::sqrt(dot(normal, normal));
     if (!std::isfinite(twice_area)) continue;
     if (bounds.empty()) origin_ = t[0];
     for (const Vec3d& p : t) bounds.add(p);
     area += twice_area / 2;
-    six_volumes_ += dot(minus(t[0], origin_), cross(minus(t[1], origin_), minus(t[2], origin_)));
+    six_volumes_ += dot(t[0] - origin_, cross(t[1] - origin_, t[2] - origin_));
   }
   volume = six_volumes_ / 6;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 
 namespace bp {
 
@@ -49,18 +50,8 @@ std::array<TriangleD, 2> halves(const TriangleD& t) {
   return {TriangleD{apex, a, m}, TriangleD{apex, m, b}};
 }
 
-Vec3d minus(const Vec3d& a, const Vec3d& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Vec3d cross(const Vec3d& u, const Vec3d& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-double dot(const Vec3d& u, const Vec3d& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
 double area_of(const TriangleD& t) {
-  const Vec3d n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+  const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
   return std::sqrt(dot(n, n)) / 2;
 }
 
@@ -73,7 +64,7 @@ struct Part {
 };
 
 /// `bar`: parts that surely lie below it are of no interest.
-Part examine(const TriangleD& t, const TriangleBvh& to, std::uint32_t guess, double bar = 0) {
+Part examine(const TriangleD& t, const TriangleBvh& to, std::uint32_t guess, double bar) {
   Part part;
   part.corners = t;
   const Vec3d c = centre_of(t);
@@ -106,7 +97,7 @@ CutPolygon cut(const std::vector<Vec3d>& polygon, const Vec3d& through, const Ve
   CutPolygon out;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Vec3d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    const double sa = dot(inwards, minus(a, through)), sb = dot(inwards, minus(b, through));
+    const double sa = dot(inwards, a - through), sb = dot(inwards, b - through);
     (sa >= 0 ? out.inside : out.outside).push_back(a);
     if ((sa >= 0) == (sb >= 0)) continue;
     Vec3d crossing;
@@ -128,10 +119,10 @@ std::optional<double> cut_out(const TriangleD& part, const TriangleD& nearest, d
   const double whole = area_of(part);
   if (whole <= kThin * length_squared(part[(apex + 1) % 3], part[(apex + 2) % 3])) return std::nullopt;
   const std::size_t before = out.size();
-  const Vec3d normal = cross(minus(nearest[1], nearest[0]), minus(nearest[2], nearest[0]));
+  const Vec3d normal = cross(nearest[1] - nearest[0], nearest[2] - nearest[0]);
   std::vector<Vec3d> inside(part.begin(), part.end());
   for (std::size_t k = 0; k < 3 && !inside.empty(); ++k) {
-    CutPolygon pieces = cut(inside, nearest[k], cross(normal, minus(nearest[(k + 1) % 3], nearest[k])));
+    CutPolygon pieces = cut(inside, nearest[k], cross(normal, nearest[(k + 1) % 3] - nearest[k]));
     inside = std::move(pieces.inside);
     for (std::size_t i = 2; i < pieces.outside.size(); ++i)
       out.push_back({pieces.outside[0], pieces.outside[i - 1], pieces.outside[i]});
@@ -286,7 +277,7 @@ bool surely_within(const TriangleD& t, const TriangleBvh& to, double limit) {
   std::vector<TriangleD> stack{t};
   std::uint32_t guess = 0;
   for (int pieces = 0; !stack.empty(); ++pieces) {
-    const Part part = examine(stack.back(), to, guess);
+    const Part part = examine(stack.back(), to, guess, limit);
     stack.pop_back();
     guess = part.nearest;
     if (part.at_most <= limit) continue;

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 
 namespace bp {
 
@@ -14,16 +15,6 @@ namespace {
 
 constexpr int kBins = 16;
 constexpr int kMaxHeuristicDepth = 58;  // below it the median halves the count: 31 more levels at most
-
-Vec3d operator-(const Vec3d& a, const Vec3d& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-double dot(const Vec3d& a, const Vec3d& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 double half_area(const Bounds3d& b) {
   if (b.empty()) return 0;

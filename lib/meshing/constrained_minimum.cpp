@@ -7,18 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/vec3.h"
+
 namespace bp {
 
 namespace {
 
 constexpr double kEps = 1e-7;  // lattice units; far below the rounding of 1/2 unit that follows
 
-double dot(const Vec3d& a, const Vec3d& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 Vec3d at(const Vec3d& p, double s, const Vec3d& u) {
   return {p[0] + s * u[0], p[1] + s * u[1], p[2] + s * u[2]};
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/meshing/vec3.h"
+#include "lib/core/vec3.h"
 
 namespace bp {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lib/core/triangle_intersection.h"
-#include "lib/meshing/vec3.h"
+#include "lib/core/vec3.h"
 
 namespace bp {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lib/core/parallel.h"
-#include "lib/meshing/vec3.h"
+#include "lib/core/vec3.h"
 
 namespace bp {
 

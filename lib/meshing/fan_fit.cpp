@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 
-#include "lib/meshing/vec3.h"
+#include "lib/core/vec3.h"
 
 namespace bp {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/meshing/settle.h"
-#include "lib/meshing/vec3.h"
 #include "lib/meshing/vertex_mover.h"
 
 namespace bp {

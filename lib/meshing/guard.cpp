@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/core/triangle_intersection.h"
+#include "lib/core/vec3.h"
 
 namespace bp {
 
@@ -48,10 +49,6 @@ bool disjoint_pairs(std::span<const NewFace> faces) {
 
 double sum_of_sizes(const Vec3d& v) {
   return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
-}
-
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 /// Sum of normals that does not count their lengths, as small integers.

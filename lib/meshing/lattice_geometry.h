@@ -2,18 +2,13 @@
 #include <cmath>
 
 #include "lib/core/predicates.h"
+#include "lib/core/vec3.h"
 
 /// Small vector helpers over lattice points. Exact where they return integers.
 namespace bp {
 
 [[nodiscard]] inline Vec3d to_double(const LatticeCoord& d) {
   return {double(d.x), double(d.y), double(d.z)};
-}
-[[nodiscard]] inline double dot(const Vec3d& a, const Vec3d& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-[[nodiscard]] inline double length(const Vec3d& v) {
-  return std::sqrt(dot(v, v));
 }
 
 /// Cross product of two edges of a face: twice its area vector, lattice units squared. Exact for edges below 2^30

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "lib/core/predicates.h"
+#include "lib/core/vec3.h"
 #include "lib/meshing/shells.h"
-#include "lib/meshing/vec3.h"
 
 namespace bp {
 

@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/meshing/constrained_minimum.h"
-#include "lib/meshing/vec3.h"
 #include "lib/meshing/vertex_mover.h"
 
 namespace bp {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "lib/core/predicates.h"
+#include "lib/core/vec3.h"
 #include "lib/meshing/fan_fit.h"
-#include "lib/meshing/vec3.h"
 
 namespace bp {
 

@@ -2,10 +2,10 @@
 #include <random>
 
 #include "lib/core/triangle_intersection.h"
+#include "lib/core/vec3.h"
 #include "lib/meshing/enclosed_triangles.h"
 #include "lib/meshing/fan_fit.h"
 #include "lib/meshing/tight_proxy.h"
-#include "lib/meshing/vec3.h"
 #include "tests/catch.h"
 
 using namespace bp;

@@ -1,7 +1,9 @@
 #pragma once
-#include "lib/meshing/lattice_geometry.h"
+#include <cmath>
 
-/// Arithmetic of Vec3d.
+#include "lib/core/coords.h"
+
+/// Arithmetic of Vec3d, each component rounded by itself.
 namespace bp {
 
 [[nodiscard]] inline Vec3d operator+(const Vec3d& a, const Vec3d& b) {
@@ -13,8 +15,14 @@ namespace bp {
 [[nodiscard]] inline Vec3d operator*(double s, const Vec3d& a) {
   return {s * a[0], s * a[1], s * a[2]};
 }
+[[nodiscard]] inline double dot(const Vec3d& a, const Vec3d& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 [[nodiscard]] inline Vec3d cross(const Vec3d& a, const Vec3d& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+[[nodiscard]] inline double length(const Vec3d& v) {
+  return std::sqrt(dot(v, v));
 }
 
 }  // namespace bp
