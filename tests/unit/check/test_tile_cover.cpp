@@ -60,11 +60,11 @@ TEST_CASE("tiles that overlap where their cells meet cover a scene together", "[
 TEST_CASE("a tile that ends where its cell does leaves the scene uncovered", "[quick][check][tileset]") {
   std::vector<CoverTile> tiles = good();
   tiles[1].content = box_mesh({1, 1, 1}, {8, 4, 4});  // the scene touches its wall
-  CHECK_THAT(only(findings(tiles)), Catch::Contains("root.0: a is touched by 8 triangles"));
+  CHECK_THAT(only(findings(tiles)), ContainsSubstring("root.0: a is touched by 8 triangles"));
   tiles[1].content = box_mesh({1, 1, 1}, {6, 4, 4});
-  CHECK_THAT(only(findings(tiles)), Catch::Contains("root.0: a is touched by 8 triangles"));
+  CHECK_THAT(only(findings(tiles)), ContainsSubstring("root.0: a is touched by 8 triangles"));
   tiles[1].content = box_mesh({1, 5, 1}, {8.5, 6, 4});
-  CHECK_THAT(only(findings(tiles)), Catch::Contains("root.0: a leaves outside 10 triangles"));
+  CHECK_THAT(only(findings(tiles)), ContainsSubstring("root.0: a leaves outside 10 triangles"));
 }
 
 TEST_CASE("a triangle without a corner in the cell is placed by what is in the cell", "[quick][check][tileset]") {
@@ -91,7 +91,7 @@ TEST_CASE("a triangle without a corner in the cell is placed by what is in the c
   scene[0] = {Vec3d{2, 2, 2}, Vec3d{30, 2, 2}, Vec3d{30, 3, 2}};  // no corner in the cell of b
   CHECK(findings(tiles, scene).empty());
   tiles[2].content = box_mesh({7.5, 5, 1}, {16.5, 6, 4});
-  CHECK_THAT(only(findings(tiles, scene)), Catch::Contains("root.0.0: b leaves outside 1 triangles"));
+  CHECK_THAT(only(findings(tiles, scene)), ContainsSubstring("root.0.0: b leaves outside 1 triangles"));
 }
 
 TEST_CASE("a face that meets a triangle beyond the cell does no harm, a near one does", "[quick][check][tileset]") {
@@ -105,19 +105,19 @@ TEST_CASE("a face that meets a triangle beyond the cell does no harm, a near one
 TEST_CASE("missing and misplaced tiles are found", "[quick][check][tileset]") {
   std::vector<CoverTile> tiles = good();
   tiles[0].children = {1};
-  CHECK_THAT(only(findings(tiles)), Catch::Contains("root: r has no child where there are 10 triangles"));
+  CHECK_THAT(only(findings(tiles)), ContainsSubstring("root: r has no child where there are 10 triangles"));
   tiles = good();
   tiles[2].cell->max[0] = 15;
-  CHECK_THAT(findings(tiles)[0], Catch::Contains("root.1: its cell is neither"));
+  CHECK_THAT(findings(tiles)[0], ContainsSubstring("root.1: its cell is neither"));
   tiles = good();
   tiles[2].content.reset();
-  CHECK_THAT(only(findings(tiles)), Catch::Contains("root.1: b draws nothing for 10 triangles"));
+  CHECK_THAT(only(findings(tiles)), ContainsSubstring("root.1: b draws nothing for 10 triangles"));
   tiles = good();
   std::swap(tiles[1].content->triangles[0][0], tiles[1].content->triangles[0][1]);
-  CHECK_THAT(findings(tiles)[0], Catch::Contains("root.0: a is no closed"));
+  CHECK_THAT(findings(tiles)[0], ContainsSubstring("root.0: a is no closed"));
   Triangles scene = bar();
   add_box(scene, {-3, 2, 2}, {-2, 3, 3});
-  CHECK_THAT(only(findings(good(), scene)), Catch::Contains("root: 12 triangles of the scene leave its cell"));
+  CHECK_THAT(only(findings(good(), scene)), ContainsSubstring("root: 12 triangles of the scene leave its cell"));
 }
 
 }  // namespace bp::test
