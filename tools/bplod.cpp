@@ -1,6 +1,7 @@
 // bplod: scenes in, levels of detail out, in one process. Manual: docs/bplod.1.md
 #include "tools/common/run_tool.h"
 #include "tools/lod/build.h"
+#include "tools/lod/explain.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/lod/tile_build.h"
 
@@ -35,6 +36,7 @@ void run_chain(const bp::BuildOptions& o) {
 }
 
 void run(const bp::BuildOptions& o) {
+  if (o.explain) return bp::explain(o);
   o.profile == bp::LodProfile::tiles ? bp::build_tileset(o) : run_chain(o);
 }
 

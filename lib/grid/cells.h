@@ -25,6 +25,24 @@ constexpr std::int32_t kLeastCellVox = 128;
   return {floor_div(c.x, 2), floor_div(c.y, 2), floor_div(c.z, 2)};
 }
 
+/// Cells from `first` to `last`.
+struct CellSpan {
+  CellCoord first{}, last{};
+  [[nodiscard]] CellCoord size() const { return {last.x - first.x + 1, last.y - first.y + 1, last.z - first.z + 1}; }
+  [[nodiscard]] std::uint64_t count() const {
+    return std::uint64_t(size().x) * std::uint64_t(size().y) * std::uint64_t(size().z);
+  }
+  /// Of a cell in the span, among those of the span in their order.
+  [[nodiscard]] std::uint64_t index(CellCoord c) const {
+    const CellCoord at = c - first;
+    return (std::uint64_t(at.x) * std::uint64_t(size().y) + std::uint64_t(at.y)) * std::uint64_t(size().z) +
+           std::uint64_t(at.z);
+  }
+};
+/// Cells that a box of voxels, which is not empty, or of bricks, meets.
+[[nodiscard]] CellSpan cells_spanned(const Cells& cells, const VoxelBox& box);
+[[nodiscard]] CellSpan cells_spanned(const Cells& cells, const BrickBox& bricks);
+
 /// The frame with its origin moved down so that cells of all levels fall on voxels, on bricks and on each other: to a
 /// multiple of 64 * 2^n voxels from the scene's own origin, at least 2^(n+1) below the bounds, where n is the least
 /// number of reductions that bring the scene into one cell. So a scene that grows a little keeps its cells.

@@ -50,7 +50,34 @@ struct Outside {
   }
 };
 
+/// Length of an edge of `faces` equilateral triangles over the scene's surface.
+double edge_of(const LodGround& ground, std::uint64_t faces) {
+  const double area = double(ground.dense_faces) / 2 / kSlantedSteps * ground.voxel * ground.voxel;
+  return std::sqrt(4 / std::sqrt(3.0) * area / double(faces));
+}
+
 }  // namespace
+
+double first_scale(const LodGround& ground, const LodTarget& target, double last) {
+  if (target.scale_world) return std::max(*target.scale_world, last);
+  double scale = ground.diagonal;
+  if (target.faces > 0) scale = std::min(scale, edge_of(ground, target.faces) / kScalesPerEdge);
+  if (target.error_world > 0) scale = std::min(scale, target.error_world / kScalesPerError);
+  // Never below the level before: a coarser level closes at least as much.
+  return std::max({scale, last, kLeastScaleVox * ground.voxel});
+}
+
+int reductions_for(const LodGround& ground, const LodTarget& target, double scale, int before) {
+  double coarsest = std::min(scale / kLeastScaleVox, double(ground.longest_side_vox) / kLeastSideVox * ground.voxel);
+  if (target.faces > 0) {
+    const double per_face = double(ground.dense_faces) / double(target.faces);
+    coarsest = std::min(coarsest, std::sqrt(per_face / kDenseFacesPerFace) * ground.voxel);
+  }
+  if (target.error_world > 0) coarsest = std::min(coarsest, target.error_world / kVoxelsPerError);
+  int n = before;
+  while (ground.voxel * std::ldexp(1.0, n + 1) <= coarsest) ++n;
+  return n;
+}
 
 struct LodChain::State {
   State(const StreamHeader& h, std::unique_ptr<BrickShelf> s, Backends& b, LodOptions o)
@@ -62,9 +89,9 @@ struct LodChain::State {
   }
 
   LodLevel make(const LodTarget& target) {
-    double scale = begin_scale(target);
+    double scale = first_scale(ground(), target, last_scale);
     for (int attempt = 1;; ++attempt) {
-      reduce_to(reductions_for(target, scale));
+      reduce_to(reductions_for(ground(), target, scale, reductions));
       LodLevel level = attempt_at(target, scale);
       level.attempts = attempt;
       level.reached = target.faces == 0 || level.mesh.triangles.size() <= target.faces;
@@ -94,33 +121,7 @@ struct LodChain::State {
   double last_scale = 0;
 
  private:
-  /// Length of an edge of `faces` equilateral triangles over the scene's surface.
-  [[nodiscard]] double edge_of(std::uint64_t faces) const {
-    const double area = double(outside->dense_faces) / 2 / kSlantedSteps * outside->voxel * outside->voxel;
-    return std::sqrt(4 / std::sqrt(3.0) * area / double(faces));
-  }
-
-  [[nodiscard]] double begin_scale(const LodTarget& target) const {
-    if (target.scale_world) return std::max(*target.scale_world, last_scale);
-    double scale = diagonal;
-    if (target.faces > 0) scale = std::min(scale, edge_of(target.faces) / kScalesPerEdge);
-    if (target.error_world > 0) scale = std::min(scale, target.error_world / kScalesPerError);
-    // Never below the level before: a coarser level closes at least as much.
-    return std::max({scale, last_scale, kLeastScaleVox * outside->voxel});
-  }
-
-  /// How often the voxels may be doubled: while the target leaves enough of them, and the scale is not below one.
-  [[nodiscard]] int reductions_for(const LodTarget& target, double scale) const {
-    double coarsest = std::min(scale / kLeastScaleVox, double(longest_side()) / kLeastSideVox * outside->voxel);
-    if (target.faces > 0) {
-      const double per_face = double(outside->dense_faces) / double(target.faces);
-      coarsest = std::min(coarsest, std::sqrt(per_face / kDenseFacesPerFace) * outside->voxel);
-    }
-    if (target.error_world > 0) coarsest = std::min(coarsest, target.error_world / kVoxelsPerError);
-    int n = reductions;
-    while (outside->voxel * std::ldexp(1.0, n + 1) <= coarsest) ++n;
-    return n;
-  }
+  [[nodiscard]] LodGround ground() const { return {outside->voxel, diagonal, outside->dense_faces, longest_side()}; }
 
   void reduce_to(int n) {
     for (; reductions < n; ++reductions) {

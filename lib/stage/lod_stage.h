@@ -21,6 +21,18 @@ struct LodTarget {
   std::optional<double> scale_world;  ///< closing radius to begin with, scene units; never below the level before's
 };
 
+/// What decides at which scale, and on which voxels, a level is tried first.
+struct LodGround {
+  double voxel = 0, diagonal = 0;     ///< of the solid; scene units
+  std::uint64_t dense_faces = 0;      ///< triangles of the dense surface of the solid
+  std::int64_t longest_side_vox = 0;  ///< of the solid
+};
+/// The scale, scene units, at least `last`, that of the level before.
+[[nodiscard]] double first_scale(const LodGround& ground, const LodTarget& target, double last);
+/// How often the voxels are doubled: while the target leaves enough of them, and the scale is not below one. At least
+/// `before` times.
+[[nodiscard]] int reductions_for(const LodGround& ground, const LodTarget& target, double scale, int before);
+
 struct LodOptions {
   ClosingParams closing;
   MeshMode mode = MeshMode::bounding;  ///< bounding or fit

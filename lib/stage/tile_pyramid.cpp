@@ -14,15 +14,6 @@ TilePyramid::TilePyramid(const StreamHeader& header, std::unique_ptr<BrickShelf>
   boundary_layer(*solid_, *surface_);
 }
 
-bool TilePyramid::in_one_cell() const {
-  const std::vector<BrickCoord> bricks = solid_->coords();
-  const CellCoord first = options_.cells.of(first_voxel(bricks.front()));
-  for (const BrickCoord c : bricks) {
-    if (options_.cells.of(first_voxel(c)) != first) return false;
-  }
-  return true;
-}
-
 std::unique_ptr<BrickShelf> TilePyramid::close(double scale_world) {
   CellClosing o;
   o.cells = options_.cells;

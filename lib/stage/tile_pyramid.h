@@ -27,7 +27,8 @@ class TilePyramid {
               PyramidOptions options);
 
   [[nodiscard]] const StreamHeader& header() const { return header_; }  ///< of the level's solid
-  [[nodiscard]] bool in_one_cell() const;                               ///< the level need not be cut
+  /// The level need not be cut: the bricks of its header lie in one cell, which a plan knows without the voxels.
+  [[nodiscard]] bool in_one_cell() const { return cells_spanned(options_.cells, header_.bricks).count() == 1; }
 
   /// Makes the tiles of the level; sets scale, element, memory, shelves and store of `params`. As make_tiles()
   /// and close_cells().

@@ -50,7 +50,7 @@ struct Job {
 };
 
 /// Cells of the closing's bricks, and how much there is to do in each.
-std::vector<Job> jobs_of(const TileLevel& level) {
+std::vector<Job> jobs_of(const TileLevel& level, const std::function<bool(CellCoord)>& wanted) {
   const std::vector<BrickCoord> bricks = level.closing.coords();
   std::vector<std::pair<CellCoord, std::uint64_t>> parts(bricks.size());
   parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
@@ -60,6 +60,7 @@ std::vector<Job> jobs_of(const TileLevel& level) {
   std::sort(parts.begin(), parts.end());
   std::vector<Job> jobs;
   for (const auto& [cell, faces] : parts) {
+    if (wanted && !wanted(cell)) continue;
     if (jobs.empty() || jobs.back().cell != cell) jobs.push_back({cell, 0});
     jobs.back().dense_faces += faces;
   }
@@ -241,6 +242,10 @@ void run(const TileLevel& level, const TileParams& params, const TileEncoder& en
     item.there = !bytes.empty();
     if (item.tile.kept) return;
   }
+  if (!params.make) {
+    item.there = true;  // as far as is known
+    return;
+  }
   item.there = maker.begin();
   if (item.there) item.tile.content = encode(item.job.cell, maker.make(item.tile.measures));
   if (params.store != nullptr) params.store->put(key, item.there ? packed(item.tile) : "");
@@ -253,7 +258,7 @@ void make_tiles(const TileLevel& level, const TileParams& params, const TileEnco
   if (level.cells.edge_vox < kLeastCellVox || level.cells.edge_vox % kBrickEdge != 0)
     fail(ErrorCode::bad_argument, "a cell of {} voxels a side is no multiple of 64, or below {}", level.cells.edge_vox,
          kLeastCellVox);
-  const std::vector<Job> jobs = jobs_of(level);
+  const std::vector<Job> jobs = jobs_of(level, params.wanted);
   std::uint64_t largest = 0;
   for (const Job& job : jobs) largest = std::max(largest, job.dense_faces * kBytesPerDenseFace + kBytesPerTile);
   const std::uint64_t fit = params.memory_bytes / std::max<std::uint64_t>(largest, 1);

@@ -35,8 +35,10 @@ struct TileParams {
   const TriangleBvh* scene = nullptr;                     ///< what fits are drawn to; null: the closing
   std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work; one is always at work
   ShelfFactory make_shelf;
-  ResultStore* store = nullptr;  ///< tiles are looked up there, and put; null: made anew
-  std::string encoding;          ///< all that encode() puts into a file beside cell and mesh, for their keys
+  ResultStore* store = nullptr;           ///< tiles are looked up there, and put; null: made anew
+  std::function<bool(CellCoord)> wanted;  ///< other tiles are passed over; empty: all are wanted
+  bool make = true;                       ///< false: what is not in the store comes without measures and content
+  std::string encoding;                   ///< all that encode() puts into a file beside cell and mesh, for their keys
   /// Called now and then, as in CloseOptions. May be empty.
   std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
 

@@ -184,13 +184,8 @@ void Run::measure() {
 
 void Run::lay_grid() {
   counts_.voxel_asked = options_.voxel_size(bounds_);
-  header_.frame =
-      make_frame(bounds_, counts_.voxel_asked, options_.up ? *options_.up : source_.up().value_or(UpAxis::y));
-  if (options_.cell_vox > 0) header_.frame = aligned_to_cells(header_.frame, bounds_, options_.cell_vox);
-  header_.bounds = bounds_;
-  header_.bricks = bricks_of(voxel_bounds(header_.frame, bounds_));
-  header_.slab_axis = longest_axis(header_.bricks);
-  header_.fill = options_.fill;
+  header_ = solid_header(bounds_, counts_.voxel_asked, options_.up ? *options_.up : source_.up().value_or(UpAxis::y),
+                         options_);
   const VoxelBox grid = voxels_of(header_.bricks);
   const std::int32_t edge = options_.tile_vox > 0 ? options_.tile_vox : default_tile(grid);
   if (edge % kBrickEdge != 0 || edge > kMaxTileVox)
@@ -487,6 +482,17 @@ double voxel_size_of(const Bounds3d& bounds, std::int64_t voxels) {
   // (STL).
   if (side > 0) return round_up_to_bits(side / double(voxels), 8);
   return reach > 0 ? reach / (1 << 20) : 1;
+}
+
+StreamHeader solid_header(const Bounds3d& bounds, double voxel, UpAxis up, const VoxelizeOptions& options) {
+  StreamHeader header;
+  header.frame = make_frame(bounds, voxel, up);
+  if (options.cell_vox > 0) header.frame = aligned_to_cells(header.frame, bounds, options.cell_vox);
+  header.bounds = bounds;
+  header.bricks = bricks_of(voxel_bounds(header.frame, bounds));
+  header.slab_axis = longest_axis(header.bricks);
+  header.fill = options.fill;
+  return header;
 }
 
 VoxelizeCounts voxelize_stream(TriangleSource& source, const OpenSink& open, Backends& backends,

@@ -49,6 +49,11 @@ struct VoxelizeCounts {
 /// bits; a scene that is one point gets some size that its frame can hold.
 [[nodiscard]] double voxel_size_of(const Bounds3d& bounds, std::int64_t voxels);
 
+/// The header of the solid layer of a scene with these bounds: all that is known before a voxel is. Throws as
+/// make_frame().
+[[nodiscard]] StreamHeader solid_header(const Bounds3d& bounds, double voxel, UpAxis up,
+                                        const VoxelizeOptions& options);
+
 /// What begins the output: gets the header (without provenance) and the counts of the scene once the frame is known,
 /// and returns where the bricks go.
 using OpenSink = std::function<BrickSink&(const StreamHeader&, const VoxelizeCounts&)>;

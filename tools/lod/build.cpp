@@ -21,6 +21,10 @@ Json json_of(const LevelRow& row) {
   return json;
 }
 
+Json json_of(const FoundJobs& found) {
+  return {{"what", found.what}, {"jobs", found.jobs}, {"kept", found.kept}};
+}
+
 /// What a person wants to know at once, as lines of text on stdout.
 std::string listing(const std::vector<LevelRow>& rows) {
   std::string text = "file\tfaces\terror\tscale\tvoxel\tbytes\n";
@@ -120,13 +124,29 @@ void Build::note(const std::string& text) {
 
 void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out) {
   std::fputs(listing(rows).c_str(), stdout);
-  report.options = {
-      {"profile", name_of(options.profile)}, {"levels", rows.size()}, {"memory", options.common.memory_bytes}};
-  report.counts = {{"triangles", scene.counts.scene.triangles},   {"degenerate", scene.counts.scene.degenerate},
-                   {"non_finite", scene.counts.scene.non_finite}, {"bad_faces", scene.counts.scene.bad_faces},
-                   {"voxel", scene.header.frame.voxel},           {"solid_voxels", scene.counts.solid_voxels}};
+  report.counts["levels"] = Json::array();
   for (const LevelRow& row : rows) report.counts["levels"].push_back(json_of(row));
   report.bytes_out = bytes_out;
+  write_report(scene, rows.size());
+}
+
+void Build::finish_jobs(const VoxelizedScene& scene, const JobRange& range, std::uint64_t all,
+                        const std::vector<FoundJobs>& found) {
+  std::string text = "jobs\tdone\tkept\n";
+  for (const FoundJobs& f : found) text += fmt::format("{}\t{}\t{}\n", f.what, f.jobs, f.kept);
+  std::fputs(text.c_str(), stdout);
+  report.counts["jobs"] = {{"begin", range.begin}, {"end", range.end}, {"of", all}};
+  for (const FoundJobs& f : found) report.counts["levels"].push_back(json_of(f));
+  write_report(scene, found.size());
+}
+
+void Build::write_report(const VoxelizedScene& scene, std::size_t levels) {
+  report.options = {{"profile", name_of(options.profile)}, {"levels", levels}, {"memory", options.common.memory_bytes}};
+  Json counts = {{"triangles", scene.counts.scene.triangles},   {"degenerate", scene.counts.scene.degenerate},
+                 {"non_finite", scene.counts.scene.non_finite}, {"bad_faces", scene.counts.scene.bad_faces},
+                 {"voxel", scene.header.frame.voxel},           {"solid_voxels", scene.counts.solid_voxels}};
+  counts.update(report.counts);
+  report.counts = std::move(counts);
   report.write(options.common);
 }
 

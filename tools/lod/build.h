@@ -34,6 +34,12 @@ struct LevelRow {
   Json more = Json::object();  ///< for the report only
 };
 
+/// Jobs of a tileset, and how many of them were found in the store.
+struct FoundJobs {
+  std::string what;
+  std::uint64_t jobs = 0, kept = 0;
+};
+
 class Build {
  public:
   explicit Build(const BuildOptions& options);
@@ -54,7 +60,14 @@ class Build {
 
   /// Prints the list and writes the report.
   void finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out);
+  /// The same of a run of --tiles: `range` of `all` numbers.
+  void finish_jobs(const VoxelizedScene& scene, const JobRange& range, std::uint64_t all,
+                   const std::vector<FoundJobs>& found);
 
+ private:
+  void write_report(const VoxelizedScene& scene, std::size_t levels);
+
+ public:
   const BuildOptions& options;
   const BuildBudget budget;
   Report report{"bplod"};

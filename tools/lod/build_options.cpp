@@ -1,5 +1,7 @@
 #include "tools/lod/build_options.h"
 
+#include <algorithm>
+
 #include "lib/core/error.h"
 #include "lib/grid/cells.h"
 #include "lib/stage/voxelize_stage.h"
@@ -25,7 +27,8 @@ void check_options(BuildOptions& o) {
   if (o.profile == LodProfile::collision && o.mode != MeshMode::bounding)
     fail(ErrorCode::bad_argument, "--profile collision needs --mode bounding");
   check(o.request);
-  if (o.out.empty()) fail(ErrorCode::bad_argument, "name the folder of the levels with -o");
+  if (o.out.empty() && !o.tiles && (!o.explain || o.resume))
+    fail(ErrorCode::bad_argument, "name the folder of the levels with -o");
   if (o.voxel && o.resolution) fail(ErrorCode::bad_argument, "--voxel and --resolution exclude each other");
   if (o.voxel && (o.voxel->unit == Length::Unit::voxels || !(o.voxel->value > 0)))
     fail(ErrorCode::bad_argument, "--voxel {}: must be above 0, in scene units or percent", o.voxel->text());
@@ -36,12 +39,27 @@ void check_options(BuildOptions& o) {
     fail(ErrorCode::bad_argument, "--cache and --resume need --profile 3dtiles");
   if (o.resume && !o.cache.empty())
     fail(ErrorCode::bad_argument, "--cache keeps what is done as well; leave --resume out");
+  if (o.tiles && o.explain) fail(ErrorCode::bad_argument, "--explain numbers the jobs; leave --tiles out");
+  if (o.explain && (o.resume || !o.cache.empty()) && std::count(o.scenes.begin(), o.scenes.end(), "-") > 0)
+    fail(ErrorCode::bad_argument, "--explain reads the scene twice to find what is kept; give it as a file");
+  if (o.tiles && o.cache.empty())
+    fail(ErrorCode::bad_argument,
+         "--tiles makes no tileset but results for a later run; name their folder with --cache");
   if (o.name.empty()) o.name = base_name(o.scenes.front());
   if (o.name.empty() || o.name.find('/') != std::string::npos)
     fail(ErrorCode::bad_argument, "--name '{}': must be a name without a folder", o.name);
 }
 
 }  // namespace
+
+JobRange parse_job_range(const std::string& text) {
+  const std::size_t dots = text.find("..");
+  if (dots == std::string::npos) fail(ErrorCode::bad_argument, "{}: is not of the form A..B", text);
+  const std::int64_t begin = parse_integer(std::string_view(text).substr(0, dots), 0, INT64_MAX);
+  const std::int64_t end = parse_integer(std::string_view(text).substr(dots + 2), 0, INT64_MAX);
+  if (begin > end) fail(ErrorCode::bad_argument, "{}: ends before it begins", text);
+  return {std::uint64_t(begin), std::uint64_t(end)};
+}
 
 const char* name_of(LodProfile profile) {
   constexpr const char* kNames[] = {"gltf", "3dtiles", "collision"};
@@ -80,6 +98,10 @@ BuildOptions parse_build_options(Args& args) {
   args.option("--cache", "DIR", o.cache,
               "3dtiles: keep the results of all jobs in DIR, and take from there what has not changed");
   args.flag("--resume", o.resume, "3dtiles: keep what is done in OUTPUT.partial, and go on from there after a kill");
+  args.option(
+      "--tiles", "A..B", [&o](const std::string& text) { o.tiles = parse_job_range(text); },
+      "3dtiles: fill --cache with the tiles of these numbers, before B, and write no tileset");
+  args.flag("--explain", o.explain, "print what would be made, and how, and what is kept of it; make nothing");
   args.option("-s,--scale", "LENGTH", o.request.scale,
               "closing radius of the finest level; it doubles from level to level (default: by the target)");
   args.option("--element", {{"cube", StructuringElement::cube}, {"ball", StructuringElement::ball}}, o.element,

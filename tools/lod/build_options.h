@@ -15,6 +15,17 @@ namespace bp {
 enum class LodProfile { gltf, tiles, collision };
 [[nodiscard]] const char* name_of(LodProfile profile);
 
+/// Jobs of a tileset by their numbers in the plan: [begin, end).
+struct JobRange {
+  std::uint64_t begin = 0, end = 0;
+  /// Whether one of `count` numbers from `first` on lies in it.
+  [[nodiscard]] bool meets(std::uint64_t first, std::uint64_t count) const {
+    return first < end && begin < first + count && begin < end;
+  }
+};
+/// "A..B". Throws bad_argument.
+[[nodiscard]] JobRange parse_job_range(const std::string& text);
+
 struct BuildOptions {
   CommonOptions common;
   std::vector<std::string> scenes;
@@ -27,6 +38,8 @@ struct BuildOptions {
   std::int32_t tile_vox = 512;  ///< edge of a cell of a tileset
   std::string cache;            ///< folder of results of earlier builds; empty: none
   bool resume = false;
+  std::optional<JobRange> tiles;  ///< the jobs to do, without a tileset; empty: all, and the tileset
+  bool explain = false;           ///< print the plan; do nothing
   FillMode fill = FillMode::flood;
   UpAxis up = UpAxis::y;
   StructuringElement element = StructuringElement::cube;

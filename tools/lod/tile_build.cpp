@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "io/chunk_store.h"
 #include "io/lod_writer.h"
@@ -11,6 +12,7 @@
 #include "io/tileset_file.h"
 #include "lib/stage/tile_pyramid.h"
 #include "tools/lod/lod_outputs.h"
+#include "tools/lod/tile_plan.h"
 #include "tools/lod/tile_tree.h"
 #include "tools/lod/tileset_folder.h"
 #include "tools/lod/whole_levels.h"
@@ -18,9 +20,6 @@
 namespace bp {
 
 namespace {
-
-constexpr double kScaleVox = 2;        // closing radius of a level that is cut, in its voxels, if nobody says
-constexpr double kScalesPerError = 4;  // as in LodChain
 
 /// The middle of a cell: the numbers in its file stay small.
 LatticeCoord centre_of(const Cells& cells, CellCoord cell) {
@@ -36,19 +35,52 @@ struct Waiting {
   ChunkStore::Handle content;
 };
 
+/// Results that are there; nothing is added.
+class LookUpStore final : public ResultStore {
+ public:
+  /// `folder` need not be there.
+  explicit LookUpStore(const std::string& folder) {
+    if (std::filesystem::is_directory(folder)) results_ = open_result_store(folder);
+  }
+  bool get(const ResultKey& key, std::string& out) override { return results_ && results_->get(key, out); }
+  void put(const ResultKey&, std::string_view) override {}
+
+ private:
+  std::unique_ptr<ResultStore> results_;
+};
+
+/// The whole tileset; results of some of its jobs; or a look at those that are there.
+enum class Task { tileset, some_jobs, look_up };
+
 class TilesetBuild {
  public:
-  explicit TilesetBuild(const BuildOptions& o)
-      : options_(o), folder_(o.out, o.common.overwrite, o.resume), build_(o), cells_{o.tile_vox}, tree_(o.up, cells_) {
+  TilesetBuild(const BuildOptions& o, Task task)
+      : options_(o), task_(task), build_(o), cells_{o.tile_vox}, tree_(o.up, cells_) {
+    if (task == Task::tileset) folder_ = std::make_unique<TilesetFolder>(o.out, o.common.overwrite, o.resume);
     store_ = make_chunk_store(build_.budget.store, o.common.temp);
-    if (!o.cache.empty()) results_ = open_result_store(o.cache);
-    if (o.resume) results_ = open_result_store(folder_.results());
+    const std::string results = o.resume ? TilesetFolder::results_of(o.out) : o.cache;
+    if (task == Task::look_up) {
+      results_ = std::make_unique<LookUpStore>(results);
+    } else if (!results.empty()) {
+      results_ = open_result_store(results);
+    }
   }
 
   void run() {
+    VoxelizedScene scene = make_levels();
+    build_.progress.end();
+    if (task_ == Task::tileset) write(scene);
+    if (task_ == Task::some_jobs) build_.finish_jobs(scene, *options_.tiles, plan_.jobs(), found_);
+  }
+
+  [[nodiscard]] const std::vector<FoundJobs>& found() const { return found_; }
+
+ private:
+  VoxelizedScene make_levels() {
     VoxelizedScene scene = build_.voxelize(cells_.edge_vox);
     scene_voxel_ = scene.header.frame.voxel;
     bounds_ = scene.header.bounds;
+    plan_ = plan_tileset(options_, scene.header);
     build_.report.stage("measure the scene");
     PyramidOptions pyramid_options;
     pyramid_options.cells = cells_;
@@ -59,41 +91,40 @@ class TilesetBuild {
     pyramid_options.progress = build_.show;
     TilePyramid pyramid(scene.header, std::move(scene.solid), build_.backends, pyramid_options);
     LodOptions lod = build_.lod_options();
-    const std::size_t cut = make_cut_levels(pyramid, lod.scene);
-    make_whole(pyramid, std::move(lod), cut, scene.counts.input_hash);
-    build_.progress.end();
-    write(scene);
+    make_cut_levels(pyramid, lod.scene);
+    if (plan_.whole > 0 && is_wanted(plan_.whole_number(), 1))
+      make_whole(pyramid, std::move(lod), scene.counts.input_hash);
+    return scene;
   }
 
- private:
-  /// As many as were asked for; else at least so many that the root is one mesh.
-  [[nodiscard]] std::size_t level_count(std::size_t cut) const {
-    const std::size_t asked = bp::level_count(options_.request);
-    return is_explicit(options_.request) ? asked : std::max(asked, cut + 1);
+  /// Whether any of `count` jobs is.
+  [[nodiscard]] bool is_wanted(std::uint64_t number, std::uint64_t count) const {
+    return task_ != Task::some_jobs || options_.tiles->meets(number, count);
   }
 
-  /// Those of more than one cell; returns their number.
-  std::size_t make_cut_levels(TilePyramid& pyramid, const std::vector<TriangleD>& scene) {
+  /// Those of more than one cell.
+  void make_cut_levels(TilePyramid& pyramid, const std::vector<TriangleD>& scene) {
     std::unique_ptr<TriangleBvh> tree;
-    if (!scene.empty() && !pyramid.in_one_cell()) tree = std::make_unique<TriangleBvh>(scene);
-    std::size_t level = 0;
-    for (; level < level_count(level) && !pyramid.in_one_cell(); ++level) {
+    if (!scene.empty() && !plan_.cut.empty()) tree = std::make_unique<TriangleBvh>(scene);
+    for (std::size_t level = 0; level < plan_.cut.size(); ++level) {
+      const CutLevel& cut = plan_.cut[level];
       build_.report.stage(fmt::format("level {}", level));
-      make_tiles(pyramid, level, tree.get());
+      found_.push_back({fmt::format("level {}", level), 0, 0});
+      if (is_wanted(cut.number, cut.cells.count())) make_tiles(pyramid, level, tree.get());
       pyramid.reduce();
     }
-    if (!pyramid.in_one_cell())
+    if (plan_.whole == 0 && task_ == Task::tileset)
       build_.note(
           fmt::format("the coarsest level has {} tiles, and nothing is drawn instead of them from afar; ask for "
                       "more levels, or for larger tiles",
                       rows_.back().tiles));
-    return level;
   }
 
   void make_tiles(TilePyramid& pyramid, std::size_t level, const TriangleBvh* scene) {
+    const CutLevel& cut = plan_.cut[level];
     const GridFrame& frame = pyramid.header().frame;
-    const LodTarget target = tile_target_of(options_.request, level, bounds_.diagonal(), scene_voxel_);
-    const double scale = scale_of(target, frame.voxel);
+    const LodTarget& target = cut.target;
+    const double scale = cut.scale_world;
     const std::string level_folder = level_name(options_.name, level);
     const std::vector<Provenance> provenance{
         make_provenance("bplod", option_text(options_, target, level, scale, frame.voxel))};
@@ -101,6 +132,8 @@ class TilesetBuild {
     std::uint64_t over_faces = 0, dense = 0, kept = 0;
     TileParams params = tile_params(target, frame, scene);
     params.encoding = level_folder + " " + provenance[0].options;
+    params.make = task_ != Task::look_up;
+    if (task_ == Task::some_jobs) params.wanted = [&](CellCoord cell) { return is_wanted(cut.number_of(cell), 1); };
     pyramid.make(
         scale, std::move(params),
         [&](CellCoord cell, const LatticeMesh& mesh) {
@@ -109,6 +142,9 @@ class TilesetBuild {
           return tile_glb({level_folder + "_" + name_of(cell), &named}, centre_of(cells_, cell));
         },
         [&](LevelTile&& tile) {
+          found_.back().jobs += 1;
+          found_.back().kept += tile.kept;
+          if (task_ != Task::tileset) return;
           const TileMeasures& m = tile.measures;
           row.tiles += 1;
           kept += tile.kept;
@@ -134,12 +170,6 @@ class TilesetBuild {
                       level, over_faces, row.tiles, scale));
   }
 
-  [[nodiscard]] double scale_of(const LodTarget& target, double voxel) const {
-    if (target.scale_world) return *target.scale_world;
-    if (target.error_world > 0) return std::max(target.error_world / kScalesPerError, voxel);
-    return kScaleVox * voxel;
-  }
-
   [[nodiscard]] TileParams tile_params(const LodTarget& target, const GridFrame& frame,
                                        const TriangleBvh* scene) const {
     TileParams params;
@@ -157,13 +187,20 @@ class TilesetBuild {
 
   static std::string name_of(CellCoord c) { return fmt::format("{}_{}_{}", c.x, c.y, c.z); }
 
-  void make_whole(TilePyramid& pyramid, LodOptions lod, std::size_t cut, const std::string& input_hash) {
-    if (cut == level_count(cut)) return;
+  void make_whole(TilePyramid& pyramid, LodOptions lod, const std::string& input_hash) {
+    const std::size_t cut = plan_.cut.size();
     build_.report.stage("levels in one mesh");
-    if (cut > 0) lod.least_scale_world = kScaleVox * pyramid.header().frame.voxel;
-    WholeInput input{pyramid.header(),       pyramid.take_solid(), pyramid.take_surface(),   cut,
-                     level_count(cut) - cut, scene_voxel_,         cut > 0 ? "" : input_hash};
+    if (cut > 0) lod.least_scale_world = TilesetPlan::kScaleVox * pyramid.header().frame.voxel;
+    WholeInput input{pyramid.header(), pyramid.take_solid(), pyramid.take_surface(),   cut,
+                     plan_.whole,      scene_voxel_,         cut > 0 ? "" : input_hash};
+    FoundJobs& found = found_.emplace_back(FoundJobs{"levels in one mesh", 1, 0});
+    if (task_ == Task::look_up) {
+      found.kept = are_kept(build_, input, lod, *results_) ? 1 : 0;
+      return;
+    }
     const WholeLevels whole = make_whole_levels(build_, std::move(input), std::move(lod), results_.get());
+    found.kept = whole.kept ? 1 : 0;
+    if (task_ == Task::some_jobs) return;
     for (const WholeLevel& level : whole.levels) {
       files_.push_back({level.row.file, store_->put(std::as_bytes(std::span(level.content)))});
       tree_.add_whole({level.row.file, whole.origin, level.bounds, level.row.error_world});
@@ -180,12 +217,12 @@ class TilesetBuild {
     std::vector<std::byte> bytes;
     for (const Waiting& file : files_) {
       store_->get(file.content, bytes);
-      folder_.write(file.name, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+      folder_->write(file.name, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
       store_->drop(file.content);
     }
-    folder_.write("tileset.json", tileset_text(tileset, provenance_));
-    folder_.commit();
-    build_.finish(scene, rows_, folder_.bytes());
+    folder_->write("tileset.json", tileset_text(tileset, provenance_));
+    folder_->commit();
+    build_.finish(scene, rows_, folder_->bytes());
   }
 
   /// Of a tileset whose levels are cut: each tile has its own.
@@ -196,23 +233,32 @@ class TilesetBuild {
   }
 
   const BuildOptions& options_;
-  TilesetFolder folder_;
+  const Task task_;
+  std::unique_ptr<TilesetFolder> folder_;  ///< of a tileset
   Build build_;
   Cells cells_;
   TileTree tree_;
+  TilesetPlan plan_;
   std::unique_ptr<ChunkStore> store_;     ///< files, until all are there
   std::unique_ptr<ResultStore> results_;  ///< of jobs; may be null
   double scene_voxel_ = 0;
   Bounds3d bounds_;
   std::vector<Waiting> files_;
   std::vector<LevelRow> rows_;
+  std::vector<FoundJobs> found_;
   std::vector<Provenance> provenance_;  ///< of the tileset, if no level is cut
 };
 
 }  // namespace
 
 void build_tileset(const BuildOptions& options) {
-  TilesetBuild(options).run();
+  TilesetBuild(options, options.tiles ? Task::some_jobs : Task::tileset).run();
+}
+
+std::vector<FoundJobs> look_up_tileset(const BuildOptions& options) {
+  TilesetBuild build(options, Task::look_up);
+  build.run();
+  return build.found();
 }
 
 }  // namespace bp

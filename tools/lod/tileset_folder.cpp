@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTileset = "tileset.json";
+constexpr const char* kPartial = ".partial";
 
 /// Contents of the tileset in `folder`, if it is one of ours or at least readable.
 std::vector<std::string> contents_of(const std::string& folder) {
@@ -33,11 +34,19 @@ std::vector<std::string> contents_of(const std::string& folder) {
   return uris;
 }
 
+std::string without_slash(std::string path) {
+  while (path.size() > 1 && path.back() == '/') path.pop_back();
+  return path;
+}
+
 }  // namespace
 
-TilesetFolder::TilesetFolder(std::string path, bool overwrite, bool resume) : path_(std::move(path)), resume_(resume) {
-  while (path_.size() > 1 && path_.back() == '/') path_.pop_back();
-  partial_ = path_ + ".partial";
+std::string TilesetFolder::results_of(std::string path) {
+  return without_slash(std::move(path)) + kPartial + "/results";
+}
+
+TilesetFolder::TilesetFolder(std::string path, bool overwrite, bool resume)
+    : path_(without_slash(std::move(path))), partial_(path_ + kPartial), resume_(resume) {
   files_ = partial_ + "/files";
   const bool interrupted = resume && fs::exists(partial_);  // perhaps while the files were moved
   if (!overwrite && !interrupted && fs::exists(path_ + "/" + kTileset))

@@ -18,7 +18,8 @@ class TilesetFolder {
   TilesetFolder& operator=(const TilesetFolder&) = delete;
 
   /// Where results wait to be gone on with; removed by commit().
-  [[nodiscard]] std::string results() const { return partial_ + "/results"; }
+  [[nodiscard]] std::string results() const { return results_of(path_); }
+  [[nodiscard]] static std::string results_of(std::string path);
   /// `name` may hold one folder: "level/tile.glb".
   void write(const std::string& name, const std::string& bytes);
   /// The files appear; tiles of the tileset that was there before, and that are not among them, go.

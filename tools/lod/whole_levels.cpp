@@ -134,6 +134,11 @@ WholeLevels make(Build& build, WholeInput input, LodOptions lod) {
 
 }  // namespace
 
+bool are_kept(const Build& build, const WholeInput& input, const LodOptions& lod, ResultStore& store) {
+  std::string bytes;
+  return store.get(key_of(build, input, lod), bytes);
+}
+
 WholeLevels make_whole_levels(Build& build, WholeInput input, LodOptions lod, ResultStore* store) {
   if (store == nullptr) return make(build, std::move(input), std::move(lod));
   const ResultKey key = key_of(build, input, lod);
@@ -142,6 +147,7 @@ WholeLevels make_whole_levels(Build& build, WholeInput input, LodOptions lod, Re
     std::vector<std::string> notes;
     WholeLevels whole = unpacked(bytes, notes);
     for (const std::string& note : notes) build.note(note);
+    whole.kept = true;
     return whole;
   }
   const std::size_t notes_before = build.report.notes.size();

@@ -56,6 +56,21 @@ TEST_CASE("frames aligned to cells stay so through all reductions, until the sce
   FAIL("never in one cell");
 }
 
+TEST_CASE("cells of a span have numbers from 0 on, in their order", "[quick][grid][lod]") {
+  const Cells cells{128};
+  const CellSpan span = cells_spanned(cells, VoxelBox{{-1, 0, 127}, {128, 129, 385}});
+  CHECK(span.first == CellCoord{-1, 0, 0});
+  CHECK(span.last == CellCoord{0, 1, 3});
+  REQUIRE(span.count() == 16);
+  std::vector<CellCoord> all;
+  for (std::int32_t x = -1; x <= 0; ++x)
+    for (std::int32_t y = 0; y <= 1; ++y)
+      for (std::int32_t z = 0; z <= 3; ++z) all.push_back({x, y, z});
+  CHECK(std::is_sorted(all.begin(), all.end()));
+  for (std::size_t i = 0; i < all.size(); ++i) CHECK(span.index(all[i]) == i);
+  CHECK(cells_spanned(cells, BrickBox{{0, 0, 0}, {2, 2, 3}}).count() == 2);
+}
+
 TEST_CASE("a clipped solid has the voxels in the box and no others", "[quick][grid][lod]") {
   const auto shelf = random_shelf(5);
   const VoxelBox box = GENERATE(VoxelBox{{-3, 0, 5}, {65, 64, 7}}, VoxelBox{{-64, -64, 0}, {64, 64, 128}},

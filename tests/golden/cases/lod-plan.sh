@@ -1,0 +1,57 @@
+# What --explain says is what a run does; --tiles fills a cache in parts, and the run that puts them together gives the bytes of one run.
+for i in 0 1 2; do
+  write_cube cube.obj 3
+  sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 7 * $i)) \2 \$((\3 + $i))/e" cube.obj > part$i.obj
+done
+options=(part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles -q)
+numbers() { grep -oE "\"($1)\": [0-9.]*" "$2" | tr '\n' ' '; echo; }
+# The plan needs no voxel: these figures are exact, but for "at most" and "about". Nothing is written.
+bplod "${options[@]}" --explain -j 1 --memory 1G
+bplod "${options[@]}" --explain --cache none --report plan.json > list
+tail -2 list
+ls none 2> /dev/null
+bplod "${options[@]}" -o whole --report whole.json > list
+numbers 'voxel|tiles_at_most|tiles|scale' plan.json
+numbers 'voxel|tiles|scale' whole.json
+
+# Three parts, two at a time, then all: nothing is left to do but to write.
+bplod "${options[@]}" --cache cache --tiles 0..7 > list & bplod "${options[@]}" --cache cache --tiles 7..14 > list2 & wait
+cat list list2
+bplod "${options[@]}" --cache cache --explain | grep kept
+bplod "${options[@]}" --cache cache --tiles 14..21 --report part.json
+bplod "${options[@]}" --cache cache --explain | grep kept
+numbers 'begin|end|of' part.json
+ls
+bplod "${options[@]}" --cache cache -o together --report together.json > list
+numbers kept together.json
+diff -r whole together && echo "the same bytes"
+# A part that was done, or that has no number, costs nothing.
+bplod "${options[@]}" --cache cache --tiles 0..4
+bplod "${options[@]}" --cache cache --tiles 30..40
+
+# What a change costs is known before it is paid.
+sed -i 's/^v \(.*\) 3 \(.*\)$/v \1 2 \2/' part2.obj
+bplod "${options[@]}" --cache cache --explain | grep kept
+bplod "${options[@]}" --cache cache -o changed --report changed.json > list
+numbers kept changed.json
+bplod "${options[@]}" --cache cache --explain | grep kept
+
+# The same of what --resume would go on with; levels in one mesh are estimated.
+mkdir resumed.partial
+cp -r cache resumed.partial/results
+rm -r resumed.partial/results/[0-7]*
+bplod "${options[@]}" --resume -o resumed --explain | grep kept > planned
+bplod "${options[@]}" --resume -o resumed --report resumed.json > list
+diff <(sed -n 's/.*level .: \(.*\) of.*/\1/p' planned) <(grep -oE '"kept": .*' resumed.json | grep -o '[0-9]*') && echo "as planned"
+diff -r changed resumed && echo "the same bytes"
+bplod part0.obj --name cube --resolution 40 --faces 200,50 --explain --memory 1G -j 1
+bplod part0.obj --name cube --resolution 40 --error 0.5 --profile collision --explain --memory 1G -j 1 | tail -1
+try bplod "${options[@]}" --explain --resume
+try bplod "${options[@]}" --tiles 0..2
+try bplod "${options[@]}" --tiles 0..2 --cache cache --explain
+try bplod "${options[@]}" --tiles 2..0 --cache cache
+try bplod "${options[@]}" --tiles 2 --cache cache
+try bplod part0.obj --tiles 0..1 --cache cache
+try bplod part9.obj --explain
+try bplod - --format obj --explain --profile 3dtiles --cache cache
+files

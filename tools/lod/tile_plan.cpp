@@ -1,0 +1,59 @@
+#include "tools/lod/tile_plan.h"
+
+#include <algorithm>
+
+#include "lib/grid/reduce.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kScalesPerError = 4;  // as in LodChain
+
+double scale_of(const LodTarget& target, double voxel) {
+  if (target.scale_world) return *target.scale_world;
+  if (target.error_world > 0) return std::max(target.error_world / kScalesPerError, voxel);
+  return TilesetPlan::kScaleVox * voxel;
+}
+
+/// As many as were asked for; else at least so many that the root is one mesh.
+std::size_t level_count_with(const LodRequest& request, std::size_t cut) {
+  const std::size_t asked = level_count(request);
+  return is_explicit(request) ? asked : std::max(asked, cut + 1);
+}
+
+}  // namespace
+
+Halo halo_at(double scale_world, const GridFrame& frame) {
+  ScaleField field;
+  field.base = scale_world;
+  const std::int32_t reach = element_reach(field.upper_bound(frame));
+  return {reach + 1, reach};
+}
+
+TilesetPlan plan_tileset(const BuildOptions& o, const StreamHeader& header) {
+  const Cells cells{o.tile_vox};
+  TilesetPlan plan;
+  plan.uncut = header;
+  VoxelBox solid = voxel_bounds(header.frame, header.bounds);
+  std::uint64_t number = 0;
+  std::size_t level = 0;
+  for (; level < level_count_with(o.request, level) && cells_spanned(cells, plan.uncut.bricks).count() > 1; ++level) {
+    const LodTarget target = tile_target_of(o.request, level, header.bounds.diagonal(), header.frame.voxel);
+    const GridFrame& frame = plan.uncut.frame;
+    const double scale = scale_of(target, frame.voxel);
+    // A closing reaches one voxel beyond what it closes.
+    const CellSpan span = cells_spanned(cells, solid.grown(1));
+    plan.cut.push_back({target, frame, scale, halo_at(scale, frame), span, number});
+    number += span.count();
+    plan.uncut = reduced(plan.uncut);
+    for (int i = 0; i < 3; ++i) {  // the origins of frames that are aligned to cells are even
+      solid.min[i] = floor_div(solid.min[i], 2);
+      solid.max[i] = ceil_div(solid.max[i], 2);
+    }
+  }
+  plan.whole = level_count_with(o.request, level) - level;
+  return plan;
+}
+
+}  // namespace bp
