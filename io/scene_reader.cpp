@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 
 #include "io/detail/degenerate.h"
@@ -11,6 +12,7 @@
 #include "io/detail/raw_source.h"
 #include "io/detail/stream_format.h"
 #include "lib/core/error.h"
+#include "lib/core/parallel.h"
 
 namespace bp {
 
@@ -107,48 +109,92 @@ RawSourcePtr open_raw(const std::string& path, const SceneOptions& options) {
        file->name());
 }
 
-/// Drops what has no area or no place, and counts it.
+/// Drops what has no area or no place, and counts it. Batches are decoded and sifted in parallel, some ahead of the
+/// caller.
 class FilteredScene final : public TriangleSource {
  public:
-  FilteredScene(std::string name, RawSourcePtr raw) : name_(std::move(name)), raw_(std::move(raw)) {}
+  FilteredScene(std::string name, RawSourcePtr raw, std::uint64_t memory_bytes)
+      : name_(std::move(name)), raw_(std::move(raw)), batches_(batches_in(memory_bytes)) {}
 
   bool read(std::vector<TriangleD>& out) override {
-    while (raw_->read(out)) {
-      keep_good(out);
-      if (!out.empty()) break;
+    out.clear();
+    while (out.empty() && (next_ < ready_ || fetch())) {
+      Batch& batch = batches_[next_++];
+      out.swap(batch.raw.triangles);
+      counts_.add(batch.counts);
     }
-    counts_.bad_faces = raw_->bad_faces();
+    counts_.bad_faces = raw_->bad_faces() + bad_faces_;
     counts_.instances = raw_->instances();
     return !out.empty();
   }
   void rewind() override {
     raw_->rewind();
     counts_ = {};
+    next_ = ready_ = 0;
+    bad_faces_ = 0;
   }
   [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] std::optional<UpAxis> up() const override { return raw_->up(); }
 
  private:
-  void keep_good(std::vector<TriangleD>& triangles) {
+  struct Batch {
+    RawBatch raw;
+    SceneCounts counts;  // of its triangles
+  };
+
+  static std::size_t batches_in(std::uint64_t memory_bytes) {
+    constexpr std::uint64_t kBatchBytes = RawSource::kBatch * (sizeof(TriangleD) + 16);
+    const auto wanted = std::uint64_t(thread_count() > 1 ? 2 * thread_count() : 1);
+    return std::size_t(std::clamp<std::uint64_t>(memory_bytes / 2 / kBatchBytes, 1, wanted));
+  }
+
+  bool fetch() {
+    next_ = ready_ = 0;
+    while (ready_ < batches_.size() && raw_->next(batches_[ready_].raw)) ++ready_;
+    parallel_for(std::int64_t(ready_), [&](std::int64_t i) {
+      Batch& batch = batches_[std::size_t(i)];
+      raw_->complete(batch.raw);
+      batch.counts = keep_good(batch.raw.triangles);
+    });
+    for (std::size_t i = 0; i < ready_; ++i) bad_faces_ += batches_[i].raw.bad_faces;
+    return ready_ > 0;
+  }
+
+  /// No coordinate is zero, tiny, huge or NaN: nothing to normalize, nothing to find fault with.
+  static bool is_plain(const TriangleD& t) {
+    bool plain = true;
+    for (const Vec3d& p : t) {
+      for (const double c : p) plain &= std::abs(c) >= 1e-90 && std::abs(c) <= 1e90;
+    }
+    return plain;
+  }
+
+  static SceneCounts keep_good(std::vector<TriangleD>& triangles) {
+    SceneCounts counts;
     std::size_t kept = 0;
     for (TriangleD& t : triangles) {
-      normalize(t);
-      if (!is_finite(t)) {
-        ++counts_.non_finite;
+      const bool plain = is_plain(t);
+      if (!plain) normalize(t);
+      if (!plain && !is_finite(t)) {
+        ++counts.non_finite;
       } else if (is_degenerate(t)) {
-        ++counts_.degenerate;
+        ++counts.degenerate;
       } else {
         triangles[kept++] = t;
       }
     }
     triangles.resize(kept);
-    counts_.triangles += kept;
+    counts.triangles = kept;
+    return counts;
   }
 
   std::string name_;
   RawSourcePtr raw_;
   SceneCounts counts_;
+  std::vector<Batch> batches_;
+  std::size_t next_ = 0, ready_ = 0;  // of batches_
+  std::uint64_t bad_faces_ = 0;       // met by complete()
 };
 
 /// Files in a row. Only one is open at a time, so that vertices and file handles of the others take nothing; stdin,
@@ -215,7 +261,7 @@ class SceneRow final : public TriangleSource {
 }  // namespace
 
 std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneOptions& options) {
-  return std::make_unique<FilteredScene>(path == "-" ? "stdin" : path, open_raw(path, options));
+  return std::make_unique<FilteredScene>(path == "-" ? "stdin" : path, open_raw(path, options), options.memory_bytes);
 }
 
 std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, const SceneOptions& options) {

@@ -5,6 +5,14 @@
 /// What each format implements: triangles as they stand in the file, nothing dropped but faces that name no corners.
 namespace bp {
 
+/// Triangles on their way from a file.
+struct RawBatch {
+  std::vector<TriangleD> triangles;
+  std::vector<std::byte> bytes;          ///< that complete() will make them of
+  std::uint64_t records = 0, count = 0;  ///< faces in `bytes`, and their triangles if all are good
+  std::uint64_t bad_faces = 0;           ///< met by complete()
+};
+
 class RawSource {
  public:
   static constexpr std::size_t kBatch = 1 << 14;  ///< triangles per read(), about
@@ -12,10 +20,19 @@ class RawSource {
   virtual ~RawSource() = default;
   /// Replaces `out` by the next triangles; false, and `out` empty, at the end.
   virtual bool read(std::vector<TriangleD>& out) = 0;
+  /// The same in two steps, so that many batches are decoded at once: next() fetches one, in order, on one thread at a
+  /// time; complete() makes its triangles, on any thread. A batch may turn out to hold no triangle.
+  virtual bool next(RawBatch& batch) {
+    batch.bad_faces = 0;
+    return read(batch.triangles);
+  }
+  virtual void complete(RawBatch&) const {}
   virtual void rewind() = 0;
   [[nodiscard]] virtual std::uint64_t instances() const { return 1; }
   [[nodiscard]] virtual std::optional<UpAxis> up() const { return {}; }  ///< TriangleSource::up()
-  [[nodiscard]] std::uint64_t bad_faces() const { return bad_faces_; }   ///< since the last rewind
+  [[nodiscard]] std::uint64_t bad_faces() const {
+    return bad_faces_;
+  }  ///< since the last rewind; not those of complete()
 
  protected:
   std::uint64_t bad_faces_ = 0;
