@@ -17,6 +17,7 @@
 #include "lib/core/pool.h"
 #include "lib/grid/cells.h"
 #include "lib/grid/outside.h"
+#include "lib/stage/chunked_surface.h"
 #include "lib/stage/triangle_bins.h"
 #include "lib/voxel/winding.h"
 
@@ -86,6 +87,8 @@ class Run {
  public:
   Run(TriangleSource& source, Backends& backends, const VoxelizeOptions& options)
       : source_(source), options_(options), shelf_(options.make_shelf()), store_(options.make_store()) {
+    if (options.results != nullptr && options.fill != FillMode::winding)
+      chunks_ = std::make_unique<ChunkedSurface>(*options.results);
     for (int i = 0; backends.empty() && i < thread_count(); ++i) own_.push_back(std::make_unique<CpuBackend>());
     std::vector<Backend*> all;
     for (const auto& backend : backends.empty() ? own_ : backends) all.push_back(backend.get());
@@ -96,7 +99,7 @@ class Run {
     measure();
     lay_grid();
     BrickSink& sink = open(header_, counts_);
-    bin();
+    sort_triangles();
     voxelize();
     fill_and_emit(sink);
     counts_.scratch_bytes = store_->scratch_bytes();
@@ -113,8 +116,12 @@ class Run {
 
   void measure();
   void lay_grid();
-  void bin();
-  void bin_chunks(const std::function<bool(std::vector<TriangleD>&)>& next);
+  using NextTriangles = ChunkedSurface::NextTriangles;
+  void sort_triangles();
+  void read_again(const std::function<void(const NextTriangles&)>& body);
+  void bin(const NextTriangles& next);
+  void look_up_chunks();
+  [[nodiscard]] std::vector<std::uint64_t> tiles_with_triangles() const;
   [[nodiscard]] std::uint64_t waiting_bytes() const;
   void make_room();
   void voxelize();
@@ -140,6 +147,7 @@ class Run {
 
   Bounds3d bounds_;
   std::vector<std::vector<TriangleD>> kept_;
+  std::unique_ptr<ChunkedSurface> chunks_;  ///< instead of bins_
   StreamHeader header_;
   TileGrid tiles_;
   std::unique_ptr<TriangleBins> bins_;
@@ -152,25 +160,37 @@ class Run {
 /// First pass: bounds and counts. The triangles stay while they fit in three fifths of the memory; their bins, half as
 /// large, then fit beside them.
 void Run::measure() {
+  struct Item {
+    std::vector<TriangleD> triangles;
+    std::vector<std::uint32_t> places;
+    Bounds3d bounds;
+  };
   Steps steps(options_, "reading", "triangles", 0);
   const std::uint64_t limit = options_.memory_bytes / 5 * 3;
   std::uint64_t bytes = 0;
-  std::vector<TriangleD> chunk;
   InputHash hash;
-  while (source_.read(chunk)) {
-    hash.add(std::as_bytes(std::span(chunk)));
-    for (const TriangleD& t : chunk) {
-      for (const Vec3d& p : t) bounds_.add(p);
-    }
-    steps.add(chunk.size());
-    bytes += chunk.size() * sizeof(TriangleD);
-    if (bytes <= limit) {
-      kept_.emplace_back(chunk.begin(), chunk.end());
-    } else if (!counts_.read_twice) {
-      counts_.read_twice = true;
-      std::vector<std::vector<TriangleD>>().swap(kept_);
-    }
-  }
+  pipeline<Item>(
+      thread_count() + 2, [&](Item& item) { return source_.read(item.triangles); },
+      [&](Item& item) {
+        for (const TriangleD& t : item.triangles) {
+          for (const Vec3d& p : t) item.bounds.add(p);
+        }
+        if (chunks_) item.places = ChunkCutter::places(item.triangles);
+        if (item.triangles.capacity() > item.triangles.size() / 4 * 5) item.triangles.shrink_to_fit();
+      },
+      [&](Item& item) {
+        hash.add(std::as_bytes(std::span(item.triangles)));
+        if (chunks_) chunks_->measure(item.triangles, item.places);
+        bounds_.merge(item.bounds);
+        steps.add(item.triangles.size());
+        bytes += item.triangles.capacity() * sizeof(TriangleD);
+        if (bytes <= limit) {
+          kept_.push_back(std::move(item.triangles));
+        } else if (!counts_.read_twice) {
+          counts_.read_twice = true;
+          std::vector<std::vector<TriangleD>>().swap(kept_);
+        }
+      });
   counts_.scene = source_.counts();
   counts_.input_hash = hash.hex();
   if (bounds_.empty()) {
@@ -209,26 +229,45 @@ void Run::lay_grid() {
   if (options_.fill != FillMode::none) flood_ = std::make_unique<OutsideFlood>(grid, VoxelCoord{edge, edge, edge});
 }
 
-/// Second pass: triangles to fixed point, into the bins of their tiles.
-void Run::bin() {
-  bins_ = std::make_unique<TriangleBins>(tiles_, *store_);
+/// Second pass: from the triangles that stay, or from the scene.
+void Run::read_again(const std::function<void(const NextTriangles&)>& body) {
   if (!counts_.read_twice) {
     std::size_t i = 0;
-    bin_chunks([&](std::vector<TriangleD>& chunk) {
+    body([&](std::vector<TriangleD>& batch) {
       if (i == kept_.size()) return false;
-      chunk = std::move(kept_[i++]);
+      batch = std::move(kept_[i++]);
       return true;
     });
-    kept_.clear();
     return;
   }
   source_.rewind();
-  bin_chunks([&](std::vector<TriangleD>& chunk) { return source_.read(chunk); });
+  body([&](std::vector<TriangleD>& batch) { return source_.read(batch); });
   if (source_.counts().triangles != counts_.scene.triangles)
     fail(ErrorCode::bad_input, "{}: changed between the first and the second reading", source_.name());
 }
 
-void Run::bin_chunks(const std::function<bool(std::vector<TriangleD>&)>& next) {
+void Run::sort_triangles() {
+  bins_ = std::make_unique<TriangleBins>(tiles_, *store_);
+  if (chunks_) {
+    look_up_chunks();
+  } else {
+    read_again([&](const NextTriangles& next) { bin(next); });
+  }
+  kept_.clear();
+}
+
+/// The triangles of chunks that are known are not looked at again; if all are, the scene is not read twice.
+void Run::look_up_chunks() {
+  chunks_->look_up(header_.frame, header_.bricks, options_.memory_bytes / 10 * 3, *shelf_);
+  counts_.chunks = chunks_->chunks();
+  counts_.chunks_kept = chunks_->kept();
+  if (chunks_->complete()) return;
+  Steps steps(options_, "voxelizing", "triangles", counts_.scene.triangles);
+  read_again([&](const NextTriangles& next) { chunks_->add_missing(next, [&](std::uint64_t n) { steps.add(n); }); });
+}
+
+/// Triangles to fixed point, into the bins of their tiles.
+void Run::bin(const NextTriangles& next) {
   struct Item {
     std::vector<TriangleD> triangles;
     std::size_t count = 0;
@@ -281,15 +320,27 @@ void Run::make_room() {
   bins_->spill(few);
 }
 
+std::vector<std::uint64_t> Run::tiles_with_triangles() const {
+  if (!chunks_) return bins_->tiles();
+  std::vector<std::uint64_t> tiles;
+  for (const BrickCoord brick : chunks_->bricks().coords()) {
+    const VoxelCoord from = first_voxel(brick) - tiles_.voxels.min;
+    tiles.push_back(tiles_.index({from.x / tiles_.edge_vox, from.y / tiles_.edge_vox, from.z / tiles_.edge_vox}));
+  }
+  std::sort(tiles.begin(), tiles.end());
+  tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
+  return tiles;
+}
+
 void Run::voxelize() {
-  const std::vector<std::uint64_t> tiles = bins_->tiles();
+  const std::vector<std::uint64_t> tiles = tiles_with_triangles();
   for (const std::uint64_t tile : tiles) touched_[tile];
   counts_.tiles_touched = tiles.size();
   Steps steps(options_, "voxelizing", "tiles", tiles.size());
   parallel_for(std::int64_t(tiles.size()), [&](std::int64_t i) {
     const std::uint64_t tile = tiles[std::size_t(i)];
     voxelize_tile(tile, touched_.at(tile), true);
-    bins_->release(tile);
+    if (!chunks_) bins_->release(tile);
     steps.add(1);
   });
   if (flood_) flood_->resolve();
@@ -303,6 +354,7 @@ void Run::voxelize_tile(std::uint64_t tile, Tile& state, bool last) {
   work->bits.reset(box);
   if (state.on_shelf) load_voxels(*shelf_, work->bits);
   state.on_shelf = true;
+  if (chunks_) chunks_->bricks().take(work->bits);
   bins_->for_each(tile, [&](std::span<const FixedTriangle> triangles) {
     work->crossings.clear();
     {

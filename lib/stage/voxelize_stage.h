@@ -4,6 +4,7 @@
 
 #include "lib/backend/backend.h"
 #include "lib/core/chunk_store.h"
+#include "lib/core/result_store.h"
 #include "lib/core/triangle_source.h"
 #include "lib/grid/stream.h"
 
@@ -29,6 +30,9 @@ struct VoxelizeOptions {
   std::int32_t tile_vox = 0;                ///< 0: by the size of the grid; else a multiple of 64, <= 512
   ShelfFactory make_shelf;                  ///< bricks between voxelizing and filling
   ChunkStoreFactory make_store;             ///< triangles beyond memory_bytes, crossings of columns
+  /// The voxels of chunks of the scene (surface_chunks.h) are looked up there, and put; null: all are made. Winding
+  /// numbers need all triangles, and use none.
+  ResultStore* results = nullptr;
   /// Called now and then: what is done, of how many (0: not known) units. May be empty. On any thread, one at a time.
   std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
 };
@@ -40,9 +44,10 @@ struct VoxelizeCounts {
   std::uint64_t tiles = 0;          ///< of the grid
   std::uint64_t tiles_touched = 0;  ///< that hold triangles
   std::uint64_t surface_voxels = 0, solid_voxels = 0, bricks = 0, full_bricks = 0;
-  std::uint64_t open_columns = 0;   ///< winding: columns whose crossings do not cancel; the flood decided there
-  bool read_twice = false;          ///< the scene did not fit in memory
-  std::uint64_t scratch_bytes = 0;  ///< triangles and crossings put aside, compressed
+  std::uint64_t open_columns = 0;  ///< winding: columns whose crossings do not cancel; the flood decided there
+  bool read_twice = false;         ///< the scene did not fit in memory
+  std::uint64_t chunks = 0, chunks_kept = 0;  ///< of the scene's triangles; found in VoxelizeOptions::results
+  std::uint64_t scratch_bytes = 0;            ///< triangles and crossings put aside, compressed
 };
 
 /// The voxel size that gives `voxels` along the longest side of the bounds, or up to 1/128 fewer: it has 8 significant

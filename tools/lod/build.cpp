@@ -50,11 +50,12 @@ Build::Build(const BuildOptions& o)
   };
 }
 
-VoxelizedScene Build::voxelize(std::int32_t cell_vox) {
+VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results) {
   report.stage("voxelize");
   VoxelizeOptions v;
   v.voxel_size = [this](const Bounds3d& bounds) { return voxel_size(options, bounds); };
   v.cell_vox = cell_vox;
+  v.results = results;
   v.fill = options.fill;
   v.up = options.up;
   v.memory_bytes = budget.waiting;
@@ -142,9 +143,14 @@ void Build::finish_jobs(const VoxelizedScene& scene, const JobRange& range, std:
 
 void Build::write_report(const VoxelizedScene& scene, std::size_t levels) {
   report.options = {{"profile", name_of(options.profile)}, {"levels", levels}, {"memory", options.common.memory_bytes}};
-  Json counts = {{"triangles", scene.counts.scene.triangles},   {"degenerate", scene.counts.scene.degenerate},
-                 {"non_finite", scene.counts.scene.non_finite}, {"bad_faces", scene.counts.scene.bad_faces},
-                 {"voxel", scene.header.frame.voxel},           {"solid_voxels", scene.counts.solid_voxels}};
+  Json counts = {{"triangles", scene.counts.scene.triangles},
+                 {"degenerate", scene.counts.scene.degenerate},
+                 {"non_finite", scene.counts.scene.non_finite},
+                 {"bad_faces", scene.counts.scene.bad_faces},
+                 {"chunks", scene.counts.chunks},
+                 {"chunks_kept", scene.counts.chunks_kept},
+                 {"voxel", scene.header.frame.voxel},
+                 {"solid_voxels", scene.counts.solid_voxels}};
   counts.update(report.counts);
   report.counts = std::move(counts);
   report.write(options.common);

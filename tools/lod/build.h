@@ -46,8 +46,8 @@ class Build {
   Build(const Build&) = delete;
   Build& operator=(const Build&) = delete;
 
-  /// cell_vox: as in VoxelizeOptions.
-  [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox);
+  /// cell_vox, results: as in VoxelizeOptions.
+  [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr);
   /// For LodChain.
   [[nodiscard]] LodOptions lod_options();
   /// What a fit is drawn to; nothing if it does not fit in memory.

@@ -77,7 +77,7 @@ class TilesetBuild {
 
  private:
   VoxelizedScene make_levels() {
-    VoxelizedScene scene = build_.voxelize(cells_.edge_vox);
+    VoxelizedScene scene = build_.voxelize(cells_.edge_vox, results_.get());
     scene_voxel_ = scene.header.frame.voxel;
     bounds_ = scene.header.bounds;
     plan_ = plan_tileset(options_, scene.header);

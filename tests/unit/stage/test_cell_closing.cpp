@@ -1,5 +1,4 @@
 #include <map>
-#include <mutex>
 #include <random>
 
 #include "lib/backend/cpu_backend.h"
@@ -7,29 +6,12 @@
 #include "lib/stage/cell_closing.h"
 #include "lib/stage/close_stage.h"
 #include "tests/catch.h"
+#include "tests/support/memory_results.h"
 #include "tests/support/voxel_source.h"
 
 namespace bp::test {
 
 namespace {
-
-class MemoryStore final : public ResultStore {
- public:
-  bool get(const ResultKey& key, std::string& out) override {
-    const std::lock_guard lock(mutex_);
-    const auto found = results.find(key);
-    if (found != results.end()) out = found->second;
-    return found != results.end();
-  }
-  void put(const ResultKey& key, std::string_view bytes) override {
-    const std::lock_guard lock(mutex_);
-    results[key] = bytes;
-  }
-  std::map<ResultKey, std::string> results;
-
- private:
-  std::mutex mutex_;
-};
 
 Backends backends() {
   Backends all;
@@ -80,7 +62,7 @@ TEST_CASE("closing by cells gives the voxels of closing as a stream, from the st
     ShelfSink sink(nullptr, &expected);
     close_stream(again, sink, all, field, {}, o);
   }
-  MemoryStore store;
+  MemoryResults store;
   CellClosing o;
   o.cells = Cells{128};
   o.keep_cavities = keep_cavities;
