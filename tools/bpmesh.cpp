@@ -166,6 +166,15 @@ bp::Json json_of(const bp::SurfaceDistance& d) {
   return {{"at_most", d.at_most}, {"at_least", d.at_least}, {"mean", d.mean}, {"where", d.where}};
 }
 
+bp::Json json_of(const bp::QuadMeasures& q) {
+  return {{"count", q.count},
+          {"share_of_triangles", q.share},
+          {"bend", {{"mean", q.bend_mean}, {"max", q.bend_max}}},
+          {"aspect", {{"mean", q.aspect_mean}, {"max", q.aspect_max}}},
+          {"angle_degrees", {{"min", q.angle_min_degrees}, {"max", q.angle_max_degrees}}},
+          {"volume_over_diagonals", {{"least", q.volume_least}, {"most", q.volume_most}}}};
+}
+
 bp::Json json_of(const bp::LevelCounts& c) {
   const bp::SimplifyCounts& s = c.simplify;
   const bp::MeshMeasures& m = c.measures;
@@ -188,6 +197,7 @@ bp::Json json_of(const bp::LevelCounts& c) {
                      {"error", s.refused_error}}},
                    {"moves", c.tighten.moves},
                    {"flips", c.tighten.flips}};
+  if (m.quads) json["quads"] = json_of(*m.quads);
   if (m.proxy_to_enclosed) {
     json["distance"] = {{"proxy_to_enclosed", json_of(*m.proxy_to_enclosed)},
                         {"enclosed_to_proxy", json_of(*m.enclosed_to_proxy)},
@@ -261,6 +271,15 @@ std::string text_of(const Options& o, const bp::LevelCounts& level, const bp::Me
       fmt::format("  volume {:.6g}, {:.4g} times that of the voxels\n", m.volume, m.volume / all.solid_volume_world);
   text += fmt::format("  edges {:.4g} to {:.4g}, {:.4g} on average; least angle {:.3g} degrees\n", m.edge_min,
                       m.edge_max, m.edge_mean, m.angle_min_degrees);
+  if (m.quads) {
+    text += fmt::format(
+        "  {} quads of {:.3g} % of the triangles; bend {:.2g} on average, at most {:.2g}; aspect {:.2g}, at most "
+        "{:.2g}\n",
+        m.quads->count, 100 * m.quads->share, m.quads->bend_mean, m.quads->bend_max, m.quads->aspect_mean,
+        m.quads->aspect_max);
+    text += fmt::format("  volume {:.6g} to {:.6g}, over the choices of diagonals\n", m.quads->volume_least,
+                        m.quads->volume_most);
+  }
   if (!m.proxy_to_enclosed) return text;
   text += distance_text("from the proxy to " + other, *m.proxy_to_enclosed);
   text += distance_text("from " + other + " to the proxy", *m.enclosed_to_proxy);

@@ -11,8 +11,9 @@ namespace bp {
 
 namespace {
 
-constexpr double kLeastQuality = 0.15;
 constexpr double kCountWeight = 0.6;  // what one more quad is worth, in quality
+constexpr double kLongAspect = 4;     // sides beyond it lower the quality
+constexpr double kRoomWeight = 0.5;   // of mean room, against quality
 constexpr int kImprovements = 16;     // passes; they end when one finds nothing
 constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
@@ -29,23 +30,12 @@ double angle_at(const LatticeCoord& p, const LatticeCoord& q, const LatticeCoord
   return std::atan2(length(to_double(normal_of(p, q, r))), dot(to_double(q - p), to_double(r - p)));
 }
 
-/// 1 for a square; 0 if an angle is 0 or 180 degrees, or if the quad is folded by 90 degrees along either diagonal.
-double quality_of(const std::array<LatticeCoord, 4>& p) {
-  const Vec3d along = unit_normal(p[0], p[1], p[2]), along2 = unit_normal(p[0], p[2], p[3]);
-  const Vec3d across = unit_normal(p[1], p[2], p[3]), across2 = unit_normal(p[1], p[3], p[0]);
-  const double flat = std::min({dot(along, along2), dot(across, across2), dot(along, across), dot(along2, across2)});
-  if (flat <= 0) return 0;
-  double worst = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    worst = std::max(worst, std::abs(angle_at(p[i], p[(i + 1) % 4], p[(i + 3) % 4]) - M_PI / 2));
-  return flat * std::max(0.0, 1 - worst / (M_PI / 2));
-}
-
 /// Two triangles that may be joined.
 struct Candidate {
   std::array<std::uint32_t, 2> faces;
   double weight;
   std::array<Triangle, 2> across;  // the triangles of the other diagonal
+  double room;                     // volume that its corners must be moved outwards by, roughly; mostly none
 };
 
 class Pairing {
@@ -55,6 +45,7 @@ class Pairing {
 
   std::vector<std::array<std::uint32_t, 2>> run() {
     find_candidates();
+    charge_room();
     match();
     improve();
     drop_conflicts();
@@ -79,21 +70,54 @@ class Pairing {
     const HalfEdgeId t = mesh_.twin(h);
     const VertexId u = mesh_.from(h), w = mesh_.to(h), a = mesh_.opposite(h), b = mesh_.opposite(t);
     const Tetrahedron p = {mesh_.position(u), mesh_.position(w), mesh_.position(a), mesh_.position(b)};
-    const double quality = quality_of({p[0], p[3], p[1], p[2]});
-    if (quality < kLeastQuality || !mesh_.can_flip(h)) return;
+    const double quality = quad_quality({p[0], p[3], p[1], p[2]});
+    if (quality < kLeastQuadQuality || !mesh_.can_flip(h)) return;
     const std::array<NewFace, 2> across = {NewFace{{b, a, u}, {p[3], p[2], p[0]}},
                                            NewFace{{a, b, w}, {p[2], p[3], p[1]}}};
     const std::array<FaceId, 2> faces = {HalfEdgeMesh::face(h), HalfEdgeMesh::face(t)};
-    if (keeps_ == QuadKeeps::enclosed && orient3d(p[0], p[1], p[2], p[3]) < 0) {
+    double room = 0;
+    if (keeps_ != QuadKeeps::nothing && orient3d(p[0], p[1], p[2], p[3]) < 0) {
       const std::array<Tetrahedron, 1> between = {p};
-      if (enclosed_ == nullptr || !enclosed_->allows(across, between)) return;
+      const bool allowed = enclosed_ != nullptr && enclosed_->allows(across, between);
+      if (!allowed && keeps_ == QuadKeeps::enclosed) return;
+      if (!allowed) room = room_between(h);
     }
     if (!guard.faces_are_free(across, faces)) return;
     const auto id = std::uint32_t(candidates_.size());
     candidates_.push_back({{std::min(faces[0], faces[1]), std::max(faces[0], faces[1])},
                            quality + kCountWeight,
-                           {across[0].ids, across[1].ids}});
+                           {across[0].ids, across[1].ids},
+                           room});
     for (const FaceId f : faces) edges_[f].push_back(id);
+  }
+
+  /// For the diagonal across to reach the other one: what lifting both its ends adds.
+  [[nodiscard]] double room_between(HalfEdgeId h) const {
+    const VertexId a = mesh_.opposite(h), b = mesh_.opposite(mesh_.twin(h));
+    const LatticeCoord &u = mesh_.position(mesh_.from(h)), &w = mesh_.position(mesh_.to(h));
+    const Vec3d n = cross(to_double(w - u), to_double(mesh_.position(b) - mesh_.position(a)));
+    const double depth = std::abs(dot(n, to_double(mesh_.position(a) - u))) / length(n);
+    return depth * (star_area(a) + star_area(b)) / 3;
+  }
+  [[nodiscard]] double star_area(VertexId v) const {
+    double sum = 0;
+    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
+      sum += length(to_double(
+                 normal_of(mesh_.position(v), mesh_.position(mesh_.to(h)), mesh_.position(mesh_.opposite(h))))) /
+             2;
+    });
+    return sum;
+  }
+
+  /// Room counts against a pair as its share of what pairs that need room need on average.
+  void charge_room() {
+    double sum = 0;
+    int n = 0;
+    for (const Candidate& c : candidates_) {
+      sum += c.room;
+      n += c.room > 0;
+    }
+    for (Candidate& c : candidates_) c.weight -= c.room > 0 ? kRoomWeight * c.room / (sum / n) : 0;
   }
 
   /// Best first.
@@ -116,6 +140,7 @@ class Pairing {
   void match() {
     match_.assign(lattice_.triangles.size(), kNone);
     for (const std::uint32_t c : by_weight()) {
+      if (candidates_[c].weight <= 0) return;
       if (match_[candidates_[c].faces[0]] == kNone && match_[candidates_[c].faces[1]] == kNone) set(c, true);
     }
   }
@@ -194,6 +219,34 @@ class Pairing {
 };
 
 }  // namespace
+
+double quad_bend(const std::array<LatticeCoord, 4>& p) {
+  const Vec3d one = to_double(p[2] - p[0]), other = to_double(p[3] - p[1]), n = cross(one, other);
+  const double across = length(n) * (length(one) + length(other)) / 2;
+  return across > 0 ? std::abs(dot(n, to_double(p[1] - p[0]))) / across : 1;
+}
+
+double quad_aspect(const std::array<LatticeCoord, 4>& p) {
+  double shortest = HUGE_VAL, longest = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double side = length(to_double(p[(i + 1) % 4] - p[i]));
+    shortest = std::min(shortest, side);
+    longest = std::max(longest, side);
+  }
+  return longest / shortest;
+}
+
+double quad_quality(const std::array<LatticeCoord, 4>& p) {
+  if (quad_bend(p) > kMostQuadBend) return 0;
+  const Vec3d along = unit_normal(p[0], p[1], p[2]), along2 = unit_normal(p[0], p[2], p[3]);
+  const Vec3d across = unit_normal(p[1], p[2], p[3]), across2 = unit_normal(p[1], p[3], p[0]);
+  const double flat = std::min({dot(along, along2), dot(across, across2), dot(along, across), dot(along2, across2)});
+  if (flat <= 0) return 0;
+  double worst = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    worst = std::max(worst, std::abs(angle_at(p[i], p[(i + 1) % 4], p[(i + 3) % 4]) - M_PI / 2));
+  return flat * std::max(0.0, 1 - worst / (M_PI / 2)) * std::min(1.0, kLongAspect / quad_aspect(p));
+}
 
 std::vector<std::array<std::uint32_t, 2>> pair_triangles(const LatticeMesh& mesh, QuadKeeps keeps,
                                                          const Enclosed* enclosed) {

@@ -11,8 +11,20 @@ using Quad = std::array<std::uint32_t, 4>;
 
 enum class QuadKeeps {
   enclosed,  ///< what is in `enclosed` stays inside, whichever diagonals are drawn
+  slack,     ///< the same once quads have been given room: pairs that need some count for less, the more they need
   nothing    ///< the surface stays embedded; nothing needs to stay inside (fits)
 };
+
+/// Quality of a quad, corners in order: 1 for a square, less for other angles, for a fold along either diagonal and for
+/// an aspect above 4; 0 if it bends too much.
+[[nodiscard]] double quad_quality(const std::array<LatticeCoord, 4>& corners);
+constexpr double kLeastQuadQuality = 0.2;  ///< no quad has less: angles of 18 to 162 degrees, an aspect of at most 20
+constexpr double kMostQuadBend = 0.2;      ///< quad_bend()
+
+/// How far a quad is from flat: the distance between the lines of its diagonals, in mean lengths of the two.
+[[nodiscard]] double quad_bend(const std::array<LatticeCoord, 4>& corners);
+/// Longest side over shortest.
+[[nodiscard]] double quad_aspect(const std::array<LatticeCoord, 4>& corners);
 
 /// Pairs of triangles of `mesh` (by number, lower first) to be joined, such that for *each* choice of the diagonals of
 /// all quads the surface is embedded and keeps what `keeps` says:
@@ -21,8 +33,7 @@ enum class QuadKeeps {
 ///   where the other diagonal cuts into the solid, the tetrahedron between the two holds nothing of `enclosed`
 ///   (null: such pairs are not taken).
 /// Among these, pairs are chosen for many and good quads: by quality, greedily, then improved along alternating paths
-/// of three pairs. Quality is 1 for a square, less for angles other than 90 degrees and for a fold along either
-/// diagonal. `mesh`: closed, 2-manifold, embedded. Deterministic. O(n log n).
+/// of three pairs. `mesh`: closed, 2-manifold, embedded. Deterministic. O(n log n).
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> pair_triangles(const LatticeMesh& mesh, QuadKeeps keeps,
                                                                        const Enclosed* enclosed);
 

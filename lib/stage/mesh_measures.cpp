@@ -4,10 +4,48 @@
 #include <cmath>
 
 #include "lib/meshing/lattice_geometry.h"
+#include "lib/meshing/quads.h"
 #include "lib/stage/proxy_limits.h"
 #include "lib/stage/surface_around.h"
 
 namespace bp {
+
+namespace {
+
+double angle_degrees(const LatticeCoord& at, const LatticeCoord& a, const LatticeCoord& b) {
+  return std::atan2(length(to_double(normal_of(at, a, b))), dot(to_double(a - at), to_double(b - at))) * 180 / M_PI;
+}
+
+QuadMeasures measure_quads(const LatticeMesh& mesh, double volume) {
+  QuadMeasures m;
+  m.count = mesh.quads.size();
+  m.share = 2 * double(m.count) / double(mesh.triangles.size());
+  m.angle_min_degrees = 180;
+  double less = 0, more = 0;
+  for (const auto& pair : mesh.quads) {
+    const Quad q = quad_of(mesh.triangles[pair[0]], mesh.triangles[pair[1]]);
+    std::array<LatticeCoord, 4> p;
+    for (std::size_t i = 0; i < 4; ++i) p[i] = mesh.vertices[q[i]];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double angle = angle_degrees(p[i], p[(i + 1) % 4], p[(i + 3) % 4]);
+      m.angle_min_degrees = std::min(m.angle_min_degrees, angle);
+      m.angle_max_degrees = std::max(m.angle_max_degrees, angle);
+    }
+    const double bend = quad_bend(p), aspect = quad_aspect(p);
+    m.bend_mean += bend / double(m.count);
+    m.bend_max = std::max(m.bend_max, bend);
+    m.aspect_mean += aspect / double(m.count);
+    m.aspect_max = std::max(m.aspect_max, aspect);
+    const auto across = double(orient3d_value(p[0], p[1], p[2], p[3]));  // six times what the other diagonal adds
+    (across > 0 ? more : less) += across;
+  }
+  const double unit = std::pow(mesh.frame.voxel / kLatticePerVoxel, 3) / 6;
+  m.volume_least = volume + less * unit;
+  m.volume_most = volume + more * unit;
+  return m;
+}
+
+}  // namespace
 
 MeshMeasures measure(const LatticeMesh& mesh) {
   MeshMeasures m;
@@ -31,6 +69,7 @@ MeshMeasures measure(const LatticeMesh& mesh) {
   m.edge_max = longest * unit;
   m.edge_mean = sum / (3 * double(mesh.triangles.size())) * unit;
   m.angle_min_degrees = angle * 180 / M_PI;
+  if (!mesh.quads.empty()) m.quads = measure_quads(mesh, m.volume);
   return m;
 }
 

@@ -9,6 +9,7 @@
 #include "lib/meshing/enclosed_voxels.h"
 #include "lib/meshing/flatten.h"
 #include "lib/meshing/lattice_geometry.h"
+#include "lib/meshing/quad_slack.h"
 #include "lib/meshing/quads.h"
 #include "lib/meshing/repair.h"
 #include "lib/meshing/surface_tree.h"
@@ -293,7 +294,9 @@ class LevelMaker {
   LatticeMesh finish(const SurfaceSource& dense, int128 volume6, const Enclosed* enclosed, std::uint64_t faces) {
     return finish(dense.frame(), volume6, faces, [&](const SimplifyParams& params, LevelCounts& counts) {
       LatticeMesh proxy = make_level(dense, enclosed, params, counts);
-      if (params_.quads) proxy.quads = pair_triangles(proxy, QuadKeeps::enclosed, enclosed);
+      if (!params_.quads) return proxy;
+      if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);
+      proxy.quads = pair_triangles(proxy, QuadKeeps::enclosed, enclosed);
       return proxy;
     });
   }

@@ -70,8 +70,14 @@ TEST_CASE("however the quads are split, the proxy encloses and does not meet its
   const PolygonFaces faces = polygon_faces(proxy);
   CAPTURE(proxy.triangles.size(), faces.quads.size(), faces.triangles.size());
   CHECK(faces.triangles.size() + 2 * faces.quads.size() == proxy.triangles.size());
-  // A tight proxy touches what it encloses in most faces, which leaves fewer edges that may be drawn either way.
-  if (params.tighten) CHECK(10 * faces.quads.size() > 2 * proxy.triangles.size());
+  if (params.tighten) CHECK(4 * faces.quads.size() >= proxy.triangles.size());  // half of the triangles
+  for (const Quad& q : faces.quads) {
+    std::array<LatticeCoord, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) corners[i] = proxy.vertices[q[i]];
+    CHECK(quad_quality(corners) >= kLeastQuadQuality);
+    CHECK(quad_bend(corners) <= kMostQuadBend);
+    CHECK(quad_aspect(corners) <= 20);
+  }
   const std::vector<TriangleD> scene = scene_of_voxels();
   CHECK(holds(with_diagonals(proxy, [](std::size_t) { return false; }), scene));
   CHECK(holds(with_diagonals(proxy, [](std::size_t) { return true; }), scene));
@@ -92,6 +98,27 @@ TEST_CASE("levels of quads enclose each other, however they are split", "[quick]
   for (const auto& t : inner.triangles)
     scene.push_back({inner.vertices[t[0]], inner.vertices[t[1]], inner.vertices[t[2]]});
   CHECK(holds(with_diagonals(levels[1], [](std::size_t) { return true; }), scene));
+}
+
+TEST_CASE("room for quads joins half of the triangles, for little volume", "[quick][meshing]") {
+  VoxelSource source(kBox, shape);
+  MeshParams params;
+  params.faces = {300};
+  MeshCounts counts;
+  const LatticeMesh tight = mesh_stream(source, memory_shelves(), params, counts)[0];
+  VoxelSource again(kBox, shape);
+  params.quads = true;
+  MeshCounts with_quads;
+  const LatticeMesh proxy = mesh_stream(again, memory_shelves(), params, with_quads)[0];
+  CHECK(proxy.triangles.size() == tight.triangles.size());
+  const MeshMeasures& m = with_quads.levels[0].measures;
+  REQUIRE(m.quads);
+  CHECK(m.quads->count == proxy.quads.size());
+  CHECK(m.quads->volume_least <= m.volume);
+  CHECK(m.quads->volume_most >= m.volume);
+  CHECK(m.volume < 1.02 * counts.levels[0].measures.volume);
+  CAPTURE(m.quads->share, m.volume / counts.levels[0].measures.volume);
+  CHECK(m.quads->share > 0.5);
 }
 
 TEST_CASE("a box of twelve triangles becomes six squares", "[quick][meshing]") {
