@@ -183,6 +183,8 @@ bp::Json json_of(const bp::LevelCounts& c) {
                    {"volume", m.volume},
                    {"edge_length", {{"min", m.edge_min}, {"mean", m.edge_mean}, {"max", m.edge_max}}},
                    {"angle_min_degrees", m.angle_min_degrees},
+                   {"shells", m.shells},
+                   {"handles", m.handles},
                    {"faces_dense", s.faces_in},
                    {"faces_flat_merged", s.faces_flat},
                    {"collapses", s.collapses},
@@ -240,12 +242,14 @@ void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts&
     const bp::SimplifyCounts& s = c.levels[i].simplify;
     const std::string which = c.levels.size() > 1 ? fmt::format("level {}: ", i) : "";
     if (s.stop == bp::StopReason::nothing_left && i < o.faces.size() && s.faces_out > o.faces[i]) {
-      note(report, o,
-           fmt::format("{}{} faces instead of {}: no further edge can be merged (edges refused: {} by topology, {} by "
-                       "enclosure, {} by shape, {} by length, {} by intersection); a larger --scale joins parts and "
-                       "closes holes",
-                       which, s.faces_out, o.faces[i], s.refused_link, s.refused_constraints + s.refused_enclosed,
-                       s.refused_shape, s.refused_length, s.refused_guard));
+      note(
+          report, o,
+          fmt::format(
+              "{}{} faces instead of {}: no further edge can be merged. Parts and handles are kept, here {} and "
+              "{}; a larger --scale joins parts and closes holes (tries refused: {} by topology, {} by "
+              "enclosure, {} by shape, {} by length, {} by intersection)",
+              which, s.faces_out, o.faces[i], c.levels[i].measures.shells, c.levels[i].measures.handles, s.refused_link,
+              s.refused_constraints + s.refused_enclosed, s.refused_shape, s.refused_length, s.refused_guard));
     }
     const auto& distance = c.levels[i].measures.proxy_to_enclosed;
     if (error_world > 0 && distance && distance->at_least > error_world * (1 + 1e-9)) {

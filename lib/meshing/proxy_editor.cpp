@@ -32,9 +32,12 @@ ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed,
       enclosed_(enclosed),
       edge_limit_(std::move(edge_limit)),
       limits_(limits),
+      inwards_(faces_inwards(mesh)),
       tree_(mesh),
       guard_(mesh, tree_),
-      contacts_(enclosed, mesh, tree_) {}
+      contacts_(enclosed, mesh, tree_) {
+  if (limits_ != nullptr) limits_->begin(mesh.volume6());
+}
 
 void ProxyEditor::begin() {
   ++counts_.tries;
@@ -161,7 +164,7 @@ void ProxyEditor::learn(VertexId v, std::span<const Vec3d> points) {
 }
 
 void ProxyEditor::erase_inner_shells() {
-  bp::erase_inner_shells(mesh_);
+  bp::erase_inner_shells(mesh_, inwards_);
 }
 
 /// Boxes of the star's faces, and their points: faces beyond the rim may be nearer now.

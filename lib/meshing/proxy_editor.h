@@ -42,6 +42,7 @@ class ProxyEditor {
   /// Erases the shells that bound nothing (shells.h): a part over which another one has moved may have moved on,
   /// through what only that one keeps inside. The last step: nothing may be changed after it.
   void erase_inner_shells();
+  [[nodiscard]] bool inwards() const { return inwards_; }  ///< faces_inwards() of the mesh as it was given
 
   void refresh() { tree_.rebuild(); }  ///< boxes only grow with the changes; after many of them fresh ones pay
 
@@ -58,6 +59,7 @@ class ProxyEditor {
   const Enclosed& enclosed_;
   std::function<double(const LatticeCoord&)> edge_limit_;
   StepLimits* limits_;
+  const bool inwards_;
   FaceTree tree_;
   Guard guard_;
   ContactPoints contacts_;

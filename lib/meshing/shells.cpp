@@ -29,17 +29,12 @@ class Shells {
     }
   }
 
-  std::uint64_t erase_inner() {
-    if (first_.size() < 2) return 0;
+  std::uint64_t erase_inner(bool inwards) {
     const FaceTree tree(mesh_);
     std::vector<int> outside(first_.size());  // winding number on each one's outer side; on the inner one more, or less
-    int far = 0;                              // 1: the solid is what surrounds the outermost shells
-    for (std::uint32_t s = 0; s < first_.size(); ++s) {
-      outside[s] = winding(tree, s);
-      if (outside[s] == 0 && volume6_[s] < 0) far = 1;
-    }
+    for (std::uint32_t s = 0; s < first_.size(); ++s) outside[s] = winding(tree, s) + (inwards ? 1 : 0);
     std::vector<bool> inner(first_.size());
-    for (std::uint32_t s = 0; s < first_.size(); ++s) inner[s] = outside[s] + far != (volume6_[s] > 0 ? 0 : 1);
+    for (std::uint32_t s = 0; s < first_.size(); ++s) inner[s] = outside[s] != (volume6_[s] > 0 ? 0 : 1);
     std::uint64_t erased = 0;
     for (FaceId f = 0; f < mesh_.face_capacity(); ++f) {
       if (shell_[f] == kNoId || !inner[shell_[f]]) continue;
@@ -91,8 +86,8 @@ class Shells {
 
 }  // namespace
 
-std::uint64_t erase_inner_shells(HalfEdgeMesh& mesh) {
-  return Shells(mesh).erase_inner();
+std::uint64_t erase_inner_shells(HalfEdgeMesh& mesh, bool inwards) {
+  return Shells(mesh).erase_inner(inwards);
 }
 
 }  // namespace bp

@@ -42,6 +42,8 @@ std::uint64_t end_of_bulk(const SimplifyParams& params) {
 /// All of the surface, with quadrics or not, to the end.
 LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyParams& params, SimplifyCounts& counts) {
   HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
+  const bool inwards = faces_inwards(mesh);
+  if (params.limits != nullptr) params.limits->begin(mesh.volume6());
   whole.triangles = {};
   // Where quadrics are given, edges have been collapsed, and faces are no longer axis-aligned.
   if (params.dense && whole.quadrics.empty()) merge_flat_regions(mesh, params.edge_limit);
@@ -49,7 +51,7 @@ LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyPa
   Collapser collapser(mesh, std::move(whole.quadrics), params, counts);
   if (params.faces > 0 && params.dense) collapse_bulk(collapser, {kFirstBound, kLastBound}, end_of_bulk(params));
   counts.stop = collapse_strict(collapser, counts);
-  if (!params.free) erase_inner_shells(mesh);
+  if (!params.free) erase_inner_shells(mesh, inwards);
   counts.faces_out = mesh.face_count();
   return mesh.compact(frame);
 }

@@ -12,6 +12,9 @@ using LatticeTriangle = std::array<LatticeCoord, 3>;
 class StepLimits {
  public:
   virtual ~StepLimits() = default;
+  /// A stage begins with a surface of this volume, six times, cubed lattice units: what was counted before may have
+  /// been undone since, or erased.
+  virtual void begin(int128 volume6) = 0;
   /// Asked last, right before the faces `before` give way to `after`, which have the same rim. True: every bound is
   /// kept, and the step is counted as taken.
   [[nodiscard]] virtual bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) = 0;

@@ -7,6 +7,7 @@
 #include "lib/core/predicates.h"
 #include "lib/core/vec3.h"
 #include "lib/meshing/fan_fit.h"
+#include "lib/meshing/shells.h"
 
 namespace bp {
 
@@ -135,15 +136,16 @@ class Tightener {
 LatticeMesh tighten(ProxyEditor& editor, const GridFrame& frame, const TightenParams& params, TightenCounts& counts) {
   counts = {};
   const std::uint64_t tries = editor.counts().tries;
-  LatticeMesh before = editor.mesh().compact(frame);
-  counts.volume_before = volume_of(editor.mesh());
+  HalfEdgeMesh before = editor.mesh();
+  erase_inner_shells(before, editor.inwards());  // those of collapses with the same editor
+  counts.volume_before = volume_of(before);
   Tightener(editor, params, counts).run();
   editor.erase_inner_shells();
   counts.volume_after = volume_of(editor.mesh());
   counts.tries = editor.counts().tries - tries;
   if (counts.volume_after <= counts.volume_before) return editor.mesh().compact(frame);
   counts.volume_after = counts.volume_before;
-  return before;
+  return before.compact(frame);
 }
 
 LatticeMesh tighten(const LatticeMesh& proxy, const Enclosed& enclosed, const TightenParams& params,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "lib/meshing/lattice_geometry.h"
 #include "lib/meshing/quads.h"
@@ -11,6 +12,26 @@
 namespace bp {
 
 namespace {
+
+/// Connected components.
+std::uint64_t shells_in(const LatticeMesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  std::uint64_t shells = parent.size();
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 1; k < 3; ++k) {
+      const std::uint32_t a = root(t[0]), b = root(t[k]);
+      if (a == b) continue;
+      parent[a] = b;
+      --shells;
+    }
+  }
+  return shells;
+}
 
 double angle_degrees(const LatticeCoord& at, const LatticeCoord& a, const LatticeCoord& b) {
   return std::atan2(length(to_double(normal_of(at, a, b))), dot(to_double(a - at), to_double(b - at))) * 180 / M_PI;
@@ -51,6 +72,9 @@ MeshMeasures measure(const LatticeMesh& mesh) {
   MeshMeasures m;
   m.volume = volume_world(mesh);
   if (mesh.triangles.empty()) return m;
+  m.shells = shells_in(mesh);
+  // Euler: V - E + F = 2 (shells - handles), and E = 3 F / 2.
+  m.handles = (2 * m.shells + mesh.triangles.size() / 2 - mesh.vertices.size()) / 2;
   double shortest = HUGE_VAL, longest = 0, sum = 0, angle = M_PI;
   for (const auto& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {

@@ -18,6 +18,8 @@ struct QuadMeasures {
 };
 
 struct MeshMeasures {
+  std::uint64_t shells = 0;                          ///< connected components, cavities included
+  std::uint64_t handles = 0;                         ///< of all shells together: the sum of their genera
   double volume = 0;                                 ///< scene units cubed
   double edge_min = 0, edge_mean = 0, edge_max = 0;  ///< scene units
   double angle_min_degrees = 0;

@@ -226,7 +226,7 @@ class LevelMaker {
     bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
     ground_ = make_ground(shelves, params_, start, make_shelf_);
     if (params_.mode == MeshMode::fit) return fits(*start.surface, faces);
-    std::vector<LatticeMesh> levels{finish(*start.surface, volume6(start), ground_.enclosed.get(), faces[0])};
+    std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed.get(), faces[0])};
     for (std::size_t i = 1; i < faces.size(); ++i) {
       const LatticeMesh& before = levels.back();
       const double voxel = level_voxel(before, header_.frame.voxel, faces[i]);
@@ -234,7 +234,7 @@ class LevelMaker {
           inside() ? surface_within(before, voxel, make_shelf_) : surface_around(before, voxel, make_shelf_);
       if (inside()) drop_small_parts(dense, params_.least_part);  // a level may fall into parts
       const EnclosedTriangles enclosed(world_triangles(before), dense.frame);
-      levels.push_back(finish(MeshSurface(dense), volume6_of(dense), params_.tighten ? &enclosed : nullptr, faces[i]));
+      levels.push_back(finish(MeshSurface(dense), params_.tighten ? &enclosed : nullptr, faces[i]));
     }
     return levels;
   }
@@ -259,21 +259,15 @@ class LevelMaker {
     return start;
   }
 
-  /// Of the surface, cubed lattice units.
-  [[nodiscard]] int128 volume6(const Start& start) const {
-    return start.mesh ? volume6_of(*start.mesh) : int128(counts_.voxels + counts_.repaired) * kVolume6OfVoxel;
-  }
-
   /// Levels of detail that do not enclose: each of the same fine surface.
   std::vector<LatticeMesh> fits(const SurfaceSource& dense, const std::vector<std::uint64_t>& faces) {
     const FitTarget target = params_.enclose == Enclose::scene
                                  ? scene_target(*ground_.tree, dense.frame(), params_.inset)
                                  : inset_target(params_.inset);
     const FineFit fine = fine_fit(dense, faces[0], target, params_.memory);
-    const int128 volume6 = volume6_of(fine.surface);
     std::vector<LatticeMesh> levels;
     for (const std::uint64_t n : faces) {
-      levels.push_back(finish(dense.frame(), volume6, n, [&](const SimplifyParams& params, LevelCounts& counts) {
+      levels.push_back(finish(dense.frame(), n, [&](const SimplifyParams& params, LevelCounts& counts) {
         LatticeMesh level = fit_level(fine, params, counts.simplify);
         if (params_.quads) level.quads = pair_triangles(level, QuadKeeps::nothing, nullptr);
         return level;
@@ -291,8 +285,8 @@ class LevelMaker {
     counts_.solid_volume_world -= dropped.volume_vox * std::pow(header_.frame.voxel, 3);
   }
 
-  LatticeMesh finish(const SurfaceSource& dense, int128 volume6, const Enclosed* enclosed, std::uint64_t faces) {
-    return finish(dense.frame(), volume6, faces, [&](const SimplifyParams& params, LevelCounts& counts) {
+  LatticeMesh finish(const SurfaceSource& dense, const Enclosed* enclosed, std::uint64_t faces) {
+    return finish(dense.frame(), faces, [&](const SimplifyParams& params, LevelCounts& counts) {
       LatticeMesh proxy = make_level(dense, enclosed, params, counts);
       if (!params_.quads) return proxy;
       if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);
@@ -301,12 +295,12 @@ class LevelMaker {
     });
   }
 
-  /// One level by make(params, counts), with its counts and measures; from a surface of volume6 / 6 in `frame`.
+  /// One level by make(params, counts), with its counts and measures.
   template <class Make>
-  LatticeMesh finish(const GridFrame& frame, int128 volume6, std::uint64_t faces, const Make& make) {
+  LatticeMesh finish(const GridFrame& frame, std::uint64_t faces, const Make& make) {
     LevelCounts& counts = counts_.levels.emplace_back();
     SimplifyParams params = simplify_params(header_, frame, params_, faces);
-    ProxyLimits limits(bounds_, frame, volume6, ground_.tree.get());
+    ProxyLimits limits(bounds_, frame, ground_.tree.get());
     if (bounds_.error_world > 0 || bounds_.volume_world != 0) params.limits = &limits;
     LatticeMesh proxy = make(params, counts);
     if (inside()) {

@@ -37,8 +37,8 @@ double volume_world(const LatticeMesh& mesh) {
   return double(volume6_of(mesh)) / volume6_per_world(mesh.frame);
 }
 
-ProxyLimits::ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, int128 volume6, const TriangleBvh* enclosed)
-    : bounds_(bounds), frame_(frame), enclosed_(enclosed), volume6_(volume6) {
+ProxyLimits::ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed)
+    : bounds_(bounds), frame_(frame), enclosed_(enclosed) {
   constexpr double kMost = 0x1p120;  // int128 holds it, and no grid reaches it
   limit6_ = int128(std::clamp(bounds.volume_world * volume6_per_world(frame_), -kMost, kMost));
 }

@@ -19,9 +19,9 @@ struct ProxyBounds {
 /// volume_world.
 class ProxyLimits final : public StepLimits {
  public:
-  /// `volume6`: six times the volume of what the steps will change, cubed lattice units of `frame`. `enclosed`: may be
-  /// null without an error bound.
-  ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, int128 volume6, const TriangleBvh* enclosed);
+  /// `frame`: of what the steps will change. `enclosed`: may be null without an error bound.
+  ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed);
+  void begin(int128 volume6) override { volume6_ = volume6; }
   void relax(bool on) override { relaxed_ = on; }
   bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) override;
   /// "error" or "volume": the bound that refused the last step that was refused; empty if none was.

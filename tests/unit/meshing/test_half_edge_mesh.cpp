@@ -32,7 +32,7 @@ LatticeBox cube(std::int64_t half, LatticeCoord centre = {}) {
 
 std::uint64_t erased(const LatticeMesh& m, LatticeMesh* left = nullptr) {
   HalfEdgeMesh mesh(m);
-  const std::uint64_t n = erase_inner_shells(mesh);
+  const std::uint64_t n = erase_inner_shells(mesh, faces_inwards(mesh));
   if (left != nullptr) *left = mesh.compact(m.frame);
   return n;
 }
@@ -48,6 +48,17 @@ TEST_CASE("a shell inside a solid is erased", "[quick][meshing]") {
   CHECK(left.triangles.size() == 24);
   CHECK(inside(left, {1, 2, 3}));
   CHECK(erased(left) == 0);
+}
+
+TEST_CASE("a part that came out inside out is erased, and nothing else", "[quick][meshing]") {
+  LatticeMesh mesh, left;
+  add_box(mesh, cube(10));
+  add_box(mesh, cube(100, {500, 0, 0}), false);
+  HalfEdgeMesh edited(mesh);
+  CHECK(erase_inner_shells(edited, false) == 12);  // a small solid, though the volume of all is negative
+  left = edited.compact(mesh.frame);
+  CHECK(left.triangles.size() == 12);
+  CHECK(inside(left, {1, 2, 3}));
 }
 
 TEST_CASE("cavities and what is in them stay", "[quick][meshing]") {

@@ -35,6 +35,7 @@ std::int64_t volume6(const std::vector<LatticeCoord>& v, const std::vector<Trian
 /// Refuses nothing; but limits are kept by the whole surface, so no cell collapses anything.
 class NoLimits final : public StepLimits {
  public:
+  void begin(int128) override {}
   void relax(bool) override {}
   bool take(std::span<const LatticeTriangle>, std::span<const LatticeTriangle>) override { return true; }
 };

@@ -144,6 +144,19 @@ TEST_CASE("the volume stays below --volume, and the first target that is reached
   if (params.volume_ratio > 1.3) CHECK(level.stopped_by == "faces");
 }
 
+TEST_CASE("a stage counts volume from the surface that it begins with", "[quick][stage]") {
+  ProxyLimits limits({.volume_world = 10}, GridFrame{}, nullptr);
+  const int128 unit6 = int128(6) * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
+  const std::int64_t l = 3 * kLatticePerVoxel;
+  const LatticeCoord a{0, 0, 0}, b{l, 0, 0}, c{0, l, 0}, up{0, 0, 2 * kLatticePerVoxel};
+  const std::vector<LatticeTriangle> flat = {{a, b, c}}, peak = {{up, a, b}, {up, b, c}, {up, c, a}};  // 3 more
+  limits.begin(5 * unit6);
+  CHECK(limits.take(flat, peak));        // 8
+  CHECK_FALSE(limits.take(flat, peak));  // would be 11
+  limits.begin(5 * unit6);               // the first was undone
+  CHECK(limits.take(flat, peak));
+}
+
 TEST_CASE("edges stay below --edge-length times the scale", "[quick][stage]") {
   VoxelSource source(kBox, dumbbell);
   source.header().scale.base = 3;
