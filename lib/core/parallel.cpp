@@ -5,6 +5,7 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 
 namespace bp {
 
@@ -47,6 +48,21 @@ void parallel_chunks(std::int64_t n, std::int64_t grain, const std::function<voi
 }
 
 namespace detail {
+
+void run_jobs(int in_flight, const std::function<void*()>& produce, const std::function<void(void*)>& work) {
+  OwnContext own;
+  tbb::parallel_pipeline(
+      std::size_t(in_flight),
+      tbb::make_filter<void, void*>(tbb::filter_mode::serial_in_order,
+                                    [&](tbb::flow_control& control) -> void* {
+                                      void* item = produce();
+                                      if (item == nullptr) control.stop();
+                                      return item;
+                                    }) &
+          tbb::make_filter<void*, void>(tbb::filter_mode::parallel,
+                                        [&](void* item) { tbb::this_task_arena::isolate([&] { work(item); }); }),
+      own.get());
+}
 
 void run_pipeline(int in_flight, const std::function<void*()>& produce, const std::function<void(void*)>& work,
                   const std::function<void(void*)>& consume) {

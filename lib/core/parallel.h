@@ -34,10 +34,17 @@ template <class Item>
 void pipeline(int in_flight, const std::function<bool(Item&)>& produce, const std::function<void(Item&)>& work,
               const std::function<void(Item&)>& consume);
 
+/// A pipeline without an end: work() on at most `in_flight` items at once, begun in the order of production, none
+/// waiting for another. While a loop within an item waits for its other threads, no further item is begun on its
+/// thread.
+template <class Item>
+void run_jobs(int in_flight, const std::function<bool(Item&)>& produce, const std::function<void(Item&)>& work);
+
 namespace detail {
+void run_jobs(int in_flight, const std::function<void*()>& produce, const std::function<void(void*)>& work);
 void run_pipeline(int in_flight, const std::function<void*()>& produce, const std::function<void(void*)>& work,
                   const std::function<void(void*)>& consume);
-}
+}  // namespace detail
 
 template <class Item>
 void pipeline(int in_flight, const std::function<bool(Item&)>& produce, const std::function<void(Item&)>& work,
@@ -52,6 +59,20 @@ void pipeline(int in_flight, const std::function<bool(Item&)>& produce, const st
       [&](void* p) {
         const std::unique_ptr<Item> item(static_cast<Item*>(p));
         consume(*item);
+      });
+}
+
+template <class Item>
+void run_jobs(int in_flight, const std::function<bool(Item&)>& produce, const std::function<void(Item&)>& work) {
+  detail::run_jobs(
+      in_flight,
+      [&]() -> void* {
+        auto item = std::make_unique<Item>();
+        return produce(*item) ? item.release() : nullptr;
+      },
+      [&](void* p) {
+        const std::unique_ptr<Item> item(static_cast<Item*>(p));
+        work(*item);
       });
 }
 

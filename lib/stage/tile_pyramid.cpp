@@ -27,16 +27,25 @@ std::unique_ptr<BrickShelf> TilePyramid::close(double scale_world) {
   return closing;
 }
 
-void TilePyramid::make(double scale_world, TileParams params, const TileEncoder& encode,
-                       const std::function<void(LevelTile&&)>& consume) {
-  const auto closing = close(scale_world);
+void TilePyramid::add_level(double scale_world, TileParams params, TileEncoder encode,
+                            std::function<void(LevelTile&&)> consume) {
+  waiting_.push_back({close(scale_world), nullptr, nullptr});
   params.scale_world = scale_world;
   params.element = options_.closing.element;
-  params.memory_bytes = options_.memory_bytes;
   params.make_shelf = options_.make_shelf;
   params.store = options_.store;
-  params.progress = options_.progress;
-  make_tiles({header_, *solid_, *surface_, *closing, options_.cells}, params, encode, consume);
+  tasks_.push_back({{header_, *solid_, *surface_, *waiting_.back().closing, options_.cells},
+                    std::move(params),
+                    std::move(encode),
+                    std::move(consume)});
+  added_ = true;
+}
+
+void TilePyramid::make_tiles() {
+  bp::make_tiles(tasks_, {options_.memory_bytes, options_.progress});
+  tasks_.clear();
+  waiting_.clear();
+  added_ = false;
 }
 
 void TilePyramid::reduce() {
@@ -44,6 +53,11 @@ void TilePyramid::reduce() {
   bp::reduce(*solid_, header_.frame, *solid);
   bp::reduce(*surface_, header_.frame, *surface);
   header_ = reduced(header_);
+  if (added_) {
+    waiting_.back().solid = std::move(solid_);
+    waiting_.back().surface = std::move(surface_);
+    added_ = false;
+  }
   solid_ = std::move(solid);
   surface_ = std::move(surface);
 }

@@ -30,10 +30,11 @@ class TilePyramid {
   /// The level need not be cut: the bricks of its header lie in one cell, which a plan knows without the voxels.
   [[nodiscard]] bool in_one_cell() const { return cells_spanned(options_.cells, header_.bricks).count() == 1; }
 
-  /// Makes the tiles of the level; sets scale, element, memory, shelves and store of `params`. As make_tiles()
-  /// and close_cells().
-  void make(double scale_world, TileParams params, const TileEncoder& encode,
-            const std::function<void(LevelTile&&)>& consume);
+  /// Closes the level, and has its tiles made along with those of other levels; sets scale, element, shelves and store
+  /// of `params`. Each level at most once. As close_cells().
+  void add_level(double scale_world, TileParams params, TileEncoder encode, std::function<void(LevelTile&&)> consume);
+  /// Of the levels that were added, whose voxels go then.
+  void make_tiles();
   void reduce();  ///< to the next level
 
   /// What a LodChain goes on with; ends this pyramid.
@@ -42,8 +43,16 @@ class TilePyramid {
 
  private:
   [[nodiscard]] std::unique_ptr<BrickShelf> close(double scale_world);
+  /// A level whose tiles are to be made.
+  struct Waiting {
+    std::unique_ptr<BrickShelf> closing;
+    std::unique_ptr<BrickShelf> solid, surface;  ///< after reduce()
+  };
   StreamHeader header_;
   std::unique_ptr<BrickShelf> solid_, surface_;
+  std::vector<Waiting> waiting_;
+  std::vector<TileTask> tasks_;
+  bool added_ = false;  ///< the level is among waiting_
   Backends& backends_;
   PyramidOptions options_;
 };

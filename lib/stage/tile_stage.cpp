@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <mutex>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -224,58 +225,101 @@ class Maker {
   Boundary boundary_;                            // of the solid
 };
 
-struct Item {
-  Job job;
-  LevelTile tile;
-  bool there = false;  // not hidden
-};
+/// Makes the tiles of some levels.
+class TileMaking {
+ public:
+  TileMaking(std::span<const TileTask> tasks, const TileRun& run) : tasks_(tasks), run_(run) {
+    for (const TileTask& task : tasks_) {
+      for (const Job& job : jobs_of(task.level, task.params.wanted)) jobs_.push_back({&task, job, {}});
+    }
+  }
 
-/// From the store, or made. A hidden one is kept as no bytes.
-void run(const TileLevel& level, const TileParams& params, const TileEncoder& encode, Item& item) {
-  Maker maker(level, params, item.job.cell);
-  item.tile.cell = item.job.cell;
-  ResultKey key;
-  if (params.store != nullptr) {
-    std::string bytes;
-    key = maker.key();
-    item.tile.kept = params.store->get(key, bytes) && (bytes.empty() || unpack(bytes, item.tile));
-    item.there = !bytes.empty();
-    if (item.tile.kept) return;
+  void operator()() {
+    take_kept();
+    std::stable_sort(jobs_.begin(), jobs_.end(),
+                     [](const TileJob& a, const TileJob& b) { return a.job.dense_faces > b.job.dense_faces; });
+    std::size_t next = 0;
+    run_jobs<std::size_t>(
+        in_flight(),
+        [&](std::size_t& i) {
+          i = next++;
+          return i < jobs_.size();
+        },
+        [&](const std::size_t& i) { make(jobs_[i]); });
   }
-  if (!params.make) {
-    item.there = true;  // as far as is known
-    return;
+
+ private:
+  struct TileJob {
+    const TileTask* task;
+    Job job;
+    ResultKey key;  ///< if there is a store
+  };
+
+  /// Jobs whose results are there leave the list. A hidden tile is kept as no bytes.
+  void take_kept() {
+    total_ = jobs_.size();
+    std::vector<char> kept(jobs_.size());
+    parallel_for(std::int64_t(jobs_.size()), [&](std::int64_t i) {
+      TileJob& job = jobs_[std::size_t(i)];
+      const TileParams& params = job.task->params;
+      if (params.store == nullptr) return;
+      job.key = Maker(job.task->level, params, job.job.cell).key();
+      LevelTile tile;
+      std::string bytes;
+      tile.kept = params.store->get(job.key, bytes) && (bytes.empty() || unpack(bytes, tile));
+      if (!tile.kept) return;
+      kept[std::size_t(i)] = 1;
+      finish(job, std::move(tile), !bytes.empty());
+    });
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      if (kept[i] == 0) jobs_[left++] = jobs_[i];
+    }
+    jobs_.resize(left);
   }
-  item.there = maker.begin();
-  if (item.there) item.tile.content = encode(item.job.cell, maker.make(item.tile.measures));
-  if (params.store != nullptr) params.store->put(key, item.there ? packed(item.tile) : "");
-}
+
+  /// The largest job is the first.
+  [[nodiscard]] int in_flight() const {
+    if (jobs_.empty()) return 1;
+    const std::uint64_t largest = jobs_.front().job.dense_faces * kBytesPerDenseFace + kBytesPerTile;
+    return int(std::clamp<std::uint64_t>(run_.memory_bytes / largest, 1, std::uint64_t(thread_count())));
+  }
+
+  void make(const TileJob& job) {
+    const TileTask& task = *job.task;
+    Maker maker(task.level, task.params, job.job.cell);
+    LevelTile tile;
+    if (!task.params.make) return finish(job, std::move(tile), true);  // it is there, as far as is known
+    const bool there = maker.begin();
+    if (there) tile.content = task.encode(job.job.cell, maker.make(tile.measures));
+    if (task.params.store != nullptr) task.params.store->put(job.key, there ? packed(tile) : "");
+    finish(job, std::move(tile), there);
+  }
+
+  void finish(const TileJob& job, LevelTile&& tile, bool there) {
+    tile.cell = job.job.cell;
+    const std::lock_guard lock(mutex_);
+    if (run_.progress) run_.progress("meshing", "tiles", ++done_, total_);
+    if (there) job.task->consume(std::move(tile));
+  }
+
+  const std::span<const TileTask> tasks_;
+  const TileRun& run_;
+  std::vector<TileJob> jobs_;
+  std::mutex mutex_;
+  std::size_t done_ = 0, total_ = 0;
+};
 
 }  // namespace
 
-void make_tiles(const TileLevel& level, const TileParams& params, const TileEncoder& encode,
-                const std::function<void(LevelTile&&)>& consume) {
-  if (level.cells.edge_vox < kLeastCellVox || level.cells.edge_vox % kBrickEdge != 0)
-    fail(ErrorCode::bad_argument, "a cell of {} voxels a side is no multiple of 64, or below {}", level.cells.edge_vox,
-         kLeastCellVox);
-  const std::vector<Job> jobs = jobs_of(level, params.wanted);
-  std::uint64_t largest = 0;
-  for (const Job& job : jobs) largest = std::max(largest, job.dense_faces * kBytesPerDenseFace + kBytesPerTile);
-  const std::uint64_t fit = params.memory_bytes / std::max<std::uint64_t>(largest, 1);
-  const int in_flight = int(std::clamp<std::uint64_t>(fit, 1, std::uint64_t(thread_count()) + 1));
-  std::size_t next = 0, done = 0;
-  pipeline<Item>(
-      in_flight,
-      [&](Item& item) {
-        if (next == jobs.size()) return false;
-        item.job = jobs[next++];
-        return true;
-      },
-      [&](Item& item) { run(level, params, encode, item); },
-      [&](Item& item) {
-        if (params.progress) params.progress("meshing", "tiles", ++done, jobs.size());
-        if (item.there) consume(std::move(item.tile));
-      });
+void make_tiles(std::span<const TileTask> tasks, const TileRun& run) {
+  for (const TileTask& task : tasks) {
+    const std::int32_t edge = task.level.cells.edge_vox;
+    if (edge < kLeastCellVox || edge % kBrickEdge != 0)
+      fail(ErrorCode::bad_argument, "a cell of {} voxels a side is no multiple of 64, or below {}", edge,
+           kLeastCellVox);
+  }
+  TileMaking(tasks, run)();
 }
 
 }  // namespace bp

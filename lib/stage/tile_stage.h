@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <span>
 
 #include "lib/core/result_store.h"
 #include "lib/grid/cells.h"
@@ -32,15 +33,12 @@ struct TileParams {
   std::uint64_t faces = 0;  ///< of each tile; 0: kDenseFacesPerFace
   /// Largest distance of a tile to what it encloses; 0: none. A budget of faces has no meaning then.
   double error_world = 0;
-  const TriangleBvh* scene = nullptr;                     ///< what fits are drawn to; null: the closing
-  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work; one is always at work
+  const TriangleBvh* scene = nullptr;  ///< what fits are drawn to; null: the closing
   ShelfFactory make_shelf;
   ResultStore* store = nullptr;           ///< tiles are looked up there, and put; null: made anew
   std::function<bool(CellCoord)> wanted;  ///< other tiles are passed over; empty: all are wanted
   bool make = true;                       ///< false: what is not in the store comes without measures and content
   std::string encoding;                   ///< all that encode() puts into a file beside cell and mesh, for their keys
-  /// Called now and then, as in CloseOptions. May be empty.
-  std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
 
   static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastFaces = 60;  ///< of a tile without a budget
 };
@@ -65,10 +63,25 @@ struct LevelTile {
 /// The file of a tile; its mesh is in the frame of the level. On any thread.
 using TileEncoder = std::function<std::string(CellCoord, const LatticeMesh&)>;
 
-/// All tiles of a level, in the order of their cells: those whose cell holds voxels of the closing, but for cavities
-/// that the closing fills. consume() on any thread, one at a time. Memory: 200 bytes for each triangle of the dense
-/// surface of a tile at work.
-void make_tiles(const TileLevel& level, const TileParams& params, const TileEncoder& encode,
-                const std::function<void(LevelTile&&)>& consume);
+/// A level to be made.
+struct TileTask {
+  TileLevel level;
+  TileParams params;
+  TileEncoder encode;
+  /// Gets the tiles in no order, on any thread, one at a time, whatever their level.
+  std::function<void(LevelTile&&)> consume;
+};
+
+/// What the tiles of all levels share.
+struct TileRun {
+  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work; one is always at work
+  /// Called now and then, as in CloseOptions. May be empty.
+  std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
+};
+
+/// All tiles of all levels: those whose cell holds voxels of the closing, but for cavities that the closing fills.
+/// First those that a store has, then the others, large ones first; none waits for another. Memory: 200 bytes for each
+/// triangle of the dense surface of a tile at work.
+void make_tiles(std::span<const TileTask> tasks, const TileRun& run);
 
 }  // namespace bp

@@ -10,6 +10,7 @@
 #include "io/lod_writer.h"
 #include "io/result_store.h"
 #include "io/tileset_file.h"
+#include "lib/core/parallel.h"
 #include "lib/stage/tile_pyramid.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/lod/tile_plan.h"
@@ -106,13 +107,18 @@ class TilesetBuild {
   void make_cut_levels(TilePyramid& pyramid, const std::vector<TriangleD>& scene) {
     std::unique_ptr<TriangleBvh> tree;
     if (!scene.empty() && !plan_.cut.empty()) tree = std::make_unique<TriangleBvh>(scene);
+    std::vector<std::unique_ptr<LevelAtWork>> levels;
     for (std::size_t level = 0; level < plan_.cut.size(); ++level) {
       const CutLevel& cut = plan_.cut[level];
-      build_.report.stage(fmt::format("level {}", level));
-      found_.push_back({fmt::format("level {}", level), 0, 0});
-      if (is_wanted(cut.number, cut.cells.count())) make_tiles(pyramid, level, tree.get());
+      build_.report.stage(fmt::format("close level {}", level));
+      levels.push_back(std::make_unique<LevelAtWork>());
+      levels.back()->found.what = fmt::format("level {}", level);
+      if (is_wanted(cut.number, cut.cells.count())) add_level(pyramid, level, tree.get(), *levels.back());
       pyramid.reduce();
     }
+    build_.report.stage("make tiles");
+    pyramid.make_tiles();
+    for (std::size_t level = 0; level < levels.size(); ++level) finish_level(level, *levels[level]);
     if (plan_.whole == 0 && task_ == Task::tileset)
       build_.note(
           fmt::format("the coarsest level has {} tiles, and nothing is drawn instead of them from afar; ask for "
@@ -120,54 +126,69 @@ class TilesetBuild {
                       rows_.back().tiles));
   }
 
-  void make_tiles(TilePyramid& pyramid, std::size_t level, const TriangleBvh* scene) {
-    const CutLevel& cut = plan_.cut[level];
-    const GridFrame& frame = pyramid.header().frame;
-    const LodTarget& target = cut.target;
-    const double scale = cut.scale_world;
-    const std::string level_folder = level_name(options_.name, level);
+  /// A level that is cut, while its tiles come in.
+  struct LevelAtWork {
+    FoundJobs found{};
+    std::string folder;
+    GridFrame frame;
+    LevelRow row;
+    std::uint64_t over_faces = 0, dense = 0;
+    std::vector<std::pair<CellCoord, TreeTile>> tiles;
+  };
+
+  void add_level(TilePyramid& pyramid, std::size_t number, const TriangleBvh* scene, LevelAtWork& level) {
+    const CutLevel& cut = plan_.cut[number];
+    level.frame = pyramid.header().frame;
+    level.folder = level_name(options_.name, number);
+    level.row = {level.folder + "/*.glb", 0, 0, 0, 0, cut.scale_world, level.frame.voxel};
     const std::vector<Provenance> provenance{
-        make_provenance("bplod", option_text(options_, target, level, scale, frame.voxel))};
-    LevelRow row{level_folder + "/*.glb", 0, 0, 0, 0, scale, frame.voxel};
-    std::uint64_t over_faces = 0, dense = 0, kept = 0;
-    TileParams params = tile_params(target, frame, scene);
-    params.encoding = level_folder + " " + provenance[0].options;
+        make_provenance("bplod", option_text(options_, cut.target, number, cut.scale_world, level.frame.voxel))};
+    TileParams params = tile_params(cut.target, level.frame, scene);
+    params.encoding = level.folder + " " + provenance[0].options;
     params.make = task_ != Task::look_up;
-    if (task_ == Task::some_jobs) params.wanted = [&](CellCoord cell) { return is_wanted(cut.number_of(cell), 1); };
-    pyramid.make(
-        scale, std::move(params),
-        [&](CellCoord cell, const LatticeMesh& mesh) {
+    if (task_ == Task::some_jobs)
+      params.wanted = [this, &cut](CellCoord cell) { return is_wanted(cut.number_of(cell), 1); };
+    pyramid.add_level(
+        cut.scale_world, std::move(params),
+        [this, &level, provenance](CellCoord cell, const LatticeMesh& mesh) {
           LatticeMesh named = mesh;
           named.provenance = provenance;
-          return tile_glb({level_folder + "_" + name_of(cell), &named}, centre_of(cells_, cell));
+          return tile_glb({level.folder + "_" + name_of(cell), &named}, centre_of(cells_, cell));
         },
-        [&](LevelTile&& tile) {
-          found_.back().jobs += 1;
-          found_.back().kept += tile.kept;
-          if (task_ != Task::tileset) return;
-          const TileMeasures& m = tile.measures;
-          row.tiles += 1;
-          kept += tile.kept;
-          row.faces += m.faces;
-          row.bytes += tile.content.size();
-          dense += m.faces_dense;
-          over_faces += m.faces_asked > 0 && m.faces > m.faces_asked;
-          TreeTile node{level_folder + "/" + name_of(tile.cell) + ".glb",
-                        frame.world(centre_of(cells_, tile.cell)),
-                        {},
-                        m.error_world};
-          node.bounds.add(frame.world(m.min));
-          node.bounds.add(frame.world(m.max));
-          files_.push_back({node.uri, store_->put(std::as_bytes(std::span(tile.content)))});
-          tree_.add(level, frame, tile.cell, std::move(node));
-        });
-    row.more = {{"faces_dense", dense}, {"kept", kept}};
-    rows_.push_back(row);
-    if (over_faces > 0)
+        [this, &level](LevelTile&& tile) { take(std::move(tile), level); });
+  }
+
+  void take(LevelTile&& tile, LevelAtWork& level) {
+    level.found.jobs += 1;
+    level.found.kept += tile.kept;
+    if (task_ != Task::tileset) return;
+    const TileMeasures& m = tile.measures;
+    level.row.tiles += 1;
+    level.row.faces += m.faces;
+    level.row.bytes += tile.content.size();
+    level.dense += m.faces_dense;
+    level.over_faces += m.faces_asked > 0 && m.faces > m.faces_asked;
+    TreeTile node{level.folder + "/" + name_of(tile.cell) + ".glb",
+                  level.frame.world(centre_of(cells_, tile.cell)),
+                  {},
+                  m.error_world};
+    node.bounds.add(level.frame.world(m.min));
+    node.bounds.add(level.frame.world(m.max));
+    files_.push_back({node.uri, store_->put(std::as_bytes(std::span(tile.content)))});
+    level.tiles.emplace_back(tile.cell, std::move(node));
+  }
+
+  void finish_level(std::size_t number, LevelAtWork& level) {
+    found_.push_back(level.found);
+    if (task_ != Task::tileset) return;
+    for (auto& [cell, node] : level.tiles) tree_.add(number, level.frame, cell, std::move(node));
+    level.row.more = {{"faces_dense", level.dense}, {"kept", level.found.kept}};
+    rows_.push_back(level.row);
+    if (level.over_faces > 0)
       build_.note(
           fmt::format("level {}: {} of {} tiles have more faces than were asked for: no further edge can be "
                       "merged at a scale of {:.4g}",
-                      level, over_faces, row.tiles, scale));
+                      number, level.over_faces, level.row.tiles, level.row.scale_world));
   }
 
   [[nodiscard]] TileParams tile_params(const LodTarget& target, const GridFrame& frame,
@@ -214,12 +235,13 @@ class TilesetBuild {
     const Tileset tileset = tree_.finish(bounds_.diagonal());
     for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].error_world = tree_.error_of(i);
     if (provenance_.empty()) provenance_ = {make_provenance("bplod", tileset_options(), scene.counts.input_hash)};
-    std::vector<std::byte> bytes;
-    for (const Waiting& file : files_) {
+    parallel_for(std::int64_t(files_.size()), [&](std::int64_t i) {  // each waits for the disk
+      const Waiting& file = files_[std::size_t(i)];
+      std::vector<std::byte> bytes;
       store_->get(file.content, bytes);
       folder_->write(file.name, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
       store_->drop(file.content);
-    }
+    });
     folder_->write("tileset.json", tileset_text(tileset, provenance_));
     folder_->commit();
     build_.finish(scene, rows_, folder_->bytes());

@@ -34,6 +34,16 @@ std::vector<std::string> contents_of(const std::string& folder) {
   return uris;
 }
 
+bool holds(const std::string& path, const std::string& bytes) {
+  std::error_code missing;
+  if (fs::file_size(path, missing) != bytes.size() || missing) return false;
+  try {
+    return read_text(path, bytes.size()) == bytes;
+  } catch (const Error&) {  // not to be read: then it is written
+    return false;
+  }
+}
+
 std::string without_slash(std::string path) {
   while (path.size() > 1 && path.back() == '/') path.pop_back();
   return path;
@@ -57,6 +67,7 @@ TilesetFolder::TilesetFolder(std::string path, bool overwrite, bool resume)
   fs::remove_all(files_, error);
   fs::create_directories(files_, error);
   if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", files_, error.message());
+  there_ = fs::exists(path_);
 }
 
 void TilesetFolder::lock() {
@@ -77,16 +88,21 @@ TilesetFolder::~TilesetFolder() {
 }
 
 void TilesetFolder::write(const std::string& name, const std::string& bytes) {
-  fs::create_directories(fs::path(files_ + "/" + name).parent_path());
-  OutputFile file(files_ + "/" + name, true);
-  file.write(bytes);
-  file.commit();
-  bytes_ += file.bytes();
+  const bool same = there_ && holds(path_ + "/" + name, bytes);
+  if (!same) {
+    fs::create_directories(fs::path(files_ + "/" + name).parent_path());
+    OutputFile file(files_ + "/" + name, true);
+    file.write(bytes);
+    file.commit();
+  }
+  const std::lock_guard lock(mutex_);
+  bytes_ += bytes.size();
   names_.push_back(name);
+  if (!same) written_.push_back(name);
 }
 
 void TilesetFolder::commit() {
-  if (fs::exists(path_)) {
+  if (there_) {
     move_files();
   } else {
     fs::rename(files_, path_);
@@ -98,8 +114,8 @@ void TilesetFolder::commit() {
 /// Into a folder that is there.
 void TilesetFolder::move_files() {
   const std::vector<std::string> before = contents_of(path_);
-  std::stable_partition(names_.begin(), names_.end(), [](const std::string& name) { return name != kTileset; });
-  for (const std::string& name : names_) {
+  std::partition(written_.begin(), written_.end(), [](const std::string& name) { return name != kTileset; });
+  for (const std::string& name : written_) {
     fs::create_directories(fs::path(path_ + "/" + name).parent_path());
     fs::rename(files_ + "/" + name, path_ + "/" + name);
   }

@@ -1,12 +1,14 @@
 #pragma once
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <vector>
 
 namespace bp {
 
 /// A folder with a tileset in it. Files are written below a folder beside it, OUT.partial, and move to their places
-/// when all are there: with the whole folder, if there was none before, else one by one, tileset.json last.
+/// when all are there: with the whole folder, if there was none before, else one by one, tileset.json last. A file that
+/// is there already, with the same bytes, is left alone.
 class TilesetFolder {
  public:
   /// Takes away the files that an interrupted run left in OUT.partial, and, unless `resume`, its results. Throws
@@ -20,7 +22,7 @@ class TilesetFolder {
   /// Where results wait to be gone on with; removed by commit().
   [[nodiscard]] std::string results() const { return results_of(path_); }
   [[nodiscard]] static std::string results_of(std::string path);
-  /// `name` may hold one folder: "level/tile.glb".
+  /// `name` may hold one folder: "level/tile.glb". Thread-safe.
   void write(const std::string& name, const std::string& bytes);
   /// The files appear; tiles of the tileset that was there before, and that are not among them, go.
   void commit();
@@ -30,9 +32,10 @@ class TilesetFolder {
   void lock();
   void move_files();
   std::string path_, partial_, files_;
-  bool resume_;
+  bool resume_, there_ = false;
   int lock_ = -1;  ///< of OUT.partial; the system lets go of it however the process ends
-  std::vector<std::string> names_;
+  std::mutex mutex_;
+  std::vector<std::string> names_, written_;  ///< all files; those that are not there already
   std::uint64_t bytes_ = 0;
 };
 

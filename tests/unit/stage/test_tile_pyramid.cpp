@@ -41,7 +41,7 @@ Level make(TilePyramid& pyramid, const TileParams& params, double scale = 0) {
   Level level;
   std::map<CellCoord, LatticeMesh> meshes;
   std::mutex mutex;
-  pyramid.make(
+  pyramid.add_level(
       scale > 0 ? scale : 2 * pyramid.header().frame.voxel, params,
       [&](CellCoord cell, const LatticeMesh& mesh) {
         const std::lock_guard lock(mutex);
@@ -52,6 +52,7 @@ Level make(TilePyramid& pyramid, const TileParams& params, double scale = 0) {
         CHECK(tile.content == std::to_string(tile.cell.x));
         level[tile.cell].measures = tile.measures;
       });
+  pyramid.make_tiles();
   for (auto& [cell, made] : level) made.mesh = std::move(meshes.at(cell));
   return level;
 }
