@@ -8,20 +8,29 @@ namespace bp {
 
 class ChunkedSurface {
  public:
-  using NextTriangles = std::function<bool(std::vector<TriangleD>&)>;  ///< as TriangleSource::read()
+  /// Some triangles in a row.
+  struct Portion {
+    std::vector<TriangleD> triangles;  ///< none if they were not kept
+    std::uint64_t count = 0;
+  };
+  using NextPortion = std::function<bool(Portion&)>;  ///< as TriangleSource::read()
 
   explicit ChunkedSurface(ResultStore& results) : results_(results) {}
 
   /// First pass: the triangles in their order, with ChunkCutter::places().
-  void measure(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places) {
-    cutter_.add(triangles, places);
-  }
+  void measure(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places);
+  [[nodiscard]] bool ended(std::uint64_t triangles) const { return triangles <= ended_; }  ///< all in whole chunks
+  /// True if all of these triangles, counted from the first, are in chunks that some build has voxelized: they need not
+  /// be kept, though it may turn out that the voxels were others.
+  [[nodiscard]] bool met(std::uint64_t begin, std::uint64_t end) const;
   /// After it: looks up the voxels of every chunk. `memory_bytes`: for bricks in memory.
   void look_up(const GridFrame& frame, const BrickBox& grid, std::uint64_t memory_bytes, BrickShelf& shelf);
   [[nodiscard]] bool complete() const { return kept_ == chunks_.size(); }
+  /// Triangles that are met() are needed after all.
+  [[nodiscard]] bool needs_met() const;
   /// Voxelizes the other chunks, and keeps them. `next` gives all triangles once more; done(n): behind n more of them.
   /// Throws bad_input if they are not those of the first pass.
-  void add_missing(const NextTriangles& next, const std::function<void(std::uint64_t)>& done);
+  void add_missing(const NextPortion& next, const std::function<void(std::uint64_t)>& done);
 
   [[nodiscard]] std::uint64_t chunks() const { return chunks_.size(); }
   [[nodiscard]] std::uint64_t kept() const { return kept_; }
@@ -35,7 +44,9 @@ class ChunkedSurface {
   ResultStore& results_;
   ChunkCutter cutter_;
   std::vector<ChunkCutter::Chunk> chunks_;
-  std::vector<char> found_;
+  std::vector<char> met_, found_;                               // by chunk
+  std::uint64_t ended_ = 0;                                     // triangles in chunks that have ended
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> unmet_;  // triangles in chunks that were never voxelized
   std::uint64_t kept_ = 0;
   GridFrame frame_;
   BrickBox grid_;

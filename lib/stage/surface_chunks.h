@@ -38,6 +38,7 @@ class ChunkCutter {
   ChunkCutter& operator=(const ChunkCutter&) = delete;
   /// The next triangles, with their places().
   void add(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places);
+  [[nodiscard]] const std::vector<Chunk>& chunks() const { return chunks_; }  ///< that have ended
   [[nodiscard]] std::vector<Chunk> finish();
 
  private:

@@ -116,11 +116,13 @@ class Run {
 
   void measure();
   void lay_grid();
-  using NextTriangles = ChunkedSurface::NextTriangles;
+  using Portion = ChunkedSurface::Portion;
+  using NextPortion = ChunkedSurface::NextPortion;
   void sort_triangles();
-  void read_again(const std::function<void(const NextTriangles&)>& body);
-  void bin(const NextTriangles& next);
+  void read_again(const std::function<void(const NextPortion&)>& body);
+  void bin(const NextPortion& next);
   void look_up_chunks();
+  void drop_met();
   [[nodiscard]] std::vector<std::uint64_t> tiles_with_triangles() const;
   [[nodiscard]] std::uint64_t waiting_bytes() const;
   void make_room();
@@ -146,8 +148,10 @@ class Run {
   VoxelizeCounts counts_;
 
   Bounds3d bounds_;
-  std::vector<std::vector<TriangleD>> kept_;
-  std::unique_ptr<ChunkedSurface> chunks_;  ///< instead of bins_
+  std::vector<Portion> kept_;
+  std::size_t dropped_ = 0;                         ///< first of kept_ that drop_met() has not settled
+  std::uint64_t dropped_end_ = 0, kept_bytes_ = 0;  ///< triangles before it; of those that stay
+  std::unique_ptr<ChunkedSurface> chunks_;          ///< instead of bins_
   StreamHeader header_;
   TileGrid tiles_;
   std::unique_ptr<TriangleBins> bins_;
@@ -167,7 +171,6 @@ void Run::measure() {
   };
   Steps steps(options_, "reading", "triangles", 0);
   const std::uint64_t limit = options_.memory_bytes / 5 * 3;
-  std::uint64_t bytes = 0;
   InputHash hash;
   pipeline<Item>(
       thread_count() + 2, [&](Item& item) { return source_.read(item.triangles); },
@@ -183,13 +186,14 @@ void Run::measure() {
         if (chunks_) chunks_->measure(item.triangles, item.places);
         bounds_.merge(item.bounds);
         steps.add(item.triangles.size());
-        bytes += item.triangles.capacity() * sizeof(TriangleD);
-        if (bytes <= limit) {
-          kept_.push_back(std::move(item.triangles));
-        } else if (!counts_.read_twice) {
-          counts_.read_twice = true;
-          std::vector<std::vector<TriangleD>>().swap(kept_);
-        }
+        if (counts_.read_twice) return;
+        kept_bytes_ += item.triangles.capacity() * sizeof(TriangleD);
+        const std::uint64_t count = item.triangles.size();
+        kept_.push_back({std::move(item.triangles), count});
+        if (chunks_) drop_met();
+        if (kept_bytes_ <= limit) return;
+        counts_.read_twice = true;
+        std::vector<Portion>().swap(kept_);
       });
   counts_.scene = source_.counts();
   counts_.input_hash = hash.hex();
@@ -199,6 +203,20 @@ void Run::measure() {
          "{}: no triangles ({} degenerate, {} non-finite, {} bad faces skipped); a scene needs at least one with an "
          "area",
          source_.name(), c.degenerate, c.non_finite, c.bad_faces);
+  }
+}
+
+/// Triangles whose voxels are probably known do not stay.
+void Run::drop_met() {
+  for (; dropped_ < kept_.size(); ++dropped_) {
+    Portion& portion = kept_[dropped_];
+    const std::uint64_t end = dropped_end_ + portion.count;
+    if (!chunks_->ended(end)) return;
+    if (chunks_->met(dropped_end_, end)) {
+      kept_bytes_ -= portion.triangles.capacity() * sizeof(TriangleD);
+      std::vector<TriangleD>().swap(portion.triangles);
+    }
+    dropped_end_ = end;
   }
 }
 
@@ -230,18 +248,22 @@ void Run::lay_grid() {
 }
 
 /// Second pass: from the triangles that stay, or from the scene.
-void Run::read_again(const std::function<void(const NextTriangles&)>& body) {
+void Run::read_again(const std::function<void(const NextPortion&)>& body) {
   if (!counts_.read_twice) {
     std::size_t i = 0;
-    body([&](std::vector<TriangleD>& batch) {
+    body([&](Portion& portion) {
       if (i == kept_.size()) return false;
-      batch = std::move(kept_[i++]);
+      portion = std::move(kept_[i++]);
       return true;
     });
     return;
   }
   source_.rewind();
-  body([&](std::vector<TriangleD>& batch) { return source_.read(batch); });
+  body([&](Portion& portion) {
+    const bool more = source_.read(portion.triangles);
+    portion.count = portion.triangles.size();
+    return more;
+  });
   if (source_.counts().triangles != counts_.scene.triangles)
     fail(ErrorCode::bad_input, "{}: changed between the first and the second reading", source_.name());
 }
@@ -251,7 +273,7 @@ void Run::sort_triangles() {
   if (chunks_) {
     look_up_chunks();
   } else {
-    read_again([&](const NextTriangles& next) { bin(next); });
+    read_again([&](const NextPortion& next) { bin(next); });
   }
   kept_.clear();
 }
@@ -262,31 +284,30 @@ void Run::look_up_chunks() {
   counts_.chunks = chunks_->chunks();
   counts_.chunks_kept = chunks_->kept();
   if (chunks_->complete()) return;
+  if (chunks_->needs_met()) counts_.read_twice = true;
   Steps steps(options_, "voxelizing", "triangles", counts_.scene.triangles);
-  read_again([&](const NextTriangles& next) { chunks_->add_missing(next, [&](std::uint64_t n) { steps.add(n); }); });
+  read_again([&](const NextPortion& next) { chunks_->add_missing(next, [&](std::uint64_t n) { steps.add(n); }); });
 }
 
 /// Triangles to fixed point, into the bins of their tiles.
-void Run::bin(const NextTriangles& next) {
+void Run::bin(const NextPortion& next) {
   struct Item {
-    std::vector<TriangleD> triangles;
-    std::size_t count = 0;
+    Portion portion;
     TriangleBatch batch;
   };
   Steps steps(options_, "sorting", "triangles", counts_.scene.triangles);
   pipeline<Item>(
-      thread_count() + 2, [&](Item& item) { return next(item.triangles); },
+      thread_count() + 2, [&](Item& item) { return next(item.portion); },
       [&](Item& item) {
         std::vector<FixedTriangle> fixed;
-        fixed.reserve(item.triangles.size());
-        for (const TriangleD& t : item.triangles) fixed.push_back(to_fixed(header_.frame, t));
-        item.count = item.triangles.size();
-        std::vector<TriangleD>().swap(item.triangles);
+        fixed.reserve(item.portion.triangles.size());
+        for (const TriangleD& t : item.portion.triangles) fixed.push_back(to_fixed(header_.frame, t));
+        std::vector<TriangleD>().swap(item.portion.triangles);
         item.batch = bins_->sort(fixed);
       },
       [&](Item& item) {
         bins_->add(std::move(item.batch));
-        steps.add(item.count);
+        steps.add(item.portion.count);
         if (waiting_bytes() > options_.memory_bytes) make_room();
       });
 }

@@ -45,7 +45,7 @@ struct VoxelizeCounts {
   std::uint64_t tiles_touched = 0;  ///< that hold triangles
   std::uint64_t surface_voxels = 0, solid_voxels = 0, bricks = 0, full_bricks = 0;
   std::uint64_t open_columns = 0;  ///< winding: columns whose crossings do not cancel; the flood decided there
-  bool read_twice = false;         ///< the scene did not fit in memory
+  bool read_twice = false;         ///< the scene did not fit in memory, or chunks were not what they were
   std::uint64_t chunks = 0, chunks_kept = 0;  ///< of the scene's triangles; found in VoxelizeOptions::results
   std::uint64_t scratch_bytes = 0;            ///< triangles and crossings put aside, compressed
 };

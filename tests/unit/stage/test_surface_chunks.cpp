@@ -209,7 +209,10 @@ TEST_CASE("chunks of other voxels, of another frame, or damaged ones are not tak
   CHECK(run(scene, o, &results).counts.chunks_kept > 0);
   VoxelizeOptions finer = o;
   finer.voxel_size = [](const Bounds3d&) { return 0.5; };
-  CHECK(run(scene, finer, &results).counts.chunks_kept == 0);
+  const Result smaller = run(scene, finer, &results);  // its triangles were met, and not kept: they are read again
+  CHECK(smaller.counts.chunks_kept == 0);
+  CHECK(smaller.counts.read_twice);
+  CHECK((smaller.bits == run(scene, finer, nullptr).bits));
   Triangles more = scene;
   more.push_back({{{-500, 0, 0}, {-499, 0, 0}, {-499, 1, 0}}});  // the origin moves
   CHECK(run(more, o, &results).counts.chunks_kept == 0);
