@@ -326,6 +326,9 @@ void run(const Options& o) {
   const bp::MeshBudget budget(o.common.memory_bytes);
   params.memory.waiting_bytes = budget.waiting;
   params.memory.work_bytes = budget.work;
+  params.memory.limit_bytes = o.common.memory_bytes;
+  params.memory.waiting_growth = budget.waiting_growth;
+  params.memory.work_growth = budget.work_growth;
   params.memory.make_store = [&o, budget] { return bp::make_chunk_store(budget.store, o.common.temp); };
   std::vector<bp::LatticeMesh> levels =
       bp::mesh_stream(source, bp::make_shelf_factory(budget.shelves, o.common.temp), std::move(params), counts);

@@ -29,6 +29,9 @@ class Enclosed {
   /// Points of it that tell where a proxy must stay outside, relative to `origin`, lattice units; rounded. They guide
   /// the search, allows() decides.
   [[nodiscard]] virtual std::vector<Vec3d> contact_points(const LatticeCoord& origin) const = 0;
+  /// Memory of this, and of its contact points while a proxy is tightened; about.
+  [[nodiscard]] virtual std::uint64_t bytes() const = 0;
+  static constexpr std::uint64_t kBytesPerContactPoint = 48;  ///< the point, its place in the list of a face
 };
 
 }  // namespace bp

@@ -163,6 +163,11 @@ bool EnclosedTriangles::blocks(std::uint32_t triangle, Blocker* blocker) const {
   return true;
 }
 
+std::uint64_t EnclosedTriangles::bytes() const {
+  constexpr std::uint64_t kBytesInTree = 80;
+  return triangles_.size() * (sizeof(TriangleD) + kBytesInTree + kBytesPerContactPoint);
+}
+
 std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin) const {
   std::vector<Vec3d> points;
   points.reserve(3 * triangles_.size());

@@ -15,6 +15,7 @@ class EnclosedTriangles : public Enclosed {
   [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                             Blocker* blocker) const override;
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin) const override;
+  [[nodiscard]] std::uint64_t bytes() const override;
 
  private:
   [[nodiscard]] bool blocks(std::uint32_t triangle, Blocker* blocker) const;

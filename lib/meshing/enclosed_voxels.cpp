@@ -241,6 +241,12 @@ bool EnclosedVoxels::allows(std::span<const NewFace>, std::span<const Tetrahedro
   return std::all_of(swept.begin(), swept.end(), [&](const Tetrahedron& t) { return clear(t, blocker); });
 }
 
+std::uint64_t EnclosedVoxels::bytes() const {
+  constexpr std::uint64_t kBytesPerBrick = sizeof(BoundaryBrick) + 48;  // of a hash table
+  return blocks_.capacity() * sizeof(Block) + bricks_.size() * kBytesPerBrick + tips_.capacity() * sizeof(VoxelCoord) +
+         tips_.size() * kBytesPerContactPoint;
+}
+
 std::vector<Vec3d> EnclosedVoxels::contact_points(const LatticeCoord& origin) const {
   std::vector<Vec3d> points;
   points.reserve(tips_.size());

@@ -18,6 +18,7 @@ class EnclosedVoxels : public Enclosed {
   [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                             Blocker* blocker) const override;
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin) const override;
+  [[nodiscard]] std::uint64_t bytes() const override;
 
  private:
   /// Occupied voxels with an empty one among their 26 neighbours: word z, bit 8 y + x.

@@ -1,6 +1,9 @@
 #include "lib/meshing/piece_store.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -54,6 +57,31 @@ void decode(std::span<const std::byte> bytes, Piece& piece) {
 }
 
 }  // namespace
+
+// What else takes its part comes off what may wait first: as long as nothing may, all growth is for work.
+std::string PieceMemory::enough_for(std::uint64_t missing, bool for_work) const {
+  const double growth = work_growth + (for_work && waiting_bytes > 0 ? 0 : waiting_growth);
+  if (!(growth > 0)) return "";
+  const double bytes = double(limit_bytes) + double(missing) / growth;
+  return fmt::format(" to at least {} MiB", std::uint64_t(std::ceil(bytes / (1 << 20))));
+}
+
+PieceMemory PieceMemory::without(std::uint64_t bytes) const {
+  PieceMemory rest = *this;
+  rest.waiting_bytes -= std::min(bytes, waiting_bytes);
+  bytes -= waiting_bytes - rest.waiting_bytes;
+  rest.work_bytes -= std::min(bytes, work_bytes);
+  return rest;
+}
+
+PieceMemory PieceMemory::split(std::uint64_t n) const {
+  PieceMemory one = *this;
+  one.waiting_bytes /= n;
+  one.work_bytes /= n;
+  one.waiting_growth /= double(n);
+  one.work_growth /= double(n);
+  return one;
+}
 
 WaitingPiece PieceStore::put(Piece&& piece) {
   WaitingPiece waiting;

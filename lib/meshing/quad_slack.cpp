@@ -43,6 +43,7 @@ class EnclosedByPairs final : public Enclosed {
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin) const override {
     return enclosed_.contact_points(origin);
   }
+  [[nodiscard]] std::uint64_t bytes() const override { return enclosed_.bytes(); }
 
  private:
   /// The pairs around v, drawn the other way.

@@ -107,7 +107,7 @@ class SurfaceTree {
   }
 
   [[nodiscard]] Piece weld_all(SimplifyCounts& counts) {
-    check_work(faces(), params_.memory.bytes());
+    check_work(faces(), params_.memory);
     std::vector<Piece> pieces;
     for (Node& node : nodes_) {
       pieces.push_back(welded(node));
@@ -137,7 +137,7 @@ class SurfaceTree {
     std::uint64_t largest = 1;
     for (const Node& node : nodes_) largest = std::max(largest, node.face_count());
     const std::uint64_t bytes = params_.memory.work_bytes;
-    check_work(largest, bytes);
+    check_work(largest, params_.memory, true);
     return std::size_t(std::min<std::uint64_t>(bytes / (largest * kWorkPerFace), thread_count()));
   }
 
@@ -170,14 +170,13 @@ class SurfaceTree {
 
 }  // namespace
 
-void check_work(std::uint64_t faces, std::uint64_t bytes) {
-  const std::uint64_t needed = faces * kWorkPerFace;
-  if (needed <= bytes) return;
-  fail(
-      ErrorCode::out_of_resource,
-      "simplifying {} triangles at once needs {} MiB, and --memory leaves {} MiB for it; raise --memory, or use larger "
-      "voxels or fewer faces",
-      faces, (needed >> 20) + 1, bytes >> 20);
+void check_work(std::uint64_t faces, const PieceMemory& memory, bool others_wait) {
+  const std::uint64_t needed = faces * kWorkPerFace, left = others_wait ? memory.work_bytes : memory.bytes();
+  if (needed <= left) return;
+  fail(ErrorCode::out_of_resource,
+       "simplifying {} triangles at once needs {} MiB, and --memory leaves {} MiB for it; raise --memory{}, or use "
+       "larger voxels or fewer faces",
+       faces, (needed >> 20) + 1, left >> 20, memory.enough_for(needed - left, others_wait));
 }
 
 namespace {

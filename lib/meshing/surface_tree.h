@@ -17,7 +17,8 @@ namespace bp {
 [[nodiscard]] Piece simplified_surface(const SurfaceSource& surface, const SimplifyParams& params, std::uint64_t enough,
                                        SimplifyCounts& counts);
 
-/// Throws out_of_resource if simplifying `faces` triangles at once takes more than `bytes`.
-void check_work(std::uint64_t faces, std::uint64_t bytes);
+/// Throws out_of_resource if `memory` does not suffice to simplify `faces` triangles at once: all of it, or, while
+/// other pieces wait, its work_bytes.
+void check_work(std::uint64_t faces, const PieceMemory& memory, bool others_wait = false);
 
 }  // namespace bp

@@ -142,7 +142,15 @@ class Run {
   /// Bits of a cell with its halo, and what closing and labelling need of about the same size.
   [[nodiscard]] int in_flight() const {
     const double side = double(options_.cells.edge_vox) + 2.0 * halo_.total_vox() + 64;
-    const double bytes = 12 * side * side * side / 8 + (16 << 20);
+    const double bytes = 12 * side * side * side / 8 + (16 << 20), least = bytes / 3;  // where little is occupied
+    if (least > double(options_.memory_bytes)) {
+      fail(ErrorCode::out_of_resource,
+           "closing a cell of {} voxels with a halo of {} takes {:.0f} MiB, and --memory leaves {:.0f} MiB for it; "
+           "raise "
+           "--memory{}, or use a smaller --tile or --scale",
+           options_.cells.edge_vox, halo_.total_vox(), least / (1 << 20), double(options_.memory_bytes) / (1 << 20),
+           options_.enough_for ? options_.enough_for(std::uint64_t(least) - options_.memory_bytes) : "");
+    }
     const double fit = std::min(double(options_.memory_bytes) / bytes, double(backends_.size()));
     return std::max(1, int(fit));
   }

@@ -14,8 +14,10 @@ struct CellClosing {
   Cells cells;
   ClosingParams closing;
   bool keep_cavities = false;
-  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for cells at work; one is always at work
-  ResultStore* store = nullptr;                           ///< results are looked up there, and put; null: made anew
+  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for cells at work
+  /// For messages: " to at least N MiB", where so many bytes are missing. May be empty.
+  std::function<std::string(std::uint64_t)> enough_for;
+  ResultStore* store = nullptr;  ///< results are looked up there, and put; null: made anew
   /// Called now and then, as in CloseOptions. May be empty.
   std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
 };
@@ -25,7 +27,7 @@ struct CellClosingCounts {
 };
 
 /// Puts the closing of `solid`, with bricks of `header`, onto `closing`. `scale_world` is the same everywhere. Throws
-/// as close_stream().
+/// as close_stream(), out_of_resource if not even one cell fits in memory_bytes.
 CellClosingCounts close_cells(const StreamHeader& header, const BrickShelf& solid, Backends& backends,
                               double scale_world, const CellClosing& options, BrickShelf& closing);
 

@@ -23,31 +23,55 @@ constexpr double kLeastScaleVox = 1;   // below, closing is the identity
 constexpr double kLeastSideVox = 48;   // of a reduced grid
 constexpr double kSlantedSteps = 1.5;  // a slanted plane has 1.5 times its area of voxel faces, on average over angles
 
-/// What the solid shows to the outside. With the inside filled, every boundary voxel is touched by the scene.
-struct Outside {
-  std::vector<TriangleD> segments;
-  std::unique_ptr<TriangleBvh> tree;
-  double voxel = 0;
+/// What the solid shows to the outside. With the inside filled, every boundary voxel is touched by the scene. While
+/// levels are meshed, it is but the runs of its voxels; what distances are measured with is made when they are, unless
+/// it is small.
+class Outside {
+ public:
   std::uint64_t dense_faces = 0;
   VoxelBox box{};
 
-  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame) : voxel(frame.voxel) {
+  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, std::uint64_t memory_bytes)
+      : frame_(frame) {
     Boundary boundary = boundary_of(solid);
     dense_faces = 2 * boundary.faces;
     for (const VoxelRun& run : boundary.runs) {
       const VoxelCoord end{run.first.x + run.length, run.first.y + 1, run.first.z + 1};
       box = hull(box, VoxelBox{run.first, end});
     }
-    if (surface != nullptr) boundary.runs = runs_of(*surface, box);
-    segments = segments_of(boundary.runs, frame);
-    tree = std::make_unique<TriangleBvh>(segments);
+    runs_ = surface != nullptr ? runs_of(*surface, box) : std::move(boundary.runs);
+    runs_.shrink_to_fit();
+    if (measuring_bytes() <= memory_bytes / 16) kept_ = std::make_unique<Ruler>(runs_, frame_);
+  }
+
+  [[nodiscard]] double voxel() const { return frame_.voxel; }
+  [[nodiscard]] std::uint64_t bytes() const {
+    return runs_.capacity() * sizeof(VoxelRun) + (kept_ ? measuring_bytes() : 0);
+  }
+  /// That distance() takes for a moment.
+  [[nodiscard]] std::uint64_t measuring_bytes() const {
+    return runs_.size() * sizeof(TriangleD) + TriangleBvh::bytes_needed(runs_.size());
   }
 
   /// Upper bound of the distance between the scene's outside and `mesh`, in both directions.
   [[nodiscard]] double distance(const LatticeMesh& mesh) const {
-    const std::vector<TriangleD> triangles = world_triangles(mesh);
-    return std::max(distance_from_mesh(triangles, *tree, voxel), distance_to_mesh(segments, triangles, voxel));
+    return kept_ ? kept_->distance(mesh, voxel()) : Ruler(runs_, frame_).distance(mesh, voxel());
   }
+
+ private:
+  struct Ruler {
+    std::vector<TriangleD> segments;
+    TriangleBvh tree;
+    Ruler(const std::vector<VoxelRun>& runs, const GridFrame& frame)
+        : segments(segments_of(runs, frame)), tree(segments) {}
+    [[nodiscard]] double distance(const LatticeMesh& mesh, double voxel) const {
+      const std::vector<TriangleD> triangles = world_triangles(mesh);
+      return std::max(distance_from_mesh(triangles, tree, voxel), distance_to_mesh(segments, triangles, voxel));
+    }
+  };
+  GridFrame frame_;
+  std::vector<VoxelRun> runs_;
+  std::unique_ptr<Ruler> kept_;
 };
 
 /// Length of an edge of `faces` equilateral triangles over the scene's surface.
@@ -83,8 +107,9 @@ struct LodChain::State {
   State(const StreamHeader& h, std::unique_ptr<BrickShelf> s, Backends& b, LodOptions o)
       : options(std::move(o)), backends(b), header(h), solid(std::move(s)), diagonal(h.bounds.diagonal()) {
     if (solid->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
-    outside = std::make_unique<Outside>(*solid, options.surface.get(), header.frame);
+    outside = std::make_unique<Outside>(*solid, options.surface.get(), header.frame, options.memory_bytes);
     options.surface.reset();
+    take_off(outside->bytes() + options.scene.size() * sizeof(TriangleD), outside->measuring_bytes());
     last_scale = options.least_scale_world;
   }
 
@@ -121,7 +146,20 @@ struct LodChain::State {
   double last_scale = 0;
 
  private:
-  [[nodiscard]] LodGround ground() const { return {outside->voxel, diagonal, outside->dense_faces, longest_side()}; }
+  /// Takes `bytes` off the memory, of which `now_and_then` must be left.
+  void take_off(std::uint64_t bytes, std::uint64_t now_and_then) {
+    if (bytes + now_and_then > options.memory_bytes) {
+      fail(ErrorCode::out_of_resource,
+           "the outside of the scene takes {} MiB to be measured, and --memory leaves {} MiB for it; raise --memory{}, "
+           "or use larger voxels",
+           ((bytes + now_and_then) >> 20) + 1, options.memory_bytes >> 20,
+           options.pieces.enough_for(bytes + now_and_then - options.memory_bytes));
+    }
+    options.memory_bytes -= bytes;
+    options.pieces = options.pieces.without(bytes);
+  }
+
+  [[nodiscard]] LodGround ground() const { return {outside->voxel(), diagonal, outside->dense_faces, longest_side()}; }
 
   void reduce_to(int n) {
     for (; reductions < n; ++reductions) {
@@ -171,8 +209,9 @@ struct LodChain::State {
     if (target.faces > 0) params.faces = {target.faces};
     // What is enclosed is within a diagonal of a voxel of the scene.
     if (target.error_world > 0)
-      params.error_world =
-          std::max(target.error_world - std::sqrt(3.0) * (header.frame.voxel + outside->voxel), target.error_world / 4);
+      params.error_world = std::max(target.error_world - std::sqrt(3.0) * (header.frame.voxel + outside->voxel()),
+                                    target.error_world / 4);
+    params.memory = options.pieces;
     params.mode = options.mode;
     params.tighten = options.tighten;
     params.enclose = options.enclose;

@@ -43,8 +43,11 @@ struct LodOptions {
   double least_scale_world = 0;  ///< no level is closed at less
   bool tighten = true;
   bool keep_cavities = false;
-  int max_attempts = 12;                                  ///< at most so many scales for one level
-  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work
+  int max_attempts = 12;  ///< at most so many scales for one level
+  /// For tiles at work and, between, for surfaces: PieceMemory of as much. The scene's outside, and `scene`, come off
+  /// it.
+  std::uint64_t memory_bytes = std::uint64_t(512) << 20;
+  PieceMemory pieces;
   ShelfFactory make_shelf;
   /// Called now and then, as in CloseOptions. May be empty.
   std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
@@ -65,6 +68,7 @@ struct LodLevel {
 class LodChain {
  public:
   /// `solid` holds the bricks of `header`, a solid layer. Keeps references to `backends` and `options.make_shelf`.
+  /// Throws bad_input if it is empty, out_of_resource if memory_bytes does not suffice for the scene's outside.
   LodChain(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends, LodOptions options);
   ~LodChain();
   LodChain(const LodChain&) = delete;

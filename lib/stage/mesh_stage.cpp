@@ -84,6 +84,10 @@ struct Ground {
   std::unique_ptr<Enclosed> enclosed;  // null: nothing is tightened
   std::vector<TriangleD> surface;
   std::unique_ptr<TriangleBvh> tree;
+
+  [[nodiscard]] std::uint64_t bytes() const {
+    return (enclosed ? enclosed->bytes() : 0) + surface.capacity() * sizeof(TriangleD) + (tree ? tree->bytes() : 0);
+  }
 };
 
 /// The surface that simplification begins with. A proxy inside is one around the complement, turned over: what must
@@ -107,7 +111,7 @@ std::vector<TriangleD> merged_triangles(const SurfaceSource& surface, const Piec
 
 /// The surface of the voxels as they are, which may touch along edges.
 std::vector<TriangleD> unmerged_triangles(const BrickShelf& shelf, const GridFrame& frame, const PieceMemory& memory) {
-  check_work(count_faces(ShelfSurface(shelf, frame)), memory.bytes());
+  check_work(count_faces(ShelfSurface(shelf, frame)), memory);
   return world_triangles(dense_surface(shelf, frame));
 }
 
@@ -225,6 +229,7 @@ class LevelMaker {
     const Start start = make_start(shelves);
     bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
     ground_ = make_ground(shelves, params_, start, make_shelf_);
+    params_.memory = params_.memory.without(ground_.bytes());
     if (params_.mode == MeshMode::fit) return fits(*start.surface, faces);
     std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed.get(), faces[0])};
     for (std::size_t i = 1; i < faces.size(); ++i) {
@@ -247,7 +252,7 @@ class LevelMaker {
       return start;
     }
     start.around = make_shelf_();
-    check_work(count_faces(ShelfSurface(*shelves.meshed, header_.frame)), params_.memory.bytes());
+    check_work(count_faces(ShelfSurface(*shelves.meshed, header_.frame)), params_.memory);
     start.mesh =
         std::make_unique<LatticeMesh>(inward_surface(*shelves.meshed, header_.frame, make_shelf_, *start.around));
     if (start.mesh->triangles.empty())

@@ -20,6 +20,7 @@ std::unique_ptr<BrickShelf> TilePyramid::close(double scale_world) {
   o.closing = options_.closing;
   o.keep_cavities = options_.keep_cavities;
   o.memory_bytes = options_.memory_bytes;
+  o.enough_for = [this](std::uint64_t missing) { return options_.pieces.enough_for(missing); };
   o.store = options_.store;
   o.progress = options_.progress;
   auto closing = options_.make_shelf();
@@ -42,7 +43,7 @@ void TilePyramid::add_level(double scale_world, TileParams params, TileEncoder e
 }
 
 void TilePyramid::make_tiles() {
-  bp::make_tiles(tasks_, {options_.memory_bytes, options_.progress});
+  bp::make_tiles(tasks_, {options_.memory_bytes, options_.pieces, options_.progress});
   tasks_.clear();
   waiting_.clear();
   added_ = false;

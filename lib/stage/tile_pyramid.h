@@ -13,6 +13,7 @@ struct PyramidOptions {
   ClosingParams closing;
   bool keep_cavities = false;
   std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work
+  PieceMemory pieces;                                     ///< the same, for their surfaces
   ShelfFactory make_shelf;
   ResultStore* store = nullptr;  ///< of closings and tiles; null: all are made
   /// Called now and then, as in CloseOptions. May be empty.

@@ -18,7 +18,8 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kBytesPerDenseFace = 200, kBytesPerTile = std::uint64_t(4) << 20;
+// The surface while it is simplified, what it encloses, distances.
+constexpr std::uint64_t kBytesPerDenseFace = 320, kBytesPerTile = std::uint64_t(4) << 20;
 
 constexpr const char* kJobName = "tile, 1";
 
@@ -42,6 +43,12 @@ bool unpack(const std::string& bytes, LevelTile& tile) {
   m.volume = std::bit_cast<double>(words[9]), m.error_world = std::bit_cast<double>(words[10]);
   tile.content = bytes.substr(sizeof words);
   return true;
+}
+
+/// Of the voxels of a tile, twice: hold_stray_parts().
+std::uint64_t voxel_bytes(const Cells& cells) {
+  const auto edge = std::uint64_t(cells.edge_vox);
+  return 2 * (edge + 2 * kBrickEdge) * (edge + 2) * (edge + 2) / 8 + kBytesPerTile;
 }
 
 /// A cell with something to mesh.
@@ -71,8 +78,12 @@ std::vector<Job> jobs_of(const TileLevel& level, const std::function<bool(CellCo
 /// One tile: see the header of this stage.
 class Maker {
  public:
-  Maker(const TileLevel& level, const TileParams& params, CellCoord coord)
-      : level_(level), params_(params), coord_(coord), cell_(level.cells.box(coord)), grown_(cell_.grown(1)) {}
+  Maker(const TileTask& task, CellCoord coord)
+      : level_(task.level),
+        params_(task.params),
+        coord_(coord),
+        cell_(level_.cells.box(coord)),
+        grown_(cell_.grown(1)) {}
 
   /// Everything that the tile depends on.
   [[nodiscard]] ResultKey key() const {
@@ -105,9 +116,9 @@ class Maker {
     return true;
   }
 
-  LatticeMesh make(TileMeasures& measures) {
+  LatticeMesh make(const PieceMemory& memory, TileMeasures& measures) {
     MeshCounts counts;
-    LatticeMesh mesh = mesh_cell(2 * boundary_.faces, measures, counts);
+    LatticeMesh mesh = mesh_cell(2 * boundary_.faces, memory, measures, counts);
     measure(mesh, boundary_.runs, measures);
     measures.faces_dense = counts.levels.front().simplify.faces_in;
     measures.volume = counts.levels.front().measures.volume;
@@ -143,8 +154,10 @@ class Maker {
     });
   }
 
-  LatticeMesh mesh_cell(std::uint64_t solid_faces, TileMeasures& measures, MeshCounts& counts) {
+  LatticeMesh mesh_cell(std::uint64_t solid_faces, const PieceMemory& memory, TileMeasures& measures,
+                        MeshCounts& counts) {
     MeshParams mesh;
+    mesh.memory = memory;
     mesh.mode = params_.mode;
     mesh.tighten = params_.tighten;
     mesh.enclose = params_.enclose;
@@ -230,6 +243,7 @@ class TileMaking {
  public:
   TileMaking(std::span<const TileTask> tasks, const TileRun& run) : tasks_(tasks), run_(run) {
     for (const TileTask& task : tasks_) {
+      check_memory(task.level.cells);
       for (const Job& job : jobs_of(task.level, task.params.wanted)) jobs_.push_back({&task, job, {}});
     }
   }
@@ -238,9 +252,11 @@ class TileMaking {
     take_kept();
     std::stable_sort(jobs_.begin(), jobs_.end(),
                      [](const TileJob& a, const TileJob& b) { return a.job.dense_faces > b.job.dense_faces; });
+    const int n = in_flight();
+    pieces_ = run_.pieces.split(std::uint64_t(n));
     std::size_t next = 0;
     run_jobs<std::size_t>(
-        in_flight(),
+        n,
         [&](std::size_t& i) {
           i = next++;
           return i < jobs_.size();
@@ -255,6 +271,15 @@ class TileMaking {
     ResultKey key;  ///< if there is a store
   };
 
+  void check_memory(const Cells& cells) const {
+    const std::uint64_t bytes = voxel_bytes(cells);
+    if (bytes <= run_.memory_bytes) return;
+    fail(ErrorCode::out_of_resource,
+         "a tile of {} voxels takes {} MiB, and --memory leaves {} MiB for it; raise --memory{}, or use a smaller "
+         "--tile",
+         cells.edge_vox, (bytes >> 20) + 1, run_.memory_bytes >> 20, run_.pieces.enough_for(bytes - run_.memory_bytes));
+  }
+
   /// Jobs whose results are there leave the list. A hidden tile is kept as no bytes.
   void take_kept() {
     total_ = jobs_.size();
@@ -263,7 +288,7 @@ class TileMaking {
       TileJob& job = jobs_[std::size_t(i)];
       const TileParams& params = job.task->params;
       if (params.store == nullptr) return;
-      job.key = Maker(job.task->level, params, job.job.cell).key();
+      job.key = Maker(*job.task, job.job.cell).key();
       LevelTile tile;
       std::string bytes;
       tile.kept = params.store->get(job.key, bytes) && (bytes.empty() || unpack(bytes, tile));
@@ -281,17 +306,18 @@ class TileMaking {
   /// The largest job is the first.
   [[nodiscard]] int in_flight() const {
     if (jobs_.empty()) return 1;
-    const std::uint64_t largest = jobs_.front().job.dense_faces * kBytesPerDenseFace + kBytesPerTile;
+    std::uint64_t largest = jobs_.front().job.dense_faces * kBytesPerDenseFace + kBytesPerTile;
+    for (const TileTask& task : tasks_) largest = std::max(largest, voxel_bytes(task.level.cells));
     return int(std::clamp<std::uint64_t>(run_.memory_bytes / largest, 1, std::uint64_t(thread_count())));
   }
 
   void make(const TileJob& job) {
     const TileTask& task = *job.task;
-    Maker maker(task.level, task.params, job.job.cell);
+    Maker maker(task, job.job.cell);
     LevelTile tile;
     if (!task.params.make) return finish(job, std::move(tile), true);  // it is there, as far as is known
     const bool there = maker.begin();
-    if (there) tile.content = task.encode(job.job.cell, maker.make(tile.measures));
+    if (there) tile.content = task.encode(job.job.cell, maker.make(pieces_, tile.measures));
     if (task.params.store != nullptr) task.params.store->put(job.key, there ? packed(tile) : "");
     finish(job, std::move(tile), there);
   }
@@ -306,6 +332,7 @@ class TileMaking {
   const std::span<const TileTask> tasks_;
   const TileRun& run_;
   std::vector<TileJob> jobs_;
+  PieceMemory pieces_;  // of each at work
   std::mutex mutex_;
   std::size_t done_ = 0, total_ = 0;
 };

@@ -74,14 +74,15 @@ struct TileTask {
 
 /// What the tiles of all levels share.
 struct TileRun {
-  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work; one is always at work
+  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work
+  PieceMemory pieces;                                     ///< the same, for their surfaces
   /// Called now and then, as in CloseOptions. May be empty.
   std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
 };
 
 /// All tiles of all levels: those whose cell holds voxels of the closing, but for cavities that the closing fills.
-/// First those that a store has, then the others, large ones first; none waits for another. Memory: 200 bytes for each
-/// triangle of the dense surface of a tile at work.
+/// First those that a store has, then the others, large ones first; none waits for another. Memory: 320 bytes for each
+/// triangle of the dense surface of a tile at work. Throws out_of_resource if not even one tile fits.
 void make_tiles(std::span<const TileTask> tasks, const TileRun& run);
 
 }  // namespace bp

@@ -8,13 +8,13 @@
 #include <cstdlib>
 
 #include "lib/core/error.h"
+#include "lib/core/parallel.h"
 
 namespace bp {
 
 namespace {
 
 constexpr int kMostThreads = 4096;  ///< each has a backend of its own
-constexpr std::uint64_t kLeastMemory = std::uint64_t(64) << 20;
 
 std::string default_temp() {
   const char* dir = std::getenv("TMPDIR");
@@ -90,8 +90,11 @@ void CommonOptions::add_to(Args& args, unsigned parts) {
 }
 
 void CommonOptions::prepare() {
-  if (memory_bytes == 0) memory_bytes = default_memory();
-  if (memory_bytes < kLeastMemory) fail(ErrorCode::bad_argument, "--memory {}: at least 64M is needed", memory_bytes);
+  const std::uint64_t least = least_memory(threads);
+  if (memory_bytes == 0) memory_bytes = std::max(default_memory(), least);
+  if (memory_bytes < least)
+    fail(ErrorCode::out_of_resource, "--memory {}: at least {}M is needed with these --threads; raise it",
+         size_text(memory_bytes), least >> 20);
   if (parts_ & memory_part) {
     if (temp.empty()) temp = default_temp();
     check_temp(temp);
@@ -105,7 +108,11 @@ std::uint64_t default_memory() {
   std::uint64_t bytes = std::uint64_t(::sysconf(_SC_PHYS_PAGES)) * std::uint64_t(::sysconf(_SC_PAGESIZE));
   const std::uint64_t limit = kernel_number("/sys/fs/cgroup/memory.max");
   if (limit > 0) bytes = std::min(bytes, limit);
-  return std::max(bytes / 4, kLeastMemory);
+  return bytes / 4;
+}
+
+std::uint64_t least_memory(int threads) {
+  return (std::uint64_t(48) << 20) + (std::uint64_t(16) << 20) * std::uint64_t(threads > 0 ? threads : thread_count());
 }
 
 void refuse_terminal(const std::string& path) {

@@ -53,6 +53,8 @@ struct CommonOptions {
 
 /// A quarter of the memory of this machine (or of this container), so that the tools of one pipe fit together.
 [[nodiscard]] std::uint64_t default_memory();
+/// What the program itself, and so many threads (0: all cores), take of --memory: below, no tool can keep it.
+[[nodiscard]] std::uint64_t least_memory(int threads);
 
 /// The tool's data output. Throws bad_argument if binary data would go to a terminal, or if the file exists and
 /// `overwrite` is false.

@@ -5,6 +5,17 @@
 
 namespace bp {
 
+/// What is left of --memory beside the program and what each thread has in hand, bytes.
+struct UsableMemory {
+  std::uint64_t bytes;
+  double growth;  ///< with each byte more of --memory, at least
+  UsableMemory(std::uint64_t memory, std::uint64_t program) {
+    const std::uint64_t fixed = program + std::uint64_t(thread_count()) * (8 << 20);
+    bytes = memory > 2 * fixed ? memory - fixed : memory / 2;
+    growth = memory > 2 * fixed ? 1 : 0.5;
+  }
+};
+
 /// How --memory is shared out while a scene is voxelized, bytes. The rest is for the program, and for what the threads
 /// and the writer have in hand.
 struct VoxelizeBudget {
@@ -12,14 +23,29 @@ struct VoxelizeBudget {
   std::uint64_t waiting;  ///< triangles and bricks, what store and shelf hold included
   std::uint64_t store, shelf;
   std::uint64_t tiles;  ///< at work
-  explicit VoxelizeBudget(std::uint64_t memory) {
-    const std::uint64_t fixed = (std::uint64_t(96) << 20) + std::uint64_t(thread_count()) * (8 << 20);
-    const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
-    reader = usable / 10;
-    waiting = usable / 10 * 7;
+  explicit VoxelizeBudget(std::uint64_t memory) : VoxelizeBudget(UsableMemory(memory, std::uint64_t(96) << 20)) {}
+
+ protected:
+  explicit VoxelizeBudget(const UsableMemory& usable) {
+    reader = usable.bytes / 10;
+    waiting = usable.bytes / 10 * 7;
     store = waiting / 14;
     shelf = waiting / 14 * 6;
-    tiles = usable / 10;
+    tiles = usable.bytes / 10;
+  }
+};
+
+/// How bplod does: as above while it voxelizes. Then triangles and reader have gone, and what shelf and store leave is
+/// for tiles and surfaces at work, and for what distances are measured with.
+struct BuildBudget : VoxelizeBudget {
+  std::uint64_t work;
+  double work_growth;  ///< with each byte more of --memory
+  explicit BuildBudget(std::uint64_t memory) : BuildBudget(UsableMemory(memory, std::uint64_t(96) << 20)) {}
+
+ private:
+  explicit BuildBudget(const UsableMemory& usable) : VoxelizeBudget(usable) {
+    work = usable.bytes / 2;
+    work_growth = usable.growth / 2;
   }
 };
 
@@ -28,13 +54,15 @@ struct MeshBudget {
   std::uint64_t shelves;        ///< voxels
   std::uint64_t waiting, work;  ///< pieces of the surface, those in hand
   std::uint64_t store;          ///< further ones that wait, compressed
+  double waiting_growth, work_growth;
   explicit MeshBudget(std::uint64_t memory) {
-    const std::uint64_t fixed = (std::uint64_t(48) << 20) + std::uint64_t(thread_count()) * (8 << 20);
-    const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
-    shelves = usable / 20 * 5;
-    waiting = usable / 20 * 5;
-    work = usable / 20 * 6;
-    store = usable / 20;
+    const UsableMemory usable(memory, std::uint64_t(48) << 20);
+    shelves = usable.bytes / 20 * 5;
+    waiting = usable.bytes / 20 * 5;
+    work = usable.bytes / 20 * 6;
+    store = usable.bytes / 20;
+    waiting_growth = usable.growth / 20 * 5;
+    work_growth = usable.growth / 20 * 6;
   }
 };
 

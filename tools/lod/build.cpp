@@ -8,6 +8,7 @@
 #include "io/brick_shelf.h"
 #include "io/chunk_store.h"
 #include "io/scene_reader.h"
+#include "lib/core/parallel.h"
 #include "lib/grid/shelf_stream.h"
 
 namespace bp {
@@ -39,9 +40,9 @@ std::string listing(const std::vector<LevelRow>& rows) {
 
 Build::Build(const BuildOptions& o)
     : options(o),
-      budget(o.common.memory_bytes),
       progress("bplod", o.common.progress),
       backends(make_backends(o.common, 0)),  // reading and meshing take far longer than closing
+      budget(o.common.memory_bytes - std::min(pinned_bytes(backends), o.common.memory_bytes / 2)),
       make_shelf(make_shelf_factory(budget.shelf, o.common.temp)) {
   show = [this, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
                                       std::uint64_t total) mutable {
@@ -82,7 +83,7 @@ std::vector<TriangleD> Build::scene_triangles() const {
   const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp});
   for (std::vector<TriangleD> chunk; source->read(chunk);) {
     all.insert(all.end(), chunk.begin(), chunk.end());
-    if (all.size() * kBytesEach > budget.closing_tiles()) return {};
+    if (all.size() * kBytesEach > budget.work / 2) return {};
   }
   return all;
 }
@@ -94,10 +95,25 @@ LodOptions Build::lod_options() {
   if (options.mode == MeshMode::fit) lod.scene = scene_triangles();
   lod.enclose = options.enclose;
   lod.tighten = !options.loose;
-  lod.memory_bytes = budget.closing_tiles();
+  lod.memory_bytes = budget.work;
+  lod.pieces = pieces();
   lod.make_shelf = make_shelf;
   lod.progress = show;
   return lod;
+}
+
+PieceMemory Build::pieces() const {
+  PieceMemory memory;
+  memory.waiting_bytes = budget.work / 20 * 9;
+  memory.work_bytes = budget.work - memory.waiting_bytes;
+  // One for each surface at work, when all that waits in memory is spent.
+  memory.make_store = [bytes = budget.store / std::uint64_t(thread_count()), temp = options.common.temp] {
+    return make_chunk_store(bytes, temp);
+  };
+  memory.limit_bytes = options.common.memory_bytes;
+  memory.waiting_growth = budget.work_growth * 0.45;
+  memory.work_growth = budget.work_growth * 0.55;
+  return memory;
 }
 
 LodLevel Build::make_level(LodChain& chain, std::size_t i, std::size_t since, double scene_voxel,

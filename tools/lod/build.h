@@ -13,13 +13,6 @@
 /// What all profiles of bplod have in common: the scene as voxels, levels in one mesh, the list and the report.
 namespace bp {
 
-/// As in bpvox while it voxelizes, then between shelves and the tiles at work.
-struct BuildBudget : VoxelizeBudget {
-  using VoxelizeBudget::VoxelizeBudget;
-  /// For the closing: the triangles have gone.
-  [[nodiscard]] std::uint64_t closing_tiles() const { return waiting - shelf; }
-};
-
 struct VoxelizedScene {
   StreamHeader header;
   std::unique_ptr<BrickShelf> solid;
@@ -50,6 +43,8 @@ class Build {
   [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr);
   /// For LodChain.
   [[nodiscard]] LodOptions lod_options();
+  /// For surfaces: budget.work, and what spills.
+  [[nodiscard]] PieceMemory pieces() const;
   /// What a fit is drawn to; nothing if it does not fit in memory.
   [[nodiscard]] std::vector<TriangleD> scene_triangles() const;
 
@@ -69,10 +64,10 @@ class Build {
 
  public:
   const BuildOptions& options;
-  const BuildBudget budget;
   Report report{"bplod"};
   Progress progress;
   Backends backends;
+  const BuildBudget budget;
   const ShelfFactory make_shelf;
   std::function<void(const char*, const char*, std::uint64_t, std::uint64_t)> show;  ///< progress of stages
 };

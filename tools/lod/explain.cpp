@@ -86,7 +86,8 @@ class Plan {
               {"grid", grid()},
               {"reader_bytes", build_.budget.reader},
               {"waiting_bytes", build_.budget.waiting},
-              {"work_bytes", build_.budget.tiles},
+              {"shelf_bytes", build_.budget.shelf},
+              {"work_bytes", build_.budget.work},
               {"devices", names_of(build_.backends)},
               {"threads", thread_count()},
               {"levels", Json::array()},
@@ -106,9 +107,9 @@ class Plan {
     out += fmt::format("grid\t{} x {} x {} voxels of {:.6g}\n", size[0], size[1], size[2], header_.frame.voxel);
     out += fmt::format("device\t{}, {} threads\n", fmt::join(names_of(build_.backends), ", "), thread_count());
     const BuildBudget& b = build_.budget;
-    out += fmt::format("memory\t{}: {} to read, {} for what waits, {} for what is at work\n",
+    out += fmt::format("memory\t{}: reading with {}, {} for what waits; then {} for voxels, {} for surfaces\n",
                        size_text(options_.common.memory_bytes), size_text(b.reader), size_text(b.waiting),
-                       size_text(b.tiles));
+                       size_text(b.shelf), size_text(b.work));
     out += fmt::format("disk\tabout {} of files, about {} of scratch\n", size_text(file_bytes()),
                        size_text(scratch_bytes()));
     out += "level\tvoxel\tscale\thalo\ttiles\tnumbers\tfaces\n";

@@ -86,7 +86,8 @@ class TilesetBuild {
     PyramidOptions pyramid_options;
     pyramid_options.cells = cells_;
     pyramid_options.closing.element = options_.element;
-    pyramid_options.memory_bytes = build_.budget.closing_tiles();
+    pyramid_options.memory_bytes = build_.budget.work;
+    pyramid_options.pieces = build_.pieces();
     pyramid_options.make_shelf = build_.make_shelf;
     pyramid_options.store = results_.get();
     pyramid_options.progress = build_.show;

@@ -2,7 +2,7 @@
 write_cube cube.obj
 try bpvox cube.obj -o out.bp --temp missing
 try bpvox cube.obj -o out.bp --temp cube.obj
-try bpvox cube.obj -o out.bp --memory 1K
+try bpvox cube.obj -o out.bp --memory 1K -j 1
 try bpvox cube.obj -o out.bp --memory lots
 try bpvox cube.obj -o out.bp -j -1
 try bpvox cube.obj -o out.bp --threads many

@@ -66,7 +66,7 @@ TEST_CASE("closing by cells gives the voxels of closing as a stream, from the st
   CellClosing o;
   o.cells = Cells{128};
   o.keep_cavities = keep_cavities;
-  o.memory_bytes = GENERATE(std::uint64_t(1) << 30, std::uint64_t(1) << 20);
+  o.memory_bytes = GENERATE(std::uint64_t(1) << 30, std::uint64_t(64) << 20);
   o.store = &store;
   std::vector<std::uint64_t> kept;
   for (int i = 0; i < 3; ++i) {

@@ -5,6 +5,7 @@
 #include "lib/stage/lod_stage.h"
 #include "lib/stage/surface_around.h"
 #include "tests/catch.h"
+#include "tests/support/memory_store.h"
 #include "tests/support/voxelized.h"
 
 namespace bp::test {
@@ -139,6 +140,42 @@ TEST_CASE("fitted levels keep their budgets and lie nearer to the scene than bou
     CHECK(error[fit] <= level.error_world);
   }
   CHECK(error[1] < error[0]);
+}
+
+TEST_CASE("levels keep to their memory, and are the same", "[quick][stage][lod]") {
+  Triangles scene;
+  add_sphere(scene, {3, 4, 5}, 20, 24);
+  Backends backends = plain_backends(2);
+  const auto make = [&](const LodOptions& options) {
+    Voxelized solid = voxelized(scene, 0.5);
+    LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+    return chain.make({200, 0, {}});
+  };
+  LodOptions options = lod_options();
+  const LodLevel level = make(options);
+  std::uint64_t put = 0, held = 0;
+  options.pieces.waiting_bytes = 0;
+  options.pieces.work_bytes = std::uint64_t(64) << 20;
+  options.pieces.make_store = [&] { return std::make_unique<MemoryStore>(put, held); };
+  const LodLevel spilled = make(options);
+  CHECK(put > 0);
+  CHECK(held == 0);
+  CHECK(spilled.mesh.vertices == level.mesh.vertices);
+  CHECK(spilled.mesh.triangles == level.mesh.triangles);
+
+  options.pieces.work_bytes = std::uint64_t(1) << 20;
+  CHECK_THROWS_AS(make(options), Error);
+  options = lod_options();
+  options.memory_bytes = std::uint64_t(1) << 20;
+  options.pieces.limit_bytes = std::uint64_t(10) << 20;
+  options.pieces.work_growth = 1;
+  try {
+    (void)make(options);
+    FAIL("the outside of the scene takes more than 1 MiB");
+  } catch (const Error& e) {
+    CHECK(e.code() == ErrorCode::out_of_resource);
+    CHECK(std::string(e.what()).find("raise --memory to at least 1") != std::string::npos);
+  }
 }
 
 TEST_CASE("an empty solid is refused", "[quick][stage][lod]") {
