@@ -122,7 +122,7 @@ LodLevel Build::make_level(LodChain& chain, std::size_t i, std::size_t since, do
   const LodTarget target = target_of(options.request, i, since, bounds.diagonal(), scene_voxel, chain.dense_faces());
   LodLevel level = chain.make(target);
   level.mesh.provenance = {
-      make_provenance("bplod", option_text(options, target, i, level.scale_world, level.mesh.frame.voxel), input_hash)};
+      make_provenance("bplod", option_text(options, target, i, level.scale_world, level.mesh.frame), input_hash)};
   if (!level.reached) {
     note(fmt::format("level {}: {} faces instead of {}, even closed at {:.4g}: no further edge can be merged", i,
                      level.mesh.triangles.size(), target.faces, level.scale_world));

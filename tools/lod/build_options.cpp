@@ -110,7 +110,7 @@ BuildOptions parse_build_options(Args& args) {
               "what stays inside while a level is tightened: the voxels of the scene, or their closing");
   args.option("--fill", {{"flood", FillMode::flood}, {"winding", FillMode::winding}, {"none", FillMode::none}}, o.fill,
               "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing");
-  args.option("--up", {{"y", UpAxis::y}, {"z", UpAxis::z}}, o.up, "axis of the scene that points up");
+  args.option("--up", "y|z", o.up, "axis of the scene that points up (default: y, or what a proxy of ours tells)");
   args.option("--format", "NAME", o.format,
               "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");
   args.flag("--no-tighten", o.loose, "leave out the step that lowers the volume");
@@ -129,19 +129,19 @@ double voxel_size(const BuildOptions& o, const Bounds3d& bounds) {
 }
 
 OptionText option_text(const BuildOptions& o, const LodTarget& target, std::size_t i, double scale_world,
-                       double voxel) {
+                       const GridFrame& frame) {
   OptionText text;
   text.add("level", i).add("mode", o.mode == MeshMode::fit ? "fit" : "bounding");
   if (target.faces > 0) text.add("faces", target.faces);
   if (target.error_world > 0) text.add("error", target.error_world);
   text.add("scale", scale_world)
-      .add("voxel", voxel)
+      .add("voxel", frame.voxel)
       .add("element", o.element == StructuringElement::cube ? "cube" : "ball")
       .add("enclose", o.enclose == Enclose::input ? "input" : "closing")
       .add("fill", o.fill == FillMode::flood     ? "flood"
                    : o.fill == FillMode::winding ? "winding"
                                                  : "none")
-      .add("up", o.up == UpAxis::y ? "y" : "z")
+      .add("up", frame.up == UpAxis::y ? "y" : "z")
       .add("tighten", !o.loose);
   return text;
 }

@@ -41,7 +41,7 @@ struct BuildOptions {
   std::optional<JobRange> tiles;  ///< the jobs to do, without a tileset; empty: all, and the tileset
   bool explain = false;           ///< print the plan; do nothing
   FillMode fill = FillMode::flood;
-  UpAxis up = UpAxis::y;
+  std::optional<UpAxis> up;  ///< empty: what the scene tells, else y
   StructuringElement element = StructuringElement::cube;
   Enclose enclose = Enclose::input;
   bool loose = false;  ///< --no-tighten
@@ -55,6 +55,6 @@ struct BuildOptions {
 
 /// Of a level, for its provenance.
 [[nodiscard]] OptionText option_text(const BuildOptions& options, const LodTarget& target, std::size_t level,
-                                     double scale_world, double voxel);
+                                     double scale_world, const GridFrame& frame);
 
 }  // namespace bp

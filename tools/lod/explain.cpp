@@ -32,6 +32,7 @@ struct Scene {
   SceneCounts counts;
   Bounds3d bounds;
   double area = 0;
+  UpAxis up = UpAxis::y;
 };
 
 Scene read_scene(const Build& build) {
@@ -40,7 +41,7 @@ Scene read_scene(const Build& build) {
   TriangleTotals totals;
   for (std::vector<TriangleD> chunk; source->read(chunk);) totals.add(chunk);
   if (totals.triangles == 0) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());
-  return {source->counts(), totals.bounds, totals.area};
+  return {source->counts(), totals.bounds, totals.area, o.up.value_or(source->up().value_or(UpAxis::y))};
 }
 
 /// A line of the plan. Of a level in one mesh, voxel and scale are those that are tried first.
@@ -62,7 +63,7 @@ class Plan {
     VoxelizeOptions v;
     v.fill = options_.fill;
     if (is_tileset()) v.cell_vox = options_.tile_vox;
-    header_ = solid_header(scene.bounds, voxel_size(options_, scene.bounds), options_.up, v);
+    header_ = solid_header(scene.bounds, voxel_size(options_, scene.bounds), scene.up, v);
     if (is_tileset()) {
       tileset_ = plan_tileset(options_, header_);
       for (const CutLevel& cut : tileset_.cut) add(cut);

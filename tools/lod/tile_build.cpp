@@ -55,8 +55,7 @@ enum class Task { tileset, some_jobs, look_up };
 
 class TilesetBuild {
  public:
-  TilesetBuild(const BuildOptions& o, Task task)
-      : options_(o), task_(task), build_(o), cells_{o.tile_vox}, tree_(o.up, cells_) {
+  TilesetBuild(const BuildOptions& o, Task task) : options_(o), task_(task), build_(o), cells_{o.tile_vox} {
     if (task == Task::tileset) folder_ = std::make_unique<TilesetFolder>(o.out, o.common.overwrite, o.resume);
     store_ = make_chunk_store(build_.budget.store, o.common.temp);
     const std::string results = o.resume ? TilesetFolder::results_of(o.out) : o.cache;
@@ -82,6 +81,7 @@ class TilesetBuild {
     scene_voxel_ = scene.header.frame.voxel;
     bounds_ = scene.header.bounds;
     plan_ = plan_tileset(options_, scene.header);
+    tree_ = std::make_unique<TileTree>(scene.header.frame.up, cells_);
     build_.report.stage("measure the scene");
     PyramidOptions pyramid_options;
     pyramid_options.cells = cells_;
@@ -143,7 +143,7 @@ class TilesetBuild {
     level.folder = level_name(options_.name, number);
     level.row = {level.folder + "/*.glb", 0, 0, 0, 0, cut.scale_world, level.frame.voxel};
     const std::vector<Provenance> provenance{
-        make_provenance("bplod", option_text(options_, cut.target, number, cut.scale_world, level.frame.voxel))};
+        make_provenance("bplod", option_text(options_, cut.target, number, cut.scale_world, level.frame))};
     TileParams params = tile_params(cut.target, level.frame, scene);
     params.encoding = level.folder + " " + provenance[0].options;
     params.make = task_ != Task::look_up;
@@ -182,7 +182,7 @@ class TilesetBuild {
   void finish_level(std::size_t number, LevelAtWork& level) {
     found_.push_back(level.found);
     if (task_ != Task::tileset) return;
-    for (auto& [cell, node] : level.tiles) tree_.add(number, level.frame, cell, std::move(node));
+    for (auto& [cell, node] : level.tiles) tree_->add(number, level.frame, cell, std::move(node));
     level.row.more = {{"faces_dense", level.dense}, {"kept", level.found.kept}};
     rows_.push_back(level.row);
     if (level.over_faces > 0)
@@ -225,7 +225,7 @@ class TilesetBuild {
     if (task_ == Task::some_jobs) return;
     for (const WholeLevel& level : whole.levels) {
       files_.push_back({level.row.file, store_->put(std::as_bytes(std::span(level.content)))});
-      tree_.add_whole({level.row.file, whole.origin, level.bounds, level.row.error_world});
+      tree_->add_whole({level.row.file, whole.origin, level.bounds, level.row.error_world});
       rows_.push_back(level.row);
     }
     if (cut == 0) provenance_ = whole.levels.front().provenance;
@@ -233,8 +233,8 @@ class TilesetBuild {
 
   void write(const VoxelizedScene& scene) {
     build_.report.stage("write");
-    const Tileset tileset = tree_.finish(bounds_.diagonal());
-    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].error_world = tree_.error_of(i);
+    const Tileset tileset = tree_->finish(bounds_.diagonal());
+    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].error_world = tree_->error_of(i);
     if (provenance_.empty()) provenance_ = {make_provenance("bplod", tileset_options(), scene.counts.input_hash)};
     parallel_for(std::int64_t(files_.size()), [&](std::int64_t i) {  // each waits for the disk
       const Waiting& file = files_[std::size_t(i)];
@@ -260,7 +260,7 @@ class TilesetBuild {
   std::unique_ptr<TilesetFolder> folder_;  ///< of a tileset
   Build build_;
   Cells cells_;
-  TileTree tree_;
+  std::unique_ptr<TileTree> tree_;
   TilesetPlan plan_;
   std::unique_ptr<ChunkStore> store_;     ///< files, until all are there
   std::unique_ptr<ResultStore> results_;  ///< of jobs; may be null

@@ -13,3 +13,15 @@ for up in z y; do
   rm said.png
 done
 cmp -s y.png z.png || echo 'the pictures differ'
+# Levels of a z-up scene stay z-up, and so do levels of such levels; tilesets say it in their transforms.
+for profile in gltf collision 3dtiles; do
+  bplod z.glb --resolution 30 --levels 1 --faces 30 --profile $profile --name a -o $profile > list
+  bplod z.glb --resolution 30 --levels 1 --faces 30 --profile $profile --name a --up z -o again > list
+  cmp <(cat $profile/*) <(cat again/*) && rm -r again
+done
+for level in gltf/a_LOD0.glb gltf/a.glb collision/a_*.glb; do bpvox $level --resolution 20 | bpinfo | grep -o '. is up'; done
+bplod gltf/a_LOD0.glb --resolution 30 --levels 1 --faces 30 --name a -o levels > list
+bpvox levels/a_LOD0.glb --resolution 20 | bpinfo | grep -o '. is up'
+for tileset in 3dtiles/tileset.json; do bpcheck z.glb $tileset | tail -1; done
+bplod gltf/a_LOD0.glb --resolution 30 --levels 1 --faces 30 --name a --up y --overwrite -o levels > list
+bpvox levels/a_LOD0.glb --resolution 20 | bpinfo | grep -o '. is up'
