@@ -1,4 +1,5 @@
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/material.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
@@ -38,6 +39,8 @@ ChildLimits limits_for(std::uint64_t file_bytes) {
 
 struct MeshRecord {
   std::uint64_t positions = 0, vertices = 0, indices = 0, triangles = 0;  // addresses in the scratch file, and counts
+  std::uint64_t colors = Accessor::kZeros;                                // address; kZeros: the vertices have none
+  std::array<double, 3> base_color{1, 1, 1};
 };
 struct NodeRecord {
   Affine transform;
@@ -122,9 +125,12 @@ class SceneFileSystem final : public Assimp::DefaultIOSystem {
 
 class SceneUnloader {
  public:
-  explicit SceneUnloader(ScratchFile& scratch) : scratch_(scratch) {}
+  SceneUnloader(ScratchFile& scratch, bool colors) : scratch_(scratch), colors_(colors) {}
   Summary unload(const aiScene& scene) {
-    for (unsigned i = 0; i < scene.mNumMeshes; ++i) add_mesh(*scene.mMeshes[i]);
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+      add_mesh(*scene.mMeshes[i]);
+      if (colors_) add_colors(*scene.mMeshes[i], scene);
+    }
     if (scene.mRootNode != nullptr) add_nodes(*scene.mRootNode);
     summary_.bytes = scratch_.size();
     return std::move(summary_);
@@ -139,10 +145,12 @@ class SceneUnloader {
     return {{{{m.a1, m.a2, m.a3, m.a4}, {m.b1, m.b2, m.b3, m.b4}, {m.c1, m.c2, m.c3, m.c4}}}};
   }
   void add_mesh(const aiMesh& mesh);
+  void add_colors(const aiMesh& mesh, const aiScene& scene);
   void add_face(const aiFace& face, unsigned vertices, std::vector<std::uint32_t>& indices);
   void add_nodes(const aiNode& root);
 
   ScratchFile& scratch_;
+  const bool colors_;
   Summary summary_;
 };
 
@@ -156,6 +164,19 @@ void SceneUnloader::add_mesh(const aiMesh& mesh) {
   record.indices = scratch_.append(std::as_bytes(std::span(indices)));
   record.triangles = indices.size() / 3;
   summary_.meshes.push_back(record);
+}
+
+// Of the mesh that was added last. Where a format knows no materials, Assimp invents a grey one.
+void SceneUnloader::add_colors(const aiMesh& mesh, const aiScene& scene) {
+  static_assert(sizeof(aiColor4D) == 4 * sizeof(float), "colours are written as they lie");
+  MeshRecord& record = summary_.meshes.back();
+  if (mesh.HasVertexColors(0))
+    record.colors = scratch_.append(std::as_bytes(std::span(mesh.mColors[0], mesh.mNumVertices)));
+  if (mesh.mMaterialIndex >= scene.mNumMaterials) return;
+  const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
+  aiColor3D c(1, 1, 1);
+  if (std::strcmp(material.GetName().C_Str(), AI_DEFAULT_MATERIAL_NAME) == 0) return;
+  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, c) == aiReturn_SUCCESS) record.base_color = {c.r, c.g, c.b};
 }
 
 // Points and lines are no bad faces: a drawing is full of them.
@@ -181,7 +202,7 @@ void SceneUnloader::add_nodes(const aiNode& root) {
   }
 }
 
-std::string import(const SceneFilePtr& file, const std::string& extension, ScratchFile& scratch) {
+std::string import(const SceneFilePtr& file, const std::string& extension, ScratchFile& scratch, bool colors) {
   const std::string path = file->path().empty() ? "scene" : file->path();
   const std::string suffix = "." + extension;
   const bool named = path.size() > suffix.size() &&
@@ -195,7 +216,7 @@ std::string import(const SceneFilePtr& file, const std::string& extension, Scrat
     fail(ErrorCode::bad_input, "{}: cannot be read: {}; repair it, or {}", file->name(), importer.GetErrorString(),
          kRemedy);
   }
-  return packed(SceneUnloader(scratch).unload(*scene));
+  return packed(SceneUnloader(scratch, colors).unload(*scene));
 }
 
 // --- In the parent
@@ -212,6 +233,15 @@ Primitive primitive_of(const MeshRecord& mesh) {
   p.indices->count = 3 * mesh.triangles;
   p.indices->address = mesh.indices;
   p.indices->stride = sizeof(std::uint32_t);
+  p.base_color = mesh.base_color;
+  p.srgb = true;
+  if (mesh.colors != Accessor::kZeros) {
+    p.colors = Accessor();
+    p.colors->components = 4;
+    p.colors->count = mesh.vertices;
+    p.colors->address = mesh.colors;
+    p.colors->stride = 4 * sizeof(float);
+  }
   return p;
 }
 
@@ -241,7 +271,7 @@ RawSourcePtr open_with_assimp(SceneFilePtr file, const std::string& extension, c
   const auto scratch = std::make_shared<ScratchFile>(temp_dir_of(options));
   const std::string answer =
       run_in_child(file->name(), "the importer of ." + extension + " files", std::string("repair it, or ") + kRemedy,
-                   limits_for(file->size()), [&] { return import(file, extension, *scratch); });
+                   limits_for(file->size()), [&] { return import(file, extension, *scratch, options.colors); });
   const Summary summary = unpacked(answer, file->name());
   return stream_instances(scene_of(summary, view_of(scratch, file->name(), summary.bytes)), options);
 }

@@ -4,7 +4,8 @@
 
 // glTF 2.0 and GLB (Khronos, glTF 2.0 specification, section 3.7 on geometry, 3.5 on nodes). Only what says where
 // triangles are is looked at: the default scene, nodes, POSITION and indices, sparse accessors, quantized positions
-// (KHR_mesh_quantization) and instance arrays (EXT_mesh_gpu_instancing). Skins and morph targets are left at rest.
+// (KHR_mesh_quantization) and instance arrays (EXT_mesh_gpu_instancing), and, if asked for, colours. Skins and morph
+// targets are left at rest.
 
 namespace bp {
 
@@ -12,7 +13,8 @@ namespace {
 
 class SceneBuilder {
  public:
-  SceneBuilder(const SceneFilePtr& file, const SceneOptions& options) : doc_(file, options), root_(doc_.root()) {}
+  SceneBuilder(const SceneFilePtr& file, const SceneOptions& options)
+      : doc_(file, options), root_(doc_.root()), colors_(options.colors) {}
 
   InstancedScene build() {
     visited_.resize(root_.array("nodes").size());
@@ -37,11 +39,14 @@ class SceneBuilder {
   void add_mesh_node(const GltfObject& node, const Affine& transform);
   Range mesh(std::uint64_t i);
   void add_primitive(const GltfObject& p);
+  void add_colors(const GltfObject& p, const GltfObject& attributes, Primitive& primitive);
+  [[nodiscard]] std::array<double, 3> base_color(std::uint64_t material) const;
   std::optional<std::uint32_t> instance_array(const GltfObject& node);
   static Affine transform_of(const GltfObject& node);
 
   GltfDocument doc_;
   GltfObject root_;
+  const bool colors_;
   InstancedScene scene_;
   std::unordered_map<std::uint64_t, Range> meshes_;
   std::vector<bool> visited_;
@@ -150,7 +155,31 @@ void SceneBuilder::add_primitive(const GltfObject& p) {
     if (type != ComponentType::u8 && type != ComponentType::u16 && type != ComponentType::u32)
       p.broken("has indices that are not unsigned integers");
   }
+  if (colors_) add_colors(p, attributes, primitive);
   scene_.primitives.push_back(primitive);
+}
+
+// Section 3.9.2: the factor times the colours of the vertices, in linear light.
+void SceneBuilder::add_colors(const GltfObject& p, const GltfObject& attributes, Primitive& primitive) {
+  if (p.has("material")) primitive.base_color = base_color(p.number("material"));
+  if (!attributes.has("COLOR_0")) return;
+  const std::uint64_t i = attributes.number("COLOR_0");
+  const bool three = root_.item("accessors", i).text("type") == "VEC3";
+  primitive.colors = doc_.accessor(i, three ? 3 : 4);
+  if (primitive.colors->count != primitive.positions.count)
+    attributes.broken(
+        fmt::format("have {} colours for {} positions", primitive.colors->count, primitive.positions.count));
+}
+
+std::array<double, 3> SceneBuilder::base_color(std::uint64_t i) const {
+  const GltfObject material = root_.item("materials", i);
+  std::array<double, 4> rgba{1, 1, 1, 1};
+  if (material.has("pbrMetallicRoughness"))
+    rgba = material.object("pbrMetallicRoughness").numbers<4>("baseColorFactor", rgba);
+  constexpr const char* kOlder = "KHR_materials_pbrSpecularGlossiness";
+  if (material.has("extensions") && material.object("extensions").has(kOlder))
+    rgba = material.object("extensions").object(kOlder).numbers<4>("diffuseFactor", rgba);
+  return {rgba[0], rgba[1], rgba[2]};
 }
 
 std::optional<std::uint32_t> SceneBuilder::instance_array(const GltfObject& node) {

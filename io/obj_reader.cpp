@@ -1,12 +1,15 @@
 #include <limits>
+#include <optional>
 
+#include "io/detail/mtl_file.h"
 #include "io/detail/raw_source.h"
 #include "io/detail/text_scanner.h"
 #include "io/detail/vertex_pool.h"
 
-// Wavefront OBJ: the lines "v" and "f", everything else is passed over. One pass streams faces while the vertices
-// before them collect in the pool. A face that names a vertex further down makes the rest of the vertices load at once,
-// so that "there is no such vertex" is never said too early.
+// Wavefront OBJ: the lines "v" and "f", everything else is passed over; if colours are asked for, "usemtl" and "mtllib"
+// too, and the three numbers after a vertex' position (an extension of many programs). One pass streams faces while the
+// vertices before them collect in the pool. A face that names a vertex further down makes the rest of the vertices load
+// at once, so that "there is no such vertex" is never said too early.
 
 namespace bp {
 
@@ -15,20 +18,28 @@ namespace {
 class ObjSource final : public PolygonSource {
  public:
   ObjSource(const SceneFilePtr& file, const SceneOptions& options)
-      : file_(file), text_(file), pool_(options.memory_bytes, temp_dir_of(options)) {}
+      : file_(file), text_(file), pool_(options.memory_bytes, temp_dir_of(options)) {
+    if (options.colors) vertex_colors_.emplace(options.memory_bytes / 2, temp_dir_of(options));
+  }
+  [[nodiscard]] bool has_colors() const override { return has_colors_; }
 
  private:
   bool next_face(std::vector<std::uint64_t>& corners) override;
   [[nodiscard]] std::uint64_t vertex_count() const override { return pool_.size(); }
   [[nodiscard]] Vec3d vertex(std::uint64_t i) override { return pool_[i]; }
+  [[nodiscard]] LinearColor corner_color(std::uint64_t i) override;
   void rewind_faces() override {
     text_.seek({});
     seen_ = 0;
+    material_ = kWhite;
   }
 
-  /// Consumes the keyword: 'v' or 'f' if that is all of it, 0 for any other, comments included.
+  /// Consumes the keyword: 'v' or 'f' if that is all of it, 'u' for "usemtl" and 'm' for "mtllib", 0 for any other,
+  /// comments included.
   static char keyword(TextScanner& text);
-  static Vec3d read_vertex(TextScanner& text);
+  void read_vertex(TextScanner& text);
+  void read_vertex_color(TextScanner& text);
+  void use_material(char key);
   void read_corners(std::vector<std::uint64_t>& corners);
   std::uint64_t resolve(std::int64_t index);
   void load_ahead();
@@ -36,6 +47,10 @@ class ObjSource final : public PolygonSource {
   SceneFilePtr file_;
   TextScanner text_;
   VertexPool pool_;
+  std::optional<VertexPool> vertex_colors_;  // if asked for; up to the last vertex that has one
+  MtlMaterials materials_;
+  LinearColor material_;
+  bool has_colors_ = false;
   std::uint64_t seen_ = 0;   // "v" lines of this pass
   bool all_loaded_ = false;  // the pool holds every vertex of the file
 };
@@ -45,8 +60,10 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
     if (!text_.word_on_line()) continue;
     const char key = keyword(text_);
     if (key == 'v') {
-      if (seen_ == pool_.size()) pool_.push(read_vertex(text_));
+      if (seen_ == pool_.size()) read_vertex(text_);
       ++seen_;
+    } else if (key == 'u' || key == 'm') {
+      use_material(key);
     } else if (key == 'f') {
       read_corners(corners);
       text_.next_line();
@@ -59,18 +76,43 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
 
 char ObjSource::keyword(TextScanner& text) {
   const char first = text.peek();
-  if (first != 'v' && first != 'f') return 0;
+  if (first != 'v' && first != 'f' && first != 'u' && first != 'm') return 0;
   const std::string_view word = text.word();
-  return word.size() == 1 ? first : 0;
+  return word.size() == 1 || word == "usemtl" || word == "mtllib" ? first : 0;
 }
 
-Vec3d ObjSource::read_vertex(TextScanner& text) {
+void ObjSource::read_vertex(TextScanner& text) {
   Vec3d p;
   for (double& c : p) {
     if (!text.word_on_line() || !text.real(c))
       text.fail_here("a vertex needs three numbers; repair or re-export the file");
   }
-  return p;
+  pool_.push(p);
+  if (vertex_colors_) read_vertex_color(text);
+}
+
+// A single number more is the weight of a rational curve's point.
+void ObjSource::read_vertex_color(TextScanner& text) {
+  Vec3d rgb;
+  for (double& c : rgb) {
+    if (!text.word_on_line() || !text.real(c)) return;
+  }
+  while (vertex_colors_->size() + 1 < pool_.size()) vertex_colors_->push({1, 1, 1});
+  vertex_colors_->push(rgb);
+  has_colors_ = true;
+}
+
+LinearColor ObjSource::corner_color(std::uint64_t i) {
+  if (vertex_colors_ && i < vertex_colors_->size()) return color_from_srgb((*vertex_colors_)[i]);
+  return material_;
+}
+
+void ObjSource::use_material(char key) {
+  if (!vertex_colors_) return;
+  const std::string name = text_.rest_of_line();
+  if (key == 'm') return materials_.load(file_->path(), name);
+  material_ = materials_.color(name);
+  has_colors_ = has_colors_ || material_ != kWhite;
 }
 
 // Corners are "v", "v/vt", "v//vn", "v/vt/vn", with any of the later numbers missing.
@@ -104,7 +146,7 @@ void ObjSource::load_ahead() {
     if (known > 0) {
       --known;
     } else {
-      pool_.push(read_vertex(ahead));
+      read_vertex(ahead);
     }
   }
   all_loaded_ = true;

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <optional>
+
 #include "io/detail/byte_stream.h"
 #include "io/detail/packed_ply.h"
 #include "io/detail/ply_values.h"
@@ -5,9 +8,10 @@
 #include "io/detail/vertex_pool.h"
 
 // PLY (Turk 1994), ASCII and binary of both byte orders. Elements other than vertex, face and tristrips, and properties
-// other than x, y, z and the vertex lists, are passed over. Vertices of a binary file whose records have one size are
-// not loaded at all: they are read where they stand, through a block cache. Elements may come in any order. Files as
-// most programs write them are read faster by detail/packed_ply.h.
+// other than x, y, z and the vertex lists, are passed over; if colours are asked for, red, green and blue of vertices
+// and faces are not. Vertices of a binary file whose records have one size are not loaded at all: they are read where
+// they stand, through a block cache. Elements may come in any order. Files as most programs write them are read faster
+// by detail/packed_ply.h.
 
 namespace bp {
 
@@ -112,7 +116,40 @@ class AsciiCursor {
 
 struct Position {
   std::size_t property[3];  // x, y, z among the element's properties
+  /// Which of the three numbers a property is; 3: none.
+  [[nodiscard]] std::size_t axis_of(std::size_t k) const {
+    std::size_t axis = 0;
+    while (axis < 3 && property[axis] != k) ++axis;
+    return axis;
+  }
 };
+
+/// Where red, green and blue of a vertex or a face stand, if they do.
+struct ColorNumbers : Position {
+  double full = 255;  // of their type
+
+  static std::optional<ColorNumbers> of(const PlyElement& e) {
+    ColorNumbers c{};
+    const char* const names[] = {"red", "green", "blue"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      c.property[i] = e.index_of(names[i]);
+      if (c.property[i] == e.properties.size() || e.properties[c.property[i]].is_list) return {};
+    }
+    const PlyType type = e.properties[c.property[0]].type;
+    if (type == PlyType::u16) c.full = 65535;
+    if (type == PlyType::f32 || type == PlyType::f64) c.full = 1;
+    return c;
+  }
+  [[nodiscard]] LinearColor color(const Vec3d& rgb) const {
+    return color_from_srgb({rgb[0] / full, rgb[1] / full, rgb[2] / full});
+  }
+};
+
+bool has_colors_in(const PlyHeader& header) {
+  return std::any_of(header.elements.begin(), header.elements.end(), [](const PlyElement& e) {
+    return (e.name == "vertex" || e.name == "face") && ColorNumbers::of(e).has_value();
+  });
+}
 
 Position position_of(const PlyElement& vertex, const std::string& file) {
   Position position{};
@@ -187,7 +224,7 @@ template <class Cursor>
 class PlySource final : public PolygonSource {
  public:
   PlySource(const SceneFilePtr& file, const SceneOptions& options, PlyHeader header)
-      : header_(std::move(header)), cursor_(file, header_) {
+      : header_(std::move(header)), has_colors_(options.colors && has_colors_in(header_)), cursor_(file, header_) {
     find_parts(file, options);
     rewind_faces();
   }
@@ -198,6 +235,11 @@ class PlySource final : public PolygonSource {
   bool next_face(std::vector<std::uint64_t>& corners) override;
   [[nodiscard]] std::uint64_t vertex_count() const override { return vertex_count_; }
   [[nodiscard]] Vec3d vertex(std::uint64_t i) override { return packed_ ? (*packed_)[i] : (*pool_)[i]; }
+  [[nodiscard]] bool has_colors() const override { return has_colors_; }
+  [[nodiscard]] LinearColor corner_color(std::uint64_t i) override {
+    if (!vertex_numbers_) return face_color_;
+    return vertex_numbers_->color(packed_colors_ ? (*packed_colors_)[i] : (*color_pool_)[i]);
+  }
   void rewind_faces() override {
     cursor_.seek(start_);
     element_ = first_;
@@ -219,15 +261,20 @@ class PlySource final : public PolygonSource {
   static std::size_t vertex_list(const PlyElement& e);
 
   PlyHeader header_;
+  const bool has_colors_;
   Cursor cursor_;
   std::uint64_t vertex_count_ = 0;
   std::unique_ptr<PackedVertices> packed_;
   std::unique_ptr<VertexPool> pool_;
-  typename Cursor::Mark start_{};  // of the first element with faces
-  std::size_t first_ = kNone;      // its number
-  std::size_t element_ = 0;        // now being read
-  std::uint64_t record_ = 0;       // of that element
-  std::uint64_t strip_left_ = 0;   // indices of the open strip
+  std::optional<ColorNumbers> vertex_numbers_;     // if colours are asked for and there
+  std::unique_ptr<PackedVertices> packed_colors_;  // as packed_
+  std::unique_ptr<VertexPool> color_pool_;         // as pool_
+  LinearColor face_color_;                         // of the last face
+  typename Cursor::Mark start_{};                  // of the first element with faces
+  std::size_t first_ = kNone;                      // its number
+  std::size_t element_ = 0;                        // now being read
+  std::uint64_t record_ = 0;                       // of that element
+  std::uint64_t strip_left_ = 0;                   // indices of the open strip
   Strip strip_;
 };
 
@@ -257,32 +304,39 @@ void PlySource<Cursor>::take_vertices(const SceneFilePtr& file, const SceneOptio
                                       const PlyElement& element) {
   const Position position = position_of(element, file->name());
   vertex_count_ = element.count;
+  if (has_colors_) vertex_numbers_ = ColorNumbers::of(element);
   if constexpr (std::is_same_v<Cursor, BinaryCursor>) {
     if (!element.has_lists()) {
       packed_ = std::make_unique<PackedVertices>(file, options.memory_bytes, cursor_.mark().offset, element, position,
                                                  cursor_.swap());
+      if (vertex_numbers_)
+        packed_colors_ = std::make_unique<PackedVertices>(file, options.memory_bytes / 2, cursor_.mark().offset,
+                                                          element, *vertex_numbers_, cursor_.swap());
       cursor_.skip_records(element);
       return;
     }
   }
   pool_ = std::make_unique<VertexPool>(options.memory_bytes, temp_dir_of(options));
+  if (vertex_numbers_) color_pool_ = std::make_unique<VertexPool>(options.memory_bytes / 2, temp_dir_of(options));
   load_vertices(element, position);
 }
 
 template <class Cursor>
 void PlySource<Cursor>::load_vertices(const PlyElement& element, const Position& position) {
   for (std::uint64_t i = 0; i < element.count; ++i) {
-    Vec3d p{};
+    Vec3d p{}, rgb{};
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
-      std::size_t axis = 0;
-      while (axis < 3 && position.property[axis] != k) ++axis;
+      const std::size_t axis = position.axis_of(k), channel = vertex_numbers_ ? vertex_numbers_->axis_of(k) : 3;
       if (axis < 3) {
         p[axis] = cursor_.real(element.properties[k].type);
+      } else if (channel < 3) {
+        rgb[channel] = cursor_.real(element.properties[k].type);
       } else {
         skip_property(element.properties[k]);
       }
     }
     pool_->push(p);
+    if (color_pool_) color_pool_->push(rgb);
     cursor_.end_record();
   }
 }
@@ -344,8 +398,15 @@ bool PlySource<Cursor>::next_face(std::vector<std::uint64_t>& corners) {
 template <class Cursor>
 void PlySource<Cursor>::read_face(const PlyElement& element, std::size_t list, std::vector<std::uint64_t>& corners) {
   corners.clear();
+  const std::optional<ColorNumbers> numbers = has_colors_ ? ColorNumbers::of(element) : std::nullopt;
+  Vec3d rgb{};
   for (std::size_t k = 0; k < element.properties.size(); ++k) {
     const PlyProperty& p = element.properties[k];
+    const std::size_t channel = numbers ? numbers->axis_of(k) : 3;
+    if (channel < 3) {
+      rgb[channel] = cursor_.real(p.type);
+      continue;
+    }
     if (k != list) {
       skip_property(p);
       continue;
@@ -354,6 +415,7 @@ void PlySource<Cursor>::read_face(const PlyElement& element, std::size_t list, s
     if (size > kMaxCorners) cursor_.fail_here(fmt::format("a face of {} corners; is the file damaged?", size));
     for (std::uint64_t i = 0; i < size; ++i) corners.push_back(corner(p));
   }
+  face_color_ = numbers ? numbers->color(rgb) : kWhite;
   cursor_.end_record();
 }
 
@@ -390,7 +452,8 @@ RawSourcePtr open_ply(SceneFilePtr file, const SceneOptions& options) {
   PlyHeader header = read_ply_header(file);
   if (header.format == PlyHeader::Format::ascii)
     return std::make_unique<PlySource<AsciiCursor>>(file, options, std::move(header));
-  if (RawSourcePtr packed = open_packed_ply(file, options, header)) return packed;
+  const bool colors = options.colors && has_colors_in(header);  // those the other one does not know
+  if (RawSourcePtr packed = colors ? nullptr : open_packed_ply(file, options, header)) return packed;
   return std::make_unique<PlySource<BinaryCursor>>(file, options, std::move(header));
 }
 

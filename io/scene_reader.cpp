@@ -117,16 +117,17 @@ class FilteredScene final : public TriangleSource {
       : name_(std::move(name)), raw_(std::move(raw)), batches_(batches_in(memory_bytes)) {}
 
   bool read(std::vector<TriangleD>& out) override {
-    out.clear();
-    while (out.empty() && (next_ < ready_ || fetch())) {
-      Batch& batch = batches_[next_++];
-      out.swap(batch.raw.triangles);
-      counts_.add(batch.counts);
-    }
-    counts_.bad_faces = raw_->bad_faces() + bad_faces_;
-    counts_.instances = raw_->instances();
-    return !out.empty();
+    const bool more = read_batch(false);
+    out.swap(batch_->triangles);
+    return more;
   }
+  bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
+    const bool more = read_batch(true);
+    out.swap(batch_->triangles);
+    colors.swap(batch_->colors);
+    return more;
+  }
+  [[nodiscard]] bool has_colors() const override { return raw_->has_colors(); }
   void rewind() override {
     raw_->rewind();
     counts_ = {};
@@ -149,13 +150,33 @@ class FilteredScene final : public TriangleSource {
     return std::size_t(std::clamp<std::uint64_t>(memory_bytes / 2 / kBatchBytes, 1, wanted));
   }
 
-  bool fetch() {
+  /// Sets batch_ to the next one with triangles; false, and one without, at the end.
+  bool read_batch(bool colored) {
+    batch_ = &end_;
+    end_.triangles.clear();
+    end_.colors.clear();
+    while (batch_->triangles.empty() && (next_ < ready_ || fetch(colored))) {
+      Batch& batch = batches_[next_++];
+      batch_ = &batch.raw;
+      counts_.add(batch.counts);
+    }
+    counts_.bad_faces = raw_->bad_faces() + bad_faces_;
+    counts_.instances = raw_->instances();
+    return !batch_->triangles.empty();
+  }
+
+  bool fetch(bool colored) {
     next_ = ready_ = 0;
-    while (ready_ < batches_.size() && raw_->next(batches_[ready_].raw)) ++ready_;
+    while (ready_ < batches_.size()) {
+      RawBatch& batch = batches_[ready_].raw;
+      batch.colored = colored;
+      if (!raw_->next(batch)) break;
+      ++ready_;
+    }
     parallel_for(std::int64_t(ready_), [&](std::int64_t i) {
       Batch& batch = batches_[std::size_t(i)];
       raw_->complete(batch.raw);
-      batch.counts = keep_good(batch.raw.triangles);
+      batch.counts = keep_good(batch.raw);
     });
     for (std::size_t i = 0; i < ready_; ++i) bad_faces_ += batches_[i].raw.bad_faces;
     return ready_ > 0;
@@ -170,10 +191,13 @@ class FilteredScene final : public TriangleSource {
     return plain;
   }
 
-  static SceneCounts keep_good(std::vector<TriangleD>& triangles) {
+  static SceneCounts keep_good(RawBatch& batch) {
+    std::vector<TriangleD>& triangles = batch.triangles;
+    if (batch.colored) batch.colors.resize(triangles.size());
     SceneCounts counts;
     std::size_t kept = 0;
-    for (TriangleD& t : triangles) {
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      TriangleD& t = triangles[i];
       const bool plain = is_plain(t);
       if (!plain) normalize(t);
       if (!plain && !is_finite(t)) {
@@ -181,10 +205,12 @@ class FilteredScene final : public TriangleSource {
       } else if (is_degenerate(t)) {
         ++counts.degenerate;
       } else {
+        if (batch.colored) batch.colors[kept] = batch.colors[i];
         triangles[kept++] = t;
       }
     }
     triangles.resize(kept);
+    if (batch.colored) batch.colors.resize(kept);
     counts.triangles = kept;
     return counts;
   }
@@ -193,6 +219,8 @@ class FilteredScene final : public TriangleSource {
   RawSourcePtr raw_;
   SceneCounts counts_;
   std::vector<Batch> batches_;
+  RawBatch end_;  // without triangles
+  RawBatch* batch_ = &end_;
   std::size_t next_ = 0, ready_ = 0;  // of batches_
   std::uint64_t bad_faces_ = 0;       // met by complete()
 };
@@ -208,16 +236,14 @@ class SceneRow final : public TriangleSource {
   }
   bool read(std::vector<TriangleD>& out) override {
     out.clear();
-    for (; next_ < paths_.size(); leave()) {
-      TriangleSource& scene = enter();
-      const bool more = scene.read(out);
-      if (!up_) up_ = scene.up();
-      counts_ = finished_;
-      counts_.add(scene.counts());
-      if (more) return true;
-    }
-    return false;
+    return read_next([&](TriangleSource& scene) { return scene.read(out); });
   }
+  bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
+    out.clear();
+    colors.clear();
+    return read_next([&](TriangleSource& scene) { return scene.read_colored(out, colors); });
+  }
+  [[nodiscard]] bool has_colors() const override { return has_colors_; }
   void rewind() override {
     scene_.reset();
     entered_ = false;
@@ -231,6 +257,19 @@ class SceneRow final : public TriangleSource {
   [[nodiscard]] std::optional<UpAxis> up() const override { return up_; }  // of the first one that tells
 
  private:
+  template <class Read>
+  bool read_next(const Read& read) {
+    for (; next_ < paths_.size(); leave()) {
+      TriangleSource& scene = enter();
+      const bool more = read(scene);
+      if (!up_) up_ = scene.up();
+      has_colors_ = has_colors_ || scene.has_colors();
+      counts_ = finished_;
+      counts_.add(scene.counts());
+      if (more) return true;
+    }
+    return false;
+  }
   TriangleSource& enter() {
     const bool piped = paths_[next_] == "-";
     std::unique_ptr<TriangleSource>& slot = piped ? stdin_ : scene_;
@@ -252,7 +291,7 @@ class SceneRow final : public TriangleSource {
   std::vector<std::string> paths_;
   SceneOptions options_;
   std::size_t next_ = 0;
-  bool entered_ = false;
+  bool entered_ = false, has_colors_ = false;
   std::unique_ptr<TriangleSource> scene_, stdin_;
   SceneCounts finished_, counts_;
   std::optional<UpAxis> up_;

@@ -18,6 +18,11 @@
 ///   - Polygons become fans. The fan of a polygon that is not convex still covers it (its signed sum is the polygon),
 ///     so what encloses the fan encloses the polygon.
 ///   - A mesh used by many nodes is streamed through each transform; mirrored transforms keep the outside outside.
+///   - Colours, if SceneOptions::colors asks for them: base colour factors times COLOR_0 of glTF, both linear; Kd of
+///   MTL
+///     and the diffuse colour of Assimp's materials, vertex colours of OBJ, PLY and Assimp's formats, face colours of
+///     PLY, all taken as sRGB.
+///     Textures and transparency are not looked at. A material that is not there is white, and no error.
 ///   - A glTF asset whose `extras.up` is "z" (mesh_writer.h) is delivered in its own z-up coordinates.
 namespace bp {
 
@@ -25,6 +30,7 @@ struct SceneOptions {
   std::string format;  ///< of "-", or of a file whose name says nothing: ply stl obj off gltf glb, or one of Assimp's
   std::uint64_t memory_bytes = std::uint64_t(256) << 20;  ///< for vertices; more of them go to a scratch file
   std::string temp_dir;                                   ///< of scratch files; empty: $TMPDIR, else /tmp
+  bool colors = false;                                    ///< look for them; else all triangles are white
 };
 
 /// Triangles of one file; "-" is stdin, which is spooled to a scratch file. The reader is chosen by the file's

@@ -19,7 +19,7 @@ struct Options {
   std::vector<std::string> in;
   std::string format, image;
   std::optional<bp::UpAxis> up;
-  bool json = false, checksum = false, dump = false;
+  bool json = false, checksum = false, dump = false, no_edges = false;
   int image_size = 720;
   double azimuth = 35, elevation = 22;
 };
@@ -36,6 +36,7 @@ Options parse(bp::Args& args) {
   args.flag("--dump", o.dump, "print a stream as text, one line a brick");
   args.option("--image", "FILE", o.image, "draw what they hold into a PNG, side by side at one scale");
   args.option("--image-size", "PIXELS", o.image_size, "side of a panel of the image");
+  args.flag("--no-edges", o.no_edges, "leave out the edges of meshes of few triangles");
   args.option("--up", "y|z", o.up,
               "axis that points up in the image of meshes (default: y, or that of the first INPUT that tells)");
   args.option("--azimuth", "DEGREES", o.azimuth, "where the viewer stands, from the front to the right");
@@ -88,6 +89,7 @@ bp::Bounds3d bounds_of(const bp::StreamHeader& header) {
 /// One panel of the image, and what it draws.
 struct Panel {
   std::vector<bp::TriangleD> triangles;
+  std::vector<bp::TriangleColors> colors;
   std::unique_ptr<bp::TriangleSource> source;  // of a mesh too large to keep
   bp::View view;
 };
@@ -121,10 +123,13 @@ class Picture {
     if (info.triangles.size() == info.totals.triangles) {
       panel->triangles = std::move(info.triangles);
       panel->view.triangles = panel->triangles;
-      panel->view.edges = panel->triangles.size() <= (several() ? kEdgesOfMany : kEdges);
+      panel->colors = std::move(info.colors);
+      panel->view.colors = panel->colors;
+      panel->view.edges = !o_.no_edges && panel->triangles.size() <= (several() ? kEdgesOfMany : kEdges);
       if (several() && panel->view.edges) panel->view.color = {238, 192, 130};
     } else {
       panel->source = std::move(source);
+      panel->view.source_colors = panel->source->has_colors();
       panel->view.source = panel->source.get();
     }
     panels_.push_back(std::move(panel));
@@ -198,6 +203,7 @@ void show_mesh(const Options& o, const std::string& in, Picture& picture) {
   if (o.dump) bp::fail(bp::ErrorCode::bad_argument, "{}: --dump is for brick streams, and this is none", in);
   bp::SceneOptions scene;
   scene.format = o.format;
+  scene.colors = picture.wanted();
   auto source = bp::open_scene(in, scene);
   bp::MeshInfo info = bp::measure(*source);
   info.provenance = bp::mesh_provenance(in);

@@ -1,5 +1,6 @@
 #include "io/detail/instanced_scene.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -125,13 +126,14 @@ class InstancedSource final : public RawSource {
     rewind();
   }
 
-  bool read(std::vector<TriangleD>& out) override {
-    out.clear();
-    while (out.size() < kBatch && enter_primitive()) {
-      for (; out.size() < kBatch && triangle_ < triangles_; ++triangle_) add_triangle(out);
-      if (triangle_ == triangles_) leave_primitive();
-    }
-    return !out.empty();
+  bool read(std::vector<TriangleD>& out) override { return read(out, nullptr); }
+  bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
+    return read(out, &colors);
+  }
+  [[nodiscard]] bool has_colors() const override {
+    return std::any_of(scene_.primitives.begin(), scene_.primitives.end(), [](const Primitive& p) {
+      return p.colors || p.base_color != std::array<double, 3>{1, 1, 1};
+    });
   }
   void rewind() override {
     node_ = 0;
@@ -145,6 +147,15 @@ class InstancedSource final : public RawSource {
  private:
   static constexpr std::size_t kWindow = 3 * 1024;  // indices at a time: whole triangles, within a cache block
 
+  bool read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors) {
+    out.clear();
+    if (colors != nullptr) colors->clear();
+    while (out.size() < kBatch && enter_primitive()) {
+      for (; out.size() < kBatch && triangle_ < triangles_; ++triangle_) add_triangle(out, colors);
+      if (triangle_ == triangles_) leave_primitive();
+    }
+    return !out.empty();
+  }
   [[nodiscard]] std::uint64_t instances_of(const MeshNode& n) const {
     return n.instances ? scene_.arrays[*n.instances].count : 1;
   }
@@ -160,7 +171,8 @@ class InstancedSource final : public RawSource {
   }
   void place();
   void count_triangles(const Primitive& p);
-  void add_triangle(std::vector<TriangleD>& out);
+  void add_triangle(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors);
+  [[nodiscard]] LinearColor color_of(const Primitive& p, std::uint64_t vertex);
   std::uint64_t index(std::uint64_t i);
 
   InstancedScene scene_;
@@ -233,7 +245,7 @@ std::uint64_t InstancedSource::index(std::uint64_t i) {
   return window_[std::size_t(i - window_begin_)];
 }
 
-void InstancedSource::add_triangle(std::vector<TriangleD>& out) {
+void InstancedSource::add_triangle(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors) {
   const Primitive& p = scene_.primitives[primitive_];
   const std::uint64_t t = triangle_;
   std::array<std::uint64_t, 3> corner{};
@@ -255,6 +267,16 @@ void InstancedSource::add_triangle(std::vector<TriangleD>& out) {
     triangle[k] = transform_(elements_.vector<3>(p.positions, corner[k]));
   }
   out.push_back(triangle);
+  if (colors != nullptr) colors->push_back({color_of(p, corner[0]), color_of(p, corner[1]), color_of(p, corner[2])});
+}
+
+LinearColor InstancedSource::color_of(const Primitive& p, std::uint64_t vertex) {
+  std::array<double, 3> rgb = p.base_color;
+  if (p.colors) {
+    const std::array<double, 3> c = elements_.vector<3>(*p.colors, vertex);
+    for (std::size_t i = 0; i < 3; ++i) rgb[i] *= c[i];
+  }
+  return p.srgb ? color_from_srgb(rgb) : color_from_linear(rgb);
 }
 
 }  // namespace

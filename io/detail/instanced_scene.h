@@ -39,6 +39,9 @@ struct Primitive {
   Mode mode = Mode::triangles;
   Accessor positions;               ///< three components
   std::optional<Accessor> indices;  ///< into positions; none: 0, 1, 2 ...
+  std::optional<Accessor> colors;   ///< one for each position, three components or four, of which the last is not used
+  std::array<double, 3> base_color{1, 1, 1};  ///< multiplies them
+  bool srgb = false;                          ///< transfer function of both; else they are linear
 };
 
 /// Transforms of many instances of one node's mesh, applied before the node's own; absent accessors have count 0.

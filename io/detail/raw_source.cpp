@@ -6,8 +6,9 @@
 
 namespace bp {
 
-bool PolygonSource::read(std::vector<TriangleD>& out) {
+bool PolygonSource::read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors) {
   out.clear();
+  if (colors != nullptr) colors->clear();
   while (out.size() < kBatch) {
     if (fan_ == 0) {
       if (!next_face(corners_)) break;
@@ -21,6 +22,8 @@ bool PolygonSource::read(std::vector<TriangleD>& out) {
     }
     const Vec3d next = vertex(corners_[fan_]);
     out.push_back({first_, previous_, next});
+    if (colors != nullptr)
+      colors->push_back({corner_color(corners_[0]), corner_color(corners_[fan_ - 1]), corner_color(corners_[fan_])});
     previous_ = next;
     if (++fan_ == corners_.size()) fan_ = 0;
   }

@@ -7,7 +7,9 @@ namespace bp {
 
 /// Triangles on their way from a file.
 struct RawBatch {
+  bool colored = false;  ///< asked for
   std::vector<TriangleD> triangles;
+  std::vector<TriangleColors> colors;    ///< if asked for; fewer than triangles: all are white
   std::vector<std::byte> bytes;          ///< that complete() will make them of
   std::uint64_t records = 0, count = 0;  ///< faces in `bytes`, and their triangles if all are good
   std::uint64_t bad_faces = 0;           ///< met by complete()
@@ -20,11 +22,18 @@ class RawSource {
   virtual ~RawSource() = default;
   /// Replaces `out` by the next triangles; false, and `out` empty, at the end.
   virtual bool read(std::vector<TriangleD>& out) = 0;
+  /// As TriangleSource::read_colored() and has_colors().
+  virtual bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) {
+    const bool more = read(out);
+    colors.assign(out.size(), TriangleColors{});
+    return more;
+  }
+  [[nodiscard]] virtual bool has_colors() const { return false; }
   /// The same in two steps, so that many batches are decoded at once: next() fetches one, in order, on one thread at a
   /// time; complete() makes its triangles, on any thread. A batch may turn out to hold no triangle.
   virtual bool next(RawBatch& batch) {
     batch.bad_faces = 0;
-    return read(batch.triangles);
+    return batch.colored ? read_colored(batch.triangles, batch.colors) : read(batch.triangles);
   }
   virtual void complete(RawBatch&) const {}
   virtual void rewind() = 0;
@@ -44,7 +53,10 @@ class PolygonSource : public RawSource {
  public:
   static constexpr std::size_t kMaxCorners = std::size_t(1) << 20;  ///< of a face; more is taken for a broken file
 
-  bool read(std::vector<TriangleD>& out) final;
+  bool read(std::vector<TriangleD>& out) final { return read(out, nullptr); }
+  bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) final {
+    return read(out, &colors);
+  }
   void rewind() final;
 
  protected:
@@ -54,9 +66,12 @@ class PolygonSource : public RawSource {
   virtual bool next_face(std::vector<std::uint64_t>& corners) = 0;
   [[nodiscard]] virtual std::uint64_t vertex_count() const = 0;
   [[nodiscard]] virtual Vec3d vertex(std::uint64_t i) = 0;
+  /// Of a corner of the face that next_face() gave last.
+  [[nodiscard]] virtual LinearColor corner_color(std::uint64_t) { return kWhite; }
   virtual void rewind_faces() = 0;
 
  private:
+  bool read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors);
   [[nodiscard]] bool good_face() const;
 
   std::vector<std::uint64_t> corners_;

@@ -110,6 +110,16 @@ std::string_view TextScanner::word() {
   return found;
 }
 
+std::string TextScanner::rest_of_line() {
+  std::string line;
+  while (word_on_line()) {
+    if (!line.empty()) line.push_back(' ');
+    const std::string_view next = word();
+    line.append(next.begin(), next.end());
+  }
+  return line;
+}
+
 void TextScanner::skip_word() {
   do {
     while (!ends_word(*cur_)) ++cur_;

@@ -41,6 +41,8 @@ class TextScanner {
   /// The word here (word_on_line() or word_anywhere() was true); valid until the next call. Throws if it has more than
   /// 4096 characters.
   std::string_view word();
+  /// The words from here to the end of the line, with one blank between them. Throws as word().
+  std::string rest_of_line();
   [[nodiscard]] char peek() const { return *cur_; }
   void step() { cur_ += cur_ != end_; }  ///< over the character that peek() showed
   void skip_word();                      ///< of any length

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/color.h"
 #include "lib/core/coords.h"
 #include "lib/core/grid_frame.h"
 
@@ -32,6 +33,16 @@ class TriangleSource {
   /// Replaces `out` by the next triangles (at most some tens of thousands). False, and `out` empty, at the end.
   /// Polygons arrive as triangle fans. Throws bad_input with file, place and remedy if the scene is broken.
   virtual bool read(std::vector<TriangleD>& out) = 0;
+
+  /// As read(), with the colours of each triangle's corners: white where the scene says nothing. From one rewind() to
+  /// the next, one of the two is called.
+  virtual bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) {
+    const bool more = read(out);
+    colors.assign(out.size(), TriangleColors{});
+    return more;
+  }
+  /// False if every triangle is white; known after all of them were read once.
+  [[nodiscard]] virtual bool has_colors() const { return false; }
 
   /// Starts over from the first triangle; the same triangles follow in the same order.
   virtual void rewind() = 0;

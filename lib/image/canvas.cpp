@@ -30,6 +30,19 @@ std::uint8_t to_byte(double x) {
 Color scaled(Color c, double s) {
   return {to_byte(c.r * s), to_byte(c.g * s), to_byte(c.b * s)};
 }
+/// Of linear light, as in lib/core/color.h.
+Color shown(double r, double g, double b) {
+  static const std::vector<std::uint8_t> table = [] {
+    std::vector<std::uint8_t> t(65536 / 16);
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const auto x = std::uint16_t(16 * i + 8);
+      t[i] = srgb_bytes({x, x, x})[0];
+    }
+    return t;
+  }();
+  const auto at = [&](double x) { return table[std::size_t(std::clamp(x, 0.0, 65535.0)) / 16]; };
+  return {at(r), at(g), at(b)};
+}
 Color blend(Color below, Color above, double a) {
   return {to_byte(below.r + a * (above.r - below.r)), to_byte(below.g + a * (above.g - below.g)),
           to_byte(below.b + a * (above.b - below.b))};
@@ -54,8 +67,27 @@ struct Canvas::Shaded {
   double z, dz_dx, dz_dy;                            // depth at sample (0, 0), clamped to [z_low, z_high]
   float z_low, z_high;
   Color color;
+  bool varies = false;  // the colour over the triangle: linear light as planes, and the shade
+  double light[3], dl_dx[3], dl_dy[3], s = 1;
 
   Shaded() = default;
+  Shaded(const TriangleD& t, const TriangleColors& colors, int width, int height)
+      : Shaded(t, shown(colors[0].r, colors[0].g, colors[0].b), width, height) {
+    varies = (colors[0] != colors[1] || colors[0] != colors[2]) && x_min <= x_max;
+    if (!varies) return;
+    const double ux = t[1][0] - t[0][0], uy = t[1][1] - t[0][1], vx = t[2][0] - t[0][0], vy = t[2][1] - t[0][1];
+    const auto channel = [](LinearColor c, int i) { return double(i == 0 ? c.r : i == 1 ? c.g : c.b); };
+    for (int i = 0; i < 3; ++i) {
+      const double first = channel(colors[0], i), du = channel(colors[1], i) - first,
+                   dv = channel(colors[2], i) - first;
+      dl_dx[i] = (du * vy - dv * uy) / (ux * vy - uy * vx), dl_dy[i] = (dv * ux - du * vx) / (ux * vy - uy * vx);
+      light[i] = first + (0.5 - t[0][0]) * dl_dx[i] + (0.5 - t[0][1]) * dl_dy[i];
+    }
+  }
+  [[nodiscard]] Color color_at(int px, int py) const {
+    const auto at = [&](int i) { return light[i] + px * dl_dx[i] + py * dl_dy[i]; };
+    return varies ? scaled(shown(at(0), at(1), at(2)), s) : color;
+  }
   Shaded(const TriangleD& t, Color base, int width, int height) {
     if (!drawable(t[0]) || !drawable(t[1]) || !drawable(t[2])) return;
     const Vec3d u{t[1][0] - t[0][0], t[1][1] - t[0][1], t[1][2] - t[0][2]};
@@ -66,7 +98,8 @@ struct Canvas::Shaded {
     dz_dx = -n[0] / n[2], dz_dy = -n[1] / n[2];
     z = t[0][2] + (0.5 - t[0][0]) * dz_dx + (0.5 - t[0][1]) * dz_dy;
     z_low = float(std::min({t[0][2], t[1][2], t[2][2]})), z_high = float(std::max({t[0][2], t[1][2], t[2][2]}));
-    color = scaled(base, shade({n[0] / length, n[1] / length, n[2] / length}));
+    s = shade({n[0] / length, n[1] / length, n[2] / length});
+    color = scaled(base, s);
     for (int k = 0; k < 3; ++k) {
       const std::size_t from = n[2] > 0 ? std::size_t(k) : std::size_t(2 - k);
       x[k] = std::int32_t(std::lround(t[from][0] * kSub)), y[k] = std::int32_t(std::lround(t[from][1] * kSub));
@@ -95,6 +128,15 @@ void Canvas::for_each_band(const std::function<void(Row)>& body) const {
 }
 
 void Canvas::draw(std::span<const TriangleD> triangles, Color color) {
+  draw_shaded(triangles, [&](std::size_t) { return color; });
+}
+
+void Canvas::draw(std::span<const TriangleD> triangles, std::span<const TriangleColors> colors) {
+  draw_shaded(triangles, [&](std::size_t i) { return colors[i]; });
+}
+
+template <class ColorOf>
+void Canvas::draw_shaded(std::span<const TriangleD> triangles, const ColorOf& color_of) {
   constexpr std::size_t kBatch = 1 << 15;
   std::vector<Shaded> ready;
   for (std::size_t begin = 0; begin < triangles.size(); begin += kBatch) {
@@ -102,7 +144,7 @@ void Canvas::draw(std::span<const TriangleD> triangles, Color color) {
     ready.resize(n);
     parallel_chunks(std::int64_t(n), 1024, [&](std::int64_t b, std::int64_t e) {
       for (auto i = std::size_t(b); i < std::size_t(e); ++i)
-        ready[i] = Shaded(triangles[begin + i], color, width_, height_);
+        ready[i] = Shaded(triangles[begin + i], color_of(begin + i), width_, height_);
     });
     for_each_band([&](Row rows) {
       for (const Shaded& t : ready)
@@ -132,7 +174,7 @@ void Canvas::fill(const Shaded& t, Row rows) {
       const float z = std::clamp(float(t.z + x * t.dz_dx + y * t.dz_dy), t.z_low, t.z_high);
       if (z >= depth_[row + std::size_t(x)]) continue;
       depth_[row + std::size_t(x)] = z;
-      color_[row + std::size_t(x)] = t.color;
+      color_[row + std::size_t(x)] = t.color_at(x, y);
     }
     for (int e = 0; e < 3; ++e) row_value[e] += step_y[e];
   }

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "lib/core/box.h"
+#include "lib/core/color.h"
 #include "lib/image/image.h"
 
 namespace bp {
@@ -15,6 +16,8 @@ class Canvas {
 
   /// Flat shaded, facing either way. Coordinates that are not finite or beyond 2^22 samples are left out. Parallel.
   void draw(std::span<const TriangleD> triangles, Color color);
+  /// The same with colours of their own, one for each triangle.
+  void draw(std::span<const TriangleD> triangles, std::span<const TriangleColors> colors);
 
   /// Antialiased, where nothing lies in front. Parallel.
   void draw_lines(std::span<const std::array<Vec3d, 2>> lines, Color color, double half_width);
@@ -24,6 +27,8 @@ class Canvas {
 
  private:
   struct Shaded;
+  template <class ColorOf>
+  void draw_shaded(std::span<const TriangleD> triangles, const ColorOf& color_of);
   struct Row {
     int begin, end;
   };

@@ -78,9 +78,9 @@ class PanelPainter {
  public:
   PanelPainter(const Camera& camera, Canvas& canvas, Color color) : camera_(camera), canvas_(canvas), color_(color) {}
 
-  /// corner(i) -> TriangleD in scene units, for i in [0, n).
+  /// corner(i) -> TriangleD in scene units, for i in [0, n). colors: one for each, or none.
   template <class Corners>
-  void paint(std::size_t n, const Corners& corners) {
+  void paint(std::size_t n, const Corners& corners, std::span<const TriangleColors> colors = {}) {
     for (std::size_t begin = 0; begin < n; begin += kBatch) {
       projected_.resize(std::min(kBatch, n - begin));
       parallel_chunks(std::int64_t(projected_.size()), 2048, [&](std::int64_t b, std::int64_t e) {
@@ -89,7 +89,11 @@ class PanelPainter {
           for (std::size_t k = 0; k < 3; ++k) projected_[i][k] = camera_.project(t[k]);
         }
       });
-      canvas_.draw(projected_, color_);
+      if (colors.empty()) {
+        canvas_.draw(projected_, color_);
+      } else {
+        canvas_.draw(projected_, colors.subspan(begin, projected_.size()));
+      }
     }
   }
 
@@ -106,21 +110,34 @@ TriangleD corners_or_nothing(const IndexedMesh& mesh, std::size_t t) {
   return corners;
 }
 
+void paint_source(const View& view, PanelPainter& painter) {
+  std::vector<TriangleD> batch, part;
+  std::vector<TriangleColors> batch_colors, part_colors;
+  const auto paint = [&] {
+    painter.paint(
+        batch.size(), [&](std::size_t t) { return batch[t]; }, batch_colors);
+    batch.clear();
+    batch_colors.clear();
+  };
+  view.source->rewind();
+  const auto read = [&] {
+    return view.source_colors ? view.source->read_colored(part, part_colors) : view.source->read(part);
+  };
+  while (read()) {  // parts may be small
+    batch.insert(batch.end(), part.begin(), part.end());
+    batch_colors.insert(batch_colors.end(), part_colors.begin(), part_colors.end());
+    if (batch.size() >= kBatch) paint();
+  }
+  paint();
+}
+
 void paint_faces(const View& view, const Camera& camera, Canvas& canvas) {
   PanelPainter painter(camera, canvas, view.color);
   if (view.mesh != nullptr)
     painter.paint(view.mesh->triangles.size(), [&](std::size_t t) { return corners_or_nothing(*view.mesh, t); });
-  painter.paint(view.triangles.size(), [&](std::size_t t) { return view.triangles[t]; });
-  if (view.source == nullptr) return;
-  std::vector<TriangleD> batch, part;
-  view.source->rewind();
-  while (view.source->read(part)) {  // parts may be small
-    batch.insert(batch.end(), part.begin(), part.end());
-    if (batch.size() < kBatch) continue;
-    painter.paint(batch.size(), [&](std::size_t t) { return batch[t]; });
-    batch.clear();
-  }
-  painter.paint(batch.size(), [&](std::size_t t) { return batch[t]; });
+  painter.paint(
+      view.triangles.size(), [&](std::size_t t) { return view.triangles[t]; }, view.colors);
+  if (view.source != nullptr) paint_source(view, painter);
 }
 
 /// Each edge once, in lexicographic order of its ends on the screen.

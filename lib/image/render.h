@@ -11,15 +11,17 @@
 /// every run and for any number of threads.
 namespace bp {
 
-/// One panel. What is set among `mesh`, `triangles` and `source` is drawn, all in one colour, in this order.
+/// One panel. What is set among `mesh`, `triangles` and `source` is drawn, in this order.
 struct View {
   const IndexedMesh* mesh = nullptr;
   std::span<const TriangleD> triangles;
   TriangleSource* source =
-      nullptr;  ///< streamed from its start, in bounded memory; RenderOptions::bounds must cover it
-  Color color{176, 188, 204};
-  bool edges = false;  ///< draws the edges of `mesh` and `triangles` as dark lines
-  std::string label;   ///< lines separated by \n
+      nullptr;                 ///< streamed from its start, in bounded memory; RenderOptions::bounds must cover it
+  Color color{176, 188, 204};  ///< of all that has none of its own
+  std::span<const TriangleColors> colors;  ///< of `triangles`; empty: none
+  bool source_colors = false;              ///< draw `source` in its own
+  bool edges = false;                      ///< draws the edges of `mesh` and `triangles` as dark lines
+  std::string label;                       ///< lines separated by \n
 };
 
 struct RenderOptions {

@@ -54,7 +54,8 @@ std::vector<std::string> from_gltf(const std::string& text) {
     std::string line;
     for (const char* key : {"tool", "version", "options"}) {
       if (!step.is_object() || !step.contains(key) || !step.at(key).is_string()) return {};
-      line += (line.empty() ? "" : " ") + step.at(key).get<std::string>();
+      if (!line.empty()) line += ' ';
+      line += step.at(key).get<std::string>();
     }
     lines.push_back(line);
   }
@@ -66,14 +67,18 @@ std::vector<std::string> from_gltf(const std::string& text) {
 MeshInfo measure(TriangleSource& source) {
   MeshInfo info;
   std::vector<TriangleD> batch;
-  while (source.read(batch)) {
+  std::vector<TriangleColors> colors;
+  while (source.read_colored(batch, colors)) {
     info.totals.add(batch);
     if (info.totals.triangles <= MeshInfo::kMaxKept) {
       info.triangles.insert(info.triangles.end(), batch.begin(), batch.end());
+      info.colors.insert(info.colors.end(), colors.begin(), colors.end());
     } else {
       info.triangles = {};
+      info.colors = {};
     }
   }
+  if (!source.has_colors()) info.colors = {};
   info.counts = source.counts();
   if (info.triangles.size() == info.totals.triangles) info.vertices = count_positions(info.triangles);
   return info;

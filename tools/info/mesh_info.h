@@ -15,12 +15,13 @@ struct MeshInfo {
   TriangleTotals totals;
   std::optional<std::uint64_t> vertices;  ///< distinct positions; unknown for scenes above kMaxKept triangles
   std::vector<TriangleD> triangles;       ///< all of them, or none if there are more than kMaxKept
+  std::vector<TriangleColors> colors;     ///< of these, if the source has any
   std::vector<std::string> provenance;    ///< a line each step, as written by bpmesh
 
   static constexpr std::size_t kMaxKept = 1000000;
 };
 
-/// Streams `source` once; memory is bounded by kMaxKept.
+/// Streams `source` once; memory is bounded by kMaxKept. Colours are looked for if the source was opened with them.
 [[nodiscard]] MeshInfo measure(TriangleSource& source);
 
 /// The steps that bpmesh wrote into a mesh: comments of PLY and OBJ, asset.extras of glTF and GLB. Empty if there are

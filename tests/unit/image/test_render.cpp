@@ -13,7 +13,7 @@ using namespace bp::test;
 
 namespace {
 
-const Color kWhite{255, 255, 255};
+const Color kPaper{255, 255, 255};
 
 Image picture(const std::vector<View>& views, RenderOptions options = {}) {
   options.panel_width = options.panel_height = 64;
@@ -89,6 +89,33 @@ TEST_CASE("the nearer triangle wins in whichever order they come", "[quick][imag
   CHECK(draw(far, {0, 200, 0}, near, {200, 0, 0}) == c);
 }
 
+TEST_CASE("a triangle with colours shows them at its corners and light between them", "[quick][image]") {
+  const TriangleD t{{{0, 0, 1}, {200, 0, 1}, {0, 200, 1}}};
+  const LinearColor red{65535, 0, 0}, blue{0, 0, 65535};
+  Canvas canvas(200, 200, {0, 0, 0});
+  const TriangleColors colors{red, blue, red};
+  canvas.draw(std::span(&t, 1), std::span(&colors, 1));
+  Image image(100, 100, {});
+  canvas.resolve(image, 0, 0);
+  CHECK(image.at(1, 1).r > 150);
+  CHECK(image.at(1, 1).b < 40);
+  CHECK(image.at(95, 1).b > 150);
+  CHECK(image.at(1, 95).r > 150);
+  CHECK(image.at(1, 95).b < 40);
+  CHECK(std::abs(int(image.at(49, 1).r) - int(image.at(49, 1).b)) <= 3);  // half of each: 188 of 255, shaded
+  CHECK(double(image.at(49, 1).r) / image.at(1, 1).r == Approx(188.0 / 255).margin(0.03));
+  CHECK(image.at(49, 1).g == 0);
+
+  Canvas one(8, 8, {0, 0, 0}), same(8, 8, {0, 0, 0});
+  const TriangleColors all_red{red, red, red};
+  one.draw(std::span(&t, 1), Color{255, 0, 0});
+  same.draw(std::span(&t, 1), std::span(&all_red, 1));
+  Image a(4, 4, {}), b(4, 4, {});
+  one.resolve(a, 0, 0);
+  same.resolve(b, 0, 0);
+  CHECK(a.pixels == b.pixels);
+}
+
 TEST_CASE("lines behind a face do not show, lines on it and before it do", "[quick][image]") {
   const std::vector<TriangleD> face = {{{{2, 2, 10}, {30, 2, 10}, {2, 30, 30}}}};
   const auto dark_samples = [&](double depth_offset) {
@@ -119,7 +146,7 @@ TEST_CASE("the picture does not depend on threads or on how triangles arrive", "
     return picture({v}).pixels;
   };
   const auto expected = drawn(1, meshes);
-  CHECK(count_other(picture({meshes}), kWhite) > 1000);
+  CHECK(count_other(picture({meshes}), kPaper) > 1000);
   CHECK(drawn(2, meshes) == expected);
   CHECK(drawn(2, spans) == expected);
   streamed.source = &source;
@@ -142,7 +169,7 @@ TEST_CASE("azimuth, elevation and up axis choose what is seen", "[quick][image]"
     int x0 = 99, x1 = -1, y0 = 99, y1 = -1;
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x)
-        if (image.at(x, y) != kWhite)
+        if (image.at(x, y) != kPaper)
           x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
     return double(x1 - x0 + 1) / (y1 - y0 + 1);
   };
@@ -159,15 +186,15 @@ TEST_CASE("what cannot be drawn leaves an empty panel and no crash", "[quick][im
   m.triangles.push_back({0, 1, 99});
   View v = view_of(m);
   v.edges = true;
-  CHECK(count_other(picture({v}), kWhite) == 0);
-  CHECK(count_other(picture({View{}}), kWhite) == 0);
+  CHECK(count_other(picture({v}), kPaper) == 0);
+  CHECK(count_other(picture({View{}}), kPaper) == 0);
   CHECK(render({}).width == 720);
   m = cube(1);
   m.vertices[7] = {HUGE_VAL, 1e300, -1e300};
   CHECK(picture({view_of(m)}).width == 64);
   m.vertices[7] = m.vertices[6];
   for (Vec3d& p : m.vertices) p = {3, 3, 3};  // no extent
-  CHECK(count_other(picture({view_of(m)}), kWhite) == 0);
+  CHECK(count_other(picture({view_of(m)}), kPaper) == 0);
   RenderOptions tiny;
   tiny.panel_width = 3;
   CHECK_THROWS_AS(render({}, tiny), Error);
@@ -184,7 +211,7 @@ TEST_CASE("panels stand side by side at one scale, labels below", "[quick][image
   std::size_t left = 0, right = 0, text = 0;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
-      if (image.at(x, y) == kWhite) continue;
+      if (image.at(x, y) == kPaper) continue;
       ++(y >= 64 ? text : x < 64 ? left : right);
     }
   CHECK(std::abs(double(left) / double(right) - 4) < 0.4);
@@ -192,14 +219,14 @@ TEST_CASE("panels stand side by side at one scale, labels below", "[quick][image
 }
 
 TEST_CASE("text covers the pixels that its width says and clips at the border", "[quick][image]") {
-  Image image(40, 10, kWhite);
+  Image image(40, 10, kPaper);
   draw_text(image, 0, 0, "HI", 1, {0, 0, 0});
   CHECK(text_width("HI", 1) == 11);
   CHECK(image.at(0, 0) == Color{});  // H
   CHECK(image.at(4, 6) == Color{});  // H
-  CHECK(image.at(5, 3) == kWhite);   // between
+  CHECK(image.at(5, 3) == kPaper);   // between
   CHECK(image.at(8, 3) == Color{});  // I
-  CHECK(count_other(image, kWhite) == 17 + 11);
+  CHECK(count_other(image, kPaper) == 17 + 11);
   draw_text(image, 35, 5, "clipped \xff", 3, {0, 0, 0});
   draw_text(image, -300, -5, "clipped", 3, {0, 0, 0});
   CHECK(text_width("", 2) == 0);
