@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "io/detail/glb_file.h"
+#include "io/detail/mesh_writers.h"
 #include "io/detail/meshopt_codec.h"
 #include "lib/core/error.h"
 
@@ -18,7 +19,7 @@ using Json = GltfOutJson;
 constexpr std::int64_t kFloatInteger = std::int64_t(1) << 24;  // float32 holds integers up to this
 constexpr std::int64_t kShortInteger = 32767;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
-constexpr int kShort = 5122, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
+constexpr int kByte = 5120, kUint8 = 5121, kShort = 5122, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
 
 struct Extent {
   LatticeCoord lo, hi;
@@ -54,9 +55,8 @@ struct Positions {
     max.fill(std::numeric_limits<Number>::lowest());
     bytes.reserve(order.size() * stride);
     for (const std::uint32_t i : order) {
-      LatticeCoord d = mesh.vertices[i] - centre;
-      // z up to y up. Not by a rotation of the node: tools make a quaternion of it, which rounds.
-      if (mesh.frame.up == UpAxis::z) d = {d.x, d.z, -d.y};
+      const LatticeCoord v = mesh.vertices[i] - centre,
+                         d = mesh.frame.up == UpAxis::z ? LatticeCoord{v.x, v.z, -v.y} : v;
       const std::array<Number, 3> p{Number(d.x), Number(d.y), Number(d.z)};
       for (std::size_t k = 0; k < 3; ++k) {
         min[k] = std::min(min[k], p[k]);
@@ -67,6 +67,30 @@ struct Positions {
     }
   }
 };
+
+/// z up to y up. Not by a rotation of the node: tools make a quaternion of it, which rounds.
+template <class Vector>
+Vector turned(const Vector& v, UpAxis up) {
+  return up == UpAxis::z ? Vector{v[0], v[2], -v[1]} : v;
+}
+
+std::vector<std::array<float, 3>> normals_of(const LatticeMesh& mesh, const std::vector<std::uint32_t>& order) {
+  const std::vector<std::array<float, 3>> all = vertex_normals(mesh);
+  std::vector<std::array<float, 3>> normals;
+  normals.reserve(order.size());
+  for (const std::uint32_t i : order) normals.push_back(turned(all[i], mesh.frame.up));
+  return normals;
+}
+
+std::string color_bytes(const LatticeMesh& mesh, const std::vector<std::uint32_t>& order) {
+  std::string bytes;
+  bytes.reserve(4 * order.size());
+  for (const std::uint32_t i : order) {
+    for (const std::uint8_t c : linear_bytes(mesh.colors[i])) bytes.push_back(char(c));
+    bytes.push_back(char(255));
+  }
+  return bytes;
+}
 
 class GlbBuilder {
  public:
@@ -137,23 +161,53 @@ class GlbBuilder {
     } else {
       positions = add_positions(Positions<float>(mesh, order, centre, 12), 12, kFloat, order.size());
     }
+    Json attributes{{"POSITION", positions}};
+    if (named.normals) attributes["NORMAL"] = add_normals(normals_of(mesh, order));
+    if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(color_bytes(mesh, order));
     const std::size_t indices = add_indices(triangles, order.size());
-    const Json primitive{{"attributes", {{"POSITION", positions}}}, {"indices", indices}};
+    const Json primitive{{"attributes", attributes}, {"indices", indices}};
     doc_["meshes"].push_back({{"name", named.name}, {"primitives", Json::array({primitive})}});
   }
 
   template <class Number>
   std::size_t add_positions(const Positions<Number>& p, std::size_t stride, int type, std::size_t count) {
-    Json view = add_view(p.bytes, stride, "ATTRIBUTES", compressed_ ? encode_attributes(p.bytes, stride) : p.bytes);
-    if (compressed_) view["byteStride"] = stride;
-    view["target"] = kArrayBuffer;
-    doc_["bufferViews"].push_back(view);
-    return add_accessor({{"bufferView", doc_["bufferViews"].size() - 1},
+    return add_accessor({{"bufferView", add_attributes(p.bytes, stride)},
                          {"componentType", type},
                          {"count", count},
                          {"type", "VEC3"},
                          {"min", p.min},
                          {"max", p.max}});
+  }
+
+  std::size_t add_normals(const std::vector<std::array<float, 3>>& normals) {
+    Json accessor{{"bufferView", 0}, {"componentType", kFloat}, {"count", normals.size()}, {"type", "VEC3"}};
+    if (compressed_) {
+      quantized_ = true;
+      accessor["bufferView"] = add_attributes(octahedral(normals), 4, "OCTAHEDRAL");
+      accessor["componentType"] = kByte;
+      accessor["normalized"] = true;
+    } else {
+      const auto* const bytes = reinterpret_cast<const char*>(normals.data());
+      accessor["bufferView"] = add_attributes(std::string(bytes, normals.size() * sizeof normals[0]), 12);
+    }
+    return add_accessor(std::move(accessor));
+  }
+
+  std::size_t add_colors(const std::string& bytes) {
+    return add_accessor({{"bufferView", add_attributes(bytes, 4)},
+                         {"componentType", kUint8},
+                         {"normalized", true},
+                         {"count", bytes.size() / 4},
+                         {"type", "VEC4"}});
+  }
+
+  std::size_t add_attributes(const std::string& bytes, std::size_t stride, const char* filter = nullptr) {
+    Json view = add_view(bytes, stride, "ATTRIBUTES", compressed_ ? encode_attributes(bytes, stride) : bytes);
+    if (compressed_) view["byteStride"] = stride;
+    if (filter != nullptr) view["extensions"]["EXT_meshopt_compression"]["filter"] = filter;
+    view["target"] = kArrayBuffer;
+    doc_["bufferViews"].push_back(view);
+    return doc_["bufferViews"].size() - 1;
   }
 
   std::size_t add_indices(const TriangleIndices& triangles, std::size_t vertices) {

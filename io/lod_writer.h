@@ -7,12 +7,14 @@
 
 /// Levels of detail as GLB, without loss: vertices are lattice integers, the node holds unit and offset, so a reader
 /// that works in double finds frame.world(v) exactly (mesh_writer.h). Same meshes, same bytes; the caller commits.
+/// A mesh with colours gets them as COLOR_0: 8 bits a channel, normalized, linear light as glTF wants it.
 /// All throw bad_argument if a mesh has no triangle or spans more than float32 holds exactly (2^19 voxels).
 namespace bp {
 
 struct NamedMesh {
   std::string name;  ///< of its node and mesh
   const LatticeMesh* mesh = nullptr;
+  bool normals = false;  ///< write unit vertex normals, weighted by angle
 };
 
 /// All levels, finest first, in one file: the finest one's node is the scene's first and only one, and carries MSFT_lod
@@ -26,9 +28,9 @@ void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> co
 void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out);
 
 /// The content of a tile, as the bytes of a GLB: EXT_meshopt_compression and KHR_mesh_quantization, with 16-bit
-/// integers where they hold the mesh, else float32. The node has a scale and no offset: vertices are relative to
-/// `origin`, which the tile's transform gives back, in double. A z-up mesh is turned to glTF's y up, which 3D Tiles
-/// turns back; unlike in other files of ours, extras.up does not ask a reader to.
+/// integers where they hold the mesh, else float32; normals are octahedral, 8 bits. The node has a scale and no offset:
+/// vertices are relative to `origin`, which the tile's transform gives back, in double. A z-up mesh is turned to glTF's
+/// y up, which 3D Tiles turns back; unlike in other files of ours, extras.up does not ask a reader to.
 [[nodiscard]] std::string tile_glb(const NamedMesh& tile, LatticeCoord origin);
 
 /// The lattice point of `frame` that lies at `p`. Throws `failed` if there is none.

@@ -170,6 +170,7 @@ class FilteredScene final : public TriangleSource {
     while (ready_ < batches_.size()) {
       RawBatch& batch = batches_[ready_].raw;
       batch.colored = colored;
+      batch.colors.clear();
       if (!raw_->next(batch)) break;
       ++ready_;
     }

@@ -27,7 +27,7 @@ void run_chain(const bp::BuildOptions& o) {
   }
   build.progress.end();
   build.report.stage("write");
-  bp::write_profile(o.profile, o.name, levels, scene.header.bounds.diagonal(), out);
+  bp::write_profile(o.profile, o.name, levels, scene.header.bounds.diagonal(), o.mode == bp::MeshMode::fit, out);
   out.commit();
   std::vector<bp::LevelRow> rows;
   for (std::size_t i = 0; i < levels.size(); ++i)

@@ -101,6 +101,15 @@ std::string encode_attributes(const std::string& data, std::size_t stride) {
   return out;
 }
 
+std::string octahedral(const std::vector<std::array<float, 3>>& normals) {
+  std::vector<float> padded;
+  padded.reserve(4 * normals.size());
+  for (const auto& n : normals) padded.insert(padded.end(), {n[0], n[1], n[2], 0.0f});
+  std::string out(4 * normals.size(), '\0');
+  meshopt_encodeFilterOct(out.data(), normals.size(), 4, 8, padded.data());
+  return out;
+}
+
 std::string encode_triangles(const TriangleIndices& triangles, std::size_t vertices) {
   std::string out(meshopt_encodeIndexBufferBound(3 * triangles.size(), vertices), '\0');
   meshopt_encodeIndexVersion(1);

@@ -2,6 +2,7 @@
 #include <array>
 #include <vector>
 
+#include "lib/core/color.h"
 #include "lib/core/grid_frame.h"
 #include "lib/grid/stream.h"
 
@@ -15,6 +16,7 @@ struct LatticeMesh {
   std::vector<LatticeCoord> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint32_t, 2>> quads;  ///< pairs of triangles that a file joins (quads.h); mostly none
+  std::vector<LinearColor> colors;                  ///< of the vertices; empty: none
   std::vector<Provenance> provenance;
 };
 

@@ -21,7 +21,7 @@ namespace {
 // The surface while it is simplified, what it encloses, distances.
 constexpr std::uint64_t kBytesPerDenseFace = 320, kBytesPerTile = std::uint64_t(4) << 20;
 
-constexpr const char* kJobName = "tile, 1";
+constexpr const char* kJobName = "tile, 2";
 
 /// Measures and content, as the store keeps them.
 std::string packed(const LevelTile& tile) {
@@ -103,6 +103,7 @@ class Maker {
       const std::vector<TriangleD> scene = scene_nearby();
       hash.add(std::as_bytes(std::span(scene)));
     }
+    if (params_.add_to_key) params_.add_to_key(coord_, hash);
     return hash.key();
   }
 

@@ -2,7 +2,7 @@
 #include <functional>
 #include <span>
 
-#include "lib/core/result_store.h"
+#include "lib/core/result_key.h"
 #include "lib/grid/cells.h"
 #include "lib/stage/mesh_stage.h"
 
@@ -39,6 +39,7 @@ struct TileParams {
   std::function<bool(CellCoord)> wanted;  ///< other tiles are passed over; empty: all are wanted
   bool make = true;                       ///< false: what is not in the store comes without measures and content
   std::string encoding;                   ///< all that encode() puts into a file beside cell and mesh, for their keys
+  std::function<void(CellCoord, KeyHash&)> add_to_key;  ///< the same where it depends on the cell; may be empty
 
   static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastFaces = 60;  ///< of a tile without a budget
 };

@@ -25,6 +25,14 @@ for up in y z; do
   bplod plant.ply --levels 3 --resolution 96 --up $up --profile 3dtiles -o tiles-$up > /dev/null
   bpvox plant.ply --resolution 96 --up $up | bpclose --scale 2% | bpmesh --faces 400 -o gltf-$up/bpmesh.glb
 done
+# Colours and normals.
+printf 'newmtl red\nKd 1 0 0\n' > red.mtl
+{ printf 'mtllib red.mtl\nusemtl red\nv 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nv 0 0 9\nv 9 0 9\nv 9 9 9\nv 0 9 9\n'
+  printf 'f %s\n' '1 4 3 2' '5 6 7 8' '1 2 6 5' '2 3 7 6' '3 4 8 7' '4 1 5 8'; } > red.obj
+for up in y z; do
+  bplod red.obj --levels 2 --resolution 64 --mode fit --up $up -o gltf-red-$up > /dev/null
+  bplod red.obj --levels 2 --resolution 64 --mode fit --up $up --profile 3dtiles -o tiles-red-$up > /dev/null
+done
 node "$here/validate.cjs" gltf-*/*.glb tiles-*/*.glb
 
 # The same triangles, bit for bit, by another decoder.

@@ -10,6 +10,7 @@
 #include "io/scene_reader.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/shelf_stream.h"
+#include "lib/stage/vertex_colors.h"
 
 namespace bp {
 
@@ -67,13 +68,25 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results) {
   VoxelizedScene out;
   out.solid = make_shelf();
   ShelfSink sink(out.solid.get());
-  const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp});
+  const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp, options.colors});
   const auto open = [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
     out.header = header;
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
+  if (source->has_colors()) gather(*source, out);
   return out;
+}
+
+/// The triangles have gone, and so has most of what they were given of the memory.
+void Build::gather(TriangleSource& source, const VoxelizedScene& scene) {
+  report.stage("colours");
+  ColorOptions c;
+  c.memory_bytes = budget.work / 2;
+  c.make_shelf = make_shelf;
+  c.make_store = [this] { return make_chunk_store(budget.reader / 2, options.common.temp); };
+  c.progress = show;
+  colors_ = gather_colors(source, scene.header.frame, *scene.solid, c);
 }
 
 std::vector<TriangleD> Build::scene_triangles() const {
@@ -121,8 +134,13 @@ LodLevel Build::make_level(LodChain& chain, std::size_t i, std::size_t since, do
   report.stage(fmt::format("level {}", i));
   const LodTarget target = target_of(options.request, i, since, bounds.diagonal(), scene_voxel, chain.dense_faces());
   LodLevel level = chain.make(target);
-  level.mesh.provenance = {
-      make_provenance("bplod", option_text(options, target, i, level.scale_world, level.mesh.frame), input_hash)};
+  if (colors_ != nullptr) {
+    colors_->prepare(level.mesh.frame);
+    color_vertices(level.mesh, colors_->all(level.mesh.frame));
+  }
+  OptionText text = option_text(options, target, i, level.scale_world, level.mesh.frame);
+  if (colors_ != nullptr) text.add("colors", "auto");
+  level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
   if (!level.reached) {
     note(fmt::format("level {}: {} faces instead of {}, even closed at {:.4g}: no further edge can be merged", i,
                      level.mesh.triangles.size(), target.faces, level.scale_world));
@@ -167,6 +185,7 @@ void Build::write_report(const VoxelizedScene& scene, std::size_t levels) {
                  {"chunks_kept", scene.counts.chunks_kept},
                  {"voxel", scene.header.frame.voxel},
                  {"solid_voxels", scene.counts.solid_voxels}};
+  if (colors_ != nullptr) counts["color_cells"] = colors_->cells();
   counts.update(report.counts);
   report.counts = std::move(counts);
   report.write(options.common);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/stage/scene_colors.h"
 #include "lib/stage/voxelize_stage.h"
 #include "tools/common/make_backend.h"
 #include "tools/common/memory_shares.h"
@@ -41,7 +42,7 @@ class Build {
 
   /// cell_vox, results: as in VoxelizeOptions.
   [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr);
-  /// For LodChain.
+  /// For LodChain; after voxelize(), as all that follow.
   [[nodiscard]] LodOptions lod_options();
   /// For surfaces: budget.work, and what spills.
   [[nodiscard]] PieceMemory pieces() const;
@@ -52,6 +53,8 @@ class Build {
   [[nodiscard]] LodLevel make_level(LodChain& chain, std::size_t level, std::size_t since, double scene_voxel,
                                     const Bounds3d& bounds, const std::string& input_hash);
   void note(const std::string& text);
+  /// Null if the scene has no colours, or if none are wanted.
+  [[nodiscard]] SceneColors* colors() const { return colors_.get(); }
 
   /// Prints the list and writes the report.
   void finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out);
@@ -70,6 +73,10 @@ class Build {
   const BuildBudget budget;
   const ShelfFactory make_shelf;
   std::function<void(const char*, const char*, std::uint64_t, std::uint64_t)> show;  ///< progress of stages
+
+ private:
+  void gather(TriangleSource& source, const VoxelizedScene& scene);
+  std::unique_ptr<SceneColors> colors_;
 };
 
 [[nodiscard]] LevelRow row_of(const LodLevel& level, const std::string& file, std::uint64_t bytes);

@@ -26,6 +26,7 @@ void check_options(BuildOptions& o) {
     fail(ErrorCode::bad_argument, "--profile collision has one level");
   if (o.profile == LodProfile::collision && o.mode != MeshMode::bounding)
     fail(ErrorCode::bad_argument, "--profile collision needs --mode bounding");
+  if (o.profile == LodProfile::collision) o.colors = false;  // nobody sees them
   check(o.request);
   if (o.out.empty() && !o.tiles && (!o.explain || o.resume))
     fail(ErrorCode::bad_argument, "name the folder of the levels with -o");
@@ -110,6 +111,8 @@ BuildOptions parse_build_options(Args& args) {
               "what stays inside while a level is tightened: the voxels of the scene, or their closing");
   args.option("--fill", {{"flood", FillMode::flood}, {"winding", FillMode::winding}, {"none", FillMode::none}}, o.fill,
               "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing");
+  args.option("--colors", {{"auto", true}, {"off", false}}, o.colors,
+              "auto: vertices get the colours of the scene's materials and vertices, if it has any; off: none");
   args.option("--up", "y|z", o.up, "axis of the scene that points up (default: y, or what a proxy of ours tells)");
   args.option("--format", "NAME", o.format,
               "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");

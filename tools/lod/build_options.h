@@ -45,6 +45,7 @@ struct BuildOptions {
   StructuringElement element = StructuringElement::cube;
   Enclose enclose = Enclose::input;
   bool loose = false;  ///< --no-tighten
+  bool colors = true;  ///< carry the scene's, if it has any
 };
 
 /// Throws bad_argument if options contradict each other.

@@ -13,15 +13,15 @@ namespace bp {
 
 namespace {
 
-std::vector<NamedMesh> named(const std::string& name, const std::vector<LodLevel>& levels) {
+std::vector<NamedMesh> named(const std::string& name, const std::vector<LodLevel>& levels, bool normals) {
   std::vector<NamedMesh> meshes;
-  for (std::size_t i = 0; i < levels.size(); ++i) meshes.push_back({level_name(name, i), &levels[i].mesh});
+  for (std::size_t i = 0; i < levels.size(); ++i) meshes.push_back({level_name(name, i), &levels[i].mesh, normals});
   return meshes;
 }
 
-void write_gltf_profile(const std::string& name, const std::vector<LodLevel>& levels, double diameter,
+void write_gltf_profile(const std::string& name, const std::vector<LodLevel>& levels, double diameter, bool normals,
                         OutputFolder& out) {
-  const std::vector<NamedMesh> meshes = named(name, levels);
+  const std::vector<NamedMesh> meshes = named(name, levels, normals);
   for (const NamedMesh& level : meshes) write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"));
   std::vector<double> coverage;  // a level is drawn until the next one's error is a pixel; the last one always
   for (std::size_t i = 1; i < levels.size(); ++i)
@@ -107,10 +107,10 @@ std::vector<std::string> profile_files(LodProfile profile, const std::string& na
 }
 
 void write_profile(LodProfile profile, const std::string& name, const std::vector<LodLevel>& levels, double diameter,
-                   OutputFolder& out) {
+                   bool normals, OutputFolder& out) {
   switch (profile) {
     case LodProfile::gltf:
-      return write_gltf_profile(name, levels, diameter, out);
+      return write_gltf_profile(name, levels, diameter, normals, out);
     case LodProfile::tiles:
       break;  // tile_build.h
     case LodProfile::collision:

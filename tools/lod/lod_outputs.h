@@ -37,7 +37,8 @@ class OutputFolder {
 [[nodiscard]] std::vector<std::string> profile_files(LodProfile profile, const std::string& name, std::size_t levels);
 /// Writes them. `levels`: finest first; errors must not fall towards coarser ones; collision: one. diameter: of the
 /// scene, scene units.
+/// normals: as in NamedMesh, of the levels.
 void write_profile(LodProfile profile, const std::string& name, const std::vector<LodLevel>& levels, double diameter,
-                   OutputFolder& out);
+                   bool normals, OutputFolder& out);
 
 }  // namespace bp

@@ -12,6 +12,7 @@
 #include "io/tileset_file.h"
 #include "lib/core/parallel.h"
 #include "lib/stage/tile_pyramid.h"
+#include "lib/stage/vertex_colors.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/lod/tile_plan.h"
 #include "tools/lod/tile_tree.h"
@@ -142,19 +143,28 @@ class TilesetBuild {
     level.frame = pyramid.header().frame;
     level.folder = level_name(options_.name, number);
     level.row = {level.folder + "/*.glb", 0, 0, 0, 0, cut.scale_world, level.frame.voxel};
-    const std::vector<Provenance> provenance{
-        make_provenance("bplod", option_text(options_, cut.target, number, cut.scale_world, level.frame))};
+    OptionText text = option_text(options_, cut.target, number, cut.scale_world, level.frame);
+    if (build_.colors() != nullptr) text.add("colors", "auto");
+    const std::vector<Provenance> provenance{make_provenance("bplod", text)};
     TileParams params = tile_params(cut.target, level.frame, scene);
     params.encoding = level.folder + " " + provenance[0].options;
     params.make = task_ != Task::look_up;
     if (task_ == Task::some_jobs)
       params.wanted = [this, &cut](CellCoord cell) { return is_wanted(cut.number_of(cell), 1); };
+    if (build_.colors() != nullptr) {
+      build_.colors()->prepare(level.frame);
+      params.add_to_key = [this, &level, &cut](CellCoord cell, KeyHash& hash) {
+        colors_around(cell, level.frame, cut.scale_world).add_to(hash);
+      };
+    }
     pyramid.add_level(
         cut.scale_world, std::move(params),
-        [this, &level, provenance](CellCoord cell, const LatticeMesh& mesh) {
+        [this, &level, &cut, provenance](CellCoord cell, const LatticeMesh& mesh) {
           LatticeMesh named = mesh;
           named.provenance = provenance;
-          return tile_glb({level.folder + "_" + name_of(cell), &named}, centre_of(cells_, cell));
+          if (build_.colors() != nullptr) color_vertices(named, colors_around(cell, level.frame, cut.scale_world));
+          return tile_glb({level.folder + "_" + name_of(cell), &named, options_.mode == MeshMode::fit},
+                          centre_of(cells_, cell));
         },
         [this, &level](LevelTile&& tile) { take(std::move(tile), level); });
   }
@@ -205,6 +215,12 @@ class TilesetBuild {
           std::max(target.error_world - std::sqrt(3.0) * (frame.voxel + scene_voxel_), target.error_world / 4);
     params.scene = scene;
     return params;
+  }
+
+  /// As far as a voxel of the closing may lie from the nearest one of the scene.
+  [[nodiscard]] NearbyColors colors_around(CellCoord cell, const GridFrame& frame, double scale) const {
+    return build_.colors()->around(frame, cells_.box(cell),
+                                   std::int32_t(std::ceil(scale / frame.voxel)) + kColorCellVox);
   }
 
   static std::string name_of(CellCoord c) { return fmt::format("{}_{}_{}", c.x, c.y, c.z); }

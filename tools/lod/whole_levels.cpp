@@ -12,7 +12,7 @@ namespace bp {
 
 namespace {
 
-constexpr const char* kJob = "levels in one mesh, 1";
+constexpr const char* kJob = "levels in one mesh, 2";
 
 Bounds3d bounds_of(const LatticeMesh& mesh) {
   Bounds3d bounds;
@@ -107,6 +107,10 @@ ResultKey key_of(const Build& build, const WholeInput& input, const LodOptions& 
   hash.add(std::int64_t(o.request.faces.size()));
   add_voxels(hash, *input.solid, voxels_of(input.header.bricks), {});
   add_voxels(hash, *input.surface, voxels_of(input.header.bricks), {});
+  if (build.colors() != nullptr) {
+    build.colors()->prepare(input.header.frame);
+    build.colors()->all(input.header.frame).add_to(hash);
+  }
   return hash.key();
 }
 
@@ -124,7 +128,7 @@ WholeLevels make(Build& build, WholeInput input, LodOptions lod) {
     const LatticeMesh& mesh = levels[i].mesh;
     const std::string name = level_name(build.options.name, input.first + i);
     WholeLevel& out = whole.levels.emplace_back();
-    out.content = tile_glb({name, &mesh}, lattice_point(mesh.frame, whole.origin));
+    out.content = tile_glb({name, &mesh, build.options.mode == MeshMode::fit}, lattice_point(mesh.frame, whole.origin));
     out.bounds = bounds_of(mesh);
     out.row = row_of(levels[i], name + ".glb", out.content.size());
     out.provenance = mesh.provenance;

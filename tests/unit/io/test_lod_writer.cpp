@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -98,6 +100,81 @@ TEST_CASE("a tile read back is the mesh, to the bit, relative to its origin", "[
   CHECK(doc["extensionsRequired"].size() == (reach <= 32767 ? 2 : 1));
   CHECK(!doc["nodes"][0].contains("translation"));
   CHECK(bytes_of_file(path).size() < 20000);
+}
+
+TEST_CASE("colours and normals of vertices come back, turned with the mesh, and change no position",
+          "[quick][io][lod]") {
+  const UpAxis up = GENERATE(UpAxis::y, UpAxis::z);
+  const bool compressed = GENERATE(false, true);
+  const TempDir dir;
+  LatticeMesh mesh = random_mesh(frame_at({0, 0, 0}, 0.5, up), 100000, 3);
+  const auto write = [&](bool normals) {
+    const NamedMesh named{"a", &mesh, normals};
+    return written(dir, [&](OutputFile& out) {
+      compressed ? out.write(tile_glb(named, {})) : write_lod_glb({&named, 1}, {}, out);
+    });
+  };
+  const auto plain = canonical(soup(read_mesh(write(false))));
+  CHECK(!json_of(dir.path("x.glb"))["meshes"][0]["primitives"][0]["attributes"].contains("NORMAL"));
+  for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i)
+    mesh.colors.push_back(color_from_linear({i % 256 / 255.0, (i + 100) % 256 / 255.0, 1}));
+  const std::string path = write(true);
+  CHECK(canonical(soup(read_mesh(path))) == plain);
+  const Json doc = json_of(path);
+  const Json attributes = doc["meshes"][0]["primitives"][0]["attributes"];
+  const Json normals = doc["accessors"][attributes["NORMAL"].get<std::size_t>()];
+  CHECK(normals["count"] == doc["accessors"][0]["count"]);
+  CHECK(normals["componentType"] == (compressed ? 5120 : 5126));
+
+  SceneOptions options;
+  options.colors = true;
+  const auto source = open_scene(path, options);
+  std::map<Vec3d, LinearColor> found;
+  std::vector<TriangleD> batch;
+  std::vector<TriangleColors> colors;
+  while (source->read_colored(batch, colors)) {
+    for (std::size_t i = 0; i < batch.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) found[batch[i][k]] = colors[i][k];
+  }
+  CHECK(source->has_colors());
+  CHECK(found.size() == mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    Vec3d p = mesh.frame.world(mesh.vertices[i]);
+    if (compressed) {
+      const Vec3d origin = mesh.frame.world({});
+      for (std::size_t k = 0; k < 3; ++k) p[k] -= origin[k];
+      if (up == UpAxis::z) p = {p[0], p[2], 0.0 - p[1]};
+    }
+    CHECK(found[p] == mesh.colors[i]);
+  }
+}
+
+TEST_CASE("octahedral normals come back within 1.1 degrees", "[quick][io][lod]") {
+  std::vector<std::array<float, 3>> normals{{0, 0, 1}, {0, 0, -1}, {0, -1, 0}, {1, 0, 0}};
+  std::mt19937 random(7);
+  std::normal_distribution<float> any;
+  for (int i = 0; i < 500; ++i) {
+    std::array<float, 3> n{any(random), any(random), any(random)};
+    const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (float& x : n) x /= length;
+    normals.push_back(n);
+  }
+  const std::string packed = encode_attributes(octahedral(normals), 4);
+  std::vector<std::byte> out;
+  CHECK(decode_meshopt({MeshoptMode::attributes, MeshoptFilter::octahedral, normals.size(), 4},
+                       std::as_bytes(std::span(packed.data(), packed.size())), out)
+            .empty());
+  double least = 1;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    double along = 0, length = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto x = double(std::int8_t(out[4 * i + k]));
+      along += x * double(normals[i][k]);
+      length += x * x;
+    }
+    least = std::min(least, along / std::sqrt(length));
+  }
+  CHECK(std::acos(least) * 180 / 3.14159265 < 1.1);
 }
 
 TEST_CASE("a tile away from its lattice, or too wide for floats, is refused", "[quick][io][lod]") {

@@ -1,0 +1,35 @@
+#pragma once
+#include <vector>
+
+#include "lib/core/color.h"
+#include "lib/core/coords.h"
+
+/// What colour the surface has in each part of a grid: means by area, kept as sums of integers, so that neither the
+/// order of the triangles nor who added them matters.
+namespace bp {
+
+constexpr int kColorCellVox = 4;  ///< voxels along a side of a cell: about half an edge of a level's triangles
+
+using ColorCell = Coord3<struct ColorCellSpace, std::int32_t>;  ///< voxels [4 c, 4 c + 4) of its level
+
+struct ColorSum {
+  std::uint64_t weight = 0;           ///< area; 2^20 is that of a side of a cell
+  std::uint64_t r = 0, g = 0, b = 0;  ///< linear light times weight
+  void add(const ColorSum& s) { weight += s.weight, r += s.r, g += s.g, b += s.b; }
+  [[nodiscard]] LinearColor mean() const {
+    const std::uint64_t half = weight / 2;
+    return {std::uint16_t((r + half) / weight), std::uint16_t((g + half) / weight), std::uint16_t((b + half) / weight)};
+  }
+  friend bool operator==(const ColorSum&, const ColorSum&) = default;
+};
+
+struct ColorCellSum {
+  ColorCell cell;
+  ColorSum sum;
+};
+
+/// Appends what a triangle, given in voxels, adds to the cells that it crosses; a cell may come several times. Samples
+/// lie half a cell apart: a cell in which it has less may be passed over. 64 bits hold 2^28 samples of white in a cell.
+void add_colors(const TriangleD& triangle_vox, const TriangleColors& colors, std::vector<ColorCellSum>& out);
+
+}  // namespace bp
