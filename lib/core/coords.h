@@ -36,14 +36,14 @@ using BrickCoord = Coord3<struct BrickSpace, std::int32_t>;  ///< brick of the g
 using TileCoord = Coord3<struct TileSpace, std::int32_t>;    ///< tile of the current run
 using LatticeCoord = Coord3<struct LatticeSpace, std::int64_t>;  ///< vertex position, 1/64 voxel
 
-/// Floor division, so that negative coordinates land in the right cell.
+/// Floor division, so that negative coordinates land in the right cell. b > 0.
 template <class Int>
 BP_HD constexpr Int floor_div(Int a, Int b) {
-  return a >= 0 ? a / b : -((-a + b - 1) / b);
+  return a / b - (a % b < 0);
 }
 template <class Int>
 BP_HD constexpr Int ceil_div(Int a, Int b) {
-  return -floor_div(-a, b);
+  return a / b + (a % b > 0);
 }
 
 [[nodiscard]] constexpr BrickCoord brick_of(VoxelCoord v) {

@@ -2,6 +2,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <unordered_map>
+#include <utility>
 
 /// The only door to oneTBB. Results never depend on the number of threads: work items are independent and are combined
 /// in order.
@@ -44,36 +47,45 @@ namespace detail {
 void run_jobs(int in_flight, const std::function<void*()>& produce, const std::function<void(void*)>& work);
 void run_pipeline(int in_flight, const std::function<void*()>& produce, const std::function<void(void*)>& work,
                   const std::function<void(void*)>& consume);
+
+/// Items on their way: those that an exception leaves there end with the pipeline.
+template <class Item>
+class Items {
+ public:
+  /// Null at the end.
+  void* add(const std::function<bool(Item&)>& produce) {
+    auto item = std::make_unique<Item>();
+    if (!produce(*item)) return nullptr;
+    const std::lock_guard lock(mutex_);
+    void* const p = item.get();
+    items_.emplace(p, std::move(item));
+    return p;
+  }
+  std::unique_ptr<Item> take(void* p) {
+    const std::lock_guard lock(mutex_);
+    return std::move(items_.extract(p).mapped());
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<void*, std::unique_ptr<Item>> items_;
+};
 }  // namespace detail
 
 template <class Item>
 void pipeline(int in_flight, const std::function<bool(Item&)>& produce, const std::function<void(Item&)>& work,
               const std::function<void(Item&)>& consume) {
+  detail::Items<Item> items;
   detail::run_pipeline(
-      in_flight,
-      [&]() -> void* {
-        auto item = std::make_unique<Item>();
-        return produce(*item) ? item.release() : nullptr;
-      },
-      [&](void* p) { work(*static_cast<Item*>(p)); },
-      [&](void* p) {
-        const std::unique_ptr<Item> item(static_cast<Item*>(p));
-        consume(*item);
-      });
+      in_flight, [&] { return items.add(produce); }, [&](void* p) { work(*static_cast<Item*>(p)); },
+      [&](void* p) { consume(*items.take(p)); });
 }
 
 template <class Item>
 void run_jobs(int in_flight, const std::function<bool(Item&)>& produce, const std::function<void(Item&)>& work) {
+  detail::Items<Item> items;
   detail::run_jobs(
-      in_flight,
-      [&]() -> void* {
-        auto item = std::make_unique<Item>();
-        return produce(*item) ? item.release() : nullptr;
-      },
-      [&](void* p) {
-        const std::unique_ptr<Item> item(static_cast<Item*>(p));
-        work(*item);
-      });
+      in_flight, [&] { return items.add(produce); }, [&](void* p) { work(*items.take(p)); });
 }
 
 }  // namespace bp

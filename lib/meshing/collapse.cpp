@@ -27,10 +27,6 @@ LatticeBox room_of(const HalfEdgeMesh& mesh) {
   return box;
 }
 
-LatticeCoord rounded(const Vec3d& x) {
-  return {std::llround(x[0]), std::llround(x[1]), std::llround(x[2])};
-}
-
 std::vector<Quadric> face_quadrics(const HalfEdgeMesh& mesh) {
   std::vector<Quadric> quadrics(mesh.vertex_capacity());
   for (FaceId f = 0; f < mesh.face_capacity(); ++f) {

@@ -61,7 +61,7 @@ std::array<Vec3d, 3> ContactPoints::corners(FaceId f) const {
 }
 
 FaceId ContactPoints::nearest(const Vec3d& p, const FaceTree& tree, double reach) const {
-  const LatticeCoord at = origin_ + LatticeCoord{std::llround(p[0]), std::llround(p[1]), std::llround(p[2])};
+  const LatticeCoord at = origin_ + rounded(p);
   FaceId best = kNoId;
   double least = 1e300;
   for (double r = reach / 16; r <= 2 * reach && best == kNoId; r *= 4) {
@@ -116,7 +116,7 @@ void ContactPoints::hand_over(std::span<const FaceId> from, std::span<const Face
 }
 
 void ContactPoints::add(const Vec3d& p, std::span<const FaceId> near) {
-  if (!added_.insert({std::llround(p[0]), std::llround(p[1]), std::llround(p[2])}).second) return;
+  if (!added_.insert(rounded(p)).second) return;
   targets_.clear();
   for (const FaceId f : near) targets_.push_back(target(f));
   of_face_[near[nearest_target(p, 0)]].push_back(std::uint32_t(points_.size()));

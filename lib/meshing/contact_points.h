@@ -43,7 +43,7 @@ class ContactPoints {
   std::vector<std::vector<std::uint32_t>> of_face_;
   std::vector<std::pair<std::uint32_t, std::size_t>> moving_;  // points, each with the face it had, as a target
   std::vector<Target> targets_;
-  std::set<std::array<std::int64_t, 3>> added_;
+  std::set<LatticeCoord> added_;
 };
 
 /// Squared distance of p from the triangle.

@@ -76,10 +76,6 @@ void move_to_targets(std::vector<Vec3d>& points, const HalfEdgeMesh& surface, co
   });
 }
 
-LatticeCoord rounded(const Vec3d& p) {
-  return {std::llround(p[0]), std::llround(p[1]), std::llround(p[2])};
-}
-
 }  // namespace
 
 std::uint64_t draw_to_targets(HalfEdgeMesh& mesh, const FitTarget& target, int sweeps) {

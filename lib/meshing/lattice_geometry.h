@@ -11,6 +11,14 @@ namespace bp {
   return {double(d.x), double(d.y), double(d.z)};
 }
 
+/// The nearest lattice point; one at 2^39 for what is farther away or no number, as solutions of nearly singular
+/// systems are: still within the range of the predicates when it is added to a vertex.
+[[nodiscard]] inline LatticeCoord rounded(const Vec3d& x) {
+  constexpr double kFar = double(std::int64_t(1) << 39);
+  const auto round = [](double v) { return std::llround(v > -kFar ? (v < kFar ? v : kFar) : -kFar); };
+  return {round(x[0]), round(x[1]), round(x[2])};
+}
+
 /// Cross product of two edges of a face: twice its area vector, lattice units squared. Exact for edges below 2^30
 /// lattice units.
 [[nodiscard]] inline LatticeCoord normal_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {

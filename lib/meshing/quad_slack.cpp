@@ -147,8 +147,7 @@ class Lifter {
     const double reach = kReach * gather(h);
     if (!fit_.close()) return false;
     for (int round = 0; round < kAvoidRounds; ++round) {
-      const LatticeCoord to =
-          p + LatticeCoord{std::llround(lift.offset[0]), std::llround(lift.offset[1]), std::llround(lift.offset[2])};
+      const LatticeCoord to = p + rounded(lift.offset);
       const bool moved = to == p || editor_.move(v, to);
       if (moved && flip(h)) return true;
       const bool blocked = editor_.blocker() != nullptr;

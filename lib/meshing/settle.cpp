@@ -36,7 +36,7 @@ class Settler {
       if (!mesh_.vertex_alive(v)) continue;
       const Vec3d d = wanted_step(v);
       const LatticeCoord& p = mesh_.position(v);
-      moves += mover_.draw(v, {p.x + std::llround(d[0]), p.y + std::llround(d[1]), p.z + std::llround(d[2])});
+      moves += mover_.draw(v, p + rounded(d));
     }
     return moves;
   }

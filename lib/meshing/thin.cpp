@@ -93,8 +93,7 @@ class Thinner {
   }
 
   bool try_at(HalfEdgeId h, const LatticeCoord& p, const Vec3d& x) {
-    const bool taken =
-        editor_.collapse(h, p + LatticeCoord{std::llround(x[0]), std::llround(x[1]), std::llround(x[2])});
+    const bool taken = editor_.collapse(h, p + rounded(x));
     counts_.collapses += taken;
     return taken;
   }

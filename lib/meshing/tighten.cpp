@@ -92,9 +92,6 @@ class Tightener {
     }
   }
 
-  [[nodiscard]] static LatticeCoord rounded(const Vec3d& x) {
-    return {std::llround(x[0]), std::llround(x[1]), std::llround(x[2])};
-  }
   [[nodiscard]] bool worth_trying(const Vec3d& x) const {
     const LatticeCoord d = rounded(x);
     return d != LatticeCoord{} && (weight_ > 0 || fit_.volume(to_double(d)) < 0);

@@ -45,4 +45,26 @@ TEST_CASE("the exception of a loop reaches the caller", "[quick][core]") {
                   std::runtime_error);
 }
 
+TEST_CASE("items that a failing pipeline leaves behind are destroyed", "[quick][core]") {
+  static std::atomic<int> alive{0};
+  struct Item {
+    int number = 0;
+    Item() { ++alive; }
+    ~Item() { --alive; }
+    Item(const Item&) = delete;
+    Item& operator=(const Item&) = delete;
+  };
+  int next = 0;
+  const auto produce = [&](Item& item) { return (item.number = next++) < 100; };
+  const auto fail_at_7 = [](const Item& item) {
+    if (item.number == 7) throw std::runtime_error("7");
+  };
+  CHECK_THROWS(pipeline<Item>(
+      4, produce, [](Item&) {}, fail_at_7));
+  CHECK(alive == 0);
+  next = 0;
+  CHECK_THROWS(run_jobs<Item>(4, produce, fail_at_7));
+  CHECK(alive == 0);
+}
+
 }  // namespace bp::test

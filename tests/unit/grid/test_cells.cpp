@@ -1,3 +1,5 @@
+#include <cmath>
+#include <cstdint>
 #include <random>
 
 #include "lib/grid/boundary_runs.h"
@@ -54,6 +56,16 @@ TEST_CASE("frames aligned to cells stay so through all reductions, until the sce
     frame = coarse;
   }
   FAIL("never in one cell");
+}
+
+TEST_CASE("division rounds down and up over the whole range of an integer", "[quick][grid]") {
+  constexpr std::int32_t least = INT32_MIN, most = INT32_MAX;
+  for (const std::int32_t a : {least, least + 1, -65, -64, -63, -1, 0, 1, 63, 64, 65, most - 1, most}) {
+    for (const std::int32_t b : {1, 3, 64}) {
+      CHECK(floor_div(a, b) == std::int32_t(std::floor(double(a) / b)));
+      CHECK(ceil_div(a, b) == std::int32_t(std::ceil(double(a) / b)));
+    }
+  }
 }
 
 TEST_CASE("cells of a span have numbers from 0 on, in their order", "[quick][grid][lod]") {

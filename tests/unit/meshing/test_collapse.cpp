@@ -1,6 +1,8 @@
+#include <cmath>
 #include <random>
 
 #include "lib/meshing/collapse_order.h"
+#include "lib/meshing/lattice_geometry.h"
 #include "lib/meshing/repair.h"
 #include "lib/meshing/shells.h"
 #include "lib/meshing/surface.h"
@@ -30,6 +32,12 @@ std::uint64_t refused(const SimplifyCounts& c) {
 }
 
 }  // namespace
+
+TEST_CASE("solutions far away, or none, are rounded to points that the predicates can take", "[quick][meshing]") {
+  constexpr std::int64_t far = std::int64_t(1) << 39;
+  CHECK(rounded({1.5, -1.5, -0.4}) == LatticeCoord{2, -2, 0});
+  CHECK(rounded({1e300, -1e300, std::nan("")}) == LatticeCoord{far, -far, -far});
+}
 
 TEST_CASE("what a collapse swallows is erased at once, and nothing meets", "[quick][meshing]") {
   const unsigned seed = GENERATE(range(0u, 4u));
