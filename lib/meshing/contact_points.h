@@ -16,7 +16,6 @@ class ContactPoints {
   [[nodiscard]] const std::vector<std::uint32_t>& of(FaceId f) const { return of_face_[f]; }
   [[nodiscard]] const Vec3d& operator[](std::uint32_t i) const { return points_[i]; }  ///< relative to origin()
   [[nodiscard]] const LatticeCoord& origin() const { return origin_; }
-  [[nodiscard]] std::size_t size() const { return points_.size(); }
 
   /// Lists the points of the faces `from` with the nearest of the faces `to`, which are as they are in the mesh now.
   void hand_over(std::span<const FaceId> from, std::span<const FaceId> to);

@@ -1,7 +1,5 @@
 // Sources: cutting planes for a linear objective ([Kel60]), here few enough for Seidel's scheme [Se91] to solve them at
-// once; logarithmic barrier ([FM68]). Vertices jam when each is moved alone as far as it goes: a face that rests on
-// three points can no longer follow. The barrier is smooth in all vertices, so moving one at a time still goes where
-// moving all would.
+// once.
 #include "lib/meshing/fan_fit.h"
 
 #include <algorithm>
@@ -15,24 +13,7 @@ namespace bp {
 namespace {
 
 constexpr int kCutRounds = 12;
-constexpr int kHoldRounds = 4;
-constexpr int kNewtonSteps = 3;
-constexpr double kMargin = 0.6;      // lattice units: rounding an apex moves it by up to 0.87, but rarely straight down
-constexpr double kShareOfGap = 0.9;  // of the way to the nearest obstacle that a Newton step may go
-
-/// Solves a symmetric, positive definite system (Cramer). Order: xx xy xz yy yz zz.
-Vec3d solve(const std::array<double, 6>& m, const Vec3d& r) {
-  const double a = m[3] * m[5] - m[4] * m[4], b = m[2] * m[4] - m[1] * m[5], c = m[1] * m[4] - m[2] * m[3];
-  const double d = m[0] * m[5] - m[2] * m[2], e = m[1] * m[2] - m[0] * m[4], f = m[0] * m[3] - m[1] * m[1];
-  const double det = m[0] * a + m[1] * b + m[2] * c;
-  return {(a * r[0] + b * r[1] + c * r[2]) / det, (b * r[0] + d * r[1] + e * r[2]) / det,
-          (c * r[0] + e * r[1] + f * r[2]) / det};
-}
-
-void add_square(std::array<double, 6>& m, double weight, const Vec3d& n) {
-  m[0] += weight * n[0] * n[0], m[1] += weight * n[0] * n[1], m[2] += weight * n[0] * n[2];
-  m[3] += weight * n[1] * n[1], m[4] += weight * n[1] * n[2], m[5] += weight * n[2] * n[2];
-}
+constexpr double kMargin = 0.6;  // lattice units: rounding an apex moves it by up to 0.87, but rarely straight down
 
 }  // namespace
 
@@ -192,67 +173,6 @@ std::optional<Vec3d> FanFit::least_volume(const Vec3d& start, double reach) {
     if (!cut(*x)) break;
     x = constrained_minimum(q, start, cuts_);
   }
-  return x;
-}
-
-/// Heights over all points at `start`, each over the face it is under there, and over the planes of avoid().
-void FanFit::hold_all(const Vec3d& start) {
-  heights_.clear();
-  bind(start);
-  held_ = sector_;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Vec3d n = normal_over(i);
-    const double height = dot(n, start - points_[i]);
-    if (height > 0) heights_.push_back((1 / height) * n);
-  }
-  for (const PlaneConstraint& c : avoided_) {
-    const double height = dot(c.n, start) - c.d;
-    if (height > 0) heights_.push_back((1 / height) * c.n);
-  }
-}
-
-/// Adds the points that are above the face they would be under at `apex`; false if there is none.
-bool FanFit::hold_crossed(const Vec3d& apex, const Vec3d& start) {
-  const std::size_t before = heights_.size();
-  bind(apex);
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (held_[i] == sector_[i]) continue;
-    const Vec3d n = normal_over(i);
-    const double height = dot(n, start - points_[i]);
-    if (height > 0 && dot(n, apex - points_[i]) <= 0) heights_.push_back((1 / height) * n);
-  }
-  return heights_.size() > before;
-}
-
-/// From the start, as an offset.
-Vec3d FanFit::newton(double weight, double reach) const {
-  const double stiffness = length(gradient_) / reach;
-  Vec3d x{};
-  for (int step = 0; step < kNewtonSteps; ++step) {
-    std::array<double, 6> h = {stiffness, 0, 0, stiffness, 0, stiffness};
-    Vec3d down = -1.0 * gradient_;
-    for (const Vec3d& m : heights_) {
-      const Vec3d n = (1 / (1 + dot(m, x))) * m;
-      down = down + weight * n;
-      add_square(h, weight, n);
-    }
-    Vec3d d = solve(h, down);
-    const double size = length(d);
-    if (size > reach) d = (reach / size) * d;
-    double most = 1;
-    for (const Vec3d& m : heights_) {
-      const double slope = dot(m, d);
-      if (slope < 0) most = std::min(most, kShareOfGap * (1 + dot(m, x)) / -slope);
-    }
-    x = x + most * d;
-  }
-  return x;
-}
-
-Vec3d FanFit::balanced(const Vec3d& start, double weight, double reach) {
-  hold_all(start);
-  Vec3d x = start + newton(weight, reach);
-  for (int round = 1; round < kHoldRounds && hold_crossed(x, start); ++round) x = start + newton(weight, reach);
   return x;
 }
 

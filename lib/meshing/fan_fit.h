@@ -41,10 +41,6 @@ class FanFit {
   /// is added to a small quadratic program until none is left. Nothing if the cuts contradict each other.
   [[nodiscard]] std::optional<Vec3d> least_volume(const Vec3d& start, double reach);
 
-  /// From `start`, which all points lie under: a few Newton steps on volume - weight * (sum of the logarithms of the
-  /// heights over the points). Keeps faces off the points that they need not touch yet, so that neighbours can follow.
-  [[nodiscard]] Vec3d balanced(const Vec3d& start, double weight, double reach);
-
  private:
   [[nodiscard]] Vec3d normal_over(std::size_t point) const;
   void bind(const Vec3d& apex);
@@ -53,20 +49,15 @@ class FanFit {
   void avoid_corner(const Vec3d& apex, const Vec3d& p);
   void avoid_edge(const Vec3d& apex, const Vec3d& p, const Vec3d& q);
   void avoid_face(const Vec3d& apex, const Vec3d& p, const Vec3d& q, const Vec3d& r);
-  void hold_all(const Vec3d& start);
-  [[nodiscard]] bool hold_crossed(const Vec3d& apex, const Vec3d& start);
-  [[nodiscard]] Vec3d newton(double weight, double reach) const;
 
   std::vector<Vec3d> rim_, points_;
-  std::vector<std::uint32_t> sector_;     // per point: under face (apex, rim[sector], rim[sector + 1])
-  Vec3d gradient_{}, outward_{};          // of the volume
-  std::vector<PlaneConstraint> avoided_;  // from avoid()
-  std::vector<Vec3d> obstacles_;          // from the last avoid()
-  std::vector<PlaneConstraint> cuts_;     // of least_volume()
-  std::vector<Vec3d> heights_;            // of balanced(): 1 + heights . (x - start) is the height over a point, from 1
-  std::vector<std::uint32_t> held_;       // per point: the sector whose height is among them
-  std::vector<Vec3d> spokes_;             // scratch
-  std::vector<double> deepest_;           // scratch, per face
+  std::vector<std::uint32_t> sector_;       // per point: under face (apex, rim[sector], rim[sector + 1])
+  Vec3d gradient_{}, outward_{};            // of the volume
+  std::vector<PlaneConstraint> avoided_;    // from avoid()
+  std::vector<Vec3d> obstacles_;            // from the last avoid()
+  std::vector<PlaneConstraint> cuts_;       // of least_volume()
+  std::vector<Vec3d> spokes_;               // scratch
+  std::vector<double> deepest_;             // scratch, per face
   std::vector<std::size_t> deepest_point_;  // scratch, per face
 };
 

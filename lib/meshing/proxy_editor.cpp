@@ -139,6 +139,22 @@ bool ProxyEditor::collapse(HalfEdgeId h, const LatticeCoord& to) {
   return true;
 }
 
+/// A contact point of the faces replaced is surely outside of both faces of the edge ab: refuses most flips before the
+/// exact test. Points a unit deep count, for they are rounded.
+bool ProxyEditor::cuts_off_contacts(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& u,
+                                    const LatticeCoord& w) const {
+  const Vec3d at = to_double(a - contacts_.origin());
+  Vec3d nu = to_double(normal_of(b, a, u)), nw = to_double(normal_of(a, b, w));
+  const double au = length(nu), aw = length(nw);
+  for (const FaceId f : replaced_) {
+    for (const std::uint32_t i : contacts_.of(f)) {
+      const Vec3d p = contacts_[i] - at;
+      if (dot(nu, p) > au && dot(nw, p) > aw) return true;
+    }
+  }
+  return false;
+}
+
 bool ProxyEditor::flip(HalfEdgeId h) {
   if (!mesh_.can_flip(h)) return false;
   begin();
@@ -149,6 +165,10 @@ bool ProxyEditor::flip(HalfEdgeId h) {
   replaced_ = {HalfEdgeMesh::face(h), HalfEdgeMesh::face(t)};
   add_old_face(pu, pw, pa, pb);
   least_quality_ = std::min(least_quality_, triangle_quality(pw, pu, pb));
+  if (cuts_off_contacts(pa, pb, pu, pw)) {
+    ++counts_.refused_enclosed;
+    return false;
+  }
   if (!shape_is_fine(pa) || !keeps_enclosed() || !is_free(guard_.faces_are_free(faces_, replaced_))) return false;
   mesh_.flip(h);
   for (const FaceId f : replaced_) tree_.update(f);

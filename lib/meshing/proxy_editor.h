@@ -50,6 +50,8 @@ class ProxyEditor {
   void begin();
   void add_old_face(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c, const LatticeCoord& to);
   [[nodiscard]] bool shape_is_fine(const LatticeCoord& apex);
+  [[nodiscard]] bool cuts_off_contacts(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& u,
+                                       const LatticeCoord& w) const;
   [[nodiscard]] bool keeps_enclosed();
   [[nodiscard]] bool fan_is_fine(const LatticeCoord& apex);
   [[nodiscard]] bool is_free(bool free);

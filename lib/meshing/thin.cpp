@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kReach = 0.5;  // of the mean spoke: how far the merged vertex may leave the edge's middle
 constexpr int kAvoidRounds = 4;
+constexpr int kStages = 4;  // shares of the way, between which the mesh is tightened
 
 struct Entry {
   double cost;  // volume added; an estimate where the neighbourhood changed since
@@ -34,29 +35,40 @@ class Thinner {
         mesh_(editor.mesh()),
         counts_(counts),
         serial_(3 * mesh_.face_capacity(), 0),
-        stale_(3 * mesh_.face_capacity(), 0) {}
+        stale_(3 * mesh_.face_capacity(), 0),
+        queued_(3 * mesh_.face_capacity(), 0) {}
+
+  /// All vertices may have moved, and edges flipped: costs are estimates, and edges without one get another chance.
+  void renew() {
+    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
+      if (!mesh_.alive(HalfEdgeMesh::face(h)) || mesh_.edge(h) != h) continue;
+      if (queued_[h]) {
+        stale_[h] = 1;
+      } else {
+        push(h);
+      }
+    }
+  }
 
   StopReason run(std::uint64_t faces) {
-    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
-      if (mesh_.alive(HalfEdgeMesh::face(h)) && mesh_.edge(h) == h) push(h);
-    }
     while (mesh_.face_count() > faces) {
       if (heap_.empty()) return StopReason::nothing_left;
       const Entry top = heap_.top();
       heap_.pop();
       const HalfEdgeId e = top.edge;
       if (!mesh_.alive(HalfEdgeMesh::face(e)) || mesh_.edge(e) != e || serial_[e] != top.serial) continue;
+      queued_[e] = 0;
       const std::optional<Candidate> candidate = solve(e);
       if (!candidate) continue;
       const double next = heap_.empty() ? candidate->cost : heap_.top().cost;
       if (stale_[e] && candidate->cost > std::max(top.cost, next)) {
         stale_[e] = 0;
-        heap_.push({candidate->cost, e, top.serial});
+        enqueue({candidate->cost, e, top.serial});
         continue;
       }
       const VertexId u = mesh_.from(e);
       const double dearer = take(e, *candidate, std::max({top.cost, candidate->cost, next}));
-      if (dearer > 0) heap_.push({dearer, e, top.serial});
+      if (dearer > 0) enqueue({dearer, e, top.serial});
       if (dearer == 0) renew_around(u);
     }
     return StopReason::faces;
@@ -67,7 +79,13 @@ class Thinner {
     const HalfEdgeId e = mesh_.edge(h);
     stale_[e] = 0;
     ++serial_[e];
-    if (const auto c = solve(e)) heap_.push({c->cost, e, serial_[e]});
+    queued_[e] = 0;
+    if (const auto c = solve(e)) enqueue({c->cost, e, serial_[e]});
+  }
+
+  void enqueue(const Entry& entry) {
+    heap_.push(entry);
+    queued_[entry.edge] = 1;
   }
 
   /// Collapses for at most `most`: 0 if done, the cost if it is dearer than that, negative if it cannot be.
@@ -163,16 +181,24 @@ class Thinner {
   double size_ = 0;                    // mean spoke of its fan
   std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
   std::vector<char> stale_;            // its entry's cost is an estimate
+  std::vector<char> queued_;           // it has a valid entry
   std::priority_queue<Entry> heap_;
 };
 
 }  // namespace
 
-void thin(ProxyEditor& editor, std::uint64_t faces, SimplifyCounts& counts) {
+void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle, SimplifyCounts& counts) {
   counts = {};
   counts.faces_in = counts.faces_flat = editor.mesh().face_count();
   const EditCounts before = editor.counts();
-  counts.stop = Thinner(editor, counts).run(faces);
+  Thinner thinner(editor, counts);
+  const double begin = double(counts.faces_in), share = double(faces) / begin;
+  for (int stage = 1; stage <= kStages; ++stage) {
+    thinner.renew();
+    const double wanted = begin * std::pow(share, double(stage) / kStages);
+    counts.stop = thinner.run(stage == kStages ? faces : std::uint64_t(wanted));
+    if (stage < kStages) settle();
+  }
   counts.refused_shape = editor.counts().refused_shape - before.refused_shape;
   counts.refused_constraints += editor.counts().refused_enclosed - before.refused_enclosed;
   counts.refused_guard = editor.counts().refused_guard - before.refused_guard;

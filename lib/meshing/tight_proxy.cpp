@@ -12,8 +12,7 @@ namespace {
 constexpr std::uint64_t kEarlyStrict = 16, kEarlyStrictLeast = 10000;
 constexpr std::uint64_t kEarlyFactor = 6;  // of the wanted faces: where growing collapses end
 constexpr double kLateFactor = 1.5;        // where the order of collapses changes from quadric error to volume
-constexpr int kEarlySweeps = 3;            // with the barrier: the later ones of both kinds gain next to nothing here
-constexpr int kEarlyFinalSweeps = 2;       // without it
+constexpr double kMuchRoom = 0.04;         // share of the volume: an early sweep that gains more is worth others
 
 /// Collapses by volume know neither errors nor limits.
 bool by_volume(const SimplifyParams& params) {
@@ -36,9 +35,10 @@ TightenParams tightening_of(const SimplifyParams& params) {
   TightenParams tightening;
   tightening.edge_limit = params.edge_limit;
   tightening.limits = params.limits;
-  if (params.limits != nullptr) {  // they refuse what the barrier takes back first
+  if (params.limits != nullptr) {  // they refuse what vertices that move together take back only later
     tightening.sweeps = 0;
     tightening.final_sweeps = 10;
+    tightening.least_gain = 1e-4;
   }
   return tightening;
 }
@@ -49,8 +49,13 @@ void finish(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& 
   HalfEdgeMesh mesh(proxy);
   ProxyEditor editor(mesh, enclosed, params.edge_limit, params.limits);
   if (by_volume(params) && mesh.face_count() > params.faces) {
+    TightenParams once = tightening_of(params);
+    once.sweeps = 1;
+    once.final_sweeps = 0;
+    TightenCounts ignored;
     SimplifyCounts now;
-    thin(editor, params.faces, now);
+    thin(
+        editor, params.faces, [&] { tighten_on(editor, once, ignored); }, now);
     simplified.add(now);
   }
   proxy = tighten(editor, proxy.frame, tightening_of(params), tightened);
@@ -59,18 +64,20 @@ void finish(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& 
 /// Tightening on the way: it finds a finer balance.
 void tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
                    SimplifyCounts& simplified) {
-  TightenParams few = tightening_of(params);
-  few.sweeps = std::min(few.sweeps, kEarlySweeps);
-  TightenCounts ignored;
+  TightenCounts counts;
   if (params.limits == nullptr) {
-    few.final_sweeps = kEarlyFinalSweeps;
-    proxy = tighten(proxy, enclosed, few, ignored);
+    TightenParams few = tightening_of(params);
+    few.sweeps = 1;
+    few.final_sweeps = 0;
+    proxy = tighten(proxy, enclosed, few, counts);
+    if (counts.volume_before - counts.volume_after > kMuchRoom * counts.volume_after) {
+      few.sweeps = 3;
+      few.final_sweeps = 2;
+      proxy = tighten(proxy, enclosed, few, counts);
+    }
   } else {  // a surface of voxels may lie beyond the limits, and single steps within them would not lead there
-    few = {};
-    few.edge_limit = params.edge_limit;
-    few.limits = params.limits;
     params.limits->relax(true);
-    proxy = tighten(proxy, enclosed, few, ignored);
+    proxy = tighten(proxy, enclosed, tightening_of(params), counts);
     params.limits->relax(false);
   }
   const double factor = by_volume(params) ? kLateFactor : 1;

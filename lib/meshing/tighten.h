@@ -10,10 +10,9 @@
 namespace bp {
 
 struct TightenParams {
-  int sweeps = 7;              ///< at most, that keep faces off what they need not touch yet, less and less so
-  int final_sweeps = 3;        ///< then, at most, that move each vertex as far as it goes
-  double least_gain = 1e-4;    ///< sweeps of a kind end when one gains less than this share of the volume
-  double first_weight = 0.01;  ///< of the first sweep's barrier: the share of the volume that it weighs
+  int sweeps = 4;            ///< at most, that move all vertices together
+  int final_sweeps = 3;      ///< then, at most, that move each vertex as far as it goes alone
+  double least_gain = 5e-4;  ///< sweeps of a kind end when one gains less than this share of the volume
   /// As in SimplifyParams: longest edge that a move or a flip may make near a point, lattice units; empty: no limit.
   std::function<double(const LatticeCoord&)> edge_limit;
   StepLimits* limits = nullptr;  ///< if given, every step keeps them
@@ -24,8 +23,12 @@ struct TightenCounts {
   double volume_before = 0, volume_after = 0;  ///< lattice units cubed
 };
 
-/// The mesh of the editor, tightened; as it was if that made it larger: it was as tight as the barrier lets it be, or
-/// tighter. Deterministic. Every step is checked exactly before it is taken. Cost: a few exact tests per vertex and
+/// Tightens the mesh of the editor on the way to something else: it may come out larger, by less than a lattice unit
+/// over its area.
+void tighten_on(ProxyEditor& editor, const TightenParams& params, TightenCounts& counts);
+
+/// The mesh of the editor, tightened; as it was if that made it larger: sweeps keep a margin of less than a lattice
+/// unit. Deterministic. Every step is checked exactly before it is taken. Cost: a few exact tests per vertex and
 /// sweep.
 [[nodiscard]] LatticeMesh tighten(ProxyEditor& editor, const GridFrame& frame, const TightenParams& params,
                                   TightenCounts& counts);

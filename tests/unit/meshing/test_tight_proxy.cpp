@@ -157,8 +157,27 @@ TEST_CASE("the apex of least volume lies over all points and touches some", "[qu
   }
   CHECK(least > 0);
   CHECK(least < 2);
-  const Vec3d start = *x + Vec3d{0, 0, 100};
-  const Vec3d y = fit.balanced(start, 1e-6 * fit.volume(start), 1000);
-  CHECK(fit.volume(y) < fit.volume(start));
-  CHECK(fit.volume(y) > fit.volume(*x) - 1000.0 * 1000);
+}
+
+TEST_CASE("all vertices together find what none finds alone", "[quick][meshing][tighten]") {
+  // 128 faces around a ball of 2048. Moved one at a time, as far as each goes, the first ones take the room of the
+  // others.
+  const LatticeMesh scene = ball(20 * 64, 4);
+  const LatticeMesh outer = ball(24 * 64, 2);
+  REQUIRE_FALSE(touches(outer, scene));
+  const EnclosedTriangles enclosed(scene_of(scene), outer.frame);
+  TightenParams alone;
+  alone.sweeps = 0;
+  alone.final_sweeps = 20;
+  TightenParams together = alone;
+  together.sweeps = 20;
+  TightenCounts counts;
+  const LatticeMesh a = tighten(outer, enclosed, alone, counts);
+  const LatticeMesh b = tighten(outer, enclosed, together, counts);
+  CHECK(embedded(b));
+  CHECK_FALSE(touches(b, scene));
+  const double excess_a = volume(a) - volume(scene), excess_b = volume(b) - volume(scene);
+  CAPTURE(excess_a / volume(scene), excess_b / volume(scene));
+  CHECK(excess_b > 0);
+  CHECK(excess_b < 0.7 * excess_a);  // measured: 0.55
 }
