@@ -10,6 +10,7 @@
 
 #include "io/detail/brick_codec.h"
 #include "io/file.h"
+#include "lib/core/coord_hash.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -109,15 +110,6 @@ struct ShelfPool::State {
 };
 
 namespace {
-
-struct HashCoord {
-  std::size_t operator()(BrickCoord c) const {
-    std::uint64_t h = std::uint64_t(std::uint32_t(c.x)) * 0x9e3779b97f4a7c15u;
-    h = (h ^ (h >> 29) ^ std::uint32_t(c.y)) * 0xbf58476d1ce4e5b9u;
-    h = (h ^ (h >> 32) ^ std::uint32_t(c.z)) * 0x94d049bb133111ebu;
-    return std::size_t(h ^ (h >> 31));
-  }
-};
 
 enum class Place : std::uint8_t { none, raw, packed, spilled };
 
@@ -306,7 +298,7 @@ class Shard {
   }
 
   mutable std::shared_mutex mutex_;
-  std::unordered_map<BrickCoord, Entry, HashCoord> entries_;
+  std::unordered_map<BrickCoord, Entry, CoordHash> entries_;
   std::vector<BrickCoord> raw_;
   std::atomic<std::size_t> raw_count_{0};  // written under the lock
 };
@@ -338,7 +330,7 @@ class PooledShelf final : public BrickShelf {
 
  private:
   // The top bits: the map inside uses the low ones.
-  static std::size_t index(BrickCoord coord) { return HashCoord()(coord) >> 58; }
+  static std::size_t index(BrickCoord coord) { return CoordHash()(coord) >> 58; }
   Shard& shard(BrickCoord coord) { return shards_[index(coord)]; }
   [[nodiscard]] const Shard& shard(BrickCoord coord) const { return shards_[index(coord)]; }
 

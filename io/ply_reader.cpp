@@ -269,6 +269,7 @@ class PlySource final : public PolygonSource {
   std::optional<ColorNumbers> vertex_numbers_;     // if colours are asked for and there
   std::unique_ptr<PackedVertices> packed_colors_;  // as packed_
   std::unique_ptr<VertexPool> color_pool_;         // as pool_
+  std::optional<ColorNumbers> face_numbers_;       // of the element now being read
   LinearColor face_color_;                         // of the last face
   typename Cursor::Mark start_{};                  // of the first element with faces
   std::size_t first_ = kNone;                      // its number
@@ -382,6 +383,7 @@ bool PlySource<Cursor>::next_face(std::vector<std::uint64_t>& corners) {
     const PlyElement& element = header_.elements[element_];
     const std::size_t list = holds_faces(element) ? vertex_list(element) : kNone;
     if (record_ == 0 && strip_left_ == 0) cursor_.check_count(element);
+    if (record_ == 0 && has_colors_) face_numbers_ = ColorNumbers::of(element);
     if (list == kNone) {
       skip_element(element);
     } else if (element.name == "face" && record_ < element.count) {
@@ -398,11 +400,10 @@ bool PlySource<Cursor>::next_face(std::vector<std::uint64_t>& corners) {
 template <class Cursor>
 void PlySource<Cursor>::read_face(const PlyElement& element, std::size_t list, std::vector<std::uint64_t>& corners) {
   corners.clear();
-  const std::optional<ColorNumbers> numbers = has_colors_ ? ColorNumbers::of(element) : std::nullopt;
   Vec3d rgb{};
   for (std::size_t k = 0; k < element.properties.size(); ++k) {
     const PlyProperty& p = element.properties[k];
-    const std::size_t channel = numbers ? numbers->axis_of(k) : 3;
+    const std::size_t channel = face_numbers_ ? face_numbers_->axis_of(k) : 3;
     if (channel < 3) {
       rgb[channel] = cursor_.real(p.type);
       continue;
@@ -415,7 +416,7 @@ void PlySource<Cursor>::read_face(const PlyElement& element, std::size_t list, s
     if (size > kMaxCorners) cursor_.fail_here(fmt::format("a face of {} corners; is the file damaged?", size));
     for (std::uint64_t i = 0; i < size; ++i) corners.push_back(corner(p));
   }
-  face_color_ = numbers ? numbers->color(rgb) : kWhite;
+  face_color_ = face_numbers_ ? face_numbers_->color(rgb) : kWhite;
   cursor_.end_record();
 }
 

@@ -47,18 +47,26 @@ void parallel_chunks(std::int64_t n, std::int64_t grain, const std::function<voi
       std::int64_t(0), chunks, [&](std::int64_t c) { body(c * grain, std::min(n, (c + 1) * grain)); }, own.get());
 }
 
+namespace {
+
+tbb::filter<void, void*> items_of(const std::function<void*()>& produce) {
+  return tbb::make_filter<void, void*>(tbb::filter_mode::serial_in_order,
+                                       [&produce](tbb::flow_control& control) -> void* {
+                                         void* item = produce();
+                                         if (item == nullptr) control.stop();
+                                         return item;
+                                       });
+}
+
+}  // namespace
+
 namespace detail {
 
 void run_jobs(int in_flight, const std::function<void*()>& produce, const std::function<void(void*)>& work) {
   OwnContext own;
   tbb::parallel_pipeline(
       std::size_t(in_flight),
-      tbb::make_filter<void, void*>(tbb::filter_mode::serial_in_order,
-                                    [&](tbb::flow_control& control) -> void* {
-                                      void* item = produce();
-                                      if (item == nullptr) control.stop();
-                                      return item;
-                                    }) &
+      items_of(produce) &
           tbb::make_filter<void*, void>(tbb::filter_mode::parallel,
                                         [&](void* item) { tbb::this_task_arena::isolate([&] { work(item); }); }),
       own.get());
@@ -69,12 +77,7 @@ void run_pipeline(int in_flight, const std::function<void*()>& produce, const st
   OwnContext own;
   tbb::parallel_pipeline(
       std::size_t(in_flight),
-      tbb::make_filter<void, void*>(tbb::filter_mode::serial_in_order,
-                                    [&](tbb::flow_control& control) -> void* {
-                                      void* item = produce();
-                                      if (item == nullptr) control.stop();
-                                      return item;
-                                    }) &
+      items_of(produce) &
           tbb::make_filter<void*, void*>(tbb::filter_mode::parallel,
                                          [&](void* item) -> void* {
                                            work(item);

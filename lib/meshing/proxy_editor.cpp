@@ -155,6 +155,11 @@ bool ProxyEditor::cuts_off_contacts(const LatticeCoord& a, const LatticeCoord& b
   return false;
 }
 
+bool ProxyEditor::is_convex(HalfEdgeId h) const {
+  return orient3d(mesh_.position(mesh_.from(h)), mesh_.position(mesh_.to(h)), mesh_.position(mesh_.opposite(h)),
+                  mesh_.position(mesh_.opposite(mesh_.twin(h)))) < 0;
+}
+
 bool ProxyEditor::flip(HalfEdgeId h) {
   if (!mesh_.can_flip(h)) return false;
   begin();

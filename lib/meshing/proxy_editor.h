@@ -42,6 +42,8 @@ class ProxyEditor {
   /// Erases the shells that bound nothing (shells.h): a part over which another one has moved may have moved on,
   /// through what only that one keeps inside. The last step: nothing may be changed after it.
   void erase_inner_shells();
+  /// Flipping a convex edge cuts a tetrahedron off the solid; flipping another adds one.
+  [[nodiscard]] bool is_convex(HalfEdgeId h) const;
   [[nodiscard]] bool inwards() const { return inwards_; }  ///< faces_inwards() of the mesh as it was given
 
   void refresh() { tree_.rebuild(); }  ///< boxes only grow with the changes; after many of them fresh ones pay

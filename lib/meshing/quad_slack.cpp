@@ -100,15 +100,10 @@ class Lifter {
   void join(FaceId f, FaceId g) {
     HalfEdgeId h = 3 * f;
     while (HalfEdgeMesh::face(mesh_.twin(h)) != g) ++h;
-    if (!is_convex(h) || flip(h) || lift(h)) kept_.join(f, g);
+    if (!editor_.is_convex(h) || flip(h) || lift(h)) kept_.join(f, g);
   }
 
  private:
-  [[nodiscard]] bool is_convex(HalfEdgeId h) const {
-    return orient3d(mesh_.position(mesh_.from(h)), mesh_.position(mesh_.to(h)), mesh_.position(mesh_.opposite(h)),
-                    mesh_.position(mesh_.opposite(mesh_.twin(h)))) < 0;
-  }
-
   bool flip(HalfEdgeId h) {
     kept_.allow_flips(true);
     const bool flipped = editor_.flip(h);

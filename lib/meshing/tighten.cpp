@@ -64,17 +64,11 @@ class Tightener {
       const std::array<VertexId, 4> corners = {mesh_.from(h), mesh_.to(h), mesh_.opposite(h),
                                                mesh_.opposite(mesh_.twin(h))};
       if (std::none_of(corners.begin(), corners.end(), [&](VertexId v) { return changed_at_[v] > since; })) continue;
-      if (!is_convex(h) || !editor_.flip(h)) continue;
+      if (!editor_.is_convex(h) || !editor_.flip(h)) continue;
       ++counts_.flips;
       ++changes_;
       for (const VertexId v : corners) changed_at_[v] = changes_;
     }
-  }
-
-  /// Flipping a convex edge cuts a tetrahedron off the solid.
-  [[nodiscard]] bool is_convex(HalfEdgeId h) const {
-    return orient3d(mesh_.position(mesh_.from(h)), mesh_.position(mesh_.to(h)), mesh_.position(mesh_.opposite(h)),
-                    mesh_.position(mesh_.opposite(mesh_.twin(h)))) < 0;
   }
 
   /// Those that go outwards first: the others then have the room that the joint fit counts on.

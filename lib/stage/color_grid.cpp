@@ -22,17 +22,7 @@ ColorCell cell_of(ColorBrick brick, std::uint64_t index) {
   return {brick.x * e + i % e, brick.y * e + i / e % e, brick.z * e + i / (e * e)};
 }
 
-std::uint64_t index_of(ColorBrick brick, ColorCell c) {
-  constexpr std::int32_t e = ColorGrid::kEdge;
-  return std::uint64_t((c.x - brick.x * e) + e * ((c.y - brick.y * e) + e * (c.z - brick.z * e)));
-}
-
 }  // namespace
-
-std::size_t ColorGrid::Hash::operator()(ColorBrick b) const {
-  const auto mix = [](std::uint64_t x) { return (x ^ (x >> 29)) * 0x9e3779b97f4a7c15u; };
-  return std::size_t(mix(std::uint32_t(b.x) + mix(std::uint32_t(b.y) + mix(std::uint32_t(b.z)))));
-}
 
 ColorGrid::ColorGrid(std::shared_ptr<ChunkStore> store, std::uint64_t memory_bytes)
     : store_(std::move(store)), memory_bytes_(memory_bytes) {}
@@ -68,7 +58,7 @@ void ColorGrid::add(std::vector<ColorCellSum>& sums) {
     while (i < sums.size() && brick_of(sums[i].cell) == coord) {
       ColorCellSum merged = sums[i++];
       for (; i < sums.size() && sums[i].cell == merged.cell; ++i) merged.sum.add(sums[i].sum);
-      brick.entries.push_back({index_of(coord, merged.cell), merged.sum});
+      brick.entries.push_back({index_in(coord, merged.cell), merged.sum});
     }
     if (brick.entries.size() > 2 * brick.merged + 256) {
       merge(brick.entries);
@@ -172,9 +162,7 @@ std::unique_ptr<ColorGrid> ColorGrid::reduced() const {
   auto coarse = std::make_unique<ColorGrid>(store_, memory_bytes_);
   parallel_for(std::int64_t(bricks_.size()), [&](std::int64_t i) {
     std::vector<ColorCellSum> sums;
-    each_cell(bricks_[std::size_t(i)].first, [&](ColorCell c, const ColorSum& s) {
-      sums.push_back({{floor_div(c.x, 2), floor_div(c.y, 2), floor_div(c.z, 2)}, s});
-    });
+    each_cell(bricks_[std::size_t(i)].first, [&](ColorCell c, const ColorSum& s) { sums.push_back({half_of(c), s}); });
     coarse->add(sums);
   });
   coarse->finish([](ColorBrick) { return [](ColorCell) { return true; }; });

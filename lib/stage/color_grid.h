@@ -6,6 +6,7 @@
 
 #include "lib/core/box.h"
 #include "lib/core/chunk_store.h"
+#include "lib/core/coord_hash.h"
 #include "lib/voxel/color_sums.h"
 
 /// The colours of a level's surface, out of core: sparse cells, gathered in any order, kept compressed by bricks.
@@ -25,6 +26,15 @@ class ColorGrid {
   static constexpr std::int32_t kEdge = 16;  ///< cells along a side of a brick
   using Mask = std::function<bool(ColorCell)>;
 
+  /// x + 16 (y + 16 z) in the brick.
+  [[nodiscard]] static std::uint64_t index_in(ColorBrick brick, ColorCell c) {
+    return std::uint64_t((c.x - brick.x * kEdge) + kEdge * ((c.y - brick.y * kEdge) + kEdge * (c.z - brick.z * kEdge)));
+  }
+  /// Of the grid of cells twice as large, the one around `c`.
+  [[nodiscard]] static ColorCell half_of(ColorCell c) {
+    return {floor_div(c.x, 2), floor_div(c.y, 2), floor_div(c.z, 2)};
+  }
+
   /// memory_bytes: of cells that are not in the store yet. The store may be shared.
   ColorGrid(std::shared_ptr<ChunkStore> store, std::uint64_t memory_bytes);
   ~ColorGrid();
@@ -42,23 +52,20 @@ class ColorGrid {
   [[nodiscard]] std::uint64_t cells() const { return cells_; }
   /// Cells [min, max).
   [[nodiscard]] std::vector<CellColor> load(ColorCell min, ColorCell max) const;
-  /// Cells twice as large: cell c of this grid lies in floor(c / 2).
+  /// Cells twice as large: cell c of this grid lies in half_of(c).
   [[nodiscard]] std::unique_ptr<ColorGrid> reduced() const;
   /// All cells lie in [first, second).
   [[nodiscard]] std::pair<ColorCell, ColorCell> bounds() const;
 
  private:
   struct Entry {
-    std::uint64_t index = 0;  ///< x + 16 (y + 16 z) in the brick
+    std::uint64_t index = 0;  ///< index_in()
     ColorSum sum;
   };
   struct Brick {
     std::vector<Entry> entries;
     std::size_t merged = 0;  ///< of the entries, that many are sorted, each once
     std::vector<ChunkStore::Handle> chunks;
-  };
-  struct Hash {
-    std::size_t operator()(ColorBrick b) const;
   };
   static void merge(std::vector<Entry>& entries);
   void spill();
@@ -68,7 +75,7 @@ class ColorGrid {
   std::shared_ptr<ChunkStore> store_;
   std::uint64_t memory_bytes_, used_bytes_ = 0;
   std::mutex mutex_;
-  std::unordered_map<ColorBrick, Brick, Hash> gathering_;
+  std::unordered_map<ColorBrick, Brick, CoordHash> gathering_;
   std::vector<std::pair<ColorBrick, ChunkStore::Handle>> bricks_;  ///< sorted; after finish()
   bool all_white_ = true;
   std::uint64_t cells_ = 0;

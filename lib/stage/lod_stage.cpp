@@ -19,9 +19,8 @@ constexpr double kDenseFacesPerFace = 100;
 constexpr double kVoxelsPerError = 8;  // the error holds the voxels' diagonal, the closing and the simplification
 constexpr double kScalesPerError = 4;  // the cube's dilation reaches sqrt(3) scales
 constexpr double kScalesPerEdge = 4;
-constexpr double kLeastScaleVox = 1;   // below, closing is the identity
-constexpr double kLeastSideVox = 48;   // of a reduced grid
-constexpr double kSlantedSteps = 1.5;  // a slanted plane has 1.5 times its area of voxel faces, on average over angles
+constexpr double kLeastScaleVox = 1;  // below, closing is the identity
+constexpr double kLeastSideVox = 48;  // of a reduced grid
 
 /// What the solid shows to the outside. With the inside filled, every boundary voxel is touched by the scene. While
 /// levels are meshed, it is but the runs of its voxels; what distances are measured with is made when they are, unless

@@ -15,10 +15,6 @@ namespace {
 constexpr std::int64_t kCellLattice = std::int64_t(kColorCellVox) * kLatticePerVoxel;
 constexpr std::size_t kSumsInHand = 1 << 16;  // a large triangle alone may cover millions of cells
 
-ColorCell half_of(ColorCell c) {
-  return {floor_div(c.x, 2), floor_div(c.y, 2), floor_div(c.z, 2)};
-}
-
 static_assert(ColorGrid::kEdge * kColorCellVox == kBrickEdge, "a brick of cells is a brick of voxels");
 
 /// Cells of a brick that hold a voxel of `shelf`, or have one right below them along some axes: a face that lies
@@ -45,9 +41,7 @@ ColorGrid::Mask mask_of(const BrickShelf& shelf, ColorBrick coord) {
         for (std::int32_t cy = std::max(0, y0); cy <= y1; ++cy) mark(cy, cz, row);
     }
   }
-  return [mask, coord](ColorCell c) {
-    return mask->test(std::size_t((c.x - coord.x * e) + e * ((c.y - coord.y * e) + e * (c.z - coord.z * e))));
-  };
+  return [mask, coord](ColorCell c) { return mask->test(ColorGrid::index_in(coord, c)); };
 }
 
 /// Cells that belong to one of a box of voxels grown by a margin.
@@ -63,11 +57,6 @@ std::pair<ColorCell, ColorCell> cells_of(const VoxelBox& box, std::int32_t margi
 
 }  // namespace
 
-std::size_t NearbyColors::Hash::operator()(ColorCell c) const {
-  const auto mix = [](std::uint64_t x) { return (x ^ (x >> 29)) * 0x9e3779b97f4a7c15u; };
-  return std::size_t(mix(std::uint32_t(c.x) + mix(std::uint32_t(c.y) + mix(std::uint32_t(c.z)))));
-}
-
 NearbyColors::NearbyColors(std::vector<CellColor> cells, ColorCell min, const Vec3d& origin)
     : cells_(std::move(cells)), min_(min), origin_(origin) {
   if (cells_.empty()) return;
@@ -75,7 +64,7 @@ NearbyColors::NearbyColors(std::vector<CellColor> cells, ColorCell min, const Ve
   for (const CellColor& c : cells_) coarser_[0][c.cell - min_] = {1, c.color.r, c.color.g, c.color.b};
   while (coarser_.back().size() > 1) {
     Cells next;
-    for (const auto& [cell, sum] : coarser_.back()) next[half_of(cell)].add(sum);
+    for (const auto& [cell, sum] : coarser_.back()) next[ColorGrid::half_of(cell)].add(sum);
     coarser_.push_back(std::move(next));
   }
 }

@@ -24,10 +24,7 @@ class NearbyColors {
   void add_to(KeyHash& hash) const;
 
  private:
-  struct Hash {
-    std::size_t operator()(ColorCell c) const;
-  };
-  using Cells = std::unordered_map<ColorCell, ColorSum, Hash>;
+  using Cells = std::unordered_map<ColorCell, ColorSum, CoordHash>;
   [[nodiscard]] static const ColorSum* nearest(const Cells& cells, const Vec3d& p);
 
   std::vector<CellColor> cells_;

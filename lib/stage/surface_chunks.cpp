@@ -1,7 +1,5 @@
 #include "lib/stage/surface_chunks.h"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -85,17 +83,6 @@ void append_brick(BrickCoord c, const std::uint64_t* bits, std::string& out) {
 
 // --- Cutting ---------------------------------------------------------------------------------------------------------
 
-struct ChunkCutter::Hash {
-  XXH3_state_t* state = XXH3_createState();
-  Hash() { XXH3_128bits_reset(state); }
-  ~Hash() { XXH3_freeState(state); }
-  Hash(const Hash&) = delete;
-  Hash& operator=(const Hash&) = delete;
-};
-
-ChunkCutter::ChunkCutter() : hash_(std::make_unique<Hash>()) {}
-ChunkCutter::~ChunkCutter() = default;
-
 std::vector<std::uint32_t> ChunkCutter::places(std::span<const TriangleD> triangles) {
   std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -124,19 +111,19 @@ void ChunkCutter::add(std::span<const TriangleD> triangles, std::span<const std:
 }
 
 void ChunkCutter::take(std::span<const TriangleD> triangles) {
-  XXH3_128bits_update(hash_->state, triangles.data(), triangles.size_bytes());
+  hash_.add(std::as_bytes(triangles));
   open_ += triangles.size();
 }
 
 ResultKey ChunkCutter::content_of(std::span<const TriangleD> triangles) {
-  const XXH128_hash_t h = XXH3_128bits(triangles.data(), triangles.size_bytes());
-  return {{h.high64, h.low64}};
+  ContentHash hash;
+  hash.add(std::as_bytes(triangles));
+  return hash.value();
 }
 
 void ChunkCutter::cut() {
-  const XXH128_hash_t h = XXH3_128bits_digest(hash_->state);
-  chunks_.push_back({open_, {{h.high64, h.low64}}});
-  XXH3_128bits_reset(hash_->state);
+  chunks_.push_back({open_, hash_.value()});
+  hash_.reset();
   open_ = 0;
 }
 
@@ -187,13 +174,6 @@ std::string chunk_voxels(std::span<const TriangleD> triangles, const GridFrame& 
 }
 
 // --- Their union -----------------------------------------------------------------------------------------------------
-
-std::size_t BrickSum::Hash::operator()(BrickCoord c) const {
-  std::uint64_t h = (std::uint64_t(std::uint32_t(c.x)) << 42) ^ (std::uint64_t(std::uint32_t(c.y)) << 21) ^
-                    std::uint64_t(std::uint32_t(c.z));
-  h *= 0x9e3779b97f4a7c15u;
-  return std::size_t(h >> 32);
-}
 
 bool BrickSum::add(const std::string& chunk) {
   PackedBrick brick;

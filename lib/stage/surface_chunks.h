@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "lib/core/coord_hash.h"
 #include "lib/core/result_key.h"
 #include "lib/core/triangle_source.h"
 #include "lib/grid/stream.h"
@@ -32,10 +33,6 @@ class ChunkCutter {
   /// Triangles behind which a chunk may end, by number in the span. Thread-safe.
   [[nodiscard]] static std::vector<std::uint32_t> places(std::span<const TriangleD> triangles);
 
-  ChunkCutter();
-  ~ChunkCutter();
-  ChunkCutter(const ChunkCutter&) = delete;
-  ChunkCutter& operator=(const ChunkCutter&) = delete;
   /// The next triangles, with their places().
   void add(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places);
   [[nodiscard]] const std::vector<Chunk>& chunks() const { return chunks_; }  ///< that have ended
@@ -44,8 +41,7 @@ class ChunkCutter {
  private:
   void take(std::span<const TriangleD> triangles);
   void cut();
-  struct Hash;
-  std::unique_ptr<Hash> hash_;
+  ContentHash hash_;
   std::uint64_t open_ = 0;  // triangles of the chunk that has not ended
   std::vector<Chunk> chunks_;
 };
@@ -74,16 +70,13 @@ class BrickSum {
 
  private:
   static constexpr std::size_t kShards = 64;
-  struct Hash {
-    std::size_t operator()(BrickCoord c) const;
-  };
   struct Shard {
     std::mutex mutex;
-    std::unordered_map<BrickCoord, std::unique_ptr<BrickBits>, Hash> bricks;
+    std::unordered_map<BrickCoord, std::unique_ptr<BrickBits>, CoordHash> bricks;
     std::vector<BrickCoord> on_shelf;
   };
   void make_room(Shard& shard);
-  [[nodiscard]] Shard& shard_of(BrickCoord c) { return shards_[Hash()(c) % kShards]; }
+  [[nodiscard]] Shard& shard_of(BrickCoord c) { return shards_[CoordHash()(c) % kShards]; }
 
   const BrickBox grid_;
   const std::size_t limit_;  // bricks in a shard

@@ -1,7 +1,5 @@
 #include "lib/stage/voxelize_stage.h"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -12,6 +10,7 @@
 #include <unordered_map>
 
 #include "lib/backend/cpu_backend.h"
+#include "lib/core/content_hash.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/core/pool.h"
@@ -51,23 +50,6 @@ class Steps {
   const char *stage_, *unit_;
   std::uint64_t total_, done_ = 0;
   std::mutex mutex_;
-};
-
-/// XXH3-128 of what was read.
-class InputHash {
- public:
-  InputHash() : state_(XXH3_createState()) { XXH3_128bits_reset(state_.get()); }
-  void add(std::span<const std::byte> bytes) { XXH3_128bits_update(state_.get(), bytes.data(), bytes.size()); }
-  [[nodiscard]] std::string hex() const {
-    const XXH128_hash_t h = XXH3_128bits_digest(state_.get());
-    return fmt::format("{:016x}{:016x}", h.high64, h.low64);
-  }
-
- private:
-  struct Free {
-    void operator()(XXH3_state_t* s) const { XXH3_freeState(s); }
-  };
-  std::unique_ptr<XXH3_state_t, Free> state_;
 };
 
 std::int32_t default_tile(const VoxelBox& grid) {
@@ -171,7 +153,7 @@ void Run::measure() {
   };
   Steps steps(options_, "reading", "triangles", 0);
   const std::uint64_t limit = options_.memory_bytes / 5 * 3;
-  InputHash hash;
+  ContentHash hash;
   pipeline<Item>(
       thread_count() + 2, [&](Item& item) { return source_.read(item.triangles); },
       [&](Item& item) {
@@ -196,7 +178,8 @@ void Run::measure() {
         std::vector<Portion>().swap(kept_);
       });
   counts_.scene = source_.counts();
-  counts_.input_hash = hash.hex();
+  const auto [high, low] = hash.value().words;
+  counts_.input_hash = fmt::format("{:016x}{:016x}", high, low);
   if (bounds_.empty()) {
     const SceneCounts& c = counts_.scene;
     fail(ErrorCode::bad_input,

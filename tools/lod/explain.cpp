@@ -14,6 +14,7 @@
 #include "lib/grid/reduce.h"
 #include "lib/stage/tile_stage.h"
 #include "tools/lod/build.h"
+#include "tools/lod/lod_targets.h"
 #include "tools/lod/tile_build.h"
 #include "tools/lod/tile_plan.h"
 
@@ -22,11 +23,9 @@ namespace bp {
 namespace {
 
 // What is estimated, from plants and scanned models: docs/bplod.1.md says that it is.
-constexpr double kFacesPerArea = 2 * 1.5;  // of voxels: two triangles, and a slanted plane has 1.5 times its area
 constexpr double kBytesPerFace = 4, kBytesPerTile = 2200;  // of compressed GLB; and of a tile's place in the tileset
 constexpr double kBytesPerPlainFace = 18;                  // of GLB
 constexpr double kScratchPerTriangle = 20;                 // that waits on disk
-constexpr double kDensePerFace = 100;                      // as in target_of()
 
 struct Scene {
   SceneCounts counts;
@@ -54,7 +53,7 @@ struct PlannedLevel {
 
 /// Triangles of the dense surface that so much area has, about: less, where parts lie inside or within a voxel.
 double dense_faces(const Scene& scene, double voxel) {
-  return kFacesPerArea * scene.area / (voxel * voxel);
+  return 2 * kSlantedSteps * scene.area / (voxel * voxel);
 }
 
 class Plan {
@@ -181,7 +180,8 @@ class Plan {
   [[nodiscard]] std::uint64_t file_bytes() const {
     double sum = 0;
     for (const PlannedLevel& level : levels_) {
-      const double faces = level.faces > 0 ? double(level.faces) : dense_faces(scene_, level.voxel) / kDensePerFace;
+      const double faces =
+          level.faces > 0 ? double(level.faces) : dense_faces(scene_, level.voxel) / double(kDensePerFace);
       sum +=
           is_tileset() ? kBytesPerFace * faces + kBytesPerTile * double(level.tiles) : 2 * kBytesPerPlainFace * faces;
     }

@@ -11,7 +11,7 @@ namespace bp {
 namespace {
 
 constexpr std::uint64_t kDefaultLevels = 4, kMostLevels = 32;
-constexpr std::uint64_t kDensePerFace = 100, kLeastFirstFaces = 200, kLeastFaces = 4;
+constexpr std::uint64_t kLeastFirstFaces = 200, kLeastFaces = 4;
 
 void for_each_item(const std::string& text, const std::function<void(std::string_view)>& f) {
   for (std::size_t begin = 0; begin <= text.size();) {

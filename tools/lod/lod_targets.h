@@ -10,6 +10,8 @@
 /// The levels that a command line asks for.
 namespace bp {
 
+constexpr std::uint64_t kDensePerFace = 100;  ///< triangles of the dense surface for one of a finest level
+
 /// One of faces, errors and pixels may be given; each as a list, or as the finest level's number, from which the others
 /// follow.
 struct LodRequest {

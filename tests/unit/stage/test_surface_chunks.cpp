@@ -90,6 +90,15 @@ void edit(Triangles& scene, std::mt19937& random) {
   }
 }
 
+/// The frame and the bricks of a scene, with voxels of a half.
+std::pair<GridFrame, BrickBox> grid_around(const Triangles& scene) {
+  Bounds3d bounds;
+  for (const TriangleD& t : scene)
+    for (const Vec3d& p : t) bounds.add(p);
+  const GridFrame frame = make_frame(bounds, 0.5);
+  return {frame, bricks_of(voxel_bounds(frame, bounds))};
+}
+
 }  // namespace
 
 TEST_CASE("chunks do not depend on how the triangles arrive", "[quick][stage]") {
@@ -130,11 +139,7 @@ TEST_CASE("a change of the triangles changes the chunks around it and no others"
 
 TEST_CASE("the voxels of a chunk are those of its triangles, also on their way over a shelf", "[quick][stage]") {
   const Triangles scene = strand(3, 20000);
-  Bounds3d bounds;
-  for (const TriangleD& t : scene)
-    for (const Vec3d& p : t) bounds.add(p);
-  const GridFrame frame = make_frame(bounds, 0.5);
-  const BrickBox grid = bricks_of(voxel_bounds(frame, bounds));
+  const auto [frame, grid] = grid_around(scene);
   BitBox expected(voxels_of(grid));
   std::vector<FixedTriangle> fixed;
   for (const TriangleD& t : scene) fixed.push_back(to_fixed(frame, t));
@@ -158,11 +163,7 @@ TEST_CASE("the voxels of a chunk are those of its triangles, also on their way o
 
 TEST_CASE("bytes that are no chunk of this grid are refused whole", "[quick][stage]") {
   const Triangles scene = strand(4, 5000);
-  Bounds3d bounds;
-  for (const TriangleD& t : scene)
-    for (const Vec3d& p : t) bounds.add(p);
-  const GridFrame frame = make_frame(bounds, 0.5);
-  const BrickBox grid = bricks_of(voxel_bounds(frame, bounds));
+  const auto [frame, grid] = grid_around(scene);
   const std::string bytes = chunk_voxels(scene, frame, grid);
   test::MemoryShelf shelf;
   BrickSum sum(grid, 1 << 30, shelf);
