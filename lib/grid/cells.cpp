@@ -20,11 +20,11 @@ CellSpan cells_spanned(const Cells& cells, const BrickBox& bricks) {
 GridFrame aligned_to_cells(const GridFrame& frame, const Bounds3d& bounds, std::int32_t edge_vox) {
   const VoxelCoord size = voxel_bounds(frame, bounds).size();
   const std::int64_t longest = std::max({size.x, size.y, size.z});
+  const std::int64_t step = std::min(kBrickEdge, edge_vox / 2);
   int n = 0;
-  while ((std::int64_t(edge_vox) - kBrickEdge - 2 * kMarginVox) << n < longest) ++n;
-  const std::int64_t step = std::int64_t(kBrickEdge) << n;
+  while ((edge_vox - step - 2 * kMarginVox) << n < longest) ++n;
   GridFrame aligned = frame;
-  for (std::int64_t& o : aligned.origin) o = floor_div(o - (kMarginVox << n), step) * step;
+  for (std::int64_t& o : aligned.origin) o = floor_div(o - (kMarginVox << n), step << n) * (step << n);
   return aligned;
 }
 

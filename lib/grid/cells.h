@@ -9,7 +9,7 @@ namespace bp {
 using CellCoord = Coord3<struct CellSpace, std::int32_t>;  ///< cell of a level: voxels [edge c, edge c + edge)
 
 struct Cells {
-  std::int32_t edge_vox = 0;  ///< a multiple of 64, at least kLeastCellVox; the same at all levels
+  std::int32_t edge_vox = 0;  ///< a multiple of 64, not 0; the same at all levels
 
   [[nodiscard]] CellCoord of(VoxelCoord p) const {
     return {floor_div(p.x, edge_vox), floor_div(p.y, edge_vox), floor_div(p.z, edge_vox)};
@@ -19,7 +19,6 @@ struct Cells {
     return {first, {first.x + edge_vox, first.y + edge_vox, first.z + edge_vox}};
   }
 };
-constexpr std::int32_t kLeastCellVox = 128;
 
 [[nodiscard]] inline CellCoord parent_of(CellCoord c) {
   return {floor_div(c.x, 2), floor_div(c.y, 2), floor_div(c.z, 2)};
@@ -43,9 +42,10 @@ struct CellSpan {
 [[nodiscard]] CellSpan cells_spanned(const Cells& cells, const VoxelBox& box);
 [[nodiscard]] CellSpan cells_spanned(const Cells& cells, const BrickBox& bricks);
 
-/// The frame with its origin moved down so that cells of all levels fall on voxels, on bricks and on each other: to a
-/// multiple of 64 * 2^n voxels from the scene's own origin, at least 2^(n+1) below the bounds, where n is the least
-/// number of reductions that bring the scene into one cell. So a scene that grows a little keeps its cells.
+/// The frame with its origin moved down so that cells of all levels fall on voxels and on each other: to a multiple of
+/// 2^n steps from the scene's own origin, at least 2^(n+1) voxels below the bounds, where a step is 64 voxels, or half
+/// of a smaller cell, and n is the least number of reductions that bring the scene into one cell. So a scene that grows
+/// a little keeps its cells.
 [[nodiscard]] GridFrame aligned_to_cells(const GridFrame& frame, const Bounds3d& bounds, std::int32_t edge_vox);
 
 }  // namespace bp

@@ -10,21 +10,53 @@ VoxelBox voxels_of(BrickCoord c) {
   return bp::voxels_of(BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}});
 }
 
+/// Places along an axis of a brick, [begin, end), not empty or [0, 0).
+struct Range {
+  std::int32_t begin = 0, end = 0;
+  [[nodiscard]] bool holds(std::int32_t i) const { return i >= begin && i < end; }
+};
+
+Range within(std::int32_t first, std::int32_t min, std::int32_t max) {
+  const Range range{std::max(min - first, 0), std::min(max - first, kBrickEdge)};
+  return range.begin < range.end ? range : Range{};
+}
+
+/// Rows of a brick that meet a box, and their voxels in it.
+struct Rows {
+  Range y, z;
+  std::uint64_t mask = 0;
+};
+
+Rows rows_within(BrickCoord brick, const VoxelBox& box) {
+  const VoxelCoord first = first_voxel(brick);
+  const Range x = within(first.x, box.min.x, box.max.x);
+  const std::uint64_t mask =
+      x.begin < x.end ? ~std::uint64_t(0) << x.begin & ~std::uint64_t(0) >> (kBrickEdge - x.end) : 0;
+  return {within(first.y, box.min.y, box.max.y), within(first.z, box.min.z, box.max.z), mask};
+}
+
 }  // namespace
 
 std::uint64_t row_within(BrickCoord brick, std::int32_t y, std::int32_t z, const VoxelBox& box) {
-  const VoxelCoord p = first_voxel(brick) + VoxelCoord{0, y, z};
-  if (p.y < box.min.y || p.y >= box.max.y || p.z < box.min.z || p.z >= box.max.z) return 0;
-  const std::int32_t begin = std::max(box.min.x - p.x, 0), end = std::min(box.max.x - p.x, kBrickEdge);
-  if (begin >= end) return 0;
-  return ~std::uint64_t(0) << begin & ~std::uint64_t(0) >> (kBrickEdge - end);
+  const Rows rows = rows_within(brick, box);
+  return rows.z.holds(z) && rows.y.holds(y) ? rows.mask : 0;
 }
 
 BrickFill get_within(const BrickShelf& shelf, BrickCoord c, const VoxelBox& box, BrickBits& bits) {
   const BrickFill fill = shelf.get(c, bits);
   if (fill == BrickFill::empty || box.contains(voxels_of(c))) return fill;
+  const Rows rows = rows_within(c, box);
+  const auto clear = [&](std::int32_t z, std::int32_t y, std::int32_t end) {
+    std::fill(bits.begin() + z * kBrickEdge + y, bits.begin() + z * kBrickEdge + end, 0);
+  };
   for (std::int32_t z = 0; z < kBrickEdge; ++z) {
-    for (std::int32_t y = 0; y < kBrickEdge; ++y) bits[std::size_t(z * kBrickEdge + y)] &= row_within(c, y, z, box);
+    if (z < rows.z.begin || z >= rows.z.end) {
+      clear(z, 0, kBrickEdge);
+      continue;
+    }
+    clear(z, 0, rows.y.begin);
+    clear(z, rows.y.end, kBrickEdge);
+    for (std::int32_t y = rows.y.begin; y < rows.y.end; ++y) bits[std::size_t(z * kBrickEdge + y)] &= rows.mask;
   }
   return classify(bits);
 }
@@ -64,7 +96,12 @@ void add_voxels(KeyHash& hash, const BrickShelf& shelf, const VoxelBox& box, Bri
         .add(std::int64_t(c.y - origin.y))
         .add(std::int64_t(c.z - origin.z));
     hash.add(std::int64_t(fill));
-    if (fill == BrickFill::mixed) hash.add(std::as_bytes(std::span(bits)));
+    if (fill != BrickFill::mixed) return;
+    const Rows rows = rows_within(c, box);
+    for (std::int32_t z = rows.z.begin; z < rows.z.end; ++z) {
+      const std::uint64_t* const slice = bits.data() + z * kBrickEdge;
+      hash.add(std::as_bytes(std::span(slice + rows.y.begin, slice + rows.y.end)));
+    }
   });
   hash.add(std::int64_t(0));
 }

@@ -21,7 +21,7 @@ namespace {
 // The surface while it is simplified, what it encloses, distances.
 constexpr std::uint64_t kBytesPerDenseFace = 320, kBytesPerTile = std::uint64_t(4) << 20;
 
-constexpr const char* kJobName = "tile, 2";
+constexpr const char* kJobName = "tile, 3";
 
 /// Measures and content, as the store keeps them.
 std::string packed(const LevelTile& tile) {
@@ -343,9 +343,8 @@ class TileMaking {
 void make_tiles(std::span<const TileTask> tasks, const TileRun& run) {
   for (const TileTask& task : tasks) {
     const std::int32_t edge = task.level.cells.edge_vox;
-    if (edge < kLeastCellVox || edge % kBrickEdge != 0)
-      fail(ErrorCode::bad_argument, "a cell of {} voxels a side is no multiple of 64, or below {}", edge,
-           kLeastCellVox);
+    if (edge < kBrickEdge || edge % kBrickEdge != 0)
+      fail(ErrorCode::bad_argument, "a cell of {} voxels a side: must be a multiple of 64", edge);
   }
   TileMaking(tasks, run)();
 }

@@ -34,8 +34,8 @@ void check_options(BuildOptions& o) {
   if (o.voxel && (o.voxel->unit == Length::Unit::voxels || !(o.voxel->value > 0)))
     fail(ErrorCode::bad_argument, "--voxel {}: must be above 0, in scene units or percent", o.voxel->text());
   if (o.resolution && *o.resolution < 1) fail(ErrorCode::bad_argument, "--resolution 0: at least 1 voxel is needed");
-  if (o.tile_vox < kLeastCellVox || o.tile_vox % kBrickEdge != 0)
-    fail(ErrorCode::bad_argument, "--tile {}: must be a multiple of 64, and at least {}", o.tile_vox, kLeastCellVox);
+  if (o.tile_vox < kBrickEdge || o.tile_vox % kBrickEdge != 0)
+    fail(ErrorCode::bad_argument, "--tile {}: must be a multiple of 64", o.tile_vox);
   if (o.profile != LodProfile::tiles && (o.resume || !o.cache.empty()))
     fail(ErrorCode::bad_argument, "--cache and --resume need --profile 3dtiles");
   if (o.resume && !o.cache.empty())

@@ -29,10 +29,10 @@ struct Made {
 };
 using Level = std::map<CellCoord, Made>;
 
-TilePyramid pyramid(const Triangles& scene, Backends& backends) {
-  Voxelized solid = voxelized(scene, 1, kEdge);
+TilePyramid pyramid(const Triangles& scene, Backends& backends, const Cells& cells = kCells) {
+  Voxelized solid = voxelized(scene, 1, cells.edge_vox);
   PyramidOptions options;
-  options.cells = kCells;
+  options.cells = cells;
   options.make_shelf = memory_shelves();
   return TilePyramid(solid.header, std::move(solid.shelf), backends, options);
 }
@@ -57,8 +57,7 @@ Level make(TilePyramid& pyramid, const TileParams& params, double scale = 0) {
   return level;
 }
 
-Bounds3d bounds_of_cell(const GridFrame& frame, CellCoord cell) {
-  const VoxelBox box = kCells.box(cell);
+Bounds3d bounds_of(const VoxelBox& box, const GridFrame& frame) {
   Bounds3d bounds;
   for (const VoxelCoord p : {box.min, box.max})
     bounds.add(frame.world({std::int64_t(p.x) * 64, std::int64_t(p.y) * 64, std::int64_t(p.z) * 64}));
@@ -75,7 +74,8 @@ Backends cpu_backends() {
 
 TEST_CASE("the tiles of all levels cover the scene together", "[quick][stage][lod]") {
   Backends backends = cpu_backends();
-  TilePyramid levels = pyramid(scene(), backends);
+  const Cells cells{GENERATE(kBrickEdge, kEdge)};
+  TilePyramid levels = pyramid(scene(), backends, cells);
   REQUIRE_FALSE(levels.in_one_cell());
   std::vector<CoverTile> tiles(1);
   std::map<CellCoord, std::size_t> below;
@@ -88,15 +88,15 @@ TEST_CASE("the tiles of all levels cover the scene together", "[quick][stage][lo
       tiles.push_back({std::to_string(level) + " " + std::to_string(cell.x),
                        "",
                        indexed(made.mesh),
-                       bounds_of_cell(levels.header().frame, cell),
+                       bounds_of(cells.box(cell), levels.header().frame),
                        {}});
       CHECK(made.measures.faces == made.mesh.triangles.size());
     }
     for (const auto& [cell, number] : below) tiles[numbers.at(parent_of(cell))].children.push_back(number);
     below = numbers;
-    REQUIRE(level < 3);
+    REQUIRE(level < 4);
   }
-  tiles[0].cell = bounds_of_cell(levels.header().frame, {});
+  tiles[0].cell = bounds_of(cells.box({}), levels.header().frame);
   for (const auto& [cell, number] : below) tiles[0].children.push_back(number);
   MemorySource source(scene());
   CHECK(check_cover(tiles, source) == std::vector<std::string>{});
@@ -133,7 +133,7 @@ TEST_CASE("a tile far from a change stays the same", "[quick][stage][lod]") {
   REQUIRE(a.size() == b.size());
   std::size_t same = 0;
   for (const auto& [cell, made] : a) {
-    Bounds3d reach = bounds_of_cell(levels.header().frame, cell);
+    Bounds3d reach = bounds_of(kCells.box(cell), levels.header().frame);
     for (std::size_t i = 0; i < 3; ++i) reach.min[i] -= 8, reach.max[i] += 8;  // closing and rim
     if (overlap(reach, Bounds3d{{0, 0, 3}, {13, 9, 30}})) continue;
     CHECK(made.mesh.vertices == b.at(cell).mesh.vertices);
