@@ -2,10 +2,12 @@
 
 #include <bit>
 
+#include "lib/core/source_digest.h"
+
 namespace bp {
 
 KeyHash::KeyHash(std::string_view job) {
-  add(std::string_view(BP_VERSION)).add(job);
+  add(source_digest()).add(job);
 }
 
 KeyHash& KeyHash::add(std::span<const std::byte> bytes) {

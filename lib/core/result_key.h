@@ -6,7 +6,7 @@ namespace bp {
 
 class KeyHash {
  public:
-  /// `job`: what is done with the input, and the version of how; beside it the version of the suite goes in.
+  /// `job`: what is done with the input; beside it source_digest() goes in.
   explicit KeyHash(std::string_view job);
 
   KeyHash& add(std::span<const std::byte> bytes);

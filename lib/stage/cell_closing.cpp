@@ -15,7 +15,7 @@ namespace bp {
 
 namespace {
 
-constexpr const char* kJob = "closing of a cell, 2";
+constexpr const char* kJob = "closing of a cell";
 
 /// Backends that jobs take and give back; there are as many as jobs at work.
 class IdleBackends {

@@ -15,7 +15,7 @@ namespace bp {
 
 namespace {
 
-constexpr const char* kJob = "voxels of a chunk, 1";
+constexpr const char* kJob = "voxels of a chunk";
 constexpr std::size_t kMaskWords = kBrickWords / 64;
 
 template <class T>

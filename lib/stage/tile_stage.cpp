@@ -21,7 +21,7 @@ namespace {
 // The surface while it is simplified, what it encloses, distances.
 constexpr std::uint64_t kBytesPerDenseFace = 320, kBytesPerTile = std::uint64_t(4) << 20;
 
-constexpr const char* kJobName = "tile, 3";
+constexpr const char* kJobName = "tile";
 
 /// Measures and content, as the store keeps them.
 std::string packed(const LevelTile& tile) {

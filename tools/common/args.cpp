@@ -5,6 +5,7 @@
 
 #include "io/file.h"
 #include "lib/core/error.h"
+#include "lib/core/source_digest.h"
 
 namespace bp {
 
@@ -233,7 +234,7 @@ void Args::parse() {
   } catch (const Error& e) {
     fail(e.code(), "{} (see {} --help)", e.what(), state_->tool);
   }
-  print(state_->help ? help_text() : state_->tool + " " BP_VERSION "\n");
+  print(state_->help ? help_text() : fmt::format("{} {}+{}\n", state_->tool, BP_VERSION, source_digest()));
   throw Done{};
 }
 

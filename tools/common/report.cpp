@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "io/file.h"
+#include "lib/core/source_digest.h"
 
 namespace bp {
 
@@ -18,7 +19,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 }
 
 Json versions() {
-  return {{"bounding_proxies", BP_VERSION}, {"compiler", __VERSION__}};
+  return {{"bounding_proxies", BP_VERSION}, {"sources", source_digest()}, {"compiler", __VERSION__}};
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace bp {
 
 namespace {
 
-constexpr const char* kJob = "levels in one mesh, 2";
+constexpr const char* kJob = "levels in one mesh";
 
 Bounds3d bounds_of(const LatticeMesh& mesh) {
   Bounds3d bounds;

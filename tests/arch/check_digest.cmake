@@ -1,0 +1,25 @@
+# source_digest.cmake on a small tree that changes.
+#   cmake -DROOT=<repository> -DSCRATCH=<folder> -P tests/arch/check_digest.cmake
+function(digest_of_tree out)
+  execute_process(COMMAND "${CMAKE_COMMAND}" "-DROOT=${SCRATCH}/tree" "-DOUTPUT=${SCRATCH}/digest.cpp" -P
+                          "${ROOT}/cmake/source_digest.cmake" RESULT_VARIABLE status)
+  file(READ "${SCRATCH}/digest.cpp" text)
+  if(NOT status EQUAL 0 OR NOT text MATCHES "\"([0-9a-f]+)\"")
+    message(FATAL_ERROR "no digest: ${status}\n${text}")
+  endif()
+  set(${out} "${CMAKE_MATCH_1}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE "${SCRATCH}")
+file(WRITE "${SCRATCH}/tree/lib/a.cpp" "one\n")
+file(WRITE "${SCRATCH}/tree/docs/a.md" "one\n")
+digest_of_tree(first)
+file(WRITE "${SCRATCH}/tree/docs/a.md" "two\n")
+digest_of_tree(other_docs)
+file(WRITE "${SCRATCH}/tree/lib/a.cpp" "two\n")
+digest_of_tree(other_source)
+file(RENAME "${SCRATCH}/tree/lib/a.cpp" "${SCRATCH}/tree/lib/b.cpp")
+digest_of_tree(other_name)
+if(NOT first STREQUAL other_docs OR first STREQUAL other_source OR other_source STREQUAL other_name)
+  message(FATAL_ERROR "${first}, docs changed ${other_docs}, source changed ${other_source}, renamed ${other_name}")
+endif()
