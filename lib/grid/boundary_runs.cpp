@@ -25,6 +25,10 @@ void add_runs(std::uint64_t boundary, VoxelCoord row, std::vector<VoxelRun>& run
   }
 }
 
+std::uint64_t count_runs(std::uint64_t boundary) {
+  return std::uint64_t(std::popcount(boundary & ~(boundary << 1)));
+}
+
 bool buried(const BrickShelf& solid, BrickCoord b) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const int step : {-1, 1}) {
@@ -77,6 +81,28 @@ Boundary boundary_of(const BrickShelf& solid) {
   return all;
 }
 
+BoundarySize boundary_size(const BrickShelf& solid) {
+  const std::vector<BrickCoord> bricks = solid.coords();
+  std::vector<BoundarySize> parts(bricks.size());
+  parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
+    BoundarySize& part = parts[std::size_t(i)];
+    scan(solid, bricks[std::size_t(i)], [&](VoxelCoord row, std::uint64_t boundary, std::uint64_t faces) {
+      if (boundary == 0) return;
+      part.runs += count_runs(boundary);
+      part.faces += faces;
+      const std::int32_t begin = row.x + std::countr_zero(boundary), end = row.x + 64 - std::countl_zero(boundary);
+      part.box = hull(part.box, {{begin, row.y, row.z}, {end, row.y + 1, row.z + 1}});
+    });
+  });
+  BoundarySize all;
+  for (const BoundarySize& part : parts) {
+    all.runs += part.runs;
+    all.faces += part.faces;
+    all.box = hull(all.box, part.box);
+  }
+  return all;
+}
+
 std::uint64_t boundary_faces(const BrickShelf& solid, BrickCoord brick) {
   std::uint64_t sum = 0;
   scan(solid, brick, [&](VoxelCoord, std::uint64_t, std::uint64_t faces) { sum += faces; });
@@ -97,20 +123,34 @@ void boundary_layer(const BrickShelf& solid, BrickShelf& boundary) {
   });
 }
 
-std::vector<VoxelRun> runs_of(const BrickShelf& shelf, const VoxelBox& box) {
-  std::vector<VoxelRun> runs;
+namespace {
+
+/// body(row, its voxels in the box) for each row.
+template <class Body>
+void for_each_row(const BrickShelf& shelf, const VoxelBox& box, const Body& body) {
   BrickBits bits;
   for_each_brick(box, [&](BrickCoord c) {
-    if (shelf.get(c, bits) == BrickFill::empty) return;
+    if (get_within(shelf, c, box, bits) == BrickFill::empty) return;
     const VoxelCoord first = first_voxel(c);
     for (std::int32_t z = 0; z < kBrickEdge; ++z) {
-      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
-        const std::uint64_t row = bits[std::size_t(z * kBrickEdge + y)] & row_within(c, y, z, box);
-        add_runs(row, {first.x, first.y + y, first.z + z}, runs);
-      }
+      for (std::int32_t y = 0; y < kBrickEdge; ++y)
+        body({first.x, first.y + y, first.z + z}, bits[std::size_t(z * kBrickEdge + y)]);
     }
   });
+}
+
+}  // namespace
+
+std::vector<VoxelRun> runs_of(const BrickShelf& shelf, const VoxelBox& box) {
+  std::vector<VoxelRun> runs;
+  for_each_row(shelf, box, [&](VoxelCoord row, std::uint64_t voxels) { add_runs(voxels, row, runs); });
   return runs;
+}
+
+std::uint64_t count_runs(const BrickShelf& shelf, const VoxelBox& box) {
+  std::uint64_t sum = 0;
+  for_each_row(shelf, box, [&](VoxelCoord, std::uint64_t voxels) { sum += count_runs(voxels); });
+  return sum;
 }
 
 }  // namespace bp

@@ -18,8 +18,15 @@ struct Boundary {
   std::uint64_t faces = 0;     ///< between an occupied and an empty voxel: half the triangles of the dense surface
 };
 
-/// Parallel; the result depends on the voxels alone. Cost: linear in the bricks, 16 bytes a run.
+/// Parallel; the result depends on the voxels alone. Cost: linear in the bricks, 16 bytes a run, twice for a moment.
 [[nodiscard]] Boundary boundary_of(const BrickShelf& solid);
+
+/// How large boundary_of() would be, without it.
+struct BoundarySize {
+  std::uint64_t runs = 0, faces = 0;
+  VoxelBox box{};  ///< around the boundary voxels
+};
+[[nodiscard]] BoundarySize boundary_size(const BrickShelf& solid);
 
 /// Faces between an occupied voxel of `brick` and an empty one, there or in the next brick.
 [[nodiscard]] std::uint64_t boundary_faces(const BrickShelf& solid, BrickCoord brick);
@@ -29,5 +36,6 @@ void boundary_layer(const BrickShelf& solid, BrickShelf& boundary);
 
 /// The voxels of `shelf` that lie in `box`, as runs; ordered by brick (z, y, x), then z, y, x.
 [[nodiscard]] std::vector<VoxelRun> runs_of(const BrickShelf& shelf, const VoxelBox& box);
+[[nodiscard]] std::uint64_t count_runs(const BrickShelf& shelf, const VoxelBox& box);  ///< of runs_of()
 
 }  // namespace bp

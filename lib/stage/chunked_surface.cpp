@@ -9,7 +9,7 @@ namespace bp {
 
 namespace {
 
-constexpr const char* kMetJob = "a chunk was voxelized, 1";
+constexpr const char* kMetJob = "a chunk was voxelized";
 
 /// Of a mark beside the voxels, which knows of no frame.
 ResultKey met_key(const ChunkCutter::Chunk& chunk) {
@@ -21,7 +21,7 @@ ResultKey met_key(const ChunkCutter::Chunk& chunk) {
 /// A chunk to be made.
 struct ChunkedSurface::Item {
   std::size_t chunk = 0;
-  std::uint64_t skipped = 0;  // triangles before it, of chunks that are known
+  std::uint64_t count = 0;  // of its triangles, and of those before it, of chunks that are known
   std::vector<TriangleD> triangles;
 };
 
@@ -95,19 +95,21 @@ void ChunkedSurface::look_up(const GridFrame& frame, const BrickBox& grid, std::
   kept_ = std::uint64_t(std::count(found_.begin(), found_.end(), 1));
 }
 
-void ChunkedSurface::add_missing(const NextPortion& next, const std::function<void(std::uint64_t)>& done) {
+void ChunkedSurface::add_missing(const NextPortion& next, std::uint64_t memory_bytes,
+                                 const std::function<void(std::uint64_t, std::vector<TriangleD>&&)>& done) {
   Reader reader(next);
   std::size_t chunk = 0;
   const auto changed = [] { fail(ErrorCode::bad_input, "the scene changed between the first and the second reading"); };
   pipeline<Item>(
-      thread_count() + 1,
+      int(std::clamp<std::uint64_t>(memory_bytes / kChunkWorkBytes, 1, std::uint64_t(thread_count()) + 1)),
       [&](Item& item) {
         for (; chunk < chunks_.size() && found_[chunk] != 0; ++chunk) {
-          item.skipped += chunks_[chunk].triangles;
+          item.count += chunks_[chunk].triangles;
           if (!reader.take(chunks_[chunk].triangles, nullptr)) changed();
         }
         if (chunk == chunks_.size()) return false;
         item.chunk = chunk;
+        item.count += chunks_[chunk].triangles;
         if (!reader.take(chunks_[chunk++].triangles, &item.triangles)) changed();
         return true;
       },
@@ -115,14 +117,17 @@ void ChunkedSurface::add_missing(const NextPortion& next, const std::function<vo
         if (ChunkCutter::content_of(item.triangles) != chunks_[item.chunk].content) changed();
         make(item);
       },
-      [&](Item& item) { done(item.skipped + item.triangles.size()); });
+      [&](Item& item) { done(item.count, std::move(item.triangles)); });
 }
 
-void ChunkedSurface::make(const Item& item) {
-  const std::string bytes = chunk_voxels(item.triangles, frame_, grid_);
-  results_.put(chunk_key(chunks_[item.chunk], frame_), bytes);
+/// Leaves the triangles of a chunk that cannot be kept.
+void ChunkedSurface::make(Item& item) {
+  const std::optional<std::string> bytes = chunk_voxels(item.triangles, frame_, grid_);
+  if (!bytes) return;
+  item.triangles.clear();
+  results_.put(chunk_key(chunks_[item.chunk], frame_), *bytes);
   results_.put(met_key(chunks_[item.chunk]), "");
-  if (!bricks_->add(bytes)) fail(ErrorCode::failed, "a chunk of triangles has voxels outside the grid of its scene");
+  if (!bricks_->add(*bytes)) fail(ErrorCode::failed, "a chunk of triangles has voxels outside the grid of its scene");
 }
 
 }  // namespace bp

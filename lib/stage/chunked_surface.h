@@ -28,9 +28,11 @@ class ChunkedSurface {
   [[nodiscard]] bool complete() const { return kept_ == chunks_.size(); }
   /// Triangles that are met() are needed after all.
   [[nodiscard]] bool needs_met() const;
-  /// Voxelizes the other chunks, and keeps them. `next` gives all triangles once more; done(n): behind n more of them.
-  /// Throws bad_input if they are not those of the first pass.
-  void add_missing(const NextPortion& next, const std::function<void(std::uint64_t)>& done);
+  /// Voxelizes the other chunks, and keeps them. `next` gives all triangles once more; done(n, large): behind n more of
+  /// them, of which `large` are too large for a chunk: their voxels are for the caller to find, in every build.
+  /// `memory_bytes`: for chunks at work. Throws bad_input if the triangles are not those of the first pass.
+  void add_missing(const NextPortion& next, std::uint64_t memory_bytes,
+                   const std::function<void(std::uint64_t, std::vector<TriangleD>&&)>& done);
 
   [[nodiscard]] std::uint64_t chunks() const { return chunks_.size(); }
   [[nodiscard]] std::uint64_t kept() const { return kept_; }
@@ -39,7 +41,7 @@ class ChunkedSurface {
  private:
   class Reader;
   struct Item;
-  void make(const Item& item);
+  void make(Item& item);
 
   ResultStore& results_;
   ChunkCutter cutter_;

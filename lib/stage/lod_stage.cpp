@@ -27,29 +27,18 @@ constexpr double kLeastSideVox = 48;  // of a reduced grid
 /// it is small.
 class Outside {
  public:
-  std::uint64_t dense_faces = 0;
-  VoxelBox box{};
+  const std::uint64_t dense_faces;
+  const VoxelBox box;
 
-  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, std::uint64_t memory_bytes)
-      : frame_(frame) {
-    Boundary boundary = boundary_of(solid);
-    dense_faces = 2 * boundary.faces;
-    for (const VoxelRun& run : boundary.runs) {
-      const VoxelCoord end{run.first.x + run.length, run.first.y + 1, run.first.z + 1};
-      box = hull(box, VoxelBox{run.first, end});
-    }
-    runs_ = surface != nullptr ? runs_of(*surface, box) : std::move(boundary.runs);
-    runs_.shrink_to_fit();
-    if (measuring_bytes() <= memory_bytes / 16) kept_ = std::make_unique<Ruler>(runs_, frame_);
-  }
+  /// Throws out_of_resource, before it takes anything, if it takes more than `memory_bytes`.
+  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, std::uint64_t memory_bytes,
+          const PieceMemory& pieces)
+      : Outside(solid, surface, frame, boundary_size(solid), memory_bytes, pieces) {}
 
   [[nodiscard]] double voxel() const { return frame_.voxel; }
+  /// Of the memory, from the beginning to the end.
   [[nodiscard]] std::uint64_t bytes() const {
-    return runs_.capacity() * sizeof(VoxelRun) + (kept_ ? measuring_bytes() : 0);
-  }
-  /// That distance() takes for a moment.
-  [[nodiscard]] std::uint64_t measuring_bytes() const {
-    return runs_.size() * sizeof(TriangleD) + TriangleBvh::bytes_needed(runs_.size());
+    return runs_.capacity() * sizeof(VoxelRun) + (kept_ ? measuring_bytes(runs_.size()) : 0);
   }
 
   /// Upper bound of the distance between the scene's outside and `mesh`, in both directions.
@@ -68,6 +57,28 @@ class Outside {
       return std::max(distance_from_mesh(triangles, tree, voxel), distance_to_mesh(segments, triangles, voxel));
     }
   };
+
+  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, const BoundarySize& size,
+          std::uint64_t memory_bytes, const PieceMemory& pieces)
+      : dense_faces(2 * size.faces), box(size.box), frame_(frame) {
+    const std::uint64_t runs = surface != nullptr ? count_runs(*surface, box) : size.runs;
+    const std::uint64_t bytes = runs * sizeof(VoxelRun) + measuring_bytes(runs);
+    if (bytes > memory_bytes) {
+      fail(ErrorCode::out_of_resource,
+           "the outside of the scene takes {} MiB to be measured, and --memory leaves {} MiB for it; raise --memory{}, "
+           "or use larger voxels",
+           (bytes >> 20) + 1, memory_bytes >> 20, pieces.enough_for(bytes - memory_bytes));
+    }
+    runs_ = surface != nullptr ? runs_of(*surface, box) : boundary_of(solid).runs;
+    runs_.shrink_to_fit();
+    if (measuring_bytes(runs) <= memory_bytes / 16) kept_ = std::make_unique<Ruler>(runs_, frame_);
+  }
+
+  /// That distance() takes for a moment.
+  static std::uint64_t measuring_bytes(std::uint64_t runs) {
+    return runs * sizeof(TriangleD) + TriangleBvh::bytes_needed(runs);
+  }
+
   GridFrame frame_;
   std::vector<VoxelRun> runs_;
   std::unique_ptr<Ruler> kept_;
@@ -106,9 +117,11 @@ struct LodChain::State {
   State(const StreamHeader& h, std::unique_ptr<BrickShelf> s, Backends& b, LodOptions o)
       : options(std::move(o)), backends(b), header(h), solid(std::move(s)), diagonal(h.bounds.diagonal()) {
     if (solid->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
-    outside = std::make_unique<Outside>(*solid, options.surface.get(), header.frame, options.memory_bytes);
+    take_off(options.scene.size() * sizeof(TriangleD));
+    outside =
+        std::make_unique<Outside>(*solid, options.surface.get(), header.frame, options.memory_bytes, options.pieces);
     options.surface.reset();
-    take_off(outside->bytes() + options.scene.size() * sizeof(TriangleD), outside->measuring_bytes());
+    take_off(outside->bytes());
     last_scale = options.least_scale_world;
   }
 
@@ -145,16 +158,8 @@ struct LodChain::State {
   double last_scale = 0;
 
  private:
-  /// Takes `bytes` off the memory, of which `now_and_then` must be left.
-  void take_off(std::uint64_t bytes, std::uint64_t now_and_then) {
-    if (bytes + now_and_then > options.memory_bytes) {
-      fail(ErrorCode::out_of_resource,
-           "the outside of the scene takes {} MiB to be measured, and --memory leaves {} MiB for it; raise --memory{}, "
-           "or use larger voxels",
-           ((bytes + now_and_then) >> 20) + 1, options.memory_bytes >> 20,
-           options.pieces.enough_for(bytes + now_and_then - options.memory_bytes));
-    }
-    options.memory_bytes -= bytes;
+  void take_off(std::uint64_t bytes) {
+    options.memory_bytes -= std::min(options.memory_bytes, bytes);
     options.pieces = options.pieces.without(bytes);
   }
 

@@ -141,12 +141,14 @@ ResultKey chunk_key(const ChunkCutter::Chunk& chunk, const GridFrame& frame) {
 
 // --- Voxels ----------------------------------------------------------------------------------------------------------
 
-std::string chunk_voxels(std::span<const TriangleD> triangles, const GridFrame& frame, const BrickBox& grid) {
+std::optional<std::string> chunk_voxels(std::span<const TriangleD> triangles, const GridFrame& frame,
+                                        const BrickBox& grid) {
   const TileGrid bricks(voxels_of(grid), kBrickEdge);
   std::vector<FixedTriangle> fixed;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> sorted;
   std::vector<std::uint32_t>* last = nullptr;  // neighbours in a file are neighbours in space
   std::uint64_t last_brick = 0;
+  std::size_t meetings = 0;
   fixed.reserve(triangles.size());
   for (const TriangleD& t : triangles) {
     fixed.push_back(to_fixed(frame, t));
@@ -154,7 +156,9 @@ std::string chunk_voxels(std::span<const TriangleD> triangles, const GridFrame& 
       const std::uint64_t brick = bricks.index(at);
       if (last == nullptr || brick != last_brick) last = &sorted[last_brick = brick];
       last->push_back(std::uint32_t(fixed.size() - 1));
+      ++meetings;
     });
+    if (meetings > kChunkMeetings) return std::nullopt;
   }
   std::vector<std::uint64_t> order;
   for (const auto& [brick, numbers] : sorted) order.push_back(brick);
@@ -169,6 +173,7 @@ std::string chunk_voxels(std::span<const TriangleD> triangles, const GridFrame& 
     bits.reset(box);
     voxelize_surface(within, bits);
     append_brick(brick_of(box.min), bits.data(), out);
+    if (out.size() > kChunkBytes) return std::nullopt;
   }
   return out;
 }

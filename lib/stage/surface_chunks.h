@@ -2,6 +2,7 @@
 #include <array>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -51,8 +52,12 @@ class ChunkCutter {
 
 /// The voxels that the triangles touch (voxelize_surface), as bytes for BrickSum::add(): for each brick its
 /// coordinates, a bit for each of its words that is not 0, and these. `grid`: that the triangles lie in.
-[[nodiscard]] std::string chunk_voxels(std::span<const TriangleD> triangles, const GridFrame& frame,
-                                       const BrickBox& grid);
+/// Nothing if they are too large for a chunk: if they take more than kChunkBytes, or meet more than kChunkMeetings
+/// bricks, counting each triangle's. At work: kChunkWorkBytes, and one triangle's bricks.
+[[nodiscard]] std::optional<std::string> chunk_voxels(std::span<const TriangleD> triangles, const GridFrame& frame,
+                                                      const BrickBox& grid);
+constexpr std::size_t kChunkBytes = std::size_t(4) << 20, kChunkMeetings = std::size_t(1) << 17;
+constexpr std::uint64_t kChunkWorkBytes = std::uint64_t(24) << 20;  ///< with its triangles, and packed for the store
 
 /// The union of chunks. Bricks are held as bits, and go to a shelf when there are too many of them.
 class BrickSum {

@@ -168,7 +168,9 @@ void TriangleBins::spill(std::span<const std::uint64_t> tiles) {
 }
 
 void TriangleBins::release(std::uint64_t tile) {
-  Bin& bin = bins_.at(tile);
+  const auto at = bins_.find(tile);
+  if (at == bins_.end()) return;
+  Bin& bin = at->second;
   for (const ChunkStore::Handle h : bin.narrow_chunks) store_.drop(h);
   for (const ChunkStore::Handle h : bin.wide_chunks) store_.drop(h);
   bin = Bin();

@@ -103,6 +103,8 @@ class Run {
   void sort_triangles();
   void read_again(const std::function<void(const NextPortion&)>& body);
   void bin(const NextPortion& next);
+  void bin(TriangleBatch&& batch);
+  [[nodiscard]] std::vector<FixedTriangle> to_fixed(std::span<const TriangleD> triangles) const;
   void look_up_chunks();
   void drop_met();
   [[nodiscard]] std::vector<std::uint64_t> tiles_with_triangles() const;
@@ -133,7 +135,7 @@ class Run {
   std::vector<Portion> kept_;
   std::size_t dropped_ = 0;                         ///< first of kept_ that drop_met() has not settled
   std::uint64_t dropped_end_ = 0, kept_bytes_ = 0;  ///< triangles before it; of those that stay
-  std::unique_ptr<ChunkedSurface> chunks_;          ///< instead of bins_
+  std::unique_ptr<ChunkedSurface> chunks_;          ///< instead of bins_, for all but large triangles
   StreamHeader header_;
   TileGrid tiles_;
   std::unique_ptr<TriangleBins> bins_;
@@ -269,7 +271,24 @@ void Run::look_up_chunks() {
   if (chunks_->complete()) return;
   if (chunks_->needs_met()) counts_.read_twice = true;
   Steps steps(options_, "voxelizing", "triangles", counts_.scene.triangles);
-  read_again([&](const NextPortion& next) { chunks_->add_missing(next, [&](std::uint64_t n) { steps.add(n); }); });
+  read_again([&](const NextPortion& next) {
+    chunks_->add_missing(next, options_.memory_bytes / 10, [&](std::uint64_t n, std::vector<TriangleD>&& large) {
+      if (!large.empty()) bin(bins_->sort(to_fixed(large)));
+      steps.add(n);
+    });
+  });
+}
+
+std::vector<FixedTriangle> Run::to_fixed(std::span<const TriangleD> triangles) const {
+  std::vector<FixedTriangle> fixed;
+  fixed.reserve(triangles.size());
+  for (const TriangleD& t : triangles) fixed.push_back(bp::to_fixed(header_.frame, t));
+  return fixed;
+}
+
+void Run::bin(TriangleBatch&& batch) {
+  bins_->add(std::move(batch));
+  if (waiting_bytes() > options_.memory_bytes) make_room();
 }
 
 /// Triangles to fixed point, into the bins of their tiles.
@@ -282,16 +301,13 @@ void Run::bin(const NextPortion& next) {
   pipeline<Item>(
       thread_count() + 2, [&](Item& item) { return next(item.portion); },
       [&](Item& item) {
-        std::vector<FixedTriangle> fixed;
-        fixed.reserve(item.portion.triangles.size());
-        for (const TriangleD& t : item.portion.triangles) fixed.push_back(to_fixed(header_.frame, t));
+        const std::vector<FixedTriangle> fixed = to_fixed(item.portion.triangles);
         std::vector<TriangleD>().swap(item.portion.triangles);
         item.batch = bins_->sort(fixed);
       },
       [&](Item& item) {
-        bins_->add(std::move(item.batch));
+        bin(std::move(item.batch));
         steps.add(item.portion.count);
-        if (waiting_bytes() > options_.memory_bytes) make_room();
       });
 }
 
@@ -302,14 +318,14 @@ std::uint64_t Run::waiting_bytes() const {
 }
 
 /// Tiles with many triangles are voxelized now: their bits are far smaller. The triangles of the others go to the
-/// store.
+/// store; so do all while chunks still add to their bricks.
 void Run::make_room() {
   const std::uint64_t tile_bytes =
       std::uint64_t(tiles_.edge_vox) * std::uint64_t(tiles_.edge_vox) * std::uint64_t(tiles_.edge_vox) / 8;
   std::vector<std::uint64_t> many, few;
   for (const std::uint64_t tile : bins_->tiles()) {
     const std::uint64_t bytes = bins_->memory_bytes(tile);
-    if (bytes > 4 * tile_bytes) {
+    if (bytes > 4 * tile_bytes && !chunks_) {
       many.push_back(tile);
     } else if (bytes > 0) {
       few.push_back(tile);
@@ -325,8 +341,8 @@ void Run::make_room() {
 }
 
 std::vector<std::uint64_t> Run::tiles_with_triangles() const {
-  if (!chunks_) return bins_->tiles();
-  std::vector<std::uint64_t> tiles;
+  std::vector<std::uint64_t> tiles = bins_->tiles();
+  if (!chunks_) return tiles;
   for (const BrickCoord brick : chunks_->bricks().coords()) {
     const VoxelCoord from = first_voxel(brick) - tiles_.voxels.min;
     tiles.push_back(tiles_.index({from.x / tiles_.edge_vox, from.y / tiles_.edge_vox, from.z / tiles_.edge_vox}));
@@ -344,7 +360,7 @@ void Run::voxelize() {
   parallel_for(std::int64_t(tiles.size()), [&](std::int64_t i) {
     const std::uint64_t tile = tiles[std::size_t(i)];
     voxelize_tile(tile, touched_.at(tile), true);
-    if (!chunks_) bins_->release(tile);
+    bins_->release(tile);
     steps.add(1);
   });
   if (flood_) flood_->resolve();

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "io/brick_shelf.h"
 #include "io/chunk_store.h"
 #include "io/scene_reader.h"
+#include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/stage/vertex_colors.h"
@@ -90,13 +92,24 @@ void Build::gather(TriangleSource& source, const VoxelizedScene& scene) {
 }
 
 std::vector<TriangleD> Build::scene_triangles() const {
-  constexpr std::uint64_t kBytesEach = 400;  // twice, and a hierarchy over them
+  constexpr std::uint64_t kMost = std::uint64_t(1) << 21;  // whatever the memory: it must not decide what is made
+  constexpr std::uint64_t kBytesEach = 400;                // twice, and a hierarchy over them
   std::vector<TriangleD> all;
   if (std::count(options.scenes.begin(), options.scenes.end(), "-") > 0) return all;  // stdin cannot be read again
   const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp});
+  const std::uint64_t memory = budget.work / 2;
+  std::uint64_t count = 0;
   for (std::vector<TriangleD> chunk; source->read(chunk);) {
-    all.insert(all.end(), chunk.begin(), chunk.end());
-    if (all.size() * kBytesEach > budget.work / 2) return {};
+    count += chunk.size();
+    if (count > kMost) return {};
+    if (count * kBytesEach <= memory) all.insert(all.end(), chunk.begin(), chunk.end());
+  }
+  if (count * kBytesEach > memory) {
+    const double missing = double(count * kBytesEach - memory) / (budget.work_growth / 2);
+    fail(ErrorCode::out_of_resource,
+         "to fit {} triangles takes {} MiB, and --memory leaves {} MiB for it; raise --memory to at least {} MiB",
+         count, (count * kBytesEach >> 20) + 1, memory >> 20,
+         std::uint64_t(std::ceil((double(options.common.memory_bytes) + missing) / (1 << 20))));
   }
   return all;
 }

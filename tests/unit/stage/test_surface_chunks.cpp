@@ -151,7 +151,7 @@ TEST_CASE("the voxels of a chunk are those of its triangles, also on their way o
   parallel_for(8, [&](std::int64_t i) {
     const auto n = scene.size() / 8 + 1, begin = std::min(scene.size(), std::size_t(i) * n);
     const auto part = std::span(scene).subspan(begin, std::min(n, scene.size() - begin));
-    refused += !sum.add(chunk_voxels(part, frame, grid));
+    refused += !sum.add(*chunk_voxels(part, frame, grid));
   });
   CHECK(refused == 0);
   CHECK(shelf.coords().empty() == (memory > 0));
@@ -164,7 +164,7 @@ TEST_CASE("the voxels of a chunk are those of its triangles, also on their way o
 TEST_CASE("bytes that are no chunk of this grid are refused whole", "[quick][stage]") {
   const Triangles scene = strand(4, 5000);
   const auto [frame, grid] = grid_around(scene);
-  const std::string bytes = chunk_voxels(scene, frame, grid);
+  const std::string bytes = chunk_voxels(scene, frame, grid).value();
   test::MemoryShelf shelf;
   BrickSum sum(grid, 1 << 30, shelf);
   CHECK_FALSE(sum.add(bytes.substr(0, bytes.size() - 1)));
@@ -200,6 +200,23 @@ TEST_CASE("a scene from kept chunks has the voxels of one from nothing, after an
     CHECK(again.counts.chunks_kept == again.counts.chunks);
     edit(scene, random);
   }
+}
+
+TEST_CASE("triangles too large for a chunk are voxelized in every build", "[quick][stage]") {
+  Triangles scene;
+  for (int i = 0; i < 120; ++i) scene.push_back({{{-60, i - 60.0, -60}, {60, 60.0 - i, -60}, {i - 60.0, 0, 60}}});
+  const Triangles small = strand(11, 40000);
+  scene.insert(scene.end(), small.begin(), small.end());
+  VoxelizeOptions o;
+  o.voxel_size = [](const Bounds3d&) { return 0.25; };
+  o.memory_bytes = GENERATE(std::uint64_t(1) << 30, std::uint64_t(100000));
+  test::MemoryResults results;
+  const Result clean = run(scene, o, nullptr);
+  CHECK((run(scene, o, &results).bits == clean.bits));
+  const Result again = run(scene, o, &results);
+  CHECK((again.bits == clean.bits));
+  CHECK(again.counts.chunks_kept == again.counts.chunks - 1);
+  for (const auto& [key, bytes] : results.results) CHECK(bytes.size() <= kChunkBytes);
 }
 
 TEST_CASE("chunks of other voxels, of another frame, or damaged ones are not taken", "[quick][stage]") {
