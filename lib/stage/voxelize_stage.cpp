@@ -64,6 +64,11 @@ std::uint64_t work_bytes(std::int32_t edge_vox) {
   return 3 * edge * edge * edge / 8 + (std::uint64_t(4) << 20);
 }
 
+std::string text_of(const ContentHash& hash) {
+  const auto [high, low] = hash.value().words;
+  return fmt::format("{:016x}{:016x}", high, low);
+}
+
 /// One run of voxelize_stream().
 class Run {
  public:
@@ -180,8 +185,7 @@ void Run::measure() {
         std::vector<Portion>().swap(kept_);
       });
   counts_.scene = source_.counts();
-  const auto [high, low] = hash.value().words;
-  counts_.input_hash = fmt::format("{:016x}{:016x}", high, low);
+  counts_.input_hash = text_of(hash);
   if (bounds_.empty()) {
     const SceneCounts& c = counts_.scene;
     fail(ErrorCode::bad_input,
@@ -244,12 +248,14 @@ void Run::read_again(const std::function<void(const NextPortion&)>& body) {
     return;
   }
   source_.rewind();
+  ContentHash hash;
   body([&](Portion& portion) {
     const bool more = source_.read(portion.triangles);
     portion.count = portion.triangles.size();
+    hash.add(std::as_bytes(std::span(portion.triangles)));
     return more;
   });
-  if (source_.counts().triangles != counts_.scene.triangles)
+  if (text_of(hash) != counts_.input_hash)
     fail(ErrorCode::bad_input, "{}: changed between the first and the second reading", source_.name());
 }
 

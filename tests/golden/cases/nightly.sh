@@ -10,6 +10,11 @@ options=(--faces 60,20 --resolution 24 --profile 3dtiles)
 "$BP_ROOT/samples/nightly" scenes out "${options[@]}" | table
 write_cube scenes/a.obj 4
 rm "scenes/b c.obj" scenes/broken.obj
+sed -i '1i mtllib paints.mtl' scenes/a.obj  # what a scene names counts, whatever it is called
+for red in 0.1 0.9 0.9; do
+  printf 'newmtl paint\nKd %s 0 0\n' $red > scenes/paints.mtl
+  "$BP_ROOT/samples/nightly" scenes out "${options[@]}" | table
+done
 "$BP_ROOT/samples/nightly" scenes out "${options[@]}" | table
 "$BP_ROOT/samples/nightly" scenes out --faces 60,20 --resolution 24 | table
 LC_ALL=C ls -A out out/a.obj

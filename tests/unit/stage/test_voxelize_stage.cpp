@@ -307,25 +307,29 @@ TEST_CASE("what cannot be voxelized is refused with a reason", "[quick][stage]")
 TEST_CASE("a source that changes between two readings is reported", "[quick][stage]") {
   class Fickle final : public TriangleSource {
    public:
+    Fickle(int batches, double height) : batches_(batches), height_(height) {}
     bool read(std::vector<TriangleD>& out) override {
       out.clear();
       if (left_-- <= 0) return false;
-      out.assign(100, TriangleD{Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0, 1, 1}});
+      out.assign(100, TriangleD{Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0, 1, now_}});
       counts_.triangles += 100;
       return true;
     }
     void rewind() override {
-      left_ = 4;
+      left_ = batches_;
+      now_ = height_;
       counts_ = {};
     }
     [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
     [[nodiscard]] std::string name() const override { return "fickle"; }
 
    private:
-    int left_ = 5;
+    int batches_, left_ = 5;
+    double height_, now_ = 1;
     SceneCounts counts_;
   };
-  Fickle source;
+  const auto [batches, height] = GENERATE(std::pair(4, 1.0), std::pair(5, 0.9));  // fewer; as many, but others
+  Fickle source(batches, height);
   test::MemorySink sink;
   Backends all = test::plain_backends(1);
   VoxelizeOptions o = default_options();
