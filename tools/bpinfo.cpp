@@ -206,7 +206,7 @@ void show_mesh(const Options& o, const std::string& in, Picture& picture) {
   scene.colors = picture.wanted();
   auto source = bp::open_scene(in, scene);
   bp::MeshInfo info = bp::measure(*source);
-  info.provenance = bp::mesh_provenance(in);
+  info.extras = bp::mesh_extras(in);
   if (o.checksum) {
     print(info.totals.checksum() + "\n");
   } else {

@@ -41,8 +41,7 @@ std::vector<std::string> from_comments(const std::string& head) {
   return steps;
 }
 
-std::vector<std::string> from_gltf(const std::string& text) {
-  const Json document = Json::parse(text, nullptr, false);
+std::vector<std::string> gltf_provenance(const Json& document) {
   const Json none = Json::array();
   const Json* steps = &document;
   for (const char* key : {"asset", "extras", "provenance"}) {
@@ -57,9 +56,26 @@ std::vector<std::string> from_gltf(const std::string& text) {
       if (!line.empty()) line += ' ';
       line += step.at(key).get<std::string>();
     }
+    if (step.contains("input") && step.at("input").is_string()) line += " input " + step.at("input").get<std::string>();
     lines.push_back(line);
   }
   return lines;
+}
+
+/// The most that a node has, itself included.
+std::size_t gltf_levels(const Json& document) {
+  static const Json::json_pointer ids("/extensions/MSFT_lod/ids");
+  std::size_t most = 1;
+  if (!document.is_object() || !document.contains("nodes")) return most;
+  for (const Json& node : document.at("nodes")) {
+    if (node.is_object() && node.contains(ids)) most = std::max(most, node.at(ids).size() + 1);
+  }
+  return most;
+}
+
+MeshExtras from_gltf(const std::string& text) {
+  const Json document = Json::parse(text, nullptr, false);
+  return {gltf_provenance(document), gltf_levels(document)};
 }
 
 }  // namespace
@@ -84,7 +100,7 @@ MeshInfo measure(TriangleSource& source) {
   return info;
 }
 
-std::vector<std::string> mesh_provenance(const std::string& path) {
+MeshExtras mesh_extras(const std::string& path) {
   if (path == "-") return {};
   const InputFile file(path);
   if (!file.seekable()) return {};
@@ -92,12 +108,12 @@ std::vector<std::string> mesh_provenance(const std::string& path) {
   if (head.compare(0, 4, "glTF") == 0 && head.size() >= 20) {
     std::uint32_t json_bytes;
     std::memcpy(&json_bytes, head.data() + 12, 4);
-    return json_bytes > kMaxJsonBytes ? std::vector<std::string>{} : from_gltf(bytes_at(file, 20, json_bytes));
+    return json_bytes > kMaxJsonBytes ? MeshExtras{} : from_gltf(bytes_at(file, 20, json_bytes));
   }
   const std::size_t first = head.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && head[first] == '{')
-    return file.size() > kMaxJsonBytes ? std::vector<std::string>{} : from_gltf(bytes_at(file, 0, file.size()));
-  return from_comments(head);
+    return file.size() > kMaxJsonBytes ? MeshExtras{} : from_gltf(bytes_at(file, 0, file.size()));
+  return {from_comments(head), 1};
 }
 
 std::string mesh_text(const MeshInfo& info, const std::string& name) {
@@ -116,7 +132,8 @@ std::string mesh_text(const MeshInfo& info, const std::string& name) {
                      t.bounds.diagonal());
     s += fmt::format("area        {:.6g}\nvolume      {:.6g}\n", t.area, t.volume);
   }
-  for (const std::string& step : info.provenance) s += fmt::format("made by     {}\n", step);
+  if (info.extras.levels > 1) s += fmt::format("levels      {}, of which this is the finest\n", info.extras.levels);
+  for (const std::string& step : info.extras.provenance) s += fmt::format("made by     {}\n", step);
   return s + fmt::format("checksum    {}\n", t.checksum());
 }
 
@@ -132,7 +149,8 @@ Json mesh_json(const MeshInfo& info) {
     j["area"] = t.area;
     j["volume"] = t.volume;
   }
-  j["provenance"] = info.provenance;
+  j["levels"] = info.extras.levels;
+  j["provenance"] = info.extras.provenance;
   return j;
 }
 

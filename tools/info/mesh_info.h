@@ -10,23 +10,26 @@
 /// What bpinfo says of a mesh or scene.
 namespace bp {
 
+/// What a file says beside its triangles; nothing if there is none, or if it cannot be understood.
+struct MeshExtras {
+  std::vector<std::string> provenance;  ///< a line each step, as bpmesh wrote: comments of PLY and OBJ, extras of glTF
+  std::size_t levels = 1;               ///< of detail; MSFT_lod of glTF
+};
+[[nodiscard]] MeshExtras mesh_extras(const std::string& path);
+
 struct MeshInfo {
   SceneCounts counts;
   TriangleTotals totals;
   std::optional<std::uint64_t> vertices;  ///< distinct positions; unknown for scenes above kMaxKept triangles
   std::vector<TriangleD> triangles;       ///< all of them, or none if there are more than kMaxKept
   std::vector<TriangleColors> colors;     ///< of these, if the source has any
-  std::vector<std::string> provenance;    ///< a line each step, as written by bpmesh
+  MeshExtras extras;
 
   static constexpr std::size_t kMaxKept = 1000000;
 };
 
 /// Streams `source` once; memory is bounded by kMaxKept. Colours are looked for if the source was opened with them.
 [[nodiscard]] MeshInfo measure(TriangleSource& source);
-
-/// The steps that bpmesh wrote into a mesh: comments of PLY and OBJ, asset.extras of glTF and GLB. Empty if there are
-/// none, or if the file cannot be understood.
-[[nodiscard]] std::vector<std::string> mesh_provenance(const std::string& path);
 
 [[nodiscard]] std::string mesh_text(const MeshInfo& info, const std::string& name);
 [[nodiscard]] Json mesh_json(const MeshInfo& info);
