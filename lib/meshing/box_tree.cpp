@@ -1,5 +1,9 @@
 #include "lib/meshing/box_tree.h"
 
+#include <cmath>
+
+#include "lib/core/vec3.h"
+
 namespace bp {
 
 namespace {
@@ -69,11 +73,14 @@ void BoxTree::build(std::span<const LatticeBox> boxes, std::vector<std::uint32_t
   levels_.clear();
   if (order_.empty()) return;
   base_ = boxes[order_[0]].min;
+  reach_ = 0;
   sort_in_space(boxes);
   groups_.reserve(order_.size() / (kWidth - 1) + kMostLevels);
   groups_.resize((order_.size() + kWidth - 1) / kWidth);
   for (std::uint32_t i = 0; i < order_.size(); ++i) {
-    groups_[i / kWidth].set(i % kWidth, to_small(boxes[order_[i]]));
+    const SmallBox small = to_small(boxes[order_[i]]);
+    groups_[i / kWidth].set(i % kWidth, small);
+    reach(small);
     place_of_[order_[i]] = i;
   }
   build_levels();
@@ -109,6 +116,23 @@ void BoxTree::build_levels() {
   }
 }
 
+void BoxTree::reach(const SmallBox& b) {
+  for (std::size_t i = 0; i < 3; ++i)
+    reach_ = std::max({reach_, std::abs(double(b.min[i])), std::abs(double(b.max[i]))});
+}
+
+/// Floats: each of the three terms of n . p passes through at most 6 roundings (n, p, the product, three sums), the
+/// limit through 2: together less than 16 roundings of reach or offset. Clamped boxes may reach further.
+BoxTree::InnerSide BoxTree::inner_side(const Plane& plane) const {
+  const double size = length(plane.normal);
+  if (!(size > 0) || reach_ >= INT32_MAX - 1) return {{0, 0, 0}, -1};
+  const Vec3d n = (1 / size) * plane.normal;
+  const LatticeCoord d = plane.point - base_;
+  const double offset = dot(n, {double(d.x), double(d.y), double(d.z)});
+  const double slack = 0x1p-20 * (reach_ + std::abs(offset));
+  return {{float(n[0]), float(n[1]), float(n[2])}, float(offset - slack)};
+}
+
 void BoxTree::remove(std::uint32_t item) {
   const std::uint32_t i = place_of_[item];
   groups_[i / kWidth].set(i % kWidth, kNothing);
@@ -116,6 +140,7 @@ void BoxTree::remove(std::uint32_t item) {
 
 void BoxTree::update(std::uint32_t item, const LatticeBox& box) {
   const SmallBox small = to_small(box);
+  reach(small);
   std::uint32_t i = place_of_[item];
   groups_[i / kWidth].set(i % kWidth, small);
   for (std::size_t level = 1; level < levels_.size(); ++level) {

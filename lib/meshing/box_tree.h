@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/core/coords.h"
+#include "lib/meshing/lanes.h"
 
 /// A bounding volume hierarchy over boxes of lattice points: the broad phase of all exact tests.
 namespace bp {
@@ -54,34 +55,38 @@ class BoxTree {
   /// visit(item) for every item whose box meets `box`; stops when visit returns false, and returns false then.
   template <class Visit>
   bool query(const LatticeBox& box, Visit&& visit) const {
-    return query(
-        box, [](const LatticeBox&) { return true; }, visit);
-  }
-  /// The same, without the items and subtrees whose box keep(box) refuses. Boxes beyond 2^31 lattice units of the first
-  /// item are clamped, so `keep` must be for boxes within.
-  template <class Keep, class Visit>
-  bool query(const LatticeBox& box, Keep&& keep, Visit&& visit) const {
-    if (levels_.empty()) return true;
     const SmallBox small = to_small(box);
-    Place stack[kMostLevels * kWidth];
-    int top = 0;
-    stack[top++] = {std::uint32_t(levels_.size() - 1), 0};
-    while (top > 0) {
-      const Place place = stack[--top];
-      const Group& group = groups_[levels_[place.level] + place.group];
-      for (std::uint32_t hits = group.meeting(small); hits != 0; hits &= hits - 1) {
-        const auto k = std::uint32_t(std::countr_zero(hits));
-        if (!keep(to_lattice(group.box(k)))) continue;
-        const std::uint32_t child = place.group * kWidth + k;
-        if (place.level > 0) {
-          stack[top++] = {place.level - 1, child};
-        } else if (!visit(order_[child])) {
-          return false;
-        }
-      }
-    }
-    return true;
+    return walk([&](const Group& group) { return group.meeting(small); },
+                [&](std::uint32_t first, std::uint32_t hits) {
+                  for (; hits != 0; hits &= hits - 1) {
+                    if (!visit(order_[first + std::uint32_t(std::countr_zero(hits))])) return false;
+                  }
+                  return true;
+                });
   }
+
+  /// Its inner side is the open half-space that the normal points away from. `normal`: of any length, each component
+  /// to a rounding.
+  struct Plane {
+    LatticeCoord point;
+    Vec3d normal;
+  };
+  /// The same, without some that lie wholly on the inner side of `plane`, and eight at a time: visit(first, hits) means
+  /// the items order()[first + k] for the bits k of `hits`.
+  template <class Visit>
+  bool query_groups(const LatticeBox& box, const Plane& plane, Visit&& visit) const {
+    const SmallBox small = to_small(box);
+    const InnerSide inner = inner_side(plane);
+    return walk(
+        [&](const Group& group) {
+          const std::uint32_t hits = group.meeting(small);
+          return hits == 0 ? 0 : hits & ~group.inside(inner);
+        },
+        visit);
+  }
+  /// Items, those near in space near each other; changes with build() only.
+  [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
+  [[nodiscard]] const LatticeCoord& base() const { return base_; }  ///< a point near the items
 
  private:
   static constexpr std::uint32_t kWidth = 8;
@@ -92,24 +97,35 @@ class BoxTree {
     std::array<std::int32_t, 3> min, max;
   };
   static constexpr SmallBox kNothing{{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
-  /// The boxes of eight children, side by side in vectors of GCC and Clang.
+  /// n . p < limit only for points p, relative to base_, strictly on the inner side.
+  struct InnerSide {
+    std::array<float, 3> n;
+    float limit;
+  };
+  /// The boxes of eight children, side by side.
   struct Group {
-    typedef std::int32_t Four __attribute__((vector_size(16)));
-    Four min[3][2], max[3][2];
+    FourInts min[3][2], max[3][2];
 
     Group() {  // kNothing meets nothing: it is beyond all that to_small() returns
       for (std::uint32_t k = 0; k < kWidth; ++k) set(k, kNothing);
     }
-    /// Bit k: child k meets `b`. No branches: they would be guesses.
+    /// Bit k: child k meets `b`.
     [[nodiscard]] std::uint32_t meeting(const SmallBox& b) const {
-      const auto apart = [&](std::size_t half) {
-        return (min[0][half] > b.max[0]) | (max[0][half] < b.min[0]) | (min[1][half] > b.max[1]) |
-               (max[1][half] < b.min[1]) | (min[2][half] > b.max[2]) | (max[2][half] < b.min[2]);
+      const auto meets = [&](std::size_t half) {
+        return (min[0][half] <= b.max[0]) & (max[0][half] >= b.min[0]) & (min[1][half] <= b.max[1]) &
+               (max[1][half] >= b.min[1]) & (min[2][half] <= b.max[2]) & (max[2][half] >= b.min[2]);
       };
-      const Four hits = (~apart(0) & Four{1, 2, 4, 8}) | (~apart(1) & Four{16, 32, 64, 128});
-      const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(hits);
-      const std::uint64_t both = halves[0] | halves[1];
-      return std::uint32_t(both | both >> 32);
+      return bits_of(meets(0), meets(1));
+    }
+    /// Bit k: child k, if it is there, lies on the inner side.
+    [[nodiscard]] std::uint32_t inside(const InnerSide& side) const {
+      const auto below = [&](std::size_t half) {
+        FourFloats far{};
+        for (std::size_t i = 0; i < 3; ++i)
+          far += side.n[i] * __builtin_convertvector(side.n[i] > 0 ? max[i][half] : min[i][half], FourFloats);
+        return far < side.limit;
+      };
+      return bits_of(below(0), below(1));
     }
     [[nodiscard]] SmallBox box(std::uint32_t k) const {
       const std::uint32_t half = k / 4, lane = k % 4;
@@ -124,6 +140,27 @@ class BoxTree {
     std::uint32_t level, group;
   };
 
+  /// visit(first, hits) for the groups of items that are reached through the children hits(group).
+  template <class Hits, class Visit>
+  bool walk(Hits&& hits_of, Visit&& visit) const {
+    if (levels_.empty()) return true;
+    Place stack[kMostLevels * kWidth];
+    int top = 0;
+    stack[top++] = {std::uint32_t(levels_.size() - 1), 0};
+    while (top > 0) {
+      const Place place = stack[--top];
+      std::uint32_t hits = hits_of(groups_[levels_[place.level] + place.group]);
+      const std::uint32_t first = place.group * kWidth;
+      if (place.level == 0) {
+        if (hits != 0 && !visit(first, hits)) return false;
+        continue;
+      }
+      for (; hits != 0; hits &= hits - 1)
+        stack[top++] = {place.level - 1, first + std::uint32_t(std::countr_zero(hits))};
+    }
+    return true;
+  }
+
   [[nodiscard]] SmallBox to_small(const LatticeBox& b) const {
     const auto clamp = [](std::int64_t v) {
       return std::int32_t(std::clamp<std::int64_t>(v, INT32_MIN + 1, INT32_MAX - 1));
@@ -131,14 +168,13 @@ class BoxTree {
     return {{clamp(b.min.x - base_.x), clamp(b.min.y - base_.y), clamp(b.min.z - base_.z)},
             {clamp(b.max.x - base_.x), clamp(b.max.y - base_.y), clamp(b.max.z - base_.z)}};
   }
-  [[nodiscard]] LatticeBox to_lattice(const SmallBox& b) const {
-    return {{base_.x + b.min[0], base_.y + b.min[1], base_.z + b.min[2]},
-            {base_.x + b.max[0], base_.y + b.max[1], base_.z + b.max[2]}};
-  }
+  [[nodiscard]] InnerSide inner_side(const Plane& plane) const;
+  void reach(const SmallBox& b);
   void sort_in_space(std::span<const LatticeBox> boxes);
   void build_levels();
 
   LatticeCoord base_{};
+  double reach_ = 0;                     // largest coordinate of a box since build(), relative to base_
   std::vector<Group> groups_;            // all groups of items, then those of the groups, ... the root last
   std::vector<std::uint32_t> levels_;    // where each level begins in groups_
   std::vector<std::uint32_t> order_;     // items; group g holds those from 8 g on

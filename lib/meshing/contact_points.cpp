@@ -79,24 +79,45 @@ FaceId ContactPoints::nearest(const Vec3d& p, const FaceTree& tree, double reach
 }
 
 ContactPoints::Target ContactPoints::target(FaceId f) const {
-  Target t{corners(f), {}, 0};
-  t.centre = (1.0 / 3) * (t.corners[0] + t.corners[1] + t.corners[2]);
-  for (const Vec3d& c : t.corners) t.radius = std::max(t.radius, length(c - t.centre));
+  Target t{corners(f), {}};
+  const auto plane = [](const Vec3d& n, const Vec3d& through) -> Target::Plane {
+    const double size = length(n);
+    if (!(size > 0)) return {};
+    const Vec3d unit = (1 / size) * n;
+    return {unit, dot(unit, through)};
+  };
+  const Vec3d normal = cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
+  t.planes[3] = plane(normal, t.corners[0]);
+  for (std::size_t k = 0; k < 3; ++k)
+    t.planes[k] = plane(cross(t.corners[(k + 1) % 3] - t.corners[k], normal), t.corners[k]);
   return t;
+}
+
+bool ContactPoints::Target::is_farther(const Vec3d& p, double squared) const {
+  const double above = planes[3].height(p), rest = squared - above * above;
+  if (rest <= 0) return true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double beside = planes[k].height(p);
+    if (beside > 0 && beside * beside >= rest) return true;
+  }
+  return false;
+}
+
+double ContactPoints::Target::squared_distance(const Vec3d& p) const {
+  const bool over = planes[0].height(p) <= 0 && planes[1].height(p) <= 0 && planes[2].height(p) <= 0;
+  const double above = planes[3].height(p);
+  return over ? above * above : bp::squared_distance(p, corners);
 }
 
 /// `first`: the one that is asked first; the nearer it is, the fewer others are.
 std::size_t ContactPoints::nearest_target(const Vec3d& p, std::size_t first) const {
   std::size_t best = first;
-  double least = squared_distance(p, targets_[first].corners), distance = std::sqrt(least);
+  double least = targets_[first].squared_distance(p);
   for (std::size_t k = 0; k < targets_.size(); ++k) {
-    const Vec3d to_centre = p - targets_[k].centre;
-    const double beyond = distance + targets_[k].radius;
-    if (k == first || dot(to_centre, to_centre) > beyond * beyond) continue;
-    const double d = squared_distance(p, targets_[k].corners);
+    if (k == first || targets_[k].is_farther(p, least)) continue;
+    const double d = targets_[k].squared_distance(p);
     if (d >= least) continue;
     least = d;
-    distance = std::sqrt(d);
     best = k;
   }
   return best;

@@ -25,11 +25,21 @@ class ContactPoints {
   void add(const Vec3d& p, std::span<const FaceId> near);
 
  private:
-  /// A face that points may be nearest to, in a sphere that tells which they are not.
+  /// A face that points may be nearest to: its plane, and upright on it those along its edges, outwards positive. Their
+  /// distances bound that of the face from below.
   struct Target {
     std::array<Vec3d, 3> corners;
-    Vec3d centre;
-    double radius;
+    struct Plane {
+      Vec3d normal;
+      double offset;
+      [[nodiscard]] double height(const Vec3d& p) const {
+        return normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2] - offset;
+      }
+    };
+    std::array<Plane, 4> planes;  ///< along the edges, then its own
+    [[nodiscard]] double squared_distance(const Vec3d& p) const;
+    /// As far or farther, surely but for rounding; false: it may be.
+    [[nodiscard]] bool is_farther(const Vec3d& p, double squared) const;
   };
   [[nodiscard]] std::array<Vec3d, 3> corners(FaceId f) const;
   [[nodiscard]] Target target(FaceId f) const;

@@ -1,7 +1,9 @@
 #include "lib/meshing/enclosed_triangles.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <optional>
 
 #include "lib/core/triangle_intersection.h"
 #include "lib/core/vec3.h"
@@ -27,107 +29,202 @@ LatticeBox box_around(const GridFrame& frame, const TriangleD& t) {
   return box;
 }
 
-/// The plane of a face, to tell boxes that lie strictly on its inner side: nothing in them meets the face, nor a
-/// tetrahedron that it closes towards the inside. Doubles with a margin for their rounding.
-class InnerSide {
+/// Boxes that lie strictly on the inner side of a face neither meet it nor a tetrahedron that it closes towards the
+/// inside.
+BoxTree::Plane plane_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
+  return {a, to_double(normal_of(a, b, c))};
+}
+
+/// A closed tetrahedron, turned so that each of its four planes has the inside on its negative side: corners
+/// (q, b, c, a) of a swept one, so that the plane of the first three is that of the new face.
+class Solid {
  public:
-  InnerSide(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c)
-      : a_(a), n_(to_double(normal_of(a, b, c))) {}
-  [[nodiscard]] bool holds(const LatticeBox& box) const {
-    double far = 0, size = 0;
-    for (int i = 0; i < 3; ++i) {
-      const double n = n_[std::size_t(i)];
-      const double term = n * double((n > 0 ? box.max[i] : box.min[i]) - a_[i]);
-      far += term;
-      size += std::abs(term);
-    }
-    return far < -0x1p-50 * size;  // normal, product and sums: fewer than 8 roundings
+  Solid(const GridFrame& frame, const Tetrahedron& lattice) : lattice_(lattice) {
+    for (std::size_t i = 0; i < 4; ++i) corners_[i] = frame.world(lattice[i]);
   }
-
- private:
-  LatticeCoord a_;
-  Vec3d n_;
-};
-
-/// A closed tetrahedron in scene units, turned so that each of its four planes has the inside on its negative side.
-struct Solid {
-  std::array<Vec3d, 4> corners;
-  LatticeBox box;
-
-  /// Exact. The plane of the first three corners is asked first.
-  [[nodiscard]] bool holds(const Vec3d& p) const {
-    const auto& [a, b, c, d] = corners;
+  [[nodiscard]] const Tetrahedron& lattice() const { return lattice_; }
+  [[nodiscard]] bool holds(const Vec3d& p) const {  ///< exact
+    const auto& [a, b, c, d] = corners_;
     return orient3d(a, b, c, p) <= 0 && orient3d(a, d, b, p) <= 0 && orient3d(b, d, c, p) <= 0 &&
            orient3d(c, d, a, p) <= 0;
   }
+
+ private:
+  Tetrahedron lattice_;
+  std::array<Vec3d, 4> corners_;
 };
 
-/// Interleaved bits of a corner's place in the bounds: what is near in space is near in memory.
-std::uint64_t morton(const Vec3d& p, const Bounds3d& bounds) {
-  std::uint64_t code = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double side = bounds.max[axis] - bounds.min[axis];
-    auto bits = side > 0 ? std::uint64_t((p[axis] - bounds.min[axis]) / side * 0xffff) : 0;
-    for (int i = 0; i < 16; ++i) code |= ((bits >> i) & 1) << (3 * i + int(axis));
-  }
-  return code;
+/// A swept tetrahedron (a, b, c, q) has q on the inner side of its old face; a flat one holds nothing.
+std::optional<Solid> solid_of(const GridFrame& frame, const Tetrahedron& t) {
+  const int turn = orient3d(t[0], t[1], t[2], t[3]);
+  if (turn == 0) return std::nullopt;
+  const std::size_t second = turn > 0 ? 1 : 2;
+  return Solid(frame, {t[3], t[second], t[3 - second], t[0]});
 }
 
-void sort_in_space(std::vector<TriangleD>& triangles) {
-  Bounds3d bounds;
-  for (const TriangleD& t : triangles) bounds.add(t[0]);
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) order[i] = {morton(triangles[i][0], bounds), std::uint32_t(i)};
-  std::sort(order.begin(), order.end());
-  std::vector<TriangleD> sorted;
-  sorted.reserve(triangles.size());
-  for (const auto& [code, i] : order) sorted.push_back(triangles[i]);
-  triangles = std::move(sorted);
+/// The face is the new one over a tetrahedron swept.
+bool closes(const NewFace& f, const Tetrahedron& t) {
+  return f.corners[0] == t[3] && f.corners[1] == t[1] && f.corners[2] == t[2];
 }
 
 }  // namespace
 
-EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame)
-    : triangles_(std::move(triangles)), frame_(frame) {
-  sort_in_space(triangles_);
-  std::vector<LatticeBox> boxes(triangles_.size());
-  std::vector<std::uint32_t> items(triangles_.size());
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    boxes[i] = box_around(frame_, triangles_[i]);
+EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame) : frame_(frame) {
+  std::vector<LatticeBox> boxes(triangles.size());
+  std::vector<std::uint32_t> items(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    boxes[i] = box_around(frame_, triangles[i]);
     items[i] = std::uint32_t(i);
   }
   tree_.build(boxes, std::move(items));
+  triangles_.reserve(triangles.size());
+  for (const std::uint32_t i : tree_.order()) triangles_.push_back(triangles[i]);
+  gather_corners();
+}
+
+void EnclosedTriangles::gather_corners() {
+  eights_.assign((triangles_.size() + 7) / 8, {});
+  const Vec3d base = to_double(tree_.base());
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d v = frame_.to_voxels(triangles_[i][k]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double at = v[axis] * kLatticePerVoxel - base[axis];
+        reach_ = std::max(reach_, std::abs(at));
+        eights_[i / 8].corners[k][axis][i % 8 / 4][i % 4] = float(at);
+      }
+    }
+  }
+}
+
+namespace {
+
+/// A half-space clear of a body: n . p > limit for a corner p as rounded. Whichever n, that proves it.
+struct HalfSpace {
+  std::array<float, 3> n;
+  float limit;
+
+  /// Bit k: it holds the corners of triangle k from the first to the last one asked for.
+  [[nodiscard]] std::uint32_t holds(const EightTriangles& eight, std::size_t last) const {
+    const auto beyond = [&](std::size_t half) {
+      FourInts all{-1, -1, -1, -1};
+      for (std::size_t k = 0; k <= last; ++k) {
+        const auto& c = eight.corners[k];
+        all &= n[0] * c[0][half] + n[1] * c[1][half] + n[2] * c[2][half] > limit;
+      }
+      return all;
+    };
+    return bits_of(beyond(0), beyond(1));
+  }
+};
+
+/// `body` relative to the tree's base. Floats: each of the three terms of n . p passes through at most 6 roundings (n,
+/// p, the product, two sums), the limit through 2, so with sizes of n that sum to 1 the height errs by less than 14
+/// roundings of reach or limit; to_voxels by less than 2^-14 lattice units.
+HalfSpace beyond(const Vec3d& direction, std::span<const Vec3d> body, double reach) {
+  const double size = std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]);
+  if (!(size > 0)) return {{0, 0, 0}, 1};
+  const Vec3d n = (1 / size) * direction;
+  double limit = dot(n, body[0]);
+  for (const Vec3d& p : body) limit = std::max(limit, dot(n, p));
+  return {{float(n[0]), float(n[1]), float(n[2])}, float(limit + 0x1p-12 + 0x1p-20 * (reach + std::abs(limit)))};
+}
+
+}  // namespace
+
+/// What a change sweeps: a new face, or a tetrahedron, or both, the face closing the tetrahedron towards the inside.
+class EnclosedTriangles::Swept {
+ public:
+  Swept(const EnclosedTriangles& all, const NewFace* face, const std::optional<Solid>& solid)
+      : all_(all), solid_(solid), has_face_(face != nullptr) {
+    const Tetrahedron t = solid ? solid->lattice() : Tetrahedron{};
+    corners_ = has_face_ ? face->corners : std::array<LatticeCoord, 3>{t[0], t[2], t[1]};
+    for (std::size_t k = 0; k < 3; ++k) {
+      world_[k] = all.frame_.world(corners_[k]);
+      body_[k] = to_double(corners_[k] - all.tree_.base());
+    }
+    body_[3] = solid ? to_double(t[3] - all.tree_.base()) : body_[0];
+    inwards_ = beyond(-1.0 * normal(), body_, all.reach_);
+  }
+
+  [[nodiscard]] LatticeBox box() const {
+    LatticeBox box = box_of(corners_[0], corners_[1], corners_[2]);
+    if (solid_) box.add(solid_->lattice()[3]);
+    return box;
+  }
+  [[nodiscard]] BoxTree::Plane plane() const { return plane_of(corners_[0], corners_[1], corners_[2]); }
+
+  /// Bits of the triangles that are surely clear.
+  [[nodiscard]] std::uint32_t clear(const EightTriangles& eight, std::uint32_t asked) {
+    std::uint32_t clear = inwards_.holds(eight, 2);
+    if ((asked & ~clear) == 0) return clear;
+    if (!complete_) add_sides();
+    std::uint32_t of_face = has_face_ ? 0 : ~0u, of_solid = solid_ ? 0 : ~0u;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (has_face_) of_face |= beside_face_[k].holds(eight, 2);
+      if (solid_) of_solid |= beside_solid_[k].holds(eight, 0);
+    }
+    return clear | (of_face & of_solid);
+  }
+
+  /// Exact.
+  [[nodiscard]] bool meets(const TriangleD& t) const {
+    return (has_face_ && triangles_intersect(t.data(), world_.data())) || (solid_ && solid_->holds(t[0]));
+  }
+
+ private:
+  [[nodiscard]] Vec3d normal() const { return cross(body_[1] - body_[0], body_[2] - body_[0]); }
+
+  /// Upright on the face, one along each edge; the other faces of the tetrahedron.
+  void add_sides() {
+    complete_ = true;
+    const Vec3d up = normal();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d &a = body_[k], &b = body_[(k + 1) % 3], &c = body_[(k + 2) % 3], &d = body_[3];
+      if (has_face_) beside_face_[k] = beyond(cross(b - a, up), {body_.data(), 3}, all_.reach_);
+      if (!solid_) continue;
+      const Vec3d n = cross(b - a, d - a);
+      beside_solid_[k] = beyond(dot(n, c - a) > 0 ? -1.0 * n : n, body_, all_.reach_);
+    }
+  }
+
+  const EnclosedTriangles& all_;
+  const std::optional<Solid>& solid_;
+  bool has_face_, complete_ = false;
+  std::array<LatticeCoord, 3> corners_;  // of the face
+  std::array<Vec3d, 3> world_;
+  std::array<Vec3d, 4> body_;  // corners of the face, then the tetrahedron's other one; relative to the tree's base
+  HalfSpace inwards_;
+  std::array<HalfSpace, 3> beside_face_, beside_solid_;
+};
+
+bool EnclosedTriangles::is_free(Swept swept, Blocker* blocker) const {
+  return tree_.query_groups(swept.box(), swept.plane(), [&](std::uint32_t first, std::uint32_t hits) {
+    hits &= ~swept.clear(eights_[first / 8], hits);
+    for (; hits != 0; hits &= hits - 1) {
+      const TriangleD& triangle = triangles_[first + std::uint32_t(std::countr_zero(hits))];
+      if (!swept.meets(triangle)) continue;
+      if (blocker != nullptr) report(triangle, *blocker);
+      return false;
+    }
+    return true;
+  });
 }
 
 // A triangle meets neither the old faces (it was enclosed) nor, once tested, the new ones. So it lies wholly in one
 // part of space that they bound together, and one of its corners tells whether a tetrahedron that leaves the solid
-// holds it. Nearly all triangles near a face lie wholly on its inner side: three orientations, and no more.
+// holds it. Nearly all triangles near a face lie wholly on its inner side: eight are left out at once.
 bool EnclosedTriangles::allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                                Blocker* blocker) const {
   for (const NewFace& f : star) {
-    const std::array<Vec3d, 3> face = {frame_.world(f.corners[0]), frame_.world(f.corners[1]),
-                                       frame_.world(f.corners[2])};
-    const InnerSide inner(f.corners[0], f.corners[1], f.corners[2]);
-    const bool free = tree_.query(
-        box_of(f.corners[0], f.corners[1], f.corners[2]), [&](const LatticeBox& b) { return !inner.holds(b); },
-        [&](std::uint32_t i) {
-          return !triangles_intersect(triangles_[i].data(), face.data()) || !blocks(i, blocker);
-        });
-    if (!free) return false;
+    const auto under = std::find_if(swept.begin(), swept.end(), [&](const Tetrahedron& t) { return closes(f, t); });
+    const std::optional<Solid> solid = under == swept.end() ? std::nullopt : solid_of(frame_, *under);
+    if (!is_free(Swept(*this, &f, solid), blocker)) return false;
   }
   for (const Tetrahedron& t : swept) {
-    // A swept tetrahedron (a, b, c, q) has q on the inner side of its old face; a flat one holds nothing.
-    const int turn = orient3d(t[0], t[1], t[2], t[3]);
-    if (turn == 0) continue;
-    const std::size_t second = turn > 0 ? 1 : 2;
-    Solid solid{{frame_.world(t[3]), frame_.world(t[second]), frame_.world(t[3 - second]), frame_.world(t[0])}, {}};
-    LatticeBox box = box_of(t[0], t[1], t[2]);
-    box.add(t[3]);
-    const InnerSide inner(t[3], t[3 - second], t[second]);  // of the new face: the tetrahedron is beyond it
-    const bool free = tree_.query(
-        box, [&](const LatticeBox& b) { return !inner.holds(b); },
-        [&](std::uint32_t i) { return !solid.holds(triangles_[i][0]) || !blocks(i, blocker); });
-    if (!free) return false;
+    if (std::any_of(star.begin(), star.end(), [&](const NewFace& f) { return closes(f, t); })) continue;
+    const std::optional<Solid> solid = solid_of(frame_, t);
+    if (solid && !is_free(Swept(*this, nullptr, solid), blocker)) return false;
   }
   return true;
 }
@@ -152,20 +249,17 @@ void add_samples(const TriangleD& t, double voxel, std::vector<Vec3d>& points) {
 
 }  // namespace
 
-/// Always true.
-bool EnclosedTriangles::blocks(std::uint32_t triangle, Blocker* blocker) const {
-  if (blocker == nullptr) return true;
-  blocker->count = 3;
+void EnclosedTriangles::report(const TriangleD& triangle, Blocker& blocker) const {
+  blocker.count = 3;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3d v = frame_.to_voxels(triangles_[triangle][k]);
-    for (std::size_t i = 0; i < 3; ++i) blocker->points[k][i] = v[i] * kLatticePerVoxel;
+    const Vec3d v = frame_.to_voxels(triangle[k]);
+    for (std::size_t i = 0; i < 3; ++i) blocker.points[k][i] = v[i] * kLatticePerVoxel;
   }
-  return true;
 }
 
 std::uint64_t EnclosedTriangles::bytes() const {
-  constexpr std::uint64_t kBytesInTree = 80;
-  return triangles_.size() * (sizeof(TriangleD) + kBytesInTree + kBytesPerContactPoint);
+  constexpr std::uint64_t kBytesInTree = 40;
+  return triangles_.size() * (sizeof(TriangleD) + sizeof(EightTriangles) / 8 + kBytesInTree + kBytesPerContactPoint);
 }
 
 std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin) const {

@@ -34,9 +34,30 @@ class Separator {
         add_edge_axes();
         if (a == count_) return false;
       }
-      if (separates_along(axes_[a], c, edge)) return true;
+      if (!separates_along(axes_[a], c, edge)) continue;
+      last_ = a;
+      return true;
     }
     return false;
+  }
+
+  /// Of a layer of cubes, bit 8 y + x the one at corner + (x, y, 0) edge, those that the axis that told the last cube
+  /// apart leaves: few.
+  [[nodiscard]] std::uint64_t left(std::uint64_t layer, const LatticeCoord& corner, std::int64_t edge) const {
+    if (count_ == 0) return layer;
+    const Axis& axis = axes_[last_];
+    const LatticeCoord c = corner - box_.min;
+    const double e = double(edge), step_x = axis.x * e, step_y = axis.y * e;
+    const double at = axis.x * double(c.x) + axis.y * double(c.y) + axis.z * double(c.z);
+    const double from = axis.max - axis.negative * e + 2 * axis.slack,
+                 to = axis.min - axis.positive * e - 2 * axis.slack;
+    std::uint64_t left = 0;
+    for (std::uint64_t rest = layer; rest != 0; rest &= rest - 1) {
+      const int bit = std::countr_zero(rest);
+      const double there = at + step_x * (bit % 8) + step_y * (bit / 8);
+      left |= std::uint64_t((there < from) & (there > to)) << bit;
+    }
+    return left;
   }
 
  private:
@@ -102,13 +123,13 @@ class Separator {
   double reach_;         // bounds the sum of sizes of the coordinates of a corner, of either body
   LatticeBox box_;
   std::array<Axis, 22> axes_;
-  std::size_t count_ = 0;
-  bool complete_ = false;  // the edges' axes are there
+  std::size_t count_ = 0, last_ = 0;  // the one that told the last cube apart often does the next
+  bool complete_ = false;             // the edges' axes are there
 };
 
 namespace {
 
-/// Occupied voxels of a brick with an empty one among their 26 neighbours.
+/// Occupied voxels of a brick with an empty one across one of their 6 faces.
 BrickBits boundary_of(const BrickShelf& shelf, BrickCoord coord) {
   const VoxelCoord first = first_voxel(coord);
   BitBox bits({{first.x - 64, first.y - 1, first.z - 1}, {first.x + 128, first.y + 65, first.z + 65}});
@@ -116,12 +137,11 @@ BrickBits boundary_of(const BrickShelf& shelf, BrickCoord coord) {
   BrickBits out;
   for (std::int32_t z = 0; z < kBrickEdge; ++z) {
     for (std::int32_t y = 0; y < kBrickEdge; ++y) {
-      std::uint64_t inner = ~std::uint64_t(0);
-      for (int i = 0; i < 9; ++i) {
-        const std::uint64_t* r = bits.row(first.y + y + i % 3 - 1, first.z + z + i / 3 - 1);
-        inner &= r[1] & ((r[1] << 1) | (r[0] >> 63)) & ((r[1] >> 1) | (r[2] << 63));
-      }
-      out[std::size_t(z * kBrickEdge + y)] = bits.row(first.y + y, first.z + z)[1] & ~inner;
+      const auto row = [&](std::int32_t dy, std::int32_t dz) { return bits.row(first.y + y + dy, first.z + z + dz); };
+      const std::uint64_t* r = row(0, 0);
+      const std::uint64_t inner = ((r[1] << 1) | (r[0] >> 63)) & ((r[1] >> 1) | (r[2] << 63)) & row(-1, 0)[1] &
+                                  row(1, 0)[1] & row(0, -1)[1] & row(0, 1)[1];
+      out[std::size_t(z * kBrickEdge + y)] = r[1] & ~inner;
     }
   }
   return out;
@@ -283,9 +303,11 @@ bool EnclosedVoxels::brick_clear(Separator& separator, BrickCoord coord, const B
   const CellWindow window(separator.box(), low_corner(first), edge);
   for (std::int64_t z = window.low_z(); z <= window.high_z(); ++z) {
     const std::uint64_t word = brick.blocks[std::size_t(z)];
-    for (std::uint64_t rest = word & window.word(); rest != 0; rest &= rest - 1) {
+    const VoxelCoord layer{first.x, first.y, first.z + std::int32_t(z) * 8};
+    for (std::uint64_t rest = separator.left(word & window.word(), low_corner(layer), edge); rest != 0;
+         rest &= rest - 1) {
       const int bit = std::countr_zero(rest);
-      const VoxelCoord voxel{first.x + bit % 8 * 8, first.y + bit / 8 * 8, first.z + std::int32_t(z) * 8};
+      const VoxelCoord voxel{layer.x + bit % 8 * 8, layer.y + bit / 8 * 8, layer.z};
       if (separator.separates(low_corner(voxel), edge)) continue;
       const auto before = std::uint32_t(std::popcount(word & ((std::uint64_t(1) << bit) - 1)));
       if (!block_clear(separator, voxel, blocks_[brick.first[std::size_t(z)] + before], blocker)) return false;
@@ -297,9 +319,11 @@ bool EnclosedVoxels::brick_clear(Separator& separator, BrickCoord coord, const B
 bool EnclosedVoxels::block_clear(Separator& separator, VoxelCoord first, const Block& block, Blocker* blocker) const {
   const CellWindow window(separator.box(), low_corner(first), kLatticePerVoxel);
   for (std::int64_t z = window.low_z(); z <= window.high_z(); ++z) {
-    for (std::uint64_t rest = block[std::size_t(z)] & window.word(); rest != 0; rest &= rest - 1) {
+    const std::uint64_t word = block[std::size_t(z)] & window.word();
+    const VoxelCoord layer{first.x, first.y, first.z + std::int32_t(z)};
+    for (std::uint64_t rest = separator.left(word, low_corner(layer), kLatticePerVoxel); rest != 0; rest &= rest - 1) {
       const int bit = std::countr_zero(rest);
-      const LatticeCoord low = low_corner({first.x + bit % 8, first.y + bit / 8, first.z + std::int32_t(z)});
+      const LatticeCoord low = low_corner({layer.x + bit % 8, layer.y + bit / 8, layer.z});
       if (separator.separates(low, kLatticePerVoxel)) continue;
       if (blocker != nullptr) *blocker = cube(low, kLatticePerVoxel);
       return false;

@@ -21,7 +21,7 @@ class EnclosedVoxels : public Enclosed {
   [[nodiscard]] std::uint64_t bytes() const override;
 
  private:
-  /// Occupied voxels with an empty one among their 26 neighbours: word z, bit 8 y + x.
+  /// Occupied voxels with an empty one across one of their 6 faces: word z, bit 8 y + x.
   using Block = std::array<std::uint64_t, 8>;
   struct BoundaryBrick {
     std::array<std::uint64_t, 8> blocks;  ///< those with any voxel: word z, bit 8 y + x

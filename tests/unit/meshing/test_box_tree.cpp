@@ -71,8 +71,7 @@ TEST_CASE("the tree of boxes finds what meets a box, and nothing else, as boxes 
   }
 }
 
-TEST_CASE("a query of the tree of boxes stops when told to, and leaves out what is not to be kept",
-          "[quick][meshing]") {
+TEST_CASE("a query of the tree of boxes stops when told to", "[quick][meshing]") {
   std::vector<LatticeBox> boxes;
   for (std::int64_t x = 0; x < 300; ++x) boxes.push_back({{x, 0, 0}, {x, 1, 1}});
   std::vector<std::uint32_t> items(boxes.size());
@@ -82,11 +81,50 @@ TEST_CASE("a query of the tree of boxes stops when told to, and leaves out what 
   int visits = 0;
   CHECK_FALSE(tree.query({{0, 0, 0}, {400, 1, 1}}, [&](std::uint32_t) { return ++visits < 7; }));
   CHECK(visits == 7);
-  visits = 0;
-  const auto right = [](const LatticeBox& b) { return b.max.x >= 250; };
-  CHECK(tree.query({{0, 0, 0}, {400, 1, 1}}, right, [&](std::uint32_t item) {
-    ++visits;
-    return item >= 250;
-  }));
-  CHECK(visits == 50);
+}
+
+TEST_CASE("a query of the tree of boxes with a plane leaves out boxes on its inner side only, and most of those",
+          "[quick][meshing]") {
+  RandomBoxes random(4);
+  const bool far_ones = GENERATE(false, true);  // clamped ones: then it leaves out none
+  std::vector<LatticeBox> boxes;
+  while (boxes.size() < 3000) {
+    boxes.push_back(random.next());
+    if (!far_ones && boxes.back().max.x > 100000) boxes.pop_back();
+  }
+  std::vector<std::uint32_t> items(boxes.size());
+  std::iota(items.begin(), items.end(), 0u);
+  BoxTree tree;
+  tree.build(boxes, items);
+  std::size_t inside = 0, left_out = 0;
+  for (int round = 0; round < 200; ++round) {
+    LatticeBox box = random.next();
+    box.add(box.min + LatticeCoord{3000, 3000, 3000});
+    const BoxTree::Plane plane{{random.between(-5000, 5000), random.between(-5000, 5000), random.between(-5000, 5000)},
+                               {double(random.between(-9, 9)), double(random.between(-9, 9)), 1}};
+    std::vector<char> seen(boxes.size(), 0);
+    CHECK(tree.query_groups(box, plane, [&](std::uint32_t first, std::uint32_t hits) {
+      for (std::uint32_t k = 0; k < 8; ++k) {
+        if ((hits >> k) & 1) seen[tree.order()[first + k]] = 1;
+      }
+      return true;
+    }));
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      double farthest = 0;  // small integers: exact
+      for (int axis = 0; axis < 3; ++axis) {
+        const double n = plane.normal[std::size_t(axis)];
+        farthest += n * double((n > 0 ? boxes[i].max[axis] : boxes[i].min[axis]) - plane.point[axis]);
+      }
+      if (!boxes[i].meets(box)) {
+        REQUIRE(!seen[i]);
+      } else if (farthest >= 0) {
+        REQUIRE(seen[i]);
+      } else {
+        ++inside;
+        left_out += !seen[i];
+      }
+    }
+  }
+  CHECK(inside > 1000);
+  CHECK(double(left_out) > (far_ones ? -1 : 0.9) * double(inside));
 }

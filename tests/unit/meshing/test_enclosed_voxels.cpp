@@ -98,3 +98,35 @@ TEST_CASE("a tetrahedron that holds a point of a voxel is refused, one beside th
   }
   CHECK(refused > 200);
 }
+
+TEST_CASE("a tetrahedron from outside is allowed by a solid of voxels as by each of its voxels, inner ones too",
+          "[quick][meshing]") {
+  Random random(9);
+  constexpr std::int64_t kEdge = 7;
+  MemoryShelf shelf;
+  std::vector<EnclosedVoxels> alone;
+  for (std::int32_t i = 0; i < kEdge * kEdge * kEdge; ++i) {
+    const VoxelCoord v{i % std::int32_t(kEdge), i / std::int32_t(kEdge) % std::int32_t(kEdge),
+                       i / std::int32_t(kEdge * kEdge)};
+    if (random.between(0, 9) < 2) continue;  // holes and concave corners
+    add_voxel(shelf, v);
+    MemoryShelf one;
+    add_voxel(one, v);
+    alone.emplace_back(one);
+  }
+  const EnclosedVoxels all(shelf);
+  int refused = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const std::int64_t unit = i % 2 == 0 ? kLatticePerVoxel : 1, top = kEdge * kLatticePerVoxel / unit;
+    Tetrahedron t;
+    for (LatticeCoord& p : t) p = random.point(-top / 4, top + top / 4) * unit;
+    for (std::size_t k = 0; k < 3; ++k) t[k].z = std::max(t[k].z, top * unit);  // the old face, above or on it
+    const bool free = all.allows({}, {{t}}, nullptr);
+    CAPTURE(i);
+    REQUIRE(free == std::all_of(alone.begin(), alone.end(),
+                                [&](const EnclosedVoxels& e) { return e.allows({}, {{t}}, nullptr); }));
+    refused += !free;
+  }
+  CHECK(refused > 1000);
+  CHECK(refused < 5500);
+}
