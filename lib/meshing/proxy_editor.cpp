@@ -35,6 +35,7 @@ ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed,
       inwards_(faces_inwards(mesh)),
       tree_(mesh),
       guard_(mesh, tree_),
+      sense_(mesh),
       contacts_(enclosed, mesh, tree_) {
   if (limits_ != nullptr) limits_->begin(mesh.volume6());
 }
@@ -83,11 +84,13 @@ bool ProxyEditor::keeps_enclosed() {
   return false;
 }
 
-/// The last question, given the guard's answer: limits count what they allow as taken.
+/// The last question, given the guard's answer: limits count what they allow as taken. All new faces together are a fan
+/// around the first one's first corner, a flip's, too, if flat faces count.
 bool ProxyEditor::is_free(bool free) {
   const bool within = free && within_limits(limits_, mesh_, replaced_, faces_);
   counts_.refused_guard += !free;
   counts_.refused_limits += free && !within;
+  if (within) sense_.add(replaced_.front(), fan_gain6(mesh_, replaced_, faces_[0].corners[0]));
   return within;
 }
 
@@ -189,7 +192,7 @@ void ProxyEditor::learn(VertexId v, std::span<const Vec3d> points) {
 }
 
 void ProxyEditor::erase_inner_shells() {
-  bp::erase_inner_shells(mesh_, inwards_);
+  bp::erase_inner_shells(mesh_, inwards_, &sense_);
 }
 
 /// Boxes of the star's faces, and their points: faces beyond the rim may be nearer now.

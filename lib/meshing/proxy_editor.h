@@ -4,6 +4,7 @@
 #include "lib/meshing/contact_points.h"
 #include "lib/meshing/enclosed.h"
 #include "lib/meshing/guard.h"
+#include "lib/meshing/shells.h"
 #include "lib/meshing/step_limits.h"
 
 /// Changes of a proxy, each taken only if the proxy stays embedded and keeps inside what must stay inside, both decided
@@ -42,6 +43,7 @@ class ProxyEditor {
   /// Erases the shells that bound nothing (shells.h): a part over which another one has moved may have moved on,
   /// through what only that one keeps inside. The last step: nothing may be changed after it.
   void erase_inner_shells();
+  [[nodiscard]] const ShellSense& sense() const { return sense_; }  ///< of the changes so far
   /// Flipping a convex edge cuts a tetrahedron off the solid; flipping another adds one.
   [[nodiscard]] bool is_convex(HalfEdgeId h) const;
   [[nodiscard]] bool inwards() const { return inwards_; }  ///< faces_inwards() of the mesh as it was given
@@ -66,6 +68,7 @@ class ProxyEditor {
   const bool inwards_;
   FaceTree tree_;
   Guard guard_;
+  ShellSense sense_;
   ContactPoints contacts_;
   EditCounts counts_;
   // Of the change at hand:
