@@ -6,6 +6,7 @@
 #include "lib/core/vec3.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/meshing/settle.h"
+#include "lib/meshing/shells.h"
 #include "lib/meshing/vertex_mover.h"
 
 namespace bp {
@@ -110,6 +111,7 @@ FineFit fine_fit(const SurfaceSource& dense, std::uint64_t faces, const FitTarge
   fine.points = spread_points(dense, double(std::max(kPointsPerFace * faces, kLeastPoints)) / dense_faces);
   move_to_targets(fine.points, mesh, target);
   draw_to_targets(mesh, target, kSweeps);
+  erase_inner_shells(mesh);
   fine.surface = mesh.compact(dense.frame());
   return fine;
 }
@@ -121,6 +123,8 @@ LatticeMesh fit_level(const FineFit& fine, const SimplifyParams& params, Simplif
   const LatticeMesh level = simplify(fine.surface, free, counts);
   HalfEdgeMesh mesh(level);
   settle(mesh, fine.points, params.limits, kRounds);
+  erase_inner_shells(mesh);  // what has moved over what it does not touch
+  counts.faces_out = mesh.face_count();
   LatticeMesh out = mesh.compact(level.frame);
   out.provenance = level.provenance;
   return out;

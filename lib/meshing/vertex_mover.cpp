@@ -41,6 +41,7 @@ bool VertexMover::draw(VertexId v, const LatticeCoord& q) {
 }
 
 bool VertexMover::try_move(VertexId v, const LatticeCoord& q) {
+  if (!room_.holds_inside(q)) return false;
   star_.clear();
   replaced_.clear();
   bool fine = true;
@@ -57,7 +58,9 @@ bool VertexMover::try_move(VertexId v, const LatticeCoord& q) {
     replaced_.push_back(HalfEdgeMesh::face(h));
   });
   if (!fine || after < std::min(kQualityFloor, before) || !guard_.star_is_free(star_, replaced_)) return false;
-  if (!within_limits(limits_, mesh_, replaced_, star_)) return false;
+  const int128 gain6 = fan_gain6(mesh_, replaced_, q);
+  if (sense_.turns(replaced_.front(), gain6) || !within_limits(limits_, mesh_, replaced_, star_)) return false;
+  sense_.add(replaced_.front(), gain6);
   mesh_.move(v, q);
   for (const FaceId f : replaced_) tree_.update(f);
   return true;
