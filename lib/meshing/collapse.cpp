@@ -297,7 +297,7 @@ bool Collapser::outside_all(const LatticeCoord& p) const {
 bool Collapser::acceptable(const LatticeCoord& p, double cost) {
   if (!room_.holds_inside(origin_ + p)) return refuse(Refusal::length);
   if (!shape_is_fine(p)) return refuse(Refusal::shape);
-  if (params_.edge_limit && longest_edge(p) > params_.edge_limit(origin_ + p)) return refuse(Refusal::length);
+  if (params_.edge_limit && !edges_are_short(p)) return refuse(Refusal::length);
   if (too_far(cost)) return refuse(Refusal::error);
   return true;
 }
@@ -322,12 +322,9 @@ bool Collapser::shape_is_fine(const LatticeCoord& p) const {
   return quality >= before / 2;
 }
 
-double Collapser::longest_edge(const LatticeCoord& p) const {
-  double longest = 0;
-  for (const StarFace& f : star_) {
-    if (!f.lost) longest = std::max(longest, length(to_double(f.pa - p)));
-  }
-  return longest;
+bool Collapser::edges_are_short(const LatticeCoord& p) const {
+  return std::all_of(star_.begin(), star_.end(),
+                     [&](const StarFace& f) { return f.lost || params_.edge_limit(origin_ + p, origin_ + f.pa); });
 }
 
 /// The merged planes are further than the allowed error, in the root mean square over their area.

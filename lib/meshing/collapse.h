@@ -72,7 +72,7 @@ class Collapser {
   [[nodiscard]] bool outside_all(const LatticeCoord& p) const;
   [[nodiscard]] bool acceptable(const LatticeCoord& p, double cost);
   [[nodiscard]] bool shape_is_fine(const LatticeCoord& p) const;
-  [[nodiscard]] double longest_edge(const LatticeCoord& p) const;
+  [[nodiscard]] bool edges_are_short(const LatticeCoord& p) const;
   [[nodiscard]] bool keeps_inside(const LatticeCoord& p);
   [[nodiscard]] bool too_far(double cost) const;
   void gather_new_faces(const LatticeCoord& p);

@@ -26,8 +26,7 @@ bool sticks_out(const LatticeCoord& apex, const LatticeBox& star) {
 
 }  // namespace
 
-ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed,
-                         std::function<double(const LatticeCoord&)> edge_limit, StepLimits* limits)
+ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, EdgeLimit edge_limit, StepLimits* limits)
     : mesh_(mesh),
       enclosed_(enclosed),
       edge_limit_(std::move(edge_limit)),
@@ -59,18 +58,18 @@ void ProxyEditor::add_old_face(const LatticeCoord& a, const LatticeCoord& b, con
 }
 
 /// New edges run from the first to the second corner of each new face.
-bool ProxyEditor::shape_is_fine(const LatticeCoord& apex) {
+bool ProxyEditor::shape_is_fine() {
   const double floor = std::min(kQualityFloor, least_quality_);
-  double longest = 0;
   for (const NewFace& f : faces_) {
     const double quality = triangle_quality(f.corners[0], f.corners[1], f.corners[2]);
     if (quality == 0 || quality < floor) {
       ++counts_.refused_shape;
       return false;
     }
-    longest = std::max(longest, length(to_double(f.corners[1] - f.corners[0])));
   }
-  const bool too_long = edge_limit_ && longest > edge_limit_(apex);
+  const bool too_long = edge_limit_ && std::any_of(faces_.begin(), faces_.end(), [&](const NewFace& f) {
+                          return !edge_limit_(f.corners[0], f.corners[1]);
+                        });
   counts_.refused_length += too_long;
   return !too_long;
 }
@@ -99,7 +98,7 @@ bool ProxyEditor::fan_is_fine(const LatticeCoord& apex) {
     ++counts_.refused_shape;
     return false;
   }
-  if (!shape_is_fine(apex) || !keeps_enclosed()) return false;
+  if (!shape_is_fine() || !keeps_enclosed()) return false;
   return is_free(guard_.star_is_free(faces_, replaced_));
 }
 
@@ -177,7 +176,7 @@ bool ProxyEditor::flip(HalfEdgeId h) {
     ++counts_.refused_enclosed;
     return false;
   }
-  if (!shape_is_fine(pa) || !keeps_enclosed() || !is_free(guard_.faces_are_free(faces_, replaced_))) return false;
+  if (!shape_is_fine() || !keeps_enclosed() || !is_free(guard_.faces_are_free(faces_, replaced_))) return false;
   mesh_.flip(h);
   for (const FaceId f : replaced_) tree_.update(f);
   contacts_.hand_over(replaced_, replaced_);

@@ -1,7 +1,6 @@
 #pragma once
-#include <functional>
-
 #include "lib/meshing/contact_points.h"
+#include "lib/meshing/edge_limit.h"
 #include "lib/meshing/enclosed.h"
 #include "lib/meshing/guard.h"
 #include "lib/meshing/shells.h"
@@ -19,10 +18,9 @@ struct EditCounts {
 class ProxyEditor {
  public:
   /// `mesh`: closed, 2-manifold, embedded, enclosing; it and `enclosed` must outlive the editor.
-  /// `edge_limit`: longest edge that a change may make near a point, lattice units; empty: no limit.
+  /// `edge_limit`: kept by every edge that a change makes; may be empty.
   /// `limits`: if given, every change keeps them.
-  ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, std::function<double(const LatticeCoord&)> edge_limit,
-              StepLimits* limits);
+  ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, EdgeLimit edge_limit, StepLimits* limits);
 
   [[nodiscard]] const HalfEdgeMesh& mesh() const { return mesh_; }
   [[nodiscard]] const ContactPoints& contacts() const { return contacts_; }
@@ -53,7 +51,7 @@ class ProxyEditor {
  private:
   void begin();
   void add_old_face(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c, const LatticeCoord& to);
-  [[nodiscard]] bool shape_is_fine(const LatticeCoord& apex);
+  [[nodiscard]] bool shape_is_fine();
   [[nodiscard]] bool cuts_off_contacts(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& u,
                                        const LatticeCoord& w) const;
   [[nodiscard]] bool keeps_enclosed();
@@ -63,7 +61,7 @@ class ProxyEditor {
 
   HalfEdgeMesh& mesh_;
   const Enclosed& enclosed_;
-  std::function<double(const LatticeCoord&)> edge_limit_;
+  EdgeLimit edge_limit_;
   StepLimits* limits_;
   const bool inwards_;
   FaceTree tree_;

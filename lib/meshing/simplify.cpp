@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lib/meshing/collapse_order.h"
+#include "lib/meshing/flatten.h"
 #include "lib/meshing/shells.h"
 #include "lib/meshing/surface_tree.h"
 

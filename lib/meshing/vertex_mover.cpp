@@ -51,7 +51,8 @@ bool VertexMover::try_move(VertexId v, const LatticeCoord& q) {
     const LatticeCoord a = mesh_.position(mesh_.to(h)), b = mesh_.position(mesh_.opposite(h));
     const Vec3d n0 = to_double(normal_of(p, a, b)), n1 = to_double(normal_of(q, a, b));
     const double l1 = dot(n1, n1);
-    fine = fine && l1 > 0 && dot(n0, n1) > kLeastTurn * std::sqrt(dot(n0, n0) * l1);
+    fine =
+        fine && (!edge_limit_ || edge_limit_(q, a)) && l1 > 0 && dot(n0, n1) > kLeastTurn * std::sqrt(dot(n0, n0) * l1);
     before = std::min(before, triangle_quality(p, a, b));
     after = std::min(after, triangle_quality(q, a, b));
     star_.push_back({{v, mesh_.to(h), mesh_.opposite(h)}, {q, a, b}});

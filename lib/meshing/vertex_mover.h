@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "lib/meshing/edge_limit.h"
 #include "lib/meshing/face_tree.h"
 #include "lib/meshing/shells.h"
 #include "lib/meshing/step_limits.h"
@@ -11,9 +12,15 @@ namespace bp {
 
 class VertexMover {
  public:
-  /// `limits`: kept by every move; may be null.
-  VertexMover(HalfEdgeMesh& mesh, StepLimits* limits)
-      : mesh_(mesh), tree_(mesh), guard_(mesh, tree_), sense_(mesh), room_(mesh.room()), limits_(limits) {}
+  /// `edge_limit`, `limits`: kept by every move; may be empty or null.
+  VertexMover(HalfEdgeMesh& mesh, EdgeLimit edge_limit, StepLimits* limits)
+      : mesh_(mesh),
+        tree_(mesh),
+        guard_(mesh, tree_),
+        sense_(mesh),
+        room_(mesh.room()),
+        edge_limit_(std::move(edge_limit)),
+        limits_(limits) {}
 
   /// Moves v to q, or half or a quarter of the way. A move that would let faces meet, turn over or become needles, or
   /// turn a shell inside out, is not made. True if v has moved.
@@ -27,6 +34,7 @@ class VertexMover {
   Guard guard_;
   ShellSense sense_;
   LatticeBox room_;
+  EdgeLimit edge_limit_;
   StepLimits* limits_;
   std::vector<NewFace> star_;
   std::vector<FaceId> replaced_;
