@@ -37,13 +37,16 @@ double falloff(double t, double s, double sigma) {
   return v * v;
 }
 
-/// One stroke. Stays between `s_prev` and the goal to the last bit, so that upper_bound() is one.
-double apply(const BrushStroke& stroke, double base, const Vec3d& x, double s_prev) {
-  const double s = goal(stroke, base);
-  const double dx = x[0] - stroke.position[0], dy = x[1] - stroke.position[1], dz = x[2] - stroke.position[2];
-  const double gamma = falloff(std::sqrt(dx * dx + dy * dy + dz * dz), s, stroke.support);
+double distance(const Vec3d& a, const Vec3d& b) {
+  const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
+  return std::sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+/// One stroke, of strength `gamma`. Stays between `s_prev` and the goal `s` to the last bit, so that upper_bound() is
+/// one. Does not fall where s_prev rises.
+double apply(BrushMode mode, double gamma, double s, double s_prev) {
   const double phi = std::clamp((1 - gamma) * s_prev + gamma * s, std::min(s_prev, s), std::max(s_prev, s));
-  switch (stroke.mode) {
+  switch (mode) {
     case BrushMode::increase:
       return std::max(phi, s_prev);
     case BrushMode::decrease:
@@ -52,6 +55,11 @@ double apply(const BrushStroke& stroke, double base, const Vec3d& x, double s_pr
       break;
   }
   return gamma == 0 ? s_prev : phi;
+}
+
+double apply(const BrushStroke& stroke, double base, const Vec3d& x, double s_prev) {
+  const double s = goal(stroke, base);
+  return apply(stroke.mode, falloff(distance(x, stroke.position), s, stroke.support), s, s_prev);
 }
 
 bool inside(const ScaleBox& box, const Vec3d& p) {
@@ -94,6 +102,40 @@ bool reaches(const ScaleBox& box, const Bounds3d& where) {
     if (box.min[i] > where.max[i] || box.max[i] < where.min[i]) return false;
   }
   return true;
+}
+
+double distance_to_line(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
+  double along = 0, squared = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    along += (p[i] - a[i]) * (b[i] - a[i]);
+    squared += (b[i] - a[i]) * (b[i] - a[i]);
+  }
+  const double t = squared > 0 ? std::clamp(along / squared, 0.0, 1.0) : 0;
+  return distance(p, {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])});
+}
+
+/// A lower bound of S along the line from a to b: each stroke is taken at the place that suits it worst.
+double least_along(const ScaleField& field, const Vec3d& a, const Vec3d& b) {
+  Bounds3d around;
+  around.add(a);
+  around.add(b);
+  double s = field.base;
+  for (const ScaleBox& box : field.boxes) {
+    if (inside(box, a) && inside(box, b)) {
+      s = box.scale;
+    } else if (reaches(box, around)) {
+      s = std::min(s, box.scale);
+    }
+  }
+  for (const BrushStroke& stroke : field.strokes) {
+    if (!reaches(stroke, field.base, around)) continue;
+    const double to = goal(stroke, field.base);
+    const double most = falloff(distance_to_line(stroke.position, a, b), to, stroke.support);
+    const double least =
+        falloff(std::max(distance(stroke.position, a), distance(stroke.position, b)), to, stroke.support);
+    s = std::min(apply(stroke.mode, most, to, s), apply(stroke.mode, least, to, s));
+  }
+  return s;
 }
 
 /// The part of `field` that can matter in `where`; evaluates to the same there, to the last bit.
@@ -145,6 +187,14 @@ double ScaleField::evaluate(const Vec3d& p) const {
   }
   for (const BrushStroke& stroke : strokes) s = apply(stroke, base, p, s);
   return s;
+}
+
+bool ScaleField::reaches_along(const Vec3d& a, const Vec3d& b, double scale, double shortest) const {
+  if (least_along(*this, a, b) >= scale) return true;
+  const Vec3d middle{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+  if (evaluate(middle) < scale) return false;
+  if (distance(a, b) <= shortest) return evaluate(a) >= scale && evaluate(b) >= scale;
+  return reaches_along(a, middle, scale, shortest) && reaches_along(middle, b, scale, shortest);
 }
 
 ScaleLattice ScaleField::sample(const GridFrame& frame, const VoxelBox& box) const {

@@ -57,6 +57,10 @@ struct ScaleField {
   [[nodiscard]] bool constant() const { return strokes.empty() && boxes.empty(); }
   /// S at a point, scene units: the definition, in doubles.
   [[nodiscard]] double evaluate(const Vec3d& p) const;
+  /// True if S is at least `scale` all along the straight line from a to b; scene units. Decided by bounds of S over
+  /// ever shorter pieces; where these do not tell for one of `shortest` or less, S at its ends does. Cost: a bound,
+  /// which visits all strokes and boxes, or some per change of S along the line.
+  [[nodiscard]] bool reaches_along(const Vec3d& a, const Vec3d& b, double scale, double shortest) const;
   /// Samples that interpolate S over all voxels of `box`. Depends on `box` only through its extent: tilings agree.
   [[nodiscard]] ScaleLattice sample(const GridFrame& frame, const VoxelBox& box) const;
   /// Upper bound of S anywhere, 1/16 voxel. Throws bad_argument if a scale is negative, not finite, or beyond 4095

@@ -14,18 +14,6 @@ namespace {
 constexpr double kQualityFloor = 0.05;  // of 1 for the equilateral triangle; or no worse than half of what was there
 constexpr double kLeastTurn = 0.1;      // cosine between a face's normal before and after
 constexpr int kShares = 4;              // places tried between the free minimum and the growing one
-constexpr std::int64_t kRoom = HalfEdgeMesh::kMaxSpan / 2;  // spans stay below twice kMaxSpan
-
-LatticeBox room_of(const HalfEdgeMesh& mesh) {
-  LatticeBox box{mesh.position(0), mesh.position(0)};
-  for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) box.add(mesh.position(v));
-  const LatticeBox& cell = mesh.cell();
-  for (int i = 0; i < 3; ++i) {
-    box.min[i] = std::max(box.min[i] - kRoom, cell.min[i]);
-    box.max[i] = std::min(box.max[i] + kRoom, cell.max[i]);
-  }
-  return box;
-}
 
 std::vector<Quadric> face_quadrics(const HalfEdgeMesh& mesh) {
   std::vector<Quadric> quadrics(mesh.vertex_capacity());
@@ -49,9 +37,11 @@ Collapser::Collapser(HalfEdgeMesh& mesh, std::vector<Quadric> quadrics, const Si
       counts_(counts),
       tree_(mesh),
       guard_(mesh, tree_),
-      room_(room_of(mesh)),
+      room_(mesh.room()),
       quadric_(quadrics.empty() ? face_quadrics(mesh) : std::move(quadrics)),
-      only_grows_(params.dense && !params.free && params.enclosed == nullptr && params.limits == nullptr) {}
+      only_grows_(params.dense && !params.free && params.enclosed == nullptr && params.limits == nullptr) {
+  if (!only_grows_) sense_.emplace(mesh);
+}
 
 /// Both quadrics, about the position of from(h).
 Quadric Collapser::summed(HalfEdgeId h) const {
@@ -167,7 +157,7 @@ bool Collapser::take(HalfEdgeId h, std::optional<Candidate> candidate) {
 /// so that the surface bounds a solid from outside all the time.
 bool Collapser::is_free(const LatticeCoord& p) {
   swallowed_.clear();
-  if (!only_grows_) return guard_.star_is_free(new_faces_, replaced_);
+  if (!only_grows_) return guard_.star_is_free(new_faces_, replaced_) && !turns_over(p);
   normals_before_.clear();
   LatticeBox box{origin_, origin_};
   for (const StarFace& f : star_) {
@@ -181,6 +171,11 @@ bool Collapser::is_free(const LatticeCoord& p) {
     if (both.holds(around) && swallows(f, p)) swallowed_.push_back(f);
   }
   return swallowed_.empty() || guard_.rest_is_free(new_faces_);
+}
+
+/// What keeps nothing inside may not turn: what bounds nothing any more is found at the end (shells.h).
+bool Collapser::turns_over(const LatticeCoord& p) const {
+  return params_.free && sense_->turns(replaced_.front(), fan_gain6(mesh_, replaced_, origin_ + p));
 }
 
 /// The centre of a face, which is on neither of them, lies between the old star and the new one.
@@ -212,6 +207,7 @@ void Collapser::erase_part(FaceId f) {
 void Collapser::collapse_to(HalfEdgeId h, const LatticeCoord& position) {
   const VertexId u = mesh_.from(h);
   const Quadric q = summed(h).about(to_double(position - origin_));
+  if (sense_) sense_->add(replaced_.front(), fan_gain6(mesh_, replaced_, position));
   for (const HalfEdgeId g : {h, mesh_.twin(h)}) tree_.remove(HalfEdgeMesh::face(g));
   mesh_.collapse(h, position);
   quadric_[u] = q;
@@ -277,11 +273,12 @@ void Collapser::gather_constraints() {
 std::optional<LatticeCoord> Collapser::round_inside(const Vec3d& x, const Quadric& q) const {
   const LatticeCoord near = rounded(x);
   if (outside_all(near)) return near;
+  LatticeCoord low = near;  // the floor, within what predicates take
+  for (int i = 0; i < 3; ++i) low[i] -= double(low[i]) > x[std::size_t(i)] ? 1 : 0;
   std::optional<LatticeCoord> best;
   double best_cost = 0;
   for (int i = 0; i < 8; ++i) {
-    const LatticeCoord p{std::int64_t(std::floor(x[0])) + (i & 1), std::int64_t(std::floor(x[1])) + ((i >> 1) & 1),
-                         std::int64_t(std::floor(x[2])) + (i >> 2)};
+    const LatticeCoord p = low + LatticeCoord{i & 1, (i >> 1) & 1, i >> 2};
     const double cost = q.value(to_double(p));
     if ((!best || cost < best_cost) && outside_all(p)) {
       best = p;
@@ -300,7 +297,7 @@ bool Collapser::outside_all(const LatticeCoord& p) const {
 bool Collapser::acceptable(const LatticeCoord& p, double cost) {
   if (!room_.holds_inside(origin_ + p)) return refuse(Refusal::length);
   if (!shape_is_fine(p)) return refuse(Refusal::shape);
-  if (params_.edge_limit && longest_edge(p) > params_.edge_limit(origin_ + p)) return refuse(Refusal::length);
+  if (params_.edge_limit && !edges_are_short(p)) return refuse(Refusal::length);
   if (too_far(cost)) return refuse(Refusal::error);
   return true;
 }
@@ -325,12 +322,9 @@ bool Collapser::shape_is_fine(const LatticeCoord& p) const {
   return quality >= before / 2;
 }
 
-double Collapser::longest_edge(const LatticeCoord& p) const {
-  double longest = 0;
-  for (const StarFace& f : star_) {
-    if (!f.lost) longest = std::max(longest, length(to_double(f.pa - p)));
-  }
-  return longest;
+bool Collapser::edges_are_short(const LatticeCoord& p) const {
+  return std::all_of(star_.begin(), star_.end(),
+                     [&](const StarFace& f) { return f.lost || params_.edge_limit(origin_ + p, origin_ + f.pa); });
 }
 
 /// The merged planes are further than the allowed error, in the root mean square over their area.

@@ -5,6 +5,7 @@
 #include "lib/meshing/constrained_minimum.h"
 #include "lib/meshing/face_tree.h"
 #include "lib/meshing/guard.h"
+#include "lib/meshing/shells.h"
 #include "lib/meshing/simplify.h"
 
 /// Single edge collapses: what one costs, where its vertex goes, whether it may be taken. The orders in which they are
@@ -31,6 +32,8 @@ class Collapser {
   [[nodiscard]] HalfEdgeMesh& mesh() { return mesh_; }
   [[nodiscard]] const SimplifyParams& params() const { return params_; }
   [[nodiscard]] const Quadric& quadric(VertexId v) const { return quadric_[v]; }
+  /// Which shells have turned; null while collapses only grow the solid: they leave none that has.
+  [[nodiscard]] const ShellSense* sense() const { return sense_ ? &*sense_ : nullptr; }
 
   /// No collapse of the edge costs less: the minimum of its summed quadrics.
   [[nodiscard]] double lower_bound(HalfEdgeId h) const;
@@ -69,11 +72,12 @@ class Collapser {
   [[nodiscard]] bool outside_all(const LatticeCoord& p) const;
   [[nodiscard]] bool acceptable(const LatticeCoord& p, double cost);
   [[nodiscard]] bool shape_is_fine(const LatticeCoord& p) const;
-  [[nodiscard]] double longest_edge(const LatticeCoord& p) const;
+  [[nodiscard]] bool edges_are_short(const LatticeCoord& p) const;
   [[nodiscard]] bool keeps_inside(const LatticeCoord& p);
   [[nodiscard]] bool too_far(double cost) const;
   void gather_new_faces(const LatticeCoord& p);
   [[nodiscard]] bool is_free(const LatticeCoord& p);
+  [[nodiscard]] bool turns_over(const LatticeCoord& p) const;
   [[nodiscard]] bool swallows(FaceId f, const LatticeCoord& p) const;
   void erase_part(FaceId f);
   void collapse_to(HalfEdgeId h, const LatticeCoord& position);
@@ -92,6 +96,7 @@ class Collapser {
   std::vector<Quadric> quadric_;  // per vertex, about its position
   Refusal refusal_ = Refusal::none;
   bool only_grows_;  // so the surface bounds a solid from outside all the time
+  std::optional<ShellSense> sense_;
   // Of the edge that solve() was last called with:
   LatticeCoord origin_;  // position of from(h)
   VertexId kept_ = kNoId;

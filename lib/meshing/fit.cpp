@@ -6,6 +6,7 @@
 #include "lib/core/vec3.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/meshing/settle.h"
+#include "lib/meshing/shells.h"
 #include "lib/meshing/vertex_mover.h"
 
 namespace bp {
@@ -78,8 +79,8 @@ void move_to_targets(std::vector<Vec3d>& points, const HalfEdgeMesh& surface, co
 
 }  // namespace
 
-std::uint64_t draw_to_targets(HalfEdgeMesh& mesh, const FitTarget& target, int sweeps) {
-  VertexMover mover(mesh, nullptr);
+std::uint64_t draw_to_targets(HalfEdgeMesh& mesh, const FitTarget& target, const EdgeLimit& edge_limit, int sweeps) {
+  VertexMover mover(mesh, edge_limit, nullptr);
   std::vector<LatticeCoord> targets(mesh.vertex_capacity());
   for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {  // all from where the surface is now: no drift
     if (mesh.vertex_alive(v)) targets[v] = rounded(target(to_double(mesh.position(v)), vertex_normal(mesh, v)));
@@ -93,7 +94,8 @@ std::uint64_t draw_to_targets(HalfEdgeMesh& mesh, const FitTarget& target, int s
   return moves;
 }
 
-FineFit fine_fit(const SurfaceSource& dense, std::uint64_t faces, const FitTarget& target, const PieceMemory& memory) {
+FineFit fine_fit(const SurfaceSource& dense, std::uint64_t faces, const FitTarget& target, const EdgeLimit& edge_limit,
+                 const PieceMemory& memory) {
   SimplifyParams params;
   params.faces = std::max(kFineFactor * faces, kFineFaces);
   params.free = true;
@@ -101,15 +103,18 @@ FineFit fine_fit(const SurfaceSource& dense, std::uint64_t faces, const FitTarge
   const auto dense_faces = double(count_faces(dense));
   constexpr double kAreaOfFace = kLatticePerVoxel * kLatticePerVoxel / 2.0;
   // Flat steps of a curved surface must keep vertices inside, to be drawn onto it.
-  const double limit =
-      std::max(2.0 * kLatticePerVoxel, kLongest * std::sqrt(kAreaOfFace * dense_faces / double(params.faces)));
-  params.edge_limit = [limit](const LatticeCoord&) { return limit; };
+  const EdgeLimit keep = edges_up_to(
+      std::max(2.0 * kLatticePerVoxel, kLongest * std::sqrt(kAreaOfFace * dense_faces / double(params.faces))));
+  params.edge_limit = [&](const LatticeCoord& a, const LatticeCoord& b) {
+    return keep(a, b) && (!edge_limit || edge_limit(a, b));
+  };
   SimplifyCounts counts;
   HalfEdgeMesh mesh(simplify(dense, params, counts));
   FineFit fine;
   fine.points = spread_points(dense, double(std::max(kPointsPerFace * faces, kLeastPoints)) / dense_faces);
   move_to_targets(fine.points, mesh, target);
-  draw_to_targets(mesh, target, kSweeps);
+  draw_to_targets(mesh, target, edge_limit, kSweeps);
+  erase_inner_shells(mesh);
   fine.surface = mesh.compact(dense.frame());
   return fine;
 }
@@ -120,7 +125,9 @@ LatticeMesh fit_level(const FineFit& fine, const SimplifyParams& params, Simplif
   free.dense = false;
   const LatticeMesh level = simplify(fine.surface, free, counts);
   HalfEdgeMesh mesh(level);
-  settle(mesh, fine.points, params.limits, kRounds);
+  settle(mesh, fine.points, params.edge_limit, params.limits, kRounds);
+  erase_inner_shells(mesh);  // what has moved over what it does not touch
+  counts.faces_out = mesh.face_count();
   LatticeMesh out = mesh.compact(level.frame);
   out.provenance = level.provenance;
   return out;

@@ -20,15 +20,15 @@ struct FineFit {
 };
 
 /// `dense`, the surface of repaired voxels, freely simplified to some ten times `faces` (at least 20,000), then drawn
-/// to the targets as far as the surface stays embedded. Deterministic.
+/// to the targets as far as the surface stays embedded. `edge_limit`: of the levels; may be empty. Deterministic.
 [[nodiscard]] FineFit fine_fit(const SurfaceSource& dense, std::uint64_t faces, const FitTarget& target,
-                               const PieceMemory& memory = {});
+                               const EdgeLimit& edge_limit = {}, const PieceMemory& memory = {});
 
 /// A level: freely simplified with the targets of `params`, which it keeps, and settled.
 [[nodiscard]] LatticeMesh fit_level(const FineFit& fine, const SimplifyParams& params, SimplifyCounts& counts);
 
-/// Moves each vertex of an embedded mesh to its target, or half or a quarter of the way (vertex_mover.h). Returns the
-/// number of moves.
-std::uint64_t draw_to_targets(HalfEdgeMesh& mesh, const FitTarget& target, int sweeps);
+/// Moves each vertex of an embedded mesh to its target, or half or a quarter of the way, keeping `edge_limit` (may be
+/// empty; vertex_mover.h). Returns the number of moves.
+std::uint64_t draw_to_targets(HalfEdgeMesh& mesh, const FitTarget& target, const EdgeLimit& edge_limit, int sweeps);
 
 }  // namespace bp

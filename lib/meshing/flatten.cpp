@@ -129,9 +129,8 @@ class Flattener {
 
   [[nodiscard]] bool too_long(VertexId v, const Spoke& to) const {
     if (!edge_limit_) return false;
-    const double limit = edge_limit_(mesh_.position(v) + to.end);
-    return std::any_of(fan_.begin(), fan_.end(),
-                       [&](const Spoke& s) { return squared(s.end - to.end) > limit * limit; });
+    const LatticeCoord p = mesh_.position(v);
+    return std::any_of(fan_.begin(), fan_.end(), [&](const Spoke& s) { return !edge_limit_(p + to.end, p + s.end); });
   }
 
   void enqueue(VertexId v) {

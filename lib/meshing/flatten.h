@@ -1,6 +1,5 @@
 #pragma once
-#include <functional>
-
+#include "lib/meshing/edge_limit.h"
 #include "lib/meshing/half_edge_mesh.h"
 
 /// Merges the flat regions of a voxel surface without changing its shape: a vertex inside a flat region, or on a
@@ -8,9 +7,6 @@
 /// set of points stays the same, so neither a guard nor the link condition is needed: an edge that the link condition
 /// would find in its way would lie in the interior of the merged faces already. Linear in the faces.
 namespace bp {
-
-/// Longest edge that may be made near a point, lattice units; empty: no limit.
-using EdgeLimit = std::function<double(const LatticeCoord&)>;
 
 /// Needs axis-aligned faces. Locked vertices stay. Returns the number of collapses.
 std::uint64_t merge_flat_regions(HalfEdgeMesh& mesh, const EdgeLimit& edge_limit = {});

@@ -31,6 +31,17 @@ void HalfEdgeMesh::check_span() const {
          std::max({size.x, size.y, size.z}));
 }
 
+LatticeBox HalfEdgeMesh::room() const {
+  constexpr std::int64_t kBeyond = kMaxSpan / 2;
+  LatticeBox box{position_[0], position_[0]};
+  for (const LatticeCoord& p : position_) box.add(p);
+  for (int i = 0; i < 3; ++i) {
+    box.min[i] = std::max(box.min[i] - kBeyond, cell_.min[i]);
+    box.max[i] = std::min(box.max[i] + kBeyond, cell_.max[i]);
+  }
+  return box;
+}
+
 /// Buckets of half-edges by their lower vertex: linear, no hashing.
 void HalfEdgeMesh::connect() {
   struct Half {

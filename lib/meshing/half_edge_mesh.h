@@ -58,6 +58,9 @@ class HalfEdgeMesh {
   }  ///< next outgoing one, counter-clockwise
 
   [[nodiscard]] const LatticeBox& cell() const { return cell_; }
+  /// New vertices belong strictly inside: of the cell, and so near to the mesh as it is that differences of coordinates
+  /// stay below twice kMaxSpan.
+  [[nodiscard]] LatticeBox room() const;
   [[nodiscard]] bool locked(VertexId v) const { return locked_[v] != 0; }
 
   [[nodiscard]] const LatticeCoord& position(VertexId v) const { return position_[v]; }

@@ -26,8 +26,8 @@ namespace bp {
   return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
 }
 
-/// Sign of n . d, exact for |n| < 2^62 and |d| < 2^31: with n the normal of a face and d from one of its corners to a
-/// point, the point's side of the face.
+/// Sign of n . d, exact for components below 2^62 in magnitude: with n the normal of a face and d from one of its
+/// corners to a point, the point's side of the face.
 [[nodiscard]] inline int side_along(const LatticeCoord& n, const LatticeCoord& d) {
   constexpr std::int64_t n_max = std::int64_t(1) << 40, d_max = std::int64_t(1) << 20;  // 3 * 2^60 < 2^63
   const auto within = [](std::int64_t v, std::int64_t max) { return std::uint64_t(v + max) < std::uint64_t(2 * max); };

@@ -26,8 +26,7 @@ bool sticks_out(const LatticeCoord& apex, const LatticeBox& star) {
 
 }  // namespace
 
-ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed,
-                         std::function<double(const LatticeCoord&)> edge_limit, StepLimits* limits)
+ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, EdgeLimit edge_limit, StepLimits* limits)
     : mesh_(mesh),
       enclosed_(enclosed),
       edge_limit_(std::move(edge_limit)),
@@ -35,6 +34,7 @@ ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed,
       inwards_(faces_inwards(mesh)),
       tree_(mesh),
       guard_(mesh, tree_),
+      sense_(mesh),
       contacts_(enclosed, mesh, tree_) {
   if (limits_ != nullptr) limits_->begin(mesh.volume6());
 }
@@ -58,18 +58,18 @@ void ProxyEditor::add_old_face(const LatticeCoord& a, const LatticeCoord& b, con
 }
 
 /// New edges run from the first to the second corner of each new face.
-bool ProxyEditor::shape_is_fine(const LatticeCoord& apex) {
+bool ProxyEditor::shape_is_fine() {
   const double floor = std::min(kQualityFloor, least_quality_);
-  double longest = 0;
   for (const NewFace& f : faces_) {
     const double quality = triangle_quality(f.corners[0], f.corners[1], f.corners[2]);
     if (quality == 0 || quality < floor) {
       ++counts_.refused_shape;
       return false;
     }
-    longest = std::max(longest, length(to_double(f.corners[1] - f.corners[0])));
   }
-  const bool too_long = edge_limit_ && longest > edge_limit_(apex);
+  const bool too_long = edge_limit_ && std::any_of(faces_.begin(), faces_.end(), [&](const NewFace& f) {
+                          return !edge_limit_(f.corners[0], f.corners[1]);
+                        });
   counts_.refused_length += too_long;
   return !too_long;
 }
@@ -83,11 +83,13 @@ bool ProxyEditor::keeps_enclosed() {
   return false;
 }
 
-/// The last question, given the guard's answer: limits count what they allow as taken.
+/// The last question, given the guard's answer: limits count what they allow as taken. All new faces together are a fan
+/// around the first one's first corner, a flip's, too, if flat faces count.
 bool ProxyEditor::is_free(bool free) {
   const bool within = free && within_limits(limits_, mesh_, replaced_, faces_);
   counts_.refused_guard += !free;
   counts_.refused_limits += free && !within;
+  if (within) sense_.add(replaced_.front(), fan_gain6(mesh_, replaced_, faces_[0].corners[0]));
   return within;
 }
 
@@ -96,7 +98,7 @@ bool ProxyEditor::fan_is_fine(const LatticeCoord& apex) {
     ++counts_.refused_shape;
     return false;
   }
-  if (!shape_is_fine(apex) || !keeps_enclosed()) return false;
+  if (!shape_is_fine() || !keeps_enclosed()) return false;
   return is_free(guard_.star_is_free(faces_, replaced_));
 }
 
@@ -174,7 +176,7 @@ bool ProxyEditor::flip(HalfEdgeId h) {
     ++counts_.refused_enclosed;
     return false;
   }
-  if (!shape_is_fine(pa) || !keeps_enclosed() || !is_free(guard_.faces_are_free(faces_, replaced_))) return false;
+  if (!shape_is_fine() || !keeps_enclosed() || !is_free(guard_.faces_are_free(faces_, replaced_))) return false;
   mesh_.flip(h);
   for (const FaceId f : replaced_) tree_.update(f);
   contacts_.hand_over(replaced_, replaced_);
@@ -189,7 +191,7 @@ void ProxyEditor::learn(VertexId v, std::span<const Vec3d> points) {
 }
 
 void ProxyEditor::erase_inner_shells() {
-  bp::erase_inner_shells(mesh_, inwards_);
+  bp::erase_inner_shells(mesh_, inwards_, &sense_);
 }
 
 /// Boxes of the star's faces, and their points: faces beyond the rim may be nearer now.

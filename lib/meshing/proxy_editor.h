@@ -1,9 +1,9 @@
 #pragma once
-#include <functional>
-
 #include "lib/meshing/contact_points.h"
+#include "lib/meshing/edge_limit.h"
 #include "lib/meshing/enclosed.h"
 #include "lib/meshing/guard.h"
+#include "lib/meshing/shells.h"
 #include "lib/meshing/step_limits.h"
 
 /// Changes of a proxy, each taken only if the proxy stays embedded and keeps inside what must stay inside, both decided
@@ -18,10 +18,9 @@ struct EditCounts {
 class ProxyEditor {
  public:
   /// `mesh`: closed, 2-manifold, embedded, enclosing; it and `enclosed` must outlive the editor.
-  /// `edge_limit`: longest edge that a change may make near a point, lattice units; empty: no limit.
+  /// `edge_limit`: kept by every edge that a change makes; may be empty.
   /// `limits`: if given, every change keeps them.
-  ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, std::function<double(const LatticeCoord&)> edge_limit,
-              StepLimits* limits);
+  ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, EdgeLimit edge_limit, StepLimits* limits);
 
   [[nodiscard]] const HalfEdgeMesh& mesh() const { return mesh_; }
   [[nodiscard]] const ContactPoints& contacts() const { return contacts_; }
@@ -42,6 +41,7 @@ class ProxyEditor {
   /// Erases the shells that bound nothing (shells.h): a part over which another one has moved may have moved on,
   /// through what only that one keeps inside. The last step: nothing may be changed after it.
   void erase_inner_shells();
+  [[nodiscard]] const ShellSense& sense() const { return sense_; }  ///< of the changes so far
   /// Flipping a convex edge cuts a tetrahedron off the solid; flipping another adds one.
   [[nodiscard]] bool is_convex(HalfEdgeId h) const;
   [[nodiscard]] bool inwards() const { return inwards_; }  ///< faces_inwards() of the mesh as it was given
@@ -51,7 +51,7 @@ class ProxyEditor {
  private:
   void begin();
   void add_old_face(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c, const LatticeCoord& to);
-  [[nodiscard]] bool shape_is_fine(const LatticeCoord& apex);
+  [[nodiscard]] bool shape_is_fine();
   [[nodiscard]] bool cuts_off_contacts(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& u,
                                        const LatticeCoord& w) const;
   [[nodiscard]] bool keeps_enclosed();
@@ -61,11 +61,12 @@ class ProxyEditor {
 
   HalfEdgeMesh& mesh_;
   const Enclosed& enclosed_;
-  std::function<double(const LatticeCoord&)> edge_limit_;
+  EdgeLimit edge_limit_;
   StepLimits* limits_;
   const bool inwards_;
   FaceTree tree_;
   Guard guard_;
+  ShellSense sense_;
   ContactPoints contacts_;
   EditCounts counts_;
   // Of the change at hand:

@@ -26,8 +26,8 @@ struct Pull {
 
 class Settler {
  public:
-  Settler(HalfEdgeMesh& mesh, std::span<const Vec3d> points, StepLimits* limits)
-      : mesh_(mesh), mover_(mesh, limits), points_(points) {}
+  Settler(HalfEdgeMesh& mesh, std::span<const Vec3d> points, const EdgeLimit& edge_limit, StepLimits* limits)
+      : mesh_(mesh), mover_(mesh, edge_limit, limits), points_(points) {}
 
   std::uint64_t round() {
     assign();
@@ -106,8 +106,9 @@ class Settler {
 
 }  // namespace
 
-std::uint64_t settle(HalfEdgeMesh& mesh, std::span<const Vec3d> points, StepLimits* limits, int rounds) {
-  Settler settler(mesh, points, limits);
+std::uint64_t settle(HalfEdgeMesh& mesh, std::span<const Vec3d> points, const EdgeLimit& edge_limit, StepLimits* limits,
+                     int rounds) {
+  Settler settler(mesh, points, edge_limit, limits);
   std::uint64_t moves = 0;
   for (int i = 0; i < rounds; ++i) moves += settler.round();
   return moves;

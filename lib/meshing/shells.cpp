@@ -21,73 +21,108 @@ int crossings(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& 
   return turn != 0 && orient3d(a, b, c, p) * turn < 0 ? turn : 0;
 }
 
-class Shells {
- public:
-  explicit Shells(HalfEdgeMesh& mesh) : mesh_(mesh), shell_(mesh.face_capacity(), kNoId) {
+/// The shells of a mesh by number: in the order of their first faces.
+struct Numbered {
+  struct Shell {
+    FaceId first;
+    int128 volume6;  // positive if it bounds a solid from outside, negative for a cavity
+    bool rim;        // it goes on in other cells
+  };
+  explicit Numbered(const HalfEdgeMesh& mesh) : shell_of(mesh.face_capacity(), kNoId) {
     for (FaceId f = 0; f < mesh.face_capacity(); ++f) {
-      if (mesh.alive(f) && shell_[f] == kNoId) gather(f);
+      if (mesh.alive(f) && shell_of[f] == kNoId) gather(mesh, f);
     }
   }
 
-  std::uint64_t erase_inner(bool inwards) {
-    const FaceTree tree(mesh_);
-    std::vector<int> outside(first_.size());  // winding number on each one's outer side; on the inner one more, or less
-    for (std::uint32_t s = 0; s < first_.size(); ++s) outside[s] = winding(tree, s) + (inwards ? 1 : 0);
-    std::vector<bool> inner(first_.size());
-    for (std::uint32_t s = 0; s < first_.size(); ++s) inner[s] = outside[s] != (volume6_[s] > 0 ? 0 : 1);
-    std::uint64_t erased = 0;
-    for (FaceId f = 0; f < mesh_.face_capacity(); ++f) {
-      if (shell_[f] == kNoId || !inner[shell_[f]]) continue;
-      mesh_.erase(f);
-      ++erased;
-    }
-    return erased;
-  }
+  std::vector<std::uint32_t> shell_of;  // per face
+  std::vector<Shell> shells;
 
  private:
-  void gather(FaceId first) {
-    const auto shell = std::uint32_t(first_.size());
-    const LatticeCoord origin = mesh_.corner(first, 0);
-    int128 volume6 = 0;
+  void gather(const HalfEdgeMesh& mesh, FaceId first) {
+    const auto number = std::uint32_t(shells.size());
+    const LatticeCoord origin = mesh.corner(first, 0);
+    Shell shell{first, 0, false};
     stack_.assign(1, first);
-    shell_[first] = shell;
+    shell_of[first] = number;
     while (!stack_.empty()) {
       const FaceId f = stack_.back();
       stack_.pop_back();
-      volume6 += orient3d_value(origin, mesh_.corner(f, 0), mesh_.corner(f, 1), mesh_.corner(f, 2));
+      shell.volume6 += orient3d_value(origin, mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2));
       for (HalfEdgeId h = 3 * f; h < 3 * f + 3; ++h) {
-        const FaceId beside = HalfEdgeMesh::face(mesh_.twin(h));
-        if (shell_[beside] != kNoId) continue;
-        shell_[beside] = shell;
+        if (mesh.twin(h) == kNoId) {
+          shell.rim = true;
+          continue;
+        }
+        const FaceId beside = HalfEdgeMesh::face(mesh.twin(h));
+        if (shell_of[beside] != kNoId) continue;
+        shell_of[beside] = number;
         stack_.push_back(beside);
       }
     }
-    first_.push_back(first);
-    volume6_.push_back(volume6);
+    shells.push_back(shell);
   }
 
-  /// Of the other shells, around a vertex of this one.
-  [[nodiscard]] int winding(const FaceTree& tree, std::uint32_t shell) const {
-    const LatticeCoord p = mesh_.corner(first_[shell], 0);
-    int sum = 0;
-    tree.query({p, {p.x, p.y, kEverywhere.max.z}}, [&](FaceId f) {
-      if (shell_[f] != shell) sum += crossings(mesh_.corner(f, 0), mesh_.corner(f, 1), mesh_.corner(f, 2), p);
-      return true;
-    });
-    return sum;
-  }
-
-  HalfEdgeMesh& mesh_;
-  std::vector<std::uint32_t> shell_;  // per face
-  std::vector<FaceId> first_;         // per shell
-  std::vector<int128> volume6_;       // per shell: positive if it bounds a solid from outside, negative for a cavity
   std::vector<FaceId> stack_;
 };
 
+template <class Inner>
+std::uint64_t erase_faces(HalfEdgeMesh& mesh, const Inner& inner) {
+  std::uint64_t erased = 0;
+  for (FaceId f = 0; f < mesh.face_capacity(); ++f) {
+    if (!mesh.alive(f) || !inner(f)) continue;
+    mesh.erase(f);
+    ++erased;
+  }
+  return erased;
+}
+
+/// Winding number of the other shells around a vertex of this one.
+int winding(const HalfEdgeMesh& mesh, const FaceTree& tree, const Numbered& numbered, std::uint32_t shell) {
+  const LatticeCoord p = mesh.corner(numbered.shells[shell].first, 0);
+  int sum = 0;
+  tree.query({p, {p.x, p.y, kEverywhere.max.z}}, [&](FaceId f) {
+    if (numbered.shell_of[f] != shell) sum += crossings(mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2), p);
+    return true;
+  });
+  return sum;
+}
+
 }  // namespace
 
-std::uint64_t erase_inner_shells(HalfEdgeMesh& mesh, bool inwards) {
-  return Shells(mesh).erase_inner(inwards);
+ShellSense::ShellSense(const HalfEdgeMesh& mesh) {
+  Numbered numbered(mesh);
+  shell_ = std::move(numbered.shell_of);
+  for (const Numbered::Shell& s : numbered.shells) shells_.push_back({s.volume6, s.rim, false});
+}
+
+bool ShellSense::turns(FaceId f, int128 gain6) const {
+  const Shell& shell = shells_[shell_[f]];
+  return !shell.rim && (shell.volume6 > 0) != (shell.volume6 + gain6 > 0);
+}
+
+void ShellSense::add(FaceId f, int128 gain6) {
+  Shell& shell = shells_[shell_[f]];
+  shell.turned = shell.turned || turns(f, gain6);
+  shell.volume6 += gain6;
+}
+
+int128 fan_gain6(const HalfEdgeMesh& mesh, std::span<const FaceId> replaced, const LatticeCoord& apex) {
+  int128 sum = 0;
+  for (const FaceId f : replaced) sum += orient3d_value(mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2), apex);
+  return sum;
+}
+
+std::uint64_t erase_inner_shells(HalfEdgeMesh& mesh, bool inwards, const ShellSense* sense) {
+  const std::uint64_t turned = sense == nullptr ? 0 : erase_faces(mesh, [&](FaceId f) { return sense->has_turned(f); });
+  const Numbered numbered(mesh);
+  const FaceTree tree(mesh);
+  std::vector<bool> inner(numbered.shells.size());
+  for (std::uint32_t s = 0; s < inner.size(); ++s) {
+    // Around the shell; within it, it is one more, or less.
+    const int outside = winding(mesh, tree, numbered, s) + (inwards ? 1 : 0);
+    inner[s] = outside != (numbered.shells[s].volume6 > 0 ? 0 : 1);
+  }
+  return turned + erase_faces(mesh, [&](FaceId f) { return bool(inner[numbered.shell_of[f]]); });
 }
 
 }  // namespace bp

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lib/meshing/collapse_order.h"
+#include "lib/meshing/flatten.h"
 #include "lib/meshing/shells.h"
 #include "lib/meshing/surface_tree.h"
 
@@ -51,7 +52,7 @@ LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyPa
   Collapser collapser(mesh, std::move(whole.quadrics), params, counts);
   if (params.faces > 0 && params.dense) collapse_bulk(collapser, {kFirstBound, kLastBound}, end_of_bulk(params));
   counts.stop = collapse_strict(collapser, counts);
-  if (!params.free) erase_inner_shells(mesh, inwards);
+  erase_inner_shells(mesh, inwards, collapser.sense());
   counts.faces_out = mesh.face_count();
   return mesh.compact(frame);
 }

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <string>
 
+#include "lib/meshing/edge_limit.h"
 #include "lib/meshing/enclosed.h"
-#include "lib/meshing/flatten.h"
 #include "lib/meshing/lattice_mesh.h"
 #include "lib/meshing/piece_store.h"
 #include "lib/meshing/step_limits.h"

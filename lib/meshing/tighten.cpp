@@ -201,7 +201,7 @@ void tighten_on(ProxyEditor& editor, const TightenParams& params, TightenCounts&
 
 LatticeMesh tighten(ProxyEditor& editor, const GridFrame& frame, const TightenParams& params, TightenCounts& counts) {
   HalfEdgeMesh before = editor.mesh();
-  erase_inner_shells(before, editor.inwards());  // those of collapses with the same editor
+  erase_inner_shells(before, editor.inwards(), &editor.sense());  // those of collapses with the same editor
   tighten_on(editor, params, counts);
   editor.erase_inner_shells();
   counts.volume_before = volume_of(before);

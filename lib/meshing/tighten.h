@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 
 #include "lib/meshing/proxy_editor.h"
 
@@ -10,11 +9,10 @@
 namespace bp {
 
 struct TightenParams {
-  int sweeps = 4;            ///< at most, that move all vertices together
-  int final_sweeps = 3;      ///< then, at most, that move each vertex as far as it goes alone
-  double least_gain = 5e-4;  ///< sweeps of a kind end when one gains less than this share of the volume
-  /// As in SimplifyParams: longest edge that a move or a flip may make near a point, lattice units; empty: no limit.
-  std::function<double(const LatticeCoord&)> edge_limit;
+  int sweeps = 4;                ///< at most, that move all vertices together
+  int final_sweeps = 3;          ///< then, at most, that move each vertex as far as it goes alone
+  double least_gain = 5e-4;      ///< sweeps of a kind end when one gains less than this share of the volume
+  EdgeLimit edge_limit;          ///< as in SimplifyParams: of what a move or a flip makes
   StepLimits* limits = nullptr;  ///< if given, every step keeps them
 };
 

@@ -41,6 +41,7 @@ bool VertexMover::draw(VertexId v, const LatticeCoord& q) {
 }
 
 bool VertexMover::try_move(VertexId v, const LatticeCoord& q) {
+  if (!room_.holds_inside(q)) return false;
   star_.clear();
   replaced_.clear();
   bool fine = true;
@@ -50,14 +51,17 @@ bool VertexMover::try_move(VertexId v, const LatticeCoord& q) {
     const LatticeCoord a = mesh_.position(mesh_.to(h)), b = mesh_.position(mesh_.opposite(h));
     const Vec3d n0 = to_double(normal_of(p, a, b)), n1 = to_double(normal_of(q, a, b));
     const double l1 = dot(n1, n1);
-    fine = fine && l1 > 0 && dot(n0, n1) > kLeastTurn * std::sqrt(dot(n0, n0) * l1);
+    fine =
+        fine && (!edge_limit_ || edge_limit_(q, a)) && l1 > 0 && dot(n0, n1) > kLeastTurn * std::sqrt(dot(n0, n0) * l1);
     before = std::min(before, triangle_quality(p, a, b));
     after = std::min(after, triangle_quality(q, a, b));
     star_.push_back({{v, mesh_.to(h), mesh_.opposite(h)}, {q, a, b}});
     replaced_.push_back(HalfEdgeMesh::face(h));
   });
   if (!fine || after < std::min(kQualityFloor, before) || !guard_.star_is_free(star_, replaced_)) return false;
-  if (!within_limits(limits_, mesh_, replaced_, star_)) return false;
+  const int128 gain6 = fan_gain6(mesh_, replaced_, q);
+  if (sense_.turns(replaced_.front(), gain6) || !within_limits(limits_, mesh_, replaced_, star_)) return false;
+  sense_.add(replaced_.front(), gain6);
   mesh_.move(v, q);
   for (const FaceId f : replaced_) tree_.update(f);
   return true;

@@ -1,20 +1,29 @@
 #pragma once
 #include <vector>
 
+#include "lib/meshing/edge_limit.h"
 #include "lib/meshing/face_tree.h"
+#include "lib/meshing/shells.h"
 #include "lib/meshing/step_limits.h"
 
-/// Vertices that move freely, neither out nor in, while the mesh stays embedded.
+/// Vertices that move freely, neither out nor in, while the mesh stays embedded and every shell of it the right way
+/// round.
 namespace bp {
 
 class VertexMover {
  public:
-  /// `limits`: kept by every move; may be null.
-  VertexMover(HalfEdgeMesh& mesh, StepLimits* limits)
-      : mesh_(mesh), tree_(mesh), guard_(mesh, tree_), limits_(limits) {}
+  /// `edge_limit`, `limits`: kept by every move; may be empty or null.
+  VertexMover(HalfEdgeMesh& mesh, EdgeLimit edge_limit, StepLimits* limits)
+      : mesh_(mesh),
+        tree_(mesh),
+        guard_(mesh, tree_),
+        sense_(mesh),
+        room_(mesh.room()),
+        edge_limit_(std::move(edge_limit)),
+        limits_(limits) {}
 
-  /// Moves v to q, or half or a quarter of the way. A move that would let faces meet, turn over or become needles is
-  /// not made. True if v has moved.
+  /// Moves v to q, or half or a quarter of the way. A move that would let faces meet, turn over or become needles, or
+  /// turn a shell inside out, is not made. True if v has moved.
   bool draw(VertexId v, const LatticeCoord& q);
 
  private:
@@ -23,6 +32,9 @@ class VertexMover {
   HalfEdgeMesh& mesh_;
   FaceTree tree_;
   Guard guard_;
+  ShellSense sense_;
+  LatticeBox room_;
+  EdgeLimit edge_limit_;
   StepLimits* limits_;
   std::vector<NewFace> star_;
   std::vector<FaceId> replaced_;

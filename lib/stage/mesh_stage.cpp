@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/core/error.h"
+#include "lib/meshing/edge_limit.h"
 #include "lib/meshing/enclosed_triangles.h"
 #include "lib/meshing/enclosed_voxels.h"
 #include "lib/meshing/flatten.h"
@@ -149,9 +150,15 @@ Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& star
   return ground;
 }
 
-/// S at a lattice point of `frame`, its lattice units.
-double scale_at(const StreamHeader& header, const GridFrame& frame, const LatticeCoord& p) {
-  return header.scale.evaluate(frame.world(p)) / frame.voxel * kLatticePerVoxel;
+/// No edge longer than `factor` times S anywhere along it; but never below two voxels, or nothing could be merged where
+/// the scale vanishes.
+EdgeLimit scaled_edges(const ScaleField& scale, const GridFrame& frame, double factor) {
+  return [&scale, frame, factor](const LatticeCoord& a, const LatticeCoord& b) {
+    const double edge = length(to_double(b - a));
+    return edge <= 2 * kLatticePerVoxel ||
+           scale.reaches_along(frame.world(a), frame.world(b), edge / kLatticePerVoxel * frame.voxel / factor,
+                               frame.voxel);
+  };
 }
 
 SimplifyParams simplify_params(const StreamHeader& header, const GridFrame& frame, const MeshParams& params,
@@ -164,12 +171,7 @@ SimplifyParams simplify_params(const StreamHeader& header, const GridFrame& fram
     const double share = cube ? MeshParams::kErrorShareCube : MeshParams::kErrorShareBall;
     out.error_vox = header.bounds.diagonal() * share / frame.voxel;
   }
-  if (params.edge_factor > 0) {
-    out.edge_limit = [&header, frame, factor = params.edge_factor](const LatticeCoord& p) {
-      // Never below two voxels, or nothing could be merged where the scale vanishes.
-      return std::max(factor * scale_at(header, frame, p), 2.0 * kLatticePerVoxel);
-    };
-  }
+  if (params.edge_factor > 0) out.edge_limit = scaled_edges(header.scale, frame, params.edge_factor);
   return out;
 }
 
@@ -269,7 +271,8 @@ class LevelMaker {
     const FitTarget target = params_.enclose == Enclose::scene
                                  ? scene_target(*ground_.tree, dense.frame(), params_.inset)
                                  : inset_target(params_.inset);
-    const FineFit fine = fine_fit(dense, faces[0], target, params_.memory);
+    const EdgeLimit edges = simplify_params(header_, dense.frame(), params_, faces[0]).edge_limit;
+    const FineFit fine = fine_fit(dense, faces[0], target, edges, params_.memory);
     std::vector<LatticeMesh> levels;
     for (const std::uint64_t n : faces) {
       levels.push_back(finish(dense.frame(), n, [&](const SimplifyParams& params, LevelCounts& counts) {

@@ -230,8 +230,7 @@ TEST_CASE("a proxy of a random closing is sound and encloses it", "[property][pr
   check_all_modes(solid, closing, {{{400, 40}, 0}, {{}, 0}});
 }
 
-// Parts over several bricks that the first collapses swallow. Hidden: a shell inside another one still grows through it
-// (a few triangles touch). With the tags of the others it runs with them.
+// Parts over several bricks that the first collapses swallow.
 TEST_CASE("a proxy whose parts grow into each other encloses them", "[property][proxy]") {
   const auto seed = GENERATE(17u, 22u);
   CAPTURE(seed);

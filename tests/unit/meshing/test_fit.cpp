@@ -7,9 +7,11 @@
 #include "lib/geometry/surface_distance.h"
 #include "lib/meshing/fit.h"
 #include "lib/meshing/settle.h"
+#include "lib/meshing/vertex_mover.h"
 #include "lib/stage/mesh_stage.h"
 #include "lib/stage/surface_around.h"
 #include "tests/catch.h"
+#include "tests/support/lattice_boxes.h"
 #include "tests/support/memory_scene.h"
 #include "tests/support/voxel_source.h"
 
@@ -101,14 +103,14 @@ TEST_CASE("vertices settle where the surface is nearest to given points, on any 
   const TriangleBvh tree(sphere);
   const auto distance = [&](const LatticeMesh& mesh) { return surface_distance(world_triangles(mesh), tree).mean; };
   HalfEdgeMesh mesh(start);
-  CHECK(settle(mesh, points, nullptr, 8) > 60);
+  CHECK(settle(mesh, points, {}, nullptr, 8) > 60);
   const LatticeMesh settled = mesh.compact(start.frame);
   CHECK(check_proxy(indexed(settled), nullptr).holds());
   CHECK(distance(start) > 0.7);
   CHECK(distance(settled) < 0.35);
   const ThreadLimit one(1);
   HalfEdgeMesh twin(start);
-  settle(twin, points, nullptr, 8);
+  settle(twin, points, {}, nullptr, 8);
   CHECK(twin.compact(start.frame).vertices == settled.vertices);
 }
 
@@ -125,9 +127,34 @@ TEST_CASE("vertices are drawn to their targets only as far as the surface stays 
   HalfEdgeMesh mesh(start);
   const Vec3d point{17 * 64, 12 * 64, 13 * 64};  // all to one point: most cannot get there
   const std::uint64_t moves = draw_to_targets(
-      mesh, [&](const Vec3d&, const Vec3d&) { return point; }, 6);
+      mesh, [&](const Vec3d&, const Vec3d&) { return point; }, {}, 6);
   CHECK(moves > 10);
   CHECK(check_proxy(indexed(mesh.compact(start.frame)), nullptr).holds());
+}
+
+TEST_CASE("fits of many thin plates face outwards, however few faces are left", "[quick][meshing]") {
+  const int thick = GENERATE(1, 3);
+  VoxelSource source({{0, 0, 0}, {64, 64, 64}},
+                     [&](VoxelCoord p) { return p.x % 16 < 6 && p.y % 16 < 7 && p.z % 8 < thick; });
+  MeshParams params;
+  params.mode = MeshMode::fit;
+  params.faces = {1500, 500};  // 128 plates: the last are tetrahedra
+  MeshCounts counts;
+  for (const LatticeMesh& level : mesh_stream(source, memory_shelves(), params, counts)) {
+    CAPTURE(thick, level.triangles.size());
+    CHECK(check_proxy(indexed(level), nullptr).holds());
+  }
+}
+
+TEST_CASE("a vertex moves neither through its own shell nor beyond exact products", "[quick][meshing]") {
+  LatticeMesh tetrahedron;
+  const VertexId apex = add_tetrahedron(tetrahedron, {0, 0, 100}, 0, 300);
+  HalfEdgeMesh mesh(tetrahedron);
+  VertexMover mover(mesh, {}, nullptr);
+  CHECK_FALSE(mover.draw(apex, {0, 0, -300}));  // half and a quarter of the way are through, or flat
+  CHECK_FALSE(mover.draw(apex, {0, 0, std::int64_t(1) << 39}));
+  CHECK(mover.draw(apex, {0, 0, 60}));
+  CHECK(mesh.position(apex).z == 60);
 }
 
 TEST_CASE("the nearest point of a triangle is nearer than any other", "[quick][meshing]") {

@@ -1,30 +1,14 @@
 #include "lib/core/error.h"
+#include "lib/meshing/lattice_geometry.h"
 #include "lib/meshing/shells.h"
 #include "lib/meshing/surface.h"
+#include "tests/support/lattice_boxes.h"
 #include "tests/support/proxy_checks.h"
 
 using namespace bp;
 using namespace bp::test;
 
 namespace {
-
-/// An axis-aligned box as 12 triangles, outward, or inward.
-void add_box(LatticeMesh& mesh, const LatticeBox& box, bool outward = true) {
-  const auto first = std::uint32_t(mesh.vertices.size());
-  for (int i = 0; i < 8; ++i) {
-    mesh.vertices.push_back(
-        {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z});
-  }
-  const std::uint32_t quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                     {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-  for (const auto& q : quads) {
-    for (int i = 1; i < 3; ++i) {
-      Triangle t{first + q[0], first + q[i], first + q[i + 1]};
-      if (!outward) std::swap(t[1], t[2]);
-      mesh.triangles.push_back(t);
-    }
-  }
-}
 
 LatticeBox cube(std::int64_t half, LatticeCoord centre = {}) {
   return {centre - LatticeCoord{half, half, half}, centre + LatticeCoord{half, half, half}};
@@ -106,4 +90,42 @@ TEST_CASE("an open surface is refused, unless it is open along the side of its c
   CHECK_THROWS_AS(HalfEdgeMesh(mesh.vertices, mesh.triangles, LatticeBox{{-9, -9, -9}, {9, 9, 9}}), Error);
   const HalfEdgeMesh open(mesh.vertices, mesh.triangles, {{-9, -9, -9}, {4, 9, 9}});
   for (VertexId v = 0; v < 8; ++v) CHECK(open.locked(v) == (open.position(v).x == 4));
+}
+
+TEST_CASE("a shell has turned where its volume changes sign, and one with a rim never does", "[quick][meshing]") {
+  LatticeMesh mesh;
+  add_box(mesh, {{0, 0, 0}, {4, 4, 4}});
+  add_box(mesh, {{10, 0, 0}, {14, 4, 4}}, false);
+  constexpr int kVolume6 = 6 * 64;
+  ShellSense sense{HalfEdgeMesh(mesh)};
+  CHECK_FALSE(sense.turns(0, 1 - kVolume6));
+  CHECK(sense.turns(0, -1 - kVolume6));
+  CHECK(sense.turns(12, kVolume6 + 1));
+  sense.add(0, -1 - kVolume6);
+  sense.add(0, 2 * kVolume6);  // back
+  CHECK(sense.has_turned(11));
+  CHECK_FALSE(sense.has_turned(12));
+  mesh.triangles.resize(10);  // of the first box, without the side x = 4
+  ShellSense of_cell{HalfEdgeMesh(mesh.vertices, mesh.triangles, {{-9, -9, -9}, {4, 9, 9}})};
+  CHECK_FALSE(of_cell.turns(0, -1000));
+}
+
+TEST_CASE("the gain of a fan is the change of the volume", "[quick][meshing]") {
+  LatticeMesh box;
+  add_box(box, cube(10));
+  HalfEdgeMesh mesh(box);
+  std::vector<FaceId> star;
+  mesh.for_each_outgoing(0, [&](HalfEdgeId h) { star.push_back(HalfEdgeMesh::face(h)); });
+  const LatticeCoord to{-14, -11, 3};
+  const int128 before = mesh.volume6(), gain = fan_gain6(mesh, star, to);
+  mesh.move(0, to);
+  CHECK(gain != 0);
+  CHECK(mesh.volume6() == before + gain);
+}
+
+TEST_CASE("sides are exact for points at three times the longest distance", "[quick][meshing]") {
+  constexpr std::int64_t far = std::int64_t(3) << 31, n = (std::int64_t(1) << 62) - 1;
+  CHECK(side_along({n, n, n}, {far, 1 - far, 0}) == 1);
+  CHECK(side_along({n, n, n}, {far, -far, 0}) == 0);
+  CHECK(side_along({n, n, n}, {far, -far - 1, 0}) == -1);
 }

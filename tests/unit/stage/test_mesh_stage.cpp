@@ -170,6 +170,51 @@ TEST_CASE("edges stay below --edge-length times the scale", "[quick][stage]") {
   check(levels[0], nullptr);
 }
 
+TEST_CASE("edges across a finer region stay below what the scale is there", "[quick][stage]") {
+  const VoxelBox box{{0, 0, 0}, {64, 64, 16}};
+  VoxelSource source(box,
+                     [](VoxelCoord p) { return p.x >= 2 && p.x < 62 && p.y >= 2 && p.y < 62 && p.z >= 4 && p.z < 12; });
+  ScaleField& scale = source.header().scale;
+  scale.base = 20;
+  scale.boxes.push_back({{28, 0, 0}, {36, 64, 16}, 1.5});  // a slab between the ends of the plate
+  MeshParams params;
+  params.edge_factor = 2;
+  params.faces = {50};
+  params.tighten = GENERATE(true, false);
+  params.mode = GENERATE(MeshMode::bounding, MeshMode::fit);
+  if (params.mode == MeshMode::fit && !params.tighten) return;
+  MeshCounts counts;
+  const LatticeMesh level = mesh_stream(source, memory_shelves(), params, counts)[0];
+  CHECK(counts.levels[0].stopped_by == "edge-length");
+  CHECK(counts.levels[0].measures.edge_max > 10);  // where it may
+  const auto at = [](const Vec3d& a, const Vec3d& b, double t) {
+    return Vec3d{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+  };
+  for (const auto& t : level.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d a = level.frame.world(level.vertices[t[k]]), b = level.frame.world(level.vertices[t[(k + 1) % 3]]);
+      double least = scale.base;
+      for (int i = 0; i <= 200; ++i) least = std::min(least, scale.evaluate(at(a, b, i / 200.0)));
+      const double edge = std::sqrt(std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2) + std::pow(a[2] - b[2], 2));
+      REQUIRE(edge <= 2 * least + 1e-9);
+    }
+  }
+}
+
+TEST_CASE("a fit keeps --edge-length", "[quick][stage]") {
+  VoxelSource source(kBox, dumbbell);
+  source.header().scale.base = 1;
+  MeshParams params;
+  params.mode = MeshMode::fit;
+  params.edge_factor = 3;
+  params.faces = {100};
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  CHECK(counts.levels[0].stopped_by == "edge-length");
+  CHECK(counts.levels[0].measures.edge_max <= 3 + 1e-9);
+  CHECK(levels[0].triangles.size() > 100);
+}
+
 TEST_CASE("the surface around a mesh strictly encloses it, whatever the voxels", "[quick][stage]") {
   MeshParams params;
   params.faces = {120};

@@ -1,0 +1,61 @@
+#include "lib/meshing/enclosed_voxels.h"
+#include "lib/meshing/proxy_editor.h"
+#include "tests/support/lattice_boxes.h"
+#include "tests/support/proxy_checks.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+constexpr std::int64_t kVoxel = kLatticePerVoxel;
+
+/// 40 voxels to the side.
+const EnclosedVoxels& block() {
+  static MemoryShelf shelf;
+  static const EnclosedVoxels enclosed = [] {
+    fill_shelf(shelf, {{0, 0, 0}, {64, 64, 64}}, [](VoxelCoord p) {
+      return std::min({p.x, p.y, p.z}) >= 10 && std::max({p.x, p.y, p.z}) < 50;
+    });
+    return EnclosedVoxels(shelf);
+  }();
+  return enclosed;
+}
+
+LatticeMesh box_around_block() {
+  LatticeMesh mesh;
+  add_box(mesh, {{9 * kVoxel, 9 * kVoxel, 9 * kVoxel}, {51 * kVoxel, 51 * kVoxel, 51 * kVoxel}});
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a part that passes through itself in what must stay inside leaves no hole there", "[quick][meshing]") {
+  LatticeMesh proxy = box_around_block();
+  const LatticeCoord centre{30 * kVoxel, 30 * kVoxel, 30 * kVoxel};
+  const VertexId apex = add_tetrahedron(proxy, centre + LatticeCoord{0, 0, 40}, centre.z, 300);
+  HalfEdgeMesh mesh(proxy);
+  ProxyEditor editor(mesh, block(), {}, nullptr);
+  for (const std::int64_t below : {40, 90, 140}) REQUIRE(editor.move(apex, centre - LatticeCoord{0, 0, below}));
+  CHECK(editor.sense().has_turned(FaceId(mesh.face_capacity() - 1)));
+  SECTION("while it faces inwards") {}
+  SECTION("nor when it has turned back") {
+    REQUIRE(editor.move(apex, centre + LatticeCoord{0, 0, 40}));
+  }
+  editor.erase_inner_shells();
+  CHECK(mesh.face_count() == 12);
+  CHECK(mesh.volume6() == int128(6) * (42 * kVoxel) * (42 * kVoxel) * (42 * kVoxel));
+}
+
+TEST_CASE("a cavity that passes through itself is filled, and one that does not stays", "[quick][meshing]") {
+  LatticeMesh proxy = box_around_block();
+  const LatticeCoord place{30 * kVoxel, 30 * kVoxel, 50 * kVoxel + 32};  // between the block and the box
+  const VertexId apex = add_tetrahedron(proxy, place - LatticeCoord{0, 0, 20}, place.z, 60);  // below: a cavity
+  HalfEdgeMesh mesh(proxy);
+  REQUIRE(mesh.volume6() < int128(6) * (42 * kVoxel) * (42 * kVoxel) * (42 * kVoxel));
+  ProxyEditor editor(mesh, block(), {}, nullptr);
+  const bool through = GENERATE(true, false);
+  REQUIRE(editor.move(apex, place + LatticeCoord{0, 0, through ? 5 : -15}));
+  editor.erase_inner_shells();
+  CHECK(mesh.face_count() == (through ? 12 : 16));
+}
