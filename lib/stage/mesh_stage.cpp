@@ -238,7 +238,7 @@ class LevelMaker {
       LatticeMesh dense =
           inside() ? surface_within(before, voxel, make_shelf_) : surface_around(before, voxel, make_shelf_);
       if (inside()) drop_small_parts(dense, params_.least_part);  // a level may fall into parts
-      const EnclosedTriangles enclosed(world_triangles(before), dense.frame);
+      const EnclosedTriangles enclosed(drawable_world_triangles(before), dense.frame);
       levels.push_back(finish(MeshSurface(dense), params_.tighten ? &enclosed : nullptr, faces[i]));
     }
     return levels;

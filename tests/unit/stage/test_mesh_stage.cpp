@@ -269,3 +269,22 @@ TEST_CASE("a least part without a meaning is refused", "[quick][stage]") {
   MeshCounts counts;
   CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
 }
+
+TEST_CASE("levels inside a wall stay in it, and out of what it encloses", "[quick][stage]") {
+  const bool neck = GENERATE(false, true);  // the outside comes in, by less than a voxel of the next level
+  VoxelSource source(kBox, [neck](VoxelCoord p) {
+    const double r = length_of(p.x - 24, p.y - 24, p.z - 24);
+    return r < 21 && r > 12 && !(neck && p.x == 24 && p.y == 24 && p.z > 24);
+  });
+  source.header().fill = FillMode::inside;
+  MeshParams params;
+  params.mode = MeshMode::inside;
+  params.faces = {600, 200};
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  MemorySource scene(world_triangles(levels[0]));
+  CheckOptions options;
+  options.inside = true;
+  CHECK(check_proxy(indexed(levels[1]), &scene, options).holds());
+  CHECK(counts.levels[1].measures.volume < counts.levels[0].measures.volume);
+}
