@@ -33,13 +33,19 @@ struct Shelves {
 Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool want_input, MeshCounts& counts) {
   const Layer layer = source.header().has_closing ? Layer::closing : Layer::solid;
   Shelves shelves{make_shelf(), want_input ? make_shelf() : nullptr};
+  bool input_empty = want_input;
   for (Brick brick; source.read(brick);) {
-    if (shelves.input && brick.layer == Layer::solid) shelves.input->put(brick.coord, brick.fill, brick.bits);
+    if (shelves.input && brick.layer == Layer::solid) {
+      shelves.input->put(brick.coord, brick.fill, brick.bits);
+      input_empty = input_empty && brick.fill == BrickFill::empty;
+    }
     if (brick.layer != layer) continue;
     for (const std::uint64_t w : brick.bits) counts.voxels += std::uint64_t(std::popcount(w));
     shelves.meshed->put(brick.coord, brick.fill, brick.bits);
   }
   if (counts.voxels == 0) fail(ErrorCode::bad_input, "the stream holds no occupied voxel; there is nothing to mesh");
+  if (input_empty)
+    fail(ErrorCode::bad_input, "the stream's solid layer holds no voxel; --enclose input has nothing to keep inside");
   return shelves;
 }
 

@@ -224,6 +224,17 @@ TEST_CASE("a stream that does not hold what the mode needs is refused", "[quick]
   CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
 }
 
+TEST_CASE("a closing without the voxels that must stay inside is refused", "[quick][stage]") {
+  VoxelSource source(
+      kBox, [](VoxelCoord) { return false; }, dumbbell);
+  MeshParams params;
+  params.enclose = Enclose::input;
+  params.faces = {40};
+  params.error_world = GENERATE(0.0, 3.0);
+  MeshCounts counts;
+  CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
+}
+
 TEST_CASE("the volume of a proxy inside stays above --volume", "[quick][stage]") {
   VoxelSource source(kBox, dumbbell);
   source.header().fill = FillMode::inside;
