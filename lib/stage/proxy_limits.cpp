@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/geometry/surface_distance.h"
+#include "lib/meshing/quads.h"
 
 namespace bp {
 
@@ -24,6 +25,37 @@ int128 growth_of(std::span<const LatticeTriangle> before, std::span<const Lattic
 }
 
 }  // namespace
+
+void keep_pairs_within(StepLimits& limits, LatticeMesh& mesh) {
+  if (mesh.quads.empty()) return;
+  struct Pair {
+    std::array<std::uint32_t, 2> faces;
+    std::array<LatticeTriangle, 2> before, after;
+    int128 growth;
+  };
+  const auto corners = [&mesh](const std::array<std::uint32_t, 3>& t) {
+    return LatticeTriangle{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+  };
+  std::vector<Pair> pairs;
+  for (const auto& faces : mesh.quads) {
+    const auto& one = mesh.triangles[faces[0]];
+    const auto& other = mesh.triangles[faces[1]];
+    const auto turned = across(quad_of(one, other));
+    Pair pair{faces, {corners(one), corners(other)}, {corners(turned[0]), corners(turned[1])}, 0};
+    pair.growth = growth_of(pair.before, pair.after);
+    pairs.push_back(pair);
+  }
+  // What one pair takes away gives no room to others: it may be drawn as it is. So those that add are asked first.
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) {
+    return std::pair(p.growth <= 0, p.growth) < std::pair(q.growth <= 0, q.growth);
+  });
+  mesh.quads.clear();
+  limits.begin(volume6_of(mesh));
+  for (const Pair& p : pairs) {
+    if (limits.take(p.before, p.after)) mesh.quads.push_back(p.faces);
+  }
+  std::sort(mesh.quads.begin(), mesh.quads.end());
+}
 
 int128 volume6_of(const LatticeMesh& mesh) {
   int128 sum = 0;
