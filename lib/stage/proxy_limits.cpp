@@ -94,12 +94,17 @@ bool ProxyLimits::near_enough(std::span<const LatticeTriangle> before, std::span
   double limit = bounds_.error_world;
   bool widened = false;
   for (std::size_t i = 0; i < after.size(); ++i) {
-    if (surely_within(world(after[i]), *enclosed_, limit)) continue;
+    std::uint32_t& guess = guess_at(after[i][1]);
+    if (surely_within(world(after[i]), *enclosed_, limit, guess)) continue;
     if (widened) return false;
     widened = true;
     double was = 0;
     for (const LatticeTriangle& t : before) {
-      for (const LatticeCoord& p : t) was = std::max(was, enclosed_->nearest(frame_.world(p)).distance_squared);
+      for (const LatticeCoord& p : t) {
+        const TriangleBvh::Nearest found = enclosed_->nearest(frame_.world(p), guess_at(p));
+        guess_at(p) = found.item;
+        was = std::max(was, found.distance_squared);
+      }
     }
     if (std::sqrt(was) <= limit) return false;
     limit = std::sqrt(was);
@@ -107,6 +112,12 @@ bool ProxyLimits::near_enough(std::span<const LatticeTriangle> before, std::span
   }
   beyond_ = beyond_ || widened;
   return true;
+}
+
+std::uint32_t& ProxyLimits::guess_at(const LatticeCoord& p) {
+  const auto mixed = std::uint64_t(p.x) * 0x9e3779b97f4a7c15u + std::uint64_t(p.y) * 0xc2b2ae3d27d4eb4fu +
+                     std::uint64_t(p.z) * 0x165667b19e3779f9u;
+  return guesses_[(mixed ^ (mixed >> 32)) % guesses_.size()];
 }
 
 TriangleD ProxyLimits::world(const LatticeTriangle& t) const {

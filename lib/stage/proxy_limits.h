@@ -29,11 +29,14 @@ class ProxyLimits final : public StepLimits {
 
  private:
   [[nodiscard]] bool near_enough(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after);
+  /// Where searches near a vertex start: what was found near it last, or near another one that shares the place.
+  [[nodiscard]] std::uint32_t& guess_at(const LatticeCoord& p);
   [[nodiscard]] TriangleD world(const LatticeTriangle& t) const;
 
   ProxyBounds bounds_;
   GridFrame frame_;
   const TriangleBvh* enclosed_;
+  std::vector<std::uint32_t> guesses_ = std::vector<std::uint32_t>(1 << 14);
   int128 volume6_ = 0, limit6_ = 0;  // six times the volume, lattice units cubed
   bool relaxed_ = false;
   bool beyond_ = false;  // faces beyond the error were allowed because they replaced others as far
