@@ -180,6 +180,7 @@ bp::Json json_of(const bp::LevelCounts& c) {
   const bp::MeshMeasures& m = c.measures;
   bp::Json json = {{"faces", s.faces_out},
                    {"stopped_by", c.stopped_by},
+                   {"error_bound", c.error_world},
                    {"volume", m.volume},
                    {"edge_length", {{"min", m.edge_min}, {"mean", m.edge_mean}, {"max", m.edge_max}}},
                    {"angle_min_degrees", m.angle_min_degrees},
@@ -231,6 +232,40 @@ void note(bp::Report& report, const Options& o, const std::string& text) {
   if (o.common.progress != bp::ProgressMode::quiet) std::fprintf(stderr, "bpmesh: note: %s\n", text.c_str());
 }
 
+std::string level_text(const bp::MeshCounts& c, std::size_t level) {
+  return c.levels.size() > 1 ? fmt::format("level {}: ", level) : "";
+}
+
+/// Of a level that no step has taken beyond --error and --volume, but that was beyond from its beginning, or that
+/// these left no room to be coarser.
+void note_bounds(bp::Report& report, const Options& o, const bp::MeshCounts& c, std::size_t i, double error_world) {
+  const bp::LevelCounts& level = c.levels[i];
+  const std::string which = level_text(c, i);
+  const auto& distance = level.measures.proxy_to_enclosed;
+  if (error_world > 0 && distance && distance->at_least > error_world * (1 + 1e-9)) {
+    const char* const why = i == 0 ? "the voxels around it are as far; use a smaller --scale or smaller voxels, or "
+                                     "--enclose closing"
+                                   : "the voxels around the level before are as far; use smaller voxels, fewer levels "
+                                     "or a larger --error";
+    note(report, o,
+         fmt::format("{}the proxy is up to {:.4g} from what it encloses instead of {:.4g}: {}", which,
+                     distance->at_least, error_world, why));
+  }
+  const double share = level.measures.volume / c.solid_volume_world;
+  const bool beyond = o.mode == bp::MeshMode::inside ? share < o.volume * (1 - 1e-9) : share > o.volume * (1 + 1e-9);
+  if (o.volume > 0 && beyond) {
+    note(report, o,
+         fmt::format("{}the volume is {:.4g} times that of the voxels instead of {:.4g}, as that of the voxels at the "
+                     "level before is; use smaller voxels, fewer levels or another --volume",
+                     which, share, o.volume));
+  }
+  const std::uint64_t faces = level.simplify.faces_out;
+  if (i > 0 && faces > o.faces[i] && faces >= c.levels[i - 1].simplify.faces_out) {
+    note(report, o,
+         fmt::format("{}{} faces, no fewer than level {} has; stopped by: {}", which, faces, i - 1, level.stopped_by));
+  }
+}
+
 /// One line for each target that was out of reach: the user gets the best there is, and the reason.
 void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts& c, double error_world) {
   if (c.dropped_parts > 0) {
@@ -240,7 +275,7 @@ void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts&
   }
   for (std::size_t i = 0; i < c.levels.size(); ++i) {
     const bp::SimplifyCounts& s = c.levels[i].simplify;
-    const std::string which = c.levels.size() > 1 ? fmt::format("level {}: ", i) : "";
+    const std::string which = level_text(c, i);
     if (s.stop == bp::StopReason::nothing_left && i < o.faces.size() && s.faces_out > o.faces[i]) {
       note(
           report, o,
@@ -251,13 +286,7 @@ void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts&
               which, s.faces_out, o.faces[i], c.levels[i].measures.shells, c.levels[i].measures.handles, s.refused_link,
               s.refused_constraints + s.refused_enclosed, s.refused_shape, s.refused_length, s.refused_guard));
     }
-    const auto& distance = c.levels[i].measures.proxy_to_enclosed;
-    if (error_world > 0 && distance && distance->at_least > error_world * (1 + 1e-9)) {
-      note(report, o,
-           fmt::format("{}the proxy is up to {:.4g} from what it encloses instead of {:.4g}: the voxels around it are "
-                       "as far; use a smaller --scale or smaller voxels, or --enclose closing",
-                       which, distance->at_least, error_world));
-    }
+    note_bounds(report, o, c, i, error_world);
   }
 }
 
@@ -301,10 +330,15 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
     bp::fail(bp::ErrorCode::bad_argument, "--inset is for fits; it needs --mode fit");
   if (o.inset) params.inset = *o.inset;
   params.least_part = o.least_part.value_or(o.mode == bp::MeshMode::inside ? kLeastPart : 0);
+  if (o.loose && o.mode == bp::MeshMode::fit)
+    bp::fail(bp::ErrorCode::bad_argument, "a fit is not tightened; --no-tighten has no meaning");
   params.tighten = !o.loose;
   params.quads = o.quads;
-  params.distances = o.measure || (o.error && !o.enclose.empty());
-  if (params.tighten || params.distances || o.mode == bp::MeshMode::fit) set_enclosed(o, header.bounds, params);
+  // What may come out beyond --error is measured, so that it can be told.
+  params.distances = o.measure || (o.error && (!o.enclose.empty() || o.faces.size() > 1));
+  if (!params.tighten && !params.distances && !o.enclose.empty())
+    bp::fail(bp::ErrorCode::bad_argument, "--enclose says what tightening keeps inside; --no-tighten leaves that out");
+  set_enclosed(o, header.bounds, params);
   return params;
 }
 

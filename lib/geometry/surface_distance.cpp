@@ -273,21 +273,62 @@ SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const Trian
   return result;
 }
 
-bool surely_within(const TriangleD& t, const TriangleBvh& to, double limit) {
-  std::vector<TriangleD> stack{t};
-  std::uint32_t guess = 0;
-  for (int pieces = 0; !stack.empty(); ++pieces) {
-    const Part part = examine(stack.back(), to, guess, limit);
-    stack.pop_back();
-    guess = part.nearest;
-    if (part.at_most <= limit) continue;
-    const Vec3d& c = part.where;
-    double radius = 0;
-    for (const Vec3d& p : part.corners) radius = std::max(radius, length_squared(p, c));
-    if (part.at_least > limit || std::sqrt(radius) < kWithinError * limit || pieces > kWithinPieces) return false;
-    for (const TriangleD& half : halves(part.corners)) stack.push_back(half);
+namespace {
+
+/// Are all points of triangles near enough to something? Any triangle that shows it will do, so that most searches end
+/// early.
+class WithinSearch {
+ public:
+  WithinSearch(const TriangleBvh& to, double limit, std::uint32_t& guess) : to_(to), limit_(limit), guess_(guess) {}
+
+  bool holds(const TriangleD& t) {
+    for (const Vec3d& p : t) {
+      if (distance(p, limit_) > limit_) return false;
+    }
+    std::vector<TriangleD> stack{t};
+    for (int pieces = 0; !stack.empty(); ++pieces) {
+      const TriangleD part = stack.back();
+      stack.pop_back();
+      if (beside_one(part)) continue;
+      const Vec3d c = centre_of(part);
+      double radius = 0;
+      for (const Vec3d& p : part) radius = std::max(radius, length_squared(p, c));
+      radius = std::sqrt(radius);
+      const double d = distance(c, limit_ - radius);
+      if (d > limit_) return false;
+      if (d + radius <= limit_ || beside_one(part)) continue;
+      if (radius < kWithinError * limit_ || pieces > kWithinPieces) return false;
+      const auto two = halves(part);
+      if (distance(two[0][2], limit_) > limit_) return false;  // where it is cut
+      stack.insert(stack.end(), two.begin(), two.end());
+    }
+    return true;
   }
-  return true;
+
+ private:
+  /// To something; the least one if that is above `enough`.
+  double distance(const Vec3d& p, double enough) {
+    const TriangleBvh::Nearest found = to_.near_enough(p, enough > 0 ? enough * enough : -1, guess_);
+    guess_ = found.item;
+    return std::sqrt(found.distance_squared);
+  }
+  /// The distance to one triangle is convex: its corners bound that of a part.
+  [[nodiscard]] bool beside_one(const TriangleD& part) const {
+    const TriangleD& one = to_.item(guess_).corners;
+    double farthest = 0;
+    for (const Vec3d& p : part) farthest = std::max(farthest, distance_squared(p, one));
+    return std::sqrt(farthest) <= limit_;  // which may be such a root: its square need not be as large
+  }
+
+  const TriangleBvh& to_;
+  double limit_;
+  std::uint32_t& guess_;
+};
+
+}  // namespace
+
+bool surely_within(const TriangleD& t, const TriangleBvh& to, double limit, std::uint32_t& guess) {
+  return WithinSearch(to, limit, guess).holds(t);
 }
 
 }  // namespace bp

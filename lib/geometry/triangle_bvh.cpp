@@ -234,7 +234,7 @@ std::uint64_t TriangleBvh::bytes_needed(std::uint64_t n) {
   return n * (sizeof(Item) + 2 * sizeof(Node) + sizeof(Builder::Primitive));
 }
 
-TriangleBvh::Nearest TriangleBvh::nearest(const Vec3d& p, std::uint32_t guess) const {
+TriangleBvh::Nearest TriangleBvh::near_enough(const Vec3d& p, double enough, std::uint32_t guess) const {
   struct Entry {
     double distance;
     std::uint32_t node;
@@ -243,7 +243,7 @@ TriangleBvh::Nearest TriangleBvh::nearest(const Vec3d& p, std::uint32_t guess) c
   int top = 0;
   stack[top++] = {distance_squared(p, nodes_[0].box), 0};
   Nearest best{bp::distance_squared(p, items_[guess].corners), guess};
-  while (top > 0) {
+  while (top > 0 && best.distance_squared > enough) {
     const Entry e = stack[--top];
     if (e.distance >= best.distance_squared) continue;
     const Node& n = nodes_[e.node];

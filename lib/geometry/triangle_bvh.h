@@ -54,7 +54,9 @@ class TriangleBvh {
   }
   /// The nearest triangle (one of them), in floating point. `guess` is where the search starts: the answer for a point
   /// close by makes it fast. The distance does not depend on it. Must not be empty.
-  [[nodiscard]] Nearest nearest(const Vec3d& p, std::uint32_t guess = 0) const;
+  [[nodiscard]] Nearest nearest(const Vec3d& p, std::uint32_t guess = 0) const { return near_enough(p, -1, guess); }
+  /// The same, but a search ends at the first triangle found whose squared distance is at most `enough`.
+  [[nodiscard]] Nearest near_enough(const Vec3d& p, double enough, std::uint32_t guess) const;
 
   /// Bytes that a hierarchy over n triangles takes, the build included; an upper bound.
   [[nodiscard]] static std::uint64_t bytes_needed(std::uint64_t n);

@@ -93,7 +93,8 @@ int HalfEdgeMesh::valence(VertexId v) const {
 
 int128 HalfEdgeMesh::volume6() const {
   FaceId first = 0;
-  while (!alive(first)) ++first;
+  while (first < face_capacity() && !alive(first)) ++first;
+  if (first == face_capacity()) return 0;
   const LatticeCoord& origin = corner(first, 0);
   int128 sum = 0;
   for (FaceId f = first; f < face_capacity(); ++f) {

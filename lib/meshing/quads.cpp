@@ -263,6 +263,30 @@ Quad quad_of(const Triangle& a, const Triangle& b) {
   return {kNone, kNone, kNone, kNone};
 }
 
+std::array<Triangle, 2> across(const Quad& q) {
+  return {Triangle{q[1], q[2], q[3]}, Triangle{q[1], q[3], q[0]}};
+}
+
+std::vector<Triangle> drawable_triangles(const LatticeMesh& mesh) {
+  std::vector<Triangle> all = mesh.triangles;
+  for (const auto& pair : mesh.quads) {
+    for (const Triangle& t : across(quad_of(mesh.triangles[pair[0]], mesh.triangles[pair[1]]))) all.push_back(t);
+  }
+  return all;
+}
+
+LatticeMesh innermost_choice(const LatticeMesh& mesh) {
+  LatticeMesh out = mesh;
+  out.quads.clear();
+  for (const auto& pair : mesh.quads) {
+    const Quad q = quad_of(mesh.triangles[pair[0]], mesh.triangles[pair[1]]);
+    const auto corner = [&](std::size_t i) { return mesh.vertices[q[i]]; };
+    if (orient3d(corner(0), corner(1), corner(2), corner(3)) >= 0) continue;  // the other diagonal would add
+    for (std::size_t i = 0; i < 2; ++i) out.triangles[pair[i]] = across(q)[i];
+  }
+  return out;
+}
+
 PolygonFaces polygon_faces(const LatticeMesh& mesh) {
   PolygonFaces faces;
   std::vector<char> joined(mesh.triangles.size(), 0);

@@ -40,6 +40,16 @@ constexpr double kMostQuadBend = 0.2;      ///< quad_bend()
 /// The quad of two triangles with a common edge.
 [[nodiscard]] Quad quad_of(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b);
 
+/// The two triangles across a quad, over its other diagonal.
+[[nodiscard]] std::array<std::array<std::uint32_t, 3>, 2> across(const Quad& quad);
+
+/// The triangles of `mesh`, and those across each of its quads: all that a program which reads it may draw.
+[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> drawable_triangles(const LatticeMesh& mesh);
+
+/// `mesh` over those diagonals that leave the smallest solid, without quads. Its solid lies in that of every other
+/// choice (docs/bounding.md, "Quads").
+[[nodiscard]] LatticeMesh innermost_choice(const LatticeMesh& mesh);
+
 /// The faces of `mesh` as a file should hold them: the quads of its pairs, and the triangles that are left.
 struct PolygonFaces {
   std::vector<Quad> quads;

@@ -52,6 +52,7 @@ LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyPa
   Collapser collapser(mesh, std::move(whole.quadrics), params, counts);
   if (params.faces > 0 && params.dense) collapse_bulk(collapser, {kFirstBound, kLastBound}, end_of_bulk(params));
   counts.stop = collapse_strict(collapser, counts);
+  if (counts.stop == StopReason::limits) counts.limit = params.limits->last_refusal();
   erase_inner_shells(mesh, inwards, collapser.sense());
   counts.faces_out = mesh.face_count();
   return mesh.compact(frame);

@@ -45,6 +45,7 @@ struct SimplifyCounts {
   std::uint64_t refused_link = 0, refused_constraints = 0, refused_shape = 0, refused_length = 0, refused_enclosed = 0,
                 refused_guard = 0, refused_limits = 0, refused_error = 0;
   StopReason stop = StopReason::nothing_left;
+  std::string limit;                     ///< if the limits stopped it: the one that refused last
   void add(const SimplifyCounts& next);  ///< of a run that took over where this one ended
 };
 

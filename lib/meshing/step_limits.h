@@ -20,6 +20,8 @@ class StepLimits {
   [[nodiscard]] virtual bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) = 0;
   /// While relaxed, volume is only counted; and distance does not matter if the first surface was beyond its limit.
   virtual void relax(bool on) = 0;
+  /// Name of the bound that refused the last step that was refused; empty if none was.
+  [[nodiscard]] virtual const char* last_refusal() const { return ""; }
 };
 
 /// take() for a change of `mesh`; true without limits.

@@ -1,6 +1,7 @@
 #include "lib/meshing/tight_proxy.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lib/meshing/thin.h"
 
@@ -70,7 +71,7 @@ void tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyP
     few.sweeps = 1;
     few.final_sweeps = 0;
     proxy = tighten(proxy, enclosed, few, counts);
-    if (counts.volume_before - counts.volume_after > kMuchRoom * counts.volume_after) {
+    if (counts.volume_before - counts.volume_after > kMuchRoom * std::abs(counts.volume_after)) {
       few.sweeps = 3;
       few.final_sweeps = 2;
       proxy = tighten(proxy, enclosed, few, counts);

@@ -34,13 +34,19 @@ struct Shelves {
 Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool want_input, MeshCounts& counts) {
   const Layer layer = source.header().has_closing ? Layer::closing : Layer::solid;
   Shelves shelves{make_shelf(), want_input ? make_shelf() : nullptr};
+  bool input_empty = want_input;
   for (Brick brick; source.read(brick);) {
-    if (shelves.input && brick.layer == Layer::solid) shelves.input->put(brick.coord, brick.fill, brick.bits);
+    if (shelves.input && brick.layer == Layer::solid) {
+      shelves.input->put(brick.coord, brick.fill, brick.bits);
+      input_empty = input_empty && brick.fill == BrickFill::empty;
+    }
     if (brick.layer != layer) continue;
     for (const std::uint64_t w : brick.bits) counts.voxels += std::uint64_t(std::popcount(w));
     shelves.meshed->put(brick.coord, brick.fill, brick.bits);
   }
   if (counts.voxels == 0) fail(ErrorCode::bad_input, "the stream holds no occupied voxel; there is nothing to mesh");
+  if (input_empty)
+    fail(ErrorCode::bad_input, "the stream's solid layer holds no voxel; --enclose input has nothing to keep inside");
   return shelves;
 }
 
@@ -56,6 +62,11 @@ void check(const MeshParams& params) {
     fail(ErrorCode::bad_argument, "a fit is drawn to the closing or to scene files; --enclose input has no meaning");
   if (params.mode == MeshMode::fit && params.volume_ratio != 0)
     fail(ErrorCode::bad_argument, "a fit encloses nothing; --volume has no meaning");
+  if (!(params.error_world >= 0)) fail(ErrorCode::bad_argument, "an error of {} is below 0", params.error_world);
+  if (!(params.volume_ratio >= 0))
+    fail(ErrorCode::bad_argument, "a volume ratio of {} is below 0", params.volume_ratio);
+  if (!(params.edge_factor >= 0))
+    fail(ErrorCode::bad_argument, "an edge length of {} times the scale is below 0", params.edge_factor);
   if (!(params.inset >= 0 && params.inset <= 1))
     fail(ErrorCode::bad_argument, "the inset of a fit is 0 to 1 extents of a voxel, not {}", params.inset);
   if (params.least_part < 0 || params.least_part > 1)
@@ -209,11 +220,15 @@ double area_world(const LatticeMesh& mesh) {
   return sum * std::pow(mesh.frame.voxel / kLatticePerVoxel, 2);
 }
 
-/// Edge of the voxels around a level: the stream's, or as large as gives a dense surface of enough faces for the next.
-double level_voxel(const LatticeMesh& inner, double voxel, std::uint64_t faces) {
+/// Edge of the voxels around a level: the stream's, or as large as gives a dense surface of enough faces for the next
+/// and takes no more than half of its share of the error.
+double level_voxel(const LatticeMesh& inner, double voxel, std::uint64_t faces, double error_share) {
   constexpr double kFacesPerFace = 200;
   constexpr double kFacesPerVoxelFace = 2 * 1.5;  // two triangles, and a slanted plane has 1.5 times its area of steps
-  return std::max(voxel, std::sqrt(kFacesPerVoxelFace * area_world(inner) / (kFacesPerFace * double(faces))));
+  constexpr double kVoxelsPerShare = 4;           // a voxel that is touched reaches as far as its diagonal
+  const double most = error_share > 0 ? error_share / kVoxelsPerShare : HUGE_VAL;
+  const double enough = std::sqrt(kFacesPerVoxelFace * area_world(inner) / (kFacesPerFace * double(faces)));
+  return std::max(voxel, std::min(enough, most));
 }
 
 constexpr int kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
@@ -222,9 +237,7 @@ constexpr int kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatti
 class LevelMaker {
  public:
   LevelMaker(const StreamHeader& header, const ShelfFactory& make_shelf, MeshParams params, MeshCounts& counts)
-      : header_(header), make_shelf_(make_shelf), params_(std::move(params)), counts_(counts) {
-    bounds_.error_world = params_.error_world;
-  }
+      : header_(header), make_shelf_(make_shelf), params_(std::move(params)), counts_(counts) {}
 
   std::vector<LatticeMesh> run(const Shelves& shelves) {
     const std::vector<std::uint64_t> faces = params_.faces.empty() ? std::vector<std::uint64_t>{0} : params_.faces;
@@ -232,15 +245,19 @@ class LevelMaker {
     bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
     ground_ = make_ground(shelves, params_, start, make_shelf_);
     params_.memory = params_.memory.without(ground_.bytes());
+    bounds_.error_world = params_.error_world;
     if (params_.mode == MeshMode::fit) return fits(*start.surface, faces);
+    const double error_share = params_.error_world / double(faces.size());
+    bounds_.error_world = error_share;
     std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed.get(), faces[0])};
     for (std::size_t i = 1; i < faces.size(); ++i) {
       const LatticeMesh& before = levels.back();
-      const double voxel = level_voxel(before, header_.frame.voxel, faces[i]);
+      const double voxel = level_voxel(before, header_.frame.voxel, faces[i], error_share);
+      bounds_.error_world = error_share * double(i + 1);
       LatticeMesh dense =
           inside() ? surface_within(before, voxel, make_shelf_) : surface_around(before, voxel, make_shelf_);
       if (inside()) drop_small_parts(dense, params_.least_part);  // a level may fall into parts
-      const EnclosedTriangles enclosed(world_triangles(before), dense.frame);
+      const EnclosedTriangles enclosed(drawable_world_triangles(before), dense.frame);
       levels.push_back(finish(MeshSurface(dense), params_.tighten ? &enclosed : nullptr, faces[i]));
     }
     return levels;
@@ -261,6 +278,7 @@ class LevelMaker {
       fail(ErrorCode::bad_input,
            "the inside of the scene is too thin to mesh; use smaller voxels or a smaller --scale");
     counts_.repaired = counts_.voxels - std::uint64_t(-volume6_of(*start.mesh) / kVolume6OfVoxel);
+    counts_.solid_volume_world -= double(counts_.repaired) * std::pow(header_.frame.voxel, 3);
     drop_crumbs(*start.mesh);
     start.surface = std::make_unique<MeshSurface>(*start.mesh);
     return start;
@@ -307,16 +325,18 @@ class LevelMaker {
   template <class Make>
   LatticeMesh finish(const GridFrame& frame, std::uint64_t faces, const Make& make) {
     LevelCounts& counts = counts_.levels.emplace_back();
+    counts.error_world = bounds_.error_world;
     SimplifyParams params = simplify_params(header_, frame, params_, faces);
     ProxyLimits limits(bounds_, frame, ground_.tree.get());
     if (bounds_.error_world > 0 || bounds_.volume_world != 0) params.limits = &limits;
     LatticeMesh proxy = make(params, counts);
+    if (params.limits != nullptr) keep_pairs_within(limits, proxy);
     if (inside()) {
       turn_over(proxy);
       counts.simplify.faces_out -= drop_inverted_components(proxy);
     }
     const StopReason stop = counts.simplify.stop;
-    counts.stopped_by = stop == StopReason::limits ? limits.last_refusal() : to_string(stop);
+    counts.stopped_by = stop == StopReason::limits ? counts.simplify.limit : to_string(stop);
     counts.measures = measure(proxy);
     if (params_.distances) measure_distances(proxy, ground_.surface, *ground_.tree, counts.measures);
     proxy.provenance = header_.provenance;
@@ -343,7 +363,10 @@ std::vector<LatticeMesh> mesh_stream(BrickSource& source, const ShelfFactory& ma
   const bool want_input = (params.tighten || distances) && params.enclose == Enclose::input;
   const Shelves shelves = read_layers(source, make_shelf, want_input, counts);
   counts.solid_volume_world = double(counts.voxels) * std::pow(header.frame.voxel, 3);
-  if (params.mode != MeshMode::inside) counts.repaired = repair_contacts(*shelves.meshed);
+  if (params.mode != MeshMode::inside) {
+    counts.repaired = repair_contacts(*shelves.meshed);
+    counts.solid_volume_world += double(counts.repaired) * std::pow(header.frame.voxel, 3);
+  }
   return LevelMaker(header, make_shelf, std::move(params), counts).run(shelves);
 }
 

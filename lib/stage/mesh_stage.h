@@ -20,7 +20,9 @@ struct MeshParams {
   /// Triangles wanted, one number per level, falling; each level strictly encloses the one before. Empty: one level,
   /// whose faces the other targets decide.
   std::vector<std::uint64_t> faces;
-  double error_world = 0;  ///< largest distance of the proxy to what it encloses (proxy_limits.h), scene units; 0: none
+  /// Largest distance of the proxy to what it encloses (proxy_limits.h), scene units; 0: none. Of n levels that enclose
+  /// each other, the first may use 1/n of it, the second 2/n, and so on.
+  double error_world = 0;
   double volume_ratio = 0;  ///< largest volume, in volumes of the meshed voxels, at least 1; inside: least, at most 1
   double edge_factor = 0;   ///< edges at most edge_factor * S long, S the scale field there; 0: no limit
   Enclose enclose = Enclose::closing;
@@ -42,6 +44,7 @@ struct MeshParams {
 struct LevelCounts {
   SimplifyCounts simplify;
   TightenCounts tighten;
+  double error_world = 0;  ///< bound on the distance to what level 0 encloses, scene units; 0: none
   std::string stopped_by;  ///< the target that was reached first: faces, error, volume, edge-length; or what else
   MeshMeasures measures;
 };
@@ -50,7 +53,7 @@ struct MeshCounts {
   std::uint64_t voxels = 0;    ///< of the layer that is meshed
   std::uint64_t repaired = 0;  ///< voxels added (inside: taken away) where others touched only along an edge or corner
   std::uint64_t dropped_parts = 0, dropped_voxels = 0;  ///< below least_part, of the voxels
-  double solid_volume_world = 0;  ///< of the meshed voxels without those dropped, scene units cubed
+  double solid_volume_world = 0;  ///< of the meshed voxels, repaired, without those dropped; scene units cubed
   std::vector<LevelCounts> levels;
 };
 

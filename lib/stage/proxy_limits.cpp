@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/geometry/surface_distance.h"
+#include "lib/meshing/quads.h"
 
 namespace bp {
 
@@ -24,6 +25,37 @@ int128 growth_of(std::span<const LatticeTriangle> before, std::span<const Lattic
 }
 
 }  // namespace
+
+void keep_pairs_within(StepLimits& limits, LatticeMesh& mesh) {
+  if (mesh.quads.empty()) return;
+  struct Pair {
+    std::array<std::uint32_t, 2> faces;
+    std::array<LatticeTriangle, 2> before, after;
+    int128 growth;
+  };
+  const auto corners = [&mesh](const std::array<std::uint32_t, 3>& t) {
+    return LatticeTriangle{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+  };
+  std::vector<Pair> pairs;
+  for (const auto& faces : mesh.quads) {
+    const auto& one = mesh.triangles[faces[0]];
+    const auto& other = mesh.triangles[faces[1]];
+    const auto turned = across(quad_of(one, other));
+    Pair pair{faces, {corners(one), corners(other)}, {corners(turned[0]), corners(turned[1])}, 0};
+    pair.growth = growth_of(pair.before, pair.after);
+    pairs.push_back(pair);
+  }
+  // What one pair takes away gives no room to others: it may be drawn as it is. So those that add are asked first.
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) {
+    return std::pair(p.growth <= 0, p.growth) < std::pair(q.growth <= 0, q.growth);
+  });
+  mesh.quads.clear();
+  limits.begin(volume6_of(mesh));
+  for (const Pair& p : pairs) {
+    if (limits.take(p.before, p.after)) mesh.quads.push_back(p.faces);
+  }
+  std::sort(mesh.quads.begin(), mesh.quads.end());
+}
 
 int128 volume6_of(const LatticeMesh& mesh) {
   int128 sum = 0;
@@ -62,12 +94,17 @@ bool ProxyLimits::near_enough(std::span<const LatticeTriangle> before, std::span
   double limit = bounds_.error_world;
   bool widened = false;
   for (std::size_t i = 0; i < after.size(); ++i) {
-    if (surely_within(world(after[i]), *enclosed_, limit)) continue;
+    std::uint32_t& guess = guess_at(after[i][1]);
+    if (surely_within(world(after[i]), *enclosed_, limit, guess)) continue;
     if (widened) return false;
     widened = true;
     double was = 0;
     for (const LatticeTriangle& t : before) {
-      for (const LatticeCoord& p : t) was = std::max(was, enclosed_->nearest(frame_.world(p)).distance_squared);
+      for (const LatticeCoord& p : t) {
+        const TriangleBvh::Nearest found = enclosed_->nearest(frame_.world(p), guess_at(p));
+        guess_at(p) = found.item;
+        was = std::max(was, found.distance_squared);
+      }
     }
     if (std::sqrt(was) <= limit) return false;
     limit = std::sqrt(was);
@@ -75,6 +112,12 @@ bool ProxyLimits::near_enough(std::span<const LatticeTriangle> before, std::span
   }
   beyond_ = beyond_ || widened;
   return true;
+}
+
+std::uint32_t& ProxyLimits::guess_at(const LatticeCoord& p) {
+  const auto mixed = std::uint64_t(p.x) * 0x9e3779b97f4a7c15u + std::uint64_t(p.y) * 0xc2b2ae3d27d4eb4fu +
+                     std::uint64_t(p.z) * 0x165667b19e3779f9u;
+  return guesses_[(mixed ^ (mixed >> 32)) % guesses_.size()];
 }
 
 TriangleD ProxyLimits::world(const LatticeTriangle& t) const {

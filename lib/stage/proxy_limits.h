@@ -24,21 +24,28 @@ class ProxyLimits final : public StepLimits {
   void begin(int128 volume6) override { volume6_ = volume6; }
   void relax(bool on) override { relaxed_ = on; }
   bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) override;
-  /// "error" or "volume": the bound that refused the last step that was refused; empty if none was.
-  [[nodiscard]] const char* last_refusal() const { return last_refusal_; }
+  /// "error" or "volume".
+  [[nodiscard]] const char* last_refusal() const override { return last_refusal_; }
 
  private:
   [[nodiscard]] bool near_enough(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after);
+  /// Where searches near a vertex start: what was found near it last, or near another one that shares the place.
+  [[nodiscard]] std::uint32_t& guess_at(const LatticeCoord& p);
   [[nodiscard]] TriangleD world(const LatticeTriangle& t) const;
 
   ProxyBounds bounds_;
   GridFrame frame_;
   const TriangleBvh* enclosed_;
+  std::vector<std::uint32_t> guesses_ = std::vector<std::uint32_t>(1 << 14);
   int128 volume6_ = 0, limit6_ = 0;  // six times the volume, lattice units cubed
   bool relaxed_ = false;
   bool beyond_ = false;  // faces beyond the error were allowed because they replaced others as far
   const char* last_refusal_ = "";
 };
+
+/// Splits those pairs of `mesh` (quads.h) whose other diagonal would break a bound: however the others are drawn, all
+/// bounds hold. Of pairs that add volume, those that add least are kept.
+void keep_pairs_within(StepLimits& limits, LatticeMesh& mesh);
 
 /// Six times the enclosed volume, lattice units cubed; exact.
 [[nodiscard]] int128 volume6_of(const LatticeMesh& mesh);

@@ -1,6 +1,11 @@
 #include "lib/stage/surface_around.h"
 
+#include <atomic>
+#include <mutex>
+#include <unordered_map>
+
 #include "lib/core/error.h"
+#include "lib/meshing/quads.h"
 #include "lib/meshing/repair.h"
 #include "lib/meshing/surface.h"
 #include "lib/stage/complement.h"
@@ -12,7 +17,7 @@ namespace {
 
 class MeshSource final : public TriangleSource {
  public:
-  explicit MeshSource(const LatticeMesh& mesh) : triangles_(world_triangles(mesh)) {}
+  explicit MeshSource(const LatticeMesh& mesh) : triangles_(drawable_world_triangles(mesh)) {}
   bool read(std::vector<TriangleD>& out) override {
     out.clear();
     if (counts_.triangles > 0) return false;
@@ -39,26 +44,56 @@ class ShelfSink final : public BrickSink {
   BrickShelf& shelf_;
 };
 
-/// A mesh that is in memory already needs no place to wait.
-class NoStore final : public ChunkStore {
+/// What is about a mesh that is in memory has its place there, too.
+class KeepingStore final : public ChunkStore {
  public:
-  Handle put(std::span<const std::byte>) override { fail(ErrorCode::failed, "a level's triangles left memory"); }
-  void get(Handle, std::vector<std::byte>& out) const override { out.clear(); }
-  void drop(Handle) override {}
+  Handle put(std::span<const std::byte> bytes) override {
+    const std::lock_guard lock(mutex_);
+    chunks_[next_].assign(bytes.begin(), bytes.end());
+    bytes_ += bytes.size();
+    return next_++;
+  }
+  void get(Handle handle, std::vector<std::byte>& out) const override {
+    const std::lock_guard lock(mutex_);
+    out = chunks_.at(handle);
+  }
+  void drop(Handle handle) override {
+    const std::lock_guard lock(mutex_);
+    bytes_ -= chunks_.at(handle).size();
+    chunks_.erase(handle);
+  }
   [[nodiscard]] std::uint64_t scratch_bytes() const override { return 0; }
-  [[nodiscard]] std::uint64_t memory_bytes() const override { return 0; }
+  [[nodiscard]] std::uint64_t memory_bytes() const override { return bytes_; }
+
+ private:
+  mutable std::mutex mutex_;
+  std::unordered_map<Handle, std::vector<std::byte>> chunks_;
+  Handle next_ = 0;
+  std::atomic<std::uint64_t> bytes_ = 0;
 };
 
 }  // namespace
 
-std::vector<TriangleD> world_triangles(const LatticeMesh& mesh) {
+namespace {
+
+std::vector<TriangleD> in_world(const LatticeMesh& mesh, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   std::vector<TriangleD> out;
-  out.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles) {
+  out.reserve(triangles.size());
+  for (const auto& t : triangles) {
     out.push_back({mesh.frame.world(mesh.vertices[t[0]]), mesh.frame.world(mesh.vertices[t[1]]),
                    mesh.frame.world(mesh.vertices[t[2]])});
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<TriangleD> world_triangles(const LatticeMesh& mesh) {
+  return in_world(mesh, mesh.triangles);
+}
+
+std::vector<TriangleD> drawable_world_triangles(const LatticeMesh& mesh) {
+  return in_world(mesh, drawable_triangles(mesh));
 }
 
 namespace {
@@ -74,7 +109,7 @@ GridFrame voxelize_mesh(const LatticeMesh& mesh, double voxel, FillMode fill, co
   options.up = mesh.frame.up;
   options.memory_bytes = UINT64_MAX / 8;
   options.make_shelf = make_shelf;
-  options.make_store = [] { return std::make_unique<NoStore>(); };
+  options.make_store = [] { return std::make_unique<KeepingStore>(); };
   GridFrame frame;
   const auto open = [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
     frame = header.frame;
@@ -83,6 +118,16 @@ GridFrame voxelize_mesh(const LatticeMesh& mesh, double voxel, FillMode fill, co
   Backends on_threads;
   voxelize_stream(source, open, on_threads, options);
   return frame;
+}
+
+void take_away(const BrickShelf& less, BrickShelf& from) {
+  BrickBits bits, gone;
+  for (const BrickCoord& c : less.coords()) {
+    from.get(c, bits);
+    less.get(c, gone);
+    for (std::size_t i = 0; i < bits.size(); ++i) bits[i] &= ~gone[i];
+    from.put(c, classify(bits), bits);
+  }
 }
 
 }  // namespace
@@ -98,7 +143,13 @@ LatticeMesh surface_around(const LatticeMesh& inner, double voxel, const ShelfFa
 
 LatticeMesh surface_within(const LatticeMesh& outer, double voxel, const ShelfFactory& make_shelf) {
   const auto shelf = make_shelf(), around = make_shelf();
-  const GridFrame frame = voxelize_mesh(outer, voxel, FillMode::inside, make_shelf, *shelf);
+  // Not what may be drawn: what lies between the diagonals of a quad is inside by some choices only. And not what a
+  // flood cannot reach: a cavity is outside.
+  const LatticeMesh innermost = innermost_choice(outer);
+  const GridFrame frame = voxelize_mesh(innermost, voxel, FillMode::winding, make_shelf, *shelf);
+  const auto touched = make_shelf();
+  voxelize_mesh(innermost, voxel, FillMode::none, make_shelf, *touched);
+  take_away(*touched, *shelf);
   LatticeMesh surface = inward_surface(*shelf, frame, make_shelf, *around);
   if (surface.triangles.empty())
     fail(ErrorCode::failed, "no voxel lies inside a level of {} faces; use smaller voxels", outer.triangles.size());

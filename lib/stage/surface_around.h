@@ -6,13 +6,14 @@
 /// next one encloses it for the same reasons as the first encloses the scene (docs/bounding.md, "Levels").
 namespace bp {
 
-/// The dense surface of the voxels that `inner` touches or encloses, of edge `voxel` (or slightly more, scene units):
-/// closed, 2-manifold, embedded, strictly around `inner`, in a frame of its own. Bricks wait on shelves of
-/// `make_shelf`. Throws as voxelize_stream() and dense_surface().
+/// The dense surface of the voxels that `inner`, over any diagonals of its quads, touches or encloses, of edge `voxel`
+/// (or slightly more, scene units): closed, 2-manifold, embedded, strictly around `inner`, in a frame of its own.
+/// Bricks wait on shelves of `make_shelf`. Throws as voxelize_stream() and dense_surface().
 [[nodiscard]] LatticeMesh surface_around(const LatticeMesh& inner, double voxel, const ShelfFactory& make_shelf);
 
-/// The same on the other side, for proxies inside a solid: the surface of the voxels that `outer` encloses and does not
-/// touch, turned inwards (its solid is what surrounds it). Throws `failed` if there is no such voxel.
+/// The same on the other side, for proxies inside a solid: the surface of the voxels that `outer`, over every choice of
+/// diagonals, encloses and does not touch, turned inwards (its solid is what surrounds it). Throws `failed` if there is
+/// no such voxel.
 [[nodiscard]] LatticeMesh surface_within(const LatticeMesh& outer, double voxel, const ShelfFactory& make_shelf);
 
 /// The dense surface of `solid` turned inwards, after taking away voxels where the complement touches itself only along
@@ -26,5 +27,7 @@ void turn_over(LatticeMesh& mesh);
 
 /// Triangles of a lattice mesh in scene units, exactly.
 [[nodiscard]] std::vector<TriangleD> world_triangles(const LatticeMesh& mesh);
+/// Those, and the triangles across each quad: all that may be drawn (quads.h).
+[[nodiscard]] std::vector<TriangleD> drawable_world_triangles(const LatticeMesh& mesh);
 
 }  // namespace bp

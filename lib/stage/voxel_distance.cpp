@@ -37,7 +37,8 @@ double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh
 std::vector<TriangleD> farther_than(double limit, const std::vector<TriangleD>& from, const TriangleBvh& to) {
   std::vector<char> far(from.size());
   parallel_chunks(std::int64_t(from.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) far[i] = !surely_within(from[i], to, limit);
+    std::uint32_t guess = 0;
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) far[i] = !surely_within(from[i], to, limit, guess);
   });
   std::vector<TriangleD> left;
   for (std::size_t i = 0; i < from.size(); ++i)

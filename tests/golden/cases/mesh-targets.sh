@@ -21,6 +21,12 @@ try bpmesh cube.bpv --faces 12,0 -o wrong.glb
 try bpmesh cube.bpv --faces 12, -o wrong.glb
 try bpmesh cube.bpv --faces 40,12 --format glb
 try bpmesh cube.bpv --volume 0.5 -o wrong.glb
+try bpmesh cube.bpv --edge-length -1 -o wrong.glb
+try bpmesh cube.bpv --volume -1 -o wrong.glb
+try bpmesh cube.bpv --faces 12 --no-tighten --enclose nowhere.obj -o wrong.glb
+try bpmesh cube.bpv --mode fit --faces 12 --no-tighten -o wrong.glb
+try bpmesh slanted.bpv --faces 60,40,12 --volume 1.15 -o coarser.ply
+try bpmesh slanted.bpv --faces 60,20 --error 0.6vx -o near.ply
 touch kept.1.glb
 try bpmesh cube.bpv --faces 40,12 -o kept.glb
 files

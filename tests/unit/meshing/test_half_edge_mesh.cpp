@@ -34,6 +34,16 @@ TEST_CASE("a shell inside a solid is erased", "[quick][meshing]") {
   CHECK(erased(left) == 0);
 }
 
+TEST_CASE("the volume of a mesh without faces is zero", "[quick][meshing]") {
+  LatticeMesh box;
+  add_box(box, cube(10));
+  HalfEdgeMesh mesh(box);
+  CHECK(mesh.volume6() == 6 * 20 * 20 * 20);
+  for (FaceId f = 0; f < mesh.face_capacity(); ++f) mesh.erase(f);
+  CHECK(mesh.volume6() == 0);
+  CHECK(HalfEdgeMesh(LatticeMesh{}).volume6() == 0);
+}
+
 TEST_CASE("a part that came out inside out is erased, and nothing else", "[quick][meshing]") {
   LatticeMesh mesh, left;
   add_box(mesh, cube(10));

@@ -5,6 +5,7 @@
 #include "lib/check/check_proxy.h"
 #include "lib/meshing/quads.h"
 #include "lib/stage/mesh_stage.h"
+#include "lib/stage/proxy_limits.h"
 #include "lib/stage/surface_around.h"
 #include "tests/catch.h"
 #include "tests/support/memory_scene.h"
@@ -50,9 +51,16 @@ std::vector<TriangleD> scene_of_voxels() {
   return all;
 }
 
-bool holds(const IndexedMesh& mesh, const std::vector<TriangleD>& scene) {
+std::vector<TriangleD> triangles_of(const IndexedMesh& mesh) {
+  std::vector<TriangleD> all;
+  for (const auto& t : mesh.triangles) all.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+  return all;
+}
+
+bool holds(const IndexedMesh& mesh, const std::vector<TriangleD>& scene, bool inside = false) {
   MemorySource source(scene);
   CheckOptions options;
+  options.inside = inside;
   options.distances = false;
   return check_proxy(mesh, &source, options).holds();
 }
@@ -86,18 +94,30 @@ TEST_CASE("however the quads are split, the proxy encloses and does not meet its
     CHECK(holds(with_diagonals(proxy, [&](std::size_t) { return random() % 2 == 0; }), scene));
 }
 
-TEST_CASE("levels of quads enclose each other, however they are split", "[quick][meshing]") {
+TEST_CASE("levels of quads enclose each other, however each is split", "[quick][meshing]") {
   VoxelSource source(kBox, shape);
   MeshParams params;
-  params.faces = {400, 100};
+  params.faces = {400, 280, 100};
   params.quads = true;
+  params.tighten = GENERATE(true, false);
+  if (GENERATE(false, true)) {
+    params.mode = MeshMode::inside;
+    source.header().fill = FillMode::inside;
+  }
   MeshCounts counts;
   const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
-  const IndexedMesh inner = with_diagonals(levels[0], [](std::size_t) { return false; });
-  std::vector<TriangleD> scene;
-  for (const auto& t : inner.triangles)
-    scene.push_back({inner.vertices[t[0]], inner.vertices[t[1]], inner.vertices[t[2]]});
-  CHECK(holds(with_diagonals(levels[1], [](std::size_t) { return true; }), scene));
+  std::mt19937 random{11};
+  const std::vector<std::function<bool(std::size_t)>> choices = {[](std::size_t) { return false; },
+                                                                 [](std::size_t) { return true; },
+                                                                 [&random](std::size_t) { return random() % 2 == 0; }};
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    REQUIRE(!levels[i - 1].quads.empty());
+    for (std::size_t k = 0; k < 9; ++k) {
+      CAPTURE(i, k);
+      const std::vector<TriangleD> before = triangles_of(with_diagonals(levels[i - 1], choices[k % 3]));
+      CHECK(holds(with_diagonals(levels[i], choices[k / 3]), before, params.mode == MeshMode::inside));
+    }
+  }
 }
 
 TEST_CASE("room for quads joins half of the triangles, for little volume", "[quick][meshing]") {
@@ -116,6 +136,8 @@ TEST_CASE("room for quads joins half of the triangles, for little volume", "[qui
   CHECK(m.quads->count == proxy.quads.size());
   CHECK(m.quads->volume_least <= m.volume);
   CHECK(m.quads->volume_most >= m.volume);
+  CHECK(volume_world(innermost_choice(proxy)) == Approx(m.quads->volume_least));
+  CHECK(m.quads->volume_least < m.volume);
   CHECK(m.volume < 1.02 * counts.levels[0].measures.volume);
   CAPTURE(m.quads->share, m.volume / counts.levels[0].measures.volume);
   CHECK(m.quads->share > 0.5);

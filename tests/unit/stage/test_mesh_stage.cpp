@@ -8,6 +8,7 @@
 #include "lib/stage/surface_around.h"
 #include "tests/catch.h"
 #include "tests/support/memory_scene.h"
+#include "tests/support/proxy_checks.h"
 #include "tests/support/voxel_source.h"
 
 using namespace bp;
@@ -157,6 +158,97 @@ TEST_CASE("a stage counts volume from the surface that it begins with", "[quick]
   CHECK(limits.take(flat, peak));
 }
 
+TEST_CASE("levels share --error: none is farther from what level 0 encloses than its share", "[quick][stage]") {
+  MeshParams params;
+  params.faces = {400, 120, 40};
+  params.error_world = 15;
+  params.distances = true;
+  if (GENERATE(false, true)) params.quads = true;
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh(params, counts);
+  std::vector<TriangleD> inner = points_inside();
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    CAPTURE(i, counts.levels[i].stopped_by, levels[i].triangles.size());
+    CHECK(counts.levels[i].error_world == 5.0 * double(i + 1));
+    CHECK(counts.levels[i].measures.proxy_to_enclosed->at_least <= 5.0 * double(i + 1) * (1 + 1e-9));
+    check(levels[i], &inner);
+    inner = world_triangles(levels[i]);
+  }
+}
+
+TEST_CASE("fits each may use all of --error", "[quick][stage]") {
+  MeshParams params;
+  params.mode = MeshMode::fit;
+  params.faces = {400, 120};
+  params.error_world = 6;
+  MeshCounts counts;
+  (void)mesh(params, counts);
+  for (const LevelCounts& level : counts.levels) CHECK(level.error_world == 6);
+}
+
+TEST_CASE("error and volume hold for every choice of diagonals", "[quick][stage]") {
+  MeshParams params;
+  params.quads = true;
+  params.faces = {60};
+  params.volume_ratio = 1.15;
+  if (GENERATE(false, true)) {
+    params.volume_ratio = 0;
+    params.error_world = 1.5;
+  }
+  MeshCounts counts;
+  const LatticeMesh proxy = mesh(params, counts)[0];
+  const MeshMeasures& m = counts.levels[0].measures;
+  REQUIRE(m.quads);
+  if (params.volume_ratio > 0) {
+    CHECK(counts.levels[0].stopped_by == "volume");
+    CHECK(m.quads->volume_most <= params.volume_ratio * counts.solid_volume_world * (1 + 1e-12));
+  } else {
+    CHECK(counts.levels[0].stopped_by == "error");
+    VoxelSource source(kBox, dumbbell);
+    MemoryShelf shelf;
+    fill_shelf(shelf, kBox, dumbbell);
+    const TriangleBvh tree(world_triangles(dense_surface(shelf, source.header().frame)));
+    CHECK(surface_distance(drawable_world_triangles(proxy), tree).at_least <= 1.5 * (1 + 1e-9));
+  }
+}
+
+TEST_CASE("a volume ratio of one is that of the voxels with those that repair adds", "[quick][stage]") {
+  MeshParams params;
+  params.volume_ratio = 1;
+  MeshCounts counts;
+  (void)mesh(params, counts, [](VoxelCoord p) {  // two cubes that touch along an edge
+    return p.z >= 4 && p.z < 14 &&
+           ((p.x < 9 && p.y < 9 && p.x > 2 && p.y > 2) || (p.x >= 9 && p.y >= 9 && p.x < 15 && p.y < 15));
+  });
+  CHECK(counts.repaired > 0);
+  CHECK(counts.solid_volume_world == double(counts.voxels + counts.repaired));
+  CHECK(counts.levels[0].measures.volume == counts.solid_volume_world);
+}
+
+TEST_CASE("the target that ended merging is named, not one that refused a step later", "[quick][stage]") {
+  MeshParams params;
+  params.error_world = 1;
+  params.volume_ratio = 1.5;  // out of reach within the error
+  params.quads = GENERATE(false, true);
+  MeshCounts counts;
+  (void)mesh(params, counts);
+  CHECK(counts.levels[0].stopped_by == "error");
+  CHECK(counts.levels[0].simplify.limit == "error");
+}
+
+TEST_CASE("numbers below zero are refused", "[quick][stage]") {
+  VoxelSource source(kBox, dumbbell);
+  MeshParams params;
+  if (GENERATE(false, true)) {
+    params.mode = MeshMode::inside;
+    source.header().fill = FillMode::inside;
+  }
+  const int which = GENERATE(0, 1, 2);
+  (which == 0 ? params.error_world : which == 1 ? params.volume_ratio : params.edge_factor) = -1;
+  MeshCounts counts;
+  CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
+}
+
 TEST_CASE("edges stay below --edge-length times the scale", "[quick][stage]") {
   VoxelSource source(kBox, dumbbell);
   source.header().scale.base = 3;
@@ -269,6 +361,17 @@ TEST_CASE("a stream that does not hold what the mode needs is refused", "[quick]
   CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
 }
 
+TEST_CASE("a closing without the voxels that must stay inside is refused", "[quick][stage]") {
+  VoxelSource source(
+      kBox, [](VoxelCoord) { return false; }, dumbbell);
+  MeshParams params;
+  params.enclose = Enclose::input;
+  params.faces = {40};
+  params.error_world = GENERATE(0.0, 3.0);
+  MeshCounts counts;
+  CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
+}
+
 TEST_CASE("the volume of a proxy inside stays above --volume", "[quick][stage]") {
   VoxelSource source(kBox, dumbbell);
   source.header().fill = FillMode::inside;
@@ -313,4 +416,23 @@ TEST_CASE("a least part without a meaning is refused", "[quick][stage]") {
   }
   MeshCounts counts;
   CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
+}
+
+TEST_CASE("levels inside a wall stay in it, and out of what it encloses", "[quick][stage]") {
+  const bool neck = GENERATE(false, true);  // the outside comes in, by less than a voxel of the next level
+  VoxelSource source(kBox, [neck](VoxelCoord p) {
+    const double r = length_of(p.x - 24, p.y - 24, p.z - 24);
+    return r < 21 && r > 12 && !(neck && p.x == 24 && p.y == 24 && p.z > 24);
+  });
+  source.header().fill = FillMode::inside;
+  MeshParams params;
+  params.mode = MeshMode::inside;
+  params.faces = {600, 200};
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  MemorySource scene(world_triangles(levels[0]));
+  CheckOptions options;
+  options.inside = true;
+  CHECK(check_proxy(indexed(levels[1]), &scene, options).holds());
+  CHECK(counts.levels[1].measures.volume < counts.levels[0].measures.volume);
 }
