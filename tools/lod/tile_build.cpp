@@ -51,13 +51,24 @@ class LookUpStore final : public ResultStore {
   std::unique_ptr<ResultStore> results_;
 };
 
+/// Of the levels that were asked for: each is one mesh, or a folder of tiles.
+std::vector<std::string> certain_names(const BuildOptions& o) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < level_count(o.request); ++i) {
+    names.push_back(level_name(o.name, i));
+    names.push_back(names.back() + ".glb");
+  }
+  return names;
+}
+
 /// The whole tileset; results of some of its jobs; or a look at those that are there.
 enum class Task { tileset, some_jobs, look_up };
 
 class TilesetBuild {
  public:
   TilesetBuild(const BuildOptions& o, Task task) : options_(o), task_(task), build_(o), cells_{o.tile_vox} {
-    if (task == Task::tileset) folder_ = std::make_unique<TilesetFolder>(o.out, o.common.overwrite, o.resume);
+    if (task == Task::tileset)
+      folder_ = std::make_unique<TilesetFolder>(o.out, certain_names(o), o.common.overwrite, o.resume);
     store_ = make_chunk_store(build_.budget.store, o.common.temp);
     const std::string results = o.resume ? TilesetFolder::results_of(o.out) : o.cache;
     if (task == Task::look_up) {

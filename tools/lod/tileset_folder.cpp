@@ -55,12 +55,12 @@ std::string TilesetFolder::results_of(std::string path) {
   return without_slash(std::move(path)) + kPartial + "/results";
 }
 
-TilesetFolder::TilesetFolder(std::string path, bool overwrite, bool resume)
+TilesetFolder::TilesetFolder(std::string path, const std::vector<std::string>& names, bool overwrite, bool resume)
     : path_(without_slash(std::move(path))), partial_(path_ + kPartial), resume_(resume) {
   files_ = partial_ + "/files";
-  const bool interrupted = resume && fs::exists(partial_);  // perhaps while the files were moved
-  if (!overwrite && !interrupted && fs::exists(path_ + "/" + kTileset))
-    fail(ErrorCode::bad_argument, "{}/{}: exists; add --overwrite to replace it", path_, kTileset);
+  replaces_ = overwrite || (resume && fs::exists(partial_));  // interrupted, perhaps while the files were moved
+  refuse_if_there(kTileset);
+  for (const std::string& name : names) refuse_if_there(name);
   lock();
   std::error_code error;
   if (!resume) fs::remove_all(results(), error);
@@ -68,6 +68,12 @@ TilesetFolder::TilesetFolder(std::string path, bool overwrite, bool resume)
   fs::create_directories(files_, error);
   if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", files_, error.message());
   there_ = fs::exists(path_);
+}
+
+void TilesetFolder::refuse_if_there(const std::string& name) const {
+  const fs::path path = path_ + "/" + name;
+  if (replaces_ || !fs::exists(path) || (fs::is_directory(path) && fs::is_empty(path))) return;
+  fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", path.string());
 }
 
 void TilesetFolder::lock() {
@@ -90,6 +96,7 @@ TilesetFolder::~TilesetFolder() {
 void TilesetFolder::write(const std::string& name, const std::string& bytes) {
   const bool same = there_ && holds(path_ + "/" + name, bytes);
   if (!same) {
+    refuse_if_there(name);
     fs::create_directories(fs::path(files_ + "/" + name).parent_path());
     OutputFile file(files_ + "/" + name, true);
     file.write(bytes);

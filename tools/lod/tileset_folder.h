@@ -12,9 +12,11 @@ namespace bp {
 class TilesetFolder {
  public:
   /// Takes away the files that an interrupted run left in OUT.partial, and, unless `resume`, its results. Throws
-  /// bad_argument if OUT has a tileset.json, `overwrite` is false, and there is nothing to resume; `failed` if another
-  /// process is at work on OUT.
-  TilesetFolder(std::string path, bool overwrite, bool resume);
+  /// bad_argument if OUT has a tileset.json or one of `names`, `overwrite` is false, and there is nothing to resume;
+  /// `failed` if another process is at work on OUT.
+  ///   names  of files, or of folders with files, that will be written for certain: those that are there are not found
+  ///          out after the work only
+  TilesetFolder(std::string path, const std::vector<std::string>& names, bool overwrite, bool resume);
   ~TilesetFolder();  ///< without commit() nothing stays behind but, to resume, the results
   TilesetFolder(const TilesetFolder&) = delete;
   TilesetFolder& operator=(const TilesetFolder&) = delete;
@@ -22,7 +24,8 @@ class TilesetFolder {
   /// Where results wait to be gone on with; removed by commit().
   [[nodiscard]] std::string results() const { return results_of(path_); }
   [[nodiscard]] static std::string results_of(std::string path);
-  /// `name` may hold one folder: "level/tile.glb". Thread-safe.
+  /// `name` may hold one folder: "level/tile.glb". Throws bad_argument if OUT has another file of that name, and it is
+  /// not to be replaced. Thread-safe.
   void write(const std::string& name, const std::string& bytes);
   /// The files appear; tiles of the tileset that was there before, and that are not among them, go.
   void commit();
@@ -30,9 +33,11 @@ class TilesetFolder {
 
  private:
   void lock();
+  void refuse_if_there(const std::string& name) const;
   void move_files();
   std::string path_, partial_, files_;
   bool resume_, there_ = false;
+  bool replaces_;  ///< files of any tool may be overwritten
   int lock_ = -1;  ///< of OUT.partial; the system lets go of it however the process ends
   std::mutex mutex_;
   std::vector<std::string> names_, written_;  ///< all files; those that are not there already

@@ -1,0 +1,20 @@
+# The folder of the levels: nothing in it is lost unasked.
+write_cube cube.obj 3
+options=(cube.obj --name m --resolution 24 --levels 3 -q)
+tileset=("${options[@]}" --profile 3dtiles)
+
+# A tileset does not replace levels that are there, neither all of them nor some.
+bplod "${options[@]}" -o mixed > list
+cksum mixed/* > before
+try bplod "${tileset[@]}" -o mixed
+rm mixed/m_LOD[01].glb
+try bplod "${tileset[@]}" -o mixed
+mkdir -p mixed2/m_LOD0
+bplod "${tileset[@]}" -o mixed2 | cut -f 1  # an empty folder is nothing
+# Of a long pipe there are more levels than anybody asked for: found out before anything is moved.
+sed 's/^v 3/v 550/' cube.obj > pipe.obj
+mkdir mixed3
+echo kept > mixed3/p_LOD5.glb
+try bplod pipe.obj --name p --voxel 0.5 --tile 128 --profile 3dtiles -q -o mixed3
+cat mixed3/p_LOD5.glb
+LC_ALL=C ls -A mixed mixed3
