@@ -136,6 +136,12 @@ void OutputFile::commit() {
   temporary_.clear();
 }
 
+void print(const std::string& text) {
+  OutputFile out("-", false);
+  out.write(text);
+  out.commit();
+}
+
 struct ScratchFile::State {
   int fd = -1;
   std::string name;

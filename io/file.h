@@ -65,6 +65,9 @@ class OutputFile {
   std::size_t used_ = 0;
 };
 
+/// Text on stdout, flushed.
+void print(const std::string& text);
+
 /// Anonymous scratch file in `directory`: unlinked at once, so nothing stays behind whatever happens. Thread-safe.
 class ScratchFile {
  public:

@@ -139,9 +139,7 @@ int run_tileset(const Options& o) {
   const bp::SceneOptions options{o.format, o.common.memory_bytes / 4, o.common.temp};
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
   const bp::TilesetVerdict verdict = bp::check_tileset_file(o.files.back(), scenes, options);
-  bp::OutputFile out("-", true);
-  out.write(verdict.text(file_name(o.files.back())));
-  out.commit();
+  bp::print(verdict.text(file_name(o.files.back())));
   report.counts = {{"holds", verdict.holds()}, {"tiles", verdict.tiles}, {"findings", verdict.findings}};
   report.write(o.common);
   return verdict.holds() ? 0 : 1;
@@ -183,10 +181,9 @@ int run(const Options& o) {
     picture->commit();
   }
   const std::string name = file_name(o.files.back());
-  bp::OutputFile out("-", true);
-  out.write(o.json ? bp::verdict_json(verdict, name) : bp::verdict_text(verdict, name));
-  out.commit();
-  report.bytes_out = out.bytes();
+  const std::string text = o.json ? bp::verdict_json(verdict, name) : bp::verdict_text(verdict, name);
+  bp::print(text);
+  report.bytes_out = text.size();
   fill_report(report, o, verdict);
   report.write(o.common);
   return verdict.holds() ? 0 : 1;

@@ -18,3 +18,11 @@ echo kept > mixed3/p_LOD5.glb
 try bplod pipe.obj --name p --voxel 0.5 --tile 128 --profile 3dtiles -q -o mixed3
 cat mixed3/p_LOD5.glb
 LC_ALL=C ls -A mixed mixed3
+
+# What is printed and cannot be written is an error, of the plan and of the list.
+said "bplod ${options[*]} --explain > /dev/full"
+said "bplod ${options[*]} -o full > /dev/full"
+said "bplod ${tileset[*]} -o tiles --cache cache > /dev/full"
+said "bplod ${tileset[*]} --tiles 0..1 --cache cache > /dev/full"
+said "bplod ${options[*]} -o pipe --report pipe.json | true"
+LC_ALL=C ls -A full tiles pipe pipe.json
