@@ -5,6 +5,7 @@
 #include "lib/core/error.h"
 #include "lib/grid/cells.h"
 #include "lib/stage/voxelize_stage.h"
+#include "tools/common/report.h"
 
 namespace bp {
 
@@ -17,6 +18,26 @@ constexpr double kVoxelsPerError = 8;  // of the finest level
 std::string base_name(const std::string& path) {
   const std::string file = path.substr(path.rfind('/') + 1);
   return file == "-" ? "scene" : file.substr(0, file.rfind('.'));
+}
+
+/// As JSON wants it: every profile writes the name into some.
+bool is_utf8(const std::string& text) {
+  try {
+    (void)Json(text).dump();
+    return true;
+  } catch (const Json::exception&) {
+    return false;
+  }
+}
+
+void check_name(BuildOptions& o) {
+  const bool given = !o.name.empty();
+  if (!given) o.name = base_name(o.scenes.front());
+  if (o.name.empty() || o.name.find('/') != std::string::npos)
+    fail(ErrorCode::bad_argument, "--name '{}': must be a name without a folder", o.name);
+  if (!is_utf8(o.name))
+    fail(ErrorCode::bad_argument, "{} '{}': is not UTF-8, as names in glTF are; give a --name in UTF-8",
+         given ? "--name" : "the scene's name", o.name);
 }
 
 void check_options(BuildOptions& o) {
@@ -46,9 +67,7 @@ void check_options(BuildOptions& o) {
   if (o.tiles && o.cache.empty())
     fail(ErrorCode::bad_argument,
          "--tiles makes no tileset but results for a later run; name their folder with --cache");
-  if (o.name.empty()) o.name = base_name(o.scenes.front());
-  if (o.name.empty() || o.name.find('/') != std::string::npos)
-    fail(ErrorCode::bad_argument, "--name '{}': must be a name without a folder", o.name);
+  check_name(o);
 }
 
 }  // namespace

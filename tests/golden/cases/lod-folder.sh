@@ -5,7 +5,6 @@ tileset=("${options[@]}" --profile 3dtiles)
 
 # A tileset does not replace levels that are there, neither all of them nor some.
 bplod "${options[@]}" -o mixed > list
-cksum mixed/* > before
 try bplod "${tileset[@]}" -o mixed
 rm mixed/m_LOD[01].glb
 try bplod "${tileset[@]}" -o mixed
@@ -26,3 +25,10 @@ said "bplod ${tileset[*]} -o tiles --cache cache > /dev/full"
 said "bplod ${tileset[*]} --tiles 0..1 --cache cache > /dev/full"
 said "bplod ${options[*]} -o pipe --report pipe.json | true"
 LC_ALL=C ls -A full tiles pipe pipe.json
+
+# A name must be what JSON can hold; that is said before the work.
+latin1=$'caf\xe9'
+cp cube.obj "$latin1.obj"
+said "bplod $latin1.obj --levels 1 -q -o latin1" | tr '\351' '?'
+said "bplod cube.obj --name $latin1 --profile 3dtiles --levels 1 -q -o latin1" | tr '\351' '?'
+bplod "$latin1.obj" --name café --levels 1 --resolution 24 -q -o latin1 | cut -f 1
