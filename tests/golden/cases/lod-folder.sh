@@ -32,3 +32,11 @@ cp cube.obj "$latin1.obj"
 said "bplod $latin1.obj --levels 1 -q -o latin1" | tr '\351' '?'
 said "bplod cube.obj --name $latin1 --profile 3dtiles --levels 1 -q -o latin1" | tr '\351' '?'
 bplod "$latin1.obj" --name café --levels 1 --resolution 24 -q -o latin1 | cut -f 1
+
+# URIs of a tileset are percent-encoded, so that a viewer asks for the files that are there; and tiles that go are found by them.
+odd='a#b?c%20d ü'
+bplod cube.obj --name "$odd" --resolution 24 --levels 2 --profile 3dtiles -q -o odd | cut -f 1
+grep -o '"uri": .*' odd/tileset.json
+bpcheck cube.obj odd/tileset.json | sed 's/[0-9]* triangles/some triangles/'
+bplod "${tileset[@]}" -o odd --overwrite > list
+LC_ALL=C ls -A odd
