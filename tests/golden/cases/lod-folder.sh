@@ -40,3 +40,39 @@ grep -o '"uri": .*' odd/tileset.json
 bpcheck cube.obj odd/tileset.json | sed 's/[0-9]* triangles/some triangles/'
 bplod "${tileset[@]}" -o odd --overwrite > list
 LC_ALL=C ls -A odd
+
+# The folder may be a mount or a link to another file system, and its parent read-only: all work is done inside.
+elsewhere=$(mktemp -d /dev/shm/bp-golden.XXXXXX 2> /dev/null || mktemp -d)
+ln -s "$elsewhere" link
+bplod "${tileset[@]}" -o link | cut -f 1
+LC_ALL=C ls -A "$elsewhere"
+rm -r "$elsewhere" link
+
+# Killed while the files were moved: what was moved is known, and what was to go goes, also under another name.
+mkdir -p killed/.partial killed/old_LOD0
+touch killed/old_LOD0/0_0_0.glb killed/old_LOD1.glb killed/m_LOD0.glb killed/kept.glb
+printf '%s\0' old_LOD0/0_0_0.glb old_LOD1.glb m_LOD0.glb ../cube.obj tileset.json > killed/.partial/moving
+cp -r killed killed2
+try bplod "${tileset[@]}" -o killed | cut -f 1
+LC_ALL=C ls -A killed
+cp tiles/tileset.json killed2/
+try bplod "${tileset[@]}" -o killed2
+try bplod "${tileset[@]}" -o killed2 --resume | cut -f 1
+LC_ALL=C ls -A killed2
+ls cube.obj
+
+# Of folders that were made for a run that fails, or that a signal ends, nothing stays.
+try bplod missing.obj -o x/y/z
+try bplod missing.obj -o x/y/z --profile 3dtiles
+try bplod missing.obj -o x/y/z --profile 3dtiles --resume
+try bplod cube.obj -o cube.obj/x
+mkfifo in
+exec 3<> in
+for profile in gltf 3dtiles; do
+  bplod - --format obj --profile $profile -q -o x/y/z <&3 > list &
+  for _ in $(seq 1000); do [ -n "$(ls -A x/y/z 2> /dev/null)" ] && break; sleep 0.01; done
+  kill $!
+  wait $!
+  echo "$profile: $?"
+  ls -d x
+done 2> /dev/null

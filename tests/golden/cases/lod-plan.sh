@@ -37,9 +37,9 @@ numbers kept changed.json
 bplod "${options[@]}" --cache cache --explain | grep kept
 
 # The same of what --resume would go on with; levels in one mesh are estimated.
-mkdir resumed.partial
-cp -r cache resumed.partial/results
-rm -r resumed.partial/results/[0-7]*
+mkdir -p resumed/.partial
+cp -r cache resumed/.partial/results
+rm -r resumed/.partial/results/[0-7]*
 bplod "${options[@]}" --resume -o resumed --explain | grep kept > planned
 bplod "${options[@]}" --resume -o resumed --report resumed.json > list
 diff <(sed -n 's/.*level .: \(.*\) of.*/\1/p' planned) <(grep -oE '"kept": .*' resumed.json | grep -o '[0-9]*') && echo "as planned"
