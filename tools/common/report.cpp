@@ -6,8 +6,6 @@
 #include <cstdio>
 #include <cstring>
 
-#include "io/file.h"
-
 namespace bp {
 
 namespace {
@@ -61,10 +59,9 @@ std::string Report::text() {
 }
 
 void Report::write(const CommonOptions& common) {
-  if (common.report.empty()) return;
-  OutputFile file(common.report, common.overwrite);
-  file.write(text());
-  file.commit();
+  if (!common.report_file) return;
+  common.report_file->write(text());
+  common.report_file->commit();
 }
 
 std::uint64_t peak_memory() {
