@@ -74,13 +74,14 @@ class TilesetBuild {
     if (task == Task::look_up) {
       results_ = std::make_unique<LookUpStore>(results);
     } else if (!results.empty()) {
-      results_ = open_result_store(results);
+      results_ = open_result_store(results, when_read_only());
     }
   }
 
   void run() {
     VoxelizedScene scene = make_levels();
     build_.progress.end();
+    if (!read_only_.empty()) build_.note(read_only_ + "; what is not in the cache was made, and is not kept");
     if (task_ == Task::tileset) write(scene);
     if (task_ == Task::some_jobs) build_.finish_jobs(scene, *options_.tiles, plan_.jobs(), found_);
   }
@@ -88,6 +89,12 @@ class TilesetBuild {
   [[nodiscard]] const std::vector<FoundJobs>& found() const { return found_; }
 
  private:
+  /// A cache that others fill is good to read. To fill it, or to resume, it must take what is put.
+  [[nodiscard]] std::function<void(const std::string&)> when_read_only() {
+    if (task_ == Task::some_jobs || options_.resume) return {};
+    return [this](const std::string& why) { read_only_ = why; };
+  }
+
   VoxelizedScene make_levels() {
     VoxelizedScene scene = build_.voxelize(cells_.edge_vox, results_.get());
     scene_voxel_ = scene.header.frame.voxel;
@@ -291,6 +298,7 @@ class TilesetBuild {
   TilesetPlan plan_;
   std::unique_ptr<ChunkStore> store_;     ///< files, until all are there
   std::unique_ptr<ResultStore> results_;  ///< of jobs; may be null
+  std::string read_only_;                 ///< why results_ keeps nothing; known once the levels are made
   double scene_voxel_ = 0;
   Bounds3d bounds_;
   std::vector<Waiting> files_;
