@@ -76,3 +76,11 @@ for profile in gltf 3dtiles; do
   echo "$profile: $?"
   ls -d x
 done 2> /dev/null
+
+# bpcheck answers what was asked of a tileset, or refuses to.
+bpcheck cube.obj tiles/tileset.json --json | sed 's/"triangles": [0-9]*/"triangles": SOME/'
+rm tiles/m_LOD1.glb
+try bpcheck tiles/tileset.json --json | sed 's/"triangles": [0-9]*/"triangles": SOME/'
+for option in --inside '--origin 0,0,0' '--image x.png' --no-distances '--samples 5000' '--examples 5'; do
+  try bpcheck cube.obj tiles/tileset.json $option
+done
