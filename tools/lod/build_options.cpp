@@ -67,6 +67,8 @@ void check_options(BuildOptions& o) {
   if (o.tiles && o.cache.empty())
     fail(ErrorCode::bad_argument,
          "--tiles makes no tileset but results for a later run; name their folder with --cache");
+  if (o.tiles && !o.out.empty())
+    fail(ErrorCode::bad_argument, "--tiles writes no tileset; leave -o to the run that puts the tiles together");
   check_name(o);
 }
 

@@ -100,6 +100,9 @@ class TilesetBuild {
     scene_voxel_ = scene.header.frame.voxel;
     bounds_ = scene.header.bounds;
     plan_ = plan_tileset(options_, scene.header);
+    if (task_ == Task::some_jobs && options_.tiles->begin >= plan_.jobs())
+      build_.note(fmt::format("--tiles {}..{}: there are {} jobs, numbered from 0: nothing is done",
+                              options_.tiles->begin, options_.tiles->end, plan_.jobs()));
     tree_ = std::make_unique<TileTree>(scene.header.frame.up, cells_);
     build_.report.stage("measure the scene");
     PyramidOptions pyramid_options;

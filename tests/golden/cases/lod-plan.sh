@@ -25,9 +25,11 @@ ls
 bplod "${options[@]}" --cache cache -o together --report together.json > list
 numbers kept together.json
 diff -r whole together && echo "the same bytes"
-# A part that was done, or that has no number, costs nothing.
+# A part that was done, or that has no number, costs nothing; the latter is said.
 bplod "${options[@]}" --cache cache --tiles 0..4
 bplod "${options[@]}" --cache cache --tiles 30..40
+try bplod part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles --cache cache --tiles 30..40
+try bplod "${options[@]}" --tiles 0..2 --cache cache -o nowhere
 
 # What a change costs is known before it is paid.
 sed -i 's/^v \(.*\) 3 \(.*\)$/v \1 2 \2/' part2.obj
