@@ -13,6 +13,7 @@ namespace {
 
 using Json = GltfOutJson;
 
+constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 32;  // some millions of tiles
 constexpr int kMostDeep = 64;  // tiles below tiles: deeper ones are a mistake or an attack on the stack
 
 double number_of(const GltfJson& json, const GltfObject& object, const char* key) {
@@ -34,7 +35,7 @@ class Reader {
  public:
   explicit Reader(const std::string& path) : name_(path) {
     try {
-      json_ = GltfJson::parse(read_text(path));
+      json_ = GltfJson::parse(read_text(path, kMostBytes));
     } catch (const GltfJson::exception& e) {
       fail(ErrorCode::bad_input, "{}: broken JSON: {}", path, e.what());
     }

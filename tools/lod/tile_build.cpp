@@ -282,6 +282,8 @@ class TilesetBuild {
     });
     folder_->write("tileset.json", tileset_text(tileset, provenance_));
     folder_->commit();
+    if (!folder_->complaint().empty())
+      build_.note(folder_->complaint() + "; tiles of the tileset that was there before are not known, and stay");
     build_.finish(scene, rows_, folder_->bytes());
   }
 

@@ -26,16 +26,11 @@ bool is_inside(const std::string& name) {
   return !name.empty() && name.find("..") == std::string::npos && name[0] != '/';
 }
 
-/// Contents of the tileset in `folder`, if it is one of ours or at least readable.
-std::vector<std::string> contents_of(const std::string& folder) {
+std::vector<std::string> contents_of(const std::string& tileset) {
   std::vector<std::string> uris;
-  try {
-    for_each_tile(read_tileset(folder + "/" + kTileset), [&](const Tile& tile, const std::string&, const Transform&) {
-      if (is_inside(tile.uri)) uris.push_back(tile.uri);
-    });
-  } catch (const Error&) {  // then nothing is known to be ours
-    return {};
-  }
+  for_each_tile(read_tileset(tileset), [&](const Tile& tile, const std::string&, const Transform&) {
+    if (is_inside(tile.uri)) uris.push_back(tile.uri);
+  });
   return uris;
 }
 
@@ -153,10 +148,22 @@ void TilesetFolder::write(const std::string& name, const std::string& bytes) {
   if (!same) written_.push_back(name);
 }
 
+/// What is there of earlier tilesets.
+std::vector<std::string> TilesetFolder::names_before() {
+  std::vector<std::string> names = names_from(partial_ + kMoving);
+  const std::string tileset = path_ + "/" + kTileset;
+  if (!fs::exists(tileset)) return names;
+  try {
+    const std::vector<std::string> contents = contents_of(tileset);
+    names.insert(names.end(), contents.begin(), contents.end());
+  } catch (const Error& e) {  // then nothing is known to be its
+    complaint_ = e.what();
+  }
+  return names;
+}
+
 void TilesetFolder::commit() {
-  std::vector<std::string> before = contents_of(path_);
-  const std::vector<std::string> interrupted = names_from(partial_ + kMoving);
-  before.insert(before.end(), interrupted.begin(), interrupted.end());
+  const std::vector<std::string> before = names_before();
   std::sort(names_.begin(), names_.end());
   note_moves(before);
   move_files();

@@ -34,6 +34,8 @@ class TilesetFolder {
   void write(const std::string& name, const std::string& bytes);
   /// The files appear; tiles of the tileset that was there before, and that are not among them, go.
   void commit();
+  /// Why tiles of the tileset that was there before may still be there; empty: they are not.
+  [[nodiscard]] const std::string& complaint() const { return complaint_; }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
  private:
@@ -41,6 +43,7 @@ class TilesetFolder {
   void begin(const std::vector<std::string>& names);
   void leave();
   void refuse_if_there(const std::string& name) const;
+  [[nodiscard]] std::vector<std::string> names_before();
   void note_moves(const std::vector<std::string>& before) const;
   void move_files();
   void remove_others(const std::vector<std::string>& before) const;
@@ -54,6 +57,7 @@ class TilesetFolder {
   std::mutex mutex_;
   std::vector<std::string> names_, written_;  ///< all files; those that are not there already
   std::uint64_t bytes_ = 0;
+  std::string complaint_;
 };
 
 }  // namespace bp

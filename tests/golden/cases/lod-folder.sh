@@ -84,3 +84,10 @@ try bpcheck tiles/tileset.json --json | sed 's/"triangles": [0-9]*/"triangles": 
 for option in --inside '--origin 0,0,0' '--image x.png' --no-distances '--samples 5000' '--examples 5'; do
   try bpcheck cube.obj tiles/tileset.json $option
 done
+
+# A tileset that cannot be read is replaced; that its tiles stay is said.
+mkdir unread
+touch unread/gone.glb
+echo '{"broken' > unread/tileset.json
+try bplod cube.obj --name m --resolution 24 --levels 1 --profile 3dtiles -o unread --overwrite | sed 's/JSON: .*;/JSON;/' | cut -f 1
+LC_ALL=C ls -A unread

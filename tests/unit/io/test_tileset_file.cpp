@@ -73,6 +73,12 @@ TEST_CASE("names of contents are written percent-encoded and read decoded", "[qu
   CHECK(read_back("%c3%BC%2fa%2Eglb") == "\xc3\xbc/a.glb");
 }
 
+TEST_CASE("a tileset may be large", "[quick][io][lod]") {
+  const TempDir dir;
+  const std::string text = tileset(kBox + R"(, "geometricError": 3)");
+  CHECK(complaint(dir, text + std::string(std::size_t(65) << 20, ' ')).empty());
+}
+
 TEST_CASE("a broken tileset is refused with the place", "[quick][io][lod]") {
   const TempDir dir;
   CHECK_THAT(complaint(dir, "{"), Contains("broken JSON"));
