@@ -1,6 +1,7 @@
 #include "tools/common/report.h"
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <cstdio>
@@ -62,6 +63,15 @@ void Report::write(const CommonOptions& common) {
   if (!common.report_file) return;
   common.report_file->write(text());
   common.report_file->commit();
+}
+
+std::uint64_t size_of_files(const std::vector<std::string>& paths) {
+  std::uint64_t bytes = 0;
+  for (const std::string& path : paths) {
+    struct stat info {};
+    if (path != "-" && ::stat(path.c_str(), &info) == 0) bytes += std::uint64_t(info.st_size);
+  }
+  return bytes;
 }
 
 std::uint64_t peak_memory() {

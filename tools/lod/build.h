@@ -63,7 +63,7 @@ class Build {
                    const std::vector<FoundJobs>& found);
 
  private:
-  void write_report(const VoxelizedScene& scene, std::size_t levels);
+  void write_report(const VoxelizedScene& scene);
 
  public:
   const BuildOptions& options;

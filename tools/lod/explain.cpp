@@ -212,8 +212,8 @@ void explain(const BuildOptions& options) {
   const Scene scene = read_scene(build);
   build.report.stage("look up");
   const Plan plan(build, scene);
-  build.report.options = {
-      {"profile", name_of(options.profile)}, {"explain", true}, {"memory", options.common.memory_bytes}};
+  build.report.options = options_json(options);
+  build.report.bytes_in = size_of_files(options.scenes);
   build.report.counts = plan.json();
   build.report.write(options.common);
   print(plan.text());

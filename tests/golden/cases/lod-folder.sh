@@ -91,3 +91,9 @@ touch unread/gone.glb
 echo '{"broken' > unread/tileset.json
 try bplod cube.obj --name m --resolution 24 --levels 1 --profile 3dtiles -o unread --overwrite | sed 's/JSON: .*;/JSON;/' | cut -f 1
 LC_ALL=C ls -A unread
+
+# The report says what was asked for, and how much was read and written.
+bplod cube.obj --name m --faces 60,20 --resolution 24 --profile 3dtiles -q -j 1 --memory 300M -o reported --report report.json > list
+sed -n '/"options"/,/^  }/p; /"bytes_in"/p' report.json
+stat -c %s cube.obj
+[ "$(cat reported/* | wc -c)" = "$(grep -o '"bytes_out": [0-9]*' report.json | grep -o '[0-9]*$')" ] && echo "as many bytes as written"

@@ -4,7 +4,7 @@ for i in 0 1 2; do
   sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 7 * $i)) \2 \$((\3 + $i))/e" cube.obj > part$i.obj
 done
 options=(part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles -q)
-numbers() { grep -oE "\"($1)\": [0-9.]*" "$2" | tr '\n' ' '; echo; }
+numbers() { sed "/\"options\"/,/^  }/d" "$2" | grep -oE "\"($1)\": [0-9.]*" | tr '\n' ' '; echo; }
 # The plan needs no voxel: these figures are exact, but for "at most" and "about". Nothing is written.
 bplod "${options[@]}" --explain -j 1 --memory 1G
 bplod "${options[@]}" --explain --cache none --report plan.json > list
