@@ -10,6 +10,7 @@
 #include <cstring>
 #include <utility>
 
+#include "io/detail/write_all.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -26,14 +27,8 @@ constexpr std::size_t kBufferBytes = std::size_t(1) << 20;
   fail(ErrorCode::failed, "{}: cannot write: {}", name, std::strerror(e));
 }
 
-void write_all(int fd, const std::byte* data, std::size_t n, const std::string& name) {
-  while (n > 0) {
-    const ssize_t done = ::write(fd, data, n);
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) fail_write(name);
-    data += done;
-    n -= std::size_t(done);
-  }
+void write_all(int fd, std::span<const std::byte> bytes, const std::string& name) {
+  if (!detail::write_all(fd, bytes)) fail_write(name);
 }
 
 constexpr int kMostPartials = 1000;  ///< of one name, at a time
@@ -150,13 +145,13 @@ OutputFile::~OutputFile() {
 void OutputFile::write(std::span<const std::byte> bytes) {
   bytes_ += bytes.size();
   if (used_ + bytes.size() > kBufferBytes) flush();
-  if (bytes.size() >= kBufferBytes) return write_all(fd_, bytes.data(), bytes.size(), name_);
+  if (bytes.size() >= kBufferBytes) return write_all(fd_, bytes, name_);
   std::memcpy(buffer_.get() + used_, bytes.data(), bytes.size());
   used_ += bytes.size();
 }
 
 void OutputFile::flush() {
-  write_all(fd_, buffer_.get(), used_, name_);
+  write_all(fd_, {buffer_.get(), used_}, name_);
   used_ = 0;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "io/detail/brick_codec.h"
+#include "io/detail/write_all.h"
 #include "io/file.h"
 #include "lib/core/error.h"
 
@@ -58,12 +59,7 @@ class Descriptor {
 }
 
 void write_all(int fd, const std::string& name, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail_with(name, "write", errno);
-    bytes = bytes.subspan(std::size_t(n));
-  }
+  if (!detail::write_all(fd, bytes)) fail_with(name, "write", errno);
 }
 
 bool read_all(int fd, std::span<std::byte> bytes) {
