@@ -1,6 +1,7 @@
 #include "io/file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <cstring>
 #include <utility>
 
+#include "io/detail/write_all.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -25,14 +27,34 @@ constexpr std::size_t kBufferBytes = std::size_t(1) << 20;
   fail(ErrorCode::failed, "{}: cannot write: {}", name, std::strerror(e));
 }
 
-void write_all(int fd, const std::byte* data, std::size_t n, const std::string& name) {
-  while (n > 0) {
-    const ssize_t done = ::write(fd, data, n);
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) fail_write(name);
-    data += done;
-    n -= std::size_t(done);
-  }
+void write_all(int fd, std::span<const std::byte> bytes, const std::string& name) {
+  if (!detail::write_all(fd, bytes)) fail_write(name);
+}
+
+constexpr int kMostPartials = 1000;  ///< of one name, at a time
+
+/// Whether the locked file `fd` may be written from its beginning, and renamed: it is ours, and still has that name,
+/// which another process may have changed before it let go of the lock.
+bool is_ours(int fd, const std::string& name) {
+  struct stat held {
+  }, named{};
+  return ::fstat(fd, &held) == 0 && ::lstat(name.c_str(), &named) == 0 && held.st_dev == named.st_dev &&
+         held.st_ino == named.st_ino && S_ISREG(held.st_mode) && held.st_nlink == 1 && held.st_uid == ::geteuid();
+}
+
+/// An empty, locked file of that name, new or left by a process that is dead; -1 if somebody has it. Where the file
+/// system knows no locks, new ones only. Throws if no file can be made there.
+int take_partial(const std::string& name, const std::string& path) {
+  int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  const bool made = fd >= 0;
+  if (!made && errno != EEXIST) fail_write(path);
+  if (!made) fd = ::open(name.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0) return -1;
+  const bool locked = ::flock(fd, LOCK_EX | LOCK_NB) == 0;
+  const bool is_free = locked ? is_ours(fd, name) : made && errno != EWOULDBLOCK;
+  if (is_free && ::ftruncate(fd, 0) == 0) return fd;
+  ::close(fd);
+  return -1;
 }
 
 }  // namespace
@@ -98,42 +120,56 @@ OutputFile::OutputFile(const std::string& path, bool overwrite)
     return;
   }
   if (exists && !overwrite) fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", path);
-  static std::atomic<int> serial{0};
-  temporary_ = fmt::format("{}.partial-{}-{}", path, ::getpid(), serial++);
-  partial_ = PartialOutput(temporary_);
-  fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (fd_ < 0) {
-    temporary_.clear();
-    fail_write(name_);
-  }
+  open_partial();
 }
 
+void OutputFile::open_partial() {
+  for (int i = 1; i <= kMostPartials; ++i) {
+    const std::string name = fmt::format("{}.partial-{}", name_, i);
+    fd_ = take_partial(name, name_);
+    if (fd_ < 0) continue;
+    partial_ = PartialOutput(name);
+    temporary_ = name;
+    return;
+  }
+  fail(ErrorCode::failed, "{}: {} unfinished files of that name lie beside it; remove them", name_, kMostPartials);
+}
+
+/// The lock goes last: what still has the name is not to be taken over.
 OutputFile::~OutputFile() {
-  if (fd_ >= 0) ::close(fd_);
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  partial_ = PartialOutput();
+  if (fd_ >= 0) ::close(fd_);
 }
 
 void OutputFile::write(std::span<const std::byte> bytes) {
   bytes_ += bytes.size();
   if (used_ + bytes.size() > kBufferBytes) flush();
-  if (bytes.size() >= kBufferBytes) return write_all(fd_, bytes.data(), bytes.size(), name_);
+  if (bytes.size() >= kBufferBytes) return write_all(fd_, bytes, name_);
   std::memcpy(buffer_.get() + used_, bytes.data(), bytes.size());
   used_ += bytes.size();
 }
 
 void OutputFile::flush() {
-  write_all(fd_, buffer_.get(), used_, name_);
+  write_all(fd_, {buffer_.get(), used_}, name_);
   used_ = 0;
 }
 
 void OutputFile::commit() {
   flush();
-  if (!temporary_.empty() && ::fsync(fd_) != 0) fail_write(name_);
+  if (!temporary_.empty()) {
+    if (::fsync(fd_) != 0 || ::rename(temporary_.c_str(), name_.c_str()) != 0) fail_write(name_);
+    temporary_.clear();
+    partial_ = PartialOutput();
+  }
   const int fd = std::exchange(fd_, -1);
   if (::close(fd) != 0) fail_write(name_);
-  if (temporary_.empty()) return;
-  if (::rename(temporary_.c_str(), name_.c_str()) != 0) fail_write(name_);
-  temporary_.clear();
+}
+
+void print(const std::string& text) {
+  OutputFile out("-", false);
+  out.write(text);
+  out.commit();
 }
 
 struct ScratchFile::State {

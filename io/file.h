@@ -37,9 +37,10 @@ class InputFile {
   std::uint64_t size_ = 0, offset_ = 0;
 };
 
-/// Sequential output. "-" is stdout. A named file is written beside its name and renamed by commit(): without commit()
-/// nothing stays behind, not even when a signal ends the process. Throws bad_argument if the name exists and
-/// `overwrite` is false.
+/// Sequential output. "-" is stdout. A named file is written beside its name, as NAME.partial-1, and renamed by
+/// commit(): without commit() nothing stays behind, not even when a signal ends the process. What SIGKILL or a crash of
+/// the machine leaves is taken over by the next one that writes NAME; what a living process writes is locked, and the
+/// next one counts on. Throws bad_argument if the name exists and `overwrite` is false.
 class OutputFile {
  public:
   OutputFile(const std::string& path, bool overwrite);
@@ -56,6 +57,7 @@ class OutputFile {
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
+  void open_partial();
   void flush();
   std::string name_, temporary_;
   PartialOutput partial_;  ///< of temporary_, for signal handlers
@@ -64,6 +66,9 @@ class OutputFile {
   std::unique_ptr<std::byte[]> buffer_;
   std::size_t used_ = 0;
 };
+
+/// Text on stdout, flushed.
+void print(const std::string& text);
 
 /// Anonymous scratch file in `directory`: unlinked at once, so nothing stays behind whatever happens. Thread-safe.
 class ScratchFile {

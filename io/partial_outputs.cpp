@@ -1,5 +1,7 @@
 #include "io/partial_outputs.h"
 
+#include <dirent.h>
+#include <fcntl.h>
 #include <limits.h>
 #include <unistd.h>
 
@@ -16,21 +18,62 @@ enum State : int { vacant, claimed, named };
 struct Slot {
   std::atomic<int> state{vacant};
   pid_t owner = 0;
+  PartialOutput::Kind kind = PartialOutput::Kind::file;
   char name[PATH_MAX];
 };
 static_assert(std::atomic<int>::is_always_lock_free, "signal handlers take no locks");
 
-std::array<Slot, 64> g_slots;  // global because a signal handler has no other way to it
+std::array<Slot, 256> g_slots;  // global because a signal handler has no other way to it
+
+bool remove_at(int parent, const char* name);
+
+/// Other threads may still add something: until nothing more is found. opendir() and readdir() would take memory, which
+/// a signal handler must not.
+void remove_entries(int folder) {
+  alignas(dirent64) char buffer[2048];
+  for (bool again = true; again;) {
+    again = false;
+    ::lseek(folder, 0, SEEK_SET);
+    for (ssize_t size = 0; (size = ::getdents64(folder, buffer, sizeof buffer)) > 0;) {
+      for (ssize_t at = 0; at < size;) {
+        const auto* entry = reinterpret_cast<const dirent64*>(buffer + at);
+        at += entry->d_reclen;
+        if (std::strcmp(entry->d_name, ".") == 0 || std::strcmp(entry->d_name, "..") == 0) continue;
+        again = remove_at(folder, entry->d_name) || again;
+      }
+    }
+  }
+}
+
+bool remove_at(int parent, const char* name) {
+  if (::unlinkat(parent, name, 0) == 0) return true;
+  const int folder = ::openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (folder < 0) return false;
+  remove_entries(folder);
+  ::close(folder);
+  return ::unlinkat(parent, name, AT_REMOVEDIR) == 0;
+}
+
+/// Whether something was removed.
+bool remove_all_of(PartialOutput::Kind kind) {
+  bool any = false;
+  for (Slot& slot : g_slots) {
+    if (slot.state != named || slot.owner != ::getpid() || slot.kind != kind) continue;
+    any = (kind == PartialOutput::Kind::folder ? ::rmdir(slot.name) == 0 : remove_at(AT_FDCWD, slot.name)) || any;
+  }
+  return any;
+}
 
 }  // namespace
 
-PartialOutput::PartialOutput(const std::string& name) {
+PartialOutput::PartialOutput(const std::string& name, Kind kind) {
   if (name.size() >= PATH_MAX) return;
   for (std::size_t i = 0; i < g_slots.size(); ++i) {
     int expected = vacant;
     if (!g_slots[i].state.compare_exchange_strong(expected, claimed)) continue;
     std::memcpy(g_slots[i].name, name.c_str(), name.size() + 1);
     g_slots[i].owner = ::getpid();
+    g_slots[i].kind = kind;
     g_slots[i].state = named;
     slot_ = int(i);
     return;
@@ -49,8 +92,9 @@ PartialOutput& PartialOutput::operator=(PartialOutput&& other) noexcept {
 }
 
 void remove_partial_outputs() noexcept {
-  for (Slot& slot : g_slots) {
-    if (slot.state == named && slot.owner == ::getpid()) ::unlink(slot.name);
+  remove_all_of(PartialOutput::Kind::file);
+  remove_all_of(PartialOutput::Kind::tree);
+  while (remove_all_of(PartialOutput::Kind::folder)) {  // the ones above once those below are gone
   }
 }
 

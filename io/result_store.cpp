@@ -6,12 +6,14 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <vector>
 
 #include "io/detail/brick_codec.h"
+#include "io/detail/write_all.h"
 #include "io/file.h"
 #include "lib/core/error.h"
 
@@ -57,12 +59,7 @@ class Descriptor {
 }
 
 void write_all(int fd, const std::string& name, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail_with(name, "write", errno);
-    bytes = bytes.subspan(std::size_t(n));
-  }
+  if (!detail::write_all(fd, bytes)) fail_with(name, "write", errno);
 }
 
 bool read_all(int fd, std::span<std::byte> bytes) {
@@ -77,7 +74,8 @@ bool read_all(int fd, std::span<std::byte> bytes) {
 
 class FolderStore final : public ResultStore {
  public:
-  explicit FolderStore(std::string folder) : folder_(std::move(folder)) {
+  FolderStore(std::string folder, std::function<void(const std::string&)> on_read_only)
+      : folder_(std::move(folder)), on_read_only_(std::move(on_read_only)) {
     std::error_code error;
     std::filesystem::create_directories(folder_, error);
     if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", folder_, error.message());
@@ -101,18 +99,25 @@ class FolderStore final : public ResultStore {
   }
 
   void put(const ResultKey& key, std::string_view bytes) override {
+    if (read_only_) return;
+    const std::string name = name_of(key), place = name.substr(0, name.rfind('/'));
+    if (::mkdir(place.c_str(), 0777) != 0 && errno != EEXIST) return give_up(place, "make this folder", errno);
+    if (::access(place.c_str(), W_OK | X_OK) != 0) return give_up(place, "write there", errno);
     std::vector<std::byte> packed;
     detail::compress(std::as_bytes(std::span(bytes.data(), bytes.size())), detail::kDefaultLevel, false, packed);
     Head head{{}, {key.words[0], key.words[1]}, bytes.size(), packed.size(), {}};
     const XXH128_hash_t check = check_of(head, packed);
     head.check[0] = check.high64, head.check[1] = check.low64;
     std::memcpy(head.magic, kMagic, sizeof kMagic);
-    const std::string name = name_of(key), place = name.substr(0, name.rfind('/'));
-    if (::mkdir(place.c_str(), 0777) != 0 && errno != EEXIST) fail_with(place, "make this folder", errno);
     if (!put_unnamed(place, name, head, packed)) put_beside(name, head, packed);
   }
 
  private:
+  void give_up(const std::string& place, const char* what, int error) {
+    if (!on_read_only_ || (error != EACCES && error != EPERM && error != EROFS)) fail_with(place, what, error);
+    if (!read_only_.exchange(true)) on_read_only_(fmt::format("{}: cannot {}: {}", place, what, std::strerror(error)));
+  }
+
   [[nodiscard]] std::string name_of(const ResultKey& key) const {
     const std::string hex = fmt::format("{:016x}{:016x}", key.words[0], key.words[1]);
     return folder_ + "/" + hex.substr(0, 2) + "/" + hex.substr(2);
@@ -130,7 +135,7 @@ class FolderStore final : public ResultStore {
     for (int attempt = 0; attempt < 2; ++attempt) {
       if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) return true;
       if (errno != EEXIST) return false;
-      ::unlink(name.c_str());  // get() did not take it
+      if (::unlink(name.c_str()) != 0 && errno != ENOENT) fail_with(name, "replace", errno);  // get() did not take it
     }
     return true;  // another process was faster, twice
   }
@@ -143,12 +148,15 @@ class FolderStore final : public ResultStore {
   }
 
   const std::string folder_;
+  const std::function<void(const std::string&)> on_read_only_;
+  std::atomic<bool> read_only_{false};
 };
 
 }  // namespace
 
-std::unique_ptr<ResultStore> open_result_store(const std::string& folder) {
-  return std::make_unique<FolderStore>(folder);
+std::unique_ptr<ResultStore> open_result_store(const std::string& folder,
+                                               std::function<void(const std::string&)> on_read_only) {
+  return std::make_unique<FolderStore>(folder, std::move(on_read_only));
 }
 
 }  // namespace bp

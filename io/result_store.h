@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -11,6 +12,9 @@ namespace bp {
 /// bytes as one zstd frame; it has no name before it is complete. One that is damaged, truncated, or another's is
 /// passed over by get() and replaced by put(). Throws `failed` if the folder cannot be made, out_of_resource if it is
 /// full.
-[[nodiscard]] std::unique_ptr<ResultStore> open_result_store(const std::string& folder);
+///   on_read_only  called once, by put() on any thread, with the reason if nothing may be written there: what is put is
+///                 not kept from then on. Without it put() throws `failed`.
+[[nodiscard]] std::unique_ptr<ResultStore> open_result_store(
+    const std::string& folder, std::function<void(const std::string& why)> on_read_only = {});
 
 }  // namespace bp

@@ -4,6 +4,7 @@
 
 #include "io/detail/glb_file.h"
 #include "io/detail/gltf_document.h"
+#include "io/detail/uri.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -12,6 +13,7 @@ namespace {
 
 using Json = GltfOutJson;
 
+constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 32;  // some millions of tiles
 constexpr int kMostDeep = 64;  // tiles below tiles: deeper ones are a mistake or an attack on the stack
 
 double number_of(const GltfJson& json, const GltfObject& object, const char* key) {
@@ -33,7 +35,7 @@ class Reader {
  public:
   explicit Reader(const std::string& path) : name_(path) {
     try {
-      json_ = GltfJson::parse(read_text(path));
+      json_ = GltfJson::parse(read_text(path, kMostBytes));
     } catch (const GltfJson::exception& e) {
       fail(ErrorCode::bad_input, "{}: broken JSON: {}", path, e.what());
     }
@@ -75,7 +77,7 @@ class Reader {
   }
 
   static std::string content(const GltfObject& object) {
-    const std::string uri = object.text("uri");
+    const std::string uri = detail::percent_decoded(object.text("uri"));
     if (uri.size() > 5 && uri.compare(uri.size() - 5, 5, ".json") == 0)
       object.broken("is a tileset of its own: check it by itself");
     return uri;
@@ -100,7 +102,7 @@ Json json_of(const Tile& tile) {
   json["boundingVolume"] = {{"box", json_of(*tile.box)}};
   json["geometricError"] = tile.geometric_error;
   if (!tile.refine.empty()) json["refine"] = tile.refine;
-  if (!tile.uri.empty()) json["content"] = {{"uri", tile.uri}};
+  if (!tile.uri.empty()) json["content"] = {{"uri", detail::percent_encoded(tile.uri)}};
   if (tile.cell) {
     const auto& [min, max] = *tile.cell;
     json["extras"] = {{"cell", {min[0], min[1], min[2], max[0], max[1], max[2]}}};

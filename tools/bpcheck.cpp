@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "io/png_writer.h"
 #include "io/scene_reader.h"
@@ -16,16 +17,18 @@
 
 namespace {
 
+constexpr std::uint64_t kExamples = 5, kSamples = 5000;
+
 struct Options {
   bp::CommonOptions common;
   std::vector<std::string> files;  // scenes, then the proxy
   std::string format;
   bool json = false, no_distances = false, inside = false;
-  std::uint64_t examples = 5, samples = 5000;
+  std::optional<std::uint64_t> examples, samples;
   std::string image;
   int image_size = 720;
   std::optional<bp::UpAxis> up;
-  bp::Vec3d origin{};
+  std::optional<bp::Vec3d> origin;
   double azimuth = 35, elevation = 22;
 };
 
@@ -40,9 +43,9 @@ Options parse(bp::Args& args) {
               "add this point to every vertex of the proxy, exactly: what bpmesh --origin subtracted");
   args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
   args.flag("--json", o.json, "print the verdict as JSON");
-  args.option("--examples", "N", o.examples, "places named per kind of failure");
+  args.option("--examples", "N", o.examples, "places named per kind of failure (default: 5)");
   args.flag("--no-distances", o.no_distances, "leave the sampled distances out");
-  args.option("--samples", "N", o.samples, "triangles sampled for distances, on either side");
+  args.option("--samples", "N", o.samples, "triangles sampled for distances, on either side (default: 5000)");
   args.option("--image", "FILE", o.image, "draw scene and proxy side by side as PNG");
   args.option("--image-size", "PIXELS", o.image_size, "side of a panel of the image");
   args.option("--up", "y|z", o.up, "axis that points up in the image (default: y, or what the proxy or scene tells)");
@@ -119,10 +122,10 @@ bp::Image draw(const Options& o, const bp::IndexedMesh& proxy, bp::TriangleSourc
 
 void fill_report(bp::Report& report, const Options& o, const bp::CheckReport& verdict) {
   report.options = {{"inside", o.inside},
-                    {"origin", o.origin},
+                    {"origin", o.origin.value_or(bp::Vec3d{})},
                     {"distances", !o.no_distances},
-                    {"samples", o.samples},
-                    {"examples", o.examples}};
+                    {"samples", o.samples.value_or(kSamples)},
+                    {"examples", o.examples.value_or(kExamples)}};
   report.counts = {{"holds", verdict.holds()},
                    {"proxy_triangles", verdict.triangles},
                    {"scene_triangles", verdict.scene_triangles},
@@ -132,16 +135,29 @@ void fill_report(bp::Report& report, const Options& o, const bp::CheckReport& ve
   if (!verdict.distance_note.empty()) report.notes.push_back(verdict.distance_note);
 }
 
+/// An answer to another question than was asked would be none.
+void refuse_for_tileset(const Options& o) {
+  const std::pair<const char*, bool> refused[] = {{"--inside", o.inside},
+                                                  {"--origin", o.origin.has_value()},
+                                                  {"--image", !o.image.empty()},
+                                                  {"--no-distances", o.no_distances},
+                                                  {"--samples", o.samples.has_value()},
+                                                  {"--examples", o.examples.has_value()}};
+  for (const auto& [option, given] : refused) {
+    if (given) bp::fail(bp::ErrorCode::bad_argument, "{}: is for meshes; leave it out for a tileset", option);
+  }
+}
+
 /// A tileset is many proxies and what holds them together.
 int run_tileset(const Options& o) {
+  refuse_for_tileset(o);
   bp::Report report("bpcheck");
   report.stage("check");
   const bp::SceneOptions options{o.format, o.common.memory_bytes / 4, o.common.temp};
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
   const bp::TilesetVerdict verdict = bp::check_tileset_file(o.files.back(), scenes, options);
-  bp::OutputFile out("-", true);
-  out.write(verdict.text(file_name(o.files.back())));
-  out.commit();
+  const std::string name = file_name(o.files.back());
+  bp::print(o.json ? verdict.json(name) : verdict.text(name));
   report.counts = {{"holds", verdict.holds()}, {"tiles", verdict.tiles}, {"findings", verdict.findings}};
   report.write(o.common);
   return verdict.holds() ? 0 : 1;
@@ -159,16 +175,16 @@ int run(const Options& o) {
   scene_options.memory_bytes = o.common.memory_bytes / 4;
   scene_options.temp_dir = o.common.temp;
   bp::IndexedMesh proxy = bp::read_mesh(o.files.back(), scene_options);
-  move(proxy, o.origin);
+  move(proxy, o.origin.value_or(bp::Vec3d{}));
   std::unique_ptr<bp::TriangleSource> scene;
   if (o.files.size() > 1) scene = bp::open_scenes({o.files.begin(), o.files.end() - 1}, scene_options);
 
   report.stage("check");
   bp::CheckOptions check_options;
-  check_options.max_examples = o.examples;
+  check_options.max_examples = o.examples.value_or(kExamples);
   check_options.inside = o.inside;
   check_options.distances = !o.no_distances;
-  check_options.distance_samples = o.samples;
+  check_options.distance_samples = o.samples.value_or(kSamples);
   check_options.scene_memory_bytes = o.common.memory_bytes / 2;
   bp::Progress progress("bpcheck", o.common.progress);
   progress.begin("check", 0, "triangles");
@@ -183,10 +199,9 @@ int run(const Options& o) {
     picture->commit();
   }
   const std::string name = file_name(o.files.back());
-  bp::OutputFile out("-", true);
-  out.write(o.json ? bp::verdict_json(verdict, name) : bp::verdict_text(verdict, name));
-  out.commit();
-  report.bytes_out = out.bytes();
+  const std::string text = o.json ? bp::verdict_json(verdict, name) : bp::verdict_text(verdict, name);
+  bp::print(text);
+  report.bytes_out = text.size();
   fill_report(report, o, verdict);
   report.write(o.common);
   return verdict.holds() ? 0 : 1;

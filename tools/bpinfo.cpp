@@ -52,12 +52,6 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-void print(const std::string& text) {
-  bp::OutputFile out("-", false);
-  out.write(text);
-  out.commit();
-}
-
 /// stdin and pipes are brick streams, for they cannot be tried twice; files by their first bytes.
 bool is_stream(const Options& o, const std::string& in) {
   if (!o.format.empty()) return false;
@@ -208,9 +202,9 @@ void show_mesh(const Options& o, const std::string& in, Picture& picture) {
   bp::MeshInfo info = bp::measure(*source);
   info.extras = bp::mesh_extras(in);
   if (o.checksum) {
-    print(info.totals.checksum() + "\n");
+    bp::print(info.totals.checksum() + "\n");
   } else {
-    print(o.json ? bp::mesh_json(info).dump(2) + "\n" : bp::mesh_text(info, in == "-" ? "stdin" : in));
+    bp::print(o.json ? bp::mesh_json(info).dump(2) + "\n" : bp::mesh_text(info, in == "-" ? "stdin" : in));
   }
   if (picture.wanted()) picture.add_mesh(info, std::move(source), in);
 }

@@ -1,6 +1,4 @@
 // bpvox: scenes in, a stream of solid bricks out. Manual: docs/bpvox.1.md
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -114,19 +112,10 @@ std::string skipped(const bp::SceneCounts& c) {
   return text;
 }
 
-std::uint64_t size_of_files(const std::vector<std::string>& paths) {
-  std::uint64_t bytes = 0;
-  for (const std::string& path : paths) {
-    struct stat info {};
-    if (path != "-" && ::stat(path.c_str(), &info) == 0) bytes += std::uint64_t(info.st_size);
-  }
-  return bytes;
-}
-
 void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& header, const bp::VoxelizeCounts& c) {
   report.options["options"] = option_text(o, header.frame.up).text();
   report.options["memory"] = o.common.memory_bytes;
-  report.bytes_in = size_of_files(o.scenes);
+  report.bytes_in = bp::size_of_files(o.scenes);
   report.counts["triangles"] = c.scene.triangles;
   report.counts["degenerate"] = c.scene.degenerate;
   report.counts["non_finite"] = c.scene.non_finite;

@@ -6,6 +6,7 @@
 
 #include "io/detail/data_uri.h"
 #include "io/detail/meshopt_codec.h"
+#include "io/detail/uri.h"
 
 namespace bp {
 
@@ -25,22 +26,6 @@ ComponentType component_type(const GltfObject& o) {
   if (type < 5120 || (type > 5126 && type != 5130) || type == 5124)
     o.broken(fmt::format("has the unknown componentType {}", type));
   return ComponentType(type);
-}
-
-std::string percent_decoded(const std::string& uri) {
-  const auto digit = [](char c) {
-    return c >= '0' && c <= '9' ? c - '0' : (c | 32) >= 'a' && (c | 32) <= 'f' ? (c | 32) - 'a' + 10 : -1;
-  };
-  std::string path;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
-      path += char(16 * digit(uri[i + 1]) + digit(uri[i + 2]));
-      i += 2;
-    } else {
-      path += uri[i];
-    }
-  }
-  return path;
 }
 
 // Some exporters write names in Latin-1, which is no JSON. Names do not matter here.
@@ -213,7 +198,7 @@ SceneFilePtr GltfDocument::open_beside(const GltfObject& buffer, const std::stri
   if (path.empty()) buffer.broken("lies in another file, which stdin cannot name");
   if (uri.find("://") != std::string::npos) buffer.broken("lies on the network; download it");
   const std::size_t slash = path.find_last_of('/');
-  const std::string name = percent_decoded(uri);
+  const std::string name = detail::percent_decoded(uri);
   const bool absolute = !name.empty() && name[0] == '/';
   try {
     return open_scene_file(absolute || slash == std::string::npos ? name : path.substr(0, slash + 1) + name, temp_dir_);

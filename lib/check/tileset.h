@@ -27,7 +27,7 @@ struct Tile {
   Transform transform = kNoTransform;
   double geometric_error = 0;
   std::string refine;  ///< "ADD", "REPLACE"; empty: the parent's
-  std::string uri;     ///< of the content; empty: none
+  std::string uri;     ///< of the content, percent-decoded: a file name; empty: none
   /// Cell of the tile, in its own space: it answers for the scene in it (tile_cover.h). Ours only (extras.cell); none:
   /// for all of the scene.
   std::optional<Bounds3d> cell;

@@ -23,9 +23,9 @@ for ((i = 0; i < kills; ++i)); do
   sleep "$(awk -v s=$((RANDOM * 32768 + RANDOM)) -v f="$full" -v n="$kills" 'BEGIN { printf "%.3f", s / 2 ^ 30 * f / 1e9 * 2 / (n < 4 ? 4 : n) + 0.02 }')"
   kill -9 $job 2> /dev/null && killed=$((killed + 1))
   wait $job 2> /dev/null || true
-  if [ -e tiles ] && [ ! -e tiles.partial ]; then rm -rf tiles; fi  # it was done before the kill; once more
+  if [ -e tiles ] && [ ! -e tiles/.partial ]; then rm -rf tiles; fi  # it was done before the kill; once more
 done
-if [ ! -e tiles ] || [ -e tiles.partial ]; then bplod "${options[@]}" -o tiles --resume > /dev/null; fi
+if [ ! -e tiles ] || [ -e tiles/.partial ]; then bplod "${options[@]}" -o tiles --resume > /dev/null; fi
 diff -r whole tiles || { echo "the bytes differ after $killed kills"; exit 1; }
 left=$(ls -A . temp | grep -vxE 'plant.ply|temp|tiles|whole|\.:|temp:|' || true)
 [ -z "$left" ] || { echo "left behind: $left"; exit 1; }

@@ -9,6 +9,7 @@
 #include "lib/check/tile_cover.h"
 #include "lib/check/tileset.h"
 #include "lib/core/error.h"
+#include "tools/common/report.h"
 
 namespace bp {
 
@@ -124,6 +125,14 @@ std::string TilesetVerdict::text(const std::string& name) const {
   return lines + fmt::format("{}: {} tiles, {} contents, {} triangles{}: {}\n", name, tiles, contents, triangles,
                              scene ? ", checked against the scene" : "",
                              holds() ? "holds" : fmt::format("{} findings", findings.size()));
+}
+
+std::string TilesetVerdict::json(const std::string& name) const {
+  const Json all = {{"holds", holds()},
+                    {"tileset", {{"name", name}, {"tiles", tiles}, {"contents", contents}, {"triangles", triangles}}},
+                    {"scene", scene},
+                    {"findings", findings}};
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std::string>& scenes,

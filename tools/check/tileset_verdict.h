@@ -12,6 +12,8 @@ struct TilesetVerdict {
   bool scene = false;  ///< the contents were checked against scenes
   [[nodiscard]] bool holds() const { return findings.empty(); }
   [[nodiscard]] std::string text(const std::string& name) const;  ///< the findings, then one line of summary
+  /// One JSON object, indented. Keys and their order are part of the interface.
+  [[nodiscard]] std::string json(const std::string& name) const;
 };
 
 /// What bpcheck says of a tileset.json: check_tileset() on it and the contents that lie beside it. With scenes:

@@ -47,12 +47,6 @@ std::string spaced(const std::string& names) {
   return out;
 }
 
-void print(const std::string& text) {
-  OutputFile out("-", false);
-  out.write(text);
-  out.commit();
-}
-
 }  // namespace
 
 struct Args::State {

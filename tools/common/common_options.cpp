@@ -99,9 +99,7 @@ void CommonOptions::prepare() {
     if (temp.empty()) temp = default_temp();
     check_temp(temp);
   }
-  struct stat info {};
-  if (!report.empty() && !overwrite && ::stat(report.c_str(), &info) == 0 && S_ISREG(info.st_mode))
-    fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", report);
+  if (!report.empty()) report_file = open_output(report, overwrite, false);
 }
 
 std::uint64_t default_memory() {

@@ -39,12 +39,14 @@ struct CommonOptions {
   /// What --help says of it; a tool for which auto may mean a GPU says so.
   const char* device_text = "auto, cpu, cuda (every GPU) or cuda:0,1 (default: auto, the CPU: reading takes longest)";
   ProgressMode progress = ProgressMode::automatic;
-  std::string report;  ///< file name; empty: none
+  std::string report;                       ///< file name; empty: none
+  std::shared_ptr<OutputFile> report_file;  ///< opened by prepare()
   bool overwrite = false;
 
   void add_to(Args& args, unsigned parts = all_parts);
   /// Fills in the defaults that depend on the machine, and fails early: bad_argument if the scratch directory cannot be
-  /// written or the report's file exists. run_tool calls it before the tool runs.
+  /// written or the report's file exists, as OutputFile if that cannot be written. run_tool calls it before the tool
+  /// runs.
   void prepare();
 
  private:

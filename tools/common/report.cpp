@@ -1,12 +1,12 @@
 #include "tools/common/report.h"
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 
-#include "io/file.h"
 #include "lib/core/source_digest.h"
 
 namespace bp {
@@ -62,10 +62,18 @@ std::string Report::text() {
 }
 
 void Report::write(const CommonOptions& common) {
-  if (common.report.empty()) return;
-  OutputFile file(common.report, common.overwrite);
-  file.write(text());
-  file.commit();
+  if (!common.report_file) return;
+  common.report_file->write(text());
+  common.report_file->commit();
+}
+
+std::uint64_t size_of_files(const std::vector<std::string>& paths) {
+  std::uint64_t bytes = 0;
+  for (const std::string& path : paths) {
+    struct stat info {};
+    if (path != "-" && ::stat(path.c_str(), &info) == 0) bytes += std::uint64_t(info.st_size);
+  }
+  return bytes;
 }
 
 std::uint64_t peak_memory() {

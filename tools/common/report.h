@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tools/common/common_options.h"
 
@@ -38,6 +39,9 @@ class Report {
   Clock::time_point begin_ = Clock::now(), stage_begin_ = begin_;
   Json seconds_ = Json::object();
 };
+
+/// Of those that are there; stdin counts nothing.
+[[nodiscard]] std::uint64_t size_of_files(const std::vector<std::string>& paths);
 
 /// Largest resident set of this process so far, bytes.
 [[nodiscard]] std::uint64_t peak_memory();

@@ -8,6 +8,7 @@
 
 #include "io/brick_shelf.h"
 #include "io/chunk_store.h"
+#include "io/file.h"
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -171,25 +172,26 @@ void Build::note(const std::string& text) {
 }
 
 void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out) {
-  std::fputs(listing(rows).c_str(), stdout);
   report.counts["levels"] = Json::array();
   for (const LevelRow& row : rows) report.counts["levels"].push_back(json_of(row));
   report.bytes_out = bytes_out;
-  write_report(scene, rows.size());
+  write_report(scene);
+  print(listing(rows));
 }
 
 void Build::finish_jobs(const VoxelizedScene& scene, const JobRange& range, std::uint64_t all,
                         const std::vector<FoundJobs>& found) {
   std::string text = "jobs\tdone\tkept\n";
   for (const FoundJobs& f : found) text += fmt::format("{}\t{}\t{}\n", f.what, f.jobs, f.kept);
-  std::fputs(text.c_str(), stdout);
   report.counts["jobs"] = {{"begin", range.begin}, {"end", range.end}, {"of", all}};
   for (const FoundJobs& f : found) report.counts["levels"].push_back(json_of(f));
-  write_report(scene, found.size());
+  write_report(scene);
+  print(text);
 }
 
-void Build::write_report(const VoxelizedScene& scene, std::size_t levels) {
-  report.options = {{"profile", name_of(options.profile)}, {"levels", levels}, {"memory", options.common.memory_bytes}};
+void Build::write_report(const VoxelizedScene& scene) {
+  report.options = options_json(options);
+  report.bytes_in = size_of_files(options.scenes);
   Json counts = {{"triangles", scene.counts.scene.triangles},
                  {"degenerate", scene.counts.scene.degenerate},
                  {"non_finite", scene.counts.scene.non_finite},

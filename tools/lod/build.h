@@ -56,14 +56,14 @@ class Build {
   /// Null if the scene has no colours, or if none are wanted.
   [[nodiscard]] SceneColors* colors() const { return colors_.get(); }
 
-  /// Prints the list and writes the report.
+  /// Writes the report and prints the list.
   void finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out);
   /// The same of a run of --tiles: `range` of `all` numbers.
   void finish_jobs(const VoxelizedScene& scene, const JobRange& range, std::uint64_t all,
                    const std::vector<FoundJobs>& found);
 
  private:
-  void write_report(const VoxelizedScene& scene, std::size_t levels);
+  void write_report(const VoxelizedScene& scene);
 
  public:
   const BuildOptions& options;

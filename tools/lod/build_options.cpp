@@ -19,6 +19,56 @@ std::string base_name(const std::string& path) {
   return file == "-" ? "scene" : file.substr(0, file.rfind('.'));
 }
 
+const char* name_of(MeshMode mode) {
+  return mode == MeshMode::fit ? "fit" : "bounding";
+}
+
+const char* name_of(StructuringElement element) {
+  return element == StructuringElement::cube ? "cube" : "ball";
+}
+
+const char* name_of(Enclose enclose) {
+  return enclose == Enclose::input ? "input" : "closing";
+}
+
+const char* name_of(FillMode fill) {
+  return fill == FillMode::flood ? "flood" : fill == FillMode::winding ? "winding" : "none";
+}
+
+const char* name_of(UpAxis up) {
+  return up == UpAxis::y ? "y" : "z";
+}
+
+/// The value, or null.
+template <class T>
+Json optional_json(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json optional_json(const std::optional<Length>& length) {
+  return length ? Json(length->text()) : Json(nullptr);
+}
+
+/// As JSON wants it: every profile writes the name into some.
+bool is_utf8(const std::string& text) {
+  try {
+    (void)Json(text).dump();
+    return true;
+  } catch (const Json::exception&) {
+    return false;
+  }
+}
+
+void check_name(BuildOptions& o) {
+  const bool given = !o.name.empty();
+  if (!given) o.name = base_name(o.scenes.front());
+  if (o.name.empty() || o.name.find('/') != std::string::npos)
+    fail(ErrorCode::bad_argument, "--name '{}': must be a name without a folder", o.name);
+  if (!is_utf8(o.name))
+    fail(ErrorCode::bad_argument, "{} '{}': is not UTF-8, as names in glTF are; give a --name in UTF-8",
+         given ? "--name" : "the scene's name", o.name);
+}
+
 void check_options(BuildOptions& o) {
   const bool listed = !o.request.faces.empty() || !o.request.errors.empty() || !o.request.pixels.empty();
   if (o.profile == LodProfile::collision && !listed && !o.request.levels) o.request.levels = 1;
@@ -46,9 +96,9 @@ void check_options(BuildOptions& o) {
   if (o.tiles && o.cache.empty())
     fail(ErrorCode::bad_argument,
          "--tiles makes no tileset but results for a later run; name their folder with --cache");
-  if (o.name.empty()) o.name = base_name(o.scenes.front());
-  if (o.name.empty() || o.name.find('/') != std::string::npos)
-    fail(ErrorCode::bad_argument, "--name '{}': must be a name without a folder", o.name);
+  if (o.tiles && !o.out.empty())
+    fail(ErrorCode::bad_argument, "--tiles writes no tileset; leave -o to the run that puts the tiles together");
+  check_name(o);
 }
 
 }  // namespace
@@ -124,6 +174,34 @@ BuildOptions parse_build_options(Args& args) {
   return o;
 }
 
+Json options_json(const BuildOptions& o) {
+  Json errors = Json::array();
+  for (const Length& error : o.request.errors) errors.push_back(error.text());
+  return {{"profile", name_of(o.profile)},
+          {"mode", name_of(o.mode)},
+          {"name", o.name},
+          {"levels", optional_json(o.request.levels)},
+          {"faces", o.request.faces},
+          {"error", errors},
+          {"screen", o.request.pixels},
+          {"voxel", optional_json(o.voxel)},
+          {"resolution", optional_json(o.resolution)},
+          {"tile", o.tile_vox},
+          {"cache", !o.cache.empty()},
+          {"resume", o.resume},
+          {"tiles", o.tiles ? Json{o.tiles->begin, o.tiles->end} : Json(nullptr)},
+          {"explain", o.explain},
+          {"scale", optional_json(o.request.scale)},
+          {"element", name_of(o.element)},
+          {"enclose", name_of(o.enclose)},
+          {"fill", name_of(o.fill)},
+          {"colors", o.colors},
+          {"up", o.up ? Json(name_of(*o.up)) : Json(nullptr)},
+          {"tighten", !o.loose},
+          {"threads", o.common.threads},
+          {"memory", o.common.memory_bytes}};
+}
+
 double voxel_size(const BuildOptions& o, const Bounds3d& bounds) {
   if (o.voxel) return o.voxel->in_world(bounds.diagonal(), 0);
   const double error = finest_error(o.request, bounds.diagonal());
@@ -134,17 +212,15 @@ double voxel_size(const BuildOptions& o, const Bounds3d& bounds) {
 OptionText option_text(const BuildOptions& o, const LodTarget& target, std::size_t i, double scale_world,
                        const GridFrame& frame) {
   OptionText text;
-  text.add("level", i).add("mode", o.mode == MeshMode::fit ? "fit" : "bounding");
+  text.add("level", i).add("mode", name_of(o.mode));
   if (target.faces > 0) text.add("faces", target.faces);
   if (target.error_world > 0) text.add("error", target.error_world);
   text.add("scale", scale_world)
       .add("voxel", frame.voxel)
-      .add("element", o.element == StructuringElement::cube ? "cube" : "ball")
-      .add("enclose", o.enclose == Enclose::input ? "input" : "closing")
-      .add("fill", o.fill == FillMode::flood     ? "flood"
-                   : o.fill == FillMode::winding ? "winding"
-                                                 : "none")
-      .add("up", frame.up == UpAxis::y ? "y" : "z")
+      .add("element", name_of(o.element))
+      .add("enclose", name_of(o.enclose))
+      .add("fill", name_of(o.fill))
+      .add("up", name_of(frame.up))
       .add("tighten", !o.loose);
   return text;
 }

@@ -7,6 +7,7 @@
 #include "tools/common/common_options.h"
 #include "tools/common/length.h"
 #include "tools/common/provenance.h"
+#include "tools/common/report.h"
 #include "tools/lod/lod_targets.h"
 
 /// The command line of bplod.
@@ -50,6 +51,9 @@ struct BuildOptions {
 
 /// Throws bad_argument if options contradict each other.
 [[nodiscard]] BuildOptions parse_build_options(Args& args);
+
+/// All of them but folders and files, for the report: as they were given, null where nothing was.
+[[nodiscard]] Json options_json(const BuildOptions& options);
 
 /// Edge of a voxel for a scene with these bounds, scene units.
 [[nodiscard]] double voxel_size(const BuildOptions& options, const Bounds3d& bounds);

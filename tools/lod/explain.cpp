@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "io/file.h"
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -212,11 +212,11 @@ void explain(const BuildOptions& options) {
   const Scene scene = read_scene(build);
   build.report.stage("look up");
   const Plan plan(build, scene);
-  std::fputs(plan.text().c_str(), stdout);
-  build.report.options = {
-      {"profile", name_of(options.profile)}, {"explain", true}, {"memory", options.common.memory_bytes}};
+  build.report.options = options_json(options);
+  build.report.bytes_in = size_of_files(options.scenes);
   build.report.counts = plan.json();
   build.report.write(options.common);
+  print(plan.text());
 }
 
 }  // namespace bp

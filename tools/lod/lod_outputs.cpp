@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "io/lod_writer.h"
 #include "io/mesh_writer.h"
@@ -48,28 +47,8 @@ void write_collision_profile(const std::string& name, const LatticeMesh& mesh, O
 }  // namespace
 
 OutputFolder::OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite)
-    : path_(std::move(path)), names_(names) {
-  std::error_code error;
-  made_ = std::filesystem::create_directories(path_, error);
-  if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", path_, error.message());
-  try {
-    for (const std::string& name : names) files_.push_back(open_output(path_ + "/" + name, overwrite));
-  } catch (...) {
-    give_up();
-    throw;
-  }
-}
-
-OutputFolder::~OutputFolder() {
-  give_up();
-}
-
-/// Removes the folder if this made it and it is empty again.
-void OutputFolder::give_up() {
-  if (!made_) return;
-  files_.clear();
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
+    : path_(std::move(path)), made_(path_), names_(names) {
+  for (const std::string& name : names) files_.push_back(open_output(path_ + "/" + name, overwrite));
 }
 
 OutputFile& OutputFolder::file(const std::string& name) {
@@ -80,7 +59,7 @@ OutputFile& OutputFolder::file(const std::string& name) {
 
 void OutputFolder::commit() {
   for (const auto& file : files_) file->commit();
-  made_ = false;
+  made_.keep();
 }
 
 std::uint64_t OutputFolder::bytes() const {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/file.h"
+#include "io/made_folders.h"
 #include "tools/lod/build_options.h"
 
 /// What bplod writes of a chain: the files of a profile other than tiles, in one folder.
@@ -13,20 +14,17 @@ namespace bp {
 /// committed after it, in the order in which they were opened; what names other files comes last.
 class OutputFolder {
  public:
-  /// Makes the folder if it is not there. Throws bad_argument if a file exists and `overwrite` is false.
+  /// Makes the folder if it is not there. Without commit() nothing stays behind, folders that were made included.
+  /// Throws bad_argument if a file exists and `overwrite` is false.
   OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite);
-  ~OutputFolder();  ///< without commit() nothing stays behind, a folder that was made included
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
   [[nodiscard]] OutputFile& file(const std::string& name);
   void commit();
   [[nodiscard]] std::uint64_t bytes() const;
   [[nodiscard]] std::uint64_t bytes(const std::string& name) const;
 
  private:
-  void give_up();
   std::string path_;
-  bool made_ = false;  ///< and not committed
+  MadeFolders made_;
   std::vector<std::string> names_;
   std::vector<std::unique_ptr<OutputFile>> files_;
 };

@@ -51,25 +51,37 @@ class LookUpStore final : public ResultStore {
   std::unique_ptr<ResultStore> results_;
 };
 
+/// Of the levels that were asked for: each is one mesh, or a folder of tiles.
+std::vector<std::string> certain_names(const BuildOptions& o) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < level_count(o.request); ++i) {
+    names.push_back(level_name(o.name, i));
+    names.push_back(names.back() + ".glb");
+  }
+  return names;
+}
+
 /// The whole tileset; results of some of its jobs; or a look at those that are there.
 enum class Task { tileset, some_jobs, look_up };
 
 class TilesetBuild {
  public:
   TilesetBuild(const BuildOptions& o, Task task) : options_(o), task_(task), build_(o), cells_{o.tile_vox} {
-    if (task == Task::tileset) folder_ = std::make_unique<TilesetFolder>(o.out, o.common.overwrite, o.resume);
+    if (task == Task::tileset)
+      folder_ = std::make_unique<TilesetFolder>(o.out, certain_names(o), o.common.overwrite, o.resume);
     store_ = make_chunk_store(build_.budget.store, o.common.temp);
     const std::string results = o.resume ? TilesetFolder::results_of(o.out) : o.cache;
     if (task == Task::look_up) {
       results_ = std::make_unique<LookUpStore>(results);
     } else if (!results.empty()) {
-      results_ = open_result_store(results);
+      results_ = open_result_store(results, when_read_only());
     }
   }
 
   void run() {
     VoxelizedScene scene = make_levels();
     build_.progress.end();
+    if (!read_only_.empty()) build_.note(read_only_ + "; what is not in the cache was made, and is not kept");
     if (task_ == Task::tileset) write(scene);
     if (task_ == Task::some_jobs) build_.finish_jobs(scene, *options_.tiles, plan_.jobs(), found_);
   }
@@ -77,11 +89,20 @@ class TilesetBuild {
   [[nodiscard]] const std::vector<FoundJobs>& found() const { return found_; }
 
  private:
+  /// A cache that others fill is good to read. To fill it, or to resume, it must take what is put.
+  [[nodiscard]] std::function<void(const std::string&)> when_read_only() {
+    if (task_ == Task::some_jobs || options_.resume) return {};
+    return [this](const std::string& why) { read_only_ = why; };
+  }
+
   VoxelizedScene make_levels() {
     VoxelizedScene scene = build_.voxelize(cells_.edge_vox, results_.get());
     scene_voxel_ = scene.header.frame.voxel;
     bounds_ = scene.header.bounds;
     plan_ = plan_tileset(options_, scene.header);
+    if (task_ == Task::some_jobs && options_.tiles->begin >= plan_.jobs())
+      build_.note(fmt::format("--tiles {}..{}: there are {} jobs, numbered from 0: nothing is done",
+                              options_.tiles->begin, options_.tiles->end, plan_.jobs()));
     tree_ = std::make_unique<TileTree>(scene.header.frame.up, cells_);
     build_.report.stage("measure the scene");
     PyramidOptions pyramid_options;
@@ -261,6 +282,8 @@ class TilesetBuild {
     });
     folder_->write("tileset.json", tileset_text(tileset, provenance_));
     folder_->commit();
+    if (!folder_->complaint().empty())
+      build_.note(folder_->complaint() + "; tiles of the tileset that was there before are not known, and stay");
     build_.finish(scene, rows_, folder_->bytes());
   }
 
@@ -280,6 +303,7 @@ class TilesetBuild {
   TilesetPlan plan_;
   std::unique_ptr<ChunkStore> store_;     ///< files, until all are there
   std::unique_ptr<ResultStore> results_;  ///< of jobs; may be null
+  std::string read_only_;                 ///< why results_ keeps nothing; known once the levels are made
   double scene_voxel_ = 0;
   Bounds3d bounds_;
   std::vector<Waiting> files_;

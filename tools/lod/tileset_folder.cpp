@@ -19,19 +19,32 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTileset = "tileset.json";
-constexpr const char* kPartial = ".partial";
+constexpr const char* kPartial = "/.partial";
+constexpr const char* kMoving = "/moving";
 
-/// Contents of the tileset in `folder`, if it is one of ours or at least readable.
-std::vector<std::string> contents_of(const std::string& folder) {
+bool is_inside(const std::string& name) {
+  return !name.empty() && name.find("..") == std::string::npos && name[0] != '/';
+}
+
+std::vector<std::string> contents_of(const std::string& tileset) {
   std::vector<std::string> uris;
-  try {
-    for_each_tile(read_tileset(folder + "/" + kTileset), [&](const Tile& tile, const std::string&, const Transform&) {
-      if (!tile.uri.empty() && tile.uri.find("..") == std::string::npos && tile.uri[0] != '/') uris.push_back(tile.uri);
-    });
-  } catch (const Error&) {  // then nothing is known to be ours
-    return {};
-  }
+  for_each_tile(read_tileset(tileset), [&](const Tile& tile, const std::string&, const Transform&) {
+    if (is_inside(tile.uri)) uris.push_back(tile.uri);
+  });
   return uris;
+}
+
+/// Names, each with a zero after it: a name may hold anything else.
+std::vector<std::string> names_from(const std::string& path) {
+  std::vector<std::string> names;
+  if (!fs::exists(path)) return names;
+  const std::string text = read_text(path, UINT32_MAX);
+  for (std::size_t at = 0, end = 0; (end = text.find('\0', at)) != std::string::npos; at = end + 1) {
+    names.push_back(text.substr(at, end - at));
+    if (!is_inside(names.back())) names.pop_back();
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 bool holds(const std::string& path, const std::string& bytes) {
@@ -51,45 +64,79 @@ std::string without_slash(std::string path) {
 
 }  // namespace
 
-std::string TilesetFolder::results_of(std::string path) {
-  return without_slash(std::move(path)) + kPartial + "/results";
+std::string TilesetFolder::results_of(const std::string& path) {
+  return without_slash(path) + kPartial + "/results";
 }
 
-TilesetFolder::TilesetFolder(std::string path, bool overwrite, bool resume)
-    : path_(without_slash(std::move(path))), partial_(path_ + kPartial), resume_(resume) {
-  files_ = partial_ + "/files";
-  const bool interrupted = resume && fs::exists(partial_);  // perhaps while the files were moved
-  if (!overwrite && !interrupted && fs::exists(path_ + "/" + kTileset))
-    fail(ErrorCode::bad_argument, "{}/{}: exists; add --overwrite to replace it", path_, kTileset);
+TilesetFolder::TilesetFolder(const std::string& path, const std::vector<std::string>& names, bool overwrite,
+                             bool resume)
+    : path_(without_slash(path)),
+      partial_(path_ + kPartial),
+      files_(partial_ + "/files"),
+      overwrite_(overwrite),
+      resume_(resume),
+      made_(path_) {
   lock();
-  std::error_code error;
-  if (!resume) fs::remove_all(results(), error);
-  fs::remove_all(files_, error);
-  fs::create_directories(files_, error);
-  if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", files_, error.message());
-  there_ = fs::exists(path_);
+  try {
+    begin(names);
+  } catch (...) {
+    leave();
+    throw;
+  }
+}
+
+TilesetFolder::~TilesetFolder() {
+  leave();
 }
 
 void TilesetFolder::lock() {
   std::error_code error;
-  fs::create_directories(partial_, error);
+  fs::create_directory(partial_, error);
   if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", partial_, error.message());
   lock_ = ::open(partial_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(lock_);
     fail(ErrorCode::failed, "{}: another process is at work on it", path_);
   }
+  folders_[0] = PartialOutput(results(), PartialOutput::Kind::folder);
+  folders_[1] = PartialOutput(partial_, PartialOutput::Kind::folder);
+  work_ = PartialOutput(files_, PartialOutput::Kind::tree);
 }
 
-TilesetFolder::~TilesetFolder() {
+void TilesetFolder::begin(const std::vector<std::string>& names) {
+  // Without tileset.json there was no tileset before, and what is there of the interrupted one is worth nothing.
+  if (resume_ || !fs::exists(path_ + "/" + kTileset)) moved_ = names_from(partial_ + kMoving);
+  refuse_if_there(kTileset);
+  for (const std::string& name : names) refuse_if_there(name);
+  std::error_code error;
+  if (!resume_) fs::remove_all(results(), error);
+  fs::remove_all(files_, error);
+  fs::create_directory(files_, error);
+  if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", files_, error.message());
+}
+
+/// What holds something yet stays: results, the note of a commit that was interrupted.
+void TilesetFolder::leave() {
   std::error_code ignored;
-  fs::remove_all(resume_ ? files_ : partial_, ignored);
+  fs::remove_all(files_, ignored);
+  fs::remove(results(), ignored);
+  fs::remove(partial_, ignored);
   if (lock_ >= 0) ::close(lock_);
 }
 
+void TilesetFolder::refuse_if_there(const std::string& name) const {
+  const fs::path path = path_ + "/" + name;
+  if (overwrite_ || !fs::exists(path) || (fs::is_directory(path) && fs::is_empty(path))) return;
+  const auto below = std::lower_bound(moved_.begin(), moved_.end(), name + "/");
+  if (below != moved_.end() && below->starts_with(name + "/")) return;
+  if (std::binary_search(moved_.begin(), moved_.end(), name)) return;
+  fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", path.string());
+}
+
 void TilesetFolder::write(const std::string& name, const std::string& bytes) {
-  const bool same = there_ && holds(path_ + "/" + name, bytes);
+  const bool same = holds(path_ + "/" + name, bytes);
   if (!same) {
+    refuse_if_there(name);
     fs::create_directories(fs::path(files_ + "/" + name).parent_path());
     OutputFile file(files_ + "/" + name, true);
     file.write(bytes);
@@ -101,25 +148,48 @@ void TilesetFolder::write(const std::string& name, const std::string& bytes) {
   if (!same) written_.push_back(name);
 }
 
-void TilesetFolder::commit() {
-  if (there_) {
-    move_files();
-  } else {
-    fs::rename(files_, path_);
+/// What is there of earlier tilesets.
+std::vector<std::string> TilesetFolder::names_before() {
+  std::vector<std::string> names = names_from(partial_ + kMoving);
+  const std::string tileset = path_ + "/" + kTileset;
+  if (!fs::exists(tileset)) return names;
+  try {
+    const std::vector<std::string> contents = contents_of(tileset);
+    names.insert(names.end(), contents.begin(), contents.end());
+  } catch (const Error& e) {  // then nothing is known to be its
+    complaint_ = e.what();
   }
-  resume_ = false;
-  fs::remove_all(partial_);
+  return names;
 }
 
-/// Into a folder that is there.
+void TilesetFolder::commit() {
+  const std::vector<std::string> before = names_before();
+  std::sort(names_.begin(), names_.end());
+  note_moves(before);
+  move_files();
+  remove_others(before);
+  made_.keep();
+  fs::remove_all(results());
+  fs::remove(partial_ + kMoving);
+}
+
+void TilesetFolder::note_moves(const std::vector<std::string>& before) const {
+  OutputFile note(partial_ + kMoving, true);
+  for (const std::vector<std::string>* names : {&before, &names_}) {
+    for (const std::string& name : *names) note.write(name + '\0');
+  }
+  note.commit();
+}
+
 void TilesetFolder::move_files() {
-  const std::vector<std::string> before = contents_of(path_);
   std::partition(written_.begin(), written_.end(), [](const std::string& name) { return name != kTileset; });
   for (const std::string& name : written_) {
     fs::create_directories(fs::path(path_ + "/" + name).parent_path());
     fs::rename(files_ + "/" + name, path_ + "/" + name);
   }
-  std::sort(names_.begin(), names_.end());
+}
+
+void TilesetFolder::remove_others(const std::vector<std::string>& before) const {
   for (const std::string& name : before) {
     if (std::binary_search(names_.begin(), names_.end(), name)) continue;
     std::error_code ignored;

@@ -4,39 +4,60 @@
 #include <string>
 #include <vector>
 
+#include "io/made_folders.h"
+#include "io/partial_outputs.h"
+
 namespace bp {
 
-/// A folder with a tileset in it. Files are written below a folder beside it, OUT.partial, and move to their places
-/// when all are there: with the whole folder, if there was none before, else one by one, tileset.json last. A file that
-/// is there already, with the same bytes, is left alone.
+/// A folder with a tileset in it. Files are written to OUT/.partial, in the same file system, and move to their places
+/// when all are there, tileset.json last. A file that is there already, with the same bytes, is left alone.
+/// OUT/.partial/moving names what moves, and what was there before: a commit that is interrupted is known by it, and
+/// whoever writes OUT next goes on with it and takes away what is left over.
 class TilesetFolder {
  public:
-  /// Takes away the files that an interrupted run left in OUT.partial, and, unless `resume`, its results. Throws
-  /// bad_argument if OUT has a tileset.json, `overwrite` is false, and there is nothing to resume; `failed` if another
-  /// process is at work on OUT.
-  TilesetFolder(std::string path, bool overwrite, bool resume);
-  ~TilesetFolder();  ///< without commit() nothing stays behind but, to resume, the results
+  /// Makes OUT if it is not there. Takes away the files that an interrupted run left in OUT/.partial, and, unless
+  /// `resume`, its results. Throws bad_argument if OUT has a tileset.json or one of `names`, `overwrite` is false, and
+  /// they are not of a commit that was interrupted; `failed` if another process is at work on OUT.
+  ///   names  of files, or of folders with files, that will be written for certain: those that are there are not found
+  ///          out after the work only
+  TilesetFolder(const std::string& path, const std::vector<std::string>& names, bool overwrite, bool resume);
+  /// Without commit() nothing stays behind but, to resume, the results. A signal leaves no more.
+  ~TilesetFolder();
   TilesetFolder(const TilesetFolder&) = delete;
   TilesetFolder& operator=(const TilesetFolder&) = delete;
 
   /// Where results wait to be gone on with; removed by commit().
   [[nodiscard]] std::string results() const { return results_of(path_); }
-  [[nodiscard]] static std::string results_of(std::string path);
-  /// `name` may hold one folder: "level/tile.glb". Thread-safe.
+  [[nodiscard]] static std::string results_of(const std::string& path);
+  /// `name` may hold one folder: "level/tile.glb". Throws bad_argument if OUT has another file of that name, and it is
+  /// not to be replaced. Thread-safe.
   void write(const std::string& name, const std::string& bytes);
   /// The files appear; tiles of the tileset that was there before, and that are not among them, go.
   void commit();
+  /// Why tiles of the tileset that was there before may still be there; empty: they are not.
+  [[nodiscard]] const std::string& complaint() const { return complaint_; }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
  private:
   void lock();
+  void begin(const std::vector<std::string>& names);
+  void leave();
+  void refuse_if_there(const std::string& name) const;
+  [[nodiscard]] std::vector<std::string> names_before();
+  void note_moves(const std::vector<std::string>& before) const;
   void move_files();
+  void remove_others(const std::vector<std::string>& before) const;
+
   std::string path_, partial_, files_;
-  bool resume_, there_ = false;
-  int lock_ = -1;  ///< of OUT.partial; the system lets go of it however the process ends
+  bool overwrite_, resume_;
+  MadeFolders made_;                 ///< OUT, and those above it
+  PartialOutput work_, folders_[2];  ///< files_; results() and partial_: for signal handlers
+  int lock_ = -1;                    ///< of partial_; the system lets go of it however the process ends
+  std::vector<std::string> moved_;   ///< by a commit that was interrupted; sorted
   std::mutex mutex_;
   std::vector<std::string> names_, written_;  ///< all files; those that are not there already
   std::uint64_t bytes_ = 0;
+  std::string complaint_;
 };
 
 }  // namespace bp

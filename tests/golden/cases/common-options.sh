@@ -11,6 +11,7 @@ try bpvox cube.obj -o out.bp --device cuda:x
 echo kept > report.json
 try bpvox cube.obj -o out.bp --report report.json
 cat report.json
+try bpvox cube.obj -o out.bp --report missing/report.json
 try bpvox cube.obj -o out.bp --progress=xml
 try bpvox cube.obj -o out.bp --vox 1
 try bpvox cube.obj -o out.bp --resolution=

@@ -30,17 +30,17 @@ for after in 0.05 0.2 0.4; do
   kill -9 $job 2> /dev/null
   wait $job 2> /dev/null
 done 2> /dev/null
-if [ ! -e resumed ] || [ -e resumed.partial ]; then build -o resumed --resume; fi
+if [ ! -e resumed ] || [ -e resumed/.partial ]; then build -o resumed --resume; fi
 diff -r resumed from-nothing && echo "the same bytes"
-mkdir -p again.partial/results/ab
-echo old > again.partial/results/ab/cd
+mkdir -p again/.partial/results/ab
+echo old > again/.partial/results/ab/cd
 build -o again
 diff -r again from-nothing && echo "the same bytes"
 # A disk that is full, and too little memory, are said; nothing stays behind.
 full() { (ulimit -f 1; "$@"); }
-try full bplod "${options[@]}" -o x --cache small-cache | sed 's/x.partial.*glb/FILE/; s/small-cache.[0-9a-f]*.[0-9a-f]*/FILE/'
-try full bplod "${options[@]}" -o x | sed 's/x.partial.*glb/FILE/'
-ls -d x x.partial 2> /dev/null
+try full bplod "${options[@]}" -o x --cache small-cache | sed 's/x.\.partial.*glb/FILE/; s/small-cache.[0-9a-f]*.[0-9a-f]*/FILE/'
+try full bplod "${options[@]}" -o x | sed 's/x.\.partial.*glb/FILE/'
+ls -d x 2> /dev/null
 try bplod part0.obj -o x --cache cache
 try bplod part0.obj -o x --cache cache --resume --profile 3dtiles
 try bplod part0.obj -o x --profile 3dtiles --cache part0.obj/cache

@@ -4,7 +4,7 @@ for i in 0 1 2; do
   sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 7 * $i)) \2 \$((\3 + $i))/e" cube.obj > part$i.obj
 done
 options=(part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles -q)
-numbers() { grep -oE "\"($1)\": [0-9.]*" "$2" | tr '\n' ' '; echo; }
+numbers() { sed "/\"options\"/,/^  }/d" "$2" | grep -oE "\"($1)\": [0-9.]*" | tr '\n' ' '; echo; }
 # The plan needs no voxel: these figures are exact, but for "at most" and "about". Nothing is written.
 bplod "${options[@]}" --explain -j 1 --memory 1G
 bplod "${options[@]}" --explain --cache none --report plan.json > list
@@ -25,9 +25,11 @@ ls
 bplod "${options[@]}" --cache cache -o together --report together.json > list
 numbers kept together.json
 diff -r whole together && echo "the same bytes"
-# A part that was done, or that has no number, costs nothing.
+# A part that was done, or that has no number, costs nothing; the latter is said.
 bplod "${options[@]}" --cache cache --tiles 0..4
 bplod "${options[@]}" --cache cache --tiles 30..40
+try bplod part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles --cache cache --tiles 30..40
+try bplod "${options[@]}" --tiles 0..2 --cache cache -o nowhere
 
 # What a change costs is known before it is paid.
 sed -i 's/^v \(.*\) 3 \(.*\)$/v \1 2 \2/' part2.obj
@@ -37,9 +39,9 @@ numbers kept changed.json
 bplod "${options[@]}" --cache cache --explain | grep kept
 
 # The same of what --resume would go on with; levels in one mesh are estimated.
-mkdir resumed.partial
-cp -r cache resumed.partial/results
-rm -r resumed.partial/results/[0-7]*
+mkdir -p resumed/.partial
+cp -r cache resumed/.partial/results
+rm -r resumed/.partial/results/[0-7]*
 bplod "${options[@]}" --resume -o resumed --explain | grep kept > planned
 bplod "${options[@]}" --resume -o resumed --report resumed.json > list
 diff <(sed -n 's/.*level .: \(.*\) of.*/\1/p' planned) <(grep -oE '"kept": .*' resumed.json | grep -o '[0-9]*') && echo "as planned"

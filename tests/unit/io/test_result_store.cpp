@@ -78,6 +78,42 @@ TEST_CASE("a damaged, truncated or foreign result is passed over, and replaced",
   CHECK(files_of(folder).size() == 2);
 }
 
+TEST_CASE("what cannot be replaced is an error", "[quick][io][cache]") {
+  const TempDir dir;
+  const auto store = open_result_store(dir.path("store"));
+  store->put(key(1), "x");
+  const fs::path file = files_of(dir.path("store")).at(0);
+  fs::remove(file);
+  fs::create_directories(file / "in the way");
+  std::string out;
+  CHECK_FALSE(store->get(key(1), out));
+  CHECK_THROWS_AS(store->put(key(1), "x"), Error);
+}
+
+TEST_CASE("where nothing may be written, results are read, and that is said once", "[quick][io][cache]") {
+  const TempDir dir;
+  const std::string folder = dir.path("store");
+  open_result_store(folder)->put(key(1), "x");
+  const auto allow = [&](fs::perms perms) {
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+      if (entry.is_directory()) fs::permissions(entry.path(), perms);
+    fs::permissions(folder, perms);
+  };
+  allow(fs::perms::owner_read | fs::perms::owner_exec);
+  if (::access(folder.c_str(), W_OK) != 0) {  // root may write anywhere
+    std::vector<std::string> said;
+    const auto store = open_result_store(folder, [&](const std::string& why) { said.push_back(why); });
+    std::string out;
+    for (int i = 2; i < 5; ++i) store->put(key(i), "y");
+    CHECK(store->get(key(1), out));
+    CHECK_FALSE(store->get(key(2), out));
+    REQUIRE(said.size() == 1);
+    CHECK_THAT(said[0], Contains("Permission denied"));
+    CHECK_THROWS_AS(open_result_store(folder)->put(key(2), "y"), Error);
+  }
+  allow(fs::perms::owner_all);
+}
+
 TEST_CASE("threads may put the same results at once", "[quick][io][cache]") {
   const TempDir dir;
   const auto a = open_result_store(dir.path("store")), b = open_result_store(dir.path("store"));

@@ -54,6 +54,31 @@ TEST_CASE("a tileset that is written is read back the same", "[quick][io][lod]")
   CHECK(back.root.children[0].children.empty());
 }
 
+TEST_CASE("names of contents are written percent-encoded and read decoded", "[quick][io][lod]") {
+  Tileset t;
+  t.root.box = TileBox{};
+  t.root.refine = "REPLACE";
+  t.root.uri = "a#b?c%20d \xc3\xbc/0_-1_2.glb";
+  const std::string text = tileset_text(t, {});
+  CHECK_THAT(text, Contains("\"a%23b%3Fc%2520d%20%C3%BC/0_-1_2.glb\""));
+  const TempDir dir;
+  CHECK(read_tileset(dir.file("tileset.json", text)).root.uri == t.root.uri);
+  const auto read_back = [&](const std::string& uri) {
+    return read_tileset(
+               dir.file("tileset.json", tileset(kBox + R"(, "geometricError": 3, "content": {"uri": ")" + uri + "\"}")))
+        .root.uri;
+  };
+  CHECK(read_back("50%.glb") == "50%.glb");
+  CHECK(read_back("%2") == "%2");
+  CHECK(read_back("%c3%BC%2fa%2Eglb") == "\xc3\xbc/a.glb");
+}
+
+TEST_CASE("a tileset may be large", "[quick][io][lod]") {
+  const TempDir dir;
+  const std::string text = tileset(kBox + R"(, "geometricError": 3)");
+  CHECK(complaint(dir, text + std::string(std::size_t(65) << 20, ' ')).empty());
+}
+
 TEST_CASE("a broken tileset is refused with the place", "[quick][io][lod]") {
   const TempDir dir;
   CHECK_THAT(complaint(dir, "{"), Contains("broken JSON"));
