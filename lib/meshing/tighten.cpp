@@ -18,6 +18,7 @@ namespace {
 constexpr double kReach = 0.5;        // of the mean spoke: how far a vertex may move at once, alone
 constexpr double kJointReach = 0.25;  // and together with its neighbours
 constexpr int kAvoidRounds = 4;
+constexpr double kLeastWay = 0.5;  // of the way to its place: a vertex that would go less far steps aside too much
 constexpr int kSweepsPerRefresh = 8;
 
 double volume_of(const HalfEdgeMesh& mesh) {
@@ -94,7 +95,9 @@ class Tightener {
       if (round == kAvoidRounds || editor_.blocker() == nullptr || !fit_.avoid(*x, *editor_.blocker(), place_of(v)))
         break;
       editor_.learn(v, fit_.obstacles());
-      x = fit_.nearest(target);
+      const std::optional<Vec3d> near = fit_.nearest(target);
+      if (!near || dot(*near, target) < kLeastWay * dot(target, target)) break;
+      x = near;
     }
     if (!try_move(v, 0.5 * *x)) try_move(v, 0.25 * *x);
   }
