@@ -159,18 +159,19 @@ bool FanFit::avoid(const Vec3d& apex, const Blocker& blocker, const Vec3d& shift
   return avoided_.size() > before;
 }
 
-std::optional<Vec3d> FanFit::nearest(const Vec3d& target) {
-  Quadric q;  // |x - target|^2
-  q.xx = q.yy = q.zz = 1;
-  q.bx = -target[0];
-  q.by = -target[1];
-  q.bz = -target[2];
+std::optional<Vec3d> FanFit::least_volume(const Vec3d& start, double reach) {
+  Quadric q;  // gradient . x + |gradient| / (2 reach) |x - start|^2: without cuts, x is `reach` from start
+  const double pull = length(gradient_) / (2 * reach);
+  q.xx = q.yy = q.zz = pull;
+  q.bx = gradient_[0] / 2 - pull * start[0];
+  q.by = gradient_[1] / 2 - pull * start[1];
+  q.bz = gradient_[2] / 2 - pull * start[2];
   cuts_ = avoided_;
-  std::optional<Vec3d> x = constrained_minimum(q, target, cuts_);
+  std::optional<Vec3d> x = constrained_minimum(q, start, cuts_);
   for (int round = 0; x && round < kCutRounds; ++round) {
     bind(*x);
     if (!cut(*x)) break;
-    x = constrained_minimum(q, target, cuts_);
+    x = constrained_minimum(q, start, cuts_);
   }
   return x;
 }

@@ -3,7 +3,6 @@
 #include <optional>
 #include <vector>
 
-#include "lib/core/vec3.h"
 #include "lib/meshing/constrained_minimum.h"
 #include "lib/meshing/enclosed.h"
 
@@ -38,13 +37,9 @@ class FanFit {
   /// Points of the blocker that the last avoid() lifted the fan over: contact points to come.
   [[nodiscard]] const std::vector<Vec3d>& obstacles() const { return obstacles_; }
 
-  /// The apex nearest to `target` that keeps the points under the fan. Cutting planes: the deepest violation of each
-  /// face is added to a small quadratic program until none is left. Nothing if the cuts contradict each other.
-  [[nodiscard]] std::optional<Vec3d> nearest(const Vec3d& target);
-  /// The apex of least volume, about `reach` from `start` at most: the nearest to where it would go unhindered.
-  [[nodiscard]] std::optional<Vec3d> least_volume(const Vec3d& start, double reach) {
-    return nearest(start - reach * outward_);
-  }
+  /// The apex of least volume, about `reach` from `start` at most. Cutting planes: the deepest violation of each face
+  /// is added to a small quadratic program until none is left. Nothing if the cuts contradict each other.
+  [[nodiscard]] std::optional<Vec3d> least_volume(const Vec3d& start, double reach);
 
  private:
   [[nodiscard]] Vec3d normal_over(std::size_t point) const;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kReach = 0.5;  // of the mean spoke: how far the merged vertex may leave the edge's middle
 constexpr int kAvoidRounds = 4;
-constexpr int kStages = 6;  // shares of the way, between which the mesh is tightened
+constexpr int kStages = 4;  // shares of the way, between which the mesh is tightened
 
 struct Entry {
   double cost;  // volume added; an estimate where the neighbourhood changed since

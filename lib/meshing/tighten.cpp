@@ -18,7 +18,6 @@ namespace {
 constexpr double kReach = 0.5;        // of the mean spoke: how far a vertex may move at once, alone
 constexpr double kJointReach = 0.25;  // and together with its neighbours
 constexpr int kAvoidRounds = 4;
-constexpr double kLeastWay = 0.5;  // of the way to its place: a vertex that would go less far steps aside too much
 constexpr int kSweepsPerRefresh = 8;
 
 double volume_of(const HalfEdgeMesh& mesh) {
@@ -85,21 +84,14 @@ class Tightener {
     for (const auto& [growth, v] : order_) approach(v, joint_.shift(v));
   }
 
-  /// What is in the way becomes contact points, for this fan and for the next joint fit; the vertex then goes as near
-  /// as they let it, and otherwise a part of its way.
-  void approach(VertexId v, const Vec3d& target) {
-    std::optional<Vec3d> x = target;
-    for (int round = 0;; ++round) {
-      if (!x || rounded(*x) == LatticeCoord{} || try_move(v, *x)) return;
-      if (round == 0 && !gather(v)) break;
-      if (round == kAvoidRounds || editor_.blocker() == nullptr || !fit_.avoid(*x, *editor_.blocker(), place_of(v)))
-        break;
-      editor_.learn(v, fit_.obstacles());
-      const std::optional<Vec3d> near = fit_.nearest(target);
-      if (!near || dot(*near, target) < kLeastWay * dot(target, target)) break;
-      x = near;
+  /// What is in the way becomes contact points for the next joint fit; this time the vertex goes a part of its way.
+  void approach(VertexId v, const Vec3d& x) {
+    if (rounded(x) == LatticeCoord{} || try_move(v, x)) return;
+    if (editor_.blocker() != nullptr) {
+      gather_rim(v);
+      if (fit_.close() && fit_.avoid(x, *editor_.blocker(), place_of(v))) editor_.learn(v, fit_.obstacles());
     }
-    if (!try_move(v, 0.5 * *x)) try_move(v, 0.25 * *x);
+    if (!try_move(v, 0.5 * x)) try_move(v, 0.25 * x);
   }
 
   /// A vertex that could not move waits until its star has changed.
@@ -118,8 +110,9 @@ class Tightener {
   }
 
   void move_vertex(VertexId v) {
-    if (!gather(v)) return;
-    const double reach = kReach * spoke_;
+    const double reach = kReach * gather_rim(v);
+    if (!fit_.close()) return;
+    gather_points(v);
     for (int round = 0;; ++round) {
       const std::optional<Vec3d> x = fit_.least_volume({}, reach);
       if (!x || !worth_trying(*x) || try_move(v, *x)) return;
@@ -157,8 +150,8 @@ class Tightener {
 
   [[nodiscard]] Vec3d place_of(VertexId v) const { return to_double(mesh_.position(v) - editor_.contacts().origin()); }
 
-  /// The star as a fan about the vertex, over its contact points. False if it has no way in.
-  bool gather(VertexId v) {
+  /// The star as a fan about the vertex; its mean spoke.
+  double gather_rim(VertexId v) {
     const LatticeCoord p = mesh_.position(v);
     fit_.clear();
     double spokes = 0;
@@ -167,8 +160,10 @@ class Tightener {
       fit_.add_rim(a);
       spokes += length(a);
     });
-    spoke_ = spokes / double(fit_.rim().size());
-    if (!fit_.close()) return false;
+    return spokes / double(fit_.rim().size());
+  }
+
+  void gather_points(VertexId v) {
     const ContactPoints& contacts = editor_.contacts();
     const Vec3d shift = place_of(v);
     std::uint32_t sector = 0;
@@ -176,7 +171,6 @@ class Tightener {
       for (const std::uint32_t i : contacts.of(HalfEdgeMesh::face(h))) fit_.add_point(contacts[i] - shift, sector);
       ++sector;
     });
-    return true;
   }
 
   ProxyEditor& editor_;
@@ -184,7 +178,6 @@ class Tightener {
   const TightenParams& params_;
   TightenCounts& counts_;
   FanFit fit_;
-  double spoke_ = 0;  // mean one of the star in fit_
   JointFit joint_;
   std::vector<std::pair<double, VertexId>> order_;    // by growth
   std::uint64_t changes_ = 1, flipped_at_ = 0;        // moves and flips made so far; before the last flips

@@ -90,6 +90,7 @@ TilesetFolder::~TilesetFolder() {
 }
 
 void TilesetFolder::lock() {
+  folders_[1] = PartialOutput(partial_, PartialOutput::Kind::folder);  // before it is there: a signal may come at once
   std::error_code error;
   fs::create_directory(partial_, error);
   if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", partial_, error.message());
@@ -99,7 +100,6 @@ void TilesetFolder::lock() {
     fail(ErrorCode::failed, "{}: another process is at work on it", path_);
   }
   folders_[0] = PartialOutput(results(), PartialOutput::Kind::folder);
-  folders_[1] = PartialOutput(partial_, PartialOutput::Kind::folder);
   work_ = PartialOutput(files_, PartialOutput::Kind::tree);
 }
 

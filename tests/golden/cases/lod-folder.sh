@@ -71,6 +71,7 @@ exec 3<> in
 for profile in gltf 3dtiles; do
   bplod - --format obj --profile $profile -q -o x/y/z <&3 > list &
   for _ in $(seq 1000); do [ -n "$(ls -A x/y/z 2> /dev/null)" ] && break; sleep 0.01; done
+  sleep 0.2  # all that it makes before it reads is there
   kill $!
   wait $!
   echo "$profile: $?"
