@@ -1,11 +1,11 @@
 #include "io/brick_stream.h"
 
-#include <fmt/format.h>
+#include "lib/core/hex.h"
 
 namespace bp {
 
 std::string StreamTotals::checksum() const {
-  return fmt::format("{:016x}{:016x}", checksum_high, checksum_low);
+  return hex_of(checksum_high, checksum_low);
 }
 
 void StreamTotals::add(const StreamTotals& t) {

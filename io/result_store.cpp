@@ -16,6 +16,7 @@
 #include "io/detail/write_all.h"
 #include "io/file.h"
 #include "lib/core/error.h"
+#include "lib/core/hex.h"
 
 namespace bp {
 
@@ -119,7 +120,7 @@ class FolderStore final : public ResultStore {
   }
 
   [[nodiscard]] std::string name_of(const ResultKey& key) const {
-    const std::string hex = fmt::format("{:016x}{:016x}", key.words[0], key.words[1]);
+    const std::string hex = hex_of(key.words[0], key.words[1]);
     return folder_ + "/" + hex.substr(0, 2) + "/" + hex.substr(2);
   }
 

@@ -7,6 +7,7 @@
 #include "lib/stage/close_stage.h"
 #include "lib/stage/complement.h"
 #include "tools/common/make_backend.h"
+#include "tools/common/names.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
@@ -67,7 +68,7 @@ bp::OptionText option_text(const Options& o, const bp::ScaleField& field) {
   } else {
     text.add("field", bp::to_json(field));
   }
-  text.add("element", o.closing.element == bp::StructuringElement::cube ? "cube" : "ball");
+  text.add("element", name_of(o.closing.element));
   text.add("keep-cavities", o.keep_cavities);
   if (o.inner) text.add("inner", o.inner);
   return text;

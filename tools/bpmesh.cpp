@@ -14,6 +14,7 @@
 #include "lib/core/error.h"
 #include "lib/stage/mesh_stage.h"
 #include "tools/common/memory_shares.h"
+#include "tools/common/names.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
@@ -130,11 +131,6 @@ void set_enclosed(const Options& o, const bp::Bounds3d& bounds, bp::MeshParams& 
 /// "1000" or "5000,1000,200"; "0" without a target.
 std::string faces_text(const Options& o) {
   return o.faces.empty() ? "0" : fmt::format("{}", fmt::join(o.faces, ","));
-}
-
-const char* name_of(bp::MeshMode mode) {
-  constexpr const char* kNames[] = {"bounding", "inside", "fit"};
-  return kNames[std::size_t(mode)];
 }
 
 bp::Provenance provenance(const Options& o, const std::string& input, std::size_t level) {

@@ -11,6 +11,7 @@
 #include "lib/stage/voxelize_stage.h"
 #include "tools/common/make_backend.h"
 #include "tools/common/memory_shares.h"
+#include "tools/common/names.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
@@ -31,11 +32,6 @@ struct Options {
   bp::FillMode fill = bp::FillMode::flood;
   std::optional<bp::UpAxis> up;
 };
-
-const char* name_of(bp::FillMode fill) {
-  constexpr const char* kNames[] = {"flood", "winding", "none", "inside"};
-  return kNames[std::size_t(fill)];
-}
 
 Options parse(bp::Args& args) {
   Options o;
@@ -76,7 +72,7 @@ bp::OptionText option_text(const Options& o, bp::UpAxis up) {
   } else {
     text.add("resolution", o.resolution.value_or(kDefaultResolution));
   }
-  text.add("fill", name_of(o.fill)).add("up", up == bp::UpAxis::y ? "y" : "z");
+  text.add("fill", name_of(o.fill)).add("up", name_of(up));
   return text;
 }
 

@@ -1,12 +1,12 @@
 #include "lib/core/triangle_totals.h"
 
-#include <fmt/format.h>
 #include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "lib/core/hex.h"
 #include "lib/core/vec3.h"
 
 namespace bp {
@@ -43,7 +43,7 @@ void TriangleTotals::add(std::span<const TriangleD> batch) {
 }
 
 std::string TriangleTotals::checksum() const {
-  return fmt::format("{:016x}{:016x}", checksum_high, checksum_low);
+  return hex_of(checksum_high, checksum_low);
 }
 
 }  // namespace bp

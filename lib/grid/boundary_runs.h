@@ -7,6 +7,9 @@
 /// surface that lies in them.
 namespace bp {
 
+/// A slanted plane has so many times its area of voxel faces, on average over angles.
+constexpr double kSlantedSteps = 1.5;
+
 struct VoxelRun {
   VoxelCoord first;         ///< lowest in x
   std::int32_t length = 0;  ///< voxels, within one brick

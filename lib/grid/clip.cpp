@@ -77,9 +77,10 @@ bool is_full(const BrickShelf& shelf, const VoxelBox& box) {
   for_each_brick(box, [&](BrickCoord c) {
     if (!full || shelf.fill(c) == BrickFill::full) return;
     if (shelf.get(c, bits) == BrickFill::empty) full = false;
-    for (std::int32_t z = 0; z < kBrickEdge && full; ++z) {
-      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
-        if ((row_within(c, y, z, box) & ~bits[std::size_t(z * kBrickEdge + y)]) != 0) full = false;
+    const Rows rows = rows_within(c, box);
+    for (std::int32_t z = rows.z.begin; z < rows.z.end && full; ++z) {
+      for (std::int32_t y = rows.y.begin; y < rows.y.end; ++y) {
+        if ((rows.mask & ~bits[std::size_t(z * kBrickEdge + y)]) != 0) full = false;
       }
     }
   });

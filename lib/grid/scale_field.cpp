@@ -17,6 +17,7 @@
 #include <set>
 
 #include "lib/core/error.h"
+#include "lib/core/vec3.h"
 
 namespace bp {
 
@@ -38,8 +39,7 @@ double falloff(double t, double s, double sigma) {
 }
 
 double distance(const Vec3d& a, const Vec3d& b) {
-  const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
-  return std::sqrt(dx * dx + dy * dy + dz * dz);
+  return length(a - b);
 }
 
 /// One stroke, of strength `gamma`. Stays between `s_prev` and the goal `s` to the last bit, so that upper_bound() is

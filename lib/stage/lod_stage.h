@@ -13,9 +13,6 @@
 /// encloses nothing.
 namespace bp {
 
-/// A slanted plane has so many times its area of voxel faces, on average over angles.
-constexpr double kSlantedSteps = 1.5;
-
 /// What a level is asked to be. With no scale, faces decide it: a quarter of the edge that `faces` equilateral
 /// triangles over the scene's surface would have; and an error: a quarter of it.
 struct LodTarget {

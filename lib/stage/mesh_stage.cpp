@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/core/error.h"
+#include "lib/grid/boundary_runs.h"
 #include "lib/meshing/edge_limit.h"
 #include "lib/meshing/enclosed_triangles.h"
 #include "lib/meshing/enclosed_voxels.h"
@@ -34,18 +35,14 @@ struct Shelves {
 Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool want_input, MeshCounts& counts) {
   const Layer layer = source.header().has_closing ? Layer::closing : Layer::solid;
   Shelves shelves{make_shelf(), want_input ? make_shelf() : nullptr};
-  bool input_empty = want_input;
   for (Brick brick; source.read(brick);) {
-    if (shelves.input && brick.layer == Layer::solid) {
-      shelves.input->put(brick.coord, brick.fill, brick.bits);
-      input_empty = input_empty && brick.fill == BrickFill::empty;
-    }
+    if (shelves.input && brick.layer == Layer::solid) shelves.input->put(brick.coord, brick.fill, brick.bits);
     if (brick.layer != layer) continue;
     for (const std::uint64_t w : brick.bits) counts.voxels += std::uint64_t(std::popcount(w));
     shelves.meshed->put(brick.coord, brick.fill, brick.bits);
   }
   if (counts.voxels == 0) fail(ErrorCode::bad_input, "the stream holds no occupied voxel; there is nothing to mesh");
-  if (input_empty)
+  if (shelves.input && shelves.input->coords().empty())
     fail(ErrorCode::bad_input, "the stream's solid layer holds no voxel; --enclose input has nothing to keep inside");
   return shelves;
 }
@@ -224,8 +221,8 @@ double area_world(const LatticeMesh& mesh) {
 /// and takes no more than half of its share of the error.
 double level_voxel(const LatticeMesh& inner, double voxel, std::uint64_t faces, double error_share) {
   constexpr double kFacesPerFace = 200;
-  constexpr double kFacesPerVoxelFace = 2 * 1.5;  // two triangles, and a slanted plane has 1.5 times its area of steps
-  constexpr double kVoxelsPerShare = 4;           // a voxel that is touched reaches as far as its diagonal
+  constexpr double kFacesPerVoxelFace = 2 * kSlantedSteps;
+  constexpr double kVoxelsPerShare = 4;  // a voxel that is touched reaches as far as its diagonal
   const double most = error_share > 0 ? error_share / kVoxelsPerShare : HUGE_VAL;
   const double enough = std::sqrt(kFacesPerVoxelFace * area_world(inner) / (kFacesPerFace * double(faces)));
   return std::max(voxel, std::min(enough, most));
@@ -245,10 +242,10 @@ class LevelMaker {
     bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
     ground_ = make_ground(shelves, params_, start, make_shelf_);
     params_.memory = params_.memory.without(ground_.bytes());
-    bounds_.error_world = params_.error_world;
-    if (params_.mode == MeshMode::fit) return fits(*start.surface, faces);
-    const double error_share = params_.error_world / double(faces.size());
+    const bool fit = params_.mode == MeshMode::fit;
+    const double error_share = params_.error_world / double(fit ? 1 : faces.size());
     bounds_.error_world = error_share;
+    if (fit) return fits(*start.surface, faces);
     std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed.get(), faces[0])};
     for (std::size_t i = 1; i < faces.size(); ++i) {
       const LatticeMesh& before = levels.back();

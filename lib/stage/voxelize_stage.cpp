@@ -12,6 +12,7 @@
 #include "lib/backend/cpu_backend.h"
 #include "lib/core/content_hash.h"
 #include "lib/core/error.h"
+#include "lib/core/hex.h"
 #include "lib/core/parallel.h"
 #include "lib/core/pool.h"
 #include "lib/grid/cells.h"
@@ -66,7 +67,7 @@ std::uint64_t work_bytes(std::int32_t edge_vox) {
 
 std::string text_of(const ContentHash& hash) {
   const auto [high, low] = hash.value().words;
-  return fmt::format("{:016x}{:016x}", high, low);
+  return hex_of(high, low);
 }
 
 /// One run of voxelize_stream().

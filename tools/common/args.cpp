@@ -6,6 +6,7 @@
 #include "io/file.h"
 #include "lib/core/error.h"
 #include "lib/core/source_digest.h"
+#include "tools/common/names.h"
 
 namespace bp {
 
@@ -126,6 +127,10 @@ void Args::flag_with_word(const std::string& name, const std::vector<std::string
 
 void Args::refuse_word(const std::string& text, const std::string& words) {
   fail(ErrorCode::bad_argument, "'{}' is none of {}", text, words);
+}
+
+std::string Args::shown(UpAxis value) {
+  return name_of(value);
 }
 
 void Args::parse_into(const std::string& text, UpAxis& value) {

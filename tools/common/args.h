@@ -124,7 +124,7 @@ class Args {
   static std::string shown(const Length& value) { return value.text(); }
   static std::string shown(const Bytes& value) { return size_text(value.count); }
   static std::string shown(const Vec3d&) { return ""; }
-  static std::string shown(UpAxis value) { return value == UpAxis::y ? "y" : "z"; }
+  static std::string shown(UpAxis value);
   template <class T>
   static std::string shown(const std::optional<T>& value) {
     return value ? shown(*value) : "";

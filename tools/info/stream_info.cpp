@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "tools/common/length.h"
+#include "tools/common/names.h"
 
 namespace bp {
 
@@ -12,16 +13,6 @@ namespace {
 
 constexpr const char* kLayerNames[] = {"solid", "closing"};
 
-const char* name_of(FillMode fill) {
-  constexpr const char* kNames[] = {"flood", "winding", "none", "inside"};
-  return kNames[std::size_t(fill)];
-}
-const char* name_of(StructuringElement element) {
-  return element == StructuringElement::ball ? "ball" : "cube";
-}
-const char* name_of(UpAxis up) {
-  return up == UpAxis::y ? "y" : "z";
-}
 const char* axis_name(int axis) {
   return axis == 0 ? "x" : axis == 1 ? "y" : "z";
 }

@@ -5,6 +5,7 @@
 #include "lib/core/error.h"
 #include "lib/grid/cells.h"
 #include "lib/stage/voxelize_stage.h"
+#include "tools/common/names.h"
 
 namespace bp {
 
@@ -19,24 +20,8 @@ std::string base_name(const std::string& path) {
   return file == "-" ? "scene" : file.substr(0, file.rfind('.'));
 }
 
-const char* name_of(MeshMode mode) {
-  return mode == MeshMode::fit ? "fit" : "bounding";
-}
-
-const char* name_of(StructuringElement element) {
-  return element == StructuringElement::cube ? "cube" : "ball";
-}
-
 const char* name_of(Enclose enclose) {
   return enclose == Enclose::input ? "input" : "closing";
-}
-
-const char* name_of(FillMode fill) {
-  return fill == FillMode::flood ? "flood" : fill == FillMode::winding ? "winding" : "none";
-}
-
-const char* name_of(UpAxis up) {
-  return up == UpAxis::y ? "y" : "z";
 }
 
 /// The value, or null.

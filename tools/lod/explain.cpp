@@ -11,6 +11,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/core/triangle_totals.h"
+#include "lib/grid/boundary_runs.h"
 #include "lib/grid/reduce.h"
 #include "lib/stage/tile_stage.h"
 #include "tools/lod/build.h"

@@ -46,12 +46,13 @@ TEST_CASE("frames aligned to cells stay so through all reductions, until the sce
     CAPTURE(reach, edge, level, box.min.x, box.max.x);
     for (const std::int64_t o : frame.origin) CHECK(o % std::min(kBrickEdge, edge / 2) == 0);
     for (int i = 0; i < 3; ++i) CHECK(box.min[i] >= 1);
-    if (cells_spanned(cells, box).count() == 1) return;
+    const CellSpan span = cells_spanned(cells, box);
+    if (span.count() == 1 && span.first == CellCoord{}) return;  // fine cells may hold it, too, by chance
     const GridFrame coarse = reduced(frame);
     for (std::size_t i = 0; i < 3; ++i) CHECK(2 * coarse.origin[i] == frame.origin[i]);
     frame = coarse;
   }
-  FAIL("never in one cell");
+  FAIL("never in the first cell");
 }
 
 TEST_CASE("division rounds down and up over the whole range of an integer", "[quick][grid]") {

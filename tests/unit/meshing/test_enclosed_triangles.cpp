@@ -1,26 +1,12 @@
-#include <random>
-
 #include "lib/core/triangle_intersection.h"
 #include "lib/meshing/enclosed_triangles.h"
 #include "tests/catch.h"
+#include "tests/support/random_lattice.h"
 
 using namespace bp;
+using bp::test::RandomLattice;
 
 namespace {
-
-class Random {
- public:
-  explicit Random(unsigned seed) : random_(seed) {}
-  std::int64_t between(std::int64_t low, std::int64_t high) {
-    return std::uniform_int_distribution<std::int64_t>(low, high)(random_);
-  }
-  LatticeCoord point(std::int64_t low, std::int64_t high) {
-    return {between(low, high), between(low, high), between(low, high)};
-  }
-
- private:
-  std::mt19937 random_;
-};
 
 /// The definition: the new faces meet no triangle, and no closed tetrahedron of positive volume holds a first corner.
 bool allowed(const std::vector<TriangleD>& triangles, const GridFrame& frame, const std::vector<NewFace>& star,
@@ -47,7 +33,7 @@ bool allowed(const std::vector<TriangleD>& triangles, const GridFrame& frame, co
 
 TEST_CASE("a set of triangles allows what its definition allows, to the last bit", "[quick][meshing]") {
   const std::int64_t unit = GENERATE(1, 40000);  // corners close together, on few planes; over a large grid
-  Random random(unsigned(unit) + 5);
+  RandomLattice random(unsigned(unit) + 5);
   GridFrame frame;
   frame.voxel = 0.375;
   frame.origin = {-3, 1000, 17};

@@ -1,38 +1,24 @@
-#include <random>
-
 #include "lib/core/predicates.h"
 #include "lib/meshing/enclosed_voxels.h"
 #include "tests/catch.h"
 #include "tests/support/memory_shelf.h"
+#include "tests/support/random_lattice.h"
 
 using namespace bp;
 using namespace bp::test;
 
 namespace {
 
-class Random {
- public:
-  explicit Random(unsigned seed) : random_(seed) {}
-  std::int64_t between(std::int64_t low, std::int64_t high) {
-    return std::uniform_int_distribution<std::int64_t>(low, high)(random_);
-  }
-  LatticeCoord point(std::int64_t low, std::int64_t high) {
-    return {between(low, high), between(low, high), between(low, high)};
-  }
-  /// Small or large; every third with corners of voxels only, so that it touches cubes.
-  Tetrahedron tetrahedron() {
-    const bool aligned = between(0, 2) == 0;
-    const std::int64_t size = aligned ? between(1, 12) : between(1, 800);
-    const std::int64_t unit = aligned ? kLatticePerVoxel : 1;
-    const LatticeCoord origin = point(-16 * kLatticePerVoxel / unit, 8 * kLatticePerVoxel / unit);
-    Tetrahedron t;
-    for (LatticeCoord& p : t) p = (origin + point(0, size)) * unit;
-    return t;
-  }
-
- private:
-  std::mt19937 random_;
-};
+/// Small or large; every third with corners of voxels only, so that it touches cubes.
+Tetrahedron any_tetrahedron(RandomLattice& random) {
+  const bool aligned = random.between(0, 2) == 0;
+  const std::int64_t size = aligned ? random.between(1, 12) : random.between(1, 800);
+  const std::int64_t unit = aligned ? kLatticePerVoxel : 1;
+  const LatticeCoord origin = random.point(-16 * kLatticePerVoxel / unit, 8 * kLatticePerVoxel / unit);
+  Tetrahedron t;
+  for (LatticeCoord& p : t) p = (origin + random.point(0, size)) * unit;
+  return t;
+}
 
 void add_voxel(MemoryShelf& shelf, VoxelCoord v) {
   BitBox bits({{v.x & ~63, v.y & ~63, v.z & ~63}, {(v.x & ~63) + 64, (v.y & ~63) + 64, (v.z & ~63) + 64}});
@@ -51,7 +37,7 @@ bool holds_inside(const Tetrahedron& t, const LatticeCoord& p) {
 }  // namespace
 
 TEST_CASE("a set of voxels allows what each of its voxels allows, and says which is in the way", "[quick][meshing]") {
-  Random random(7);
+  RandomLattice random(7);
   MemoryShelf shelf;
   std::vector<VoxelCoord> voxels;
   std::vector<EnclosedVoxels> alone;  // each voxel by itself
@@ -66,7 +52,7 @@ TEST_CASE("a set of voxels allows what each of its voxels allows, and says which
   const EnclosedVoxels all(shelf);
   int refused = 0;
   for (int i = 0; i < 4000; ++i) {
-    const Tetrahedron t = random.tetrahedron();
+    const Tetrahedron t = any_tetrahedron(random);
     const auto allowed = [&](const EnclosedVoxels& e) { return e.allows({}, {{t}}, nullptr); };
     Blocker blocker;
     const bool free = all.allows({}, {{t}}, &blocker);
@@ -79,7 +65,7 @@ TEST_CASE("a set of voxels allows what each of its voxels allows, and says which
 }
 
 TEST_CASE("a tetrahedron that holds a point of a voxel is refused, one beside the voxel is not", "[quick][meshing]") {
-  Random random(8);
+  RandomLattice random(8);
   MemoryShelf shelf;
   add_voxel(shelf, {-1, 3, 63});
   const EnclosedVoxels voxel(shelf);
@@ -101,7 +87,7 @@ TEST_CASE("a tetrahedron that holds a point of a voxel is refused, one beside th
 
 TEST_CASE("a tetrahedron from outside is allowed by a solid of voxels as by each of its voxels, inner ones too",
           "[quick][meshing]") {
-  Random random(9);
+  RandomLattice random(9);
   constexpr std::int64_t kEdge = 7;
   MemoryShelf shelf;
   std::vector<EnclosedVoxels> alone;

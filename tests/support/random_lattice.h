@@ -1,0 +1,23 @@
+#pragma once
+#include <random>
+
+#include "lib/core/coords.h"
+
+namespace bp::test {
+
+/// Whole numbers and points with whole coordinates, uniform in [low, high].
+class RandomLattice {
+ public:
+  explicit RandomLattice(unsigned seed) : random_(seed) {}
+  std::int64_t between(std::int64_t low, std::int64_t high) {
+    return std::uniform_int_distribution<std::int64_t>(low, high)(random_);
+  }
+  LatticeCoord point(std::int64_t low, std::int64_t high) {
+    return {between(low, high), between(low, high), between(low, high)};
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+}  // namespace bp::test
