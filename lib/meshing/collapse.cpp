@@ -41,6 +41,8 @@ Collapser::Collapser(HalfEdgeMesh& mesh, std::vector<Quadric> quadrics, const Si
       quadric_(quadrics.empty() ? face_quadrics(mesh) : std::move(quadrics)),
       only_grows_(params.dense && !params.free && params.enclosed == nullptr && params.limits == nullptr) {
   if (!only_grows_) sense_.emplace(mesh);
+  if (params.most_growth > 0 && mesh.cell().min == kEverywhere.min && mesh.face_count() > 0)
+    volume6_ = std::abs(double(mesh.volume6()));
 }
 
 /// Both quadrics, about the position of from(h).
@@ -297,6 +299,7 @@ bool Collapser::outside_all(const LatticeCoord& p) const {
 bool Collapser::acceptable(const LatticeCoord& p, double cost) {
   if (!room_.holds_inside(origin_ + p)) return refuse(Refusal::length);
   if (!shape_is_fine(p)) return refuse(Refusal::shape);
+  if (volume6_ > 0 && !adds_little(p)) return refuse(Refusal::shape);
   if (params_.edge_limit && !edges_are_short(p)) return refuse(Refusal::length);
   if (too_far(cost)) return refuse(Refusal::error);
   return true;
@@ -320,6 +323,12 @@ bool Collapser::shape_is_fine(const LatticeCoord& p) const {
   double before = 1;
   for (const StarFace& f : star_) before = std::min(before, triangle_quality(f.apex, f.pa, f.pb));
   return quality >= before / 2;
+}
+
+bool Collapser::adds_little(const LatticeCoord& p) const {
+  double gain6 = 0;
+  for (const StarFace& f : star_) gain6 += dot(to_double(f.normal), to_double(p - f.apex));
+  return gain6 * double(mesh_.face_count()) <= params_.most_growth * volume6_;
 }
 
 bool Collapser::edges_are_short(const LatticeCoord& p) const {

@@ -73,6 +73,7 @@ class Collapser {
   [[nodiscard]] bool acceptable(const LatticeCoord& p, double cost);
   [[nodiscard]] bool shape_is_fine(const LatticeCoord& p) const;
   [[nodiscard]] bool edges_are_short(const LatticeCoord& p) const;
+  [[nodiscard]] bool adds_little(const LatticeCoord& p) const;
   [[nodiscard]] bool keeps_inside(const LatticeCoord& p);
   [[nodiscard]] bool too_far(double cost) const;
   void gather_new_faces(const LatticeCoord& p);
@@ -95,7 +96,8 @@ class Collapser {
   LatticeBox room_;               // new vertices are strictly inside: of the cell, and near enough to multiply exactly
   std::vector<Quadric> quadric_;  // per vertex, about its position
   Refusal refusal_ = Refusal::none;
-  bool only_grows_;  // so the surface bounds a solid from outside all the time
+  double volume6_ = 0;  // of the mesh as it was given, where growth is limited
+  bool only_grows_;     // so the surface bounds a solid from outside all the time
   std::optional<ShellSense> sense_;
   // Of the edge that solve() was last called with:
   LatticeCoord origin_;  // position of from(h)

@@ -13,6 +13,7 @@ namespace {
 constexpr std::uint64_t kEarlyStrict = 16, kEarlyStrictLeast = 10000;
 constexpr std::uint64_t kEarlyFactor = 6;  // of the wanted faces: where growing collapses end
 constexpr double kLateFactor = 1.5;        // where the order of collapses changes from quadric error to volume
+constexpr double kMostGrowth = 6;          // of one collapse: some times a face's share of the volume
 constexpr double kMuchRoom = 0.04;         // share of the volume: an early sweep that gains more is worth others
 
 /// Collapses by volume know neither errors nor limits.
@@ -27,6 +28,7 @@ void simplify_late(LatticeMesh& proxy, const Enclosed* enclosed, const SimplifyP
   late.faces = faces;
   late.dense = false;
   late.enclosed = enclosed;
+  late.most_growth = enclosed != nullptr ? kMostGrowth : 0;
   SimplifyCounts now;
   proxy = simplify(proxy, late, now);
   counts.add(now);
@@ -85,7 +87,8 @@ void tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyP
   simplify_late(proxy, &enclosed, params, std::uint64_t(factor * double(params.faces)), simplified);
 }
 
-/// Tight faces jam in a few places where growing goes on: the way there by growing alone, if it leads further.
+/// Tight faces jam in a few places where growing goes on: the way there by growing alone, if it leads further; where it
+/// does not lead to the end, both faces and volume count, or spikes would be paid for a few faces less.
 void try_growing(const LatticeMesh& grown, LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
                  SimplifyCounts& simplified, TightenCounts& tightened, SimplifyCounts simplified_again) {
   LatticeMesh other = grown;
@@ -93,6 +96,10 @@ void try_growing(const LatticeMesh& grown, LatticeMesh& proxy, const Enclosed& e
   if (other.triangles.size() >= proxy.triangles.size()) return;
   TightenCounts tightened_again;
   finish(other, enclosed, params, simplified_again, tightened_again);
+  const auto price = [](const LatticeMesh& mesh, const TightenCounts& counts) {
+    return double(mesh.triangles.size()) * std::abs(counts.volume_after);
+  };
+  if (other.triangles.size() > params.faces && price(other, tightened_again) > price(proxy, tightened)) return;
   proxy = std::move(other);
   simplified = simplified_again;
   tightened = tightened_again;
@@ -101,6 +108,7 @@ void try_growing(const LatticeMesh& grown, LatticeMesh& proxy, const Enclosed& e
 SimplifyParams early_part_of(const SimplifyParams& params) {
   SimplifyParams early = params;
   early.faces = kEarlyFactor * params.faces;
+  early.most_growth = kMostGrowth;
   early.strict_from = std::max(kEarlyStrict * params.faces, kEarlyStrictLeast);
   return early;
 }
