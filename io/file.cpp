@@ -125,11 +125,12 @@ OutputFile::OutputFile(const std::string& path, bool overwrite)
 
 void OutputFile::open_partial() {
   for (int i = 1; i <= kMostPartials; ++i) {
-    const std::string name = fmt::format("{}.partial-{}", name_, i);
+    std::string name = fmt::format("{}.partial-{}", name_, i);
+    const WhileMaking making;
     fd_ = take_partial(name, name_);
     if (fd_ < 0) continue;
     partial_ = PartialOutput(name);
-    temporary_ = name;
+    temporary_ = std::move(name);
     return;
   }
   fail(ErrorCode::failed, "{}: {} unfinished files of that name lie beside it; remove them", name_, kMostPartials);
@@ -158,7 +159,9 @@ void OutputFile::flush() {
 void OutputFile::commit() {
   flush();
   if (!temporary_.empty()) {
-    if (::fsync(fd_) != 0 || ::rename(temporary_.c_str(), name_.c_str()) != 0) fail_write(name_);
+    if (::fsync(fd_) != 0) fail_write(name_);
+    const WhileMaking making;  // under its old name somebody else may begin to write at once
+    if (::rename(temporary_.c_str(), name_.c_str()) != 0) fail_write(name_);
     temporary_.clear();
     partial_ = PartialOutput();
   }
@@ -180,12 +183,15 @@ struct ScratchFile::State {
 
 ScratchFile::ScratchFile(const std::string& directory) : state_(new State) {
   state_->name = directory + "/bp-scratch-XXXXXX";
-  state_->fd = ::mkstemp(state_->name.data());
+  {
+    const WhileMaking making;
+    state_->fd = ::mkstemp(state_->name.data());
+    if (state_->fd >= 0) ::unlink(state_->name.c_str());
+  }
   if (state_->fd < 0) {
     fail(ErrorCode::out_of_resource, "{}: cannot create a scratch file: {}; choose another --temp", directory,
          std::strerror(errno));
   }
-  ::unlink(state_->name.c_str());
 }
 
 ScratchFile::~ScratchFile() {

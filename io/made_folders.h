@@ -7,6 +7,9 @@
 
 namespace bp {
 
+/// Makes a folder if it is not there. Throws `failed`. Of several threads.
+void make_folder(const std::string& path);
+
 /// A folder and those above it, made where they are not there. The ones that were made go again with this object, and
 /// when a signal ends the process, unless they are kept or something lies in them.
 class MadeFolders {

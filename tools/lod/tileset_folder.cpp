@@ -91,9 +91,7 @@ TilesetFolder::~TilesetFolder() {
 
 void TilesetFolder::lock() {
   folders_[1] = PartialOutput(partial_, PartialOutput::Kind::folder);  // before it is there: a signal may come at once
-  std::error_code error;
-  fs::create_directory(partial_, error);
-  if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", partial_, error.message());
+  make_folder(partial_);
   lock_ = ::open(partial_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(lock_);
@@ -111,8 +109,7 @@ void TilesetFolder::begin(const std::vector<std::string>& names) {
   std::error_code error;
   if (!resume_) fs::remove_all(results(), error);
   fs::remove_all(files_, error);
-  fs::create_directory(files_, error);
-  if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", files_, error.message());
+  make_folder(files_);
 }
 
 /// What holds something yet stays: results, the note of a commit that was interrupted.
@@ -137,7 +134,7 @@ void TilesetFolder::write(const std::string& name, const std::string& bytes) {
   const bool same = holds(path_ + "/" + name, bytes);
   if (!same) {
     refuse_if_there(name);
-    fs::create_directories(fs::path(files_ + "/" + name).parent_path());
+    make_folder(fs::path(files_ + "/" + name).parent_path());
     OutputFile file(files_ + "/" + name, true);
     file.write(bytes);
     file.commit();
@@ -184,7 +181,7 @@ void TilesetFolder::note_moves(const std::vector<std::string>& before) const {
 void TilesetFolder::move_files() {
   std::partition(written_.begin(), written_.end(), [](const std::string& name) { return name != kTileset; });
   for (const std::string& name : written_) {
-    fs::create_directories(fs::path(path_ + "/" + name).parent_path());
+    make_folder(fs::path(path_ + "/" + name).parent_path());
     fs::rename(files_ + "/" + name, path_ + "/" + name);
   }
 }
