@@ -217,10 +217,12 @@ class TilesetBuild {
     level.row.more = {{"faces_dense", level.dense}, {"kept", level.found.kept}};
     rows_.push_back(level.row);
     if (level.over_faces > 0)
-      build_.note(
-          fmt::format("level {}: {} of {} tiles have more faces than were asked for: no further edge can be "
-                      "merged at a scale of {:.4g}",
-                      number, level.over_faces, level.row.tiles, level.row.scale_world));
+      build_.note(fmt::format(
+          "level {}: {} of {} tiles have more faces than {}: no further edge can be merged at a "
+          "scale of {:.4g}",
+          number, level.over_faces, level.row.tiles,
+          options_.request.faces.empty() ? "the default, a hundredth of their voxels' surface" : "were asked for",
+          level.row.scale_world));
   }
 
   [[nodiscard]] TileParams tile_params(const LodTarget& target, const GridFrame& frame,
