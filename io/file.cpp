@@ -156,8 +156,9 @@ void OutputFile::flush() {
   used_ = 0;
 }
 
-void OutputFile::commit() {
+void OutputFile::commit(Sync sync) {
   flush();
+  const bool renamed = !temporary_.empty();
   if (!temporary_.empty()) {
     if (::fsync(fd_) != 0) fail_write(name_);
     const WhileMaking making;  // under its old name somebody else may begin to write at once
@@ -167,6 +168,21 @@ void OutputFile::commit() {
   }
   const int fd = std::exchange(fd_, -1);
   if (::close(fd) != 0) fail_write(name_);
+  if (renamed && sync == Sync::name) sync_folder(folder_of(name_));
+}
+
+/// A file system that cannot do it says so, and there is nothing better to be done: the file is there.
+void sync_folder(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
+std::string folder_of(const std::string& path) {
+  const std::size_t end = path.rfind('/');
+  if (end == std::string::npos) return ".";
+  return end == 0 ? "/" : path.substr(0, end);
 }
 
 void print(const std::string& text) {

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "io/file.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -58,6 +59,11 @@ MadeFolders::MadeFolders(const std::string& path) {
 
 MadeFolders::~MadeFolders() {
   remove();
+}
+
+void MadeFolders::keep() {
+  for (const auto& made : made_) sync_folder(folder_of(made.first));
+  made_.clear();
 }
 
 void MadeFolders::remove() {

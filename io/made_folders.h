@@ -18,7 +18,7 @@ class MadeFolders {
   ~MadeFolders();
   MadeFolders(const MadeFolders&) = delete;
   MadeFolders& operator=(const MadeFolders&) = delete;
-  void keep() { made_.clear(); }
+  void keep();  ///< they stay, also after a crash of the machine
 
  private:
   void remove();
