@@ -32,12 +32,19 @@ bpcheck part*.obj cut2/tileset.json | sed 's/[0-9]* triangles/some triangles/; s
 try bplod cube.obj -o x --tile 100
 
 # Collision: names that importers go by; the convex pieces enclose, too.
-bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision | cut -f 1
+bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision | cut -f 1,2
+cut_errors() { awk -F '\t' 'NR > 1 { print $1, ($3 == "-" ? "not measured" : $3 > 0 ? "measured" : "none"), $4 == s || NR == 2; s = $4 }'; }
+bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision --overwrite | cut_errors
 for f in godot unity unreal; do bpcheck part*.obj collision/cubes_$f.glb --no-distances | tail -1; done
 grep -ao '"name":"[^"]*"' collision/cubes_unreal.glb | sort -u | tr '\n' ' '
 grep -ao '"name":"[^"]*"' collision/cubes_godot.glb collision/cubes_unity.glb | sort -u
 bplod part*.obj --name cubes --faces 100 --mode fit --resolution 60 -o fit | cut -f 1
 bpcheck fit/cubes_LOD0.glb | tail -1
+
+# What is skipped of a scene is said, and counted.
+sed 's/^f 1 4 3 2$/&\nv nan 0 0\nf 1 1 2\nf 1 2 9\nf 1 2 77/' cube.obj > skips.obj
+try bplod skips.obj --levels 1 --resolution 24 -o skips --report skips.json > list
+grep -E '"(triangles|degenerate|non_finite|bad_faces)"|skipped' skips.json
 
 # Findings of a tileset.
 cp -r tiles broken
