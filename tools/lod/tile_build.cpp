@@ -216,13 +216,11 @@ class TilesetBuild {
     for (auto& [cell, node] : level.tiles) tree_->add(number, level.frame, cell, std::move(node));
     level.row.more = {{"faces_dense", level.dense}, {"kept", level.found.kept}};
     rows_.push_back(level.row);
-    if (level.over_faces > 0)
-      build_.note(fmt::format(
-          "level {}: {} of {} tiles have more faces than {}: no further edge can be merged at a "
-          "scale of {:.4g}",
-          number, level.over_faces, level.row.tiles,
-          options_.request.faces.empty() ? "the default, a hundredth of their voxels' surface" : "were asked for",
-          level.row.scale_world));
+    if (level.over_faces > 0 && !options_.request.faces.empty())
+      build_.note(
+          fmt::format("level {}: {} of {} tiles have more faces than were asked for: no further edge can be "
+                      "merged at a scale of {:.4g}",
+                      number, level.over_faces, level.row.tiles, level.row.scale_world));
   }
 
   [[nodiscard]] TileParams tile_params(const LodTarget& target, const GridFrame& frame,
