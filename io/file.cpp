@@ -125,11 +125,12 @@ OutputFile::OutputFile(const std::string& path, bool overwrite)
 
 void OutputFile::open_partial() {
   for (int i = 1; i <= kMostPartials; ++i) {
-    const std::string name = fmt::format("{}.partial-{}", name_, i);
+    std::string name = fmt::format("{}.partial-{}", name_, i);
+    const WhileMaking making;
     fd_ = take_partial(name, name_);
     if (fd_ < 0) continue;
     partial_ = PartialOutput(name);
-    temporary_ = name;
+    temporary_ = std::move(name);
     return;
   }
   fail(ErrorCode::failed, "{}: {} unfinished files of that name lie beside it; remove them", name_, kMostPartials);
@@ -155,15 +156,33 @@ void OutputFile::flush() {
   used_ = 0;
 }
 
-void OutputFile::commit() {
+void OutputFile::commit(Sync sync) {
   flush();
+  const bool renamed = !temporary_.empty();
   if (!temporary_.empty()) {
-    if (::fsync(fd_) != 0 || ::rename(temporary_.c_str(), name_.c_str()) != 0) fail_write(name_);
+    if (::fsync(fd_) != 0) fail_write(name_);
+    const WhileMaking making;  // under its old name somebody else may begin to write at once
+    if (::rename(temporary_.c_str(), name_.c_str()) != 0) fail_write(name_);
     temporary_.clear();
     partial_ = PartialOutput();
   }
   const int fd = std::exchange(fd_, -1);
   if (::close(fd) != 0) fail_write(name_);
+  if (renamed && sync == Sync::name) sync_folder(folder_of(name_));
+}
+
+/// A file system that cannot do it says so, and there is nothing better to be done: the file is there.
+void sync_folder(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
+std::string folder_of(const std::string& path) {
+  const std::size_t end = path.rfind('/');
+  if (end == std::string::npos) return ".";
+  return end == 0 ? "/" : path.substr(0, end);
 }
 
 void print(const std::string& text) {
@@ -180,12 +199,15 @@ struct ScratchFile::State {
 
 ScratchFile::ScratchFile(const std::string& directory) : state_(new State) {
   state_->name = directory + "/bp-scratch-XXXXXX";
-  state_->fd = ::mkstemp(state_->name.data());
+  {
+    const WhileMaking making;
+    state_->fd = ::mkstemp(state_->name.data());
+    if (state_->fd >= 0) ::unlink(state_->name.c_str());
+  }
   if (state_->fd < 0) {
     fail(ErrorCode::out_of_resource, "{}: cannot create a scratch file: {}; choose another --temp", directory,
          std::strerror(errno));
   }
-  ::unlink(state_->name.c_str());
 }
 
 ScratchFile::~ScratchFile() {

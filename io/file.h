@@ -50,8 +50,10 @@ class OutputFile {
 
   void write(std::span<const std::byte> bytes);
   void write(const std::string& text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
+  /// What a crash of the machine leaves after commit(): the file; or, if its folder is not synced, no name of it.
+  enum class Sync { name, content };
   /// Flushes, syncs, closes and renames; the file appears under its name now. stdout: flushes.
-  void commit();
+  void commit(Sync sync = Sync::name);
 
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -66,6 +68,11 @@ class OutputFile {
   std::unique_ptr<std::byte[]> buffer_;
   std::size_t used_ = 0;
 };
+
+/// What was made, renamed or removed in a folder outlasts a crash of the machine, if its file system can do that.
+void sync_folder(const std::string& path);
+/// Of a path; "." if it names none.
+[[nodiscard]] std::string folder_of(const std::string& path);
 
 /// Text on stdout, flushed.
 void print(const std::string& text);

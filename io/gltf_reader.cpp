@@ -4,8 +4,8 @@
 
 // glTF 2.0 and GLB (Khronos, glTF 2.0 specification, section 3.7 on geometry, 3.5 on nodes). Only what says where
 // triangles are is looked at: the default scene, nodes, POSITION and indices, sparse accessors, quantized positions
-// (KHR_mesh_quantization) and instance arrays (EXT_mesh_gpu_instancing), and, if asked for, colours. Skins and morph
-// targets are left at rest.
+// (KHR_mesh_quantization) and instance arrays (EXT_mesh_gpu_instancing), and, if asked for, colours; of nodes with
+// levels (MSFT_lod) one, the finest unless asked. Skins and morph targets are left at rest.
 
 namespace bp {
 
@@ -14,7 +14,7 @@ namespace {
 class SceneBuilder {
  public:
   SceneBuilder(const SceneFilePtr& file, const SceneOptions& options)
-      : doc_(file, options), root_(doc_.root()), colors_(options.colors) {}
+      : doc_(file, options), root_(doc_.root()), colors_(options.colors), level_(options.level) {}
 
   InstancedScene build() {
     visited_.resize(root_.array("nodes").size());
@@ -36,6 +36,7 @@ class SceneBuilder {
   [[nodiscard]] Affine world() const;
   [[nodiscard]] std::vector<std::uint64_t> scene_roots() const;
   void add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world);
+  std::uint64_t level_of(std::uint64_t i);
   void add_mesh_node(const GltfObject& node, const Affine& transform);
   Range mesh(std::uint64_t i);
   void add_primitive(const GltfObject& p);
@@ -47,6 +48,7 @@ class SceneBuilder {
   GltfDocument doc_;
   GltfObject root_;
   const bool colors_;
+  const std::size_t level_;
   InstancedScene scene_;
   std::unordered_map<std::uint64_t, Range> meshes_;
   std::vector<bool> visited_;
@@ -93,8 +95,9 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
   std::vector<Pending> stack;
   for (std::size_t i = roots.size(); i-- > 0;) stack.push_back({roots[i], world});
   while (!stack.empty()) {
-    const Pending next = stack.back();
+    Pending next = stack.back();
     stack.pop_back();
+    next.node = level_of(next.node);
     const GltfObject node = root_.item("nodes", next.node);
     if (visited_[std::size_t(next.node)]) node.broken("is reached twice, and nodes must form trees");
     visited_[std::size_t(next.node)] = true;
@@ -103,6 +106,18 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
     for (std::size_t k = node.array("children").size(); k-- > 0;)
       stack.push_back({node.index("children", k), transform});
   }
+}
+
+// The node that stands for node i at the level asked for: its last one, if it has fewer.
+std::uint64_t SceneBuilder::level_of(std::uint64_t i) {
+  const GltfObject node = root_.item("nodes", i);
+  if (!node.has("extensions") || !node.object("extensions").has("MSFT_lod")) return i;
+  const GltfObject lod = node.object("extensions").object("MSFT_lod");
+  constexpr std::size_t kMost = 64;  // each of them is read by itself
+  const std::size_t coarser = lod.array("ids").size();
+  if (coarser >= kMost) node.broken(fmt::format("has {} levels (MSFT_lod), and {} are read", coarser + 1, kMost));
+  scene_.levels = std::max(scene_.levels, 1 + coarser);
+  return level_ == 0 || coarser == 0 ? i : lod.index("ids", std::min(level_, coarser) - 1);
 }
 
 Affine SceneBuilder::transform_of(const GltfObject& node) {

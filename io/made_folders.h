@@ -7,6 +7,9 @@
 
 namespace bp {
 
+/// Makes a folder if it is not there. Throws `failed`. Of several threads.
+void make_folder(const std::string& path);
+
 /// A folder and those above it, made where they are not there. The ones that were made go again with this object, and
 /// when a signal ends the process, unless they are kept or something lies in them.
 class MadeFolders {
@@ -15,7 +18,7 @@ class MadeFolders {
   ~MadeFolders();
   MadeFolders(const MadeFolders&) = delete;
   MadeFolders& operator=(const MadeFolders&) = delete;
-  void keep() { made_.clear(); }
+  void keep();  ///< they stay, also after a crash of the machine
 
  private:
   void remove();

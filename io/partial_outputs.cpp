@@ -3,6 +3,7 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <array>
@@ -23,7 +24,11 @@ struct Slot {
 };
 static_assert(std::atomic<int>::is_always_lock_free, "signal handlers take no locks");
 
-std::array<Slot, 256> g_slots;  // global because a signal handler has no other way to it
+// Global because a signal handler has no other way to them.
+std::array<Slot, 256> g_slots;
+std::atomic<int> g_makers{0};
+std::atomic<bool> g_ended{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 bool remove_at(int parent, const char* name);
 
@@ -89,6 +94,35 @@ PartialOutput::PartialOutput(PartialOutput&& other) noexcept : slot_(std::exchan
 PartialOutput& PartialOutput::operator=(PartialOutput&& other) noexcept {
   std::swap(slot_, other.slot_);
   return *this;
+}
+
+/// A handler on this thread would wait for the thread itself: signals are held back. In the order of all atomics,
+/// either the count comes first, and end_making() waits for it, or the end does, and this thread stops here.
+WhileMaking::WhileMaking() {
+  sigset_t ending;
+  sigemptyset(&ending);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, number);
+  ::pthread_sigmask(SIG_BLOCK, &ending, &before_);
+  ++g_makers;
+  if (!g_ended) return;
+  --g_makers;
+  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  while (true) ::pause();
+}
+
+WhileMaking::~WhileMaking() {
+  --g_makers;
+  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+void end_making() noexcept {
+  g_ended = true;
+  const timespec millisecond{0, 1000000};
+  for (int i = 0; i < 1000 && g_makers > 0; ++i) ::nanosleep(&millisecond, nullptr);
+}
+
+bool making_has_ended() noexcept {
+  return g_ended;
 }
 
 void remove_partial_outputs() noexcept {

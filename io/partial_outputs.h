@@ -1,4 +1,6 @@
 #pragma once
+#include <signal.h>
+
 #include <string>
 
 /// Names of outputs that are being made, so that a signal handler can remove them. A fixed table without locks:
@@ -21,6 +23,24 @@ class PartialOutput {
  private:
   int slot_ = -1;
 };
+
+/// While it lives, nothing is removed: what is made has its name in the table before a signal handler looks for it. To
+/// be held for a few system calls, without taking memory: a signal waits for it (end_making()).
+class WhileMaking {
+ public:
+  WhileMaking();  ///< never returns once making has ended: this thread waits for the end of the process
+  ~WhileMaking();
+  WhileMaking(const WhileMaking&) = delete;
+  WhileMaking& operator=(const WhileMaking&) = delete;
+
+ private:
+  sigset_t before_{};  ///< signals that this thread held back
+};
+
+/// For the handler of a signal that ends the process, before remove_partial_outputs(): waits until no thread makes
+/// anything, and lets none begin. After a second it goes on, so that a file system that hangs holds no signal up.
+void end_making() noexcept;
+[[nodiscard]] bool making_has_ended() noexcept;
 
 /// Removes everything in the table: files, trees, then folders. Does nothing in a child process, which inherits the
 /// table but owns nothing in it.

@@ -9,12 +9,12 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <vector>
 
 #include "io/detail/brick_codec.h"
 #include "io/detail/write_all.h"
 #include "io/file.h"
+#include "io/made_folders.h"
 #include "lib/core/error.h"
 #include "lib/core/hex.h"
 
@@ -77,9 +77,7 @@ class FolderStore final : public ResultStore {
  public:
   FolderStore(std::string folder, std::function<void(const std::string&)> on_read_only)
       : folder_(std::move(folder)), on_read_only_(std::move(on_read_only)) {
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", folder_, error.message());
+    MadeFolders(folder_).keep();
   }
 
   bool get(const ResultKey& key, std::string& out) override {

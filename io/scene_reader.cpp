@@ -74,9 +74,7 @@ void refuse_brick_stream(const SceneFile& file) {
     fail(ErrorCode::bad_input, "{}: a brick stream, not a scene or a mesh; bpmesh makes a mesh of it", file.name());
 }
 
-RawSourcePtr open_raw(const std::string& path, const SceneOptions& options) {
-  const SceneFilePtr file = open_scene_file(path, temp_dir_of(options));
-  refuse_brick_stream(*file);
+RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const SceneOptions& options) {
   std::string extension = path == "-" ? std::string() : extension_of(path);
   Reader reader = reader_of(extension);
   if (reader == Reader::unknown && !options.format.empty()) {
@@ -107,6 +105,38 @@ RawSourcePtr open_raw(const std::string& path, const SceneOptions& options) {
   }
   fail(ErrorCode::bad_input, "{}: neither its name nor its first bytes tell its format; name it with --format",
        file->name());
+}
+
+SceneFilePtr open_file(const std::string& path, const SceneOptions& options) {
+  SceneFilePtr file = open_scene_file(path, temp_dir_of(options));
+  refuse_brick_stream(*file);
+  return file;
+}
+
+RawSourcePtr open_raw(const std::string& path, const SceneOptions& options) {
+  return open_raw(open_file(path, options), path, options);
+}
+
+IndexedMesh mesh_of(RawSource& raw, SceneCounts& met) {
+  IndexedMesh mesh;
+  PositionIndex index(mesh.vertices);
+  std::vector<TriangleD> batch;
+  while (raw.read(batch)) {
+    for (TriangleD& t : batch) {
+      normalize(t);
+      if (!is_finite(t)) {
+        ++met.non_finite;
+      } else if (is_degenerate(t)) {
+        ++met.degenerate;
+      }
+      mesh.triangles.push_back({index.add(t[0]), index.add(t[1]), index.add(t[2])});
+    }
+  }
+  mesh.up = raw.up();
+  met.triangles = mesh.triangles.size();
+  met.bad_faces = raw.bad_faces();
+  met.instances = raw.instances();
+  return mesh;
 }
 
 /// Drops what has no area or no place, and counts it. Batches are decoded and sifted in parallel, some ahead of the
@@ -312,28 +342,24 @@ std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, cons
 }
 
 IndexedMesh read_mesh(const std::string& path, const SceneOptions& options, SceneCounts* counts) {
-  const RawSourcePtr raw = open_raw(path, options);
-  IndexedMesh mesh;
-  PositionIndex index(mesh.vertices);
   SceneCounts met;
-  std::vector<TriangleD> batch;
-  while (raw->read(batch)) {
-    for (TriangleD& t : batch) {
-      normalize(t);
-      if (!is_finite(t)) {
-        ++met.non_finite;
-      } else if (is_degenerate(t)) {
-        ++met.degenerate;
-      }
-      mesh.triangles.push_back({index.add(t[0]), index.add(t[1]), index.add(t[2])});
-    }
-  }
-  mesh.up = raw->up();
-  met.triangles = mesh.triangles.size();
-  met.bad_faces = raw->bad_faces();
-  met.instances = raw->instances();
+  IndexedMesh mesh = mesh_of(*open_raw(path, options), met);
   if (counts != nullptr) *counts = met;
   return mesh;
+}
+
+std::vector<IndexedMesh> read_levels(const std::string& path, const SceneOptions& options) {
+  const SceneFilePtr file = open_file(path, options);  // stdin can be opened once
+  std::vector<IndexedMesh> levels;
+  SceneOptions one = options;
+  std::size_t count = 1;
+  for (one.level = 0; one.level < count; ++one.level) {
+    const RawSourcePtr raw = open_raw(file, path, one);
+    count = raw->levels();
+    SceneCounts ignored;
+    levels.push_back(mesh_of(*raw, ignored));
+  }
+  return levels;
 }
 
 }  // namespace bp

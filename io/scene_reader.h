@@ -31,6 +31,7 @@ struct SceneOptions {
   std::uint64_t memory_bytes = std::uint64_t(256) << 20;  ///< for vertices; more of them go to a scratch file
   std::string temp_dir;                                   ///< of scratch files; empty: $TMPDIR, else /tmp
   bool colors = false;                                    ///< look for them; else all triangles are white
+  std::size_t level = 0;                                  ///< of glTF's MSFT_lod; 0 is the finest
 };
 
 /// Triangles of one file; "-" is stdin, which is spooled to a scratch file. The reader is chosen by the file's
@@ -43,11 +44,15 @@ struct SceneOptions {
 [[nodiscard]] std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths,
                                                           const SceneOptions& options = {});
 
-/// A whole mesh in memory. Vertices with equal coordinates become one, with no tolerance. Nothing is dropped but bad
-/// faces: degenerate and non-finite triangles stay (non-finite coordinates as infinities or NaN), in the order of the
-/// file, and `counts`, if given, says how many there are. For proxies: memory grows with the mesh.
-/// Throws as open_scene(), and out_of_resource beyond 2^32 - 1 vertices.
+/// A whole mesh in memory; of a file with levels (MSFT_lod), the finest. Vertices with equal coordinates become one,
+/// with no tolerance. Nothing is dropped but bad faces: degenerate and non-finite triangles stay (non-finite
+/// coordinates as infinities or NaN), in the order of the file, and `counts`, if given, says how many there are. For
+/// proxies: memory grows with the mesh. Throws as open_scene(), and out_of_resource beyond 2^32 - 1 vertices.
 [[nodiscard]] IndexedMesh read_mesh(const std::string& path, const SceneOptions& options = {},
                                     SceneCounts* counts = nullptr);
+
+/// All levels of a file, finest first: glTF's MSFT_lod; every other file has one. Nodes that have fewer levels than
+/// others stay at their last.
+[[nodiscard]] std::vector<IndexedMesh> read_levels(const std::string& path, const SceneOptions& options = {});
 
 }  // namespace bp

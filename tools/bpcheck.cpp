@@ -94,45 +94,57 @@ std::string file_name(const std::string& path) {
   return path.substr(path.rfind('/') + 1);
 }
 
-bp::Image draw(const Options& o, const bp::IndexedMesh& proxy, bp::TriangleSource* scene,
-               const bp::CheckReport& report) {
+/// The scene, then each level of the proxy.
+bp::Image draw(const Options& o, const std::vector<bp::IndexedMesh>& levels, bp::TriangleSource* scene,
+               const std::vector<bp::CheckReport>& verdicts) {
   std::vector<bp::View> views;
   if (scene != nullptr) {
     views.emplace_back();
     views[0].source = scene;
-    views[0].label = fmt::format("{}\n{} triangles", file_name(o.files[0]), report.scene_triangles);
+    views[0].label = fmt::format("{}\n{} triangles", file_name(o.files[0]), verdicts[0].scene_triangles);
     if (o.files.size() > 2)
       views[0].label.insert(0, fmt::format("{} and {} more: ", file_name(o.files[0]), o.files.size() - 2));
   }
-  bp::View& view = views.emplace_back();
-  view.mesh = &proxy;
-  view.edges = true;
-  view.color = {238, 192, 130};
-  view.label = fmt::format("{}\n{} triangles, {}", file_name(o.files.back()), report.triangles,
-                           report.holds() ? "holds" : "does not hold");
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    bp::View& view = views.emplace_back();
+    view.mesh = &levels[i];
+    view.edges = true;
+    view.color = {238, 192, 130};
+    view.label = fmt::format("{}{}\n{} triangles, {}", file_name(o.files.back()),
+                             levels.size() > 1 ? fmt::format(" level {}", i) : "", verdicts[i].triangles,
+                             verdicts[i].holds() ? "holds" : "does not hold");
+  }
   bp::RenderOptions options;
   options.panel_width = options.panel_height = o.image_size;
   options.azimuth = o.azimuth, options.elevation = o.elevation;
   options.up = bp::UpAxis::y;
   if (scene != nullptr && scene->up()) options.up = *scene->up();
-  if (proxy.up) options.up = *proxy.up;
+  if (levels[0].up) options.up = *levels[0].up;
   if (o.up) options.up = *o.up;
   return bp::render(views, options);
 }
 
-void fill_report(bp::Report& report, const Options& o, const bp::CheckReport& verdict) {
+bp::Json counts_of(const bp::CheckReport& verdict) {
+  return {{"holds", verdict.holds()},
+          {"proxy_triangles", verdict.triangles},
+          {"scene_triangles", verdict.scene_triangles},
+          {"self_intersections", verdict.self_intersections.count},
+          {"touching", verdict.touching.count},
+          {"outside", verdict.outside.count}};
+}
+
+void fill_report(bp::Report& report, const Options& o, const std::vector<bp::CheckReport>& verdicts) {
   report.options = {{"inside", o.inside},
                     {"origin", o.origin.value_or(bp::Vec3d{})},
                     {"distances", !o.no_distances},
                     {"samples", o.samples.value_or(kSamples)},
                     {"examples", o.examples.value_or(kExamples)}};
-  report.counts = {{"holds", verdict.holds()},
-                   {"proxy_triangles", verdict.triangles},
-                   {"scene_triangles", verdict.scene_triangles},
-                   {"self_intersections", verdict.self_intersections.count},
-                   {"touching", verdict.touching.count},
-                   {"outside", verdict.outside.count}};
-  if (!verdict.distance_note.empty()) report.notes.push_back(verdict.distance_note);
+  report.counts = counts_of(verdicts[0]);
+  if (verdicts.size() > 1) {
+    report.counts = {{"holds", bp::all_hold(verdicts)}, {"levels", bp::Json::array()}};
+    for (const bp::CheckReport& verdict : verdicts) report.counts["levels"].push_back(counts_of(verdict));
+  }
+  if (!verdicts[0].distance_note.empty()) report.notes.push_back(verdicts[0].distance_note);
 }
 
 /// An answer to another question than was asked would be none.
@@ -155,12 +167,31 @@ int run_tileset(const Options& o) {
   report.stage("check");
   const bp::SceneOptions options{o.format, o.common.memory_bytes / 4, o.common.temp};
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
-  const bp::TilesetVerdict verdict = bp::check_tileset_file(o.files.back(), scenes, options);
+  const bp::TilesetVerdict verdict = bp::check_tileset_file(o.files.back(), scenes, options, o.common.memory_bytes / 2);
   const std::string name = file_name(o.files.back());
   bp::print(o.json ? verdict.json(name) : verdict.text(name));
   report.counts = {{"holds", verdict.holds()}, {"tiles", verdict.tiles}, {"findings", verdict.findings}};
   report.write(o.common);
   return verdict.holds() ? 0 : 1;
+}
+
+/// Each level as a proxy of its own.
+std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::IndexedMesh>& levels,
+                                   bp::TriangleSource* scene) {
+  bp::CheckOptions options;
+  options.max_examples = o.examples.value_or(kExamples);
+  options.inside = o.inside;
+  options.distances = !o.no_distances;
+  options.distance_samples = o.samples.value_or(kSamples);
+  options.scene_memory_bytes = o.common.memory_bytes / 2;
+  bp::Progress progress("bpcheck", o.common.progress);
+  progress.begin("check", 0, "triangles");
+  std::unique_ptr<WatchedSource> watched;
+  if (scene != nullptr) watched = std::make_unique<WatchedSource>(*scene, progress);
+  std::vector<bp::CheckReport> verdicts;
+  for (const bp::IndexedMesh& level : levels) verdicts.push_back(bp::check_proxy(level, watched.get(), options));
+  progress.end();
+  return verdicts;
 }
 
 int run(const Options& o) {
@@ -174,37 +205,25 @@ int run(const Options& o) {
   scene_options.format = o.format;
   scene_options.memory_bytes = o.common.memory_bytes / 4;
   scene_options.temp_dir = o.common.temp;
-  bp::IndexedMesh proxy = bp::read_mesh(o.files.back(), scene_options);
-  move(proxy, o.origin.value_or(bp::Vec3d{}));
+  std::vector<bp::IndexedMesh> levels = bp::read_levels(o.files.back(), scene_options);
+  for (bp::IndexedMesh& level : levels) move(level, o.origin.value_or(bp::Vec3d{}));
   std::unique_ptr<bp::TriangleSource> scene;
   if (o.files.size() > 1) scene = bp::open_scenes({o.files.begin(), o.files.end() - 1}, scene_options);
 
   report.stage("check");
-  bp::CheckOptions check_options;
-  check_options.max_examples = o.examples.value_or(kExamples);
-  check_options.inside = o.inside;
-  check_options.distances = !o.no_distances;
-  check_options.distance_samples = o.samples.value_or(kSamples);
-  check_options.scene_memory_bytes = o.common.memory_bytes / 2;
-  bp::Progress progress("bpcheck", o.common.progress);
-  progress.begin("check", 0, "triangles");
-  std::unique_ptr<WatchedSource> watched;
-  if (scene) watched = std::make_unique<WatchedSource>(*scene, progress);
-  const bp::CheckReport verdict = bp::check_proxy(proxy, watched.get(), check_options);
-  progress.end();
-
+  const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get());
   if (picture) {
     report.stage("draw");
-    picture->write(bp::encode_png(draw(o, proxy, scene.get(), verdict)));
+    picture->write(bp::encode_png(draw(o, levels, scene.get(), verdicts)));
     picture->commit();
   }
   const std::string name = file_name(o.files.back());
-  const std::string text = o.json ? bp::verdict_json(verdict, name) : bp::verdict_text(verdict, name);
+  const std::string text = o.json ? bp::verdict_json(verdicts, name) : bp::verdict_text(verdicts, name);
   bp::print(text);
   report.bytes_out = text.size();
-  fill_report(report, o, verdict);
+  fill_report(report, o, verdicts);
   report.write(o.common);
-  return verdict.holds() ? 0 : 1;
+  return bp::all_hold(verdicts) ? 0 : 1;
 }
 
 }  // namespace

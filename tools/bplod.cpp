@@ -1,4 +1,6 @@
 // bplod: scenes in, levels of detail out, in one process. Manual: docs/bplod.1.md
+#include <cmath>
+
 #include "tools/common/run_tool.h"
 #include "tools/lod/build.h"
 #include "tools/lod/explain.h"
@@ -7,9 +9,14 @@
 
 namespace {
 
-/// The file of a level; of a collision mesh, one of its three.
-std::string file_of(const bp::BuildOptions& o, std::size_t level) {
-  return o.profile == bp::LodProfile::collision ? o.name + "_godot.glb" : bp::level_name(o.name, level) + ".glb";
+/// What the list says of a file. How far hulls are from the scene is not measured.
+bp::LevelRow row_of(const bp::WrittenFile& file, const std::vector<bp::LodLevel>& levels, const bp::OutputFolder& out) {
+  bp::LevelRow row = bp::row_of(levels[file.level], file.name, out.bytes(file.name));
+  if (file.is_level) return row;
+  row.faces = file.faces;
+  row.error_world = std::nan("");
+  row.more = bp::Json::object();
+  return row;
 }
 
 /// One mesh a level.
@@ -27,11 +34,11 @@ void run_chain(const bp::BuildOptions& o) {
   }
   build.progress.end();
   build.report.stage("write");
-  bp::write_profile(o.profile, o.name, levels, scene.header.bounds.diagonal(), o.mode == bp::MeshMode::fit, out);
+  const std::vector<bp::WrittenFile> files =
+      bp::write_profile(o.profile, o.name, levels, scene.header.bounds.diagonal(), o.mode == bp::MeshMode::fit, out);
   out.commit();
   std::vector<bp::LevelRow> rows;
-  for (std::size_t i = 0; i < levels.size(); ++i)
-    rows.push_back(bp::row_of(levels[i], file_of(o, i), out.bytes(file_of(o, i))));
+  for (const bp::WrittenFile& file : files) rows.push_back(row_of(file, levels, out));
   build.finish(scene, rows, out.bytes());
 }
 

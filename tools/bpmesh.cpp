@@ -251,9 +251,10 @@ void note_bounds(bp::Report& report, const Options& o, const bp::MeshCounts& c, 
   const bool beyond = o.mode == bp::MeshMode::inside ? share < o.volume * (1 - 1e-9) : share > o.volume * (1 + 1e-9);
   if (o.volume > 0 && beyond) {
     note(report, o,
-         fmt::format("{}the volume is {:.4g} times that of the voxels instead of {:.4g}, as that of the voxels at the "
-                     "level before is; use smaller voxels, fewer levels or another --volume",
-                     which, share, o.volume));
+         fmt::format(
+             "{}the volume is {:.4g} times that of the voxels that are meshed instead of {:.4g}, as it is of the "
+             "voxels at the level before; use smaller voxels, fewer levels or another --volume",
+             which, share, o.volume));
   }
   const std::uint64_t faces = level.simplify.faces_out;
   if (i > 0 && faces > o.faces[i] && faces >= c.levels[i - 1].simplify.faces_out) {
@@ -296,8 +297,8 @@ std::string text_of(const Options& o, const bp::LevelCounts& level, const bp::Me
                                                            : "what it encloses";
   const bp::MeshMeasures& m = level.measures;
   std::string text = fmt::format("{} faces, stopped by: {}\n", level.simplify.faces_out, level.stopped_by);
-  text +=
-      fmt::format("  volume {:.6g}, {:.4g} times that of the voxels\n", m.volume, m.volume / all.solid_volume_world);
+  text += fmt::format("  volume {:.6g}, {:.4g} times that of the voxels that are meshed\n", m.volume,
+                      m.volume / all.solid_volume_world);
   text += fmt::format("  edges {:.4g} to {:.4g}, {:.4g} on average; least angle {:.3g} degrees\n", m.edge_min,
                       m.edge_max, m.edge_mean, m.angle_min_degrees);
   if (m.quads) {

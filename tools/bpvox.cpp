@@ -96,18 +96,6 @@ bp::VoxelizeOptions stage_options(const Options& o, const bp::VoxelizeBudget& bu
   return v;
 }
 
-/// "12 degenerate triangles, 1 bad face"; empty if nothing was skipped.
-std::string skipped(const bp::SceneCounts& c) {
-  std::string text;
-  const auto add = [&](std::uint64_t n, const char* what) {
-    if (n > 0) text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", n, what, n == 1 ? "" : "s");
-  };
-  add(c.degenerate, "degenerate triangle");
-  add(c.non_finite, "non-finite triangle");
-  add(c.bad_faces, "bad face");
-  return text;
-}
-
 void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& header, const bp::VoxelizeCounts& c) {
   report.options["options"] = option_text(o, header.frame.up).text();
   report.options["memory"] = o.common.memory_bytes;
@@ -135,7 +123,7 @@ void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& h
         fmt::format("the voxel size was rounded from {} to {}, so that every vertex of a proxy is an exact double",
                     c.voxel_asked, header.frame.voxel));
   }
-  if (const std::string text = skipped(c.scene); !text.empty()) report.notes.push_back("skipped " + text);
+  if (const std::string text = bp::skipped(c.scene); !text.empty()) report.notes.push_back("skipped " + text);
   if (c.open_columns > 0) {
     report.notes.push_back(fmt::format(
         "{} columns cross an open or inconsistently oriented surface; the flood decided there", c.open_columns));
@@ -167,7 +155,7 @@ void run(const Options& o) {
   report.counts["backends"] = bp::names_of(backends);
   fill_report(report, o, header, counts);
   report.write(o.common);
-  if (const std::string text = skipped(counts.scene); !text.empty())
+  if (const std::string text = bp::skipped(counts.scene); !text.empty())
     std::fprintf(stderr, "bpvox: skipped %s\n", text.c_str());
 }
 

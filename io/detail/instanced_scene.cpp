@@ -143,6 +143,7 @@ class InstancedSource final : public RawSource {
   }
   [[nodiscard]] std::uint64_t instances() const override { return instances_; }
   [[nodiscard]] std::optional<UpAxis> up() const override { return scene_.up; }
+  [[nodiscard]] std::size_t levels() const override { return scene_.levels; }
 
  private:
   static constexpr std::size_t kWindow = 3 * 1024;  // indices at a time: whole triangles, within a cache block

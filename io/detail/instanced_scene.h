@@ -63,6 +63,7 @@ struct InstancedScene {
   std::vector<InstanceArray> arrays;
   std::vector<MeshNode> nodes;
   std::optional<UpAxis> up;     ///< if the file tells
+  std::size_t levels = 1;       ///< that the file has, of which this is one
   std::uint64_t bad_faces = 0;  ///< met before, while the scene was put together
 };
 

@@ -123,7 +123,11 @@ enum class Verdict { fine, touching, outside, undecided };
 struct Body {
   WeldedMesh mesh;
   std::unique_ptr<Surface> surface;
-  bool closed = false;
+  bool closed = false, sound = true;
+  void drop() {
+    surface.reset();
+    mesh = {};
+  }
 };
 
 struct Counts {
@@ -132,51 +136,78 @@ struct Counts {
 
 class Checker {
  public:
-  explicit Checker(const std::vector<CoverTile>& tiles) : tiles_(tiles), bodies_(tiles.size()), counts_(tiles.size()) {
-    for (std::size_t i = 0; i < tiles.size(); ++i) add(i);
+  Checker(const std::vector<CoverTile>& tiles, const CoverContents& content_of)
+      : tiles_(tiles), content_of_(content_of), bodies_(tiles.size()), counts_(tiles.size()), below_(tiles.size()) {
+    find_below(0);
   }
 
-  std::vector<std::string> run(TriangleSource& scene) {
-    scene.rewind();
-    std::atomic<std::uint64_t> astray{0};
-    pipeline<std::vector<TriangleD>>(
-        2 * thread_count(), [&](std::vector<TriangleD>& chunk) { return scene.read(chunk); },
-        [&](std::vector<TriangleD>& chunk) {
-          for (const TriangleD& t : chunk) {
-            if (!in_root(t)) {
-              ++astray;
-            } else {
-              visit(0, t);
-            }
-          }
-        },
-        [](std::vector<TriangleD>&) {});
-    if (astray > 0)
-      findings_.push_back(fmt::format("{}: {} triangles of the scene leave its cell", tiles_[0].place, astray.load()));
-    for (std::size_t i = 0; i < tiles_.size(); ++i) say(i);
+  std::vector<std::string> run(TriangleSource& scene, std::uint64_t memory_bytes) {
+    for (begin_ = 0; begin_ < tiles_.size(); begin_ = end_) {
+      end_ = end_of_share(memory_bytes);
+      parallel_for(std::int64_t(end_ - begin_), [&](std::int64_t i) { load(begin_ + std::size_t(i)); });
+      pass(scene);
+      for (std::size_t i = begin_; i < end_; ++i) bodies_[i].drop();
+    }
+    for (std::size_t i = 0; i < tiles_.size(); ++i) say_of_tile(i);
+    if (astray_ > 0)
+      findings_.push_back(fmt::format("{}: {} triangles of the scene leave its cell", tiles_[0].place, astray_.load()));
+    for (std::size_t i = 0; i < tiles_.size(); ++i) say_of_scene(i);
     return std::move(findings_);
   }
 
  private:
-  void add(std::size_t i) {
-    const CoverTile& tile = tiles_[i];
-    if (tile.content) {
-      Body& body = bodies_[i];
-      CheckReport report;
-      body.mesh = weld(*tile.content, 1, report);
-      check_topology(body.mesh, 1, report);
-      body.surface = std::make_unique<Surface>(body.mesh);
-      report.self_intersections = body.surface->self_intersections(1);
-      body.closed = report.closed() && report.oriented();
-      if (body.closed) report.inverted_components = inverted_components(body.mesh, *body.surface, 1);
-      if (!report.holds())
-        findings_.push_back(fmt::format("{}: {} is no closed, oriented, embedded 2-manifold", tile.place, tile.uri));
+  /// Least and largest of some tiles.
+  struct Numbers {
+    std::size_t first = 0, last = 0;
+  };
+
+  const Numbers& find_below(std::size_t i) {
+    Numbers& all = below_[i] = {i, i};
+    for (const std::size_t child : tiles_[i].children) {
+      const Numbers& some = find_below(child);
+      all = {std::min(all.first, some.first), std::max(all.last, some.last)};
     }
-    for (const std::size_t child : tile.children) {
-      if (!fits(i, child))
-        findings_.push_back(
-            fmt::format("{}: its cell is neither its parent's nor an octant of it", tiles_[child].place));
+    return all;
+  }
+
+  [[nodiscard]] std::size_t end_of_share(std::uint64_t memory_bytes) const {
+    std::uint64_t bytes = 0;
+    std::size_t end = begin_;
+    while (end < tiles_.size()) {
+      bytes += tiles_[end].triangles.value_or(0) * kCoverBytesPerTriangle;
+      if (bytes > memory_bytes && end > begin_) break;
+      ++end;
     }
+    return end;
+  }
+
+  void load(std::size_t i) {
+    if (!tiles_[i].triangles) return;
+    Body& body = bodies_[i];
+    CheckReport report;
+    body.mesh = weld(content_of_(i), 1, report);
+    check_topology(body.mesh, 1, report);
+    body.surface = std::make_unique<Surface>(body.mesh);
+    report.self_intersections = body.surface->self_intersections(1);
+    body.closed = report.closed() && report.oriented();
+    if (body.closed) report.inverted_components = inverted_components(body.mesh, *body.surface, 1);
+    body.sound = report.holds();
+  }
+
+  void pass(TriangleSource& scene) {
+    scene.rewind();
+    pipeline<std::vector<TriangleD>>(
+        2 * thread_count(), [&](std::vector<TriangleD>& chunk) { return scene.read(chunk); },
+        [&](std::vector<TriangleD>& chunk) {
+          for (const TriangleD& t : chunk) {
+            if (in_root(t)) {
+              visit(0, t);
+            } else if (begin_ == 0) {
+              ++astray_;
+            }
+          }
+        },
+        [](std::vector<TriangleD>&) {});
   }
 
   [[nodiscard]] bool fits(std::size_t parent, std::size_t child) const {
@@ -216,11 +247,13 @@ class Checker {
     return overlap(bounds_of(t), box) && !ClippedTriangle(t, box).empty();
   }
 
-  /// t meets the cell of tile i.
+  /// t meets the cell of tile i. What counts are the tiles of this share.
   void visit(std::size_t i, const TriangleD& t) {
+    if (below_[i].first >= end_ || below_[i].last < begin_) return;
     const CoverTile& tile = tiles_[i];
-    if (!tile.content && tile.children.empty()) ++counts_[i].bare;
-    if (tile.content) {
+    const bool mine = i >= begin_ && i < end_;
+    if (mine && !tile.triangles && tile.children.empty()) ++counts_[i].bare;
+    if (mine && tile.triangles) {
       const Verdict verdict = examine(i, t);
       counts_[i].touching += verdict == Verdict::touching;
       counts_[i].outside += verdict == Verdict::outside;
@@ -233,10 +266,10 @@ class Checker {
       const Bounds3d box = octant(*tile.cell, k);
       if (!meets(t, box)) continue;
       const std::size_t child = child_at(tile, box);
-      if (child == 0) {
-        ++counts_[i].uncovered;
-      } else {
+      if (child != 0) {
         visit(child, t);
+      } else if (mine) {
+        ++counts_[i].uncovered;
       }
     }
   }
@@ -290,7 +323,18 @@ class Checker {
     return body.surface->winding(p) < 1 ? Verdict::outside : Verdict::fine;
   }
 
-  void say(std::size_t i) {
+  void say_of_tile(std::size_t i) {
+    const CoverTile& tile = tiles_[i];
+    if (!bodies_[i].sound)
+      findings_.push_back(fmt::format("{}: {} is no closed, oriented, embedded 2-manifold", tile.place, tile.uri));
+    for (const std::size_t child : tile.children) {
+      if (!fits(i, child))
+        findings_.push_back(
+            fmt::format("{}: its cell is neither its parent's nor an octant of it", tiles_[child].place));
+    }
+  }
+
+  void say_of_scene(std::size_t i) {
     const CoverTile& tile = tiles_[i];
     const Counts& c = counts_[i];
     const auto add = [&](std::uint64_t n, const char* what) {
@@ -304,15 +348,20 @@ class Checker {
   }
 
   const std::vector<CoverTile>& tiles_;
-  std::vector<Body> bodies_;
+  const CoverContents& content_of_;
+  std::vector<Body> bodies_;  ///< of the tiles of this share
   std::vector<Counts> counts_;
+  std::vector<Numbers> below_;       ///< of each tile, itself included
+  std::size_t begin_ = 0, end_ = 0;  ///< tiles of this share
+  std::atomic<std::uint64_t> astray_{0};
   std::vector<std::string> findings_;
 };
 
 }  // namespace
 
-std::vector<std::string> check_cover(const std::vector<CoverTile>& tiles, TriangleSource& scene) {
-  return Checker(tiles).run(scene);
+std::vector<std::string> check_cover(const std::vector<CoverTile>& tiles, const CoverContents& content_of,
+                                     TriangleSource& scene, std::uint64_t memory_bytes) {
+  return Checker(tiles, content_of).run(scene, memory_bytes);
 }
 
 }  // namespace bp

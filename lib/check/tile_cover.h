@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,15 +24,22 @@
 namespace bp {
 
 struct CoverTile {
-  std::string place, uri;              ///< for findings
-  std::optional<IndexedMesh> content;  ///< scene units; none: nothing is drawn
-  std::optional<Bounds3d> cell;        ///< scene units
-  std::vector<std::size_t> children;   ///< numbers of tiles
+  std::string place, uri;                  ///< for findings
+  std::optional<std::uint64_t> triangles;  ///< of its content; none: nothing is drawn
+  std::optional<Bounds3d> cell;            ///< scene units
+  std::vector<std::size_t> children;       ///< numbers of tiles
 };
+/// Reads the content of a tile that has one, scene units. Called on several threads.
+using CoverContents = std::function<IndexedMesh(std::size_t tile)>;
+
+constexpr std::uint64_t kCoverBytesPerTriangle = 300;  ///< of a content, while it is looked at
 
 /// One finding per line, empty if all holds; tiles[0] is the root. Besides, each content must hold as a mesh
-/// (check_proxy). Reads the scene once, from its start. Memory: about 300 bytes per triangle of all contents. Parallel;
-/// the result does not depend on threads.
-[[nodiscard]] std::vector<std::string> check_cover(const std::vector<CoverTile>& tiles, TriangleSource& scene);
+/// (check_proxy). Contents are read once, as many at a time, in the order of their numbers, as fit memory_bytes (one at
+/// least); for each such share of them the scene is read once, from its start. Parallel; the result depends neither on
+/// threads nor on memory. Passes on what the contents and the scene throw.
+[[nodiscard]] std::vector<std::string> check_cover(const std::vector<CoverTile>& tiles, const CoverContents& content_of,
+                                                   TriangleSource& scene,
+                                                   std::uint64_t memory_bytes = std::uint64_t(1) << 30);
 
 }  // namespace bp

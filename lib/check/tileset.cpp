@@ -29,7 +29,7 @@ double beyond(const TileBox& box, const Vec3d& p) {
 
 class Checker {
  public:
-  Checker(const Tileset& tileset, const std::vector<TileContent>& contents) : tileset_(tileset), contents_(contents) {}
+  Checker(const Tileset& tileset, const TileContents& content_of) : tileset_(tileset), content_of_(content_of) {}
 
   std::vector<std::string> run() {
     if (tileset_.version != "1.1") say("asset.version is \"{}\"; this checks 1.1", tileset_.version);
@@ -58,7 +58,7 @@ class Checker {
   }
 
   void check_content(const Tile& tile, const std::string& path) {
-    const TileContent& content = contents_.at(next_content_++);
+    const TileContent content = content_of_(tile);
     if (!content.found) return say("{}: content {}: {}", path, tile.uri, content.complaint);
     if (!tile.box) return;
     std::uint64_t outside = 0;
@@ -87,8 +87,7 @@ class Checker {
   }
 
   const Tileset& tileset_;
-  const std::vector<TileContent>& contents_;
-  std::size_t next_content_ = 0;
+  const TileContents& content_of_;
   std::vector<std::string> findings_;
 };
 
@@ -115,8 +114,8 @@ TileBox box_of(const Bounds3d& bounds) {
   return box;
 }
 
-std::vector<std::string> check_tileset(const Tileset& tileset, const std::vector<TileContent>& contents) {
-  return Checker(tileset, contents).run();
+std::vector<std::string> check_tileset(const Tileset& tileset, const TileContents& content_of) {
+  return Checker(tileset, content_of).run();
 }
 
 Transform product(const Transform& a, const Transform& b) {

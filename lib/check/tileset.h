@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,8 @@ struct TileContent {
   std::string complaint;        ///< why not
   std::vector<Vec3d> vertices;  ///< in the space of its tile: glTF turned to z up
 };
+/// Reads the content of a tile that has a uri; each is asked for once, depth first, and gone before the next.
+using TileContents = std::function<TileContent(const Tile&)>;
 
 /// One finding per line, with the path of the tile ("root.children[0]"); empty if all holds:
 ///   - the version is 1.1; the root says how it refines; errors are finite and not negative;
@@ -54,8 +57,8 @@ struct TileContent {
 ///   - the corners of a child's box lie in its parent's box, and the content's vertices in its tile's box, each with
 ///   its
 ///     transforms, but for 1e-9 of the box's size: transforms of doubles round;
-///   - every content is there. `contents` are those of the tiles that have a uri, in depth-first order.
-[[nodiscard]] std::vector<std::string> check_tileset(const Tileset& tileset, const std::vector<TileContent>& contents);
+///   - every content is there.
+[[nodiscard]] std::vector<std::string> check_tileset(const Tileset& tileset, const TileContents& content_of);
 
 /// Calls f(tile, path, transform to the tileset's space), depth first, parents before children.
 template <class F>

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -161,6 +162,29 @@ Json verdict_of(const CheckReport& r) {
   return v;
 }
 
+Json json_of(const CheckReport& r, const std::string& proxy_name) {
+  Json findings = Json::object();
+  for (const FindingText& t : kFindings) findings[t.key] = json_of(r.*t.finding, t);
+  Json proxy = {{"name", proxy_name},         {"triangles", r.triangles},
+                {"vertices", r.vertices},     {"merged_vertices", r.merged_vertices},
+                {"components", r.components}, {"euler", r.euler}};
+  proxy["genus"] = r.genus ? Json(*r.genus) : Json(nullptr);
+  Json measures = {{"volume", r.volume}};
+  measures["scene_volume"] = r.scene_volume ? Json(*r.scene_volume) : Json(nullptr);
+  measures["volume_ratio"] = r.scene_volume ? Json(volume_ratio(r)) : Json(nullptr);
+  measures["edge_length"] = {{"min", r.edge_min}, {"mean", r.edge_mean}, {"max", r.edge_max}};
+  measures["angle_min_degrees"] = r.angle_min_degrees;
+  measures["scene_to_proxy"] = json_of(r.scene_to_proxy);
+  measures["proxy_to_scene"] = json_of(r.proxy_to_scene);
+  measures["note"] = r.distance_note;
+  return {{"holds", r.holds()},     {"verdict", verdict_of(r)}, {"proxy", proxy},
+          {"scene", scene_json(r)}, {"findings", findings},     {"measures", measures}};
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 std::string failures(const CheckReport& r) {
@@ -191,23 +215,29 @@ std::string verdict_text(const CheckReport& r, const std::string& proxy_name) {
 }
 
 std::string verdict_json(const CheckReport& r, const std::string& proxy_name) {
-  Json findings = Json::object();
-  for (const FindingText& t : kFindings) findings[t.key] = json_of(r.*t.finding, t);
-  Json proxy = {{"name", proxy_name},         {"triangles", r.triangles},
-                {"vertices", r.vertices},     {"merged_vertices", r.merged_vertices},
-                {"components", r.components}, {"euler", r.euler}};
-  proxy["genus"] = r.genus ? Json(*r.genus) : Json(nullptr);
-  Json measures = {{"volume", r.volume}};
-  measures["scene_volume"] = r.scene_volume ? Json(*r.scene_volume) : Json(nullptr);
-  measures["volume_ratio"] = r.scene_volume ? Json(volume_ratio(r)) : Json(nullptr);
-  measures["edge_length"] = {{"min", r.edge_min}, {"mean", r.edge_mean}, {"max", r.edge_max}};
-  measures["angle_min_degrees"] = r.angle_min_degrees;
-  measures["scene_to_proxy"] = json_of(r.scene_to_proxy);
-  measures["proxy_to_scene"] = json_of(r.proxy_to_scene);
-  measures["note"] = r.distance_note;
-  const Json all = {{"holds", r.holds()},     {"verdict", verdict_of(r)}, {"proxy", proxy},
-                    {"scene", scene_json(r)}, {"findings", findings},     {"measures", measures}};
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(json_of(r, proxy_name));
+}
+
+bool all_hold(const std::vector<CheckReport>& levels) {
+  return std::all_of(levels.begin(), levels.end(), [](const CheckReport& r) { return r.holds(); });
+}
+
+std::string verdict_text(const std::vector<CheckReport>& levels, const std::string& proxy_name) {
+  if (levels.size() == 1) return verdict_text(levels[0], proxy_name);
+  std::string text, failed;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    text += verdict_text(levels[i], fmt::format("{} level {}", proxy_name, i));
+    if (!levels[i].holds()) failed += fmt::format("{} {}", failed.empty() ? "" : ",", i);
+  }
+  if (failed.empty()) return text + fmt::format("{}: all {} levels hold\n", proxy_name, levels.size());
+  return text + fmt::format("{}: of {} levels these do not hold:{}\n", proxy_name, levels.size(), failed);
+}
+
+std::string verdict_json(const std::vector<CheckReport>& levels, const std::string& proxy_name) {
+  if (levels.size() == 1) return verdict_json(levels[0], proxy_name);
+  Json all = {{"holds", all_hold(levels)}, {"levels", Json::array()}};
+  for (const CheckReport& r : levels) all["levels"].push_back(json_of(r, proxy_name));
+  return text_of(all);
 }
 
 }  // namespace bp

@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "lib/check/check_report.h"
 
 /// The report for people and for programs. The same report gives the same bytes.
@@ -9,6 +11,12 @@ namespace bp {
 
 /// One JSON object, indented; numbers that are not finite become null. Keys and their order are part of the interface.
 [[nodiscard]] std::string verdict_json(const CheckReport& report, const std::string& proxy_name);
+
+/// The same of all levels of a file, finest first. Of one level, as above; of several the text has one after the other
+/// and a last line for all, the JSON is {"holds", "levels": [one object each]}.
+[[nodiscard]] std::string verdict_text(const std::vector<CheckReport>& levels, const std::string& proxy_name);
+[[nodiscard]] std::string verdict_json(const std::vector<CheckReport>& levels, const std::string& proxy_name);
+[[nodiscard]] bool all_hold(const std::vector<CheckReport>& levels);
 
 /// What does not hold, in a few words: "not closed, 3 scene triangles outside"; empty if all holds.
 [[nodiscard]] std::string failures(const CheckReport& report);

@@ -168,6 +168,8 @@ class Maker {
                                  ? params_.faces
                                  : std::max(solid_faces / TileParams::kDenseFacesPerFace, TileParams::kLeastFaces);
       mesh.faces = {measures.faces_asked};
+      if (params_.faces == 0 && params_.mode == MeshMode::bounding)
+        mesh.error_world = TileParams::kErrorVox * level_.header.frame.voxel;
     }
     if (params_.mode == MeshMode::fit) {
       mesh.scene = scene_nearby();

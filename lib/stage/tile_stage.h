@@ -42,6 +42,9 @@ struct TileParams {
   std::function<void(CellCoord, KeyHash&)> add_to_key;  ///< the same where it depends on the cell; may be empty
 
   static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastFaces = 60;  ///< of a tile without a budget
+  /// A bounding tile without a budget keeps more faces where these would take it farther from what it encloses: thin
+  /// parts that lie apart in one tile have few faces of their voxels' surface, and none to spare.
+  static constexpr double kErrorVox = 8;
 };
 
 struct TileMeasures {

@@ -24,23 +24,11 @@ Vec3d y_up(const Vec3d& p) {
   return {p[0], p[2], 0.0 - p[1]};
 }
 
-struct Content {
-  TileContent known;
-  IndexedMesh mesh;  // z up
-};
-
-Content read_content(const std::string& path, const SceneOptions& options) {
-  Content content;
-  try {
-    content.mesh = read_mesh(path, options);
-    for (Vec3d& p : content.mesh.vertices) p = z_up(p);
-    content.known.vertices = content.mesh.vertices;
-    content.known.found = true;
-  } catch (const Error& e) {
-    if (e.code() != ErrorCode::bad_input) throw;
-    content.known.complaint = e.what();
-  }
-  return content;
+/// Vertices in the space of its tile.
+IndexedMesh read_content(const std::string& path, const SceneOptions& options) {
+  IndexedMesh mesh = read_mesh(path, options);
+  for (Vec3d& p : mesh.vertices) p = z_up(p);
+  return mesh;
 }
 
 /// What is wrong with a proxy, in a few words.
@@ -66,28 +54,57 @@ bool has_cells(const Tileset& tileset) {
   return any;
 }
 
-/// The tileset as check_cover() wants it, filled depth first.
+/// The tileset as check_cover() wants it, and where its contents lie.
 class CoverTiles {
  public:
-  explicit CoverTiles(const Tileset& tileset) : up_(tileset.up) {}
+  CoverTiles(const Tileset& tileset, std::string folder, const SceneOptions& options)
+      : up_(tileset.up), folder_(std::move(folder)), options_(options) {
+    for_each_tile(tileset, [&](const Tile& tile, const std::string& place, const Transform& transform) {
+      add(tile, place, transform);
+    });
+  }
 
-  void add(const Tile& tile, const std::string& place, const Transform& transform, IndexedMesh* content) {
+  [[nodiscard]] const std::vector<CoverTile>& tiles() const { return tiles_; }
+  /// For each tile with a uri, in their order: what is known of it. The number of triangles is noted, and counted.
+  [[nodiscard]] TileContent look_at(const Tile& tile, TilesetVerdict& verdict) {
+    while (tiles_[next_].uri.empty()) ++next_;
+    CoverTile& noted = tiles_[next_++];
+    ++verdict.contents;
+    TileContent known;
+    try {
+      IndexedMesh mesh = read_content(folder_ + tile.uri, options_);
+      noted.triangles = mesh.triangles.size();
+      verdict.triangles += mesh.triangles.size();
+      known.vertices = std::move(mesh.vertices);
+      known.found = true;
+    } catch (const Error& e) {
+      if (e.code() != ErrorCode::bad_input) throw;
+      known.complaint = e.what();
+    }
+    return known;
+  }
+  /// In the coordinates of the scene.
+  [[nodiscard]] IndexedMesh content(std::size_t i) const {
+    IndexedMesh mesh = read_content(folder_ + tiles_[i].uri, options_);
+    for (Vec3d& p : mesh.vertices) p = to_scene(transforms_[i], p);
+    return mesh;
+  }
+
+ private:
+  void add(const Tile& tile, const std::string& place, const Transform& transform) {
     CoverTile& out = tiles_.emplace_back();
     out.place = place;
     out.uri = tile.uri;
-    if (content != nullptr) out.content = std::move(*content);
     if (tile.cell) out.cell = moved(*tile.cell, transform);
+    transforms_.push_back(transform);
     places_[place] = tiles_.size() - 1;
     const std::size_t end = place.rfind(".children[");
     if (end != std::string::npos) tiles_[places_.at(place.substr(0, end))].children.push_back(tiles_.size() - 1);
   }
-  [[nodiscard]] const std::vector<CoverTile>& tiles() const { return tiles_; }
   [[nodiscard]] Vec3d to_scene(const Transform& transform, const Vec3d& p) const {
     const Vec3d q = transformed(transform, p);
     return up_ == "y" ? y_up(q) : q;
   }
-
- private:
   [[nodiscard]] Bounds3d moved(const Bounds3d& cell, const Transform& transform) const {
     Transform turn = transform;
     for (std::size_t i = 12; i < 15; ++i) turn[i] = 0;
@@ -96,19 +113,24 @@ class CoverTiles {
     for (const Vec3d& p : {cell.min, cell.max}) out.add(to_scene(transform, p));
     return out;
   }
-  std::string up_;
+
+  const std::string up_, folder_;
+  const SceneOptions& options_;
   std::vector<CoverTile> tiles_;
+  std::vector<Transform> transforms_;
   std::map<std::string, std::size_t> places_;
+  std::size_t next_ = 0;  ///< tile to look for a uri at
 };
 
 /// Each content must enclose the whole scene by itself.
 void check_whole(const CoverTiles& cover, TriangleSource& scene, std::vector<std::string>& findings) {
-  for (const CoverTile& tile : cover.tiles()) {
-    if (!tile.content) continue;
+  for (std::size_t i = 0; i < cover.tiles().size(); ++i) {
+    const CoverTile& tile = cover.tiles()[i];
+    if (!tile.triangles) continue;
     CheckOptions check;
     check.distances = false;
     scene.rewind();
-    const CheckReport report = check_proxy(*tile.content, &scene, check);
+    const CheckReport report = check_proxy(cover.content(i), &scene, check);
     if (!report.holds()) findings.push_back(fmt::format("{}: {} {}", tile.place, tile.uri, complaint_of(report)));
   }
 }
@@ -136,29 +158,20 @@ std::string TilesetVerdict::json(const std::string& name) const {
 }
 
 TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std::string>& scenes,
-                                  const SceneOptions& options) {
+                                  const SceneOptions& options, std::uint64_t memory_bytes) {
   const Tileset tileset = read_tileset(path);
   const std::string folder = path.find('/') == std::string::npos ? "" : path.substr(0, path.rfind('/') + 1);
   TilesetVerdict verdict;
   verdict.scene = !scenes.empty();
   std::unique_ptr<TriangleSource> scene;
   if (verdict.scene) scene = open_scenes(scenes, options);
-  std::vector<TileContent> contents;
-  CoverTiles cover(tileset);
-  for_each_tile(tileset, [&](const Tile& tile, const std::string& place, const Transform& transform) {
-    ++verdict.tiles;
-    if (tile.uri.empty()) return cover.add(tile, place, transform, nullptr);
-    ++verdict.contents;
-    Content content = read_content(folder + tile.uri, options);
-    verdict.triangles += content.mesh.triangles.size();
-    for (Vec3d& p : content.mesh.vertices) p = cover.to_scene(transform, p);
-    cover.add(tile, place, transform, scene && content.known.found ? &content.mesh : nullptr);
-    contents.push_back(std::move(content.known));
-  });
-  verdict.findings = check_tileset(tileset, contents);
+  CoverTiles cover(tileset, folder, options);
+  verdict.tiles = cover.tiles().size();
+  verdict.findings = check_tileset(tileset, [&](const Tile& tile) { return cover.look_at(tile, verdict); });
   if (!scene) return verdict;
   if (has_cells(tileset)) {
-    const std::vector<std::string> findings = check_cover(cover.tiles(), *scene);
+    const std::vector<std::string> findings = check_cover(
+        cover.tiles(), [&](std::size_t i) { return cover.content(i); }, *scene, memory_bytes);
     verdict.findings.insert(verdict.findings.end(), findings.begin(), findings.end());
   } else {
     check_whole(cover, *scene, verdict.findings);

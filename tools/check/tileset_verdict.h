@@ -19,9 +19,11 @@ struct TilesetVerdict {
 /// What bpcheck says of a tileset.json: check_tileset() on it and the contents that lie beside it. With scenes:
 /// besides, each content must be a closed, embedded proxy that strictly encloses them (check_proxy), wherever its
 /// transforms put it. The scenes are in their own axes, the tileset says which one is up. Throws bad_input if the
-/// tileset or a scene cannot be read; a content that cannot is a finding.
+/// tileset or a scene cannot be read; a content that cannot is a finding. Contents are read when they are needed, with
+/// scenes twice, and take memory_bytes at a time (one at least); the scenes are read once for each share of them
+/// (check_cover()), or for each content where tiles have no cells.
 [[nodiscard]] TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std::string>& scenes,
-                                                const SceneOptions& options);
+                                                const SceneOptions& options, std::uint64_t memory_bytes);
 
 [[nodiscard]] bool is_tileset(const std::string& path);  ///< by its name: *.json
 

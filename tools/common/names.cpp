@@ -1,5 +1,7 @@
 #include "tools/common/names.h"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 
 namespace bp {
@@ -20,6 +22,17 @@ const char* name_of(UpAxis up) {
 const char* name_of(MeshMode mode) {
   constexpr const char* kNames[] = {"bounding", "inside", "fit"};
   return kNames[std::size_t(mode)];
+}
+
+std::string skipped(const SceneCounts& c) {
+  std::string text;
+  const auto add = [&](std::uint64_t n, const char* what) {
+    if (n > 0) text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", n, what, n == 1 ? "" : "s");
+  };
+  add(c.degenerate, "degenerate triangle");
+  add(c.non_finite, "non-finite triangle");
+  add(c.bad_faces, "bad face");
+  return text;
 }
 
 }  // namespace bp

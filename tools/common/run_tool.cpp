@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -25,10 +24,8 @@ void occupy_standard_streams() {
   }
 }
 
-std::atomic<bool> g_dying{false};  // global because a signal handler has no other way to it
-
 extern "C" void on_signal(int number) {
-  g_dying = true;
+  end_making();
   remove_partial_outputs();
   ::signal(number, SIG_DFL);  // the shell sees a death by signal, 128 + number, and ends its loop
   ::raise(number);
@@ -50,7 +47,7 @@ void install_handlers() {
 
 /// One line, whatever a file name or a parser put into it.
 int complain(const char* tool, std::string message, int status) {
-  while (g_dying) ::pause();  // files and folders are taken from under us: another thread dies of its signal
+  while (making_has_ended()) ::pause();  // files and folders are taken from under us: another thread dies of its signal
   for (char& c : message) {
     if ((unsigned char)c < 0x20 || c == 0x7f) c = ' ';
   }

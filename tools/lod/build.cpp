@@ -14,6 +14,7 @@
 #include "lib/core/parallel.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/stage/vertex_colors.h"
+#include "tools/common/names.h"
 
 namespace bp {
 
@@ -34,8 +35,9 @@ Json json_of(const FoundJobs& found) {
 std::string listing(const std::vector<LevelRow>& rows) {
   std::string text = "file\tfaces\terror\tscale\tvoxel\tbytes\n";
   for (const LevelRow& row : rows) {
-    text += fmt::format("{}\t{}\t{:.4g}\t{:.4g}\t{:.4g}\t{}\n", row.file, row.faces, row.error_world, row.scale_world,
-                        row.voxel, row.bytes);
+    const std::string error = std::isnan(row.error_world) ? "-" : fmt::format("{:.4g}", row.error_world);
+    text += fmt::format("{}\t{}\t{}\t{:.4g}\t{:.4g}\t{}\n", row.file, row.faces, error, row.scale_world, row.voxel,
+                        row.bytes);
   }
   return text;
 }
@@ -77,6 +79,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results) {
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
+  if (const std::string text = skipped(out.counts.scene); !text.empty()) note("skipped " + text);
   if (source->has_colors()) gather(*source, out);
   return out;
 }

@@ -24,7 +24,8 @@ struct VoxelizedScene {
 struct LevelRow {
   std::string file;
   std::uint64_t tiles = 0, faces = 0, bytes = 0;
-  double error_world = 0, scale_world = 0, voxel = 0;
+  double error_world = 0;  ///< NaN: not measured
+  double scale_world = 0, voxel = 0;
   Json more = Json::object();  ///< for the report only
 };
 

@@ -18,30 +18,39 @@ std::vector<NamedMesh> named(const std::string& name, const std::vector<LodLevel
   return meshes;
 }
 
-void write_gltf_profile(const std::string& name, const std::vector<LodLevel>& levels, double diameter, bool normals,
-                        OutputFolder& out) {
+std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::vector<LodLevel>& levels,
+                                            double diameter, bool normals, OutputFolder& out) {
+  std::vector<WrittenFile> files;
   const std::vector<NamedMesh> meshes = named(name, levels, normals);
-  for (const NamedMesh& level : meshes) write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"));
+  for (const NamedMesh& level : meshes) {
+    write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"));
+    files.push_back({level.name + ".glb", files.size(), level.mesh->triangles.size()});
+  }
   std::vector<double> coverage;  // a level is drawn until the next one's error is a pixel; the last one always
   for (std::size_t i = 1; i < levels.size(); ++i)
     coverage.push_back(coverage_at_one_pixel(diameter, levels[i].error_world));
   coverage.push_back(0);
   write_lod_glb(meshes, coverage, out.file(name + ".glb"));
+  return files;
 }
 
 /// What importers go by: Godot by the suffix "-colonly" (collision only, the mesh itself), Unreal by the prefix
 /// "UCX_MESH_" (convex, so: the hulls of the parts), Unity by nothing, and people by "_Collider".
-void write_collision_profile(const std::string& name, const LatticeMesh& mesh, OutputFolder& out) {
+std::vector<WrittenFile> write_collision_profile(const std::string& name, const LatticeMesh& mesh, OutputFolder& out) {
   const NamedMesh godot{name + "-colonly", &mesh}, unity{name + "_Collider", &mesh};
   write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"));
   write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"));
   std::vector<LatticeMesh> hulls = components_of(mesh);
   std::vector<NamedMesh> unreal;
+  std::uint64_t faces = 0;
   for (LatticeMesh& part : hulls) {
     part = convex_hull(part);
+    faces += part.triangles.size();
     unreal.push_back({fmt::format("UCX_{}_{:02}", name, unreal.size()), &part});
   }
   write_parts_glb(unreal, out.file(name + "_unreal.glb"));
+  const std::uint64_t own = mesh.triangles.size();
+  return {{name + "_godot.glb", 0, own}, {name + "_unreal.glb", 0, faces, false}, {name + "_unity.glb", 0, own}};
 }
 
 }  // namespace
@@ -85,8 +94,8 @@ std::vector<std::string> profile_files(LodProfile profile, const std::string& na
   return files;
 }
 
-void write_profile(LodProfile profile, const std::string& name, const std::vector<LodLevel>& levels, double diameter,
-                   bool normals, OutputFolder& out) {
+std::vector<WrittenFile> write_profile(LodProfile profile, const std::string& name, const std::vector<LodLevel>& levels,
+                                       double diameter, bool normals, OutputFolder& out) {
   switch (profile) {
     case LodProfile::gltf:
       return write_gltf_profile(name, levels, diameter, normals, out);
@@ -95,6 +104,7 @@ void write_profile(LodProfile profile, const std::string& name, const std::vecto
     case LodProfile::collision:
       return write_collision_profile(name, levels.front().mesh, out);
   }
+  return {};
 }
 
 }  // namespace bp

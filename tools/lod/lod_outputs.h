@@ -31,12 +31,18 @@ class OutputFolder {
 
 /// "NAME_LOD0": Unity's and others' convention.
 [[nodiscard]] std::string level_name(const std::string& name, std::size_t level);
-/// The files of a profile, in the order of their commit; but for collision, that of level i is the i-th.
+/// The files of a profile, in the order of their commit.
 [[nodiscard]] std::vector<std::string> profile_files(LodProfile profile, const std::string& name, std::size_t levels);
-/// Writes them. `levels`: finest first; errors must not fall towards coarser ones; collision: one. diameter: of the
-/// scene, scene units.
-/// normals: as in NamedMesh, of the levels.
-void write_profile(LodProfile profile, const std::string& name, const std::vector<LodLevel>& levels, double diameter,
-                   bool normals, OutputFolder& out);
+/// A file that was written.
+struct WrittenFile {
+  std::string name;
+  std::size_t level = 0;
+  std::uint64_t faces = 0;
+  bool is_level = true;  ///< the level itself; else hulls around its parts
+};
+/// Writes them; returns those that hold one level. `levels`: finest first; errors must not fall towards coarser ones;
+/// collision: one. diameter: of the scene, scene units. normals: as in NamedMesh, of the levels.
+std::vector<WrittenFile> write_profile(LodProfile profile, const std::string& name, const std::vector<LodLevel>& levels,
+                                       double diameter, bool normals, OutputFolder& out);
 
 }  // namespace bp

@@ -216,7 +216,7 @@ class TilesetBuild {
     for (auto& [cell, node] : level.tiles) tree_->add(number, level.frame, cell, std::move(node));
     level.row.more = {{"faces_dense", level.dense}, {"kept", level.found.kept}};
     rows_.push_back(level.row);
-    if (level.over_faces > 0)
+    if (level.over_faces > 0 && !options_.request.faces.empty())
       build_.note(
           fmt::format("level {}: {} of {} tiles have more faces than were asked for: no further edge can be "
                       "merged at a scale of {:.4g}",

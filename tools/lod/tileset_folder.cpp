@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <set>
 
 #include "io/file.h"
 #include "io/tileset_file.h"
@@ -91,9 +92,7 @@ TilesetFolder::~TilesetFolder() {
 
 void TilesetFolder::lock() {
   folders_[1] = PartialOutput(partial_, PartialOutput::Kind::folder);  // before it is there: a signal may come at once
-  std::error_code error;
-  fs::create_directory(partial_, error);
-  if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", partial_, error.message());
+  make_folder(partial_);
   lock_ = ::open(partial_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(lock_);
@@ -111,8 +110,7 @@ void TilesetFolder::begin(const std::vector<std::string>& names) {
   std::error_code error;
   if (!resume_) fs::remove_all(results(), error);
   fs::remove_all(files_, error);
-  fs::create_directory(files_, error);
-  if (error) fail(ErrorCode::failed, "{}: cannot make this folder: {}", files_, error.message());
+  make_folder(files_);
 }
 
 /// What holds something yet stays: results, the note of a commit that was interrupted.
@@ -137,10 +135,10 @@ void TilesetFolder::write(const std::string& name, const std::string& bytes) {
   const bool same = holds(path_ + "/" + name, bytes);
   if (!same) {
     refuse_if_there(name);
-    fs::create_directories(fs::path(files_ + "/" + name).parent_path());
+    make_folder(folder_of(files_ + "/" + name));
     OutputFile file(files_ + "/" + name, true);
     file.write(bytes);
-    file.commit();
+    file.commit(OutputFile::Sync::content);  // it has another name to come
   }
   const std::lock_guard lock(mutex_);
   bytes_ += bytes.size();
@@ -181,12 +179,20 @@ void TilesetFolder::note_moves(const std::vector<std::string>& before) const {
   note.commit();
 }
 
+/// The tileset appears when what it names is there for good, and then what it does not name may go.
 void TilesetFolder::move_files() {
-  std::partition(written_.begin(), written_.end(), [](const std::string& name) { return name != kTileset; });
+  const auto move = [&](const std::string& name) { fs::rename(files_ + "/" + name, path_ + "/" + name); };
+  std::set<std::string> folders{path_};
   for (const std::string& name : written_) {
-    fs::create_directories(fs::path(path_ + "/" + name).parent_path());
-    fs::rename(files_ + "/" + name, path_ + "/" + name);
+    if (name == kTileset) continue;
+    const std::string folder = folder_of(path_ + "/" + name);
+    if (folders.insert(folder).second) make_folder(folder);
+    move(name);
   }
+  for (const std::string& folder : folders) sync_folder(folder);
+  if (std::find(written_.begin(), written_.end(), kTileset) == written_.end()) return;
+  move(kTileset);
+  sync_folder(path_);
 }
 
 void TilesetFolder::remove_others(const std::vector<std::string>& before) const {

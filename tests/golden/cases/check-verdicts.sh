@@ -10,4 +10,34 @@ try bpcheck inner.obj open.obj --examples 2 --no-distances
 try bpcheck inner.obj outer.obj --json
 try bpcheck inner.obj outer.obj --image both.png --image-size 100
 try bpcheck inner.obj outer.obj --image both.png --image-size 100
+
+# A file with levels (MSFT_lod): each is a proxy of its own, and all must hold.
+# write_levels FILE SIZE...: a glTF whose levels are cubes from -SIZE to SIZE.
+write_levels() {
+  local file=$1 minus='\0\0\200\277' plus='\0\0\200\77' corner data= nodes= ids= i=0 size
+  for corner in "$minus $minus $minus" "$plus $minus $minus" "$plus $plus $minus" "$minus $plus $minus" \
+    "$minus $minus $plus" "$plus $minus $plus" "$plus $plus $plus" "$minus $plus $plus"; do data+=${corner// /}; done
+  data+='\0\3\2\0\2\1\4\5\6\4\6\7\0\1\5\0\5\4\1\2\6\1\6\5\2\3\7\2\7\6\3\0\4\3\4\7'
+  shift
+  for size in "$@"; do
+    [ $i = 0 ] || ids+=${ids:+,}$i
+    nodes+=${nodes:+,}"{\"mesh\":0,\"scale\":[$size,$size,$size]@$i}"
+    i=$((i + 1))
+  done
+  nodes=${nodes/@0/,\"extensions\":\{\"MSFT_lod\":\{\"ids\":[$ids]\}\}}
+  cat > "$file" << GLTF
+{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[$(sed 's/@[0-9]*//g' <<< "$nodes")],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3"},{"bufferView":1,"componentType":5121,"count":36,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":36}],
+"buffers":[{"byteLength":132,"uri":"data:application/octet-stream;base64,$(printf "$data" | base64 -w 0)"}]}
+GLTF
+}
+write_levels levels.gltf 2 3 5
+try bpcheck inner.obj levels.gltf --no-distances | grep -v '^  '
+write_levels levels.gltf 2 0.5 5
+said 'bpcheck inner.obj levels.gltf --no-distances --examples 0 | grep -v "^  "'
+said 'bpcheck inner.obj levels.gltf --json --report levels.json | grep -E "^ ? ? ? ?.?.?\"(holds|levels)"'
+sed -n '/counts/,/\]/p' levels.json
+said 'bpcheck inner.obj - --format gltf < levels.gltf | tail -1'
 files

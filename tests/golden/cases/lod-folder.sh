@@ -68,15 +68,15 @@ try bplod missing.obj -o x/y/z --profile 3dtiles --resume
 try bplod cube.obj -o cube.obj/x
 mkfifo in
 exec 3<> in
-for profile in gltf 3dtiles; do
-  bplod - --format obj --profile $profile -q -o x/y/z <&3 > list &
-  for _ in $(seq 1000); do [ -n "$(ls -A x/y/z 2> /dev/null)" ] && break; sleep 0.01; done
-  sleep 0.2  # all that it makes before it reads is there
-  kill $!
-  wait $!
-  echo "$profile: $?"
-  ls -d x
-done 2> /dev/null
+for _ in $(seq 40); do  # at whatever moment, from the first folder on
+  for profile in gltf 3dtiles; do
+    bplod - --format obj --profile $profile -q -o x/y/z <&3 > list &
+    for ((k = 0; k < 100000; ++k)); do [ -e x ] && break; done
+    kill $!
+    wait $!
+    echo "$profile: $?" $(find x)
+  done
+done 2> /dev/null | sort | uniq -c | sed 's/^ *//'
 
 # bpcheck answers what was asked of a tileset, or refuses to.
 bpcheck cube.obj tiles/tileset.json --json | sed 's/"triangles": [0-9]*/"triangles": SOME/'

@@ -30,14 +30,28 @@ rm "${tiles[0]}"
 cp "${tiles[1]}" "${tiles[2]}"
 bpcheck part*.obj cut2/tileset.json | sed 's/[0-9]* triangles/some triangles/; s/[0-9][0-9]* of [0-9][0-9]*/some/; s/by up to.*//'
 try bplod cube.obj -o x --tile 100
+# Thin rods that lie apart have few voxels: no tile of a level goes far from them to save faces.
+awk 'BEGIN { for (a = 0; a < 3; ++a) for (i = 4; i < 120; i += 28) for (j = 4; j < 120; j += 28) {
+  for (s = 0; s < 8; ++s) { p[a] = s % 2 ? 116 : 4; p[(a + 1) % 3] = i + int(s / 2) % 2 * 0.5; p[(a + 2) % 3] = j + int(s / 4) * 0.5; print "v", p[0], p[1], p[2] }
+  for (f = 0; f < 6; ++f) { split(substr("135724681256347812345678" , 4 * f + 1, 4), c, ""); print "f", n + c[1], n + c[2], n + c[4], n + c[3] }
+  n += 8 } }' > rods.obj
+bplod rods.obj --voxel 1 --tile 64 --levels 2 --profile 3dtiles -q -o rods | awk -F '\t' 'NR == 2 { print $1, ($3 <= 11 ? "is near" : "is far: " $3) }'
+bpcheck rods.obj rods/tileset.json | sed 's/[0-9]* triangles/some triangles/'
 
 # Collision: names that importers go by; the convex pieces enclose, too.
-bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision | cut -f 1
+bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision | cut -f 1,2
+cut_errors() { awk -F '\t' 'NR > 1 { print $1, ($3 == "-" ? "not measured" : $3 > 0 ? "measured" : "none"), $4 == s || NR == 2; s = $4 }'; }
+bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision --overwrite | cut_errors
 for f in godot unity unreal; do bpcheck part*.obj collision/cubes_$f.glb --no-distances | tail -1; done
 grep -ao '"name":"[^"]*"' collision/cubes_unreal.glb | sort -u | tr '\n' ' '
 grep -ao '"name":"[^"]*"' collision/cubes_godot.glb collision/cubes_unity.glb | sort -u
 bplod part*.obj --name cubes --faces 100 --mode fit --resolution 60 -o fit | cut -f 1
 bpcheck fit/cubes_LOD0.glb | tail -1
+
+# What is skipped of a scene is said, and counted.
+sed 's/^f 1 4 3 2$/&\nv nan 0 0\nf 1 1 2\nf 1 2 9\nf 1 2 77/' cube.obj > skips.obj
+try bplod skips.obj --levels 1 --resolution 24 -o skips --report skips.json > list
+grep -E '"(triangles|degenerate|non_finite|bad_faces)"|skipped' skips.json
 
 # Findings of a tileset.
 cp -r tiles broken

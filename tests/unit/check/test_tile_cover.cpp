@@ -1,3 +1,5 @@
+#include <atomic>
+
 #include "lib/check/tile_cover.h"
 #include "tests/catch.h"
 #include "tests/support/memory_scene.h"
@@ -22,8 +24,16 @@ Bounds3d bounds(const Vec3d& lo, const Vec3d& hi) {
   return {lo, hi};
 }
 
+/// A tile with its content.
+struct MeshTile {
+  std::string place, uri;
+  std::optional<IndexedMesh> content;
+  std::optional<Bounds3d> cell;
+  std::vector<std::size_t> children;
+};
+
 /// A root of edge 16 around a bar along x, and two children that each hold half of it.
-std::vector<CoverTile> good() {
+std::vector<MeshTile> good() {
   return {{"root", "r", box_mesh({1, 1, 1}, {15, 4, 4}), bounds({0, 0, 0}, {16, 16, 16}), {1, 2}},
           {"root.0", "a", box_mesh({1, 1, 1}, {8.5, 4, 4}), bounds({0, 0, 0}, {8, 8, 8}), {}},
           {"root.1", "b", box_mesh({7.5, 1, 1}, {15, 4, 4}), bounds({8, 0, 0}, {16, 8, 8}), {}}};
@@ -35,9 +45,21 @@ Triangles bar() {
   return scene;
 }
 
-std::vector<std::string> findings(const std::vector<CoverTile>& tiles, const Triangles& scene = bar()) {
+/// The same, whether all contents are looked at together or one after the other.
+std::vector<std::string> findings(const std::vector<MeshTile>& tiles, const Triangles& scene = bar()) {
+  std::vector<CoverTile> cover;
+  for (const MeshTile& t : tiles) {
+    cover.push_back({t.place, t.uri, {}, t.cell, t.children});
+    if (t.content) cover.back().triangles = t.content->triangles.size();
+  }
+  std::atomic<int> reads{0};
+  const auto read = [&](std::size_t i) { return ++reads, *tiles[i].content; };
   MemorySource source(scene, 5);
-  return check_cover(tiles, source);
+  std::vector<std::string> together = check_cover(cover, read, source);
+  const int contents = reads;
+  CHECK(check_cover(cover, read, source, 1) == together);
+  CHECK(reads == 2 * contents);
+  return together;
 }
 
 std::string only(const std::vector<std::string>& all) {
@@ -48,17 +70,17 @@ std::string only(const std::vector<std::string>& all) {
 
 TEST_CASE("tiles that overlap where their cells meet cover a scene together", "[quick][check][tileset]") {
   CHECK(findings(good()).empty());
-  std::vector<CoverTile> tiles = good();
+  std::vector<MeshTile> tiles = good();
   tiles[0].content.reset();  // drawn by its children only
   CHECK(findings(tiles).empty());
-  for (CoverTile& tile : tiles) tile.cell.reset();
+  for (MeshTile& tile : tiles) tile.cell.reset();
   tiles[0].children = {1};
   tiles[1].content = box_mesh({1, 1, 1}, {15, 4, 4});
   CHECK(findings(tiles).empty());  // each for the whole scene
 }
 
 TEST_CASE("a tile that ends where its cell does leaves the scene uncovered", "[quick][check][tileset]") {
-  std::vector<CoverTile> tiles = good();
+  std::vector<MeshTile> tiles = good();
   tiles[1].content = box_mesh({1, 1, 1}, {8, 4, 4});  // the scene touches its wall
   CHECK_THAT(only(findings(tiles)), ContainsSubstring("root.0: a is touched by 8 triangles"));
   tiles[1].content = box_mesh({1, 1, 1}, {6, 4, 4});
@@ -69,7 +91,7 @@ TEST_CASE("a tile that ends where its cell does leaves the scene uncovered", "[q
 
 TEST_CASE("a triangle without a corner in the cell is placed by what is in the cell", "[quick][check][tileset]") {
   Triangles scene{{Vec3d{2, 2, 2}, Vec3d{14, 2, 2}, Vec3d{14, 3, 2}}};
-  std::vector<CoverTile> tiles = good();
+  std::vector<MeshTile> tiles = good();
   tiles[0].cell = bounds({-8, 0, 0}, {24, 32, 32});
   tiles[0].content.reset();
   tiles[1].cell = bounds({-8, 0, 0}, {8, 16, 16});
@@ -96,14 +118,14 @@ TEST_CASE("a triangle without a corner in the cell is placed by what is in the c
 
 TEST_CASE("a face that meets a triangle beyond the cell does no harm, a near one does", "[quick][check][tileset]") {
   const Triangles scene{{Vec3d{2, 2, 2}, Vec3d{14, 2, 2}, Vec3d{14, 3, 2}}};
-  std::vector<CoverTile> tiles = good();
+  std::vector<MeshTile> tiles = good();
   const double wall = GENERATE(8.001, 8.5, 7.999);
   tiles[1].content = box_mesh({1, 1, 1}, {wall, 4, 4});
   CHECK(findings(tiles, scene).empty() == (wall > 8));
 }
 
 TEST_CASE("missing and misplaced tiles are found", "[quick][check][tileset]") {
-  std::vector<CoverTile> tiles = good();
+  std::vector<MeshTile> tiles = good();
   tiles[0].children = {1};
   CHECK_THAT(only(findings(tiles)), ContainsSubstring("root: r has no child where there are 10 triangles"));
   tiles = good();

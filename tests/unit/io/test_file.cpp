@@ -78,3 +78,10 @@ TEST_CASE("links and pipes in the place of an unfinished file are not followed",
   CHECK(bytes_of_file(dir.path("victim")) == "kept");
   CHECK(bytes_of_file(dir.path("out")) == "new");
 }
+
+TEST_CASE("the folder of a path is what its name stands in", "[quick][io]") {
+  CHECK(folder_of("file") == ".");
+  CHECK(folder_of("/file") == "/");
+  CHECK(folder_of("a/b/file") == "a/b");
+  CHECK(folder_of("../file") == "..");
+}

@@ -200,6 +200,10 @@ TEST_CASE("a file of levels shows the finest, and names the others", "[quick][io
   const std::vector<double> coverage{0.25, 0};
   const std::string path = written(dir, [&](OutputFile& out) { write_lod_glb(levels, coverage, out); });
   CHECK(canonical(soup(read_mesh(path))) == canonical(soup(fine)));
+  const std::vector<IndexedMesh> read = read_levels(path);
+  REQUIRE(read.size() == 2);
+  CHECK(canonical(soup(read[0])) == canonical(soup(fine)));
+  CHECK(canonical(soup(read[1])) == canonical(soup(coarse)));
   Json doc = json_of(path);
   CHECK(doc["scenes"][0]["nodes"] == Json{0});
   CHECK(doc["nodes"][0]["extensions"]["MSFT_lod"]["ids"] == Json{1});
