@@ -11,9 +11,8 @@ namespace bp {
 
 namespace {
 
-constexpr double kQualityFloor = 0.05;  // of 1 for the equilateral triangle; or no worse than half of what was there
-constexpr double kLeastTurn = 0.1;      // cosine between a face's normal before and after
-constexpr int kShares = 4;              // places tried between the free minimum and the growing one
+constexpr double kLeastTurn = 0.1;  // cosine between a face's normal before and after
+constexpr int kShares = 4;          // places tried between the free minimum and the growing one
 
 std::vector<Quadric> face_quadrics(const HalfEdgeMesh& mesh) {
   std::vector<Quadric> quadrics(mesh.vertex_capacity());
@@ -319,7 +318,7 @@ bool Collapser::shape_is_fine(const LatticeCoord& p) const {
     after = std::min(after, squared / (edges * edges));
   }
   const double quality = std::sqrt(12 * after);
-  if (quality >= kQualityFloor) return true;
+  if (quality >= QualityFloor::kCollapse) return true;
   double before = 1;
   for (const StarFace& f : star_) before = std::min(before, triangle_quality(f.apex, f.pa, f.pb));
   return quality >= before / 2;

@@ -1,5 +1,6 @@
 #include "lib/meshing/collapse_order.h"
 
+#include <algorithm>
 #include <limits>
 #include <queue>
 
@@ -25,6 +26,7 @@ class Bulk {
   /// Returns the number of collapses.
   std::uint64_t sweep(double bound, std::uint64_t enough) {
     ++sweep_;
+    least_left_ = kNever;
     std::uint64_t taken = 0;
     std::size_t kept = 0;
     for (const FaceId f : faces_) {
@@ -37,19 +39,22 @@ class Bulk {
     return taken;
   }
 
+  /// Of the last sweep, if it took nothing: below this bound, sweeps take nothing either. kNever: under no bound.
+  [[nodiscard]] float least_left() const { return least_left_; }
+
  private:
   bool try_edge(HalfEdgeId h, double bound) {
-    if (double(worth_[h]) > bound) return false;
+    if (double(worth_[h]) > bound) return wait(h);
     const VertexId u = mesh_.from(h), w = mesh_.to(h);
     if (merged_in_[u] == sweep_ || merged_in_[w] == sweep_ || mesh_.locked(u) || mesh_.locked(w)) return false;
     if (worth_[h] == kUnknown) {
       worth_[h] = rounded_down(collapser_.lower_bound(h));
-      if (double(worth_[h]) > bound) return false;
+      if (double(worth_[h]) > bound) return wait(h);
     }
     const std::optional<Candidate> candidate = collapser_.solve(h);
     if (candidate && candidate->cost > bound) {
       worth_[h] = rounded_down(candidate->cost);
-      return false;
+      return wait(h);
     }
     if (!collapser_.take(h, candidate)) {
       worth_[h] = kNever;
@@ -58,6 +63,12 @@ class Bulk {
     merged_in_[u] = sweep_;
     if (mesh_.vertex_alive(u)) reconsider_around(u);
     return true;
+  }
+
+  /// For a larger bound.
+  bool wait(HalfEdgeId h) {
+    least_left_ = std::min(least_left_, worth_[h]);
+    return false;
   }
 
   static float rounded_down(double cost) { return float(cost) * (1 - 0x1p-22f); }
@@ -81,6 +92,7 @@ class Bulk {
   std::vector<float> worth_;              // per edge: below this bound no try is worth it
   std::vector<std::uint32_t> merged_in_;  // per vertex: sweep
   std::uint32_t sweep_ = 0;
+  float least_left_ = kNever;
 };
 
 struct Entry {
@@ -183,6 +195,7 @@ void collapse_bulk(Collapser& collapser, BulkRange range, std::uint64_t enough) 
   const HalfEdgeMesh& mesh = collapser.mesh();
   for (double bound = range.first; mesh.face_count() > enough && bound <= range.last;) {
     const std::uint64_t taken = bulk.sweep(bound, enough);
+    if (taken == 0 && bulk.least_left() == kNever) return;
     if (taken * 20 < mesh.face_count()) bound *= 4;
   }
 }

@@ -187,27 +187,73 @@ class CellWindow {
   std::uint64_t word_ = 0;
 };
 
-/// Corners of voxels, those at the low sides of a brick's voxels, with one occupied voxel around them.
-std::vector<VoxelCoord> tips_of(const BrickShelf& shelf, BrickCoord coord) {
+/// The 8 voxels around each corner of a row: bit i of the index for axis i, set on the high side.
+using Around = std::array<std::uint64_t, 8>;
+
+Around around(const BitBox& bits, std::int32_t y, std::int32_t z) {
+  Around w;
+  for (std::size_t i = 0; i < 8; i += 2) {
+    const std::uint64_t* r = bits.row(y - (i & 2 ? 0 : 1), z - (i & 4 ? 0 : 1));
+    w[i] = (r[1] << 1) | (r[0] >> 63);
+    w[i + 1] = r[1];
+  }
+  return w;
+}
+
+/// Corners inside a flat side across `axis`: occupied on one side of it, empty on the other.
+std::uint64_t inside_side(const Around& w, std::size_t axis) {
+  std::array<std::uint64_t, 2> all = {~std::uint64_t(0), ~std::uint64_t(0)}, any{};
+  for (std::size_t i = 0; i < 8; ++i) {
+    all[i >> axis & 1] &= w[i];
+    any[i >> axis & 1] |= w[i];
+  }
+  return (all[0] & ~any[1]) | (all[1] & ~any[0]);
+}
+
+/// Corners between two voxels that follow each other along `axis`.
+std::uint64_t between_two(const Around& w, std::size_t axis) {
+  std::uint64_t both = 0;
+  for (std::size_t i = 0; i < 8; ++i) {
+    if ((i >> axis & 1) == 0) both |= w[i] & w[i | std::size_t(1) << axis];
+  }
+  return both;
+}
+
+/// Those corners of a row that the proxy may rest on; `sampled`: corners at a multiple of the spacing along each axis.
+std::uint64_t resting_points(const Around& w, const std::array<std::uint64_t, 3>& sampled) {
+  std::uint64_t one = 0, two = 0, three = 0;  // or more voxels
+  for (const std::uint64_t v : w) {
+    three |= two & v;
+    two |= one & v;
+    one |= v;
+  }
+  std::uint64_t points = one & ~two;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    points |= two & ~three & between_two(w, axis) & sampled[axis];
+    points |= inside_side(w, axis) & sampled[(axis + 1) % 3] & sampled[(axis + 2) % 3];
+  }
+  return points;
+}
+
+/// Corners of voxels, those at the low sides of a brick's voxels: all convex ones; of straight edges and flat sides
+/// samples, without which nothing would tell a large face beside them where it rests.
+std::vector<VoxelCoord> resting_points_of(const BrickShelf& shelf, BrickCoord coord) {
+  constexpr std::int32_t kSpacing = 8;
+  constexpr std::uint64_t kAll = ~std::uint64_t(0), kEachEighth = kAll / 0xff;
   const VoxelCoord first = first_voxel(coord);
   BitBox bits({{first.x - 64, first.y - 1, first.z - 1}, {first.x + 64, first.y + 64, first.z + 64}});
   load_voxels(shelf, bits);
-  std::vector<VoxelCoord> tips;
+  std::vector<VoxelCoord> points;
   for (std::int32_t z = 0; z < kBrickEdge; ++z) {
     for (std::int32_t y = 0; y < kBrickEdge; ++y) {
-      std::uint64_t once = 0, twice = 0;
-      for (int i = 0; i < 4; ++i) {
-        const std::uint64_t* r = bits.row(first.y + y - i % 2, first.z + z - i / 2);
-        for (const std::uint64_t w : {r[1], (r[1] << 1) | (r[0] >> 63)}) {
-          twice |= once & w;
-          once |= w;
-        }
-      }
-      for (std::uint64_t row = once & ~twice; row != 0; row &= row - 1)
-        tips.push_back({first.x + std::countr_zero(row), first.y + y, first.z + z});
+      const std::array<std::uint64_t, 3> sampled = {kEachEighth, y % kSpacing == 0 ? kAll : 0,
+                                                    z % kSpacing == 0 ? kAll : 0};
+      for (std::uint64_t row = resting_points(around(bits, first.y + y, first.z + z), sampled); row != 0;
+           row &= row - 1)
+        points.push_back({first.x + std::countr_zero(row), first.y + y, first.z + z});
     }
   }
-  return tips;
+  return points;
 }
 
 LatticeCoord low_corner(VoxelCoord v) {
@@ -229,7 +275,7 @@ EnclosedVoxels::EnclosedVoxels(const BrickShelf& shelf) {
   struct Found {
     BoundaryBrick brick{};
     std::vector<Block> blocks;
-    std::vector<VoxelCoord> tips;
+    std::vector<VoxelCoord> points;
   };
   std::vector<Found> found(coords.size());
   parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
@@ -241,7 +287,7 @@ EnclosedVoxels::EnclosedVoxels(const BrickShelf& shelf) {
       f.brick.blocks[b / 64] |= std::uint64_t(1) << b % 64;
       f.blocks.push_back(block);
     }
-    f.tips = tips_of(shelf, coords[std::size_t(i)]);
+    f.points = resting_points_of(shelf, coords[std::size_t(i)]);
   });
   for (std::size_t i = 0; i < coords.size(); ++i) {
     Found& f = found[i];
@@ -252,7 +298,7 @@ EnclosedVoxels::EnclosedVoxels(const BrickShelf& shelf) {
     }
     if (!f.blocks.empty()) bricks_.emplace(coords[i], f.brick);
     blocks_.insert(blocks_.end(), f.blocks.begin(), f.blocks.end());
-    tips_.insert(tips_.end(), f.tips.begin(), f.tips.end());
+    points_.insert(points_.end(), f.points.begin(), f.points.end());
     f = {};
   }
 }
@@ -263,14 +309,14 @@ bool EnclosedVoxels::allows(std::span<const NewFace>, std::span<const Tetrahedro
 
 std::uint64_t EnclosedVoxels::bytes() const {
   constexpr std::uint64_t kBytesPerBrick = sizeof(BoundaryBrick) + 48;  // of a hash table
-  return blocks_.capacity() * sizeof(Block) + bricks_.size() * kBytesPerBrick + tips_.capacity() * sizeof(VoxelCoord) +
-         tips_.size() * kBytesPerContactPoint;
+  return blocks_.capacity() * sizeof(Block) + bricks_.size() * kBytesPerBrick +
+         points_.capacity() * sizeof(VoxelCoord) + points_.size() * kBytesPerContactPoint;
 }
 
 std::vector<Vec3d> EnclosedVoxels::contact_points(const LatticeCoord& origin) const {
   std::vector<Vec3d> points;
-  points.reserve(tips_.size());
-  for (const VoxelCoord& c : tips_)
+  points.reserve(points_.size());
+  for (const VoxelCoord& c : points_)
     points.push_back(to_double(LatticeCoord{c.x, c.y, c.z} * kLatticePerVoxel - origin));
   return points;
 }

@@ -39,7 +39,9 @@ class EnclosedVoxels : public Enclosed {
   };
   std::unordered_map<BrickCoord, BoundaryBrick, Hash> bricks_;
   std::vector<Block> blocks_;
-  std::vector<VoxelCoord> tips_;  ///< corners with one occupied voxel around them; some on brick borders are left out
+  /// Corners with one occupied voxel around them, and of straight edges and flat sides those 8 voxels apart; some on
+  /// brick borders are left out.
+  std::vector<VoxelCoord> points_;
 };
 
 }  // namespace bp

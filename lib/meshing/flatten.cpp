@@ -10,8 +10,6 @@ namespace bp {
 
 namespace {
 
-constexpr double kLeastQuality = 0.02;  // slivers make the later steps harder than a vertex more
-
 /// Direction of an axis-aligned normal: 0..5 for +x -x +y -y +z -z.
 std::uint8_t direction_of(const LatticeCoord& n) {
   for (int axis = 0; axis < 2; ++axis) {
@@ -87,7 +85,7 @@ class Flattener {
       creases[count++] = i;
     }
     std::size_t best = fan_.size();
-    double best_quality = kLeastQuality;
+    double best_quality = QualityFloor::kFlat;
     const auto consider = [&](std::size_t i) {
       const double quality = quality_after(i, best_quality);
       if (quality > best_quality) {
@@ -120,7 +118,7 @@ class Flattener {
       const LatticeCoord a = fan_[i].end - p, b = fan_[after].end - p;
       const std::int64_t area = area_along(fan_[i].direction, a, b);
       if (area <= 0) return 0;
-      const double quality = 3.4641016151377544 * double(area) / (squared(a) + squared(b) + squared(b - a));
+      const double quality = kPerTwiceArea * double(area) / (squared(a) + squared(b) + squared(b - a));
       if (quality <= enough) return 0;
       least = std::min(least, quality);
     }

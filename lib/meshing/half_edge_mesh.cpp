@@ -42,7 +42,8 @@ LatticeBox HalfEdgeMesh::room() const {
   return box;
 }
 
-/// Buckets of half-edges by their lower vertex: linear, no hashing.
+/// Buckets of half-edges by their lower vertex, sorted by the higher one: no hashing, linear but for the valence's
+/// logarithm.
 void HalfEdgeMesh::connect() {
   struct Half {
     VertexId high;  // the higher end
@@ -61,11 +62,13 @@ void HalfEdgeMesh::connect() {
     bucket[start[low + 1]++] = {high, h};
   }
   for (VertexId v = 0; v < position_.size(); ++v) {
+    std::sort(bucket.begin() + start[v], bucket.begin() + start[v + 1],
+              [](const Half& a, const Half& b) { return a.high != b.high ? a.high < b.high : a.h < b.h; });
     for (std::uint32_t i = start[v]; i < start[v + 1]; ++i) {
       const auto [high, h] = bucket[i];
-      for (std::uint32_t j = i + 1; j < start[v + 1] && twin_[h] == kNoId; ++j) {
+      for (std::uint32_t j = i + 1; j < start[v + 1] && bucket[j].high == high && twin_[h] == kNoId; ++j) {
         const HalfEdgeId g = bucket[j].h;
-        if (bucket[j].high == high && twin_[g] == kNoId && from(h) != from(g)) glue(h, g);
+        if (twin_[g] == kNoId && from(h) != from(g)) glue(h, g);
       }
       if (twin_[h] != kNoId) continue;
       locked_[from(h)] = locked_[to(h)] = 1;

@@ -13,10 +13,11 @@ namespace bp {
 
 namespace {
 
-constexpr double kMargin = 0.6;     // lattice units over a point: rounding a corner moves it by up to 0.87
-constexpr double kDeepest = 2;      // lattice units: a point that much above its face is under another one
-constexpr double kLongest = 2;      // times the unhindered step: how far forces may push
-constexpr int kRounds = 8;          // over all rows
+constexpr double kMargin = 0.6;  // lattice units over a point: rounding a corner moves it by up to 0.87
+constexpr double kDeepest = 2;   // lattice units: a point that much above its face is under another one
+constexpr double kRim = 8;       // lattice units: a point so near to the rim of its face is under those beside it, too
+constexpr double kLongest = 2;   // times the unhindered step: how far forces may push
+constexpr int kRounds = 8;       // over all rows
 constexpr int kPressingRounds = 8;  // after each, over those with a force
 
 }  // namespace
@@ -73,34 +74,62 @@ void JointFit::set_free_shifts(double reach) {
   }
 }
 
-void JointFit::add_rows(FaceId f) {
-  std::array<Vec3d, 3> corners;
-  std::array<double, 3> softness;
-  double reach = 0;
+JointFit::Facet JointFit::facet(FaceId f) const {
+  Facet facet{f, {}, {}, 0, 0};
   for (std::size_t k = 0; k < 3; ++k) {
     const VertexId v = mesh_.from(3 * f + HalfEdgeId(k));
-    corners[k] = to_double(mesh_.position(v) - contacts_.origin());
-    softness[k] = softness_[v];
-    reach = std::max(reach, reach_[v]);
+    facet.corners[k] = to_double(mesh_.position(v) - contacts_.origin());
+    facet.softness[k] = softness_[v];
+    facet.reach = std::max(facet.reach, reach_[v]);
   }
-  const double area = length(cross(corners[1] - corners[0], corners[2] - corners[0]));
-  if (reach == 0 || !(area > 0)) return;
+  const auto& [a, b, c] = facet.corners;
+  facet.area = length(cross(b - a, c - a));
+  return facet;
+}
+
+void JointFit::add_rows(FaceId f) {
+  const Facet here = facet(f);
   for (const std::uint32_t i : contacts_.of(f)) {
-    const Vec3d u = corners[0] - contacts_[i], v = corners[1] - contacts_[i], w = corners[2] - contacts_[i];
-    const std::array<Vec3d, 3> gradient = {cross(v, w), cross(w, u), cross(u, v)};
-    const double height = dot(u, gradient[0]) / area;
-    if (height < -kDeepest || height > kLongest * reach) continue;
-    Row row{f, {}, float(kMargin - height), 0, 0};
-    double give = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d g = (1 / area) * gradient[k];
-      give += softness[k] * dot(g, g);
-      row.gradient[k] = {float(g[0]), float(g[1]), float(g[2])};
-    }
-    if (!(give > 0)) continue;
-    row.give = float(give);
-    rows_.push_back(row);
+    add_row(here, contacts_[i]);
+    add_rows_beside(here, contacts_[i]);
   }
+}
+
+/// A point at a corner or an edge of its face lies under the others there, too: a convex edge is held from both sides.
+void JointFit::add_rows_beside(const Facet& facet, const Vec3d& p) {
+  const auto is_at = [](const Vec3d& off, double scale) { return dot(off, off) <= kRim * kRim * scale; };
+  const HalfEdgeId first = 3 * facet.id;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!is_at(p - facet.corners[k], 1)) continue;
+    mesh_.for_each_outgoing(mesh_.from(first + HalfEdgeId(k)), [&](HalfEdgeId h) {
+      if (HalfEdgeMesh::face(h) != facet.id) add_row(this->facet(HalfEdgeMesh::face(h)), p);
+    });
+    return;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d& a = facet.corners[k];
+    const Vec3d edge = facet.corners[(k + 1) % 3] - a;
+    if (is_at(cross(edge, p - a), dot(edge, edge)))
+      add_row(this->facet(HalfEdgeMesh::face(mesh_.twin(first + HalfEdgeId(k)))), p);
+  }
+}
+
+void JointFit::add_row(const Facet& facet, const Vec3d& p) {
+  if (facet.reach == 0 || !(facet.area > 0)) return;
+  const Vec3d u = facet.corners[0] - p, v = facet.corners[1] - p, w = facet.corners[2] - p;
+  const std::array<Vec3d, 3> gradient = {cross(v, w), cross(w, u), cross(u, v)};
+  const double height = dot(u, gradient[0]) / facet.area;
+  if (height < -kDeepest || height > kLongest * facet.reach) return;
+  Row row{facet.id, {}, float(kMargin - height), 0, 0};
+  double give = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d g = (1 / facet.area) * gradient[k];
+    give += facet.softness[k] * dot(g, g);
+    row.gradient[k] = {float(g[0]), float(g[1]), float(g[2])};
+  }
+  if (!(give > 0)) return;
+  row.give = float(give);
+  rows_.push_back(row);
 }
 
 void JointFit::relax(Row& row) {

@@ -33,8 +33,18 @@ class JointFit {
     float give;   // how much the height rises by a unit of force
     float force;  // multiplier, 0 or more
   };
+  struct Facet {
+    FaceId id;
+    std::array<Vec3d, 3> corners;
+    std::array<double, 3> softness;
+    double reach;  // of its corners, the largest
+    double area;   // twice
+  };
   void set_free_shifts(double reach);
+  [[nodiscard]] Facet facet(FaceId f) const;
   void add_rows(FaceId f);
+  void add_rows_beside(const Facet& facet, const Vec3d& p);
+  void add_row(const Facet& facet, const Vec3d& p);
   void relax(Row& row);
 
   const HalfEdgeMesh& mesh_;

@@ -37,10 +37,22 @@ namespace bp {
   return sign_of(int128(n.x) * d.x + int128(n.y) * d.y + int128(n.z) * d.z);
 }
 
+constexpr double kPerTwiceArea = 3.4641016151377544;  ///< 2 sqrt(3): triangle_quality() of an equilateral triangle is 1
+
 /// Shape of a triangle: 4 sqrt(3) area over the sum of its squared edges; 1 if equilateral, 0 if collinear.
 [[nodiscard]] inline double triangle_quality(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
   const Vec3d ab = to_double(b - a), ac = to_double(c - a), bc = to_double(c - b);
-  return 3.4641016151377544 * length(to_double(normal_of(a, b, c))) / (dot(ab, ab) + dot(ac, ac) + dot(bc, bc));
+  return kPerTwiceArea * length(to_double(normal_of(a, b, c))) / (dot(ab, ab) + dot(ac, ac) + dot(bc, bc));
 }
+
+/// Floors of triangle_quality(). A step that leaves a worse face is refused, since needles jam the steps that follow;
+/// but not where faces are bad already, or they would never go.
+struct QualityFloor {
+  static constexpr double kFlat = 0.02;      ///< merging flat regions: these faces go soon, so nearly anything will do
+  static constexpr double kCollapse = 0.05;  ///< collapses; or half of the worst face replaced
+  static constexpr double kDraw = 0.05;      ///< vertices drawn to a surface; or the worst face replaced
+  static constexpr double kEdit =
+      0.08;  ///< shrinking a proxy, whose volume alone would rather have needles; or the same
+};
 
 }  // namespace bp

@@ -11,8 +11,7 @@ namespace bp {
 
 namespace {
 
-constexpr double kQualityFloor = 0.08;  // of 1 for the equilateral triangle; or no worse than what was there
-constexpr double kOverhang = 0.1;       // of the star's longest side: how far beyond its box an apex may go
+constexpr double kOverhang = 0.1;  // of the star's longest side: how far beyond its box an apex may go
 
 /// A fin has next to no volume and well-shaped faces: what betrays it is an apex far from all that was there.
 bool sticks_out(const LatticeCoord& apex, const LatticeBox& star) {
@@ -59,7 +58,7 @@ void ProxyEditor::add_old_face(const LatticeCoord& a, const LatticeCoord& b, con
 
 /// New edges run from the first to the second corner of each new face.
 bool ProxyEditor::shape_is_fine() {
-  const double floor = std::min(kQualityFloor, least_quality_);
+  const double floor = std::min(QualityFloor::kEdit, least_quality_);
   for (const NewFace& f : faces_) {
     const double quality = triangle_quality(f.corners[0], f.corners[1], f.corners[2]);
     if (quality == 0 || quality < floor) {

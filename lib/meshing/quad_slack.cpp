@@ -11,7 +11,7 @@
 #include "lib/meshing/fan_fit.h"
 #include "lib/meshing/proxy_editor.h"
 #include "lib/meshing/quads.h"
-#include "lib/meshing/tighten.h"
+#include "lib/meshing/tight_proxy.h"
 
 namespace bp {
 
@@ -197,11 +197,8 @@ LatticeMesh one_round(const LatticeMesh& mesh, const Enclosed& enclosed, const S
   ProxyEditor editor(edited, kept, params.edge_limit, params.limits);
   Lifter lifter(editor, kept);
   for (const auto& pair : pair_triangles(mesh, QuadKeeps::slack, &enclosed)) lifter.join(pair[0], pair[1]);
-  TightenParams tightening;
-  tightening.edge_limit = params.edge_limit;
-  tightening.limits = params.limits;
   TightenCounts counts;
-  return tighten(editor, mesh.frame, tightening, counts);
+  return tighten(editor, mesh.frame, tightening_of(params), counts);
 }
 
 }  // namespace

@@ -34,18 +34,6 @@ void simplify_late(LatticeMesh& proxy, const Enclosed* enclosed, const SimplifyP
   counts.add(now);
 }
 
-TightenParams tightening_of(const SimplifyParams& params) {
-  TightenParams tightening;
-  tightening.edge_limit = params.edge_limit;
-  tightening.limits = params.limits;
-  if (params.limits != nullptr) {  // they refuse what vertices that move together take back only later
-    tightening.sweeps = 0;
-    tightening.final_sweeps = 10;
-    tightening.least_gain = 1e-4;
-  }
-  return tightening;
-}
-
 /// Collapses by volume, then the last tightening, on one mesh.
 void finish(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, SimplifyCounts& simplified,
             TightenCounts& tightened) {
@@ -128,6 +116,18 @@ LatticeMesh tight_from(const LatticeMesh& grown, const Enclosed& enclosed, const
 }
 
 }  // namespace
+
+TightenParams tightening_of(const SimplifyParams& params) {
+  TightenParams tightening;
+  tightening.edge_limit = params.edge_limit;
+  tightening.limits = params.limits;
+  if (params.limits != nullptr) {  // they refuse what vertices that move together take back only later
+    tightening.sweeps = 0;
+    tightening.final_sweeps = 10;
+    tightening.least_gain = 1e-4;
+  }
+  return tightening;
+}
 
 LatticeMesh tight_proxy(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params,
                         SimplifyCounts& simplified, TightenCounts& tightened) {

@@ -16,4 +16,7 @@ namespace bp {
 [[nodiscard]] LatticeMesh tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params,
                                       SimplifyCounts& simplified, TightenCounts& tightened);
 
+/// How a proxy made with `params` is tightened in the end.
+[[nodiscard]] TightenParams tightening_of(const SimplifyParams& params);
+
 }  // namespace bp

@@ -81,7 +81,22 @@ class Tightener {
     std::sort(order_.begin(), order_.end(), [](const auto& a, const auto& b) {
       return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
-    for (const auto& [growth, v] : order_) approach(v, joint_.shift(v));
+    const int128 before = mesh_.volume6();
+    went_out_.clear();
+    for (const auto& [growth, v] : order_) {
+      if (growth > 0) went_out_.emplace_back(v, mesh_.position(v));
+      approach(v, joint_.shift(v));
+    }
+    if (mesh_.volume6() > before) take_back();
+  }
+
+  /// Some made room that the others could not take: back where they were.
+  void take_back() {
+    for (const auto& [v, p] : went_out_) {
+      gather_rim(v);
+      const Vec3d x = to_double(p - mesh_.position(v));
+      if (fit_.close() && worth_trying(x)) static_cast<void>(try_move(v, x));
+    }
   }
 
   /// What is in the way becomes contact points for the next joint fit; this time the vertex goes a part of its way.
@@ -179,8 +194,9 @@ class Tightener {
   TightenCounts& counts_;
   FanFit fit_;
   JointFit joint_;
-  std::vector<std::pair<double, VertexId>> order_;    // by growth
-  std::uint64_t changes_ = 1, flipped_at_ = 0;        // moves and flips made so far; before the last flips
+  std::vector<std::pair<double, VertexId>> order_;           // by growth
+  std::vector<std::pair<VertexId, LatticeCoord>> went_out_;  // each with its place before
+  std::uint64_t changes_ = 1, flipped_at_ = 0;               // moves and flips made so far; before the last flips
   std::vector<std::uint64_t> changed_at_, stuck_at_;  // per vertex: changes made when it changed, when it was tried
 };
 

@@ -21,8 +21,8 @@ struct TightenCounts {
   double volume_before = 0, volume_after = 0;  ///< lattice units cubed
 };
 
-/// Tightens the mesh of the editor on the way to something else: it may come out larger, by less than a lattice unit
-/// over its area.
+/// Tightens the mesh of the editor on the way to something else: it may come out larger, where vertices made room that
+/// others could not take and cannot go back themselves.
 void tighten_on(ProxyEditor& editor, const TightenParams& params, TightenCounts& counts);
 
 /// The mesh of the editor, tightened; as it was if that made it larger: sweeps keep a margin of less than a lattice

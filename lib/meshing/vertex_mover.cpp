@@ -7,7 +7,6 @@ namespace bp {
 
 namespace {
 
-constexpr double kQualityFloor = 0.05;
 constexpr double kLeastTurn = 0.3;  // cosine between a face's normal before and after
 
 LatticeCoord part_of_way(const LatticeCoord& p, const LatticeCoord& q, double share) {
@@ -58,7 +57,7 @@ bool VertexMover::try_move(VertexId v, const LatticeCoord& q) {
     star_.push_back({{v, mesh_.to(h), mesh_.opposite(h)}, {q, a, b}});
     replaced_.push_back(HalfEdgeMesh::face(h));
   });
-  if (!fine || after < std::min(kQualityFloor, before) || !guard_.star_is_free(star_, replaced_)) return false;
+  if (!fine || after < std::min(QualityFloor::kDraw, before) || !guard_.star_is_free(star_, replaced_)) return false;
   const int128 gain6 = fan_gain6(mesh_, replaced_, q);
   if (sense_.turns(replaced_.front(), gain6) || !within_limits(limits_, mesh_, replaced_, star_)) return false;
   sense_.add(replaced_.front(), gain6);

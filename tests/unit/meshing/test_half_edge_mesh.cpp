@@ -139,3 +139,17 @@ TEST_CASE("sides are exact for points at three times the longest distance", "[qu
   CHECK(side_along({n, n, n}, {far, -far, 0}) == 0);
   CHECK(side_along({n, n, n}, {far, -far - 1, 0}) == -1);
 }
+
+TEST_CASE("a vertex of a hundred thousand faces is connected in no time", "[quick][meshing]") {
+  constexpr std::uint32_t kRim = 100000;  // looked for in pairs, its edges would take minutes
+  std::vector<LatticeCoord> vertices = {{0, 0, 64}, {0, 0, -64}};
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < kRim; ++i) {
+    vertices.push_back({std::int64_t(i), std::int64_t(i) * i % 1000, 0});
+    const std::uint32_t a = 2 + i, b = 2 + (i + 1) % kRim;
+    triangles.push_back({0, a, b});
+    triangles.push_back({1, b, a});
+  }
+  const HalfEdgeMesh mesh(std::move(vertices), triangles, kEverywhere);
+  CHECK(mesh.valence(0) == int(kRim));
+}
