@@ -6,54 +6,16 @@
 
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/geometry/triangle_parts.h"
 
 namespace bp {
 
 namespace {
 
-constexpr std::int64_t kGrain = 512;        // triangles per work item
-constexpr double kMeanPieces = 256;         // pieces along the diagonal, for the mean
-constexpr double kRelativeError = 1e-3;     // of the largest distance
-constexpr double kSmallestError = 1e-7;     // of the diagonal
-constexpr double kWithinError = 1.0 / 128;  // of the limit
-constexpr int kWithinPieces = 4096;
-
-double length_squared(const Vec3d& a, const Vec3d& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return sum;
-}
-
-Vec3d centre_of(const TriangleD& t) {
-  Vec3d c;
-  for (std::size_t i = 0; i < 3; ++i) c[i] = t[0][i] / 3 + t[1][i] / 3 + t[2][i] / 3;
-  return c;
-}
-
-/// Corner opposite the longest edge.
-std::size_t apex_of(const TriangleD& t) {
-  std::size_t apex = 0;
-  double longest = -1;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double l = length_squared(t[(k + 1) % 3], t[(k + 2) % 3]);
-    if (l > longest) longest = l, apex = k;
-  }
-  return apex;
-}
-
-/// Halves across the longest edge.
-std::array<TriangleD, 2> halves(const TriangleD& t) {
-  const std::size_t k = apex_of(t);
-  const Vec3d &apex = t[k], &a = t[(k + 1) % 3], &b = t[(k + 2) % 3];
-  Vec3d m;
-  for (std::size_t i = 0; i < 3; ++i) m[i] = a[i] / 2 + b[i] / 2;
-  return {TriangleD{apex, a, m}, TriangleD{apex, m, b}};
-}
-
-double area_of(const TriangleD& t) {
-  const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
-  return std::sqrt(dot(n, n)) / 2;
-}
+constexpr std::int64_t kGrain = 512;     // triangles per work item
+constexpr double kMeanPieces = 256;      // pieces along the diagonal, for the mean
+constexpr double kRelativeError = 1e-3;  // of the largest distance
+constexpr double kSmallestError = 1e-7;  // of the diagonal
 
 /// A part of a triangle and what is known of the distances of its points.
 struct Part {
@@ -88,26 +50,6 @@ Part examine(const TriangleD& t, const TriangleBvh& to, std::uint32_t guess, dou
   return part;
 }
 
-/// A convex polygon's corners on one side of a plane, and those on the other; both with the points where it is cut.
-struct CutPolygon {
-  std::vector<Vec3d> inside, outside;
-};
-
-CutPolygon cut(const std::vector<Vec3d>& polygon, const Vec3d& through, const Vec3d& inwards) {
-  CutPolygon out;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec3d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    const double sa = dot(inwards, a - through), sb = dot(inwards, b - through);
-    (sa >= 0 ? out.inside : out.outside).push_back(a);
-    if ((sa >= 0) == (sb >= 0)) continue;
-    Vec3d crossing;
-    for (std::size_t i = 0; i < 3; ++i) crossing[i] = a[i] + sa / (sa - sb) * (b[i] - a[i]);
-    out.inside.push_back(crossing);
-    out.outside.push_back(crossing);
-  }
-  return out;
-}
-
 /// What lies over the triangle nearest to a part is cut out if that settles it (`bar`: see examine()): there, corners
 /// bound the distance best. Appends the rest to `out` and returns the bound of what is settled; nothing if that is
 /// little, or the part so thin that rounding would decide.
@@ -120,18 +62,17 @@ std::optional<double> cut_out(const TriangleD& part, const TriangleD& nearest, d
   if (whole <= kThin * length_squared(part[(apex + 1) % 3], part[(apex + 2) % 3])) return std::nullopt;
   const std::size_t before = out.size();
   const Vec3d normal = cross(nearest[1] - nearest[0], nearest[2] - nearest[0]);
-  std::vector<Vec3d> inside(part.begin(), part.end());
-  for (std::size_t k = 0; k < 3 && !inside.empty(); ++k) {
-    CutPolygon pieces = cut(inside, nearest[k], cross(normal, nearest[(k + 1) % 3] - nearest[k]));
-    inside = std::move(pieces.inside);
-    for (std::size_t i = 2; i < pieces.outside.size(); ++i)
-      out.push_back({pieces.outside[0], pieces.outside[i - 1], pieces.outside[i]});
+  Polygon inside(part);
+  for (std::size_t k = 0; k < 3 && inside.count > 0; ++k) {
+    const CutPolygon pieces = cut(inside, nearest[k], cross(normal, nearest[(k + 1) % 3] - nearest[k]));
+    inside = pieces.inside;
+    for (std::size_t i = 0; i < pieces.outside.triangles(); ++i) out.push_back(pieces.outside.triangle(i));
   }
-  double farthest = 0, area = 0;
-  for (const Vec3d& p : inside) farthest = std::max(farthest, distance_squared(p, nearest));
-  for (std::size_t i = 2; i < inside.size(); ++i) area += area_of({inside[0], inside[i - 1], inside[i]});
+  double farthest = 0;
+  for (std::size_t i = 0; i < inside.count; ++i)
+    farthest = std::max(farthest, distance_squared(inside.corners[i], nearest));
   farthest = std::sqrt(farthest);
-  if (area >= kWorthwhile * whole && farthest <= bar) return farthest;
+  if (inside.area() >= kWorthwhile * whole && farthest <= bar) return farthest;
   out.resize(before);
   return std::nullopt;
 }
@@ -271,64 +212,6 @@ SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const Trian
   if (area > 0) result.mean /= area;
   search.run();
   return result;
-}
-
-namespace {
-
-/// Are all points of triangles near enough to something? Any triangle that shows it will do, so that most searches end
-/// early.
-class WithinSearch {
- public:
-  WithinSearch(const TriangleBvh& to, double limit, std::uint32_t& guess) : to_(to), limit_(limit), guess_(guess) {}
-
-  bool holds(const TriangleD& t) {
-    for (const Vec3d& p : t) {
-      if (distance(p, limit_) > limit_) return false;
-    }
-    std::vector<TriangleD> stack{t};
-    for (int pieces = 0; !stack.empty(); ++pieces) {
-      const TriangleD part = stack.back();
-      stack.pop_back();
-      if (beside_one(part)) continue;
-      const Vec3d c = centre_of(part);
-      double radius = 0;
-      for (const Vec3d& p : part) radius = std::max(radius, length_squared(p, c));
-      radius = std::sqrt(radius);
-      const double d = distance(c, limit_ - radius);
-      if (d > limit_) return false;
-      if (d + radius <= limit_ || beside_one(part)) continue;
-      if (radius < kWithinError * limit_ || pieces > kWithinPieces) return false;
-      const auto two = halves(part);
-      if (distance(two[0][2], limit_) > limit_) return false;  // where it is cut
-      stack.insert(stack.end(), two.begin(), two.end());
-    }
-    return true;
-  }
-
- private:
-  /// To something; the least one if that is above `enough`.
-  double distance(const Vec3d& p, double enough) {
-    const TriangleBvh::Nearest found = to_.near_enough(p, enough > 0 ? enough * enough : -1, guess_);
-    guess_ = found.item;
-    return std::sqrt(found.distance_squared);
-  }
-  /// The distance to one triangle is convex: its corners bound that of a part.
-  [[nodiscard]] bool beside_one(const TriangleD& part) const {
-    const TriangleD& one = to_.item(guess_).corners;
-    double farthest = 0;
-    for (const Vec3d& p : part) farthest = std::max(farthest, distance_squared(p, one));
-    return std::sqrt(farthest) <= limit_;  // which may be such a root: its square need not be as large
-  }
-
-  const TriangleBvh& to_;
-  double limit_;
-  std::uint32_t& guess_;
-};
-
-}  // namespace
-
-bool surely_within(const TriangleD& t, const TriangleBvh& to, double limit, std::uint32_t& guess) {
-  return WithinSearch(to, limit, guess).holds(t);
 }
 
 }  // namespace bp

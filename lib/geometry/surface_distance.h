@@ -23,9 +23,4 @@ struct SurfaceDistance {
 [[nodiscard]] SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to,
                                                double tolerance = 0);
 
-/// True only if no point of `t` is farther from `to` than `limit` > 0. False also for triangles that come within about
-/// 1 % of it: the search for a proof ends there. `guess`: an item of `to` where searches start, and where the last one
-/// ended; one near `t` makes it fast.
-[[nodiscard]] bool surely_within(const TriangleD& t, const TriangleBvh& to, double limit, std::uint32_t& guess);
-
 }  // namespace bp

@@ -228,6 +228,13 @@ double level_voxel(const LatticeMesh& inner, double voxel, std::uint64_t faces, 
   return std::max(voxel, std::min(enough, most));
 }
 
+std::uint64_t bytes_of(const std::vector<LatticeMesh>& meshes) {
+  std::uint64_t sum = 0;
+  for (const LatticeMesh& mesh : meshes)
+    sum += mesh.vertices.size() * sizeof(mesh.vertices[0]) + mesh.triangles.size() * sizeof(mesh.triangles[0]);
+  return sum;
+}
+
 constexpr int kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
 
 /// All levels, one after the other.
@@ -241,21 +248,18 @@ class LevelMaker {
     const Start start = make_start(shelves);
     bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
     ground_ = make_ground(shelves, params_, start, make_shelf_);
-    params_.memory = params_.memory.without(ground_.bytes());
+    const PieceMemory memory = params_.memory;
+    params_.memory = memory.without(ground_.bytes());
     const bool fit = params_.mode == MeshMode::fit;
     const double error_share = params_.error_world / double(fit ? 1 : faces.size());
     bounds_.error_world = error_share;
     if (fit) return fits(*start.surface, faces);
     std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed.get(), faces[0])};
+    ground_.enclosed.reset();
     for (std::size_t i = 1; i < faces.size(); ++i) {
-      const LatticeMesh& before = levels.back();
-      const double voxel = level_voxel(before, header_.frame.voxel, faces[i], error_share);
       bounds_.error_world = error_share * double(i + 1);
-      LatticeMesh dense =
-          inside() ? surface_within(before, voxel, make_shelf_) : surface_around(before, voxel, make_shelf_);
-      if (inside()) drop_small_parts(dense, params_.least_part);  // a level may fall into parts
-      const EnclosedTriangles enclosed(drawable_world_triangles(before), dense.frame);
-      levels.push_back(finish(MeshSurface(dense), params_.tighten ? &enclosed : nullptr, faces[i]));
+      params_.memory = memory.without(ground_.bytes() + bytes_of(levels));
+      levels.push_back(next_level(levels.back(), faces[i], error_share));
     }
     return levels;
   }
@@ -279,6 +283,26 @@ class LevelMaker {
     drop_crumbs(*start.mesh);
     start.surface = std::make_unique<MeshSurface>(*start.mesh);
     return start;
+  }
+
+  /// A level around `before`, or within it.
+  LatticeMesh next_level(const LatticeMesh& before, std::uint64_t faces, double error_share) {
+    const double voxel = level_voxel(before, header_.frame.voxel, faces, error_share);
+    if (!inside()) {
+      const auto around = make_shelf_();
+      const GridFrame frame = voxels_around(before, voxel, make_shelf_, params_.memory, *around);
+      return finish_around(before, ShelfSurface(*around, frame), faces);
+    }
+    LatticeMesh dense = surface_within(before, voxel, make_shelf_, params_.memory);
+    drop_small_parts(dense, params_.least_part);  // a level may fall into parts
+    return finish_around(before, MeshSurface(dense), faces);
+  }
+
+  LatticeMesh finish_around(const LatticeMesh& before, const SurfaceSource& dense, std::uint64_t faces) {
+    if (!params_.tighten) return finish(dense, nullptr, faces);
+    const EnclosedTriangles enclosed(drawable_world_triangles(before), dense.frame());
+    params_.memory = params_.memory.without(enclosed.bytes());
+    return finish(dense, &enclosed, faces);
   }
 
   /// Levels of detail that do not enclose: each of the same fine surface.

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/geometry/surface_distance.h"
 #include "lib/meshing/quads.h"
 
 namespace bp {
 
 namespace {
+
+constexpr double kPlace = 0.5;  // of the error, at least of a voxel
+constexpr std::size_t kPlaces = std::size_t(1) << 17;
 
 /// Lattice units cubed in a cubed scene unit, times six.
 double volume6_per_world(const GridFrame& frame) {
@@ -70,7 +72,8 @@ double volume_world(const LatticeMesh& mesh) {
 }
 
 ProxyLimits::ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed)
-    : bounds_(bounds), frame_(frame), enclosed_(enclosed) {
+    : bounds_(bounds), frame_(frame) {
+  if (bounds.error_world > 0) enclosed_.emplace(*enclosed, kPlace * std::max(bounds.error_world, frame.voxel), kPlaces);
   constexpr double kMost = 0x1p120;  // int128 holds it, and no grid reaches it
   limit6_ = int128(std::clamp(bounds.volume_world * volume6_per_world(frame_), -kMost, kMost));
 }
@@ -94,30 +97,19 @@ bool ProxyLimits::near_enough(std::span<const LatticeTriangle> before, std::span
   double limit = bounds_.error_world;
   bool widened = false;
   for (std::size_t i = 0; i < after.size(); ++i) {
-    std::uint32_t& guess = guess_at(after[i][1]);
-    if (surely_within(world(after[i]), *enclosed_, limit, guess)) continue;
+    if (enclosed_->holds(world(after[i]), limit)) continue;
     if (widened) return false;
     widened = true;
     double was = 0;
     for (const LatticeTriangle& t : before) {
-      for (const LatticeCoord& p : t) {
-        const TriangleBvh::Nearest found = enclosed_->nearest(frame_.world(p), guess_at(p));
-        guess_at(p) = found.item;
-        was = std::max(was, found.distance_squared);
-      }
+      for (const LatticeCoord& p : t) was = std::max(was, enclosed_->distance(frame_.world(p)));
     }
-    if (std::sqrt(was) <= limit) return false;
-    limit = std::sqrt(was);
+    if (was <= limit) return false;
+    limit = was;
     --i;  // once more
   }
   beyond_ = beyond_ || widened;
   return true;
-}
-
-std::uint32_t& ProxyLimits::guess_at(const LatticeCoord& p) {
-  const auto mixed = std::uint64_t(p.x) * 0x9e3779b97f4a7c15u + std::uint64_t(p.y) * 0xc2b2ae3d27d4eb4fu +
-                     std::uint64_t(p.z) * 0x165667b19e3779f9u;
-  return guesses_[(mixed ^ (mixed >> 32)) % guesses_.size()];
 }
 
 TriangleD ProxyLimits::world(const LatticeTriangle& t) const {

@@ -1,6 +1,8 @@
 #pragma once
+#include <optional>
+
 #include "lib/core/predicates.h"
-#include "lib/geometry/triangle_bvh.h"
+#include "lib/geometry/near_surface.h"
 #include "lib/meshing/lattice_mesh.h"
 #include "lib/meshing/step_limits.h"
 
@@ -29,15 +31,12 @@ class ProxyLimits final : public StepLimits {
 
  private:
   [[nodiscard]] bool near_enough(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after);
-  /// Where searches near a vertex start: what was found near it last, or near another one that shares the place.
-  [[nodiscard]] std::uint32_t& guess_at(const LatticeCoord& p);
   [[nodiscard]] TriangleD world(const LatticeTriangle& t) const;
 
   ProxyBounds bounds_;
   GridFrame frame_;
-  const TriangleBvh* enclosed_;
-  std::vector<std::uint32_t> guesses_ = std::vector<std::uint32_t>(1 << 14);
-  int128 volume6_ = 0, limit6_ = 0;  // six times the volume, lattice units cubed
+  std::optional<NearSurface> enclosed_;  // with an error bound
+  int128 volume6_ = 0, limit6_ = 0;      // six times the volume, lattice units cubed
   bool relaxed_ = false;
   bool beyond_ = false;  // faces beyond the error were allowed because they replaced others as far
   const char* last_refusal_ = "";

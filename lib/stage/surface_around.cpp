@@ -1,13 +1,12 @@
 #include "lib/stage/surface_around.h"
 
-#include <atomic>
-#include <mutex>
-#include <unordered_map>
-
 #include "lib/core/error.h"
+#include "lib/core/memory_chunk_store.h"
+#include "lib/grid/shelf_stream.h"
 #include "lib/meshing/quads.h"
 #include "lib/meshing/repair.h"
 #include "lib/meshing/surface.h"
+#include "lib/meshing/surface_tree.h"
 #include "lib/stage/complement.h"
 #include "lib/stage/voxelize_stage.h"
 
@@ -18,6 +17,7 @@ namespace {
 class MeshSource final : public TriangleSource {
  public:
   explicit MeshSource(const LatticeMesh& mesh) : triangles_(drawable_world_triangles(mesh)) {}
+  [[nodiscard]] std::uint64_t bytes() const { return 2 * triangles_.size() * sizeof(TriangleD); }  // as read, too
   bool read(std::vector<TriangleD>& out) override {
     out.clear();
     if (counts_.triangles > 0) return false;
@@ -33,48 +33,6 @@ class MeshSource final : public TriangleSource {
   std::vector<TriangleD> triangles_;
   SceneCounts counts_;
 };
-
-class ShelfSink final : public BrickSink {
- public:
-  explicit ShelfSink(BrickShelf& shelf) : shelf_(shelf) {}
-  void write(const Brick& brick) override { shelf_.put(brick.coord, brick.fill, brick.bits); }
-  void finish() override {}
-
- private:
-  BrickShelf& shelf_;
-};
-
-/// What is about a mesh that is in memory has its place there, too.
-class KeepingStore final : public ChunkStore {
- public:
-  Handle put(std::span<const std::byte> bytes) override {
-    const std::lock_guard lock(mutex_);
-    chunks_[next_].assign(bytes.begin(), bytes.end());
-    bytes_ += bytes.size();
-    return next_++;
-  }
-  void get(Handle handle, std::vector<std::byte>& out) const override {
-    const std::lock_guard lock(mutex_);
-    out = chunks_.at(handle);
-  }
-  void drop(Handle handle) override {
-    const std::lock_guard lock(mutex_);
-    bytes_ -= chunks_.at(handle).size();
-    chunks_.erase(handle);
-  }
-  [[nodiscard]] std::uint64_t scratch_bytes() const override { return 0; }
-  [[nodiscard]] std::uint64_t memory_bytes() const override { return bytes_; }
-
- private:
-  mutable std::mutex mutex_;
-  std::unordered_map<Handle, std::vector<std::byte>> chunks_;
-  Handle next_ = 0;
-  std::atomic<std::uint64_t> bytes_ = 0;
-};
-
-}  // namespace
-
-namespace {
 
 std::vector<TriangleD> in_world(const LatticeMesh& mesh, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   std::vector<TriangleD> out;
@@ -100,16 +58,19 @@ namespace {
 
 /// Voxels of a mesh, as bpvox would find them; returns their frame.
 GridFrame voxelize_mesh(const LatticeMesh& mesh, double voxel, FillMode fill, const ShelfFactory& make_shelf,
-                        BrickShelf& shelf) {
+                        const PieceMemory& memory, BrickShelf& shelf) {
   MeshSource source(mesh);
-  ShelfSink sink(shelf);
+  ShelfSink sink(&shelf);
   VoxelizeOptions options;
   options.voxel_size = [voxel](const Bounds3d&) { return voxel; };
   options.fill = fill;
   options.up = mesh.frame.up;
-  options.memory_bytes = UINT64_MAX / 8;
+  const PieceMemory left = memory.without(source.bytes());
+  options.memory_bytes = left.waiting_bytes;
+  options.tile_memory_bytes = left.work_bytes;
   options.make_shelf = make_shelf;
-  options.make_store = [] { return std::make_unique<KeepingStore>(); };
+  options.make_store = memory.make_store;
+  if (!options.make_store) options.make_store = [] { return std::make_unique<MemoryChunkStore>(); };
   GridFrame frame;
   const auto open = [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
     frame = header.frame;
@@ -132,28 +93,27 @@ void take_away(const BrickShelf& less, BrickShelf& from) {
 
 }  // namespace
 
-LatticeMesh surface_around(const LatticeMesh& inner, double voxel, const ShelfFactory& make_shelf) {
-  const auto shelf = make_shelf();
-  const GridFrame frame = voxelize_mesh(inner, voxel, FillMode::flood, make_shelf, *shelf);
-  repair_contacts(*shelf);
-  LatticeMesh surface = dense_surface(*shelf, frame);
-  surface.provenance = inner.provenance;
-  return surface;
+GridFrame voxels_around(const LatticeMesh& inner, double voxel, const ShelfFactory& make_shelf,
+                        const PieceMemory& memory, BrickShelf& around) {
+  const GridFrame frame = voxelize_mesh(inner, voxel, FillMode::flood, make_shelf, memory, around);
+  repair_contacts(around);
+  return frame;
 }
 
-LatticeMesh surface_within(const LatticeMesh& outer, double voxel, const ShelfFactory& make_shelf) {
+LatticeMesh surface_within(const LatticeMesh& outer, double voxel, const ShelfFactory& make_shelf,
+                           const PieceMemory& memory) {
   const auto shelf = make_shelf(), around = make_shelf();
   // Not what may be drawn: what lies between the diagonals of a quad is inside by some choices only. And not what a
   // flood cannot reach: a cavity is outside.
   const LatticeMesh innermost = innermost_choice(outer);
-  const GridFrame frame = voxelize_mesh(innermost, voxel, FillMode::winding, make_shelf, *shelf);
+  const GridFrame frame = voxelize_mesh(innermost, voxel, FillMode::winding, make_shelf, memory, *shelf);
   const auto touched = make_shelf();
-  voxelize_mesh(innermost, voxel, FillMode::none, make_shelf, *touched);
+  voxelize_mesh(innermost, voxel, FillMode::none, make_shelf, memory, *touched);
   take_away(*touched, *shelf);
+  check_work(count_faces(ShelfSurface(*shelf, frame)), memory);
   LatticeMesh surface = inward_surface(*shelf, frame, make_shelf, *around);
   if (surface.triangles.empty())
     fail(ErrorCode::failed, "no voxel lies inside a level of {} faces; use smaller voxels", outer.triangles.size());
-  surface.provenance = outer.provenance;
   return surface;
 }
 

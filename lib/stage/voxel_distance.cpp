@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lib/core/parallel.h"
-#include "lib/geometry/surface_distance.h"
+#include "lib/geometry/near_surface.h"
 
 namespace bp {
 
@@ -14,6 +14,7 @@ const double kSegmentToPoint = std::sqrt(1.5);  // from a point of the segment t
 const double kPointToSegment = std::sqrt(0.5);
 constexpr double kTolerance = 0.5;  // of the search, in voxels
 constexpr std::int64_t kGrain = 256;
+constexpr std::size_t kPlaces = 512;  // of a grain
 
 /// Largest distance of a point of `from` to `to` that is known without a search: of the middles.
 double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh& to) {
@@ -37,8 +38,8 @@ double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh
 std::vector<TriangleD> farther_than(double limit, const std::vector<TriangleD>& from, const TriangleBvh& to) {
   std::vector<char> far(from.size());
   parallel_chunks(std::int64_t(from.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
-    std::uint32_t guess = 0;
-    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) far[i] = !surely_within(from[i], to, limit, guess);
+    NearSurface near(to, limit / 2, kPlaces);
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) far[i] = !near.holds(from[i], limit);
   });
   std::vector<TriangleD> left;
   for (std::size_t i = 0; i < from.size(); ++i)

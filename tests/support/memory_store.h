@@ -1,38 +1,27 @@
 #pragma once
-#include <map>
-#include <mutex>
+#include <atomic>
 
-#include "lib/core/chunk_store.h"
+#include "lib/core/memory_chunk_store.h"
 
 namespace bp::test {
 
-/// A store that just keeps everything. Counts the bytes that it was given and those that it holds.
-class MemoryStore final : public ChunkStore {
+/// Counts the bytes that it was given and those that it holds.
+class MemoryStore final : public MemoryChunkStore {
  public:
   MemoryStore(std::uint64_t& put, std::uint64_t& held) : put_(put), held_(held) {}
   Handle put(std::span<const std::byte> bytes) override {
-    const std::lock_guard lock(mutex_);
-    put_ += bytes.size();
-    held_ += bytes.size();
-    chunks_[next_].assign(bytes.begin(), bytes.end());
-    return next_++;
-  }
-  void get(Handle handle, std::vector<std::byte>& out) const override {
-    const std::lock_guard lock(mutex_);
-    out = chunks_.at(handle);
+    std::atomic_ref(put_) += bytes.size();
+    const Handle handle = MemoryChunkStore::put(bytes);
+    held_of_now();
+    return handle;
   }
   void drop(Handle handle) override {
-    const std::lock_guard lock(mutex_);
-    held_ -= chunks_.at(handle).size();
-    chunks_.erase(handle);
+    MemoryChunkStore::drop(handle);
+    held_of_now();
   }
-  [[nodiscard]] std::uint64_t memory_bytes() const override { return held_; }
-  [[nodiscard]] std::uint64_t scratch_bytes() const override { return 0; }
 
  private:
-  mutable std::mutex mutex_;
-  std::map<Handle, std::vector<std::byte>> chunks_;
-  Handle next_ = 0;
+  void held_of_now() { std::atomic_ref(held_).store(memory_bytes()); }
   std::uint64_t &put_, &held_;
 };
 

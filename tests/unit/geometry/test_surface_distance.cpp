@@ -1,40 +1,10 @@
-#include <random>
-
 #include "lib/core/parallel.h"
 #include "lib/geometry/surface_distance.h"
 #include "tests/catch.h"
+#include "tests/support/triangle_samples.h"
 
 using namespace bp;
-
-namespace {
-
-std::vector<TriangleD> random_triangles(unsigned seed, int n, double size) {
-  std::mt19937 random{seed};
-  std::uniform_real_distribution<double> at(0, 1), by(-size, size);
-  std::vector<TriangleD> all;
-  for (int i = 0; i < n; ++i) {
-    const Vec3d c{at(random), at(random), at(random)};
-    TriangleD t;
-    for (Vec3d& p : t) p = {c[0] + by(random), c[1] + by(random), c[2] + by(random)};
-    all.push_back(t);
-  }
-  return all;
-}
-
-/// Largest distance over a grid of points of t.
-double sampled(const TriangleD& t, const TriangleBvh& to, int n) {
-  double largest = 0;
-  for (int i = 0; i <= n; ++i) {
-    for (int j = 0; i + j <= n; ++j) {
-      Vec3d p;
-      for (std::size_t k = 0; k < 3; ++k) p[k] = (i * t[0][k] + j * t[1][k] + (n - i - j) * t[2][k]) / n;
-      largest = std::max(largest, to.nearest(p).distance_squared);
-    }
-  }
-  return std::sqrt(largest);
-}
-
-}  // namespace
+using namespace bp::test;
 
 TEST_CASE("the distance between two squares, one above the other and twice as large, is known", "[quick][check]") {
   const auto square = [](double half, double z) {
@@ -109,21 +79,4 @@ TEST_CASE("the largest distance lies between its bounds, for any number of threa
   const SurfaceDistance again = surface_distance(from, tree);
   CHECK(again.mean == d.mean);
   CHECK(again.at_most == d.at_most);
-}
-
-TEST_CASE("a triangle is surely within a limit only if all of its points are", "[quick][check]") {
-  const TriangleBvh tree(random_triangles(5, 40, 0.3));
-  int yes = 0, no = 0;
-  for (const TriangleD& t : random_triangles(6, 200, 0.4)) {
-    const double largest = sampled(t, tree, 24);
-    for (const double factor : {0.5, 0.9, 1.1, 1.5}) {
-      std::uint32_t guess = 39;
-      const bool within = surely_within(t, tree, largest * factor, guess);
-      if (factor < 1) CHECK_FALSE(within);
-      if (factor > 1.2) CHECK(within);
-      (within ? yes : no) += 1;
-    }
-  }
-  CHECK(yes > 200);
-  CHECK(no >= 400);
 }

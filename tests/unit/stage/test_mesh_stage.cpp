@@ -8,6 +8,7 @@
 #include "lib/stage/surface_around.h"
 #include "tests/catch.h"
 #include "tests/support/memory_scene.h"
+#include "tests/support/memory_store.h"
 #include "tests/support/proxy_checks.h"
 #include "tests/support/voxel_source.h"
 
@@ -312,9 +313,29 @@ TEST_CASE("the surface around a mesh strictly encloses it, whatever the voxels",
   params.faces = {120};
   MeshCounts counts;
   const LatticeMesh inner = mesh(params, counts)[0];
-  const LatticeMesh around = surface_around(inner, GENERATE(0.7, 1.0, 3.3), memory_shelves());
+  const auto shelf = memory_shelves()();
+  const GridFrame frame = voxels_around(inner, GENERATE(0.7, 1.0, 3.3), memory_shelves(), {}, *shelf);
+  const LatticeMesh around = dense_surface(*shelf, frame);
   const std::vector<TriangleD> triangles = world_triangles(inner);
   check(around, &triangles);
+}
+
+TEST_CASE("a chain of levels is the same for every memory, and what waits goes to the store", "[quick][stage]") {
+  MeshParams params;
+  params.faces = {400, 200, 60};
+  MeshCounts counts;
+  const std::vector<LatticeMesh> roomy = mesh(params, counts);
+  std::uint64_t put = 0, held = 0;
+  params.memory.waiting_bytes = 0;
+  params.memory.work_bytes = std::uint64_t(32) << 20;
+  params.memory.make_store = [&] { return std::make_unique<MemoryStore>(put, held); };
+  const std::vector<LatticeMesh> tight = mesh(params, counts);
+  CHECK(put > 0);
+  REQUIRE(tight.size() == roomy.size());
+  for (std::size_t i = 0; i < roomy.size(); ++i) {
+    CHECK(tight[i].vertices == roomy[i].vertices);
+    CHECK(tight[i].triangles == roomy[i].triangles);
+  }
 }
 
 TEST_CASE("a proxy inside lies in the voxels that are meshed, and each level in the one before", "[quick][stage]") {
