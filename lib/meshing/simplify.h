@@ -30,8 +30,8 @@ struct SimplifyParams {
   /// A collapse need neither grow the solid nor keep anything inside: it takes the least error, and stays embedded.
   bool free = false;
   /// The most that one collapse may add to the volume, as a multiple of the volume at the beginning over the faces that
-  /// are left; 0: no limit. Quadrics do not mind how far out planes meet: where nothing else is left to collapse, spikes
-  /// would grow. Not for collapses in cells, which do not know the volume.
+  /// are left; 0: no limit. Quadrics do not mind how far out planes meet: where nothing else is left to collapse,
+  /// spikes would grow. Not for collapses in cells, which do not know the volume.
   double most_growth = 0;
   StepLimits* limits = nullptr;  ///< if given, every collapse keeps them
   PieceMemory memory;            ///< of a surface that is simplified by cells; does not change the result
