@@ -138,8 +138,11 @@ void OutputFile::open_partial() {
 
 /// The lock goes last: what still has the name is not to be taken over.
 OutputFile::~OutputFile() {
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  partial_ = PartialOutput();
+  if (!temporary_.empty()) {
+    const WhileMaking making;  // what has this name next is another's
+    ::unlink(temporary_.c_str());
+    partial_ = PartialOutput();
+  }
   if (fd_ >= 0) ::close(fd_);
 }
 

@@ -1,3 +1,4 @@
+#include <set>
 #include <unordered_map>
 
 #include "io/detail/gltf_document.h"
@@ -37,6 +38,7 @@ class SceneBuilder {
   [[nodiscard]] std::vector<std::uint64_t> scene_roots() const;
   void add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world);
   std::uint64_t level_of(std::uint64_t i);
+  [[nodiscard]] std::set<std::uint64_t> coarser_nodes() const;
   void add_mesh_node(const GltfObject& node, const Affine& transform);
   Range mesh(std::uint64_t i);
   void add_primitive(const GltfObject& p);
@@ -93,7 +95,10 @@ std::vector<std::uint64_t> SceneBuilder::scene_roots() const {
 // Depth first, without recursion: a chain of nodes may be as long as the file.
 void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world) {
   std::vector<Pending> stack;
-  for (std::size_t i = roots.size(); i-- > 0;) stack.push_back({roots[i], world});
+  const std::set<std::uint64_t> coarser = level_ > 0 ? coarser_nodes() : std::set<std::uint64_t>{};
+  for (std::size_t i = roots.size(); i-- > 0;) {
+    if (!coarser.contains(roots[i])) stack.push_back({roots[i], world});
+  }
   while (!stack.empty()) {
     Pending next = stack.back();
     stack.pop_back();
@@ -108,14 +113,24 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
   }
 }
 
+// Nodes that stand for others at coarser levels: where a scene lists them, too, they are not drawn beside these.
+std::set<std::uint64_t> SceneBuilder::coarser_nodes() const {
+  std::set<std::uint64_t> nodes;
+  for (std::size_t i = 0; i < root_.array("nodes").size(); ++i) {
+    const GltfObject node = root_.item("nodes", i);
+    if (!node.has("extensions") || !node.object("extensions").has("MSFT_lod")) continue;
+    const GltfObject lod = node.object("extensions").object("MSFT_lod");
+    for (std::size_t k = 0; k < lod.array("ids").size(); ++k) nodes.insert(lod.index("ids", k));
+  }
+  return nodes;
+}
+
 // The node that stands for node i at the level asked for: its last one, if it has fewer.
 std::uint64_t SceneBuilder::level_of(std::uint64_t i) {
   const GltfObject node = root_.item("nodes", i);
   if (!node.has("extensions") || !node.object("extensions").has("MSFT_lod")) return i;
   const GltfObject lod = node.object("extensions").object("MSFT_lod");
-  constexpr std::size_t kMost = 64;  // each of them is read by itself
   const std::size_t coarser = lod.array("ids").size();
-  if (coarser >= kMost) node.broken(fmt::format("has {} levels (MSFT_lod), and {} are read", coarser + 1, kMost));
   scene_.levels = std::max(scene_.levels, 1 + coarser);
   return level_ == 0 || coarser == 0 ? i : lod.index("ids", std::min(level_, coarser) - 1);
 }

@@ -356,6 +356,8 @@ std::vector<IndexedMesh> read_levels(const std::string& path, const SceneOptions
   for (one.level = 0; one.level < count; ++one.level) {
     const RawSourcePtr raw = open_raw(file, path, one);
     count = raw->levels();
+    constexpr std::size_t kMost = 64;  // each of them is read by itself
+    if (count > kMost) fail(ErrorCode::bad_input, "{}: {} levels, and at most {} are read", path, count, kMost);
     SceneCounts ignored;
     levels.push_back(mesh_of(*raw, ignored));
   }

@@ -189,6 +189,7 @@ bp::Json json_of(const bp::LevelCounts& c) {
                     {{"link", s.refused_link},
                      {"constraints", s.refused_constraints},
                      {"shape", s.refused_shape},
+                     {"growth", s.refused_growth},
                      {"length", s.refused_length},
                      {"guard", s.refused_guard},
                      {"limits", s.refused_limits},
@@ -274,14 +275,14 @@ void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts&
     const bp::SimplifyCounts& s = c.levels[i].simplify;
     const std::string which = level_text(c, i);
     if (s.stop == bp::StopReason::nothing_left && i < o.faces.size() && s.faces_out > o.faces[i]) {
-      note(
-          report, o,
-          fmt::format(
-              "{}{} faces instead of {}: no further edge can be merged. Parts and handles are kept, here {} and "
-              "{}; a larger --scale joins parts and closes holes (tries refused: {} by topology, {} by "
-              "enclosure, {} by shape, {} by length, {} by intersection)",
-              which, s.faces_out, o.faces[i], c.levels[i].measures.shells, c.levels[i].measures.handles, s.refused_link,
-              s.refused_constraints + s.refused_enclosed, s.refused_shape, s.refused_length, s.refused_guard));
+      note(report, o,
+           fmt::format(
+               "{}{} faces instead of {}: no further edge can be merged. Parts and handles are kept, here {} and "
+               "{}; a larger --scale joins parts and closes holes (tries refused: {} by topology, {} by "
+               "enclosure, {} by shape, {} by growth, {} by length, {} by intersection)",
+               which, s.faces_out, o.faces[i], c.levels[i].measures.shells, c.levels[i].measures.handles,
+               s.refused_link, s.refused_constraints + s.refused_enclosed, s.refused_shape, s.refused_growth,
+               s.refused_length, s.refused_guard));
     }
     note_bounds(report, o, c, i, error_world);
   }

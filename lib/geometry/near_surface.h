@@ -11,7 +11,7 @@ class NearSurface {
  public:
   /// Keeps a reference to `to`, which must not be empty. `place`: edge of the cubes that share what is kept, scene
   /// units: half of the limits that are asked about serves well, or half of a triangle of `to`, if these are larger.
-  /// `places`: how many are kept, 40 bytes each.
+  /// `places`: how many are kept, 32 bytes each.
   NearSurface(const TriangleBvh& to, double place, std::size_t places);
 
   /// Distance from p to the surface; where that is at most `enough`, anything from it to `enough`.

@@ -298,7 +298,7 @@ bool Collapser::outside_all(const LatticeCoord& p) const {
 bool Collapser::acceptable(const LatticeCoord& p, double cost) {
   if (!room_.holds_inside(origin_ + p)) return refuse(Refusal::length);
   if (!shape_is_fine(p)) return refuse(Refusal::shape);
-  if (volume6_ > 0 && !adds_little(p)) return refuse(Refusal::shape);
+  if (volume6_ > 0 && !adds_little(p)) return refuse(Refusal::growth);
   if (params_.edge_limit && !edges_are_short(p)) return refuse(Refusal::length);
   if (too_far(cost)) return refuse(Refusal::error);
   return true;

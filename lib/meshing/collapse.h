@@ -13,7 +13,7 @@
 namespace bp {
 
 /// What an edge collapse failed by, in the order of the tests.
-enum class Refusal : std::uint8_t { none, link, constraints, shape, length, enclosed, guard, limits, error };
+enum class Refusal : std::uint8_t { none, link, constraints, shape, growth, length, enclosed, guard, limits, error };
 
 /// A collapse that passed every test but the guard.
 struct Candidate {

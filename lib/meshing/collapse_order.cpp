@@ -26,7 +26,7 @@ class Bulk {
   /// Returns the number of collapses.
   std::uint64_t sweep(double bound, std::uint64_t enough) {
     ++sweep_;
-    least_left_ = kNever;
+    some_wait_ = false;
     std::uint64_t taken = 0;
     std::size_t kept = 0;
     for (const FaceId f : faces_) {
@@ -39,8 +39,8 @@ class Bulk {
     return taken;
   }
 
-  /// Of the last sweep, if it took nothing: below this bound, sweeps take nothing either. kNever: under no bound.
-  [[nodiscard]] float least_left() const { return least_left_; }
+  /// Of the last sweep, if it took nothing: false if no larger bound lets a sweep take anything.
+  [[nodiscard]] bool some_wait() const { return some_wait_; }
 
  private:
   bool try_edge(HalfEdgeId h, double bound) {
@@ -67,7 +67,7 @@ class Bulk {
 
   /// For a larger bound.
   bool wait(HalfEdgeId h) {
-    least_left_ = std::min(least_left_, worth_[h]);
+    some_wait_ |= worth_[h] != kNever;
     return false;
   }
 
@@ -92,7 +92,7 @@ class Bulk {
   std::vector<float> worth_;              // per edge: below this bound no try is worth it
   std::vector<std::uint32_t> merged_in_;  // per vertex: sweep
   std::uint32_t sweep_ = 0;
-  float least_left_ = kNever;
+  bool some_wait_ = false;  // for a larger bound
 };
 
 struct Entry {
@@ -132,6 +132,7 @@ class Strict {
     counts.refused_link = n[std::size_t(Refusal::link)];
     counts.refused_constraints = n[std::size_t(Refusal::constraints)];
     counts.refused_shape = n[std::size_t(Refusal::shape)];
+    counts.refused_growth = n[std::size_t(Refusal::growth)];
     counts.refused_length = n[std::size_t(Refusal::length)];
     counts.refused_enclosed = n[std::size_t(Refusal::enclosed)];
     counts.refused_guard = n[std::size_t(Refusal::guard)];
@@ -195,7 +196,7 @@ void collapse_bulk(Collapser& collapser, BulkRange range, std::uint64_t enough) 
   const HalfEdgeMesh& mesh = collapser.mesh();
   for (double bound = range.first; mesh.face_count() > enough && bound <= range.last;) {
     const std::uint64_t taken = bulk.sweep(bound, enough);
-    if (taken == 0 && bulk.least_left() == kNever) return;
+    if (taken == 0 && !bulk.some_wait()) return;
     if (taken * 20 < mesh.face_count()) bound *= 4;
   }
 }

@@ -31,7 +31,8 @@ class Enclosed {
   [[nodiscard]] virtual std::vector<Vec3d> contact_points(const LatticeCoord& origin) const = 0;
   /// Memory of this, and of its contact points while a proxy is tightened; about.
   [[nodiscard]] virtual std::uint64_t bytes() const = 0;
-  static constexpr std::uint64_t kBytesPerContactPoint = 48;  ///< the point, its place in the list of a face
+  static constexpr std::uint64_t kBytesPerContactPoint =
+      112;  ///< the point, its place in the list of a face, its row in joint_fit.h
 };
 
 }  // namespace bp

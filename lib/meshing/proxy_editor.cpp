@@ -11,16 +11,19 @@ namespace bp {
 
 namespace {
 
-constexpr double kOverhang = 0.1;  // of the star's longest side: how far beyond its box an apex may go
+constexpr double kOverhang = 0.1;  // of the star's middle side: how far beyond its box an apex may go
 
-/// A fin has next to no volume and well-shaped faces: what betrays it is an apex far from all that was there.
+/// A fin has next to no volume and well-shaped faces: what betrays it is an apex far from all that was there. Along the
+/// edge of a plate stars are long, and what is far there is told by how thick they are.
 bool sticks_out(const LatticeCoord& apex, const LatticeBox& star) {
-  double side = 0, over = 0;
+  std::array<double, 3> sides{};
+  double over = 0;
   for (int i = 0; i < 3; ++i) {
-    side = std::max(side, double(star.max[i] - star.min[i]));
+    sides[std::size_t(i)] = double(star.max[i] - star.min[i]);
     over = std::max({over, double(apex[i] - star.max[i]), double(star.min[i] - apex[i])});
   }
-  return over > kOverhang * side;
+  std::sort(sides.begin(), sides.end());
+  return over > kOverhang * sides[1];
 }
 
 }  // namespace

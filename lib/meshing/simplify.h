@@ -45,9 +45,10 @@ enum class StopReason { faces, error, limits, edge_length, nothing_left };
 struct SimplifyCounts {
   std::uint64_t faces_in = 0, faces_flat = 0, faces_out = 0;  ///< given, after merging flat regions, left
   std::uint64_t collapses = 0, solved = 0;                    ///< taken; quadratic programs solved
-  /// Edges of the result that were tried and cannot be merged as it is, by the test that the best try failed.
-  std::uint64_t refused_link = 0, refused_constraints = 0, refused_shape = 0, refused_length = 0, refused_enclosed = 0,
-                refused_guard = 0, refused_limits = 0, refused_error = 0;
+  /// In strict order: edges of the result that were tried and cannot be merged as it is, by the test that the best try
+  /// failed. By volume (thin.h): tries refused, an edge's several included.
+  std::uint64_t refused_link = 0, refused_constraints = 0, refused_shape = 0, refused_growth = 0, refused_length = 0,
+                refused_enclosed = 0, refused_guard = 0, refused_limits = 0, refused_error = 0;
   StopReason stop = StopReason::nothing_left;
   std::string limit;                     ///< if the limits stopped it: the one that refused last
   void add(const SimplifyCounts& next);  ///< of a run that took over where this one ended

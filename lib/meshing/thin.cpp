@@ -111,8 +111,15 @@ class Thinner {
   }
 
   bool try_at(HalfEdgeId h, const LatticeCoord& p, const Vec3d& x) {
+    const EditCounts before = editor_.counts();
     const bool taken = editor_.collapse(h, p + rounded(x));
+    const EditCounts& after = editor_.counts();
     counts_.collapses += taken;
+    counts_.refused_shape += after.refused_shape - before.refused_shape;
+    counts_.refused_enclosed += after.refused_enclosed - before.refused_enclosed;
+    counts_.refused_guard += after.refused_guard - before.refused_guard;
+    counts_.refused_length += after.refused_length - before.refused_length;
+    counts_.refused_limits += after.refused_limits - before.refused_limits;
     return taken;
   }
 
@@ -190,7 +197,6 @@ class Thinner {
 void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle, SimplifyCounts& counts) {
   counts = {};
   counts.faces_in = counts.faces_flat = editor.mesh().face_count();
-  const EditCounts before = editor.counts();
   Thinner thinner(editor, counts);
   const double begin = double(counts.faces_in), share = double(faces) / begin;
   for (int stage = 1; stage <= kStages; ++stage) {
@@ -199,12 +205,7 @@ void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>&
     counts.stop = thinner.run(stage == kStages ? faces : std::uint64_t(wanted));
     if (stage < kStages) settle();
   }
-  counts.refused_shape = editor.counts().refused_shape - before.refused_shape;
-  counts.refused_constraints += editor.counts().refused_enclosed - before.refused_enclosed;
-  counts.refused_guard = editor.counts().refused_guard - before.refused_guard;
-  counts.refused_length = editor.counts().refused_length - before.refused_length;
   if (counts.stop == StopReason::nothing_left && counts.refused_length > 0) counts.stop = StopReason::edge_length;
-  counts.refused_limits = editor.counts().refused_limits - before.refused_limits;
   counts.faces_out = editor.mesh().face_count();
 }
 

@@ -75,8 +75,15 @@ void tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyP
   simplify_late(proxy, &enclosed, params, std::uint64_t(factor * double(params.faces)), simplified);
 }
 
-/// Tight faces jam in a few places where growing goes on: the way there by growing alone, if it leads further; where it
-/// does not lead to the end, both faces and volume count, or spikes would be paid for a few faces less.
+/// Faces and volume, or a volume inside that is lost, where a target is out of reach: a few faces less are not worth
+/// spikes.
+double price(const LatticeMesh& mesh, const TightenCounts& counts) {
+  const double faces = double(mesh.triangles.size()), volume = counts.volume_after;
+  return volume > 0 ? faces * volume : faces / std::max(-volume, 1.0);
+}
+
+/// Tight faces jam in a few places where growing goes on: the way there by growing alone, if it leads further, and to
+/// the end or for a lower price.
 void try_growing(const LatticeMesh& grown, LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
                  SimplifyCounts& simplified, TightenCounts& tightened, SimplifyCounts simplified_again) {
   LatticeMesh other = grown;
@@ -84,9 +91,6 @@ void try_growing(const LatticeMesh& grown, LatticeMesh& proxy, const Enclosed& e
   if (other.triangles.size() >= proxy.triangles.size()) return;
   TightenCounts tightened_again;
   finish(other, enclosed, params, simplified_again, tightened_again);
-  const auto price = [](const LatticeMesh& mesh, const TightenCounts& counts) {
-    return double(mesh.triangles.size()) * std::abs(counts.volume_after);
-  };
   if (other.triangles.size() > params.faces && price(other, tightened_again) > price(proxy, tightened)) return;
   proxy = std::move(other);
   simplified = simplified_again;

@@ -245,7 +245,7 @@ class LevelMaker {
 
   std::vector<LatticeMesh> run(const Shelves& shelves) {
     const std::vector<std::uint64_t> faces = params_.faces.empty() ? std::vector<std::uint64_t>{0} : params_.faces;
-    const Start start = make_start(shelves);
+    Start start = make_start(shelves);
     bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
     ground_ = make_ground(shelves, params_, start, make_shelf_);
     const PieceMemory memory = params_.memory;
@@ -256,6 +256,7 @@ class LevelMaker {
     if (fit) return fits(*start.surface, faces);
     std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed.get(), faces[0])};
     ground_.enclosed.reset();
+    start = {};
     for (std::size_t i = 1; i < faces.size(); ++i) {
       bounds_.error_world = error_share * double(i + 1);
       params_.memory = memory.without(ground_.bytes() + bytes_of(levels));

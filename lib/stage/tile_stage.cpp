@@ -168,7 +168,7 @@ class Maker {
                                  ? params_.faces
                                  : std::max(solid_faces / TileParams::kDenseFacesPerFace, TileParams::kLeastFaces);
       mesh.faces = {measures.faces_asked};
-      if (params_.faces == 0 && params_.mode == MeshMode::bounding)
+      if (params_.faces == 0 && params_.mode == MeshMode::bounding && solid_faces <= TileParams::kMostFacesForError)
         mesh.error_world = TileParams::kErrorVox * level_.header.frame.voxel;
     }
     if (params_.mode == MeshMode::fit) {

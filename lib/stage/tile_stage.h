@@ -43,8 +43,11 @@ struct TileParams {
 
   static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastFaces = 60;  ///< of a tile without a budget
   /// A bounding tile without a budget keeps more faces where these would take it farther from what it encloses: thin
-  /// parts that lie apart in one tile have few faces of their voxels' surface, and none to spare.
+  /// parts that lie apart in one tile have few faces of their voxels' surface, and none to spare. Only where the
+  /// surface is small enough to be whole in memory (16 MiB): a limit on distances wants that, and larger ones have
+  /// many.
   static constexpr double kErrorVox = 8;
+  static constexpr std::uint64_t kMostFacesForError = std::uint64_t(1) << 16;
 };
 
 struct TileMeasures {

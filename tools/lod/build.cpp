@@ -163,10 +163,14 @@ LodLevel Build::make_level(LodChain& chain, std::size_t i, std::size_t since, do
                      level.mesh.triangles.size(), target.faces, level.scale_world));
   }
   if (target.error_world > 0 && level.error_world > target.error_world) {
-    note(fmt::format("level {}: its error is at most {:.4g} instead of {:.4g}: narrow gaps of the scene are closed", i,
-                     level.error_world, target.error_world));
+    note(error_note(i, level.error_world, target.error_world));
   }
   return level;
+}
+
+std::string error_note(std::size_t level, double error_world, double asked_world) {
+  return fmt::format("level {}: its error is at most {:.4g} instead of {:.4g}: narrow gaps of the scene are closed",
+                     level, error_world, asked_world);
 }
 
 void Build::note(const std::string& text) {

@@ -35,6 +35,9 @@ struct FoundJobs {
   std::uint64_t jobs = 0, kept = 0;
 };
 
+/// What is said of a level whose error exceeds the one asked for; scene units.
+[[nodiscard]] std::string error_note(std::size_t level, double error_world, double asked_world);
+
 class Build {
  public:
   explicit Build(const BuildOptions& options);

@@ -118,7 +118,7 @@ BuildOptions parse_build_options(Args& args) {
   args.option("--levels", "N", o.request.levels, "number of levels (default: as many as are listed, or 4)");
   args.option(
       "--faces", "N[,N...]", [&o](const std::string& text) { o.request.faces = parse_faces(text); },
-      "triangles of each level, finest first; one number: each further level has a quarter");
+      "triangles of each level, finest first; one number: each further one of --levels has a quarter");
   args.option(
       "--error", "LENGTH[,...]", [&o](const std::string& text) { o.request.errors = parse_errors(text); },
       "largest distance between scene and level, finest first; one: each further level has twice that");
@@ -133,7 +133,7 @@ BuildOptions parse_build_options(Args& args) {
               "3dtiles: voxels along the side of a tile; a level that is larger is cut into tiles of its own");
   args.option("--cache", "DIR", o.cache,
               "3dtiles: keep the results of all jobs in DIR, and take from there what has not changed");
-  args.flag("--resume", o.resume, "3dtiles: keep what is done in OUTPUT.partial, and go on from there after a kill");
+  args.flag("--resume", o.resume, "3dtiles: keep what is done in OUTPUT/.partial, and go on from there after a kill");
   args.option(
       "--tiles", "A..B", [&o](const std::string& text) { o.tiles = parse_job_range(text); },
       "3dtiles: fill --cache with the tiles of these numbers, before B, and write no tileset");

@@ -221,6 +221,8 @@ class TilesetBuild {
           fmt::format("level {}: {} of {} tiles have more faces than were asked for: no further edge can be "
                       "merged at a scale of {:.4g}",
                       number, level.over_faces, level.row.tiles, level.row.scale_world));
+    const double asked = plan_.cut[number].target.error_world;
+    if (asked > 0 && level.row.error_world > asked) build_.note(error_note(number, level.row.error_world, asked));
   }
 
   [[nodiscard]] TileParams tile_params(const LodTarget& target, const GridFrame& frame,

@@ -18,6 +18,9 @@ done
 "$BP_ROOT/samples/nightly" scenes out "${options[@]}" | table
 "$BP_ROOT/samples/nightly" scenes out --faces 60,20 --resolution 24 | table
 LC_ALL=C ls -A out out/a.obj
+for options in "--profile collision --faces 60" "--mode fit --faces 60" "--mode fit --profile 3dtiles --faces 60"; do
+  "$BP_ROOT/samples/nightly" scenes out $options --resolution 24 | table
+done
 try "$BP_ROOT/samples/nightly" nowhere out | sed "s|$BP_ROOT/||"
 if command -v parallel > /dev/null; then
   "$BP_ROOT/samples/nightly-parallel" scenes parallel --faces 60,20 --resolution 24 2> /dev/null | table > table

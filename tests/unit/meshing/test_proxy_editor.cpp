@@ -59,3 +59,16 @@ TEST_CASE("a cavity that passes through itself is filled, and one that does not 
   editor.erase_inner_shells();
   CHECK(mesh.face_count() == (through ? 12 : 16));
 }
+
+TEST_CASE("no fin grows at the end of a beam: how far is far is told by its width", "[quick][meshing]") {
+  LatticeMesh proxy = box_around_block();
+  const LatticeCoord corner{40 * kVoxel, 8 * kVoxel, 108 * kVoxel};
+  add_box(proxy, {{0, 0, 100 * kVoxel}, corner});
+  HalfEdgeMesh mesh(proxy);
+  ProxyEditor editor(mesh, block(), {}, nullptr);
+  VertexId v = 0;
+  while (mesh.position(v) != corner) ++v;
+  CHECK_FALSE(editor.move(v, corner + LatticeCoord{0, 0, 3 * kVoxel}));
+  CHECK(editor.counts().refused_shape == 1);
+  CHECK(editor.move(v, corner + LatticeCoord{0, 0, kVoxel / 2}));
+}
