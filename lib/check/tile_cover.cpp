@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <memory>
@@ -34,36 +35,82 @@ Side side_of(const TriangleD& t, const Vec3d& p) {
   return {std::abs(value), 16 * 0x1p-53 * permanent};
 }
 
+/// The hull of boxes, relative to a corner of the cell.
+using Hull = std::vector<Bounds3d>;
+
 /// Bounds of where segment pq, which meets triangle t, crosses the plane of t: by the ratio of the distances of its
-/// ends.
-void add_crossing(const Vec3d& p, const Vec3d& q, const TriangleD& t, Bounds3d& bounds) {
+/// ends. All of pq if it lies in the plane.
+void add_crossing(const Vec3d& p, const Vec3d& q, const TriangleD& t, const Vec3d& corner, Hull& hull) {
   const Side a = side_of(t, p), b = side_of(t, q);
   const double a_lo = std::max(a.value - a.error, 0.0), a_hi = a.value + a.error;
   const double b_lo = std::max(b.value - b.error, 0.0), b_hi = b.value + b.error;
   const double lo = a_lo + b_hi > 0 ? a_lo / (a_lo + b_hi) * (1 - 1e-15) : 0;
   const double hi = a_hi + b_lo > 0 ? std::min(a_hi / (a_hi + b_lo) * (1 + 1e-15), 1.0) : 1;
   for (const double s : {lo, hi}) {
-    Vec3d low, high;
+    Bounds3d& box = hull.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) {
-      const double x = p[i] + s * (q[i] - p[i]), error = 0x1p-50 * (std::abs(p[i]) + std::abs(q[i]));
-      low[i] = x - error, high[i] = x + error;
+      const double x = p[i] + s * (q[i] - p[i]) - corner[i], error = 0x1p-50 * (std::abs(p[i]) + std::abs(q[i]));
+      box.min[i] = x - error, box.max[i] = x + error;
     }
-    bounds.add(low), bounds.add(high);
   }
 }
 
-void add_crossings(const TriangleD& a, const TriangleD& b, Bounds3d& bounds) {
+void add_crossings(const TriangleD& a, const TriangleD& b, const Vec3d& corner, Hull& hull) {
   for (std::size_t e = 0; e < 3; ++e) {
-    if (segment_meets_triangle(a[e], a[(e + 1) % 3], b.data())) add_crossing(a[e], a[(e + 1) % 3], b, bounds);
+    if (segment_meets_triangle(a[e], a[(e + 1) % 3], b.data())) {
+      add_crossing(a[e], a[(e + 1) % 3], b, corner, hull);
+    }
   }
 }
 
-/// Bounds of what two triangles have in common: the hull of where edges of one meet the other.
-Bounds3d common_bounds(const TriangleD& a, const TriangleD& b) {
-  Bounds3d bounds;
-  add_crossings(a, b, bounds);
-  add_crossings(b, a, bounds);
-  return bounds;
+/// The least and the largest value of x·a on a box, or a bit beyond.
+std::array<double, 2> extent(const Bounds3d& box, const Vec3d& a) {
+  double lo = 0, hi = 0, sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double x = box.min[i] * a[i], y = box.max[i] * a[i];
+    lo += std::min(x, y), hi += std::max(x, y);
+    sum += std::abs(x) + std::abs(y);
+  }
+  return {lo - 0x1p-50 * sum, hi + 0x1p-50 * sum};
+}
+
+bool separated(const Hull& hull, const Bounds3d& box, const Vec3d& axis) {
+  const auto [lo, hi] = extent(box, axis);
+  bool below = true, above = true;
+  for (const Bounds3d& part : hull) {
+    const auto [a, b] = extent(part, axis);
+    below = below && b < lo, above = above && a > hi;
+  }
+  return below || above;
+}
+
+/// True unless an axis surely tells the hull from the box. There is one for every segment that misses the box: an axis
+/// of the box, or one across the segment and an axis of the box.
+bool may_meet(const Hull& hull, const Bounds3d& box) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec3d axis{};
+    axis[i] = 1;
+    if (separated(hull, box, axis)) return false;
+    for (const Bounds3d& p : hull) {
+      for (const Bounds3d& q : hull) {
+        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        Vec3d across{};
+        across[j] = p.min[k] - q.min[k], across[k] = q.min[j] - p.min[j];
+        if (separated(hull, box, across)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// True unless what two triangles have in common, the hull of where edges of one meet the other, surely misses the box.
+bool may_meet_within(const TriangleD& a, const TriangleD& b, const Bounds3d& box) {
+  Hull hull;
+  add_crossings(a, b, box.min, hull);
+  add_crossings(b, a, box.min, hull);
+  Bounds3d here;
+  for (std::size_t i = 0; i < 3; ++i) here.min[i] = 0, here.max[i] = (box.max[i] - box.min[i]) * (1 + 0x1p-50);
+  return may_meet(hull, here);
 }
 
 double edge_of(const Bounds3d& box) {
@@ -310,7 +357,7 @@ class Checker {
       reach.max[i] = std::min(reach.max[i], box.max[i]);
     }
     return body.surface->bvh().visit(reach, [&](const TriangleBvh::Item& face) {
-      return triangles_intersect(t.data(), face.corners.data()) && overlap(common_bounds(t, face.corners), box);
+      return triangles_intersect(t.data(), face.corners.data()) && may_meet_within(t, face.corners, box);
     });
   }
 

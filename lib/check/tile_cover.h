@@ -18,8 +18,8 @@
 /// A tile without a cell answers for all of space; one without content draws nothing, and must have children.
 ///
 /// Decided exactly or on the safe side: cells are grown by 1e-9 of their edge, and t is cut by them in doubles, whose
-/// errors are far smaller; where t meets a face, bounds of the common points (exact predicates say which edges meet
-/// which triangle, intervals where) must leave the grown cell. So "holds" is a proof, and a tile is blamed unjustly
+/// errors are far smaller; where t meets a face, bounds of the common segment (exact predicates say which edges meet
+/// which triangle, intervals where) must miss the grown cell. So "holds" is a proof, and a tile is blamed unjustly
 /// only if a triangle and a face nearly coincide where the cell ends.
 namespace bp {
 

@@ -124,6 +124,24 @@ TEST_CASE("a face that meets a triangle beyond the cell does no harm, a near one
   CHECK(findings(tiles, scene).empty() == (wall > 8));
 }
 
+TEST_CASE("a face that meets a triangle beyond an edge of the cell does no harm", "[quick][check][tileset]") {
+  std::vector<MeshTile> tiles = good();
+  tiles[0].content.reset();
+  tiles[0].children = {1, 2, 3, 4};
+  tiles[2].content = box_mesh({7.5, 1, 1}, {15, 8.5, 4});
+  tiles.push_back({"root.2", "c", box_mesh({1, 7.5, 1}, {8.5, 15, 4}), bounds({0, 8, 0}, {8, 16, 8}), {}});
+  tiles.push_back({"root.3", "d", box_mesh({7.5, 7.5, 1}, {15, 15, 4}), bounds({8, 8, 0}, {16, 16, 8}), {}});
+  const Triangles floor{{Vec3d{2, 2, 2.5}, Vec3d{14, 2, 2.5}, Vec3d{2, 14, 2.5}},
+                        {Vec3d{14, 14, 2.5}, Vec3d{14, 2, 2.5}, Vec3d{2, 14, 2.5}}};
+  const double beyond = GENERATE(0.4, 0.001, -0.001);
+  // Ends at the plane x + y = 16 + beyond: the bounds of its section with the floor hold the cell's edge.
+  IndexedMesh& a = *(tiles[1].content = box_mesh({1, 1, 1}, {9, 7 + beyond, 4}));
+  for (Vec3d& p : a.vertices) {
+    if (p[1] > 1 && p[0] == 1) p[1] = 15 + beyond;
+  }
+  CHECK(findings(tiles, floor).empty() == (beyond > 0));
+}
+
 TEST_CASE("missing and misplaced tiles are found", "[quick][check][tileset]") {
   std::vector<MeshTile> tiles = good();
   tiles[0].children = {1};
