@@ -14,7 +14,9 @@ namespace {
 constexpr double kLeastTurn = 0.1;  // cosine between a face's normal before and after
 constexpr int kShares = 4;          // places tried between the free minimum and the growing one
 
-std::vector<Quadric> face_quadrics(const HalfEdgeMesh& mesh) {
+}  // namespace
+
+std::vector<Quadric> quadrics_of(const HalfEdgeMesh& mesh) {
   std::vector<Quadric> quadrics(mesh.vertex_capacity());
   for (FaceId f = 0; f < mesh.face_capacity(); ++f) {
     if (!mesh.alive(f)) continue;
@@ -27,8 +29,6 @@ std::vector<Quadric> face_quadrics(const HalfEdgeMesh& mesh) {
   return quadrics;
 }
 
-}  // namespace
-
 Collapser::Collapser(HalfEdgeMesh& mesh, std::vector<Quadric> quadrics, const SimplifyParams& params,
                      SimplifyCounts& counts)
     : mesh_(mesh),
@@ -37,11 +37,14 @@ Collapser::Collapser(HalfEdgeMesh& mesh, std::vector<Quadric> quadrics, const Si
       tree_(mesh),
       guard_(mesh, tree_),
       room_(mesh.room()),
-      quadric_(quadrics.empty() ? face_quadrics(mesh) : std::move(quadrics)),
+      quadric_(quadrics.empty() ? quadrics_of(mesh) : std::move(quadrics)),
       only_grows_(params.dense && !params.free && params.enclosed == nullptr && params.limits == nullptr) {
   if (!only_grows_) sense_.emplace(mesh);
-  if (params.most_growth > 0 && mesh.cell().min == kEverywhere.min && mesh.face_count() > 0)
+  if (params.most_growth > 0 && params.whole.volume6 > 0) {
+    volume6_ = params.whole.volume6;
+  } else if (params.most_growth > 0 && mesh.cell().min == kEverywhere.min) {
     volume6_ = std::abs(double(mesh.volume6()));
+  }
 }
 
 /// Both quadrics, about the position of from(h).
@@ -327,7 +330,8 @@ bool Collapser::shape_is_fine(const LatticeCoord& p) const {
 bool Collapser::adds_little(const LatticeCoord& p) const {
   double gain6 = 0;
   for (const StarFace& f : star_) gain6 += dot(to_double(f.normal), to_double(p - f.apex));
-  return gain6 * double(mesh_.face_count()) <= params_.most_growth * volume6_;
+  const std::uint64_t faces = mesh_.face_count() + params_.whole.faces_elsewhere;
+  return gain6 * double(faces) <= params_.most_growth * volume6_;
 }
 
 bool Collapser::edges_are_short(const LatticeCoord& p) const {

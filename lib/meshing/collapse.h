@@ -22,6 +22,9 @@ struct Candidate {
   int attempt = 0;  ///< which of the places to try it is
 };
 
+/// Per vertex and about it: the planes of its faces, weighted by their areas.
+[[nodiscard]] std::vector<Quadric> quadrics_of(const HalfEdgeMesh& mesh);
+
 class Collapser {
  public:
   /// Keeps references. `quadrics` per vertex, about its position; empty: of the faces as they are. Vertices on the
@@ -30,6 +33,7 @@ class Collapser {
   Collapser(HalfEdgeMesh& mesh, std::vector<Quadric> quadrics, const SimplifyParams& params, SimplifyCounts& counts);
 
   [[nodiscard]] HalfEdgeMesh& mesh() { return mesh_; }
+  [[nodiscard]] const HalfEdgeMesh& mesh() const { return mesh_; }
   [[nodiscard]] const SimplifyParams& params() const { return params_; }
   [[nodiscard]] const Quadric& quadric(VertexId v) const { return quadric_[v]; }
   /// Which shells have turned; null while collapses only grow the solid: they leave none that has.

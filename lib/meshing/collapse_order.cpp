@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <queue>
 
 namespace bp {
 
@@ -95,100 +94,6 @@ class Bulk {
   bool some_wait_ = false;  // for a larger bound
 };
 
-struct Entry {
-  double cost;  // of the constrained minimum, or a lower bound of it
-  HalfEdgeId edge;
-  std::uint32_t serial;
-  bool operator<(const Entry& o) const { return cost != o.cost ? cost > o.cost : edge > o.edge; }  // least first
-};
-
-class Strict {
- public:
-  explicit Strict(Collapser& collapser)
-      : collapser_(collapser),
-        mesh_(collapser.mesh()),
-        serial_(3 * mesh_.face_capacity(), 0),
-        refusal_(3 * mesh_.face_capacity(), Refusal::none) {}
-
-  StopReason run() {
-    const std::uint64_t enough = collapser_.params().faces;
-    for (HalfEdgeId h = 0; h < serial_.size(); ++h) {
-      if (is_edge(h)) push(h);
-    }
-    while (mesh_.face_count() > enough) {
-      if (heap_.empty()) return reason_to_end();
-      const Entry top = heap_.top();
-      heap_.pop();
-      if (is_edge(top.edge) && serial_[top.edge] == top.serial) try_entry(top);
-    }
-    return StopReason::faces;
-  }
-
-  void count(SimplifyCounts& counts) const {
-    std::uint64_t n[std::size_t(Refusal::error) + 1] = {};
-    for (HalfEdgeId h = 0; h < refusal_.size(); ++h) {
-      if (is_edge(h)) ++n[std::size_t(refusal_[h])];
-    }
-    counts.refused_link = n[std::size_t(Refusal::link)];
-    counts.refused_constraints = n[std::size_t(Refusal::constraints)];
-    counts.refused_shape = n[std::size_t(Refusal::shape)];
-    counts.refused_growth = n[std::size_t(Refusal::growth)];
-    counts.refused_length = n[std::size_t(Refusal::length)];
-    counts.refused_enclosed = n[std::size_t(Refusal::enclosed)];
-    counts.refused_guard = n[std::size_t(Refusal::guard)];
-    counts.refused_limits = n[std::size_t(Refusal::limits)];
-    counts.refused_error = n[std::size_t(Refusal::error)];
-  }
-
- private:
-  [[nodiscard]] bool is_edge(HalfEdgeId h) const { return mesh_.alive(HalfEdgeMesh::face(h)) && mesh_.edge(h) == h; }
-
-  void push(HalfEdgeId h) {
-    const HalfEdgeId e = mesh_.edge(h);
-    refusal_[e] = Refusal::none;
-    heap_.push({collapser_.lower_bound(e), e, ++serial_[e]});
-  }
-
-  void try_entry(const Entry& top) {
-    const std::optional<Candidate> candidate = collapser_.solve(top.edge);
-    if (candidate && candidate->cost > top.cost && !heap_.empty() && candidate->cost > heap_.top().cost) {
-      heap_.push({candidate->cost, top.edge, top.serial});  // not the best after all
-      return;
-    }
-    const VertexId u = mesh_.from(top.edge);
-    if (collapser_.take(top.edge, candidate)) {
-      if (mesh_.vertex_alive(u)) renew_around(u);
-    } else {
-      refusal_[top.edge] = collapser_.refusal();
-    }
-  }
-
-  /// New entries for the edges at u, and another chance for refused edges one step further out.
-  void renew_around(VertexId u) {
-    mesh_.for_each_outgoing(u, [&](HalfEdgeId g) {
-      push(g);
-      mesh_.for_each_outgoing(mesh_.to(g), [&](HalfEdgeId k) {
-        if (refusal_[mesh_.edge(k)] != Refusal::none) push(k);
-      });
-    });
-  }
-
-  [[nodiscard]] StopReason reason_to_end() const {
-    SimplifyCounts counts;
-    count(counts);
-    return counts.refused_error > 0    ? StopReason::error
-           : counts.refused_limits > 0 ? StopReason::limits
-           : counts.refused_length > 0 ? StopReason::edge_length
-                                       : StopReason::nothing_left;
-  }
-
-  Collapser& collapser_;
-  HalfEdgeMesh& mesh_;
-  std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
-  std::vector<Refusal> refusal_;       // per half-edge: why its edge must wait until its neighbourhood changes
-  std::priority_queue<Entry> heap_;
-};
-
 }  // namespace
 
 void collapse_bulk(Collapser& collapser, BulkRange range, std::uint64_t enough) {
@@ -201,11 +106,80 @@ void collapse_bulk(Collapser& collapser, BulkRange range, std::uint64_t enough) 
   }
 }
 
-StopReason collapse_strict(Collapser& collapser, SimplifyCounts& counts) {
-  Strict strict(collapser);
-  const StopReason reason = strict.run();
-  strict.count(counts);
-  return reason;
+StrictOrder::StrictOrder(Collapser& collapser)
+    : collapser_(collapser),
+      mesh_(collapser.mesh()),
+      serial_(3 * mesh_.face_capacity(), 0),
+      refusal_(3 * mesh_.face_capacity(), Refusal::none) {
+  for (HalfEdgeId h = 0; h < serial_.size(); ++h) {
+    if (is_edge(h)) push(h);
+  }
+}
+
+void StrictOrder::add_costs(std::vector<double>& costs) const {
+  for (const CostEntry& entry : queue_.entries()) costs.push_back(entry.cost);
+}
+
+bool StrictOrder::run(double most, std::uint64_t enough) {
+  while (mesh_.face_count() > enough) {
+    if (queue_.empty() || queue_.top().cost > most) return false;
+    const CostEntry top = queue_.top();
+    queue_.pop();
+    if (is_edge(top.edge) && serial_[top.edge] == top.serial) try_entry(top);
+  }
+  return true;
+}
+
+void StrictOrder::count(SimplifyCounts& counts) const {
+  std::uint64_t n[std::size_t(Refusal::error) + 1] = {};
+  for (HalfEdgeId h = 0; h < refusal_.size(); ++h) {
+    if (is_edge(h)) ++n[std::size_t(refusal_[h])];
+  }
+  counts.refused_link = n[std::size_t(Refusal::link)];
+  counts.refused_constraints = n[std::size_t(Refusal::constraints)];
+  counts.refused_shape = n[std::size_t(Refusal::shape)];
+  counts.refused_growth = n[std::size_t(Refusal::growth)];
+  counts.refused_length = n[std::size_t(Refusal::length)];
+  counts.refused_enclosed = n[std::size_t(Refusal::enclosed)];
+  counts.refused_guard = n[std::size_t(Refusal::guard)];
+  counts.refused_limits = n[std::size_t(Refusal::limits)];
+  counts.refused_error = n[std::size_t(Refusal::error)];
+  counts.stop = counts.refused_error > 0    ? StopReason::error
+                : counts.refused_limits > 0 ? StopReason::limits
+                : counts.refused_length > 0 ? StopReason::edge_length
+                                            : StopReason::nothing_left;
+}
+
+void StrictOrder::push(HalfEdgeId h) {
+  const HalfEdgeId e = mesh_.edge(h);
+  if (mesh_.locked(mesh_.from(e)) || mesh_.locked(mesh_.to(e))) return;
+  refusal_[e] = Refusal::none;
+  queue_.push({collapser_.lower_bound(e), e, ++serial_[e]});
+}
+
+void StrictOrder::try_entry(const CostEntry& top) {
+  const std::optional<Candidate> candidate = collapser_.solve(top.edge);
+  if (candidate && candidate->cost > top.cost && !queue_.empty() && candidate->cost > queue_.top().cost) {
+    queue_.push({candidate->cost, top.edge, top.serial});  // not the best after all
+    return;
+  }
+  const VertexId u = mesh_.from(top.edge);
+  if (collapser_.take(top.edge, candidate)) {
+    if (mesh_.vertex_alive(u)) renew_around(u);
+  } else {
+    refusal_[top.edge] = collapser_.refusal();
+  }
+}
+
+/// New entries for the edges at u, and another chance for refused edges one step further out.
+void StrictOrder::renew_around(VertexId u) {
+  mesh_.for_each_outgoing(u, [&](HalfEdgeId g) {
+    push(g);
+    if (mesh_.locked(mesh_.to(g))) return;
+    mesh_.for_each_outgoing(mesh_.to(g), [&](HalfEdgeId k) {
+      if (refusal_[mesh_.edge(k)] != Refusal::none) push(k);
+    });
+  });
 }
 
 }  // namespace bp

@@ -7,6 +7,16 @@
 
 namespace bp {
 
+namespace {
+
+/// What lies under faces along a cell's side may lie beyond it.
+LatticeBox grown(const LatticeBox& box, std::int64_t by) {
+  const LatticeCoord d{by, by, by};
+  return {box.min - d, box.max + d};
+}
+
+}  // namespace
+
 // Regions of the plane around the triangle, one corner or edge after the other ([Eri04] 5.1.5).
 double squared_distance(const Vec3d& p, const std::array<Vec3d, 3>& t) {
   const Vec3d ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
@@ -44,7 +54,7 @@ ContactPoints::ContactPoints(const Enclosed& enclosed, const HalfEdgeMesh& mesh,
     if (mesh.alive(f)) edges += length(to_double(mesh.corner(f, 1) - mesh.corner(f, 0)));
   }
   const double reach = edges / double(mesh.face_count());
-  points_ = enclosed.contact_points(origin_);
+  points_ = enclosed.contact_points(origin_, grown(mesh.cell(), std::int64_t(2 * reach) + 1));
   std::size_t kept = 0;
   for (const Vec3d& p : points_) {
     const FaceId f = nearest(p, tree, reach);
@@ -53,6 +63,7 @@ ContactPoints::ContactPoints(const Enclosed& enclosed, const HalfEdgeMesh& mesh,
     points_[kept++] = p;
   }
   points_.resize(kept);
+  points_.shrink_to_fit();
 }
 
 std::array<Vec3d, 3> ContactPoints::corners(FaceId f) const {

@@ -26,9 +26,10 @@ class Enclosed {
   /// `blocker`, if not null: what stood in the way.
   [[nodiscard]] virtual bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                                     Blocker* blocker = nullptr) const = 0;
-  /// Points of it that tell where a proxy must stay outside, relative to `origin`, lattice units; rounded. They guide
-  /// the search, allows() decides.
-  [[nodiscard]] virtual std::vector<Vec3d> contact_points(const LatticeCoord& origin) const = 0;
+  /// Points of it in the closed box `within` that tell where a proxy must stay outside, relative to `origin`, lattice
+  /// units; rounded. They guide the search, allows() decides.
+  [[nodiscard]] virtual std::vector<Vec3d> contact_points(const LatticeCoord& origin,
+                                                          const LatticeBox& within) const = 0;
   /// Memory of this, and of its contact points while a proxy is tightened; about.
   [[nodiscard]] virtual std::uint64_t bytes() const = 0;
   static constexpr std::uint64_t kBytesPerContactPoint =

@@ -262,16 +262,21 @@ std::uint64_t EnclosedTriangles::bytes() const {
   return triangles_.size() * (sizeof(TriangleD) + sizeof(EightTriangles) / 8 + kBytesInTree + kBytesPerContactPoint);
 }
 
-std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin) const {
+std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin, const LatticeBox& within) const {
   std::vector<Vec3d> points;
-  points.reserve(3 * triangles_.size());
-  for (const TriangleD& t : triangles_) add_samples(t, frame_.voxel, points);
+  tree_.query(within, [&](std::uint32_t i) {
+    add_samples(triangles_[i], frame_.voxel, points);
+    return true;
+  });
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  for (Vec3d& p : points) {
-    const Vec3d v = frame_.to_voxels(p);
-    for (std::size_t i = 0; i < 3; ++i) p[i] = v[i] * kLatticePerVoxel - double(origin[int(i)]);
+  std::size_t kept = 0;
+  for (const Vec3d& p : points) {
+    const Vec3d v = kLatticePerVoxel * frame_.to_voxels(p);
+    const LatticeCoord near = rounded(v);
+    if (within.meets({near, near})) points[kept++] = v - to_double(origin);
   }
+  points.resize(kept);
   return points;
 }
 

@@ -313,11 +313,12 @@ std::uint64_t EnclosedVoxels::bytes() const {
          points_.capacity() * sizeof(VoxelCoord) + points_.size() * kBytesPerContactPoint;
 }
 
-std::vector<Vec3d> EnclosedVoxels::contact_points(const LatticeCoord& origin) const {
+std::vector<Vec3d> EnclosedVoxels::contact_points(const LatticeCoord& origin, const LatticeBox& within) const {
   std::vector<Vec3d> points;
-  points.reserve(points_.size());
-  for (const VoxelCoord& c : points_)
-    points.push_back(to_double(LatticeCoord{c.x, c.y, c.z} * kLatticePerVoxel - origin));
+  for (const VoxelCoord& c : points_) {
+    const LatticeCoord p = LatticeCoord{c.x, c.y, c.z} * kLatticePerVoxel;
+    if (within.meets({p, p})) points.push_back(to_double(p - origin));
+  }
   return points;
 }
 

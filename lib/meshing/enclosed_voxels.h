@@ -17,7 +17,7 @@ class EnclosedVoxels : public Enclosed {
   explicit EnclosedVoxels(const BrickShelf& shelf);
   [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                             Blocker* blocker) const override;
-  [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin) const override;
+  [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override;
   [[nodiscard]] std::uint64_t bytes() const override;
 
  private:

@@ -14,7 +14,8 @@ HalfEdgeMesh::HalfEdgeMesh(std::vector<LatticeCoord> vertices, std::span<const T
       twin_(3 * triangles.size(), kNoId),
       locked_(position_.size(), 0),
       face_count_(triangles.size()),
-      cell_(cell) {
+      cell_(cell),
+      origin_(position_.empty() ? LatticeCoord{} : position_[0]) {
   for (std::size_t f = 0; f < triangles.size(); ++f) std::copy_n(triangles[f].begin(), 3, from_.begin() + 3 * f);
   check_span();
   connect();
@@ -95,13 +96,9 @@ int HalfEdgeMesh::valence(VertexId v) const {
 }
 
 int128 HalfEdgeMesh::volume6() const {
-  FaceId first = 0;
-  while (first < face_capacity() && !alive(first)) ++first;
-  if (first == face_capacity()) return 0;
-  const LatticeCoord& origin = corner(first, 0);
   int128 sum = 0;
-  for (FaceId f = first; f < face_capacity(); ++f) {
-    if (alive(f)) sum += orient3d_value(origin, corner(f, 0), corner(f, 1), corner(f, 2));
+  for (FaceId f = 0; f < face_capacity(); ++f) {
+    if (alive(f)) sum += orient3d_value(origin_, corner(f, 0), corner(f, 1), corner(f, 2));
   }
   return sum;
 }
@@ -147,7 +144,11 @@ void HalfEdgeMesh::collapse(HalfEdgeId h, const LatticeCoord& p) {
 }
 
 bool HalfEdgeMesh::can_flip(HalfEdgeId h) const {
+  if (twin(h) == kNoId) return false;
   const VertexId a = opposite(h), b = opposite(twin(h));
+  for (const VertexId v : {from(h), to(h), a, b}) {
+    if (locked(v)) return false;
+  }
   if (a == b || valence(from(h)) <= 3 || valence(to(h)) <= 3) return false;
   bool exists = false;
   for_each_outgoing(a, [&](HalfEdgeId g) { exists |= to(g) == b; });

@@ -62,6 +62,7 @@ class HalfEdgeMesh {
   /// stay below twice kMaxSpan.
   [[nodiscard]] LatticeBox room() const;
   [[nodiscard]] bool locked(VertexId v) const { return locked_[v] != 0; }
+  void lock(VertexId v) { locked_[v] = 1; }
 
   [[nodiscard]] const LatticeCoord& position(VertexId v) const { return position_[v]; }
   [[nodiscard]] const LatticeCoord& corner(FaceId f, int k) const { return position_[from_[3 * f + std::uint32_t(k)]]; }
@@ -80,7 +81,8 @@ class HalfEdgeMesh {
   }
   [[nodiscard]] int valence(VertexId v) const;
 
-  /// Six times the enclosed volume, lattice units cubed; exact. For a whole mesh with a live face. O(faces).
+  /// Six times the enclosed volume, lattice units cubed; exact. Of a cell's part, that of the cones from some fixed
+  /// point to its faces: changes in the cell change it by what they add. O(faces).
   [[nodiscard]] int128 volume6() const;
 
   /// The link condition: collapsing h leaves a closed 2-manifold of the same genus. False if an end is locked.
@@ -90,7 +92,7 @@ class HalfEdgeMesh {
   /// Removes a face; to be called for all faces of a connected part.
   void erase(FaceId f);
 
-  /// The edge between the two opposite corners does not exist yet.
+  /// The edge between the two opposite corners does not exist yet. False if one of the four corners is locked.
   [[nodiscard]] bool can_flip(HalfEdgeId h) const;
   /// Turns the edge inside its two faces; h becomes the new edge. Needs can_flip(h).
   void flip(HalfEdgeId h);
@@ -116,6 +118,7 @@ class HalfEdgeMesh {
   std::vector<char> locked_;  // per vertex
   std::size_t face_count_ = 0;
   LatticeBox cell_;
+  LatticeCoord origin_{};  // of the cones of volume6()
 };
 
 template <class Visit>

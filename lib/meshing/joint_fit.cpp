@@ -56,7 +56,7 @@ void JointFit::set_free_shifts(double reach) {
   reach_.assign(n, 0);
   softness_.assign(n, 0);
   for (VertexId v = 0; v < n; ++v) {
-    if (!mesh_.vertex_alive(v)) continue;
+    if (!mesh_.vertex_alive(v) || mesh_.locked(v)) continue;
     const LatticeCoord& p = mesh_.position(v);
     double spokes = 0;
     int count = 0;
@@ -75,12 +75,13 @@ void JointFit::set_free_shifts(double reach) {
 }
 
 JointFit::Facet JointFit::facet(FaceId f) const {
-  Facet facet{f, {}, {}, 0, 0};
+  Facet facet{f, {}, {}, 0, false, 0};
   for (std::size_t k = 0; k < 3; ++k) {
     const VertexId v = mesh_.from(3 * f + HalfEdgeId(k));
     facet.corners[k] = to_double(mesh_.position(v) - contacts_.origin());
     facet.softness[k] = softness_[v];
     facet.reach = std::max(facet.reach, reach_[v]);
+    facet.held = facet.held || mesh_.locked(v);
   }
   const auto& [a, b, c] = facet.corners;
   facet.area = length(cross(b - a, c - a));
@@ -101,7 +102,9 @@ void JointFit::add_rows_beside(const Facet& facet, const Vec3d& p) {
   const HalfEdgeId first = 3 * facet.id;
   for (std::size_t k = 0; k < 3; ++k) {
     if (!is_at(p - facet.corners[k], 1)) continue;
-    mesh_.for_each_outgoing(mesh_.from(first + HalfEdgeId(k)), [&](HalfEdgeId h) {
+    const VertexId v = mesh_.from(first + HalfEdgeId(k));
+    if (mesh_.locked(v)) return;
+    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
       if (HalfEdgeMesh::face(h) != facet.id) add_row(this->facet(HalfEdgeMesh::face(h)), p);
     });
     return;
@@ -109,8 +112,9 @@ void JointFit::add_rows_beside(const Facet& facet, const Vec3d& p) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3d& a = facet.corners[k];
     const Vec3d edge = facet.corners[(k + 1) % 3] - a;
-    if (is_at(cross(edge, p - a), dot(edge, edge)))
-      add_row(this->facet(HalfEdgeMesh::face(mesh_.twin(first + HalfEdgeId(k)))), p);
+    const HalfEdgeId beside = mesh_.twin(first + HalfEdgeId(k));
+    if (beside != kNoId && is_at(cross(edge, p - a), dot(edge, edge)))
+      add_row(this->facet(HalfEdgeMesh::face(beside)), p);
   }
 }
 
@@ -120,7 +124,9 @@ void JointFit::add_row(const Facet& facet, const Vec3d& p) {
   const std::array<Vec3d, 3> gradient = {cross(v, w), cross(w, u), cross(u, v)};
   const double height = dot(u, gradient[0]) / facet.area;
   if (height < -kDeepest || height > kLongest * facet.reach) return;
-  Row row{facet.id, {}, float(kMargin - height), 0, 0};
+  double least = kMargin - height;
+  if (facet.held) least = std::min(least, 0.0);  // near a corner that stays, others would have to go far for a margin
+  Row row{facet.id, {}, float(least), 0, 0};
   double give = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3d g = (1 / facet.area) * gradient[k];

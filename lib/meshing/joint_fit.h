@@ -12,7 +12,7 @@ namespace bp {
 
 class JointFit {
  public:
-  /// Keeps references.
+  /// Keeps references. Locked vertices stay where they are.
   JointFit(const HalfEdgeMesh& mesh, const ContactPoints& contacts) : mesh_(mesh), contacts_(contacts) {}
 
   /// For the mesh as it is: with nothing in its way a vertex would go `reach` times its mean spoke. Cost: linear in
@@ -38,6 +38,7 @@ class JointFit {
     std::array<Vec3d, 3> corners;
     std::array<double, 3> softness;
     double reach;  // of its corners, the largest
+    bool held;     // by a locked corner
     double area;   // twice
   };
   void set_free_shifts(double reach);

@@ -34,6 +34,7 @@ ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, EdgeLimit
       edge_limit_(std::move(edge_limit)),
       limits_(limits),
       inwards_(faces_inwards(mesh)),
+      room_(mesh.room()),
       tree_(mesh),
       guard_(mesh, tree_),
       sense_(mesh),
@@ -96,7 +97,7 @@ bool ProxyEditor::is_free(bool free) {
 }
 
 bool ProxyEditor::fan_is_fine(const LatticeCoord& apex) {
-  if (sticks_out(apex, star_)) {
+  if (sticks_out(apex, star_) || !room_.holds_inside(apex)) {
     ++counts_.refused_shape;
     return false;
   }
@@ -192,6 +193,10 @@ void ProxyEditor::learn(VertexId v, std::span<const Vec3d> points) {
   for (const Vec3d& p : points) contacts_.add(p + shift, around_);
 }
 
+void ProxyEditor::erase_turned_shells() {
+  bp::erase_turned_shells(mesh_, sense_);
+}
+
 void ProxyEditor::erase_inner_shells() {
   bp::erase_inner_shells(mesh_, inwards_, &sense_);
 }
@@ -204,7 +209,9 @@ void ProxyEditor::update_around(VertexId apex) {
     around_.push_back(HalfEdgeMesh::face(h));
   });
   mesh_.for_each_outgoing(apex, [&](HalfEdgeId h) {
-    const FaceId beyond = HalfEdgeMesh::face(mesh_.twin(HalfEdgeMesh::next(h)));
+    const HalfEdgeId across = mesh_.twin(HalfEdgeMesh::next(h));
+    if (across == kNoId) return;
+    const FaceId beyond = HalfEdgeMesh::face(across);
     if (std::find(around_.begin(), around_.end(), beyond) == around_.end()) around_.push_back(beyond);
   });
   contacts_.hand_over(replaced_, around_);

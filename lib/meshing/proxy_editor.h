@@ -17,7 +17,8 @@ struct EditCounts {
 
 class ProxyEditor {
  public:
-  /// `mesh`: closed, 2-manifold, embedded, enclosing; it and `enclosed` must outlive the editor.
+  /// `mesh`: closed, 2-manifold, embedded, enclosing, or a cell's part of such a mesh (regions.h); it and `enclosed`
+  /// must outlive the editor.
   /// `edge_limit`: kept by every edge that a change makes; may be empty.
   /// `limits`: if given, every change keeps them.
   ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, EdgeLimit edge_limit, StepLimits* limits);
@@ -38,8 +39,10 @@ class ProxyEditor {
   /// More contact points, relative to v, near its faces.
   void learn(VertexId v, std::span<const Vec3d> points);
 
+  /// Erases those that have turned. The last step: nothing may be changed after it.
+  void erase_turned_shells();
   /// Erases the shells that bound nothing (shells.h): a part over which another one has moved may have moved on,
-  /// through what only that one keeps inside. The last step: nothing may be changed after it.
+  /// through what only that one keeps inside. For a whole mesh. The last step.
   void erase_inner_shells();
   [[nodiscard]] const ShellSense& sense() const { return sense_; }  ///< of the changes so far
   /// Flipping a convex edge cuts a tetrahedron off the solid; flipping another adds one.
@@ -64,6 +67,7 @@ class ProxyEditor {
   EdgeLimit edge_limit_;
   StepLimits* limits_;
   const bool inwards_;
+  const LatticeBox room_;  // for new vertices
   FaceTree tree_;
   Guard guard_;
   ShellSense sense_;

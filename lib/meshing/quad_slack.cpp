@@ -40,8 +40,8 @@ class EnclosedByPairs final : public Enclosed {
     if (flip) return flips_ && enclosed_.allows(star, swept, blocker);
     return enclosed_.allows(star, swept, blocker) && across_allows(star[0].ids[0], star[0].corners[0], blocker);
   }
-  [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin) const override {
-    return enclosed_.contact_points(origin);
+  [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override {
+    return enclosed_.contact_points(origin, within);
   }
   [[nodiscard]] std::uint64_t bytes() const override { return enclosed_.bytes(); }
 

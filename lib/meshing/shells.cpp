@@ -112,8 +112,12 @@ int128 fan_gain6(const HalfEdgeMesh& mesh, std::span<const FaceId> replaced, con
   return sum;
 }
 
+std::uint64_t erase_turned_shells(HalfEdgeMesh& mesh, const ShellSense& sense) {
+  return erase_faces(mesh, [&](FaceId f) { return sense.has_turned(f); });
+}
+
 std::uint64_t erase_inner_shells(HalfEdgeMesh& mesh, bool inwards, const ShellSense* sense) {
-  const std::uint64_t turned = sense == nullptr ? 0 : erase_faces(mesh, [&](FaceId f) { return sense->has_turned(f); });
+  const std::uint64_t turned = sense == nullptr ? 0 : erase_turned_shells(mesh, *sense);
   const Numbered numbered(mesh);
   const FaceTree tree(mesh);
   std::vector<bool> inner(numbered.shells.size());

@@ -39,6 +39,9 @@ class ShellSense {
 /// What six times the volume gains where the faces `replaced` give way to a fan with the same rim around `apex`.
 [[nodiscard]] int128 fan_gain6(const HalfEdgeMesh& mesh, std::span<const FaceId> replaced, const LatticeCoord& apex);
 
+/// Erases the shells that have turned: they keep nothing inside any more, even if they have turned back.
+std::uint64_t erase_turned_shells(HalfEdgeMesh& mesh, const ShellSense& sense);
+
 /// Erases the shells that have turned, then those across which the winding number W does not change between 0 and 1:
 /// those left bound the same solid W >= 1 (docs/bounding.md, "Tightening" and "Simplification"). `inwards`:
 /// faces_inwards() of the mesh before it was changed; `sense`: of the mesh since then; null if only growing was

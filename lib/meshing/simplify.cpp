@@ -1,9 +1,13 @@
 #include "lib/meshing/simplify.h"
 
 #include <algorithm>
+#include <limits>
+#include <variant>
 
 #include "lib/meshing/collapse_order.h"
+#include "lib/meshing/collapse_regions.h"
 #include "lib/meshing/flatten.h"
+#include "lib/meshing/regions.h"
 #include "lib/meshing/shells.h"
 #include "lib/meshing/surface_tree.h"
 
@@ -40,8 +44,46 @@ std::uint64_t end_of_bulk(const SimplifyParams& params) {
   return params.strict_from > 0 ? std::max(params.strict_from, params.faces) : kBulkFactor * params.faces;
 }
 
-/// All of the surface, with quadrics or not, to the end.
-LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyParams& params, SimplifyCounts& counts) {
+LatticeMesh finished(HalfEdgeMesh& mesh, const GridFrame& frame, bool inwards, const ShellSense* sense,
+                     SimplifyCounts& counts) {
+  erase_inner_shells(mesh, inwards, sense);
+  counts.faces_out = mesh.face_count();
+  return mesh.compact(frame);
+}
+
+void collapse_strict(Collapser& collapser, SimplifyCounts& counts) {
+  StrictOrder order(collapser);
+  const bool enough = order.run(std::numeric_limits<double>::infinity(), collapser.params().faces);
+  order.count(counts);
+  if (enough) counts.stop = StopReason::faces;
+  if (counts.stop == StopReason::limits) counts.limit = collapser.params().limits->last_refusal();
+}
+
+/// The rest of it: what regions leave is tried as a whole.
+LatticeMesh simplify_regions(Piece whole, const GridFrame& frame, const SimplifyParams& params,
+                             SimplifyCounts& counts) {
+  const bool inwards = volume6(whole) < 0;
+  collapse_in_regions(whole, params, counts);
+  HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
+  counts.stop = StopReason::faces;
+  if (mesh.face_count() <= params.faces) return finished(mesh, frame, inwards, nullptr, counts);
+  Collapser collapser(mesh, std::move(whole.quadrics), params, counts);
+  collapse_strict(collapser, counts);
+  return finished(mesh, frame, inwards, collapser.sense(), counts);
+}
+
+Piece piece_of(const Collapser& collapser) {
+  Piece piece;
+  piece.triangles = collapser.mesh().live_faces([&](VertexId v, VertexId) {
+    piece.vertices.push_back(collapser.mesh().position(v));
+    piece.quadrics.push_back(collapser.quadric(v));
+  });
+  return piece;
+}
+
+/// A surface with quadrics or not, to the end; or, where that is worth regions, until they begin: what is left then.
+std::variant<LatticeMesh, Piece> simplify_mesh(Piece whole, const GridFrame& frame, const SimplifyParams& params,
+                                               SimplifyCounts& counts) {
   HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
   const bool inwards = faces_inwards(mesh);
   if (params.limits != nullptr) params.limits->begin(mesh.volume6());
@@ -51,11 +93,22 @@ LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyPa
   if (counts.faces_flat == 0) counts.faces_flat = mesh.face_count();
   Collapser collapser(mesh, std::move(whole.quadrics), params, counts);
   if (params.faces > 0 && params.dense) collapse_bulk(collapser, {kFirstBound, kLastBound}, end_of_bulk(params));
-  counts.stop = collapse_strict(collapser, counts);
-  if (counts.stop == StopReason::limits) counts.limit = params.limits->last_refusal();
-  erase_inner_shells(mesh, inwards, collapser.sense());
-  counts.faces_out = mesh.face_count();
-  return mesh.compact(frame);
+  if (params.faces > 0 && has_regions(mesh.face_count(), params)) {
+    if (collapser.sense() != nullptr) erase_turned_shells(mesh, *collapser.sense());
+    return piece_of(collapser);
+  }
+  collapse_strict(collapser, counts);
+  return finished(mesh, frame, inwards, collapser.sense(), counts);
+}
+
+/// All of the surface, with quadrics or not, to the end.
+LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyParams& params, SimplifyCounts& counts) {
+  if (params.dense || params.faces == 0 || !has_regions(whole.triangles.size(), params)) {
+    auto result = simplify_mesh(std::move(whole), frame, params, counts);
+    if (auto* mesh = std::get_if<LatticeMesh>(&result)) return std::move(*mesh);
+    whole = std::get<Piece>(std::move(result));
+  }
+  return simplify_regions(std::move(whole), frame, params, counts);
 }
 
 }  // namespace

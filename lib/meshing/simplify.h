@@ -31,10 +31,17 @@ struct SimplifyParams {
   bool free = false;
   /// The most that one collapse may add to the volume, as a multiple of the volume at the beginning over the faces that
   /// are left; 0: no limit. Quadrics do not mind how far out planes meet: where nothing else is left to collapse,
-  /// spikes would grow. Not for collapses in cells, which do not know the volume.
+  /// spikes would grow. Not for pieces of a dense surface, which do not know the volume.
   double most_growth = 0;
+  /// Of a region of a surface (regions.h): six times the volume of all of it, and its faces elsewhere.
+  struct Whole {
+    double volume6 = 0;
+    std::uint64_t faces_elsewhere = 0;
+  } whole;
   StepLimits* limits = nullptr;  ///< if given, every collapse keeps them
-  PieceMemory memory;            ///< of a surface that is simplified by cells; does not change the result
+  /// A surface of several times so many faces is cut into regions, which are worked on at the same time (regions.h).
+  std::uint64_t faces_per_region = 8192;
+  PieceMemory memory;  ///< of a surface that is simplified by cells; does not change the result
 };
 
 /// Why simplification ended: the target is reached, or no collapse is left that keeps the guarantee and, beside it, the

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
-#include <queue>
 
 #include "lib/core/vec3.h"
 #include "lib/meshing/fan_fit.h"
@@ -14,21 +14,14 @@ namespace {
 
 constexpr double kReach = 0.5;  // of the mean spoke: how far the merged vertex may leave the edge's middle
 constexpr int kAvoidRounds = 4;
-constexpr int kStages = 4;  // shares of the way, between which the mesh is tightened
-
-struct Entry {
-  double cost;  // volume added; an estimate where the neighbourhood changed since
-  HalfEdgeId edge;
-  std::uint32_t serial;
-  bool operator<(const Entry& o) const { return cost != o.cost ? cost > o.cost : edge > o.edge; }  // least first
-};
-
 struct Candidate {
   Vec3d offset;  // from the position of from(h)
   double cost;   // volume added
 };
 
-class Thinner {
+}  // namespace
+
+class ThinOrder::Thinner {
  public:
   Thinner(ProxyEditor& editor, SimplifyCounts& counts)
       : editor_(editor),
@@ -50,10 +43,13 @@ class Thinner {
     }
   }
 
-  StopReason run(std::uint64_t faces) {
-    while (mesh_.face_count() > faces) {
-      if (heap_.empty()) return StopReason::nothing_left;
-      const Entry top = heap_.top();
+  [[nodiscard]] const HalfEdgeMesh& mesh() const { return mesh_; }
+  [[nodiscard]] const CostQueue& queue() const { return heap_; }
+
+  bool run(double most, std::uint64_t enough) {
+    while (mesh_.face_count() > enough) {
+      if (heap_.empty() || heap_.top().cost > most) return false;
+      const CostEntry top = heap_.top();
       heap_.pop();
       const HalfEdgeId e = top.edge;
       if (!mesh_.alive(HalfEdgeMesh::face(e)) || mesh_.edge(e) != e || serial_[e] != top.serial) continue;
@@ -71,19 +67,20 @@ class Thinner {
       if (dearer > 0) enqueue({dearer, e, top.serial});
       if (dearer == 0) renew_around(u);
     }
-    return StopReason::faces;
+    return true;
   }
 
  private:
   void push(HalfEdgeId h) {
     const HalfEdgeId e = mesh_.edge(h);
+    if (mesh_.locked(mesh_.from(e)) || mesh_.locked(mesh_.to(e))) return;
     stale_[e] = 0;
     ++serial_[e];
     queued_[e] = 0;
     if (const auto c = solve(e)) enqueue({c->cost, e, serial_[e]});
   }
 
-  void enqueue(const Entry& entry) {
+  void enqueue(const CostEntry& entry) {
     heap_.push(entry);
     queued_[entry.edge] = 1;
   }
@@ -174,6 +171,7 @@ class Thinner {
   void renew_around(VertexId u) {
     mesh_.for_each_outgoing(u, [&](HalfEdgeId g) {
       push(g);
+      if (mesh_.locked(mesh_.to(g))) return;
       mesh_.for_each_outgoing(mesh_.to(g), [&](HalfEdgeId k) {
         if (mesh_.to(k) != u) stale_[mesh_.edge(k)] = 1;
       });
@@ -189,23 +187,47 @@ class Thinner {
   std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
   std::vector<char> stale_;            // its entry's cost is an estimate
   std::vector<char> queued_;           // it has a valid entry
-  std::priority_queue<Entry> heap_;
+  CostQueue heap_;
 };
 
-}  // namespace
+ThinOrder::ThinOrder(ProxyEditor& editor, SimplifyCounts& counts)
+    : thinner_(std::make_unique<Thinner>(editor, counts)) {}
+ThinOrder::~ThinOrder() = default;
+
+void ThinOrder::renew() {
+  thinner_->renew();
+}
+
+std::uint64_t ThinOrder::face_count() const {
+  return thinner_->mesh().face_count();
+}
+
+void ThinOrder::add_costs(std::vector<double>& costs) const {
+  for (const CostEntry& entry : thinner_->queue().entries()) costs.push_back(entry.cost);
+}
+
+bool ThinOrder::run(double most, std::uint64_t enough) {
+  return thinner_->run(most, enough);
+}
+
+std::uint64_t faces_after(int stage, std::uint64_t from, std::uint64_t to) {
+  if (stage == kThinStages) return to;
+  return std::uint64_t(double(from) * std::pow(double(to) / double(from), double(stage) / kThinStages));
+}
 
 void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle, SimplifyCounts& counts) {
   counts = {};
   counts.faces_in = counts.faces_flat = editor.mesh().face_count();
-  Thinner thinner(editor, counts);
-  const double begin = double(counts.faces_in), share = double(faces) / begin;
-  for (int stage = 1; stage <= kStages; ++stage) {
-    thinner.renew();
-    const double wanted = begin * std::pow(share, double(stage) / kStages);
-    counts.stop = thinner.run(stage == kStages ? faces : std::uint64_t(wanted));
-    if (stage < kStages) settle();
+  ThinOrder order(editor, counts);
+  bool enough = false;
+  for (int stage = 1; stage <= kThinStages; ++stage) {
+    order.renew();
+    enough = order.run(std::numeric_limits<double>::infinity(), faces_after(stage, counts.faces_in, faces));
+    if (stage < kThinStages) settle();
   }
-  if (counts.stop == StopReason::nothing_left && counts.refused_length > 0) counts.stop = StopReason::edge_length;
+  counts.stop = enough                      ? StopReason::faces
+                : counts.refused_length > 0 ? StopReason::edge_length
+                                            : StopReason::nothing_left;
   counts.faces_out = editor.mesh().face_count();
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 #include <functional>
+#include <memory>
 
+#include "lib/meshing/cost_order.h"
 #include "lib/meshing/proxy_editor.h"
 #include "lib/meshing/simplify.h"
 
@@ -8,9 +10,31 @@
 /// part of a simplification, when the proxy lies close to what it encloses: volume is then what a lost vertex costs.
 namespace bp {
 
+/// Collapses of the editor's mesh, cheapest first. Counts into `counts`. Deterministic. Cost: some ten fits and two
+/// exact tests a collapse.
+class ThinOrder : public CostOrder {
+ public:
+  ThinOrder(ProxyEditor& editor, SimplifyCounts& counts);
+  ~ThinOrder() override;
+  /// To be called at the beginning, and after other changes of the mesh: all vertices may have moved, and edges
+  /// flipped, so costs are estimates, and edges without one get another chance.
+  void renew();
+  [[nodiscard]] std::uint64_t face_count() const override;
+  void add_costs(std::vector<double>& costs) const override;
+  bool run(double most, std::uint64_t enough) override;
+
+ private:
+  class Thinner;
+  std::unique_ptr<Thinner> thinner_;
+};
+
+/// How many faces are to be left after stage 1, 2... kThinStages of the way from one number of faces to another: equal
+/// shares. Between stages the mesh is tightened, because what a collapse costs is known only of a tight proxy.
+constexpr int kThinStages = 4;
+[[nodiscard]] std::uint64_t faces_after(int stage, std::uint64_t from, std::uint64_t to);
+
 /// Collapses edges of a tight proxy until `faces` are left or nothing can be collapsed. `settle`: tightens the editor's
-/// mesh; called after each of several equal shares of the way but the last, because what a collapse costs is known only
-/// of a tight proxy. Deterministic. Cost: some ten fits and two exact tests a collapse.
+/// mesh; called after each stage but the last.
 void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle, SimplifyCounts& counts);
 
 }  // namespace bp

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/meshing/collapse_regions.h"
 #include "lib/meshing/thin.h"
+#include "lib/meshing/tighten_regions.h"
 
 namespace bp {
 
@@ -34,39 +36,65 @@ void simplify_late(LatticeMesh& proxy, const Enclosed* enclosed, const SimplifyP
   counts.add(now);
 }
 
+TightenParams one_sweep(const SimplifyParams& params) {
+  TightenParams once = tightening_of(params);
+  once.sweeps = 1;
+  once.final_sweeps = 0;
+  return once;
+}
+
 /// Collapses by volume, then the last tightening, on one mesh.
-void finish(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, SimplifyCounts& simplified,
-            TightenCounts& tightened) {
+void finish_whole(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
+                  SimplifyCounts& simplified, TightenCounts& tightened) {
   HalfEdgeMesh mesh(proxy);
   ProxyEditor editor(mesh, enclosed, params.edge_limit, params.limits);
   if (by_volume(params) && mesh.face_count() > params.faces) {
-    TightenParams once = tightening_of(params);
-    once.sweeps = 1;
-    once.final_sweeps = 0;
     TightenCounts ignored;
     SimplifyCounts now;
     thin(
-        editor, params.faces, [&] { tighten_on(editor, once, ignored); }, now);
+        editor, params.faces, [&] { tighten_on(editor, one_sweep(params), ignored); }, now);
     simplified.add(now);
   }
   proxy = tighten(editor, proxy.frame, tightening_of(params), tightened);
 }
 
+/// The same on regions, where it is large; where these jam above the target, on one mesh.
+void finish(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, SimplifyCounts& simplified,
+            TightenCounts& tightened) {
+  if (!has_regions(proxy.triangles.size(), params)) return finish_whole(proxy, enclosed, params, simplified, tightened);
+  if (by_volume(params) && proxy.triangles.size() > params.faces) {
+    SimplifyCounts now;
+    thin_regions(proxy, enclosed, params.faces, one_sweep(params), now);
+    simplified.add(now);
+    if (proxy.triangles.size() > params.faces) return finish_whole(proxy, enclosed, params, simplified, tightened);
+  }
+  tighten_regions(proxy, enclosed, tightening_of(params), tightened);
+}
+
 /// Tightening on the way: it finds a finer balance.
+TightenCounts tighten_on_the_way(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
+                                 const TightenParams& tightening) {
+  TightenCounts counts;
+  if (has_regions(proxy.triangles.size(), params)) {
+    tighten_regions_on(proxy, enclosed, tightening, counts);
+  } else {
+    proxy = tighten(proxy, enclosed, tightening, counts);
+  }
+  return counts;
+}
+
 void tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
                    SimplifyCounts& simplified) {
-  TightenCounts counts;
   if (params.limits == nullptr) {
-    TightenParams few = tightening_of(params);
-    few.sweeps = 1;
-    few.final_sweeps = 0;
-    proxy = tighten(proxy, enclosed, few, counts);
+    const TightenCounts counts = tighten_on_the_way(proxy, enclosed, params, one_sweep(params));
     if (counts.volume_before - counts.volume_after > kMuchRoom * std::abs(counts.volume_after)) {
+      TightenParams few = one_sweep(params);
       few.sweeps = 3;
       few.final_sweeps = 2;
-      proxy = tighten(proxy, enclosed, few, counts);
+      tighten_on_the_way(proxy, enclosed, params, few);
     }
   } else {  // a surface of voxels may lie beyond the limits, and single steps within them would not lead there
+    TightenCounts counts;
     params.limits->relax(true);
     proxy = tighten(proxy, enclosed, tightening_of(params), counts);
     params.limits->relax(false);
@@ -125,6 +153,7 @@ TightenParams tightening_of(const SimplifyParams& params) {
   TightenParams tightening;
   tightening.edge_limit = params.edge_limit;
   tightening.limits = params.limits;
+  tightening.faces_per_region = params.faces_per_region;
   if (params.limits != nullptr) {  // they refuse what vertices that move together take back only later
     tightening.sweeps = 0;
     tightening.final_sweeps = 10;

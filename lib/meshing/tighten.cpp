@@ -44,7 +44,7 @@ class Tightener {
   template <class Move>
   void sweep_while_it_gains(int most, const Move& move) {
     double last = volume_of(mesh_);
-    const double least_gain = params_.least_gain * std::abs(last);
+    const double least_gain = params_.least_gain * (params_.volume > 0 ? params_.volume : std::abs(last));
     for (int i = 0; i < most; ++i) {
       move();
       flip_edges();
@@ -60,7 +60,7 @@ class Tightener {
     const std::uint64_t since = flipped_at_;
     flipped_at_ = changes_;
     for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
-      if (!mesh_.alive(HalfEdgeMesh::face(h)) || mesh_.edge(h) != h) continue;
+      if (!mesh_.alive(HalfEdgeMesh::face(h)) || mesh_.edge(h) != h || mesh_.twin(h) == kNoId) continue;
       const std::array<VertexId, 4> corners = {mesh_.from(h), mesh_.to(h), mesh_.opposite(h),
                                                mesh_.opposite(mesh_.twin(h))};
       if (std::none_of(corners.begin(), corners.end(), [&](VertexId v) { return changed_at_[v] > since; })) continue;
@@ -76,7 +76,7 @@ class Tightener {
     joint_.solve(kJointReach);
     order_.clear();
     for (VertexId v = 0; v < mesh_.vertex_capacity(); ++v) {
-      if (mesh_.vertex_alive(v)) order_.emplace_back(joint_.growth(v), v);
+      if (is_free(v)) order_.emplace_back(joint_.growth(v), v);
     }
     std::sort(order_.begin(), order_.end(), [](const auto& a, const auto& b) {
       return a.first != b.first ? a.first > b.first : a.second < b.second;
@@ -112,11 +112,13 @@ class Tightener {
   /// A vertex that could not move waits until its star has changed.
   void move_each() {
     for (VertexId v = 0; v < mesh_.vertex_capacity(); ++v) {
-      if (!mesh_.vertex_alive(v) || !star_changed(v)) continue;
+      if (!is_free(v) || !star_changed(v)) continue;
       stuck_at_[v] = changes_;
       move_vertex(v);
     }
   }
+
+  [[nodiscard]] bool is_free(VertexId v) const { return mesh_.vertex_alive(v) && !mesh_.locked(v); }
 
   [[nodiscard]] bool star_changed(VertexId v) const {
     bool changed = changed_at_[v] > stuck_at_[v];

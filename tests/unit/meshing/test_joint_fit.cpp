@@ -62,7 +62,7 @@ TEST_CASE("contact points of voxels lie on their boundary: all convex corners, s
   MemoryShelf shelf;
   add_box(shelf, {{3, 3, 3}, {30, 12, 20}});
   std::size_t corners = 0, on_edges = 0, on_sides = 0;
-  for (const Vec3d& p : EnclosedVoxels(shelf).contact_points({})) {
+  for (const Vec3d& p : EnclosedVoxels(shelf).contact_points({}, kEverywhere)) {
     const Vec3d low{3 * 64.0, 3 * 64.0, 3 * 64.0}, high{30 * 64.0, 12 * 64.0, 20 * 64.0};
     int at_ends = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -77,4 +77,26 @@ TEST_CASE("contact points of voxels lie on their boundary: all convex corners, s
   CHECK(corners == 8);
   CHECK(on_edges == 4 * (3 + 1 + 2));  // x at 8, 16, 24; y at 8; z at 8, 16
   CHECK(on_sides == 2 * (3 * 1 + 1 * 2 + 2 * 3));
+}
+
+TEST_CASE("beside corners that stay no vertex is asked to go far for a margin", "[quick][meshing]") {
+  MemoryShelf shelf;
+  add_slab(shelf);
+  HalfEdgeMesh mesh(dense_surface(shelf, unit_frame()));
+  merge_flat_regions(mesh);
+  VertexId free = kNoId;
+  for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {
+    if (!mesh.vertex_alive(v)) continue;
+    if (free == kNoId) {
+      free = v;
+    } else {
+      mesh.lock(v);
+    }
+  }
+  const EnclosedVoxels enclosed(shelf);
+  const ContactPoints contacts(enclosed, mesh, FaceTree(mesh));
+  JointFit fit(mesh, contacts);
+  fit.solve(0.25);
+  CAPTURE(fit.shift(free));
+  CHECK(length(fit.shift(free)) < 1);  // it lies on voxels
 }

@@ -1,0 +1,37 @@
+#pragma once
+#include <cstdint>
+#include <queue>
+#include <span>
+#include <vector>
+
+/// Collapses in the order of what they cost, on one mesh or on parts of it side by side.
+namespace bp {
+
+class CostOrder {
+ public:
+  virtual ~CostOrder() = default;
+  [[nodiscard]] virtual std::uint64_t face_count() const = 0;
+  /// Appends the costs, or lower bounds of them, of what waits.
+  virtual void add_costs(std::vector<double>& costs) const = 0;
+  /// Takes what costs least until `enough` faces are left; false if before that nothing is left for `most` or less.
+  virtual bool run(double most, std::uint64_t enough) = 0;
+};
+
+/// Takes what costs least in all parts together, until `excess` faces fewer are left or nothing can be taken; in
+/// parallel. Costs rise by steps: within one, parts take turns at shares of the excess by their faces. The result does
+/// not depend on the number of threads.
+void take_cheapest(std::span<CostOrder* const> parts, std::uint64_t excess);
+
+/// An edge that waits for its turn, by its half-edge; `serial` tells its valid entry from those out of date.
+struct CostEntry {
+  double cost;
+  std::uint32_t edge;
+  std::uint32_t serial;
+  bool operator<(const CostEntry& o) const { return cost != o.cost ? cost > o.cost : edge > o.edge; }  // least first
+};
+class CostQueue : public std::priority_queue<CostEntry> {
+ public:
+  [[nodiscard]] const std::vector<CostEntry>& entries() const { return c; }  ///< in no order
+};
+
+}  // namespace bp
