@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/core/vec3.h"
-
 namespace bp {
 
 // Regions of the plane around the triangle, one corner or edge after the other ([Eri04] 5.1.5).
