@@ -353,10 +353,7 @@ class LevelMaker {
     if (bounds_.error_world > 0 || bounds_.volume_world != 0) params.limits = &limits;
     LatticeMesh proxy = make(params, counts);
     if (params.limits != nullptr) keep_pairs_within(limits, proxy);
-    if (inside()) {
-      turn_over(proxy);
-      counts.simplify.faces_out -= drop_inverted_components(proxy);
-    }
+    if (inside()) turn_over(proxy);
     const StopReason stop = counts.simplify.stop;
     counts.stopped_by = stop == StopReason::limits ? counts.simplify.limit : to_string(stop);
     counts.measures = measure(proxy);
