@@ -235,6 +235,15 @@ std::uint64_t bytes_of(const std::vector<LatticeMesh>& meshes) {
   return sum;
 }
 
+/// What is left beside what the limits of a level take.
+PieceMemory beside_limits(const PieceMemory& memory, const ProxyBounds& bounds) {
+  const std::uint64_t bytes = ProxyLimits::bytes_needed(bounds);
+  if (bytes <= memory.bytes()) return memory.without(bytes);
+  fail(ErrorCode::out_of_resource,
+       "keeping a level within a distance takes {} MiB, and --memory leaves {} MiB for it; raise --memory{}",
+       bytes >> 20, memory.bytes() >> 20, memory.enough_for(bytes - memory.bytes()));
+}
+
 constexpr int kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
 
 /// All levels, one after the other.
@@ -349,6 +358,7 @@ class LevelMaker {
     LevelCounts& counts = counts_.levels.emplace_back();
     counts.error_world = bounds_.error_world;
     SimplifyParams params = simplify_params(header_, frame, params_, faces);
+    params.memory = beside_limits(params.memory, bounds_);
     ProxyLimits limits(bounds_, frame, ground_.tree.get());
     if (bounds_.error_world > 0 || bounds_.volume_world != 0) params.limits = &limits;
     LatticeMesh proxy = make(params, counts);
