@@ -11,6 +11,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/cells.h"
+#include "lib/grid/clip.h"
 #include "lib/stage/chunked_surface.h"
 #include "lib/stage/scene_passes.h"
 #include "lib/stage/tile_fill.h"
@@ -320,14 +321,9 @@ void Run::fill_and_emit(BrickSink& sink) {
 
 void Run::list_bricks(Slab& slab) const {
   for (const std::uint64_t tile : slab.tiles) {
-    const BrickBox bricks = bricks_of(tile_box(tile));
-    for (std::int32_t z = bricks.min.z; z < bricks.max.z; ++z) {
-      for (std::int32_t y = bricks.min.y; y < bricks.max.y; ++y) {
-        for (std::int32_t x = bricks.min.x; x < bricks.max.x; ++x) {
-          if (shelf_->fill({x, y, z}) != BrickFill::empty) slab.bricks.push_back({x, y, z});
-        }
-      }
-    }
+    for_each_brick(tile_box(tile), [&](BrickCoord c) {
+      if (shelf_->fill(c) != BrickFill::empty) slab.bricks.push_back(c);
+    });
   }
   std::sort(slab.bricks.begin(), slab.bricks.end(),
             [&](BrickCoord p, BrickCoord q) { return slab_order(header_.slab_axis, p, q); });
