@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t kPageBytes = 1024;   // of the scratch file; a compressed brick takes 1 to 33 of them
 constexpr std::uint64_t kIndexBytes = 80;  // one entry of the map, about
+constexpr std::uint64_t kLeastIndex = std::uint64_t(4) << 20;  // that every pool may have
 
 void raise(std::atomic<std::uint64_t>& peak, std::uint64_t value) {
   std::uint64_t old = peak.load(std::memory_order_relaxed);
@@ -92,7 +93,7 @@ struct ShelfPool::State {
 
   const std::uint64_t budget;
   PageFile pages;
-  std::atomic<std::uint64_t> used{0}, peak{0};
+  std::atomic<std::uint64_t> used{0}, peak{0}, entries{0};
 
   /// Takes `bytes` unless that would bring the memory in use beyond `limit`.
   bool try_take(std::uint64_t bytes, std::uint64_t limit) {
@@ -102,6 +103,23 @@ struct ShelfPool::State {
     } while (!used.compare_exchange_weak(now, now + bytes));
     raise(peak, now + bytes);
     return true;
+  }
+  /// Throws if the index leaves no room for another entry. Threads at work may add theirs beyond.
+  void check_index() const {
+    const std::uint64_t bytes = (entries + 1) * kIndexBytes;
+    if (bytes <= budget + kLeastIndex) return;
+    fail(ErrorCode::out_of_resource,
+         "the index of {} bricks that wait takes {} MiB, and --memory leaves {} MiB for it; raise --memory, or use "
+         "larger voxels",
+         entries.load(), bytes >> 20, budget >> 20);
+  }
+  void take_entry() {
+    ++entries;
+    take(kIndexBytes);
+  }
+  void give_back_entry() {
+    --entries;
+    give_back(kIndexBytes);
   }
   void take(std::uint64_t bytes) { raise(peak, used.fetch_add(bytes) + bytes); }
   /// True if the next brick may not fit, however it compresses.
@@ -160,10 +178,11 @@ class Shard {
     const std::lock_guard lock(mutex_);
     erase(pool, coord);
     if (fill == BrickFill::empty) return;
+    pool.check_index();
     Entry entry;
     entry.fill = fill;
     if (fill == BrickFill::mixed) store(pool, coord, bits, entry);
-    pool.take(kIndexBytes);
+    pool.take_entry();
     entries_.emplace(coord, std::move(entry));
   }
 
@@ -286,7 +305,8 @@ class Shard {
 
   static void release(ShelfPool::State& pool, const Entry& entry) {
     if (entry.place == Place::spilled) pool.pages.release(entry.pages());
-    pool.give_back(entry.memory() + kIndexBytes);
+    pool.give_back(entry.memory());
+    pool.give_back_entry();
   }
 
   void erase(ShelfPool::State& pool, BrickCoord coord) {

@@ -18,7 +18,9 @@ struct ShelfUse {
 ///   Mixed bricks stay as they are (32 KiB) while memory in use is below half of `memory_bytes`; then they are
 ///   compressed (about 20 to 1), first the newcomers, then, near the budget, those of the same shelf that lay raw; what
 ///   still does not fit goes to a scratch file in `temp_dir`, made when it is first needed. Its free space is reused.
-///   Full and empty bricks have no bits to store. The index (about 80 bytes a brick) counts, but is never refused.
+///   Full and empty bricks have no bits to store. The index (about 80 bytes a brick, and 4 for each KiB of it in the
+///   file) counts: a grid of N voxels a side has at most (N / 64)^3 bricks, so 160 MiB at 8192, 1.3 GiB at 16384. Where
+///   it alone takes more than `memory_bytes` and 4 MiB, put() throws out_of_resource.
 /// Thread-safe. put() takes about 15 us raw, 35 us compressed or spilled; get() 3 us and 20 us.
 class ShelfPool {
  public:

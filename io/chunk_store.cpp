@@ -12,7 +12,8 @@ namespace bp {
 
 namespace {
 
-constexpr int kLevel = 1;  // scratch is written once and read once: speed counts
+constexpr int kLevel = 1;                   // scratch is written once and read once: speed counts
+constexpr std::uint64_t kIndexBytes = 100;  // one entry of the map, and its handle, about
 
 struct FreeCompressor {
   void operator()(ZSTD_CCtx* c) const { ZSTD_freeCCtx(c); }
@@ -72,7 +73,7 @@ class ZstdChunkStore final : public ChunkStore {
 
   [[nodiscard]] std::uint64_t memory_bytes() const override {
     const std::lock_guard lock(mutex_);
-    return used_;
+    return used_ + chunks_.size() * kIndexBytes;
   }
   [[nodiscard]] std::uint64_t scratch_bytes() const override {
     const std::lock_guard lock(mutex_);
@@ -88,7 +89,7 @@ class ZstdChunkStore final : public ChunkStore {
   /// Null: the bytes may stay in memory, and are counted.
   ScratchFile* reserve(std::uint64_t bytes) {
     const std::lock_guard lock(mutex_);
-    if (used_ + bytes <= memory_bytes_) {
+    if (used_ + bytes + (chunks_.size() + 1) * kIndexBytes <= memory_bytes_) {
       used_ += bytes;
       return nullptr;
     }

@@ -9,9 +9,11 @@ namespace bp {
 /// parts of later triangles are settled by it, without a search. Not thread-safe.
 class NearSurface {
  public:
+  static constexpr std::size_t kBytesPerPlace = 32;
+
   /// Keeps a reference to `to`, which must not be empty. `place`: edge of the cubes that share what is kept, scene
   /// units: half of the limits that are asked about serves well, or half of a triangle of `to`, if these are larger.
-  /// `places`: how many are kept, 32 bytes each.
+  /// `places`: how many are kept, kBytesPerPlace each.
   NearSurface(const TriangleBvh& to, double place, std::size_t places);
 
   /// Distance from p to the surface; where that is at most `enough`, anything from it to `enough`.
@@ -28,6 +30,7 @@ class NearSurface {
     std::uint32_t item = 0;  // of to_, near the place
     Vec3d point{};           // on it
   };
+  static_assert(sizeof(Place) == kBytesPerPlace);
   enum class Answer { yes, no, open };
 
   [[nodiscard]] const Place& place_at(const Vec3d& p);

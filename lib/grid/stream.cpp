@@ -3,6 +3,8 @@
 #include <cstring>
 #include <tuple>
 
+#include "lib/grid/clip.h"
+
 namespace bp {
 
 namespace {
@@ -31,41 +33,31 @@ bool slab_order(int slab_axis, const Brick& a, const Brick& b) {
 }
 
 void load_voxels(const BrickShelf& shelf, BitBox& box) {
-  const BrickBox bricks = bricks_of(box.box());
   BrickBits bits;
-  for (std::int32_t bz = bricks.min.z; bz < bricks.max.z; ++bz) {
-    for (std::int32_t by = bricks.min.y; by < bricks.max.y; ++by) {
-      for (std::int32_t bx = bricks.min.x; bx < bricks.max.x; ++bx) {
-        if (shelf.get({bx, by, bz}, bits) == BrickFill::empty) continue;
-        const VoxelBox brick = voxels_of(BrickBox{{bx, by, bz}, {bx + 1, by + 1, bz + 1}});
-        const VoxelBox both = intersect(brick, box.box());
-        for (std::int32_t z = both.min.z; z < both.max.z; ++z) {
-          for (std::int32_t y = both.min.y; y < both.max.y; ++y) {
-            box.row(y, z)[(brick.min.x - box.box().min.x) / 64] =
-                bits[std::size_t(z - brick.min.z) * kBrickEdge + std::size_t(y - brick.min.y)];
-          }
-        }
+  for_each_brick(box.box(), [&](BrickCoord c) {
+    if (shelf.get(c, bits) == BrickFill::empty) return;
+    const VoxelCoord first = first_voxel(c);
+    const VoxelBox both = intersect({first, first_voxel({c.x + 1, c.y + 1, c.z + 1})}, box.box());
+    for (std::int32_t z = both.min.z; z < both.max.z; ++z) {
+      for (std::int32_t y = both.min.y; y < both.max.y; ++y) {
+        box.row(y, z)[(first.x - box.box().min.x) / 64] =
+            bits[std::size_t(z - first.z) * kBrickEdge + std::size_t(y - first.y)];
       }
     }
-  }
+  });
 }
 
 void store_voxels(const BitBox& box, BrickShelf& shelf) {
-  const BrickBox bricks = bricks_of(box.box());
   BrickBits bits;
-  for (std::int32_t bz = bricks.min.z; bz < bricks.max.z; ++bz) {
-    for (std::int32_t by = bricks.min.y; by < bricks.max.y; ++by) {
-      for (std::int32_t bx = bricks.min.x; bx < bricks.max.x; ++bx) {
-        const VoxelCoord first = first_voxel(BrickCoord{bx, by, bz});
-        for (std::int32_t z = 0; z < kBrickEdge; ++z) {
-          for (std::int32_t y = 0; y < kBrickEdge; ++y) {
-            bits[std::size_t(z * kBrickEdge + y)] = box.row(first.y + y, first.z + z)[(first.x - box.box().min.x) / 64];
-          }
-        }
-        shelf.put({bx, by, bz}, classify(bits), bits);
+  for_each_brick(box.box(), [&](BrickCoord c) {
+    const VoxelCoord first = first_voxel(c);
+    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+        bits[std::size_t(z * kBrickEdge + y)] = box.row(first.y + y, first.z + z)[(first.x - box.box().min.x) / 64];
       }
     }
-  }
+    shelf.put(c, classify(bits), bits);
+  });
 }
 
 }  // namespace bp

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/core/vec3.h"
-
 namespace bp {
 
 namespace {

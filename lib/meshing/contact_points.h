@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "lib/core/vec3.h"
 #include "lib/meshing/enclosed.h"
 
 /// Points of what must stay inside, each listed with the face of the proxy that it is nearest to. They guide where
@@ -32,9 +33,7 @@ class ContactPoints {
     struct Plane {
       Vec3d normal;
       double offset;
-      [[nodiscard]] double height(const Vec3d& p) const {
-        return normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2] - offset;
-      }
+      [[nodiscard]] double height(const Vec3d& p) const { return dot(normal, p) - offset; }
     };
     std::array<Plane, 4> planes;  ///< along the edges, then its own
     [[nodiscard]] double squared_distance(const Vec3d& p) const;

@@ -5,6 +5,7 @@
 #include "lib/core/result_store.h"
 #include "lib/grid/cells.h"
 #include "lib/grid/stream.h"
+#include "lib/stage/stage_progress.h"
 
 /// The closing of a level cell by cell, each a job whose result can be kept: it depends on the voxels in the cell and
 /// its halo, on the scale and the element, not on where the cell lies. Same voxels as close_stream().
@@ -18,8 +19,7 @@ struct CellClosing {
   /// For messages: " to at least N MiB", where so many bytes are missing. May be empty.
   std::function<std::string(std::uint64_t)> enough_for;
   ResultStore* store = nullptr;  ///< results are looked up there, and put; null: made anew
-  /// Called now and then, as in CloseOptions. May be empty.
-  std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
+  StageProgress progress;        ///< called now and then
 };
 
 struct CellClosingCounts {

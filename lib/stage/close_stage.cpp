@@ -13,6 +13,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/core/pool.h"
+#include "lib/grid/clip.h"
 #include "lib/grid/outside.h"
 #include "lib/grid/tile_grid.h"
 
@@ -79,16 +80,6 @@ class Stopwatch {
   std::atomic<double>& sum_;
   Clock::time_point start_;
 };
-
-/// body(brick) for each brick of `box`.
-template <class Body>
-void for_each_brick(const BrickBox& box, const Body& body) {
-  for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
-    for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
-      for (std::int32_t x = box.min.x; x < box.max.x; ++x) body(BrickCoord{x, y, z});
-    }
-  }
-}
 
 /// One run of close_stream(). A layer is one step of tiles across the slab axis.
 class Run {

@@ -1,8 +1,8 @@
 #pragma once
-#include <functional>
 
 #include "lib/backend/backend.h"
 #include "lib/grid/stream.h"
+#include "lib/stage/stage_progress.h"
 
 /// bpclose's work: a stream of solid bricks in, the same bricks and their closing out, tile by tile, out of core.
 ///
@@ -18,8 +18,7 @@ struct CloseOptions {
   /// For the tiles at work; what the shelves hold comes on top.
   std::uint64_t memory_bytes = std::uint64_t(512) << 20;
   ShelfFactory make_shelf;  ///< called twice: solid and closing
-  /// Called now and then: what is done, of how many units. May be empty. On any thread, one at a time.
-  std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
+  StageProgress progress;   ///< called now and then
 };
 
 /// Where the time went, in seconds, summed over the threads at work.

@@ -68,7 +68,7 @@ Vec3d point_of(const LatticeMesh& mesh, const Shell& shell) {
 
 /// Takes away the triangles of the shells that are marked, and the vertices that only they used; the rest keeps its
 /// order.
-std::uint64_t drop(LatticeMesh& mesh, const std::vector<Shell>& shells, const std::vector<bool>& marked) {
+void drop(LatticeMesh& mesh, const std::vector<Shell>& shells, const std::vector<bool>& marked) {
   std::vector<bool> gone(mesh.triangles.size()), used(mesh.vertices.size());
   for (std::size_t s = 0; s < shells.size(); ++s) {
     for (const std::uint32_t i : shells[s].triangles) {
@@ -87,29 +87,12 @@ std::uint64_t drop(LatticeMesh& mesh, const std::vector<Shell>& shells, const st
     const auto& t = mesh.triangles[i];
     if (!gone[i]) triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
   }
-  const std::uint64_t taken = mesh.triangles.size() - triangles.size();
   mesh.vertices = std::move(vertices);
   mesh.triangles = std::move(triangles);
   mesh.quads.clear();  // they named triangles by number
-  return taken;
 }
 
 }  // namespace
-
-std::uint64_t drop_inverted_components(LatticeMesh& mesh) {
-  const std::vector<Shell> shells = shells_of(mesh);
-  std::vector<bool> inverted(shells.size());
-  for (std::size_t s = 0; s < shells.size(); ++s) {
-    if (shells[s].volume6 > 0) continue;
-    int around = 0;
-    for (std::size_t other = 0; other < shells.size(); ++other) {
-      if (other != s) around += winding(mesh, shells[other], point_of(mesh, shells[s]));
-    }
-    inverted[s] = around == 0;
-  }
-  const bool none = std::find(inverted.begin(), inverted.end(), true) == inverted.end();
-  return none ? 0 : drop(mesh, shells, inverted);
-}
 
 DroppedParts drop_small_parts(LatticeMesh& mesh, double share) {
   constexpr double kVolume6OfVoxel = 6.0 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;

@@ -7,11 +7,6 @@
 /// all that lies within it.
 namespace bp {
 
-/// A proxy inside a solid shrinks; a shell of it may, in theory, pass through itself and come out inside out, outside
-/// of what it was in. Takes away the shells that face inwards and that no other surrounds; cavities stay. Returns the
-/// number of triangles taken away.
-std::uint64_t drop_inverted_components(LatticeMesh& mesh);
-
 struct DroppedParts {
   std::uint64_t parts = 0;
   double volume_vox = 0;  ///< voxels in them

@@ -1,11 +1,11 @@
 #pragma once
-#include <functional>
 #include <memory>
 #include <optional>
 
 #include "lib/backend/backend.h"
 #include "lib/stage/close_stage.h"
 #include "lib/stage/mesh_stage.h"
+#include "lib/stage/stage_progress.h"
 
 /// bplod's work: a chain of levels of detail from one solid. The scene is voxelized once; each level is closed at a
 /// scale of its own, coarser ones on conservative reductions of the voxels (lib/grid/reduce.h), and meshed to its
@@ -49,8 +49,7 @@ struct LodOptions {
   std::uint64_t memory_bytes = std::uint64_t(512) << 20;
   PieceMemory pieces;
   ShelfFactory make_shelf;
-  /// Called now and then, as in CloseOptions. May be empty.
-  std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
+  StageProgress progress;  ///< called now and then
 };
 
 struct LodLevel {

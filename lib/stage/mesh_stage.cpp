@@ -235,6 +235,15 @@ std::uint64_t bytes_of(const std::vector<LatticeMesh>& meshes) {
   return sum;
 }
 
+/// What is left beside what the limits of a level take.
+PieceMemory beside_limits(const PieceMemory& memory, const ProxyBounds& bounds) {
+  const std::uint64_t bytes = ProxyLimits::bytes_needed(bounds);
+  if (bytes <= memory.bytes()) return memory.without(bytes);
+  fail(ErrorCode::out_of_resource,
+       "keeping a level within a distance takes {} MiB, and --memory leaves {} MiB for it; raise --memory{}",
+       bytes >> 20, memory.bytes() >> 20, memory.enough_for(bytes - memory.bytes()));
+}
+
 constexpr int kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
 
 /// All levels, one after the other.
@@ -349,14 +358,12 @@ class LevelMaker {
     LevelCounts& counts = counts_.levels.emplace_back();
     counts.error_world = bounds_.error_world;
     SimplifyParams params = simplify_params(header_, frame, params_, faces);
+    params.memory = beside_limits(params.memory, bounds_);
     ProxyLimits limits(bounds_, frame, ground_.tree.get());
     if (bounds_.error_world > 0 || bounds_.volume_world != 0) params.limits = &limits;
     LatticeMesh proxy = make(params, counts);
     if (params.limits != nullptr) keep_pairs_within(limits, proxy);
-    if (inside()) {
-      turn_over(proxy);
-      counts.simplify.faces_out -= drop_inverted_components(proxy);
-    }
+    if (inside()) turn_over(proxy);
     const StopReason stop = counts.simplify.stop;
     counts.stopped_by = stop == StopReason::limits ? counts.simplify.limit : to_string(stop);
     counts.measures = measure(proxy);

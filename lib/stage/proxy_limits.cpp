@@ -78,6 +78,10 @@ ProxyLimits::ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, cons
   limit6_ = int128(std::clamp(bounds.volume_world * volume6_per_world(frame_), -kMost, kMost));
 }
 
+std::uint64_t ProxyLimits::bytes_needed(const ProxyBounds& bounds) {
+  return bounds.error_world > 0 ? kPlaces * NearSurface::kBytesPerPlace : 0;
+}
+
 bool ProxyLimits::take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) {
   const int128 growth = growth_of(before, after);
   if (!relaxed_ && bounds_.volume_world != 0 && growth > 0 && volume6_ + growth > limit6_) {

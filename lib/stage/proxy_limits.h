@@ -23,6 +23,8 @@ class ProxyLimits final : public StepLimits {
  public:
   /// `frame`: of what the steps will change. `enclosed`: may be null without an error bound.
   ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed);
+  /// What one takes of memory, `enclosed` aside: 4 MiB with an error bound.
+  [[nodiscard]] static std::uint64_t bytes_needed(const ProxyBounds& bounds);
   void begin(int128 volume6) override { volume6_ = volume6; }
   void relax(bool on) override { relaxed_ = on; }
   bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) override;

@@ -1,11 +1,11 @@
 #pragma once
-#include <functional>
 #include <unordered_map>
 
 #include "lib/core/result_key.h"
 #include "lib/core/triangle_source.h"
 #include "lib/grid/stream.h"
 #include "lib/stage/color_grid.h"
+#include "lib/stage/stage_progress.h"
 
 /// The colours of a scene's surface for all of its levels of detail (docs/decisions/0008-colours.md). Cells of a level
 /// are four of its voxels wide; those of the finest gather the scene's triangles, coarser ones are their sums.
@@ -58,7 +58,7 @@ struct ColorOptions {
   std::uint64_t memory_bytes = std::uint64_t(64) << 20;  ///< for cells at work
   ShelfFactory make_shelf;
   ChunkStoreFactory make_store;  ///< of cells that wait
-  std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
+  StageProgress progress;        ///< called now and then
 };
 
 /// Reads `source` once more, from its start, for the colours of what `solid`, its voxels in `frame`, shows to the

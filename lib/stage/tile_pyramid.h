@@ -1,6 +1,7 @@
 #pragma once
 #include "lib/backend/backend.h"
 #include "lib/stage/cell_closing.h"
+#include "lib/stage/stage_progress.h"
 #include "lib/stage/tile_stage.h"
 
 /// The levels of a scene that are too large for one mesh: level n has the voxels of the solid reduced n times, closed,
@@ -16,8 +17,7 @@ struct PyramidOptions {
   PieceMemory pieces;                                     ///< the same, for their surfaces
   ShelfFactory make_shelf;
   ResultStore* store = nullptr;  ///< of closings and tiles; null: all are made
-  /// Called now and then, as in CloseOptions. May be empty.
-  std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
+  StageProgress progress;        ///< called now and then
 };
 
 class TilePyramid {

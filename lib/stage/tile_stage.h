@@ -5,6 +5,7 @@
 #include "lib/core/result_key.h"
 #include "lib/grid/cells.h"
 #include "lib/stage/mesh_stage.h"
+#include "lib/stage/stage_progress.h"
 
 /// A level of detail in pieces: one proxy for each cell of the grid, as an independent job.
 ///
@@ -83,8 +84,7 @@ struct TileTask {
 struct TileRun {
   std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work
   PieceMemory pieces;                                     ///< the same, for their surfaces
-  /// Called now and then, as in CloseOptions. May be empty.
-  std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
+  StageProgress progress;                                 ///< called now and then
 };
 
 /// All tiles of all levels: those whose cell holds voxels of the closing, but for cavities that the closing fills.

@@ -4,20 +4,17 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <memory>
-#include <mutex>
 #include <unordered_map>
 
 #include "lib/backend/cpu_backend.h"
-#include "lib/core/content_hash.h"
 #include "lib/core/error.h"
-#include "lib/core/hex.h"
 #include "lib/core/parallel.h"
-#include "lib/core/pool.h"
 #include "lib/grid/cells.h"
-#include "lib/grid/outside.h"
+#include "lib/grid/clip.h"
 #include "lib/stage/chunked_surface.h"
+#include "lib/stage/scene_passes.h"
+#include "lib/stage/tile_fill.h"
 #include "lib/stage/triangle_bins.h"
 #include "lib/voxel/winding.h"
 
@@ -27,31 +24,6 @@ namespace {
 
 constexpr double kMaxTiles = 1 << 27;      // the fills visit every tile; beyond, a grid is a slip of the finger
 constexpr std::int32_t kMaxTileVox = 512;  // Crossing has 9 bits
-
-/// A tile at work.
-struct Work {
-  BitBox bits;
-  std::vector<Crossing> crossings;
-};
-
-/// Steps of one stage of the work, reported from any thread.
-class Steps {
- public:
-  Steps(const VoxelizeOptions& options, const char* stage, const char* unit, std::uint64_t total)
-      : options_(options), stage_(stage), unit_(unit), total_(total) {}
-  void add(std::uint64_t n) {
-    if (!options_.progress) return;
-    const std::lock_guard lock(mutex_);
-    done_ += n;
-    options_.progress(stage_, unit_, done_, total_);
-  }
-
- private:
-  const VoxelizeOptions& options_;
-  const char *stage_, *unit_;
-  std::uint64_t total_, done_ = 0;
-  std::mutex mutex_;
-};
 
 std::int32_t default_tile(const VoxelBox& grid) {
   const VoxelCoord s = grid.size();
@@ -65,22 +37,23 @@ std::uint64_t work_bytes(std::int32_t edge_vox) {
   return 3 * edge * edge * edge / 8 + (std::uint64_t(4) << 20);
 }
 
-std::string text_of(const ContentHash& hash) {
-  const auto [high, low] = hash.value().words;
-  return hex_of(high, low);
-}
-
 /// One run of voxelize_stream().
 class Run {
  public:
   Run(TriangleSource& source, Backends& backends, const VoxelizeOptions& options)
-      : source_(source), options_(options), shelf_(options.make_shelf()), store_(options.make_store()) {
-    if (options.results != nullptr && options.fill != FillMode::winding)
-      chunks_ = std::make_unique<ChunkedSurface>(*options.results);
+      : source_(source),
+        options_(options),
+        shelf_(options.make_shelf()),
+        store_(options.make_store()),
+        chunks_(options.results != nullptr && options.fill != FillMode::winding
+                    ? std::make_unique<ChunkedSurface>(*options.results)
+                    : nullptr),
+        // Their bins, half as large, then fit beside them.
+        scene_(source, options.memory_bytes / 5 * 3, chunks_.get()) {
     for (int i = 0; backends.empty() && i < thread_count(); ++i) own_.push_back(std::make_unique<CpuBackend>());
     std::vector<Backend*> all;
     for (const auto& backend : backends.empty() ? own_ : backends) all.push_back(backend.get());
-    backends_ = std::make_unique<Pool<Backend*>>(std::move(all));
+    backends_ = std::make_unique<BackendPool>(std::move(all));
   }
 
   VoxelizeCounts operator()(const OpenSink& open) {
@@ -95,35 +68,23 @@ class Run {
   }
 
  private:
-  /// What waits for a tile beside its triangles.
-  struct Tile {
-    bool on_shelf = false;  ///< some of its triangles were voxelized early
-    std::vector<ChunkStore::Handle> crossings;
-  };
   struct Slab;
 
   void measure();
   void lay_grid();
-  using Portion = ChunkedSurface::Portion;
-  using NextPortion = ChunkedSurface::NextPortion;
+  using Portion = ScenePasses::Portion;
+  using NextPortion = ScenePasses::NextPortion;
   void sort_triangles();
-  void read_again(const std::function<void(const NextPortion&)>& body);
   void bin(const NextPortion& next);
   void bin(TriangleBatch&& batch);
   [[nodiscard]] std::vector<FixedTriangle> to_fixed(std::span<const TriangleD> triangles) const;
   void look_up_chunks();
-  void drop_met();
   [[nodiscard]] std::vector<std::uint64_t> tiles_with_triangles() const;
   [[nodiscard]] std::uint64_t waiting_bytes() const;
   void make_room();
   void voxelize();
-  void voxelize_tile(std::uint64_t tile, Tile& state, bool last);
-  void put_crossings(Tile& state, std::span<const Crossing> crossings);
-  void get_crossings(std::uint64_t tile, std::vector<Crossing>& out) const;
+  void voxelize_tile(std::uint64_t tile, bool& on_shelf, bool last);
   void fill_and_emit(BrickSink& sink);
-  void fill_flood(std::uint64_t tile);
-  void fill_winding_columns();
-  void fill_winding_column(std::int32_t tx, std::int32_t ty);
   void list_bricks(Slab& slab) const;
   void emit(const Slab& slab, BrickSink& sink);
   [[nodiscard]] VoxelBox tile_box(std::uint64_t tile) const { return tiles_.box(tiles_.coord(tile)); }
@@ -131,89 +92,33 @@ class Run {
   TriangleSource& source_;
   const VoxelizeOptions& options_;
   Backends own_;  ///< if none were given
-  std::unique_ptr<Pool<Backend*>> backends_;
-  std::unique_ptr<Pool<std::unique_ptr<Work>>> work_;
+  std::unique_ptr<BackendPool> backends_;
+  std::unique_ptr<TileWorks> works_;
   std::unique_ptr<BrickShelf> shelf_;
   std::unique_ptr<ChunkStore> store_;
   VoxelizeCounts counts_;
 
-  Bounds3d bounds_;
-  std::vector<Portion> kept_;
-  std::size_t dropped_ = 0;                         ///< first of kept_ that drop_met() has not settled
-  std::uint64_t dropped_end_ = 0, kept_bytes_ = 0;  ///< triangles before it; of those that stay
-  std::unique_ptr<ChunkedSurface> chunks_;          ///< instead of bins_, for all but large triangles
+  std::unique_ptr<ChunkedSurface> chunks_;  ///< instead of bins_, for all but large triangles
+  ScenePasses scene_;
   StreamHeader header_;
   TileGrid tiles_;
   std::unique_ptr<TriangleBins> bins_;
-  std::unordered_map<std::uint64_t, Tile> touched_;
-  std::mutex join_mutex_;
-  std::unique_ptr<OutsideFlood> flood_;
-  std::atomic<std::uint64_t> surface_voxels_{0}, open_columns_{0};
+  std::unordered_map<std::uint64_t, bool> on_shelf_;  ///< tiles: some of their triangles were voxelized early
+  std::unique_ptr<TileFill> fill_;                    ///< null: FillMode::none
+  std::atomic<std::uint64_t> surface_voxels_{0};
 };
 
-/// First pass: bounds and counts. The triangles stay while they fit in three fifths of the memory; their bins, half as
-/// large, then fit beside them.
 void Run::measure() {
-  struct Item {
-    std::vector<TriangleD> triangles;
-    std::vector<std::uint32_t> places;
-    Bounds3d bounds;
-  };
-  Steps steps(options_, "reading", "triangles", 0);
-  const std::uint64_t limit = options_.memory_bytes / 5 * 3;
-  ContentHash hash;
-  pipeline<Item>(
-      thread_count() + 2, [&](Item& item) { return source_.read(item.triangles); },
-      [&](Item& item) {
-        for (const TriangleD& t : item.triangles) {
-          for (const Vec3d& p : t) item.bounds.add(p);
-        }
-        if (chunks_) item.places = ChunkCutter::places(item.triangles);
-        if (item.triangles.capacity() > item.triangles.size() / 4 * 5) item.triangles.shrink_to_fit();
-      },
-      [&](Item& item) {
-        hash.add(std::as_bytes(std::span(item.triangles)));
-        if (chunks_) chunks_->measure(item.triangles, item.places);
-        bounds_.merge(item.bounds);
-        steps.add(item.triangles.size());
-        if (counts_.read_twice) return;
-        kept_bytes_ += item.triangles.capacity() * sizeof(TriangleD);
-        const std::uint64_t count = item.triangles.size();
-        kept_.push_back({std::move(item.triangles), count});
-        if (chunks_) drop_met();
-        if (kept_bytes_ <= limit) return;
-        counts_.read_twice = true;
-        std::vector<Portion>().swap(kept_);
-      });
+  scene_.measure(options_.progress);
   counts_.scene = source_.counts();
-  counts_.input_hash = text_of(hash);
-  if (bounds_.empty()) {
-    const SceneCounts& c = counts_.scene;
-    fail(ErrorCode::bad_input,
-         "{}: no triangles ({} degenerate, {} non-finite, {} bad faces skipped); a scene needs at least one with an "
-         "area",
-         source_.name(), c.degenerate, c.non_finite, c.bad_faces);
-  }
-}
-
-/// Triangles whose voxels are probably known do not stay.
-void Run::drop_met() {
-  for (; dropped_ < kept_.size(); ++dropped_) {
-    Portion& portion = kept_[dropped_];
-    const std::uint64_t end = dropped_end_ + portion.count;
-    if (!chunks_->ended(end)) return;
-    if (chunks_->met(dropped_end_, end)) {
-      kept_bytes_ -= portion.triangles.capacity() * sizeof(TriangleD);
-      std::vector<TriangleD>().swap(portion.triangles);
-    }
-    dropped_end_ = end;
-  }
+  counts_.input_hash = scene_.input_hash();
+  counts_.read_twice = scene_.reads_twice();
 }
 
 void Run::lay_grid() {
-  counts_.voxel_asked = options_.voxel_size(bounds_);
-  header_ = solid_header(bounds_, counts_.voxel_asked, options_.up ? *options_.up : source_.up().value_or(UpAxis::y),
-                         options_);
+  counts_.voxel_asked = options_.voxel_size(scene_.bounds());
+  header_ = solid_header(scene_.bounds(), counts_.voxel_asked,
+                         options_.up ? *options_.up : source_.up().value_or(UpAxis::y), options_);
   const VoxelBox grid = voxels_of(header_.bricks);
   const std::int32_t edge = options_.tile_vox > 0 ? options_.tile_vox : default_tile(grid);
   if (edge % kBrickEdge != 0 || edge > kMaxTileVox)
@@ -230,34 +135,12 @@ void Run::lay_grid() {
   counts_.tiles = std::uint64_t(tiles_.total());
   // A GPU has few backends: the other threads load, label and shelve meanwhile.
   const std::uint64_t fit = std::max<std::uint64_t>(1, options_.tile_memory_bytes / work_bytes(edge));
-  std::vector<std::unique_ptr<Work>> work(
+  std::vector<std::unique_ptr<TileWork>> works(
       std::min<std::uint64_t>(fit, std::uint64_t(std::max(thread_count(), backends_->count()))));
-  for (auto& w : work) w = std::make_unique<Work>();
-  work_ = std::make_unique<Pool<std::unique_ptr<Work>>>(std::move(work));
-  if (options_.fill != FillMode::none) flood_ = std::make_unique<OutsideFlood>(grid, VoxelCoord{edge, edge, edge});
-}
-
-/// Second pass: from the triangles that stay, or from the scene.
-void Run::read_again(const std::function<void(const NextPortion&)>& body) {
-  if (!counts_.read_twice) {
-    std::size_t i = 0;
-    body([&](Portion& portion) {
-      if (i == kept_.size()) return false;
-      portion = std::move(kept_[i++]);
-      return true;
-    });
-    return;
-  }
-  source_.rewind();
-  ContentHash hash;
-  body([&](Portion& portion) {
-    const bool more = source_.read(portion.triangles);
-    portion.count = portion.triangles.size();
-    hash.add(std::as_bytes(std::span(portion.triangles)));
-    return more;
-  });
-  if (text_of(hash) != counts_.input_hash)
-    fail(ErrorCode::bad_input, "{}: changed between the first and the second reading", source_.name());
+  for (auto& w : works) w = std::make_unique<TileWork>();
+  works_ = std::make_unique<TileWorks>(std::move(works));
+  if (options_.fill != FillMode::none)
+    fill_ = std::make_unique<TileFill>(options_.fill, tiles_, *shelf_, *store_, *backends_, *works_);
 }
 
 void Run::sort_triangles() {
@@ -265,9 +148,9 @@ void Run::sort_triangles() {
   if (chunks_) {
     look_up_chunks();
   } else {
-    read_again([&](const NextPortion& next) { bin(next); });
+    scene_.again([&](const NextPortion& next) { bin(next); });
   }
-  kept_.clear();
+  scene_.release();
 }
 
 /// The triangles of chunks that are known are not looked at again; if all are, the scene is not read twice.
@@ -276,9 +159,10 @@ void Run::look_up_chunks() {
   counts_.chunks = chunks_->chunks();
   counts_.chunks_kept = chunks_->kept();
   if (chunks_->complete()) return;
-  if (chunks_->needs_met()) counts_.read_twice = true;
-  Steps steps(options_, "voxelizing", "triangles", counts_.scene.triangles);
-  read_again([&](const NextPortion& next) {
+  if (chunks_->needs_met()) scene_.read_twice();
+  counts_.read_twice = scene_.reads_twice();
+  StageSteps steps(options_.progress, "voxelizing", "triangles", counts_.scene.triangles);
+  scene_.again([&](const NextPortion& next) {
     chunks_->add_missing(next, options_.memory_bytes / 10, [&](std::uint64_t n, std::vector<TriangleD>&& large) {
       if (!large.empty()) bin(bins_->sort(to_fixed(large)));
       steps.add(n);
@@ -304,7 +188,7 @@ void Run::bin(const NextPortion& next) {
     Portion portion;
     TriangleBatch batch;
   };
-  Steps steps(options_, "sorting", "triangles", counts_.scene.triangles);
+  StageSteps steps(options_.progress, "sorting", "triangles", counts_.scene.triangles);
   pipeline<Item>(
       thread_count() + 2, [&](Item& item) { return next(item.portion); },
       [&](Item& item) {
@@ -338,10 +222,10 @@ void Run::make_room() {
       few.push_back(tile);
     }
   }
-  for (const std::uint64_t tile : many) touched_[tile];  // no insertion while threads look up
+  for (const std::uint64_t tile : many) on_shelf_[tile];  // no insertion while threads look up
   parallel_for(std::int64_t(many.size()), [&](std::int64_t i) {
     const std::uint64_t tile = many[std::size_t(i)];
-    voxelize_tile(tile, touched_.at(tile), false);
+    voxelize_tile(tile, on_shelf_.at(tile), false);
     bins_->release(tile);
   });
   bins_->spill(few);
@@ -361,60 +245,40 @@ std::vector<std::uint64_t> Run::tiles_with_triangles() const {
 
 void Run::voxelize() {
   const std::vector<std::uint64_t> tiles = tiles_with_triangles();
-  for (const std::uint64_t tile : tiles) touched_[tile];
+  for (const std::uint64_t tile : tiles) on_shelf_[tile];
   counts_.tiles_touched = tiles.size();
-  Steps steps(options_, "voxelizing", "tiles", tiles.size());
+  StageSteps steps(options_.progress, "voxelizing", "tiles", tiles.size());
   parallel_for(std::int64_t(tiles.size()), [&](std::int64_t i) {
     const std::uint64_t tile = tiles[std::size_t(i)];
-    voxelize_tile(tile, touched_.at(tile), true);
+    voxelize_tile(tile, on_shelf_.at(tile), true);
     bins_->release(tile);
     steps.add(1);
   });
-  if (flood_) flood_->resolve();
+  if (fill_) fill_->resolve();
   counts_.surface_voxels = surface_voxels_;
 }
 
 /// Adds the tile's waiting triangles to its voxels; `last`: there will be no more of them.
-void Run::voxelize_tile(std::uint64_t tile, Tile& state, bool last) {
-  const Pool<std::unique_ptr<Work>>::Lease work(*work_);
+void Run::voxelize_tile(std::uint64_t tile, bool& on_shelf, bool last) {
+  const TileWorks::Lease work(*works_);
   const VoxelBox box = tile_box(tile);
   work->bits.reset(box);
-  if (state.on_shelf) load_voxels(*shelf_, work->bits);
-  state.on_shelf = true;
+  if (on_shelf) load_voxels(*shelf_, work->bits);
+  on_shelf = true;
   if (chunks_) chunks_->bricks().take(work->bits);
   bins_->for_each(tile, [&](std::span<const FixedTriangle> triangles) {
     work->crossings.clear();
     {
-      const Pool<Backend*>::Lease backend(*backends_);
+      const BackendPool::Lease backend(*backends_);
       backend->voxelize(triangles, work->bits);
       if (options_.fill == FillMode::winding) backend->find_crossings(triangles, box, work->crossings);
     }
-    put_crossings(state, work->crossings);
+    if (fill_) fill_->add_crossings(tile, work->crossings);
   });
   store_voxels(work->bits, *shelf_);
   if (!last) return;
   surface_voxels_ += work->bits.count();
-  if (!flood_) return;
-  OutsideFlood::Labels labels = OutsideFlood::label(work->bits, box);
-  const std::lock_guard lock(join_mutex_);
-  flood_->join(std::move(labels));
-}
-
-void Run::put_crossings(Tile& state, std::span<const Crossing> crossings) {
-  if (!crossings.empty()) state.crossings.push_back(store_->put(std::as_bytes(crossings)));
-}
-
-void Run::get_crossings(std::uint64_t tile, std::vector<Crossing>& out) const {
-  out.clear();
-  const auto at = touched_.find(tile);
-  if (at == touched_.end()) return;
-  std::vector<std::byte> bytes;
-  for (const ChunkStore::Handle h : at->second.crossings) {
-    store_->get(h, bytes);
-    const std::size_t old = out.size();
-    out.resize(old + bytes.size() / sizeof(Crossing));
-    std::memcpy(static_cast<void*>(out.data() + old), bytes.data(), bytes.size());
-  }
+  if (fill_) fill_->add_surface(tile, work->bits);
 }
 
 /// The tiles, and then the bricks, of one step across the slab axis.
@@ -424,10 +288,13 @@ struct Run::Slab {
 };
 
 void Run::fill_and_emit(BrickSink& sink) {
-  if (options_.fill == FillMode::winding) fill_winding_columns();
+  if (options_.fill == FillMode::winding) {
+    fill_->fill_columns(options_.progress);
+    counts_.open_columns = fill_->open_columns();
+  }
   const int axis = header_.slab_axis;
   const int a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
-  Steps steps(options_, "filling", "slabs", std::uint64_t(tiles_.count[axis]));
+  StageSteps steps(options_.progress, "filling", "slabs", std::uint64_t(tiles_.count[axis]));
   TileCoord at{};
   pipeline<Slab>(
       2,
@@ -442,7 +309,7 @@ void Run::fill_and_emit(BrickSink& sink) {
       [&](Slab& slab) {
         if (options_.fill == FillMode::flood || options_.fill == FillMode::inside) {
           parallel_for(std::int64_t(slab.tiles.size()),
-                       [&](std::int64_t i) { fill_flood(slab.tiles[std::size_t(i)]); });
+                       [&](std::int64_t i) { fill_->fill_flood(slab.tiles[std::size_t(i)]); });
         }
         list_bricks(slab);
       },
@@ -452,30 +319,11 @@ void Run::fill_and_emit(BrickSink& sink) {
       });
 }
 
-void Run::fill_flood(std::uint64_t tile) {
-  const VoxelBox box = tile_box(tile);
-  const bool without_surface = options_.fill == FillMode::inside && touched_.count(tile) > 0;
-  if (!flood_->has_enclosed(box) && !without_surface) return;
-  const Pool<std::unique_ptr<Work>>::Lease work(*work_);
-  work->bits.reset(box);
-  load_voxels(*shelf_, work->bits);
-  BitBox surface;
-  if (without_surface) surface = work->bits;
-  flood_->fill_enclosed(box, work->bits);
-  for (std::int64_t i = 0; i < surface.word_count(); ++i) work->bits.data()[i] &= ~surface.data()[i];
-  store_voxels(work->bits, *shelf_);
-}
-
 void Run::list_bricks(Slab& slab) const {
   for (const std::uint64_t tile : slab.tiles) {
-    const BrickBox bricks = bricks_of(tile_box(tile));
-    for (std::int32_t z = bricks.min.z; z < bricks.max.z; ++z) {
-      for (std::int32_t y = bricks.min.y; y < bricks.max.y; ++y) {
-        for (std::int32_t x = bricks.min.x; x < bricks.max.x; ++x) {
-          if (shelf_->fill({x, y, z}) != BrickFill::empty) slab.bricks.push_back({x, y, z});
-        }
-      }
-    }
+    for_each_brick(tile_box(tile), [&](BrickCoord c) {
+      if (shelf_->fill(c) != BrickFill::empty) slab.bricks.push_back(c);
+    });
   }
   std::sort(slab.bricks.begin(), slab.bricks.end(),
             [&](BrickCoord p, BrickCoord q) { return slab_order(header_.slab_axis, p, q); });
@@ -491,61 +339,6 @@ void Run::emit(const Slab& slab, BrickSink& sink) {
     ++counts_.bricks;
     if (brick.fill == BrickFill::full) ++counts_.full_bricks;
     sink.write(brick);
-  }
-}
-
-void Run::fill_winding_columns() {
-  Steps steps(options_, "filling", "columns", std::uint64_t(tiles_.count.x) * std::uint64_t(tiles_.count.y));
-  const std::int64_t nx = tiles_.count.x;
-  parallel_for(nx * tiles_.count.y, [&](std::int64_t i) {
-    fill_winding_column(std::int32_t(i % nx), std::int32_t(i / nx));
-    steps.add(1);
-  });
-  counts_.open_columns = open_columns_;
-}
-
-/// One column of tiles: first the columns of voxels whose crossings cancel, then the fill from below.
-void Run::fill_winding_column(std::int32_t tx, std::int32_t ty) {
-  const Pool<std::unique_ptr<Work>>::Lease work(*work_);
-  const VoxelCoord size = tiles_.box({tx, ty, 0}).size();
-  const std::size_t width = std::size_t(size.x), words = (width + 63) / 64;
-  std::vector<std::int32_t> numbers(width * std::size_t(size.y), 0);
-  for (std::int32_t tz = 0; tz < tiles_.count.z; ++tz) {
-    get_crossings(tiles_.index({tx, ty, tz}), work->crossings);
-    add_crossings(work->crossings, tiles_.box({tx, ty, tz}), numbers);
-  }
-  std::vector<std::uint64_t> open(words * std::size_t(size.y), 0);
-  std::uint64_t open_count = 0;
-  for (std::size_t y = 0; y < std::size_t(size.y); ++y) {
-    for (std::size_t x = 0; x < width; ++x) {
-      if (numbers[x + y * width] == 0) continue;
-      open[y * words + x / 64] |= std::uint64_t(1) << (x % 64);
-      ++open_count;
-    }
-  }
-  open_columns_ += open_count;
-  numbers.assign(numbers.size(), 0);
-  BitBox flooded;
-  for (std::int32_t tz = 0; tz < tiles_.count.z; ++tz) {
-    const std::uint64_t tile = tiles_.index({tx, ty, tz});
-    const VoxelBox box = tile_box(tile);
-    get_crossings(tile, work->crossings);
-    const bool flood = open_count > 0 && flood_->has_enclosed(box);
-    const bool wound = std::any_of(numbers.begin(), numbers.end(), [](std::int32_t n) { return n != 0; });
-    if (work->crossings.empty() && !flood && !wound) continue;
-    work->bits.reset(box);
-    load_voxels(*shelf_, work->bits);
-    if (flood) {
-      flooded = work->bits;
-      flood_->fill_enclosed(box, flooded);
-    }
-    Pool<Backend*>::Lease(*backends_)->fill_winding(work->crossings, open, numbers, work->bits);
-    for (std::int32_t z = box.min.z; flood && z < box.max.z; ++z) {
-      for (std::size_t w = 0; w < open.size(); ++w) {
-        work->bits.row(box.min.y, z)[w] |= flooded.row(box.min.y, z)[w] & open[w];
-      }
-    }
-    store_voxels(work->bits, *shelf_);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "lib/core/result_store.h"
 #include "lib/core/triangle_source.h"
 #include "lib/grid/stream.h"
+#include "lib/stage/stage_progress.h"
 
 /// bpvox's work: a stream of triangles in, a stream of solid bricks out, tile by tile, out of core.
 ///
@@ -33,8 +34,7 @@ struct VoxelizeOptions {
   /// The voxels of chunks of the scene (surface_chunks.h) are looked up there, and put; null: all are made. Winding
   /// numbers need all triangles, and use none.
   ResultStore* results = nullptr;
-  /// Called now and then: what is done, of how many (0: not known) units. May be empty. On any thread, one at a time.
-  std::function<void(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total)> progress;
+  StageProgress progress;  ///< called now and then
 };
 
 struct VoxelizeCounts {

@@ -74,19 +74,22 @@ int Parts::sides(int n) const {
   return std::max(5, int(std::lround(n * detail_)));
 }
 
+/// Bit i of a corner's number: at the far end of axis i.
+void Parts::box_faces() {
+  static constexpr std::uint32_t kQuads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                                 {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& q : kQuads) {
+    sink_.face(q[0], q[1], q[2]);
+    sink_.face(q[0], q[2], q[3]);
+  }
+}
+
 void Parts::box(Vec lo, Vec hi) {
   const Sink::Wants wants = sink_.part(8, 12);
   if (wants & Sink::vertices) {
     for (int i = 0; i < 8; ++i) sink_.vertex({i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z});
   }
-  if (wants & Sink::faces) {
-    static constexpr std::uint32_t kQuads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                                   {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-    for (const auto& q : kQuads) {
-      sink_.face(q[0], q[1], q[2]);
-      sink_.face(q[0], q[2], q[3]);
-    }
-  }
+  if (wants & Sink::faces) box_faces();
 }
 
 void Parts::beam(Vec a, Vec b, double width, double height) {
@@ -96,14 +99,7 @@ void Parts::beam(Vec a, Vec b, double width, double height) {
     for (int i = 0; i < 8; ++i)
       sink_.vertex((i & 4 ? b : a) + u * ((i & 1 ? 0.5 : -0.5) * width) + v * ((i & 2 ? 0.5 : -0.5) * height));
   }
-  if (wants & Sink::faces) {
-    static constexpr std::uint32_t kQuads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                                   {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-    for (const auto& q : kQuads) {
-      sink_.face(q[0], q[1], q[2]);
-      sink_.face(q[0], q[2], q[3]);
-    }
-  }
+  if (wants & Sink::faces) box_faces();
 }
 
 void Parts::sheet(Vec corner, Vec u, Vec v, int across, int up) {

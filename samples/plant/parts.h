@@ -55,6 +55,7 @@ class Parts {
   void frame(Vec corner, int bays_x, int bays_z, int levels, double bay, double storey);
 
  private:
+  void box_faces();
   [[nodiscard]] int sides(int n) const;
   Sink& sink_;
   double detail_;

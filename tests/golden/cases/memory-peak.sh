@@ -12,6 +12,8 @@ within bplod plant.ply -o x --resolution 200 --levels 2
 within bplod plant.ply -o x --resolution 200 --profile collision --faces 2000
 within bplod plant.ply -o x --resolution 200 --levels 3 --profile 3dtiles --tile 64 --cache c
 within bplod plant.ply -o x --resolution 200 --levels 3 --profile 3dtiles --tile 64 --cache c
+# Tiles whose surfaces have many faces: a limit on distances would want each whole in memory.
+within bplod plant.ply -o x --resolution 400 --levels 1 --profile 3dtiles --tile 192
 # A later level of a chain, whose voxels have many faces though the levels have few: its surface is never whole either.
 awk 'BEGIN {
   split("1 3 4 2 5 6 8 7 1 2 6 5 3 7 8 4 1 5 7 3 2 4 8 6", side, " ")

@@ -204,6 +204,27 @@ TEST_CASE("voxels stored on a shelf load again in any box", "[quick][io]") {
   CHECK(part == expected);
 }
 
+TEST_CASE("more bricks than the index has room for are refused, and bricks that go make room", "[quick][io]") {
+  const std::uint64_t budget = GENERATE(0u, 100000u);
+  const ShelfPool pool(budget, kTemp);
+  const std::unique_ptr<BrickShelf> shelf = pool.make();
+  const auto room = std::int32_t((budget + (4 << 20)) / 80);
+  const BrickBits full = bits_of(1, 0);
+  for (std::int32_t i = 0; i < room; ++i) shelf->put({i, 0, 0}, BrickFill::full, full);
+  try {
+    shelf->put({room, 0, 0}, BrickFill::full, full);
+    FAIL("no error");
+  } catch (const Error& e) {
+    CHECK(e.code() == ErrorCode::out_of_resource);
+    CHECK(std::string(e.what()).find("the index of " + std::to_string(room) + " bricks") != std::string::npos);
+  }
+  CHECK(shelf->fill({room, 0, 0}) == BrickFill::empty);
+  shelf->put({0, 0, 0}, BrickFill::full, full);  // one that is there takes no other entry
+  shelf->drop({7, 0, 0});
+  shelf->put({room, 0, 0}, BrickFill::full, full);
+  CHECK(pool.use().memory_bytes == std::uint64_t(room) * 80);
+}
+
 TEST_CASE("a scratch directory that does not exist is named", "[quick][io]") {
   const std::unique_ptr<BrickShelf> shelf = make_shelf(0, "/nowhere/at/all");
   try {

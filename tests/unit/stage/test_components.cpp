@@ -60,13 +60,3 @@ TEST_CASE("small parts are dropped with the cavities in them, whichever way the 
   CHECK(mesh.triangles.size() == triangles - 12 * (c.parts + (c.parts == 3 ? 1 : 0)));
   CHECK(mesh.vertices.size() * 3 == mesh.triangles.size() * 2);  // 8 and 12 a cube: no vertex is left without a face
 }
-
-TEST_CASE("shells that face inwards in nothing are dropped, cavities are not", "[quick][stage]") {
-  LatticeMesh sound = lattice(parts());
-  const auto triangles = sound.triangles;
-  CHECK(drop_inverted_components(sound) == 0);
-  CHECK(sound.triangles == triangles);
-  LatticeMesh mesh = lattice(join(parts(), inverted(cube(2, {0, 40, 0}))));
-  CHECK(drop_inverted_components(mesh) == 12);
-  CHECK(mesh.triangles == triangles);
-}

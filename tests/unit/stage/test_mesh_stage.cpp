@@ -320,6 +320,33 @@ TEST_CASE("the surface around a mesh strictly encloses it, whatever the voxels",
   check(around, &triangles);
 }
 
+TEST_CASE("what a bound on distances takes is refused where it does not fit", "[quick][stage]") {
+  const auto refusal = [](double error_world, std::uint64_t work_bytes) -> std::string {
+    VoxelSource source(kBox, [](VoxelCoord p) { return length_of(p.x - 9, p.y - 9, p.z - 9) < 5; });
+    MeshParams params;
+    params.faces = {40};
+    params.error_world = error_world;
+    params.tighten = false;
+    params.memory.waiting_bytes = 0;
+    params.memory.work_bytes = work_bytes;
+    MeshCounts counts;
+    try {
+      (void)mesh_stream(source, memory_shelves(), params, counts);
+    } catch (const Error& e) {
+      if (e.code() == ErrorCode::out_of_resource) return e.what();
+      throw;
+    }
+    return "";
+  };
+  const std::uint64_t taken = ProxyLimits::bytes_needed({.error_world = 1});
+  CHECK(taken == std::uint64_t(4) << 20);
+  CHECK(ProxyLimits::bytes_needed({.volume_world = 1}) == 0);
+  CHECK(refusal(0, taken).empty());
+  CHECK(refusal(1, 2 * taken).empty());
+  // The surface that distances are measured from takes its part, too.
+  CHECK(refusal(1, taken).find("within a distance takes 4 MiB, and --memory leaves 3 MiB") != std::string::npos);
+}
+
 TEST_CASE("a chain of levels is the same for every memory, and what waits goes to the store", "[quick][stage]") {
   MeshParams params;
   params.faces = {400, 200, 60};
