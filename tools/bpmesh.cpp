@@ -13,6 +13,7 @@
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/stage/mesh_stage.h"
+#include "tools/common/face_notes.h"
 #include "tools/common/memory_shares.h"
 #include "tools/common/names.h"
 #include "tools/common/provenance.h"
@@ -286,11 +287,14 @@ std::string obstacle_text(const Options& o, const bp::LevelCounts& level) {
       level.measures.shells, level.measures.handles);
 }
 
-/// Of a level that has more faces than were asked for.
+/// Of a level that has not the faces that were asked for.
 void note_faces(bp::Report& report, const Options& o, const bp::MeshCounts& c, std::size_t i) {
   const bp::LevelCounts& level = c.levels[i];
   const std::uint64_t faces = level.simplify.faces_out;
-  if (i >= o.faces.size() || faces <= o.faces[i]) return;
+  if (i >= o.faces.size()) return;
+  if (const std::string few = bp::too_few_note(faces, o.faces[i]); !few.empty())
+    report.note(level_text(c, i) + few, o.common);
+  if (faces <= o.faces[i]) return;
   const bool coarser = i == 0 || faces < c.levels[i - 1].simplify.faces_out;
   const std::string refusals = refusals_text(o, level.simplify);
   report.note(fmt::format("{}{} faces instead of {}{}: {}{}", level_text(c, i), faces, o.faces[i],

@@ -14,6 +14,7 @@
 #include "lib/core/parallel.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/stage/vertex_colors.h"
+#include "tools/common/face_notes.h"
 #include "tools/common/names.h"
 
 namespace bp {
@@ -40,6 +41,18 @@ std::string listing(const std::vector<LevelRow>& rows) {
                         row.bytes);
   }
   return text;
+}
+
+/// What a level that has not its faces missed, and why; empty if it has them. Fewer than nobody asked for are none.
+std::string faces_note(const LodLevel& level, const LodTarget& target, bool asked) {
+  const std::uint64_t faces = level.mesh.triangles.size();
+  if (!level.reached)
+    return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", faces,
+                       target.faces, level.scale_world);
+  const std::string few = asked ? too_few_note(faces, target.faces) : "";
+  if (few.empty() || level.attempts == 1) return few;
+  return fmt::format("{} faces instead of {}: at half of its scale of {:.4g}, parts and holes take too many", faces,
+                     target.faces, level.scale_world);
 }
 
 }  // namespace
@@ -158,10 +171,8 @@ LodLevel Build::make_level(LodChain& chain, std::size_t i, std::size_t since, do
   OptionText text = option_text(options, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
-  if (!level.reached) {
-    note(fmt::format("level {}: {} faces instead of {}, even closed at {:.4g}: no further edge can be merged", i,
-                     level.mesh.triangles.size(), target.faces, level.scale_world));
-  }
+  if (const std::string missed = faces_note(level, target, !options.request.faces.empty()); !missed.empty())
+    note(fmt::format("level {}: {}", i, missed));
   if (target.error_world > 0 && level.error_world > target.error_world) {
     note(error_note(i, level.error_world, target.error_world));
   }
