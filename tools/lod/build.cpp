@@ -55,6 +55,15 @@ std::string faces_note(const LodLevel& level, const LodTarget& target, bool aske
                      target.faces, level.scale_world);
 }
 
+/// What was made stays if it cannot be told: it took far longer than to free the space.
+void print_list(const std::string& text, const std::string& made) {
+  try {
+    print(text);
+  } catch (const Error& e) {
+    fail(e.code(), "{}; the list is lost, but {}", e.what(), made);
+  }
+}
+
 }  // namespace
 
 Build::Build(const BuildOptions& o)
@@ -193,8 +202,7 @@ void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& row
   report.counts["levels"] = Json::array();
   for (const LevelRow& row : rows) report.counts["levels"].push_back(json_of(row));
   report.bytes_out = bytes_out;
-  write_report(scene);
-  print(listing(rows));
+  tell(scene, listing(rows), "all files are complete, in " + options.out);
 }
 
 void Build::finish_jobs(const VoxelizedScene& scene, const JobRange& range, std::uint64_t all,
@@ -203,8 +211,17 @@ void Build::finish_jobs(const VoxelizedScene& scene, const JobRange& range, std:
   for (const FoundJobs& f : found) text += fmt::format("{}\t{}\t{}\n", f.what, f.jobs, f.kept);
   report.counts["jobs"] = {{"begin", range.begin}, {"end", range.end}, {"of", all}};
   for (const FoundJobs& f : found) report.counts["levels"].push_back(json_of(f));
-  write_report(scene);
-  print(text);
+  tell(scene, text, "all results are kept, in " + options.cache);
+}
+
+void Build::tell(const VoxelizedScene& scene, const std::string& list, const std::string& made) {
+  try {
+    write_report(scene);
+  } catch (const Error&) {  // the list may come through
+    print_list(list, made);
+    throw;
+  }
+  print_list(list, made);
 }
 
 void Build::write_report(const VoxelizedScene& scene) {

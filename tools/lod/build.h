@@ -67,6 +67,8 @@ class Build {
                    const std::vector<FoundJobs>& found);
 
  private:
+  /// The report, then the list; a failure says that what was `made` is there.
+  void tell(const VoxelizedScene& scene, const std::string& list, const std::string& made);
   void write_report(const VoxelizedScene& scene);
 
  public:
