@@ -48,6 +48,7 @@ Options parse(bp::Args& args) {
   if (o.in.empty()) o.in = {"-"};
   if (int(o.json) + int(o.checksum) + int(o.dump) > 1)
     bp::fail(bp::ErrorCode::bad_argument, "--json, --checksum and --dump exclude each other");
+  args.needs({"--image-size", "--no-edges", "--up", "--azimuth", "--elevation"}, "--image");
   if (o.in.size() > 1 && (o.json || o.dump)) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump take one INPUT");
   return o;
 }

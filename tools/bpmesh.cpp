@@ -355,6 +355,9 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
   if (o.inset && o.mode != bp::MeshMode::fit)
     bp::fail(bp::ErrorCode::bad_argument, "--inset is for fits; it needs --mode fit");
   if (o.inset) params.inset = *o.inset;
+  if (o.least_part && o.mode != bp::MeshMode::inside)
+    bp::fail(bp::ErrorCode::bad_argument,
+             "only a proxy inside a scene may leave parts out; --least-part needs --mode inside");
   params.least_part = o.least_part.value_or(o.mode == bp::MeshMode::inside ? kLeastPart : 0);
   if (o.loose && o.mode == bp::MeshMode::fit)
     bp::fail(bp::ErrorCode::bad_argument, "a fit is not tightened; --no-tighten has no meaning");

@@ -54,6 +54,26 @@ void check_name(BuildOptions& o) {
          given ? "--name" : "the scene's name", o.name);
 }
 
+/// What would be passed over in silence.
+void check_meaning(const Args& args, const BuildOptions& o) {
+  if (o.profile != LodProfile::tiles) {
+    for (const char* const name : {"--tile", "--tiles", "--cache", "--resume"}) {
+      if (args.given(name)) fail(ErrorCode::bad_argument, "{} needs --profile 3dtiles", name);
+    }
+  }
+  if (o.profile == LodProfile::collision && args.given("--colors") && o.colors)
+    fail(ErrorCode::bad_argument, "--profile collision has no colours; leave --colors out");
+  if (o.mode == MeshMode::fit) {
+    for (const char* const name : {"--enclose", "--no-tighten"}) {
+      if (args.given(name))
+        fail(ErrorCode::bad_argument, "a fit encloses nothing and is not tightened; {} has no meaning", name);
+    }
+  }
+  const bool by_error = !o.request.errors.empty() || !o.request.pixels.empty();
+  if (o.loose && args.given("--enclose") && !by_error)
+    fail(ErrorCode::bad_argument, "--enclose says what tightening keeps inside; --no-tighten leaves that out");
+}
+
 void check_options(BuildOptions& o) {
   const bool listed = !o.request.faces.empty() || !o.request.errors.empty() || !o.request.pixels.empty();
   if (o.profile == LodProfile::collision && !listed && !o.request.levels) o.request.levels = 1;
@@ -71,8 +91,6 @@ void check_options(BuildOptions& o) {
   if (o.resolution && *o.resolution < 1) fail(ErrorCode::bad_argument, "--resolution 0: at least 1 voxel is needed");
   if (o.tile_vox < kBrickEdge || o.tile_vox % kBrickEdge != 0)
     fail(ErrorCode::bad_argument, "--tile {}: must be a multiple of 64", o.tile_vox);
-  if (o.profile != LodProfile::tiles && (o.resume || !o.cache.empty()))
-    fail(ErrorCode::bad_argument, "--cache and --resume need --profile 3dtiles");
   if (o.resume && !o.cache.empty())
     fail(ErrorCode::bad_argument, "--cache keeps what is done as well; leave --resume out");
   if (o.tiles && o.explain) fail(ErrorCode::bad_argument, "--explain numbers the jobs; leave --tiles out");
@@ -155,6 +173,7 @@ BuildOptions parse_build_options(Args& args) {
   o.common.add_to(args);
   args.example("bplod plant.glb --faces 20000,5000,1000 --profile 3dtiles -o plant-tiles");
   args.parse();
+  check_meaning(args, o);
   check_options(o);
   return o;
 }

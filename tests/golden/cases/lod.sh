@@ -29,7 +29,7 @@ tiles=(cut2/cubes_LOD0/*)
 rm "${tiles[0]}"
 cp "${tiles[1]}" "${tiles[2]}"
 bpcheck part*.obj cut2/tileset.json | sed 's/[0-9]* triangles/some triangles/; s/[0-9][0-9]* of [0-9][0-9]*/some/; s/by up to.*//'
-try bplod cube.obj -o x --tile 100
+try bplod cube.obj -o x --profile 3dtiles --tile 100
 # Thin rods that lie apart have few voxels: no tile of a level goes far from them to save faces.
 awk 'BEGIN { for (a = 0; a < 3; ++a) for (i = 4; i < 120; i += 28) for (j = 4; j < 120; j += 28) {
   for (s = 0; s < 8; ++s) { p[a] = s % 2 ? 116 : 4; p[(a + 1) % 3] = i + int(s / 2) % 2 * 0.5; p[(a + 2) % 3] = j + int(s / 4) * 0.5; print "v", p[0], p[1], p[2] }
