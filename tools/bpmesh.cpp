@@ -13,6 +13,7 @@
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/stage/mesh_stage.h"
+#include "tools/common/face_list.h"
 #include "tools/common/face_notes.h"
 #include "tools/common/memory_shares.h"
 #include "tools/common/names.h"
@@ -40,19 +41,6 @@ struct Options {
   bp::Vec3d origin{};
 };
 
-std::vector<std::uint64_t> parse_faces(const std::string& text) {
-  std::vector<std::uint64_t> faces;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    faces.push_back(std::uint64_t(bp::parse_integer(std::string_view(text).substr(begin, end - begin), 0, INT64_MAX)));
-    begin = end + 1;
-  }
-  if (faces == std::vector<std::uint64_t>{0}) return {};
-  if (std::count(faces.begin(), faces.end(), 0u) > 0)
-    bp::fail(bp::ErrorCode::bad_argument, "--faces {}: a level of 0 faces", text);
-  return faces;
-}
-
 Options parse(bp::Args& args) {
   Options o;
   args.about("Meshes a brick stream into a coarse proxy that encloses its voxels and does not intersect itself.");
@@ -64,7 +52,7 @@ Options parse(bp::Args& args) {
       o.mode,
       "around what is meshed; strictly inside the scene, of a stream of bpvox --fill inside; or as near as can be");
   args.option(
-      "--faces", "N[,N...]", [&o](const std::string& text) { o.faces = parse_faces(text); },
+      "--faces", "N[,N...]", [&o](const std::string& text) { o.faces = bp::parse_face_list(text); },
       "stop at N triangles; several falling numbers: a chain of levels, each enclosing the one before");
   args.option("--error", "LENGTH", o.error, "no point of the proxy farther from what it encloses");
   args.option("--volume", "RATIO", o.volume,

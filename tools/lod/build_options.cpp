@@ -5,6 +5,7 @@
 #include "lib/core/error.h"
 #include "lib/grid/cells.h"
 #include "lib/stage/voxelize_stage.h"
+#include "tools/common/face_list.h"
 #include "tools/common/names.h"
 
 namespace bp {
@@ -135,7 +136,7 @@ BuildOptions parse_build_options(Args& args) {
   args.option("--name", "NAME", o.name, "first part of the names of files and nodes (default: the first scene's)");
   args.option("--levels", "N", o.request.levels, "number of levels (default: as many as are listed, or 4)");
   args.option(
-      "--faces", "N[,N...]", [&o](const std::string& text) { o.request.faces = parse_faces(text); },
+      "--faces", "N[,N...]", [&o](const std::string& text) { o.request.faces = parse_face_list(text); },
       "triangles of each level, finest first; one number: each further one of --levels has a quarter");
   args.option(
       "--error", "LENGTH[,...]", [&o](const std::string& text) { o.request.errors = parse_errors(text); },

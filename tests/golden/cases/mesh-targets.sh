@@ -26,6 +26,8 @@ done
 try bpmesh cube.bpv --faces 12,40 -o wrong.glb
 try bpmesh cube.bpv --faces 12,0 -o wrong.glb
 try bpmesh cube.bpv --faces 12, -o wrong.glb
+try bpmesh cube.bpv --faces 1,000 -o wrong.glb
+try bplod cube.obj --faces 10,500 -o wrong
 try bpmesh cube.bpv --faces 40,12 --format glb
 try bpmesh cube.bpv --volume 0.5 -o wrong.glb
 try bpmesh cube.bpv --edge-length -1 -o wrong.glb
