@@ -54,7 +54,7 @@ Options parse(bp::Args& args) {
   args.option(
       "--faces", "N[,N...]", [&o](const std::string& text) { o.faces = bp::parse_face_list(text); },
       "stop at N triangles; several falling numbers: a chain of levels, each enclosing the one before");
-  args.option("--error", "LENGTH", o.error, "no point of the proxy farther from what it encloses");
+  args.option("--error", "LENGTH", o.error, "no point of the proxy farther from what it encloses; above 0");
   args.option("--volume", "RATIO", o.volume,
               "at most RATIO times the volume of the voxels that are meshed; 0: no limit");
   args.option("--edge-length", "C", o.edge_length, "no edge longer than C times the scale there; 0: no limit");
@@ -73,6 +73,8 @@ Options parse(bp::Args& args) {
   o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
   args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
   args.parse();
+  if (o.error && !(o.error->value > 0))
+    bp::fail(bp::ErrorCode::bad_argument, "--error {}: must be above 0; leave it out for no limit", o.error->text());
   return o;
 }
 
