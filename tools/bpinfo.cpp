@@ -11,6 +11,7 @@
 #include "tools/common/run_tool.h"
 #include "tools/info/mesh_info.h"
 #include "tools/info/stream_info.h"
+#include "tools/info/tileset_info.h"
 
 namespace {
 
@@ -26,8 +27,8 @@ struct Options {
 
 Options parse(bp::Args& args) {
   Options o;
-  args.about("Says what brick streams or meshes hold, and checks a stream to its end.");
-  args.positional("[INPUT...]", o.in, "brick streams, meshes or scenes; - is stdin (default: -)");
+  args.about("Says what brick streams, meshes or tilesets hold, and checks a stream to its end.");
+  args.positional("[INPUT...]", o.in, "brick streams, meshes or scenes, tilesets (*.json); - is stdin (default: -)");
   args.flag("--json", o.json, "as JSON");
   args.flag(
       "--checksum", o.checksum,
@@ -210,9 +211,23 @@ void show_mesh(const Options& o, const std::string& in, Picture& picture) {
   if (picture.wanted()) picture.add_mesh(info, std::move(source), in);
 }
 
+/// By its name, as bpcheck does.
+bool is_tileset(const Options& o, const std::string& in) {
+  return o.format.empty() && in.ends_with(".json");
+}
+
+void show_tileset(const Options& o, const std::string& in, Picture& picture) {
+  if (o.dump || o.checksum || picture.wanted())
+    bp::fail(bp::ErrorCode::bad_argument, "{}: a tileset is described only; name its contents to see what they hold",
+             in);
+  const bp::TilesetInfo info = bp::tileset_info(in);
+  bp::print(o.json ? bp::tileset_json(info).dump(2) + "\n" : bp::tileset_text(info, in));
+}
+
 void run(const Options& o) {
   Picture picture(o);
-  for (const std::string& in : o.in) (is_stream(o, in) ? show_stream : show_mesh)(o, in, picture);
+  for (const std::string& in : o.in)
+    (is_tileset(o, in) ? show_tileset : is_stream(o, in) ? show_stream : show_mesh)(o, in, picture);
   if (picture.wanted()) picture.write();
 }
 

@@ -60,6 +60,14 @@ grep -c 'faces instead of' few.json
 said 'bplod part*.obj --name cubes --faces 20000 --levels 1 --resolution 60 --profile 3dtiles -o few3d > list' | some
 said 'bplod part*.obj --name cubes --faces 20000 --resolution 60 --profile collision -q -o few > list'
 said 'bplod cube.obj --levels 2 --resolution 24 -o few > list'  # what nobody asked for is no miss
+# What bpinfo says of a tileset.
+bplod cube.obj --name c --voxel 0.05 --tile 64 --faces 12 --up z --profile 3dtiles -q -o info > list
+said 'bpinfo info/tileset.json | sed -E "s/, [0-9.]+ KiB/, SOME KiB/; s/(error|bounds) .*/\1 SOME/; s/input .*/input SOME/"'
+bpinfo info/tileset.json --json | grep -E '"(kind|tiles|contents|missing|up)"'
+rm info/c_LOD0/1_*
+said 'bpinfo info/tileset.json | grep missing'
+for option in --dump --checksum '--image x.png'; do try bpinfo info/tileset.json $option; done
+
 # Findings of a tileset.
 cp -r tiles broken
 rm broken/cubes_LOD0.glb
