@@ -87,6 +87,7 @@ struct Panel {
   std::vector<bp::TriangleD> triangles;
   std::vector<bp::TriangleColors> colors;
   std::unique_ptr<bp::TriangleSource> source;  // of a mesh too large to keep
+  bp::Bounds3d bounds;
   bp::View view;
 };
 
@@ -114,7 +115,9 @@ class Picture {
     auto panel = std::make_unique<Panel>();
     if (!up_) up_ = source->up();
     bounds_.merge(info.totals.bounds);
+    panel->bounds = info.totals.bounds;
     panel->view.label = fmt::format("{} triangles", info.totals.triangles);
+    if (info.extras.levels > 1) panel->view.label += fmt::format(", finest of {} levels", info.extras.levels);
     if (several()) panel->view.label.insert(0, shown_name(in) + "\n");
     if (info.triangles.size() == info.totals.triangles) {
       panel->triangles = std::move(info.triangles);
@@ -132,6 +135,7 @@ class Picture {
   }
 
   void write() {
+    if (are_far_apart()) draw_by_themselves();
     std::vector<bp::View> views;
     for (const auto& panel : panels_) views.push_back(panel->view);
     bp::RenderOptions options;
@@ -144,7 +148,28 @@ class Picture {
   }
 
  private:
+  static constexpr double kFarApart = 4;                              // largest inputs between them
   static constexpr std::size_t kEdges = 50000, kEdgesOfMany = 20000;  // more would only darken the picture
+
+  /// At one scale, hardly anything would be seen of any of them.
+  [[nodiscard]] bool are_far_apart() const {
+    double largest = 0;
+    for (const auto& panel : panels_) {
+      if (!panel->bounds.empty()) largest = std::max(largest, panel->bounds.diagonal());
+    }
+    return largest > 0 && bounds_.diagonal() > kFarApart * largest;
+  }
+
+  void draw_by_themselves() {
+    for (const auto& panel : panels_) {
+      panel->view.bounds = panel->bounds;
+      panel->view.label += "\ndrawn by itself";
+    }
+    std::fputs(
+        "bpinfo: note: the inputs lie far apart: each is drawn by itself, not at one scale. The place of a tile's "
+        "content is in tileset.json\n",
+        stderr);
+  }
 
   void add_layer(bp::Layer layer, const bp::CoarseView& cells, const bp::StreamHeader& header,
                  const bp::StreamTotals& totals) {
@@ -153,8 +178,9 @@ class Picture {
     auto panel = std::make_unique<Panel>();
     panel->triangles = cells.surface(layer, header.frame);
     for (const bp::TriangleD& t : panel->triangles) {
-      for (const bp::Vec3d& p : t) bounds_.add(p);
+      for (const bp::Vec3d& p : t) panel->bounds.add(p);
     }
+    bounds_.merge(panel->bounds);
     panel->view.triangles = panel->triangles;
     panel->view.color = several() ? kColors[0] : kColors[i];
     panel->view.label = fmt::format("{}: {} voxels of {:.4g}", i == 0 ? "solid" : "closing", totals.layers[i].voxels,
