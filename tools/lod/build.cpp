@@ -102,6 +102,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results) {
   };
   out.counts = voxelize_stream(*source, open, backends, v);
   if (const std::string text = skipped(out.counts.scene); !text.empty()) note("skipped " + text);
+  if (const std::string text = up_note(options, source->up(), out.header.bounds); !text.empty()) note(text);
   if (source->has_colors()) gather(*source, out);
   return out;
 }
@@ -191,6 +192,17 @@ LodLevel Build::make_level(LodChain& chain, std::size_t i, std::size_t since, do
 std::string error_note(std::size_t level, double error_world, double asked_world) {
   return fmt::format("level {}: its error is at most {:.4g} instead of {:.4g}: narrow gaps of the scene are closed",
                      level, error_world, asked_world);
+}
+
+std::string up_note(const BuildOptions& o, const std::optional<UpAxis>& told, const Bounds3d& bounds) {
+  constexpr double kFlat = 0.25;  // of the shorter side: rooms and most buildings are not
+  if (o.profile != LodProfile::tiles || o.up || told || bounds.empty()) return "";
+  const double x = bounds.max[0] - bounds.min[0], y = bounds.max[1] - bounds.min[1], z = bounds.max[2] - bounds.min[2];
+  if (z >= kFlat * std::min(x, y)) return "";
+  return fmt::format(
+      "the scene is {:.4g} x {:.4g} x {:.4g}, flat along z, and y is taken for up: if it is a map, it will stand on "
+      "edge; say --up z, or --up y to be sure",
+      x, y, z);
 }
 
 void Build::note(const std::string& text) {

@@ -126,11 +126,12 @@ BuildOptions parse_build_options(Args& args) {
   args.about("Makes levels of detail of scenes: coarser and coarser proxies that strictly enclose them.");
   args.positional("SCENE", o.scenes, "scenes, taken together; - is stdin and needs --format");
   args.option("-o,--output", "DIR", o.out, "folder of the levels; it is made if it is not there");
-  args.option(
-      "--profile", {{"gltf", LodProfile::gltf}, {"3dtiles", LodProfile::tiles}, {"collision", LodProfile::collision}},
-      o.profile,
-      "gltf: a GLB a level, and one with all (MSFT_lod); 3dtiles: a tileset of compressed GLB, coarse root; collision: "
-      "one level, named for Godot, Unreal and Unity");
+  args.option("--profile",
+              {{"gltf", LodProfile::gltf}, {"3dtiles", LodProfile::tiles}, {"collision", LodProfile::collision}},
+              o.profile,
+              "gltf: a GLB a level, and one with all (MSFT_lod); 3dtiles: a tileset of compressed GLB, coarse root, in "
+              "the scene's coordinates (mind --up); collision: "
+              "one level, named for Godot, Unreal and Unity");
   args.option("--mode", {{"bounding", MeshMode::bounding}, {"fit", MeshMode::fit}}, o.mode,
               "around the scene; or as near to it as can be, enclosing nothing");
   args.option("--name", "NAME", o.name, "first part of the names of files and nodes (default: the first scene's)");
