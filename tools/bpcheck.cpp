@@ -54,6 +54,11 @@ Options parse(bp::Args& args) {
   o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
   args.example("bpcheck scene.glb proxy.glb --image both.png");
   args.parse();
+  args.needs({"--image-size", "--up", "--azimuth", "--elevation"}, "--image");
+  args.excludes("--samples", "--no-distances");
+  args.excludes("--samples", "--inside");  // measures none
+  if (o.inside && o.files.size() < 2)
+    bp::fail(bp::ErrorCode::bad_argument, "--inside asks for a scene around the proxy; name it before the proxy");
   return o;
 }
 

@@ -49,6 +49,7 @@ Options parse(bp::Args& args) {
       "auto, cpu, cuda (every GPU) or cuda:0,1 (default: auto, one GPU where the work is worth its start, or the CPU)";
   o.common.add_to(args);
   args.parse();
+  args.excludes("--keep-cavities", "--inner");
   if (!o.scale && o.field.empty()) fail(ErrorCode::bad_argument, "give a --scale or a --field");
   if (o.scale && !o.field.empty()) fail(ErrorCode::bad_argument, "--scale and --field exclude each other");
   return o;

@@ -11,6 +11,7 @@
 #include "tools/common/run_tool.h"
 #include "tools/info/mesh_info.h"
 #include "tools/info/stream_info.h"
+#include "tools/info/tileset_info.h"
 
 namespace {
 
@@ -26,8 +27,8 @@ struct Options {
 
 Options parse(bp::Args& args) {
   Options o;
-  args.about("Says what brick streams or meshes hold, and checks a stream to its end.");
-  args.positional("[INPUT...]", o.in, "brick streams, meshes or scenes; - is stdin (default: -)");
+  args.about("Says what brick streams, meshes or tilesets hold, and checks a stream to its end.");
+  args.positional("[INPUT...]", o.in, "brick streams, meshes or scenes, tilesets (*.json); - is stdin (default: -)");
   args.flag("--json", o.json, "as JSON");
   args.flag(
       "--checksum", o.checksum,
@@ -48,6 +49,7 @@ Options parse(bp::Args& args) {
   if (o.in.empty()) o.in = {"-"};
   if (int(o.json) + int(o.checksum) + int(o.dump) > 1)
     bp::fail(bp::ErrorCode::bad_argument, "--json, --checksum and --dump exclude each other");
+  args.needs({"--image-size", "--no-edges", "--up", "--azimuth", "--elevation"}, "--image");
   if (o.in.size() > 1 && (o.json || o.dump)) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump take one INPUT");
   return o;
 }
@@ -85,6 +87,7 @@ struct Panel {
   std::vector<bp::TriangleD> triangles;
   std::vector<bp::TriangleColors> colors;
   std::unique_ptr<bp::TriangleSource> source;  // of a mesh too large to keep
+  bp::Bounds3d bounds;
   bp::View view;
 };
 
@@ -112,7 +115,9 @@ class Picture {
     auto panel = std::make_unique<Panel>();
     if (!up_) up_ = source->up();
     bounds_.merge(info.totals.bounds);
+    panel->bounds = info.totals.bounds;
     panel->view.label = fmt::format("{} triangles", info.totals.triangles);
+    if (info.extras.levels > 1) panel->view.label += fmt::format(", finest of {} levels", info.extras.levels);
     if (several()) panel->view.label.insert(0, shown_name(in) + "\n");
     if (info.triangles.size() == info.totals.triangles) {
       panel->triangles = std::move(info.triangles);
@@ -130,6 +135,7 @@ class Picture {
   }
 
   void write() {
+    if (are_far_apart()) draw_by_themselves();
     std::vector<bp::View> views;
     for (const auto& panel : panels_) views.push_back(panel->view);
     bp::RenderOptions options;
@@ -142,7 +148,28 @@ class Picture {
   }
 
  private:
+  static constexpr double kFarApart = 4;                              // largest inputs between them
   static constexpr std::size_t kEdges = 50000, kEdgesOfMany = 20000;  // more would only darken the picture
+
+  /// At one scale, hardly anything would be seen of any of them.
+  [[nodiscard]] bool are_far_apart() const {
+    double largest = 0;
+    for (const auto& panel : panels_) {
+      if (!panel->bounds.empty()) largest = std::max(largest, panel->bounds.diagonal());
+    }
+    return largest > 0 && bounds_.diagonal() > kFarApart * largest;
+  }
+
+  void draw_by_themselves() {
+    for (const auto& panel : panels_) {
+      panel->view.bounds = panel->bounds;
+      panel->view.label += "\ndrawn by itself";
+    }
+    std::fputs(
+        "bpinfo: note: the inputs lie far apart: each is drawn by itself, not at one scale. The place of a tile's "
+        "content is in tileset.json\n",
+        stderr);
+  }
 
   void add_layer(bp::Layer layer, const bp::CoarseView& cells, const bp::StreamHeader& header,
                  const bp::StreamTotals& totals) {
@@ -151,8 +178,9 @@ class Picture {
     auto panel = std::make_unique<Panel>();
     panel->triangles = cells.surface(layer, header.frame);
     for (const bp::TriangleD& t : panel->triangles) {
-      for (const bp::Vec3d& p : t) bounds_.add(p);
+      for (const bp::Vec3d& p : t) panel->bounds.add(p);
     }
+    bounds_.merge(panel->bounds);
     panel->view.triangles = panel->triangles;
     panel->view.color = several() ? kColors[0] : kColors[i];
     panel->view.label = fmt::format("{}: {} voxels of {:.4g}", i == 0 ? "solid" : "closing", totals.layers[i].voxels,
@@ -209,9 +237,23 @@ void show_mesh(const Options& o, const std::string& in, Picture& picture) {
   if (picture.wanted()) picture.add_mesh(info, std::move(source), in);
 }
 
+/// By its name, as bpcheck does.
+bool is_tileset(const Options& o, const std::string& in) {
+  return o.format.empty() && in.ends_with(".json");
+}
+
+void show_tileset(const Options& o, const std::string& in, Picture& picture) {
+  if (o.dump || o.checksum || picture.wanted())
+    bp::fail(bp::ErrorCode::bad_argument, "{}: a tileset is described only; name its contents to see what they hold",
+             in);
+  const bp::TilesetInfo info = bp::tileset_info(in);
+  bp::print(o.json ? bp::tileset_json(info).dump(2) + "\n" : bp::tileset_text(info, in));
+}
+
 void run(const Options& o) {
   Picture picture(o);
-  for (const std::string& in : o.in) (is_stream(o, in) ? show_stream : show_mesh)(o, in, picture);
+  for (const std::string& in : o.in)
+    (is_tileset(o, in) ? show_tileset : is_stream(o, in) ? show_stream : show_mesh)(o, in, picture);
   if (picture.wanted()) picture.write();
 }
 

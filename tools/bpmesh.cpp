@@ -13,6 +13,8 @@
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/stage/mesh_stage.h"
+#include "tools/common/face_list.h"
+#include "tools/common/face_notes.h"
 #include "tools/common/memory_shares.h"
 #include "tools/common/names.h"
 #include "tools/common/provenance.h"
@@ -39,19 +41,6 @@ struct Options {
   bp::Vec3d origin{};
 };
 
-std::vector<std::uint64_t> parse_faces(const std::string& text) {
-  std::vector<std::uint64_t> faces;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    faces.push_back(std::uint64_t(bp::parse_integer(std::string_view(text).substr(begin, end - begin), 0, INT64_MAX)));
-    begin = end + 1;
-  }
-  if (faces == std::vector<std::uint64_t>{0}) return {};
-  if (std::count(faces.begin(), faces.end(), 0u) > 0)
-    bp::fail(bp::ErrorCode::bad_argument, "--faces {}: a level of 0 faces", text);
-  return faces;
-}
-
 Options parse(bp::Args& args) {
   Options o;
   args.about("Meshes a brick stream into a coarse proxy that encloses its voxels and does not intersect itself.");
@@ -63,9 +52,9 @@ Options parse(bp::Args& args) {
       o.mode,
       "around what is meshed; strictly inside the scene, of a stream of bpvox --fill inside; or as near as can be");
   args.option(
-      "--faces", "N[,N...]", [&o](const std::string& text) { o.faces = parse_faces(text); },
+      "--faces", "N[,N...]", [&o](const std::string& text) { o.faces = bp::parse_face_list(text); },
       "stop at N triangles; several falling numbers: a chain of levels, each enclosing the one before");
-  args.option("--error", "LENGTH", o.error, "no point of the proxy farther from what it encloses");
+  args.option("--error", "LENGTH", o.error, "no point of the proxy farther from what it encloses; above 0");
   args.option("--volume", "RATIO", o.volume,
               "at most RATIO times the volume of the voxels that are meshed; 0: no limit");
   args.option("--edge-length", "C", o.edge_length, "no edge longer than C times the scale there; 0: no limit");
@@ -84,6 +73,8 @@ Options parse(bp::Args& args) {
   o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
   args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
   args.parse();
+  if (o.error && !(o.error->value > 0))
+    bp::fail(bp::ErrorCode::bad_argument, "--error {}: must be above 0; leave it out for no limit", o.error->text());
   return o;
 }
 
@@ -171,10 +162,12 @@ bp::Json json_of(const bp::QuadMeasures& q) {
           {"volume_over_diagonals", {{"least", q.volume_least}, {"most", q.volume_most}}}};
 }
 
-bp::Json json_of(const bp::LevelCounts& c) {
+/// `asked`: faces; 0: not said.
+bp::Json json_of(const bp::LevelCounts& c, std::uint64_t asked) {
   const bp::SimplifyCounts& s = c.simplify;
   const bp::MeshMeasures& m = c.measures;
   bp::Json json = {{"faces", s.faces_out},
+                   {"faces_asked", asked > 0 ? bp::Json(asked) : bp::Json(nullptr)},
                    {"stopped_by", c.stopped_by},
                    {"error_bound", c.error_world},
                    {"volume", m.volume},
@@ -215,7 +208,8 @@ void fill_report(bp::Report& report, const Options& o, const bp::MeshCounts& c) 
                     {"enclose", enclose_text(o)},
                     {"tighten", !o.loose}};
   bp::Json levels = bp::Json::array();
-  for (const bp::LevelCounts& level : c.levels) levels.push_back(json_of(level));
+  for (std::size_t i = 0; i < c.levels.size(); ++i)
+    levels.push_back(json_of(c.levels[i], i < o.faces.size() ? o.faces[i] : 0));
   report.counts = {{"voxels", c.voxels},
                    {"voxels_repaired", c.repaired},
                    {"parts_dropped", c.dropped_parts},
@@ -224,17 +218,11 @@ void fill_report(bp::Report& report, const Options& o, const bp::MeshCounts& c) 
                    {"levels", levels}};
 }
 
-void note(bp::Report& report, const Options& o, const std::string& text) {
-  report.notes.push_back(text);
-  if (o.common.progress != bp::ProgressMode::quiet) std::fprintf(stderr, "bpmesh: note: %s\n", text.c_str());
-}
-
 std::string level_text(const bp::MeshCounts& c, std::size_t level) {
   return c.levels.size() > 1 ? fmt::format("level {}: ", level) : "";
 }
 
-/// Of a level that no step has taken beyond --error and --volume, but that was beyond from its beginning, or that
-/// these left no room to be coarser.
+/// Of a level that no step has taken beyond --error and --volume, but that was beyond from its beginning.
 void note_bounds(bp::Report& report, const Options& o, const bp::MeshCounts& c, std::size_t i, double error_world) {
   const bp::LevelCounts& level = c.levels[i];
   const std::string which = level_text(c, i);
@@ -244,46 +232,76 @@ void note_bounds(bp::Report& report, const Options& o, const bp::MeshCounts& c, 
                                      "--enclose closing"
                                    : "the voxels around the level before are as far; use smaller voxels, fewer levels "
                                      "or a larger --error";
-    note(report, o,
-         fmt::format("{}the proxy is up to {:.4g} from what it encloses instead of {:.4g}: {}", which,
-                     distance->at_least, error_world, why));
+    report.note(fmt::format("{}the proxy is up to {:.4g} from what it encloses instead of {:.4g}: {}", which,
+                            distance->at_least, error_world, why),
+                o.common);
   }
   const double share = level.measures.volume / c.solid_volume_world;
   const bool beyond = o.mode == bp::MeshMode::inside ? share < o.volume * (1 - 1e-9) : share > o.volume * (1 + 1e-9);
   if (o.volume > 0 && beyond) {
-    note(report, o,
-         fmt::format(
-             "{}the volume is {:.4g} times that of the voxels that are meshed instead of {:.4g}, as it is of the "
-             "voxels at the level before; use smaller voxels, fewer levels or another --volume",
-             which, share, o.volume));
+    report.note(
+        fmt::format(
+            "{}the volume is {:.4g} times that of the voxels that are meshed instead of {:.4g}, as it is of the "
+            "voxels at the level before; use smaller voxels, fewer levels or another --volume",
+            which, share, o.volume),
+        o.common);
   }
+}
+
+/// "3 by topology, 1 by --volume": why edges that are left were not merged.
+std::string refusals_text(const Options& o, const bp::SimplifyCounts& s) {
+  const char* const limits = !o.error ? "--volume" : o.volume == 0 ? "--error" : "--error or --volume";
+  const std::pair<std::uint64_t, const char*> all[] = {{s.refused_limits, limits},
+                                                       {s.refused_link, "topology"},
+                                                       {s.refused_constraints + s.refused_enclosed, "enclosure"},
+                                                       {s.refused_shape, "shape"},
+                                                       {s.refused_growth, "growth"},
+                                                       {s.refused_length, "--edge-length"},
+                                                       {s.refused_guard, "intersection"}};
+  std::vector<std::string> parts;
+  for (const auto& [count, what] : all) {
+    if (count > 0) parts.push_back(fmt::format("{} by {}", count, what));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// What kept a level from its faces.
+std::string obstacle_text(const Options& o, const bp::LevelCounts& level) {
+  const std::string& by = level.stopped_by;
+  if (by == "error" && o.error) return fmt::format("--error {} was reached first", o.error->text());
+  if (by == "volume") return fmt::format("--volume {} was reached first", o.volume);
+  if (by == "edge-length") return fmt::format("--edge-length {} was reached first", o.edge_length);
+  return fmt::format(
+      "no further edge can be merged. Parts and handles are kept, here {} and {}; a larger --scale joins parts and "
+      "closes holes",
+      level.measures.shells, level.measures.handles);
+}
+
+/// Of a level that has not the faces that were asked for.
+void note_faces(bp::Report& report, const Options& o, const bp::MeshCounts& c, std::size_t i) {
+  const bp::LevelCounts& level = c.levels[i];
   const std::uint64_t faces = level.simplify.faces_out;
-  if (i > 0 && faces > o.faces[i] && faces >= c.levels[i - 1].simplify.faces_out) {
-    note(report, o,
-         fmt::format("{}{} faces, no fewer than level {} has; stopped by: {}", which, faces, i - 1, level.stopped_by));
-  }
+  if (i >= o.faces.size()) return;
+  if (const std::string few = bp::too_few_note(faces, o.faces[i]); !few.empty())
+    report.note(level_text(c, i) + few, o.common);
+  if (faces <= o.faces[i]) return;
+  const bool coarser = i == 0 || faces < c.levels[i - 1].simplify.faces_out;
+  const std::string refusals = refusals_text(o, level.simplify);
+  report.note(fmt::format("{}{} faces instead of {}{}: {}{}", level_text(c, i), faces, o.faces[i],
+                          coarser ? "" : fmt::format(", no fewer than level {} has", i - 1), obstacle_text(o, level),
+                          refusals.empty() ? "" : " (tries refused: " + refusals + ")"),
+              o.common);
 }
 
 /// One line for each target that was out of reach: the user gets the best there is, and the reason.
 void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts& c, double error_world) {
   if (c.dropped_parts > 0) {
-    note(report, o,
-         fmt::format("small parts left out: {}, with {} of {} voxels; --least-part 0 keeps them", c.dropped_parts,
-                     c.dropped_voxels, c.voxels));
+    report.note(fmt::format("small parts left out: {}, with {} of {} voxels; --least-part 0 keeps them",
+                            c.dropped_parts, c.dropped_voxels, c.voxels),
+                o.common);
   }
   for (std::size_t i = 0; i < c.levels.size(); ++i) {
-    const bp::SimplifyCounts& s = c.levels[i].simplify;
-    const std::string which = level_text(c, i);
-    if (s.stop == bp::StopReason::nothing_left && i < o.faces.size() && s.faces_out > o.faces[i]) {
-      note(report, o,
-           fmt::format(
-               "{}{} faces instead of {}: no further edge can be merged. Parts and handles are kept, here {} and "
-               "{}; a larger --scale joins parts and closes holes (tries refused: {} by topology, {} by "
-               "enclosure, {} by shape, {} by growth, {} by length, {} by intersection)",
-               which, s.faces_out, o.faces[i], c.levels[i].measures.shells, c.levels[i].measures.handles,
-               s.refused_link, s.refused_constraints + s.refused_enclosed, s.refused_shape, s.refused_growth,
-               s.refused_length, s.refused_guard));
-    }
+    note_faces(report, o, c, i);
     note_bounds(report, o, c, i, error_world);
   }
 }
@@ -327,6 +345,9 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
   if (o.inset && o.mode != bp::MeshMode::fit)
     bp::fail(bp::ErrorCode::bad_argument, "--inset is for fits; it needs --mode fit");
   if (o.inset) params.inset = *o.inset;
+  if (o.least_part && o.mode != bp::MeshMode::inside)
+    bp::fail(bp::ErrorCode::bad_argument,
+             "only a proxy inside a scene may leave parts out; --least-part needs --mode inside");
   params.least_part = o.least_part.value_or(o.mode == bp::MeshMode::inside ? kLeastPart : 0);
   if (o.loose && o.mode == bp::MeshMode::fit)
     bp::fail(bp::ErrorCode::bad_argument, "a fit is not tightened; --no-tighten has no meaning");

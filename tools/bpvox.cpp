@@ -1,6 +1,5 @@
 // bpvox: scenes in, a stream of solid bricks out. Manual: docs/bpvox.1.md
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 
 #include "io/brick_shelf.h"
@@ -123,7 +122,7 @@ void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& h
         fmt::format("the voxel size was rounded from {} to {}, so that every vertex of a proxy is an exact double",
                     c.voxel_asked, header.frame.voxel));
   }
-  if (const std::string text = bp::skipped(c.scene); !text.empty()) report.notes.push_back("skipped " + text);
+  if (const std::string text = bp::skipped(c.scene); !text.empty()) report.note("skipped " + text, o.common);
   if (c.open_columns > 0) {
     report.notes.push_back(fmt::format(
         "{} columns cross an open or inconsistently oriented surface; the flood decided there", c.open_columns));
@@ -155,8 +154,6 @@ void run(const Options& o) {
   report.counts["backends"] = bp::names_of(backends);
   fill_report(report, o, header, counts);
   report.write(o.common);
-  if (const std::string text = bp::skipped(counts.scene); !text.empty())
-    std::fprintf(stderr, "bpvox: skipped %s\n", text.c_str());
 }
 
 }  // namespace

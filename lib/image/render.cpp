@@ -57,16 +57,16 @@ std::vector<Vec3d> corners_of(const Bounds3d& b) {
 }
 
 /// Aims at the given bounds or, without them, at what there is. False if that is nothing.
-bool aim(Camera& camera, std::span<const View> views, const RenderOptions& options) {
+bool aim(Camera& camera, std::span<const View> views, const Bounds3d& bounds, const RenderOptions& options) {
   Bounds3d seen;
   const auto see = [&](const Vec3d& p) {
     if (seen.empty()) camera.look_at(p);  // any point of the scene will do
     seen.add(camera.seen(p));
   };
-  if (options.bounds.empty()) {
+  if (bounds.empty()) {
     for_each_corner(views, see);
   } else {
-    for (const Vec3d& p : corners_of(options.bounds)) see(p);
+    for (const Vec3d& p : corners_of(bounds)) see(p);
   }
   if (seen.empty()) return false;
   camera.fit(seen, options.panel_width * kSamples, options.panel_height * kSamples);
@@ -187,10 +187,12 @@ Image render(std::span<const View> views, const RenderOptions& options) {
   for (const View& v : views) lines = std::max(lines, lines_in(v.label));
   Image image(w * columns, h + (lines > 0 ? lines * kLineHeight + 8 : 0), options.background);
 
-  Camera camera(options);
-  const bool anything = aim(camera, views, options);
+  Camera common(options);
+  const bool anything = aim(common, views, options.bounds, options);
   for (std::size_t i = 0; i < views.size(); ++i) {
     Canvas canvas(w * kSamples, h * kSamples, options.background);
+    Camera camera = common;
+    if (!views[i].bounds.empty()) aim(camera, views.subspan(i, 1), views[i].bounds, options);
     if (anything) {
       paint_faces(views[i], camera, canvas);
       if (views[i].edges) canvas.draw_lines(edges_of(views[i], camera), options.ink, 0.9);

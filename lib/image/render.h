@@ -21,6 +21,7 @@ struct View {
   std::span<const TriangleColors> colors;  ///< of `triangles`; empty: none
   bool source_colors = false;              ///< draw `source` in its own
   bool edges = false;                      ///< draws the edges of `mesh` and `triangles` as dark lines
+  Bounds3d bounds;                         ///< what to show, at a scale of its own; empty: as RenderOptions say
   std::string label;                       ///< lines separated by \n
 };
 
@@ -33,7 +34,8 @@ struct RenderOptions {
   Color background{255, 255, 255}, ink{40, 44, 52};
 };
 
-/// Orthographic, all panels at one scale and around one centre, so that they can be compared; z-buffer, flat shading
+/// Orthographic, all panels without bounds of their own at one scale and around one centre, so that they can be
+/// compared; z-buffer, flat shading
 /// from both sides under two lights, 2 x 2 samples a pixel. A panel without anything finite to draw stays empty.
 /// Memory: 32 bytes a pixel of one panel. Throws bad_argument if a side is below 16 or above 16384 pixels; passes on
 /// what a source throws.

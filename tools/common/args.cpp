@@ -237,6 +237,21 @@ void Args::parse() {
   throw Done{};
 }
 
+bool Args::given(const std::string& name) const {
+  return state_->find(name).times > 0;
+}
+
+void Args::needs(std::initializer_list<const char*> names, const char* needed) const {
+  for (const char* const name : names) {
+    if (given(name) && !given(needed))
+      fail(ErrorCode::bad_argument, "{} means nothing without {}; leave it out", name, needed);
+  }
+}
+
+void Args::excludes(const char* name, const char* other) const {
+  if (given(name) && given(other)) fail(ErrorCode::bad_argument, "{} means nothing with {}; leave it out", name, other);
+}
+
 std::string Args::help_text() const {
   std::string usage = "Usage: " + state_->tool + " [OPTION]...", entries;
   for (const Option& p : state_->positionals) usage += " " + p.value_name;

@@ -82,6 +82,13 @@ class Args {
   /// Throws bad_argument (with a one-line message) or Done. Call it once, after the declarations.
   void parse();
 
+  /// After parse(): whether an option was on the command line. `name` is one of its names.
+  [[nodiscard]] bool given(const std::string& name) const;
+  /// After parse(). Throws bad_argument if one of `names` was given and `needed` was not: it would mean nothing.
+  void needs(std::initializer_list<const char*> names, const char* needed) const;
+  /// The same where `name` means nothing beside `other`.
+  void excludes(const char* name, const char* other) const;
+
   [[nodiscard]] const std::string& tool() const;
   [[nodiscard]] std::string help_text() const;
 

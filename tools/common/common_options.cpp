@@ -82,7 +82,8 @@ void CommonOptions::add_to(Args& args, unsigned parts) {
         [this](const std::string& word) { progress = word.empty() ? ProgressMode::bar : ProgressMode::json; },
         "show progress on stderr even if it is no terminal; json: as lines of JSON");
     args.flag(
-        "-q,--quiet", [this] { progress = ProgressMode::quiet; }, "never show progress");
+        "-q,--quiet", [this] { progress = ProgressMode::quiet; },
+        "show neither progress nor notes, which are in the report all the same");
   }
   if (parts & report_part)
     args.option("--report", "FILE", report, "write options, counts, seconds per stage and peak memory as JSON");

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "lib/core/error.h"
 #include "lib/core/source_digest.h"
 
 namespace bp {
@@ -63,8 +64,12 @@ std::string Report::text() {
 
 void Report::write(const CommonOptions& common) {
   if (!common.report_file) return;
-  common.report_file->write(text());
-  common.report_file->commit();
+  try {
+    common.report_file->write(text());
+    common.report_file->commit();
+  } catch (const Error& e) {
+    fail(e.code(), "{}; the report is lost, but what was made is complete", e.what());
+  }
 }
 
 std::uint64_t size_of_files(const std::vector<std::string>& paths) {

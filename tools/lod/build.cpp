@@ -14,6 +14,7 @@
 #include "lib/core/parallel.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/stage/vertex_colors.h"
+#include "tools/common/face_notes.h"
 #include "tools/common/names.h"
 
 namespace bp {
@@ -40,6 +41,27 @@ std::string listing(const std::vector<LevelRow>& rows) {
                         row.bytes);
   }
   return text;
+}
+
+/// What a level that has not its faces missed, and why; empty if it has them. Fewer than nobody asked for are none.
+std::string faces_note(const LodLevel& level, const LodTarget& target, bool asked) {
+  const std::uint64_t faces = level.mesh.triangles.size();
+  if (!level.reached)
+    return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", faces,
+                       target.faces, level.scale_world);
+  const std::string few = asked ? too_few_note(faces, target.faces) : "";
+  if (few.empty() || level.attempts == 1) return few;
+  return fmt::format("{} faces instead of {}: at half of its scale of {:.4g}, parts and holes take too many", faces,
+                     target.faces, level.scale_world);
+}
+
+/// What was made stays if it cannot be told: it took far longer than to free the space.
+void print_list(const std::string& text, const std::string& made) {
+  try {
+    print(text);
+  } catch (const Error& e) {
+    fail(e.code(), "{}; the list is lost, but {}", e.what(), made);
+  }
 }
 
 }  // namespace
@@ -80,6 +102,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results) {
   };
   out.counts = voxelize_stream(*source, open, backends, v);
   if (const std::string text = skipped(out.counts.scene); !text.empty()) note("skipped " + text);
+  if (const std::string text = up_note(options, source->up(), out.header.bounds); !text.empty()) note(text);
   if (source->has_colors()) gather(*source, out);
   return out;
 }
@@ -158,10 +181,8 @@ LodLevel Build::make_level(LodChain& chain, std::size_t i, std::size_t since, do
   OptionText text = option_text(options, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
-  if (!level.reached) {
-    note(fmt::format("level {}: {} faces instead of {}, even closed at {:.4g}: no further edge can be merged", i,
-                     level.mesh.triangles.size(), target.faces, level.scale_world));
-  }
+  if (const std::string missed = faces_note(level, target, !options.request.faces.empty()); !missed.empty())
+    note(fmt::format("level {}: {}", i, missed));
   if (target.error_world > 0 && level.error_world > target.error_world) {
     note(error_note(i, level.error_world, target.error_world));
   }
@@ -173,6 +194,17 @@ std::string error_note(std::size_t level, double error_world, double asked_world
                      level, error_world, asked_world);
 }
 
+std::string up_note(const BuildOptions& o, const std::optional<UpAxis>& told, const Bounds3d& bounds) {
+  constexpr double kFlat = 0.25;  // of the shorter side: rooms and most buildings are not
+  if (o.profile != LodProfile::tiles || o.up || told || bounds.empty()) return "";
+  const double x = bounds.max[0] - bounds.min[0], y = bounds.max[1] - bounds.min[1], z = bounds.max[2] - bounds.min[2];
+  if (z >= kFlat * std::min(x, y)) return "";
+  return fmt::format(
+      "the scene is {:.4g} x {:.4g} x {:.4g}, flat along z, and y is taken for up: if it is a map, it will stand on "
+      "edge; say --up z, or --up y to be sure",
+      x, y, z);
+}
+
 void Build::note(const std::string& text) {
   report.notes.push_back(text);
   if (options.common.progress != ProgressMode::quiet) std::fprintf(stderr, "bplod: note: %s\n", text.c_str());
@@ -182,8 +214,7 @@ void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& row
   report.counts["levels"] = Json::array();
   for (const LevelRow& row : rows) report.counts["levels"].push_back(json_of(row));
   report.bytes_out = bytes_out;
-  write_report(scene);
-  print(listing(rows));
+  tell(scene, listing(rows), "all files are complete, in " + options.out);
 }
 
 void Build::finish_jobs(const VoxelizedScene& scene, const JobRange& range, std::uint64_t all,
@@ -192,8 +223,17 @@ void Build::finish_jobs(const VoxelizedScene& scene, const JobRange& range, std:
   for (const FoundJobs& f : found) text += fmt::format("{}\t{}\t{}\n", f.what, f.jobs, f.kept);
   report.counts["jobs"] = {{"begin", range.begin}, {"end", range.end}, {"of", all}};
   for (const FoundJobs& f : found) report.counts["levels"].push_back(json_of(f));
-  write_report(scene);
-  print(text);
+  tell(scene, text, "all results are kept, in " + options.cache);
+}
+
+void Build::tell(const VoxelizedScene& scene, const std::string& list, const std::string& made) {
+  try {
+    write_report(scene);
+  } catch (const Error&) {  // the list may come through
+    print_list(list, made);
+    throw;
+  }
+  print_list(list, made);
 }
 
 void Build::write_report(const VoxelizedScene& scene) {

@@ -38,6 +38,11 @@ struct FoundJobs {
 /// What is said of a level whose error exceeds the one asked for; scene units.
 [[nodiscard]] std::string error_note(std::size_t level, double error_world, double asked_world);
 
+/// What is said of a scene that lies flat in x and y, as maps do, if nobody told which axis is up and the profile needs
+/// to know; else empty.
+[[nodiscard]] std::string up_note(const BuildOptions& options, const std::optional<UpAxis>& told,
+                                  const Bounds3d& bounds);
+
 class Build {
  public:
   explicit Build(const BuildOptions& options);
@@ -67,6 +72,8 @@ class Build {
                    const std::vector<FoundJobs>& found);
 
  private:
+  /// The report, then the list; a failure says that what was `made` is there.
+  void tell(const VoxelizedScene& scene, const std::string& list, const std::string& made);
   void write_report(const VoxelizedScene& scene);
 
  public:

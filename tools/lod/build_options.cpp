@@ -5,6 +5,7 @@
 #include "lib/core/error.h"
 #include "lib/grid/cells.h"
 #include "lib/stage/voxelize_stage.h"
+#include "tools/common/face_list.h"
 #include "tools/common/names.h"
 
 namespace bp {
@@ -54,6 +55,26 @@ void check_name(BuildOptions& o) {
          given ? "--name" : "the scene's name", o.name);
 }
 
+/// What would be passed over in silence.
+void check_meaning(const Args& args, const BuildOptions& o) {
+  if (o.profile != LodProfile::tiles) {
+    for (const char* const name : {"--tile", "--tiles", "--cache", "--resume"}) {
+      if (args.given(name)) fail(ErrorCode::bad_argument, "{} needs --profile 3dtiles", name);
+    }
+  }
+  if (o.profile == LodProfile::collision && args.given("--colors") && o.colors)
+    fail(ErrorCode::bad_argument, "--profile collision has no colours; leave --colors out");
+  if (o.mode == MeshMode::fit) {
+    for (const char* const name : {"--enclose", "--no-tighten"}) {
+      if (args.given(name))
+        fail(ErrorCode::bad_argument, "a fit encloses nothing and is not tightened; {} has no meaning", name);
+    }
+  }
+  const bool by_error = !o.request.errors.empty() || !o.request.pixels.empty();
+  if (o.loose && args.given("--enclose") && !by_error)
+    fail(ErrorCode::bad_argument, "--enclose says what tightening keeps inside; --no-tighten leaves that out");
+}
+
 void check_options(BuildOptions& o) {
   const bool listed = !o.request.faces.empty() || !o.request.errors.empty() || !o.request.pixels.empty();
   if (o.profile == LodProfile::collision && !listed && !o.request.levels) o.request.levels = 1;
@@ -71,8 +92,6 @@ void check_options(BuildOptions& o) {
   if (o.resolution && *o.resolution < 1) fail(ErrorCode::bad_argument, "--resolution 0: at least 1 voxel is needed");
   if (o.tile_vox < kBrickEdge || o.tile_vox % kBrickEdge != 0)
     fail(ErrorCode::bad_argument, "--tile {}: must be a multiple of 64", o.tile_vox);
-  if (o.profile != LodProfile::tiles && (o.resume || !o.cache.empty()))
-    fail(ErrorCode::bad_argument, "--cache and --resume need --profile 3dtiles");
   if (o.resume && !o.cache.empty())
     fail(ErrorCode::bad_argument, "--cache keeps what is done as well; leave --resume out");
   if (o.tiles && o.explain) fail(ErrorCode::bad_argument, "--explain numbers the jobs; leave --tiles out");
@@ -107,17 +126,18 @@ BuildOptions parse_build_options(Args& args) {
   args.about("Makes levels of detail of scenes: coarser and coarser proxies that strictly enclose them.");
   args.positional("SCENE", o.scenes, "scenes, taken together; - is stdin and needs --format");
   args.option("-o,--output", "DIR", o.out, "folder of the levels; it is made if it is not there");
-  args.option(
-      "--profile", {{"gltf", LodProfile::gltf}, {"3dtiles", LodProfile::tiles}, {"collision", LodProfile::collision}},
-      o.profile,
-      "gltf: a GLB a level, and one with all (MSFT_lod); 3dtiles: a tileset of compressed GLB, coarse root; collision: "
-      "one level, named for Godot, Unreal and Unity");
+  args.option("--profile",
+              {{"gltf", LodProfile::gltf}, {"3dtiles", LodProfile::tiles}, {"collision", LodProfile::collision}},
+              o.profile,
+              "gltf: a GLB a level, and one with all (MSFT_lod); 3dtiles: a tileset of compressed GLB, coarse root, in "
+              "the scene's coordinates (mind --up); collision: "
+              "one level, named for Godot, Unreal and Unity");
   args.option("--mode", {{"bounding", MeshMode::bounding}, {"fit", MeshMode::fit}}, o.mode,
               "around the scene; or as near to it as can be, enclosing nothing");
   args.option("--name", "NAME", o.name, "first part of the names of files and nodes (default: the first scene's)");
   args.option("--levels", "N", o.request.levels, "number of levels (default: as many as are listed, or 4)");
   args.option(
-      "--faces", "N[,N...]", [&o](const std::string& text) { o.request.faces = parse_faces(text); },
+      "--faces", "N[,N...]", [&o](const std::string& text) { o.request.faces = parse_face_list(text); },
       "triangles of each level, finest first; one number: each further one of --levels has a quarter");
   args.option(
       "--error", "LENGTH[,...]", [&o](const std::string& text) { o.request.errors = parse_errors(text); },
@@ -155,6 +175,7 @@ BuildOptions parse_build_options(Args& args) {
   o.common.add_to(args);
   args.example("bplod plant.glb --faces 20000,5000,1000 --profile 3dtiles -o plant-tiles");
   args.parse();
+  check_meaning(args, o);
   check_options(o);
   return o;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "io/file.h"
 #include "io/scene_reader.h"
@@ -32,6 +33,7 @@ struct Scene {
   SceneCounts counts;
   Bounds3d bounds;
   double area = 0;
+  std::optional<UpAxis> up_told;
   UpAxis up = UpAxis::y;
 };
 
@@ -41,7 +43,7 @@ Scene read_scene(const Build& build) {
   TriangleTotals totals;
   for (std::vector<TriangleD> chunk; source->read(chunk);) totals.add(chunk);
   if (totals.triangles == 0) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());
-  return {source->counts(), totals.bounds, totals.area, o.up.value_or(source->up().value_or(UpAxis::y))};
+  return {source->counts(), totals.bounds, totals.area, source->up(), o.up.value_or(source->up().value_or(UpAxis::y))};
 }
 
 /// A line of the plan. Of a level in one mesh, voxel and scale are those that are tried first.
@@ -211,6 +213,7 @@ void explain(const BuildOptions& options) {
   Build build(options);
   build.report.stage("read");
   const Scene scene = read_scene(build);
+  if (const std::string text = up_note(options, scene.up_told, scene.bounds); !text.empty()) build.note(text);
   build.report.stage("look up");
   const Plan plan(build, scene);
   build.report.options = options_json(options);

@@ -27,16 +27,6 @@ std::size_t list_size(const LodRequest& r) {
 
 }  // namespace
 
-std::vector<std::uint64_t> parse_faces(const std::string& text) {
-  std::vector<std::uint64_t> all;
-  for_each_item(text, [&](std::string_view item) {
-    all.push_back(std::uint64_t(parse_integer(item, 1, INT64_MAX)));
-    if (all.size() > 1 && all.back() >= all[all.size() - 2])
-      fail(ErrorCode::bad_argument, "{}: each level must have fewer than the one before", text);
-  });
-  return all;
-}
-
 std::vector<Length> parse_errors(const std::string& text) {
   std::vector<Length> all;
   for_each_item(text, [&](std::string_view item) {

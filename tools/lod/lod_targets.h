@@ -23,7 +23,6 @@ struct LodRequest {
 };
 
 /// Comma-separated lists. Throw bad_argument if a number is none, is zero, or if the list does not fall (errors: rise).
-[[nodiscard]] std::vector<std::uint64_t> parse_faces(const std::string& text);
 [[nodiscard]] std::vector<Length> parse_errors(const std::string& text);
 [[nodiscard]] std::vector<double> parse_pixels(const std::string& text);
 

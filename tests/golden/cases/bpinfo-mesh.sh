@@ -23,6 +23,10 @@ files
 bpvox cube.obj --resolution 12 | bpclose --scale 2vx -o closed.bpv
 said 'bpinfo cube.obj closed.bpv turned.obj --image all.png --image-size 64 | grep -c .'
 head -c 24 all.png | tail -c 8 | od -An -tx1
+# Inputs that lie far apart are drawn by themselves, which is said.
+awk '/^v/ { print "v", $2 + 500, $3, $4; next } { print }' cube.obj > far.obj
+try bpinfo far.obj cube.obj --image far.png --image-size 64 | grep far
+try bpinfo cube.obj turned.obj --image near.png --image-size 64 | grep far
 try bpinfo cube.obj turned.obj --checksum
 try bpinfo cube.obj turned.obj --json
 try bpinfo cube.obj --up x

@@ -18,13 +18,20 @@ try bplod pipe.obj --name p --voxel 0.5 --tile 128 --profile 3dtiles -q -o mixed
 cat mixed3/p_LOD5.glb
 LC_ALL=C ls -A mixed mixed3
 
-# What is printed and cannot be written is an error, of the plan and of the list.
+# What is printed and cannot be written is an error, of the plan and of the list. The files are complete all the same, and it is said.
 said "bplod ${options[*]} --explain > /dev/full"
 said "bplod ${options[*]} -o full > /dev/full"
 said "bplod ${tileset[*]} -o tiles --cache cache > /dev/full"
 said "bplod ${tileset[*]} --tiles 0..1 --cache cache > /dev/full"
 said "bplod ${options[*]} -o pipe --report pipe.json | true"
 LC_ALL=C ls -A full tiles pipe pipe.json
+bpcheck cube.obj full/m.glb --no-distances | tail -1
+bpcheck cube.obj tiles/tileset.json | sed 's/[0-9]* triangles/some triangles/'
+bplod "${tileset[@]}" --tiles 0..1 --cache cache
+said "bplod ${options[*]} -o reported2 --report /dev/full | cut -f 1"
+said "bpvox cube.obj --resolution 24 -o full.bpv --report /dev/full && ls full.bpv"
+LC_ALL=C ls -A reported2
+bpinfo full.bpv | sed -n 1p
 
 # A name must be what JSON can hold; that is said before the work.
 latin1=$'caf\xe9'

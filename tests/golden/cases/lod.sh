@@ -5,13 +5,13 @@ for i in 0 1 2 3 4 5 6 7; do  # eight cubes that lie apart: 96 faces at least, u
 done
 budgets() { awk -F '\t' -v want="$1" 'BEGIN { split(want, n, ",") } NR > 1 { print $1, ($2 <= n[NR - 1] ? "keeps" : "breaks") " its budget, error " ($3 > last ? "rises" : "falls"); last = $3 }'; }
 
-bplod part*.obj --name cubes --faces 200,20 --resolution 60 -o gltf > list
+bplod part*.obj --name cubes --faces 200,20 --resolution 60 -q -o gltf > list
 budgets 200,20 < list
 for f in cubes_LOD0 cubes_LOD1 cubes; do bpcheck part*.obj gltf/$f.glb --no-distances | tail -1; done
-bplod part*.obj --name cubes --faces 200,20 --resolution 60 --up z --profile 3dtiles -o tiles -j 1 --memory 300M > list
+bplod part*.obj --name cubes --faces 200,20 --resolution 60 -q --up z --profile 3dtiles -o tiles -j 1 --memory 300M > list
 budgets 200,20 < list
 try bpcheck part*.obj tiles/tileset.json
-bplod part*.obj --name cubes --faces 200,20 --resolution 60 --up z --profile 3dtiles -o again -j 2 > list
+bplod part*.obj --name cubes --faces 200,20 --resolution 60 -q --up z --profile 3dtiles -o again -j 2 > list
 diff -r tiles again && echo "the same bytes"
 bplod part*.obj --name cubes --error 1,2 -o errors > list
 awk -F '\t' 'NR > 1 { print $1, ($3 <= 1.5 * (NR - 1) ? "keeps" : "breaks") " its error" }' list
@@ -29,7 +29,7 @@ tiles=(cut2/cubes_LOD0/*)
 rm "${tiles[0]}"
 cp "${tiles[1]}" "${tiles[2]}"
 bpcheck part*.obj cut2/tileset.json | sed 's/[0-9]* triangles/some triangles/; s/[0-9][0-9]* of [0-9][0-9]*/some/; s/by up to.*//'
-try bplod cube.obj -o x --tile 100
+try bplod cube.obj -o x --profile 3dtiles --tile 100
 # Thin rods that lie apart have few voxels: no tile of a level goes far from them to save faces.
 awk 'BEGIN { for (a = 0; a < 3; ++a) for (i = 4; i < 120; i += 28) for (j = 4; j < 120; j += 28) {
   for (s = 0; s < 8; ++s) { p[a] = s % 2 ? 116 : 4; p[(a + 1) % 3] = i + int(s / 2) % 2 * 0.5; p[(a + 2) % 3] = j + int(s / 4) * 0.5; print "v", p[0], p[1], p[2] }
@@ -52,6 +52,21 @@ bpcheck fit/cubes_LOD0.glb | tail -1
 sed 's/^f 1 4 3 2$/&\nv nan 0 0\nf 1 1 2\nf 1 2 9\nf 1 2 77/' cube.obj > skips.obj
 try bplod skips.obj --levels 1 --resolution 24 -o skips --report skips.json > list
 grep -E '"(triangles|degenerate|non_finite|bad_faces)"|skipped' skips.json
+
+# A level that misses its faces says so, once: too few of them, as the voxels have no more, or too many.
+some() { sed -E 's/part0.* part7.obj/part*.obj/; s/[0-9]+ faces instead/SOME faces instead/; s/(closed at|scale of) [0-9.]+/\1 SOME/'; }
+said 'bplod part*.obj --name cubes --faces 20000,20,10 --resolution 60 -o few --report few.json > list' | some
+grep -c 'faces instead of' few.json
+said 'bplod part*.obj --name cubes --faces 20000 --levels 1 --resolution 60 --profile 3dtiles -o few3d > list' | some
+said 'bplod part*.obj --name cubes --faces 20000 --resolution 60 --profile collision -q -o few > list'
+said 'bplod cube.obj --levels 2 --resolution 24 -o few > list'  # what nobody asked for is no miss
+# What bpinfo says of a tileset.
+bplod cube.obj --name c --voxel 0.05 --tile 64 --faces 12 --up z --profile 3dtiles -q -o info > list
+said 'bpinfo info/tileset.json | sed -E "s/, [0-9.]+ KiB/, SOME KiB/; s/(error|bounds) .*/\1 SOME/; s/input .*/input SOME/"'
+bpinfo info/tileset.json --json | grep -E '"(kind|tiles|contents|missing|up)"'
+rm info/c_LOD0/1_*
+said 'bpinfo info/tileset.json | grep missing'
+for option in --dump --checksum '--image x.png'; do try bpinfo info/tileset.json $option; done
 
 # Findings of a tileset.
 cp -r tiles broken

@@ -1,4 +1,5 @@
 # Targets of bpmesh: what stops, what is said, and what is refused. A cube of 3 with a closing of 2 voxels.
+some() { sed -E 's/[0-9]+ faces instead/SOME faces instead/; s/(tries refused: ).*/\1SOME)/'; }
 write_cube cube.obj 3
 bpvox cube.obj --resolution 40 | bpclose --scale 2vx -o cube.bpv
 try bpmesh cube.bpv --faces 12 --measure -o one.glb
@@ -16,17 +17,26 @@ done
 try bpmesh cube.bpv --edge-length 2 --overwrite --report report.json -o short.glb
 grep stopped_by report.json
 try bpmesh slanted.bpv --enclose slanted.obj --error 0.1vx -o near.glb
+# Whatever keeps a proxy from the faces wanted is said, without --measure, and stands in the report.
+bpclose slanted.bpv --scale 2vx -o closed.bpv
+for target in '--volume 1.05' '--error 0.2vx' '--edge-length 2' '--volume 1.05 --mode bounding -q'; do
+  try bpmesh closed.bpv --faces 20 $target --report short.json -o short.ply --overwrite | some
+  grep -cE '"(faces_asked": 20,|stopped_by)|faces instead of 20' short.json
+done
 try bpmesh cube.bpv --faces 12,40 -o wrong.glb
 try bpmesh cube.bpv --faces 12,0 -o wrong.glb
 try bpmesh cube.bpv --faces 12, -o wrong.glb
+try bpmesh cube.bpv --faces 1,000 -o wrong.glb
+try bplod cube.obj --faces 10,500 -o wrong
 try bpmesh cube.bpv --faces 40,12 --format glb
+for error in 0 0vx 0%; do try bpmesh cube.bpv --faces 12 --error $error -o wrong.glb; done
 try bpmesh cube.bpv --volume 0.5 -o wrong.glb
 try bpmesh cube.bpv --edge-length -1 -o wrong.glb
 try bpmesh cube.bpv --volume -1 -o wrong.glb
 try bpmesh cube.bpv --faces 12 --no-tighten --enclose nowhere.obj -o wrong.glb
 try bpmesh cube.bpv --mode fit --faces 12 --no-tighten -o wrong.glb
-try bpmesh slanted.bpv --faces 60,40,12 --volume 1.15 -o coarser.ply
-try bpmesh slanted.bpv --faces 60,20 --error 0.6vx -o near.ply
+try bpmesh slanted.bpv --faces 60,40,12 --volume 1.15 -o coarser.ply | some
+try bpmesh slanted.bpv --faces 60,20 --error 0.6vx -o near.ply | some
 touch kept.1.glb
 try bpmesh cube.bpv --faces 40,12 -o kept.glb
 files

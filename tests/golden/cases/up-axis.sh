@@ -25,3 +25,11 @@ bpvox levels/a_LOD0.glb --resolution 20 | bpinfo | grep -o '. is up'
 for tileset in 3dtiles/tileset.json; do bpcheck z.glb $tileset | tail -1; done
 bplod gltf/a_LOD0.glb --resolution 30 --levels 1 --faces 30 --name a --up y --overwrite -o levels > list
 bpvox levels/a_LOD0.glb --resolution 20 | bpinfo | grep -o '. is up'
+# A tileset of a map is made with y up, and stands on edge, only with a note; nobody else is bothered.
+awk '/^v/ { print "v", 20 * $2, 20 * $3, $4; next } { print }' cube.obj > map.obj
+said 'bplod map.obj --resolution 30 --levels 1 --profile 3dtiles -o map > list'
+said 'bplod map.obj --resolution 30 --levels 1 --profile 3dtiles --explain > list'
+for up in y z; do said "bplod map.obj --resolution 30 --levels 1 --profile 3dtiles --up $up -o map.$up > list"; done
+said 'bplod map.obj --resolution 30 --levels 1 -o flat > list'
+said 'bplod cube.obj --resolution 30 --levels 1 --profile 3dtiles -o upright > list'
+said 'bplod z.glb --resolution 30 --levels 1 --profile 3dtiles -o told > list'

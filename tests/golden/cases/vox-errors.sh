@@ -34,4 +34,7 @@ rm out.bp
 try bpvox cube.obj -o /dev/full
 said 'bpvox cube.obj --resolution 300 | head -c 10 | wc -c'
 try bpvox partly.obj --voxel 0.25 -o partly.bp
+# Quiet, it is left to the report.
+try bpvox partly.obj --voxel 0.25 -q --report quiet.json -o quiet.bp
+grep skipped quiet.json
 files

@@ -218,6 +218,27 @@ TEST_CASE("panels stand side by side at one scale, labels below", "[quick][image
   CHECK(text > 50);
 }
 
+TEST_CASE("a panel with bounds of its own is drawn as if alone", "[quick][image]") {
+  const IndexedMesh near = sphere(2, 1), far = sphere(2, 4, {4096, 0, 0});
+  RenderOptions around_near;
+  View one = view_of(far), other = view_of(near);
+  for (const Vec3d& p : near.vertices) around_near.bounds.add(p);
+  for (const Vec3d& p : far.vertices) one.bounds.add(p);
+  const Image alone = picture({other}, around_near);
+  other.bounds = around_near.bounds;
+  const Image image = picture({one, other});
+  REQUIRE(image.width == 2 * alone.width);
+  bool same = true, something = false;
+  for (int y = 0; y < alone.height; ++y) {
+    for (int x = 0; x < alone.width; ++x) {
+      same = same && image.at(x + alone.width, y) == alone.at(x, y);
+      something = something || image.at(x, y) != kPaper;
+    }
+  }
+  CHECK(same);
+  CHECK(something);
+}
+
 TEST_CASE("text covers the pixels that its width says and clips at the border", "[quick][image]") {
   Image image(40, 10, kPaper);
   draw_text(image, 0, 0, "HI", 1, {0, 0, 0});

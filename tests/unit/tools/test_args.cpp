@@ -96,6 +96,24 @@ TEST_CASE("a usage error names the option and the fact", "[quick][tools]") {
   CHECK(complaint({"--progress=xml"}) == "--progress: 'xml' is none of [json] (see bptest --help)");
 }
 
+TEST_CASE("an option that means nothing beside the others is refused, its default included", "[quick][tools]") {
+  const auto parsed = [](std::vector<const char*> words) {
+    words.insert(words.begin(), "bptest");
+    int size = 720;
+    std::string image;
+    Args args("bptest", int(words.size()), words.data());
+    args.option("-i,--image", "FILE", image, "draw");
+    args.option("--size", "N", size, "how large");
+    args.parse();
+    CHECK(args.given("--image") == !image.empty());
+    args.needs({"--size"}, "--image");
+  };
+  CHECK_NOTHROW(parsed({}));
+  CHECK_NOTHROW(parsed({"-i", "x"}));
+  CHECK_NOTHROW(parsed({"--size", "9", "-ix"}));
+  CHECK_THROWS_AS(parsed({"--size", "720"}), Error);
+}
+
 TEST_CASE("a required list of files is asked for", "[quick][tools]") {
   std::vector<std::string> files;
   const char* words[] = {"bptest", "a", "b"};

@@ -1,0 +1,27 @@
+# An option that would mean nothing is refused before any work, in every tool: nobody waits for what was not heard.
+write_cube cube.obj
+for profile in gltf collision; do
+  for option in '--tile 64' '--cache c' '--resume' '--tiles 0..1'; do try bplod cube.obj -o x --profile $profile $option; done
+done
+try bplod cube.obj -o x --tile 512  # the default, too
+try bplod cube.obj -o x --profile collision --colors auto
+try bplod cube.obj -o x --mode fit --enclose input
+try bplod cube.obj -o x --mode fit --no-tighten
+try bplod cube.obj -o x --no-tighten --enclose closing
+bpvox cube.obj --resolution 10 -o cube.bpv
+bpvox cube.obj --resolution 10 --fill inside -o inside.bpv
+try bpclose inside.bpv --inner --keep-cavities --scale 1vx -o x
+try bpmesh cube.bpv --least-part 0 -o x.ply
+try bpmesh cube.bpv --inset 0.5 -o x.ply
+for option in '--image-size 720' '--up y' '--azimuth 35' '--elevation 22'; do
+  try bpinfo cube.obj $option
+  try bpcheck cube.obj $option
+done
+try bpinfo cube.obj --no-edges
+try bpcheck cube.obj cube.obj --no-distances --samples 10
+try bpcheck cube.obj cube.obj --inside --samples 10
+try bpcheck cube.obj --inside
+# What goes together does.
+try bplod cube.obj -o made --profile collision --colors off --no-tighten --resolution 10 | cut -f 1
+try bplod cube.obj -o near --error 50% --no-tighten --enclose closing --levels 1 | cut -f 1
+files

@@ -1,0 +1,41 @@
+#include "lib/core/error.h"
+#include "tests/catch.h"
+#include "tools/common/face_list.h"
+
+using namespace bp;
+
+namespace {
+
+std::string complaint(const std::string& text) {
+  try {
+    (void)parse_face_list(text);
+  } catch (const Error& e) {
+    CHECK(e.code() == ErrorCode::bad_argument);
+    return e.what();
+  }
+  return "none";
+}
+
+}  // namespace
+
+TEST_CASE("a list of faces falls from level to level", "[quick][tools]") {
+  CHECK(parse_face_list("1000") == std::vector<std::uint64_t>{1000});
+  CHECK(parse_face_list("900,100,20") == std::vector<std::uint64_t>{900, 100, 20});
+  CHECK(complaint("12,40") == "12,40: each level must have fewer than the one before");
+  CHECK(complaint("40,40") == "40,40: each level must have fewer than the one before");
+  CHECK(complaint("0") == "0: a level must have faces");
+  CHECK(complaint("12,") == "'' is not a whole number of at least 0");
+  CHECK(complaint("12, 5") == "' 5' is not a whole number of at least 0");
+  CHECK(complaint("-12,5") == "'-12' is not a whole number of at least 0");
+}
+
+TEST_CASE("one number with its digits in groups is told from a list", "[quick][tools]") {
+  CHECK(complaint("1,000") == "1,000: a level must have faces; commas part levels, so if it is one number, write 1000");
+  CHECK(complaint("20,000,000").ends_with(" write 20000000"));
+  CHECK(
+      complaint("1,500") ==
+      "1,500: each level must have fewer than the one before; commas part levels, so if it is one number, write 1500");
+  CHECK(complaint("1000,000") == "1000,000: a level must have faces");
+  CHECK(complaint("10,00") == "10,00: a level must have faces");
+  CHECK(complaint("1,000,00") == "1,000,00: a level must have faces");
+}

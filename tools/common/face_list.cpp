@@ -1,0 +1,45 @@
+#include "tools/common/face_list.h"
+
+#include <algorithm>
+
+#include "lib/core/error.h"
+#include "tools/common/length.h"
+
+namespace bp {
+
+namespace {
+
+/// "1,000" or "20,500": one number in groups of three digits, as no list of falling ones looks.
+bool is_grouped(const std::string& text) {
+  const std::size_t first = text.find(',');
+  if (first == 0 || first > 3) return false;
+  if (text.find_first_not_of("0123456789,") != std::string::npos) return false;
+  for (std::size_t at = first; at < text.size(); at += 4) {
+    if (text[at] != ',' || text.size() - at < 4 || text.find(',', at + 1) < at + 4) return false;
+  }
+  return true;
+}
+
+[[noreturn]] void refuse(const std::string& text, const char* why) {
+  if (!is_grouped(text)) fail(ErrorCode::bad_argument, "{}: {}", text, why);
+  std::string digits = text;
+  digits.erase(std::remove(digits.begin(), digits.end(), ','), digits.end());
+  fail(ErrorCode::bad_argument, "{}: {}; commas part levels, so if it is one number, write {}", text, why, digits);
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> parse_face_list(const std::string& text) {
+  std::vector<std::uint64_t> all;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    all.push_back(std::uint64_t(parse_integer(std::string_view(text).substr(begin, end - begin), 0, INT64_MAX)));
+    if (all.back() == 0) refuse(text, "a level must have faces");
+    if (all.size() > 1 && all.back() >= all[all.size() - 2])
+      refuse(text, "each level must have fewer than the one before");
+    begin = end + 1;
+  }
+  return all;
+}
+
+}  // namespace bp

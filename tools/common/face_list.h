@@ -1,0 +1,12 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bp {
+
+/// The value of --faces, "20000,5000,1000": of each level, finest first. Throws bad_argument if a number is none or is
+/// 0, or if the list does not fall; where commas seem to group the digits of one number, it says what they are for.
+[[nodiscard]] std::vector<std::uint64_t> parse_face_list(const std::string& text);
+
+}  // namespace bp
