@@ -87,6 +87,7 @@ bool separated(const Hull& hull, const Bounds3d& box, const Vec3d& axis) {
 /// True unless an axis surely tells the hull from the box. There is one for every segment that misses the box: an axis
 /// of the box, or one across the segment and an axis of the box.
 bool may_meet(const Hull& hull, const Bounds3d& box) {
+  if (hull.empty()) return true;
   for (std::size_t i = 0; i < 3; ++i) {
     Vec3d axis{};
     axis[i] = 1;

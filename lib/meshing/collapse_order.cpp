@@ -125,7 +125,7 @@ bool StrictOrder::run(double most, std::uint64_t enough) {
     if (queue_.empty() || queue_.top().cost > most) return false;
     const CostEntry top = queue_.top();
     queue_.pop();
-    if (is_edge(top.edge) && serial_[top.edge] == top.serial) try_entry(top);
+    if (is_edge(top.edge) && serial_[top.edge] == top.serial) try_entry(top, most);
   }
   return true;
 }
@@ -157,9 +157,10 @@ void StrictOrder::push(HalfEdgeId h) {
   queue_.push({collapser_.lower_bound(e), e, ++serial_[e]});
 }
 
-void StrictOrder::try_entry(const CostEntry& top) {
+void StrictOrder::try_entry(const CostEntry& top, double most) {
   const std::optional<Candidate> candidate = collapser_.solve(top.edge);
-  if (candidate && candidate->cost > top.cost && !queue_.empty() && candidate->cost > queue_.top().cost) {
+  const double next = queue_.empty() ? most : std::min(queue_.top().cost, most);
+  if (candidate && candidate->cost > top.cost && candidate->cost > next) {
     queue_.push({candidate->cost, top.edge, top.serial});  // not the best after all
     return;
   }

@@ -37,7 +37,7 @@ class StrictOrder : public CostOrder {
  private:
   [[nodiscard]] bool is_edge(HalfEdgeId h) const { return mesh_.alive(HalfEdgeMesh::face(h)) && mesh_.edge(h) == h; }
   void push(HalfEdgeId h);
-  void try_entry(const CostEntry& top);
+  void try_entry(const CostEntry& top, double most);
   void renew_around(VertexId u);
 
   Collapser& collapser_;

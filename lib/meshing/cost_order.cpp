@@ -21,9 +21,14 @@ std::uint64_t faces_of(std::span<CostOrder* const> parts) {
 
 /// What one collapse may cost, rising; at last, anything.
 std::vector<double> steps_for(std::span<CostOrder* const> parts) {
-  std::vector<std::vector<double>> of_part(parts.size());
-  parallel_for(std::int64_t(parts.size()),
-               [&](std::int64_t i) { parts[std::size_t(i)]->add_costs(of_part[std::size_t(i)]); });
+  std::vector<std::vector<double>> of_part(parts.size());  // one in kFirst, by rank
+  parallel_for(std::int64_t(parts.size()), [&](std::int64_t k) {
+    const auto i = std::size_t(k);
+    std::vector<double> all;
+    parts[i]->add_costs(all);
+    std::sort(all.begin(), all.end());
+    for (std::size_t at = 0; at < all.size(); at += kFirst) of_part[i].push_back(all[at]);
+  });
   std::vector<double> costs, steps;
   for (const std::vector<double>& some : of_part) costs.insert(costs.end(), some.begin(), some.end());
   std::sort(costs.begin(), costs.end());
@@ -38,7 +43,7 @@ std::vector<double> steps_for(std::span<CostOrder* const> parts) {
 
 /// Shares of the excess by faces, whole collapses as far as it goes; they add up to it.
 std::vector<std::uint64_t> shares_of(std::uint64_t excess, std::span<CostOrder* const> parts) {
-  const std::uint64_t all = faces_of(parts), pairs = (excess + 1) / 2;
+  const std::uint64_t all = std::max<std::uint64_t>(faces_of(parts), 1), pairs = (excess + 1) / 2;
   std::vector<std::uint64_t> shares;
   std::uint64_t faces = 0, given = 0;
   for (const CostOrder* part : parts) {
@@ -65,6 +70,7 @@ void take_cheapest(std::span<CostOrder* const> parts, std::uint64_t excess) {
         const auto i = std::size_t(k);
         const std::uint64_t have = waiting[i]->face_count();
         if (shares[i] > 0) waits[i] = waiting[i]->run(most, have - std::min(have, shares[i]));
+        if (waiting[i]->face_count() == 0) waits[i] = 0;
       });
       std::size_t kept = 0;
       for (std::size_t i = 0; i < waiting.size(); ++i) {

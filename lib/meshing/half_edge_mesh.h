@@ -31,9 +31,8 @@ class HalfEdgeMesh {
   /// Throws `failed` if the mesh is not closed, oriented and 2-manifold, or spans kMaxSpan lattice units or more.
   explicit HalfEdgeMesh(const LatticeMesh& mesh) : HalfEdgeMesh(mesh.vertices, mesh.triangles, kEverywhere) {}
 
-  /// The faces of a closed surface in the closed box `cell`, which bounds them all. Vertices with further faces in
-  /// other cells are locked: what is around them is unknown. They lie on the cell's boundary (the rim). Throws as
-  /// above.
+  /// Faces of a closed surface: all that have a vertex strictly inside of the box `cell`, and maybe others. Vertices
+  /// with further faces elsewhere are locked: what is around them is unknown. Throws as above.
   HalfEdgeMesh(std::vector<LatticeCoord> vertices, std::span<const Triangle> triangles, const LatticeBox& cell);
 
   [[nodiscard]] std::size_t vertex_capacity() const { return position_.size(); }  ///< ids below it, dead ones included

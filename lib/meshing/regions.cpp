@@ -9,6 +9,7 @@ namespace bp {
 namespace {
 
 constexpr std::array<double, 3> kShares = {0.5, 0.35, 0.65};  // of the faces on the lower side, by turn
+constexpr std::size_t kSample = 1024;                         // faces that tell along which axis to cut
 
 class Splitter {
  public:
@@ -43,32 +44,52 @@ class Splitter {
   std::size_t split(std::size_t begin, std::size_t end, const LatticeBox& cell) {
     const std::size_t number = nodes_.size();
     nodes_.emplace_back();
-    LatticeBox box = {thrice_middle(faces_[begin]), thrice_middle(faces_[begin])};
-    for (std::size_t i = begin; i < end; ++i) box.add(thrice_middle(faces_[i]));
-    int axis = 0;
-    for (int i = 1; i < 3; ++i) {
-      if (box.max[i] - box.min[i] > box.max[axis] - box.min[axis]) axis = i;
-    }
-    const std::size_t middle = begin + std::size_t(share_ * double(end - begin));
-    std::int64_t plane = 0;
-    if (end - begin > most_) {
-      std::nth_element(faces_.begin() + std::ptrdiff_t(begin), faces_.begin() + std::ptrdiff_t(middle),
-                       faces_.begin() + std::ptrdiff_t(end), [&](FaceId f, FaceId g) {
-                         const std::int64_t at_f = thrice_middle(f)[axis], at_g = thrice_middle(g)[axis];
-                         return at_f != at_g ? at_f < at_g : f < g;
-                       });
-      plane = floor_div(thrice_middle(faces_[middle])[axis], std::int64_t(3));
-    }
-    if (end - begin <= most_ || plane <= cell.min[axis] || plane >= cell.max[axis]) {
-      nodes_[number].below[0] = leaves_.size();
-      leaves_.push_back({cell, {}, {}, {}, 0});
+    std::size_t middle = begin;
+    for (const int axis : end - begin > most_ ? axes(begin, end) : std::vector<int>{}) {
+      const std::int64_t plane = plane_across(axis, begin, end);
+      if (plane <= cell.min[axis] || plane >= cell.max[axis]) continue;
+      const auto first = faces_.begin() + std::ptrdiff_t(begin), last = faces_.begin() + std::ptrdiff_t(end);
+      middle = std::size_t(
+          std::stable_partition(first, last, [&](FaceId f) { return thrice_middle(f)[axis] <= 3 * plane; }) -
+          faces_.begin());
+      if (middle == begin || middle == end) continue;
+      LatticeBox low = cell, high = cell;
+      low.max[axis] = high.min[axis] = plane;
+      const std::size_t lower = split(begin, middle, low), upper = split(middle, end, high);
+      nodes_[number] = {axis, plane, {lower, upper}};
       return number;
     }
-    LatticeBox low = cell, high = cell;
-    low.max[axis] = high.min[axis] = plane;
-    const std::size_t first = split(begin, middle, low), second = split(middle, end, high);
-    nodes_[number] = {axis, plane, {first, second}};
+    nodes_[number].below[0] = leaves_.size();
+    leaves_.push_back({cell, {}, {}, {}, 0});
     return number;
+  }
+
+  /// Those along which the middle half of a sample spreads most first: a rod on a wall is no reason to cut the wall's
+  /// sides apart.
+  [[nodiscard]] std::vector<int> axes(std::size_t begin, std::size_t end) const {
+    const std::size_t step = std::max<std::size_t>((end - begin) / kSample, 1);
+    std::array<std::int64_t, 3> spread{};
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<std::int64_t> at;
+      for (std::size_t i = begin; i < end; i += step) at.push_back(thrice_middle(faces_[i])[axis]);
+      std::sort(at.begin(), at.end());
+      spread[std::size_t(axis)] = at[at.size() * 3 / 4] - at[at.size() / 4];
+    }
+    std::vector<int> order{0, 1, 2};
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return spread[std::size_t(a)] > spread[std::size_t(b)]; });
+    return order;
+  }
+
+  /// With the wanted share of the faces on its lower side, or beside: voxels have vertices without number in planes
+  /// between them, and these would be locked.
+  [[nodiscard]] std::int64_t plane_across(int axis, std::size_t begin, std::size_t end) const {
+    std::vector<std::int64_t> at;
+    for (std::size_t i = begin; i < end; ++i) at.push_back(thrice_middle(faces_[i])[axis]);
+    const auto middle = at.begin() + std::ptrdiff_t(share_ * double(at.size()));
+    std::nth_element(at.begin(), middle, at.end());
+    const std::int64_t plane = floor_div(*middle, std::int64_t(3));
+    return plane % kLatticePerVoxel == 0 ? plane + kLatticePerVoxel / 2 : plane;
   }
 
   /// The face is noted wherever its box meets a closed cell.
@@ -143,7 +164,8 @@ void put_back(const HalfEdgeMesh& mesh, const Region& region, Piece& whole) {
   for (VertexId v = 0; v < region.free.size(); ++v) {
     if (region.free[v]) whole.vertices[region.vertices[v]] = mesh.position(v);
   }
-  for (auto f = FaceId(region.fixed); f < region.faces.size(); ++f) {
+  for (FaceId f = 0; f < region.faces.size(); ++f) {
+    if (f < region.fixed && mesh.alive(f)) continue;  // others may know it, too
     Triangle& t = whole.triangles[region.faces[f]];
     t.fill(kNoId);
     for (HalfEdgeId h = 3 * f; h < 3 * f + 3 && mesh.alive(f); ++h) t[h % 3] = region.vertices[mesh.from(h)];

@@ -17,15 +17,16 @@ struct Region {
   std::size_t fixed = 0;           ///< how many of these
 };
 
-/// Cells by halving along the longest side, until at most so many faces have their middles in one; with another `turn`
-/// their sides lie elsewhere. They depend on the surface alone. n log n.
+/// Cells by halving along the axis along which faces spread most, until at most so many faces, 3 or more, have their
+/// middles in one, or all in one point; with another `turn` their sides lie elsewhere. They depend on the surface
+/// alone. n log n.
 [[nodiscard]] std::vector<Region> regions_of(const Piece& whole, std::uint64_t faces_per_region, int turn);
 
 /// What a region knows; vertices that are not free are locked.
 [[nodiscard]] HalfEdgeMesh mesh_of(const Piece& whole, const Region& region);
 
-/// Free vertices and their faces as they are now; those that are gone are marked. Thread-safe for different regions of
-/// one turn.
+/// Free vertices and their faces as they are now; faces that are gone are marked, with shells that went as a whole also
+/// some that had stayed. Thread-safe for different regions of one turn.
 void put_back(const HalfEdgeMesh& mesh, const Region& region, Piece& whole);
 
 /// Drops faces that are marked, and vertices that no face is left of.

@@ -38,6 +38,25 @@ void SimplifyCounts::add(const SimplifyCounts& next) {
   solved += before.solved;
 }
 
+void SimplifyCounts::add_beside(const SimplifyCounts& part) {
+  collapses += part.collapses;
+  solved += part.solved;
+  refused_link += part.refused_link;
+  refused_constraints += part.refused_constraints;
+  refused_shape += part.refused_shape;
+  refused_growth += part.refused_growth;
+  refused_length += part.refused_length;
+  refused_enclosed += part.refused_enclosed;
+  refused_guard += part.refused_guard;
+  refused_limits += part.refused_limits;
+  refused_error += part.refused_error;
+}
+
+void SimplifyCounts::clear_refusals() {
+  refused_link = refused_constraints = refused_shape = refused_growth = refused_length = refused_enclosed =
+      refused_guard = refused_limits = refused_error = 0;
+}
+
 namespace {
 
 std::uint64_t end_of_bulk(const SimplifyParams& params) {

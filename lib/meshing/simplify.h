@@ -33,7 +33,8 @@ struct SimplifyParams {
   /// are left; 0: no limit. Quadrics do not mind how far out planes meet: where nothing else is left to collapse,
   /// spikes would grow. Not for pieces of a dense surface, which do not know the volume.
   double most_growth = 0;
-  /// Of a region of a surface (regions.h): six times the volume of all of it, and its faces elsewhere.
+  /// Of a region of a surface (regions.h): six times the volume of all of it, and its faces elsewhere, as the region
+  /// was cut.
   struct Whole {
     double volume6 = 0;
     std::uint64_t faces_elsewhere = 0;
@@ -57,8 +58,10 @@ struct SimplifyCounts {
   std::uint64_t refused_link = 0, refused_constraints = 0, refused_shape = 0, refused_growth = 0, refused_length = 0,
                 refused_enclosed = 0, refused_guard = 0, refused_limits = 0, refused_error = 0;
   StopReason stop = StopReason::nothing_left;
-  std::string limit;                     ///< if the limits stopped it: the one that refused last
-  void add(const SimplifyCounts& next);  ///< of a run that took over where this one ended
+  std::string limit;                            ///< if the limits stopped it: the one that refused last
+  void add(const SimplifyCounts& next);         ///< of a run that took over where this one ended
+  void add_beside(const SimplifyCounts& part);  ///< work and refusals on another part of the same mesh
+  void clear_refusals();
 };
 
 /// A dense surface of repaired voxels, simplified by cells, in parallel, down to a few times the faces wanted

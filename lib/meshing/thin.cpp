@@ -56,7 +56,7 @@ class ThinOrder::Thinner {
       queued_[e] = 0;
       const std::optional<Candidate> candidate = solve(e);
       if (!candidate) continue;
-      const double next = heap_.empty() ? candidate->cost : heap_.top().cost;
+      const double next = std::min(heap_.empty() ? candidate->cost : heap_.top().cost, most);
       if (stale_[e] && candidate->cost > std::max(top.cost, next)) {
         stale_[e] = 0;
         enqueue({candidate->cost, e, top.serial});
@@ -215,12 +215,13 @@ std::uint64_t faces_after(int stage, std::uint64_t from, std::uint64_t to) {
   return std::uint64_t(double(from) * std::pow(double(to) / double(from), double(stage) / kThinStages));
 }
 
-void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle, SimplifyCounts& counts) {
+void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle, SimplifyCounts& counts,
+          int first_stage) {
   counts = {};
   counts.faces_in = counts.faces_flat = editor.mesh().face_count();
   ThinOrder order(editor, counts);
   bool enough = false;
-  for (int stage = 1; stage <= kThinStages; ++stage) {
+  for (int stage = first_stage; stage <= kThinStages; ++stage) {
     order.renew();
     enough = order.run(std::numeric_limits<double>::infinity(), faces_after(stage, counts.faces_in, faces));
     if (stage < kThinStages) settle();

@@ -34,7 +34,8 @@ constexpr int kThinStages = 4;
 [[nodiscard]] std::uint64_t faces_after(int stage, std::uint64_t from, std::uint64_t to);
 
 /// Collapses edges of a tight proxy until `faces` are left or nothing can be collapsed. `settle`: tightens the editor's
-/// mesh; called after each stage but the last.
-void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle, SimplifyCounts& counts);
+/// mesh; called after each stage but the last. `first_stage`: those before it were done elsewhere.
+void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle, SimplifyCounts& counts,
+          int first_stage = 1);
 
 }  // namespace bp

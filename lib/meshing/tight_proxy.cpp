@@ -58,7 +58,21 @@ void finish_whole(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyPa
   proxy = tighten(editor, proxy.frame, tightening_of(params), tightened);
 }
 
-/// The same on regions, where it is large; where these jam above the target, on one mesh.
+/// What regions could not collapse, on one mesh.
+void thin_rest(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, SimplifyCounts& simplified) {
+  HalfEdgeMesh mesh(proxy);
+  ProxyEditor editor(mesh, enclosed, params.edge_limit, nullptr);
+  SimplifyCounts now;
+  thin(
+      editor, params.faces, [] {}, now, kThinStages);
+  simplified.add(now);
+  editor.erase_inner_shells();
+  const LatticeMesh out = mesh.compact(proxy.frame);
+  proxy.vertices = out.vertices;
+  proxy.triangles = out.triangles;
+}
+
+/// The same as finish_whole on regions, where it is large.
 void finish(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, SimplifyCounts& simplified,
             TightenCounts& tightened) {
   if (!has_regions(proxy.triangles.size(), params)) return finish_whole(proxy, enclosed, params, simplified, tightened);
@@ -66,7 +80,7 @@ void finish(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& 
     SimplifyCounts now;
     thin_regions(proxy, enclosed, params.faces, one_sweep(params), now);
     simplified.add(now);
-    if (proxy.triangles.size() > params.faces) return finish_whole(proxy, enclosed, params, simplified, tightened);
+    if (proxy.triangles.size() > params.faces) thin_rest(proxy, enclosed, params, simplified);
   }
   tighten_regions(proxy, enclosed, tightening_of(params), tightened);
 }

@@ -36,9 +36,9 @@ class Editors {
   }
 
   void thin(std::uint64_t excess) {
-    for_each([&](std::size_t i) { parts_[i]->order.renew(); });
+    for_each([&](std::size_t i) { parts_[i]->order_renewed(); });
     std::vector<CostOrder*> orders;
-    for (const auto& part : parts_) orders.push_back(&part->order);
+    for (const auto& part : parts_) orders.push_back(part->order.get());
     take_cheapest(orders, excess);
   }
 
@@ -54,17 +54,7 @@ class Editors {
       parts_[i]->editor.erase_turned_shells();
       bp::put_back(parts_[i]->mesh, regions_[i], whole_);
     });
-    for (const auto& part : parts_) {
-      const SimplifyCounts& own = part->simplified;
-      counts.collapses += own.collapses;
-      counts.solved += own.solved;
-      counts.refused_link += own.refused_link;
-      counts.refused_constraints += own.refused_constraints;
-      counts.refused_shape += own.refused_shape;
-      counts.refused_length += own.refused_length;
-      counts.refused_enclosed += own.refused_enclosed;
-      counts.refused_guard += own.refused_guard;
-    }
+    for (const auto& part : parts_) counts.add_beside(part->simplified);
     parts_.clear();
     drop_removed(whole_);
   }
@@ -72,12 +62,16 @@ class Editors {
  private:
   struct Part {
     Part(const Piece& whole, const Region& region, const Enclosed& enclosed, const EdgeLimit& edge_limit)
-        : mesh(mesh_of(whole, region)), editor(mesh, enclosed, edge_limit, nullptr), order(editor, simplified) {}
+        : mesh(mesh_of(whole, region)), editor(mesh, enclosed, edge_limit, nullptr) {}
+    void order_renewed() {
+      if (!order) order = std::make_unique<ThinOrder>(editor, simplified);
+      order->renew();
+    }
     HalfEdgeMesh mesh;
     ProxyEditor editor;
     SimplifyCounts simplified;
     TightenCounts tightened;
-    ThinOrder order;
+    std::unique_ptr<ThinOrder> order;  // once it is needed
   };
 
   template <class Body>
@@ -94,13 +88,14 @@ Piece piece_of(const LatticeMesh& proxy) {
   return {kEverywhere, proxy.vertices, proxy.triangles, {}};
 }
 
-/// Without the shells that bound nothing any more.
-void take(Piece&& whole, bool inwards, LatticeMesh& proxy) {
+/// Without the shells that bound nothing any more; returns the volume.
+double take(Piece&& whole, bool inwards, LatticeMesh& proxy) {
   HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
   erase_inner_shells(mesh, inwards);
   LatticeMesh out = mesh.compact(proxy.frame);
   proxy.vertices = std::move(out.vertices);
   proxy.triangles = std::move(out.triangles);
+  return double(mesh.volume6()) / 6;
 }
 
 }  // namespace
@@ -115,8 +110,7 @@ void tighten_regions_on(LatticeMesh& proxy, const Enclosed& enclosed, const Tigh
   editors.tighten(params, counts);
   editors.put_back(none);
   counts.volume_before = double(before) / 6;
-  counts.volume_after = double(volume6(whole)) / 6;
-  take(std::move(whole), before < 0, proxy);
+  counts.volume_after = take(std::move(whole), before < 0, proxy);
 }
 
 void thin_regions(LatticeMesh& proxy, const Enclosed& enclosed, std::uint64_t faces, const TightenParams& settle,
@@ -125,7 +119,8 @@ void thin_regions(LatticeMesh& proxy, const Enclosed& enclosed, std::uint64_t fa
   const bool inwards = volume6(whole) < 0;
   counts = {};
   counts.faces_in = counts.faces_flat = whole.triangles.size();
-  for (int stage = 1; stage <= kThinStages; stage += 2) {
+  static_assert(kThinStages % 2 == 0);
+  for (int stage = 1; stage <= kThinStages; stage += 2) {  // two with each set of cells
     Editors editors(whole, enclosed, settle, stage / 2 + 1);
     const std::uint64_t at_first = whole.triangles.size();
     for (const int half : {stage, stage + 1}) {
@@ -140,14 +135,14 @@ void thin_regions(LatticeMesh& proxy, const Enclosed& enclosed, std::uint64_t fa
   counts.stop = counts.faces_out <= faces   ? StopReason::faces
                 : counts.refused_length > 0 ? StopReason::edge_length
                                             : StopReason::nothing_left;
-  take(std::move(whole), inwards, proxy);
+  static_cast<void>(take(std::move(whole), inwards, proxy));
 }
 
 void tighten_regions(LatticeMesh& proxy, const Enclosed& enclosed, const TightenParams& params, TightenCounts& counts) {
   LatticeMesh tight = proxy;
   counts = {};
   TightenParams once = params;
-  once.final_sweeps = 0;
+  once.final_sweeps = std::min(params.final_sweeps, 1);  // for those that are locked in the last turn
   tighten_regions_on(tight, enclosed, once, counts);
   Piece whole = piece_of(tight);
   SimplifyCounts none;
@@ -156,8 +151,7 @@ void tighten_regions(LatticeMesh& proxy, const Enclosed& enclosed, const Tighten
   once.sweeps = 1;
   editors.tighten(once, counts);
   editors.put_back(none);
-  counts.volume_after = double(volume6(whole)) / 6;
-  take(std::move(whole), counts.volume_before < 0, tight);
+  counts.volume_after = take(std::move(whole), counts.volume_before < 0, tight);
   if (counts.volume_after <= counts.volume_before) {
     proxy = std::move(tight);
   } else {

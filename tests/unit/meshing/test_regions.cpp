@@ -1,5 +1,6 @@
 #include "lib/check/surface.h"
 #include "lib/core/parallel.h"
+#include "lib/meshing/cost_order.h"
 #include "lib/meshing/enclosed_voxels.h"
 #include "lib/meshing/regions.h"
 #include "lib/meshing/repair.h"
@@ -74,7 +75,7 @@ void check_large_proxy(const LatticeMesh& proxy, const Solid& solid) {
 
 }  // namespace
 
-TEST_CASE("a vertex is free in one region at most, which knows all that reaches into its cell", "[meshing]") {
+TEST_CASE("a vertex is free in one region at most, which knows all that reaches into its cell", "[quick][meshing]") {
   const Towers towers;
   const Piece whole = piece_of(towers.surface());
   const int turn = GENERATE(0, 1, 2);
@@ -112,7 +113,7 @@ TEST_CASE("a vertex is free in one region at most, which knows all that reaches 
   CHECK(std::count(free_in.begin(), free_in.end(), 1) > std::int64_t(whole.vertices.size() / 2));
 }
 
-TEST_CASE("what was changed in regions comes back to its place, and the rest stays", "[meshing]") {
+TEST_CASE("what was changed in regions comes back to its place, and the rest stays", "[quick][meshing]") {
   const Towers towers;
   const LatticeMesh surface = towers.surface();
   Piece whole = piece_of(surface);
@@ -132,6 +133,73 @@ TEST_CASE("what was changed in regions comes back to its place, and the rest sta
   CHECK(whole.vertices.size() == surface.vertices.size() - 1);
   CHECK(std::count(whole.vertices.begin(), whole.vertices.end(), lost) == 0);
   CHECK_NOTHROW(HalfEdgeMesh(whole.vertices, whole.triangles, kEverywhere));
+}
+
+TEST_CASE("a shell that goes as a whole takes faces along that had stayed", "[quick][meshing]") {
+  const Towers towers;
+  Piece whole = piece_of(towers.surface());
+  const std::vector<Region> regions = regions_of(whole, kPerRegion, 0);
+  const auto inner = std::find_if(regions.begin(), regions.end(), [](const Region& r) {
+    return r.cell.min.x > kEverywhere.min.x && r.cell.min.y > kEverywhere.min.y;
+  });
+  REQUIRE(inner != regions.end());
+  // A tetrahedron above the ground, its base in two sides of the cell: corners that are locked, and a free apex.
+  const std::int64_t x = inner->cell.min.x, y = inner->cell.min.y, z = 40 * kLatticePerVoxel;
+  const auto n = std::uint32_t(whole.vertices.size());
+  whole.vertices.insert(whole.vertices.end(),
+                        {{x, y + 60, z}, {x, y + 60, z + 60}, {x + 60, y, z + 30}, {x + 30, y + 50, z + 30}});
+  for (const Triangle& t : {Triangle{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}})
+    whole.triangles.push_back({n + t[0], n + t[1], n + t[2]});
+  const std::size_t faces = whole.triangles.size();
+  std::size_t gone = 0;
+  for (const Region& region : regions_of(whole, kPerRegion, 0)) {
+    const auto at = std::find(region.vertices.begin(), region.vertices.end(), n + 3);
+    if (at == region.vertices.end() || !region.free[std::size_t(at - region.vertices.begin())]) continue;
+    CHECK(std::count_if(region.faces.begin(), region.faces.begin() + std::ptrdiff_t(region.fixed),
+                        [&](FaceId f) { return f >= faces - 4; }) == 1);
+    HalfEdgeMesh mesh = mesh_of(whole, region);
+    for (FaceId f = 0; f < region.faces.size(); ++f) {
+      if (region.faces[f] >= faces - 4) mesh.erase(f), ++gone;
+    }
+    put_back(mesh, region, whole);
+  }
+  REQUIRE(gone == 4);
+  drop_removed(whole);
+  CHECK(whole.triangles.size() == faces - 4);
+  CHECK_NOTHROW(HalfEdgeMesh(whole.vertices, whole.triangles, kEverywhere));
+}
+
+TEST_CASE("a wall whose vertices all lie in a few planes is cut across, not along them", "[quick][meshing]") {
+  MemoryShelf shelf;
+  fill_shelf(shelf, {{0, 0, 0}, {120, 60, 60}}, [](VoxelCoord p) {
+    const bool hole = p.y % 3 == 1 && p.z % 3 == 1;
+    return p.x < 2 ? !hole : p.y / 2 == 15 && p.z == 30;  // with a rod across, longer than the wall
+  });
+  repair_contacts(shelf);
+  const Piece whole = piece_of(dense_surface(shelf, {}));
+  std::vector<char> free(whole.vertices.size(), 0);
+  for (int turn = 0; turn < 3; ++turn) {
+    for (const Region& region : regions_of(whole, kPerRegion, turn)) {
+      CHECK(region.faces.size() - region.fixed <= kPerRegion);
+      for (std::size_t i = 0; i < region.vertices.size(); ++i) free[region.vertices[i]] |= region.free[i];
+    }
+  }
+  CHECK(std::count(free.begin(), free.end(), 1) > std::int64_t(whole.vertices.size() * 9 / 10));
+}
+
+TEST_CASE("parts without faces share nothing", "[quick][meshing]") {
+  struct None : CostOrder {
+    [[nodiscard]] std::uint64_t face_count() const override { return 0; }
+    void add_costs(std::vector<double>&) const override {}
+    bool run(double, std::uint64_t) override { return true; }
+  } none;
+  struct Jammed : None {
+    [[nodiscard]] std::uint64_t face_count() const override { return 10; }
+    bool run(double, std::uint64_t) override { return false; }
+  } jammed;
+  const std::vector<CostOrder*> parts{&none, &jammed, &none};
+  take_cheapest(parts, 4);
+  CHECK(jammed.face_count() == 10);
 }
 
 TEST_CASE("a large proxy that is made by regions holds, and is the same for any number of threads", "[meshing]") {
