@@ -21,10 +21,12 @@ struct CutLevel {
 };
 
 struct TilesetPlan {
-  static constexpr double kScaleVox = 2;  ///< closing radius of a level that is cut, in its voxels, if nobody says
-  std::vector<CutLevel> cut;              ///< finest first
-  StreamHeader uncut;                     ///< of the solid after the last of them
-  std::size_t whole = 0;                  ///< levels in one mesh that follow; together they are one job, the last
+  /// Closing radius of a level that is cut, in its voxels, if nobody says. At whole numbers erosion by the open ball
+  /// stops one voxel short of what the cube has added, flat sides included; a sixteenth more takes it back.
+  static constexpr double kScaleVox = 2.0625;
+  std::vector<CutLevel> cut;  ///< finest first
+  StreamHeader uncut;         ///< of the solid after the last of them
+  std::size_t whole = 0;      ///< levels in one mesh that follow; together they are one job, the last
   /// Numbers that jobs may have: 0 to one less.
   [[nodiscard]] std::uint64_t jobs() const { return whole_number() + (whole > 0 ? 1 : 0); }
   [[nodiscard]] std::uint64_t whole_number() const {
