@@ -161,7 +161,7 @@ BuildOptions parse_build_options(Args& args) {
   args.option("-s,--scale", "LENGTH", o.request.scale,
               "closing radius of the finest level; it doubles from level to level (default: by the target)");
   args.option("--element", {{"cube", StructuringElement::cube}, {"ball", StructuringElement::ball}}, o.element,
-              "of the dilation; cube: large flat areas survive");
+              "of the dilation; cube: large flat areas survive; ball: slanted sides do, so it is a fit's default");
   args.option("--enclose", {{"input", Enclose::input}, {"closing", Enclose::closing}}, o.enclose,
               "what stays inside while a level is tightened: the voxels of the scene, or their closing");
   args.option("--fill", {{"flood", FillMode::flood}, {"winding", FillMode::winding}, {"none", FillMode::none}}, o.fill,
@@ -176,6 +176,8 @@ BuildOptions parse_build_options(Args& args) {
   args.example("bplod plant.glb --faces 20000,5000,1000 --profile 3dtiles -o plant-tiles");
   args.parse();
   check_meaning(args, o);
+  // Beside slanted sides a cube's closing stands off about as far as a fit looks for the scene: thorns.
+  if (o.mode == MeshMode::fit && !args.given("--element")) o.element = StructuringElement::ball;
   check_options(o);
   return o;
 }
