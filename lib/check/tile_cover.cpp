@@ -92,11 +92,11 @@ bool may_meet(const Hull& hull, const Bounds3d& box) {
     Vec3d axis{};
     axis[i] = 1;
     if (separated(hull, box, axis)) return false;
-    for (const Bounds3d& p : hull) {
-      for (const Bounds3d& q : hull) {
-        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    for (auto p = hull.begin(); p != hull.end(); ++p) {
+      for (auto q = hull.begin(); q != p; ++q) {
         Vec3d across{};
-        across[j] = p.min[k] - q.min[k], across[k] = q.min[j] - p.min[j];
+        across[j] = p->min[k] - q->min[k], across[k] = q->min[j] - p->min[j];
         if (separated(hull, box, across)) return false;
       }
     }

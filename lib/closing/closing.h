@@ -16,6 +16,10 @@ struct ClosingParams {
   StructuringElement element = StructuringElement::cube;
 };
 
+/// At scales of whole voxels erosion, by an open ball, stops one voxel short of what a cube has added, flat sides
+/// included. The least scale beyond reaches as far and takes that back.
+constexpr double kBeyondWholeVox = 1.0 / kScaleOne;
+
 /// Farthest that an element of scale `s`, cube or ball, reaches along an axis, voxels.
 [[nodiscard]] std::int32_t element_reach(Scale s);
 

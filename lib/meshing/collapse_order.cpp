@@ -144,10 +144,6 @@ void StrictOrder::count(SimplifyCounts& counts) const {
   counts.refused_guard = n[std::size_t(Refusal::guard)];
   counts.refused_limits = n[std::size_t(Refusal::limits)];
   counts.refused_error = n[std::size_t(Refusal::error)];
-  counts.stop = counts.refused_error > 0    ? StopReason::error
-                : counts.refused_limits > 0 ? StopReason::limits
-                : counts.refused_length > 0 ? StopReason::edge_length
-                                            : StopReason::nothing_left;
 }
 
 void StrictOrder::push(HalfEdgeId h) {

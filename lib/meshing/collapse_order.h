@@ -31,7 +31,7 @@ class StrictOrder : public CostOrder {
   void add_costs(std::vector<double>& costs) const override;
   bool run(double most, std::uint64_t enough) override;
 
-  /// Sets the counts that tell why edges are left, and why it ends if it ends here.
+  /// Sets the counts that tell why edges are left.
   void count(SimplifyCounts& counts) const;
 
  private:

@@ -121,7 +121,7 @@ bool has_regions(std::uint64_t faces, const SimplifyParams& params) {
 
 void collapse_in_regions(Piece& whole, const SimplifyParams& params, SimplifyCounts& counts) {
   SimplifyParams own = params;
-  own.whole.volume6 = std::abs(double(volume6(whole)));
+  own.whole.volume6 = std::abs(double(volume6_of(whole.vertices, whole.triangles)));
   if (whole.quadrics.empty()) whole.quadrics = quadrics_of(HalfEdgeMesh(whole.vertices, whole.triangles, kEverywhere));
   const double wanted = double(params.faces), halfway = std::sqrt(double(whole.triangles.size()) * wanted);
   for (int number = 0; number < kTurns && whole.triangles.size() > params.faces; ++number) {

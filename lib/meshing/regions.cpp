@@ -44,12 +44,11 @@ class Splitter {
   std::size_t split(std::size_t begin, std::size_t end, const LatticeBox& cell) {
     const std::size_t number = nodes_.size();
     nodes_.emplace_back();
-    std::size_t middle = begin;
     for (const int axis : end - begin > most_ ? axes(begin, end) : std::vector<int>{}) {
       const std::int64_t plane = plane_across(axis, begin, end);
       if (plane <= cell.min[axis] || plane >= cell.max[axis]) continue;
       const auto first = faces_.begin() + std::ptrdiff_t(begin), last = faces_.begin() + std::ptrdiff_t(end);
-      middle = std::size_t(
+      const std::size_t middle = std::size_t(
           std::stable_partition(first, last, [&](FaceId f) { return thrice_middle(f)[axis] <= 3 * plane; }) -
           faces_.begin());
       if (middle == begin || middle == end) continue;
@@ -174,29 +173,10 @@ void put_back(const HalfEdgeMesh& mesh, const Region& region, Piece& whole) {
 
 void drop_removed(Piece& whole) {
   std::erase_if(whole.triangles, [](const Triangle& t) { return t[0] == kNoId; });
-  std::vector<VertexId> number(whole.vertices.size(), kNoId);
-  for (const Triangle& t : whole.triangles) {
-    for (const VertexId v : t) number[v] = 0;
-  }
-  VertexId n = 0;
-  for (VertexId v = 0; v < number.size(); ++v) {
-    if (number[v] == kNoId) continue;
-    whole.vertices[n] = whole.vertices[v];
-    if (!whole.quadrics.empty()) whole.quadrics[n] = whole.quadrics[v];
-    number[v] = n++;
-  }
-  whole.vertices.resize(n);
-  if (!whole.quadrics.empty()) whole.quadrics.resize(n);
-  for (Triangle& t : whole.triangles) {
-    for (VertexId& v : t) v = number[v];
-  }
-}
-
-int128 volume6(const Piece& whole) {
-  int128 sum = 0;
-  for (const auto& [a, b, c] : whole.triangles)
-    sum += orient3d_value(whole.vertices[0], whole.vertices[a], whole.vertices[b], whole.vertices[c]);
-  return sum;
+  const std::vector<VertexId> kept = drop_unused_vertices(whole.vertices, whole.triangles);
+  if (whole.quadrics.empty()) return;
+  for (std::size_t v = 0; v < kept.size(); ++v) whole.quadrics[v] = whole.quadrics[kept[v]];
+  whole.quadrics.resize(kept.size());
 }
 
 }  // namespace bp

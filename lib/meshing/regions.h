@@ -9,6 +9,8 @@
 /// with other cells.
 namespace bp {
 
+constexpr std::uint64_t kFacesPerRegion = 8192;  ///< if nobody says
+
 struct Region {
   LatticeBox cell;                 ///< closed; those of different regions have no inner point in common
   std::vector<VertexId> vertices;  ///< of the whole, rising; their numbers here
@@ -31,8 +33,5 @@ void put_back(const HalfEdgeMesh& mesh, const Region& region, Piece& whole);
 
 /// Drops faces that are marked, and vertices that no face is left of.
 void drop_removed(Piece& whole);
-
-/// Six times the enclosed volume.
-[[nodiscard]] int128 volume6(const Piece& whole);
 
 }  // namespace bp

@@ -7,7 +7,6 @@
 #include "lib/meshing/collapse_order.h"
 #include "lib/meshing/collapse_regions.h"
 #include "lib/meshing/flatten.h"
-#include "lib/meshing/regions.h"
 #include "lib/meshing/shells.h"
 #include "lib/meshing/surface_tree.h"
 
@@ -57,6 +56,13 @@ void SimplifyCounts::clear_refusals() {
       refused_guard = refused_limits = refused_error = 0;
 }
 
+StopReason SimplifyCounts::reason_left() const {
+  return refused_error > 0    ? StopReason::error
+         : refused_limits > 0 ? StopReason::limits
+         : refused_length > 0 ? StopReason::edge_length
+                              : StopReason::nothing_left;
+}
+
 namespace {
 
 std::uint64_t end_of_bulk(const SimplifyParams& params) {
@@ -74,14 +80,14 @@ void collapse_strict(Collapser& collapser, SimplifyCounts& counts) {
   StrictOrder order(collapser);
   const bool enough = order.run(std::numeric_limits<double>::infinity(), collapser.params().faces);
   order.count(counts);
-  if (enough) counts.stop = StopReason::faces;
+  counts.stop = enough ? StopReason::faces : counts.reason_left();
   if (counts.stop == StopReason::limits) counts.limit = collapser.params().limits->last_refusal();
 }
 
 /// The rest of it: what regions leave is tried as a whole.
 LatticeMesh simplify_regions(Piece whole, const GridFrame& frame, const SimplifyParams& params,
                              SimplifyCounts& counts) {
-  const bool inwards = volume6(whole) < 0;
+  const bool inwards = volume6_of(whole.vertices, whole.triangles) < 0;
   collapse_in_regions(whole, params, counts);
   HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
   counts.stop = StopReason::faces;

@@ -6,6 +6,7 @@
 #include "lib/meshing/enclosed.h"
 #include "lib/meshing/lattice_mesh.h"
 #include "lib/meshing/piece_store.h"
+#include "lib/meshing/regions.h"
 #include "lib/meshing/step_limits.h"
 #include "lib/meshing/surface.h"
 
@@ -41,7 +42,7 @@ struct SimplifyParams {
   } whole;
   StepLimits* limits = nullptr;  ///< if given, every collapse keeps them
   /// A surface of several times so many faces is cut into regions, which are worked on at the same time (regions.h).
-  std::uint64_t faces_per_region = 8192;
+  std::uint64_t faces_per_region = kFacesPerRegion;
   PieceMemory memory;  ///< of a surface that is simplified by cells; does not change the result
 };
 
@@ -62,6 +63,8 @@ struct SimplifyCounts {
   void add(const SimplifyCounts& next);         ///< of a run that took over where this one ended
   void add_beside(const SimplifyCounts& part);  ///< work and refusals on another part of the same mesh
   void clear_refusals();
+  /// Why no edge that is left was merged.
+  [[nodiscard]] StopReason reason_left() const;
 };
 
 /// A dense surface of repaired voxels, simplified by cells, in parallel, down to a few times the faces wanted

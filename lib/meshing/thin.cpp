@@ -14,14 +14,13 @@ namespace {
 
 constexpr double kReach = 0.5;  // of the mean spoke: how far the merged vertex may leave the edge's middle
 constexpr int kAvoidRounds = 4;
+
 struct Candidate {
   Vec3d offset;  // from the position of from(h)
   double cost;   // volume added
 };
 
-}  // namespace
-
-class ThinOrder::Thinner {
+class Thinner final : public ThinOrder {
  public:
   Thinner(ProxyEditor& editor, SimplifyCounts& counts)
       : editor_(editor),
@@ -31,8 +30,7 @@ class ThinOrder::Thinner {
         stale_(3 * mesh_.face_capacity(), 0),
         queued_(3 * mesh_.face_capacity(), 0) {}
 
-  /// All vertices may have moved, and edges flipped: costs are estimates, and edges without one get another chance.
-  void renew() {
+  void renew() override {
     for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
       if (!mesh_.alive(HalfEdgeMesh::face(h)) || mesh_.edge(h) != h) continue;
       if (queued_[h]) {
@@ -43,20 +41,23 @@ class ThinOrder::Thinner {
     }
   }
 
-  [[nodiscard]] const HalfEdgeMesh& mesh() const { return mesh_; }
-  [[nodiscard]] const CostQueue& queue() const { return heap_; }
+  [[nodiscard]] std::uint64_t face_count() const override { return mesh_.face_count(); }
 
-  bool run(double most, std::uint64_t enough) {
+  void add_costs(std::vector<double>& costs) const override {
+    for (const CostEntry& entry : queue_.entries()) costs.push_back(entry.cost);
+  }
+
+  bool run(double most, std::uint64_t enough) override {
     while (mesh_.face_count() > enough) {
-      if (heap_.empty() || heap_.top().cost > most) return false;
-      const CostEntry top = heap_.top();
-      heap_.pop();
+      if (queue_.empty() || queue_.top().cost > most) return false;
+      const CostEntry top = queue_.top();
+      queue_.pop();
       const HalfEdgeId e = top.edge;
       if (!mesh_.alive(HalfEdgeMesh::face(e)) || mesh_.edge(e) != e || serial_[e] != top.serial) continue;
       queued_[e] = 0;
       const std::optional<Candidate> candidate = solve(e);
       if (!candidate) continue;
-      const double next = std::min(heap_.empty() ? candidate->cost : heap_.top().cost, most);
+      const double next = std::min(queue_.empty() ? candidate->cost : queue_.top().cost, most);
       if (stale_[e] && candidate->cost > std::max(top.cost, next)) {
         stale_[e] = 0;
         enqueue({candidate->cost, e, top.serial});
@@ -81,7 +82,7 @@ class ThinOrder::Thinner {
   }
 
   void enqueue(const CostEntry& entry) {
-    heap_.push(entry);
+    queue_.push(entry);
     queued_[entry.edge] = 1;
   }
 
@@ -187,27 +188,13 @@ class ThinOrder::Thinner {
   std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
   std::vector<char> stale_;            // its entry's cost is an estimate
   std::vector<char> queued_;           // it has a valid entry
-  CostQueue heap_;
+  CostQueue queue_;
 };
 
-ThinOrder::ThinOrder(ProxyEditor& editor, SimplifyCounts& counts)
-    : thinner_(std::make_unique<Thinner>(editor, counts)) {}
-ThinOrder::~ThinOrder() = default;
+}  // namespace
 
-void ThinOrder::renew() {
-  thinner_->renew();
-}
-
-std::uint64_t ThinOrder::face_count() const {
-  return thinner_->mesh().face_count();
-}
-
-void ThinOrder::add_costs(std::vector<double>& costs) const {
-  for (const CostEntry& entry : thinner_->queue().entries()) costs.push_back(entry.cost);
-}
-
-bool ThinOrder::run(double most, std::uint64_t enough) {
-  return thinner_->run(most, enough);
+std::unique_ptr<ThinOrder> make_thin_order(ProxyEditor& editor, SimplifyCounts& counts) {
+  return std::make_unique<Thinner>(editor, counts);
 }
 
 std::uint64_t faces_after(int stage, std::uint64_t from, std::uint64_t to) {
@@ -219,16 +206,14 @@ void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>&
           int first_stage) {
   counts = {};
   counts.faces_in = counts.faces_flat = editor.mesh().face_count();
-  ThinOrder order(editor, counts);
+  Thinner order(editor, counts);
   bool enough = false;
   for (int stage = first_stage; stage <= kThinStages; ++stage) {
     order.renew();
     enough = order.run(std::numeric_limits<double>::infinity(), faces_after(stage, counts.faces_in, faces));
     if (stage < kThinStages) settle();
   }
-  counts.stop = enough                      ? StopReason::faces
-                : counts.refused_length > 0 ? StopReason::edge_length
-                                            : StopReason::nothing_left;
+  counts.stop = enough ? StopReason::faces : counts.reason_left();
   counts.faces_out = editor.mesh().face_count();
 }
 

@@ -10,23 +10,16 @@
 /// part of a simplification, when the proxy lies close to what it encloses: volume is then what a lost vertex costs.
 namespace bp {
 
-/// Collapses of the editor's mesh, cheapest first. Counts into `counts`. Deterministic. Cost: some ten fits and two
-/// exact tests a collapse.
+/// Collapses of an editor's mesh, cheapest first.
 class ThinOrder : public CostOrder {
  public:
-  ThinOrder(ProxyEditor& editor, SimplifyCounts& counts);
-  ~ThinOrder() override;
   /// To be called at the beginning, and after other changes of the mesh: all vertices may have moved, and edges
   /// flipped, so costs are estimates, and edges without one get another chance.
-  void renew();
-  [[nodiscard]] std::uint64_t face_count() const override;
-  void add_costs(std::vector<double>& costs) const override;
-  bool run(double most, std::uint64_t enough) override;
-
- private:
-  class Thinner;
-  std::unique_ptr<Thinner> thinner_;
+  virtual void renew() = 0;
 };
+
+/// Keeps references; counts into `counts`. Deterministic. Cost: some ten fits and two exact tests a collapse.
+[[nodiscard]] std::unique_ptr<ThinOrder> make_thin_order(ProxyEditor& editor, SimplifyCounts& counts);
 
 /// How many faces are to be left after stage 1, 2... kThinStages of the way from one number of faces to another: equal
 /// shares. Between stages the mesh is tightened, because what a collapse costs is known only of a tight proxy.

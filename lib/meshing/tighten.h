@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "lib/meshing/proxy_editor.h"
+#include "lib/meshing/regions.h"
 
 /// Tightening: vertex moves and edge flips that lower the proxy's volume while everything in `enclosed` stays inside
 /// and the proxy stays embedded. Simplification under constraints against its own faces can only grow; this takes the
@@ -15,7 +16,7 @@ struct TightenParams {
   double volume = 0;             ///< the volume for that, lattice units cubed; 0: of the mesh, which is whole then
   EdgeLimit edge_limit;          ///< as in SimplifyParams: of what a move or a flip makes
   StepLimits* limits = nullptr;  ///< if given, every step keeps them
-  std::uint64_t faces_per_region = 8192;  ///< as in SimplifyParams
+  std::uint64_t faces_per_region = kFacesPerRegion;  ///< as in SimplifyParams
 };
 
 struct TightenCounts {

@@ -21,7 +21,7 @@ class Editors {
   }
 
   void tighten(const TightenParams& params, TightenCounts& counts) {
-    const double volume = std::abs(double(volume6(whole_))) / 6;
+    const double volume = std::abs(double(volume6_of(whole_.vertices, whole_.triangles))) / 6;
     for_each([&](std::size_t i) {
       TightenParams own = params;
       own.volume = volume * double(regions_[i].faces.size()) / double(whole_.triangles.size());
@@ -36,10 +36,13 @@ class Editors {
   }
 
   void thin(std::uint64_t excess) {
-    for_each([&](std::size_t i) { parts_[i]->order_renewed(); });
+    for_each([&](std::size_t i) { parts_[i]->renew_order(); });
     std::vector<CostOrder*> orders;
     for (const auto& part : parts_) orders.push_back(part->order.get());
     take_cheapest(orders, excess);
+  }
+  void add_work(SimplifyCounts& counts) const {
+    for (const auto& part : parts_) counts.add_beside(part->simplified);
   }
 
   [[nodiscard]] std::uint64_t removed() const {
@@ -49,12 +52,11 @@ class Editors {
   }
 
   /// The last step: the proxy as it is now.
-  void put_back(SimplifyCounts& counts) {
+  void put_back() {
     for_each([&](std::size_t i) {
       parts_[i]->editor.erase_turned_shells();
       bp::put_back(parts_[i]->mesh, regions_[i], whole_);
     });
-    for (const auto& part : parts_) counts.add_beside(part->simplified);
     parts_.clear();
     drop_removed(whole_);
   }
@@ -63,8 +65,8 @@ class Editors {
   struct Part {
     Part(const Piece& whole, const Region& region, const Enclosed& enclosed, const EdgeLimit& edge_limit)
         : mesh(mesh_of(whole, region)), editor(mesh, enclosed, edge_limit, nullptr) {}
-    void order_renewed() {
-      if (!order) order = std::make_unique<ThinOrder>(editor, simplified);
+    void renew_order() {
+      if (!order) order = make_thin_order(editor, simplified);
       order->renew();
     }
     HalfEdgeMesh mesh;
@@ -98,25 +100,35 @@ double take(Piece&& whole, bool inwards, LatticeMesh& proxy) {
   return double(mesh.volume6()) / 6;
 }
 
+/// With the cells of one turn. Adds to the counts of work; volume_after is new.
+void tighten_turn(LatticeMesh& proxy, const Enclosed& enclosed, const TightenParams& params, int turn,
+                  TightenCounts& counts) {
+  Piece whole = piece_of(proxy);
+  const bool inwards = volume6_of(proxy) < 0;
+  Editors editors(whole, enclosed, params, turn);
+  editors.tighten(params, counts);
+  editors.put_back();
+  counts.volume_after = take(std::move(whole), inwards, proxy);
+}
+
+TightenCounts counts_before(const LatticeMesh& proxy) {
+  TightenCounts counts;
+  counts.volume_before = double(volume6_of(proxy)) / 6;
+  return counts;
+}
+
 }  // namespace
 
 void tighten_regions_on(LatticeMesh& proxy, const Enclosed& enclosed, const TightenParams& params,
                         TightenCounts& counts) {
-  Piece whole = piece_of(proxy);
-  const int128 before = volume6(whole);
-  counts = {};
-  SimplifyCounts none;
-  Editors editors(whole, enclosed, params, 0);
-  editors.tighten(params, counts);
-  editors.put_back(none);
-  counts.volume_before = double(before) / 6;
-  counts.volume_after = take(std::move(whole), before < 0, proxy);
+  counts = counts_before(proxy);
+  tighten_turn(proxy, enclosed, params, 0, counts);
 }
 
 void thin_regions(LatticeMesh& proxy, const Enclosed& enclosed, std::uint64_t faces, const TightenParams& settle,
                   SimplifyCounts& counts) {
   Piece whole = piece_of(proxy);
-  const bool inwards = volume6(whole) < 0;
+  const bool inwards = volume6_of(proxy) < 0;
   counts = {};
   counts.faces_in = counts.faces_flat = whole.triangles.size();
   static_assert(kThinStages % 2 == 0);
@@ -129,29 +141,22 @@ void thin_regions(LatticeMesh& proxy, const Enclosed& enclosed, std::uint64_t fa
       TightenCounts ignored;
       if (half < kThinStages) editors.tighten(settle, ignored);
     }
-    editors.put_back(counts);
+    editors.add_work(counts);
+    editors.put_back();
   }
   counts.faces_out = whole.triangles.size();
-  counts.stop = counts.faces_out <= faces   ? StopReason::faces
-                : counts.refused_length > 0 ? StopReason::edge_length
-                                            : StopReason::nothing_left;
+  counts.stop = counts.faces_out <= faces ? StopReason::faces : counts.reason_left();
   static_cast<void>(take(std::move(whole), inwards, proxy));
 }
 
 void tighten_regions(LatticeMesh& proxy, const Enclosed& enclosed, const TightenParams& params, TightenCounts& counts) {
   LatticeMesh tight = proxy;
-  counts = {};
-  TightenParams once = params;
-  once.final_sweeps = std::min(params.final_sweeps, 1);  // for those that are locked in the last turn
-  tighten_regions_on(tight, enclosed, once, counts);
-  Piece whole = piece_of(tight);
-  SimplifyCounts none;
-  Editors editors(whole, enclosed, params, 1);
-  once = params;
-  once.sweeps = 1;
-  editors.tighten(once, counts);
-  editors.put_back(none);
-  counts.volume_after = take(std::move(whole), counts.volume_before < 0, tight);
+  TightenParams first = params, second = params;
+  first.final_sweeps = std::min(params.final_sweeps, 1);  // for those that are locked in the second turn
+  second.sweeps = 1;
+  counts = counts_before(proxy);
+  tighten_turn(tight, enclosed, first, 0, counts);
+  tighten_turn(tight, enclosed, second, 1, counts);
   if (counts.volume_after <= counts.volume_before) {
     proxy = std::move(tight);
   } else {

@@ -69,26 +69,16 @@ Vec3d point_of(const LatticeMesh& mesh, const Shell& shell) {
 /// Takes away the triangles of the shells that are marked, and the vertices that only they used; the rest keeps its
 /// order.
 void drop(LatticeMesh& mesh, const std::vector<Shell>& shells, const std::vector<bool>& marked) {
-  std::vector<bool> gone(mesh.triangles.size()), used(mesh.vertices.size());
+  std::vector<bool> gone(mesh.triangles.size());
   for (std::size_t s = 0; s < shells.size(); ++s) {
-    for (const std::uint32_t i : shells[s].triangles) {
-      gone[i] = marked[s];
-      for (const std::uint32_t v : mesh.triangles[i]) used[v] = !marked[s];
-    }
+    for (const std::uint32_t i : shells[s].triangles) gone[i] = marked[s];
   }
-  std::vector<std::uint32_t> number(mesh.vertices.size());
-  std::vector<LatticeCoord> vertices;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    number[v] = std::uint32_t(vertices.size());
-    if (used[v]) vertices.push_back(mesh.vertices[v]);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    if (!gone[i]) mesh.triangles[kept++] = mesh.triangles[i];
   }
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto& t = mesh.triangles[i];
-    if (!gone[i]) triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
-  }
-  mesh.vertices = std::move(vertices);
-  mesh.triangles = std::move(triangles);
+  mesh.triangles.resize(kept);
+  drop_unused_vertices(mesh.vertices, mesh.triangles);
   mesh.quads.clear();  // they named triangles by number
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/closing/closing.h"
 #include "lib/core/error.h"
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/reduce.h"
@@ -19,8 +20,8 @@ constexpr double kDenseFacesPerFace = 100;
 constexpr double kVoxelsPerError = 8;  // the error holds the voxels' diagonal, the closing and the simplification
 constexpr double kScalesPerError = 4;  // the cube's dilation reaches sqrt(3) scales
 constexpr double kScalesPerEdge = 4;
-constexpr double kLeastScaleVox = 1.0625;  // below 1, closing is the identity; at 1, a cube thickens (closing.h)
-constexpr double kLeastSideVox = 48;       // of a reduced grid
+constexpr double kLeastScaleVox = 1 + kBeyondWholeVox;  // below 1, closing is the identity
+constexpr double kLeastSideVox = 48;                    // of a reduced grid
 
 /// What the solid shows to the outside. With the inside filled, every boundary voxel is touched by the scene. While
 /// levels are meshed, it is but the runs of its voxels; what distances are measured with is made when they are, unless

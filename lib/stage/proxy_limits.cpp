@@ -59,14 +59,6 @@ void keep_pairs_within(StepLimits& limits, LatticeMesh& mesh) {
   std::sort(mesh.quads.begin(), mesh.quads.end());
 }
 
-int128 volume6_of(const LatticeMesh& mesh) {
-  int128 sum = 0;
-  for (const auto& t : mesh.triangles) {
-    sum += orient3d_value(mesh.vertices[0], mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-  }
-  return sum;
-}
-
 double volume_world(const LatticeMesh& mesh) {
   return double(volume6_of(mesh)) / volume6_per_world(mesh.frame);
 }

@@ -48,8 +48,6 @@ class ProxyLimits final : public StepLimits {
 /// bounds hold. Of pairs that add volume, those that add least are kept.
 void keep_pairs_within(StepLimits& limits, LatticeMesh& mesh);
 
-/// Six times the enclosed volume, lattice units cubed; exact.
-[[nodiscard]] int128 volume6_of(const LatticeMesh& mesh);
 /// Enclosed volume, scene units cubed; exact but for one rounding.
 [[nodiscard]] double volume_world(const LatticeMesh& mesh);
 

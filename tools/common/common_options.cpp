@@ -48,14 +48,12 @@ DeviceChoice parse_device(const std::string& text) {
   choice.kind = DeviceChoice::Kind::cuda;
   if (text == "cuda") return choice;
   if (text.rfind("cuda:", 0) != 0) fail(ErrorCode::bad_argument, "'{}' is none of auto, cpu, cuda, cuda:0,1", text);
-  for (std::size_t begin = 5; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const int id = int(parse_integer(std::string_view(text).substr(begin, end - begin), 0, 1023));
+  for_each_item(std::string_view(text).substr(5), [&](std::string_view item) {
+    const int id = int(parse_integer(item, 0, 1023));
     if (std::find(choice.ids.begin(), choice.ids.end(), id) != choice.ids.end())
       fail(ErrorCode::bad_argument, "'{}' names GPU {} twice", text, id);
     choice.ids.push_back(id);
-    begin = end + 1;
-  }
+  });
   return choice;
 }
 

@@ -31,14 +31,12 @@ bool is_grouped(const std::string& text) {
 
 std::vector<std::uint64_t> parse_face_list(const std::string& text) {
   std::vector<std::uint64_t> all;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    all.push_back(std::uint64_t(parse_integer(std::string_view(text).substr(begin, end - begin), 0, INT64_MAX)));
+  for_each_item(text, [&](std::string_view item) {
+    all.push_back(std::uint64_t(parse_integer(item, 0, INT64_MAX)));
     if (all.back() == 0) refuse(text, "a level must have faces");
     if (all.size() > 1 && all.back() >= all[all.size() - 2])
       refuse(text, "each level must have fewer than the one before");
-    begin = end + 1;
-  }
+  });
   return all;
 }
 

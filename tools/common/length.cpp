@@ -26,6 +26,14 @@ double parse_number(std::string_view text) {
   return value;
 }
 
+void for_each_item(std::string_view text, const std::function<void(std::string_view)>& f) {
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    f(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+}
+
 std::int64_t parse_integer(std::string_view text, std::int64_t lo, std::int64_t hi) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,9 @@ namespace bp {
 [[nodiscard]] double parse_number(std::string_view text);
 /// The integer in [lo, hi] that `text` spells, whole. Throws bad_argument otherwise.
 [[nodiscard]] std::int64_t parse_integer(std::string_view text, std::int64_t lo, std::int64_t hi);
+
+/// f(item) for what stands between commas, in order; once, if there is none.
+void for_each_item(std::string_view text, const std::function<void(std::string_view)>& f);
 
 /// `X,Y,Z`. Throws bad_argument otherwise.
 [[nodiscard]] Vec3d parse_point(std::string_view text);

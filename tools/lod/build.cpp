@@ -206,8 +206,7 @@ std::string up_note(const BuildOptions& o, const std::optional<UpAxis>& told, co
 }
 
 void Build::note(const std::string& text) {
-  report.notes.push_back(text);
-  if (options.common.progress != ProgressMode::quiet) std::fprintf(stderr, "bplod: note: %s\n", text.c_str());
+  report.note(text, options.common);
 }
 
 void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out) {

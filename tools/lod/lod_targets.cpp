@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "lib/core/error.h"
 
@@ -12,14 +11,6 @@ namespace {
 
 constexpr std::uint64_t kDefaultLevels = 4, kMostLevels = 32;
 constexpr std::uint64_t kLeastFirstFaces = 200, kLeastFaces = 4;
-
-void for_each_item(const std::string& text, const std::function<void(std::string_view)>& f) {
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    f(std::string_view(text).substr(begin, end - begin));
-    begin = end + 1;
-  }
-}
 
 std::size_t list_size(const LodRequest& r) {
   return std::max({r.faces.size(), r.errors.size(), r.pixels.size()});

@@ -21,9 +21,8 @@ struct CutLevel {
 };
 
 struct TilesetPlan {
-  /// Closing radius of a level that is cut, in its voxels, if nobody says. At whole numbers erosion by the open ball
-  /// stops one voxel short of what the cube has added, flat sides included; a sixteenth more takes it back.
-  static constexpr double kScaleVox = 2.0625;
+  /// Closing radius of a level that is cut, in its voxels, if nobody says.
+  static constexpr double kScaleVox = 2 + kBeyondWholeVox;
   std::vector<CutLevel> cut;  ///< finest first
   StreamHeader uncut;         ///< of the solid after the last of them
   std::size_t whole = 0;      ///< levels in one mesh that follow; together they are one job, the last

@@ -218,7 +218,7 @@ TEST_CASE("a large proxy that is made by regions holds, and is the same for any 
   CHECK(simplified.stop == StopReason::faces);
   CHECK(proxy.triangles.size() == params.faces);
   CHECK(tightened.volume_after < tightened.volume_before);
-  CHECK(tightened.volume_after == Approx(std::abs(double(volume6(piece_of(proxy)))) / 6));
+  CHECK(tightened.volume_after == Approx(std::abs(double(volume6_of(proxy))) / 6));
   check_large_proxy(proxy, towers.solid);
   const LatticeMesh same = make(3, again, tightened_again);
   CHECK(same.vertices == proxy.vertices);
