@@ -39,6 +39,17 @@ struct LatticeBox {
   return box;
 }
 
+/// Around points, one or more.
+[[nodiscard]] inline LatticeBox box_of(std::span<const LatticeCoord> points) {
+  LatticeBox box{points.front(), points.front()};
+  for (const LatticeCoord& p : points) box.add(p);
+  return box;
+}
+[[nodiscard]] inline LatticeBox intersect(const LatticeBox& a, const LatticeBox& b) {
+  return {{std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y), std::max(a.min.z, b.min.z)},
+          {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y), std::min(a.max.z, b.max.z)}};
+}
+
 /// Items lie in the order of a space-filling curve; eight in a row are a group, the boxes of eight groups a group of
 /// the next level, and so on. The boxes of a group are compared at once, and what is where follows from numbers: no
 /// pointers, about 32 bytes an item.

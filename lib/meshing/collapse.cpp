@@ -36,7 +36,7 @@ Collapser::Collapser(HalfEdgeMesh& mesh, std::vector<Quadric> quadrics, const Si
       counts_(counts),
       tree_(mesh),
       guard_(mesh, tree_),
-      room_(mesh.room()),
+      room_(intersect(mesh.room(), params.room)),
       quadric_(quadrics.empty() ? quadrics_of(mesh) : std::move(quadrics)),
       only_grows_(params.dense && !params.free && params.enclosed == nullptr && params.limits == nullptr) {
   if (!only_grows_) sense_.emplace(mesh);
@@ -299,7 +299,7 @@ bool Collapser::outside_all(const LatticeCoord& p) const {
 }
 
 bool Collapser::acceptable(const LatticeCoord& p, double cost) {
-  if (!room_.holds_inside(origin_ + p)) return refuse(Refusal::length);
+  if (!room_.holds_inside(origin_ + p)) return refuse(Refusal::growth);
   if (!shape_is_fine(p)) return refuse(Refusal::shape);
   if (volume6_ > 0 && !adds_little(p)) return refuse(Refusal::growth);
   if (params_.edge_limit && !edges_are_short(p)) return refuse(Refusal::length);

@@ -24,8 +24,7 @@ HalfEdgeMesh::HalfEdgeMesh(std::vector<LatticeCoord> vertices, std::span<const T
 
 void HalfEdgeMesh::check_span() const {
   if (position_.empty()) return;
-  LatticeBox box{position_[0], position_[0]};
-  for (const LatticeCoord& p : position_) box.add(p);
+  const LatticeBox box = box_of(position_);
   const LatticeCoord size = box.max - box.min;
   if (std::max({size.x, size.y, size.z}) >= kMaxSpan)
     fail(ErrorCode::failed, "the surface spans {} lattice units, more than 2^29; use larger voxels",
@@ -34,13 +33,9 @@ void HalfEdgeMesh::check_span() const {
 
 LatticeBox HalfEdgeMesh::room() const {
   constexpr std::int64_t kBeyond = kMaxSpan / 2;
-  LatticeBox box{position_[0], position_[0]};
-  for (const LatticeCoord& p : position_) box.add(p);
-  for (int i = 0; i < 3; ++i) {
-    box.min[i] = std::max(box.min[i] - kBeyond, cell_.min[i]);
-    box.max[i] = std::min(box.max[i] + kBeyond, cell_.max[i]);
-  }
-  return box;
+  const LatticeCoord margin{kBeyond, kBeyond, kBeyond};
+  const LatticeBox box = box_of(position_);
+  return intersect({box.min - margin, box.max + margin}, cell_);
 }
 
 /// Buckets of half-edges by their lower vertex, sorted by the higher one: no hashing, linear but for the valence's

@@ -28,13 +28,13 @@ bool sticks_out(const LatticeCoord& apex, const LatticeBox& star) {
 
 }  // namespace
 
-ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, EdgeLimit edge_limit, StepLimits* limits)
+ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, const ShapeLimits& limits)
     : mesh_(mesh),
       enclosed_(enclosed),
-      edge_limit_(std::move(edge_limit)),
-      limits_(limits),
+      edge_limit_(limits.edge_limit),
+      limits_(limits.limits),
       inwards_(faces_inwards(mesh)),
-      room_(mesh.room()),
+      room_(intersect(mesh.room(), limits.room)),
       tree_(mesh),
       guard_(mesh, tree_),
       sense_(mesh),

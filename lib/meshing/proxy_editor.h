@@ -1,10 +1,9 @@
 #pragma once
 #include "lib/meshing/contact_points.h"
-#include "lib/meshing/edge_limit.h"
 #include "lib/meshing/enclosed.h"
 #include "lib/meshing/guard.h"
+#include "lib/meshing/shape_limits.h"
 #include "lib/meshing/shells.h"
-#include "lib/meshing/step_limits.h"
 
 /// Changes of a proxy, each taken only if the proxy stays embedded and keeps inside what must stay inside, both decided
 /// exactly (docs/bounding.md, "Tightening"), and if it makes no needle and no edge too long.
@@ -19,9 +18,8 @@ class ProxyEditor {
  public:
   /// `mesh`: closed, 2-manifold, embedded, enclosing, or a cell's part of such a mesh (regions.h); it and `enclosed`
   /// must outlive the editor.
-  /// `edge_limit`: kept by every edge that a change makes; may be empty.
-  /// `limits`: if given, every change keeps them.
-  ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, EdgeLimit edge_limit, StepLimits* limits);
+  /// `limits`: kept by every change.
+  ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, const ShapeLimits& limits);
 
   [[nodiscard]] const HalfEdgeMesh& mesh() const { return mesh_; }
   [[nodiscard]] const ContactPoints& contacts() const { return contacts_; }

@@ -194,7 +194,7 @@ class Lifter {
 LatticeMesh one_round(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params) {
   HalfEdgeMesh edited(mesh);
   EnclosedByPairs kept(edited, enclosed);
-  ProxyEditor editor(edited, kept, params.edge_limit, params.limits);
+  ProxyEditor editor(edited, kept, params);
   Lifter lifter(editor, kept);
   for (const auto& pair : pair_triangles(mesh, QuadKeeps::slack, &enclosed)) lifter.join(pair[0], pair[1]);
   TightenCounts counts;

@@ -2,12 +2,11 @@
 #include <cstdint>
 #include <string>
 
-#include "lib/meshing/edge_limit.h"
 #include "lib/meshing/enclosed.h"
 #include "lib/meshing/lattice_mesh.h"
 #include "lib/meshing/piece_store.h"
 #include "lib/meshing/regions.h"
-#include "lib/meshing/step_limits.h"
+#include "lib/meshing/shape_limits.h"
 #include "lib/meshing/surface.h"
 
 /// Bounding simplification: quadric edge collapses [GH97] that grow the solid ([SGG00], [DLCW11]; [CB17] §3.4) or,
@@ -15,14 +14,13 @@
 /// surface, or that, and does not intersect itself (docs/bounding.md).
 namespace bp {
 
-struct SimplifyParams {
+struct SimplifyParams : ShapeLimits {
   std::uint64_t faces = 0;  ///< stop at this many triangles; 0: no target
   /// A dense surface is in strict order only from this many triangles on: above, what is cheap goes first. 0: from
   /// kBulkFactor (collapse_order.h) times `faces`.
   std::uint64_t strict_from = 0;
   double error_vox =
       0;  ///< stop when the next collapse's root mean square distance to its planes exceeds this; 0: no limit
-  EdgeLimit edge_limit;  ///< of what a collapse makes; the paper's c * S
   /// The input is a dense voxel surface: its flat regions are merged first, then sweeps take the bulk. False: strict
   /// order at once.
   bool dense = true;
@@ -40,7 +38,6 @@ struct SimplifyParams {
     double volume6 = 0;
     std::uint64_t faces_elsewhere = 0;
   } whole;
-  StepLimits* limits = nullptr;  ///< if given, every collapse keeps them
   /// A surface of several times so many faces is cut into regions, which are worked on at the same time (regions.h).
   std::uint64_t faces_per_region = kFacesPerRegion;
   PieceMemory memory;  ///< of a surface that is simplified by cells; does not change the result

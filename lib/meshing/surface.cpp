@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lib/core/parallel.h"
+#include "lib/grid/boundary_runs.h"
 #include "lib/meshing/half_edge_mesh.h"
 
 namespace bp {
@@ -157,6 +158,16 @@ std::vector<BrickCoord> ShelfSurface::bricks() const {
   std::sort(all.begin(), all.end(), by_zyx);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
+}
+
+LatticeBox ShelfSurface::box() const {
+  const VoxelBox voxels = boundary_size(shelf_).box;
+  LatticeBox box;
+  for (int i = 0; i < 3; ++i) {
+    box.min[i] = std::int64_t(voxels.min[i]) * kLatticePerVoxel;
+    box.max[i] = std::int64_t(voxels.max[i]) * kLatticePerVoxel;
+  }
+  return box;
 }
 
 Piece ShelfSurface::piece(BrickCoord brick) const {

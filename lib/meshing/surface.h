@@ -17,6 +17,8 @@ class SurfaceSource {
   [[nodiscard]] const GridFrame& frame() const { return frame_; }
   /// Those that may have faces, by z, y, x.
   [[nodiscard]] virtual std::vector<BrickCoord> bricks() const = 0;
+  /// Around its vertices; of no meaning if there are none.
+  [[nodiscard]] virtual LatticeBox box() const = 0;
   /// Faces of a brick; its cell is the brick, closed. Thread-safe.
   [[nodiscard]] virtual Piece piece(BrickCoord brick) const = 0;
 
@@ -29,6 +31,7 @@ class ShelfSurface final : public SurfaceSource {
  public:
   ShelfSurface(const BrickShelf& shelf, const GridFrame& frame) : SurfaceSource(frame), shelf_(shelf) {}
   [[nodiscard]] std::vector<BrickCoord> bricks() const override;
+  [[nodiscard]] LatticeBox box() const override;               ///< reads all voxels, in parallel
   [[nodiscard]] Piece piece(BrickCoord brick) const override;  ///< about 0.3 ms
 
  private:
@@ -40,6 +43,7 @@ class MeshSurface final : public SurfaceSource {
  public:
   explicit MeshSurface(const LatticeMesh& dense);  ///< keeps a reference; 4 bytes a face
   [[nodiscard]] std::vector<BrickCoord> bricks() const override { return bricks_; }
+  [[nodiscard]] LatticeBox box() const override { return box_of(dense_.vertices); }
   [[nodiscard]] Piece piece(BrickCoord brick) const override;
 
  private:

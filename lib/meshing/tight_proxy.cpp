@@ -47,7 +47,7 @@ TightenParams one_sweep(const SimplifyParams& params) {
 void finish_whole(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
                   SimplifyCounts& simplified, TightenCounts& tightened) {
   HalfEdgeMesh mesh(proxy);
-  ProxyEditor editor(mesh, enclosed, params.edge_limit, params.limits);
+  ProxyEditor editor(mesh, enclosed, params);
   if (by_volume(params) && mesh.face_count() > params.faces) {
     TightenCounts ignored;
     SimplifyCounts now;
@@ -61,7 +61,7 @@ void finish_whole(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyPa
 /// What regions could not collapse, on one mesh.
 void thin_rest(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, SimplifyCounts& simplified) {
   HalfEdgeMesh mesh(proxy);
-  ProxyEditor editor(mesh, enclosed, params.edge_limit, nullptr);
+  ProxyEditor editor(mesh, enclosed, params);
   SimplifyCounts now;
   thin(
       editor, params.faces, [] {}, now, kThinStages);
@@ -165,8 +165,7 @@ LatticeMesh tight_from(const LatticeMesh& grown, const Enclosed& enclosed, const
 
 TightenParams tightening_of(const SimplifyParams& params) {
   TightenParams tightening;
-  tightening.edge_limit = params.edge_limit;
-  tightening.limits = params.limits;
+  static_cast<ShapeLimits&>(tightening) = params;
   tightening.faces_per_region = params.faces_per_region;
   if (params.limits != nullptr) {  // they refuse what vertices that move together take back only later
     tightening.sweeps = 0;

@@ -230,7 +230,7 @@ LatticeMesh tighten(const LatticeMesh& proxy, const Enclosed& enclosed, const Ti
   counts = {};
   if (proxy.triangles.empty()) return proxy;
   HalfEdgeMesh mesh(proxy);
-  ProxyEditor editor(mesh, enclosed, params.edge_limit, params.limits);
+  ProxyEditor editor(mesh, enclosed, params);
   LatticeMesh out = tighten(editor, proxy.frame, params, counts);
   out.provenance = proxy.provenance;
   return out;

@@ -9,13 +9,11 @@
 /// growth back.
 namespace bp {
 
-struct TightenParams {
-  int sweeps = 4;                ///< at most, that move all vertices together
-  int final_sweeps = 3;          ///< then, at most, that move each vertex as far as it goes alone
-  double least_gain = 5e-4;      ///< sweeps of a kind end when one gains less than this share of the volume
-  double volume = 0;             ///< the volume for that, lattice units cubed; 0: of the mesh, which is whole then
-  EdgeLimit edge_limit;          ///< as in SimplifyParams: of what a move or a flip makes
-  StepLimits* limits = nullptr;  ///< if given, every step keeps them
+struct TightenParams : ShapeLimits {
+  int sweeps = 4;            ///< at most, that move all vertices together
+  int final_sweeps = 3;      ///< then, at most, that move each vertex as far as it goes alone
+  double least_gain = 5e-4;  ///< sweeps of a kind end when one gains less than this share of the volume
+  double volume = 0;         ///< the volume for that, lattice units cubed; 0: of the mesh, which is whole then
   std::uint64_t faces_per_region = kFacesPerRegion;  ///< as in SimplifyParams
 };
 

@@ -16,8 +16,7 @@ class Editors {
  public:
   Editors(Piece& whole, const Enclosed& enclosed, const TightenParams& params, int turn)
       : whole_(whole), regions_(regions_of(whole, params.faces_per_region, turn)), parts_(regions_.size()) {
-    for_each(
-        [&](std::size_t i) { parts_[i] = std::make_unique<Part>(whole_, regions_[i], enclosed, params.edge_limit); });
+    for_each([&](std::size_t i) { parts_[i] = std::make_unique<Part>(whole_, regions_[i], enclosed, params); });
   }
 
   void tighten(const TightenParams& params, TightenCounts& counts) {
@@ -63,8 +62,8 @@ class Editors {
 
  private:
   struct Part {
-    Part(const Piece& whole, const Region& region, const Enclosed& enclosed, const EdgeLimit& edge_limit)
-        : mesh(mesh_of(whole, region)), editor(mesh, enclosed, edge_limit, nullptr) {}
+    Part(const Piece& whole, const Region& region, const Enclosed& enclosed, const ShapeLimits& limits)
+        : mesh(mesh_of(whole, region)), editor(mesh, enclosed, limits) {}
     void renew_order() {
       if (!order) order = make_thin_order(editor, simplified);
       order->renew();

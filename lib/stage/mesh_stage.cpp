@@ -6,7 +6,6 @@
 
 #include "lib/core/error.h"
 #include "lib/grid/boundary_runs.h"
-#include "lib/meshing/edge_limit.h"
 #include "lib/meshing/enclosed_triangles.h"
 #include "lib/meshing/enclosed_voxels.h"
 #include "lib/meshing/flatten.h"
@@ -189,8 +188,7 @@ LatticeMesh use_room(LatticeMesh proxy, const Enclosed& enclosed, SimplifyParams
   params.dense = false;
   params.enclosed = &enclosed;
   TightenParams tightening;
-  tightening.edge_limit = params.edge_limit;
-  tightening.limits = params.limits;
+  static_cast<ShapeLimits&>(tightening) = params;
   for (int round = 0; round < kRounds && counts.simplify.stop == StopReason::limits; ++round) {
     const std::size_t before = proxy.triangles.size();
     SimplifyCounts more;
@@ -343,7 +341,8 @@ class LevelMaker {
   }
 
   LatticeMesh finish(const SurfaceSource& dense, const Enclosed* enclosed, std::uint64_t faces) {
-    return finish(dense.frame(), faces, [&](const SimplifyParams& params, LevelCounts& counts) {
+    return finish(dense.frame(), faces, [&](SimplifyParams params, LevelCounts& counts) {
+      params.room = room_around(dense.box(), faces);
       LatticeMesh proxy = make_level(dense, enclosed, params, counts);
       if (!params_.quads) return proxy;
       if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);

@@ -35,7 +35,7 @@ TEST_CASE("a part that passes through itself in what must stay inside leaves no 
   const LatticeCoord centre{30 * kVoxel, 30 * kVoxel, 30 * kVoxel};
   const VertexId apex = add_tetrahedron(proxy, centre + LatticeCoord{0, 0, 40}, centre.z, 300);
   HalfEdgeMesh mesh(proxy);
-  ProxyEditor editor(mesh, block(), {}, nullptr);
+  ProxyEditor editor(mesh, block(), {});
   for (const std::int64_t below : {40, 90, 140}) REQUIRE(editor.move(apex, centre - LatticeCoord{0, 0, below}));
   CHECK(editor.sense().has_turned(FaceId(mesh.face_capacity() - 1)));
   SECTION("while it faces inwards") {}
@@ -53,7 +53,7 @@ TEST_CASE("a cavity that passes through itself is filled, and one that does not 
   const VertexId apex = add_tetrahedron(proxy, place - LatticeCoord{0, 0, 20}, place.z, 60);  // below: a cavity
   HalfEdgeMesh mesh(proxy);
   REQUIRE(mesh.volume6() < int128(6) * (42 * kVoxel) * (42 * kVoxel) * (42 * kVoxel));
-  ProxyEditor editor(mesh, block(), {}, nullptr);
+  ProxyEditor editor(mesh, block(), {});
   const bool through = GENERATE(true, false);
   REQUIRE(editor.move(apex, place + LatticeCoord{0, 0, through ? 5 : -15}));
   editor.erase_inner_shells();
@@ -65,7 +65,7 @@ TEST_CASE("no fin grows at the end of a beam: how far is far is told by its widt
   const LatticeCoord corner{40 * kVoxel, 8 * kVoxel, 108 * kVoxel};
   add_box(proxy, {{0, 0, 100 * kVoxel}, corner});
   HalfEdgeMesh mesh(proxy);
-  ProxyEditor editor(mesh, block(), {}, nullptr);
+  ProxyEditor editor(mesh, block(), {});
   VertexId v = 0;
   while (mesh.position(v) != corner) ++v;
   CHECK_FALSE(editor.move(v, corner + LatticeCoord{0, 0, 3 * kVoxel}));

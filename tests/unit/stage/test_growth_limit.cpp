@@ -1,6 +1,9 @@
-// Of SimplifyParams::most_growth: what one collapse may add to a proxy around a solid, or take from one inside it.
+// Of SimplifyParams::most_growth: what one collapse may add to a proxy around a solid, or take from one inside it. And
+// of ShapeLimits::room: how far its vertices may go.
 #include "lib/meshing/enclosed_voxels.h"
 #include "lib/meshing/simplify.h"
+#include "lib/meshing/tight_proxy.h"
+#include "lib/stage/mesh_stage.h"
 #include "lib/stage/proxy_limits.h"
 #include "lib/stage/surface_around.h"
 #include "tests/catch.h"
@@ -17,6 +20,12 @@ constexpr double kVolume6OfVoxel = 6.0 * kLatticePerVoxel * kLatticePerVoxel * k
 bool lollipop(VoxelCoord p) {
   const std::int32_t x = p.x - 12, y = p.y - 12, z = p.z - 12;
   return x * x + y * y + z * z < 50 || (x >= 0 && x < 14 && y * y < 3 && z * z < 3);
+}
+
+/// A plate on 36 legs, which few faces cannot tell apart.
+bool table(VoxelCoord p) {
+  const bool leg = p.x % 8 < 2 && p.y % 8 < 2 && p.z >= 4;
+  return p.x < 42 && p.y < 42 && p.z >= 4 && p.z < 40 && (p.z >= 36 || leg);
 }
 
 struct Start {
@@ -70,4 +79,28 @@ TEST_CASE("collapses add no more to a proxy, and take no more from one inside, t
   CHECK(limited.refused > 0);
   CHECK(free.growth > free.bound);
   CHECK(free.refused == 0);
+}
+
+TEST_CASE("the room around a surface suits its extents, and few faces", "[quick][stage]") {
+  const LatticeBox box{{0, -640, 6400}, {6400, 640, 12800}};
+  const LatticeBox many = room_around(box, 0), few = room_around(box, 4);
+  CHECK(many.min == LatticeCoord{-64 - 128, -640 - 64 - 26, 6400 - 64 - 128});
+  CHECK(many.max == LatticeCoord{6400 + 64 + 128, 640 + 64 + 26, 12800 + 64 + 128});
+  CHECK(few.max.x - box.max.x > 6400);  // a tetrahedron around a ball
+  CHECK(few.max.x - box.max.x < 2 * 6400);
+}
+
+TEST_CASE("proxies draw no spikes where thin parts end, however few faces are asked for", "[quick][stage]") {
+  const bool tighten = GENERATE(true, false);
+  VoxelSource source({{0, 0, 0}, {64, 64, 64}}, table);
+  MeshParams params;
+  params.faces = {60};
+  params.tighten = tighten;
+  MeshCounts counts;
+  const LatticeMesh proxy = mesh_stream(source, memory_shelves(), params, counts).front();
+  const LatticeBox around = box_of(proxy.vertices);
+  CAPTURE(proxy.triangles.size(), around.min.z, around.max.z);
+  constexpr double kExtent = 36, kShare = 0.02 + 5.0 / 60;
+  CHECK(double(around.min.z) / kLatticePerVoxel > 4 - 1 - kShare * kExtent);
+  CHECK(double(around.max.z) / kLatticePerVoxel < 40 + 1 + kShare * kExtent);
 }
