@@ -143,8 +143,11 @@ IndexedMesh mesh_of(RawSource& raw, SceneCounts& met) {
 /// caller.
 class FilteredScene final : public TriangleSource {
  public:
-  FilteredScene(std::string name, RawSourcePtr raw, std::uint64_t memory_bytes)
-      : name_(std::move(name)), raw_(std::move(raw)), batches_(batches_in(memory_bytes)) {}
+  FilteredScene(std::string name, RawSourcePtr raw, const SceneOptions& options)
+      : name_(std::move(name)),
+        raw_(std::move(raw)),
+        keep_degenerate_(options.keep_degenerate),
+        batches_(batches_in(options.memory_bytes)) {}
 
   bool read(std::vector<TriangleD>& out) override {
     const bool more = read_batch(false);
@@ -222,7 +225,7 @@ class FilteredScene final : public TriangleSource {
     return plain;
   }
 
-  static SceneCounts keep_good(RawBatch& batch) {
+  [[nodiscard]] SceneCounts keep_good(RawBatch& batch) const {
     std::vector<TriangleD>& triangles = batch.triangles;
     if (batch.colored) batch.colors.resize(triangles.size());
     SceneCounts counts;
@@ -233,12 +236,13 @@ class FilteredScene final : public TriangleSource {
       if (!plain) normalize(t);
       if (!plain && !is_finite(t)) {
         ++counts.non_finite;
-      } else if (is_degenerate(t)) {
-        ++counts.degenerate;
-      } else {
-        if (batch.colored) batch.colors[kept] = batch.colors[i];
-        triangles[kept++] = t;
+        continue;
       }
+      const bool degenerate = is_degenerate(t);
+      if (degenerate) ++counts.degenerate;
+      if (degenerate && !keep_degenerate_) continue;
+      if (batch.colored) batch.colors[kept] = batch.colors[i];
+      triangles[kept++] = t;
     }
     triangles.resize(kept);
     if (batch.colored) batch.colors.resize(kept);
@@ -248,6 +252,7 @@ class FilteredScene final : public TriangleSource {
 
   std::string name_;
   RawSourcePtr raw_;
+  bool keep_degenerate_;
   SceneCounts counts_;
   std::vector<Batch> batches_;
   RawBatch end_;  // without triangles
@@ -331,7 +336,7 @@ class SceneRow final : public TriangleSource {
 }  // namespace
 
 std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneOptions& options) {
-  return std::make_unique<FilteredScene>(path == "-" ? "stdin" : path, open_raw(path, options), options.memory_bytes);
+  return std::make_unique<FilteredScene>(path == "-" ? "stdin" : path, open_raw(path, options), options);
 }
 
 std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, const SceneOptions& options) {

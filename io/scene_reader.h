@@ -32,12 +32,14 @@ struct SceneOptions {
   std::string temp_dir;                                   ///< of scratch files; empty: $TMPDIR, else /tmp
   bool colors = false;                                    ///< look for them; else all triangles are white
   std::size_t level = 0;                                  ///< of glTF's MSFT_lod; 0 is the finest
+  bool keep_degenerate = false;                           ///< deliver triangles of no area, too; counted all the same
 };
 
 /// Triangles of one file; "-" is stdin, which is spooled to a scratch file. The reader is chosen by the file's
 /// extension, else by its first bytes. Triangles that are non-finite or have exactly no area, and faces that name
-/// vertices that do not exist, are skipped and counted. A scene without triangles is an empty source.
-/// Throws bad_input if the file is missing or broken (here, or while reading); out_of_resource if scratch is full.
+/// vertices that do not exist, are skipped and counted (SceneOptions::keep_degenerate). A scene without triangles is an
+/// empty source. Throws bad_input if the file is missing or broken (here, or while reading); out_of_resource if scratch
+/// is full.
 [[nodiscard]] std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneOptions& options = {});
 
 /// All files, one after the other; one is open at a time. Missing files are reported at once.

@@ -213,6 +213,7 @@ int run(const Options& o) {
   std::vector<bp::IndexedMesh> levels = bp::read_levels(o.files.back(), scene_options);
   for (bp::IndexedMesh& level : levels) move(level, o.origin.value_or(bp::Vec3d{}));
   std::unique_ptr<bp::TriangleSource> scene;
+  scene_options.keep_degenerate = o.inside;  // they may be what closes the scene
   if (o.files.size() > 1) scene = bp::open_scenes({o.files.begin(), o.files.end() - 1}, scene_options);
 
   report.stage("check");

@@ -68,7 +68,7 @@ struct CheckReport {
   bool sides_decided = false;  ///< false: the proxy is not closed, so "outside" has no meaning and was not counted
   std::string scene_name;
   SceneCounts scene_counts;
-  std::uint64_t scene_triangles = 0;  ///< tested
+  std::uint64_t scene_triangles = 0;  ///< tested: those with an area
   Finding touching;                   ///< index: scene triangle, other: proxy triangle that it touches or crosses
   Finding outside;                    ///< index: scene triangle that touches nothing and has winding number < 1
   Finding undecidable_scene;          ///< index: scene triangle outside the domain of exact predicates

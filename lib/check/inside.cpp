@@ -47,28 +47,35 @@ struct EdgeSum {
       high += hash(b, hash(a, 2)) - hash(a, hash(b, 2));
     }
   }
+  void add(const EdgeSum& s) { low += s.low, high += s.high; }
   [[nodiscard]] bool zero() const { return low == 0 && high == 0; }
 };
 
 struct Batch {
-  std::uint64_t first = 0;
   std::vector<TriangleD> triangles;
   InsideReport result;
   std::vector<std::int64_t> windings;
-  EdgeSum edges;
+  EdgeSum edges;             // of triangles that have an area
+  EdgeSum degenerate_edges;  // of the others
 };
 
+/// Numbers of triangles count from 0 in each batch.
 void check_batch(const WeldedMesh& mesh, const Surface& surface, const std::vector<Probe>& probes,
                  std::size_t max_examples, Batch& batch) {
   batch.windings.assign(probes.size(), 0);
-  for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
-    const TriangleD& t = batch.triangles[i];
-    const std::uint64_t number = batch.first + i;
+  for (const TriangleD& t : batch.triangles) {
+    const std::uint64_t number = batch.result.triangles;
     if (!in_predicate_domain(t[0]) || !in_predicate_domain(t[1]) || !in_predicate_domain(t[2])) {
       batch.result.undecidable.add({number, 0, t[0]}, max_examples);
+      ++batch.result.triangles;
+      continue;
+    }
+    if (collinear(t[0], t[1], t[2])) {
+      batch.degenerate_edges.add(t);
       continue;
     }
     batch.edges.add(t);
+    ++batch.result.triangles;
     for (std::size_t p = 0; p < probes.size(); ++p) batch.windings[p] += crossing_above(t, probes[p].point);
     const std::int64_t touched = surface.touched_by(t);
     if (touched != Surface::kNone)
@@ -84,28 +91,27 @@ InsideReport check_inside(const WeldedMesh& mesh, const Surface& surface, Triang
                           std::size_t max_examples) {
   InsideReport report;
   std::vector<Probe> probes = probes_of(mesh);
-  EdgeSum edges;
+  EdgeSum edges, degenerate_edges;
+  const auto append = [&](Finding& all, Finding& found) {
+    for (Example& e : found.examples) e.index += report.triangles;
+    all.append(found, max_examples);
+  };
   scene.rewind();
-  std::uint64_t read = 0;
   pipeline<Batch>(
-      4 * thread_count(),
-      [&](Batch& batch) {
-        batch.first = read;
-        if (!scene.read(batch.triangles)) return false;
-        read += batch.triangles.size();
-        return true;
-      },
+      4 * thread_count(), [&](Batch& batch) { return scene.read(batch.triangles); },
       [&](Batch& batch) { check_batch(mesh, surface, probes, max_examples, batch); },
       [&](Batch& batch) {
-        report.triangles += batch.triangles.size();
-        report.touching.append(batch.result.touching, max_examples);
-        report.swallowed.append(batch.result.swallowed, max_examples);
-        report.undecidable.append(batch.result.undecidable, max_examples);
-        edges.low += batch.edges.low;
-        edges.high += batch.edges.high;
+        append(report.touching, batch.result.touching);
+        append(report.swallowed, batch.result.swallowed);
+        append(report.undecidable, batch.result.undecidable);
+        report.triangles += batch.result.triangles;
+        edges.add(batch.edges);
+        degenerate_edges.add(batch.degenerate_edges);
         for (std::size_t p = 0; p < probes.size(); ++p) probes[p].winding += batch.windings[p];
       });
-  report.scene_closed = edges.zero();
+  EdgeSum all_edges = edges;
+  all_edges.add(degenerate_edges);
+  report.scene_closed = edges.zero() || all_edges.zero();  // either says so of the surface as a set of points
   for (const Probe& probe : probes) {
     if (report.scene_closed && probe.winding == 0) report.outside.add({probe.triangle, 0, probe.point}, max_examples);
   }

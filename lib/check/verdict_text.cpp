@@ -100,8 +100,8 @@ std::string scene_lines(const CheckReport& r) {
   const SceneCounts& c = r.scene_counts;
   std::string text = fmt::format("scene {}: {} triangles\n", r.scene_name, r.scene_triangles);
   if (c.non_finite + c.degenerate + c.bad_faces != 0)
-    text += fmt::format("  left out: {} without area, {} not finite, {} faces without corners\n", c.degenerate,
-                        c.non_finite, c.bad_faces);
+    text += fmt::format("  left out: {} without area{}, {} not finite, {} faces without corners\n", c.degenerate,
+                        r.wants_inside ? " (but for whether the scene is closed)" : "", c.non_finite, c.bad_faces);
   return text;
 }
 

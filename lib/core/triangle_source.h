@@ -16,7 +16,7 @@ namespace bp {
 struct SceneCounts {
   std::uint64_t triangles = 0;   ///< delivered
   std::uint64_t non_finite = 0;  ///< skipped: a coordinate is NaN or infinite
-  std::uint64_t degenerate = 0;  ///< skipped: exactly zero area (two equal corners, or exactly collinear)
+  std::uint64_t degenerate = 0;  ///< skipped, or met: exactly zero area (two equal corners, or exactly collinear)
   std::uint64_t bad_faces =
       0;  ///< skipped: a face that names a vertex that does not exist, or has fewer than 3 corners
   std::uint64_t instances = 0;  ///< mesh instances met (1 for formats without a scene graph)

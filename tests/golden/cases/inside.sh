@@ -12,3 +12,9 @@ said 'bpvox cube.obj --resolution 40 --fill inside | bpmesh --faces 12 -o wrong.
 said 'bpvox cube.obj --resolution 40 --fill inside | bpmesh --mode inside --enclose cube.obj -o wrong.ply'
 said 'bpvox cube.obj --resolution 2 --fill inside | bpmesh --mode inside -o wrong.ply'
 files
+
+# A scene whose T-junction is filled by a triangle of no area is closed.
+{ write_cube /dev/stdout 3 | grep -v '^f 1 4 3 2'; printf 'v 0 1.5 0\nf 2 1 9 4 3\n'; } > split.obj
+said 'bpcheck --inside split.obj in.2.ply | grep -E "strictly|hold"'
+echo 'f 9 1 4' >> split.obj
+said 'bpcheck --inside split.obj in.2.ply | grep -E "left out|strictly|hold"'

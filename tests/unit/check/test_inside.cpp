@@ -60,3 +60,24 @@ TEST_CASE("nothing is inside an open scene", "[quick][check]") {
   std::swap(turned.triangles[0][1], turned.triangles[0][2]);
   CHECK_FALSE(inside_of(cube(1), turned).holds());
 }
+
+TEST_CASE("triangles of no area close T-junctions, and are neither tested nor numbered", "[quick][check]") {
+  IndexedMesh scene = cube(2);
+  const auto middle = std::uint32_t(scene.vertices.size());
+  scene.vertices.push_back({0, -2, -2});  // of the edge from vertex 0 to vertex 1
+  scene.triangles[4] = {0, middle, 5};    // was {0, 1, 5}
+  scene.triangles.insert(scene.triangles.begin(), {middle, 1, 5});
+  CHECK_FALSE(inside_of(cube(1), scene).scene_closed);
+  scene.triangles.insert(scene.triangles.begin(), {0, 1, middle});
+  const CheckReport r = inside_of(cube(1), scene);
+  CHECK(r.holds());
+  CHECK(r.scene_triangles == 13);
+  // One of them may lie in the proxy: it bounds nothing.
+  IndexedMesh thread;
+  thread.vertices = {{-0.5, 0, 0}, {0, 0, 0}, {0.5, 0, 0}};
+  thread.triangles = {{0, 2, 1}};
+  CHECK(inside_of(cube(1), join(thread, cube(2))).holds());
+  const CheckReport around = inside_of(cube(3), join(thread, cube(2)));
+  REQUIRE(around.swallowed.count == 12);
+  CHECK(around.swallowed.examples[0].index == 0);
+}
