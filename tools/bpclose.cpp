@@ -80,6 +80,10 @@ bp::CloseOptions stage_options(const Options& o, std::uint64_t pinned, bp::Progr
   const std::uint64_t fixed = (std::uint64_t(96) << 20) + pinned, memory = o.common.memory_bytes;
   const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
   bp::CloseOptions options;
+  options.enough_for = [fixed](std::uint64_t for_tiles) {
+    const std::uint64_t all = for_tiles > fixed / 2 ? 2 * for_tiles + fixed : 4 * for_tiles;
+    return fmt::format(" to at least {} MiB", (all >> 20) + 1);
+  };
   options.tile_vox = o.tile_vox;
   options.keep_cavities = o.keep_cavities || o.inner;  // the cavities of the complement are the solid
   options.memory_bytes = usable / 2;

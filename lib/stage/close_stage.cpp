@@ -184,9 +184,11 @@ void Run::lay_tiles(Backends& backends) {
   const double bytes = tile_bytes(grid.size(), edge, widest_);
   if (bytes > double(options_.memory_bytes)) {
     fail(ErrorCode::out_of_resource,
-         "a tile of {} voxels with a halo of {} takes {:.0f} MiB of {:.0f}; raise --memory, or use a smaller scale, "
-         "larger voxels or a smaller --tile",
-         edge, widest_.total_vox(), bytes / (1 << 20), double(options_.memory_bytes) / (1 << 20));
+         "closing a tile of {} voxels with a halo of {} takes {:.0f} MiB, and --memory leaves {:.0f} MiB for it; raise "
+         "--memory{}, or use larger voxels or a smaller --scale{}",
+         edge, widest_.total_vox(), bytes / (1 << 20), double(options_.memory_bytes) / (1 << 20),
+         options_.enough_for ? options_.enough_for(std::uint64_t(std::ceil(bytes))) : "",
+         edge > kBrickEdge ? " or --tile" : "");
   }
   tiles_ = TileGrid(grid, edge);
   if (tiles_.total() > kMaxTiles)

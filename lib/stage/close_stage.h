@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "lib/backend/backend.h"
 #include "lib/grid/stream.h"
 #include "lib/stage/stage_progress.h"
@@ -17,6 +20,8 @@ struct CloseOptions {
   bool keep_cavities = false;  ///< leave empty what the closing encloses
   /// For the tiles at work; what the shelves hold comes on top.
   std::uint64_t memory_bytes = std::uint64_t(512) << 20;
+  /// " to at least 700 MiB": what the user may be told to raise if memory_bytes should be so much; may be left out.
+  std::function<std::string(std::uint64_t memory_bytes)> enough_for;
   ShelfFactory make_shelf;  ///< called twice: solid and closing
   StageProgress progress;   ///< called now and then
 };
