@@ -143,7 +143,7 @@ void run(const Options& o) {
   bp::BrickReader source(o.in);
   check_fill(o, source.header());
   const bp::ScaleField field = scale_field(o, source.header());
-  for (const std::string& text : bp::scale_notes(field, source.header())) report.note(text, o.common);
+  for (const std::string& text : bp::scale_notes(field, source.header(), o.inner)) report.note(text, o.common);
   bp::Backends backends = bp::make_backends(o.common, core_seconds(source.header(), field), &report);
   bp::BrickWriter sink(*output, closed_header(o, source.header(), field));
 

@@ -144,8 +144,16 @@ bp::Provenance provenance(const Options& o, const std::string& input, std::size_
 std::string level_name(const Options& o, std::size_t level) {
   if (o.faces.size() < 2) return o.out;
   const std::size_t dot = o.out.rfind('.');
-  if (o.out == "-" || dot == std::string::npos || o.out.find('/', dot) != std::string::npos)
-    bp::fail(bp::ErrorCode::bad_argument, "-o {}: several levels need a name with an extension", o.out);
+  if (o.out == "-") {
+    bp::fail(
+        bp::ErrorCode::bad_argument,
+        "-o -: {} levels are as many files; name them with -o proxy.glb, for proxy.0.glb and so on, or ask for one "
+        "number of --faces",
+        o.faces.size());
+  }
+  if (dot == std::string::npos || o.out.find('/', dot) != std::string::npos)
+    bp::fail(bp::ErrorCode::bad_argument,
+             "-o {}: the numbers of levels go before the extension; give it one, as proxy.glb", o.out);
   return o.out.substr(0, dot) + "." + std::to_string(level) + o.out.substr(dot);
 }
 
@@ -228,12 +236,13 @@ void note_bounds(bp::Report& report, const Options& o, const bp::MeshCounts& c, 
   const std::string which = level_text(c, i);
   const auto& distance = level.measures.proxy_to_enclosed;
   if (error_world > 0 && distance && distance->at_least > error_world * (1 + 1e-9)) {
-    const char* const why = i == 0 ? "the voxels around it are as far; use a smaller --scale or smaller voxels, or "
-                                     "--enclose closing"
-                                   : "the voxels around the level before are as far; use smaller voxels, fewer levels "
-                                     "or a larger --error";
-    report.note(fmt::format("{}the proxy is up to {:.4g} from what it encloses instead of {:.4g}: {}", which,
-                            distance->at_least, error_world, why),
+    const bool inside = o.mode == bp::MeshMode::inside;
+    const std::string why =
+        i > 0 ? "the voxels at the level before are as far; use smaller voxels, fewer levels or a larger --error"
+              : fmt::format("the voxels {} as far; use a smaller --scale or smaller voxels, or --enclose closing",
+                            inside ? "themselves are" : "around it are");
+    report.note(fmt::format("{}the proxy is up to {:.4g} from what it {} instead of {:.4g}: {}", which,
+                            distance->at_least, inside ? "lies in" : "encloses", error_world, why),
                 o.common);
   }
   const double share = level.measures.volume / c.solid_volume_world;
@@ -271,10 +280,7 @@ std::string obstacle_text(const Options& o, const bp::LevelCounts& level) {
   if (by == "error" && o.error) return fmt::format("--error {} was reached first", o.error->text());
   if (by == "volume") return fmt::format("--volume {} was reached first", o.volume);
   if (by == "edge-length") return fmt::format("--edge-length {} was reached first", o.edge_length);
-  return fmt::format(
-      "no further edge can be merged. Parts and handles are kept, here {} and {}; a larger --scale joins parts and "
-      "closes holes",
-      level.measures.shells, level.measures.handles);
+  return bp::merged_note(level.simplify.faces_out, level.measures.shells, level.measures.handles, o.mode);
 }
 
 /// Of a level that has not the faces that were asked for.
@@ -282,7 +288,7 @@ void note_faces(bp::Report& report, const Options& o, const bp::MeshCounts& c, s
   const bp::LevelCounts& level = c.levels[i];
   const std::uint64_t faces = level.simplify.faces_out;
   if (i >= o.faces.size()) return;
-  if (const std::string few = bp::too_few_note(faces, o.faces[i]); !few.empty())
+  if (const std::string few = bp::too_few_note(faces, o.faces[i], o.mode); !few.empty())
     report.note(level_text(c, i) + few, o.common);
   if (faces <= o.faces[i]) return;
   const bool coarser = i == 0 || faces < c.levels[i - 1].simplify.faces_out;

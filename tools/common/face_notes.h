@@ -2,11 +2,17 @@
 #include <cstdint>
 #include <string>
 
+#include "lib/stage/mesh_stage.h"
+
 /// What a user should know of a mesh that has not the faces wanted.
 namespace bp {
 
 /// Of a mesh with clearly fewer faces than were asked for: merging edges ends there, so there never were as many.
 /// Empty if there are about as many, or more. One line.
-[[nodiscard]] std::string too_few_note(std::uint64_t faces, std::uint64_t asked);
+[[nodiscard]] std::string too_few_note(std::uint64_t faces, std::uint64_t asked, MeshMode mode = MeshMode::bounding);
+
+/// Why merging ended by itself, and what there is to be done: parts (shells) and handles are kept, if there are any to
+/// speak of, and a larger scale does to an opening what is the opposite of what it does to a closing.
+[[nodiscard]] std::string merged_note(std::uint64_t faces, std::uint64_t shells, std::uint64_t handles, MeshMode mode);
 
 }  // namespace bp

@@ -15,14 +15,14 @@ bool meet(const ScaleBox& box, const Bounds3d& bounds, double margin) {
 
 }  // namespace
 
-std::vector<std::string> scale_notes(const ScaleField& field, const StreamHeader& header) {
+std::vector<std::string> scale_notes(const ScaleField& field, const StreamHeader& header, bool inner) {
   std::vector<std::string> notes;
   const double voxel = header.frame.voxel;
   const double largest = double(field.upper_bound(header.frame)) / kScaleOne;  // voxels
   if (largest < 1) {
     notes.push_back(fmt::format(
-        "a scale of {:.3g} voxels closes nothing: the closing is the input; use a larger scale or smaller voxels",
-        largest));
+        "a scale of {:.3g} voxels {}; use a larger scale or smaller voxels", largest,
+        inner ? "takes nothing away: the opening is the input" : "closes nothing: the closing is the input"));
   }
   if (header.bounds.empty()) return notes;
   for (std::size_t i = 0; i < field.boxes.size(); ++i) {

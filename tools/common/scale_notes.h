@@ -9,6 +9,7 @@
 namespace bp {
 
 /// Sentences for the user: a scale that closes nothing, boxes of the field that the closing cannot reach.
-[[nodiscard]] std::vector<std::string> scale_notes(const ScaleField& field, const StreamHeader& header);
+[[nodiscard]] std::vector<std::string> scale_notes(const ScaleField& field, const StreamHeader& header,
+                                                   bool inner = false);
 
 }  // namespace bp

@@ -6,6 +6,12 @@ bpvox two.obj --resolution 108 --fill inside -q | bpclose --inner --scale 0 -q -
 try bpmesh inner.bpv --mode inside --faces 100 -o one.ply --report one.json
 try bpmesh inner.bpv --mode inside --faces 100 --least-part 0 -o two.ply
 for proxy in one.ply two.ply; do bpcheck --inside two.obj $proxy | sed -n '1p;$p'; done
+# What keeps it from the faces wanted, and what helps, is that of an opening.
+some() { sed -E 's/(tries refused: ).*/\1SOME)/'; }
+try bpmesh inner.bpv --mode inside --faces 4 --least-part 0 -o few.ply | some
+try bpmesh inner.bpv --mode inside --faces 2 -o few.ply --overwrite | some
+rm few.ply
+said 'bpvox two.obj --resolution 54 --fill inside -q | bpclose --inner --scale 0.5vx > /dev/null'
 grep -E '"(parts|voxels)_dropped"' one.json
 try bpmesh inner.bpv --mode inside --least-part 2 -o wrong.ply
 bpvox two.obj --resolution 20 -q -o solid.bpv

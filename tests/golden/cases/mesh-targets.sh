@@ -29,6 +29,8 @@ try bpmesh cube.bpv --faces 12, -o wrong.glb
 try bpmesh cube.bpv --faces 1,000 -o wrong.glb
 try bplod cube.obj --faces 10,500 -o wrong
 try bpmesh cube.bpv --faces 40,12 --format glb
+try bpmesh cube.bpv --faces 40,12 --format glb -o -
+try bpmesh cube.bpv --faces 40,12 --format glb -o chain
 for error in 0 0vx 0%; do try bpmesh cube.bpv --faces 12 --error $error -o wrong.glb; done
 try bpmesh cube.bpv --volume 0.5 -o wrong.glb
 try bpmesh cube.bpv --edge-length -1 -o wrong.glb

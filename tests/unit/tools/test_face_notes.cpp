@@ -13,3 +13,18 @@ TEST_CASE("clearly fewer faces than were asked for are noted, and only those", "
   CHECK(!too_few_note(12, 14).empty());
   CHECK(too_few_note(12, 0).empty());
 }
+
+TEST_CASE("what there is to be done about faces fits the mode, and what there is", "[quick][tools]") {
+  const auto says = [](const std::string& note, const char* words) { return note.find(words) != std::string::npos; };
+  CHECK(says(merged_note(100, 3, 0, MeshMode::bounding), "joins parts"));
+  CHECK_FALSE(says(merged_note(100, 3, 0, MeshMode::bounding), "holes"));
+  CHECK(says(merged_note(100, 1, 2, MeshMode::bounding), "closes holes"));
+  CHECK(says(merged_note(100, 3, 2, MeshMode::bounding), "joins parts and closes holes"));
+  CHECK(says(merged_note(100, 3, 2, MeshMode::inside), "--least-part"));
+  CHECK_FALSE(says(merged_note(100, 3, 2, MeshMode::inside), "joins"));
+  CHECK_FALSE(says(merged_note(100, 1, 2, MeshMode::inside), "--least-part"));
+  for (const MeshMode mode : {MeshMode::bounding, MeshMode::inside, MeshMode::fit})
+    CHECK_FALSE(says(merged_note(100, 1, 0, mode), "arts and handles"));
+  CHECK_FALSE(says(merged_note(4, 1, 0, MeshMode::inside), "--scale"));
+  CHECK(says(too_few_note(12, 40, MeshMode::inside), "inside"));
+}

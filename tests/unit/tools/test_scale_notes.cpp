@@ -34,3 +34,10 @@ TEST_CASE("boxes that the closing cannot reach are noted", "[quick][tools]") {
   REQUIRE(notes.size() == 1);
   CHECK(notes[0].find("boxes[1]") == 0);
 }
+
+TEST_CASE("of an opening, a small scale is said to take nothing away", "[quick][tools]") {
+  ScaleField field;
+  field.base = 0.1;
+  REQUIRE(scale_notes(field, header(), true).size() == 1);
+  CHECK(scale_notes(field, header(), true)[0].find("opening") != std::string::npos);
+}
