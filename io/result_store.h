@@ -13,7 +13,7 @@ namespace bp {
 /// passed over by get() and replaced by put(). Throws `failed` if the folder cannot be made, out_of_resource if it is
 /// full.
 ///   on_read_only  called once, by put() on any thread, with the reason if nothing may be written there: what is put is
-///                 not kept from then on. Without it put() throws `failed`.
+///                 not kept from then on, unless it is there already. Without it put() throws `failed`.
 [[nodiscard]] std::unique_ptr<ResultStore> open_result_store(
     const std::string& folder, std::function<void(const std::string& why)> on_read_only = {});
 
