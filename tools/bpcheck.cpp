@@ -23,7 +23,7 @@ struct Options {
   bp::CommonOptions common;
   std::vector<std::string> files;  // scenes, then the proxy
   std::string format;
-  bool json = false, no_distances = false, inside = false;
+  bool json = false, no_distances = false, inside = false, convex = false;
   std::optional<std::uint64_t> examples, samples;
   std::string image;
   int image_size = 720;
@@ -42,6 +42,8 @@ Options parse(bp::Args& args) {
   args.option("--origin", "X,Y,Z", o.origin,
               "add this point to every vertex of the proxy, exactly: what bpmesh --origin subtracted");
   args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
+  args.flag("--convex", o.convex,
+            "PROXY is of convex parts that may overlap: prove that they are, and that each scene triangle lies in one");
   args.flag("--json", o.json, "print the verdict as JSON");
   args.option("--examples", "N", o.examples, "places named per kind of failure (default: 5)");
   args.flag("--no-distances", o.no_distances, "leave the sampled distances out");
@@ -57,6 +59,8 @@ Options parse(bp::Args& args) {
   args.needs({"--image-size", "--up", "--azimuth", "--elevation"}, "--image");
   args.excludes("--samples", "--no-distances");
   args.excludes("--samples", "--inside");  // measures none
+  args.excludes("--samples", "--convex");
+  args.excludes("--convex", "--inside");
   if (o.inside && o.files.size() < 2)
     bp::fail(bp::ErrorCode::bad_argument, "--inside asks for a scene around the proxy; name it before the proxy");
   return o;
@@ -140,6 +144,7 @@ bp::Json counts_of(const bp::CheckReport& verdict) {
 
 void fill_report(bp::Report& report, const Options& o, const std::vector<bp::CheckReport>& verdicts) {
   report.options = {{"inside", o.inside},
+                    {"convex", o.convex},
                     {"origin", o.origin.value_or(bp::Vec3d{})},
                     {"distances", !o.no_distances},
                     {"samples", o.samples.value_or(kSamples)},
@@ -155,6 +160,7 @@ void fill_report(bp::Report& report, const Options& o, const std::vector<bp::Che
 /// An answer to another question than was asked would be none.
 void refuse_for_tileset(const Options& o) {
   const std::pair<const char*, bool> refused[] = {{"--inside", o.inside},
+                                                  {"--convex", o.convex},
                                                   {"--origin", o.origin.has_value()},
                                                   {"--image", !o.image.empty()},
                                                   {"--no-distances", o.no_distances},
@@ -186,6 +192,7 @@ std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::Index
   bp::CheckOptions options;
   options.max_examples = o.examples.value_or(kExamples);
   options.inside = o.inside;
+  options.convex = o.convex;
   options.distances = !o.no_distances;
   options.distance_samples = o.samples.value_or(kSamples);
   options.scene_memory_bytes = o.common.memory_bytes / 2;

@@ -15,7 +15,7 @@ bp::LevelRow row_of(const bp::WrittenFile& file, const std::vector<bp::LodLevel>
   if (file.is_level) return row;
   row.faces = file.faces;
   row.error_world = std::nan("");
-  row.more = bp::Json::object();
+  row.more = {{"hulls", file.hulls}, {"hull_volume_over_level", file.hull_volume}};
   return row;
 }
 
@@ -38,7 +38,10 @@ void run_chain(const bp::BuildOptions& o) {
       bp::write_profile(o.profile, o.name, levels, scene.header.bounds.diagonal(), o.mode == bp::MeshMode::fit, out);
   out.commit();
   std::vector<bp::LevelRow> rows;
-  for (const bp::WrittenFile& file : files) rows.push_back(row_of(file, levels, out));
+  for (const bp::WrittenFile& file : files) {
+    rows.push_back(row_of(file, levels, out));
+    if (!file.note.empty()) build.note(file.note);
+  }
   build.finish(scene, rows, out.bytes());
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/check/convex.h"
 #include "lib/check/distance.h"
 #include "lib/check/enclosure.h"
 #include "lib/check/inside.h"
@@ -106,6 +107,17 @@ void check_scene_around(const WeldedMesh& mesh, const Surface& surface, Triangle
   report.undecidable_scene = inside.undecidable;
 }
 
+void check_scene_in_parts(const WeldedMesh& mesh, TriangleSource& scene, const CheckOptions& options,
+                          CheckReport& report) {
+  report.has_scene = true;
+  if (!report.sides_decided) return;
+  const ConvexReport convex = check_convex(mesh, scene, options.max_examples);
+  report.scene_name = scene.name();
+  report.scene_counts = scene.counts();
+  report.scene_triangles = convex.triangles;
+  report.not_held = convex.not_held, report.undecidable_scene = convex.undecidable;
+}
+
 }  // namespace
 
 CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene, const CheckOptions& options) {
@@ -114,10 +126,17 @@ CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene, const C
   check_topology(mesh, options.max_examples, report);
   measure(mesh, report);
   const Surface surface(mesh);
-  report.self_intersections = surface.self_intersections(options.max_examples);
+  report.self_intersections = surface.self_intersections(options.max_examples, options.convex);
   report.sides_decided = report.closed() && report.oriented();
   if (report.sides_decided) report.inverted_components = inverted_components(mesh, surface, options.max_examples);
-  if (scene != nullptr) (options.inside ? check_scene_around : check_scene)(mesh, surface, *scene, options, report);
+  report.wants_convex = options.convex;
+  if (options.convex && report.sides_decided) report.nonconvex_parts = nonconvex_parts(mesh, options.max_examples);
+  if (scene == nullptr) return report;
+  if (options.convex) {
+    check_scene_in_parts(mesh, *scene, options, report);
+  } else {
+    (options.inside ? check_scene_around : check_scene)(mesh, surface, *scene, options, report);
+  }
   return report;
 }
 

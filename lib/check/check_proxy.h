@@ -10,6 +10,7 @@ namespace bp {
 struct CheckOptions {
   std::size_t max_examples = 5;         ///< kept per finding
   bool inside = false;                  ///< the proxy is to lie inside the scene, not around it; no distances then
+  bool convex = false;                  ///< the proxy is a union of convex parts (convex.h); no distances then
   bool distances = true;                ///< sample distances between scene and proxy
   std::size_t distance_samples = 5000;  ///< triangles sampled on each side, at most
   std::uint64_t scene_memory_bytes = 512ull << 20;  ///< the scene is kept for distances only if it fits

@@ -79,6 +79,11 @@ struct CheckReport {
   Finding swallowed;      ///< index: scene triangle that lies inside the proxy
   Finding outside_parts;  ///< index: first triangle of a component that the scene does not wind around
 
+  // The proxy as convex parts that may overlap (convex.h).
+  bool wants_convex = false;  ///< asked for: then self-intersections are those within parts
+  Finding nonconvex_parts;    ///< index: first triangle of a part, other: a vertex of it beyond one of its triangles
+  Finding not_held;           ///< index: scene triangle that lies strictly within no part
+
   // Measures, in doubles.
   double volume = 0;  ///< signed, cubed scene units
   /// Signed sum over all triangles, seen from the centre of their bounds: meaningful only for closed scenes.
@@ -100,11 +105,13 @@ struct CheckReport {
   [[nodiscard]] bool outward() const { return inverted_components.count == 0; }
   /// Strict: every scene triangle, boundary included, lies in the open interior of the proxy.
   [[nodiscard]] bool encloses() const {
-    return has_scene && sides_decided && touching.count == 0 && outside.count == 0 && undecidable_scene.count == 0;
+    return has_scene && sides_decided && touching.count == 0 && outside.count == 0 && not_held.count == 0 &&
+           undecidable_scene.count == 0;
   }
+  [[nodiscard]] bool convex() const { return sides_decided && nonconvex_parts.count == 0; }
   [[nodiscard]] bool holds() const {
     return readable() && sound() && closed() && oriented() && manifold() && embedded() && outward() &&
-           (!has_scene || (wants_inside ? inside() : encloses()));
+           (!wants_convex || convex()) && (!has_scene || (wants_inside ? inside() : encloses()));
   }
   /// Strict: the solid of the proxy meets no scene triangle, and the scene, which is closed, winds around all of it.
   [[nodiscard]] bool inside() const {

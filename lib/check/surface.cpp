@@ -88,7 +88,7 @@ Surface::Surface(const WeldedMesh& mesh) : mesh_(mesh), triangle_(with_area(mesh
   for (std::size_t i = 0; i < bvh_.size(); ++i) bounds_.merge(bounds_of(bvh_.item(i).corners));
 }
 
-Finding Surface::self_intersections(std::size_t max_examples) const {
+Finding Surface::self_intersections(std::size_t max_examples, bool within_parts) const {
   const auto n = std::int64_t(bvh_.size());
   std::vector<Finding> found(std::size_t((n + kGrain - 1) / kGrain));
   parallel_chunks(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
@@ -97,7 +97,7 @@ Finding Surface::self_intersections(std::size_t max_examples) const {
       const TriangleBvh::Item& a = bvh_.item(std::size_t(i));
       const auto& corners_a = mesh_.triangles[triangle_[a.id]];
       bvh_.visit(bounds_of(a.corners), [&](const TriangleBvh::Item& b) {
-        if (b.id > a.id &&
+        if (b.id > a.id && (!within_parts || mesh_.component[triangle_[a.id]] == mesh_.component[triangle_[b.id]]) &&
             triangles_meet_beyond_shared(mesh_.points.data(), corners_a, mesh_.triangles[triangle_[b.id]]))
           add_sorted(here, {mesh_.number[triangle_[a.id]], mesh_.number[triangle_[b.id]], a.corners[0]}, max_examples);
         return false;

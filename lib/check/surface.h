@@ -15,9 +15,9 @@ class Surface {
   [[nodiscard]] std::uint32_t triangle(std::uint32_t bvh_id) const { return triangle_[bvh_id]; }
   [[nodiscard]] Bounds3d bounds() const { return bounds_; }
 
-  /// Every pair of triangles that meet beyond the corner or edge they share. O((n + pairs) log n) in practice,
-  /// parallel.
-  [[nodiscard]] Finding self_intersections(std::size_t max_examples) const;
+  /// Every pair of triangles, of one component if `within_parts`, that meet beyond the corner or edge they share.
+  /// O((n + pairs) log n) in practice, parallel.
+  [[nodiscard]] Finding self_intersections(std::size_t max_examples, bool within_parts = false) const;
 
   static constexpr std::int64_t kNone = -1;
   /// A triangle (of WeldedMesh) that `t` touches or crosses, or kNone. The domain is that of the predicates.

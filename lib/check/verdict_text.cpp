@@ -43,6 +43,9 @@ constexpr FindingText kFindings[] = {
     {&CheckReport::outside, "outside", "scene triangles lie outside the proxy", "scene_triangle", nullptr},
     {&CheckReport::swallowed, "swallowed", "scene triangles lie inside the proxy", "scene_triangle", nullptr},
     {&CheckReport::outside_parts, "outside_parts", "parts of the proxy lie outside the scene", "triangle", nullptr},
+    {&CheckReport::nonconvex_parts, "nonconvex_parts", "parts are not convex, or face inwards", "triangle", "vertex"},
+    {&CheckReport::not_held, "not_held", "scene triangles lie strictly within none of the parts", "scene_triangle",
+     nullptr},
     {&CheckReport::undecidable_scene, "undecidable_scene",
      "scene triangles have coordinates beyond 1e90 or below 1e-90, where nothing can be proven", "scene_triangle",
      nullptr},
@@ -157,6 +160,7 @@ Json verdict_of(const CheckReport& r) {
             {"manifold", r.manifold()},
             {"embedded", r.embedded()},
             {"outward", r.sides_decided && r.outward()}};
+  if (r.wants_convex) v["convex"] = r.convex();
   v["encloses"] = r.has_scene && !r.wants_inside ? Json(r.encloses()) : Json(nullptr);
   if (r.wants_inside) v["inside"] = r.inside();
   return v;
@@ -208,6 +212,7 @@ std::string verdict_text(const CheckReport& r, const std::string& proxy_name) {
   text += row("free of self-intersections", r.embedded());
   text += r.sides_decided ? row("facing outwards", r.outward()) : undecided_row("facing outwards");
   text += row("no degenerate triangles", r.readable() && r.sound());
+  if (r.wants_convex) text += row("each part convex", r.convex());
   text += enclosure_row(r);
   for (const FindingText& t : kFindings) text += finding_lines(r.*t.finding, t);
   text += measure_lines(r);

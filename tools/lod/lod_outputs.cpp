@@ -34,6 +34,19 @@ std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::
   return files;
 }
 
+/// What the engine makes of a level that is not convex; empty if hulls are as good as that.
+std::string hull_note(const WrittenFile& file) {
+  constexpr double kAsGood = 1.02;
+  if (file.hull_volume < kAsGood) return "";
+  return fmt::format(
+      "{}: {} hull{}, one for each part, with {:.3g} times the level's volume: Unreal takes every UCX_ mesh for "
+      "convex, so "
+      "that hollows and bends of a part are closed; keep parts apart (smaller voxels and --scale), give them one by "
+      "one, "
+      "or use another of the files as complex collision",
+      file.name, file.hulls, file.hulls == 1 ? "" : "s", file.hull_volume);
+}
+
 /// What importers go by: Godot by the suffix "-colonly" (collision only, the mesh itself), Unreal by the prefix
 /// "UCX_MESH_" (convex, so: the hulls of the parts), Unity by nothing, and people by "_Collider".
 std::vector<WrittenFile> write_collision_profile(const std::string& name, const LatticeMesh& mesh, OutputFolder& out) {
@@ -42,15 +55,17 @@ std::vector<WrittenFile> write_collision_profile(const std::string& name, const 
   write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"));
   std::vector<LatticeMesh> hulls = components_of(mesh);
   std::vector<NamedMesh> unreal;
-  std::uint64_t faces = 0;
+  WrittenFile hull_file{name + "_unreal.glb", 0, 0, false, hulls.size()};
   for (LatticeMesh& part : hulls) {
     part = convex_hull(part);
-    faces += part.triangles.size();
+    hull_file.faces += part.triangles.size();
+    hull_file.hull_volume += double(volume6_of(part)) / double(volume6_of(mesh));
     unreal.push_back({fmt::format("UCX_{}_{:02}", name, unreal.size()), &part});
   }
-  write_parts_glb(unreal, out.file(name + "_unreal.glb"));
+  write_parts_glb(unreal, out.file(hull_file.name));
+  hull_file.note = hull_note(hull_file);
   const std::uint64_t own = mesh.triangles.size();
-  return {{name + "_godot.glb", 0, own}, {name + "_unreal.glb", 0, faces, false}, {name + "_unity.glb", 0, own}};
+  return {{name + "_godot.glb", 0, own}, hull_file, {name + "_unity.glb", 0, own}};
 }
 
 }  // namespace

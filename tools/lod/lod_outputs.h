@@ -39,6 +39,9 @@ struct WrittenFile {
   std::size_t level = 0;
   std::uint64_t faces = 0;
   bool is_level = true;  ///< the level itself; else hulls around its parts
+  std::uint64_t hulls = 0;
+  double hull_volume = 0;  ///< of all of them, over the level's own
+  std::string note = "";   ///< what a user should know of it
 };
 /// Writes them; returns those that hold one level. `levels`: finest first; errors must not fall towards coarser ones;
 /// collision: one. diameter: of the scene, scene units. normals: as in NamedMesh, of the levels.

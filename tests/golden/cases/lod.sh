@@ -43,6 +43,15 @@ bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o c
 cut_errors() { awk -F '\t' 'NR > 1 { print $1, ($3 == "-" ? "not measured" : $3 > 0 ? "measured" : "none"), $4 == s || NR == 2; s = $4 }'; }
 bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision --overwrite | cut_errors
 for f in godot unity unreal; do bpcheck part*.obj collision/cubes_$f.glb --no-distances | tail -1; done
+for f in unreal godot; do said "bpcheck --convex part*.obj collision/cubes_$f.glb | sed -n '/each part/p;\$p'"; done
+# An angle's hull closes the angle, as the engine would: that is said.
+printf '%s\n' v\ {0,4}\ {0,1}\ {0,1} v\ {0,1}\ {1,4}\ {0,1} > angle.obj
+for i in 0 8; do
+  for f in '1 2 4 3' '5 7 8 6' '1 5 6 2' '3 4 8 7' '1 3 7 5' '2 6 8 4'; do echo "f $(for v in $f; do echo -n "$((v + i)) "; done)"; done
+done >> angle.obj
+said 'bplod angle.obj --faces 40 --resolution 60 --profile collision -o angle --report angle.json' | sed 's/with [0-9.]* times the/with SOME times the/' | cut -f 1,2
+grep -E '"hulls"' angle.json
+for f in unreal godot; do said "bpcheck --convex angle.obj angle/angle_$f.glb | sed -n '/each part/p;\$p'"; done
 grep -ao '"name":"[^"]*"' collision/cubes_unreal.glb | sort -u | tr '\n' ' '
 grep -ao '"name":"[^"]*"' collision/cubes_godot.glb collision/cubes_unity.glb | sort -u
 bplod part*.obj --name cubes --faces 100 --mode fit --resolution 60 -o fit | cut -f 1

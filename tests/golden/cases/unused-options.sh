@@ -20,6 +20,8 @@ done
 try bpinfo cube.obj --no-edges
 try bpcheck cube.obj cube.obj --no-distances --samples 10
 try bpcheck cube.obj cube.obj --inside --samples 10
+try bpcheck cube.obj cube.obj --convex --samples 10
+try bpcheck cube.obj cube.obj --convex --inside
 try bpcheck cube.obj --inside
 # What goes together does.
 try bplod cube.obj -o made --profile collision --colors off --no-tighten --resolution 10 | cut -f 1

@@ -1,0 +1,25 @@
+#pragma once
+#include "lib/check/mesh_topology.h"
+#include "lib/core/triangle_source.h"
+
+/// A proxy of convex parts, as physics engines take it: the union of solids that may overlap. A part is a component.
+namespace bp {
+
+/// index: the first triangle of a part that is not the boundary of a convex solid, facing outwards; other: a vertex of
+/// the part that lies beyond one of its triangles. Exact, for a closed and oriented mesh whose parts do not intersect
+/// themselves. O(f v) for parts of f triangles and v vertices, parallel.
+[[nodiscard]] Finding nonconvex_parts(const WeldedMesh& mesh, std::size_t max_examples);
+
+/// Which triangles of a scene lie strictly within one part. Those that only several parts cover together count as not
+/// held: bodies are convex to an engine one by one.
+struct ConvexReport {
+  std::uint64_t triangles = 0;  ///< of the scene, tested
+  Finding not_held;             ///< index: scene triangle that lies strictly within no part
+  Finding undecidable;          ///< index: scene triangle outside the domain of exact predicates
+};
+
+/// Reads the scene once from its start; memory does not grow with it. Exact, whatever the parts are: what lies below
+/// the planes of all triangles of a closed part lies within it.
+[[nodiscard]] ConvexReport check_convex(const WeldedMesh& mesh, TriangleSource& scene, std::size_t max_examples);
+
+}  // namespace bp
