@@ -8,6 +8,9 @@ table() { sed 's/made in [0-9]* s/made/' | cut -f 1-3; }
 options=(--faces 60,20 --resolution 24 --profile 3dtiles)
 "$BP_ROOT/samples/nightly" scenes out "${options[@]}" | table
 "$BP_ROOT/samples/nightly" scenes out "${options[@]}" | table
+"$BP_ROOT/samples/nightly" scenes out -j 1 --memory=1G "${options[@]}" --temp . --device cpu --progress json | table  # no byte differs
+"$BP_ROOT/samples/nightly" scenes out "${options[@]}" --element ball | table
+"$BP_ROOT/samples/nightly" scenes out "${options[@]}" -q | table
 write_cube scenes/a.obj 4
 rm "scenes/b c.obj" scenes/broken.obj
 sed -i '1i mtllib paints.mtl' scenes/a.obj  # what a scene names counts, whatever it is called
