@@ -134,8 +134,10 @@ class Picture {
     panels_.push_back(std::move(panel));
   }
 
-  void write() {
-    if (are_far_apart()) draw_by_themselves();
+  /// Returns what the user should know of the picture; empty if there is nothing.
+  [[nodiscard]] std::string write() {
+    const bool apart = are_far_apart();
+    if (apart) draw_by_themselves();
     std::vector<bp::View> views;
     for (const auto& panel : panels_) views.push_back(panel->view);
     bp::RenderOptions options;
@@ -145,6 +147,9 @@ class Picture {
     options.up = o_.up ? *o_.up : up_.value_or(bp::UpAxis::y);
     file_->write(bp::encode_png(bp::render(views, options)));
     file_->commit();
+    if (!apart) return "";
+    return "the inputs lie far apart: each is drawn by itself, not at one scale. The place of a tile's content is in "
+           "tileset.json";
   }
 
  private:
@@ -165,10 +170,6 @@ class Picture {
       panel->view.bounds = panel->bounds;
       panel->view.label += "\ndrawn by itself";
     }
-    std::fputs(
-        "bpinfo: note: the inputs lie far apart: each is drawn by itself, not at one scale. The place of a tile's "
-        "content is in tileset.json\n",
-        stderr);
   }
 
   void add_layer(bp::Layer layer, const bp::CoarseView& cells, const bp::StreamHeader& header,
@@ -254,7 +255,8 @@ void run(const Options& o) {
   Picture picture(o);
   for (const std::string& in : o.in)
     (is_tileset(o, in) ? show_tileset : is_stream(o, in) ? show_stream : show_mesh)(o, in, picture);
-  if (picture.wanted()) picture.write();
+  if (!picture.wanted()) return;
+  if (const std::string note = picture.write(); !note.empty()) std::fprintf(stderr, "bpinfo: note: %s\n", note.c_str());
 }
 
 }  // namespace
