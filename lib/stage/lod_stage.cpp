@@ -42,20 +42,24 @@ class Outside {
     return runs_.capacity() * sizeof(VoxelRun) + (kept_ ? measuring_bytes(runs_.size()) : 0);
   }
 
-  /// Upper bound of the distance between the scene's outside and `mesh`, in both directions.
-  [[nodiscard]] double distance(const LatticeMesh& mesh) const {
-    return kept_ ? kept_->distance(mesh, voxel()) : Ruler(runs_, frame_).distance(mesh, voxel());
+  /// error_world and distance_world of a level.
+  void measure(LodLevel& level, MeshMode mode) const {
+    kept_ ? kept_->measure(level, mode) : Ruler(runs_, frame_).measure(level, mode);
   }
 
  private:
   struct Ruler {
+    double voxel;
     std::vector<TriangleD> segments;
     TriangleBvh tree;
     Ruler(const std::vector<VoxelRun>& runs, const GridFrame& frame)
-        : segments(segments_of(runs, frame)), tree(segments) {}
-    [[nodiscard]] double distance(const LatticeMesh& mesh, double voxel) const {
-      const std::vector<TriangleD> triangles = world_triangles(mesh);
-      return std::max(distance_from_mesh(triangles, tree, voxel), distance_to_mesh(segments, triangles, voxel));
+        : voxel(frame.voxel), segments(segments_of(runs, frame)), tree(segments) {}
+    void measure(LodLevel& level, MeshMode mode) const {
+      const std::vector<TriangleD> triangles = world_triangles(level.mesh);
+      const TriangleBvh mesh(triangles);
+      const double there = distance_from_mesh(triangles, tree, voxel);
+      level.error_world = mode == MeshMode::fit ? distance_beyond_mesh(segments, mesh, voxel, there) : there;
+      level.distance_world = std::max(there, distance_to_mesh(segments, mesh, voxel));
     }
   };
 
@@ -139,7 +143,7 @@ struct LodChain::State {
       }
       last_scale = scale;
       report("measuring", "levels", 0, 1);
-      level.error_world = outside->distance(level.mesh);
+      outside->measure(level, options.mode);
       return level;
     }
   }

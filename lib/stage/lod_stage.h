@@ -17,7 +17,7 @@ namespace bp {
 /// triangles over the scene's surface would have; and an error: a quarter of it.
 struct LodTarget {
   std::uint64_t faces = 0;            ///< 0: none
-  double error_world = 0;             ///< largest distance to the scene, scene units; 0: none
+  double error_world = 0;             ///< largest distance of a point of the level to the scene, scene units; 0: none
   std::optional<double> scale_world;  ///< closing radius to begin with, scene units; never below the level before's
 };
 
@@ -58,9 +58,13 @@ struct LodLevel {
   int reductions = 0;      ///< the voxels are 2^reductions times those of the solid
   int attempts = 0;        ///< scales that were tried
   bool reached = true;     ///< it has at most the faces asked for
-  /// Upper bound of the Hausdorff distance between the level and the outside of the scene (what its solid shows to the
-  /// outside), scene units.
+  /// What a viewer can see, scene units: upper bound of the distance of a point of the level to the outside of the
+  /// scene (what its solid shows to the outside), and of a point of that which is outside the level to the level. None
+  /// is outside a bounding one. At most three voxels of the solid and 4 % above the largest.
   double error_world = 0;
+  /// The same of all points, wherever they are: of the symmetric Hausdorff distance. Deep where a level closes a
+  /// cavity.
+  double distance_world = 0;
   MeshCounts counts;
 };
 

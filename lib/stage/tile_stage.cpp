@@ -228,9 +228,10 @@ class Maker {
     const std::vector<TriangleD> triangles = world_triangles(mesh);
     std::vector<VoxelRun> near = runs_of(level_.surface, reach());
     near.insert(near.end(), walls.begin(), walls.end());
-    const std::vector<TriangleD> inside = segments_of(runs_of(level_.surface, cell_), frame);
-    measures.error_world = std::max(distance_from_mesh(triangles, TriangleBvh(segments_of(near, frame)), frame.voxel),
-                                    distance_to_mesh(inside, triangles, frame.voxel));
+    measures.error_world = distance_from_mesh(triangles, TriangleBvh(segments_of(near, frame)), frame.voxel);
+    if (params_.mode != MeshMode::fit) return;
+    measures.error_world = distance_beyond_mesh(segments_of(runs_of(level_.surface, cell_), frame),
+                                                TriangleBvh(triangles), frame.voxel, measures.error_world);
   }
 
   const TileLevel& level_;

@@ -56,8 +56,9 @@ struct TileMeasures {
   std::uint64_t faces = 0, faces_asked = 0;  ///< asked 0: an error was asked for
   std::uint64_t faces_dense = 0;
   double volume = 0;  ///< scene units cubed
-  /// Upper bound of the Hausdorff distance between the tile's surface and that of the solid's part in the cell, walls
-  /// included, scene units; where tiles are drawn together, walls lie inside, and it bounds the distance to the scene.
+  /// What a viewer can see of it, as LodLevel::error_world: upper bound of the distance of a point of the tile to the
+  /// surface of the solid's part in the cell, walls included, scene units; of a fit, also of what sticks out of it.
+  /// Where tiles are drawn together, walls lie inside, and it bounds the distance to the scene.
   double error_world = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/core/parallel.h"
+#include "lib/geometry/crossing.h"
 #include "lib/geometry/near_surface.h"
 
 namespace bp {
@@ -12,6 +13,7 @@ namespace {
 
 const double kSegmentToPoint = std::sqrt(1.5);  // from a point of the segment to any point of its voxel, in voxels
 const double kPointToSegment = std::sqrt(0.5);
+const double kPointToCentre = std::sqrt(0.75);
 constexpr double kTolerance = 0.5;  // of the search, in voxels
 constexpr std::int64_t kGrain = 256;
 constexpr std::size_t kPlaces = 512;  // of a grain
@@ -56,6 +58,33 @@ double upper_bound(const std::vector<TriangleD>& from, const TriangleBvh& to, do
   return limit;
 }
 
+int winding_number(const TriangleBvh& mesh, const Vec3d& p) {
+  int winding = 0;
+  mesh.visit_above(p, [&](const TriangleBvh::Item& item) { winding += crossing_above(item.corners, p); });
+  return winding;
+}
+
+/// Largest distance of a centre of a voxel behind `segments` to the mesh, of those outside; at least `known`.
+double distance_of_centres(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel,
+                           double known) {
+  const auto n = std::int64_t(segments.size());
+  std::vector<double> largest(std::size_t((n + kGrain - 1) / kGrain), known);
+  parallel_chunks(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+    std::uint32_t guess = 0;
+    double& far = largest[std::size_t(begin / kGrain)];
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+      Vec3d centre = segments[i][0];
+      for (centre[0] += voxel / 2; centre[0] < segments[i][1][0]; centre[0] += voxel) {
+        const TriangleBvh::Nearest found = mesh.nearest(centre, guess);
+        guess = found.item;
+        const double distance = std::sqrt(found.distance_squared);
+        if (distance > far && winding_number(mesh, centre) < 1) far = distance;
+      }
+    }
+  });
+  return largest.empty() ? known : *std::max_element(largest.begin(), largest.end());
+}
+
 }  // namespace
 
 std::vector<TriangleD> segments_of(std::span<const VoxelRun> runs, const GridFrame& frame) {
@@ -76,9 +105,17 @@ double distance_from_mesh(const std::vector<TriangleD>& mesh, const TriangleBvh&
   return upper_bound(mesh, segments, kTolerance * voxel) + kSegmentToPoint * voxel;
 }
 
-double distance_to_mesh(const std::vector<TriangleD>& segments, const std::vector<TriangleD>& mesh, double voxel) {
+double distance_to_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel) {
   if (segments.empty()) return 0;
-  return upper_bound(segments, TriangleBvh(mesh), kTolerance * voxel) + kPointToSegment * voxel;
+  return upper_bound(segments, mesh, kTolerance * voxel) + kPointToSegment * voxel;
+}
+
+// A point outside is within kPointToCentre of the centre of its voxel; if that is not outside, the mesh is as near.
+double distance_beyond_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel,
+                            double at_least) {
+  const double known = at_least - kPointToCentre * voxel;
+  const double found = distance_of_centres(farther_than(known, segments, mesh), mesh, voxel, known);
+  return std::max(found + kPointToCentre * voxel, at_least);
 }
 
 }  // namespace bp

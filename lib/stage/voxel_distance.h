@@ -15,9 +15,13 @@ namespace bp {
 /// a point of it. Neither may be empty.
 [[nodiscard]] double distance_from_mesh(const std::vector<TriangleD>& mesh, const TriangleBvh& segments, double voxel);
 
-/// No point of the surface is farther from `mesh`, if every one lies in a voxel of the runs behind `segments`. 0
-/// without segments.
-[[nodiscard]] double distance_to_mesh(const std::vector<TriangleD>& segments, const std::vector<TriangleD>& mesh,
-                                      double voxel);
+/// No point of the surface is farther from the mesh that `mesh` is over, if every one lies in a voxel of the runs
+/// behind `segments`. 0 without segments. Not empty.
+[[nodiscard]] double distance_to_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel);
+
+/// The same of those points of the surface that lie outside the mesh, which is closed: of voxels whose centre has a
+/// winding number below 1. Never below `at_least`, which must exceed a voxel: what is nearer costs one look.
+[[nodiscard]] double distance_beyond_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel,
+                                          double at_least);
 
 }  // namespace bp

@@ -190,8 +190,9 @@ LodLevel Build::make_level(LodChain& chain, std::size_t i, std::size_t since, do
 }
 
 std::string error_note(std::size_t level, double error_world, double asked_world) {
-  return fmt::format("level {}: its error is at most {:.4g} instead of {:.4g}: narrow gaps of the scene are closed",
-                     level, error_world, asked_world);
+  return fmt::format(
+      "level {}: its error is at most {:.4g} instead of {:.4g}: its voxels or its scale are too large for less", level,
+      error_world, asked_world);
 }
 
 std::string up_note(const BuildOptions& o, const std::optional<UpAxis>& told, const Bounds3d& bounds) {
@@ -256,11 +257,9 @@ LevelRow row_of(const LodLevel& level, const std::string& file, std::uint64_t by
   const LevelCounts& mesh = level.counts.levels.front();
   LevelRow row{
       file, 1, level.mesh.triangles.size(), bytes, level.error_world, level.scale_world, level.mesh.frame.voxel};
-  row.more = {{"attempts", level.attempts},
-              {"volume", mesh.measures.volume},
-              {"voxels", level.counts.voxels},
-              {"faces_dense", mesh.simplify.faces_in},
-              {"stopped_by", mesh.stopped_by}};
+  row.more = {
+      {"attempts", level.attempts},    {"distance", level.distance_world},      {"volume", mesh.measures.volume},
+      {"voxels", level.counts.voxels}, {"faces_dense", mesh.simplify.faces_in}, {"stopped_by", mesh.stopped_by}};
   return row;
 }
 

@@ -1,6 +1,7 @@
 #include <random>
 
 #include "lib/check/check_proxy.h"
+#include "lib/geometry/crossing.h"
 #include "lib/grid/reduce.h"
 #include "lib/stage/lod_stage.h"
 #include "lib/stage/surface_around.h"
@@ -49,6 +50,39 @@ double sampled_distance(const std::vector<TriangleD>& from, const std::vector<Tr
   for (const TriangleD& t : from)
     for (int i = 0; i < per_triangle; ++i)
       largest = std::max(largest, std::sqrt(tree.nearest(point_on(t, random)).distance_squared));
+  return largest;
+}
+
+/// A box with a room of 40 x 40 x 30 in it, which has a hole of 4 x 4 in its roof and a post in its middle.
+Triangles hollow_box() {
+  Triangles scene;
+  add_box(scene, {0, 0, 0}, {50, 50, 5});
+  add_box(scene, {0, 0, 0}, {5, 50, 40});
+  add_box(scene, {45, 0, 0}, {50, 50, 40});
+  add_box(scene, {0, 0, 0}, {50, 5, 40});
+  add_box(scene, {0, 45, 0}, {50, 50, 40});
+  add_box(scene, {0, 0, 35}, {23, 50, 40});
+  add_box(scene, {27, 0, 35}, {50, 50, 40});
+  add_box(scene, {0, 0, 35}, {50, 23, 40});
+  add_box(scene, {0, 27, 35}, {50, 50, 40});
+  add_box(scene, {23, 23, 0}, {27, 27, 20});
+  return scene;
+}
+
+/// Largest distance of sampled points of `scene` outside `mesh`, which is closed, to it.
+double sampled_distance_beyond(const std::vector<TriangleD>& scene, const std::vector<TriangleD>& mesh,
+                               int per_triangle) {
+  std::mt19937 random(7);
+  const TriangleBvh tree(mesh);
+  double largest = 0;
+  for (const TriangleD& t : scene) {
+    for (int i = 0; i < per_triangle; ++i) {
+      const Vec3d p = point_on(t, random);
+      int winding = 0;
+      for (const TriangleD& face : mesh) winding += crossing_above(face, p);
+      if (winding < 1) largest = std::max(largest, std::sqrt(tree.nearest(p).distance_squared));
+    }
+  }
   return largest;
 }
 
@@ -104,7 +138,8 @@ TEST_CASE("a budget that nothing meets is reported, and what there is encloses",
   CHECK(encloses(level.mesh, scene));
 }
 
-TEST_CASE("the measured error bounds the distance both ways, and not by far", "[quick][stage][lod]") {
+TEST_CASE("the measured distance bounds that both ways, the error what can be seen, and not by far",
+          "[quick][stage][lod]") {
   const Triangles scene = boxes();
   const double voxel = 0.5;
   Backends backends = plain_backends(2);
@@ -115,10 +150,47 @@ TEST_CASE("the measured error bounds the distance both ways, and not by far", "[
     const std::vector<TriangleD> proxy = world_triangles(level.mesh);
     const double there = sampled_distance(proxy, scene, 200), back = sampled_distance(scene, proxy, 40);
     CAPTURE(target.faces, there, back);
-    CHECK(level.error_world >= std::max(there, back));
-    CHECK(level.error_world <= 1.3 * std::max(there, back) + 2.5 * voxel);
+    CHECK(level.error_world >= there);
+    CHECK(level.error_world <= 1.04 * there + 3 * voxel);
+    CHECK(level.distance_world >= std::max(there, back));
+    CHECK(level.distance_world <= 1.3 * std::max(there, back) + 2.5 * voxel);
     if (target.error_world > 0) CHECK(there <= target.error_world);
   }
+}
+
+TEST_CASE("a room that a level closes is no error of it", "[quick][stage][lod]") {
+  const Triangles scene = hollow_box();
+  Backends backends = plain_backends(2);
+  LodOptions options = lod_options();
+  options.mode = GENERATE(MeshMode::bounding, MeshMode::fit);
+  if (options.mode == MeshMode::fit) options.scene = scene;
+  Voxelized solid = voxelized(scene, 1);
+  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+  const LodLevel level = chain.make({60, 0, 3.0});  // the hole is at most 4 wide
+  CHECK(level.distance_world > 18);                 // of the post
+  CHECK(level.error_world < 8);
+}
+
+TEST_CASE("what sticks out of a fitted level is an error of it, what lies inside is none", "[quick][stage][lod]") {
+  Triangles scene = hollow_box();
+  add_box(scene, {20, 4, 20}, {22, 6, 80});  // a mast on the wall
+  Backends backends = plain_backends(2);
+  LodOptions options = lod_options();
+  options.mode = MeshMode::fit;
+  options.scene = scene;
+  double largest = 0;
+  for (const std::uint64_t faces : {40, 10, 4}) {
+    Voxelized solid = voxelized(scene, 1);
+    LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+    const LodLevel level = chain.make({faces, 0, 3.0});
+    const std::vector<TriangleD> fit = world_triangles(level.mesh);
+    const double there = sampled_distance(fit, scene, 500), beyond = sampled_distance_beyond(scene, fit, 200);
+    CAPTURE(faces, level.mesh.triangles.size(), there, beyond, level.distance_world);
+    CHECK(level.error_world >= std::max(there, beyond));
+    CHECK(level.error_world <= 1.04 * std::max(there, beyond) + 3);
+    if (beyond > there) largest = std::max(largest, beyond);
+  }
+  CHECK(largest > 5);  // of the mast, somewhere
 }
 
 TEST_CASE("fitted levels keep their budgets and lie nearer to the scene than bounding ones", "[quick][stage][lod]") {

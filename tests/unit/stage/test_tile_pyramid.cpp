@@ -161,6 +161,26 @@ TEST_CASE("a tile without a voxel of the scene is made of the closing alone", "[
   }
 }
 
+TEST_CASE("a room that a tile closes is no error of it", "[quick][stage][lod]") {
+  Triangles scene;  // with a slit in its roof, and a post in it; and a plate over several cells
+  add_box(scene, {0, 0, 0}, {300, 60, 4});
+  add_box(scene, {0, 0, 0}, {4, 60, 60});
+  add_box(scene, {56, 0, 0}, {60, 60, 60});
+  add_box(scene, {0, 0, 0}, {60, 4, 60});
+  add_box(scene, {0, 56, 0}, {60, 60, 60});
+  add_box(scene, {0, 0, 56}, {28, 60, 60});
+  add_box(scene, {31, 0, 56}, {60, 60, 60});
+  add_box(scene, {28, 28, 0}, {32, 32, 30});
+  Backends backends = cpu_backends();
+  TilePyramid levels = pyramid(scene, backends);
+  TileParams params;
+  params.mode = GENERATE(MeshMode::bounding, MeshMode::fit);
+  for (const auto& [cell, made] : make(levels, params)) {
+    CAPTURE(cell.x, cell.y, cell.z);
+    CHECK(made.measures.error_world < 10);  // the post is 26 below the roof
+  }
+}
+
 TEST_CASE("fitted tiles keep their budget", "[quick][stage][lod]") {
   Backends backends = cpu_backends();
   TilePyramid levels = pyramid(scene(), backends);
