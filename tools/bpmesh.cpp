@@ -299,6 +299,15 @@ void note_faces(bp::Report& report, const Options& o, const bp::MeshCounts& c, s
               o.common);
 }
 
+/// Of a level that has its faces at the price of its volume.
+void note_volume(bp::Report& report, const Options& o, const bp::MeshCounts& c, std::size_t i) {
+  if (i >= o.faces.size() || o.volume > 0) return;
+  const bp::LevelCounts& level = c.levels[i];
+  const std::string loose = bp::loose_note(level.simplify.faces_out, level.measures.volume / c.solid_volume_world,
+                                           level.measures.shells, level.measures.handles, o.mode);
+  if (!loose.empty()) report.note(level_text(c, i) + loose, o.common);
+}
+
 /// One line for each target that was out of reach: the user gets the best there is, and the reason.
 void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts& c, double error_world) {
   if (c.dropped_parts > 0) {
@@ -309,6 +318,7 @@ void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts&
   for (std::size_t i = 0; i < c.levels.size(); ++i) {
     note_faces(report, o, c, i);
     note_bounds(report, o, c, i, error_world);
+    note_volume(report, o, c, i);
   }
 }
 

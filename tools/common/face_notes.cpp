@@ -7,6 +7,20 @@ namespace bp {
 namespace {
 
 constexpr double kClearly = 0.95;  // of the faces asked for
+constexpr double kLoose = 2;       // times the volume, or its part
+
+/// What --scale, or --least-part, does where there are several parts or a handle, or does to the form.
+std::string scale_advice(std::uint64_t shells, std::uint64_t handles, bool inside) {
+  if (shells <= 1 && handles == 0) {
+    return fmt::format("a larger --scale {} makes the form simpler",
+                       inside ? "takes narrow things away and" : "fills narrow gaps and");
+  }
+  if (inside && shells > 1) return "a larger --least-part leaves small parts out, a larger --scale narrow ones";
+  if (inside) return "a larger --scale takes narrow bars away";
+  return fmt::format("a larger --scale {}", handles == 0  ? "joins parts"
+                                            : shells <= 1 ? "closes holes"
+                                                          : "joins parts and closes holes");
+}
 
 }  // namespace
 
@@ -22,21 +36,17 @@ std::string too_few_note(std::uint64_t faces, std::uint64_t asked, MeshMode mode
 std::string merged_note(std::uint64_t faces, std::uint64_t shells, std::uint64_t handles, MeshMode mode) {
   const bool inside = mode == MeshMode::inside;
   if (faces <= 4) return "no closed surface has fewer";
-  if (shells <= 1 && handles == 0) {
-    return fmt::format("no further edge can be merged; a larger --scale {} makes the form simpler",
-                       inside ? "takes narrow things away and" : "fills narrow gaps and");
-  }
-  std::string advice;
-  if (inside) {
-    advice = shells > 1 ? "a larger --least-part leaves small parts out, a larger --scale narrow ones"
-                        : "a larger --scale takes narrow bars away";
-  } else {
-    advice = fmt::format("a larger --scale {}", handles == 0  ? "joins parts"
-                                                : shells <= 1 ? "closes holes"
-                                                              : "joins parts and closes holes");
-  }
+  if (shells <= 1 && handles == 0) return "no further edge can be merged; " + scale_advice(shells, handles, inside);
   return fmt::format("no further edge can be merged. Parts and handles are kept, here {} and {}; {}", shells, handles,
-                     advice);
+                     scale_advice(shells, handles, inside));
+}
+
+std::string loose_note(std::uint64_t faces, double ratio, std::uint64_t shells, std::uint64_t handles, MeshMode mode) {
+  const bool inside = mode == MeshMode::inside;
+  if (mode == MeshMode::fit || (inside ? ratio * kLoose > 1 : ratio < kLoose)) return "";
+  const std::string advice =
+      inside ? "more faces hide more" : "more faces make it tighter, and " + scale_advice(shells, handles, inside);
+  return fmt::format("{} faces hold {:.3g} times the volume of the voxels that are meshed; {}", faces, ratio, advice);
 }
 
 }  // namespace bp

@@ -15,4 +15,9 @@ namespace bp {
 /// speak of, and a larger scale does to an opening what is the opposite of what it does to a closing.
 [[nodiscard]] std::string merged_note(std::uint64_t faces, std::uint64_t shells, std::uint64_t handles, MeshMode mode);
 
+/// Of a mesh whose faces are so few for what they stand for that its volume is far from it. `ratio`: of its volume to
+/// that of the voxels that are meshed. Empty if that is near 1, or for a fit. One line.
+[[nodiscard]] std::string loose_note(std::uint64_t faces, double ratio, std::uint64_t shells, std::uint64_t handles,
+                                     MeshMode mode);
+
 }  // namespace bp

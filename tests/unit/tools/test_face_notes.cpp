@@ -28,3 +28,13 @@ TEST_CASE("what there is to be done about faces fits the mode, and what there is
   CHECK_FALSE(says(merged_note(4, 1, 0, MeshMode::inside), "--scale"));
   CHECK(says(too_few_note(12, 40, MeshMode::inside), "inside"));
 }
+
+TEST_CASE("a mesh whose volume is far from that of its voxels is told of", "[quick][tools]") {
+  const std::string text = loose_note(200, 7.824, 1, 6, MeshMode::bounding);
+  CHECK(text.rfind("200 faces hold 7.82 times the volume", 0) == 0);
+  CHECK(text.find("--scale closes holes") != std::string::npos);
+  CHECK(loose_note(200, 1.99, 1, 6, MeshMode::bounding).empty());
+  CHECK(loose_note(200, 7, 1, 6, MeshMode::fit).empty());
+  CHECK(!loose_note(200, 0.49, 3, 0, MeshMode::inside).empty());
+  CHECK(loose_note(200, 0.51, 3, 0, MeshMode::inside).empty());
+}
