@@ -11,6 +11,7 @@
 #include "io/detail/position_index.h"
 #include "io/detail/raw_source.h"
 #include "io/detail/stream_format.h"
+#include "io/scene_format.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 
@@ -25,18 +26,13 @@ std::string lower(std::string s) {
   return s;
 }
 
-std::string extension_of(const std::string& path) {
-  const std::size_t dot = path.find_last_of("./");
-  return dot == std::string::npos || path[dot] != '.' ? std::string() : lower(path.substr(dot + 1));
-}
-
 Reader reader_of(const std::string& extension) {
   if (extension == "ply") return Reader::ply;
   if (extension == "stl" || extension == "stla" || extension == "stlb") return Reader::stl;
   if (extension == "obj") return Reader::obj;
   if (extension == "off") return Reader::off;
   if (extension == "gltf" || extension == "glb") return Reader::gltf;
-  return assimp_reads(extension) ? Reader::other : Reader::unknown;
+  return extension.empty() ? Reader::unknown : Reader::other;
 }
 
 bool is_binary_stl(const std::string& start, std::uint64_t size) {
@@ -75,18 +71,10 @@ void refuse_brick_stream(const SceneFile& file) {
 }
 
 RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const SceneOptions& options) {
-  std::string extension = path == "-" ? std::string() : extension_of(path);
+  std::string extension = scene_format_of(path);
+  if (extension.empty() && !options.format.empty()) extension = scene_format_named(options.format);
   Reader reader = reader_of(extension);
-  if (reader == Reader::unknown && !options.format.empty()) {
-    extension = lower(options.format.substr(options.format[0] == '.' ? 1 : 0));
-    reader = reader_of(extension);
-    if (reader == Reader::unknown)
-      fail(ErrorCode::bad_argument, "'{}' is not a scene format; name one of ply stl obj off gltf glb", options.format);
-  }
-  if (reader == Reader::unknown) {
-    extension.clear();
-    reader = reader_by_content(*file, extension);
-  }
+  if (reader == Reader::unknown) reader = reader_by_content(*file, extension);
   switch (reader) {
     case Reader::ply:
       return open_ply(file, options);

@@ -12,6 +12,7 @@
 #include "lib/core/error.h"
 #include "lib/image/render.h"
 #include "tools/check/tileset_verdict.h"
+#include "tools/common/inputs.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
 
@@ -38,7 +39,7 @@ Options parse(bp::Args& args) {
       "Proves that a proxy is closed, oriented, 2-manifold, free of self-intersections and strictly encloses its "
       "scenes, or says where not. Exact for the coordinates as read. Exit status: 0 all holds, 1 not.");
   args.positional("[SCENE...] PROXY", o.files, "scenes and their proxy; PROXY alone is checked as a mesh");
-  args.option("--format", "NAME", o.format, "format of a scene that is -, or whose name does not tell");
+  args.option("--format", "NAME", o.format, "format of a file that is -, or whose name does not tell");
   args.option("--origin", "X,Y,Z", o.origin,
               "add this point to every vertex of the proxy, exactly: what bpmesh --origin subtracted");
   args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
@@ -61,6 +62,10 @@ Options parse(bp::Args& args) {
   args.excludes("--samples", "--inside");  // measures none
   args.excludes("--samples", "--convex");
   args.excludes("--convex", "--inside");
+  bp::check_scene_format(o.format, o.files);
+  bp::check_stdin_once(o.files);
+  if (o.samples && o.files.size() < 2)
+    bp::fail(bp::ErrorCode::bad_argument, "--samples means nothing without a scene; leave it out");
   if (o.inside && o.files.size() < 2)
     bp::fail(bp::ErrorCode::bad_argument, "--inside asks for a scene around the proxy; name it before the proxy");
   return o;

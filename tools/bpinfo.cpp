@@ -8,6 +8,7 @@
 #include "lib/core/error.h"
 #include "lib/grid/coarse_view.h"
 #include "lib/image/render.h"
+#include "tools/common/inputs.h"
 #include "tools/common/run_tool.h"
 #include "tools/info/mesh_info.h"
 #include "tools/info/stream_info.h"
@@ -42,11 +43,14 @@ Options parse(bp::Args& args) {
               "axis that points up in the image of meshes (default: y, or that of the first INPUT that tells)");
   args.option("--azimuth", "DEGREES", o.azimuth, "where the viewer stands, from the front to the right");
   args.option("--elevation", "DEGREES", o.elevation, "how far above the horizon the viewer stands");
-  args.option("--format", "NAME", o.format, "an INPUT is a mesh of this format, whatever its name; needed for stdin");
+  args.option("--format", "NAME", o.format,
+              "inputs are meshes, and this is the format of stdin, or of files whose names do not tell");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::overwrite_part);
   args.example("bpinfo scene.glb closed.bpv proxy.glb --image all.png");
   args.parse();
   if (o.in.empty()) o.in = {"-"};
+  bp::check_scene_format(o.format, o.in);
+  bp::check_stdin_once(o.in);
   if (int(o.json) + int(o.checksum) + int(o.dump) > 1)
     bp::fail(bp::ErrorCode::bad_argument, "--json, --checksum and --dump exclude each other");
   args.needs({"--image-size", "--no-edges", "--up", "--azimuth", "--elevation"}, "--image");

@@ -10,11 +10,13 @@
 #include "io/brick_stream.h"
 #include "io/chunk_store.h"
 #include "io/mesh_writer.h"
+#include "io/scene_format.h"
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/stage/mesh_stage.h"
 #include "tools/common/face_list.h"
 #include "tools/common/face_notes.h"
+#include "tools/common/inputs.h"
 #include "tools/common/memory_shares.h"
 #include "tools/common/names.h"
 #include "tools/common/provenance.h"
@@ -73,6 +75,9 @@ Options parse(bp::Args& args) {
   o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
   args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
   args.parse();
+  std::vector<std::string> inputs = o.enclose;
+  inputs.push_back(o.in);
+  bp::check_stdin_once(inputs);
   if (o.error && !(o.error->value > 0))
     bp::fail(bp::ErrorCode::bad_argument, "--error {}: must be above 0; leave it out for no limit", o.error->text());
   return o;
@@ -358,6 +363,9 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
   if (o.error) params.error_world = o.error->in_world(header.bounds.diagonal(), header.frame.voxel);
   params.volume_ratio = o.volume;
   params.edge_factor = o.edge_length;
+  if (o.edge_length > 0 && !header.has_closing)
+    bp::fail(bp::ErrorCode::bad_argument,
+             "--edge-length counts in scales, and what was not closed has none; use bpclose before, or leave it out");
   if (o.inset && o.mode != bp::MeshMode::fit)
     bp::fail(bp::ErrorCode::bad_argument, "--inset is for fits; it needs --mode fit");
   if (o.inset) params.inset = *o.inset;
@@ -377,10 +385,21 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
   return params;
 }
 
+/// A file of one format called by the name of another would be read as that.
+bp::MeshFormat output_format(const Options& o) {
+  if (o.format.empty()) return bp::mesh_format_of(o.out);
+  const bp::MeshFormat format = bp::mesh_format_named(o.format);
+  const std::string told = bp::scene_format_of(o.out);
+  if (!told.empty() && bp::mesh_format_of(o.out) != format)
+    bp::fail(bp::ErrorCode::bad_argument,
+             "--format {}, but -o {} is named .{}; leave --format out, or rename the output", o.format, o.out, told);
+  return format;
+}
+
 void run(const Options& o) {
   if (o.out == "-" && o.format.empty())
     bp::fail(bp::ErrorCode::bad_argument, "name the output with -o, or its --format");
-  const bp::MeshFormat format = o.format.empty() ? bp::mesh_format_of(o.out) : bp::mesh_format_named(o.format);
+  const bp::MeshFormat format = output_format(o);
   if (o.quads && format != bp::MeshFormat::obj && format != bp::MeshFormat::ply)
     bp::fail(bp::ErrorCode::bad_argument, "--quads: only .obj and .ply hold quads");
   bp::Report report("bpmesh");

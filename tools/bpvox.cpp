@@ -8,6 +8,7 @@
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/stage/voxelize_stage.h"
+#include "tools/common/inputs.h"
 #include "tools/common/make_backend.h"
 #include "tools/common/memory_shares.h"
 #include "tools/common/names.h"
@@ -56,6 +57,7 @@ Options parse(bp::Args& args) {
               "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");
   o.common.add_to(args);
   args.parse();
+  bp::check_scene_format(o.format, o.scenes);
   if (o.voxel && o.resolution) fail(ErrorCode::bad_argument, "--voxel and --resolution exclude each other");
   if (o.voxel && o.voxel->unit == bp::Length::Unit::voxels)
     fail(ErrorCode::bad_argument, "--voxel {}: a voxel is not measured in voxels", o.voxel->text());

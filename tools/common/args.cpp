@@ -152,6 +152,8 @@ Args::Option& Args::State::find(const std::string& name) {
 
 void Args::State::take(Option& option, const std::string& name, const std::string& text) {
   if (option.times++ > 0 && !option.repeatable) fail(ErrorCode::bad_argument, "{} is given twice", name);
+  if (text.empty() && option.value == Value::required)
+    fail(ErrorCode::bad_argument, "{} is empty; was a variable not set?", name);
   try {
     option.set(text);
   } catch (const Error& e) {
@@ -201,6 +203,8 @@ void Args::State::parse_short(const std::string& word) {
 }
 
 void Args::State::parse_positionals(const std::vector<std::string>& texts) {
+  if (std::find(texts.begin(), texts.end(), "") != texts.end())
+    fail(ErrorCode::bad_argument, "an argument is empty; was a variable not set?");
   std::size_t next = 0;
   for (Option& positional : positionals) {
     while (next < texts.size() && (positional.times == 0 || positional.repeatable))

@@ -27,3 +27,22 @@ try bpcheck cube.obj --inside
 try bplod cube.obj -o made --profile collision --colors off --no-tighten --resolution 10 | cut -f 1
 try bplod cube.obj -o near --error 50% --no-tighten --enclose closing --levels 1 | cut -f 1
 files
+# A format that no input needs, or that is none; values that are empty; lengths that count in what is not there.
+cp cube.obj nameless
+bpmesh cube.bpv -o proxy.glb -q
+for format in ply nonsense ''; do
+  try bpvox cube.obj --format "$format" -o x.bpv
+  try bplod cube.obj --format "$format" -o x
+  try bpcheck cube.obj proxy.glb --format "$format"
+  try bpinfo proxy.glb --format "$format"
+  try bpmesh cube.bpv --format "$format" -o x.glb
+done
+try bpvox nameless --format obj --resolution 10 -o nameless.bpv
+said 'cat cube.obj | bpvox - cube.obj --format obj --resolution 10 -o piped.bpv'
+said 'bpvox nameless --format .OBJ --resolution 10 | cmp - nameless.bpv'
+try bpvox '' -o x.bpv
+try bpvox cube.obj -o ''
+try bpinfo cube.obj --image ''
+try bpmesh cube.bpv --edge-length 2 -o x.ply
+try bpcheck proxy.glb --samples 10
+files

@@ -67,7 +67,7 @@ TEST_CASE("a value follows its option, an equals sign or a short name", "[quick]
   CHECK(parse({"--element", "ball"}).element == Element::ball);
   CHECK(parse({"--name", "a", "--name=b"}).names == std::vector<std::string>{"a", "b"});
   CHECK(parse({"-o", "-"}).out == "-");
-  CHECK(parse({"--output="}).out.empty());
+  CHECK_THROWS_WITH(parse({"--output="}), Catch::Matchers::Contains("--output is empty"));
 }
 
 TEST_CASE("an optional word never swallows a file name", "[quick][tools]") {

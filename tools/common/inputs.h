@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+#include <vector>
+
+/// What tools ask of the files that they read, before any work.
+namespace bp {
+
+/// --format is for stdin, and for files whose names do not tell. Throws bad_argument if it names no scene format, or if
+/// all names tell another one: it would be passed over in silence.
+void check_scene_format(const std::string& format, const std::vector<std::string>& inputs);
+
+/// Throws bad_argument if one of `inputs` is stdin and another is, too: the second would be found empty.
+void check_stdin_once(const std::vector<std::string>& inputs);
+
+}  // namespace bp
