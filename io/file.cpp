@@ -24,7 +24,8 @@ constexpr std::size_t kBufferBytes = std::size_t(1) << 20;
   if (e == EPIPE) fail(ErrorCode::closed_pipe, "{}: the reader closed the pipe", name);
   if (e == ENOSPC || e == EDQUOT || e == EFBIG)
     fail(ErrorCode::out_of_resource, "{}: {}; free some space or write elsewhere", name, std::strerror(e));
-  fail(ErrorCode::failed, "{}: cannot write: {}", name, std::strerror(e));
+  const char* const remedy = e == ENOENT ? "; make its folder first, or write elsewhere" : "";
+  fail(ErrorCode::failed, "{}: cannot write: {}{}", name, std::strerror(e), remedy);
 }
 
 void write_all(int fd, std::span<const std::byte> bytes, const std::string& name) {

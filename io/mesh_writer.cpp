@@ -122,8 +122,11 @@ Vec3d moved_exactly(const GridFrame& frame, const Vec3d& p, const Vec3d& origin)
   for (std::size_t i = 0; i < 3; ++i) {
     const Difference d(p[i], origin[i]);
     if (!d.exact) {
-      fail(ErrorCode::bad_argument, "vertices cannot be moved by the origin {} without rounding; use {}",
-           text_of(origin), text_of(rounded_to_voxels(frame, origin), ","));
+      const Vec3d near_origin = rounded_to_voxels(frame, origin);
+      const bool will_do = Difference(p[i], near_origin[i]).exact;
+      fail(ErrorCode::bad_argument, "vertices cannot be moved by the origin {} without rounding; use {}{}",
+           text_of(origin), will_do ? "" : "one near the mesh, as ",
+           text_of(will_do ? near_origin : rounded_to_voxels(frame, p), ","));
     }
     moved[i] = d.value + 0.0;  // -0 becomes 0
   }

@@ -4,6 +4,7 @@
 
 #include "io/detail/glb_file.h"
 #include "io/detail/gltf_document.h"
+#include "io/detail/json_fault.h"
 #include "io/detail/uri.h"
 #include "lib/core/error.h"
 
@@ -37,7 +38,7 @@ class Reader {
     try {
       json_ = GltfJson::parse(read_text(path, kMostBytes));
     } catch (const GltfJson::exception& e) {
-      fail(ErrorCode::bad_input, "{}: broken JSON: {}", path, e.what());
+      fail(ErrorCode::bad_input, "{}: broken JSON: {}; make it again", path, detail::json_fault(e));
     }
   }
 

@@ -64,6 +64,8 @@ Options parse(bp::Args& args) {
   args.excludes("--convex", "--inside");
   bp::check_scene_format(o.format, o.files);
   bp::check_stdin_once(o.files);
+  bp::keep_inputs(o.files);
+  bp::check_panel_size(o.image_size);
   if (o.samples && o.files.size() < 2)
     bp::fail(bp::ErrorCode::bad_argument, "--samples means nothing without a scene; leave it out");
   if (o.inside && o.files.size() < 2)
@@ -191,6 +193,16 @@ int run_tileset(const Options& o) {
   return verdict.holds() ? 0 : 1;
 }
 
+/// Whatever is asked of no triangle holds: an export that went wrong must not prove a proxy.
+void refuse_empty_scene(const bp::CheckReport& verdict) {
+  const bp::SceneCounts& c = verdict.scene_counts;
+  if (verdict.scene_name.empty() || verdict.scene_triangles > 0) return;
+  bp::fail(
+      bp::ErrorCode::bad_input,
+      "{}: no triangles ({} degenerate, {} non-finite, {} bad faces skipped); a scene needs at least one with an area",
+      verdict.scene_name, c.degenerate, c.non_finite, c.bad_faces);
+}
+
 /// Each level as a proxy of its own.
 std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::IndexedMesh>& levels,
                                    bp::TriangleSource* scene) {
@@ -206,7 +218,10 @@ std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::Index
   std::unique_ptr<WatchedSource> watched;
   if (scene != nullptr) watched = std::make_unique<WatchedSource>(*scene, progress);
   std::vector<bp::CheckReport> verdicts;
-  for (const bp::IndexedMesh& level : levels) verdicts.push_back(bp::check_proxy(level, watched.get(), options));
+  for (const bp::IndexedMesh& level : levels) {
+    verdicts.push_back(bp::check_proxy(level, watched.get(), options));
+    refuse_empty_scene(verdicts.back());
+  }
   progress.end();
   return verdicts;
 }

@@ -50,6 +50,7 @@ Options parse(bp::Args& args) {
   o.common.add_to(args);
   args.parse();
   args.excludes("--keep-cavities", "--inner");
+  if (!o.field.empty()) bp::keep_inputs({o.field});  // INPUT may be replaced: its voxels stay
   if (!o.scale && o.field.empty()) fail(ErrorCode::bad_argument, "give a --scale or a --field");
   if (o.scale && !o.field.empty()) fail(ErrorCode::bad_argument, "--scale and --field exclude each other");
   return o;

@@ -51,6 +51,8 @@ Options parse(bp::Args& args) {
   if (o.in.empty()) o.in = {"-"};
   bp::check_scene_format(o.format, o.in);
   bp::check_stdin_once(o.in);
+  bp::keep_inputs(o.in);
+  bp::check_panel_size(o.image_size);
   if (int(o.json) + int(o.checksum) + int(o.dump) > 1)
     bp::fail(bp::ErrorCode::bad_argument, "--json, --checksum and --dump exclude each other");
   args.needs({"--image-size", "--no-edges", "--up", "--azimuth", "--elevation"}, "--image");

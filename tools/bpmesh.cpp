@@ -78,6 +78,7 @@ Options parse(bp::Args& args) {
   std::vector<std::string> inputs = o.enclose;
   inputs.push_back(o.in);
   bp::check_stdin_once(inputs);
+  bp::keep_inputs(inputs);
   if (o.error && !(o.error->value > 0))
     bp::fail(bp::ErrorCode::bad_argument, "--error {}: must be above 0; leave it out for no limit", o.error->text());
   return o;

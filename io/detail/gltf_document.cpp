@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "io/detail/data_uri.h"
+#include "io/detail/json_fault.h"
 #include "io/detail/meshopt_codec.h"
 #include "io/detail/uri.h"
 
@@ -180,7 +181,8 @@ void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
   try {
     json_ = parse_json(std::move(lean.text));
   } catch (const GltfJson::exception& e) {
-    fail(ErrorCode::bad_input, "{}: broken JSON: {}", file_->name(), e.what());
+    if (size == 0) fail(ErrorCode::bad_input, "{}: is empty; re-export the file", file_->name());
+    fail(ErrorCode::bad_input, "{}: broken JSON: {}; re-export the file", file_->name(), detail::json_fault(e));
   }
 }
 

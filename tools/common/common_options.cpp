@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <set>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -37,6 +39,35 @@ std::uint64_t kernel_number(const char* path) {
     std::fclose(file);
   }
   return value;
+}
+
+/// The files of this process, each by its whole path.
+struct NamedFiles {
+  std::set<std::string> inputs, outputs;
+};
+NamedFiles& named_files() {
+  static NamedFiles files;
+  return files;
+}
+
+std::string whole_path(const std::string& path) {
+  std::error_code unknown;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(path, unknown);
+  return unknown ? path : whole.string();
+}
+
+/// Of an output that is about to be opened: its whole path; empty if it is written in place, as /dev/null, which may be
+/// named twice.
+std::string free_name(const std::string& path) {
+  struct stat info {};
+  if (path != "-" && ::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode)) return "";
+  std::string whole = path == "-" ? path : whole_path(path);
+  if (named_files().inputs.count(whole) > 0)
+    fail(ErrorCode::bad_argument, "{}: is an input, and would be lost; give the output another name", path);
+  if (named_files().outputs.count(whole) > 0)
+    fail(ErrorCode::bad_argument, "{}: is named for two outputs; give each a name of its own",
+         path == "-" ? "stdout" : path);
+  return whole;
 }
 
 }  // namespace
@@ -117,9 +148,18 @@ void refuse_terminal(const std::string& path) {
     fail(ErrorCode::bad_argument, "binary data does not go to a terminal; name a file with -o, or pipe it on");
 }
 
+void keep_inputs(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    if (path != "-") named_files().inputs.insert(whole_path(path));
+  }
+}
+
 std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary) {
   if (binary) refuse_terminal(path);
-  return std::make_unique<OutputFile>(path, overwrite);
+  const std::string name = free_name(path);
+  auto file = std::make_unique<OutputFile>(path, overwrite);
+  if (!name.empty()) named_files().outputs.insert(name);
+  return file;
 }
 
 }  // namespace bp

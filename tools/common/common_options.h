@@ -58,8 +58,10 @@ struct CommonOptions {
 /// What the program itself, and so many threads (0: all cores), take of --memory: below, no tool can keep it.
 [[nodiscard]] std::uint64_t least_memory(int threads);
 
-/// The tool's data output. Throws bad_argument if binary data would go to a terminal, or if the file exists and
-/// `overwrite` is false.
+/// From now on, open_output() refuses these files: --overwrite must not cost a scene.
+void keep_inputs(const std::vector<std::string>& paths);
+/// The tool's data output. Throws bad_argument if binary data would go to a terminal, if the file exists and
+/// `overwrite` is false, if it is an input that is to be kept, or if this name was opened before.
 [[nodiscard]] std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary = true);
 /// The same check, for a writer that opens the file itself.
 void refuse_terminal(const std::string& path);

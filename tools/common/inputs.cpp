@@ -26,4 +26,10 @@ void check_stdin_once(const std::vector<std::string>& inputs) {
     fail(ErrorCode::bad_argument, "stdin (-) is named twice; give all but one of these inputs as files");
 }
 
+void check_panel_size(int pixels) {
+  constexpr int kLeast = 16, kMost = 16384;  // of render()
+  if (pixels < kLeast || pixels > kMost)
+    fail(ErrorCode::bad_argument, "--image-size {}: must be {} to {} pixels", pixels, kLeast, kMost);
+}
+
 }  // namespace bp

@@ -12,4 +12,7 @@ void check_scene_format(const std::string& format, const std::vector<std::string
 /// Throws bad_argument if one of `inputs` is stdin and another is, too: the second would be found empty.
 void check_stdin_once(const std::vector<std::string>& inputs);
 
+/// --image-size: throws bad_argument if no picture has such panels.
+void check_panel_size(int pixels);
+
 }  // namespace bp

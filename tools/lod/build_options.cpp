@@ -177,6 +177,7 @@ BuildOptions parse_build_options(Args& args) {
   args.example("bplod plant.glb --faces 20000,5000,1000 --profile 3dtiles -o plant-tiles");
   args.parse();
   check_scene_format(o.format, o.scenes);
+  keep_inputs(o.scenes);
   check_meaning(args, o);
   // Beside slanted sides a cube's closing stands off about as far as a fit looks for the scene: thorns.
   if (o.mode == MeshMode::fit && !args.given("--element")) o.element = StructuringElement::ball;

@@ -49,3 +49,30 @@ said 'bpvox cube.obj --resolution 64 | bpclose --scale 2vx | head -c 10 | wc -c'
 try bpcheck cube.obj missing.glb
 try bpcheck cube.obj text.bp
 files
+# An output must not be an input, nor two outputs one file; what is empty proves nothing.
+bpclose cube.bp --scale 1vx -o closed.bp
+cp closed.bp again.bp
+try bpvox cube.obj -o cube.obj --overwrite
+try bpvox cube.obj -o ./../$(basename "$PWD")/cube.obj --overwrite | sed 's|/[^/]*/cube|/HERE/cube|'
+try bpvox cube.obj --report one.json -o one.json
+try bpvox cube.obj --report - -o -
+try bpclose cube.bp --scale 1vx -o again.bp --overwrite
+try bpmesh again.bp --enclose cube.obj -o cube.obj --overwrite
+try bpinfo cube.obj --image cube.obj --overwrite
+mkdir levels
+cp cube.glb levels/cube_LOD0.glb
+try bplod levels/cube_LOD0.glb --name cube --levels 1 -o levels --overwrite
+said 'bpvox cube.obj --resolution 8 --report /dev/null -o /dev/null'
+echo 'v 1 2 3' > nothing.obj
+try bpcheck nothing.obj cube.glb --no-distances
+try bpcheck nothing.obj cube.glb --inside
+try bpcheck nothing.obj cube.glb --convex
+said 'cat cube.obj | bpcheck - - --format obj'
+: > empty.glb
+try bpcheck cube.obj empty.glb
+echo 'no JSON' > text.gltf
+try bpcheck cube.obj text.gltf
+try bpcheck cube.obj cube.glb --image x.png --image-size 3
+try bpmesh closed.bp --origin 1e30,0,0 -o x.ply
+try bpmesh closed.bp -o missing/x.ply
+files

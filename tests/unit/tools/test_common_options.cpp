@@ -104,3 +104,15 @@ TEST_CASE("the option text is canonical", "[quick][tools]") {
   CHECK(text.text() == "voxel=0.1 fill=flood tile=256 keep=no scale=2.5%");
   CHECK(make_provenance("bpvox", text).options == text.text());
 }
+
+TEST_CASE("an output is neither an input nor another output", "[quick][tools]") {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const std::string scene = (folder / "bp-test-scene.obj").string(), out = (folder / "bp-test-out.bpv").string();
+  keep_inputs({scene, "-"});
+  CHECK_THROWS_AS(open_output(scene, true), Error);
+  CHECK_THROWS_AS(open_output((folder / "." / "bp-test-scene.obj").string(), true), Error);
+  const auto first = open_output(out, true);
+  CHECK_THROWS_AS(open_output(out, true), Error);
+  CHECK_NOTHROW(open_output("/dev/null", true));
+  CHECK_NOTHROW(open_output("/dev/null", true));
+}
