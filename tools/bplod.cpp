@@ -4,6 +4,7 @@
 #include "tools/common/run_tool.h"
 #include "tools/lod/build.h"
 #include "tools/lod/explain.h"
+#include "tools/lod/level_chain.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/lod/tile_build.h"
 
@@ -23,15 +24,9 @@ bp::LevelRow row_of(const bp::WrittenFile& file, const std::vector<bp::LodLevel>
 void run_chain(const bp::BuildOptions& o) {
   bp::OutputFolder out(o.out, bp::profile_files(o.profile, o.name, bp::level_count(o.request)), o.common.overwrite);
   bp::Build build(o);
-  bp::VoxelizedScene scene = build.voxelize(0);
-  build.report.stage("measure the scene");
-  bp::LodChain chain(scene.header, std::move(scene.solid), build.backends, build.lod_options());
-  std::vector<bp::LodLevel> levels;
-  for (std::size_t i = 0; i < bp::level_count(o.request); ++i) {
-    levels.push_back(
-        build.make_level(chain, i, 0, scene.header.frame.voxel, scene.header.bounds, scene.counts.input_hash));
-    if (i > 0) levels[i].error_world = std::max(levels[i].error_world, levels[i - 1].error_world);
-  }
+  const auto [scene, levels] = bp::make_chain(build);
+  for (std::size_t i = levels.size(); i < bp::level_count(o.request); ++i)
+    out.leave_out(bp::level_name(o.name, i) + ".glb");
   build.progress.end();
   build.report.stage("write");
   const std::vector<bp::WrittenFile> files =

@@ -19,6 +19,8 @@ struct LodTarget {
   std::uint64_t faces = 0;            ///< 0: none
   double error_world = 0;             ///< largest distance of a point of the level to the scene, scene units; 0: none
   std::optional<double> scale_world;  ///< closing radius to begin with, scene units; never below the level before's
+  /// Of `faces`: scale and voxels are so many times finer than for equilateral triangles. Flat regions take few.
+  double detail = 1;
 };
 
 /// What decides at which scale, and on which voxels, a level is tried first.

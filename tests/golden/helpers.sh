@@ -23,6 +23,15 @@ said() {
 # files: what lies in the folder now, hidden and partial files too.
 files() { echo "files: $(LC_ALL=C ls -A | tr '\n' ' ')"; }
 
+# write_octahedron FILE.obj [SIZE]: its slanted sides have as many faces as a level may want.
+write_octahedron() {
+  awk -v s="${2:-1}" 'BEGIN {
+    h = s / 2
+    print "v " s, h, h "\nv " 0, h, h "\nv " h, s, h "\nv " h, 0, h "\nv " h, h, s "\nv " h, h, 0
+    print "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6"
+  }' > "$1"
+}
+
 # write_cube FILE.obj [SIZE]: a closed cube.
 write_cube() {
   local s=${2:-1}

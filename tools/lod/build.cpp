@@ -79,10 +79,10 @@ Build::Build(const BuildOptions& o)
   };
 }
 
-VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results) {
+VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int halvings) {
   report.stage("voxelize");
   VoxelizeOptions v;
-  v.voxel_size = [this](const Bounds3d& bounds) { return voxel_size(options, bounds); };
+  v.voxel_size = [this, halvings](const Bounds3d& bounds) { return voxel_size(options, bounds, halvings); };
   v.cell_vox = cell_vox;
   v.results = results;
   v.fill = options.fill;
@@ -101,8 +101,10 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results) {
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
-  if (const std::string text = skipped(out.counts.scene); !text.empty()) note("skipped " + text);
-  if (const std::string text = up_note(options, source->up(), out.header.bounds); !text.empty()) note(text);
+  if (halvings == 0) {  // the scene is the same
+    if (const std::string text = skipped(out.counts.scene); !text.empty()) note("skipped " + text);
+    if (const std::string text = up_note(options, source->up(), out.header.bounds); !text.empty()) note(text);
+  }
   if (source->has_colors()) gather(*source, out);
   return out;
 }
@@ -169,11 +171,7 @@ PieceMemory Build::pieces() const {
   return memory;
 }
 
-LodLevel Build::make_level(LodChain& chain, std::size_t i, std::size_t since, double scene_voxel,
-                           const Bounds3d& bounds, const std::string& input_hash) {
-  report.stage(fmt::format("level {}", i));
-  const LodTarget target = target_of(options.request, i, since, bounds.diagonal(), scene_voxel, chain.dense_faces());
-  LodLevel level = chain.make(target);
+void Build::finish_level(LodLevel& level, std::size_t i, const LodTarget& target, const std::string& input_hash) {
   if (colors_ != nullptr) {
     colors_->prepare(level.mesh.frame);
     color_vertices(level.mesh, colors_->all(level.mesh.frame));
@@ -186,7 +184,6 @@ LodLevel Build::make_level(LodChain& chain, std::size_t i, std::size_t since, do
   if (target.error_world > 0 && level.error_world > target.error_world) {
     note(error_note(i, level.error_world, target.error_world));
   }
-  return level;
 }
 
 std::string error_note(std::size_t level, double error_world, double asked_world) {

@@ -49,8 +49,8 @@ class Build {
   Build(const Build&) = delete;
   Build& operator=(const Build&) = delete;
 
-  /// cell_vox, results: as in VoxelizeOptions.
-  [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr);
+  /// cell_vox, results: as in VoxelizeOptions. halvings: as in voxel_size().
+  [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr, int halvings = 0);
   /// For LodChain; after voxelize(), as all that follow.
   [[nodiscard]] LodOptions lod_options();
   /// For surfaces: budget.work, and what spills.
@@ -58,9 +58,8 @@ class Build {
   /// What a fit is drawn to; nothing if it does not fit in memory.
   [[nodiscard]] std::vector<TriangleD> scene_triangles() const;
 
-  /// One level of the chain, with its provenance and the notes on what it missed. `since`: as in target_of().
-  [[nodiscard]] LodLevel make_level(LodChain& chain, std::size_t level, std::size_t since, double scene_voxel,
-                                    const Bounds3d& bounds, const std::string& input_hash);
+  /// Colours and provenance of a level of a chain, and the notes on what it missed.
+  void finish_level(LodLevel& level, std::size_t number, const LodTarget& target, const std::string& input_hash);
   void note(const std::string& text);
   /// Null if the scene has no colours, or if none are wanted.
   [[nodiscard]] SceneColors* colors() const { return colors_.get(); }

@@ -1,8 +1,10 @@
 #include "tools/lod/build_options.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lib/core/error.h"
+#include "lib/grid/boundary_runs.h"
 #include "lib/grid/cells.h"
 #include "lib/stage/voxelize_stage.h"
 #include "tools/common/face_list.h"
@@ -13,7 +15,6 @@ namespace bp {
 
 namespace {
 
-constexpr std::int64_t kDefaultResolution = 256;
 constexpr double kVoxelsPerError = 8;  // of the finest level
 
 /// The first scene's file name without folder and extension.
@@ -24,6 +25,12 @@ std::string base_name(const std::string& path) {
 
 const char* name_of(Enclose enclose) {
   return enclose == Enclose::input ? "input" : "closing";
+}
+
+/// Of the surface of a box.
+double area_of(const Bounds3d& b) {
+  const double x = b.max[0] - b.min[0], y = b.max[1] - b.min[1], z = b.max[2] - b.min[2];
+  return 2 * (x * y + y * z + z * x);
 }
 
 /// The value, or null.
@@ -149,7 +156,7 @@ BuildOptions parse_build_options(Args& args) {
   args.option("--voxel", "LENGTH", o.voxel,
               "edge of a voxel of the finest level: scene units, or 0.5% of the diagonal");
   args.option("--resolution", "N", o.resolution,
-              "voxels along the longest side (default: 256, or 8 voxels to the error)");
+              "voxels along the longest side (default: by --faces, 256 to 1024; or 8 voxels to the error)");
   args.option("--tile", "N", o.tile_vox,
               "3dtiles: voxels along the side of a tile; a level that is larger is cut into tiles of its own");
   args.option("--cache", "DIR", o.cache,
@@ -213,11 +220,20 @@ Json options_json(const BuildOptions& o) {
           {"memory", o.common.memory_bytes}};
 }
 
-double voxel_size(const BuildOptions& o, const Bounds3d& bounds) {
+double voxel_size(const BuildOptions& o, const Bounds3d& bounds, int halvings) {
   if (o.voxel) return o.voxel->in_world(bounds.diagonal(), 0);
   const double error = finest_error(o.request, bounds.diagonal());
   if (error > 0 && !o.resolution) return error / kVoxelsPerError;
-  return voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
+  const double coarse = voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
+  if (o.resolution || o.request.faces.empty() || o.profile == LodProfile::tiles) return coarse;
+  const double dense_faces = double(kDensePerFace) * double(o.request.faces.front());
+  const double fine = std::min(coarse, std::sqrt(2 * kSlantedSteps * area_of(bounds) / dense_faces));
+  return std::min(coarse, std::max(std::ldexp(fine, -halvings), voxel_size_of(bounds, kMostResolution)));
+}
+
+bool may_refine(const BuildOptions& o) {
+  const bool readable = std::count(o.scenes.begin(), o.scenes.end(), "-") == 0;
+  return !o.voxel && !o.resolution && !o.request.faces.empty() && o.profile != LodProfile::tiles && readable;
 }
 
 OptionText option_text(const BuildOptions& o, const LodTarget& target, std::size_t i, double scale_world,

@@ -55,8 +55,15 @@ struct BuildOptions {
 /// All of them but folders and files, for the report: as they were given, null where nothing was.
 [[nodiscard]] Json options_json(const BuildOptions& options);
 
-/// Edge of a voxel for a scene with these bounds, scene units.
-[[nodiscard]] double voxel_size(const BuildOptions& options, const Bounds3d& bounds);
+/// Edge of a voxel for a scene with these bounds, scene units: as asked; an eighth of the finest error; or so small
+/// that a surface as large as that of the bounds has kDensePerFace triangles for each face of the finest level, halved
+/// so often, within kDefaultResolution and kMostResolution.
+[[nodiscard]] double voxel_size(const BuildOptions& options, const Bounds3d& bounds, int halvings = 0);
+
+constexpr std::int64_t kDefaultResolution = 256, kMostResolution = 1024;  ///< voxels along the longest side
+/// Whether smaller voxels may be tried where the finest level does not come to its faces: nobody said which, the
+/// scene can be read again, and no cells depend on them.
+[[nodiscard]] bool may_refine(const BuildOptions& options);
 
 /// Of a level, for its provenance.
 [[nodiscard]] OptionText option_text(const BuildOptions& options, const LodTarget& target, std::size_t level,

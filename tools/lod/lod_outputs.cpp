@@ -81,6 +81,13 @@ OutputFile& OutputFolder::file(const std::string& name) {
   return *files_[std::size_t(found - names_.begin())];
 }
 
+void OutputFolder::leave_out(const std::string& name) {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) return;
+  files_.erase(files_.begin() + (found - names_.begin()));
+  names_.erase(found);
+}
+
 void OutputFolder::commit() {
   for (const auto& file : files_) file->commit();
   made_.keep();

@@ -18,6 +18,7 @@ class OutputFolder {
   /// Throws bad_argument if a file exists and `overwrite` is false.
   OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite);
   [[nodiscard]] OutputFile& file(const std::string& name);
+  void leave_out(const std::string& name);  ///< a file that nothing was written to
   void commit();
   [[nodiscard]] std::uint64_t bytes() const;
   [[nodiscard]] std::uint64_t bytes(const std::string& name) const;

@@ -6,6 +6,7 @@
 
 #include "io/lod_writer.h"
 #include "lib/grid/clip.h"
+#include "tools/lod/level_chain.h"
 #include "tools/lod/lod_outputs.h"
 
 namespace bp {
@@ -119,10 +120,8 @@ WholeLevels make(Build& build, WholeInput input, LodOptions lod) {
   const Bounds3d bounds = input.header.bounds;
   lod.surface = std::move(input.surface);
   LodChain chain(input.header, std::move(input.solid), build.backends, std::move(lod));
-  std::vector<LodLevel> levels;
-  for (std::size_t i = 0; i < input.count; ++i)
-    levels.push_back(
-        build.make_level(chain, input.first + i, input.first, input.scene_voxel, bounds, input.input_hash));
+  const std::vector<LodLevel> levels =
+      make_levels(build, chain, {input.first, input.count, input.scene_voxel, bounds, input.input_hash});
   whole.origin = common_origin(levels);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const LatticeMesh& mesh = levels[i].mesh;

@@ -22,7 +22,7 @@ struct WholeLevels {
 struct WholeInput {
   StreamHeader header;
   std::unique_ptr<BrickShelf> solid, surface;  ///< surface: as in LodOptions
-  std::size_t first = 0, count = 0;            ///< levels; those below are cut
+  std::size_t first = 0, count = 0;            ///< levels, at most; those below are cut
   double scene_voxel = 0;
   std::string input_hash;  ///< of the scene, for the provenance; empty: it is not to depend on all of the scene
 };

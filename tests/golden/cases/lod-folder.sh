@@ -1,5 +1,5 @@
 # The folder of the levels: nothing in it is lost unasked.
-write_cube cube.obj 3
+write_octahedron cube.obj 3  # each level has fewer faces
 options=(cube.obj --name m --resolution 24 --levels 3 -q)
 tileset=("${options[@]}" --profile 3dtiles)
 

@@ -1,7 +1,7 @@
 # The nightly sample: only what changed is made again, a broken scene does not stop the others, what is gone goes.
 mkdir scenes
-write_cube scenes/a.obj 3
-write_cube "scenes/b c.obj" 2
+write_octahedron scenes/a.obj 3
+write_octahedron "scenes/b c.obj" 2
 echo "v 1 2" > scenes/broken.obj
 echo "no scene" > scenes/notes.txt
 table() { sed 's/made in [0-9]* s/made/' | cut -f 1-3; }
@@ -11,7 +11,7 @@ options=(--faces 60,20 --resolution 24 --profile 3dtiles)
 "$BP_ROOT/samples/nightly" scenes out -j 1 --memory=1G "${options[@]}" --temp . --device cpu --progress json | table  # no byte differs
 "$BP_ROOT/samples/nightly" scenes out "${options[@]}" --element ball | table
 "$BP_ROOT/samples/nightly" scenes out "${options[@]}" -q | table
-write_cube scenes/a.obj 4
+write_octahedron scenes/a.obj 4
 rm "scenes/b c.obj" scenes/broken.obj
 sed -i '1i mtllib paints.mtl' scenes/a.obj  # what a scene names counts, whatever it is called
 for red in 0.1 0.9 0.9; do
