@@ -95,20 +95,6 @@ double edge_of(const LodGround& ground, std::uint64_t faces) {
   return std::sqrt(4 / std::sqrt(3.0) * area / double(faces));
 }
 
-/// Of the voxels in `box`.
-LatticeMesh box_mesh(const VoxelBox& box, const GridFrame& frame) {
-  LatticeMesh mesh;
-  mesh.frame = frame;
-  for (int i = 0; i < 8; ++i) {
-    const VoxelCoord p{(i & 1 ? box.max : box.min).x, (i & 2 ? box.max : box.min).y, (i & 4 ? box.max : box.min).z};
-    mesh.vertices.push_back({std::int64_t(p.x) * kLatticePerVoxel, std::int64_t(p.y) * kLatticePerVoxel,
-                             std::int64_t(p.z) * kLatticePerVoxel});
-  }
-  mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
-  return mesh;
-}
-
 }  // namespace
 
 double first_scale(const LodGround& ground, const LodTarget& target, double last) {
@@ -134,12 +120,7 @@ int reductions_for(const LodGround& ground, const LodTarget& target, double scal
 
 struct LodChain::State {
   State(const StreamHeader& h, std::unique_ptr<BrickShelf> s, Backends& b, LodOptions o)
-      : options(std::move(o)),
-        backends(b),
-        header(h),
-        frame(h.frame),
-        solid(std::move(s)),
-        diagonal(h.bounds.diagonal()) {
+      : options(std::move(o)), backends(b), header(h), solid(std::move(s)), diagonal(h.bounds.diagonal()) {
     if (solid->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
     take_off(options.scene.size() * sizeof(TriangleD));
     outside =
@@ -163,7 +144,6 @@ struct LodChain::State {
       last_scale = scale;
       report("measuring", "levels", 0, 1);
       outside->measure(level, options.mode);
-      if (options.mode == MeshMode::bounding) no_worse_than_box(level, target);
       return level;
     }
   }
@@ -176,7 +156,6 @@ struct LodChain::State {
   LodOptions options;
   Backends& backends;
   StreamHeader header;  // of `solid`
-  GridFrame frame;      // of the solid that it began with
   std::unique_ptr<BrickShelf> solid;
   double diagonal;
   std::unique_ptr<Outside> outside;
@@ -184,20 +163,6 @@ struct LodChain::State {
   double last_scale = 0;
 
  private:
-  /// Few faces around a flat scene have corners far out: where its box, which encloses it as well, is nearer, it is the
-  /// level.
-  void no_worse_than_box(LodLevel& level, const LodTarget& target) const {
-    LodLevel box = level;
-    box.mesh = box_mesh(outside->box, frame);
-    const std::uint64_t faces = box.mesh.triangles.size();
-    if (faces >= level.mesh.triangles.size() || (target.faces > 0 && target.faces < faces)) return;
-    outside->measure(box, options.mode);
-    if (box.error_world >= level.error_world) return;
-    box.counts.levels.front().measures = bp::measure(box.mesh);
-    box.counts.levels.front().stopped_by = "box";
-    level = std::move(box);
-  }
-
   void take_off(std::uint64_t bytes) {
     options.memory_bytes -= std::min(options.memory_bytes, bytes);
     options.pieces = options.pieces.without(bytes);

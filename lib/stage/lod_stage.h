@@ -86,8 +86,7 @@ class LodChain {
 
   /// The next level; targets come finest first. A face budget that cannot be met, because parts stay apart or keep
   /// holes, is tried again at twice the scale, on coarser voxels where the budget allows, until it is met or the scale
-  /// is half the scene; LodLevel says at what. A bounding level of more than 12 faces that is farther off than the box
-  /// of the voxels is that box, if its budget allows 12. Throws as close_stream() and mesh_stream().
+  /// is half the scene; LodLevel says at what. Throws as close_stream() and mesh_stream().
   [[nodiscard]] LodLevel make(const LodTarget& target);
 
  private:

@@ -12,7 +12,6 @@ namespace bp {
 
 namespace {
 
-constexpr int kCoarsest = -2;         // halvings from kMostResolution to kDefaultResolution
 constexpr double kWorthwhile = 1.25;  // times the faces, for a quarter of the voxels' area: else there are no more
 
 /// Whether the level has clearly fewer faces than its budget: its voxels, or its scale, show no more.
@@ -49,33 +48,17 @@ struct Attempt {
     finest = chain->make(target);
   }
   [[nodiscard]] std::uint64_t faces() const { return finest.mesh.triangles.size(); }
-  /// That often. Where they had to be doubled, they may not.
-  [[nodiscard]] bool may_be_halved(int times) const {
-    return times == halvings + 1 && !finest_voxel && falls_short(finest, target);
-  }
+  [[nodiscard]] bool may_be_halved() const { return !finest_voxel && falls_short(finest, target); }
 };
 
-/// Null if the memory does not suffice.
-std::unique_ptr<Attempt> attempt_within_memory(Build& build, int halvings) {
-  try {
-    return std::make_unique<Attempt>(build, halvings);
-  } catch (const Error& e) {
-    if (e.code() != ErrorCode::out_of_resource) throw;
-    return nullptr;
-  }
-}
-
-/// The last attempt that was worthwhile, or the one after it.
+/// The last attempt that was worthwhile, or the one after it. What does not fit in memory fails: a smaller memory must
+/// not make something else.
 std::unique_ptr<Attempt> best_attempt(Build& build) {
-  if (!may_refine(build.options)) return std::make_unique<Attempt>(build, 0);
-  std::unique_ptr<Attempt> attempt;
-  for (int halvings = 0; halvings > kCoarsest && !attempt; --halvings) attempt = attempt_within_memory(build, halvings);
-  if (!attempt) return std::make_unique<Attempt>(build, kCoarsest);
-  for (int halvings = 1; attempt->may_be_halved(halvings); ++halvings) {
+  auto attempt = std::make_unique<Attempt>(build, 0);
+  for (int halvings = 1; may_refine(build.options) && attempt->may_be_halved(); ++halvings) {
     const auto enough = std::uint64_t(kWorthwhile * double(attempt->faces()));
     attempt.reset();  // its memory is wanted
-    attempt = attempt_within_memory(build, halvings);
-    if (!attempt) return std::make_unique<Attempt>(build, halvings - 1);
+    attempt = std::make_unique<Attempt>(build, halvings);
     if (attempt->faces() < enough) break;
   }
   return attempt;

@@ -25,8 +25,8 @@ struct MadeChain {
 };
 
 /// All levels, in one mesh each. If the finest has clearly fewer faces than were asked for, and may_refine(), voxels
-/// and scale are halved, as long as that gives a quarter more faces, and kMostResolution and the memory allow it.
-/// Voxels that nobody asked for and that the memory does not allow are doubled.
+/// and scale are halved, as long as that gives a quarter more faces, and kMostResolution allows it. Throws
+/// out_of_resource where the memory does not: it must not decide what is made.
 [[nodiscard]] MadeChain make_chain(Build& build);
 
 }  // namespace bp

@@ -250,26 +250,6 @@ TEST_CASE("levels keep to their memory, and are the same", "[quick][stage][lod]"
   }
 }
 
-TEST_CASE("no level of a flat scene is farther from it than its box", "[quick][stage][lod]") {
-  Triangles scene;
-  add_box(scene, {0, 0, 0}, {300, 200, 1});
-  std::mt19937 random(3);
-  for (int i = 0; i < 60; ++i) {
-    const double x = double(random() % 290), y = double(random() % 190);
-    add_box(scene, {x, y, 0}, {x + 8, y + 9, 3.0 + double(random() % 8)});
-  }
-  Backends backends = plain_backends(2);
-  Voxelized solid = voxelized(scene, 1);
-  LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
-  for (const std::uint64_t faces : {200, 40, 14, 12}) {
-    const LodLevel level = chain.make({faces, 0, {}});
-    CAPTURE(faces, level.mesh.triangles.size());
-    CHECK(level.mesh.triangles.size() <= faces);
-    CHECK(level.error_world <= 11 + 4);  // its height and what voxels and bounds add
-    CHECK(encloses(level.mesh, scene));
-  }
-}
-
 TEST_CASE("an empty solid is refused", "[quick][stage][lod]") {
   Backends backends = plain_backends(2);
   StreamHeader header;
