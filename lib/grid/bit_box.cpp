@@ -1,7 +1,8 @@
 #include "lib/grid/bit_box.h"
 
-#include <bit>
 #include <cstring>
+
+#include "lib/grid/count_bits.h"
 
 namespace bp {
 
@@ -16,9 +17,7 @@ void BitBox::reset(const VoxelBox& box) {
 }
 
 std::uint64_t BitBox::count() const {
-  std::uint64_t n = 0;
-  for (const std::uint64_t w : words_) n += std::uint64_t(std::popcount(w));
-  return n;
+  return count_bits(std::as_bytes(std::span(words_)));
 }
 
 void copy_voxels(const BitBox& from, BitBox& to) {

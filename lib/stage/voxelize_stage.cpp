@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <memory>
 #include <unordered_map>
@@ -12,6 +11,7 @@
 #include "lib/core/parallel.h"
 #include "lib/grid/cells.h"
 #include "lib/grid/clip.h"
+#include "lib/grid/count_bits.h"
 #include "lib/stage/chunked_surface.h"
 #include "lib/stage/scene_passes.h"
 #include "lib/stage/tile_fill.h"
@@ -335,7 +335,7 @@ void Run::emit(const Slab& slab, BrickSink& sink) {
     brick.coord = c;
     brick.fill = shelf_->get(c, brick.bits);
     shelf_->drop(c);
-    for (const std::uint64_t w : brick.bits) counts_.solid_voxels += std::uint64_t(std::popcount(w));
+    counts_.solid_voxels += count_bits(std::as_bytes(std::span(brick.bits)));
     ++counts_.bricks;
     if (brick.fill == BrickFill::full) ++counts_.full_bricks;
     sink.write(brick);
