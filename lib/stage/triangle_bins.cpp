@@ -119,6 +119,11 @@ void TriangleBins::add(TriangleBatch&& batch) {
   }
 }
 
+std::uint64_t TriangleBins::table_bytes() const {
+  constexpr std::uint64_t kNodeBytes = sizeof(Bin) + 48;  // key, links, bucket, and what malloc adds
+  return bins_.size() * kNodeBytes + chunks_ * sizeof(ChunkStore::Handle);
+}
+
 std::vector<std::uint64_t> TriangleBins::tiles() const {
   std::vector<std::uint64_t> all;
   all.reserve(bins_.size());
@@ -177,8 +182,11 @@ void TriangleBins::release(std::uint64_t tile) {
 }
 
 void TriangleBins::recount() {
-  memory_bytes_ = 0;
-  for (const auto& [tile, bin] : bins_) memory_bytes_ += bin.bytes();
+  memory_bytes_ = chunks_ = 0;
+  for (const auto& [tile, bin] : bins_) {
+    memory_bytes_ += bin.bytes();
+    chunks_ += bin.narrow_chunks.size() + bin.wide_chunks.size();
+  }
 }
 
 }  // namespace bp

@@ -76,16 +76,18 @@ class TriangleBins {
   void add(TriangleBatch&& batch);
 
   [[nodiscard]] std::uint64_t memory_bytes() const { return memory_bytes_; }  ///< of the triangles held
-  [[nodiscard]] std::uint64_t records() const { return records_; }            ///< added so far
-  [[nodiscard]] std::vector<std::uint64_t> tiles() const;                     ///< ever added to; sorted
-  [[nodiscard]] std::uint64_t memory_bytes(std::uint64_t tile) const;         ///< held for one tile
+  /// Of what is kept of each tile ever added to, and of each chunk in the store, with the map around it.
+  [[nodiscard]] std::uint64_t table_bytes() const;
+  [[nodiscard]] std::uint64_t records() const { return records_; }     ///< added so far
+  [[nodiscard]] std::vector<std::uint64_t> tiles() const;              ///< ever added to; sorted
+  [[nodiscard]] std::uint64_t memory_bytes(std::uint64_t tile) const;  ///< held for one tile
   /// Calls body with the tile's triangles, some ten thousand at a time. Thread-safe for distinct tiles.
   void for_each(std::uint64_t tile, const std::function<void(std::span<const FixedTriangle>)>& body) const;
   /// Puts into the store what the tiles hold in memory, in parallel.
   void spill(std::span<const std::uint64_t> tiles);
   /// Forgets the triangles of a tile, wherever they are. Thread-safe for distinct tiles, but not beside add().
   void release(std::uint64_t tile);
-  /// After release() of many tiles: counts the memory anew.
+  /// After release() of many tiles: counts memory and chunks anew.
   void recount();
 
  private:
@@ -99,6 +101,7 @@ class TriangleBins {
   ChunkStore& store_;
   std::unordered_map<std::uint64_t, Bin> bins_;
   std::uint64_t memory_bytes_ = 0, records_ = 0;
+  std::uint64_t chunks_ = 0;  // in the store, when memory was counted last
 };
 
 }  // namespace bp

@@ -204,7 +204,7 @@ void Run::bin(const NextPortion& next) {
 
 /// What fills memory_bytes. Were more than half of it put aside, the bins would have nothing to grow in.
 std::uint64_t Run::waiting_bytes() const {
-  const std::uint64_t aside = store_->memory_bytes() + shelf_->memory_bytes();
+  const std::uint64_t aside = store_->memory_bytes() + shelf_->memory_bytes() + bins_->table_bytes();
   return bins_->memory_bytes() + std::min(aside, options_.memory_bytes / 2);
 }
 
