@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
-#include <mutex>
 
 #include "io/detail/degenerate.h"
 #include "io/detail/position_index.h"
@@ -128,117 +127,14 @@ IndexedMesh mesh_of(RawSource& raw, SceneCounts& met) {
   return mesh;
 }
 
-/// What was met so far, by whatever thread.
-class Tally {
- public:
-  void add(const SceneCounts& counts) {
-    const std::lock_guard lock(mutex_);
-    counts_.add(counts);
-  }
-  [[nodiscard]] const SceneCounts& counts() const { return counts_; }  ///< while no other thread adds
-
- private:
-  std::mutex mutex_;
-  SceneCounts counts_;
-};
-
-/// No coordinate is zero, tiny, huge or NaN: nothing to normalize, nothing to find fault with.
-bool is_plain(const TriangleD& t) {
-  bool plain = true;
-  for (const Vec3d& p : t) {
-    for (const double c : p) plain &= std::abs(c) >= 1e-90 && std::abs(c) <= 1e90;
-  }
-  return plain;
-}
-
-/// Drops what has no place, and what has no area unless that is to be kept; counts both.
-SceneCounts keep_good(RawBatch& batch, bool keep_degenerate) {
-  std::vector<TriangleD>& triangles = batch.triangles;
-  if (batch.colored) batch.colors.resize(triangles.size());
-  SceneCounts counts;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    TriangleD& t = triangles[i];
-    const bool plain = is_plain(t);
-    if (!plain) normalize(t);
-    if (!plain && !is_finite(t)) {
-      ++counts.non_finite;
-      continue;
-    }
-    const bool degenerate = is_degenerate(t);
-    if (degenerate) ++counts.degenerate;
-    if (degenerate && !keep_degenerate) continue;
-    if (batch.colored) batch.colors[kept] = batch.colors[i];
-    triangles[kept++] = t;
-  }
-  triangles.resize(kept);
-  if (batch.colored) batch.colors.resize(kept);
-  counts.triangles = kept;
-  return counts;
-}
-
-/// The triangles of a raw batch, and what was met among its faces.
-SceneCounts make_good(const RawSource& raw, RawBatch& batch, bool keep_degenerate) {
-  raw.complete(batch);
-  SceneCounts counts = keep_good(batch, keep_degenerate);
-  counts.bad_faces = batch.bad_faces;
-  return counts;
-}
-
-/// Memory of batches that were made, for the next ones: fresh pages cost as much as what is read into them.
-class SpareBytes {
- public:
-  std::vector<std::byte> take() {
-    const std::lock_guard lock(mutex_);
-    if (spares_.empty()) return {};
-    std::vector<std::byte> spare = std::move(spares_.back());
-    spares_.pop_back();
-    return spare;
-  }
-  void give(std::vector<std::byte>&& spare) {
-    const std::lock_guard lock(mutex_);
-    if (!spare.empty()) spares_.push_back(std::move(spare));
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<std::vector<std::byte>> spares_;  // no more than there were batches at once
-};
-
-/// Keeps its file open until it is made.
-class FetchedBatch final : public FetchedTriangles {
- public:
-  FetchedBatch(std::shared_ptr<const RawSource> raw, std::shared_ptr<Tally> tally, std::shared_ptr<SpareBytes> spares,
-               RawBatch&& batch, bool keep_degenerate)
-      : raw_(std::move(raw)),
-        tally_(std::move(tally)),
-        spares_(std::move(spares)),
-        batch_(std::move(batch)),
-        keep_degenerate_(keep_degenerate) {}
-  void make(std::vector<TriangleD>& out) override {
-    if (batch_.triangles.empty()) batch_.triangles.swap(out);  // their memory
-    tally_->add(make_good(*raw_, batch_, keep_degenerate_));
-    spares_->give(std::move(batch_.bytes));
-    out.swap(batch_.triangles);
-  }
-
- private:
-  std::shared_ptr<const RawSource> raw_;
-  std::shared_ptr<Tally> tally_;
-  std::shared_ptr<SpareBytes> spares_;
-  RawBatch batch_;
-  bool keep_degenerate_;
-};
-
 /// Drops what has no area or no place, and counts it. Batches are decoded and sifted in parallel, some ahead of the
 /// caller.
 class FilteredScene final : public TriangleSource {
  public:
-  FilteredScene(std::string name, RawSourcePtr raw, const SceneOptions& options, std::shared_ptr<Tally> tally)
+  FilteredScene(std::string name, RawSourcePtr raw, const SceneOptions& options)
       : name_(std::move(name)),
         raw_(std::move(raw)),
         keep_degenerate_(options.keep_degenerate),
-        tally_(std::move(tally)),
         batches_(batches_in(options.memory_bytes)) {}
 
   bool read(std::vector<TriangleD>& out) override {
@@ -252,29 +148,21 @@ class FilteredScene final : public TriangleSource {
     colors.swap(batch_->colors);
     return more;
   }
-  std::unique_ptr<FetchedTriangles> next() override {
-    RawBatch batch;
-    batch.bytes = spares_->take();
-    const bool more = raw_->next(batch);
-    count_raw();
-    return more ? std::make_unique<FetchedBatch>(raw_, tally_, spares_, std::move(batch), keep_degenerate_) : nullptr;
-  }
   [[nodiscard]] bool has_colors() const override { return raw_->has_colors(); }
-  void rewind() override { rewind(std::make_shared<Tally>()); }
-  void rewind(std::shared_ptr<Tally> tally) {
+  void rewind() override {
     raw_->rewind();
-    tally_ = std::move(tally);
-    raw_counted_ = {};
+    counts_ = {};
     next_ = ready_ = 0;
+    bad_faces_ = 0;
   }
-  [[nodiscard]] const SceneCounts& counts() const override { return tally_->counts(); }
+  [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] std::optional<UpAxis> up() const override { return raw_->up(); }
 
  private:
   struct Batch {
     RawBatch raw;
-    SceneCounts counts;
+    SceneCounts counts;  // of its triangles
   };
 
   static std::size_t batches_in(std::uint64_t memory_bytes) {
@@ -291,9 +179,10 @@ class FilteredScene final : public TriangleSource {
     while (batch_->triangles.empty() && (next_ < ready_ || fetch(colored))) {
       Batch& batch = batches_[next_++];
       batch_ = &batch.raw;
-      tally_->add(batch.counts);
+      counts_.add(batch.counts);
     }
-    count_raw();
+    counts_.bad_faces = raw_->bad_faces() + bad_faces_;
+    counts_.instances = raw_->instances();
     return !batch_->triangles.empty();
   }
 
@@ -308,38 +197,57 @@ class FilteredScene final : public TriangleSource {
     }
     parallel_for(std::int64_t(ready_), [&](std::int64_t i) {
       Batch& batch = batches_[std::size_t(i)];
-      batch.counts = make_good(*raw_, batch.raw, keep_degenerate_);
+      raw_->complete(batch.raw);
+      batch.counts = keep_good(batch.raw);
     });
+    for (std::size_t i = 0; i < ready_; ++i) bad_faces_ += batches_[i].raw.bad_faces;
     return ready_ > 0;
   }
 
-  /// What raw_ has met since the last time.
-  void count_raw() {
-    SceneCounts now;
-    now.bad_faces = raw_->bad_faces(), now.instances = raw_->instances();
-    SceneCounts more;
-    more.bad_faces = now.bad_faces - raw_counted_.bad_faces, more.instances = now.instances - raw_counted_.instances;
-    tally_->add(more);
-    raw_counted_ = now;
+  /// No coordinate is zero, tiny, huge or NaN: nothing to normalize, nothing to find fault with.
+  static bool is_plain(const TriangleD& t) {
+    bool plain = true;
+    for (const Vec3d& p : t) {
+      for (const double c : p) plain &= std::abs(c) >= 1e-90 && std::abs(c) <= 1e90;
+    }
+    return plain;
+  }
+
+  [[nodiscard]] SceneCounts keep_good(RawBatch& batch) const {
+    std::vector<TriangleD>& triangles = batch.triangles;
+    if (batch.colored) batch.colors.resize(triangles.size());
+    SceneCounts counts;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      TriangleD& t = triangles[i];
+      const bool plain = is_plain(t);
+      if (!plain) normalize(t);
+      if (!plain && !is_finite(t)) {
+        ++counts.non_finite;
+        continue;
+      }
+      const bool degenerate = is_degenerate(t);
+      if (degenerate) ++counts.degenerate;
+      if (degenerate && !keep_degenerate_) continue;
+      if (batch.colored) batch.colors[kept] = batch.colors[i];
+      triangles[kept++] = t;
+    }
+    triangles.resize(kept);
+    if (batch.colored) batch.colors.resize(kept);
+    counts.triangles = kept;
+    return counts;
   }
 
   std::string name_;
-  std::shared_ptr<RawSource> raw_;
+  RawSourcePtr raw_;
   bool keep_degenerate_;
-  std::shared_ptr<Tally> tally_;
-  std::shared_ptr<SpareBytes> spares_ = std::make_shared<SpareBytes>();
-  SceneCounts raw_counted_;
+  SceneCounts counts_;
   std::vector<Batch> batches_;
   RawBatch end_;  // without triangles
   RawBatch* batch_ = &end_;
   std::size_t next_ = 0, ready_ = 0;  // of batches_
+  std::uint64_t bad_faces_ = 0;       // met by complete()
 };
-
-std::unique_ptr<FilteredScene> open_filtered(const std::string& path, const SceneOptions& options,
-                                             std::shared_ptr<Tally> tally) {
-  return std::make_unique<FilteredScene>(path == "-" ? "stdin" : path, open_raw(path, options), options,
-                                         std::move(tally));
-}
 
 /// Files in a row. Only one is open at a time, so that vertices and file handles of the others take nothing; stdin,
 /// which cannot be opened again, stays open once it is.
@@ -359,19 +267,14 @@ class SceneRow final : public TriangleSource {
     colors.clear();
     return read_next([&](TriangleSource& scene) { return scene.read_colored(out, colors); });
   }
-  std::unique_ptr<FetchedTriangles> next() override {
-    std::unique_ptr<FetchedTriangles> fetched;
-    read_next([&](TriangleSource& scene) { return (fetched = scene.next()) != nullptr; });
-    return fetched;
-  }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
   void rewind() override {
     scene_.reset();
     entered_ = false;
     next_ = 0;
-    tally_ = std::make_shared<Tally>();
+    counts_ = finished_ = {};
   }
-  [[nodiscard]] const SceneCounts& counts() const override { return tally_->counts(); }
+  [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
   [[nodiscard]] std::string name() const override {
     return paths_.size() == 1 ? paths_[0] : fmt::format("{} scenes", paths_.size());
   }
@@ -385,22 +288,25 @@ class SceneRow final : public TriangleSource {
       const bool more = read(scene);
       if (!up_) up_ = scene.up();
       has_colors_ = has_colors_ || scene.has_colors();
+      counts_ = finished_;
+      counts_.add(scene.counts());
       if (more) return true;
     }
     return false;
   }
   TriangleSource& enter() {
     const bool piped = paths_[next_] == "-";
-    std::unique_ptr<FilteredScene>& slot = piped ? stdin_ : scene_;
+    std::unique_ptr<TriangleSource>& slot = piped ? stdin_ : scene_;
     if (!slot) {
-      slot = open_filtered(paths_[next_], options_, tally_);
+      slot = open_scene(paths_[next_], options_);
     } else if (!entered_) {
-      slot->rewind(tally_);
+      slot->rewind();
     }
     entered_ = true;
     return *slot;
   }
   void leave() {
+    finished_ = counts_;
     scene_.reset();
     entered_ = false;
     ++next_;
@@ -410,15 +316,15 @@ class SceneRow final : public TriangleSource {
   SceneOptions options_;
   std::size_t next_ = 0;
   bool entered_ = false, has_colors_ = false;
-  std::unique_ptr<FilteredScene> scene_, stdin_;
-  std::shared_ptr<Tally> tally_ = std::make_shared<Tally>();
+  std::unique_ptr<TriangleSource> scene_, stdin_;
+  SceneCounts finished_, counts_;
   std::optional<UpAxis> up_;
 };
 
 }  // namespace
 
 std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneOptions& options) {
-  return open_filtered(path, options, std::make_shared<Tally>());
+  return std::make_unique<FilteredScene>(path == "-" ? "stdin" : path, open_raw(path, options), options);
 }
 
 std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, const SceneOptions& options) {

@@ -4,18 +4,6 @@
 
 namespace bp {
 
-namespace {
-
-ResultKey key_of(const XXH128_hash_t& h) {
-  return {{h.high64, h.low64}};
-}
-
-}  // namespace
-
-ResultKey content_hash(std::span<const std::byte> bytes) {
-  return key_of(XXH3_128bits(bytes.data(), bytes.size()));
-}
-
 struct ContentHash::State {
   XXH3_state_t* hash = XXH3_createState();
   State() { XXH3_128bits_reset(hash); }
@@ -32,7 +20,8 @@ void ContentHash::add(std::span<const std::byte> bytes) {
 }
 
 ResultKey ContentHash::value() const {
-  return key_of(XXH3_128bits_digest(state_->hash));
+  const XXH128_hash_t h = XXH3_128bits_digest(state_->hash);
+  return {{h.high64, h.low64}};
 }
 
 void ContentHash::reset() {

@@ -23,7 +23,4 @@ class ContentHash {
   std::unique_ptr<State> state_;
 };
 
-/// XXH3-128 of bytes that are all there.
-[[nodiscard]] ResultKey content_hash(std::span<const std::byte> bytes);
-
 }  // namespace bp

@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,14 +26,6 @@ struct SceneCounts {
   }
 };
 
-/// Triangles that were fetched and are yet to be made: TriangleSource::next().
-class FetchedTriangles {
- public:
-  virtual ~FetchedTriangles() = default;
-  /// Replaces `out` by them, which may be none. Once, on any thread. Throws as read().
-  virtual void make(std::vector<TriangleD>& out) = 0;
-};
-
 class TriangleSource {
  public:
   virtual ~TriangleSource() = default;
@@ -43,12 +34,8 @@ class TriangleSource {
   /// Polygons arrive as triangle fans. Throws bad_input with file, place and remedy if the scene is broken.
   virtual bool read(std::vector<TriangleD>& out) = 0;
 
-  /// read() in two steps, so that many threads make triangles: what comes next, in order, on one thread at a time; null
-  /// at the end. counts() has it when it is made.
-  virtual std::unique_ptr<FetchedTriangles> next();
-
   /// As read(), with the colours of each triangle's corners: white where the scene says nothing. From one rewind() to
-  /// the next, one of the three is called.
+  /// the next, one of the two is called.
   virtual bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) {
     const bool more = read(out);
     colors.assign(out.size(), TriangleColors{});

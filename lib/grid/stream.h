@@ -24,7 +24,7 @@ enum class FillMode : std::uint8_t { flood = 0, winding = 1, none = 2, inside = 
 struct Provenance {
   std::string tool, version;
   std::string options;     ///< canonical text: those that change the result, defaults included, fixed order
-  std::string input_hash;  ///< 128-bit hash of what it read, hex; empty if unknown
+  std::string input_hash;  ///< XXH3-128 of what it read, hex; empty if unknown
   friend bool operator==(const Provenance&, const Provenance&) = default;
 };
 

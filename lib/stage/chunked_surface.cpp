@@ -54,12 +54,15 @@ class ChunkedSurface::Reader {
   std::uint64_t at_ = 0;
 };
 
-void ChunkedSurface::add(const ChunkCutter::Chunk& chunk) {
-  std::string none;
-  chunks_.push_back(chunk);
-  met_.push_back(results_.get(met_key(chunk), none));
-  if (met_.back() == 0) unmet_.emplace_back(ended_, ended_ + chunk.triangles);
-  ended_ += chunk.triangles;
+void ChunkedSurface::measure(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places) {
+  cutter_.add(triangles, places);
+  for (std::size_t i = met_.size(); i < cutter_.chunks().size(); ++i) {
+    const ChunkCutter::Chunk& chunk = cutter_.chunks()[i];
+    std::string none;
+    met_.push_back(results_.get(met_key(chunk), none));
+    if (met_.back() == 0) unmet_.emplace_back(ended_, ended_ + chunk.triangles);
+    ended_ += chunk.triangles;
+  }
 }
 
 bool ChunkedSurface::met(std::uint64_t begin, std::uint64_t end) const {
@@ -79,8 +82,10 @@ void ChunkedSurface::look_up(const GridFrame& frame, const BrickBox& grid, std::
                              BrickShelf& shelf) {
   frame_ = frame;
   grid_ = grid;
+  chunks_ = cutter_.finish();
   found_.assign(chunks_.size(), 0);
   bricks_ = std::make_unique<BrickSum>(grid, memory_bytes, shelf);
+  met_.resize(chunks_.size());  // the last one ends here
   parallel_for(std::int64_t(chunks_.size()), [&](std::int64_t n) {
     const auto i = std::size_t(n);
     std::string bytes;

@@ -1,7 +1,6 @@
 #pragma once
 #include <functional>
 
-#include "lib/core/triangle_source.h"
 #include "lib/stage/surface_chunks.h"
 
 /// The surface voxels of a scene from the chunks of earlier builds, and from the triangles of what is new.
@@ -18,8 +17,8 @@ class ChunkedSurface {
 
   explicit ChunkedSurface(ResultStore& results) : results_(results) {}
 
-  /// First pass: the next chunk has ended.
-  void add(const ChunkCutter::Chunk& chunk);
+  /// First pass: the triangles in their order, with ChunkCutter::places().
+  void measure(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places);
   [[nodiscard]] bool ended(std::uint64_t triangles) const { return triangles <= ended_; }  ///< all in whole chunks
   /// True if all of these triangles, counted from the first, are in chunks that some build has voxelized: they need not
   /// be kept, though it may turn out that the voxels were others.
@@ -45,8 +44,9 @@ class ChunkedSurface {
   void make(Item& item);
 
   ResultStore& results_;
+  ChunkCutter cutter_;
   std::vector<ChunkCutter::Chunk> chunks_;
-  std::vector<char> met_, found_;                               // by chunk: some build has voxelized it; so, here
+  std::vector<char> met_, found_;                               // by chunk
   std::uint64_t ended_ = 0;                                     // triangles in chunks that have ended
   std::vector<std::pair<std::uint64_t, std::uint64_t>> unmet_;  // triangles in chunks that were never voxelized
   std::uint64_t kept_ = 0;

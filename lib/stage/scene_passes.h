@@ -18,13 +18,13 @@ class ScenePasses {
 
   /// Keeps references. `memory_bytes`: for triangles that stay. `chunks`: null, or told all triangles of the first
   /// pass; those that it has met do not stay.
-  ScenePasses(TriangleSource& source, std::uint64_t memory_bytes, ChunkedSurface* chunks);
-  ~ScenePasses();
+  ScenePasses(TriangleSource& source, std::uint64_t memory_bytes, ChunkedSurface* chunks)
+      : source_(source), memory_bytes_(memory_bytes), chunks_(chunks) {}
 
   /// First pass. Throws bad_input if there is no triangle.
   void measure(const StageProgress& progress);
   [[nodiscard]] const Bounds3d& bounds() const { return bounds_; }
-  [[nodiscard]] std::string input_hash() const;  ///< of VoxelizeCounts
+  [[nodiscard]] const std::string& input_hash() const { return input_hash_; }  ///< of VoxelizeCounts
   [[nodiscard]] bool reads_twice() const { return reads_twice_; }
 
   /// Those that did not stay are needed after all.
@@ -39,19 +39,14 @@ class ScenePasses {
   struct Item;
   void keep(Item&& item);
   void drop_met();
-  void add_chunks();
-  class Spares;
 
   TriangleSource& source_;
   const std::uint64_t memory_bytes_;
   ChunkedSurface* const chunks_;
   Bounds3d bounds_;
-  ChunkCutter cutter_;
-  std::size_t chunks_added_ = 0;  // to chunks_
-  ResultKey input_hash_;
+  std::string input_hash_;
   bool reads_twice_ = false;
   std::vector<Portion> kept_;
-  std::unique_ptr<Spares> spares_;                  // while measuring
   std::size_t dropped_ = 0;                         // first of kept_ that drop_met() has not settled
   std::uint64_t dropped_end_ = 0, kept_bytes_ = 0;  // triangles before it; of those that stay
 };

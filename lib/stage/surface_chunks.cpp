@@ -83,44 +83,42 @@ void append_brick(BrickCoord c, const std::uint64_t* bits, std::string& out) {
 
 // --- Cutting ---------------------------------------------------------------------------------------------------------
 
-void ChunkCutter::Digest::set(std::span<const TriangleD> triangles) {
-  hashes.resize(triangles.size());
-  places.clear();
+std::vector<std::uint32_t> ChunkCutter::places(std::span<const TriangleD> triangles) {
+  std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    hashes[i] = content_hash(std::as_bytes(triangles.subspan(i, 1)));
-    if (is_place(triangles[i])) places.push_back(std::uint32_t(i));
+    if (is_place(triangles[i])) found.push_back(std::uint32_t(i));
   }
+  return found;
 }
 
-void ChunkCutter::add(const Digest& next) {
-  const std::span<const ResultKey> hashes(next.hashes);
+void ChunkCutter::add(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places) {
   std::size_t begin = 0;
   const auto take_to = [&](std::size_t end) {
     while (open_ + (end - begin) >= kMost) {
       const auto n = std::size_t(kMost - open_);
-      take(hashes.subspan(begin, n));
+      take(triangles.subspan(begin, n));
       begin += n;
       cut();
     }
-    take(hashes.subspan(begin, end - begin));
+    take(triangles.subspan(begin, end - begin));
     begin = end;
   };
-  for (const std::uint32_t place : next.places) {
+  for (const std::uint32_t place : places) {
     take_to(place + 1);
     if (open_ >= kLeast) cut();
   }
-  take_to(hashes.size());
+  take_to(triangles.size());
 }
 
-void ChunkCutter::take(std::span<const ResultKey> hashes) {
-  hash_.add(std::as_bytes(hashes));
-  open_ += hashes.size();
+void ChunkCutter::take(std::span<const TriangleD> triangles) {
+  hash_.add(std::as_bytes(triangles));
+  open_ += triangles.size();
 }
 
 ResultKey ChunkCutter::content_of(std::span<const TriangleD> triangles) {
-  Digest digest;
-  digest.set(triangles);
-  return content_hash(std::as_bytes(std::span(digest.hashes)));
+  ContentHash hash;
+  hash.add(std::as_bytes(triangles));
+  return hash.value();
 }
 
 void ChunkCutter::cut() {
@@ -129,17 +127,9 @@ void ChunkCutter::cut() {
   open_ = 0;
 }
 
-void ChunkCutter::finish() {
+std::vector<ChunkCutter::Chunk> ChunkCutter::finish() {
   if (open_ > 0) cut();
-}
-
-ResultKey ChunkCutter::content() const {
-  ContentHash hash;
-  for (const Chunk& chunk : chunks_) {
-    hash.add(std::as_bytes(std::span(&chunk.triangles, 1)));
-    hash.add(std::as_bytes(std::span(chunk.content.words)));
-  }
-  return hash.value();
+  return std::move(chunks_);
 }
 
 ResultKey chunk_key(const ChunkCutter::Chunk& chunk, const GridFrame& frame) {

@@ -10,6 +10,7 @@
 
 #include "lib/core/coord_hash.h"
 #include "lib/core/result_key.h"
+#include "lib/core/triangle_source.h"
 #include "lib/grid/stream.h"
 
 /// The voxels that triangles touch, chunk by chunk: what a build keeps of a scene, so that the next one voxelizes only
@@ -17,7 +18,7 @@
 namespace bp {
 
 /// Cuts a sequence of triangles where its content says so: to put in, take away or move triangles changes the chunks
-/// that they are in, perhaps the next one, and no others. Cost: 10 ns a triangle in digest(), 2 ns in add().
+/// that they are in, perhaps the next one, and no others. Cost: 2 ns a triangle, and its hash.
 class ChunkCutter {
  public:
   static constexpr std::uint64_t kLeast = 1 << 12, kMost = 1 << 16;  ///< triangles; the last chunk may be smaller
@@ -27,24 +28,19 @@ class ChunkCutter {
     std::uint64_t triangles = 0;
     ResultKey content;  ///< content_of() them
   };
-  /// XXH3-128 of the hashes of Digest, in order.
+  /// XXH3-128 of the coordinates, in order.
   [[nodiscard]] static ResultKey content_of(std::span<const TriangleD> triangles);
 
-  /// What there is to know of some triangles in a row: most of the work, and done on any thread.
-  struct Digest {
-    std::vector<ResultKey> hashes;      ///< XXH3-128 of the coordinates of each
-    std::vector<std::uint32_t> places;  ///< of those behind which a chunk may end, by number
-    void set(std::span<const TriangleD> triangles);
-  };
+  /// Triangles behind which a chunk may end, by number in the span. Thread-safe.
+  [[nodiscard]] static std::vector<std::uint32_t> places(std::span<const TriangleD> triangles);
 
-  void add(const Digest& next);                                               ///< of the next triangles
-  void finish();                                                              ///< what is left is the last chunk
+  /// The next triangles, with their places().
+  void add(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places);
   [[nodiscard]] const std::vector<Chunk>& chunks() const { return chunks_; }  ///< that have ended
-  /// XXH3-128 of all chunks, after finish(): does not depend on how the triangles arrived.
-  [[nodiscard]] ResultKey content() const;
+  [[nodiscard]] std::vector<Chunk> finish();
 
  private:
-  void take(std::span<const ResultKey> hashes);
+  void take(std::span<const TriangleD> triangles);
   void cut();
   ContentHash hash_;
   std::uint64_t open_ = 0;  // triangles of the chunk that has not ended

@@ -39,7 +39,7 @@ struct VoxelizeOptions {
 
 struct VoxelizeCounts {
   SceneCounts scene;
-  std::string input_hash;           ///< of the triangles' coordinates in their order (ChunkCutter::content()), hex
+  std::string input_hash;           ///< XXH3-128 of the triangles' coordinates in their order, hex
   double voxel_asked = 0;           ///< scene units; the frame's may be larger
   std::uint64_t tiles = 0;          ///< of the grid
   std::uint64_t tiles_touched = 0;  ///< that hold triangles

@@ -59,20 +59,6 @@ inline std::vector<TriangleD> read_all(TriangleSource& source) {
   while (source.read(batch)) all.insert(all.end(), batch.begin(), batch.end());
   return all;
 }
-/// The same by next(), all fetched before the last of them is made, and then the others backwards.
-inline std::vector<TriangleD> fetch_all(TriangleSource& source) {
-  std::vector<std::unique_ptr<FetchedTriangles>> fetched;
-  while (auto next = source.next()) fetched.push_back(std::move(next));
-  std::vector<std::vector<TriangleD>> made(fetched.size());
-  for (std::size_t i = fetched.size(); i-- > 0;) {
-    made[i].resize(3);  // what is there goes
-    fetched[i]->make(made[i]);
-    fetched[i].reset();
-  }
-  std::vector<TriangleD> all;
-  for (const auto& batch : made) all.insert(all.end(), batch.begin(), batch.end());
-  return all;
-}
 inline std::vector<TriangleD> read_all(const std::string& path, const SceneOptions& options = {}) {
   return read_all(*open_scene(path, options));
 }
