@@ -31,6 +31,15 @@ struct Shelves {
   std::unique_ptr<BrickShelf> input;   // the solid; null if nobody asks for it
 };
 
+[[noreturn]] void fail_empty(const StreamHeader& header) {
+  if (header.fill != FillMode::inside)
+    fail(ErrorCode::bad_input, "the stream holds no occupied voxel; there is nothing to mesh");
+  fail(ErrorCode::bad_input,
+       "nothing is left of the inside of the scene: it is open there, or thinner than {}; try smaller voxels{}, and "
+       "bpinfo on the stream of bpvox shows what is inside",
+       header.has_closing ? "two scales" : "the voxels", header.has_closing ? ", a smaller --scale" : "");
+}
+
 Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool want_input, MeshCounts& counts) {
   const Layer layer = source.header().has_closing ? Layer::closing : Layer::solid;
   Shelves shelves{make_shelf(), want_input ? make_shelf() : nullptr};
@@ -40,7 +49,7 @@ Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool wa
     for (const std::uint64_t w : brick.bits) counts.voxels += std::uint64_t(std::popcount(w));
     shelves.meshed->put(brick.coord, brick.fill, brick.bits);
   }
-  if (counts.voxels == 0) fail(ErrorCode::bad_input, "the stream holds no occupied voxel; there is nothing to mesh");
+  if (counts.voxels == 0) fail_empty(source.header());
   if (shelves.input && shelves.input->coords().empty())
     fail(ErrorCode::bad_input, "the stream's solid layer holds no voxel; --enclose input has nothing to keep inside");
   return shelves;
