@@ -97,8 +97,9 @@ bool ProxyEditor::is_free(bool free) {
 }
 
 bool ProxyEditor::fan_is_fine(const LatticeCoord& apex) {
-  if (sticks_out(apex, star_) || !room_.holds_inside(apex)) {
-    ++counts_.refused_shape;
+  const bool within = room_.holds_inside(apex);
+  if (!within || sticks_out(apex, star_)) {
+    ++(within ? counts_.refused_shape : counts_.refused_growth);
     return false;
   }
   if (!shape_is_fine() || !keeps_enclosed()) return false;

@@ -11,7 +11,7 @@ namespace bp {
 
 struct EditCounts {
   std::uint64_t tries = 0, refused_shape = 0, refused_enclosed = 0, refused_guard = 0, refused_limits = 0,
-                refused_length = 0;
+                refused_length = 0, refused_growth = 0;
 };
 
 class ProxyEditor {

@@ -5,8 +5,10 @@
 namespace bp {
 
 LatticeBox room_around(const LatticeBox& surface, std::uint64_t faces) {
+  constexpr std::uint64_t kFew = 12;
   constexpr double kBeyond = 0.02, kBeyondOfFaces = 5;  // in extents
-  const double share = kBeyond + (faces > 0 ? kBeyondOfFaces / double(faces) : 0);
+  if (faces < kFew) return kEverywhere;
+  const double share = kBeyond + kBeyondOfFaces / double(faces);
   LatticeBox room;
   for (int i = 0; i < 3; ++i) {
     const std::int64_t beyond = kLatticePerVoxel + std::llround(share * double(surface.max[i] - surface.min[i]));

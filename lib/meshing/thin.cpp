@@ -114,6 +114,7 @@ class Thinner final : public ThinOrder {
     const EditCounts& after = editor_.counts();
     counts_.collapses += taken;
     counts_.refused_shape += after.refused_shape - before.refused_shape;
+    counts_.refused_growth += after.refused_growth - before.refused_growth;
     counts_.refused_enclosed += after.refused_enclosed - before.refused_enclosed;
     counts_.refused_guard += after.refused_guard - before.refused_guard;
     counts_.refused_length += after.refused_length - before.refused_length;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "lib/core/error.h"
 #include "lib/grid/boundary_runs.h"
@@ -232,7 +233,10 @@ double voxel_size(const BuildOptions& o, const Bounds3d& bounds, int halvings) {
 }
 
 bool may_refine(const BuildOptions& o) {
-  const bool readable = std::count(o.scenes.begin(), o.scenes.end(), "-") == 0;
+  const bool readable = std::all_of(o.scenes.begin(), o.scenes.end(), [](const std::string& scene) {
+    std::error_code none;  // what is no file, a pipe say, can be read once
+    return scene != "-" && std::filesystem::is_regular_file(scene, none);
+  });
   return !o.voxel && !o.resolution && !o.request.faces.empty() && o.profile != LodProfile::tiles && readable;
 }
 

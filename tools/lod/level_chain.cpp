@@ -75,9 +75,10 @@ std::vector<LodLevel> make_levels(Build& build, LodChain& chain, const ChainRang
     const std::size_t number = range.first + levels.size();
     LodTarget target = target_of(request, range.first + i, range.first, range.bounds.diagonal(), range.scene_voxel,
                                  chain.dense_faces());
+    target.detail = range.detail;
     const bool follows = target.error_world == 0 && range.first + i >= request.faces.size() && i > 0;
     if (follows && short_of_faces) target = following(target, request, levels.front(), i);
-    if (follows && target.faces >= levels.back().mesh.triangles.size()) break;  // nor do those that follow have fewer
+    if (follows && target.faces >= levels.back().mesh.triangles.size()) continue;
     LodLevel level;
     if (i == 0 && finest) {
       level = std::move(*finest);
@@ -107,7 +108,7 @@ MadeChain make_chain(Build& build) {
   const std::unique_ptr<Attempt> attempt = best_attempt(build);
   made.levels = make_levels(build, *attempt->chain,
                             {0, level_count(build.options.request), attempt->scene.header.frame.voxel,
-                             attempt->scene.header.bounds, attempt->scene.counts.input_hash},
+                             attempt->scene.header.bounds, attempt->scene.counts.input_hash, attempt->target.detail},
                             std::move(attempt->finest));
   made.scene = std::move(attempt->scene);
   return made;

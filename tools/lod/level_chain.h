@@ -10,6 +10,7 @@ struct ChainRange {
   double scene_voxel = 0;            ///< edge of the finest voxels, scene units
   Bounds3d bounds;                   ///< of the scene
   std::string input_hash;            ///< for the provenance
+  double detail = 1;                 ///< LodTarget::detail of all of them
 };
 
 /// At most as many levels as were asked for, finest first. One that comes out with no fewer faces than the one before,
@@ -25,8 +26,8 @@ struct MadeChain {
 };
 
 /// All levels, in one mesh each. If the finest has clearly fewer faces than were asked for, and may_refine(), voxels
-/// and scale are halved, as long as that gives a quarter more faces, and kMostResolution allows it. Throws
-/// out_of_resource where the memory does not: it must not decide what is made.
+/// and scale are halved, as long as that gives a quarter more faces, and kMostResolution allows it; what was tried last
+/// is taken. Throws out_of_resource where the memory does not: it must not decide what is made.
 [[nodiscard]] MadeChain make_chain(Build& build);
 
 }  // namespace bp

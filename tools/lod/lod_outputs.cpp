@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "io/lod_writer.h"
 #include "io/mesh_writer.h"
@@ -55,11 +56,12 @@ std::vector<WrittenFile> write_collision_profile(const std::string& name, const 
   write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"));
   std::vector<LatticeMesh> hulls = components_of(mesh);
   std::vector<NamedMesh> unreal;
+  const auto volume6 = double(volume6_of(mesh));
   WrittenFile hull_file{name + "_unreal.glb", 0, 0, false, hulls.size()};
   for (LatticeMesh& part : hulls) {
     part = convex_hull(part);
     hull_file.faces += part.triangles.size();
-    hull_file.hull_volume += double(volume6_of(part)) / double(volume6_of(mesh));
+    hull_file.hull_volume += double(volume6_of(part)) / volume6;
     unreal.push_back({fmt::format("UCX_{}_{:02}", name, unreal.size()), &part});
   }
   write_parts_glb(unreal, out.file(hull_file.name));
@@ -86,10 +88,13 @@ void OutputFolder::leave_out(const std::string& name) {
   if (found == names_.end()) return;
   files_.erase(files_.begin() + (found - names_.begin()));
   names_.erase(found);
+  left_out_.push_back(name);
 }
 
 void OutputFolder::commit() {
   for (const auto& file : files_) file->commit();
+  std::error_code none;  // most often there is none
+  for (const std::string& name : left_out_) std::filesystem::remove(path_ + "/" + name, none);
   made_.keep();
 }
 

@@ -18,7 +18,8 @@ class OutputFolder {
   /// Throws bad_argument if a file exists and `overwrite` is false.
   OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite);
   [[nodiscard]] OutputFile& file(const std::string& name);
-  void leave_out(const std::string& name);  ///< a file that nothing was written to
+  /// A file that nothing was written to. What commit() finds under its name, of an earlier set, goes.
+  void leave_out(const std::string& name);
   void commit();
   [[nodiscard]] std::uint64_t bytes() const;
   [[nodiscard]] std::uint64_t bytes(const std::string& name) const;
@@ -26,7 +27,7 @@ class OutputFolder {
  private:
   std::string path_;
   MadeFolders made_;
-  std::vector<std::string> names_;
+  std::vector<std::string> names_, left_out_;
   std::vector<std::unique_ptr<OutputFile>> files_;
 };
 

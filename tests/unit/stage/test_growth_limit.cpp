@@ -83,11 +83,11 @@ TEST_CASE("collapses add no more to a proxy, and take no more from one inside, t
 
 TEST_CASE("the room around a surface suits its extents, and few faces", "[quick][stage]") {
   const LatticeBox box{{0, -640, 6400}, {6400, 640, 12800}};
-  const LatticeBox many = room_around(box, 0), few = room_around(box, 4);
-  CHECK(many.min == LatticeCoord{-64 - 128, -640 - 64 - 26, 6400 - 64 - 128});
-  CHECK(many.max == LatticeCoord{6400 + 64 + 128, 640 + 64 + 26, 12800 + 64 + 128});
-  CHECK(few.max.x - box.max.x > 6400);  // a tetrahedron around a ball
-  CHECK(few.max.x - box.max.x < 2 * 6400);
+  const LatticeBox many = room_around(box, 1000), few = room_around(box, 20);
+  CHECK(many.min == LatticeCoord{-64 - 160, -640 - 64 - 32, 6400 - 64 - 160});
+  CHECK(many.max == LatticeCoord{6400 + 64 + 160, 640 + 64 + 32, 12800 + 64 + 160});
+  CHECK(few.max.x - box.max.x > 6400 / 8);  // an icosahedron around a ball
+  CHECK(few.max.x - box.max.x < 6400 / 3);
 }
 
 TEST_CASE("proxies draw no spikes where thin parts end, however few faces are asked for", "[quick][stage]") {
@@ -103,4 +103,16 @@ TEST_CASE("proxies draw no spikes where thin parts end, however few faces are as
   constexpr double kExtent = 36, kShare = 0.02 + 5.0 / 60;
   CHECK(double(around.min.z) / kLatticePerVoxel > 4 - 1 - kShare * kExtent);
   CHECK(double(around.max.z) / kLatticePerVoxel < 40 + 1 + kShare * kExtent);
+}
+
+TEST_CASE("a ball has proxies of as few faces as are asked for", "[quick][stage]") {
+  const auto ball = [](VoxelCoord p) {
+    const std::int32_t x = p.x - 32, y = p.y - 32, z = p.z - 32;
+    return x * x + y * y + z * z < 400;
+  };
+  MeshParams params;
+  params.faces = {GENERATE(4u, 6u, 8u, 12u, 20u)};
+  VoxelSource source({{0, 0, 0}, {64, 64, 64}}, ball);
+  MeshCounts counts;
+  CHECK(mesh_stream(source, memory_shelves(), params, counts).front().triangles.size() == params.faces[0]);
 }
