@@ -1,13 +1,13 @@
 #include "io/mesh_writer.h"
 
 #include <bit>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
 
+#include "io/detail/lower.h"
 #include "io/detail/mesh_writers.h"
 #include "lib/core/error.h"
 #include "lib/meshing/quads.h"
@@ -105,8 +105,8 @@ std::array<float, 3> normal_of(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return {float(n[0] / length), float(n[1] / length), float(n[2] / length)};
 }
 
-std::optional<MeshFormat> format_of(std::string extension) {
-  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+std::optional<MeshFormat> format_of(std::string_view name) {
+  const std::string extension = lower(name);
   if (extension == "glb") return MeshFormat::glb;
   if (extension == "gltf") return MeshFormat::gltf;
   if (extension == "ply") return MeshFormat::ply;

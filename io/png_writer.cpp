@@ -4,9 +4,9 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 
+#include "io/detail/lower.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -74,8 +74,7 @@ std::vector<std::byte> encode_png(const Image& image) {
 }
 
 void check_png_name(const std::string& path) {
-  std::string end = path.substr(path.size() - std::min<std::size_t>(path.size(), 4));
-  for (char& c : end) c = char(std::tolower(static_cast<unsigned char>(c)));
+  const std::string end = lower(path.substr(path.size() - std::min<std::size_t>(path.size(), 4)));
   if (!path.empty() && end != ".png")
     fail(ErrorCode::bad_argument, "{}: pictures are PNG; end the name with .png", path);
 }

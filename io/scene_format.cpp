@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
+#include "io/detail/lower.h"
 #include "io/detail/raw_source.h"
 #include "lib/core/error.h"
 
 namespace bp {
 
 namespace {
-
-std::string lower(std::string s) {
-  for (char& c : s) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return s;
-}
 
 bool is_read(const std::string& extension) {
   constexpr std::array<const char*, 8> kOwn{"ply", "stl", "stla", "stlb", "obj", "off", "gltf", "glb"};

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 
 #include "io/detail/degenerate.h"
+#include "io/detail/lower.h"
 #include "io/detail/position_index.h"
 #include "io/detail/raw_source.h"
 #include "io/detail/stream_format.h"
@@ -20,11 +20,6 @@ namespace bp {
 namespace {
 
 enum class Reader { ply, stl, obj, off, gltf, other, unknown };
-
-std::string lower(std::string s) {
-  for (char& c : s) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return s;
-}
 
 Reader reader_of(const std::string& extension) {
   if (extension == "ply") return Reader::ply;

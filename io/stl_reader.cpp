@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 
 #include "io/detail/byte_stream.h"
+#include "io/detail/lower.h"
 #include "io/detail/raw_source.h"
 #include "io/detail/text_scanner.h"
 
@@ -68,12 +68,6 @@ class AsciiStl final : public RawSource {
   std::uint64_t corners_ = 0;  // of the open loop
   Vec3d first_{}, previous_{};
 };
-
-std::string lower(std::string_view word) {
-  std::string s(word);
-  for (char& c : s) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return s;
-}
 
 bool AsciiStl::read(std::vector<TriangleD>& out) {
   out.clear();

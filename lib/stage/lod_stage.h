@@ -62,7 +62,7 @@ struct LodLevel {
   bool reached = true;     ///< it has at most the faces asked for
   /// What a viewer can see, scene units: upper bound of the distance of a point of the level to the outside of the
   /// scene (what its solid shows to the outside), and of a point of that which is outside the level to the level. None
-  /// is outside a bounding one. At most three voxels of the solid and 4 % above the largest.
+  /// is outside a bounding one. As a rule at most three voxels of the solid and 4 % above the largest.
   double error_world = 0;
   /// The same of all points, wherever they are: of the symmetric Hausdorff distance. Deep where a level closes a
   /// cavity.

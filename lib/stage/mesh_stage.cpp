@@ -1,11 +1,11 @@
 #include "lib/stage/mesh_stage.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "lib/core/error.h"
 #include "lib/grid/boundary_runs.h"
+#include "lib/grid/count_bits.h"
 #include "lib/meshing/enclosed_triangles.h"
 #include "lib/meshing/enclosed_voxels.h"
 #include "lib/meshing/flatten.h"
@@ -46,7 +46,7 @@ Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool wa
   for (Brick brick; source.read(brick);) {
     if (shelves.input && brick.layer == Layer::solid) shelves.input->put(brick.coord, brick.fill, brick.bits);
     if (brick.layer != layer) continue;
-    for (const std::uint64_t w : brick.bits) counts.voxels += std::uint64_t(std::popcount(w));
+    counts.voxels += count_bits(std::as_bytes(std::span(brick.bits)));
     shelves.meshed->put(brick.coord, brick.fill, brick.bits);
   }
   if (counts.voxels == 0) fail_empty(source.header());

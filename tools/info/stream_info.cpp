@@ -2,8 +2,7 @@
 
 #include <fmt/ranges.h>
 
-#include <bit>
-
+#include "lib/grid/count_bits.h"
 #include "tools/common/length.h"
 #include "tools/common/names.h"
 
@@ -116,8 +115,7 @@ std::string dump_header(const StreamHeader& h) {
 }
 
 std::string dump_brick(const Brick& brick) {
-  std::uint64_t voxels = 0;
-  for (const std::uint64_t w : brick.bits) voxels += std::uint64_t(std::popcount(w));
+  const std::uint64_t voxels = count_bits(std::as_bytes(std::span(brick.bits)));
   return fmt::format("{} {} {} {}\n", coord(brick.coord), kLayerNames[int(brick.layer)],
                      brick.fill == BrickFill::full ? "full" : "mixed", voxels);
 }

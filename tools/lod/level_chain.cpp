@@ -55,7 +55,8 @@ struct Attempt {
 /// not make something else.
 std::unique_ptr<Attempt> best_attempt(Build& build) {
   auto attempt = std::make_unique<Attempt>(build, 0);
-  for (int halvings = 1; may_refine(build.options) && attempt->may_be_halved(); ++halvings) {
+  const bool readable_again = may_refine(build.options);
+  for (int halvings = 1; readable_again && attempt->may_be_halved(); ++halvings) {
     const auto enough = std::uint64_t(kWorthwhile * double(attempt->faces()));
     attempt.reset();  // its memory is wanted
     attempt = std::make_unique<Attempt>(build, halvings);

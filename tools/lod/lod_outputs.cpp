@@ -41,10 +41,9 @@ std::string hull_note(const WrittenFile& file) {
   if (file.hull_volume < kAsGood) return "";
   return fmt::format(
       "{}: {} hull{}, one for each part, with {:.3g} times the level's volume: Unreal takes every UCX_ mesh for "
-      "convex, so "
-      "that hollows and bends of a part are closed; keep parts apart (smaller voxels and --scale), give them one by "
-      "one, "
-      "or use another of the files as complex collision",
+      "convex, so that hollows and bends of a part are closed; keep parts apart (smaller voxels and --scale), give "
+      "them "
+      "one by one, or use another of the files as complex collision",
       file.name, file.hulls, file.hulls == 1 ? "" : "s", file.hull_volume);
 }
 
