@@ -1,6 +1,7 @@
 #include "lib/meshing/simplify.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <variant>
 
@@ -65,8 +66,10 @@ StopReason SimplifyCounts::reason_left() const {
 
 namespace {
 
-std::uint64_t end_of_bulk(const SimplifyParams& params) {
-  return params.strict_from > 0 ? std::max(params.strict_from, params.faces) : kBulkFactor * params.faces;
+/// Without a wanted number of faces, sweeps take what is the allowed distance off over a square of that edge.
+BulkEnd end_of_bulk(const SimplifyParams& params) {
+  if (params.faces == 0) return {0, params.limits != nullptr ? std::pow(params.limits->error_lattice(), 4) : 0};
+  return {params.strict_from > 0 ? std::max(params.strict_from, params.faces) : kBulkFactor * params.faces, kLastBound};
 }
 
 LatticeMesh finished(HalfEdgeMesh& mesh, const GridFrame& frame, bool inwards, const ShellSense* sense,
@@ -117,7 +120,8 @@ std::variant<LatticeMesh, Piece> simplify_mesh(Piece whole, const GridFrame& fra
   if (params.dense && whole.quadrics.empty()) merge_flat_regions(mesh, params.edge_limit);
   if (counts.faces_flat == 0) counts.faces_flat = mesh.face_count();
   Collapser collapser(mesh, std::move(whole.quadrics), params, counts);
-  if (params.faces > 0 && params.dense) collapse_bulk(collapser, {kFirstBound, kLastBound}, end_of_bulk(params));
+  const BulkEnd end = end_of_bulk(params);
+  if (params.dense && end.cost > 0) collapse_bulk(collapser, {kFirstBound, end.cost}, end.faces);
   if (params.faces > 0 && has_regions(mesh.face_count(), params)) {
     if (collapser.sense() != nullptr) erase_turned_shells(mesh, *collapser.sense());
     return piece_of(collapser);
@@ -148,8 +152,8 @@ LatticeMesh simplify(const SurfaceSource& dense, const SimplifyParams& params, S
     counts.faces_in = whole.triangles.size();
     return simplify_whole(std::move(whole), dense.frame(), params, counts);
   }
-  const bool bulk = params.limits == nullptr;  // limits are of the whole, step by step
-  Piece whole = simplified_surface(dense, params, bulk ? end_of_bulk(params) : 0, counts);
+  const bool bulk = params.limits == nullptr || params.limits->has_parts();
+  Piece whole = simplified_surface(dense, params, bulk ? end_of_bulk(params) : BulkEnd{}, counts);
   if (whole.triangles.empty()) {
     LatticeMesh none;
     none.frame = dense.frame();

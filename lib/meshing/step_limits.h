@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,14 @@ class StepLimits {
   [[nodiscard]] virtual bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) = 0;
   /// While relaxed, volume is only counted; and distance does not matter if the first surface was beyond its limit.
   virtual void relax(bool on) = 0;
+  /// Whether each step can be judged by itself: then parts of the surface can be changed at the same time.
+  [[nodiscard]] virtual bool has_parts() const { return false; }
+  /// The same bounds for steps on a part of the surface, on another thread, and what they saw there.
+  [[nodiscard]] virtual std::unique_ptr<StepLimits> for_part() const { return nullptr; }
+  virtual void add_part(const StepLimits& part) { static_cast<void>(part); }  ///< one of for_part()
+  [[nodiscard]] virtual std::uint64_t bytes_of_part() const { return 0; }
+  /// The largest distance that they allow, lattice units; 0 if they do not mind distances.
+  [[nodiscard]] virtual double error_lattice() const { return 0; }
   /// Name of the bound that refused the last step that was refused; empty if none was.
   [[nodiscard]] virtual const char* last_refusal() const { return ""; }
 };

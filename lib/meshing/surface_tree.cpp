@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
+#include <mutex>
 #include <tuple>
 
 #include "lib/core/error.h"
@@ -73,8 +75,13 @@ class SurfaceTree {
       Node& node = nodes_[i];
       Piece piece = welded(node);
       HalfEdgeMesh mesh(std::move(piece.vertices), piece.triangles, piece.cell);
-      Collapser collapser(mesh, std::move(piece.quadrics), params_, node.counts);
+      SimplifyParams own = params_;
+      const std::unique_ptr<StepLimits> limits = params_.limits != nullptr ? params_.limits->for_part() : nullptr;
+      own.limits = limits.get();
+      Collapser collapser(mesh, std::move(piece.quadrics), own, node.counts);
       collapse_bulk(collapser, range, 0);
+      if (collapser.sense() != nullptr) erase_turned_shells(mesh, *collapser.sense());
+      if (limits != nullptr) add_part(*limits);
       piece.vertices = {};
       piece.quadrics = {};
       piece.triangles = mesh.live_faces([&](VertexId v, VertexId) {
@@ -137,8 +144,14 @@ class SurfaceTree {
     std::uint64_t largest = 1;
     for (const Node& node : nodes_) largest = std::max(largest, node.face_count());
     const std::uint64_t bytes = params_.memory.work_bytes;
+    const std::uint64_t limits = params_.limits != nullptr ? params_.limits->bytes_of_part() : 0;
     check_work(largest, params_.memory, true);
-    return std::size_t(std::min<std::uint64_t>(bytes / (largest * kWorkPerFace), thread_count()));
+    return std::size_t(std::clamp<std::uint64_t>(bytes / (largest * kWorkPerFace + limits), 1, thread_count()));
+  }
+
+  void add_part(const StepLimits& part) {
+    const std::lock_guard lock(mutex_);
+    params_.limits->add_part(part);
   }
 
   [[nodiscard]] LatticeBox cell_box(BrickCoord coord) const {
@@ -166,6 +179,7 @@ class SurfaceTree {
   BrickCoord origin_{INT32_MAX, INT32_MAX, INT32_MAX};  // lowest brick in each coordinate: all weld into one cell
   std::int64_t edge_ = kBrickLattice;                   // of a cell
   std::vector<Node> nodes_;                             // by cell: z, y, x
+  std::mutex mutex_;                                    // for params_.limits
 };
 
 }  // namespace
@@ -187,17 +201,15 @@ bool needs_round(std::uint64_t faces, std::uint64_t enough) {
 
 }  // namespace
 
-Piece simplified_surface(const SurfaceSource& surface, const SimplifyParams& params, std::uint64_t enough,
+Piece simplified_surface(const SurfaceSource& surface, const SimplifyParams& params, const BulkEnd& end,
                          SimplifyCounts& counts) {
   SurfaceTree tree(surface, params);
   counts.faces_in = tree.begin();
   counts.faces_flat = tree.faces();
-  if (enough > 0) {
-    for (double last = 4 * kFirstBound; needs_round(tree.faces(), enough); last *= kBoundPerLevel) {
-      tree.collapse({kFirstBound, last});
-      if (tree.whole()) break;
-      tree.join_cells();
-    }
+  for (double last = 4 * kFirstBound; end.cost > 0 && needs_round(tree.faces(), end.faces); last *= kBoundPerLevel) {
+    tree.collapse({kFirstBound, std::min(last, end.cost)});
+    if (tree.whole() || last >= end.cost) break;
+    tree.join_cells();
   }
   Piece root = tree.weld_all(counts);
   root.cell = kEverywhere;

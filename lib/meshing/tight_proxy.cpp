@@ -108,9 +108,13 @@ void tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyP
       tighten_on_the_way(proxy, enclosed, params, few);
     }
   } else {  // a surface of voxels may lie beyond the limits, and single steps within them would not lead there
+    TightenParams early = tightening_of(params);  // relaxed, they let vertices move together
+    early.sweeps = 1;
+    early.final_sweeps = 2;
+    early.least_gain = 5e-4;
     TightenCounts counts;
     params.limits->relax(true);
-    proxy = tighten(proxy, enclosed, tightening_of(params), counts);
+    proxy = tighten(proxy, enclosed, early, counts);
     params.limits->relax(false);
   }
   const double factor = by_volume(params) ? kLateFactor : 1;

@@ -120,7 +120,7 @@ std::vector<TriangleD> merged_triangles(const SurfaceSource& surface, const Piec
   SimplifyParams params;
   params.memory = memory;
   SimplifyCounts counts;
-  Piece whole = simplified_surface(surface, params, 0, counts);
+  Piece whole = simplified_surface(surface, params, {}, counts);
   HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
   merge_flat_regions(mesh);
   return world_triangles(mesh.compact(surface.frame()));
@@ -243,8 +243,7 @@ std::uint64_t bytes_of(const std::vector<LatticeMesh>& meshes) {
 }
 
 /// What is left beside what the limits of a level take.
-PieceMemory beside_limits(const PieceMemory& memory, const ProxyBounds& bounds) {
-  const std::uint64_t bytes = ProxyLimits::bytes_needed(bounds);
+PieceMemory beside_limits(const PieceMemory& memory, std::uint64_t bytes) {
   if (bytes <= memory.bytes()) return memory.without(bytes);
   fail(ErrorCode::out_of_resource,
        "keeping a level within a distance takes {} MiB, and --memory leaves {} MiB for it; raise --memory{}",
@@ -366,7 +365,7 @@ class LevelMaker {
     LevelCounts& counts = counts_.levels.emplace_back();
     counts.error_world = bounds_.error_world;
     SimplifyParams params = simplify_params(header_, frame, params_, faces);
-    params.memory = beside_limits(params.memory, bounds_);
+    params.memory = beside_limits(params.memory, ProxyLimits::bytes_needed(bounds_, frame, ground_.tree.get()));
     ProxyLimits limits(bounds_, frame, ground_.tree.get());
     if (bounds_.error_world > 0 || bounds_.volume_world != 0) params.limits = &limits;
     LatticeMesh proxy = make(params, counts);

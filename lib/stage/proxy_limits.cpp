@@ -1,8 +1,10 @@
 #include "lib/stage/proxy_limits.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
+#include "lib/geometry/triangle_parts.h"
 #include "lib/meshing/quads.h"
 
 namespace bp {
@@ -10,7 +12,10 @@ namespace bp {
 namespace {
 
 constexpr double kPlace = 0.5;  // of the error, at least of a voxel
-constexpr std::size_t kPlaces = std::size_t(1) << 17;
+
+double place_edge(const ProxyBounds& bounds, const GridFrame& frame) {
+  return kPlace * std::max(bounds.error_world, frame.voxel);
+}
 
 /// Lattice units cubed in a cubed scene unit, times six.
 double volume6_per_world(const GridFrame& frame) {
@@ -63,15 +68,43 @@ double volume_world(const LatticeMesh& mesh) {
   return double(volume6_of(mesh)) / volume6_per_world(mesh.frame);
 }
 
-ProxyLimits::ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed)
-    : bounds_(bounds), frame_(frame) {
-  if (bounds.error_world > 0) enclosed_.emplace(*enclosed, kPlace * std::max(bounds.error_world, frame.voxel), kPlaces);
+ProxyLimits::ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed,
+                         std::size_t places)
+    : bounds_(bounds), frame_(frame), tree_(enclosed) {
+  if (bounds.error_world > 0) enclosed_.emplace(*enclosed, place_edge(bounds, frame), places);
   constexpr double kMost = 0x1p120;  // int128 holds it, and no grid reaches it
   limit6_ = int128(std::clamp(bounds.volume_world * volume6_per_world(frame_), -kMost, kMost));
 }
 
-std::uint64_t ProxyLimits::bytes_needed(const ProxyBounds& bounds) {
-  return bounds.error_world > 0 ? kPlaces * NearSurface::kBytesPerPlace : 0;
+/// The strict order jumps about: where places are fewer than those along the surface, each is sought again and again.
+std::size_t ProxyLimits::places_near(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed) {
+  if (bounds.error_world <= 0) return 0;
+  constexpr double kLayers = 8;  // of places along the surface, those that share an entry included
+  double area = 0;
+  for (std::size_t i = 0; i < enclosed->size(); ++i) area += area_of(enclosed->item(i).corners);
+  const double wanted = std::min(kLayers * area / std::pow(place_edge(bounds, frame), 2), double(kMostPlaces));
+  return std::clamp(std::bit_ceil(std::size_t(wanted)), kPlacesOfPart, kMostPlaces);
+}
+
+std::uint64_t ProxyLimits::bytes_needed(const ProxyBounds& bounds, const GridFrame& frame,
+                                        const TriangleBvh* enclosed) {
+  return places_near(bounds, frame, enclosed) * NearSurface::kBytesPerPlace;
+}
+
+std::uint64_t ProxyLimits::bytes_of_part() const {
+  return bounds_.error_world > 0 ? kPlacesOfPart * NearSurface::kBytesPerPlace : 0;
+}
+
+std::unique_ptr<StepLimits> ProxyLimits::for_part() const {
+  if (!has_parts()) return nullptr;
+  std::unique_ptr<ProxyLimits> part(new ProxyLimits(bounds_, frame_, tree_, kPlacesOfPart));
+  part->relaxed_ = relaxed_;
+  part->beyond_ = beyond_;
+  return part;
+}
+
+void ProxyLimits::add_part(const StepLimits& part) {
+  beyond_ = beyond_ || static_cast<const ProxyLimits&>(part).beyond_;
 }
 
 bool ProxyLimits::take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) {

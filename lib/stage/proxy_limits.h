@@ -22,21 +22,33 @@ struct ProxyBounds {
 class ProxyLimits final : public StepLimits {
  public:
   /// `frame`: of what the steps will change. `enclosed`: may be null without an error bound.
-  ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed);
-  /// What one takes of memory, `enclosed` aside: 4 MiB with an error bound.
-  [[nodiscard]] static std::uint64_t bytes_needed(const ProxyBounds& bounds);
+  ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed)
+      : ProxyLimits(bounds, frame, enclosed, places_near(bounds, frame, enclosed)) {}
+  /// What one takes of memory, `enclosed` aside: with an error bound 1 to 32 MiB, by the area of `enclosed`.
+  [[nodiscard]] static std::uint64_t bytes_needed(const ProxyBounds& bounds, const GridFrame& frame,
+                                                  const TriangleBvh* enclosed);
   void begin(int128 volume6) override { volume6_ = volume6; }
   void relax(bool on) override { relaxed_ = on; }
   bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) override;
+  [[nodiscard]] bool has_parts() const override { return bounds_.volume_world == 0; }
+  [[nodiscard]] std::unique_ptr<StepLimits> for_part() const override;
+  void add_part(const StepLimits& part) override;
+  [[nodiscard]] std::uint64_t bytes_of_part() const override;
+  [[nodiscard]] double error_lattice() const override { return bounds_.error_world / frame_.voxel * kLatticePerVoxel; }
   /// "error" or "volume".
   [[nodiscard]] const char* last_refusal() const override { return last_refusal_; }
 
  private:
+  static constexpr std::size_t kPlacesOfPart = std::size_t(1) << 15, kMostPlaces = std::size_t(1) << 20;
+  [[nodiscard]] static std::size_t places_near(const ProxyBounds& bounds, const GridFrame& frame,
+                                               const TriangleBvh* enclosed);
+  ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed, std::size_t places);
   [[nodiscard]] bool near_enough(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after);
   [[nodiscard]] TriangleD world(const LatticeTriangle& t) const;
 
   ProxyBounds bounds_;
   GridFrame frame_;
+  const TriangleBvh* tree_;
   std::optional<NearSurface> enclosed_;  // with an error bound
   int128 volume6_ = 0, limit6_ = 0;      // six times the volume, lattice units cubed
   bool relaxed_ = false;

@@ -52,8 +52,8 @@ struct Bench {
     const ShelfSurface surface(*shelf, {});
     time(extract, [&] { (void)count_faces(surface); });
     SimplifyCounts ignored;
-    time(leaves, [&] { (void)simplified_surface(surface, params, 0, ignored); });
-    time(cells, [&] { (void)simplified_surface(surface, params, kBulkFactor * params.faces, ignored); });
+    time(leaves, [&] { (void)simplified_surface(surface, params, {}, ignored); });
+    time(cells, [&] { (void)simplified_surface(surface, params, {kBulkFactor * params.faces, kLastBound}, ignored); });
     time(all, [&] { (void)simplify(surface, params, counts); });
   }
 

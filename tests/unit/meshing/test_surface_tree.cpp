@@ -193,7 +193,7 @@ TEST_CASE("merging flat regions brick by brick keeps the surface as a set", "[qu
   repair_contacts(shelf);
   const LatticeMesh dense = dense_surface(shelf, {});
   SimplifyCounts counts;
-  Piece merged = simplified_surface(ShelfSurface(shelf, {}), {}, 0, counts);
+  Piece merged = simplified_surface(ShelfSurface(shelf, {}), {}, {}, counts);
   CHECK(merged.quadrics.empty());
   CHECK(merged.triangles.size() < dense.triangles.size());
   CHECK(volume6(merged.vertices, merged.triangles) == volume6(dense.vertices, dense.triangles));

@@ -338,13 +338,16 @@ TEST_CASE("what a bound on distances takes is refused where it does not fit", "[
     }
     return "";
   };
-  const std::uint64_t taken = ProxyLimits::bytes_needed({.error_world = 1});
-  CHECK(taken == std::uint64_t(4) << 20);
-  CHECK(ProxyLimits::bytes_needed({.volume_world = 1}) == 0);
+  const TriangleBvh small({{Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}}});
+  const std::uint64_t taken = ProxyLimits::bytes_needed({.error_world = 1}, {}, &small);
+  CHECK(taken == std::uint64_t(1) << 20);
+  CHECK(ProxyLimits::bytes_needed({.volume_world = 1}, {}, nullptr) == 0);
+  const TriangleBvh large({{Vec3d{0, 0, 0}, Vec3d{1000, 0, 0}, Vec3d{0, 1000, 0}}});
+  CHECK(ProxyLimits::bytes_needed({.error_world = 1}, {}, &large) == std::uint64_t(32) << 20);
   CHECK(refusal(0, taken).empty());
   CHECK(refusal(1, 2 * taken).empty());
   // The surface that distances are measured from takes its part, too.
-  CHECK(refusal(1, taken).find("within a distance takes 4 MiB, and --memory leaves 3 MiB") != std::string::npos);
+  CHECK(refusal(1, taken).find("within a distance takes 1 MiB, and --memory leaves 0 MiB") != std::string::npos);
 }
 
 TEST_CASE("a chain of levels is the same for every memory, and what waits goes to the store", "[quick][stage]") {
