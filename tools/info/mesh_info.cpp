@@ -116,6 +116,12 @@ MeshExtras mesh_extras(const std::string& path) {
   return {from_comments(head), 1};
 }
 
+std::string level_text(std::size_t level, std::size_t levels) {
+  if (levels == 1) return "";
+  return level == 0 ? fmt::format("finest of {} levels", levels)
+                    : fmt::format("level {} of 0 to {}", level, levels - 1);
+}
+
 std::string mesh_text(const MeshInfo& info, const std::string& name) {
   const TriangleTotals& t = info.totals;
   const auto point = [](const Vec3d& p) { return fmt::format("{} {} {}", p[0], p[1], p[2]); };
@@ -132,7 +138,9 @@ std::string mesh_text(const MeshInfo& info, const std::string& name) {
                      t.bounds.diagonal());
     s += fmt::format("area        {:.6g}\nvolume      {:.6g}\n", t.area, t.volume);
   }
-  if (info.extras.levels > 1) s += fmt::format("levels      {}, of which this is the finest\n", info.extras.levels);
+  if (info.extras.levels > 1)
+    s += fmt::format("levels      {}, of which this is {}\n", info.extras.levels,
+                     info.level == 0 ? "the finest" : fmt::format("level {}", info.level));
   for (const std::string& step : info.extras.provenance) s += fmt::format("made by     {}\n", step);
   return s + fmt::format("checksum    {}\n", t.checksum());
 }
@@ -150,6 +158,7 @@ Json mesh_json(const MeshInfo& info) {
     j["volume"] = t.volume;
   }
   j["levels"] = info.extras.levels;
+  j["level"] = info.level;
   j["provenance"] = info.extras.provenance;
   return j;
 }

@@ -24,6 +24,7 @@ struct MeshInfo {
   std::vector<TriangleD> triangles;       ///< all of them, or none if there are more than kMaxKept
   std::vector<TriangleColors> colors;     ///< of these, if the source has any
   MeshExtras extras;
+  std::size_t level = 0;  ///< that was measured
 
   static constexpr std::size_t kMaxKept = 1000000;
 };
@@ -31,6 +32,8 @@ struct MeshInfo {
 /// Streams `source` once; memory is bounded by kMaxKept. Colours are looked for if the source was opened with them.
 [[nodiscard]] MeshInfo measure(TriangleSource& source);
 
+/// "finest of 3 levels"; empty if there is one.
+[[nodiscard]] std::string level_text(std::size_t level, std::size_t levels);
 [[nodiscard]] std::string mesh_text(const MeshInfo& info, const std::string& name);
 [[nodiscard]] Json mesh_json(const MeshInfo& info);
 
