@@ -18,11 +18,12 @@ struct View {
   TriangleSource* source =
       nullptr;                 ///< streamed from its start, in bounded memory; RenderOptions::bounds must cover it
   Color color{176, 188, 204};  ///< of all that has none of its own
-  std::span<const TriangleColors> colors;  ///< of `triangles`; empty: none
-  bool source_colors = false;              ///< draw `source` in its own
-  bool edges = false;                      ///< draws the edges of `mesh` and `triangles` as dark lines
-  Bounds3d bounds;                         ///< what to show, at a scale of its own; empty: as RenderOptions say
-  std::string label;                       ///< lines separated by \n
+  std::span<const TriangleColors> colors;     ///< of `triangles`; empty: none
+  bool source_colors = false;                 ///< draw `source` in its own
+  std::span<const std::uint8_t> inner_edges;  ///< of `triangles` (TriangleSource::read_faces()); empty: none
+  bool edges = false;  ///< draws the edges of `mesh` and `triangles`, but inner ones, as dark lines
+  Bounds3d bounds;     ///< what to show, at a scale of its own; empty: as RenderOptions say
+  std::string label;   ///< lines separated by \n
 };
 
 struct RenderOptions {

@@ -84,14 +84,17 @@ MeshInfo measure(TriangleSource& source) {
   MeshInfo info;
   std::vector<TriangleD> batch;
   std::vector<TriangleColors> colors;
-  while (source.read_colored(batch, colors)) {
+  std::vector<std::uint8_t> inner_edges;
+  while (source.read_faces(batch, colors, inner_edges)) {
     info.totals.add(batch);
     if (info.totals.triangles <= MeshInfo::kMaxKept) {
       info.triangles.insert(info.triangles.end(), batch.begin(), batch.end());
       info.colors.insert(info.colors.end(), colors.begin(), colors.end());
+      info.inner_edges.insert(info.inner_edges.end(), inner_edges.begin(), inner_edges.end());
     } else {
       info.triangles = {};
       info.colors = {};
+      info.inner_edges = {};
     }
   }
   if (!source.has_colors()) info.colors = {};

@@ -23,6 +23,7 @@ struct MeshInfo {
   std::optional<std::uint64_t> vertices;  ///< distinct positions; unknown for scenes above kMaxKept triangles
   std::vector<TriangleD> triangles;       ///< all of them, or none if there are more than kMaxKept
   std::vector<TriangleColors> colors;     ///< of these, if the source has any
+  std::vector<std::uint8_t> inner_edges;  ///< of these, as TriangleSource::read_faces()
   MeshExtras extras;
   std::size_t level = 0;  ///< that was measured
 

@@ -30,6 +30,7 @@ struct Panel {
   std::string input;
   std::vector<TriangleD> triangles;
   std::vector<TriangleColors> colors;
+  std::vector<std::uint8_t> inner_edges;
   std::unique_ptr<TriangleSource> source;  ///< of a mesh too large to keep
   Bounds3d bounds;
   std::optional<UpAxis> up;  ///< if the input tells
