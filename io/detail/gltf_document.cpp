@@ -187,6 +187,9 @@ void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
 }
 
 void GltfDocument::check_version() const {
+  if (root().has("geometricError") && root().has("root"))
+    fail(ErrorCode::bad_input, "{}: a tileset of 3D Tiles, not a scene or a mesh; bpcheck takes one as its last file",
+         file_->name());
   const std::string version = root().object("asset").text("version");
   if (version.compare(0, 2, "2.") != 0)
     fail(ErrorCode::bad_input, "{}: is glTF version {}; only version 2 is read, convert it", file_->name(), version);

@@ -5,17 +5,11 @@
 
 #include "lib/core/triangle_source.h"
 #include "lib/core/triangle_totals.h"
+#include "tools/common/mesh_extras.h"
 #include "tools/common/report.h"
 
 /// What bpinfo says of a mesh or scene.
 namespace bp {
-
-/// What a file says beside its triangles; nothing if there is none, or if it cannot be understood.
-struct MeshExtras {
-  std::vector<std::string> provenance;  ///< a line each step, as bpmesh wrote: comments of PLY and OBJ, extras of glTF
-  std::size_t levels = 1;               ///< of detail; MSFT_lod of glTF
-};
-[[nodiscard]] MeshExtras mesh_extras(const std::string& path);
 
 struct MeshInfo {
   SceneCounts counts;
