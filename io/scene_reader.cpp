@@ -344,9 +344,14 @@ std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneO
   return std::make_unique<FilteredScene>(path == "-" ? "stdin" : path, open_raw(path, options), options);
 }
 
+void check_stdin_once(const std::vector<std::string>& paths) {
+  if (std::count(paths.begin(), paths.end(), "-") > 1)
+    fail(ErrorCode::bad_argument, "stdin (-) is named twice; give all but one of these inputs as files");
+}
+
 std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, const SceneOptions& options) {
   if (paths.empty()) fail(ErrorCode::bad_argument, "no scene was named; name a file, or - for stdin");
-  if (std::count(paths.begin(), paths.end(), "-") > 1) fail(ErrorCode::bad_argument, "stdin (-) was named twice");
+  check_stdin_once(paths);
   if (paths.size() == 1) return open_scene(paths[0], options);
   return std::make_unique<SceneRow>(std::move(paths), options);
 }

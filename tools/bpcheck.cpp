@@ -69,7 +69,7 @@ Options parse(bp::Args& args) {
   bp::check_scene_format(o.format, o.files);
   bp::check_stdin_once(o.files);
   bp::keep_inputs(o.files);
-  bp::check_panel_size(o.image_size);
+  bp::check_panel_size(o.image_size, o.files.size() > 1 ? 2 : 1);
   if (o.samples && o.files.size() < 2)
     bp::fail(bp::ErrorCode::bad_argument, "--samples means nothing without a scene; leave it out");
   if (o.inside && o.files.size() < 2)

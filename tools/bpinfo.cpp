@@ -55,7 +55,7 @@ Options parse(bp::Args& args) {
   bp::check_scene_format(o.format, o.in);
   bp::check_stdin_once(o.in);
   bp::keep_inputs(o.in);
-  bp::check_panel_size(o.picture.panel_size);
+  if (!o.picture.file.empty()) bp::check_panel_size(o.picture.panel_size, o.in.size());
   if (int(o.json) + int(o.checksum) + int(o.dump) > 1)
     bp::fail(bp::ErrorCode::bad_argument, "--json, --checksum and --dump exclude each other");
   args.needs({"--image-size", "--no-edges", "--up", "--azimuth", "--elevation"}, "--image");

@@ -182,8 +182,10 @@ void write_label(Image& image, int x, int y, int width, std::string_view label, 
 Image render(std::span<const View> views, const RenderOptions& options) {
   const int w = options.panel_width, h = options.panel_height;
   const int columns = std::max(1, int(views.size()));
-  if (w < 16 || h < 16 || h > 16384 || std::int64_t(w) * columns > 16384)
-    fail(ErrorCode::bad_argument, "image of {} panels, {} x {} pixels each: sides must be 16 to 16384", columns, w, h);
+  if (std::min(w, h) < kLeastPanelSide || std::max<std::int64_t>(h, std::int64_t(w) * columns) > kMostImageSide)
+    fail(ErrorCode::bad_argument,
+         "image of {} panels, {} x {} pixels each: sides must be {} to {}, all panels together", columns, w, h,
+         kLeastPanelSide, kMostImageSide);
   int lines = 0;
   for (const View& v : views) lines = std::max(lines, lines_in(v.label));
   Image image(w * columns, h + (lines > 0 ? lines * kLineHeight + 8 : 0), options.background);

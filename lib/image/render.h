@@ -26,6 +26,8 @@ struct View {
   std::string label;   ///< lines separated by \n
 };
 
+constexpr int kLeastPanelSide = 16, kMostImageSide = 16384;  ///< pixels; the latter of all panels together
+
 struct RenderOptions {
   int panel_width = 720, panel_height = 720;  ///< pixels; the labels come below
   double azimuth = 35;  ///< degrees that the viewer stands to the right of the front (-y of a z-up scene, +z of a y-up)
@@ -38,8 +40,8 @@ struct RenderOptions {
 /// Orthographic, all panels without bounds of their own at one scale and around one centre, so that they can be
 /// compared; z-buffer, flat shading
 /// from both sides under two lights, 2 x 2 samples a pixel. A panel without anything finite to draw stays empty.
-/// Memory: 32 bytes a pixel of one panel. Throws bad_argument if a side is below 16 or above 16384 pixels; passes on
-/// what a source throws.
+/// Memory: 32 bytes a pixel of one panel. Throws bad_argument if a side is too small or too large; passes on what a
+/// source throws.
 [[nodiscard]] Image render(std::span<const View> views, const RenderOptions& options = {});
 
 }  // namespace bp
