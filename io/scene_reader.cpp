@@ -69,6 +69,8 @@ RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const S
   std::string extension = scene_format_of(path);
   if (extension.empty() && !options.format.empty()) extension = scene_format_named(options.format);
   Reader reader = reader_of(extension);
+  if (file->size() == 0 && reader != Reader::obj)  // of OBJ it is a mesh without faces
+    fail(ErrorCode::bad_input, "{}: is empty; did the tool before it fail?", file->name());
   if (reader == Reader::unknown) reader = reader_by_content(*file, extension);
   switch (reader) {
     case Reader::ply:

@@ -182,9 +182,7 @@ void refuse_for_tileset(const Options& o) {
   }
 }
 
-/// proxy: of o.files, or one of the meshes that it names.
-void note_hint(bp::Report& report, const Options& o, const std::string& proxy) {
-  const std::string hint = bp::enclosure_hint(o.files.front(), proxy, o.inside);
+void note_hint(bp::Report& report, const Options& o, const std::string& hint) {
   if (!hint.empty()) report.note(hint, o.common);
 }
 
@@ -199,7 +197,7 @@ int run_tileset(const Options& o) {
   const std::string name = file_name(o.files.back());
   bp::print(o.json ? verdict.json(name) : verdict.text(name));
   const auto contents = bp::tileset_level(bp::read_tileset(o.files.back()), o.files.back(), 0).contents;
-  if (!verdict.holds() && verdict.scene && !contents.empty()) note_hint(report, o, contents.front().path);
+  if (!verdict.holds() && verdict.scene && !contents.empty()) note_hint(report, o, bp::fit_hint(contents.front().path));
   report.counts = {{"holds", verdict.holds()}, {"tiles", verdict.tiles}, {"findings", verdict.findings}};
   report.write(o.common);
   return verdict.holds() ? 0 : 1;
@@ -274,7 +272,8 @@ int run(const Options& o) {
   bp::print(text);
   report.bytes_out = text.size();
   fill_report(report, o, verdicts);
-  if (!answers_hold(o, verdicts)) note_hint(report, o, o.files.back());
+  if (!answers_hold(o, verdicts))
+    note_hint(report, o, bp::enclosure_hint(o.files.front(), o.files.back(), o.inside, o.origin.has_value()));
   report.write(o.common);
   return bp::all_hold(verdicts) ? 0 : 1;
 }

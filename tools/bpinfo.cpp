@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "io/brick_stream.h"
+#include "io/scene_format.h"
 #include "io/scene_reader.h"
 #include "io/tileset_file.h"
 #include "io/tileset_level.h"
@@ -71,7 +72,8 @@ bool is_stream(const Options& o, const std::string& in) {
   if (!o.format.empty()) return false;
   if (in == "-") return true;
   const bp::InputFile file(in);
-  if (!file.seekable() || file.size() == 0) return true;
+  if (!file.seekable()) return true;
+  if (file.size() == 0) return bp::scene_format_of(in).empty();
   std::array<std::byte, 4> magic{};
   (void)file.read_at(0, magic);
   return magic == std::array{std::byte(0x5b), std::byte(0x2a), std::byte(0x4d), std::byte(0x18)} ||
@@ -100,7 +102,8 @@ void check_level_is_used(const Options& o) {
   };
   if (!o.level || std::any_of(o.in.begin(), o.in.end(), has_levels)) return;
   bp::fail(bp::ErrorCode::bad_argument,
-           "--level: means nothing here; it is for glTF files with levels (MSFT_lod), and for tilesets with --image");
+           "--level: means nothing here; it is for glTF files (not stdin) with levels (MSFT_lod), and for tilesets "
+           "with --image");
 }
 
 void show_stream(const Options& o, const std::string& in, bp::Picture& picture) {

@@ -68,8 +68,8 @@ MeshoptView meshopt_view(const GltfObject& packed) {
 // --------------------------------------------------------------------------------------------------------
 
 void GltfObject::broken(const std::string& what) const {
-  fail(ErrorCode::bad_input, "{}: {} {}; repair or re-export the file", file_,
-       place_.empty() ? "the glTF document" : place_, what);
+  fail(ErrorCode::bad_input, "{}: {} {}; repair or re-export the file", file_, place_.empty() ? "the document" : place_,
+       what);
 }
 
 const GltfJson& GltfObject::at(const char* key) const {

@@ -21,15 +21,21 @@ std::string bytes_at(const InputFile& file, std::uint64_t offset, std::size_t n)
   return bytes;
 }
 
-std::vector<std::string> from_comments(const std::string& head) {
-  std::vector<std::string> steps;
+MeshExtras from_comments(const std::string& head) {
+  MeshExtras extras;
   std::istringstream lines(head);
   for (std::string line; std::getline(lines, line);) {
     for (const std::string start : {"comment provenance: ", "# provenance: "}) {
-      if (line.compare(0, start.size(), start) == 0) steps.push_back(line.substr(start.size()));
+      if (line.compare(0, start.size(), start) == 0) extras.provenance.push_back(line.substr(start.size()));
+    }
+    for (const std::string start : {"comment origin: ", "# origin: "}) {
+      Vec3d p;
+      if (line.compare(0, start.size(), start) == 0 &&
+          std::istringstream(line.substr(start.size())) >> p[0] >> p[1] >> p[2])
+        extras.origin = p;
     }
   }
-  return steps;
+  return extras;
 }
 
 std::vector<std::string> gltf_provenance(const Json& document) {
@@ -64,9 +70,21 @@ std::size_t gltf_levels(const Json& document) {
   return most;
 }
 
+std::optional<Vec3d> gltf_origin(const Json& document) {
+  static const Json::json_pointer key("/asset/extras/origin");
+  if (!document.is_object() || !document.contains(key)) return {};
+  const Json& numbers = document.at(key);
+  Vec3d p;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!numbers.is_array() || numbers.size() != 3 || !numbers[i].is_number()) return {};
+    p[i] = numbers[i].get<double>();
+  }
+  return p;
+}
+
 MeshExtras from_gltf(const std::string& text) {
   const Json document = Json::parse(text, nullptr, false);
-  return {gltf_provenance(document), gltf_levels(document)};
+  return {gltf_provenance(document), gltf_origin(document), gltf_levels(document)};
 }
 
 }  // namespace
@@ -84,7 +102,7 @@ MeshExtras mesh_extras(const std::string& path) {
   const std::size_t first = head.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && head[first] == '{')
     return file.size() > kMaxJsonBytes ? MeshExtras{} : from_gltf(bytes_at(file, 0, file.size()));
-  return {from_comments(head), 1};
+  return from_comments(head);
 }
 
 std::string made_by(const MeshExtras& extras) {

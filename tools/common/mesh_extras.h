@@ -1,12 +1,16 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "lib/core/coords.h"
 
 namespace bp {
 
 /// What a file says beside its triangles; nothing if there is none, or if it cannot be understood.
 struct MeshExtras {
   std::vector<std::string> provenance;  ///< a line each step, as bpmesh wrote: comments of PLY and OBJ, extras of glTF
+  std::optional<Vec3d> origin;          ///< that its vertices are relative to
   std::size_t levels = 1;               ///< of detail; MSFT_lod of glTF
 };
 [[nodiscard]] MeshExtras mesh_extras(const std::string& path);
