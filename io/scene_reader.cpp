@@ -69,6 +69,8 @@ RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const S
   std::string extension = scene_format_of(path);
   if (extension.empty() && !options.format.empty()) extension = scene_format_named(options.format);
   Reader reader = reader_of(extension);
+  if (file->size() == 0 && reader != Reader::obj)  // of OBJ it is a mesh without faces
+    fail(ErrorCode::bad_input, "{}: is empty; did the tool before it fail?", file->name());
   if (reader == Reader::unknown) reader = reader_by_content(*file, extension);
   switch (reader) {
     case Reader::ply:
@@ -103,9 +105,13 @@ RawSourcePtr open_raw(const std::string& path, const SceneOptions& options) {
 IndexedMesh mesh_of(RawSource& raw, SceneCounts& met) {
   IndexedMesh mesh;
   PositionIndex index(mesh.vertices);
-  std::vector<TriangleD> batch;
-  while (raw.read(batch)) {
-    for (TriangleD& t : batch) {
+  RawBatch batch;
+  while (raw.next(batch)) {
+    raw.complete(batch);
+    met.bad_faces += batch.bad_faces;
+    if (!batch.inner_edges.empty()) mesh.inner_edges.resize(mesh.triangles.size());
+    mesh.inner_edges.insert(mesh.inner_edges.end(), batch.inner_edges.begin(), batch.inner_edges.end());
+    for (TriangleD& t : batch.triangles) {
       normalize(t);
       if (!is_finite(t)) {
         ++met.non_finite;
@@ -117,7 +123,7 @@ IndexedMesh mesh_of(RawSource& raw, SceneCounts& met) {
   }
   mesh.up = raw.up();
   met.triangles = mesh.triangles.size();
-  met.bad_faces = raw.bad_faces();
+  met.bad_faces += raw.bad_faces();
   met.instances = raw.instances();
   return mesh;
 }
@@ -141,6 +147,13 @@ class FilteredScene final : public TriangleSource {
     const bool more = read_batch(true);
     out.swap(batch_->triangles);
     colors.swap(batch_->colors);
+    return more;
+  }
+  bool read_faces(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
+                  std::vector<std::uint8_t>& inner_edges) override {
+    const bool more = read_colored(out, colors);
+    inner_edges.swap(batch_->inner_edges);
+    inner_edges.resize(out.size());
     return more;
   }
   [[nodiscard]] bool has_colors() const override { return raw_->has_colors(); }
@@ -171,6 +184,7 @@ class FilteredScene final : public TriangleSource {
     batch_ = &end_;
     end_.triangles.clear();
     end_.colors.clear();
+    end_.inner_edges.clear();
     while (batch_->triangles.empty() && (next_ < ready_ || fetch(colored))) {
       Batch& batch = batches_[next_++];
       batch_ = &batch.raw;
@@ -187,6 +201,7 @@ class FilteredScene final : public TriangleSource {
       RawBatch& batch = batches_[ready_].raw;
       batch.colored = colored;
       batch.colors.clear();
+      batch.inner_edges.clear();
       if (!raw_->next(batch)) break;
       ++ready_;
     }
@@ -211,6 +226,7 @@ class FilteredScene final : public TriangleSource {
   [[nodiscard]] SceneCounts keep_good(RawBatch& batch) const {
     std::vector<TriangleD>& triangles = batch.triangles;
     if (batch.colored) batch.colors.resize(triangles.size());
+    if (!batch.inner_edges.empty()) batch.inner_edges.resize(triangles.size());
     SceneCounts counts;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -225,6 +241,7 @@ class FilteredScene final : public TriangleSource {
       if (degenerate) ++counts.degenerate;
       if (degenerate && !keep_degenerate_) continue;
       if (batch.colored) batch.colors[kept] = batch.colors[i];
+      if (!batch.inner_edges.empty()) batch.inner_edges[kept] = batch.inner_edges[i];
       triangles[kept++] = t;
     }
     triangles.resize(kept);
@@ -261,6 +278,13 @@ class SceneRow final : public TriangleSource {
     out.clear();
     colors.clear();
     return read_next([&](TriangleSource& scene) { return scene.read_colored(out, colors); });
+  }
+  bool read_faces(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
+                  std::vector<std::uint8_t>& inner_edges) override {
+    out.clear();
+    colors.clear();
+    inner_edges.clear();
+    return read_next([&](TriangleSource& scene) { return scene.read_faces(out, colors, inner_edges); });
   }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
   void rewind() override {
@@ -322,9 +346,14 @@ std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneO
   return std::make_unique<FilteredScene>(path == "-" ? "stdin" : path, open_raw(path, options), options);
 }
 
+void check_stdin_once(const std::vector<std::string>& paths) {
+  if (std::count(paths.begin(), paths.end(), "-") > 1)
+    fail(ErrorCode::bad_argument, "stdin (-) is named twice; give all but one of these inputs as files");
+}
+
 std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, const SceneOptions& options) {
   if (paths.empty()) fail(ErrorCode::bad_argument, "no scene was named; name a file, or - for stdin");
-  if (std::count(paths.begin(), paths.end(), "-") > 1) fail(ErrorCode::bad_argument, "stdin (-) was named twice");
+  check_stdin_once(paths);
   if (paths.size() == 1) return open_scene(paths[0], options);
   return std::make_unique<SceneRow>(std::move(paths), options);
 }

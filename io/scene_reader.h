@@ -42,7 +42,10 @@ struct SceneOptions {
 /// is full.
 [[nodiscard]] std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneOptions& options = {});
 
-/// All files, one after the other; one is open at a time. Missing files are reported at once.
+/// Throws bad_argument if two of `paths` are stdin: the second would be found empty.
+void check_stdin_once(const std::vector<std::string>& paths);
+
+/// All files, one after the other; one is open at a time. Missing files are reported at once. As check_stdin_once().
 [[nodiscard]] std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths,
                                                           const SceneOptions& options = {});
 

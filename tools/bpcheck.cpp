@@ -1,16 +1,20 @@
 // bpcheck: scene and proxy in, verdict out. Manual: docs/bpcheck.1.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "io/png_writer.h"
 #include "io/scene_reader.h"
+#include "io/tileset_file.h"
+#include "io/tileset_level.h"
 #include "lib/check/check_proxy.h"
 #include "lib/check/verdict_text.h"
 #include "lib/core/error.h"
 #include "lib/image/render.h"
+#include "tools/check/hints.h"
 #include "tools/check/tileset_verdict.h"
 #include "tools/common/inputs.h"
 #include "tools/common/report.h"
@@ -65,7 +69,7 @@ Options parse(bp::Args& args) {
   bp::check_scene_format(o.format, o.files);
   bp::check_stdin_once(o.files);
   bp::keep_inputs(o.files);
-  bp::check_panel_size(o.image_size);
+  bp::check_panel_size(o.image_size, o.files.size() > 1 ? 2 : 1);
   if (o.samples && o.files.size() < 2)
     bp::fail(bp::ErrorCode::bad_argument, "--samples means nothing without a scene; leave it out");
   if (o.inside && o.files.size() < 2)
@@ -178,6 +182,10 @@ void refuse_for_tileset(const Options& o) {
   }
 }
 
+void note_hint(bp::Report& report, const Options& o, const std::string& hint) {
+  if (!hint.empty()) report.note(hint, o.common);
+}
+
 /// A tileset is many proxies and what holds them together.
 int run_tileset(const Options& o) {
   refuse_for_tileset(o);
@@ -188,6 +196,8 @@ int run_tileset(const Options& o) {
   const bp::TilesetVerdict verdict = bp::check_tileset_file(o.files.back(), scenes, options, o.common.memory_bytes / 2);
   const std::string name = file_name(o.files.back());
   bp::print(o.json ? verdict.json(name) : verdict.text(name));
+  const auto contents = bp::tileset_level(bp::read_tileset(o.files.back()), o.files.back(), 0).contents;
+  if (!verdict.holds() && verdict.scene && !contents.empty()) note_hint(report, o, bp::fit_hint(contents.front().path));
   report.counts = {{"holds", verdict.holds()}, {"tiles", verdict.tiles}, {"findings", verdict.findings}};
   report.write(o.common);
   return verdict.holds() ? 0 : 1;
@@ -201,6 +211,13 @@ void refuse_empty_scene(const bp::CheckReport& verdict) {
       bp::ErrorCode::bad_input,
       "{}: no triangles ({} degenerate, {} non-finite, {} bad faces skipped); a scene needs at least one with an area",
       verdict.scene_name, c.degenerate, c.non_finite, c.bad_faces);
+}
+
+/// Of enclosure, or with --inside of its opposite.
+bool answers_hold(const Options& o, const std::vector<bp::CheckReport>& verdicts) {
+  return o.files.size() < 2 || std::all_of(verdicts.begin(), verdicts.end(), [&](const bp::CheckReport& v) {
+           return o.inside ? v.inside() : v.encloses();
+         });
 }
 
 /// Each level as a proxy of its own.
@@ -255,6 +272,8 @@ int run(const Options& o) {
   bp::print(text);
   report.bytes_out = text.size();
   fill_report(report, o, verdicts);
+  if (!answers_hold(o, verdicts))
+    note_hint(report, o, bp::enclosure_hint(o.files.front(), o.files.back(), o.inside, o.origin.has_value()));
   report.write(o.common);
   return bp::all_hold(verdicts) ? 0 : 1;
 }

@@ -1,16 +1,18 @@
 // bpinfo: what a brick stream or a mesh holds. Manual: docs/bpinfo.1.md
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 
 #include "io/brick_stream.h"
-#include "io/png_writer.h"
+#include "io/scene_format.h"
 #include "io/scene_reader.h"
+#include "io/tileset_file.h"
+#include "io/tileset_level.h"
 #include "lib/core/error.h"
-#include "lib/grid/coarse_view.h"
-#include "lib/image/render.h"
 #include "tools/common/inputs.h"
 #include "tools/common/run_tool.h"
 #include "tools/info/mesh_info.h"
+#include "tools/info/picture.h"
 #include "tools/info/stream_info.h"
 #include "tools/info/tileset_info.h"
 
@@ -19,11 +21,10 @@ namespace {
 struct Options {
   bp::CommonOptions common;
   std::vector<std::string> in;
-  std::string format, image;
-  std::optional<bp::UpAxis> up;
+  std::string format;
+  bp::PictureOptions picture;
+  std::optional<std::size_t> level;
   bool json = false, checksum = false, dump = false, no_edges = false;
-  int image_size = 720;
-  double azimuth = 35, elevation = 22;
 };
 
 Options parse(bp::Args& args) {
@@ -36,13 +37,16 @@ Options parse(bp::Args& args) {
       "print the checksum of the content only: of the voxels, or of the triangles as a set; it does not depend on "
       "order, tiles or compression");
   args.flag("--dump", o.dump, "print a stream as text, one line a brick");
-  args.option("--image", "FILE", o.image, "draw what they hold into a PNG, side by side at one scale");
-  args.option("--image-size", "PIXELS", o.image_size, "side of a panel of the image");
+  args.option("--image", "FILE", o.picture.file, "draw what they hold into a PNG, side by side at one scale");
+  args.option("--image-size", "PIXELS", o.picture.panel_size, "side of a panel of the image");
   args.flag("--no-edges", o.no_edges, "leave out the edges of meshes of few triangles");
-  args.option("--up", "y|z", o.up,
-              "axis that points up in the image of meshes (default: y, or that of the first INPUT that tells)");
-  args.option("--azimuth", "DEGREES", o.azimuth, "where the viewer stands, from the front to the right");
-  args.option("--elevation", "DEGREES", o.elevation, "how far above the horizon the viewer stands");
+  args.option(
+      "--up", "y|z", o.picture.up,
+      "axis that points up in the image, of INPUTs that do not tell (default: y, or that of the first that tells)");
+  args.option("--azimuth", "DEGREES", o.picture.azimuth, "where the viewer stands, from the front to the right");
+  args.option("--elevation", "DEGREES", o.picture.elevation, "how far above the horizon the viewer stands");
+  args.option("--level", "N", o.level,
+              "level to draw of a tileset, or to show of a glTF file; 0 is the finest (default)");
   args.option("--format", "NAME", o.format,
               "inputs are meshes, and this is the format of stdin, or of files whose names do not tell");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::overwrite_part);
@@ -52,10 +56,13 @@ Options parse(bp::Args& args) {
   bp::check_scene_format(o.format, o.in);
   bp::check_stdin_once(o.in);
   bp::keep_inputs(o.in);
-  bp::check_panel_size(o.image_size);
+  if (!o.picture.file.empty()) bp::check_panel_size(o.picture.panel_size, o.in.size());
   if (int(o.json) + int(o.checksum) + int(o.dump) > 1)
     bp::fail(bp::ErrorCode::bad_argument, "--json, --checksum and --dump exclude each other");
   args.needs({"--image-size", "--no-edges", "--up", "--azimuth", "--elevation"}, "--image");
+  o.picture.several = o.in.size() > 1;
+  o.picture.edges = !o.no_edges;
+  o.picture.overwrite = o.common.overwrite;
   if (o.in.size() > 1 && (o.json || o.dump)) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump take one INPUT");
   return o;
 }
@@ -65,145 +72,41 @@ bool is_stream(const Options& o, const std::string& in) {
   if (!o.format.empty()) return false;
   if (in == "-") return true;
   const bp::InputFile file(in);
-  if (!file.seekable() || file.size() == 0) return true;
+  if (!file.seekable()) return true;
+  if (file.size() == 0) return bp::scene_format_of(in).empty();
   std::array<std::byte, 4> magic{};
   (void)file.read_at(0, magic);
   return magic == std::array{std::byte(0x5b), std::byte(0x2a), std::byte(0x4d), std::byte(0x18)} ||
          in.ends_with(".bpv");
 }
 
-std::string shown_name(const std::string& in) {
-  return in == "-" ? "stdin" : in.substr(in.rfind('/') + 1);
+/// By its name, as bpcheck does.
+bool is_tileset(const Options& o, const std::string& in) {
+  return o.format.empty() && in.ends_with(".json");
 }
 
-bp::Bounds3d bounds_of(const bp::StreamHeader& header) {
-  bp::Bounds3d bounds;
-  const bp::VoxelBox box = bp::voxels_of(header.bricks);
-  const auto corner = [&](bp::VoxelCoord v) {
-    const std::int64_t unit = bp::kLatticePerVoxel;
-    return header.frame.world({v.x * unit, v.y * unit, v.z * unit});
+void note(const std::string& text) {
+  std::fprintf(stderr, "bpinfo: note: %s\n", text.c_str());
+}
+
+void check_level(const std::string& in, std::size_t level, std::size_t levels) {
+  if (level < levels) return;
+  bp::fail(bp::ErrorCode::bad_argument, "{}: --level {} is not there; it has 0, the finest, to {}", in, level,
+           levels - 1);
+}
+
+/// --level would be passed over in silence.
+void check_level_is_used(const Options& o) {
+  const auto has_levels = [&](const std::string& in) {
+    return is_tileset(o, in) ? !o.picture.file.empty() : !is_stream(o, in) && bp::mesh_extras(in).levels > 1;
   };
-  bounds.add(corner(box.min));
-  bounds.add(corner(box.max));
-  return bounds;
+  if (!o.level || std::any_of(o.in.begin(), o.in.end(), has_levels)) return;
+  bp::fail(bp::ErrorCode::bad_argument,
+           "--level: means nothing here; it is for glTF files (not stdin) with levels (MSFT_lod), and for tilesets "
+           "with --image");
 }
 
-/// One panel of the image, and what it draws.
-struct Panel {
-  std::vector<bp::TriangleD> triangles;
-  std::vector<bp::TriangleColors> colors;
-  std::unique_ptr<bp::TriangleSource> source;  // of a mesh too large to keep
-  bp::Bounds3d bounds;
-  bp::View view;
-};
-
-/// The panels, left to right, at one scale.
-class Picture {
- public:
-  /// Opens the file: a name that cannot be written fails before the work.
-  explicit Picture(const Options& o) : o_(o) {
-    bp::check_png_name(o.image);
-    if (!o.image.empty()) file_ = bp::open_output(o.image, o.common.overwrite);
-  }
-  [[nodiscard]] bool wanted() const { return file_ != nullptr; }
-  [[nodiscard]] bool several() const { return o_.in.size() > 1; }
-
-  /// The layers of a stream; of one among several inputs only the last.
-  void add_stream(const bp::CoarseView& cells, const bp::StreamHeader& header, const bp::StreamTotals& totals) {
-    if (!up_) up_ = header.frame.up;
-    if (totals.layers[0].bricks + totals.layers[1].bricks == 0) bounds_.merge(bounds_of(header));
-    const bool closing = header.has_closing;
-    if (!closing || !several()) add_layer(bp::Layer::solid, cells, header, totals);
-    if (closing) add_layer(bp::Layer::closing, cells, header, totals);
-  }
-
-  void add_mesh(bp::MeshInfo& info, std::unique_ptr<bp::TriangleSource> source, const std::string& in) {
-    auto panel = std::make_unique<Panel>();
-    if (!up_) up_ = source->up();
-    bounds_.merge(info.totals.bounds);
-    panel->bounds = info.totals.bounds;
-    panel->view.label = fmt::format("{} triangles", info.totals.triangles);
-    if (info.extras.levels > 1) panel->view.label += fmt::format(", finest of {} levels", info.extras.levels);
-    if (several()) panel->view.label.insert(0, shown_name(in) + "\n");
-    if (info.triangles.size() == info.totals.triangles) {
-      panel->triangles = std::move(info.triangles);
-      panel->view.triangles = panel->triangles;
-      panel->colors = std::move(info.colors);
-      panel->view.colors = panel->colors;
-      panel->view.edges = !o_.no_edges && panel->triangles.size() <= (several() ? kEdgesOfMany : kEdges);
-      if (several() && panel->view.edges) panel->view.color = {238, 192, 130};
-    } else {
-      panel->source = std::move(source);
-      panel->view.source_colors = panel->source->has_colors();
-      panel->view.source = panel->source.get();
-    }
-    panels_.push_back(std::move(panel));
-  }
-
-  /// Returns what the user should know of the picture; empty if there is nothing.
-  [[nodiscard]] std::string write() {
-    const bool apart = are_far_apart();
-    if (apart) draw_by_themselves();
-    std::vector<bp::View> views;
-    for (const auto& panel : panels_) views.push_back(panel->view);
-    bp::RenderOptions options;
-    options.panel_width = options.panel_height = o_.image_size;
-    options.azimuth = o_.azimuth, options.elevation = o_.elevation;
-    options.bounds = bounds_;
-    options.up = o_.up ? *o_.up : up_.value_or(bp::UpAxis::y);
-    file_->write(bp::encode_png(bp::render(views, options)));
-    file_->commit();
-    if (!apart) return "";
-    return "the inputs lie far apart: each is drawn by itself, not at one scale. The place of a tile's content is in "
-           "tileset.json";
-  }
-
- private:
-  static constexpr double kFarApart = 4;                              // largest inputs between them
-  static constexpr std::size_t kEdges = 50000, kEdgesOfMany = 20000;  // more would only darken the picture
-
-  /// At one scale, hardly anything would be seen of any of them.
-  [[nodiscard]] bool are_far_apart() const {
-    double largest = 0;
-    for (const auto& panel : panels_) {
-      if (!panel->bounds.empty()) largest = std::max(largest, panel->bounds.diagonal());
-    }
-    return largest > 0 && bounds_.diagonal() > kFarApart * largest;
-  }
-
-  void draw_by_themselves() {
-    for (const auto& panel : panels_) {
-      panel->view.bounds = panel->bounds;
-      panel->view.label += "\ndrawn by itself";
-    }
-  }
-
-  void add_layer(bp::Layer layer, const bp::CoarseView& cells, const bp::StreamHeader& header,
-                 const bp::StreamTotals& totals) {
-    constexpr bp::Color kColors[] = {{168, 182, 202}, {214, 178, 132}};
-    const auto i = std::size_t(layer);
-    auto panel = std::make_unique<Panel>();
-    panel->triangles = cells.surface(layer, header.frame);
-    for (const bp::TriangleD& t : panel->triangles) {
-      for (const bp::Vec3d& p : t) panel->bounds.add(p);
-    }
-    bounds_.merge(panel->bounds);
-    panel->view.triangles = panel->triangles;
-    panel->view.color = several() ? kColors[0] : kColors[i];
-    panel->view.label = fmt::format("{}: {} voxels of {:.4g}", i == 0 ? "solid" : "closing", totals.layers[i].voxels,
-                                    header.frame.voxel);
-    if (cells.cell_voxels() > 1) panel->view.label += fmt::format("\ndrawn in cells of {} voxels", cells.cell_voxels());
-    panels_.push_back(std::move(panel));
-  }
-
-  const Options& o_;
-  std::unique_ptr<bp::OutputFile> file_;
-  std::vector<std::unique_ptr<Panel>> panels_;
-  bp::Bounds3d bounds_;
-  std::optional<bp::UpAxis> up_;
-};
-
-void show_stream(const Options& o, const std::string& in, Picture& picture) {
+void show_stream(const Options& o, const std::string& in, bp::Picture& picture) {
   bp::BrickReader source(in);
   bp::OutputFile out("-", false);
   bp::CoarseView cells(source.header().bricks);
@@ -215,7 +118,7 @@ void show_stream(const Options& o, const std::string& in, Picture& picture) {
   }
   const bp::StreamHeader& header = source.header();
   const bp::StreamTotals& totals = source.totals();
-  if (picture.wanted()) picture.add_stream(cells, header, totals);
+  if (picture.wanted()) picture.add_stream(cells, header, totals, in);
   if (o.dump) {
     out.write(bp::dump_end(totals));
   } else if (o.checksum) {
@@ -228,41 +131,61 @@ void show_stream(const Options& o, const std::string& in, Picture& picture) {
   out.commit();
 }
 
-void show_mesh(const Options& o, const std::string& in, Picture& picture) {
+void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
   if (o.dump) bp::fail(bp::ErrorCode::bad_argument, "{}: --dump is for brick streams, and this is none", in);
+  const bp::MeshExtras extras = bp::mesh_extras(in);
   bp::SceneOptions scene;
   scene.format = o.format;
   scene.colors = picture.wanted();
+  scene.level = extras.levels > 1 ? o.level.value_or(0) : 0;
+  check_level(in, scene.level, extras.levels);
   auto source = bp::open_scene(in, scene);
   bp::MeshInfo info = bp::measure(*source);
-  info.extras = bp::mesh_extras(in);
+  info.extras = extras;
+  info.level = scene.level;
   if (o.checksum) {
     bp::print(info.totals.checksum() + "\n");
   } else {
     bp::print(o.json ? bp::mesh_json(info).dump(2) + "\n" : bp::mesh_text(info, in == "-" ? "stdin" : in));
   }
-  if (picture.wanted()) picture.add_mesh(info, std::move(source), in);
+  if (picture.wanted()) picture.add_mesh(info, std::move(source), in, bp::level_text(info.level, extras.levels));
 }
 
-/// By its name, as bpcheck does.
-bool is_tileset(const Options& o, const std::string& in) {
-  return o.format.empty() && in.ends_with(".json");
+void draw_tileset(const Options& o, const bp::Tileset& tileset, const std::string& in, bp::Picture& picture) {
+  const std::size_t wanted = o.level.value_or(0);
+  bp::TilesetLevel level = bp::tileset_level(tileset, in, wanted);
+  if (level.levels == 0) bp::fail(bp::ErrorCode::bad_input, "{}: no tile has a content; there is nothing to draw", in);
+  check_level(in, wanted, level.levels);
+  const std::size_t there = level.contents.size(), all = there + level.missing.size();
+  if (!level.missing.empty())
+    note(fmt::format("{}: {} of {} contents of level {} are not there, and not drawn; the first is {}", in,
+                     level.missing.size(), all, wanted, level.missing[0]));
+  bp::SceneOptions scene;
+  scene.colors = true;
+  auto source = bp::open_contents(tileset, std::move(level.contents), in, scene);
+  bp::MeshInfo info = bp::measure(*source);
+  const std::string which = bp::level_text(wanted, level.levels);
+  picture.add_mesh(info, std::move(source), in,
+                   fmt::format("{}{} tile{}", which.empty() ? "" : which + "\n", there, there == 1 ? "" : "s"));
 }
 
-void show_tileset(const Options& o, const std::string& in, Picture& picture) {
-  if (o.dump || o.checksum || picture.wanted())
-    bp::fail(bp::ErrorCode::bad_argument, "{}: a tileset is described only; name its contents to see what they hold",
-             in);
-  const bp::TilesetInfo info = bp::tileset_info(in);
+void show_tileset(const Options& o, const std::string& in, bp::Picture& picture) {
+  if (o.dump || o.checksum)
+    bp::fail(bp::ErrorCode::bad_argument,
+             "{}: a tileset is described and drawn only; name its contents to see what they hold", in);
+  const bp::Tileset tileset = bp::read_tileset(in);
+  const bp::TilesetInfo info = bp::tileset_info(tileset, in);
   bp::print(o.json ? bp::tileset_json(info).dump(2) + "\n" : bp::tileset_text(info, in));
+  if (picture.wanted()) draw_tileset(o, tileset, in, picture);
 }
 
 void run(const Options& o) {
-  Picture picture(o);
+  check_level_is_used(o);
+  bp::Picture picture(o.picture);
   for (const std::string& in : o.in)
     (is_tileset(o, in) ? show_tileset : is_stream(o, in) ? show_stream : show_mesh)(o, in, picture);
   if (!picture.wanted()) return;
-  if (const std::string note = picture.write(); !note.empty()) std::fprintf(stderr, "bpinfo: note: %s\n", note.c_str());
+  for (const std::string& text : picture.write()) note(text);
 }
 
 }  // namespace

@@ -68,8 +68,8 @@ MeshoptView meshopt_view(const GltfObject& packed) {
 // --------------------------------------------------------------------------------------------------------
 
 void GltfObject::broken(const std::string& what) const {
-  fail(ErrorCode::bad_input, "{}: {} {}; repair or re-export the file", file_,
-       place_.empty() ? "the glTF document" : place_, what);
+  fail(ErrorCode::bad_input, "{}: {} {}; repair or re-export the file", file_, place_.empty() ? "the document" : place_,
+       what);
 }
 
 const GltfJson& GltfObject::at(const char* key) const {
@@ -187,6 +187,9 @@ void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
 }
 
 void GltfDocument::check_version() const {
+  if (root().has("geometricError") && root().has("root"))
+    fail(ErrorCode::bad_input, "{}: a tileset of 3D Tiles, not a scene or a mesh; bpcheck takes one as its last file",
+         file_->name());
   const std::string version = root().object("asset").text("version");
   if (version.compare(0, 2, "2.") != 0)
     fail(ErrorCode::bad_input, "{}: is glTF version {}; only version 2 is read, convert it", file_->name(), version);

@@ -121,6 +121,7 @@ class PackedPly final : public RawSource {
 
   void complete(RawBatch& batch) const override {
     batch.triangles.clear();
+    batch.inner_edges.clear();
     batch.triangles.reserve(batch.count);
     const auto index = [&](const std::byte* from) {
       return std::uint64_t(decode_integer(from, layout_.index_type, layout_.swap));
@@ -216,6 +217,9 @@ class PackedPly final : public RawSource {
         batch.triangles.push_back({first, previous, next});
         previous = next;
       }
+      if (n == 3) continue;
+      batch.inner_edges.resize(batch.triangles.size() - (n - 2));
+      for (std::size_t i = 0; i < n - 2; ++i) batch.inner_edges.push_back(inner_edges_of_fan(i, n - 2));
     }
   }
 

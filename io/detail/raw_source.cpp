@@ -6,7 +6,14 @@
 
 namespace bp {
 
-bool PolygonSource::read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors) {
+bool PolygonSource::next(RawBatch& batch) {
+  batch.bad_faces = 0;
+  batch.inner_edges.clear();
+  return read(batch.triangles, batch.colored ? &batch.colors : nullptr, &batch.inner_edges);
+}
+
+bool PolygonSource::read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors,
+                         std::vector<std::uint8_t>* inner_edges) {
   out.clear();
   if (colors != nullptr) colors->clear();
   while (out.size() < kBatch) {
@@ -24,6 +31,10 @@ bool PolygonSource::read(std::vector<TriangleD>& out, std::vector<TriangleColors
     out.push_back({first_, previous_, next});
     if (colors != nullptr)
       colors->push_back({corner_color(corners_[0]), corner_color(corners_[fan_ - 1]), corner_color(corners_[fan_])});
+    if (inner_edges != nullptr && corners_.size() > 3) {
+      inner_edges->resize(out.size());
+      inner_edges->back() = inner_edges_of_fan(fan_ - 2, corners_.size() - 2);
+    }
     previous_ = next;
     if (++fan_ == corners_.size()) fan_ = 0;
   }

@@ -9,10 +9,11 @@ namespace bp {
 struct RawBatch {
   bool colored = false;  ///< asked for
   std::vector<TriangleD> triangles;
-  std::vector<TriangleColors> colors;    ///< if asked for; fewer than triangles: all are white
-  std::vector<std::byte> bytes;          ///< that complete() will make them of
-  std::uint64_t records = 0, count = 0;  ///< faces in `bytes`, and their triangles if all are good
-  std::uint64_t bad_faces = 0;           ///< met by complete()
+  std::vector<TriangleColors> colors;     ///< if asked for; fewer than triangles: all are white
+  std::vector<std::uint8_t> inner_edges;  ///< TriangleSource::read_faces(); fewer than triangles: the rest has none
+  std::vector<std::byte> bytes;           ///< that complete() will make them of
+  std::uint64_t records = 0, count = 0;   ///< faces in `bytes`, and their triangles if all are good
+  std::uint64_t bad_faces = 0;            ///< met by complete()
 };
 
 class RawSource {
@@ -58,6 +59,7 @@ class PolygonSource : public RawSource {
   bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) final {
     return read(out, &colors);
   }
+  bool next(RawBatch& batch) final;
   void rewind() final;
 
  protected:
@@ -72,13 +74,19 @@ class PolygonSource : public RawSource {
   virtual void rewind_faces() = 0;
 
  private:
-  bool read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors);
+  bool read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors,
+            std::vector<std::uint8_t>* inner_edges = nullptr);
   [[nodiscard]] bool good_face() const;
 
   std::vector<std::uint64_t> corners_;
   std::size_t fan_ = 0;  // next corner to close a triangle of the fan; 0: no face is open
   Vec3d first_{}, previous_{};
 };
+
+/// Of triangle i of the n that a polygon is cut into as a fan.
+[[nodiscard]] inline std::uint8_t inner_edges_of_fan(std::size_t i, std::size_t n) {
+  return std::uint8_t((i > 0 ? 1 : 0) | (i + 1 < n ? 4 : 0));
+}
 
 /// A triangle with its corners as the rest of the suite wants them (scene_reader.h): tiny and negative zeros are 0,
 /// huge coordinates infinite.

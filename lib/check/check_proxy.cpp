@@ -10,6 +10,7 @@
 #include "lib/check/enclosure.h"
 #include "lib/check/inside.h"
 #include "lib/check/surface.h"
+#include "lib/core/signed_volume.h"
 #include "lib/core/vec3.h"
 
 namespace bp {
@@ -18,12 +19,14 @@ namespace {
 
 /// Volume, side lengths (each triangle's three), least angle.
 void measure(const WeldedMesh& mesh, CheckReport& report) {
+  report.volume = 0;
   if (mesh.triangles.empty()) return;
   const Vec3d origin = mesh.corners(0)[0];
-  double shortest = HUGE_VAL, longest = 0, sum = 0, least_angle = M_PI, volume = 0;
+  double shortest = HUGE_VAL, longest = 0, sum = 0, least_angle = M_PI;
+  SignedVolume volume(origin);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const TriangleD c = mesh.corners(t);
-    volume += dot(c[0] - origin, cross(c[1] - origin, c[2] - origin));
+    volume.add(c);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3d u = c[(k + 1) % 3] - c[k], v = c[(k + 2) % 3] - c[k];
       const double length = std::sqrt(dot(u, u)), area = std::sqrt(dot(cross(u, v), cross(u, v)));
@@ -32,7 +35,7 @@ void measure(const WeldedMesh& mesh, CheckReport& report) {
       if (mesh.degenerate[t] == 0) least_angle = std::min(least_angle, std::atan2(area, dot(u, v)));
     }
   }
-  report.volume = volume / 6;
+  report.volume = volume.value();
   report.edge_min = shortest, report.edge_max = longest;
   report.edge_mean = sum / (3 * double(mesh.triangles.size()));
   report.angle_min_degrees = least_angle * 180 / M_PI;

@@ -85,9 +85,7 @@ struct CheckReport {
   Finding not_held;           ///< index: scene triangle that lies strictly within no part
 
   // Measures, in doubles.
-  double volume = 0;  ///< signed, cubed scene units
-  /// Signed sum over all triangles, seen from the centre of their bounds: meaningful only for closed scenes.
-  std::optional<double> scene_volume;
+  std::optional<double> volume, scene_volume;  ///< cubed scene units; none if open, or not asked (SignedVolume)
   double edge_min = 0, edge_mean = 0, edge_max = 0;
   double angle_min_degrees = 0;
   std::optional<SampledDistance> scene_to_proxy, proxy_to_scene;

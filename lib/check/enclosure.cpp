@@ -4,6 +4,7 @@
 
 #include "lib/core/parallel.h"
 #include "lib/core/predicates.h"
+#include "lib/core/signed_volume.h"
 
 namespace bp {
 
@@ -11,43 +12,11 @@ namespace {
 
 constexpr std::size_t kBatch = 8192;  // triangles per work item
 
-/// The signed volume of a stream of triangles. It is summed about a point that is known from the start and moved to
-/// the centre of the bounds at the end: where the scene is open the value depends on the point, and it must not depend
-/// on the proxy.
-class SceneVolume {
- public:
-  SceneVolume() = default;
-  explicit SceneVolume(const Vec3d& origin) : origin_(origin) {}
-  void add(const TriangleD& t) {
-    Vec3d a, u, v;
-    for (std::size_t i = 0; i < 3; ++i) a[i] = t[0][i] - origin_[i], u[i] = t[1][i] - t[0][i], v[i] = t[2][i] - t[0][i];
-    const Vec3d n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    for (std::size_t i = 0; i < 3; ++i) six_volumes_ += a[i] * n[i], two_areas_[i] += n[i];
-    for (const Vec3d& p : t) bounds_.add(p);
-  }
-  void add(const SceneVolume& v) {
-    six_volumes_ += v.six_volumes_;
-    for (std::size_t i = 0; i < 3; ++i) two_areas_[i] += v.two_areas_[i];
-    bounds_.merge(v.bounds_);
-  }
-  [[nodiscard]] double about_centre() const {
-    double six = six_volumes_;
-    if (bounds_.empty()) return 0;
-    for (std::size_t i = 0; i < 3; ++i) six -= ((bounds_.min[i] + bounds_.max[i]) / 2 - origin_[i]) * two_areas_[i];
-    return six / 6;
-  }
-
- private:
-  Vec3d origin_{}, two_areas_{};
-  double six_volumes_ = 0;
-  Bounds3d bounds_;
-};
-
 struct Batch {
   std::uint64_t first = 0;
   std::vector<TriangleD> triangles;
   Enclosure result;
-  SceneVolume volume;
+  SignedVolume volume;
 };
 
 /// Pulls from a source whose reads are of any size, hands out batches of about one size.
@@ -125,7 +94,7 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, bool decide_sid
                  std::size_t max_examples, Batch& batch) {
   SideCache cache;
   Enclosure& e = batch.result;
-  batch.volume = SceneVolume(origin);
+  batch.volume = SignedVolume(origin);
   for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
     const TriangleD& t = batch.triangles[i];
     const std::uint64_t number = batch.first + i;
@@ -151,7 +120,7 @@ Enclosure check_enclosure(const WeldedMesh& mesh, const Surface& surface, Triang
   Enclosure all;
   Vec3d origin{};
   if (!surface.bounds().empty()) origin = surface.bounds().min;
-  SceneVolume volume(origin);
+  SignedVolume volume(origin);
   scene.rewind();
   Batcher batcher(scene);
   pipeline<Batch>(
@@ -165,7 +134,7 @@ Enclosure check_enclosure(const WeldedMesh& mesh, const Surface& surface, Triang
         all.undecidable.append(batch.result.undecidable, max_examples);
         volume.add(batch.volume);
       });
-  all.volume = volume.about_centre();
+  all.volume = volume.value();
   return all;
 }
 

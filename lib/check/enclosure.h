@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 
 #include "lib/check/surface.h"
 #include "lib/core/triangle_source.h"
@@ -10,7 +11,7 @@ namespace bp {
 struct Enclosure {
   std::uint64_t triangles = 0;
   Finding touching, outside, undecidable;  ///< as in CheckReport
-  double volume = 0;                       ///< signed sum over the scene, seen from the centre of its bounds
+  std::optional<double> volume;            ///< of the scene; none if it is open (SignedVolume)
 };
 
 /// Tests every triangle of `scene` from its start, in parallel, in bounded memory. A triangle that touches nothing lies

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lib/core/signed_volume.h"
+
 namespace bp {
 
 namespace {
@@ -52,8 +54,9 @@ constexpr FindingText kFindings[] = {
 };
 
 /// The scene may face inwards: its sign does not matter.
-double volume_ratio(const CheckReport& r) {
-  return r.volume / std::abs(*r.scene_volume);
+std::optional<double> volume_ratio(const CheckReport& r) {
+  if (!r.volume || !r.scene_volume) return {};
+  return *r.volume / std::abs(*r.scene_volume);
 }
 
 std::string point_text(const Vec3d& p) {
@@ -114,10 +117,11 @@ std::string distance_line(const char* name, const std::optional<SampledDistance>
 }
 
 std::string measure_lines(const CheckReport& r) {
-  std::string text = fmt::format("  {:<28}{:.9g}\n", "volume", r.volume);
-  if (r.scene_volume)
-    text += fmt::format("  {:<28}{:.9g} (ratio {:.6g}; means something only if the scene is closed)\n",
-                        "volume of the scene", *r.scene_volume, volume_ratio(r));
+  std::string text = fmt::format("  {:<28}{}\n", "volume", volume_text(r.volume));
+  const std::optional<double> ratio = volume_ratio(r);
+  if (r.has_scene && !r.wants_inside && !r.wants_convex)
+    text += fmt::format("  {:<28}{}{}\n", "volume of the scene", volume_text(r.scene_volume),
+                        ratio ? fmt::format(" (ratio {:.6g})", *ratio) : "");
   text +=
       fmt::format("  {:<28}{:.6g} to {:.6g}, {:.6g} on average\n", "edge lengths", r.edge_min, r.edge_max, r.edge_mean);
   text += fmt::format("  {:<28}{:.4g} degrees\n", "least angle", r.angle_min_degrees);
@@ -173,9 +177,10 @@ Json json_of(const CheckReport& r, const std::string& proxy_name) {
                 {"vertices", r.vertices},     {"merged_vertices", r.merged_vertices},
                 {"components", r.components}, {"euler", r.euler}};
   proxy["genus"] = r.genus ? Json(*r.genus) : Json(nullptr);
-  Json measures = {{"volume", r.volume}};
-  measures["scene_volume"] = r.scene_volume ? Json(*r.scene_volume) : Json(nullptr);
-  measures["volume_ratio"] = r.scene_volume ? Json(volume_ratio(r)) : Json(nullptr);
+  const auto json_or_null = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
+  Json measures = {{"volume", json_or_null(r.volume)}};
+  measures["scene_volume"] = json_or_null(r.scene_volume);
+  measures["volume_ratio"] = json_or_null(volume_ratio(r));
   measures["edge_length"] = {{"min", r.edge_min}, {"mean", r.edge_mean}, {"max", r.edge_max}};
   measures["angle_min_degrees"] = r.angle_min_degrees;
   measures["scene_to_proxy"] = json_of(r.scene_to_proxy);

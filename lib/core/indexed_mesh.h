@@ -13,7 +13,8 @@ namespace bp {
 struct IndexedMesh {
   std::vector<Vec3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::optional<UpAxis> up;  ///< if its file tells
+  std::vector<std::uint8_t> inner_edges;  ///< as TriangleSource::read_faces(), by triangle; fewer: the rest has none
+  std::optional<UpAxis> up;               ///< if its file tells
 };
 
 }  // namespace bp

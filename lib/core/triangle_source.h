@@ -41,6 +41,14 @@ class TriangleSource {
     colors.assign(out.size(), TriangleColors{});
     return more;
   }
+  /// As read_colored(), and for each triangle its inner edges, within a polygon that it is a part of: bit k stands for
+  /// the edge from corner k to the next. For pictures; sources that know of none say none.
+  virtual bool read_faces(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
+                          std::vector<std::uint8_t>& inner_edges) {
+    const bool more = read_colored(out, colors);
+    inner_edges.assign(out.size(), 0);
+    return more;
+  }
   /// False if every triangle is white; known after all of them were read once.
   [[nodiscard]] virtual bool has_colors() const { return false; }
 

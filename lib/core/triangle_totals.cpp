@@ -34,12 +34,12 @@ void TriangleTotals::add(std::span<const TriangleD> batch) {
     const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
     const double twice_area = std::sqrt(dot(normal, normal));
     if (!std::isfinite(twice_area)) continue;
-    if (bounds.empty()) origin_ = t[0];
+    if (bounds.empty()) sum_ = SignedVolume(t[0]);
     for (const Vec3d& p : t) bounds.add(p);
     area += twice_area / 2;
-    six_volumes_ += dot(t[0] - origin_, cross(t[1] - origin_, t[2] - origin_));
+    sum_.add(t);
   }
-  volume = six_volumes_ / 6;
+  volume = sum_.value();
 }
 
 std::string TriangleTotals::checksum() const {

@@ -1,19 +1,21 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "lib/core/box.h"
 #include "lib/core/coords.h"
+#include "lib/core/signed_volume.h"
 
 /// Sums over a triangle soup: what a summary of a mesh tells.
 namespace bp {
 
 struct TriangleTotals {
   std::uint64_t triangles = 0;
-  Bounds3d bounds;    ///< of the finite corners
-  double area = 0;    ///< scene units squared
-  double volume = 0;  ///< enclosed, signed; meaningful for closed, oriented meshes
+  Bounds3d bounds;                     ///< of the finite corners
+  double area = 0;                     ///< scene units squared
+  std::optional<double> volume = 0.0;  ///< enclosed; none if it is open (SignedVolume)
   std::uint64_t checksum_low = 0, checksum_high = 0;
 
   void add(std::span<const TriangleD> batch);
@@ -23,8 +25,7 @@ struct TriangleTotals {
   [[nodiscard]] std::string checksum() const;
 
  private:
-  Vec3d origin_{};          ///< the first corner: volumes are summed from there, so that far scenes keep their digits
-  double six_volumes_ = 0;  ///< undivided: exact for small integers
+  SignedVolume sum_;  ///< from the first corner
 };
 
 }  // namespace bp

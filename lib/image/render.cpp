@@ -143,15 +143,16 @@ void paint_faces(const View& view, const Camera& camera, Canvas& canvas) {
 /// Each edge once, in lexicographic order of its ends on the screen.
 std::vector<std::array<Vec3d, 2>> edges_of(const View& view, const Camera& camera) {
   std::vector<std::array<Vec3d, 2>> edges;
-  const auto add = [&](const TriangleD& t) {
+  const auto add = [&](const TriangleD& t, std::span<const std::uint8_t> inner_edges, std::size_t i) {
     for (std::size_t e = 0; e < 3; ++e) {
+      if (i < inner_edges.size() && (inner_edges[i] >> e & 1) != 0) continue;
       const Vec3d p = camera.project(t[e]), q = camera.project(t[(e + 1) % 3]);
       if (finite(p) && finite(q)) edges.push_back(p < q ? std::array{p, q} : std::array{q, p});
     }
   };
   for (std::size_t t = 0; view.mesh != nullptr && t < view.mesh->triangles.size(); ++t)
-    add(corners_or_nothing(*view.mesh, t));
-  std::for_each(view.triangles.begin(), view.triangles.end(), add);
+    add(corners_or_nothing(*view.mesh, t), view.mesh->inner_edges, t);
+  for (std::size_t t = 0; t < view.triangles.size(); ++t) add(view.triangles[t], view.inner_edges, t);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
@@ -181,8 +182,10 @@ void write_label(Image& image, int x, int y, int width, std::string_view label, 
 Image render(std::span<const View> views, const RenderOptions& options) {
   const int w = options.panel_width, h = options.panel_height;
   const int columns = std::max(1, int(views.size()));
-  if (w < 16 || h < 16 || h > 16384 || std::int64_t(w) * columns > 16384)
-    fail(ErrorCode::bad_argument, "image of {} panels, {} x {} pixels each: sides must be 16 to 16384", columns, w, h);
+  if (std::min(w, h) < kLeastPanelSide || std::max<std::int64_t>(h, std::int64_t(w) * columns) > kMostImageSide)
+    fail(ErrorCode::bad_argument,
+         "image of {} panels, {} x {} pixels each: sides must be {} to {}, all panels together", columns, w, h,
+         kLeastPanelSide, kMostImageSide);
   int lines = 0;
   for (const View& v : views) lines = std::max(lines, lines_in(v.label));
   Image image(w * columns, h + (lines > 0 ? lines * kLineHeight + 8 : 0), options.background);

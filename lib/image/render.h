@@ -18,12 +18,15 @@ struct View {
   TriangleSource* source =
       nullptr;                 ///< streamed from its start, in bounded memory; RenderOptions::bounds must cover it
   Color color{176, 188, 204};  ///< of all that has none of its own
-  std::span<const TriangleColors> colors;  ///< of `triangles`; empty: none
-  bool source_colors = false;              ///< draw `source` in its own
-  bool edges = false;                      ///< draws the edges of `mesh` and `triangles` as dark lines
-  Bounds3d bounds;                         ///< what to show, at a scale of its own; empty: as RenderOptions say
-  std::string label;                       ///< lines separated by \n
+  std::span<const TriangleColors> colors;     ///< of `triangles`; empty: none
+  bool source_colors = false;                 ///< draw `source` in its own
+  std::span<const std::uint8_t> inner_edges;  ///< of `triangles` (TriangleSource::read_faces()); empty: none
+  bool edges = false;  ///< draws the edges of `mesh` and `triangles`, but inner ones, as dark lines
+  Bounds3d bounds;     ///< what to show, at a scale of its own; empty: as RenderOptions say
+  std::string label;   ///< lines separated by \n
 };
+
+constexpr int kLeastPanelSide = 16, kMostImageSide = 16384;  ///< pixels; the latter of all panels together
 
 struct RenderOptions {
   int panel_width = 720, panel_height = 720;  ///< pixels; the labels come below
@@ -37,8 +40,8 @@ struct RenderOptions {
 /// Orthographic, all panels without bounds of their own at one scale and around one centre, so that they can be
 /// compared; z-buffer, flat shading
 /// from both sides under two lights, 2 x 2 samples a pixel. A panel without anything finite to draw stays empty.
-/// Memory: 32 bytes a pixel of one panel. Throws bad_argument if a side is below 16 or above 16384 pixels; passes on
-/// what a source throws.
+/// Memory: 32 bytes a pixel of one panel. Throws bad_argument if a side is too small or too large; passes on what a
+/// source throws.
 [[nodiscard]] Image render(std::span<const View> views, const RenderOptions& options = {});
 
 }  // namespace bp

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <set>
 
+#include "io/scene_parts.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 
@@ -56,17 +57,30 @@ std::string whole_path(const std::string& path) {
   return unknown ? path : whole.string();
 }
 
+/// Without its buffers, textures or materials a scene is lost, too.
+void refuse_parts_of_inputs(const std::string& path, const std::string& whole) {
+  for (const std::string& input : named_files().inputs) {
+    for (const std::string& part : parts_of_scene(input)) {
+      if (whole_path(part) == whole)
+        fail(ErrorCode::bad_argument, "{}: belongs to the input {}, and would be lost; give the output another name",
+             path, input.substr(input.rfind('/') + 1));
+    }
+  }
+}
+
 /// Of an output that is about to be opened: its whole path; empty if it is written in place, as /dev/null, which may be
 /// named twice.
 std::string free_name(const std::string& path) {
   struct stat info {};
-  if (path != "-" && ::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode)) return "";
+  const bool exists = path != "-" && ::stat(path.c_str(), &info) == 0;
+  if (exists && !S_ISREG(info.st_mode)) return "";
   std::string whole = path == "-" ? path : whole_path(path);
   if (named_files().inputs.count(whole) > 0)
     fail(ErrorCode::bad_argument, "{}: is an input, and would be lost; give the output another name", path);
   if (named_files().outputs.count(whole) > 0)
     fail(ErrorCode::bad_argument, "{}: is named for two outputs; give each a name of its own",
          path == "-" ? "stdout" : path);
+  if (exists) refuse_parts_of_inputs(path, whole);
   return whole;
 }
 

@@ -4,6 +4,7 @@
 
 #include "io/scene_format.h"
 #include "lib/core/error.h"
+#include "lib/image/render.h"
 
 namespace bp {
 
@@ -21,15 +22,11 @@ void check_scene_format(const std::string& format, const std::vector<std::string
        format, inputs.front());
 }
 
-void check_stdin_once(const std::vector<std::string>& inputs) {
-  if (std::count(inputs.begin(), inputs.end(), "-") > 1)
-    fail(ErrorCode::bad_argument, "stdin (-) is named twice; give all but one of these inputs as files");
-}
-
-void check_panel_size(int pixels) {
-  constexpr int kLeast = 16, kMost = 16384;  // of render()
-  if (pixels < kLeast || pixels > kMost)
-    fail(ErrorCode::bad_argument, "--image-size {}: must be {} to {} pixels", pixels, kLeast, kMost);
+void check_panel_size(int pixels, std::size_t panels) {
+  const std::size_t most = kMostImageSide / panels;
+  if (pixels >= kLeastPanelSide && std::size_t(pixels) <= most) return;
+  fail(ErrorCode::bad_argument, "--image-size {}: must be {} to {} pixels{}", pixels, kLeastPanelSide, most,
+       panels == 1 ? "" : fmt::format(", for {} panels side by side", panels));
 }
 
 }  // namespace bp

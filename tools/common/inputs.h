@@ -9,10 +9,7 @@ namespace bp {
 /// all names tell another one: it would be passed over in silence.
 void check_scene_format(const std::string& format, const std::vector<std::string>& inputs);
 
-/// Throws bad_argument if one of `inputs` is stdin and another is, too: the second would be found empty.
-void check_stdin_once(const std::vector<std::string>& inputs);
-
-/// --image-size: throws bad_argument if no picture has such panels.
-void check_panel_size(int pixels);
+/// --image-size: throws bad_argument if no picture has so many panels of that size.
+void check_panel_size(int pixels, std::size_t panels);
 
 }  // namespace bp

@@ -5,17 +5,11 @@
 
 #include "lib/core/triangle_source.h"
 #include "lib/core/triangle_totals.h"
+#include "tools/common/mesh_extras.h"
 #include "tools/common/report.h"
 
 /// What bpinfo says of a mesh or scene.
 namespace bp {
-
-/// What a file says beside its triangles; nothing if there is none, or if it cannot be understood.
-struct MeshExtras {
-  std::vector<std::string> provenance;  ///< a line each step, as bpmesh wrote: comments of PLY and OBJ, extras of glTF
-  std::size_t levels = 1;               ///< of detail; MSFT_lod of glTF
-};
-[[nodiscard]] MeshExtras mesh_extras(const std::string& path);
 
 struct MeshInfo {
   SceneCounts counts;
@@ -23,7 +17,9 @@ struct MeshInfo {
   std::optional<std::uint64_t> vertices;  ///< distinct positions; unknown for scenes above kMaxKept triangles
   std::vector<TriangleD> triangles;       ///< all of them, or none if there are more than kMaxKept
   std::vector<TriangleColors> colors;     ///< of these, if the source has any
+  std::vector<std::uint8_t> inner_edges;  ///< of these, as TriangleSource::read_faces()
   MeshExtras extras;
+  std::size_t level = 0;  ///< that was measured
 
   static constexpr std::size_t kMaxKept = 1000000;
 };
@@ -31,6 +27,8 @@ struct MeshInfo {
 /// Streams `source` once; memory is bounded by kMaxKept. Colours are looked for if the source was opened with them.
 [[nodiscard]] MeshInfo measure(TriangleSource& source);
 
+/// "finest of 3 levels"; empty if there is one.
+[[nodiscard]] std::string level_text(std::size_t level, std::size_t levels);
 [[nodiscard]] std::string mesh_text(const MeshInfo& info, const std::string& name);
 [[nodiscard]] Json mesh_json(const MeshInfo& info);
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "io/file.h"
-#include "io/tileset_file.h"
 #include "tools/info/mesh_info.h"
 
 namespace bp {
@@ -45,8 +44,7 @@ TileDepth total_of(const TilesetInfo& info) {
 
 }  // namespace
 
-TilesetInfo tileset_info(const std::string& path) {
-  const Tileset tileset = read_tileset(path);
+TilesetInfo tileset_info(const Tileset& tileset, const std::string& path) {
   TilesetInfo info;
   info.version = tileset.version;
   info.up = tileset.up;

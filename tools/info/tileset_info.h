@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/box.h"
+#include "lib/check/tileset.h"
 #include "tools/common/report.h"
 
 /// What bpinfo says of a tileset.json. Contents are counted and weighed, not read: bpcheck does that.
@@ -25,8 +25,8 @@ struct TilesetInfo {
   std::vector<std::string> provenance;  ///< a line each step
 };
 
-/// Throws as read_tileset().
-[[nodiscard]] TilesetInfo tileset_info(const std::string& path);
+/// path: that it was read from; what lies beside it is looked for.
+[[nodiscard]] TilesetInfo tileset_info(const Tileset& tileset, const std::string& path);
 
 [[nodiscard]] std::string tileset_text(const TilesetInfo& info, const std::string& name);
 [[nodiscard]] Json tileset_json(const TilesetInfo& info);

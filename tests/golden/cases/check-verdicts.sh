@@ -11,6 +11,12 @@ try bpcheck inner.obj outer.obj --json
 try bpcheck inner.obj outer.obj --image both.png --image-size 100
 try bpcheck inner.obj outer.obj --image both.png --image-size 100
 
+# What files say of their making tells what may be wrong with the question.
+for mode in bounding fit inside; do (echo "# provenance: bpmesh 0.1.0 mode=$mode faces=12"; cat inner.obj) > $mode.obj; done
+for files in 'bounding.obj inner.obj' 'inner.obj fit.obj' 'inner.obj inside.obj' '--inside inner.obj bounding.obj' '--inside inner.obj inside.obj' \
+  'inner.obj bounding.obj' 'bounding.obj fit.obj' 'bounding.obj outer.obj' 'fit.obj'; do said "bpcheck $files --no-distances | tail -1"; done
+rm bounding.obj fit.obj inside.obj
+
 # A file with levels (MSFT_lod): each is a proxy of its own, and all must hold.
 # write_levels FILE SIZE...: a glTF whose levels are cubes from -SIZE to SIZE.
 write_levels() {

@@ -97,7 +97,23 @@ said 'bpinfo info/tileset.json | sed -E "s/, [0-9.]+ KiB/, SOME KiB/; s/(error|b
 bpinfo info/tileset.json --json | grep -E '"(kind|tiles|contents|missing|up)"'
 rm info/c_LOD0/1_*
 said 'bpinfo info/tileset.json | grep missing'
-for option in --dump --checksum '--image x.png'; do try bpinfo info/tileset.json $option; done
+for option in --dump --checksum; do try bpinfo info/tileset.json $option; done
+# Drawn, it is drawn whole: a level of all tiles, upright, in the place of its scene.
+bplod part*.obj --name cubes --resolution 160 --tile 128 --levels 3 --up z --profile 3dtiles -q -o drawn > list
+bpinfo part*.obj drawn/tileset.json --up z --image beside.png --image-size 64 > said
+for level in 0 1 2; do bpinfo drawn/tileset.json --level $level --image $level.png --image-size 99 > said; done
+cmp -s 0.png 1.png && echo 'levels look the same'
+bpinfo drawn/tileset.json --image finest.png --image-size 99 > said && cmp 0.png finest.png
+said 'bpinfo drawn/tileset.json --up y --image up.png --image-size 99 > said' && cmp 0.png up.png
+tiles=(drawn/cubes_LOD0/*)
+rm "${tiles[1]}"
+said 'bpinfo drawn/tileset.json --image hole.png > said' | sed -E 's/of [0-9]+ c/of SOME c/; s/[0-9]+_[0-9_]+.glb/SOME.glb/'
+try bpinfo drawn/tileset.json --image none.png --level 9 | grep -e --level
+try bpinfo drawn/tileset.json --level 1
+try bpinfo cube.obj --level 1
+try bpinfo gltf/cubes.glb --level 2
+bpinfo gltf/cubes.glb --level 1 | grep -E 'levels|triangles'
+rm -r drawn ./*.png said
 
 # Findings of a tileset.
 cp -r tiles broken

@@ -33,3 +33,9 @@ for up in y z; do said "bplod map.obj --resolution 30 --levels 1 --profile 3dtil
 said 'bplod map.obj --resolution 30 --levels 1 -o flat > list'
 said 'bplod cube.obj --resolution 30 --levels 1 --profile 3dtiles -o upright > list'
 said 'bplod z.glb --resolution 30 --levels 1 --profile 3dtiles -o told > list'
+# A picture believes what a file tells, and says where --up differs.
+for up in z y; do
+  [ $up = z ] && other=y || other=z
+  said "bpinfo $up.glb --up $other --image-size 99 --image told-$up.png > said" && cmp told-$up.png info-$up.png
+done
+said 'bpinfo cube.obj y.glb z.glb --up z --image-size 99 --image both.png > said'

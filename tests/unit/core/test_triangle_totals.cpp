@@ -25,10 +25,21 @@ TEST_CASE("volume and area of a solid, near and far", "[quick][core]") {
   const double at = GENERATE(0.0, 1048576.0 * 16);
   const TriangleTotals t = totals_of(tetrahedron(at));
   CHECK(t.triangles == 4);
-  CHECK(std::abs(t.volume - 1.0 / 6) < 1e-12);
+  CHECK(std::abs(*t.volume - 1.0 / 6) < 1e-12);
   CHECK(std::abs(t.area - (1.5 + std::sqrt(3) / 2)) < 1e-12);
   CHECK(t.bounds.min == Vec3d{at, at, at});
   CHECK(t.bounds.max == Vec3d{at + 1, at + 1, at + 1});
+}
+
+TEST_CASE("a surface that is open or faces both ways has no volume, whatever its place", "[quick][core]") {
+  const double at = GENERATE(0.0, 6e6 + 1.0 / 3);
+  std::vector<TriangleD> t = tetrahedron(at);
+  CHECK(totals_of(t).volume);
+  std::swap(t[1][0], t[1][1]);
+  CHECK_FALSE(totals_of(t).volume);
+  t.erase(t.begin() + 1);
+  CHECK_FALSE(totals_of(t).volume);
+  CHECK(volume_text({}).find("none") == 0);
 }
 
 TEST_CASE("the checksum of a mesh is that of its triangles as a set", "[quick][core]") {

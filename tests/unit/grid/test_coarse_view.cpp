@@ -42,7 +42,7 @@ TEST_CASE("the surface of cells encloses them", "[quick][grid]") {
   const std::vector<TriangleD> one = view.surface(Layer::solid, frame);
   CHECK(one.size() == 12);
   totals.add(one);
-  CHECK(std::abs(totals.volume / (side * side * side / 8) - 1) < 1e-9);
+  CHECK(std::abs(*totals.volume / (side * side * side / 8) - 1) < 1e-9);
   CHECK(totals.area == 6 * side * side / 4);
   const double x = (100 + std::floor((-64 + 40) / side) * side) / 2;
   CHECK(totals.bounds.min[0] == x);
@@ -62,7 +62,7 @@ TEST_CASE("faces in a row are one rectangle, across bricks too", "[quick][grid]"
   const std::vector<TriangleD> faces = view.surface(Layer::closing, {});
   TriangleTotals totals;
   totals.add(faces);
-  CHECK(std::abs(totals.volume / (2.0 * 64 * 64 * 64) - 1) < 1e-9);
+  CHECK(std::abs(*totals.volume / (2.0 * 64 * 64 * 64) - 1) < 1e-9);
   CHECK(totals.area == 2.0 * 64 * 64 * 5);
   CHECK(faces.size() == 2 * 2 * (64 + 64 + 64));
 }

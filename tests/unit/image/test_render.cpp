@@ -133,6 +133,29 @@ TEST_CASE("lines behind a face do not show, lines on it and before it do", "[qui
   CHECK(dark_samples(5) == 0);
 }
 
+TEST_CASE("edges within a face are not drawn", "[quick][image]") {
+  IndexedMesh quad;
+  quad.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  quad.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const std::vector<TriangleD> triangles{{quad.vertices[0], quad.vertices[1], quad.vertices[2]},
+                                         {quad.vertices[0], quad.vertices[2], quad.vertices[3]}};
+  RenderOptions front;
+  front.azimuth = front.elevation = 0;
+  const auto dark_at = [&](const View& v, int x, int y) { return picture({v}, front).at(x, y).r < 130; };
+  const std::vector<std::uint8_t> inner{4, 1};
+  View spans;
+  spans.triangles = triangles, spans.edges = true;
+  CHECK(dark_at(spans, 32, 31));  // the diagonal
+  spans.inner_edges = inner;
+  CHECK_FALSE(dark_at(spans, 32, 31));
+  CHECK(dark_at(spans, 32, 61));
+  CHECK(dark_at(spans, 2, 32));
+  quad.inner_edges = inner;
+  View mesh = view_of(quad);
+  mesh.edges = true;
+  CHECK(picture({mesh}, front).pixels == picture({spans}, front).pixels);
+}
+
 TEST_CASE("the picture does not depend on threads or on how triangles arrive", "[quick][image]") {
   const IndexedMesh m = sphere(5, 3, {6e6, 0, -6e6});
   std::vector<TriangleD> list = triangles_of(m);

@@ -63,6 +63,15 @@ inline std::vector<TriangleD> read_all(const std::string& path, const SceneOptio
   return read_all(*open_scene(path, options));
 }
 
+/// As TriangleSource::read_faces() gives them.
+inline std::vector<std::uint8_t> read_inner_edges(TriangleSource& source) {
+  std::vector<TriangleD> batch;
+  std::vector<TriangleColors> colors;
+  std::vector<std::uint8_t> all, inner_edges;
+  while (source.read_faces(batch, colors, inner_edges)) all.insert(all.end(), inner_edges.begin(), inner_edges.end());
+  return all;
+}
+
 /// Reads to the end and returns what was counted.
 inline SceneCounts counts_of(const std::string& path, const SceneOptions& options = {}) {
   const auto source = open_scene(path, options);

@@ -75,6 +75,9 @@ TEST_CASE("a packed PLY gives the triangles that the general reader gives", "[qu
   options.memory_bytes = memory;
   const auto expected = open_scene(dir.file("a.ply", files.text));
   const std::vector<TriangleD> triangles = read_all(*expected);
+  expected->rewind();
+  const std::vector<std::uint8_t> inner_edges = read_inner_edges(*expected);
+  CHECK(inner_edges.size() == triangles.size());
   for (const std::string& bytes : {files.little, files.big}) {
     const auto source = open_scene(dir.file("b.ply", bytes), options);
     for (int pass = 0; pass < 2; ++pass) {
@@ -84,6 +87,8 @@ TEST_CASE("a packed PLY gives the triangles that the general reader gives", "[qu
       CHECK(source->counts().degenerate == expected->counts().degenerate);
       source->rewind();
     }
+    CHECK((read_inner_edges(*source) == inner_edges));
+    CHECK((read_mesh(dir.path("b.ply")).inner_edges == read_mesh(dir.path("a.ply")).inner_edges));
     CHECK(read_mesh(dir.path("b.ply")).triangles.size() == read_mesh(dir.path("a.ply")).triangles.size());
   }
 }

@@ -120,7 +120,7 @@ TEST_CASE("OFF files that promise more than they hold are refused before memory 
   CHECK_THAT(complaint_of(dir.file("e.off", "OFF BINARY\n")), Contains("binary OFF"));
   CHECK_THAT(complaint_of(dir.file("f.off", "4OFF\n1 0 0\n0 0 0 1\n")), Contains("4OFF"));
   CHECK_THAT(complaint_of(dir.file("g.off", "HELLO\n")), Contains("starts with 'HELLO'"));
-  CHECK_THAT(complaint_of(dir.file("h.off", "")), Contains("truncated"));
+  CHECK_THAT(complaint_of(dir.file("h.off", "")), Contains("is empty"));
   CHECK_THAT(complaint_of(dir.file("i.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n")), Contains("line 6"));
   CHECK(counts_of(dir.file("j.off", "OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n2 0 1\n3 0 1 2\n")).bad_faces == 2);
 }

@@ -4,6 +4,7 @@
 
 #include "lib/core/error.h"
 #include "tests/catch.h"
+#include "tests/unit/io/scene_files.h"
 #include "tools/common/common_options.h"
 #include "tools/common/make_backend.h"
 #include "tools/common/provenance.h"
@@ -115,4 +116,24 @@ TEST_CASE("an output is neither an input nor another output", "[quick][tools]") 
   CHECK_THROWS_AS(open_output(out, true), Error);
   CHECK_NOTHROW(open_output("/dev/null", true));
   CHECK_NOTHROW(open_output("/dev/null", true));
+}
+
+TEST_CASE("an output is no buffer, texture or material of an input", "[quick][tools]") {
+  const test::TempDir dir;
+  const std::string gltf = dir.file(
+      "s.gltf",
+      R"({"asset":{"version":"2.0"},"buffers":[{"uri":"a%20b.bin"},{"uri":"data:,"}],"images":[{"uri":"t.png"},{}]})");
+  const std::string obj = dir.file("s.obj", "v 0 0 0\nmtllib s.mtl\r\nmtllib other/s.mtl\n");
+  keep_inputs({gltf, obj, dir.file("broken.gltf", "{")});
+  for (const char* name : {"a b.bin", "t.png", "s.mtl", "free.png"}) (void)dir.file(name, "");
+  for (const char* name : {"a b.bin", "t.png", "s.mtl"}) CHECK_THROWS_AS(open_output(dir.path(name), true), Error);
+  CHECK_NOTHROW(open_output(dir.path("free.png"), true));
+  CHECK_NOTHROW(open_output(dir.path("new.bin"), true));
+  std::filesystem::create_hard_link(gltf, dir.path("link.gltf"));  // a name more; the input keeps its own
+  {
+    const auto out = open_output(dir.path("link.gltf"), true);
+    out->write("new");
+    out->commit();
+  }
+  CHECK(test::bytes_of_file(gltf).size() > 3);
 }

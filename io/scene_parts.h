@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace bp {
+
+/// Paths of the other files that a scene consists of: buffers and images of glTF, materials of OBJ. Quick, for the sake
+/// of a warning: no more than 64 MiB of JSON are looked at, and the first 64 KiB of OBJ, where the names stand; none of
+/// a file that cannot be read or understood.
+[[nodiscard]] std::vector<std::string> parts_of_scene(const std::string& path);
+
+}  // namespace bp

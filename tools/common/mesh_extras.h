@@ -1,0 +1,23 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/core/coords.h"
+
+namespace bp {
+
+/// What a file says beside its triangles; nothing if there is none, or if it cannot be understood.
+struct MeshExtras {
+  std::vector<std::string> provenance;  ///< a line each step, as bpmesh wrote: comments of PLY and OBJ, extras of glTF
+  std::optional<Vec3d> origin;          ///< that its vertices are relative to
+  std::size_t levels = 1;               ///< of detail; MSFT_lod of glTF
+};
+[[nodiscard]] MeshExtras mesh_extras(const std::string& path);
+
+/// The tool that made the mesh, bpmesh or bplod; empty: another, or it does not say.
+[[nodiscard]] std::string made_by(const MeshExtras& extras);
+/// Its --mode, as the option is written; empty: it does not say.
+[[nodiscard]] std::string mode_of(const MeshExtras& extras);
+
+}  // namespace bp

@@ -1,0 +1,199 @@
+#include "tools/info/picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/png_writer.h"
+#include "tools/common/common_options.h"
+#include "tools/common/names.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kFarApart = 4;                              // largest inputs between them
+constexpr std::size_t kEdges = 50000, kEdgesOfMany = 20000;  // more would only darken the picture
+
+std::string shown_name(const std::string& in) {
+  return in == "-" ? "stdin" : in.substr(in.rfind('/') + 1);
+}
+
+Bounds3d bounds_of(const StreamHeader& header) {
+  Bounds3d bounds;
+  const VoxelBox box = voxels_of(header.bricks);
+  const auto corner = [&](VoxelCoord v) {
+    const std::int64_t unit = kLatticePerVoxel;
+    return header.frame.world({v.x * unit, v.y * unit, v.z * unit});
+  };
+  bounds.add(corner(box.min));
+  bounds.add(corner(box.max));
+  return bounds;
+}
+
+/// From the axes of an input to those where `to` is up.
+Vec3d turned(const Vec3d& p, UpAxis to) {
+  return to == UpAxis::z ? Vec3d{p[0], 0.0 - p[2], p[1]} : Vec3d{p[0], p[2], 0.0 - p[1]};
+}
+
+void turn(std::vector<TriangleD>& triangles, UpAxis to) {
+  for (TriangleD& t : triangles) {
+    for (Vec3d& p : t) p = turned(p, to);
+  }
+}
+
+class TurnedSource final : public TriangleSource {
+ public:
+  TurnedSource(std::unique_ptr<TriangleSource> source, UpAxis to) : source_(std::move(source)), to_(to) {}
+  bool read(std::vector<TriangleD>& out) override {
+    const bool more = source_->read(out);
+    turn(out, to_);
+    return more;
+  }
+  bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
+    const bool more = source_->read_colored(out, colors);
+    turn(out, to_);
+    return more;
+  }
+  [[nodiscard]] bool has_colors() const override { return source_->has_colors(); }
+  void rewind() override { source_->rewind(); }
+  [[nodiscard]] const SceneCounts& counts() const override { return source_->counts(); }
+  [[nodiscard]] std::string name() const override { return source_->name(); }
+
+ private:
+  std::unique_ptr<TriangleSource> source_;
+  UpAxis to_;
+};
+
+void turn(Panel& panel, UpAxis to) {
+  turn(panel.triangles, to);
+  Bounds3d bounds;
+  if (!panel.bounds.empty()) {
+    for (const Vec3d& p : {panel.bounds.min, panel.bounds.max}) bounds.add(turned(p, to));
+  }
+  panel.bounds = bounds;
+  if (!panel.source) return;
+  panel.source = std::make_unique<TurnedSource>(std::move(panel.source), to);
+  panel.view.source = panel.source.get();
+}
+
+/// At one scale, hardly anything would be seen of any of them.
+bool are_far_apart(const std::vector<std::unique_ptr<Panel>>& panels, const Bounds3d& all) {
+  double largest = 0;
+  for (const auto& panel : panels) {
+    if (!panel->bounds.empty()) largest = std::max(largest, panel->bounds.diagonal());
+  }
+  return largest > 0 && all.diagonal() > kFarApart * largest;
+}
+
+}  // namespace
+
+Picture::Picture(const PictureOptions& options) : o_(options) {
+  check_png_name(o_.file);
+  if (!o_.file.empty()) file_ = open_output(o_.file, o_.overwrite);
+}
+
+void Picture::add_stream(const CoarseView& cells, const StreamHeader& header, const StreamTotals& totals,
+                         const std::string& in) {
+  const bool closing = header.has_closing;
+  if (!closing || !o_.several) add_layer(Layer::solid, cells, header, totals, in);
+  if (closing) add_layer(Layer::closing, cells, header, totals, in);
+}
+
+void Picture::add_layer(Layer layer, const CoarseView& cells, const StreamHeader& header, const StreamTotals& totals,
+                        const std::string& in) {
+  constexpr Color kColors[] = {{168, 182, 202}, {214, 178, 132}};
+  const auto i = std::size_t(layer);
+  auto panel = std::make_unique<Panel>();
+  panel->input = in;
+  panel->up = header.frame.up;
+  panel->triangles = cells.surface(layer, header.frame);
+  for (const TriangleD& t : panel->triangles) {
+    for (const Vec3d& p : t) panel->bounds.add(p);
+  }
+  if (totals.layers[0].bricks + totals.layers[1].bricks == 0) panel->bounds = bounds_of(header);
+  panel->view.color = o_.several ? kColors[0] : kColors[i];
+  panel->view.label =
+      fmt::format("{}: {} voxels of {:.4g}", i == 0 ? "solid" : "closing", totals.layers[i].voxels, header.frame.voxel);
+  if (cells.cell_voxels() > 1) panel->view.label += fmt::format("\ndrawn in cells of {} voxels", cells.cell_voxels());
+  panels_.push_back(std::move(panel));
+}
+
+void Picture::add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, const std::string& in,
+                       const std::string& which) {
+  auto panel = std::make_unique<Panel>();
+  panel->input = in;
+  panel->up = source->up();
+  panel->bounds = info.totals.bounds;
+  panel->view.label = fmt::format("{} triangles{}{}", info.totals.triangles, which.empty() ? "" : ", ", which);
+  if (o_.several) panel->view.label.insert(0, shown_name(in) + "\n");
+  if (info.triangles.size() == info.totals.triangles) {
+    panel->triangles = std::move(info.triangles);
+    panel->colors = std::move(info.colors);
+    panel->view.colors = panel->colors;
+    panel->inner_edges = std::move(info.inner_edges);
+    panel->view.inner_edges = panel->inner_edges;
+    panel->view.edges = o_.edges && panel->triangles.size() <= (o_.several ? kEdgesOfMany : kEdges);
+    if (o_.several && panel->view.edges) panel->view.color = {238, 192, 130};
+  } else {
+    panel->source = std::move(source);
+    panel->view.source_colors = panel->source->has_colors();
+    panel->view.source = panel->source.get();
+  }
+  panels_.push_back(std::move(panel));
+}
+
+/// What --up says, else the first input that tells.
+UpAxis Picture::common_up() const {
+  if (o_.up) return *o_.up;
+  for (const auto& panel : panels_) {
+    if (panel->up) return *panel->up;
+  }
+  return UpAxis::y;
+}
+
+std::string Picture::note_on_axes() const {
+  std::string names;
+  const Panel* last = nullptr;
+  for (const auto& panel : panels_) {
+    if (!o_.up || panel->up.value_or(*o_.up) == *o_.up) continue;
+    if (last == nullptr || last->input != panel->input) names += (last ? ", " : "") + shown_name(panel->input);
+    last = panel.get();
+  }
+  if (last == nullptr) return "";
+  return fmt::format(
+      "{}: drawn with {} up, as the file itself says; --up is for inputs that do not tell. If the file is wrong, make "
+      "it "
+      "again from the scene with --up {}",
+      names, name_of(*last->up), name_of(*o_.up));
+}
+
+std::vector<std::string> Picture::write() {
+  RenderOptions options;
+  options.panel_width = options.panel_height = o_.panel_size;
+  options.azimuth = o_.azimuth, options.elevation = o_.elevation;
+  options.up = common_up();
+  for (const auto& panel : panels_) {
+    if (panel->up && *panel->up != options.up) turn(*panel, options.up);
+    panel->view.triangles = panel->triangles;
+    options.bounds.merge(panel->bounds);
+  }
+  std::vector<std::string> notes;
+  if (std::string note = note_on_axes(); !note.empty()) notes.push_back(std::move(note));
+  if (are_far_apart(panels_, options.bounds)) {
+    for (const auto& panel : panels_) {
+      panel->view.bounds = panel->bounds;
+      panel->view.label += "\ndrawn by itself";
+    }
+    notes.emplace_back(
+        "the inputs lie far apart: each is drawn by itself, not at one scale. The place of a tile's content is in "
+        "tileset.json");
+  }
+  std::vector<View> views;
+  for (const auto& panel : panels_) views.push_back(panel->view);
+  file_->write(encode_png(render(views, options)));
+  file_->commit();
+  return notes;
+}
+
+}  // namespace bp

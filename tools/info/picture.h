@@ -1,0 +1,67 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/brick_stream.h"
+#include "io/file.h"
+#include "lib/core/triangle_source.h"
+#include "lib/grid/coarse_view.h"
+#include "lib/grid/stream.h"
+#include "lib/image/render.h"
+#include "tools/info/mesh_info.h"
+
+/// The PNG of bpinfo --image.
+namespace bp {
+
+struct PictureOptions {
+  std::string file;  ///< empty: no picture is wanted
+  bool overwrite = false;
+  bool several = false;      ///< inputs: panels carry their names
+  bool edges = true;         ///< of meshes of few triangles
+  int panel_size = 720;      ///< pixels
+  std::optional<UpAxis> up;  ///< of inputs that do not tell theirs
+  double azimuth = 35, elevation = 22;
+};
+
+/// One panel, and what it draws.
+struct Panel {
+  std::string input;
+  std::vector<TriangleD> triangles;
+  std::vector<TriangleColors> colors;
+  std::vector<std::uint8_t> inner_edges;
+  std::unique_ptr<TriangleSource> source;  ///< of a mesh too large to keep
+  Bounds3d bounds;
+  std::optional<UpAxis> up;  ///< if the input tells
+  View view;
+};
+
+/// The panels, left to right, at one scale; each with its own axis up.
+class Picture {
+ public:
+  /// Opens the file: a name that cannot be written fails before the work.
+  explicit Picture(const PictureOptions& options);
+  [[nodiscard]] bool wanted() const { return file_ != nullptr; }
+
+  /// The layers of a stream; of one among several inputs only the last.
+  void add_stream(const CoarseView& cells, const StreamHeader& header, const StreamTotals& totals,
+                  const std::string& in);
+  /// `info` of `source`; what it kept is taken. `which` of its levels it is; empty if there is one.
+  void add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, const std::string& in,
+                const std::string& which);
+  /// Returns what the user should know of the picture.
+  [[nodiscard]] std::vector<std::string> write();
+
+ private:
+  void add_layer(Layer layer, const CoarseView& cells, const StreamHeader& header, const StreamTotals& totals,
+                 const std::string& in);
+  [[nodiscard]] UpAxis common_up() const;
+  [[nodiscard]] std::string note_on_axes() const;
+
+  PictureOptions o_;
+  std::unique_ptr<OutputFile> file_;
+  std::vector<std::unique_ptr<Panel>> panels_;
+};
+
+}  // namespace bp
