@@ -44,7 +44,7 @@ constexpr FindingText kFindings[] = {
     {&CheckReport::swallowed, "swallowed", "scene triangles lie inside the proxy", "scene_triangle", nullptr},
     {&CheckReport::outside_parts, "outside_parts", "parts of the proxy lie outside the scene", "triangle", nullptr},
     {&CheckReport::nonconvex_parts, "nonconvex_parts", "parts are not convex, or face inwards", "triangle", "vertex"},
-    {&CheckReport::not_held, "not_held", "scene triangles lie strictly within none of the parts", "scene_triangle",
+    {&CheckReport::not_held, "not_held", "scene triangles are not covered by the parts", "scene_triangle",
      nullptr},
     {&CheckReport::undecidable_scene, "undecidable_scene",
      "scene triangles have coordinates beyond 1e90 or below 1e-90, where nothing can be proven", "scene_triangle",
