@@ -152,26 +152,28 @@ ConvexHull join(const ConvexHull& a, const ConvexHull& b) {
   return *hull_of(points);
 }
 
+constexpr double kJoined = 2;     // times what a cell may have between hull and solid that is not cut
 constexpr double kBridge = 0.05;  // of two hulls, what may lie between them if they need not be joined
 
 /// Hulls, and for each the partner that it would best be joined with.
 class Merger {
  public:
-  explicit Merger(std::vector<ConvexHull> hulls) : hulls_(std::move(hulls)), alive_(hulls_.size(), 1) {
-    for (const ConvexHull& hull : hulls_) {
-      volumes_.push_back(volume6_of(hull));
-      boxes_.push_back(box_of(hull.vertices));
+  Merger(std::vector<Wrapped> hulls, double tolerance6) : tolerance6_(tolerance6), alive_(hulls.size(), 1) {
+    std::vector<std::uint32_t> all;
+    for (Wrapped& wrapped : hulls) {
+      all.push_back(std::uint32_t(all.size()));
+      volumes_.push_back(volume6_of(wrapped.hull));
+      solids_.push_back(wrapped.solid6);
+      boxes_.push_back(box_of(wrapped.hull.vertices));
+      hulls_.push_back(std::move(wrapped.hull));
     }
     best_.resize(hulls_.size());
-    std::vector<std::uint32_t> all;
-    for (std::uint32_t i = 0; i < hulls_.size(); ++i) all.push_back(i);
     find(all);
   }
 
-  std::vector<ConvexHull> run(std::size_t count, double tolerance6) {
+  std::vector<ConvexHull> run(std::size_t count) {
     for (std::size_t left = hulls_.size(); left > 1; --left) {
-      const std::optional<std::uint32_t> a =
-          cheapest(left > count ? std::numeric_limits<double>::infinity() : tolerance6);
+      const std::optional<std::uint32_t> a = cheapest(left > count);
       if (!a) break;
       unite(std::min(*a, best_[*a].with), std::max(*a, best_[*a].with));
     }
@@ -189,15 +191,20 @@ class Merger {
     double cost = std::numeric_limits<double>::infinity();
   };
 
-  /// What is joined next: with no limit, or if there is no need to, nothing with much between the two.
-  [[nodiscard]] std::optional<std::uint32_t> cheapest(double limit6) const {
+  /// What is joined next: whatever costs least if it must be, else what is as good joined as apart.
+  [[nodiscard]] std::optional<std::uint32_t> cheapest(bool must) const {
     std::optional<std::uint32_t> least;
     for (std::uint32_t i = 0; i < hulls_.size(); ++i) {
-      if (!alive_[i] || (least && best_[i].cost >= best_[*least].cost)) continue;
-      const double own6 = volumes_[i] + volumes_[best_[i].with];
-      if (std::isinf(limit6) || best_[i].cost <= std::min(limit6, kBridge * own6)) least = i;
+      if (alive_[i] && (!least || best_[i].cost < best_[*least].cost) && (must || as_good_joined(i))) least = i;
     }
     return least;
+  }
+
+  [[nodiscard]] bool as_good_joined(std::uint32_t i) const {
+    const Partner& partner = best_[i];
+    const double apart6 = volumes_[i] + volumes_[partner.with], solid6 = solids_[i] + solids_[partner.with];
+    const double excess6 = apart6 + partner.cost - solid6;
+    return partner.cost <= kBridge * apart6 && excess6 <= kJoined * std::max(tolerance6_, kConvex * solid6);
   }
 
   [[nodiscard]] double box_growth(std::uint32_t i, std::uint32_t j) const {
@@ -232,6 +239,7 @@ class Merger {
   void unite(std::uint32_t a, std::uint32_t b) {
     hulls_[a] = join(hulls_[a], hulls_[b]);
     volumes_[a] = volume6_of(hulls_[a]);
+    solids_[a] += solids_[b];
     boxes_[a] = box_of(hulls_[a].vertices);
     alive_[b] = 0;
     std::vector<std::uint32_t> stale{a};
@@ -243,18 +251,18 @@ class Merger {
     if (best_[a].cost < best.cost) best = {a, best_[a].cost};
   }
 
+  double tolerance6_;
   std::vector<ConvexHull> hulls_;
   std::vector<char> alive_;
-  std::vector<double> volumes_;
+  std::vector<double> volumes_, solids_;  // times six: of the hull, of the solid in it
   std::vector<LatticeBox> boxes_;
   std::vector<Partner> best_;
 };
 
 }  // namespace
 
-std::vector<ConvexHull> merge_hulls(std::vector<ConvexHull> hulls, std::size_t count, double tolerance6) {
-  if (hulls.size() < 2) return hulls;
-  return Merger(std::move(hulls)).run(count, tolerance6);
+std::vector<ConvexHull> merge_hulls(std::vector<Wrapped> hulls, std::size_t count, double tolerance6) {
+  return Merger(std::move(hulls), tolerance6).run(count);
 }
 
 }  // namespace bp

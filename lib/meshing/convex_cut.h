@@ -13,8 +13,15 @@ namespace bp {
 /// result does not depend on the number of threads.
 [[nodiscard]] std::vector<SolidCell> cut_to_convex(std::vector<SolidCell> solids, std::size_t count, double tolerance6);
 
-/// Joins hulls, the pair first whose common hull adds the least volume, until there are `count`; and on, while it adds
-/// no more than `tolerance6` and a twentieth of what the two have.
-[[nodiscard]] std::vector<ConvexHull> merge_hulls(std::vector<ConvexHull> hulls, std::size_t count, double tolerance6);
+/// A hull, and what it is around.
+struct Wrapped {
+  ConvexHull hull;
+  double solid6 = 0;  ///< six times the volume of the solid in its cells
+};
+
+/// Joins hulls, the pair first whose common hull adds the least volume, until there are `count`; and on, while one is
+/// nearly as good as two: it adds no more than a twentieth of the two's volume, so bridges no gap, and has no more than
+/// twice what cut_to_convex() allows a cell above the solid in it.
+[[nodiscard]] std::vector<ConvexHull> merge_hulls(std::vector<Wrapped> hulls, std::size_t count, double tolerance6);
 
 }  // namespace bp

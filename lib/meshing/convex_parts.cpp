@@ -111,11 +111,12 @@ ConvexParts convex_parts(const LatticeMesh& mesh, std::size_t most) {
   parallel_for(std::int64_t(cells.size()), [&](std::int64_t i) {
     found[std::size_t(i)] = hull_of(cells[std::size_t(i)].points(SolidCell::Rounding::outward));
   });
-  std::vector<ConvexHull> hulls;
-  for (std::optional<ConvexHull>& hull : found) {
-    if (hull) hulls.push_back(std::move(*hull));  // a cell may have nothing of the solid
+  std::vector<Wrapped> wrapped;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (found[i])
+      wrapped.push_back({std::move(*found[i]), cells[i].volume6()});  // a cell may have nothing of the solid
   }
-  hulls = merge_hulls(std::move(hulls), most, small6);
+  std::vector<ConvexHull> hulls = merge_hulls(std::move(wrapped), most, small6);
   parallel_for(std::int64_t(hulls.size()), [&](std::int64_t i) {
     hulls[std::size_t(i)] = with_fewer_corners(std::move(hulls[std::size_t(i)]), kMostCorners, kGrowth);
   });

@@ -253,7 +253,7 @@ TEST_CASE("cavities stay open where hulls can leave them so", "[quick][meshing][
 }
 
 TEST_CASE("hulls are the same with one thread and with several", "[quick][meshing][lod]") {
-  const LatticeMesh mesh = thorny(9, 3, 3000);
+  const LatticeMesh mesh = thorny(9, 2, 3000);
   const auto vertices = [&](int threads) {
     const ThreadLimit limit(threads);
     std::vector<LatticeCoord> all;
