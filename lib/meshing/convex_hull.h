@@ -19,6 +19,8 @@ struct ConvexHull {
 /// may repeat. Quickhull [BDH96]: O(n log n) in practice. The same for the same points in the same order.
 [[nodiscard]] std::optional<ConvexHull> hull_of(std::span<const LatticeCoord> points);
 
+constexpr double kNearlyConvex = 0.02;  ///< of a solid's volume: a hull with no more than that above it is as good
+
 /// Six times its volume, rounded.
 [[nodiscard]] double volume6_of(const ConvexHull& hull);
 

@@ -8,6 +8,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/meshing/convex_cut.h"
+#include "lib/meshing/convex_merge.h"
 #include "lib/meshing/convex_simplify.h"
 
 namespace bp {
@@ -38,7 +39,7 @@ LatticeMesh part_of(const LatticeMesh& mesh, const std::vector<Face>& faces) {
   return part;
 }
 
-constexpr double kSmall = 2e-3;           // of the volume: not worth a cut, or a hull of its own
+constexpr double kSmall = 2e-3;           // of the volume: what a hull may have above the solid in it
 constexpr double kGrowth = 0.01;          // of a hull's volume, for fewer corners
 constexpr std::size_t kCellsPerHull = 4;  // what is joined again knows more than what was cut first
 
@@ -90,6 +91,7 @@ std::vector<LatticeMesh> components_of(const LatticeMesh& mesh) {
     faces[found->second].push_back(f);
   }
   std::vector<LatticeMesh> parts;
+  parts.reserve(faces.size());
   for (const std::vector<Face>& f : faces) parts.push_back(part_of(mesh, f));
   return parts;
 }
