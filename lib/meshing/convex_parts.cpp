@@ -5,7 +5,6 @@
 #include <numeric>
 #include <optional>
 
-#include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/meshing/convex_cut.h"
 #include "lib/meshing/convex_merge.h"
@@ -94,12 +93,6 @@ std::vector<LatticeMesh> components_of(const LatticeMesh& mesh) {
   parts.reserve(faces.size());
   for (const std::vector<Face>& f : faces) parts.push_back(part_of(mesh, f));
   return parts;
-}
-
-LatticeMesh convex_hull(const LatticeMesh& mesh) {
-  std::optional<ConvexHull> hull = hull_of(mesh.vertices);
-  if (!hull) fail(ErrorCode::bad_argument, "all vertices lie in a plane; there is no convex hull");
-  return mesh_of(mesh, std::move(*hull));
 }
 
 ConvexParts convex_parts(const LatticeMesh& mesh, std::size_t most) {

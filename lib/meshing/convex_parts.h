@@ -9,10 +9,6 @@ namespace bp {
 /// The connected components of a mesh, in the order of their first triangles; frame and provenance are the mesh's.
 [[nodiscard]] std::vector<LatticeMesh> components_of(const LatticeMesh& mesh);
 
-/// The convex hull of the vertices, as triangles facing outwards: closed, 2-manifold, and exact, since its corners are
-/// lattice points of the mesh. It encloses what the mesh encloses. Throws bad_argument if all vertices lie in a plane.
-[[nodiscard]] LatticeMesh convex_hull(const LatticeMesh& mesh);
-
 struct ConvexParts {
   std::vector<LatticeMesh> hulls;  ///< closed, 2-manifold, convex; they overlap where the mesh was cut
   std::size_t solids = 0;          ///< connected parts of the mesh

@@ -21,7 +21,9 @@ struct Step {
 
 class Steps {
  public:
-  explicit Steps(const ConvexHull& hull) : hull_(hull), around_(hull.vertices.size()) {
+  explicit Steps(const ConvexHull& hull) : hull_(hull), near_(box_of(hull.vertices)), around_(hull.vertices.size()) {
+    const LatticeCoord size = near_.max - near_.min;
+    near_ = {near_.min - size, near_.max + size};
     for (std::uint32_t f = 0; f < hull.triangles.size(); ++f) {
       const auto& t = hull.triangles[f];
       normals_.push_back(to_double(normal_of(hull.vertices[t[0]], hull.vertices[t[1]], hull.vertices[t[2]])));
@@ -75,7 +77,9 @@ class Steps {
     const Vec3d middle = 0.5 * to_double(hull_.vertices[b] - base);
     const std::optional<Vec3d> x = constrained_minimum(quadric, middle, planes);
     if (!x) return {};
-    return base + rounded(*x);
+    const LatticeCoord point = base + rounded(*x);
+    if (!near_.holds({point, point})) return {};
+    return point;
   }
 
   [[nodiscard]] double volume6_to(const LatticeCoord& p) const {
@@ -86,6 +90,7 @@ class Steps {
   }
 
   const ConvexHull& hull_;
+  LatticeBox near_;  // beyond it lie solutions of nearly singular systems
   std::vector<Vec3d> normals_;
   std::vector<std::vector<std::uint32_t>> around_;  // per vertex: its faces
 };
