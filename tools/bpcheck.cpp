@@ -48,7 +48,7 @@ Options parse(bp::Args& args) {
               "add this point to every vertex of the proxy, exactly: what bpmesh --origin subtracted");
   args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
   args.flag("--convex", o.convex,
-            "PROXY is of convex parts that may overlap: prove that they are, and that each scene triangle lies in one");
+            "PROXY is of convex parts that may overlap: prove that they are, and that together they cover the scene");
   args.flag("--json", o.json, "print the verdict as JSON");
   args.option("--examples", "N", o.examples, "places named per kind of failure (default: 5)");
   args.flag("--no-distances", o.no_distances, "leave the sampled distances out");

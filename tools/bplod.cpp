@@ -29,8 +29,7 @@ void run_chain(const bp::BuildOptions& o) {
     out.leave_out(bp::level_name(o.name, i) + ".glb");
   build.progress.end();
   build.report.stage("write");
-  const std::vector<bp::WrittenFile> files =
-      bp::write_profile(o.profile, o.name, levels, scene.header.bounds.diagonal(), o.mode == bp::MeshMode::fit, out);
+  const std::vector<bp::WrittenFile> files = bp::write_profile(o, levels, scene.header.bounds.diagonal(), out);
   out.commit();
   std::vector<bp::LevelRow> rows;
   for (const bp::WrittenFile& file : files) {

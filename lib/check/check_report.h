@@ -82,7 +82,7 @@ struct CheckReport {
   // The proxy as convex parts that may overlap (convex.h).
   bool wants_convex = false;  ///< asked for: then self-intersections are those within parts
   Finding nonconvex_parts;    ///< index: first triangle of a part, other: a vertex of it beyond one of its triangles
-  Finding not_held;           ///< index: scene triangle that lies strictly within no part
+  Finding not_held;           ///< index: scene triangle that open parts are not proved to cover
 
   // Measures, in doubles.
   std::optional<double> volume, scene_volume;  ///< cubed scene units; none if open, or not asked (SignedVolume)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lib/check/convex_cover.h"
 #include "lib/core/box.h"
 #include "lib/core/parallel.h"
 #include "lib/core/predicates.h"
@@ -67,8 +68,18 @@ struct Batch {
   ConvexReport result;
 };
 
-void check_batch(const WeldedMesh& mesh, const std::vector<Part>& parts, std::size_t max_examples, Batch& batch) {
-  std::size_t last = 0;  // neighbours in the scene mostly lie in the same part
+std::vector<std::vector<TriangleD>> corners_of(const WeldedMesh& mesh, const std::vector<Part>& parts) {
+  std::vector<std::vector<TriangleD>> corners;
+  for (const Part& part : parts) {
+    corners.emplace_back();
+    for (const std::uint32_t t : part.triangles) corners.back().push_back(mesh.corners(t));
+  }
+  return corners;
+}
+
+void check_batch(const WeldedMesh& mesh, const std::vector<Part>& parts, const ConvexCover& cover,
+                 std::size_t max_examples, Batch& batch) {
+  std::uint32_t last = 0;  // neighbours in the scene mostly lie in the same part
   for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
     const TriangleD& t = batch.triangles[i];
     if (!in_predicate_domain(t[0]) || !in_predicate_domain(t[1]) || !in_predicate_domain(t[2])) {
@@ -76,9 +87,13 @@ void check_batch(const WeldedMesh& mesh, const std::vector<Part>& parts, std::si
       continue;
     }
     if (last < parts.size() && holds(mesh, parts[last], t)) continue;
-    last = 0;
-    while (last < parts.size() && !holds(mesh, parts[last], t)) ++last;
-    if (last == parts.size()) batch.result.not_held.add({batch.first + i, 0, t[0]}, max_examples);
+    const auto holds_it = [&](std::uint32_t part) {
+      if (part == last || !holds(mesh, parts[part], t)) return false;
+      last = part;
+      return true;
+    };
+    if (cover.visit(bounds_of(t), holds_it) || cover.covers(t)) continue;
+    batch.result.not_held.add({batch.first + i, 0, t[0]}, max_examples);
   }
 }
 
@@ -99,6 +114,7 @@ Finding nonconvex_parts(const WeldedMesh& mesh, std::size_t max_examples) {
 
 ConvexReport check_convex(const WeldedMesh& mesh, TriangleSource& scene, std::size_t max_examples) {
   const std::vector<Part> parts = parts_of(mesh);
+  const ConvexCover cover(corners_of(mesh, parts));
   ConvexReport report;
   scene.rewind();
   std::uint64_t read = 0;
@@ -110,7 +126,7 @@ ConvexReport check_convex(const WeldedMesh& mesh, TriangleSource& scene, std::si
         read += batch.triangles.size();
         return true;
       },
-      [&](Batch& batch) { check_batch(mesh, parts, max_examples, batch); },
+      [&](Batch& batch) { check_batch(mesh, parts, cover, max_examples, batch); },
       [&](Batch& batch) {
         report.triangles += batch.triangles.size();
         report.not_held.append(batch.result.not_held, max_examples);

@@ -10,16 +10,17 @@ namespace bp {
 /// themselves. O(f v) for parts of f triangles and v vertices, parallel.
 [[nodiscard]] Finding nonconvex_parts(const WeldedMesh& mesh, std::size_t max_examples);
 
-/// Which triangles of a scene lie strictly within one part. Those that only several parts cover together count as not
-/// held: bodies are convex to an engine one by one.
+/// Which triangles of a scene the open parts cover: each of their points lies strictly within a part.
 struct ConvexReport {
   std::uint64_t triangles = 0;  ///< of the scene, tested
-  Finding not_held;             ///< index: scene triangle that lies strictly within no part
+  Finding not_held;             ///< index: scene triangle that is not proved to be covered
   Finding undecidable;          ///< index: scene triangle outside the domain of exact predicates
 };
 
-/// Reads the scene once from its start; memory does not grow with it. Exact, whatever the parts are: what lies below
-/// the planes of all triangles of a closed part lies within it.
+/// Reads the scene once from its start; memory does not grow with it. Whatever the parts are: what lies below the
+/// planes of all triangles of a closed part lies within it. Exact for triangles that lie within one part; those that
+/// several cover are proved with bounds of all rounding (convex_cover.h). Time: linear in the scene, times the
+/// triangles of the parts that one meets.
 [[nodiscard]] ConvexReport check_convex(const WeldedMesh& mesh, TriangleSource& scene, std::size_t max_examples);
 
 }  // namespace bp

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <set>
+#include <optional>
 
-#include "lib/core/error.h"
-#include "lib/core/predicates.h"
+#include "lib/core/parallel.h"
+#include "lib/meshing/convex_cut.h"
+#include "lib/meshing/convex_merge.h"
+#include "lib/meshing/convex_simplify.h"
 
 namespace bp {
 
@@ -18,64 +20,6 @@ std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t v) {
   while (parent[v] != v) v = parent[v] = parent[parent[v]];
   return v;
 }
-
-/// Incremental convex hull with exact signs. A face that the new point lies on the plane of is kept: a point outside of
-/// the hull always sees some other face, and no new face is degenerate, since a horizon edge in line with the point
-/// would lie in the plane of the seen face beside it.
-class Hull {
- public:
-  explicit Hull(const std::vector<LatticeCoord>& points) : points_(points) { begin(); }
-
-  void add(std::uint32_t p) {
-    std::set<std::pair<std::uint32_t, std::uint32_t>> seen_edges;  // of faces that p sees
-    std::vector<Face> kept;
-    for (const Face& f : faces_) {
-      if (side(f, p) <= 0) {
-        kept.push_back(f);
-        continue;
-      }
-      for (std::size_t k = 0; k < 3; ++k) seen_edges.insert({f[k], f[(k + 1) % 3]});
-    }
-    if (kept.size() == faces_.size()) return;
-    for (const auto& [a, b] : seen_edges) {
-      if (seen_edges.count({b, a}) == 0) kept.push_back({a, b, p});
-    }
-    faces_ = std::move(kept);
-  }
-
-  [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
-
- private:
-  /// Above 0 if p lies on the side that the face turns to.
-  [[nodiscard]] int side(const Face& f, std::uint32_t p) const {
-    return orient3d(points_[f[0]], points_[f[1]], points_[f[2]], points_[p]);
-  }
-
-  /// A tetrahedron of the first points that are not in one plane.
-  void begin() {
-    const auto n = std::uint32_t(points_.size());
-    for (std::uint32_t b = 1; b < n; ++b) {
-      if (points_[b] == points_[0]) continue;
-      for (std::uint32_t c = b + 1; c < n; ++c) {
-        if (collinear(points_[0], points_[b], points_[c])) continue;
-        for (std::uint32_t d = c + 1; d < n; ++d) {
-          const Face base{0, b, c};
-          const int s = side(base, d);
-          if (s == 0) continue;
-          const std::uint32_t x = s > 0 ? c : b, y = s > 0 ? b : c;  // (0, x, y) turns away from d
-          faces_ = {{0, x, y}, {x, 0, d}, {y, x, d}, {0, y, d}};
-          return;
-        }
-        break;
-      }
-      break;
-    }
-    fail(ErrorCode::bad_argument, "all vertices lie in a plane; there is no convex hull");
-  }
-
-  const std::vector<LatticeCoord>& points_;
-  std::vector<Face> faces_;
-};
 
 /// The part of `mesh` made of these faces, with only the vertices that they use, in the order of first use.
 LatticeMesh part_of(const LatticeMesh& mesh, const std::vector<Face>& faces) {
@@ -94,6 +38,42 @@ LatticeMesh part_of(const LatticeMesh& mesh, const std::vector<Face>& faces) {
   return part;
 }
 
+constexpr double kSmall = 2e-3;           // of the volume: what a hull may have above the solid in it
+constexpr double kGrowth = 0.01;          // of a hull's volume, for fewer corners
+constexpr std::size_t kCellsPerHull = 4;  // what is joined again knows more than what was cut first
+
+LatticeMesh mesh_of(const LatticeMesh& mesh, ConvexHull hull) {
+  LatticeMesh made;
+  made.frame = mesh.frame;
+  made.provenance = mesh.provenance;
+  made.vertices = std::move(hull.vertices);
+  made.triangles = std::move(hull.triangles);
+  return made;
+}
+
+void append(LatticeMesh& mesh, const LatticeMesh& other) {
+  const auto first = std::uint32_t(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+}
+
+/// Outer shells with the cavities in them. A cavity that is not found to lie in any is filled.
+std::vector<SolidCell> solids_of(const LatticeMesh& mesh) {
+  std::vector<LatticeMesh> outer, cavities;
+  for (LatticeMesh& part : components_of(mesh)) (volume6_of(part) > 0 ? outer : cavities).push_back(std::move(part));
+  std::vector<SolidCell> shells(outer.begin(), outer.end());
+  for (const LatticeMesh& cavity : cavities) {
+    std::optional<std::size_t> around;
+    for (std::size_t i = 0; i < shells.size(); ++i) {
+      if (!shells[i].cell().holds(box_of(cavity.vertices)) || !shells[i].holds(cavity.vertices[0])) continue;
+      if (!around || shells[*around].cell().holds(shells[i].cell())) around = i;
+    }
+    if (around) append(outer[*around], cavity);
+  }
+  if (cavities.empty()) return shells;
+  return {outer.begin(), outer.end()};
+}
+
 }  // namespace
 
 std::vector<LatticeMesh> components_of(const LatticeMesh& mesh) {
@@ -110,14 +90,34 @@ std::vector<LatticeMesh> components_of(const LatticeMesh& mesh) {
     faces[found->second].push_back(f);
   }
   std::vector<LatticeMesh> parts;
+  parts.reserve(faces.size());
   for (const std::vector<Face>& f : faces) parts.push_back(part_of(mesh, f));
   return parts;
 }
 
-LatticeMesh convex_hull(const LatticeMesh& mesh) {
-  Hull hull(mesh.vertices);
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) hull.add(v);
-  return part_of(mesh, hull.faces());
+ConvexParts convex_parts(const LatticeMesh& mesh, std::size_t most) {
+  std::vector<SolidCell> solids = solids_of(mesh);
+  ConvexParts parts;
+  parts.solids = solids.size();
+  if (most == 0) most = std::max(kMostHulls, solids.size());
+  const double small6 = kSmall * double(volume6_of(mesh));
+  const std::vector<SolidCell> cells = cut_to_convex(std::move(solids), kCellsPerHull * most, small6);
+  std::vector<std::optional<ConvexHull>> found(cells.size());
+  parallel_for(std::int64_t(cells.size()), [&](std::int64_t i) {
+    found[std::size_t(i)] = hull_of(cells[std::size_t(i)].points(SolidCell::Rounding::outward));
+  });
+  std::vector<Wrapped> wrapped;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (found[i])
+      wrapped.push_back({std::move(*found[i]), cells[i].volume6()});  // a cell may have nothing of the solid
+  }
+  std::vector<ConvexHull> hulls = merge_hulls(std::move(wrapped), most, small6);
+  parallel_for(std::int64_t(hulls.size()), [&](std::int64_t i) {
+    hulls[std::size_t(i)] = with_fewer_corners(std::move(hulls[std::size_t(i)]), kMostCorners, kGrowth);
+  });
+  set_corners_apart(hulls);
+  for (ConvexHull& hull : hulls) parts.hulls.push_back(mesh_of(mesh, std::move(hull)));
+  return parts;
 }
 
 }  // namespace bp

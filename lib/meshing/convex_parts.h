@@ -9,9 +9,18 @@ namespace bp {
 /// The connected components of a mesh, in the order of their first triangles; frame and provenance are the mesh's.
 [[nodiscard]] std::vector<LatticeMesh> components_of(const LatticeMesh& mesh);
 
-/// The convex hull of the vertices, as triangles facing outwards: closed, 2-manifold, and exact, since its corners are
-/// lattice points of the mesh. It encloses what the mesh encloses. Incremental: O(n f) for n vertices and f faces of
-/// the hull. Throws bad_argument if all vertices lie in a plane.
-[[nodiscard]] LatticeMesh convex_hull(const LatticeMesh& mesh);
+struct ConvexParts {
+  std::vector<LatticeMesh> hulls;  ///< closed, 2-manifold, convex; they overlap where the mesh was cut
+  std::size_t solids = 0;          ///< connected parts of the mesh
+};
+constexpr std::size_t kMostHulls = 32;    ///< if nobody says how many, and there are no more parts
+constexpr std::size_t kMostCorners = 64;  ///< of a hull
+
+/// Convex hulls that together enclose, exactly, what the closed and embedded mesh encloses: whatever lies in the open
+/// solid lies in the open hull of one of them. At most `most` hulls; 0: as many as there are parts, or kMostHulls if
+/// that is more. Approximate convex decomposition, after [WLLS22] and [MG09]: parts are cut by planes of the axes into
+/// four times as many cells, and hulls of cells are joined while there are too many, or while that costs next to
+/// nothing. Corners are lattice points, at most kMostCorners a hull. Parallel; the same for any number of threads.
+[[nodiscard]] ConvexParts convex_parts(const LatticeMesh& mesh, std::size_t most);
 
 }  // namespace bp

@@ -17,6 +17,7 @@ namespace bp {
 namespace {
 
 constexpr double kVoxelsPerError = 8;  // of the finest level
+constexpr std::int64_t kMostHullsAsked = 4096;
 
 /// The first scene's file name without folder and extension.
 std::string base_name(const std::string& path) {
@@ -71,6 +72,8 @@ void check_meaning(const Args& args, const BuildOptions& o) {
       if (args.given(name)) fail(ErrorCode::bad_argument, "{} needs --profile 3dtiles", name);
     }
   }
+  if (o.profile != LodProfile::collision && args.given("--hulls"))
+    fail(ErrorCode::bad_argument, "--hulls needs --profile collision");
   if (o.profile == LodProfile::collision && args.given("--colors") && o.colors)
     fail(ErrorCode::bad_argument, "--profile collision has no colours; leave --colors out");
   if (o.mode == MeshMode::fit) {
@@ -160,6 +163,9 @@ BuildOptions parse_build_options(Args& args) {
               "voxels along the longest side (default: by --faces, 256 to 1024; or 8 voxels to the error)");
   args.option("--tile", "N", o.tile_vox,
               "3dtiles: voxels along the side of a tile; a level that is larger is cut into tiles of its own");
+  args.option(
+      "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_integer(text, 1, kMostHullsAsked); },
+      "collision: convex hulls in Unreal's file, at most (default: 32, or one for each part where there are more)");
   args.option("--cache", "DIR", o.cache,
               "3dtiles: keep the results of all jobs in DIR, and take from there what has not changed");
   args.flag("--resume", o.resume, "3dtiles: keep what is done in OUTPUT/.partial, and go on from there after a kill");
@@ -206,6 +212,7 @@ Json options_json(const BuildOptions& o) {
           {"voxel", optional_json(o.voxel)},
           {"resolution", optional_json(o.resolution)},
           {"tile", o.tile_vox},
+          {"hulls", o.hulls > 0 ? Json(o.hulls) : Json(nullptr)},
           {"cache", !o.cache.empty()},
           {"resume", o.resume},
           {"tiles", o.tiles ? Json{o.tiles->begin, o.tiles->end} : Json(nullptr)},

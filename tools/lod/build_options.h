@@ -37,6 +37,7 @@ struct BuildOptions {
   std::optional<Length> voxel;
   std::optional<std::int64_t> resolution;
   std::int32_t tile_vox = 512;  ///< edge of a cell of a tileset
+  std::int64_t hulls = 0;       ///< of a collision mesh, at most; 0: kMostHulls, or as many as parts
   std::string cache;            ///< folder of results of earlier builds; empty: none
   bool resume = false;
   std::optional<JobRange> tiles;  ///< the jobs to do, without a tileset; empty: all, and the tileset

@@ -35,33 +35,31 @@ std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::
   return files;
 }
 
-/// What the engine makes of a level that is not convex; empty if hulls are as good as that.
+/// What is not as it could be with more hulls; empty if they are as good as the level.
 std::string hull_note(const WrittenFile& file) {
-  constexpr double kAsGood = 1.02;
+  constexpr double kAsGood = 1.1;
   if (file.hull_volume < kAsGood) return "";
   return fmt::format(
-      "{}: {} hull{}, one for each part, with {:.3g} times the level's volume: Unreal takes every UCX_ mesh for "
-      "convex, so that hollows and bends of a part are closed; keep parts apart (smaller voxels and --scale), give "
-      "them "
-      "one by one, or use another of the files as complex collision",
+      "{}: {} hull{} with {:.3g} times the level's volume; give more --hulls to come nearer, or use another of the "
+      "files, the level itself, as complex collision",
       file.name, file.hulls, file.hulls == 1 ? "" : "s", file.hull_volume);
 }
 
 /// What importers go by: Godot by the suffix "-colonly" (collision only, the mesh itself), Unreal by the prefix
-/// "UCX_MESH_" (convex, so: the hulls of the parts), Unity by nothing, and people by "_Collider".
-std::vector<WrittenFile> write_collision_profile(const std::string& name, const LatticeMesh& mesh, OutputFolder& out) {
+/// "UCX_MESH_" (convex, so: hulls that enclose it together), Unity by nothing, and people by "_Collider".
+std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const LatticeMesh& mesh, OutputFolder& out) {
+  const std::string& name = o.name;
   const NamedMesh godot{name + "-colonly", &mesh}, unity{name + "_Collider", &mesh};
   write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"));
   write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"));
-  std::vector<LatticeMesh> hulls = components_of(mesh);
+  const ConvexParts parts = convex_parts(mesh, std::size_t(o.hulls));
   std::vector<NamedMesh> unreal;
   const auto volume6 = double(volume6_of(mesh));
-  WrittenFile hull_file{name + "_unreal.glb", 0, 0, false, hulls.size()};
-  for (LatticeMesh& part : hulls) {
-    part = convex_hull(part);
-    hull_file.faces += part.triangles.size();
-    hull_file.hull_volume += double(volume6_of(part)) / volume6;
-    unreal.push_back({fmt::format("UCX_{}_{:02}", name, unreal.size()), &part});
+  WrittenFile hull_file{name + "_unreal.glb", 0, 0, false, parts.hulls.size()};
+  for (const LatticeMesh& hull : parts.hulls) {
+    hull_file.faces += hull.triangles.size();
+    hull_file.hull_volume += double(volume6_of(hull)) / volume6;
+    unreal.push_back({fmt::format("UCX_{}_{:02}", name, unreal.size()), &hull});
   }
   write_parts_glb(unreal, out.file(hull_file.name));
   hull_file.note = hull_note(hull_file);
@@ -120,15 +118,15 @@ std::vector<std::string> profile_files(LodProfile profile, const std::string& na
   return files;
 }
 
-std::vector<WrittenFile> write_profile(LodProfile profile, const std::string& name, const std::vector<LodLevel>& levels,
-                                       double diameter, bool normals, OutputFolder& out) {
-  switch (profile) {
+std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::vector<LodLevel>& levels,
+                                       double diameter, OutputFolder& out) {
+  switch (options.profile) {
     case LodProfile::gltf:
-      return write_gltf_profile(name, levels, diameter, normals, out);
+      return write_gltf_profile(options.name, levels, diameter, options.mode == MeshMode::fit, out);
     case LodProfile::tiles:
       break;  // tile_build.h
     case LodProfile::collision:
-      return write_collision_profile(name, levels.front().mesh, out);
+      return write_collision_profile(options, levels.front().mesh, out);
   }
   return {};
 }

@@ -40,14 +40,14 @@ struct WrittenFile {
   std::string name;
   std::size_t level = 0;
   std::uint64_t faces = 0;
-  bool is_level = true;  ///< the level itself; else hulls around its parts
+  bool is_level = true;  ///< the level itself; else convex hulls around it
   std::uint64_t hulls = 0;
   double hull_volume = 0;  ///< of all of them, over the level's own
   std::string note = "";   ///< what a user should know of it
 };
 /// Writes them; returns those that hold one level. `levels`: finest first; errors must not fall towards coarser ones;
-/// collision: one. diameter: of the scene, scene units. normals: as in NamedMesh, of the levels.
-std::vector<WrittenFile> write_profile(LodProfile profile, const std::string& name, const std::vector<LodLevel>& levels,
-                                       double diameter, bool normals, OutputFolder& out);
+/// collision: one. diameter: of the scene, scene units. Of the options: profile, name, mode, hulls.
+std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::vector<LodLevel>& levels,
+                                       double diameter, OutputFolder& out);
 
 }  // namespace bp

@@ -44,14 +44,25 @@ cut_errors() { awk -F '\t' 'NR > 1 { print $1, ($3 == "-" ? "not measured" : $3 
 bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision --overwrite | cut_errors
 for f in godot unity unreal; do bpcheck part*.obj collision/cubes_$f.glb --no-distances | tail -1; done
 for f in unreal godot; do said "bpcheck --convex part*.obj collision/cubes_$f.glb | sed -n '/each part/p;\$p'"; done
-# An angle's hull closes the angle, as the engine would: that is said.
+# An angle is cut; as one hull it is closed, as the engine would, and that is said. Parts that are too many have hulls together.
 printf '%s\n' v\ {0,4}\ {0,1}\ {0,1} v\ {0,1}\ {1,4}\ {0,1} > angle.obj
 for i in 0 8; do
   for f in '1 2 4 3' '5 7 8 6' '1 5 6 2' '3 4 8 7' '1 3 7 5' '2 6 8 4'; do echo "f $(for v in $f; do echo -n "$((v + i)) "; done)"; done
 done >> angle.obj
-said 'bplod angle.obj --faces 40 --resolution 60 --profile collision -o angle --report angle.json' | sed 's/with [0-9.]* times the/with SOME times the/' | cut -f 1,2
-grep -E '"hulls"' angle.json
-for f in unreal godot; do said "bpcheck --convex angle.obj angle/angle_$f.glb | sed -n '/each part/p;\$p'"; done
+volumes() { sed -E 's/with [0-9.]+ times the/with SOME times the/'; }
+hulls() { awk -F '[:,]' '/"hulls"/ && $2 ~ /[0-9]/ { n = $2 + 0 } /"hull_volume_over_level"/ && $2 + 0 > 0 { print (n == 1 ? "one hull" : n < 4 ? "few hulls" : n < 9 ? "some hulls" : "many hulls"), ($2 < 1.1 ? "near the level" : "far from it") }' "$1"; }
+said 'bplod angle.obj --faces 40 --resolution 60 --profile collision -o angle --report angle.json | cut -f 1'
+hulls angle.json
+said 'bplod angle.obj --faces 40 --resolution 60 --profile collision --hulls 1 -o angle1 --report angle1.json | cut -f 1' | volumes
+hulls angle1.json
+for f in angle/angle_unreal angle1/angle_unreal angle/angle_godot; do said "bpcheck --convex angle.obj $f.glb | sed -n '/each part/p;\$p'"; done
+bplod angle.obj --faces 40 --resolution 60 --profile collision -o angle2 -j 1 > list
+cmp angle/angle_unreal.glb angle2/angle_unreal.glb && echo "the same bytes"
+said 'bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision --hulls 3 -o three --report three.json | cut -f 1' | volumes
+hulls three.json
+said "bpcheck --convex part*.obj three/cubes_unreal.glb | sed -n '/each part/p;\$p'"
+try bplod cube.obj -o x --profile collision --hulls 0
+try bplod cube.obj -o x --hulls 3
 grep -ao '"name":"[^"]*"' collision/cubes_unreal.glb | sort -u | tr '\n' ' '
 grep -ao '"name":"[^"]*"' collision/cubes_godot.glb collision/cubes_unity.glb | sort -u
 bplod part*.obj --name cubes --faces 100 --mode fit --resolution 60 -o fit | cut -f 1

@@ -13,6 +13,13 @@ CheckReport convex_of(const IndexedMesh& proxy, const IndexedMesh& scene) {
   return check_proxy(proxy, &source, options);
 }
 
+CheckReport covers(const IndexedMesh& proxy, const TriangleD& t) {
+  IndexedMesh scene;
+  scene.vertices.assign(t.begin(), t.end());
+  scene.triangles = {{0, 1, 2}};
+  return convex_of(proxy, scene);
+}
+
 }  // namespace
 
 TEST_CASE("convex parts may overlap, and hold what lies strictly within one of them", "[quick][check]") {
@@ -24,16 +31,43 @@ TEST_CASE("convex parts may overlap, and hold what lies strictly within one of t
   CHECK(convex_of(sphere(3, 2), cube(1)).holds());         // each of many faces
 }
 
-TEST_CASE("what touches a part from within, or lies in no single one, is not held", "[quick][check]") {
+TEST_CASE("what touches a part from within, or is not covered by parts, is not held", "[quick][check]") {
   CHECK(convex_of(cube(2), cube(2)).not_held.count == 12);
   CHECK(convex_of(cube(2), cube(3)).not_held.count == 12);
-  const IndexedMesh two = join(cube(1), cube(1, {1, 0, 0}));
+  const IndexedMesh two = join(cube(1), cube(0.99, {1.99, 0, 0}));  // they touch
   const CheckReport across = convex_of(two, box({-0.5, -0.5, -0.5}, {1.5, 0.5, 0.5}));
   CHECK_FALSE(across.holds());
   CHECK(across.not_held.count == 8);  // not the ends, which lie in one each
   const CheckReport partly = convex_of(cube(2), join(cube(1), cube(1, {5, 0, 0})));
   REQUIRE(partly.not_held.count == 12);
   CHECK(partly.not_held.examples[0].index == 12);
+}
+
+TEST_CASE("parts that overlap hold together what lies in none of them alone", "[quick][check]") {
+  const double overlap = GENERATE(0.25, 1e-3, 1e-9);
+  CAPTURE(overlap);
+  IndexedMesh row;
+  for (int i = 0; i < 5; ++i) row = join(row, box({double(i), -1, -1}, {i + 1 + overlap, 1, 1}));
+  const IndexedMesh bar = box({0.1, -0.9, -0.9}, {4.9, 0.9, 0.9});
+  const CheckReport held = convex_of(row, bar);
+  CHECK(held.holds());
+  CHECK(held.scene_triangles == 12);
+  CHECK(convex_of(row, box({0.1, -0.9, -0.9}, {5.5, 0.9, 0.9})).not_held.count == 10);  // all but one end
+  CHECK(covers(row, {{{0.3, -0.95, -0.2}, {4.7, 0.3, 0.9}, {2, 0.4, -0.99}}}).holds());
+}
+
+TEST_CASE("a gap between parts is found, however narrow, and where they only touch", "[quick][check]") {
+  const double gap = GENERATE(0.5, 1e-6, 1e-12, 0.0);
+  CAPTURE(gap);
+  const IndexedMesh two = join(box({0, 0, 0}, {1, 1, 1}), box({1 + gap, 0.01, 0.02}, {2, 0.9, 0.8}));
+  const CheckReport r = convex_of(two, box({0.5, 0.4, 0.4}, {1.75, 0.6, 0.6}));
+  CHECK_FALSE(r.holds());
+  CHECK(r.not_held.count == 8);
+  const double g = gap / 2;  // a hole amid four parts: no corner of a triangle over it lies there
+  const IndexedMesh ring = join(join(box({-2, -2, -1}, {-g, 2, 1}), box({g, -2, -1.1}, {2, 2.1, 1.1})),
+                                join(box({-2.1, -2.1, -1.2}, {2.1, -g, 1.2}), box({-2.2, g, -1.3}, {2.2, 2.2, 1.3})));
+  CHECK(covers(ring, {{{-1.5, -1.5, 0}, {1.6, -1.5, 0}, {0, 1.7, 0}}}).not_held.count == 1);
+  CHECK(covers(ring, {{{-1.5, -1.5, 0}, {1.6, -1.5, 0}, {0, -0.6, 0}}}).not_held.count == 0);
 }
 
 TEST_CASE("a part with a dent, or one that faces inwards, is not convex", "[quick][check]") {
