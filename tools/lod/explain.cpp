@@ -214,6 +214,7 @@ void explain(const BuildOptions& options) {
   build.report.stage("read");
   const Scene scene = read_scene(build);
   if (const std::string text = up_note(options, scene.up_told, scene.bounds); !text.empty()) build.note(text);
+  if (const std::string text = cache_note(options); !text.empty()) build.note(text);
   build.report.stage("look up");
   const Plan plan(build, scene);
   build.report.options = options_json(options);
