@@ -65,7 +65,7 @@ class Plan {
     VoxelizeOptions v;
     v.fill = options_.fill;
     if (is_tileset()) v.cell_vox = options_.tile_vox;
-    header_ = solid_header(scene.bounds, voxel_size(options_, scene.bounds), scene.up, v);
+    header_ = solid_header(scene.bounds, voxel_size(options_, {scene.bounds, scene.counts.triangles}), scene.up, v);
     if (is_tileset()) {
       tileset_ = plan_tileset(options_, header_);
       for (const CutLevel& cut : tileset_.cut) add(cut);
