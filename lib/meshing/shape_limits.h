@@ -24,8 +24,9 @@ struct ShapeLimits {
 /// Room for a proxy of `faces` triangles around a surface. The plane of a face does not know how far the surface
 /// reaches: where thin parts end, steps that enclose least volume draw spikes. So no vertex leaves the surface's box by
 /// more than a fiftieth of its extents, 5 of them over the number of faces, and a voxel; an icosahedron around a ball,
-/// of 20 faces, takes an eighth of an extent. Everywhere for fewer faces than a box has, which may need all of it to
-/// exist, and where no number is wanted (0): errors bound that.
+/// of 20 faces, takes an eighth of an extent. Everywhere for fewer faces than a box has (kLeastFacesWithRoom), which
+/// may need all of it to exist, and where no number is wanted (0): errors bound that.
 [[nodiscard]] LatticeBox room_around(const LatticeBox& surface, std::uint64_t faces);
+constexpr std::uint64_t kLeastFacesWithRoom = 12;
 
 }  // namespace bp

@@ -351,7 +351,7 @@ class LevelMaker {
 
   LatticeMesh finish(const SurfaceSource& dense, const Enclosed* enclosed, std::uint64_t faces) {
     return finish(dense.frame(), faces, [&](SimplifyParams params, LevelCounts& counts) {
-      params.room = room_around(dense.box(), faces);
+      if (faces >= kLeastFacesWithRoom) params.room = room_around(dense.box(), faces);  // the box reads all voxels
       if (params_.near && params.limits == nullptr && faces > 0)
         params.reach = (header_.scale.base / dense.frame().voxel + 1) * kLatticePerVoxel;
       LatticeMesh proxy = make_level(dense, enclosed, params, counts);
