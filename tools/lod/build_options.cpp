@@ -28,12 +28,6 @@ const char* name_of(Enclose enclose) {
   return enclose == Enclose::input ? "input" : "closing";
 }
 
-/// Of the surface of a box.
-double area_of(const Bounds3d& b) {
-  const double x = b.max[0] - b.min[0], y = b.max[1] - b.min[1], z = b.max[2] - b.min[2];
-  return 2 * (x * y + y * z + z * x);
-}
-
 /// The value, or null.
 template <class T>
 Json optional_json(const std::optional<T>& value) {
@@ -220,6 +214,11 @@ Json options_json(const BuildOptions& o) {
           {"tighten", !o.loose},
           {"threads", o.common.threads},
           {"memory", o.common.memory_bytes}};
+}
+
+double area_of(const Bounds3d& b) {
+  const double x = b.max[0] - b.min[0], y = b.max[1] - b.min[1], z = b.max[2] - b.min[2];
+  return 2 * (x * y + y * z + z * x);
 }
 
 double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {

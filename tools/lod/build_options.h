@@ -68,6 +68,9 @@ struct SceneSize {
 /// kDefaultResolution.
 [[nodiscard]] double voxel_size(const BuildOptions& options, const SceneSize& scene, int halvings = 0);
 
+/// Of the six sides of a box.
+[[nodiscard]] double area_of(const Bounds3d& bounds);
+
 /// Voxels along the longest side.
 constexpr std::int64_t kDefaultResolution = 256, kMostResolution = 1024, kMostTilesetResolution = 2048;
 constexpr std::uint64_t kTilesetFaces = 40000;  ///< that nobody asked for, over the bounds

@@ -54,9 +54,10 @@ struct PlannedLevel {
   bool cut = false;
 };
 
-/// Triangles of the dense surface that so much area has, about: less, where parts lie inside or within a voxel.
+/// Triangles of the dense surface of the scene's outside, about: that is not much larger than the bounds' sides,
+/// however much there is within.
 double dense_faces(const Scene& scene, double voxel) {
-  return 2 * kSlantedSteps * scene.area / (voxel * voxel);
+  return 2 * kSlantedSteps * std::min(scene.area, area_of(scene.bounds)) / (voxel * voxel);
 }
 
 class Plan {
