@@ -143,7 +143,9 @@ Vec3d Collapser::pushed_out(const Vec3d& x) const {
 bool Collapser::take(HalfEdgeId h, std::optional<Candidate> candidate) {
   while (candidate) {
     gather_new_faces(candidate->position - origin_);
-    if (!is_free(candidate->position - origin_)) {
+    if (!stays_near()) {
+      refuse(Refusal::growth);
+    } else if (!is_free(candidate->position - origin_)) {
       refuse(Refusal::guard);
     } else if (!within_limits(params_.limits, mesh_, replaced_, new_faces_)) {
       refuse(Refusal::limits);
@@ -155,6 +157,11 @@ bool Collapser::take(HalfEdgeId h, std::optional<Candidate> candidate) {
     candidate = solve(h, candidate->attempt + 1);
   }
   return false;
+}
+
+/// Asked only of what is about to be taken: faces are long, and what is enclosed has many voxels.
+bool Collapser::stays_near() const {
+  return params_.enclosed == nullptr || params_.reach == 0 || params_.enclosed->is_near(new_faces_, params_.reach);
 }
 
 /// The guard. Where other parts of the surface end up between the old faces and the new ones, they go (as in shells.h),

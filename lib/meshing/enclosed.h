@@ -30,6 +30,12 @@ class Enclosed {
   /// units; rounded. They guide the search, allows() decides.
   [[nodiscard]] virtual std::vector<Vec3d> contact_points(const LatticeCoord& origin,
                                                           const LatticeBox& within) const = 0;
+  /// Whether each point of the faces has some of it within `distance`, lattice units, but for a tenth of that. True
+  /// where that is not known.
+  [[nodiscard]] virtual bool is_near(std::span<const NewFace> faces, double distance) const {
+    static_cast<void>(faces), static_cast<void>(distance);
+    return true;
+  }
   /// Memory of this, and of its contact points while a proxy is tightened; about.
   [[nodiscard]] virtual std::uint64_t bytes() const = 0;
   static constexpr std::uint64_t kBytesPerContactPoint =

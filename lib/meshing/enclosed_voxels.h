@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -18,6 +19,7 @@ class EnclosedVoxels : public Enclosed {
   [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                             Blocker* blocker) const override;
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override;
+  [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const override;
   [[nodiscard]] std::uint64_t bytes() const override;
 
  private:
@@ -31,6 +33,10 @@ class EnclosedVoxels : public Enclosed {
   [[nodiscard]] bool brick_clear(class Separator& separator, BrickCoord coord, const BoundaryBrick& brick,
                                  Blocker* blocker) const;
   [[nodiscard]] bool block_clear(Separator& separator, VoxelCoord first, const Block& block, Blocker* blocker) const;
+  class Nearest;
+  [[nodiscard]] bool is_near(const std::array<LatticeCoord, 3>& t, double distance,
+                             std::optional<LatticeCoord>& hint) const;
+  void look(BrickCoord coord, const BoundaryBrick& brick, Nearest& nearest) const;
   struct Hash {
     std::size_t operator()(const BrickCoord& c) const {
       return std::size_t(std::uint32_t(c.x) * 0x9e3779b1u ^ std::uint32_t(c.y) * 0x85ebca77u ^

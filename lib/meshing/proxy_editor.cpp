@@ -35,6 +35,8 @@ ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, const Sha
       limits_(limits.limits),
       inwards_(faces_inwards(mesh)),
       room_(intersect(mesh.room(), limits.room)),
+      first_reach_(limits.reach),
+      reach_(limits.reach),
       tree_(mesh),
       guard_(mesh, tree_),
       sense_(mesh),
@@ -96,13 +98,28 @@ bool ProxyEditor::is_free(bool free) {
   return within;
 }
 
+/// What goes inwards everywhere does not leave what is enclosed.
+bool ProxyEditor::stays_near() {
+  if (reach_ == 0 || swept_.size() == replaced_.size()) return true;
+  const bool near = enclosed_.is_near(faces_, reach_);
+  counts_.refused_reach += !near;
+  return near;
+}
+
+bool ProxyEditor::loosen() {
+  if (reach_ == 0 || counts_.refused_reach == refused_reach_before_) return false;
+  refused_reach_before_ = counts_.refused_reach;
+  reach_ = loosened(reach_, first_reach_);
+  return true;
+}
+
 bool ProxyEditor::fan_is_fine(const LatticeCoord& apex) {
   const bool within = room_.holds_inside(apex);
   if (!within || sticks_out(apex, star_)) {
     ++(within ? counts_.refused_shape : counts_.refused_growth);
     return false;
   }
-  if (!shape_is_fine() || !keeps_enclosed()) return false;
+  if (!shape_is_fine() || !keeps_enclosed() || !stays_near()) return false;
   return is_free(guard_.star_is_free(faces_, replaced_));
 }
 
@@ -180,7 +197,9 @@ bool ProxyEditor::flip(HalfEdgeId h) {
     ++counts_.refused_enclosed;
     return false;
   }
-  if (!shape_is_fine() || !keeps_enclosed() || !is_free(guard_.faces_are_free(faces_, replaced_))) return false;
+  if (!shape_is_fine() || !keeps_enclosed() || (swept_.empty() && !stays_near()) ||
+      !is_free(guard_.faces_are_free(faces_, replaced_)))
+    return false;
   mesh_.flip(h);
   for (const FaceId f : replaced_) tree_.update(f);
   contacts_.hand_over(replaced_, replaced_);

@@ -11,7 +11,7 @@ namespace bp {
 
 struct EditCounts {
   std::uint64_t tries = 0, refused_shape = 0, refused_enclosed = 0, refused_guard = 0, refused_limits = 0,
-                refused_length = 0, refused_growth = 0;
+                refused_length = 0, refused_growth = 0, refused_reach = 0;
 };
 
 class ProxyEditor {
@@ -47,6 +47,9 @@ class ProxyEditor {
   [[nodiscard]] bool is_convex(HalfEdgeId h) const;
   [[nodiscard]] bool inwards() const { return inwards_; }  ///< faces_inwards() of the mesh as it was given
 
+  /// True where a step failed by its reach since it was loosened last, which it is now.
+  [[nodiscard]] bool loosen();
+
   void refresh() { tree_.rebuild(); }  ///< boxes only grow with the changes; after many of them fresh ones pay
 
  private:
@@ -56,6 +59,7 @@ class ProxyEditor {
   [[nodiscard]] bool cuts_off_contacts(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& u,
                                        const LatticeCoord& w) const;
   [[nodiscard]] bool keeps_enclosed();
+  [[nodiscard]] bool stays_near();
   [[nodiscard]] bool fan_is_fine(const LatticeCoord& apex);
   [[nodiscard]] bool is_free(bool free);
   void update_around(VertexId apex);
@@ -66,11 +70,14 @@ class ProxyEditor {
   StepLimits* limits_;
   const bool inwards_;
   const LatticeBox room_;  // for new vertices
+  const double first_reach_;
+  double reach_;
   FaceTree tree_;
   Guard guard_;
   ShellSense sense_;
   ContactPoints contacts_;
   EditCounts counts_;
+  std::uint64_t refused_reach_before_ = 0;  // by the reach before
   // Of the change at hand:
   std::vector<NewFace> faces_;
   std::vector<FaceId> replaced_, around_;

@@ -4,10 +4,13 @@
 
 namespace bp {
 
+double loosened(double reach, double first) {
+  return reach < ShapeLimits::kMostLoosened * first ? ShapeLimits::kLoosened * reach : 0;
+}
+
 LatticeBox room_around(const LatticeBox& surface, std::uint64_t faces) {
-  constexpr std::uint64_t kFew = 12;
   constexpr double kBeyond = 0.02, kBeyondOfFaces = 5;  // in extents
-  if (faces < kFew) return kEverywhere;
+  if (faces < kLeastFacesWithRoom) return kEverywhere;
   const double share = kBeyond + kBeyondOfFaces / double(faces);
   LatticeBox room;
   for (int i = 0; i < 3; ++i) {

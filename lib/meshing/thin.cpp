@@ -115,6 +115,7 @@ class Thinner final : public ThinOrder {
     counts_.collapses += taken;
     counts_.refused_shape += after.refused_shape - before.refused_shape;
     counts_.refused_growth += after.refused_growth - before.refused_growth;
+    counts_.refused_growth += after.refused_reach - before.refused_reach;
     counts_.refused_enclosed += after.refused_enclosed - before.refused_enclosed;
     counts_.refused_guard += after.refused_guard - before.refused_guard;
     counts_.refused_length += after.refused_length - before.refused_length;
@@ -211,7 +212,12 @@ void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>&
   bool enough = false;
   for (int stage = first_stage; stage <= kThinStages; ++stage) {
     order.renew();
-    enough = order.run(std::numeric_limits<double>::infinity(), faces_after(stage, counts.faces_in, faces));
+    const std::uint64_t wanted = faces_after(stage, counts.faces_in, faces);
+    enough = order.run(std::numeric_limits<double>::infinity(), wanted);
+    while (!enough && editor.loosen()) {
+      order.renew();
+      enough = order.run(std::numeric_limits<double>::infinity(), wanted);
+    }
     if (stage < kThinStages) settle();
   }
   counts.stop = enough ? StopReason::faces : counts.reason_left();

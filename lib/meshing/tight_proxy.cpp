@@ -23,7 +23,8 @@ bool by_volume(const SimplifyParams& params) {
   return params.faces > 0 && params.error_vox <= 0 && params.limits == nullptr;
 }
 
-/// `enclosed`: what must stay inside; null: collapses grow.
+/// `enclosed`: what must stay inside; null: collapses grow. Those that know how far they may reach and do not get to
+/// `faces` by that go on with a longer reach.
 void simplify_late(LatticeMesh& proxy, const Enclosed* enclosed, const SimplifyParams& params, std::uint64_t faces,
                    SimplifyCounts& counts) {
   SimplifyParams late = params;
@@ -31,9 +32,13 @@ void simplify_late(LatticeMesh& proxy, const Enclosed* enclosed, const SimplifyP
   late.dense = false;
   late.enclosed = enclosed;
   late.most_growth = enclosed != nullptr ? kMostGrowth : 0;
-  SimplifyCounts now;
-  proxy = simplify(proxy, late, now);
-  counts.add(now);
+  for (bool again = true; again;) {
+    SimplifyCounts now;
+    proxy = simplify(proxy, late, now);
+    counts.add(now);
+    again = enclosed != nullptr && late.reach > 0 && now.stop != StopReason::faces && now.refused_growth > 0;
+    if (again) late.reach = loosened(late.reach, params.reach);
+  }
 }
 
 TightenParams one_sweep(const SimplifyParams& params) {

@@ -220,6 +220,7 @@ struct LodChain::State {
     if (target.error_world > 0)
       params.error_world = std::max(target.error_world - std::sqrt(3.0) * (header.frame.voxel + outside->voxel()),
                                     target.error_world / 4);
+    params.near = true;
     params.memory = options.pieces;
     params.mode = options.mode;
     params.tighten = options.tighten;

@@ -350,7 +350,9 @@ class LevelMaker {
 
   LatticeMesh finish(const SurfaceSource& dense, const Enclosed* enclosed, std::uint64_t faces) {
     return finish(dense.frame(), faces, [&](SimplifyParams params, LevelCounts& counts) {
-      params.room = room_around(dense.box(), faces);
+      if (faces >= kLeastFacesWithRoom) params.room = room_around(dense.box(), faces);  // the box reads all voxels
+      if (params_.near && params.limits == nullptr && faces > 0)
+        params.reach = (header_.scale.base / dense.frame().voxel + 1) * kLatticePerVoxel;
       LatticeMesh proxy = make_level(dense, enclosed, params, counts);
       if (!params_.quads) return proxy;
       if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);

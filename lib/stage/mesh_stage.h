@@ -23,6 +23,9 @@ struct MeshParams {
   /// Largest distance of the proxy to what it encloses (proxy_limits.h), scene units; 0: none. Of n levels that enclose
   /// each other, the first may use 1/n of it, the second 2/n, and so on.
   double error_world = 0;
+  /// With nothing but `faces` wanted, in bounding mode: no step takes a face farther from what is enclosed than the
+  /// scale and a voxel, as far as so few faces allow it. Volume alone does not mind a face far out.
+  bool near = false;
   double volume_ratio = 0;  ///< largest volume, in volumes of the meshed voxels, at least 1; inside: least, at most 1
   double edge_factor = 0;   ///< edges at most edge_factor * S long, S the scale field there; 0: no limit
   Enclose enclose = Enclose::closing;

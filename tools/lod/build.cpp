@@ -82,7 +82,6 @@ Build::Build(const BuildOptions& o)
 VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int halvings) {
   report.stage("voxelize");
   VoxelizeOptions v;
-  v.voxel_size = [this, halvings](const Bounds3d& bounds) { return voxel_size(options, bounds, halvings); };
   v.cell_vox = cell_vox;
   v.results = results;
   v.fill = options.fill;
@@ -96,6 +95,9 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   out.solid = make_shelf();
   ShelfSink sink(out.solid.get());
   const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp, options.colors});
+  v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
+    return voxel_size(options, {bounds, source->counts().triangles}, halvings);
+  };
   const auto open = [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
     out.header = header;
     return sink;

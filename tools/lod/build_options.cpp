@@ -29,12 +29,6 @@ const char* name_of(Enclose enclose) {
   return enclose == Enclose::input ? "input" : "closing";
 }
 
-/// Of the surface of a box.
-double area_of(const Bounds3d& b) {
-  const double x = b.max[0] - b.min[0], y = b.max[1] - b.min[1], z = b.max[2] - b.min[2];
-  return 2 * (x * y + y * z + z * x);
-}
-
 /// The value, or null.
 template <class T>
 Json optional_json(const std::optional<T>& value) {
@@ -160,7 +154,8 @@ BuildOptions parse_build_options(Args& args) {
   args.option("--voxel", "LENGTH", o.voxel,
               "edge of a voxel of the finest level: scene units, or 0.5% of the diagonal");
   args.option("--resolution", "N", o.resolution,
-              "voxels along the longest side (default: by --faces, 256 to 1024; or 8 voxels to the error)");
+              "voxels along the longest side (default: by --faces, 256 to 1024, of tilesets by the scene, 256 to 2048; "
+              "or 8 voxels to the error)");
   args.option("--tile", "N", o.tile_vox,
               "3dtiles: voxels along the side of a tile; a level that is larger is cut into tiles of its own");
   args.option(
@@ -228,15 +223,24 @@ Json options_json(const BuildOptions& o) {
           {"memory", o.common.memory_bytes}};
 }
 
-double voxel_size(const BuildOptions& o, const Bounds3d& bounds, int halvings) {
+double area_of(const Bounds3d& b) {
+  const double x = b.max[0] - b.min[0], y = b.max[1] - b.min[1], z = b.max[2] - b.min[2];
+  return 2 * (x * y + y * z + z * x);
+}
+
+double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
+  const Bounds3d& bounds = scene.bounds;
   if (o.voxel) return o.voxel->in_world(bounds.diagonal(), 0);
   const double error = finest_error(o.request, bounds.diagonal());
   if (error > 0 && !o.resolution) return error / kVoxelsPerError;
   const double coarse = voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
-  if (o.resolution || o.request.faces.empty() || o.profile == LodProfile::tiles) return coarse;
-  const double dense_faces = double(kDensePerFace) * double(o.request.faces.front());
+  const bool tileset = o.profile == LodProfile::tiles;
+  if (o.resolution || o.request.faces.empty() != tileset) return coarse;
+  const std::uint64_t faces = tileset ? std::min(scene.triangles, kTilesetFaces) : o.request.faces.front();
+  const double dense_faces = double(kDensePerFace) * double(faces);
   const double fine = std::min(coarse, std::sqrt(2 * kSlantedSteps * area_of(bounds) / dense_faces));
-  return std::min(coarse, std::max(std::ldexp(fine, -halvings), voxel_size_of(bounds, kMostResolution)));
+  const std::int64_t most = tileset ? kMostTilesetResolution : kMostResolution;
+  return std::min(coarse, std::max(std::ldexp(fine, -halvings), voxel_size_of(bounds, most)));
 }
 
 bool may_refine(const BuildOptions& o) {

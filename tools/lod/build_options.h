@@ -56,12 +56,25 @@ struct BuildOptions {
 /// All of them but folders and files, for the report: as they were given, null where nothing was.
 [[nodiscard]] Json options_json(const BuildOptions& options);
 
-/// Edge of a voxel for a scene with these bounds, scene units: as asked; an eighth of the finest error; or so small
-/// that a surface as large as that of the bounds has kDensePerFace triangles for each face of the finest level, halved
-/// so often, within kDefaultResolution and kMostResolution.
-[[nodiscard]] double voxel_size(const BuildOptions& options, const Bounds3d& bounds, int halvings = 0);
+/// What is known of a scene before a voxel is.
+struct SceneSize {
+  Bounds3d bounds;
+  std::uint64_t triangles = 0;
+};
 
-constexpr std::int64_t kDefaultResolution = 256, kMostResolution = 1024;  ///< voxels along the longest side
+/// Edge of a voxel, scene units: as asked; an eighth of the finest error; or so small that a surface as large as that
+/// of the bounds has kDensePerFace triangles for each face of the finest level, halved so often, within
+/// kDefaultResolution and kMostResolution. Of a tileset these faces are as many as the scene has triangles, or
+/// kTilesetFaces if that is fewer, and the most resolution is kMostTilesetResolution; with a budget for each tile it is
+/// kDefaultResolution.
+[[nodiscard]] double voxel_size(const BuildOptions& options, const SceneSize& scene, int halvings = 0);
+
+/// Of the six sides of a box.
+[[nodiscard]] double area_of(const Bounds3d& bounds);
+
+/// Voxels along the longest side.
+constexpr std::int64_t kDefaultResolution = 256, kMostResolution = 1024, kMostTilesetResolution = 2048;
+constexpr std::uint64_t kTilesetFaces = 40000;  ///< that nobody asked for, over the bounds
 /// Whether smaller voxels may be tried where the finest level does not come to its faces: nobody said which, the
 /// scene can be read again, and no cells depend on them.
 [[nodiscard]] bool may_refine(const BuildOptions& options);

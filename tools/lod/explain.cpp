@@ -54,9 +54,10 @@ struct PlannedLevel {
   bool cut = false;
 };
 
-/// Triangles of the dense surface that so much area has, about: less, where parts lie inside or within a voxel.
+/// Triangles of the dense surface of the scene's outside, about: that is not much larger than the bounds' sides,
+/// however much there is within.
 double dense_faces(const Scene& scene, double voxel) {
-  return 2 * kSlantedSteps * scene.area / (voxel * voxel);
+  return 2 * kSlantedSteps * std::min(scene.area, area_of(scene.bounds)) / (voxel * voxel);
 }
 
 class Plan {
@@ -65,7 +66,7 @@ class Plan {
     VoxelizeOptions v;
     v.fill = options_.fill;
     if (is_tileset()) v.cell_vox = options_.tile_vox;
-    header_ = solid_header(scene.bounds, voxel_size(options_, scene.bounds), scene.up, v);
+    header_ = solid_header(scene.bounds, voxel_size(options_, {scene.bounds, scene.counts.triangles}), scene.up, v);
     if (is_tileset()) {
       tileset_ = plan_tileset(options_, header_);
       for (const CutLevel& cut : tileset_.cut) add(cut);
@@ -214,6 +215,7 @@ void explain(const BuildOptions& options) {
   build.report.stage("read");
   const Scene scene = read_scene(build);
   if (const std::string text = up_note(options, scene.up_told, scene.bounds); !text.empty()) build.note(text);
+  if (const std::string text = cache_note(options); !text.empty()) build.note(text);
   build.report.stage("look up");
   const Plan plan(build, scene);
   build.report.options = options_json(options);

@@ -42,7 +42,8 @@ struct Attempt {
     build.report.stage("level 0");
     target = target_of(build.options.request, 0, 0, scene.header.bounds.diagonal(), scene.header.frame.voxel,
                        chain->dense_faces());
-    const auto voxel = [&](int times) { return voxel_size(build.options, scene.header.bounds, times); };
+    const SceneSize size{scene.header.bounds, scene.counts.scene.triangles};
+    const auto voxel = [&](int times) { return voxel_size(build.options, size, times); };
     target.detail = voxel(0) / voxel(halvings);
     finest_voxel = voxel(halvings + 1) >= voxel(halvings);
     finest = chain->make(target);

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "io/chunk_store.h"
 #include "io/lod_writer.h"
 #include "io/result_store.h"
 #include "io/tileset_file.h"
 #include "lib/core/parallel.h"
+#include "lib/core/source_digest.h"
 #include "lib/stage/tile_pyramid.h"
 #include "lib/stage/vertex_colors.h"
 #include "tools/lod/lod_outputs.h"
@@ -51,6 +53,23 @@ class LookUpStore final : public ResultStore {
   std::unique_ptr<ResultStore> results_;
 };
 
+/// What a cache holds belongs to the sources of a program: a file of their name tells which ones were here. True if
+/// only others were. `leave`: this one's name, too, if that can be.
+bool is_of_others(const std::string& folder, bool leave) {
+  constexpr std::string_view kName = "made-by-";
+  std::error_code error;
+  bool mine = false, others = false;
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    const bool tells = name.starts_with(kName);
+    mine = mine || (tells && name.substr(kName.size()) == source_digest());
+    others = others || tells || name.size() == 2;  // results are in folders ab/; not all builds told their name
+  }
+  if (leave && !mine)
+    std::ofstream(std::filesystem::path(folder) / (std::string(kName) + std::string(source_digest())));
+  return others && !mine;
+}
+
 /// Of the levels that were asked for: each is one mesh, or a folder of tiles.
 std::vector<std::string> certain_names(const BuildOptions& o) {
   std::vector<std::string> names;
@@ -68,13 +87,15 @@ class TilesetBuild {
  public:
   TilesetBuild(const BuildOptions& o, Task task) : options_(o), task_(task), build_(o), cells_{o.tile_vox} {
     if (task == Task::tileset)
-      folder_ = std::make_unique<TilesetFolder>(o.out, certain_names(o), o.common.overwrite, o.resume);
+      folder_ = std::make_unique<TilesetFolder>(o.out, o.scenes, certain_names(o), o.common.overwrite, o.resume);
     store_ = make_chunk_store(build_.budget.store, o.common.temp);
+    if (const std::string text = cache_note(o); !text.empty() && task != Task::look_up) build_.note(text);
     const std::string results = o.resume ? TilesetFolder::results_of(o.out) : o.cache;
     if (task == Task::look_up) {
       results_ = std::make_unique<LookUpStore>(results);
     } else if (!results.empty()) {
       results_ = open_result_store(results, when_read_only());
+      if (!o.resume) static_cast<void>(is_of_others(results, true));
     }
   }
 
@@ -315,6 +336,11 @@ class TilesetBuild {
 };
 
 }  // namespace
+
+std::string cache_note(const BuildOptions& options) {
+  if (options.cache.empty() || !is_of_others(options.cache, false)) return "";
+  return options.cache + ": holds results of other builds of bplod, and none of this one: all is made anew";
+}
 
 void build_tileset(const BuildOptions& options) {
   TilesetBuild(options, options.tiles ? Task::some_jobs : Task::tileset).run();

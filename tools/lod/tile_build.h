@@ -12,4 +12,7 @@ void build_tileset(const BuildOptions& options);
 /// written. `kept` is exact; so is `jobs` if all are kept, else a cavity may be counted as a tile.
 [[nodiscard]] std::vector<FoundJobs> look_up_tileset(const BuildOptions& options);
 
+/// What is said of a --cache that only other builds of the program have filled: its results are of no use; else empty.
+[[nodiscard]] std::string cache_note(const BuildOptions& options);
+
 }  // namespace bp

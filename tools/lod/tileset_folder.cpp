@@ -58,6 +58,12 @@ bool holds(const std::string& path, const std::string& bytes) {
   }
 }
 
+std::string whole_path(const std::string& path) {
+  std::error_code unknown;
+  const fs::path whole = fs::weakly_canonical(path, unknown);
+  return unknown ? path : whole.string();
+}
+
 std::string without_slash(std::string path) {
   while (path.size() > 1 && path.back() == '/') path.pop_back();
   return path;
@@ -69,14 +75,15 @@ std::string TilesetFolder::results_of(const std::string& path) {
   return without_slash(path) + kPartial + "/results";
 }
 
-TilesetFolder::TilesetFolder(const std::string& path, const std::vector<std::string>& names, bool overwrite,
-                             bool resume)
+TilesetFolder::TilesetFolder(const std::string& path, const std::vector<std::string>& inputs,
+                             const std::vector<std::string>& names, bool overwrite, bool resume)
     : path_(without_slash(path)),
       partial_(path_ + kPartial),
       files_(partial_ + "/files"),
       overwrite_(overwrite),
       resume_(resume),
       made_(path_) {
+  for (const std::string& input : inputs) inputs_.push_back(whole_path(input));
   lock();
   try {
     begin(names);
@@ -122,8 +129,15 @@ void TilesetFolder::leave() {
   if (lock_ >= 0) ::close(lock_);
 }
 
+bool TilesetFolder::is_input(const std::string& name) const {
+  return std::find(inputs_.begin(), inputs_.end(), whole_path(path_ + "/" + name)) != inputs_.end();
+}
+
 void TilesetFolder::refuse_if_there(const std::string& name) const {
   const fs::path path = path_ + "/" + name;
+  if (is_input(name))
+    fail(ErrorCode::bad_argument, "{}: is an input, and would be lost; give the tileset another folder or --name",
+         path.string());
   if (overwrite_ || !fs::exists(path) || (fs::is_directory(path) && fs::is_empty(path))) return;
   const auto below = std::lower_bound(moved_.begin(), moved_.end(), name + "/");
   if (below != moved_.end() && below->starts_with(name + "/")) return;
@@ -197,7 +211,7 @@ void TilesetFolder::move_files() {
 
 void TilesetFolder::remove_others(const std::vector<std::string>& before) const {
   for (const std::string& name : before) {
-    if (std::binary_search(names_.begin(), names_.end(), name)) continue;
+    if (std::binary_search(names_.begin(), names_.end(), name) || is_input(name)) continue;
     std::error_code ignored;
     fs::remove(path_ + "/" + name, ignored);
     const fs::path folder = fs::path(name).parent_path();

@@ -18,9 +18,11 @@ class TilesetFolder {
   /// Makes OUT if it is not there. Takes away the files that an interrupted run left in OUT/.partial, and, unless
   /// `resume`, its results. Throws bad_argument if OUT has a tileset.json or one of `names`, `overwrite` is false, and
   /// they are not of a commit that was interrupted; `failed` if another process is at work on OUT.
+  ///   inputs  files that are neither replaced nor taken away; bad_argument if one of `names` is, here or in write()
   ///   names  of files, or of folders with files, that will be written for certain: those that are there are not found
   ///          out after the work only
-  TilesetFolder(const std::string& path, const std::vector<std::string>& names, bool overwrite, bool resume);
+  TilesetFolder(const std::string& path, const std::vector<std::string>& inputs, const std::vector<std::string>& names,
+                bool overwrite, bool resume);
   /// Without commit() nothing stays behind but, to resume, the results. A signal leaves no more.
   ~TilesetFolder();
   TilesetFolder(const TilesetFolder&) = delete;
@@ -42,6 +44,7 @@ class TilesetFolder {
   void lock();
   void begin(const std::vector<std::string>& names);
   void leave();
+  [[nodiscard]] bool is_input(const std::string& name) const;
   void refuse_if_there(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> names_before();
   void note_moves(const std::vector<std::string>& before) const;
@@ -49,6 +52,7 @@ class TilesetFolder {
   void remove_others(const std::vector<std::string>& before) const;
 
   std::string path_, partial_, files_;
+  std::vector<std::string> inputs_;  ///< whole paths
   bool overwrite_, resume_;
   MadeFolders made_;                 ///< OUT, and those above it
   PartialOutput work_, folders_[2];  ///< files_; results() and partial_: for signal handlers

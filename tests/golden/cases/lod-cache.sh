@@ -12,7 +12,7 @@ build -o second --cache cache --report second.json -j 1
 diff -r whole first && diff -r whole second && echo "the same bytes"
 kept first.json
 kept second.json
-find cache -type f | head -1 | while read -r f; do echo damaged > "$f"; done
+find cache -mindepth 2 -type f | head -1 | while read -r f; do echo damaged > "$f"; done
 build -o second --cache cache --overwrite
 diff -r whole second && echo "the same bytes in spite of damage"
 
@@ -41,6 +41,18 @@ full() { (ulimit -f 1; "$@"); }
 try full bplod "${options[@]}" -o x --cache small-cache | sed 's/x.\.partial.*glb/FILE/; s/small-cache.[0-9a-f]*.[0-9a-f]*/FILE/'
 try full bplod "${options[@]}" -o x | sed 's/x.\.partial.*glb/FILE/'
 ls -d x 2> /dev/null
+# Results of another build cannot be used: that is said, once, and not when this build's are there, too.
+mkdir -p other/ab empty
+touch other/ab/cdef other/made-by-0123456789abcdef
+for cache in empty other cache; do
+  bplod "${options[@]}" --explain --cache $cache --overwrite --report explained.json > list
+  grep -oE "$cache: holds[^\"]*" explained.json || echo "nothing is said of $cache"
+done
+build -o from-other --cache other --report from-other.json
+grep -o 'other: holds[^"]*' from-other.json
+diff -r from-other from-nothing && echo "the same bytes"
+build -o from-other --overwrite --cache other --report from-other.json
+grep -o 'other: holds[^"]*' from-other.json || echo "nothing is said any more"
 try bplod part0.obj -o x --cache cache
 try bplod part0.obj -o x --cache cache --resume --profile 3dtiles
 try bplod part0.obj -o x --profile 3dtiles --cache part0.obj/cache

@@ -18,6 +18,14 @@ try bplod pipe.obj --name p --voxel 0.5 --tile 128 --profile 3dtiles -q -o mixed
 cat mixed3/p_LOD5.glb
 LC_ALL=C ls -A mixed mixed3
 
+# A scene in that folder is neither replaced nor taken away, by whatever name.
+mkdir scenes
+cp cube.obj scenes/cube.obj
+bplod scenes/cube.obj "${tileset[@]:1}" -o scenes > list
+bplod scenes/m_LOD1.glb "${tileset[@]:1}" -o scenes --overwrite 2>&1
+bplod scenes/../scenes/m_LOD2.glb --name n --resolution 24 --levels 1 --profile 3dtiles -q -o scenes --overwrite | cut -f 1
+LC_ALL=C ls -A scenes
+
 # What is printed and cannot be written is an error, of the plan and of the list. The files are complete all the same, and it is said.
 said "bplod ${options[*]} --explain > /dev/full"
 said "bplod ${options[*]} -o full > /dev/full"

@@ -31,6 +31,16 @@ bplod "${options[@]}" --cache cache --tiles 30..40
 try bplod part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles --cache cache --tiles 30..40
 try bplod "${options[@]}" --tiles 0..2 --cache cache -o nowhere
 
+# Without any voxels, the scene decides: its bounds, and how many triangles it has; a run does what the plan says.
+many=(); for i in {1..150}; do many+=(part0.obj part1.obj part2.obj); done
+for scene in "part0.obj part1.obj part2.obj" "${many[*]}"; do
+  read -ra scene <<< "$scene"
+  bplod "${scene[@]}" --name cubes --profile 3dtiles --explain --report plan.json --overwrite -q | sed -n 2p
+  bplod "${scene[@]}" --name cubes --profile 3dtiles -o by-scene --report whole.json --overwrite -q > list
+  diff <(numbers voxel plan.json | cut -d ' ' -f 1-4) <(numbers voxel whole.json | cut -d ' ' -f 1-4) && echo "as planned"
+done
+bplod "${many[@]}" --name cubes --profile 3dtiles --faces 100 --explain -q | sed -n 2p
+
 # What a change costs is known before it is paid.
 sed -i 's/^v \(.*\) 3 \(.*\)$/v \1 2 \2/' part2.obj
 bplod "${options[@]}" --cache cache --explain | grep kept

@@ -2,6 +2,7 @@
 #include "lib/meshing/enclosed_voxels.h"
 #include "tests/catch.h"
 #include "tests/support/memory_shelf.h"
+#include "tests/support/proxy_checks.h"
 #include "tests/support/random_lattice.h"
 
 using namespace bp;
@@ -115,4 +116,23 @@ TEST_CASE("a tetrahedron from outside is allowed by a solid of voxels as by each
   }
   CHECK(refused > 1000);
   CHECK(refused < 5500);
+}
+
+TEST_CASE("a face is near a set of voxels if no point of it is far, whatever its corners are", "[quick][meshing]") {
+  constexpr std::int64_t kVoxel = kLatticePerVoxel;
+  MemoryShelf shelf;
+  fill_shelf(shelf, {{-64, -64, -64}, {64, 64, 64}}, [](VoxelCoord p) {  // a plate with a gap 24 voxels wide
+    return p.z == 0 && std::abs(p.x) < 40 && std::abs(p.y) < 40 && (p.x < 0 || p.x >= 24);
+  });
+  const EnclosedVoxels plate(shelf);
+  const auto face = [&](std::int64_t x0, std::int64_t x1, double height) {
+    const auto z = std::int64_t(height * kVoxel);
+    return std::array<NewFace, 1>{
+        {{{}, {{{x0 * kVoxel, -30 * kVoxel, z}, {x1 * kVoxel, -30 * kVoxel, z}, {x1 * kVoxel, 30 * kVoxel, z}}}}}};
+  };
+  CHECK(plate.is_near(face(-39, -1, 3), 2.5 * kVoxel));  // the top of the plate is at 1
+  CHECK_FALSE(plate.is_near(face(-39, -1, 3), 1.5 * kVoxel));
+  CHECK_FALSE(plate.is_near(face(-39, 39, 3), 8 * kVoxel));    // over the gap
+  CHECK(plate.is_near(face(-39, 39, 3), 13 * kVoxel));         // half of it, and the height
+  CHECK_FALSE(plate.is_near(face(200, 240, 3), 13 * kVoxel));  // where no brick is
 }

@@ -72,3 +72,36 @@ TEST_CASE("no fin grows at the end of a beam: how far is far is told by its widt
   CHECK(editor.counts().refused_shape == 1);
   CHECK(editor.move(v, corner + LatticeCoord{0, 0, kVoxel / 2}));
 }
+
+TEST_CASE("no step goes beyond its reach until that is loosened, and any goes inwards", "[quick][meshing]") {
+  LatticeMesh proxy = box_around_block();  // a voxel away from it
+  HalfEdgeMesh mesh(proxy);
+  ShapeLimits limits;
+  limits.reach = 2 * kVoxel;
+  ProxyEditor editor(mesh, block(), limits);
+  CHECK_FALSE(editor.loosen());  // nothing was in the way
+  VertexId v = 0;
+  const LatticeCoord corner{51 * kVoxel, 51 * kVoxel, 51 * kVoxel};
+  while (mesh.position(v) != corner) ++v;
+  const LatticeCoord out = corner + LatticeCoord{2 * kVoxel, 2 * kVoxel, 2 * kVoxel};
+  CHECK_FALSE(editor.move(v, out));
+  CHECK(editor.counts().refused_reach == 1);
+  int times = 0;
+  while (!editor.move(v, out)) {
+    REQUIRE(editor.loosen());
+    ++times;
+  }
+  CHECK(times == 3);  // 3 sqrt(3) voxels
+  CHECK(editor.move(v, corner));
+}
+
+TEST_CASE("a reach is loosened to some times its length, and then there is none", "[quick][meshing]") {
+  double reach = 10;
+  for (int n = 0; n < 100 && reach > 0; ++n) {
+    const double next = loosened(reach, 10);
+    CHECK((next == 0 || next == ShapeLimits::kLoosened * reach));
+    CHECK(next <= ShapeLimits::kLoosened * ShapeLimits::kMostLoosened * 10);
+    reach = next;
+  }
+  CHECK(reach == 0);
+}
