@@ -6,6 +6,7 @@
 #include "lib/core/error.h"
 #include "lib/stage/close_stage.h"
 #include "lib/stage/complement.h"
+#include "tools/common/inputs.h"
 #include "tools/common/make_backend.h"
 #include "tools/common/names.h"
 #include "tools/common/provenance.h"
@@ -50,6 +51,7 @@ Options parse(bp::Args& args) {
   o.common.add_to(args);
   args.parse();
   args.excludes("--keep-cavities", "--inner");
+  bp::check_stream_name(o.out);
   if (!o.field.empty()) bp::keep_inputs({o.field});  // INPUT may be replaced: its voxels stay
   if (!o.scale && o.field.empty()) fail(ErrorCode::bad_argument, "give a --scale or a --field");
   if (o.scale && !o.field.empty()) fail(ErrorCode::bad_argument, "--scale and --field exclude each other");

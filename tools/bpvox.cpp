@@ -58,6 +58,7 @@ Options parse(bp::Args& args) {
   o.common.add_to(args);
   args.parse();
   bp::check_scene_format(o.format, o.scenes);
+  bp::check_stream_name(o.out);
   bp::keep_inputs(o.scenes);
   if (o.voxel && o.resolution) fail(ErrorCode::bad_argument, "--voxel and --resolution exclude each other");
   if (o.voxel && o.voxel->unit == bp::Length::Unit::voxels)

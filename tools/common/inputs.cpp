@@ -22,6 +22,12 @@ void check_scene_format(const std::string& format, const std::vector<std::string
        format, inputs.front());
 }
 
+void check_stream_name(const std::string& output) {
+  if (!scene_format_of(output).empty())
+    fail(ErrorCode::bad_argument, "{}: this would be a stream of voxels, not a mesh; bpmesh makes meshes of streams",
+         output);
+}
+
 void check_panel_size(int pixels, std::size_t panels) {
   const std::size_t most = kMostImageSide / panels;
   if (pixels >= kLeastPanelSide && std::size_t(pixels) <= most) return;

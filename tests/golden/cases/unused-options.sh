@@ -23,6 +23,9 @@ try bpcheck cube.obj cube.obj --inside --samples 10
 try bpcheck cube.obj cube.obj --convex --samples 10
 try bpcheck cube.obj cube.obj --convex --inside
 try bpcheck cube.obj --inside
+# Voxels are no mesh, whatever the file is called.
+try bpvox cube.obj -o cube.glb
+try bpclose cube.bpv --scale 1vx -o cube.PLY
 # What goes together does.
 try bplod cube.obj -o made --profile collision --colors off --no-tighten --resolution 10 | cut -f 1
 try bplod cube.obj -o near --error 50% --no-tighten --enclose closing --levels 1 | cut -f 1
