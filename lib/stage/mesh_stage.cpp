@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/core/error.h"
+#include "lib/grid/boundary_rects.h"
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/count_bits.h"
 #include "lib/meshing/enclosed_triangles.h"
@@ -126,10 +127,32 @@ std::vector<TriangleD> merged_triangles(const SurfaceSource& surface, const Piec
   return world_triangles(mesh.compact(surface.frame()));
 }
 
-/// The surface of the voxels as they are, which may touch along edges.
-std::vector<TriangleD> unmerged_triangles(const BrickShelf& shelf, const GridFrame& frame, const PieceMemory& memory) {
-  check_work(count_faces(ShelfSurface(shelf, frame)), memory);
-  return world_triangles(dense_surface(shelf, frame));
+/// The same for voxels that may touch along edges, where no faces can be merged but those in a rectangle.
+std::vector<TriangleD> rect_triangles(const BrickShelf& shelf, const GridFrame& frame, const PieceMemory& memory) {
+  const std::vector<FaceRect> rects = boundary_rects(shelf);
+  const std::uint64_t n = 2 * rects.size();
+  const std::uint64_t bytes = rects.size() * sizeof(FaceRect) + n * sizeof(TriangleD) + TriangleBvh::bytes_needed(n);
+  if (bytes > memory.bytes()) {
+    fail(ErrorCode::out_of_resource,
+         "the surface that distances are measured from takes {} MiB, and --memory leaves {} MiB for it; raise "
+         "--memory{}, or use larger voxels",
+         (bytes >> 20) + 1, memory.bytes() >> 20, memory.enough_for(bytes - memory.bytes()));
+  }
+  std::vector<TriangleD> triangles;
+  triangles.reserve(n);
+  for (const FaceRect& r : rects) {
+    const int across = r.min.x == r.max.x ? 0 : r.min.y == r.max.y ? 1 : 2, u = across == 0 ? 1 : 0;
+    VoxelCoord b = r.min, d = r.max;
+    b[u] = r.max[u];
+    d[u] = r.min[u];
+    const auto world = [&](const VoxelCoord& c) {
+      return frame.world({std::int64_t(c.x) * kLatticePerVoxel, std::int64_t(c.y) * kLatticePerVoxel,
+                          std::int64_t(c.z) * kLatticePerVoxel});
+    };
+    triangles.push_back({world(r.min), world(b), world(r.max)});
+    triangles.push_back({world(r.min), world(r.max), world(d)});
+  }
+  return triangles;
 }
 
 std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& params, const Start& start,
@@ -157,7 +180,7 @@ Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& star
   if (params.error_world > 0 || params.distances || target) {
     ground.surface = params.enclose == Enclose::scene ? params.scene
                      : params.enclose == Enclose::input
-                         ? unmerged_triangles(*shelves.input, start.surface->frame(), params.memory)
+                         ? rect_triangles(*shelves.input, start.surface->frame(), params.memory)
                          : merged_triangles(*start.surface, params.memory);
     ground.tree = std::make_unique<TriangleBvh>(ground.surface);
   }

@@ -9,6 +9,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/clip.h"
+#include "lib/grid/dilate.h"
 #include "lib/grid/reach.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/stage/surface_around.h"
@@ -45,10 +46,10 @@ bool unpack(const std::string& bytes, LevelTile& tile) {
   return true;
 }
 
-/// Of the voxels of a tile, twice: hold_stray_parts().
+/// Of the voxels of a tile, four times: leave_out_fringes().
 std::uint64_t voxel_bytes(const Cells& cells) {
   const auto edge = std::uint64_t(cells.edge_vox);
-  return 2 * (edge + 2 * kBrickEdge) * (edge + 2) * (edge + 2) / 8 + kBytesPerTile;
+  return 4 * (edge + 2 * kBrickEdge) * (edge + 2) * (edge + 2) / 8 + kBytesPerTile;
 }
 
 /// A cell with something to mesh.
@@ -112,6 +113,8 @@ class Maker {
     solid_ = clipped(level_.solid, grown_, params_.make_shelf);
     closing_ = clipped(level_.closing, grown_, params_.make_shelf);
     if (solid_->coords().empty() && is_full(*closing_, cell_)) return false;
+    if (params_.mode == MeshMode::bounding && params_.enclose == Enclose::input) leave_out_fringes();
+    if (closing_->coords().empty()) return false;
     boundary_ = boundary_of(*solid_);
     hold_stray_parts();
     return true;
@@ -127,6 +130,50 @@ class Maker {
   }
 
  private:
+  /// What the closing has here only for voxels of the next cells: sheets along the walls, over which a tile would stand
+  /// far off all that it encloses. That is what lies beyond the closing's reach from the solid, and is not shut in by
+  /// the rest: what fills cavities stays.
+  void leave_out_fringes() {
+    BitBox closing(grown_), kept(grown_), outside(grown_);
+    load_voxels(*closing_, closing);
+    load_voxels(*solid_, kept);
+    dilate(kept, std::int32_t(std::ceil(params_.scale_world / level_.header.frame.voxel)) + 1);
+    const VoxelBox box = closing.box();
+    const std::int32_t words = closing.words_per_row();
+    std::vector<std::uint64_t> here(std::size_t(words), 0);  // of a row, the voxels of the cell
+    for (std::int32_t x = grown_.min.x; x < grown_.max.x; ++x)
+      here[std::size_t((x - box.min.x) / 64)] |= std::uint64_t(1) << ((x - box.min.x) % 64);
+    const auto for_each_word = [&](const auto& body) {
+      for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
+        for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
+          for (std::int32_t i = 0; i < words; ++i)
+            body(closing.row(y, z)[i], kept.row(y, z)[i], outside.row(y, z)[i], here[std::size_t(i)]);
+        }
+      }
+    };
+    std::uint64_t far = 0;
+    for_each_word([&](std::uint64_t c, std::uint64_t& near, std::uint64_t& out, std::uint64_t cell) {
+      far |= c & ~near;
+      out = ~c & cell;
+      near = (~c | ~near) & cell;  // where the outside may go
+    });
+    if (far == 0) return;
+    grow_within(kept, outside);
+    for_each_word([&](std::uint64_t& c, std::uint64_t, std::uint64_t out, std::uint64_t) { c &= ~out; });
+    closing_ = params_.make_shelf();
+    for_each_brick(grown_, [&](BrickCoord c) {
+      BrickBits bits{};
+      for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+        for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+          const VoxelCoord p = first_voxel(c) + VoxelCoord{0, y, z};
+          if (row_within(c, y, z, grown_) == 0) continue;
+          bits[std::size_t(z * kBrickEdge + y)] = closing.row(p.y, p.z)[(p.x - box.min.x) / kBrickEdge];
+        }
+      }
+      if (classify(bits) != BrickFill::empty) closing_->put(c, classify(bits), bits);
+    });
+  }
+
   /// Where a part of the closing holds no voxel of the solid in this cell, nothing would stop it as it is tightened: it
   /// might pass through itself. So it is to enclose itself.
   void hold_stray_parts() {

@@ -1,0 +1,10 @@
+#pragma once
+#include "lib/grid/bit_box.h"
+
+namespace bp {
+
+/// Every voxel within `reach` of an occupied one along each axis, in the box and its whole words. Cost: `reach` passes
+/// over the words, for each axis; a second box for a moment.
+void dilate(BitBox& voxels, std::int32_t reach);
+
+}  // namespace bp
