@@ -107,9 +107,11 @@ ConvexParts convex_parts(const LatticeMesh& mesh, std::size_t most) {
     found[std::size_t(i)] = hull_of(cells[std::size_t(i)].points(SolidCell::Rounding::outward));
   });
   std::vector<Wrapped> wrapped;
+  std::map<const void*, std::uint32_t> numbers;
   for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::uint32_t solid = numbers.emplace(cells[i].solid(), std::uint32_t(numbers.size())).first->second;
     if (found[i])
-      wrapped.push_back({std::move(*found[i]), cells[i].volume6()});  // a cell may have nothing of the solid
+      wrapped.push_back({std::move(*found[i]), cells[i].volume6(), solid});  // a cell may have nothing of the solid
   }
   std::vector<ConvexHull> hulls = merge_hulls(std::move(wrapped), most, small6);
   parallel_for(std::int64_t(hulls.size()), [&](std::int64_t i) {

@@ -18,6 +18,8 @@ class SolidCell {
   /// What this one has within `cell`, which lies in its own.
   [[nodiscard]] SolidCell within(const LatticeBox& cell) const;
   [[nodiscard]] const LatticeBox& cell() const { return cell_; }
+  /// Equal for cells of the same solid.
+  [[nodiscard]] const void* solid() const { return surface_.get(); }
 
   /// Whether the point half a unit above p along each axis lies in the whole solid. Linear.
   [[nodiscard]] bool holds(const LatticeCoord& p) const;

@@ -245,6 +245,18 @@ TEST_CASE("parts have a hull each, unless fewer are asked for: then near ones ha
   CHECK(convex_parts(mesh, 7).hulls.size() == 7);
 }
 
+TEST_CASE("narrow gaps between parts stay open", "[quick][meshing][lod]") {
+  LatticeMesh mesh;
+  for (std::int64_t i = 0; i < 40; ++i) {
+    const LatticeCoord at{i * 1020, 0, 0};  // a fiftieth of a part apart
+    add_box(mesh, {at, at + LatticeCoord{1000, 1000, 3000}});
+  }
+  CHECK(convex_parts(mesh, 0).hulls.size() == 40);
+  CHECK(convex_parts(mesh, 100).hulls.size() == 40);
+  CHECK(convex_parts(mesh, 39).hulls.size() == 39);
+  CHECK(convex_parts(mesh, 1).hulls.size() == 1);
+}
+
 TEST_CASE("cavities stay open where hulls can leave them so", "[quick][meshing][lod]") {
   LatticeMesh mesh;
   add_box(mesh, {{0, 0, 0}, {1000, 1000, 1000}});
