@@ -76,7 +76,7 @@ class SurfaceTree {
       Piece piece = welded(node);
       HalfEdgeMesh mesh(std::move(piece.vertices), piece.triangles, piece.cell);
       SimplifyParams own = params_;
-      const std::unique_ptr<StepLimits> limits = params_.limits != nullptr ? params_.limits->for_part() : nullptr;
+      const std::unique_ptr<StepLimits> limits = limits_of_part();
       own.limits = limits.get();
       Collapser collapser(mesh, std::move(piece.quadrics), own, node.counts);
       collapse_bulk(collapser, range, 0);
@@ -149,6 +149,13 @@ class SurfaceTree {
     return std::size_t(std::clamp<std::uint64_t>(bytes / (largest * kWorkPerFace + limits), 1, thread_count()));
   }
 
+  [[nodiscard]] std::unique_ptr<StepLimits> limits_of_part() {
+    if (params_.limits == nullptr) return nullptr;
+    const std::lock_guard lock(mutex_);
+    std::unique_ptr<StepLimits> part = params_.limits->for_part();
+    if (part == nullptr) fail(ErrorCode::bad_argument, "limits of the surface as a whole cannot be kept by cells");
+    return part;
+  }
   void add_part(const StepLimits& part) {
     const std::lock_guard lock(mutex_);
     params_.limits->add_part(part);

@@ -2,13 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "lib/core/error.h"
 #include "tools/common/mesh_extras.h"
 
 namespace bp {
 
+namespace {
+
+/// None where they cannot be read again: a hint is no reason to fail, or to wait for a pipe.
+MeshExtras extras_of(const std::string& path) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown)) return {};
+  try {
+    return mesh_extras(path);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+}  // namespace
+
 std::string enclosure_hint(const std::string& scene, const std::string& proxy, bool inside, bool moved) {
-  const MeshExtras extras = mesh_extras(proxy);
-  const std::string maker = made_by(mesh_extras(scene));
+  const MeshExtras extras = extras_of(proxy);
+  const std::string maker = made_by(extras_of(scene));
   if (!maker.empty() && extras.provenance.empty())
     return fmt::format("{} was made by {}, and {} was not: if they are swapped, name the proxy last", scene, maker,
                        proxy);
@@ -27,7 +45,7 @@ std::string enclosure_hint(const std::string& scene, const std::string& proxy, b
 }
 
 std::string fit_hint(const std::string& content) {
-  if (mode_of(mesh_extras(content)) != "fit") return "";
+  if (mode_of(extras_of(content)) != "fit") return "";
   return fmt::format(
       "{} was made with --mode fit, which draws it close to the scene and need not enclose it: check it alone, or make "
       "it without",

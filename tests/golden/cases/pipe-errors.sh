@@ -52,8 +52,8 @@ files
 # An output must not be an input, nor two outputs one file; what is empty proves nothing.
 bpclose cube.bp --scale 1vx -o closed.bp
 cp closed.bp again.bp
-try bpvox cube.obj -o cube.obj --overwrite
-try bpvox cube.obj -o ./../$(basename "$PWD")/cube.obj --overwrite | sed 's|/[^/]*/cube|/HERE/cube|'
+cp cube.obj cube; try bpvox cube --format obj -o cube --overwrite
+try bpvox cube --format obj -o ./../$(basename "$PWD")/cube --overwrite | sed 's|/[^/]*/cube|/HERE/cube|'
 try bpvox cube.obj --report one.json -o one.json
 try bpvox cube.obj --report - -o -
 try bpclose cube.bp --scale 1vx -o again.bp --overwrite
