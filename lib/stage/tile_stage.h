@@ -9,11 +9,11 @@
 
 /// A level of detail in pieces: one proxy for each cell of the grid, as an independent job.
 ///
-/// A tile is the proxy of (closing ∩ its cell grown by one voxel), closed by walls where the cell ends. By section 2 of
-/// docs/bounding.md the scene's part in the closed cell lies in the open interior of the solid's voxels in the grown
-/// cell, so each tile strictly encloses its part by itself: neighbours overlap by two voxels, and no crack can open,
-/// whichever levels are drawn side by side. A job reads nothing but the voxels of its cell and the parameters: same
-/// voxels, same bytes.
+/// A tile is the proxy of (closing ∩ its cell grown by one voxel), less what the closing has there for other cells'
+/// voxels only, closed by walls where the cell ends. By section 2 of docs/bounding.md the scene's part in the closed
+/// cell lies in the open interior of the solid's voxels in the grown cell, so each tile strictly encloses its part by
+/// itself: neighbours overlap by two voxels, and no crack can open, whichever levels are drawn side by side. A job
+/// reads nothing but the voxels of its cell and the parameters: same voxels, same bytes.
 namespace bp {
 
 /// The voxels of one level, on whole bricks; cells are aligned to them.
