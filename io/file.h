@@ -69,6 +69,8 @@ class OutputFile {
   std::size_t used_ = 0;
 };
 
+/// The same for all names of a file, symbolic links included; as given where that cannot be told.
+[[nodiscard]] std::string whole_path(const std::string& path);
 /// What was made, renamed or removed in a folder outlasts a crash of the machine, if its file system can do that.
 void sync_folder(const std::string& path);
 /// Of a path; "." if it names none.

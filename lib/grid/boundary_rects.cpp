@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "lib/core/parallel.h"
+#include "lib/grid/boundary_runs.h"
 #include "lib/grid/clip.h"
 
 namespace bp {
@@ -85,8 +86,10 @@ class BrickFaces {
 std::vector<FaceRect> boundary_rects(const BrickShelf& solid) {
   const std::vector<BrickCoord> bricks = solid.coords();
   std::vector<std::vector<FaceRect>> parts(bricks.size());
-  parallel_for(std::int64_t(bricks.size()),
-               [&](std::int64_t i) { BrickFaces(solid, bricks[std::size_t(i)], parts[std::size_t(i)]).run(); });
+  parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
+    const BrickCoord brick = bricks[std::size_t(i)];
+    if (!is_buried(solid, brick)) BrickFaces(solid, brick, parts[std::size_t(i)]).run();
+  });
   std::vector<FaceRect> all;
   for (std::vector<FaceRect>& part : parts) {
     all.insert(all.end(), part.begin(), part.end());

@@ -29,21 +29,10 @@ std::uint64_t count_runs(std::uint64_t boundary) {
   return std::uint64_t(std::popcount(boundary & ~(boundary << 1)));
 }
 
-bool buried(const BrickShelf& solid, BrickCoord b) {
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const int step : {-1, 1}) {
-      BrickCoord n = b;
-      n[axis] += step;
-      if (solid.fill(n) != BrickFill::full) return false;
-    }
-  }
-  return solid.fill(b) == BrickFill::full;
-}
-
 /// body(row, boundary voxels of it, their faces) for each row of a brick.
 template <class Body>
 void scan(const BrickShelf& solid, BrickCoord brick, const Body& body) {
-  if (buried(solid, brick)) return;
+  if (is_buried(solid, brick)) return;
   const VoxelCoord first = first_voxel(brick);
   BitBox box(voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(1));
   load_voxels(solid, box);
@@ -61,6 +50,17 @@ void scan(const BrickShelf& solid, BrickCoord brick, const Body& body) {
 }
 
 }  // namespace
+
+bool is_buried(const BrickShelf& solid, BrickCoord brick) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int step : {-1, 1}) {
+      BrickCoord n = brick;
+      n[axis] += step;
+      if (solid.fill(n) != BrickFill::full) return false;
+    }
+  }
+  return solid.fill(brick) == BrickFill::full;
+}
 
 Boundary boundary_of(const BrickShelf& solid) {
   const std::vector<BrickCoord> bricks = solid.coords();

@@ -10,6 +10,9 @@ namespace bp {
 /// A slanted plane has so many times its area of voxel faces, on average over angles.
 constexpr double kSlantedSteps = 1.5;
 
+/// True if the brick and its six neighbours are full: it has no boundary voxel.
+[[nodiscard]] bool is_buried(const BrickShelf& solid, BrickCoord brick);
+
 struct VoxelRun {
   VoxelCoord first;         ///< lowest in x
   std::int32_t length = 0;  ///< voxels, within one brick

@@ -51,12 +51,6 @@ NamedFiles& named_files() {
   return files;
 }
 
-std::string whole_path(const std::string& path) {
-  std::error_code unknown;
-  const std::filesystem::path whole = std::filesystem::weakly_canonical(path, unknown);
-  return unknown ? path : whole.string();
-}
-
 /// Without its buffers, textures or materials a scene is lost, too.
 void refuse_parts_of_inputs(const std::string& path, const std::string& whole) {
   for (const std::string& input : named_files().inputs) {

@@ -58,12 +58,6 @@ bool holds(const std::string& path, const std::string& bytes) {
   }
 }
 
-std::string whole_path(const std::string& path) {
-  std::error_code unknown;
-  const fs::path whole = fs::weakly_canonical(path, unknown);
-  return unknown ? path : whole.string();
-}
-
 std::string without_slash(std::string path) {
   while (path.size() > 1 && path.back() == '/') path.pop_back();
   return path;
