@@ -140,9 +140,11 @@ BrickBits boundary_of(const BrickShelf& shelf, BrickCoord coord) {
     for (std::int32_t y = 0; y < kBrickEdge; ++y) {
       const auto row = [&](std::int32_t dy, std::int32_t dz) { return bits.row(first.y + y + dy, first.z + z + dz); };
       const std::uint64_t* r = row(0, 0);
+      std::uint64_t& boundary = out[std::size_t(z * kBrickEdge + y)] = 0;
+      if (r[1] == 0) continue;
       const std::uint64_t inner = ((r[1] << 1) | (r[0] >> 63)) & ((r[1] >> 1) | (r[2] << 63)) & row(-1, 0)[1] &
                                   row(1, 0)[1] & row(0, -1)[1] & row(0, 1)[1];
-      out[std::size_t(z * kBrickEdge + y)] = r[1] & ~inner;
+      boundary = r[1] & ~inner;
     }
   }
   return out;
@@ -157,6 +159,15 @@ std::array<std::uint64_t, 8> block_of(const BrickBits& bits, std::size_t b) {
       block[z] |= ((bits[(bz * 8 + z) * kBrickEdge + by * 8 + y] >> (8 * bx)) & 0xff) << (8 * y);
   }
   return block;
+}
+
+/// Of the eight blocks b to b + 7, which follow each other along x, the bits of all of their rows.
+std::uint64_t columns_of(const BrickBits& bits, std::size_t b) {
+  std::uint64_t any = 0;
+  for (std::size_t z = 0; z < 8; ++z) {
+    for (std::size_t y = 0; y < 8; ++y) any |= bits[(b / 64 * 8 + z) * kBrickEdge + b / 8 % 8 * 8 + y];
+  }
+  return any;
 }
 
 /// The bits first to last of 8, both included, and within 0 to 7.
@@ -210,6 +221,18 @@ Around around(const BitBox& bits, std::int32_t y, std::int32_t z) {
   return w;
 }
 
+/// No voxel touches a corner of the row, of the brick that the middle words of the box hold.
+bool nothing_around(const BitBox& bits, std::int32_t y, std::int32_t z) {
+  std::uint64_t any = 0;
+  for (const std::int32_t dz : {-1, 0}) {
+    for (const std::int32_t dy : {-1, 0}) {
+      const std::uint64_t* r = bits.row(y + dy, z + dz);
+      any |= r[1] | (r[0] >> 63);
+    }
+  }
+  return any == 0;
+}
+
 /// Corners inside a flat side across `axis`: occupied on one side of it, empty on the other.
 std::uint64_t inside_side(const Around& w, std::size_t axis) {
   std::array<std::uint64_t, 2> all = {~std::uint64_t(0), ~std::uint64_t(0)}, any{};
@@ -258,6 +281,7 @@ std::vector<VoxelCoord> resting_points_of(const BrickShelf& shelf, BrickCoord co
     for (std::int32_t y = 0; y < kBrickEdge; ++y) {
       const std::array<std::uint64_t, 3> sampled = {kEachEighth, y % kSpacing == 0 ? kAll : 0,
                                                     z % kSpacing == 0 ? kAll : 0};
+      if (nothing_around(bits, first.y + y, first.z + z)) continue;
       for (std::uint64_t row = resting_points(around(bits, first.y + y, first.z + z), sampled); row != 0;
            row &= row - 1)
         points.push_back({first.x + std::countr_zero(row), first.y + y, first.z + z});
@@ -291,9 +315,11 @@ EnclosedVoxels::EnclosedVoxels(const BrickShelf& shelf) {
   parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
     Found& f = found[std::size_t(i)];
     const BrickBits bits = boundary_of(shelf, coords[std::size_t(i)]);
+    std::uint64_t columns = 0;
     for (std::size_t b = 0; b < 512; ++b) {
+      if (b % 8 == 0) columns = columns_of(bits, b);
+      if ((columns >> (8 * (b % 8)) & 0xff) == 0) continue;
       const Block block = block_of(bits, b);
-      if (block == Block{}) continue;
       f.brick.blocks[b / 64] |= std::uint64_t(1) << b % 64;
       f.blocks.push_back(block);
     }

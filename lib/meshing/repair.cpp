@@ -157,11 +157,38 @@ bool additions(const Neighbourhood& n, const std::array<Corner, 256>& table, Bri
   return any;
 }
 
-/// The bricks and all their neighbours, sorted.
-std::vector<BrickCoord> with_neighbours(const std::vector<BrickCoord>& bricks) {
+/// Whether a brick has voxels at its low side along x, y and z (even), and at its high side (odd).
+std::array<bool, 6> sides_of(const BrickShelf& shelf, BrickCoord coord) {
+  BrickBits bits;
+  shelf.get(coord, bits);
+  std::uint64_t any = 0, low_y = 0, high_y = 0, low_z = 0, high_z = 0;
+  for (std::size_t z = 0; z < kBrickEdge; ++z) {
+    const std::uint64_t* rows = &bits[z * kBrickEdge];
+    std::uint64_t layer = 0;
+    for (std::size_t y = 0; y < kBrickEdge; ++y) layer |= rows[y];
+    low_y |= rows[0];
+    high_y |= rows[kBrickEdge - 1];
+    if (z == 0) low_z = layer;
+    high_z = layer;
+    any |= layer;
+  }
+  return {(any & 1) != 0, any >> 63 != 0, low_y != 0, high_y != 0, low_z != 0, high_z != 0};
+}
+
+/// The bricks and those neighbours that their voxels may touch, sorted.
+std::vector<BrickCoord> with_neighbours(const BrickShelf& shelf, const std::vector<BrickCoord>& bricks) {
+  std::vector<std::array<bool, 6>> sides(bricks.size());
+  parallel_for(std::int64_t(bricks.size()),
+               [&](std::int64_t i) { sides[std::size_t(i)] = sides_of(shelf, bricks[std::size_t(i)]); });
   std::set<BrickCoord> all;
-  for (const BrickCoord b : bricks) {
-    for (int i = 0; i < 27; ++i) all.insert({b.x + i % 3 - 1, b.y + i / 3 % 3 - 1, b.z + i / 9 - 1});
+  for (std::size_t k = 0; k < bricks.size(); ++k) {
+    for (int i = 0; i < 27; ++i) {
+      const std::array<int, 3> step = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+      bool touched = true;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        touched = touched && (step[axis] == 0 || sides[k][2 * axis + (step[axis] > 0)]);
+      if (touched) all.insert(bricks[k] + BrickCoord{step[0], step[1], step[2]});
+    }
   }
   return {all.begin(), all.end()};
 }
@@ -175,7 +202,7 @@ std::uint64_t repair_contacts(BrickShelf& shelf) {
   std::uint64_t added = 0;
   std::vector<BrickCoord> changed = shelf.coords();
   while (!changed.empty()) {
-    const std::vector<BrickCoord> active = with_neighbours(changed);
+    const std::vector<BrickCoord> active = with_neighbours(shelf, changed);
     std::vector<Addition> found;
     std::mutex mutex;
     parallel_for(std::int64_t(active.size()), [&](std::int64_t i) {
