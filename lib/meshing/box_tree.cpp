@@ -35,37 +35,6 @@ void sort_by_code(std::vector<Key>& keys) {
 
 }  // namespace
 
-void BoxTree::Group::set(std::uint32_t k, const SmallBox& b) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    min[i][k / 4][k % 4] = b.min[i];
-    max[i][k / 4][k % 4] = b.max[i];
-  }
-}
-
-bool BoxTree::Group::grow(std::uint32_t k, const SmallBox& b) {
-  SmallBox grown = box(k);
-  bool inside = true;
-  for (std::size_t i = 0; i < 3; ++i) {
-    inside &= grown.min[i] <= b.min[i] && b.max[i] <= grown.max[i];
-    grown.min[i] = std::min(grown.min[i], b.min[i]);
-    grown.max[i] = std::max(grown.max[i], b.max[i]);
-  }
-  if (!inside) set(k, grown);
-  return !inside;
-}
-
-BoxTree::SmallBox BoxTree::Group::around() const {
-  SmallBox around = box(0);
-  for (std::uint32_t k = 1; k < kWidth; ++k) {
-    const SmallBox b = box(k);
-    for (std::size_t i = 0; i < 3; ++i) {
-      around.min[i] = std::min(around.min[i], b.min[i]);
-      around.max[i] = std::max(around.max[i], b.max[i]);
-    }
-  }
-  return around;
-}
-
 void BoxTree::build(std::span<const LatticeBox> boxes, std::vector<std::uint32_t> items) {
   order_ = std::move(items);
   place_of_.assign(boxes.size(), 0);
@@ -123,7 +92,7 @@ void BoxTree::reach(const SmallBox& b) {
 
 /// Floats: each of the three terms of n . p passes through at most 6 roundings (n, p, the product, three sums), the
 /// limit through 2: together less than 16 roundings of reach or offset. Clamped boxes may reach further.
-BoxTree::InnerSide BoxTree::inner_side(const Plane& plane) const {
+BoxGroup::InnerSide BoxTree::inner_side(const Plane& plane) const {
   const double size = length(plane.normal);
   if (!(size > 0) || reach_ >= INT32_MAX - 1) return {{0, 0, 0}, -1};
   const Vec3d n = (1 / size) * plane.normal;
@@ -135,7 +104,7 @@ BoxTree::InnerSide BoxTree::inner_side(const Plane& plane) const {
 
 void BoxTree::remove(std::uint32_t item) {
   const std::uint32_t i = place_of_[item];
-  groups_[i / kWidth].set(i % kWidth, kNothing);
+  groups_[i / kWidth].set(i % kWidth, BoxGroup::kNothing);
 }
 
 void BoxTree::update(std::uint32_t item, const LatticeBox& box) {

@@ -1,6 +1,7 @@
 #include "lib/meshing/guard.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "lib/core/triangle_intersection.h"
@@ -216,21 +217,24 @@ bool Guard::look_one_way(std::span<const NewFace> star, std::span<const LatticeC
 }
 
 void Guard::prepare(std::span<const NewFace> faces) {
-  boxes_.clear();
   normals_.clear();
   box_ = {faces[0].corners[0], faces[0].corners[0]};
   for (const NewFace& f : faces) {
-    boxes_.push_back(box_of(f.corners[0], f.corners[1], f.corners[2]));
     normals_.push_back(normal_of(f.corners[0], f.corners[1], f.corners[2]));
-    box_.add(boxes_.back().min);
-    box_.add(boxes_.back().max);
+    for (const LatticeCoord& p : f.corners) box_.add(p);
   }
 }
 
 void Guard::prepare_probes(std::span<const NewFace> faces) {
   origin_ = faces[0].corners[0];
   probes_.clear();
-  for (std::size_t i = 0; i < faces.size(); ++i) probes_.emplace_back(faces[i], normals_[i], origin_);
+  groups_.assign((faces.size() + BoxGroup::kWidth - 1) / BoxGroup::kWidth, {});
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    probes_.emplace_back(faces[i], normals_[i], origin_);
+    const auto& c = faces[i].corners;
+    groups_[i / BoxGroup::kWidth].set(std::uint32_t(i % BoxGroup::kWidth),
+                                      relative_to(origin_, box_of(c[0], c[1], c[2])));
+  }
 }
 
 void Guard::gather_near(const LatticeBox& box, std::span<const FaceId> replaced) {
@@ -257,11 +261,13 @@ bool Guard::clear_of_face(std::span<const NewFace> faces, FaceId other) const {
     o.corners[k] = mesh_.position(o.ids[k]);
     corners[k] = to_double(o.corners[k] - origin_);
   }
-  const LatticeBox box = box_of(o.corners[0], o.corners[1], o.corners[2]);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (!boxes_[i].meets(box)) continue;
-    const Shared shared = shared_corners(faces[i].ids, o.ids);
-    if (!probes_[i].apart(corners, shared) && meet(faces[i], o, shared)) return false;
+  const SmallBox box = relative_to(origin_, box_of(o.corners[0], o.corners[1], o.corners[2]));
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    for (std::uint32_t hits = groups_[g].meeting(box); hits != 0; hits &= hits - 1) {
+      const std::size_t i = BoxGroup::kWidth * g + std::size_t(std::countr_zero(hits));
+      const Shared shared = shared_corners(faces[i].ids, o.ids);
+      if (!probes_[i].apart(corners, shared) && meet(faces[i], o, shared)) return false;
+    }
   }
   return true;
 }

@@ -57,11 +57,11 @@ class Guard {
 
   const HalfEdgeMesh& mesh_;
   const FaceTree& tree_;
-  LatticeCoord origin_;            // a corner of the new faces
-  std::vector<FaceId> near_;       // faces whose boxes meet the one of the question
-  std::size_t near_count_ = 0;     // the first of them need a test
-  LatticeBox box_, both_;          // of all new faces; of the old ones too
-  std::vector<LatticeBox> boxes_;  // of the new faces
+  LatticeCoord origin_;           // a corner of the new faces
+  std::vector<FaceId> near_;      // faces whose boxes meet the one of the question
+  std::size_t near_count_ = 0;    // the first of them need a test
+  LatticeBox box_, both_;         // of all new faces; of the old ones too
+  std::vector<BoxGroup> groups_;  // boxes of the new faces, relative to origin_
   std::vector<LatticeCoord> normals_;
   std::vector<FaceProbe> probes_;
   std::vector<std::uint32_t> removed_;  // stamp per face
