@@ -118,6 +118,7 @@ ConvexParts convex_parts(const LatticeMesh& mesh, std::size_t most) {
     hulls[std::size_t(i)] = with_fewer_corners(std::move(hulls[std::size_t(i)]), kMostCorners, kGrowth);
   });
   set_corners_apart(hulls);
+  parts.limited = hulls.size() >= most;
   for (ConvexHull& hull : hulls) parts.hulls.push_back(mesh_of(mesh, std::move(hull)));
   return parts;
 }

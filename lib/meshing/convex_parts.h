@@ -12,6 +12,7 @@ namespace bp {
 struct ConvexParts {
   std::vector<LatticeMesh> hulls;  ///< closed, 2-manifold, convex; they overlap where the mesh was cut
   std::size_t solids = 0;          ///< connected parts of the mesh
+  bool limited = false;            ///< as many hulls as were allowed: with more they might come nearer
 };
 constexpr std::size_t kMostHulls = 32;    ///< if nobody says how many, and there are no more parts
 constexpr std::size_t kMostCorners = 64;  ///< of a hull

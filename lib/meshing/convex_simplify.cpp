@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <set>
 
 #include "lib/meshing/box_tree.h"
@@ -115,6 +117,32 @@ ConvexHull snapped(const ConvexHull& hull, std::size_t most) {
   }
 }
 
+/// The nearest point such that `v` lies between it and another corner, so that v is none any more. Unlike a point
+/// beyond the planes there always is one, also of hulls a few lattice units thin.
+LatticeCoord point_behind(const ConvexHull& hull, const LatticeCoord& v) {
+  LatticeCoord best{};
+  double least = std::numeric_limits<double>::infinity();
+  for (const LatticeCoord& other : hull.vertices) {
+    if (other == v) continue;
+    LatticeCoord step = v - other;
+    const std::int64_t parts = std::gcd(std::gcd(step.x, step.y), step.z);
+    for (int k = 0; k < 3; ++k) step[k] /= parts;
+    const Vec3d s = to_double(step);
+    if (dot(s, s) < least) least = dot(s, s), best = v + step;
+  }
+  return best;
+}
+
+bool is_corner(const ConvexHull& hull, const LatticeCoord& v) {
+  return std::find(hull.vertices.begin(), hull.vertices.end(), v) != hull.vertices.end();
+}
+
+ConvexHull with_point(const ConvexHull& hull, const LatticeCoord& point) {
+  std::vector<LatticeCoord> points = hull.vertices;
+  points.push_back(point);
+  return *hull_of(points);
+}
+
 }  // namespace
 
 ConvexHull with_fewer_corners(ConvexHull hull, std::size_t most, double growth) {
@@ -143,19 +171,20 @@ ConvexHull with_fewer_corners(ConvexHull hull, std::size_t most, double growth) 
   return hull.vertices.size() > most ? snapped(hull, most) : hull;
 }
 
+// Ends, and with no corner at a place of another: a corner that was taken is within the hull from then on, or between
+// two others, and never a corner again, and places taken are finitely many.
 void set_corners_apart(std::vector<ConvexHull>& hulls) {
-  constexpr int kTries = 100;
   std::set<LatticeCoord> taken;
   for (ConvexHull& hull : hulls) {
-    for (int i = 0; i < kTries; ++i) {
+    for (;;) {
       const auto shared = std::find_if(hull.vertices.begin(), hull.vertices.end(),
                                        [&](const LatticeCoord& v) { return taken.count(v) != 0; });
       if (shared == hull.vertices.end()) break;
-      const auto point = Steps(hull).point_beyond(std::uint32_t(shared - hull.vertices.begin()));
-      if (!point) break;
-      std::vector<LatticeCoord> points = hull.vertices;
-      points.push_back(*point);
-      hull = *hull_of(points);
+      const LatticeCoord corner = *shared;
+      const auto beyond = Steps(hull).point_beyond(std::uint32_t(shared - hull.vertices.begin()));
+      ConvexHull next = with_point(hull, beyond ? *beyond : point_behind(hull, corner));
+      if (is_corner(next, corner)) next = with_point(hull, point_behind(hull, corner));
+      hull = std::move(next);
     }
     taken.insert(hull.vertices.begin(), hull.vertices.end());
   }

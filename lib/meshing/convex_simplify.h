@@ -10,7 +10,8 @@ namespace bp {
 [[nodiscard]] ConvexHull with_fewer_corners(ConvexHull hull, std::size_t most, double growth);
 
 /// Moves corners that an earlier hull has too, outwards by about a lattice unit: no two hulls then have a corner at the
-/// same place, so that files whose equal vertices are merged still hold hulls apart. Hulls only grow.
+/// same place, so that files whose equal vertices are merged still hold hulls apart. Hulls only grow; of thin ones a
+/// corner may move by an edge.
 void set_corners_apart(std::vector<ConvexHull>& hulls);
 
 }  // namespace bp

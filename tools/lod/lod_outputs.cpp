@@ -35,14 +35,15 @@ std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::
   return files;
 }
 
-/// What is not as it could be with more hulls; empty if they are as good as the level.
-std::string hull_note(const WrittenFile& file) {
+/// What hulls leave to be desired, and whether more would help; empty if they are as good as the level.
+std::string hull_note(const WrittenFile& file, bool limited) {
   constexpr double kAsGood = 1.1;
   if (file.hull_volume < kAsGood) return "";
   return fmt::format(
-      "{}: {} hull{} with {:.3g} times the level's volume; give more --hulls to come nearer, or use another of the "
-      "files, the level itself, as complex collision",
-      file.name, file.hulls, file.hulls == 1 ? "" : "s", file.hull_volume);
+      "{}: {} hull{} with {:.3g} times the level's volume; {} another of the files, the level itself, as complex "
+      "collision",
+      file.name, file.hulls, file.hulls == 1 ? "" : "s", file.hull_volume,
+      limited ? "give more --hulls to come nearer, or use" : "more --hulls would hardly change that: use");
 }
 
 /// What importers go by: Godot by the suffix "-colonly" (collision only, the mesh itself), Unreal by the prefix
@@ -62,7 +63,7 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
     unreal.push_back({fmt::format("UCX_{}_{:02}", name, unreal.size()), &hull});
   }
   write_parts_glb(unreal, out.file(hull_file.name));
-  hull_file.note = hull_note(hull_file);
+  hull_file.note = hull_note(hull_file, parts.limited);
   const std::uint64_t own = mesh.triangles.size();
   return {{name + "_godot.glb", 0, own}, hull_file, {name + "_unity.glb", 0, own}};
 }

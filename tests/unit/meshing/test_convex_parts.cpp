@@ -253,7 +253,9 @@ TEST_CASE("narrow gaps between parts stay open", "[quick][meshing][lod]") {
   }
   CHECK(convex_parts(mesh, 0).hulls.size() == 40);
   CHECK(convex_parts(mesh, 100).hulls.size() == 40);
+  CHECK_FALSE(convex_parts(mesh, 100).limited);
   CHECK(convex_parts(mesh, 39).hulls.size() == 39);
+  CHECK(convex_parts(mesh, 39).limited);
   CHECK(convex_parts(mesh, 1).hulls.size() == 1);
 }
 
@@ -297,18 +299,24 @@ TEST_CASE("a hull with fewer corners is around the one with more", "[quick][mesh
   if (most == 400) CHECK(volume6_of(fewer) == volume6_of(hull));
 }
 
-TEST_CASE("hulls at the same place are set apart", "[quick][meshing][lod]") {
-  const ConvexHull box = *hull_of(blocks({"#"}, 100).vertices);
-  std::vector<ConvexHull> hulls{box, box, box};
+TEST_CASE("hulls at the same place are set apart, also very thin ones", "[quick][meshing][lod]") {
+  const std::int64_t thick = GENERATE(1, 2, 3, 5, 100), wide = GENERATE(1, 100, 4096);
+  CAPTURE(thick, wide);
+  LatticeMesh boxes;
+  add_box(boxes, {{0, 0, 0}, {wide, 100, thick}});
+  const ConvexHull box = *hull_of(boxes.vertices);
+  std::vector<ConvexHull> hulls(GENERATE(std::size_t(3), std::size_t(12)), box);
   set_corners_apart(hulls);
   std::set<LatticeCoord> places;
+  std::size_t corners = 0;
   for (const ConvexHull& hull : hulls) {
     places.insert(hull.vertices.begin(), hull.vertices.end());
     LatticeMesh mesh;
     mesh.vertices = hull.vertices, mesh.triangles = hull.triangles;
     CHECK(convex_around(mesh, box.vertices));
+    corners += hull.vertices.size();
   }
-  CHECK(places.size() == hulls[0].vertices.size() + hulls[1].vertices.size() + hulls[2].vertices.size());
+  CHECK(places.size() == corners);
 }
 
 }  // namespace bp::test
