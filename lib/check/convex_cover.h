@@ -14,8 +14,8 @@ class ConvexCover {
   explicit ConvexCover(const std::vector<std::vector<TriangleD>>& parts);
 
   /// True only if each point of the triangle lies strictly within a part. In floating point, with bounds of all
-  /// rounding: what is proved is so. Not proved is what parts cover that overlap by less than some 1e-12 of the
-  /// coordinates, or what must be cut into more than kMostPieces to see it. Safe to call from several threads.
+  /// rounding: what is proved is so. Not proved is what parts cover that overlap by less than some 1e-10 of the
+  /// largest coordinate, or what must be cut into more than kMostPieces to see it. Safe to call from several threads.
   [[nodiscard]] bool covers(const TriangleD& t) const;
 
   /// Calls f(part) for each part whose box meets `box`, until f returns true. Returns whether it did.

@@ -22,6 +22,7 @@ class SignedVolume {
   Vec3d origin_;
   Vec3d two_areas_{};       ///< sum of the area vectors, doubled
   double two_area_ = 0;     ///< sum of their lengths
+  double rounding_ = 0;     ///< of their sum, at most
   double six_volumes_ = 0;  ///< undivided: exact for small integers
 };
 

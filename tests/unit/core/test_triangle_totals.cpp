@@ -31,6 +31,23 @@ TEST_CASE("volume and area of a solid, near and far", "[quick][core]") {
   CHECK(t.bounds.max == Vec3d{at + 1, at + 1, at + 1});
 }
 
+TEST_CASE("a closed surface has a volume however thin it is; an open one has none", "[quick][core]") {
+  const double thin = GENERATE(1.0, 1e-4, 1e-7, 1e-9, 1e-11);
+  const double turn = GENERATE(0.0, 0.3, 1.1);
+  CAPTURE(thin, turn);
+  // A prism over a long triangle, turned so that its coordinates are rounded.
+  const auto at = [&](double x, double y, double z) {
+    const double c = std::cos(turn), s = std::sin(turn);
+    return Vec3d{c * x - s * y, s * c * x + c * c * y - s * z, s * s * x + s * c * y + c * z};
+  };
+  const Vec3d a = at(0, 0, 0), b = at(1, 0, 0), c = at(0.5, thin, 0), d = at(0, 0, thin), e = at(1, 0, thin),
+              f = at(0.5, thin, thin);
+  std::vector<TriangleD> prism{{a, c, b}, {d, e, f}, {a, b, e}, {a, e, d}, {b, c, f}, {b, f, e}, {c, a, d}, {c, d, f}};
+  CHECK(totals_of(prism).volume);
+  std::swap(prism[0][1], prism[0][2]);
+  CHECK_FALSE(totals_of(prism).volume);
+}
+
 TEST_CASE("a surface that is open or faces both ways has no volume, whatever its place", "[quick][core]") {
   const double at = GENERATE(0.0, 6e6 + 1.0 / 3);
   std::vector<TriangleD> t = tetrahedron(at);
