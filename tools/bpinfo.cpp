@@ -91,19 +91,26 @@ void note(const std::string& text) {
 
 void check_level(const std::string& in, std::size_t level, std::size_t levels) {
   if (level < levels) return;
+  if (levels <= 1) bp::fail(bp::ErrorCode::bad_argument, "{}: --level {} is not there; it has one level, 0", in, level);
   bp::fail(bp::ErrorCode::bad_argument, "{}: --level {} is not there; it has 0, the finest, to {}", in, level,
            levels - 1);
+}
+
+/// Files that can have levels, though many have one.
+bool is_gltf(const std::string& in) {
+  const std::string format = bp::scene_format_of(in);
+  return format == "glb" || format == "gltf";
 }
 
 /// --level would be passed over in silence.
 void check_level_is_used(const Options& o) {
   const auto has_levels = [&](const std::string& in) {
-    return is_tileset(o, in) ? !o.picture.file.empty() : !is_stream(o, in) && bp::mesh_extras(in).levels > 1;
+    return is_tileset(o, in) ? !o.picture.file.empty() : is_gltf(in);
   };
   if (!o.level || std::any_of(o.in.begin(), o.in.end(), has_levels)) return;
   bp::fail(bp::ErrorCode::bad_argument,
-           "--level: means nothing here; it is for glTF files (not stdin) with levels (MSFT_lod), and for tilesets "
-           "with --image");
+           "--level: means nothing here; it is for glTF files (not stdin), which may have levels (MSFT_lod), and for "
+           "tilesets with --image");
 }
 
 void show_stream(const Options& o, const std::string& in, bp::Picture& picture) {
@@ -137,7 +144,7 @@ void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
   bp::SceneOptions scene;
   scene.format = o.format;
   scene.colors = picture.wanted();
-  scene.level = extras.levels > 1 ? o.level.value_or(0) : 0;
+  if (is_gltf(in)) scene.level = o.level.value_or(0);
   check_level(in, scene.level, extras.levels);
   auto source = bp::open_scene(in, scene);
   bp::MeshInfo info = bp::measure(*source);

@@ -123,6 +123,8 @@ try bpinfo drawn/tileset.json --image none.png --level 9 | grep -e --level
 try bpinfo drawn/tileset.json --level 1
 try bpinfo cube.obj --level 1
 try bpinfo gltf/cubes.glb --level 2
+bpinfo gltf/cubes_LOD0.glb --level 0 | grep triangles
+try bpinfo gltf/cubes_LOD0.glb --level 1
 bpinfo gltf/cubes.glb --level 1 | grep -E 'levels|triangles'
 rm -r drawn ./*.png said
 
