@@ -5,6 +5,7 @@
 
 #include "io/brick_stream.h"
 #include "io/scene_format.h"
+#include "io/scene_parts.h"
 #include "io/scene_reader.h"
 #include "io/tileset_file.h"
 #include "io/tileset_level.h"
@@ -138,6 +139,11 @@ void show_stream(const Options& o, const std::string& in, bp::Picture& picture) 
   out.commit();
 }
 
+void note_missing_materials(const std::string& in) {
+  for (const std::string& file : bp::missing_materials(in))
+    note(fmt::format("{}: {} is not there, and its colours are not drawn", in, file));
+}
+
 void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
   if (o.dump) bp::fail(bp::ErrorCode::bad_argument, "{}: --dump is for brick streams, and this is none", in);
   const bp::MeshExtras extras = bp::mesh_extras(in);
@@ -155,7 +161,9 @@ void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
   } else {
     bp::print(o.json ? bp::mesh_json(info).dump(2) + "\n" : bp::mesh_text(info, in == "-" ? "stdin" : in));
   }
-  if (picture.wanted()) picture.add_mesh(info, std::move(source), in, bp::level_text(info.level, extras.levels));
+  if (!picture.wanted()) return;
+  note_missing_materials(in);
+  picture.add_mesh(info, std::move(source), in, bp::level_text(info.level, extras.levels));
 }
 
 void draw_tileset(const Options& o, const bp::Tileset& tileset, const std::string& in, bp::Picture& picture) {

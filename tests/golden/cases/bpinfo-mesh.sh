@@ -32,4 +32,9 @@ try bpinfo cube.obj turned.obj --image near.png --image-size 64 | grep far
 try bpinfo cube.obj turned.obj --checksum
 try bpinfo cube.obj turned.obj --json
 try bpinfo cube.obj --up x
+# Materials that are not there are named where colours would be seen.
+(echo 'mtllib gone.mtl'; cat cube.obj) > plain.obj
+try bpinfo plain.obj --checksum
+try bpinfo plain.obj --checksum --image plain.png
+rm plain.obj plain.png
 files

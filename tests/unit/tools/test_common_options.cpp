@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "io/scene_parts.h"
 #include "lib/core/error.h"
 #include "tests/catch.h"
 #include "tests/unit/io/scene_files.h"
@@ -124,9 +125,12 @@ TEST_CASE("an output is no buffer, texture or material of an input", "[quick][to
       "s.gltf",
       R"({"asset":{"version":"2.0"},"buffers":[{"uri":"a%20b.bin"},{"uri":"data:,"}],"images":[{"uri":"t.png"},{}]})");
   const std::string obj = dir.file("s.obj", "v 0 0 0\nmtllib s.mtl\r\nmtllib other/s.mtl\n");
+  (void)dir.file("s.mtl", "newmtl a\nmap_Kd -s 1 1 1 wood.png\n bump my bumps.png\r\n");
+  CHECK(missing_materials(obj) == std::vector<std::string>{dir.path("other/s.mtl")});
   keep_inputs({gltf, obj, dir.file("broken.gltf", "{")});
-  for (const char* name : {"a b.bin", "t.png", "s.mtl", "free.png"}) (void)dir.file(name, "");
-  for (const char* name : {"a b.bin", "t.png", "s.mtl"}) CHECK_THROWS_AS(open_output(dir.path(name), true), Error);
+  for (const char* name : {"a b.bin", "t.png", "wood.png", "my bumps.png", "free.png"}) (void)dir.file(name, "");
+  for (const char* name : {"a b.bin", "t.png", "s.mtl", "wood.png", "my bumps.png"})
+    CHECK_THROWS_AS(open_output(dir.path(name), true), Error);
   CHECK_NOTHROW(open_output(dir.path("free.png"), true));
   CHECK_NOTHROW(open_output(dir.path("new.bin"), true));
   std::filesystem::create_hard_link(gltf, dir.path("link.gltf"));  // a name more; the input keeps its own
