@@ -255,6 +255,7 @@ int run(const Options& o) {
   scene_options.memory_bytes = o.common.memory_bytes / 4;
   scene_options.temp_dir = o.common.temp;
   std::vector<bp::IndexedMesh> levels = bp::read_levels(o.files.back(), scene_options);
+  if (picture) bp::check_panel_size(o.image_size, levels.size() + (o.files.size() > 1 ? 1 : 0));
   for (bp::IndexedMesh& level : levels) move(level, o.origin.value_or(bp::Vec3d{}));
   std::unique_ptr<bp::TriangleSource> scene;
   scene_options.keep_degenerate = o.inside;  // they may be what closes the scene

@@ -116,6 +116,8 @@ void check_level_is_used(const Options& o) {
 
 void show_stream(const Options& o, const std::string& in, bp::Picture& picture) {
   bp::BrickReader source(in);
+  if (picture.wanted() && o.in.size() == 1)  // now that it is known how many layers are drawn
+    bp::check_panel_size(o.picture.panel_size, source.header().has_closing ? 2 : 1);
   bp::OutputFile out("-", false);
   bp::CoarseView cells(source.header().bricks);
   if (o.dump) out.write(bp::dump_header(source.header()));

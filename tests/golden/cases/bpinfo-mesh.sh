@@ -24,6 +24,7 @@ files
 # Several inputs: one after the other, and side by side.
 bpvox cube.obj --resolution 12 | bpclose --scale 2vx -o closed.bpv
 said 'bpinfo cube.obj closed.bpv turned.obj --image all.png --image-size 64 | grep -c .'
+try bpinfo closed.bpv --image wide.png --image-size 9000
 head -c 24 all.png | tail -c 8 | od -An -tx1
 # Inputs that lie far apart are drawn by themselves, which is said.
 awk '/^v/ { print "v", $2 + 500, $3, $4; next } { print }' cube.obj > far.obj
