@@ -118,6 +118,45 @@ TEST_CASE("a tetrahedron from outside is allowed by a solid of voxels as by each
   CHECK(refused < 5500);
 }
 
+TEST_CASE("no point of a face that is called near is farther than 1.35 of the distance", "[quick][meshing]") {
+  constexpr double kVoxel = kLatticePerVoxel, kRounding = 8;
+  std::mt19937 random(7);
+  const auto number = [&](double low, double high) { return low + (high - low) * double(random() % 100000) / 1e5; };
+  double farthest = 0;
+  int near = 0;
+  for (int i = 0; i < 40; ++i) {
+    std::vector<VoxelCoord> voxels(std::size_t(1) << i % 4);
+    for (VoxelCoord& v : voxels) v = {int(random() % 12), int(random() % 12), int(random() % 12)};
+    MemoryShelf shelf;
+    fill_shelf(shelf, {{-64, -64, -64}, {64, 64, 64}},
+               [&](VoxelCoord p) { return std::find(voxels.begin(), voxels.end(), p) != voxels.end(); });
+    const EnclosedVoxels all(shelf);
+    for (int k = 0; k < 200; ++k) {
+      const double distance = number(4, 16) * kVoxel;
+      const LatticeCoord at = rounded({number(-6, 18) * kVoxel, number(-6, 18) * kVoxel, number(-6, 18) * kVoxel});
+      const double size = number(0.05, 0.6) * distance;
+      std::array<LatticeCoord, 3> corners;
+      for (LatticeCoord& p : corners) p = at + rounded({number(0, size), number(0, size), number(0, size)});
+      if (!all.is_near(std::array<NewFace, 1>{{{{}, corners}}}, distance)) continue;
+      ++near;
+      for (const LatticeCoord& p : corners) {
+        double least = 1e300;
+        for (const VoxelCoord& v : voxels) {
+          const LatticeCoord low = LatticeCoord{v.x, v.y, v.z} * kLatticePerVoxel;
+          Vec3d away{};
+          for (int a = 0; a < 3; ++a)
+            away[std::size_t(a)] = double(std::max({std::int64_t(0), low[a] - p[a], p[a] - low[a] - kLatticePerVoxel}));
+          least = std::min(least, length(away));
+        }
+        REQUIRE(least <= 1.35 * distance + kRounding);
+        farthest = std::max(farthest, least / distance);
+      }
+    }
+  }
+  CHECK(near > 1000);
+  CHECK(farthest > 1.1);  // it does happen
+}
+
 TEST_CASE("a face is near a set of voxels if no point of it is far, whatever its corners are", "[quick][meshing]") {
   constexpr std::int64_t kVoxel = kLatticePerVoxel;
   MemoryShelf shelf;
