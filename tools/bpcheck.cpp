@@ -17,6 +17,7 @@
 #include "tools/check/hints.h"
 #include "tools/check/tileset_verdict.h"
 #include "tools/common/inputs.h"
+#include "tools/common/names.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
 
@@ -110,10 +111,6 @@ class WatchedSource : public bp::TriangleSource {
   bp::Progress& progress_;
 };
 
-std::string file_name(const std::string& path) {
-  return path.substr(path.rfind('/') + 1);
-}
-
 /// The scene, then each level of the proxy.
 bp::Image draw(const Options& o, const std::vector<bp::IndexedMesh>& levels, bp::TriangleSource* scene,
                const std::vector<bp::CheckReport>& verdicts) {
@@ -121,16 +118,16 @@ bp::Image draw(const Options& o, const std::vector<bp::IndexedMesh>& levels, bp:
   if (scene != nullptr) {
     views.emplace_back();
     views[0].source = scene;
-    views[0].label = fmt::format("{}\n{} triangles", file_name(o.files[0]), verdicts[0].scene_triangles);
+    views[0].label = fmt::format("{}\n{} triangles", bp::file_name(o.files[0]), verdicts[0].scene_triangles);
     if (o.files.size() > 2)
-      views[0].label.insert(0, fmt::format("{} and {} more: ", file_name(o.files[0]), o.files.size() - 2));
+      views[0].label.insert(0, fmt::format("{} and {} more: ", bp::file_name(o.files[0]), o.files.size() - 2));
   }
   for (std::size_t i = 0; i < levels.size(); ++i) {
     bp::View& view = views.emplace_back();
     view.mesh = &levels[i];
     view.edges = true;
     view.color = {238, 192, 130};
-    view.label = fmt::format("{}{}\n{} triangles, {}", file_name(o.files.back()),
+    view.label = fmt::format("{}{}\n{} triangles, {}", bp::file_name(o.files.back()),
                              levels.size() > 1 ? fmt::format(" level {}", i) : "", verdicts[i].triangles,
                              verdicts[i].holds() ? "holds" : "does not hold");
   }
@@ -194,7 +191,7 @@ int run_tileset(const Options& o) {
   const bp::SceneOptions options{o.format, o.common.memory_bytes / 4, o.common.temp};
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
   const bp::TilesetVerdict verdict = bp::check_tileset_file(o.files.back(), scenes, options, o.common.memory_bytes / 2);
-  const std::string name = file_name(o.files.back());
+  const std::string name = bp::file_name(o.files.back());
   bp::print(o.json ? verdict.json(name) : verdict.text(name));
   const auto contents = bp::tileset_level(bp::read_tileset(o.files.back()), o.files.back(), 0).contents;
   if (!verdict.holds() && verdict.scene && !contents.empty()) note_hint(report, o, bp::fit_hint(contents.front().path));
@@ -268,7 +265,7 @@ int run(const Options& o) {
     picture->write(bp::encode_png(draw(o, levels, scene.get(), verdicts)));
     picture->commit();
   }
-  const std::string name = file_name(o.files.back());
+  const std::string name = bp::file_name(o.files.back());
   const std::string text = o.json ? bp::verdict_json(verdicts, name) : bp::verdict_text(verdicts, name);
   bp::print(text);
   report.bytes_out = text.size();

@@ -91,7 +91,7 @@ bool is_layer(const std::string& what) {
 /// The option as given, with files by name only: a path is nobody's business in a provenance chain.
 std::string enclose_text(const Options& o) {
   std::vector<std::string> names;
-  for (const std::string& what : o.enclose) names.push_back(what.substr(what.rfind('/') + 1));
+  for (const std::string& what : o.enclose) names.push_back(bp::file_name(what));
   return names.empty() ? "closing" : fmt::format("{}", fmt::join(names, ","));
 }
 

@@ -16,12 +16,13 @@ struct ConvexHull {
 };
 
 /// The hull of points that span less than 2^29 lattice units along each axis; nothing if they lie in a plane. Points
-/// may repeat. Quickhull [BDH96]: O(n log n) in practice. The same for the same points in the same order.
+/// may repeat. Quickhull [BDH96]: O(n log n) in practice, and some 100 bytes a face. The same for the same points in
+/// the same order. Throws bad_argument if they span more.
 [[nodiscard]] std::optional<ConvexHull> hull_of(std::span<const LatticeCoord> points);
 
 constexpr double kNearlyConvex = 0.02;  ///< of a solid's volume: a hull with no more than that above it is as good
 
-/// Six times its volume, rounded.
+/// Six times its volume, rounded. Linear.
 [[nodiscard]] double volume6_of(const ConvexHull& hull);
 
 }  // namespace bp

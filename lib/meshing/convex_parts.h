@@ -7,6 +7,7 @@
 namespace bp {
 
 /// The connected components of a mesh, in the order of their first triangles; frame and provenance are the mesh's.
+/// O(n log n).
 [[nodiscard]] std::vector<LatticeMesh> components_of(const LatticeMesh& mesh);
 
 struct ConvexParts {
@@ -22,6 +23,8 @@ constexpr std::size_t kMostCorners = 64;  ///< of a hull
 /// that is more. Approximate convex decomposition, after [WLLS22] and [MG09]: parts are cut by planes of the axes into
 /// four times as many cells, and hulls of cells are joined while there are too many, or while that costs next to
 /// nothing. Corners are lattice points, at most kMostCorners a hull. Parallel; the same for any number of threads.
+/// Throws bad_argument for a mesh that hull_of() does not take. Cost: of each cut some 40 hulls of what is cut; a level
+/// of 20,000 faces takes seconds.
 [[nodiscard]] ConvexParts convex_parts(const LatticeMesh& mesh, std::size_t most);
 
 }  // namespace bp

@@ -12,6 +12,7 @@
 #include "io/scene_parts.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "tools/common/names.h"
 
 namespace bp {
 
@@ -57,7 +58,7 @@ void refuse_parts_of_inputs(const std::string& path, const std::string& whole) {
     for (const std::string& part : parts_of_scene(input)) {
       if (whole_path(part) == whole)
         fail(ErrorCode::bad_argument, "{}: belongs to the input {}, and would be lost; give the output another name",
-             path, input.substr(input.rfind('/') + 1));
+             path, file_name(input));
     }
   }
 }

@@ -24,6 +24,10 @@ const char* name_of(MeshMode mode) {
   return kNames[std::size_t(mode)];
 }
 
+std::string file_name(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
 std::string skipped(const SceneCounts& c) {
   std::string text;
   const auto add = [&](std::uint64_t n, const char* what) {

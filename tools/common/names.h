@@ -13,6 +13,8 @@ namespace bp {
 [[nodiscard]] const char* name_of(StructuringElement element);
 [[nodiscard]] const char* name_of(UpAxis up);
 [[nodiscard]] const char* name_of(MeshMode mode);
+/// A path without its folders.
+[[nodiscard]] std::string file_name(const std::string& path);
 /// "12 degenerate triangles, 1 bad face"; empty if nothing was skipped.
 [[nodiscard]] std::string skipped(const SceneCounts& counts);
 

@@ -16,7 +16,7 @@ constexpr double kFarApart = 4;                              // largest inputs b
 constexpr std::size_t kEdges = 50000, kEdgesOfMany = 20000;  // more would only darken the picture
 
 std::string shown_name(const std::string& in) {
-  return in == "-" ? "stdin" : in.substr(in.rfind('/') + 1);
+  return in == "-" ? "stdin" : file_name(in);
 }
 
 Bounds3d bounds_of(const StreamHeader& header) {
