@@ -210,6 +210,7 @@ class Maker {
     mesh.tighten = params_.tighten;
     mesh.enclose = params_.enclose;
     mesh.error_world = params_.error_world;
+    mesh.near = true;  // where the error below is no limit
     if (params_.error_world == 0) {
       measures.faces_asked = params_.faces > 0
                                  ? params_.faces

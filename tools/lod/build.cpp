@@ -106,6 +106,8 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   if (halvings == 0) {  // the scene is the same
     if (const std::string text = skipped(out.counts.scene); !text.empty()) note("skipped " + text);
     if (const std::string text = up_note(options, source->up(), out.header.bounds); !text.empty()) note(text);
+    const SceneSize size{out.header.bounds, out.counts.scene.triangles};
+    if (const std::string text = voxel_note(options, size); !text.empty()) note(text);
   }
   if (source->has_colors()) gather(*source, out);
   return out;
@@ -203,6 +205,15 @@ std::string up_note(const BuildOptions& o, const std::optional<UpAxis>& told, co
       "the scene is {:.4g} x {:.4g} x {:.4g}, flat along z, and y is taken for up: if it is a map, it will stand on "
       "edge; say --up z, or --up y to be sure",
       x, y, z);
+}
+
+std::string voxel_note(const BuildOptions& o, const SceneSize& scene) {
+  if (!is_by_scene(o) || scene.triangles <= kTilesetFaces) return "";
+  return fmt::format(
+      "the scene has {} triangles, and voxels of {:.4g}, which are for {}: for more detail, name a smaller --voxel; "
+      "half "
+      "of it takes some four times as long",
+      scene.triangles, voxel_size(o, scene), kTilesetFaces);
 }
 
 void Build::note(const std::string& text) {

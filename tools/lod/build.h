@@ -43,6 +43,10 @@ struct FoundJobs {
 [[nodiscard]] std::string up_note(const BuildOptions& options, const std::optional<UpAxis>& told,
                                   const Bounds3d& bounds);
 
+/// What is said of a tileset that nobody named voxels for, if the scene has more triangles than those chosen are for;
+/// else empty.
+[[nodiscard]] std::string voxel_note(const BuildOptions& options, const SceneSize& scene);
+
 class Build {
  public:
   explicit Build(const BuildOptions& options);

@@ -154,7 +154,7 @@ BuildOptions parse_build_options(Args& args) {
   args.option("--voxel", "LENGTH", o.voxel,
               "edge of a voxel of the finest level: scene units, or 0.5% of the diagonal");
   args.option("--resolution", "N", o.resolution,
-              "voxels along the longest side (default: by --faces, 256 to 1024, of tilesets by the scene, 256 to 2048; "
+              "voxels along the longest side (default: by --faces, 256 to 1024, of tilesets by the scene, 256 to 4096; "
               "or 8 voxels to the error)");
   args.option("--tile", "N", o.tile_vox,
               "3dtiles: voxels along the side of a tile; a level that is larger is cut into tiles of its own");
@@ -226,6 +226,12 @@ Json options_json(const BuildOptions& o) {
 double area_of(const Bounds3d& b) {
   const double x = b.max[0] - b.min[0], y = b.max[1] - b.min[1], z = b.max[2] - b.min[2];
   return 2 * (x * y + y * z + z * x);
+}
+
+bool is_by_scene(const BuildOptions& o) {
+  const LodRequest& r = o.request;
+  return o.profile == LodProfile::tiles && !o.voxel && !o.resolution && r.faces.empty() && r.errors.empty() &&
+         r.pixels.empty();
 }
 
 double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {

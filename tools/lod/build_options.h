@@ -69,12 +69,15 @@ struct SceneSize {
 /// kDefaultResolution.
 [[nodiscard]] double voxel_size(const BuildOptions& options, const SceneSize& scene, int halvings = 0);
 
+/// Whether the scene alone decides the voxels of a tileset: nobody named voxels, an error or faces.
+[[nodiscard]] bool is_by_scene(const BuildOptions& options);
+
 /// Of the six sides of a box.
 [[nodiscard]] double area_of(const Bounds3d& bounds);
 
 /// Voxels along the longest side.
-constexpr std::int64_t kDefaultResolution = 256, kMostResolution = 1024, kMostTilesetResolution = 2048;
-constexpr std::uint64_t kTilesetFaces = 40000;  ///< that nobody asked for, over the bounds
+constexpr std::int64_t kDefaultResolution = 256, kMostResolution = 1024, kMostTilesetResolution = 4096;
+constexpr std::uint64_t kTilesetFaces = 160000;  ///< that nobody asked for, over the bounds
 /// Whether smaller voxels may be tried where the finest level does not come to its faces: nobody said which, the
 /// scene can be read again, and no cells depend on them.
 [[nodiscard]] bool may_refine(const BuildOptions& options);

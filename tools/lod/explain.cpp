@@ -215,6 +215,8 @@ void explain(const BuildOptions& options) {
   build.report.stage("read");
   const Scene scene = read_scene(build);
   if (const std::string text = up_note(options, scene.up_told, scene.bounds); !text.empty()) build.note(text);
+  const SceneSize size{scene.bounds, scene.counts.triangles};
+  if (const std::string text = voxel_note(options, size); !text.empty()) build.note(text);
   if (const std::string text = cache_note(options); !text.empty()) build.note(text);
   build.report.stage("look up");
   const Plan plan(build, scene);

@@ -9,7 +9,7 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kDefaultLevels = 4, kMostLevels = 32;
+constexpr std::uint64_t kDefaultLevels = 4;
 constexpr std::uint64_t kLeastFirstFaces = 200;
 
 std::size_t list_size(const LodRequest& r) {

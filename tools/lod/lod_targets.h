@@ -11,7 +11,8 @@
 namespace bp {
 
 constexpr std::uint64_t kDensePerFace = 100;  ///< triangles of the dense surface for one of a finest level
-constexpr std::uint64_t kLeastFaces = 12;     ///< that nobody asked for: of a box
+constexpr std::uint64_t kMostLevels = 32;
+constexpr std::uint64_t kLeastFaces = 12;  ///< that nobody asked for: of a box
 
 /// One of faces, errors and pixels may be given; each as a list, or as the finest level's number, from which the others
 /// follow.

@@ -136,7 +136,7 @@ class TilesetBuild {
     pyramid_options.progress = build_.show;
     TilePyramid pyramid(scene.header, std::move(scene.solid), build_.backends, pyramid_options);
     LodOptions lod = build_.lod_options();
-    make_cut_levels(pyramid, lod.scene);
+    make_cut_levels(pyramid, scene.header, lod.scene);
     if (plan_.whole > 0 && is_wanted(plan_.whole_number(), 1))
       make_whole(pyramid, std::move(lod), scene.counts.input_hash);
     return scene;
@@ -148,7 +148,7 @@ class TilesetBuild {
   }
 
   /// Those of more than one cell.
-  void make_cut_levels(TilePyramid& pyramid, const std::vector<TriangleD>& scene) {
+  void make_cut_levels(TilePyramid& pyramid, const StreamHeader& header, const std::vector<TriangleD>& scene) {
     std::unique_ptr<TriangleBvh> tree;
     if (!scene.empty() && !plan_.cut.empty()) tree = std::make_unique<TriangleBvh>(scene);
     std::vector<std::unique_ptr<LevelAtWork>> levels;
@@ -165,9 +165,9 @@ class TilesetBuild {
     for (std::size_t level = 0; level < levels.size(); ++level) finish_level(level, *levels[level]);
     if (plan_.whole == 0 && task_ == Task::tileset)
       build_.note(
-          fmt::format("the coarsest level has {} tiles, and nothing is drawn instead of them from afar; ask for "
-                      "more levels, or for larger tiles",
-                      rows_.back().tiles));
+          fmt::format("the coarsest level has {} tiles, and nothing is drawn instead of them from afar: it takes {} "
+                      "levels to come to one mesh, or larger tiles",
+                      rows_.back().tiles, levels_to_one_mesh(options_, header)));
   }
 
   /// A level that is cut, while its tiles come in.

@@ -16,6 +16,11 @@ double scale_of(const LodTarget& target, double voxel) {
   return TilesetPlan::kScaleVox * voxel;
 }
 
+std::int64_t longest_side(const VoxelBox& box) {
+  const VoxelCoord size = box.size();
+  return std::max({size.x, size.y, size.z});
+}
+
 /// As many as were asked for; else at least so many that the root is one mesh.
 std::size_t level_count_with(const LodRequest& request, std::size_t cut) {
   const std::size_t asked = level_count(request);
@@ -38,7 +43,11 @@ TilesetPlan plan_tileset(const BuildOptions& o, const StreamHeader& header) {
   VoxelBox solid = voxel_bounds(header.frame, header.bounds);
   std::uint64_t number = 0;
   std::size_t level = 0;
-  for (; level < level_count_with(o.request, level) && cells_spanned(cells, plan.uncut.bricks).count() > 1; ++level) {
+  const auto is_cut = [&] {
+    return cells_spanned(cells, plan.uncut.bricks).count() > 1 &&
+           (level == 0 || longest_side(solid) > TilesetPlan::kWholeVox);
+  };
+  for (; level < level_count_with(o.request, level) && is_cut(); ++level) {
     const LodTarget target = tile_target_of(o.request, level, header.bounds.diagonal(), header.frame.voxel);
     const GridFrame& frame = plan.uncut.frame;
     const double scale = scale_of(target, frame.voxel);
@@ -54,6 +63,12 @@ TilesetPlan plan_tileset(const BuildOptions& o, const StreamHeader& header) {
   }
   plan.whole = level_count_with(o.request, level) - level;
   return plan;
+}
+
+std::size_t levels_to_one_mesh(const BuildOptions& options, const StreamHeader& header) {
+  BuildOptions more = options;
+  more.request.levels = kMostLevels;
+  return plan_tileset(more, header).cut.size() + 1;
 }
 
 }  // namespace bp

@@ -23,6 +23,9 @@ struct CutLevel {
 struct TilesetPlan {
   /// Closing radius of a level that is cut, in its voxels, if nobody says.
   static constexpr double kScaleVox = 2 + kBeyondWholeVox;
+  /// Levels below the finest whose longest side has no more voxels are not cut, however small the tiles: what few
+  /// voxels, at a scale of two of them, make of a scene is worth less than its faces (decision 0015).
+  static constexpr std::int64_t kWholeVox = 256;
   std::vector<CutLevel> cut;  ///< finest first
   StreamHeader uncut;         ///< of the solid after the last of them
   std::size_t whole = 0;      ///< levels in one mesh that follow; together they are one job, the last
@@ -35,6 +38,9 @@ struct TilesetPlan {
 
 /// header: of the solid, aligned to the cells.
 [[nodiscard]] TilesetPlan plan_tileset(const BuildOptions& options, const StreamHeader& header);
+
+/// How many levels it takes that the coarsest is not cut, whatever was asked for.
+[[nodiscard]] std::size_t levels_to_one_mesh(const BuildOptions& options, const StreamHeader& header);
 
 /// Reach of the closing at a scale that is the same everywhere.
 [[nodiscard]] Halo halo_at(double scale_world, const GridFrame& frame);

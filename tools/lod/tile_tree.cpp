@@ -57,16 +57,10 @@ void TileTree::add_whole(TreeTile tile) {
     node.cell = root_->cell;
     node.children.push_back(std::move(*root_));
   } else if (!level_.empty()) {
-    raise();
-    for (auto& [cell, below] : level_) {
-      Bounds3d all = node.cell.value_or(*below.cell);
-      all.merge(*below.cell);
-      node.cell = all;
-      if (level_.size() == 1) node.children = std::move(below.children);
-    }
-    if (level_.size() > 1) {
-      for (auto& [cell, below] : level_) node.children.push_back(std::move(below));
-    }
+    do raise();  // to the one cell that holds all, if need be by nodes without content
+    while (level_.size() > 1);
+    node.cell = level_.begin()->second.cell;
+    node.children = std::move(level_.begin()->second.children);
   }
   for (const Node& child : node.children) {
     tile.error_world = std::max(tile.error_world, child.tile.error_world);

@@ -3,7 +3,7 @@ for i in 0 1 2; do
   write_cube cube.obj 3
   sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 7 * $i)) \2 \$((\3 + $i))/e" cube.obj > part$i.obj
 done
-options=(part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles -q)
+options=(part*.obj --name cubes --voxel 0.025 --tile 256 --profile 3dtiles -q)
 build() { bplod "${options[@]}" "$@" > list; }
 kept() { grep -o '"kept": [0-9]*' "$1" | tr '\n' ' '; echo; }
 build -o whole

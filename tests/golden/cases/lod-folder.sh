@@ -13,9 +13,9 @@ bplod "${tileset[@]}" -o mixed2 | cut -f 1  # an empty folder is nothing
 # Of a long pipe there are more levels than anybody asked for: found out before anything is moved.
 sed 's/^v 3/v 550/' cube.obj > pipe.obj
 mkdir mixed3
-echo kept > mixed3/p_LOD5.glb
-try bplod pipe.obj --name p --voxel 0.5 --tile 128 --profile 3dtiles -q -o mixed3
-cat mixed3/p_LOD5.glb
+echo kept > mixed3/p_LOD4.glb
+try bplod pipe.obj --name p --voxel 0.25 --tile 128 --profile 3dtiles -q -o mixed3
+cat mixed3/p_LOD4.glb
 LC_ALL=C ls -A mixed mixed3
 
 # A scene in that folder is neither replaced nor taken away, by whatever name.

@@ -3,7 +3,7 @@ for i in 0 1 2; do
   write_cube cube.obj 3
   sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 7 * $i)) \2 \$((\3 + $i))/e" cube.obj > part$i.obj
 done
-options=(part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles -q)
+options=(part*.obj --name cubes --voxel 0.025 --tile 256 --profile 3dtiles -q)
 numbers() { sed "/\"options\"/,/^  }/d" "$2" | grep -oE "\"($1)\": [0-9.]*" | tr '\n' ' '; echo; }
 # The plan needs no voxel: these figures are exact, but for "at most" and "about". Nothing is written.
 bplod "${options[@]}" --explain -j 1 --memory 1G
@@ -25,10 +25,11 @@ ls
 bplod "${options[@]}" --cache cache -o together --report together.json > list
 numbers kept together.json
 diff -r whole together && echo "the same bytes"
+bpcheck part*.obj together/tileset.json | sed 's/[0-9]* triangles/some triangles/'
 # A part that was done, or that has no number, costs nothing; the latter is said.
 bplod "${options[@]}" --cache cache --tiles 0..4
 bplod "${options[@]}" --cache cache --tiles 30..40
-try bplod part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles --cache cache --tiles 30..40
+try bplod part*.obj --name cubes --voxel 0.025 --tile 256 --profile 3dtiles --cache cache --tiles 30..40
 try bplod "${options[@]}" --tiles 0..2 --cache cache -o nowhere
 
 # Without any voxels, the scene decides: its bounds, and how many triangles it has; a run does what the plan says.
@@ -40,6 +41,11 @@ for scene in "part0.obj part1.obj part2.obj" "${many[*]}"; do
   diff <(numbers voxel plan.json | cut -d ' ' -f 1-4) <(numbers voxel whole.json | cut -d ' ' -f 1-4) && echo "as planned"
 done
 bplod "${many[@]}" --name cubes --profile 3dtiles --faces 100 --explain -q | sed -n 2p
+# More triangles than the voxels are for are said, unless somebody named voxels.
+bp-plant --triangles 200000 -o plant.ply > list
+said 'bplod plant.ply --profile 3dtiles --explain | sed -n 2p'
+said 'bplod plant.ply --profile 3dtiles --explain --resolution 300 | sed -n 2p'
+rm plant.ply
 
 # What a change costs is known before it is paid.
 sed -i 's/^v \(.*\) 3 \(.*\)$/v \1 2 \2/' part2.obj

@@ -22,7 +22,7 @@ bplod part*.obj --name cubes --resolution 160 --tile 128 --profile 3dtiles -o cu
 bpcheck part*.obj cut/tileset.json | sed 's/[0-9]* triangles/some triangles/'
 bplod part*.obj --name cubes --resolution 160 --tile 128 --profile 3dtiles -o cut2 -j 2 > list
 diff -r cut cut2 && echo "the same bytes"
-bplod part*.obj --name cubes --resolution 160 --tile 128 --levels 1 --faces 500 --up z --profile 3dtiles -o cut2 --overwrite -q | cut -f 1
+said 'bplod part*.obj --name cubes --resolution 160 --tile 128 --levels 1 --faces 500 --up z --profile 3dtiles -o cut2 --overwrite | cut -f 1'
 bpcheck part*.obj cut2/tileset.json | sed 's/[0-9]* triangles/some triangles/'
 LC_ALL=C ls -A cut2
 tiles=(cut2/cubes_LOD0/*)
@@ -30,6 +30,8 @@ rm "${tiles[0]}"
 cp "${tiles[1]}" "${tiles[2]}"
 bpcheck part*.obj cut2/tileset.json | sed 's/[0-9]* triangles/some triangles/; s/[0-9][0-9]* of [0-9][0-9]*/some/; s/by up to.*//'
 try bplod cube.obj -o x --profile 3dtiles --tile 100
+# Levels of few voxels are one mesh, however small the tiles: in tiles they would be far off for their faces.
+bplod part*.obj --name cubes --resolution 160 --tile 64 --profile 3dtiles -q -o small | cut -f 1
 # Thin rods that lie apart have few voxels: no tile of a level goes far from them to save faces.
 awk 'BEGIN { for (a = 0; a < 3; ++a) for (i = 4; i < 120; i += 28) for (j = 4; j < 120; j += 28) {
   for (s = 0; s < 8; ++s) { p[a] = s % 2 ? 116 : 4; p[(a + 1) % 3] = i + int(s / 2) % 2 * 0.5; p[(a + 2) % 3] = j + int(s / 4) * 0.5; print "v", p[0], p[1], p[2] }
@@ -37,6 +39,19 @@ awk 'BEGIN { for (a = 0; a < 3; ++a) for (i = 4; i < 120; i += 28) for (j = 4; j
   n += 8 } }' > rods.obj
 bplod rods.obj --voxel 1 --tile 64 --levels 2 --profile 3dtiles -q -o rods | awk -F '\t' 'NR == 2 { print $1, ($3 <= 11 ? "is near" : "is far: " $3) }'
 bpcheck rods.obj rods/tileset.json | sed 's/[0-9]* triangles/some triangles/'
+
+# A budget spends its faces near what they enclose: none spans a courtyard while others can go.
+awk 'function box(x, y, z, w, d, h,  i) {
+  for (i = 0; i < 8; ++i) print "v", x + (i % 2) * w, y + (int(i / 2) % 2) * d, z + int(i / 4) * h
+  split("0 2 3 1 4 5 7 6 0 1 5 4 2 6 7 3 0 4 6 2 1 3 7 5", c)
+  for (i = 1; i <= 24; i += 4) print "f", n + c[i] + 1, n + c[i + 1] + 1, n + c[i + 2] + 1, n + c[i + 3] + 1
+  n += 8
+}
+BEGIN { for (k = 0; k < 9; ++k) {
+  x = 40 * (k % 3); y = 40 * int(k / 3)
+  box(x, y, 0, 30, 3, 10 + k); box(x, y + 27, 0, 30, 3, 12 + k); box(x, y, 0, 3, 30, 11 + k); box(x + 27, y, 0, 3, 30, 13 + k) } }' > courts.obj
+bplod courts.obj --up z --voxel 0.5 --tile 128 --levels 1 --faces 120 --profile 3dtiles -q -o courts | awk -F '\t' 'NR == 2 { print $1, ($3 <= 4 ? "is near" : "is far: " $3) }'
+rm -r courts courts.obj
 
 # Collision: names that importers go by; the convex pieces enclose, too.
 bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision | cut -f 1,2
