@@ -18,9 +18,9 @@ awk -F '\t' 'NR > 1 { print $1, ($3 <= (NR == 2 ? 1 : 12) ? "keeps" : "breaks") 
 bplod part*.obj --name cubes --screen 50,1.5 -q -o screen | cut -f 1
 
 # Levels that are cut into tiles.
-bplod part*.obj --name cubes --resolution 160 --tile 128 --profile 3dtiles -o cut -j 1 --memory 300M | cut -f 1
+bplod part*.obj --name cubes --resolution 160 --tile 128 --profile 3dtiles -q -o cut -j 1 --memory 300M | cut -f 1
 bpcheck part*.obj cut/tileset.json | sed 's/[0-9]* triangles/some triangles/'
-bplod part*.obj --name cubes --resolution 160 --tile 128 --profile 3dtiles -o cut2 -j 2 > list
+bplod part*.obj --name cubes --resolution 160 --tile 128 --profile 3dtiles -q -o cut2 -j 2 > list
 diff -r cut cut2 && echo "the same bytes"
 said 'bplod part*.obj --name cubes --resolution 160 --tile 128 --levels 1 --faces 500 --up z --profile 3dtiles -o cut2 --overwrite | cut -f 1'
 bpcheck part*.obj cut2/tileset.json | sed 's/[0-9]* triangles/some triangles/'
