@@ -25,7 +25,7 @@ struct TilesetPlan {
   static constexpr double kScaleVox = 2 + kBeyondWholeVox;
   /// Levels below the finest whose longest side has no more voxels are not cut, however small the tiles: what few
   /// voxels, at a scale of two of them, make of a scene is worth less than its faces (decision 0015).
-  static constexpr std::int64_t kWholeVox = 256;
+  static constexpr std::int64_t kWholeVox = 128;
   std::vector<CutLevel> cut;  ///< finest first
   StreamHeader uncut;         ///< of the solid after the last of them
   std::size_t whole = 0;      ///< levels in one mesh that follow; together they are one job, the last
