@@ -13,7 +13,7 @@ struct ShapeLimits {
   /// How far from what must stay inside, where that is given, a step may take a face, lattice units; 0: no matter how
   /// far. Where faces jam, it is loosened.
   double reach = 0;
-  static constexpr double kLoosened = 1.5;    ///< each time
+  static constexpr double kLoosened = 1.25;   ///< each time
   static constexpr double kMostLoosened = 8;  ///< times as far; then there is no bound
   LatticeBox room = kEverywhere;              ///< where vertices may be moved to: strictly inside
 };

@@ -8,6 +8,8 @@
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/reduce.h"
 #include "lib/grid/shelf_stream.h"
+#include "lib/grid/topology.h"
+#include "lib/meshing/repair.h"
 #include "lib/stage/surface_around.h"
 #include "lib/stage/voxel_distance.h"
 
@@ -22,6 +24,8 @@ constexpr double kScalesPerError = 4;  // the cube's dilation reaches sqrt(3) sc
 constexpr double kScalesPerEdge = 4;
 constexpr double kLeastScaleVox = 1 + kBeyondWholeVox;  // below 1, closing is the identity
 constexpr double kLeastSideVox = 48;                    // of a reduced grid
+// Faces that a part or a hole of a closing at half of the scale should leave to show its shape.
+constexpr std::uint64_t kFacesPerPart = 100;
 
 /// What the solid shows to the outside. With the inside filled, every boundary voxel is touched by the scene. While
 /// levels are meshed, it is but the runs of its voxels; what distances are measured with is made when they are, unless
@@ -111,6 +115,7 @@ int reductions_for(const LodGround& ground, const LodTarget& target, double scal
   if (target.faces > 0) {
     const double per_face = double(ground.dense_faces) / double(target.faces);
     coarsest = std::min(coarsest, std::sqrt(per_face / kDenseFacesPerFace) / target.detail * ground.voxel);
+    coarsest = std::min(coarsest, std::sqrt(double(ground.dense_faces) / kLeastDenseFaces) * ground.voxel);
   }
   if (target.error_world > 0) coarsest = std::min(coarsest, target.error_world / kVoxelsPerError);
   int n = before;
@@ -132,9 +137,13 @@ struct LodChain::State {
 
   LodLevel make(const LodTarget& target) {
     double scale = first_scale(ground(), target, last_scale);
+    std::unique_ptr<BrickShelf> closing = half_scale(target, scale);
     for (int attempt = 1;; ++attempt) {
-      reduce_to(reductions_for(ground(), target, scale, reductions));
-      LodLevel level = attempt_at(target, scale);
+      if (closing == nullptr) {
+        reduce_to(reductions_for(ground(), target, scale, reductions));
+        closing = closing_at(scale);
+      }
+      LodLevel level = mesh(target, scale, std::move(closing));
       level.attempts = attempt;
       level.reached = target.faces == 0 || level.mesh.triangles.size() <= target.faces;
       if (!level.reached && 2 * scale <= diagonal / 2 && attempt < options.max_attempts) {
@@ -188,27 +197,48 @@ struct LodChain::State {
     return closed;
   }
 
-  void close(const ScaleField& field, BrickShelf& closing) {
+  static ScaleField uniform(double scale) {
+    ScaleField field;
+    field.base = scale;
+    return field;
+  }
+
+  std::unique_ptr<BrickShelf> closing_at(double scale) {
     CloseOptions o;
     o.keep_cavities = options.keep_cavities;
     o.memory_bytes = options.memory_bytes;
     o.make_shelf = options.make_shelf;
     o.progress = options.progress;
+    auto closing = options.make_shelf();
     ShelfSource source(header, *solid, nullptr, ShelfSource::Keep::all);
-    ShelfSink sink(nullptr, &closing);
-    close_stream(source, sink, backends, field, options.closing, o);
+    ShelfSink sink(nullptr, closing.get());
+    close_stream(source, sink, backends, uniform(scale), options.closing, o);
+    return closing;
   }
 
-  LodLevel attempt_at(const LodTarget& target, double scale) {
+  /// The closing at half of `scale`, which is halved then, where a budget has faces enough for what parts and holes it
+  /// leaves. Where it does not, they take the faces that shape wants, and all of the level is farther off.
+  std::unique_ptr<BrickShelf> half_scale(const LodTarget& target, double& scale) {
+    const double half = std::max(scale / 2, last_scale);
+    const bool by_budget = target.faces > 0 && target.error_world == 0 && !target.scale_world;
+    if (!by_budget || options.mode != MeshMode::bounding || half >= scale) return nullptr;
+    const int n = reductions_for(ground(), target, half, reductions);
+    if (half < kLeastScaleVox * outside->voxel() * std::ldexp(1.0, n)) return nullptr;
+    reduce_to(n);
+    auto closing = closing_at(half);
+    repair_contacts(*closing);  // as meshing would: it closes the tiniest holes
+    const SolidTopology topology = topology_of(*closing);
+    if ((topology.parts + topology.handles) * kFacesPerPart > target.faces) return nullptr;
+    scale = half;
+    return closing;
+  }
+
+  LodLevel mesh(const LodTarget& target, double scale, std::unique_ptr<BrickShelf> closing) {
     LodLevel level;
     level.scale_world = scale;
     level.reductions = reductions;
-    ScaleField field;
-    field.base = scale;
-    const auto closing = options.make_shelf();
-    close(field, *closing);
     report("meshing", "levels", 0, 1);
-    ShelfSource source(closed_header(field), *solid, closing.get(), ShelfSource::Keep::solid);
+    ShelfSource source(closed_header(uniform(scale)), *solid, closing.get(), ShelfSource::Keep::solid);
     level.mesh = std::move(mesh_stream(source, options.make_shelf, mesh_params(target), level.counts).front());
     return level;
   }

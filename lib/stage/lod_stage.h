@@ -14,7 +14,8 @@
 namespace bp {
 
 /// What a level is asked to be. With no scale, faces decide it: a quarter of the edge that `faces` equilateral
-/// triangles over the scene's surface would have; and an error: a quarter of it.
+/// triangles over the scene's surface would have, or half of that where the closing of a bounding level leaves few
+/// parts and holes then; and an error: a quarter of it.
 struct LodTarget {
   std::uint64_t faces = 0;            ///< 0: none
   double error_world = 0;             ///< largest distance of a point of the level to the scene, scene units; 0: none
@@ -23,13 +24,17 @@ struct LodTarget {
   double detail = 1;
 };
 
+/// Triangles of the dense surface below which voxels are not doubled, nor chosen, for a budget: they take a second or
+/// two, and larger voxels cost more error and volume than the budget does.
+constexpr double kLeastDenseFaces = 500000;
+
 /// What decides at which scale, and on which voxels, a level is tried first.
 struct LodGround {
   double voxel = 0, diagonal = 0;     ///< of the solid; scene units
   std::uint64_t dense_faces = 0;      ///< triangles of the dense surface of the solid
   std::int64_t longest_side_vox = 0;  ///< of the solid
 };
-/// The scale, scene units, at least `last`, that of the level before.
+/// The scale, scene units, before it is halved, at least `last`, that of the level before.
 [[nodiscard]] double first_scale(const LodGround& ground, const LodTarget& target, double last);
 /// How often the voxels are doubled: while the target leaves enough of them, and the scale is not below one. At least
 /// `before` times.

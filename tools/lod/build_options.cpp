@@ -243,7 +243,8 @@ double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
   const bool tileset = o.profile == LodProfile::tiles;
   if (o.resolution || o.request.faces.empty() != tileset) return coarse;
   const std::uint64_t faces = tileset ? std::min(scene.triangles, kTilesetFaces) : o.request.faces.front();
-  const double dense_faces = double(kDensePerFace) * double(faces);
+  double dense_faces = double(tileset ? kDensePerFace : kDensePerFaceAsked) * double(faces);
+  if (!tileset) dense_faces = std::max(dense_faces, kLeastDenseFaces);
   const double fine = std::min(coarse, std::sqrt(2 * kSlantedSteps * area_of(bounds) / dense_faces));
   const std::int64_t most = tileset ? kMostTilesetResolution : kMostResolution;
   return std::min(coarse, std::max(std::ldexp(fine, -halvings), voxel_size_of(bounds, most)));

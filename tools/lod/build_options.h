@@ -63,10 +63,10 @@ struct SceneSize {
 };
 
 /// Edge of a voxel, scene units: as asked; an eighth of the finest error; or so small that a surface as large as that
-/// of the bounds has kDensePerFace triangles for each face of the finest level, halved so often, within
-/// kDefaultResolution and kMostResolution. Of a tileset these faces are as many as the scene has triangles, or
-/// kTilesetFaces if that is fewer, and the most resolution is kMostTilesetResolution; with a budget for each tile it is
-/// kDefaultResolution.
+/// of the bounds has kDensePerFaceAsked triangles for each face of the finest level, and kLeastDenseFaces, halved so
+/// often, within kDefaultResolution and kMostResolution. Of a tileset it is kDensePerFace for as many faces as the
+/// scene has triangles, or kTilesetFaces if that is fewer, and the most resolution is kMostTilesetResolution; with a
+/// budget for each tile it is kDefaultResolution.
 [[nodiscard]] double voxel_size(const BuildOptions& options, const SceneSize& scene, int halvings = 0);
 
 /// Whether the scene alone decides the voxels of a tileset: nobody named voxels, an error or faces.

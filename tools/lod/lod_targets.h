@@ -10,7 +10,8 @@
 /// The levels that a command line asks for.
 namespace bp {
 
-constexpr std::uint64_t kDensePerFace = 100;  ///< triangles of the dense surface for one of a finest level
+constexpr std::uint64_t kDensePerFace = 100;       ///< triangles of the dense surface for one of a finest level
+constexpr std::uint64_t kDensePerFaceAsked = 190;  ///< the same where --faces chooses the voxels
 constexpr std::uint64_t kMostLevels = 32;
 constexpr std::uint64_t kLeastFaces = 12;  ///< that nobody asked for: of a box
 

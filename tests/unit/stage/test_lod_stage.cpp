@@ -109,7 +109,49 @@ TEST_CASE("each level of a chain encloses the scene, on coarser voxels", "[quick
     reductions = level.reductions;
     error = level.error_world;
   }
-  CHECK(reductions > 0);
+  CHECK(reductions == 0);  // so few voxels cost little
+  const LodLevel coarse = chain.make({0, 24, {}});
+  CHECK(coarse.reductions > 0);
+  CHECK(encloses(coarse.mesh, scene));
+}
+
+TEST_CASE("a budget takes no voxels so large that few are left", "[quick][stage][lod]") {
+  const LodGround ground{1, 2000, 33 * std::uint64_t(kLeastDenseFaces), 1000};
+  CHECK(reductions_for(ground, {100, 0, {}}, 64, 0) == 2);
+  CHECK(reductions_for(ground, {100000, 0, {}}, 64, 0) == 0);
+  CHECK(reductions_for(ground, {0, 64, {}}, 64, 0) == 3);  // of an error, eight to it
+}
+
+TEST_CASE("the scale is halved where that leaves few parts and holes, not where they take the faces",
+          "[quick][stage][lod]") {
+  const bool apart = GENERATE(false, true);
+  CAPTURE(apart);
+  Triangles scene = boxes();
+  if (!apart) add_box(scene, {-1, -1, -1}, {27, 28, 14});
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 0.125);
+  const double diagonal = solid.header.bounds.diagonal();
+  LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
+  const LodTarget target{apart ? 1700u : 500u, 0, {}};
+  const double scale = first_scale({0.125, diagonal, chain.dense_faces(), chain.longest_side_vox()}, target, 0);
+  REQUIRE(scale / 2 > 1.07 * 0.125);
+  CHECK(chain.make(target).scale_world == (apart ? scale : scale / 2));
+}
+
+TEST_CASE("a level of separate thin parts by faces is about as near as one by error", "[quick][stage][lod]") {
+  Triangles scene;
+  for (int i = 0; i < 9; ++i) {
+    const double x = 9.0 * (i % 3), z = 10.0 * (i / 3);
+    add_box(scene, {x, 0, z}, {x + 1, 30.0 + i, z + 1.5});
+  }
+  Backends backends = plain_backends(2);
+  Voxelized by_error = voxelized(scene, 0.2), by_faces = voxelized(scene, 0.2);
+  LodChain errors(by_error.header, std::move(by_error.shelf), backends, lod_options());
+  const LodLevel near = errors.make({0, 2, {}});
+  LodChain faces(by_faces.header, std::move(by_faces.shelf), backends, lod_options());
+  const LodLevel level = faces.make({near.mesh.triangles.size(), 0, {}});
+  CHECK(level.mesh.triangles.size() <= near.mesh.triangles.size());
+  CHECK(level.error_world < 2 * near.error_world);
 }
 
 TEST_CASE("a budget below what the parts need is met by closing them together", "[quick][stage][lod]") {

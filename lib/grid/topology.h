@@ -1,0 +1,16 @@
+#pragma once
+#include "lib/grid/stream.h"
+
+/// What a surface of few faces has to spend them on before anything else.
+namespace bp {
+
+struct SolidTopology {
+  std::uint64_t parts = 0;    ///< components of the voxels (6-neighbours)
+  std::uint64_t handles = 0;  ///< holes that go through them, less the cavities in them; not below 0
+};
+
+/// Of the voxels of `solid`, as they are: repair.h, which closes the tiniest of the holes, comes later. Exact; the same
+/// for every number of threads. Memory: 20 bytes for each run of voxels in a brick.
+[[nodiscard]] SolidTopology topology_of(const BrickShelf& solid);
+
+}  // namespace bp
