@@ -2,8 +2,8 @@
 
 #include <sys/stat.h>
 
-#include <algorithm>
-#include <limits>
+#include <iterator>
+#include <set>
 
 #include "io/file.h"
 
@@ -12,14 +12,10 @@ namespace bp {
 namespace {
 
 /// Depths of the tree at which there are contents.
-struct Depths {
-  std::size_t first = std::numeric_limits<std::size_t>::max(), last = 0;
-  [[nodiscard]] std::size_t count() const { return first > last ? 0 : last - first + 1; }
-  void add(const Tile& tile, std::size_t depth) {
-    if (!tile.uri.empty()) first = std::min(first, depth), last = std::max(last, depth);
-    for (const Tile& child : tile.children) add(child, depth + 1);
-  }
-};
+void add_depths(const Tile& tile, std::size_t depth, std::set<std::size_t>& depths) {
+  if (!tile.uri.empty()) depths.insert(depth);
+  for (const Tile& child : tile.children) add_depths(child, depth + 1, depths);
+}
 
 class LevelFinder {
  public:
@@ -120,12 +116,14 @@ class ContentsSource final : public TriangleSource {
 }  // namespace
 
 TilesetLevel tileset_level(const Tileset& tileset, const std::string& path, std::size_t level) {
-  Depths depths;
-  depths.add(tileset.root, 0);
+  std::set<std::size_t> depths;
+  add_depths(tileset.root, 0, depths);
   TilesetLevel out;
-  out.levels = depths.count();
-  if (level < out.levels)
-    LevelFinder(folder_of(path), depths.last - level, out).find(tileset.root, 0, kNoTransform, false);
+  out.levels = depths.size();
+  if (level < out.levels) {
+    const std::size_t depth = *std::next(depths.rbegin(), std::ptrdiff_t(level));
+    LevelFinder(folder_of(path), depth, out).find(tileset.root, 0, kNoTransform, false);
+  }
   return out;
 }
 

@@ -17,12 +17,13 @@ struct PlacedContent {
 };
 
 struct TilesetLevel {
-  std::size_t levels = 0;  ///< of the tileset: depths of its tree from the first to the last with a content
+  std::size_t levels = 0;               ///< of the tileset: depths of its tree at which there are contents
   std::vector<PlacedContent> contents;  ///< depth first
   std::vector<std::string> missing;     ///< contents that are no files beside the tileset; uris
 };
 
-/// Level 0 is the finest. The tiles of level n lie n depths above the deepest; where a branch ends before, its last
+/// Level 0 is the finest. The tiles of level n lie n depths above the deepest, of those at which there are contents;
+/// where a branch ends before, its last
 /// tile stands for it, and where a tile there has no content, those below it. Tiles that are refined by adding keep
 /// theirs. Empty if the tileset has no such level.
 [[nodiscard]] TilesetLevel tileset_level(const Tileset& tileset, const std::string& path, std::size_t level);

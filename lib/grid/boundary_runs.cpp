@@ -141,16 +141,17 @@ void for_each_row(const BrickShelf& shelf, const VoxelBox& box, const Body& body
 
 }  // namespace
 
-std::vector<VoxelRun> runs_of(const BrickShelf& shelf, const VoxelBox& box) {
-  std::vector<VoxelRun> runs;
-  for_each_row(shelf, box, [&](VoxelCoord row, std::uint64_t voxels) { add_runs(voxels, row, runs); });
-  return runs;
-}
-
 std::uint64_t count_runs(const BrickShelf& shelf, const VoxelBox& box) {
   std::uint64_t sum = 0;
   for_each_row(shelf, box, [&](VoxelCoord, std::uint64_t voxels) { sum += count_runs(voxels); });
   return sum;
+}
+
+std::vector<VoxelRun> runs_of(const BrickShelf& shelf, const VoxelBox& box) {
+  std::vector<VoxelRun> runs;
+  runs.reserve(count_runs(shelf, box));
+  for_each_row(shelf, box, [&](VoxelCoord row, std::uint64_t voxels) { add_runs(voxels, row, runs); });
+  return runs;
 }
 
 }  // namespace bp

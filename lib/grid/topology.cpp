@@ -37,6 +37,12 @@ std::int64_t characteristic_of(const BrickShelf& solid, BrickCoord brick) {
   return sum;
 }
 
+VoxelBox box_of(const std::vector<BrickCoord>& bricks) {
+  VoxelBox box;
+  for (const BrickCoord& b : bricks) box = hull(box, voxels_of(BrickBox{b, {b.x + 1, b.y + 1, b.z + 1}}));
+  return box;
+}
+
 auto row_of(const VoxelRun& run) {
   return std::tuple(run.first.z, run.first.y);
 }
@@ -89,16 +95,18 @@ class Parts {
 
 }  // namespace
 
+std::uint64_t topology_bytes(const BrickShelf& solid) {
+  return (sizeof(VoxelRun) + sizeof(std::uint32_t)) * count_runs(solid, box_of(solid.coords()));
+}
+
 SolidTopology topology_of(const BrickShelf& solid) {
   const std::vector<BrickCoord> bricks = solid.coords();
   if (bricks.empty()) return {};
   std::vector<std::int64_t> sums(bricks.size());
   parallel_for(std::int64_t(bricks.size()),
                [&](std::int64_t i) { sums[std::size_t(i)] = characteristic_of(solid, bricks[std::size_t(i)]); });
-  VoxelBox box;
-  for (const BrickCoord& b : bricks) box = hull(box, voxels_of(BrickBox{b, {b.x + 1, b.y + 1, b.z + 1}}));
   SolidTopology topology;
-  topology.parts = Parts(runs_of(solid, box)).count();
+  topology.parts = Parts(runs_of(solid, box_of(bricks))).count();
   const std::int64_t handles =
       std::int64_t(topology.parts) - std::accumulate(sums.begin(), sums.end(), std::int64_t(0));
   topology.handles = std::uint64_t(std::max<std::int64_t>(handles, 0));

@@ -227,10 +227,21 @@ struct LodChain::State {
     reduce_to(n);
     auto closing = closing_at(half);
     repair_contacts(*closing);  // as meshing would: it closes the tiniest holes
+    check_memory_for_topology(*closing);
     const SolidTopology topology = topology_of(*closing);
     if ((topology.parts + topology.handles) * kFacesPerPart > target.faces) return nullptr;
     scale = half;
     return closing;
+  }
+
+  /// What the surface is meshed in is free by then.
+  void check_memory_for_topology(const BrickShelf& closing) const {
+    const std::uint64_t bytes = topology_bytes(closing), most = options.pieces.bytes();
+    if (bytes <= most) return;
+    fail(
+        ErrorCode::out_of_resource,
+        "the parts and holes of a level take {} MiB to be counted, and --memory leaves {} MiB for it; raise --memory{}",
+        (bytes >> 20) + 1, most >> 20, options.pieces.enough_for(bytes - most));
   }
 
   LodLevel mesh(const LodTarget& target, double scale, std::unique_ptr<BrickShelf> closing) {

@@ -9,6 +9,7 @@
 #include "io/brick_shelf.h"
 #include "io/chunk_store.h"
 #include "io/file.h"
+#include "io/scene_parts.h"
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -106,6 +107,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   if (halvings == 0) {  // the scene is the same
     if (const std::string text = skipped(out.counts.scene); !text.empty()) note("skipped " + text);
     if (const std::string text = up_note(options, source->up(), out.header.bounds); !text.empty()) note(text);
+    note_missing_materials();
     const SceneSize size{out.header.bounds, out.counts.scene.triangles};
     if (const std::string text = voxel_note(options, size); !text.empty()) note(text);
   }
@@ -214,6 +216,14 @@ std::string voxel_note(const BuildOptions& o, const SceneSize& scene) {
       "half "
       "of it takes some four times as long",
       scene.triangles, voxel_size(o, scene), kTilesetFaces);
+}
+
+void Build::note_missing_materials() {
+  if (!options.colors) return;
+  for (const std::string& scene : options.scenes) {
+    for (const std::string& file : missing_materials(scene))
+      note(fmt::format("{}: {} is not there, and its colours are lost", scene, file));
+  }
 }
 
 void Build::note(const std::string& text) {

@@ -64,6 +64,7 @@ class Build {
 
   /// Colours and provenance of a level of a chain, and the notes on what it missed.
   void finish_level(LodLevel& level, std::size_t number, const LodTarget& target, const std::string& input_hash);
+  void note_missing_materials();
   void note(const std::string& text);
   /// Null if the scene has no colours, or if none are wanted.
   [[nodiscard]] SceneColors* colors() const { return colors_.get(); }

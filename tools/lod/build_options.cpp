@@ -228,6 +228,16 @@ double area_of(const Bounds3d& b) {
   return 2 * (x * y + y * z + z * x);
 }
 
+/// Of the cube of the same volume: a flat scene shows along its thickness, too, what is in it.
+double area_of_cube_like(const Bounds3d& b) {
+  constexpr double kFlattest = 1.0 / 64;
+  double volume = 1, longest = 0;
+  for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, b.max[i] - b.min[i]);
+  for (std::size_t i = 0; i < 3; ++i) volume *= std::max(b.max[i] - b.min[i], kFlattest * longest);
+  const double edge = std::cbrt(volume);
+  return 6 * edge * edge;
+}
+
 bool is_by_scene(const BuildOptions& o) {
   const LodRequest& r = o.request;
   return o.profile == LodProfile::tiles && !o.voxel && !o.resolution && r.faces.empty() && r.errors.empty() &&
@@ -245,7 +255,8 @@ double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
   const std::uint64_t faces = tileset ? std::min(scene.triangles, kTilesetFaces) : o.request.faces.front();
   double dense_faces = double(tileset ? kDensePerFace : kDensePerFaceAsked) * double(faces);
   if (!tileset) dense_faces = std::max(dense_faces, kLeastDenseFaces);
-  const double fine = std::min(coarse, std::sqrt(2 * kSlantedSteps * area_of(bounds) / dense_faces));
+  const double area = tileset ? area_of_cube_like(bounds) : area_of(bounds);
+  const double fine = std::min(coarse, std::sqrt(2 * kSlantedSteps * area / dense_faces));
   const std::int64_t most = tileset ? kMostTilesetResolution : kMostResolution;
   return std::min(coarse, std::max(std::ldexp(fine, -halvings), voxel_size_of(bounds, most)));
 }

@@ -65,8 +65,8 @@ struct SceneSize {
 /// Edge of a voxel, scene units: as asked; an eighth of the finest error; or so small that a surface as large as that
 /// of the bounds has kDensePerFaceAsked triangles for each face of the finest level, and kLeastDenseFaces, halved so
 /// often, within kDefaultResolution and kMostResolution. Of a tileset it is kDensePerFace for as many faces as the
-/// scene has triangles, or kTilesetFaces if that is fewer, and the most resolution is kMostTilesetResolution; with a
-/// budget for each tile it is kDefaultResolution.
+/// scene has triangles, or kTilesetFaces if that is fewer, over the cube as large as the bounds, and the most
+/// resolution is kMostTilesetResolution; with a budget for each tile it is kDefaultResolution.
 [[nodiscard]] double voxel_size(const BuildOptions& options, const SceneSize& scene, int halvings = 0);
 
 /// Whether the scene alone decides the voxels of a tileset: nobody named voxels, an error or faces.
@@ -77,7 +77,7 @@ struct SceneSize {
 
 /// Voxels along the longest side.
 constexpr std::int64_t kDefaultResolution = 256, kMostResolution = 1024, kMostTilesetResolution = 4096;
-constexpr std::uint64_t kTilesetFaces = 160000;  ///< that nobody asked for, over the bounds
+constexpr std::uint64_t kTilesetFaces = 40000;  ///< that nobody asked for, over the bounds
 /// Whether smaller voxels may be tried where the finest level does not come to its faces: nobody said which, the
 /// scene can be read again, and no cells depend on them.
 [[nodiscard]] bool may_refine(const BuildOptions& options);

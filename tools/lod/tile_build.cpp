@@ -54,7 +54,7 @@ class LookUpStore final : public ResultStore {
 };
 
 /// What a cache holds belongs to the sources of a program: a file of their name tells which ones were here. True if
-/// only others were. `leave`: this one's name, too, if that can be.
+/// only others were. `leave`: this one's name, too, if that can be, and as of now: what is old may be deleted.
 bool is_of_others(const std::string& folder, bool leave) {
   constexpr std::string_view kName = "made-by-";
   std::error_code error;
@@ -65,8 +65,11 @@ bool is_of_others(const std::string& folder, bool leave) {
     mine = mine || (tells && name.substr(kName.size()) == source_digest());
     others = others || tells || name.size() == 2;  // results are in folders ab/; not all builds told their name
   }
-  if (leave && !mine)
-    std::ofstream(std::filesystem::path(folder) / (std::string(kName) + std::string(source_digest())));
+  if (leave) {
+    const auto file = std::filesystem::path(folder) / (std::string(kName) + std::string(source_digest()));
+    if (!mine) std::ofstream{file};
+    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), error);
+  }
   return others && !mine;
 }
 

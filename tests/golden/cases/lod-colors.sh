@@ -46,3 +46,7 @@ attributes fit/*.glb collision/cubes_unity.glb
 attributes fit-tiles/*/*.glb | cut -d : -f 2- | sort -u
 bpinfo fit/cubes_LOD0.glb --image fit.png --image-size 64 | tail -1 | cut -c 1-8
 files
+# Colours that the scene names and does not have are missed.
+rm cubes.mtl
+said 'bplod part0.obj --name cubes --resolution 30 --levels 1 -o colourless | cut -f 1'
+said 'bplod part0.obj --name cubes --resolution 30 --levels 1 --colors off -o colourless-too | cut -f 1'

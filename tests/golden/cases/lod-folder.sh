@@ -14,7 +14,7 @@ bplod "${tileset[@]}" -o mixed2 | cut -f 1  # an empty folder is nothing
 sed 's/^v 3/v 550/' cube.obj > pipe.obj
 mkdir mixed3
 echo kept > mixed3/p_LOD4.glb
-try bplod pipe.obj --name p --voxel 0.25 --tile 128 --profile 3dtiles -q -o mixed3
+try bplod pipe.obj --name p --voxel 0.5 --tile 128 --profile 3dtiles -q -o mixed3
 cat mixed3/p_LOD4.glb
 LC_ALL=C ls -A mixed mixed3
 
