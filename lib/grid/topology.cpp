@@ -16,7 +16,10 @@ namespace {
 /// Euler characteristic of the cubical complex whose points are the voxels: voxels, less pairs of neighbours, and so
 /// on; of those whose least voxel lies in the brick.
 std::int64_t characteristic_of(const BrickShelf& solid, BrickCoord brick) {
-  if (is_buried(solid, brick)) return 0;
+  bool full = true;  // with the bricks that those reach into
+  for (int i = 0; i < 8 && full; ++i)
+    full = solid.fill(brick + BrickCoord{i & 1, (i >> 1) & 1, i >> 2}) == BrickFill::full;
+  if (full) return 0;
   const VoxelCoord first = first_voxel(brick);
   BitBox box(voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(1));
   load_voxels(solid, box);

@@ -192,7 +192,8 @@ bool Guard::grown_star_is_free(std::span<const NewFace> star, std::span<const Fa
                      [&](FaceId other) { return clear_of_face(star, other); });
 }
 
-bool Guard::rest_is_free(std::span<const NewFace> star) const {
+bool Guard::rest_is_free(std::span<const NewFace> star) {
+  if (near_count_ == 0) prepare_probes(star);  // no face has been tested yet
   return std::all_of(near_.begin() + std::ptrdiff_t(near_count_), near_.end(),
                      [&](FaceId other) { return clear_of_face(star, other); });
 }

@@ -42,7 +42,7 @@ class Guard {
   /// The faces that may be between the old faces and the new ones now, if any are.
   [[nodiscard]] std::span<const FaceId> near() const { return {near_.data(), near_count_}; }
   [[nodiscard]] const LatticeBox& box_of_both() const { return both_; }  ///< around old faces and new ones
-  [[nodiscard]] bool rest_is_free(std::span<const NewFace> star) const;
+  [[nodiscard]] bool rest_is_free(std::span<const NewFace> star);
 
   /// The same for any few faces, e.g. the two of a flipped edge.
   [[nodiscard]] bool faces_are_free(std::span<const NewFace> faces, std::span<const FaceId> replaced);

@@ -234,7 +234,7 @@ struct LodChain::State {
     return closing;
   }
 
-  /// What the surface is meshed in is free by then.
+  /// Against what the surface is to be meshed in, of which nothing is taken yet.
   void check_memory_for_topology(const BrickShelf& closing) const {
     const std::uint64_t bytes = topology_bytes(closing), most = options.pieces.bytes();
     if (bytes <= most) return;

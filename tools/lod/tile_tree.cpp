@@ -81,21 +81,24 @@ Tileset TileTree::finish(double diameter) {
   }
   Tileset tileset;
   tileset.up = up_ == UpAxis::z ? "z" : "y";
-  tileset.root = tile_of(*root_, Vec3d{});
+  tileset.root = tile_of(*root_, Vec3d{}, diameter);
   tileset.root.refine = "REPLACE";
   tileset.geometric_error = std::max(diameter, tileset.root.geometric_error);
   return tileset;
 }
 
-Tile TileTree::tile_of(const Node& node, const Vec3d& parent) const {
+/// `above`: the error of the tile above it. A node without content draws nothing, so a viewer must not stop there: it
+/// is refined whenever that one is.
+Tile TileTree::tile_of(const Node& node, const Vec3d& parent, double above) const {
   Tile tile;
   const Vec3d from = z_up(parent), to = z_up(node.tile.origin);
   for (std::size_t i = 0; i < 3; ++i) tile.transform[12 + i] = to[i] - from[i];
   tile.box = box_of(local(node.tile.bounds, node.tile.origin));
   if (node.cell) tile.cell = local(*node.cell, node.tile.origin);
-  tile.geometric_error = node.tile.error_world;
+  tile.geometric_error = node.tile.uri.empty() ? above : node.tile.error_world;
   tile.uri = node.tile.uri;
-  for (const Node& child : node.children) tile.children.push_back(tile_of(child, node.tile.origin));
+  for (const Node& child : node.children)
+    tile.children.push_back(tile_of(child, node.tile.origin, tile.geometric_error));
   return tile;
 }
 

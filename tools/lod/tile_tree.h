@@ -42,7 +42,7 @@ class TileTree {
   using Level = std::map<CellCoord, Node>;
 
   void raise();
-  [[nodiscard]] Tile tile_of(const Node& node, const Vec3d& parent) const;
+  [[nodiscard]] Tile tile_of(const Node& node, const Vec3d& parent, double above) const;
   [[nodiscard]] Bounds3d local(const Bounds3d& bounds, const Vec3d& origin) const;
   [[nodiscard]] Vec3d z_up(const Vec3d& p) const;
 

@@ -113,3 +113,9 @@ bplod cube.obj --name m --faces 60,20 --resolution 24 --profile 3dtiles -q -j 1 
 sed -n '/"options"/,/^  }/p; /"bytes_in"/p' report.json
 stat -c %s cube.obj
 [ "$(cat reported/* | wc -c)" = "$(grep -o '"bytes_out": [0-9]*' report.json | grep -o '[0-9]*$')" ] && echo "as many bytes as written"
+
+# Between the levels in one mesh and the tiles there may be nodes without content. A viewer that stopped there would draw nothing: they have the error
+# of the tile above, and are refined with it.
+bp-plant --triangles 10000 -o small.ply > list
+bplod small.ply --profile 3dtiles --resolution 300 --tile 64 -q -o deep > list
+bpinfo deep/tileset.json | awk '/^depth/ { if ($5 == 0) print "no content:", $NF == error ? "refined with what is above" : "a hole"; error = $NF }'

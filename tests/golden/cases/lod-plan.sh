@@ -18,7 +18,7 @@ numbers 'voxel|tiles|scale' whole.json
 bplod "${options[@]}" --cache cache --tiles 0..7 > list & bplod "${options[@]}" --cache cache --tiles 7..14 > list2 & wait
 cat list list2
 bplod "${options[@]}" --cache cache --explain | grep kept
-bplod "${options[@]}" --cache cache --tiles 14..21 --report part.json
+bplod "${options[@]}" --cache cache --tiles 14..19 --report part.json
 bplod "${options[@]}" --cache cache --explain | grep kept
 numbers 'begin|end|of' part.json
 ls

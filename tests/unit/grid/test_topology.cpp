@@ -37,6 +37,12 @@ TEST_CASE("parts and holes of voxels are counted across bricks", "[quick][grid]"
   CHECK(holes.handles == 2);
   const SolidTopology crossing = topology({box}, {{{20, -6, 3}, {22, 80, 5}}, {{-5, 30, 3}, {140, 32, 5}}});
   CHECK(crossing.handles == 3);  // four openings into one another
+  const VoxelBox all{{-64, -64, -64},
+                     {192, 192, 192}};  // a full brick may meet what is missing across an edge or corner
+  CHECK(topology({all}, {{{64, 64, 64}, {192, 192, 192}}}).handles == 0);
+  CHECK(topology({all}, {{{-64, 64, 64}, {192, 192, 192}}}).handles == 0);
+  CHECK(topology({all}, {{{64, 64, 64}, {192, 70, 70}}}).handles == 0);  // blind
+  CHECK(topology({all}, {{{-64, 64, 64}, {192, 70, 70}}}).handles == 1);
   const SolidTopology apart = topology({{{0, 0, 0}, {3, 3, 3}}, {{3, 3, 0}, {5, 5, 3}}, {{64, 0, 0}, {70, 3, 3}}});
   CHECK(apart.parts == 3);  // two of them touch along an edge only
   CHECK(apart.handles == 0);
