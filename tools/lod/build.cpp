@@ -213,8 +213,7 @@ std::string voxel_note(const BuildOptions& o, const SceneSize& scene) {
   if (!is_by_scene(o) || scene.triangles <= kTilesetFaces) return "";
   return fmt::format(
       "the scene has {} triangles, and voxels of {:.4g}, which are for {}: for more detail, name a smaller --voxel; "
-      "half "
-      "of it takes some four times as long",
+      "half of it takes some four times as long",
       scene.triangles, voxel_size(o, scene), kTilesetFaces);
 }
 
