@@ -8,6 +8,7 @@
 #include "io/detail/glb_file.h"
 #include "io/detail/mesh_writers.h"
 #include "io/detail/meshopt_codec.h"
+#include "io/detail/shaded_mesh.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -74,11 +75,12 @@ Vector turned(const Vector& v, UpAxis up) {
   return up == UpAxis::z ? Vector{v[0], v[2], -v[1]} : v;
 }
 
-std::vector<std::array<float, 3>> normals_of(const LatticeMesh& mesh, const std::vector<std::uint32_t>& order) {
-  const std::vector<std::array<float, 3>> all = vertex_normals(mesh);
+/// Of the copies in `order`.
+std::vector<std::array<float, 3>> normals_of(const ShadedMesh& mesh, const std::vector<std::uint32_t>& order,
+                                             UpAxis up) {
   std::vector<std::array<float, 3>> normals;
   normals.reserve(order.size());
-  for (const std::uint32_t i : order) normals.push_back(turned(all[i], mesh.frame.up));
+  for (const std::uint32_t i : order) normals.push_back(turned(mesh.normals[i], up));
   return normals;
 }
 
@@ -142,6 +144,7 @@ class GlbBuilder {
     doc["scene"] = 0;
     doc["scenes"] = Json::array({{{"nodes", roots}}});
     doc.update(doc_);
+    doc["materials"] = Json::array({gltf_material(!first.colors.empty())});
     doc["buffers"] = Json::array({{{"byteLength", data_.size()}}});
     if (compressed_) {  // where the bytes would be if the views were not compressed; nobody reads it
       doc["buffers"].push_back(
@@ -152,8 +155,10 @@ class GlbBuilder {
 
   void add_mesh(const NamedMesh& named, const Extent& extent, LatticeCoord centre) {
     const LatticeMesh& mesh = *named.mesh;
-    TriangleIndices triangles = mesh.triangles;
-    const std::vector<std::uint32_t> order = optimize_order(triangles, mesh.vertices.size());
+    ShadedMesh drawn = shaded(mesh);
+    std::vector<std::uint32_t> order = optimize_order(drawn.triangles, drawn.vertex.size());
+    const std::vector<std::array<float, 3>> normals = normals_of(drawn, order, mesh.frame.up);
+    for (std::uint32_t& i : order) i = drawn.vertex[i];
     std::size_t positions = 0;
     if (compressed_ && extent.within(centre, -kShortInteger, kShortInteger)) {
       quantized_ = true;
@@ -161,11 +166,10 @@ class GlbBuilder {
     } else {
       positions = add_positions(Positions<float>(mesh, order, centre, 12), 12, kFloat, order.size());
     }
-    Json attributes{{"POSITION", positions}};
-    if (named.normals) attributes["NORMAL"] = add_normals(normals_of(mesh, order));
+    Json attributes{{"POSITION", positions}, {"NORMAL", add_normals(normals)}};
     if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(color_bytes(mesh, order));
-    const std::size_t indices = add_indices(triangles, order.size());
-    const Json primitive{{"attributes", attributes}, {"indices", indices}};
+    const std::size_t indices = add_indices(drawn.triangles, order.size());
+    const Json primitive{{"attributes", attributes}, {"indices", indices}, {"material", 0}};
     doc_["meshes"].push_back({{"name", named.name}, {"primitives", Json::array({primitive})}});
   }
 

@@ -7,14 +7,15 @@
 
 /// Levels of detail as GLB, without loss: vertices are lattice integers, the node holds unit and offset, so a reader
 /// that works in double finds frame.world(v) exactly (mesh_writer.h). Same meshes, same bytes; the caller commits.
-/// A mesh with colours gets them as COLOR_0: 8 bits a channel, normalized, linear light as glTF wants it.
-/// All throw bad_argument if a mesh has no triangle or spans more than float32 holds exactly (2^19 voxels).
+/// Vertices have normals and are split at creases (shaded_mesh.h), and there is one matte material, so that viewers
+/// show the form without set-up. A mesh with colours gets them as COLOR_0: 8 bits a channel, normalized, linear light
+/// as glTF wants it. All throw bad_argument if a mesh has no triangle or spans more than float32 holds exactly (2^19
+/// voxels).
 namespace bp {
 
 struct NamedMesh {
   std::string name;  ///< of its node and mesh
   const LatticeMesh* mesh = nullptr;
-  bool normals = false;  ///< write unit vertex normals, weighted by angle
 };
 
 /// All levels, finest first, in one file: the finest one's node is the scene's first and only one, and carries MSFT_lod

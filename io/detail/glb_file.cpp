@@ -30,6 +30,14 @@ GltfOutJson gltf_asset(const std::string& tool, const std::vector<Provenance>& p
   return {{"version", "2.0"}, {"generator", tool + " " BP_VERSION}, {"extras", std::move(extras)}};
 }
 
+GltfOutJson gltf_material(bool colored) {
+  constexpr double kGrey = 0.6;  // linear light
+  const double c = colored ? 1 : kGrey;
+  return {{"name", colored ? "matte vertex colors" : "matte grey"},
+          {"pbrMetallicRoughness",
+           {{"baseColorFactor", GltfOutJson::array({c, c, c, 1})}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}};
+}
+
 std::string glb_head(std::string json, std::size_t data_bytes, const std::string& name) {
   json.append((4 - json.size() % 4) % 4, ' ');
   const std::uint64_t total = 12 + 8 + json.size() + 8 + data_bytes;

@@ -13,16 +13,16 @@ namespace bp {
 
 namespace {
 
-std::vector<NamedMesh> named(const std::string& name, const std::vector<LodLevel>& levels, bool normals) {
+std::vector<NamedMesh> named(const std::string& name, const std::vector<LodLevel>& levels) {
   std::vector<NamedMesh> meshes;
-  for (std::size_t i = 0; i < levels.size(); ++i) meshes.push_back({level_name(name, i), &levels[i].mesh, normals});
+  for (std::size_t i = 0; i < levels.size(); ++i) meshes.push_back({level_name(name, i), &levels[i].mesh});
   return meshes;
 }
 
 std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::vector<LodLevel>& levels,
-                                            double diameter, bool normals, OutputFolder& out) {
+                                            double diameter, OutputFolder& out) {
   std::vector<WrittenFile> files;
-  const std::vector<NamedMesh> meshes = named(name, levels, normals);
+  const std::vector<NamedMesh> meshes = named(name, levels);
   for (const NamedMesh& level : meshes) {
     write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"));
     files.push_back({level.name + ".glb", files.size(), level.mesh->triangles.size()});
@@ -123,7 +123,7 @@ std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::v
                                        double diameter, OutputFolder& out) {
   switch (options.profile) {
     case LodProfile::gltf:
-      return write_gltf_profile(options.name, levels, diameter, options.mode == MeshMode::fit, out);
+      return write_gltf_profile(options.name, levels, diameter, out);
     case LodProfile::tiles:
       break;  // tile_build.h
     case LodProfile::collision:

@@ -208,8 +208,7 @@ class TilesetBuild {
           LatticeMesh named = mesh;
           named.provenance = provenance;
           if (build_.colors() != nullptr) color_vertices(named, colors_around(cell, level.frame, cut.scale_world));
-          return tile_glb({level.folder + "_" + name_of(cell), &named, options_.mode == MeshMode::fit},
-                          centre_of(cells_, cell));
+          return tile_glb({level.folder + "_" + name_of(cell), &named}, centre_of(cells_, cell));
         },
         [this, &level](LevelTile&& tile) { take(std::move(tile), level); });
   }

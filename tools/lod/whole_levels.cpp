@@ -127,7 +127,7 @@ WholeLevels make(Build& build, WholeInput input, LodOptions lod) {
     const LatticeMesh& mesh = levels[i].mesh;
     const std::string name = level_name(build.options.name, input.first + i);
     WholeLevel& out = whole.levels.emplace_back();
-    out.content = tile_glb({name, &mesh, build.options.mode == MeshMode::fit}, lattice_point(mesh.frame, whole.origin));
+    out.content = tile_glb({name, &mesh}, lattice_point(mesh.frame, whole.origin));
     out.bounds = bounds_of(mesh);
     out.row = row_of(levels[i], name + ".glb", out.content.size());
     out.provenance = mesh.provenance;

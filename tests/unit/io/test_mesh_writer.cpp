@@ -179,5 +179,7 @@ TEST_CASE("a mesh with normals reads back to the same coordinates, and its norma
   options.normals = true;
   CHECK(soup(read_mesh(write(dir, mesh, name, options))) == soup(mesh));
   const auto size = std::filesystem::file_size(dir.path(name));
-  CHECK(size > std::filesystem::file_size(write(dir, mesh, "plain-" + name)));
+  const auto plain = std::filesystem::file_size(write(dir, mesh, "plain-" + name));
+  const bool gltf = name.find(".gl") != std::string::npos;  // has normals without being asked
+  CHECK((gltf ? size == plain : size > plain));
 }
