@@ -124,17 +124,17 @@ class GlbBuilder {
   void use(const char* extension) { used_.push_back(extension); }
 
   void write(const LatticeMesh& first, const std::vector<std::size_t>& roots, OutputFile& out) {
-    write_glb(document(gltf_asset("bplod", first.provenance, first.frame.up, origin_), roots), data_, out);
+    write_glb(document(first, gltf_asset("bplod", first.provenance, first.frame.up, origin_), roots), data_, out);
   }
   /// As the content of a tile: extras.up does not ask readers of ours to turn back to the axes of the scene.
   [[nodiscard]] std::string tile_bytes(const LatticeMesh& mesh, const Vec3d& tile_origin) {
     Json asset = gltf_asset("bplod", mesh.provenance, UpAxis::y, {});
     asset["extras"]["tile_origin"] = tile_origin;
-    return glb_head(document(std::move(asset), {0}), data_.size(), file_) + data_;
+    return glb_head(document(mesh, std::move(asset), {0}), data_.size(), file_) + data_;
   }
 
  private:
-  std::string document(Json asset, const std::vector<std::size_t>& roots) {
+  std::string document(const LatticeMesh& first, Json asset, const std::vector<std::size_t>& roots) {
     Json doc;
     doc["asset"] = std::move(asset);
     if (compressed_) {
