@@ -38,11 +38,6 @@ struct FoundJobs {
 /// What is said of a level whose error exceeds the one asked for; scene units.
 [[nodiscard]] std::string error_note(std::size_t level, double error_world, double asked_world);
 
-/// What is said of a scene that lies flat in x and y, as maps do, if nobody told which axis is up and the profile needs
-/// to know; else empty.
-[[nodiscard]] std::string up_note(const BuildOptions& options, const std::optional<UpAxis>& told,
-                                  const Bounds3d& bounds);
-
 /// As of OriginOption, but of tilesets, which hold coordinates in double. Throws bad_argument if --origin would round.
 [[nodiscard]] std::string origin_note(const BuildOptions& options, const StreamHeader& header);
 
