@@ -6,13 +6,17 @@
 #include <filesystem>
 
 #include "lib/core/error.h"
-#include "tools/common/mesh_extras.h"
 
 namespace bp {
 
 namespace {
 
-/// None where they cannot be read again: a hint is no reason to fail, or to wait for a pipe.
+bool all_finite(const Vec3d& p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
+}  // namespace
+
 MeshExtras extras_of(const std::string& path) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown)) return {};
@@ -22,12 +26,6 @@ MeshExtras extras_of(const std::string& path) {
     return {};
   }
 }
-
-bool all_finite(const Vec3d& p) {
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
-
-}  // namespace
 
 std::optional<Vec3d> told_origin(const std::vector<std::string>& scenes, const std::string& proxy) {
   const std::optional<Vec3d> origin = extras_of(proxy).origin;

@@ -5,7 +5,12 @@
 
 #include "lib/core/coords.h"
 
+#include "tools/common/mesh_extras.h"
+
 namespace bp {
+
+/// Nothing where the file cannot be read again: a hint is no reason to fail, or to wait for a pipe.
+[[nodiscard]] MeshExtras extras_of(const std::string& path);
 
 /// What `proxy` says that --origin subtracted from its vertices, to be added back before it is compared with `scenes`.
 /// Empty: nothing, there is no scene, or a scene says the same of itself.

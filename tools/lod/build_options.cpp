@@ -100,6 +100,10 @@ void check_meaning(const Args& args, const BuildOptions& o) {
     fail(ErrorCode::bad_argument, "--hulls needs --profile collision");
   if (o.profile == LodProfile::collision && args.given("--colors") && o.colors)
     fail(ErrorCode::bad_argument, "--profile collision has no colours; leave --colors out");
+  if (o.profile == LodProfile::occluder) {
+    for (const char* const name : {"--mode", "--enclose", "--fill", "--error", "--screen", "--colors", "--explain"})
+      if (args.given(name)) fail(ErrorCode::bad_argument, "{} has no meaning with --profile occluder", name);
+  }
   if (o.mode == MeshMode::fit) {
     for (const char* const name : {"--enclose", "--no-tighten"}) {
       if (args.given(name))
@@ -111,7 +115,20 @@ void check_meaning(const Args& args, const BuildOptions& o) {
     fail(ErrorCode::bad_argument, "--enclose says what tightening keeps inside; --no-tighten leaves that out");
 }
 
+/// One level within the scene, of the voxels of its surface.
+void set_occluder(BuildOptions& o) {
+  if (!o.request.levels && asks_for_nothing(o.request)) o.request.levels = 1;
+  if (level_count(o.request) != 1) fail(ErrorCode::bad_argument, "--profile occluder has one level");
+  if (!o.request.shares.empty())
+    fail(ErrorCode::bad_argument, "--faces {}%: an occluder takes a number of faces; some hundred are enough",
+         o.request.shares.front());
+  o.mode = MeshMode::inside;
+  o.fill = FillMode::none;
+  o.colors = false;
+}
+
 void check_options(BuildOptions& o) {
+  if (o.profile == LodProfile::occluder) set_occluder(o);
   if (o.profile == LodProfile::collision && asks_for_nothing(o.request) && !o.request.levels) o.request.levels = 1;
   if (o.profile == LodProfile::tiles && !o.request.shares.empty())
     fail(
@@ -159,7 +176,7 @@ JobRange parse_job_range(const std::string& text) {
 }
 
 const char* name_of(LodProfile profile) {
-  constexpr const char* kNames[] = {"gltf", "3dtiles", "collision"};
+  constexpr const char* kNames[] = {"gltf", "3dtiles", "collision", "occluder"};
   return kNames[std::size_t(profile)];
 }
 
@@ -168,12 +185,16 @@ BuildOptions parse_build_options(Args& args) {
   args.about("Makes levels of detail of scenes: coarser and coarser proxies that strictly enclose them.");
   args.positional("SCENE", o.scenes, "scenes, taken together; - is stdin and needs --format");
   args.option("-o,--output", "DIR", o.out, "folder of the levels; it is made if it is not there");
-  args.option("--profile",
-              {{"gltf", LodProfile::gltf}, {"3dtiles", LodProfile::tiles}, {"collision", LodProfile::collision}},
-              o.profile,
-              "gltf: a GLB a level, and one with all (MSFT_lod); 3dtiles: a tileset of compressed GLB, coarse root, in "
-              "the scene's coordinates (mind --up); collision: "
-              "one level, named for Godot, Unreal and Unity");
+  args.option(
+      "--profile",
+      {{"gltf", LodProfile::gltf},
+       {"3dtiles", LodProfile::tiles},
+       {"collision", LodProfile::collision},
+       {"occluder", LodProfile::occluder}},
+      o.profile,
+      "gltf: a GLB a level, and one with all (MSFT_lod); 3dtiles: a tileset of compressed GLB, coarse root, in "
+      "the scene's coordinates (mind --up); collision: "
+      "one level, named for Godot, Unreal and Unity; occluder: one level, strictly within what the scene hides");
   args.option("--mode", {{"bounding", MeshMode::bounding}, {"fit", MeshMode::fit}}, o.mode,
               "around the scene; or as near to it as can be, enclosing nothing");
   args.option("--name", "NAME", o.name, "first part of the names of files and nodes (default: the first scene's)");
@@ -301,6 +322,7 @@ double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
   if (o.voxel) return o.voxel->in_world(bounds.diagonal(), 0);
   const double error = finest_error(o.request, bounds.diagonal());
   if (error > 0 && !o.resolution) return error / kVoxelsPerError;
+  if (o.profile == LodProfile::occluder) return voxel_size_of(bounds, o.resolution.value_or(kOccluderResolution));
   const double coarse = voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
   const bool tileset = o.profile == LodProfile::tiles;
   const LodRequest request = request_for(o, scene.triangles);
@@ -314,13 +336,16 @@ double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
   return std::min(coarse, std::max(std::ldexp(fine, -halvings), voxel_size_of(bounds, most)));
 }
 
-bool may_refine(const BuildOptions& o) {
-  const bool readable = std::all_of(o.scenes.begin(), o.scenes.end(), [](const std::string& scene) {
+bool can_read_again(const BuildOptions& o) {
+  return std::all_of(o.scenes.begin(), o.scenes.end(), [](const std::string& scene) {
     std::error_code none;  // what is no file, a pipe say, can be read once
     return scene != "-" && std::filesystem::is_regular_file(scene, none);
   });
+}
+
+bool may_refine(const BuildOptions& o) {
   const bool by_faces = asks_for_faces(o.request) || asks_for_nothing(o.request);
-  return !o.voxel && !o.resolution && by_faces && o.profile != LodProfile::tiles && readable;
+  return !o.voxel && !o.resolution && by_faces && o.profile != LodProfile::tiles && can_read_again(o);
 }
 
 OptionText option_text(const BuildOptions& o, const LodTarget& target, std::size_t i, double scale_world,
