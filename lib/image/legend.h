@@ -1,0 +1,43 @@
+#pragma once
+#include <array>
+#include <string_view>
+
+#include "lib/core/coords.h"
+#include "lib/image/image.h"
+#include "lib/image/typeface.h"
+
+/// What a panel tells in addition to its picture: lines of text and axes below it, a ruler in its lower right corner.
+namespace bp {
+
+/// A round length, 1, 2 or 5 times a power of ten, that spans at most `most` (above 0, finite).
+[[nodiscard]] double round_length(double most);
+
+class Legend {
+ public:
+  /// typeface: null draws no text. marks: axes and ruler, unless panels are too small for them.
+  Legend(int panel_width, Typeface* typeface, bool marks, Color ink, Color paper);
+
+  /// Pixels below a panel, where the text has this many lines.
+  [[nodiscard]] int height(int lines) const;
+
+  /// Red x, green y and blue z with their names. directions: of the axes, in pixels to the right, down, and away from
+  /// the viewer, of length 1 where they lie in the picture. (x, y): upper left corner of what lies below the panel.
+  void draw_axes(Image& image, int x, int y, const std::array<Vec3d, 3>& directions) const;
+  /// A bar of a round length, with its length in scene units. (right, bottom): lower right corner of the panel.
+  void draw_ruler(Image& image, int right, int bottom, double pixels_per_unit) const;
+  /// Lines separated by \n, from left to right. A line too long for the panel is written smaller, and then keeps its
+  /// end, where names differ.
+  void write(Image& image, int x, int y, std::string_view text) const;
+
+ private:
+  [[nodiscard]] int axes_side() const;
+  void write_line(Image& image, int x, int y, std::string_view line) const;
+
+  int width_;
+  Typeface* typeface_;
+  bool marks_;
+  int size_;  // pixels to the em
+  Color ink_, paper_;
+};
+
+}  // namespace bp
