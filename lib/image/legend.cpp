@@ -23,8 +23,8 @@ void fill(Image& image, int x0, int y0, int x1, int y1, Color color) {
     for (int x = std::max(0, x0); x < std::min(image.width, x1); ++x) image.at(x, y) = color;
 }
 
-int lines_height(int lines, int size) {
-  return lines * size * 7 / 5;
+int lines_height(std::size_t lines, int size) {
+  return int(lines) * size * 7 / 5;
 }
 
 /// Without its first character.
@@ -56,7 +56,7 @@ int Legend::axes_side() const {
   return marks_ ? 5 * size_ : 0;
 }
 
-int Legend::height(int lines) const {
+int Legend::height(std::size_t lines) const {
   const int text = typeface_ != nullptr && lines > 0 ? lines_height(lines, size_) + size_ / 2 : 0;
   return std::max(text, axes_side());
 }
@@ -101,26 +101,43 @@ void Legend::draw_ruler(Image& image, int right, int bottom, double pixels_per_u
   if (typeface_ != nullptr) typeface_->draw(image, x0 - text_width - size_ / 2, y + size_ / 3, text, size_, ink_);
 }
 
-void Legend::write(Image& image, int x, int y, std::string_view text) const {
-  if (typeface_ == nullptr) return;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    y += lines_height(1, size_);
-    write_line(image, x + axes_side() + size_ / 2, y, text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
+bool Legend::fits(const std::string& text) const {
+  return typeface_->width(text, size_) <= width_ - axes_side() - size_;
 }
 
-void Legend::write_line(Image& image, int x, int y, std::string_view line) const {
-  const int room = width_ - axes_side() - size_;
-  int size = size_;
-  while (size > kLeastSize && typeface_->width(line, size) > room) --size;
-  std::string shown(line);
-  while (!line.empty() && typeface_->width(shown, size) > room) {
-    line = shortened(line);
-    shown = "..." + std::string(line);
+/// The word, or as much of its end as the panel holds.
+std::string Legend::end_of(std::string_view word) const {
+  std::string shown(word);
+  while (!word.empty() && !fits(shown)) {
+    word = shortened(word);
+    shown = "..." + std::string(word);
   }
-  typeface_->draw(image, x, y, shown, size, ink_);
+  return shown;
+}
+
+std::vector<std::string> Legend::lines(std::string_view label) const {
+  std::vector<std::string> all;
+  if (typeface_ == nullptr || label.empty()) return all;
+  bool new_line = true;
+  while (!label.empty()) {
+    const std::size_t end = std::min(label.find_first_of(" \n"), label.size());
+    const std::string word(label.substr(0, end));
+    if (!new_line && fits(all.back() + " " + word)) {
+      all.back() += " " + word;
+    } else {
+      all.push_back(end_of(word));
+    }
+    new_line = end < label.size() && label[end] == '\n';
+    label.remove_prefix(std::min(end + 1, label.size()));
+  }
+  return all;
+}
+
+void Legend::write(Image& image, int x, int y, const std::vector<std::string>& lines) const {
+  for (const std::string& line : lines) {
+    y += lines_height(1, size_);
+    typeface_->draw(image, x + axes_side() + size_ / 2, y, line, size_, ink_);
+  }
 }
 
 }  // namespace bp

@@ -1,7 +1,6 @@
 #include "lib/image/render.h"
 
 #include <algorithm>
-#include <string_view>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -157,10 +156,6 @@ std::vector<std::array<Vec3d, 2>> edges_of(const View& view, const Camera& camer
   return edges;
 }
 
-int lines_in(std::string_view label) {
-  return label.empty() ? 0 : 1 + int(std::count(label.begin(), label.end(), '\n'));
-}
-
 /// Axes, ruler and label of panel i.
 void draw_legend(Image& image, const Legend& legend, const View& view, const Camera& camera, std::size_t i,
                  const RenderOptions& options) {
@@ -169,7 +164,14 @@ void draw_legend(Image& image, const Legend& legend, const View& view, const Cam
   for (std::size_t k = 0; k < 3; ++k) axes[k] = camera.turned(view.axes[k]);
   legend.draw_axes(image, x, below, axes);
   legend.draw_ruler(image, x + options.panel_width, below, camera.samples_per_unit() / kSamples);
-  legend.write(image, x, below, view.label);
+  legend.write(image, x, below, legend.lines(view.label));
+}
+
+/// Where one panel ends and the next one begins; a part in detail fills its panel.
+void draw_borders(Image& image, const RenderOptions& options) {
+  constexpr Color kBorder{205, 208, 214};
+  for (int x = options.panel_width; x < image.width; x += options.panel_width)
+    for (int y = 0; y < image.height; ++y) image.at(x, y) = kBorder;
 }
 
 }  // namespace
@@ -181,9 +183,9 @@ Image render(std::span<const View> views, const RenderOptions& options) {
     fail(ErrorCode::bad_argument,
          "image of {} panels, {} x {} pixels each: sides must be {} to {}, all panels together", columns, w, h,
          kLeastPanelSide, kMostImageSide);
-  int lines = 0;
-  for (const View& v : views) lines = std::max(lines, lines_in(v.label));
   const Legend legend(w, options.typeface, options.marks, options.ink, options.background);
+  std::size_t lines = 0;
+  for (const View& v : views) lines = std::max(lines, legend.lines(v.label).size());
   Image image(w * columns, h + legend.height(lines), options.background);
 
   Camera common(options);
@@ -199,6 +201,7 @@ Image render(std::span<const View> views, const RenderOptions& options) {
     canvas.resolve(image, int(i) * w, 0);
     draw_legend(image, legend, views[i], camera, i, options);
   }
+  if (options.marks) draw_borders(image, options);
   return image;
 }
 

@@ -41,7 +41,7 @@ struct RenderOptions {
   double zoom = 1;                 ///< times as large as it fits
   std::optional<Vec3d> look_at{};  ///< point in the middle of every panel; none: the middle of what it shows
   Typeface* typeface = nullptr;    ///< of labels; null: none are drawn
-  bool marks = false;              ///< axes, and a ruler, in panels that are not too small
+  bool marks = false;              ///< axes and a ruler, in panels that are not too small; lines between panels
   Color background{255, 255, 255}, ink{40, 44, 52};
 };
 

@@ -44,11 +44,10 @@ MeshInfo measure(TriangleSource& source) {
   return info;
 }
 
-/// Of how many triangles: the file's own, and those that its polygons were cut into.
+/// What the number of triangles counts where the file has polygons.
 std::string cut_text(const FaceCounts& faces) {
   if (faces.quads + faces.polygons == 0) return "";
-  if (faces.triangles == 0) return ", once these are cut";
-  return fmt::format(", once these are cut; {} are the file's own", faces.triangles);
+  return faces.triangles == 0 ? " after cutting" : fmt::format(" after cutting, {} before", faces.triangles);
 }
 
 std::string level_text(std::size_t level, std::size_t levels) {

@@ -71,20 +71,26 @@ TEST_CASE("axes are red, green and blue where they point to, and are named", "[q
   CHECK(typeface.lines == std::vector<std::string>{"x", "y", "z"});
 }
 
-TEST_CASE("lines that are too long for a panel keep their end", "[quick][image]") {
-  BlockTypeface typeface;
+TEST_CASE("lines too long for a panel go on in the next one, words too long keep their end", "[quick][image]") {
+  using Lines = std::vector<std::string>;
+  BlockTypeface typeface;  // 4 pixels a character at this size
+  const Legend legend(200, &typeface, false, kInk, kPaper);
+  CHECK(legend.lines("").empty());
+  CHECK(legend.lines("proxy.glb\n12 triangles\n\nlast") == Lines{"proxy.glb", "12 triangles", "", "last"});
+  CHECK(legend.lines("x -0.000213 to 0.000213, y -0.000468 to 0.000462, z -0.000386 to 0.000392") ==
+        Lines{"x -0.000213 to 0.000213, y -0.000468 to", "0.000462, z -0.000386 to 0.000392"});
+  const Lines name = legend.lines("a/very/long/name/of/a/file/that/no/panel/can/hold/x_LOD0.glb");
+  REQUIRE(name.size() == 1);
+  CHECK(name[0].starts_with("..."));
+  CHECK(name[0].ends_with("/hold/x_LOD0.glb"));
+  const std::string letter = "\xC3\xA4";
+  const Lines tiny = Legend(40, &typeface, false, kInk, kPaper).lines(letter + letter + letter + letter + letter);
+  CHECK(tiny == Lines{"..." + letter + letter});  // no half of a character
+  CHECK(Legend(200, nullptr, false, kInk, kPaper).lines("a\nb").empty());
   Image image(240, 100, kPaper);
-  const Legend legend(200, &typeface, true, kInk, kPaper);
-  const std::string name = "a/very/long/name/of/a/file/that/no/panel/can/hold/of/that/size/\xC3\xA4\xC3\xA4_LOD0.glb";
-  legend.write(image, 0, 0, "short\n" + name);
-  REQUIRE(typeface.lines.size() == 2);
-  CHECK(typeface.lines[0] == "short");
-  CHECK(typeface.lines[1].starts_with("..."));
-  CHECK(typeface.lines[1].ends_with("_LOD0.glb"));
-  CHECK(dark_columns(image).second < 200);
-  Legend(30, &typeface, true, kInk, kPaper)
-      .write(image, 0, 0, "\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4");
-  CHECK((typeface.lines[2] == "..." || typeface.lines[2].ends_with("\xC3\xA4")));  // no half of a character
+  legend.write(image, 10, 0, name);
+  CHECK(dark_columns(image).first >= 10);
+  CHECK(dark_columns(image).second < 210);
 }
 
 TEST_CASE("small panels have no marks, and nothing is below a panel without text", "[quick][image]") {
