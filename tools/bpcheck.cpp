@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/label_font.h"
 #include "io/png_writer.h"
 #include "io/scene_reader.h"
 #include "io/tileset_file.h"
@@ -13,7 +14,7 @@
 #include "lib/check/check_proxy.h"
 #include "lib/check/verdict_text.h"
 #include "lib/core/error.h"
-#include "lib/image/render.h"
+#include "tools/check/check_picture.h"
 #include "tools/check/hiding_recipe.h"
 #include "tools/check/hints.h"
 #include "tools/check/tileset_verdict.h"
@@ -21,6 +22,7 @@
 #include "tools/common/inputs.h"
 #include "tools/common/names.h"
 #include "tools/common/origin.h"
+#include "tools/common/panel_label.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
 
@@ -34,11 +36,8 @@ struct Options {
   std::string format;
   bool json = false, no_distances = false, inside = false, convex = false;
   std::optional<std::uint64_t> examples, samples;
-  std::string image;
-  int image_size = 720;
-  std::optional<bp::UpAxis> up;
+  bp::ImageOptions image;
   std::optional<bp::Vec3d> origin;
-  double azimuth = 35, elevation = 22;
 };
 
 Options parse(bp::Args& args) {
@@ -60,16 +59,12 @@ Options parse(bp::Args& args) {
   args.option("--examples", "N", o.examples, "places named per kind of failure (default: 5)");
   args.flag("--no-distances", o.no_distances, "leave the sampled distances out");
   args.option("--samples", "N", o.samples, "triangles sampled for distances, on either side (default: 5000)");
-  args.option("--image", "FILE", o.image, "draw scene and proxy side by side as PNG");
-  args.option("--image-size", "PIXELS", o.image_size, "side of a panel of the image");
-  args.option("--up", "x|y|z|-x|-y|-z", o.up,
-              "axis that points up in the image (default: y, or what the proxy or scene tells)");
-  args.option("--azimuth", "DEGREES", o.azimuth, "where the viewer stands, from the front to the right");
-  args.option("--elevation", "DEGREES", o.elevation, "how far above the horizon the viewer stands");
+  o.image.add_to(args, "draw scene and proxy side by side as PNG",
+                 "axis that points up in the image (default: y, or what the proxy or scene tells)");
   o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
   args.example("bpcheck scene.glb proxy.glb --image both.png");
   args.parse();
-  args.needs({"--image-size", "--up", "--azimuth", "--elevation"}, "--image");
+  o.image.check(args);
   args.excludes("--samples", "--no-distances");
   args.excludes("--samples", "--inside");  // measures none
   args.excludes("--samples", "--convex");
@@ -77,7 +72,7 @@ Options parse(bp::Args& args) {
   bp::check_scene_format(o.format, o.files);
   bp::check_stdin_once(o.files);
   bp::keep_inputs(o.files);
-  bp::check_panel_size(o.image_size, o.files.size() > 1 ? 2 : 1);
+  bp::check_panel_size(o.image.panel_size, o.files.size() > 1 ? 2 : 1);
   if (o.samples && o.files.size() < 2)
     bp::fail(bp::ErrorCode::bad_argument, "--samples means nothing without a scene; leave it out");
   if (o.inside && o.files.size() < 2)
@@ -101,15 +96,19 @@ void move(bp::IndexedMesh& mesh, const bp::Vec3d& by) {
   }
 }
 
-/// Counts what passes through.
+/// Counts what passes through, and bounds it.
 class WatchedSource : public bp::TriangleSource {
  public:
   WatchedSource(bp::TriangleSource& source, bp::Progress& progress) : source_(source), progress_(progress) {}
   bool read(std::vector<bp::TriangleD>& out) override {
     const bool more = source_.read(out);
     progress_.add(out.size());
+    for (const bp::TriangleD& t : out) {
+      for (const bp::Vec3d& p : t) bounds_.add(p);
+    }
     return more;
   }
+  [[nodiscard]] const bp::Bounds3d& bounds() const { return bounds_; }  ///< of all that was read
   void rewind() override { source_.rewind(); }
   [[nodiscard]] const bp::SceneCounts& counts() const override { return source_.counts(); }
   [[nodiscard]] std::string name() const override { return source_.name(); }
@@ -117,37 +116,8 @@ class WatchedSource : public bp::TriangleSource {
  private:
   bp::TriangleSource& source_;
   bp::Progress& progress_;
+  bp::Bounds3d bounds_;
 };
-
-/// The scene, then each level of the proxy.
-bp::Image draw(const Options& o, const std::vector<bp::IndexedMesh>& levels, bp::TriangleSource* scene,
-               const std::vector<bp::CheckReport>& verdicts) {
-  std::vector<bp::View> views;
-  if (scene != nullptr) {
-    views.emplace_back();
-    views[0].source = scene;
-    views[0].label = fmt::format("{}\n{} triangles", bp::file_name(o.files[0]), verdicts[0].scene_triangles);
-    if (o.files.size() > 2)
-      views[0].label.insert(0, fmt::format("{} and {} more: ", bp::file_name(o.files[0]), o.files.size() - 2));
-  }
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    bp::View& view = views.emplace_back();
-    view.mesh = &levels[i];
-    view.edges = true;
-    view.color = {238, 192, 130};
-    view.label = fmt::format("{}{}\n{} triangles, {}", bp::file_name(o.files.back()),
-                             levels.size() > 1 ? fmt::format(" level {}", i) : "", verdicts[i].triangles,
-                             to_string(verdicts[i].answer()));
-  }
-  bp::RenderOptions options;
-  options.panel_width = options.panel_height = o.image_size;
-  options.azimuth = o.azimuth, options.elevation = o.elevation;
-  options.up = bp::UpAxis::y;
-  if (scene != nullptr && scene->up()) options.up = *scene->up();
-  if (levels[0].up) options.up = *levels[0].up;
-  if (o.up) options.up = *o.up;
-  return bp::render(views, options);
-}
 
 bp::Json counts_of(const bp::CheckReport& verdict) {
   return {{"holds", verdict.holds()},
@@ -194,7 +164,7 @@ void refuse_for_tileset(const Options& o) {
   const std::pair<const char*, bool> refused[] = {{"--inside", o.inside},
                                                   {"--convex", o.convex},
                                                   {"--origin", o.origin.has_value()},
-                                                  {"--image", !o.image.empty()},
+                                                  {"--image", !o.image.file.empty()},
                                                   {"--no-distances", o.no_distances},
                                                   {"--samples", o.samples.has_value()},
                                                   {"--examples", o.examples.has_value()}};
@@ -250,9 +220,10 @@ bool answers_hold(const Options& o, const std::vector<bp::CheckReport>& verdicts
          });
 }
 
-/// Each level as a proxy of its own.
+/// Each level as a proxy of its own. scene_bounds: out.
 std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::IndexedMesh>& levels,
-                                   bp::TriangleSource* scene, const std::optional<bp::HidingQuestion>& hidden) {
+                                   bp::TriangleSource* scene, const std::optional<bp::HidingQuestion>& hidden,
+                                   bp::Bounds3d& scene_bounds) {
   bp::CheckOptions options;
   options.max_examples = o.examples.value_or(kExamples);
   options.inside = o.inside;
@@ -271,6 +242,7 @@ std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::Index
     refuse_empty_scene(verdicts.back());
   }
   progress.end();
+  if (watched) scene_bounds = watched->bounds();
   return verdicts;
 }
 
@@ -289,18 +261,17 @@ std::optional<bp::HidingQuestion> hiding_question(const Options& o, const std::v
 }
 
 int run(const Options& o) {
-  bp::check_png_name(o.image);
   if (bp::is_tileset(o.files.back())) return run_tileset(o);
   bp::Report report("bpcheck");
   report.stage("read the proxy");
   std::unique_ptr<bp::OutputFile> picture;  // opened first: a name that cannot be written fails before the work
-  if (!o.image.empty()) picture = bp::open_output(o.image, o.common.overwrite);
+  if (!o.image.file.empty()) picture = bp::open_output(o.image.file, o.common.overwrite);
   bp::SceneOptions scene_options;
   scene_options.format = o.format;
   scene_options.memory_bytes = o.common.memory_bytes / 4;
   scene_options.temp_dir = o.common.temp;
   std::vector<bp::IndexedMesh> levels = bp::read_levels(o.files.back(), scene_options);
-  if (picture) bp::check_panel_size(o.image_size, levels.size() + (o.files.size() > 1 ? 1 : 0));
+  if (picture) bp::check_panel_size(o.image.panel_size, levels.size() + (o.files.size() > 1 ? 1 : 0));
   const bp::Vec3d origin = origin_of(o, report);
   for (bp::IndexedMesh& level : levels) move(level, origin);
   std::unique_ptr<bp::TriangleSource> scene;
@@ -311,10 +282,14 @@ int run(const Options& o) {
   const std::optional<bp::HidingQuestion> hidden = hiding_question(o, scenes, scene_options, walls);
 
   report.stage("check");
-  const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get(), hidden);
+  bp::Bounds3d scene_bounds;
+  const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get(), hidden, scene_bounds);
   if (picture) {
     report.stage("draw");
-    picture->write(bp::encode_png(draw(o, levels, scene.get(), verdicts)));
+    const auto typeface = bp::open_label_font();
+    if (const std::string note = bp::note_on_font(typeface.get()); !note.empty()) report.note(note, o.common);
+    const bp::CheckedFiles checked{o.files, levels, verdicts, scene.get(), scene_bounds};
+    picture->write(bp::encode_png(bp::draw_checked(checked, o.image, typeface.get())));
     picture->commit();
   }
   const std::string name = bp::file_name(o.files.back());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/core/coords.h"
+#include "lib/core/face_counts.h"
 #include "lib/core/triangle_source.h"
 
 /// The verdict of check_proxy(): what was counted, and the first few places of each kind.
@@ -56,6 +57,7 @@ struct CheckReport {
   // The proxy as a mesh. Vertices of equal position count as one, whatever the file's indices say.
   std::uint64_t vertices = 0;         ///< distinct, used by a triangle
   std::uint64_t triangles = 0;        ///< as given
+  FaceCounts faces;                   ///< that the triangles were cut from
   std::uint64_t merged_vertices = 0;  ///< repeated positions in the input
   std::uint64_t components = 0;       ///< triangles connected by edges
   std::int64_t euler = 0;             ///< vertices - edges + triangles

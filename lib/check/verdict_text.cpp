@@ -221,9 +221,14 @@ Json answers_of(const CheckReport& r) {
 Json json_of(const CheckReport& r, const std::string& proxy_name) {
   Json findings = Json::object();
   for (const FindingText& t : kFindings) findings[t.key] = json_of(r.*t.finding, t);
-  Json proxy = {{"name", proxy_name},         {"triangles", r.triangles},
-                {"vertices", r.vertices},     {"merged_vertices", r.merged_vertices},
-                {"components", r.components}, {"euler", r.euler}};
+  const Json faces = {{"triangles", r.faces.triangles}, {"quads", r.faces.quads}, {"polygons", r.faces.polygons}};
+  Json proxy = {{"name", proxy_name},
+                {"triangles", r.triangles},
+                {"faces", faces},
+                {"vertices", r.vertices},
+                {"merged_vertices", r.merged_vertices},
+                {"components", r.components},
+                {"euler", r.euler}};
   proxy["genus"] = r.genus ? Json(*r.genus) : Json(nullptr);
   const auto json_or_null = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
   Json measures = {{"volume", json_or_null(r.volume)}};
@@ -262,8 +267,8 @@ std::string failures(const CheckReport& r) {
 }
 
 std::string verdict_text(const CheckReport& r, const std::string& proxy_name) {
-  std::string text = fmt::format("proxy {}: {} triangles, {} vertices, {} component{}", proxy_name, r.triangles,
-                                 r.vertices, r.components, r.components == 1 ? "" : "s");
+  std::string text = fmt::format("proxy {}: {}, {} vertices, {} component{}", proxy_name, r.faces.text(), r.vertices,
+                                 r.components, r.components == 1 ? "" : "s");
   if (r.genus) text += fmt::format(", genus {}", *r.genus);
   text.append("\n").append(scene_lines(r));
   text += row("closed", r.closed()) + row("oriented", r.oriented()) + row("2-manifold", r.manifold());

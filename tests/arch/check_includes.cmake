@@ -22,6 +22,9 @@ set(rules
 set(foreign
   "assimp/:^io/"
   "zstd:^(io|tests)/"
+  "png.h:^(io|tests)/"
+  "freetype:^io/label_font\\.cpp$"
+  "ft2build:^io/label_font\\.cpp$"
   "OpenMesh/:^(lib/meshing/.*\\.cpp$|tests/)"
   "meshoptimizer:^((lib/meshing|tests/bench)/.*\\.cpp|io/detail/meshopt_codec\\.cpp)$"
   "tbb/:^lib/core/parallel\\.(h|cpp)$"
