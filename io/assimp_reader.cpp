@@ -9,6 +9,8 @@
 
 #include "io/detail/child_process.h"
 #include "io/detail/instanced_scene.h"
+#include "io/foreign_format.h"
+#include "io/kept_files.h"
 #include "lib/core/error.h"
 
 // Every format that has no reader of its own, through Assimp. Its importers are not made for broken files (they crash,
@@ -23,7 +25,11 @@ namespace {
 
 constexpr std::uint64_t kMaxFileBytes = std::uint64_t(400) << 20;
 constexpr std::uint64_t kMaxMemoryBytes = std::uint64_t(16) << 30;
-constexpr char kRemedy[] = "convert it to GLB, PLY or OBJ";
+
+std::string remedy_for(const std::string& name) {
+  const std::string way = foreign_way(name);
+  return way.empty() ? "convert it to GLB, PLY or OBJ" : way;
+}
 
 /// Assimp takes some 20 times the size of a file; this allows twice as much.
 ChildLimits limits_for(std::uint64_t file_bytes) {
@@ -50,6 +56,7 @@ struct Summary {
   std::uint64_t bytes = 0, bad_faces = 0;  // of the scratch file; faces whose corners do not exist
   std::vector<MeshRecord> meshes;
   std::vector<NodeRecord> nodes;
+  std::string parts;  // names of the other files that were read, each with a zero after it
 };
 
 template <class T>
@@ -59,20 +66,21 @@ void append(std::string& to, const T* from, std::size_t n) {
 }
 
 std::string packed(const Summary& s) {
-  const std::uint64_t counts[] = {s.bytes, s.bad_faces, s.meshes.size(), s.nodes.size()};
+  const std::uint64_t counts[] = {s.bytes, s.bad_faces, s.meshes.size(), s.nodes.size(), s.parts.size()};
   std::string bytes;
-  append(bytes, counts, 4);
+  append(bytes, counts, 5);
   append(bytes, s.meshes.data(), s.meshes.size());
   append(bytes, s.nodes.data(), s.nodes.size());
-  return bytes;
+  return bytes + s.parts;
 }
 
 Summary unpacked(const std::string& bytes, const std::string& name) {
-  std::uint64_t counts[4] = {};
+  std::uint64_t counts[5] = {};
   if (bytes.size() >= sizeof counts) std::memcpy(counts, bytes.data(), sizeof counts);
-  if (bytes.size() != sizeof counts + counts[2] * sizeof(MeshRecord) + counts[3] * sizeof(NodeRecord))
+  if (bytes.size() != sizeof counts + counts[2] * sizeof(MeshRecord) + counts[3] * sizeof(NodeRecord) + counts[4])
     fail(ErrorCode::failed, "{}: the importer's process sent a garbled answer", name);
-  Summary s{counts[0], counts[1], std::vector<MeshRecord>(counts[2]), std::vector<NodeRecord>(counts[3])};
+  Summary s{counts[0], counts[1], std::vector<MeshRecord>(counts[2]), std::vector<NodeRecord>(counts[3]),
+            bytes.substr(bytes.size() - counts[4])};
   const char* const meshes = bytes.data() + sizeof counts;
   if (!s.meshes.empty()) std::memcpy(s.meshes.data(), meshes, counts[2] * sizeof(MeshRecord));
   if (!s.nodes.empty())
@@ -109,18 +117,23 @@ class SceneStream final : public Assimp::IOStream {
   std::uint64_t at_ = 0;
 };
 
-/// The scene under the name that Assimp is given; other names (materials, parts) are files beside it.
+/// The scene under the name that Assimp is given; other names (materials, parts) are files beside it, and are noted.
 class SceneFileSystem final : public Assimp::DefaultIOSystem {
  public:
-  SceneFileSystem(SceneFilePtr file, std::string name) : file_(std::move(file)), name_(std::move(name)) {}
+  SceneFileSystem(SceneFilePtr file, std::string name, std::string& parts)
+      : file_(std::move(file)), name_(std::move(name)), parts_(parts) {}
   bool Exists(const char* name) const override { return name == name_ || DefaultIOSystem::Exists(name); }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
-    return name == name_ ? new SceneStream(file_) : DefaultIOSystem::Open(name, mode);
+    if (name == name_) return new SceneStream(file_);
+    Assimp::IOStream* const part = DefaultIOSystem::Open(name, mode);
+    if (part != nullptr) parts_.append(name).push_back('\0');
+    return part;
   }
 
  private:
   SceneFilePtr file_;
   std::string name_;
+  std::string& parts_;
 };
 
 class SceneUnloader {
@@ -209,14 +222,17 @@ std::string import(const SceneFilePtr& file, const std::string& extension, Scrat
                      std::equal(suffix.rbegin(), suffix.rend(), path.rbegin(),
                                 [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? char(b + 32) : b); });
   const std::string name = named ? path : path + suffix;
+  std::string parts;  // outlives the importer
   Assimp::Importer importer;
-  importer.SetIOHandler(new SceneFileSystem(file, name));
+  importer.SetIOHandler(new SceneFileSystem(file, name, parts));
   const aiScene* const scene = importer.ReadFile(name, 0);
   if (scene == nullptr) {
     fail(ErrorCode::bad_input, "{}: cannot be read: {}; repair it, or {}", file->name(), importer.GetErrorString(),
-         kRemedy);
+         remedy_for(file->name()));
   }
-  return packed(SceneUnloader(scratch, colors).unload(*scene));
+  Summary summary = SceneUnloader(scratch, colors).unload(*scene);
+  summary.parts = std::move(parts);
+  return packed(summary);
 }
 
 // --- In the parent
@@ -266,13 +282,15 @@ bool assimp_reads(const std::string& extension) {
 RawSourcePtr open_with_assimp(SceneFilePtr file, const std::string& extension, const SceneOptions& options) {
   if (file->size() > kMaxFileBytes) {
     fail(ErrorCode::bad_input, "{}: has {} MiB, and .{} files are read only up to {} MiB; {}", file->name(),
-         file->size() >> 20, extension, kMaxFileBytes >> 20, kRemedy);
+         file->size() >> 20, extension, kMaxFileBytes >> 20, remedy_for(file->name()));
   }
   const auto scratch = std::make_shared<ScratchFile>(temp_dir_of(options));
-  const std::string answer =
-      run_in_child(file->name(), "the importer of ." + extension + " files", std::string("repair it, or ") + kRemedy,
-                   limits_for(file->size()), [&] { return import(file, extension, *scratch, options.colors); });
+  const std::string answer = run_in_child(file->name(), "the importer of ." + extension + " files",
+                                          "repair it, or " + remedy_for(file->name()), limits_for(file->size()),
+                                          [&] { return import(file, extension, *scratch, options.colors); });
   const Summary summary = unpacked(answer, file->name());
+  for (std::size_t at = 0; at < summary.parts.size(); at = summary.parts.find('\0', at) + 1)
+    keep_file(summary.parts.c_str() + at);
   return stream_instances(scene_of(summary, view_of(scratch, file->name(), summary.bytes)), options);
 }
 

@@ -11,6 +11,7 @@
 #include "io/detail/position_index.h"
 #include "io/detail/raw_source.h"
 #include "io/detail/stream_format.h"
+#include "io/foreign_format.h"
 #include "io/scene_format.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -37,10 +38,21 @@ bool is_binary_stl(const std::string& start, std::uint64_t size) {
   return 84 + std::uint64_t(50) * triangles == size;
 }
 
-/// What the first bytes of a file tell; `extension` is set for a format that goes to Assimp.
-Reader reader_by_content(const SceneFile& file, std::string& extension) {
+std::string start_of(const SceneFile& file) {
   std::string start(1024, '\0');
   start.resize(file.read_at(0, std::as_writable_bytes(std::span(start))));
+  return start;
+}
+
+/// Of a file whose name is none of a scene that is read.
+void refuse_foreign(const std::string& name, const std::string& start = "") {
+  if (const std::string what = foreign_format(name, start); !what.empty())
+    fail(ErrorCode::bad_input, "{}: {}", name, what);
+}
+
+/// What the first bytes of a file tell; `extension` is set for a format that goes to Assimp.
+Reader reader_by_content(const SceneFile& file, std::string& extension) {
+  const std::string start = start_of(file);
   if (is_binary_stl(start, file.size())) return Reader::stl;
   const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   const std::string text = first == std::string::npos ? std::string() : start.substr(first);
@@ -71,6 +83,7 @@ RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const S
   Reader reader = reader_of(extension);
   if (file->size() == 0 && reader != Reader::obj)  // of OBJ it is a mesh without faces
     fail(ErrorCode::bad_input, "{}: is empty; did the tool before it fail?", file->name());
+  if (reader == Reader::unknown) refuse_foreign(file->name(), start_of(*file));
   if (reader == Reader::unknown) reader = reader_by_content(*file, extension);
   switch (reader) {
     case Reader::ply:
@@ -192,7 +205,17 @@ class FilteredScene final : public TriangleSource {
     }
     counts_.bad_faces = raw_->bad_faces() + bad_faces_;
     counts_.instances = raw_->instances();
+    if (batch_->triangles.empty()) refuse_points();
     return !batch_->triangles.empty();
+  }
+
+  /// At the end: whoever names a file of points wants them enclosed.
+  void refuse_points() const {
+    const SceneCounts& c = counts_;
+    const std::uint64_t points = raw_->points();
+    if (c.triangles + c.degenerate + c.non_finite + c.bad_faces > 0 || points == 0) return;
+    fail(ErrorCode::bad_input, "{}: no triangles: {} point{}; {}", name_, points, points == 1 ? "" : "s",
+         surface_remedy());
   }
 
   bool fetch(bool colored) {
@@ -267,7 +290,9 @@ class SceneRow final : public TriangleSource {
  public:
   SceneRow(std::vector<std::string> paths, const SceneOptions& options) : paths_(std::move(paths)), options_(options) {
     for (const std::string& path : paths_) {
-      if (path != "-") InputFile probe(path);  // a missing file should not wait for hours of reading
+      if (path == "-") continue;
+      const InputFile probe(path);  // a missing file should not wait for hours of reading, nor one that is not read
+      if (options_.format.empty() && scene_format_of(path).empty()) refuse_foreign(path);
     }
   }
   bool read(std::vector<TriangleD>& out) override {

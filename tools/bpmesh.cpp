@@ -14,11 +14,13 @@
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/stage/mesh_stage.h"
+#include "tools/common/estimate.h"
 #include "tools/common/face_list.h"
 #include "tools/common/face_notes.h"
 #include "tools/common/inputs.h"
 #include "tools/common/memory_shares.h"
 #include "tools/common/names.h"
+#include "tools/common/proportion.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
@@ -361,6 +363,7 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
   bp::MeshParams params;
   params.mode = o.mode;
   params.faces = o.faces;
+  if (o.error) bp::question_length("--error", *o.error, header.bounds, header.frame.voxel);
   if (o.error) params.error_world = o.error->in_world(header.bounds.diagonal(), header.frame.voxel);
   params.volume_ratio = o.volume;
   params.edge_factor = o.edge_length;
@@ -397,6 +400,14 @@ bp::MeshFormat output_format(const Options& o) {
   return format;
 }
 
+void note_estimate(bp::Report& report, const Options& o, const bp::StreamHeader& header) {
+  const bool scene = !o.enclose.empty() && !is_layer(o.enclose.front());
+  const double effort = (o.error ? bp::kErrorEffort : 1) * (scene && !o.loose ? bp::kSceneEffort : 1);
+  const bp::Estimate estimate = bp::estimate_mesh(header.bounds, header.frame.voxel, effort);
+  const std::string text = bp::estimate_note(estimate, o.common.memory_bytes);
+  if (!text.empty()) report.note(text, o.common);
+}
+
 void run(const Options& o) {
   if (o.out == "-" && o.format.empty())
     bp::fail(bp::ErrorCode::bad_argument, "name the output with -o, or its --format");
@@ -410,6 +421,7 @@ void run(const Options& o) {
     outputs.push_back(bp::open_output(level_name(o, i), o.common.overwrite));
   bp::BrickReader source(o.in);
   bp::MeshParams params = mesh_params(o, source.header());
+  note_estimate(report, o, source.header());
   const double error_world = params.error_world;
   bp::MeshCounts counts;
   const bp::MeshBudget budget(o.common.memory_bytes);
@@ -428,10 +440,8 @@ void run(const Options& o) {
     levels[i].provenance.push_back(provenance(o, source.totals().checksum(), i));
     bp::write_mesh(levels[i], *outputs[i], format, {o.origin, o.mode == bp::MeshMode::fit});
   }
-  for (const auto& output : outputs) {
-    output->commit();
-    report.bytes_out += output->bytes();
-  }
+  bp::OutputFile::commit_all(outputs);
+  for (const auto& output : outputs) report.bytes_out += output->bytes();
   fill_report(report, o, counts);
   note_shortfalls(report, o, counts, error_world);
   for (std::size_t i = 0; o.measure && i < levels.size(); ++i)

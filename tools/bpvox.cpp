@@ -8,10 +8,12 @@
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/stage/voxelize_stage.h"
+#include "tools/common/estimate.h"
 #include "tools/common/inputs.h"
 #include "tools/common/make_backend.h"
 #include "tools/common/memory_shares.h"
 #include "tools/common/names.h"
+#include "tools/common/proportion.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
@@ -79,12 +81,16 @@ bp::OptionText option_text(const Options& o, bp::UpAxis up) {
   return text;
 }
 
+/// Asked for when the scene has been read once.
+double voxel_size(const Options& o, const bp::Bounds3d& bounds) {
+  if (!o.voxel) return bp::voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
+  bp::question_voxel("--voxel", *o.voxel, bounds);
+  return o.voxel->in_world(bounds.diagonal(), 0);
+}
+
 bp::VoxelizeOptions stage_options(const Options& o, const bp::VoxelizeBudget& budget, bp::Progress& progress) {
   bp::VoxelizeOptions v;
-  v.voxel_size = [&o](const bp::Bounds3d& bounds) {
-    return o.voxel ? o.voxel->in_world(bounds.diagonal(), 0)
-                   : bp::voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
-  };
+  v.voxel_size = [&o](const bp::Bounds3d& bounds) { return voxel_size(o, bounds); };
   v.fill = o.fill;
   v.up = o.up;
   v.memory_bytes = budget.waiting;
@@ -147,6 +153,8 @@ void run(const Options& o) {
   const auto open = [&](const bp::StreamHeader& h, const bp::VoxelizeCounts& counts) -> bp::BrickSink& {
     report.stage("voxelize");
     header = h;
+    const bp::Estimate estimate = bp::estimate_voxelize(h.bounds, h.frame.voxel);
+    bp::note_estimate(estimate, o.common, progress, report);
     header.provenance.push_back(bp::make_provenance("bpvox", option_text(o, h.frame.up), counts.input_hash));
     return writer.emplace(*file, header);
   };

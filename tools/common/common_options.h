@@ -45,8 +45,8 @@ struct CommonOptions {
 
   void add_to(Args& args, unsigned parts = all_parts);
   /// Fills in the defaults that depend on the machine, and fails early: bad_argument if the scratch directory cannot be
-  /// written or the report's file exists, as OutputFile if that cannot be written. run_tool calls it before the tool
-  /// runs.
+  /// written or the report's file exists and is no report, as OutputFile if that cannot be written. run_tool calls it
+  /// before the tool runs.
   void prepare();
 
  private:
@@ -58,8 +58,8 @@ struct CommonOptions {
 /// What the program itself, and so many threads (0: all cores), take of --memory: below, no tool can keep it.
 [[nodiscard]] std::uint64_t least_memory(int threads);
 
-/// From now on, open_output() refuses these files, and those that they name (parts_of_scene()): --overwrite must not
-/// cost a scene. What they share a hard link with may be replaced: it gets a file of its own.
+/// From now on these files, and those that they name (parts_of_scene()), are neither replaced nor removed, whatever
+/// they are called: --overwrite must not cost a scene (io/kept_files.h).
 void keep_inputs(const std::vector<std::string>& paths);
 /// The tool's data output. Throws bad_argument if binary data would go to a terminal, if the file exists and
 /// `overwrite` is false, if it is an input that is to be kept, or if this name was opened before.

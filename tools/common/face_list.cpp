@@ -32,7 +32,7 @@ bool is_grouped(const std::string& text) {
 std::vector<std::uint64_t> parse_face_list(const std::string& text) {
   std::vector<std::uint64_t> all;
   for_each_item(text, [&](std::string_view item) {
-    all.push_back(std::uint64_t(parse_integer(item, 0, INT64_MAX)));
+    all.push_back(std::uint64_t(parse_count(item, 0, INT64_MAX)));
     if (all.back() == 0) refuse(text, "a level must have faces");
     if (all.size() > 1 && all.back() >= all[all.size() - 2])
       refuse(text, "each level must have fewer than the one before");

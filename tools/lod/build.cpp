@@ -17,6 +17,7 @@
 #include "lib/stage/vertex_colors.h"
 #include "tools/common/face_notes.h"
 #include "tools/common/names.h"
+#include "tools/lod/proportions.h"
 
 namespace bp {
 
@@ -97,10 +98,14 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   ShelfSink sink(out.solid.get());
   const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp, options.colors});
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
-    return voxel_size(options, {bounds, source->counts().triangles}, halvings);
+    const SceneSize size{bounds, source->counts().triangles};
+    if (halvings == 0) question_proportions(options, size);
+    return voxel_size(options, size, halvings);
   };
   const auto open = [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
     out.header = header;
+    const Estimate estimate = estimate_build(options, header.bounds, header.frame.voxel);
+    if (halvings == 0) note_estimate(estimate, options.common, progress, report);
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/scene_format.h"
 #include "lib/core/error.h"
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/cells.h"
@@ -59,6 +60,17 @@ void check_name(BuildOptions& o) {
          given ? "--name" : "the scene's name", o.name);
 }
 
+/// -o foo.glb: who writes that wants a file, and there are several.
+void check_folder_name(const BuildOptions& o) {
+  const std::string extension = scene_format_of(o.out);
+  std::error_code none;
+  if (extension.empty() || std::filesystem::is_directory(o.out, none)) return;
+  const std::string folder = o.out.substr(0, o.out.size() - extension.size() - 1);
+  fail(ErrorCode::bad_argument,
+       "-o {}: bplod writes several files to a folder, and this is the name of a file; did you mean -o {}?", o.out,
+       folder.empty() || folder.ends_with('/') ? folder + o.name : folder);
+}
+
 /// What would be passed over in silence.
 void check_meaning(const Args& args, const BuildOptions& o) {
   if (o.profile != LodProfile::tiles) {
@@ -92,6 +104,7 @@ void check_options(BuildOptions& o) {
   check(o.request);
   if (o.out.empty() && !o.tiles && (!o.explain || o.resume))
     fail(ErrorCode::bad_argument, "name the folder of the levels with -o");
+  check_folder_name(o);
   if (o.voxel && o.resolution) fail(ErrorCode::bad_argument, "--voxel and --resolution exclude each other");
   if (o.voxel && (o.voxel->unit == Length::Unit::voxels || !(o.voxel->value > 0)))
     fail(ErrorCode::bad_argument, "--voxel {}: must be above 0, in scene units or percent", o.voxel->text());
@@ -159,7 +172,7 @@ BuildOptions parse_build_options(Args& args) {
   args.option("--tile", "N", o.tile_vox,
               "3dtiles: voxels along the side of a tile; a level that is larger is cut into tiles of its own");
   args.option(
-      "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_integer(text, 1, kMostHullsAsked); },
+      "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_count(text, 1, kMostHullsAsked); },
       "collision: convex hulls in Unreal's file, at most (default: 32, or one for each part where there are more)");
   args.option("--cache", "DIR", o.cache,
               "3dtiles: keep the results of all jobs in DIR, and take from there what has not changed");

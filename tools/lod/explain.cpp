@@ -17,6 +17,7 @@
 #include "lib/stage/tile_stage.h"
 #include "tools/lod/build.h"
 #include "tools/lod/lod_targets.h"
+#include "tools/lod/proportions.h"
 #include "tools/lod/tile_build.h"
 #include "tools/lod/tile_plan.h"
 
@@ -216,6 +217,7 @@ void explain(const BuildOptions& options) {
   const Scene scene = read_scene(build);
   if (const std::string text = up_note(options, scene.up_told, scene.bounds); !text.empty()) build.note(text);
   const SceneSize size{scene.bounds, scene.counts.triangles};
+  question_proportions(options, size);
   if (const std::string text = voxel_note(options, size); !text.empty()) build.note(text);
   if (const std::string text = cache_note(options); !text.empty()) build.note(text);
   build.report.stage("look up");

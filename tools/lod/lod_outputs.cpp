@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
+#include "io/final_names.h"
 #include "io/lod_writer.h"
 #include "io/mesh_writer.h"
 #include "lib/core/error.h"
@@ -71,7 +71,7 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
 }  // namespace
 
 OutputFolder::OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite)
-    : path_(std::move(path)), made_(path_), names_(names) {
+    : path_(std::move(path)), overwrite_(overwrite), made_(path_), names_(names) {
   for (const std::string& name : names) files_.push_back(open_output(path_ + "/" + name, overwrite));
 }
 
@@ -90,9 +90,10 @@ void OutputFolder::leave_out(const std::string& name) {
 }
 
 void OutputFolder::commit() {
-  for (const auto& file : files_) file->commit();
-  std::error_code none;  // most often there is none
-  for (const std::string& name : left_out_) std::filesystem::remove(path_ + "/" + name, none);
+  OutputFile::commit_all(files_);
+  if (overwrite_) {  // else none was there before
+    for (const std::string& name : left_out_) (void)remove_file(path_ + "/" + name);
+  }
   made_.keep();
 }
 

@@ -90,7 +90,7 @@ class TilesetBuild {
  public:
   TilesetBuild(const BuildOptions& o, Task task) : options_(o), task_(task), build_(o), cells_{o.tile_vox} {
     if (task == Task::tileset)
-      folder_ = std::make_unique<TilesetFolder>(o.out, o.scenes, certain_names(o), o.common.overwrite, o.resume);
+      folder_ = std::make_unique<TilesetFolder>(o.out, certain_names(o), o.common.overwrite, o.resume);
     store_ = make_chunk_store(build_.budget.store, o.common.temp);
     if (const std::string text = cache_note(o); !text.empty() && task != Task::look_up) build_.note(text);
     const std::string results = o.resume ? TilesetFolder::results_of(o.out) : o.cache;

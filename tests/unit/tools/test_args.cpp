@@ -139,3 +139,24 @@ TEST_CASE("the help shows names, defaults and the example within 80 columns", "[
   for (std::size_t begin = 0; begin < help.size(); begin = help.find('\n', begin) + 1)
     CHECK(help.find('\n', begin) - begin <= 80);
 }
+
+TEST_CASE("a slip is answered with what it is likely to mean", "[quick][tools]") {
+  using Catch::Matchers::Contains;
+  CHECK_THAT(complaint({"--face", "12"}), Contains("there is no option --face; did you mean --faces?"));
+  CHECK_THAT(complaint({"--facse=12"}), Contains("did you mean --faces?"));
+  CHECK_THAT(complaint({"--Scale", "2"}), Contains("did you mean --scale?"));
+  CHECK_THAT(complaint({"-faces", "12"}), Contains("there is no option -faces; did you mean --faces?"));
+  CHECK_THAT(complaint({"-scale", "2"}), Contains("there is no option -scale; did you mean --scale?"));
+  CHECK_THAT(complaint({"--element", "bal"}), Contains("'bal' is none of cube|ball; did you mean ball?"));
+  CHECK_THAT(complaint({"--progress=jsn"}), Contains("did you mean json?"));
+  CHECK_THAT(complaint({"--element", "sphere"}), !Contains("did you mean"));
+  CHECK_THAT(complaint({"--enormous"}), !Contains("did you mean"));
+  CHECK_THAT(complaint({"-x"}), !Contains("did you mean"));
+}
+
+TEST_CASE("counts may be in thousands and millions", "[quick][tools]") {
+  CHECK(parse({"--faces", "2k"}).faces == 2000);
+  CHECK(parse({"--faces", "1.5M"}).faces == 1500000);
+  CHECK_THAT(complaint({"--faces", "1.2345k"}), Catch::Matchers::Contains("'1.2345k' is not a whole number"));
+  CHECK_THAT(complaint({"--faces", "9G"}), Catch::Matchers::Contains("'9G' is not a whole number from 0 to"));
+}

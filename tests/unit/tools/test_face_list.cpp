@@ -18,6 +18,12 @@ std::string complaint(const std::string& text) {
 
 }  // namespace
 
+TEST_CASE("faces may be in thousands", "[quick][tools]") {
+  CHECK(parse_face_list("2k,500") == std::vector<std::uint64_t>{2000, 500});
+  CHECK(parse_face_list("1.5M,20k,999") == std::vector<std::uint64_t>{1500000, 20000, 999});
+  CHECK_THROWS_AS(parse_face_list("500,2k"), Error);
+}
+
 TEST_CASE("a list of faces falls from level to level", "[quick][tools]") {
   CHECK(parse_face_list("1000") == std::vector<std::uint64_t>{1000});
   CHECK(parse_face_list("900,100,20") == std::vector<std::uint64_t>{900, 100, 20});
