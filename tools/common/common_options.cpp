@@ -51,6 +51,17 @@ std::set<std::string>& named_outputs() {
   return names;
 }
 
+/// An input that is known late, as the scene that a stream names, may be an output by then.
+void refuse_open_output(const std::string& input) {
+  if (named_outputs().empty()) return;
+  std::vector<std::string> files = parts_of_scene(input);
+  files.push_back(input);
+  for (const std::string& file : files) {
+    if (named_outputs().count(whole_path(file)) > 0)
+      fail(ErrorCode::bad_argument, "{}: is read as the scene, and would be lost; give the output another name", file);
+  }
+}
+
 /// Of an output that is about to be opened: its whole path; empty if it is written in place, as /dev/null, which may be
 /// named twice.
 std::string free_name(const std::string& path) {
@@ -154,7 +165,10 @@ void refuse_terminal(const std::string& path) {
 }
 
 void keep_inputs(const std::vector<std::string>& paths) {
-  for (const std::string& path : paths) keep_scene(path);
+  for (const std::string& path : paths) {
+    if (path != "-") refuse_open_output(path);
+    keep_scene(path);
+  }
 }
 
 std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary) {

@@ -63,7 +63,8 @@ struct CommonOptions {
 [[nodiscard]] std::uint64_t least_memory(int threads);
 
 /// From now on these files, and those that they name (parts_of_scene()), are neither replaced nor removed, whatever
-/// they are called: --overwrite must not cost a scene (io/kept_files.h).
+/// they are called: --overwrite must not cost a scene (io/kept_files.h). Throws bad_argument if one of them is an output
+/// that was opened before.
 void keep_inputs(const std::vector<std::string>& paths);
 /// The tool's data output. Throws bad_argument if binary data would go to a terminal, if the file exists and
 /// `overwrite` is false, if it is an input that is to be kept, or if this name was opened before.

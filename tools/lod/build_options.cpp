@@ -9,6 +9,7 @@
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/cells.h"
 #include "lib/stage/voxelize_stage.h"
+#include "tools/common/enclosed_triangles_limit.h"
 #include "tools/common/face_list.h"
 #include "tools/common/inputs.h"
 #include "tools/common/names.h"
@@ -27,7 +28,8 @@ std::string base_name(const std::string& path) {
 }
 
 const char* name_of(Enclose enclose) {
-  return enclose == Enclose::input ? "input" : "closing";
+  constexpr const char* kNames[] = {"closing", "input", "scene"};
+  return kNames[std::size_t(enclose)];
 }
 
 /// The value, or null.
@@ -85,6 +87,11 @@ void check_folder_name(const BuildOptions& o) {
        folder.empty() || folder.ends_with('/') ? folder + o.name : folder);
 }
 
+/// Whether levels are one mesh each, and something has to stay inside while they are tightened.
+bool may_enclose_scene(const BuildOptions& o) {
+  return (o.profile == LodProfile::gltf || o.profile == LodProfile::collision) && o.mode == MeshMode::bounding && !o.loose;
+}
+
 /// What would be passed over in silence.
 void check_meaning(const Args& args, const BuildOptions& o) {
   if (o.profile != LodProfile::tiles) {
@@ -110,6 +117,10 @@ void check_meaning(const Args& args, const BuildOptions& o) {
         fail(ErrorCode::bad_argument, "a fit encloses nothing and is not tightened; {} has no meaning", name);
     }
   }
+  if (o.enclose == Enclose::scene && o.profile == LodProfile::tiles)
+    fail(ErrorCode::bad_argument, "--enclose scene: tiles enclose voxels; leave it out, or take another --profile");
+  if (o.enclose == Enclose::scene && !can_read_again(o))
+    fail(ErrorCode::bad_argument, "--enclose scene: a scene from a pipe cannot be read again; give it as a file");
   const bool by_error = !o.request.errors.empty() || !o.request.pixels.empty();
   if (o.loose && args.given("--enclose") && !by_error)
     fail(ErrorCode::bad_argument, "--enclose says what tightening keeps inside; --no-tighten leaves that out");
@@ -232,8 +243,13 @@ BuildOptions parse_build_options(Args& args) {
               "closing radius of the finest level; it doubles from level to level (default: by the target)");
   args.option("--element", {{"cube", StructuringElement::cube}, {"ball", StructuringElement::ball}}, o.element,
               "of the dilation; cube: large flat areas survive; ball: slanted sides do, so it is a fit's default");
-  args.option("--enclose", {{"input", Enclose::input}, {"closing", Enclose::closing}}, o.enclose,
-              "what stays inside while a level is tightened: the voxels of the scene, or their closing");
+  args.option(
+      "--enclose",
+      {{"auto", std::nullopt}, {"scene", Enclose::scene}, {"input", Enclose::input}, {"closing", Enclose::closing}},
+      o.enclose,
+      "what stays inside while a level is tightened: the scene's triangles, its voxels, or their closing "
+      "(default: auto, scene for levels in one mesh of a scene in files, of up to 1048576 triangles; else "
+      "input)");
   args.option("--fill", {{"flood", FillMode::flood}, {"winding", FillMode::winding}, {"none", FillMode::none}}, o.fill,
               "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing");
   args.option("--colors", {{"auto", true}, {"off", false}}, o.colors,
@@ -279,7 +295,7 @@ Json options_json(const BuildOptions& o) {
           {"explain", o.explain},
           {"scale", optional_json(o.request.scale)},
           {"element", name_of(o.element)},
-          {"enclose", name_of(o.enclose)},
+          {"enclose", o.enclose ? name_of(*o.enclose) : "auto"},
           {"fill", name_of(o.fill)},
           {"colors", o.colors},
           {"up", o.up ? Json(name_of(*o.up)) : Json(nullptr)},
@@ -348,8 +364,23 @@ bool may_refine(const BuildOptions& o) {
   return !o.voxel && !o.resolution && by_faces && o.profile != LodProfile::tiles && can_read_again(o);
 }
 
-OptionText option_text(const BuildOptions& o, const LodTarget& target, std::size_t i, double scale_world,
-                       const GridFrame& frame) {
+Enclose enclosed_by(const BuildOptions& o, std::uint64_t triangles) {
+  if (o.enclose) return *o.enclose;
+  const bool scene = may_enclose_scene(o) && can_read_again(o) && triangles <= kMostEnclosedTriangles;
+  return scene ? Enclose::scene : Enclose::input;
+}
+
+std::string enclose_note(const BuildOptions& o, std::uint64_t triangles) {
+  if (o.enclose || !may_enclose_scene(o) || enclosed_by(o, triangles) == Enclose::scene) return "";
+  const bool file = can_read_again(o);
+  return fmt::format("{}: levels enclose the scene's voxels, not its triangles, and are less tight; {}",
+                     file ? fmt::format("the scene has {} triangles, more than {}", triangles, kMostEnclosedTriangles)
+                          : "the scene comes from a pipe and cannot be read again",
+                     file ? "--enclose scene takes them all the same" : "give it as a file");
+}
+
+OptionText option_text(const BuildOptions& o, Enclose enclosed, const LodTarget& target, std::size_t i,
+                       double scale_world, const GridFrame& frame) {
   OptionText text;
   text.add("level", i).add("mode", name_of(o.mode));
   if (target.faces > 0) text.add("faces", target.faces);
@@ -357,7 +388,7 @@ OptionText option_text(const BuildOptions& o, const LodTarget& target, std::size
   text.add("scale", scale_world)
       .add("voxel", frame.voxel)
       .add("element", name_of(o.element))
-      .add("enclose", name_of(o.enclose))
+      .add("enclose", name_of(enclosed))
       .add("fill", name_of(o.fill))
       .add("up", name_of(frame.up))
       .add("tighten", !o.loose);
