@@ -14,6 +14,7 @@
 #include "lib/check/check_proxy.h"
 #include "lib/check/verdict_text.h"
 #include "lib/core/error.h"
+#include "tools/check/check_budget.h"
 #include "tools/check/check_picture.h"
 #include "tools/check/hiding_recipe.h"
 #include "tools/check/hints.h"
@@ -188,7 +189,8 @@ int run_tileset(const Options& o) {
   refuse_for_tileset(o);
   bp::Report report("bpcheck");
   report.stage("check");
-  const bp::SceneOptions options{o.format, o.common.memory_bytes / 4, o.common.temp};
+  bp::SceneOptions options{o.format, o.common.memory_bytes / 4, o.common.temp};
+  options.keep_extremes = true;
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
   const bp::TilesetVerdict verdict = bp::check_tileset_file(o.files.back(), scenes, options, o.common.memory_bytes / 2);
   const std::string name = bp::file_name(o.files.back());
@@ -223,7 +225,7 @@ bool answers_hold(const Options& o, const std::vector<bp::CheckReport>& verdicts
 /// Each level as a proxy of its own. scene_bounds: out.
 std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::IndexedMesh>& levels,
                                    bp::TriangleSource* scene, const std::optional<bp::HidingQuestion>& hidden,
-                                   bp::Bounds3d& scene_bounds) {
+                                   std::uint64_t scene_bytes, bp::Bounds3d& scene_bounds) {
   bp::CheckOptions options;
   options.max_examples = o.examples.value_or(kExamples);
   options.inside = o.inside;
@@ -231,7 +233,7 @@ std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::Index
   options.convex = o.convex;
   options.distances = !o.no_distances;
   options.distance_samples = o.samples.value_or(kSamples);
-  options.scene_memory_bytes = o.common.memory_bytes / 2;
+  options.scene_memory_bytes = scene_bytes;
   bp::Progress progress("bpcheck", o.common.progress);
   progress.begin("check", 0, "triangles");
   std::unique_ptr<WatchedSource> watched;
@@ -266,11 +268,13 @@ int run(const Options& o) {
   report.stage("read the proxy");
   std::unique_ptr<bp::OutputFile> picture;  // opened first: a name that cannot be written fails before the work
   if (!o.image.file.empty()) picture = bp::open_output(o.image.file, o.common.overwrite);
-  bp::SceneOptions scene_options;
+  bp::CheckBudget budget(o.common.memory_bytes, o.files.size() > 1);
+  bp::SceneOptions scene_options = budget.of_proxy(o.files.back());
   scene_options.format = o.format;
-  scene_options.memory_bytes = o.common.memory_bytes / 4;
   scene_options.temp_dir = o.common.temp;
   std::vector<bp::IndexedMesh> levels = bp::read_levels(o.files.back(), scene_options);
+  budget.take(levels);
+  scene_options.memory_bytes = budget.reader_bytes();
   if (picture) bp::check_panel_size(o.image.panel_size, levels.size() + (o.files.size() > 1 ? 1 : 0));
   const bp::Vec3d origin = origin_of(o, report);
   for (bp::IndexedMesh& level : levels) move(level, origin);
@@ -283,7 +287,8 @@ int run(const Options& o) {
 
   report.stage("check");
   bp::Bounds3d scene_bounds;
-  const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get(), hidden, scene_bounds);
+  const std::vector<bp::CheckReport> verdicts =
+      check(o, levels, scene.get(), hidden, budget.scene_bytes(), scene_bounds);
   if (picture) {
     report.stage("draw");
     const auto typeface = bp::open_label_font();

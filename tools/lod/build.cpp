@@ -19,6 +19,7 @@
 #include "tools/common/face_notes.h"
 #include "tools/common/grounded_source.h"
 #include "tools/common/names.h"
+#include "tools/common/scene_budget.h"
 #include "tools/common/up_note.h"
 #include "tools/lod/proportions.h"
 
@@ -88,6 +89,15 @@ Build::Build(const BuildOptions& o)
   };
 }
 
+SceneOptions Build::scene_options(bool beside) const {
+  SceneOptions scene{options.format, budget.reader, options.common.temp};
+  scene.walls_only = options.profile == LodProfile::occluder;
+  const std::uint64_t pinned = std::min(pinned_bytes(backends), options.common.memory_bytes / 2);
+  scene.document = document_budget(options.common.memory_bytes - pinned, std::uint64_t(96) << 20,
+                                   beside ? 2 : options.scenes.size());
+  return scene;
+}
+
 VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int halvings, bool ground) {
   report.stage("voxelize");
   VoxelizeOptions v;
@@ -103,9 +113,9 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   VoxelizedScene out;
   out.solid = make_shelf();
   ShelfSink sink(out.solid.get());
-  SceneOptions scene_options{options.format, budget.reader, options.common.temp, options.colors};
-  scene_options.walls_only = options.profile == LodProfile::occluder;
-  auto source = open_scenes(options.scenes, scene_options);
+  SceneOptions scene = scene_options();
+  scene.colors = options.colors;
+  auto source = open_scenes(options.scenes, scene);
   if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.up);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
     const SceneSize size{bounds, source->counts().triangles};
@@ -163,7 +173,7 @@ std::vector<TriangleD> Build::scene_triangles() const {
          fit ? "" : ", or use --enclose input");
   }
   all.reserve(triangles_);
-  const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp});
+  const auto source = open_scenes(options.scenes, scene_options(true));
   for (std::vector<TriangleD> chunk; all.size() <= triangles_ && source->read(chunk);)
     all.insert(all.end(), chunk.begin(), chunk.end());
   if (all.size() != triangles_)
