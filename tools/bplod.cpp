@@ -62,10 +62,13 @@ void run_occluder(const bp::BuildOptions& o) {
   build.progress.end();
   build.report.stage("write");
   const std::vector<bp::LodLevel> levels{std::move(made.level)};
-  const bp::WrittenFile file = bp::write_profile(o, levels, 0, out).front();
+  const bp::StreamHeader& header = made.scene.header;
+  const bp::Vec3d origin = bp::origin_of(o.origin, header.frame, header.bounds);
+  const bp::WrittenFile file = bp::write_profile(o, levels, 0, origin, out).front();
   out.commit();
   bp::LevelRow row = bp::row_of(levels.front(), file.name, out.bytes(file.name));
   row.more.update(made.more);
+  if (origin != bp::Vec3d{}) build.report.counts["origin"] = origin;
   build.finish(made.scene, {row}, out.bytes());
 }
 

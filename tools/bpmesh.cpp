@@ -419,9 +419,9 @@ void note_axes(bp::Report& report, const Options& o, const bp::StreamHeader& hea
   if (const std::string text = bp::up_note(header); !text.empty()) report.note(text, o.common);
 }
 
-void note_estimate(bp::Report& report, const Options& o, const bp::StreamHeader& header) {
-  const bool scene = !o.enclose.empty() && !is_layer(o.enclose.front());
-  const double effort = (o.error ? bp::kErrorEffort : 1) * (scene && !o.loose ? bp::kSceneEffort : 1);
+void note_estimate(bp::Report& report, const Options& o, const bp::StreamHeader& header, bp::Enclose enclosed) {
+  const bool scene = enclosed == bp::Enclose::scene && !o.loose;
+  const double effort = (o.error ? bp::kErrorEffort : 1) * (scene ? bp::kSceneEffort : 1);
   const bp::Estimate estimate = bp::estimate_mesh(header.bounds, header.frame.voxel, effort);
   const std::string text = bp::estimate_note(estimate, o.common.memory_bytes);
   if (!text.empty()) report.note(text, o.common);
@@ -441,9 +441,9 @@ void run(const Options& o) {
   bp::BrickReader source(o.in);
   const bp::Vec3d origin = bp::origin_of(o.origin, source.header().frame, source.header().bounds);
   bp::MeshParams params = mesh_params(o, source.header());
-  note_estimate(report, o, source.header());
-  note_axes(report, o, source.header(), format);
   const std::string enclosed = set_enclosure(o, source.header(), params, report);
+  note_estimate(report, o, source.header(), params.enclose);
+  note_axes(report, o, source.header(), format);
   const double error_world = params.error_world;
   bp::MeshCounts counts;
   const auto make_shelf = bp::make_shelf_factory(bp::MeshBudget(o.common.memory_bytes).shelves, o.common.temp);

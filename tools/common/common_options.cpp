@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "io/kept_files.h"
+#include "io/scene_parts.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "tools/common/names.h"

@@ -70,7 +70,7 @@ void turn(Panel& panel, UpAxis from, UpAxis to) {
     for (const Vec3d& p : {panel.bounds.min, panel.bounds.max}) bounds.add(turned(p, from, to));
   }
   panel.bounds = bounds;
-  for (Vec3d& axis : panel.view.axes) axis = turned(axis, to);
+  for (Vec3d& axis : panel.view.axes) axis = turned(axis, from, to);
   if (!panel.source) return;
   panel.source = std::make_unique<TurnedSource>(std::move(panel.source), from, to);
   panel.view.source = panel.source.get();
@@ -180,7 +180,7 @@ void Picture::label_panels() {
 /// Turns panels to the axes that all are drawn in, and returns the bounds of all.
 Bounds3d Picture::place_panels(RenderOptions& options) {
   if (options.look_at && panels_[0]->up.value_or(options.up) != options.up)
-    options.look_at = turned(*options.look_at, options.up);  // it is in the axes of the first input
+    options.look_at = turned(*options.look_at, *panels_[0]->up, options.up);  // it is in the axes of the first input
   Bounds3d all;
   bool streamed = false;  // then the bounds do, for what is streamed is not looked through once more
   for (const auto& panel : panels_) {

@@ -74,9 +74,10 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
 }
 
 /// Godot makes an occluder of a node with this suffix, and draws nothing.
-std::vector<WrittenFile> write_occluder_profile(const std::string& name, const LatticeMesh& mesh, OutputFolder& out) {
+std::vector<WrittenFile> write_occluder_profile(const std::string& name, const LatticeMesh& mesh, const Vec3d& origin,
+                                                OutputFolder& out) {
   const NamedMesh godot{name + "-occonly", &mesh};
-  write_parts_glb({&godot, 1}, out.file(name + "_occluder.glb"));
+  write_parts_glb({&godot, 1}, out.file(name + "_occluder.glb"), origin);
   return {{name + "_occluder.glb", 0, mesh.triangles.size()}};
 }
 
@@ -141,7 +142,7 @@ std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::v
     case LodProfile::tiles:
       break;  // tile_build.h
     case LodProfile::occluder:
-      return write_occluder_profile(options.name, levels.front().mesh, out);
+      return write_occluder_profile(options.name, levels.front().mesh, origin, out);
     case LodProfile::collision:
       return write_collision_profile(options, levels.front().mesh, origin, out);
   }
