@@ -98,7 +98,9 @@ class GlbBuilder {
  public:
   enum class Data { plain, compressed };
 
-  explicit GlbBuilder(const std::string& file, Data data) : file_(file), compressed_(data == Data::compressed) {}
+  /// `origin`: is subtracted from all coordinates, and told; exactly, or it throws.
+  explicit GlbBuilder(const std::string& file, Data data, const Vec3d& origin = {})
+      : file_(file), compressed_(data == Data::compressed), origin_(origin) {}
 
   /// Adds mesh and node; returns the node's number. `origin`: what vertices are relative to; null: the node's own
   /// translation.
@@ -122,19 +124,19 @@ class GlbBuilder {
   void use(const char* extension) { used_.push_back(extension); }
 
   void write(const LatticeMesh& first, const std::vector<std::size_t>& roots, OutputFile& out) {
-    write_glb(document(first, {}, roots, true), data_, out);
+    write_glb(document(first, gltf_asset("bplod", first.provenance, first.frame.up, origin_), roots), data_, out);
   }
-  /// `turned`: extras.up asks readers of ours to turn back to the axes of the scene.
-  [[nodiscard]] std::string bytes(const LatticeMesh& first, const Vec3d& origin, const std::vector<std::size_t>& roots,
-                                  bool turned) {
-    return glb_head(document(first, origin, roots, turned), data_.size(), file_) + data_;
+  /// As the content of a tile: extras.up does not ask readers of ours to turn back to the axes of the scene.
+  [[nodiscard]] std::string tile_bytes(const LatticeMesh& mesh, const Vec3d& tile_origin) {
+    Json asset = gltf_asset("bplod", mesh.provenance, UpAxis::y, {});
+    asset["extras"]["tile_origin"] = tile_origin;
+    return glb_head(document(mesh, std::move(asset), {0}), data_.size(), file_) + data_;
   }
 
  private:
-  std::string document(const LatticeMesh& first, const Vec3d& origin, const std::vector<std::size_t>& roots,
-                       bool turned) {
+  std::string document(const LatticeMesh& first, Json asset, const std::vector<std::size_t>& roots) {
     Json doc;
-    doc["asset"] = gltf_asset("bplod", first.provenance, turned ? first.frame.up : UpAxis::y, origin);
+    doc["asset"] = std::move(asset);
     if (compressed_) {
       use("EXT_meshopt_compression");
       if (quantized_) use("KHR_mesh_quantization");
@@ -260,7 +262,7 @@ class GlbBuilder {
     const double u = frame.voxel / kLatticePerVoxel;
     Json node{{"name", named.name}, {"mesh", doc_["meshes"].size() - 1}};
     if (centre != nullptr) {
-      const Vec3d t = frame.world(*centre);
+      const Vec3d t = moved_exactly(frame, frame.world(*centre), origin_);
       node["translation"] = frame.up == UpAxis::z ? Vec3d{t[0], t[2], 0.0 - t[1]} : t;
     }
     node["scale"] = Json::array({u, u, u});
@@ -269,6 +271,7 @@ class GlbBuilder {
 
   const std::string file_;
   const bool compressed_;
+  const Vec3d origin_;
   bool quantized_ = false;
   std::vector<std::string> used_;
   Json doc_{{"nodes", Json::array()},
@@ -281,8 +284,9 @@ class GlbBuilder {
 
 }  // namespace
 
-void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out) {
-  GlbBuilder builder(out.name(), GlbBuilder::Data::plain);
+void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out,
+                   const Vec3d& origin) {
+  GlbBuilder builder(out.name(), GlbBuilder::Data::plain, origin);
   std::vector<std::size_t> coarser;
   for (const NamedMesh& level : levels) coarser.push_back(builder.add(level, nullptr));
   coarser.erase(coarser.begin());
@@ -294,8 +298,8 @@ void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> co
   builder.write(*levels.front().mesh, {0}, out);
 }
 
-void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out) {
-  GlbBuilder builder(out.name(), GlbBuilder::Data::plain);
+void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const Vec3d& origin) {
+  GlbBuilder builder(out.name(), GlbBuilder::Data::plain, origin);
   std::vector<std::size_t> roots;
   for (const NamedMesh& part : parts) roots.push_back(builder.add(part, nullptr));
   builder.write(*parts.front().mesh, roots, out);
@@ -304,7 +308,7 @@ void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out) {
 std::string tile_glb(const NamedMesh& tile, LatticeCoord origin) {
   GlbBuilder builder(tile.name + ".glb", GlbBuilder::Data::compressed);
   builder.add(tile, &origin);
-  return builder.bytes(*tile.mesh, tile.mesh->frame.world(origin), {0}, false);
+  return builder.tile_bytes(*tile.mesh, tile.mesh->frame.world(origin));
 }
 
 LatticeCoord lattice_point(const GridFrame& frame, const Vec3d& p) {

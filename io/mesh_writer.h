@@ -26,6 +26,10 @@ struct MeshWriteOptions {
 /// Format by its name, case ignored: glb gltf ply obj stl. Throws bad_argument for any other.
 [[nodiscard]] MeshFormat mesh_format_named(const std::string& name);
 
+/// Before there is a mesh: throws bad_argument, naming an origin that fits, if subtracting `origin` from lattice points
+/// of `box` would round.
+void check_origin(const GridFrame& frame, const VoxelBox& box, const Vec3d& origin);
+
 /// Writes `mesh`; the caller commits `out`. Same mesh, same bytes.
 /// Throws bad_argument if the mesh has no triangle, or if the format cannot hold its coordinates exactly; the message
 /// names another format or a fitting origin. Nothing is written then.

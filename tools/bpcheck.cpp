@@ -18,6 +18,7 @@
 #include "tools/check/tileset_verdict.h"
 #include "tools/common/inputs.h"
 #include "tools/common/names.h"
+#include "tools/common/origin.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
 
@@ -45,8 +46,10 @@ Options parse(bp::Args& args) {
       "scenes, or says where not. Exact for the coordinates as read. Exit status: 0 all holds, 1 not.");
   args.positional("[SCENE...] PROXY", o.files, "scenes and their proxy; PROXY alone is checked as a mesh");
   args.option("--format", "NAME", o.format, "format of a file that is -, or whose name does not tell");
-  args.option("--origin", "X,Y,Z", o.origin,
-              "add this point to every vertex of the proxy, exactly: what bpmesh --origin subtracted");
+  args.option(
+      "--origin", "X,Y,Z", o.origin,
+      "add this point to every vertex of the proxy, exactly: what --origin of bpmesh or bplod subtracted (default: "
+      "what the proxy says)");
   args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
   args.flag("--convex", o.convex,
             "PROXY is of convex parts that may overlap: prove that they are, and that together they cover the scene");
@@ -78,7 +81,8 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-/// Undoes bpmesh --origin. An answer for rounded vertices would be one for another proxy, so rounding is refused.
+/// Undoes --origin of bpmesh and bplod. An answer for rounded vertices would be one for another proxy, so rounding is
+/// refused.
 void move(bp::IndexedMesh& mesh, const bp::Vec3d& by) {
   if (by == bp::Vec3d{}) return;
   for (bp::Vec3d& p : mesh.vertices) {
@@ -86,7 +90,7 @@ void move(bp::IndexedMesh& mesh, const bp::Vec3d& by) {
       const double sum = p[i] + by[i], part = sum - by[i];
       if (std::isfinite(sum) && (sum - part != by[i] || part != p[i])) {
         bp::fail(bp::ErrorCode::bad_argument,
-                 "--origin: {} + {} is no exact double; give the origin that bpmesh was given", p[i], by[i]);
+                 "--origin: {} + {} is no exact double; give the origin that bpmesh or bplod was given", p[i], by[i]);
       }
       p[i] = sum;
     }
@@ -150,10 +154,23 @@ bp::Json counts_of(const bp::CheckReport& verdict) {
           {"outside", verdict.outside.count}};
 }
 
-void fill_report(bp::Report& report, const Options& o, const std::vector<bp::CheckReport>& verdicts) {
+/// What --origin says, or else the proxy, which is noted.
+bp::Vec3d origin_of(const Options& o, bp::Report& report) {
+  if (o.origin) return *o.origin;
+  const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
+  const std::optional<bp::Vec3d> told = bp::told_origin(scenes, o.files.back());
+  if (!told || *told == bp::Vec3d{}) return {};
+  report.note(fmt::format("{} says that {} was subtracted from it, which is added back", bp::file_name(o.files.back()),
+                          bp::origin_text(*told)),
+              o.common);
+  return *told;
+}
+
+void fill_report(bp::Report& report, const Options& o, const bp::Vec3d& origin,
+                 const std::vector<bp::CheckReport>& verdicts) {
   report.options = {{"inside", o.inside},
                     {"convex", o.convex},
-                    {"origin", o.origin.value_or(bp::Vec3d{})},
+                    {"origin", origin},
                     {"distances", !o.no_distances},
                     {"samples", o.samples.value_or(kSamples)},
                     {"examples", o.examples.value_or(kExamples)}};
@@ -253,7 +270,8 @@ int run(const Options& o) {
   scene_options.temp_dir = o.common.temp;
   std::vector<bp::IndexedMesh> levels = bp::read_levels(o.files.back(), scene_options);
   if (picture) bp::check_panel_size(o.image_size, levels.size() + (o.files.size() > 1 ? 1 : 0));
-  for (bp::IndexedMesh& level : levels) move(level, o.origin.value_or(bp::Vec3d{}));
+  const bp::Vec3d origin = origin_of(o, report);
+  for (bp::IndexedMesh& level : levels) move(level, origin);
   std::unique_ptr<bp::TriangleSource> scene;
   scene_options.keep_degenerate = o.inside;  // they may be what closes the scene
   if (o.files.size() > 1) scene = bp::open_scenes({o.files.begin(), o.files.end() - 1}, scene_options);
@@ -269,9 +287,8 @@ int run(const Options& o) {
   const std::string text = o.json ? bp::verdict_json(verdicts, name) : bp::verdict_text(verdicts, name);
   bp::print(text);
   report.bytes_out = text.size();
-  fill_report(report, o, verdicts);
-  if (!answers_hold(o, verdicts))
-    note_hint(report, o, bp::enclosure_hint(o.files.front(), o.files.back(), o.inside, o.origin.has_value()));
+  fill_report(report, o, origin, verdicts);
+  if (!answers_hold(o, verdicts)) note_hint(report, o, bp::enclosure_hint(o.files.front(), o.files.back(), o.inside));
   report.write(o.common);
   return bp::all_hold(verdicts) ? 0 : 1;
 }

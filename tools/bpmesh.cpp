@@ -19,6 +19,7 @@
 #include "tools/common/inputs.h"
 #include "tools/common/memory_shares.h"
 #include "tools/common/names.h"
+#include "tools/common/origin.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
@@ -40,8 +41,15 @@ struct Options {
   std::vector<std::string> enclose;
   bool loose = false;  // --no-tighten
   bool measure = false, quads = false;
-  bp::Vec3d origin{};
+  bp::OriginOption origin;
 };
+
+std::vector<std::uint64_t> faces_of(const std::string& text) {
+  if (text.find('%') != std::string::npos)
+    bp::fail(bp::ErrorCode::bad_argument,
+             "{}: a stream does not tell how many triangles its scene has; give a number, or use bplod", text);
+  return bp::parse_face_list(text);
+}
 
 Options parse(bp::Args& args) {
   Options o;
@@ -54,7 +62,7 @@ Options parse(bp::Args& args) {
       o.mode,
       "around what is meshed; strictly inside the scene, of a stream of bpvox --fill inside; or as near as can be");
   args.option(
-      "--faces", "N[,N...]", [&o](const std::string& text) { o.faces = bp::parse_face_list(text); },
+      "--faces", "N[,N...]", [&o](const std::string& text) { o.faces = faces_of(text); },
       "stop at N triangles; several falling numbers: a chain of levels, each enclosing the one before");
   args.option("--error", "LENGTH", o.error, "no point of the proxy farther from what it encloses; above 0");
   args.option("--volume", "RATIO", o.volume,
@@ -71,7 +79,10 @@ Options parse(bp::Args& args) {
   args.flag("--no-tighten", o.loose, "leave out the last step, which lowers the volume");
   args.flag("--quads", o.quads, "join triangles to quads, safe for either diagonal; in OBJ and PLY");
   args.flag("--measure", o.measure, "measure distances, and print volume, edges and distances on stderr");
-  args.option("--origin", "X,Y,Z", o.origin, "subtract this point from every vertex, for formats with short numbers");
+  args.option(
+      "--origin", "auto|off|X,Y,Z", [&o](const std::string& text) { o.origin = bp::parse_origin(text); },
+      "subtract this point from every vertex, for formats and programs with short numbers; auto: a round point near a "
+      "scene that lies far off; off: none, and no note (default: none)");
   o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
   args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
   args.parse();
@@ -220,7 +231,8 @@ void fill_report(bp::Report& report, const Options& o, const bp::MeshCounts& c) 
                     {"volume", o.volume},
                     {"edge-length", o.edge_length},
                     {"enclose", enclose_text(o)},
-                    {"tighten", !o.loose}};
+                    {"tighten", !o.loose},
+                    {"origin", o.origin.text()}};
   bp::Json levels = bp::Json::array();
   for (std::size_t i = 0; i < c.levels.size(); ++i)
     levels.push_back(json_of(c.levels[i], i < o.faces.size() ? o.faces[i] : 0));
@@ -386,6 +398,14 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
   return params;
 }
 
+/// Where a glTF lies far from its origin, or was moved nearer; other formats hold double, or refuse.
+void note_origin(bp::Report& report, const Options& o, const bp::StreamHeader& header, bp::MeshFormat format) {
+  const bool gltf = format == bp::MeshFormat::glb || format == bp::MeshFormat::gltf;
+  if (!gltf && o.origin.kind != bp::OriginOption::Kind::automatic) return;
+  if (const std::string text = origin_note(o.origin, header.frame, header.bounds); !text.empty())
+    report.note(text, o.common);
+}
+
 /// A file of one format called by the name of another would be read as that.
 bp::MeshFormat output_format(const Options& o) {
   if (o.format.empty()) return bp::mesh_format_of(o.out);
@@ -409,6 +429,7 @@ void run(const Options& o) {
   for (std::size_t i = 0; i < std::max<std::size_t>(o.faces.size(), 1); ++i)
     outputs.push_back(bp::open_output(level_name(o, i), o.common.overwrite));
   bp::BrickReader source(o.in);
+  const bp::Vec3d origin = bp::origin_of(o.origin, source.header().frame, source.header().bounds);
   bp::MeshParams params = mesh_params(o, source.header());
   const double error_world = params.error_world;
   bp::MeshCounts counts;
@@ -426,13 +447,15 @@ void run(const Options& o) {
   report.stage("write");
   for (std::size_t i = 0; i < levels.size(); ++i) {
     levels[i].provenance.push_back(provenance(o, source.totals().checksum(), i));
-    bp::write_mesh(levels[i], *outputs[i], format, {o.origin, o.mode == bp::MeshMode::fit});
+    bp::write_mesh(levels[i], *outputs[i], format, {origin, o.mode == bp::MeshMode::fit});
   }
   for (const auto& output : outputs) {
     output->commit();
     report.bytes_out += output->bytes();
   }
   fill_report(report, o, counts);
+  if (origin != bp::Vec3d{}) report.counts["origin"] = origin;
+  note_origin(report, o, source.header(), format);
   note_shortfalls(report, o, counts, error_world);
   for (std::size_t i = 0; o.measure && i < levels.size(); ++i)
     std::fprintf(stderr, "%s: %s", level_name(o, i).c_str(), text_of(o, counts.levels[i], counts).c_str());

@@ -68,6 +68,8 @@ std::string mesh_text(const MeshInfo& info, const std::string& name) {
   if (info.extras.levels > 1)
     s += fmt::format("levels      {}, of which this is {}\n", info.extras.levels,
                      info.level == 0 ? "the finest" : fmt::format("level {}", info.level));
+  if (info.extras.origin)
+    s += fmt::format("origin      {} was subtracted from all coordinates\n", point(*info.extras.origin));
   for (const std::string& step : info.extras.provenance) s += fmt::format("made by     {}\n", step);
   return s + fmt::format("checksum    {}\n", t.checksum());
 }
@@ -86,6 +88,7 @@ Json mesh_json(const MeshInfo& info) {
   }
   j["levels"] = info.extras.levels;
   j["level"] = info.level;
+  j["origin"] = info.extras.origin ? Json(*info.extras.origin) : Json(nullptr);
   j["provenance"] = info.extras.provenance;
   return j;
 }

@@ -77,6 +77,26 @@ std::string written(const TempDir& dir, const Write& write) {
 
 }  // namespace
 
+TEST_CASE("levels read back are the meshes less their origin, which the file tells", "[quick][io][lod]") {
+  const UpAxis up = GENERATE(UpAxis::y, UpAxis::z);
+  const LatticeMesh mesh = random_mesh(frame_at({6801760.25, -455564.7, 31.3}, 0.37, up), 64 * 100, 5);
+  const Vec3d origin{6801760, -455500, 0};
+  const TempDir dir;
+  const NamedMesh named{"far", &mesh};
+  const bool parts = GENERATE(false, true);
+  const std::string file = written(dir, [&](OutputFile& out) {
+    parts ? write_parts_glb({&named, 1}, out, origin) : write_lod_glb({&named, 1}, {}, out, origin);
+  });
+  CHECK(canonical(soup(read_mesh(file))) == canonical(soup(mesh, origin)));
+  CHECK(json_of(file)["asset"]["extras"]["origin"] == Json{6801760.0, -455500.0, 0.0});
+  const Json translation = json_of(file)["nodes"][0]["translation"];
+  for (const Json& x : translation) CHECK(std::abs(x.get<double>()) < 500);
+  const auto refuse = [&](const Vec3d& odd) {
+    CHECK_THROWS_AS(written(dir, [&](OutputFile& out) { write_lod_glb({&named, 1}, {}, out, odd); }), Error);
+  };
+  refuse({6801760.1, -455564.7, 1e-9});
+}
+
 TEST_CASE("a tile read back is the mesh, to the bit, relative to its origin", "[quick][io][lod]") {
   const UpAxis up = GENERATE(UpAxis::y, UpAxis::z);
   const std::int64_t reach = GENERATE(100, 32767, 40000, 1 << 23);
