@@ -110,6 +110,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
     note_missing_materials();
     const SceneSize size{out.header.bounds, out.counts.scene.triangles};
     if (const std::string text = voxel_note(options, size); !text.empty()) note(text);
+    if (const std::string text = origin_note(options, out.header); !text.empty()) note(text);
   }
   if (source->has_colors()) gather(*source, out);
   return out;
@@ -185,7 +186,7 @@ void Build::finish_level(LodLevel& level, std::size_t i, const LodTarget& target
   OptionText text = option_text(options, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
-  if (const std::string missed = faces_note(level, target, !options.request.faces.empty()); !missed.empty())
+  if (const std::string missed = faces_note(level, target, asks_for_faces(options.request)); !missed.empty())
     note(fmt::format("level {}: {}", i, missed));
   if (target.error_world > 0 && level.error_world > target.error_world) {
     note(error_note(i, level.error_world, target.error_world));
@@ -207,6 +208,10 @@ std::string up_note(const BuildOptions& o, const std::optional<UpAxis>& told, co
       "the scene is {:.4g} x {:.4g} x {:.4g}, flat along z, and y is taken for up: if it is a map, it will stand on "
       "edge; say --up z, or --up y to be sure",
       x, y, z);
+}
+
+std::string origin_note(const BuildOptions& o, const StreamHeader& header) {
+  return o.profile == LodProfile::tiles ? "" : origin_note(o.origin, header.frame, header.bounds);
 }
 
 std::string voxel_note(const BuildOptions& o, const SceneSize& scene) {

@@ -43,6 +43,9 @@ struct FoundJobs {
 [[nodiscard]] std::string up_note(const BuildOptions& options, const std::optional<UpAxis>& told,
                                   const Bounds3d& bounds);
 
+/// As of OriginOption, but of tilesets, which hold coordinates in double. Throws bad_argument if --origin would round.
+[[nodiscard]] std::string origin_note(const BuildOptions& options, const StreamHeader& header);
+
 /// What is said of a tileset that nobody named voxels for, if the scene has more triangles than those chosen are for;
 /// else empty.
 [[nodiscard]] std::string voxel_note(const BuildOptions& options, const SceneSize& scene);

@@ -59,6 +59,20 @@ void check_name(BuildOptions& o) {
          given ? "--name" : "the scene's name", o.name);
 }
 
+void set_faces(LodRequest& request, const std::string& text) {
+  const bool percent = text.find('%') != std::string::npos;
+  request.faces = percent ? std::vector<std::uint64_t>() : parse_face_list(text);
+  request.shares = percent ? parse_face_shares(text) : std::vector<double>();
+}
+
+/// Numbers as numbers, percentages as text.
+Json faces_json(const LodRequest& request) {
+  if (request.shares.empty()) return request.faces;
+  Json all = Json::array();
+  for (const double share : request.shares) all.push_back(Length{share, Length::Unit::percent}.text());
+  return all;
+}
+
 /// What would be passed over in silence.
 void check_meaning(const Args& args, const BuildOptions& o) {
   if (o.profile != LodProfile::tiles) {
@@ -66,6 +80,10 @@ void check_meaning(const Args& args, const BuildOptions& o) {
       if (args.given(name)) fail(ErrorCode::bad_argument, "{} needs --profile 3dtiles", name);
     }
   }
+  if (o.profile == LodProfile::tiles && args.given("--origin"))
+    fail(ErrorCode::bad_argument,
+         "--origin: a tileset holds its place in double, in the transforms of its tiles; leave it out, and move the "
+         "tileset by the transform of its root");
   if (o.profile != LodProfile::collision && args.given("--hulls"))
     fail(ErrorCode::bad_argument, "--hulls needs --profile collision");
   if (o.profile == LodProfile::collision && args.given("--colors") && o.colors)
@@ -82,8 +100,13 @@ void check_meaning(const Args& args, const BuildOptions& o) {
 }
 
 void check_options(BuildOptions& o) {
-  const bool listed = !o.request.faces.empty() || !o.request.errors.empty() || !o.request.pixels.empty();
-  if (o.profile == LodProfile::collision && !listed && !o.request.levels) o.request.levels = 1;
+  if (o.profile == LodProfile::collision && asks_for_nothing(o.request) && !o.request.levels) o.request.levels = 1;
+  if (o.profile == LodProfile::tiles && !o.request.shares.empty())
+    fail(
+        ErrorCode::bad_argument,
+        "--faces {}%: of a tileset --faces is the budget of each tile, whose triangles are not counted; give a number, "
+        "or leave it out, and the scene decides",
+        o.request.shares.front());
   if (o.profile == LodProfile::collision && level_count(o.request) != 1)
     fail(ErrorCode::bad_argument, "--profile collision has one level");
   if (o.profile == LodProfile::collision && o.mode != MeshMode::bounding)
@@ -141,10 +164,13 @@ BuildOptions parse_build_options(Args& args) {
   args.option("--mode", {{"bounding", MeshMode::bounding}, {"fit", MeshMode::fit}}, o.mode,
               "around the scene; or as near to it as can be, enclosing nothing");
   args.option("--name", "NAME", o.name, "first part of the names of files and nodes (default: the first scene's)");
-  args.option("--levels", "N", o.request.levels, "number of levels (default: as many as are listed, or 4)");
+  args.option("--levels", "N", o.request.levels,
+              "number of levels (default: as many as are listed; else 4, or fewer where 12 faces are reached before)");
   args.option(
-      "--faces", "N[,N...]", [&o](const std::string& text) { o.request.faces = parse_face_list(text); },
-      "triangles of each level, finest first; one number: each further one of --levels has a quarter");
+      "--faces", "N[,N...]|P%[,P%...]", [&o](const std::string& text) { set_faces(o.request, text); },
+      "triangles of each level, finest first; or percentages of the scene's (not of tilesets); one number: each "
+      "further one of --levels has a quarter (default: by the scene: 50%, 40000 at most; collision: 12.5%, 5000 at "
+      "most)");
   args.option(
       "--error", "LENGTH[,...]", [&o](const std::string& text) { o.request.errors = parse_errors(text); },
       "largest distance between scene and level, finest first; one: each further level has twice that");
@@ -179,6 +205,11 @@ BuildOptions parse_build_options(Args& args) {
   args.option("--colors", {{"auto", true}, {"off", false}}, o.colors,
               "auto: vertices get the colours of the scene's materials and vertices, if it has any; off: none");
   args.option("--up", "y|z", o.up, "axis of the scene that points up (default: y, or what a proxy of ours tells)");
+  args.option(
+      "--origin", "auto|off|X,Y,Z", [&o](const std::string& text) { o.origin = parse_origin(text); },
+      "subtract this point from all vertices, for programs of 32-bit floats; auto: a round point near a scene that "
+      "lies "
+      "far off; off: none, and no note (default: none; not of tilesets)");
   args.option("--format", "NAME", o.format,
               "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");
   args.flag("--no-tighten", o.loose, "leave out the step that lowers the volume");
@@ -201,7 +232,7 @@ Json options_json(const BuildOptions& o) {
           {"mode", name_of(o.mode)},
           {"name", o.name},
           {"levels", optional_json(o.request.levels)},
-          {"faces", o.request.faces},
+          {"faces", faces_json(o.request)},
           {"error", errors},
           {"screen", o.request.pixels},
           {"voxel", optional_json(o.voxel)},
@@ -219,6 +250,7 @@ Json options_json(const BuildOptions& o) {
           {"colors", o.colors},
           {"up", o.up ? Json(name_of(*o.up)) : Json(nullptr)},
           {"tighten", !o.loose},
+          {"origin", o.origin.text().empty() ? Json(nullptr) : Json(o.origin.text())},
           {"threads", o.common.threads},
           {"memory", o.common.memory_bytes}};
 }
@@ -239,9 +271,16 @@ double area_of_cube_like(const Bounds3d& b) {
 }
 
 bool is_by_scene(const BuildOptions& o) {
-  const LodRequest& r = o.request;
-  return o.profile == LodProfile::tiles && !o.voxel && !o.resolution && r.faces.empty() && r.errors.empty() &&
-         r.pixels.empty();
+  return o.profile == LodProfile::tiles && !o.voxel && !o.resolution && asks_for_nothing(o.request);
+}
+
+LodRequest request_for(const BuildOptions& o, std::uint64_t triangles) {
+  constexpr double kPerCollisionFace = 8;
+  if (o.profile == LodProfile::tiles) return o.request;
+  LodDefaults defaults;
+  if (o.profile == LodProfile::collision) defaults = {kPerCollisionFace, kMostCollisionFaces};
+  defaults.by_voxels = o.voxel || o.resolution;
+  return request_for(o.request, triangles, defaults);
 }
 
 double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
@@ -251,8 +290,9 @@ double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
   if (error > 0 && !o.resolution) return error / kVoxelsPerError;
   const double coarse = voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
   const bool tileset = o.profile == LodProfile::tiles;
-  if (o.resolution || o.request.faces.empty() != tileset) return coarse;
-  const std::uint64_t faces = tileset ? std::min(scene.triangles, kTilesetFaces) : o.request.faces.front();
+  const LodRequest request = request_for(o, scene.triangles);
+  if (o.resolution || request.faces.empty() != tileset) return coarse;
+  const std::uint64_t faces = tileset ? std::min(scene.triangles, kTilesetFaces) : request.faces.front();
   double dense_faces = double(tileset ? kDensePerFace : kDensePerFaceAsked) * double(faces);
   if (!tileset) dense_faces = std::max(dense_faces, kLeastDenseFaces);
   const double area = tileset ? area_of_cube_like(bounds) : area_of(bounds);
@@ -266,7 +306,8 @@ bool may_refine(const BuildOptions& o) {
     std::error_code none;  // what is no file, a pipe say, can be read once
     return scene != "-" && std::filesystem::is_regular_file(scene, none);
   });
-  return !o.voxel && !o.resolution && !o.request.faces.empty() && o.profile != LodProfile::tiles && readable;
+  const bool by_faces = asks_for_faces(o.request) || asks_for_nothing(o.request);
+  return !o.voxel && !o.resolution && by_faces && o.profile != LodProfile::tiles && readable;
 }
 
 OptionText option_text(const BuildOptions& o, const LodTarget& target, std::size_t i, double scale_world,

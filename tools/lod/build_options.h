@@ -6,6 +6,7 @@
 #include "lib/stage/lod_stage.h"
 #include "tools/common/common_options.h"
 #include "tools/common/length.h"
+#include "tools/common/origin.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/lod/lod_targets.h"
@@ -48,6 +49,7 @@ struct BuildOptions {
   Enclose enclose = Enclose::input;
   bool loose = false;  ///< --no-tighten
   bool colors = true;  ///< carry the scene's, if it has any
+  OriginOption origin;
 };
 
 /// Throws bad_argument if options contradict each other.
@@ -71,6 +73,10 @@ struct SceneSize {
 
 /// Whether the scene alone decides the voxels of a tileset: nobody named voxels, an error or faces.
 [[nodiscard]] bool is_by_scene(const BuildOptions& options);
+
+/// What is made of a scene of so many triangles: percentages and defaults as numbers, but of tilesets, whose levels
+/// follow from their voxels.
+[[nodiscard]] LodRequest request_for(const BuildOptions& options, std::uint64_t triangles);
 
 /// Of the six sides of a box.
 [[nodiscard]] double area_of(const Bounds3d& bounds);

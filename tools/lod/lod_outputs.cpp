@@ -20,18 +20,18 @@ std::vector<NamedMesh> named(const std::string& name, const std::vector<LodLevel
 }
 
 std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::vector<LodLevel>& levels,
-                                            double diameter, OutputFolder& out) {
+                                            double diameter, const Vec3d& origin, OutputFolder& out) {
   std::vector<WrittenFile> files;
   const std::vector<NamedMesh> meshes = named(name, levels);
   for (const NamedMesh& level : meshes) {
-    write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"));
+    write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"), origin);
     files.push_back({level.name + ".glb", files.size(), level.mesh->triangles.size()});
   }
   std::vector<double> coverage;  // a level is drawn until the next one's error is a pixel; the last one always
   for (std::size_t i = 1; i < levels.size(); ++i)
     coverage.push_back(coverage_at_one_pixel(diameter, levels[i].error_world));
   coverage.push_back(0);
-  write_lod_glb(meshes, coverage, out.file(name + ".glb"));
+  write_lod_glb(meshes, coverage, out.file(name + ".glb"), origin);
   return files;
 }
 
@@ -48,11 +48,12 @@ std::string hull_note(const WrittenFile& file, bool limited) {
 
 /// What importers go by: Godot by the suffix "-colonly" (collision only, the mesh itself), Unreal by the prefix
 /// "UCX_MESH_" (convex, so: hulls that enclose it together), Unity by nothing, and people by "_Collider".
-std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const LatticeMesh& mesh, OutputFolder& out) {
+std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const LatticeMesh& mesh, const Vec3d& origin,
+                                                 OutputFolder& out) {
   const std::string& name = o.name;
   const NamedMesh godot{name + "-colonly", &mesh}, unity{name + "_Collider", &mesh};
-  write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"));
-  write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"));
+  write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"), origin);
+  write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"), origin);
   const ConvexParts parts = convex_parts(mesh, std::size_t(o.hulls));
   std::vector<NamedMesh> unreal;
   const auto volume6 = double(volume6_of(mesh));
@@ -62,7 +63,7 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
     hull_file.hull_volume += double(volume6_of(hull)) / volume6;
     unreal.push_back({fmt::format("UCX_{}_{:02}", name, unreal.size()), &hull});
   }
-  write_parts_glb(unreal, out.file(hull_file.name));
+  write_parts_glb(unreal, out.file(hull_file.name), origin);
   hull_file.note = hull_note(hull_file, parts.limited);
   const std::uint64_t own = mesh.triangles.size();
   return {{name + "_godot.glb", 0, own}, hull_file, {name + "_unity.glb", 0, own}};
@@ -120,14 +121,14 @@ std::vector<std::string> profile_files(LodProfile profile, const std::string& na
 }
 
 std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::vector<LodLevel>& levels,
-                                       double diameter, OutputFolder& out) {
+                                       double diameter, const Vec3d& origin, OutputFolder& out) {
   switch (options.profile) {
     case LodProfile::gltf:
-      return write_gltf_profile(options.name, levels, diameter, out);
+      return write_gltf_profile(options.name, levels, diameter, origin, out);
     case LodProfile::tiles:
       break;  // tile_build.h
     case LodProfile::collision:
-      return write_collision_profile(options, levels.front().mesh, out);
+      return write_collision_profile(options, levels.front().mesh, origin, out);
   }
   return {};
 }

@@ -46,8 +46,9 @@ struct WrittenFile {
   std::string note = "";   ///< what a user should know of it
 };
 /// Writes them; returns those that hold one level. `levels`: finest first; errors must not fall towards coarser ones;
-/// collision: one. diameter: of the scene, scene units. Of the options: profile, name, mode, hulls.
+/// collision: one. diameter: of the scene; origin: subtracted from all vertices; scene units. Of the options: profile,
+/// name, mode, hulls.
 std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::vector<LodLevel>& levels,
-                                       double diameter, OutputFolder& out);
+                                       double diameter, const Vec3d& origin, OutputFolder& out);
 
 }  // namespace bp

@@ -120,8 +120,8 @@ WholeLevels make(Build& build, WholeInput input, LodOptions lod) {
   const Bounds3d bounds = input.header.bounds;
   lod.surface = std::move(input.surface);
   LodChain chain(input.header, std::move(input.solid), build.backends, std::move(lod));
-  const std::vector<LodLevel> levels =
-      make_levels(build, chain, {input.first, input.count, input.scene_voxel, bounds, input.input_hash});
+  const std::vector<LodLevel> levels = make_levels(
+      build, chain, {build.options.request, input.first, input.count, input.scene_voxel, bounds, input.input_hash});
   whole.origin = common_origin(levels);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const LatticeMesh& mesh = levels[i].mesh;
