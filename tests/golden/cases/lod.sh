@@ -71,7 +71,7 @@ hulls angle.json
 said 'bplod angle.obj --faces 40 --resolution 60 --profile collision --hulls 1 -o angle1 --report angle1.json | cut -f 1' | volumes
 hulls angle1.json
 for f in angle/angle_unreal angle1/angle_unreal angle/angle_godot; do said "bpcheck --convex angle.obj $f.glb | sed -n '/each part/p;\$p'"; done
-bplod angle.obj --faces 40 --resolution 60 --profile collision -o angle2 -j 1 > list
+bplod angle.obj --faces 40 --resolution 60 --profile collision -q -o angle2 -j 1 > list
 cmp angle/angle_unreal.glb angle2/angle_unreal.glb && echo "the same bytes"
 said 'bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision --hulls 3 -o three --report three.json | cut -f 1' | volumes
 hulls three.json
@@ -80,7 +80,7 @@ try bplod cube.obj -o x --profile collision --hulls 0
 try bplod cube.obj -o x --hulls 3
 grep -ao '"name":"[^"]*"' collision/cubes_unreal.glb | sort -u | tr '\n' ' '
 grep -ao '"name":"[^"]*"' collision/cubes_godot.glb collision/cubes_unity.glb | sort -u
-bplod part*.obj --name cubes --faces 100 --mode fit --resolution 60 -o fit | cut -f 1
+bplod part*.obj --name cubes --faces 100 --mode fit --resolution 60 -q -o fit | cut -f 1
 bpcheck fit/cubes_LOD0.glb | tail -1
 
 # What is skipped of a scene is said, and counted.
