@@ -1,5 +1,6 @@
 // bpvox: scenes in, a stream of solid bricks out. Manual: docs/bpvox.1.md
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "io/brick_shelf.h"
@@ -79,6 +80,17 @@ bp::OptionText option_text(const Options& o, bp::UpAxis up) {
   return text;
 }
 
+/// For tools that come later; nothing if part of the scene came from a pipe, which cannot be read again.
+bp::SceneFiles scene_files(const Options& o, const bp::VoxelizeCounts& counts) {
+  bp::SceneFiles scene{{}, o.format, counts.scene.triangles, counts.input_hash};
+  for (const std::string& name : o.scenes) {
+    std::error_code none;
+    if (name == "-" || !std::filesystem::is_regular_file(name, none)) return {};
+    scene.files.push_back({name, std::filesystem::file_size(name, none)});
+  }
+  return scene;
+}
+
 bp::VoxelizeOptions stage_options(const Options& o, const bp::VoxelizeBudget& budget, bp::Progress& progress) {
   bp::VoxelizeOptions v;
   v.voxel_size = [&o](const bp::Bounds3d& bounds) {
@@ -148,6 +160,7 @@ void run(const Options& o) {
     report.stage("voxelize");
     header = h;
     header.provenance.push_back(bp::make_provenance("bpvox", option_text(o, h.frame.up), counts.input_hash));
+    header.scene = scene_files(o, counts);
     return writer.emplace(*file, header);
   };
   const bp::VoxelizeCounts counts = bp::voxelize_stream(*source, open, backends, stage_options(o, budget, progress));

@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "io/detail/stream_scene.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/count_bits.h"
@@ -119,6 +120,7 @@ std::vector<std::byte> frame_of(std::vector<std::byte> payload, bool sealed) {
 std::vector<std::byte> encode_header(const StreamHeader& h) {
   if (const char* fault = fault_of(h)) fail(ErrorCode::bad_argument, "the stream cannot be written: {}", fault);
   const std::string scale = h.has_closing ? to_json(h.scale) : "", provenance = provenance_text(h.provenance);
+  const std::string scene = scene_text(h.scene);
   if (scale.size() > kMaxScaleBytes || provenance.size() > kMaxProvenanceBytes) {
     fail(ErrorCode::bad_argument,
          "the stream cannot be written: {} bytes of scale field and {} of provenance; at most {} and {}", scale.size(),
@@ -127,7 +129,7 @@ std::vector<std::byte> encode_header(const StreamHeader& h) {
   ByteSink out;
   for (const unsigned char c : kStreamMagic) out.put(c);
   out.put(kStreamVersion);
-  out.put(std::uint16_t(h.has_closing ? kFlagClosing : 0));
+  out.put(std::uint16_t((h.has_closing ? kFlagClosing : 0) | (scene.empty() ? 0 : kFlagScene)));
   out.put(std::uint8_t(h.fill));
   out.put(std::uint8_t(h.has_closing ? h.element : StructuringElement::ball));
   out.put(std::uint8_t(h.slab_axis));
@@ -142,6 +144,7 @@ std::vector<std::byte> encode_header(const StreamHeader& h) {
   out.put(std::uint32_t(provenance.size()));
   out.put_text(scale);
   out.put_text(provenance);
+  out.put_text(scene);
   return std::move(out.bytes());
 }
 
@@ -149,7 +152,7 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
   ByteSource in(payload.subspan(kStreamMagic.size() + 2));
   StreamHeader h;
   const auto flags = in.get<std::uint16_t>();
-  if ((flags & ~kFlagClosing) != 0)
+  if ((flags & ~(kFlagClosing | kFlagScene)) != 0)
     fail(ErrorCode::bad_input, "{}: header: unknown flags {:#x}; update this tool", name, flags);
   h.has_closing = (flags & kFlagClosing) != 0;
   h.fill = enum_of<FillMode>(in.get<std::uint8_t>(), 4, "fill mode", name);
@@ -177,6 +180,10 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
     }
   }
   h.provenance = provenance_of(in.get_text(provenance_bytes), name);
+  const std::size_t scene_bytes = payload.size() - kHeaderFixedBytes - scale_bytes - provenance_bytes;
+  if (((flags & kFlagScene) != 0) != (scene_bytes > 0))
+    fail(ErrorCode::bad_input, "{}: header: scene files without their flag, or the flag without them", name);
+  if (scene_bytes > 0) h.scene = scene_of(in.get_text(scene_bytes), name);
   return h;
 }
 

@@ -72,8 +72,8 @@ void Reader::header() {
   require(in.text(8) == "BPVS\r\n\x1a\n", "magic");
   require(in.number(2) == 1, "version");
   const std::uint64_t flags = in.number(2);
-  require(flags <= 1, "flags");
-  out.has_closing = flags == 1;
+  require(flags <= 3, "flags");
+  out.has_closing = flags % 2 == 1;
   out.fill = int(in.number(1));
   out.element = int(in.number(1));
   out.slab_axis = int(in.number(1));
@@ -98,9 +98,12 @@ void Reader::header() {
   for (std::size_t i = 0; i < 3; ++i)
     require(out.box[i] >= -33554432 && out.box[i + 3] <= 33554431 && out.box[i] <= out.box[i + 3], "box");
   const std::uint64_t s = in.number(4), p = in.number(4);
-  require(s <= 1u << 22 && p >= 2 && p <= 1u << 20 && (s > 0) == out.has_closing && size == 136 + s + p, "sizes");
+  require(s <= 1u << 22 && p >= 2 && p <= 1u << 20 && (s > 0) == out.has_closing && size >= 136 + s + p, "sizes");
+  const std::uint64_t f = size - 136 - s - p;
+  require(flags >= 2 ? f >= 2 && f <= 1u << 20 : f == 0, "scene files");
   out.scale = in.text(s);
   out.provenance = in.text(p);
+  out.scene = in.text(f);
   const std::size_t hashed = in.at - start;
   require(in.number(8) == XXH3_64bits(&in.file[start], hashed), "header hash");
 }

@@ -76,6 +76,10 @@ StreamHeader random_header(std::uint32_t seed) {
   }
   for (std::uint32_t i = 0; i < random() % 3; ++i)
     h.provenance.push_back({"bpvox", "0.1.0", "--voxel 0.1 --name \"\xc3\xa9\"", "00ff"});
+  if (random() % 2) {
+    h.scene = {{{"a.ply", 3}, {"b/\xc3\xa9.obj", std::uint64_t(1) << 40}}, "stl", 12, std::string(32, '7')};
+    h.scene.files.resize(1 + random() % 2);
+  }
   return h;
 }
 
