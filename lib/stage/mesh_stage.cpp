@@ -7,6 +7,7 @@
 #include "lib/grid/boundary_rects.h"
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/count_bits.h"
+#include "lib/meshing/enclosed_scene.h"
 #include "lib/meshing/enclosed_triangles.h"
 #include "lib/meshing/enclosed_voxels.h"
 #include "lib/meshing/flatten.h"
@@ -164,6 +165,8 @@ std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& para
            "--enclose: the scene named lies not inside the voxels of the stream, so the stream was made from another "
            "one; name the scene that bpvox read");
     }
+    if (params.near && params.mode == MeshMode::bounding)
+      return std::make_unique<EnclosedScene>(std::move(params.scene), frame, *shelves.input);
     return std::make_unique<EnclosedTriangles>(std::move(params.scene), frame);
   }
   if (params.enclose == Enclose::closing)
@@ -178,10 +181,10 @@ Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& star
   Ground ground;
   const bool target = params.mode == MeshMode::fit && params.enclose == Enclose::scene;
   if (params.error_world > 0 || params.distances || target) {
-    ground.surface = params.enclose == Enclose::scene ? params.scene
-                     : params.enclose == Enclose::input
-                         ? rect_triangles(*shelves.input, start.surface->frame(), params.memory)
-                         : merged_triangles(*start.surface, params.memory);
+    const Enclose to = params.distances_to.value_or(params.enclose);
+    ground.surface = to == Enclose::scene   ? params.scene
+                     : to == Enclose::input ? rect_triangles(*shelves.input, start.surface->frame(), params.memory)
+                                            : merged_triangles(*start.surface, params.memory);
     ground.tree = std::make_unique<TriangleBvh>(ground.surface);
   }
   if (params.tighten && params.mode != MeshMode::fit)
@@ -421,7 +424,9 @@ std::vector<LatticeMesh> mesh_stream(BrickSource& source, const ShelfFactory& ma
   const StreamHeader& header = source.header();
   check_fill(params, header);
   const bool distances = params.error_world > 0 || params.distances;
-  const bool want_input = (params.tighten || distances) && params.enclose == Enclose::input;
+  const bool near_scene = params.mode == MeshMode::bounding && params.near && params.enclose == Enclose::scene;
+  const bool want_input = (params.tighten && (params.enclose == Enclose::input || near_scene)) ||
+                          (distances && params.distances_to.value_or(params.enclose) == Enclose::input);
   const Shelves shelves = read_layers(source, make_shelf, want_input, counts);
   counts.solid_volume_world = double(counts.voxels) * std::pow(header.frame.voxel, 3);
   if (params.mode != MeshMode::inside) {

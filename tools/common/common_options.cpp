@@ -63,6 +63,17 @@ void refuse_parts_of_inputs(const std::string& path, const std::string& whole) {
   }
 }
 
+/// An input that is known late, as the scene that a stream names, may be an output by then.
+void refuse_open_output(const std::string& input) {
+  if (named_files().outputs.empty()) return;
+  std::vector<std::string> files = parts_of_scene(input);
+  files.push_back(input);
+  for (const std::string& file : files) {
+    if (named_files().outputs.count(whole_path(file)) > 0)
+      fail(ErrorCode::bad_argument, "{}: is read as the scene, and would be lost; give the output another name", file);
+  }
+}
+
 /// Of an output that is about to be opened: its whole path; empty if it is written in place, as /dev/null, which may be
 /// named twice.
 std::string free_name(const std::string& path) {
@@ -159,7 +170,9 @@ void refuse_terminal(const std::string& path) {
 
 void keep_inputs(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
-    if (path != "-") named_files().inputs.insert(whole_path(path));
+    if (path == "-") continue;
+    refuse_open_output(path);
+    named_files().inputs.insert(whole_path(path));
   }
 }
 

@@ -58,8 +58,9 @@ struct CommonOptions {
 /// What the program itself, and so many threads (0: all cores), take of --memory: below, no tool can keep it.
 [[nodiscard]] std::uint64_t least_memory(int threads);
 
-/// From now on, open_output() refuses these files, and those that they name (parts_of_scene()): --overwrite must not
-/// cost a scene. What they share a hard link with may be replaced: it gets a file of its own.
+/// Throws bad_argument if one of these is an output that was opened before. From now on, open_output() refuses them,
+/// and those that they name (parts_of_scene()): --overwrite must not cost a scene. What they share a hard link with may
+/// be replaced: it gets a file of its own.
 void keep_inputs(const std::vector<std::string>& paths);
 /// The tool's data output. Throws bad_argument if binary data would go to a terminal, if the file exists and
 /// `overwrite` is false, if it is an input that is to be kept, or if this name was opened before.
