@@ -14,6 +14,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/shelf_stream.h"
+#include "lib/meshing/enclosed_triangles.h"
 #include "lib/stage/vertex_colors.h"
 #include "tools/common/face_notes.h"
 #include "tools/common/names.h"
@@ -51,6 +52,10 @@ std::string faces_note(const LodLevel& level, const LodTarget& target, bool aske
     return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", faces,
                        target.faces, level.scale_world);
   const std::string few = asked ? too_few_note(faces, target.faces) : "";
+  if (few.empty() && asked && level.attempts > 1)
+    return fmt::format(
+        "closed at {:.4g}, {} times the scale that was tried first: at less, parts and holes take more than {} faces",
+        level.scale_world, std::uint64_t(1) << (level.attempts - 1), target.faces);
   if (few.empty() || level.attempts == 1) return few;
   return fmt::format("{} faces instead of {}: at half of its scale of {:.4g}, parts and holes take too many", faces,
                      target.faces, level.scale_world);
@@ -104,12 +109,15 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
+  triangles_ = out.counts.scene.triangles;
+  enclosed_ = enclosed_by(options, triangles_);
   if (halvings == 0) {  // the scene is the same
     if (const std::string text = skipped(out.counts.scene); !text.empty()) note("skipped " + text);
     if (const std::string text = up_note(options, source->up(), out.header.bounds); !text.empty()) note(text);
     note_missing_materials();
     const SceneSize size{out.header.bounds, out.counts.scene.triangles};
     if (const std::string text = voxel_note(options, size); !text.empty()) note(text);
+    if (const std::string text = enclose_note(options, triangles_); !text.empty()) note(text);
   }
   if (source->has_colors()) gather(*source, out);
   return out;
@@ -128,24 +136,27 @@ void Build::gather(TriangleSource& source, const VoxelizedScene& scene) {
 
 std::vector<TriangleD> Build::scene_triangles() const {
   constexpr std::uint64_t kMost = std::uint64_t(1) << 21;  // whatever the memory: it must not decide what is made
-  constexpr std::uint64_t kBytesEach = 400;                // twice, and a hierarchy over them
+  const bool fit = options.mode == MeshMode::fit;
   std::vector<TriangleD> all;
   if (std::count(options.scenes.begin(), options.scenes.end(), "-") > 0) return all;  // stdin cannot be read again
-  const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp});
-  const std::uint64_t memory = budget.work / 2;
-  std::uint64_t count = 0;
-  for (std::vector<TriangleD> chunk; source->read(chunk);) {
-    count += chunk.size();
-    if (count > kMost) return {};
-    if (count * kBytesEach <= memory) all.insert(all.end(), chunk.begin(), chunk.end());
-  }
-  if (count * kBytesEach > memory) {
-    const double missing = double(count * kBytesEach - memory) / (budget.work_growth / 2);
+  if (fit && triangles_ > kMost) return all;
+  // Fits: twice, and a hierarchy over them. Else here, and in what is enclosed.
+  const std::uint64_t bytes = triangles_ * (fit ? 400 : sizeof(TriangleD) + EnclosedTriangles::kBytesEach);
+  const std::uint64_t memory = fit ? budget.work / 2 : budget.work;
+  if (bytes > memory) {
+    const double missing = double(bytes - memory) / (fit ? budget.work_growth / 2 : budget.work_growth);
     fail(ErrorCode::out_of_resource,
-         "to fit {} triangles takes {} MiB, and --memory leaves {} MiB for it; raise --memory to at least {} MiB",
-         count, (count * kBytesEach >> 20) + 1, memory >> 20,
-         std::uint64_t(std::ceil((double(options.common.memory_bytes) + missing) / (1 << 20))));
+         "to {} {} triangles takes {} MiB, and --memory leaves {} MiB for it; raise --memory to at least {} MiB{}",
+         fit ? "fit" : "enclose", triangles_, (bytes >> 20) + 1, memory >> 20,
+         std::uint64_t(std::ceil((double(options.common.memory_bytes) + missing) / (1 << 20))),
+         fit ? "" : ", or use --enclose input");
   }
+  all.reserve(triangles_);
+  const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp});
+  for (std::vector<TriangleD> chunk; all.size() <= triangles_ && source->read(chunk);)
+    all.insert(all.end(), chunk.begin(), chunk.end());
+  if (all.size() != triangles_)
+    fail(ErrorCode::bad_input, "{}: has changed while it was at work; run it again", source->name());
   return all;
 }
 
@@ -153,8 +164,8 @@ LodOptions Build::lod_options() {
   LodOptions lod;
   lod.closing.element = options.element;
   lod.mode = options.mode;
-  if (options.mode == MeshMode::fit) lod.scene = scene_triangles();
-  lod.enclose = options.enclose;
+  lod.enclose = enclosed_;
+  if (options.mode == MeshMode::fit || enclosed_ == Enclose::scene) lod.scene = scene_triangles();
   lod.tighten = !options.loose;
   lod.memory_bytes = budget.work;
   lod.pieces = pieces();
@@ -182,7 +193,7 @@ void Build::finish_level(LodLevel& level, std::size_t i, const LodTarget& target
     colors_->prepare(level.mesh.frame);
     color_vertices(level.mesh, colors_->all(level.mesh.frame));
   }
-  OptionText text = option_text(options, target, i, level.scale_world, level.mesh.frame);
+  OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
   if (const std::string missed = faces_note(level, target, !options.request.faces.empty()); !missed.empty())

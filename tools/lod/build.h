@@ -59,8 +59,8 @@ class Build {
   [[nodiscard]] LodOptions lod_options();
   /// For surfaces: budget.work, and what spills.
   [[nodiscard]] PieceMemory pieces() const;
-  /// What a fit is drawn to; nothing if it does not fit in memory.
-  [[nodiscard]] std::vector<TriangleD> scene_triangles() const;
+  /// What stays inside bounding levels; after voxelize().
+  [[nodiscard]] Enclose enclosed() const { return enclosed_; }
 
   /// Colours and provenance of a level of a chain, and the notes on what it missed.
   void finish_level(LodLevel& level, std::size_t number, const LodTarget& target, const std::string& input_hash);
@@ -91,6 +91,10 @@ class Build {
 
  private:
   void gather(TriangleSource& source, const VoxelizedScene& scene);
+  /// The scene, read again; nothing of a fit's if it has too many triangles or comes from a pipe.
+  [[nodiscard]] std::vector<TriangleD> scene_triangles() const;
+  std::uint64_t triangles_ = 0;  // of the scene
+  Enclose enclosed_ = Enclose::input;
   std::unique_ptr<SceneColors> colors_;
 };
 

@@ -8,6 +8,7 @@
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/cells.h"
 #include "lib/stage/voxelize_stage.h"
+#include "tools/common/enclosed_triangles_limit.h"
 #include "tools/common/face_list.h"
 #include "tools/common/inputs.h"
 #include "tools/common/names.h"
@@ -26,7 +27,8 @@ std::string base_name(const std::string& path) {
 }
 
 const char* name_of(Enclose enclose) {
-  return enclose == Enclose::input ? "input" : "closing";
+  constexpr const char* kNames[] = {"closing", "input", "scene"};
+  return kNames[std::size_t(enclose)];
 }
 
 /// The value, or null.
@@ -59,6 +61,19 @@ void check_name(BuildOptions& o) {
          given ? "--name" : "the scene's name", o.name);
 }
 
+/// What is no file, a pipe say, can be read once.
+bool is_readable_again(const BuildOptions& o) {
+  return std::all_of(o.scenes.begin(), o.scenes.end(), [](const std::string& scene) {
+    std::error_code none;
+    return scene != "-" && std::filesystem::is_regular_file(scene, none);
+  });
+}
+
+/// Whether levels are one mesh each, and something has to stay inside while they are tightened.
+bool may_enclose_scene(const BuildOptions& o) {
+  return o.profile != LodProfile::tiles && o.mode == MeshMode::bounding && !o.loose;
+}
+
 /// What would be passed over in silence.
 void check_meaning(const Args& args, const BuildOptions& o) {
   if (o.profile != LodProfile::tiles) {
@@ -76,6 +91,10 @@ void check_meaning(const Args& args, const BuildOptions& o) {
         fail(ErrorCode::bad_argument, "a fit encloses nothing and is not tightened; {} has no meaning", name);
     }
   }
+  if (o.enclose == Enclose::scene && o.profile == LodProfile::tiles)
+    fail(ErrorCode::bad_argument, "--enclose scene: tiles enclose voxels; leave it out, or take another --profile");
+  if (o.enclose == Enclose::scene && !is_readable_again(o))
+    fail(ErrorCode::bad_argument, "--enclose scene: a scene from a pipe cannot be read again; give it as a file");
   const bool by_error = !o.request.errors.empty() || !o.request.pixels.empty();
   if (o.loose && args.given("--enclose") && !by_error)
     fail(ErrorCode::bad_argument, "--enclose says what tightening keeps inside; --no-tighten leaves that out");
@@ -172,8 +191,13 @@ BuildOptions parse_build_options(Args& args) {
               "closing radius of the finest level; it doubles from level to level (default: by the target)");
   args.option("--element", {{"cube", StructuringElement::cube}, {"ball", StructuringElement::ball}}, o.element,
               "of the dilation; cube: large flat areas survive; ball: slanted sides do, so it is a fit's default");
-  args.option("--enclose", {{"input", Enclose::input}, {"closing", Enclose::closing}}, o.enclose,
-              "what stays inside while a level is tightened: the voxels of the scene, or their closing");
+  args.option(
+      "--enclose",
+      {{"auto", std::nullopt}, {"scene", Enclose::scene}, {"input", Enclose::input}, {"closing", Enclose::closing}},
+      o.enclose,
+      "what stays inside while a level is tightened: the scene's triangles, its voxels, or their closing "
+      "(default: auto, scene for levels in one mesh of a scene in files, of up to 1048576 triangles; else "
+      "input)");
   args.option("--fill", {{"flood", FillMode::flood}, {"winding", FillMode::winding}, {"none", FillMode::none}}, o.fill,
               "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing");
   args.option("--colors", {{"auto", true}, {"off", false}}, o.colors,
@@ -214,7 +238,7 @@ Json options_json(const BuildOptions& o) {
           {"explain", o.explain},
           {"scale", optional_json(o.request.scale)},
           {"element", name_of(o.element)},
-          {"enclose", name_of(o.enclose)},
+          {"enclose", o.enclose ? name_of(*o.enclose) : "auto"},
           {"fill", name_of(o.fill)},
           {"colors", o.colors},
           {"up", o.up ? Json(name_of(*o.up)) : Json(nullptr)},
@@ -262,15 +286,27 @@ double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
 }
 
 bool may_refine(const BuildOptions& o) {
-  const bool readable = std::all_of(o.scenes.begin(), o.scenes.end(), [](const std::string& scene) {
-    std::error_code none;  // what is no file, a pipe say, can be read once
-    return scene != "-" && std::filesystem::is_regular_file(scene, none);
-  });
-  return !o.voxel && !o.resolution && !o.request.faces.empty() && o.profile != LodProfile::tiles && readable;
+  return !o.voxel && !o.resolution && !o.request.faces.empty() && o.profile != LodProfile::tiles &&
+         is_readable_again(o);
 }
 
-OptionText option_text(const BuildOptions& o, const LodTarget& target, std::size_t i, double scale_world,
-                       const GridFrame& frame) {
+Enclose enclosed_by(const BuildOptions& o, std::uint64_t triangles) {
+  if (o.enclose) return *o.enclose;
+  const bool scene = may_enclose_scene(o) && is_readable_again(o) && triangles <= kMostEnclosedTriangles;
+  return scene ? Enclose::scene : Enclose::input;
+}
+
+std::string enclose_note(const BuildOptions& o, std::uint64_t triangles) {
+  if (o.enclose || !may_enclose_scene(o) || enclosed_by(o, triangles) == Enclose::scene) return "";
+  const bool file = is_readable_again(o);
+  return fmt::format("{}: levels enclose the scene's voxels, not its triangles, and are less tight; {}",
+                     file ? fmt::format("the scene has {} triangles, more than {}", triangles, kMostEnclosedTriangles)
+                          : "the scene comes from a pipe and cannot be read again",
+                     file ? "--enclose scene takes them all the same" : "give it as a file");
+}
+
+OptionText option_text(const BuildOptions& o, Enclose enclosed, const LodTarget& target, std::size_t i,
+                       double scale_world, const GridFrame& frame) {
   OptionText text;
   text.add("level", i).add("mode", name_of(o.mode));
   if (target.faces > 0) text.add("faces", target.faces);
@@ -278,7 +314,7 @@ OptionText option_text(const BuildOptions& o, const LodTarget& target, std::size
   text.add("scale", scale_world)
       .add("voxel", frame.voxel)
       .add("element", name_of(o.element))
-      .add("enclose", name_of(o.enclose))
+      .add("enclose", name_of(enclosed))
       .add("fill", name_of(o.fill))
       .add("up", name_of(frame.up))
       .add("tighten", !o.loose);

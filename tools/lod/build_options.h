@@ -45,9 +45,9 @@ struct BuildOptions {
   FillMode fill = FillMode::flood;
   std::optional<UpAxis> up;  ///< empty: what the scene tells, else y
   StructuringElement element = StructuringElement::cube;
-  Enclose enclose = Enclose::input;
-  bool loose = false;  ///< --no-tighten
-  bool colors = true;  ///< carry the scene's, if it has any
+  std::optional<Enclose> enclose;  ///< what stays inside bounding levels; empty: enclosed_by() chooses
+  bool loose = false;              ///< --no-tighten
+  bool colors = true;              ///< carry the scene's, if it has any
 };
 
 /// Throws bad_argument if options contradict each other.
@@ -82,8 +82,17 @@ constexpr std::uint64_t kTilesetFaces = 40000;  ///< that nobody asked for, over
 /// scene can be read again, and no cells depend on them.
 [[nodiscard]] bool may_refine(const BuildOptions& options);
 
-/// Of a level, for its provenance.
-[[nodiscard]] OptionText option_text(const BuildOptions& options, const LodTarget& target, std::size_t level,
-                                     double scale_world, const GridFrame& frame);
+/// What stays inside the levels of a scene of so many triangles: as asked; else the triangles, where levels are one
+/// mesh each, the scene can be read again, and it has no more than kMostEnclosedTriangles; else its voxels. Memory has
+/// no say.
+[[nodiscard]] Enclose enclosed_by(const BuildOptions& options, std::uint64_t triangles);
+
+/// What is said where nobody asked, and levels do not enclose the triangles of a scene although such levels could; else
+/// empty.
+[[nodiscard]] std::string enclose_note(const BuildOptions& options, std::uint64_t triangles);
+
+/// Of a level, for its provenance. `enclosed`: of enclosed_by().
+[[nodiscard]] OptionText option_text(const BuildOptions& options, Enclose enclosed, const LodTarget& target,
+                                     std::size_t level, double scale_world, const GridFrame& frame);
 
 }  // namespace bp

@@ -188,7 +188,7 @@ class TilesetBuild {
     level.frame = pyramid.header().frame;
     level.folder = level_name(options_.name, number);
     level.row = {level.folder + "/*.glb", 0, 0, 0, 0, cut.scale_world, level.frame.voxel};
-    OptionText text = option_text(options_, cut.target, number, cut.scale_world, level.frame);
+    OptionText text = option_text(options_, build_.enclosed(), cut.target, number, cut.scale_world, level.frame);
     if (build_.colors() != nullptr) text.add("colors", "auto");
     const std::vector<Provenance> provenance{make_provenance("bplod", text)};
     TileParams params = tile_params(cut.target, level.frame, scene);
@@ -252,7 +252,7 @@ class TilesetBuild {
                                        const TriangleBvh* scene) const {
     TileParams params;
     params.mode = options_.mode;
-    params.enclose = options_.enclose;
+    params.enclose = options_.enclose.value_or(Enclose::input);
     params.tighten = !options_.loose;
     params.faces = target.faces;
     // What is enclosed is within a diagonal of a voxel of the scene.

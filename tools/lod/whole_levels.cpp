@@ -103,7 +103,7 @@ ResultKey key_of(const Build& build, const WholeInput& input, const LodOptions& 
     const LodTarget target =
         target_of(o.request, input.first + i, input.first, input.header.bounds.diagonal(), input.scene_voxel, 1000000);
     hash.add(std::int64_t(target.faces)).add(target.error_world).add(target.scale_world.value_or(-1));
-    hash.add(std::string_view(option_text(o, target, i, 0, frame).text()));
+    hash.add(std::string_view(option_text(o, build.enclosed(), target, i, 0, frame).text()));
   }
   hash.add(std::int64_t(o.request.faces.size()));
   add_voxels(hash, *input.solid, voxels_of(input.header.bricks), {});
