@@ -18,9 +18,16 @@ bool is_hash(const std::string& text) {
   return text.size() == kHashDigits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-/// Stdin cannot be read again, and no file has such a name.
+/// Stdin cannot be read again; and control characters in a message would speak to the terminal.
 bool is_file_name(const std::string& name) {
-  return !name.empty() && name != "-" && name.find('\0') == std::string::npos;
+  constexpr unsigned char kFirstPrintable = 0x20, kDelete = 0x7f;
+  return !name.empty() && name != "-" &&
+         std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < kFirstPrintable || c == kDelete; });
+}
+
+bool can_be_told(const SceneFiles& scene) {
+  const auto has_name = [](const SceneFiles::File& file) { return is_file_name(file.name); };
+  return !scene.files.empty() && is_hash(scene.hash) && std::all_of(scene.files.begin(), scene.files.end(), has_name);
 }
 
 /// Throws nlohmann's exceptions, and Error by `damaged`.
@@ -44,9 +51,9 @@ SceneFiles parsed(const Json& json, const Damaged& damaged) {
 }  // namespace
 
 std::string scene_text(const SceneFiles& scene) {
+  if (!can_be_told(scene)) return "";
   Json files = Json::array();
   for (const SceneFiles::File& file : scene.files) files.push_back({{"name", file.name}, {"bytes", file.bytes}});
-  if (files.empty()) return "";
   const Json json{{"files", files}, {"format", scene.format}, {"triangles", scene.triangles}, {"hash", scene.hash}};
   try {
     const std::string text = json.dump();

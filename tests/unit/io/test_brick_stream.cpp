@@ -107,6 +107,8 @@ TEST_CASE("a stream tells no scene files if one cannot be told", "[quick][io]") 
   CHECK(read_back(written(header, small_bricks())).header == header);
   header.scene.files[1].name = "latin \xe9.ply";
   CHECK(read_back(written(header, small_bricks())).header.scene == SceneFiles{});
+  header.scene.files[1].name = "two\nlines.ply";
+  CHECK(read_back(written(header, small_bricks())).header.scene == SceneFiles{});
   header.scene.files[1].name = std::string(1 << 20, 'n');
   CHECK(read_back(written(header, small_bricks())).header.scene == SceneFiles{});
 }

@@ -202,6 +202,7 @@ TEST_CASE("scene files in a header that are none are refused", "[quick][io]") {
   const std::string wrong = "the scene files are not what they should be";
   CHECK(says(with("scene.ply", std::string("scene\0ply", 9)), wrong));
   CHECK(says(with("\"scene.ply\"", "\"-\"        "), wrong));
+  CHECK(says(with("scene.ply", "\\u001b[2J"), wrong));
   CHECK(says(with("\"bytes\":3", "\"bytes\": "), wrong));
   CHECK(says(with("\"triangles\":12", "\"triangles\":-1"), wrong));
   CHECK(says(with("\"hash\":\"aa", "\"hash\":\"xa"), wrong));
