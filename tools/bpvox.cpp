@@ -6,6 +6,7 @@
 #include "io/brick_shelf.h"
 #include "io/brick_stream.h"
 #include "io/chunk_store.h"
+#include "io/scene_format.h"
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/stage/voxelize_stage.h"
@@ -82,7 +83,8 @@ bp::OptionText option_text(const Options& o, bp::UpAxis up) {
 
 /// For tools that come later; nothing if part of the scene came from a pipe, which cannot be read again.
 bp::SceneFiles scene_files(const Options& o, const bp::VoxelizeCounts& counts) {
-  bp::SceneFiles scene{{}, o.format, counts.scene.triangles, counts.input_hash};
+  const std::string format = o.format.empty() ? "" : bp::scene_format_named(o.format);
+  bp::SceneFiles scene{{}, format, counts.scene.triangles, counts.input_hash};
   for (const std::string& name : o.scenes) {
     std::error_code none;
     if (name == "-" || !std::filesystem::is_regular_file(name, none)) return {};

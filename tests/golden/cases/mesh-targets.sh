@@ -34,10 +34,10 @@ try bpmesh cube.bpv --faces 40,12 --format glb -o chain
 for error in 0 0vx 0%; do try bpmesh cube.bpv --faces 12 --error $error -o wrong.glb; done
 try bpmesh cube.bpv --volume 0.5 -o wrong.glb
 try bpmesh cube.bpv --edge-length -1 -o wrong.glb
-try bpmesh cube.bpv --volume -1 -o wrong.glb
+try bpmesh cube.bpv --enclose closing --volume -1 -o wrong.glb
 try bpmesh cube.bpv --faces 12 --no-tighten --enclose nowhere.obj -o wrong.glb
 try bpmesh cube.bpv --mode fit --faces 12 --no-tighten -o wrong.glb
-try bpmesh slanted.bpv --faces 60,40,12 --volume 1.15 -o coarser.ply | some
+try bpmesh slanted.bpv --enclose closing --faces 60,40,12 --volume 1.15 -o coarser.ply | some
 try bpmesh slanted.bpv --faces 60,20 --error 0.6vx -o near.ply | some
 touch kept.1.glb
 try bpmesh cube.bpv --faces 40,12 -o kept.glb
