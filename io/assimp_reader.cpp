@@ -125,10 +125,11 @@ class SceneFileSystem final : public Assimp::DefaultIOSystem {
 
 class SceneUnloader {
  public:
-  SceneUnloader(ScratchFile& scratch, bool colors) : scratch_(scratch), colors_(colors) {}
+  SceneUnloader(ScratchFile& scratch, const SceneOptions& options)
+      : scratch_(scratch), colors_(options.colors), walls_only_(options.walls_only) {}
   Summary unload(const aiScene& scene) {
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-      add_mesh(*scene.mMeshes[i]);
+      add_mesh(*scene.mMeshes[i], walls_only_ && see_through(*scene.mMeshes[i], scene));
       if (colors_) add_colors(*scene.mMeshes[i], scene);
     }
     if (scene.mRootNode != nullptr) add_nodes(*scene.mRootNode);
@@ -144,23 +145,31 @@ class SceneUnloader {
   static Affine affine(const aiMatrix4x4& m) {
     return {{{{m.a1, m.a2, m.a3, m.a4}, {m.b1, m.b2, m.b3, m.b4}, {m.c1, m.c2, m.c3, m.c4}}}};
   }
-  void add_mesh(const aiMesh& mesh);
+  static bool see_through(const aiMesh& mesh, const aiScene& scene);
+  void add_mesh(const aiMesh& mesh, bool passed_over);
   void add_colors(const aiMesh& mesh, const aiScene& scene);
   void add_face(const aiFace& face, unsigned vertices, std::vector<std::uint32_t>& indices);
   void add_nodes(const aiNode& root);
 
   ScratchFile& scratch_;
-  const bool colors_;
+  const bool colors_, walls_only_;
   Summary summary_;
 };
 
-void SceneUnloader::add_mesh(const aiMesh& mesh) {
+bool SceneUnloader::see_through(const aiMesh& mesh, const aiScene& scene) {
+  float opacity = 1;
+  return mesh.mMaterialIndex < scene.mNumMaterials &&
+         scene.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS && opacity < 1;
+}
+
+// One that is passed over keeps its number, and has no triangles.
+void SceneUnloader::add_mesh(const aiMesh& mesh, bool passed_over) {
   static_assert(sizeof(aiVector3D) == 3 * sizeof(float), "positions are written as they lie");
   MeshRecord record;
   record.vertices = mesh.mNumVertices;
   record.positions = scratch_.append(std::as_bytes(std::span(mesh.mVertices, mesh.mNumVertices)));
   std::vector<std::uint32_t> indices;
-  for (unsigned i = 0; i < mesh.mNumFaces; ++i) add_face(mesh.mFaces[i], mesh.mNumVertices, indices);
+  for (unsigned i = 0; i < mesh.mNumFaces && !passed_over; ++i) add_face(mesh.mFaces[i], mesh.mNumVertices, indices);
   record.indices = scratch_.append(std::as_bytes(std::span(indices)));
   record.triangles = indices.size() / 3;
   summary_.meshes.push_back(record);
@@ -202,7 +211,8 @@ void SceneUnloader::add_nodes(const aiNode& root) {
   }
 }
 
-std::string import(const SceneFilePtr& file, const std::string& extension, ScratchFile& scratch, bool colors) {
+std::string import(const SceneFilePtr& file, const std::string& extension, ScratchFile& scratch,
+                   const SceneOptions& options) {
   const std::string path = file->path().empty() ? "scene" : file->path();
   const std::string suffix = "." + extension;
   const bool named = path.size() > suffix.size() &&
@@ -216,7 +226,7 @@ std::string import(const SceneFilePtr& file, const std::string& extension, Scrat
     fail(ErrorCode::bad_input, "{}: cannot be read: {}; repair it, or {}", file->name(), importer.GetErrorString(),
          kRemedy);
   }
-  return packed(SceneUnloader(scratch, colors).unload(*scene));
+  return packed(SceneUnloader(scratch, options).unload(*scene));
 }
 
 // --- In the parent
@@ -271,7 +281,7 @@ RawSourcePtr open_with_assimp(SceneFilePtr file, const std::string& extension, c
   const auto scratch = std::make_shared<ScratchFile>(temp_dir_of(options));
   const std::string answer =
       run_in_child(file->name(), "the importer of ." + extension + " files", std::string("repair it, or ") + kRemedy,
-                   limits_for(file->size()), [&] { return import(file, extension, *scratch, options.colors); });
+                   limits_for(file->size()), [&] { return import(file, extension, *scratch, options); });
   const Summary summary = unpacked(answer, file->name());
   return stream_instances(scene_of(summary, view_of(scratch, file->name(), summary.bytes)), options);
 }

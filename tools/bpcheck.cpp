@@ -14,6 +14,7 @@
 #include "lib/check/verdict_text.h"
 #include "lib/core/error.h"
 #include "lib/image/render.h"
+#include "tools/check/hiding_recipe.h"
 #include "tools/check/hints.h"
 #include "tools/check/tileset_verdict.h"
 #include "tools/common/inputs.h"
@@ -42,7 +43,8 @@ Options parse(bp::Args& args) {
   Options o;
   args.about(
       "Proves that a proxy is closed, oriented, 2-manifold, free of self-intersections and strictly encloses its "
-      "scenes, or says where not. Exact for the coordinates as read. Exit status: 0 all holds, 1 not.");
+      "scenes, or says where not. Exact for the coordinates as read. Exit status: 0 all holds, 1 something does not, 5 "
+      "not decided.");
   args.positional("[SCENE...] PROXY", o.files, "scenes and their proxy; PROXY alone is checked as a mesh");
   args.option("--format", "NAME", o.format, "format of a file that is -, or whose name does not tell");
   args.option("--origin", "X,Y,Z", o.origin,
@@ -129,7 +131,7 @@ bp::Image draw(const Options& o, const std::vector<bp::IndexedMesh>& levels, bp:
     view.color = {238, 192, 130};
     view.label = fmt::format("{}{}\n{} triangles, {}", bp::file_name(o.files.back()),
                              levels.size() > 1 ? fmt::format(" level {}", i) : "", verdicts[i].triangles,
-                             verdicts[i].holds() ? "holds" : "does not hold");
+                             to_string(verdicts[i].answer()));
   }
   bp::RenderOptions options;
   options.panel_width = options.panel_height = o.image_size;
@@ -143,6 +145,7 @@ bp::Image draw(const Options& o, const std::vector<bp::IndexedMesh>& levels, bp:
 
 bp::Json counts_of(const bp::CheckReport& verdict) {
   return {{"holds", verdict.holds()},
+          {"answer", to_string(verdict.answer())},
           {"proxy_triangles", verdict.triangles},
           {"scene_triangles", verdict.scene_triangles},
           {"self_intersections", verdict.self_intersections.count},
@@ -159,7 +162,9 @@ void fill_report(bp::Report& report, const Options& o, const std::vector<bp::Che
                     {"examples", o.examples.value_or(kExamples)}};
   report.counts = counts_of(verdicts[0]);
   if (verdicts.size() > 1) {
-    report.counts = {{"holds", bp::all_hold(verdicts)}, {"levels", bp::Json::array()}};
+    const bp::Answer answer = answer_of(verdicts);
+    report.counts = {
+        {"holds", answer == bp::Answer::proven}, {"answer", to_string(answer)}, {"levels", bp::Json::array()}};
     for (const bp::CheckReport& verdict : verdicts) report.counts["levels"].push_back(counts_of(verdict));
   }
   if (!verdicts[0].distance_note.empty()) report.notes.push_back(verdicts[0].distance_note);
@@ -183,6 +188,12 @@ void note_hint(bp::Report& report, const Options& o, const std::string& hint) {
   if (!hint.empty()) report.note(hint, o.common);
 }
 
+/// Exit status (docs/exit-codes.md).
+int status_of(bp::Answer answer) {
+  constexpr int kProven = 0, kRefuted = 1, kUndecided = 5;
+  return answer == bp::Answer::proven ? kProven : answer == bp::Answer::refuted ? kRefuted : kUndecided;
+}
+
 /// A tileset is many proxies and what holds them together.
 int run_tileset(const Options& o) {
   refuse_for_tileset(o);
@@ -195,9 +206,12 @@ int run_tileset(const Options& o) {
   bp::print(o.json ? verdict.json(name) : verdict.text(name));
   const auto contents = bp::tileset_level(bp::read_tileset(o.files.back()), o.files.back(), 0).contents;
   if (!verdict.holds() && verdict.scene && !contents.empty()) note_hint(report, o, bp::fit_hint(contents.front().path));
-  report.counts = {{"holds", verdict.holds()}, {"tiles", verdict.tiles}, {"findings", verdict.findings}};
+  report.counts = {{"holds", verdict.holds()},
+                   {"answer", to_string(verdict.answer())},
+                   {"tiles", verdict.tiles},
+                   {"findings", verdict.findings}};
   report.write(o.common);
-  return verdict.holds() ? 0 : 1;
+  return status_of(verdict.answer());
 }
 
 /// Whatever is asked of no triangle holds: an export that went wrong must not prove a proxy.
@@ -213,16 +227,17 @@ void refuse_empty_scene(const bp::CheckReport& verdict) {
 /// Of enclosure, or with --inside of its opposite.
 bool answers_hold(const Options& o, const std::vector<bp::CheckReport>& verdicts) {
   return o.files.size() < 2 || std::all_of(verdicts.begin(), verdicts.end(), [&](const bp::CheckReport& v) {
-           return o.inside ? v.inside() : v.encloses();
+           return o.inside ? v.inside() || v.holds() : v.encloses();
          });
 }
 
 /// Each level as a proxy of its own.
 std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::IndexedMesh>& levels,
-                                   bp::TriangleSource* scene) {
+                                   bp::TriangleSource* scene, const std::optional<bp::HidingQuestion>& hidden) {
   bp::CheckOptions options;
   options.max_examples = o.examples.value_or(kExamples);
   options.inside = o.inside;
+  options.hidden = hidden;
   options.convex = o.convex;
   options.distances = !o.no_distances;
   options.distance_samples = o.samples.value_or(kSamples);
@@ -238,6 +253,19 @@ std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::Index
   }
   progress.end();
   return verdicts;
+}
+
+/// What the proxy's file says that it is hidden by, if it says so; `walls` opens the scene for it.
+std::optional<bp::HidingQuestion> hiding_question(const Options& o, const std::vector<std::string>& scenes,
+                                                  bp::SceneOptions options,
+                                                  std::unique_ptr<bp::TriangleSource>& walls) {
+  if (!o.inside || std::count(scenes.begin(), scenes.end(), "-") > 0) return {};  // stdin cannot be read again
+  const std::optional<bp::HidingRecipe> recipe = bp::hiding_recipe(o.files.back());
+  if (!recipe) return {};
+  options.walls_only = true;
+  options.keep_degenerate = false;
+  walls = bp::open_scenes(scenes, options);
+  return bp::HidingQuestion{*recipe, walls.get()};
 }
 
 int run(const Options& o) {
@@ -256,10 +284,13 @@ int run(const Options& o) {
   for (bp::IndexedMesh& level : levels) move(level, o.origin.value_or(bp::Vec3d{}));
   std::unique_ptr<bp::TriangleSource> scene;
   scene_options.keep_degenerate = o.inside;  // they may be what closes the scene
-  if (o.files.size() > 1) scene = bp::open_scenes({o.files.begin(), o.files.end() - 1}, scene_options);
+  const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
+  if (!scenes.empty()) scene = bp::open_scenes(scenes, scene_options);
+  std::unique_ptr<bp::TriangleSource> walls;
+  const std::optional<bp::HidingQuestion> hidden = hiding_question(o, scenes, scene_options, walls);
 
   report.stage("check");
-  const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get());
+  const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get(), hidden);
   if (picture) {
     report.stage("draw");
     picture->write(bp::encode_png(draw(o, levels, scene.get(), verdicts)));
@@ -273,7 +304,7 @@ int run(const Options& o) {
   if (!answers_hold(o, verdicts))
     note_hint(report, o, bp::enclosure_hint(o.files.front(), o.files.back(), o.inside, o.origin.has_value()));
   report.write(o.common);
-  return bp::all_hold(verdicts) ? 0 : 1;
+  return status_of(answer_of(verdicts));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "tools/lod/explain.h"
 #include "tools/lod/level_chain.h"
 #include "tools/lod/lod_outputs.h"
+#include "tools/lod/occluder.h"
 #include "tools/lod/tile_build.h"
 
 namespace {
@@ -39,8 +40,24 @@ void run_chain(const bp::BuildOptions& o) {
   build.finish(scene, rows, out.bytes());
 }
 
+/// One mesh within the scene.
+void run_occluder(const bp::BuildOptions& o) {
+  bp::OutputFolder out(o.out, bp::profile_files(o.profile, o.name, 1), o.common.overwrite);
+  bp::Build build(o);
+  bp::MadeOccluder made = bp::make_occluder(build);
+  build.progress.end();
+  build.report.stage("write");
+  const std::vector<bp::LodLevel> levels{std::move(made.level)};
+  const bp::WrittenFile file = bp::write_profile(o, levels, 0, out).front();
+  out.commit();
+  bp::LevelRow row = bp::row_of(levels.front(), file.name, out.bytes(file.name));
+  row.more.update(made.more);
+  build.finish(made.scene, {row}, out.bytes());
+}
+
 void run(const bp::BuildOptions& o) {
   if (o.explain) return bp::explain(o);
+  if (o.profile == bp::LodProfile::occluder) return run_occluder(o);
   o.profile == bp::LodProfile::tiles ? bp::build_tileset(o) : run_chain(o);
 }
 

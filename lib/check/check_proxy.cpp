@@ -101,13 +101,21 @@ void check_scene_around(const WeldedMesh& mesh, const Surface& surface, Triangle
                         const CheckOptions& options, CheckReport& report) {
   report.has_scene = report.wants_inside = true;
   if (!report.sides_decided) return;
-  const InsideReport inside = check_inside(mesh, surface, scene, options.max_examples);
+  const InsideReport inside = check_inside(mesh, surface, scene, options.max_examples, options.scene_memory_bytes);
   report.scene_name = scene.name();
   report.scene_counts = scene.counts();
   report.scene_triangles = inside.triangles;
   report.scene_closed = inside.scene_closed;
   report.touching = inside.touching, report.swallowed = inside.swallowed, report.outside_parts = inside.outside;
+  report.unsettled_parts = inside.unsettled;
   report.undecidable_scene = inside.undecidable;
+  if (report.inside() || !options.hidden) return;
+  const auto& [recipe, walls] = *options.hidden;
+  const HiddenReport hidden =
+      check_hidden(mesh, surface, *walls, recipe, options.max_examples, options.scene_memory_bytes);
+  report.asks_hidden = true;
+  report.openings = 2 * recipe.scale_world;
+  report.hidden_unknown = hidden.undecided, report.exposed = hidden.exposed;
 }
 
 void check_scene_in_parts(const WeldedMesh& mesh, TriangleSource& scene, const CheckOptions& options,

@@ -8,7 +8,7 @@ set(rules
   "lib/voxel:lib/core lib/grid"
   "lib/closing:lib/core lib/grid"
   "lib/meshing:lib/core lib/geometry lib/grid"
-  "lib/check:lib/core lib/geometry"
+  "lib/check:lib/core lib/geometry lib/grid lib/voxel lib/closing"
   "lib/image:lib/core"
   "lib/backend:lib/core lib/grid lib/voxel lib/closing"
   "lib/stage:lib/core lib/geometry lib/grid lib/voxel lib/closing lib/meshing lib/backend"

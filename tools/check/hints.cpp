@@ -5,13 +5,9 @@
 #include <filesystem>
 
 #include "lib/core/error.h"
-#include "tools/common/mesh_extras.h"
 
 namespace bp {
 
-namespace {
-
-/// None where they cannot be read again: a hint is no reason to fail, or to wait for a pipe.
 MeshExtras extras_of(const std::string& path) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown)) return {};
@@ -21,8 +17,6 @@ MeshExtras extras_of(const std::string& path) {
     return {};
   }
 }
-
-}  // namespace
 
 std::string enclosure_hint(const std::string& scene, const std::string& proxy, bool inside, bool moved) {
   const MeshExtras extras = extras_of(proxy);

@@ -123,7 +123,8 @@ class CoverTiles {
 };
 
 /// Each content must enclose the whole scene by itself.
-void check_whole(const CoverTiles& cover, TriangleSource& scene, std::vector<std::string>& findings) {
+std::vector<CoverFinding> check_whole(const CoverTiles& cover, TriangleSource& scene) {
+  std::vector<CoverFinding> findings;
   for (std::size_t i = 0; i < cover.tiles().size(); ++i) {
     const CoverTile& tile = cover.tiles()[i];
     if (!tile.triangles) continue;
@@ -131,8 +132,10 @@ void check_whole(const CoverTiles& cover, TriangleSource& scene, std::vector<std
     check.distances = false;
     scene.rewind();
     const CheckReport report = check_proxy(cover.content(i), &scene, check);
-    if (!report.holds()) findings.push_back(fmt::format("{}: {} {}", tile.place, tile.uri, complaint_of(report)));
+    if (report.holds()) continue;
+    findings.push_back({fmt::format("{}: {} {}", tile.place, tile.uri, complaint_of(report)), report.answer()});
   }
+  return findings;
 }
 
 }  // namespace
@@ -146,11 +149,14 @@ std::string TilesetVerdict::text(const std::string& name) const {
   for (const std::string& finding : findings) lines += finding + "\n";
   return lines + fmt::format("{}: {} tiles, {} contents, {} triangles{}: {}\n", name, tiles, contents, triangles,
                              scene ? ", checked against the scene" : "",
-                             holds() ? "holds" : fmt::format("{} findings", findings.size()));
+                             holds()                         ? "holds"
+                             : answer() == Answer::undecided ? fmt::format("not decided: {} findings", undecided)
+                                                             : fmt::format("{} findings", findings.size()));
 }
 
 std::string TilesetVerdict::json(const std::string& name) const {
   const Json all = {{"holds", holds()},
+                    {"answer", to_string(answer())},
                     {"tileset", {{"name", name}, {"tiles", tiles}, {"contents", contents}, {"triangles", triangles}}},
                     {"scene", scene},
                     {"findings", findings}};
@@ -169,12 +175,11 @@ TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std
   verdict.tiles = cover.tiles().size();
   verdict.findings = check_tileset(tileset, [&](const Tile& tile) { return cover.look_at(tile, verdict); });
   if (!scene) return verdict;
-  if (has_cells(tileset)) {
-    const std::vector<std::string> findings = check_cover(
-        cover.tiles(), [&](std::size_t i) { return cover.content(i); }, *scene, memory_bytes);
-    verdict.findings.insert(verdict.findings.end(), findings.begin(), findings.end());
-  } else {
-    check_whole(cover, *scene, verdict.findings);
+  const auto content = [&](std::size_t i) { return cover.content(i); };
+  for (const CoverFinding& found :
+       has_cells(tileset) ? check_cover(cover.tiles(), content, *scene, memory_bytes) : check_whole(cover, *scene)) {
+    verdict.findings.push_back(found.text);
+    verdict.undecided += found.answer == Answer::undecided;
   }
   return verdict;
 }

@@ -95,7 +95,9 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   VoxelizedScene out;
   out.solid = make_shelf();
   ShelfSink sink(out.solid.get());
-  const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp, options.colors});
+  SceneOptions scene_options{options.format, budget.reader, options.common.temp, options.colors};
+  scene_options.walls_only = options.profile == LodProfile::occluder;
+  const auto source = open_scenes(options.scenes, scene_options);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
     return voxel_size(options, {bounds, source->counts().triangles}, halvings);
   };

@@ -70,6 +70,10 @@ void check_meaning(const Args& args, const BuildOptions& o) {
     fail(ErrorCode::bad_argument, "--hulls needs --profile collision");
   if (o.profile == LodProfile::collision && args.given("--colors") && o.colors)
     fail(ErrorCode::bad_argument, "--profile collision has no colours; leave --colors out");
+  if (o.profile == LodProfile::occluder) {
+    for (const char* const name : {"--mode", "--enclose", "--fill", "--error", "--screen", "--colors", "--explain"})
+      if (args.given(name)) fail(ErrorCode::bad_argument, "{} has no meaning with --profile occluder", name);
+  }
   if (o.mode == MeshMode::fit) {
     for (const char* const name : {"--enclose", "--no-tighten"}) {
       if (args.given(name))
@@ -81,7 +85,18 @@ void check_meaning(const Args& args, const BuildOptions& o) {
     fail(ErrorCode::bad_argument, "--enclose says what tightening keeps inside; --no-tighten leaves that out");
 }
 
+/// One level within the scene, of the voxels of its surface.
+void set_occluder(BuildOptions& o) {
+  constexpr std::uint64_t kFaces = 100;
+  if (o.request.faces.empty()) o.request.faces = {kFaces};
+  if (level_count(o.request) != 1) fail(ErrorCode::bad_argument, "--profile occluder has one level");
+  o.mode = MeshMode::inside;
+  o.fill = FillMode::none;
+  o.colors = false;
+}
+
 void check_options(BuildOptions& o) {
+  if (o.profile == LodProfile::occluder) set_occluder(o);
   const bool listed = !o.request.faces.empty() || !o.request.errors.empty() || !o.request.pixels.empty();
   if (o.profile == LodProfile::collision && !listed && !o.request.levels) o.request.levels = 1;
   if (o.profile == LodProfile::collision && level_count(o.request) != 1)
@@ -123,7 +138,7 @@ JobRange parse_job_range(const std::string& text) {
 }
 
 const char* name_of(LodProfile profile) {
-  constexpr const char* kNames[] = {"gltf", "3dtiles", "collision"};
+  constexpr const char* kNames[] = {"gltf", "3dtiles", "collision", "occluder"};
   return kNames[std::size_t(profile)];
 }
 
@@ -132,12 +147,16 @@ BuildOptions parse_build_options(Args& args) {
   args.about("Makes levels of detail of scenes: coarser and coarser proxies that strictly enclose them.");
   args.positional("SCENE", o.scenes, "scenes, taken together; - is stdin and needs --format");
   args.option("-o,--output", "DIR", o.out, "folder of the levels; it is made if it is not there");
-  args.option("--profile",
-              {{"gltf", LodProfile::gltf}, {"3dtiles", LodProfile::tiles}, {"collision", LodProfile::collision}},
-              o.profile,
-              "gltf: a GLB a level, and one with all (MSFT_lod); 3dtiles: a tileset of compressed GLB, coarse root, in "
-              "the scene's coordinates (mind --up); collision: "
-              "one level, named for Godot, Unreal and Unity");
+  args.option(
+      "--profile",
+      {{"gltf", LodProfile::gltf},
+       {"3dtiles", LodProfile::tiles},
+       {"collision", LodProfile::collision},
+       {"occluder", LodProfile::occluder}},
+      o.profile,
+      "gltf: a GLB a level, and one with all (MSFT_lod); 3dtiles: a tileset of compressed GLB, coarse root, in "
+      "the scene's coordinates (mind --up); collision: "
+      "one level, named for Godot, Unreal and Unity; occluder: one level, strictly within what the scene hides");
   args.option("--mode", {{"bounding", MeshMode::bounding}, {"fit", MeshMode::fit}}, o.mode,
               "around the scene; or as near to it as can be, enclosing nothing");
   args.option("--name", "NAME", o.name, "first part of the names of files and nodes (default: the first scene's)");
@@ -252,6 +271,7 @@ double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
   const double coarse = voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
   const bool tileset = o.profile == LodProfile::tiles;
   if (o.resolution || o.request.faces.empty() != tileset) return coarse;
+  if (o.profile == LodProfile::occluder) return std::min(coarse, voxel_size_of(bounds, kOccluderResolution));
   const std::uint64_t faces = tileset ? std::min(scene.triangles, kTilesetFaces) : o.request.faces.front();
   double dense_faces = double(tileset ? kDensePerFace : kDensePerFaceAsked) * double(faces);
   if (!tileset) dense_faces = std::max(dense_faces, kLeastDenseFaces);

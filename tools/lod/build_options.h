@@ -13,7 +13,7 @@
 /// The command line of bplod.
 namespace bp {
 
-enum class LodProfile { gltf, tiles, collision };
+enum class LodProfile { gltf, tiles, collision, occluder };
 [[nodiscard]] const char* name_of(LodProfile profile);
 
 /// Jobs of a tileset by their numbers in the plan: [begin, end).
@@ -77,7 +77,8 @@ struct SceneSize {
 
 /// Voxels along the longest side.
 constexpr std::int64_t kDefaultResolution = 256, kMostResolution = 1024, kMostTilesetResolution = 4096;
-constexpr std::uint64_t kTilesetFaces = 40000;  ///< that nobody asked for, over the bounds
+constexpr std::int64_t kOccluderResolution = 512;  ///< a voxel or two of each wall are given away
+constexpr std::uint64_t kTilesetFaces = 40000;     ///< that nobody asked for, over the bounds
 /// Whether smaller voxels may be tried where the finest level does not come to its faces: nobody said which, the
 /// scene can be read again, and no cells depend on them.
 [[nodiscard]] bool may_refine(const BuildOptions& options);

@@ -68,6 +68,13 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
   return {{name + "_godot.glb", 0, own}, hull_file, {name + "_unity.glb", 0, own}};
 }
 
+/// Godot makes an occluder of a node with this suffix, and draws nothing.
+std::vector<WrittenFile> write_occluder_profile(const std::string& name, const LatticeMesh& mesh, OutputFolder& out) {
+  const NamedMesh godot{name + "-occonly", &mesh};
+  write_parts_glb({&godot, 1}, out.file(name + "_occluder.glb"));
+  return {{name + "_occluder.glb", 0, mesh.triangles.size()}};
+}
+
 }  // namespace
 
 OutputFolder::OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite)
@@ -113,6 +120,7 @@ std::string level_name(const std::string& name, std::size_t level) {
 
 std::vector<std::string> profile_files(LodProfile profile, const std::string& name, std::size_t levels) {
   if (profile == LodProfile::collision) return {name + "_godot.glb", name + "_unreal.glb", name + "_unity.glb"};
+  if (profile == LodProfile::occluder) return {name + "_occluder.glb"};
   std::vector<std::string> files;
   for (std::size_t i = 0; i < levels; ++i) files.push_back(level_name(name, i) + ".glb");
   files.push_back(name + ".glb");
@@ -126,6 +134,8 @@ std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::v
       return write_gltf_profile(options.name, levels, diameter, out);
     case LodProfile::tiles:
       break;  // tile_build.h
+    case LodProfile::occluder:
+      return write_occluder_profile(options.name, levels.front().mesh, out);
     case LodProfile::collision:
       return write_collision_profile(options, levels.front().mesh, out);
   }
