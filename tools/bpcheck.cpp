@@ -17,6 +17,7 @@
 #include "tools/check/hiding_recipe.h"
 #include "tools/check/hints.h"
 #include "tools/check/tileset_verdict.h"
+#include "tools/common/grounded_source.h"
 #include "tools/common/inputs.h"
 #include "tools/common/names.h"
 #include "tools/common/report.h"
@@ -260,12 +261,13 @@ std::optional<bp::HidingQuestion> hiding_question(const Options& o, const std::v
                                                   bp::SceneOptions options,
                                                   std::unique_ptr<bp::TriangleSource>& walls) {
   if (!o.inside || std::count(scenes.begin(), scenes.end(), "-") > 0) return {};  // stdin cannot be read again
-  const std::optional<bp::HidingRecipe> recipe = bp::hiding_recipe(o.files.back());
+  const std::optional<bp::OccluderRecipe> recipe = bp::hiding_recipe(o.files.back());
   if (!recipe) return {};
   options.walls_only = true;
   options.keep_degenerate = false;
   walls = bp::open_scenes(scenes, options);
-  return bp::HidingQuestion{*recipe, walls.get()};
+  if (recipe->ground) walls = std::make_unique<bp::GroundedSource>(std::move(walls), recipe->up);
+  return bp::HidingQuestion{recipe->hiding, walls.get()};
 }
 
 int run(const Options& o) {

@@ -111,8 +111,14 @@ std::string doubt_of(const CheckReport& r) {
 /// Inner walls may lie in what is hidden: then it is no failure.
 std::string inside_rows(const CheckReport& r) {
   std::string text;
-  if (r.sides_decided) text += row("free of the scene", r.touching.count + r.swallowed.count == 0);
-  text += row("strictly inside the scene", r.insideness(), scene_doubt(r));
+  const bool other = r.asks_hidden && r.hiddenness() == Answer::proven;  // then these decide nothing
+  const auto add = [&](const char* question, Answer answer) {
+    text += other && answer == Answer::refuted ? fmt::format("  {:<28}no\n", question)
+                                               : row(question, answer, scene_doubt(r));
+  };
+  const bool is_free = r.touching.count + r.swallowed.count == 0;
+  if (r.sides_decided) add("free of the scene", is_free ? Answer::proven : Answer::refuted);
+  add("strictly inside the scene", r.insideness());
   if (!r.asks_hidden) return text;
   if (r.hiddenness() != Answer::proven) return text + row("hidden from outside", r.hiddenness(), r.hidden_unknown);
   return text + fmt::format("  {:<28}yes{}\n", "hidden from outside",

@@ -16,9 +16,10 @@ std::string value_of(const std::string& line, const std::string& key) {
   return line.substr(begin, line.find(' ', begin) - begin);
 }
 
-HidingRecipe parsed(const std::string& line) {
+OccluderRecipe parsed(const std::string& line) {
   constexpr std::int64_t kMost = std::int64_t(1) << 50;
-  HidingRecipe recipe;
+  OccluderRecipe whole;
+  HidingRecipe& recipe = whole.hiding;
   recipe.frame.voxel = parse_number(value_of(line, "voxel"));
   recipe.scale_world = parse_number(value_of(line, "openings"));
   recipe.element = value_of(line, "element") == "ball" ? StructuringElement::ball : StructuringElement::cube;
@@ -28,12 +29,14 @@ HidingRecipe parsed(const std::string& line) {
     recipe.frame.origin[i++] = parse_integer(number, -kMost, kMost);
   });
   if (i != 3) fail(ErrorCode::bad_argument, "a grid of fewer than three numbers");
-  return recipe;
+  whole.ground = value_of(line, "ground") == "yes";
+  whole.up = value_of(line, "up") == "z" ? UpAxis::z : UpAxis::y;
+  return whole;
 }
 
 }  // namespace
 
-std::optional<HidingRecipe> hiding_recipe(const std::string& path) {
+std::optional<OccluderRecipe> hiding_recipe(const std::string& path) {
   const MeshExtras extras = extras_of(path);
   if (made_by(extras) != "bplod" || mode_of(extras) != "inside") return {};
   try {

@@ -16,6 +16,7 @@
 #include "lib/grid/shelf_stream.h"
 #include "lib/stage/vertex_colors.h"
 #include "tools/common/face_notes.h"
+#include "tools/common/grounded_source.h"
 #include "tools/common/names.h"
 
 namespace bp {
@@ -80,7 +81,7 @@ Build::Build(const BuildOptions& o)
   };
 }
 
-VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int halvings) {
+VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int halvings, bool ground) {
   report.stage("voxelize");
   VoxelizeOptions v;
   v.cell_vox = cell_vox;
@@ -97,7 +98,8 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   ShelfSink sink(out.solid.get());
   SceneOptions scene_options{options.format, budget.reader, options.common.temp, options.colors};
   scene_options.walls_only = options.profile == LodProfile::occluder;
-  const auto source = open_scenes(options.scenes, scene_options);
+  auto source = open_scenes(options.scenes, scene_options);
+  if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.up);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
     return voxel_size(options, {bounds, source->counts().triangles}, halvings);
   };
@@ -106,7 +108,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
-  if (halvings == 0) {  // the scene is the same
+  if (halvings == 0 && !ground) {  // the scene is the same
     if (const std::string text = skipped(out.counts.scene); !text.empty()) note("skipped " + text);
     if (const std::string text = up_note(options, source->up(), out.header.bounds); !text.empty()) note(text);
     note_missing_materials();

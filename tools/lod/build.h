@@ -54,7 +54,9 @@ class Build {
   Build& operator=(const Build&) = delete;
 
   /// cell_vox, results: as in VoxelizeOptions. halvings: as in voxel_size().
-  [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr, int halvings = 0);
+  /// ground: as if it stood on the ground (tools/common/grounded_source.h); the scene was voxelized without before.
+  [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr, int halvings = 0,
+                                        bool ground = false);
   /// For LodChain; after voxelize(), as all that follow.
   [[nodiscard]] LodOptions lod_options();
   /// For surfaces: budget.work, and what spills.

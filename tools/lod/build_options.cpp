@@ -87,8 +87,7 @@ void check_meaning(const Args& args, const BuildOptions& o) {
 
 /// One level within the scene, of the voxels of its surface.
 void set_occluder(BuildOptions& o) {
-  constexpr std::uint64_t kFaces = 100;
-  if (o.request.faces.empty()) o.request.faces = {kFaces};
+  if (!o.request.levels && o.request.faces.empty()) o.request.levels = 1;
   if (level_count(o.request) != 1) fail(ErrorCode::bad_argument, "--profile occluder has one level");
   o.mode = MeshMode::inside;
   o.fill = FillMode::none;
@@ -268,10 +267,10 @@ double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
   if (o.voxel) return o.voxel->in_world(bounds.diagonal(), 0);
   const double error = finest_error(o.request, bounds.diagonal());
   if (error > 0 && !o.resolution) return error / kVoxelsPerError;
+  if (o.profile == LodProfile::occluder) return voxel_size_of(bounds, o.resolution.value_or(kOccluderResolution));
   const double coarse = voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
   const bool tileset = o.profile == LodProfile::tiles;
   if (o.resolution || o.request.faces.empty() != tileset) return coarse;
-  if (o.profile == LodProfile::occluder) return std::min(coarse, voxel_size_of(bounds, kOccluderResolution));
   const std::uint64_t faces = tileset ? std::min(scene.triangles, kTilesetFaces) : o.request.faces.front();
   double dense_faces = double(tileset ? kDensePerFace : kDensePerFaceAsked) * double(faces);
   if (!tileset) dense_faces = std::max(dense_faces, kLeastDenseFaces);
@@ -281,12 +280,15 @@ double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
   return std::min(coarse, std::max(std::ldexp(fine, -halvings), voxel_size_of(bounds, most)));
 }
 
-bool may_refine(const BuildOptions& o) {
-  const bool readable = std::all_of(o.scenes.begin(), o.scenes.end(), [](const std::string& scene) {
+bool can_read_again(const BuildOptions& o) {
+  return std::all_of(o.scenes.begin(), o.scenes.end(), [](const std::string& scene) {
     std::error_code none;  // what is no file, a pipe say, can be read once
     return scene != "-" && std::filesystem::is_regular_file(scene, none);
   });
-  return !o.voxel && !o.resolution && !o.request.faces.empty() && o.profile != LodProfile::tiles && readable;
+}
+
+bool may_refine(const BuildOptions& o) {
+  return !o.voxel && !o.resolution && !o.request.faces.empty() && o.profile != LodProfile::tiles && can_read_again(o);
 }
 
 OptionText option_text(const BuildOptions& o, const LodTarget& target, std::size_t i, double scale_world,

@@ -79,6 +79,8 @@ struct SceneSize {
 constexpr std::int64_t kDefaultResolution = 256, kMostResolution = 1024, kMostTilesetResolution = 4096;
 constexpr std::int64_t kOccluderResolution = 512;  ///< a voxel or two of each wall are given away
 constexpr std::uint64_t kTilesetFaces = 40000;     ///< that nobody asked for, over the bounds
+/// Whether the scene is of files, which can be read any number of times.
+[[nodiscard]] bool can_read_again(const BuildOptions& options);
 /// Whether smaller voxels may be tried where the finest level does not come to its faces: nobody said which, the
 /// scene can be read again, and no cells depend on them.
 [[nodiscard]] bool may_refine(const BuildOptions& options);
