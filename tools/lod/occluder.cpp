@@ -20,6 +20,7 @@ constexpr double kGroundGains = 1.25;                            // times what i
 constexpr double kLeastScaleVox = 2;                             // that is tried
 constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;  // of the scene's diagonal
 constexpr double kLeastPart = 1e-3, kMostLeastPart = 0.3;        // of the largest one, by volume
+constexpr double kLittle = 5e-3;                                 // of the volume of the bounds
 constexpr std::uint64_t kFaces = 100, kFacesPerPart = 24, kMostFaces = 2400;
 constexpr std::uint64_t kFewFacesPerPart = 12;  // of a box; with fewer, parts are left out
 
@@ -169,7 +170,17 @@ OptionText option_text(const BuildOptions& o, const GridFrame& frame, const Hidd
   return text.add("opening", mesh.opening()).add("up", name_of(frame.up)).add("tighten", !o.loose);
 }
 
-void say(Build& build, const LodLevel& level, const Hidden& hidden, std::uint64_t faces) {
+double volume_of(const Bounds3d& b) {
+  return (b.max[0] - b.min[0]) * (b.max[1] - b.min[1]) * (b.max[2] - b.min[2]);
+}
+
+void say(Build& build, const LodLevel& level, const Hidden& hidden, const StreamHeader& header, std::uint64_t faces) {
+  const double share = double(hidden.voxels.count) * std::pow(header.frame.voxel, 3) / volume_of(header.bounds);
+  if (share < kLittle)
+    build.note(
+        fmt::format("the scene hides {:.2g} % of its bounding box only: walls are missing, or wider open than is "
+                    "closed; try a larger --scale",
+                    100 * share));
   if (hidden.ground) build.note("the scene is open below: it is taken to stand on the ground, and eyes to be above it");
   if (hidden.scale > 0)
     build.note(
@@ -210,7 +221,7 @@ MadeOccluder make_occluder(Build& build) {
                {"opening", mesh.opening()},
                {"parts", level.counts.levels.front().measures.shells},
                {"parts_dropped", level.counts.dropped_parts}};
-  say(build, level, hidden, mesh.faces());
+  say(build, level, hidden, made.scene.header, mesh.faces());
   return made;
 }
 
