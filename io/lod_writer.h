@@ -20,8 +20,8 @@ struct NamedMesh {
 };
 
 /// All levels, finest first, in one file: the finest one's node is the scene's first and only one, and carries MSFT_lod
-/// (Microsoft, glTF extension registry) with the others and their screen coverages; readers without it see the finest, if they read what the
-/// scene names (Blender imports every node).
+/// (Microsoft, glTF extension registry) with the others and their screen coverages; readers without it see the finest,
+/// if they read what the scene names (Blender imports every node).
 ///   coverage  one for each level: the least share of the screen's area, covered by the level's bounding sphere, at
 ///   which
 ///             it is drawn; falling
