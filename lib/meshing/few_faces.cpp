@@ -104,6 +104,7 @@ class Way {
 LatticeMesh tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params,
                                SimplifyCounts& simplified, TightenCounts& tightened) {
   Way way(dense, enclosed, params);
+  const std::uint64_t first = way.faces();
   std::optional<Stop> best;
   for (std::uint64_t n = way.faces(); way.is_there();) {
     if (n <= params.faces && (!best || volume6_of(way.at().mesh) < volume6_of(best->mesh))) best = way.at();
@@ -115,6 +116,10 @@ LatticeMesh tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclo
   simplified = best->simplified;
   simplified.faces_out = best->mesh.triangles.size();
   simplified.stop = StopReason::faces;
+  if (simplified.faces_out + 2 < std::min(params.faces, first)) {
+    simplified.stop = StopReason::limits;
+    simplified.limit = kLeastVolume;
+  }
   tightened = best->tightened;
   return std::move(best->mesh);
 }
