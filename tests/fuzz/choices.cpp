@@ -7,6 +7,12 @@
 
 namespace fuzz {
 
+std::uint32_t roll(const std::uint8_t* data, std::size_t size, std::uint32_t n) {
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ data[i]) * 1099511628211u;
+  return std::uint32_t((hash >> 32) % n);
+}
+
 double extreme_number(Choices& choices) {
   static const std::vector<double> kNumbers{0.0,
                                             1e300,

@@ -55,6 +55,9 @@ class Choices {
   std::size_t left_;
 };
 
+/// 0 to n - 1, by all bytes together: a fuzzer that changes any of them rolls again, so that it cannot grow fond of the
+/// ways that take long.
+std::uint32_t roll(const std::uint8_t* data, std::size_t size, std::uint32_t n);
 /// A number at a limit of something: of doubles, floats, integers, the exact predicates or the grid; or any double.
 double extreme_number(Choices& choices);
 /// The same among whole numbers.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -84,13 +85,28 @@ Words sound_words(Choices& c, const std::string& tool, const Workplace& place) {
 }
 
 /// Without these, defaults make thousands of voxels of the cube.
-void add_size(Choices& c, const std::string& tool, Words& words) {
-  const auto add = [&](const Words& more) { words.insert(words.end(), more.begin(), more.end()); };
-  if (c.once_in(8)) return;
-  if (tool == "bpvox") add({"--resolution", "8"});
-  if (tool == "bpclose") add({"--scale", "1vx"});
-  if (tool == "bpmesh") add({"--faces", "12"});
-  if (tool == "bplod") add({"--resolution", "8"});
+void add_size(const std::string& tool, Words& words) {
+  const auto add = [&](const std::string& option, const std::string& value, const Words& others) {
+    for (const std::string& other : others) {
+      if (std::find(words.begin(), words.end(), other) != words.end()) return;
+    }
+    words.push_back(option);
+    words.push_back(value);
+  };
+  if (tool == "bpvox" || tool == "bplod") add("--resolution", "8", {"--voxel", "--resolution"});
+  if (tool == "bpclose" || tool == "bplod") add("--scale", "1vx", {"--scale", "--field"});
+  if (tool == "bpmesh") add("--faces", "12", {"--faces"});
+  if (tool == "bplod") add("--levels", "1", {"--levels", "--faces", "--error", "--screen"});
+}
+
+void add_option(Choices& c, const Option& option, const Workplace& place, Words& words) {
+  static const Words kNever{"--threads", "--help", "--temp", "--output"};  // ours, or nothing to try
+  if (std::find(kNever.begin(), kNever.end(), option.name) != kNever.end()) return;
+  words.push_back(option.name);
+  if (option.value.empty()) return;
+  words.push_back(is_path(option)
+                      ? place.path(c.of<std::string>({"out.x", "in.json", "in.obj", "out.png", "no/out.x", ""}))
+                      : value_of(c, option));
 }
 
 }  // namespace
@@ -99,23 +115,12 @@ void options(const std::uint8_t* data, std::size_t size) {
   static Inputs inputs;
   Workplace& place = inputs.place;
   Choices c(data, size);
-  const std::string tool = c.of<std::string>({"bpvox", "bpclose", "bpmesh", "bpcheck", "bpinfo", "bplod"});
+  static const Words kTools{"bpvox", "bpclose", "bpmesh", "bpcheck", "bpinfo"};
+  const std::string tool = roll(data, size, 16) == 0 ? "bplod" : c.of(kTools);
   Words words = sound_words(c, tool, place);
-  const std::uint32_t count = 1 + c.below(3);
-  bool sized = false;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Option option = c.of(inputs.options.at(tool));
-    if (option.name == "--threads" || option.name == "--help" || option.name == "--temp" || option.name == "--output")
-      continue;
-    sized = sized || option.name == "--voxel" || option.name == "--scale" || option.name == "--faces" ||
-            option.name == "--resolution" || option.name == "--field";
-    words.push_back(option.name);
-    if (option.value.empty()) continue;
-    words.push_back(is_path(option)
-                        ? place.path(c.of<std::string>({"out.x", "in.json", "in.obj", "out.png", "no/out.x", ""}))
-                        : value_of(c, option));
-  }
-  if (!sized) add_size(c, tool, words);
+  for (std::uint32_t count = 1 + c.below(3); count > 0; --count)
+    add_option(c, c.of(inputs.options.at(tool)), place, words);
+  add_size(tool, words);
   (void)place.run(tool, words, {"out.bpv", "out.ply", "out.glb", "out.obj", "out.stl", "out.x", "out.png", "out"});
   place.remove_outputs();
 }

@@ -1,3 +1,5 @@
+#include <array>
+
 #include "tests/fuzz/entries.h"
 #include "tests/fuzz/hostile_scene.h"
 #include "tests/fuzz/tool_runs.h"
@@ -19,20 +21,16 @@ void require(bool good, const std::string& what, const ToolResult& result) {
   if (!good) fail_fuzz(what, result.output + result.messages);
 }
 
-/// The scene as a mesh that is looked at, drawn and judged.
-void look(Choices& c, Workplace& place, const std::string& scene) {
-  switch (c.below(6)) {
-    case 0:
-      (void)place.run("bpcheck", {scene});
-      break;
-    case 1:
-      (void)place.run("bpcheck", {scene, scene, "--inside"});
-      break;
-    case 2:
-      (void)place.run("bpinfo", {scene, "--image", place.path("x.png"), "--image-size", "48"}, {"x.png"});
-      break;
-    default:
-      (void)place.run("bpinfo", {scene});
+/// The scene as a mesh that is listed, drawn or judged.
+void look(std::uint32_t way, Workplace& place, const std::string& scene) {
+  if (way == 0) {
+    (void)place.run("bpcheck", {scene});
+  } else if (way == 1) {
+    (void)place.run("bpcheck", {scene, scene, "--inside"});
+  } else if (way == 2) {
+    (void)place.run("bpinfo", {scene, "--image", place.path("x.png"), "--image-size", "48"}, {"x.png"});
+  } else {
+    (void)place.run("bpinfo", {scene});
   }
 }
 
@@ -56,26 +54,22 @@ void finish_pipe(Choices& c, Workplace& place, const std::string& scene, bool in
 
 void scene(const std::uint8_t* data, std::size_t size) {
   Choices c(data, size);
-  const std::uint32_t way = c.below(8);
+  const std::uint32_t way = roll(data, size, 64);
   Workplace place;
   const std::string fill = c.of<std::string>({"flood", "none", "winding", "inside"});
   const Words size_of_grid = grid(c);
-  if (way < 2) {
-    const SceneFile file = hostile_scene(c);
-    place.write("s." + file.extension, file.bytes);
-    return look(c, place, place.path("s." + file.extension));
-  }
-  const std::uint32_t close = c.byte();
+  const auto how_to_finish = c.raw<std::array<std::uint8_t, 4>>();
   const SceneFile file = hostile_scene(c);
   const std::string scene = place.path("s." + file.extension);
   place.write("s." + file.extension, file.bytes);
+  if (way > 4) return look(way - 5, place, scene);
   Words words{scene, "--fill", fill, "-o", place.path("v.bpv")};
   words.insert(words.end(), size_of_grid.begin(), size_of_grid.end());
-  const ToolResult voxels = place.run("bpvox", words, {"v.bpv"});
-  if (!voxels.done()) return;
+  if (!place.run("bpvox", words, {"v.bpv"}).done()) return;
   const ToolResult info = place.run("bpinfo", {place.path("v.bpv")});
   require(info.done(), "bpvox made what bpinfo refuses", info);
-  if (close % 4 == 0) finish_pipe(c, place, scene, fill == "inside");
+  Choices finish(how_to_finish.data(), how_to_finish.size());
+  if (way == 0) finish_pipe(finish, place, scene, fill == "inside");
 }
 
 }  // namespace fuzz

@@ -74,26 +74,29 @@ void mesh(Choices& c, Workplace& place, const std::string& stream, bool readable
   }
 }
 
-}  // namespace
-
-void stream_stages(const std::uint8_t* data, std::size_t size) {
-  Choices c(data, size);
-  const std::uint32_t way = c.below(8);
-  const RawStream stream = hostile_stream(c);
-  Workplace place;
-  place.write("x.bpv", bytes_of(stream));
-  Words info{place.path("x.bpv")};
-  if (way == 7) add(info, {c.of<std::string>({"--json", "--dump", "--checksum"})});
-  if (way == 6) add(info, {"--image", place.path("x.png"), "--image-size", "64"});
-  const bool readable = place.run("bpinfo", info, {"x.png"}).done();
-  if (way > 5) return;
-  if (way < 3) return mesh(c, place, "x.bpv", readable);
-  Words words = close_options(c, place, stream.voxel);
+void close_and_mesh(Choices& c, Workplace& place, double voxel, bool readable) {
+  Words words = close_options(c, place, voxel);
   add(words, {place.path("x.bpv"), "-o", place.path("y.bpv")});
   if (!place.run("bpclose", words, {"y.bpv"}).done()) return;
   if (!readable) fail_fuzz("x.bpv", "bpclose reads what bpinfo refuses");
   if (!place.run("bpinfo", {place.path("y.bpv")}).done()) fail_fuzz("y.bpv", "bpclose made what bpinfo refuses");
   mesh(c, place, "y.bpv", true);
+}
+
+}  // namespace
+
+void stream_stages(const std::uint8_t* data, std::size_t size) {
+  Choices c(data, size);
+  const std::uint32_t way = roll(data, size, 64);
+  const RawStream stream = hostile_stream(c);
+  Workplace place;
+  place.write("x.bpv", bytes_of(stream));
+  Words info{place.path("x.bpv")};
+  if (way == 0) add(info, {"--image", place.path("x.png"), "--image-size", "64"});
+  if (way < 4 && way > 0) add(info, {c.of<std::string>({"--json", "--dump", "--checksum"})});
+  const bool readable = place.run("bpinfo", info, {"x.png"}).done();
+  if (way > 4 && way < 14) mesh(c, place, "x.bpv", readable);
+  if (way >= 14 && way < 18) close_and_mesh(c, place, stream.voxel, readable);
 }
 
 }  // namespace fuzz
