@@ -172,6 +172,10 @@ void keep_inputs(const std::vector<std::string>& paths) {
   }
 }
 
+void forget_files() {
+  named_files() = {};
+}
+
 std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary) {
   if (binary) refuse_terminal(path);
   const std::string name = free_name(path);

@@ -11,6 +11,7 @@
 
 #include "io/partial_outputs.h"
 #include "lib/core/error.h"
+#include "tools/common/common_options.h"
 
 namespace bp::detail {
 
@@ -66,6 +67,7 @@ int complain(const char* tool, const Error& e) {
 int guard(const char* tool, const std::function<int()>& body) {
   occupy_standard_streams();
   install_handlers();
+  forget_files();
   try {
     return body();
   } catch (const Args::Done&) {

@@ -1,0 +1,75 @@
+#include <array>
+
+#include "tests/fuzz/entries.h"
+#include "tests/fuzz/hostile_scene.h"
+#include "tests/fuzz/tool_runs.h"
+
+namespace fuzz {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// Low resolutions, or hostile voxels.
+Words grid(Choices& c) {
+  if (c.once_in(6))
+    return {"--voxel", c.once_in(2) ? text_of(extreme_number(c)) : c.of<std::string>({"0.3", "7%", "1"})};
+  return {"--resolution", c.of<std::string>({"8", "16", "1", "5", "24", "2"})};
+}
+
+void require(bool good, const std::string& what, const ToolResult& result) {
+  if (!good) fail_fuzz(what, result.output + result.messages);
+}
+
+/// The scene as a mesh that is listed, drawn or judged.
+void look(std::uint32_t way, Workplace& place, const std::string& scene) {
+  if (way == 0) {
+    (void)place.run("bpcheck", {scene});
+  } else if (way == 1) {
+    (void)place.run("bpcheck", {scene, scene, "--inside"});
+  } else if (way == 2) {
+    (void)place.run("bpinfo", {scene, "--image", place.path("x.png"), "--image-size", "48"}, {"x.png"});
+  } else {
+    (void)place.run("bpinfo", {scene});
+  }
+}
+
+/// Closes, meshes and proves.
+void finish_pipe(Choices& c, Workplace& place, const std::string& scene, bool inside) {
+  Words close{"--scale", c.of<std::string>({"1vx", "2vx", "0", "3%"}), place.path("v.bpv"), "-o", place.path("c.bpv")};
+  if (inside) close.push_back("--inner");
+  if (!place.run("bpclose", close, {"c.bpv"}).done()) return;
+  const std::string proxy = place.path("p." + c.of<std::string>({"ply", "obj", "glb"}));
+  Words mesh{"--faces", c.of<std::string>({"20", "8", "60"}), place.path("c.bpv"), "-o", proxy};
+  if (inside) mesh.insert(mesh.end(), {"--mode", "inside"});
+  if (!inside && c.once_in(3)) mesh.insert(mesh.end(), {"--enclose", scene});
+  if (!place.run("bpmesh", mesh, {"p.ply", "p.obj", "p.glb"}).done()) return;
+  Words check{scene, proxy};
+  if (inside) check.push_back("--inside");
+  const ToolResult verdict = place.run("bpcheck", check);
+  require(verdict.done(), "the proxy of a scene does not hold", verdict);
+}
+
+}  // namespace
+
+void scene(const std::uint8_t* data, std::size_t size) {
+  Choices c(data, size);
+  const std::uint32_t way = roll(data, size, 64);
+  Workplace place;
+  const std::string fill = c.of<std::string>({"flood", "none", "winding", "inside"});
+  const Words size_of_grid = grid(c);
+  const auto how_to_finish = c.raw<std::array<std::uint8_t, 4>>();
+  const SceneFile file = hostile_scene(c);
+  const std::string scene = place.path("s." + file.extension);
+  place.write("s." + file.extension, file.bytes);
+  if (way > 4) return look(way - 5, place, scene);
+  Words words{scene, "--fill", fill, "-o", place.path("v.bpv")};
+  words.insert(words.end(), size_of_grid.begin(), size_of_grid.end());
+  if (!place.run("bpvox", words, {"v.bpv"}).done()) return;
+  const ToolResult info = place.run("bpinfo", {place.path("v.bpv")});
+  require(info.done(), "bpvox made what bpinfo refuses", info);
+  Choices finish(how_to_finish.data(), how_to_finish.size());
+  if (way == 0) finish_pipe(finish, place, scene, fill == "inside");
+}
+
+}  // namespace fuzz

@@ -1,0 +1,102 @@
+#include "tests/fuzz/entries.h"
+#include "tests/fuzz/hostile_stream.h"
+#include "tests/fuzz/tool_runs.h"
+
+namespace fuzz {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+void add(Words& words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+}
+
+/// Small scales, or hostile ones: those between are honest work for minutes.
+std::string length_text(Choices& c) {
+  if (c.once_in(12)) return text_of(extreme_number(c)) + c.of<std::string>({"", "%", "vx"});
+  return c.of<std::string>({"1vx", "2vx", "0.5vx", "3.3vx", "5vx", "0.25", "0.7", "1%", "0", "1.0625vx"});
+}
+
+Words close_options(Choices& c, Workplace& place, double voxel) {
+  Words words;
+  if (c.once_in(4)) {
+    place.write("field.json", hostile_field(c, voxel));
+    add(words, {"--field", place.path("field.json")});
+  } else {
+    add(words, {"--scale", length_text(c)});
+  }
+  if (c.once_in(2)) add(words, {"--element", "ball"});
+  if (c.once_in(4)) add(words, {"--tile", c.of<std::string>({"64", "128", "0", "63", "2147483584"})});
+  if (c.once_in(4)) add(words, {c.of<std::string>({"--keep-cavities", "--inner"})});
+  return words;
+}
+
+Words mesh_options(Choices& c) {
+  Words words;
+  if (!c.once_in(4))
+    add(words, {"--faces", c.of<std::string>({"20", "100,20", "4", "60", "0", "1000000", "200,50,12", "1"})});
+  if (c.once_in(4)) add(words, {"--error", length_text(c)});
+  if (c.once_in(6)) add(words, {"--volume", c.once_in(2) ? text_of(extreme_number(c)) : "1.2"});
+  if (c.once_in(8)) add(words, {"--edge-length", c.once_in(2) ? text_of(extreme_number(c)) : "2"});
+  if (c.once_in(4)) add(words, {"--mode", c.of<std::string>({"inside", "fit"})});
+  if (c.once_in(8)) add(words, {"--enclose", c.of<std::string>({"input", "closing"})});
+  if (c.once_in(12)) add(words, {"--inset", c.once_in(2) ? text_of(extreme_number(c)) : "0.3"});
+  if (c.once_in(12)) add(words, {"--least-part", c.once_in(2) ? text_of(extreme_number(c)) : "0.1"});
+  if (c.once_in(12)) add(words, {"--no-tighten"});
+  if (c.once_in(12)) add(words, {"--quads"});
+  if (c.once_in(8)) add(words, {"--measure"});
+  if (c.once_in(16)) add(words, {"--origin", text_of(extreme_number(c)) + ",0," + text_of(extreme_number(c))});
+  return words;
+}
+
+/// A proxy holds, whatever the stream: closed, oriented, without intersections.
+void check(Workplace& place, const std::string& proxy, const Words& how) {
+  const ToolResult verdict = place.run("bpcheck", {place.path(proxy)});
+  if (verdict.status == 0) return;
+  std::string words;
+  for (const std::string& w : how) words += " " + w;
+  fail_fuzz(proxy + words, "does not hold: " + verdict.output + verdict.messages);
+}
+
+void mesh(Choices& c, Workplace& place, const std::string& stream, bool readable) {
+  const std::string extension = c.of<std::string>({"obj", "ply", "glb", "stl"});
+  Words words = mesh_options(c), outputs;
+  for (int i = 0; i < 3; ++i) outputs.push_back("p." + std::to_string(i) + "." + extension);
+  outputs.push_back("p." + extension);
+  add(words, {place.path(stream), "-o", place.path("p." + extension)});
+  const ToolResult made = place.run("bpmesh", words, outputs);
+  if (!made.done()) return;
+  if (!readable) fail_fuzz(stream, "bpmesh reads what bpinfo refuses");
+  if (extension == "stl") return;  // its numbers are short
+  for (const std::string& name : outputs) {
+    if (place.has(name)) check(place, name, words);
+  }
+}
+
+void close_and_mesh(Choices& c, Workplace& place, double voxel, bool readable) {
+  Words words = close_options(c, place, voxel);
+  add(words, {place.path("x.bpv"), "-o", place.path("y.bpv")});
+  if (!place.run("bpclose", words, {"y.bpv"}).done()) return;
+  if (!readable) fail_fuzz("x.bpv", "bpclose reads what bpinfo refuses");
+  if (!place.run("bpinfo", {place.path("y.bpv")}).done()) fail_fuzz("y.bpv", "bpclose made what bpinfo refuses");
+  mesh(c, place, "y.bpv", true);
+}
+
+}  // namespace
+
+void stream_stages(const std::uint8_t* data, std::size_t size) {
+  Choices c(data, size);
+  const std::uint32_t way = roll(data, size, 64);
+  const RawStream stream = hostile_stream(c);
+  Workplace place;
+  place.write("x.bpv", bytes_of(stream));
+  Words info{place.path("x.bpv")};
+  if (way == 0) add(info, {"--image", place.path("x.png"), "--image-size", "64"});
+  if (way < 4 && way > 0) add(info, {c.of<std::string>({"--json", "--dump", "--checksum"})});
+  const bool readable = place.run("bpinfo", info, {"x.png"}).done();
+  if (way > 4 && way < 14) mesh(c, place, "x.bpv", readable);
+  if (way >= 14 && way < 18) close_and_mesh(c, place, stream.voxel, readable);
+}
+
+}  // namespace fuzz
