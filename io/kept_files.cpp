@@ -52,6 +52,13 @@ class KeptFiles {
     return id ? find_identity(*id) : std::nullopt;
   }
 
+  void clear() {
+    const std::scoped_lock lock(mutex_);
+    names_.clear();
+    identities_.clear();
+    unread_.clear();
+  }
+
   bool any_below(const std::string& folder) {
     const std::scoped_lock lock(mutex_);
     read_parts();
@@ -63,7 +70,7 @@ class KeptFiles {
  private:
   void add_entry(const Entry& entry) {
     if (entry.path != "-") names_.try_emplace(whole_path(entry.path), entry);
-    if (const auto id = identity_of(entry.path)) identities_.try_emplace(*id, entry);
+    if (const auto id = identity_of(entry.path)) identities_.insert_or_assign(*id, entry);
   }
 
   /// The number of a file that was removed may go to another one: the name that it was kept under must still lead to
@@ -109,6 +116,10 @@ void refuse_kept(const std::string& path, const char* remedy) {
     fail(ErrorCode::bad_argument, "{}: belongs to the input {}, and would be lost; {}", path,
          entry->owner.substr(entry->owner.rfind('/') + 1), remedy);
   fail(ErrorCode::bad_argument, "{}: is an input, and would be lost; {}", path, remedy);
+}
+
+void forget_kept() {
+  kept_files().clear();
 }
 
 bool is_kept(const std::string& path) {

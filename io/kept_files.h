@@ -14,6 +14,8 @@ void keep_file(const std::string& path);
 
 /// Throws bad_argument if `path` names a file that is kept: it says why, and gives `remedy`.
 void refuse_kept(const std::string& path, const char* remedy = "give the output another name");
+/// Nothing is kept any more: another run begins in this process, as in tests.
+void forget_kept();
 /// Whether `path` names a file that is kept.
 [[nodiscard]] bool is_kept(const std::string& path);
 /// Whether a file that is kept lies in this folder, or below.
