@@ -36,14 +36,16 @@ std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::
 }
 
 /// What hulls leave to be desired, and whether more would help; empty if they are as good as the level.
-std::string hull_note(const WrittenFile& file, bool limited) {
+std::string hull_note(const WrittenFile& file, const ConvexParts& parts) {
   constexpr double kAsGood = 1.1;
   if (file.hull_volume < kAsGood) return "";
+  const char* advice = parts.short_of_faces ? "give more --faces to come nearer, or use"
+                       : parts.limited      ? "give more --hulls to come nearer, or use"
+                                            : "more --hulls would hardly change that: use";
   return fmt::format(
       "{}: {} hull{} with {:.3g} times the level's volume; {} another of the files, the level itself, as complex "
       "collision",
-      file.name, file.hulls, file.hulls == 1 ? "" : "s", file.hull_volume,
-      limited ? "give more --hulls to come nearer, or use" : "more --hulls would hardly change that: use");
+      file.name, file.hulls, file.hulls == 1 ? "" : "s", file.hull_volume, advice);
 }
 
 /// What importers go by: Godot by the suffix "-colonly" (collision only, the mesh itself), Unreal by the prefix
@@ -53,7 +55,8 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
   const NamedMesh godot{name + "-colonly", &mesh}, unity{name + "_Collider", &mesh};
   write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"));
   write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"));
-  const ConvexParts parts = convex_parts(mesh, std::size_t(o.hulls));
+  const std::uint64_t faces = o.request.faces.empty() ? 0 : o.request.faces.front();
+  const ConvexParts parts = convex_parts(mesh, std::size_t(o.hulls), faces);
   std::vector<NamedMesh> unreal;
   const auto volume6 = double(volume6_of(mesh));
   WrittenFile hull_file{name + "_unreal.glb", 0, 0, false, parts.hulls.size()};
@@ -63,7 +66,7 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
     unreal.push_back({fmt::format("UCX_{}_{:02}", name, unreal.size()), &hull});
   }
   write_parts_glb(unreal, out.file(hull_file.name));
-  hull_file.note = hull_note(hull_file, parts.limited);
+  hull_file.note = hull_note(hull_file, parts);
   const std::uint64_t own = mesh.triangles.size();
   return {{name + "_godot.glb", 0, own}, hull_file, {name + "_unity.glb", 0, own}};
 }

@@ -71,6 +71,11 @@ hulls angle.json
 said 'bplod angle.obj --faces 40 --resolution 60 --profile collision --hulls 1 -o angle1 --report angle1.json | cut -f 1' | volumes
 hulls angle1.json
 for f in angle/angle_unreal angle1/angle_unreal angle/angle_godot; do said "bpcheck --convex angle.obj $f.glb | sed -n '/each part/p;\$p'"; done
+# All hulls together keep to --faces, and say what that costs.
+for n in 6 12 20; do bplod angle.obj --faces $n --resolution 60 --profile collision -q -o kept --overwrite | awk -v n=$n '/unreal/ { print n, ($2 <= n ? "faces hold" : "faces are " $2) }'; done
+said 'bplod angle.obj --faces 12 --resolution 60 --profile collision -o kept --overwrite | cut -f 1' | volumes
+said "bpcheck --convex angle.obj kept/angle_unreal.glb | sed -n '/each part/p;\$p'"
+rm -r kept
 bplod angle.obj --faces 40 --resolution 60 --profile collision -o angle2 -j 1 > list
 cmp angle/angle_unreal.glb angle2/angle_unreal.glb && echo "the same bytes"
 said 'bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision --hulls 3 -o three --report three.json | cut -f 1' | volumes
