@@ -13,6 +13,7 @@
 #include "io/scene_format.h"
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
+#include "lib/meshing/few_faces.h"
 #include "lib/stage/mesh_stage.h"
 #include "tools/common/face_list.h"
 #include "tools/common/face_notes.h"
@@ -294,6 +295,12 @@ void note_faces(bp::Report& report, const Options& o, const bp::MeshCounts& c, s
   const bp::LevelCounts& level = c.levels[i];
   const std::uint64_t faces = level.simplify.faces_out;
   if (i >= o.faces.size()) return;
+  if (level.stopped_by == bp::kLeastVolume) {
+    report.note(fmt::format("{}{} faces instead of {}: with so few, more would not hold less volume", level_text(c, i),
+                            faces, o.faces[i]),
+                o.common);
+    return;
+  }
   if (const std::string few = bp::too_few_note(faces, o.faces[i], o.mode); !few.empty())
     report.note(level_text(c, i) + few, o.common);
   if (faces <= o.faces[i]) return;

@@ -9,6 +9,7 @@
 #include "lib/grid/count_bits.h"
 #include "lib/meshing/enclosed_triangles.h"
 #include "lib/meshing/enclosed_voxels.h"
+#include "lib/meshing/few_faces.h"
 #include "lib/meshing/flatten.h"
 #include "lib/meshing/lattice_geometry.h"
 #include "lib/meshing/quad_slack.h"
@@ -232,10 +233,12 @@ LatticeMesh use_room(LatticeMesh proxy, const Enclosed& enclosed, SimplifyParams
   return proxy;
 }
 
-/// One level, from the surface of all that it must enclose.
-LatticeMesh make_level(const SurfaceSource& dense, const Enclosed* enclosed, const SimplifyParams& params,
+/// One level, from the surface of all that it must enclose. `few`: nothing but a number of faces below kFewFaces
+/// matters.
+LatticeMesh make_level(const SurfaceSource& dense, const Enclosed* enclosed, const SimplifyParams& params, bool few,
                        LevelCounts& counts) {
   if (enclosed == nullptr) return simplify(dense, params, counts.simplify);
+  if (few) return tight_proxy_of_few(dense, *enclosed, params, counts.simplify, counts.tighten);
   LatticeMesh proxy = tight_proxy(dense, *enclosed, params, counts.simplify, counts.tighten);
   return params.limits == nullptr ? proxy : use_room(std::move(proxy), *enclosed, params, counts);
 }
@@ -376,7 +379,9 @@ class LevelMaker {
       if (faces >= kLeastFacesWithRoom) params.room = room_around(dense.box(), faces);  // the box reads all voxels
       if (params_.near && params.limits == nullptr && faces > 0)
         params.reach = (header_.scale.base / dense.frame().voxel + 1) * kLatticePerVoxel;
-      LatticeMesh proxy = make_level(dense, enclosed, params, counts);
+      const bool few = faces > 0 && faces < kFewFaces && params.limits == nullptr && !params.edge_limit &&
+                       !params_.near && !inside();
+      LatticeMesh proxy = make_level(dense, enclosed, params, few, counts);
       if (!params_.quads) return proxy;
       if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);
       proxy.quads = pair_triangles(proxy, QuadKeeps::enclosed, enclosed);
