@@ -61,7 +61,7 @@ int take_partial(const std::string& name, const std::string& path) {
   if (!made) fd = ::open(name.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return -1;
   const bool locked = ::flock(fd, LOCK_EX | LOCK_NB) == 0;
-  const bool is_free = locked ? is_ours(fd, name) && (made || !is_kept(fd)) : made && errno != EWOULDBLOCK;
+  const bool is_free = locked ? is_ours(fd, name) : made && errno != EWOULDBLOCK;
   if (is_free && ::ftruncate(fd, 0) == 0) return fd;
   ::close(fd);
   return -1;
@@ -137,6 +137,7 @@ OutputFile::OutputFile(const std::string& path, bool overwrite)
 void OutputFile::open_partial() {
   for (int i = 1; i <= kMostPartials; ++i) {
     std::string name = fmt::format("{}.partial-{}", name_, i);
+    if (is_kept(name)) continue;  // an input of that name is nobody's leftover
     const WhileMaking making;
     fd_ = take_partial(name, name_);
     if (fd_ < 0) continue;

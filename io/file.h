@@ -55,6 +55,8 @@ class OutputFile {
   enum class Sync { name, content };
   /// Flushes, syncs, closes and renames; the file appears under its name now. stdout: flushes.
   void commit(Sync sync = Sync::name);
+  /// From now on a file of that name is replaced.
+  void allow_overwrite() { overwrite_ = true; }
   /// Files that appear together, in this order. If one cannot, those that are new do not, either.
   static void commit_all(std::span<const std::unique_ptr<OutputFile>> files);
 

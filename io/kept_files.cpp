@@ -23,15 +23,11 @@ struct Identity {
 };
 
 /// Of a regular file; none of anything else: what is written to a device or a pipe replaces nothing.
-std::optional<Identity> identity_of(const struct stat& info) {
-  if (!S_ISREG(info.st_mode)) return {};
-  return Identity{info.st_dev, info.st_ino};
-}
-
 std::optional<Identity> identity_of(const std::string& path) {
   struct stat info {};
   const bool there = path == "-" ? ::fstat(0, &info) == 0 : ::stat(path.c_str(), &info) == 0;
-  return there ? identity_of(info) : std::nullopt;
+  if (!there || !S_ISREG(info.st_mode)) return {};
+  return Identity{info.st_dev, info.st_ino};
 }
 
 class KeptFiles {
@@ -53,13 +49,6 @@ class KeptFiles {
     if (id) read_parts();  // what is not there is no part of a scene
     const auto named = names_.find(whole_path(path));
     if (named != names_.end()) return named->second;
-    return id ? find_identity(*id) : std::nullopt;
-  }
-
-  std::optional<Entry> find(const struct stat& info) {
-    const std::scoped_lock lock(mutex_);
-    read_parts();
-    const std::optional<Identity> id = identity_of(info);
     return id ? find_identity(*id) : std::nullopt;
   }
 
@@ -124,11 +113,6 @@ void refuse_kept(const std::string& path, const char* remedy) {
 
 bool is_kept(const std::string& path) {
   return kept_files().find(path).has_value();
-}
-
-bool is_kept(int fd) {
-  struct stat info {};
-  return ::fstat(fd, &info) == 0 && kept_files().find(info).has_value();
 }
 
 bool holds_kept(const std::string& folder) {

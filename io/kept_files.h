@@ -16,8 +16,6 @@ void keep_file(const std::string& path);
 void refuse_kept(const std::string& path, const char* remedy = "give the output another name");
 /// Whether `path` names a file that is kept.
 [[nodiscard]] bool is_kept(const std::string& path);
-/// The same of a file that is open.
-[[nodiscard]] bool is_kept(int fd);
 /// Whether a file that is kept lies in this folder, or below.
 [[nodiscard]] bool holds_kept(const std::string& folder);
 
