@@ -1,12 +1,11 @@
 #include "io/foreign_format.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string_view>
 #include <vector>
 
 #include "io/detail/lower.h"
+#include "lib/core/error.h"
 
 namespace bp {
 
@@ -81,8 +80,14 @@ std::string foreign_way(const std::string& path) {
   return f == nullptr ? "" : f->way;
 }
 
-std::string surface_remedy() {
-  return std::string("a point cloud needs a surface first; ") + kSurface;
+void refuse_foreign(const std::string& path, const std::string& first_bytes) {
+  const std::string what = foreign_format(path, first_bytes);
+  if (!what.empty()) fail(ErrorCode::bad_input, "{}: {}", path, what);
+}
+
+void refuse_points(const std::string& name, std::uint64_t points) {
+  fail(ErrorCode::bad_input, "{}: no triangles: {} point{}; a point cloud needs a surface first; {}", name, points,
+       points == 1 ? "" : "s", kSurface);
 }
 
 }  // namespace bp

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 
 namespace bp {
@@ -11,7 +12,9 @@ namespace bp {
 /// The last part of it, also of formats that are read in part (IFC): "convert it: ...".
 [[nodiscard]] std::string foreign_way(const std::string& path);
 
-/// The remedy for points without faces: "a point cloud needs a surface first; ...".
-[[nodiscard]] std::string surface_remedy();
+/// Throws bad_input with foreign_format(), if that is known.
+void refuse_foreign(const std::string& path, const std::string& first_bytes = "");
+/// Throws bad_input: a scene of points, without triangles.
+[[noreturn]] void refuse_points(const std::string& name, std::uint64_t points);
 
 }  // namespace bp

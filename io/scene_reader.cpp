@@ -44,12 +44,6 @@ std::string start_of(const SceneFile& file) {
   return start;
 }
 
-/// Of a file whose name is none of a scene that is read.
-void refuse_foreign(const std::string& name, const std::string& start = "") {
-  if (const std::string what = foreign_format(name, start); !what.empty())
-    fail(ErrorCode::bad_input, "{}: {}", name, what);
-}
-
 /// What the first bytes of a file tell; `extension` is set for a format that goes to Assimp.
 Reader reader_by_content(const SceneFile& file, std::string& extension) {
   const std::string start = start_of(file);
@@ -205,17 +199,10 @@ class FilteredScene final : public TriangleSource {
     }
     counts_.bad_faces = raw_->bad_faces() + bad_faces_;
     counts_.instances = raw_->instances();
-    if (batch_->triangles.empty()) refuse_points();
+    const SceneCounts& c = counts_;  // at the end; whoever names a file of points wants them enclosed
+    if (batch_->triangles.empty() && c.triangles + c.degenerate + c.non_finite + c.bad_faces == 0 && raw_->points() > 0)
+      refuse_points(name_, raw_->points());
     return !batch_->triangles.empty();
-  }
-
-  /// At the end: whoever names a file of points wants them enclosed.
-  void refuse_points() const {
-    const SceneCounts& c = counts_;
-    const std::uint64_t points = raw_->points();
-    if (c.triangles + c.degenerate + c.non_finite + c.bad_faces > 0 || points == 0) return;
-    fail(ErrorCode::bad_input, "{}: no triangles: {} point{}; {}", name_, points, points == 1 ? "" : "s",
-         surface_remedy());
   }
 
   bool fetch(bool colored) {
