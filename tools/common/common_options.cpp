@@ -64,17 +64,6 @@ std::string free_name(const std::string& path) {
   return whole;
 }
 
-/// A report is a log: the next one replaces it. Nothing else is replaced unasked.
-bool is_report(const std::string& path) {
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none)) return false;
-  constexpr std::string_view kBegin = "{\n  \"tool\": \"bp";  // as Report::text() begins
-  char head[kBegin.size()] = {};
-  const InputFile file(path);
-  const std::size_t got = file.read_at(0, std::as_writable_bytes(std::span(head)));
-  return got == 0 || std::string_view(head, got) == kBegin;
-}
-
 }  // namespace
 
 DeviceChoice parse_device(const std::string& text) {
@@ -136,6 +125,16 @@ void CommonOptions::prepare() {
     check_temp(temp);
   }
   if (!report.empty()) report_file = open_output(report, overwrite || is_report(report), false);
+}
+
+bool is_report(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return false;
+  constexpr std::string_view kBegin = "{\n  \"tool\": \"bp";  // as Report::text() begins
+  char head[kBegin.size()] = {};
+  const InputFile file(path);
+  const std::size_t got = file.read_at(0, std::as_writable_bytes(std::span(head)));
+  return got == 0 || std::string_view(head, got) == kBegin;
 }
 
 std::uint64_t default_memory() {

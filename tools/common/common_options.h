@@ -53,6 +53,10 @@ struct CommonOptions {
   unsigned parts_ = all_parts;
 };
 
+/// Whether a file is an earlier report, or empty. A report is a log: the next one replaces it, and nothing else
+/// unasked.
+[[nodiscard]] bool is_report(const std::string& path);
+
 /// A quarter of the memory of this machine (or of this container), so that the tools of one pipe fit together.
 [[nodiscard]] std::uint64_t default_memory();
 /// What the program itself, and so many threads (0: all cores), take of --memory: below, no tool can keep it.

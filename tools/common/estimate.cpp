@@ -12,14 +12,13 @@ namespace bp {
 
 namespace {
 
-// Measured as user seconds and peak memory (/usr/bin/time) of horse, motorbike and a flat piece of a city at 256 to
-// 2048 voxels, bpclose --scale 2%, bpmesh --faces 1000, on 2 cores of a machine in use (docs/performance.md).
+// Measured as user seconds and peak memory, at 256 to 2048 voxels: docs/performance.md, "The estimate of a long run".
 constexpr double kNoteSeconds = 10;               ///< shorter runs say nothing
 constexpr double kSurfacePerArea = 0.6;           ///< voxels that triangles touch, for each voxel face of the bounds
 constexpr double kFacesPerArea = 1;               ///< triangles of the dense surface, the same
-constexpr double kSecondsPerSurfaceVoxel = 1e-7;  ///< bpvox: 0.8 to 1.1e-7
+constexpr double kSecondsPerSurfaceVoxel = 1e-7;  ///< bpvox: 0.6 to 1.1e-7
 constexpr double kSecondsPerScaledVoxel = 4e-11;  ///< bpclose, a voxel of the grid and voxel of scale: 2 to 9e-11
-constexpr double kSecondsPerFace = 1.3e-6;        ///< bpmesh, a triangle of the dense surface: 1.1 to 2.3e-6
+constexpr double kSecondsPerFace = 1.3e-6;        ///< bpmesh, a triangle of the dense surface: 1.1 to 3.7e-6
 constexpr double kCoresPerGpu = 64;               ///< bpclose as a whole: 2 to 5 times as fast as 16 cores
 constexpr double kSerialShare = 0.5;              ///< of bpmesh
 constexpr double kProgramBytes = 25e6, kVoxBytes = 10, kCloseBytes = 100, kMeshBytes = 32;  ///< the last three: of each
