@@ -58,15 +58,18 @@ class SceneBuilder {
 
 std::optional<UpAxis> SceneBuilder::up() const {
   const GltfObject asset = root_.object("asset");
-  if (asset.holds_text("extras", "up", "z")) return UpAxis::z;
-  if (asset.holds_text("extras", "up", "y")) return UpAxis::y;
+  for (const char* const name : kUpNames) {
+    if (asset.holds_text("extras", "up", name)) return up_axis_named(name);
+  }
   return {};
 }
 
-// Files of ours that stand upright in glTF's y-up world were z-up: back to their own coordinates.
+// Files of ours stand upright in glTF's y-up world: back to their own coordinates.
 Affine SceneBuilder::world() const {
   Affine a;
-  if (scene_.up == UpAxis::z) a.m = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
+  const AxisTurn back = to_y_up(scene_.up.value_or(UpAxis::y)).inverse();
+  a.m = {};
+  for (std::size_t i = 0; i < 3; ++i) a.m[i][back.axis[i]] = back.negative[i] ? -1 : 1;
   return a;
 }
 

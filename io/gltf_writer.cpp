@@ -78,15 +78,23 @@ Buffer buffer_of(const LatticeMesh& mesh, LatticeCoord centre) {
   return b;
 }
 
+/// Column by column; a quaternion would round.
+Json matrix_of(const AxisTurn& turn) {
+  std::array<int, 16> m{};
+  for (std::size_t i = 0; i < 3; ++i) m[4 * turn.axis[i] + i] = turn.negative[i] ? -1 : 1;
+  m[15] = 1;
+  return m;
+}
+
 Json nodes_of(const LatticeMesh& mesh, LatticeCoord centre, const MeshWriteOptions& options) {
   const double unit = mesh.frame.voxel / kLatticePerVoxel;
   const Vec3d translation = moved_exactly(mesh.frame, mesh.frame.world(centre), options.origin);
   Json nodes = Json::array();
   nodes.push_back(
       {{"name", "proxy"}, {"mesh", 0}, {"translation", translation}, {"scale", Json::array({unit, unit, unit})}});
-  if (mesh.frame.up == UpAxis::z) {  // columns of (x,y,z) -> (x,z,-y); a quaternion would round
-    nodes.push_back({{"name", "z up to y up"},
-                     {"matrix", Json::array({1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1})},
+  if (mesh.frame.up != UpAxis::y) {
+    nodes.push_back({{"name", fmt::format("{} up to y up", name_of(mesh.frame.up))},
+                     {"matrix", matrix_of(to_y_up(mesh.frame.up))},
                      {"children", Json::array({0})}});
   }
   return nodes;
@@ -118,7 +126,7 @@ Json document_of(const LatticeMesh& mesh, const Buffer& buffer, LatticeCoord cen
   Json doc;
   doc["asset"] = gltf_asset("bpmesh", mesh.provenance, mesh.frame.up, options.origin);
   doc["scene"] = 0;
-  doc["scenes"] = Json::array({{{"nodes", Json::array({mesh.frame.up == UpAxis::z ? 1 : 0})}}});
+  doc["scenes"] = Json::array({{{"nodes", Json::array({mesh.frame.up == UpAxis::y ? 0 : 1})}}});
   doc["nodes"] = nodes_of(mesh, centre, options);
   doc["meshes"] = Json::array({{{"primitives", Json::array({primitive})}}});
   doc["materials"] = Json::array({gltf_material(false)});

@@ -45,7 +45,8 @@ struct Extent {
   }
 };
 
-/// Vertices relative to a centre, as the numbers that the file holds.
+/// Vertices relative to a centre, as the numbers that the file holds: turned to y up, not by a rotation of the node,
+/// since tools make a quaternion of it, which rounds.
 template <class Number>
 struct Positions {
   std::string bytes;
@@ -56,8 +57,7 @@ struct Positions {
     max.fill(std::numeric_limits<Number>::lowest());
     bytes.reserve(order.size() * stride);
     for (const std::uint32_t i : order) {
-      const LatticeCoord v = mesh.vertices[i] - centre,
-                         d = mesh.frame.up == UpAxis::z ? LatticeCoord{v.x, v.z, -v.y} : v;
+      const LatticeCoord d = to_y_up(mesh.frame.up)(mesh.vertices[i] - centre);
       const std::array<Number, 3> p{Number(d.x), Number(d.y), Number(d.z)};
       for (std::size_t k = 0; k < 3; ++k) {
         min[k] = std::min(min[k], p[k]);
@@ -69,18 +69,12 @@ struct Positions {
   }
 };
 
-/// z up to y up. Not by a rotation of the node: tools make a quaternion of it, which rounds.
-template <class Vector>
-Vector turned(const Vector& v, UpAxis up) {
-  return up == UpAxis::z ? Vector{v[0], v[2], -v[1]} : v;
-}
-
 /// Of the copies in `order`.
 std::vector<std::array<float, 3>> normals_of(const ShadedMesh& mesh, const std::vector<std::uint32_t>& order,
                                              UpAxis up) {
   std::vector<std::array<float, 3>> normals;
   normals.reserve(order.size());
-  for (const std::uint32_t i : order) normals.push_back(turned(mesh.normals[i], up));
+  for (const std::uint32_t i : order) normals.push_back(to_y_up(up)(mesh.normals[i]));
   return normals;
 }
 
@@ -260,8 +254,7 @@ class GlbBuilder {
     const double u = frame.voxel / kLatticePerVoxel;
     Json node{{"name", named.name}, {"mesh", doc_["meshes"].size() - 1}};
     if (centre != nullptr) {
-      const Vec3d t = frame.world(*centre);
-      node["translation"] = frame.up == UpAxis::z ? Vec3d{t[0], t[2], 0.0 - t[1]} : t;
+      node["translation"] = to_y_up(frame.up)(frame.world(*centre));
     }
     node["scale"] = Json::array({u, u, u});
     return node;

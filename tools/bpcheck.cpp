@@ -56,7 +56,8 @@ Options parse(bp::Args& args) {
   args.option("--samples", "N", o.samples, "triangles sampled for distances, on either side (default: 5000)");
   args.option("--image", "FILE", o.image, "draw scene and proxy side by side as PNG");
   args.option("--image-size", "PIXELS", o.image_size, "side of a panel of the image");
-  args.option("--up", "y|z", o.up, "axis that points up in the image (default: y, or what the proxy or scene tells)");
+  args.option("--up", "x|y|z|-x|-y|-z", o.up,
+              "axis that points up in the image (default: y, or what the proxy or scene tells)");
   args.option("--azimuth", "DEGREES", o.azimuth, "where the viewer stands, from the front to the right");
   args.option("--elevation", "DEGREES", o.elevation, "how far above the horizon the viewer stands");
   o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));

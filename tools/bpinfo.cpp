@@ -42,7 +42,7 @@ Options parse(bp::Args& args) {
   args.option("--image-size", "PIXELS", o.picture.panel_size, "side of a panel of the image");
   args.flag("--no-edges", o.no_edges, "leave out the edges of meshes of few triangles");
   args.option(
-      "--up", "y|z", o.picture.up,
+      "--up", "x|y|z|-x|-y|-z", o.picture.up,
       "axis that points up in the image, of INPUTs that do not tell (default: y, or that of the first that tells)");
   args.option("--azimuth", "DEGREES", o.picture.azimuth, "where the viewer stands, from the front to the right");
   args.option("--elevation", "DEGREES", o.picture.elevation, "how far above the horizon the viewer stands");

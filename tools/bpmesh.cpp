@@ -24,6 +24,7 @@
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
+#include "tools/common/up_note.h"
 
 namespace {
 
@@ -400,6 +401,12 @@ bp::MeshFormat output_format(const Options& o) {
   return format;
 }
 
+/// glTF has y up; other formats tell nothing.
+void note_axes(bp::Report& report, const Options& o, const bp::StreamHeader& header, bp::MeshFormat format) {
+  if (format != bp::MeshFormat::glb && format != bp::MeshFormat::gltf) return;
+  if (const std::string text = bp::up_note(header); !text.empty()) report.note(text, o.common);
+}
+
 void note_estimate(bp::Report& report, const Options& o, const bp::StreamHeader& header) {
   const bool scene = !o.enclose.empty() && !is_layer(o.enclose.front());
   const double effort = (o.error ? bp::kErrorEffort : 1) * (scene && !o.loose ? bp::kSceneEffort : 1);
@@ -422,6 +429,7 @@ void run(const Options& o) {
   bp::BrickReader source(o.in);
   bp::MeshParams params = mesh_params(o, source.header());
   note_estimate(report, o, source.header());
+  note_axes(report, o, source.header(), format);
   const double error_world = params.error_world;
   bp::MeshCounts counts;
   const bp::MeshBudget budget(o.common.memory_bytes);

@@ -17,6 +17,7 @@
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
+#include "tools/common/up_note.h"
 
 namespace {
 
@@ -54,7 +55,8 @@ Options parse(bp::Args& args) {
       o.fill,
       "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing; the first "
       "without the voxels that triangles touch, for bpclose --inner and bpmesh --mode inside");
-  args.option("--up", "y|z", o.up, "axis of the scene that points up (default: y, or what a proxy of ours tells)");
+  args.option("--up", "x|y|z|-x|-y|-z", o.up,
+              "axis of the scene that points up (default: y, or what a proxy of ours tells)");
   args.option("--format", "NAME", o.format,
               "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");
   o.common.add_to(args);
@@ -70,7 +72,8 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-bp::OptionText option_text(const Options& o, bp::UpAxis up) {
+/// told: whether the user or the scene said which axis is up; of another axis than y that goes without saying.
+bp::OptionText option_text(const Options& o, bp::UpAxis up, bool told) {
   bp::OptionText text;
   if (o.voxel) {
     text.add("voxel", *o.voxel);
@@ -78,6 +81,7 @@ bp::OptionText option_text(const Options& o, bp::UpAxis up) {
     text.add("resolution", o.resolution.value_or(kDefaultResolution));
   }
   text.add("fill", name_of(o.fill)).add("up", name_of(up));
+  if (told && up == bp::UpAxis::y) text.add(bp::kUpTold, true);
   return text;
 }
 
@@ -106,7 +110,7 @@ bp::VoxelizeOptions stage_options(const Options& o, const bp::VoxelizeBudget& bu
 }
 
 void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& header, const bp::VoxelizeCounts& c) {
-  report.options["options"] = option_text(o, header.frame.up).text();
+  report.options["options"] = header.provenance.back().options;
   report.options["memory"] = o.common.memory_bytes;
   report.bytes_in = bp::size_of_files(o.scenes);
   report.counts["triangles"] = c.scene.triangles;
@@ -155,7 +159,8 @@ void run(const Options& o) {
     header = h;
     const bp::Estimate estimate = bp::estimate_voxelize(h.bounds, h.frame.voxel);
     bp::note_estimate(estimate, o.common, progress, report);
-    header.provenance.push_back(bp::make_provenance("bpvox", option_text(o, h.frame.up), counts.input_hash));
+    header.provenance.push_back(
+        bp::make_provenance("bpvox", option_text(o, h.frame.up, o.up || source->up()), counts.input_hash));
     return writer.emplace(*file, header);
   };
   const bp::VoxelizeCounts counts = bp::voxelize_stream(*source, open, backends, stage_options(o, budget, progress));

@@ -24,7 +24,7 @@ GltfOutJson gltf_asset(const std::string& tool, const std::vector<Provenance>& p
     if (!p.input_hash.empty()) step["input"] = p.input_hash;
     steps.push_back(std::move(step));
   }
-  GltfOutJson extras{{"up", up == UpAxis::z ? "z" : "y"}};
+  GltfOutJson extras{{"up", name_of(up)}};
   if (origin != Vec3d{}) extras["origin"] = origin;
   extras["provenance"] = std::move(steps);
   return {{"version", "2.0"}, {"generator", tool + " " BP_VERSION}, {"extras", std::move(extras)}};

@@ -131,7 +131,7 @@ std::vector<std::byte> encode_header(const StreamHeader& h) {
   out.put(std::uint8_t(h.fill));
   out.put(std::uint8_t(h.has_closing ? h.element : StructuringElement::ball));
   out.put(std::uint8_t(h.slab_axis));
-  out.put(std::uint8_t(h.frame.up == UpAxis::z ? 1 : 0));
+  out.put(std::uint8_t(h.frame.up));
   out.put(h.frame.voxel);
   for (const std::int64_t o : h.frame.origin) out.put(o);
   for (const double c : h.bounds.min) out.put(c);
@@ -156,7 +156,7 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
   const auto element = enum_of<StructuringElement>(in.get<std::uint8_t>(), h.has_closing ? 2 : 1, "element", name);
   if (h.has_closing) h.element = element;
   h.slab_axis = in.get<std::uint8_t>();
-  h.frame.up = enum_of<int>(in.get<std::uint8_t>(), 2, "up axis", name) == 1 ? UpAxis::z : UpAxis::y;
+  h.frame.up = UpAxis(enum_of<int>(in.get<std::uint8_t>(), int(kUpNames.size()), "up axis", name));
   h.frame.voxel = in.get<double>();
   for (std::int64_t& o : h.frame.origin) o = in.get<std::int64_t>();
   for (double& c : h.bounds.min) c = in.get<double>();

@@ -8,7 +8,7 @@ namespace bp {
 /// Orthographic: x to the right and y down in samples, depth away from the viewer in samples too.
 class Camera {
  public:
-  explicit Camera(const RenderOptions& o) : z_up_(o.up == UpAxis::z) {
+  explicit Camera(const RenderOptions& o) : axes_(o.up) {
     const double a = o.azimuth * (M_PI / 180), e = o.elevation * (M_PI / 180);
     right_ = {std::cos(a), std::sin(a), 0};
     forward_ = {-std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), -std::sin(e)};  // from the viewer
@@ -21,7 +21,7 @@ class Camera {
   /// Right, up, forward of a point of the scene, in scene units from the point looked at.
   [[nodiscard]] Vec3d seen(const Vec3d& p) const {
     const Vec3d d{p[0] - origin_[0], p[1] - origin_[1], p[2] - origin_[2]};
-    const Vec3d v = z_up_ ? d : Vec3d{d[0], -d[2], d[1]};
+    const Vec3d v = turned(d, axes_, UpAxis::z);
     return {dot(v, right_), dot(v, up_), dot(v, forward_)};
   }
 
@@ -42,7 +42,7 @@ class Camera {
  private:
   static double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-  bool z_up_;
+  UpAxis axes_;
   Vec3d right_{}, up_{}, forward_{}, origin_{};
   double scale_ = 1, offset_x_ = 0, offset_y_ = 0;
 };

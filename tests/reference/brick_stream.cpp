@@ -78,7 +78,7 @@ void Reader::header() {
   out.element = int(in.number(1));
   out.slab_axis = int(in.number(1));
   out.up = int(in.number(1));
-  require(out.fill <= 3 && out.element <= (out.has_closing ? 1 : 0) && out.slab_axis <= 2 && out.up <= 1,
+  require(out.fill <= 3 && out.element <= (out.has_closing ? 1 : 0) && out.slab_axis <= 2 && out.up <= 5,
           "small field");
   out.voxel = in.f64();
   require(std::isnormal(out.voxel) && out.voxel > 0, "voxel");

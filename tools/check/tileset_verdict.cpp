@@ -15,19 +15,10 @@ namespace bp {
 
 namespace {
 
-/// glTF to 3D Tiles: y up to z up. Exact.
-Vec3d z_up(const Vec3d& p) {
-  return {p[0], 0.0 - p[2], p[1]};
-}
-
-Vec3d y_up(const Vec3d& p) {
-  return {p[0], p[2], 0.0 - p[1]};
-}
-
 /// Vertices in the space of its tile.
 IndexedMesh read_content(const std::string& path, const SceneOptions& options) {
   IndexedMesh mesh = read_mesh(path, options);
-  for (Vec3d& p : mesh.vertices) p = z_up(p);
+  for (Vec3d& p : mesh.vertices) p = turned(p, UpAxis::y, UpAxis::z);  // glTF to 3D Tiles
   return mesh;
 }
 
@@ -102,8 +93,7 @@ class CoverTiles {
     if (end != std::string::npos) tiles_[places_.at(place.substr(0, end))].children.push_back(tiles_.size() - 1);
   }
   [[nodiscard]] Vec3d to_scene(const Transform& transform, const Vec3d& p) const {
-    const Vec3d q = transformed(transform, p);
-    return up_ == "y" ? y_up(q) : q;
+    return turned(transformed(transform, p), UpAxis::z, up_);
   }
   [[nodiscard]] Bounds3d moved(const Bounds3d& cell, const Transform& transform) const {
     Transform turn = transform;
@@ -114,7 +104,8 @@ class CoverTiles {
     return out;
   }
 
-  const std::string up_, folder_;
+  const UpAxis up_;
+  const std::string folder_;
   const SceneOptions& options_;
   std::vector<CoverTile> tiles_;
   std::vector<Transform> transforms_;

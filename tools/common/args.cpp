@@ -147,8 +147,9 @@ std::string Args::shown(UpAxis value) {
 }
 
 void Args::parse_into(const std::string& text, UpAxis& value) {
-  if (text != "y" && text != "z") refuse_word(text, "y|z");
-  value = text == "z" ? UpAxis::z : UpAxis::y;
+  const std::optional<UpAxis> up = up_axis_named(text);
+  if (!up) refuse_word(text, "x|y|z|-x|-y|-z");
+  value = *up;
 }
 
 std::string Args::shown(double value) {

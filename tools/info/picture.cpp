@@ -31,28 +31,24 @@ Bounds3d bounds_of(const StreamHeader& header) {
   return bounds;
 }
 
-/// From the axes of an input to those where `to` is up.
-Vec3d turned(const Vec3d& p, UpAxis to) {
-  return to == UpAxis::z ? Vec3d{p[0], 0.0 - p[2], p[1]} : Vec3d{p[0], p[2], 0.0 - p[1]};
-}
-
-void turn(std::vector<TriangleD>& triangles, UpAxis to) {
+void turn(std::vector<TriangleD>& triangles, UpAxis from, UpAxis to) {
   for (TriangleD& t : triangles) {
-    for (Vec3d& p : t) p = turned(p, to);
+    for (Vec3d& p : t) p = turned(p, from, to);
   }
 }
 
 class TurnedSource final : public TriangleSource {
  public:
-  TurnedSource(std::unique_ptr<TriangleSource> source, UpAxis to) : source_(std::move(source)), to_(to) {}
+  TurnedSource(std::unique_ptr<TriangleSource> source, UpAxis from, UpAxis to)
+      : source_(std::move(source)), from_(from), to_(to) {}
   bool read(std::vector<TriangleD>& out) override {
     const bool more = source_->read(out);
-    turn(out, to_);
+    turn(out, from_, to_);
     return more;
   }
   bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
     const bool more = source_->read_colored(out, colors);
-    turn(out, to_);
+    turn(out, from_, to_);
     return more;
   }
   [[nodiscard]] bool has_colors() const override { return source_->has_colors(); }
@@ -62,18 +58,18 @@ class TurnedSource final : public TriangleSource {
 
  private:
   std::unique_ptr<TriangleSource> source_;
-  UpAxis to_;
+  UpAxis from_, to_;
 };
 
-void turn(Panel& panel, UpAxis to) {
-  turn(panel.triangles, to);
+void turn(Panel& panel, UpAxis from, UpAxis to) {
+  turn(panel.triangles, from, to);
   Bounds3d bounds;
   if (!panel.bounds.empty()) {
-    for (const Vec3d& p : {panel.bounds.min, panel.bounds.max}) bounds.add(turned(p, to));
+    for (const Vec3d& p : {panel.bounds.min, panel.bounds.max}) bounds.add(turned(p, from, to));
   }
   panel.bounds = bounds;
   if (!panel.source) return;
-  panel.source = std::make_unique<TurnedSource>(std::move(panel.source), to);
+  panel.source = std::make_unique<TurnedSource>(std::move(panel.source), from, to);
   panel.view.source = panel.source.get();
 }
 
@@ -174,7 +170,7 @@ std::vector<std::string> Picture::write() {
   options.azimuth = o_.azimuth, options.elevation = o_.elevation;
   options.up = common_up();
   for (const auto& panel : panels_) {
-    if (panel->up && *panel->up != options.up) turn(*panel, options.up);
+    if (panel->up && *panel->up != options.up) turn(*panel, *panel->up, options.up);
     panel->view.triangles = panel->triangles;
     options.bounds.merge(panel->bounds);
   }

@@ -17,6 +17,7 @@
 #include "lib/stage/vertex_colors.h"
 #include "tools/common/face_notes.h"
 #include "tools/common/names.h"
+#include "tools/common/up_note.h"
 #include "tools/lod/proportions.h"
 
 namespace bp {
@@ -111,7 +112,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   out.counts = voxelize_stream(*source, open, backends, v);
   if (halvings == 0) {  // the scene is the same
     if (const std::string text = skipped(out.counts.scene); !text.empty()) note("skipped " + text);
-    if (const std::string text = up_note(options, source->up(), out.header.bounds); !text.empty()) note(text);
+    if (const std::string text = up_note(out.header.bounds, options.up || source->up()); !text.empty()) note(text);
     note_missing_materials();
     const SceneSize size{out.header.bounds, out.counts.scene.triangles};
     if (const std::string text = voxel_note(options, size); !text.empty()) note(text);
@@ -201,17 +202,6 @@ std::string error_note(std::size_t level, double error_world, double asked_world
   return fmt::format(
       "level {}: its error is at most {:.4g} instead of {:.4g}: its voxels or its scale are too large for less", level,
       error_world, asked_world);
-}
-
-std::string up_note(const BuildOptions& o, const std::optional<UpAxis>& told, const Bounds3d& bounds) {
-  constexpr double kFlat = 0.25;  // of the shorter side: rooms and most buildings are not
-  if (o.profile != LodProfile::tiles || o.up || told || bounds.empty()) return "";
-  const double x = bounds.max[0] - bounds.min[0], y = bounds.max[1] - bounds.min[1], z = bounds.max[2] - bounds.min[2];
-  if (z >= kFlat * std::min(x, y)) return "";
-  return fmt::format(
-      "the scene is {:.4g} x {:.4g} x {:.4g}, flat along z, and y is taken for up: if it is a map, it will stand on "
-      "edge; say --up z, or --up y to be sure",
-      x, y, z);
 }
 
 std::string voxel_note(const BuildOptions& o, const SceneSize& scene) {

@@ -38,11 +38,6 @@ struct FoundJobs {
 /// What is said of a level whose error exceeds the one asked for; scene units.
 [[nodiscard]] std::string error_note(std::size_t level, double error_world, double asked_world);
 
-/// What is said of a scene that lies flat in x and y, as maps do, if nobody told which axis is up and the profile needs
-/// to know; else empty.
-[[nodiscard]] std::string up_note(const BuildOptions& options, const std::optional<UpAxis>& told,
-                                  const Bounds3d& bounds);
-
 /// What is said of a tileset that nobody named voxels for, if the scene has more triangles than those chosen are for;
 /// else empty.
 [[nodiscard]] std::string voxel_note(const BuildOptions& options, const SceneSize& scene);

@@ -191,7 +191,8 @@ BuildOptions parse_build_options(Args& args) {
               "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing");
   args.option("--colors", {{"auto", true}, {"off", false}}, o.colors,
               "auto: vertices get the colours of the scene's materials and vertices, if it has any; off: none");
-  args.option("--up", "y|z", o.up, "axis of the scene that points up (default: y, or what a proxy of ours tells)");
+  args.option("--up", "x|y|z|-x|-y|-z", o.up,
+              "axis of the scene that points up (default: y, or what a proxy of ours tells)");
   args.option("--format", "NAME", o.format,
               "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");
   args.flag("--no-tighten", o.loose, "leave out the step that lowers the volume");

@@ -15,6 +15,7 @@
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/reduce.h"
 #include "lib/stage/tile_stage.h"
+#include "tools/common/up_note.h"
 #include "tools/lod/build.h"
 #include "tools/lod/lod_targets.h"
 #include "tools/lod/proportions.h"
@@ -215,7 +216,7 @@ void explain(const BuildOptions& options) {
   Build build(options);
   build.report.stage("read");
   const Scene scene = read_scene(build);
-  if (const std::string text = up_note(options, scene.up_told, scene.bounds); !text.empty()) build.note(text);
+  if (const std::string text = up_note(scene.bounds, options.up || scene.up_told); !text.empty()) build.note(text);
   const SceneSize size{scene.bounds, scene.counts.triangles};
   question_proportions(options, size);
   if (const std::string text = voxel_note(options, size); !text.empty()) build.note(text);

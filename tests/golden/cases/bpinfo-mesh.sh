@@ -32,7 +32,7 @@ try bpinfo far.obj cube.obj --image far.png --image-size 64 | grep far
 try bpinfo cube.obj turned.obj --image near.png --image-size 64 | grep far
 try bpinfo cube.obj turned.obj --checksum
 try bpinfo cube.obj turned.obj --json
-try bpinfo cube.obj --up x
+try bpinfo cube.obj --up w
 # Materials that are not there are named where colours would be seen.
 (echo 'mtllib gone.mtl'; cat cube.obj) > plain.obj
 try bpinfo plain.obj --checksum

@@ -21,7 +21,7 @@ try bpvox cube.obj --resolution 0 -o out.bp
 try bpvox cube.obj --voxel 1e-7 -o out.bp
 try bpvox cube.obj --voxel 1e-12 -o out.bp
 try bpvox cube.obj --fill concrete -o out.bp
-try bpvox cube.obj --up x -o out.bp
+try bpvox cube.obj --up w -o out.bp
 try bpvox - -o out.bp
 try bpvox cube.obj --temp missing -o out.bp
 try bpvox cube.obj -o missing/out.bp

@@ -57,7 +57,7 @@ StreamHeader random_header(std::uint32_t seed) {
   StreamHeader h;
   h.frame.voxel = std::uniform_real_distribution<double>(0.001, 1000)(random);
   for (auto& o : h.frame.origin) o = std::int64_t(random()) * 32768 - (std::int64_t(1) << 46);
-  h.frame.up = random() % 2 ? UpAxis::z : UpAxis::y;
+  h.frame.up = UpAxis(random() % 6);
   h.bounds.add({-3.5, double(random() % 100), 1e-9});
   h.bounds.add({7, 1e5, 2});
   if (random() % 4 == 0) h.bounds = {};

@@ -80,7 +80,7 @@ TEST_CASE("a reader written from the document alone reads the same", "[quick][io
   CHECK(file.checksum == read_back(bytes).totals.checksum());
   CHECK(file.voxel == h.frame.voxel);
   CHECK(file.origin == h.frame.origin);
-  CHECK(file.up == (h.frame.up == UpAxis::z ? 1 : 0));
+  CHECK(file.up == int(h.frame.up));
   CHECK(file.slab_axis == h.slab_axis);
   CHECK(file.fill == int(h.fill));
   CHECK(file.element == (h.has_closing ? int(h.element) : 0));

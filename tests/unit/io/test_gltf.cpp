@@ -364,8 +364,8 @@ TEST_CASE("a proxy of ours tells which axis points up, other glTF does not", "[q
   };
   CHECK_FALSE(up_of(nullptr).has_value());
   CHECK_FALSE(up_of({{"up", 3}}).has_value());
-  CHECK(up_of({{"up", "y"}}) == UpAxis::y);
-  CHECK(up_of({{"up", "z"}}) == UpAxis::z);
+  CHECK_FALSE(up_of({{"up", "w"}}).has_value());
+  for (const char* const name : kUpNames) CHECK(up_of({{"up", name}}) == up_axis_named(name));
 }
 
 TEST_CASE("glTF extras of others are left alone", "[quick][io]") {
