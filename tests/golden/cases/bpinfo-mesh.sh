@@ -32,8 +32,7 @@ try bpinfo far.obj cube.obj --image far.png --image-size 64 | grep far
 try bpinfo cube.obj turned.obj --image near.png --image-size 64 | grep far
 try bpinfo cube.obj turned.obj --checksum
 try bpinfo cube.obj turned.obj --json
-<<<<<<< ours
-try bpinfo cube.obj --up x
+try bpinfo cube.obj --up w
 # Quads and other polygons are counted.
 (cat cube.obj; echo 'f 1 2 3'; echo 'f 5 6 7 8 1') > faces.obj
 said 'bpinfo cube.obj | head -3'
@@ -53,9 +52,6 @@ bpinfo cube.obj turned.obj --image again.png --image-size 200 --checksum --threa
 cmp marks.png again.png
 [ $((16#$(od -An -tx1 -j 20 -N 4 marks.png | tr -d ' '))) -gt 240 ] || echo 'nothing is below the panels'
 rm faces.obj part.png whole.png marks.png again.png said
-=======
-try bpinfo cube.obj --up w
->>>>>>> theirs
 # Materials that are not there are named where colours would be seen.
 (echo 'mtllib gone.mtl'; cat cube.obj) > plain.obj
 try bpinfo plain.obj --checksum
