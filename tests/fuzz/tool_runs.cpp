@@ -83,9 +83,9 @@ bool begins_with_name(const std::string& line, const std::string& tool) {
 /// Of a failure: one line that begins with the tool's name, and is no message of what nobody foresaw.
 const char* fault_of(const ToolResult& result, const std::string& tool) {
   const int status = result.status;
-  if (status == 1 && tool == "bpcheck") return nullptr;
+  if ((status == 1 || status == 5) && tool == "bpcheck") return nullptr;
   if (status != 0 && (status < 2 || status > 4)) return "ends with a status that it should not";
-  if (result.messages.find("unexpected") != std::string::npos) return "fails in a way that nobody foresaw";
+  if (result.messages.find(": unexpected") != std::string::npos) return "fails in a way that nobody foresaw";
   if (status == 0) return nullptr;
   const std::size_t end = result.messages.find_last_of('\n', result.messages.size() - 2);
   const std::string last = result.messages.substr(end == std::string::npos ? 0 : end + 1);

@@ -56,8 +56,7 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
   const NamedMesh godot{name + "-colonly", &mesh}, unity{name + "_Collider", &mesh};
   write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"), origin);
   write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"), origin);
-  const std::uint64_t asked = o.request.shares.empty() ? 0 : mesh.triangles.size();  // by a percentage
-  const std::uint64_t faces = o.request.faces.empty() ? asked : o.request.faces.front();
+  const std::uint64_t faces = o.request.faces.empty() ? mesh.triangles.size() : o.request.faces.front();
   const ConvexParts parts = convex_parts(mesh, std::size_t(o.hulls), faces);
   std::vector<NamedMesh> unreal;
   const auto volume6 = double(volume6_of(mesh));

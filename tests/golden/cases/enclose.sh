@@ -113,10 +113,10 @@ for scale in 1% 0.3 2vx; do
   try bpmesh closed.bpv --faces 60 -o grid.ply --overwrite | sed 's/[0-9]* faces/N faces/; s/ (tries refused.*//'
   bpmesh closed.bpv --faces 60 -o grid.ply --overwrite 2>&1 | grep -o 'scale [^ ]* leaves' | while read -r word better leaves; do
     bpclose grid.bpv --scale $better | bpmesh --faces 60 -q -o grid.ply --overwrite
-    [ "$(bpinfo grid.ply --json | grep '"triangles"' | grep -o '[0-9]*')" -le 60 ] && echo "$better does"
+    [ "$(bpinfo grid.ply --json | grep -m 1 '"triangles"' | grep -o '[0-9]*')" -le 60 ] && echo "$better does"
   done
 done
-said 'bplod grid.obj --scale 0.3 --faces 60 --resolution 120 -o lod --overwrite | cut -f 1'
+said 'bplod grid.obj --up y --scale 0.3 --faces 60 --resolution 120 -o lod --overwrite | cut -f 1'
 for i in 0 1 2 3 4; do  # five that lie apart: 20 faces at least, unless closed together
   awk -v d=$((14 * i)) '/^v/ { $2 += d } { print }' good.obj > part$i.obj
 done

@@ -11,9 +11,9 @@ for stream in header_brick_box header_far_origin header_whole_range; do
 done
 # What a reader refuses, no tool makes.
 write_cube cube.obj
-ask bpvox cube.obj --voxel 1e100 -o o.bpv
-ask bpvox cube.obj --voxel 1e-40 -o o.bpv
-ask bpvox huge_beside.obj --voxel 1e29 -q -o o.bpv && ask bpmesh o.bpv --faces 100,20 --error 2vx -q -o o.ply
+ask bpvox cube.obj --voxel 1e102% -o o.bpv
+ask bpvox cube.obj --voxel 1e-38% -o o.bpv
+ask bpvox huge_beside.obj --voxel 7.1e30% -q -o o.bpv && ask bpmesh o.bpv --faces 100,20 --error 2vx -q -o o.ply
 rm o.bpv o.0.ply o.1.ply
 # Little in a wide grid.
 printf 'v 0 0 0\nv .001 0 0\nv 0 .001 0\nv 1 1 1\nv .999 1 1\nv 1 .999 1\nf 1 2 3\nf 4 5 6\n' > corners.obj

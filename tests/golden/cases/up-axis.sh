@@ -32,7 +32,7 @@ for up in x -x -y -z; do
   bpcheck cube.obj up$up.glb | tail -1
   bpcheck cube.obj up$up.glb --no-distances --image-size 99 --image up$up.png > said || cat said
   for profile in gltf 3dtiles; do
-    bplod cube.obj --resolution 30 --levels 1 --faces 30 --up $up --profile $profile --name a -o up$up-$profile > list
+    bplod cube.obj -q --resolution 30 --levels 1 --faces 30 --up $up --profile $profile --name a -o up$up-$profile > list
   done
   bpcheck cube.obj up$up-gltf/a_LOD0.glb | tail -1
   bpcheck cube.obj up$up-3dtiles/tileset.json | tail -1
