@@ -31,7 +31,7 @@ bplod far.obj --voxel 0.1 --profile collision --origin auto -q -o body > list
 for f in godot unity; do said "bpcheck far.obj body/far_$f.glb --no-distances -q | tail -1"; done
 said 'bpcheck --convex far.obj body/far_unreal.glb -q | tail -1'
 # A level of the same scene, moved by the same, is compared as it is.
-bplod far.obj --voxel 15.4% --faces 12 -q --origin auto -o loose > list
+bplod far.obj --voxel 15.4% --faces 12 -q --enclose input --origin auto -o loose > list
 said 'bpcheck levels/far_LOD0.glb loose/far_LOD0.glb --no-distances | tail -1'
 bplod far.obj --voxel 0.1 --origin auto --explain -q | grep origin
 try bpmesh far.bpv --faces 12 --origin auto -o auto.glb
