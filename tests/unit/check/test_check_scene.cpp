@@ -64,6 +64,7 @@ TEST_CASE("a scene vertex beyond the range of doubles' exact predicates is judge
   CHECK(check(proxy, with({1e300, 0.5, 0.5})).touching.count == 1);
   const std::vector<TriangleD> away{{{{1e300, 0, 0}, {1e300, 1e200, 0}, {1e300, 0, 1e-200}}}};
   CHECK(check(proxy, away).outside.count == 1);
+  CHECK_FALSE(check(proxy, away).scene_to_proxy);  // its square is no double
   CHECK(check(proxy, {{{{least, least, least}, {2 * least, least, least}, {least, least, 0.5}}}}).holds());
 }
 
@@ -144,8 +145,9 @@ TEST_CASE("a scene triangle of no area is tested as the segment it is", "[quick]
   CHECK(check(cube(1), {{{{5, 5, 5}, {5, 5, 5}, {5, 5, 5}}}}).outside.count == 1);
 }
 
-TEST_CASE("a scene coordinate outside the predicates' domain is a violation of its own", "[quick][check]") {
-  const CheckReport r = check(cube(1), {{{{1e-200, 0, 0}, {0, 0, 0.5}, {0, 0.1, 0.25}}}});
+TEST_CASE("a scene coordinate that is no place is a violation of its own", "[quick][check]") {
+  const double nowhere = GENERATE(std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
+  const CheckReport r = check(cube(1), {{{{nowhere, 0, 0}, {0, 0, 0.5}, {0, 0.1, 0.25}}}});
   CHECK(r.undecidable_scene.count == 1);
   CHECK_FALSE(r.holds());
   CHECK_FALSE(r.scene_to_proxy.has_value());
