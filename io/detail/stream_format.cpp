@@ -3,14 +3,13 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/count_bits.h"
+#include "lib/grid/header_fault.h"
 
 namespace bp::detail {
 
@@ -56,26 +55,6 @@ std::vector<Provenance> provenance_of(const std::string& text, const std::string
   return chain;
 }
 
-/// What is out of range in a header, or null.
-const char* fault_of(const StreamHeader& h) {
-  if (!std::isnormal(h.frame.voxel) || h.frame.voxel < 0) return "the voxel size is not a positive number";
-  for (const std::int64_t o : h.frame.origin) {
-    if (o < -kMaxOrigin || o > kMaxOrigin) return "the origin lies beyond 2^47 voxels";
-  }
-  for (int i = 0; i < 3; ++i) {
-    if (h.bricks.min[i] < -kMaxBrick || h.bricks.max[i] >= kMaxBrick || h.bricks.min[i] > h.bricks.max[i])
-      return "the brick box is inside out or beyond 2^31 voxels";
-  }
-  if (h.bounds != Bounds3d{}) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!std::isfinite(h.bounds.min[i]) || !std::isfinite(h.bounds.max[i]) || h.bounds.min[i] > h.bounds.max[i])
-        return "the bounds are inside out or not finite";
-    }
-  }
-  if (h.slab_axis < 0 || h.slab_axis > 2) return "the slab axis is none of 0, 1, 2";
-  return nullptr;
-}
-
 /// The enumerator `value`, if there are so many.
 template <class Enum>
 Enum enum_of(std::uint8_t value, int count, const char* what, const std::string& name) {
@@ -117,7 +96,7 @@ std::vector<std::byte> frame_of(std::vector<std::byte> payload, bool sealed) {
 }
 
 std::vector<std::byte> encode_header(const StreamHeader& h) {
-  if (const char* fault = fault_of(h)) fail(ErrorCode::bad_argument, "the stream cannot be written: {}", fault);
+  if (const char* fault = header_fault(h)) fail(ErrorCode::bad_argument, "the stream cannot be written: {}", fault);
   const std::string scale = h.has_closing ? to_json(h.scale) : "", provenance = provenance_text(h.provenance);
   if (scale.size() > kMaxScaleBytes || provenance.size() > kMaxProvenanceBytes) {
     fail(ErrorCode::bad_argument,
@@ -163,11 +142,13 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
   for (double& c : h.bounds.max) c = in.get<double>();
   h.bricks.min = in.get_coord();
   h.bricks.max = in.get_coord();
-  if (const char* fault = fault_of(h)) fail(ErrorCode::bad_input, "{}: header: {}", name, fault);
   const auto scale_bytes = in.get<std::uint32_t>(), provenance_bytes = in.get<std::uint32_t>();
   const std::string scale = in.get_text(scale_bytes);
   if (h.has_closing != !scale.empty())
     fail(ErrorCode::bad_input, "{}: header: a scale field without a closing, or a closing without one", name);
+  h.provenance = provenance_of(in.get_text(provenance_bytes), name);
+  if (const char* fault = header_fault(h))
+    fail(ErrorCode::bad_input, "{}: header: {}; make the stream anew", name, fault);
   if (h.has_closing) {
     h.scale = parse_scale_field(scale, name);
     try {
@@ -176,7 +157,6 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
       fail(ErrorCode::bad_input, "{}: header: {}", name, e.what());
     }
   }
-  h.provenance = provenance_of(in.get_text(provenance_bytes), name);
   return h;
 }
 

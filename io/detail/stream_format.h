@@ -29,8 +29,6 @@ constexpr std::uint32_t kMaxScaleBytes = 1u << 22, kMaxProvenanceBytes = 1u << 2
 constexpr std::uint32_t kMaxRecords = 4096, kMaxMixed = 32;
 constexpr std::uint32_t kMaxRawBytes = kMaxRecords * kRecordBytes + kMaxMixed * kBrickBytes;
 constexpr std::uint32_t kMaxPackedBytes = kMaxRawBytes + 65536;
-constexpr std::int64_t kMaxOrigin = std::int64_t(1) << 47;
-constexpr std::int32_t kMaxBrick = 1 << 25;
 
 constexpr char kBatchTag[] = "BTCH", kIndexTag[] = "INDX", kEndTag[] = "TAIL";
 

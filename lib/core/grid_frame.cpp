@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "lib/core/error.h"
+#include "lib/core/grid_limits.h"
 
 namespace bp {
 
@@ -16,6 +17,18 @@ int lattice_bits(const Bounds3d& bounds, double voxel) {
   return int(std::ceil(std::log2((reach / voxel + 8192) * kLatticePerVoxel + 1))) + 1;
 }
 
+/// Refuses sizes that would not stay in range when they are rounded up.
+void check_voxel(const Bounds3d& bounds, double voxel) {
+  if (!(voxel > 0) || !std::isfinite(voxel))
+    fail(ErrorCode::bad_argument, "a voxel size of {} is not positive and finite", voxel);
+  if (voxel >= kLeastVoxel && voxel <= kMostVoxel / 2) return;
+  fail(ErrorCode::bad_argument,
+       "a voxel size of {:.3g} is not between {:.1g} and {:.1g}; the scene has a diagonal of {:.3g}: give --voxel in "
+       "its "
+       "units, or convert the scene to another unit of length",
+       voxel, kLeastVoxel, kMostVoxel / 2, bounds.diagonal());
+}
+
 }  // namespace
 
 double round_up_to_bits(double x, int bits) {
@@ -26,8 +39,7 @@ double round_up_to_bits(double x, int bits) {
 
 GridFrame make_frame(const Bounds3d& bounds, double voxel, UpAxis up) {
   if (bounds.empty()) fail(ErrorCode::bad_input, "the scene has no bounds; it holds no usable triangle");
-  if (!(voxel > 0) || !std::isfinite(voxel))
-    fail(ErrorCode::bad_argument, "a voxel size of {} is not positive and finite", voxel);
+  check_voxel(bounds, voxel);
   for (std::size_t i = 0; i < 3; ++i) {
     const double side = (bounds.max[i] - bounds.min[i]) / voxel;
     if (!(side < 2147483648.0 - 16384)) {
@@ -49,10 +61,13 @@ GridFrame make_frame(const Bounds3d& bounds, double voxel, UpAxis up) {
 
 VoxelBox voxel_bounds(const GridFrame& frame, const Bounds3d& bounds) {
   const Vec3d lo = frame.to_voxels(bounds.min), hi = frame.to_voxels(bounds.max);
+  constexpr double kReach = double(kBrickReach) * kBrickEdge - 2;
   VoxelBox box;
-  for (int i = 0; i < 3; ++i) {
-    box.min[i] = std::int32_t(std::floor(lo[std::size_t(i)])) - 1;
-    box.max[i] = std::int32_t(std::floor(hi[std::size_t(i)])) + 2;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(lo[i] >= -kReach && hi[i] <= kReach))
+      fail(ErrorCode::bad_argument, "the scene leaves a grid of 2^31 voxels a side; use larger voxels");
+    box.min[int(i)] = std::int32_t(std::floor(lo[i])) - 1;
+    box.max[int(i)] = std::int32_t(std::floor(hi[i])) + 2;
   }
   return box;
 }

@@ -35,11 +35,11 @@ struct GridFrame {
 
 /// Frame for a scene with these bounds and (about) this voxel size: rounds `voxel` up to the most significant bits (8
 /// to 24) that keep every lattice point of the grid, halo included, an exact double. Voxel (0,0,0) holds or touches
-/// bounds.min. Throws bad_argument if the voxel size is not positive and finite, or if a side would exceed 2^31 voxels;
-/// bad_input if the bounds are empty.
+/// bounds.min. Throws bad_argument if the voxel size is not within grid_limits.h, or if a side would exceed 2^31
+/// voxels; bad_input if the bounds are empty.
 [[nodiscard]] GridFrame make_frame(const Bounds3d& bounds, double voxel, UpAxis up = UpAxis::y);
 
-/// Voxels of the grid that the closed bounds touch, one voxel of margin included.
+/// Voxels of the grid that the closed bounds touch, and one around them. Throws bad_argument beyond 2^31 voxels.
 [[nodiscard]] VoxelBox voxel_bounds(const GridFrame& frame, const Bounds3d& bounds);
 
 }  // namespace bp

@@ -345,8 +345,11 @@ ScaleBox box_of(const Node& node) {
 
 /// nlohmann keeps the last of two equal keys without a word; we refuse them.
 Json parse_without_repeats(const std::string& text, const std::string& name) {
+  constexpr int kMostLevels = 6;
   std::vector<std::set<std::string>> keys;
-  const auto watch = [&](int, Json::parse_event_t event, Json& value) {
+  const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
+    if (depth > kMostLevels)
+      fail(ErrorCode::bad_input, "{}: scale field: is more than {} levels deep", name, kMostLevels);
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)

@@ -14,6 +14,7 @@
 #include "lib/core/parallel.h"
 #include "lib/core/pool.h"
 #include "lib/grid/clip.h"
+#include "lib/grid/header_fault.h"
 #include "lib/grid/outside.h"
 #include "lib/grid/tile_grid.h"
 
@@ -411,12 +412,10 @@ void Run::emit(const LayerTiles& tiles) {
 BrickBox closing_bricks(const StreamHeader& header, const ScaleField& scale) {
   if (header.bricks.empty()) return header.bricks;
   const std::int32_t margin = ceil_div(element_reach(scale.upper_bound(header.frame)) + 1, kBrickEdge);
-  constexpr std::int32_t kLimit = std::numeric_limits<std::int32_t>::max() / kBrickEdge - 128;  // halos included
-  for (int axis = 0; axis < 3; ++axis) {
-    if (header.bricks.min[axis] < margin - kLimit || header.bricks.max[axis] > kLimit - margin)
-      fail(ErrorCode::bad_argument, "the closing leaves the grid of 2^32 voxels; use larger voxels");
-  }
-  return header.bricks.grown(margin);
+  const BrickBox grown = header.bricks.grown(margin);
+  if (brick_box_fault(grown) != nullptr)
+    fail(ErrorCode::bad_argument, "the closing leaves the grid of 2^31 voxels a side; use larger voxels");
+  return grown;
 }
 
 CloseCounts close_stream(BrickSource& source, BrickSink& sink, Backends& backends, const ScaleField& scale,

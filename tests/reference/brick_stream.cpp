@@ -3,8 +3,10 @@
 #include <xxhash.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 
@@ -60,6 +62,7 @@ struct Reader {
     return std::uint32_t(in.number(4));
   }
   void header();
+  void exact();
   void batch(std::size_t offset);
   void record(Cursor& heads, Cursor& data, const std::int32_t* first, const std::int32_t* last, bool is_first,
               bool is_last, std::size_t offset);
@@ -81,7 +84,7 @@ void Reader::header() {
   require(out.fill <= 3 && out.element <= (out.has_closing ? 1 : 0) && out.slab_axis <= 2 && out.up <= 1,
           "small field");
   out.voxel = in.f64();
-  require(std::isnormal(out.voxel) && out.voxel > 0, "voxel");
+  require(out.voxel >= 0x1p-100 && out.voxel <= 0x1p100, "voxel");
   for (std::int64_t& o : out.origin) {
     o = std::int64_t(in.number(8));
     require(o >= -(std::int64_t(1) << 47) && o <= std::int64_t(1) << 47, "origin");
@@ -96,13 +99,33 @@ void Reader::header() {
   require(finite || none, "bounds");
   for (std::int32_t& b : out.box) b = in.i32();
   for (std::size_t i = 0; i < 3; ++i)
-    require(out.box[i] >= -33554432 && out.box[i + 3] <= 33554431 && out.box[i] <= out.box[i + 3], "box");
+    require(out.box[i] >= -33554304 && out.box[i + 3] <= 33554304 && out.box[i] <= out.box[i + 3] &&
+                std::int64_t(out.box[i + 3]) - out.box[i] <= 33554304,
+            "box");
+  exact();
+  for (std::size_t i = 0; i < 6 && !none; ++i) {
+    const double at = out.bounds[i] / out.voxel - double(out.origin[i % 3]);
+    require(at >= 64.0 * out.box[i % 3] && at <= 64.0 * out.box[i % 3 + 3], "bounds beyond the box");
+  }
   const std::uint64_t s = in.number(4), p = in.number(4);
   require(s <= 1u << 22 && p >= 2 && p <= 1u << 20 && (s > 0) == out.has_closing && size == 136 + s + p, "sizes");
   out.scale = in.text(s);
   out.provenance = in.text(p);
   const std::size_t hashed = in.at - start;
   require(in.number(8) == XXH3_64bits(&in.file[start], hashed), "header hash");
+}
+
+/// A product of whole numbers that must fit the 53 bits of a double: of 1/64 voxels, and of the voxel's mantissa.
+void Reader::exact() {
+  std::int64_t far = 0;
+  for (std::size_t i = 0; i < 6; ++i)
+    far = std::max<std::int64_t>(far, std::abs(out.origin[i % 3] + 64 * std::int64_t(out.box[i])) + 2048);
+  int bits = 0;
+  for (std::int64_t n = 64 * far; n > 0; n /= 2) ++bits;
+  int exponent = 0;
+  double mantissa = std::frexp(out.voxel, &exponent);
+  for (; mantissa != 0; mantissa = 2 * mantissa - std::floor(2 * mantissa)) ++bits;
+  require(bits <= 53, "not exact");
 }
 
 void Reader::record(Cursor& heads, Cursor& data, const std::int32_t* first, const std::int32_t* last, bool is_first,

@@ -52,19 +52,24 @@ Bytes Scratch::bytes() const {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+void fit_bounds(StreamHeader& h) {
+  h.bounds = {};
+  const VoxelBox voxels = voxels_of(h.bricks);
+  for (const VoxelCoord& v : {voxels.min, voxels.max})
+    h.bounds.add(h.frame.world({std::int64_t(v.x) * 64, std::int64_t(v.y) * 64, std::int64_t(v.z) * 64}));
+}
+
 StreamHeader random_header(std::uint32_t seed) {
   std::mt19937 random(seed);
   StreamHeader h;
-  h.frame.voxel = std::uniform_real_distribution<double>(0.001, 1000)(random);
-  for (auto& o : h.frame.origin) o = std::int64_t(random()) * 32768 - (std::int64_t(1) << 46);
+  h.frame.voxel = round_up_to_bits(std::uniform_real_distribution<double>(0.001, 1000)(random), 8);
+  for (auto& o : h.frame.origin) o = std::int64_t(random()) * 16 - (std::int64_t(1) << 35);
   h.frame.up = random() % 2 ? UpAxis::z : UpAxis::y;
-  h.bounds.add({-3.5, double(random() % 100), 1e-9});
-  h.bounds.add({7, 1e5, 2});
-  if (random() % 4 == 0) h.bounds = {};
   for (int i = 0; i < 3; ++i) {
     h.bricks.min[i] = int(random() % 9) - 6;
     h.bricks.max[i] = h.bricks.min[i] + 1 + int(random() % 5);
   }
+  if (random() % 4 != 0) fit_bounds(h);
   h.slab_axis = longest_axis(h.bricks);
   h.fill = FillMode(random() % 4);
   h.has_closing = random() % 3 != 0;
@@ -113,8 +118,8 @@ std::vector<Brick> random_bricks(const StreamHeader& header, std::uint32_t seed,
 StreamHeader small_header() {
   StreamHeader h;
   h.frame = {0.5, {-3, 0, 7}, UpAxis::y};
-  h.bounds.add({0, 0, 0});
-  h.bounds.add({1, 1, 1});
+  h.bounds.add({0, 0, 4});
+  h.bounds.add({1, 1, 5});
   h.bricks = {{0, 0, 0}, {1, 1, 1}};
   h.provenance = {{"bpvox", "0.1.0", "--voxel 0.5", ""}};
   return h;

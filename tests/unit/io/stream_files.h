@@ -41,6 +41,8 @@ class Scratch {
 };
 
 bp::StreamHeader random_header(std::uint32_t seed);
+/// The bounds of a scene that fills the header's brick box.
+void fit_bounds(bp::StreamHeader& header);
 /// Non-empty bricks in slab order, mixed of several kinds and full.
 std::vector<bp::Brick> random_bricks(const bp::StreamHeader& header, std::uint32_t seed, int count);
 /// A header and one mixed brick: a few hundred bytes.
