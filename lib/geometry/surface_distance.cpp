@@ -16,6 +16,14 @@ constexpr std::int64_t kGrain = 512;     // triangles per work item
 constexpr double kMeanPieces = 256;      // pieces along the diagonal, for the mean
 constexpr double kRelativeError = 1e-3;  // of the largest distance
 constexpr double kSmallestError = 1e-7;  // of the diagonal
+constexpr double kRounding = 0x1p-46;    // of the largest coordinate: some ten units in its last place
+
+/// Lengths below it are lost in the rounding of coordinates: nothing is halved down to them.
+double least_length(const Bounds3d& bounds) {
+  double reach = 0;
+  for (std::size_t i = 0; i < 3; ++i) reach = std::max({reach, std::abs(bounds.min[i]), std::abs(bounds.max[i])});
+  return kRounding * reach;
+}
 
 /// A part of a triangle and what is known of the distances of its points.
 struct Part {
@@ -35,7 +43,7 @@ Part examine(const TriangleD& t, const TriangleBvh& to, std::uint32_t guess, dou
   part.at_least = std::sqrt(found.distance_squared);
   part.where = c;
   double radius = 0, corner = -1;
-  const Vec3d* farthest = nullptr;
+  const Vec3d* farthest = t.data();
   for (const Vec3d& p : t) {
     radius = std::max(radius, length_squared(p, c));
     const double d = distance_squared(p, to.item(found.item).corners);
@@ -129,7 +137,7 @@ class Search {
 
   void see(Part part) {
     if (part.at_least > result_.at_least) result_.at_least = part.at_least, result_.where = part.where;
-    if (part.at_most <= bar()) {
+    if (!(part.at_most > bar())) {
       settled_ = std::max(settled_, part.at_most);
       return;
     }
@@ -180,7 +188,7 @@ class Search {
   static constexpr auto kLess = [](const Part& a, const Part& b) { return a.at_most < b.at_most; };
 
   [[nodiscard]] double bar() const { return result_.at_least + std::max(smallest_, kRelativeError * result_.at_least); }
-  [[nodiscard]] bool done() const { return open_.empty() || open_.front().at_most <= bar(); }
+  [[nodiscard]] bool done() const { return open_.empty() || !(open_.front().at_most > bar()); }
   Part pop() {
     std::pop_heap(open_.begin(), open_.end(), kLess);
     Part part = std::move(open_.back());
@@ -199,11 +207,12 @@ class Search {
 SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance) {
   Bounds3d bounds;
   for (const TriangleD& t : from) bounds.merge(bounds_of(t));
-  const std::vector<Chunk> chunks = examine_all(from, to, bounds.diagonal() / kMeanPieces);
+  const double least = least_length(bounds);
+  const std::vector<Chunk> chunks = examine_all(from, to, std::max(bounds.diagonal() / kMeanPieces, least));
   SurfaceDistance result;
   result.where = from.front()[0];
   double area = 0;
-  Search search(to, result, std::max(tolerance, kSmallestError * bounds.diagonal()));
+  Search search(to, result, std::max({tolerance, kSmallestError * bounds.diagonal(), least}));
   for (const Chunk& chunk : chunks) {
     result.mean += chunk.integral;
     area += chunk.area;
