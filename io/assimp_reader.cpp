@@ -6,6 +6,8 @@
 #include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
 #include <cstring>
+#include <new>
+#include <utility>
 
 #include "io/detail/child_process.h"
 #include "io/detail/instanced_scene.h"
@@ -25,13 +27,31 @@ constexpr std::uint64_t kMaxFileBytes = std::uint64_t(400) << 20;
 constexpr std::uint64_t kMaxMemoryBytes = std::uint64_t(16) << 30;
 constexpr char kRemedy[] = "convert it to GLB, PLY or OBJ";
 
-/// Assimp takes some 20 times the size of a file; this allows twice as much.
-ChildLimits limits_for(std::uint64_t file_bytes) {
+constexpr std::uint64_t kAnswerCopies = 4;  // of what the child sends, and what is made of it
+
+/// Assimp takes some 20 times the size of a file; this allows twice as much. Of what a document may take, the answer
+/// gets a quarter once the child is gone.
+ChildLimits limits_for(std::uint64_t file_bytes, const DocumentBudget& budget) {
   ChildLimits limits;
   limits.memory_bytes = std::min(kMaxMemoryBytes, (std::uint64_t(1) << 30) + 40 * file_bytes);
-  limits.cpu_seconds = 60 + file_bytes / 50000;
-  limits.wall_seconds = 4 * limits.cpu_seconds;
+  limits.cpu_seconds = 5 + file_bytes / 50000;
+  limits.wall_seconds = 60 + 4 * limits.cpu_seconds;  // a machine may have other things to do
+  if (budget.bytes == 0) return limits;
+  limits.memory_bytes = std::min(limits.memory_bytes, budget.bytes);
+  limits.answer_bytes = budget.bytes / kAnswerCopies;
   return limits;
+}
+
+[[noreturn]] void fail_memory(const std::string& name, const std::string& what, std::uint64_t file_bytes,
+                              const ChildLimits& limits, const DocumentBudget& budget) {
+  if (budget.bytes == 0 || limits.memory_bytes < budget.bytes) {
+    fail(ErrorCode::bad_input, "{}: {} wants more than {} MiB, too much for a file of this size; repair it, or {}",
+         name, what, limits.memory_bytes >> 20, kRemedy);
+  }
+  const std::uint64_t wanted = std::max(2 * limits.memory_bytes, 4 * file_bytes);  // at least
+  fail(ErrorCode::out_of_resource,
+       "{}: {} takes more than the {} MiB that --memory leaves for it; raise --memory{}, or {}", name, what,
+       limits.memory_bytes >> 20, budget.enough_for ? budget.enough_for(wanted - budget.bytes) : "", kRemedy);
 }
 
 // --- What the child sends: plain records, counted
@@ -213,6 +233,7 @@ std::string import(const SceneFilePtr& file, const std::string& extension, Scrat
   importer.SetIOHandler(new SceneFileSystem(file, name));
   const aiScene* const scene = importer.ReadFile(name, 0);
   if (scene == nullptr) {
+    if (std::strstr(importer.GetErrorString(), "bad_alloc") != nullptr) throw std::bad_alloc();  // it was caught
     fail(ErrorCode::bad_input, "{}: cannot be read: {}; repair it, or {}", file->name(), importer.GetErrorString(),
          kRemedy);
   }
@@ -269,10 +290,16 @@ RawSourcePtr open_with_assimp(SceneFilePtr file, const std::string& extension, c
          file->size() >> 20, extension, kMaxFileBytes >> 20, kRemedy);
   }
   const auto scratch = std::make_shared<ScratchFile>(temp_dir_of(options));
-  const std::string answer =
-      run_in_child(file->name(), "the importer of ." + extension + " files", std::string("repair it, or ") + kRemedy,
-                   limits_for(file->size()), [&] { return import(file, extension, *scratch, options.colors); });
-  const Summary summary = unpacked(answer, file->name());
+  const ChildLimits limits = limits_for(file->size(), options.document);
+  const std::string importer = "the importer of ." + extension + " files";
+  std::string answer;
+  try {
+    answer = run_in_child(file->name(), importer, std::string("repair it, or ") + kRemedy, limits,
+                          [&] { return import(file, extension, *scratch, options.colors); });
+  } catch (const ChildOutOfMemory&) {
+    fail_memory(file->name(), importer, file->size(), limits, options.document);
+  }
+  const Summary summary = unpacked(std::exchange(answer, {}), file->name());
   return stream_instances(scene_of(summary, view_of(scratch, file->name(), summary.bytes)), options);
 }
 

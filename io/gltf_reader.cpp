@@ -1,3 +1,7 @@
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
 #include <set>
 #include <unordered_map>
 
@@ -18,6 +22,7 @@ class SceneBuilder {
       : doc_(file, options), root_(doc_.root()), colors_(options.colors), level_(options.level) {}
 
   InstancedScene build() {
+    scene_.nodes.reserve(root_.array("nodes").size());
     visited_.resize(root_.array("nodes").size());
     scene_.up = up();
     add_nodes(scene_roots(), world());
@@ -232,7 +237,11 @@ std::optional<std::uint32_t> SceneBuilder::instance_array(const GltfObject& node
 }  // namespace
 
 RawSourcePtr open_gltf(SceneFilePtr file, const SceneOptions& options) {
-  return stream_instances(SceneBuilder(file, options).build(), options);
+  InstancedScene scene = SceneBuilder(file, options).build();
+#ifdef __GLIBC__
+  ::malloc_trim(0);  // the document is gone, and what comes counts on its memory
+#endif
+  return stream_instances(std::move(scene), options);
 }
 
 }  // namespace bp

@@ -14,6 +14,7 @@
 #include "io/scene_format.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/core/predicates.h"
 
 namespace bp {
 
@@ -65,6 +66,10 @@ void refuse_brick_stream(const SceneFile& file) {
     fail(ErrorCode::bad_input, "{}: a brick stream, not a scene or a mesh; bpmesh makes a mesh of it", file.name());
 }
 
+bool in_predicate_domain(const TriangleD& t) {
+  return bp::in_predicate_domain(t[0]) && bp::in_predicate_domain(t[1]) && bp::in_predicate_domain(t[2]);
+}
+
 RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const SceneOptions& options) {
   std::string extension = scene_format_of(path);
   if (extension.empty() && !options.format.empty()) extension = scene_format_named(options.format);
@@ -102,7 +107,23 @@ RawSourcePtr open_raw(const std::string& path, const SceneOptions& options) {
   return open_raw(open_file(path, options), path, options);
 }
 
-IndexedMesh mesh_of(RawSource& raw, SceneCounts& met) {
+/// Of a mesh read so far: counts the triangles that are left, too, so that the figure is known.
+void check_limit(const MeshLimit& limit, std::uint64_t before, const IndexedMesh& mesh, RawSource& raw,
+                 RawBatch& batch) {
+  const std::uint64_t here = mesh.triangles.size();
+  if (limit.bytes == 0 || here == 0 || before + limit.needed(here, mesh.vertices.size()) <= limit.bytes) return;
+  std::uint64_t all = here;
+  while (raw.next(batch)) {
+    raw.complete(batch);
+    all += batch.triangles.size();
+  }
+  const double vertices = double(mesh.vertices.size()) / double(here) * double(all);  // as many of each triangle
+  limit.refuse(all, before + limit.needed(all, std::uint64_t(vertices)));
+}
+
+/// `before`: bytes of levels that are in memory.
+IndexedMesh mesh_of(RawSource& raw, const SceneOptions& options, std::uint64_t before, SceneCounts& met) {
+  const bool keep_extremes = options.keep_extremes;
   IndexedMesh mesh;
   PositionIndex index(mesh.vertices);
   RawBatch batch;
@@ -112,14 +133,15 @@ IndexedMesh mesh_of(RawSource& raw, SceneCounts& met) {
     if (!batch.inner_edges.empty()) mesh.inner_edges.resize(mesh.triangles.size());
     mesh.inner_edges.insert(mesh.inner_edges.end(), batch.inner_edges.begin(), batch.inner_edges.end());
     for (TriangleD& t : batch.triangles) {
-      normalize(t);
+      keep_extremes ? drop_signs_of_zeros(t) : normalize(t);
       if (!is_finite(t)) {
         ++met.non_finite;
-      } else if (is_degenerate(t)) {
+      } else if (in_predicate_domain(t) && is_degenerate(t)) {
         ++met.degenerate;
       }
       mesh.triangles.push_back({index.add(t[0]), index.add(t[1]), index.add(t[2])});
     }
+    check_limit(options.mesh, before, mesh, raw, batch);
   }
   mesh.up = raw.up();
   met.triangles = mesh.triangles.size();
@@ -136,6 +158,7 @@ class FilteredScene final : public TriangleSource {
       : name_(std::move(name)),
         raw_(std::move(raw)),
         keep_degenerate_(options.keep_degenerate),
+        keep_extremes_(options.keep_extremes),
         batches_(batches_in(options.memory_bytes)) {}
 
   bool read(std::vector<TriangleD>& out) override {
@@ -232,12 +255,13 @@ class FilteredScene final : public TriangleSource {
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       TriangleD& t = triangles[i];
       const bool plain = is_plain(t);
-      if (!plain) normalize(t);
+      if (!plain) keep_extremes_ ? drop_signs_of_zeros(t) : normalize(t);
       if (!plain && !is_finite(t)) {
         ++counts.non_finite;
         continue;
       }
-      const bool degenerate = is_degenerate(t);
+      // Beyond the domain no area can be told from none here; whoever wants extremes can.
+      const bool degenerate = (plain || in_predicate_domain(t)) && is_degenerate(t);
       if (degenerate) ++counts.degenerate;
       if (degenerate && !keep_degenerate_) continue;
       if (batch.colored) batch.colors[kept] = batch.colors[i];
@@ -252,7 +276,7 @@ class FilteredScene final : public TriangleSource {
 
   std::string name_;
   RawSourcePtr raw_;
-  bool keep_degenerate_;
+  bool keep_degenerate_, keep_extremes_;
   SceneCounts counts_;
   std::vector<Batch> batches_;
   RawBatch end_;  // without triangles
@@ -360,7 +384,7 @@ std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, cons
 
 IndexedMesh read_mesh(const std::string& path, const SceneOptions& options, SceneCounts* counts) {
   SceneCounts met;
-  IndexedMesh mesh = mesh_of(*open_raw(path, options), met);
+  IndexedMesh mesh = mesh_of(*open_raw(path, options), options, 0, met);
   if (counts != nullptr) *counts = met;
   return mesh;
 }
@@ -370,13 +394,15 @@ std::vector<IndexedMesh> read_levels(const std::string& path, const SceneOptions
   std::vector<IndexedMesh> levels;
   SceneOptions one = options;
   std::size_t count = 1;
+  std::uint64_t bytes = 0;
   for (one.level = 0; one.level < count; ++one.level) {
     const RawSourcePtr raw = open_raw(file, path, one);
     count = raw->levels();
     constexpr std::size_t kMost = 64;  // each of them is read by itself
     if (count > kMost) fail(ErrorCode::bad_input, "{}: {} levels, and at most {} are read", path, count, kMost);
     SceneCounts ignored;
-    levels.push_back(mesh_of(*raw, ignored));
+    levels.push_back(mesh_of(*raw, one, bytes, ignored));
+    bytes += options.mesh.needed(levels.back().triangles.size(), levels.back().vertices.size());
   }
   return levels;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,7 +15,7 @@
 /// What all readers share:
 ///   - Coordinates are doubles from the file to the caller; node transforms are composed in double.
 ///   - Below 1e-90 in magnitude a coordinate is read as 0, above 1e90 it counts as non-finite: exact predicates need
-///     the range. -0 is read as 0.
+///     the range (SceneOptions::keep_extremes). -0 is read as 0.
 ///   - Polygons become fans. The fan of a polygon that is not convex still covers it (its signed sum is the polygon),
 ///     so what encloses the fan encloses the polygon.
 ///   - A mesh used by many nodes is streamed through each transform; mirrored transforms keep the outside outside.
@@ -26,6 +27,25 @@
 ///   - A glTF asset whose `extras.up` is "z" (mesh_writer.h) is delivered in its own z-up coordinates.
 namespace bp {
 
+/// For what describes a scene while it is opened: the JSON of glTF, or an importer's process and what it sends.
+struct DocumentBudget {
+  std::uint64_t bytes = 0;  ///< 0: no limit
+  /// For messages: " to at least N MiB", the --memory that leaves `missing` bytes more; may be empty.
+  std::function<std::string(std::uint64_t missing)> enough_for;
+};
+
+/// For meshes that are read as a whole.
+struct MeshLimit {
+  std::uint64_t bytes = 0;  ///< 0: none
+  std::uint64_t per_triangle = 0, per_vertex = 0;
+  /// Called if they are exceeded, all levels so far together, with the number of triangles and the bytes. Throws.
+  std::function<void(std::uint64_t triangles, std::uint64_t bytes)> refuse;
+
+  [[nodiscard]] std::uint64_t needed(std::uint64_t triangles, std::uint64_t vertices) const {
+    return triangles * per_triangle + vertices * per_vertex;
+  }
+};
+
 struct SceneOptions {
   std::string format;  ///< of "-", or of a file whose name says nothing: ply stl obj off gltf glb, or one of Assimp's
   std::uint64_t memory_bytes = std::uint64_t(256) << 20;  ///< for vertices; more of them go to a scratch file
@@ -33,13 +53,17 @@ struct SceneOptions {
   bool colors = false;                                    ///< look for them; else all triangles are white
   std::size_t level = 0;                                  ///< of glTF's MSFT_lod; 0 is the finest
   bool keep_degenerate = false;                           ///< deliver triangles of no area, too; counted all the same
+  /// Coordinates beyond the range of the exact predicates stay as they are: for proofs, which must not move a vertex.
+  bool keep_extremes = false;
+  DocumentBudget document{};
+  MeshLimit mesh{};
 };
 
 /// Triangles of one file; "-" is stdin, which is spooled to a scratch file. The reader is chosen by the file's
 /// extension, else by its first bytes. Triangles that are non-finite or have exactly no area, and faces that name
 /// vertices that do not exist, are skipped and counted (SceneOptions::keep_degenerate). A scene without triangles is an
 /// empty source. Throws bad_input if the file is missing or broken (here, or while reading); out_of_resource if scratch
-/// is full.
+/// is full, or if the scene's description needs more than SceneOptions::document.
 [[nodiscard]] std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneOptions& options = {});
 
 /// Throws bad_argument if two of `paths` are stdin: the second would be found empty.

@@ -14,6 +14,7 @@
 #include "lib/check/verdict_text.h"
 #include "lib/core/error.h"
 #include "lib/image/render.h"
+#include "tools/check/check_budget.h"
 #include "tools/check/hints.h"
 #include "tools/check/tileset_verdict.h"
 #include "tools/common/inputs.h"
@@ -188,7 +189,8 @@ int run_tileset(const Options& o) {
   refuse_for_tileset(o);
   bp::Report report("bpcheck");
   report.stage("check");
-  const bp::SceneOptions options{o.format, o.common.memory_bytes / 4, o.common.temp};
+  bp::SceneOptions options{o.format, o.common.memory_bytes / 4, o.common.temp};
+  options.keep_extremes = true;
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
   const bp::TilesetVerdict verdict = bp::check_tileset_file(o.files.back(), scenes, options, o.common.memory_bytes / 2);
   const std::string name = bp::file_name(o.files.back());
@@ -219,14 +221,14 @@ bool answers_hold(const Options& o, const std::vector<bp::CheckReport>& verdicts
 
 /// Each level as a proxy of its own.
 std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::IndexedMesh>& levels,
-                                   bp::TriangleSource* scene) {
+                                   bp::TriangleSource* scene, std::uint64_t scene_bytes) {
   bp::CheckOptions options;
   options.max_examples = o.examples.value_or(kExamples);
   options.inside = o.inside;
   options.convex = o.convex;
   options.distances = !o.no_distances;
   options.distance_samples = o.samples.value_or(kSamples);
-  options.scene_memory_bytes = o.common.memory_bytes / 2;
+  options.scene_memory_bytes = scene_bytes;
   bp::Progress progress("bpcheck", o.common.progress);
   progress.begin("check", 0, "triangles");
   std::unique_ptr<WatchedSource> watched;
@@ -247,11 +249,13 @@ int run(const Options& o) {
   report.stage("read the proxy");
   std::unique_ptr<bp::OutputFile> picture;  // opened first: a name that cannot be written fails before the work
   if (!o.image.empty()) picture = bp::open_output(o.image, o.common.overwrite);
-  bp::SceneOptions scene_options;
+  bp::CheckBudget budget(o.common.memory_bytes, o.files.size() > 1);
+  bp::SceneOptions scene_options = budget.of_proxy(o.files.back());
   scene_options.format = o.format;
-  scene_options.memory_bytes = o.common.memory_bytes / 4;
   scene_options.temp_dir = o.common.temp;
   std::vector<bp::IndexedMesh> levels = bp::read_levels(o.files.back(), scene_options);
+  budget.take(levels);
+  scene_options.memory_bytes = budget.reader_bytes();
   if (picture) bp::check_panel_size(o.image_size, levels.size() + (o.files.size() > 1 ? 1 : 0));
   for (bp::IndexedMesh& level : levels) move(level, o.origin.value_or(bp::Vec3d{}));
   std::unique_ptr<bp::TriangleSource> scene;
@@ -259,7 +263,7 @@ int run(const Options& o) {
   if (o.files.size() > 1) scene = bp::open_scenes({o.files.begin(), o.files.end() - 1}, scene_options);
 
   report.stage("check");
-  const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get());
+  const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get(), budget.scene_bytes());
   if (picture) {
     report.stage("draw");
     picture->write(bp::encode_png(draw(o, levels, scene.get(), verdicts)));

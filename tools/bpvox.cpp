@@ -15,6 +15,7 @@
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
+#include "tools/common/scene_budget.h"
 
 namespace {
 
@@ -139,7 +140,9 @@ void run(const Options& o) {
   bp::Backends backends = bp::make_backends(o.common, 0);  // reading takes far longer than voxelizing
   const std::uint64_t pinned = std::min(bp::pinned_bytes(backends), o.common.memory_bytes / 2);
   const bp::VoxelizeBudget budget(o.common.memory_bytes - pinned);
-  const auto source = bp::open_scenes(o.scenes, {o.format, budget.reader, o.common.temp});
+  bp::SceneOptions scene{o.format, budget.reader, o.common.temp};
+  scene.document = bp::document_budget(o.common.memory_bytes - pinned, std::uint64_t(96) << 20, o.scenes.size());
+  const auto source = bp::open_scenes(o.scenes, scene);
   const auto file = bp::open_output(o.out, o.common.overwrite);
   std::optional<bp::BrickWriter> writer;
   bp::StreamHeader header;

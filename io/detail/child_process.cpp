@@ -23,7 +23,7 @@ namespace bp {
 namespace {
 
 // What the child sends back: a tag, then the result, or the code and the text of an error.
-constexpr char kResult = 'R', kError = 'E', kFailure = 'F';
+constexpr char kResult = 'R', kError = 'E', kFailure = 'F', kMemory = 'M';
 
 std::uint64_t address_space() {
   unsigned long pages = 0;
@@ -34,11 +34,14 @@ std::uint64_t address_space() {
   return std::uint64_t(pages) * std::uint64_t(::sysconf(_SC_PAGESIZE));
 }
 
-void limit(int resource, std::uint64_t value) {
+/// `kill`: what the limit becomes once it has been told.
+void limit(int resource, std::uint64_t value, std::uint64_t kill = 0) {
   struct rlimit r {};
   if (::getrlimit(__rlimit_resource_t(resource), &r) != 0) return;
-  if (r.rlim_max != RLIM_INFINITY) value = std::min<std::uint64_t>(value, r.rlim_max);
-  r.rlim_cur = r.rlim_max = rlim_t(value);
+  kill = std::max(kill, value);
+  if (r.rlim_max != RLIM_INFINITY) kill = std::min<std::uint64_t>(kill, r.rlim_max);
+  r.rlim_max = rlim_t(kill);
+  r.rlim_cur = rlim_t(std::min(value, kill));
   ::setrlimit(__rlimit_resource_t(resource), &r);
 }
 
@@ -52,7 +55,7 @@ void confine(const ChildLimits& limits) {
     ::dup2(nowhere, 2);
   }
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, limits.cpu_seconds);
+  limit(RLIMIT_CPU, limits.cpu_seconds, limits.cpu_seconds + 1);
   const std::uint64_t now = address_space();
   if (now > 0) limit(RLIMIT_AS, now + limits.memory_bytes);
 }
@@ -63,7 +66,7 @@ std::string message_of(const std::function<std::string()>& work) {
   } catch (const Error& e) {
     return std::string{kError, char(e.code())} + e.what();
   } catch (const std::bad_alloc&) {
-    return std::string(1, kFailure) + "ran out of the memory it may take";
+    return std::string(1, kMemory);
   } catch (const std::exception& e) {
     return std::string(1, kFailure) + "failed: " + e.what();
   } catch (...) {
@@ -84,14 +87,16 @@ std::string message_of(const std::function<std::string()>& work) {
   ::_exit(0);  // no destructors: they belong to the parent
 }
 
-/// All that comes until the child closes its end; false if the time is over before.
-bool receive(int in, std::uint64_t wall_seconds, std::string& message) {
+enum class Reception { complete, late, large };
+
+/// All that comes until the child closes its end, the time is over, or more has come than it may send.
+Reception receive(int in, const ChildLimits& limits, std::string& message) {
   using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::seconds(wall_seconds);
+  const auto end = Clock::now() + std::chrono::seconds(limits.wall_seconds);
   char block[65536];
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-    if (left <= 0) return false;
+    if (left <= 0) return Reception::late;
     struct pollfd waiting {
       in, POLLIN, 0
     };
@@ -99,7 +104,8 @@ bool receive(int in, std::uint64_t wall_seconds, std::string& message) {
     if (ready <= 0) continue;  // interrupted or too early: look at the clock again
     const ssize_t n = ::read(in, block, sizeof block);
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return true;
+    if (n <= 0) return Reception::complete;
+    if (message.size() + std::size_t(n) > limits.answer_bytes) return Reception::large;
     message.append(block, std::size_t(n));
   }
 }
@@ -111,8 +117,11 @@ int wait_for(pid_t child) {
   return status;
 }
 
-std::string why_killed(int signal) {
-  if (signal == SIGXCPU || signal == SIGKILL) return "took too long or too much memory and was stopped";
+std::string why_killed(int signal, const ChildLimits& limits) {
+  if (signal == SIGXCPU)
+    return fmt::format("was still busy after {} seconds, longer than files of this size take, and was stopped",
+                       limits.cpu_seconds);
+  if (signal == SIGKILL) return "took too long or too much memory and was stopped";
   return fmt::format("crashed (signal {})", signal);
 }
 
@@ -131,13 +140,14 @@ std::string run_in_child(const std::string& name, const std::string& what, const
   const int error = errno;
   ::close(ends[1]);
   std::string message;
-  const bool in_time = child > 0 && receive(ends[0], limits.wall_seconds, message);
+  const Reception reception = child > 0 ? receive(ends[0], limits, message) : Reception::late;
   ::close(ends[0]);
   if (child < 0) fail(ErrorCode::out_of_resource, "{}: cannot start a process: {}", name, std::strerror(error));
-  if (!in_time) ::kill(child, SIGKILL);
+  if (reception != Reception::complete) ::kill(child, SIGKILL);
   const int status = wait_for(child);
+  if (reception == Reception::large || (message.size() == 1 && message[0] == kMemory)) throw ChildOutOfMemory();
   if (WIFSIGNALED(status))
-    fail(ErrorCode::bad_input, "{}: {} {}; {}", name, what, why_killed(WTERMSIG(status)), remedy);
+    fail(ErrorCode::bad_input, "{}: {} {}; {}", name, what, why_killed(WTERMSIG(status), limits), remedy);
   if (message.size() >= 2 && message[0] == kError) throw Error(ErrorCode(message[1]), message.substr(2));
   if (message.empty() || message[0] != kResult) {
     fail(ErrorCode::bad_input, "{}: {} {}; {}", name, what, message.empty() ? "ended early" : message.substr(1),

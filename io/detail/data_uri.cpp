@@ -107,6 +107,39 @@ void JsonLifter::flush(ScratchFile* out) {
 
 }  // namespace
 
+// Blocks on the heap, as the standard library for this machine allocates them: an object and its tree (64), a member
+// with its key (112, and long keys), an array (48), an element (16, twice that while it grows), a text (48 and itself).
+std::uint64_t bytes_to_parse(const std::string& text) {
+  std::uint64_t bytes = 1024;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    switch (text[i]) {
+      case '{':
+        bytes += 64;
+        break;
+      case '[':
+        bytes += 48 + 32;
+        break;
+      case ':':
+        bytes += 112;
+        break;
+      case ',':
+        bytes += 32;
+        break;
+      case '"': {
+        const std::size_t begin = i;
+        for (++i; i < text.size() && text[i] != '"'; ++i) {
+          if (text[i] == '\\') ++i;
+        }
+        bytes += 48 + (i - begin > 16 ? i - begin : 0);
+        break;
+      }
+      default:
+        break;
+    }
+  }
+  return bytes;
+}
+
 LeanJson read_lean_json(const SceneFilePtr& file, std::uint64_t offset, std::uint64_t size,
                         const std::string& temp_dir) {
   return JsonLifter(file, offset, size, temp_dir).run();

@@ -62,6 +62,11 @@ MeshoptView meshopt_view(const GltfObject& packed) {
   return view;
 }
 
+/// Saturated: what cannot be is found out later.
+std::uint64_t unpacked_bytes(const MeshoptView& view) {
+  return std::uint64_t(std::min(0x1p62, double(view.count) * double(view.stride)));
+}
+
 }  // namespace
 
 // --- GltfObject
@@ -136,7 +141,7 @@ std::uint64_t GltfObject::index(const char* key, std::uint64_t i) const {
 // ---------------------------------------------------------------------------------------
 
 GltfDocument::GltfDocument(const SceneFilePtr& file, const SceneOptions& options)
-    : file_(file), temp_dir_(temp_dir_of(options)) {
+    : file_(file), options_(options), temp_dir_(temp_dir_of(options)) {
   char magic[4] = {};
   file->read_at(0, std::as_writable_bytes(std::span(magic)));
   if (std::memcmp(magic, "glTF", 4) == 0) {
@@ -178,6 +183,8 @@ void GltfDocument::open_glb() {
 void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
   LeanJson lean = read_lean_json(file_, offset, size, temp_dir_);
   lifted_ = std::move(lean.data);
+  check_document(options_, file_->name(), "its JSON", lean.text.size() + bytes_to_parse(lean.text),
+                 options_.document.bytes);
   try {
     json_ = parse_json(std::move(lean.text));
   } catch (const GltfJson::exception& e) {
@@ -263,6 +270,8 @@ GltfDocument::View GltfDocument::unpacked(std::uint64_t i, const GltfObject& obj
   if (offset > data.size || size > data.size - offset)
     packed.broken(fmt::format("spans bytes {} to {} of a buffer that has {}, so the data are truncated", offset,
                               offset + size, data.size));
+  check_document(options_, file_->name(), "a view that is compressed", size + unpacked_bytes(what),
+                 options_.document.bytes);
   std::vector<std::byte> bytes(size), plain;
   if (bytes_->read_at(data.address + offset, bytes) != size) packed.broken("lies beyond the end of the file");
   const std::string wrong = decode_meshopt(what, bytes, plain);
@@ -296,9 +305,13 @@ Accessor GltfDocument::accessor(std::uint64_t i, std::size_t components) {
     a.address = v.address + offset;
   }
   if (object.has("sparse")) read_sparse(object.object("sparse"), a);
-  // Without data all is zero: legal, of no use, and a count that nothing bounds.
+  // Without data all is zero but what replaces it: legal, of little use, and a count that only the file bounds.
   if (a.address == Accessor::kZeros && a.replaced_count == 0 && a.count > 0) object.broken("has no data");
-  if (a.address == Accessor::kZeros && a.count > (std::uint64_t(1) << 32)) object.broken("has more than 2^32 elements");
+  const std::uint64_t there = file_->size() + bytes_->size();
+  if (a.address == Accessor::kZeros && a.count > there) {
+    object.broken(fmt::format("has {} elements, and data for {} of them in a file of {} bytes", a.count,
+                              a.replaced_count, there));
+  }
   return a;
 }
 

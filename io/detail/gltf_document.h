@@ -80,6 +80,7 @@ class GltfDocument {
   void read_sparse(const GltfObject& sparse, Accessor& a);
 
   SceneFilePtr file_;
+  const SceneOptions& options_;
   std::string temp_dir_;
   GltfJson json_;
   std::vector<SceneFilePtr> lifted_;  // embedded buffers

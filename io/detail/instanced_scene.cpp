@@ -59,6 +59,15 @@ std::uint64_t decode_index(const std::byte* from, ComponentType type) {
   }
 }
 
+/// Of the bytes for vertices, those that the scene's description leaves. Beside them as many are in reserve.
+std::uint64_t cache_bytes(const InstancedScene& scene, const SceneOptions& options) {
+  const std::uint64_t left = 2 * options.memory_bytes, least = options.memory_bytes / 8;
+  const std::uint64_t described = scene.memory_bytes();
+  check_document(options, scene.bytes->name(), "the list of its nodes", described + least, left,
+                 std::max<std::uint64_t>(1, options.document.bytes / std::max<std::uint64_t>(1, left)));
+  return options.document.bytes == 0 ? options.memory_bytes : std::min(options.memory_bytes, left - described);
+}
+
 /// Elements of accessors, read through one cache.
 class ElementReader {
  public:
@@ -122,7 +131,7 @@ class ElementReader {
 class InstancedSource final : public RawSource {
  public:
   InstancedSource(InstancedScene scene, const SceneOptions& options)
-      : scene_(std::move(scene)), elements_(scene_.bytes, options.memory_bytes) {
+      : scene_(std::move(scene)), elements_(scene_.bytes, cache_bytes(scene_, options)) {
     rewind();
   }
 
@@ -297,6 +306,11 @@ std::size_t bytes_of(ComponentType type) {
       return 8;
   }
   return 0;
+}
+
+std::uint64_t InstancedScene::memory_bytes() const {
+  return primitives.size() * sizeof(Primitive) + arrays.size() * sizeof(InstanceArray) +
+         nodes.size() * sizeof(MeshNode);
 }
 
 RawSourcePtr stream_instances(InstancedScene scene, const SceneOptions& options) {

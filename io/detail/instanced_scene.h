@@ -65,6 +65,8 @@ struct InstancedScene {
   std::optional<UpAxis> up;     ///< if the file tells
   std::size_t levels = 1;       ///< that the file has, of which this is one
   std::uint64_t bad_faces = 0;  ///< met before, while the scene was put together
+
+  [[nodiscard]] std::uint64_t memory_bytes() const;  ///< of the description
 };
 
 /// Streams the triangles of each node in order. Memory: options.memory_bytes and the scene's description.

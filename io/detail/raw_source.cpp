@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "lib/core/error.h"
+
 namespace bp {
 
 bool PolygonSource::next(RawBatch& batch) {
@@ -66,12 +68,27 @@ void normalize(TriangleD& t) {
   }
 }
 
+void drop_signs_of_zeros(TriangleD& t) {
+  for (Vec3d& p : t) {
+    for (double& c : p) c += 0.0;
+  }
+}
+
 bool is_finite(const TriangleD& t) {
   bool finite = true;
   for (const Vec3d& p : t) {
     for (const double c : p) finite &= std::abs(c) <= std::numeric_limits<double>::max();
   }
   return finite;
+}
+
+void check_document(const SceneOptions& options, const std::string& name, const char* what, std::uint64_t bytes,
+                    std::uint64_t left, std::uint64_t per_missing) {
+  if (options.document.bytes == 0 || bytes <= left) return;
+  fail(ErrorCode::out_of_resource,
+       "{}: {} takes {} MiB, and --memory leaves {} MiB for it; raise --memory{}, or split it", name, what,
+       (bytes >> 20) + 1, left >> 20,
+       options.document.enough_for ? options.document.enough_for((bytes - left) * per_missing) : "");
 }
 
 std::string temp_dir_of(const SceneOptions& options) {

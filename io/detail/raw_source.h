@@ -91,7 +91,14 @@ class PolygonSource : public RawSource {
 /// A triangle with its corners as the rest of the suite wants them (scene_reader.h): tiny and negative zeros are 0,
 /// huge coordinates infinite.
 void normalize(TriangleD& t);
+/// The same, but nothing moves: only negative zeros are 0.
+void drop_signs_of_zeros(TriangleD& t);
 [[nodiscard]] bool is_finite(const TriangleD& t);
+
+/// Throws out_of_resource, with the figure, if `what` of a file takes more than `left` bytes. `per_missing`: bytes of
+/// SceneOptions::document that leave one byte more for it.
+void check_document(const SceneOptions& options, const std::string& name, const char* what, std::uint64_t bytes,
+                    std::uint64_t left, std::uint64_t per_missing = 1);
 
 /// Directory of scratch files.
 [[nodiscard]] std::string temp_dir_of(const SceneOptions& options);

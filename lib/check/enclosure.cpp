@@ -3,7 +3,6 @@
 #include <bit>
 
 #include "lib/core/parallel.h"
-#include "lib/core/predicates.h"
 #include "lib/core/signed_volume.h"
 
 namespace bp {
@@ -98,10 +97,6 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, bool decide_sid
   for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
     const TriangleD& t = batch.triangles[i];
     const std::uint64_t number = batch.first + i;
-    if (!in_predicate_domain(t[0]) || !in_predicate_domain(t[1]) || !in_predicate_domain(t[2])) {
-      e.undecidable.add({number, 0, t[0]}, max_examples);
-      continue;
-    }
     batch.volume.add(t);
     const std::int64_t touched = surface.touched_by(t);
     if (touched != Surface::kNone)

@@ -114,21 +114,30 @@ Finding Surface::self_intersections(std::size_t max_examples, bool within_parts)
 
 std::int64_t Surface::touched_by(const TriangleD& t) const {
   std::int64_t touched = kNone;
-  const bool segment = collinear(t[0], t[1], t[2]);
-  bvh_.visit(bounds_of(t), [&](const TriangleBvh::Item& b) {
-    if (!(segment ? degenerate_triangle_meets(t.data(), b.corners.data())
-                  : triangles_intersect(t.data(), b.corners.data())))
-      return false;
-    touched = triangle_[b.id];
-    return true;
-  });
+  const auto find = [&](const auto& here, const auto& corners) {
+    const bool segment = collinear(here[0], here[1], here[2]);
+    bvh_.visit(bounds_of(t), [&](const TriangleBvh::Item& b) {
+      const auto& there = corners(b);
+      if (!(segment ? degenerate_triangle_meets(here.data(), there.data())
+                    : triangles_intersect(here.data(), there.data())))
+        return false;
+      touched = triangle_[b.id];
+      return true;
+    });
+  };
+  if (in_predicate_domain(t[0]) && in_predicate_domain(t[1]) && in_predicate_domain(t[2])) {
+    find(t, [](const TriangleBvh::Item& b) -> const TriangleD& { return b.corners; });
+  } else {
+    find(widened(t), [](const TriangleBvh::Item& b) { return widened(b.corners); });
+  }
   return touched;
 }
 
 int Surface::winding(const Vec3d& p, std::uint32_t ignored) const {
   int sum = 0;
   bvh_.visit_above(p, [&](const TriangleBvh::Item& t) {
-    if (ignored == kNoComponent || mesh_.component[triangle_[t.id]] != ignored) sum += crossing_above(t.corners, p);
+    if (ignored != kNoComponent && mesh_.component[triangle_[t.id]] == ignored) return;
+    sum += in_predicate_domain(p) ? crossing_above(t.corners, p) : crossing_above(widened(t.corners), WidePoint{p});
   });
   return sum;
 }

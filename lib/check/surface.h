@@ -20,7 +20,8 @@ class Surface {
   [[nodiscard]] Finding self_intersections(std::size_t max_examples, bool within_parts = false) const;
 
   static constexpr std::int64_t kNone = -1;
-  /// A triangle (of WeldedMesh) that `t` touches or crosses, or kNone. The domain is that of the predicates.
+  /// A triangle (of WeldedMesh) that `t` touches or crosses, or kNone. Beyond the domain of the predicates the exact
+  /// ones of wide_predicates.h decide: finite coordinates will do.
   [[nodiscard]] std::int64_t touched_by(const TriangleD& t) const;
 
   /// Winding number of the surface around p, which must not lie on it (there, an arbitrary but fixed side). Triangles

@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/core/coords.h"
+#include "lib/core/wide_predicates.h"
 
 /// Winding numbers by counting crossings.
 namespace bp {
@@ -12,5 +12,7 @@ namespace bp {
 /// vertical triangle, and since the signs are antisymmetric in the ends of an edge, exactly one of two triangles on
 /// either side of an edge is hit.
 [[nodiscard]] int crossing_above(const TriangleD& t, const Vec3d& p);
+/// The same, exact for any finite coordinates.
+[[nodiscard]] int crossing_above(const WideTriangle& t, const WidePoint& p);
 
 }  // namespace bp

@@ -17,6 +17,7 @@
 #include "lib/stage/vertex_colors.h"
 #include "tools/common/face_notes.h"
 #include "tools/common/names.h"
+#include "tools/common/scene_budget.h"
 
 namespace bp {
 
@@ -80,6 +81,14 @@ Build::Build(const BuildOptions& o)
   };
 }
 
+SceneOptions Build::scene_options(bool beside) const {
+  SceneOptions scene{options.format, budget.reader, options.common.temp};
+  const std::uint64_t pinned = std::min(pinned_bytes(backends), options.common.memory_bytes / 2);
+  scene.document = document_budget(options.common.memory_bytes - pinned, std::uint64_t(96) << 20,
+                                   beside ? 2 : options.scenes.size());
+  return scene;
+}
+
 VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int halvings) {
   report.stage("voxelize");
   VoxelizeOptions v;
@@ -95,7 +104,9 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   VoxelizedScene out;
   out.solid = make_shelf();
   ShelfSink sink(out.solid.get());
-  const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp, options.colors});
+  SceneOptions scene = scene_options();
+  scene.colors = options.colors;
+  const auto source = open_scenes(options.scenes, scene);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
     return voxel_size(options, {bounds, source->counts().triangles}, halvings);
   };
@@ -131,7 +142,7 @@ std::vector<TriangleD> Build::scene_triangles() const {
   constexpr std::uint64_t kBytesEach = 400;                // twice, and a hierarchy over them
   std::vector<TriangleD> all;
   if (std::count(options.scenes.begin(), options.scenes.end(), "-") > 0) return all;  // stdin cannot be read again
-  const auto source = open_scenes(options.scenes, {options.format, budget.reader, options.common.temp});
+  const auto source = open_scenes(options.scenes, scene_options(true));
   const std::uint64_t memory = budget.work / 2;
   std::uint64_t count = 0;
   for (std::vector<TriangleD> chunk; source->read(chunk);) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/scene_reader.h"
 #include "lib/stage/scene_colors.h"
 #include "lib/stage/voxelize_stage.h"
 #include "tools/common/make_backend.h"
@@ -55,6 +56,8 @@ class Build {
 
   /// cell_vox, results: as in VoxelizeOptions. halvings: as in voxel_size().
   [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr, int halvings = 0);
+  /// How scenes are read. `beside`: something else of them is in memory meanwhile.
+  [[nodiscard]] SceneOptions scene_options(bool beside = false) const;
   /// For LodChain; after voxelize(), as all that follow.
   [[nodiscard]] LodOptions lod_options();
   /// For surfaces: budget.work, and what spills.

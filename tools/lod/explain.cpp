@@ -39,7 +39,7 @@ struct Scene {
 
 Scene read_scene(const Build& build) {
   const BuildOptions& o = build.options;
-  const auto source = open_scenes(o.scenes, {o.format, build.budget.reader, o.common.temp});
+  const auto source = open_scenes(o.scenes, build.scene_options());
   TriangleTotals totals;
   for (std::vector<TriangleD> chunk; source->read(chunk);) totals.add(chunk);
   if (totals.triangles == 0) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());

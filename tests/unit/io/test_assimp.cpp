@@ -25,6 +25,8 @@ std::string child_complaint(const ChildLimits& limits, const std::function<std::
     return "result: " + run_in_child("x.ifc", "the importer", "convert it", limits, work);
   } catch (const Error& e) {
     return (e.code() == ErrorCode::bad_input ? "" : "code: ") + std::string(e.what());
+  } catch (const ChildOutOfMemory&) {
+    return "no memory";
   }
 }
 
@@ -77,7 +79,9 @@ TEST_CASE("what goes wrong in a child process becomes an Error here", "[quick][i
                                std::vector<std::string> hoard;
                                for (;;) hoard.emplace_back(1 << 20, 'x');
                              }),
-             Contains("memory"));
+             Contains("no memory"));
+  limits.answer_bytes = 1 << 20;
+  CHECK(child_complaint(limits, [] { return std::string(3 << 20, 'x'); }) == "no memory");
 }
 
 TEST_CASE("a child process that hangs is stopped", "[io]") {
@@ -90,7 +94,7 @@ TEST_CASE("a child process that hangs is stopped", "[io]") {
                                }
                                return "";
                              }),
-             Contains("took too long"));
+             Contains("still busy after 1 seconds"));
   limits.wall_seconds = 1;
   CHECK_THAT(child_complaint(limits,
                              []() -> std::string {

@@ -1,0 +1,24 @@
+#pragma once
+#include "io/scene_reader.h"
+
+namespace bp {
+
+/// How bpcheck shares out --memory: the proxy, with all that is found out about it, lies in memory as a whole; the
+/// scene passes by, and its triangles are kept for distances as long as they fit.
+class CheckBudget {
+ public:
+  CheckBudget(std::uint64_t memory, bool has_scene);
+
+  /// Of the file that is read as a whole; refused if it needs more than its share.
+  [[nodiscard]] SceneOptions of_proxy(const std::string& name) const;
+  /// What the proxy takes is no longer there for the scene.
+  void take(const std::vector<IndexedMesh>& proxy);
+  [[nodiscard]] std::uint64_t reader_bytes() const { return usable_ / 3; }
+  [[nodiscard]] std::uint64_t scene_bytes() const { return usable_ / 3 * 2; }  ///< for distances
+
+ private:
+  std::uint64_t memory_, usable_;
+  std::uint64_t share_;  ///< of the proxy: so many quarters of what is usable
+};
+
+}  // namespace bp
