@@ -66,11 +66,17 @@ struct SceneMemory {
 void measure_distances(const Surface& surface, const SceneMemory& scene, const CheckOptions& options,
                        CheckReport& report) {
   if (!options.distances || surface.bvh().empty() || report.scene_triangles == 0) return;
+  constexpr const char* kTooLarge = "no distances: the scene has coordinates that are too large or too small";
   if (report.undecidable_scene.count != 0) {
-    report.distance_note = "no distances: the scene has coordinates that are too large or too small";
+    report.distance_note = kTooLarge;
     return;
   }
-  report.scene_to_proxy = distances(scene.sample.points(), surface.bvh());
+  const SampledDistance there = distances(scene.sample.points(), surface.bvh());
+  if (!std::isfinite(there.mean)) {
+    report.distance_note = kTooLarge;
+    return;
+  }
+  report.scene_to_proxy = there;
   if (!scene.keep) {
     report.distance_note =
         fmt::format("no distance from the proxy to the scene: {} triangles do not fit the {} MiB set aside for them",
