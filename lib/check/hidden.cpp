@@ -180,10 +180,6 @@ class HiddenCheck {
 
   /// Those that the triangle may meet.
   static void for_each_voxel(const Corners& t, const std::function<void(VoxelCoord)>& f) {
-    const auto fixed = [](const LatticeCoord& p) {
-      constexpr std::int64_t kUnit = kFixedOne / kLatticePerVoxel;
-      return FixedPoint{p.x * kUnit, p.y * kUnit, p.z * kUnit};
-    };
     VoxelBox box;
     for (int i = 0; i < 3; ++i) {
       const std::int64_t low = std::min({t[0][i], t[1][i], t[2][i]}), high = std::max({t[0][i], t[1][i], t[2][i]});
@@ -194,30 +190,57 @@ class HiddenCheck {
       BitBox layer(VoxelBox{{box.min.x, box.min.y, z}, {box.max.x, box.max.y, z + 1}});
       const FixedTriangle one{fixed(t[0]), fixed(t[1]), fixed(t[2])};
       voxelize_surface({&one, 1}, layer);
-      for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
-        for (std::int32_t i = 0; i < layer.words_per_row(); ++i) {
-          for (std::uint64_t bits = layer.row(y, z)[i]; bits != 0; bits &= bits - 1)
-            f({layer.box().min.x + 64 * i + std::countr_zero(bits), y, z});
-        }
-      }
+      for_each_set(layer, f);
     }
   }
 
-  /// Voxels that are not hidden lie on one side each, as far as they are connected over faces: none within.
+  /// No voxel that is not hidden lies within the proxy. The surface meets no open cube of one. So two of them that
+  /// share a face lie on one side, unless a triangle lies in the plane of that face: such voxels are looked at one by
+  /// one.
   void check_swallowed(const BitBox& hidden) {
     if (report_.exposed.count > 0) return;  // the sides are not known
-    const BitBox others = inverse(hidden);
-    BitBox outside(others.box());
-    outside.set(others.box().min);
-    grow_within(others, outside);
-    const VoxelBox& box = others.box();
+    const BitBox others = inverse(hidden), along = beside_level_faces(others.box());
+    BitBox open = others, outside(others.box());
+    combine(open, along, less);
+    const VoxelCoord corner = others.box().min;
+    if (open.test(corner) && surface_.winding(middle_of(corner)) == 0) outside.set(corner);
+    grow_within(open, outside);
+    open = others;
+    combine(open, outside, less);
+    for_each_set(open, [&](VoxelCoord v) {
+      if (report_.exposed.count > max_examples_) return;  // it is refuted
+      const Vec3d middle = middle_of(v);
+      if (surface_.winding(middle) != 0) report_.exposed.add({0, 0, middle}, max_examples_);
+    });
+  }
+
+  /// Voxels that share a point with a triangle which lies in a plane between voxels.
+  [[nodiscard]] BitBox beside_level_faces(const VoxelBox& box) const {
+    BitBox beside(box);
+    for (const auto& triangle : mesh_.triangles) {
+      const LatticeCoord &a = corners_[triangle[0]], &b = corners_[triangle[1]], &c = corners_[triangle[2]];
+      for (int i = 0; i < 3; ++i) {
+        if (a[i] != b[i] || b[i] != c[i] || a[i] % kLatticePerVoxel != 0) continue;
+        const FixedTriangle one{fixed(a), fixed(b), fixed(c)};
+        voxelize_surface({&one, 1}, beside);
+        break;
+      }
+    }
+    return beside;
+  }
+
+  static FixedPoint fixed(const LatticeCoord& p) {
+    constexpr std::int64_t kUnit = kFixedOne / kLatticePerVoxel;
+    return {p.x * kUnit, p.y * kUnit, p.z * kUnit};
+  }
+
+  static void for_each_set(const BitBox& voxels, const std::function<void(VoxelCoord)>& f) {
+    const VoxelBox& box = voxels.box();
     for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
       for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
-        for (std::int32_t i = 0; i < others.words_per_row(); ++i) {
-          for (std::uint64_t bits = others.row(y, z)[i] & ~outside.row(y, z)[i]; bits != 0; bits &= bits - 1) {
-            const Vec3d middle = middle_of({box.min.x + 64 * i + std::countr_zero(bits), y, z});
-            if (surface_.winding(middle) != 0) report_.exposed.add({0, 0, middle}, max_examples_);
-          }
+        for (std::int32_t i = 0; i < voxels.words_per_row(); ++i) {
+          for (std::uint64_t bits = voxels.row(y, z)[i]; bits != 0; bits &= bits - 1)
+            f({box.min.x + 64 * i + std::countr_zero(bits), y, z});
         }
       }
     }

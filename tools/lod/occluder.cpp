@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lib/closing/closing.h"
 #include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/stage/complement.h"
@@ -58,7 +59,7 @@ Hidden best_hidden(Build& build, VoxelizedScene& scene, bool ground) {
   std::vector<std::pair<double, std::uint64_t>> tried;
   std::uint64_t most = 0;
   for (double scale = 0; scale <= diagonal * kMostScale;
-       scale = scale == 0 ? kLeastScaleVox * voxel : scale * std::sqrt(2.0)) {
+       scale = scale == 0 ? (kLeastScaleVox + kBeyondWholeVox) * voxel : scale * std::sqrt(2.0)) {
     best.voxels = {};  // one at a time
     best.voxels = hide(build, scene, scale);
     best.scale = scale;

@@ -7,7 +7,9 @@ using namespace bp::test;
 
 namespace {
 
-/// A room with walls of 3 around (0,0,0)..(32,24,24), open at x = 32 by a door of 6 x 13; voxels have an edge of 1.
+/// A room with walls of 3 around (0,0,0)..(32,24,24), open at x = 32 by a door of 6 x 13: 4 voxels wide, since those
+/// that the walls touch count. Voxels have an edge of 1. What a closing adds in the room's edges is reached from the
+/// door.
 IndexedMesh room() {
   IndexedMesh m = box({-3, -3, -3}, {35, 27, 0});
   for (const auto& [lo, hi] : std::vector<std::pair<Vec3d, Vec3d>>{{{-3, -3, 24}, {35, 27, 27}},
@@ -38,28 +40,28 @@ CheckReport hidden_in(const IndexedMesh& scene, const IndexedMesh& proxy, double
 }  // namespace
 
 TEST_CASE("a proxy in a room is hidden once its door is closed", "[quick][check][occluder]") {
-  const IndexedMesh proxy = box({2, 2, 2}, {30, 22, 22});
-  const CheckReport closed = hidden_in(room(), proxy, 4);
+  const IndexedMesh proxy = box({4, 4, 4}, {28, 20, 20});
+  const CheckReport closed = hidden_in(room(), proxy, 4.0625);
   CHECK(closed.asks_hidden);
   CHECK(closed.answer() == Answer::proven);
-  CHECK(hidden_in(room(), proxy, 2).answer() == Answer::refuted);
+  CHECK(hidden_in(room(), proxy, 1.5).answer() == Answer::refuted);
   const CheckReport without = hidden_in(room(), proxy, 0);
   CHECK(without.answer() == Answer::refuted);
   CHECK(without.exposed.count > 0);
 }
 
 TEST_CASE("inner walls may lie in what is hidden", "[quick][check][occluder]") {
-  const CheckReport r = hidden_in(join(room(), box({10, 0, 0}, {11, 24, 20})), box({2, 2, 2}, {30, 22, 22}), 4);
+  const CheckReport r = hidden_in(join(room(), box({14, 0, 0}, {15, 24, 24})), box({8, 8, 8}, {26, 16, 16}), 4.0625);
   CHECK(r.touching.count > 0);
   CHECK(r.insideness() == Answer::refuted);
   CHECK(r.answer() == Answer::proven);
 }
 
 TEST_CASE("a proxy that comes a voxel out of what is hidden is refuted, with a place", "[quick][check][occluder]") {
-  CHECK(hidden_in(room(), box({0, 0, 0}, {30, 22, 22}), 4).answer() == Answer::proven);
+  CHECK(hidden_in(room(), box({4, 4, 4}, {28, 20, 20}), 4.0625).answer() == Answer::proven);
   for (const IndexedMesh& proxy : {box({2, 2, 2}, {33, 22, 12}), box({2, 2, 2}, {30, 22, 26}),
-                                   join(box({2, 2, 2}, {30, 22, 22}), box({36, -2, -2}, {38, 0, 0}))}) {
-    const CheckReport r = hidden_in(room(), proxy, 4);
+                                   join(box({4, 4, 4}, {28, 20, 20}), box({36, -2, -2}, {38, 0, 0}))}) {
+    const CheckReport r = hidden_in(room(), proxy, 4.0625);
     CHECK(r.answer() == Answer::refuted);
     REQUIRE(r.exposed.count > 0);
     CHECK(r.exposed.examples[0].position[0] > 0);
@@ -67,19 +69,19 @@ TEST_CASE("a proxy that comes a voxel out of what is hidden is refuted, with a p
 }
 
 TEST_CASE("a proxy around the scene swallows what is not hidden", "[quick][check][occluder]") {
-  CHECK(hidden_in(room(), box({-7, -7, -7}, {40, 40, 40}), 4).answer() == Answer::refuted);
+  CHECK(hidden_in(room(), box({-7, -7, -7}, {40, 40, 40}), 4.0625).answer() == Answer::refuted);
   // One that touches no open voxel: the proxy is around all that the box of voxels holds.
-  CHECK(hidden_in(room(), box({-200, -200, -200}, {200, 200, 200}), 4).answer() == Answer::refuted);
+  CHECK(hidden_in(room(), box({-200, -200, -200}, {200, 200, 200}), 4.0625).answer() == Answer::refuted);
 }
 
 TEST_CASE("what cannot be told of hiding is not decided, and says why", "[quick][check][occluder]") {
-  const IndexedMesh proxy = box({2, 2, 2}, {30, 22, 22});
-  const CheckReport little = hidden_in(room(), proxy, 4, 1000);
+  const IndexedMesh proxy = box({4, 4, 4}, {28, 20, 20});
+  const CheckReport little = hidden_in(room(), proxy, 4.0625, 1000);
   CHECK(little.answer() == Answer::undecided);
   CHECK(little.hidden_unknown.find("--memory") != std::string::npos);
   IndexedMesh moved = proxy;
   moved.vertices[0][0] += 1e-3;
-  const CheckReport changed = hidden_in(room(), moved, 4);
+  const CheckReport changed = hidden_in(room(), moved, 4.0625);
   CHECK(changed.answer() == Answer::undecided);
   CHECK(changed.hidden_unknown.find("changed") != std::string::npos);
   CHECK(hidden_in(room(), proxy, 1e9).answer() == Answer::undecided);
