@@ -42,10 +42,10 @@ LatticeMesh part_of(const LatticeMesh& mesh, const std::vector<Face>& faces) {
   return part;
 }
 
-constexpr double kSmall = 2e-3;           // of the volume: what a hull may have above the solid in it
-constexpr double kGrowth = 0.01;          // of a hull's volume, for fewer corners
+constexpr double kSmall = 2e-3;            // of the volume: what a hull may have above the solid in it
+constexpr double kGrowth = 0.01;           // of a hull's volume, for fewer corners
 constexpr std::uint64_t kFewestFaces = 4;  // of a closed surface
-constexpr std::size_t kCellsPerHull = 4;  // what is joined again knows more than what was cut first
+constexpr std::size_t kCellsPerHull = 4;   // what is joined again knows more than what was cut first
 
 LatticeMesh mesh_of(const LatticeMesh& mesh, ConvexHull hull) {
   LatticeMesh made;

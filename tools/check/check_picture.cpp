@@ -29,9 +29,9 @@ View level_view(const CheckedFiles& checked, std::size_t level, const std::strin
   view.edges = true;
   view.color = {238, 192, 130};
   const CheckReport& verdict = checked.verdicts[level];
-  view.label = fmt::format("{}{}\n{}, {}\n{}", name, checked.levels.size() > 1 ? fmt::format(" level {}", level) : "",
-                           verdict.faces.text(), to_string(verdict.answer()),
-                           bounds_text(bounds_of(checked.levels[level])));
+  view.label =
+      fmt::format("{}{}\n{}, {}\n{}", name, checked.levels.size() > 1 ? fmt::format(" level {}", level) : "",
+                  verdict.faces.text(), to_string(verdict.answer()), bounds_text(bounds_of(checked.levels[level])));
   return view;
 }
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "lib/core/coords.h"
-
 #include "tools/common/mesh_extras.h"
 
 namespace bp {

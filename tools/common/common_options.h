@@ -63,8 +63,8 @@ struct CommonOptions {
 [[nodiscard]] std::uint64_t least_memory(int threads);
 
 /// From now on these files, and those that they name (parts_of_scene()), are neither replaced nor removed, whatever
-/// they are called: --overwrite must not cost a scene (io/kept_files.h). Throws bad_argument if one of them is an output
-/// that was opened before.
+/// they are called: --overwrite must not cost a scene (io/kept_files.h). Throws bad_argument if one of them is an
+/// output that was opened before.
 void keep_inputs(const std::vector<std::string>& paths);
 /// Forgets what keep_inputs() and open_output() were told: another run of a tool begins in this process, as in tests.
 void forget_files();

@@ -89,7 +89,8 @@ void check_folder_name(const BuildOptions& o) {
 
 /// Whether levels are one mesh each, and something has to stay inside while they are tightened.
 bool may_enclose_scene(const BuildOptions& o) {
-  return (o.profile == LodProfile::gltf || o.profile == LodProfile::collision) && o.mode == MeshMode::bounding && !o.loose;
+  return (o.profile == LodProfile::gltf || o.profile == LodProfile::collision) && o.mode == MeshMode::bounding &&
+         !o.loose;
 }
 
 /// What would be passed over in silence.

@@ -91,7 +91,8 @@ TEST_CASE("a usage error names the option and the fact", "[quick][tools]") {
   CHECK(complaint({"-s1", "--scale=1"}) == "--scale is given twice (see bptest --help)");
   CHECK(complaint({"a", "b"}) == "'b' is one argument too many (see bptest --help)");
   CHECK(complaint({"--keep=1"}) == "--keep takes no value (see bptest --help)");
-  CHECK(complaint({"--element", "Cube"}) == "--element: 'Cube' is none of cube|ball; did you mean cube? (see bptest --help)");
+  CHECK(complaint({"--element", "Cube"}) ==
+        "--element: 'Cube' is none of cube|ball; did you mean cube? (see bptest --help)");
   CHECK(complaint({"--faces", "-1"}) == "--faces: '-1' is not a whole number from 0 to 2147483647 (see bptest --help)");
   CHECK(complaint({"--progress=xml"}) == "--progress: 'xml' is none of [json] (see bptest --help)");
 }
