@@ -41,7 +41,7 @@ ChildLimits limits_for(std::uint64_t file_bytes, const DocumentBudget& budget) {
   ChildLimits limits;
   limits.memory_bytes = std::min(kMaxMemoryBytes, (std::uint64_t(1) << 30) + 40 * file_bytes);
   limits.cpu_seconds = 5 + file_bytes / 50000;
-  limits.wall_seconds = 60 + 4 * limits.cpu_seconds;  // a machine may have other things to do
+  limits.wall_seconds = 600 + 4 * limits.cpu_seconds;  // a machine may have other things to do
   if (budget.bytes == 0) return limits;
   limits.memory_bytes = std::min(limits.memory_bytes, budget.bytes);
   limits.answer_bytes = budget.bytes / kAnswerCopies;
