@@ -14,8 +14,8 @@
 ///
 /// What all readers share:
 ///   - Coordinates are doubles from the file to the caller; node transforms are composed in double.
-///   - Below 1e-90 in magnitude a coordinate is read as 0, above 1e90 it counts as non-finite: exact predicates need
-///     the range (SceneOptions::keep_extremes). -0 is read as 0.
+///   - Below 1e-90 in magnitude a coordinate is read as 0: exact predicates need the range (keep_extremes). A large one
+///     stays, however large: what is finite is not left out. -0 is read as 0.
 ///   - Polygons become fans. The fan of a polygon that is not convex still covers it (its signed sum is the polygon),
 ///     so what encloses the fan encloses the polygon.
 ///   - A mesh used by many nodes is streamed through each transform; mirrored transforms keep the outside outside.
@@ -57,7 +57,7 @@ struct SceneOptions {
   std::size_t level = 0;                                  ///< of glTF's MSFT_lod; 0 is the finest
   bool keep_degenerate = false;                           ///< deliver triangles of no area, too; counted all the same
   bool walls_only = false;  ///< leave out what can be seen through, see below; not counted
-  /// Coordinates beyond the range of the exact predicates stay as they are: for proofs, which must not move a vertex.
+  /// Coordinates below the range of the exact predicates stay as they are: for proofs, which must not move a vertex.
   bool keep_extremes = false;
   DocumentBudget document{};
   MeshLimit mesh{};

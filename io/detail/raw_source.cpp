@@ -61,9 +61,7 @@ bool PolygonSource::good_face() const {
 void normalize(TriangleD& t) {
   for (Vec3d& p : t) {
     for (double& c : p) {
-      const double size = std::abs(c);
-      if (size < 1e-90) c = 0;
-      if (size > 1e90) c = std::copysign(std::numeric_limits<double>::infinity(), c);
+      if (std::abs(c) < 1e-90) c = 0;
     }
   }
 }

@@ -90,8 +90,7 @@ class PolygonSource : public RawSource {
   return std::uint8_t((i > 0 ? 1 : 0) | (i + 1 < n ? 4 : 0));
 }
 
-/// A triangle with its corners as the rest of the suite wants them (scene_reader.h): tiny and negative zeros are 0,
-/// huge coordinates infinite.
+/// A triangle with its corners as the rest of the suite wants them (scene_reader.h): tiny and negative zeros are 0.
 void normalize(TriangleD& t);
 /// The same, but nothing moves: only negative zeros are 0.
 void drop_signs_of_zeros(TriangleD& t);

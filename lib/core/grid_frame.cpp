@@ -17,6 +17,19 @@ int lattice_bits(const Bounds3d& bounds, double voxel) {
   return int(std::ceil(std::log2((reach / voxel + 8192) * kLatticePerVoxel + 1))) + 1;
 }
 
+/// Refuses what no voxel that is in range can make a grid of.
+void check_reach(const Bounds3d& bounds) {
+  constexpr double kReach = kMostVoxel * 0x1p31;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (bounds.min[i] >= -kReach && bounds.max[i] <= kReach) continue;
+    fail(ErrorCode::bad_input,
+         "the scene reaches from {:.3g} to {:.3g} along {}, farther than any grid; look for a vertex that strayed "
+         "(bpinfo "
+         "names the bounds)",
+         bounds.min[i], bounds.max[i], "xyz"[i]);
+  }
+}
+
 /// Refuses sizes that would not stay in range when they are rounded up.
 void check_voxel(const Bounds3d& bounds, double voxel) {
   if (!(voxel > 0) || !std::isfinite(voxel))
@@ -39,12 +52,14 @@ double round_up_to_bits(double x, int bits) {
 
 GridFrame make_frame(const Bounds3d& bounds, double voxel, UpAxis up) {
   if (bounds.empty()) fail(ErrorCode::bad_input, "the scene has no bounds; it holds no usable triangle");
+  check_reach(bounds);
   check_voxel(bounds, voxel);
   for (std::size_t i = 0; i < 3; ++i) {
     const double side = (bounds.max[i] - bounds.min[i]) / voxel;
     if (!(side < 2147483648.0 - 16384)) {
       fail(ErrorCode::bad_argument,
-           "a grid of {:.0f} voxels a side exceeds 2^31; use a larger --voxel or a smaller --resolution", side);
+           "a grid of {:.15g} voxels a side exceeds 2^31; use a larger --voxel or a smaller --resolution",
+           std::floor(side));
     }
   }
   const int bits = std::clamp(53 - lattice_bits(bounds, voxel), 8, 24);

@@ -35,7 +35,7 @@ struct GridFrame {
 /// Frame for a scene with these bounds and (about) this voxel size: rounds `voxel` up to the most significant bits (8
 /// to 24) that keep every lattice point of the grid, halo included, an exact double. Voxel (0,0,0) holds or touches
 /// bounds.min. Throws bad_argument if the voxel size is not within grid_limits.h, or if a side would exceed 2^31
-/// voxels; bad_input if the bounds are empty.
+/// voxels; bad_input if the bounds are empty, or beyond any grid.
 [[nodiscard]] GridFrame make_frame(const Bounds3d& bounds, double voxel, UpAxis up = UpAxis::y);
 
 /// Voxels of the grid that the closed bounds touch, and one around them. Throws bad_argument beyond 2^31 voxels.

@@ -13,7 +13,7 @@ done
 write_cube cube.obj
 ask bpvox cube.obj --voxel 1e102% -o o.bpv
 ask bpvox cube.obj --voxel 1e-38% -o o.bpv
-ask bpvox huge_beside.obj --voxel 7.1e30% -q -o o.bpv && ask bpmesh o.bpv --faces 100,20 --error 2vx -q -o o.ply
+ask bpvox cube.obj --voxel 5.8e30% -q -o o.bpv && ask bpmesh o.bpv --faces 100,20 --error 2vx -q -o o.ply
 rm o.bpv o.0.ply o.1.ply
 # Little in a wide grid.
 printf 'v 0 0 0\nv .001 0 0\nv 0 .001 0\nv 1 1 1\nv .999 1 1\nv 1 .999 1\nf 1 2 3\nf 4 5 6\n' > corners.obj
@@ -30,4 +30,7 @@ ask bpcheck denormal_inside.off denormal_proxy.ply --no-distances
 ask bpcheck huge_beside.obj huge_proxy.ply --no-distances
 # An importer that would go on for ever.
 try timeout 600 bpvox busy.smd --resolution 1 -o o.bpv
+# What is finite is not left out: no proxy is made of a scene without its farthest vertex.
+try bpvox huge_beside.obj --resolution 8 -o o.bpv
+try bplod huge_beside.obj --resolution 8 -q -o o
 files | diff before - && echo "nothing left behind"
