@@ -6,7 +6,8 @@ find_package(OpenMesh REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(ZLIB REQUIRED)
+find_package(PNG REQUIRED)
+find_package(Freetype REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
 # zstd and xxHash ship pkg-config files everywhere, CMake packages only here and there.

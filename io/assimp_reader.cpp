@@ -11,6 +11,8 @@
 
 #include "io/detail/child_process.h"
 #include "io/detail/instanced_scene.h"
+#include "io/foreign_format.h"
+#include "io/kept_files.h"
 #include "lib/core/error.h"
 
 // Every format that has no reader of its own, through Assimp. Its importers are not made for broken files (they crash,
@@ -25,7 +27,11 @@ namespace {
 
 constexpr std::uint64_t kMaxFileBytes = std::uint64_t(400) << 20;
 constexpr std::uint64_t kMaxMemoryBytes = std::uint64_t(16) << 30;
-constexpr char kRemedy[] = "convert it to GLB, PLY or OBJ";
+
+std::string remedy_for(const std::string& name) {
+  const std::string way = foreign_way(name);
+  return way.empty() ? "convert it to GLB, PLY or OBJ" : way;
+}
 
 constexpr std::uint64_t kAnswerCopies = 4;  // of what the child sends, and what is made of it
 
@@ -46,12 +52,12 @@ ChildLimits limits_for(std::uint64_t file_bytes, const DocumentBudget& budget) {
                               const ChildLimits& limits, const DocumentBudget& budget) {
   if (budget.bytes == 0 || limits.memory_bytes < budget.bytes) {
     fail(ErrorCode::bad_input, "{}: {} wants more than {} MiB, too much for a file of this size; repair it, or {}",
-         name, what, limits.memory_bytes >> 20, kRemedy);
+         name, what, limits.memory_bytes >> 20, remedy_for(name));
   }
   const std::uint64_t wanted = std::max(2 * limits.memory_bytes, 4 * file_bytes);  // at least
   fail(ErrorCode::out_of_resource,
        "{}: {} takes more than the {} MiB that --memory leaves for it; raise --memory{}, or {}", name, what,
-       limits.memory_bytes >> 20, budget.enough_for ? budget.enough_for(wanted - budget.bytes) : "", kRemedy);
+       limits.memory_bytes >> 20, budget.enough_for ? budget.enough_for(wanted - budget.bytes) : "", remedy_for(name));
 }
 
 // --- What the child sends: plain records, counted
@@ -70,6 +76,7 @@ struct Summary {
   std::uint64_t bytes = 0, bad_faces = 0;  // of the scratch file; faces whose corners do not exist
   std::vector<MeshRecord> meshes;
   std::vector<NodeRecord> nodes;
+  std::string parts;  // names of the other files that were read, each with a zero after it
 };
 
 template <class T>
@@ -79,20 +86,21 @@ void append(std::string& to, const T* from, std::size_t n) {
 }
 
 std::string packed(const Summary& s) {
-  const std::uint64_t counts[] = {s.bytes, s.bad_faces, s.meshes.size(), s.nodes.size()};
+  const std::uint64_t counts[] = {s.bytes, s.bad_faces, s.meshes.size(), s.nodes.size(), s.parts.size()};
   std::string bytes;
-  append(bytes, counts, 4);
+  append(bytes, counts, 5);
   append(bytes, s.meshes.data(), s.meshes.size());
   append(bytes, s.nodes.data(), s.nodes.size());
-  return bytes;
+  return bytes + s.parts;
 }
 
 Summary unpacked(const std::string& bytes, const std::string& name) {
-  std::uint64_t counts[4] = {};
+  std::uint64_t counts[5] = {};
   if (bytes.size() >= sizeof counts) std::memcpy(counts, bytes.data(), sizeof counts);
-  if (bytes.size() != sizeof counts + counts[2] * sizeof(MeshRecord) + counts[3] * sizeof(NodeRecord))
+  if (bytes.size() != sizeof counts + counts[2] * sizeof(MeshRecord) + counts[3] * sizeof(NodeRecord) + counts[4])
     fail(ErrorCode::failed, "{}: the importer's process sent a garbled answer", name);
-  Summary s{counts[0], counts[1], std::vector<MeshRecord>(counts[2]), std::vector<NodeRecord>(counts[3])};
+  Summary s{counts[0], counts[1], std::vector<MeshRecord>(counts[2]), std::vector<NodeRecord>(counts[3]),
+            bytes.substr(bytes.size() - counts[4])};
   const char* const meshes = bytes.data() + sizeof counts;
   if (!s.meshes.empty()) std::memcpy(s.meshes.data(), meshes, counts[2] * sizeof(MeshRecord));
   if (!s.nodes.empty())
@@ -129,26 +137,32 @@ class SceneStream final : public Assimp::IOStream {
   std::uint64_t at_ = 0;
 };
 
-/// The scene under the name that Assimp is given; other names (materials, parts) are files beside it.
+/// The scene under the name that Assimp is given; other names (materials, parts) are files beside it, and are noted.
 class SceneFileSystem final : public Assimp::DefaultIOSystem {
  public:
-  SceneFileSystem(SceneFilePtr file, std::string name) : file_(std::move(file)), name_(std::move(name)) {}
+  SceneFileSystem(SceneFilePtr file, std::string name, std::string& parts)
+      : file_(std::move(file)), name_(std::move(name)), parts_(parts) {}
   bool Exists(const char* name) const override { return name == name_ || DefaultIOSystem::Exists(name); }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
-    return name == name_ ? new SceneStream(file_) : DefaultIOSystem::Open(name, mode);
+    if (name == name_) return new SceneStream(file_);
+    Assimp::IOStream* const part = DefaultIOSystem::Open(name, mode);
+    if (part != nullptr) parts_.append(name).push_back('\0');
+    return part;
   }
 
  private:
   SceneFilePtr file_;
   std::string name_;
+  std::string& parts_;
 };
 
 class SceneUnloader {
  public:
-  SceneUnloader(ScratchFile& scratch, bool colors) : scratch_(scratch), colors_(colors) {}
+  SceneUnloader(ScratchFile& scratch, const SceneOptions& options)
+      : scratch_(scratch), colors_(options.colors), walls_only_(options.walls_only) {}
   Summary unload(const aiScene& scene) {
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-      add_mesh(*scene.mMeshes[i]);
+      add_mesh(*scene.mMeshes[i], walls_only_ && see_through(*scene.mMeshes[i], scene));
       if (colors_) add_colors(*scene.mMeshes[i], scene);
     }
     if (scene.mRootNode != nullptr) add_nodes(*scene.mRootNode);
@@ -164,23 +178,31 @@ class SceneUnloader {
   static Affine affine(const aiMatrix4x4& m) {
     return {{{{m.a1, m.a2, m.a3, m.a4}, {m.b1, m.b2, m.b3, m.b4}, {m.c1, m.c2, m.c3, m.c4}}}};
   }
-  void add_mesh(const aiMesh& mesh);
+  static bool see_through(const aiMesh& mesh, const aiScene& scene);
+  void add_mesh(const aiMesh& mesh, bool passed_over);
   void add_colors(const aiMesh& mesh, const aiScene& scene);
   void add_face(const aiFace& face, unsigned vertices, std::vector<std::uint32_t>& indices);
   void add_nodes(const aiNode& root);
 
   ScratchFile& scratch_;
-  const bool colors_;
+  const bool colors_, walls_only_;
   Summary summary_;
 };
 
-void SceneUnloader::add_mesh(const aiMesh& mesh) {
+bool SceneUnloader::see_through(const aiMesh& mesh, const aiScene& scene) {
+  float opacity = 1;
+  return mesh.mMaterialIndex < scene.mNumMaterials &&
+         scene.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS && opacity < 1;
+}
+
+// One that is passed over keeps its number, and has no triangles.
+void SceneUnloader::add_mesh(const aiMesh& mesh, bool passed_over) {
   static_assert(sizeof(aiVector3D) == 3 * sizeof(float), "positions are written as they lie");
   MeshRecord record;
   record.vertices = mesh.mNumVertices;
   record.positions = scratch_.append(std::as_bytes(std::span(mesh.mVertices, mesh.mNumVertices)));
   std::vector<std::uint32_t> indices;
-  for (unsigned i = 0; i < mesh.mNumFaces; ++i) add_face(mesh.mFaces[i], mesh.mNumVertices, indices);
+  for (unsigned i = 0; i < mesh.mNumFaces && !passed_over; ++i) add_face(mesh.mFaces[i], mesh.mNumVertices, indices);
   record.indices = scratch_.append(std::as_bytes(std::span(indices)));
   record.triangles = indices.size() / 3;
   summary_.meshes.push_back(record);
@@ -222,22 +244,26 @@ void SceneUnloader::add_nodes(const aiNode& root) {
   }
 }
 
-std::string import(const SceneFilePtr& file, const std::string& extension, ScratchFile& scratch, bool colors) {
+std::string import(const SceneFilePtr& file, const std::string& extension, ScratchFile& scratch,
+                   const SceneOptions& options) {
   const std::string path = file->path().empty() ? "scene" : file->path();
   const std::string suffix = "." + extension;
   const bool named = path.size() > suffix.size() &&
                      std::equal(suffix.rbegin(), suffix.rend(), path.rbegin(),
                                 [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? char(b + 32) : b); });
   const std::string name = named ? path : path + suffix;
+  std::string parts;  // outlives the importer
   Assimp::Importer importer;
-  importer.SetIOHandler(new SceneFileSystem(file, name));
+  importer.SetIOHandler(new SceneFileSystem(file, name, parts));
   const aiScene* const scene = importer.ReadFile(name, 0);
   if (scene == nullptr) {
     if (std::strstr(importer.GetErrorString(), "bad_alloc") != nullptr) throw std::bad_alloc();  // it was caught
     fail(ErrorCode::bad_input, "{}: cannot be read: {}; repair it, or {}", file->name(), importer.GetErrorString(),
-         kRemedy);
+         remedy_for(file->name()));
   }
-  return packed(SceneUnloader(scratch, colors).unload(*scene));
+  Summary summary = SceneUnloader(scratch, options).unload(*scene);
+  summary.parts = std::move(parts);
+  return packed(summary);
 }
 
 // --- In the parent
@@ -287,19 +313,21 @@ bool assimp_reads(const std::string& extension) {
 RawSourcePtr open_with_assimp(SceneFilePtr file, const std::string& extension, const SceneOptions& options) {
   if (file->size() > kMaxFileBytes) {
     fail(ErrorCode::bad_input, "{}: has {} MiB, and .{} files are read only up to {} MiB; {}", file->name(),
-         file->size() >> 20, extension, kMaxFileBytes >> 20, kRemedy);
+         file->size() >> 20, extension, kMaxFileBytes >> 20, remedy_for(file->name()));
   }
   const auto scratch = std::make_shared<ScratchFile>(temp_dir_of(options));
   const ChildLimits limits = limits_for(file->size(), options.document);
   const std::string importer = "the importer of ." + extension + " files";
   std::string answer;
   try {
-    answer = run_in_child(file->name(), importer, std::string("repair it, or ") + kRemedy, limits,
-                          [&] { return import(file, extension, *scratch, options.colors); });
+    answer = run_in_child(file->name(), importer, "repair it, or " + remedy_for(file->name()), limits,
+                          [&] { return import(file, extension, *scratch, options); });
   } catch (const ChildOutOfMemory&) {
     fail_memory(file->name(), importer, file->size(), limits, options.document);
   }
   const Summary summary = unpacked(std::exchange(answer, {}), file->name());
+  for (std::size_t at = 0; at < summary.parts.size(); at = summary.parts.find('\0', at) + 1)
+    keep_file(summary.parts.c_str() + at);
   return stream_instances(scene_of(summary, view_of(scratch, file->name(), summary.bytes)), options);
 }
 

@@ -204,7 +204,7 @@ void BrickReader::State::read_header() {
            kStreamVersion);
   }
   if (size < kHeaderFixedBytes + kHashBytes ||
-      size > kHeaderFixedBytes + kMaxScaleBytes + kMaxProvenanceBytes + kHashBytes)
+      size > kHeaderFixedBytes + kMaxScaleBytes + kMaxProvenanceBytes + kMaxSceneBytes + kHashBytes)
     refuse(4, "a header of {} bytes cannot be; the stream is damaged", size);
 
   std::vector<std::byte> payload(size);
@@ -215,7 +215,8 @@ void BrickReader::State::read_header() {
   ByteSource sizes(std::span<const std::byte>(payload).subspan(kHeaderFixedBytes - 8));
   const auto scale = sizes.get<std::uint32_t>(), provenance = sizes.get<std::uint32_t>();
   if (scale > kMaxScaleBytes || provenance > kMaxProvenanceBytes ||
-      size != kHeaderFixedBytes + scale + provenance + kHashBytes)
+      size < kHeaderFixedBytes + scale + provenance + kHashBytes ||
+      size > kHeaderFixedBytes + scale + provenance + kMaxSceneBytes + kHashBytes)
     refuse(kFrameHeadBytes + kHeaderFixedBytes - 8, "the sizes in the header disagree; the stream is damaged");
   take(std::span(payload).subspan(kHeaderFixedBytes), "header");
   const std::span<const std::byte> hashed(payload.data(), size - kHashBytes);

@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "io/detail/write_all.h"
+#include "io/final_names.h"
+#include "io/kept_files.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -42,6 +44,12 @@ bool is_ours(int fd, const std::string& name) {
   }, named{};
   return ::fstat(fd, &held) == 0 && ::lstat(name.c_str(), &named) == 0 && held.st_dev == named.st_dev &&
          held.st_ino == named.st_ino && S_ISREG(held.st_mode) && held.st_nlink == 1 && held.st_uid == ::geteuid();
+}
+
+/// A link that leads nowhere is there, too: a new file cannot have its name.
+bool is_there(const std::string& path) {
+  struct stat info {};
+  return ::lstat(path.c_str(), &info) == 0;
 }
 
 /// An empty, locked file of that name, new or left by a process that is dead; -1 if somebody has it. Where the file
@@ -107,7 +115,7 @@ void InputFile::seek(std::uint64_t offset) {
 }
 
 OutputFile::OutputFile(const std::string& path, bool overwrite)
-    : name_(path == "-" ? "stdout" : path), buffer_(new std::byte[kBufferBytes]) {
+    : name_(path == "-" ? "stdout" : path), overwrite_(overwrite), buffer_(new std::byte[kBufferBytes]) {
   if (path == "-") {
     fd_ = ::dup(1);
     if (fd_ < 0) fail_write(name_);
@@ -121,13 +129,15 @@ OutputFile::OutputFile(const std::string& path, bool overwrite)
     if (fd_ < 0) fail_write(name_);
     return;
   }
-  if (exists && !overwrite) fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", path);
+  refuse_kept(path);
+  if (!overwrite && is_there(path)) fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", path);
   open_partial();
 }
 
 void OutputFile::open_partial() {
   for (int i = 1; i <= kMostPartials; ++i) {
     std::string name = fmt::format("{}.partial-{}", name_, i);
+    if (is_kept(name)) continue;  // an input of that name is nobody's leftover
     const WhileMaking making;
     fd_ = take_partial(name, name_);
     if (fd_ < 0) continue;
@@ -162,18 +172,43 @@ void OutputFile::flush() {
 }
 
 void OutputFile::commit(Sync sync) {
-  flush();
-  const bool renamed = !temporary_.empty();
-  if (!temporary_.empty()) {
-    if (::fsync(fd_) != 0) fail_write(name_);
-    const WhileMaking making;  // under its old name somebody else may begin to write at once
-    if (::rename(temporary_.c_str(), name_.c_str()) != 0) fail_write(name_);
-    temporary_.clear();
-    partial_ = PartialOutput();
+  complete();
+  place();
+  close(sync);
+}
+
+void OutputFile::commit_all(std::span<const std::unique_ptr<OutputFile>> files) {
+  for (const auto& file : files) file->complete();
+  try {
+    for (const auto& file : files) file->place();
+  } catch (...) {
+    for (const auto& file : files) file->take_back();
+    throw;
   }
+  for (const auto& file : files) file->close(Sync::name);
+}
+
+void OutputFile::complete() {
+  flush();
+  if (!temporary_.empty() && ::fsync(fd_) != 0) fail_write(name_);
+}
+
+void OutputFile::place() {
+  if (temporary_.empty()) return;
+  place_file(temporary_, name_, overwrite_, &partial_);
+  temporary_.clear();
+  placed_ = true;
+}
+
+/// What had the name before is gone; what was new goes.
+void OutputFile::take_back() {
+  if (placed_ && !overwrite_ && is_ours(fd_, name_)) (void)remove_file(name_);
+}
+
+void OutputFile::close(Sync sync) {
   const int fd = std::exchange(fd_, -1);
   if (::close(fd) != 0) fail_write(name_);
-  if (renamed && sync == Sync::name) sync_folder(folder_of(name_));
+  if (placed_ && sync == Sync::name) sync_folder(folder_of(name_));
 }
 
 /// A file system that cannot do it says so, and there is nothing better to be done: the file is there.

@@ -40,7 +40,8 @@ class InputFile {
 /// Sequential output. "-" is stdout. A named file is written beside its name, as NAME.partial-1, and renamed by
 /// commit(): without commit() nothing stays behind, not even when a signal ends the process. What SIGKILL or a crash of
 /// the machine leaves is taken over by the next one that writes NAME; what a living process writes is locked, and the
-/// next one counts on. Throws bad_argument if the name exists and `overwrite` is false.
+/// next one counts on. Throws bad_argument if the name exists and `overwrite` is false, here or in commit(), or if it
+/// is a file that this process reads (io/kept_files.h).
 class OutputFile {
  public:
   OutputFile(const std::string& path, bool overwrite);
@@ -54,6 +55,10 @@ class OutputFile {
   enum class Sync { name, content };
   /// Flushes, syncs, closes and renames; the file appears under its name now. stdout: flushes.
   void commit(Sync sync = Sync::name);
+  /// From now on a file of that name is replaced.
+  void allow_overwrite() { overwrite_ = true; }
+  /// Files that appear together, in this order. If one cannot, those that are new do not, either.
+  static void commit_all(std::span<const std::unique_ptr<OutputFile>> files);
 
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -61,7 +66,12 @@ class OutputFile {
  private:
   void open_partial();
   void flush();
+  void complete();
+  void place();
+  void take_back();
+  void close(Sync sync);
   std::string name_, temporary_;
+  bool overwrite_ = false, placed_ = false;
   PartialOutput partial_;  ///< of temporary_, for signal handlers
   int fd_ = -1;
   std::uint64_t bytes_ = 0;

@@ -19,7 +19,11 @@ namespace {
 class SceneBuilder {
  public:
   SceneBuilder(const SceneFilePtr& file, const SceneOptions& options)
-      : doc_(file, options), root_(doc_.root()), colors_(options.colors), level_(options.level) {}
+      : doc_(file, options),
+        root_(doc_.root()),
+        colors_(options.colors),
+        walls_only_(options.walls_only),
+        level_(options.level) {}
 
   InstancedScene build() {
     scene_.nodes.reserve(root_.array("nodes").size());
@@ -48,13 +52,14 @@ class SceneBuilder {
   Range mesh(std::uint64_t i);
   void add_primitive(const GltfObject& p);
   void add_colors(const GltfObject& p, const GltfObject& attributes, Primitive& primitive);
-  [[nodiscard]] std::array<double, 3> base_color(std::uint64_t material) const;
+  [[nodiscard]] std::array<double, 4> base_color(std::uint64_t material) const;
+  [[nodiscard]] bool see_through(std::uint64_t material) const;
   std::optional<std::uint32_t> instance_array(const GltfObject& node);
   static Affine transform_of(const GltfObject& node);
 
   GltfDocument doc_;
   GltfObject root_;
-  const bool colors_;
+  const bool colors_, walls_only_;
   const std::size_t level_;
   InstancedScene scene_;
   std::unordered_map<std::uint64_t, Range> meshes_;
@@ -63,15 +68,18 @@ class SceneBuilder {
 
 std::optional<UpAxis> SceneBuilder::up() const {
   const GltfObject asset = root_.object("asset");
-  if (asset.holds_text("extras", "up", "z")) return UpAxis::z;
-  if (asset.holds_text("extras", "up", "y")) return UpAxis::y;
+  for (const char* const name : kUpNames) {
+    if (asset.holds_text("extras", "up", name)) return up_axis_named(name);
+  }
   return {};
 }
 
-// Files of ours that stand upright in glTF's y-up world were z-up: back to their own coordinates.
+// Files of ours stand upright in glTF's y-up world: back to their own coordinates.
 Affine SceneBuilder::world() const {
   Affine a;
-  if (scene_.up == UpAxis::z) a.m = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
+  const AxisTurn back = to_y_up(scene_.up.value_or(UpAxis::y)).inverse();
+  a.m = {};
+  for (std::size_t i = 0; i < 3; ++i) a.m[i][back.axis[i]] = back.negative[i] ? -1 : 1;
   return a;
 }
 
@@ -179,6 +187,7 @@ void SceneBuilder::add_primitive(const GltfObject& p) {
   if (p.has("extensions") && p.object("extensions").has("KHR_draco_mesh_compression"))
     p.broken(
         "is compressed (KHR_draco_mesh_compression), which is not read: unpack it, for instance with gltf-transform");
+  if (walls_only_ && p.has("material") && see_through(p.number("material"))) return;
   Primitive primitive;
   primitive.mode = mode == kFan     ? Primitive::Mode::fan
                    : mode == kStrip ? Primitive::Mode::strip
@@ -196,7 +205,10 @@ void SceneBuilder::add_primitive(const GltfObject& p) {
 
 // Section 3.9.2: the factor times the colours of the vertices, in linear light.
 void SceneBuilder::add_colors(const GltfObject& p, const GltfObject& attributes, Primitive& primitive) {
-  if (p.has("material")) primitive.base_color = base_color(p.number("material"));
+  if (p.has("material")) {
+    const std::array<double, 4> rgba = base_color(p.number("material"));
+    primitive.base_color = {rgba[0], rgba[1], rgba[2]};
+  }
   if (!attributes.has("COLOR_0")) return;
   const std::uint64_t i = attributes.number("COLOR_0");
   const bool three = root_.item("accessors", i).text("type") == "VEC3";
@@ -206,7 +218,7 @@ void SceneBuilder::add_colors(const GltfObject& p, const GltfObject& attributes,
         fmt::format("have {} colours for {} positions", primitive.colors->count, primitive.positions.count));
 }
 
-std::array<double, 3> SceneBuilder::base_color(std::uint64_t i) const {
+std::array<double, 4> SceneBuilder::base_color(std::uint64_t i) const {
   const GltfObject material = root_.item("materials", i);
   std::array<double, 4> rgba{1, 1, 1, 1};
   if (material.has("pbrMetallicRoughness"))
@@ -214,7 +226,13 @@ std::array<double, 3> SceneBuilder::base_color(std::uint64_t i) const {
   constexpr const char* kOlder = "KHR_materials_pbrSpecularGlossiness";
   if (material.has("extensions") && material.object("extensions").has(kOlder))
     rgba = material.object("extensions").object(kOlder).numbers<4>("diffuseFactor", rgba);
-  return {rgba[0], rgba[1], rgba[2]};
+  return rgba;
+}
+
+// Masks have holes, and what is blended shows what is behind. An alpha of an opaque material says what it is meant for.
+bool SceneBuilder::see_through(std::uint64_t i) const {
+  const GltfObject material = root_.item("materials", i);
+  return (material.has("alphaMode") && material.text("alphaMode") != "OPAQUE") || base_color(i)[3] < 1;
 }
 
 std::optional<std::uint32_t> SceneBuilder::instance_array(const GltfObject& node) {

@@ -6,6 +6,7 @@
 #include "io/detail/base64.h"
 #include "io/detail/glb_file.h"
 #include "io/detail/mesh_writers.h"
+#include "io/detail/shaded_mesh.h"
 #include "lib/core/box.h"
 #include "lib/core/error.h"
 
@@ -43,23 +44,28 @@ LatticeCoord centre_of(const LatticeMesh& mesh, const std::string& name) {
 }
 
 struct Buffer {
-  std::string bytes;  // positions, normals if asked for, indices
+  std::string bytes;  // positions, normals, indices
   std::array<float, 3> min, max;
-  std::uint64_t normal_offset = 0, index_offset = 0;  // normal_offset is 0 without normals
+  std::size_t vertices = 0, indices = 0;
+  [[nodiscard]] std::size_t normal_offset() const { return 12 * vertices; }
+  [[nodiscard]] std::size_t index_offset() const { return 24 * vertices; }
 };
 
 void append(std::string& bytes, const void* from, std::size_t n) {
   bytes.append(static_cast<const char*>(from), n);
 }
 
-Buffer buffer_of(const LatticeMesh& mesh, LatticeCoord centre, bool normals) {
+Buffer buffer_of(const LatticeMesh& mesh, LatticeCoord centre) {
+  const ShadedMesh drawn = shaded(mesh);
   Buffer b;
+  b.vertices = drawn.vertex.size();
+  b.indices = 3 * drawn.triangles.size();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   b.min = {kInfinity, kInfinity, kInfinity};
   b.max = {-kInfinity, -kInfinity, -kInfinity};
-  b.bytes.reserve(12 * (mesh.vertices.size() + mesh.triangles.size()));
-  for (const LatticeCoord v : mesh.vertices) {
-    const LatticeCoord d = v - centre;
+  b.bytes.reserve(24 * b.vertices + 4 * b.indices);
+  for (const std::uint32_t v : drawn.vertex) {
+    const LatticeCoord d = mesh.vertices[v] - centre;
     const std::array<float, 3> p{float(d.x), float(d.y), float(d.z)};
     for (std::size_t i = 0; i < 3; ++i) {
       b.min[i] = std::min(b.min[i], p[i]);
@@ -67,13 +73,17 @@ Buffer buffer_of(const LatticeMesh& mesh, LatticeCoord centre, bool normals) {
     }
     append(b.bytes, p.data(), sizeof p);
   }
-  if (normals) {
-    b.normal_offset = b.bytes.size();
-    for (const std::array<float, 3>& n : vertex_normals(mesh)) append(b.bytes, n.data(), sizeof n);
-  }
-  b.index_offset = b.bytes.size();
-  append(b.bytes, mesh.triangles.data(), mesh.triangles.size() * sizeof mesh.triangles[0]);
+  append(b.bytes, drawn.normals.data(), drawn.normals.size() * sizeof drawn.normals[0]);
+  append(b.bytes, drawn.triangles.data(), drawn.triangles.size() * sizeof drawn.triangles[0]);
   return b;
+}
+
+/// Column by column; a quaternion would round.
+Json matrix_of(const AxisTurn& turn) {
+  std::array<int, 16> m{};
+  for (std::size_t i = 0; i < 3; ++i) m[4 * turn.axis[i] + i] = turn.negative[i] ? -1 : 1;
+  m[15] = 1;
+  return m;
 }
 
 Json nodes_of(const LatticeMesh& mesh, LatticeCoord centre, const MeshWriteOptions& options) {
@@ -82,46 +92,45 @@ Json nodes_of(const LatticeMesh& mesh, LatticeCoord centre, const MeshWriteOptio
   Json nodes = Json::array();
   nodes.push_back(
       {{"name", "proxy"}, {"mesh", 0}, {"translation", translation}, {"scale", Json::array({unit, unit, unit})}});
-  if (mesh.frame.up == UpAxis::z) {  // columns of (x,y,z) -> (x,z,-y); a quaternion would round
-    nodes.push_back({{"name", "z up to y up"},
-                     {"matrix", Json::array({1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1})},
+  if (mesh.frame.up != UpAxis::y) {
+    nodes.push_back({{"name", fmt::format("{} up to y up", name_of(mesh.frame.up))},
+                     {"matrix", matrix_of(to_y_up(mesh.frame.up))},
                      {"children", Json::array({0})}});
   }
   return nodes;
 }
 
-Json accessors_of(const LatticeMesh& mesh, const Buffer& buffer) {
+Json accessors_of(const Buffer& buffer) {
   constexpr int kFloat = 5126, kUint32 = 5125;
-  const Json positions{{"bufferView", 0}, {"componentType", kFloat}, {"count", mesh.vertices.size()},
+  const Json positions{{"bufferView", 0}, {"componentType", kFloat}, {"count", buffer.vertices},
                        {"type", "VEC3"},  {"min", buffer.min},       {"max", buffer.max}};
-  const Json normals{{"bufferView", 2}, {"componentType", kFloat}, {"count", mesh.vertices.size()}, {"type", "VEC3"}};
-  const Json indices{
-      {"bufferView", 1}, {"componentType", kUint32}, {"count", 3 * mesh.triangles.size()}, {"type", "SCALAR"}};
-  return buffer.normal_offset == 0 ? Json::array({positions, indices}) : Json::array({positions, indices, normals});
+  const Json normals{{"bufferView", 1}, {"componentType", kFloat}, {"count", buffer.vertices}, {"type", "VEC3"}};
+  const Json indices{{"bufferView", 2}, {"componentType", kUint32}, {"count", buffer.indices}, {"type", "SCALAR"}};
+  return Json::array({positions, normals, indices});
 }
 
 Json views_of(const Buffer& buffer) {
   constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
-  const std::uint64_t end = buffer.normal_offset == 0 ? buffer.index_offset : buffer.normal_offset;
-  const Json positions{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", end}, {"target", kArrayBuffer}};
-  const Json normals{{"buffer", 0}, {"byteOffset", end}, {"byteLength", end}, {"target", kArrayBuffer}};
+  const std::size_t each = buffer.normal_offset();
+  const Json positions{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", each}, {"target", kArrayBuffer}};
+  const Json normals{{"buffer", 0}, {"byteOffset", each}, {"byteLength", each}, {"target", kArrayBuffer}};
   const Json indices{{"buffer", 0},
-                     {"byteOffset", buffer.index_offset},
-                     {"byteLength", buffer.bytes.size() - buffer.index_offset},
+                     {"byteOffset", buffer.index_offset()},
+                     {"byteLength", 4 * buffer.indices},
                      {"target", kElementArrayBuffer}};
-  return buffer.normal_offset == 0 ? Json::array({positions, indices}) : Json::array({positions, indices, normals});
+  return Json::array({positions, normals, indices});
 }
 
 Json document_of(const LatticeMesh& mesh, const Buffer& buffer, LatticeCoord centre, const MeshWriteOptions& options) {
-  Json primitive{{"attributes", {{"POSITION", 0}}}, {"indices", 1}};
-  if (buffer.normal_offset != 0) primitive["attributes"]["NORMAL"] = 2;
+  const Json primitive{{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}, {"indices", 2}, {"material", 0}};
   Json doc;
   doc["asset"] = gltf_asset("bpmesh", mesh.provenance, mesh.frame.up, options.origin);
   doc["scene"] = 0;
-  doc["scenes"] = Json::array({{{"nodes", Json::array({mesh.frame.up == UpAxis::z ? 1 : 0})}}});
+  doc["scenes"] = Json::array({{{"nodes", Json::array({mesh.frame.up == UpAxis::y ? 0 : 1})}}});
   doc["nodes"] = nodes_of(mesh, centre, options);
   doc["meshes"] = Json::array({{{"primitives", Json::array({primitive})}}});
-  doc["accessors"] = accessors_of(mesh, buffer);
+  doc["materials"] = Json::array({gltf_material(false)});
+  doc["accessors"] = accessors_of(buffer);
   doc["bufferViews"] = views_of(buffer);
   doc["buffers"] = Json::array({{{"byteLength", buffer.bytes.size()}}});
   return doc;
@@ -131,7 +140,7 @@ Json document_of(const LatticeMesh& mesh, const Buffer& buffer, LatticeCoord cen
 
 void write_gltf(const LatticeMesh& mesh, OutputFile& out, bool binary, const MeshWriteOptions& options) {
   const LatticeCoord centre = centre_of(mesh, out.name());
-  const Buffer buffer = buffer_of(mesh, centre, options.normals);
+  const Buffer buffer = buffer_of(mesh, centre);
   Json doc = document_of(mesh, buffer, centre, options);
   if (binary) return write_glb(doc.dump(), buffer.bytes, out);
   doc["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64_of(buffer.bytes);

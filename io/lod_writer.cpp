@@ -8,6 +8,7 @@
 #include "io/detail/glb_file.h"
 #include "io/detail/mesh_writers.h"
 #include "io/detail/meshopt_codec.h"
+#include "io/detail/shaded_mesh.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -44,7 +45,8 @@ struct Extent {
   }
 };
 
-/// Vertices relative to a centre, as the numbers that the file holds.
+/// Vertices relative to a centre, as the numbers that the file holds: turned to y up, not by a rotation of the node,
+/// since tools make a quaternion of it, which rounds.
 template <class Number>
 struct Positions {
   std::string bytes;
@@ -55,8 +57,7 @@ struct Positions {
     max.fill(std::numeric_limits<Number>::lowest());
     bytes.reserve(order.size() * stride);
     for (const std::uint32_t i : order) {
-      const LatticeCoord v = mesh.vertices[i] - centre,
-                         d = mesh.frame.up == UpAxis::z ? LatticeCoord{v.x, v.z, -v.y} : v;
+      const LatticeCoord d = to_y_up(mesh.frame.up)(mesh.vertices[i] - centre);
       const std::array<Number, 3> p{Number(d.x), Number(d.y), Number(d.z)};
       for (std::size_t k = 0; k < 3; ++k) {
         min[k] = std::min(min[k], p[k]);
@@ -68,17 +69,12 @@ struct Positions {
   }
 };
 
-/// z up to y up. Not by a rotation of the node: tools make a quaternion of it, which rounds.
-template <class Vector>
-Vector turned(const Vector& v, UpAxis up) {
-  return up == UpAxis::z ? Vector{v[0], v[2], -v[1]} : v;
-}
-
-std::vector<std::array<float, 3>> normals_of(const LatticeMesh& mesh, const std::vector<std::uint32_t>& order) {
-  const std::vector<std::array<float, 3>> all = vertex_normals(mesh);
+/// Of the copies in `order`.
+std::vector<std::array<float, 3>> normals_of(const ShadedMesh& mesh, const std::vector<std::uint32_t>& order,
+                                             UpAxis up) {
   std::vector<std::array<float, 3>> normals;
   normals.reserve(order.size());
-  for (const std::uint32_t i : order) normals.push_back(turned(all[i], mesh.frame.up));
+  for (const std::uint32_t i : order) normals.push_back(to_y_up(up)(mesh.normals[i]));
   return normals;
 }
 
@@ -96,7 +92,9 @@ class GlbBuilder {
  public:
   enum class Data { plain, compressed };
 
-  explicit GlbBuilder(const std::string& file, Data data) : file_(file), compressed_(data == Data::compressed) {}
+  /// `origin`: is subtracted from all coordinates, and told; exactly, or it throws.
+  explicit GlbBuilder(const std::string& file, Data data, const Vec3d& origin = {})
+      : file_(file), compressed_(data == Data::compressed), origin_(origin) {}
 
   /// Adds mesh and node; returns the node's number. `origin`: what vertices are relative to; null: the node's own
   /// translation.
@@ -120,19 +118,19 @@ class GlbBuilder {
   void use(const char* extension) { used_.push_back(extension); }
 
   void write(const LatticeMesh& first, const std::vector<std::size_t>& roots, OutputFile& out) {
-    write_glb(document(first, {}, roots, true), data_, out);
+    write_glb(document(first, gltf_asset("bplod", first.provenance, first.frame.up, origin_), roots), data_, out);
   }
-  /// `turned`: extras.up asks readers of ours to turn back to the axes of the scene.
-  [[nodiscard]] std::string bytes(const LatticeMesh& first, const Vec3d& origin, const std::vector<std::size_t>& roots,
-                                  bool turned) {
-    return glb_head(document(first, origin, roots, turned), data_.size(), file_) + data_;
+  /// As the content of a tile: extras.up does not ask readers of ours to turn back to the axes of the scene.
+  [[nodiscard]] std::string tile_bytes(const LatticeMesh& mesh, const Vec3d& tile_origin) {
+    Json asset = gltf_asset("bplod", mesh.provenance, UpAxis::y, {});
+    asset["extras"]["tile_origin"] = tile_origin;
+    return glb_head(document(mesh, std::move(asset), {0}), data_.size(), file_) + data_;
   }
 
  private:
-  std::string document(const LatticeMesh& first, const Vec3d& origin, const std::vector<std::size_t>& roots,
-                       bool turned) {
+  std::string document(const LatticeMesh& first, Json asset, const std::vector<std::size_t>& roots) {
     Json doc;
-    doc["asset"] = gltf_asset("bplod", first.provenance, turned ? first.frame.up : UpAxis::y, origin);
+    doc["asset"] = std::move(asset);
     if (compressed_) {
       use("EXT_meshopt_compression");
       if (quantized_) use("KHR_mesh_quantization");
@@ -142,6 +140,7 @@ class GlbBuilder {
     doc["scene"] = 0;
     doc["scenes"] = Json::array({{{"nodes", roots}}});
     doc.update(doc_);
+    doc["materials"] = Json::array({gltf_material(!first.colors.empty())});
     doc["buffers"] = Json::array({{{"byteLength", data_.size()}}});
     if (compressed_) {  // where the bytes would be if the views were not compressed; nobody reads it
       doc["buffers"].push_back(
@@ -152,8 +151,10 @@ class GlbBuilder {
 
   void add_mesh(const NamedMesh& named, const Extent& extent, LatticeCoord centre) {
     const LatticeMesh& mesh = *named.mesh;
-    TriangleIndices triangles = mesh.triangles;
-    const std::vector<std::uint32_t> order = optimize_order(triangles, mesh.vertices.size());
+    ShadedMesh drawn = shaded(mesh);
+    std::vector<std::uint32_t> order = optimize_order(drawn.triangles, drawn.vertex.size());
+    const std::vector<std::array<float, 3>> normals = normals_of(drawn, order, mesh.frame.up);
+    for (std::uint32_t& i : order) i = drawn.vertex[i];
     std::size_t positions = 0;
     if (compressed_ && extent.within(centre, -kShortInteger, kShortInteger)) {
       quantized_ = true;
@@ -161,11 +162,10 @@ class GlbBuilder {
     } else {
       positions = add_positions(Positions<float>(mesh, order, centre, 12), 12, kFloat, order.size());
     }
-    Json attributes{{"POSITION", positions}};
-    if (named.normals) attributes["NORMAL"] = add_normals(normals_of(mesh, order));
+    Json attributes{{"POSITION", positions}, {"NORMAL", add_normals(normals)}};
     if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(color_bytes(mesh, order));
-    const std::size_t indices = add_indices(triangles, order.size());
-    const Json primitive{{"attributes", attributes}, {"indices", indices}};
+    const std::size_t indices = add_indices(drawn.triangles, order.size());
+    const Json primitive{{"attributes", attributes}, {"indices", indices}, {"material", 0}};
     doc_["meshes"].push_back({{"name", named.name}, {"primitives", Json::array({primitive})}});
   }
 
@@ -256,8 +256,7 @@ class GlbBuilder {
     const double u = frame.voxel / kLatticePerVoxel;
     Json node{{"name", named.name}, {"mesh", doc_["meshes"].size() - 1}};
     if (centre != nullptr) {
-      const Vec3d t = frame.world(*centre);
-      node["translation"] = frame.up == UpAxis::z ? Vec3d{t[0], t[2], 0.0 - t[1]} : t;
+      node["translation"] = to_y_up(frame.up)(moved_exactly(frame, frame.world(*centre), origin_));
     }
     node["scale"] = Json::array({u, u, u});
     return node;
@@ -265,6 +264,7 @@ class GlbBuilder {
 
   const std::string file_;
   const bool compressed_;
+  const Vec3d origin_;
   bool quantized_ = false;
   std::vector<std::string> used_;
   Json doc_{{"nodes", Json::array()},
@@ -277,8 +277,9 @@ class GlbBuilder {
 
 }  // namespace
 
-void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out) {
-  GlbBuilder builder(out.name(), GlbBuilder::Data::plain);
+void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out,
+                   const Vec3d& origin) {
+  GlbBuilder builder(out.name(), GlbBuilder::Data::plain, origin);
   std::vector<std::size_t> coarser;
   for (const NamedMesh& level : levels) coarser.push_back(builder.add(level, nullptr));
   coarser.erase(coarser.begin());
@@ -290,8 +291,8 @@ void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> co
   builder.write(*levels.front().mesh, {0}, out);
 }
 
-void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out) {
-  GlbBuilder builder(out.name(), GlbBuilder::Data::plain);
+void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const Vec3d& origin) {
+  GlbBuilder builder(out.name(), GlbBuilder::Data::plain, origin);
   std::vector<std::size_t> roots;
   for (const NamedMesh& part : parts) roots.push_back(builder.add(part, nullptr));
   builder.write(*parts.front().mesh, roots, out);
@@ -300,7 +301,7 @@ void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out) {
 std::string tile_glb(const NamedMesh& tile, LatticeCoord origin) {
   GlbBuilder builder(tile.name + ".glb", GlbBuilder::Data::compressed);
   builder.add(tile, &origin);
-  return builder.bytes(*tile.mesh, tile.mesh->frame.world(origin), {0}, false);
+  return builder.tile_bytes(*tile.mesh, tile.mesh->frame.world(origin));
 }
 
 LatticeCoord lattice_point(const GridFrame& frame, const Vec3d& p) {

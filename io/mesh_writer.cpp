@@ -133,6 +133,15 @@ Vec3d moved_exactly(const GridFrame& frame, const Vec3d& p, const Vec3d& origin)
   return moved;
 }
 
+void check_origin(const GridFrame& frame, const VoxelBox& box, const Vec3d& origin) {
+  for (const VoxelCoord corner : {box.min, box.max}) {
+    LatticeCoord p;
+    for (int i = 0; i < 3; ++i) p[i] = std::int64_t(corner[i]) * kLatticePerVoxel;
+    (void)moved_exactly(frame, frame.world(p), origin);
+    (void)moved_exactly(frame, frame.world(p + LatticeCoord{1, 1, 1}), origin);  // the last bit of the frame
+  }
+}
+
 MeshFormat mesh_format_of(const std::string& path) {
   const std::size_t dot = path.find_last_of("./");
   const bool has_extension = dot != std::string::npos && path[dot] == '.';

@@ -6,10 +6,10 @@
 #include "io/detail/text_scanner.h"
 #include "io/detail/vertex_pool.h"
 
-// Wavefront OBJ: the lines "v" and "f", everything else is passed over; if colours are asked for, "usemtl" and "mtllib"
-// too, and the three numbers after a vertex' position (an extension of many programs). One pass streams faces while the
-// vertices before them collect in the pool. A face that names a vertex further down makes the rest of the vertices load
-// at once, so that "there is no such vertex" is never said too early.
+// Wavefront OBJ: the lines "v" and "f", everything else is passed over; if colours or walls are asked for, "usemtl" and
+// "mtllib" too, and the three numbers after a vertex' position (an extension of many programs). One pass streams faces
+// while the vertices before them collect in the pool. A face that names a vertex further down makes the rest of the
+// vertices load at once, so that "there is no such vertex" is never said too early.
 
 namespace bp {
 
@@ -18,7 +18,7 @@ namespace {
 class ObjSource final : public PolygonSource {
  public:
   ObjSource(const SceneFilePtr& file, const SceneOptions& options)
-      : file_(file), text_(file), pool_(options.memory_bytes, temp_dir_of(options)) {
+      : file_(file), text_(file), pool_(options.memory_bytes, temp_dir_of(options)), walls_only_(options.walls_only) {
     if (options.colors) vertex_colors_.emplace(options.memory_bytes / 2, temp_dir_of(options));
   }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
@@ -32,6 +32,7 @@ class ObjSource final : public PolygonSource {
     text_.seek({});
     seen_ = 0;
     material_ = kWhite;
+    passed_over_ = false;
   }
 
   /// Consumes the keyword: 'v' or 'f' if that is all of it, 'u' for "usemtl" and 'm' for "mtllib", 0 for any other,
@@ -51,8 +52,10 @@ class ObjSource final : public PolygonSource {
   MtlMaterials materials_;
   LinearColor material_;
   bool has_colors_ = false;
-  std::uint64_t seen_ = 0;   // "v" lines of this pass
-  bool all_loaded_ = false;  // the pool holds every vertex of the file
+  const bool walls_only_;
+  bool passed_over_ = false;  // faces of the current material
+  std::uint64_t seen_ = 0;    // "v" lines of this pass
+  bool all_loaded_ = false;   // the pool holds every vertex of the file
 };
 
 bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
@@ -64,7 +67,7 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
       ++seen_;
     } else if (key == 'u' || key == 'm') {
       use_material(key);
-    } else if (key == 'f') {
+    } else if (key == 'f' && !passed_over_) {
       read_corners(corners);
       text_.next_line();
       return true;
@@ -108,9 +111,11 @@ LinearColor ObjSource::corner_color(std::uint64_t i) {
 }
 
 void ObjSource::use_material(char key) {
-  if (!vertex_colors_) return;
+  if (!vertex_colors_ && !walls_only_) return;
   const std::string name = text_.rest_of_line();
   if (key == 'm') return materials_.load(file_->path(), name);
+  passed_over_ = walls_only_ && materials_.see_through(name);
+  if (!vertex_colors_) return;
   material_ = materials_.color(name);
   has_colors_ = has_colors_ || material_ != kWhite;
 }

@@ -7,7 +7,8 @@
 
 namespace bp {
 
-/// 8-bit RGB, no metadata: the same bytes for the same picture (and zlib). Throws bad_argument if a side is 0.
+/// 8-bit sRGB without time or comments: the same bytes for the same picture (and libpng, zlib). Throws bad_argument if
+/// a side is 0.
 [[nodiscard]] std::vector<std::byte> encode_png(const Image& image);
 
 /// Throws bad_argument if the name ends in anything but .png (case ignored), so that no PNG is called otherwise. The

@@ -14,6 +14,7 @@
 #include "io/detail/brick_codec.h"
 #include "io/detail/write_all.h"
 #include "io/file.h"
+#include "io/final_names.h"
 #include "io/made_folders.h"
 #include "lib/core/error.h"
 #include "lib/core/hex.h"
@@ -138,7 +139,7 @@ class FolderStore final : public ResultStore {
     for (int attempt = 0; attempt < 2; ++attempt) {
       if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) return true;
       if (errno != EEXIST) return false;
-      if (::unlink(name.c_str()) != 0 && errno != ENOENT) fail_with(name, "replace", errno);  // get() did not take it
+      if (const int error = remove_file(name)) fail_with(name, "replace", error);  // get() did not take it
     }
     return true;  // another process was faster, twice
   }

@@ -5,6 +5,7 @@
 
 #include "io/detail/lower.h"
 #include "io/detail/raw_source.h"
+#include "io/foreign_format.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -28,6 +29,8 @@ std::string scene_format_of(const std::string& path) {
 std::string scene_format_named(const std::string& name) {
   const std::string extension = lower(name.starts_with('.') ? name.substr(1) : name);
   if (is_read(extension)) return extension;
+  const std::string foreign = foreign_format("." + extension);
+  if (!foreign.empty()) fail(ErrorCode::bad_argument, "'{}' {}", name, foreign);
   fail(ErrorCode::bad_argument, "'{}' is not a scene format; name one of ply stl obj off gltf glb", name);
 }
 

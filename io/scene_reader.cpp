@@ -11,6 +11,7 @@
 #include "io/detail/position_index.h"
 #include "io/detail/raw_source.h"
 #include "io/detail/stream_format.h"
+#include "io/foreign_format.h"
 #include "io/scene_format.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -38,10 +39,15 @@ bool is_binary_stl(const std::string& start, std::uint64_t size) {
   return 84 + std::uint64_t(50) * triangles == size;
 }
 
-/// What the first bytes of a file tell; `extension` is set for a format that goes to Assimp.
-Reader reader_by_content(const SceneFile& file, std::string& extension) {
+std::string start_of(const SceneFile& file) {
   std::string start(1024, '\0');
   start.resize(file.read_at(0, std::as_writable_bytes(std::span(start))));
+  return start;
+}
+
+/// What the first bytes of a file tell; `extension` is set for a format that goes to Assimp.
+Reader reader_by_content(const SceneFile& file, std::string& extension) {
+  const std::string start = start_of(file);
   if (is_binary_stl(start, file.size())) return Reader::stl;
   const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   const std::string text = first == std::string::npos ? std::string() : start.substr(first);
@@ -76,6 +82,7 @@ RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const S
   Reader reader = reader_of(extension);
   if (file->size() == 0 && reader != Reader::obj)  // of OBJ it is a mesh without faces
     fail(ErrorCode::bad_input, "{}: is empty; did the tool before it fail?", file->name());
+  if (reader == Reader::unknown) refuse_foreign(file->name(), start_of(*file));
   if (reader == Reader::unknown) reader = reader_by_content(*file, extension);
   switch (reader) {
     case Reader::ply:
@@ -215,6 +222,9 @@ class FilteredScene final : public TriangleSource {
     }
     counts_.bad_faces = raw_->bad_faces() + bad_faces_;
     counts_.instances = raw_->instances();
+    const SceneCounts& c = counts_;  // at the end; whoever names a file of points wants them enclosed
+    if (batch_->triangles.empty() && c.triangles + c.degenerate + c.non_finite + c.bad_faces == 0 && raw_->points() > 0)
+      refuse_points(name_, raw_->points());
     return !batch_->triangles.empty();
   }
 
@@ -291,7 +301,9 @@ class SceneRow final : public TriangleSource {
  public:
   SceneRow(std::vector<std::string> paths, const SceneOptions& options) : paths_(std::move(paths)), options_(options) {
     for (const std::string& path : paths_) {
-      if (path != "-") InputFile probe(path);  // a missing file should not wait for hours of reading
+      if (path == "-") continue;
+      const InputFile probe(path);  // a missing file should not wait for hours of reading, nor one that is not read
+      if (options_.format.empty() && scene_format_of(path).empty()) refuse_foreign(path);
     }
   }
   bool read(std::vector<TriangleD>& out) override {

@@ -24,6 +24,9 @@
 ///     and the diffuse colour of Assimp's materials, vertex colours of OBJ, PLY and Assimp's formats, face colours of
 ///     PLY, all taken as sRGB.
 ///     Textures and transparency are not looked at. A material that is not there is white, and no error.
+///   - Can be seen through, for SceneOptions::walls_only: materials of glTF whose alphaMode is not OPAQUE or whose base
+///     colour has an alpha below 1; of MTL those with d below 1, Tr strictly between 0 and 1, or map_d; Assimp's whose
+///     opacity is below 1.
 ///   - A glTF asset whose `extras.up` is "z" (mesh_writer.h) is delivered in its own z-up coordinates.
 namespace bp {
 
@@ -53,6 +56,7 @@ struct SceneOptions {
   bool colors = false;                                    ///< look for them; else all triangles are white
   std::size_t level = 0;                                  ///< of glTF's MSFT_lod; 0 is the finest
   bool keep_degenerate = false;                           ///< deliver triangles of no area, too; counted all the same
+  bool walls_only = false;  ///< leave out what can be seen through, see below; not counted
   /// Coordinates beyond the range of the exact predicates stay as they are: for proofs, which must not move a vertex.
   bool keep_extremes = false;
   DocumentBudget document{};

@@ -46,7 +46,9 @@ class Reader {
     const GltfObject root(json_, name_, "");
     Tileset tileset;
     tileset.version = root.object("asset").text("version");
-    if (root.object("asset").holds_text("extras", "up", "y")) tileset.up = "y";
+    for (const char* const name : kUpNames) {
+      if (root.object("asset").holds_text("extras", "up", name)) tileset.up = *up_axis_named(name);
+    }
     tileset.geometric_error = number_of(json_, root, "geometricError");
     tileset.root = tile(root.object("root"), json_["root"], 0);
     return tileset;
@@ -119,7 +121,7 @@ Tileset read_tileset(const std::string& path) {
 }
 
 std::string tileset_text(const Tileset& tileset, const std::vector<Provenance>& provenance) {
-  Json asset = gltf_asset("bplod", provenance, tileset.up == "z" ? UpAxis::z : UpAxis::y, {});
+  Json asset = gltf_asset("bplod", provenance, tileset.up, {});
   asset["version"] = tileset.version;
   asset.erase("generator");
   const Json doc{{"asset", asset}, {"geometricError", tileset.geometric_error}, {"root", json_of(tileset.root)}};

@@ -92,14 +92,12 @@ class ContentsSource final : public TriangleSource {
     return false;
   }
 
-  /// glTF has y up, and 3D Tiles turns it to z up; a file of ours that was z-up is delivered so.
+  /// glTF has y up, and 3D Tiles turns it to z up; a file of ours is delivered in the axes of its scene.
   void place(std::vector<TriangleD>& triangles) const {
-    const bool turned = content_->up() != UpAxis::z;
+    const UpAxis axes = content_->up().value_or(UpAxis::y);
     for (TriangleD& t : triangles) {
-      for (Vec3d& p : t) {
-        const Vec3d q = transformed(contents_[next_].transform, turned ? Vec3d{p[0], 0.0 - p[2], p[1]} : p);
-        p = up_ == UpAxis::z ? q : Vec3d{q[0], q[2], 0.0 - q[1]};
-      }
+      for (Vec3d& p : t)
+        p = turned(transformed(contents_[next_].transform, turned(p, axes, UpAxis::z)), UpAxis::z, up_);
     }
   }
 
@@ -129,8 +127,7 @@ TilesetLevel tileset_level(const Tileset& tileset, const std::string& path, std:
 
 std::unique_ptr<TriangleSource> open_contents(const Tileset& tileset, std::vector<PlacedContent> contents,
                                               const std::string& path, const SceneOptions& options) {
-  const UpAxis up = tileset.up == "y" ? UpAxis::y : UpAxis::z;
-  return std::make_unique<ContentsSource>(up, std::move(contents), path, options);
+  return std::make_unique<ContentsSource>(tileset.up, std::move(contents), path, options);
 }
 
 }  // namespace bp

@@ -6,9 +6,11 @@
 #include "lib/core/error.h"
 #include "lib/stage/close_stage.h"
 #include "lib/stage/complement.h"
+#include "tools/common/estimate.h"
 #include "tools/common/inputs.h"
 #include "tools/common/make_backend.h"
 #include "tools/common/names.h"
+#include "tools/common/proportion.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
@@ -52,7 +54,8 @@ Options parse(bp::Args& args) {
   args.parse();
   args.excludes("--keep-cavities", "--inner");
   bp::check_stream_name(o.out);
-  if (!o.field.empty()) bp::keep_inputs({o.field});  // INPUT may be replaced: its voxels stay
+  bp::keep_inputs({o.in});
+  if (!o.field.empty()) bp::keep_inputs({o.field});
   if (!o.scale && o.field.empty()) fail(ErrorCode::bad_argument, "give a --scale or a --field");
   if (o.scale && !o.field.empty()) fail(ErrorCode::bad_argument, "--scale and --field exclude each other");
   return o;
@@ -99,12 +102,6 @@ bp::CloseOptions stage_options(const Options& o, std::uint64_t pinned, bp::Progr
   return options;
 }
 
-/// Seconds that the closing takes on one core, about: measured at 4 to 9 e-11 a voxel of the grid and voxel of scale.
-double core_seconds(const bp::StreamHeader& header, const bp::ScaleField& field) {
-  const bp::VoxelCoord size = bp::voxels_of(header.bricks).size();
-  return 4e-11 * double(size.x) * size.y * size.z * field.upper_bound(header.frame) / bp::kScaleOne;
-}
-
 bp::StreamHeader closed_header(const Options& o, const bp::StreamHeader& in, const bp::ScaleField& field) {
   bp::StreamHeader header = in;
   if (!o.inner) header.bricks = bp::closing_bricks(in, field);
@@ -145,9 +142,12 @@ void run(const Options& o) {
   const auto output = bp::open_output(o.out, o.common.overwrite);
   bp::BrickReader source(o.in);
   check_fill(o, source.header());
+  if (o.scale) bp::question_length("--scale", *o.scale, source.header().bounds, source.header().frame.voxel);
   const bp::ScaleField field = scale_field(o, source.header());
   for (const std::string& text : bp::scale_notes(field, source.header(), o.inner)) report.note(text, o.common);
-  bp::Backends backends = bp::make_backends(o.common, core_seconds(source.header(), field), &report);
+  const bp::Estimate estimate = bp::estimate_close(source.header(), field);
+  bp::Backends backends = bp::make_backends(o.common, estimate.core_seconds, &report);
+  bp::note_estimate(estimate, o.common, progress, report, bp::names_of(backends));
   bp::BrickWriter sink(*output, closed_header(o, source.header(), field));
 
   report.stage("close");

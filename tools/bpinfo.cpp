@@ -38,14 +38,10 @@ Options parse(bp::Args& args) {
       "print the checksum of the content only: of the voxels, or of the triangles as a set; it does not depend on "
       "order, tiles or compression");
   args.flag("--dump", o.dump, "print a stream as text, one line a brick");
-  args.option("--image", "FILE", o.picture.file, "draw what they hold into a PNG, side by side at one scale");
-  args.option("--image-size", "PIXELS", o.picture.panel_size, "side of a panel of the image");
-  args.flag("--no-edges", o.no_edges, "leave out the edges of meshes of few triangles");
-  args.option(
-      "--up", "y|z", o.picture.up,
+  o.picture.image.add_to(
+      args, "draw what they hold into a PNG, side by side at one scale",
       "axis that points up in the image, of INPUTs that do not tell (default: y, or that of the first that tells)");
-  args.option("--azimuth", "DEGREES", o.picture.azimuth, "where the viewer stands, from the front to the right");
-  args.option("--elevation", "DEGREES", o.picture.elevation, "how far above the horizon the viewer stands");
+  args.flag("--no-edges", o.no_edges, "leave out the edges of meshes of few triangles");
   args.option("--level", "N", o.level,
               "level to draw of a tileset, or to show of a glTF file; 0 is the finest (default)");
   args.option("--format", "NAME", o.format,
@@ -57,10 +53,11 @@ Options parse(bp::Args& args) {
   bp::check_scene_format(o.format, o.in);
   bp::check_stdin_once(o.in);
   bp::keep_inputs(o.in);
-  if (!o.picture.file.empty()) bp::check_panel_size(o.picture.panel_size, o.in.size());
+  if (!o.picture.image.file.empty()) bp::check_panel_size(o.picture.image.panel_size, o.in.size());
   if (int(o.json) + int(o.checksum) + int(o.dump) > 1)
     bp::fail(bp::ErrorCode::bad_argument, "--json, --checksum and --dump exclude each other");
-  args.needs({"--image-size", "--no-edges", "--up", "--azimuth", "--elevation"}, "--image");
+  o.picture.image.check(args);
+  args.needs({"--no-edges"}, "--image");
   o.picture.several = o.in.size() > 1;
   o.picture.edges = !o.no_edges;
   o.picture.overwrite = o.common.overwrite;
@@ -106,7 +103,7 @@ bool is_gltf(const std::string& in) {
 /// --level would be passed over in silence.
 void check_level_is_used(const Options& o) {
   const auto has_levels = [&](const std::string& in) {
-    return is_tileset(o, in) ? !o.picture.file.empty() : is_gltf(in);
+    return is_tileset(o, in) ? !o.picture.image.file.empty() : is_gltf(in);
   };
   if (!o.level || std::any_of(o.in.begin(), o.in.end(), has_levels)) return;
   bp::fail(bp::ErrorCode::bad_argument,
@@ -117,7 +114,7 @@ void check_level_is_used(const Options& o) {
 void show_stream(const Options& o, const std::string& in, bp::Picture& picture) {
   bp::BrickReader source(in);
   if (picture.wanted() && o.in.size() == 1)  // now that it is known how many layers are drawn
-    bp::check_panel_size(o.picture.panel_size, source.header().has_closing ? 2 : 1);
+    bp::check_panel_size(o.picture.image.panel_size, source.header().has_closing ? 2 : 1);
   bp::OutputFile out("-", false);
   bp::CoarseView cells(source.header().bricks);
   if (o.dump) out.write(bp::dump_header(source.header()));

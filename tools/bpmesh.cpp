@@ -8,20 +8,27 @@
 
 #include "io/brick_shelf.h"
 #include "io/brick_stream.h"
-#include "io/chunk_store.h"
 #include "io/mesh_writer.h"
 #include "io/scene_format.h"
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
+#include "lib/meshing/few_faces.h"
 #include "lib/stage/mesh_stage.h"
+#include "tools/common/estimate.h"
 #include "tools/common/face_list.h"
 #include "tools/common/face_notes.h"
 #include "tools/common/inputs.h"
 #include "tools/common/memory_shares.h"
 #include "tools/common/names.h"
+#include "tools/common/origin.h"
+#include "tools/common/proportion.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
+#include "tools/common/up_note.h"
+#include "tools/mesh/enclosure.h"
+#include "tools/mesh/mesh_memory.h"
+#include "tools/mesh/scale_advice.h"
 
 namespace {
 
@@ -37,11 +44,18 @@ struct Options {
   double volume = 0, edge_length = 0;
   std::optional<double> least_part;  // 0.001 inside
   std::optional<double> inset;       // 0.5 for fits
-  std::vector<std::string> enclose;
+  bp::EncloseOption enclose;
   bool loose = false;  // --no-tighten
   bool measure = false, quads = false;
-  bp::Vec3d origin{};
+  bp::OriginOption origin;
 };
+
+std::vector<std::uint64_t> faces_of(const std::string& text) {
+  if (text.find('%') != std::string::npos)
+    bp::fail(bp::ErrorCode::bad_argument,
+             "{}: a stream does not tell how many triangles its scene has; give a number, or use bplod", text);
+  return bp::parse_face_list(text);
+}
 
 Options parse(bp::Args& args) {
   Options o;
@@ -54,15 +68,17 @@ Options parse(bp::Args& args) {
       o.mode,
       "around what is meshed; strictly inside the scene, of a stream of bpvox --fill inside; or as near as can be");
   args.option(
-      "--faces", "N[,N...]", [&o](const std::string& text) { o.faces = bp::parse_face_list(text); },
+      "--faces", "N[,N...]", [&o](const std::string& text) { o.faces = faces_of(text); },
       "stop at N triangles; several falling numbers: a chain of levels, each enclosing the one before");
   args.option("--error", "LENGTH", o.error, "no point of the proxy farther from what it encloses; above 0");
   args.option("--volume", "RATIO", o.volume,
               "at most RATIO times the volume of the voxels that are meshed; 0: no limit");
   args.option("--edge-length", "C", o.edge_length, "no edge longer than C times the scale there; 0: no limit");
+  std::vector<std::string> enclose;
   args.option(
-      "--enclose", "WHAT", o.enclose,
-      "what stays inside while the proxy is tightened: closing, input (the voxels of the scene), or scene files");
+      "--enclose", "WHAT", enclose,
+      "what stays inside while the proxy is tightened: scene (its triangles), input (its voxels), closing, or scene "
+      "files (default: auto, scene where its files are at hand, else input)");
   args.option(
       "--inset", "RATIO", o.inset,
       "fit: how far inside the voxels' surface to lie, in extents of a voxel (0.5, as the scene does on average)");
@@ -71,11 +87,15 @@ Options parse(bp::Args& args) {
   args.flag("--no-tighten", o.loose, "leave out the last step, which lowers the volume");
   args.flag("--quads", o.quads, "join triangles to quads, safe for either diagonal; in OBJ and PLY");
   args.flag("--measure", o.measure, "measure distances, and print volume, edges and distances on stderr");
-  args.option("--origin", "X,Y,Z", o.origin, "subtract this point from every vertex, for formats with short numbers");
+  args.option(
+      "--origin", "auto|off|X,Y,Z", [&o](const std::string& text) { o.origin = bp::parse_origin(text); },
+      "subtract this point from every vertex, for formats and programs with short numbers; auto: a round point near a "
+      "scene that lies far off; off: none, and no note (default: none)");
   o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
   args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
   args.parse();
-  std::vector<std::string> inputs = o.enclose;
+  o.enclose = bp::parse_enclose(enclose);
+  std::vector<std::string> inputs = o.enclose.files;
   inputs.push_back(o.in);
   bp::check_stdin_once(inputs);
   bp::keep_inputs(inputs);
@@ -84,60 +104,19 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-bool is_layer(const std::string& what) {
-  return what == "closing" || what == "input";
-}
-
-/// The option as given, with files by name only: a path is nobody's business in a provenance chain.
-std::string enclose_text(const Options& o) {
-  std::vector<std::string> names;
-  for (const std::string& what : o.enclose) names.push_back(bp::file_name(what));
-  return names.empty() ? "closing" : fmt::format("{}", fmt::join(names, ","));
-}
-
-/// Sets what must stay inside; reads the scenes named.
-void set_enclosed(const Options& o, const bp::Bounds3d& bounds, bp::MeshParams& params) {
-  if (o.enclose.empty() || o.enclose == std::vector<std::string>{"closing"}) return;
-  if (o.enclose == std::vector<std::string>{"input"}) {
-    params.enclose = bp::Enclose::input;
-    return;
-  }
-  if (std::any_of(o.enclose.begin(), o.enclose.end(), is_layer)) {
-    bp::fail(bp::ErrorCode::bad_argument, "--enclose takes closing, or input, or scene files, not a mixture");
-  }
-  params.enclose = bp::Enclose::scene;
-  bp::SceneOptions options;
-  options.temp_dir = o.common.temp;
-  const auto scene = bp::open_scenes(o.enclose, options);
-  for (std::vector<bp::TriangleD> chunk; scene->read(chunk);) {
-    for (const bp::TriangleD& t : chunk) {  // what the voxels do not enclose cannot be kept inside
-      bp::Bounds3d both = bounds;
-      for (const bp::Vec3d& p : t) both.add(p);
-      if (both == bounds) continue;
-      bp::fail(bp::ErrorCode::bad_input, "{}: reaches beyond the scene that the stream was made from; name that scene",
-               scene->name());
-    }
-    params.scene.insert(params.scene.end(), chunk.begin(), chunk.end());
-    if (params.scene.size() * 160 > o.common.memory_bytes / 2) {
-      bp::fail(bp::ErrorCode::out_of_resource, "{}: its triangles need more than half of --memory; use --enclose input",
-               scene->name());
-    }
-  }
-}
-
 /// "1000" or "5000,1000,200"; "0" without a target.
 std::string faces_text(const Options& o) {
   return o.faces.empty() ? "0" : fmt::format("{}", fmt::join(o.faces, ","));
 }
 
-bp::Provenance provenance(const Options& o, const std::string& input, std::size_t level) {
+bp::Provenance provenance(const Options& o, const std::string& enclosed, const std::string& input, std::size_t level) {
   bp::OptionText text;
   text.add("mode", name_of(o.mode))
       .add("faces", faces_text(o))
       .add("error", o.error ? o.error->text() : "")
       .add("volume", o.volume)
       .add("edge-length", o.edge_length)
-      .add("enclose", enclose_text(o))
+      .add("enclose", enclosed)
       .add("tighten", !o.loose);
   if (o.least_part) text.add("least-part", *o.least_part);
   if (o.inset) text.add("inset", *o.inset);
@@ -219,8 +198,9 @@ void fill_report(bp::Report& report, const Options& o, const bp::MeshCounts& c) 
                     {"error", o.error ? o.error->text() : ""},
                     {"volume", o.volume},
                     {"edge-length", o.edge_length},
-                    {"enclose", enclose_text(o)},
-                    {"tighten", !o.loose}};
+                    {"enclose", o.enclose.text()},
+                    {"tighten", !o.loose},
+                    {"origin", o.origin.text()}};
   bp::Json levels = bp::Json::array();
   for (std::size_t i = 0; i < c.levels.size(); ++i)
     levels.push_back(json_of(c.levels[i], i < o.faces.size() ? o.faces[i] : 0));
@@ -280,27 +260,43 @@ std::string refusals_text(const Options& o, const bp::SimplifyCounts& s) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// What kept a level from its faces.
-std::string obstacle_text(const Options& o, const bp::LevelCounts& level) {
+/// What kept a level from its faces. `scale`: one that would do (enough_scale()).
+std::string obstacle_text(const Options& o, const bp::LevelCounts& level, const std::optional<std::string>& scale) {
   const std::string& by = level.stopped_by;
   if (by == "error" && o.error) return fmt::format("--error {} was reached first", o.error->text());
   if (by == "volume") return fmt::format("--volume {} was reached first", o.volume);
   if (by == "edge-length") return fmt::format("--edge-length {} was reached first", o.edge_length);
-  return bp::merged_note(level.simplify.faces_out, level.measures.shells, level.measures.handles, o.mode);
+  return bp::merged_note(level.simplify.faces_out, level.measures.shells, level.measures.handles, o.mode, scale);
+}
+
+/// Whether parts and handles may keep the finest level from its faces: a larger scale can help.
+bool wants_scale(const Options& o, const bp::MeshCounts& c) {
+  const bp::LevelCounts& level = c.levels.front();
+  const std::string& by = level.stopped_by;
+  return !o.faces.empty() && level.simplify.faces_out > o.faces.front() && by != "error" && by != "volume" &&
+         by != "edge-length" && (level.measures.shells > 1 || level.measures.handles > 0);
 }
 
 /// Of a level that has not the faces that were asked for.
-void note_faces(bp::Report& report, const Options& o, const bp::MeshCounts& c, std::size_t i) {
+void note_faces(bp::Report& report, const Options& o, const bp::MeshCounts& c, std::size_t i,
+                const std::optional<std::string>& scale) {
   const bp::LevelCounts& level = c.levels[i];
   const std::uint64_t faces = level.simplify.faces_out;
   if (i >= o.faces.size()) return;
+  if (level.stopped_by == bp::kLeastVolume) {
+    report.note(fmt::format("{}{} faces instead of {}: with so few, more would not hold less volume", level_text(c, i),
+                            faces, o.faces[i]),
+                o.common);
+    return;
+  }
   if (const std::string few = bp::too_few_note(faces, o.faces[i], o.mode); !few.empty())
     report.note(level_text(c, i) + few, o.common);
   if (faces <= o.faces[i]) return;
   const bool coarser = i == 0 || faces < c.levels[i - 1].simplify.faces_out;
   const std::string refusals = refusals_text(o, level.simplify);
   report.note(fmt::format("{}{} faces instead of {}{}: {}{}", level_text(c, i), faces, o.faces[i],
-                          coarser ? "" : fmt::format(", no fewer than level {} has", i - 1), obstacle_text(o, level),
+                          coarser ? "" : fmt::format(", no fewer than level {} has", i - 1),
+                          obstacle_text(o, level, i == 0 ? scale : std::nullopt),
                           refusals.empty() ? "" : " (tries refused: " + refusals + ")"),
               o.common);
 }
@@ -315,14 +311,15 @@ void note_volume(bp::Report& report, const Options& o, const bp::MeshCounts& c, 
 }
 
 /// One line for each target that was out of reach: the user gets the best there is, and the reason.
-void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts& c, double error_world) {
+void note_shortfalls(bp::Report& report, const Options& o, const bp::MeshCounts& c, double error_world,
+                     const std::optional<std::string>& scale) {
   if (c.dropped_parts > 0) {
     report.note(fmt::format("small parts left out: {}, with {} of {} voxels; --least-part 0 keeps them",
                             c.dropped_parts, c.dropped_voxels, c.voxels),
                 o.common);
   }
   for (std::size_t i = 0; i < c.levels.size(); ++i) {
-    note_faces(report, o, c, i);
+    note_faces(report, o, c, i, scale);
     note_bounds(report, o, c, i, error_world);
     note_volume(report, o, c, i);
   }
@@ -333,8 +330,10 @@ std::string distance_text(const std::string& name, const bp::SurfaceDistance& d)
 }
 
 std::string text_of(const Options& o, const bp::LevelCounts& level, const bp::MeshCounts& all) {
+  const bool to_closing = o.error && o.enclose.kind == bp::EncloseOption::Kind::automatic;
   const std::string other = o.mode == bp::MeshMode::inside ? "what it lies in"
                             : o.mode == bp::MeshMode::fit  ? "what it is drawn to"
+                            : to_closing                   ? "what is meshed"
                                                            : "what it encloses";
   const bp::MeshMeasures& m = level.measures;
   std::string text = fmt::format("{} faces, stopped by: {}\n", level.simplify.faces_out, level.stopped_by);
@@ -361,6 +360,7 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
   bp::MeshParams params;
   params.mode = o.mode;
   params.faces = o.faces;
+  if (o.error) bp::question_length("--error", *o.error, header.bounds, header.frame.voxel);
   if (o.error) params.error_world = o.error->in_world(header.bounds.diagonal(), header.frame.voxel);
   params.volume_ratio = o.volume;
   params.edge_factor = o.edge_length;
@@ -379,11 +379,34 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
   params.tighten = !o.loose;
   params.quads = o.quads;
   // What may come out beyond --error is measured, so that it can be told.
-  params.distances = o.measure || (o.error && (!o.enclose.empty() || o.faces.size() > 1));
-  if (!params.tighten && !params.distances && !o.enclose.empty())
+  const bool chosen = o.enclose.kind != bp::EncloseOption::Kind::automatic;
+  params.distances = o.measure || (o.error && (chosen || o.faces.size() > 1));
+  if (!params.tighten && !params.distances && chosen)
     bp::fail(bp::ErrorCode::bad_argument, "--enclose says what tightening keeps inside; --no-tighten leaves that out");
-  set_enclosed(o, header.bounds, params);
+  params.memory = bp::mesh_memory(o.common);
   return params;
+}
+
+/// Where a glTF lies far from its origin, or was moved nearer; other formats hold double, or refuse.
+void note_origin(bp::Report& report, const Options& o, const bp::StreamHeader& header, bp::MeshFormat format) {
+  const bool gltf = format == bp::MeshFormat::glb || format == bp::MeshFormat::gltf;
+  if (!gltf && o.origin.kind != bp::OriginOption::Kind::automatic) return;
+  if (const std::string text = origin_note(o.origin, header.frame, header.bounds); !text.empty())
+    report.note(text, o.common);
+}
+
+/// What is enclosed; a note where it is less than could be.
+std::string set_enclosure(const Options& o, const bp::StreamHeader& header, bp::MeshParams& params,
+                          bp::Report& report) {
+  bp::Enclosure enclosure = bp::make_enclosure(
+      o.enclose, {header, o.mode, params.tighten, o.error.has_value(), params.distances, params.memory, o.common.temp});
+  if (!enclosure.note.empty()) report.note(enclosure.note, o.common);
+  params.enclose = enclosure.what;
+  params.scene = std::move(enclosure.scene);
+  // Nobody asked for the scene: the bound is on what bpmesh adds to the closing that was asked for.
+  if (o.error && o.mode == bp::MeshMode::bounding && o.enclose.kind == bp::EncloseOption::Kind::automatic)
+    params.distances_to = bp::Enclose::closing;
+  return o.enclose.kind == bp::EncloseOption::Kind::files ? o.enclose.text() : enclosure.name();
 }
 
 /// A file of one format called by the name of another would be read as that.
@@ -395,6 +418,20 @@ bp::MeshFormat output_format(const Options& o) {
     bp::fail(bp::ErrorCode::bad_argument,
              "--format {}, but -o {} is named .{}; leave --format out, or rename the output", o.format, o.out, told);
   return format;
+}
+
+/// glTF has y up; other formats tell nothing.
+void note_axes(bp::Report& report, const Options& o, const bp::StreamHeader& header, bp::MeshFormat format) {
+  if (format != bp::MeshFormat::glb && format != bp::MeshFormat::gltf) return;
+  if (const std::string text = bp::up_note(header); !text.empty()) report.note(text, o.common);
+}
+
+void note_estimate(bp::Report& report, const Options& o, const bp::StreamHeader& header, bp::Enclose enclosed) {
+  const bool scene = enclosed == bp::Enclose::scene && !o.loose;
+  const double effort = (o.error ? bp::kErrorEffort : 1) * (scene ? bp::kSceneEffort : 1);
+  const bp::Estimate estimate = bp::estimate_mesh(header.bounds, header.frame.voxel, effort);
+  const std::string text = bp::estimate_note(estimate, o.common.memory_bytes);
+  if (!text.empty()) report.note(text, o.common);
 }
 
 void run(const Options& o) {
@@ -409,31 +446,38 @@ void run(const Options& o) {
   for (std::size_t i = 0; i < std::max<std::size_t>(o.faces.size(), 1); ++i)
     outputs.push_back(bp::open_output(level_name(o, i), o.common.overwrite));
   bp::BrickReader source(o.in);
+  const bp::Vec3d origin = bp::origin_of(o.origin, source.header().frame, source.header().bounds);
   bp::MeshParams params = mesh_params(o, source.header());
+  const std::string enclosed = set_enclosure(o, source.header(), params, report);
+  note_estimate(report, o, source.header(), params.enclose);
+  note_axes(report, o, source.header(), format);
   const double error_world = params.error_world;
   bp::MeshCounts counts;
-  const bp::MeshBudget budget(o.common.memory_bytes);
-  params.memory.waiting_bytes = budget.waiting;
-  params.memory.work_bytes = budget.work;
-  params.memory.limit_bytes = o.common.memory_bytes;
-  params.memory.waiting_growth = budget.waiting_growth;
-  params.memory.work_growth = budget.work_growth;
-  params.memory.make_store = [&o, budget] { return bp::make_chunk_store(budget.store, o.common.temp); };
-  std::vector<bp::LatticeMesh> levels =
-      bp::mesh_stream(source, bp::make_shelf_factory(budget.shelves, o.common.temp), std::move(params), counts);
+  const auto make_shelf = bp::make_shelf_factory(bp::MeshBudget(o.common.memory_bytes).shelves, o.common.temp);
+  bp::SolidKeeper keeper(source, make_shelf());
+  const bool may_raise =
+      o.mode == bp::MeshMode::bounding && !o.faces.empty() && bp::has_scale_to_raise(source.header());
+  bp::BrickSource& bricks = may_raise ? static_cast<bp::BrickSource&>(keeper) : source;
+  std::vector<bp::LatticeMesh> levels = bp::mesh_stream(bricks, make_shelf, std::move(params), counts);
   report.bytes_in = source.totals().bytes;
 
   report.stage("write");
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    levels[i].provenance.push_back(provenance(o, source.totals().checksum(), i));
-    bp::write_mesh(levels[i], *outputs[i], format, {o.origin, o.mode == bp::MeshMode::fit});
+    levels[i].provenance.push_back(provenance(o, enclosed, source.totals().checksum(), i));
+    bp::write_mesh(levels[i], *outputs[i], format, {origin, o.mode == bp::MeshMode::fit});
   }
-  for (const auto& output : outputs) {
-    output->commit();
-    report.bytes_out += output->bytes();
-  }
+  bp::OutputFile::commit_all(outputs);
+  for (const auto& output : outputs) report.bytes_out += output->bytes();
   fill_report(report, o, counts);
-  note_shortfalls(report, o, counts, error_world);
+  if (origin != bp::Vec3d{}) report.counts["origin"] = origin;
+  note_origin(report, o, source.header(), format);
+  report.counts["enclosed"] = enclosed;
+  std::optional<std::string> scale;
+  if (may_raise && wants_scale(o, counts)) {
+    report.stage("try scales");
+    scale = bp::enough_scale(source.header(), keeper.shelf(), o.faces.front(), o.common);
+  }
+  note_shortfalls(report, o, counts, error_world, scale);
   for (std::size_t i = 0; o.measure && i < levels.size(); ++i)
     std::fprintf(stderr, "%s: %s", level_name(o, i).c_str(), text_of(o, counts.levels[i], counts).c_str());
   report.write(o.common);

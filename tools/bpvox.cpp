@@ -1,21 +1,26 @@
 // bpvox: scenes in, a stream of solid bricks out. Manual: docs/bpvox.1.md
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "io/brick_shelf.h"
 #include "io/brick_stream.h"
 #include "io/chunk_store.h"
+#include "io/scene_format.h"
 #include "io/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/stage/voxelize_stage.h"
+#include "tools/common/estimate.h"
 #include "tools/common/inputs.h"
 #include "tools/common/make_backend.h"
 #include "tools/common/memory_shares.h"
 #include "tools/common/names.h"
+#include "tools/common/proportion.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
 #include "tools/common/scene_budget.h"
+#include "tools/common/up_note.h"
 
 namespace {
 
@@ -53,7 +58,8 @@ Options parse(bp::Args& args) {
       o.fill,
       "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing; the first "
       "without the voxels that triangles touch, for bpclose --inner and bpmesh --mode inside");
-  args.option("--up", "y|z", o.up, "axis of the scene that points up (default: y, or what a proxy of ours tells)");
+  args.option("--up", "x|y|z|-x|-y|-z", o.up,
+              "axis of the scene that points up (default: y, or what a proxy of ours tells)");
   args.option("--format", "NAME", o.format,
               "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");
   o.common.add_to(args);
@@ -69,7 +75,8 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-bp::OptionText option_text(const Options& o, bp::UpAxis up) {
+/// told: whether the user or the scene said which axis is up; of another axis than y that goes without saying.
+bp::OptionText option_text(const Options& o, bp::UpAxis up, bool told) {
   bp::OptionText text;
   if (o.voxel) {
     text.add("voxel", *o.voxel);
@@ -77,15 +84,32 @@ bp::OptionText option_text(const Options& o, bp::UpAxis up) {
     text.add("resolution", o.resolution.value_or(kDefaultResolution));
   }
   text.add("fill", name_of(o.fill)).add("up", name_of(up));
+  if (told && up == bp::UpAxis::y) text.add(bp::kUpTold, true);
   return text;
+}
+
+/// Asked for when the scene has been read once.
+double voxel_size(const Options& o, const bp::Bounds3d& bounds) {
+  if (!o.voxel) return bp::voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
+  bp::question_voxel("--voxel", *o.voxel, bounds);
+  return o.voxel->in_world(bounds.diagonal(), 0);
+}
+
+/// For tools that come later; nothing if part of the scene came from a pipe, which cannot be read again.
+bp::SceneFiles scene_files(const Options& o, const bp::VoxelizeCounts& counts) {
+  const std::string format = o.format.empty() ? "" : bp::scene_format_named(o.format);
+  bp::SceneFiles scene{{}, format, counts.scene.triangles, counts.input_hash};
+  for (const std::string& name : o.scenes) {
+    std::error_code none;
+    if (name == "-" || !std::filesystem::is_regular_file(name, none)) return {};
+    scene.files.push_back({name, std::filesystem::file_size(name, none)});
+  }
+  return scene;
 }
 
 bp::VoxelizeOptions stage_options(const Options& o, const bp::VoxelizeBudget& budget, bp::Progress& progress) {
   bp::VoxelizeOptions v;
-  v.voxel_size = [&o](const bp::Bounds3d& bounds) {
-    return o.voxel ? o.voxel->in_world(bounds.diagonal(), 0)
-                   : bp::voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
-  };
+  v.voxel_size = [&o](const bp::Bounds3d& bounds) { return voxel_size(o, bounds); };
   v.fill = o.fill;
   v.up = o.up;
   v.memory_bytes = budget.waiting;
@@ -101,7 +125,7 @@ bp::VoxelizeOptions stage_options(const Options& o, const bp::VoxelizeBudget& bu
 }
 
 void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& header, const bp::VoxelizeCounts& c) {
-  report.options["options"] = option_text(o, header.frame.up).text();
+  report.options["options"] = header.provenance.back().options;
   report.options["memory"] = o.common.memory_bytes;
   report.bytes_in = bp::size_of_files(o.scenes);
   report.counts["triangles"] = c.scene.triangles;
@@ -150,7 +174,11 @@ void run(const Options& o) {
   const auto open = [&](const bp::StreamHeader& h, const bp::VoxelizeCounts& counts) -> bp::BrickSink& {
     report.stage("voxelize");
     header = h;
-    header.provenance.push_back(bp::make_provenance("bpvox", option_text(o, h.frame.up), counts.input_hash));
+    const bp::Estimate estimate = bp::estimate_voxelize(h.bounds, h.frame.voxel);
+    bp::note_estimate(estimate, o.common, progress, report);
+    header.provenance.push_back(
+        bp::make_provenance("bpvox", option_text(o, h.frame.up, o.up || source->up()), counts.input_hash));
+    header.scene = scene_files(o, counts);
     return writer.emplace(*file, header);
   };
   const bp::VoxelizeCounts counts = bp::voxelize_stream(*source, open, backends, stage_options(o, budget, progress));

@@ -24,10 +24,18 @@ GltfOutJson gltf_asset(const std::string& tool, const std::vector<Provenance>& p
     if (!p.input_hash.empty()) step["input"] = p.input_hash;
     steps.push_back(std::move(step));
   }
-  GltfOutJson extras{{"up", up == UpAxis::z ? "z" : "y"}};
+  GltfOutJson extras{{"up", name_of(up)}};
   if (origin != Vec3d{}) extras["origin"] = origin;
   extras["provenance"] = std::move(steps);
   return {{"version", "2.0"}, {"generator", tool + " " BP_VERSION}, {"extras", std::move(extras)}};
+}
+
+GltfOutJson gltf_material(bool colored) {
+  constexpr double kGrey = 0.6;  // linear light
+  const double c = colored ? 1 : kGrey;
+  return {{"name", colored ? "matte vertex colors" : "matte grey"},
+          {"pbrMetallicRoughness",
+           {{"baseColorFactor", GltfOutJson::array({c, c, c, 1})}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}};
 }
 
 std::string glb_head(std::string json, std::size_t data_bytes, const std::string& name) {

@@ -18,6 +18,10 @@ using GltfOutJson = nlohmann::ordered_json;  ///< keys keep their order: same me
 [[nodiscard]] GltfOutJson gltf_asset(const std::string& tool, const std::vector<Provenance>& provenance, UpAxis up,
                                      const Vec3d& origin);
 
+/// A matte material, so that viewers neither take glTF's default (metal, black where nothing is mirrored) nor draw
+/// without light. White under the colours of vertices, else grey.
+[[nodiscard]] GltfOutJson gltf_material(bool colored);
+
 /// What a GLB holds before the bytes of its binary chunk. Throws as write_glb(), for the file `name`.
 [[nodiscard]] std::string glb_head(std::string json, std::size_t data_bytes, const std::string& name);
 

@@ -97,6 +97,8 @@ class PackedPly final : public RawSource {
   PackedPly(SceneFilePtr file, const SceneOptions& options, const Layout& layout)
       : file_(std::move(file)), budget_(options.memory_bytes), layout_(layout), at_(layout.faces) {}
 
+  [[nodiscard]] std::uint64_t points() const override { return layout_.vertex_count; }
+
   bool read(std::vector<TriangleD>& out) override {
     const bool more = next(one_);
     complete(one_);

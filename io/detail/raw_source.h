@@ -40,7 +40,8 @@ class RawSource {
   virtual void rewind() = 0;
   [[nodiscard]] virtual std::uint64_t instances() const { return 1; }
   [[nodiscard]] virtual std::optional<UpAxis> up() const { return {}; }  ///< TriangleSource::up()
-  [[nodiscard]] virtual std::size_t levels() const { return 1; }  ///< of the file: SceneOptions::level is one of them
+  [[nodiscard]] virtual std::size_t levels() const { return 1; }    ///< of the file: SceneOptions::level is one of them
+  [[nodiscard]] virtual std::uint64_t points() const { return 0; }  ///< vertices read so far, where they are counted
   [[nodiscard]] std::uint64_t bad_faces() const {
     return bad_faces_;
   }  ///< since the last rewind; not those of complete()
@@ -61,6 +62,7 @@ class PolygonSource : public RawSource {
   }
   bool next(RawBatch& batch) final;
   void rewind() final;
+  [[nodiscard]] std::uint64_t points() const final { return vertex_count(); }
 
  protected:
   static constexpr std::uint64_t kNoVertex = ~std::uint64_t(0);

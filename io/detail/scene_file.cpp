@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/kept_files.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -69,6 +70,7 @@ SceneFilePtr spool(InputFile& pipe, const std::string& temp_dir) {
 
 SceneFilePtr open_scene_file(const std::string& path, const std::string& temp_dir) {
   auto file = std::make_unique<InputFile>(path);
+  keep_file(path);  // also what no list of a scene's parts holds
   // A seekable stdin may stand anywhere in its file, so it is spooled from there as a pipe is.
   if (!file->seekable() || path == "-") return spool(*file, temp_dir);
   return std::make_shared<PlainFile>(std::move(file));

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "io/detail/stream_scene.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/count_bits.h"
@@ -98,6 +99,7 @@ std::vector<std::byte> frame_of(std::vector<std::byte> payload, bool sealed) {
 std::vector<std::byte> encode_header(const StreamHeader& h) {
   if (const char* fault = header_fault(h)) fail(ErrorCode::bad_argument, "the stream cannot be written: {}", fault);
   const std::string scale = h.has_closing ? to_json(h.scale) : "", provenance = provenance_text(h.provenance);
+  const std::string scene = scene_text(h.scene);
   if (scale.size() > kMaxScaleBytes || provenance.size() > kMaxProvenanceBytes) {
     fail(ErrorCode::bad_argument,
          "the stream cannot be written: {} bytes of scale field and {} of provenance; at most {} and {}", scale.size(),
@@ -106,11 +108,11 @@ std::vector<std::byte> encode_header(const StreamHeader& h) {
   ByteSink out;
   for (const unsigned char c : kStreamMagic) out.put(c);
   out.put(kStreamVersion);
-  out.put(std::uint16_t(h.has_closing ? kFlagClosing : 0));
+  out.put(std::uint16_t((h.has_closing ? kFlagClosing : 0) | (scene.empty() ? 0 : kFlagScene)));
   out.put(std::uint8_t(h.fill));
   out.put(std::uint8_t(h.has_closing ? h.element : StructuringElement::ball));
   out.put(std::uint8_t(h.slab_axis));
-  out.put(std::uint8_t(h.frame.up == UpAxis::z ? 1 : 0));
+  out.put(std::uint8_t(h.frame.up));
   out.put(h.frame.voxel);
   for (const std::int64_t o : h.frame.origin) out.put(o);
   for (const double c : h.bounds.min) out.put(c);
@@ -121,6 +123,7 @@ std::vector<std::byte> encode_header(const StreamHeader& h) {
   out.put(std::uint32_t(provenance.size()));
   out.put_text(scale);
   out.put_text(provenance);
+  out.put_text(scene);
   return std::move(out.bytes());
 }
 
@@ -128,14 +131,14 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
   ByteSource in(payload.subspan(kStreamMagic.size() + 2));
   StreamHeader h;
   const auto flags = in.get<std::uint16_t>();
-  if ((flags & ~kFlagClosing) != 0)
+  if ((flags & ~(kFlagClosing | kFlagScene)) != 0)
     fail(ErrorCode::bad_input, "{}: header: unknown flags {:#x}; update this tool", name, flags);
   h.has_closing = (flags & kFlagClosing) != 0;
   h.fill = enum_of<FillMode>(in.get<std::uint8_t>(), 4, "fill mode", name);
   const auto element = enum_of<StructuringElement>(in.get<std::uint8_t>(), h.has_closing ? 2 : 1, "element", name);
   if (h.has_closing) h.element = element;
   h.slab_axis = in.get<std::uint8_t>();
-  h.frame.up = enum_of<int>(in.get<std::uint8_t>(), 2, "up axis", name) == 1 ? UpAxis::z : UpAxis::y;
+  h.frame.up = UpAxis(enum_of<int>(in.get<std::uint8_t>(), int(kUpNames.size()), "up axis", name));
   h.frame.voxel = in.get<double>();
   for (std::int64_t& o : h.frame.origin) o = in.get<std::int64_t>();
   for (double& c : h.bounds.min) c = in.get<double>();
@@ -157,6 +160,10 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
       fail(ErrorCode::bad_input, "{}: header: {}", name, e.what());
     }
   }
+  const std::size_t scene_bytes = payload.size() - kHeaderFixedBytes - scale_bytes - provenance_bytes;
+  if (((flags & kFlagScene) != 0) != (scene_bytes > 0))
+    fail(ErrorCode::bad_input, "{}: header: scene files without their flag, or the flag without them", name);
+  if (scene_bytes > 0) h.scene = scene_of(in.get_text(scene_bytes), name);
   return h;
 }
 

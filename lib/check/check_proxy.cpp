@@ -66,11 +66,17 @@ struct SceneMemory {
 void measure_distances(const Surface& surface, const SceneMemory& scene, const CheckOptions& options,
                        CheckReport& report) {
   if (!options.distances || surface.bvh().empty() || report.scene_triangles == 0) return;
+  constexpr const char* kTooLarge = "no distances: the scene has coordinates that are too large or too small";
   if (report.undecidable_scene.count != 0) {
-    report.distance_note = "no distances: the scene has coordinates that are too large or too small";
+    report.distance_note = kTooLarge;
     return;
   }
-  report.scene_to_proxy = distances(scene.sample.points(), surface.bvh());
+  const SampledDistance there = distances(scene.sample.points(), surface.bvh());
+  if (!std::isfinite(there.mean)) {
+    report.distance_note = kTooLarge;
+    return;
+  }
+  report.scene_to_proxy = there;
   if (!scene.keep) {
     report.distance_note =
         fmt::format("no distance from the proxy to the scene: {} triangles do not fit the {} MiB set aside for them",
@@ -101,13 +107,21 @@ void check_scene_around(const WeldedMesh& mesh, const Surface& surface, Triangle
                         const CheckOptions& options, CheckReport& report) {
   report.has_scene = report.wants_inside = true;
   if (!report.sides_decided) return;
-  const InsideReport inside = check_inside(mesh, surface, scene, options.max_examples);
+  const InsideReport inside = check_inside(mesh, surface, scene, options.max_examples, options.scene_memory_bytes);
   report.scene_name = scene.name();
   report.scene_counts = scene.counts();
   report.scene_triangles = inside.triangles;
   report.scene_closed = inside.scene_closed;
   report.touching = inside.touching, report.swallowed = inside.swallowed, report.outside_parts = inside.outside;
+  report.unsettled_parts = inside.unsettled;
   report.undecidable_scene = inside.undecidable;
+  if (report.inside() || !options.hidden) return;
+  const auto& [recipe, walls] = *options.hidden;
+  const HiddenReport hidden =
+      check_hidden(mesh, surface, *walls, recipe, options.max_examples, options.scene_memory_bytes);
+  report.asks_hidden = true;
+  report.openings = 2 * recipe.scale_world;
+  report.hidden_unknown = hidden.undecided, report.exposed = hidden.exposed;
 }
 
 void check_scene_in_parts(const WeldedMesh& mesh, TriangleSource& scene, const CheckOptions& options,

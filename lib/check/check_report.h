@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/core/coords.h"
+#include "lib/core/face_counts.h"
 #include "lib/core/triangle_source.h"
 
 /// The verdict of check_proxy(): what was counted, and the first few places of each kind.
@@ -41,10 +42,22 @@ struct SampledDistance {
   Vec3d where{};             ///< the sample that is farthest
 };
 
+/// Of a question: yes and no are exact.
+enum class Answer { proven, refuted, undecided };
+[[nodiscard]] constexpr const char* to_string(Answer a) {
+  return a == Answer::proven ? "proven" : a == Answer::refuted ? "refuted" : "not decided";
+}
+/// All of several: one that is refuted refutes all of them.
+[[nodiscard]] constexpr Answer all_of(Answer a, Answer b) {
+  if (a == Answer::refuted || b == Answer::refuted) return Answer::refuted;
+  return a == Answer::undecided ? a : b;
+}
+
 struct CheckReport {
   // The proxy as a mesh. Vertices of equal position count as one, whatever the file's indices say.
   std::uint64_t vertices = 0;         ///< distinct, used by a triangle
   std::uint64_t triangles = 0;        ///< as given
+  FaceCounts faces;                   ///< that the triangles were cut from
   std::uint64_t merged_vertices = 0;  ///< repeated positions in the input
   std::uint64_t components = 0;       ///< triangles connected by edges
   std::int64_t euler = 0;             ///< vertices - edges + triangles
@@ -76,8 +89,15 @@ struct CheckReport {
   // The proxy inside the scene (inside.h).
   bool wants_inside = false;  ///< asked for, instead of enclosure
   bool scene_closed = false;
-  Finding swallowed;      ///< index: scene triangle that lies inside the proxy
-  Finding outside_parts;  ///< index: first triangle of a component that the scene does not wind around
+  Finding swallowed;        ///< index: scene triangle that lies inside the proxy
+  Finding outside_parts;    ///< index: first triangle of a component that is seen from outside along an axis
+  Finding unsettled_parts;  ///< index: first triangle of a component neither seen nor known to be enclosed
+
+  // The proxy hidden by the scene, once openings are closed (hidden.h).
+  bool asks_hidden = false;    ///< its file says how; asked if the proxy is not proven to be strictly inside
+  double openings = 0;         ///< width below which they are closed, scene units
+  std::string hidden_unknown;  ///< why it is not decided; empty: it is
+  Finding exposed;             ///< index: proxy triangle; position: middle of a voxel there that is not hidden
 
   // The proxy as convex parts that may overlap (convex.h).
   bool wants_convex = false;  ///< asked for: then self-intersections are those within parts
@@ -102,20 +122,38 @@ struct CheckReport {
   [[nodiscard]] bool embedded() const { return self_intersections.count == 0; }
   [[nodiscard]] bool outward() const { return inverted_components.count == 0; }
   /// Strict: every scene triangle, boundary included, lies in the open interior of the proxy.
-  [[nodiscard]] bool encloses() const {
-    return has_scene && sides_decided && touching.count == 0 && outside.count == 0 && not_held.count == 0 &&
-           undecidable_scene.count == 0;
+  [[nodiscard]] Answer enclosure() const {
+    if (!has_scene || !sides_decided) return Answer::undecided;
+    if (touching.count + outside.count + not_held.count > 0) return Answer::refuted;
+    return undecidable_scene.count > 0 ? Answer::undecided : Answer::proven;
   }
+  [[nodiscard]] bool encloses() const { return enclosure() == Answer::proven; }
   [[nodiscard]] bool convex() const { return sides_decided && nonconvex_parts.count == 0; }
-  [[nodiscard]] bool holds() const {
-    return readable() && sound() && closed() && oriented() && manifold() && embedded() && outward() &&
-           (!wants_convex || convex()) && (!has_scene || (wants_inside ? inside() : encloses()));
+  /// Strict: the solid of the proxy meets no scene triangle, and every path to it from far away crosses the scene.
+  [[nodiscard]] Answer insideness() const {
+    if (!has_scene || !sides_decided) return Answer::undecided;
+    if (touching.count + swallowed.count + outside_parts.count > 0) return Answer::refuted;
+    return undecidable_scene.count + unsettled_parts.count > 0 ? Answer::undecided : Answer::proven;
   }
-  /// Strict: the solid of the proxy meets no scene triangle, and the scene, which is closed, winds around all of it.
-  [[nodiscard]] bool inside() const {
-    return has_scene && sides_decided && scene_closed && touching.count == 0 && swallowed.count == 0 &&
-           outside_parts.count == 0 && undecidable_scene.count == 0;
+  [[nodiscard]] bool inside() const { return insideness() == Answer::proven; }
+  /// Only if asks_hidden.
+  [[nodiscard]] Answer hiddenness() const {
+    if (!hidden_unknown.empty()) return Answer::undecided;
+    return exposed.count > 0 ? Answer::refuted : Answer::proven;
   }
+  /// As a mesh, without the scene.
+  [[nodiscard]] Answer soundness() const {
+    const bool fine = bad_faces.count + non_finite_vertices.count + boundary_edges.count == 0 && !empty() && sound() &&
+                      oriented() && manifold() && embedded() && outward() && nonconvex_parts.count == 0;
+    if (!fine) return Answer::refuted;
+    return undecidable_vertices.count > 0 ? Answer::undecided : Answer::proven;
+  }
+  /// Of all that was asked.
+  [[nodiscard]] Answer answer() const {
+    if (!has_scene) return soundness();
+    return all_of(soundness(), asks_hidden ? hiddenness() : wants_inside ? insideness() : enclosure());
+  }
+  [[nodiscard]] bool holds() const { return answer() == Answer::proven; }
 };
 
 }  // namespace bp

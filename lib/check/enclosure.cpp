@@ -1,6 +1,8 @@
 #include "lib/check/enclosure.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "lib/core/parallel.h"
 #include "lib/core/signed_volume.h"
@@ -89,6 +91,11 @@ Vec3d centre(const TriangleD& t) {
   return c;
 }
 
+bool is_finite(const TriangleD& t) {
+  return std::all_of(t.begin(), t.end(),
+                     [](const Vec3d& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); });
+}
+
 void check_batch(const WeldedMesh& mesh, const Surface& surface, bool decide_sides, const Vec3d& origin,
                  std::size_t max_examples, Batch& batch) {
   SideCache cache;
@@ -97,6 +104,10 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, bool decide_sid
   for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
     const TriangleD& t = batch.triangles[i];
     const std::uint64_t number = batch.first + i;
+    if (!is_finite(t)) {
+      e.undecidable.add({number, 0, t[0]}, max_examples);
+      continue;
+    }
     batch.volume.add(t);
     const std::int64_t touched = surface.touched_by(t);
     if (touched != Surface::kNone)

@@ -1,7 +1,7 @@
 #include "lib/check/inside.h"
 
-#include <bit>
-
+#include "lib/check/edge_sum.h"
+#include "lib/check/hiding.h"
 #include "lib/core/parallel.h"
 #include "lib/core/predicates.h"
 #include "lib/geometry/crossing.h"
@@ -24,32 +24,6 @@ std::vector<Probe> probes_of(const WeldedMesh& mesh) {
   }
   return probes;
 }
-
-std::uint64_t mix(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-  return x ^ (x >> 31);
-}
-
-std::uint64_t hash(const Vec3d& p, std::uint64_t seed) {
-  for (const double x : p) seed = mix(seed + 0x9E3779B97F4A7C15u + std::bit_cast<std::uint64_t>(x + 0.0));
-  return seed;
-}
-
-/// The sum over all directed edges ab of h(a, b) - h(b, a): zero if each is used as often as its reverse, and for any
-/// other set of edges zero with a probability of 2^-128.
-struct EdgeSum {
-  std::uint64_t low = 0, high = 0;
-  void add(const TriangleD& t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d &a = t[k], &b = t[(k + 1) % 3];
-      low += hash(b, hash(a, 1)) - hash(a, hash(b, 1));
-      high += hash(b, hash(a, 2)) - hash(a, hash(b, 2));
-    }
-  }
-  void add(const EdgeSum& s) { low += s.low, high += s.high; }
-  [[nodiscard]] bool zero() const { return low == 0 && high == 0; }
-};
 
 struct Batch {
   std::vector<TriangleD> triangles;
@@ -85,10 +59,28 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, const std::vect
   }
 }
 
+/// Parts that the scene as a whole does not wind around may lie in a hollow of it, or between parts that overlap.
+void look_at(const std::vector<Probe>& probes, TriangleSource& scene, std::size_t max_examples,
+             std::uint64_t memory_bytes, InsideReport& report) {
+  std::vector<Vec3d> points;
+  std::vector<std::uint64_t> triangles;
+  for (const Probe& probe : probes) {
+    if (report.scene_closed && probe.winding != 0) continue;
+    points.push_back(probe.point);
+    triangles.push_back(probe.triangle);
+  }
+  if (points.empty()) return;
+  const std::vector<Hiding> found = hiding_of(points, scene, memory_bytes);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (found[i] == Hiding::seen) report.outside.add({triangles[i], 0, points[i]}, max_examples);
+    if (found[i] == Hiding::unknown) report.unsettled.add({triangles[i], 0, points[i]}, max_examples);
+  }
+}
+
 }  // namespace
 
 InsideReport check_inside(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
-                          std::size_t max_examples) {
+                          std::size_t max_examples, std::uint64_t memory_bytes) {
   InsideReport report;
   std::vector<Probe> probes = probes_of(mesh);
   EdgeSum edges, degenerate_edges;
@@ -112,9 +104,7 @@ InsideReport check_inside(const WeldedMesh& mesh, const Surface& surface, Triang
   EdgeSum all_edges = edges;
   all_edges.add(degenerate_edges);
   report.scene_closed = edges.zero() || all_edges.zero();  // either says so of the surface as a set of points
-  for (const Probe& probe : probes) {
-    if (report.scene_closed && probe.winding == 0) report.outside.add({probe.triangle, 0, probe.point}, max_examples);
-  }
+  look_at(probes, scene, max_examples, memory_bytes, report);
   return report;
 }
 

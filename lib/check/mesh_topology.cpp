@@ -215,6 +215,7 @@ void number_components(WeldedMesh& mesh, Sets& sets, CheckReport& report) {
 WeldedMesh weld(const IndexedMesh& mesh, std::size_t max_examples, CheckReport& report) {
   WeldedMesh welded;
   report.triangles = mesh.triangles.size();
+  report.faces.add(mesh.inner_edges, mesh.triangles.size() - mesh.inner_edges.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3d& p = mesh.vertices[v];
     if (!finite(p))

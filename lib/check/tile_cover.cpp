@@ -15,8 +15,9 @@ namespace bp {
 
 namespace {
 
-constexpr double kGrowth = 1e-9;  // of a cell, in its edges
-constexpr double kNear = 1e-12;   // a point in doubles and one of the triangle, in edges of the cell
+constexpr double kGrowth = 1e-9;       // of a cell, in its edges
+constexpr double kRounding = 0x1p-50;  // of a point in doubles beside one of the triangle, in its coordinates
+constexpr double kNear = 1e-12;        // the same, in edges of the cell
 
 /// The determinant of orient3d and a bound of its error (predicates.h, "Filter").
 struct Side {
@@ -118,8 +119,23 @@ double edge_of(const Bounds3d& box) {
   return std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
 }
 
-Bounds3d grown(const Bounds3d& box, double share) {
-  const double by = edge_of(box) * share;
+double largest(const Vec3d& p) {
+  return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+}
+
+/// How far a point in doubles may lie from the point of the triangle that it stands for.
+double rounding_of(const Bounds3d& cell, const TriangleD& t) {
+  double most = std::max(largest(cell.min), largest(cell.max));
+  for (const Vec3d& p : t) most = std::max(most, largest(p));
+  return std::max(kNear * edge_of(cell), kRounding * most);
+}
+
+/// By how much a cell is grown where the triangle is looked at: far more than rounding, wherever the origin is.
+double growth_for(const Bounds3d& cell, const TriangleD& t) {
+  return std::max(kGrowth * edge_of(cell), 16 * rounding_of(cell, t));
+}
+
+Bounds3d grown(const Bounds3d& box, double by) {
   Bounds3d out = box;
   for (std::size_t i = 0; i < 3; ++i) out.min[i] -= by, out.max[i] += by;
   return out;
@@ -139,14 +155,20 @@ class ClippedTriangle {
     origin_ = box.min;
   }
   [[nodiscard]] bool empty() const { return points_.empty(); }
-  [[nodiscard]] Vec3d middle() const {
-    Vec3d sum{};
+  /// The middle, and points between it and the corners.
+  [[nodiscard]] std::vector<Vec3d> points_within() const {
+    if (empty()) return {};
+    Vec3d middle{};
     for (const Vec3d& p : points_)
-      for (std::size_t i = 0; i < 3; ++i) sum[i] += p[i] / double(points_.size());
-    return {origin_[0] + sum[0], origin_[1] + sum[1], origin_[2] + sum[2]};
+      for (std::size_t i = 0; i < 3; ++i) middle[i] += p[i] / double(points_.size());
+    std::vector<Vec3d> all{at(middle)};
+    for (const Vec3d& p : points_)
+      all.push_back(at({(p[0] + middle[0]) / 2, (p[1] + middle[1]) / 2, (p[2] + middle[2]) / 2}));
+    return all;
   }
 
  private:
+  [[nodiscard]] Vec3d at(const Vec3d& p) const { return {origin_[0] + p[0], origin_[1] + p[1], origin_[2] + p[2]}; }
   /// Keeps where height() is not negative (Sutherland and Hodgman).
   template <class Height>
   void cut(const Height& height) {
@@ -189,7 +211,7 @@ class Checker {
     find_below(0);
   }
 
-  std::vector<std::string> run(TriangleSource& scene, std::uint64_t memory_bytes) {
+  std::vector<CoverFinding> run(TriangleSource& scene, std::uint64_t memory_bytes) {
     for (begin_ = 0; begin_ < tiles_.size(); begin_ = end_) {
       end_ = end_of_share(memory_bytes);
       parallel_for(std::int64_t(end_ - begin_), [&](std::int64_t i) { load(begin_ + std::size_t(i)); });
@@ -198,7 +220,8 @@ class Checker {
     }
     for (std::size_t i = 0; i < tiles_.size(); ++i) say_of_tile(i);
     if (astray_ > 0)
-      findings_.push_back(fmt::format("{}: {} triangles of the scene leave its cell", tiles_[0].place, astray_.load()));
+      findings_.push_back(
+          {fmt::format("{}: {} triangles of the scene leave its cell", tiles_[0].place, astray_.load())});
     for (std::size_t i = 0; i < tiles_.size(); ++i) say_of_scene(i);
     return std::move(findings_);
   }
@@ -291,7 +314,7 @@ class Checker {
   /// True unless t surely avoids the closed cell.
   [[nodiscard]] static bool meets(const TriangleD& t, const std::optional<Bounds3d>& cell) {
     if (!cell) return true;
-    const Bounds3d box = grown(*cell, kGrowth / 2);
+    const Bounds3d box = grown(*cell, growth_for(*cell, t) / 2);
     return overlap(bounds_of(t), box) && !ClippedTriangle(t, box).empty();
   }
 
@@ -340,13 +363,18 @@ class Checker {
       if (body.surface->touched_by(t) != Surface::kNone) return Verdict::touching;
       return body.surface->winding(t[0]) < 1 ? Verdict::outside : Verdict::fine;
     }
-    const Bounds3d box = grown(*cell, kGrowth);
+    const double growth = growth_for(*cell, t);
+    const Bounds3d box = grown(*cell, growth);
     if (touches_within(body, t, box)) return Verdict::touching;
     // No face meets t in the grown cell, so all of t there lies on the side of any point of it.
     for (const Vec3d& p : t) {
       if (contains(*cell, p)) return body.surface->winding(p) < 1 ? Verdict::outside : Verdict::fine;
     }
-    return side_near(body, ClippedTriangle(t, grown(*cell, kGrowth / 2)).middle(), *cell);
+    for (const Vec3d& p : ClippedTriangle(t, grown(*cell, growth / 2)).points_within()) {
+      const Verdict verdict = side_near(body, p, rounding_of(*cell, t));
+      if (verdict != Verdict::undecided) return verdict;
+    }
+    return Verdict::undecided;
   }
 
   [[nodiscard]] static bool contains(const Bounds3d& box, const Vec3d& p) { return overlap(box, Bounds3d{p, p}); }
@@ -362,11 +390,8 @@ class Checker {
     });
   }
 
-  /// The side of a point of the triangle that lies beside `p`: the same, if the surface is farther than that.
-  [[nodiscard]] static Verdict side_near(const Body& body, const Vec3d& p, const Bounds3d& cell) {
-    double radius = kNear * edge_of(cell);
-    for (const double x : p) radius = std::max(radius, 0x1p-50 * std::abs(x));
-    if (radius > kGrowth / 4 * edge_of(cell)) return Verdict::undecided;
+  /// The side of a point of the triangle that lies within `radius` of `p`: the same, if the surface is farther.
+  [[nodiscard]] static Verdict side_near(const Body& body, const Vec3d& p, double radius) {
     if (body.surface->bvh().nearest(p).distance_squared <= 16 * radius * radius) return Verdict::undecided;
     return body.surface->winding(p) < 1 ? Verdict::outside : Verdict::fine;
   }
@@ -374,23 +399,24 @@ class Checker {
   void say_of_tile(std::size_t i) {
     const CoverTile& tile = tiles_[i];
     if (!bodies_[i].sound)
-      findings_.push_back(fmt::format("{}: {} is no closed, oriented, embedded 2-manifold", tile.place, tile.uri));
+      findings_.push_back({fmt::format("{}: {} is no closed, oriented, embedded 2-manifold", tile.place, tile.uri)});
     for (const std::size_t child : tile.children) {
       if (!fits(i, child))
         findings_.push_back(
-            fmt::format("{}: its cell is neither its parent's nor an octant of it", tiles_[child].place));
+            {fmt::format("{}: its cell is neither its parent's nor an octant of it", tiles_[child].place)});
     }
   }
 
   void say_of_scene(std::size_t i) {
     const CoverTile& tile = tiles_[i];
     const Counts& c = counts_[i];
-    const auto add = [&](std::uint64_t n, const char* what) {
-      if (n > 0) findings_.push_back(fmt::format("{}: {} {} {} triangles of the scene", tile.place, tile.uri, what, n));
+    const auto add = [&](std::uint64_t n, const char* what, Answer answer = Answer::refuted) {
+      if (n == 0) return;
+      findings_.push_back({fmt::format("{}: {} {} {} triangles of the scene", tile.place, tile.uri, what, n), answer});
     };
     add(c.touching, "is touched by");
     add(c.outside, "leaves outside");
-    add(c.undecided, "cannot be decided for");
+    add(c.undecided, "cannot be decided for", Answer::undecided);
     add(c.bare, "draws nothing for");
     add(c.uncovered, "has no child where there are");
   }
@@ -402,13 +428,13 @@ class Checker {
   std::vector<Numbers> below_;       ///< of each tile, itself included
   std::size_t begin_ = 0, end_ = 0;  ///< tiles of this share
   std::atomic<std::uint64_t> astray_{0};
-  std::vector<std::string> findings_;
+  std::vector<CoverFinding> findings_;
 };
 
 }  // namespace
 
-std::vector<std::string> check_cover(const std::vector<CoverTile>& tiles, const CoverContents& content_of,
-                                     TriangleSource& scene, std::uint64_t memory_bytes) {
+std::vector<CoverFinding> check_cover(const std::vector<CoverTile>& tiles, const CoverContents& content_of,
+                                      TriangleSource& scene, std::uint64_t memory_bytes) {
   return Checker(tiles, content_of).run(scene, memory_bytes);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/check/check_report.h"
 #include "lib/core/box.h"
 #include "lib/core/indexed_mesh.h"
 #include "lib/core/triangle_source.h"
@@ -17,10 +18,10 @@
 ///   - the cells of a tile's children are octants of its own, or its own again; t meets no octant without a child.
 /// A tile without a cell answers for all of space; one without content draws nothing, and must have children.
 ///
-/// Decided exactly or on the safe side: cells are grown by 1e-9 of their edge, and t is cut by them in doubles, whose
-/// errors are far smaller; where t meets a face, bounds of the common segment (exact predicates say which edges meet
-/// which triangle, intervals where) must miss the grown cell. So "holds" is a proof, and a tile is blamed unjustly
-/// only if a triangle and a face nearly coincide where the cell ends.
+/// Decided exactly or on the safe side: cells are grown by 1e-9 of their edge, or 2^-46 of the largest coordinate where
+/// that is more, and t is cut by them in doubles, whose errors are far smaller; where t meets a face, bounds of the
+/// common segment (exact predicates say which edges meet which triangle, intervals where) must miss the grown cell. So
+/// "holds" is a proof, and a tile is blamed unjustly only if a triangle and a face nearly coincide where the cell ends.
 namespace bp {
 
 struct CoverTile {
@@ -34,12 +35,18 @@ using CoverContents = std::function<IndexedMesh(std::size_t tile)>;
 
 constexpr std::uint64_t kCoverBytesPerTriangle = 300;  ///< of a content, while it is looked at
 
-/// One finding per line, empty if all holds; tiles[0] is the root. Besides, each content must hold as a mesh
+/// A line.
+struct CoverFinding {
+  std::string text;
+  Answer answer = Answer::refuted;
+};
+
+/// Empty if all holds; tiles[0] is the root. Besides, each content must hold as a mesh
 /// (check_proxy). Contents are read once, as many at a time, in the order of their numbers, as fit memory_bytes (one at
 /// least); for each such share of them the scene is read once, from its start. Parallel; the result depends neither on
 /// threads nor on memory. Passes on what the contents and the scene throw.
-[[nodiscard]] std::vector<std::string> check_cover(const std::vector<CoverTile>& tiles, const CoverContents& content_of,
-                                                   TriangleSource& scene,
-                                                   std::uint64_t memory_bytes = std::uint64_t(1) << 30);
+[[nodiscard]] std::vector<CoverFinding> check_cover(const std::vector<CoverTile>& tiles,
+                                                    const CoverContents& content_of, TriangleSource& scene,
+                                                    std::uint64_t memory_bytes = std::uint64_t(1) << 30);
 
 }  // namespace bp

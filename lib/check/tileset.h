@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/core/box.h"
+#include "lib/core/up_axis.h"
 
 /// A 3D Tiles 1.1 tileset (OGC 22-025r4) and what must hold of it beyond its schema.
 namespace bp {
@@ -37,7 +38,7 @@ struct Tile {
 
 struct Tileset {
   std::string version = "1.1";
-  std::string up = "z";  ///< of the scene it was made from; ours only (asset.extras.up)
+  UpAxis up = UpAxis::z;  ///< of the scene it was made from; ours only (asset.extras.up)
   double geometric_error = 0;
   Tile root;
 };

@@ -44,7 +44,11 @@ constexpr FindingText kFindings[] = {
     {&CheckReport::touching, "touching", "scene triangles touch or cross the proxy", "scene_triangle", "triangle"},
     {&CheckReport::outside, "outside", "scene triangles lie outside the proxy", "scene_triangle", nullptr},
     {&CheckReport::swallowed, "swallowed", "scene triangles lie inside the proxy", "scene_triangle", nullptr},
-    {&CheckReport::outside_parts, "outside_parts", "parts of the proxy lie outside the scene", "triangle", nullptr},
+    {&CheckReport::outside_parts, "outside_parts", "parts of the proxy are seen from outside the scene", "triangle",
+     nullptr},
+    {&CheckReport::unsettled_parts, "unsettled_parts",
+     "parts of the proxy have no closed shell of the scene around them", "triangle", nullptr},
+    {&CheckReport::exposed, "exposed", "triangles of the proxy lie where the outside comes", "triangle", nullptr},
     {&CheckReport::nonconvex_parts, "nonconvex_parts", "parts are not convex, or face inwards", "triangle", "vertex"},
     {&CheckReport::not_held, "not_held", "scene triangles are not covered by the parts", "scene_triangle", nullptr},
     {&CheckReport::undecidable_scene, "undecidable_scene",
@@ -84,20 +88,54 @@ std::string row(const char* question, bool yes) {
   return fmt::format("  {:<28}{}\n", question, yes ? "yes" : "NO");
 }
 
-std::string undecided_row(const char* question) {
-  return fmt::format("  {:<28}NO (only a closed, oriented surface has an outside)\n", question);
+constexpr const char* kNoOutside = "only a closed, oriented surface has an outside";
+
+std::string row(const char* question, Answer answer, const std::string& why) {
+  if (answer != Answer::undecided) return row(question, answer == Answer::proven);
+  return fmt::format("  {:<28}not decided: {}\n", question, why);
+}
+
+/// Why the question about the scene is not decided.
+std::string scene_doubt(const CheckReport& r) {
+  if (!r.sides_decided) return kNoOutside;
+  if (r.undecidable_scene.count > 0) return "the scene has coordinates that are too large or too small";
+  return r.scene_closed ? "the scene is of parts that overlap or touch" : "the scene is open, so it has no inside";
+}
+
+/// Why not all that was asked is decided, though nothing is refuted.
+std::string doubt_of(const CheckReport& r) {
+  if (r.soundness() == Answer::undecided) return "the proxy has coordinates that are too large or too small";
+  return r.asks_hidden ? r.hidden_unknown : scene_doubt(r);
+}
+
+/// Inner walls may lie in what is hidden: then it is no failure.
+std::string inside_rows(const CheckReport& r) {
+  std::string text;
+  const bool other = r.asks_hidden && r.hiddenness() == Answer::proven;  // then these decide nothing
+  const auto add = [&](const char* question, Answer answer) {
+    text += other && answer == Answer::refuted ? fmt::format("  {:<28}no\n", question)
+                                               : row(question, answer, scene_doubt(r));
+  };
+  const bool is_free = r.touching.count + r.swallowed.count == 0;
+  if (r.sides_decided) add("free of the scene", is_free ? Answer::proven : Answer::refuted);
+  add("strictly inside the scene", r.insideness());
+  if (!r.asks_hidden) return text;
+  if (r.hiddenness() != Answer::proven) return text + row("hidden from outside", r.hiddenness(), r.hidden_unknown);
+  return text + fmt::format("  {:<28}yes{}\n", "hidden from outside",
+                            r.openings > 0 ? fmt::format(", with openings below {:.4g} closed", r.openings) : "");
+}
+
+/// Findings that are no failures: what the proxy is asked instead is decided.
+bool is_aside(const CheckReport& r, const FindingText& t) {
+  if (!r.asks_hidden || r.hiddenness() == Answer::undecided) return false;
+  return t.finding == &CheckReport::touching || t.finding == &CheckReport::swallowed ||
+         t.finding == &CheckReport::outside_parts || t.finding == &CheckReport::unsettled_parts;
 }
 
 std::string enclosure_row(const CheckReport& r) {
   if (!r.has_scene) return "";
-  if (r.wants_inside) {
-    const char* question = "strictly inside the scene";
-    if (!r.sides_decided) return undecided_row(question);
-    if (r.scene_closed) return row(question, r.inside());
-    return fmt::format("  {:<28}NO (only a closed, oriented scene has an inside)\n", question);
-  }
-  const char* question = "strictly encloses the scene";
-  return r.sides_decided ? row(question, r.encloses()) : undecided_row(question);
+  if (r.wants_inside) return inside_rows(r);
+  return row("strictly encloses the scene", r.enclosure(), scene_doubt(r));
 }
 
 std::string scene_lines(const CheckReport& r) {
@@ -169,12 +207,28 @@ Json verdict_of(const CheckReport& r) {
   return v;
 }
 
+Json answers_of(const CheckReport& r) {
+  const auto outward = !r.sides_decided ? Answer::undecided : r.outward() ? Answer::proven : Answer::refuted;
+  Json a = {{"mesh", to_string(r.soundness())}, {"outward", to_string(outward)}};
+  if (r.has_scene)
+    a[r.wants_inside ? "inside" : "encloses"] = to_string(r.wants_inside ? r.insideness() : r.enclosure());
+  if (r.wants_inside && r.sides_decided)
+    a["free_of_scene"] = to_string(r.touching.count + r.swallowed.count == 0 ? Answer::proven : Answer::refuted);
+  if (r.asks_hidden) a["hidden"] = to_string(r.hiddenness());
+  return a;
+}
+
 Json json_of(const CheckReport& r, const std::string& proxy_name) {
   Json findings = Json::object();
   for (const FindingText& t : kFindings) findings[t.key] = json_of(r.*t.finding, t);
-  Json proxy = {{"name", proxy_name},         {"triangles", r.triangles},
-                {"vertices", r.vertices},     {"merged_vertices", r.merged_vertices},
-                {"components", r.components}, {"euler", r.euler}};
+  const Json faces = {{"triangles", r.faces.triangles}, {"quads", r.faces.quads}, {"polygons", r.faces.polygons}};
+  Json proxy = {{"name", proxy_name},
+                {"triangles", r.triangles},
+                {"faces", faces},
+                {"vertices", r.vertices},
+                {"merged_vertices", r.merged_vertices},
+                {"components", r.components},
+                {"euler", r.euler}};
   proxy["genus"] = r.genus ? Json(*r.genus) : Json(nullptr);
   const auto json_or_null = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
   Json measures = {{"volume", json_or_null(r.volume)}};
@@ -185,8 +239,15 @@ Json json_of(const CheckReport& r, const std::string& proxy_name) {
   measures["scene_to_proxy"] = json_of(r.scene_to_proxy);
   measures["proxy_to_scene"] = json_of(r.proxy_to_scene);
   measures["note"] = r.distance_note;
-  return {{"holds", r.holds()},     {"verdict", verdict_of(r)}, {"proxy", proxy},
-          {"scene", scene_json(r)}, {"findings", findings},     {"measures", measures}};
+  Json all = {{"holds", r.holds()}, {"answer", to_string(r.answer())}};
+  all["why"] = r.answer() == Answer::undecided ? Json(doubt_of(r)) : Json(nullptr);
+  all["verdict"] = verdict_of(r);
+  all["answers"] = answers_of(r);
+  all["proxy"] = std::move(proxy);
+  all["scene"] = scene_json(r);
+  all["findings"] = std::move(findings);
+  all["measures"] = std::move(measures);
+  return all;
 }
 
 std::string text_of(const Json& json) {
@@ -198,28 +259,32 @@ std::string text_of(const Json& json) {
 std::string failures(const CheckReport& r) {
   std::string text = r.empty() ? "the proxy is empty" : "";
   for (const FindingText& t : kFindings) {
-    if ((r.*t.finding).count == 0) continue;
+    if ((r.*t.finding).count == 0 || is_aside(r, t)) continue;
     if (!text.empty()) text += "; ";
     text += fmt::format("{} {}", (r.*t.finding).count, t.text);
   }
-  if (r.wants_inside && r.sides_decided && !r.scene_closed)
-    text += std::string(text.empty() ? "" : "; ") + "the scene is not closed, so it has no inside";
   return text;
 }
 
 std::string verdict_text(const CheckReport& r, const std::string& proxy_name) {
-  std::string text = fmt::format("proxy {}: {} triangles, {} vertices, {} component{}", proxy_name, r.triangles,
-                                 r.vertices, r.components, r.components == 1 ? "" : "s");
+  std::string text = fmt::format("proxy {}: {}, {} vertices, {} component{}", proxy_name, r.faces.text(), r.vertices,
+                                 r.components, r.components == 1 ? "" : "s");
   if (r.genus) text += fmt::format(", genus {}", *r.genus);
   text.append("\n").append(scene_lines(r));
   text += row("closed", r.closed()) + row("oriented", r.oriented()) + row("2-manifold", r.manifold());
   text += row("free of self-intersections", r.embedded());
-  text += r.sides_decided ? row("facing outwards", r.outward()) : undecided_row("facing outwards");
+  text += row("facing outwards",
+              !r.sides_decided ? Answer::undecided
+              : r.outward()    ? Answer::proven
+                               : Answer::refuted,
+              kNoOutside);
   text += row("no degenerate triangles", r.readable() && r.sound());
   if (r.wants_convex) text += row("each part convex", r.convex());
   text += enclosure_row(r);
-  for (const FindingText& t : kFindings) text += finding_lines(r.*t.finding, t);
+  for (const FindingText& t : kFindings)
+    if (!is_aside(r, t)) text += finding_lines(r.*t.finding, t);
   text += measure_lines(r);
+  if (r.answer() == Answer::undecided) return text + fmt::format("not decided: {}\n", doubt_of(r));
   return text + (r.holds() ? "holds\n" : fmt::format("does not hold: {}\n", failures(r)));
 }
 
@@ -227,24 +292,32 @@ std::string verdict_json(const CheckReport& r, const std::string& proxy_name) {
   return text_of(json_of(r, proxy_name));
 }
 
-bool all_hold(const std::vector<CheckReport>& levels) {
-  return std::all_of(levels.begin(), levels.end(), [](const CheckReport& r) { return r.holds(); });
+Answer answer_of(const std::vector<CheckReport>& levels) {
+  Answer all = Answer::proven;
+  for (const CheckReport& r : levels) all = all_of(all, r.answer());
+  return all;
 }
 
 std::string verdict_text(const std::vector<CheckReport>& levels, const std::string& proxy_name) {
   if (levels.size() == 1) return verdict_text(levels[0], proxy_name);
-  std::string text, failed;
+  std::string text, failed, open;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     text += verdict_text(levels[i], fmt::format("{} level {}", proxy_name, i));
-    if (!levels[i].holds()) failed += fmt::format("{} {}", failed.empty() ? "" : ",", i);
+    const Answer answer = levels[i].answer();
+    if (answer == Answer::refuted) failed += fmt::format("{} {}", failed.empty() ? "" : ",", i);
+    if (answer == Answer::undecided) open += fmt::format("{} {}", open.empty() ? "" : ",", i);
   }
+  if (!open.empty())
+    text += fmt::format("{}: of {} levels these are not decided:{}\n", proxy_name, levels.size(), open);
+  if (failed.empty() && !open.empty()) return text;
   if (failed.empty()) return text + fmt::format("{}: all {} levels hold\n", proxy_name, levels.size());
   return text + fmt::format("{}: of {} levels these do not hold:{}\n", proxy_name, levels.size(), failed);
 }
 
 std::string verdict_json(const std::vector<CheckReport>& levels, const std::string& proxy_name) {
   if (levels.size() == 1) return verdict_json(levels[0], proxy_name);
-  Json all = {{"holds", all_hold(levels)}, {"levels", Json::array()}};
+  const Answer answer = answer_of(levels);
+  Json all = {{"holds", answer == Answer::proven}, {"answer", to_string(answer)}, {"levels", Json::array()}};
   for (const CheckReport& r : levels) all["levels"].push_back(json_of(r, proxy_name));
   return text_of(all);
 }

@@ -16,7 +16,7 @@ namespace bp {
 /// and a last line for all, the JSON is {"holds", "levels": [one object each]}.
 [[nodiscard]] std::string verdict_text(const std::vector<CheckReport>& levels, const std::string& proxy_name);
 [[nodiscard]] std::string verdict_json(const std::vector<CheckReport>& levels, const std::string& proxy_name);
-[[nodiscard]] bool all_hold(const std::vector<CheckReport>& levels);
+[[nodiscard]] Answer answer_of(const std::vector<CheckReport>& levels);
 
 /// What does not hold, in a few words: "not closed, 3 scene triangles outside"; empty if all holds.
 [[nodiscard]] std::string failures(const CheckReport& report);

@@ -1,5 +1,6 @@
 #pragma once
 #include "lib/core/box.h"
+#include "lib/core/up_axis.h"
 
 /// World <-> voxel. The frame is chosen so that every lattice vertex is *exactly* a double in scene units
 /// (docs/decisions/0001-exact-frame.md): the voxel size has few significant bits, and the origin is a whole number of
@@ -7,12 +8,10 @@
 /// double.
 namespace bp {
 
-enum class UpAxis { y, z };
-
 struct GridFrame {
   double voxel = 1;                      ///< edge of a voxel, scene units; exact_voxel_size() made it
   std::array<std::int64_t, 3> origin{};  ///< corner of voxel (0,0,0), in voxels from the scene's origin
-  UpAxis up = UpAxis::y;                 ///< of the scene; glTF outputs of a z-up scene carry a root rotation
+  UpAxis up = UpAxis::y;                 ///< of the scene; glTF outputs are turned to y up
 
   /// Scene units of a lattice point; exact while |64 origin + p| < 2^(53 - bits of voxel), which make_frame ensures.
   [[nodiscard]] Vec3d world(LatticeCoord p) const {

@@ -28,6 +28,20 @@ struct Provenance {
   friend bool operator==(const Provenance&, const Provenance&) = default;
 };
 
+/// The files that a stream was made from: enough to read the same triangles again, and to know that they are the same.
+struct SceneFiles {
+  struct File {
+    std::string name;         ///< as given on the command line
+    std::uint64_t bytes = 0;  ///< of the file itself; files that it names are not counted
+    friend bool operator==(const File&, const File&) = default;
+  };
+  std::vector<File> files;      ///< in the order of reading; empty: not known, as of a scene from a pipe
+  std::string format;           ///< of names that do not tell it; empty: all names do
+  std::uint64_t triangles = 0;  ///< of all files
+  std::string hash;             ///< XXH3-128 of the coordinates of all triangles in their order, hex
+  friend bool operator==(const SceneFiles&, const SceneFiles&) = default;
+};
+
 /// Everything a reader must know before the first brick.
 struct StreamHeader {
   GridFrame frame;
@@ -39,6 +53,7 @@ struct StreamHeader {
   ScaleField scale;  ///< of the closing; meaningful if has_closing
   StructuringElement element = StructuringElement::cube;
   std::vector<Provenance> provenance;
+  SceneFiles scene;
   friend bool operator==(const StreamHeader&, const StreamHeader&) = default;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <optional>
 
 #include "lib/image/render.h"
 
@@ -8,7 +9,7 @@ namespace bp {
 /// Orthographic: x to the right and y down in samples, depth away from the viewer in samples too.
 class Camera {
  public:
-  explicit Camera(const RenderOptions& o) : z_up_(o.up == UpAxis::z) {
+  explicit Camera(const RenderOptions& o) : axes_(o.up) {
     const double a = o.azimuth * (M_PI / 180), e = o.elevation * (M_PI / 180);
     right_ = {std::cos(a), std::sin(a), 0};
     forward_ = {-std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), -std::sin(e)};  // from the viewer
@@ -20,9 +21,7 @@ class Camera {
 
   /// Right, up, forward of a point of the scene, in scene units from the point looked at.
   [[nodiscard]] Vec3d seen(const Vec3d& p) const {
-    const Vec3d d{p[0] - origin_[0], p[1] - origin_[1], p[2] - origin_[2]};
-    const Vec3d v = z_up_ ? d : Vec3d{d[0], -d[2], d[1]};
-    return {dot(v, right_), dot(v, up_), dot(v, forward_)};
+    return along_axes({p[0] - origin_[0], p[1] - origin_[1], p[2] - origin_[2]});
   }
 
   /// Shows what lies within these bounds of seen() in width x height samples, with a margin.
@@ -30,21 +29,40 @@ class Camera {
     const double w = bounds.max[0] - bounds.min[0], h = bounds.max[1] - bounds.min[1];
     const double scale = 0.92 * std::min(width / w, height / h);
     scale_ = std::isfinite(scale) && scale > 0 ? scale : 1;
-    offset_x_ = width / 2.0 - scale_ * (bounds.min[0] / 2 + bounds.max[0] / 2);
-    offset_y_ = height / 2.0 + scale_ * (bounds.min[1] / 2 + bounds.max[1] / 2);
+    for (std::size_t i = 0; i < 3; ++i) centre_[i] = bounds.min[i] / 2 + bounds.max[i] / 2;
+    middle_x_ = width / 2.0, middle_y_ = height / 2.0;
+  }
+
+  /// After fit(): that many times as large, with `centre`, a point of the scene, in the middle.
+  void zoom(double factor, const std::optional<Vec3d>& centre) {
+    scale_ *= factor;
+    if (centre) centre_ = seen(*centre);
   }
 
   [[nodiscard]] Vec3d project(const Vec3d& p) const {
     const Vec3d d = seen(p);
-    return {offset_x_ + scale_ * d[0], offset_y_ - scale_ * d[1], scale_ * d[2]};
+    return {middle_x_ + scale_ * (d[0] - centre_[0]), middle_y_ - scale_ * (d[1] - centre_[1]),
+            scale_ * (d[2] - centre_[2])};
   }
 
+  /// Right, down, away from the viewer of a direction, at its length.
+  [[nodiscard]] Vec3d turned(const Vec3d& direction) const {
+    const Vec3d d = along_axes(direction);
+    return {d[0], 0 - d[1], d[2]};
+  }
+
+  [[nodiscard]] double samples_per_unit() const { return scale_; }
+
  private:
+  [[nodiscard]] Vec3d along_axes(const Vec3d& d) const {
+    const Vec3d v = bp::turned(d, axes_, UpAxis::z);
+    return {dot(v, right_), dot(v, up_), dot(v, forward_)};
+  }
   static double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-  bool z_up_;
-  Vec3d right_{}, up_{}, forward_{}, origin_{};
-  double scale_ = 1, offset_x_ = 0, offset_y_ = 0;
+  UpAxis axes_;
+  Vec3d right_{}, up_{}, forward_{}, origin_{}, centre_{};
+  double scale_ = 1, middle_x_ = 0, middle_y_ = 0;
 };
 
 }  // namespace bp

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lib/core/parallel.h"
+#include "lib/image/clip.h"
 
 namespace bp {
 
@@ -12,8 +13,9 @@ namespace {
 
 constexpr int kSubBits = 8;  // corners snap to 1/256 sample: edges are then decided in integers, without cracks
 constexpr double kSub = 1 << kSubBits;
-constexpr double kMaxCoordinate = 1 << 22;  // samples; products of two differences stay below 2^63
-constexpr int kBand = 32;                   // rows per work item
+constexpr double kMaxCoordinate = 1 << 22;       // samples; products of two differences stay below 2^63
+constexpr double kClipped = kMaxCoordinate / 2;  // where what reaches beyond that is cut off
+constexpr int kBand = 32;                        // rows per work item
 
 double shade(const Vec3d& n) {
   // Key light from the upper left, fill light from the right, both from the viewer's side; a normal turned away is
@@ -52,6 +54,23 @@ bool drawable(const Vec3d& p) {
   return std::abs(p[0]) < kMaxCoordinate && std::abs(p[1]) < kMaxCoordinate &&
          std::abs(p[2]) < std::numeric_limits<float>::max();
 }
+bool drawable(const TriangleD& t) {
+  return drawable(t[0]) && drawable(t[1]) && drawable(t[2]);
+}
+
+/// The plain colour of a clipped triangle, or its own ones.
+Color color_of_part(const ClippedTriangle&, Color color) {
+  return color;
+}
+const TriangleColors& color_of_part(const ClippedTriangle& t, const TriangleColors&) {
+  return t.colors;
+}
+std::vector<ClippedTriangle> clipped(const TriangleD& t, Color) {
+  return clip(t, TriangleColors{}, kClipped);
+}
+std::vector<ClippedTriangle> clipped(const TriangleD& t, const TriangleColors& colors) {
+  return clip(t, colors, kClipped);
+}
 
 /// Right or below the edge counts as inside, so that samples on a shared edge belong to one triangle.
 bool owns_its_samples(std::int64_t dx, std::int64_t dy) {
@@ -89,7 +108,7 @@ struct Canvas::Shaded {
     return varies ? scaled(shown(at(0), at(1), at(2)), s) : color;
   }
   Shaded(const TriangleD& t, Color base, int width, int height) {
-    if (!drawable(t[0]) || !drawable(t[1]) || !drawable(t[2])) return;
+    if (!drawable(t)) return;
     const Vec3d u{t[1][0] - t[0][0], t[1][1] - t[0][1], t[1][2] - t[0][2]};
     const Vec3d v{t[2][0] - t[0][0], t[2][1] - t[0][1], t[2][2] - t[0][2]};
     Vec3d n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
@@ -146,6 +165,11 @@ void Canvas::draw_shaded(std::span<const TriangleD> triangles, const ColorOf& co
       for (auto i = std::size_t(b); i < std::size_t(e); ++i)
         ready[i] = Shaded(triangles[begin + i], color_of(begin + i), width_, height_);
     });
+    for (std::size_t i = begin; i < begin + n; ++i) {
+      if (drawable(triangles[i])) continue;
+      for (const ClippedTriangle& part : clipped(triangles[i], color_of(i)))
+        ready.emplace_back(part.corners, color_of_part(part, color_of(i)), width_, height_);
+    }
     for_each_band([&](Row rows) {
       for (const Shaded& t : ready)
         if (t.y_min < rows.end && t.y_max >= rows.begin && t.x_min <= t.x_max) fill(t, rows);
@@ -192,8 +216,8 @@ bool Canvas::hidden(double x, double y, double depth) const {
 
 void Canvas::draw_lines(std::span<const std::array<Vec3d, 2>> lines, Color color, double half_width) {
   for_each_band([&](Row rows) {
-    for (const auto& line : lines) {
-      if (!drawable(line[0]) || !drawable(line[1])) continue;
+    for (std::array<Vec3d, 2> line : lines) {
+      if ((!drawable(line[0]) || !drawable(line[1])) && !clip(line, kClipped)) continue;
       const double low = std::min(line[0][1], line[1][1]) - half_width - 1;
       const double high = std::max(line[0][1], line[1][1]) + half_width + 1;
       if (low < rows.end && high >= rows.begin) draw_line(line, color, half_width, rows);

@@ -14,7 +14,8 @@ class Canvas {
  public:
   Canvas(int width, int height, Color background);
 
-  /// Flat shaded, facing either way. Coordinates that are not finite or beyond 2^22 samples are left out. Parallel.
+  /// Flat shaded, facing either way. Triangles are cut off far beyond the canvas (2^21 samples); those with coordinates
+  /// that are not finite are left out. Parallel.
   void draw(std::span<const TriangleD> triangles, Color color);
   /// The same with colours of their own, one for each triangle.
   void draw(std::span<const TriangleD> triangles, std::span<const TriangleColors> colors);

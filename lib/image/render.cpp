@@ -1,21 +1,18 @@
 #include "lib/image/render.h"
 
 #include <algorithm>
-#include <string_view>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/image/camera.h"
 #include "lib/image/canvas.h"
-#include "lib/image/font.h"
+#include "lib/image/legend.h"
 
 namespace bp {
 
 namespace {
 
-constexpr int kSamples = 2;      // per pixel and direction
-constexpr int kTextScale = 2;    // pixels a dot
-constexpr int kLineHeight = 20;  // pixels
+constexpr int kSamples = 2;  // per pixel and direction
 constexpr std::size_t kBatch = 1 << 15;
 
 bool finite(const Vec3d& p) {
@@ -60,7 +57,7 @@ std::vector<Vec3d> corners_of(const Bounds3d& b) {
 bool aim(Camera& camera, std::span<const View> views, const Bounds3d& bounds, const RenderOptions& options) {
   Bounds3d seen;
   const auto see = [&](const Vec3d& p) {
-    if (seen.empty()) camera.look_at(p);  // any point of the scene will do
+    if (seen.empty()) camera.look_at(options.look_at.value_or(p));  // any point of the scene will do
     seen.add(camera.seen(p));
   };
   if (bounds.empty()) {
@@ -70,6 +67,7 @@ bool aim(Camera& camera, std::span<const View> views, const Bounds3d& bounds, co
   }
   if (seen.empty()) return false;
   camera.fit(seen, options.panel_width * kSamples, options.panel_height * kSamples);
+  camera.zoom(options.zoom, options.look_at);
   return true;
 }
 
@@ -158,23 +156,22 @@ std::vector<std::array<Vec3d, 2>> edges_of(const View& view, const Camera& camer
   return edges;
 }
 
-int lines_in(std::string_view label) {
-  return label.empty() ? 0 : 1 + int(std::count(label.begin(), label.end(), '\n'));
+/// Axes, ruler and label of panel i.
+void draw_legend(Image& image, const Legend& legend, const View& view, const Camera& camera, std::size_t i,
+                 const RenderOptions& options) {
+  const int x = int(i) * options.panel_width, below = options.panel_height;
+  std::array<Vec3d, 3> axes;
+  for (std::size_t k = 0; k < 3; ++k) axes[k] = camera.turned(view.axes[k]);
+  legend.draw_axes(image, x, below, axes);
+  legend.draw_ruler(image, x + options.panel_width, below, camera.samples_per_unit() / kSamples);
+  legend.write(image, x, below, legend.lines(view.label));
 }
 
-/// Centred lines below a panel; a line too long for the panel keeps its end, where names differ.
-void write_label(Image& image, int x, int y, int width, std::string_view label, Color ink) {
-  while (!label.empty()) {
-    const std::size_t end = std::min(label.find('\n'), label.size());
-    std::string_view line = label.substr(0, end);
-    int scale = kTextScale;
-    if (text_width(line, scale) > width) scale = 1;
-    const auto fitting = std::size_t(std::max(1, width / (kGlyphAdvance * scale)));
-    if (line.size() > fitting) line.remove_prefix(line.size() - fitting);
-    draw_text(image, x + (width - text_width(line, scale)) / 2, y, line, scale, ink);
-    label.remove_prefix(std::min(end + 1, label.size()));
-    y += kLineHeight;
-  }
+/// Where one panel ends and the next one begins; a part in detail fills its panel.
+void draw_borders(Image& image, const RenderOptions& options) {
+  constexpr Color kBorder{205, 208, 214};
+  for (int x = options.panel_width; x < image.width; x += options.panel_width)
+    for (int y = 0; y < image.height; ++y) image.at(x, y) = kBorder;
 }
 
 }  // namespace
@@ -186,9 +183,10 @@ Image render(std::span<const View> views, const RenderOptions& options) {
     fail(ErrorCode::bad_argument,
          "image of {} panels, {} x {} pixels each: sides must be {} to {}, all panels together", columns, w, h,
          kLeastPanelSide, kMostImageSide);
-  int lines = 0;
-  for (const View& v : views) lines = std::max(lines, lines_in(v.label));
-  Image image(w * columns, h + (lines > 0 ? lines * kLineHeight + 8 : 0), options.background);
+  const Legend legend(w, options.typeface, options.marks, options.ink, options.background);
+  std::size_t lines = 0;
+  for (const View& v : views) lines = std::max(lines, legend.lines(v.label).size());
+  Image image(w * columns, h + legend.height(lines), options.background);
 
   Camera common(options);
   const bool anything = aim(common, views, options.bounds, options);
@@ -201,8 +199,9 @@ Image render(std::span<const View> views, const RenderOptions& options) {
       if (views[i].edges) canvas.draw_lines(edges_of(views[i], camera), options.ink, 0.9);
     }
     canvas.resolve(image, int(i) * w, 0);
-    write_label(image, int(i) * w, h, w, views[i].label, options.ink);
+    draw_legend(image, legend, views[i], camera, i, options);
   }
+  if (options.marks) draw_borders(image, options);
   return image;
 }
 

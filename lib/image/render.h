@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -6,6 +8,7 @@
 #include "lib/core/indexed_mesh.h"
 #include "lib/core/triangle_source.h"
 #include "lib/image/image.h"
+#include "lib/image/typeface.h"
 
 /// A small software rasteriser: meshes side by side, each with its label below. Needs no display. The same bytes on
 /// every run and for any number of threads.
@@ -23,17 +26,22 @@ struct View {
   std::span<const std::uint8_t> inner_edges;  ///< of `triangles` (TriangleSource::read_faces()); empty: none
   bool edges = false;  ///< draws the edges of `mesh` and `triangles`, but inner ones, as dark lines
   Bounds3d bounds;     ///< what to show, at a scale of its own; empty: as RenderOptions say
-  std::string label;   ///< lines separated by \n
+  std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};  ///< that the panel shows as x, y, z
+  std::string label;                                                          ///< lines separated by \n
 };
 
 constexpr int kLeastPanelSide = 16, kMostImageSide = 16384;  ///< pixels; the latter of all panels together
 
 struct RenderOptions {
-  int panel_width = 720, panel_height = 720;  ///< pixels; the labels come below
+  int panel_width = 720, panel_height = 720;  ///< pixels; axes and labels come below
   double azimuth = 35;  ///< degrees that the viewer stands to the right of the front (-y of a z-up scene, +z of a y-up)
   double elevation = 22;  ///< degrees above the horizon
   UpAxis up = UpAxis::y;
-  Bounds3d bounds;  ///< what to show, scene units; empty: all that is drawn, as large as it fits
+  Bounds3d bounds;                 ///< what to show, scene units; empty: all that is drawn, as large as it fits
+  double zoom = 1;                 ///< times as large as it fits
+  std::optional<Vec3d> look_at{};  ///< point in the middle of every panel; none: the middle of what it shows
+  Typeface* typeface = nullptr;    ///< of labels; null: none are drawn
+  bool marks = false;              ///< axes and a ruler, in panels that are not too small; lines between panels
   Color background{255, 255, 255}, ink{40, 44, 52};
 };
 

@@ -1,14 +1,18 @@
 #include "lib/meshing/convex_parts.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
 
 #include "lib/core/parallel.h"
+#include "lib/meshing/convex_budget.h"
 #include "lib/meshing/convex_cut.h"
 #include "lib/meshing/convex_merge.h"
+#include "lib/meshing/convex_shape.h"
 #include "lib/meshing/convex_simplify.h"
+#include "lib/meshing/convex_tighten.h"
 
 namespace bp {
 
@@ -38,9 +42,10 @@ LatticeMesh part_of(const LatticeMesh& mesh, const std::vector<Face>& faces) {
   return part;
 }
 
-constexpr double kSmall = 2e-3;           // of the volume: what a hull may have above the solid in it
-constexpr double kGrowth = 0.01;          // of a hull's volume, for fewer corners
-constexpr std::size_t kCellsPerHull = 4;  // what is joined again knows more than what was cut first
+constexpr double kSmall = 2e-3;            // of the volume: what a hull may have above the solid in it
+constexpr double kGrowth = 0.01;           // of a hull's volume, for fewer corners
+constexpr std::uint64_t kFewestFaces = 4;  // of a closed surface
+constexpr std::size_t kCellsPerHull = 4;   // what is joined again knows more than what was cut first
 
 LatticeMesh mesh_of(const LatticeMesh& mesh, ConvexHull hull) {
   LatticeMesh made;
@@ -74,6 +79,65 @@ std::vector<SolidCell> solids_of(const LatticeMesh& mesh) {
   return {outer.begin(), outer.end()};
 }
 
+double volume6_of(const std::vector<ConvexHull>& hulls) {
+  double sum = 0;
+  for (const ConvexHull& hull : hulls) sum += volume6_of(hull);
+  return sum;
+}
+
+/// Sets corners of different hulls apart, which may make slivers again.
+void set_apart(std::vector<ConvexHull>& hulls) {
+  for (int round = 0; round < 4; ++round) {
+    set_corners_apart(hulls);
+    bool fine = true;
+    for (ConvexHull& hull : hulls) {
+      draw_diagonals(hull);
+      if (slivers_of(hull) == 0) continue;
+      fine = false;
+      hull = without_slivers(std::move(hull));
+    }
+    if (fine) return;
+  }
+  set_corners_apart(hulls);
+}
+
+/// Hulls around `hulls` with no more faces than are wanted.
+std::vector<ConvexHull> simplified(const std::vector<ConvexHull>& hulls, std::uint64_t faces, bool& short_of_faces) {
+  std::vector<ConvexHull> fewer = hulls;
+  parallel_for(std::int64_t(fewer.size()), [&](std::int64_t i) {
+    ConvexHull& hull = fewer[std::size_t(i)];
+    hull = without_slivers(with_fewer_corners(std::move(hull), kMostCorners, kGrowth));
+  });
+  if (faces > 0 && face_count(fewer) > faces) {
+    short_of_faces = true;
+    keep_to_faces(fewer, faces);
+  }
+  parallel_for(std::int64_t(fewer.size()), [&](std::int64_t i) {
+    ConvexHull& hull = fewer[std::size_t(i)];
+    hull = tightened(std::move(hull), hulls[std::size_t(i)].vertices);
+  });
+  return fewer;
+}
+
+/// As many hulls as leave least volume within the faces, but not more than `most`.
+std::vector<ConvexHull> few_hulls(const std::vector<Wrapped>& wrapped, std::size_t most, std::uint64_t faces,
+                                  double small6, bool& short_of_faces) {
+  constexpr double kWorse = 1.03;  // volume at which fewer hulls are not tried any more
+  std::vector<ConvexHull> best;
+  double least6 = std::numeric_limits<double>::infinity();
+  for (std::size_t count = most; count > 0; count = count * 3 / 4) {
+    const std::vector<ConvexHull> joined = merge_hulls(wrapped, count, small6);
+    count = std::min(count, joined.size());
+    std::vector<ConvexHull> hulls = simplified(joined, faces, short_of_faces);
+    if (!short_of_faces) return hulls;
+    if (face_count(hulls) > faces && count > 1) continue;  // four for each are too many
+    const double now6 = volume6_of(hulls);
+    if (now6 > kWorse * least6) break;
+    if (now6 < least6) least6 = now6, best = std::move(hulls);
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<LatticeMesh> components_of(const LatticeMesh& mesh) {
@@ -95,7 +159,7 @@ std::vector<LatticeMesh> components_of(const LatticeMesh& mesh) {
   return parts;
 }
 
-ConvexParts convex_parts(const LatticeMesh& mesh, std::size_t most) {
+ConvexParts convex_parts(const LatticeMesh& mesh, std::size_t most, std::uint64_t faces) {
   std::vector<SolidCell> solids = solids_of(mesh);
   ConvexParts parts;
   parts.solids = solids.size();
@@ -113,11 +177,9 @@ ConvexParts convex_parts(const LatticeMesh& mesh, std::size_t most) {
     if (found[i])
       wrapped.push_back({std::move(*found[i]), cells[i].volume6(), solid});  // a cell may have nothing of the solid
   }
-  std::vector<ConvexHull> hulls = merge_hulls(std::move(wrapped), most, small6);
-  parallel_for(std::int64_t(hulls.size()), [&](std::int64_t i) {
-    hulls[std::size_t(i)] = with_fewer_corners(std::move(hulls[std::size_t(i)]), kMostCorners, kGrowth);
-  });
-  set_corners_apart(hulls);
+  if (faces > 0) faces = std::max(faces, kFewestFaces);
+  std::vector<ConvexHull> hulls = few_hulls(wrapped, most, faces, small6, parts.short_of_faces);
+  set_apart(hulls);
   parts.limited = hulls.size() >= most;
   for (ConvexHull& hull : hulls) parts.hulls.push_back(mesh_of(mesh, std::move(hull)));
   return parts;

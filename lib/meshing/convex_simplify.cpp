@@ -1,101 +1,17 @@
 #include "lib/meshing/convex_simplify.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <set>
 
 #include "lib/meshing/box_tree.h"
-#include "lib/meshing/constrained_minimum.h"
+#include "lib/meshing/convex_steps.h"
 #include "lib/meshing/lattice_geometry.h"
 
 namespace bp {
 
 namespace {
-
-/// An edge, and the point that would take its place.
-struct Step {
-  std::uint32_t a, b;
-  LatticeCoord point;
-  double cost6;  // six times the volume between the hull and the point
-};
-
-class Steps {
- public:
-  explicit Steps(const ConvexHull& hull) : hull_(hull), near_(box_of(hull.vertices)), around_(hull.vertices.size()) {
-    const LatticeCoord size = near_.max - near_.min;
-    near_ = {near_.min - size, near_.max + size};
-    for (std::uint32_t f = 0; f < hull.triangles.size(); ++f) {
-      const auto& t = hull.triangles[f];
-      normals_.push_back(to_double(normal_of(hull.vertices[t[0]], hull.vertices[t[1]], hull.vertices[t[2]])));
-      for (const std::uint32_t v : t) around_[v].push_back(f);
-    }
-  }
-
-  /// One for each edge that has one, cheapest first.
-  [[nodiscard]] std::vector<Step> all() const {
-    std::vector<Step> steps;
-    for (const auto& t : hull_.triangles) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-        if (a > b) continue;
-        if (const auto point = point_beyond(a, b)) steps.push_back({a, b, *point, volume6_to(*point)});
-      }
-    }
-    std::stable_sort(steps.begin(), steps.end(), [](const Step& x, const Step& y) { return x.cost6 < y.cost6; });
-    return steps;
-  }
-
-  /// A place that may take that of a corner alone.
-  [[nodiscard]] std::optional<LatticeCoord> point_beyond(std::uint32_t v) const { return point_beyond(v, v); }
-
-  /// Corners of the faces around both ends of the edge: another step there would be for another hull.
-  [[nodiscard]] std::vector<std::uint32_t> reach(const Step& step) const {
-    std::vector<std::uint32_t> corners;
-    for (const std::uint32_t v : {step.a, step.b}) {
-      for (const std::uint32_t f : around_[v])
-        corners.insert(corners.end(), hull_.triangles[f].begin(), hull_.triangles[f].end());
-    }
-    return corners;
-  }
-
- private:
-  /// Beyond the planes of all faces around the edge, and near them.
-  [[nodiscard]] std::optional<LatticeCoord> point_beyond(std::uint32_t a, std::uint32_t b) const {
-    constexpr double kToLattice = 0.9;  // rounding to the lattice moves a point by half the diagonal of a cube, 0.87
-    const LatticeCoord base = hull_.vertices[a];
-    Quadric quadric;
-    std::vector<PlaneConstraint> planes;
-    for (const std::uint32_t v : {a, b}) {
-      for (const std::uint32_t f : around_[v]) {
-        const double area2 = length(normals_[f]);
-        const Vec3d n = (1 / area2) * normals_[f];
-        const double d = dot(n, to_double(hull_.vertices[v] - base));
-        quadric.add_plane(n, -d, area2);
-        planes.push_back({n, d + kToLattice});
-      }
-    }
-    const Vec3d middle = 0.5 * to_double(hull_.vertices[b] - base);
-    const std::optional<Vec3d> x = constrained_minimum(quadric, middle, planes);
-    if (!x) return {};
-    const LatticeCoord point = base + rounded(*x);
-    if (!near_.holds({point, point})) return {};
-    return point;
-  }
-
-  [[nodiscard]] double volume6_to(const LatticeCoord& p) const {
-    double sum = 0;
-    for (std::size_t f = 0; f < normals_.size(); ++f)
-      sum += std::max(0.0, dot(normals_[f], to_double(p - hull_.vertices[hull_.triangles[f][0]])));
-    return sum;
-  }
-
-  const ConvexHull& hull_;
-  LatticeBox near_;  // beyond it lie solutions of nearly singular systems
-  std::vector<Vec3d> normals_;
-  std::vector<std::vector<std::uint32_t>> around_;  // per vertex: its faces
-};
 
 /// The corners of cells of a coarser lattice around each corner: for what has no cheaper way. At the coarsest, a box.
 ConvexHull snapped(const ConvexHull& hull, std::size_t most) {
@@ -137,25 +53,19 @@ bool is_corner(const ConvexHull& hull, const LatticeCoord& v) {
   return std::find(hull.vertices.begin(), hull.vertices.end(), v) != hull.vertices.end();
 }
 
-ConvexHull with_point(const ConvexHull& hull, const LatticeCoord& point) {
-  std::vector<LatticeCoord> points = hull.vertices;
-  points.push_back(point);
-  return *hull_of(points);
-}
-
 }  // namespace
 
 ConvexHull with_fewer_corners(ConvexHull hull, std::size_t most, double growth) {
   double left6 = growth * volume6_of(hull);
   while (hull.vertices.size() > 4) {
-    const Steps steps(hull);
+    const HullSteps steps(hull);
     std::vector<LatticeCoord> points = hull.vertices;
     std::vector<char> taken(hull.vertices.size(), 0);
     const std::size_t before = hull.vertices.size();
-    const std::vector<Step> sorted = steps.all();
+    const std::vector<HullStep> sorted = steps.all();
     const std::size_t cheap = before > most ? 1 + sorted.size() / 16 : 0;  // taken in any case, few at a time
     for (std::size_t i = 0; i < sorted.size(); ++i) {
-      const Step& step = sorted[i];
+      const HullStep& step = sorted[i];
       if (step.cost6 > left6 && i >= cheap) break;
       const std::vector<std::uint32_t> reach = steps.reach(step);
       if (std::any_of(reach.begin(), reach.end(), [&](std::uint32_t v) { return taken[v] != 0; })) continue;
@@ -181,7 +91,7 @@ void set_corners_apart(std::vector<ConvexHull>& hulls) {
                                        [&](const LatticeCoord& v) { return taken.count(v) != 0; });
       if (shared == hull.vertices.end()) break;
       const LatticeCoord corner = *shared;
-      const auto beyond = Steps(hull).point_beyond(std::uint32_t(shared - hull.vertices.begin()));
+      const auto beyond = HullSteps(hull).point_beyond(std::uint32_t(shared - hull.vertices.begin()));
       ConvexHull next = with_point(hull, beyond ? *beyond : point_behind(hull, corner));
       if (is_corner(next, corner)) next = with_point(hull, point_behind(hull, corner));
       hull = std::move(next);

@@ -258,8 +258,7 @@ void EnclosedTriangles::report(const TriangleD& triangle, Blocker& blocker) cons
 }
 
 std::uint64_t EnclosedTriangles::bytes() const {
-  constexpr std::uint64_t kBytesInTree = 40;
-  return triangles_.size() * (sizeof(TriangleD) + sizeof(EightTriangles) / 8 + kBytesInTree + kBytesPerContactPoint);
+  return triangles_.size() * kBytesEach;
 }
 
 std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin, const LatticeBox& within) const {

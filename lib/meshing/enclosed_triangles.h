@@ -21,6 +21,9 @@ class EnclosedTriangles : public Enclosed {
                             Blocker* blocker) const override;
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override;
   [[nodiscard]] std::uint64_t bytes() const override;
+  /// The triangle, its corners in floats, about 40 for the tree, and a contact point.
+  static constexpr std::uint64_t kBytesEach =
+      sizeof(TriangleD) + sizeof(EightTriangles) / 8 + 40 + kBytesPerContactPoint;
 
  private:
   class Swept;

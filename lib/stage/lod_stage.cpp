@@ -266,7 +266,12 @@ struct LodChain::State {
     params.mode = options.mode;
     params.tighten = options.tighten;
     params.enclose = options.enclose;
+    if (options.enclose == Enclose::scene) {  // distances are to its voxels, as without
+      params.scene = options.scene;
+      params.distances_to = Enclose::input;
+    }
     if (options.mode == MeshMode::fit) {
+      params.distances_to.reset();
       params.enclose = options.scene.empty() ? Enclose::closing : Enclose::scene;
       params.scene = options.scene;
     }

@@ -43,8 +43,10 @@ struct LodGround {
 struct LodOptions {
   ClosingParams closing;
   MeshMode mode = MeshMode::bounding;  ///< bounding or fit
-  Enclose enclose = Enclose::input;    ///< of bounding levels: closing or input
-  std::vector<TriangleD> scene;        ///< what fits are drawn to, scene units; empty: they follow the closing
+  Enclose enclose = Enclose::input;    ///< of bounding levels
+  /// The scene's triangles, scene units: of Enclose::scene, and what fits are drawn to; without, these follow the
+  /// closing.
+  std::vector<TriangleD> scene;
   /// Voxels of the solid that hold a point of what the scene shows to the outside; null: those of its boundary.
   std::shared_ptr<const BrickShelf> surface;
   double least_scale_world = 0;  ///< no level is closed at less

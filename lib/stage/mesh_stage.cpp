@@ -7,8 +7,10 @@
 #include "lib/grid/boundary_rects.h"
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/count_bits.h"
+#include "lib/meshing/enclosed_scene.h"
 #include "lib/meshing/enclosed_triangles.h"
 #include "lib/meshing/enclosed_voxels.h"
+#include "lib/meshing/few_faces.h"
 #include "lib/meshing/flatten.h"
 #include "lib/meshing/lattice_geometry.h"
 #include "lib/meshing/quad_slack.h"
@@ -164,6 +166,8 @@ std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& para
            "--enclose: the scene named lies not inside the voxels of the stream, so the stream was made from another "
            "one; name the scene that bpvox read");
     }
+    if (params.near && params.mode == MeshMode::bounding)
+      return std::make_unique<EnclosedScene>(std::move(params.scene), frame, *shelves.input);
     return std::make_unique<EnclosedTriangles>(std::move(params.scene), frame);
   }
   if (params.enclose == Enclose::closing)
@@ -178,10 +182,10 @@ Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& star
   Ground ground;
   const bool target = params.mode == MeshMode::fit && params.enclose == Enclose::scene;
   if (params.error_world > 0 || params.distances || target) {
-    ground.surface = params.enclose == Enclose::scene ? params.scene
-                     : params.enclose == Enclose::input
-                         ? rect_triangles(*shelves.input, start.surface->frame(), params.memory)
-                         : merged_triangles(*start.surface, params.memory);
+    const Enclose to = params.distances_to.value_or(params.enclose);
+    ground.surface = to == Enclose::scene   ? params.scene
+                     : to == Enclose::input ? rect_triangles(*shelves.input, start.surface->frame(), params.memory)
+                                            : merged_triangles(*start.surface, params.memory);
     ground.tree = std::make_unique<TriangleBvh>(ground.surface);
   }
   if (params.tighten && params.mode != MeshMode::fit)
@@ -232,10 +236,12 @@ LatticeMesh use_room(LatticeMesh proxy, const Enclosed& enclosed, SimplifyParams
   return proxy;
 }
 
-/// One level, from the surface of all that it must enclose.
-LatticeMesh make_level(const SurfaceSource& dense, const Enclosed* enclosed, const SimplifyParams& params,
+/// One level, from the surface of all that it must enclose. `few`: nothing but a number of faces below kFewFaces
+/// matters.
+LatticeMesh make_level(const SurfaceSource& dense, const Enclosed* enclosed, const SimplifyParams& params, bool few,
                        LevelCounts& counts) {
   if (enclosed == nullptr) return simplify(dense, params, counts.simplify);
+  if (few) return tight_proxy_of_few(dense, *enclosed, params, counts.simplify, counts.tighten);
   LatticeMesh proxy = tight_proxy(dense, *enclosed, params, counts.simplify, counts.tighten);
   return params.limits == nullptr ? proxy : use_room(std::move(proxy), *enclosed, params, counts);
 }
@@ -376,7 +382,9 @@ class LevelMaker {
       if (faces >= kLeastFacesWithRoom) params.room = room_around(dense.box(), faces);  // the box reads all voxels
       if (params_.near && params.limits == nullptr && faces > 0)
         params.reach = (header_.scale.base / dense.frame().voxel + 1) * kLatticePerVoxel;
-      LatticeMesh proxy = make_level(dense, enclosed, params, counts);
+      const bool few = faces > 0 && faces < kFewFaces && params.limits == nullptr && !params.edge_limit &&
+                       !params_.near && !inside();
+      LatticeMesh proxy = make_level(dense, enclosed, params, few, counts);
       if (!params_.quads) return proxy;
       if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);
       proxy.quads = pair_triangles(proxy, QuadKeeps::enclosed, enclosed);
@@ -421,7 +429,9 @@ std::vector<LatticeMesh> mesh_stream(BrickSource& source, const ShelfFactory& ma
   const StreamHeader& header = source.header();
   check_fill(params, header);
   const bool distances = params.error_world > 0 || params.distances;
-  const bool want_input = (params.tighten || distances) && params.enclose == Enclose::input;
+  const bool near_scene = params.mode == MeshMode::bounding && params.near && params.enclose == Enclose::scene;
+  const bool want_input = (params.tighten && (params.enclose == Enclose::input || near_scene)) ||
+                          (distances && params.distances_to.value_or(params.enclose) == Enclose::input);
   const Shelves shelves = read_layers(source, make_shelf, want_input, counts);
   counts.solid_volume_world = double(counts.voxels) * std::pow(header.frame.voxel, 3);
   if (params.mode != MeshMode::inside) {

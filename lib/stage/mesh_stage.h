@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "lib/grid/stream.h"
 #include "lib/meshing/simplify.h"
 #include "lib/meshing/tighten.h"
@@ -30,7 +32,9 @@ struct MeshParams {
   double edge_factor = 0;   ///< edges at most edge_factor * S long, S the scale field there; 0: no limit
   Enclose enclose = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
-  bool tighten = true;           ///< afterwards, lower the volume while what is enclosed stays inside
+  /// What distances count from, if not from what is enclosed; closing: the surface of what is meshed.
+  std::optional<Enclose> distances_to;
+  bool tighten = true;  ///< afterwards, lower the volume while what is enclosed stays inside
   /// inside: parts whose volume is below this share of the largest one's are left out, at each level; 0: none.
   double least_part = 0;
   /// fit: how far inside the surface of the voxels the surface of what they stand for is taken to lie, in extents of a

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 
 #include "lib/core/parallel.h"
 #include "lib/voxel/winding.h"
@@ -60,14 +61,30 @@ void TileFill::fill_flood(std::uint64_t tile) {
   if (without_surface) surface = work->bits;
   flood_.fill_enclosed(box, work->bits);
   for (std::int64_t i = 0; i < surface.word_count(); ++i) work->bits.data()[i] &= ~surface.data()[i];
-  store_voxels(work->bits, shelf_);
+  store(tile, work->bits);
 }
 
+void TileFill::store(std::uint64_t tile, const BitBox& bits) {
+  store_voxels(bits, shelf_);
+  const std::lock_guard lock(mutex_);
+  filled_.insert(tile);
+}
+
+bool TileFill::has_filled(std::uint64_t tile) const {
+  const std::lock_guard lock(mutex_);
+  return filled_.contains(tile);
+}
+
+/// A column of tiles without a crossing has nothing to fill, and of a wide grid most are.
 void TileFill::fill_columns(const StageProgress& progress) {
-  StageSteps steps(progress, "filling", "columns", std::uint64_t(tiles_.count.x) * std::uint64_t(tiles_.count.y));
-  const std::int64_t nx = tiles_.count.x;
-  parallel_for(nx * tiles_.count.y, [&](std::int64_t i) {
-    fill_column(std::int32_t(i % nx), std::int32_t(i / nx));
+  const std::uint64_t nx = std::uint64_t(tiles_.count.x), in_layer = nx * std::uint64_t(tiles_.count.y);
+  std::set<std::uint64_t> crossed;
+  for (const auto& [tile, handles] : crossings_) crossed.insert(tile % in_layer);
+  const std::vector<std::uint64_t> columns(crossed.begin(), crossed.end());
+  StageSteps steps(progress, "filling", "columns", columns.size());
+  parallel_for(std::int64_t(columns.size()), [&](std::int64_t i) {
+    const std::uint64_t column = columns[std::size_t(i)];
+    fill_column(std::int32_t(column % nx), std::int32_t(column / nx));
     steps.add(1);
   });
 }
@@ -118,7 +135,7 @@ void TileFill::fill_column(std::int32_t tx, std::int32_t ty) {
         work->bits.row(box.min.y, z)[w] |= flooded.row(box.min.y, z)[w] & open.bits[w];
       }
     }
-    store_voxels(work->bits, shelf_);
+    store(tile, work->bits);
   }
 }
 

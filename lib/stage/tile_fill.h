@@ -40,8 +40,10 @@ class TileFill {
 
   /// FillMode::flood, or inside: then less the surface voxels.
   void fill_flood(std::uint64_t tile);
-  /// Winding: all tiles.
+  /// Winding: all tiles at once.
   void fill_columns(const StageProgress& progress);
+  /// Tiles that have been given voxels so far, whether they had some before or not.
+  [[nodiscard]] bool has_filled(std::uint64_t tile) const;
   /// Columns whose crossings do not cancel: the flood decided there.
   [[nodiscard]] std::uint64_t open_columns() const { return open_columns_; }
 
@@ -54,6 +56,7 @@ class TileFill {
   void fill_column(std::int32_t tx, std::int32_t ty);
   [[nodiscard]] OpenColumns open_columns(std::int32_t tx, std::int32_t ty, TileWork& work) const;
   void get_crossings(std::uint64_t tile, std::vector<Crossing>& out) const;
+  void store(std::uint64_t tile, const BitBox& bits);
   [[nodiscard]] VoxelBox box(std::uint64_t tile) const { return tiles_.box(tiles_.coord(tile)); }
 
   const FillMode mode_;
@@ -65,7 +68,8 @@ class TileFill {
   OutsideFlood flood_;
   std::unordered_map<std::uint64_t, std::vector<ChunkStore::Handle>> crossings_;  // of tiles
   std::unordered_set<std::uint64_t> with_surface_;                                // FillMode::inside: tiles
-  std::mutex mutex_;
+  std::unordered_set<std::uint64_t> filled_;                                      // tiles
+  mutable std::mutex mutex_;
   std::atomic<std::uint64_t> open_columns_{0};
 };
 

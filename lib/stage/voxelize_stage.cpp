@@ -321,6 +321,8 @@ void Run::fill_and_emit(BrickSink& sink) {
 
 void Run::list_bricks(Slab& slab) const {
   for (const std::uint64_t tile : slab.tiles) {
+    // Most tiles of a wide grid hold nothing: their bricks are not asked one by one.
+    if (!on_shelf_.contains(tile) && !(fill_ && fill_->has_filled(tile))) continue;
     for_each_brick(tile_box(tile), [&](BrickCoord c) {
       if (shelf_->fill(c) != BrickFill::empty) slab.bricks.push_back(c);
     });

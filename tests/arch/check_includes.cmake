@@ -8,7 +8,7 @@ set(rules
   "lib/voxel:lib/core lib/grid"
   "lib/closing:lib/core lib/grid"
   "lib/meshing:lib/core lib/geometry lib/grid"
-  "lib/check:lib/core lib/geometry"
+  "lib/check:lib/core lib/geometry lib/grid lib/voxel lib/closing"
   "lib/image:lib/core"
   "lib/backend:lib/core lib/grid lib/voxel lib/closing"
   "lib/stage:lib/core lib/geometry lib/grid lib/voxel lib/closing lib/meshing lib/backend"
@@ -22,6 +22,9 @@ set(rules
 set(foreign
   "assimp/:^io/"
   "zstd:^(io|tests)/"
+  "png.h:^(io|tests)/"
+  "freetype:^io/label_font\\.cpp$"
+  "ft2build:^io/label_font\\.cpp$"
   "OpenMesh/:^(lib/meshing/.*\\.cpp$|tests/)"
   "meshoptimizer:^((lib/meshing|tests/bench)/.*\\.cpp|io/detail/meshopt_codec\\.cpp)$"
   "tbb/:^lib/core/parallel\\.(h|cpp)$"

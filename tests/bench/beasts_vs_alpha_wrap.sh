@@ -41,7 +41,7 @@ for _ in $(seq "$runs"); do
   common=(--memory "$memory" --temp "$work" --overwrite)
   command time -v -o "$work/vox.time" "$bin/bpvox" "$work/grid.ply" --resolution "$resolution" "${common[@]}" |
     command time -v -o "$work/close.time" "$bin/bpclose" --scale "$scale" "${common[@]}" |
-    command time -v -o "$work/mesh.time" "$bin/bpmesh" --faces "$faces" "${common[@]}" -o "$work/proxy.ply"
+    command time -v -o "$work/mesh.time" "$bin/bpmesh" --enclose closing --faces "$faces" "${common[@]}" -o "$work/proxy.ply"
   end=$(date +%s.%N)
   python3 - "$start" "$end" "$(peak "$work/vox.time")" "$(peak "$work/close.time")" "$(peak "$work/mesh.time")" "$(peak "$work/peer.time")" \
     "$(sed -n '/^element face/{s/.* //p;q}' "$work/proxy.ply")" <<'P' | tee -a "$work/ours"

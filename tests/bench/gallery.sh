@@ -27,10 +27,10 @@ draw() {
 bp-plant --triangles 200000 -o plant.ply --overwrite
 bpvox plant.ply --resolution 192 -q | bpclose --scale 2% -q -o closed.bpv --overwrite
 echo "proxy"
-mesh closed.bpv --faces 1000 -o proxy.glb
+mesh closed.bpv --enclose closing --faces 1000 -o proxy.glb
 draw gallery-stages.png 400 plant.ply closed.bpv proxy.glb
 echo "levels"
-mesh closed.bpv --faces 2000,600,200 -o lod.glb
+mesh closed.bpv --enclose closing --faces 2000,600,200 -o lod.glb
 draw gallery-levels.png 340 lod.0.glb lod.1.glb lod.2.glb
 echo "inside"
 bpvox plant.ply --resolution 192 --fill inside -q | bpclose --inner --scale 1% -q -o opened.bpv --overwrite
@@ -40,6 +40,6 @@ echo "fit"
 mesh closed.bpv --mode fit --faces 1000 -o fit.glb
 draw gallery-fit.png 400 closed.bpv fit.glb
 echo "quads"
-mesh closed.bpv --faces 700 --quads -o cage.obj
+mesh closed.bpv --enclose closing --faces 700 --quads -o cage.obj
 grep -c '^f [^ ]* [^ ]* [^ ]* ' cage.obj | sed 's/$/ quads/'
 draw gallery-quads.png 400 cage.obj

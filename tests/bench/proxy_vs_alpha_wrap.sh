@@ -11,7 +11,7 @@ now() { date +%s.%N; }
 for _ in $(seq "$runs"); do
   "$work/alpha_wrap" "$model" 20 600 "$work/wrap.off" | tee -a "$work/peer"
   start=$(now)
-  "$bin/bpvox" "$model" --resolution "$resolution" | "$bin/bpclose" --scale "$scale" | "$bin/bpmesh" --faces "$faces" -o "$work/proxy.glb" --overwrite
+  "$bin/bpvox" "$model" --resolution "$resolution" | "$bin/bpclose" --scale "$scale" | "$bin/bpmesh" --enclose closing --faces "$faces" -o "$work/proxy.glb" --overwrite
   "$bin/bpcheck" "$model" "$work/proxy.glb" --json >"$work/check.json"
   end=$(now)
   python3 - "$start" "$end" "$work/check.json" <<'P' | tee -a "$work/ours"

@@ -75,13 +75,13 @@ void Reader::header() {
   require(in.text(8) == "BPVS\r\n\x1a\n", "magic");
   require(in.number(2) == 1, "version");
   const std::uint64_t flags = in.number(2);
-  require(flags <= 1, "flags");
-  out.has_closing = flags == 1;
+  require(flags <= 3, "flags");
+  out.has_closing = flags % 2 == 1;
   out.fill = int(in.number(1));
   out.element = int(in.number(1));
   out.slab_axis = int(in.number(1));
   out.up = int(in.number(1));
-  require(out.fill <= 3 && out.element <= (out.has_closing ? 1 : 0) && out.slab_axis <= 2 && out.up <= 1,
+  require(out.fill <= 3 && out.element <= (out.has_closing ? 1 : 0) && out.slab_axis <= 2 && out.up <= 5,
           "small field");
   out.voxel = in.f64();
   require(out.voxel >= 0x1p-100 && out.voxel <= 0x1p100, "voxel");
@@ -108,9 +108,12 @@ void Reader::header() {
     require(at >= 64.0 * out.box[i % 3] && at <= 64.0 * out.box[i % 3 + 3], "bounds beyond the box");
   }
   const std::uint64_t s = in.number(4), p = in.number(4);
-  require(s <= 1u << 22 && p >= 2 && p <= 1u << 20 && (s > 0) == out.has_closing && size == 136 + s + p, "sizes");
+  require(s <= 1u << 22 && p >= 2 && p <= 1u << 20 && (s > 0) == out.has_closing && size >= 136 + s + p, "sizes");
+  const std::uint64_t f = size - 136 - s - p;
+  require(flags >= 2 ? f >= 2 && f <= 1u << 20 : f == 0, "scene files");
   out.scale = in.text(s);
   out.provenance = in.text(p);
+  out.scene = in.text(f);
   const std::size_t hashed = in.at - start;
   require(in.number(8) == XXH3_64bits(&in.file[start], hashed), "header hash");
 }

@@ -20,7 +20,7 @@ struct StreamFile {
   std::array<std::int64_t, 3> origin{};
   std::array<double, 6> bounds{};
   std::array<std::int32_t, 6> box{};
-  std::string scale, provenance;
+  std::string scale, provenance, scene;
   std::map<Key, Voxels> bricks;
   std::string checksum;
 };

@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "lib/core/error.h"
-#include "tools/common/mesh_extras.h"
 
 namespace bp {
 
 namespace {
 
-/// None where they cannot be read again: a hint is no reason to fail, or to wait for a pipe.
+bool all_finite(const Vec3d& p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
+}  // namespace
+
 MeshExtras extras_of(const std::string& path) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown)) return {};
@@ -22,18 +27,22 @@ MeshExtras extras_of(const std::string& path) {
   }
 }
 
-}  // namespace
+std::optional<Vec3d> told_origin(const std::vector<std::string>& scenes, const std::string& proxy) {
+  const std::optional<Vec3d> origin = extras_of(proxy).origin;
+  if (scenes.empty() || !origin || !all_finite(*origin)) return {};
+  for (const std::string& scene : scenes) {
+    if (extras_of(scene).origin == origin) return {};
+  }
+  return origin;
+}
 
-std::string enclosure_hint(const std::string& scene, const std::string& proxy, bool inside, bool moved) {
+std::string enclosure_hint(const std::string& scene, const std::string& proxy, bool inside) {
   const MeshExtras extras = extras_of(proxy);
   const std::string maker = made_by(extras_of(scene));
   if (!maker.empty() && extras.provenance.empty())
     return fmt::format("{} was made by {}, and {} was not: if they are swapped, name the proxy last", scene, maker,
                        proxy);
-  if (extras.origin && !moved && made_by(extras) == "bpmesh")
-    return fmt::format("{} was moved by bpmesh --origin: give bpcheck the same, --origin={},{},{}", proxy,
-                       (*extras.origin)[0], (*extras.origin)[1], (*extras.origin)[2]);
-  if (extras.origin && made_by(extras) == "bplod")
+  if (extras.tile)
     return fmt::format("{} is the content of a tile, and lies elsewhere than its scene: check its tileset.json", proxy);
   const std::string mode = mode_of(extras);
   if (mode == "fit") return fit_hint(proxy);

@@ -1,11 +1,23 @@
 #pragma once
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "lib/core/coords.h"
+#include "tools/common/mesh_extras.h"
 
 namespace bp {
 
+/// Nothing where the file cannot be read again: a hint is no reason to fail, or to wait for a pipe.
+[[nodiscard]] MeshExtras extras_of(const std::string& path);
+
+/// What `proxy` says that --origin subtracted from its vertices, to be added back before it is compared with `scenes`.
+/// Empty: nothing, there is no scene, or a scene says the same of itself.
+[[nodiscard]] std::optional<Vec3d> told_origin(const std::vector<std::string>& scenes, const std::string& proxy);
+
 /// What may be behind the failure of the file `proxy` to enclose the file `scene` (or with `inside` to lie within it):
-/// one sentence from what the files say of their making. Empty: they say nothing of it. moved: by --origin.
-[[nodiscard]] std::string enclosure_hint(const std::string& scene, const std::string& proxy, bool inside, bool moved);
+/// one sentence from what the files say of their making. Empty: they say nothing of it.
+[[nodiscard]] std::string enclosure_hint(const std::string& scene, const std::string& proxy, bool inside);
 /// The same of a content of a tileset.
 [[nodiscard]] std::string fit_hint(const std::string& content);
 

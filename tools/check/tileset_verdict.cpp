@@ -15,19 +15,10 @@ namespace bp {
 
 namespace {
 
-/// glTF to 3D Tiles: y up to z up. Exact.
-Vec3d z_up(const Vec3d& p) {
-  return {p[0], 0.0 - p[2], p[1]};
-}
-
-Vec3d y_up(const Vec3d& p) {
-  return {p[0], p[2], 0.0 - p[1]};
-}
-
 /// Vertices in the space of its tile.
 IndexedMesh read_content(const std::string& path, const SceneOptions& options) {
   IndexedMesh mesh = read_mesh(path, options);
-  for (Vec3d& p : mesh.vertices) p = z_up(p);
+  for (Vec3d& p : mesh.vertices) p = turned(p, UpAxis::y, UpAxis::z);  // glTF to 3D Tiles
   return mesh;
 }
 
@@ -102,8 +93,7 @@ class CoverTiles {
     if (end != std::string::npos) tiles_[places_.at(place.substr(0, end))].children.push_back(tiles_.size() - 1);
   }
   [[nodiscard]] Vec3d to_scene(const Transform& transform, const Vec3d& p) const {
-    const Vec3d q = transformed(transform, p);
-    return up_ == "y" ? y_up(q) : q;
+    return turned(transformed(transform, p), UpAxis::z, up_);
   }
   [[nodiscard]] Bounds3d moved(const Bounds3d& cell, const Transform& transform) const {
     Transform turn = transform;
@@ -114,7 +104,8 @@ class CoverTiles {
     return out;
   }
 
-  const std::string up_, folder_;
+  const UpAxis up_;
+  const std::string folder_;
   const SceneOptions& options_;
   std::vector<CoverTile> tiles_;
   std::vector<Transform> transforms_;
@@ -123,7 +114,8 @@ class CoverTiles {
 };
 
 /// Each content must enclose the whole scene by itself.
-void check_whole(const CoverTiles& cover, TriangleSource& scene, std::vector<std::string>& findings) {
+std::vector<CoverFinding> check_whole(const CoverTiles& cover, TriangleSource& scene) {
+  std::vector<CoverFinding> findings;
   for (std::size_t i = 0; i < cover.tiles().size(); ++i) {
     const CoverTile& tile = cover.tiles()[i];
     if (!tile.triangles) continue;
@@ -131,8 +123,10 @@ void check_whole(const CoverTiles& cover, TriangleSource& scene, std::vector<std
     check.distances = false;
     scene.rewind();
     const CheckReport report = check_proxy(cover.content(i), &scene, check);
-    if (!report.holds()) findings.push_back(fmt::format("{}: {} {}", tile.place, tile.uri, complaint_of(report)));
+    if (report.holds()) continue;
+    findings.push_back({fmt::format("{}: {} {}", tile.place, tile.uri, complaint_of(report)), report.answer()});
   }
+  return findings;
 }
 
 }  // namespace
@@ -146,11 +140,14 @@ std::string TilesetVerdict::text(const std::string& name) const {
   for (const std::string& finding : findings) lines += finding + "\n";
   return lines + fmt::format("{}: {} tiles, {} contents, {} triangles{}: {}\n", name, tiles, contents, triangles,
                              scene ? ", checked against the scene" : "",
-                             holds() ? "holds" : fmt::format("{} findings", findings.size()));
+                             holds()                         ? "holds"
+                             : answer() == Answer::undecided ? fmt::format("not decided: {} findings", undecided)
+                                                             : fmt::format("{} findings", findings.size()));
 }
 
 std::string TilesetVerdict::json(const std::string& name) const {
   const Json all = {{"holds", holds()},
+                    {"answer", to_string(answer())},
                     {"tileset", {{"name", name}, {"tiles", tiles}, {"contents", contents}, {"triangles", triangles}}},
                     {"scene", scene},
                     {"findings", findings}};
@@ -169,12 +166,11 @@ TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std
   verdict.tiles = cover.tiles().size();
   verdict.findings = check_tileset(tileset, [&](const Tile& tile) { return cover.look_at(tile, verdict); });
   if (!scene) return verdict;
-  if (has_cells(tileset)) {
-    const std::vector<std::string> findings = check_cover(
-        cover.tiles(), [&](std::size_t i) { return cover.content(i); }, *scene, memory_bytes);
-    verdict.findings.insert(verdict.findings.end(), findings.begin(), findings.end());
-  } else {
-    check_whole(cover, *scene, verdict.findings);
+  const auto content = [&](std::size_t i) { return cover.content(i); };
+  for (const CoverFinding& found :
+       has_cells(tileset) ? check_cover(cover.tiles(), content, *scene, memory_bytes) : check_whole(cover, *scene)) {
+    verdict.findings.push_back(found.text);
+    verdict.undecided += found.answer == Answer::undecided;
   }
   return verdict;
 }

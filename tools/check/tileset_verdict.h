@@ -3,14 +3,20 @@
 #include <vector>
 
 #include "io/scene_reader.h"
+#include "lib/check/check_report.h"
 
 namespace bp {
 
 struct TilesetVerdict {
   std::vector<std::string> findings;  ///< one line each; empty: all holds
   std::uint64_t tiles = 0, contents = 0, triangles = 0;
-  bool scene = false;  ///< the contents were checked against scenes
-  [[nodiscard]] bool holds() const { return findings.empty(); }
+  bool scene = false;           ///< the contents were checked against scenes
+  std::uint64_t undecided = 0;  ///< of the findings: they prove nothing, and refute nothing
+  [[nodiscard]] Answer answer() const {
+    if (findings.size() > undecided) return Answer::refuted;
+    return undecided > 0 ? Answer::undecided : Answer::proven;
+  }
+  [[nodiscard]] bool holds() const { return answer() == Answer::proven; }
   [[nodiscard]] std::string text(const std::string& name) const;  ///< the findings, then one line of summary
   /// One JSON object, indented. Keys and their order are part of the interface.
   [[nodiscard]] std::string json(const std::string& name) const;

@@ -7,6 +7,7 @@
 #include "lib/core/error.h"
 #include "lib/core/source_digest.h"
 #include "tools/common/names.h"
+#include "tools/common/nearest.h"
 
 namespace bp {
 
@@ -41,6 +42,17 @@ std::string help_entry(const std::string& left, const std::string& help) {
   return out + wrapped(help, kHelpColumn);
 }
 
+/// "a|b|c", or "-s,--scale", in its parts.
+std::vector<std::string> parts_of(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
 /// "-s,--scale" as people write it: "-s, --scale".
 std::string spaced(const std::string& names) {
   std::string out;
@@ -56,7 +68,8 @@ struct Args::State {
   std::vector<Option> options, positionals;
   bool help = false, version = false;
 
-  Option& find(const std::string& name);
+  Option* look_up(const std::string& name);
+  Option& find(const std::string& name, const std::string& word = "");
   void take(Option& option, const std::string& name, const std::string& text);
   void parse_long(const std::string& word);
   void parse_short(const std::string& word);
@@ -126,7 +139,7 @@ void Args::flag_with_word(const std::string& name, const std::vector<std::string
 }
 
 void Args::refuse_word(const std::string& text, const std::string& words) {
-  fail(ErrorCode::bad_argument, "'{}' is none of {}", text, words);
+  fail(ErrorCode::bad_argument, "'{}' is none of {}{}", text, words, did_you_mean(text, parts_of(words, '|')));
 }
 
 std::string Args::shown(UpAxis value) {
@@ -134,20 +147,32 @@ std::string Args::shown(UpAxis value) {
 }
 
 void Args::parse_into(const std::string& text, UpAxis& value) {
-  if (text != "y" && text != "z") refuse_word(text, "y|z");
-  value = text == "z" ? UpAxis::z : UpAxis::y;
+  const std::optional<UpAxis> up = up_axis_named(text);
+  if (!up) refuse_word(text, "x|y|z|-x|-y|-z");
+  value = *up;
 }
 
 std::string Args::shown(double value) {
   return fmt::format("{}", value);
 }
 
-Args::Option& Args::State::find(const std::string& name) {
+Args::Option* Args::State::look_up(const std::string& name) {
   for (Option& option : options) {
     const std::string names = "," + option.names + ",";
-    if (names.find("," + name + ",") != std::string::npos) return option;
+    if (names.find("," + name + ",") != std::string::npos) return &option;
   }
-  fail(ErrorCode::bad_argument, "there is no option {}", name);
+  return nullptr;
+}
+
+/// `word`: what was written, where that is more than the name: "-faces" for -f.
+Args::Option& Args::State::find(const std::string& name, const std::string& word) {
+  if (Option* const option = look_up(name)) return *option;
+  std::vector<std::string> names;
+  for (const Option& option : options) {
+    const std::vector<std::string> own = parts_of(option.names, ',');
+    names.insert(names.end(), own.begin(), own.end());
+  }
+  fail(ErrorCode::bad_argument, "there is no option {}{}", name, did_you_mean(word.empty() ? name : "-" + word, names));
 }
 
 void Args::State::take(Option& option, const std::string& name, const std::string& text) {
@@ -184,21 +209,25 @@ void Args::State::parse_long(const std::string& word) {
   if (option.value == Value::none) fail(ErrorCode::bad_argument, "{} takes no value", name);
   if (option.value == Value::optional &&
       std::find(option.words.begin(), option.words.end(), text) == option.words.end())
-    fail(ErrorCode::bad_argument, "{}: '{}' is none of {}", name, text, option.value_name);
+    fail(ErrorCode::bad_argument, "{}: '{}' is none of {}{}", name, text, option.value_name,
+         did_you_mean(text, option.words));
   take(option, name, text);
 }
 
 /// `-n`, `-nVALUE`, or several flags in one word.
 void Args::State::parse_short(const std::string& word) {
+  const std::string name = word.substr(0, word.find('='));
+  if (name.size() > 2 && look_up("-" + name) != nullptr)  // "-output" hardly means the file "utput"
+    fail(ErrorCode::bad_argument, "there is no option {}; did you mean -{}?", name, name);
   for (std::size_t i = 1; i < word.size(); ++i) {
-    const std::string name{'-', word[i]};
-    Option& option = find(name);
+    const std::string letter{'-', word[i]};
+    Option& option = find(letter, i == 1 && word.size() > 2 ? word : "");
     if (option.value == Value::none) {
-      take(option, name, "");
+      take(option, letter, "");
       continue;
     }
-    if (i + 1 == word.size()) return parse_value(option, name);
-    return take(option, name, word.substr(i + 1));
+    if (i + 1 == word.size()) return parse_value(option, letter);
+    return take(option, letter, word.substr(i + 1));
   }
 }
 

@@ -107,10 +107,10 @@ class Args {
 
   static void parse_into(const std::string& text, std::string& value) { value = text; }
   static void parse_into(const std::string& text, double& value) { value = parse_number(text); }
-  static void parse_into(const std::string& text, int& value) { value = int(parse_integer(text, 0, INT32_MAX)); }
-  static void parse_into(const std::string& text, std::int64_t& value) { value = parse_integer(text, 0, INT64_MAX); }
+  static void parse_into(const std::string& text, int& value) { value = int(parse_count(text, 0, INT32_MAX)); }
+  static void parse_into(const std::string& text, std::int64_t& value) { value = parse_count(text, 0, INT64_MAX); }
   static void parse_into(const std::string& text, std::uint64_t& value) {
-    value = std::uint64_t(parse_integer(text, 0, INT64_MAX));
+    value = std::uint64_t(parse_count(text, 0, INT64_MAX));
   }
   static void parse_into(const std::string& text, Length& value) { value = parse_length(text); }
   static void parse_into(const std::string& text, Bytes& value) { value.count = parse_size(text); }

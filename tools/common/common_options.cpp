@@ -8,7 +8,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <span>
+#include <string_view>
 
+#include "io/kept_files.h"
 #include "io/scene_parts.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -43,23 +46,20 @@ std::uint64_t kernel_number(const char* path) {
   return value;
 }
 
-/// The files of this process, each by its whole path.
-struct NamedFiles {
-  std::set<std::string> inputs, outputs;
-};
-NamedFiles& named_files() {
-  static NamedFiles files;
-  return files;
+/// The outputs of this process, each by its whole path.
+std::set<std::string>& named_outputs() {
+  static std::set<std::string> names;
+  return names;
 }
 
-/// Without its buffers, textures or materials a scene is lost, too.
-void refuse_parts_of_inputs(const std::string& path, const std::string& whole) {
-  for (const std::string& input : named_files().inputs) {
-    for (const std::string& part : parts_of_scene(input)) {
-      if (whole_path(part) == whole)
-        fail(ErrorCode::bad_argument, "{}: belongs to the input {}, and would be lost; give the output another name",
-             path, file_name(input));
-    }
+/// An input that is known late, as the scene that a stream names, may be an output by then.
+void refuse_open_output(const std::string& input) {
+  if (named_outputs().empty()) return;
+  std::vector<std::string> files = parts_of_scene(input);
+  files.push_back(input);
+  for (const std::string& file : files) {
+    if (named_outputs().count(whole_path(file)) > 0)
+      fail(ErrorCode::bad_argument, "{}: is read as the scene, and would be lost; give the output another name", file);
   }
 }
 
@@ -67,15 +67,12 @@ void refuse_parts_of_inputs(const std::string& path, const std::string& whole) {
 /// named twice.
 std::string free_name(const std::string& path) {
   struct stat info {};
-  const bool exists = path != "-" && ::stat(path.c_str(), &info) == 0;
-  if (exists && !S_ISREG(info.st_mode)) return "";
+  if (path != "-" && ::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode)) return "";
+  if (path != "-") refuse_kept(path);
   std::string whole = path == "-" ? path : whole_path(path);
-  if (named_files().inputs.count(whole) > 0)
-    fail(ErrorCode::bad_argument, "{}: is an input, and would be lost; give the output another name", path);
-  if (named_files().outputs.count(whole) > 0)
+  if (named_outputs().count(whole) > 0)
     fail(ErrorCode::bad_argument, "{}: is named for two outputs; give each a name of its own",
          path == "-" ? "stdout" : path);
-  if (exists) refuse_parts_of_inputs(path, whole);
   return whole;
 }
 
@@ -124,7 +121,8 @@ void CommonOptions::add_to(Args& args, unsigned parts) {
         "show neither progress nor notes, which are in the report all the same");
   }
   if (parts & report_part)
-    args.option("--report", "FILE", report, "write options, counts, seconds per stage and peak memory as JSON");
+    args.option("--report", "FILE", report,
+                "write options, counts, seconds per stage and peak memory as JSON; a report that is there is replaced");
   if (parts & overwrite_part) args.flag("--overwrite", overwrite, "replace output files that exist");
 }
 
@@ -138,7 +136,17 @@ void CommonOptions::prepare() {
     if (temp.empty()) temp = default_temp();
     check_temp(temp);
   }
-  if (!report.empty()) report_file = open_output(report, overwrite, false);
+  if (!report.empty()) report_file = open_output(report, overwrite || is_report(report), false);
+}
+
+bool is_report(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return false;
+  constexpr std::string_view kBegin = "{\n  \"tool\": \"bp";  // as Report::text() begins
+  char head[kBegin.size()] = {};
+  const InputFile file(path);
+  const std::size_t got = file.read_at(0, std::as_writable_bytes(std::span(head)));
+  return got == 0 || std::string_view(head, got) == kBegin;
 }
 
 std::uint64_t default_memory() {
@@ -159,19 +167,21 @@ void refuse_terminal(const std::string& path) {
 
 void keep_inputs(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
-    if (path != "-") named_files().inputs.insert(whole_path(path));
+    if (path != "-") refuse_open_output(path);
+    keep_scene(path);
   }
 }
 
 void forget_files() {
-  named_files() = {};
+  named_outputs().clear();
+  forget_kept();
 }
 
 std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary) {
   if (binary) refuse_terminal(path);
   const std::string name = free_name(path);
   auto file = std::make_unique<OutputFile>(path, overwrite);
-  if (!name.empty()) named_files().outputs.insert(name);
+  if (!name.empty()) named_outputs().insert(name);
   return file;
 }
 

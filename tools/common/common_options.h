@@ -45,21 +45,26 @@ struct CommonOptions {
 
   void add_to(Args& args, unsigned parts = all_parts);
   /// Fills in the defaults that depend on the machine, and fails early: bad_argument if the scratch directory cannot be
-  /// written or the report's file exists, as OutputFile if that cannot be written. run_tool calls it before the tool
-  /// runs.
+  /// written or the report's file exists and is no report, as OutputFile if that cannot be written. run_tool calls it
+  /// before the tool runs.
   void prepare();
 
  private:
   unsigned parts_ = all_parts;
 };
 
+/// Whether a file is an earlier report, or empty. A report is a log: the next one replaces it, and nothing else
+/// unasked.
+[[nodiscard]] bool is_report(const std::string& path);
+
 /// A quarter of the memory of this machine (or of this container), so that the tools of one pipe fit together.
 [[nodiscard]] std::uint64_t default_memory();
 /// What the program itself, and so many threads (0: all cores), take of --memory: below, no tool can keep it.
 [[nodiscard]] std::uint64_t least_memory(int threads);
 
-/// From now on, open_output() refuses these files, and those that they name (parts_of_scene()): --overwrite must not
-/// cost a scene. What they share a hard link with may be replaced: it gets a file of its own.
+/// From now on these files, and those that they name (parts_of_scene()), are neither replaced nor removed, whatever
+/// they are called: --overwrite must not cost a scene (io/kept_files.h). Throws bad_argument if one of them is an
+/// output that was opened before.
 void keep_inputs(const std::vector<std::string>& paths);
 /// Forgets what keep_inputs() and open_output() were told: another run of a tool begins in this process, as in tests.
 void forget_files();

@@ -32,8 +32,24 @@ bool is_grouped(const std::string& text) {
 std::vector<std::uint64_t> parse_face_list(const std::string& text) {
   std::vector<std::uint64_t> all;
   for_each_item(text, [&](std::string_view item) {
-    all.push_back(std::uint64_t(parse_integer(item, 0, INT64_MAX)));
+    all.push_back(std::uint64_t(parse_count(item, 0, INT64_MAX)));
     if (all.back() == 0) refuse(text, "a level must have faces");
+    if (all.size() > 1 && all.back() >= all[all.size() - 2])
+      refuse(text, "each level must have fewer than the one before");
+  });
+  return all;
+}
+
+std::vector<double> parse_face_shares(const std::string& text) {
+  std::vector<double> all;
+  for_each_item(text, [&](std::string_view item) {
+    if (item.empty() || item.back() != '%')
+      fail(ErrorCode::bad_argument, "{}: mixes numbers and percentages of the scene's triangles; use one of them",
+           text);
+    item.remove_suffix(1);
+    all.push_back(parse_number(item));
+    if (!(all.back() > 0 && all.back() <= 100))
+      fail(ErrorCode::bad_argument, "{}: a share of the scene's triangles must be above 0% and at most 100%", text);
     if (all.size() > 1 && all.back() >= all[all.size() - 2])
       refuse(text, "each level must have fewer than the one before");
   });

@@ -33,12 +33,16 @@ std::string too_few_note(std::uint64_t faces, std::uint64_t asked, MeshMode mode
       faces, asked, mode == MeshMode::inside ? "keep more of the inside" : "show more of the scene");
 }
 
-std::string merged_note(std::uint64_t faces, std::uint64_t shells, std::uint64_t handles, MeshMode mode) {
+std::string merged_note(std::uint64_t faces, std::uint64_t shells, std::uint64_t handles, MeshMode mode,
+                        const std::optional<std::string>& scale) {
   const bool inside = mode == MeshMode::inside;
   if (faces <= 4) return "no closed surface has fewer";
   if (shells <= 1 && handles == 0) return "no further edge can be merged; " + scale_advice(shells, handles, inside);
+  const std::string advice = !scale           ? scale_advice(shells, handles, inside)
+                             : scale->empty() ? "no larger --scale leaves few enough; ask for more faces"
+                                              : fmt::format("bpclose --scale {} leaves few enough", *scale);
   return fmt::format("no further edge can be merged. Parts and handles are kept, here {} and {}; {}", shells, handles,
-                     scale_advice(shells, handles, inside));
+                     advice);
 }
 
 std::string loose_note(std::uint64_t faces, double ratio, std::uint64_t shells, std::uint64_t handles, MeshMode mode) {

@@ -4,7 +4,6 @@
 
 #include "io/scene_format.h"
 #include "lib/core/error.h"
-#include "lib/image/render.h"
 
 namespace bp {
 
@@ -26,13 +25,6 @@ void check_stream_name(const std::string& output) {
   if (!scene_format_of(output).empty())
     fail(ErrorCode::bad_argument, "{}: this would be a stream of voxels, not a mesh; bpmesh makes meshes of streams",
          output);
-}
-
-void check_panel_size(int pixels, std::size_t panels) {
-  const std::size_t most = kMostImageSide / panels;
-  if (pixels >= kLeastPanelSide && std::size_t(pixels) <= most) return;
-  fail(ErrorCode::bad_argument, "--image-size {}: must be {} to {} pixels{}", pixels, kLeastPanelSide, most,
-       panels == 1 ? "" : fmt::format(", for {} panels side by side", panels));
 }
 
 }  // namespace bp

@@ -12,7 +12,4 @@ void check_scene_format(const std::string& format, const std::vector<std::string
 /// What a tool that writes voxels is to write to. Throws bad_argument if its name is that of a mesh.
 void check_stream_name(const std::string& output);
 
-/// --image-size: throws bad_argument if no picture has so many panels of that size.
-void check_panel_size(int pixels, std::size_t panels);
-
 }  // namespace bp

@@ -44,6 +44,22 @@ std::int64_t parse_integer(std::string_view text, std::int64_t lo, std::int64_t 
   fail(ErrorCode::bad_argument, "'{}' is not a whole number of at least {}", text, lo);
 }
 
+std::int64_t parse_count(std::string_view text, std::int64_t lo, std::int64_t hi) {
+  constexpr std::string_view kUnits = "kMG";
+  constexpr double kFactors[] = {1e3, 1e6, 1e9};
+  const std::string_view last = text.substr(text.size() - std::min<std::size_t>(text.size(), 1));
+  const std::size_t unit = last == "K" ? 0 : last.empty() ? std::string_view::npos : kUnits.find(last);
+  if (unit == std::string_view::npos) return parse_integer(text, lo, hi);
+  double value = 0;
+  const std::string_view digits = text.substr(0, text.size() - 1);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool is_number = end == digits.data() + digits.size() && error == std::errc();
+  value = std::round(value * kFactors[unit] * 1e3) / 1e3;  // 4.35k is 4350
+  if (is_number && value == std::floor(value) && value >= double(lo) && value <= std::min(double(hi), 9e15))
+    return std::int64_t(value);
+  return parse_integer(text, lo, hi);  // which refuses it
+}
+
 Vec3d parse_point(std::string_view text) {
   Vec3d p{};
   std::string_view rest = text;

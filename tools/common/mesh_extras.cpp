@@ -83,8 +83,11 @@ std::optional<Vec3d> gltf_origin(const Json& document) {
 }
 
 MeshExtras from_gltf(const std::string& text) {
+  if (text.find("\"extras\"") == std::string::npos && text.find("\"MSFT_lod\"") == std::string::npos) return {};
   const Json document = Json::parse(text, nullptr, false);
-  return {gltf_provenance(document), gltf_origin(document), gltf_levels(document)};
+  static const Json::json_pointer tile("/asset/extras/tile_origin");
+  return {gltf_provenance(document), gltf_origin(document), document.is_object() && document.contains(tile),
+          gltf_levels(document)};
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace bp {
 /// What a file says beside its triangles; nothing if there is none, or if it cannot be understood.
 struct MeshExtras {
   std::vector<std::string> provenance;  ///< a line each step, as bpmesh wrote: comments of PLY and OBJ, extras of glTF
-  std::optional<Vec3d> origin;          ///< that its vertices are relative to
+  std::optional<Vec3d> origin;          ///< that --origin subtracted from its vertices
+  bool tile = false;                    ///< the content of a tile, which its transform puts into its place
   std::size_t levels = 1;               ///< of detail; MSFT_lod of glTF
 };
 [[nodiscard]] MeshExtras mesh_extras(const std::string& path);

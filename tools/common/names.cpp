@@ -15,10 +15,6 @@ const char* name_of(StructuringElement element) {
   return element == StructuringElement::cube ? "cube" : "ball";
 }
 
-const char* name_of(UpAxis up) {
-  return up == UpAxis::y ? "y" : "z";
-}
-
 const char* name_of(MeshMode mode) {
   constexpr const char* kNames[] = {"bounding", "inside", "fit"};
   return kNames[std::size_t(mode)];

@@ -11,7 +11,6 @@ namespace bp {
 
 [[nodiscard]] const char* name_of(FillMode fill);
 [[nodiscard]] const char* name_of(StructuringElement element);
-[[nodiscard]] const char* name_of(UpAxis up);
 [[nodiscard]] const char* name_of(MeshMode mode);
 /// A path without its folders.
 [[nodiscard]] std::string file_name(const std::string& path);

@@ -66,6 +66,7 @@ void Report::write(const CommonOptions& common) {
   if (!common.report_file) return;
   try {
     common.report_file->write(text());
+    if (is_report(common.report)) common.report_file->allow_overwrite();  // of another tool of the pipe, just now
     common.report_file->commit();
   } catch (const Error& e) {
     fail(e.code(), "{}; the report is lost, but what was made is complete", e.what());

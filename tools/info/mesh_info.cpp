@@ -27,6 +27,7 @@ MeshInfo measure(TriangleSource& source) {
   std::vector<std::uint8_t> inner_edges;
   while (source.read_faces(batch, colors, inner_edges)) {
     info.totals.add(batch);
+    info.faces.add(inner_edges);
     if (info.totals.triangles <= MeshInfo::kMaxKept) {
       info.triangles.insert(info.triangles.end(), batch.begin(), batch.end());
       info.colors.insert(info.colors.end(), colors.begin(), colors.end());
@@ -43,6 +44,12 @@ MeshInfo measure(TriangleSource& source) {
   return info;
 }
 
+/// What the number of triangles counts where the file has polygons.
+std::string cut_text(const FaceCounts& faces) {
+  if (faces.quads + faces.polygons == 0) return "";
+  return faces.triangles == 0 ? " after cutting" : fmt::format(" after cutting, {} before", faces.triangles);
+}
+
 std::string level_text(std::size_t level, std::size_t levels) {
   if (levels == 1) return "";
   return level == 0 ? fmt::format("finest of {} levels", levels)
@@ -53,7 +60,9 @@ std::string mesh_text(const MeshInfo& info, const std::string& name) {
   const TriangleTotals& t = info.totals;
   const auto point = [](const Vec3d& p) { return fmt::format("{} {} {}", p[0], p[1], p[2]); };
   std::string s = fmt::format("{}: mesh\n", name);
-  s += fmt::format("triangles   {}\n", t.triangles);
+  if (info.faces.quads > 0) s += fmt::format("quads       {}\n", info.faces.quads);
+  if (info.faces.polygons > 0) s += fmt::format("polygons    {} of more than four corners\n", info.faces.polygons);
+  s += fmt::format("triangles   {}{}\n", t.triangles, cut_text(info.faces));
   if (info.vertices) s += fmt::format("vertices    {}\n", *info.vertices);
   const SceneCounts& c = info.counts;
   if (c.instances > 1) s += fmt::format("instances   {}\n", c.instances);
@@ -68,6 +77,8 @@ std::string mesh_text(const MeshInfo& info, const std::string& name) {
   if (info.extras.levels > 1)
     s += fmt::format("levels      {}, of which this is {}\n", info.extras.levels,
                      info.level == 0 ? "the finest" : fmt::format("level {}", info.level));
+  if (info.extras.origin)
+    s += fmt::format("origin      {} was subtracted from all coordinates\n", point(*info.extras.origin));
   for (const std::string& step : info.extras.provenance) s += fmt::format("made by     {}\n", step);
   return s + fmt::format("checksum    {}\n", t.checksum());
 }
@@ -76,6 +87,7 @@ Json mesh_json(const MeshInfo& info) {
   const TriangleTotals& t = info.totals;
   const SceneCounts& c = info.counts;
   Json j{{"kind", "mesh"}, {"checksum", t.checksum()}, {"triangles", t.triangles}};
+  j["faces"] = {{"triangles", info.faces.triangles}, {"quads", info.faces.quads}, {"polygons", info.faces.polygons}};
   if (info.vertices) j["vertices"] = *info.vertices;
   j["instances"] = c.instances;
   j["skipped"] = {{"degenerate", c.degenerate}, {"non_finite", c.non_finite}, {"bad_faces", c.bad_faces}};
@@ -86,6 +98,7 @@ Json mesh_json(const MeshInfo& info) {
   }
   j["levels"] = info.extras.levels;
   j["level"] = info.level;
+  j["origin"] = info.extras.origin ? Json(*info.extras.origin) : Json(nullptr);
   j["provenance"] = info.extras.provenance;
   return j;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/face_counts.h"
 #include "lib/core/triangle_source.h"
 #include "lib/core/triangle_totals.h"
 #include "tools/common/mesh_extras.h"
@@ -14,6 +15,7 @@ namespace bp {
 struct MeshInfo {
   SceneCounts counts;
   TriangleTotals totals;
+  FaceCounts faces;
   std::optional<std::uint64_t> vertices;  ///< distinct positions; unknown for scenes above kMaxKept triangles
   std::vector<TriangleD> triangles;       ///< all of them, or none if there are more than kMaxKept
   std::vector<TriangleColors> colors;     ///< of these, if the source has any

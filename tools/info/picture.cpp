@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "io/label_font.h"
 #include "io/png_writer.h"
 #include "tools/common/common_options.h"
 #include "tools/common/names.h"
+#include "tools/common/panel_label.h"
 
 namespace bp {
 
@@ -31,28 +33,24 @@ Bounds3d bounds_of(const StreamHeader& header) {
   return bounds;
 }
 
-/// From the axes of an input to those where `to` is up.
-Vec3d turned(const Vec3d& p, UpAxis to) {
-  return to == UpAxis::z ? Vec3d{p[0], 0.0 - p[2], p[1]} : Vec3d{p[0], p[2], 0.0 - p[1]};
-}
-
-void turn(std::vector<TriangleD>& triangles, UpAxis to) {
+void turn(std::vector<TriangleD>& triangles, UpAxis from, UpAxis to) {
   for (TriangleD& t : triangles) {
-    for (Vec3d& p : t) p = turned(p, to);
+    for (Vec3d& p : t) p = turned(p, from, to);
   }
 }
 
 class TurnedSource final : public TriangleSource {
  public:
-  TurnedSource(std::unique_ptr<TriangleSource> source, UpAxis to) : source_(std::move(source)), to_(to) {}
+  TurnedSource(std::unique_ptr<TriangleSource> source, UpAxis from, UpAxis to)
+      : source_(std::move(source)), from_(from), to_(to) {}
   bool read(std::vector<TriangleD>& out) override {
     const bool more = source_->read(out);
-    turn(out, to_);
+    turn(out, from_, to_);
     return more;
   }
   bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
     const bool more = source_->read_colored(out, colors);
-    turn(out, to_);
+    turn(out, from_, to_);
     return more;
   }
   [[nodiscard]] bool has_colors() const override { return source_->has_colors(); }
@@ -62,18 +60,19 @@ class TurnedSource final : public TriangleSource {
 
  private:
   std::unique_ptr<TriangleSource> source_;
-  UpAxis to_;
+  UpAxis from_, to_;
 };
 
-void turn(Panel& panel, UpAxis to) {
-  turn(panel.triangles, to);
+void turn(Panel& panel, UpAxis from, UpAxis to) {
+  turn(panel.triangles, from, to);
   Bounds3d bounds;
   if (!panel.bounds.empty()) {
-    for (const Vec3d& p : {panel.bounds.min, panel.bounds.max}) bounds.add(turned(p, to));
+    for (const Vec3d& p : {panel.bounds.min, panel.bounds.max}) bounds.add(turned(p, from, to));
   }
   panel.bounds = bounds;
+  for (Vec3d& axis : panel.view.axes) axis = turned(axis, from, to);
   if (!panel.source) return;
-  panel.source = std::make_unique<TurnedSource>(std::move(panel.source), to);
+  panel.source = std::make_unique<TurnedSource>(std::move(panel.source), from, to);
   panel.view.source = panel.source.get();
 }
 
@@ -89,8 +88,7 @@ bool are_far_apart(const std::vector<std::unique_ptr<Panel>>& panels, const Boun
 }  // namespace
 
 Picture::Picture(const PictureOptions& options) : o_(options) {
-  check_png_name(o_.file);
-  if (!o_.file.empty()) file_ = open_output(o_.file, o_.overwrite);
+  if (!o_.image.file.empty()) file_ = open_output(o_.image.file, o_.overwrite);
 }
 
 void Picture::add_stream(const CoarseView& cells, const StreamHeader& header, const StreamTotals& totals,
@@ -125,8 +123,7 @@ void Picture::add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, c
   panel->input = in;
   panel->up = source->up();
   panel->bounds = info.totals.bounds;
-  panel->view.label = fmt::format("{} triangles{}{}", info.totals.triangles, which.empty() ? "" : ", ", which);
-  if (o_.several) panel->view.label.insert(0, shown_name(in) + "\n");
+  panel->view.label = fmt::format("{}{}{}", info.faces.text(), which.empty() ? "" : ", ", which);
   if (info.triangles.size() == info.totals.triangles) {
     panel->triangles = std::move(info.triangles);
     panel->colors = std::move(info.colors);
@@ -145,7 +142,7 @@ void Picture::add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, c
 
 /// What --up says, else the first input that tells.
 UpAxis Picture::common_up() const {
-  if (o_.up) return *o_.up;
+  if (o_.image.up) return *o_.image.up;
   for (const auto& panel : panels_) {
     if (panel->up) return *panel->up;
   }
@@ -156,7 +153,7 @@ std::string Picture::note_on_axes() const {
   std::string names;
   const Panel* last = nullptr;
   for (const auto& panel : panels_) {
-    if (!o_.up || panel->up.value_or(*o_.up) == *o_.up) continue;
+    if (!o_.image.up || panel->up.value_or(*o_.image.up) == *o_.image.up) continue;
     if (last == nullptr || last->input != panel->input) names += (last ? ", " : "") + shown_name(panel->input);
     last = panel.get();
   }
@@ -165,22 +162,44 @@ std::string Picture::note_on_axes() const {
       "{}: drawn with {} up, as the file itself says; --up is for inputs that do not tell. If the file is wrong, make "
       "it "
       "again from the scene with --up {}",
-      names, name_of(*last->up), name_of(*o_.up));
+      names, name_of(*last->up), name_of(*o_.image.up));
+}
+
+/// Name, what is drawn, and the bounds in the input's own axes.
+void Picture::label_panels() {
+  std::vector<std::string> inputs;
+  for (const auto& panel : panels_) inputs.push_back(panel->input);
+  const std::vector<std::string> names = panel_names(inputs);
+  for (std::size_t i = 0; i < panels_.size(); ++i) {
+    std::string& label = panels_[i]->view.label;
+    label = names[i] + "\n" + label;
+    if (const std::string bounds = bounds_text(panels_[i]->bounds); !bounds.empty()) label += "\n" + bounds;
+  }
+}
+
+/// Turns panels to the axes that all are drawn in, and returns the bounds of all.
+Bounds3d Picture::place_panels(RenderOptions& options) {
+  if (options.look_at && panels_[0]->up.value_or(options.up) != options.up)
+    options.look_at = turned(*options.look_at, *panels_[0]->up, options.up);  // it is in the axes of the first input
+  Bounds3d all;
+  bool streamed = false;  // then the bounds do, for what is streamed is not looked through once more
+  for (const auto& panel : panels_) {
+    if (panel->up && *panel->up != options.up) turn(*panel, *panel->up, options.up);
+    panel->view.triangles = panel->triangles;
+    all.merge(panel->bounds);
+    streamed = streamed || panel->source != nullptr;
+  }
+  if (streamed) options.bounds = all;
+  return all;
 }
 
 std::vector<std::string> Picture::write() {
-  RenderOptions options;
-  options.panel_width = options.panel_height = o_.panel_size;
-  options.azimuth = o_.azimuth, options.elevation = o_.elevation;
-  options.up = common_up();
-  for (const auto& panel : panels_) {
-    if (panel->up && *panel->up != options.up) turn(*panel, options.up);
-    panel->view.triangles = panel->triangles;
-    options.bounds.merge(panel->bounds);
-  }
+  label_panels();
+  RenderOptions options = o_.image.render_options(common_up());
+  const Bounds3d all = place_panels(options);
   std::vector<std::string> notes;
   if (std::string note = note_on_axes(); !note.empty()) notes.push_back(std::move(note));
-  if (are_far_apart(panels_, options.bounds)) {
+  if (!options.look_at && are_far_apart(panels_, all)) {
     for (const auto& panel : panels_) {
       panel->view.bounds = panel->bounds;
       panel->view.label += "\ndrawn by itself";
@@ -189,6 +208,9 @@ std::vector<std::string> Picture::write() {
         "the inputs lie far apart: each is drawn by itself, not at one scale. The place of a tile's content is in "
         "tileset.json");
   }
+  const auto typeface = open_label_font();
+  options.typeface = typeface.get();
+  if (std::string note = note_on_font(typeface.get()); !note.empty()) notes.push_back(std::move(note));
   std::vector<View> views;
   for (const auto& panel : panels_) views.push_back(panel->view);
   file_->write(encode_png(render(views, options)));

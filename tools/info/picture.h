@@ -10,19 +10,17 @@
 #include "lib/grid/coarse_view.h"
 #include "lib/grid/stream.h"
 #include "lib/image/render.h"
+#include "tools/common/image_options.h"
 #include "tools/info/mesh_info.h"
 
 /// The PNG of bpinfo --image.
 namespace bp {
 
 struct PictureOptions {
-  std::string file;  ///< empty: no picture is wanted
+  ImageOptions image;
   bool overwrite = false;
-  bool several = false;      ///< inputs: panels carry their names
-  bool edges = true;         ///< of meshes of few triangles
-  int panel_size = 720;      ///< pixels
-  std::optional<UpAxis> up;  ///< of inputs that do not tell theirs
-  double azimuth = 35, elevation = 22;
+  bool several = false;  ///< inputs
+  bool edges = true;     ///< of meshes of few triangles
 };
 
 /// One panel, and what it draws.
@@ -58,6 +56,8 @@ class Picture {
                  const std::string& in);
   [[nodiscard]] UpAxis common_up() const;
   [[nodiscard]] std::string note_on_axes() const;
+  void label_panels();
+  Bounds3d place_panels(RenderOptions& options);
 
   PictureOptions o_;
   std::unique_ptr<OutputFile> file_;

@@ -49,6 +49,12 @@ std::string layer_text(const StreamHeader& h, const StreamTotals& t, int layer) 
                      volume_world(h, l.voxels), l.bricks, l.full, l.bricks - l.full);
 }
 
+Json scene_json(const SceneFiles& scene) {
+  Json files = Json::array();
+  for (const SceneFiles::File& file : scene.files) files.push_back({{"name", file.name}, {"bytes", file.bytes}});
+  return {{"files", files}, {"format", scene.format}, {"triangles", scene.triangles}, {"hash", scene.hash}};
+}
+
 }  // namespace
 
 std::string stream_text(const StreamHeader& h, const StreamTotals& t, const std::string& name) {
@@ -63,6 +69,8 @@ std::string stream_text(const StreamHeader& h, const StreamTotals& t, const std:
   s += fmt::format("fill        {}\n", name_of(h.fill));
   if (h.has_closing) s += fmt::format("element     {}\nscale       {}\n", name_of(h.element), scale_text(h.scale));
   for (const Provenance& p : h.provenance) s += fmt::format("made by     {} {} {}\n", p.tool, p.version, p.options);
+  for (const SceneFiles::File& file : h.scene.files)
+    s += fmt::format("scene file  {}, {}\n", file.name, size_text(file.bytes));
   for (int layer = 0; layer < layer_count(h); ++layer) s += layer_text(h, t, layer);
   if (h.has_closing && t.layers[0].voxels > 0)
     s += fmt::format("grown       {:.4g} times\n", double(t.layers[1].voxels) / double(t.layers[0].voxels));
@@ -99,6 +107,7 @@ Json stream_json(const StreamHeader& h, const StreamTotals& t) {
     j["provenance"].push_back(
         {{"tool", p.tool}, {"version", p.version}, {"options", p.options}, {"input_hash", p.input_hash}});
   }
+  if (!h.scene.files.empty()) j["scene"] = scene_json(h.scene);
   return j;
 }
 
@@ -111,6 +120,8 @@ std::string dump_header(const StreamHeader& h) {
   if (h.has_closing) s += fmt::format("element {}\nscale {}\n", name_of(h.element), to_json(h.scale));
   for (const Provenance& p : h.provenance)
     s += fmt::format("provenance {} {} [{}] {}\n", p.tool, p.version, p.options, p.input_hash);
+  for (const SceneFiles::File& file : h.scene.files) s += fmt::format("scene file {} {} B\n", file.name, file.bytes);
+  if (!h.scene.files.empty()) s += fmt::format("scene triangles {} {}\n", h.scene.triangles, h.scene.hash);
   return s;
 }
 

@@ -47,7 +47,7 @@ TileDepth total_of(const TilesetInfo& info) {
 TilesetInfo tileset_info(const Tileset& tileset, const std::string& path) {
   TilesetInfo info;
   info.version = tileset.version;
-  info.up = tileset.up;
+  info.up = name_of(tileset.up);
   info.geometric_error = tileset.geometric_error;
   add_tile(tileset.root, 0, folder_of(path), info);
   if (tileset.root.box) {

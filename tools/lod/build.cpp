@@ -14,10 +14,14 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/shelf_stream.h"
+#include "lib/meshing/enclosed_triangles.h"
 #include "lib/stage/vertex_colors.h"
 #include "tools/common/face_notes.h"
+#include "tools/common/grounded_source.h"
 #include "tools/common/names.h"
 #include "tools/common/scene_budget.h"
+#include "tools/common/up_note.h"
+#include "tools/lod/proportions.h"
 
 namespace bp {
 
@@ -52,6 +56,10 @@ std::string faces_note(const LodLevel& level, const LodTarget& target, bool aske
     return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", faces,
                        target.faces, level.scale_world);
   const std::string few = asked ? too_few_note(faces, target.faces) : "";
+  if (few.empty() && asked && level.attempts > 1)
+    return fmt::format(
+        "closed at {:.4g}, {} times the scale that was tried first: at less, parts and holes take more than {} faces",
+        level.scale_world, std::uint64_t(1) << (level.attempts - 1), target.faces);
   if (few.empty() || level.attempts == 1) return few;
   return fmt::format("{} faces instead of {}: at half of its scale of {:.4g}, parts and holes take too many", faces,
                      target.faces, level.scale_world);
@@ -83,13 +91,14 @@ Build::Build(const BuildOptions& o)
 
 SceneOptions Build::scene_options(bool beside) const {
   SceneOptions scene{options.format, budget.reader, options.common.temp};
+  scene.walls_only = options.profile == LodProfile::occluder;
   const std::uint64_t pinned = std::min(pinned_bytes(backends), options.common.memory_bytes / 2);
   scene.document = document_budget(options.common.memory_bytes - pinned, std::uint64_t(96) << 20,
                                    beside ? 2 : options.scenes.size());
   return scene;
 }
 
-VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int halvings) {
+VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int halvings, bool ground) {
   report.stage("voxelize");
   VoxelizeOptions v;
   v.cell_vox = cell_vox;
@@ -106,21 +115,30 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   ShelfSink sink(out.solid.get());
   SceneOptions scene = scene_options();
   scene.colors = options.colors;
-  const auto source = open_scenes(options.scenes, scene);
+  auto source = open_scenes(options.scenes, scene);
+  if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.up);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
-    return voxel_size(options, {bounds, source->counts().triangles}, halvings);
+    const SceneSize size{bounds, source->counts().triangles};
+    if (halvings == 0) question_proportions(options, size);
+    return voxel_size(options, size, halvings);
   };
   const auto open = [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
     out.header = header;
+    const Estimate estimate = estimate_build(options, header.bounds, header.frame.voxel);
+    if (halvings == 0) note_estimate(estimate, options.common, progress, report);
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
-  if (halvings == 0) {  // the scene is the same
+  triangles_ = out.counts.scene.triangles;
+  enclosed_ = enclosed_by(options, triangles_);
+  if (halvings == 0 && !ground) {  // the scene is the same
     if (const std::string text = skipped(out.counts.scene); !text.empty()) note("skipped " + text);
-    if (const std::string text = up_note(options, source->up(), out.header.bounds); !text.empty()) note(text);
+    if (const std::string text = up_note(out.header.bounds, options.up || source->up()); !text.empty()) note(text);
     note_missing_materials();
     const SceneSize size{out.header.bounds, out.counts.scene.triangles};
     if (const std::string text = voxel_note(options, size); !text.empty()) note(text);
+    if (const std::string text = origin_note(options, out.header); !text.empty()) note(text);
+    if (const std::string text = enclose_note(options, triangles_); !text.empty()) note(text);
   }
   if (source->has_colors()) gather(*source, out);
   return out;
@@ -139,24 +157,27 @@ void Build::gather(TriangleSource& source, const VoxelizedScene& scene) {
 
 std::vector<TriangleD> Build::scene_triangles() const {
   constexpr std::uint64_t kMost = std::uint64_t(1) << 21;  // whatever the memory: it must not decide what is made
-  constexpr std::uint64_t kBytesEach = 400;                // twice, and a hierarchy over them
+  const bool fit = options.mode == MeshMode::fit;
   std::vector<TriangleD> all;
   if (std::count(options.scenes.begin(), options.scenes.end(), "-") > 0) return all;  // stdin cannot be read again
-  const auto source = open_scenes(options.scenes, scene_options(true));
-  const std::uint64_t memory = budget.work / 2;
-  std::uint64_t count = 0;
-  for (std::vector<TriangleD> chunk; source->read(chunk);) {
-    count += chunk.size();
-    if (count > kMost) return {};
-    if (count * kBytesEach <= memory) all.insert(all.end(), chunk.begin(), chunk.end());
-  }
-  if (count * kBytesEach > memory) {
-    const double missing = double(count * kBytesEach - memory) / (budget.work_growth / 2);
+  if (fit && triangles_ > kMost) return all;
+  // Fits: twice, and a hierarchy over them. Else here, and in what is enclosed.
+  const std::uint64_t bytes = triangles_ * (fit ? 400 : sizeof(TriangleD) + EnclosedTriangles::kBytesEach);
+  const std::uint64_t memory = fit ? budget.work / 2 : budget.work;
+  if (bytes > memory) {
+    const double missing = double(bytes - memory) / (fit ? budget.work_growth / 2 : budget.work_growth);
     fail(ErrorCode::out_of_resource,
-         "to fit {} triangles takes {} MiB, and --memory leaves {} MiB for it; raise --memory to at least {} MiB",
-         count, (count * kBytesEach >> 20) + 1, memory >> 20,
-         std::uint64_t(std::ceil((double(options.common.memory_bytes) + missing) / (1 << 20))));
+         "to {} {} triangles takes {} MiB, and --memory leaves {} MiB for it; raise --memory to at least {} MiB{}",
+         fit ? "fit" : "enclose", triangles_, (bytes >> 20) + 1, memory >> 20,
+         std::uint64_t(std::ceil((double(options.common.memory_bytes) + missing) / (1 << 20))),
+         fit ? "" : ", or use --enclose input");
   }
+  all.reserve(triangles_);
+  const auto source = open_scenes(options.scenes, scene_options(true));
+  for (std::vector<TriangleD> chunk; all.size() <= triangles_ && source->read(chunk);)
+    all.insert(all.end(), chunk.begin(), chunk.end());
+  if (all.size() != triangles_)
+    fail(ErrorCode::bad_input, "{}: has changed while it was at work; run it again", source->name());
   return all;
 }
 
@@ -164,8 +185,8 @@ LodOptions Build::lod_options() {
   LodOptions lod;
   lod.closing.element = options.element;
   lod.mode = options.mode;
-  if (options.mode == MeshMode::fit) lod.scene = scene_triangles();
-  lod.enclose = options.enclose;
+  lod.enclose = enclosed_;
+  if (options.mode == MeshMode::fit || enclosed_ == Enclose::scene) lod.scene = scene_triangles();
   lod.tighten = !options.loose;
   lod.memory_bytes = budget.work;
   lod.pieces = pieces();
@@ -193,10 +214,10 @@ void Build::finish_level(LodLevel& level, std::size_t i, const LodTarget& target
     colors_->prepare(level.mesh.frame);
     color_vertices(level.mesh, colors_->all(level.mesh.frame));
   }
-  OptionText text = option_text(options, target, i, level.scale_world, level.mesh.frame);
+  OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
-  if (const std::string missed = faces_note(level, target, !options.request.faces.empty()); !missed.empty())
+  if (const std::string missed = faces_note(level, target, asks_for_faces(options.request)); !missed.empty())
     note(fmt::format("level {}: {}", i, missed));
   if (target.error_world > 0 && level.error_world > target.error_world) {
     note(error_note(i, level.error_world, target.error_world));
@@ -209,15 +230,8 @@ std::string error_note(std::size_t level, double error_world, double asked_world
       error_world, asked_world);
 }
 
-std::string up_note(const BuildOptions& o, const std::optional<UpAxis>& told, const Bounds3d& bounds) {
-  constexpr double kFlat = 0.25;  // of the shorter side: rooms and most buildings are not
-  if (o.profile != LodProfile::tiles || o.up || told || bounds.empty()) return "";
-  const double x = bounds.max[0] - bounds.min[0], y = bounds.max[1] - bounds.min[1], z = bounds.max[2] - bounds.min[2];
-  if (z >= kFlat * std::min(x, y)) return "";
-  return fmt::format(
-      "the scene is {:.4g} x {:.4g} x {:.4g}, flat along z, and y is taken for up: if it is a map, it will stand on "
-      "edge; say --up z, or --up y to be sure",
-      x, y, z);
+std::string origin_note(const BuildOptions& o, const StreamHeader& header) {
+  return o.profile == LodProfile::tiles ? "" : origin_note(o.origin, header.frame, header.bounds);
 }
 
 std::string voxel_note(const BuildOptions& o, const SceneSize& scene) {

@@ -39,10 +39,8 @@ struct FoundJobs {
 /// What is said of a level whose error exceeds the one asked for; scene units.
 [[nodiscard]] std::string error_note(std::size_t level, double error_world, double asked_world);
 
-/// What is said of a scene that lies flat in x and y, as maps do, if nobody told which axis is up and the profile needs
-/// to know; else empty.
-[[nodiscard]] std::string up_note(const BuildOptions& options, const std::optional<UpAxis>& told,
-                                  const Bounds3d& bounds);
+/// As of OriginOption, but of tilesets, which hold coordinates in double. Throws bad_argument if --origin would round.
+[[nodiscard]] std::string origin_note(const BuildOptions& options, const StreamHeader& header);
 
 /// What is said of a tileset that nobody named voxels for, if the scene has more triangles than those chosen are for;
 /// else empty.
@@ -55,15 +53,17 @@ class Build {
   Build& operator=(const Build&) = delete;
 
   /// cell_vox, results: as in VoxelizeOptions. halvings: as in voxel_size().
-  [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr, int halvings = 0);
+  /// ground: as if it stood on the ground (tools/common/grounded_source.h); the scene was voxelized without before.
+  [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr, int halvings = 0,
+                                        bool ground = false);
   /// How scenes are read. `beside`: something else of them is in memory meanwhile.
   [[nodiscard]] SceneOptions scene_options(bool beside = false) const;
   /// For LodChain; after voxelize(), as all that follow.
   [[nodiscard]] LodOptions lod_options();
   /// For surfaces: budget.work, and what spills.
   [[nodiscard]] PieceMemory pieces() const;
-  /// What a fit is drawn to; nothing if it does not fit in memory.
-  [[nodiscard]] std::vector<TriangleD> scene_triangles() const;
+  /// What stays inside bounding levels; after voxelize().
+  [[nodiscard]] Enclose enclosed() const { return enclosed_; }
 
   /// Colours and provenance of a level of a chain, and the notes on what it missed.
   void finish_level(LodLevel& level, std::size_t number, const LodTarget& target, const std::string& input_hash);
@@ -94,6 +94,10 @@ class Build {
 
  private:
   void gather(TriangleSource& source, const VoxelizedScene& scene);
+  /// The scene, read again; nothing of a fit's if it has too many triangles or comes from a pipe.
+  [[nodiscard]] std::vector<TriangleD> scene_triangles() const;
+  std::uint64_t triangles_ = 0;  // of the scene
+  Enclose enclosed_ = Enclose::input;
   std::unique_ptr<SceneColors> colors_;
 };
 

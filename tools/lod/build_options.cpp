@@ -4,10 +4,12 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/scene_format.h"
 #include "lib/core/error.h"
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/cells.h"
 #include "lib/stage/voxelize_stage.h"
+#include "tools/common/enclosed_triangles_limit.h"
 #include "tools/common/face_list.h"
 #include "tools/common/inputs.h"
 #include "tools/common/names.h"
@@ -26,7 +28,8 @@ std::string base_name(const std::string& path) {
 }
 
 const char* name_of(Enclose enclose) {
-  return enclose == Enclose::input ? "input" : "closing";
+  constexpr const char* kNames[] = {"closing", "input", "scene"};
+  return kNames[std::size_t(enclose)];
 }
 
 /// The value, or null.
@@ -59,6 +62,37 @@ void check_name(BuildOptions& o) {
          given ? "--name" : "the scene's name", o.name);
 }
 
+void set_faces(LodRequest& request, const std::string& text) {
+  const bool percent = text.find('%') != std::string::npos;
+  request.faces = percent ? std::vector<std::uint64_t>() : parse_face_list(text);
+  request.shares = percent ? parse_face_shares(text) : std::vector<double>();
+}
+
+/// Numbers as numbers, percentages as text.
+Json faces_json(const LodRequest& request) {
+  if (request.shares.empty()) return request.faces;
+  Json all = Json::array();
+  for (const double share : request.shares) all.push_back(Length{share, Length::Unit::percent}.text());
+  return all;
+}
+
+/// -o foo.glb: who writes that wants a file, and there are several.
+void check_folder_name(const BuildOptions& o) {
+  const std::string extension = scene_format_of(o.out);
+  std::error_code none;
+  if (extension.empty() || std::filesystem::is_directory(o.out, none)) return;
+  const std::string folder = o.out.substr(0, o.out.size() - extension.size() - 1);
+  fail(ErrorCode::bad_argument,
+       "-o {}: bplod writes several files to a folder, and this is the name of a file; did you mean -o {}?", o.out,
+       folder.empty() || folder.ends_with('/') ? folder + o.name : folder);
+}
+
+/// Whether levels are one mesh each, and something has to stay inside while they are tightened.
+bool may_enclose_scene(const BuildOptions& o) {
+  return (o.profile == LodProfile::gltf || o.profile == LodProfile::collision) && o.mode == MeshMode::bounding &&
+         !o.loose;
+}
+
 /// What would be passed over in silence.
 void check_meaning(const Args& args, const BuildOptions& o) {
   if (o.profile != LodProfile::tiles) {
@@ -66,24 +100,54 @@ void check_meaning(const Args& args, const BuildOptions& o) {
       if (args.given(name)) fail(ErrorCode::bad_argument, "{} needs --profile 3dtiles", name);
     }
   }
+  if (o.profile == LodProfile::tiles && args.given("--origin"))
+    fail(ErrorCode::bad_argument,
+         "--origin: a tileset holds its place in double, in the transforms of its tiles; leave it out, and move the "
+         "tileset by the transform of its root");
   if (o.profile != LodProfile::collision && args.given("--hulls"))
     fail(ErrorCode::bad_argument, "--hulls needs --profile collision");
   if (o.profile == LodProfile::collision && args.given("--colors") && o.colors)
     fail(ErrorCode::bad_argument, "--profile collision has no colours; leave --colors out");
+  if (o.profile == LodProfile::occluder) {
+    for (const char* const name : {"--mode", "--enclose", "--fill", "--error", "--screen", "--colors", "--explain"})
+      if (args.given(name)) fail(ErrorCode::bad_argument, "{} has no meaning with --profile occluder", name);
+  }
   if (o.mode == MeshMode::fit) {
     for (const char* const name : {"--enclose", "--no-tighten"}) {
       if (args.given(name))
         fail(ErrorCode::bad_argument, "a fit encloses nothing and is not tightened; {} has no meaning", name);
     }
   }
+  if (o.enclose == Enclose::scene && o.profile == LodProfile::tiles)
+    fail(ErrorCode::bad_argument, "--enclose scene: tiles enclose voxels; leave it out, or take another --profile");
+  if (o.enclose == Enclose::scene && !can_read_again(o))
+    fail(ErrorCode::bad_argument, "--enclose scene: a scene from a pipe cannot be read again; give it as a file");
   const bool by_error = !o.request.errors.empty() || !o.request.pixels.empty();
   if (o.loose && args.given("--enclose") && !by_error)
     fail(ErrorCode::bad_argument, "--enclose says what tightening keeps inside; --no-tighten leaves that out");
 }
 
+/// One level within the scene, of the voxels of its surface.
+void set_occluder(BuildOptions& o) {
+  if (!o.request.levels && asks_for_nothing(o.request)) o.request.levels = 1;
+  if (level_count(o.request) != 1) fail(ErrorCode::bad_argument, "--profile occluder has one level");
+  if (!o.request.shares.empty())
+    fail(ErrorCode::bad_argument, "--faces {}%: an occluder takes a number of faces; some hundred are enough",
+         o.request.shares.front());
+  o.mode = MeshMode::inside;
+  o.fill = FillMode::none;
+  o.colors = false;
+}
+
 void check_options(BuildOptions& o) {
-  const bool listed = !o.request.faces.empty() || !o.request.errors.empty() || !o.request.pixels.empty();
-  if (o.profile == LodProfile::collision && !listed && !o.request.levels) o.request.levels = 1;
+  if (o.profile == LodProfile::occluder) set_occluder(o);
+  if (o.profile == LodProfile::collision && asks_for_nothing(o.request) && !o.request.levels) o.request.levels = 1;
+  if (o.profile == LodProfile::tiles && !o.request.shares.empty())
+    fail(
+        ErrorCode::bad_argument,
+        "--faces {}%: of a tileset --faces is the budget of each tile, whose triangles are not counted; give a number, "
+        "or leave it out, and the scene decides",
+        o.request.shares.front());
   if (o.profile == LodProfile::collision && level_count(o.request) != 1)
     fail(ErrorCode::bad_argument, "--profile collision has one level");
   if (o.profile == LodProfile::collision && o.mode != MeshMode::bounding)
@@ -92,6 +156,7 @@ void check_options(BuildOptions& o) {
   check(o.request);
   if (o.out.empty() && !o.tiles && (!o.explain || o.resume))
     fail(ErrorCode::bad_argument, "name the folder of the levels with -o");
+  check_folder_name(o);
   if (o.voxel && o.resolution) fail(ErrorCode::bad_argument, "--voxel and --resolution exclude each other");
   if (o.voxel && (o.voxel->unit == Length::Unit::voxels || !(o.voxel->value > 0)))
     fail(ErrorCode::bad_argument, "--voxel {}: must be above 0, in scene units or percent", o.voxel->text());
@@ -123,7 +188,7 @@ JobRange parse_job_range(const std::string& text) {
 }
 
 const char* name_of(LodProfile profile) {
-  constexpr const char* kNames[] = {"gltf", "3dtiles", "collision"};
+  constexpr const char* kNames[] = {"gltf", "3dtiles", "collision", "occluder"};
   return kNames[std::size_t(profile)];
 }
 
@@ -132,19 +197,26 @@ BuildOptions parse_build_options(Args& args) {
   args.about("Makes levels of detail of scenes: coarser and coarser proxies that strictly enclose them.");
   args.positional("SCENE", o.scenes, "scenes, taken together; - is stdin and needs --format");
   args.option("-o,--output", "DIR", o.out, "folder of the levels; it is made if it is not there");
-  args.option("--profile",
-              {{"gltf", LodProfile::gltf}, {"3dtiles", LodProfile::tiles}, {"collision", LodProfile::collision}},
-              o.profile,
-              "gltf: a GLB a level, and one with all (MSFT_lod); 3dtiles: a tileset of compressed GLB, coarse root, in "
-              "the scene's coordinates (mind --up); collision: "
-              "one level, named for Godot, Unreal and Unity");
+  args.option(
+      "--profile",
+      {{"gltf", LodProfile::gltf},
+       {"3dtiles", LodProfile::tiles},
+       {"collision", LodProfile::collision},
+       {"occluder", LodProfile::occluder}},
+      o.profile,
+      "gltf: a GLB a level, and one with all (MSFT_lod); 3dtiles: a tileset of compressed GLB, coarse root, in "
+      "the scene's coordinates (mind --up); collision: "
+      "one level, named for Godot, Unreal and Unity; occluder: one level, strictly within what the scene hides");
   args.option("--mode", {{"bounding", MeshMode::bounding}, {"fit", MeshMode::fit}}, o.mode,
               "around the scene; or as near to it as can be, enclosing nothing");
   args.option("--name", "NAME", o.name, "first part of the names of files and nodes (default: the first scene's)");
-  args.option("--levels", "N", o.request.levels, "number of levels (default: as many as are listed, or 4)");
+  args.option("--levels", "N", o.request.levels,
+              "number of levels (default: as many as are listed; else 4, or fewer where 12 faces are reached before)");
   args.option(
-      "--faces", "N[,N...]", [&o](const std::string& text) { o.request.faces = parse_face_list(text); },
-      "triangles of each level, finest first; one number: each further one of --levels has a quarter");
+      "--faces", "N[,N...]|P%[,P%...]", [&o](const std::string& text) { set_faces(o.request, text); },
+      "triangles of each level, finest first; or percentages of the scene's (not of tilesets); one number: each "
+      "further one of --levels has a quarter (default: by the scene: 50%, 40000 at most; collision: 12.5%, 5000 at "
+      "most)");
   args.option(
       "--error", "LENGTH[,...]", [&o](const std::string& text) { o.request.errors = parse_errors(text); },
       "largest distance between scene and level, finest first; one: each further level has twice that");
@@ -159,7 +231,7 @@ BuildOptions parse_build_options(Args& args) {
   args.option("--tile", "N", o.tile_vox,
               "3dtiles: voxels along the side of a tile; a level that is larger is cut into tiles of its own");
   args.option(
-      "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_integer(text, 1, kMostHullsAsked); },
+      "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_count(text, 1, kMostHullsAsked); },
       "collision: convex hulls in Unreal's file, at most (default: 32, or one for each part where there are more)");
   args.option("--cache", "DIR", o.cache,
               "3dtiles: keep the results of all jobs in DIR, and take from there what has not changed");
@@ -172,13 +244,23 @@ BuildOptions parse_build_options(Args& args) {
               "closing radius of the finest level; it doubles from level to level (default: by the target)");
   args.option("--element", {{"cube", StructuringElement::cube}, {"ball", StructuringElement::ball}}, o.element,
               "of the dilation; cube: large flat areas survive; ball: slanted sides do, so it is a fit's default");
-  args.option("--enclose", {{"input", Enclose::input}, {"closing", Enclose::closing}}, o.enclose,
-              "what stays inside while a level is tightened: the voxels of the scene, or their closing");
+  args.option(
+      "--enclose",
+      {{"auto", std::nullopt}, {"scene", Enclose::scene}, {"input", Enclose::input}, {"closing", Enclose::closing}},
+      o.enclose,
+      "what stays inside while a level is tightened: the scene's triangles, its voxels, or their closing "
+      "(default: auto, scene for levels in one mesh of a scene in files, of up to 1048576 triangles; else "
+      "input)");
   args.option("--fill", {{"flood", FillMode::flood}, {"winding", FillMode::winding}, {"none", FillMode::none}}, o.fill,
               "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing");
   args.option("--colors", {{"auto", true}, {"off", false}}, o.colors,
               "auto: vertices get the colours of the scene's materials and vertices, if it has any; off: none");
-  args.option("--up", "y|z", o.up, "axis of the scene that points up (default: y, or what a proxy of ours tells)");
+  args.option("--up", "x|y|z|-x|-y|-z", o.up,
+              "axis of the scene that points up (default: y, or what a proxy of ours tells)");
+  args.option(
+      "--origin", "auto|off|X,Y,Z", [&o](const std::string& text) { o.origin = parse_origin(text); },
+      "subtract this point from all vertices, for programs of 32-bit floats; auto: a round point near a scene that "
+      "lies far off; off: none, and no note (default: none; not of tilesets)");
   args.option("--format", "NAME", o.format,
               "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");
   args.flag("--no-tighten", o.loose, "leave out the step that lowers the volume");
@@ -201,7 +283,7 @@ Json options_json(const BuildOptions& o) {
           {"mode", name_of(o.mode)},
           {"name", o.name},
           {"levels", optional_json(o.request.levels)},
-          {"faces", o.request.faces},
+          {"faces", faces_json(o.request)},
           {"error", errors},
           {"screen", o.request.pixels},
           {"voxel", optional_json(o.voxel)},
@@ -214,11 +296,12 @@ Json options_json(const BuildOptions& o) {
           {"explain", o.explain},
           {"scale", optional_json(o.request.scale)},
           {"element", name_of(o.element)},
-          {"enclose", name_of(o.enclose)},
+          {"enclose", o.enclose ? name_of(*o.enclose) : "auto"},
           {"fill", name_of(o.fill)},
           {"colors", o.colors},
           {"up", o.up ? Json(name_of(*o.up)) : Json(nullptr)},
           {"tighten", !o.loose},
+          {"origin", o.origin.text().empty() ? Json(nullptr) : Json(o.origin.text())},
           {"threads", o.common.threads},
           {"memory", o.common.memory_bytes}};
 }
@@ -239,9 +322,16 @@ double area_of_cube_like(const Bounds3d& b) {
 }
 
 bool is_by_scene(const BuildOptions& o) {
-  const LodRequest& r = o.request;
-  return o.profile == LodProfile::tiles && !o.voxel && !o.resolution && r.faces.empty() && r.errors.empty() &&
-         r.pixels.empty();
+  return o.profile == LodProfile::tiles && !o.voxel && !o.resolution && asks_for_nothing(o.request);
+}
+
+LodRequest request_for(const BuildOptions& o, std::uint64_t triangles) {
+  constexpr double kPerCollisionFace = 8;
+  if (o.profile == LodProfile::tiles) return o.request;
+  LodDefaults defaults;
+  if (o.profile == LodProfile::collision) defaults = {kPerCollisionFace, kMostCollisionFaces};
+  defaults.by_voxels = o.voxel || o.resolution;
+  return request_for(o.request, triangles, defaults);
 }
 
 double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
@@ -249,10 +339,12 @@ double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
   if (o.voxel) return o.voxel->in_world(bounds.diagonal(), 0);
   const double error = finest_error(o.request, bounds.diagonal());
   if (error > 0 && !o.resolution) return error / kVoxelsPerError;
+  if (o.profile == LodProfile::occluder) return voxel_size_of(bounds, o.resolution.value_or(kOccluderResolution));
   const double coarse = voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
   const bool tileset = o.profile == LodProfile::tiles;
-  if (o.resolution || o.request.faces.empty() != tileset) return coarse;
-  const std::uint64_t faces = tileset ? std::min(scene.triangles, kTilesetFaces) : o.request.faces.front();
+  const LodRequest request = request_for(o, scene.triangles);
+  if (o.resolution || request.faces.empty() != tileset) return coarse;
+  const std::uint64_t faces = tileset ? std::min(scene.triangles, kTilesetFaces) : request.faces.front();
   double dense_faces = double(tileset ? kDensePerFace : kDensePerFaceAsked) * double(faces);
   if (!tileset) dense_faces = std::max(dense_faces, kLeastDenseFaces);
   const double area = tileset ? area_of_cube_like(bounds) : area_of(bounds);
@@ -261,16 +353,35 @@ double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
   return std::min(coarse, std::max(std::ldexp(fine, -halvings), voxel_size_of(bounds, most)));
 }
 
-bool may_refine(const BuildOptions& o) {
-  const bool readable = std::all_of(o.scenes.begin(), o.scenes.end(), [](const std::string& scene) {
+bool can_read_again(const BuildOptions& o) {
+  return std::all_of(o.scenes.begin(), o.scenes.end(), [](const std::string& scene) {
     std::error_code none;  // what is no file, a pipe say, can be read once
     return scene != "-" && std::filesystem::is_regular_file(scene, none);
   });
-  return !o.voxel && !o.resolution && !o.request.faces.empty() && o.profile != LodProfile::tiles && readable;
 }
 
-OptionText option_text(const BuildOptions& o, const LodTarget& target, std::size_t i, double scale_world,
-                       const GridFrame& frame) {
+bool may_refine(const BuildOptions& o) {
+  const bool by_faces = asks_for_faces(o.request) || asks_for_nothing(o.request);
+  return !o.voxel && !o.resolution && by_faces && o.profile != LodProfile::tiles && can_read_again(o);
+}
+
+Enclose enclosed_by(const BuildOptions& o, std::uint64_t triangles) {
+  if (o.enclose) return *o.enclose;
+  const bool scene = may_enclose_scene(o) && can_read_again(o) && triangles <= kMostEnclosedTriangles;
+  return scene ? Enclose::scene : Enclose::input;
+}
+
+std::string enclose_note(const BuildOptions& o, std::uint64_t triangles) {
+  if (o.enclose || !may_enclose_scene(o) || enclosed_by(o, triangles) == Enclose::scene) return "";
+  const bool file = can_read_again(o);
+  return fmt::format("{}: levels enclose the scene's voxels, not its triangles, and are less tight; {}",
+                     file ? fmt::format("the scene has {} triangles, more than {}", triangles, kMostEnclosedTriangles)
+                          : "the scene comes from a pipe and cannot be read again",
+                     file ? "--enclose scene takes them all the same" : "give it as a file");
+}
+
+OptionText option_text(const BuildOptions& o, Enclose enclosed, const LodTarget& target, std::size_t i,
+                       double scale_world, const GridFrame& frame) {
   OptionText text;
   text.add("level", i).add("mode", name_of(o.mode));
   if (target.faces > 0) text.add("faces", target.faces);
@@ -278,7 +389,7 @@ OptionText option_text(const BuildOptions& o, const LodTarget& target, std::size
   text.add("scale", scale_world)
       .add("voxel", frame.voxel)
       .add("element", name_of(o.element))
-      .add("enclose", name_of(o.enclose))
+      .add("enclose", name_of(enclosed))
       .add("fill", name_of(o.fill))
       .add("up", name_of(frame.up))
       .add("tighten", !o.loose);

@@ -6,6 +6,7 @@
 #include "lib/stage/lod_stage.h"
 #include "tools/common/common_options.h"
 #include "tools/common/length.h"
+#include "tools/common/origin.h"
 #include "tools/common/provenance.h"
 #include "tools/common/report.h"
 #include "tools/lod/lod_targets.h"
@@ -13,7 +14,7 @@
 /// The command line of bplod.
 namespace bp {
 
-enum class LodProfile { gltf, tiles, collision };
+enum class LodProfile { gltf, tiles, collision, occluder };
 [[nodiscard]] const char* name_of(LodProfile profile);
 
 /// Jobs of a tileset by their numbers in the plan: [begin, end).
@@ -45,9 +46,10 @@ struct BuildOptions {
   FillMode fill = FillMode::flood;
   std::optional<UpAxis> up;  ///< empty: what the scene tells, else y
   StructuringElement element = StructuringElement::cube;
-  Enclose enclose = Enclose::input;
-  bool loose = false;  ///< --no-tighten
-  bool colors = true;  ///< carry the scene's, if it has any
+  std::optional<Enclose> enclose;  ///< what stays inside bounding levels; empty: enclosed_by() chooses
+  bool loose = false;              ///< --no-tighten
+  bool colors = true;              ///< carry the scene's, if it has any
+  OriginOption origin;
 };
 
 /// Throws bad_argument if options contradict each other.
@@ -72,18 +74,34 @@ struct SceneSize {
 /// Whether the scene alone decides the voxels of a tileset: nobody named voxels, an error or faces.
 [[nodiscard]] bool is_by_scene(const BuildOptions& options);
 
+/// What is made of a scene of so many triangles: percentages and defaults as numbers, but of tilesets, whose levels
+/// follow from their voxels.
+[[nodiscard]] LodRequest request_for(const BuildOptions& options, std::uint64_t triangles);
+
 /// Of the six sides of a box.
 [[nodiscard]] double area_of(const Bounds3d& bounds);
 
 /// Voxels along the longest side.
 constexpr std::int64_t kDefaultResolution = 256, kMostResolution = 1024, kMostTilesetResolution = 4096;
-constexpr std::uint64_t kTilesetFaces = 40000;  ///< that nobody asked for, over the bounds
+constexpr std::int64_t kOccluderResolution = 512;  ///< a voxel or two of each wall are given away
+constexpr std::uint64_t kTilesetFaces = 40000;     ///< that nobody asked for, over the bounds
+/// Whether the scene is of files, which can be read any number of times.
+[[nodiscard]] bool can_read_again(const BuildOptions& options);
 /// Whether smaller voxels may be tried where the finest level does not come to its faces: nobody said which, the
 /// scene can be read again, and no cells depend on them.
 [[nodiscard]] bool may_refine(const BuildOptions& options);
 
-/// Of a level, for its provenance.
-[[nodiscard]] OptionText option_text(const BuildOptions& options, const LodTarget& target, std::size_t level,
-                                     double scale_world, const GridFrame& frame);
+/// What stays inside the levels of a scene of so many triangles: as asked; else the triangles, where levels are one
+/// mesh each, the scene can be read again, and it has no more than kMostEnclosedTriangles; else its voxels. Memory has
+/// no say.
+[[nodiscard]] Enclose enclosed_by(const BuildOptions& options, std::uint64_t triangles);
+
+/// What is said where nobody asked, and levels do not enclose the triangles of a scene although such levels could; else
+/// empty.
+[[nodiscard]] std::string enclose_note(const BuildOptions& options, std::uint64_t triangles);
+
+/// Of a level, for its provenance. `enclosed`: of enclosed_by().
+[[nodiscard]] OptionText option_text(const BuildOptions& options, Enclose enclosed, const LodTarget& target,
+                                     std::size_t level, double scale_world, const GridFrame& frame);
 
 }  // namespace bp

@@ -15,8 +15,10 @@
 #include "lib/grid/boundary_runs.h"
 #include "lib/grid/reduce.h"
 #include "lib/stage/tile_stage.h"
+#include "tools/common/up_note.h"
 #include "tools/lod/build.h"
 #include "tools/lod/lod_targets.h"
+#include "tools/lod/proportions.h"
 #include "tools/lod/tile_build.h"
 #include "tools/lod/tile_plan.h"
 
@@ -62,7 +64,11 @@ double dense_faces(const Scene& scene, double voxel) {
 
 class Plan {
  public:
-  Plan(const Build& build, const Scene& scene) : build_(build), options_(build.options), scene_(scene) {
+  Plan(const Build& build, const Scene& scene)
+      : build_(build),
+        options_(build.options),
+        request_(request_for(build.options, scene.counts.triangles)),
+        scene_(scene) {
     VoxelizeOptions v;
     v.fill = options_.fill;
     if (is_tileset()) v.cell_vox = options_.tile_vox;
@@ -72,10 +78,13 @@ class Plan {
       for (const CutLevel& cut : tileset_.cut) add(cut);
       add_whole(tileset_.uncut, tileset_.whole);
     } else {
-      add_whole(header_, level_count(options_.request));
+      add_whole(header_, level_count(request_));
     }
+    origin_ = origin_of(options_.origin, header_.frame, header_.bounds);
     if (is_tileset() && (options_.resume || !options_.cache.empty())) kept_ = look_up_tileset(options_);
   }
+
+  [[nodiscard]] const StreamHeader& header() const { return header_; }
 
   [[nodiscard]] Json json() const {
     const SceneCounts& c = scene_.counts;
@@ -99,6 +108,7 @@ class Plan {
               {"file_bytes_about", file_bytes()},
               {"scratch_bytes_about", scratch_bytes()}};
     for (const PlannedLevel& level : levels_) plan["levels"].push_back(json_of(level));
+    if (origin_ != Vec3d{}) plan["origin"] = origin_;
     for (const FoundJobs& f : kept_) plan["kept"].push_back({{"what", f.what}, {"jobs", f.jobs}, {"kept", f.kept}});
     return plan;
   }
@@ -109,6 +119,7 @@ class Plan {
                                   scene_.counts.triangles, lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]);
     const std::array<std::int32_t, 3> size = grid();
     out += fmt::format("grid\t{} x {} x {} voxels of {:.6g}\n", size[0], size[1], size[2], header_.frame.voxel);
+    if (origin_ != Vec3d{}) out += fmt::format("origin\t{}\n", origin_text(origin_));
     out += fmt::format("device\t{}, {} threads\n", fmt::join(names_of(build_.backends), ", "), thread_count());
     const BuildBudget& b = build_.budget;
     out += fmt::format("memory\t{}: reading with {}, {} for what waits; then {} for voxels, {} for surfaces\n",
@@ -152,8 +163,9 @@ class Plan {
     double scale = since > 0 ? TilesetPlan::kScaleVox * header.frame.voxel : 0;
     int reductions = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      const LodTarget target = target_of(options_.request, since + i, since, header.bounds.diagonal(),
-                                         header_.frame.voxel, ground.dense_faces);
+      const LodTarget target =
+          target_of(request_, since + i, since, header.bounds.diagonal(), header_.frame.voxel, ground.dense_faces);
+      if (i >= request_.faces.size() && i > 0 && target.faces > 0 && target.faces >= levels_.back().faces) continue;
       scale = first_scale(ground, target, scale);
       reductions = reductions_for(ground, target, scale, reductions);
       GridFrame frame = header.frame;
@@ -201,9 +213,11 @@ class Plan {
 
   const Build& build_;
   const BuildOptions& options_;
+  const LodRequest request_;
   const Scene& scene_;
   StreamHeader header_;
   TilesetPlan tileset_;
+  Vec3d origin_{};
   std::vector<PlannedLevel> levels_;
   std::vector<FoundJobs> kept_;
 };
@@ -214,12 +228,14 @@ void explain(const BuildOptions& options) {
   Build build(options);
   build.report.stage("read");
   const Scene scene = read_scene(build);
-  if (const std::string text = up_note(options, scene.up_told, scene.bounds); !text.empty()) build.note(text);
+  if (const std::string text = up_note(scene.bounds, options.up || scene.up_told); !text.empty()) build.note(text);
   const SceneSize size{scene.bounds, scene.counts.triangles};
+  question_proportions(options, size);
   if (const std::string text = voxel_note(options, size); !text.empty()) build.note(text);
   if (const std::string text = cache_note(options); !text.empty()) build.note(text);
   build.report.stage("look up");
   const Plan plan(build, scene);
+  if (const std::string text = origin_note(options, plan.header()); !text.empty()) build.note(text);
   build.report.options = options_json(options);
   build.report.bytes_in = size_of_files(options.scenes);
   build.report.counts = plan.json();

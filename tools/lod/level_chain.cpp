@@ -30,6 +30,7 @@ LodTarget following(LodTarget target, const LodRequest& request, const LodLevel&
 /// Voxels of the scene, and the finest level that they give.
 struct Attempt {
   VoxelizedScene scene;
+  LodRequest request;
   LodTarget target;
   std::unique_ptr<LodChain> chain;
   LodLevel finest;
@@ -40,8 +41,8 @@ struct Attempt {
     build.report.stage("measure the scene");
     chain = std::make_unique<LodChain>(scene.header, std::move(scene.solid), build.backends, build.lod_options());
     build.report.stage("level 0");
-    target = target_of(build.options.request, 0, 0, scene.header.bounds.diagonal(), scene.header.frame.voxel,
-                       chain->dense_faces());
+    request = request_for(build.options, scene.counts.scene.triangles);
+    target = target_of(request, 0, 0, scene.header.bounds.diagonal(), scene.header.frame.voxel, chain->dense_faces());
     const SceneSize size{scene.header.bounds, scene.counts.scene.triangles};
     const auto voxel = [&](int times) { return voxel_size(build.options, size, times); };
     target.detail = voxel(0) / voxel(halvings);
@@ -70,7 +71,7 @@ std::unique_ptr<Attempt> best_attempt(Build& build) {
 
 std::vector<LodLevel> make_levels(Build& build, LodChain& chain, const ChainRange& range,
                                   std::optional<LodLevel> finest) {
-  const LodRequest& request = build.options.request;
+  const LodRequest& request = range.request;
   std::vector<LodLevel> levels;
   bool short_of_faces = false;
   for (std::size_t i = 0; i < range.count; ++i) {
@@ -109,7 +110,7 @@ MadeChain make_chain(Build& build) {
   MadeChain made;
   const std::unique_ptr<Attempt> attempt = best_attempt(build);
   made.levels = make_levels(build, *attempt->chain,
-                            {0, level_count(build.options.request), attempt->scene.header.frame.voxel,
+                            {attempt->request, 0, level_count(attempt->request), attempt->scene.header.frame.voxel,
                              attempt->scene.header.bounds, attempt->scene.counts.input_hash, attempt->target.detail},
                             std::move(attempt->finest));
   made.scene = std::move(attempt->scene);

@@ -6,6 +6,7 @@ namespace bp {
 
 /// Which levels of a request are made.
 struct ChainRange {
+  LodRequest request;                ///< as request_for() gives it
   std::size_t first = 0, count = 0;  ///< `first` is the first in one mesh
   double scene_voxel = 0;            ///< edge of the finest voxels, scene units
   Bounds3d bounds;                   ///< of the scene

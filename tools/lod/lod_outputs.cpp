@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
+#include "io/final_names.h"
 #include "io/lod_writer.h"
 #include "io/mesh_writer.h"
 #include "lib/core/error.h"
@@ -13,47 +13,51 @@ namespace bp {
 
 namespace {
 
-std::vector<NamedMesh> named(const std::string& name, const std::vector<LodLevel>& levels, bool normals) {
+std::vector<NamedMesh> named(const std::string& name, const std::vector<LodLevel>& levels) {
   std::vector<NamedMesh> meshes;
-  for (std::size_t i = 0; i < levels.size(); ++i) meshes.push_back({level_name(name, i), &levels[i].mesh, normals});
+  for (std::size_t i = 0; i < levels.size(); ++i) meshes.push_back({level_name(name, i), &levels[i].mesh});
   return meshes;
 }
 
 std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::vector<LodLevel>& levels,
-                                            double diameter, bool normals, OutputFolder& out) {
+                                            double diameter, const Vec3d& origin, OutputFolder& out) {
   std::vector<WrittenFile> files;
-  const std::vector<NamedMesh> meshes = named(name, levels, normals);
+  const std::vector<NamedMesh> meshes = named(name, levels);
   for (const NamedMesh& level : meshes) {
-    write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"));
+    write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"), origin);
     files.push_back({level.name + ".glb", files.size(), level.mesh->triangles.size()});
   }
   std::vector<double> coverage;  // a level is drawn until the next one's error is a pixel; the last one always
   for (std::size_t i = 1; i < levels.size(); ++i)
     coverage.push_back(coverage_at_one_pixel(diameter, levels[i].error_world));
   coverage.push_back(0);
-  write_lod_glb(meshes, coverage, out.file(name + ".glb"));
+  write_lod_glb(meshes, coverage, out.file(name + ".glb"), origin);
   return files;
 }
 
 /// What hulls leave to be desired, and whether more would help; empty if they are as good as the level.
-std::string hull_note(const WrittenFile& file, bool limited) {
+std::string hull_note(const WrittenFile& file, const ConvexParts& parts) {
   constexpr double kAsGood = 1.1;
   if (file.hull_volume < kAsGood) return "";
+  const char* advice = parts.short_of_faces ? "give more --faces to come nearer, or use"
+                       : parts.limited      ? "give more --hulls to come nearer, or use"
+                                            : "more --hulls would hardly change that: use";
   return fmt::format(
       "{}: {} hull{} with {:.3g} times the level's volume; {} another of the files, the level itself, as complex "
       "collision",
-      file.name, file.hulls, file.hulls == 1 ? "" : "s", file.hull_volume,
-      limited ? "give more --hulls to come nearer, or use" : "more --hulls would hardly change that: use");
+      file.name, file.hulls, file.hulls == 1 ? "" : "s", file.hull_volume, advice);
 }
 
 /// What importers go by: Godot by the suffix "-colonly" (collision only, the mesh itself), Unreal by the prefix
 /// "UCX_MESH_" (convex, so: hulls that enclose it together), Unity by nothing, and people by "_Collider".
-std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const LatticeMesh& mesh, OutputFolder& out) {
+std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const LatticeMesh& mesh, const Vec3d& origin,
+                                                 OutputFolder& out) {
   const std::string& name = o.name;
   const NamedMesh godot{name + "-colonly", &mesh}, unity{name + "_Collider", &mesh};
-  write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"));
-  write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"));
-  const ConvexParts parts = convex_parts(mesh, std::size_t(o.hulls));
+  write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"), origin);
+  write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"), origin);
+  const std::uint64_t faces = o.request.faces.empty() ? mesh.triangles.size() : o.request.faces.front();
+  const ConvexParts parts = convex_parts(mesh, std::size_t(o.hulls), faces);
   std::vector<NamedMesh> unreal;
   const auto volume6 = double(volume6_of(mesh));
   WrittenFile hull_file{name + "_unreal.glb", 0, 0, false, parts.hulls.size()};
@@ -62,16 +66,24 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
     hull_file.hull_volume += double(volume6_of(hull)) / volume6;
     unreal.push_back({fmt::format("UCX_{}_{:02}", name, unreal.size()), &hull});
   }
-  write_parts_glb(unreal, out.file(hull_file.name));
-  hull_file.note = hull_note(hull_file, parts.limited);
+  write_parts_glb(unreal, out.file(hull_file.name), origin);
+  hull_file.note = hull_note(hull_file, parts);
   const std::uint64_t own = mesh.triangles.size();
   return {{name + "_godot.glb", 0, own}, hull_file, {name + "_unity.glb", 0, own}};
+}
+
+/// Godot makes an occluder of a node with this suffix, and draws nothing.
+std::vector<WrittenFile> write_occluder_profile(const std::string& name, const LatticeMesh& mesh, const Vec3d& origin,
+                                                OutputFolder& out) {
+  const NamedMesh godot{name + "-occonly", &mesh};
+  write_parts_glb({&godot, 1}, out.file(name + "_occluder.glb"), origin);
+  return {{name + "_occluder.glb", 0, mesh.triangles.size()}};
 }
 
 }  // namespace
 
 OutputFolder::OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite)
-    : path_(std::move(path)), made_(path_), names_(names) {
+    : path_(std::move(path)), overwrite_(overwrite), made_(path_), names_(names) {
   for (const std::string& name : names) files_.push_back(open_output(path_ + "/" + name, overwrite));
 }
 
@@ -90,9 +102,10 @@ void OutputFolder::leave_out(const std::string& name) {
 }
 
 void OutputFolder::commit() {
-  for (const auto& file : files_) file->commit();
-  std::error_code none;  // most often there is none
-  for (const std::string& name : left_out_) std::filesystem::remove(path_ + "/" + name, none);
+  OutputFile::commit_all(files_);
+  if (overwrite_) {  // else none was there before
+    for (const std::string& name : left_out_) (void)remove_file(path_ + "/" + name);
+  }
   made_.keep();
 }
 
@@ -113,6 +126,7 @@ std::string level_name(const std::string& name, std::size_t level) {
 
 std::vector<std::string> profile_files(LodProfile profile, const std::string& name, std::size_t levels) {
   if (profile == LodProfile::collision) return {name + "_godot.glb", name + "_unreal.glb", name + "_unity.glb"};
+  if (profile == LodProfile::occluder) return {name + "_occluder.glb"};
   std::vector<std::string> files;
   for (std::size_t i = 0; i < levels; ++i) files.push_back(level_name(name, i) + ".glb");
   files.push_back(name + ".glb");
@@ -120,14 +134,16 @@ std::vector<std::string> profile_files(LodProfile profile, const std::string& na
 }
 
 std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::vector<LodLevel>& levels,
-                                       double diameter, OutputFolder& out) {
+                                       double diameter, const Vec3d& origin, OutputFolder& out) {
   switch (options.profile) {
     case LodProfile::gltf:
-      return write_gltf_profile(options.name, levels, diameter, options.mode == MeshMode::fit, out);
+      return write_gltf_profile(options.name, levels, diameter, origin, out);
     case LodProfile::tiles:
       break;  // tile_build.h
+    case LodProfile::occluder:
+      return write_occluder_profile(options.name, levels.front().mesh, origin, out);
     case LodProfile::collision:
-      return write_collision_profile(options, levels.front().mesh, out);
+      return write_collision_profile(options, levels.front().mesh, origin, out);
   }
   return {};
 }

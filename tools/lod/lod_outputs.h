@@ -11,14 +11,15 @@
 namespace bp {
 
 /// Files that appear together: all are opened before the work, so that a name that cannot be written fails at once, and
-/// committed after it, in the order in which they were opened; what names other files comes last.
+/// committed after it, in the order in which they were opened; what names other files comes last. If one cannot have
+/// its name, no new one stays.
 class OutputFolder {
  public:
   /// Makes the folder if it is not there. Without commit() nothing stays behind, folders that were made included.
   /// Throws bad_argument if a file exists and `overwrite` is false.
   OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite);
   [[nodiscard]] OutputFile& file(const std::string& name);
-  /// A file that nothing was written to. What commit() finds under its name, of an earlier set, goes.
+  /// A file that nothing was written to. What --overwrite finds under its name, of an earlier set, goes with commit().
   void leave_out(const std::string& name);
   void commit();
   [[nodiscard]] std::uint64_t bytes() const;
@@ -26,6 +27,7 @@ class OutputFolder {
 
  private:
   std::string path_;
+  bool overwrite_;
   MadeFolders made_;
   std::vector<std::string> names_, left_out_;
   std::vector<std::unique_ptr<OutputFile>> files_;
@@ -46,8 +48,9 @@ struct WrittenFile {
   std::string note = "";   ///< what a user should know of it
 };
 /// Writes them; returns those that hold one level. `levels`: finest first; errors must not fall towards coarser ones;
-/// collision: one. diameter: of the scene, scene units. Of the options: profile, name, mode, hulls.
+/// collision: one. diameter: of the scene; origin: subtracted from all vertices; scene units. Of the options: profile,
+/// name, mode, hulls.
 std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::vector<LodLevel>& levels,
-                                       double diameter, OutputFolder& out);
+                                       double diameter, const Vec3d& origin, OutputFolder& out);
 
 }  // namespace bp

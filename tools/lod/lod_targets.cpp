@@ -13,7 +13,20 @@ constexpr std::uint64_t kDefaultLevels = 4;
 constexpr std::uint64_t kLeastFirstFaces = 200;
 
 std::size_t list_size(const LodRequest& r) {
-  return std::max({r.faces.size(), r.errors.size(), r.pixels.size()});
+  return std::max({r.faces.size(), r.shares.size(), r.errors.size(), r.pixels.size()});
+}
+
+/// Of a finest level that nobody asked for. Of a scene of few triangles each of them may be needed.
+std::uint64_t default_faces(std::uint64_t triangles, double triangles_per_face) {
+  const auto share = std::uint64_t(double(triangles) / triangles_per_face);
+  return std::max({share, std::min(triangles, kLeastFirstFaces), kLeastFaces});
+}
+
+/// As many as have at least kLeastFaces, if each has a quarter of those before.
+std::uint64_t levels_from(std::uint64_t faces) {
+  std::uint64_t levels = 1;
+  while (levels < kDefaultLevels && (faces >> (2 * levels)) >= kLeastFaces) ++levels;
+  return levels;
 }
 
 }  // namespace
@@ -45,7 +58,7 @@ std::vector<double> parse_pixels(const std::string& text) {
 }
 
 void check(const LodRequest& r) {
-  if (int(!r.faces.empty()) + int(!r.errors.empty()) + int(!r.pixels.empty()) > 1)
+  if (int(asks_for_faces(r)) + int(!r.errors.empty()) + int(!r.pixels.empty()) > 1)
     fail(ErrorCode::bad_argument, "--faces, --error and --screen exclude each other");
   if (r.levels && (*r.levels < 1 || *r.levels > kMostLevels))
     fail(ErrorCode::bad_argument, "--levels {}: must be 1 to {}", *r.levels, kMostLevels);
@@ -60,6 +73,26 @@ std::size_t level_count(const LodRequest& r) {
 
 bool is_explicit(const LodRequest& r) {
   return r.levels || list_size(r) > 1;
+}
+
+bool asks_for_faces(const LodRequest& r) {
+  return !r.faces.empty() || !r.shares.empty();
+}
+
+bool asks_for_nothing(const LodRequest& r) {
+  return list_size(r) == 0;
+}
+
+LodRequest request_for(LodRequest r, std::uint64_t triangles, const LodDefaults& defaults) {
+  constexpr double kLeast = 4;  // of a closed surface
+  for (const double share : r.shares)
+    r.faces.push_back(std::uint64_t(std::max(std::round(share / 100 * double(triangles)), kLeast)));
+  r.shares.clear();
+  if (!asks_for_nothing(r)) return r;
+  r.most_faces = default_faces(triangles, defaults.triangles_per_face);
+  if (!defaults.by_voxels) r.faces = {std::min(r.most_faces, defaults.most_faces)};
+  if (!r.levels) r.levels = levels_from(r.most_faces);
+  return r;
 }
 
 double finest_error(const LodRequest& r, double diagonal) {
@@ -87,8 +120,9 @@ LodTarget target_of(const LodRequest& r, std::size_t i, std::size_t since, doubl
                     std::uint64_t dense_faces) {
   LodTarget target = tile_target_of(r, i, diagonal, voxel);
   if (target.error_world > 0 || i < r.faces.size()) return target;
-  const std::uint64_t first =
-      r.faces.empty() ? std::max(dense_faces / kDensePerFace, kLeastFirstFaces) : r.faces.front();
+  const std::uint64_t first = r.faces.empty()
+                                  ? std::min(std::max(dense_faces / kDensePerFace, kLeastFirstFaces), r.most_faces)
+                                  : r.faces.front();
   const int n = int(i - since);
   target.faces = std::max(n < 32 ? first >> (2 * n) : 0, kLeastFaces);
   return target;

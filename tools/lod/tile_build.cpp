@@ -90,7 +90,7 @@ class TilesetBuild {
  public:
   TilesetBuild(const BuildOptions& o, Task task) : options_(o), task_(task), build_(o), cells_{o.tile_vox} {
     if (task == Task::tileset)
-      folder_ = std::make_unique<TilesetFolder>(o.out, o.scenes, certain_names(o), o.common.overwrite, o.resume);
+      folder_ = std::make_unique<TilesetFolder>(o.out, certain_names(o), o.common.overwrite, o.resume);
     store_ = make_chunk_store(build_.budget.store, o.common.temp);
     if (const std::string text = cache_note(o); !text.empty() && task != Task::look_up) build_.note(text);
     const std::string results = o.resume ? TilesetFolder::results_of(o.out) : o.cache;
@@ -188,7 +188,7 @@ class TilesetBuild {
     level.frame = pyramid.header().frame;
     level.folder = level_name(options_.name, number);
     level.row = {level.folder + "/*.glb", 0, 0, 0, 0, cut.scale_world, level.frame.voxel};
-    OptionText text = option_text(options_, cut.target, number, cut.scale_world, level.frame);
+    OptionText text = option_text(options_, build_.enclosed(), cut.target, number, cut.scale_world, level.frame);
     if (build_.colors() != nullptr) text.add("colors", "auto");
     const std::vector<Provenance> provenance{make_provenance("bplod", text)};
     TileParams params = tile_params(cut.target, level.frame, scene);
@@ -208,8 +208,7 @@ class TilesetBuild {
           LatticeMesh named = mesh;
           named.provenance = provenance;
           if (build_.colors() != nullptr) color_vertices(named, colors_around(cell, level.frame, cut.scale_world));
-          return tile_glb({level.folder + "_" + name_of(cell), &named, options_.mode == MeshMode::fit},
-                          centre_of(cells_, cell));
+          return tile_glb({level.folder + "_" + name_of(cell), &named}, centre_of(cells_, cell));
         },
         [this, &level](LevelTile&& tile) { take(std::move(tile), level); });
   }
@@ -253,7 +252,7 @@ class TilesetBuild {
                                        const TriangleBvh* scene) const {
     TileParams params;
     params.mode = options_.mode;
-    params.enclose = options_.enclose;
+    params.enclose = options_.enclose.value_or(Enclose::input);
     params.tighten = !options_.loose;
     params.faces = target.faces;
     // What is enclosed is within a diagonal of a voxel of the scene.

@@ -80,7 +80,7 @@ Tileset TileTree::finish(double diameter) {
     }
   }
   Tileset tileset;
-  tileset.up = up_ == UpAxis::z ? "z" : "y";
+  tileset.up = up_;
   tileset.root = tile_of(*root_, Vec3d{}, diameter);
   tileset.root.refine = "REPLACE";
   tileset.geometric_error = std::max(diameter, tileset.root.geometric_error);
@@ -114,7 +114,7 @@ Bounds3d TileTree::local(const Bounds3d& bounds, const Vec3d& origin) const {
 
 /// Scene to 3D Tiles: z up. Exact.
 Vec3d TileTree::z_up(const Vec3d& p) const {
-  return up_ == UpAxis::z ? p : Vec3d{p[0], 0.0 - p[2], p[1]};
+  return turned(p, up_, UpAxis::z);
 }
 
 }  // namespace bp

@@ -10,6 +10,8 @@
 #include <set>
 
 #include "io/file.h"
+#include "io/final_names.h"
+#include "io/kept_files.h"
 #include "io/tileset_file.h"
 #include "lib/core/error.h"
 
@@ -69,15 +71,14 @@ std::string TilesetFolder::results_of(const std::string& path) {
   return without_slash(path) + kPartial + "/results";
 }
 
-TilesetFolder::TilesetFolder(const std::string& path, const std::vector<std::string>& inputs,
-                             const std::vector<std::string>& names, bool overwrite, bool resume)
+TilesetFolder::TilesetFolder(const std::string& path, const std::vector<std::string>& names, bool overwrite,
+                             bool resume)
     : path_(without_slash(path)),
       partial_(path_ + kPartial),
       files_(partial_ + "/files"),
       overwrite_(overwrite),
       resume_(resume),
       made_(path_) {
-  for (const std::string& input : inputs) inputs_.push_back(whole_path(input));
   lock();
   try {
     begin(names);
@@ -92,6 +93,9 @@ TilesetFolder::~TilesetFolder() {
 }
 
 void TilesetFolder::lock() {
+  if (holds_kept(partial_))
+    fail(ErrorCode::bad_argument, "{}: an input lies in it, and would be lost; move it, or name another folder",
+         partial_);
   folders_[1] = PartialOutput(partial_, PartialOutput::Kind::folder);  // before it is there: a signal may come at once
   make_folder(partial_);
   lock_ = ::open(partial_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -123,19 +127,17 @@ void TilesetFolder::leave() {
   if (lock_ >= 0) ::close(lock_);
 }
 
-bool TilesetFolder::is_input(const std::string& name) const {
-  return std::find(inputs_.begin(), inputs_.end(), whole_path(path_ + "/" + name)) != inputs_.end();
+/// Of a commit that was interrupted: nobody else's.
+bool TilesetFolder::may_replace(const std::string& name) const {
+  return overwrite_ || std::binary_search(moved_.begin(), moved_.end(), name);
 }
 
 void TilesetFolder::refuse_if_there(const std::string& name) const {
   const fs::path path = path_ + "/" + name;
-  if (is_input(name))
-    fail(ErrorCode::bad_argument, "{}: is an input, and would be lost; give the tileset another folder or --name",
-         path.string());
-  if (overwrite_ || !fs::exists(path) || (fs::is_directory(path) && fs::is_empty(path))) return;
+  refuse_kept(path.string(), "give the tileset another folder or --name");
+  if (may_replace(name) || !fs::exists(path) || (fs::is_directory(path) && fs::is_empty(path))) return;
   const auto below = std::lower_bound(moved_.begin(), moved_.end(), name + "/");
   if (below != moved_.end() && below->starts_with(name + "/")) return;
-  if (std::binary_search(moved_.begin(), moved_.end(), name)) return;
   fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", path.string());
 }
 
@@ -169,45 +171,68 @@ std::vector<std::string> TilesetFolder::names_before() {
 }
 
 void TilesetFolder::commit() {
-  const std::vector<std::string> before = names_before();
+  const std::vector<std::string> before = names_before(), moved_before = names_from(partial_ + kMoving);
   std::sort(names_.begin(), names_.end());
-  note_moves(before);
-  move_files();
+  note_moves(before, names_);
+  try {
+    move_files();
+  } catch (...) {
+    take_back(moved_before);
+    throw;
+  }
   remove_others(before);
   made_.keep();
   fs::remove_all(results());
   fs::remove(partial_ + kMoving);
 }
 
-void TilesetFolder::note_moves(const std::vector<std::string>& before) const {
+void TilesetFolder::note_moves(const std::vector<std::string>& before, const std::vector<std::string>& after) const {
   OutputFile note(partial_ + kMoving, true);
-  for (const std::vector<std::string>* names : {&before, &names_}) {
+  for (const std::vector<std::string>* names : {&before, &after}) {
     for (const std::string& name : *names) note.write(name + '\0');
   }
   note.commit();
 }
 
+void TilesetFolder::move_file(const std::string& name) {
+  const bool replace = may_replace(name);
+  place_file(files_ + "/" + name, path_ + "/" + name, replace);
+  if (!replace) new_.push_back(name);
+}
+
 /// The tileset appears when what it names is there for good, and then what it does not name may go.
 void TilesetFolder::move_files() {
-  const auto move = [&](const std::string& name) { fs::rename(files_ + "/" + name, path_ + "/" + name); };
   std::set<std::string> folders{path_};
   for (const std::string& name : written_) {
     if (name == kTileset) continue;
     const std::string folder = folder_of(path_ + "/" + name);
     if (folders.insert(folder).second) make_folder(folder);
-    move(name);
+    move_file(name);
   }
   for (const std::string& folder : folders) sync_folder(folder);
   if (std::find(written_.begin(), written_.end(), kTileset) == written_.end()) return;
-  move(kTileset);
+  move_file(kTileset);
   sync_folder(path_);
+}
+
+/// After a name was found taken. What the note says is ours to replace must be as before, or the next run would replace
+/// what is another's.
+void TilesetFolder::take_back(const std::vector<std::string>& moved_before) {
+  std::error_code ignored;
+  for (const std::string& name : new_) {
+    (void)remove_file(path_ + "/" + name);
+    const fs::path folder = fs::path(name).parent_path();
+    if (!folder.empty()) fs::remove(path_ / folder, ignored);  // if it is empty now
+  }
+  if (!moved_before.empty()) return note_moves(moved_before, {});
+  fs::remove(partial_ + kMoving, ignored);
 }
 
 void TilesetFolder::remove_others(const std::vector<std::string>& before) const {
   for (const std::string& name : before) {
-    if (std::binary_search(names_.begin(), names_.end(), name) || is_input(name)) continue;
+    if (std::binary_search(names_.begin(), names_.end(), name)) continue;
+    (void)remove_file(path_ + "/" + name);
     std::error_code ignored;
-    fs::remove(path_ + "/" + name, ignored);
     const fs::path folder = fs::path(name).parent_path();
     if (!folder.empty()) fs::remove(path_ / folder, ignored);  // if it is empty now
   }

@@ -18,11 +18,11 @@ class TilesetFolder {
   /// Makes OUT if it is not there. Takes away the files that an interrupted run left in OUT/.partial, and, unless
   /// `resume`, its results. Throws bad_argument if OUT has a tileset.json or one of `names`, `overwrite` is false, and
   /// they are not of a commit that was interrupted; `failed` if another process is at work on OUT.
-  ///   inputs  files that are neither replaced nor taken away; bad_argument if one of `names` is, here or in write()
+  /// Files that are kept (io/kept_files.h) are neither replaced nor taken away: bad_argument if one of `names` is one,
+  /// here or in write(), or if one lies in OUT/.partial.
   ///   names  of files, or of folders with files, that will be written for certain: those that are there are not found
   ///          out after the work only
-  TilesetFolder(const std::string& path, const std::vector<std::string>& inputs, const std::vector<std::string>& names,
-                bool overwrite, bool resume);
+  TilesetFolder(const std::string& path, const std::vector<std::string>& names, bool overwrite, bool resume);
   /// Without commit() nothing stays behind but, to resume, the results. A signal leaves no more.
   ~TilesetFolder();
   TilesetFolder(const TilesetFolder&) = delete;
@@ -34,7 +34,8 @@ class TilesetFolder {
   /// `name` may hold one folder: "level/tile.glb". Throws bad_argument if OUT has another file of that name, and it is
   /// not to be replaced. Thread-safe.
   void write(const std::string& name, const std::string& bytes);
-  /// The files appear; tiles of the tileset that was there before, and that are not among them, go.
+  /// The files appear; tiles of the tileset that was there before, and that are not among them, go. If a name is taken
+  /// meanwhile, what is new does not stay.
   void commit();
   /// Why tiles of the tileset that was there before may still be there; empty: they are not.
   [[nodiscard]] const std::string& complaint() const { return complaint_; }
@@ -44,15 +45,16 @@ class TilesetFolder {
   void lock();
   void begin(const std::vector<std::string>& names);
   void leave();
-  [[nodiscard]] bool is_input(const std::string& name) const;
   void refuse_if_there(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> names_before();
-  void note_moves(const std::vector<std::string>& before) const;
+  void note_moves(const std::vector<std::string>& before, const std::vector<std::string>& after) const;
   void move_files();
+  void move_file(const std::string& name);
+  void take_back(const std::vector<std::string>& moved_before);
+  [[nodiscard]] bool may_replace(const std::string& name) const;
   void remove_others(const std::vector<std::string>& before) const;
 
   std::string path_, partial_, files_;
-  std::vector<std::string> inputs_;  ///< whole paths
   bool overwrite_, resume_;
   MadeFolders made_;                 ///< OUT, and those above it
   PartialOutput work_, folders_[2];  ///< files_; results() and partial_: for signal handlers
@@ -60,6 +62,7 @@ class TilesetFolder {
   std::vector<std::string> moved_;   ///< by a commit that was interrupted; sorted
   std::mutex mutex_;
   std::vector<std::string> names_, written_;  ///< all files; those that are not there already
+  std::vector<std::string> new_;              ///< that were moved, and replaced nothing
   std::uint64_t bytes_ = 0;
   std::string complaint_;
 };

@@ -103,7 +103,7 @@ ResultKey key_of(const Build& build, const WholeInput& input, const LodOptions& 
     const LodTarget target =
         target_of(o.request, input.first + i, input.first, input.header.bounds.diagonal(), input.scene_voxel, 1000000);
     hash.add(std::int64_t(target.faces)).add(target.error_world).add(target.scale_world.value_or(-1));
-    hash.add(std::string_view(option_text(o, target, i, 0, frame).text()));
+    hash.add(std::string_view(option_text(o, build.enclosed(), target, i, 0, frame).text()));
   }
   hash.add(std::int64_t(o.request.faces.size()));
   add_voxels(hash, *input.solid, voxels_of(input.header.bricks), {});
@@ -120,14 +120,14 @@ WholeLevels make(Build& build, WholeInput input, LodOptions lod) {
   const Bounds3d bounds = input.header.bounds;
   lod.surface = std::move(input.surface);
   LodChain chain(input.header, std::move(input.solid), build.backends, std::move(lod));
-  const std::vector<LodLevel> levels =
-      make_levels(build, chain, {input.first, input.count, input.scene_voxel, bounds, input.input_hash});
+  const std::vector<LodLevel> levels = make_levels(
+      build, chain, {build.options.request, input.first, input.count, input.scene_voxel, bounds, input.input_hash});
   whole.origin = common_origin(levels);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const LatticeMesh& mesh = levels[i].mesh;
     const std::string name = level_name(build.options.name, input.first + i);
     WholeLevel& out = whole.levels.emplace_back();
-    out.content = tile_glb({name, &mesh, build.options.mode == MeshMode::fit}, lattice_point(mesh.frame, whole.origin));
+    out.content = tile_glb({name, &mesh}, lattice_point(mesh.frame, whole.origin));
     out.bounds = bounds_of(mesh);
     out.row = row_of(levels[i], name + ".glb", out.content.size());
     out.provenance = mesh.provenance;

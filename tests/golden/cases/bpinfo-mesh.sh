@@ -25,14 +25,33 @@ files
 bpvox cube.obj --resolution 12 | bpclose --scale 2vx -o closed.bpv
 said 'bpinfo cube.obj closed.bpv turned.obj --image all.png --image-size 64 | grep -c .'
 try bpinfo closed.bpv --image wide.png --image-size 9000
-head -c 24 all.png | tail -c 8 | od -An -tx1
+head -c 20 all.png | tail -c 4 | od -An -tx1  # panels side by side; the height hangs on whether there is a font
 # Inputs that lie far apart are drawn by themselves, which is said.
 awk '/^v/ { print "v", $2 + 500, $3, $4; next } { print }' cube.obj > far.obj
 try bpinfo far.obj cube.obj --image far.png --image-size 64 | grep far
 try bpinfo cube.obj turned.obj --image near.png --image-size 64 | grep far
 try bpinfo cube.obj turned.obj --checksum
 try bpinfo cube.obj turned.obj --json
-try bpinfo cube.obj --up x
+try bpinfo cube.obj --up w
+# Quads and other polygons are counted.
+(cat cube.obj; echo 'f 1 2 3'; echo 'f 5 6 7 8 1') > faces.obj
+said 'bpinfo cube.obj | head -3'
+try bpinfo faces.obj | head -5
+said 'bpinfo faces.obj --json | grep -A 4 \"faces\"'
+said 'bpcheck cube.obj | head -1'
+said 'bpcheck faces.obj | head -1'
+# A part in detail. What no zoom can be is refused.
+try bpinfo cube.obj --image part.png --image-size 64 --zoom 3 --look-at 0,0,0 --checksum
+bpinfo cube.obj --image whole.png --image-size 64 --checksum > said
+cmp -s part.png whole.png && echo 'the same picture'
+for zoom in 0 -1 1e9 nan x; do try bpinfo cube.obj --image no.png --zoom $zoom; done
+try bpinfo cube.obj --image no.png --look-at 1,2
+# Pictures of panels that are large enough have marks below them, and the same bytes each time.
+bpinfo cube.obj turned.obj --image marks.png --image-size 200 --checksum > said
+bpinfo cube.obj turned.obj --image again.png --image-size 200 --checksum --threads 1 > said
+cmp marks.png again.png
+[ $((16#$(od -An -tx1 -j 20 -N 4 marks.png | tr -d ' '))) -gt 240 ] || echo 'nothing is below the panels'
+rm faces.obj part.png whole.png marks.png again.png said
 # Materials that are not there are named where colours would be seen.
 (echo 'mtllib gone.mtl'; cat cube.obj) > plain.obj
 try bpinfo plain.obj --checksum

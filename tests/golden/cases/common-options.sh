@@ -8,7 +8,7 @@ try bpvox cube.obj -o out.bp -j -1
 try bpvox cube.obj -o out.bp --threads many
 try bpvox cube.obj -o out.bp --device gpu
 try bpvox cube.obj -o out.bp --device cuda:x
-echo kept > report.json
+echo kept > report.json  # no report
 try bpvox cube.obj -o out.bp --report report.json
 cat report.json
 try bpvox cube.obj -o out.bp --report missing/report.json
@@ -18,7 +18,7 @@ try bpvox cube.obj -o out.bp --resolution=
 try bpvox cube.obj -o out.bp --resolution 10 --resolution 10
 try env TMPDIR=missing bpvox cube.obj -o out.bp
 files
-# A report replaces what was there if told so, and says what ran.
+# A report replaces what is no report if told so, and says what ran.
 try bpvox cube.obj --resolution 10 -o out.bp --report report.json --overwrite
 grep -oE '^  "[a-z_]+"' report.json | tr '\n' ' '
 echo

@@ -38,7 +38,7 @@ kept painted.json
 attributes first/cubes_LOD0/*.glb | cut -d : -f 2- | sort -u
 bpcheck part*.obj painted/tileset.json | sed 's/[0-9]* triangles/some triangles/'
 
-# Fits have normals, bounding levels none; a collision mesh has no colours.
+# Fits have colours, too; a collision mesh has none.
 bplod part*.obj --name cubes --resolution 60 --levels 1 --mode fit -q -o fit | cut -f 1
 bplod "${options[@]}" --levels 2 --mode fit -o fit-tiles > list
 bplod part*.obj --name cubes --resolution 60 --profile collision -q -o collision > list

@@ -1,6 +1,6 @@
 # The folder of the levels: nothing in it is lost unasked.
 write_octahedron cube.obj 3  # each level has fewer faces
-options=(cube.obj --name m --resolution 24 --levels 3 -q)
+options=(cube.obj --name m --resolution 24 --faces 200 --levels 3 -q)
 tileset=("${options[@]}" --profile 3dtiles)
 
 # A tileset does not replace levels that are there, neither all of them nor some.

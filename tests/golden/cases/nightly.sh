@@ -4,25 +4,27 @@ write_octahedron scenes/a.obj 3
 write_octahedron "scenes/b c.obj" 2
 echo "v 1 2" > scenes/broken.obj
 echo "no scene" > scenes/notes.txt
+nightly() { "$BP_ROOT/samples/nightly" "$@" 2> as-it-goes; }
 table() { sed 's/made in [0-9]* s/made/' | cut -f 1-3; }
 options=(--faces 60,20 --resolution 24 --profile 3dtiles)
-"$BP_ROOT/samples/nightly" scenes out "${options[@]}" | table
-"$BP_ROOT/samples/nightly" scenes out "${options[@]}" | table
-"$BP_ROOT/samples/nightly" scenes out -j 1 --memory=1G "${options[@]}" --temp . --device cpu --progress json | table  # no byte differs
-"$BP_ROOT/samples/nightly" scenes out "${options[@]}" --element ball | table
-"$BP_ROOT/samples/nightly" scenes out "${options[@]}" -q | table
+nightly scenes out "${options[@]}" | table
+sed 's/made in [0-9]* s/made/' as-it-goes  # a line per scene
+nightly scenes out "${options[@]}" | table
+nightly scenes out -j 1 --memory=1G "${options[@]}" --temp . --device cpu --progress json | table  # no byte differs
+nightly scenes out "${options[@]}" --element ball | table
+nightly scenes out "${options[@]}" -q | table
 write_octahedron scenes/a.obj 4
 rm "scenes/b c.obj" scenes/broken.obj
 sed -i '1i mtllib paints.mtl' scenes/a.obj  # what a scene names counts, whatever it is called
 for red in 0.1 0.9 0.9; do
   printf 'newmtl paint\nKd %s 0 0\n' $red > scenes/paints.mtl
-  "$BP_ROOT/samples/nightly" scenes out "${options[@]}" | table
+  nightly scenes out "${options[@]}" | table
 done
-"$BP_ROOT/samples/nightly" scenes out "${options[@]}" | table
-"$BP_ROOT/samples/nightly" scenes out --faces 60,20 --resolution 24 | table
+nightly scenes out "${options[@]}" | table
+nightly scenes out --faces 60,20 --resolution 24 | table
 LC_ALL=C ls -A out out/a.obj
 for options in "--profile collision --faces 60" "--mode fit --faces 60" "--mode fit --profile 3dtiles --faces 60"; do
-  "$BP_ROOT/samples/nightly" scenes out $options --resolution 24 | table
+  nightly scenes out $options --resolution 24 | table
 done
 try "$BP_ROOT/samples/nightly" nowhere out | sed "s|$BP_ROOT/||"
 if command -v parallel > /dev/null; then

@@ -14,8 +14,8 @@ files
 try bpclose cube.bp -o out.bp
 try bpclose cube.bp --scale -1 -o out.bp
 try bpclose cube.bp --scale nan -o out.bp
-try bpclose cube.bp --scale 1e9 -o out.bp
-try bpclose cube.bp --scale 1 --tile 100 -o out.bp
+try bpclose cube.bp --scale 1e9vx -o out.bp
+try bpclose cube.bp --scale 1vx --tile 100 -o out.bp
 try bpclose cube.bp --field missing.json -o out.bp
 echo '{"base": -1}' > field.json
 try bpclose cube.bp --field field.json -o out.bp
@@ -63,7 +63,7 @@ mkdir levels
 cp cube.glb levels/cube_LOD0.glb
 try bplod levels/cube_LOD0.glb --name cube --levels 1 -o levels --overwrite
 said 'bpvox cube.obj --resolution 8 --report /dev/null -o /dev/null'
-echo 'v 1 2 3' > nothing.obj
+echo '# nothing' > nothing.obj
 try bpcheck nothing.obj cube.glb --no-distances
 try bpcheck nothing.obj cube.glb --inside
 try bpcheck nothing.obj cube.glb --convex

@@ -13,7 +13,7 @@ bpvox cube.obj --resolution 10 --fill inside -o inside.bpv
 try bpclose inside.bpv --inner --keep-cavities --scale 1vx -o x
 try bpmesh cube.bpv --least-part 0 -o x.ply
 try bpmesh cube.bpv --inset 0.5 -o x.ply
-for option in '--image-size 720' '--up y' '--azimuth 35' '--elevation 22'; do
+for option in '--image-size 720' '--up y' '--azimuth 35' '--elevation 22' '--zoom 2' '--look-at 0,0,0'; do
   try bpinfo cube.obj $option
   try bpcheck cube.obj $option
 done

@@ -25,12 +25,34 @@ bpvox levels/a_LOD0.glb --resolution 20 | bpinfo | grep -o '. is up'
 for tileset in 3dtiles/tileset.json; do bpcheck z.glb $tileset | tail -1; done
 bplod gltf/a_LOD0.glb --resolution 30 --levels 1 --faces 30 --name a --up y --overwrite -o levels > list
 bpvox levels/a_LOD0.glb --resolution 20 | bpinfo | grep -o '. is up'
-# A tileset of a map is made with y up, and stands on edge, only with a note; nobody else is bothered.
+# Any axis may be up: a file comes back in the scene's own axes, and other readers see it stand.
+for up in x -x -y -z; do
+  bpvox cube.obj --resolution 30 --up $up | bpmesh --faces 30 -o up$up.glb
+  bpvox up$up.glb --resolution 20 | bpinfo | grep -oE -- '-?[xyz] is up'
+  bpcheck cube.obj up$up.glb | tail -1
+  bpcheck cube.obj up$up.glb --no-distances --image-size 99 --image up$up.png > said || cat said
+  for profile in gltf 3dtiles; do
+    bplod cube.obj -q --resolution 30 --levels 1 --faces 30 --up $up --profile $profile --name a -o up$up-$profile > list
+  done
+  bpcheck cube.obj up$up-gltf/a_LOD0.glb | tail -1
+  bpcheck cube.obj up$up-3dtiles/tileset.json | tail -1
+  bpinfo up$up-3dtiles/tileset.json | grep -oE 'up is -?[xyz]'
+  for format in ply obj stl; do  # these have no axes
+    bpvox cube.obj --resolution 30 --up $up | bpmesh --faces 30 -o up.$format
+    bpvox cube.obj --resolution 30 | bpmesh --faces 30 -o plain.$format
+    grep -av 'up=' up.$format | cmp - <(grep -av 'up=' plain.$format)
+    rm up.$format plain.$format
+  done
+done
+try bpvox cube.obj --up w -o w.bpv
+# glTF of a map is made with y up, and stands on edge, only with a note; nobody else is bothered.
 awk '/^v/ { print "v", 20 * $2, 20 * $3, $4; next } { print }' cube.obj > map.obj
 said 'bplod map.obj --resolution 30 --levels 1 --profile 3dtiles -o map > list'
 said 'bplod map.obj --resolution 30 --levels 1 --profile 3dtiles --explain > list'
 for up in y z; do said "bplod map.obj --resolution 30 --levels 1 --profile 3dtiles --up $up -o map.$up > list"; done
 said 'bplod map.obj --resolution 30 --levels 1 -o flat > list'
+for up in '' '--up y' '--up z'; do said "bpvox map.obj --resolution 60 $up | bpmesh --faces 30 -o flat.glb --overwrite"; done
+said 'bpvox map.obj --resolution 60 | bpmesh --faces 30 -o flat.ply'
 said 'bplod cube.obj --resolution 30 --levels 1 --profile 3dtiles -o upright > list'
 said 'bplod z.glb --resolution 30 --levels 1 --profile 3dtiles -o told > list'
 # A picture believes what a file tells, and says where --up differs.

@@ -15,12 +15,13 @@ try bpvox cube.obj --voxel 3vx -o out.bp
 try bpvox cube.obj --voxel 1 --resolution 5 -o out.bp
 try bpvox cube.obj --resolution 99999999999 -o out.bp
 try bpvox cube.obj --resolution 99999999999999999999 -o out.bp
+try bpvox cube.obj --resolution 10000000 -o out.bp
 try bpvox cube.obj --resolution 1e3 -o out.bp
 try bpvox cube.obj --resolution 0 -o out.bp
 try bpvox cube.obj --voxel 1e-7 -o out.bp
 try bpvox cube.obj --voxel 1e-12 -o out.bp
 try bpvox cube.obj --fill concrete -o out.bp
-try bpvox cube.obj --up x -o out.bp
+try bpvox cube.obj --up w -o out.bp
 try bpvox - -o out.bp
 try bpvox cube.obj --temp missing -o out.bp
 try bpvox cube.obj -o missing/out.bp
@@ -33,8 +34,8 @@ try bpvox cube.obj -o out.bp
 rm out.bp
 try bpvox cube.obj -o /dev/full
 said 'bpvox cube.obj --resolution 300 | head -c 10 | wc -c'
-try bpvox partly.obj --voxel 0.25 -o partly.bp
+try bpvox partly.obj --voxel 0.125 -o partly.bp
 # Quiet, it is left to the report.
-try bpvox partly.obj --voxel 0.25 -q --report quiet.json -o quiet.bp
+try bpvox partly.obj --voxel 0.125 -q --report quiet.json -o quiet.bp
 grep skipped quiet.json
 files

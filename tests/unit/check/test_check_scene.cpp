@@ -1,4 +1,5 @@
 // The scene against the proxy.
+#include <limits>
 #include <random>
 
 #include "lib/check/surface.h"
@@ -51,6 +52,20 @@ TEST_CASE("an open scene has no volume, a closed one that of itself wherever the
   CHECK_FALSE(check(box({0, 0, 0}, {20, 20, 20}), scene).scene_volume);
   scene.erase(scene.begin());
   CHECK_FALSE(check(box({0, 0, 0}, {20, 20, 20}), scene).scene_volume);
+}
+
+TEST_CASE("a scene vertex beyond the range of doubles' exact predicates is judged where it is", "[quick][check]") {
+  const IndexedMesh proxy = box({0, 0, 0}, {1, 1, 1});
+  const double least = std::numeric_limits<double>::denorm_min();
+  const auto with = [](const Vec3d& p) { return std::vector<TriangleD>{{{{0.5, 0.5, 0.5}, {0.5, 0.25, 0.5}, p}}}; };
+  CHECK(check(proxy, with({least, 0.5, 0.5})).holds());
+  CHECK(check(proxy, with({0, 0.5, 0.5})).touching.count == 1);
+  CHECK(check(proxy, with({-least, 0.5, 0.5})).touching.count == 1);
+  CHECK(check(proxy, with({1e300, 0.5, 0.5})).touching.count == 1);
+  const std::vector<TriangleD> away{{{{1e300, 0, 0}, {1e300, 1e200, 0}, {1e300, 0, 1e-200}}}};
+  CHECK(check(proxy, away).outside.count == 1);
+  CHECK_FALSE(check(proxy, away).scene_to_proxy);  // its square is no double
+  CHECK(check(proxy, {{{{least, least, least}, {2 * least, least, least}, {least, least, 0.5}}}}).holds());
 }
 
 TEST_CASE("a scene triangle that pokes out by one unit in the last place touches", "[quick][check]") {
@@ -130,8 +145,9 @@ TEST_CASE("a scene triangle of no area is tested as the segment it is", "[quick]
   CHECK(check(cube(1), {{{{5, 5, 5}, {5, 5, 5}, {5, 5, 5}}}}).outside.count == 1);
 }
 
-TEST_CASE("a scene coordinate outside the predicates' domain is a violation of its own", "[quick][check]") {
-  const CheckReport r = check(cube(1), {{{{1e-200, 0, 0}, {0, 0, 0.5}, {0, 0.1, 0.25}}}});
+TEST_CASE("a scene coordinate that is no place is a violation of its own", "[quick][check]") {
+  const double nowhere = GENERATE(std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
+  const CheckReport r = check(cube(1), {{{{nowhere, 0, 0}, {0, 0, 0.5}, {0, 0.1, 0.25}}}});
   CHECK(r.undecidable_scene.count == 1);
   CHECK_FALSE(r.holds());
   CHECK_FALSE(r.scene_to_proxy.has_value());

@@ -44,21 +44,44 @@ TEST_CASE("a proxy that swallows a part of the scene is not inside", "[quick][ch
   CHECK(r.outside_parts.count == 0);
 }
 
-TEST_CASE("a proxy in a cavity of the scene is not inside", "[quick][check]") {
-  const CheckReport r = inside_of(cube(1), join(cube(3), inverted(cube(2))));
-  CHECK_FALSE(r.holds());
-  CHECK(r.outside_parts.count == 1);
+TEST_CASE("a proxy in a cavity of the scene is inside: the walls are around it", "[quick][check]") {
+  CHECK(inside_of(cube(1), join(cube(3), inverted(cube(2)))).holds());
+  CHECK(inside_of(cube(1), join(join(cube(4), inverted(cube(3))), cube(2))).holds());
+  const CheckReport beside = inside_of(join(cube(1), cube(0.5, {5, 0, 0})), join(cube(3), inverted(cube(2))));
+  CHECK(beside.answer() == Answer::refuted);
+  CHECK(beside.outside_parts.count == 1);
 }
 
-TEST_CASE("nothing is inside an open scene", "[quick][check]") {
+TEST_CASE("a proxy between closed parts that overlap is neither seen nor known to be enclosed", "[quick][check]") {
+  IndexedMesh room;  // six slabs
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-4.0, 4.0}) {
+      IndexedMesh slab = cube(1);
+      for (Vec3d& p : slab.vertices) {
+        for (int i = 0; i < 3; ++i)
+          p[std::size_t(i)] = i == axis ? p[std::size_t(i)] / 2 + side : 6 * p[std::size_t(i)];
+      }
+      room = join(room, slab);
+    }
+  }
+  const CheckReport r = inside_of(cube(1), room);
+  CHECK(r.scene_closed);
+  CHECK(r.answer() == Answer::undecided);
+  CHECK(r.unsettled_parts.count == 1);
+  CHECK(r.outside_parts.count == 0);
+}
+
+TEST_CASE("of an open scene it is refuted what is seen along an axis, and nothing is proven", "[quick][check]") {
   IndexedMesh open = cube(2);
   open.triangles.pop_back();
-  const CheckReport r = inside_of(cube(1), open);
-  CHECK_FALSE(r.scene_closed);
-  CHECK_FALSE(r.holds());
+  const CheckReport hidden = inside_of(cube(0.5, {-1, -1, -1}), open);
+  CHECK_FALSE(hidden.scene_closed);
+  CHECK(hidden.touching.count + hidden.swallowed.count == 0);
+  open.triangles.pop_back();
+  CHECK(inside_of(cube(1), open).answer() == Answer::refuted);
   IndexedMesh turned = cube(2);
   std::swap(turned.triangles[0][1], turned.triangles[0][2]);
-  CHECK_FALSE(inside_of(cube(1), turned).holds());
+  CHECK(inside_of(cube(1), turned).answer() == Answer::undecided);
 }
 
 TEST_CASE("triangles of no area close T-junctions, and are neither tested nor numbered", "[quick][check]") {

@@ -55,9 +55,14 @@ std::vector<std::string> findings(const std::vector<MeshTile>& tiles, const Tria
   std::atomic<int> reads{0};
   const auto read = [&](std::size_t i) { return ++reads, *tiles[i].content; };
   MemorySource source(scene, 5);
-  std::vector<std::string> together = check_cover(cover, read, source);
+  const auto texts = [](const std::vector<CoverFinding>& all) {
+    std::vector<std::string> lines;
+    for (const CoverFinding& f : all) lines.push_back(f.text);
+    return lines;
+  };
+  std::vector<std::string> together = texts(check_cover(cover, read, source));
   const int contents = reads;
-  CHECK(check_cover(cover, read, source, 1) == together);
+  CHECK(texts(check_cover(cover, read, source, 1)) == together);
   CHECK(reads == 2 * contents);
   return together;
 }
@@ -113,6 +118,22 @@ TEST_CASE("a triangle without a corner in the cell is placed by what is in the c
   scene[0] = {Vec3d{2, 2, 2}, Vec3d{30, 2, 2}, Vec3d{30, 3, 2}};  // no corner in the cell of b
   CHECK(findings(tiles, scene).empty());
   tiles[2].content = box_mesh({7.5, 5, 1}, {16.5, 6, 4});
+  CHECK_THAT(only(findings(tiles, scene)), ContainsSubstring("root.0.0: b leaves outside 1 triangles"));
+}
+
+TEST_CASE("tiles far from the origin are decided", "[quick][check][tileset]") {
+  const Vec3d far{0x1p+27, -0x1p+25, 0x1p+26};  // doubles step by 3e-8 there, which is 2e-9 of a cell
+  const auto moved = [&](const Vec3d& p) { return Vec3d{p[0] + far[0], p[1] + far[1], p[2] + far[2]}; };
+  const auto cell = [&](const Vec3d& lo, const Vec3d& hi) { return bounds(moved(lo), moved(hi)); };
+  const auto box = [&](const Vec3d& lo, const Vec3d& hi) { return box_mesh(moved(lo), moved(hi)); };
+  std::vector<MeshTile> tiles{{"root", "r", {}, cell({0, 0, 0}, {32, 32, 32}), {1, 4}},
+                              {"root.0", "a", {}, cell({0, 0, 0}, {16, 16, 16}), {2, 3}},
+                              {"root.0.0", "b", box({7.5, 1, 1}, {16.5, 4, 4}), cell({8, 0, 0}, {16, 8, 8}), {}},
+                              {"root.0.1", "c", box({-1, 1, 1}, {8.5, 4, 4}), cell({0, 0, 0}, {8, 8, 8}), {}},
+                              {"root.1", "d", box({15.5, 1, 1}, {31, 4, 4}), cell({16, 0, 0}, {32, 16, 16}), {}}};
+  const Triangles scene{{moved({2, 2, 2}), moved({30, 2, 2}), moved({30, 3, 2})}};  // no corner in the cell of b
+  CHECK(findings(tiles, scene).empty());
+  tiles[2].content = box({7.5, 5, 1}, {16.5, 6, 4});
   CHECK_THAT(only(findings(tiles, scene)), ContainsSubstring("root.0.0: b leaves outside 1 triangles"));
 }
 

@@ -33,13 +33,17 @@ TEST_CASE("the text of a failure names what, how often and where", "[quick][chec
 TEST_CASE("the JSON holds each answer, each finding and null for what was not measured", "[quick][check]") {
   const auto alone = nlohmann::json::parse(verdict_json(check(cube(1)), "p.ply"));
   CHECK(alone["holds"] == true);
+  CHECK(alone["answer"] == "proven");
+  CHECK(alone["why"].is_null());
   CHECK(alone["scene"].is_null());
   CHECK(alone["verdict"]["encloses"].is_null());
   CHECK(alone["proxy"]["genus"] == 0);
-  CHECK(alone["findings"].size() == 18);
+  CHECK(alone["findings"].size() == 20);
   const auto both =
       nlohmann::json::parse(verdict_json(check(cube(1), triangles_of(cube(0.5, {4, 0, 0}))), "bad \xff name"));
   CHECK(both["holds"] == false);
+  CHECK(both["answer"] == "refuted");
+  CHECK(both["answers"]["encloses"] == "refuted");
   CHECK(both["verdict"]["closed"] == true);
   CHECK(both["verdict"]["encloses"] == false);
   CHECK(both["findings"]["outside"]["count"] == 12);

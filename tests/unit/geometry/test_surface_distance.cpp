@@ -24,6 +24,22 @@ TEST_CASE("the distance between two squares, one above the other and twice as la
   CHECK(down.mean < 1.5);
 }
 
+TEST_CASE("far from the origin the search for a distance ends where coordinates are rounded", "[quick][check]") {
+  const double far = 1.1e10;  // units in the last place of 2^-19
+  std::vector<TriangleD> one, other;
+  for (int i = 0; i < 20; ++i) {
+    const double a = 0.31 * i, x = far + 0.05 * i;
+    one.push_back({{{x, std::cos(a), far}, {x + 0.05, std::cos(a + 0.3), far}, {x, std::sin(a), far + 0.7}}});
+    other.push_back({{{x, std::cos(a), far + 1e-6}, {x + 0.05, std::cos(a + 0.3), far}, {x, std::sin(a), far + 0.7}}});
+  }
+  const SurfaceDistance d = surface_distance(one, TriangleBvh(other));
+  CHECK(d.at_most < 1e-3);
+  // As narrow as the rounding: pieces for the mean cannot be made smaller either.
+  const double step = far * 0x1p-52;
+  const std::vector<TriangleD> narrow{{{{far, 0, 0}, {far + step, 0, 0}, {far, step, 0}}}};
+  CHECK(surface_distance(narrow, TriangleBvh(narrow)).at_most <= 1e-3);
+}
+
 TEST_CASE(
     "surfaces that are equally far everywhere are measured part by part of the nearest, not by ever smaller parts",
     "[quick][check]") {

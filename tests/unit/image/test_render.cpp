@@ -3,10 +3,10 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/image/canvas.h"
-#include "lib/image/font.h"
 #include "lib/image/render.h"
 #include "tests/catch.h"
 #include "tests/unit/check/meshes.h"
+#include "tests/unit/image/block_typeface.h"
 
 using namespace bp;
 using namespace bp::test;
@@ -228,9 +228,14 @@ TEST_CASE("panels stand side by side at one scale, labels below", "[quick][image
   View a = view_of(large), b = view_of(small);
   a.label = "a";
   b.label = "two\nlines";
-  const Image image = picture({a, b});
+  RenderOptions options;
+  BlockTypeface typeface;
+  options.typeface = &typeface;
+  const Image image = picture({a, b}, options);
   CHECK(image.width == 128);
-  CHECK(image.height == 64 + 48);
+  CHECK(image.height > 64 + 2 * 9);
+  CHECK(typeface.lines == std::vector<std::string>{"a", "two", "lines"});
+  CHECK(picture({a, b}).height == 64);  // without a typeface
   std::size_t left = 0, right = 0, text = 0;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -262,16 +267,38 @@ TEST_CASE("a panel with bounds of its own is drawn as if alone", "[quick][image]
   CHECK(something);
 }
 
-TEST_CASE("text covers the pixels that its width says and clips at the border", "[quick][image]") {
-  Image image(40, 10, kPaper);
-  draw_text(image, 0, 0, "HI", 1, {0, 0, 0});
-  CHECK(text_width("HI", 1) == 11);
-  CHECK(image.at(0, 0) == Color{});  // H
-  CHECK(image.at(4, 6) == Color{});  // H
-  CHECK(image.at(5, 3) == kPaper);   // between
-  CHECK(image.at(8, 3) == Color{});  // I
-  CHECK(count_other(image, kPaper) == 17 + 11);
-  draw_text(image, 35, 5, "clipped \xff", 3, {0, 0, 0});
-  draw_text(image, -300, -5, "clipped", 3, {0, 0, 0});
-  CHECK(text_width("", 2) == 0);
+TEST_CASE("zoom enlarges about the middle or the point looked at", "[quick][image]") {
+  const IndexedMesh m = sphere(4, 2, {6e6, -4e6, 12});
+  const auto area = [&](double zoom) {
+    RenderOptions options;
+    options.zoom = zoom;
+    return double(count_other(picture({view_of(m)}, options), kPaper));
+  };
+  const double whole = area(1);
+  CHECK(area(0.5) / whole == Approx(0.25).margin(0.02));
+  CHECK(area(10) == 64 * 64);  // the middle of a ball has ball all around
+  CHECK(area(1e6) == 64 * 64);
+
+  // A corner of a box, large: a quarter of the picture from the front, and the same from near and far.
+  RenderOptions corner;
+  corner.azimuth = corner.elevation = 0;
+  corner.look_at = Vec3d{6e6, 0, 0};
+  const IndexedMesh b = box({6e6, 0, 0}, {6e6 + 4, 4, 1});
+  for (const double zoom : {3.0, 700.0, 1e5, 1e6}) {
+    corner.zoom = zoom;
+    const Image image = picture({view_of(b)}, corner);
+    CAPTURE(zoom);
+    CHECK(std::abs(double(count_other(image, kPaper)) - 32 * 32) <= 40);
+    CHECK(image.at(40, 20) != kPaper);
+    CHECK(image.at(20, 40) == kPaper);
+    VectorSource source(triangles_of(b), 3);  // drawn in parts
+    View streamed;
+    streamed.source = &source;
+    CHECK(picture({streamed}, corner).pixels == image.pixels);
+  }
+  View edges = view_of(b);
+  edges.edges = true;
+  const Image image = picture({edges}, corner);
+  CHECK(image.at(40, 31).r < 130);  // the lower edge
+  CHECK(image.at(32, 20).r < 130);  // the left edge
 }

@@ -64,7 +64,7 @@ StreamHeader random_header(std::uint32_t seed) {
   StreamHeader h;
   h.frame.voxel = round_up_to_bits(std::uniform_real_distribution<double>(0.001, 1000)(random), 8);
   for (auto& o : h.frame.origin) o = std::int64_t(random()) * 16 - (std::int64_t(1) << 35);
-  h.frame.up = random() % 2 ? UpAxis::z : UpAxis::y;
+  h.frame.up = UpAxis(random() % 6);
   for (int i = 0; i < 3; ++i) {
     h.bricks.min[i] = int(random() % 9) - 6;
     h.bricks.max[i] = h.bricks.min[i] + 1 + int(random() % 5);
@@ -81,6 +81,10 @@ StreamHeader random_header(std::uint32_t seed) {
   }
   for (std::uint32_t i = 0; i < random() % 3; ++i)
     h.provenance.push_back({"bpvox", "0.1.0", "--voxel 0.1 --name \"\xc3\xa9\"", "00ff"});
+  if (random() % 2) {
+    h.scene = {{{"a.ply", 3}, {"b/\xc3\xa9.obj", std::uint64_t(1) << 40}}, "stl", 12, std::string(32, '7')};
+    h.scene.files.resize(1 + random() % 2);
+  }
   return h;
 }
 

@@ -107,14 +107,16 @@ TEST_CASE("PLY triangle strips turn every other triangle, and restart at a negat
   CHECK(read_all(dir.file("a.ply", bytes)) == std::vector<TriangleD>{a, b, a});
 }
 
-TEST_CASE("a PLY without faces is an empty scene", "[quick][io]") {
+TEST_CASE("a PLY without faces is an empty mesh, and as a scene a point cloud", "[quick][io]") {
   const TempDir dir;
   const std::string points = "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
-  CHECK(read_all(dir.file("a.ply", ply_header("ascii", points) + "1 2 3\n")).empty());
-  CHECK(read_all(
-            dir.file("b.ply", ply_header("ascii", points + "element face 0\nproperty list uchar int vertex_indices\n") +
-                                  "1 2 3"))
-            .empty());
+  const std::string faces = "element face 0\nproperty list uchar int vertex_indices\n";
+  const std::string bytes =
+      GENERATE_COPY(ply_header("ascii", points) + "1 2 3\n", ply_header("ascii", points + faces) + "1 2 3",
+                    ply_header("binary_little_endian", points + faces) + raw(1.f) + raw(2.f) + raw(3.f));
+  const std::string path = dir.file("a.ply", bytes);
+  CHECK(read_mesh(path).triangles.empty());
+  CHECK_THAT(complaint_of(path), Contains("no triangles: 1 point; a point cloud needs a surface first"));
 }
 
 TEST_CASE("a PLY that is cut anywhere is refused, and never read beyond", "[quick][io]") {

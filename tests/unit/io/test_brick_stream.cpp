@@ -83,12 +83,14 @@ TEST_CASE("a reader written from the document alone reads the same", "[quick][io
   CHECK(file.checksum == read_back(bytes).totals.checksum());
   CHECK(file.voxel == h.frame.voxel);
   CHECK(file.origin == h.frame.origin);
-  CHECK(file.up == (h.frame.up == UpAxis::z ? 1 : 0));
+  CHECK(file.up == int(h.frame.up));
   CHECK(file.slab_axis == h.slab_axis);
   CHECK(file.fill == int(h.fill));
   CHECK(file.element == (h.has_closing ? int(h.element) : 0));
   CHECK(file.has_closing == h.has_closing);
   CHECK(file.scale == (h.has_closing ? to_json(h.scale) : ""));
+  CHECK(file.scene.empty() == h.scene.files.empty());
+  if (!file.scene.empty()) CHECK(file.scene.find(h.scene.hash) != std::string::npos);
   CHECK(file.bounds[4] == h.bounds.max[1]);
   CHECK(file.box ==
         std::array{h.bricks.min.x, h.bricks.min.y, h.bricks.min.z, h.bricks.max.x, h.bricks.max.y, h.bricks.max.z});
@@ -100,6 +102,18 @@ TEST_CASE("the stream printed in the document is the one it describes", "[quick]
   CHECK(content.header == small_header());
   CHECK(same(content.bricks, small_bricks()));
   CHECK(reference::read_stream(bytes).checksum == content.totals.checksum());
+}
+
+TEST_CASE("a stream tells no scene files if one cannot be told", "[quick][io]") {
+  StreamHeader header = small_header();
+  header.scene = {{{"scene.ply", 3}, {"name", 4}}, "", 12, std::string(32, 'a')};
+  CHECK(read_back(written(header, small_bricks())).header == header);
+  header.scene.files[1].name = "latin \xe9.ply";
+  CHECK(read_back(written(header, small_bricks())).header.scene == SceneFiles{});
+  header.scene.files[1].name = "two\nlines.ply";
+  CHECK(read_back(written(header, small_bricks())).header.scene == SceneFiles{});
+  header.scene.files[1].name = std::string(1 << 20, 'n');
+  CHECK(read_back(written(header, small_bricks())).header.scene == SceneFiles{});
 }
 
 TEST_CASE("a stream without bricks is legal", "[quick][io]") {

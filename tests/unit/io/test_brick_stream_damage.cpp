@@ -152,11 +152,12 @@ TEST_CASE("a version, flag or value from the future is refused", "[quick][io]") 
     return error_of(b);
   };
   CHECK(says(changed(8, 2), "byte 16: version 2 of the brick stream; this tool reads version 1"));
-  CHECK(says(changed(10, 3), "unknown flags 0x3"));
+  CHECK(says(changed(10, 3), "scene files without their flag, or the flag without them"));
+  CHECK(says(changed(10, 5), "unknown flags 0x5"));
   CHECK(says(changed(12, 4), "unknown fill mode 4"));
   CHECK(says(changed(13, 2), "unknown element 2"));
   CHECK(says(changed(14, 3), "slab axis"));
-  CHECK(says(changed(15, 2), "unknown up axis 2"));
+  CHECK(says(changed(15, 6), "unknown up axis 6"));
   CHECK(says(changed(10, 0), "scale field without a closing"));
   CHECK(changed(12, 1).empty());  // a lawful change, to see that sealing works
 }
@@ -183,6 +184,30 @@ TEST_CASE("a header out of range is refused even with a valid checksum", "[quick
   CHECK(says(error_of(b), "byte 4: a header of 4294967295 bytes cannot be"));
   const std::size_t size = get<std::uint32_t>(good, 4);
   CHECK(says(with(size - 9, std::uint8_t('}')), "provenance"));
+}
+
+TEST_CASE("scene files in a header that are none are refused", "[quick][io]") {
+  StreamHeader h = small_header();
+  h.scene = {{{"scene.ply", 3}}, "", 12, std::string(32, 'a')};
+  const Bytes good = written(h, small_bricks());
+  CHECK(error_of(good).empty());
+  const std::string text(good.begin(), good.end());
+  const auto with = [&](const std::string& old, const std::string& now) {
+    REQUIRE(old.size() == now.size());
+    Bytes b = good;
+    std::copy(now.begin(), now.end(), b.begin() + std::ptrdiff_t(text.find(old)));
+    seal_header(b);
+    return error_of(b);
+  };
+  const std::string wrong = "the scene files are not what they should be";
+  CHECK(says(with("scene.ply", std::string("scene\0ply", 9)), wrong));
+  CHECK(says(with("\"scene.ply\"", "\"-\"        "), wrong));
+  CHECK(says(with("scene.ply", "\\u001b[2J"), wrong));
+  CHECK(says(with("\"bytes\":3", "\"bytes\": "), wrong));
+  CHECK(says(with("\"triangles\":12", "\"triangles\":-1"), wrong));
+  CHECK(says(with("\"hash\":\"aa", "\"hash\":\"xa"), wrong));
+  CHECK(says(with("\"format\"", "\"farmot\""), wrong));
+  CHECK(says(with("{\"files", "[\"files"), wrong));
 }
 
 TEST_CASE("a scale field that no grid can hold is refused", "[quick][io]") {

@@ -4,8 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <memory>
+#include <vector>
 
 #include "io/file.h"
+#include "io/final_names.h"
+#include "io/kept_files.h"
 #include "tests/catch.h"
 #include "tests/unit/io/scene_files.h"
 
@@ -77,6 +82,94 @@ TEST_CASE("links and pipes in the place of an unfinished file are not followed",
   write_file(dir.path("out"), "new");
   CHECK(bytes_of_file(dir.path("victim")) == "kept");
   CHECK(bytes_of_file(dir.path("out")) == "new");
+}
+
+TEST_CASE("a file that appeared during the work is not replaced unasked", "[quick][io]") {
+  const TempDir dir;
+  OutputFile out(dir.path("out"), false);
+  out.write("mine");
+  (void)dir.file("out", "another's");
+  CHECK_THROWS_WITH(out.commit(), Contains("appeared"));
+  CHECK(bytes_of_file(dir.path("out")) == "another's");
+}
+
+TEST_CASE("of two that write one new file, the later one fails", "[quick][io]") {
+  const TempDir dir;
+  {
+    OutputFile a(dir.path("out"), false), b(dir.path("out"), false);
+    a.write("first");
+    b.write("second");
+    a.commit();
+    CHECK_THROWS_AS(b.commit(), Error);
+  }
+  CHECK(bytes_of_file(dir.path("out")) == "first");
+  CHECK(names_in(dir) == Names{"out"});
+}
+
+TEST_CASE("files that appear together appear all or not at all", "[quick][io]") {
+  const TempDir dir;
+  {
+    std::vector<std::unique_ptr<OutputFile>> files;
+    for (const char* name : {"a", "b", "c"}) {
+      files.push_back(std::make_unique<OutputFile>(dir.path(name), false));
+      files.back()->write("mine");
+    }
+    (void)dir.file("c", "another's");
+    CHECK_THROWS_AS(OutputFile::commit_all(files), Error);
+  }
+  CHECK(names_in(dir) == Names{"c"});
+  CHECK(bytes_of_file(dir.path("c")) == "another's");
+}
+
+TEST_CASE("each way of naming a file leaves one that is there alone", "[quick][io]") {
+  const auto place = GENERATE(detail::place_by_rename, detail::place_by_link, detail::place_by_claim);
+  const TempDir dir;
+  const std::string from = dir.file("from", "new"), taken = dir.file("taken", "old");
+  std::filesystem::create_symlink("nowhere", dir.path("link"));
+  CHECK(place(from.c_str(), taken.c_str()) == EEXIST);
+  CHECK(place(from.c_str(), dir.path("link").c_str()) == EEXIST);
+  CHECK(bytes_of_file(taken) == "old");
+  CHECK(place(from.c_str(), dir.path("name").c_str()) == 0);
+  CHECK(bytes_of_file(dir.path("name")) == "new");
+  CHECK(names_in(dir) == Names{"link", "name", "taken"});
+}
+
+TEST_CASE("a file that is kept is neither replaced, removed nor written over, by whatever name", "[quick][io]") {
+  const TempDir dir;
+  const std::string kept = dir.file("out.partial-1", "an input of that name");
+  keep_file(kept);
+  std::filesystem::create_hard_link(kept, dir.path("hard"));
+  std::filesystem::create_symlink("out.partial-1", dir.path("soft"));
+  write_file(dir.path("out"), "new");
+  CHECK(bytes_of_file(kept) == "an input of that name");
+  for (const char* name : {"out.partial-1", "hard", "soft", "./soft"}) {
+    CAPTURE(name);
+    CHECK(remove_file(dir.path(name)) != 0);
+    CHECK_THROWS_AS(place_file(dir.path("out"), dir.path(name), true), Error);
+    CHECK_THROWS_AS(OutputFile(dir.path(name), true), Error);
+  }
+  CHECK(names_in(dir) == Names{"hard", "out", "out.partial-1", "soft"});
+  CHECK(holds_kept(dir.path(".")));
+  CHECK_FALSE(holds_kept(dir.path("elsewhere")));
+}
+
+TEST_CASE("a file that was read after the output was opened is kept", "[quick][io]") {
+  const TempDir dir;
+  OutputFile out(dir.path("out"), true);
+  out.write("new");
+  keep_file(dir.file("out", "read meanwhile"));
+  CHECK_THROWS_AS(out.commit(), Error);
+  CHECK(bytes_of_file(dir.path("out")) == "read meanwhile");
+}
+
+TEST_CASE("another file that has the number of one that is gone is not kept", "[quick][io]") {
+  const TempDir dir;
+  const std::string first = dir.file("first", "");
+  std::filesystem::create_hard_link(first, dir.path("second"));
+  keep_file(first);
+  CHECK(is_kept(dir.path("second")));
+  std::filesystem::remove(first);
+  CHECK_FALSE(is_kept(dir.path("second")));
 }
 
 TEST_CASE("the folder of a path is what its name stands in", "[quick][io]") {

@@ -325,6 +325,45 @@ TEST_CASE("broken glTF is refused with the place that is wrong", "[quick][io]") 
   CHECK_THAT(glb_complaint(without), Contains("no data"));
 }
 
+TEST_CASE("elements without data are held against the bytes of the file", "[quick][io]") {
+  Document d;
+  d.node({{"mesh", d.quad_mesh()}});
+  d.json["accessors"][0].erase("bufferView");
+  d.json["accessors"][0]["sparse"] = {
+      {"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", kU8}}}, {"values", {{"bufferView", 0}}}};
+  CHECK(read_glb(d).size() < 3);  // as many elements as before: legal
+  d.json["accessors"][0]["count"] = std::uint64_t(1) << 32;
+  CHECK_THAT(glb_complaint(d), Contains("4294967296 elements, and data for 1 of them"));
+}
+
+TEST_CASE("a description that needs more than it may take is refused with the figure", "[quick][io]") {
+  Document d;
+  const int mesh = d.quad_mesh();
+  for (int i = 0; i < 20000; ++i) {
+    d.node({{"mesh", mesh}, {"translation", {i, 0, 0}}});
+    d.json["scenes"][0]["nodes"][std::size_t(i)] = i;
+  }
+  const TempDir dir;
+  const std::string path = dir.file("a.glb", d.glb());
+  SceneOptions options;
+  const auto complaint = [&] {
+    try {
+      return fmt::format("{} triangles", read_all(path, options).size());
+    } catch (const Error& e) {
+      CHECK(e.code() == ErrorCode::out_of_resource);
+      return std::string(e.what());
+    }
+  };
+  options.document.enough_for = [](std::uint64_t missing) { return fmt::format(" by {} MiB", missing >> 20); };
+  options.document.bytes = std::uint64_t(1) << 20;
+  CHECK_THAT(complaint(), Contains("its JSON takes") && Contains("leaves 1 MiB for it; raise --memory by"));
+  options.document.bytes = std::uint64_t(64) << 20;
+  options.memory_bytes = std::uint64_t(1) << 20;
+  CHECK_THAT(complaint(), Contains("the list of its nodes takes 3 MiB, and --memory leaves 2 MiB"));
+  options.memory_bytes = std::uint64_t(4) << 20;
+  CHECK(complaint() == "40000 triangles");
+}
+
 TEST_CASE("a GLB cut anywhere is refused", "[quick][io]") {
   Document d;
   d.node({{"mesh", d.quad_mesh()}});
@@ -364,8 +403,8 @@ TEST_CASE("a proxy of ours tells which axis points up, other glTF does not", "[q
   };
   CHECK_FALSE(up_of(nullptr).has_value());
   CHECK_FALSE(up_of({{"up", 3}}).has_value());
-  CHECK(up_of({{"up", "y"}}) == UpAxis::y);
-  CHECK(up_of({{"up", "z"}}) == UpAxis::z);
+  CHECK_FALSE(up_of({{"up", "w"}}).has_value());
+  for (const char* const name : kUpNames) CHECK(up_of({{"up", name}}) == up_axis_named(name));
 }
 
 TEST_CASE("glTF extras of others are left alone", "[quick][io]") {

@@ -1,6 +1,4 @@
-#include <zlib.h>
-
-#include <cstring>
+#include <png.h>
 
 #include "io/png_writer.h"
 #include "lib/core/error.h"
@@ -10,39 +8,13 @@ using namespace bp;
 
 namespace {
 
-std::uint32_t u32(const std::byte* p) {
-  std::uint32_t v = 0;
-  for (int i = 0; i < 4; ++i) v = v << 8 | std::uint32_t(p[i]);
-  return v;
-}
-
-/// Reads what encode_png() writes: chunks with their checksums, one filter.
-Image decode(const std::vector<std::byte>& png) {
-  Image image;
-  std::vector<std::uint8_t> packed;
-  REQUIRE(std::memcmp(png.data(), "\x89PNG\r\n\x1A\n", 8) == 0);
-  for (std::size_t at = 8; at < png.size();) {
-    const std::uint32_t size = u32(&png[at]);
-    const std::string type(reinterpret_cast<const char*>(&png[at + 4]), 4);
-    const auto* body = reinterpret_cast<const std::uint8_t*>(&png[at + 4]);
-    CHECK(crc32(0, body, size + 4) == u32(&png[at + 8 + size]));
-    if (type == "IHDR") image = Image(int(u32(&png[at + 8])), int(u32(&png[at + 12])), {});
-    if (type == "IDAT") packed.assign(body + 4, body + 4 + size);
-    at += 12 + size;
-    if (at == png.size()) CHECK(type == "IEND");
-  }
-  const std::size_t row = 3 * std::size_t(image.width) + 1;
-  std::vector<std::uint8_t> raw(row * std::size_t(image.height));
-  uLongf n = raw.size();
-  REQUIRE(uncompress(raw.data(), &n, packed.data(), packed.size()) == Z_OK);
-  REQUIRE(n == raw.size());
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const std::uint8_t* p = &raw[std::size_t(y) * row + 1 + 3 * std::size_t(x)];
-      const Color above = y > 0 ? image.at(x, y - 1) : Color{};
-      REQUIRE(raw[std::size_t(y) * row] == 2);
-      image.at(x, y) = {std::uint8_t(p[0] + above.r), std::uint8_t(p[1] + above.g), std::uint8_t(p[2] + above.b)};
-    }
+Image decode(const std::vector<std::byte>& bytes) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  REQUIRE(png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) != 0);
+  CHECK(png.format == PNG_FORMAT_RGB);  // as it is in the file
+  Image image(int(png.width), int(png.height), {});
+  REQUIRE(png_image_finish_read(&png, nullptr, image.pixels.data(), 0, nullptr) != 0);
   return image;
 }
 

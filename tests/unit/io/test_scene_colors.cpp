@@ -93,6 +93,27 @@ TEST_CASE("OBJ: faces have the Kd of the material in use", "[quick][io]") {
   CHECK_FALSE(read_colored(dir.file("c.obj", "mtllib my mats.mtl\n" + vertices + "usemtl plain\nf 1 2 3\n")).any);
 }
 
+TEST_CASE("OBJ: what can be seen through is left out where walls are asked for", "[quick][io]") {
+  const TempDir dir;
+  (void)dir.file("m.mtl",
+                 "newmtl glass\nKd 1 0 0\nd 0.4\nnewmtl veil\nTr 0.5\nnewmtl leaf\nmap_d leaf.png\nnewmtl wall\nd 1\n"
+                 "newmtl old\nTr 1\n");
+  const std::string path =
+      dir.file("a.obj",
+               "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nusemtl glass\nf 1 2 4\nv 0 0 1\nf 1 2 -1\n"
+               "usemtl wall\nf 2 3 4\nusemtl veil\nf 1 2 4\nusemtl leaf\nf 1 2 4\nusemtl old\nf -1 -2 -3\n");
+  SceneOptions options;
+  CHECK(read_all(*open_scene(path, options)).size() == 7);
+  options.walls_only = true;
+  const auto source = open_scene(path, options);
+  const std::vector<TriangleD> walls = read_all(*source);
+  REQUIRE(walls.size() == 3);
+  CHECK(walls[1] == TriangleD{Vec3d{1, 0, 0}, Vec3d{1, 1, 0}, Vec3d{0, 1, 0}});
+  CHECK(walls[2] == TriangleD{Vec3d{0, 0, 1}, Vec3d{0, 1, 0}, Vec3d{1, 1, 0}});
+  source->rewind();
+  CHECK(read_all(*source) == walls);
+}
+
 TEST_CASE("OBJ: three more numbers of a vertex are its colour", "[quick][io]") {
   const TempDir dir;
   const Colored all = read_colored(
@@ -100,6 +121,24 @@ TEST_CASE("OBJ: three more numbers of a vertex are its colour", "[quick][io]") {
   REQUIRE(all.colors.size() == 2);
   CHECK(all.colors[0] == TriangleColors{kWhite, kRed, kBlue});
   CHECK(all.colors[1] == TriangleColors{kWhite, kWhite, kRed});
+}
+
+TEST_CASE("glTF: what can be seen through is left out where walls are asked for", "[quick][io]") {
+  const TempDir dir;
+  const std::string materials =
+      R"(,"materials":[{"alphaMode":"BLEND"},{"alphaMode":"MASK"},{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.4]}},)"
+      R"({"alphaMode":"OPAQUE","pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}},{}])";
+  (void)dir.file("t.bin", kCorners);
+  SceneOptions options;
+  options.walls_only = true;
+  for (int material = 0; material < 5; ++material) {
+    CAPTURE(material);
+    const std::string path = dir.file(
+        "a.gltf",
+        gltf(R"({"attributes":{"POSITION":0},"material":)" + std::to_string(material) + "}", "", materials, 36));
+    CHECK(read_all(*open_scene(path)).size() == 1);
+    CHECK(read_all(*open_scene(path, options)).size() == (material < 3 ? 0 : 1));
+  }
 }
 
 TEST_CASE("glTF: base colour factor times COLOR_0, linear", "[quick][io]") {

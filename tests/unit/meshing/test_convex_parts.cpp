@@ -6,6 +6,7 @@
 #include "lib/core/parallel.h"
 #include "lib/core/predicates.h"
 #include "lib/meshing/convex_parts.h"
+#include "lib/meshing/convex_shape.h"
 #include "lib/meshing/convex_simplify.h"
 #include "lib/meshing/lattice_geometry.h"
 #include "tests/catch.h"
@@ -282,6 +283,36 @@ TEST_CASE("hulls are the same with one thread and with several", "[quick][meshin
     return all;
   };
   CHECK(vertices(1) == vertices(3));
+}
+
+TEST_CASE("hulls keep to the faces asked, without slivers, and hold all of the solid", "[quick][meshing][lod]") {
+  const auto seed = GENERATE(range(0u, 3u));
+  const std::uint64_t faces = GENERATE(std::uint64_t(4), std::uint64_t(7), std::uint64_t(50), std::uint64_t(300));
+  CAPTURE(seed, faces);
+  const LatticeMesh mesh = thorny(seed, 2, 3000);
+  const ConvexParts parts = convex_parts(mesh, 0, faces);
+  std::size_t sum = 0;
+  for (const LatticeMesh& hull : parts.hulls) {
+    sum += hull.triangles.size();
+    CHECK(slivers_of({hull.vertices, hull.triangles}) == 0);
+  }
+  CHECK(sum <= faces);
+  CHECK(parts.short_of_faces);
+  CHECK(proof(parts, shrunk(mesh, 1e-6)).holds());
+}
+
+TEST_CASE("faces that do not suffice for each part are for several together", "[quick][meshing][lod]") {
+  LatticeMesh mesh;
+  for (std::int64_t i = 0; i < 60; ++i) {
+    const LatticeCoord at{i % 2 * 150, i / 2 % 5 * 1000, i / 10 * 1000};
+    add_box(mesh, {at, at + LatticeCoord{100, 100, 100}});
+  }
+  CHECK_FALSE(convex_parts(mesh, 0, 12 * 60).short_of_faces);
+  CHECK(convex_parts(mesh, 0, 12 * 60).hulls.size() == 60);
+  const ConvexParts pairs = convex_parts(mesh, 0, 12 * 30);  // as pairs they are boxes; alone, tetrahedra are larger
+  CHECK(pairs.hulls.size() <= 45);
+  CHECK(volume_of(pairs) < 1.6 * double(volume6_of(mesh)));
+  CHECK(proof(pairs, shrunk(mesh, 0)).convex());
 }
 
 TEST_CASE("a hull with fewer corners is around the one with more", "[quick][meshing][lod]") {

@@ -133,7 +133,8 @@ TEST_CASE("the tiles of all levels cover the scene together", "[quick][stage][lo
   for (const auto& [cell, number] : below) tiles[0].children.push_back(number);
   MemorySource source(scene());
   CHECK(check_cover(
-            tiles, [&](std::size_t i) { return contents[i]; }, source) == std::vector<std::string>{});
+            tiles, [&](std::size_t i) { return contents[i]; }, source)
+            .empty());
   CHECK(tiles.size() > 5);
 }
 

@@ -86,12 +86,13 @@ TEST_CASE("after two dashes everything is an argument", "[quick][tools]") {
 TEST_CASE("a usage error names the option and the fact", "[quick][tools]") {
   CHECK(complaint({"--scale", "-1"}) == "--scale: '-1' is negative; a length is at least 0 (see bptest --help)");
   CHECK(complaint({"--scale"}) == "--scale needs a value (see bptest --help)");
-  CHECK(complaint({"--scal", "1"}) == "there is no option --scal (see bptest --help)");
+  CHECK(complaint({"--scal", "1"}) == "there is no option --scal; did you mean --scale? (see bptest --help)");
   CHECK(complaint({"-x"}) == "there is no option -x (see bptest --help)");
   CHECK(complaint({"-s1", "--scale=1"}) == "--scale is given twice (see bptest --help)");
   CHECK(complaint({"a", "b"}) == "'b' is one argument too many (see bptest --help)");
   CHECK(complaint({"--keep=1"}) == "--keep takes no value (see bptest --help)");
-  CHECK(complaint({"--element", "Cube"}) == "--element: 'Cube' is none of cube|ball (see bptest --help)");
+  CHECK(complaint({"--element", "Cube"}) ==
+        "--element: 'Cube' is none of cube|ball; did you mean cube? (see bptest --help)");
   CHECK(complaint({"--faces", "-1"}) == "--faces: '-1' is not a whole number from 0 to 2147483647 (see bptest --help)");
   CHECK(complaint({"--progress=xml"}) == "--progress: 'xml' is none of [json] (see bptest --help)");
 }
@@ -138,4 +139,25 @@ TEST_CASE("the help shows names, defaults and the example within 80 columns", "[
   CHECK(help.find("bptest --edge 1") != std::string::npos);
   for (std::size_t begin = 0; begin < help.size(); begin = help.find('\n', begin) + 1)
     CHECK(help.find('\n', begin) - begin <= 80);
+}
+
+TEST_CASE("a slip is answered with what it is likely to mean", "[quick][tools]") {
+  using Catch::Matchers::Contains;
+  CHECK_THAT(complaint({"--face", "12"}), Contains("there is no option --face; did you mean --faces?"));
+  CHECK_THAT(complaint({"--facse=12"}), Contains("did you mean --faces?"));
+  CHECK_THAT(complaint({"--Scale", "2"}), Contains("did you mean --scale?"));
+  CHECK_THAT(complaint({"-faces", "12"}), Contains("there is no option -faces; did you mean --faces?"));
+  CHECK_THAT(complaint({"-scale", "2"}), Contains("there is no option -scale; did you mean --scale?"));
+  CHECK_THAT(complaint({"--element", "bal"}), Contains("'bal' is none of cube|ball; did you mean ball?"));
+  CHECK_THAT(complaint({"--progress=jsn"}), Contains("did you mean json?"));
+  CHECK_THAT(complaint({"--element", "sphere"}), !Contains("did you mean"));
+  CHECK_THAT(complaint({"--enormous"}), !Contains("did you mean"));
+  CHECK_THAT(complaint({"-x"}), !Contains("did you mean"));
+}
+
+TEST_CASE("counts may be in thousands and millions", "[quick][tools]") {
+  CHECK(parse({"--faces", "2k"}).faces == 2000);
+  CHECK(parse({"--faces", "1.5M"}).faces == 1500000);
+  CHECK_THAT(complaint({"--faces", "1.2345k"}), Catch::Matchers::Contains("'1.2345k' is not a whole number"));
+  CHECK_THAT(complaint({"--faces", "9G"}), Catch::Matchers::Contains("'9G' is not a whole number from 0 to"));
 }

@@ -9,6 +9,7 @@
 #include "tools/common/common_options.h"
 #include "tools/common/make_backend.h"
 #include "tools/common/provenance.h"
+#include "tools/common/report.h"
 
 using namespace bp;
 
@@ -60,7 +61,7 @@ TEST_CASE("a scratch directory that cannot be used is noticed before the work", 
   CHECK(good.memory_bytes == default_memory());
 }
 
-TEST_CASE("a report that exists is noticed before the work", "[quick][tools]") {
+TEST_CASE("a file in the place of the report is noticed before the work", "[quick][tools]") {
   const auto path = std::filesystem::temp_directory_path() / "bp-test-report-exists.json";
   std::ofstream(path) << "kept";
   CommonOptions o = parse({"--report", path.c_str()});
@@ -68,6 +69,16 @@ TEST_CASE("a report that exists is noticed before the work", "[quick][tools]") {
   o.overwrite = true;
   CHECK_NOTHROW(o.prepare());
   std::filesystem::remove(path);
+}
+
+TEST_CASE("a report replaces an earlier one, and nothing else", "[quick][tools]") {
+  const test::TempDir dir;
+  Report report("bpvox");
+  const std::string earlier = dir.file("r.json", report.text()), empty = dir.file("empty", "");
+  CHECK_NOTHROW(parse({"--report", earlier.c_str()}).prepare());
+  CHECK_NOTHROW(parse({"--report", empty.c_str()}).prepare());
+  for (const char* text : {"{\"tool\": 1}", "{\n  \"tool\": \"ot", "v 0 0 0\n"})
+    CHECK_THROWS_AS(parse({"--report", dir.file("other", text).c_str()}).prepare(), Error);
 }
 
 TEST_CASE("a GPU that a CPU build is asked for is a missing resource", "[quick][tools]") {
@@ -133,11 +144,18 @@ TEST_CASE("an output is no buffer, texture or material of an input", "[quick][to
     CHECK_THROWS_AS(open_output(dir.path(name), true), Error);
   CHECK_NOTHROW(open_output(dir.path("free.png"), true));
   CHECK_NOTHROW(open_output(dir.path("new.bin"), true));
-  std::filesystem::create_hard_link(gltf, dir.path("link.gltf"));  // a name more; the input keeps its own
-  {
-    const auto out = open_output(dir.path("link.gltf"), true);
-    out->write("new");
-    out->commit();
+}
+
+TEST_CASE("an output is no input by another name", "[quick][tools]") {
+  const test::TempDir dir;
+  const std::string scene = dir.file("scene.obj", "v 0 0 0\n");
+  keep_inputs({scene});
+  std::filesystem::create_hard_link(scene, dir.path("hard.obj"));
+  std::filesystem::create_symlink("scene.obj", dir.path("soft.obj"));
+  std::filesystem::create_directory_symlink(".", dir.path("here"));
+  for (const char* name : {"hard.obj", "soft.obj", "here/scene.obj", "./scene.obj", "here/hard.obj"}) {
+    CAPTURE(name);
+    CHECK_THROWS_AS(open_output(dir.path(name), true), Error);
   }
-  CHECK(test::bytes_of_file(gltf).size() > 3);
+  CHECK(test::bytes_of_file(scene) == "v 0 0 0\n");
 }

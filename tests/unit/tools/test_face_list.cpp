@@ -6,9 +6,9 @@ using namespace bp;
 
 namespace {
 
-std::string complaint(const std::string& text) {
+std::string complaint(const std::string& text, bool shares = false) {
   try {
-    (void)parse_face_list(text);
+    shares ? (void)parse_face_shares(text) : (void)parse_face_list(text);
   } catch (const Error& e) {
     CHECK(e.code() == ErrorCode::bad_argument);
     return e.what();
@@ -17,6 +17,12 @@ std::string complaint(const std::string& text) {
 }
 
 }  // namespace
+
+TEST_CASE("faces may be in thousands", "[quick][tools]") {
+  CHECK(parse_face_list("2k,500") == std::vector<std::uint64_t>{2000, 500});
+  CHECK(parse_face_list("1.5M,20k,999") == std::vector<std::uint64_t>{1500000, 20000, 999});
+  CHECK_THROWS_AS(parse_face_list("500,2k"), Error);
+}
 
 TEST_CASE("a list of faces falls from level to level", "[quick][tools]") {
   CHECK(parse_face_list("1000") == std::vector<std::uint64_t>{1000});
@@ -38,4 +44,15 @@ TEST_CASE("one number with its digits in groups is told from a list", "[quick][t
   CHECK(complaint("1000,000") == "1000,000: a level must have faces");
   CHECK(complaint("10,00") == "10,00: a level must have faces");
   CHECK(complaint("1,000,00") == "1,000,00: a level must have faces");
+}
+
+TEST_CASE("percentages of the scene fall from level to level", "[quick][tools]") {
+  CHECK(parse_face_shares("50%") == std::vector<double>{50});
+  CHECK(parse_face_shares("100%,12.5%,0.1%") == std::vector<double>{100, 12.5, 0.1});
+  CHECK(complaint("10%,40%", true) == "10%,40%: each level must have fewer than the one before");
+  CHECK(complaint("50%,100", true) ==
+        "50%,100: mixes numbers and percentages of the scene's triangles; use one of them");
+  CHECK(complaint("0%", true) == "0%: a share of the scene's triangles must be above 0% and at most 100%");
+  CHECK(complaint("101%", true) == "101%: a share of the scene's triangles must be above 0% and at most 100%");
+  CHECK(complaint("%", true) == "'' is not a number");
 }

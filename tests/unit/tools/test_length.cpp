@@ -42,6 +42,18 @@ TEST_CASE("a whole number out of range is named with the range that matters", "[
                     "'99999999999999999999' is not a whole number from 0 to 64");
 }
 
+TEST_CASE("a count may be in thousands, millions or billions", "[quick][tools]") {
+  CHECK(parse_count("17", 0, 100) == 17);
+  CHECK(parse_count("2k", 0, INT64_MAX) == 2000);
+  CHECK(parse_count("4.35k", 0, INT64_MAX) == 4350);
+  CHECK(parse_count("2K", 0, INT64_MAX) == 2000);
+  CHECK(parse_count("2M", 0, INT64_MAX) == 2000000);
+  CHECK(parse_count("0.5G", 0, INT64_MAX) == 500000000);
+  const std::string text = GENERATE("k", "", "-1k", "1.0005k", "1 k", "1kk", "1e3", "nank", "1e300G", "5m");
+  CAPTURE(text);
+  CHECK_THROWS_AS(parse_count(text, 0, INT64_MAX), Error);
+}
+
 TEST_CASE("sizes are powers of 1024", "[quick][tools]") {
   CHECK(parse_size("4096") == 4096);
   CHECK(parse_size("1K") == 1024);

@@ -1,0 +1,17 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+
+#include "lib/image/typeface.h"
+
+namespace bp {
+
+/// Where distributions keep DejaVu Sans, then other sans-serif fonts. Pictures of two machines have the same bytes if
+/// both have the same font file and FreeType.
+[[nodiscard]] std::span<const std::string> label_font_paths();
+
+/// The first of `paths` that FreeType can read and scale; null if there is none. Never throws but for want of memory.
+[[nodiscard]] std::unique_ptr<Typeface> open_label_font(std::span<const std::string> paths = label_font_paths());
+
+}  // namespace bp

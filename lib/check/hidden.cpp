@@ -1,0 +1,306 @@
+#include "lib/check/hidden.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+
+#include "lib/closing/closing.h"
+#include "lib/closing/closing_scratch.h"
+#include "lib/core/parallel.h"
+#include "lib/core/predicates.h"
+#include "lib/grid/dilate.h"
+#include "lib/grid/reach.h"
+#include "lib/voxel/voxelize.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::int64_t kSetsAtOnce = 8;  // of voxels, while the hidden ones are told
+constexpr std::int32_t kTile = 192;      // voxels, of the closing
+constexpr double kMostScaleVox = 4000;   // of any closing
+constexpr double kMostVoxels = 1 << 20;  // along a side
+
+using Corners = std::array<LatticeCoord, 3>;
+
+/// out = f(a, b), word by word; boxes are the same.
+void combine(BitBox& a, const BitBox& b, std::uint64_t (*f)(std::uint64_t, std::uint64_t)) {
+  for (std::int64_t i = 0; i < a.word_count(); ++i) a.data()[i] = f(a.data()[i], b.data()[i]);
+}
+std::uint64_t both(std::uint64_t a, std::uint64_t b) {
+  return a & b;
+}
+std::uint64_t either(std::uint64_t a, std::uint64_t b) {
+  return a | b;
+}
+std::uint64_t less(std::uint64_t a, std::uint64_t b) {
+  return a & ~b;
+}
+BitBox inverse(BitBox a) {
+  for (std::int64_t i = 0; i < a.word_count(); ++i) a.data()[i] = ~a.data()[i];
+  return a;
+}
+
+BitBox closing_of(const BitBox& voxels, const HidingRecipe& recipe) {
+  ScaleField field;
+  field.base = recipe.scale_world;
+  const VoxelBox& box = voxels.box();
+  BitBox all(box);
+  const VoxelCoord size = box.size();
+  const VoxelCoord tiles{ceil_div(size.x, kTile), ceil_div(size.y, kTile), ceil_div(size.z, kTile)};
+  parallel_for(std::int64_t(tiles.x) * tiles.y * tiles.z, [&](std::int64_t i) {
+    const VoxelCoord at{std::int32_t(i % tiles.x), std::int32_t(i / tiles.x % tiles.y),
+                        std::int32_t(i / tiles.x / tiles.y)};
+    const VoxelCoord min = box.min + at * kTile;
+    const VoxelBox tile = intersect(box, VoxelBox{min, min + VoxelCoord{kTile, kTile, kTile}});
+    const Halo halo = halo_of(tile, field, recipe.frame);
+    BitBox around(tile.grown(halo.total_vox())), closed;
+    copy_voxels(voxels, around);
+    ClosingScratch scratch;
+    close_tile(around, field.sample(recipe.frame, tile.grown(halo.erosion_vox)), halo, {recipe.element}, tile, closed,
+               scratch);
+    copy_voxels(closed, all);  // tiles of whole words
+  });
+  return all;
+}
+
+/// The definition, set by set. The border of the box is empty.
+BitBox hidden_voxels(const BitBox& touched, const HidingRecipe& recipe) {
+  const BitBox closing = closing_of(touched, recipe);
+  BitBox reached(touched.box());
+  reached.set(touched.box().min);
+  grow_within(inverse(closing), reached);  // O
+  BitBox open = closing;
+  combine(open, reached, either);
+  combine(open, touched, less);
+  grow_within(open, reached);  // O'
+  BitBox seen = reached;
+  for (int layer = 0; layer < 2; ++layer) {
+    dilate(seen, 1);
+    combine(seen, touched, both);
+  }
+  combine(seen, reached, either);
+  return inverse(std::move(seen));
+}
+
+class HiddenCheck {
+ public:
+  HiddenCheck(const WeldedMesh& mesh, const Surface& surface, TriangleSource& walls, const HidingRecipe& recipe,
+              std::size_t max_examples)
+      : mesh_(mesh), surface_(surface), walls_(walls), recipe_(recipe), max_examples_(max_examples) {}
+
+  HiddenReport run(std::uint64_t memory_bytes) {
+    if (find_corners() && find_box(memory_bytes)) {
+      const BitBox hidden = hidden_voxels(touched_voxels(), recipe_);
+      check_faces(hidden);
+      check_swallowed(hidden);
+    }
+    return std::move(report_);
+  }
+
+ private:
+  bool undecided(std::string why) {
+    report_.undecided = std::move(why);
+    return false;
+  }
+
+  bool find_corners() {
+    const GridFrame& frame = recipe_.frame;
+    if (!(frame.voxel > 0) || !(recipe_.scale_world >= 0) || recipe_.scale_world > kMostScaleVox * frame.voxel)
+      return undecided("the voxel or the scale that the file names is out of range");
+    for (const Vec3d& p : mesh_.points) {
+      LatticeCoord l;
+      for (int i = 0; i < 3; ++i) {
+        const double x = p[std::size_t(i)] / frame.voxel - double(frame.origin[std::size_t(i)]);
+        if (!(std::abs(x) < kMostVoxels)) return undecided("the proxy lies far from the voxels that the file names");
+        l[i] = std::llround(x * kLatticePerVoxel);
+      }
+      if (frame.world(l) != p)
+        return undecided("the proxy's vertices are not where the voxels that the file names put them: it was changed");
+      corners_.push_back(l);
+    }
+    return true;
+  }
+
+  /// Of the scene, with room for the closing and for the outside.
+  bool find_box(std::uint64_t memory_bytes) {
+    Bounds3d bounds;
+    walls_.rewind();
+    for (std::vector<TriangleD> chunk; walls_.read(chunk);) {
+      report_.triangles += chunk.size();
+      for (const TriangleD& t : chunk)
+        for (const Vec3d& p : t) bounds.add(p);
+    }
+    if (bounds.empty()) return undecided("no triangle of the scene hides anything");
+    const double reach = recipe_.scale_world / recipe_.frame.voxel;
+    double bytes = double(kSetsAtOnce) / 8;
+    for (const Vec3d& p : {bounds.min, bounds.max}) {
+      for (const double x : recipe_.frame.to_voxels(p))
+        if (!(std::abs(x) < kMostVoxels))
+          return undecided("the scene reaches far beyond the voxels that the file names");
+    }
+    box_ = voxel_bounds(recipe_.frame, bounds).grown(std::int32_t(std::ceil(reach)) + 2);
+    for (int i = 0; i < 3; ++i) bytes *= double(box_.size()[i]);
+    if (bytes > double(memory_bytes))
+      return undecided(fmt::format("the voxels take {} MiB, and --memory leaves {} MiB for them",
+                                   std::uint64_t(bytes) / (1 << 20) + 1, memory_bytes >> 20));
+    return true;
+  }
+
+  BitBox touched_voxels() {
+    BitBox touched(box_);
+    std::vector<FixedTriangle> fixed;
+    walls_.rewind();
+    for (std::vector<TriangleD> chunk; walls_.read(chunk);) {
+      fixed.clear();
+      for (const TriangleD& t : chunk) fixed.push_back(to_fixed(recipe_.frame, t));
+      voxelize_surface(fixed, touched);
+    }
+    return touched;
+  }
+
+  /// No face of the proxy has a point in the open cube of a voxel that is not hidden.
+  void check_faces(const BitBox& hidden) {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      Corners corners;
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = corners_[mesh_.triangles[t][k]];
+      const VoxelCoord* met = nullptr;
+      VoxelCoord at;
+      for_each_voxel(corners, [&](VoxelCoord v) {
+        if (met != nullptr || hidden.test(v) || !meets_open_voxel(corners, v)) return;
+        at = v;
+        met = &at;
+      });
+      if (met != nullptr) report_.exposed.add({mesh_.number[t], 0, middle_of(at)}, max_examples_);
+    }
+  }
+
+  /// Those that the triangle may meet.
+  static void for_each_voxel(const Corners& t, const std::function<void(VoxelCoord)>& f) {
+    VoxelBox box;
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t low = std::min({t[0][i], t[1][i], t[2][i]}), high = std::max({t[0][i], t[1][i], t[2][i]});
+      box.min[i] = std::int32_t(floor_div<std::int64_t>(low, kLatticePerVoxel)) - 1;
+      box.max[i] = std::int32_t(floor_div<std::int64_t>(high, kLatticePerVoxel)) + 2;
+    }
+    for (std::int32_t z = box.min.z; z < box.max.z; ++z) {  // layer by layer: a large triangle's box is large
+      BitBox layer(VoxelBox{{box.min.x, box.min.y, z}, {box.max.x, box.max.y, z + 1}});
+      const FixedTriangle one{fixed(t[0]), fixed(t[1]), fixed(t[2])};
+      voxelize_surface({&one, 1}, layer);
+      for_each_set(layer, f);
+    }
+  }
+
+  /// No voxel that is not hidden lies within the proxy. The surface meets no open cube of one. So two of them that
+  /// share a face lie on one side, unless a triangle lies in the plane of that face: such voxels are looked at one by
+  /// one.
+  void check_swallowed(const BitBox& hidden) {
+    if (report_.exposed.count > 0) return;  // the sides are not known
+    const BitBox others = inverse(hidden), along = beside_level_faces(others.box());
+    BitBox open = others, outside(others.box());
+    combine(open, along, less);
+    const VoxelCoord corner = others.box().min;
+    if (open.test(corner) && surface_.winding(middle_of(corner)) == 0) outside.set(corner);
+    grow_within(open, outside);
+    open = others;
+    combine(open, outside, less);
+    for_each_set(open, [&](VoxelCoord v) {
+      if (report_.exposed.count > max_examples_) return;  // it is refuted
+      const Vec3d middle = middle_of(v);
+      if (surface_.winding(middle) != 0) report_.exposed.add({0, 0, middle}, max_examples_);
+    });
+  }
+
+  /// Voxels that share a point with a triangle which lies in a plane between voxels.
+  [[nodiscard]] BitBox beside_level_faces(const VoxelBox& box) const {
+    BitBox beside(box);
+    for (const auto& triangle : mesh_.triangles) {
+      const LatticeCoord &a = corners_[triangle[0]], &b = corners_[triangle[1]], &c = corners_[triangle[2]];
+      for (int i = 0; i < 3; ++i) {
+        if (a[i] != b[i] || b[i] != c[i] || a[i] % kLatticePerVoxel != 0) continue;
+        const FixedTriangle one{fixed(a), fixed(b), fixed(c)};
+        voxelize_surface({&one, 1}, beside);
+        break;
+      }
+    }
+    return beside;
+  }
+
+  static FixedPoint fixed(const LatticeCoord& p) {
+    constexpr std::int64_t kUnit = kFixedOne / kLatticePerVoxel;
+    return {p.x * kUnit, p.y * kUnit, p.z * kUnit};
+  }
+
+  static void for_each_set(const BitBox& voxels, const std::function<void(VoxelCoord)>& f) {
+    const VoxelBox& box = voxels.box();
+    for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
+      for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
+        for (std::int32_t i = 0; i < voxels.words_per_row(); ++i) {
+          for (std::uint64_t bits = voxels.row(y, z)[i]; bits != 0; bits &= bits - 1)
+            f({box.min.x + 64 * i + std::countr_zero(bits), y, z});
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] Vec3d middle_of(VoxelCoord v) const {
+    constexpr std::int64_t kUnit = kLatticePerVoxel;
+    return recipe_.frame.world({v.x * kUnit + kUnit / 2, v.y * kUnit + kUnit / 2, v.z * kUnit + kUnit / 2});
+  }
+
+  const WeldedMesh& mesh_;
+  const Surface& surface_;
+  TriangleSource& walls_;
+  const HidingRecipe& recipe_;
+  const std::size_t max_examples_;
+  std::vector<LatticeCoord> corners_;
+  VoxelBox box_;
+  HiddenReport report_;
+};
+
+using Wide = int128;
+
+Wide dot(const LatticeCoord& a, const LatticeCoord& b) {
+  return Wide(a.x) * b.x + Wide(a.y) * b.y + Wide(a.z) * b.z;
+}
+LatticeCoord cross(const LatticeCoord& a, const LatticeCoord& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Whether the axis has the triangle on one side of the open cube (-kHalf, kHalf)^3.
+bool parts(const Corners& t, const LatticeCoord& axis) {
+  constexpr int kHalf = kLatticePerVoxel;  // in halves of a lattice unit
+  const Wide reach = kHalf * (Wide(std::abs(axis.x)) + std::abs(axis.y) + std::abs(axis.z));
+  if (reach == 0) return false;
+  const Wide a = dot(t[0], axis), b = dot(t[1], axis), c = dot(t[2], axis);
+  return std::min({a, b, c}) >= reach || std::max({a, b, c}) <= -reach;
+}
+
+}  // namespace
+
+bool meets_open_voxel(const Corners& triangle, VoxelCoord voxel) {
+  Corners t;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (int i = 0; i < 3; ++i) t[k][i] = 2 * triangle[k][i] - (2 * std::int64_t(voxel[i]) + 1) * kLatticePerVoxel;
+  }
+  const LatticeCoord units[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const LatticeCoord& unit : units)
+    if (parts(t, unit)) return false;
+  const LatticeCoord edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
+  if (parts(t, cross(edges[0], edges[1]))) return false;
+  for (const LatticeCoord& edge : edges) {
+    for (const LatticeCoord& unit : units)
+      if (parts(t, cross(edge, unit))) return false;
+  }
+  return true;
+}
+
+HiddenReport check_hidden(const WeldedMesh& mesh, const Surface& surface, TriangleSource& walls,
+                          const HidingRecipe& recipe, std::size_t max_examples, std::uint64_t memory_bytes) {
+  return HiddenCheck(mesh, surface, walls, recipe, max_examples).run(memory_bytes);
+}
+
+}  // namespace bp

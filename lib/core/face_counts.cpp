@@ -1,0 +1,46 @@
+#include "lib/core/face_counts.h"
+
+#include <fmt/format.h>
+
+namespace bp {
+
+namespace {
+
+constexpr std::uint8_t kToPrevious = 1, kToNext = 4;  // the edges that a fan's triangles share
+
+}  // namespace
+
+void FaceCounts::count(std::uint64_t triangles_of_face, int by) {
+  std::uint64_t& n = triangles_of_face == 1 ? triangles : triangles_of_face == 2 ? quads : polygons;
+  n += std::uint64_t(std::int64_t(by));
+}
+
+void FaceCounts::add(std::span<const std::uint8_t> inner_edges, std::uint64_t plain) {
+  cut += inner_edges.size() + plain;
+  // A face is counted by the triangles seen of it, and anew with each further one: no end needs to be awaited.
+  for (const std::uint8_t edges : inner_edges) {
+    const bool goes_on = (edges & kToPrevious) != 0 && fan_ > 0;
+    if (goes_on) count(fan_, -1);
+    const std::uint64_t seen = goes_on ? fan_ + 1 : 1;
+    count(seen, 1);
+    fan_ = (edges & kToNext) != 0 ? seen : 0;
+  }
+  if (plain == 0) return;
+  triangles += plain;
+  fan_ = 0;
+}
+
+std::string FaceCounts::text() const {
+  const std::string all = fmt::format("{} triangles", cut);
+  if (quads + polygons == 0) return all;
+  std::string faces;
+  const auto say = [&](std::uint64_t n, const char* what) {
+    if (n > 0) faces += fmt::format("{}{} {}{}", faces.empty() ? "" : " and ", n, what, n == 1 ? "" : "s");
+  };
+  say(polygons, "larger polygon");
+  say(quads, "quad");
+  say(triangles, "triangle");
+  return fmt::format("{}, {}{}", faces, all, triangles > 0 ? " when cut" : "");
+}
+
+}  // namespace bp

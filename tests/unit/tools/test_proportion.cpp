@@ -1,0 +1,81 @@
+#include <functional>
+
+#include "lib/core/error.h"
+#include "tests/catch.h"
+#include "tests/unit/io/scene_files.h"
+#include "tools/common/estimate.h"
+#include "tools/common/proportion.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+Bounds3d box(double x, double y, double z) {
+  Bounds3d b;
+  b.add({0, 0, 0});
+  b.add({x, y, z});
+  return b;
+}
+
+/// The message of the usage error that f() throws; "" if it throws none.
+std::string question(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const Error& e) {
+    CHECK(e.code() == ErrorCode::bad_argument);
+    return e.what();
+  }
+  return "";
+}
+
+std::string scale(const std::string& text, const Bounds3d& scene, double voxel = 0.005) {
+  return question([&] { question_length("--scale", parse_length(text), scene, voxel); });
+}
+
+std::string voxel(const std::string& text, const Bounds3d& scene) {
+  return question([&] { question_voxel("--voxel", parse_length(text), scene); });
+}
+
+}  // namespace
+
+TEST_CASE("a length beyond a quarter of the diagonal is questioned", "[quick][tools]") {
+  const Bounds3d scene = box(0.5, 1.2, 0);  // diagonal 1.3
+  CHECK(scale("2", scene) ==
+        "--scale 2 is 154 % of the scene's diagonal (1.3): did you mean 2%? to insist, write 154%");
+  CHECK_THAT(scale("60", scene), Contains("did you mean 60vx? to insist, write 4615%"));
+  CHECK_THAT(scale("200", scene), Contains("is the scene in other units? to insist, write 15385%"));
+  CHECK_THAT(scale("0.33", scene), Contains("did you mean 0.33%?"));
+  CHECK(scale("0.325", scene).empty());
+  for (const char* word : {"154%", "200vx", "15385%", "0"}) CHECK(scale(word, scene).empty());
+  CHECK(scale("2", box(0, 0, 0)).empty());
+  CHECK(scale("2", Bounds3d()).empty());
+}
+
+TEST_CASE("a grid that is too coarse or too fine is questioned", "[quick][tools]") {
+  const Bounds3d scene = box(0.5, 1.2, 0);
+  CHECK(voxel("10", scene) ==
+        "--voxel 10 makes a grid of 0.12 voxels along the scene's longest side (1.2): did you mean 10%? to insist, "
+        "write 769%");
+  CHECK_THAT(voxel("256", scene), Contains("did you mean --resolution 256?"));
+  CHECK_THAT(voxel("0.00001", scene),
+             Contains("--voxel 1e-05 makes a grid of 120000 voxels along the scene's longest side (1.2), more than "
+                      "16384: is the scene in other units? to insist, give that number to --resolution"));
+  CHECK_FALSE(voxel("1e-300", scene).empty());
+  CHECK_FALSE(voxel("1e300", scene).empty());
+  for (const char* word : {"0.15", "0.0001", "769%", "1e-9%"}) CHECK(voxel(word, scene).empty());
+  CHECK(voxel("10", box(0, 0, 0)).empty());
+}
+
+TEST_CASE("only a run of more than ten seconds is announced", "[quick][tools]") {
+  const std::uint64_t memory = std::uint64_t(1) << 30;
+  CHECK(estimate_note(estimate_voxelize(box(1, 1, 1), 1.0 / 256), memory).empty());
+  CHECK(estimate_note(estimate_mesh(box(1, 1, 1), 1.0 / 256), memory).empty());
+  const Estimate large = estimate_mesh(box(1, 1, 0.5), 1.0 / 16384);
+  CHECK_THAT(estimate_note(large, memory), Contains("a grid of 16385 x 16385 x 8193 voxels: about "));
+  CHECK_THAT(estimate_note(large, memory), Contains("1 GiB (the rest goes to --temp) of memory"));
+  Estimate twice = large;
+  twice.then(large);
+  CHECK(twice.core_seconds == 2 * large.core_seconds);
+  CHECK(twice.bytes == large.bytes);
+}

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# What people see: levels and tiles in three.js and CesiumJS, in headless Chromium. A lit picture has many grey values; a
+# file without normals or material is a flat silhouette, or black. Packages come from npm, pinned; without Chromium, node
+# or network the test is skipped (77).
+#   tests/viewers/run.sh FOLDER      FOLDER keeps the installed packages and the pictures; the tools are on PATH
+set -euo pipefail
+packages=(three@0.187.0 cesium@1.140.0 playwright-core@1.65.1)
+here=$(cd "$(dirname "$0")" && pwd)
+skip() { echo "skipped: $1"; exit 77; }
+command -v chromium > /dev/null || skip "chromium is not installed"
+command -v node > /dev/null && command -v npm > /dev/null || skip "node and npm are not installed"
+mkdir -p "$1" && cd "$1"
+if [ "$(cat installed 2> /dev/null)" != "${packages[*]}" ]; then
+  [ -f package.json ] || echo '{"private": true}' > package.json
+  timeout 300 npm install --no-audit --no-fund --loglevel=error "${packages[@]}" > npm.log 2>&1 || skip "npm cannot install ${packages[*]}: $(tail -1 npm.log)"
+  echo "${packages[*]}" > installed
+fi
+export NODE_PATH=$PWD/node_modules
+rm -rf data
+bp-plant --triangles 100000 -o plant.ply --overwrite > /dev/null
+bplod plant.ply --faces 2000 --resolution 160 -o data/gltf > /dev/null
+bplod plant.ply --levels 3 --resolution 192 --tile 64 --profile 3dtiles -o data/tiles > /dev/null
+bpvox plant.ply --resolution 128 | bpclose --scale 1% | bpmesh --faces 1000 -o data/bpmesh.glb
+
+failed=0
+# picture VIEWER FILE NAME
+picture() {
+  local greys
+  greys=$(node "$here/shot.cjs" "$1" "$2" "$3.png")
+  echo "$3: $greys grey values"
+  [ "$greys" -ge 20 ] || failed=1
+}
+picture three data/gltf/plant_LOD0.glb three-level
+picture three data/bpmesh.glb three-bpmesh
+picture cesium data/tiles/tileset.json cesium-tiles
+exit $failed

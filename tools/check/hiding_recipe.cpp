@@ -1,0 +1,49 @@
+#include "tools/check/hiding_recipe.h"
+
+#include "lib/core/error.h"
+#include "tools/check/hints.h"
+#include "tools/common/length.h"
+
+namespace bp {
+
+namespace {
+
+/// The value of "key=value" among words; throws bad_argument if there is none.
+std::string value_of(const std::string& line, const std::string& key) {
+  const std::size_t at = line.find(" " + key + "=");
+  if (at == std::string::npos) fail(ErrorCode::bad_argument, "no {}", key);
+  const std::size_t begin = at + key.size() + 2;
+  return line.substr(begin, line.find(' ', begin) - begin);
+}
+
+OccluderRecipe parsed(const std::string& line) {
+  constexpr std::int64_t kMost = std::int64_t(1) << 50;
+  OccluderRecipe whole;
+  HidingRecipe& recipe = whole.hiding;
+  recipe.frame.voxel = parse_number(value_of(line, "voxel"));
+  recipe.scale_world = parse_number(value_of(line, "openings"));
+  recipe.element = value_of(line, "element") == "ball" ? StructuringElement::ball : StructuringElement::cube;
+  std::size_t i = 0;
+  for_each_item(value_of(line, "grid"), [&](std::string_view number) {
+    if (i == 3) fail(ErrorCode::bad_argument, "a grid of more than three numbers");
+    recipe.frame.origin[i++] = parse_integer(number, -kMost, kMost);
+  });
+  if (i != 3) fail(ErrorCode::bad_argument, "a grid of fewer than three numbers");
+  whole.ground = value_of(line, "ground") == "yes";
+  whole.up = value_of(line, "up") == "z" ? UpAxis::z : UpAxis::y;
+  return whole;
+}
+
+}  // namespace
+
+std::optional<OccluderRecipe> hiding_recipe(const std::string& path) {
+  const MeshExtras extras = extras_of(path);
+  if (made_by(extras) != "bplod" || mode_of(extras) != "inside") return {};
+  try {
+    return parsed(extras.provenance.back());
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+}  // namespace bp

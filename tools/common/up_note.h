@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+
+#include "lib/core/box.h"
+#include "lib/grid/stream.h"
+
+/// What is said of a scene that lies flat in x and y, as maps do, if nobody told which axis is up and glTF is written,
+/// which has y up; else empty.
+namespace bp {
+
+[[nodiscard]] std::string up_note(const Bounds3d& scene, bool told);
+/// Of a stream: bpvox leaves word in its provenance whether it was told.
+[[nodiscard]] std::string up_note(const StreamHeader& header);
+/// The option that says so.
+constexpr const char* kUpTold = "up-told";
+
+}  // namespace bp

@@ -1,0 +1,220 @@
+#include "tools/mesh/enclosure.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "io/scene_reader.h"
+#include "lib/core/content_hash.h"
+#include "lib/core/error.h"
+#include "lib/core/hex.h"
+#include "lib/geometry/triangle_bvh.h"
+#include "lib/meshing/enclosed_triangles.h"
+#include "tools/common/common_options.h"
+#include "tools/common/enclosed_triangles_limit.h"
+#include "tools/common/names.h"
+
+namespace bp {
+
+namespace {
+
+using Kind = EncloseOption::Kind;
+
+/// The word for it; files if it is none.
+Kind kind_of(const std::string& word) {
+  if (word == "auto") return Kind::automatic;
+  if (word == "scene") return Kind::scene;
+  if (word == "input") return Kind::input;
+  return word == "closing" ? Kind::closing : Kind::files;
+}
+
+/// Bytes that so many triangles of a scene take, from when they are read to the end.
+std::uint64_t bytes_of(std::uint64_t triangles, const EnclosureInput& in) {
+  const std::uint64_t tree = triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles);
+  if (in.mode == MeshMode::fit) return triangles * sizeof(TriangleD) + tree;
+  return triangles * EnclosedTriangles::kBytesEach + (in.distances ? tree : 0);
+}
+
+void check_memory(const std::string& name, std::uint64_t triangles, const EnclosureInput& in) {
+  const std::uint64_t bytes = bytes_of(triangles, in), most = in.memory.bytes();
+  if (bytes <= most) return;
+  fail(ErrorCode::out_of_resource,
+       "{}: its triangles take {} MiB while they are enclosed, and --memory leaves {} MiB for them; raise --memory{}, "
+       "or "
+       "use --enclose {}",
+       name, (bytes >> 20) + 1, most >> 20, in.memory.enough_for(bytes - most),
+       in.mode == MeshMode::fit ? "closing" : "input");
+}
+
+/// Nothing of the voxels or the surface is there yet: half of the memory is for the reader's vertices.
+SceneOptions scene_options(const EnclosureInput& in, const std::string& format) {
+  SceneOptions options;
+  options.format = format;
+  options.memory_bytes = in.memory.bytes() / 2;
+  options.temp_dir = in.temp_dir;
+  return options;
+}
+
+/// What the voxels do not enclose cannot be kept inside.
+void check_bounds(const std::string& name, const std::vector<TriangleD>& chunk, const Bounds3d& bounds) {
+  Bounds3d both = bounds;
+  for (const TriangleD& t : chunk) {
+    for (const Vec3d& p : t) both.add(p);
+  }
+  if (both == bounds) return;
+  fail(ErrorCode::bad_input, "{}: reaches beyond the scene that the stream was made from; name that scene", name);
+}
+
+std::vector<TriangleD> read_files(const std::vector<std::string>& files, const EnclosureInput& in) {
+  const auto scene = open_scenes(files, scene_options(in, ""));
+  std::vector<TriangleD> all;
+  for (std::vector<TriangleD> chunk; scene->read(chunk);) {
+    check_bounds(scene->name(), chunk, in.header.bounds);
+    all.insert(all.end(), chunk.begin(), chunk.end());
+    check_memory(scene->name(), all.size(), in);
+  }
+  return all;
+}
+
+std::vector<std::string> names_of(const SceneFiles& scene) {
+  std::vector<std::string> names;
+  for (const SceneFiles::File& file : scene.files) names.push_back(file.name);
+  return names;
+}
+
+/// Why the scene's triangles cannot be had, and what to do.
+struct Obstacle {
+  std::string why, remedy;
+};
+
+Obstacle changed(const std::string& file) {
+  return {file + " has changed since the stream was made", "run bpvox again"};
+}
+
+/// Whether the files that the stream names are surely not what it was made from.
+std::optional<Obstacle> missing_scene(const SceneFiles& scene) {
+  if (scene.files.empty()) return Obstacle{"the stream names no scene file", "name the file with --enclose"};
+  for (const SceneFiles::File& file : scene.files) {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(file.name, none))
+      return Obstacle{file.name + " is not there", "name the file with --enclose"};
+    if (std::filesystem::file_size(file.name, none) != file.bytes) return changed(file.name);
+  }
+  return std::nullopt;
+}
+
+/// The triangles that the stream was made from; none if these files hold other ones by now.
+std::vector<TriangleD> read_same(const SceneFiles& scene, const EnclosureInput& in) {
+  std::vector<TriangleD> all;
+  ContentHash hash;
+  try {
+    const auto source = open_scenes(names_of(scene), scene_options(in, scene.format));
+    all.reserve(scene.triangles);
+    for (std::vector<TriangleD> chunk; source->read(chunk);) {
+      if (all.size() + chunk.size() > scene.triangles) return {};
+      hash.add(std::as_bytes(std::span(chunk)));
+      all.insert(all.end(), chunk.begin(), chunk.end());
+    }
+  } catch (const Error& e) {
+    if (e.code() != ErrorCode::bad_input) throw;
+    return {};
+  }
+  const auto [high, low] = hash.value().words;
+  if (hex_of(high, low) != scene.hash) return {};
+  return all;
+}
+
+/// Fills `out` with the scene's triangles; returns why not, if so.
+std::optional<Obstacle> take_scene(const EnclosureInput& in, bool any_number, std::vector<TriangleD>& out) {
+  const SceneFiles& scene = in.header.scene;
+  if (std::optional<Obstacle> obstacle = missing_scene(scene)) return obstacle;
+  if (!any_number && scene.triangles > kMostEnclosedTriangles) {
+    return Obstacle{fmt::format("the scene has {} triangles, more than {}", scene.triangles, kMostEnclosedTriangles),
+                    "--enclose scene takes them all the same"};
+  }
+  const std::string name = file_name(scene.files.front().name);
+  keep_inputs(names_of(scene));
+  check_memory(name, scene.triangles, in);
+  out = read_same(scene, in);
+  if (out.empty()) return changed(scene.files.size() == 1 ? scene.files.front().name : "a scene file");
+  return std::nullopt;
+}
+
+/// Whether `automatic` looks for the scene's triangles at all. A proxy inside a scene is kept by voxels. Without
+/// tightening nothing is kept. A fit whose distance is bounded begins at the closing; and a cube's closing stands off
+/// slanted sides about as far as a fit looks for the scene: thorns.
+bool wants_scene(const EnclosureInput& in) {
+  if (!in.tighten || in.mode == MeshMode::inside) return false;
+  const bool cube = in.header.has_closing && in.header.element == StructuringElement::cube;
+  return in.mode == MeshMode::bounding || (!in.has_error && !cube);
+}
+
+Enclosure automatic(const EnclosureInput& in) {
+  Enclosure out;
+  if (!wants_scene(in)) return out;
+  const std::optional<Obstacle> obstacle = take_scene(in, false, out.scene);
+  const bool fit = in.mode == MeshMode::fit;
+  if (!obstacle) {
+    out.what = Enclose::scene;
+    return out;
+  }
+  out.what = fit ? Enclose::closing : Enclose::input;
+  out.note = fmt::format("{}: the {} the scene's voxels, not its triangles, and is less {}; {}", obstacle->why,
+                         fit ? "fit follows" : "proxy encloses", fit ? "near" : "tight", obstacle->remedy);
+  return out;
+}
+
+}  // namespace
+
+std::string EncloseOption::text() const {
+  constexpr const char* kNames[] = {"auto", "scene", "input", "closing"};
+  if (kind != Kind::files) return kNames[std::size_t(kind)];
+  std::vector<std::string> names;
+  for (const std::string& file : files) names.push_back(file_name(file));
+  return fmt::format("{}", fmt::join(names, ","));
+}
+
+EncloseOption parse_enclose(const std::vector<std::string>& given) {
+  EncloseOption option;
+  if (given.empty()) return option;
+  option.kind = kind_of(given.front());
+  const bool mixed = std::any_of(given.begin(), given.end(), [&](const std::string& word) {
+    return kind_of(word) != (given.size() > 1 ? Kind::files : option.kind);
+  });
+  if (mixed)
+    fail(ErrorCode::bad_argument,
+         "--enclose takes one of auto, scene, input and closing, or scene files, not a mixture");
+  if (option.kind == Kind::files) option.files = given;
+  return option;
+}
+
+const char* Enclosure::name() const {
+  constexpr const char* kNames[] = {"closing", "input", "scene"};
+  return kNames[std::size_t(what)];
+}
+
+Enclosure make_enclosure(const EncloseOption& option, const EnclosureInput& in) {
+  Enclosure out;
+  switch (option.kind) {
+    case Kind::automatic:
+      return automatic(in);
+    case Kind::closing:
+      break;
+    case Kind::input:
+      out.what = Enclose::input;
+      break;
+    case Kind::files:
+      out.what = Enclose::scene;
+      out.scene = read_files(option.files, in);
+      break;
+    case Kind::scene:
+      out.what = Enclose::scene;
+      if (const std::optional<Obstacle> obstacle = take_scene(in, true, out.scene))
+        fail(ErrorCode::bad_input, "--enclose scene: {}; {}, or use --enclose input", obstacle->why, obstacle->remedy);
+  }
+  return out;
+}
+
+}  // namespace bp

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lib/stage/mesh_stage.h"
+
+/// --enclose of bpmesh: what stays inside while a proxy is tightened, and what a fit is drawn to.
+namespace bp {
+
+struct EncloseOption {
+  enum class Kind { automatic, scene, input, closing, files };
+  Kind kind = Kind::automatic;
+  std::vector<std::string> files;  ///< for Kind::files
+
+  /// As given, but files by their names only: a path is nobody's business in a report or a provenance chain.
+  [[nodiscard]] std::string text() const;
+};
+
+/// Of the words given to --enclose; none: automatic. Throws bad_argument if they are a mixture.
+[[nodiscard]] EncloseOption parse_enclose(const std::vector<std::string>& given);
+
+/// What is known before a brick is read.
+struct EnclosureInput {
+  const StreamHeader& header;
+  MeshMode mode = MeshMode::bounding;
+  bool tighten = true;
+  bool has_error = false;  ///< --error was given
+  bool distances = false;  ///< distances to the scene will be measured
+  PieceMemory memory;      ///< that the scene's triangles may take
+  std::string temp_dir = {};
+};
+
+struct Enclosure {
+  Enclose what = Enclose::closing;
+  std::vector<TriangleD> scene;  ///< for Enclose::scene
+  std::string note;              ///< why `automatic` does without the scene's triangles; empty: nothing to say
+
+  [[nodiscard]] const char* name() const;  ///< closing, input, scene
+};
+
+/// Chooses, and reads the scene's triangles where they are needed. `automatic` is the scene's triangles if the stream
+/// names its files, these are there, hold the very triangles that the stream was made from, and are no more than
+/// kMostEnclosedTriangles; else the scene's voxels. The choice depends on the stream, on these files and on the options
+/// only. Throws out_of_resource if the triangles do not fit in the memory, bad_input if `scene` or files are not what
+/// the stream was made from.
+[[nodiscard]] Enclosure make_enclosure(const EncloseOption& option, const EnclosureInput& input);
+
+}  // namespace bp

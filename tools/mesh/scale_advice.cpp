@@ -1,0 +1,62 @@
+#include "tools/mesh/scale_advice.h"
+
+#include <fmt/format.h>
+
+#include "io/brick_shelf.h"
+#include "lib/backend/cpu_backend.h"
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/stage/scale_search.h"
+#include "tools/common/length.h"
+#include "tools/common/memory_shares.h"
+#include "tools/mesh/mesh_memory.h"
+
+namespace bp {
+
+namespace {
+
+/// The value of `key` in the canonical text of the last step of bpclose; empty if there is none.
+std::string option_of_bpclose(const StreamHeader& header, const std::string& key) {
+  if (header.provenance.empty() || header.provenance.back().tool != "bpclose") return "";
+  const std::string text = " " + header.provenance.back().options + " ", name = " " + key + "=";
+  const std::size_t at = text.find(name);
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + name.size();
+  return text.substr(begin, text.find(' ', begin) - begin);
+}
+
+Backends cpu_backends() {
+  Backends backends;
+  for (int i = 0; i < thread_count(); ++i) backends.push_back(std::make_unique<CpuBackend>());
+  return backends;
+}
+
+}  // namespace
+
+bool has_scale_to_raise(const StreamHeader& header) {
+  return header.has_closing && header.fill != FillMode::inside && header.scale.constant() && header.scale.base > 0 &&
+         !option_of_bpclose(header, "scale").empty();
+}
+
+std::optional<std::string> enough_scale(const StreamHeader& header, BrickShelf& solid, std::uint64_t faces,
+                                        const CommonOptions& common) {
+  try {
+    Length scale = parse_length(option_of_bpclose(header, "scale"));
+    ScaleSearch search;
+    search.faces = faces;
+    search.keep_cavities = option_of_bpclose(header, "keep-cavities") == "yes";
+    search.pieces = mesh_memory(common);
+    search.memory_bytes = search.pieces.work_bytes;
+    search.make_shelf = make_shelf_factory(MeshBudget(common.memory_bytes).shelves, common.temp);
+    Backends backends = cpu_backends();
+    const std::optional<int> times = enough_scales(header, solid, backends, search);
+    if (!times) return "";
+    scale.value *= *times;
+    return scale.text();
+  } catch (const Error& e) {  // advice is not worth a failure
+    if (e.code() == ErrorCode::out_of_resource || e.code() == ErrorCode::bad_argument) return std::nullopt;
+    throw;
+  }
+}
+
+}  // namespace bp
