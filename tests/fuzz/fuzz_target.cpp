@@ -1,4 +1,7 @@
 // libFuzzer target of BP_FUZZ_ENTRY, one of entries.h.
+#include <signal.h>
+#include <sys/time.h>
+
 #include <vector>
 
 #include "tests/fuzz/entries.h"
@@ -16,7 +19,26 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   return 0;
 }
 
+namespace {
+
+constexpr int kHangSeconds = 10;  ///< of computing: a busy machine makes no hang, as the clock of -timeout would
+
+void set_alarm(int seconds) {
+  struct itimerval timer {};
+  timer.it_value.tv_sec = seconds;
+  ::setitimer(ITIMER_PROF, &timer, nullptr);
+}
+
+void on_alarm(int) {
+  fuzz::fail_fuzz("hang", "an input takes more than 10 s of computing");
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  ::signal(SIGPROF, on_alarm);
+  set_alarm(kHangSeconds);
   fuzz::BP_FUZZ_ENTRY(data, size);
+  set_alarm(0);
   return 0;
 }

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <sstream>
 
@@ -53,8 +55,14 @@ struct Inputs {
   }
 };
 
-/// Honest but long work is no finding: numbers are small, or so large that nothing can hold them.
-std::string value_of(Choices& c, const Option& option) {
+/// Numbers between what is done at once and what nothing can hold: honest work for minutes, and no finding.
+bool takes_long(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::fabs(std::strtod(text.c_str(), &end)) / (*end == '%' ? 100 : 1);
+  return (value > 64 && value < 0x1p31) || (value > 1e-11 && value < 0.02);
+}
+
+std::string any_value(Choices& c, const Option& option) {
   static const Words kSmall{"1",   "2",  "3",  "5",      "8",     "0.5",   "1.5", "0.3", "10%",
                             "2vx", "64", "12", "100,20", "1,2,3", "0,0,0", "1M",  "64M", "0.1,0.2"};
   if (option.value.find('|') != std::string::npos && !c.once_in(16)) {
@@ -66,6 +74,11 @@ std::string value_of(Choices& c, const Option& option) {
   if (c.once_in(2)) return c.of(kSmall);
   const std::string text = extreme_text(c);
   return c.once_in(4) ? text + c.of<std::string>({"%", "vx", ",1", ",1,1", "M", "T", "..5"}) : text;
+}
+
+std::string value_of(Choices& c, const Option& option) {
+  const std::string text = any_value(c, option);
+  return takes_long(text) ? "4" : text;
 }
 
 bool is_path(const Option& option) {

@@ -10,10 +10,10 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Low resolutions, or hostile voxels.
+/// Low resolutions, or voxels that are far too small or too large for any scene: those between are honest work.
 Words grid(Choices& c) {
-  if (c.once_in(6))
-    return {"--voxel", c.once_in(2) ? text_of(extreme_number(c)) : c.of<std::string>({"0.3", "7%", "1"})};
+  static const Words kVoxels{"7%", "30%", "1e300", "1e-300", "5e-324", "1e100", "1e-20%", "1e300%", "1e-310%"};
+  if (c.once_in(6)) return {"--voxel", c.of(kVoxels)};
   return {"--resolution", c.of<std::string>({"8", "16", "1", "5", "24", "2"})};
 }
 
@@ -65,11 +65,13 @@ void scene(const std::uint8_t* data, std::size_t size) {
   if (way > 4) return look(way - 5, place, scene);
   Words words{scene, "--fill", fill, "-o", place.path("v.bpv")};
   words.insert(words.end(), size_of_grid.begin(), size_of_grid.end());
-  if (!place.run("bpvox", words, {"v.bpv"}).done()) return;
+  const ToolResult voxels = place.run("bpvox", words, {"v.bpv"});
+  if (!voxels.done()) return;
   const ToolResult info = place.run("bpinfo", {place.path("v.bpv")});
   require(info.done(), "bpvox made what bpinfo refuses", info);
   Choices finish(how_to_finish.data(), how_to_finish.size());
-  if (way == 0) finish_pipe(finish, place, scene, fill == "inside");
+  const bool whole = voxels.messages.find("skipped") == std::string::npos;  // else the checker may know better
+  if (way == 0 && whole) finish_pipe(finish, place, scene, fill == "inside");
 }
 
 }  // namespace fuzz

@@ -8,7 +8,6 @@
 # One of them alone: BUILD/tests/fuzz/fuzz_FUZZER INPUT. Status: 0 if there is no finding.
 set -euo pipefail
 build=$(realpath "$1") folder=$2 fuzzer=$3 runs=$4
-hang_seconds=10
 mkdir -p "$folder/$fuzzer" "$folder/$fuzzer.found"
 folder=$(realpath "$folder")
 here=$(cd "$(dirname "$0")" && pwd)
@@ -19,7 +18,7 @@ trap 'rm -rf "$scratch" "$log"' EXIT
 done=0 leftovers=0 seed=$RANDOM
 while ((done < runs)); do
   piece=$((runs - done < 20000 ? runs - done : 20000)) status=0
-  TMPDIR=$scratch "$build/tests/fuzz/fuzz_$fuzzer" -runs=$piece -seed=$((++seed)) -timeout=$hang_seconds -max_len=512 -len_control=0 \
+  TMPDIR=$scratch "$build/tests/fuzz/fuzz_$fuzzer" -runs=$piece -seed=$((++seed)) -timeout=1200 -max_len=512 -len_control=0 \
     -rss_limit_mb=4096 -malloc_limit_mb=2048 -print_final_stats=1 -verbosity=0 \
     -artifact_prefix="$folder/$fuzzer.found/" "$folder/$fuzzer" > "$log" 2>&1 || status=$?
   executed=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
@@ -31,7 +30,8 @@ while ((done < runs)); do
   fi
   find "$scratch" -mindepth 1 -delete
 done
-count() { find "$folder/$fuzzer.found" -name "$1" | wc -l; }
-crashes=$(($(count 'crash-*') + $(count 'oom-*') + $(count 'leak-*'))) hangs=$(count 'timeout-*')
-echo "$(date +%F) $(git -C "$here" rev-parse --short HEAD) $fuzzer: $done executions, $crashes crashes, $hangs hangs over $hang_seconds s, $leftovers leftovers"
+logs=$folder/$fuzzer.found
+hangs=$(cat "$logs"/*.log 2> /dev/null | grep -cE "^fuzz: hang|libFuzzer: timeout" || true)
+crashes=$(($(find "$logs" -name '*.log' | wc -l) - hangs))
+echo "$(date +%F) $(git -C "$here" rev-parse --short HEAD) $fuzzer: $done executions, $crashes crashes, $hangs hangs over 10 s, $leftovers leftovers"
 ((crashes + hangs + leftovers == 0))

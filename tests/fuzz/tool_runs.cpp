@@ -35,6 +35,10 @@ int stderr_of_process() {
   return fd;
 }
 
+void say(const std::string& text) {
+  (void)!::write(stderr_of_process(), text.data(), text.size());
+}
+
 /// While it lives, stdout and stderr go to files in memory, and stdin is empty.
 class Streams {
  public:
@@ -83,9 +87,11 @@ bool begins_with_name(const std::string& line, const std::string& tool) {
 /// Of a failure: one line that begins with the tool's name, and is no message of what nobody foresaw.
 const char* fault_of(const ToolResult& result, const std::string& tool) {
   const int status = result.status;
-  if ((status == 1 || status == 5) && tool == "bpcheck") return nullptr;
+  const auto says = [&](const char* text) { return result.messages.find(text) != std::string::npos; };
+  if (says((tool + ": unexpected").c_str())) return "fails in a way that nobody foresaw";
+  if ((status == 1 || status == 5) && tool == "bpcheck") return nullptr;  // no, not decided
+  if (status == 1 && says("cannot write")) return nullptr;
   if (status != 0 && (status < 2 || status > 4)) return "ends with a status that it should not";
-  if (result.messages.find(": unexpected") != std::string::npos) return "fails in a way that nobody foresaw";
   if (status == 0) return nullptr;
   const std::size_t end = result.messages.find_last_of('\n', result.messages.size() - 2);
   const std::string last = result.messages.substr(end == std::string::npos ? 0 : end + 1);
@@ -99,8 +105,7 @@ bool takes_scratch(const std::string& tool) {
 }  // namespace
 
 void fail_fuzz(const std::string& what, const std::string& why) {
-  const std::string line = "fuzz: " + what + ": " + why + "\n";
-  (void)!::write(stderr_of_process(), line.data(), line.size());
+  say("fuzz: " + what + ": " + why + "\n");
   std::abort();
 }
 
@@ -161,6 +166,7 @@ ToolResult Workplace::run(const std::string& tool, std::vector<std::string> argu
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
 
+  if (std::getenv("BP_FUZZ_TRACE") != nullptr) say(command_line(tool, arguments) + "\n");
   const std::vector<std::string> before = names();
   ToolResult result;
   {

@@ -35,7 +35,8 @@ class Workplace {
 
   /// Runs a tool with these arguments, and one thread and scratch in the folder where it takes such options. Fails
   /// unless the status is one of docs/exit-codes.md, a failure has its line, and nothing is left behind: a failed run
-  /// leaves the folder as it was; one that ends with 0 has added `outputs` at most. 1 is for bpcheck only.
+  /// leaves the folder as it was; one that ends with 0 has added `outputs` at most. 1 is for bpcheck only,
+  /// and for a place where nothing can be written. With BP_FUZZ_TRACE in the environment, the command line is shown.
   ToolResult run(const std::string& tool, std::vector<std::string> arguments,
                  const std::vector<std::string>& outputs = {});
 
