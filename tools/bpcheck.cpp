@@ -26,6 +26,7 @@
 #include "tools/common/panel_label.h"
 #include "tools/common/report.h"
 #include "tools/common/run_tool.h"
+#include "tools/common/scene_budget.h"
 
 namespace {
 
@@ -191,6 +192,7 @@ int run_tileset(const Options& o) {
   report.stage("check");
   bp::SceneOptions options{o.format, o.common.memory_bytes / 4, o.common.temp};
   options.keep_extremes = true;
+  options.document = bp::document_budget(o.common.memory_bytes, std::uint64_t(48) << 20, 2);
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
   const bp::TilesetVerdict verdict = bp::check_tileset_file(o.files.back(), scenes, options, o.common.memory_bytes / 2);
   const std::string name = bp::file_name(o.files.back());

@@ -13,6 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kHashDigits = 32;
+constexpr std::uint64_t kMostSceneTriangles = std::uint64_t(1) << 40;  // a claim beyond is damage
 
 bool is_hash(const std::string& text) {
   return text.size() == kHashDigits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
@@ -43,6 +44,7 @@ SceneFiles parsed(const Json& json, const Damaged& damaged) {
   if (!json.at("triangles").is_number_unsigned()) damaged();
   scene.format = json.at("format").get<std::string>();
   scene.triangles = json.at("triangles").get<std::uint64_t>();
+  if (scene.triangles > kMostSceneTriangles) damaged();
   scene.hash = json.at("hash").get<std::string>();
   if (!is_hash(scene.hash)) damaged();
   return scene;

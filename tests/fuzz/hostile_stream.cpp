@@ -115,8 +115,8 @@ void sort(const RawStream& s, std::vector<Brick>& bricks) {
 /// The scene fills the box.
 void set_bounds(RawStream& s) {
   for (std::size_t i = 0; i < 3; ++i) {
-    s.bounds[i] = s.voxel * double(s.origin[i] + std::int64_t(s.box[i]) * kBrickEdge);
-    s.bounds[i + 3] = s.voxel * double(s.origin[i] + std::int64_t(s.box[i + 3]) * kBrickEdge);
+    s.bounds[i] = s.voxel * (double(s.origin[i]) + double(s.box[i]) * kBrickEdge);
+    s.bounds[i + 3] = s.voxel * (double(s.origin[i]) + double(s.box[i + 3]) * kBrickEdge);
   }
 }
 

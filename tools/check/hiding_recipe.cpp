@@ -30,7 +30,9 @@ OccluderRecipe parsed(const std::string& line) {
   });
   if (i != 3) fail(ErrorCode::bad_argument, "a grid of fewer than three numbers");
   whole.ground = value_of(line, "ground") == "yes";
-  whole.up = value_of(line, "up") == "z" ? UpAxis::z : UpAxis::y;
+  const std::optional<UpAxis> up = up_axis_named(value_of(line, "up"));
+  if (!up) fail(ErrorCode::bad_argument, "no axis that points up");
+  whole.up = *up;
   return whole;
 }
 

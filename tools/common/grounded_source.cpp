@@ -1,5 +1,9 @@
 #include "tools/common/grounded_source.h"
 
+#include <array>
+
+#include "lib/core/up_axis.h"
+
 namespace bp {
 
 bool GroundedSource::read(std::vector<TriangleD>& out) {
@@ -10,13 +14,15 @@ bool GroundedSource::read(std::vector<TriangleD>& out) {
   }
   if (ended_ || bounds_.empty()) return false;
   ended_ = true;
-  const std::size_t height = up_.value_or(scene_->up().value_or(UpAxis::y)) == UpAxis::z ? 2 : 1;
-  const std::size_t u = height == 2 ? 0 : 2, v = height == 2 ? 1 : 0;
-  Vec3d a = bounds_.min, b = bounds_.min, c = bounds_.max, d = bounds_.min;
-  c[height] = bounds_.min[height];
-  b[u] = bounds_.max[u];
-  d[v] = bounds_.max[v];
-  out = {{a, b, c}, {a, c, d}};
+  // In axes whose y points up: the rectangle at the least y, seen from above.
+  const AxisTurn turn = to_y_up(up_.value_or(scene_->up().value_or(UpAxis::y)));
+  Bounds3d upright;
+  for (const Vec3d& p : {bounds_.min, bounds_.max}) upright.add(turn(p));
+  const Vec3d &lo = upright.min, &hi = upright.max;
+  const Vec3d corners[] = {lo, {lo[0], lo[1], hi[2]}, {hi[0], lo[1], hi[2]}, {hi[0], lo[1], lo[2]}};
+  std::array<Vec3d, 4> q;
+  for (std::size_t i = 0; i < 4; ++i) q[i] = turn.inverse()(corners[i]);
+  out = {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}};
   return true;
 }
 

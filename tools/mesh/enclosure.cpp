@@ -15,6 +15,7 @@
 #include "tools/common/common_options.h"
 #include "tools/common/enclosed_triangles_limit.h"
 #include "tools/common/names.h"
+#include "tools/common/scene_budget.h"
 
 namespace bp {
 
@@ -54,6 +55,7 @@ SceneOptions scene_options(const EnclosureInput& in, const std::string& format) 
   options.format = format;
   options.memory_bytes = in.memory.bytes() / 2;
   options.temp_dir = in.temp_dir;
+  options.document = document_budget(in.memory.limit_bytes, std::uint64_t(48) << 20, 2);
   return options;
 }
 

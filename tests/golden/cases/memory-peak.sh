@@ -31,4 +31,4 @@ within bpmesh boxes.bpv --faces 12000,11900 --no-tighten -o tight.ply
 cmp roomy.1.ply tight.1.ply && echo "the same bytes"
 try bpmesh boxes.bpv --faces 12000 --no-tighten -j 1 --memory 96M -q -o small.ply
 try bpmesh boxes.bpv --faces 12000,11900 --no-tighten -j 1 --memory 96M -q -o small.ply --overwrite
-(ulimit -v 400000; try bplod plant.ply --resolution 1500 --levels 1 -j 1 --memory 64M -o y | sed 's/[0-9.]* MiB/N MiB/g')
+(ulimit -v 400000; try bplod plant.ply --resolution 1500 --levels 1 -j 1 --memory 64M -q -o y | sed 's/[0-9.]* MiB/N MiB/g')
