@@ -132,8 +132,10 @@ struct CheckReport {
   /// Strict: the solid of the proxy meets no scene triangle, and every path to it from far away crosses the scene.
   [[nodiscard]] Answer insideness() const {
     if (!has_scene || !sides_decided) return Answer::undecided;
-    if (touching.count + swallowed.count + outside_parts.count > 0) return Answer::refuted;
-    return undecidable_scene.count + unsettled_parts.count > 0 ? Answer::undecided : Answer::proven;
+    if (touching.count + swallowed.count > 0) return Answer::refuted;
+    if (undecidable_scene.count > 0) return Answer::undecided;  // what is left out may be what hides a part
+    if (outside_parts.count > 0) return Answer::refuted;
+    return unsettled_parts.count > 0 ? Answer::undecided : Answer::proven;
   }
   [[nodiscard]] bool inside() const { return insideness() == Answer::proven; }
   /// Only if asks_hidden.

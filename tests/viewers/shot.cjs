@@ -22,9 +22,10 @@ async function main() {
       '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'] });
   try {
     const page = await browser.newPage({ viewport: { width: 640, height: 480 } });
+    page.setDefaultTimeout(240000);  // a busy machine without a GPU
     page.on('pageerror', (error) => console.error(`${viewer}: ${error.message}`));
     await page.goto(`http://127.0.0.1:${server.address().port}/pages/${viewer}.html?file=/data/${path.basename(file)}`);
-    await page.waitForFunction(() => document.title === 'ready', null, { timeout: 120000 });
+    await page.waitForFunction(() => document.title === 'ready', null);
     await page.screenshot({ path: out });
     const greys = await page.evaluate(() => {
       const canvas = document.querySelector('canvas'), copy = document.createElement('canvas');

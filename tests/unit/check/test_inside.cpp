@@ -104,3 +104,13 @@ TEST_CASE("triangles of no area close T-junctions, and are neither tested nor nu
   REQUIRE(around.swallowed.count == 12);
   CHECK(around.swallowed.examples[0].index == 0);
 }
+
+TEST_CASE("where triangles of the scene cannot be judged, being seen from outside is not decided", "[quick][check]") {
+  IndexedMesh scene = cube(2);
+  for (Vec3d& p : scene.vertices) {
+    if (p[0] < 0) p[0] = 1e-200;
+  }
+  const CheckReport r = inside_of(cube(0.5, {1, 0, 0}), scene);
+  CHECK(r.undecidable_scene.count > 0);
+  CHECK(r.insideness() == Answer::undecided);
+}
