@@ -81,8 +81,8 @@ TEST_CASE("numbers too long, too large and too small are read for what they are"
   CHECK(read[0][0] == Vec3d{1.0 / 3, 0, 0});
   CHECK(!std::signbit(read[0][0][1]));
   const std::string tail = "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  for (const char* bad : {"1e400 0 0", "nan 0 0", "0 -NaN 0", "0 0 +inf", "1.#INF 0 0", "-1.#IND 0 0",
-                          "1.#QNAN 0 0", "0 Infinity 0"}) {
+  for (const char* bad :
+       {"1e400 0 0", "nan 0 0", "0 -NaN 0", "0 0 +inf", "1.#INF 0 0", "-1.#IND 0 0", "1.#QNAN 0 0", "0 Infinity 0"}) {
     CAPTURE(bad);
     const SceneCounts counts = counts_of(dir.file("b.obj", "v " + std::string(bad) + tail));
     CHECK(counts.non_finite == 1);
