@@ -2,13 +2,11 @@
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)
 find_package(assimp REQUIRED)
-find_package(OpenMesh REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(PNG REQUIRED)
 find_package(Freetype REQUIRED)
-find_package(Eigen3 REQUIRED NO_MODULE)
 
 # zstd and xxHash ship pkg-config files everywhere, CMake packages only here and there.
 find_package(PkgConfig REQUIRED)
@@ -16,5 +14,6 @@ pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 
 if(BP_TESTS)
+  find_package(OpenMesh REQUIRED)  # a second opinion on meshes
   find_package(Catch2 REQUIRED)  # 2.13 (Debian 12) or 3 (Ubuntu 24.04); tests/catch.h hides the difference
 endif()

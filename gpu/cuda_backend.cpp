@@ -6,13 +6,13 @@
 #include <cstring>
 #include <new>
 
-#include "gpu/bit_kernels.h"
 #include "gpu/device_closing.h"
-#include "gpu/device_error.h"
+#include "gpu/kernels/bit_kernels.h"
+#include "gpu/kernels/device_error.h"
+#include "gpu/kernels/tuning.h"
+#include "gpu/kernels/voxelize_kernels.h"
+#include "gpu/kernels/winding_kernels.h"
 #include "gpu/staging.h"
-#include "gpu/tuning.h"
-#include "gpu/voxelize_kernels.h"
-#include "gpu/winding_kernels.h"
 
 namespace bp {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/backend/backend.h"
+#include "lib/device/backend.h"
 
 /// The GPU behind the Backend interface. No CUDA type here: tools and tests include it without the toolkit.
 namespace bp {

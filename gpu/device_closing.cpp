@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "gpu/device_error.h"
+#include "gpu/kernels/device_error.h"
 
 namespace bp {
 

@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "gpu/bit_kernels.h"
-#include "gpu/device_buffer.h"
-#include "gpu/distance_kernels.h"
+#include "gpu/kernels/bit_kernels.h"
+#include "gpu/kernels/device_buffer.h"
+#include "gpu/kernels/distance_kernels.h"
 #include "lib/closing/closing.h"
 
 /// The closing of one tile whose voxels are on the device already: a fixed sequence of kernels on one stream, no

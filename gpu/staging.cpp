@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "gpu/tuning.h"
+#include "gpu/kernels/tuning.h"
 
 namespace bp {
 

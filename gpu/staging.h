@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "gpu/device_buffer.h"
+#include "gpu/kernels/device_buffer.h"
 
 /// Copies between ordinary host memory and the device through two page-locked blocks, so that the copy of one block on
 /// the bus runs beside the copy of the next in memory. Page-locked memory stays bounded whatever the tile.

@@ -6,7 +6,7 @@
 
 #include "lib/core/error.h"
 #include "samples/plant/write.h"
-#include "tools/common/run_tool.h"
+#include "tools/cli/run_tool.h"
 
 namespace {
 

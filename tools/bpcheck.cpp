@@ -6,11 +6,11 @@
 #include <optional>
 #include <utility>
 
-#include "io/label_font.h"
-#include "io/png_writer.h"
-#include "io/scene_reader.h"
-#include "io/tileset_file.h"
-#include "io/tileset_level.h"
+#include "io/image/label_font.h"
+#include "io/image/png_writer.h"
+#include "io/scene/scene_reader.h"
+#include "io/tiles/tileset_file.h"
+#include "io/tiles/tileset_level.h"
 #include "lib/check/check_proxy.h"
 #include "lib/check/verdict_text.h"
 #include "lib/core/error.h"
@@ -19,14 +19,14 @@
 #include "tools/check/hiding_recipe.h"
 #include "tools/check/hints.h"
 #include "tools/check/tileset_verdict.h"
-#include "tools/common/grounded_source.h"
-#include "tools/common/inputs.h"
-#include "tools/common/names.h"
-#include "tools/common/origin.h"
-#include "tools/common/panel_label.h"
-#include "tools/common/report.h"
-#include "tools/common/run_tool.h"
-#include "tools/common/scene_budget.h"
+#include "tools/cli/names.h"
+#include "tools/cli/report.h"
+#include "tools/cli/run_tool.h"
+#include "tools/notes/panel_label.h"
+#include "tools/run/grounded_source.h"
+#include "tools/run/inputs.h"
+#include "tools/run/origin.h"
+#include "tools/run/scene_budget.h"
 
 namespace {
 

@@ -1,20 +1,20 @@
 // bpclose: solid bricks in, solid and closing out. Manual: docs/bpclose.1.md
 #include <optional>
 
-#include "io/brick_shelf.h"
-#include "io/brick_stream.h"
+#include "io/stream/brick_shelf.h"
+#include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
-#include "lib/stage/close_stage.h"
-#include "lib/stage/complement.h"
-#include "tools/common/estimate.h"
-#include "tools/common/inputs.h"
-#include "tools/common/make_backend.h"
-#include "tools/common/names.h"
-#include "tools/common/proportion.h"
-#include "tools/common/provenance.h"
-#include "tools/common/report.h"
-#include "tools/common/run_tool.h"
-#include "tools/common/scale_notes.h"
+#include "lib/pass/close/close_stage.h"
+#include "lib/pass/mesh/complement.h"
+#include "tools/cli/names.h"
+#include "tools/cli/report.h"
+#include "tools/cli/run_tool.h"
+#include "tools/notes/estimate.h"
+#include "tools/notes/proportion.h"
+#include "tools/notes/scale_notes.h"
+#include "tools/run/inputs.h"
+#include "tools/run/make_backend.h"
+#include "tools/run/provenance.h"
 
 namespace {
 

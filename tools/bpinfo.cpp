@@ -3,19 +3,19 @@
 #include <cstdio>
 #include <optional>
 
-#include "io/brick_stream.h"
-#include "io/scene_format.h"
-#include "io/scene_parts.h"
-#include "io/scene_reader.h"
-#include "io/tileset_file.h"
-#include "io/tileset_level.h"
+#include "io/scene/scene_format.h"
+#include "io/scene/scene_parts.h"
+#include "io/scene/scene_reader.h"
+#include "io/stream/brick_stream.h"
+#include "io/tiles/tileset_file.h"
+#include "io/tiles/tileset_level.h"
 #include "lib/core/error.h"
-#include "tools/common/inputs.h"
-#include "tools/common/run_tool.h"
+#include "tools/cli/run_tool.h"
 #include "tools/info/mesh_info.h"
 #include "tools/info/picture.h"
 #include "tools/info/stream_info.h"
 #include "tools/info/tileset_info.h"
+#include "tools/run/inputs.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/common/run_tool.h"
+#include "tools/cli/run_tool.h"
 #include "tools/lod/build.h"
 #include "tools/lod/explain.h"
 #include "tools/lod/level_chain.h"

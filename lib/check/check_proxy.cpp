@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/check/convex.h"
-#include "lib/check/distance.h"
-#include "lib/check/enclosure.h"
-#include "lib/check/inside.h"
-#include "lib/check/surface.h"
-#include "lib/core/signed_volume.h"
+#include "lib/check/detail/convex.h"
+#include "lib/check/detail/distance.h"
+#include "lib/check/detail/enclosure.h"
+#include "lib/check/detail/inside.h"
+#include "lib/check/detail/surface.h"
 #include "lib/core/vec3.h"
+#include "lib/geometry/signed_volume.h"
 
 namespace bp {
 

@@ -11,8 +11,8 @@
 #include "lib/closing/closing_scratch.h"
 #include "lib/core/parallel.h"
 #include "lib/core/predicates.h"
-#include "lib/grid/dilate.h"
-#include "lib/grid/reach.h"
+#include "lib/volume/dilate.h"
+#include "lib/volume/reach.h"
 #include "lib/voxel/voxelize.h"
 
 namespace bp {

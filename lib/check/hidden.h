@@ -3,7 +3,7 @@
 #include <string>
 
 #include "lib/check/check_report.h"
-#include "lib/check/surface.h"
+#include "lib/check/detail/surface.h"
 #include "lib/core/grid_frame.h"
 #include "lib/core/triangle_source.h"
 #include "lib/grid/stream.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "lib/check/surface.h"
+#include "lib/check/detail/surface.h"
 #include "lib/core/parallel.h"
 #include "lib/core/triangle_intersection.h"
 

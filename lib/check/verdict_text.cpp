@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "lib/core/signed_volume.h"
+#include "lib/geometry/signed_volume.h"
 
 namespace bp {
 

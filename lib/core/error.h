@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-/// The one exception type of the suite. Thrown anywhere, caught once per process in tools/common/run_tool.h, which
+/// The one exception type of the suite. Thrown anywhere, caught once per process in tools/cli/run_tool.h, which
 /// prints the message and exits with exit_code(). A message names the object, the fact and the remedy
 /// (docs/exit-codes.md).
 namespace bp {

@@ -3,7 +3,7 @@
 #include "lib/core/grid_frame.h"
 
 /// Cells: a grid cut into cubes, so that eight cells of one level of detail (whose voxels are twice those of the level
-/// before, lib/grid/reduce.h) are one cell of the next: an octree without a list.
+/// before, lib/volume/reduce.h) are one cell of the next: an octree without a list.
 namespace bp {
 
 using CellCoord = Coord3<struct CellSpace, std::int32_t>;  ///< cell of a level: voxels [edge c, edge c + edge)

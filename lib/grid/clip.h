@@ -1,6 +1,6 @@
 #pragma once
-#include "lib/core/result_key.h"
 #include "lib/grid/stream.h"
+#include "lib/store/result_key.h"
 
 /// Part of a solid.
 namespace bp {

@@ -5,7 +5,7 @@
 
 namespace bp {
 
-/// Draws text. io/label_font.h has one; lib/ opens no file. Text is UTF-8; bytes that are not show as U+FFFD.
+/// Draws text. io/image/label_font.h has one; lib/ opens no file. Text is UTF-8; bytes that are not show as U+FFFD.
 class Typeface {
  public:
   virtual ~Typeface() = default;

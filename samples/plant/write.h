@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "io/file.h"
+#include "io/files/file.h"
 #include "samples/plant/site.h"
 
 /// Writers that generate the site as they go: memory does not depend on its size.

@@ -1,8 +1,8 @@
-# What is read is never lost: files get their final names, and lose them, in io/final_names.cpp only, which asks io/kept_files.h.
+# What is read is never lost: files get their final names, and lose them, in io/files/final_names.cpp only, which asks io/files/kept_files.h.
 # The other files named here touch nothing but what this process made: unfinished and scratch files, folders.
 #   cmake -DROOT=<repository> -P tests/arch/check_removals.cmake
 cmake_policy(SET CMP0057 NEW)
-set(allowed io/final_names.cpp io/file.cpp io/partial_outputs.cpp io/made_folders.cpp tools/lod/tileset_folder.cpp)
+set(allowed io/files/final_names.cpp io/files/file.cpp io/files/partial_outputs.cpp io/files/made_folders.cpp tools/lod/tileset_folder.cpp)
 set(names "(rename|renameat2?|unlink|unlinkat|link|remove|remove_all)")
 set(calls "((^|[^A-Za-z0-9_>])::|fs::|filesystem::|std::)${names}\\(")
 set(errors 0)
@@ -17,7 +17,7 @@ foreach(file ${files})
     if(line MATCHES "std::remove\\([a-z_.]+begin")  # the algorithm
       continue()
     endif()
-    message("${file}: '${line}': use place_file() or remove_file() of io/final_names.h")
+    message("${file}: '${line}': use place_file() or remove_file() of io/files/final_names.h")
     math(EXPR errors "${errors} + 1")
   endforeach()
 endforeach()

@@ -2,8 +2,8 @@
 
 #include <cstdlib>
 
-#include "lib/backend/cpu_backend.h"
 #include "lib/core/error.h"
+#include "lib/device/cpu/cpu_backend.h"
 #include "tests/catch.h"
 #ifdef BP_HAVE_CUDA
 #include "gpu/cuda_backend.h"

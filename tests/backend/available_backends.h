@@ -2,7 +2,7 @@
 #include <memory>
 #include <vector>
 
-#include "lib/backend/backend.h"
+#include "lib/device/backend.h"
 
 /// Every backend that can run here: what the tests of this folder go through. A machine without a GPU says so; under
 /// BP_REQUIRE_CUDA=1 that is a failure, so that a run on a GPU machine never passes by skipping.

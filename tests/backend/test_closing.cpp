@@ -1,4 +1,4 @@
-#include "lib/backend/cpu_backend.h"
+#include "lib/device/cpu/cpu_backend.h"
 #include "tests/backend/available_backends.h"
 #include "tests/catch.h"
 #include "tests/reference/closing.h"

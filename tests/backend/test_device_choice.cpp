@@ -4,10 +4,10 @@
 
 #include <cstdlib>
 
-#include "lib/backend/device_error.h"
+#include "lib/device/device_error.h"
 #include "tests/catch.h"
 #include "tests/reference/random_closing.h"
-#include "tools/common/make_backend.h"
+#include "tools/run/make_backend.h"
 
 using namespace bp;
 

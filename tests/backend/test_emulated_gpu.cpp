@@ -3,8 +3,8 @@
 #include <cuda_runtime.h>
 
 #include "gpu/cuda_backend.h"
-#include "gpu/device_error.h"
-#include "lib/backend/fallback_backend.h"
+#include "gpu/kernels/device_error.h"
+#include "lib/device/cpu/fallback_backend.h"
 #include "lib/voxel/voxelize.h"
 #include "lib/voxel/winding.h"
 #include "tests/catch.h"

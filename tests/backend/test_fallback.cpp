@@ -1,6 +1,6 @@
 // A device that fails: the CPU finishes the call, from the arguments as they were.
-#include "lib/backend/device_error.h"
-#include "lib/backend/fallback_backend.h"
+#include "lib/device/cpu/fallback_backend.h"
+#include "lib/device/device_error.h"
 #include "tests/backend/random_triangles.h"
 #include "tests/catch.h"
 #include "tests/reference/random_closing.h"

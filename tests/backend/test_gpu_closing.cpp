@@ -1,7 +1,7 @@
 // Paths through gpu/ that the Backend chooses by itself, each forced here. Runs on a GPU, or emulated.
 #include "gpu/cuda_backend.h"
-#include "gpu/device_error.h"
-#include "lib/backend/cpu_backend.h"
+#include "gpu/kernels/device_error.h"
+#include "lib/device/cpu/cpu_backend.h"
 #include "tests/backend/available_backends.h"
 #include "tests/backend/gpu_tile.h"
 #include "tests/catch.h"

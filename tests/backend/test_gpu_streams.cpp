@@ -4,9 +4,9 @@
 #include <tuple>
 
 #include "gpu/cuda_backend.h"
-#include "lib/backend/cpu_backend.h"
 #include "lib/core/parallel.h"
-#include "lib/stage/close_stage.h"
+#include "lib/device/cpu/cpu_backend.h"
+#include "lib/pass/close/close_stage.h"
 #include "tests/backend/available_backends.h"
 #include "tests/catch.h"
 #include "tests/support/voxel_source.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "lib/backend/cpu_backend.h"
+#include "lib/device/cpu/cpu_backend.h"
 #include "lib/voxel/overlap.h"
 #include "tests/backend/available_backends.h"
 #include "tests/backend/random_triangles.h"

@@ -7,14 +7,14 @@
 #include <cstdlib>
 #include <vector>
 
-#include "io/brick_shelf.h"
-#include "io/brick_stream.h"
-#include "lib/backend/cpu_backend.h"
+#include "io/stream/brick_shelf.h"
+#include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/core/pool.h"
+#include "lib/device/cpu/cpu_backend.h"
 #include "lib/grid/tile_grid.h"
-#include "lib/stage/close_stage.h"
+#include "lib/pass/close/close_stage.h"
 #include "tests/bench/median.h"
 #ifdef BP_HAVE_CUDA
 #include "gpu/cuda_backend.h"

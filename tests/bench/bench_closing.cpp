@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-#include "io/brick_stream.h"
+#include "io/stream/brick_stream.h"
 #include "lib/closing/closing_scratch.h"
 #include "lib/core/error.h"
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "gpu/cuda_backend.h"
-#include "gpu/tuning.h"
-#include "lib/backend/cpu_backend.h"
+#include "gpu/kernels/tuning.h"
 #include "lib/core/error.h"
+#include "lib/device/cpu/cpu_backend.h"
 #include "tests/backend/gpu_tile.h"
 #include "tests/bench/bench_scenes.h"
 #include "tests/bench/gpu_clock.h"

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "lib/core/error.h"
-#include "lib/grid/outside.h"
+#include "lib/volume/outside.h"
 #include "lib/voxel/voxelize.h"
 
 namespace bp {

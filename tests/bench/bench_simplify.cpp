@@ -7,14 +7,14 @@
 #include <limits>
 #include <memory>
 
-#include "io/brick_shelf.h"
-#include "io/brick_stream.h"
+#include "io/stream/brick_shelf.h"
+#include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
-#include "lib/meshing/collapse_order.h"
-#include "lib/meshing/repair.h"
-#include "lib/meshing/surface.h"
-#include "lib/meshing/surface_tree.h"
+#include "lib/simplify/detail/collapse_order.h"
+#include "lib/simplify/surface_tree.h"
+#include "lib/surface/repair.h"
+#include "lib/surface/surface.h"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "gpu/cuda_backend.h"
-#include "gpu/voxelize_kernels.h"
-#include "gpu/winding_kernels.h"
+#include "gpu/kernels/voxelize_kernels.h"
+#include "gpu/kernels/winding_kernels.h"
 #include "lib/core/error.h"
 #include "lib/voxel/voxelize.h"
 #include "tests/bench/bench_scenes.h"

@@ -12,15 +12,15 @@
 #include <map>
 #include <set>
 
-#include "io/brick_shelf.h"
-#include "io/brick_stream.h"
-#include "io/scene_reader.h"
+#include "io/scene/scene_reader.h"
+#include "io/stream/brick_shelf.h"
+#include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
 #include "lib/geometry/surface_distance.h"
-#include "lib/meshing/flatten.h"
-#include "lib/meshing/repair.h"
-#include "lib/meshing/surface.h"
-#include "lib/stage/surface_around.h"
+#include "lib/pass/mesh/surface_around.h"
+#include "lib/simplify/flatten.h"
+#include "lib/surface/repair.h"
+#include "lib/surface/surface.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "gpu/cuda_check.h"
+#include "gpu/kernels/cuda_check.h"
 #include "tests/bench/median.h"
 
 /// Time on a GPU, by events.

@@ -3,7 +3,7 @@
 // and prints the box as JSON.
 #include <cstdio>
 
-#include "io/brick_stream.h"
+#include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
 
 int main(int argc, char** argv) try {

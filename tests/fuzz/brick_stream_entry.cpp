@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "io/brick_stream.h"
+#include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
 #include "tests/reference/brick_stream.h"
 

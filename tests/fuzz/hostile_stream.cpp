@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/detail/stream_format.h"
+#include "io/stream/stream_format.h"
 
 namespace fuzz {
 

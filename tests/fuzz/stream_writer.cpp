@@ -1,7 +1,7 @@
 // Writes what no writer of ours would: any value in any field, with hashes and counts that fit all the same.
 #include <algorithm>
 
-#include "io/detail/stream_format.h"
+#include "io/stream/stream_format.h"
 #include "tests/fuzz/hostile_stream.h"
 
 namespace fuzz {

@@ -3,7 +3,7 @@
 
 #include "tests/catch.h"
 #include "tests/fuzz/brick_stream_entry.h"
-#include "tests/unit/io/stream_files.h"
+#include "tests/unit/io/stream/stream_files.h"
 
 using namespace stream_files;
 

@@ -5,8 +5,8 @@
 
 #include "lib/check/check_proxy.h"
 #include "lib/closing/closing_scratch.h"
-#include "lib/stage/mesh_stage.h"
-#include "lib/stage/surface_around.h"
+#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/surface_around.h"
 #include "tests/catch.h"
 #include "tests/reference/random_closing.h"
 #include "tests/support/memory_scene.h"

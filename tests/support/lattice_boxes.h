@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/meshing/half_edge_mesh.h"
+#include "lib/mesh/half_edge_mesh.h"
 
 namespace bp::test {
 

@@ -2,7 +2,7 @@
 #include <map>
 #include <mutex>
 
-#include "lib/core/result_store.h"
+#include "lib/store/result_store.h"
 
 namespace bp::test {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "lib/backend/cpu_backend.h"
 #include "lib/core/error.h"
 #include "lib/core/triangle_source.h"
+#include "lib/device/cpu/cpu_backend.h"
 #include "lib/grid/stream.h"
 #include "lib/voxel/voxelize.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <atomic>
 
-#include "lib/core/memory_chunk_store.h"
+#include "lib/store/memory_chunk_store.h"
 
 namespace bp::test {
 

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "lib/core/triangle_intersection.h"
-#include "lib/meshing/half_edge_mesh.h"
+#include "lib/mesh/half_edge_mesh.h"
 #include "tests/catch.h"
 #include "tests/support/memory_shelf.h"
 

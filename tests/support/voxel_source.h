@@ -4,7 +4,7 @@
 
 #include "lib/core/indexed_mesh.h"
 #include "lib/grid/stream.h"
-#include "lib/meshing/lattice_mesh.h"
+#include "lib/mesh/lattice_mesh.h"
 #include "tests/support/memory_shelf.h"
 
 /// Streams of voxels in memory, for tests of the meshing stage.

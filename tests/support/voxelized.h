@@ -1,7 +1,7 @@
 #pragma once
 #include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
-#include "lib/stage/voxelize_stage.h"
+#include "lib/pass/voxelize/voxelize_stage.h"
 #include "tests/support/memory_scene.h"
 #include "tests/support/voxel_source.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "lib/core/error.h"
-#include "tools/common/memory_shares.h"
-#include "tools/common/scene_budget.h"
+#include "tools/run/memory_shares.h"
+#include "tools/run/scene_budget.h"
 
 namespace bp {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "io/scene_reader.h"
+#include "io/scene/scene_reader.h"
 
 namespace bp {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/common/panel_label.h"
+#include "tools/notes/panel_label.h"
 
 namespace bp {
 

@@ -5,7 +5,7 @@
 #include "lib/check/check_report.h"
 #include "lib/core/indexed_mesh.h"
 #include "lib/image/render.h"
-#include "tools/common/image_options.h"
+#include "tools/cli/image_options.h"
 
 /// The picture of bpcheck --image.
 namespace bp {

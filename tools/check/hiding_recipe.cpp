@@ -2,7 +2,7 @@
 
 #include "lib/core/error.h"
 #include "tools/check/hints.h"
-#include "tools/common/length.h"
+#include "tools/cli/length.h"
 
 namespace bp {
 

@@ -5,7 +5,7 @@
 
 namespace bp {
 
-/// `ground`: the scene stands on the ground (tools/common/grounded_source.h), along the axis `up`.
+/// `ground`: the scene stands on the ground (tools/run/grounded_source.h), along the axis `up`.
 struct OccluderRecipe {
   HidingRecipe hiding;
   bool ground = false;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lib/core/coords.h"
-#include "tools/common/mesh_extras.h"
+#include "tools/run/mesh_extras.h"
 
 namespace bp {
 

@@ -4,12 +4,12 @@
 
 #include <map>
 
-#include "io/tileset_file.h"
+#include "io/tiles/tileset_file.h"
 #include "lib/check/check_proxy.h"
 #include "lib/check/tile_cover.h"
 #include "lib/check/tileset.h"
 #include "lib/core/error.h"
-#include "tools/common/report.h"
+#include "tools/cli/report.h"
 
 namespace bp {
 

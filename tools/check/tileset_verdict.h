@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "io/scene_reader.h"
+#include "io/scene/scene_reader.h"
 #include "lib/check/check_report.h"
 
 namespace bp {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/file.h"
+#include "io/files/file.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 

@@ -5,9 +5,9 @@
 
 #include "lib/core/face_counts.h"
 #include "lib/core/triangle_source.h"
-#include "lib/core/triangle_totals.h"
-#include "tools/common/mesh_extras.h"
-#include "tools/common/report.h"
+#include "lib/geometry/triangle_totals.h"
+#include "tools/cli/report.h"
+#include "tools/run/mesh_extras.h"
 
 /// What bpinfo says of a mesh or scene.
 namespace bp {

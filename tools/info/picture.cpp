@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "io/label_font.h"
-#include "io/png_writer.h"
-#include "tools/common/common_options.h"
-#include "tools/common/names.h"
-#include "tools/common/panel_label.h"
+#include "io/image/label_font.h"
+#include "io/image/png_writer.h"
+#include "tools/cli/common_options.h"
+#include "tools/cli/names.h"
+#include "tools/notes/panel_label.h"
 
 namespace bp {
 

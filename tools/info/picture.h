@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "io/brick_stream.h"
-#include "io/file.h"
+#include "io/files/file.h"
+#include "io/stream/brick_stream.h"
 #include "lib/core/triangle_source.h"
-#include "lib/grid/coarse_view.h"
 #include "lib/grid/stream.h"
 #include "lib/image/render.h"
-#include "tools/common/image_options.h"
+#include "lib/volume/coarse_view.h"
+#include "tools/cli/image_options.h"
 #include "tools/info/mesh_info.h"
 
 /// The PNG of bpinfo --image.

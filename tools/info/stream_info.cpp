@@ -3,8 +3,8 @@
 #include <fmt/ranges.h>
 
 #include "lib/grid/count_bits.h"
-#include "tools/common/length.h"
-#include "tools/common/names.h"
+#include "tools/cli/length.h"
+#include "tools/cli/names.h"
 
 namespace bp {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "io/brick_stream.h"
-#include "tools/common/report.h"
+#include "io/stream/brick_stream.h"
+#include "tools/cli/report.h"
 
 /// What bpinfo says of a brick stream.
 namespace bp {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "io/file.h"
+#include "io/files/file.h"
 #include "tools/info/mesh_info.h"
 
 namespace bp {

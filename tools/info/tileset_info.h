@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/check/tileset.h"
-#include "tools/common/report.h"
+#include "tools/cli/report.h"
 
 /// What bpinfo says of a tileset.json. Contents are counted and weighed, not read: bpcheck does that.
 namespace bp {

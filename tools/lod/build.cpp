@@ -6,22 +6,22 @@
 #include <cmath>
 #include <cstdio>
 
-#include "io/brick_shelf.h"
-#include "io/chunk_store.h"
-#include "io/file.h"
-#include "io/scene_parts.h"
-#include "io/scene_reader.h"
+#include "io/files/file.h"
+#include "io/scene/scene_parts.h"
+#include "io/scene/scene_reader.h"
+#include "io/store/chunk_store.h"
+#include "io/stream/brick_shelf.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/enclosed/enclosed_triangles.h"
 #include "lib/grid/shelf_stream.h"
-#include "lib/meshing/enclosed_triangles.h"
-#include "lib/stage/vertex_colors.h"
-#include "tools/common/face_notes.h"
-#include "tools/common/grounded_source.h"
-#include "tools/common/names.h"
-#include "tools/common/scene_budget.h"
-#include "tools/common/up_note.h"
+#include "lib/pass/color/vertex_colors.h"
+#include "tools/cli/names.h"
 #include "tools/lod/proportions.h"
+#include "tools/notes/face_notes.h"
+#include "tools/notes/up_note.h"
+#include "tools/run/grounded_source.h"
+#include "tools/run/scene_budget.h"
 
 namespace bp {
 

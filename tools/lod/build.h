@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "io/scene_reader.h"
-#include "lib/stage/scene_colors.h"
-#include "lib/stage/voxelize_stage.h"
-#include "tools/common/make_backend.h"
-#include "tools/common/memory_shares.h"
-#include "tools/common/report.h"
+#include "io/scene/scene_reader.h"
+#include "lib/pass/color/scene_colors.h"
+#include "lib/pass/voxelize/voxelize_stage.h"
+#include "tools/cli/report.h"
 #include "tools/lod/build_options.h"
+#include "tools/run/make_backend.h"
+#include "tools/run/memory_shares.h"
 
 /// What all profiles of bplod have in common: the scene as voxels, levels in one mesh, the list and the report.
 namespace bp {
@@ -53,7 +53,7 @@ class Build {
   Build& operator=(const Build&) = delete;
 
   /// cell_vox, results: as in VoxelizeOptions. halvings: as in voxel_size().
-  /// ground: as if it stood on the ground (tools/common/grounded_source.h); the scene was voxelized without before.
+  /// ground: as if it stood on the ground (tools/run/grounded_source.h); the scene was voxelized without before.
   [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr, int halvings = 0,
                                         bool ground = false);
   /// How scenes are read. `beside`: something else of them is in memory meanwhile.

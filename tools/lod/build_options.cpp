@@ -4,15 +4,15 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/scene_format.h"
+#include "io/scene/scene_format.h"
 #include "lib/core/error.h"
-#include "lib/grid/boundary_runs.h"
 #include "lib/grid/cells.h"
-#include "lib/stage/voxelize_stage.h"
-#include "tools/common/enclosed_triangles_limit.h"
-#include "tools/common/face_list.h"
-#include "tools/common/inputs.h"
-#include "tools/common/names.h"
+#include "lib/pass/voxelize/voxelize_stage.h"
+#include "lib/volume/boundary_runs.h"
+#include "tools/cli/face_list.h"
+#include "tools/cli/names.h"
+#include "tools/run/enclosed_triangles_limit.h"
+#include "tools/run/inputs.h"
 
 namespace bp {
 

@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "lib/stage/lod_stage.h"
-#include "tools/common/common_options.h"
-#include "tools/common/length.h"
-#include "tools/common/origin.h"
-#include "tools/common/provenance.h"
-#include "tools/common/report.h"
+#include "lib/levels/lod_stage.h"
+#include "tools/cli/common_options.h"
+#include "tools/cli/length.h"
+#include "tools/cli/report.h"
 #include "tools/lod/lod_targets.h"
+#include "tools/run/origin.h"
+#include "tools/run/provenance.h"
 
 /// The command line of bplod.
 namespace bp {

@@ -7,20 +7,20 @@
 #include <cmath>
 #include <optional>
 
-#include "io/file.h"
-#include "io/scene_reader.h"
+#include "io/files/file.h"
+#include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
-#include "lib/core/triangle_totals.h"
-#include "lib/grid/boundary_runs.h"
-#include "lib/grid/reduce.h"
-#include "lib/stage/tile_stage.h"
-#include "tools/common/up_note.h"
+#include "lib/geometry/triangle_totals.h"
+#include "lib/levels/tile_stage.h"
+#include "lib/volume/boundary_runs.h"
+#include "lib/volume/reduce.h"
 #include "tools/lod/build.h"
 #include "tools/lod/lod_targets.h"
 #include "tools/lod/proportions.h"
 #include "tools/lod/tile_build.h"
 #include "tools/lod/tile_plan.h"
+#include "tools/notes/up_note.h"
 
 namespace bp {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lib/core/error.h"
-#include "tools/common/face_notes.h"
+#include "tools/notes/face_notes.h"
 
 namespace bp {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/final_names.h"
-#include "io/lod_writer.h"
-#include "io/mesh_writer.h"
+#include "io/files/final_names.h"
+#include "io/mesh/lod_writer.h"
+#include "io/mesh/mesh_writer.h"
 #include "lib/core/error.h"
-#include "lib/meshing/convex_parts.h"
+#include "lib/hulls/convex_parts.h"
 
 namespace bp {
 

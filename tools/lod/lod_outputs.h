@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "io/file.h"
-#include "io/made_folders.h"
+#include "io/files/file.h"
+#include "io/files/made_folders.h"
 #include "tools/lod/build_options.h"
 
 /// What bplod writes of a chain: the files of a profile other than tiles, in one folder.

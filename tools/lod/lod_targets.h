@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "lib/stage/lod_stage.h"
-#include "tools/common/length.h"
+#include "lib/levels/lod_stage.h"
+#include "tools/cli/length.h"
 
 /// The levels that a command line asks for.
 namespace bp {

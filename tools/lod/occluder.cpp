@@ -8,9 +8,9 @@
 #include "lib/closing/closing.h"
 #include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
-#include "lib/stage/complement.h"
-#include "lib/stage/hidden_stage.h"
-#include "tools/common/names.h"
+#include "lib/pass/hide/hidden_stage.h"
+#include "lib/pass/mesh/complement.h"
+#include "tools/cli/names.h"
 
 namespace bp {
 

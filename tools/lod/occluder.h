@@ -2,7 +2,7 @@
 #include "tools/lod/build.h"
 
 /// What --profile occluder makes: one mesh that lies strictly within what the scene hides from every eye outside
-/// (lib/stage/hidden_stage.h).
+/// (lib/pass/hide/hidden_stage.h).
 namespace bp {
 
 struct MadeOccluder {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tools/common/proportion.h"
+#include "tools/notes/proportion.h"
 
 namespace bp {
 

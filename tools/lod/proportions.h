@@ -1,11 +1,11 @@
 #pragma once
-#include "tools/common/estimate.h"
 #include "tools/lod/build_options.h"
+#include "tools/notes/estimate.h"
 
 namespace bp {
 
 /// Throws bad_argument if a length of the options, or the grid that follows from one, is out of proportion to the scene
-/// (tools/common/proportion.h): before the work, as soon as the bounds are known.
+/// (tools/notes/proportion.h): before the work, as soon as the bounds are known.
 void question_proportions(const BuildOptions& options, const SceneSize& scene);
 
 /// What the run will take, about, with voxels of this edge.

@@ -7,14 +7,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/chunk_store.h"
-#include "io/lod_writer.h"
-#include "io/result_store.h"
-#include "io/tileset_file.h"
+#include "io/mesh/lod_writer.h"
+#include "io/store/chunk_store.h"
+#include "io/store/result_store.h"
+#include "io/tiles/tileset_file.h"
 #include "lib/core/parallel.h"
-#include "lib/core/source_digest.h"
-#include "lib/stage/tile_pyramid.h"
-#include "lib/stage/vertex_colors.h"
+#include "lib/levels/tile_pyramid.h"
+#include "lib/pass/color/vertex_colors.h"
+#include "lib/store/source_digest.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/lod/tile_plan.h"
 #include "tools/lod/tile_tree.h"

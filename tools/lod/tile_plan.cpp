@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lib/grid/reduce.h"
+#include "lib/volume/reduce.h"
 
 namespace bp {
 

@@ -9,10 +9,10 @@
 #include <filesystem>
 #include <set>
 
-#include "io/file.h"
-#include "io/final_names.h"
-#include "io/kept_files.h"
-#include "io/tileset_file.h"
+#include "io/files/file.h"
+#include "io/files/final_names.h"
+#include "io/files/kept_files.h"
+#include "io/tiles/tileset_file.h"
 #include "lib/core/error.h"
 
 namespace bp {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "io/made_folders.h"
-#include "io/partial_outputs.h"
+#include "io/files/made_folders.h"
+#include "io/files/partial_outputs.h"
 
 namespace bp {
 
@@ -18,8 +18,8 @@ class TilesetFolder {
   /// Makes OUT if it is not there. Takes away the files that an interrupted run left in OUT/.partial, and, unless
   /// `resume`, its results. Throws bad_argument if OUT has a tileset.json or one of `names`, `overwrite` is false, and
   /// they are not of a commit that was interrupted; `failed` if another process is at work on OUT.
-  /// Files that are kept (io/kept_files.h) are neither replaced nor taken away: bad_argument if one of `names` is one,
-  /// here or in write(), or if one lies in OUT/.partial.
+  /// Files that are kept (io/files/kept_files.h) are neither replaced nor taken away: bad_argument if one of `names` is
+  /// one, here or in write(), or if one lies in OUT/.partial.
   ///   names  of files, or of folders with files, that will be written for certain: those that are there are not found
   ///          out after the work only
   TilesetFolder(const std::string& path, const std::vector<std::string>& names, bool overwrite, bool resume);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/lod_writer.h"
+#include "io/mesh/lod_writer.h"
 #include "lib/grid/clip.h"
 #include "tools/lod/level_chain.h"
 #include "tools/lod/lod_outputs.h"

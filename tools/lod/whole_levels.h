@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/core/result_store.h"
+#include "lib/store/result_store.h"
 #include "tools/lod/build.h"
 
 namespace bp {

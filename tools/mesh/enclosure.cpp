@@ -6,16 +6,16 @@
 #include <filesystem>
 #include <optional>
 
-#include "io/scene_reader.h"
-#include "lib/core/content_hash.h"
+#include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
-#include "lib/core/hex.h"
+#include "lib/enclosed/enclosed_triangles.h"
 #include "lib/geometry/triangle_bvh.h"
-#include "lib/meshing/enclosed_triangles.h"
-#include "tools/common/common_options.h"
-#include "tools/common/enclosed_triangles_limit.h"
-#include "tools/common/names.h"
-#include "tools/common/scene_budget.h"
+#include "lib/store/content_hash.h"
+#include "lib/store/hex.h"
+#include "tools/cli/common_options.h"
+#include "tools/cli/names.h"
+#include "tools/run/enclosed_triangles_limit.h"
+#include "tools/run/scene_budget.h"
 
 namespace bp {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/stage/mesh_stage.h"
+#include "lib/pass/mesh/mesh_stage.h"
 
 /// --enclose of bpmesh: what stays inside while a proxy is tightened, and what a fit is drawn to.
 namespace bp {

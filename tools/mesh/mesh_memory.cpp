@@ -1,7 +1,7 @@
 #include "tools/mesh/mesh_memory.h"
 
-#include "io/chunk_store.h"
-#include "tools/common/memory_shares.h"
+#include "io/store/chunk_store.h"
+#include "tools/run/memory_shares.h"
 
 namespace bp {
 

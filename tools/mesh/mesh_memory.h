@@ -1,6 +1,6 @@
 #pragma once
-#include "lib/meshing/piece_store.h"
-#include "tools/common/common_options.h"
+#include "lib/surface/piece_store.h"
+#include "tools/cli/common_options.h"
 
 namespace bp {
 

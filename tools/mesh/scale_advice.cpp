@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "io/brick_shelf.h"
-#include "lib/backend/cpu_backend.h"
+#include "io/stream/brick_shelf.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
-#include "lib/stage/scale_search.h"
-#include "tools/common/length.h"
-#include "tools/common/memory_shares.h"
+#include "lib/device/cpu/cpu_backend.h"
+#include "lib/pass/mesh/scale_search.h"
+#include "tools/cli/length.h"
 #include "tools/mesh/mesh_memory.h"
+#include "tools/run/memory_shares.h"
 
 namespace bp {
 

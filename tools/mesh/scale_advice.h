@@ -4,7 +4,7 @@
 #include <string>
 
 #include "lib/grid/stream.h"
-#include "tools/common/common_options.h"
+#include "tools/cli/common_options.h"
 
 /// Which --scale of bpclose would leave a proxy the faces that were asked for.
 namespace bp {

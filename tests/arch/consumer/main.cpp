@@ -1,4 +1,4 @@
-#include "io/file.h"
+#include "io/files/file.h"
 #include "lib/core/error.h"
 #include "lib/core/grid_frame.h"
 #include "lib/core/parallel.h"

@@ -2,7 +2,7 @@
 #include <limits>
 #include <random>
 
-#include "lib/check/surface.h"
+#include "lib/check/detail/surface.h"
 #include "lib/core/parallel.h"
 #include "lib/core/triangle_intersection.h"
 #include "tests/catch.h"

@@ -2,10 +2,10 @@
 #include <cstdint>
 #include <random>
 
-#include "lib/grid/boundary_runs.h"
 #include "lib/grid/cells.h"
 #include "lib/grid/clip.h"
-#include "lib/grid/reduce.h"
+#include "lib/volume/boundary_runs.h"
+#include "lib/volume/reduce.h"
 #include "tests/catch.h"
 #include "tests/support/voxel_source.h"
 

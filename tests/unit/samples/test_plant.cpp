@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <map>
 
-#include "io/kept_files.h"
-#include "io/scene_reader.h"
+#include "io/files/kept_files.h"
+#include "io/scene/scene_reader.h"
 #include "lib/core/box.h"
 #include "lib/core/error.h"
 #include "samples/plant/parts.h"

@@ -1,6 +1,6 @@
 #include "lib/core/error.h"
 #include "tests/catch.h"
-#include "tools/common/args.h"
+#include "tools/cli/args.h"
 
 using namespace bp;
 

@@ -2,14 +2,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/scene_parts.h"
+#include "io/scene/scene_parts.h"
 #include "lib/core/error.h"
 #include "tests/catch.h"
-#include "tests/unit/io/scene_files.h"
-#include "tools/common/common_options.h"
-#include "tools/common/make_backend.h"
-#include "tools/common/provenance.h"
-#include "tools/common/report.h"
+#include "tests/unit/io/scene/scene_files.h"
+#include "tools/cli/common_options.h"
+#include "tools/cli/report.h"
+#include "tools/run/make_backend.h"
+#include "tools/run/provenance.h"
 
 using namespace bp;
 

@@ -1,6 +1,6 @@
 #include "lib/core/error.h"
 #include "tests/catch.h"
-#include "tools/common/face_list.h"
+#include "tools/cli/face_list.h"
 
 using namespace bp;
 

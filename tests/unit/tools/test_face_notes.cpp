@@ -1,5 +1,5 @@
 #include "tests/catch.h"
-#include "tools/common/face_notes.h"
+#include "tools/notes/face_notes.h"
 
 using namespace bp;
 

@@ -1,6 +1,6 @@
 #include "tests/catch.h"
 #include "tests/support/memory_scene.h"
-#include "tools/common/grounded_source.h"
+#include "tools/run/grounded_source.h"
 
 using namespace bp;
 using namespace bp::test;

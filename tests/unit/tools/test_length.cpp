@@ -1,6 +1,6 @@
 #include "lib/core/error.h"
 #include "tests/catch.h"
-#include "tools/common/length.h"
+#include "tools/cli/length.h"
 
 using namespace bp;
 

@@ -1,10 +1,10 @@
 #include <cmath>
 #include <random>
 
-#include "io/mesh_writer.h"
+#include "io/mesh/mesh_writer.h"
 #include "lib/core/error.h"
 #include "tests/catch.h"
-#include "tools/common/origin.h"
+#include "tools/run/origin.h"
 
 using namespace bp;
 using Catch::Matchers::Contains;

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "tests/catch.h"
-#include "tools/common/panel_label.h"
+#include "tools/notes/panel_label.h"
 
 using namespace bp;
 

@@ -2,9 +2,9 @@
 
 #include "lib/core/error.h"
 #include "tests/catch.h"
-#include "tests/unit/io/scene_files.h"
-#include "tools/common/estimate.h"
-#include "tools/common/proportion.h"
+#include "tests/unit/io/scene/scene_files.h"
+#include "tools/notes/estimate.h"
+#include "tools/notes/proportion.h"
 
 using namespace bp;
 using namespace bp::test;

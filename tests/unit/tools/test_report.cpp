@@ -1,5 +1,5 @@
 #include "tests/catch.h"
-#include "tools/common/report.h"
+#include "tools/cli/report.h"
 
 using namespace bp;
 

@@ -1,5 +1,5 @@
 #include "tests/catch.h"
-#include "tools/common/scale_notes.h"
+#include "tools/notes/scale_notes.h"
 
 using namespace bp;
 

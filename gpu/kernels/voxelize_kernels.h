@@ -1,0 +1,28 @@
+#pragma once
+#include <cuda_runtime.h>
+
+#include "gpu/kernels/device_buffer.h"
+#include "lib/core/box.h"
+#include "lib/voxel/fixed_triangle.h"
+
+/// Conservative surface voxelization on the device: the voxels of lib/voxel/voxelize.h, to the bit. Three routes, so
+/// that ten million triangles of a voxel and one across the grid both keep all threads at work: a thread per triangle
+/// of up to 64 voxels, a warp per larger one, the whole grid for the largest.
+namespace bp {
+
+class DeviceVoxelizer {
+ public:
+  explicit DeviceVoxelizer(int multiprocessors) : multiprocessors_(multiprocessors) {}
+
+  /// Sets the voxels that the triangles meet. `triangles` and `bits` are on the device; `bits` is laid out as the
+  /// BitBox of `box` (whole words of 64 voxels). No synchronisation; scratch grows with `count`.
+  void enqueue(const FixedTriangle* triangles, std::uint32_t count, const VoxelBox& box, std::uint32_t* bits,
+               cudaStream_t stream);
+  void release();
+
+ private:
+  int multiprocessors_;
+  DeviceBuffer<std::uint32_t> lists_, counts_;
+};
+
+}  // namespace bp

@@ -1,0 +1,305 @@
+#include "io/files/file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "io/files/final_names.h"
+#include "io/files/kept_files.h"
+#include "io/files/write_all.h"
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::size_t kBufferBytes = std::size_t(1) << 20;
+
+[[noreturn]] void fail_write(const std::string& name) {
+  const int e = errno;
+  if (e == EPIPE) fail(ErrorCode::closed_pipe, "{}: the reader closed the pipe", name);
+  if (e == ENOSPC || e == EDQUOT || e == EFBIG)
+    fail(ErrorCode::out_of_resource, "{}: {}; free some space or write elsewhere", name, std::strerror(e));
+  const char* const remedy = e == ENOENT ? "; make its folder first, or write elsewhere" : "";
+  fail(ErrorCode::failed, "{}: cannot write: {}{}", name, std::strerror(e), remedy);
+}
+
+void write_all(int fd, std::span<const std::byte> bytes, const std::string& name) {
+  if (!detail::write_all(fd, bytes)) fail_write(name);
+}
+
+constexpr int kMostPartials = 1000;  ///< of one name, at a time
+
+/// Whether the locked file `fd` may be written from its beginning, and renamed: it is ours, and still has that name,
+/// which another process may have changed before it let go of the lock.
+bool is_ours(int fd, const std::string& name) {
+  struct stat held {
+  }, named{};
+  return ::fstat(fd, &held) == 0 && ::lstat(name.c_str(), &named) == 0 && held.st_dev == named.st_dev &&
+         held.st_ino == named.st_ino && S_ISREG(held.st_mode) && held.st_nlink == 1 && held.st_uid == ::geteuid();
+}
+
+/// A link that leads nowhere is there, too: a new file cannot have its name.
+bool is_there(const std::string& path) {
+  struct stat info {};
+  return ::lstat(path.c_str(), &info) == 0;
+}
+
+/// An empty, locked file of that name, new or left by a process that is dead; -1 if somebody has it. Where the file
+/// system knows no locks, new ones only. Throws if no file can be made there.
+int take_partial(const std::string& name, const std::string& path) {
+  int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  const bool made = fd >= 0;
+  if (!made && errno != EEXIST) fail_write(path);
+  if (!made) fd = ::open(name.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0) return -1;
+  const bool locked = ::flock(fd, LOCK_EX | LOCK_NB) == 0;
+  const bool is_free = locked ? is_ours(fd, name) : made && errno != EWOULDBLOCK;
+  if (is_free && ::ftruncate(fd, 0) == 0) return fd;
+  ::close(fd);
+  return -1;
+}
+
+}  // namespace
+
+InputFile::InputFile(const std::string& path) : name_(path == "-" ? "stdin" : path) {
+  fd_ = path == "-" ? ::dup(0) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd_ < 0) fail(ErrorCode::bad_input, "{}: {}", name_, std::strerror(errno));
+  struct stat info {};
+  if (::fstat(fd_, &info) != 0) fail(ErrorCode::bad_input, "{}: {}", name_, std::strerror(errno));
+  if (S_ISDIR(info.st_mode)) fail(ErrorCode::bad_input, "{}: is a directory, not a file", name_);
+  seekable_ = S_ISREG(info.st_mode) && ::lseek(fd_, 0, SEEK_CUR) == 0;
+  if (seekable_) size_ = std::uint64_t(info.st_size);
+}
+
+InputFile::~InputFile() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+std::size_t InputFile::read(std::span<std::byte> buffer) {
+  std::size_t got = 0;
+  while (got < buffer.size()) {
+    const ssize_t n = ::read(fd_, buffer.data() + got, buffer.size() - got);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(ErrorCode::bad_input, "{}: cannot read at byte {}: {}", name_, offset_ + got, std::strerror(errno));
+    if (n == 0) break;
+    got += std::size_t(n);
+  }
+  offset_ += got;
+  return got;
+}
+
+std::size_t InputFile::read_at(std::uint64_t offset, std::span<std::byte> buffer) const {
+  std::size_t got = 0;
+  while (got < buffer.size()) {
+    const ssize_t n = ::pread(fd_, buffer.data() + got, buffer.size() - got, off_t(offset + got));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(ErrorCode::bad_input, "{}: cannot read at byte {}: {}", name_, offset + got, std::strerror(errno));
+    if (n == 0) break;
+    got += std::size_t(n);
+  }
+  return got;
+}
+
+void InputFile::seek(std::uint64_t offset) {
+  if (::lseek(fd_, off_t(offset), SEEK_SET) < 0)
+    fail(ErrorCode::bad_input, "{}: cannot seek: {}", name_, std::strerror(errno));
+  offset_ = offset;
+}
+
+OutputFile::OutputFile(const std::string& path, bool overwrite)
+    : name_(path == "-" ? "stdout" : path), overwrite_(overwrite), buffer_(new std::byte[kBufferBytes]) {
+  if (path == "-") {
+    fd_ = ::dup(1);
+    if (fd_ < 0) fail_write(name_);
+    return;
+  }
+  struct stat info {};
+  const bool exists = ::stat(path.c_str(), &info) == 0;
+  if (exists && S_ISDIR(info.st_mode)) fail(ErrorCode::bad_argument, "{}: is a directory; name a file", path);
+  if (exists && !S_ISREG(info.st_mode)) {  // a device or a named pipe: written in place, as a shell would
+    fd_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (fd_ < 0) fail_write(name_);
+    return;
+  }
+  refuse_kept(path);
+  if (!overwrite && is_there(path)) fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", path);
+  open_partial();
+}
+
+void OutputFile::open_partial() {
+  for (int i = 1; i <= kMostPartials; ++i) {
+    std::string name = fmt::format("{}.partial-{}", name_, i);
+    if (is_kept(name)) continue;  // an input of that name is nobody's leftover
+    const WhileMaking making;
+    fd_ = take_partial(name, name_);
+    if (fd_ < 0) continue;
+    partial_ = PartialOutput(name);
+    temporary_ = std::move(name);
+    return;
+  }
+  fail(ErrorCode::failed, "{}: {} unfinished files of that name lie beside it; remove them", name_, kMostPartials);
+}
+
+/// The lock goes last: what still has the name is not to be taken over.
+OutputFile::~OutputFile() {
+  if (!temporary_.empty()) {
+    const WhileMaking making;  // what has this name next is another's
+    ::unlink(temporary_.c_str());
+    partial_ = PartialOutput();
+  }
+  if (fd_ >= 0) ::close(fd_);
+}
+
+void OutputFile::write(std::span<const std::byte> bytes) {
+  bytes_ += bytes.size();
+  if (used_ + bytes.size() > kBufferBytes) flush();
+  if (bytes.size() >= kBufferBytes) return write_all(fd_, bytes, name_);
+  std::memcpy(buffer_.get() + used_, bytes.data(), bytes.size());
+  used_ += bytes.size();
+}
+
+void OutputFile::flush() {
+  write_all(fd_, {buffer_.get(), used_}, name_);
+  used_ = 0;
+}
+
+void OutputFile::commit(Sync sync) {
+  complete();
+  place();
+  close(sync);
+}
+
+void OutputFile::commit_all(std::span<const std::unique_ptr<OutputFile>> files) {
+  for (const auto& file : files) file->complete();
+  try {
+    for (const auto& file : files) file->place();
+  } catch (...) {
+    for (const auto& file : files) file->take_back();
+    throw;
+  }
+  for (const auto& file : files) file->close(Sync::name);
+}
+
+void OutputFile::complete() {
+  flush();
+  if (!temporary_.empty() && ::fsync(fd_) != 0) fail_write(name_);
+}
+
+void OutputFile::place() {
+  if (temporary_.empty()) return;
+  place_file(temporary_, name_, overwrite_, &partial_);
+  temporary_.clear();
+  placed_ = true;
+}
+
+/// What had the name before is gone; what was new goes.
+void OutputFile::take_back() {
+  if (placed_ && !overwrite_ && is_ours(fd_, name_)) (void)remove_file(name_);
+}
+
+void OutputFile::close(Sync sync) {
+  const int fd = std::exchange(fd_, -1);
+  if (::close(fd) != 0) fail_write(name_);
+  if (placed_ && sync == Sync::name) sync_folder(folder_of(name_));
+}
+
+/// A file system that cannot do it says so, and there is nothing better to be done: the file is there.
+void sync_folder(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
+std::string whole_path(const std::string& path) {
+  std::error_code unknown;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(path, unknown);
+  return unknown ? path : whole.string();
+}
+
+std::string folder_of(const std::string& path) {
+  const std::size_t end = path.rfind('/');
+  if (end == std::string::npos) return ".";
+  return end == 0 ? "/" : path.substr(0, end);
+}
+
+void print(const std::string& text) {
+  OutputFile out("-", false);
+  out.write(text);
+  out.commit();
+}
+
+struct ScratchFile::State {
+  int fd = -1;
+  std::string name;
+  std::atomic<std::uint64_t> size{0};
+};
+
+ScratchFile::ScratchFile(const std::string& directory) : state_(new State) {
+  state_->name = directory + "/bp-scratch-XXXXXX";
+  {
+    const WhileMaking making;
+    state_->fd = ::mkstemp(state_->name.data());
+    if (state_->fd >= 0) ::unlink(state_->name.c_str());
+  }
+  if (state_->fd < 0) {
+    fail(ErrorCode::out_of_resource, "{}: cannot create a scratch file: {}; choose another --temp", directory,
+         std::strerror(errno));
+  }
+}
+
+ScratchFile::~ScratchFile() {
+  if (state_->fd >= 0) ::close(state_->fd);
+}
+
+std::uint64_t ScratchFile::append(std::span<const std::byte> bytes) {
+  const std::uint64_t offset = state_->size.fetch_add(bytes.size());
+  write_at(offset, bytes);
+  return offset;
+}
+
+void ScratchFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t n = ::pwrite(state_->fd, bytes.data() + done, bytes.size() - done, off_t(offset + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) fail_write(state_->name);
+    done += std::size_t(n);
+  }
+}
+
+void ScratchFile::read_at(std::uint64_t offset, std::span<std::byte> buffer) const {
+  std::size_t got = 0;
+  while (got < buffer.size()) {
+    const ssize_t n = ::pread(state_->fd, buffer.data() + got, buffer.size() - got, off_t(offset + got));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) fail(ErrorCode::failed, "{}: scratch file lost bytes at {}", state_->name, offset + got);
+    got += std::size_t(n);
+  }
+}
+
+std::uint64_t ScratchFile::size() const {
+  return state_->size;
+}
+
+std::string read_text(const std::string& path, std::uint64_t limit) {
+  InputFile file(path);
+  std::string text;
+  std::byte block[65536];
+  while (const std::size_t n = file.read(block)) {
+    text.append(reinterpret_cast<const char*>(block), n);
+    if (text.size() > limit)
+      fail(ErrorCode::bad_input, "{}: larger than {} bytes; is it the right file?", file.name(), limit);
+  }
+  return text;
+}
+
+}  // namespace bp

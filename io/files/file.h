@@ -1,0 +1,115 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "io/files/partial_outputs.h"
+
+/// Files, stdin, stdout. Every read, write, flush and close is checked; failures are Errors with the right code:
+/// missing or unreadable input bad_input, full disk out_of_resource, EPIPE closed_pipe, anything else failed.
+namespace bp {
+
+/// Sequential input. "-" is stdin.
+class InputFile {
+ public:
+  explicit InputFile(const std::string& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  /// Reads up to buffer.size() bytes; fewer only at the end of the file; 0 at the end.
+  std::size_t read(std::span<std::byte> buffer);
+  /// Reads up to buffer.size() bytes at `offset`; needs seekable(). Thread-safe.
+  std::size_t read_at(std::uint64_t offset, std::span<std::byte> buffer) const;
+
+  [[nodiscard]] bool seekable() const { return seekable_; }
+  [[nodiscard]] std::uint64_t size() const { return size_; }      ///< bytes; 0 if not seekable
+  [[nodiscard]] std::uint64_t offset() const { return offset_; }  ///< bytes read sequentially so far
+  [[nodiscard]] const std::string& name() const { return name_; }
+  void seek(std::uint64_t offset);  ///< needs seekable()
+
+ private:
+  std::string name_;
+  int fd_ = -1;
+  bool seekable_ = false;
+  std::uint64_t size_ = 0, offset_ = 0;
+};
+
+/// Sequential output. "-" is stdout. A named file is written beside its name, as NAME.partial-1, and renamed by
+/// commit(): without commit() nothing stays behind, not even when a signal ends the process. What SIGKILL or a crash of
+/// the machine leaves is taken over by the next one that writes NAME; what a living process writes is locked, and the
+/// next one counts on. Throws bad_argument if the name exists and `overwrite` is false, here or in commit(), or if it
+/// is a file that this process reads (io/files/kept_files.h).
+class OutputFile {
+ public:
+  OutputFile(const std::string& path, bool overwrite);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  void write(std::span<const std::byte> bytes);
+  void write(const std::string& text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
+  /// What a crash of the machine leaves after commit(): the file; or, if its folder is not synced, no name of it.
+  enum class Sync { name, content };
+  /// Flushes, syncs, closes and renames; the file appears under its name now. stdout: flushes.
+  void commit(Sync sync = Sync::name);
+  /// From now on a file of that name is replaced.
+  void allow_overwrite() { overwrite_ = true; }
+  /// Files that appear together, in this order. If one cannot, those that are new do not, either.
+  static void commit_all(std::span<const std::unique_ptr<OutputFile>> files);
+
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ private:
+  void open_partial();
+  void flush();
+  void complete();
+  void place();
+  void take_back();
+  void close(Sync sync);
+  std::string name_, temporary_;
+  bool overwrite_ = false, placed_ = false;
+  PartialOutput partial_;  ///< of temporary_, for signal handlers
+  int fd_ = -1;
+  std::uint64_t bytes_ = 0;
+  std::unique_ptr<std::byte[]> buffer_;
+  std::size_t used_ = 0;
+};
+
+/// The same for all names of a file, symbolic links included; as given where that cannot be told.
+[[nodiscard]] std::string whole_path(const std::string& path);
+/// What was made, renamed or removed in a folder outlasts a crash of the machine, if its file system can do that.
+void sync_folder(const std::string& path);
+/// Of a path; "." if it names none.
+[[nodiscard]] std::string folder_of(const std::string& path);
+
+/// Text on stdout, flushed.
+void print(const std::string& text);
+
+/// Anonymous scratch file in `directory`: unlinked at once, so nothing stays behind whatever happens. Thread-safe.
+class ScratchFile {
+ public:
+  explicit ScratchFile(const std::string& directory);  ///< out_of_resource if the directory cannot be written
+  ~ScratchFile();
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+
+  /// Appends and returns the offset of the first byte.
+  std::uint64_t append(std::span<const std::byte> bytes);
+  /// Writes at `offset`, growing the file if need be. Do not mix with append().
+  void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
+  void read_at(std::uint64_t offset, std::span<std::byte> buffer) const;
+  [[nodiscard]] std::uint64_t size() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Whole file as a string; bad_input if it is missing or larger than `limit` bytes.
+[[nodiscard]] std::string read_text(const std::string& path, std::uint64_t limit = std::uint64_t(1) << 26);
+
+}  // namespace bp

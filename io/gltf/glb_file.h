@@ -1,0 +1,31 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/files/file.h"
+#include "lib/core/grid_frame.h"
+#include "lib/grid/stream.h"
+
+/// What all writers of glTF share: the container and the asset that says where a file comes from.
+namespace bp {
+
+using GltfOutJson = nlohmann::ordered_json;  ///< keys keep their order: same mesh, same bytes
+
+/// Member "asset": generator "TOOL VERSION", and in extras the chain of tools, the axis that is up in the scene
+/// (readers of ours go back to it, scene_reader.h) and the origin that was subtracted, if any.
+[[nodiscard]] GltfOutJson gltf_asset(const std::string& tool, const std::vector<Provenance>& provenance, UpAxis up,
+                                     const Vec3d& origin);
+
+/// A matte material, so that viewers neither take glTF's default (metal, black where nothing is mirrored) nor draw
+/// without light. White under the colours of vertices, else grey.
+[[nodiscard]] GltfOutJson gltf_material(bool colored);
+
+/// What a GLB holds before the bytes of its binary chunk. Throws as write_glb(), for the file `name`.
+[[nodiscard]] std::string glb_head(std::string json, std::size_t data_bytes, const std::string& name);
+
+/// A GLB of one JSON and one binary chunk. Throws bad_argument beyond 4 GiB. `data` must be a multiple of 4 bytes.
+void write_glb(std::string json, const std::string& data, OutputFile& out);
+
+}  // namespace bp

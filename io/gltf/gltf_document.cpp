@@ -1,0 +1,334 @@
+#include "io/gltf/gltf_document.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include "io/files/uri.h"
+#include "io/gltf/detail/data_uri.h"
+#include "io/gltf/json_fault.h"
+#include "io/gltf/meshopt_codec.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::uint64_t kMaxNumber = std::uint64_t(1) << 53;
+
+std::uint32_t word_at(const SceneFile& file, std::uint64_t offset) {
+  std::uint32_t word = 0;
+  if (file.read_at(offset, std::as_writable_bytes(std::span(&word, 1))) != sizeof word)
+    fail(ErrorCode::bad_input, "{}: ends in the header at byte {}; the file is truncated", file.name(), file.size());
+  return word;
+}
+
+ComponentType component_type(const GltfObject& o) {
+  const std::uint64_t type = o.number("componentType");
+  if (type < 5120 || (type > 5126 && type != 5130) || type == 5124)
+    o.broken(fmt::format("has the unknown componentType {}", type));
+  return ComponentType(type);
+}
+
+// Some exporters write names in Latin-1, which is no JSON. Names do not matter here.
+GltfJson parse_json(std::string text) {
+  try {
+    return GltfJson::parse(text);
+  } catch (const GltfJson::parse_error& e) {
+    if (std::strstr(e.what(), "UTF-8") == nullptr) throw;
+  }
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) >= 128) c = '?';
+  }
+  return GltfJson::parse(text);
+}
+
+MeshoptView meshopt_view(const GltfObject& packed) {
+  MeshoptView view;
+  view.count = packed.number("count");
+  view.stride = packed.number("byteStride");
+  const std::string mode = packed.text("mode");
+  const std::string filter = packed.has("filter") ? packed.text("filter") : "NONE";
+  if (mode != "ATTRIBUTES" && mode != "TRIANGLES" && mode != "INDICES")
+    packed.broken(fmt::format("has the unknown mode {}", mode));
+  view.mode = mode == "TRIANGLES" ? MeshoptMode::triangles
+              : mode == "INDICES" ? MeshoptMode::indices
+                                  : MeshoptMode::attributes;
+  if (filter == "NONE") return view;
+  if (filter != "OCTAHEDRAL" && filter != "QUATERNION" && filter != "EXPONENTIAL")
+    packed.broken(fmt::format("has the unknown filter {}", filter));
+  view.filter = filter == "OCTAHEDRAL"   ? MeshoptFilter::octahedral
+                : filter == "QUATERNION" ? MeshoptFilter::quaternion
+                                         : MeshoptFilter::exponential;
+  return view;
+}
+
+/// Saturated: what cannot be is found out later.
+std::uint64_t unpacked_bytes(const MeshoptView& view) {
+  return std::uint64_t(std::min(0x1p62, double(view.count) * double(view.stride)));
+}
+
+}  // namespace
+
+// --- GltfObject
+// --------------------------------------------------------------------------------------------------------
+
+void GltfObject::broken(const std::string& what) const {
+  fail(ErrorCode::bad_input, "{}: {} {}; repair or re-export the file", file_, place_.empty() ? "the document" : place_,
+       what);
+}
+
+const GltfJson& GltfObject::at(const char* key) const {
+  const auto found = json_->find(key);
+  if (found == json_->end()) broken(fmt::format("has no '{}'", key));
+  return *found;
+}
+
+std::uint64_t GltfObject::number(const char* key) const {
+  const GltfJson& value = at(key);
+  const double number = value.is_number() ? value.get<double>() : -1;
+  if (!(number >= 0 && number <= double(kMaxNumber)) || number != std::floor(number))
+    broken(fmt::format("has a '{}' that is not a whole number", key));
+  return std::uint64_t(number);
+}
+
+std::uint64_t GltfObject::number(const char* key, std::uint64_t otherwise) const {
+  return has(key) ? number(key) : otherwise;
+}
+
+bool GltfObject::holds_text(const char* key, const char* inner_key, const char* value) const {
+  const auto found = json_->find(key);
+  if (found == json_->end() || !found->is_object()) return false;
+  const auto inner = found->find(inner_key);
+  return inner != found->end() && inner->is_string() && inner->get<std::string>() == value;
+}
+
+std::string GltfObject::text(const char* key) const {
+  const GltfJson& value = at(key);
+  if (!value.is_string()) broken(fmt::format("has a '{}' that is not a text", key));
+  return value.get<std::string>();
+}
+
+bool GltfObject::flag(const char* key) const {
+  if (!has(key)) return false;
+  if (!at(key).is_boolean()) broken(fmt::format("has a '{}' that is neither true nor false", key));
+  return at(key).get<bool>();
+}
+
+GltfObject GltfObject::object(const char* key) const {
+  return GltfObject(at(key), file_, place_.empty() ? key : place_ + "." + key);
+}
+
+const GltfJson& GltfObject::array(const char* key) const {
+  static const GltfJson kEmpty = GltfJson::array();
+  if (!has(key)) return kEmpty;
+  if (!at(key).is_array()) broken(fmt::format("has a '{}' that is not an array", key));
+  return at(key);
+}
+
+GltfObject GltfObject::item(const char* key, std::uint64_t i) const {
+  const GltfJson& items = array(key);
+  if (i >= items.size()) broken(fmt::format("names {}[{}], but has {} of them", key, i, items.size()));
+  return GltfObject(items[std::size_t(i)], file_, fmt::format("{}{}{}[{}]", place_, place_.empty() ? "" : ".", key, i));
+}
+
+std::uint64_t GltfObject::index(const char* key, std::uint64_t i) const {
+  const GltfJson& value = array(key)[std::size_t(i)];
+  if (!value.is_number_unsigned()) broken(fmt::format("'{}' holds something else than indices", key));
+  return value.get<std::uint64_t>();
+}
+
+// --- GltfDocument: the container
+// ---------------------------------------------------------------------------------------
+
+GltfDocument::GltfDocument(const SceneFilePtr& file, const SceneOptions& options)
+    : file_(file), options_(options), temp_dir_(temp_dir_of(options)) {
+  char magic[4] = {};
+  file->read_at(0, std::as_writable_bytes(std::span(magic)));
+  if (std::memcmp(magic, "glTF", 4) == 0) {
+    open_glb();
+  } else {
+    parse(0, file->size());
+  }
+  check_version();
+  buffers_.resize(root().array("buffers").size());
+}
+
+void GltfDocument::open_glb() {
+  constexpr std::uint32_t kJson = 0x4E4F534A, kBin = 0x004E4942;
+  const std::uint32_t version = word_at(*file_, 4), total = word_at(*file_, 8);
+  if (version != 2)
+    fail(ErrorCode::bad_input, "{}: is GLB version {}; only version 2 is read, convert it", file_->name(), version);
+  if (total > file_->size()) {
+    fail(ErrorCode::bad_input, "{}: promises {} bytes and has {}; the file is truncated", file_->name(), total,
+         file_->size());
+  }
+  bool has_json = false;
+  for (std::uint64_t at = 12; at + 8 <= total;) {
+    const std::uint64_t size = word_at(*file_, at), type = word_at(*file_, at + 4);
+    at += 8;
+    if (size > total - at)
+      fail(ErrorCode::bad_input, "{}: byte {}: a chunk of {} bytes does not fit into the file", file_->name(), at,
+           size);
+    if (type == kJson && !has_json) {
+      parse(at, size);
+      has_json = true;
+    } else if (type == kBin && !glb_data_) {
+      glb_data_ = part_of(file_, at, size);
+    }
+    at += (size + 3) / 4 * 4;
+  }
+  if (!has_json) fail(ErrorCode::bad_input, "{}: has no JSON chunk; re-export the file", file_->name());
+}
+
+void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
+  LeanJson lean = read_lean_json(file_, offset, size, temp_dir_);
+  lifted_ = std::move(lean.data);
+  check_document(options_, file_->name(), "its JSON", lean.text.size() + bytes_to_parse(lean.text),
+                 options_.document.bytes);
+  try {
+    json_ = parse_json(std::move(lean.text));
+  } catch (const GltfJson::exception& e) {
+    if (size == 0) fail(ErrorCode::bad_input, "{}: is empty; re-export the file", file_->name());
+    fail(ErrorCode::bad_input, "{}: broken JSON: {}; re-export the file", file_->name(), detail::json_fault(e));
+  }
+}
+
+void GltfDocument::check_version() const {
+  if (root().has("geometricError") && root().has("root"))
+    fail(ErrorCode::bad_input, "{}: a tileset of 3D Tiles, not a scene or a mesh; bpcheck takes one as its last file",
+         file_->name());
+  const std::string version = root().object("asset").text("version");
+  if (version.compare(0, 2, "2.") != 0)
+    fail(ErrorCode::bad_input, "{}: is glTF version {}; only version 2 is read, convert it", file_->name(), version);
+}
+
+// --- GltfDocument: buffers and accessors
+// ---------------------------------------------------------------------------------
+
+SceneFilePtr GltfDocument::open_beside(const GltfObject& buffer, const std::string& uri) const {
+  const std::string path = file_->path();
+  if (path.empty()) buffer.broken("lies in another file, which stdin cannot name");
+  if (uri.find("://") != std::string::npos) buffer.broken("lies on the network; download it");
+  const std::size_t slash = path.find_last_of('/');
+  const std::string name = detail::percent_decoded(uri);
+  const bool absolute = !name.empty() && name[0] == '/';
+  try {
+    return open_scene_file(absolute || slash == std::string::npos ? name : path.substr(0, slash + 1) + name, temp_dir_);
+  } catch (const Error& e) {
+    fail(e.code(), "{}: its data are missing: {}; put that file beside it", file_->name(), e.what());
+  }
+}
+
+SceneFilePtr GltfDocument::open_buffer(std::uint64_t i) {
+  const GltfObject buffer = root().item("buffers", i);
+  if (!buffer.has("uri")) {
+    if (i != 0 || !glb_data_) buffer.broken("has no data");
+    return glb_data_;
+  }
+  const std::string uri = buffer.text("uri");
+  constexpr std::string_view kLifted = "data:lifted,";
+  if (uri.compare(0, kLifted.size(), kLifted) == 0) {
+    std::size_t number = 0;
+    std::from_chars(uri.data() + kLifted.size(), uri.data() + uri.size(), number);
+    if (number < lifted_.size()) return lifted_[number];
+  }
+  if (uri.compare(0, 5, "data:") == 0) buffer.broken("has embedded data that is not base64");
+  return open_beside(buffer, uri);
+}
+
+const GltfDocument::Data& GltfDocument::buffer(std::uint64_t i) {
+  const GltfObject object = root().item("buffers", i);
+  std::optional<Data>& data = buffers_[std::size_t(i)];
+  if (!data) {
+    const SceneFilePtr file = open_buffer(i);
+    data = Data{bytes_->add(file), std::min(file->size(), object.number("byteLength"))};
+  }
+  return *data;
+}
+
+GltfDocument::View GltfDocument::view(std::uint64_t i) {
+  const GltfObject object = root().item("bufferViews", i);
+  if (object.has("extensions") && object.object("extensions").has("EXT_meshopt_compression"))
+    return unpacked(i, object);
+  const Data& data = buffer(object.number("buffer"));
+  const std::uint64_t offset = object.number("byteOffset", 0), size = object.number("byteLength");
+  if (offset > data.size || size > data.size - offset) {
+    object.broken(fmt::format("spans bytes {} to {} of a buffer that has {}, so the data are truncated", offset,
+                              offset + size, data.size));
+  }
+  return {data.address + offset, size, object.number("byteStride", 0)};
+}
+
+// The unpacked bytes go to a scratch file: memory does not grow with what a file unpacks to.
+GltfDocument::View GltfDocument::unpacked(std::uint64_t i, const GltfObject& object) {
+  const auto known = unpacked_.find(i);
+  if (known != unpacked_.end()) return known->second;
+  const GltfObject packed = object.object("extensions").object("EXT_meshopt_compression");
+  const MeshoptView what = meshopt_view(packed);
+  const Data& data = buffer(packed.number("buffer"));
+  const std::uint64_t offset = packed.number("byteOffset", 0), size = packed.number("byteLength");
+  if (offset > data.size || size > data.size - offset)
+    packed.broken(fmt::format("spans bytes {} to {} of a buffer that has {}, so the data are truncated", offset,
+                              offset + size, data.size));
+  check_document(options_, file_->name(), "a view that is compressed", size + unpacked_bytes(what),
+                 options_.document.bytes);
+  std::vector<std::byte> bytes(size), plain;
+  if (bytes_->read_at(data.address + offset, bytes) != size) packed.broken("lies beyond the end of the file");
+  const std::string wrong = decode_meshopt(what, bytes, plain);
+  if (!wrong.empty()) packed.broken("holds data that " + wrong);
+  if (!scratch_) scratch_ = std::make_shared<ScratchFile>(temp_dir_);
+  const std::uint64_t begin = scratch_->append(plain);
+  const SceneFilePtr file = part_of(view_of(scratch_, file_->name(), begin + plain.size()), begin, plain.size());
+  const View view{bytes_->add(file), plain.size(), what.stride};
+  unpacked_.emplace(i, view);
+  return view;
+}
+
+Accessor GltfDocument::accessor(std::uint64_t i, std::size_t components) {
+  const GltfObject object = root().item("accessors", i);
+  const std::string type = object.text("type");
+  const char* const expected = components == 1 ? "SCALAR" : components == 3 ? "VEC3" : "VEC4";
+  if (type != expected) object.broken(fmt::format("has the type {} where {} is needed", type, expected));
+  Accessor a;
+  a.count = object.number("count");
+  a.type = component_type(object);
+  a.components = components;
+  a.normalized = object.flag("normalized") && a.type < ComponentType::u32;
+  const std::uint64_t size = bytes_of(a.type) * components;
+  if (object.has("bufferView")) {
+    const View v = view(object.number("bufferView"));
+    const std::uint64_t offset = object.number("byteOffset", 0);
+    a.stride = v.stride > 0 ? v.stride : size;
+    if (a.count > 0 &&
+        (offset > v.size || size > v.size - offset || (a.count - 1) > (v.size - offset - size) / a.stride))
+      object.broken(fmt::format("has {} elements, more than its bufferView holds", a.count));
+    a.address = v.address + offset;
+  }
+  if (object.has("sparse")) read_sparse(object.object("sparse"), a);
+  // Without data all is zero but what replaces it: legal, of little use, and a count that only the file bounds.
+  if (a.address == Accessor::kZeros && a.replaced_count == 0 && a.count > 0) object.broken("has no data");
+  const std::uint64_t there = file_->size() + bytes_->size();
+  if (a.address == Accessor::kZeros && a.count > there) {
+    object.broken(fmt::format("has {} elements, and data for {} of them in a file of {} bytes", a.count,
+                              a.replaced_count, there));
+  }
+  return a;
+}
+
+void GltfDocument::read_sparse(const GltfObject& sparse, Accessor& a) {
+  const GltfObject numbers = sparse.object("indices"), values = sparse.object("values");
+  const std::uint64_t count = sparse.number("count");
+  a.number_type = component_type(numbers);
+  const auto place = [&](const GltfObject& o, std::uint64_t size) {
+    const View v = view(o.number("bufferView"));
+    const std::uint64_t offset = o.number("byteOffset", 0);
+    if (offset > v.size || count > (v.size - offset) / size)
+      o.broken(fmt::format("has {} elements, more than its bufferView holds", count));
+    return v.address + offset;
+  };
+  a.replaced_numbers = place(numbers, bytes_of(a.number_type));
+  a.replaced_values = place(values, bytes_of(a.type) * a.components);
+  a.replaced_count = count;
+}
+
+}  // namespace bp

@@ -1,0 +1,94 @@
+#pragma once
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "io/scene/instanced_scene.h"
+#include "lib/core/error.h"
+
+/// A glTF 2.0 document: its JSON, and where its buffers lie. Everything that a file may get wrong is checked on the way
+/// out of it.
+namespace bp {
+
+using GltfJson = nlohmann::json;
+
+/// An object of the document that knows its name for messages: "meshes[3].primitives[0]".
+class GltfObject {
+ public:
+  GltfObject(const GltfJson& json, std::string file, std::string place)
+      : json_(&json), file_(std::move(file)), place_(std::move(place)) {
+    if (!json.is_object()) broken("is not an object");
+  }
+  [[nodiscard]] bool has(const char* key) const { return json_->contains(key); }
+  /// True if `key` is an object that holds this text; anything else there is someone else's business.
+  [[nodiscard]] bool holds_text(const char* key, const char* inner_key, const char* value) const;
+  /// A whole number up to 2^53, or `otherwise` if it is not there.
+  [[nodiscard]] std::uint64_t number(const char* key, std::uint64_t otherwise) const;
+  [[nodiscard]] std::uint64_t number(const char* key) const;
+  [[nodiscard]] std::string text(const char* key) const;
+  [[nodiscard]] bool flag(const char* key) const;  ///< false if it is not there
+  [[nodiscard]] GltfObject object(const char* key) const;
+  /// An array; empty if it is not there.
+  [[nodiscard]] const GltfJson& array(const char* key) const;
+  [[nodiscard]] GltfObject item(const char* key, std::uint64_t i) const;      ///< object i of an array
+  [[nodiscard]] std::uint64_t index(const char* key, std::uint64_t i) const;  ///< whole number i of an array
+  /// N numbers, or `otherwise` if they are not there.
+  template <std::size_t N>
+  [[nodiscard]] std::array<double, N> numbers(const char* key, std::array<double, N> otherwise) const {
+    if (!has(key)) return otherwise;
+    const GltfJson& values = array(key);
+    if (values.size() != N) broken(fmt::format("'{}' does not have {} numbers", key, N));
+    for (std::size_t i = 0; i < N; ++i) {
+      if (!values[i].is_number()) broken(fmt::format("'{}' holds something else than numbers", key));
+      otherwise[i] = values[i].template get<double>();
+    }
+    return otherwise;
+  }
+  /// Throws bad_input "file: place what; repair or re-export the file".
+  [[noreturn]] void broken(const std::string& what) const;
+
+ private:
+  const GltfJson& at(const char* key) const;
+  const GltfJson* json_;
+  std::string file_, place_;
+};
+
+class GltfDocument {
+ public:
+  GltfDocument(const SceneFilePtr& file, const SceneOptions& options);
+
+  [[nodiscard]] GltfObject root() const { return GltfObject(json_, file_->name(), ""); }
+  /// Accessor i, checked against its views; `components` is what its type must have.
+  Accessor accessor(std::uint64_t i, std::size_t components);
+  /// All buffers that accessors have named so far, in one file.
+  [[nodiscard]] SceneFilePtr bytes() const { return bytes_; }
+
+ private:
+  struct Data {
+    std::uint64_t address = 0, size = 0;
+  };
+  struct View {
+    std::uint64_t address = 0, size = 0, stride = 0;
+  };
+  void open_glb();
+  void parse(std::uint64_t offset, std::uint64_t size);
+  void check_version() const;
+  const Data& buffer(std::uint64_t i);
+  SceneFilePtr open_buffer(std::uint64_t i);
+  SceneFilePtr open_beside(const GltfObject& buffer, const std::string& uri) const;
+  View view(std::uint64_t i);
+  View unpacked(std::uint64_t i, const GltfObject& object);  ///< a view with EXT_meshopt_compression
+  void read_sparse(const GltfObject& sparse, Accessor& a);
+
+  SceneFilePtr file_;
+  const SceneOptions& options_;
+  std::string temp_dir_;
+  GltfJson json_;
+  std::vector<SceneFilePtr> lifted_;  // embedded buffers
+  SceneFilePtr glb_data_;             // the binary chunk
+  std::shared_ptr<JoinedFile> bytes_ = std::make_shared<JoinedFile>();
+  std::vector<std::optional<Data>> buffers_;
+  std::map<std::uint64_t, View> unpacked_;
+  std::shared_ptr<ScratchFile> scratch_;  // of unpacked views
+};
+
+}  // namespace bp

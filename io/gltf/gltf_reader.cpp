@@ -1,0 +1,265 @@
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
+#include <set>
+#include <unordered_map>
+
+#include "io/gltf/gltf_document.h"
+
+// glTF 2.0 and GLB (Khronos, glTF 2.0 specification, section 3.7 on geometry, 3.5 on nodes). Only what says where
+// triangles are is looked at: the default scene, nodes, POSITION and indices, sparse accessors, quantized positions
+// (KHR_mesh_quantization) and instance arrays (EXT_mesh_gpu_instancing), and, if asked for, colours; of nodes with
+// levels (MSFT_lod) one, the finest unless asked. Skins and morph targets are left at rest.
+
+namespace bp {
+
+namespace {
+
+class SceneBuilder {
+ public:
+  SceneBuilder(const SceneFilePtr& file, const SceneOptions& options)
+      : doc_(file, options),
+        root_(doc_.root()),
+        colors_(options.colors),
+        walls_only_(options.walls_only),
+        level_(options.level) {}
+
+  InstancedScene build() {
+    scene_.nodes.reserve(root_.array("nodes").size());
+    visited_.resize(root_.array("nodes").size());
+    scene_.up = up();
+    add_nodes(scene_roots(), world());
+    scene_.bytes = doc_.bytes();
+    return std::move(scene_);
+  }
+
+ private:
+  struct Range {
+    std::uint32_t first, end;
+  };
+  struct Pending {
+    std::uint64_t node;
+    Affine parent;
+  };
+  [[nodiscard]] std::optional<UpAxis> up() const;
+  [[nodiscard]] Affine world() const;
+  [[nodiscard]] std::vector<std::uint64_t> scene_roots() const;
+  void add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world);
+  std::uint64_t level_of(std::uint64_t i);
+  [[nodiscard]] std::set<std::uint64_t> coarser_nodes() const;
+  void add_mesh_node(const GltfObject& node, const Affine& transform);
+  Range mesh(std::uint64_t i);
+  void add_primitive(const GltfObject& p);
+  void add_colors(const GltfObject& p, const GltfObject& attributes, Primitive& primitive);
+  [[nodiscard]] std::array<double, 4> base_color(std::uint64_t material) const;
+  [[nodiscard]] bool see_through(std::uint64_t material) const;
+  std::optional<std::uint32_t> instance_array(const GltfObject& node);
+  static Affine transform_of(const GltfObject& node);
+
+  GltfDocument doc_;
+  GltfObject root_;
+  const bool colors_, walls_only_;
+  const std::size_t level_;
+  InstancedScene scene_;
+  std::unordered_map<std::uint64_t, Range> meshes_;
+  std::vector<bool> visited_;
+};
+
+std::optional<UpAxis> SceneBuilder::up() const {
+  const GltfObject asset = root_.object("asset");
+  for (const char* const name : kUpNames) {
+    if (asset.holds_text("extras", "up", name)) return up_axis_named(name);
+  }
+  return {};
+}
+
+// Files of ours stand upright in glTF's y-up world: back to their own coordinates.
+Affine SceneBuilder::world() const {
+  Affine a;
+  const AxisTurn back = to_y_up(scene_.up.value_or(UpAxis::y)).inverse();
+  a.m = {};
+  for (std::size_t i = 0; i < 3; ++i) a.m[i][back.axis[i]] = back.negative[i] ? -1 : 1;
+  return a;
+}
+
+// The default scene, else the first; a document without scenes shows every node that is no child.
+std::vector<std::uint64_t> SceneBuilder::scene_roots() const {
+  std::vector<std::uint64_t> roots;
+  if (root_.array("scenes").empty()) {
+    const std::size_t nodes = root_.array("nodes").size();
+    std::vector<bool> child(nodes);
+    for (std::size_t i = 0; i < nodes; ++i) {
+      const GltfObject node = root_.item("nodes", i);
+      for (std::size_t k = 0; k < node.array("children").size(); ++k) {
+        if (node.index("children", k) < nodes) child[std::size_t(node.index("children", k))] = true;
+      }
+    }
+    for (std::size_t i = 0; i < nodes; ++i) {
+      if (!child[i]) roots.push_back(i);
+    }
+    return roots;
+  }
+  const GltfObject scene = root_.item("scenes", root_.number("scene", 0));
+  for (std::size_t k = 0; k < scene.array("nodes").size(); ++k) roots.push_back(scene.index("nodes", k));
+  return roots;
+}
+
+// Depth first, without recursion: a chain of nodes may be as long as the file.
+void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world) {
+  std::vector<Pending> stack;
+  const std::set<std::uint64_t> coarser = level_ > 0 ? coarser_nodes() : std::set<std::uint64_t>{};
+  for (std::size_t i = roots.size(); i-- > 0;) {
+    if (!coarser.contains(roots[i])) stack.push_back({roots[i], world});
+  }
+  while (!stack.empty()) {
+    Pending next = stack.back();
+    stack.pop_back();
+    next.node = level_of(next.node);
+    const GltfObject node = root_.item("nodes", next.node);
+    if (visited_[std::size_t(next.node)]) node.broken("is reached twice, and nodes must form trees");
+    visited_[std::size_t(next.node)] = true;
+    const Affine transform = next.parent * transform_of(node);
+    if (node.has("mesh")) add_mesh_node(node, transform);
+    for (std::size_t k = node.array("children").size(); k-- > 0;)
+      stack.push_back({node.index("children", k), transform});
+  }
+}
+
+// Nodes that stand for others at coarser levels: where a scene lists them, too, they are not drawn beside these.
+std::set<std::uint64_t> SceneBuilder::coarser_nodes() const {
+  std::set<std::uint64_t> nodes;
+  for (std::size_t i = 0; i < root_.array("nodes").size(); ++i) {
+    const GltfObject node = root_.item("nodes", i);
+    if (!node.has("extensions") || !node.object("extensions").has("MSFT_lod")) continue;
+    const GltfObject lod = node.object("extensions").object("MSFT_lod");
+    for (std::size_t k = 0; k < lod.array("ids").size(); ++k) nodes.insert(lod.index("ids", k));
+  }
+  return nodes;
+}
+
+// The node that stands for node i at the level asked for: its last one, if it has fewer.
+std::uint64_t SceneBuilder::level_of(std::uint64_t i) {
+  const GltfObject node = root_.item("nodes", i);
+  if (!node.has("extensions") || !node.object("extensions").has("MSFT_lod")) return i;
+  const GltfObject lod = node.object("extensions").object("MSFT_lod");
+  const std::size_t coarser = lod.array("ids").size();
+  scene_.levels = std::max(scene_.levels, 1 + coarser);
+  return level_ == 0 || coarser == 0 ? i : lod.index("ids", std::min(level_, coarser) - 1);
+}
+
+Affine SceneBuilder::transform_of(const GltfObject& node) {
+  if (node.has("matrix")) {  // by columns
+    const auto m = node.numbers<16>("matrix", {});
+    Affine a;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) a.m[i][j] = m[4 * j + i];
+    }
+    return a;
+  }
+  return affine_of(node.numbers<3>("translation", {0, 0, 0}), node.numbers<4>("rotation", {0, 0, 0, 1}),
+                   node.numbers<3>("scale", {1, 1, 1}));
+}
+
+void SceneBuilder::add_mesh_node(const GltfObject& node, const Affine& transform) {
+  const Range range = mesh(node.number("mesh"));
+  if (range.first == range.end) return;
+  scene_.nodes.push_back({transform, range.first, range.end, instance_array(node)});
+}
+
+SceneBuilder::Range SceneBuilder::mesh(std::uint64_t i) {
+  const auto known = meshes_.find(i);
+  if (known != meshes_.end()) return known->second;
+  const GltfObject mesh = root_.item("meshes", i);
+  Range range{std::uint32_t(scene_.primitives.size()), 0};
+  for (std::size_t k = 0; k < mesh.array("primitives").size(); ++k) add_primitive(mesh.item("primitives", k));
+  range.end = std::uint32_t(scene_.primitives.size());
+  meshes_.emplace(i, range);
+  return range;
+}
+
+void SceneBuilder::add_primitive(const GltfObject& p) {
+  constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;
+  const std::uint64_t mode = p.number("mode", kTriangles);
+  if (mode > kFan) p.broken(fmt::format("has the unknown mode {}", mode));
+  const GltfObject attributes = p.object("attributes");
+  if (mode < kTriangles || !attributes.has("POSITION")) return;  // points and lines
+  if (p.has("extensions") && p.object("extensions").has("KHR_draco_mesh_compression"))
+    p.broken(
+        "is compressed (KHR_draco_mesh_compression), which is not read: unpack it, for instance with gltf-transform");
+  if (walls_only_ && p.has("material") && see_through(p.number("material"))) return;
+  Primitive primitive;
+  primitive.mode = mode == kFan     ? Primitive::Mode::fan
+                   : mode == kStrip ? Primitive::Mode::strip
+                                    : Primitive::Mode::triangles;
+  primitive.positions = doc_.accessor(attributes.number("POSITION"), 3);
+  if (p.has("indices")) {
+    primitive.indices = doc_.accessor(p.number("indices"), 1);
+    const ComponentType type = primitive.indices->type;
+    if (type != ComponentType::u8 && type != ComponentType::u16 && type != ComponentType::u32)
+      p.broken("has indices that are not unsigned integers");
+  }
+  if (colors_) add_colors(p, attributes, primitive);
+  scene_.primitives.push_back(primitive);
+}
+
+// Section 3.9.2: the factor times the colours of the vertices, in linear light.
+void SceneBuilder::add_colors(const GltfObject& p, const GltfObject& attributes, Primitive& primitive) {
+  if (p.has("material")) {
+    const std::array<double, 4> rgba = base_color(p.number("material"));
+    primitive.base_color = {rgba[0], rgba[1], rgba[2]};
+  }
+  if (!attributes.has("COLOR_0")) return;
+  const std::uint64_t i = attributes.number("COLOR_0");
+  const bool three = root_.item("accessors", i).text("type") == "VEC3";
+  primitive.colors = doc_.accessor(i, three ? 3 : 4);
+  if (primitive.colors->count != primitive.positions.count)
+    attributes.broken(
+        fmt::format("have {} colours for {} positions", primitive.colors->count, primitive.positions.count));
+}
+
+std::array<double, 4> SceneBuilder::base_color(std::uint64_t i) const {
+  const GltfObject material = root_.item("materials", i);
+  std::array<double, 4> rgba{1, 1, 1, 1};
+  if (material.has("pbrMetallicRoughness"))
+    rgba = material.object("pbrMetallicRoughness").numbers<4>("baseColorFactor", rgba);
+  constexpr const char* kOlder = "KHR_materials_pbrSpecularGlossiness";
+  if (material.has("extensions") && material.object("extensions").has(kOlder))
+    rgba = material.object("extensions").object(kOlder).numbers<4>("diffuseFactor", rgba);
+  return rgba;
+}
+
+// Masks have holes, and what is blended shows what is behind. An alpha of an opaque material says what it is meant for.
+bool SceneBuilder::see_through(std::uint64_t i) const {
+  const GltfObject material = root_.item("materials", i);
+  return (material.has("alphaMode") && material.text("alphaMode") != "OPAQUE") || base_color(i)[3] < 1;
+}
+
+std::optional<std::uint32_t> SceneBuilder::instance_array(const GltfObject& node) {
+  if (!node.has("extensions") || !node.object("extensions").has("EXT_mesh_gpu_instancing")) return {};
+  const GltfObject attributes = node.object("extensions").object("EXT_mesh_gpu_instancing").object("attributes");
+  InstanceArray array;
+  const auto take = [&](const char* name, std::size_t components, Accessor& a) {
+    if (!attributes.has(name)) return;
+    a = doc_.accessor(attributes.number(name), components);
+    if (array.count != 0 && array.count != a.count) attributes.broken("have different counts");
+    array.count = a.count;
+  };
+  take("TRANSLATION", 3, array.translation);
+  take("ROTATION", 4, array.rotation);
+  take("SCALE", 3, array.scale);
+  scene_.arrays.push_back(array);
+  return std::uint32_t(scene_.arrays.size() - 1);
+}
+
+}  // namespace
+
+RawSourcePtr open_gltf(SceneFilePtr file, const SceneOptions& options) {
+  InstancedScene scene = SceneBuilder(file, options).build();
+#ifdef __GLIBC__
+  ::malloc_trim(0);  // the document is gone, and what comes counts on its memory
+#endif
+  return stream_instances(std::move(scene), options);
+}
+
+}  // namespace bp

@@ -1,0 +1,133 @@
+#include "io/mesh/detail/shaded_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "lib/core/vec3.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+using Corner = std::uint32_t;  // 3 * triangle + place in it
+
+Vec3d direction(LatticeCoord from, LatticeCoord to) {
+  const LatticeCoord d = to - from;
+  return {double(d.x), double(d.y), double(d.z)};
+}
+
+/// Corners of one vertex that share a normal, as sets.
+class Groups {
+ public:
+  explicit Groups(std::size_t corners) : parent_(corners) { std::iota(parent_.begin(), parent_.end(), Corner(0)); }
+  Corner of(Corner c) {
+    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
+    return c;
+  }
+  void join(Corner a, Corner b) {
+    a = of(a), b = of(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<Corner> parent_;
+};
+
+class Shader {
+ public:
+  explicit Shader(const LatticeMesh& mesh) : mesh_(mesh), groups_(3 * mesh.triangles.size()) {
+    faces_.reserve(mesh.triangles.size());
+    for (const auto& t : mesh.triangles)
+      faces_.push_back(cross(direction(mesh.vertices[t[0]], mesh.vertices[t[1]]),
+                             direction(mesh.vertices[t[0]], mesh.vertices[t[2]])));
+  }
+
+  ShadedMesh run() {
+    join_smooth_edges();
+    number_groups();
+    set_normals();
+    return std::move(out_);
+  }
+
+ private:
+  struct HalfEdge {
+    std::array<std::uint32_t, 2> ends;  // the lesser first
+    Corner from;                        // the corner where it begins
+    friend bool operator<(const HalfEdge& a, const HalfEdge& b) {
+      return std::pair(a.ends, a.from) < std::pair(b.ends, b.from);
+    }
+  };
+  static Corner next(Corner c) { return c % 3 == 2 ? c - 2 : c + 1; }
+  [[nodiscard]] std::uint32_t vertex_of(Corner c) const { return mesh_.triangles[c / 3][c % 3]; }
+
+  void join_smooth_edges() {
+    std::vector<HalfEdge> edges;
+    edges.reserve(3 * faces_.size());
+    for (Corner c = 0; c < 3 * faces_.size(); ++c) {
+      const std::uint32_t a = vertex_of(c), b = vertex_of(next(c));
+      edges.push_back({{std::min(a, b), std::max(a, b)}, c});
+    }
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+      for (end = i + 1; end < edges.size() && edges[end].ends == edges[i].ends;) ++end;
+      if (end == i + 2) join_across(edges[i].from, edges[i + 1].from);
+    }
+  }
+
+  void join_across(Corner a, Corner b) {
+    static const double least = std::cos(kCreaseDegrees * kPi / 180);
+    if (vertex_of(a) != vertex_of(next(b))) return;  // the faces are turned against each other
+    const Vec3d &m = faces_[a / 3], &n = faces_[b / 3];
+    if (!(dot(m, n) >= least * length(m) * length(n))) return;
+    groups_.join(a, next(b));
+    groups_.join(next(a), b);
+  }
+
+  void number_groups() {
+    std::vector<std::uint32_t> number(3 * faces_.size());
+    out_.triangles.resize(faces_.size());
+    for (Corner c = 0; c < 3 * faces_.size(); ++c) {
+      const Corner first = groups_.of(c);  // the least of its group: numbered already, or now
+      if (first == c) {
+        number[c] = std::uint32_t(out_.vertex.size());
+        out_.vertex.push_back(vertex_of(c));
+      }
+      out_.triangles[c / 3][c % 3] = number[first];
+    }
+  }
+
+  void set_normals() {
+    std::vector<Vec3d> sums(out_.vertex.size(), Vec3d{});
+    for (Corner c = 0; c < 3 * faces_.size(); ++c) {
+      const LatticeCoord at = mesh_.vertices[vertex_of(c)];
+      const Vec3d u = direction(at, mesh_.vertices[vertex_of(next(c))]),
+                  v = direction(at, mesh_.vertices[vertex_of(next(next(c)))]);
+      const double area = length(faces_[c / 3]);
+      if (!(area > 0)) continue;
+      const double weight = std::atan2(area, dot(u, v)) / area;
+      for (std::size_t i = 0; i < 3; ++i) sums[out_.triangles[c / 3][c % 3]][i] += weight * faces_[c / 3][i];
+    }
+    for (const Vec3d& s : sums) {
+      const double l = length(s);
+      out_.normals.push_back(l > 0 ? std::array<float, 3>{float(s[0] / l), float(s[1] / l), float(s[2] / l)}
+                                   : std::array<float, 3>{0, 0, 1});
+    }
+  }
+
+  const LatticeMesh& mesh_;
+  std::vector<Vec3d> faces_;  // normals, twice the area long
+  Groups groups_;
+  ShadedMesh out_;
+};
+
+}  // namespace
+
+ShadedMesh shaded(const LatticeMesh& mesh) {
+  return Shader(mesh).run();
+}
+
+}  // namespace bp

@@ -1,0 +1,324 @@
+#include "io/mesh/lod_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "io/gltf/glb_file.h"
+#include "io/gltf/meshopt_codec.h"
+#include "io/mesh/detail/mesh_writers.h"
+#include "io/mesh/detail/shaded_mesh.h"
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+using Json = GltfOutJson;
+
+constexpr std::int64_t kFloatInteger = std::int64_t(1) << 24;  // float32 holds integers up to this
+constexpr std::int64_t kShortInteger = 32767;
+constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+constexpr int kByte = 5120, kUint8 = 5121, kShort = 5122, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
+
+struct Extent {
+  LatticeCoord lo, hi;
+  explicit Extent(const LatticeMesh& mesh) : lo(mesh.vertices.front()), hi(lo) {
+    for (const LatticeCoord v : mesh.vertices) {
+      for (int i = 0; i < 3; ++i) {
+        lo[i] = std::min(lo[i], v[i]);
+        hi[i] = std::max(hi[i], v[i]);
+      }
+    }
+  }
+  [[nodiscard]] LatticeCoord centre() const {
+    LatticeCoord c;
+    for (int i = 0; i < 3; ++i) c[i] = lo[i] + (hi[i] - lo[i]) / 2;
+    return c;
+  }
+  [[nodiscard]] bool within(LatticeCoord centre, std::int64_t least, std::int64_t most) const {
+    for (int i = 0; i < 3; ++i) {
+      if (lo[i] - centre[i] < least || hi[i] - centre[i] > most) return false;
+    }
+    return true;
+  }
+};
+
+/// Vertices relative to a centre, as the numbers that the file holds: turned to y up, not by a rotation of the node,
+/// since tools make a quaternion of it, which rounds.
+template <class Number>
+struct Positions {
+  std::string bytes;
+  std::array<Number, 3> min, max;
+
+  Positions(const LatticeMesh& mesh, const std::vector<std::uint32_t>& order, LatticeCoord centre, std::size_t stride) {
+    min.fill(std::numeric_limits<Number>::max());
+    max.fill(std::numeric_limits<Number>::lowest());
+    bytes.reserve(order.size() * stride);
+    for (const std::uint32_t i : order) {
+      const LatticeCoord d = to_y_up(mesh.frame.up)(mesh.vertices[i] - centre);
+      const std::array<Number, 3> p{Number(d.x), Number(d.y), Number(d.z)};
+      for (std::size_t k = 0; k < 3; ++k) {
+        min[k] = std::min(min[k], p[k]);
+        max[k] = std::max(max[k], p[k]);
+      }
+      bytes.append(reinterpret_cast<const char*>(p.data()), sizeof p);
+      bytes.resize((bytes.size() + stride - 1) / stride * stride, '\0');
+    }
+  }
+};
+
+/// Of the copies in `order`.
+std::vector<std::array<float, 3>> normals_of(const ShadedMesh& mesh, const std::vector<std::uint32_t>& order,
+                                             UpAxis up) {
+  std::vector<std::array<float, 3>> normals;
+  normals.reserve(order.size());
+  for (const std::uint32_t i : order) normals.push_back(to_y_up(up)(mesh.normals[i]));
+  return normals;
+}
+
+std::string color_bytes(const LatticeMesh& mesh, const std::vector<std::uint32_t>& order) {
+  std::string bytes;
+  bytes.reserve(4 * order.size());
+  for (const std::uint32_t i : order) {
+    for (const std::uint8_t c : linear_bytes(mesh.colors[i])) bytes.push_back(char(c));
+    bytes.push_back(char(255));
+  }
+  return bytes;
+}
+
+class GlbBuilder {
+ public:
+  enum class Data { plain, compressed };
+
+  /// `origin`: is subtracted from all coordinates, and told; exactly, or it throws.
+  explicit GlbBuilder(const std::string& file, Data data, const Vec3d& origin = {})
+      : file_(file), compressed_(data == Data::compressed), origin_(origin) {}
+
+  /// Adds mesh and node; returns the node's number. `origin`: what vertices are relative to; null: the node's own
+  /// translation.
+  std::size_t add(const NamedMesh& named, const LatticeCoord* origin) {
+    const LatticeMesh& mesh = *named.mesh;
+    if (mesh.triangles.empty()) fail(ErrorCode::bad_argument, "{}: the mesh has no triangle", named.name);
+    const Extent extent(mesh);
+    const LatticeCoord centre = origin != nullptr ? *origin : extent.centre();
+    if (!extent.within(centre, -kFloatInteger, kFloatInteger)) {
+      fail(ErrorCode::bad_argument,
+           "{}: a level reaches {} voxels from its centre, and glTF's 32-bit floats hold 2^18 of them exactly; use "
+           "larger voxels",
+           file_, (extent.hi.x - extent.lo.x) / kLatticePerVoxel);
+    }
+    add_mesh(named, extent, centre);
+    doc_["nodes"].push_back(node_of(named, origin != nullptr ? nullptr : &centre));
+    return doc_["nodes"].size() - 1;
+  }
+
+  Json& node(std::size_t i) { return doc_["nodes"][i]; }
+  void use(const char* extension) { used_.push_back(extension); }
+
+  void write(const LatticeMesh& first, const std::vector<std::size_t>& roots, OutputFile& out) {
+    write_glb(document(first, gltf_asset("bplod", first.provenance, first.frame.up, origin_), roots), data_, out);
+  }
+  /// As the content of a tile: extras.up does not ask readers of ours to turn back to the axes of the scene.
+  [[nodiscard]] std::string tile_bytes(const LatticeMesh& mesh, const Vec3d& tile_origin) {
+    Json asset = gltf_asset("bplod", mesh.provenance, UpAxis::y, {});
+    asset["extras"]["tile_origin"] = tile_origin;
+    return glb_head(document(mesh, std::move(asset), {0}), data_.size(), file_) + data_;
+  }
+
+ private:
+  std::string document(const LatticeMesh& first, Json asset, const std::vector<std::size_t>& roots) {
+    Json doc;
+    doc["asset"] = std::move(asset);
+    if (compressed_) {
+      use("EXT_meshopt_compression");
+      if (quantized_) use("KHR_mesh_quantization");
+      doc["extensionsRequired"] = used_;
+    }
+    if (!used_.empty()) doc["extensionsUsed"] = used_;
+    doc["scene"] = 0;
+    doc["scenes"] = Json::array({{{"nodes", roots}}});
+    doc.update(doc_);
+    doc["materials"] = Json::array({gltf_material(!first.colors.empty())});
+    doc["buffers"] = Json::array({{{"byteLength", data_.size()}}});
+    if (compressed_) {  // where the bytes would be if the views were not compressed; nobody reads it
+      doc["buffers"].push_back(
+          {{"byteLength", fallback_}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
+    }
+    return doc.dump();
+  }
+
+  void add_mesh(const NamedMesh& named, const Extent& extent, LatticeCoord centre) {
+    const LatticeMesh& mesh = *named.mesh;
+    ShadedMesh drawn = shaded(mesh);
+    std::vector<std::uint32_t> order = optimize_order(drawn.triangles, drawn.vertex.size());
+    const std::vector<std::array<float, 3>> normals = normals_of(drawn, order, mesh.frame.up);
+    for (std::uint32_t& i : order) i = drawn.vertex[i];
+    std::size_t positions = 0;
+    if (compressed_ && extent.within(centre, -kShortInteger, kShortInteger)) {
+      quantized_ = true;
+      positions = add_positions(Positions<std::int16_t>(mesh, order, centre, 8), 8, kShort, order.size());
+    } else {
+      positions = add_positions(Positions<float>(mesh, order, centre, 12), 12, kFloat, order.size());
+    }
+    Json attributes{{"POSITION", positions}, {"NORMAL", add_normals(normals)}};
+    if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(color_bytes(mesh, order));
+    const std::size_t indices = add_indices(drawn.triangles, order.size());
+    const Json primitive{{"attributes", attributes}, {"indices", indices}, {"material", 0}};
+    doc_["meshes"].push_back({{"name", named.name}, {"primitives", Json::array({primitive})}});
+  }
+
+  template <class Number>
+  std::size_t add_positions(const Positions<Number>& p, std::size_t stride, int type, std::size_t count) {
+    return add_accessor({{"bufferView", add_attributes(p.bytes, stride)},
+                         {"componentType", type},
+                         {"count", count},
+                         {"type", "VEC3"},
+                         {"min", p.min},
+                         {"max", p.max}});
+  }
+
+  std::size_t add_normals(const std::vector<std::array<float, 3>>& normals) {
+    Json accessor{{"bufferView", 0}, {"componentType", kFloat}, {"count", normals.size()}, {"type", "VEC3"}};
+    if (compressed_) {
+      quantized_ = true;
+      accessor["bufferView"] = add_attributes(octahedral(normals), 4, "OCTAHEDRAL");
+      accessor["componentType"] = kByte;
+      accessor["normalized"] = true;
+    } else {
+      const auto* const bytes = reinterpret_cast<const char*>(normals.data());
+      accessor["bufferView"] = add_attributes(std::string(bytes, normals.size() * sizeof normals[0]), 12);
+    }
+    return add_accessor(std::move(accessor));
+  }
+
+  std::size_t add_colors(const std::string& bytes) {
+    return add_accessor({{"bufferView", add_attributes(bytes, 4)},
+                         {"componentType", kUint8},
+                         {"normalized", true},
+                         {"count", bytes.size() / 4},
+                         {"type", "VEC4"}});
+  }
+
+  std::size_t add_attributes(const std::string& bytes, std::size_t stride, const char* filter = nullptr) {
+    Json view = add_view(bytes, stride, "ATTRIBUTES", compressed_ ? encode_attributes(bytes, stride) : bytes);
+    if (compressed_) view["byteStride"] = stride;
+    if (filter != nullptr) view["extensions"]["EXT_meshopt_compression"]["filter"] = filter;
+    view["target"] = kArrayBuffer;
+    doc_["bufferViews"].push_back(view);
+    return doc_["bufferViews"].size() - 1;
+  }
+
+  std::size_t add_indices(const TriangleIndices& triangles, std::size_t vertices) {
+    const bool narrow = vertices < 65535;  // the last one means "restart"
+    std::string bytes;
+    for (const auto& t : triangles) {
+      for (const std::uint32_t v : t) bytes.append(reinterpret_cast<const char*>(&v), narrow ? 2 : 4);
+    }
+    Json view =
+        add_view(bytes, narrow ? 2 : 4, "TRIANGLES", compressed_ ? encode_triangles(triangles, vertices) : bytes);
+    view["target"] = kElementArrayBuffer;
+    doc_["bufferViews"].push_back(view);
+    return add_accessor({{"bufferView", doc_["bufferViews"].size() - 1},
+                         {"componentType", narrow ? kUint16 : kUint32},
+                         {"count", 3 * triangles.size()},
+                         {"type", "SCALAR"}});
+  }
+
+  Json add_view(const std::string& bytes, std::size_t stride, const char* mode, const std::string& stored) {
+    const std::size_t offset = append(stored);
+    if (!compressed_) return {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes.size()}};
+    const Json packed{{"buffer", 0},          {"byteOffset", offset},           {"byteLength", stored.size()},
+                      {"byteStride", stride}, {"count", bytes.size() / stride}, {"mode", mode}};
+    const Json view{{"buffer", 1},
+                    {"byteOffset", fallback_},
+                    {"byteLength", bytes.size()},
+                    {"extensions", {{"EXT_meshopt_compression", packed}}}};
+    fallback_ += (bytes.size() + 3) / 4 * 4;
+    return view;
+  }
+
+  std::size_t append(const std::string& bytes) {
+    const std::size_t offset = data_.size();
+    data_ += bytes;
+    data_.append((4 - data_.size() % 4) % 4, '\0');
+    return offset;
+  }
+
+  std::size_t add_accessor(Json accessor) {
+    doc_["accessors"].push_back(std::move(accessor));
+    return doc_["accessors"].size() - 1;
+  }
+
+  Json node_of(const NamedMesh& named, const LatticeCoord* centre) {
+    const GridFrame& frame = named.mesh->frame;
+    const double u = frame.voxel / kLatticePerVoxel;
+    Json node{{"name", named.name}, {"mesh", doc_["meshes"].size() - 1}};
+    if (centre != nullptr) {
+      node["translation"] = to_y_up(frame.up)(moved_exactly(frame, frame.world(*centre), origin_));
+    }
+    node["scale"] = Json::array({u, u, u});
+    return node;
+  }
+
+  const std::string file_;
+  const bool compressed_;
+  const Vec3d origin_;
+  bool quantized_ = false;
+  std::vector<std::string> used_;
+  Json doc_{{"nodes", Json::array()},
+            {"meshes", Json::array()},
+            {"accessors", Json::array()},
+            {"bufferViews", Json::array()}};
+  std::string data_;
+  std::size_t fallback_ = 0;  // bytes of the views uncompressed
+};
+
+}  // namespace
+
+void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out,
+                   const Vec3d& origin) {
+  GlbBuilder builder(out.name(), GlbBuilder::Data::plain, origin);
+  std::vector<std::size_t> coarser;
+  for (const NamedMesh& level : levels) coarser.push_back(builder.add(level, nullptr));
+  coarser.erase(coarser.begin());
+  if (!coarser.empty()) {
+    builder.use("MSFT_lod");
+    builder.node(0)["extensions"] = {{"MSFT_lod", {{"ids", coarser}}}};
+    builder.node(0)["extras"] = {{"MSFT_screencoverage", std::vector<double>(coverage.begin(), coverage.end())}};
+  }
+  builder.write(*levels.front().mesh, {0}, out);
+}
+
+void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const Vec3d& origin) {
+  GlbBuilder builder(out.name(), GlbBuilder::Data::plain, origin);
+  std::vector<std::size_t> roots;
+  for (const NamedMesh& part : parts) roots.push_back(builder.add(part, nullptr));
+  builder.write(*parts.front().mesh, roots, out);
+}
+
+std::string tile_glb(const NamedMesh& tile, LatticeCoord origin) {
+  GlbBuilder builder(tile.name + ".glb", GlbBuilder::Data::compressed);
+  builder.add(tile, &origin);
+  return builder.tile_bytes(*tile.mesh, tile.mesh->frame.world(origin));
+}
+
+LatticeCoord lattice_point(const GridFrame& frame, const Vec3d& p) {
+  LatticeCoord c;
+  for (int i = 0; i < 3; ++i) {
+    const auto k = std::size_t(i);
+    c[i] = std::int64_t(std::nearbyint(p[k] / (frame.voxel / kLatticePerVoxel))) - frame.origin[k] * kLatticePerVoxel;
+  }
+  if (frame.world(c) != p) fail(ErrorCode::failed, "({}, {}, {}) is no point of the lattice", p[0], p[1], p[2]);
+  return c;
+}
+
+double coverage_at_one_pixel(double diameter, double error) {
+  constexpr double kWidth = 1920, kHeight = 1080, kPi = 3.14159265358979323846;
+  if (!(error > 0)) return 1;
+  const double pixels = diameter / error;
+  return std::min(1.0, kPi / 4 * pixels * pixels / (kWidth * kHeight));
+}
+
+}  // namespace bp

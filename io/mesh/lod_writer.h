@@ -1,0 +1,48 @@
+#pragma once
+#include <span>
+#include <string>
+
+#include "io/files/file.h"
+#include "lib/mesh/lattice_mesh.h"
+
+/// Levels of detail as GLB, without loss: vertices are lattice integers, the node holds unit and offset, so a reader
+/// that works in double finds frame.world(v) exactly (mesh_writer.h). Same meshes, same bytes; the caller commits.
+/// Vertices have normals and are split at creases (shaded_mesh.h), and there is one matte material, so that viewers
+/// show the form without set-up. A mesh with colours gets them as COLOR_0: 8 bits a channel, normalized, linear light
+/// as glTF wants it. `origin`, scene units, is subtracted from every vertex and told in asset.extras.origin.
+/// All throw bad_argument if a mesh has no triangle or spans more than float32 holds exactly (2^19 voxels), or if a
+/// difference to `origin` is no exact double.
+namespace bp {
+
+struct NamedMesh {
+  std::string name;  ///< of its node and mesh
+  const LatticeMesh* mesh = nullptr;
+};
+
+/// All levels, finest first, in one file: the finest one's node is the scene's first and only one, and carries MSFT_lod
+/// (Microsoft, glTF extension registry) with the others and their screen coverages; readers without it see the finest,
+/// if they read what the scene names (Blender imports every node).
+///   coverage  one for each level: the least share of the screen's area, covered by the level's bounding sphere, at
+///   which
+///             it is drawn; falling
+void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out,
+                   const Vec3d& origin = {});
+
+/// All meshes as nodes of one scene.
+void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const Vec3d& origin = {});
+
+/// The content of a tile, as the bytes of a GLB: EXT_meshopt_compression and KHR_mesh_quantization, with 16-bit
+/// integers where they hold the mesh, else float32; normals are octahedral, 8 bits. The node has a scale and no offset:
+/// vertices are relative to `origin` (asset.extras.tile_origin), which the tile's transform gives back, in double. A
+/// z-up mesh is turned to glTF's y up, which 3D Tiles turns back; unlike in other files of ours, extras.up does not ask
+/// a reader to.
+[[nodiscard]] std::string tile_glb(const NamedMesh& tile, LatticeCoord origin);
+
+/// The lattice point of `frame` that lies at `p`. Throws `failed` if there is none.
+[[nodiscard]] LatticeCoord lattice_point(const GridFrame& frame, const Vec3d& p);
+
+/// What the share of a 1920 x 1080 screen is that a sphere covers when a length of `error` inside it, `diameter` being
+/// its own, spans one pixel; at most 1.
+[[nodiscard]] double coverage_at_one_pixel(double diameter, double error);
+
+}  // namespace bp

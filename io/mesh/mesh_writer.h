@@ -1,0 +1,39 @@
+#pragma once
+#include <string>
+
+#include "io/files/file.h"
+#include "lib/mesh/lattice_mesh.h"
+
+/// Meshes to files, without loss: read back, each vertex is exactly frame.world(v) - origin, or the write is refused.
+///   .glb .gltf  POSITION float32 holds lattice integers relative to a whole-number centre, the node's scale is the
+///               lattice unit, its translation a whole multiple of it: integer * scale + translation is exact in
+///               double. A frame that is not y-up gets a root node that turns it (lib/core/up_axis.h); asset.extras.up
+///               tells which.
+///   .ply        binary little endian, doubles    .obj  decimals that read back to the same double
+///   .obj and .ply hold the quads of mesh.quads as such, after the triangles that are left; the others hold triangles
+///   .stl        binary, float32: only if each coordinate is a float
+namespace bp {
+
+enum class MeshFormat { glb, gltf, ply, obj, stl };
+
+struct MeshWriteOptions {
+  Vec3d origin{};        ///< scene units, subtracted from each vertex; each difference must be an exact double
+  bool normals = false;  ///< write unit vertex normals, weighted by angle; STL has none
+};
+
+/// Format by extension, case ignored. Throws bad_argument for any other.
+[[nodiscard]] MeshFormat mesh_format_of(const std::string& path);
+
+/// Format by its name, case ignored: glb gltf ply obj stl. Throws bad_argument for any other.
+[[nodiscard]] MeshFormat mesh_format_named(const std::string& name);
+
+/// Before there is a mesh: throws bad_argument, naming an origin that fits, if subtracting `origin` from lattice points
+/// of `box` would round.
+void check_origin(const GridFrame& frame, const VoxelBox& box, const Vec3d& origin);
+
+/// Writes `mesh`; the caller commits `out`. Same mesh, same bytes.
+/// Throws bad_argument if the mesh has no triangle, or if the format cannot hold its coordinates exactly; the message
+/// names another format or a fitting origin. Nothing is written then.
+void write_mesh(const LatticeMesh& mesh, OutputFile& out, MeshFormat format, const MeshWriteOptions& options = {});
+
+}  // namespace bp

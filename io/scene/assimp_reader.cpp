@@ -1,0 +1,334 @@
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/material.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/IOStream.hpp>
+#include <assimp/Importer.hpp>
+#include <cstring>
+#include <new>
+#include <utility>
+
+#include "io/files/kept_files.h"
+#include "io/scene/detail/child_process.h"
+#include "io/scene/detail/foreign_format.h"
+#include "io/scene/instanced_scene.h"
+#include "lib/core/error.h"
+
+// Every format that has no reader of its own, through Assimp. Its importers are not made for broken files (they crash,
+// loop, or take all memory), so they run in a child process. The child leaves each mesh once in a scratch file, as
+// packed float32 positions (Assimp's own precision) and triangles, and sends back the places where the meshes stand.
+// Its memory goes with it; from there on the scene is streamed as glTF is. No step of postprocessing: polygons become
+// fans as everywhere, points and lines are dropped, and node transforms are composed in double.
+
+namespace bp {
+
+namespace {
+
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t(400) << 20;
+constexpr std::uint64_t kMaxMemoryBytes = std::uint64_t(16) << 30;
+
+std::string remedy_for(const std::string& name) {
+  const std::string way = foreign_way(name);
+  return way.empty() ? "convert it to GLB, PLY or OBJ" : way;
+}
+
+constexpr std::uint64_t kAnswerCopies = 4;  // of what the child sends, and what is made of it
+
+/// Assimp takes some 20 times the size of a file; this allows twice as much. Of what a document may take, the answer
+/// gets a quarter once the child is gone.
+ChildLimits limits_for(std::uint64_t file_bytes, const DocumentBudget& budget) {
+  ChildLimits limits;
+  limits.memory_bytes = std::min(kMaxMemoryBytes, (std::uint64_t(1) << 30) + 40 * file_bytes);
+  limits.cpu_seconds = 5 + file_bytes / 50000;
+  limits.wall_seconds = 600 + 4 * limits.cpu_seconds;  // a machine may have other things to do
+  if (budget.bytes == 0) return limits;
+  limits.memory_bytes = std::min(limits.memory_bytes, budget.bytes);
+  limits.answer_bytes = budget.bytes / kAnswerCopies;
+  return limits;
+}
+
+[[noreturn]] void fail_memory(const std::string& name, const std::string& what, std::uint64_t file_bytes,
+                              const ChildLimits& limits, const DocumentBudget& budget) {
+  if (budget.bytes == 0 || limits.memory_bytes < budget.bytes) {
+    fail(ErrorCode::bad_input, "{}: {} wants more than {} MiB, too much for a file of this size; repair it, or {}",
+         name, what, limits.memory_bytes >> 20, remedy_for(name));
+  }
+  const std::uint64_t wanted = std::max(2 * limits.memory_bytes, 4 * file_bytes);  // at least
+  fail(ErrorCode::out_of_resource,
+       "{}: {} takes more than the {} MiB that --memory leaves for it; raise --memory{}, or {}", name, what,
+       limits.memory_bytes >> 20, budget.enough_for ? budget.enough_for(wanted - budget.bytes) : "", remedy_for(name));
+}
+
+// --- What the child sends: plain records, counted
+// ----------------------------------------------------------------------
+
+struct MeshRecord {
+  std::uint64_t positions = 0, vertices = 0, indices = 0, triangles = 0;  // addresses in the scratch file, and counts
+  std::uint64_t colors = Accessor::kZeros;                                // address; kZeros: the vertices have none
+  std::array<double, 3> base_color{1, 1, 1};
+};
+struct NodeRecord {
+  Affine transform;
+  std::uint64_t mesh = 0;
+};
+struct Summary {
+  std::uint64_t bytes = 0, bad_faces = 0;  // of the scratch file; faces whose corners do not exist
+  std::vector<MeshRecord> meshes;
+  std::vector<NodeRecord> nodes;
+  std::string parts;  // names of the other files that were read, each with a zero after it
+};
+
+template <class T>
+void append(std::string& to, const T* from, std::size_t n) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  to.append(reinterpret_cast<const char*>(from), n * sizeof(T));
+}
+
+std::string packed(const Summary& s) {
+  const std::uint64_t counts[] = {s.bytes, s.bad_faces, s.meshes.size(), s.nodes.size(), s.parts.size()};
+  std::string bytes;
+  append(bytes, counts, 5);
+  append(bytes, s.meshes.data(), s.meshes.size());
+  append(bytes, s.nodes.data(), s.nodes.size());
+  return bytes + s.parts;
+}
+
+Summary unpacked(const std::string& bytes, const std::string& name) {
+  std::uint64_t counts[5] = {};
+  if (bytes.size() >= sizeof counts) std::memcpy(counts, bytes.data(), sizeof counts);
+  if (bytes.size() != sizeof counts + counts[2] * sizeof(MeshRecord) + counts[3] * sizeof(NodeRecord) + counts[4])
+    fail(ErrorCode::failed, "{}: the importer's process sent a garbled answer", name);
+  Summary s{counts[0], counts[1], std::vector<MeshRecord>(counts[2]), std::vector<NodeRecord>(counts[3]),
+            bytes.substr(bytes.size() - counts[4])};
+  const char* const meshes = bytes.data() + sizeof counts;
+  if (!s.meshes.empty()) std::memcpy(s.meshes.data(), meshes, counts[2] * sizeof(MeshRecord));
+  if (!s.nodes.empty())
+    std::memcpy(static_cast<void*>(s.nodes.data()), meshes + counts[2] * sizeof(MeshRecord),
+                counts[3] * sizeof(NodeRecord));
+  return s;
+}
+
+// --- In the child
+// --------------------------------------------------------------------------------------------------------
+
+class SceneStream final : public Assimp::IOStream {
+ public:
+  explicit SceneStream(SceneFilePtr file) : file_(std::move(file)) {}
+  std::size_t Read(void* buffer, std::size_t size, std::size_t count) override {
+    if (size == 0) return 0;
+    const std::size_t got = file_->read_at(at_, {static_cast<std::byte*>(buffer), size * count});
+    at_ += got;
+    return got / size;
+  }
+  std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
+  aiReturn Seek(std::size_t offset, aiOrigin origin) override {
+    const std::uint64_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : file_->size();
+    if (from + offset > file_->size()) return aiReturn_FAILURE;
+    at_ = from + offset;
+    return aiReturn_SUCCESS;
+  }
+  [[nodiscard]] std::size_t Tell() const override { return std::size_t(at_); }
+  [[nodiscard]] std::size_t FileSize() const override { return std::size_t(file_->size()); }
+  void Flush() override {}
+
+ private:
+  SceneFilePtr file_;
+  std::uint64_t at_ = 0;
+};
+
+/// The scene under the name that Assimp is given; other names (materials, parts) are files beside it, and are noted.
+class SceneFileSystem final : public Assimp::DefaultIOSystem {
+ public:
+  SceneFileSystem(SceneFilePtr file, std::string name, std::string& parts)
+      : file_(std::move(file)), name_(std::move(name)), parts_(parts) {}
+  bool Exists(const char* name) const override { return name == name_ || DefaultIOSystem::Exists(name); }
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    if (name == name_) return new SceneStream(file_);
+    Assimp::IOStream* const part = DefaultIOSystem::Open(name, mode);
+    if (part != nullptr) parts_.append(name).push_back('\0');
+    return part;
+  }
+
+ private:
+  SceneFilePtr file_;
+  std::string name_;
+  std::string& parts_;
+};
+
+class SceneUnloader {
+ public:
+  SceneUnloader(ScratchFile& scratch, const SceneOptions& options)
+      : scratch_(scratch), colors_(options.colors), walls_only_(options.walls_only) {}
+  Summary unload(const aiScene& scene) {
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+      add_mesh(*scene.mMeshes[i], walls_only_ && see_through(*scene.mMeshes[i], scene));
+      if (colors_) add_colors(*scene.mMeshes[i], scene);
+    }
+    if (scene.mRootNode != nullptr) add_nodes(*scene.mRootNode);
+    summary_.bytes = scratch_.size();
+    return std::move(summary_);
+  }
+
+ private:
+  struct Pending {
+    const aiNode* node;
+    Affine parent;
+  };
+  static Affine affine(const aiMatrix4x4& m) {
+    return {{{{m.a1, m.a2, m.a3, m.a4}, {m.b1, m.b2, m.b3, m.b4}, {m.c1, m.c2, m.c3, m.c4}}}};
+  }
+  static bool see_through(const aiMesh& mesh, const aiScene& scene);
+  void add_mesh(const aiMesh& mesh, bool passed_over);
+  void add_colors(const aiMesh& mesh, const aiScene& scene);
+  void add_face(const aiFace& face, unsigned vertices, std::vector<std::uint32_t>& indices);
+  void add_nodes(const aiNode& root);
+
+  ScratchFile& scratch_;
+  const bool colors_, walls_only_;
+  Summary summary_;
+};
+
+bool SceneUnloader::see_through(const aiMesh& mesh, const aiScene& scene) {
+  float opacity = 1;
+  return mesh.mMaterialIndex < scene.mNumMaterials &&
+         scene.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS && opacity < 1;
+}
+
+// One that is passed over keeps its number, and has no triangles.
+void SceneUnloader::add_mesh(const aiMesh& mesh, bool passed_over) {
+  static_assert(sizeof(aiVector3D) == 3 * sizeof(float), "positions are written as they lie");
+  MeshRecord record;
+  record.vertices = mesh.mNumVertices;
+  record.positions = scratch_.append(std::as_bytes(std::span(mesh.mVertices, mesh.mNumVertices)));
+  std::vector<std::uint32_t> indices;
+  for (unsigned i = 0; i < mesh.mNumFaces && !passed_over; ++i) add_face(mesh.mFaces[i], mesh.mNumVertices, indices);
+  record.indices = scratch_.append(std::as_bytes(std::span(indices)));
+  record.triangles = indices.size() / 3;
+  summary_.meshes.push_back(record);
+}
+
+// Of the mesh that was added last. Where a format knows no materials, Assimp invents a grey one.
+void SceneUnloader::add_colors(const aiMesh& mesh, const aiScene& scene) {
+  static_assert(sizeof(aiColor4D) == 4 * sizeof(float), "colours are written as they lie");
+  MeshRecord& record = summary_.meshes.back();
+  if (mesh.HasVertexColors(0))
+    record.colors = scratch_.append(std::as_bytes(std::span(mesh.mColors[0], mesh.mNumVertices)));
+  if (mesh.mMaterialIndex >= scene.mNumMaterials) return;
+  const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
+  aiColor3D c(1, 1, 1);
+  if (std::strcmp(material.GetName().C_Str(), AI_DEFAULT_MATERIAL_NAME) == 0) return;
+  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, c) == aiReturn_SUCCESS) record.base_color = {c.r, c.g, c.b};
+}
+
+// Points and lines are no bad faces: a drawing is full of them.
+void SceneUnloader::add_face(const aiFace& face, unsigned vertices, std::vector<std::uint32_t>& indices) {
+  if (face.mNumIndices < 3) return;
+  if (std::any_of(face.mIndices, face.mIndices + face.mNumIndices, [&](unsigned v) { return v >= vertices; })) {
+    ++summary_.bad_faces;
+    return;
+  }
+  for (unsigned k = 2; k < face.mNumIndices; ++k)
+    indices.insert(indices.end(), {face.mIndices[0], face.mIndices[k - 1], face.mIndices[k]});
+}
+
+void SceneUnloader::add_nodes(const aiNode& root) {
+  std::vector<Pending> stack{{&root, Affine()}};
+  while (!stack.empty()) {
+    const Pending next = stack.back();
+    stack.pop_back();
+    const Affine transform = next.parent * affine(next.node->mTransformation);
+    for (unsigned k = 0; k < next.node->mNumMeshes; ++k)
+      summary_.nodes.push_back({transform, std::uint64_t(next.node->mMeshes[k])});
+    for (unsigned k = next.node->mNumChildren; k-- > 0;) stack.push_back({next.node->mChildren[k], transform});
+  }
+}
+
+std::string import(const SceneFilePtr& file, const std::string& extension, ScratchFile& scratch,
+                   const SceneOptions& options) {
+  const std::string path = file->path().empty() ? "scene" : file->path();
+  const std::string suffix = "." + extension;
+  const bool named = path.size() > suffix.size() &&
+                     std::equal(suffix.rbegin(), suffix.rend(), path.rbegin(),
+                                [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? char(b + 32) : b); });
+  const std::string name = named ? path : path + suffix;
+  std::string parts;  // outlives the importer
+  Assimp::Importer importer;
+  importer.SetIOHandler(new SceneFileSystem(file, name, parts));
+  const aiScene* const scene = importer.ReadFile(name, 0);
+  if (scene == nullptr) {
+    if (std::strstr(importer.GetErrorString(), "bad_alloc") != nullptr) throw std::bad_alloc();  // it was caught
+    fail(ErrorCode::bad_input, "{}: cannot be read: {}; repair it, or {}", file->name(), importer.GetErrorString(),
+         remedy_for(file->name()));
+  }
+  Summary summary = SceneUnloader(scratch, options).unload(*scene);
+  summary.parts = std::move(parts);
+  return packed(summary);
+}
+
+// --- In the parent
+// -------------------------------------------------------------------------------------------------------
+
+Primitive primitive_of(const MeshRecord& mesh) {
+  Primitive p;
+  p.positions.components = 3;
+  p.positions.count = mesh.vertices;
+  p.positions.address = mesh.positions;
+  p.positions.stride = 3 * sizeof(float);
+  p.indices = Accessor();
+  p.indices->type = ComponentType::u32;
+  p.indices->count = 3 * mesh.triangles;
+  p.indices->address = mesh.indices;
+  p.indices->stride = sizeof(std::uint32_t);
+  p.base_color = mesh.base_color;
+  p.srgb = true;
+  if (mesh.colors != Accessor::kZeros) {
+    p.colors = Accessor();
+    p.colors->components = 4;
+    p.colors->count = mesh.vertices;
+    p.colors->address = mesh.colors;
+    p.colors->stride = 4 * sizeof(float);
+  }
+  return p;
+}
+
+InstancedScene scene_of(const Summary& summary, SceneFilePtr bytes) {
+  InstancedScene scene;
+  scene.bytes = std::move(bytes);
+  scene.bad_faces = summary.bad_faces;
+  for (const MeshRecord& mesh : summary.meshes) scene.primitives.push_back(primitive_of(mesh));
+  for (const NodeRecord& node : summary.nodes) {
+    if (node.mesh < summary.meshes.size() && summary.meshes[node.mesh].triangles > 0)
+      scene.nodes.push_back({node.transform, std::uint32_t(node.mesh), std::uint32_t(node.mesh + 1), {}});
+  }
+  return scene;
+}
+
+}  // namespace
+
+bool assimp_reads(const std::string& extension) {
+  return !extension.empty() && Assimp::Importer().IsExtensionSupported("." + extension);
+}
+
+RawSourcePtr open_with_assimp(SceneFilePtr file, const std::string& extension, const SceneOptions& options) {
+  if (file->size() > kMaxFileBytes) {
+    fail(ErrorCode::bad_input, "{}: has {} MiB, and .{} files are read only up to {} MiB; {}", file->name(),
+         file->size() >> 20, extension, kMaxFileBytes >> 20, remedy_for(file->name()));
+  }
+  const auto scratch = std::make_shared<ScratchFile>(temp_dir_of(options));
+  const ChildLimits limits = limits_for(file->size(), options.document);
+  const std::string importer = "the importer of ." + extension + " files";
+  std::string answer;
+  try {
+    answer = run_in_child(file->name(), importer, "repair it, or " + remedy_for(file->name()), limits,
+                          [&] { return import(file, extension, *scratch, options); });
+  } catch (const ChildOutOfMemory&) {
+    fail_memory(file->name(), importer, file->size(), limits, options.document);
+  }
+  const Summary summary = unpacked(std::exchange(answer, {}), file->name());
+  for (std::size_t at = 0; at < summary.parts.size(); at = summary.parts.find('\0', at) + 1)
+    keep_file(summary.parts.c_str() + at);
+  return stream_instances(scene_of(summary, view_of(scratch, file->name(), summary.bytes)), options);
+}
+
+}  // namespace bp

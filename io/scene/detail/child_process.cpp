@@ -1,0 +1,159 @@
+#include "io/scene/detail/child_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+// What the child sends back: a tag, then the result, or the code and the text of an error.
+constexpr char kResult = 'R', kError = 'E', kFailure = 'F', kMemory = 'M';
+
+std::uint64_t address_space() {
+  unsigned long pages = 0;
+  if (std::FILE* const f = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(f, "%lu", &pages) != 1) pages = 0;
+    std::fclose(f);
+  }
+  return std::uint64_t(pages) * std::uint64_t(::sysconf(_SC_PAGESIZE));
+}
+
+/// `kill`: what the limit becomes once it has been told.
+void limit(int resource, std::uint64_t value, std::uint64_t kill = 0) {
+  struct rlimit r {};
+  if (::getrlimit(__rlimit_resource_t(resource), &r) != 0) return;
+  kill = std::max(kill, value);
+  if (r.rlim_max != RLIM_INFINITY) kill = std::min<std::uint64_t>(kill, r.rlim_max);
+  r.rlim_max = rlim_t(kill);
+  r.rlim_cur = rlim_t(std::min(value, kill));
+  ::setrlimit(__rlimit_resource_t(resource), &r);
+}
+
+void confine(const ChildLimits& limits) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // do not outlive a parent that was killed
+  for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGTERM, SIGINT, SIGHUP, SIGPIPE})
+    std::signal(signal, SIG_DFL);
+  const int nowhere = ::open("/dev/null", O_RDWR);
+  if (nowhere >= 0) {
+    ::dup2(nowhere, 1);
+    ::dup2(nowhere, 2);
+  }
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, limits.cpu_seconds, limits.cpu_seconds + 1);
+  const std::uint64_t now = address_space();
+  if (now > 0) limit(RLIMIT_AS, now + limits.memory_bytes);
+}
+
+std::string message_of(const std::function<std::string()>& work) {
+  try {
+    return kResult + work();
+  } catch (const Error& e) {
+    return std::string{kError, char(e.code())} + e.what();
+  } catch (const std::bad_alloc&) {
+    return std::string(1, kMemory);
+  } catch (const std::exception& e) {
+    return std::string(1, kFailure) + "failed: " + e.what();
+  } catch (...) {
+    return std::string(1, kFailure) + "failed";
+  }
+}
+
+[[noreturn]] void run_child(int out, const ChildLimits& limits, const std::function<std::string()>& work) {
+  confine(limits);
+  const std::string message = message_of(work);
+  std::size_t done = 0;
+  while (done < message.size()) {
+    const ssize_t n = ::write(out, message.data() + done, message.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) ::_exit(1);
+    done += std::size_t(n);
+  }
+  ::_exit(0);  // no destructors: they belong to the parent
+}
+
+enum class Reception { complete, late, large };
+
+/// All that comes until the child closes its end, the time is over, or more has come than it may send.
+Reception receive(int in, const ChildLimits& limits, std::string& message) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::seconds(limits.wall_seconds);
+  char block[65536];
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
+    if (left <= 0) return Reception::late;
+    struct pollfd waiting {
+      in, POLLIN, 0
+    };
+    const int ready = ::poll(&waiting, 1, int(std::min<long long>(left, 1 << 20)));
+    if (ready <= 0) continue;  // interrupted or too early: look at the clock again
+    const ssize_t n = ::read(in, block, sizeof block);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return Reception::complete;
+    if (message.size() + std::size_t(n) > limits.answer_bytes) return Reception::large;
+    message.append(block, std::size_t(n));
+  }
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+std::string why_killed(int signal, const ChildLimits& limits) {
+  if (signal == SIGXCPU)
+    return fmt::format("was still busy after {} seconds, longer than files of this size take, and was stopped",
+                       limits.cpu_seconds);
+  if (signal == SIGKILL) return "took too long or too much memory and was stopped";
+  return fmt::format("crashed (signal {})", signal);
+}
+
+}  // namespace
+
+std::string run_in_child(const std::string& name, const std::string& what, const std::string& remedy,
+                         const ChildLimits& limits, const std::function<std::string()>& work) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0)
+    fail(ErrorCode::out_of_resource, "{}: cannot make a pipe: {}", name, std::strerror(errno));
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(ends[0]);
+    run_child(ends[1], limits, work);
+  }
+  const int error = errno;
+  ::close(ends[1]);
+  std::string message;
+  const Reception reception = child > 0 ? receive(ends[0], limits, message) : Reception::late;
+  ::close(ends[0]);
+  if (child < 0) fail(ErrorCode::out_of_resource, "{}: cannot start a process: {}", name, std::strerror(error));
+  if (reception != Reception::complete) ::kill(child, SIGKILL);
+  const int status = wait_for(child);
+  if (reception == Reception::large || (message.size() == 1 && message[0] == kMemory)) throw ChildOutOfMemory();
+  if (WIFSIGNALED(status))
+    fail(ErrorCode::bad_input, "{}: {} {}; {}", name, what, why_killed(WTERMSIG(status), limits), remedy);
+  if (message.size() >= 2 && message[0] == kError) throw Error(ErrorCode(message[1]), message.substr(2));
+  if (message.empty() || message[0] != kResult) {
+    fail(ErrorCode::bad_input, "{}: {} {}; {}", name, what, message.empty() ? "ended early" : message.substr(1),
+         remedy);
+  }
+  return message.substr(1);
+}
+
+}  // namespace bp

@@ -1,0 +1,36 @@
+#pragma once
+#include "io/scene/detail/text_scanner.h"
+
+namespace bp {
+
+enum class PlyType : std::uint8_t { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
+[[nodiscard]] std::size_t bytes_of(PlyType type);
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::f32;
+  bool is_list = false;
+  PlyType count_type = PlyType::u8;  ///< of a list
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+
+  [[nodiscard]] bool has_lists() const;
+  [[nodiscard]] std::uint64_t fixed_bytes() const;                        ///< of a binary record, lists left out
+  [[nodiscard]] std::size_t index_of(const std::string& property) const;  ///< properties.size() if there is none
+};
+
+struct PlyHeader {
+  enum class Format { ascii, little_endian, big_endian };
+  Format format = Format::ascii;
+  std::vector<PlyElement> elements;
+  TextScanner::Mark data;  ///< first byte behind the header
+};
+
+/// Throws bad_input with the line of the header that is wrong.
+[[nodiscard]] PlyHeader read_ply_header(SceneFilePtr file);
+
+}  // namespace bp

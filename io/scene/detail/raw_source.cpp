@@ -1,0 +1,98 @@
+#include "io/scene/detail/raw_source.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "lib/core/error.h"
+
+namespace bp {
+
+bool PolygonSource::next(RawBatch& batch) {
+  batch.bad_faces = 0;
+  batch.inner_edges.clear();
+  return read(batch.triangles, batch.colored ? &batch.colors : nullptr, &batch.inner_edges);
+}
+
+bool PolygonSource::read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors,
+                         std::vector<std::uint8_t>* inner_edges) {
+  out.clear();
+  if (colors != nullptr) colors->clear();
+  while (out.size() < kBatch) {
+    if (fan_ == 0) {
+      if (!next_face(corners_)) break;
+      if (!good_face()) {
+        ++bad_faces_;
+        continue;
+      }
+      first_ = vertex(corners_[0]);
+      previous_ = vertex(corners_[1]);
+      fan_ = 2;
+    }
+    const Vec3d next = vertex(corners_[fan_]);
+    out.push_back({first_, previous_, next});
+    if (colors != nullptr)
+      colors->push_back({corner_color(corners_[0]), corner_color(corners_[fan_ - 1]), corner_color(corners_[fan_])});
+    if (inner_edges != nullptr && corners_.size() > 3) {
+      inner_edges->resize(out.size());
+      inner_edges->back() = inner_edges_of_fan(fan_ - 2, corners_.size() - 2);
+    }
+    previous_ = next;
+    if (++fan_ == corners_.size()) fan_ = 0;
+  }
+  return !out.empty();
+}
+
+void PolygonSource::rewind() {
+  fan_ = 0;
+  bad_faces_ = 0;
+  rewind_faces();
+}
+
+bool PolygonSource::good_face() const {
+  if (corners_.size() < 3) return false;
+  const std::uint64_t n = vertex_count();
+  for (const std::uint64_t corner : corners_) {
+    if (corner >= n) return false;
+  }
+  return true;
+}
+
+void normalize(TriangleD& t) {
+  for (Vec3d& p : t) {
+    for (double& c : p) {
+      if (std::abs(c) < 1e-90) c = 0;
+    }
+  }
+}
+
+void drop_signs_of_zeros(TriangleD& t) {
+  for (Vec3d& p : t) {
+    for (double& c : p) c += 0.0;
+  }
+}
+
+bool is_finite(const TriangleD& t) {
+  bool finite = true;
+  for (const Vec3d& p : t) {
+    for (const double c : p) finite &= std::abs(c) <= std::numeric_limits<double>::max();
+  }
+  return finite;
+}
+
+void check_document(const SceneOptions& options, const std::string& name, const char* what, std::uint64_t bytes,
+                    std::uint64_t left, std::uint64_t per_missing) {
+  if (options.document.bytes == 0 || bytes <= left) return;
+  fail(ErrorCode::out_of_resource,
+       "{}: {} takes {} MiB, and --memory leaves {} MiB for it; raise --memory{}, or split it", name, what,
+       (bytes >> 20) + 1, left >> 20,
+       options.document.enough_for ? options.document.enough_for((bytes - left) * per_missing) : "");
+}
+
+std::string temp_dir_of(const SceneOptions& options) {
+  if (!options.temp_dir.empty()) return options.temp_dir;
+  const char* const set = std::getenv("TMPDIR");
+  return set != nullptr && *set != 0 ? set : "/tmp";
+}
+
+}  // namespace bp

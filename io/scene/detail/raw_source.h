@@ -1,0 +1,117 @@
+#pragma once
+#include "io/scene/scene_file.h"
+#include "io/scene/scene_reader.h"
+
+/// What each format implements: triangles as they stand in the file, nothing dropped but faces that name no corners.
+namespace bp {
+
+/// Triangles on their way from a file.
+struct RawBatch {
+  bool colored = false;  ///< asked for
+  std::vector<TriangleD> triangles;
+  std::vector<TriangleColors> colors;     ///< if asked for; fewer than triangles: all are white
+  std::vector<std::uint8_t> inner_edges;  ///< TriangleSource::read_faces(); fewer than triangles: the rest has none
+  std::vector<std::byte> bytes;           ///< that complete() will make them of
+  std::uint64_t records = 0, count = 0;   ///< faces in `bytes`, and their triangles if all are good
+  std::uint64_t bad_faces = 0;            ///< met by complete()
+};
+
+class RawSource {
+ public:
+  static constexpr std::size_t kBatch = 1 << 14;  ///< triangles per read(), about
+
+  virtual ~RawSource() = default;
+  /// Replaces `out` by the next triangles; false, and `out` empty, at the end.
+  virtual bool read(std::vector<TriangleD>& out) = 0;
+  /// As TriangleSource::read_colored() and has_colors().
+  virtual bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) {
+    const bool more = read(out);
+    colors.assign(out.size(), TriangleColors{});
+    return more;
+  }
+  [[nodiscard]] virtual bool has_colors() const { return false; }
+  /// The same in two steps, so that many batches are decoded at once: next() fetches one, in order, on one thread at a
+  /// time; complete() makes its triangles, on any thread. A batch may turn out to hold no triangle.
+  virtual bool next(RawBatch& batch) {
+    batch.bad_faces = 0;
+    return batch.colored ? read_colored(batch.triangles, batch.colors) : read(batch.triangles);
+  }
+  virtual void complete(RawBatch&) const {}
+  virtual void rewind() = 0;
+  [[nodiscard]] virtual std::uint64_t instances() const { return 1; }
+  [[nodiscard]] virtual std::optional<UpAxis> up() const { return {}; }  ///< TriangleSource::up()
+  [[nodiscard]] virtual std::size_t levels() const { return 1; }    ///< of the file: SceneOptions::level is one of them
+  [[nodiscard]] virtual std::uint64_t points() const { return 0; }  ///< vertices read so far, where they are counted
+  [[nodiscard]] std::uint64_t bad_faces() const {
+    return bad_faces_;
+  }  ///< since the last rewind; not those of complete()
+
+ protected:
+  std::uint64_t bad_faces_ = 0;
+};
+using RawSourcePtr = std::unique_ptr<RawSource>;
+
+/// Formats whose faces are lists of vertex numbers. A format gives faces and vertices; fans and checks are here.
+class PolygonSource : public RawSource {
+ public:
+  static constexpr std::size_t kMaxCorners = std::size_t(1) << 20;  ///< of a face; more is taken for a broken file
+
+  bool read(std::vector<TriangleD>& out) final { return read(out, nullptr); }
+  bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) final {
+    return read(out, &colors);
+  }
+  bool next(RawBatch& batch) final;
+  void rewind() final;
+  [[nodiscard]] std::uint64_t points() const final { return vertex_count(); }
+
+ protected:
+  static constexpr std::uint64_t kNoVertex = ~std::uint64_t(0);
+
+  /// Replaces `corners` by those of the next face (kNoVertex for one that cannot exist); false at the end.
+  virtual bool next_face(std::vector<std::uint64_t>& corners) = 0;
+  [[nodiscard]] virtual std::uint64_t vertex_count() const = 0;
+  [[nodiscard]] virtual Vec3d vertex(std::uint64_t i) = 0;
+  /// Of a corner of the face that next_face() gave last.
+  [[nodiscard]] virtual LinearColor corner_color(std::uint64_t) { return kWhite; }
+  virtual void rewind_faces() = 0;
+
+ private:
+  bool read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors,
+            std::vector<std::uint8_t>* inner_edges = nullptr);
+  [[nodiscard]] bool good_face() const;
+
+  std::vector<std::uint64_t> corners_;
+  std::size_t fan_ = 0;  // next corner to close a triangle of the fan; 0: no face is open
+  Vec3d first_{}, previous_{};
+};
+
+/// Of triangle i of the n that a polygon is cut into as a fan.
+[[nodiscard]] inline std::uint8_t inner_edges_of_fan(std::size_t i, std::size_t n) {
+  return std::uint8_t((i > 0 ? 1 : 0) | (i + 1 < n ? 4 : 0));
+}
+
+/// A triangle with its corners as the rest of the suite wants them (scene_reader.h): tiny and negative zeros are 0.
+void normalize(TriangleD& t);
+/// The same, but nothing moves: only negative zeros are 0.
+void drop_signs_of_zeros(TriangleD& t);
+[[nodiscard]] bool is_finite(const TriangleD& t);
+
+/// Throws out_of_resource, with the figure, if `what` of a file takes more than `left` bytes. `per_missing`: bytes of
+/// SceneOptions::document that leave one byte more for it.
+void check_document(const SceneOptions& options, const std::string& name, const char* what, std::uint64_t bytes,
+                    std::uint64_t left, std::uint64_t per_missing = 1);
+
+/// Directory of scratch files.
+[[nodiscard]] std::string temp_dir_of(const SceneOptions& options);
+
+[[nodiscard]] RawSourcePtr open_ply(SceneFilePtr file, const SceneOptions& options);
+[[nodiscard]] RawSourcePtr open_stl(SceneFilePtr file, const SceneOptions& options);
+[[nodiscard]] RawSourcePtr open_obj(SceneFilePtr file, const SceneOptions& options);
+[[nodiscard]] RawSourcePtr open_off(SceneFilePtr file, const SceneOptions& options);
+[[nodiscard]] RawSourcePtr open_gltf(SceneFilePtr file, const SceneOptions& options);
+/// Any other format; `extension` (lower case) says which.
+[[nodiscard]] RawSourcePtr open_with_assimp(SceneFilePtr file, const std::string& extension,
+                                            const SceneOptions& options);
+[[nodiscard]] bool assimp_reads(const std::string& extension);
+
+}  // namespace bp

@@ -1,0 +1,182 @@
+#include "io/scene/detail/text_scanner.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace bp {
+
+namespace {
+
+bool is_line_end(char c) {
+  return c == '\n' || c == '\r';
+}
+/// Vertical tab, form feed, and the mark that DOS set behind the last line.
+bool is_odd_blank(char c) {
+  return c == '\v' || c == '\f' || c == '\x1A';
+}
+/// Ends a word: blank, line end, other control characters of ASCII.
+bool ends_word(char c) {
+  return static_cast<unsigned char>(c) <= ' ';
+}
+bool ends_number(char c) {
+  return ends_word(c) || c == '#' || c == '\\';
+}
+
+}  // namespace
+
+TextScanner::TextScanner(SceneFilePtr file, Mark from) : file_(std::move(file)), buffer_(new char[kBuffer + 1]) {
+  seek(from);
+}
+
+void TextScanner::seek(Mark mark) {
+  begin_ = mark.offset;
+  line_ = mark.line;
+  cur_ = end_ = buffer_.get();
+  *end_ = '\n';
+  eof_ = false;
+}
+
+bool TextScanner::refill() {
+  if (eof_) return false;
+  const auto kept = std::size_t(end_ - cur_);
+  begin_ += std::uint64_t(cur_ - buffer_.get());
+  std::memmove(buffer_.get(), cur_, kept);
+  cur_ = buffer_.get();
+  const std::size_t got = file_->read_at(begin_ + kept, std::as_writable_bytes(std::span(cur_ + kept, kBuffer - kept)));
+  end_ = cur_ + kept + got;
+  eof_ = kept + got < kBuffer;
+  *end_ = '\n';
+  if (begin_ == 0 && kept == 0 && got >= 3 && std::memcmp(cur_, "\xEF\xBB\xBF", 3) == 0) cur_ += 3;
+  return got > 0;
+}
+
+void TextScanner::line_end() {
+  if (*cur_ == '\r' && cur_ + 1 == end_) refill();  // an LF may follow
+  if (*cur_ == '\r' && cur_ + 1 != end_ && cur_[1] == '\n') ++cur_;
+  ++cur_;
+  ++line_;
+}
+
+// Called where a run of blanks ended at a line end, a backslash, a control character or the end of the buffer.
+TextScanner::Next TextScanner::look_ahead() {
+  if (cur_ == end_) return refill() ? Next::blank : Next::line_end;
+  if (is_line_end(*cur_)) return Next::line_end;
+  if (*cur_ == '\\') {
+    if (cur_ + 1 == end_) refill();
+    if (cur_ + 1 == end_ || !is_line_end(cur_[1])) return Next::word;
+    ++cur_;
+    line_end();
+    return Next::blank;
+  }
+  if (is_odd_blank(*cur_)) {
+    ++cur_;
+    return Next::blank;
+  }
+  fail_here("byte {} is a control character ({}); this is not a text file of the expected format", offset(),
+            int(static_cast<unsigned char>(*cur_)));
+}
+
+bool TextScanner::word_anywhere(char comment) {
+  for (;;) {
+    if (at_end()) return false;
+    if (is_line_end(*cur_)) {
+      line_end();
+    } else if (comment != 0 && *cur_ == comment) {
+      next_line();
+    } else if (*cur_ == ' ' || *cur_ == '\t' || is_odd_blank(*cur_)) {
+      ++cur_;
+    } else {
+      return true;
+    }
+  }
+}
+
+void TextScanner::next_line() {
+  do {
+    while (!is_line_end(*cur_)) ++cur_;
+    if (cur_ != end_) return line_end();
+  } while (refill());
+}
+
+std::string_view TextScanner::word() {
+  need_word();
+  const char* last = cur_;
+  while (!ends_word(*last)) ++last;
+  if (std::size_t(last - cur_) >= kMaxWord)
+    fail_here("a word of more than {} characters; is this a text file?", kMaxWord);
+  const std::string_view found(cur_, std::size_t(last - cur_));
+  cur_ += found.size();
+  return found;
+}
+
+std::string TextScanner::rest_of_line() {
+  std::string line;
+  while (word_on_line()) {
+    if (!line.empty()) line.push_back(' ');
+    const std::string_view next = word();
+    line.append(next.begin(), next.end());
+  }
+  return line;
+}
+
+void TextScanner::skip_word() {
+  do {
+    while (!ends_word(*cur_)) ++cur_;
+  } while (cur_ == end_ && refill());
+}
+
+// from_chars leaves the value alone when the number has no double: it is too large, or nearer to 0 than any double.
+double TextScanner::real_out_of_range(const char* last) const {
+  bool large = false;  // without an exponent: large if a digit other than 0 stands before the point
+  const char* c = cur_;
+  for (; c != last && *c != '.' && *c != 'e' && *c != 'E'; ++c) large |= *c >= '1' && *c <= '9';
+  for (; c != last; ++c) {
+    if (*c == 'e' || *c == 'E') large = c[1] != '-';
+  }
+  return large ? std::numeric_limits<double>::infinity() : 0.0;
+}
+
+// 1.#INF 1.#IND 1.#QNAN 1.#SNAN: the '#' of anything else starts a comment.
+bool TextScanner::skip_microsoft_nan(double& value) {
+  if (cur_[1] != 'I' && cur_[1] != 'Q' && cur_[1] != 'S') return false;
+  value = std::numeric_limits<double>::quiet_NaN();
+  skip_word();
+  return true;
+}
+
+bool TextScanner::real(double& value) {
+  need_word();
+  if (*cur_ == '+' && cur_[1] != '-') ++cur_;
+  const auto [last, error] = std::from_chars(cur_, end_, value);
+  if (error == std::errc::invalid_argument) return false;
+  if (error == std::errc::result_out_of_range) value = real_out_of_range(last);
+  cur_ += last - cur_;
+  if (cur_ == end_) refill();  // thousands of digits: does the word end here?
+  if (*cur_ == '#' && skip_microsoft_nan(value)) return true;
+  return ends_number(*cur_);
+}
+
+bool TextScanner::integer(std::int64_t& value) {
+  need_word();
+  if (*cur_ == '+' && cur_[1] != '-') ++cur_;
+  const auto [last, error] = std::from_chars(cur_, end_, value);
+  if (error == std::errc::invalid_argument) return false;
+  if (error == std::errc::result_out_of_range)
+    value = *cur_ == '-' ? std::numeric_limits<std::int64_t>::min() : std::numeric_limits<std::int64_t>::max();
+  cur_ += last - cur_;
+  return true;
+}
+
+bool TextScanner::count(std::int64_t& value) {
+  need_word();
+  char* const start = cur_;
+  if (integer(value) && ends_number(*cur_)) return true;
+  cur_ = start;  // nothing was refilled: need_word() left enough
+  double number = 0;
+  if (!real(number) || !(std::abs(number) < 9e15) || number != std::floor(number)) return false;
+  value = std::int64_t(number);
+  return true;
+}
+
+}  // namespace bp

@@ -1,0 +1,89 @@
+#pragma once
+#include <charconv>
+#include <string_view>
+
+#include "io/scene/scene_file.h"
+#include "lib/core/error.h"
+
+/// Words and numbers of a text file of any size, one buffer at a time. A line ends with LF, CRLF or CR;
+/// a byte order mark of UTF-8 is passed over.
+namespace bp {
+
+struct TextMark {
+  std::uint64_t offset = 0, line = 1;
+};
+
+class TextScanner {
+ public:
+  using Mark = TextMark;
+
+  explicit TextScanner(SceneFilePtr file, Mark from = {});
+
+  void seek(Mark mark);
+  [[nodiscard]] Mark mark() const { return {offset(), line_}; }
+  [[nodiscard]] std::uint64_t offset() const { return begin_ + std::uint64_t(cur_ - buffer_.get()); }
+  [[nodiscard]] std::uint64_t remaining() const { return file_->size() - std::min(file_->size(), offset()); }
+
+  /// Skips blanks, and line ends after a backslash. True if a word follows on this line.
+  bool word_on_line() {
+    for (;;) {
+      while (*cur_ == ' ' || *cur_ == '\t') ++cur_;
+      if (static_cast<unsigned char>(*cur_) > ' ' && *cur_ != '\\') return true;
+      const Next next = look_ahead();
+      if (next != Next::blank) return next == Next::word;
+    }
+  }
+  /// Skips blanks, line ends and, if `comment` is not 0, from that character to the end of the line. False at the end.
+  bool word_anywhere(char comment = 0);
+  /// Moves behind the end of this line.
+  void next_line();
+
+  /// The word here (word_on_line() or word_anywhere() was true); valid until the next call. Throws if it has more than
+  /// 4096 characters.
+  std::string_view word();
+  /// The words from here to the end of the line, with one blank between them. Throws as word().
+  std::string rest_of_line();
+  [[nodiscard]] char peek() const { return *cur_; }
+  void step() { cur_ += cur_ != end_; }  ///< over the character that peek() showed
+  void skip_word();                      ///< of any length
+
+  /// The number here; must end at a blank, a line end or a comment. Values out of range of a double become 0 or
+  /// infinite; "nan", "inf" and Microsoft's "1.#INF" are read. False if this is not a number.
+  bool real(double& value);
+  /// The integer here; may end at anything ("3/4"). Out of range it is the nearest there is. False if this is not an
+  /// integer.
+  bool integer(std::int64_t& value);
+  /// An integer that may be written as a real ("3.0") and must end as one.
+  bool count(std::int64_t& value);
+
+  [[nodiscard]] bool at_end() { return cur_ == end_ && (eof_ || !refill()); }
+
+  /// Throws bad_input "file: line N: ...".
+  template <class... Args>
+  [[noreturn]] void fail_here(fmt::format_string<Args...> format, Args&&... args) const {
+    fail(ErrorCode::bad_input, "{}: line {}: {}", file_->name(), line_,
+         fmt::format(format, std::forward<Args>(args)...));
+  }
+
+ private:
+  static constexpr std::size_t kBuffer = std::size_t(1) << 18, kMaxWord = 4096;
+
+  enum class Next { blank, word, line_end };
+  Next look_ahead();
+  void line_end();  // cur_ stands on one: moves behind it
+  bool refill();    // keeps what is unread; false if nothing was added
+  void need_word() {
+    if (!eof_ && std::size_t(end_ - cur_) < kMaxWord) refill();
+  }
+  [[nodiscard]] double real_out_of_range(const char* last) const;
+  bool skip_microsoft_nan(double& value);
+
+  SceneFilePtr file_;
+  std::unique_ptr<char[]> buffer_;  // kBuffer characters and a sentinel '\n'
+  char *cur_, *end_;
+  std::uint64_t begin_ = 0;  // offset of buffer_[0] in the file
+  std::uint64_t line_ = 1;
+  bool eof_ = false;  // the buffer reaches the end of the file
+};
+
+}  // namespace bp

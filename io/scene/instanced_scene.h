@@ -1,0 +1,75 @@
+#pragma once
+#include <optional>
+
+#include "io/scene/detail/affine.h"
+#include "io/scene/detail/raw_source.h"
+
+/// Meshes that lie as arrays in files, and the places where they stand: what glTF describes, and what is left of any
+/// format after Assimp has read it. Streamed without ever expanding an instance.
+namespace bp {
+
+enum class ComponentType : std::uint16_t {
+  i8 = 5120,
+  u8 = 5121,
+  i16 = 5122,
+  u16 = 5123,
+  u32 = 5125,
+  f32 = 5126,
+  f64 = 5130
+};
+[[nodiscard]] std::size_t bytes_of(ComponentType type);
+
+/// An array of numbers or vectors. All addresses were checked to lie inside the file.
+struct Accessor {
+  static constexpr std::uint64_t kZeros = ~std::uint64_t(0);
+
+  std::uint64_t count = 0;
+  ComponentType type = ComponentType::f32;
+  std::size_t components = 1;
+  bool normalized = false;           ///< integers stand for [0, 1] or [-1, 1]
+  std::uint64_t address = kZeros;    ///< of element 0; kZeros: all elements are 0
+  std::uint64_t stride = 0;          ///< bytes from one element to the next
+  std::uint64_t replaced_count = 0;  ///< elements that stand elsewhere ("sparse"): their numbers, rising, and values
+  std::uint64_t replaced_numbers = 0, replaced_values = 0;  ///< addresses; values are packed
+  ComponentType number_type = ComponentType::u32;
+};
+
+struct Primitive {
+  enum class Mode { triangles, strip, fan };
+  Mode mode = Mode::triangles;
+  Accessor positions;               ///< three components
+  std::optional<Accessor> indices;  ///< into positions; none: 0, 1, 2 ...
+  std::optional<Accessor> colors;   ///< one for each position, three components or four, of which the last is not used
+  std::array<double, 3> base_color{1, 1, 1};  ///< multiplies them
+  bool srgb = false;                          ///< transfer function of both; else they are linear
+};
+
+/// Transforms of many instances of one node's mesh, applied before the node's own; absent accessors have count 0.
+struct InstanceArray {
+  std::uint64_t count = 0;
+  Accessor translation, rotation, scale;
+};
+
+/// One use of the primitives [first, end).
+struct MeshNode {
+  Affine transform;
+  std::uint32_t first = 0, end = 0;
+  std::optional<std::uint32_t> instances;  ///< number of an InstanceArray
+};
+
+struct InstancedScene {
+  SceneFilePtr bytes;
+  std::vector<Primitive> primitives;
+  std::vector<InstanceArray> arrays;
+  std::vector<MeshNode> nodes;
+  std::optional<UpAxis> up;     ///< if the file tells
+  std::size_t levels = 1;       ///< that the file has, of which this is one
+  std::uint64_t bad_faces = 0;  ///< met before, while the scene was put together
+
+  [[nodiscard]] std::uint64_t memory_bytes() const;  ///< of the description
+};
+
+/// Streams the triangles of each node in order. Memory: options.memory_bytes and the scene's description.
+[[nodiscard]] RawSourcePtr stream_instances(InstancedScene scene, const SceneOptions& options);
+
+}  // namespace bp

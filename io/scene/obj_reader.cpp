@@ -1,0 +1,166 @@
+#include <limits>
+#include <optional>
+
+#include "io/scene/detail/mtl_file.h"
+#include "io/scene/detail/raw_source.h"
+#include "io/scene/detail/text_scanner.h"
+#include "io/scene/detail/vertex_pool.h"
+
+// Wavefront OBJ: the lines "v" and "f", everything else is passed over; if colours or walls are asked for, "usemtl" and
+// "mtllib" too, and the three numbers after a vertex' position (an extension of many programs). One pass streams faces
+// while the vertices before them collect in the pool. A face that names a vertex further down makes the rest of the
+// vertices load at once, so that "there is no such vertex" is never said too early.
+
+namespace bp {
+
+namespace {
+
+class ObjSource final : public PolygonSource {
+ public:
+  ObjSource(const SceneFilePtr& file, const SceneOptions& options)
+      : file_(file), text_(file), pool_(options.memory_bytes, temp_dir_of(options)), walls_only_(options.walls_only) {
+    if (options.colors) vertex_colors_.emplace(options.memory_bytes / 2, temp_dir_of(options));
+  }
+  [[nodiscard]] bool has_colors() const override { return has_colors_; }
+
+ private:
+  bool next_face(std::vector<std::uint64_t>& corners) override;
+  [[nodiscard]] std::uint64_t vertex_count() const override { return pool_.size(); }
+  [[nodiscard]] Vec3d vertex(std::uint64_t i) override { return pool_[i]; }
+  [[nodiscard]] LinearColor corner_color(std::uint64_t i) override;
+  void rewind_faces() override {
+    text_.seek({});
+    seen_ = 0;
+    material_ = kWhite;
+    passed_over_ = false;
+  }
+
+  /// Consumes the keyword: 'v' or 'f' if that is all of it, 'u' for "usemtl" and 'm' for "mtllib", 0 for any other,
+  /// comments included.
+  static char keyword(TextScanner& text);
+  void read_vertex(TextScanner& text);
+  void read_vertex_color(TextScanner& text);
+  void use_material(char key);
+  void read_corners(std::vector<std::uint64_t>& corners);
+  std::uint64_t resolve(std::int64_t index);
+  void load_ahead();
+
+  SceneFilePtr file_;
+  TextScanner text_;
+  VertexPool pool_;
+  std::optional<VertexPool> vertex_colors_;  // if asked for; up to the last vertex that has one
+  MtlMaterials materials_;
+  LinearColor material_;
+  bool has_colors_ = false;
+  const bool walls_only_;
+  bool passed_over_ = false;  // faces of the current material
+  std::uint64_t seen_ = 0;    // "v" lines of this pass
+  bool all_loaded_ = false;   // the pool holds every vertex of the file
+};
+
+bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
+  for (; !text_.at_end(); text_.next_line()) {
+    if (!text_.word_on_line()) continue;
+    const char key = keyword(text_);
+    if (key == 'v') {
+      if (seen_ == pool_.size()) read_vertex(text_);
+      ++seen_;
+    } else if (key == 'u' || key == 'm') {
+      use_material(key);
+    } else if (key == 'f' && !passed_over_) {
+      read_corners(corners);
+      text_.next_line();
+      return true;
+    }
+  }
+  all_loaded_ = true;
+  return false;
+}
+
+char ObjSource::keyword(TextScanner& text) {
+  const char first = text.peek();
+  if (first != 'v' && first != 'f' && first != 'u' && first != 'm') return 0;
+  const std::string_view word = text.word();
+  return word.size() == 1 || word == "usemtl" || word == "mtllib" ? first : 0;
+}
+
+void ObjSource::read_vertex(TextScanner& text) {
+  Vec3d p;
+  for (double& c : p) {
+    if (!text.word_on_line() || !text.real(c))
+      text.fail_here("a vertex needs three numbers; repair or re-export the file");
+  }
+  pool_.push(p);
+  if (vertex_colors_) read_vertex_color(text);
+}
+
+// A single number more is the weight of a rational curve's point.
+void ObjSource::read_vertex_color(TextScanner& text) {
+  Vec3d rgb;
+  for (double& c : rgb) {
+    if (!text.word_on_line() || !text.real(c)) return;
+  }
+  while (vertex_colors_->size() + 1 < pool_.size()) vertex_colors_->push({1, 1, 1});
+  vertex_colors_->push(rgb);
+  has_colors_ = true;
+}
+
+LinearColor ObjSource::corner_color(std::uint64_t i) {
+  if (vertex_colors_ && i < vertex_colors_->size()) return color_from_srgb((*vertex_colors_)[i]);
+  return material_;
+}
+
+void ObjSource::use_material(char key) {
+  if (!vertex_colors_ && !walls_only_) return;
+  const std::string name = text_.rest_of_line();
+  if (key == 'm') return materials_.load(file_->path(), name);
+  passed_over_ = walls_only_ && materials_.see_through(name);
+  if (!vertex_colors_) return;
+  material_ = materials_.color(name);
+  has_colors_ = has_colors_ || material_ != kWhite;
+}
+
+// Corners are "v", "v/vt", "v//vn", "v/vt/vn", with any of the later numbers missing.
+void ObjSource::read_corners(std::vector<std::uint64_t>& corners) {
+  corners.clear();
+  while (text_.word_on_line() && text_.peek() != '#') {
+    std::int64_t index = 0;
+    if (!text_.integer(index)) text_.fail_here("a face corner is not a number; repair or re-export the file");
+    if (text_.peek() == '/') text_.skip_word();
+    if (static_cast<unsigned char>(text_.peek()) > ' ' && text_.peek() != '\\')
+      text_.fail_here("a face corner is not of the form v/vt/vn; repair or re-export the file");
+    if (corners.size() == kMaxCorners)
+      text_.fail_here("a face of more than {} corners; is the file intact?", kMaxCorners);
+    corners.push_back(resolve(index));
+  }
+}
+
+std::uint64_t ObjSource::resolve(std::int64_t index) {
+  if (index == 0 || index < -std::int64_t(seen_)) return kNoVertex;
+  const std::uint64_t i = index > 0 ? std::uint64_t(index) - 1 : seen_ - std::uint64_t(-index);
+  if (i >= pool_.size() && !all_loaded_) load_ahead();
+  return i;
+}
+
+// An earlier pass that was cut short may have left the pool ahead of this one: those vertices are not read twice.
+void ObjSource::load_ahead() {
+  std::uint64_t known = pool_.size() - seen_;
+  TextScanner ahead(file_, text_.mark());
+  for (ahead.next_line(); !ahead.at_end(); ahead.next_line()) {
+    if (!ahead.word_on_line() || keyword(ahead) != 'v') continue;
+    if (known > 0) {
+      --known;
+    } else {
+      read_vertex(ahead);
+    }
+  }
+  all_loaded_ = true;
+}
+
+}  // namespace
+
+RawSourcePtr open_obj(SceneFilePtr file, const SceneOptions& options) {
+  return std::make_unique<ObjSource>(file, options);
+}
+
+}  // namespace bp

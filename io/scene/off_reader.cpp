@@ -1,0 +1,132 @@
+#include "io/scene/detail/raw_source.h"
+#include "io/scene/detail/text_scanner.h"
+#include "io/scene/detail/vertex_pool.h"
+
+// OFF (Geomview's object file format), ASCII: OFF and its variants with colours, normals and texture coordinates (COFF,
+// NOFF, STOFF, CNOFF ...), whose extra numbers follow the three of the position on the same line. The header may be
+// missing, or be glued to the first count. Comments start with '#'.
+
+namespace bp {
+
+namespace {
+
+class OffSource final : public PolygonSource {
+ public:
+  OffSource(SceneFilePtr file, const SceneOptions& options)
+      : text_(std::move(file)), pool_(options.memory_bytes, temp_dir_of(options)) {
+    read_header();
+    read_vertices();
+    start_ = text_.mark();
+  }
+
+ private:
+  bool next_face(std::vector<std::uint64_t>& corners) override;
+  [[nodiscard]] std::uint64_t vertex_count() const override { return pool_.size(); }
+  [[nodiscard]] Vec3d vertex(std::uint64_t i) override { return pool_[i]; }
+  void rewind_faces() override {
+    text_.seek(start_);
+    face_ = 0;
+  }
+
+  void read_header();
+  void refuse_dimensions();  ///< 4OFF, nOFF
+  void skip_keyword();
+  void read_vertices();
+  std::int64_t need_integer(const char* what);
+  void need_word();
+  void check_room(std::uint64_t count, std::uint64_t bytes, const char* what);
+
+  TextScanner text_;
+  VertexPool pool_;
+  TextScanner::Mark start_;  // of the faces
+  std::uint64_t vertices_ = 0, faces_ = 0, face_ = 0;
+};
+
+void OffSource::need_word() {
+  if (!text_.word_anywhere('#')) text_.fail_here("the file ends in the middle of its data; it is truncated");
+}
+
+std::int64_t OffSource::need_integer(const char* what) {
+  need_word();
+  std::int64_t value = 0;
+  if (!text_.count(value)) text_.fail_here("{} is not an integer; is this an OFF file?", what);
+  return value;
+}
+
+void OffSource::skip_keyword() {
+  std::string keyword;
+  while (text_.peek() >= 'A' && text_.peek() <= 'Z' && keyword.size() < 8) {
+    keyword += text_.peek();
+    text_.step();
+  }
+  const bool known = keyword.size() >= 3 && keyword.compare(keyword.size() - 3, 3, "OFF") == 0 &&
+                     keyword.find_first_not_of("STCNOF") == std::string::npos;
+  if (!known)
+    text_.fail_here("starts with '{}'; only OFF, COFF, NOFF and their like with three coordinates are read", keyword);
+  if (text_.word_on_line() && text_.peek() == 'B')
+    text_.fail_here("binary OFF is not read; convert the file to PLY or to ASCII OFF");
+}
+
+void OffSource::refuse_dimensions() {
+  const TextScanner::Mark start = text_.mark();
+  text_.step();
+  if (text_.peek() == 'O') text_.fail_here("4OFF and nOFF files do not have three dimensions; they are not read");
+  text_.seek(start);
+  need_word();
+}
+
+void OffSource::read_header() {
+  need_word();
+  if (text_.peek() == '4' || text_.peek() == 'n') refuse_dimensions();
+  if (text_.peek() >= 'A' && text_.peek() <= 'Z') skip_keyword();
+  const std::int64_t vertices = need_integer("the count of vertices"), faces = need_integer("the count of faces");
+  if (vertices < 0 || faces < 0) text_.fail_here("a count is negative; is this an OFF file?");
+  vertices_ = std::uint64_t(vertices);
+  faces_ = std::uint64_t(faces);
+  text_.next_line();  // the count of edges may be missing
+}
+
+// Each number takes two characters at least; the last one may lack its line end.
+void OffSource::check_room(std::uint64_t count, std::uint64_t bytes, const char* what) {
+  if (count > (text_.remaining() + 1) / bytes) {
+    text_.fail_here("the header promises {} {}, but only {} bytes follow; the file is truncated", count, what,
+                    text_.remaining());
+  }
+}
+
+void OffSource::read_vertices() {
+  check_room(vertices_, 6, "vertices");
+  for (std::uint64_t i = 0; i < vertices_; ++i) {
+    Vec3d p;
+    for (double& c : p) {
+      need_word();
+      if (!text_.real(c)) text_.fail_here("a vertex needs three numbers; is the file damaged?");
+    }
+    pool_.push(p);
+    text_.next_line();
+  }
+  check_room(faces_, 2, "faces");
+}
+
+bool OffSource::next_face(std::vector<std::uint64_t>& corners) {
+  if (face_ == faces_) return false;
+  ++face_;
+  corners.clear();
+  const std::int64_t size = need_integer("the size of a face");
+  if (size < 0 || std::uint64_t(size) > kMaxCorners)
+    text_.fail_here("a face of {} corners; is the file damaged?", size);
+  for (std::int64_t i = 0; i < size; ++i) {
+    const std::int64_t corner = need_integer("a corner of a face");
+    corners.push_back(corner < 0 ? kNoVertex : std::uint64_t(corner));
+  }
+  text_.next_line();
+  return true;
+}
+
+}  // namespace
+
+RawSourcePtr open_off(SceneFilePtr file, const SceneOptions& options) {
+  return std::make_unique<OffSource>(std::move(file), options);
+}
+
+}  // namespace bp

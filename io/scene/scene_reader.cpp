@@ -1,0 +1,422 @@
+#include "io/scene/scene_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "io/files/lower.h"
+#include "io/scene/detail/degenerate.h"
+#include "io/scene/detail/foreign_format.h"
+#include "io/scene/detail/position_index.h"
+#include "io/scene/detail/raw_source.h"
+#include "io/scene/scene_format.h"
+#include "io/stream/stream_format.h"
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/core/predicates.h"
+
+namespace bp {
+
+namespace {
+
+enum class Reader { ply, stl, obj, off, gltf, other, unknown };
+
+Reader reader_of(const std::string& extension) {
+  if (extension == "ply") return Reader::ply;
+  if (extension == "stl" || extension == "stla" || extension == "stlb") return Reader::stl;
+  if (extension == "obj") return Reader::obj;
+  if (extension == "off") return Reader::off;
+  if (extension == "gltf" || extension == "glb") return Reader::gltf;
+  return extension.empty() ? Reader::unknown : Reader::other;
+}
+
+bool is_binary_stl(const std::string& start, std::uint64_t size) {
+  if (start.size() < 84) return false;
+  std::uint32_t triangles = 0;
+  std::memcpy(&triangles, start.data() + 80, sizeof triangles);
+  return 84 + std::uint64_t(50) * triangles == size;
+}
+
+std::string start_of(const SceneFile& file) {
+  std::string start(1024, '\0');
+  start.resize(file.read_at(0, std::as_writable_bytes(std::span(start))));
+  return start;
+}
+
+/// What the first bytes of a file tell; `extension` is set for a format that goes to Assimp.
+Reader reader_by_content(const SceneFile& file, std::string& extension) {
+  const std::string start = start_of(file);
+  if (is_binary_stl(start, file.size())) return Reader::stl;
+  const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  const std::string text = first == std::string::npos ? std::string() : start.substr(first);
+  const auto begins = [&](const char* word) { return text.compare(0, std::strlen(word), word) == 0; };
+  if (begins("ply\n") || begins("ply\r")) return Reader::ply;
+  if (begins("glTF") || (begins("{") && text.find('"') != std::string::npos)) return Reader::gltf;
+  if (lower(text.substr(0, 5)) == "solid") return Reader::stl;
+  for (const char* keyword : {"OFF", "COFF", "NOFF", "CNOFF", "STOFF"}) {
+    if (begins(keyword)) return Reader::off;
+  }
+  for (const char* line : {"\nv ", "\nf ", "\nmtllib "}) {
+    if (("\n" + text).find(line) != std::string::npos) return Reader::obj;
+  }
+  if (begins("AC3D")) extension = "ac";
+  return extension.empty() ? Reader::unknown : Reader::other;
+}
+
+void refuse_brick_stream(const SceneFile& file) {
+  std::uint32_t magic = 0;
+  file.read_at(0, std::as_writable_bytes(std::span(&magic, 1)));
+  if (magic == detail::kFrameMagic)
+    fail(ErrorCode::bad_input, "{}: a brick stream, not a scene or a mesh; bpmesh makes a mesh of it", file.name());
+}
+
+bool in_predicate_domain(const TriangleD& t) {
+  return bp::in_predicate_domain(t[0]) && bp::in_predicate_domain(t[1]) && bp::in_predicate_domain(t[2]);
+}
+
+RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const SceneOptions& options) {
+  std::string extension = scene_format_of(path);
+  if (extension.empty() && !options.format.empty()) extension = scene_format_named(options.format);
+  Reader reader = reader_of(extension);
+  if (file->size() == 0 && reader != Reader::obj)  // of OBJ it is a mesh without faces
+    fail(ErrorCode::bad_input, "{}: is empty; did the tool before it fail?", file->name());
+  if (reader == Reader::unknown) refuse_foreign(file->name(), start_of(*file));
+  if (reader == Reader::unknown) reader = reader_by_content(*file, extension);
+  switch (reader) {
+    case Reader::ply:
+      return open_ply(file, options);
+    case Reader::stl:
+      return open_stl(file, options);
+    case Reader::obj:
+      return open_obj(file, options);
+    case Reader::off:
+      return open_off(file, options);
+    case Reader::gltf:
+      return open_gltf(file, options);
+    case Reader::other:
+      return open_with_assimp(file, extension, options);
+    case Reader::unknown:
+      break;
+  }
+  fail(ErrorCode::bad_input, "{}: neither its name nor its first bytes tell its format; name it with --format",
+       file->name());
+}
+
+SceneFilePtr open_file(const std::string& path, const SceneOptions& options) {
+  SceneFilePtr file = open_scene_file(path, temp_dir_of(options));
+  refuse_brick_stream(*file);
+  return file;
+}
+
+RawSourcePtr open_raw(const std::string& path, const SceneOptions& options) {
+  return open_raw(open_file(path, options), path, options);
+}
+
+/// Of a mesh read so far: counts the triangles that are left, too, so that the figure is known.
+void check_limit(const MeshLimit& limit, std::uint64_t before, const IndexedMesh& mesh, RawSource& raw,
+                 RawBatch& batch) {
+  const std::uint64_t here = mesh.triangles.size();
+  if (limit.bytes == 0 || here == 0 || before + limit.needed(here, mesh.vertices.size()) <= limit.bytes) return;
+  std::uint64_t all = here;
+  while (raw.next(batch)) {
+    raw.complete(batch);
+    all += batch.triangles.size();
+  }
+  const double vertices = double(mesh.vertices.size()) / double(here) * double(all);  // as many of each triangle
+  limit.refuse(all, before + limit.needed(all, std::uint64_t(vertices)));
+}
+
+/// `before`: bytes of levels that are in memory.
+IndexedMesh mesh_of(RawSource& raw, const SceneOptions& options, std::uint64_t before, SceneCounts& met) {
+  const bool keep_extremes = options.keep_extremes;
+  IndexedMesh mesh;
+  PositionIndex index(mesh.vertices);
+  RawBatch batch;
+  while (raw.next(batch)) {
+    raw.complete(batch);
+    met.bad_faces += batch.bad_faces;
+    if (!batch.inner_edges.empty()) mesh.inner_edges.resize(mesh.triangles.size());
+    mesh.inner_edges.insert(mesh.inner_edges.end(), batch.inner_edges.begin(), batch.inner_edges.end());
+    for (TriangleD& t : batch.triangles) {
+      keep_extremes ? drop_signs_of_zeros(t) : normalize(t);
+      if (!is_finite(t)) {
+        ++met.non_finite;
+      } else if (in_predicate_domain(t) && is_degenerate(t)) {
+        ++met.degenerate;
+      }
+      mesh.triangles.push_back({index.add(t[0]), index.add(t[1]), index.add(t[2])});
+    }
+    check_limit(options.mesh, before, mesh, raw, batch);
+  }
+  mesh.up = raw.up();
+  met.triangles = mesh.triangles.size();
+  met.bad_faces += raw.bad_faces();
+  met.instances = raw.instances();
+  return mesh;
+}
+
+/// Drops what has no area or no place, and counts it. Batches are decoded and sifted in parallel, some ahead of the
+/// caller.
+class FilteredScene final : public TriangleSource {
+ public:
+  FilteredScene(std::string name, RawSourcePtr raw, const SceneOptions& options)
+      : name_(std::move(name)),
+        raw_(std::move(raw)),
+        keep_degenerate_(options.keep_degenerate),
+        keep_extremes_(options.keep_extremes),
+        batches_(batches_in(options.memory_bytes)) {}
+
+  bool read(std::vector<TriangleD>& out) override {
+    const bool more = read_batch(false);
+    out.swap(batch_->triangles);
+    return more;
+  }
+  bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
+    const bool more = read_batch(true);
+    out.swap(batch_->triangles);
+    colors.swap(batch_->colors);
+    return more;
+  }
+  bool read_faces(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
+                  std::vector<std::uint8_t>& inner_edges) override {
+    const bool more = read_colored(out, colors);
+    inner_edges.swap(batch_->inner_edges);
+    inner_edges.resize(out.size());
+    return more;
+  }
+  [[nodiscard]] bool has_colors() const override { return raw_->has_colors(); }
+  void rewind() override {
+    raw_->rewind();
+    counts_ = {};
+    next_ = ready_ = 0;
+    bad_faces_ = 0;
+  }
+  [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
+  [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] std::optional<UpAxis> up() const override { return raw_->up(); }
+
+ private:
+  struct Batch {
+    RawBatch raw;
+    SceneCounts counts;  // of its triangles
+  };
+
+  static std::size_t batches_in(std::uint64_t memory_bytes) {
+    constexpr std::uint64_t kBatchBytes = RawSource::kBatch * (sizeof(TriangleD) + 16);
+    const auto wanted = std::uint64_t(thread_count() > 1 ? 2 * thread_count() : 1);
+    return std::size_t(std::clamp<std::uint64_t>(memory_bytes / 2 / kBatchBytes, 1, wanted));
+  }
+
+  /// Sets batch_ to the next one with triangles; false, and one without, at the end.
+  bool read_batch(bool colored) {
+    batch_ = &end_;
+    end_.triangles.clear();
+    end_.colors.clear();
+    end_.inner_edges.clear();
+    while (batch_->triangles.empty() && (next_ < ready_ || fetch(colored))) {
+      Batch& batch = batches_[next_++];
+      batch_ = &batch.raw;
+      counts_.add(batch.counts);
+    }
+    counts_.bad_faces = raw_->bad_faces() + bad_faces_;
+    counts_.instances = raw_->instances();
+    const SceneCounts& c = counts_;  // at the end; whoever names a file of points wants them enclosed
+    if (batch_->triangles.empty() && c.triangles + c.degenerate + c.non_finite + c.bad_faces == 0 && raw_->points() > 0)
+      refuse_points(name_, raw_->points());
+    return !batch_->triangles.empty();
+  }
+
+  bool fetch(bool colored) {
+    next_ = ready_ = 0;
+    while (ready_ < batches_.size()) {
+      RawBatch& batch = batches_[ready_].raw;
+      batch.colored = colored;
+      batch.colors.clear();
+      batch.inner_edges.clear();
+      if (!raw_->next(batch)) break;
+      ++ready_;
+    }
+    parallel_for(std::int64_t(ready_), [&](std::int64_t i) {
+      Batch& batch = batches_[std::size_t(i)];
+      raw_->complete(batch.raw);
+      batch.counts = keep_good(batch.raw);
+    });
+    for (std::size_t i = 0; i < ready_; ++i) bad_faces_ += batches_[i].raw.bad_faces;
+    return ready_ > 0;
+  }
+
+  /// No coordinate is zero, tiny, huge or NaN: nothing to normalize, nothing to find fault with.
+  static bool is_plain(const TriangleD& t) {
+    bool plain = true;
+    for (const Vec3d& p : t) {
+      for (const double c : p) plain &= std::abs(c) >= 1e-90 && std::abs(c) <= 1e90;
+    }
+    return plain;
+  }
+
+  [[nodiscard]] SceneCounts keep_good(RawBatch& batch) const {
+    std::vector<TriangleD>& triangles = batch.triangles;
+    if (batch.colored) batch.colors.resize(triangles.size());
+    if (!batch.inner_edges.empty()) batch.inner_edges.resize(triangles.size());
+    SceneCounts counts;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      TriangleD& t = triangles[i];
+      const bool plain = is_plain(t);
+      if (!plain) keep_extremes_ ? drop_signs_of_zeros(t) : normalize(t);
+      if (!plain && !is_finite(t)) {
+        ++counts.non_finite;
+        continue;
+      }
+      // Beyond the domain no area can be told from none here; whoever wants extremes can.
+      const bool degenerate = (plain || in_predicate_domain(t)) && is_degenerate(t);
+      if (degenerate) ++counts.degenerate;
+      if (degenerate && !keep_degenerate_) continue;
+      if (batch.colored) batch.colors[kept] = batch.colors[i];
+      if (!batch.inner_edges.empty()) batch.inner_edges[kept] = batch.inner_edges[i];
+      triangles[kept++] = t;
+    }
+    triangles.resize(kept);
+    if (batch.colored) batch.colors.resize(kept);
+    counts.triangles = kept;
+    return counts;
+  }
+
+  std::string name_;
+  RawSourcePtr raw_;
+  bool keep_degenerate_, keep_extremes_;
+  SceneCounts counts_;
+  std::vector<Batch> batches_;
+  RawBatch end_;  // without triangles
+  RawBatch* batch_ = &end_;
+  std::size_t next_ = 0, ready_ = 0;  // of batches_
+  std::uint64_t bad_faces_ = 0;       // met by complete()
+};
+
+/// Files in a row. Only one is open at a time, so that vertices and file handles of the others take nothing; stdin,
+/// which cannot be opened again, stays open once it is.
+class SceneRow final : public TriangleSource {
+ public:
+  SceneRow(std::vector<std::string> paths, const SceneOptions& options) : paths_(std::move(paths)), options_(options) {
+    for (const std::string& path : paths_) {
+      if (path == "-") continue;
+      const InputFile probe(path);  // a missing file should not wait for hours of reading, nor one that is not read
+      if (options_.format.empty() && scene_format_of(path).empty()) refuse_foreign(path);
+    }
+  }
+  bool read(std::vector<TriangleD>& out) override {
+    out.clear();
+    return read_next([&](TriangleSource& scene) { return scene.read(out); });
+  }
+  bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
+    out.clear();
+    colors.clear();
+    return read_next([&](TriangleSource& scene) { return scene.read_colored(out, colors); });
+  }
+  bool read_faces(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
+                  std::vector<std::uint8_t>& inner_edges) override {
+    out.clear();
+    colors.clear();
+    inner_edges.clear();
+    return read_next([&](TriangleSource& scene) { return scene.read_faces(out, colors, inner_edges); });
+  }
+  [[nodiscard]] bool has_colors() const override { return has_colors_; }
+  void rewind() override {
+    scene_.reset();
+    entered_ = false;
+    next_ = 0;
+    counts_ = finished_ = {};
+  }
+  [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
+  [[nodiscard]] std::string name() const override {
+    return paths_.size() == 1 ? paths_[0] : fmt::format("{} scenes", paths_.size());
+  }
+  [[nodiscard]] std::optional<UpAxis> up() const override { return up_; }  // of the first one that tells
+
+ private:
+  template <class Read>
+  bool read_next(const Read& read) {
+    for (; next_ < paths_.size(); leave()) {
+      TriangleSource& scene = enter();
+      const bool more = read(scene);
+      if (!up_) up_ = scene.up();
+      has_colors_ = has_colors_ || scene.has_colors();
+      counts_ = finished_;
+      counts_.add(scene.counts());
+      if (more) return true;
+    }
+    return false;
+  }
+  TriangleSource& enter() {
+    const bool piped = paths_[next_] == "-";
+    std::unique_ptr<TriangleSource>& slot = piped ? stdin_ : scene_;
+    if (!slot) {
+      slot = open_scene(paths_[next_], options_);
+    } else if (!entered_) {
+      slot->rewind();
+    }
+    entered_ = true;
+    return *slot;
+  }
+  void leave() {
+    finished_ = counts_;
+    scene_.reset();
+    entered_ = false;
+    ++next_;
+  }
+
+  std::vector<std::string> paths_;
+  SceneOptions options_;
+  std::size_t next_ = 0;
+  bool entered_ = false, has_colors_ = false;
+  std::unique_ptr<TriangleSource> scene_, stdin_;
+  SceneCounts finished_, counts_;
+  std::optional<UpAxis> up_;
+};
+
+}  // namespace
+
+std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneOptions& options) {
+  return std::make_unique<FilteredScene>(path == "-" ? "stdin" : path, open_raw(path, options), options);
+}
+
+void check_stdin_once(const std::vector<std::string>& paths) {
+  if (std::count(paths.begin(), paths.end(), "-") > 1)
+    fail(ErrorCode::bad_argument, "stdin (-) is named twice; give all but one of these inputs as files");
+}
+
+std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, const SceneOptions& options) {
+  if (paths.empty()) fail(ErrorCode::bad_argument, "no scene was named; name a file, or - for stdin");
+  check_stdin_once(paths);
+  if (paths.size() == 1) return open_scene(paths[0], options);
+  return std::make_unique<SceneRow>(std::move(paths), options);
+}
+
+IndexedMesh read_mesh(const std::string& path, const SceneOptions& options, SceneCounts* counts) {
+  SceneCounts met;
+  IndexedMesh mesh = mesh_of(*open_raw(path, options), options, 0, met);
+  if (counts != nullptr) *counts = met;
+  return mesh;
+}
+
+std::vector<IndexedMesh> read_levels(const std::string& path, const SceneOptions& options) {
+  const SceneFilePtr file = open_file(path, options);  // stdin can be opened once
+  std::vector<IndexedMesh> levels;
+  SceneOptions one = options;
+  std::size_t count = 1;
+  std::uint64_t bytes = 0;
+  for (one.level = 0; one.level < count; ++one.level) {
+    const RawSourcePtr raw = open_raw(file, path, one);
+    count = raw->levels();
+    constexpr std::size_t kMost = 64;  // each of them is read by itself
+    if (count > kMost) fail(ErrorCode::bad_input, "{}: {} levels, and at most {} are read", path, count, kMost);
+    SceneCounts ignored;
+    levels.push_back(mesh_of(*raw, one, bytes, ignored));
+    bytes += options.mesh.needed(levels.back().triangles.size(), levels.back().vertices.size());
+  }
+  return levels;
+}
+
+}  // namespace bp

@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cstring>
+
+#include "io/files/lower.h"
+#include "io/scene/byte_stream.h"
+#include "io/scene/detail/raw_source.h"
+#include "io/scene/detail/text_scanner.h"
+
+// STL, ASCII and binary. Many binary files start with "solid" too, so the size decides first: 84 bytes and 50 for each
+// of the triangles that bytes 80 to 83 promise. Only then words count: "solid", and a "facet" or an "endsolid" near by.
+
+namespace bp {
+
+namespace {
+
+constexpr std::size_t kHeaderBytes = 84, kTriangleBytes = 50;
+
+static_assert(std::endian::native == std::endian::little, "binary STL is decoded in place");
+
+class BinaryStl final : public RawSource {
+ public:
+  BinaryStl(SceneFilePtr file, std::uint64_t triangles) : bytes_(std::move(file), kHeaderBytes), triangles_(triangles) {
+    if (triangles > bytes_.remaining() / kTriangleBytes) {
+      fail(ErrorCode::bad_input, "{}: promises {} triangles, but has room for {}; the file is truncated",
+           bytes_.file().name(), triangles, bytes_.remaining() / kTriangleBytes);
+    }
+  }
+  bool read(std::vector<TriangleD>& out) override {
+    out.clear();
+    for (; out.size() < kBatch && next_ < triangles_; ++next_) out.push_back(decode(bytes_.take(kTriangleBytes)));
+    return !out.empty();
+  }
+  void rewind() override {
+    bytes_.seek(kHeaderBytes);
+    next_ = 0;
+  }
+
+ private:
+  static TriangleD decode(const std::byte* record) {
+    float c[9];
+    std::memcpy(c, record + 12, sizeof c);  // behind the normal
+    return {{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}}};
+  }
+  ByteStream bytes_;
+  std::uint64_t triangles_, next_ = 0;
+};
+
+class AsciiStl final : public RawSource {
+ public:
+  explicit AsciiStl(SceneFilePtr file) : text_(std::move(file)) { rewind(); }
+  bool read(std::vector<TriangleD>& out) override;
+  void rewind() override {
+    text_.seek({});
+    in_solid_ = false;
+    corners_ = 0;
+    bad_faces_ = 0;
+  }
+
+ private:
+  void statement(std::string_view word, std::vector<TriangleD>& out);
+  void read_vertex(std::vector<TriangleD>& out);
+  void skip_words(int n) {
+    for (; n > 0 && text_.word_anywhere(); --n) text_.skip_word();
+  }
+
+  TextScanner text_;
+  bool in_solid_ = false;
+  std::uint64_t corners_ = 0;  // of the open loop
+  Vec3d first_{}, previous_{};
+};
+
+bool AsciiStl::read(std::vector<TriangleD>& out) {
+  out.clear();
+  while (out.size() < kBatch) {
+    if (!text_.word_anywhere()) {
+      if (in_solid_) text_.fail_here("the file ends before 'endsolid'; it is truncated");
+      break;
+    }
+    // The word that stands in front of nearly all of the file is taken without a copy.
+    const std::string_view word = text_.word();
+    if (word == "vertex") {
+      read_vertex(out);
+    } else {
+      statement(word, out);
+    }
+  }
+  return !out.empty();
+}
+
+void AsciiStl::statement(std::string_view raw, std::vector<TriangleD>& out) {
+  const std::string word = lower(raw);
+  if (word == "vertex") return read_vertex(out);
+  if (word == "facet") return skip_words(4);  // normal x y z
+  if (word == "outer") {                      // loop
+    corners_ = 0;
+    return skip_words(1);
+  }
+  if (word == "endloop") {
+    if (corners_ < 3) ++bad_faces_;
+    corners_ = 0;
+    return;
+  }
+  if (word == "endfacet") return;
+  if (word == "solid" || word == "endsolid" || word == "color") {  // a name of any words follows
+    if (word != "color") in_solid_ = word == "solid";
+    return text_.next_line();
+  }
+  text_.fail_here("'{}' does not belong into an ASCII STL file; is the file damaged?", word);
+}
+
+void AsciiStl::read_vertex(std::vector<TriangleD>& out) {
+  Vec3d p;
+  for (double& c : p) {
+    if (!text_.word_anywhere() || !text_.real(c)) text_.fail_here("a vertex needs three numbers; is the file damaged?");
+  }
+  if (corners_ == 0) first_ = p;
+  if (corners_ >= 2) out.push_back({first_, previous_, p});
+  previous_ = p;
+  ++corners_;
+}
+
+bool looks_ascii(const std::string& start) {
+  const std::size_t word = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (word == std::string::npos || start.compare(word, 5, "solid") != 0 || start.find('\0') != std::string::npos)
+    return false;
+  return start.find("facet") != std::string::npos || start.find("endsolid") != std::string::npos;
+}
+
+}  // namespace
+
+RawSourcePtr open_stl(SceneFilePtr file, const SceneOptions&) {
+  std::string start(1024, '\0');
+  start.resize(file->read_at(0, std::as_writable_bytes(std::span(start))));
+  std::uint32_t triangles = 0;
+  const bool has_header = start.size() >= kHeaderBytes;
+  if (has_header) std::memcpy(&triangles, start.data() + 80, sizeof triangles);
+  const bool fits = has_header && kHeaderBytes + kTriangleBytes * std::uint64_t(triangles) == file->size();
+  if (!fits && looks_ascii(lower(start))) return std::make_unique<AsciiStl>(file);
+  if (!has_header) {
+    fail(ErrorCode::bad_input, "{}: of {} bytes is neither an ASCII nor a binary STL file; is it complete?",
+         file->name(), file->size());
+  }
+  return std::make_unique<BinaryStl>(file, triangles);
+}
+
+}  // namespace bp

@@ -1,0 +1,20 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "lib/store/result_store.h"
+
+namespace bp {
+
+/// Results as files of a folder, DIR/ab/cdef..., named by their keys: made if it is not there, shared by any number of
+/// processes, on one machine or many. A file holds a magic number, the key, the size, an XXH3-128 checksum and the
+/// bytes as one zstd frame; it has no name before it is complete. One that is damaged, truncated, or another's is
+/// passed over by get() and replaced by put(). Throws `failed` if the folder cannot be made, out_of_resource if it is
+/// full.
+///   on_read_only  called once, by put() on any thread, with the reason if nothing may be written there: what is put is
+///                 not kept from then on, unless it is there already. Without it put() throws `failed`.
+[[nodiscard]] std::unique_ptr<ResultStore> open_result_store(
+    const std::string& folder, std::function<void(const std::string& why)> on_read_only = {});
+
+}  // namespace bp

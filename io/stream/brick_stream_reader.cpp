@@ -1,0 +1,383 @@
+// docs/brick-stream.md is the specification; section numbers below are its own.
+#include <algorithm>
+#include <exception>
+#include <optional>
+
+#include "io/stream/brick_stream.h"
+#include "io/stream/stream_format.h"
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+
+namespace bp {
+
+using namespace detail;
+
+namespace {
+
+std::string brick_name(BrickCoord c) {
+  return fmt::format("({},{},{})", c.x, c.y, c.z);
+}
+
+bool starts_with(std::span<const std::byte> bytes, std::string_view text) {
+  return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
+}
+
+/// What a file that is none of ours looks like.
+std::string describe(std::span<const std::byte> head) {
+  struct Kind {
+    std::string_view start;
+    const char* what;
+  };
+  static constexpr Kind kinds[] = {
+      {"\x89PNG", "a PNG image"},
+      {"glTF", "a GLB scene"},
+      {"ply", "a PLY mesh"},
+      {"solid", "an STL mesh"},
+      {"\xff\xd8\xff", "a JPEG image"},
+      {"\x1f\x8b", "a gzip file"},
+      {"PK\x03\x04", "a zip archive"},
+      {"OFF", "an OFF mesh"},
+      {"{", "a JSON or glTF file"},
+      {"# ", "a text file"},
+      {"v ", "an OBJ mesh"},
+      {"BPVS", "a brick stream without its frame"},
+      {"\x28\xb5\x2f\xfd", "a zstd file of something else"},
+  };
+  for (const Kind& kind : kinds) {
+    if (starts_with(head, kind.start)) return fmt::format("looks like {}, not a brick stream", kind.what);
+  }
+  std::string hex;
+  for (const std::byte b : head.first(std::min<std::size_t>(head.size(), 8))) hex += fmt::format(" {:02x}", int(b));
+  return fmt::format("is not a brick stream; it begins with{}", hex);
+}
+
+/// A batch on its way in.
+struct InBatch {
+  std::uint64_t offset = 0;  ///< of its head in the stream
+  std::uint32_t records_declared = 0, raw_bytes = 0;
+  BrickCoord first, last;
+  std::vector<std::byte> packed, raw;
+  std::vector<Record> records;
+  std::vector<BrickBits> mixed;  ///< as many as records say; those behind are of a batch before
+  StreamTotals totals;
+  std::string fault;  ///< why it cannot be used; empty if it can
+
+  [[nodiscard]] std::span<const std::byte> planes() const {
+    return std::span(raw).subspan(records.size() * kRecordBytes);
+  }
+};
+
+/// Section 6, record heads; null if all is well.
+std::string read_records(const StreamHeader& header, InBatch& batch) {
+  ByteSource in(batch.raw);
+  std::size_t mixed = 0;
+  for (std::uint32_t i = 0; i < batch.records_declared; ++i) {
+    Record r;
+    r.coord = in.get_coord();
+    const auto layer = in.get<std::uint8_t>(), fill = in.get<std::uint8_t>();
+    const auto reserved = in.get<std::uint16_t>();
+    const std::string brick = "brick " + brick_name(r.coord);
+    if (layer > (header.has_closing ? 1 : 0)) return fmt::format("{}: layer {} is not in this stream", brick, layer);
+    if (fill != 1 && fill != 2) return fmt::format("{}: unknown fill {}", brick, fill);
+    if (reserved != 0) return fmt::format("{}: reserved bytes are in use", brick);
+    if (!header.bricks.contains(r.coord)) return fmt::format("{}: lies outside the brick box of the header", brick);
+    r.layer = Layer(layer);
+    r.fill = BrickFill(fill);
+    if (i == 0 && r.coord != batch.first)
+      return fmt::format("{}: is not the first brick that the batch head names", brick);
+    if (i > 0 && !before(header.slab_axis, batch.records.back(), r)) return fmt::format("{}: is out of order", brick);
+    if (r.coord[header.slab_axis] != batch.first[header.slab_axis]) return fmt::format("{}: is of another slab", brick);
+    mixed += r.fill == BrickFill::mixed;
+    batch.records.push_back(r);
+  }
+  if (batch.records.back().coord != batch.last)
+    return fmt::format("brick {}: is not the last brick that the batch head names",
+                       brick_name(batch.records.back().coord));
+  if (mixed > kMaxMixed || batch.raw.size() != batch.records.size() * kRecordBytes + mixed * kBrickBytes)
+    return fmt::format("{} mixed bricks do not fit {} bytes", mixed, batch.raw.size());
+  return "";
+}
+
+/// Voxels of the mixed bricks, neither all empty nor all full; null if all is well.
+std::string read_voxels(InBatch& batch) {
+  const std::span<const std::byte> planes = batch.planes();
+  batch.mixed.resize(std::max(batch.mixed.size(), planes.size() / kBrickBytes));
+  std::size_t i = 0;
+  for (const Record& r : batch.records) {
+    if (r.fill != BrickFill::mixed) continue;
+    from_planes(planes.data() + i * kBrickBytes, batch.mixed[i]);
+    if (classify(batch.mixed[i++]) != BrickFill::mixed)
+      return fmt::format("brick {}: is called mixed, but all its voxels are alike", brick_name(r.coord));
+  }
+  return "";
+}
+
+void decode(const StreamHeader& header, InBatch& batch) {
+  batch.raw.resize(batch.raw_bytes);
+  batch.records.clear();
+  if ((std::uint8_t(batch.packed.size() > 4 ? batch.packed[4] : std::byte(0)) & 4) == 0) {
+    batch.fault = "the zstd frame has no checksum";
+  } else if (const char* fault = decompress(batch.packed, batch.raw)) {
+    batch.fault = fmt::format("the zstd frame cannot be read ({})", fault);
+  } else {
+    batch.fault = read_records(header, batch);
+    if (batch.fault.empty()) batch.fault = read_voxels(batch);
+    if (batch.fault.empty()) batch.totals = total(batch.records, batch.planes());
+  }
+}
+
+}  // namespace
+
+struct BrickReader::State {
+  InputFile file;
+  StreamHeader header;
+  StreamTotals totals;
+  std::vector<InBatch> batches = std::vector<InBatch>(batches_ahead());  // kept, with their memory
+  std::size_t ready = 0;                                                 // batches that hold bricks
+  std::size_t at_batch = 0, at_record = 0, at_mixed = 0;                 // next to hand out
+  std::exception_ptr pending;  // met while reading ahead; thrown when its turn comes
+  std::uint64_t index_offset = 0;
+  std::uint32_t index_size = 0;  // not 0: the index has begun
+  std::optional<Record> previous;
+  IndexEntry slab;  // in progress, if it has a batch
+  std::uint32_t slabs = 0;
+  Digest index;  // of the index as it should be
+
+  explicit State(const std::string& path) : file(path) {}
+
+  template <class... Args>
+  [[noreturn]] void refuse(std::uint64_t offset, fmt::format_string<Args...> format, Args&&... args) const {
+    fail(ErrorCode::bad_input, "{}: byte {}: {}", file.name(), offset,
+         fmt::format(format, std::forward<Args>(args)...));
+  }
+
+  void take(std::span<std::byte> bytes, const char* what) {
+    if (file.read(bytes) == bytes.size()) return;
+    fail(ErrorCode::bad_input,
+         "{}: truncated: it ends at byte {}, within the {}; the tool that wrote it did not finish, run it again",
+         file.name(), file.offset(), what);
+  }
+  template <std::size_t N>
+  std::array<std::byte, N> take(const char* what) {
+    std::array<std::byte, N> bytes;
+    take(bytes, what);
+    return bytes;
+  }
+
+  void read_header();
+  bool fetch(InBatch& batch);
+  void accept(const InBatch& batch);
+  void close_slab();
+  void read_index();
+  void read_end();
+  void fetch_ahead();
+  void decode_ahead();
+};
+
+/// Section 4. The version comes first: a later one may have changed anything after it.
+void BrickReader::State::read_header() {
+  std::array<std::byte, kFrameHeadBytes + kStreamMagic.size() + 2> start;
+  const std::size_t got = file.read(start);
+  if (got == 0) {
+    fail(ErrorCode::bad_input, "{}: is empty, not a brick stream; did the tool before it fail?", file.name());
+  }
+  const std::span<const std::byte> head(start.data(), got);
+  const auto begins = [&](std::size_t at, const void* bytes, std::size_t n) {
+    return at >= got || std::memcmp(start.data() + at, bytes, std::min(n, got - at)) == 0;
+  };
+  if (!begins(0, &kFrameMagic, 4)) fail(ErrorCode::bad_input, "{}: {}; bpvox makes one", file.name(), describe(head));
+  if (!begins(kFrameHeadBytes, kStreamMagic.data(), kStreamMagic.size())) {
+    if (begins(kFrameHeadBytes, kStreamMagic.data(), 4))
+      refuse(kFrameHeadBytes + 4,
+             "the magic is damaged, as by a transfer in text mode; copy the stream in binary mode");
+    fail(ErrorCode::bad_input, "{}: is a zstd file of something else, not a brick stream; bpvox makes one",
+         file.name());
+  }
+  if (got < start.size()) take(std::span(start).subspan(got), "header");
+  ByteSource in(start);
+  (void)in.get<std::uint32_t>();
+  const auto size = in.get<std::uint32_t>();
+  (void)in.get<std::uint64_t>();
+  const auto version = in.get<std::uint16_t>();
+  if (version != kStreamVersion) {
+    refuse(kFrameHeadBytes + kStreamMagic.size(), "version {} of the brick stream; this tool reads version {}", version,
+           kStreamVersion);
+  }
+  if (size < kHeaderFixedBytes + kHashBytes ||
+      size > kHeaderFixedBytes + kMaxScaleBytes + kMaxProvenanceBytes + kMaxSceneBytes + kHashBytes)
+    refuse(4, "a header of {} bytes cannot be; the stream is damaged", size);
+
+  std::vector<std::byte> payload(size);
+  const std::size_t known = start.size() - kFrameHeadBytes;
+  std::copy(start.begin() + kFrameHeadBytes, start.end(), payload.begin());
+  // The two texts are declared in the fixed part: check before reading on.
+  take(std::span(payload).subspan(known, kHeaderFixedBytes - known), "header");
+  ByteSource sizes(std::span<const std::byte>(payload).subspan(kHeaderFixedBytes - 8));
+  const auto scale = sizes.get<std::uint32_t>(), provenance = sizes.get<std::uint32_t>();
+  if (scale > kMaxScaleBytes || provenance > kMaxProvenanceBytes ||
+      size < kHeaderFixedBytes + scale + provenance + kHashBytes ||
+      size > kHeaderFixedBytes + scale + provenance + kMaxSceneBytes + kHashBytes)
+    refuse(kFrameHeadBytes + kHeaderFixedBytes - 8, "the sizes in the header disagree; the stream is damaged");
+  take(std::span(payload).subspan(kHeaderFixedBytes), "header");
+  const std::span<const std::byte> hashed(payload.data(), size - kHashBytes);
+  if (ByteSource(std::span<const std::byte>(payload).last(kHashBytes)).get<std::uint64_t>() != hash64(hashed))
+    refuse(kFrameHeadBytes, "the checksum of the header differs; the stream is damaged");
+  header = decode_header(hashed, file.name());
+}
+
+/// Section 5, and the bytes of section 6. False when the index comes instead, which is then read, with the end record.
+bool BrickReader::State::fetch(InBatch& batch) {
+  batch.offset = file.offset();
+  const auto frame_bytes = take<kFrameHeadBytes>("next frame: there is no end record");
+  ByteSource frame(frame_bytes);
+  const auto magic = frame.get<std::uint32_t>(), size = frame.get<std::uint32_t>();
+  if (magic != kFrameMagic || size < 16)
+    refuse(batch.offset, "neither a batch nor an index begins here; the stream is damaged");
+  const auto tag = take<4>("tag of a batch or of the index");
+  if (starts_with(tag, kIndexTag)) {
+    index_offset = batch.offset;
+    index_size = size;
+    return false;
+  }
+  if (!starts_with(tag, kBatchTag) || size != kBatchHeadBytes)
+    refuse(batch.offset, "neither a batch nor an index begins here; the stream is damaged");
+  const auto head_bytes = take<kBatchHeadBytes - 4>("batch head");
+  ByteSource head(head_bytes);
+  batch.records_declared = head.get<std::uint32_t>();
+  batch.raw_bytes = head.get<std::uint32_t>();
+  const auto packed = head.get<std::uint32_t>();
+  batch.first = head.get_coord();
+  batch.last = head.get_coord();
+  if (batch.records_declared == 0 || batch.records_declared > kMaxRecords || batch.raw_bytes > kMaxRawBytes ||
+      batch.raw_bytes < batch.records_declared * kRecordBytes || packed == 0 || packed > kMaxPackedBytes)
+    refuse(batch.offset, "a batch of {} bricks in {} bytes ({} compressed) cannot be; the stream is damaged",
+           batch.records_declared, batch.raw_bytes, packed);
+  batch.packed.resize(packed);
+  take(batch.packed, "batch");
+  return true;
+}
+
+/// What concerns more than one batch: order, totals, index.
+void BrickReader::State::accept(const InBatch& batch) {
+  if (!batch.fault.empty()) {
+    refuse(batch.offset, "batch of bricks {} to {}: {}; the stream is damaged", brick_name(batch.first),
+           brick_name(batch.last), batch.fault);
+  }
+  const Record& first = batch.records.front();
+  if (previous && !before(header.slab_axis, *previous, first))
+    refuse(batch.offset, "brick {}: is out of order; the stream is damaged", brick_name(first.coord));
+  const std::int32_t at = first.coord[header.slab_axis];
+  if (slab.batches > 0 && slab.slab != at) close_slab();
+  if (slab.batches++ == 0) slab = {at, 1, batch.offset, 0};
+  slab.records += batch.records.size();
+  previous = batch.records.back();
+  totals.add(batch.totals);
+}
+
+void BrickReader::State::close_slab() {
+  if (slab.batches == 0) return;
+  ByteSink bytes;
+  put_index_entry(bytes, slab);
+  index.add(bytes.bytes());
+  ++slabs;
+  slab = {};
+}
+
+/// Section 8, after the tag. Compared by hash: a copy of the index could be large.
+void BrickReader::State::read_index() {
+  close_slab();
+  const auto count = take<4>("index");
+  const auto n = ByteSource(count).get<std::uint32_t>();
+  if (n != slabs || index_size != 8 + std::uint64_t(n) * kIndexEntryBytes + kHashBytes)
+    refuse(index_offset, "the index is of {} slabs, the stream of {}; it is damaged", n, slabs);
+  Digest found;
+  for (std::uint32_t i = 0; i < n; ++i) found.add(take<kIndexEntryBytes>("index"));
+  const auto hash = take<kHashBytes>("index");
+  const auto declared = ByteSource(hash).get<std::uint64_t>();
+  if (found.hash() != index.hash() || found.hash() != declared)
+    refuse(index_offset, "the index is not that of this stream; it is damaged");
+}
+
+/// Section 9.
+void BrickReader::State::read_end() {
+  const std::uint64_t offset = file.offset();
+  const auto found = take<kFrameHeadBytes + kEndBytes>("end record");
+  totals.bytes = file.offset();
+  const std::vector<std::byte> expected = encode_end(totals, index_offset, totals.bytes);
+  const std::span<const std::byte> payload = std::span(found).subspan(kFrameHeadBytes);
+  if (!std::equal(found.begin(), found.begin() + kFrameHeadBytes + 4, expected.begin()) ||
+      ByteSource(payload.last(kHashBytes)).get<std::uint64_t>() != hash64(payload.first(kEndBytes - kHashBytes)))
+    refuse(offset, "the end record is damaged");
+  if (!std::equal(found.begin(), found.end(), expected.begin())) {
+    refuse(offset, "the end record counts other bricks or voxels than were read; the stream is damaged");
+  }
+  std::byte more;
+  if (file.read({&more, 1}) != 0)
+    refuse(offset + found.size(),
+           "bytes follow the end record; streams cannot be joined by writing one after the other");
+}
+
+/// Reads some batches. What goes wrong waits in `pending` until the bricks before it were handed out, so that a
+/// stream gives the same bricks before the same error whatever the number of threads.
+void BrickReader::State::fetch_ahead() {
+  ready = at_batch = at_record = at_mixed = 0;
+  try {
+    while (ready < batches.size() && fetch(batches[ready])) ++ready;
+  } catch (const Error&) {
+    pending = std::current_exception();
+  }
+}
+
+void BrickReader::State::decode_ahead() {
+  parallel_for(std::int64_t(ready), [&](std::int64_t i) { decode(header, batches[std::size_t(i)]); });
+  std::size_t good = 0;
+  try {
+    for (; good < ready; ++good) accept(batches[good]);
+    if (index_size == 0) return;
+    read_index();
+    read_end();
+  } catch (const Error&) {
+    pending = std::current_exception();
+    ready = good;
+  }
+}
+
+BrickReader::BrickReader(const std::string& path) : state_(std::make_unique<State>(path)) {
+  state_->read_header();
+}
+BrickReader::~BrickReader() = default;
+
+const StreamHeader& BrickReader::header() const {
+  return state_->header;
+}
+
+const StreamTotals& BrickReader::totals() const {
+  return state_->totals;
+}
+
+bool BrickReader::read(Brick& out) {
+  State& s = *state_;
+  while (s.at_batch == s.ready) {
+    if (s.pending) std::rethrow_exception(s.pending);
+    if (s.index_size > 0) return false;
+    s.fetch_ahead();
+    s.decode_ahead();
+  }
+  const InBatch& batch = s.batches[s.at_batch];
+  const Record& record = batch.records[s.at_record++];
+  out.coord = record.coord;
+  out.layer = record.layer;
+  out.fill = record.fill;
+  if (record.fill == BrickFill::mixed) {
+    out.bits = batch.mixed[s.at_mixed++];
+  } else {
+    out.bits.fill(~std::uint64_t(0));
+  }
+  if (s.at_record == batch.records.size()) {
+    ++s.at_batch;
+    s.at_record = s.at_mixed = 0;
+  }
+  return true;
+}
+
+}  // namespace bp

@@ -1,0 +1,26 @@
+#pragma once
+#include "lib/check/detail/mesh_topology.h"
+#include "lib/core/triangle_source.h"
+
+/// A proxy of convex parts, as physics engines take it: the union of solids that may overlap. A part is a component.
+namespace bp {
+
+/// index: the first triangle of a part that is not the boundary of a convex solid, facing outwards; other: a vertex of
+/// the part that lies beyond one of its triangles. Exact, for a closed and oriented mesh whose parts do not intersect
+/// themselves. O(f v) for parts of f triangles and v vertices, parallel.
+[[nodiscard]] Finding nonconvex_parts(const WeldedMesh& mesh, std::size_t max_examples);
+
+/// Which triangles of a scene the open parts cover: each of their points lies strictly within a part.
+struct ConvexReport {
+  std::uint64_t triangles = 0;  ///< of the scene, tested
+  Finding not_held;             ///< index: scene triangle that is not proved to be covered
+  Finding undecidable;          ///< index: scene triangle outside the domain of exact predicates
+};
+
+/// Reads the scene once from its start; memory does not grow with it. Whatever the parts are: what lies below the
+/// planes of all triangles of a closed part lies within it. Exact for triangles that lie within one part; those that
+/// several cover are proved with bounds of all rounding (convex_cover.h). Time: linear in the scene, times the
+/// triangles of the parts that one meets.
+[[nodiscard]] ConvexReport check_convex(const WeldedMesh& mesh, TriangleSource& scene, std::size_t max_examples);
+
+}  // namespace bp

@@ -1,0 +1,147 @@
+#include "lib/check/detail/enclosure.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "lib/core/parallel.h"
+#include "lib/geometry/signed_volume.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::size_t kBatch = 8192;  // triangles per work item
+
+struct Batch {
+  std::uint64_t first = 0;
+  std::vector<TriangleD> triangles;
+  Enclosure result;
+  SignedVolume volume;
+};
+
+/// Pulls from a source whose reads are of any size, hands out batches of about one size.
+class Batcher {
+ public:
+  explicit Batcher(TriangleSource& source) : source_(source) {}
+  bool next(Batch& batch) {
+    batch.first = count_;
+    while (batch.triangles.size() < kBatch && refill()) {
+      const std::size_t n = std::min(kBatch - batch.triangles.size(), read_.size() - used_);
+      const auto from = read_.begin() + std::ptrdiff_t(used_);
+      batch.triangles.insert(batch.triangles.end(), from, from + std::ptrdiff_t(n));
+      used_ += n, count_ += n;
+    }
+    return !batch.triangles.empty();
+  }
+
+ private:
+  bool refill() {
+    while (used_ == read_.size() && !ended_) {
+      used_ = 0;
+      ended_ = !source_.read(read_);
+      if (ended_) read_.clear();
+    }
+    return !ended_;
+  }
+  TriangleSource& source_;
+  std::vector<TriangleD> read_;
+  std::size_t used_ = 0;
+  std::uint64_t count_ = 0;
+  bool ended_ = false;
+};
+
+/// Sides of corners met lately. A triangle that touches nothing lies on one side, so all its corners share the answer,
+/// and so do all triangles at these corners that touch nothing. Forgetting costs time, never the result.
+class SideCache {
+ public:
+  SideCache() : slots_(kSlots) {}
+  [[nodiscard]] const int* find(const Vec3d& p) const {
+    const Slot& s = slots_[hash(p)];
+    return s.used && s.point == p ? &s.winding : nullptr;
+  }
+  void put(const Vec3d& p, int winding) { slots_[hash(p)] = {p, winding, true}; }
+
+ private:
+  static constexpr std::size_t kSlots = 4096;
+  struct Slot {
+    Vec3d point;
+    int winding;
+    bool used = false;
+  };
+  static std::size_t hash(const Vec3d& p) {
+    std::uint64_t h = 0;
+    for (const double x : p) h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u;
+    return (h >> 40) % kSlots;
+  }
+  std::vector<Slot> slots_;
+};
+
+int winding_of(const TriangleD& t, const Surface& surface, SideCache& cache) {
+  const int* known = nullptr;
+  for (std::size_t k = 0; k < 3 && known == nullptr; ++k) known = cache.find(t[k]);
+  const int winding = known != nullptr ? *known : surface.winding(t[0]);
+  for (const Vec3d& p : t) cache.put(p, winding);
+  return winding;
+}
+
+Vec3d centre(const TriangleD& t) {
+  Vec3d c;
+  for (std::size_t i = 0; i < 3; ++i) c[i] = t[0][i] / 3 + t[1][i] / 3 + t[2][i] / 3;
+  return c;
+}
+
+bool is_finite(const TriangleD& t) {
+  return std::all_of(t.begin(), t.end(),
+                     [](const Vec3d& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); });
+}
+
+void check_batch(const WeldedMesh& mesh, const Surface& surface, bool decide_sides, const Vec3d& origin,
+                 std::size_t max_examples, Batch& batch) {
+  SideCache cache;
+  Enclosure& e = batch.result;
+  batch.volume = SignedVolume(origin);
+  for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
+    const TriangleD& t = batch.triangles[i];
+    const std::uint64_t number = batch.first + i;
+    if (!is_finite(t)) {
+      e.undecidable.add({number, 0, t[0]}, max_examples);
+      continue;
+    }
+    batch.volume.add(t);
+    const std::int64_t touched = surface.touched_by(t);
+    if (touched != Surface::kNone)
+      e.touching.add({number, mesh.number[std::size_t(touched)], centre(t)}, max_examples);
+    else if (decide_sides && winding_of(t, surface, cache) < 1)
+      e.outside.add({number, 0, centre(t)}, max_examples);
+  }
+  e.triangles = batch.triangles.size();
+}
+
+}  // namespace
+
+Enclosure check_enclosure(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, bool decide_sides,
+                          std::size_t max_examples,
+                          const std::function<void(std::uint64_t, const std::vector<TriangleD>&)>& see) {
+  Enclosure all;
+  Vec3d origin{};
+  if (!surface.bounds().empty()) origin = surface.bounds().min;
+  SignedVolume volume(origin);
+  scene.rewind();
+  Batcher batcher(scene);
+  pipeline<Batch>(
+      4 * thread_count(), [&](Batch& batch) { return batcher.next(batch); },
+      [&](Batch& batch) { check_batch(mesh, surface, decide_sides, origin, max_examples, batch); },
+      [&](Batch& batch) {
+        see(batch.first, batch.triangles);
+        all.triangles += batch.result.triangles;
+        all.touching.append(batch.result.touching, max_examples);
+        all.outside.append(batch.result.outside, max_examples);
+        all.undecidable.append(batch.result.undecidable, max_examples);
+        volume.add(batch.volume);
+      });
+  all.volume = volume.value();
+  return all;
+}
+
+}  // namespace bp

@@ -1,0 +1,39 @@
+#pragma once
+#include <functional>
+
+#include "lib/device/cpu/cpu_backend.h"
+
+namespace bp {
+
+/// A device's backend for as long as the device works. The first call that ends in a DeviceError gives the device's
+/// memory back and is made again on the CPU, with its arguments as they were; so are all later ones. What a call both
+/// reads and writes is copied first: little beside the way to a device.
+class FallbackBackend final : public Backend {
+ public:
+  /// warn: called once, on the thread of the call that failed, with what failed.
+  FallbackBackend(std::unique_ptr<Backend> device, std::function<void(const std::string&)> warn)
+      : device_(std::move(device)), warn_(std::move(warn)), name_(device_->name()) {}
+
+  [[nodiscard]] std::string name() const override { return device_ ? name_ : name_ + ", then cpu"; }
+  [[nodiscard]] std::uint64_t pinned_bytes() const override { return device_ ? device_->pinned_bytes() : 0; }
+  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) override;
+  void find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,
+                      std::vector<Crossing>& out) override;
+  void fill_winding(std::vector<Crossing>& crossings, std::span<const std::uint64_t> skip,
+                    std::span<std::int32_t> numbers, BitBox& bits) override;
+  void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
+             const VoxelBox& interior, BitBox& closed) override;
+  void close_from_shelf(const BrickShelf& solid, const BrickBox& bricks, const ScaleLattice& scale, const Halo& halo,
+                        const ClosingParams& params, const VoxelBox& interior, BitBox& closed) override;
+
+ private:
+  /// True if the device did it.
+  bool device_does(const std::function<void(Backend&)>& call);
+
+  std::unique_ptr<Backend> device_;  ///< null once it has failed
+  CpuBackend cpu_;
+  std::function<void(const std::string&)> warn_;
+  std::string name_;
+};
+
+}  // namespace bp

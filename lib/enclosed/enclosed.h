@@ -1,0 +1,45 @@
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "lib/mesh/guard.h"
+
+/// What must stay inside the proxy while it shrinks.
+namespace bp {
+
+/// Removing `swept` from the solid: the tetrahedron between an old face and the new place of one of its corners.
+using Tetrahedron = std::array<LatticeCoord, 4>;
+
+/// What stood in the way of a change: a triangle (3 points) or a cube (8 points, bit i of the index for axis i).
+/// Lattice units, rounded: for the search, not for proofs.
+struct Blocker {
+  std::array<Vec3d, 8> points;
+  std::size_t count = 0;
+};
+
+class Enclosed {
+ public:
+  virtual ~Enclosed() = default;
+  /// True if the star may shrink: no tetrahedron of `swept` holds any of what must stay inside, given that the old
+  /// faces enclosed it. `star` are the faces after the change. Exact; false is always safe.
+  /// `blocker`, if not null: what stood in the way.
+  [[nodiscard]] virtual bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
+                                    Blocker* blocker = nullptr) const = 0;
+  /// Points of it in the closed box `within` that tell where a proxy must stay outside, relative to `origin`, lattice
+  /// units; rounded. They guide the search, allows() decides.
+  [[nodiscard]] virtual std::vector<Vec3d> contact_points(const LatticeCoord& origin,
+                                                          const LatticeBox& within) const = 0;
+  /// Whether each point of the faces has some of it within `distance`, lattice units. True if they do; at times where
+  /// it is within 1.35 of that only (and lattice units of rounding); and where it is not known.
+  [[nodiscard]] virtual bool is_near(std::span<const NewFace> faces, double distance) const {
+    static_cast<void>(faces), static_cast<void>(distance);
+    return true;
+  }
+  /// Memory of this, and of its contact points while a proxy is tightened; about.
+  [[nodiscard]] virtual std::uint64_t bytes() const = 0;
+  static constexpr std::uint64_t kBytesPerContactPoint =
+      112;  ///< the point, its place in the list of a face, its row in joint_fit.h
+};
+
+}  // namespace bp

@@ -1,0 +1,282 @@
+#include "lib/enclosed/enclosed_triangles.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+
+#include "lib/core/triangle_intersection.h"
+#include "lib/core/vec3.h"
+
+namespace bp {
+
+namespace {
+
+/// Lattice box that surely holds a triangle: to_voxels errs by less than 2^-20 voxel.
+LatticeBox box_around(const GridFrame& frame, const TriangleD& t) {
+  LatticeBox box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d v = frame.to_voxels(t[k]);
+    LatticeCoord low, high;
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::int64_t(std::floor(v[std::size_t(i)] * kLatticePerVoxel)) - 1;
+      high[i] = low[i] + 3;
+    }
+    if (k == 0) box = {low, high};
+    box.add(low);
+    box.add(high);
+  }
+  return box;
+}
+
+/// Boxes that lie strictly on the inner side of a face neither meet it nor a tetrahedron that it closes towards the
+/// inside.
+BoxTree::Plane plane_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
+  return {a, to_double(normal_of(a, b, c))};
+}
+
+/// A closed tetrahedron, turned so that each of its four planes has the inside on its negative side: corners
+/// (q, b, c, a) of a swept one, so that the plane of the first three is that of the new face.
+class Solid {
+ public:
+  Solid(const GridFrame& frame, const Tetrahedron& lattice) : lattice_(lattice) {
+    for (std::size_t i = 0; i < 4; ++i) corners_[i] = frame.world(lattice[i]);
+  }
+  [[nodiscard]] const Tetrahedron& lattice() const { return lattice_; }
+  [[nodiscard]] bool holds(const Vec3d& p) const {  ///< exact
+    const auto& [a, b, c, d] = corners_;
+    return orient3d(a, b, c, p) <= 0 && orient3d(a, d, b, p) <= 0 && orient3d(b, d, c, p) <= 0 &&
+           orient3d(c, d, a, p) <= 0;
+  }
+
+ private:
+  Tetrahedron lattice_;
+  std::array<Vec3d, 4> corners_;
+};
+
+/// A swept tetrahedron (a, b, c, q) has q on the inner side of its old face; a flat one holds nothing.
+std::optional<Solid> solid_of(const GridFrame& frame, const Tetrahedron& t) {
+  const int turn = orient3d(t[0], t[1], t[2], t[3]);
+  if (turn == 0) return std::nullopt;
+  const std::size_t second = turn > 0 ? 1 : 2;
+  return Solid(frame, {t[3], t[second], t[3 - second], t[0]});
+}
+
+/// The face is the new one over a tetrahedron swept.
+bool closes(const NewFace& f, const Tetrahedron& t) {
+  return f.corners[0] == t[3] && f.corners[1] == t[1] && f.corners[2] == t[2];
+}
+
+}  // namespace
+
+EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame) : frame_(frame) {
+  std::vector<LatticeBox> boxes(triangles.size());
+  std::vector<std::uint32_t> items(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    boxes[i] = box_around(frame_, triangles[i]);
+    items[i] = std::uint32_t(i);
+  }
+  tree_.build(boxes, std::move(items));
+  triangles_.reserve(triangles.size());
+  for (const std::uint32_t i : tree_.order()) triangles_.push_back(triangles[i]);
+  gather_corners();
+}
+
+void EnclosedTriangles::gather_corners() {
+  eights_.assign((triangles_.size() + 7) / 8, {});
+  const Vec3d base = to_double(tree_.base());
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d v = frame_.to_voxels(triangles_[i][k]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double at = v[axis] * kLatticePerVoxel - base[axis];
+        reach_ = std::max(reach_, std::abs(at));
+        eights_[i / 8].corners[k][axis][i % 8 / 4][i % 4] = float(at);
+      }
+    }
+  }
+}
+
+namespace {
+
+/// A half-space clear of a body: n . p > limit for a corner p as rounded. Whichever n, that proves it.
+struct HalfSpace {
+  std::array<float, 3> n;
+  float limit;
+
+  /// Bit k: it holds the corners of triangle k from the first to the last one asked for.
+  [[nodiscard]] std::uint32_t holds(const EightTriangles& eight, std::size_t last) const {
+    const auto beyond = [&](std::size_t half) {
+      FourInts all{-1, -1, -1, -1};
+      for (std::size_t k = 0; k <= last; ++k) {
+        const auto& c = eight.corners[k];
+        all &= n[0] * c[0][half] + n[1] * c[1][half] + n[2] * c[2][half] > limit;
+      }
+      return all;
+    };
+    return bits_of(beyond(0), beyond(1));
+  }
+};
+
+/// `body` relative to the tree's base. Floats: each of the three terms of n . p passes through at most 6 roundings (n,
+/// p, the product, two sums), the limit through 2, so with sizes of n that sum to 1 the height errs by less than 14
+/// roundings of reach or limit; to_voxels by less than 2^-14 lattice units.
+HalfSpace beyond(const Vec3d& direction, std::span<const Vec3d> body, double reach) {
+  const double size = std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]);
+  if (!(size > 0)) return {{0, 0, 0}, 1};
+  const Vec3d n = (1 / size) * direction;
+  double limit = dot(n, body[0]);
+  for (const Vec3d& p : body) limit = std::max(limit, dot(n, p));
+  return {{float(n[0]), float(n[1]), float(n[2])}, float(limit + 0x1p-12 + 0x1p-20 * (reach + std::abs(limit)))};
+}
+
+}  // namespace
+
+/// What a change sweeps: a new face, or a tetrahedron, or both, the face closing the tetrahedron towards the inside.
+class EnclosedTriangles::Swept {
+ public:
+  Swept(const EnclosedTriangles& all, const NewFace* face, const std::optional<Solid>& solid)
+      : all_(all), solid_(solid), has_face_(face != nullptr) {
+    const Tetrahedron t = solid ? solid->lattice() : Tetrahedron{};
+    corners_ = has_face_ ? face->corners : std::array<LatticeCoord, 3>{t[0], t[2], t[1]};
+    for (std::size_t k = 0; k < 3; ++k) {
+      world_[k] = all.frame_.world(corners_[k]);
+      body_[k] = to_double(corners_[k] - all.tree_.base());
+    }
+    body_[3] = solid ? to_double(t[3] - all.tree_.base()) : body_[0];
+    inwards_ = beyond(-1.0 * normal(), body_, all.reach_);
+  }
+
+  [[nodiscard]] LatticeBox box() const {
+    LatticeBox box = box_of(corners_[0], corners_[1], corners_[2]);
+    if (solid_) box.add(solid_->lattice()[3]);
+    return box;
+  }
+  [[nodiscard]] BoxTree::Plane plane() const { return plane_of(corners_[0], corners_[1], corners_[2]); }
+
+  /// Bits of the triangles that are surely clear.
+  [[nodiscard]] std::uint32_t clear(const EightTriangles& eight, std::uint32_t asked) {
+    std::uint32_t clear = inwards_.holds(eight, 2);
+    if ((asked & ~clear) == 0) return clear;
+    if (!complete_) add_sides();
+    std::uint32_t of_face = has_face_ ? 0 : ~0u, of_solid = solid_ ? 0 : ~0u;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (has_face_) of_face |= beside_face_[k].holds(eight, 2);
+      if (solid_) of_solid |= beside_solid_[k].holds(eight, 0);
+    }
+    return clear | (of_face & of_solid);
+  }
+
+  /// Exact.
+  [[nodiscard]] bool meets(const TriangleD& t) const {
+    return (has_face_ && triangles_intersect(t.data(), world_.data())) || (solid_ && solid_->holds(t[0]));
+  }
+
+ private:
+  [[nodiscard]] Vec3d normal() const { return cross(body_[1] - body_[0], body_[2] - body_[0]); }
+
+  /// Upright on the face, one along each edge; the other faces of the tetrahedron.
+  void add_sides() {
+    complete_ = true;
+    const Vec3d up = normal();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d &a = body_[k], &b = body_[(k + 1) % 3], &c = body_[(k + 2) % 3], &d = body_[3];
+      if (has_face_) beside_face_[k] = beyond(cross(b - a, up), {body_.data(), 3}, all_.reach_);
+      if (!solid_) continue;
+      const Vec3d n = cross(b - a, d - a);
+      beside_solid_[k] = beyond(dot(n, c - a) > 0 ? -1.0 * n : n, body_, all_.reach_);
+    }
+  }
+
+  const EnclosedTriangles& all_;
+  const std::optional<Solid>& solid_;
+  bool has_face_, complete_ = false;
+  std::array<LatticeCoord, 3> corners_;  // of the face
+  std::array<Vec3d, 3> world_;
+  std::array<Vec3d, 4> body_;  // corners of the face, then the tetrahedron's other one; relative to the tree's base
+  HalfSpace inwards_;
+  std::array<HalfSpace, 3> beside_face_, beside_solid_;
+};
+
+bool EnclosedTriangles::is_free(Swept swept, Blocker* blocker) const {
+  return tree_.query_groups(swept.box(), swept.plane(), [&](std::uint32_t first, std::uint32_t hits) {
+    hits &= ~swept.clear(eights_[first / 8], hits);
+    for (; hits != 0; hits &= hits - 1) {
+      const TriangleD& triangle = triangles_[first + std::uint32_t(std::countr_zero(hits))];
+      if (!swept.meets(triangle)) continue;
+      if (blocker != nullptr) report(triangle, *blocker);
+      return false;
+    }
+    return true;
+  });
+}
+
+// A triangle meets neither the old faces (it was enclosed) nor, once tested, the new ones. So it lies wholly in one
+// part of space that they bound together, and one of its corners tells whether a tetrahedron that leaves the solid
+// holds it. Nearly all triangles near a face lie wholly on its inner side: eight are left out at once.
+bool EnclosedTriangles::allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
+                               Blocker* blocker) const {
+  for (const NewFace& f : star) {
+    const auto under = std::find_if(swept.begin(), swept.end(), [&](const Tetrahedron& t) { return closes(f, t); });
+    const std::optional<Solid> solid = under == swept.end() ? std::nullopt : solid_of(frame_, *under);
+    if (!is_free(Swept(*this, &f, solid), blocker)) return false;
+  }
+  for (const Tetrahedron& t : swept) {
+    if (std::any_of(star.begin(), star.end(), [&](const NewFace& f) { return closes(f, t); })) continue;
+    const std::optional<Solid> solid = solid_of(frame_, t);
+    if (solid && !is_free(Swept(*this, nullptr, solid), blocker)) return false;
+  }
+  return true;
+}
+
+namespace {
+
+/// The corners, and inside a large triangle a grid of points.
+void add_samples(const TriangleD& t, double voxel, std::vector<Vec3d>& points) {
+  constexpr double kSpacingVox = 8;
+  constexpr int kMostPerEdge = 16;
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d e = t[(k + 1) % 3] - t[k];
+    longest = std::max(longest, dot(e, e));
+  }
+  const int n = int(std::clamp(std::sqrt(longest) / (kSpacingVox * voxel), 1.0, double(kMostPerEdge)));
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; i + j <= n; ++j)
+      points.push_back(t[0] + (double(i) / n) * (t[1] - t[0]) + (double(j) / n) * (t[2] - t[0]));
+  }
+}
+
+}  // namespace
+
+void EnclosedTriangles::report(const TriangleD& triangle, Blocker& blocker) const {
+  blocker.count = 3;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d v = frame_.to_voxels(triangle[k]);
+    for (std::size_t i = 0; i < 3; ++i) blocker.points[k][i] = v[i] * kLatticePerVoxel;
+  }
+}
+
+std::uint64_t EnclosedTriangles::bytes() const {
+  return triangles_.size() * kBytesEach;
+}
+
+std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin, const LatticeBox& within) const {
+  std::vector<Vec3d> points;
+  tree_.query(within, [&](std::uint32_t i) {
+    add_samples(triangles_[i], frame_.voxel, points);
+    return true;
+  });
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  std::size_t kept = 0;
+  for (const Vec3d& p : points) {
+    const Vec3d v = kLatticePerVoxel * frame_.to_voxels(p);
+    const LatticeCoord near = rounded(v);
+    if (within.meets({near, near})) points[kept++] = v - to_double(origin);
+  }
+  points.resize(kept);
+  return points;
+}
+
+}  // namespace bp

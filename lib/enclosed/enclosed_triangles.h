@@ -1,0 +1,41 @@
+#pragma once
+#include <vector>
+
+#include "lib/core/grid_frame.h"
+#include "lib/enclosed/enclosed.h"
+
+namespace bp {
+
+/// The corners of eight triangles side by side, rounded: to leave out those that are surely clear of a change.
+struct EightTriangles {
+  FourFloats corners[3][3][2];  ///< of corner and axis, lattice units
+};
+
+/// The triangles of a scene, in scene units and exactly as read: the proxy must not even touch them. All in memory: 108
+/// bytes each and about 40 for the tree. `frame` is the proxy's; its vertices are exact doubles, so the predicates on
+/// doubles are exact too.
+class EnclosedTriangles : public Enclosed {
+ public:
+  EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame);
+  [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
+                            Blocker* blocker) const override;
+  [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override;
+  [[nodiscard]] std::uint64_t bytes() const override;
+  /// The triangle, its corners in floats, about 40 for the tree, and a contact point.
+  static constexpr std::uint64_t kBytesEach =
+      sizeof(TriangleD) + sizeof(EightTriangles) / 8 + 40 + kBytesPerContactPoint;
+
+ private:
+  class Swept;
+  void gather_corners();
+  [[nodiscard]] bool is_free(Swept swept, Blocker* blocker) const;
+  void report(const TriangleD& triangle, Blocker& blocker) const;
+
+  std::vector<TriangleD> triangles_;  // in the order of the tree
+  GridFrame frame_;
+  BoxTree tree_;
+  std::vector<EightTriangles> eights_;  // relative to the tree's base
+  double reach_ = 0;                    // largest coordinate in eights_
+};
+
+}  // namespace bp

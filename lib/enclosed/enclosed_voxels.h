@@ -1,0 +1,53 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "lib/enclosed/enclosed.h"
+#include "lib/grid/stream.h"
+
+namespace bp {
+
+/// A set of voxels, as closed cubes. Touching is allowed: the proxy may lie on their boundary, as the dense surface
+/// does. Exact by separating axes in integers: a tetrahedron is clear if its interior meets no cube's interior. Memory:
+/// 64 bytes per block of 8^3 voxels with a boundary in it; cost of a query: the blocks, and the voxels of some, that
+/// the box around the tetrahedron meets; of contact_points(), all points, however few are asked for.
+class EnclosedVoxels : public Enclosed {
+ public:
+  explicit EnclosedVoxels(const BrickShelf& shelf);
+  [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
+                            Blocker* blocker) const override;
+  [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override;
+  [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const override;
+  [[nodiscard]] std::uint64_t bytes() const override;
+
+ private:
+  /// Occupied voxels with an empty one across one of their 6 faces: word z, bit 8 y + x.
+  using Block = std::array<std::uint64_t, 8>;
+  struct BoundaryBrick {
+    std::array<std::uint64_t, 8> blocks;  ///< those with any voxel: word z, bit 8 y + x
+    std::array<std::uint32_t, 8> first;   ///< in blocks_: the first one of each word
+  };
+  [[nodiscard]] bool clear(const Tetrahedron& t, Blocker* blocker) const;
+  [[nodiscard]] bool brick_clear(class Separator& separator, BrickCoord coord, const BoundaryBrick& brick,
+                                 Blocker* blocker) const;
+  [[nodiscard]] bool block_clear(Separator& separator, VoxelCoord first, const Block& block, Blocker* blocker) const;
+  class Nearest;
+  [[nodiscard]] bool is_near(const std::array<LatticeCoord, 3>& t, double distance,
+                             std::optional<LatticeCoord>& hint) const;
+  void look(BrickCoord coord, const BoundaryBrick& brick, Nearest& nearest) const;
+  struct Hash {
+    std::size_t operator()(const BrickCoord& c) const {
+      return std::size_t(std::uint32_t(c.x) * 0x9e3779b1u ^ std::uint32_t(c.y) * 0x85ebca77u ^
+                         std::uint32_t(c.z) * 0xc2b2ae3du);
+    }
+  };
+  std::unordered_map<BrickCoord, BoundaryBrick, Hash> bricks_;
+  std::vector<Block> blocks_;
+  /// Corners with one occupied voxel around them, and of straight edges and flat sides those 8 voxels apart; some on
+  /// brick borders are left out.
+  std::vector<VoxelCoord> points_;
+};
+
+}  // namespace bp

@@ -1,0 +1,46 @@
+#pragma once
+#include <vector>
+
+#include "lib/mesh/edge_limit.h"
+#include "lib/mesh/face_tree.h"
+#include "lib/mesh/shells.h"
+#include "lib/mesh/step_limits.h"
+
+/// Vertices that move freely, neither out nor in, while the mesh stays embedded and every shell of it the right way
+/// round.
+namespace bp {
+
+class VertexMover {
+ public:
+  /// `edge_limit`, `limits`: kept by every move; may be empty or null.
+  VertexMover(HalfEdgeMesh& mesh, EdgeLimit edge_limit, StepLimits* limits)
+      : mesh_(mesh),
+        tree_(mesh),
+        guard_(mesh, tree_),
+        sense_(mesh),
+        room_(mesh.room()),
+        edge_limit_(std::move(edge_limit)),
+        limits_(limits) {}
+
+  /// Moves v to q, or half or a quarter of the way. A move that would let faces meet, turn over or become needles, or
+  /// turn a shell inside out, is not made. True if v has moved.
+  bool draw(VertexId v, const LatticeCoord& q);
+
+ private:
+  bool try_move(VertexId v, const LatticeCoord& q);
+
+  HalfEdgeMesh& mesh_;
+  FaceTree tree_;
+  Guard guard_;
+  ShellSense sense_;
+  LatticeBox room_;
+  EdgeLimit edge_limit_;
+  StepLimits* limits_;
+  std::vector<NewFace> star_;
+  std::vector<FaceId> replaced_;
+};
+
+/// Unit normal at v by the areas of its faces; zero if they cancel.
+[[nodiscard]] Vec3d vertex_normal(const HalfEdgeMesh& mesh, VertexId v);
+
+}  // namespace bp

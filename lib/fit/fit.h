@@ -1,0 +1,34 @@
+#pragma once
+#include <functional>
+
+#include "lib/simplify/simplify.h"
+
+/// Fitting: levels of detail that need not enclose ([CB17] §5.4). The closing has merged parts and closed holes; its
+/// surface is simplified freely, and its vertices settle where it is nearest to what it stands for (settle.h), so that
+/// neither steps nor the half voxel that voxels stand out remain. Every step is checked by the guard: the result is
+/// closed, 2-manifold and embedded.
+namespace bp {
+
+/// Where a point of the dense surface at `p` should be, given the unit normal of the surface there; lattice units. Must
+/// be callable by several threads at a time.
+using FitTarget = std::function<Vec3d(const Vec3d& p, const Vec3d& normal)>;
+
+/// The start of every level.
+struct FineFit {
+  LatticeMesh surface;
+  std::vector<Vec3d> points;  ///< evenly over the dense surface, each at its target; lattice units
+};
+
+/// `dense`, the surface of repaired voxels, freely simplified to some ten times `faces` (at least 20,000), then drawn
+/// to the targets as far as the surface stays embedded. `edge_limit`: of the levels; may be empty. Deterministic.
+[[nodiscard]] FineFit fine_fit(const SurfaceSource& dense, std::uint64_t faces, const FitTarget& target,
+                               const EdgeLimit& edge_limit = {}, const PieceMemory& memory = {});
+
+/// A level: freely simplified with the targets of `params`, which it keeps, and settled.
+[[nodiscard]] LatticeMesh fit_level(const FineFit& fine, const SimplifyParams& params, SimplifyCounts& counts);
+
+/// Moves each vertex of an embedded mesh to its target, or half or a quarter of the way, keeping `edge_limit` (may be
+/// empty; vertex_mover.h). Returns the number of moves.
+std::uint64_t draw_to_targets(HalfEdgeMesh& mesh, const FitTarget& target, const EdgeLimit& edge_limit, int sweeps);
+
+}  // namespace bp

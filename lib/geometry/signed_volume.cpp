@@ -1,0 +1,40 @@
+#include "lib/geometry/signed_volume.h"
+
+#include <fmt/format.h>
+
+#include "lib/core/vec3.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kRounding = 1e-9;   // of the area: what is left over of a closed surface, at most
+constexpr double kOfNormal = 2e-15;  // of its edges' product, beside which a thin triangle's area may be nothing
+
+}  // namespace
+
+void SignedVolume::add(const TriangleD& t) {
+  const Vec3d u = t[1] - t[0], v = t[2] - t[0], normal = cross(u, v);
+  six_volumes_ += dot(t[0] - origin_, normal);
+  two_areas_ = two_areas_ + normal;
+  two_area_ += length(normal);
+  rounding_ += kOfNormal * length(u) * length(v);
+}
+
+void SignedVolume::add(const SignedVolume& v) {
+  six_volumes_ += v.six_volumes_;
+  two_areas_ = two_areas_ + v.two_areas_;
+  two_area_ += v.two_area_;
+  rounding_ += v.rounding_;
+}
+
+std::optional<double> SignedVolume::value() const {
+  if (!(length(two_areas_) <= kRounding * two_area_ + rounding_)) return {};
+  return six_volumes_ / 6;
+}
+
+std::string volume_text(const std::optional<double>& volume) {
+  return volume ? fmt::format("{:.9g}", *volume) : "none: the surface is open, or faces both ways";
+}
+
+}  // namespace bp

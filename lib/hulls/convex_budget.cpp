@@ -1,0 +1,76 @@
+#include "lib/hulls/convex_budget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "lib/core/parallel.h"
+#include "lib/hulls/detail/convex_shape.h"
+#include "lib/hulls/detail/convex_steps.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::size_t kTried = 6;  // steps of a hull, of which the cheapest for a corner is taken
+
+/// A hull with fewer corners around another one.
+struct Next {
+  std::optional<ConvexHull> hull;
+  double price = HUGE_VAL;  // volume for a corner
+};
+
+Next next_of(const ConvexHull& hull) {
+  Next next;
+  if (hull.vertices.size() <= 4) return next;
+  std::optional<ConvexHull> rough;  // the cheapest with a sliver
+  const double volume6 = volume6_of(hull), slivers = slivers_of(hull);
+  const auto price_of = [&](const ConvexHull& made) {
+    return (volume6_of(made) - volume6) / double(hull.vertices.size() - made.vertices.size());
+  };
+  std::size_t tried = 0;
+  for (const HullStep& step : HullSteps(hull).all()) {
+    if (next.hull && (tried++ >= kTried || step.cost6 / 2 > next.price)) break;
+    ConvexHull made = with_point(hull, step.point);
+    if (made.vertices.size() >= hull.vertices.size()) continue;
+    draw_diagonals(made);
+    if (slivers_of(made) > slivers) {
+      if (!rough) rough = std::move(made);
+      continue;
+    }
+    const double price = price_of(made);
+    if (price < next.price) next = {std::move(made), price};
+  }
+  if (next.hull) return next;
+  if (!rough) rough = simple_hull_around(hull, hull.vertices.size() - 1);
+  ConvexHull made = without_slivers(*rough);
+  if (made.vertices.size() >= hull.vertices.size()) made = std::move(*rough);
+  return {made, price_of(made)};
+}
+
+}  // namespace
+
+std::uint64_t face_count(const std::vector<ConvexHull>& hulls) {
+  std::uint64_t sum = 0;
+  for (const ConvexHull& hull : hulls) sum += hull.triangles.size();
+  return sum;
+}
+
+void keep_to_faces(std::vector<ConvexHull>& hulls, std::uint64_t faces) {
+  std::uint64_t left = face_count(hulls);
+  if (left <= faces) return;
+  std::vector<Next> next(hulls.size());
+  parallel_for(std::int64_t(hulls.size()),
+               [&](std::int64_t i) { next[std::size_t(i)] = next_of(hulls[std::size_t(i)]); });
+  while (left > faces) {
+    const auto cheapest =
+        std::min_element(next.begin(), next.end(), [](const Next& x, const Next& y) { return x.price < y.price; });
+    if (cheapest == next.end() || !cheapest->hull) return;
+    ConvexHull& hull = hulls[std::size_t(cheapest - next.begin())];
+    left -= hull.triangles.size() - cheapest->hull->triangles.size();
+    hull = std::move(*cheapest->hull);
+    *cheapest = next_of(hull);
+  }
+}
+
+}  // namespace bp

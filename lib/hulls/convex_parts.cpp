@@ -1,0 +1,188 @@
+#include "lib/hulls/convex_parts.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "lib/core/parallel.h"
+#include "lib/hulls/convex_budget.h"
+#include "lib/hulls/detail/convex_cut.h"
+#include "lib/hulls/detail/convex_merge.h"
+#include "lib/hulls/detail/convex_shape.h"
+#include "lib/hulls/detail/convex_simplify.h"
+#include "lib/hulls/detail/convex_tighten.h"
+
+namespace bp {
+
+namespace {
+
+using Face = std::array<std::uint32_t, 3>;
+
+std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+/// The part of `mesh` made of these faces, with only the vertices that they use, in the order of first use.
+LatticeMesh part_of(const LatticeMesh& mesh, const std::vector<Face>& faces) {
+  LatticeMesh part;
+  part.frame = mesh.frame;
+  part.provenance = mesh.provenance;
+  std::map<std::uint32_t, std::uint32_t> renamed;
+  for (Face f : faces) {
+    for (std::uint32_t& v : f) {
+      const auto [found, is_new] = renamed.emplace(v, std::uint32_t(part.vertices.size()));
+      if (is_new) part.vertices.push_back(mesh.vertices[v]);
+      v = found->second;
+    }
+    part.triangles.push_back(f);
+  }
+  return part;
+}
+
+constexpr double kSmall = 2e-3;            // of the volume: what a hull may have above the solid in it
+constexpr double kGrowth = 0.01;           // of a hull's volume, for fewer corners
+constexpr std::uint64_t kFewestFaces = 4;  // of a closed surface
+constexpr std::size_t kCellsPerHull = 4;   // what is joined again knows more than what was cut first
+
+LatticeMesh mesh_of(const LatticeMesh& mesh, ConvexHull hull) {
+  LatticeMesh made;
+  made.frame = mesh.frame;
+  made.provenance = mesh.provenance;
+  made.vertices = std::move(hull.vertices);
+  made.triangles = std::move(hull.triangles);
+  return made;
+}
+
+void append(LatticeMesh& mesh, const LatticeMesh& other) {
+  const auto first = std::uint32_t(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+}
+
+/// Outer shells with the cavities in them. A cavity that is not found to lie in any is filled.
+std::vector<SolidCell> solids_of(const LatticeMesh& mesh) {
+  std::vector<LatticeMesh> outer, cavities;
+  for (LatticeMesh& part : components_of(mesh)) (volume6_of(part) > 0 ? outer : cavities).push_back(std::move(part));
+  std::vector<SolidCell> shells(outer.begin(), outer.end());
+  for (const LatticeMesh& cavity : cavities) {
+    std::optional<std::size_t> around;
+    for (std::size_t i = 0; i < shells.size(); ++i) {
+      if (!shells[i].cell().holds(box_of(cavity.vertices)) || !shells[i].holds(cavity.vertices[0])) continue;
+      if (!around || shells[*around].cell().holds(shells[i].cell())) around = i;
+    }
+    if (around) append(outer[*around], cavity);
+  }
+  if (cavities.empty()) return shells;
+  return {outer.begin(), outer.end()};
+}
+
+double volume6_of(const std::vector<ConvexHull>& hulls) {
+  double sum = 0;
+  for (const ConvexHull& hull : hulls) sum += volume6_of(hull);
+  return sum;
+}
+
+/// Sets corners of different hulls apart, which may make slivers again.
+void set_apart(std::vector<ConvexHull>& hulls) {
+  for (int round = 0; round < 4; ++round) {
+    set_corners_apart(hulls);
+    bool fine = true;
+    for (ConvexHull& hull : hulls) {
+      draw_diagonals(hull);
+      if (slivers_of(hull) == 0) continue;
+      fine = false;
+      hull = without_slivers(std::move(hull));
+    }
+    if (fine) return;
+  }
+  set_corners_apart(hulls);
+}
+
+/// Hulls around `hulls` with no more faces than are wanted.
+std::vector<ConvexHull> simplified(const std::vector<ConvexHull>& hulls, std::uint64_t faces, bool& short_of_faces) {
+  std::vector<ConvexHull> fewer = hulls;
+  parallel_for(std::int64_t(fewer.size()), [&](std::int64_t i) {
+    ConvexHull& hull = fewer[std::size_t(i)];
+    hull = without_slivers(with_fewer_corners(std::move(hull), kMostCorners, kGrowth));
+  });
+  if (faces > 0 && face_count(fewer) > faces) {
+    short_of_faces = true;
+    keep_to_faces(fewer, faces);
+  }
+  parallel_for(std::int64_t(fewer.size()), [&](std::int64_t i) {
+    ConvexHull& hull = fewer[std::size_t(i)];
+    hull = tightened(std::move(hull), hulls[std::size_t(i)].vertices);
+  });
+  return fewer;
+}
+
+/// As many hulls as leave least volume within the faces, but not more than `most`.
+std::vector<ConvexHull> few_hulls(const std::vector<Wrapped>& wrapped, std::size_t most, std::uint64_t faces,
+                                  double small6, bool& short_of_faces) {
+  constexpr double kWorse = 1.03;  // volume at which fewer hulls are not tried any more
+  std::vector<ConvexHull> best;
+  double least6 = std::numeric_limits<double>::infinity();
+  for (std::size_t count = most; count > 0; count = count * 3 / 4) {
+    const std::vector<ConvexHull> joined = merge_hulls(wrapped, count, small6);
+    count = std::min(count, joined.size());
+    std::vector<ConvexHull> hulls = simplified(joined, faces, short_of_faces);
+    if (!short_of_faces) return hulls;
+    if (face_count(hulls) > faces && count > 1) continue;  // four for each are too many
+    const double now6 = volume6_of(hulls);
+    if (now6 > kWorse * least6) break;
+    if (now6 < least6) least6 = now6, best = std::move(hulls);
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<LatticeMesh> components_of(const LatticeMesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  for (const Face& f : mesh.triangles) {
+    for (const std::uint32_t v : f) parent[find_root(parent, v)] = find_root(parent, f[0]);
+  }
+  std::map<std::uint32_t, std::size_t> number;
+  std::vector<std::vector<Face>> faces;
+  for (const Face& f : mesh.triangles) {
+    const auto [found, is_new] = number.emplace(find_root(parent, f[0]), faces.size());
+    if (is_new) faces.emplace_back();
+    faces[found->second].push_back(f);
+  }
+  std::vector<LatticeMesh> parts;
+  parts.reserve(faces.size());
+  for (const std::vector<Face>& f : faces) parts.push_back(part_of(mesh, f));
+  return parts;
+}
+
+ConvexParts convex_parts(const LatticeMesh& mesh, std::size_t most, std::uint64_t faces) {
+  std::vector<SolidCell> solids = solids_of(mesh);
+  ConvexParts parts;
+  parts.solids = solids.size();
+  if (most == 0) most = std::max(kMostHulls, solids.size());
+  const double small6 = kSmall * double(volume6_of(mesh));
+  const std::vector<SolidCell> cells = cut_to_convex(std::move(solids), kCellsPerHull * most, small6);
+  std::vector<std::optional<ConvexHull>> found(cells.size());
+  parallel_for(std::int64_t(cells.size()), [&](std::int64_t i) {
+    found[std::size_t(i)] = hull_of(cells[std::size_t(i)].points(SolidCell::Rounding::outward));
+  });
+  std::vector<Wrapped> wrapped;
+  std::map<const void*, std::uint32_t> numbers;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::uint32_t solid = numbers.emplace(cells[i].solid(), std::uint32_t(numbers.size())).first->second;
+    if (found[i])
+      wrapped.push_back({std::move(*found[i]), cells[i].volume6(), solid});  // a cell may have nothing of the solid
+  }
+  if (faces > 0) faces = std::max(faces, kFewestFaces);
+  std::vector<ConvexHull> hulls = few_hulls(wrapped, most, faces, small6, parts.short_of_faces);
+  set_apart(hulls);
+  parts.limited = hulls.size() >= most;
+  for (ConvexHull& hull : hulls) parts.hulls.push_back(mesh_of(mesh, std::move(hull)));
+  return parts;
+}
+
+}  // namespace bp

@@ -1,0 +1,121 @@
+#include "lib/levels/detail/voxel_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/parallel.h"
+#include "lib/geometry/crossing.h"
+#include "lib/geometry/near_surface.h"
+
+namespace bp {
+
+namespace {
+
+const double kSegmentToPoint = std::sqrt(1.5);  // from a point of the segment to any point of its voxel, in voxels
+const double kPointToSegment = std::sqrt(0.5);
+const double kPointToCentre = std::sqrt(0.75);
+constexpr double kTolerance = 0.5;  // of the search, in voxels
+constexpr std::int64_t kGrain = 256;
+constexpr std::size_t kPlaces = 512;  // of a grain
+
+/// Largest distance of a point of `from` to `to` that is known without a search: of the middles.
+double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh& to) {
+  const auto n = std::int64_t(from.size());
+  std::vector<double> largest(std::size_t((n + kGrain - 1) / kGrain));
+  parallel_chunks(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+    std::uint32_t guess = 0;
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+      Vec3d c{};
+      for (const Vec3d& p : from[i])
+        for (std::size_t k = 0; k < 3; ++k) c[k] += p[k] / 3;
+      const TriangleBvh::Nearest found = to.nearest(c, guess);
+      guess = found.item;
+      largest[std::size_t(begin / kGrain)] = std::max(largest[std::size_t(begin / kGrain)], found.distance_squared);
+    }
+  });
+  return std::sqrt(*std::max_element(largest.begin(), largest.end()));
+}
+
+/// Those of `from` that are not surely within `limit`, in their order.
+std::vector<TriangleD> farther_than(double limit, const std::vector<TriangleD>& from, const TriangleBvh& to) {
+  std::vector<char> far(from.size());
+  parallel_chunks(std::int64_t(from.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    NearSurface near(to, limit / 2, kPlaces);
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) far[i] = !near.holds(from[i], limit);
+  });
+  std::vector<TriangleD> left;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    if (far[i] != 0) left.push_back(from[i]);
+  return left;
+}
+
+/// An upper bound of the largest distance, higher by `step` or by a fiftieth. A bound is all that is asked for, so
+/// triangles are settled one by one against a limit that rises while it is too low.
+double upper_bound(const std::vector<TriangleD>& from, const TriangleBvh& to, double step) {
+  double limit = distance_at_middles(from, to) * 1.02 + step;
+  for (std::vector<TriangleD> left = farther_than(limit, from, to); !left.empty(); left = farther_than(limit, left, to))
+    limit = limit * 1.02 + step;
+  return limit;
+}
+
+int winding_number(const TriangleBvh& mesh, const Vec3d& p) {
+  int winding = 0;
+  mesh.visit_above(p, [&](const TriangleBvh::Item& item) { winding += crossing_above(item.corners, p); });
+  return winding;
+}
+
+/// Largest distance of a centre of a voxel behind `segments` to the mesh, of those outside; at least `known`.
+double distance_of_centres(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel,
+                           double known) {
+  const auto n = std::int64_t(segments.size());
+  std::vector<double> largest(std::size_t((n + kGrain - 1) / kGrain), known);
+  parallel_chunks(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+    std::uint32_t guess = 0;
+    double& far = largest[std::size_t(begin / kGrain)];
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+      Vec3d centre = segments[i][0];
+      for (centre[0] += voxel / 2; centre[0] < segments[i][1][0]; centre[0] += voxel) {
+        const TriangleBvh::Nearest found = mesh.nearest(centre, guess);
+        guess = found.item;
+        const double distance = std::sqrt(found.distance_squared);
+        if (distance > far && winding_number(mesh, centre) < 1) far = distance;
+      }
+    }
+  });
+  return largest.empty() ? known : *std::max_element(largest.begin(), largest.end());
+}
+
+}  // namespace
+
+std::vector<TriangleD> segments_of(std::span<const VoxelRun> runs, const GridFrame& frame) {
+  constexpr std::int64_t kHalf = kLatticePerVoxel / 2;
+  std::vector<TriangleD> segments;
+  segments.reserve(runs.size());
+  for (const VoxelRun& run : runs) {
+    const LatticeCoord a{std::int64_t(run.first.x) * kLatticePerVoxel,
+                         std::int64_t(run.first.y) * kLatticePerVoxel + kHalf,
+                         std::int64_t(run.first.z) * kLatticePerVoxel + kHalf};
+    const LatticeCoord b{a.x + run.length * kLatticePerVoxel, a.y, a.z};
+    segments.push_back({frame.world(a), frame.world(b), frame.world(b)});
+  }
+  return segments;
+}
+
+double distance_from_mesh(const std::vector<TriangleD>& mesh, const TriangleBvh& segments, double voxel) {
+  return upper_bound(mesh, segments, kTolerance * voxel) + kSegmentToPoint * voxel;
+}
+
+double distance_to_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel) {
+  if (segments.empty()) return 0;
+  return upper_bound(segments, mesh, kTolerance * voxel) + kPointToSegment * voxel;
+}
+
+// A point outside is within kPointToCentre of the centre of its voxel; if that is not outside, the mesh is as near.
+double distance_beyond_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel,
+                            double at_least) {
+  const double known = at_least - kPointToCentre * voxel;
+  const double found = distance_of_centres(farther_than(known, segments, mesh), mesh, voxel, known);
+  return std::max(found + kPointToCentre * voxel, at_least);
+}
+
+}  // namespace bp

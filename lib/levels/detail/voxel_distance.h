@@ -1,0 +1,27 @@
+#pragma once
+#include <span>
+
+#include "lib/geometry/triangle_bvh.h"
+#include "lib/volume/boundary_runs.h"
+
+/// Distances between a mesh and a surface of which only the voxels are known: those that it touches, as runs. Upper
+/// bounds, up to the rounding of doubles.
+namespace bp {
+
+/// Runs as segments through the middles of their voxels, scene units (triangles of no width).
+[[nodiscard]] std::vector<TriangleD> segments_of(std::span<const VoxelRun> runs, const GridFrame& frame);
+
+/// No point of `mesh` is farther from the surface, if every voxel of the runs behind `segments`, of edge `voxel`, holds
+/// a point of it. Neither may be empty.
+[[nodiscard]] double distance_from_mesh(const std::vector<TriangleD>& mesh, const TriangleBvh& segments, double voxel);
+
+/// No point of the surface is farther from the mesh that `mesh` is over, if every one lies in a voxel of the runs
+/// behind `segments`. 0 without segments. Not empty.
+[[nodiscard]] double distance_to_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel);
+
+/// The same of those points of the surface that lie outside the mesh, which is closed: of voxels whose centre has a
+/// winding number below 1. Never below `at_least`, which must exceed a voxel: what is nearer costs one look.
+[[nodiscard]] double distance_beyond_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel,
+                                          double at_least);
+
+}  // namespace bp

@@ -1,0 +1,66 @@
+#include "lib/levels/tile_pyramid.h"
+
+#include "lib/core/error.h"
+#include "lib/volume/boundary_runs.h"
+#include "lib/volume/reduce.h"
+
+namespace bp {
+
+TilePyramid::TilePyramid(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends,
+                         PyramidOptions options)
+    : header_(header), solid_(std::move(solid)), backends_(backends), options_(std::move(options)) {
+  if (solid_->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
+  surface_ = options_.make_shelf();
+  boundary_layer(*solid_, *surface_);
+}
+
+std::unique_ptr<BrickShelf> TilePyramid::close(double scale_world) {
+  CellClosing o;
+  o.cells = options_.cells;
+  o.closing = options_.closing;
+  o.keep_cavities = options_.keep_cavities;
+  o.memory_bytes = options_.memory_bytes;
+  o.enough_for = [this](std::uint64_t missing) { return options_.pieces.enough_for(missing); };
+  o.store = options_.store;
+  o.progress = options_.progress;
+  auto closing = options_.make_shelf();
+  close_cells(header_, *solid_, backends_, scale_world, o, *closing);
+  return closing;
+}
+
+void TilePyramid::add_level(double scale_world, TileParams params, TileEncoder encode,
+                            std::function<void(LevelTile&&)> consume) {
+  waiting_.push_back({close(scale_world), nullptr, nullptr});
+  params.scale_world = scale_world;
+  params.element = options_.closing.element;
+  params.make_shelf = options_.make_shelf;
+  params.store = options_.store;
+  tasks_.push_back({{header_, *solid_, *surface_, *waiting_.back().closing, options_.cells},
+                    std::move(params),
+                    std::move(encode),
+                    std::move(consume)});
+  added_ = true;
+}
+
+void TilePyramid::make_tiles() {
+  bp::make_tiles(tasks_, {options_.memory_bytes, options_.pieces, options_.progress});
+  tasks_.clear();
+  waiting_.clear();
+  added_ = false;
+}
+
+void TilePyramid::reduce() {
+  auto solid = options_.make_shelf(), surface = options_.make_shelf();
+  bp::reduce(*solid_, header_.frame, *solid);
+  bp::reduce(*surface_, header_.frame, *surface);
+  header_ = reduced(header_);
+  if (added_) {
+    waiting_.back().solid = std::move(solid_);
+    waiting_.back().surface = std::move(surface_);
+    added_ = false;
+  }
+  solid_ = std::move(solid);
+  surface_ = std::move(surface);
+}
+
+}  // namespace bp

@@ -1,0 +1,61 @@
+#pragma once
+#include "lib/device/backend.h"
+#include "lib/levels/tile_stage.h"
+#include "lib/pass/close/cell_closing.h"
+#include "lib/pass/stage_progress.h"
+
+/// The levels of a scene that are too large for one mesh: level n has the voxels of the solid reduced n times, closed,
+/// and cut into tiles (tile_stage.h). What the scene shows to the outside is reduced along, so that errors are measured
+/// against the scene and not against the level before.
+namespace bp {
+
+struct PyramidOptions {
+  Cells cells;
+  ClosingParams closing;
+  bool keep_cavities = false;
+  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work
+  PieceMemory pieces;                                     ///< the same, for their surfaces
+  ShelfFactory make_shelf;
+  ResultStore* store = nullptr;  ///< of closings and tiles; null: all are made
+  StageProgress progress;        ///< called now and then
+};
+
+class TilePyramid {
+ public:
+  /// Begins at level 0. `solid` holds the bricks of `header`, whose frame is aligned_to_cells(). Keeps a reference to
+  /// `backends`. Throws bad_input if the solid is empty.
+  TilePyramid(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends,
+              PyramidOptions options);
+
+  [[nodiscard]] const StreamHeader& header() const { return header_; }  ///< of the level's solid
+  /// The level need not be cut: the bricks of its header lie in one cell, which a plan knows without the voxels.
+  [[nodiscard]] bool in_one_cell() const { return cells_spanned(options_.cells, header_.bricks).count() == 1; }
+
+  /// Closes the level, and has its tiles made along with those of other levels; sets scale, element, shelves and store
+  /// of `params`. Each level at most once. As close_cells().
+  void add_level(double scale_world, TileParams params, TileEncoder encode, std::function<void(LevelTile&&)> consume);
+  /// Of the levels that were added, whose voxels go then.
+  void make_tiles();
+  void reduce();  ///< to the next level
+
+  /// What a LodChain goes on with; ends this pyramid.
+  [[nodiscard]] std::unique_ptr<BrickShelf> take_solid() { return std::move(solid_); }
+  [[nodiscard]] std::unique_ptr<BrickShelf> take_surface() { return std::move(surface_); }
+
+ private:
+  [[nodiscard]] std::unique_ptr<BrickShelf> close(double scale_world);
+  /// A level whose tiles are to be made.
+  struct Waiting {
+    std::unique_ptr<BrickShelf> closing;
+    std::unique_ptr<BrickShelf> solid, surface;  ///< after reduce()
+  };
+  StreamHeader header_;
+  std::unique_ptr<BrickShelf> solid_, surface_;
+  std::vector<Waiting> waiting_;
+  std::vector<TileTask> tasks_;
+  bool added_ = false;  ///< the level is among waiting_
+  Backends& backends_;
+  PyramidOptions options_;
+};
+
+}  // namespace bp

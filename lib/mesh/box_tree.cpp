@@ -1,0 +1,121 @@
+#include "lib/mesh/box_tree.h"
+
+#include <cmath>
+
+#include "lib/core/vec3.h"
+
+namespace bp {
+
+namespace {
+
+constexpr int kCodeBits = 10;  // per axis
+
+/// Bit i of a 10-bit number becomes bit 3 i.
+std::uint32_t spread(std::uint32_t v) {
+  v = (v | (v << 16)) & 0x030000ff;
+  v = (v | (v << 8)) & 0x0300f00f;
+  v = (v | (v << 4)) & 0x030c30c3;
+  return (v | (v << 2)) & 0x09249249;
+}
+
+/// A Morton code and, in the low 32 bits, its item.
+using Key = std::uint64_t;
+
+/// By code; equal codes stay in order. Counting sort by bytes, the least first.
+void sort_by_code(std::vector<Key>& keys) {
+  std::vector<Key> sorted(keys.size());
+  for (int shift = 32; shift < 32 + 3 * kCodeBits; shift += 8) {
+    std::array<std::uint32_t, 257> start{};
+    for (const Key k : keys) ++start[((k >> shift) & 255) + 1];
+    for (std::size_t i = 0; i < 256; ++i) start[i + 1] += start[i];
+    for (const Key k : keys) sorted[start[(k >> shift) & 255]++] = k;
+    keys.swap(sorted);
+  }
+}
+
+}  // namespace
+
+void BoxTree::build(std::span<const LatticeBox> boxes, std::vector<std::uint32_t> items) {
+  order_ = std::move(items);
+  place_of_.assign(boxes.size(), 0);
+  groups_.clear();
+  levels_.clear();
+  if (order_.empty()) return;
+  base_ = boxes[order_[0]].min;
+  reach_ = 0;
+  sort_in_space(boxes);
+  groups_.reserve(order_.size() / (kWidth - 1) + kMostLevels);
+  groups_.resize((order_.size() + kWidth - 1) / kWidth);
+  for (std::uint32_t i = 0; i < order_.size(); ++i) {
+    const SmallBox small = to_small(boxes[order_[i]]);
+    groups_[i / kWidth].set(i % kWidth, small);
+    reach(small);
+    place_of_[order_[i]] = i;
+  }
+  build_levels();
+}
+
+/// Along a Morton curve through the centres of the boxes.
+void BoxTree::sort_in_space(std::span<const LatticeBox> boxes) {
+  const auto twice_centre = [](const LatticeBox& b) { return b.min + b.max; };
+  LatticeBox all{twice_centre(boxes[order_[0]]), twice_centre(boxes[order_[0]])};
+  for (const std::uint32_t item : order_) all.add(twice_centre(boxes[item]));
+  const LatticeCoord size = all.max - all.min;
+  const int shift = std::max(0, int(std::bit_width(std::uint64_t(std::max({size.x, size.y, size.z})))) - kCodeBits);
+  std::vector<Key> keys;
+  keys.reserve(order_.size());
+  for (const std::uint32_t item : order_) {
+    const LatticeCoord c = twice_centre(boxes[item]) - all.min;
+    const std::uint32_t code = spread(std::uint32_t(c.x >> shift)) | spread(std::uint32_t(c.y >> shift)) << 1 |
+                               spread(std::uint32_t(c.z >> shift)) << 2;
+    keys.push_back(Key(code) << 32 | item);
+  }
+  sort_by_code(keys);
+  std::transform(keys.begin(), keys.end(), order_.begin(), [](Key k) { return std::uint32_t(k); });
+}
+
+/// From the groups of items up to one root.
+void BoxTree::build_levels() {
+  levels_.assign(1, 0);
+  for (auto count = std::uint32_t(groups_.size()); count > 1; count = (count + kWidth - 1) / kWidth) {
+    const std::uint32_t below = levels_.back(), above = below + count;
+    levels_.push_back(above);
+    groups_.resize(above + (count + kWidth - 1) / kWidth);
+    for (std::uint32_t i = 0; i < count; ++i) groups_[above + i / kWidth].set(i % kWidth, groups_[below + i].around());
+  }
+}
+
+void BoxTree::reach(const SmallBox& b) {
+  for (std::size_t i = 0; i < 3; ++i)
+    reach_ = std::max({reach_, std::abs(double(b.min[i])), std::abs(double(b.max[i]))});
+}
+
+/// Floats: each of the three terms of n . p passes through at most 6 roundings (n, p, the product, three sums), the
+/// limit through 2: together less than 16 roundings of reach or offset. Clamped boxes may reach further.
+BoxGroup::InnerSide BoxTree::inner_side(const Plane& plane) const {
+  const double size = length(plane.normal);
+  if (!(size > 0) || reach_ >= INT32_MAX - 1) return {{0, 0, 0}, -1};
+  const Vec3d n = (1 / size) * plane.normal;
+  const LatticeCoord d = plane.point - base_;
+  const double offset = dot(n, {double(d.x), double(d.y), double(d.z)});
+  const double slack = 0x1p-20 * (reach_ + std::abs(offset));
+  return {{float(n[0]), float(n[1]), float(n[2])}, float(offset - slack)};
+}
+
+void BoxTree::remove(std::uint32_t item) {
+  const std::uint32_t i = place_of_[item];
+  groups_[i / kWidth].set(i % kWidth, BoxGroup::kNothing);
+}
+
+void BoxTree::update(std::uint32_t item, const LatticeBox& box) {
+  const SmallBox small = to_small(box);
+  reach(small);
+  std::uint32_t i = place_of_[item];
+  groups_[i / kWidth].set(i % kWidth, small);
+  for (std::size_t level = 1; level < levels_.size(); ++level) {
+    i /= kWidth;
+    if (!groups_[levels_[level] + i / kWidth].grow(i % kWidth, small)) break;
+  }
+}
+
+}  // namespace bp

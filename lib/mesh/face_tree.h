@@ -1,0 +1,33 @@
+#pragma once
+#include "lib/mesh/box_tree.h"
+#include "lib/mesh/half_edge_mesh.h"
+
+/// The tree of a mesh's live faces, which follows the mesh as it changes: changed faces grow their nodes' boxes; when
+/// half of the faces are gone the tree is rebuilt, so its cost stays that of a fresh one.
+namespace bp {
+
+class FaceTree {
+ public:
+  explicit FaceTree(const HalfEdgeMesh& mesh) : mesh_(mesh) { rebuild(); }
+
+  void update(FaceId f) { tree_.update(f, box_of_face(f)); }  ///< call after the corners of a live face moved
+  void remove(FaceId f) { tree_.remove(f); }                  ///< call for every face that dies
+  void rebuild();                                             ///< boxes as tight as the mesh is now
+  void maintain() {                                           ///< rebuilds when half of the faces are dead
+    if (mesh_.face_count() * 2 < tree_.size()) rebuild();
+  }
+  /// As BoxTree::query.
+  template <class Visit>
+  bool query(const LatticeBox& box, Visit&& visit) const {
+    return tree_.query(box, visit);
+  }
+
+ private:
+  [[nodiscard]] LatticeBox box_of_face(FaceId f) const {
+    return box_of(mesh_.corner(f, 0), mesh_.corner(f, 1), mesh_.corner(f, 2));
+  }
+  const HalfEdgeMesh& mesh_;
+  BoxTree tree_;
+};
+
+}  // namespace bp

@@ -1,0 +1,276 @@
+#include "lib/mesh/guard.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "lib/core/triangle_intersection.h"
+#include "lib/core/vec3.h"
+
+namespace bp {
+
+namespace {
+
+/// Corners with equal ids, as bits of their places in both faces.
+struct Shared {
+  unsigned a = 0, b = 0;
+};
+
+Shared shared_corners(const std::array<VertexId, 3>& a, const std::array<VertexId, 3>& b) {
+  Shared s;
+  for (unsigned i = 0; i < 3; ++i) {
+    for (unsigned j = 0; j < 3; ++j) {
+      const unsigned same = a[i] == b[j];
+      s.a |= same << i;
+      s.b |= same << j;
+    }
+  }
+  return s;
+}
+
+/// Meeting beyond the corners that they share. Exact.
+bool meet(const NewFace& a, const NewFace& b, Shared s) {
+  const LatticeCoord *ta = a.corners.data(), *tb = b.corners.data();
+  constexpr int kFirst[8] = {0, 0, 1, 0, 2, 0, 1, 0};  // of the bits, and then of the bits that are not there
+  if (s.a == 0) return triangles_intersect(ta, tb);
+  if (s.a == 1 || s.a == 2 || s.a == 4) return triangles_meet_beyond_shared_vertex(ta, kFirst[s.a], tb, kFirst[s.b]);
+  if (s.a == 7) return true;
+  const int apex_a = kFirst[7 - s.a], apex_b = kFirst[7 - s.b];
+  return triangles_meet_beyond_shared_edge(ta[(apex_a + 1) % 3], ta[(apex_a + 2) % 3], ta[apex_a], tb[apex_b]);
+}
+
+bool disjoint_pairs(std::span<const NewFace> faces) {
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (std::size_t j = i + 1; j < faces.size(); ++j) {
+      if (meet(faces[i], faces[j], shared_corners(faces[i].ids, faces[j].ids))) return false;
+    }
+  }
+  return true;
+}
+
+double sum_of_sizes(const Vec3d& v) {
+  return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
+}
+
+/// Sum of normals that does not count their lengths, as small integers.
+class MeanDirection {
+ public:
+  void add(const LatticeCoord& normal) {
+    const Vec3d n = to_double(normal);
+    const double size = sum_of_sizes(n);
+    for (std::size_t i = 0; i < 3; ++i) sum_[i] += n[i] / size;
+  }
+  void add(std::span<const LatticeCoord> normals) {
+    for (const LatticeCoord& n : normals) add(n);
+  }
+  [[nodiscard]] LatticeCoord rounded() const {
+    return {std::llround(256 * sum_[0]), std::llround(256 * sum_[1]), std::llround(256 * sum_[2])};
+  }
+
+ private:
+  Vec3d sum_{};
+};
+
+/// Seen along a direction, all faces turn the same way around the apex, and once: then the fan is a graph over its
+/// shadow. Exact; sufficient for its faces to meet only where they should.
+bool is_graph(std::span<const NewFace> star, std::span<const LatticeCoord> normals, const LatticeCoord& along) {
+  for (const LatticeCoord& n : normals) {
+    if (side_along(n, along) <= 0) return false;
+  }
+  // The fan crosses a plane that holds the apex and the direction in the same sense once per turn.
+  const LatticeCoord across = along.x != 0 || along.y != 0 ? LatticeCoord{along.y, -along.x, 0} : LatticeCoord{1, 0, 0};
+  int turns = 0;
+  for (const NewFace& f : star) {
+    turns +=
+        side_along(across, f.corners[1] - f.corners[0]) < 0 && side_along(across, f.corners[2] - f.corners[0]) >= 0;
+  }
+  return turns == 1;
+}
+
+/// Along the mean normal; holds for nearly every star, the others are compared pair by pair.
+bool is_graph(std::span<const NewFace> star, std::span<const LatticeCoord> normals) {
+  MeanDirection mean;
+  mean.add(normals);
+  return is_graph(star, normals, mean.rounded());
+}
+
+}  // namespace
+
+/// Separating planes of a new face in doubles, with the bound of their rounding: its own plane and, upright on it, one
+/// along each edge. They tell nearly all faces beside it apart; the exact test is for the rest.
+class FaceProbe {
+ public:
+  FaceProbe(const NewFace& face, const LatticeCoord& normal, const LatticeCoord& origin) {
+    const Vec3d n = to_double(normal);
+    std::array<Vec3d, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = to_double(face.corners[k] - origin);
+      reach_ = std::max(reach_, sum_of_sizes(p[k]));
+    }
+    planes_[3] = plane(n, p[0], sum_of_sizes(n));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d& q = p[(k + 1) % 3];
+      const Vec3d edge{q[0] - p[k][0], q[1] - p[k][1], q[2] - p[k][2]};
+      planes_[k] = plane(cross(edge, n), p[k], sum_of_sizes(edge) * sum_of_sizes(n));
+    }
+  }
+
+  /// True only if the faces have no point in common but the corners shared. `corners` of the other, relative to the
+  /// origin.
+  [[nodiscard]] bool apart(const std::array<Vec3d, 3>& corners, Shared shared) const {
+    if (shared.b == 7) return false;
+    int above = 0, below = 0, others = 0;
+    std::array<unsigned, 3> other{};
+    for (unsigned j = 0; j < 3; ++j) {
+      if ((shared.b >> j) & 1) continue;
+      other[std::size_t(others++)] = j;
+      const int side = planes_[3].side(corners[j], reach_);
+      above += side > 0;
+      below += side < 0;
+    }
+    if (above == others || below == others) return true;
+    for (unsigned k = 0; k < 3; ++k) {
+      const unsigned edge = (1u << k) | (1u << ((k + 1) % 3));
+      if ((shared.a & ~edge) != 0) continue;  // the plane along an edge that a shared corner is not on
+      int beyond = 0;
+      while (beyond < others && planes_[k].side(corners[other[std::size_t(beyond)]], reach_) > 0) ++beyond;
+      if (beyond == others) return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Plane {
+    Vec3d normal;
+    double offset, slack;
+    /// 0: within rounding.
+    [[nodiscard]] int side(const Vec3d& p, double reach) const {
+      const double at = normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2] - offset;
+      const double error = slack * (sum_of_sizes(p) + reach);
+      return int(at > error) - int(at < -error);
+    }
+  };
+
+  /// `size` bounds the sum of sizes of the products that made `normal`. Coordinates are integers below 2^31, exact in
+  /// doubles; a component of `normal` carries at most 4 roundings of products below `size`, the two sums of products
+  /// with points 4 more each: below 16 roundings of size * (|p| + |point|).
+  static Plane plane(const Vec3d& normal, const Vec3d& point, double size) {
+    return {normal, dot(normal, point), 0x1p-49 * size};
+  }
+
+  std::array<Plane, 4> planes_;  // along the edges, outside positive; its own
+  double reach_ = 0;
+};
+
+Guard::Guard(const HalfEdgeMesh& mesh, const FaceTree& tree)
+    : mesh_(mesh), tree_(tree), removed_(mesh.face_capacity(), 0) {}
+Guard::~Guard() = default;
+
+bool Guard::star_is_free(std::span<const NewFace> star, std::span<const FaceId> replaced) {
+  prepare(star);
+  return (is_graph(star, normals_) || disjoint_pairs(star)) && clear_of_mesh(star, replaced);
+}
+
+bool Guard::faces_are_free(std::span<const NewFace> faces, std::span<const FaceId> replaced) {
+  prepare(faces);
+  return disjoint_pairs(faces) && clear_of_mesh(faces, replaced);
+}
+
+bool Guard::grown_star_is_free(std::span<const NewFace> star, std::span<const FaceId> replaced, const Before& before) {
+  prepare(star);
+  both_ = before.box;
+  both_.add(box_.min);
+  both_.add(box_.max);
+  gather_near(both_, replaced);
+  if (!look_one_way(star, before.normals)) {
+    near_count_ = near_.size();
+    if (!is_graph(star, normals_) && !disjoint_pairs(star)) return false;
+  }
+  if (near_count_ == 0) return true;
+  prepare_probes(star);
+  return std::all_of(near_.begin(), near_.begin() + std::ptrdiff_t(near_count_),
+                     [&](FaceId other) { return clear_of_face(star, other); });
+}
+
+bool Guard::rest_is_free(std::span<const NewFace> star) {
+  if (near_count_ == 0) prepare_probes(star);  // no face has been tested yet
+  return std::all_of(near_.begin() + std::ptrdiff_t(near_count_), near_.end(),
+                     [&](FaceId other) { return clear_of_face(star, other); });
+}
+
+/// If all old faces and all new ones face up along some direction, and the new ones are a graph over their shadow, so
+/// are the old ones, over the same. From a point of these straight up one starts outside of the solid, and meets a face
+/// from below only after one from above. So where no face that looks down comes between old and new faces, no other one
+/// does (docs/bounding.md, "The guard"). Then puts those that look down first in near_.
+bool Guard::look_one_way(std::span<const NewFace> star, std::span<const LatticeCoord> normals_before) {
+  MeanDirection mean;
+  mean.add(normals_);
+  mean.add(normals_before);
+  const LatticeCoord up = mean.rounded();
+  const bool above = std::all_of(normals_before.begin(), normals_before.end(),
+                                 [&](const LatticeCoord& n) { return side_along(n, up) > 0; });
+  if (!above || !is_graph(star, normals_, up)) return false;
+  const auto looks_down = [&](FaceId f) {
+    return side_along(normal_of(mesh_.corner(f, 0), mesh_.corner(f, 1), mesh_.corner(f, 2)), up) < 0;
+  };
+  near_count_ = std::size_t(std::partition(near_.begin(), near_.end(), looks_down) - near_.begin());
+  return true;
+}
+
+void Guard::prepare(std::span<const NewFace> faces) {
+  normals_.clear();
+  box_ = {faces[0].corners[0], faces[0].corners[0]};
+  for (const NewFace& f : faces) {
+    normals_.push_back(normal_of(f.corners[0], f.corners[1], f.corners[2]));
+    for (const LatticeCoord& p : f.corners) box_.add(p);
+  }
+}
+
+void Guard::prepare_probes(std::span<const NewFace> faces) {
+  origin_ = faces[0].corners[0];
+  probes_.clear();
+  groups_.assign((faces.size() + BoxGroup::kWidth - 1) / BoxGroup::kWidth, {});
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    probes_.emplace_back(faces[i], normals_[i], origin_);
+    const auto& c = faces[i].corners;
+    groups_[i / BoxGroup::kWidth].set(std::uint32_t(i % BoxGroup::kWidth),
+                                      relative_to(origin_, box_of(c[0], c[1], c[2])));
+  }
+}
+
+void Guard::gather_near(const LatticeBox& box, std::span<const FaceId> replaced) {
+  ++stamp_;
+  for (const FaceId f : replaced) removed_[f] = stamp_;
+  near_.clear();
+  tree_.query(box, [&](FaceId other) {
+    if (removed_[other] != stamp_) near_.push_back(other);
+    return true;
+  });
+}
+
+bool Guard::clear_of_mesh(std::span<const NewFace> faces, std::span<const FaceId> replaced) {
+  prepare_probes(faces);
+  gather_near(box_, replaced);
+  return std::all_of(near_.begin(), near_.end(), [&](FaceId other) { return clear_of_face(faces, other); });
+}
+
+bool Guard::clear_of_face(std::span<const NewFace> faces, FaceId other) const {
+  NewFace o;
+  std::array<Vec3d, 3> corners;  // relative to the origin
+  for (std::size_t k = 0; k < 3; ++k) {
+    o.ids[k] = mesh_.from(3 * other + HalfEdgeId(k));
+    o.corners[k] = mesh_.position(o.ids[k]);
+    corners[k] = to_double(o.corners[k] - origin_);
+  }
+  const SmallBox box = relative_to(origin_, box_of(o.corners[0], o.corners[1], o.corners[2]));
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    for (std::uint32_t hits = groups_[g].meeting(box); hits != 0; hits &= hits - 1) {
+      const std::size_t i = BoxGroup::kWidth * g + std::size_t(std::countr_zero(hits));
+      const Shared shared = shared_corners(faces[i].ids, o.ids);
+      if (!probes_[i].apart(corners, shared) && meet(faces[i], o, shared)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace bp

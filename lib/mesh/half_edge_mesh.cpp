@@ -1,0 +1,190 @@
+#include "lib/mesh/half_edge_mesh.h"
+
+#include <algorithm>
+
+#include "lib/core/error.h"
+
+namespace bp {
+
+HalfEdgeMesh::HalfEdgeMesh(std::vector<LatticeCoord> vertices, std::span<const Triangle> triangles,
+                           const LatticeBox& cell)
+    : position_(std::move(vertices)),
+      out_(position_.size(), kNoId),
+      from_(3 * triangles.size()),
+      twin_(3 * triangles.size(), kNoId),
+      locked_(position_.size(), 0),
+      face_count_(triangles.size()),
+      cell_(cell),
+      origin_(position_.empty() ? LatticeCoord{} : position_[0]) {
+  for (std::size_t f = 0; f < triangles.size(); ++f) std::copy_n(triangles[f].begin(), 3, from_.begin() + 3 * f);
+  check_span();
+  connect();
+  check_fans();
+}
+
+void HalfEdgeMesh::check_span() const {
+  if (position_.empty()) return;
+  const LatticeBox box = box_of(position_);
+  const LatticeCoord size = box.max - box.min;
+  if (std::max({size.x, size.y, size.z}) >= kMaxSpan)
+    fail(ErrorCode::failed, "the surface spans {} lattice units, more than 2^29; use larger voxels",
+         std::max({size.x, size.y, size.z}));
+}
+
+LatticeBox HalfEdgeMesh::room() const {
+  constexpr std::int64_t kBeyond = kMaxSpan / 2;
+  const LatticeCoord margin{kBeyond, kBeyond, kBeyond};
+  const LatticeBox box = box_of(position_);
+  return intersect({box.min - margin, box.max + margin}, cell_);
+}
+
+/// Buckets of half-edges by their lower vertex, sorted by the higher one: no hashing, linear but for the valence's
+/// logarithm.
+void HalfEdgeMesh::connect() {
+  struct Half {
+    VertexId high;  // the higher end
+    HalfEdgeId h;
+  };
+  const auto edges = HalfEdgeId(from_.size());
+  std::vector<std::uint32_t> start(position_.size() + 2, 0);  // one further: it is the cursor while buckets fill
+  for (HalfEdgeId h = 0; h < edges; ++h) {
+    ++start[std::min(from(h), to(h)) + 2];
+    out_[from(h)] = h;
+  }
+  for (std::size_t v = 0; v < position_.size(); ++v) start[v + 2] += start[v + 1];
+  std::vector<Half> bucket(from_.size());
+  for (HalfEdgeId h = 0; h < edges; ++h) {
+    const VertexId low = std::min(from(h), to(h)), high = std::max(from(h), to(h));
+    bucket[start[low + 1]++] = {high, h};
+  }
+  for (VertexId v = 0; v < position_.size(); ++v) {
+    std::sort(bucket.begin() + start[v], bucket.begin() + start[v + 1],
+              [](const Half& a, const Half& b) { return a.high != b.high ? a.high < b.high : a.h < b.h; });
+    for (std::uint32_t i = start[v]; i < start[v + 1]; ++i) {
+      const auto [high, h] = bucket[i];
+      for (std::uint32_t j = i + 1; j < start[v + 1] && bucket[j].high == high && twin_[h] == kNoId; ++j) {
+        const HalfEdgeId g = bucket[j].h;
+        if (twin_[g] == kNoId && from(h) != from(g)) glue(h, g);
+      }
+      if (twin_[h] != kNoId) continue;
+      locked_[from(h)] = locked_[to(h)] = 1;
+      if (cell_.holds_inside(position_[from(h)]) || cell_.holds_inside(position_[to(h)]))
+        fail(ErrorCode::failed, "the surface is not closed at vertex {}", v);
+    }
+  }
+}
+
+void HalfEdgeMesh::check_fans() {
+  std::vector<std::uint32_t> degree(position_.size(), 0);
+  for (const VertexId v : from_) ++degree[v];
+  for (VertexId v = 0; v < position_.size(); ++v) {
+    if (out_[v] == kNoId || locked(v) || std::uint32_t(valence(v)) == degree[v]) continue;
+    locked_[v] = 1;  // a fan that leaves the cell and comes back
+    if (cell_.holds_inside(position_[v])) fail(ErrorCode::failed, "the surface is not 2-manifold at vertex {}", v);
+  }
+}
+
+int HalfEdgeMesh::valence(VertexId v) const {
+  int n = 0;
+  for_each_outgoing(v, [&](HalfEdgeId) { ++n; });
+  return n;
+}
+
+int128 HalfEdgeMesh::volume6() const {
+  int128 sum = 0;
+  for (FaceId f = 0; f < face_capacity(); ++f) {
+    if (alive(f)) sum += orient3d_value(origin_, corner(f, 0), corner(f, 1), corner(f, 2));
+  }
+  return sum;
+}
+
+// The ends have two common neighbours, those of the edge's faces. With an apex of valence 3 they have another one, or
+// else all four vertices are a tetrahedron, and both ends have valence 3 themselves.
+bool HalfEdgeMesh::can_collapse(HalfEdgeId h) const {
+  const VertexId u = from(h), w = to(h);
+  if (locked(u) || locked(w) || opposite(h) == opposite(twin(h))) return false;
+  constexpr int kChunk = 16;  // neighbours of u that are looked for in one round about w
+  VertexId near[kChunk];
+  int common = 0, n = 0;
+  const auto count_common = [&] {
+    for_each_outgoing(w, [&](HalfEdgeId g) { common += int(std::count(near, near + n, to(g))); });
+    n = 0;
+  };
+  for_each_outgoing(u, [&](HalfEdgeId g) {
+    near[n++] = to(g);  // w itself is no neighbour of w
+    if (n == kChunk) count_common();
+  });
+  count_common();
+  return common == 2 && !(valence(u) == 3 && valence(w) == 3);
+}
+
+void HalfEdgeMesh::collapse(HalfEdgeId h, const LatticeCoord& p) {
+  const HalfEdgeId t = twin(h);
+  const VertexId u = from(h), w = to(h), a = opposite(h), b = opposite(t);
+  const HalfEdgeId a_left = twin(prev(h)), a_right = twin(next(h)), b_left = twin(prev(t)), b_right = twin(next(t));
+  for_each_outgoing(w, [&](HalfEdgeId g) { from_[g] = u; });
+  glue(a_left, a_right);  // u -> a and a -> u
+  glue(b_left, b_right);
+  // a_right was the twin of w -> a, so it leaves a, and b_left that of b -> w, so it leaves u. The two others are not
+  // there if u is locked and its edge to a or b lies in the rim.
+  out_[u] = b_left;
+  out_[a] = a_right;
+  out_[b] = next(b_left);
+  out_[w] = kNoId;
+  for (const FaceId f : {face(h), face(t)}) {
+    for (std::uint32_t k = 0; k < 3; ++k) from_[3 * f + k] = kNoId;
+  }
+  face_count_ -= 2;
+  position_[u] = p;
+}
+
+bool HalfEdgeMesh::can_flip(HalfEdgeId h) const {
+  if (twin(h) == kNoId) return false;
+  const VertexId a = opposite(h), b = opposite(twin(h));
+  for (const VertexId v : {from(h), to(h), a, b}) {
+    if (locked(v)) return false;
+  }
+  if (a == b || valence(from(h)) <= 3 || valence(to(h)) <= 3) return false;
+  bool exists = false;
+  for_each_outgoing(a, [&](HalfEdgeId g) { exists |= to(g) == b; });
+  return !exists;
+}
+
+void HalfEdgeMesh::flip(HalfEdgeId h) {
+  // Faces (u, w, a) and (w, u, b) become (b, a, u)... written so that h runs b -> a and its twin a -> b.
+  const HalfEdgeId t = twin(h);
+  const VertexId u = from(h), w = to(h), a = opposite(h), b = opposite(t);
+  const HalfEdgeId wa = twin(next(h)), au = twin(prev(h)), ub = twin(next(t)),
+                   bw = twin(prev(t));  // outer halves, reversed
+  from_[h] = b;
+  from_[next(h)] = a;
+  from_[prev(h)] = u;  // face (b, a, u): halves b->a, a->u, u->b
+  from_[t] = a;
+  from_[next(t)] = b;
+  from_[prev(t)] = w;  // face (a, b, w): halves a->b, b->w, w->a
+  glue(next(h), au);
+  glue(prev(h), ub);
+  glue(next(t), bw);
+  glue(prev(t), wa);
+  out_[u] = prev(h);
+  out_[w] = prev(t);
+  out_[a] = t;
+  out_[b] = h;
+}
+
+void HalfEdgeMesh::erase(FaceId f) {
+  for (HalfEdgeId h = 3 * f; h < 3 * f + 3; ++h) {
+    out_[from_[h]] = kNoId;
+    from_[h] = kNoId;
+  }
+  --face_count_;
+}
+
+LatticeMesh HalfEdgeMesh::compact(const GridFrame& frame) const {
+  LatticeMesh mesh;
+  mesh.frame = frame;
+  mesh.triangles = live_faces([&](VertexId v, VertexId) { mesh.vertices.push_back(position_[v]); });
+  return mesh;
+}
+
+}  // namespace bp

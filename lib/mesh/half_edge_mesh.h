@@ -1,0 +1,138 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lib/core/predicates.h"
+#include "lib/mesh/box_tree.h"
+#include "lib/mesh/lattice_mesh.h"
+
+/// A closed triangle mesh, or a cell's part of one, one can collapse edges, flip edges and move vertices of. Half-edge
+/// h = 3 f + k of face f runs from corner k to corner k + 1; 24 bytes a face, 29 a vertex
+/// (docs/decisions/0002-half-edges.md says why not OpenMesh here).
+namespace bp {
+
+using VertexId = std::uint32_t;
+using FaceId = std::uint32_t;
+using HalfEdgeId = std::uint32_t;
+constexpr std::uint32_t kNoId = ~std::uint32_t(0);
+
+using Triangle = std::array<VertexId, 3>;
+
+/// No lattice point lies on its boundary: the cell of a whole mesh.
+constexpr LatticeBox kEverywhere{{-(std::int64_t(1) << 40), -(std::int64_t(1) << 40), -(std::int64_t(1) << 40)},
+                                 {std::int64_t(1) << 40, std::int64_t(1) << 40, std::int64_t(1) << 40}};
+
+class HalfEdgeMesh {
+ public:
+  /// Differences of coordinates stay below twice this, so that products of two fit in 64 bits.
+  static constexpr std::int64_t kMaxSpan = std::int64_t(1) << 29;
+
+  /// Throws `failed` if the mesh is not closed, oriented and 2-manifold, or spans kMaxSpan lattice units or more.
+  explicit HalfEdgeMesh(const LatticeMesh& mesh) : HalfEdgeMesh(mesh.vertices, mesh.triangles, kEverywhere) {}
+
+  /// Faces of a closed surface: all that have a vertex strictly inside of the box `cell`, and maybe others. Vertices
+  /// with further faces elsewhere are locked: what is around them is unknown. Throws as above.
+  HalfEdgeMesh(std::vector<LatticeCoord> vertices, std::span<const Triangle> triangles, const LatticeBox& cell);
+
+  [[nodiscard]] std::size_t vertex_capacity() const { return position_.size(); }  ///< ids below it, dead ones included
+  [[nodiscard]] std::size_t face_capacity() const { return from_.size() / 3; }
+  [[nodiscard]] std::size_t face_count() const { return face_count_; }
+  [[nodiscard]] bool alive(FaceId f) const { return from_[3 * f] != kNoId; }
+  [[nodiscard]] bool vertex_alive(VertexId v) const { return out_[v] != kNoId; }
+
+  [[nodiscard]] static HalfEdgeId next(HalfEdgeId h) { return h % 3 == 2 ? h - 2 : h + 1; }
+  [[nodiscard]] static HalfEdgeId prev(HalfEdgeId h) { return h % 3 == 0 ? h + 2 : h - 1; }
+  [[nodiscard]] static FaceId face(HalfEdgeId h) { return h / 3; }
+  [[nodiscard]] HalfEdgeId twin(HalfEdgeId h) const { return twin_[h]; }  ///< kNoId: the edge lies in the rim
+  [[nodiscard]] VertexId from(HalfEdgeId h) const { return from_[h]; }
+  [[nodiscard]] VertexId to(HalfEdgeId h) const { return from_[next(h)]; }
+  [[nodiscard]] VertexId opposite(HalfEdgeId h) const { return from_[prev(h)]; }
+  [[nodiscard]] HalfEdgeId edge(HalfEdgeId h) const {
+    return h < twin_[h] ? h : twin_[h];
+  }  ///< one name for both halves
+  [[nodiscard]] HalfEdgeId outgoing(VertexId v) const { return out_[v]; }
+  [[nodiscard]] HalfEdgeId rotate(HalfEdgeId h) const {
+    return twin_[prev(h)];
+  }  ///< next outgoing one, counter-clockwise
+
+  [[nodiscard]] const LatticeBox& cell() const { return cell_; }
+  /// New vertices belong strictly inside: of the cell, and so near to the mesh as it is that differences of coordinates
+  /// stay below twice kMaxSpan.
+  [[nodiscard]] LatticeBox room() const;
+  [[nodiscard]] bool locked(VertexId v) const { return locked_[v] != 0; }
+  void lock(VertexId v) { locked_[v] = 1; }
+
+  [[nodiscard]] const LatticeCoord& position(VertexId v) const { return position_[v]; }
+  [[nodiscard]] const LatticeCoord& corner(FaceId f, int k) const { return position_[from_[3 * f + std::uint32_t(k)]]; }
+  void move(VertexId v, const LatticeCoord& p) { position_[v] = p; }
+
+  /// visit(h) for each outgoing half-edge of v, counter-clockwise. Not for locked vertices.
+  template <class Visit>
+  void for_each_outgoing(VertexId v, Visit&& visit) const {
+    const HalfEdgeId first = out_[v];
+    HalfEdgeId h = first;
+    do {
+      const HalfEdgeId following = rotate(h);
+      visit(h);
+      h = following;
+    } while (h != first);
+  }
+  [[nodiscard]] int valence(VertexId v) const;
+
+  /// Six times the enclosed volume, lattice units cubed; exact. Of a cell's part, that of the cones from some fixed
+  /// point to its faces: changes in the cell change it by what they add. O(faces).
+  [[nodiscard]] int128 volume6() const;
+
+  /// The link condition: collapsing h leaves a closed 2-manifold of the same genus. False if an end is locked.
+  [[nodiscard]] bool can_collapse(HalfEdgeId h) const;
+  /// Merges to(h) into from(h), which moves to `p`. Needs the link condition; from(h) may be locked, if it stays.
+  void collapse(HalfEdgeId h, const LatticeCoord& p);
+  /// Removes a face; to be called for all faces of a connected part.
+  void erase(FaceId f);
+
+  /// The edge between the two opposite corners does not exist yet. False if one of the four corners is locked.
+  [[nodiscard]] bool can_flip(HalfEdgeId h) const;
+  /// Turns the edge inside its two faces; h becomes the new edge. Needs can_flip(h).
+  void flip(HalfEdgeId h);
+
+  /// visit(v, i) for each live vertex in id order, i = 0, 1, 2...; returns the live faces in id order, by these i.
+  template <class Visit>
+  [[nodiscard]] std::vector<Triangle> live_faces(Visit&& visit) const;
+  /// Live vertices and faces, in id order.
+  [[nodiscard]] LatticeMesh compact(const GridFrame& frame) const;
+
+ private:
+  void check_span() const;
+  void connect();
+  void check_fans();
+  void glue(HalfEdgeId a, HalfEdgeId b) {
+    if (a != kNoId) twin_[a] = b;
+    if (b != kNoId) twin_[b] = a;
+  }
+  std::vector<LatticeCoord> position_;
+  std::vector<HalfEdgeId> out_;  // per vertex, kNoId when dead
+  std::vector<VertexId> from_;   // per half-edge, kNoId when dead
+  std::vector<HalfEdgeId> twin_;
+  std::vector<char> locked_;  // per vertex
+  std::size_t face_count_ = 0;
+  LatticeBox cell_;
+  LatticeCoord origin_{};  // of the cones of volume6()
+};
+
+template <class Visit>
+std::vector<Triangle> HalfEdgeMesh::live_faces(Visit&& visit) const {
+  std::vector<VertexId> id(position_.size(), kNoId);
+  VertexId n = 0;
+  for (VertexId v = 0; v < position_.size(); ++v) {
+    if (vertex_alive(v)) visit(v, id[v] = n++);
+  }
+  std::vector<Triangle> triangles;
+  triangles.reserve(face_count_);
+  for (FaceId f = 0; f < face_capacity(); ++f) {
+    if (alive(f)) triangles.push_back({id[from_[3 * f]], id[from_[3 * f + 1]], id[from_[3 * f + 2]]});
+  }
+  return triangles;
+}
+
+}  // namespace bp

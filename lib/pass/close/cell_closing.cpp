@@ -1,0 +1,250 @@
+#include "lib/pass/close/cell_closing.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <mutex>
+#include <set>
+
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/grid/clip.h"
+#include "lib/volume/outside.h"
+
+namespace bp {
+
+namespace {
+
+constexpr const char* kJob = "closing of a cell";
+
+/// Backends that jobs take and give back; there are as many as jobs at work.
+class IdleBackends {
+ public:
+  explicit IdleBackends(Backends& all) {
+    for (const auto& backend : all) idle_.push_back(backend.get());
+  }
+  Backend* take() {
+    const std::lock_guard lock(mutex_);
+    Backend* backend = idle_.back();
+    idle_.pop_back();
+    return backend;
+  }
+  void give(Backend* backend) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(backend);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<Backend*> idle_;
+};
+
+/// The bricks of a box that are not empty: place, fill, and bits unless full; then the end.
+std::string packed(const BitBox& bits) {
+  std::string out;
+  for_each_brick(bits.box(), [&](BrickCoord c) {
+    BrickBits brick;
+    const VoxelCoord first = first_voxel(c);
+    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+        brick[std::size_t(z * kBrickEdge + y)] =
+            bits.row(first.y + y, first.z + z)[(first.x - bits.box().min.x) / kBrickEdge];
+      }
+    }
+    const BrickFill fill = classify(brick);
+    if (fill == BrickFill::empty) return;
+    const BrickCoord at = c - brick_of(bits.box().min);
+    for (const std::int32_t x : {at.x, at.y, at.z, std::int32_t(fill)})
+      out.append(reinterpret_cast<const char*>(&x), sizeof x);
+    if (fill == BrickFill::mixed) out.append(reinterpret_cast<const char*>(brick.data()), sizeof brick);
+  });
+  return out + 'e';
+}
+
+/// False if the bytes are no bricks of a cell.
+bool unpack(const std::string& in, const VoxelBox& cell, BrickShelf& shelf) {
+  const BrickBox bricks = bricks_of(cell);
+  if (in.empty() || in.back() != 'e') return false;
+  const std::size_t end = in.size() - 1;
+  for (std::size_t at = 0; at < end;) {
+    std::int32_t head[4];
+    BrickBits bits;
+    if (end - at < sizeof head) return false;
+    std::memcpy(head, in.data() + at, sizeof head);
+    at += sizeof head;
+    const BrickCoord c = bricks.min + BrickCoord{head[0], head[1], head[2]};
+    const bool mixed = head[3] == std::int32_t(BrickFill::mixed);
+    if (!bricks.contains(c) || (mixed && end - at < sizeof bits)) return false;
+    if (mixed) {
+      std::memcpy(bits.data(), in.data() + at, sizeof bits);
+      at += sizeof bits;
+    } else {
+      bits.fill(~std::uint64_t(0));
+    }
+    shelf.put(c, classify(bits), bits);
+  }
+  return true;
+}
+
+class Run {
+ public:
+  Run(const StreamHeader& header, const BrickShelf& solid, Backends& backends, double scale_world,
+      const CellClosing& options, BrickShelf& closing)
+      : header_(header), solid_(solid), options_(options), closing_(closing), backends_(backends), idle_(backends) {
+    field_.base = scale_world;
+    scale_ = field_.upper_bound(header.frame);
+    halo_ = {element_reach(scale_) + 1, element_reach(scale_)};
+    if (backends.empty()) fail(ErrorCode::bad_argument, "closing needs a backend, and none was made");
+  }
+
+  CellClosingCounts operator()() {
+    const std::vector<CellCoord> cells = cells_in_reach();
+    counts_.cells = cells.size();
+    if (!options_.keep_cavities && !cells.empty()) lay_flood(cells);
+    std::size_t next = 0, done = 0;
+    pipeline<CellCoord>(
+        in_flight(),
+        [&](CellCoord& cell) {
+          if (next == cells.size()) return false;
+          cell = cells[next++];
+          return true;
+        },
+        [&](const CellCoord& cell) { close(cell); },
+        [&](const CellCoord&) { report("closing", ++done, cells.size()); });
+    if (flood_) fill_cavities();
+    counts_.kept = kept_;
+    return counts_;
+  }
+
+ private:
+  [[nodiscard]] std::vector<CellCoord> cells_in_reach() const {
+    std::set<CellCoord> cells;
+    for (const BrickCoord brick : solid_.coords()) {
+      const VoxelBox reach =
+          voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(halo_.dilation_vox);
+      const CellCoord first = options_.cells.of(reach.min);
+      const CellCoord last = options_.cells.of({reach.max.x - 1, reach.max.y - 1, reach.max.z - 1});
+      for (CellCoord c = first; c.z <= last.z; ++c.z) {
+        for (c.y = first.y; c.y <= last.y; ++c.y) {
+          for (c.x = first.x; c.x <= last.x; ++c.x) cells.insert(c);
+        }
+      }
+    }
+    return {cells.begin(), cells.end()};
+  }
+
+  void lay_flood(const std::vector<CellCoord>& cells) {
+    for (const CellCoord c : cells) grid_ = hull(grid_, options_.cells.box(c));
+    const std::int32_t edge = options_.cells.edge_vox;
+    flood_ = std::make_unique<OutsideFlood>(grid_, VoxelCoord{edge, edge, edge});
+  }
+
+  /// Bits of a cell with its halo, and what closing and labelling need of about the same size.
+  [[nodiscard]] int in_flight() const {
+    const double side = double(options_.cells.edge_vox) + 2.0 * halo_.total_vox() + 64;
+    const double bytes = 12 * side * side * side / 8 + (16 << 20), least = bytes / 3;  // where little is occupied
+    if (least > double(options_.memory_bytes)) {
+      fail(ErrorCode::out_of_resource,
+           "closing a cell of {} voxels with a halo of {} takes {:.0f} MiB, and --memory leaves {:.0f} MiB for it; "
+           "raise "
+           "--memory{}, or use a smaller --tile or --scale",
+           options_.cells.edge_vox, halo_.total_vox(), least / (1 << 20), double(options_.memory_bytes) / (1 << 20),
+           options_.enough_for ? options_.enough_for(std::uint64_t(least) - options_.memory_bytes) : "");
+    }
+    const double fit = std::min(double(options_.memory_bytes) / bytes, double(backends_.size()));
+    return std::max(1, int(fit));
+  }
+
+  [[nodiscard]] ResultKey key_of(const VoxelBox& cell) const {
+    KeyHash hash(kJob);
+    hash.add(std::int64_t(scale_))
+        .add(std::int64_t(options_.closing.element))
+        .add(std::int64_t(options_.cells.edge_vox));
+    add_voxels(hash, solid_, cell.grown(halo_.total_vox()), brick_of(cell.min));
+    return hash.key();
+  }
+
+  void close(CellCoord coord) {
+    const VoxelBox cell = options_.cells.box(coord);
+    ResultKey key;
+    std::string result;
+    BitBox closed;
+    if (options_.store != nullptr) {
+      key = key_of(cell);
+      if (options_.store->get(key, result) && unpack(result, cell, closing_)) {
+        ++kept_;
+        closed.reset(cell);
+        if (flood_) load_voxels(closing_, closed);
+        return label(cell, closed);
+      }
+    }
+    close_by_backend(cell, closed);
+    store_voxels(closed, closing_);
+    if (options_.store != nullptr) options_.store->put(key, packed(closed));
+    label(cell, closed);
+  }
+
+  void close_by_backend(const VoxelBox& cell, BitBox& closed) {
+    const ScaleLattice lattice = field_.sample(header_.frame, cell.grown(halo_.erosion_vox + kBrickEdge));
+    Backend* backend = idle_.take();
+    try {
+      backend->close_from_shelf(solid_, header_.bricks, lattice, halo_, options_.closing, cell, closed);
+    } catch (...) {
+      idle_.give(backend);
+      throw;
+    }
+    idle_.give(backend);
+  }
+
+  void label(const VoxelBox& cell, const BitBox& closed) {
+    if (!flood_) return;
+    OutsideFlood::Labels labels = OutsideFlood::label(closed, cell);
+    const std::lock_guard lock(flood_mutex_);
+    flood_->join(std::move(labels));
+  }
+
+  /// Cavities reach into cells that hold no voxel, too.
+  void fill_cavities() {
+    flood_->resolve();
+    const CellCoord first = options_.cells.of(grid_.min);
+    const VoxelCoord size = grid_.size();
+    const std::int64_t edge = options_.cells.edge_vox, nx = size.x / edge, ny = size.y / edge, nz = size.z / edge;
+    parallel_for(nx * ny * nz, [&](std::int64_t i) {
+      const CellCoord at{std::int32_t(i % nx), std::int32_t(i / nx % ny), std::int32_t(i / nx / ny)};
+      const VoxelBox cell = options_.cells.box(first + at);
+      if (!flood_->has_enclosed(cell)) return;
+      BitBox bits(cell);
+      load_voxels(closing_, bits);
+      flood_->fill_enclosed(cell, bits);
+      store_voxels(bits, closing_);
+    });
+  }
+
+  void report(const char* stage, std::uint64_t done, std::uint64_t total) const {
+    if (options_.progress) options_.progress(stage, "cells", done, total);
+  }
+
+  const StreamHeader& header_;
+  const BrickShelf& solid_;
+  const CellClosing& options_;
+  BrickShelf& closing_;
+  Backends& backends_;
+  IdleBackends idle_;
+  ScaleField field_;
+  Scale scale_ = 0;
+  Halo halo_;
+  VoxelBox grid_;
+  std::unique_ptr<OutsideFlood> flood_;
+  std::mutex flood_mutex_;
+  std::atomic<std::uint64_t> kept_{0};
+  CellClosingCounts counts_;
+};
+
+}  // namespace
+
+CellClosingCounts close_cells(const StreamHeader& header, const BrickShelf& solid, Backends& backends,
+                              double scale_world, const CellClosing& options, BrickShelf& closing) {
+  return Run(header, solid, backends, scale_world, options, closing)();
+}
+
+}  // namespace bp

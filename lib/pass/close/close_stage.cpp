@@ -1,0 +1,426 @@
+#include "lib/pass/close/close_stage.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/core/pool.h"
+#include "lib/grid/clip.h"
+#include "lib/grid/header_fault.h"
+#include "lib/grid/tile_grid.h"
+#include "lib/volume/outside.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kMaxTiles = 1 << 27;        // the fill asks every tile; beyond, a grid is a slip of the finger
+constexpr std::size_t kBricksAtATime = 128;  // taken off the shelf together to be written: 8 MiB
+constexpr std::int32_t kMaxTileVox = 512;    // beyond, halos cost little and tiles get few
+
+/// The halo of any tile where `s` is the largest scale.
+Halo widest_halo(Scale s) {
+  return {element_reach(s) + 1, element_reach(s)};
+}
+
+/// Bytes that closing one tile of a grid takes, every voxel of tile and halo in play: the boxes of close_tile, and as
+/// much again as the tile itself for the components of its empty voxels.
+double tile_bytes(const VoxelCoord& grid, std::int32_t tile, const Halo& halo) {
+  const auto box_bytes = [&](std::int32_t margin) {
+    double bytes = 1.0 / 8;
+    for (int axis = 0; axis < 3; ++axis)
+      bytes *= std::min(double(tile) + 2.0 * margin, double(grid[axis])) + (axis == 0 ? 126 : 0);
+    return bytes;
+  };
+  const double solid = box_bytes(halo.total_vox()), dilation = box_bytes(halo.erosion_vox), core = box_bytes(0);
+  const double side = std::min(double(tile) + 2.0 * halo.total_vox(), double(std::max({grid.x, grid.y, grid.z})));
+  const double distances = 6 * (side + 160) * (side + 2);  // three slices of a varying cube dilation
+  constexpr double kTransform = 8 << 20;                   // a block of rows of the ball transform
+  return 3 * solid + 4 * dilation + 4 * core + distances + kTransform;
+}
+
+/// The tile size that promises most: workers that fit in memory and find enough tiles, times the share of the voxels
+/// they read that are not halo.
+std::int32_t choose_tile(const VoxelCoord& grid, const Halo& halo, std::size_t workers, std::uint64_t memory_bytes,
+                         std::int32_t largest) {
+  std::int32_t best = kBrickEdge;
+  double best_score = 0;
+  for (std::int32_t tile = kBrickEdge; tile <= largest; tile += kBrickEdge) {
+    const double fit = std::floor(double(memory_bytes) / tile_bytes(grid, tile, halo));
+    double count = 1;
+    for (int axis = 0; axis < 3; ++axis) count *= std::ceil(double(grid[axis]) / tile);
+    const double busy = std::min({double(workers), fit, std::max(1.0, count / 3)});
+    const double share = double(tile) / (tile + halo.total_vox());
+    const double score = busy * share * share;
+    if (score > best_score) {
+      best = tile;
+      best_score = score;
+    }
+  }
+  return best;
+}
+
+/// Adds the time of its scope to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::atomic<double>& sum) : sum_(sum), start_(Clock::now()) {}
+  ~Stopwatch() { sum_.fetch_add(std::chrono::duration<double>(Clock::now() - start_).count()); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::atomic<double>& sum_;
+  Clock::time_point start_;
+};
+
+/// One run of close_stream(). A layer is one step of tiles across the slab axis.
+class Run {
+ public:
+  Run(BrickSource& source, BrickSink& sink, Backends& backends, const ScaleField& scale, const ClosingParams& params,
+      const CloseOptions& options)
+      : source_(source),
+        sink_(sink),
+        scale_(scale),
+        params_(params),
+        options_(options),
+        header_(source.header()),
+        axis_(header_.slab_axis),
+        widest_(widest_halo(scale.upper_bound(header_.frame))),
+        solid_(options.make_shelf()),
+        closing_(options.make_shelf()) {
+    lay_tiles(backends);
+  }
+
+  CloseCounts operator()() {
+    more_ = source_.read(brick_);
+    pipeline<TileCoord>(
+        boxes_->count() + 2, [&](TileCoord& tile) { return next_tile(tile); },
+        [&](const TileCoord& tile) { close(tile); },
+        [&](const TileCoord& tile) {
+          report("closing", "tiles", ++done_, 0);
+          if (options_.keep_cavities) emit_done(tile[axis_]);
+        });
+    read_before(std::numeric_limits<std::int64_t>::max());  // to the end record
+    if (flood_) flood_->resolve();
+    finish_layers();
+    counts_.tiles_closed = tiles_closed_;
+    counts_.cavity_voxels = cavity_voxels_;
+    counts_.halo_vox = halo_vox_;
+    counts_.seconds = {reading_, waiting_, closing_time_, labelling_, shelving_, filling_, writing_};
+    return counts_;
+  }
+
+ private:
+  using LayerTiles = std::set<TileCoord>;
+
+  void lay_tiles(Backends& backends);
+  bool next_tile(TileCoord& tile);
+  void read_before(std::int64_t end_vox);
+  void take_brick();
+  void close(TileCoord tile);
+  void close_by_backend(const VoxelBox& box, const Halo& halo, const ScaleLattice& lattice, BitBox& closed);
+  [[nodiscard]] BrickFill fill_of(const VoxelBox& voxels) const;
+  void keep(TileCoord tile, const BitBox& bits);
+  void finish_layers();
+  void fill_cavities(std::int32_t layer, LayerTiles& tiles);
+  void fill_tile(TileCoord tile);
+  void emit_done(std::int32_t current_layer);
+  void emit(const LayerTiles& tiles);
+  void report(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total) const {
+    if (options_.progress) options_.progress(stage, unit, done, total);
+  }
+  /// First voxel across the slab axis that is no longer in the layer.
+  [[nodiscard]] std::int64_t end_of(std::int32_t layer) const {
+    return tiles_.voxels.min[axis_] + (std::int64_t(layer) + 1) * tiles_.edge_vox;
+  }
+
+  BrickSource& source_;
+  BrickSink& sink_;
+  const ScaleField& scale_;
+  const ClosingParams params_;
+  const CloseOptions& options_;
+  const StreamHeader& header_;
+  const int axis_;
+  const Halo widest_;
+  const std::unique_ptr<BrickShelf> solid_, closing_;
+  TileGrid tiles_;
+  std::unique_ptr<Pool<Backend*>> backends_;
+  std::unique_ptr<Pool<std::unique_ptr<BitBox>>> boxes_;  ///< of closed tiles: as many as threads work on them
+  std::unique_ptr<OutsideFlood> flood_;
+  CloseCounts counts_;
+  std::uint64_t done_ = 0;
+  std::atomic<std::uint64_t> tiles_closed_{0}, cavity_voxels_{0};
+  std::atomic<std::int32_t> halo_vox_{0};
+  std::atomic<double> reading_{0}, waiting_{0}, closing_time_{0}, labelling_{0}, shelving_{0}, filling_{0}, writing_{0};
+
+  Brick brick_;  ///< read, not yet taken
+  bool more_ = true;
+  std::vector<TileCoord> queue_;  ///< of the layer being closed, last first
+  std::int32_t next_layer_ = 0;
+  std::mutex layers_mutex_, flood_mutex_;
+  std::map<std::int32_t, LayerTiles> layers_;  ///< not yet emitted: their tiles with a solid brick in reach
+};
+
+void Run::lay_tiles(Backends& backends) {
+  if (backends.empty()) fail(ErrorCode::bad_argument, "closing needs a backend, and none was made");
+  const VoxelBox grid = voxels_of(closing_bricks(header_, scale_));
+  // A GPU has few backends: while they compute, the other threads label and shelve what came back.
+  const std::size_t workers = std::max(backends.size(), std::size_t(thread_count()));
+  // And its halos are cheap, so that small tiles keep all busy.
+  const bool small = backends.size() < workers && widest_.total_vox() <= kMaxTileVox / 8;
+  const std::int32_t edge = options_.tile_vox != 0 ? options_.tile_vox
+                                                   : choose_tile(grid.size(), widest_, workers, options_.memory_bytes,
+                                                                 small ? kMaxTileVox / 2 : kMaxTileVox);
+  if (edge < 0 || edge % kBrickEdge != 0)
+    fail(ErrorCode::bad_argument, "a tile of {} voxels a side is no multiple of {}", edge, kBrickEdge);
+  const double bytes = tile_bytes(grid.size(), edge, widest_);
+  if (bytes > double(options_.memory_bytes)) {
+    fail(ErrorCode::out_of_resource,
+         "closing a tile of {} voxels with a halo of {} takes {:.0f} MiB, and --memory leaves {:.0f} MiB for it; raise "
+         "--memory{}, or use larger voxels or a smaller --scale{}",
+         edge, widest_.total_vox(), bytes / (1 << 20), double(options_.memory_bytes) / (1 << 20),
+         options_.enough_for ? options_.enough_for(std::uint64_t(std::ceil(bytes))) : "",
+         edge > kBrickEdge ? " or --tile" : "");
+  }
+  tiles_ = TileGrid(grid, edge);
+  if (tiles_.total() > kMaxTiles)
+    fail(ErrorCode::bad_argument, "the grid has {:.0f} tiles of {} voxels; use a larger --tile", tiles_.total(), edge);
+  const auto fit = std::size_t(std::max(1.0, std::min(double(workers), double(options_.memory_bytes) / bytes)));
+  std::vector<Backend*> at_work;
+  for (std::size_t i = 0; i < std::min(fit, backends.size()); ++i) at_work.push_back(backends[i].get());
+  backends_ = std::make_unique<Pool<Backend*>>(std::move(at_work));
+  std::vector<std::unique_ptr<BitBox>> boxes(fit);
+  for (auto& box : boxes) box = std::make_unique<BitBox>();
+  boxes_ = std::make_unique<Pool<std::unique_ptr<BitBox>>>(std::move(boxes));
+  if (!options_.keep_cavities) flood_ = std::make_unique<OutsideFlood>(grid, VoxelCoord{edge, edge, edge});
+  counts_.tile_vox = edge;
+  counts_.tiles = std::uint64_t(tiles_.total());
+}
+
+/// Layer by layer, once all bricks that any tile of the layer can see have been taken.
+bool Run::next_tile(TileCoord& tile) {
+  while (queue_.empty()) {
+    if (next_layer_ == tiles_.count[axis_]) return false;
+    read_before(end_of(next_layer_) + widest_.total_vox());
+    const std::lock_guard lock(layers_mutex_);
+    const auto found = layers_.lower_bound(next_layer_);
+    if (found == layers_.end() && !more_) return false;
+    if (found != layers_.end() && found->first == next_layer_)
+      queue_.assign(found->second.rbegin(), found->second.rend());
+    ++next_layer_;
+  }
+  tile = queue_.back();
+  queue_.pop_back();
+  return true;
+}
+
+/// Takes the bricks that begin before `end_vox` across the slab axis.
+void Run::read_before(std::int64_t end_vox) {
+  const Stopwatch watch(reading_);
+  while (more_ && std::int64_t(brick_.coord[axis_]) * kBrickEdge < end_vox) {
+    take_brick();
+    more_ = source_.read(brick_);
+  }
+}
+
+void Run::take_brick() {
+  if (brick_.layer != Layer::solid) {
+    ++counts_.ignored_bricks;
+    return;
+  }
+  solid_->put(brick_.coord, brick_.fill, brick_.bits);
+  const BrickCoord next{brick_.coord.x + 1, brick_.coord.y + 1, brick_.coord.z + 1};
+  const VoxelBox reach = intersect(voxels_of({brick_.coord, next}).grown(widest_.dilation_vox), tiles_.voxels);
+  TileCoord first, last;
+  for (int i = 0; i < 3; ++i) {
+    first[i] = (reach.min[i] - tiles_.voxels.min[i]) / tiles_.edge_vox;
+    last[i] = (reach.max[i] - 1 - tiles_.voxels.min[i]) / tiles_.edge_vox;
+  }
+  const std::lock_guard lock(layers_mutex_);
+  for (TileCoord t = first; t.z <= last.z; ++t.z) {
+    for (t.y = first.y; t.y <= last.y; ++t.y) {
+      for (t.x = first.x; t.x <= last.x; ++t.x) layers_[t[axis_]].insert(t);
+    }
+  }
+}
+
+/// Empty or full if all bricks that hold voxels of the box are.
+BrickFill Run::fill_of(const VoxelBox& voxels) const {
+  bool all_empty = true, all_full = true;
+  const BrickBox wanted = bricks_of(voxels), there = intersect(wanted, header_.bricks);
+  if (there.empty()) return BrickFill::empty;
+  for_each_brick(there, [&](BrickCoord c) {
+    const BrickFill fill = solid_->fill(c);
+    all_empty = all_empty && fill == BrickFill::empty;
+    all_full = all_full && fill == BrickFill::full;
+  });
+  return all_empty ? BrickFill::empty : all_full && there == wanted ? BrickFill::full : BrickFill::mixed;
+}
+
+void Run::close(TileCoord tile) {
+  const VoxelBox box = tiles_.box(tile);
+  const Halo halo = scale_.constant() ? widest_ : halo_of(box, scale_, header_.frame);
+  const VoxelBox seen = box.grown(halo.total_vox());
+  if (fill_of(seen) == BrickFill::empty) return;
+  ++tiles_closed_;
+  for (std::int32_t most = halo_vox_;
+       most < halo.total_vox() && !halo_vox_.compare_exchange_weak(most, halo.total_vox());)
+    ;
+  const Pool<std::unique_ptr<BitBox>>::Lease closed(*boxes_);
+  if (fill_of(box) == BrickFill::full) {
+    closed->reset(box);
+    std::fill_n(closed->data(), closed->word_count(), ~std::uint64_t(0));
+  } else {
+    VoxelBox sampled = hull(intersect(seen, voxels_of(header_.bricks)), box.grown(halo.erosion_vox));
+    sampled.min.x = floor_div(sampled.min.x, kBrickEdge) * kBrickEdge;  // whole words are computed
+    sampled.max.x = ceil_div(sampled.max.x, kBrickEdge) * kBrickEdge;
+    const ScaleLattice lattice = scale_.sample(header_.frame, sampled);
+    close_by_backend(box, halo, lattice, *closed);
+  }
+  keep(tile, *closed);
+}
+
+void Run::close_by_backend(const VoxelBox& box, const Halo& halo, const ScaleLattice& lattice, BitBox& closed) {
+  std::optional<Stopwatch> waits(waiting_);
+  const Pool<Backend*>::Lease backend(*backends_);
+  waits.reset();
+  const Stopwatch works(closing_time_);
+  backend->close_from_shelf(*solid_, header_.bricks, lattice, halo, params_, box, closed);
+}
+
+void Run::keep(TileCoord tile, const BitBox& bits) {
+  {
+    const Stopwatch watch(shelving_);
+    store_voxels(bits, *closing_);
+  }
+  if (!flood_) return;
+  const Stopwatch watch(labelling_);
+  OutsideFlood::Labels labels = OutsideFlood::label(bits, tiles_.box(tile));
+  const std::lock_guard lock(flood_mutex_);
+  flood_->join(std::move(labels));
+}
+
+/// Fills and emits the layers that are left: one is filled while the one before is written.
+void Run::finish_layers() {
+  std::vector<std::pair<std::int32_t, LayerTiles>> left(layers_.begin(), layers_.end());
+  layers_.clear();
+  std::size_t next = 0, written = 0;
+  pipeline<std::size_t>(
+      2,
+      [&](std::size_t& i) {
+        i = next;
+        return next++ < left.size();
+      },
+      [&](const std::size_t& i) {
+        if (flood_) fill_cavities(left[i].first, left[i].second);
+      },
+      [&](const std::size_t& i) {
+        emit(left[i].second);
+        report("filling", "layers", ++written, left.size());
+      });
+}
+
+/// Cavities reach into tiles that hold no voxel; a layer of none but such tiles is open to the outside.
+void Run::fill_cavities(std::int32_t layer, LayerTiles& tiles) {
+  TileCoord count = tiles_.count;
+  count[axis_] = 1;
+  const std::int64_t total = std::int64_t(count.x) * count.y * count.z;
+  std::mutex mutex;
+  parallel_for(total, [&](std::int64_t i) {
+    TileCoord tile{std::int32_t(i % count.x), std::int32_t(i / count.x % count.y), std::int32_t(i / count.x / count.y)};
+    tile[axis_] = layer;
+    if (!flood_->has_enclosed(tiles_.box(tile))) return;
+    fill_tile(tile);
+    const std::lock_guard lock(mutex);
+    tiles.insert(tile);
+  });
+}
+
+void Run::fill_tile(TileCoord tile) {
+  const Stopwatch watch(filling_);
+  const Pool<std::unique_ptr<BitBox>>::Lease closed(*boxes_);
+  const VoxelBox box = tiles_.box(tile);
+  closed->reset(box);
+  load_voxels(*closing_, *closed);
+  cavity_voxels_ += flood_->fill_enclosed(box, *closed);
+  store_voxels(*closed, *closing_);
+}
+
+/// Emits the layers before `current` that no tile from there on can see.
+void Run::emit_done(std::int32_t current) {
+  for (;;) {
+    LayerTiles tiles;
+    {
+      const std::lock_guard lock(layers_mutex_);
+      const auto first = layers_.begin();
+      if (first == layers_.end() || end_of(first->first) + widest_.total_vox() > end_of(current - 1)) return;
+      tiles = std::move(first->second);
+      layers_.erase(first);
+    }
+    emit(tiles);
+  }
+}
+
+/// Both layers of the bricks of these tiles, in slab order. Every solid brick lies in the closing.
+void Run::emit(const LayerTiles& tiles) {
+  const Stopwatch watch(writing_);
+  std::vector<BrickCoord> bricks;
+  for (const TileCoord& tile : tiles) {
+    for_each_brick(bricks_of(tiles_.box(tile)), [&](BrickCoord c) {
+      if (closing_->fill(c) != BrickFill::empty) bricks.push_back(c);
+    });
+  }
+  std::sort(bricks.begin(), bricks.end(), [&](BrickCoord a, BrickCoord b) { return slab_order(axis_, a, b); });
+  struct Layers {
+    Brick solid, closing;
+  };
+  std::vector<Layers> some(std::min(bricks.size(), kBricksAtATime));
+  const auto fetch = [](BrickShelf& shelf, BrickCoord c, Layer layer, Brick& out) {
+    out.coord = c;
+    out.layer = layer;
+    out.fill = shelf.get(c, out.bits);
+    if (out.fill != BrickFill::empty) shelf.drop(c);
+  };
+  for (std::size_t at = 0; at < bricks.size(); at += some.size()) {
+    const std::size_t n = std::min(some.size(), bricks.size() - at);
+    parallel_for(std::int64_t(n), [&](std::int64_t i) {
+      const BrickCoord c = bricks[at + std::size_t(i)];
+      fetch(*solid_, c, Layer::solid, some[std::size_t(i)].solid);
+      fetch(*closing_, c, Layer::closing, some[std::size_t(i)].closing);
+    });
+    for (std::size_t i = 0; i < n; ++i) {
+      for (const Brick* brick : {&some[i].solid, &some[i].closing}) {
+        if (brick->fill == BrickFill::empty) continue;
+        ++(brick->layer == Layer::solid ? counts_.solid_bricks : counts_.closing_bricks);
+        sink_.write(*brick);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+BrickBox closing_bricks(const StreamHeader& header, const ScaleField& scale) {
+  if (header.bricks.empty()) return header.bricks;
+  const std::int32_t margin = ceil_div(element_reach(scale.upper_bound(header.frame)) + 1, kBrickEdge);
+  const BrickBox grown = header.bricks.grown(margin);
+  if (brick_box_fault(grown) != nullptr)
+    fail(ErrorCode::bad_argument, "the closing leaves the grid of 2^31 voxels a side; use larger voxels");
+  return grown;
+}
+
+CloseCounts close_stream(BrickSource& source, BrickSink& sink, Backends& backends, const ScaleField& scale,
+                         const ClosingParams& params, const CloseOptions& options) {
+  return Run(source, sink, backends, scale, params, options)();
+}
+
+}  // namespace bp

@@ -1,0 +1,182 @@
+#include "lib/pass/color/detail/color_grid.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <type_traits>
+
+#include "lib/core/parallel.h"
+
+namespace bp {
+
+namespace {
+
+ColorBrick brick_of(ColorCell c) {
+  constexpr std::int32_t e = ColorGrid::kEdge;
+  return {floor_div(c.x, e), floor_div(c.y, e), floor_div(c.z, e)};
+}
+
+ColorCell cell_of(ColorBrick brick, std::uint64_t index) {
+  constexpr std::int32_t e = ColorGrid::kEdge;
+  const auto i = std::int32_t(index);
+  return {brick.x * e + i % e, brick.y * e + i / e % e, brick.z * e + i / (e * e)};
+}
+
+}  // namespace
+
+ColorGrid::ColorGrid(std::shared_ptr<ChunkStore> store, std::uint64_t memory_bytes)
+    : store_(std::move(store)), memory_bytes_(memory_bytes) {}
+
+ColorGrid::~ColorGrid() {
+  for (const auto& [coord, handle] : bricks_) store_->drop(handle);
+}
+
+void ColorGrid::merge(std::vector<Entry>& entries) {
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.index < b.index; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (kept > 0 && entries[kept - 1].index == entries[i].index) {
+      entries[kept - 1].sum.add(entries[i].sum);
+    } else {
+      entries[kept++] = entries[i];
+    }
+  }
+  entries.resize(kept);
+}
+
+// Sorted before the lock is taken, so that a brick is looked up once for all its cells.
+void ColorGrid::add(std::vector<ColorCellSum>& sums) {
+  std::sort(sums.begin(), sums.end(), [](const ColorCellSum& a, const ColorCellSum& b) {
+    const ColorBrick p = brick_of(a.cell), q = brick_of(b.cell);
+    return p != q ? p < q : a.cell < b.cell;
+  });
+  const std::lock_guard lock(mutex_);
+  for (std::size_t i = 0; i < sums.size();) {
+    const ColorBrick coord = brick_of(sums[i].cell);
+    Brick& brick = gathering_[coord];
+    const std::size_t before = brick.entries.capacity();
+    while (i < sums.size() && brick_of(sums[i].cell) == coord) {
+      ColorCellSum merged = sums[i++];
+      for (; i < sums.size() && sums[i].cell == merged.cell; ++i) merged.sum.add(sums[i].sum);
+      brick.entries.push_back({index_in(coord, merged.cell), merged.sum});
+    }
+    if (brick.entries.size() > 2 * brick.merged + 256) {
+      merge(brick.entries);
+      brick.merged = brick.entries.size();
+    }
+    used_bytes_ += (brick.entries.capacity() - before) * sizeof(Entry);
+  }
+  sums.clear();
+  if (used_bytes_ > memory_bytes_) spill();
+}
+
+void ColorGrid::spill() {
+  static_assert(std::is_trivially_copyable_v<Entry>);
+  for (auto& [coord, brick] : gathering_) {
+    if (brick.entries.empty()) continue;
+    merge(brick.entries);
+    brick.chunks.push_back(store_->put(std::as_bytes(std::span(brick.entries))));
+    std::vector<Entry>().swap(brick.entries);
+    brick.merged = 0;
+  }
+  used_bytes_ = 0;
+}
+
+std::vector<ColorGrid::Entry> ColorGrid::all_of(const Brick& brick) const {
+  std::vector<Entry> entries = brick.entries;
+  std::vector<std::byte> bytes;
+  for (const ChunkStore::Handle h : brick.chunks) {
+    store_->get(h, bytes);
+    const std::size_t old = entries.size();
+    entries.resize(old + bytes.size() / sizeof(Entry));
+    std::memcpy(static_cast<void*>(entries.data() + old), bytes.data(), bytes.size());
+  }
+  merge(entries);
+  return entries;
+}
+
+void ColorGrid::finish(const std::function<Mask(ColorBrick)>& keep) {
+  struct Done {
+    std::optional<ChunkStore::Handle> chunk;
+    std::uint64_t cells = 0;
+    bool white = true;
+  };
+  std::vector<ColorBrick> coords;
+  for (const auto& [coord, brick] : gathering_) coords.push_back(coord);
+  std::sort(coords.begin(), coords.end());
+  std::vector<Done> done(coords.size());
+  parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
+    const ColorBrick coord = coords[std::size_t(i)];
+    Brick& brick = gathering_.at(coord);
+    std::vector<Entry> entries = all_of(brick);
+    for (const ChunkStore::Handle h : brick.chunks) store_->drop(h);
+    std::vector<Entry>().swap(brick.entries);
+    const Mask kept = keep(coord);
+    std::erase_if(entries, [&](const Entry& e) { return !kept(cell_of(coord, e.index)); });
+    Done& d = done[std::size_t(i)];
+    d.cells = entries.size();
+    for (const Entry& e : entries) d.white = d.white && e.sum.mean() == kWhite;
+    if (!entries.empty()) d.chunk = store_->put(std::as_bytes(std::span(entries)));
+  });
+  gathering_.clear();
+  for (std::size_t i = 0; i < coords.size(); ++i) {
+    if (!done[i].chunk) continue;
+    bricks_.emplace_back(coords[i], *done[i].chunk);
+    cells_ += done[i].cells;
+    all_white_ = all_white_ && done[i].white;
+  }
+}
+
+void ColorGrid::each_cell(ColorBrick coord, const std::function<void(ColorCell, const ColorSum&)>& body) const {
+  const auto at = std::lower_bound(bricks_.begin(), bricks_.end(), coord,
+                                   [](const auto& brick, ColorBrick c) { return brick.first < c; });
+  if (at == bricks_.end() || at->first != coord) return;
+  Brick brick;
+  brick.chunks = {at->second};
+  for (const Entry& e : all_of(brick)) body(cell_of(coord, e.index), e.sum);
+}
+
+std::vector<CellColor> ColorGrid::load(ColorCell min, ColorCell max) const {
+  std::vector<CellColor> cells;
+  const auto inside = [&](ColorCell c) {
+    for (int i = 0; i < 3; ++i)
+      if (c[i] < min[i] || c[i] >= max[i]) return false;
+    return true;
+  };
+  const ColorBrick first = brick_of(min), last = brick_of(max - ColorCell{1, 1, 1});
+  for (const auto& [coord, handle] : bricks_) {
+    bool meets = true;
+    for (int i = 0; i < 3; ++i) meets = meets && coord[i] >= first[i] && coord[i] <= last[i];
+    if (!meets) continue;
+    each_cell(coord, [&](ColorCell c, const ColorSum& s) {
+      if (inside(c)) cells.push_back({c, s.mean()});
+    });
+  }
+  std::sort(cells.begin(), cells.end(), [](const CellColor& a, const CellColor& b) {
+    return std::tuple(a.cell.z, a.cell.y, a.cell.x) < std::tuple(b.cell.z, b.cell.y, b.cell.x);
+  });
+  return cells;
+}
+
+std::unique_ptr<ColorGrid> ColorGrid::reduced() const {
+  auto coarse = std::make_unique<ColorGrid>(store_, memory_bytes_);
+  parallel_for(std::int64_t(bricks_.size()), [&](std::int64_t i) {
+    std::vector<ColorCellSum> sums;
+    each_cell(bricks_[std::size_t(i)].first, [&](ColorCell c, const ColorSum& s) { sums.push_back({half_of(c), s}); });
+    coarse->add(sums);
+  });
+  coarse->finish([](ColorBrick) { return [](ColorCell) { return true; }; });
+  return coarse;
+}
+
+std::pair<ColorCell, ColorCell> ColorGrid::bounds() const {
+  if (bricks_.empty()) return {};
+  ColorBrick lo = bricks_.front().first, hi = lo;
+  for (const auto& [coord, handle] : bricks_) {
+    for (int i = 0; i < 3; ++i) lo[i] = std::min(lo[i], coord[i]), hi[i] = std::max(hi[i], coord[i]);
+  }
+  const auto cell = [](ColorBrick b) { return ColorCell{b.x * kEdge, b.y * kEdge, b.z * kEdge}; };
+  return {cell(lo), cell(hi + ColorBrick{1, 1, 1})};
+}
+
+}  // namespace bp

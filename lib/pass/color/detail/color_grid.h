@@ -1,0 +1,84 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+
+#include "lib/core/box.h"
+#include "lib/core/coord_hash.h"
+#include "lib/store/chunk_store.h"
+#include "lib/voxel/color_sums.h"
+
+/// The colours of a level's surface, out of core: sparse cells, gathered in any order, kept compressed by bricks.
+namespace bp {
+
+using ColorBrick = Coord3<struct ColorBrickSpace, std::int32_t>;  ///< cells [16 b, 16 b + 16): a brick of voxels
+
+/// Cells of a box with their colours, in order of (z, y, x).
+struct CellColor {
+  ColorCell cell;
+  LinearColor color;
+  friend bool operator==(const CellColor&, const CellColor&) = default;
+};
+
+class ColorGrid {
+ public:
+  static constexpr std::int32_t kEdge = 16;  ///< cells along a side of a brick
+  using Mask = std::function<bool(ColorCell)>;
+
+  /// x + 16 (y + 16 z) in the brick.
+  [[nodiscard]] static std::uint64_t index_in(ColorBrick brick, ColorCell c) {
+    return std::uint64_t((c.x - brick.x * kEdge) + kEdge * ((c.y - brick.y * kEdge) + kEdge * (c.z - brick.z * kEdge)));
+  }
+  /// Of the grid of cells twice as large, the one around `c`.
+  [[nodiscard]] static ColorCell half_of(ColorCell c) {
+    return {floor_div(c.x, 2), floor_div(c.y, 2), floor_div(c.z, 2)};
+  }
+
+  /// memory_bytes: of cells that are not in the store yet. The store may be shared.
+  ColorGrid(std::shared_ptr<ChunkStore> store, std::uint64_t memory_bytes);
+  ~ColorGrid();
+  ColorGrid(const ColorGrid&) = delete;
+  ColorGrid& operator=(const ColorGrid&) = delete;
+
+  /// Adds to what is there, and leaves `sums` empty; on any thread.
+  void add(std::vector<ColorCellSum>& sums);
+  /// After the last add(): cells for which keep(brick) is false go. keep() makes the mask of a brick, on any thread.
+  void finish(const std::function<Mask(ColorBrick)>& keep);
+
+  // After finish(), on any thread:
+  [[nodiscard]] bool empty() const { return bricks_.empty(); }
+  [[nodiscard]] bool all_white() const { return all_white_; }
+  [[nodiscard]] std::uint64_t cells() const { return cells_; }
+  /// Cells [min, max).
+  [[nodiscard]] std::vector<CellColor> load(ColorCell min, ColorCell max) const;
+  /// Cells twice as large: cell c of this grid lies in half_of(c).
+  [[nodiscard]] std::unique_ptr<ColorGrid> reduced() const;
+  /// All cells lie in [first, second).
+  [[nodiscard]] std::pair<ColorCell, ColorCell> bounds() const;
+
+ private:
+  struct Entry {
+    std::uint64_t index = 0;  ///< index_in()
+    ColorSum sum;
+  };
+  struct Brick {
+    std::vector<Entry> entries;
+    std::size_t merged = 0;  ///< of the entries, that many are sorted, each once
+    std::vector<ChunkStore::Handle> chunks;
+  };
+  static void merge(std::vector<Entry>& entries);
+  void spill();
+  [[nodiscard]] std::vector<Entry> all_of(const Brick& brick) const;
+  void each_cell(ColorBrick brick, const std::function<void(ColorCell, const ColorSum&)>& body) const;
+
+  std::shared_ptr<ChunkStore> store_;
+  std::uint64_t memory_bytes_, used_bytes_ = 0;
+  std::mutex mutex_;
+  std::unordered_map<ColorBrick, Brick, CoordHash> gathering_;
+  std::vector<std::pair<ColorBrick, ChunkStore::Handle>> bricks_;  ///< sorted; after finish()
+  bool all_white_ = true;
+  std::uint64_t cells_ = 0;
+};
+
+}  // namespace bp

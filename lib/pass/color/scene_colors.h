@@ -1,0 +1,70 @@
+#pragma once
+#include <unordered_map>
+
+#include "lib/core/triangle_source.h"
+#include "lib/grid/stream.h"
+#include "lib/pass/color/detail/color_grid.h"
+#include "lib/pass/stage_progress.h"
+#include "lib/store/result_key.h"
+
+/// The colours of a scene's surface for all of its levels of detail (docs/decisions/0008-colours.md). Cells of a level
+/// are four of its voxels wide; those of the finest gather the scene's triangles, coarser ones are their sums.
+namespace bp {
+
+/// Colours around a part of a level, in memory: some 150 bytes a cell.
+class NearbyColors {
+ public:
+  /// `cells` in [min, max); `origin`: of the cells' frame, in lattice units of the level they belong to.
+  NearbyColors(std::vector<CellColor> cells, ColorCell min, const Vec3d& origin);
+
+  [[nodiscard]] bool empty() const { return cells_.empty(); }
+  /// At a point in lattice units of the level's frame: of the cell it lies in; else of the nearest of the 26 around it;
+  /// else the same among cells twice as large, and so on. White if there is no cell.
+  [[nodiscard]] LinearColor at(const Vec3d& lattice) const;
+  void add_to(KeyHash& hash) const;
+
+ private:
+  using Cells = std::unordered_map<ColorCell, ColorSum, CoordHash>;
+  [[nodiscard]] static const ColorSum* nearest(const Cells& cells, const Vec3d& p);
+
+  std::vector<CellColor> cells_;
+  ColorCell min_;
+  Vec3d origin_;
+  std::vector<Cells> coarser_;  ///< [n]: 2^n of the level's cells wide, counted from min_
+};
+
+class SceneColors {
+ public:
+  /// `frame`: whose voxels the cells of `finest` are made of.
+  SceneColors(const GridFrame& frame, std::unique_ptr<ColorGrid> finest);
+
+  /// Makes the cells of the level with this frame: that of the finest, reduced any number of times
+  /// (lib/volume/reduce.h). Not while others are at work here.
+  void prepare(const GridFrame& level);
+  /// Colours of the voxels of `box` of a level that was prepared, and of those within `margin_vox` of them. On any
+  /// thread.
+  [[nodiscard]] NearbyColors around(const GridFrame& level, const VoxelBox& box, std::int32_t margin_vox) const;
+  [[nodiscard]] NearbyColors all(const GridFrame& level) const;
+  [[nodiscard]] std::uint64_t cells() const { return levels_.front()->cells(); }  ///< of the finest level
+
+ private:
+  [[nodiscard]] std::size_t number_of(const GridFrame& level) const;
+  [[nodiscard]] Vec3d origin_in(const GridFrame& level) const;
+  GridFrame frame_;
+  std::vector<std::unique_ptr<ColorGrid>> levels_;
+};
+
+struct ColorOptions {
+  std::uint64_t memory_bytes = std::uint64_t(64) << 20;  ///< for cells at work
+  ShelfFactory make_shelf;
+  ChunkStoreFactory make_store;  ///< of cells that wait
+  StageProgress progress;        ///< called now and then
+};
+
+/// Reads `source` once more, from its start, for the colours of what `solid`, its voxels in `frame`, shows to the
+/// outside: what lies deeper than a cell inside does not count. Null if all of that is white. The result depends
+/// neither on the order of the triangles nor on threads or memory.
+[[nodiscard]] std::unique_ptr<SceneColors> gather_colors(TriangleSource& source, const GridFrame& frame,
+                                                         const BrickShelf& solid, const ColorOptions& options);
+
+}  // namespace bp

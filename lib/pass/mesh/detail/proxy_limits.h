@@ -1,0 +1,66 @@
+#pragma once
+#include <optional>
+
+#include "lib/core/predicates.h"
+#include "lib/geometry/near_surface.h"
+#include "lib/mesh/lattice_mesh.h"
+#include "lib/mesh/step_limits.h"
+
+/// The targets --error and --volume of bpmesh, as bounds that each step keeps.
+namespace bp {
+
+struct ProxyBounds {
+  double error_world = 0;   ///< largest distance of a point of the proxy to what it encloses, scene units; 0: none
+  double volume_world = 0;  ///< scene units cubed, negative for a surface turned inwards; 0: none
+};
+
+/// No step takes a face farther from what is enclosed than error_world, or, where the faces it replaces were farther
+/// already, than their corners were. So the largest distance over the proxy is at most
+///   max(error_world, the largest distance over the surface that simplification began with),
+/// up to the rounding of doubles; with the closing enclosed, that is error_world. No step adds volume beyond
+/// volume_world.
+class ProxyLimits final : public StepLimits {
+ public:
+  /// `frame`: of what the steps will change. `enclosed`: may be null without an error bound.
+  ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed)
+      : ProxyLimits(bounds, frame, enclosed, places_near(bounds, frame, enclosed)) {}
+  /// What one takes of memory, `enclosed` aside: with an error bound 1 to 32 MiB, by the area of `enclosed`.
+  [[nodiscard]] static std::uint64_t bytes_needed(const ProxyBounds& bounds, const GridFrame& frame,
+                                                  const TriangleBvh* enclosed);
+  void begin(int128 volume6) override { volume6_ = volume6; }
+  void relax(bool on) override { relaxed_ = on; }
+  bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) override;
+  [[nodiscard]] bool has_parts() const override { return bounds_.volume_world == 0; }
+  [[nodiscard]] std::unique_ptr<StepLimits> for_part() const override;
+  void add_part(const StepLimits& part) override;
+  [[nodiscard]] std::uint64_t bytes_of_part() const override;
+  [[nodiscard]] double error_lattice() const override { return bounds_.error_world / frame_.voxel * kLatticePerVoxel; }
+  /// "error" or "volume".
+  [[nodiscard]] const char* last_refusal() const override { return last_refusal_; }
+
+ private:
+  static constexpr std::size_t kPlacesOfPart = std::size_t(1) << 15, kMostPlaces = std::size_t(1) << 20;
+  [[nodiscard]] static std::size_t places_near(const ProxyBounds& bounds, const GridFrame& frame,
+                                               const TriangleBvh* enclosed);
+  ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed, std::size_t places);
+  [[nodiscard]] bool near_enough(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after);
+  [[nodiscard]] TriangleD world(const LatticeTriangle& t) const;
+
+  ProxyBounds bounds_;
+  GridFrame frame_;
+  const TriangleBvh* tree_;
+  std::optional<NearSurface> enclosed_;  // with an error bound
+  int128 volume6_ = 0, limit6_ = 0;      // six times the volume, lattice units cubed
+  bool relaxed_ = false;
+  bool beyond_ = false;  // faces beyond the error were allowed because they replaced others as far
+  const char* last_refusal_ = "";
+};
+
+/// Splits those pairs of `mesh` (quads.h) whose other diagonal would break a bound: however the others are drawn, all
+/// bounds hold. Of pairs that add volume, those that add least are kept.
+void keep_pairs_within(StepLimits& limits, LatticeMesh& mesh);
+
+/// Enclosed volume, scene units cubed; exact but for one rounding.
+[[nodiscard]] double volume_world(const LatticeMesh& mesh);
+
+}  // namespace bp

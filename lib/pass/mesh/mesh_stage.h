@@ -1,0 +1,74 @@
+#pragma once
+#include <optional>
+
+#include "lib/grid/stream.h"
+#include "lib/pass/mesh/detail/mesh_measures.h"
+#include "lib/simplify/simplify.h"
+#include "lib/tighten/tighten.h"
+
+/// The last stage of the pipe: bricks in, proxies out (bpmesh).
+namespace bp {
+
+/// bounding: around everything that is meshed. inside: within it, for occluders; of a stream of bpvox --fill inside.
+/// fit: as near as can be, neither around nor within (fit.h).
+enum class MeshMode { bounding, inside, fit };
+
+/// What must stay inside while the proxy is made tighter: the layer that is meshed, the stream's solid layer (the
+/// scene, to a voxel), or triangles of the scene itself.
+enum class Enclose { closing, input, scene };  // of a fit: what it is drawn to; closing, or the scene where it is near
+
+struct MeshParams {
+  MeshMode mode = MeshMode::bounding;
+  /// Triangles wanted, one number per level, falling; each level strictly encloses the one before. Empty: one level,
+  /// whose faces the other targets decide.
+  std::vector<std::uint64_t> faces;
+  /// Largest distance of the proxy to what it encloses (proxy_limits.h), scene units; 0: none. Of n levels that enclose
+  /// each other, the first may use 1/n of it, the second 2/n, and so on.
+  double error_world = 0;
+  /// With nothing but `faces` wanted, in bounding mode: no step takes a face farther from what is enclosed than the
+  /// scale and a voxel, as far as so few faces allow it. Volume alone does not mind a face far out.
+  bool near = false;
+  double volume_ratio = 0;  ///< largest volume, in volumes of the meshed voxels, at least 1; inside: least, at most 1
+  double edge_factor = 0;   ///< edges at most edge_factor * S long, S the scale field there; 0: no limit
+  Enclose enclose = Enclose::closing;
+  std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
+  /// What distances count from, if not from what is enclosed; closing: the surface of what is meshed.
+  std::optional<Enclose> distances_to;
+  bool tighten = true;  ///< afterwards, lower the volume while what is enclosed stays inside
+  /// inside: parts whose volume is below this share of the largest one's are left out, at each level; 0: none.
+  double least_part = 0;
+  /// fit: how far inside the surface of the voxels the surface of what they stand for is taken to lie, in extents of a
+  /// voxel along the normal, 0 to 1. Half of one is right on average for the voxels that a surface touches, and for
+  /// their closing; 0 fits the voxels.
+  double inset = 0.5;
+  bool quads = false;      ///< join triangles in pairs (quads.h)
+  PieceMemory memory;      ///< for the surface, which is never whole in memory unless limits or distances need it
+  bool distances = false;  ///< measure the distances between the proxies and what they enclose
+  /// With no target at all: the quadric error at which [CB17] §3.4 stops, as a share of the scene's diagonal.
+  static constexpr double kErrorShareBall = 1e-3, kErrorShareCube = 1e-2;
+};
+
+struct LevelCounts {
+  SimplifyCounts simplify;
+  TightenCounts tighten;
+  double error_world = 0;  ///< bound on the distance to what level 0 encloses, scene units; 0: none
+  std::string stopped_by;  ///< the target that was reached first: faces, error, volume, edge-length; or what else
+  MeshMeasures measures;
+};
+
+struct MeshCounts {
+  std::uint64_t voxels = 0;    ///< of the layer that is meshed
+  std::uint64_t repaired = 0;  ///< voxels added (inside: taken away) where others touched only along an edge or corner
+  std::uint64_t dropped_parts = 0, dropped_voxels = 0;  ///< below least_part, of the voxels
+  double solid_volume_world = 0;  ///< of the meshed voxels, repaired, without those dropped; scene units cubed
+  std::vector<LevelCounts> levels;
+};
+
+/// The proxies, finest first: one per number in params.faces, or one. `params` by value: the scene's triangles are
+/// moved out of it. Meshes the closing layer if the stream has one, else the solid layer. Throws bad_input if that
+/// layer is empty or not what the mode needs, bad_argument if the targets make no sense, out_of_resource if
+/// params.memory does not suffice.
+[[nodiscard]] std::vector<LatticeMesh> mesh_stream(BrickSource& source, const ShelfFactory& make_shelf,
+                                                   MeshParams params, MeshCounts& counts);
+
+}  // namespace bp

@@ -1,0 +1,68 @@
+#include "lib/pass/mesh/scale_search.h"
+
+#include "lib/grid/shelf_stream.h"
+#include "lib/pass/close/close_stage.h"
+#include "lib/surface/repair.h"
+#include "lib/volume/topology.h"
+
+namespace bp {
+
+namespace {
+
+constexpr int kMostTimes = 64;
+constexpr std::uint64_t kLeastFaces = 4;  // of a part, and for a handle
+
+StreamHeader closed_at(const StreamHeader& header, double scale) {
+  StreamHeader closed = header;
+  closed.scale = {};
+  closed.scale.base = scale;
+  closed.bricks = closing_bricks(header, closed.scale);
+  return closed;
+}
+
+std::unique_ptr<BrickShelf> closing_of(const StreamHeader& closed, BrickShelf& solid, Backends& backends,
+                                       const ScaleSearch& search) {
+  CloseOptions options;
+  options.keep_cavities = search.keep_cavities;
+  options.memory_bytes = search.memory_bytes;
+  options.make_shelf = search.make_shelf;
+  StreamHeader input = closed;
+  input.has_closing = false;
+  auto closing = search.make_shelf();
+  ShelfSource source(input, solid, nullptr, ShelfSource::Keep::all);
+  ShelfSink sink(nullptr, closing.get());
+  close_stream(source, sink, backends, closed.scale, {closed.element}, options);
+  return closing;
+}
+
+/// False if parts and handles alone take more faces, whatever is merged.
+bool may_have(const BrickShelf& closing, const ScaleSearch& search) {
+  if (topology_bytes(closing) > search.pieces.bytes()) return true;  // not known
+  const SolidTopology topology = topology_of(closing);
+  return (topology.parts + topology.handles) * kLeastFaces <= search.faces;
+}
+
+bool has_faces(const StreamHeader& closed, BrickShelf& solid, BrickShelf& closing, const ScaleSearch& search) {
+  MeshParams params;
+  params.faces = {search.faces};
+  params.tighten = false;
+  params.memory = search.pieces;
+  MeshCounts counts;
+  ShelfSource source(closed, solid, &closing, ShelfSource::Keep::solid);
+  return mesh_stream(source, search.make_shelf, params, counts).front().triangles.size() <= search.faces;
+}
+
+}  // namespace
+
+std::optional<int> enough_scales(const StreamHeader& header, BrickShelf& solid, Backends& backends,
+                                 const ScaleSearch& search) {
+  for (int times = 2; times <= kMostTimes && times * header.scale.base <= header.bounds.diagonal() / 2; times *= 2) {
+    const StreamHeader closed = closed_at(header, times * header.scale.base);
+    const std::unique_ptr<BrickShelf> closing = closing_of(closed, solid, backends, search);
+    repair_contacts(*closing);  // as meshing does: it closes the tiniest holes
+    if (may_have(*closing, search) && has_faces(closed, solid, *closing, search)) return times;
+  }
+  return std::nullopt;
+}
+
+}  // namespace bp

@@ -1,0 +1,136 @@
+#include "lib/pass/mesh/surface_around.h"
+
+#include "lib/core/error.h"
+#include "lib/grid/shelf_stream.h"
+#include "lib/pass/mesh/complement.h"
+#include "lib/pass/voxelize/voxelize_stage.h"
+#include "lib/quads/quads.h"
+#include "lib/simplify/surface_tree.h"
+#include "lib/store/memory_chunk_store.h"
+#include "lib/surface/repair.h"
+#include "lib/surface/surface.h"
+
+namespace bp {
+
+namespace {
+
+class MeshSource final : public TriangleSource {
+ public:
+  explicit MeshSource(const LatticeMesh& mesh) : triangles_(drawable_world_triangles(mesh)) {}
+  [[nodiscard]] std::uint64_t bytes() const { return 2 * triangles_.size() * sizeof(TriangleD); }  // as read, too
+  bool read(std::vector<TriangleD>& out) override {
+    out.clear();
+    if (counts_.triangles > 0) return false;
+    out = triangles_;
+    counts_.triangles = out.size();
+    return true;
+  }
+  void rewind() override { counts_ = {}; }
+  [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
+  [[nodiscard]] std::string name() const override { return "level"; }
+
+ private:
+  std::vector<TriangleD> triangles_;
+  SceneCounts counts_;
+};
+
+std::vector<TriangleD> in_world(const LatticeMesh& mesh, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  std::vector<TriangleD> out;
+  out.reserve(triangles.size());
+  for (const auto& t : triangles) {
+    out.push_back({mesh.frame.world(mesh.vertices[t[0]]), mesh.frame.world(mesh.vertices[t[1]]),
+                   mesh.frame.world(mesh.vertices[t[2]])});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<TriangleD> world_triangles(const LatticeMesh& mesh) {
+  return in_world(mesh, mesh.triangles);
+}
+
+std::vector<TriangleD> drawable_world_triangles(const LatticeMesh& mesh) {
+  return in_world(mesh, drawable_triangles(mesh));
+}
+
+namespace {
+
+/// Voxels of a mesh, as bpvox would find them; returns their frame.
+GridFrame voxelize_mesh(const LatticeMesh& mesh, double voxel, FillMode fill, const ShelfFactory& make_shelf,
+                        const PieceMemory& memory, BrickShelf& shelf) {
+  MeshSource source(mesh);
+  ShelfSink sink(&shelf);
+  VoxelizeOptions options;
+  options.voxel_size = [voxel](const Bounds3d&) { return voxel; };
+  options.fill = fill;
+  options.up = mesh.frame.up;
+  const PieceMemory left = memory.without(source.bytes());
+  options.memory_bytes = left.waiting_bytes;
+  options.tile_memory_bytes = left.work_bytes;
+  options.make_shelf = make_shelf;
+  options.make_store = memory.make_store;
+  if (!options.make_store) options.make_store = [] { return std::make_unique<MemoryChunkStore>(); };
+  GridFrame frame;
+  const auto open = [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
+    frame = header.frame;
+    return sink;
+  };
+  Backends on_threads;
+  voxelize_stream(source, open, on_threads, options);
+  return frame;
+}
+
+void take_away(const BrickShelf& less, BrickShelf& from) {
+  BrickBits bits, gone;
+  for (const BrickCoord& c : less.coords()) {
+    from.get(c, bits);
+    less.get(c, gone);
+    for (std::size_t i = 0; i < bits.size(); ++i) bits[i] &= ~gone[i];
+    from.put(c, classify(bits), bits);
+  }
+}
+
+}  // namespace
+
+GridFrame voxels_around(const LatticeMesh& inner, double voxel, const ShelfFactory& make_shelf,
+                        const PieceMemory& memory, BrickShelf& around) {
+  const GridFrame frame = voxelize_mesh(inner, voxel, FillMode::flood, make_shelf, memory, around);
+  repair_contacts(around);
+  return frame;
+}
+
+LatticeMesh surface_within(const LatticeMesh& outer, double voxel, const ShelfFactory& make_shelf,
+                           const PieceMemory& memory) {
+  const auto shelf = make_shelf(), around = make_shelf();
+  // Not what may be drawn: what lies between the diagonals of a quad is inside by some choices only. And not what a
+  // flood cannot reach: a cavity is outside.
+  const LatticeMesh innermost = innermost_choice(outer);
+  const GridFrame frame = voxelize_mesh(innermost, voxel, FillMode::winding, make_shelf, memory, *shelf);
+  const auto touched = make_shelf();
+  voxelize_mesh(innermost, voxel, FillMode::none, make_shelf, memory, *touched);
+  take_away(*touched, *shelf);
+  check_work(count_faces(ShelfSurface(*shelf, frame)), memory);
+  LatticeMesh surface = inward_surface(*shelf, frame, make_shelf, *around);
+  if (surface.triangles.empty())
+    fail(ErrorCode::failed, "no voxel lies inside a level of {} faces; use smaller voxels", outer.triangles.size());
+  return surface;
+}
+
+LatticeMesh inward_surface(const BrickShelf& solid, const GridFrame& frame, const ShelfFactory& make_shelf,
+                           BrickShelf& around) {
+  const BrickBox box = bricks_around(solid);
+  complement(solid, box, around);
+  repair_contacts(around);
+  const auto left = make_shelf();
+  complement(around, box, *left);
+  LatticeMesh surface = dense_surface(*left, frame);
+  turn_over(surface);
+  return surface;
+}
+
+void turn_over(LatticeMesh& mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+}  // namespace bp

@@ -1,0 +1,133 @@
+#include "lib/pass/voxelize/detail/chunked_surface.h"
+
+#include <algorithm>
+
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+
+namespace bp {
+
+namespace {
+
+constexpr const char* kMetJob = "a chunk was voxelized";
+
+/// Of a mark beside the voxels, which knows of no frame.
+ResultKey met_key(const ChunkCutter::Chunk& chunk) {
+  return KeyHash(kMetJob).add(std::as_bytes(std::span(chunk.content.words))).key();
+}
+
+}  // namespace
+
+/// A chunk to be made.
+struct ChunkedSurface::Item {
+  std::size_t chunk = 0;
+  std::uint64_t count = 0;  // of its triangles, and of those before it, of chunks that are known
+  std::vector<TriangleD> triangles;
+};
+
+/// Triangles by number, one batch at a time.
+class ChunkedSurface::Reader {
+ public:
+  explicit Reader(const NextPortion& next) : next_(next) {}
+  /// Appends the next n to `out`, unless it is null; false if there are fewer.
+  bool take(std::uint64_t n, std::vector<TriangleD>* out) {
+    while (n > 0) {
+      if (at_ == portion_.count) {
+        at_ = 0;
+        if (!next_(portion_)) return false;
+      }
+      const std::uint64_t here = std::min(n, portion_.count - at_);
+      if (out != nullptr) {
+        if (portion_.triangles.empty()) return false;
+        const auto first = portion_.triangles.begin() + std::ptrdiff_t(at_);
+        out->insert(out->end(), first, first + std::ptrdiff_t(here));
+      }
+      at_ += here;
+      n -= here;
+    }
+    return true;
+  }
+
+ private:
+  const NextPortion& next_;
+  Portion portion_;
+  std::uint64_t at_ = 0;
+};
+
+void ChunkedSurface::measure(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places) {
+  cutter_.add(triangles, places);
+  for (std::size_t i = met_.size(); i < cutter_.chunks().size(); ++i) {
+    const ChunkCutter::Chunk& chunk = cutter_.chunks()[i];
+    std::string none;
+    met_.push_back(results_.get(met_key(chunk), none));
+    if (met_.back() == 0) unmet_.emplace_back(ended_, ended_ + chunk.triangles);
+    ended_ += chunk.triangles;
+  }
+}
+
+bool ChunkedSurface::met(std::uint64_t begin, std::uint64_t end) const {
+  const auto next =
+      std::partition_point(unmet_.begin(), unmet_.end(), [&](const auto& u) { return u.second <= begin; });
+  return end <= ended_ && (next == unmet_.end() || next->first >= end);
+}
+
+bool ChunkedSurface::needs_met() const {
+  for (std::size_t i = 0; i < met_.size(); ++i) {
+    if (met_[i] != 0 && found_[i] == 0) return true;
+  }
+  return false;
+}
+
+void ChunkedSurface::look_up(const GridFrame& frame, const BrickBox& grid, std::uint64_t memory_bytes,
+                             BrickShelf& shelf) {
+  frame_ = frame;
+  grid_ = grid;
+  chunks_ = cutter_.finish();
+  found_.assign(chunks_.size(), 0);
+  bricks_ = std::make_unique<BrickSum>(grid, memory_bytes, shelf);
+  met_.resize(chunks_.size());  // the last one ends here
+  parallel_for(std::int64_t(chunks_.size()), [&](std::int64_t n) {
+    const auto i = std::size_t(n);
+    std::string bytes;
+    found_[i] = results_.get(chunk_key(chunks_[i], frame_), bytes) && bricks_->add(bytes);
+    if (found_[i] != 0 && met_[i] == 0) results_.put(met_key(chunks_[i]), "");
+  });
+  kept_ = std::uint64_t(std::count(found_.begin(), found_.end(), 1));
+}
+
+void ChunkedSurface::add_missing(const NextPortion& next, std::uint64_t memory_bytes,
+                                 const std::function<void(std::uint64_t, std::vector<TriangleD>&&)>& done) {
+  Reader reader(next);
+  std::size_t chunk = 0;
+  const auto changed = [] { fail(ErrorCode::bad_input, "the scene changed between the first and the second reading"); };
+  pipeline<Item>(
+      int(std::clamp<std::uint64_t>(memory_bytes / kChunkWorkBytes, 1, std::uint64_t(thread_count()) + 1)),
+      [&](Item& item) {
+        for (; chunk < chunks_.size() && found_[chunk] != 0; ++chunk) {
+          item.count += chunks_[chunk].triangles;
+          if (!reader.take(chunks_[chunk].triangles, nullptr)) changed();
+        }
+        if (chunk == chunks_.size()) return false;
+        item.chunk = chunk;
+        item.count += chunks_[chunk].triangles;
+        if (!reader.take(chunks_[chunk++].triangles, &item.triangles)) changed();
+        return true;
+      },
+      [&](Item& item) {
+        if (ChunkCutter::content_of(item.triangles) != chunks_[item.chunk].content) changed();
+        make(item);
+      },
+      [&](Item& item) { done(item.count, std::move(item.triangles)); });
+}
+
+/// Leaves the triangles of a chunk that cannot be kept.
+void ChunkedSurface::make(Item& item) {
+  const std::optional<std::string> bytes = chunk_voxels(item.triangles, frame_, grid_);
+  if (!bytes) return;
+  item.triangles.clear();
+  results_.put(chunk_key(chunks_[item.chunk], frame_), *bytes);
+  results_.put(met_key(chunks_[item.chunk]), "");
+  if (!bricks_->add(*bytes)) fail(ErrorCode::failed, "a chunk of triangles has voxels outside the grid of its scene");
+}
+
+}  // namespace bp

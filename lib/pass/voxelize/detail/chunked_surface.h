@@ -1,0 +1,58 @@
+#pragma once
+#include <functional>
+
+#include "lib/pass/voxelize/detail/surface_chunks.h"
+
+/// The surface voxels of a scene from the chunks of earlier builds, and from the triangles of what is new.
+namespace bp {
+
+class ChunkedSurface {
+ public:
+  /// Some triangles in a row.
+  struct Portion {
+    std::vector<TriangleD> triangles;  ///< none if they were not kept
+    std::uint64_t count = 0;
+  };
+  using NextPortion = std::function<bool(Portion&)>;  ///< as TriangleSource::read()
+
+  explicit ChunkedSurface(ResultStore& results) : results_(results) {}
+
+  /// First pass: the triangles in their order, with ChunkCutter::places().
+  void measure(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places);
+  [[nodiscard]] bool ended(std::uint64_t triangles) const { return triangles <= ended_; }  ///< all in whole chunks
+  /// True if all of these triangles, counted from the first, are in chunks that some build has voxelized: they need not
+  /// be kept, though it may turn out that the voxels were others.
+  [[nodiscard]] bool met(std::uint64_t begin, std::uint64_t end) const;
+  /// After it: looks up the voxels of every chunk. `memory_bytes`: for bricks in memory.
+  void look_up(const GridFrame& frame, const BrickBox& grid, std::uint64_t memory_bytes, BrickShelf& shelf);
+  [[nodiscard]] bool complete() const { return kept_ == chunks_.size(); }
+  /// Triangles that are met() are needed after all.
+  [[nodiscard]] bool needs_met() const;
+  /// Voxelizes the other chunks, and keeps them. `next` gives all triangles once more; done(n, large): behind n more of
+  /// them, of which `large` are too large for a chunk: their voxels are for the caller to find, in every build.
+  /// `memory_bytes`: for chunks at work. Throws bad_input if the triangles are not those of the first pass.
+  void add_missing(const NextPortion& next, std::uint64_t memory_bytes,
+                   const std::function<void(std::uint64_t, std::vector<TriangleD>&&)>& done);
+
+  [[nodiscard]] std::uint64_t chunks() const { return chunks_.size(); }
+  [[nodiscard]] std::uint64_t kept() const { return kept_; }
+  [[nodiscard]] BrickSum& bricks() { return *bricks_; }
+
+ private:
+  class Reader;
+  struct Item;
+  void make(Item& item);
+
+  ResultStore& results_;
+  ChunkCutter cutter_;
+  std::vector<ChunkCutter::Chunk> chunks_;
+  std::vector<char> met_, found_;                               // by chunk
+  std::uint64_t ended_ = 0;                                     // triangles in chunks that have ended
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> unmet_;  // triangles in chunks that were never voxelized
+  std::uint64_t kept_ = 0;
+  GridFrame frame_;
+  BrickBox grid_;
+  std::unique_ptr<BrickSum> bricks_;
+};
+
+}  // namespace bp

@@ -1,0 +1,92 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "lib/core/coord_hash.h"
+#include "lib/core/triangle_source.h"
+#include "lib/grid/stream.h"
+#include "lib/store/result_key.h"
+
+/// The voxels that triangles touch, chunk by chunk: what a build keeps of a scene, so that the next one voxelizes only
+/// what has changed (docs/decisions/0007-surface-chunks.md).
+namespace bp {
+
+/// Cuts a sequence of triangles where its content says so: to put in, take away or move triangles changes the chunks
+/// that they are in, perhaps the next one, and no others. Cost: 2 ns a triangle, and its hash.
+class ChunkCutter {
+ public:
+  static constexpr std::uint64_t kLeast = 1 << 12, kMost = 1 << 16;  ///< triangles; the last chunk may be smaller
+  static constexpr int kMeanBits = 14;                               ///< one place in 2^14, if not too near the last
+
+  struct Chunk {
+    std::uint64_t triangles = 0;
+    ResultKey content;  ///< content_of() them
+  };
+  /// XXH3-128 of the coordinates, in order.
+  [[nodiscard]] static ResultKey content_of(std::span<const TriangleD> triangles);
+
+  /// Triangles behind which a chunk may end, by number in the span. Thread-safe.
+  [[nodiscard]] static std::vector<std::uint32_t> places(std::span<const TriangleD> triangles);
+
+  /// The next triangles, with their places().
+  void add(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places);
+  [[nodiscard]] const std::vector<Chunk>& chunks() const { return chunks_; }  ///< that have ended
+  [[nodiscard]] std::vector<Chunk> finish();
+
+ private:
+  void take(std::span<const TriangleD> triangles);
+  void cut();
+  ContentHash hash_;
+  std::uint64_t open_ = 0;  // triangles of the chunk that has not ended
+  std::vector<Chunk> chunks_;
+};
+
+/// Of the voxels of a chunk in this frame.
+[[nodiscard]] ResultKey chunk_key(const ChunkCutter::Chunk& chunk, const GridFrame& frame);
+
+/// The voxels that the triangles touch (voxelize_surface), as bytes for BrickSum::add(): for each brick its
+/// coordinates, a bit for each of its words that is not 0, and these. `grid`: that the triangles lie in.
+/// Nothing if they are too large for a chunk: if they take more than kChunkBytes, or meet more than kChunkMeetings
+/// bricks, counting each triangle's. At work: kChunkWorkBytes, and one triangle's bricks.
+[[nodiscard]] std::optional<std::string> chunk_voxels(std::span<const TriangleD> triangles, const GridFrame& frame,
+                                                      const BrickBox& grid);
+constexpr std::size_t kChunkBytes = std::size_t(4) << 20, kChunkMeetings = std::size_t(1) << 17;
+constexpr std::uint64_t kChunkWorkBytes = std::uint64_t(24) << 20;  ///< with its triangles, and packed for the store
+
+/// The union of chunks. Bricks are held as bits, and go to a shelf when there are too many of them.
+class BrickSum {
+ public:
+  BrickSum(const BrickBox& grid, std::uint64_t memory_bytes, BrickShelf& shelf)
+      : grid_(grid), limit_(memory_bytes / kShards / sizeof(BrickBits)), shelf_(shelf) {}
+
+  /// False, and nothing is added, if these are not the bytes of a chunk in this grid. Thread-safe.
+  [[nodiscard]] bool add(const std::string& chunk);
+  /// Of all bricks, in no order, some of them twice.
+  [[nodiscard]] std::vector<BrickCoord> coords() const;
+  /// Sets the voxels of the box, one of whole bricks, which are then forgotten. After the last add(). Thread-safe for
+  /// boxes without common bricks.
+  void take(BitBox& out);
+
+ private:
+  static constexpr std::size_t kShards = 64;
+  struct Shard {
+    std::mutex mutex;
+    std::unordered_map<BrickCoord, std::unique_ptr<BrickBits>, CoordHash> bricks;
+    std::vector<BrickCoord> on_shelf;
+  };
+  void make_room(Shard& shard);
+  [[nodiscard]] Shard& shard_of(BrickCoord c) { return shards_[CoordHash()(c) % kShards]; }
+
+  const BrickBox grid_;
+  const std::size_t limit_;  // bricks in a shard
+  BrickShelf& shelf_;
+  std::array<Shard, kShards> shards_;
+};
+
+}  // namespace bp

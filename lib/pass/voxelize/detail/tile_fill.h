@@ -1,0 +1,76 @@
+#pragma once
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "lib/core/pool.h"
+#include "lib/device/backend.h"
+#include "lib/grid/stream.h"
+#include "lib/grid/tile_grid.h"
+#include "lib/pass/stage_progress.h"
+#include "lib/store/chunk_store.h"
+#include "lib/volume/outside.h"
+
+/// What the surface voxels of a grid of tiles enclose, added to them on their shelf.
+namespace bp {
+
+/// A tile at work.
+struct TileWork {
+  BitBox bits;
+  std::vector<Crossing> crossings;
+};
+using TileWorks = Pool<std::unique_ptr<TileWork>>;
+using BackendPool = Pool<Backend*>;
+
+/// Usage: add_crossings() and add_surface() of each tile as it is voxelized; resolve(); then, for winding,
+/// fill_columns(); else fill_flood() of each tile. Thread-safe but for resolve().
+class TileFill {
+ public:
+  /// Keeps references to all but `tiles`. The tiles' surface voxels are on the shelf; crossings go to the store.
+  TileFill(FillMode mode, const TileGrid& tiles, BrickShelf& shelf, ChunkStore& store, BackendPool& backends,
+           TileWorks& works);
+
+  /// Winding only; some of the crossings of a tile. Tiles at work in turn, but those of one tile one after the other.
+  void add_crossings(std::uint64_t tile, std::span<const Crossing> crossings);
+  /// The tile's surface voxels are all there. Tiles without any need not be told.
+  void add_surface(std::uint64_t tile, const BitBox& bits);
+  void resolve();
+
+  /// FillMode::flood, or inside: then less the surface voxels.
+  void fill_flood(std::uint64_t tile);
+  /// Winding: all tiles at once.
+  void fill_columns(const StageProgress& progress);
+  /// Tiles that have been given voxels so far, whether they had some before or not.
+  [[nodiscard]] bool has_filled(std::uint64_t tile) const;
+  /// Columns whose crossings do not cancel: the flood decided there.
+  [[nodiscard]] std::uint64_t open_columns() const { return open_columns_; }
+
+ private:
+  /// Columns of voxels, of one column of tiles, that are open: bits in the layout of a slice.
+  struct OpenColumns {
+    std::vector<std::uint64_t> bits;
+    std::uint64_t count = 0;
+  };
+  void fill_column(std::int32_t tx, std::int32_t ty);
+  [[nodiscard]] OpenColumns open_columns(std::int32_t tx, std::int32_t ty, TileWork& work) const;
+  void get_crossings(std::uint64_t tile, std::vector<Crossing>& out) const;
+  void store(std::uint64_t tile, const BitBox& bits);
+  [[nodiscard]] VoxelBox box(std::uint64_t tile) const { return tiles_.box(tiles_.coord(tile)); }
+
+  const FillMode mode_;
+  const TileGrid tiles_;
+  BrickShelf& shelf_;
+  ChunkStore& store_;
+  BackendPool& backends_;
+  TileWorks& works_;
+  OutsideFlood flood_;
+  std::unordered_map<std::uint64_t, std::vector<ChunkStore::Handle>> crossings_;  // of tiles
+  std::unordered_set<std::uint64_t> with_surface_;                                // FillMode::inside: tiles
+  std::unordered_set<std::uint64_t> filled_;                                      // tiles
+  mutable std::mutex mutex_;
+  std::atomic<std::uint64_t> open_columns_{0};
+};
+
+}  // namespace bp

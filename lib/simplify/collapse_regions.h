@@ -1,0 +1,15 @@
+#pragma once
+#include "lib/simplify/simplify.h"
+#include "lib/surface/piece.h"
+
+namespace bp {
+
+/// A surface of so many faces is worth working on by regions.
+[[nodiscard]] bool has_regions(std::uint64_t faces, const SimplifyParams& params);
+
+/// The strict order (collapse_order.h) on the regions of a closed surface (regions.h), at the same time, down to
+/// params.faces, or as far as it goes. Shells that turn are erased. `whole` has quadrics or not. The result depends
+/// neither on threads nor on memory.
+void collapse_in_regions(Piece& whole, const SimplifyParams& params, SimplifyCounts& counts);
+
+}  // namespace bp

@@ -1,0 +1,179 @@
+#include "lib/simplify/simplify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "lib/mesh/shells.h"
+#include "lib/simplify/collapse_regions.h"
+#include "lib/simplify/detail/collapse_order.h"
+#include "lib/simplify/flatten.h"
+#include "lib/simplify/surface_tree.h"
+
+namespace bp {
+
+std::string to_string(StopReason reason) {
+  switch (reason) {
+    case StopReason::faces:
+      return "faces";
+    case StopReason::error:
+      return "error";
+    case StopReason::limits:
+      return "limits";
+    case StopReason::edge_length:
+      return "edge-length";
+    case StopReason::nothing_left:
+      return "no collapse left that keeps the guarantee";
+  }
+  return "";
+}
+
+void SimplifyCounts::add(const SimplifyCounts& next) {
+  const SimplifyCounts before = *this;
+  *this = next;
+  faces_in = before.faces_in;
+  faces_flat = before.faces_flat;
+  collapses += before.collapses;
+  solved += before.solved;
+}
+
+void SimplifyCounts::add_beside(const SimplifyCounts& part) {
+  collapses += part.collapses;
+  solved += part.solved;
+  refused_link += part.refused_link;
+  refused_constraints += part.refused_constraints;
+  refused_shape += part.refused_shape;
+  refused_growth += part.refused_growth;
+  refused_length += part.refused_length;
+  refused_enclosed += part.refused_enclosed;
+  refused_guard += part.refused_guard;
+  refused_limits += part.refused_limits;
+  refused_error += part.refused_error;
+}
+
+void SimplifyCounts::clear_refusals() {
+  refused_link = refused_constraints = refused_shape = refused_growth = refused_length = refused_enclosed =
+      refused_guard = refused_limits = refused_error = 0;
+}
+
+StopReason SimplifyCounts::reason_left() const {
+  return refused_error > 0    ? StopReason::error
+         : refused_limits > 0 ? StopReason::limits
+         : refused_length > 0 ? StopReason::edge_length
+                              : StopReason::nothing_left;
+}
+
+namespace {
+
+/// Without a wanted number of faces, sweeps take what is the allowed distance off over a square of that edge.
+BulkEnd end_of_bulk(const SimplifyParams& params) {
+  if (params.faces == 0) return {0, params.limits != nullptr ? std::pow(params.limits->error_lattice(), 4) : 0};
+  return {params.strict_from > 0 ? std::max(params.strict_from, params.faces) : kBulkFactor * params.faces, kLastBound};
+}
+
+LatticeMesh finished(HalfEdgeMesh& mesh, const GridFrame& frame, bool inwards, const ShellSense* sense,
+                     SimplifyCounts& counts) {
+  erase_inner_shells(mesh, inwards, sense);
+  counts.faces_out = mesh.face_count();
+  return mesh.compact(frame);
+}
+
+void collapse_strict(Collapser& collapser, SimplifyCounts& counts) {
+  StrictOrder order(collapser);
+  const bool enough = order.run(std::numeric_limits<double>::infinity(), collapser.params().faces);
+  order.count(counts);
+  counts.stop = enough ? StopReason::faces : counts.reason_left();
+  if (counts.stop == StopReason::limits) counts.limit = collapser.params().limits->last_refusal();
+}
+
+/// The rest of it: what regions leave is tried as a whole.
+LatticeMesh simplify_regions(Piece whole, const GridFrame& frame, const SimplifyParams& params,
+                             SimplifyCounts& counts) {
+  const bool inwards = volume6_of(whole.vertices, whole.triangles) < 0;
+  collapse_in_regions(whole, params, counts);
+  HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
+  counts.stop = StopReason::faces;
+  if (mesh.face_count() <= params.faces) return finished(mesh, frame, inwards, nullptr, counts);
+  Collapser collapser(mesh, std::move(whole.quadrics), params, counts);
+  collapse_strict(collapser, counts);
+  return finished(mesh, frame, inwards, collapser.sense(), counts);
+}
+
+Piece piece_of(const Collapser& collapser) {
+  Piece piece;
+  piece.triangles = collapser.mesh().live_faces([&](VertexId v, VertexId) {
+    piece.vertices.push_back(collapser.mesh().position(v));
+    piece.quadrics.push_back(collapser.quadric(v));
+  });
+  return piece;
+}
+
+/// A surface with quadrics or not, to the end; or, where that is worth regions, until they begin: what is left then.
+std::variant<LatticeMesh, Piece> simplify_mesh(Piece whole, const GridFrame& frame, const SimplifyParams& params,
+                                               SimplifyCounts& counts) {
+  HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
+  const bool inwards = faces_inwards(mesh);
+  if (params.limits != nullptr) params.limits->begin(mesh.volume6());
+  whole.triangles = {};
+  // Where quadrics are given, edges have been collapsed, and faces are no longer axis-aligned.
+  if (params.dense && whole.quadrics.empty()) merge_flat_regions(mesh, params.edge_limit);
+  if (counts.faces_flat == 0) counts.faces_flat = mesh.face_count();
+  Collapser collapser(mesh, std::move(whole.quadrics), params, counts);
+  const BulkEnd end = end_of_bulk(params);
+  if (params.dense && end.cost > 0) collapse_bulk(collapser, {kFirstBound, end.cost}, end.faces);
+  if (params.faces > 0 && has_regions(mesh.face_count(), params)) {
+    if (collapser.sense() != nullptr) erase_turned_shells(mesh, *collapser.sense());
+    return piece_of(collapser);
+  }
+  collapse_strict(collapser, counts);
+  return finished(mesh, frame, inwards, collapser.sense(), counts);
+}
+
+/// All of the surface, with quadrics or not, to the end.
+LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyParams& params, SimplifyCounts& counts) {
+  if (params.dense || params.faces == 0 || !has_regions(whole.triangles.size(), params)) {
+    auto result = simplify_mesh(std::move(whole), frame, params, counts);
+    if (auto* mesh = std::get_if<LatticeMesh>(&result)) return std::move(*mesh);
+    whole = std::get<Piece>(std::move(result));
+  }
+  return simplify_regions(std::move(whole), frame, params, counts);
+}
+
+}  // namespace
+
+LatticeMesh simplify(const SurfaceSource& dense, const SimplifyParams& params, SimplifyCounts& counts) {
+  constexpr std::uint64_t kFew = std::uint64_t(1)
+                                 << 18;  // as a whole at once: no vertex along a brick's side is locked
+  counts = {};
+  const std::uint64_t faces = params.limits != nullptr ? count_faces(dense) : 0;
+  if (faces > 0 && faces <= kFew) {
+    Piece whole = whole_piece(dense);
+    counts.faces_in = whole.triangles.size();
+    return simplify_whole(std::move(whole), dense.frame(), params, counts);
+  }
+  const bool bulk = params.limits == nullptr || params.limits->has_parts();
+  Piece whole = simplified_surface(dense, params, bulk ? end_of_bulk(params) : BulkEnd{}, counts);
+  if (whole.triangles.empty()) {
+    LatticeMesh none;
+    none.frame = dense.frame();
+    return none;
+  }
+  return simplify_whole(std::move(whole), dense.frame(), params, counts);
+}
+
+LatticeMesh simplify(const LatticeMesh& mesh, const SimplifyParams& params, SimplifyCounts& counts) {
+  counts = {};
+  if (mesh.triangles.empty()) return mesh;
+  LatticeMesh out;
+  if (params.dense) {
+    out = simplify(MeshSurface(mesh), params, counts);
+  } else {
+    counts.faces_in = counts.faces_flat = mesh.triangles.size();
+    out = simplify_whole({kEverywhere, mesh.vertices, mesh.triangles, {}}, mesh.frame, params, counts);
+  }
+  out.provenance = mesh.provenance;
+  return out;
+}
+
+}  // namespace bp

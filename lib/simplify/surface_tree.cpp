@@ -1,0 +1,226 @@
+#include "lib/simplify/surface_tree.h"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <tuple>
+
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/simplify/detail/collapse_order.h"
+#include "lib/simplify/flatten.h"
+
+namespace bp {
+
+namespace {
+
+// Cells stop where the next round might pass the wanted number of faces: at kMargin times as many, or, where so many
+// are better not held at once, at fewer.
+constexpr std::uint64_t kMargin = 3, kMarginOfMany = 2, kMany = std::uint64_t(1) << 20;
+constexpr double kBoundPerLevel = 16;  // of the last bound: a round leaves about 40 % of the faces
+constexpr std::int64_t kBrickLattice = std::int64_t(kBrickEdge) * kLatticePerVoxel;
+constexpr std::uint64_t kWorkPerFace = 256;  // bytes: the piece, its half-edges, quadrics, boxes and their tree
+
+/// body(i) for i in [0, n), with at most `in_flight` of them begun and not ended.
+template <class Body>
+void parallel_few(std::size_t n, std::size_t in_flight, const Body& body) {
+  std::atomic<std::size_t> next = 0;
+  parallel_for(std::int64_t(std::min(n, in_flight)), [&](std::int64_t) {
+    for (std::size_t i = next++; i < n; i = next++) body(i);
+  });
+}
+
+struct Node {
+  BrickCoord coord;                 // of the cell, in cells of its level, from the lowest brick on
+  std::vector<WaitingPiece> parts;  // one, or those of the cells that it is made of, not yet welded
+  SimplifyCounts counts;
+
+  [[nodiscard]] std::uint64_t face_count() const {
+    std::uint64_t n = 0;
+    for (const WaitingPiece& part : parts) n += part.face_count();
+    return n;
+  }
+};
+
+class SurfaceTree {
+ public:
+  SurfaceTree(const SurfaceSource& surface, const SimplifyParams& params)
+      : surface_(surface), params_(params), store_(params.memory) {}
+
+  /// The cells of the first level: bricks, with their flat regions merged. Returns the faces there were.
+  std::uint64_t begin() {
+    const std::vector<BrickCoord> bricks = surface_.bricks();
+    for (const BrickCoord& b : bricks) {
+      for (int i = 0; i < 3; ++i) origin_[i] = std::min(origin_[i], b[i]);
+    }
+    nodes_.resize(bricks.size());
+    std::atomic<std::uint64_t> faces = 0;
+    parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
+      Piece piece = surface_.piece(bricks[std::size_t(i)]);
+      if (piece.triangles.empty()) return;
+      faces += piece.triangles.size();
+      merge_flat(piece);
+      Node& node = nodes_[std::size_t(i)];
+      node.coord = bricks[std::size_t(i)] - origin_;
+      node.parts.push_back(store_.put(std::move(piece)));
+    });
+    std::erase_if(nodes_, [](const Node& node) { return node.parts.empty(); });
+    return faces;
+  }
+
+  void collapse(BulkRange range) {
+    const std::size_t in_flight = nodes_in_hand();
+    parallel_few(nodes_.size(), in_flight, [&](std::size_t i) {
+      Node& node = nodes_[i];
+      Piece piece = welded(node);
+      HalfEdgeMesh mesh(std::move(piece.vertices), piece.triangles, piece.cell);
+      SimplifyParams own = params_;
+      const std::unique_ptr<StepLimits> limits = limits_of_part();
+      own.limits = limits.get();
+      Collapser collapser(mesh, std::move(piece.quadrics), own, node.counts);
+      collapse_bulk(collapser, range, 0);
+      if (collapser.sense() != nullptr) erase_turned_shells(mesh, *collapser.sense());
+      if (limits != nullptr) add_part(*limits);
+      piece.vertices = {};
+      piece.quadrics = {};
+      piece.triangles = mesh.live_faces([&](VertexId v, VertexId) {
+        piece.vertices.push_back(mesh.position(v));
+        piece.quadrics.push_back(collapser.quadric(v));
+      });
+      node.parts.push_back(store_.put(std::move(piece)));
+    });
+  }
+
+  /// One level up: the cells of twice the edge. Their parts weld when they are needed.
+  void join_cells() {
+    edge_ *= 2;
+    const auto parent = [](BrickCoord c) { return BrickCoord{c.x / 2, c.y / 2, c.z / 2}; };
+    const auto key = [&](const Node& n) {
+      const BrickCoord p = parent(n.coord);
+      return std::tuple(p.z, p.y, p.x);
+    };
+    std::stable_sort(nodes_.begin(), nodes_.end(), [&](const Node& a, const Node& b) { return key(a) < key(b); });
+    std::vector<Node> parents;
+    for (Node& node : nodes_) {
+      const BrickCoord coord = parent(node.coord);
+      if (parents.empty() || parents.back().coord != coord) parents.emplace_back().coord = coord;
+      Node& to = parents.back();
+      for (WaitingPiece& part : node.parts) to.parts.push_back(std::move(part));
+      to.counts.collapses += node.counts.collapses;
+      to.counts.solved += node.counts.solved;
+    }
+    nodes_ = std::move(parents);
+  }
+
+  [[nodiscard]] Piece weld_all(SimplifyCounts& counts) {
+    check_work(faces(), params_.memory);
+    std::vector<Piece> pieces;
+    for (Node& node : nodes_) {
+      pieces.push_back(welded(node));
+      counts.collapses += node.counts.collapses;
+      counts.solved += node.counts.solved;
+    }
+    return weld(pieces);
+  }
+
+  [[nodiscard]] bool whole() const { return nodes_.size() < 2; }
+  [[nodiscard]] std::uint64_t faces() const {
+    std::uint64_t n = 0;
+    for (const Node& node : nodes_) n += node.face_count();
+    return n;
+  }
+
+ private:
+  void merge_flat(Piece& piece) const {
+    HalfEdgeMesh mesh(std::move(piece.vertices), piece.triangles, piece.cell);
+    merge_flat_regions(mesh, params_.edge_limit);
+    piece.vertices = {};
+    piece.triangles = mesh.live_faces([&](VertexId v, VertexId) { piece.vertices.push_back(mesh.position(v)); });
+  }
+
+  /// How many nodes may be in work, each as large as the largest.
+  [[nodiscard]] std::size_t nodes_in_hand() const {
+    std::uint64_t largest = 1;
+    for (const Node& node : nodes_) largest = std::max(largest, node.face_count());
+    const std::uint64_t bytes = params_.memory.work_bytes;
+    const std::uint64_t limits = params_.limits != nullptr ? params_.limits->bytes_of_part() : 0;
+    check_work(largest, params_.memory, true);
+    return std::size_t(std::clamp<std::uint64_t>(bytes / (largest * kWorkPerFace + limits), 1, thread_count()));
+  }
+
+  [[nodiscard]] std::unique_ptr<StepLimits> limits_of_part() {
+    if (params_.limits == nullptr) return nullptr;
+    const std::lock_guard lock(mutex_);
+    std::unique_ptr<StepLimits> part = params_.limits->for_part();
+    if (part == nullptr) fail(ErrorCode::bad_argument, "limits of the surface as a whole cannot be kept by cells");
+    return part;
+  }
+  void add_part(const StepLimits& part) {
+    const std::lock_guard lock(mutex_);
+    params_.limits->add_part(part);
+  }
+
+  [[nodiscard]] LatticeBox cell_box(BrickCoord coord) const {
+    LatticeBox box;
+    for (int i = 0; i < 3; ++i) {
+      box.min[i] = origin_[i] * kBrickLattice + coord[i] * edge_;
+      box.max[i] = box.min[i] + edge_;
+    }
+    return box;
+  }
+
+  /// The piece of a node, which is left without.
+  [[nodiscard]] Piece welded(Node& node) {
+    std::vector<Piece> pieces;
+    for (WaitingPiece& part : node.parts) pieces.push_back(store_.take(std::move(part)));
+    node.parts.clear();
+    Piece piece = pieces.size() == 1 ? std::move(pieces.front()) : weld(pieces);
+    piece.cell = cell_box(node.coord);
+    return piece;
+  }
+
+  const SurfaceSource& surface_;
+  const SimplifyParams& params_;
+  PieceStore store_;
+  BrickCoord origin_{INT32_MAX, INT32_MAX, INT32_MAX};  // lowest brick in each coordinate: all weld into one cell
+  std::int64_t edge_ = kBrickLattice;                   // of a cell
+  std::vector<Node> nodes_;                             // by cell: z, y, x
+  std::mutex mutex_;                                    // for params_.limits
+};
+
+}  // namespace
+
+void check_work(std::uint64_t faces, const PieceMemory& memory, bool others_wait) {
+  const std::uint64_t needed = faces * kWorkPerFace, left = others_wait ? memory.work_bytes : memory.bytes();
+  if (needed <= left) return;
+  fail(ErrorCode::out_of_resource,
+       "simplifying {} triangles at once needs {} MiB, and --memory leaves {} MiB for it; raise --memory{}, or use "
+       "larger voxels or fewer faces",
+       faces, (needed >> 20) + 1, left >> 20, memory.enough_for(needed - left, others_wait));
+}
+
+namespace {
+
+bool needs_round(std::uint64_t faces, std::uint64_t enough) {
+  return faces > kMargin * enough || (faces > kMany && faces > kMarginOfMany * enough);
+}
+
+}  // namespace
+
+Piece simplified_surface(const SurfaceSource& surface, const SimplifyParams& params, const BulkEnd& end,
+                         SimplifyCounts& counts) {
+  SurfaceTree tree(surface, params);
+  counts.faces_in = tree.begin();
+  counts.faces_flat = tree.faces();
+  for (double last = 4 * kFirstBound; end.cost > 0 && needs_round(tree.faces(), end.faces); last *= kBoundPerLevel) {
+    tree.collapse({kFirstBound, std::min(last, end.cost)});
+    if (tree.whole() || last >= end.cost) break;
+    tree.join_cells();
+  }
+  Piece root = tree.weld_all(counts);
+  root.cell = kEverywhere;
+  return root;
+}
+
+}  // namespace bp

@@ -1,0 +1,26 @@
+#pragma once
+#include <memory>
+#include <span>
+
+#include "lib/store/result_store.h"
+
+namespace bp {
+
+/// XXH3-128 of bytes that come in pieces.
+class ContentHash {
+ public:
+  ContentHash();
+  ~ContentHash();
+  ContentHash(const ContentHash&) = delete;
+  ContentHash& operator=(const ContentHash&) = delete;
+
+  void add(std::span<const std::byte> bytes);
+  [[nodiscard]] ResultKey value() const;
+  void reset();  ///< as if nothing had been added
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bp

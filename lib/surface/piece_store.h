@@ -1,0 +1,59 @@
+#pragma once
+#include <mutex>
+#include <string>
+
+#include "lib/store/chunk_store.h"
+#include "lib/surface/piece.h"
+
+/// Where the pieces of a surface wait until the cell around them is made.
+namespace bp {
+
+/// What a surface that is simplified by cells may take of memory.
+struct PieceMemory {
+  std::uint64_t waiting_bytes = UINT64_MAX / 2;  ///< pieces that wait as they are
+  std::uint64_t work_bytes = UINT64_MAX / 2;     ///< those in hand, and all that simplification needs beside them
+  ChunkStoreFactory make_store;                  ///< for further ones that wait; without it, all wait as they are
+  [[nodiscard]] std::uint64_t bytes() const { return waiting_bytes + work_bytes; }  ///< for the whole, at the end
+  /// For messages that say how much would do: what all of this is a share of, and how much of a byte more comes here;
+  /// 0: not known.
+  std::uint64_t limit_bytes = 0;
+  double waiting_growth = 0, work_growth = 0;
+
+  /// " to at least 300 MiB": what it takes so that `missing` more of this is there; nothing if that is not known.
+  [[nodiscard]] std::string enough_for(std::uint64_t missing, bool for_work = false) const;
+  /// What is left beside something else that takes so much.
+  [[nodiscard]] PieceMemory without(std::uint64_t bytes) const;
+  /// For one of n at work.
+  [[nodiscard]] PieceMemory split(std::uint64_t n) const;
+};
+
+/// A piece that waits. Movable; to be taken exactly once.
+class WaitingPiece {
+ public:
+  [[nodiscard]] std::uint64_t face_count() const { return faces_; }
+
+ private:
+  friend class PieceStore;
+  Piece piece_;                               // as it is, or empty
+  std::vector<ChunkStore::Handle> in_store_;  // the same in chunks
+  std::uint64_t faces_ = 0, bytes_ = 0;
+};
+
+/// Thread-safe for distinct pieces. What comes out is what went in, bit for bit.
+class PieceStore {
+ public:
+  explicit PieceStore(const PieceMemory& memory) : memory_(memory) {}
+  [[nodiscard]] WaitingPiece put(Piece&& piece);
+  [[nodiscard]] Piece take(WaitingPiece&& waiting);
+
+ private:
+  [[nodiscard]] bool reserve(std::uint64_t bytes);
+  [[nodiscard]] ChunkStore& store();
+
+  const PieceMemory& memory_;
+  std::mutex mutex_;
+  std::uint64_t used_ = 0;
+  std::unique_ptr<ChunkStore> store_;  // made when it is first needed
+};
+
+}  // namespace bp

@@ -1,0 +1,127 @@
+#include "lib/tighten/few_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "lib/hulls/convex_budget.h"
+#include "lib/hulls/convex_parts.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kHopeless = 1.25;         // times the least volume so far: fewer faces will not come below it
+constexpr double kPromising = 1.5;         // the same of a hull that is not tightened yet
+constexpr std::uint64_t kFewForHull = 32;  // more faces than that are better used than for a convex proxy
+constexpr std::array<std::uint64_t, 3> kFresh{48, 32, 24};  // where a new way from the first surface is tried, too
+constexpr std::uint64_t kGrown = 6, kStrictFrom = 10000;    // the first surface: as in tight_proxy.cpp
+constexpr double kMostGrowth = 6;
+
+/// The next number of faces on the way.
+std::uint64_t fewer(std::uint64_t n) {
+  return n > 40 ? (n - 1) / 4 * 4 : (n - 1) / 2 * 2;
+}
+
+/// A proxy on the way, and what led to it.
+struct Stop {
+  LatticeMesh mesh;
+  SimplifyCounts simplified;
+  TightenCounts tightened;
+};
+
+class Way {
+ public:
+  Way(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params)
+      : enclosed_(enclosed), params_(params), box_(dense.box()) {
+    SimplifyParams growing = params_for(kGrown * kFewFaces);
+    growing.most_growth = kMostGrowth;
+    growing.strict_from = kStrictFrom;
+    grown_.mesh = simplify(dense, growing, grown_.simplified);
+    params_.dense = false;
+    at_ = tight(grown_, kFewFaces);
+    if (!is_there() || components_of(at_.mesh).size() > 1) return;
+    if (std::optional<ConvexHull> hull = hull_of(at_.mesh.vertices)) hull_.push_back(std::move(*hull));
+  }
+
+  [[nodiscard]] const Stop& at() const { return at_; }
+  [[nodiscard]] std::uint64_t faces() const { return at_.mesh.triangles.size(); }
+  /// The first proxy has few faces.
+  [[nodiscard]] bool is_there() const { return faces() > 0 && faces() <= kFewFaces; }
+
+  /// On to at most `n` faces; false if there is no way.
+  bool go(std::uint64_t n) {
+    std::optional<Stop> best;
+    const auto offer = [&](Stop stop) {
+      if (stop.mesh.triangles.size() > n) return;
+      if (!best || volume6_of(stop.mesh) < volume6_of(best->mesh)) best = std::move(stop);
+    };
+    offer(tight(at_, n));
+    if (std::find(kFresh.begin(), kFresh.end(), n) != kFresh.end()) offer(tight(grown_, n));
+    if (std::optional<Stop> hull = convex(n)) {
+      const double now6 = best ? double(volume6_of(best->mesh)) : HUGE_VAL;
+      if (double(volume6_of(hull->mesh)) < kPromising * now6) offer(tight(*hull, n));
+    }
+    if (best) at_ = std::move(*best);
+    return best.has_value();
+  }
+
+ private:
+  [[nodiscard]] SimplifyParams params_for(std::uint64_t n) const {
+    SimplifyParams params = params_;
+    params.faces = n;
+    params.room = room_around(box_, n);
+    return params;
+  }
+
+  /// A proxy of n faces from another one of more.
+  [[nodiscard]] Stop tight(const Stop& from, std::uint64_t n) const {
+    Stop stop = from;
+    stop.mesh = tight_proxy(from.mesh, enclosed_, params_for(n), stop.simplified, stop.tightened);
+    return stop;
+  }
+
+  /// A hull of at most n faces around the hull of the first proxy.
+  [[nodiscard]] std::optional<Stop> convex(std::uint64_t n) {
+    if (hull_.empty() || n > kFewForHull) return {};
+    keep_to_faces(hull_, n);
+    Stop stop = at_;
+    stop.mesh.vertices = hull_[0].vertices;
+    stop.mesh.triangles = hull_[0].triangles;
+    return stop;
+  }
+
+  const Enclosed& enclosed_;
+  SimplifyParams params_;
+  LatticeBox box_;
+  std::vector<ConvexHull> hull_;  // one, if the scene is in one piece
+  Stop at_, grown_;
+};
+
+}  // namespace
+
+LatticeMesh tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params,
+                               SimplifyCounts& simplified, TightenCounts& tightened) {
+  Way way(dense, enclosed, params);
+  const std::uint64_t first = way.faces();
+  std::optional<Stop> best;
+  for (std::uint64_t n = way.faces(); way.is_there();) {
+    if (n <= params.faces && (!best || volume6_of(way.at().mesh) < volume6_of(best->mesh))) best = way.at();
+    if (best && double(volume6_of(way.at().mesh)) > kHopeless * double(volume6_of(best->mesh))) break;
+    if (n <= 4 || !way.go(fewer(n))) break;
+    n = way.faces();
+  }
+  if (!best) return tight_proxy(dense, enclosed, params, simplified, tightened);
+  simplified = best->simplified;
+  simplified.faces_out = best->mesh.triangles.size();
+  simplified.stop = StopReason::faces;
+  if (simplified.faces_out + 2 < std::min(params.faces, first)) {
+    simplified.stop = StopReason::limits;
+    simplified.limit = kLeastVolume;
+  }
+  tightened = best->tightened;
+  return std::move(best->mesh);
+}
+
+}  // namespace bp

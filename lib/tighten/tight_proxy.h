@@ -1,0 +1,22 @@
+#pragma once
+#include "lib/simplify/simplify.h"
+#include "lib/tighten/tighten.h"
+
+/// From the dense surface to a tight proxy of a given number of faces.
+namespace bp {
+
+/// `dense`: a dense surface of repaired voxels. Growing collapses to a few times the target, tightening, then collapses
+/// that only keep `enclosed` inside, tightening again: growth that a coarse face could not take back is never made
+/// (docs/decisions/0003-order-of-steps.md).
+[[nodiscard]] LatticeMesh tight_proxy(const SurfaceSource& dense, const Enclosed& enclosed,
+                                      const SimplifyParams& params, SimplifyCounts& simplified,
+                                      TightenCounts& tightened);
+
+/// The same from a mesh, dense or not as params.dense tells.
+[[nodiscard]] LatticeMesh tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params,
+                                      SimplifyCounts& simplified, TightenCounts& tightened);
+
+/// How a proxy made with `params` is tightened in the end.
+[[nodiscard]] TightenParams tightening_of(const SimplifyParams& params);
+
+}  // namespace bp

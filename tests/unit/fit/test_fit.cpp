@@ -1,0 +1,181 @@
+#include <cmath>
+
+#include "lib/check/check_proxy.h"
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
+#include "lib/fit/detail/settle.h"
+#include "lib/fit/detail/vertex_mover.h"
+#include "lib/fit/fit.h"
+#include "lib/geometry/surface_distance.h"
+#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/surface_around.h"
+#include "tests/catch.h"
+#include "tests/support/lattice_boxes.h"
+#include "tests/support/memory_scene.h"
+#include "tests/support/voxel_source.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+const VoxelBox kBox{{0, 0, 0}, {48, 48, 48}};
+const Vec3d kCentre{24.3, 23.9, 24.1};
+constexpr double kRadius = 17;
+
+/// Voxels that the closed ball's surface, or the ball, touches: as bpvox would find them.
+bool ball(VoxelCoord p) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double lo = p[i] - kCentre[std::size_t(i)], hi = lo + 1;
+    const double d = lo > 0 ? lo : hi < 0 ? hi : 0;
+    sum += d * d;
+  }
+  return sum <= kRadius * kRadius;
+}
+
+double mean_distance_to_sphere(const LatticeMesh& mesh) {
+  double sum = 0;
+  for (const LatticeCoord& v : mesh.vertices) {
+    const Vec3d p = mesh.frame.world(v);
+    sum += std::sqrt(std::pow(p[0] - kCentre[0], 2) + std::pow(p[1] - kCentre[1], 2) + std::pow(p[2] - kCentre[2], 2)) -
+           kRadius;
+  }
+  return sum / double(mesh.vertices.size());
+}
+
+}  // namespace
+
+TEST_CASE("a fit loses the half voxel that voxels stand out, and stays sound", "[quick][meshing]") {
+  VoxelSource source(kBox, ball);
+  MeshParams params;
+  params.mode = MeshMode::fit;
+  params.faces = {1200, 300};
+  const bool to_scene = GENERATE(false, true);
+  if (to_scene) {
+    add_sphere(params.scene, kCentre, kRadius, 40);
+    params.enclose = Enclose::scene;
+  }
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  REQUIRE(levels.size() == 2);
+  const double volume = 4 * M_PI / 3 * std::pow(kRadius, 3);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CAPTURE(i, to_scene);
+    CHECK(levels[i].triangles.size() <= params.faces[i]);
+    CHECK(check_proxy(indexed(levels[i]), nullptr).holds());
+    CHECK(std::abs(mean_distance_to_sphere(levels[i])) < (i == 0 ? 0.15 : 0.4));
+    CHECK(std::abs(counts.levels[i].measures.volume - volume) < (i == 0 ? 0.02 : 0.05) * volume);
+  }
+  CHECK(counts.solid_volume_world > 1.1 * volume);  // what was lost
+}
+
+TEST_CASE("without inset a fit is nearer to the voxels, and as large as they are", "[quick][meshing]") {
+  VoxelSource source(kBox, ball), again(kBox, ball);
+  MeshParams params;
+  params.mode = MeshMode::fit;
+  params.faces = {300};
+  MeshCounts inset, flush;
+  (void)mesh_stream(source, memory_shelves(), params, inset);
+  params.inset = 0;
+  (void)mesh_stream(again, memory_shelves(), params, flush);
+  const double voxels = flush.solid_volume_world;
+  CHECK(std::abs(flush.levels[0].measures.volume / voxels - 1) < 0.01);
+  CHECK(inset.levels[0].measures.volume < 0.95 * voxels);
+  params.inset = 1.5;
+  VoxelSource third(kBox, ball);
+  CHECK_THROWS_AS(mesh_stream(third, memory_shelves(), params, inset), Error);
+}
+
+TEST_CASE("vertices settle where the surface is nearest to given points, on any number of threads",
+          "[quick][meshing]") {
+  VoxelSource source(kBox, ball);
+  MeshParams params;
+  params.tighten = false;
+  params.faces = {120};  // far out, and coarse
+  MeshCounts counts;
+  const LatticeMesh start = mesh_stream(source, memory_shelves(), params, counts)[0];
+  std::vector<TriangleD> sphere;
+  add_sphere(sphere, kCentre, kRadius, 24);
+  std::vector<Vec3d> points;
+  for (const TriangleD& t : sphere) points.push_back(kLatticePerVoxel * (1.0 / 3 * (t[0] + t[1] + t[2])));
+  const TriangleBvh tree(sphere);
+  const auto distance = [&](const LatticeMesh& mesh) { return surface_distance(world_triangles(mesh), tree).mean; };
+  HalfEdgeMesh mesh(start);
+  CHECK(settle(mesh, points, {}, nullptr, 8) > 60);
+  const LatticeMesh settled = mesh.compact(start.frame);
+  CHECK(check_proxy(indexed(settled), nullptr).holds());
+  CHECK(distance(start) > 0.7);
+  CHECK(distance(settled) < 0.35);
+  const ThreadLimit one(1);
+  HalfEdgeMesh twin(start);
+  settle(twin, points, {}, nullptr, 8);
+  CHECK(twin.compact(start.frame).vertices == settled.vertices);
+}
+
+TEST_CASE("vertices are drawn to their targets only as far as the surface stays embedded", "[quick][meshing]") {
+  VoxelSource source(kBox, [](VoxelCoord p) {  // two plates, two voxels apart, joined at one end
+    const bool plates = (p.z >= 10 && p.z < 12) || (p.z >= 14 && p.z < 16);
+    return p.x > 4 && p.x < 30 && p.y > 4 && p.y < 20 && (plates || (p.x < 8 && p.z >= 10 && p.z < 16));
+  });
+  MeshParams params;
+  params.tighten = false;
+  params.faces = {400};
+  MeshCounts counts;
+  const LatticeMesh start = mesh_stream(source, memory_shelves(), params, counts)[0];
+  HalfEdgeMesh mesh(start);
+  const Vec3d point{17 * 64, 12 * 64, 13 * 64};  // all to one point: most cannot get there
+  const std::uint64_t moves = draw_to_targets(
+      mesh, [&](const Vec3d&, const Vec3d&) { return point; }, {}, 6);
+  CHECK(moves > 10);
+  CHECK(check_proxy(indexed(mesh.compact(start.frame)), nullptr).holds());
+}
+
+TEST_CASE("fits of many thin plates face outwards, however few faces are left", "[quick][meshing]") {
+  const int thick = GENERATE(1, 3);
+  VoxelSource source({{0, 0, 0}, {64, 64, 64}},
+                     [&](VoxelCoord p) { return p.x % 16 < 6 && p.y % 16 < 7 && p.z % 8 < thick; });
+  MeshParams params;
+  params.mode = MeshMode::fit;
+  params.faces = {1500, 500};  // 128 plates: the last are tetrahedra
+  MeshCounts counts;
+  for (const LatticeMesh& level : mesh_stream(source, memory_shelves(), params, counts)) {
+    CAPTURE(thick, level.triangles.size());
+    CHECK(check_proxy(indexed(level), nullptr).holds());
+  }
+}
+
+TEST_CASE("a vertex moves neither through its own shell nor beyond exact products", "[quick][meshing]") {
+  LatticeMesh tetrahedron;
+  const VertexId apex = add_tetrahedron(tetrahedron, {0, 0, 100}, 0, 300);
+  HalfEdgeMesh mesh(tetrahedron);
+  VertexMover mover(mesh, {}, nullptr);
+  CHECK_FALSE(mover.draw(apex, {0, 0, -300}));  // half and a quarter of the way are through, or flat
+  CHECK_FALSE(mover.draw(apex, {0, 0, std::int64_t(1) << 39}));
+  CHECK(mover.draw(apex, {0, 0, 60}));
+  CHECK(mesh.position(apex).z == 60);
+}
+
+TEST_CASE("the nearest point of a triangle is nearer than any other", "[quick][meshing]") {
+  const TriangleD t{Vec3d{0, 0, 0}, Vec3d{4, 1, 0}, Vec3d{1, 3, 2}};
+  for (const Vec3d& p : {Vec3d{1, 1, 5}, Vec3d{-3, -2, 1}, Vec3d{9, 0, 0}, Vec3d{0, 6, 1}, Vec3d{2, -4, 2}}) {
+    const Vec3d q = nearest_point(p, t);
+    CHECK(std::abs(distance_squared(p, t) -
+                   (std::pow(p[0] - q[0], 2) + std::pow(p[1] - q[1], 2) + std::pow(p[2] - q[2], 2))) < 1e-12);
+    CHECK(distance_squared(q, t) < 1e-24);
+  }
+}
+
+TEST_CASE("targets without a meaning for a fit are refused", "[quick][meshing]") {
+  VoxelSource source(kBox, ball);
+  MeshParams params;
+  params.mode = MeshMode::fit;
+  if (GENERATE(true, false)) {
+    params.volume_ratio = 1.1;
+  } else {
+    params.enclose = Enclose::input;
+  }
+  MeshCounts counts;
+  CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
+}

@@ -1,0 +1,100 @@
+#include "io/tiles/tileset_file.h"
+#include "tests/catch.h"
+#include "tests/unit/io/scene/scene_files.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+std::string complaint(const TempDir& dir, const std::string& json) {
+  try {
+    (void)read_tileset(dir.file("tileset.json", json));
+  } catch (const Error& e) {
+    return e.code() == ErrorCode::bad_input ? e.what() : "wrong code";
+  }
+  return "";
+}
+
+const std::string kBox = R"("boundingVolume": {"box": [0,0,0, 1,0,0, 0,1,0, 0,0,1]})";
+
+std::string tileset(const std::string& root) {
+  return R"({"asset": {"version": "1.1"}, "geometricError": 3, "root": {)" + root + "}}";
+}
+
+}  // namespace
+
+TEST_CASE("a tileset that is written is read back the same", "[quick][io][lod]") {
+  Tileset t;
+  t.up = UpAxis(GENERATE(range(0, 6)));
+  t.geometric_error = 1.0 / 3;
+  t.root.box = TileBox{{0.1, 0.2, 0.3}, {Vec3d{1, 2, 3}, Vec3d{4, 5, 6}, Vec3d{7, 8, 9}}};
+  t.root.transform[12] = 4.9e5 + 1.0 / 7;
+  t.root.geometric_error = 0.3;
+  t.root.refine = "REPLACE";
+  t.root.children.resize(2);
+  t.root.children[0].box = TileBox{};
+  t.root.children[1].box = TileBox{};
+  t.root.children[1].uri = "a.glb";
+  const TempDir dir;
+  t.root.children[1].cell = Bounds3d{{-1.0 / 3, 2, 3}, {4, 5, 1e6 + 1.0 / 7}};
+  const Tileset back = read_tileset(dir.file("tileset.json", tileset_text(t, {{"bplod", "0.1.0", "level=0", "00ff"}})));
+  CHECK(back.version == "1.1");
+  CHECK(back.up == t.up);
+  CHECK(back.geometric_error == t.geometric_error);
+  CHECK(back.root.box->centre == t.root.box->centre);
+  CHECK(back.root.box->axes == t.root.box->axes);
+  CHECK(back.root.transform == t.root.transform);
+  CHECK(back.root.refine == "REPLACE");
+  CHECK(back.root.uri.empty());
+  REQUIRE(back.root.children.size() == 2);
+  CHECK(back.root.children[1].uri == "a.glb");
+  CHECK(back.root.children[1].cell == t.root.children[1].cell);
+  CHECK(!back.root.cell);
+  CHECK(back.root.children[0].children.empty());
+}
+
+TEST_CASE("names of contents are written percent-encoded and read decoded", "[quick][io][lod]") {
+  Tileset t;
+  t.root.box = TileBox{};
+  t.root.refine = "REPLACE";
+  t.root.uri = "a#b?c%20d \xc3\xbc/0_-1_2.glb";
+  const std::string text = tileset_text(t, {});
+  CHECK_THAT(text, Contains("\"a%23b%3Fc%2520d%20%C3%BC/0_-1_2.glb\""));
+  const TempDir dir;
+  CHECK(read_tileset(dir.file("tileset.json", text)).root.uri == t.root.uri);
+  const auto read_back = [&](const std::string& uri) {
+    return read_tileset(
+               dir.file("tileset.json", tileset(kBox + R"(, "geometricError": 3, "content": {"uri": ")" + uri + "\"}")))
+        .root.uri;
+  };
+  CHECK(read_back("50%.glb") == "50%.glb");
+  CHECK(read_back("%2") == "%2");
+  CHECK(read_back("%c3%BC%2fa%2Eglb") == "\xc3\xbc/a.glb");
+}
+
+TEST_CASE("a tileset may be large", "[quick][io][lod]") {
+  const TempDir dir;
+  const std::string text = tileset(kBox + R"(, "geometricError": 3)");
+  CHECK(complaint(dir, text + std::string(std::size_t(65) << 20, ' ')).empty());
+}
+
+TEST_CASE("a broken tileset is refused with the place", "[quick][io][lod]") {
+  const TempDir dir;
+  CHECK_THAT(complaint(dir, "{"), Contains("broken JSON"));
+  CHECK_THAT(complaint(dir, "[]"), Contains("not an object"));
+  CHECK_THAT(complaint(dir, R"({"asset": {"version": "1.1"}, "geometricError": 3})"), Contains("root"));
+  CHECK_THAT(complaint(dir, tileset(R"("geometricError": 3)")), Contains("boundingVolume"));
+  CHECK_THAT(complaint(dir, tileset(R"("geometricError": 3, "boundingVolume": {})")), Contains("neither a box"));
+  CHECK_THAT(complaint(dir, tileset(R"("geometricError": 3, "boundingVolume": {"box": [1]})")), Contains("12"));
+  CHECK_THAT(complaint(dir, tileset(kBox)), Contains("geometricError"));
+  CHECK_THAT(complaint(dir, tileset(kBox + R"(, "geometricError": 3, "children": [])")), Contains("children"));
+  CHECK_THAT(complaint(dir, tileset(kBox + R"(, "geometricError": 3, "children": [7])")), Contains("root.children[0]"));
+  CHECK_THAT(complaint(dir, tileset(kBox + R"(, "geometricError": 3, "implicitTiling": {})")), Contains("implicit"));
+  CHECK_THAT(complaint(dir, tileset(kBox + R"(, "geometricError": 3, "content": {"uri": "a.json"})")),
+             Contains("tileset of its own"));
+  std::string deep = kBox + R"(, "geometricError": 0)";
+  for (int i = 0; i < 70; ++i) deep = kBox + R"(, "geometricError": 0, "children": [{)" + deep + "}]";
+  CHECK_THAT(complaint(dir, tileset(deep)), Contains("below 64"));
+  CHECK(complaint(dir, tileset(kBox + R"(, "geometricError": 3)")).empty());
+}

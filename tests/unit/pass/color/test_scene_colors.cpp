@@ -1,0 +1,242 @@
+#include <algorithm>
+#include <random>
+
+#include "lib/core/parallel.h"
+#include "lib/pass/color/scene_colors.h"
+#include "lib/pass/color/vertex_colors.h"
+#include "lib/volume/reduce.h"
+#include "lib/voxel/color_samples.h"
+#include "tests/catch.h"
+#include "tests/support/memory_store.h"
+#include "tests/support/voxelized.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+constexpr LinearColor kRed{65535, 0, 0}, kBlue{0, 0, 65535};
+
+class ColoredSource final : public TriangleSource {
+ public:
+  ColoredSource(Triangles triangles, std::vector<TriangleColors> colors)
+      : plain_(std::move(triangles)), colors_(std::move(colors)) {}
+  bool read(std::vector<TriangleD>& out) override { return plain_.read(out); }
+  bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
+    const auto first = std::ptrdiff_t(plain_.counts().triangles);
+    const bool more = plain_.read(out);
+    colors.assign(colors_.begin() + first, colors_.begin() + first + std::ptrdiff_t(out.size()));
+    return more;
+  }
+  [[nodiscard]] bool has_colors() const override { return true; }
+  void rewind() override { plain_.rewind(); }
+  [[nodiscard]] const SceneCounts& counts() const override { return plain_.counts(); }
+  [[nodiscard]] std::string name() const override { return "memory"; }
+
+ private:
+  MemorySource plain_;
+  std::vector<TriangleColors> colors_;
+};
+
+struct ColoredScene {
+  Triangles triangles;
+  std::vector<TriangleColors> colors;
+  void paint(LinearColor c) { colors.resize(triangles.size(), {c, c, c}); }
+};
+
+/// Two boxes side by side, red and blue.
+ColoredScene two_boxes() {
+  ColoredScene s;
+  add_box(s.triangles, {0, 0, 0}, {10, 10, 10});
+  s.paint(kRed);
+  add_box(s.triangles, {10, 0, 0}, {20, 10, 10});
+  s.paint(kBlue);
+  return s;
+}
+
+std::unique_ptr<SceneColors> gathered(const ColoredScene& scene, const Voxelized& voxels, std::uint64_t memory,
+                                      std::uint64_t* put = nullptr) {
+  static std::uint64_t ignored = 0, held = 0;
+  ColoredSource source(scene.triangles, scene.colors);
+  ColorOptions options;
+  options.memory_bytes = memory;
+  options.make_shelf = memory_shelves();
+  options.make_store = [put] { return std::make_unique<MemoryStore>(put != nullptr ? *put : ignored, held); };
+  return gather_colors(source, voxels.header.frame, *voxels.shelf, options);
+}
+
+ResultKey key_of(const NearbyColors& colors) {
+  KeyHash hash("test");
+  colors.add_to(hash);
+  return hash.key();
+}
+
+LinearColor at_world(const NearbyColors& colors, const GridFrame& frame, const Vec3d& p) {
+  Vec3d v = frame.to_voxels(p);
+  for (double& x : v) x *= kLatticePerVoxel;
+  return colors.at(v);
+}
+
+}  // namespace
+
+TEST_CASE("samples of a triangle are shares of its area, near enough to each other", "[quick][stage][colors]") {
+  const TriangleD t =
+      GENERATE(TriangleD{{{0, 0, 0}, {9, 0, 0}, {3, 7, 2}}}, TriangleD{{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}}},
+               TriangleD{{{0, 0, 0}, {50, 0, 0}, {25, 0.001, 0}}});
+  double sum = 0;
+  std::size_t count = 0;
+  Vec3d centre{};
+  for_each_sample(t, 0.5, 2, [&](const std::array<double, 3>& w, double share) {
+    CHECK(w[0] + w[1] + w[2] == Approx(1));
+    CHECK(std::min({w[0], w[1], w[2]}) > 0);
+    sum += share;
+    ++count;
+    for (std::size_t k = 0; k < 3; ++k) centre[k] += share * w[k];
+  });
+  CHECK(sum == Approx(1));
+  CHECK(count >= 4);
+  CHECK(count < 600);  // a needle costs its length
+  for (const double w : centre) CHECK(w == Approx(1.0 / 3));
+}
+
+TEST_CASE("cells have the colours of the surface in them", "[quick][stage][colors]") {
+  const ColoredScene scene = two_boxes();
+  const Voxelized voxels = voxelized(scene.triangles, 0.125);
+  const GridFrame& frame = voxels.header.frame;
+  const auto colors = gathered(scene, voxels, 1 << 20);
+  REQUIRE(colors != nullptr);
+  const NearbyColors near = colors->all(frame);
+  CHECK(at_world(near, frame, {4, 10, 5}) == kRed);
+  CHECK(at_world(near, frame, {16, 0, 5}) == kBlue);
+  CHECK(at_world(near, frame, {4, 11, 5}) == kRed);  // not in a cell of the surface
+  CHECK(at_world(near, frame, {18, 13, 5}) == kBlue);
+  CHECK(at_world(near, frame, {-4, 5, 5}) == kRed);
+  CHECK(at_world(near, frame, {10, 900, 5}).r > 20000);  // far away: a mean of all
+  CHECK(at_world(near, frame, {1, 1, 0}) == kRed);
+  GridFrame coarse = frame;
+  for (int n = 0; n < 3; ++n) coarse = reduced(coarse);
+  colors->prepare(coarse);
+  CHECK(at_world(colors->all(coarse), coarse, {2, 10, 5}) == kRed);
+  CHECK(at_world(colors->all(coarse), coarse, {18, 10, 5}) == kBlue);
+  // A part of it.
+  const VoxelBox box{{0, 0, 0}, {40, 40, 40}};
+  CHECK(at_world(colors->around(frame, box, 4), frame, {1, 1, 0}) == kRed);
+  CHECK(at_world(colors->around(frame, box, 4), frame, {19, 1, 0}) == kRed);  // blue is out of reach
+}
+
+TEST_CASE("faces between two layers of voxels keep their colours on both sides of a box", "[quick][stage][colors]") {
+  ColoredScene scene = two_boxes();
+  add_box(scene.triangles, {4, 4, 4}, {6, 6, 6});  // out of sight
+  scene.paint(kWhite);
+  const Voxelized voxels = voxelized(scene.triangles, 0.125);  // the boxes begin and end at multiples of a cell
+  const auto colors = gathered(scene, voxels, 1 << 20);
+  for (const Vec3d& p : {Vec3d{5, 5, 0}, Vec3d{5, 5, 10}, Vec3d{5, 0, 5}, Vec3d{5, 10, 5}, Vec3d{0, 5, 5}}) {
+    const Vec3d v = voxels.header.frame.to_voxels(p);
+    const VoxelCoord at{std::int32_t(v[0]), std::int32_t(v[1]), std::int32_t(v[2])};
+    const NearbyColors here = colors->around(voxels.header.frame, VoxelBox{at, at + VoxelCoord{1, 1, 1}}, 0);
+    CAPTURE(p[0], p[1], p[2]);
+    CHECK_FALSE(here.empty());
+    CHECK(at_world(here, voxels.header.frame, p) == kRed);
+  }
+}
+
+TEST_CASE("what lies inside has no colour", "[quick][stage][colors]") {
+  ColoredScene scene = two_boxes();
+  add_box(scene.triangles, {3, 3, 3}, {7, 7, 7});
+  scene.paint(LinearColor{0, 65535, 0});
+  const Voxelized voxels = voxelized(scene.triangles, 0.125);
+  const NearbyColors near = gathered(scene, voxels, 1 << 20)->all(voxels.header.frame);
+  CHECK(at_world(near, voxels.header.frame, {5, 5, 7}).g == 0);
+}
+
+TEST_CASE("a white scene has no colours", "[quick][stage][colors]") {
+  ColoredScene scene;
+  add_box(scene.triangles, {0, 0, 0}, {10, 10, 10});
+  scene.paint(kWhite);
+  CHECK(gathered(scene, voxelized(scene.triangles, 0.25), 1 << 20) == nullptr);
+}
+
+TEST_CASE("neither the order of the triangles nor threads nor memory change a colour", "[quick][stage][colors]") {
+  std::mt19937 random(5);
+  ColoredScene scene;
+  std::uniform_int_distribution<std::uint32_t> any(0, 65535);
+  add_sphere(scene.triangles, {0, 0, 0}, 10, 60);
+  add_box(scene.triangles, {-20, -9, -20}, {20, -8, 20});
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    TriangleColors c;
+    for (LinearColor& corner : c)
+      corner = {std::uint16_t(any(random)), std::uint16_t(any(random)), std::uint16_t(any(random))};
+    scene.colors.push_back(c);
+  }
+  const Voxelized voxels = voxelized(scene.triangles, 0.125);
+  const GridFrame frame = voxels.header.frame, coarse = reduced(frame);
+  const auto reference = gathered(scene, voxels, std::uint64_t(1) << 30);
+  reference->prepare(coarse);
+  std::vector<std::size_t> order(scene.triangles.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::shuffle(order.begin(), order.end(), random);
+  ColoredScene shuffled;
+  for (const std::size_t i : order) {
+    shuffled.triangles.push_back(scene.triangles[i]);
+    shuffled.colors.push_back(scene.colors[i]);
+  }
+  const ThreadLimit threads(GENERATE(1, 3));
+  std::uint64_t put = 0;
+  const auto other = gathered(shuffled, voxels, 20000, &put);
+  other->prepare(coarse);
+  CHECK(put > 4 * 20000);  // some waited in the store
+  CHECK(key_of(other->all(frame)) == key_of(reference->all(frame)));
+  CHECK(key_of(other->all(coarse)) == key_of(reference->all(coarse)));
+  CHECK(key_of(other->all(frame)) != key_of(other->all(coarse)));
+}
+
+TEST_CASE("a key knows the colours nearby and no others", "[quick][stage][colors]") {
+  ColoredScene scene = two_boxes();
+  const Voxelized voxels = voxelized(scene.triangles, 0.125);
+  const GridFrame& frame = voxels.header.frame;
+  const VoxelBox left{{0, 0, 0}, {64, 90, 90}};
+  const auto before = gathered(scene, voxels, 1 << 20);
+  scene.colors.back() = {kWhite, kRed, kBlue};  // far right
+  const auto after = gathered(scene, voxels, 1 << 20);
+  CHECK(key_of(before->around(frame, left, 4)) == key_of(after->around(frame, left, 4)));
+  CHECK(key_of(before->all(frame)) != key_of(after->all(frame)));
+}
+
+TEST_CASE("vertices get the colours of their side, and none that is nowhere", "[quick][stage][colors]") {
+  const ColoredScene scene = two_boxes();
+  const Voxelized voxels = voxelized(scene.triangles, 0.125);
+  const GridFrame& frame = voxels.header.frame;
+  const auto colors = gathered(scene, voxels, 1 << 20);
+  // A grid of squares over the top, one voxel above it.
+  LatticeMesh mesh;
+  mesh.frame = frame;
+  constexpr std::uint32_t n = 17;
+  const Vec3d corner = frame.to_voxels({0, 10, 0});
+  const std::int64_t step = 160 / 16 * kLatticePerVoxel;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t k = 0; k < n; ++k) {
+      mesh.vertices.push_back({std::int64_t(corner[0] * 64) + i * step, std::int64_t((corner[1] + 1) * 64),
+                               std::int64_t(corner[2] * 64) + k * step / 2});
+      if (i > 0 && k > 0) {
+        const std::uint32_t v = i * n + k;
+        mesh.triangles.push_back({v, v - 1, v - n});
+        mesh.triangles.push_back({v - n, v - 1, v - n - 1});
+      }
+    }
+  }
+  mesh.vertices.push_back(mesh.vertices.front());  // of no triangle
+  color_vertices(mesh, colors->all(frame));
+  REQUIRE(mesh.colors.size() == mesh.vertices.size());
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const LinearColor c = mesh.colors[i * n + k];
+      CAPTURE(i, k, c.r, c.g, c.b);
+      if (i < 7) CHECK(c == kRed);
+      if (i > 9) CHECK(c == kBlue);
+      CHECK(c.g == 0);
+    }
+  }
+  CHECK(mesh.colors[7 * n + 5].r > 60000);  // one square from the border
+  CHECK(mesh.colors[9 * n + 5].b > 60000);
+  CHECK(mesh.colors.back() == kRed);
+}

@@ -1,0 +1,102 @@
+#include "lib/core/vec3.h"
+#include "lib/enclosed/enclosed_voxels.h"
+#include "lib/simplify/flatten.h"
+#include "lib/surface/surface.h"
+#include "lib/tighten/detail/joint_fit.h"
+#include "tests/catch.h"
+#include "tests/support/memory_shelf.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+/// The voxels of a box, inside of four bricks.
+void add_box(MemoryShelf& shelf, const VoxelBox& box) {
+  BitBox bits({{0, 0, 0}, {128, 64, 128}});
+  load_voxels(shelf, bits);
+  for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
+    for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
+      for (std::int32_t x = box.min.x; x < box.max.x; ++x) bits.row(y, z)[x / 64] |= std::uint64_t(1) << (x & 63);
+    }
+  }
+  store_voxels(bits, shelf);
+}
+
+/// A slab of two voxels with a column on it: large faces with no corner of a voxel under their middle.
+void add_slab(MemoryShelf& shelf) {
+  add_box(shelf, {{3, 3, 3}, {120, 5, 117}});
+  add_box(shelf, {{40, 5, 3}, {61, 30, 31}});
+}
+
+GridFrame unit_frame() {
+  GridFrame frame;
+  frame.voxel = 1;
+  return frame;
+}
+
+}  // namespace
+
+TEST_CASE("a proxy that lies on flat sides everywhere is asked to stay", "[quick][meshing]") {
+  MemoryShelf shelf;
+  add_slab(shelf);
+  HalfEdgeMesh mesh(dense_surface(shelf, unit_frame()));
+  merge_flat_regions(mesh);
+  const EnclosedVoxels enclosed(shelf);
+  const ContactPoints contacts(enclosed, mesh, FaceTree(mesh));
+  JointFit fit(mesh, contacts);
+  fit.solve(0.25);  // with nothing in its way a corner would go some thousand units
+  double farthest = 0, growth = 0;
+  for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {
+    if (!mesh.vertex_alive(v)) continue;
+    farthest = std::max(farthest, length(fit.shift(v)));
+    growth += fit.growth(v);
+  }
+  CAPTURE(farthest, growth, mesh.face_count());
+  CHECK(farthest < kLatticePerVoxel);
+  CHECK(growth > -0.01 * double(mesh.volume6()) / 6);
+}
+
+TEST_CASE("contact points of voxels lie on their boundary: all convex corners, samples of edges and sides",
+          "[quick][meshing]") {
+  MemoryShelf shelf;
+  add_box(shelf, {{3, 3, 3}, {30, 12, 20}});
+  std::size_t corners = 0, on_edges = 0, on_sides = 0;
+  for (const Vec3d& p : EnclosedVoxels(shelf).contact_points({}, kEverywhere)) {
+    const Vec3d low{3 * 64.0, 3 * 64.0, 3 * 64.0}, high{30 * 64.0, 12 * 64.0, 20 * 64.0};
+    int at_ends = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK((p[i] >= low[i] && p[i] <= high[i]));
+      at_ends += p[i] == low[i] || p[i] == high[i];
+    }
+    CHECK(at_ends > 0);
+    corners += at_ends == 3;
+    on_edges += at_ends == 2;
+    on_sides += at_ends == 1;
+  }
+  CHECK(corners == 8);
+  CHECK(on_edges == 4 * (3 + 1 + 2));  // x at 8, 16, 24; y at 8; z at 8, 16
+  CHECK(on_sides == 2 * (3 * 1 + 1 * 2 + 2 * 3));
+}
+
+TEST_CASE("beside corners that stay no vertex is asked to go far for a margin", "[quick][meshing]") {
+  MemoryShelf shelf;
+  add_slab(shelf);
+  HalfEdgeMesh mesh(dense_surface(shelf, unit_frame()));
+  merge_flat_regions(mesh);
+  VertexId free = kNoId;
+  for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {
+    if (!mesh.vertex_alive(v)) continue;
+    if (free == kNoId) {
+      free = v;
+    } else {
+      mesh.lock(v);
+    }
+  }
+  const EnclosedVoxels enclosed(shelf);
+  const ContactPoints contacts(enclosed, mesh, FaceTree(mesh));
+  JointFit fit(mesh, contacts);
+  fit.solve(0.25);
+  CAPTURE(fit.shift(free));
+  CHECK(length(fit.shift(free)) < 1);  // it lies on voxels
+}

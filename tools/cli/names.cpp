@@ -1,0 +1,38 @@
+#include "tools/cli/names.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+
+namespace bp {
+
+const char* name_of(FillMode fill) {
+  constexpr const char* kNames[] = {"flood", "winding", "none", "inside"};
+  return kNames[std::size_t(fill)];
+}
+
+const char* name_of(StructuringElement element) {
+  return element == StructuringElement::cube ? "cube" : "ball";
+}
+
+const char* name_of(MeshMode mode) {
+  constexpr const char* kNames[] = {"bounding", "inside", "fit"};
+  return kNames[std::size_t(mode)];
+}
+
+std::string file_name(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+std::string skipped(const SceneCounts& c) {
+  std::string text;
+  const auto add = [&](std::uint64_t n, const char* what) {
+    if (n > 0) text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", n, what, n == 1 ? "" : "s");
+  };
+  add(c.degenerate, "degenerate triangle");
+  add(c.non_finite, "non-finite triangle");
+  add(c.bad_faces, "bad face");
+  return text;
+}
+
+}  // namespace bp

@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+
+#include "lib/core/grid_frame.h"
+#include "lib/core/triangle_source.h"
+#include "lib/grid/stream.h"
+#include "lib/pass/mesh/mesh_stage.h"
+
+/// Choices as options, reports and provenance write them; counts as notes do.
+namespace bp {
+
+[[nodiscard]] const char* name_of(FillMode fill);
+[[nodiscard]] const char* name_of(StructuringElement element);
+[[nodiscard]] const char* name_of(MeshMode mode);
+/// A path without its folders.
+[[nodiscard]] std::string file_name(const std::string& path);
+/// "12 degenerate triangles, 1 bad face"; empty if nothing was skipped.
+[[nodiscard]] std::string skipped(const SceneCounts& counts);
+
+}  // namespace bp

@@ -1,0 +1,90 @@
+#include "tools/cli/run_tool.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <new>
+#include <system_error>
+
+#include "io/files/partial_outputs.h"
+#include "lib/core/error.h"
+#include "tools/cli/common_options.h"
+
+namespace bp::detail {
+
+namespace {
+
+/// A closed 0, 1 or 2 would be handed to the next file that is opened, and messages would land in it. The null device
+/// stands in, opened the wrong way round so that using it is still an error.
+void occupy_standard_streams() {
+  for (int fd = 0; fd < 3; ++fd) {
+    if (::fcntl(fd, F_GETFD) < 0) (void)!::open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
+  }
+}
+
+extern "C" void on_signal(int number) {
+  end_making();
+  remove_partial_outputs();
+  ::signal(number, SIG_DFL);  // the shell sees a death by signal, 128 + number, and ends its loop
+  ::raise(number);
+}
+
+void install_handlers() {
+  ::signal(SIGPIPE, SIG_IGN);
+  ::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error of write(), as a full disk is
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction old {};
+    ::sigaction(number, nullptr, &old);
+    if (old.sa_handler == SIG_IGN) continue;  // nohup, background jobs
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_NODEFER;
+    ::sigaction(number, &action, nullptr);
+  }
+}
+
+/// One line, whatever a file name or a parser put into it.
+int complain(const char* tool, std::string message, int status) {
+  while (making_has_ended()) ::pause();  // files and folders are taken from under us: another thread dies of its signal
+  for (char& c : message) {
+    if ((unsigned char)c < 0x20 || c == 0x7f) c = ' ';
+  }
+  const std::string line = fmt::format("{}: {}\n", tool, message);
+  (void)!::write(2, line.data(), line.size());
+  return status;
+}
+
+int complain(const char* tool, const Error& e) {
+  if (e.code() == ErrorCode::closed_pipe) return exit_code(e.code());
+  return complain(tool, e.what(), exit_code(e.code()));
+}
+
+}  // namespace
+
+int guard(const char* tool, const std::function<int()>& body) {
+  occupy_standard_streams();
+  install_handlers();
+  forget_files();
+  try {
+    return body();
+  } catch (const Args::Done&) {
+    return 0;
+  } catch (const Error& e) {
+    return complain(tool, e);
+  } catch (const std::bad_alloc&) {
+    return complain(tool, "out of memory; use a smaller --memory, fewer --threads or larger voxels", 4);
+  } catch (const std::filesystem::filesystem_error& e) {
+    return complain(tool, e.what(), 1);
+  } catch (const std::system_error& e) {  // no thread could be started, ...
+    return complain(tool, e.what(), 4);
+  } catch (const std::exception& e) {
+    return complain(tool, std::string("unexpected: ") + e.what(), 1);
+  } catch (...) {
+    return complain(tool, "unexpected failure", 1);
+  }
+}
+
+}  // namespace bp::detail

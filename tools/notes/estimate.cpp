@@ -1,0 +1,104 @@
+#include "tools/notes/estimate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/parallel.h"
+#include "tools/cli/length.h"
+
+namespace bp {
+
+namespace {
+
+// Measured as user seconds and peak memory, at 256 to 2048 voxels: docs/performance.md, "The estimate of a long run".
+constexpr double kNoteSeconds = 10;               ///< shorter runs say nothing
+constexpr double kSurfacePerArea = 0.6;           ///< voxels that triangles touch, for each voxel face of the bounds
+constexpr double kFacesPerArea = 1;               ///< triangles of the dense surface, the same
+constexpr double kSecondsPerSurfaceVoxel = 1e-7;  ///< bpvox: 0.6 to 1.1e-7
+constexpr double kSecondsPerScaledVoxel = 4e-11;  ///< bpclose, a voxel of the grid and voxel of scale: 2 to 9e-11
+constexpr double kSecondsPerFace = 1.3e-6;        ///< bpmesh, a triangle of the dense surface: 1.1 to 3.7e-6
+constexpr double kCoresPerGpu = 64;               ///< bpclose as a whole: 2 to 5 times as fast as 16 cores
+constexpr double kSerialShare = 0.5;              ///< of bpmesh
+constexpr double kProgramBytes = 25e6, kVoxBytes = 10, kCloseBytes = 100, kMeshBytes = 32;  ///< the last three: of each
+
+double area_in_voxels(const Bounds3d& b, double voxel) {
+  if (b.empty()) return 0;
+  const double x = b.max[0] - b.min[0], y = b.max[1] - b.min[1], z = b.max[2] - b.min[2];
+  return 2 * (x * y + y * z + z * x) / (voxel * voxel);
+}
+
+Estimate of_grid(const Bounds3d& scene, double voxel) {
+  Estimate e;
+  for (std::size_t i = 0; !scene.empty() && i < 3; ++i)
+    e.grid[i] = std::int64_t(std::min(std::ceil((scene.max[i] - scene.min[i]) / voxel) + 1, 9e15));
+  return e;
+}
+
+/// "40 s", "7 min", "3 h", "12 days".
+std::string duration_text(double seconds) {
+  constexpr double kMinute = 60, kHour = 3600, kDay = 86400;
+  if (seconds < 2 * kMinute) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 2 * kHour) return fmt::format("{:.0f} min", seconds / kMinute);
+  if (seconds < 2 * kDay) return fmt::format("{:.0f} h", seconds / kHour);
+  return fmt::format("{:.0f} days", seconds / kDay);
+}
+
+}  // namespace
+
+void Estimate::then(const Estimate& next) {
+  core_seconds += next.core_seconds;
+  serial_seconds += next.serial_seconds;
+  bytes = std::max(bytes, next.bytes);
+}
+
+Estimate estimate_voxelize(const Bounds3d& scene, double voxel) {
+  Estimate e = of_grid(scene, voxel);
+  const double surface = kSurfacePerArea * area_in_voxels(scene, voxel);
+  e.core_seconds = kSecondsPerSurfaceVoxel * surface;
+  e.bytes = kProgramBytes + kVoxBytes * surface;
+  return e;
+}
+
+Estimate estimate_close(const StreamHeader& header, const ScaleField& field) {
+  const GridFrame& frame = header.frame;
+  Estimate e = of_grid(header.bounds, frame.voxel);
+  const VoxelCoord size = voxels_of(header.bricks).size();
+  e.core_seconds =
+      kSecondsPerScaledVoxel * double(size.x) * size.y * size.z * field.upper_bound(frame) / double(kScaleOne);
+  e.bytes = kProgramBytes + kCloseBytes * kSurfacePerArea * area_in_voxels(header.bounds, frame.voxel);
+  return e;
+}
+
+Estimate estimate_mesh(const Bounds3d& scene, double voxel, double effort) {
+  Estimate e = of_grid(scene, voxel);
+  const double faces = kFacesPerArea * area_in_voxels(scene, voxel);
+  e.core_seconds = effort * kSecondsPerFace * faces;
+  e.serial_seconds = kSerialShare * e.core_seconds;
+  e.bytes = kProgramBytes + kMeshBytes * faces;
+  return e;
+}
+
+std::string estimate_note(const Estimate& e, std::uint64_t memory, const std::vector<std::string>& backends) {
+  const int threads = thread_count();
+  const bool gpu = std::any_of(backends.begin(), backends.end(), [](const std::string& b) { return b != "cpu"; });
+  const double cores = gpu ? std::max<double>(threads, kCoresPerGpu) : threads;
+  const double seconds = e.serial_seconds + (e.core_seconds - e.serial_seconds) / cores;
+  if (!(seconds > kNoteSeconds)) return "";
+  const double limit = double(memory);
+  return fmt::format("a grid of {} x {} x {} voxels: about {} on {} thread{}, and {}{} of memory", e.grid[0], e.grid[1],
+                     e.grid[2], duration_text(seconds), threads, threads == 1 ? "" : "s",
+                     size_text(std::uint64_t(std::min(e.bytes, limit))),
+                     e.bytes > limit ? " (the rest goes to --temp)" : "");
+}
+
+void note_estimate(const Estimate& estimate, const CommonOptions& common, Progress& progress, Report& report,
+                   const std::vector<std::string>& backends) {
+  const std::string text = estimate_note(estimate, common.memory_bytes, backends);
+  if (text.empty()) return;
+  progress.end();
+  report.note(text, common);
+}
+
+}  // namespace bp

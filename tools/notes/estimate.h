@@ -1,0 +1,43 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lib/grid/scale_field.h"
+#include "lib/grid/stream.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/report.h"
+
+/// What a run will take, before the work: a number with a zero too many is noticed at once, not after an hour. Only the
+/// bounds of the scene are known then, so the figures are rough: within a factor of 3 for most scenes.
+namespace bp {
+
+struct Estimate {
+  std::int64_t grid[3] = {};  ///< voxels along each side
+  double core_seconds = 0;    ///< of all cores together
+  double serial_seconds = 0;  ///< the part that one core does alone
+  double bytes = 0;           ///< of memory, without a limit
+
+  /// One after the other: times add up, memory does not.
+  void then(const Estimate& next);
+};
+
+[[nodiscard]] Estimate estimate_voxelize(const Bounds3d& scene, double voxel);
+[[nodiscard]] Estimate estimate_close(const StreamHeader& header, const ScaleField& field);
+/// effort: of what is beside --faces: 1 for it alone.
+[[nodiscard]] Estimate estimate_mesh(const Bounds3d& scene, double voxel, double effort = 1);
+constexpr double kLodEffort = 2.5;  ///< a level of bplod
+constexpr double kErrorEffort = 5;  ///< --error: each new face is measured
+constexpr double kSceneEffort = 4;  ///< --enclose SCENE: the scene's own triangles stay inside
+
+/// What is said to the user, if it takes more than ten seconds; else empty: "a grid of 2048 x 900 x 700 voxels: about 4
+/// min on 2 threads, and 550 MiB of memory".
+///   memory    --memory: what does not fit is spilled
+///   backends  names_of(backends), of work that a GPU takes over
+[[nodiscard]] std::string estimate_note(const Estimate& estimate, std::uint64_t memory,
+                                        const std::vector<std::string>& backends = {});
+/// Says it, on a line of its own.
+void note_estimate(const Estimate& estimate, const CommonOptions& common, Progress& progress, Report& report,
+                   const std::vector<std::string>& backends = {});
+
+}  // namespace bp

@@ -1,0 +1,26 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "lib/pass/mesh/mesh_stage.h"
+
+/// What a user should know of a mesh that has not the faces wanted.
+namespace bp {
+
+/// Of a mesh with clearly fewer faces than were asked for: merging edges ends there, so there never were as many.
+/// Empty if there are about as many, or more. One line.
+[[nodiscard]] std::string too_few_note(std::uint64_t faces, std::uint64_t asked, MeshMode mode = MeshMode::bounding);
+
+/// Why merging ended by itself, and what there is to be done: parts (shells) and handles are kept, if there are any to
+/// speak of, and a larger scale does to an opening what is the opposite of what it does to a closing.
+/// `scale`: a --scale that was found to leave few enough; "": none was; without a value: none was looked for.
+[[nodiscard]] std::string merged_note(std::uint64_t faces, std::uint64_t shells, std::uint64_t handles, MeshMode mode,
+                                      const std::optional<std::string>& scale = {});
+
+/// Of a mesh whose faces are so few for what they stand for that its volume is far from it. `ratio`: of its volume to
+/// that of the voxels that are meshed. Empty if that is near 1, or for a fit. One line.
+[[nodiscard]] std::string loose_note(std::uint64_t faces, double ratio, std::uint64_t shells, std::uint64_t handles,
+                                     MeshMode mode);
+
+}  // namespace bp

@@ -1,0 +1,83 @@
+#include "tools/notes/proportion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+double longest_side(const Bounds3d& scene) {
+  double longest = 0;
+  for (std::size_t i = 0; !scene.empty() && i < 3; ++i) longest = std::max(longest, scene.max[i] - scene.min[i]);
+  return longest;
+}
+
+/// With three digits or more, and without an exponent where people would write none.
+std::string number(double x) {
+  return x >= 1000 && x < 1e15 ? fmt::format("{:.0f}", x) : fmt::format("{:.3g}", x);
+}
+
+/// "2 is 154 % of the scene's diagonal (1.3)".
+std::string share_text(const Length& length, double diagonal) {
+  return fmt::format("{} is {} % of the scene's diagonal ({:.4g})", length.text(),
+                     number(100 * length.value / diagonal), diagonal);
+}
+
+std::string insist_text(const Length& length, double diagonal) {
+  return fmt::format("to insist, write {}%", number(100 * length.value / diagonal));
+}
+
+/// What a number beyond the scene is likely to mean: the same number of percent, or of voxels; empty: nothing known.
+std::string likely_length(const Length& length, double diagonal, double voxel) {
+  if (length.value <= 100 * kLargestShare) return fmt::format(": did you mean {}%?", length.text());
+  if (voxel > 0 && length.value * voxel <= kLargestShare * diagonal)
+    return fmt::format(": did you mean {}vx?", length.text());
+  return ": is the scene in other units?";
+}
+
+bool is_in_proportion(double voxels) {
+  return voxels >= kFewestVoxels && voxels <= kMostVoxels;
+}
+
+std::string likely_voxel(const Length& voxel, double side, double diagonal) {
+  const double value = voxel.value;
+  if (value > 0 && is_in_proportion(side / (value / 100 * diagonal)))
+    return fmt::format("did you mean {}%?", voxel.text());
+  if (value == std::floor(value) && is_in_proportion(value))
+    return fmt::format("did you mean --resolution {}?", voxel.text());
+  return "is the scene in other units?";
+}
+
+/// "0.00001 makes a grid of 75000 voxels along the scene's longest side (0.75)".
+std::string grid_text(double voxels, double side) {
+  return fmt::format("makes a grid of {} voxels along the scene's longest side ({:.4g})", number(voxels), side);
+}
+
+}  // namespace
+
+void question_length(const char* option, const Length& length, const Bounds3d& scene, double voxel) {
+  const double diagonal = scene.empty() ? 0 : scene.diagonal();
+  if (length.unit != Length::Unit::scene || !(diagonal > 0) || length.value <= kLargestShare * diagonal) return;
+  fail(ErrorCode::bad_argument, "{} {}{} {}", option, share_text(length, diagonal),
+       likely_length(length, diagonal, voxel), insist_text(length, diagonal));
+}
+
+void question_voxel(const char* option, const Length& voxel, const Bounds3d& scene) {
+  const double side = longest_side(scene), voxels = side / voxel.value;
+  if (voxel.unit != Length::Unit::scene || !(side > 0) || is_in_proportion(voxels)) return;
+  if (voxels > kMostVoxels) return question_grid(fmt::format("{} {}", option, voxel.text()), voxel.value, scene);
+  fail(ErrorCode::bad_argument, "{} {} {}: {} {}", option, voxel.text(), grid_text(voxels, side),
+       likely_voxel(voxel, side, scene.diagonal()), insist_text(voxel, scene.diagonal()));
+}
+
+void question_grid(const std::string& what, double voxel, const Bounds3d& scene, const char* likely) {
+  const double side = longest_side(scene), voxels = side / voxel;
+  if (!(voxels > kMostVoxels)) return;
+  fail(ErrorCode::bad_argument, "{} {}, more than {}: {} to insist, give that number to --resolution", what,
+       grid_text(voxels, side), number(kMostVoxels), likely);
+}
+
+}  // namespace bp

@@ -1,0 +1,138 @@
+#include "tools/run/make_backend.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <mutex>
+#include <numeric>
+#include <optional>
+
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/device/cpu/cpu_backend.h"
+#include "lib/device/cpu/fallback_backend.h"
+#include "lib/device/device_error.h"
+#ifdef BP_HAVE_CUDA
+#include "gpu/cuda_backend.h"
+#endif
+
+namespace bp {
+
+namespace {
+
+using Kind = DeviceChoice::Kind;
+
+DeviceChoice resolve(DeviceChoice choice) {
+  const char* forced = std::getenv("BP_BACKEND");
+  if (choice.kind != Kind::automatic || forced == nullptr || *forced == '\0') return choice;
+  try {
+    return parse_device(forced);
+  } catch (const Error& e) {
+    fail(e.code(), "BP_BACKEND in the environment: {}", e.what());
+  }
+}
+
+Backends make_cpu_backends() {
+  Backends backends;
+  for (int i = 0; i < thread_count(); ++i) backends.push_back(std::make_unique<CpuBackend>());
+  return backends;
+}
+
+#ifdef BP_HAVE_CUDA
+constexpr double kGpuStartSeconds = 0.25;  ///< of the driver, about
+constexpr int kBackendsPerGpu = 8;         ///< some gather and scatter bricks while others copy and compute
+
+/// Neighbours are of different GPUs.
+Backends make_backends_on(const std::vector<int>& devices) {
+  Backends backends;
+  for (int i = 0; i < kBackendsPerGpu; ++i) {
+    for (const int device : devices) backends.push_back(make_cuda_backend(device));
+  }
+  return backends;
+}
+
+std::string list_of(const std::vector<CudaDevice>& devices) {
+  std::string text;
+  for (const CudaDevice& d : devices) text += fmt::format("{}cuda:{} ({})", text.empty() ? "" : ", ", d.index, d.name);
+  return text;
+}
+
+/// --device cuda
+Backends make_gpu_backends(const DeviceChoice& choice) {
+  const std::vector<CudaDevice> there = cuda_devices();
+  if (there.empty())
+    fail(ErrorCode::out_of_resource, "--device cuda: no GPU was found; check the driver, or use --device cpu");
+  std::vector<int> ids = choice.ids;
+  for (const int id : ids) {
+    if (id >= int(there.size()))
+      fail(ErrorCode::out_of_resource, "--device cuda:{}: no such GPU; here are {}", id, list_of(there));
+  }
+  if (ids.empty()) {
+    for (const CudaDevice& device : there) ids.push_back(device.index);
+  }
+  return make_backends_on(ids);
+}
+
+/// The first GPU that works; empty if there is none. Throws DeviceError, that of the first, if none of several works.
+Backends make_on_first_gpu() {
+  std::optional<DeviceError> first;
+  for (const CudaDevice& device : cuda_devices()) {
+    try {
+      return make_backends_on({device.index});
+    } catch (const DeviceError& e) {
+      if (!first) first = e;
+    }
+  }
+  if (first) throw DeviceError(*first);
+  return {};
+}
+
+/// --device auto: a GPU if the cores would take longer than it takes to start. Empty if there is none that works.
+Backends make_gpu_backends_if_worth(const CommonOptions& common, double core_seconds, Report* report) {
+  if (report == nullptr || core_seconds / thread_count() < kGpuStartSeconds) return {};
+  Backends backends;
+  try {
+    backends = make_on_first_gpu();
+  } catch (const DeviceError& e) {
+    report->note(fmt::format("{}; the CPU is used", e.what()), common);
+  }
+  const auto warn = [report, &common, said = std::make_shared<std::once_flag>()](const std::string& what) {
+    std::call_once(*said, [&] { report->note(fmt::format("{}; the CPU takes over", what), common); });
+  };
+  for (auto& backend : backends) backend = std::make_unique<FallbackBackend>(std::move(backend), warn);
+  return backends;
+}
+#else
+Backends make_gpu_backends_if_worth(const CommonOptions&, double, Report*) {
+  return {};
+}
+Backends make_gpu_backends(const DeviceChoice&) {
+  fail(ErrorCode::out_of_resource,
+       "--device cuda: this build has no GPU support; rebuild with -DBP_CUDA=ON, or use --device cpu");
+}
+#endif
+
+}  // namespace
+
+Backends make_backends(const CommonOptions& common, double core_seconds, Report* report) {
+  const DeviceChoice choice = resolve(common.device);
+  Backends backends;
+  if (choice.kind == Kind::cuda) backends = make_gpu_backends(choice);
+  if (choice.kind == Kind::automatic) backends = make_gpu_backends_if_worth(common, core_seconds, report);
+  return backends.empty() ? make_cpu_backends() : std::move(backends);
+}
+
+std::vector<std::string> names_of(const Backends& backends) {
+  std::vector<std::string> names;
+  for (const auto& backend : backends) {
+    const std::string name = backend->name();
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+std::uint64_t pinned_bytes(const Backends& backends) {
+  return std::accumulate(backends.begin(), backends.end(), std::uint64_t(0),
+                         [](std::uint64_t sum, const auto& backend) { return sum + backend->pinned_bytes(); });
+}
+
+}  // namespace bp

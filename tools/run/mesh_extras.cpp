@@ -1,0 +1,128 @@
+#include "tools/run/mesh_extras.h"
+
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+
+#include "io/files/file.h"
+#include "tools/cli/report.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::size_t kHeadBytes = 65536;  // comments stand at the start
+constexpr std::size_t kMaxJsonBytes = 64u << 20;
+
+/// Up to `n` bytes from `offset`.
+std::string bytes_at(const InputFile& file, std::uint64_t offset, std::size_t n) {
+  std::string bytes(n, '\0');
+  bytes.resize(file.read_at(offset, std::as_writable_bytes(std::span(bytes))));
+  return bytes;
+}
+
+MeshExtras from_comments(const std::string& head) {
+  MeshExtras extras;
+  std::istringstream lines(head);
+  for (std::string line; std::getline(lines, line);) {
+    for (const std::string start : {"comment provenance: ", "# provenance: "}) {
+      if (line.compare(0, start.size(), start) == 0) extras.provenance.push_back(line.substr(start.size()));
+    }
+    for (const std::string start : {"comment origin: ", "# origin: "}) {
+      Vec3d p;
+      if (line.compare(0, start.size(), start) == 0 &&
+          std::istringstream(line.substr(start.size())) >> p[0] >> p[1] >> p[2])
+        extras.origin = p;
+    }
+  }
+  return extras;
+}
+
+std::vector<std::string> gltf_provenance(const Json& document) {
+  const Json none = Json::array();
+  const Json* steps = &document;
+  for (const char* key : {"asset", "extras", "provenance"}) {
+    if (!steps->is_object() || !steps->contains(key)) return {};
+    steps = &steps->at(key);
+  }
+  std::vector<std::string> lines;
+  for (const Json& step : steps->is_array() ? *steps : none) {
+    std::string line;
+    for (const char* key : {"tool", "version", "options"}) {
+      if (!step.is_object() || !step.contains(key) || !step.at(key).is_string()) return {};
+      if (!line.empty()) line += ' ';
+      line += step.at(key).get<std::string>();
+    }
+    if (step.contains("input") && step.at("input").is_string()) line += " input " + step.at("input").get<std::string>();
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+/// The most that a node has, itself included.
+std::size_t gltf_levels(const Json& document) {
+  static const Json::json_pointer ids("/extensions/MSFT_lod/ids");
+  std::size_t most = 1;
+  if (!document.is_object() || !document.contains("nodes")) return most;
+  for (const Json& node : document.at("nodes")) {
+    if (node.is_object() && node.contains(ids)) most = std::max(most, node.at(ids).size() + 1);
+  }
+  return most;
+}
+
+std::optional<Vec3d> gltf_origin(const Json& document) {
+  static const Json::json_pointer key("/asset/extras/origin");
+  if (!document.is_object() || !document.contains(key)) return {};
+  const Json& numbers = document.at(key);
+  Vec3d p;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!numbers.is_array() || numbers.size() != 3 || !numbers[i].is_number()) return {};
+    p[i] = numbers[i].get<double>();
+  }
+  return p;
+}
+
+MeshExtras from_gltf(const std::string& text) {
+  if (text.find("\"extras\"") == std::string::npos && text.find("\"MSFT_lod\"") == std::string::npos) return {};
+  const Json document = Json::parse(text, nullptr, false);
+  static const Json::json_pointer tile("/asset/extras/tile_origin");
+  return {gltf_provenance(document), gltf_origin(document), document.is_object() && document.contains(tile),
+          gltf_levels(document)};
+}
+
+}  // namespace
+
+MeshExtras mesh_extras(const std::string& path) {
+  if (path == "-") return {};
+  const InputFile file(path);
+  if (!file.seekable()) return {};
+  const std::string head = bytes_at(file, 0, kHeadBytes);
+  if (head.compare(0, 4, "glTF") == 0 && head.size() >= 20) {
+    std::uint32_t json_bytes;
+    std::memcpy(&json_bytes, head.data() + 12, 4);
+    return json_bytes > kMaxJsonBytes ? MeshExtras{} : from_gltf(bytes_at(file, 20, json_bytes));
+  }
+  const std::size_t first = head.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && head[first] == '{')
+    return file.size() > kMaxJsonBytes ? MeshExtras{} : from_gltf(bytes_at(file, 0, file.size()));
+  return from_comments(head);
+}
+
+std::string made_by(const MeshExtras& extras) {
+  if (extras.provenance.empty()) return "";
+  const std::string& last = extras.provenance.back();
+  const std::string tool = last.substr(0, last.find(' '));
+  return tool == "bpmesh" || tool == "bplod" ? tool : "";
+}
+
+std::string mode_of(const MeshExtras& extras) {
+  if (made_by(extras).empty()) return "";
+  static const std::string key = " mode=";
+  const std::string& last = extras.provenance.back();
+  const std::size_t at = last.find(key);
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + key.size();
+  return last.substr(begin, last.find(' ', begin) - begin);
+}
+
+}  // namespace bp

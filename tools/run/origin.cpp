@@ -1,0 +1,106 @@
+#include "tools/run/origin.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/mesh/mesh_writer.h"
+#include "tools/cli/length.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kNear = 8;  // sides: floats lose 3 bits of 24
+
+double longest_side(const Bounds3d& b) {
+  double side = 0;
+  for (std::size_t i = 0; i < 3; ++i) side = std::max(side, b.max[i] - b.min[i]);
+  return side;
+}
+
+/// Of the coordinates, when `origin` is subtracted.
+double reach_of(const Bounds3d& b, const Vec3d& origin) {
+  double reach = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    reach = std::max({reach, std::abs(b.min[i] - origin[i]), std::abs(b.max[i] - origin[i])});
+  return reach;
+}
+
+/// Power of two in (x / 2, x].
+double power_of_two_below(double x) {
+  int exponent = 0;
+  (void)std::frexp(x, &exponent);
+  return std::ldexp(1.0, exponent - 1);
+}
+
+/// A round length of a tenth of `side` to all of it. The last bit of a lattice unit is a power of two, and at most
+/// side / 2^13: a voxel has at least 8 bits, and is not larger than the side. So multiples of a larger power of two are
+/// exact, and multiples of a power of ten whose factors of two make one.
+double round_step(double side) {
+  double ten = 1, two = 1;
+  for (; ten * 10 <= side; ten *= 10) two *= 2;
+  return side >= 1 && two >= std::ldexp(side, -13) ? ten : power_of_two_below(side / 2);
+}
+
+}  // namespace
+
+std::string origin_text(const Vec3d& p) {
+  return fmt::format("{},{},{}", p[0], p[1], p[2]);
+}
+
+std::string OriginOption::text() const {
+  switch (kind) {
+    case Kind::unsaid:
+      return "";
+    case Kind::off:
+      return "off";
+    case Kind::automatic:
+      return "auto";
+    case Kind::point:
+      return origin_text(point);
+  }
+  return "";
+}
+
+OriginOption parse_origin(const std::string& text) {
+  if (text == "auto") return {OriginOption::Kind::automatic, {}};
+  if (text == "off") return {OriginOption::Kind::off, {}};
+  return {OriginOption::Kind::point, parse_point(text)};
+}
+
+Vec3d auto_origin(const Bounds3d& bounds) {
+  const double side = longest_side(bounds);
+  if (bounds.empty() || !(side > 0) || reach_of(bounds, {}) <= kNear * side) return {};
+  const double step = round_step(side);
+  Vec3d origin;
+  for (std::size_t i = 0; i < 3; ++i)
+    origin[i] = std::nearbyint((bounds.min[i] / 2 + bounds.max[i] / 2) / step) * step + 0.0;
+  return origin;
+}
+
+Vec3d origin_of(const OriginOption& option, const GridFrame& frame, const Bounds3d& bounds) {
+  if (option.kind != OriginOption::Kind::point && option.kind != OriginOption::Kind::automatic) return {};
+  const Vec3d origin = option.kind == OriginOption::Kind::point ? option.point : auto_origin(bounds);
+  check_origin(frame, voxel_bounds(frame, bounds), origin);
+  return origin;
+}
+
+std::string origin_note(const OriginOption& option, const GridFrame& frame, const Bounds3d& bounds) {
+  const Vec3d origin = origin_of(option, frame, bounds);
+  const double reach = reach_of(bounds, origin);
+  const double step = std::ldexp(power_of_two_below(reach), 1 - std::numeric_limits<float>::digits);
+  if (option.kind == OriginOption::Kind::automatic && origin != Vec3d{})
+    return fmt::format("--origin auto subtracts {} from all coordinates; bpcheck adds it back", origin_text(origin));
+  if (option.kind == OriginOption::Kind::off || step <= frame.voxel / kLatticePerVoxel) return "";
+  return fmt::format(
+      "coordinates of up to {:.6g} have steps of {:.2g} in programs that compute with 32-bit floats, as most engines "
+      "do, "
+      "and vertices may move by half of that; --origin auto writes them relative to a point nearby, --origin off keeps "
+      "them without this note",
+      reach, step);
+}
+
+}  // namespace bp
