@@ -11,6 +11,7 @@
 #include "tools/cli/help.h"
 #include "tools/cli/names.h"
 #include "tools/cli/nearest.h"
+#include "tools/cli/option_owners.h"
 
 namespace bp {
 
@@ -32,22 +33,6 @@ std::string help_of(const std::string& word, const ToolDeclaration& tool) {
   if (word == "all") return full_help(tool);
   if (word == "markdown") return markdown_help(tool);
   return word.empty() ? short_help(tool) : completion(tool, word);
-}
-
-/// Options of one tool of the pipe that are easily given to another one.
-constexpr std::pair<const char*, const char*> kElsewhere[] = {
-    {"--voxel", "bpvox"},    {"--resolution", "bpvox"}, {"--fill", "bpvox"},    {"--up", "bpvox"},
-    {"--scale", "bpclose"},  {"--element", "bpclose"},  {"--field", "bpclose"}, {"--keep-cavities", "bpclose"},
-    {"--inner", "bpclose"},  {"--faces", "bpmesh"},     {"--error", "bpmesh"},  {"--volume", "bpmesh"},
-    {"--enclose", "bpmesh"}, {"--mode", "bpmesh"},      {"--quads", "bpmesh"},  {"--levels", "bplod"},
-    {"--profile", "bplod"},  {"--samples", "bpcheck"},  {"--image", "bpinfo"},  {"--dump", "bpinfo"}};
-
-/// What may be meant by an option that this tool does not have.
-std::string guess(const std::string& name, const std::vector<std::string>& names) {
-  for (const auto& [option, tool] : kElsewhere) {
-    if (name == option) return fmt::format("; it is an option of {}", tool);
-  }
-  return did_you_mean(name, names);
 }
 
 }  // namespace
@@ -183,7 +168,11 @@ Args::Option& Args::State::find(const std::string& name, const std::string& word
     const std::vector<std::string> own = parts_of(option.names, ',');
     names.insert(names.end(), own.begin(), own.end());
   }
-  fail(ErrorCode::bad_argument, "there is no option {}{}", name, guess(word.empty() ? name : "-" + word, names));
+  const std::string slip = word.empty() ? name : "-" + word;
+  std::string hint = owner_of(slip, false);
+  if (hint.empty()) hint = did_you_mean(slip, names);
+  if (hint.empty()) hint = owner_of(slip, true);
+  fail(ErrorCode::bad_argument, "there is no option {}{}", name, hint);
 }
 
 void Args::State::take(Option& option, const std::string& name, const std::string& text) {
