@@ -55,7 +55,7 @@ TEST_CASE("a length beyond a quarter of the diagonal is questioned", "[quick][to
   CHECK_THAT(scale("200", scene), Contains("is the scene in other units?"));
   CHECK_THAT(scale("0.33", scene), Contains("did you mean 0.33%?"));
   CHECK(scale("0.325", scene).empty());
-  for (const char* word : {"154%", "200vx", "15385%", "0"}) CHECK(scale(word, scene).empty());
+  for (const char* word : {"99%", "200vx", "100%", "0"}) CHECK(scale(word, scene).empty());
   CHECK(scale("2", box(0, 0, 0)).empty());
   CHECK(scale("2", Bounds3d()).empty());
 }
