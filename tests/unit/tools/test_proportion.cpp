@@ -73,7 +73,16 @@ TEST_CASE("only a run of more than ten seconds is announced", "[quick][tools]") 
   CHECK(estimate_note(estimate_mesh(box(1, 1, 1), 1.0 / 256), memory).empty());
   const Estimate large = estimate_mesh(box(1, 1, 0.5), 1.0 / 16384);
   CHECK_THAT(estimate_note(large, memory), Contains("a grid of 16385 x 16385 x 8193 voxels: about "));
-  CHECK_THAT(estimate_note(large, memory), Contains("1 GiB (the rest goes to --temp) of memory"));
+  CHECK_THAT(estimate_note(large, memory), Contains("with 1 GiB of memory; what does not fit goes to files in --temp"));
+  VoxelizeCounts sparse;  // two small triangles in opposite corners
+  sparse.area = 1e-6;
+  sparse.extent = 4e-3;
+  sparse.scene.triangles = 2;
+  const double touched = most_touched_voxels(sparse, 1.0 / 16384);
+  CHECK(estimate_note(estimate_mesh(box(1, 1, 0.5), 1.0 / 16384, 1, touched), memory).empty());
+  CHECK(estimate_voxelize(box(1, 1, 1), 1.0 / 60000, touched).core_seconds < 1);
+  sparse.area = 1e3;
+  CHECK(estimate_mesh(box(1, 1, 0.5), 1.0 / 16384, 1, most_touched_voxels(sparse, 1.0 / 16384)).bytes == large.bytes);
   Estimate twice = large;
   twice.then(large);
   CHECK(twice.core_seconds == 2 * large.core_seconds);
