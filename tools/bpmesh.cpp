@@ -486,10 +486,11 @@ void run(const Options& o) {
   std::optional<std::string> scale;
   if (may_raise && wants_scale(o, counts)) {
     report.stage("try scales");
-    scale = bp::enough_scale(source.header(), keeper.shelf(), o.faces.front(), o.common);
+    levels.clear();  // they are written, and their memory is counted on
+    scale = bp::enough_scale(source.header(), keeper.shelf(), o.faces.front(), make_shelf, o.common);
   }
   note_shortfalls(report, o, counts, error_world, scale);
-  for (std::size_t i = 0; o.measure && i < levels.size(); ++i)
+  for (std::size_t i = 0; o.measure && i < counts.levels.size(); ++i)
     std::fprintf(stderr, "%s: %s", level_name(o, i).c_str(), text_of(o, counts.levels[i], counts).c_str());
   report.write(o.common);
 }

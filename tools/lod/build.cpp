@@ -122,9 +122,9 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
     if (halvings == 0) question_proportions(options, size);
     return voxel_size(options, size, halvings);
   };
-  const auto open = [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
+  const auto open = [&](const StreamHeader& header, const VoxelizeCounts& counts) -> BrickSink& {
     out.header = header;
-    const Estimate estimate = estimate_build(options, header.bounds, header.frame.voxel);
+    const Estimate estimate = estimate_build(options, header.bounds, counts, header.frame.voxel);
     if (halvings == 0) note_estimate(estimate, options.common, progress, report);
     return sink;
   };
