@@ -27,7 +27,7 @@ void question_proportions(const BuildOptions& o, const SceneSize& scene) {
   const char* const likely =
       o.request.pixels.empty() ? "is the scene in other units?" : "are these pixels of a screen?";
   if (const std::string what = finest_target(o); !what.empty()) question_grid(what, voxel, scene.bounds, likely);
-  if (o.request.scale) question_length("--scale", *o.request.scale, scene.bounds, voxel);
+  if (o.request.scale) question_scale("--scale", *o.request.scale, scene.bounds, voxel);
 }
 
 Estimate estimate_build(const BuildOptions& o, const Bounds3d& scene, const VoxelizeCounts& counts, double voxel) {

@@ -30,7 +30,7 @@ std::string question(const std::function<void()>& f) {
 }
 
 std::string scale(const std::string& text, const Bounds3d& scene, double voxel = 0.005) {
-  return question([&] { question_length("--scale", parse_length(text), scene, voxel); });
+  return question([&] { question_scale("--scale", parse_length(text), scene, voxel); });
 }
 
 std::string voxel(const std::string& text, const Bounds3d& scene) {
