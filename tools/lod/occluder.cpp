@@ -186,6 +186,8 @@ void say(Build& build, const LodLevel& level, const Hidden& hidden, const Stream
   if (hidden.scale > 0)
     build.note(
         fmt::format("openings narrower than {:.4g} are taken for closed; --scale 0 closes none", 2 * hidden.scale));
+  else if (!build.options.request.scale)
+    build.note("no opening is taken for closed: to close some would hide little more");
   if (level.reached) return;
   build.note(fmt::format("{} faces instead of {}: no further edge can be merged", level.mesh.triangles.size(), faces));
 }
