@@ -36,7 +36,7 @@ void simplify_late(LatticeMesh& proxy, const Enclosed* enclosed, const SimplifyP
     SimplifyCounts now;
     proxy = simplify(proxy, late, now);
     counts.add(now);
-    again = enclosed != nullptr && late.reach > 0 && now.stop != StopReason::faces && now.refused_growth > 0;
+    again = enclosed != nullptr && late.reach > 0 && now.stop != StopReason::faces && now.refused[Refusal::growth] > 0;
     if (again) late.reach = loosened(late.reach, params.reach);
   }
 }
