@@ -17,7 +17,7 @@ TEST_CASE("voxels that are asked for are taken, then an eighth of the error, the
   CHECK(chosen_voxel({0, 100}, levels, kCube) == Approx(0.01).epsilon(0.01));
   CHECK(chosen_voxel({}, levels, kCube) == Approx(0.01));
   levels = {};
-  levels.faces = {40000};
+  levels.faces = {20000};
   const double voxel = chosen_voxel({}, levels, kCube);
   CHECK(voxel < 1.0 / kDefaultResolution);
   CHECK(chosen_voxel({}, levels, kCube, 1) == voxel / 2);
