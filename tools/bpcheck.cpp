@@ -250,6 +250,24 @@ std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::Index
   return verdicts;
 }
 
+/// Whether the proxy fails as one surface in a way that convex parts do: they intersect, or share vertices or edges.
+bool parts_meet(const Options& o, const std::vector<bp::CheckReport>& verdicts) {
+  if (o.convex || o.inside) return false;
+  return std::any_of(verdicts.begin(), verdicts.end(),
+                     [](const bp::CheckReport& v) { return v.components > 1 && (!v.embedded() || !v.manifold()); });
+}
+
+/// Asked for a hint only, so of small proxies only: physics engines take no others.
+bool has_convex_parts(const std::vector<bp::IndexedMesh>& levels) {
+  constexpr std::size_t kMostTriangles = 20000;
+  bp::CheckOptions options;
+  options.convex = true;
+  options.distances = false;
+  return std::all_of(levels.begin(), levels.end(), [&](const bp::IndexedMesh& level) {
+    return level.triangles.size() <= kMostTriangles && bp::check_proxy(level, nullptr, options).holds();
+  });
+}
+
 /// What the proxy's file says that it is hidden by, if it says so; `walls` opens the scene for it.
 std::optional<bp::HidingQuestion> hiding_question(const Options& o, const std::vector<std::string>& scenes,
                                                   bp::SceneOptions options,
@@ -304,6 +322,7 @@ int run(const Options& o) {
   bp::print(text);
   report.bytes_out = text.size();
   fill_report(report, o, origin, verdicts);
+  if (parts_meet(o, verdicts)) note_hint(report, o, bp::convex_hint(o.files.back(), has_convex_parts(levels)));
   if (!answers_hold(o, verdicts)) note_hint(report, o, bp::enclosure_hint(o.files.front(), o.files.back(), o.inside));
   report.write(o.common);
   return status_of(answer_of(verdicts));

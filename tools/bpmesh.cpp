@@ -216,19 +216,34 @@ std::string level_text(const bp::MeshCounts& c, std::size_t level) {
   return c.levels.size() > 1 ? fmt::format("level {}: ", level) : "";
 }
 
+/// Whether --error and the measures are distances to the closing: nobody asked for the scene or its voxels.
+bool counts_from_closing(const Options& o) {
+  using Kind = bp::EncloseOption::Kind;
+  return o.enclose.kind == Kind::closing || (o.error && o.enclose.kind == Kind::automatic);
+}
+
+/// What distances of the proxy are measured to.
+std::string measured_to(const Options& o) {
+  if (o.mode == bp::MeshMode::inside) return "what it lies in";
+  if (o.mode == bp::MeshMode::fit) return "what it is drawn to";
+  return counts_from_closing(o) ? "what is meshed" : "what it encloses";
+}
+
 /// Of a level that no step has taken beyond --error and --volume, but that was beyond from its beginning.
 void note_bounds(bp::Report& report, const Options& o, const bp::MeshCounts& c, std::size_t i, double error_world) {
   const bp::LevelCounts& level = c.levels[i];
   const std::string which = level_text(c, i);
   const auto& distance = level.measures.proxy_to_enclosed;
   if (error_world > 0 && distance && distance->at_least > error_world * (1 + 1e-9)) {
-    const bool inside = o.mode == bp::MeshMode::inside;
     const std::string why =
-        i > 0 ? "the voxels at the level before are as far; use smaller voxels, fewer levels or a larger --error"
-              : fmt::format("the voxels {} as far; use a smaller --scale or smaller voxels, or --enclose closing",
-                            inside ? "themselves are" : "around it are");
-    report.note(fmt::format("{}the proxy is up to {:.4g} from what it {} instead of {:.4g}: {}", which,
-                            distance->at_least, inside ? "lies in" : "encloses", error_world, why),
+        i > 0 && o.mode != bp::MeshMode::fit
+            ? "the voxels at the level before are as far; use smaller voxels, fewer levels or a larger --error"
+            : fmt::format(
+                  "the voxels {} as far; use a smaller --scale or smaller voxels{}",
+                  o.mode == bp::MeshMode::inside ? "themselves are" : "around it are",
+                  counts_from_closing(o) ? "" : ", or leave --enclose out: distances then count from the closing");
+    report.note(fmt::format("{}the proxy is up to {:.4g} from {} instead of {:.4g}: {}", which, distance->at_least,
+                            measured_to(o), error_world, why),
                 o.common);
   }
   const double share = level.measures.volume / c.solid_volume_world;
@@ -237,8 +252,8 @@ void note_bounds(bp::Report& report, const Options& o, const bp::MeshCounts& c, 
     report.note(
         fmt::format(
             "{}the volume is {:.4g} times that of the voxels that are meshed instead of {:.4g}, as it is of the "
-            "voxels at the level before; use smaller voxels, fewer levels or another --volume",
-            which, share, o.volume),
+            "voxels {}; use smaller voxels, {}or another --volume",
+            which, share, o.volume, i > 0 ? "at the level before" : "to begin with", i > 0 ? "fewer levels " : ""),
         o.common);
   }
 }
@@ -330,11 +345,7 @@ std::string distance_text(const std::string& name, const bp::SurfaceDistance& d)
 }
 
 std::string text_of(const Options& o, const bp::LevelCounts& level, const bp::MeshCounts& all) {
-  const bool to_closing = o.error && o.enclose.kind == bp::EncloseOption::Kind::automatic;
-  const std::string other = o.mode == bp::MeshMode::inside ? "what it lies in"
-                            : o.mode == bp::MeshMode::fit  ? "what it is drawn to"
-                            : to_closing                   ? "what is meshed"
-                                                           : "what it encloses";
+  const std::string other = measured_to(o);
   const bp::MeshMeasures& m = level.measures;
   std::string text = fmt::format("{} faces, stopped by: {}\n", level.simplify.faces_out, level.stopped_by);
   text += fmt::format("  volume {:.6g}, {:.4g} times that of the voxels that are meshed\n", m.volume,

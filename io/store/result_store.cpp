@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <vector>
 
 #include "io/files/file.h"
@@ -77,9 +78,7 @@ bool read_all(int fd, std::span<std::byte> bytes) {
 class FolderStore final : public ResultStore {
  public:
   FolderStore(std::string folder, std::function<void(const std::string&)> on_read_only)
-      : folder_(std::move(folder)), on_read_only_(std::move(on_read_only)) {
-    MadeFolders(folder_).keep();
-  }
+      : folder_(std::move(folder)), on_read_only_(std::move(on_read_only)), made_(folder_) {}
 
   bool get(const ResultKey& key, std::string& out) override {
     const Descriptor file(::open(name_of(key).c_str(), O_RDONLY | O_CLOEXEC));
@@ -100,6 +99,7 @@ class FolderStore final : public ResultStore {
 
   void put(const ResultKey& key, std::string_view bytes) override {
     if (read_only_) return;
+    std::call_once(first_put_, [this] { made_.keep(); });
     const std::string name = name_of(key), place = name.substr(0, name.rfind('/'));
     if (::mkdir(place.c_str(), 0777) != 0 && errno != EEXIST) return give_up(place, "make this folder", errno);
     if (::access(place.c_str(), W_OK | X_OK) != 0) {
@@ -154,6 +154,8 @@ class FolderStore final : public ResultStore {
   const std::string folder_;
   const std::function<void(const std::string&)> on_read_only_;
   std::atomic<bool> read_only_{false};
+  std::once_flag first_put_;
+  MadeFolders made_;  ///< a run that fails before its first result leaves no folder
 };
 
 }  // namespace

@@ -53,6 +53,15 @@ std::string enclosure_hint(const std::string& scene, const std::string& proxy, b
   return "";
 }
 
+std::string convex_hint(const std::string& proxy, bool convex_parts) {
+  const bool named = extras_of(proxy).hulls;
+  if (!named && !convex_parts) return "";
+  return fmt::format(
+      "{} {}, and was checked as one surface: check it with --convex, which asks whether each is convex and whether "
+      "together they cover the scene",
+      proxy, named ? "holds convex hulls, by the names of its nodes (UCX_)" : "consists of convex parts that meet");
+}
+
 std::string fit_hint(const std::string& content) {
   if (mode_of(extras_of(content)) != "fit") return "";
   return fmt::format(

@@ -18,6 +18,9 @@ namespace bp {
 /// What may be behind the failure of the file `proxy` to enclose the file `scene` (or with `inside` to lie within it):
 /// one sentence from what the files say of their making. Empty: they say nothing of it.
 [[nodiscard]] std::string enclosure_hint(const std::string& scene, const std::string& proxy, bool inside);
+/// Where a proxy is refuted as one surface: that --convex asks of its parts, if they are hulls by the names of their
+/// nodes, or if there are several (`convex_parts`) and each is convex. Empty: neither.
+[[nodiscard]] std::string convex_hint(const std::string& proxy, bool convex_parts);
 /// The same of a content of a tileset.
 [[nodiscard]] std::string fit_hint(const std::string& content);
 

@@ -15,6 +15,82 @@ namespace {
 
 constexpr std::size_t kHelpColumn = 28, kHelpWidth = 80;
 
+/// Which tools have an option, of those that not all of the pipe's tools have. A golden case (manuals) holds it against
+/// the tools.
+struct OptionOfTools {
+  const char *option, *tools;
+};
+constexpr OptionOfTools kOptionsOfTools[] = {
+    {"--azimuth", "bpcheck and bpinfo"},
+    {"--cache", "bplod"},
+    {"--checksum", "bpinfo"},
+    {"--colors", "bplod"},
+    {"--convex", "bpcheck"},
+    {"--device", "bpvox, bpclose and bplod"},
+    {"--dump", "bpinfo"},
+    {"--edge-length", "bpmesh"},
+    {"--element", "bpclose and bplod"},
+    {"--elevation", "bpcheck and bpinfo"},
+    {"--enclose", "bpmesh and bplod"},
+    {"--error", "bpmesh and bplod"},
+    {"--examples", "bpcheck"},
+    {"--explain", "bplod"},
+    {"--faces", "bpmesh and bplod"},
+    {"--field", "bpclose"},
+    {"--fill", "bpvox and bplod"},
+    {"--format", "bpvox, bpmesh, bpcheck, bplod and bpinfo"},
+    {"--hulls", "bplod"},
+    {"--image", "bpcheck and bpinfo"},
+    {"--image-size", "bpcheck and bpinfo"},
+    {"--inner", "bpclose"},
+    {"--inset", "bpmesh"},
+    {"--inside", "bpcheck"},
+    {"--json", "bpcheck and bpinfo"},
+    {"--keep-cavities", "bpclose"},
+    {"--least-part", "bpmesh"},
+    {"--level", "bpinfo"},
+    {"--levels", "bplod"},
+    {"--look-at", "bpcheck and bpinfo"},
+    {"--measure", "bpmesh"},
+    {"--memory", "bpvox, bpclose, bpmesh, bpcheck and bplod"},
+    {"--mode", "bpmesh and bplod"},
+    {"--name", "bplod"},
+    {"--no-distances", "bpcheck"},
+    {"--no-edges", "bpinfo"},
+    {"--no-tighten", "bpmesh and bplod"},
+    {"--origin", "bpmesh, bpcheck and bplod"},
+    {"--output", "bpvox, bpclose, bpmesh and bplod"},
+    {"--profile", "bplod"},
+    {"--progress", "bpvox, bpclose, bpmesh, bpcheck and bplod"},
+    {"--quads", "bpmesh"},
+    {"--quiet", "bpvox, bpclose, bpmesh, bpcheck and bplod"},
+    {"--report", "bpvox, bpclose, bpmesh, bpcheck and bplod"},
+    {"--resolution", "bpvox and bplod"},
+    {"--resume", "bplod"},
+    {"--samples", "bpcheck"},
+    {"--scale", "bpclose and bplod"},
+    {"--screen", "bplod"},
+    {"--temp", "bpvox, bpclose, bpmesh, bpcheck and bplod"},
+    {"--tile", "bpclose and bplod"},
+    {"--tiles", "bplod"},
+    {"--up", "bpvox, bpcheck, bplod and bpinfo"},
+    {"--volume", "bpmesh"},
+    {"--voxel", "bpvox and bplod"},
+    {"--zoom", "bpcheck and bpinfo"},
+};
+
+/// "; --faces is an option of bpmesh and bplod", if another tool of the pipe has it; else nothing. `similar`: a slip
+/// will do.
+std::string has_another_tool(const std::string& name, bool similar) {
+  std::vector<std::string> names;
+  for (const OptionOfTools& o : kOptionsOfTools) names.push_back(o.option);
+  const std::string meant = similar ? nearest_word(name, names) : name;
+  for (const OptionOfTools& o : kOptionsOfTools) {
+    if (o.option == meant) return fmt::format("; {} is an option of {}", meant, o.tools);
+  }
+  return "";
+}
+
 /// Words of `text`, as many to a line as fit, from `column` on; the first line is already begun.
 std::string wrapped(const std::string& text, std::size_t column) {
   std::string out;
@@ -172,7 +248,11 @@ Args::Option& Args::State::find(const std::string& name, const std::string& word
     const std::vector<std::string> own = parts_of(option.names, ',');
     names.insert(names.end(), own.begin(), own.end());
   }
-  fail(ErrorCode::bad_argument, "there is no option {}{}", name, did_you_mean(word.empty() ? name : "-" + word, names));
+  const std::string slip = word.empty() ? name : "-" + word;
+  std::string hint = has_another_tool(slip, false);
+  if (hint.empty()) hint = did_you_mean(slip, names);
+  if (hint.empty()) hint = has_another_tool(slip, true);
+  fail(ErrorCode::bad_argument, "there is no option {}{}", name, hint);
 }
 
 void Args::State::take(Option& option, const std::string& name, const std::string& text) {

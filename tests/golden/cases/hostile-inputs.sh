@@ -1,7 +1,7 @@
 # Inputs that once crashed a tool, kept it busy, or got a wrong answer. Each ends soon, with one line and nothing left.
 bugs=$BP_ROOT/tests/data/bugs
 ask() { try timeout 60 "$@"; }
-cp "$bugs"/* .
+cp "$bugs"/*.* .
 files > before
 # Streams that are well formed, with checksums that fit, and headers that cannot be.
 for stream in header_brick_box header_far_origin header_whole_range; do

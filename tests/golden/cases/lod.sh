@@ -71,6 +71,8 @@ hulls angle.json
 said 'bplod angle.obj --faces 40 --resolution 60 --profile collision --hulls 1 -o angle1 --report angle1.json | cut -f 1' | volumes
 hulls angle1.json
 for f in angle/angle_unreal angle1/angle_unreal angle/angle_godot; do said "bpcheck --convex angle.obj $f.glb | sed -n '/each part/p;\$p'"; done
+# Without --convex hulls fail as one surface, and a note says how to ask.
+said "bpcheck angle.obj angle/angle_unreal.glb | tail -1"
 # All hulls together keep to --faces, and say what that costs.
 for n in 6 12 20; do bplod angle.obj --faces $n --resolution 60 --profile collision -q -o kept --overwrite | awk -v n=$n '/unreal/ { print n, ($2 <= n ? "faces hold" : "faces are " $2) }'; done
 said 'bplod angle.obj --faces 12 --resolution 60 --profile collision -o kept --overwrite | cut -f 1' | volumes

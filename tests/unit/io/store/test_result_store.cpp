@@ -66,6 +66,16 @@ TEST_CASE("a result comes back as it was put, also for another process", "[quick
   CHECK(files_of(folder).size() == 1);
 }
 
+TEST_CASE("a store that was given nothing leaves no folder", "[quick][io][cache]") {
+  const TempDir dir;
+  const std::string top = dir.path("above"), folder = top + "/below";
+  std::string out;
+  { CHECK_FALSE(open_result_store(folder)->get(key(1), out)); }
+  CHECK_FALSE(fs::exists(top));
+  { open_result_store(folder)->put(key(1), "result"); }
+  CHECK(fs::exists(folder));
+}
+
 TEST_CASE("a damaged, truncated or foreign result is passed over, and replaced", "[quick][io][cache]") {
   const TempDir dir;
   const std::string folder = dir.path("store"), bytes(5000, 'q');

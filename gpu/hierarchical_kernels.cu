@@ -2,7 +2,7 @@
 // made exact: a block is settled only if a cell in the walk proves it for all of its voxels.
 #include <algorithm>
 
-#include "gpu/kernels/hierarchical_kernels.h"
+#include "gpu/hierarchical_kernels.h"
 #include "gpu/kernels/launch.h"
 
 namespace bp {
