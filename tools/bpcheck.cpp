@@ -217,13 +217,14 @@ int run(const Options& o) {
   if (bp::is_tileset(o.files.back())) return run_tileset(o);
   bp::Report report("bpcheck");
   report.stage("read the proxy");
-  bp::CheckBudget budget(o.common.memory_bytes, o.files.size() > 1);
+  bp::CheckBudget budget(o.common.memory_bytes, o.files.size() - 1);
   bp::SceneOptions scene_options = budget.of_proxy(o.files.back());
   scene_options.format = o.format;
   scene_options.temp_dir = o.common.temp;
   std::vector<bp::IndexedMesh> levels = bp::read_levels(o.files.back(), scene_options);
   budget.take(levels);
   scene_options.memory_bytes = budget.reader_bytes();
+  scene_options.document = budget.of_scene_document();
   const bp::Vec3d origin = origin_of(o, report);
   for (bp::IndexedMesh& level : levels) bp::add_origin(level, origin);
   std::unique_ptr<bp::TriangleSource> scene;

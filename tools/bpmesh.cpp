@@ -125,7 +125,8 @@ void run(const bp::MeshOptions& o) {
   std::optional<std::string> scale;
   if (may_raise && bp::wants_scale(o, counts)) {
     report.stage("try scales");
-    scale = bp::enough_scale(source.header(), keeper.shelf(), o.levels.faces.front(), o.common);
+    levels.clear();  // they are written, and their memory is counted on
+    scale = bp::enough_scale(source.header(), keeper.shelf(), o.levels.faces.front(), make_shelf, o.common);
   }
   bp::note_shortfalls(report, o, counts, error_world, scale);
   report.write(o.common);

@@ -30,6 +30,8 @@ Json json_of(const QuadMeasures& q) {
 Json json_of(const LevelCounts& c, std::uint64_t asked) {
   const SimplifyCounts& s = c.simplify;
   const MeshMeasures& m = c.measures;
+  Json refused;
+  s.refused.for_each([&](Refusal, const char* name, std::uint64_t count) { refused[name] = count; });
   Json json = {{"faces", s.faces_out},
                {"faces_asked", asked > 0 ? Json(asked) : Json(nullptr)},
                {"stopped_by", c.stopped_by},
@@ -42,16 +44,7 @@ Json json_of(const LevelCounts& c, std::uint64_t asked) {
                {"faces_dense", s.faces_in},
                {"faces_flat_merged", s.faces_flat},
                {"collapses", s.collapses},
-               {"refused",
-                {{"link", s.refused_link},
-                 {"constraints", s.refused_constraints},
-                 {"shape", s.refused_shape},
-                 {"growth", s.refused_growth},
-                 {"length", s.refused_length},
-                 {"guard", s.refused_guard},
-                 {"limits", s.refused_limits},
-                 {"enclosed", s.refused_enclosed},
-                 {"error", s.refused_error}}},
+               {"refused", refused},
                {"moves", c.tighten.moves},
                {"flips", c.tighten.flips}};
   if (m.quads) json["quads"] = json_of(*m.quads);

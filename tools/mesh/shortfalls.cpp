@@ -58,13 +58,14 @@ void note_bounds(Report& report, const MeshOptions& o, const MeshCounts& c, std:
 /// "3 by topology, 1 by --volume": why edges that are left were not merged.
 std::string refusals_text(const MeshOptions& o, const SimplifyCounts& s) {
   const char* const limits = !o.error() ? "--volume" : o.volume == 0 ? "--error" : "--error or --volume";
-  const std::pair<std::uint64_t, const char*> all[] = {{s.refused_limits, limits},
-                                                       {s.refused_link, "topology"},
-                                                       {s.refused_constraints + s.refused_enclosed, "enclosure"},
-                                                       {s.refused_shape, "shape"},
-                                                       {s.refused_growth, "growth"},
-                                                       {s.refused_length, "--edge-length"},
-                                                       {s.refused_guard, "intersection"}};
+  const std::pair<std::uint64_t, const char*> all[] = {
+      {s.refused[Refusal::limits], limits},
+      {s.refused[Refusal::link], "topology"},
+      {s.refused[Refusal::constraints] + s.refused[Refusal::enclosed], "enclosure"},
+      {s.refused[Refusal::shape], "shape"},
+      {s.refused[Refusal::growth], "growth"},
+      {s.refused[Refusal::length], "--edge-length"},
+      {s.refused[Refusal::guard], "intersection"}};
   std::vector<std::string> parts;
   for (const auto& [count, what] : all) {
     if (count > 0) parts.push_back(fmt::format("{} by {}", count, what));
