@@ -140,7 +140,7 @@ void run(const Options& o) {
   bp::BrickReader source(o.in);
   check_fill(o, source.header());
   if (o.closing.scale)
-    bp::question_length("--scale", *o.closing.scale, source.header().bounds, source.header().frame.voxel);
+    bp::question_scale("--scale", *o.closing.scale, source.header().bounds, source.header().frame.voxel);
   const bp::ScaleField field = scale_field(o, source.header());
   for (const std::string& text : bp::scale_notes(field, source.header(), o.inner)) report.note(text, o.common);
   const bp::Estimate estimate = bp::estimate_close(source.header(), field);

@@ -140,6 +140,8 @@ bp::Json json_of(const bp::QuadMeasures& q) {
 bp::Json json_of(const bp::LevelCounts& c, std::uint64_t asked) {
   const bp::SimplifyCounts& s = c.simplify;
   const bp::MeshMeasures& m = c.measures;
+  bp::Json refused;
+  s.refused.for_each([&](bp::Refusal, const char* name, std::uint64_t count) { refused[name] = count; });
   bp::Json json = {{"faces", s.faces_out},
                    {"faces_asked", asked > 0 ? bp::Json(asked) : bp::Json(nullptr)},
                    {"stopped_by", c.stopped_by},
@@ -152,16 +154,7 @@ bp::Json json_of(const bp::LevelCounts& c, std::uint64_t asked) {
                    {"faces_dense", s.faces_in},
                    {"faces_flat_merged", s.faces_flat},
                    {"collapses", s.collapses},
-                   {"refused",
-                    {{"link", s.refused_link},
-                     {"constraints", s.refused_constraints},
-                     {"shape", s.refused_shape},
-                     {"growth", s.refused_growth},
-                     {"length", s.refused_length},
-                     {"guard", s.refused_guard},
-                     {"limits", s.refused_limits},
-                     {"enclosed", s.refused_enclosed},
-                     {"error", s.refused_error}}},
+                   {"refused", refused},
                    {"moves", c.tighten.moves},
                    {"flips", c.tighten.flips}};
   if (m.quads) json["quads"] = json_of(*m.quads);
@@ -243,13 +236,14 @@ void note_bounds(bp::Report& report, const Options& o, const bp::MeshCounts& c, 
 /// "3 by topology, 1 by --volume": why edges that are left were not merged.
 std::string refusals_text(const Options& o, const bp::SimplifyCounts& s) {
   const char* const limits = !o.error() ? "--volume" : o.volume == 0 ? "--error" : "--error or --volume";
-  const std::pair<std::uint64_t, const char*> all[] = {{s.refused_limits, limits},
-                                                       {s.refused_link, "topology"},
-                                                       {s.refused_constraints + s.refused_enclosed, "enclosure"},
-                                                       {s.refused_shape, "shape"},
-                                                       {s.refused_growth, "growth"},
-                                                       {s.refused_length, "--edge-length"},
-                                                       {s.refused_guard, "intersection"}};
+  const std::pair<std::uint64_t, const char*> all[] = {
+      {s.refused[bp::Refusal::limits], limits},
+      {s.refused[bp::Refusal::link], "topology"},
+      {s.refused[bp::Refusal::constraints] + s.refused[bp::Refusal::enclosed], "enclosure"},
+      {s.refused[bp::Refusal::shape], "shape"},
+      {s.refused[bp::Refusal::growth], "growth"},
+      {s.refused[bp::Refusal::length], "--edge-length"},
+      {s.refused[bp::Refusal::guard], "intersection"}};
   std::vector<std::string> parts;
   for (const auto& [count, what] : all) {
     if (count > 0) parts.push_back(fmt::format("{} by {}", count, what));
@@ -469,10 +463,11 @@ void run(const Options& o) {
   std::optional<std::string> scale;
   if (may_raise && wants_scale(o, counts)) {
     report.stage("try scales");
-    scale = bp::enough_scale(source.header(), keeper.shelf(), o.levels.faces.front(), o.common);
+    levels.clear();  // they are written, and their memory is counted on
+    scale = bp::enough_scale(source.header(), keeper.shelf(), o.levels.faces.front(), make_shelf, o.common);
   }
   note_shortfalls(report, o, counts, error_world, scale);
-  for (std::size_t i = 0; o.measure && i < levels.size(); ++i)
+  for (std::size_t i = 0; o.measure && i < counts.levels.size(); ++i)
     std::fprintf(stderr, "%s: %s", level_name(o, i).c_str(), text_of(o, counts.levels[i], counts).c_str());
   report.write(o.common);
 }

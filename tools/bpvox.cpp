@@ -147,7 +147,8 @@ void run(const Options& o) {
   const auto open = [&](const bp::StreamHeader& h, const bp::VoxelizeCounts& counts) -> bp::BrickSink& {
     report.stage("voxelize");
     header = h;
-    const bp::Estimate estimate = bp::estimate_voxelize(h.bounds, h.frame.voxel);
+    const bp::Estimate estimate =
+        bp::estimate_voxelize(h.bounds, h.frame.voxel, bp::most_touched_voxels(counts, h.frame.voxel));
     bp::note_estimate(estimate, o.common, progress, report);
     header.provenance.push_back(
         bp::make_provenance("bpvox", option_text(o, h.frame.up, o.voxels.up || source->up()), counts.input_hash));

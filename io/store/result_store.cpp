@@ -113,7 +113,9 @@ class FolderStore final : public ResultStore {
     const XXH128_hash_t check = check_of(head, packed);
     head.check[0] = check.high64, head.check[1] = check.low64;
     std::memcpy(head.magic, kMagic, sizeof kMagic);
-    if (!put_unnamed(place, name, head, packed)) put_beside(name, head, packed);
+    if (put_unnamed(place, name, head, packed)) return;
+    if (std::string kept; get(key, kept) && kept == bytes) return;  // another thread or process was faster
+    put_beside(name, head, packed);
   }
 
  private:
@@ -128,7 +130,8 @@ class FolderStore final : public ResultStore {
   }
 
   /// A file without a name gets one when it is complete: nothing is left of it if the process is killed. False where
-  /// the file system has no such files.
+  /// the file system has no such files, or where the name is taken. That file stays: another thread may just have put
+  /// it.
   static bool put_unnamed(const std::string& place, const std::string& name, const Head& head,
                           std::span<const std::byte> packed) {
     const Descriptor file(::open(place.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
@@ -136,14 +139,10 @@ class FolderStore final : public ResultStore {
     write_all(file.get(), name, std::as_bytes(std::span(&head, 1)));
     write_all(file.get(), name, packed);
     const std::string self = fmt::format("/proc/self/fd/{}", file.get());
-    for (int attempt = 0; attempt < 2; ++attempt) {
-      if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) return true;
-      if (errno != EEXIST) return false;
-      if (const int error = remove_file(name)) fail_with(name, "replace", error);  // get() did not take it
-    }
-    return true;  // another process was faster, twice
+    return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
   }
 
+  /// Replaces what has the name, in one step: a damaged result, or another one.
   static void put_beside(const std::string& name, const Head& head, std::span<const std::byte> packed) {
     OutputFile file(name, true);
     file.write(std::as_bytes(std::span(&head, 1)));

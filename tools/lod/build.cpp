@@ -85,9 +85,9 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
     return chosen_voxel(voxel_request(options, diagonal), request_for(options, size.triangles, diagonal), size,
                         halvings);
   };
-  const auto open = [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
+  const auto open = [&](const StreamHeader& header, const VoxelizeCounts& counts) -> BrickSink& {
     out.header = header;
-    const Estimate estimate = estimate_build(options, header.bounds, header.frame.voxel);
+    const Estimate estimate = estimate_build(options, header.bounds, counts, header.frame.voxel);
     if (halvings == 0) note_estimate(estimate, options.common, progress, report);
     return sink;
   };

@@ -28,16 +28,17 @@ void question_proportions(const BuildOptions& o, const SceneSize& scene) {
   const bool pixels = !o.levels.errors.empty() && o.levels.errors.front().unit == Length::Unit::pixels;
   const char* const likely = pixels ? "are these pixels of a screen?" : "is the scene in other units?";
   if (const std::string what = finest_target(o); !what.empty()) question_grid(what, voxel, scene.bounds, likely);
-  if (o.closing.scale) question_length("--scale", *o.closing.scale, scene.bounds, voxel);
+  if (o.closing.scale) question_scale("--scale", *o.closing.scale, scene.bounds, voxel);
 }
 
-Estimate estimate_build(const BuildOptions& o, const Bounds3d& scene, double voxel) {
-  const bool measures = !o.levels.errors.empty();
-  const double effort = kLodEffort * (measures ? kErrorEffort : 1);
+Estimate estimate_build(const BuildOptions& o, const Bounds3d& scene, const VoxelizeCounts& counts, double voxel) {
+  const double effort = kLodEffort * (o.levels.errors.empty() ? 1 : kErrorEffort);
   const double coarser = o.is_tileset() ? 2 : 1;  // voxels of the next level
-  Estimate all = estimate_voxelize(scene, voxel);
-  for (std::size_t i = 0; i < level_count(request_of(o)); ++i)
-    all.then(estimate_mesh(scene, voxel * std::pow(coarser, i), effort));
+  Estimate all = estimate_voxelize(scene, voxel, most_touched_voxels(counts, voxel));
+  for (std::size_t i = 0; i < level_count(request_of(o)); ++i) {
+    const double edge = voxel * std::pow(coarser, i);
+    all.then(estimate_mesh(scene, edge, effort, most_touched_voxels(counts, edge)));
+  }
   return all;
 }
 
