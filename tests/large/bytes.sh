@@ -110,12 +110,12 @@ lod_cases() {
   bplod "${tiles[@]}" --cache parts --tiles 0..3 > /dev/null
   bplod "${tiles[@]}" --cache parts --tiles 3..1000000 > /dev/null
   bplod "${tiles[@]}" --cache parts -o from-parts > /dev/null
-  bplod "${tiles[@]}" --resume -o resumed > /dev/null &
+  bplod "${tiles[@]}" --cache killed -o resumed > /dev/null &
   local job=$!
   sleep 0.5
   kill -9 $job 2> /dev/null || true
   wait $job 2> /dev/null || true
-  [ -e resumed/tileset.json ] || bplod "${tiles[@]}" --resume -o resumed > /dev/null
+  [ -e resumed/tileset.json ] || bplod "${tiles[@]}" --cache killed -o resumed > /dev/null
   local way
   for way in cached from-cache from-parts resumed; do same "tiles $way" tiles $way; done
 }
