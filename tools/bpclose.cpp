@@ -46,7 +46,7 @@ Options parse(bp::Args& args) {
   o.common.device_text =
       "auto, cpu, cuda (every GPU) or cuda:0,1 (default: auto, one GPU where the work is worth its start, or the CPU)";
   o.common.add_to(args);
-  args.often({"--output", "--scale", "--element", "--inner", "--memory", "--overwrite"});
+  args.often({"--output", "--scale", "--element", "--inner", "--overwrite"});
   args.parse();
   args.excludes("--keep-cavities", "--inner");
   bp::check_stream_name(o.out);
