@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "io/mesh/lod_writer.h"
 #include "lib/grid/clip.h"
+#include "lib/store/packing.h"
 #include "tools/lod/level_chain.h"
 #include "tools/lod/lod_outputs.h"
 
@@ -14,6 +14,14 @@ namespace bp {
 namespace {
 
 constexpr const char* kJob = "levels in one mesh";
+
+/// A LevelRow with its JSON as text.
+struct Row {
+  std::string file;
+  std::uint64_t tiles = 0, faces = 0, bytes = 0;
+  double error = 0, scale = 0, voxel = 0;
+  std::string more;
+};
 
 Bounds3d bounds_of(const LatticeMesh& mesh) {
   Bounds3d bounds;
@@ -35,82 +43,52 @@ Vec3d common_origin(const std::vector<LodLevel>& levels) {
   return origin;
 }
 
-Json json_of(const WholeLevel& level) {
-  const LevelRow& r = level.row;
-  Json steps = Json::array();
-  for (const Provenance& p : level.provenance) steps.push_back({p.tool, p.version, p.options, p.input_hash});
-  return {{"size", level.content.size()},
-          {"min", level.bounds.min},
-          {"max", level.bounds.max},
-          {"file", r.file},
-          {"faces", r.faces},
-          {"error", r.error_world},
-          {"scale", r.scale_world},
-          {"voxel", r.voxel},
-          {"more", r.more},
-          {"provenance", steps}};
-}
-
-WholeLevel level_from(const Json& json) {
-  WholeLevel level;
-  level.bounds = {json["min"].get<Vec3d>(), json["max"].get<Vec3d>()};
-  level.row = {json["file"], 1, json["faces"], json["size"], json["error"], json["scale"], json["voxel"], json["more"]};
-  for (const Json& p : json["provenance"]) level.provenance.push_back({p[0], p[1], p[2], p[3]});
-  return level;
-}
-
-/// Size of a JSON, the JSON, the contents.
-std::string packed(const WholeLevels& whole, const Json& notes) {
-  Json json{{"origin", whole.origin}, {"notes", notes}, {"levels", Json::array()}};
-  for (const WholeLevel& level : whole.levels) json["levels"].push_back(json_of(level));
-  const std::string text = json.dump();
-  const std::uint64_t size = text.size();
-  std::string bytes(reinterpret_cast<const char*>(&size), sizeof size);
-  bytes += text;
-  for (const WholeLevel& level : whole.levels) bytes += level.content;
+/// What the store keeps of the levels.
+std::string packed(const WholeLevels& whole, const std::vector<std::string>& notes) {
+  std::string bytes;
+  pack(bytes, whole.origin);
+  pack(bytes, notes);
+  pack(bytes, whole.levels.size());
+  for (const auto& [content, bounds, row, provenance] : whole.levels) {
+    const auto& [file, tiles, faces, size, error, scale, voxel, more] = row;
+    pack(bytes, content);
+    pack(bytes, bounds);
+    pack(bytes, Row{file, tiles, faces, size, error, scale, voxel, more.dump()});
+    pack(bytes, provenance);
+  }
   return bytes;
 }
 
-WholeLevels unpacked(const std::string& bytes, std::vector<std::string>& notes) {
-  std::uint64_t size = 0;
-  std::memcpy(&size, bytes.data(), sizeof size);
-  const Json json = Json::parse(bytes.substr(sizeof size, size));
-  WholeLevels whole;
-  whole.origin = json["origin"].get<Vec3d>();
-  notes = json["notes"].get<std::vector<std::string>>();
-  std::size_t at = sizeof size + size;
-  for (const Json& level : json["levels"]) {
-    whole.levels.push_back(level_from(level));
-    whole.levels.back().content = bytes.substr(at, whole.levels.back().row.bytes);
-    at += whole.levels.back().row.bytes;
+bool unpack_levels(std::string_view bytes, WholeLevels& whole, std::vector<std::string>& notes) {
+  std::size_t size = 0;
+  bool good = unpack(bytes, whole.origin) && unpack(bytes, notes) && unpack(bytes, size);
+  for (std::size_t i = 0; good && i < size; ++i) {
+    auto& [content, bounds, row, provenance] = whole.levels.emplace_back();
+    Row r;
+    good = unpack(bytes, content) && unpack(bytes, bounds) && unpack(bytes, r) && unpack(bytes, provenance);
+    if (good) row = {r.file, r.tiles, r.faces, r.bytes, r.error, r.scale, r.voxel, Json::parse(r.more)};
   }
-  return whole;
+  return good;
 }
 
 /// Everything that the levels depend on.
 ResultKey key_of(const Build& build, const WholeInput& input, const LodOptions& lod) {
   const BuildOptions& o = build.options;
   KeyHash hash(kJob);
-  hash.add(std::string_view(o.name)).add(std::string_view(input.input_hash)).add(input.scene_voxel);
-  hash.add(std::int64_t(input.first)).add(std::int64_t(input.count)).add(lod.least_scale_world);
-  hash.add(std::int64_t(lod.scene.size())).add(std::as_bytes(std::span(lod.scene)));
-  const GridFrame& frame = input.header.frame;
-  hash.add(frame.voxel).add(std::int64_t(frame.up));
-  for (const std::int64_t x : frame.origin) hash.add(x);
-  for (const Vec3d& p : {input.header.bounds.min, input.header.bounds.max})
-    for (const double x : p) hash.add(x);
-  for (std::size_t i = 0; i < input.count; ++i) {  // dense faces are of the solid
-    const LodTarget target =
-        target_of(o.request, input.first + i, input.first, input.header.bounds.diagonal(), input.scene_voxel, 1000000);
-    hash.add(std::int64_t(target.faces)).add(target.error_world).add(target.scale_world.value_or(-1));
-    hash.add(std::string_view(option_text(o, build.enclosed(), target, i, 0, frame).text()));
+  const auto& [header, solid, surface, first, count, scene_voxel, input_hash] = input;
+  const GridFrame& frame = header.frame;
+  hash.add(o.name, o.request.faces.size(), input_hash, scene_voxel, first, count, frame, header.bounds);
+  hash.add(lod.least_scale_world, std::as_bytes(std::span(lod.scene)));
+  for (std::size_t i = 0; i < count; ++i) {  // dense faces are of the solid
+    const LodTarget target = target_of(o.request, first + i, first, header.bounds.diagonal(), scene_voxel, 1000000);
+    const auto& [faces, error_world, scale_world, detail] = target;
+    hash.add(faces, error_world, scale_world, detail, option_text(o, build.enclosed(), target, i, 0, frame).text());
   }
-  hash.add(std::int64_t(o.request.faces.size()));
-  add_voxels(hash, *input.solid, voxels_of(input.header.bricks), {});
-  add_voxels(hash, *input.surface, voxels_of(input.header.bricks), {});
+  add_voxels(hash, *solid, voxels_of(header.bricks), {});
+  add_voxels(hash, *surface, voxels_of(header.bricks), {});
   if (build.colors() != nullptr) {
-    build.colors()->prepare(input.header.frame);
-    build.colors()->all(input.header.frame).add_to(hash);
+    build.colors()->prepare(frame);
+    hash.add(build.colors()->all(frame));
   }
   return hash.key();
 }
@@ -146,16 +124,15 @@ WholeLevels make_whole_levels(Build& build, WholeInput input, LodOptions lod, Re
   if (store == nullptr) return make(build, std::move(input), std::move(lod));
   const ResultKey key = key_of(build, input, lod);
   std::string bytes;
-  if (store->get(key, bytes)) {
-    std::vector<std::string> notes;
-    WholeLevels whole = unpacked(bytes, notes);
+  std::vector<std::string> notes;
+  if (WholeLevels whole; store->get(key, bytes) && unpack_levels(bytes, whole, notes)) {
     for (const std::string& note : notes) build.note(note);
     whole.kept = true;
     return whole;
   }
   const std::size_t notes_before = build.report.notes.size();
   WholeLevels whole = make(build, std::move(input), std::move(lod));
-  Json notes = Json::array();
+  notes.clear();
   for (std::size_t i = notes_before; i < build.report.notes.size(); ++i) notes.push_back(build.report.notes[i]);
   store->put(key, packed(whole, notes));
   return whole;
