@@ -288,13 +288,14 @@ int run(const Options& o) {
   report.stage("read the proxy");
   std::unique_ptr<bp::OutputFile> picture;  // opened first: a name that cannot be written fails before the work
   if (!o.image.file.empty()) picture = bp::open_output(o.image.file, o.common.overwrite);
-  bp::CheckBudget budget(o.common.memory_bytes, o.files.size() > 1);
+  bp::CheckBudget budget(o.common.memory_bytes, o.files.size() - 1);
   bp::SceneOptions scene_options = budget.of_proxy(o.files.back());
   scene_options.format = o.format;
   scene_options.temp_dir = o.common.temp;
   std::vector<bp::IndexedMesh> levels = bp::read_levels(o.files.back(), scene_options);
   budget.take(levels);
   scene_options.memory_bytes = budget.reader_bytes();
+  scene_options.document = budget.of_scene_document();
   if (picture) bp::check_panel_size(o.image.panel_size, levels.size() + (o.files.size() > 1 ? 1 : 0));
   const bp::Vec3d origin = origin_of(o, report);
   for (bp::IndexedMesh& level : levels) move(level, origin);

@@ -106,7 +106,7 @@ void turn(Piece& whole, int number, std::uint64_t enough, const SimplifyParams& 
     told[i] = parts[i]->counts;
     parts[i].reset();
   });
-  counts.clear_refusals();  // of the turn before
+  counts.refused = {};  // of the turn before
   for (const SimplifyCounts& some : told) counts.add_beside(some);
   quadrics.put_back(whole);
   drop_removed(whole);

@@ -41,27 +41,14 @@ void SimplifyCounts::add(const SimplifyCounts& next) {
 void SimplifyCounts::add_beside(const SimplifyCounts& part) {
   collapses += part.collapses;
   solved += part.solved;
-  refused_link += part.refused_link;
-  refused_constraints += part.refused_constraints;
-  refused_shape += part.refused_shape;
-  refused_growth += part.refused_growth;
-  refused_length += part.refused_length;
-  refused_enclosed += part.refused_enclosed;
-  refused_guard += part.refused_guard;
-  refused_limits += part.refused_limits;
-  refused_error += part.refused_error;
-}
-
-void SimplifyCounts::clear_refusals() {
-  refused_link = refused_constraints = refused_shape = refused_growth = refused_length = refused_enclosed =
-      refused_guard = refused_limits = refused_error = 0;
+  refused += part.refused;
 }
 
 StopReason SimplifyCounts::reason_left() const {
-  return refused_error > 0    ? StopReason::error
-         : refused_limits > 0 ? StopReason::limits
-         : refused_length > 0 ? StopReason::edge_length
-                              : StopReason::nothing_left;
+  return refused[Refusal::error] > 0    ? StopReason::error
+         : refused[Refusal::limits] > 0 ? StopReason::limits
+         : refused[Refusal::length] > 0 ? StopReason::edge_length
+                                        : StopReason::nothing_left;
 }
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include "lib/enclosed/enclosed.h"
 #include "lib/mesh/lattice_mesh.h"
+#include "lib/simplify/refusal.h"
 #include "lib/simplify/regions.h"
 #include "lib/simplify/shape_limits.h"
 #include "lib/surface/piece_store.h"
@@ -53,13 +54,11 @@ struct SimplifyCounts {
   std::uint64_t collapses = 0, solved = 0;                    ///< taken; quadratic programs solved
   /// In strict order: edges of the result that were tried and cannot be merged as it is, by the test that the best try
   /// failed. By volume (thin.h): tries refused, an edge's several included.
-  std::uint64_t refused_link = 0, refused_constraints = 0, refused_shape = 0, refused_growth = 0, refused_length = 0,
-                refused_enclosed = 0, refused_guard = 0, refused_limits = 0, refused_error = 0;
+  Refusals refused;
   StopReason stop = StopReason::nothing_left;
   std::string limit;                            ///< if the limits stopped it: the one that refused last
   void add(const SimplifyCounts& next);         ///< of a run that took over where this one ended
   void add_beside(const SimplifyCounts& part);  ///< work and refusals on another part of the same mesh
-  void clear_refusals();
   /// Why no edge that is left was merged.
   [[nodiscard]] StopReason reason_left() const;
 };

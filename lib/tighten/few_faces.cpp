@@ -16,8 +16,6 @@ constexpr double kHopeless = 1.25;         // times the least volume so far: few
 constexpr double kPromising = 1.5;         // the same of a hull that is not tightened yet
 constexpr std::uint64_t kFewForHull = 32;  // more faces than that are better used than for a convex proxy
 constexpr std::array<std::uint64_t, 3> kFresh{48, 32, 24};  // where a new way from the first surface is tried, too
-constexpr std::uint64_t kGrown = 6, kStrictFrom = 10000;    // the first surface: as in tight_proxy.cpp
-constexpr double kMostGrowth = 6;
 
 /// The next number of faces on the way.
 std::uint64_t fewer(std::uint64_t n) {
@@ -35,9 +33,8 @@ class Way {
  public:
   Way(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params)
       : enclosed_(enclosed), params_(params), box_(dense.box()) {
-    SimplifyParams growing = params_for(kGrown * kFewFaces);
-    growing.most_growth = kMostGrowth;
-    growing.strict_from = kStrictFrom;
+    SimplifyParams growing = growing_part_of(params_for(kFewFaces));
+    growing.room = room_around(box_, growing.faces);
     grown_.mesh = simplify(dense, growing, grown_.simplified);
     params_.dense = false;
     at_ = tight(grown_, kFewFaces);

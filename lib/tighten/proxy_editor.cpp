@@ -68,20 +68,20 @@ bool ProxyEditor::shape_is_fine() {
   for (const NewFace& f : faces_) {
     const double quality = triangle_quality(f.corners[0], f.corners[1], f.corners[2]);
     if (quality == 0 || quality < floor) {
-      ++counts_.refused_shape;
+      ++counts_.refused[Refusal::shape];
       return false;
     }
   }
   const bool too_long = edge_limit_ && std::any_of(faces_.begin(), faces_.end(), [&](const NewFace& f) {
                           return !edge_limit_(f.corners[0], f.corners[1]);
                         });
-  counts_.refused_length += too_long;
+  counts_.refused[Refusal::length] += too_long;
   return !too_long;
 }
 
 bool ProxyEditor::keeps_enclosed() {
   if (enclosed_.allows(faces_, swept_, &blocker_)) return true;
-  ++counts_.refused_enclosed;
+  ++counts_.refused[Refusal::enclosed];
   blocked_ = true;
   const Vec3d origin = to_double(contacts_.origin());
   for (std::size_t i = 0; i < blocker_.count; ++i) blocker_.points[i] = blocker_.points[i] - origin;
@@ -92,8 +92,8 @@ bool ProxyEditor::keeps_enclosed() {
 /// around the first one's first corner, a flip's, too, if flat faces count.
 bool ProxyEditor::is_free(bool free) {
   const bool within = free && within_limits(limits_, mesh_, replaced_, faces_);
-  counts_.refused_guard += !free;
-  counts_.refused_limits += free && !within;
+  counts_.refused[Refusal::guard] += !free;
+  counts_.refused[Refusal::limits] += free && !within;
   if (within) sense_.add(replaced_.front(), fan_gain6(mesh_, replaced_, faces_[0].corners[0]));
   return within;
 }
@@ -102,13 +102,14 @@ bool ProxyEditor::is_free(bool free) {
 bool ProxyEditor::stays_near() {
   if (reach_ == 0 || swept_.size() == replaced_.size()) return true;
   const bool near = enclosed_.is_near(faces_, reach_);
-  counts_.refused_reach += !near;
+  counts_.refused[Refusal::growth] += !near;
+  counts_.beyond_reach += !near;
   return near;
 }
 
 bool ProxyEditor::loosen() {
-  if (reach_ == 0 || counts_.refused_reach == refused_reach_before_) return false;
-  refused_reach_before_ = counts_.refused_reach;
+  if (reach_ == 0 || counts_.beyond_reach == beyond_reach_before_) return false;
+  beyond_reach_before_ = counts_.beyond_reach;
   reach_ = loosened(reach_, first_reach_);
   return true;
 }
@@ -116,7 +117,7 @@ bool ProxyEditor::loosen() {
 bool ProxyEditor::fan_is_fine(const LatticeCoord& apex) {
   const bool within = room_.holds_inside(apex);
   if (!within || sticks_out(apex, star_)) {
-    ++(within ? counts_.refused_shape : counts_.refused_growth);
+    ++counts_.refused[within ? Refusal::shape : Refusal::growth];
     return false;
   }
   if (!shape_is_fine() || !keeps_enclosed() || !stays_near()) return false;
@@ -194,7 +195,7 @@ bool ProxyEditor::flip(HalfEdgeId h) {
   add_old_face(pu, pw, pa, pb);
   least_quality_ = std::min(least_quality_, triangle_quality(pw, pu, pb));
   if (cuts_off_contacts(pa, pb, pu, pw)) {
-    ++counts_.refused_enclosed;
+    ++counts_.refused[Refusal::enclosed];
     return false;
   }
   if (!shape_is_fine() || !keeps_enclosed() || (swept_.empty() && !stays_near()) ||

@@ -3,6 +3,7 @@
 #include "lib/enclosed/enclosed.h"
 #include "lib/mesh/guard.h"
 #include "lib/mesh/shells.h"
+#include "lib/simplify/refusal.h"
 #include "lib/simplify/shape_limits.h"
 
 /// Changes of a proxy, each taken only if the proxy stays embedded and keeps inside what must stay inside, both decided
@@ -10,8 +11,9 @@
 namespace bp {
 
 struct EditCounts {
-  std::uint64_t tries = 0, refused_shape = 0, refused_enclosed = 0, refused_guard = 0, refused_limits = 0,
-                refused_length = 0, refused_growth = 0, refused_reach = 0;
+  std::uint64_t tries = 0;
+  Refusals refused;
+  std::uint64_t beyond_reach = 0;  ///< of those refused for their growth
 };
 
 class ProxyEditor {
@@ -77,7 +79,7 @@ class ProxyEditor {
   ShellSense sense_;
   ContactPoints contacts_;
   EditCounts counts_;
-  std::uint64_t refused_reach_before_ = 0;  // by the reach before
+  std::uint64_t beyond_reach_before_ = 0;  // by the reach before
   // Of the change at hand:
   std::vector<NewFace> faces_;
   std::vector<FaceId> replaced_, around_;

@@ -18,27 +18,21 @@ constexpr double kLateFactor = 1.5;        // where the order of collapses chang
 constexpr double kMostGrowth = 6;          // of one collapse: some times a face's share of the volume
 constexpr double kMuchRoom = 0.04;         // share of the volume: an early sweep that gains more is worth others
 
+/// A proxy on the way, and what led to it.
+struct Way {
+  LatticeMesh proxy;
+  SimplifyCounts simplified;
+  TightenCounts tightened;
+};
+
 /// Collapses by volume know neither errors nor limits.
 bool by_volume(const SimplifyParams& params) {
   return params.faces > 0 && params.error_vox <= 0 && params.limits == nullptr;
 }
 
-/// `enclosed`: what must stay inside; null: collapses grow. Those that know how far they may reach and do not get to
-/// `faces` by that go on with a longer reach.
-void simplify_late(LatticeMesh& proxy, const Enclosed* enclosed, const SimplifyParams& params, std::uint64_t faces,
-                   SimplifyCounts& counts) {
-  SimplifyParams late = params;
-  late.faces = faces;
-  late.dense = false;
-  late.enclosed = enclosed;
-  late.most_growth = enclosed != nullptr ? kMostGrowth : 0;
-  for (bool again = true; again;) {
-    SimplifyCounts now;
-    proxy = simplify(proxy, late, now);
-    counts.add(now);
-    again = enclosed != nullptr && late.reach > 0 && now.stop != StopReason::faces && now.refused_growth > 0;
-    if (again) late.reach = loosened(late.reach, params.reach);
-  }
+/// Whether collapses by volume have something to do.
+bool is_above_target(const LatticeMesh& proxy, const SimplifyParams& params) {
+  return by_volume(params) && proxy.triangles.size() > params.faces;
 }
 
 TightenParams one_sweep(const SimplifyParams& params) {
@@ -48,126 +42,159 @@ TightenParams one_sweep(const SimplifyParams& params) {
   return once;
 }
 
-/// Collapses by volume, then the last tightening, on one mesh.
-void finish_whole(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
-                  SimplifyCounts& simplified, TightenCounts& tightened) {
-  HalfEdgeMesh mesh(proxy);
-  ProxyEditor editor(mesh, enclosed, params);
-  if (by_volume(params) && mesh.face_count() > params.faces) {
-    TightenCounts ignored;
-    SimplifyCounts now;
-    thin(
-        editor, params.faces, [&] { tighten_on(editor, one_sweep(params), ignored); }, now);
-    simplified.add(now);
+// --- The steps of docs/decisions/0003-order-of-steps.md, with its numbers
+// ---------------------------------------------
+
+TightenCounts sweep_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
+                          const TightenParams& sweeps) {
+  TightenCounts counts;
+  if (has_regions(proxy.triangles.size(), params)) {
+    tighten_regions_on(proxy, enclosed, sweeps, counts);
+  } else {
+    proxy = tighten(proxy, enclosed, sweeps, counts);
   }
-  proxy = tighten(editor, proxy.frame, tightening_of(params), tightened);
+  return counts;
 }
 
-/// What regions could not collapse, on one mesh.
-void thin_rest(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, SimplifyCounts& simplified) {
+/// (2) One sweep; a few more if that found much room.
+void tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params) {
+  const TightenCounts counts = sweep_early(proxy, enclosed, params, one_sweep(params));
+  if (counts.volume_before - counts.volume_after <= kMuchRoom * std::abs(counts.volume_after)) return;
+  TightenParams few = one_sweep(params);
+  few.sweeps = 3;
+  few.final_sweeps = 2;
+  sweep_early(proxy, enclosed, params, few);
+}
+
+/// (2) under limits. A surface of voxels may lie beyond them, and single steps within them would not lead back. They
+/// are relaxed here, so vertices may move together.
+void tighten_to_limits(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params) {
+  TightenParams early = tightening_of(params);
+  early.sweeps = 1;
+  early.final_sweeps = 2;
+  early.least_gain = 5e-4;
+  TightenCounts counts;
+  params.limits->relax(true);
+  proxy = tighten(proxy, enclosed, early, counts);
+  params.limits->relax(false);
+}
+
+SimplifyCounts simplify_on(LatticeMesh& proxy, const SimplifyParams& params, SimplifyCounts& counts) {
+  SimplifyCounts now;
+  proxy = simplify(proxy, params, now);
+  counts.add(now);
+  return now;
+}
+
+/// (3) In order of quadric error. Where faces jam by their reach, collapses go on with a longer one.
+void collapse_by_error(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
+                       SimplifyCounts& counts) {
+  SimplifyParams late = params;
+  late.faces = std::uint64_t((by_volume(params) ? kLateFactor : 1) * double(params.faces));
+  late.dense = false;
+  late.enclosed = &enclosed;
+  late.most_growth = kMostGrowth;
+  for (;; late.reach = loosened(late.reach, params.reach)) {
+    const SimplifyCounts now = simplify_on(proxy, late, counts);
+    if (late.reach <= 0 || now.stop == StopReason::faces || now.refused[Refusal::growth] == 0) return;
+  }
+}
+
+/// (4) What regions could not collapse, on one mesh.
+void collapse_rest(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, SimplifyCounts& counts) {
   HalfEdgeMesh mesh(proxy);
   ProxyEditor editor(mesh, enclosed, params);
   SimplifyCounts now;
   thin(
       editor, params.faces, [] {}, now, kThinStages);
-  simplified.add(now);
+  counts.add(now);
   editor.erase_inner_shells();
   const LatticeMesh out = mesh.compact(proxy.frame);
   proxy.vertices = out.vertices;
   proxy.triangles = out.triangles;
 }
 
-/// The same as finish_whole on regions, where it is large.
-void finish(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, SimplifyCounts& simplified,
-            TightenCounts& tightened) {
-  if (!has_regions(proxy.triangles.size(), params)) return finish_whole(proxy, enclosed, params, simplified, tightened);
-  if (by_volume(params) && proxy.triangles.size() > params.faces) {
+/// (4), (5) In order of volume, then tightening, on the regions of a large proxy.
+void finish_regions(Way& way, const Enclosed& enclosed, const SimplifyParams& params) {
+  if (is_above_target(way.proxy, params)) {
     SimplifyCounts now;
-    thin_regions(proxy, enclosed, params.faces, one_sweep(params), now);
-    simplified.add(now);
-    if (proxy.triangles.size() > params.faces) thin_rest(proxy, enclosed, params, simplified);
+    thin_regions(way.proxy, enclosed, params.faces, one_sweep(params), now);
+    way.simplified.add(now);
+    if (is_above_target(way.proxy, params)) collapse_rest(way.proxy, enclosed, params, way.simplified);
   }
-  tighten_regions(proxy, enclosed, tightening_of(params), tightened);
+  tighten_regions(way.proxy, enclosed, tightening_of(params), way.tightened);
 }
 
-/// Tightening on the way: it finds a finer balance.
-TightenCounts tighten_on_the_way(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
-                                 const TightenParams& tightening) {
-  TightenCounts counts;
-  if (has_regions(proxy.triangles.size(), params)) {
-    tighten_regions_on(proxy, enclosed, tightening, counts);
+/// (4), (5) The same on one mesh, by one editor: what it learns in (4) it knows in (5).
+void finish_whole(Way& way, const Enclosed& enclosed, const SimplifyParams& params) {
+  HalfEdgeMesh mesh(way.proxy);
+  ProxyEditor editor(mesh, enclosed, params);
+  if (is_above_target(way.proxy, params)) {
+    SimplifyCounts now;
+    TightenCounts ignored;
+    thin(
+        editor, params.faces, [&] { tighten_on(editor, one_sweep(params), ignored); }, now);
+    way.simplified.add(now);
+  }
+  way.proxy = tighten(editor, way.proxy.frame, tightening_of(params), way.tightened);
+}
+
+void finish(Way& way, const Enclosed& enclosed, const SimplifyParams& params) {
+  if (has_regions(way.proxy.triangles.size(), params)) {
+    finish_regions(way, enclosed, params);
   } else {
-    proxy = tighten(proxy, enclosed, tightening, counts);
+    finish_whole(way, enclosed, params);
   }
-  return counts;
 }
 
-void tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
-                   SimplifyCounts& simplified) {
-  if (params.limits == nullptr) {
-    const TightenCounts counts = tighten_on_the_way(proxy, enclosed, params, one_sweep(params));
-    if (counts.volume_before - counts.volume_after > kMuchRoom * std::abs(counts.volume_after)) {
-      TightenParams few = one_sweep(params);
-      few.sweeps = 3;
-      few.final_sweeps = 2;
-      tighten_on_the_way(proxy, enclosed, params, few);
-    }
-  } else {  // a surface of voxels may lie beyond the limits, and single steps within them would not lead there
-    TightenParams early = tightening_of(params);  // relaxed, they let vertices move together
-    early.sweeps = 1;
-    early.final_sweeps = 2;
-    early.least_gain = 5e-4;
-    TightenCounts counts;
-    params.limits->relax(true);
-    proxy = tighten(proxy, enclosed, early, counts);
-    params.limits->relax(false);
-  }
-  const double factor = by_volume(params) ? kLateFactor : 1;
-  simplify_late(proxy, &enclosed, params, std::uint64_t(factor * double(params.faces)), simplified);
+/// From (1) to the target by growing alone.
+void grow_on(LatticeMesh& proxy, const SimplifyParams& params, SimplifyCounts& counts) {
+  SimplifyParams late = params;
+  late.dense = false;
+  late.enclosed = nullptr;
+  late.most_growth = 0;
+  simplify_on(proxy, late, counts);
 }
 
 /// Faces and volume, or a volume inside that is lost, where a target is out of reach: a few faces less are not worth
 /// spikes.
-double price(const LatticeMesh& mesh, const TightenCounts& counts) {
-  const double faces = double(mesh.triangles.size()), volume = counts.volume_after;
+double price(const Way& way) {
+  const double faces = double(way.proxy.triangles.size()), volume = way.tightened.volume_after;
   return volume > 0 ? faces * volume : faces / std::max(-volume, 1.0);
 }
 
-/// Tight faces jam in a few places where growing goes on: the way there by growing alone, if it leads further, and to
-/// the end or for a lower price.
-void try_growing(const LatticeMesh& grown, LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
-                 SimplifyCounts& simplified, TightenCounts& tightened, SimplifyCounts simplified_again) {
-  LatticeMesh other = grown;
-  simplify_late(other, nullptr, params, params.faces, simplified_again);
-  if (other.triangles.size() >= proxy.triangles.size()) return;
-  TightenCounts tightened_again;
-  finish(other, enclosed, params, simplified_again, tightened_again);
-  if (other.triangles.size() > params.faces && price(other, tightened_again) > price(proxy, tightened)) return;
-  proxy = std::move(other);
-  simplified = simplified_again;
-  tightened = tightened_again;
+/// Tight faces jam in a few places where growing goes on. That way is taken if it leads further, and to the end or for
+/// a lower price.
+void try_growing(Way other, Way& way, const Enclosed& enclosed, const SimplifyParams& params) {
+  grow_on(other.proxy, params, other.simplified);
+  if (other.proxy.triangles.size() >= way.proxy.triangles.size()) return;
+  finish(other, enclosed, params);
+  if (is_above_target(other.proxy, params) && price(other) > price(way)) return;
+  way = std::move(other);
 }
 
-SimplifyParams early_part_of(const SimplifyParams& params) {
-  SimplifyParams early = params;
-  early.faces = kEarlyFactor * params.faces;
-  early.most_growth = kMostGrowth;
-  early.strict_from = std::max(kEarlyStrict * params.faces, kEarlyStrictLeast);
-  return early;
+// --- Their order
+// ------------------------------------------------------------------------------------------------------
+
+/// All that follows (1).
+Way tight_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams& params) {
+  if (grown.proxy.triangles.empty()) return grown;
+  Way way = grown;
+  if (params.limits != nullptr) {
+    tighten_to_limits(way.proxy, enclosed, params);
+  } else if (params.faces > 0) {
+    tighten_early(way.proxy, enclosed, params);
+  }
+  if (params.faces > 0 || params.limits != nullptr) collapse_by_error(way.proxy, enclosed, params, way.simplified);
+  finish(way, enclosed, params);
+  if (is_above_target(way.proxy, params)) try_growing(grown, way, enclosed, params);
+  return way;
 }
 
-/// All that follows the growing collapses, of which `simplified` tells.
-LatticeMesh tight_from(const LatticeMesh& grown, const Enclosed& enclosed, const SimplifyParams& params,
-                       SimplifyCounts& simplified, TightenCounts& tightened) {
-  tightened = {};
-  if (grown.triangles.empty()) return grown;
-  const SimplifyCounts simplified_early = simplified;
-  LatticeMesh proxy = grown;
-  if (params.faces > 0 || params.limits != nullptr) tighten_early(proxy, enclosed, params, simplified);
-  finish(proxy, enclosed, params, simplified, tightened);
-  if (by_volume(params) && proxy.triangles.size() > params.faces)
-    try_growing(grown, proxy, enclosed, params, simplified, tightened, simplified_early);
-  return proxy;
+LatticeMesh take(Way&& way, SimplifyCounts& simplified, TightenCounts& tightened) {
+  simplified = std::move(way.simplified);
+  tightened = way.tightened;
+  return std::move(way.proxy);
 }
 
 }  // namespace
@@ -184,16 +211,26 @@ TightenParams tightening_of(const SimplifyParams& params) {
   return tightening;
 }
 
+SimplifyParams growing_part_of(const SimplifyParams& params) {
+  SimplifyParams early = params;
+  early.faces = kEarlyFactor * params.faces;
+  early.most_growth = kMostGrowth;
+  early.strict_from = std::max(kEarlyStrict * params.faces, kEarlyStrictLeast);
+  return early;
+}
+
 LatticeMesh tight_proxy(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params,
                         SimplifyCounts& simplified, TightenCounts& tightened) {
-  const LatticeMesh grown = simplify(dense, early_part_of(params), simplified);
-  return tight_from(grown, enclosed, params, simplified, tightened);
+  Way grown;
+  grown.proxy = simplify(dense, growing_part_of(params), grown.simplified);
+  return take(tight_from(grown, enclosed, params), simplified, tightened);
 }
 
 LatticeMesh tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params,
                         SimplifyCounts& simplified, TightenCounts& tightened) {
-  const LatticeMesh grown = simplify(mesh, early_part_of(params), simplified);
-  LatticeMesh proxy = tight_from(grown, enclosed, params, simplified, tightened);
+  Way grown;
+  grown.proxy = simplify(mesh, growing_part_of(params), grown.simplified);
+  LatticeMesh proxy = take(tight_from(grown, enclosed, params), simplified, tightened);
   proxy.provenance = mesh.provenance;
   return proxy;
 }

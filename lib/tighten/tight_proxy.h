@@ -16,6 +16,9 @@ namespace bp {
 [[nodiscard]] LatticeMesh tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params,
                                       SimplifyCounts& simplified, TightenCounts& tightened);
 
+/// Its first step: growing collapses to some times the faces wanted, with a limit on the growth of each.
+[[nodiscard]] SimplifyParams growing_part_of(const SimplifyParams& params);
+
 /// How a proxy made with `params` is tightened in the end.
 [[nodiscard]] TightenParams tightening_of(const SimplifyParams& params);
 

@@ -7,8 +7,6 @@
 #include "io/scene/scene_format.h"
 #include "lib/core/error.h"
 #include "lib/grid/cells.h"
-#include "lib/pass/voxelize/voxelize_stage.h"
-#include "lib/volume/boundary_runs.h"
 #include "tools/cli/face_list.h"
 #include "tools/cli/names.h"
 #include "tools/run/enclosed_triangles_limit.h"
@@ -18,7 +16,6 @@ namespace bp {
 
 namespace {
 
-constexpr double kVoxelsPerError = 8;  // of the finest level
 constexpr std::int64_t kMostHullsAsked = 4096;
 
 /// The first scene's file name without folder and extension.
@@ -62,14 +59,14 @@ void check_name(BuildOptions& o) {
          given ? "--name" : "the scene's name", o.name);
 }
 
-void set_faces(LodRequest& request, const std::string& text) {
+void set_faces(LevelOptions& request, const std::string& text) {
   const bool percent = text.find('%') != std::string::npos;
   request.faces = percent ? std::vector<std::uint64_t>() : parse_face_list(text);
   request.shares = percent ? parse_face_shares(text) : std::vector<double>();
 }
 
 /// Numbers as numbers, percentages as text.
-Json faces_json(const LodRequest& request) {
+Json faces_json(const LevelOptions& request) {
   if (request.shares.empty()) return request.faces;
   Json all = Json::array();
   for (const double share : request.shares) all.push_back(Length{share, Length::Unit::percent}.text());
@@ -85,12 +82,6 @@ void check_folder_name(const BuildOptions& o) {
   fail(ErrorCode::bad_argument,
        "-o {}: bplod writes several files to a folder, and this is the name of a file; did you mean -o {}?", o.out,
        folder.empty() || folder.ends_with('/') ? folder + o.name : folder);
-}
-
-/// Whether levels are one mesh each, and something has to stay inside while they are tightened.
-bool may_enclose_scene(const BuildOptions& o) {
-  return (o.profile == LodProfile::gltf || o.profile == LodProfile::collision) && o.mode == MeshMode::bounding &&
-         !o.loose;
 }
 
 /// What would be passed over in silence.
@@ -306,51 +297,32 @@ Json options_json(const BuildOptions& o) {
           {"memory", o.common.memory_bytes}};
 }
 
-double area_of(const Bounds3d& b) {
-  const double x = b.max[0] - b.min[0], y = b.max[1] - b.min[1], z = b.max[2] - b.min[2];
-  return 2 * (x * y + y * z + z * x);
-}
-
-/// Of the cube of the same volume: a flat scene shows along its thickness, too, what is in it.
-double area_of_cube_like(const Bounds3d& b) {
-  constexpr double kFlattest = 1.0 / 64;
-  double volume = 1, longest = 0;
-  for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, b.max[i] - b.min[i]);
-  for (std::size_t i = 0; i < 3; ++i) volume *= std::max(b.max[i] - b.min[i], kFlattest * longest);
-  const double edge = std::cbrt(volume);
-  return 6 * edge * edge;
-}
-
 bool is_by_scene(const BuildOptions& o) {
   return o.profile == LodProfile::tiles && !o.voxel && !o.resolution && asks_for_nothing(o.request);
 }
 
-LodRequest request_for(const BuildOptions& o, std::uint64_t triangles) {
+LevelRequest request_for(const BuildOptions& o, std::uint64_t triangles, double diagonal, double voxel) {
   constexpr double kPerCollisionFace = 8;
-  if (o.profile == LodProfile::tiles) return o.request;
-  LodDefaults defaults;
+  const LevelRequest request = request_of(o.request, diagonal, voxel);
+  if (o.profile == LodProfile::tiles || o.profile == LodProfile::occluder) return request;
+  LevelDefaults defaults;
   if (o.profile == LodProfile::collision) defaults = {kPerCollisionFace, kMostCollisionFaces};
   defaults.by_voxels = o.voxel || o.resolution;
-  return request_for(o.request, triangles, defaults);
+  return with_defaults(request, triangles, defaults);
 }
 
-double voxel_size(const BuildOptions& o, const SceneSize& scene, int halvings) {
-  const Bounds3d& bounds = scene.bounds;
-  if (o.voxel) return o.voxel->in_world(bounds.diagonal(), 0);
-  const double error = finest_error(o.request, bounds.diagonal());
-  if (error > 0 && !o.resolution) return error / kVoxelsPerError;
-  if (o.profile == LodProfile::occluder) return voxel_size_of(bounds, o.resolution.value_or(kOccluderResolution));
-  const double coarse = voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
-  const bool tileset = o.profile == LodProfile::tiles;
-  const LodRequest request = request_for(o, scene.triangles);
-  if (o.resolution || request.faces.empty() != tileset) return coarse;
-  const std::uint64_t faces = tileset ? std::min(scene.triangles, kTilesetFaces) : request.faces.front();
-  double dense_faces = double(tileset ? kDensePerFace : kDensePerFaceAsked) * double(faces);
-  if (!tileset) dense_faces = std::max(dense_faces, kLeastDenseFaces);
-  const double area = tileset ? area_of_cube_like(bounds) : area_of(bounds);
-  const double fine = std::min(coarse, std::sqrt(2 * kSlantedSteps * area / dense_faces));
-  const std::int64_t most = tileset ? kMostTilesetResolution : kMostResolution;
-  return std::min(coarse, std::max(std::ldexp(fine, -halvings), voxel_size_of(bounds, most)));
+VoxelRequest voxel_request(const BuildOptions& o, double diagonal) {
+  VoxelRequest voxels;
+  if (o.voxel) voxels.voxel = o.voxel->in_world(diagonal, 0);
+  voxels.resolution = o.resolution.value_or(0);
+  if (o.profile == LodProfile::tiles) voxels.use = VoxelUse::tiles;
+  if (o.profile == LodProfile::occluder) voxels.use = VoxelUse::occluder;
+  return voxels;
+}
+
+double voxel_size(const BuildOptions& o, const SceneSize& scene) {
+  const double diagonal = scene.bounds.diagonal();
+  return chosen_voxel(voxel_request(o, diagonal), request_for(o, scene.triangles, diagonal), scene);
 }
 
 bool can_read_again(const BuildOptions& o) {
@@ -365,19 +337,15 @@ bool may_refine(const BuildOptions& o) {
   return !o.voxel && !o.resolution && by_faces && o.profile != LodProfile::tiles && can_read_again(o);
 }
 
+bool may_enclose_scene(const BuildOptions& o) {
+  return (o.profile == LodProfile::gltf || o.profile == LodProfile::collision) && o.mode == MeshMode::bounding &&
+         !o.loose;
+}
+
 Enclose enclosed_by(const BuildOptions& o, std::uint64_t triangles) {
   if (o.enclose) return *o.enclose;
   const bool scene = may_enclose_scene(o) && can_read_again(o) && triangles <= kMostEnclosedTriangles;
   return scene ? Enclose::scene : Enclose::input;
-}
-
-std::string enclose_note(const BuildOptions& o, std::uint64_t triangles) {
-  if (o.enclose || !may_enclose_scene(o) || enclosed_by(o, triangles) == Enclose::scene) return "";
-  const bool file = can_read_again(o);
-  return fmt::format("{}: levels enclose the scene's voxels, not its triangles, and are less tight; {}",
-                     file ? fmt::format("the scene has {} triangles, more than {}", triangles, kMostEnclosedTriangles)
-                          : "the scene comes from a pipe and cannot be read again",
-                     file ? "--enclose scene takes them all the same" : "give it as a file");
 }
 
 OptionText option_text(const BuildOptions& o, Enclose enclosed, const LodTarget& target, std::size_t i,

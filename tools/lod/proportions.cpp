@@ -27,16 +27,18 @@ void question_proportions(const BuildOptions& o, const SceneSize& scene) {
   const char* const likely =
       o.request.pixels.empty() ? "is the scene in other units?" : "are these pixels of a screen?";
   if (const std::string what = finest_target(o); !what.empty()) question_grid(what, voxel, scene.bounds, likely);
-  if (o.request.scale) question_length("--scale", *o.request.scale, scene.bounds, voxel);
+  if (o.request.scale) question_scale("--scale", *o.request.scale, scene.bounds, voxel);
 }
 
-Estimate estimate_build(const BuildOptions& o, const Bounds3d& scene, double voxel) {
+Estimate estimate_build(const BuildOptions& o, const Bounds3d& scene, const VoxelizeCounts& counts, double voxel) {
   const bool measures = !o.request.errors.empty() || !o.request.pixels.empty();
   const double effort = kLodEffort * (measures ? kErrorEffort : 1);
   const double coarser = o.profile == LodProfile::tiles ? 2 : 1;  // voxels of the next level
-  Estimate all = estimate_voxelize(scene, voxel);
-  for (std::size_t i = 0; i < level_count(o.request); ++i)
-    all.then(estimate_mesh(scene, voxel * std::pow(coarser, i), effort));
+  Estimate all = estimate_voxelize(scene, voxel, most_touched_voxels(counts, voxel));
+  for (std::size_t i = 0; i < level_count(o.request); ++i) {
+    const double edge = voxel * std::pow(coarser, i);
+    all.then(estimate_mesh(scene, edge, effort, most_touched_voxels(counts, edge)));
+  }
   return all;
 }
 

@@ -12,9 +12,6 @@
 /// taken are in collapse_order.h.
 namespace bp {
 
-/// What an edge collapse failed by, in the order of the tests.
-enum class Refusal : std::uint8_t { none, link, constraints, shape, growth, length, enclosed, guard, limits, error };
-
 /// A collapse that passed every test but the guard.
 struct Candidate {
   LatticeCoord position;

@@ -131,19 +131,10 @@ bool StrictOrder::run(double most, std::uint64_t enough) {
 }
 
 void StrictOrder::count(SimplifyCounts& counts) const {
-  std::uint64_t n[std::size_t(Refusal::error) + 1] = {};
+  counts.refused = {};
   for (HalfEdgeId h = 0; h < refusal_.size(); ++h) {
-    if (is_edge(h)) ++n[std::size_t(refusal_[h])];
+    if (is_edge(h)) ++counts.refused[refusal_[h]];
   }
-  counts.refused_link = n[std::size_t(Refusal::link)];
-  counts.refused_constraints = n[std::size_t(Refusal::constraints)];
-  counts.refused_shape = n[std::size_t(Refusal::shape)];
-  counts.refused_growth = n[std::size_t(Refusal::growth)];
-  counts.refused_length = n[std::size_t(Refusal::length)];
-  counts.refused_enclosed = n[std::size_t(Refusal::enclosed)];
-  counts.refused_guard = n[std::size_t(Refusal::guard)];
-  counts.refused_limits = n[std::size_t(Refusal::limits)];
-  counts.refused_error = n[std::size_t(Refusal::error)];
 }
 
 void StrictOrder::push(HalfEdgeId h) {

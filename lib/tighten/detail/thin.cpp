@@ -109,23 +109,17 @@ class Thinner final : public ThinOrder {
   }
 
   bool try_at(HalfEdgeId h, const LatticeCoord& p, const Vec3d& x) {
-    const EditCounts before = editor_.counts();
+    const Refusals before = editor_.counts().refused;
     const bool taken = editor_.collapse(h, p + rounded(x));
-    const EditCounts& after = editor_.counts();
     counts_.collapses += taken;
-    counts_.refused_shape += after.refused_shape - before.refused_shape;
-    counts_.refused_growth += after.refused_growth - before.refused_growth;
-    counts_.refused_growth += after.refused_reach - before.refused_reach;
-    counts_.refused_enclosed += after.refused_enclosed - before.refused_enclosed;
-    counts_.refused_guard += after.refused_guard - before.refused_guard;
-    counts_.refused_length += after.refused_length - before.refused_length;
-    counts_.refused_limits += after.refused_limits - before.refused_limits;
+    counts_.refused += editor_.counts().refused;
+    counts_.refused -= before;
     return taken;
   }
 
   std::optional<Candidate> solve(HalfEdgeId h) {
     if (!mesh_.can_collapse(h)) {
-      ++counts_.refused_link;
+      ++counts_.refused[Refusal::link];
       return std::nullopt;
     }
     ++counts_.solved;
@@ -133,7 +127,7 @@ class Thinner final : public ThinOrder {
     if (!fit_.close()) return std::nullopt;
     const auto x = fit_.least_volume(middle_, kReach * size_);
     if (!x) {
-      ++counts_.refused_constraints;
+      ++counts_.refused[Refusal::constraints];
       return std::nullopt;
     }
     return Candidate{*x, fit_.volume(*x) - before};

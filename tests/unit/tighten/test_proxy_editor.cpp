@@ -69,7 +69,7 @@ TEST_CASE("no fin grows at the end of a beam: how far is far is told by its widt
   VertexId v = 0;
   while (mesh.position(v) != corner) ++v;
   CHECK_FALSE(editor.move(v, corner + LatticeCoord{0, 0, 3 * kVoxel}));
-  CHECK(editor.counts().refused_shape == 1);
+  CHECK(editor.counts().refused[Refusal::shape] == 1);
   CHECK(editor.move(v, corner + LatticeCoord{0, 0, kVoxel / 2}));
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("no step goes beyond its reach until that is loosened, and any goes in
   while (mesh.position(v) != corner) ++v;
   const LatticeCoord out = corner + LatticeCoord{2 * kVoxel, 2 * kVoxel, 2 * kVoxel};
   CHECK_FALSE(editor.move(v, out));
-  CHECK(editor.counts().refused_reach == 1);
+  CHECK(editor.counts().beyond_reach == 1);
   int times = 0;
   while (!editor.move(v, out)) {
     REQUIRE(editor.loosen());

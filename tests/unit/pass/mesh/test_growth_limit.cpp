@@ -67,7 +67,7 @@ TEST_CASE("collapses add no more to a proxy, and take no more from one inside, t
     params.faces = 8;
     SimplifyCounts counts;
     const LatticeMesh mesh = simplify(start.mesh, params, counts);
-    Outcome out{double(volume6_of(mesh)) / kVolume6OfVoxel - before, 0, counts.refused_growth};
+    Outcome out{double(volume6_of(mesh)) / kVolume6OfVoxel - before, 0, counts.refused[Refusal::growth]};
     for (std::size_t f = start.mesh.triangles.size(); f > mesh.triangles.size(); f -= 2)
       out.bound += most_growth * std::abs(before) / double(f);
     return out;

@@ -4,7 +4,7 @@
 
 #include "lib/closing/closing.h"
 #include "lib/grid/cells.h"
-#include "tools/lod/build_options.h"
+#include "lib/levels/level_request.h"
 
 /// What a tileset is made of, as far as the bounds of the scene tell: nothing here needs a voxel.
 namespace bp {
@@ -18,6 +18,15 @@ struct CutLevel {
   CellSpan cells;        ///< of all tiles; there are none where the closing has no voxel
   std::uint64_t number;  ///< of the first cell: jobs are numbered level by level, in the order of cells
   [[nodiscard]] std::uint64_t number_of(CellCoord cell) const { return number + cells.index(cell); }
+};
+
+/// Jobs of a tileset by their numbers in the plan: [begin, end).
+struct JobRange {
+  std::uint64_t begin = 0, end = 0;
+  /// Whether one of `count` numbers from `first` on lies in it.
+  [[nodiscard]] bool meets(std::uint64_t first, std::uint64_t count) const {
+    return first < end && begin < first + count && begin < end;
+  }
 };
 
 struct TilesetPlan {
@@ -37,10 +46,10 @@ struct TilesetPlan {
 };
 
 /// header: of the solid, aligned to the cells.
-[[nodiscard]] TilesetPlan plan_tileset(const BuildOptions& options, const StreamHeader& header);
+[[nodiscard]] TilesetPlan plan_tileset(const LevelRequest& request, Cells cells, const StreamHeader& header);
 
 /// How many levels it takes that the coarsest is not cut, whatever was asked for.
-[[nodiscard]] std::size_t levels_to_one_mesh(const BuildOptions& options, const StreamHeader& header);
+[[nodiscard]] std::size_t levels_to_one_mesh(LevelRequest request, Cells cells, const StreamHeader& header);
 
 /// Reach of the closing at a scale that is the same everywhere.
 [[nodiscard]] Halo halo_at(double scale_world, const GridFrame& frame);

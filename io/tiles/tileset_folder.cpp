@@ -1,4 +1,4 @@
-#include "tools/lod/tileset_folder.h"
+#include "io/tiles/tileset_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -1,4 +1,4 @@
-#include "tools/lod/tile_tree.h"
+#include "lib/levels/tile_tree.h"
 
 #include <algorithm>
 

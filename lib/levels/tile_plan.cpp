@@ -1,4 +1,4 @@
-#include "tools/lod/tile_plan.h"
+#include "lib/levels/tile_plan.h"
 
 #include <algorithm>
 
@@ -22,7 +22,7 @@ std::int64_t longest_side(const VoxelBox& box) {
 }
 
 /// As many as were asked for; else at least so many that the root is one mesh.
-std::size_t level_count_with(const LodRequest& request, std::size_t cut) {
+std::size_t level_count_with(const LevelRequest& request, std::size_t cut) {
   const std::size_t asked = level_count(request);
   return is_explicit(request) ? asked : std::max(asked, cut + 1);
 }
@@ -36,8 +36,7 @@ Halo halo_at(double scale_world, const GridFrame& frame) {
   return {reach + 1, reach};
 }
 
-TilesetPlan plan_tileset(const BuildOptions& o, const StreamHeader& header) {
-  const Cells cells{o.tile_vox};
+TilesetPlan plan_tileset(const LevelRequest& request, Cells cells, const StreamHeader& header) {
   TilesetPlan plan;
   plan.uncut = header;
   VoxelBox solid = voxel_bounds(header.frame, header.bounds);
@@ -47,8 +46,8 @@ TilesetPlan plan_tileset(const BuildOptions& o, const StreamHeader& header) {
     return cells_spanned(cells, plan.uncut.bricks).count() > 1 &&
            (level == 0 || longest_side(solid) > TilesetPlan::kWholeVox);
   };
-  for (; level < level_count_with(o.request, level) && is_cut(); ++level) {
-    const LodTarget target = tile_target_of(o.request, level, header.bounds.diagonal(), header.frame.voxel);
+  for (; level < level_count_with(request, level) && is_cut(); ++level) {
+    const LodTarget target = tile_target(request, level);
     const GridFrame& frame = plan.uncut.frame;
     const double scale = scale_of(target, frame.voxel);
     // A closing reaches one voxel beyond what it closes.
@@ -61,14 +60,13 @@ TilesetPlan plan_tileset(const BuildOptions& o, const StreamHeader& header) {
       solid.max[i] = ceil_div(solid.max[i], 2);
     }
   }
-  plan.whole = level_count_with(o.request, level) - level;
+  plan.whole = level_count_with(request, level) - level;
   return plan;
 }
 
-std::size_t levels_to_one_mesh(const BuildOptions& options, const StreamHeader& header) {
-  BuildOptions more = options;
-  more.request.levels = kMostLevels;
-  return plan_tileset(more, header).cut.size() + 1;
+std::size_t levels_to_one_mesh(LevelRequest request, Cells cells, const StreamHeader& header) {
+  request.levels = kMostLevels;
+  return plan_tileset(request, cells, header).cut.size() + 1;
 }
 
 }  // namespace bp
