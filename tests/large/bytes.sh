@@ -52,7 +52,7 @@ pipe_cases() {
     rm again.bpv
   done
   for element in cube ball; do
-    bpclose flood.bpv --scale 3vx --element $element --device cpu -j 1 --tile 64 -q -o $element.bpv
+    bpclose flood.bpv --scale 3vx --element $element --device cpu -j 1 -q -o $element.bpv
     bpclose flood.bpv --scale 3vx --element $element --device cpu -j 3 --memory 192M -q -o again.bpv
     same "close $element" $element.bpv again.bpv
     rm again.bpv
