@@ -145,14 +145,13 @@ void check_jobs(const BuildOptions& o) {
 
 void declare_profile(Args& args, BuildOptions& o) {
   args.group("Profile");
-  args.option(
-      "--profile",
-      {{"gltf", LodProfile::gltf, "levels of detail: a GLB for each, and one GLB with all of them (MSFT_lod)"},
-       {"3dtiles", LodProfile::tiles, "a tileset for CesiumJS and other viewers of 3D Tiles; check --up"},
-       {"collision", LodProfile::collision, "one mesh around the scene, with files for Godot, Unreal and Unity"},
-       {"occluder", LodProfile::occluder, "one mesh inside the scene that hides what lies behind it, for Godot"},
-       {"cage", LodProfile::cage, "one mesh of quads around the scene, to deform it by: OBJ, and GLB to look at"}},
-      o.profile, "what the levels are for");
+  args.option("--profile",
+              {{"gltf", LodProfile::gltf, "levels of detail as GLB"},
+               {"3dtiles", LodProfile::tiles, "a tileset for CesiumJS and the like"},
+               {"collision", LodProfile::collision, "one mesh for physics in game engines"},
+               {"occluder", LodProfile::occluder, "one mesh inside, for culling in Godot"},
+               {"cage", LodProfile::cage, "one mesh of quads, to deform with"}},
+              o.profile, "what the levels are for");
   args.option(
       "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_count(text, 1, kMostHullsAsked); },
       "collision: largest number of convex hulls in Unreal's file (default: 32, or one for each part where there are "
