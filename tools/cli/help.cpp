@@ -136,7 +136,7 @@ std::string markdown_help(const ToolDeclaration& tool) {
   };
   for (const Declaration& d : tool.arguments) add(d, d.names);
   for_each_group(tool.options, [&](const std::string& group, const std::vector<Declaration>& its) {
-    text += fmt::format("\n### {}\n\n", group);
+    text += fmt::format("\n## {}\n\n", group);
     for (const Declaration& d : its) add(d, signature(d));
   });
   return text;

@@ -192,7 +192,7 @@ TEST_CASE("the short help has the options that are needed often, the full help a
   CHECK(short_help(tool).find("--kind") == std::string::npos);
   CHECK(full_help(tool).find("Kind:\n  --kind plain|round") != std::string::npos);
   CHECK(full_help(tool).find("        round  as --edge says\n") != std::string::npos);
-  CHECK(markdown_help(tool).find("### Kind\n\n- `--kind plain|round`: what is made (default: plain)\n") !=
+  CHECK(markdown_help(tool).find("## Kind\n\n- `--kind plain|round`: what is made (default: plain)\n") !=
         std::string::npos);
   CHECK(markdown_help(tool).find("  - `round`: as `--edge` says\n") != std::string::npos);
 }
