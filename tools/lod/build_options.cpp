@@ -78,8 +78,13 @@ void check_profile(const Args& args, const BuildOptions& o) {
       if (args.given(name))
         fail(ErrorCode::bad_argument, "{} has no meaning with --profile {}", name, name_of(o.profile));
   };
-  if (!o.is_tileset()) args.needs({"--tile", "--tiles", "--cache"}, "--profile 3dtiles");
-  if (o.profile != LodProfile::collision) args.needs({"--hulls"}, "--profile collision");
+  const auto needs = [&](std::initializer_list<const char*> names, LodProfile profile) {
+    for (const char* const name : names)
+      if (args.given(name) && o.profile != profile)
+        fail(ErrorCode::bad_argument, "{} needs --profile {}", name, name_of(profile));
+  };
+  needs({"--tile", "--tiles", "--cache"}, LodProfile::tiles);
+  needs({"--hulls"}, LodProfile::collision);
   if (o.is_tileset() && args.given("--origin"))
     fail(ErrorCode::bad_argument,
          "--origin: a tileset holds its place in double, in the transforms of its tiles; leave it out, and move the "
