@@ -22,7 +22,7 @@ namespace bp {
 
 namespace {
 
-// What is estimated, from plants and scanned models: docs/bplod.1.md says that it is.
+// What is estimated, from plants and scanned models: docs/tilesets.md says that it is.
 constexpr double kBytesPerFace = 4, kBytesPerTile = 2200;  // of compressed GLB; and of a tile's place in the tileset
 constexpr double kBytesPerPlainFace = 18;                  // of GLB
 constexpr double kScratchPerTriangle = 20;                 // that waits on disk
