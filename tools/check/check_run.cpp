@@ -49,7 +49,7 @@ CheckRun parse_check_run(Args& args) {
   check_stdin_once(o.files);
   keep_inputs(o.files);
   o.samples_given = args.given("--samples");
-  if (o.samples_given && o.files.size() < 2)
+  if (o.samples_given && o.samples > 0 && o.files.size() < 2)
     fail(ErrorCode::bad_argument, "--samples means nothing without a scene; leave it out");
   if (o.inside && o.files.size() < 2)
     fail(ErrorCode::bad_argument, "--inside asks for a scene around the proxy; name it before the proxy");
