@@ -202,7 +202,7 @@ void declare(Args& args, BuildOptions& o) {
   args.removed("--resume", "--cache DIR keeps what is done, and a run after a kill goes on from there");
   args.removed("--screen",
                "--error takes pixels: --error 800px is one pixel where the scene's diagonal is 800 pixels on screen");
-  args.often({"--output", "--profile", "--faces", "--error", "--levels", "--up", "--memory", "--overwrite"});
+  args.often({"--output", "--profile", "--faces", "--error", "--levels", "--up", "--overwrite"});
   args.example("bplod plant.glb --profile collision -o plant-collision");
 }
 
