@@ -30,5 +30,5 @@ limit=104
 within bpmesh boxes.bpv --faces 12000,11900 -o tight.ply
 cmp roomy.1.ply tight.1.ply && echo "the same bytes"
 try bpmesh boxes.bpv --faces 12000 -j 1 --memory 96M -q -o small.ply
-try bpmesh boxes.bpv --faces 12000,11900 -j 1 --memory 96M -q -o small.ply --overwrite
+try bpmesh boxes.bpv --faces 12000,11900 -j 1 --memory 88M -q -o small.ply --overwrite
 (ulimit -v 400000; try bplod plant.ply --resolution 1500 --levels 1 -j 1 --memory 64M -q -o y | sed 's/[0-9.]* MiB/N MiB/g')
