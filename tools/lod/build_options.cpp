@@ -180,15 +180,13 @@ void declare_tileset(Args& args, BuildOptions& o) {
 }
 
 void declare(Args& args, BuildOptions& o) {
-  args.about("Makes levels of detail of scenes: coarser and coarser proxies that strictly enclose them.");
-  o.voxels.add_scenes(args, "scenes, taken together");
-  args.option("-o,--output", "DIR", o.out, "folder of the levels; it is made if it does not exist");
+  args.about("Makes levels of detail of scenes: coarser and coarser proxies around them.");
+  o.voxels.add_scenes(args, "scenes");
+  args.option("-o,--output", "DIR", o.out, "folder of the levels, made if missing");
   args.option("--name", "NAME", o.name, "first part of the names of files and nodes (default: the first scene's)");
   declare_profile(args, o);
-  o.levels.add_of_scene(
-      args, "as many as are listed; else 4, or fewer where a level would have less than 12 faces",
-      "half of the scene's triangles, at most 40000; collision: an eighth, at most 5000; cage: at most "
-      "500; occluder: 100 or more");
+  o.levels.add_of_scene(args, "as many as are listed; else 4, or fewer where a level would have less than 12 faces",
+                        "half of the scene's triangles, at most 40000; other profiles: fewer");
   o.proxy.add_of_scene(args);
   o.voxels.add_to(args,
                   "from --faces, 256 to 1024; from --error, 8 voxels to an error; occluder: 512; 3dtiles: from "
