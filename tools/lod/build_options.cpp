@@ -155,7 +155,7 @@ void declare_profile(Args& args, BuildOptions& o) {
                {"3dtiles", LodProfile::tiles, "a tileset for CesiumJS and the like"},
                {"collision", LodProfile::collision, "one mesh for physics in game engines"},
                {"occluder", LodProfile::occluder, "one mesh inside, for culling in Godot"},
-               {"cage", LodProfile::cage, "one mesh of quads, to deform with"}},
+               {"cage", LodProfile::cage, "quads and triangles, to deform with"}},
               o.profile, "what the levels are for");
   args.option(
       "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_count(text, 1, kMostHullsAsked); },
