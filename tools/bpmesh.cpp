@@ -400,7 +400,7 @@ std::string set_enclosure(const Options& o, const bp::StreamHeader& header, bp::
   // Nobody asked for the scene: the bound is on what bpmesh adds to the closing that was asked for.
   if (o.error && o.mode == bp::MeshMode::bounding && o.enclose.kind == bp::EncloseOption::Kind::automatic)
     params.distances_to = bp::Enclose::closing;
-  return o.enclose.kind == bp::EncloseOption::Kind::files ? o.enclose.text() : enclosure.name();
+  return o.enclose.kind == bp::EncloseOption::Kind::files ? o.enclose.text() : name_of(enclosure.what);
 }
 
 /// A file of one format called by the name of another would be read as that.

@@ -18,18 +18,12 @@ namespace bp {
 
 namespace {
 
-constexpr double kVoxelsPerError = 8;  // of the finest level
 constexpr std::int64_t kMostHullsAsked = 4096;
 
 /// The first scene's file name without folder and extension.
 std::string base_name(const std::string& path) {
   const std::string file = path.substr(path.rfind('/') + 1);
   return file == "-" ? "scene" : file.substr(0, file.rfind('.'));
-}
-
-const char* name_of(Enclose enclose) {
-  constexpr const char* kNames[] = {"closing", "input", "scene"};
-  return kNames[std::size_t(enclose)];
 }
 
 /// The value, or null.
@@ -314,9 +308,8 @@ double area_of(const Bounds3d& b) {
 /// Of the cube of the same volume: a flat scene shows along its thickness, too, what is in it.
 double area_of_cube_like(const Bounds3d& b) {
   constexpr double kFlattest = 1.0 / 64;
-  double volume = 1, longest = 0;
-  for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, b.max[i] - b.min[i]);
-  for (std::size_t i = 0; i < 3; ++i) volume *= std::max(b.max[i] - b.min[i], kFlattest * longest);
+  double volume = 1;
+  for (std::size_t i = 0; i < 3; ++i) volume *= std::max(b.max[i] - b.min[i], kFlattest * b.longest_side());
   const double edge = std::cbrt(volume);
   return 6 * edge * edge;
 }

@@ -13,7 +13,7 @@ namespace bp {
 constexpr std::uint64_t kDensePerFace = 100;       ///< triangles of the dense surface for one of a finest level
 constexpr std::uint64_t kDensePerFaceAsked = 190;  ///< the same where --faces chooses the voxels
 constexpr std::uint64_t kMostLevels = 32;
-constexpr std::uint64_t kLeastFaces = 12;  ///< that nobody asked for: of a box
+constexpr std::uint64_t kLeastFaces = kFacesOfBox;  ///< that nobody asked for
 /// Faces of a finest level, or of a collision mesh, that nobody asked for, at most: for time, and for physics.
 constexpr std::uint64_t kMostDefaultFaces = 40000, kMostCollisionFaces = 5000;
 
