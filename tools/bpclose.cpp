@@ -7,6 +7,7 @@
 #include "lib/pass/close/close_stage.h"
 #include "lib/pass/mesh/complement.h"
 #include "tools/cli/names.h"
+#include "tools/cli/options/closing.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
 #include "tools/notes/estimate.h"
@@ -25,54 +26,49 @@ using bp::fail;
 struct Options {
   bp::CommonOptions common;
   std::string in = "-", out = "-", field;
-  std::optional<bp::Length> scale;
-  bp::ClosingParams closing;
-  int tile_vox = 0;
+  bp::ClosingOptions closing;
   bool keep_cavities = false, inner = false;
 };
 
 Options parse(bp::Args& args) {
   Options o;
-  args.about(
-      "Closes a stream of solid voxels: gaps, holes and concavities narrower than the scale disappear; nothing is cut "
-      "off.");
+  args.about("Closes a stream of voxels: gaps, holes and grooves narrower than the scale are filled.");
   args.example("bpvox plant.glb --voxel 0.1 | bpclose --scale 2 | bpmesh --faces 5000 -o proxy.glb");
-  args.positional("INPUT", o.in, "stream of bricks; - is stdin");
-  args.option("-o,--output", "FILE", o.out, "stream of bricks with both layers; - is stdout");
-  args.option("-s,--scale", "LENGTH", o.scale, "closing radius: scene units, 2% of the scene's diagonal, or 20vx");
-  args.option("--element", {{"cube", bp::StructuringElement::cube}, {"ball", bp::StructuringElement::ball}},
-              o.closing.element, "of the dilation; cube: large flat areas survive");
-  args.option("--field", "FILE", o.field, "scale field as JSON (docs/bpclose.1.md) instead of --scale");
-  args.option("--tile", "N", o.tile_vox, "voxels along a tile, a multiple of 64; 0: chosen by memory and scale");
-  args.flag("--keep-cavities", o.keep_cavities, "leave enclosed hollows empty");
-  args.flag(
-      "--inner", o.inner,
-      "open instead of close: parts narrower than the scale disappear, nothing is added; for bpmesh --mode inside, "
-      "of a stream of bpvox --fill inside");
+  args.positional("INPUT", o.in, "stream of voxels; - is stdin");
+  args.group("Files");
+  args.option("-o,--output", "FILE", o.out, "stream of voxels, with the closing; - is stdout");
+  o.closing.add_to(args, "", "");
+  args.option("--field", "FILE", o.field, "scales that differ from place to place, as JSON, instead of --scale");
+  args.removed("--tile", "bpclose chooses the tiles by --memory");
+  args.flag("--keep-cavities", o.keep_cavities, "leave hollows empty that the closing cuts off from the outside");
+  args.flag("--inner", o.inner,
+            "open instead of close: parts narrower than the scale are removed, nothing is added; for bpmesh --mode "
+            "inside, and a stream of bpvox --fill inside");
   o.common.device_text =
       "auto, cpu, cuda (every GPU) or cuda:0,1 (default: auto, one GPU where the work is worth its start, or the CPU)";
   o.common.add_to(args);
+  args.often({"--output", "--scale", "--element", "--inner", "--memory", "--overwrite"});
   args.parse();
   args.excludes("--keep-cavities", "--inner");
   bp::check_stream_name(o.out);
   bp::keep_inputs({o.in});
   if (!o.field.empty()) bp::keep_inputs({o.field});
-  if (!o.scale && o.field.empty()) fail(ErrorCode::bad_argument, "give a --scale or a --field");
-  if (o.scale && !o.field.empty()) fail(ErrorCode::bad_argument, "--scale and --field exclude each other");
+  if (!o.closing.scale && o.field.empty()) fail(ErrorCode::bad_argument, "give a --scale or a --field");
+  if (o.closing.scale && !o.field.empty()) fail(ErrorCode::bad_argument, "--scale and --field exclude each other");
   return o;
 }
 
 bp::ScaleField scale_field(const Options& o, const bp::StreamHeader& header) {
   if (!o.field.empty()) return bp::parse_scale_field(bp::read_text(o.field), o.field);
   bp::ScaleField field;
-  field.base = o.scale->in_world(header.bounds.diagonal(), header.frame.voxel);
+  field.base = o.closing.scale->in_world(header.bounds.diagonal(), header.frame.voxel);
   return field;
 }
 
 bp::OptionText option_text(const Options& o, const bp::ScaleField& field) {
   bp::OptionText text;
-  if (o.scale) {
-    text.add("scale", *o.scale);
+  if (o.closing.scale) {
+    text.add("scale", *o.closing.scale);
   } else {
     text.add("field", bp::to_json(field));
   }
@@ -91,7 +87,6 @@ bp::CloseOptions stage_options(const Options& o, std::uint64_t pinned, bp::Progr
     const std::uint64_t all = for_tiles > fixed / 2 ? 2 * for_tiles + fixed : 4 * for_tiles;
     return fmt::format(" to at least {} MiB", (all >> 20) + 1);
   };
-  options.tile_vox = o.tile_vox;
   options.keep_cavities = o.keep_cavities || o.inner;  // the cavities of the complement are the solid
   options.memory_bytes = usable / 2;
   options.make_shelf = bp::make_shelf_factory(usable / 5 * 2, o.common.temp);
@@ -143,7 +138,8 @@ void run(const Options& o) {
   const auto output = bp::open_output(o.out, o.common.overwrite);
   bp::BrickReader source(o.in);
   check_fill(o, source.header());
-  if (o.scale) bp::question_length("--scale", *o.scale, source.header().bounds, source.header().frame.voxel);
+  if (o.closing.scale)
+    bp::question_scale("--scale", *o.closing.scale, source.header().bounds, source.header().frame.voxel);
   const bp::ScaleField field = scale_field(o, source.header());
   for (const std::string& text : bp::scale_notes(field, source.header(), o.inner)) report.note(text, o.common);
   const bp::Estimate estimate = bp::estimate_close(source.header(), field);
@@ -154,7 +150,7 @@ void run(const Options& o) {
   report.stage("close");
   const auto close = o.inner ? open_stream : bp::close_stream;
   const bp::CloseCounts counts =
-      close(source, sink, backends, field, o.closing, stage_options(o, bp::pinned_bytes(backends), progress));
+      close(source, sink, backends, field, {o.closing.element}, stage_options(o, bp::pinned_bytes(backends), progress));
   sink.finish();
   output->commit();
 

@@ -11,6 +11,7 @@
 #include "lib/core/error.h"
 #include "lib/pass/voxelize/voxelize_stage.h"
 #include "tools/cli/names.h"
+#include "tools/cli/options/voxel.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
 #include "tools/notes/estimate.h"
@@ -24,82 +25,55 @@
 
 namespace {
 
-using bp::ErrorCode;
-using bp::fail;
-
 constexpr std::int64_t kDefaultResolution = 256;
 
 struct Options {
   bp::CommonOptions common;
-  std::vector<std::string> scenes;
-  std::string out = "-", format;
-  std::optional<bp::Length> voxel;
-  std::optional<std::int64_t> resolution;
-  bp::FillMode fill = bp::FillMode::flood;
-  std::optional<bp::UpAxis> up;
+  bp::VoxelOptions voxels;
+  std::string out = "-";
 };
 
 Options parse(bp::Args& args) {
   Options o;
-  args.about(
-      "Turns scenes, however large, into a stream of voxels: every voxel that a triangle touches, and the inside.");
+  args.about("Turns scenes of any size into a stream of voxels: all voxels that the surface touches, and the inside.");
   args.example("bpvox plant.glb --voxel 0.1 | bpclose --scale 2 | bpmesh --faces 5000 -o proxy.glb");
-  args.positional("SCENE", o.scenes, "scenes, voxelized together; - is stdin and needs --format");
-  args.option("-o,--output", "FILE", o.out, "stream of bricks; - is stdout");
-  args.option("--voxel", "LENGTH", o.voxel, "edge of a voxel: scene units, or 0.5% of the scene's diagonal");
-  args.option("--resolution", "N", o.resolution,
-              "voxels along the longest side of the scene (default: 256, if there is no --voxel)");
-  args.option(
-      "--fill",
-      {{"flood", bp::FillMode::flood},
-       {"winding", bp::FillMode::winding},
-       {"none", bp::FillMode::none},
-       {"inside", bp::FillMode::inside}},
-      o.fill,
-      "inside: what the outside cannot reach; where the winding number is not 0 (keeps cavities); nothing; the first "
-      "without the voxels that triangles touch, for bpclose --inner and bpmesh --mode inside");
-  args.option("--up", "x|y|z|-x|-y|-z", o.up,
-              "axis of the scene that points up (default: y, or what a proxy of ours tells)");
-  args.option("--format", "NAME", o.format,
-              "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");
-  o.common.add_to(args);
+  o.voxels.add_scenes(args, "scenes, voxelized together");
+  args.option("-o,--output", "FILE", o.out, "stream of voxels; - is stdout");
+  o.voxels.add_with_inside(args, std::to_string(kDefaultResolution));
+  o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
+  args.removed("--device", "bpvox always computes on the CPU");
+  args.often({"--output", "--voxel", "--resolution", "--fill", "--up", "--memory", "--overwrite"});
   args.parse();
-  bp::check_scene_format(o.format, o.scenes);
+  o.voxels.check();
   bp::check_stream_name(o.out);
-  bp::keep_inputs(o.scenes);
-  if (o.voxel && o.resolution) fail(ErrorCode::bad_argument, "--voxel and --resolution exclude each other");
-  if (o.voxel && o.voxel->unit == bp::Length::Unit::voxels)
-    fail(ErrorCode::bad_argument, "--voxel {}: a voxel is not measured in voxels", o.voxel->text());
-  if (o.voxel && !(o.voxel->value > 0)) fail(ErrorCode::bad_argument, "--voxel {}: must be above 0", o.voxel->text());
-  if (o.resolution && *o.resolution < 1) fail(ErrorCode::bad_argument, "--resolution 0: at least 1 voxel is needed");
   return o;
 }
 
 /// told: whether the user or the scene said which axis is up; of another axis than y that goes without saying.
 bp::OptionText option_text(const Options& o, bp::UpAxis up, bool told) {
   bp::OptionText text;
-  if (o.voxel) {
-    text.add("voxel", *o.voxel);
+  if (o.voxels.voxel) {
+    text.add("voxel", *o.voxels.voxel);
   } else {
-    text.add("resolution", o.resolution.value_or(kDefaultResolution));
+    text.add("resolution", o.voxels.resolution.value_or(kDefaultResolution));
   }
-  text.add("fill", name_of(o.fill)).add("up", name_of(up));
+  text.add("fill", name_of(o.voxels.fill)).add("up", name_of(up));
   if (told && up == bp::UpAxis::y) text.add(bp::kUpTold, true);
   return text;
 }
 
 /// Asked for when the scene has been read once.
 double voxel_size(const Options& o, const bp::Bounds3d& bounds) {
-  if (!o.voxel) return bp::voxel_size_of(bounds, o.resolution.value_or(kDefaultResolution));
-  bp::question_voxel("--voxel", *o.voxel, bounds);
-  return o.voxel->in_world(bounds.diagonal(), 0);
+  if (!o.voxels.voxel) return bp::voxel_size_of(bounds, o.voxels.resolution.value_or(kDefaultResolution));
+  bp::question_voxel("--voxel", *o.voxels.voxel, bounds);
+  return o.voxels.voxel->in_world(bounds.diagonal(), 0);
 }
 
 /// For tools that come later; nothing if part of the scene came from a pipe, which cannot be read again.
 bp::SceneFiles scene_files(const Options& o, const bp::VoxelizeCounts& counts) {
-  const std::string format = o.format.empty() ? "" : bp::scene_format_named(o.format);
+  const std::string format = o.voxels.format.empty() ? "" : bp::scene_format_named(o.voxels.format);
   bp::SceneFiles scene{{}, format, counts.scene.triangles, counts.input_hash};
-  for (const std::string& name : o.scenes) {
+  for (const std::string& name : o.voxels.scenes) {
     std::error_code none;
     if (name == "-" || !std::filesystem::is_regular_file(name, none)) return {};
     scene.files.push_back({name, std::filesystem::file_size(name, none)});
@@ -110,8 +84,8 @@ bp::SceneFiles scene_files(const Options& o, const bp::VoxelizeCounts& counts) {
 bp::VoxelizeOptions stage_options(const Options& o, const bp::VoxelizeBudget& budget, bp::Progress& progress) {
   bp::VoxelizeOptions v;
   v.voxel_size = [&o](const bp::Bounds3d& bounds) { return voxel_size(o, bounds); };
-  v.fill = o.fill;
-  v.up = o.up;
+  v.fill = o.voxels.fill;
+  v.up = o.voxels.up;
   v.memory_bytes = budget.waiting;
   v.tile_memory_bytes = budget.tiles;
   v.make_shelf = bp::make_shelf_factory(budget.shelf, o.common.temp);
@@ -127,7 +101,7 @@ bp::VoxelizeOptions stage_options(const Options& o, const bp::VoxelizeBudget& bu
 void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& header, const bp::VoxelizeCounts& c) {
   report.options["options"] = header.provenance.back().options;
   report.options["memory"] = o.common.memory_bytes;
-  report.bytes_in = bp::size_of_files(o.scenes);
+  report.bytes_in = bp::size_of_files(o.voxels.scenes);
   report.counts["triangles"] = c.scene.triangles;
   report.counts["degenerate"] = c.scene.degenerate;
   report.counts["non_finite"] = c.scene.non_finite;
@@ -164,9 +138,9 @@ void run(const Options& o) {
   bp::Backends backends = bp::make_backends(o.common, 0);  // reading takes far longer than voxelizing
   const std::uint64_t memory = bp::unpinned(o.common.memory_bytes, bp::pinned_bytes(backends));
   const bp::VoxelizeBudget budget(memory);
-  bp::SceneOptions scene{o.format, budget.reader, o.common.temp};
-  scene.document = bp::document_budget(memory, bp::kVoxelProgram, o.scenes.size());
-  const auto source = bp::open_scenes(o.scenes, scene);
+  bp::SceneOptions scene{o.voxels.format, budget.reader, o.common.temp};
+  scene.document = bp::document_budget(memory, bp::kVoxelProgram, o.voxels.scenes.size());
+  const auto source = bp::open_scenes(o.voxels.scenes, scene);
   const auto file = bp::open_output(o.out, o.common.overwrite);
   std::optional<bp::BrickWriter> writer;
   bp::StreamHeader header;
@@ -174,10 +148,11 @@ void run(const Options& o) {
   const auto open = [&](const bp::StreamHeader& h, const bp::VoxelizeCounts& counts) -> bp::BrickSink& {
     report.stage("voxelize");
     header = h;
-    const bp::Estimate estimate = bp::estimate_voxelize(h.bounds, h.frame.voxel);
+    const bp::Estimate estimate =
+        bp::estimate_voxelize(h.bounds, h.frame.voxel, bp::most_touched_voxels(counts, h.frame.voxel));
     bp::note_estimate(estimate, o.common, progress, report);
     header.provenance.push_back(
-        bp::make_provenance("bpvox", option_text(o, h.frame.up, o.up || source->up()), counts.input_hash));
+        bp::make_provenance("bpvox", option_text(o, h.frame.up, o.voxels.up || source->up()), counts.input_hash));
     header.scene = scene_files(o, counts);
     return writer.emplace(*file, header);
   };

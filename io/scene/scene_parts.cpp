@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <sstream>
+#include <streambuf>
 #include <string_view>
 
 #include "io/files/file.h"
@@ -19,21 +20,132 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kMostJson = std::size_t(64) << 20, kMostObj = std::size_t(64) << 10,
-                      kMostMtl = std::size_t(1) << 20;
+constexpr std::uint64_t kMostJson = std::uint64_t(64) << 20;
+constexpr std::size_t kMostObj = std::size_t(64) << 10, kMostMtl = std::size_t(1) << 20;
+constexpr std::size_t kMostToken = std::size_t(16) << 10;  // bytes; a path has 4096, each of them may be %41
+constexpr std::size_t kMostNames = std::size_t(4) << 20;   // bytes of all names
+constexpr std::size_t kMostDeep = 1000;
 
-std::vector<std::string> named_by_gltf(const std::string& text) {
-  std::vector<std::string> names;
-  const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
-  for (const char* key : {"buffers", "images"}) {
-    if (!document.is_object() || !document.contains(key) || !document.at(key).is_array()) continue;
-    for (const nlohmann::json& item : document.at(key)) {
-      if (!item.is_object() || !item.contains("uri") || !item.at("uri").is_string()) continue;
-      const auto uri = item.at("uri").get<std::string>();
-      if (!uri.starts_with("data:")) names.push_back(detail::percent_decoded(uri));
+/// The JSON in a range of a file, piece by piece. Long strings and numbers are cut: buffers lie in some.
+class JsonBytes final : public std::streambuf {
+ public:
+  JsonBytes(const InputFile& file, std::uint64_t begin, std::uint64_t size)
+      : file_(file), at_(begin), end_(begin + std::min(size, kMostJson)), piece_(std::size_t(64) << 10, '\0') {}
+
+ protected:
+  int_type underflow() override {
+    std::size_t kept = 0;
+    while (kept == 0) {
+      const std::uint64_t wanted = std::min<std::uint64_t>(end_ - at_, piece_.size());
+      const std::size_t n = file_.read_at(at_, std::as_writable_bytes(std::span(piece_.data(), std::size_t(wanted))));
+      if (n == 0) return traits_type::eof();
+      at_ += n;
+      for (std::size_t i = 0; i < n; ++i) {
+        if (keeps(piece_[i])) piece_[kept++] = piece_[i];
+      }
     }
+    setg(piece_.data(), piece_.data(), piece_.data() + kept);
+    return traits_type::to_int_type(piece_[0]);
   }
-  return names;
+
+ private:
+  /// Whether c, which comes next, is not cut off.
+  bool keeps(char c) {
+    const bool whole = escaped_ == 0 && (c & 0xC0) != 0x80;  // neither inside an escape nor inside a character
+    if (whole && (in_text_ ? c == '"' : std::strchr("\"[]{},: \t\r\n", c) != nullptr)) {
+      in_text_ = !in_text_ && c == '"';
+      cut_ = false;
+      length_ = 0;
+      return true;
+    }
+    cut_ = cut_ || (whole && length_ >= kMostToken);
+    ++length_;
+    if (!in_text_) return !cut_;
+    if (escaped_ > 0) {
+      escaped_ += c == 'u' && escaped_ == 1 ? 3 : -1;  // four digits follow
+    } else if (c == '\\') {
+      escaped_ = 1;
+    }
+    return !cut_;
+  }
+
+  const InputFile& file_;
+  std::uint64_t at_, end_;
+  std::string piece_;
+  bool in_text_ = false, cut_ = false;
+  int escaped_ = 0;         // so many characters of an escape are to come
+  std::size_t length_ = 0;  // of the string or number
+};
+
+/// Keeps buffers[].uri and images[].uri of a glTF document, and nothing else of it.
+class UriCollector final : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  std::vector<std::string> names;
+
+  bool key(std::string& name) override {
+    if (open_ == "{") listed_ = name == "buffers" || name == "images";
+    if (open_ == "{[{") uri_ = name == "uri";
+    return true;
+  }
+  bool string(std::string& text) override {
+    if (open_ != "{[{" || !listed_ || !uri_ || text.size() >= kMostToken || text.starts_with("data:")) return true;
+    names.push_back(detail::percent_decoded(text));
+    bytes_ += sizeof(std::string) + text.size();
+    return bytes_ < kMostNames;
+  }
+  bool start_object(std::size_t /*size*/) override { return open('{'); }
+  bool start_array(std::size_t /*size*/) override { return open('['); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool null() override { return true; }
+  bool boolean(bool /*value*/) override { return true; }
+  bool number_integer(std::int64_t /*value*/) override { return true; }
+  bool number_unsigned(std::uint64_t /*value*/) override { return true; }
+  bool number_float(double /*value*/, const std::string& /*text*/) override { return true; }
+  bool binary(nlohmann::json::binary_t& /*value*/) override { return true; }
+  bool parse_error(std::size_t /*at*/, const std::string& /*token*/, const nlohmann::json::exception&) override {
+    return false;  // what was named before stays
+  }
+
+ private:
+  bool open(char bracket) {
+    open_ += bracket;
+    return open_.size() < kMostDeep;
+  }
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  std::string open_;  // brackets around the place
+  bool listed_ = false, uri_ = false;
+  std::size_t bytes_ = 0;
+};
+
+std::vector<std::string> named_by_json(const InputFile& file, std::uint64_t begin, std::uint64_t size) {
+  JsonBytes bytes(file, begin, size);
+  std::istream text(&bytes);
+  UriCollector uris;
+  nlohmann::json::sax_parse(text, &uris);
+  return std::move(uris.names);
+}
+
+std::vector<std::string> named_by_gltf(const std::string& path) {
+  const InputFile file(path);
+  if (!file.seekable()) return {};
+  return named_by_json(file, 0, file.size());
+}
+
+/// The first chunk holds the JSON.
+std::vector<std::string> named_by_glb(const std::string& path) {
+  const InputFile file(path);
+  struct {
+    char magic[4];
+    std::uint32_t version, length, size, type;
+  } head{};
+  if (!file.seekable() || file.read_at(0, std::as_writable_bytes(std::span(&head, 1))) < sizeof head) return {};
+  if (std::memcmp(head.magic, "glTF", sizeof head.magic) != 0) return {};
+  return named_by_json(file, sizeof head, head.size);
 }
 
 /// f(key, rest) for each line of a text file that has both.
@@ -77,15 +189,6 @@ std::string head_of(const std::string& path, std::size_t bytes) {
   return text;
 }
 
-/// The first chunk of a GLB.
-std::string json_of_glb(const std::string& bytes) {
-  constexpr std::size_t kBegin = 20;
-  if (!bytes.starts_with("glTF") || bytes.size() < kBegin) return "";
-  std::uint32_t size;
-  std::memcpy(&size, bytes.data() + 12, sizeof size);
-  return bytes.substr(kBegin, size);
-}
-
 /// Of names in a file: their paths.
 std::vector<std::string> beside(const std::string& file, std::vector<std::string> names) {
   for (std::string& name : names) {
@@ -109,8 +212,8 @@ std::vector<std::string> parts_of_scene(const std::string& path) {
   const std::string format = scene_format_of(path);
   if (!is_file(path)) return {};
   try {
-    if (format == "gltf") return beside(path, named_by_gltf(head_of(path, kMostJson)));
-    if (format == "glb") return beside(path, named_by_gltf(json_of_glb(head_of(path, kMostJson))));
+    if (format == "gltf") return beside(path, named_by_gltf(path));
+    if (format == "glb") return beside(path, named_by_glb(path));
     if (format != "obj") return {};
     std::vector<std::string> parts = materials_of(path);
     for (const std::string& materials : std::vector<std::string>(parts)) {

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <vector>
 
 #include "io/files/file.h"
@@ -77,9 +78,7 @@ bool read_all(int fd, std::span<std::byte> bytes) {
 class FolderStore final : public ResultStore {
  public:
   FolderStore(std::string folder, std::function<void(const std::string&)> on_read_only)
-      : folder_(std::move(folder)), on_read_only_(std::move(on_read_only)) {
-    MadeFolders(folder_).keep();
-  }
+      : folder_(std::move(folder)), on_read_only_(std::move(on_read_only)), made_(folder_) {}
 
   bool get(const ResultKey& key, std::string& out) override {
     const Descriptor file(::open(name_of(key).c_str(), O_RDONLY | O_CLOEXEC));
@@ -100,6 +99,7 @@ class FolderStore final : public ResultStore {
 
   void put(const ResultKey& key, std::string_view bytes) override {
     if (read_only_) return;
+    std::call_once(first_put_, [this] { made_.keep(); });
     const std::string name = name_of(key), place = name.substr(0, name.rfind('/'));
     if (::mkdir(place.c_str(), 0777) != 0 && errno != EEXIST) return give_up(place, "make this folder", errno);
     if (::access(place.c_str(), W_OK | X_OK) != 0) {
@@ -113,7 +113,9 @@ class FolderStore final : public ResultStore {
     const XXH128_hash_t check = check_of(head, packed);
     head.check[0] = check.high64, head.check[1] = check.low64;
     std::memcpy(head.magic, kMagic, sizeof kMagic);
-    if (!put_unnamed(place, name, head, packed)) put_beside(name, head, packed);
+    if (put_unnamed(place, name, head, packed)) return;
+    if (std::string kept; get(key, kept) && kept == bytes) return;  // another thread or process was faster
+    put_beside(name, head, packed);
   }
 
  private:
@@ -128,7 +130,8 @@ class FolderStore final : public ResultStore {
   }
 
   /// A file without a name gets one when it is complete: nothing is left of it if the process is killed. False where
-  /// the file system has no such files.
+  /// the file system has no such files, or where the name is taken. That file stays: another thread may just have put
+  /// it.
   static bool put_unnamed(const std::string& place, const std::string& name, const Head& head,
                           std::span<const std::byte> packed) {
     const Descriptor file(::open(place.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
@@ -136,14 +139,10 @@ class FolderStore final : public ResultStore {
     write_all(file.get(), name, std::as_bytes(std::span(&head, 1)));
     write_all(file.get(), name, packed);
     const std::string self = fmt::format("/proc/self/fd/{}", file.get());
-    for (int attempt = 0; attempt < 2; ++attempt) {
-      if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) return true;
-      if (errno != EEXIST) return false;
-      if (const int error = remove_file(name)) fail_with(name, "replace", error);  // get() did not take it
-    }
-    return true;  // another process was faster, twice
+    return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
   }
 
+  /// Replaces what has the name, in one step: a damaged result, or another one.
   static void put_beside(const std::string& name, const Head& head, std::span<const std::byte> packed) {
     OutputFile file(name, true);
     file.write(std::as_bytes(std::span(&head, 1)));
@@ -154,6 +153,8 @@ class FolderStore final : public ResultStore {
   const std::string folder_;
   const std::function<void(const std::string&)> on_read_only_;
   std::atomic<bool> read_only_{false};
+  std::once_flag first_put_;
+  MadeFolders made_;  ///< a run that fails before its first result leaves no folder
 };
 
 }  // namespace

@@ -113,8 +113,9 @@ std::string inside_rows(const CheckReport& r) {
   std::string text;
   const bool other = r.asks_hidden && r.hiddenness() == Answer::proven;  // then these decide nothing
   const auto add = [&](const char* question, Answer answer) {
-    text += other && answer == Answer::refuted ? fmt::format("  {:<28}no\n", question)
-                                               : row(question, answer, scene_doubt(r));
+    text += other && answer != Answer::proven ? fmt::format("  {:<28}{} (not asked of an occluder)\n", question,
+                                                            answer == Answer::refuted ? "no" : "not decided")
+                                              : row(question, answer, scene_doubt(r));
   };
   const bool is_free = r.touching.count + r.swallowed.count == 0;
   if (r.sides_decided) add("free of the scene", is_free ? Answer::proven : Answer::refuted);
@@ -125,8 +126,9 @@ std::string inside_rows(const CheckReport& r) {
                             r.openings > 0 ? fmt::format(", with openings below {:.4g} closed", r.openings) : "");
 }
 
-/// Findings that are no failures: what the proxy is asked instead is decided.
+/// Findings that are no failures: what the proxy is asked instead is decided, or what cannot be judged may hide it.
 bool is_aside(const CheckReport& r, const FindingText& t) {
+  if (t.finding == &CheckReport::outside_parts && r.undecidable_scene.count > 0) return true;
   if (!r.asks_hidden || r.hiddenness() == Answer::undecided) return false;
   return t.finding == &CheckReport::touching || t.finding == &CheckReport::swallowed ||
          t.finding == &CheckReport::outside_parts || t.finding == &CheckReport::unsettled_parts;

@@ -8,7 +8,7 @@
 #include "lib/grid/scale_field.h"
 
 /// Cubes with an orientation of their own at each voxel, as the structuring element of a dilation ([CB17] §3.3). Only
-/// the hierarchical collision on a GPU closes with them (gpu/kernels/hierarchical_kernels.h); decided in integers like
+/// the hierarchical collision on a GPU closes with them (gpu/hierarchical_kernels.h); decided in integers like
 /// all else.
 namespace bp {
 

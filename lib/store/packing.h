@@ -8,7 +8,7 @@
 #include "lib/store/fields.h"
 
 /// Values as bytes and back: numbers and enumerators as they lie in memory, strings and vectors with their length,
-/// structs member by member (fields.h). Little-endian, as all machines that we run on.
+/// optional values, structs member by member (fields.h). Little-endian, as all machines that we run on.
 namespace bp {
 
 /// A number or an enumerator.
@@ -18,6 +18,13 @@ concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 template <class T>
 concept Sized = requires(T v) {
   v.resize(v.size());
+};
+
+/// std::optional.
+template <class T>
+concept Optional = requires(T v) {
+  v.has_value();
+  v.emplace();
 };
 
 template <class T>
@@ -31,6 +38,9 @@ void pack(std::string& out, const T& value) {
     } else {
       for (const auto& element : value) pack(out, element);
     }
+  } else if constexpr (Optional<T>) {
+    pack(out, value.has_value());
+    if (value) pack(out, *value);
   } else {
     for_each_field(value, [&](const auto& member) { pack(out, member); });
   }
@@ -56,6 +66,10 @@ template <class T>
     } else {
       return std::all_of(value.begin(), value.end(), [&](Element& element) { return unpack(in, element); });
     }
+  } else if constexpr (Optional<T>) {
+    bool there = false;
+    value.reset();
+    return unpack(in, there) && (!there || unpack(in, value.emplace()));
   } else {
     return with_fields(value, [&](auto&... members) { return (unpack(in, members) && ...); });
   }

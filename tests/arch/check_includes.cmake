@@ -22,7 +22,7 @@ set(rules
   "lib/fit:lib/core lib/geometry lib/mesh lib/simplify"
   "lib/hulls:lib/core lib/mesh"
   "lib/pass:lib/core lib/store lib/geometry lib/grid lib/volume lib/voxel lib/closing lib/device lib/device/cpu lib/mesh lib/enclosed lib/surface lib/simplify lib/tighten lib/quads lib/fit lib/hulls"
-  "lib/levels:lib/core lib/store lib/geometry lib/grid lib/volume lib/closing lib/device lib/surface lib/pass"
+  "lib/levels:lib/core lib/store lib/geometry lib/grid lib/volume lib/closing lib/device lib/surface lib/pass lib/check"
   "io/files:lib/core"
   "io/store:lib io/files"
   "io/stream:lib io/files io/store"

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# Makes the pictures of docs/gallery.md and prints the numbers beside them.
+# Makes the pictures of docs/gallery.md and docs/guides, and prints the numbers beside those of the gallery.
 # usage: gallery.sh BUILD_DIR OUT_DIR
+# The picture of CesiumJS needs the packages that tests/viewers/run.sh installs: NODE_PATH names their folder.
 set -euo pipefail
 build=$(cd "$1" && pwd)
+root=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$2" && cd "$2"
 export PATH="$build/tools:$build/samples:$PATH"
 
@@ -29,6 +31,8 @@ bpvox plant.ply --resolution 192 -q | bpclose --scale 2% -q -o closed.bpv --over
 echo "proxy"
 mesh closed.bpv --enclose closing --faces 1000 -o proxy.glb
 draw gallery-stages.png 400 plant.ply closed.bpv proxy.glb
+bpvox plant.ply --resolution 256 -q | bpclose --scale 2% -q | bpmesh --faces 3000 -q -o plant.glb --overwrite
+draw plant.png 440 plant.ply plant.glb
 echo "levels"
 mesh closed.bpv --enclose closing --faces 2000,600,200 -o lod.glb
 draw gallery-levels.png 340 lod.0.glb lod.1.glb lod.2.glb
@@ -43,3 +47,21 @@ echo "quads"
 mesh closed.bpv --enclose closing --faces 700 --quads -o cage.obj
 grep -c '^f [^ ]* [^ ]* [^ ]* ' cage.obj | sed 's/$/ quads/'
 draw gallery-quads.png 400 cage.obj
+
+"$root/samples/scenes.py" . > /dev/null
+rm -rf truck-collision house-occluder figure-lod city-tiles night levels
+bplod truck.obj --profile collision --faces 500 -q -o truck-collision > /dev/null
+draw guide-collision.png 360 truck.obj truck-collision/truck_godot.glb truck-collision/truck_unreal.glb
+bplod house.obj --profile occluder -q -o house-occluder > /dev/null
+draw guide-occluder.png 400 house.obj house-occluder/house_occluder.glb
+bpvox figure.obj --resolution 256 -q | bpclose --scale 2% -q | bpmesh --faces 700 --quads -q -o figure_cage.obj --overwrite
+draw guide-cage.png 400 figure.obj figure_cage.obj
+bplod figure.obj --faces 4000,1000,250 -q -o figure-lod > /dev/null
+draw guide-levels.png 280 figure.obj figure-lod/figure_LOD{0,1,2}.glb
+bplod city.obj --up z --profile 3dtiles -q -o city-tiles > /dev/null
+if [ -n "${NODE_PATH:-}" ]; then
+  node "$root/tests/viewers/shot.cjs" cesium city-tiles/tileset.json guide-tileset.png 'width=520&radii=1.3&pixels=4' > /dev/null
+fi
+mkdir night && cp house.obj house.mtl truck.obj truck.mtl night
+"$root/samples/nightly" night levels --faces 1000,200
+draw guide-nightly.png 300 levels/house.obj/house_LOD{0,1}.glb levels/truck.obj/truck_LOD{0,1}.glb

@@ -18,13 +18,13 @@ struct Option {
   std::string name, value;  ///< "--faces", "N[,N...]"; no value: a flag
 };
 
-/// As --help lists them: whatever is added to a tool is tried from then on.
+/// As --help all lists them: whatever is added to a tool is tried from then on.
 std::vector<Option> options_of(Workplace& place, const std::string& tool) {
   std::vector<Option> options;
-  std::istringstream help(place.run(tool, {"--help"}).output);
+  std::istringstream help(place.run(tool, {"--help", "all"}).output);
   for (std::string line; std::getline(help, line);) {
     const std::size_t at = line.find("--");
-    if (at == std::string::npos || line.find_first_not_of(' ') > at || line[line.find_first_not_of(' ')] != '-')
+    if (at == std::string::npos || line.find_first_not_of(' ') != 2 || line[line.find_first_not_of(' ')] != '-')
       continue;
     std::istringstream words(line.substr(at));
     Option option;
@@ -58,7 +58,9 @@ struct Inputs {
 /// Numbers between what is done at once and what nothing can hold: honest work for minutes, and no finding.
 bool takes_long(const std::string& text) {
   char* end = nullptr;
-  const double value = std::fabs(std::strtod(text.c_str(), &end)) / (*end == '%' ? 100 : 1);
+  constexpr double kDiagonal = 14;  // voxels of the cube
+  double value = std::fabs(std::strtod(text.c_str(), &end));
+  if (*end == '%') value *= kDiagonal / 100;
   return (value > 64 && value < 0x1p31) || (value > 1e-11 && value < 0.02);
 }
 
@@ -134,7 +136,8 @@ void options(const std::uint8_t* data, std::size_t size) {
   for (std::uint32_t count = 1 + c.below(3); count > 0; --count)
     add_option(c, c.of(inputs.options.at(tool)), place, words);
   add_size(tool, words);
-  (void)place.run(tool, words, {"out.bpv", "out.ply", "out.glb", "out.obj", "out.stl", "out.x", "out.png", "out"});
+  (void)place.run(tool, words,
+                  {"out.bpv", "out.ply", "out.glb", "out.obj", "out.stl", "out.x", "out.png", "out", "no"});
   place.remove_outputs();
 }
 

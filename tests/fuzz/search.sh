@@ -5,7 +5,8 @@
 # BUILD is a build with fuzzers:
 #   CC=clang CXX=clang++ cmake -S . -B BUILD -G Ninja -DBP_FUZZ=ON -DBP_CUDA=OFF && ninja -C BUILD fuzzers
 # FOLDER keeps the corpus, so that a later search goes on from there, and the inputs of findings (FOLDER/FUZZER.found).
-# One of them alone: BUILD/tests/fuzz/fuzz_FUZZER INPUT. Status: 0 if there is no finding.
+# One of them alone: BUILD/tests/fuzz/fuzz_FUZZER INPUT. Once mended, it goes to tests/data/bugs/FUZZER/WHAT.input.
+# Status: 0 if there is no finding.
 set -euo pipefail
 build=$(realpath "$1") folder=$2 fuzzer=$3 runs=$4
 mkdir -p "$folder/$fuzzer" "$folder/$fuzzer.found"

@@ -143,7 +143,7 @@ void Workplace::remove_outputs() {
   std::vector<fs::path> outputs;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
     const std::string name = entry.path().filename().string();
-    if (name == "out" || name.rfind("out.", 0) == 0) outputs.push_back(entry.path());
+    if (name == "out" || name == "no" || name.rfind("out.", 0) == 0) outputs.push_back(entry.path());
   }
   for (const fs::path& path : outputs) fs::remove_all(path);
 }

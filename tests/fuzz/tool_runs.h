@@ -30,7 +30,7 @@ class Workplace {
   void write(const std::string& name, const std::string& bytes);
   [[nodiscard]] bool has(const std::string& name) const;
 
-  /// Removes what is called "out" or "out.*".
+  /// Removes what is called "out", "out.*" or "no".
   void remove_outputs();
 
   /// Runs a tool with these arguments, and one thread and scratch in the folder where it takes such options. Fails

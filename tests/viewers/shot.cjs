@@ -1,9 +1,11 @@
-// Pictures of files as viewers show them, in headless Chromium:  node shot.cjs VIEWER FILE OUT.png   (VIEWER: three, cesium)
+// Pictures of files as viewers show them, in headless Chromium:  node shot.cjs VIEWER FILE OUT.png [QUERY]
+// VIEWER: three or cesium. QUERY: width=PIXELS, and what the page of the viewer takes.
 // Served are FILE's folder, the pages beside this script, and node_modules of NODE_PATH. Prints the number of grey values of
 // the pixels that are not background: a flat silhouette has few.
 const fs = require('fs'), http = require('http'), path = require('path');
 const { chromium } = require('playwright-core');
-const [viewer, file, out] = process.argv.slice(2);
+const [viewer, file, out, query] = process.argv.slice(2);
+const width = +new URLSearchParams(query).get('width') || 640;
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.json': 'application/json', '.css': 'text/css', '.wasm': 'application/wasm' };
 const folders = { node_modules: process.env.NODE_PATH, pages: __dirname, data: path.dirname(path.resolve(file)) };
 
@@ -21,10 +23,10 @@ async function main() {
     args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
       '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'] });
   try {
-    const page = await browser.newPage({ viewport: { width: 640, height: 480 } });
+    const page = await browser.newPage({ viewport: { width, height: width * 3 / 4 } });
     page.setDefaultTimeout(240000);  // a busy machine without a GPU
     page.on('pageerror', (error) => console.error(`${viewer}: ${error.message}`));
-    await page.goto(`http://127.0.0.1:${server.address().port}/pages/${viewer}.html?file=/data/${path.basename(file)}`);
+    await page.goto(`http://127.0.0.1:${server.address().port}/pages/${viewer}.html?file=/data/${path.basename(file)}&${query || ''}`);
     await page.waitForFunction(() => document.title === 'ready', null);
     await page.screenshot({ path: out });
     const greys = await page.evaluate(() => {

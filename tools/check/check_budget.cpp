@@ -16,8 +16,8 @@ constexpr std::uint64_t kBytesPerFace = 400, kBytesPerVertex = 64;
 
 }  // namespace
 
-CheckBudget::CheckBudget(std::uint64_t memory, bool has_scene)
-    : memory_(memory), usable_(UsableMemory(memory, kMeshProgram).bytes), share_(has_scene ? 3 : 4) {}
+CheckBudget::CheckBudget(std::uint64_t memory, std::size_t scenes)
+    : memory_(memory), usable_(UsableMemory(memory, kMeshProgram).bytes), scenes_(scenes), share_(scenes > 0 ? 3 : 4) {}
 
 SceneOptions CheckBudget::of_proxy(const std::string& name) const {
   SceneOptions options;
@@ -32,6 +32,16 @@ SceneOptions CheckBudget::of_proxy(const std::string& name) const {
                          document_budget(memory_, kMeshProgram, 1).enough_for(bytes / share_ * 4 - usable_));
                   }};
   return options;
+}
+
+DocumentBudget CheckBudget::of_scene_document() const {
+  const std::uint64_t share = scenes_ > 1 ? 3 : 1;  // the reader's third, or all
+  DocumentBudget budget;
+  budget.bytes = std::max<std::uint64_t>(1, usable_ / share);
+  budget.enough_for = [share, all = document_budget(memory_, kMeshProgram, 1)](std::uint64_t missing) {
+    return all.enough_for(missing * share);
+  };
+  return budget;
 }
 
 void CheckBudget::take(const std::vector<IndexedMesh>& proxy) {

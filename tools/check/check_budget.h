@@ -7,17 +7,21 @@ namespace bp {
 /// scene passes by, and its triangles are kept for distances as long as they fit.
 class CheckBudget {
  public:
-  CheckBudget(std::uint64_t memory, bool has_scene);
+  CheckBudget(std::uint64_t memory, std::size_t scenes);
 
   /// Of the file that is read as a whole; refused if it needs more than its share.
   [[nodiscard]] SceneOptions of_proxy(const std::string& name) const;
   /// What the proxy takes is no longer there for the scene.
   void take(const std::vector<IndexedMesh>& proxy);
+  /// Of the scenes, which are opened one after the other: the largest document counts. One alone is opened beside the
+  /// proxy; of several, the next one beside the triangles of those before, too.
+  [[nodiscard]] DocumentBudget of_scene_document() const;
   [[nodiscard]] std::uint64_t reader_bytes() const { return usable_ / 3; }
   [[nodiscard]] std::uint64_t scene_bytes() const { return usable_ / 3 * 2; }  ///< for distances
 
  private:
   std::uint64_t memory_, usable_;
+  std::size_t scenes_;
   std::uint64_t share_;  ///< of the proxy: so many quarters of what is usable
 };
 

@@ -2,62 +2,37 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 
 #include "io/files/file.h"
 #include "lib/core/error.h"
 #include "lib/store/source_digest.h"
+#include "tools/cli/completion.h"
+#include "tools/cli/help.h"
 #include "tools/cli/names.h"
 #include "tools/cli/nearest.h"
+#include "tools/cli/option_owners.h"
 
 namespace bp {
 
 namespace {
 
-constexpr std::size_t kHelpColumn = 28, kHelpWidth = 80;
-
-/// Words of `text`, as many to a line as fit, from `column` on; the first line is already begun.
-std::string wrapped(const std::string& text, std::size_t column) {
-  std::string out;
-  std::size_t at = column;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    if (at + end - begin > kHelpWidth && at > column) {
-      out.back() = '\n';  // the blank after the last word
-      out.append(column, ' ');
-      at = column;
-    }
-    out.append(text, begin, end - begin) += ' ';
-    at += end - begin + 1;
-    begin = end + 1;
-  }
-  if (!out.empty()) out.back() = '\n';
-  return out;
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : "|") + word;
+  return all;
 }
 
-/// One option of --help: its names, then its text in the right-hand column.
-std::string help_entry(const std::string& left, const std::string& help) {
-  std::string out = "  " + left;
-  if (out.size() + 2 > kHelpColumn) out += "\n" + std::string(kHelpColumn, ' ');
-  if (out.size() < kHelpColumn) out.append(kHelpColumn - out.size(), ' ');
-  return out + wrapped(help, kHelpColumn);
+std::vector<std::string> texts_of(const std::vector<Word>& words) {
+  std::vector<std::string> texts;
+  for (const Word& word : words) texts.push_back(word.text);
+  return texts;
 }
 
-/// "a|b|c", or "-s,--scale", in its parts.
-std::vector<std::string> parts_of(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(separator, begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
-
-/// "-s,--scale" as people write it: "-s, --scale".
-std::string spaced(const std::string& names) {
-  std::string out;
-  for (const char c : names) out += c == ',' ? std::string(", ") : std::string(1, c);
-  return out;
+std::string help_of(const std::string& word, const ToolDeclaration& tool) {
+  if (word == "all") return full_help(tool);
+  if (word == "markdown") return markdown_help(tool);
+  return word.empty() ? short_help(tool) : completion(tool, word);
 }
 
 }  // namespace
@@ -66,7 +41,10 @@ struct Args::State {
   std::string tool, about, example;
   std::deque<std::string> words;  ///< of the command line, those not parsed yet
   std::vector<Option> options, positionals;
-  bool help = false, version = false;
+  std::map<std::string, std::string> removed;  ///< and what replaces them
+  std::string group;                           ///< of the options that are declared next
+  std::optional<std::string> help;             ///< the word of --help
+  bool version = false;
 
   Option* look_up(const std::string& name);
   Option& find(const std::string& name, const std::string& word = "");
@@ -97,33 +75,50 @@ void Args::example(const std::string& text) {
 }
 
 void Args::add(Option option) {
+  option.group = state_->group;
   state_->options.push_back(std::move(option));
+}
+
+void Args::group(const std::string& name) {
+  state_->group = name;
+}
+
+void Args::often(std::initializer_list<const char*> names) {
+  for (const char* const name : names) state_->find(name).often = true;
+}
+
+void Args::words(std::vector<Word> words) {
+  state_->options.back().words = std::move(words);
+}
+
+void Args::removed(const std::string& name, const std::string& replacement) {
+  state_->removed[name] = replacement;
 }
 
 void Args::positional(const std::string& name, std::string& value, const std::string& help) {
   const auto set = [&value](const std::string& text) { value = text; };
-  state_->positionals.push_back({name, "[" + name + "]", help, value, set, Value::optional});
+  state_->positionals.push_back({{name, "[" + name + "]", help, value}, set, Value::optional});
 }
 
 void Args::positional(const std::string& name, std::vector<std::string>& values, const std::string& help) {
   const auto set = [&values](const std::string& text) { values.push_back(text); };
   const std::string shown_name = name + (name.find("...") == std::string::npos ? "..." : "");
   const Value needed = name.ends_with("...]") ? Value::optional : Value::required;
-  state_->positionals.push_back({shown_name, shown_name, help, "", set, needed, true});
+  state_->positionals.push_back({{shown_name, shown_name, help}, set, needed, true});
 }
 
 void Args::option(const std::string& names, const std::string& value_name, std::vector<std::string>& values,
                   const std::string& help) {
   const auto set = [&values](const std::string& text) { values.push_back(text); };
-  add({names, value_name, help, "", set, Value::required, true});
+  add({{names, value_name, help}, set, Value::required, true});
 }
 
 void Args::option(const std::string& names, const std::string& value_name, Setter set, const std::string& help) {
-  add({names, value_name, help, "", std::move(set)});
+  add({{names, value_name, help}, std::move(set)});
 }
 
 void Args::flag(const std::string& names, const std::function<void()>& set, const std::string& help) {
-  add({names, "", help, "", [set](const std::string&) { set(); }, Value::none, true});
+  add({{names, "", help}, [set](const std::string&) { set(); }, Value::none, true});
 }
 
 void Args::flag(const std::string& names, bool& value, const std::string& help) {
@@ -133,9 +128,8 @@ void Args::flag(const std::string& names, bool& value, const std::string& help) 
 
 void Args::flag_with_word(const std::string& name, const std::vector<std::string>& words, Setter set,
                           const std::string& help) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : "|") + word;
-  add({name, "[" + all + "]", help, "", std::move(set), Value::optional, true, words});
+  add({{name, "[" + joined(words) + "]", help}, std::move(set), Value::optional, true});
+  for (const std::string& word : words) state_->options.back().words.push_back({word, ""});
 }
 
 void Args::refuse_word(const std::string& text, const std::string& words) {
@@ -167,18 +161,29 @@ Args::Option* Args::State::look_up(const std::string& name) {
 /// `word`: what was written, where that is more than the name: "-faces" for -f.
 Args::Option& Args::State::find(const std::string& name, const std::string& word) {
   if (Option* const option = look_up(name)) return *option;
+  if (const auto gone = removed.find(name); gone != removed.end())
+    fail(ErrorCode::bad_argument, "there is no option {} any more; {}", name, gone->second);
   std::vector<std::string> names;
   for (const Option& option : options) {
     const std::vector<std::string> own = parts_of(option.names, ',');
     names.insert(names.end(), own.begin(), own.end());
   }
-  fail(ErrorCode::bad_argument, "there is no option {}{}", name, did_you_mean(word.empty() ? name : "-" + word, names));
+  const std::string slip = word.empty() ? name : "-" + word;
+  std::string hint = owner_of(slip, false);
+  if (hint.empty()) hint = did_you_mean(slip, names);
+  if (hint.empty()) hint = owner_of(slip, true);
+  fail(ErrorCode::bad_argument, "there is no option {}{}", name, hint);
 }
 
 void Args::State::take(Option& option, const std::string& name, const std::string& text) {
   if (option.times++ > 0 && !option.repeatable) fail(ErrorCode::bad_argument, "{} is given twice", name);
   if (text.empty() && option.value == Value::required)
     fail(ErrorCode::bad_argument, "{} is empty; was a variable not set?", name);
+  if (!text.empty() && option.value == Value::optional && !option.words.empty() && !option.has_word(text)) {
+    const std::string words = joined(texts_of(option.words));
+    fail(ErrorCode::bad_argument, "{}: '{}' is none of [{}]{}", name, text, words,
+         did_you_mean(text, parts_of(words, '|')));
+  }
   try {
     option.set(text);
   } catch (const Error& e) {
@@ -188,9 +193,7 @@ void Args::State::take(Option& option, const std::string& name, const std::strin
 
 /// The option was met without a value attached: the next word is it, where one is wanted.
 void Args::State::parse_value(Option& option, const std::string& name) {
-  const bool fits =
-      !words.empty() && (option.value == Value::required ||
-                         std::find(option.words.begin(), option.words.end(), words.front()) != option.words.end());
+  const bool fits = !words.empty() && (option.value == Value::required || option.has_word(words.front()));
   if (!fits) {
     if (option.value == Value::required) fail(ErrorCode::bad_argument, "{} needs a value", name);
     return take(option, name, "");
@@ -207,10 +210,6 @@ void Args::State::parse_long(const std::string& word) {
   if (equals == std::string::npos) return parse_value(option, name);
   const std::string text = word.substr(equals + 1);
   if (option.value == Value::none) fail(ErrorCode::bad_argument, "{} takes no value", name);
-  if (option.value == Value::optional &&
-      std::find(option.words.begin(), option.words.end(), text) == option.words.end())
-    fail(ErrorCode::bad_argument, "{}: '{}' is none of {}{}", name, text, option.value_name,
-         did_you_mean(text, option.words));
   take(option, name, text);
 }
 
@@ -245,8 +244,12 @@ void Args::State::parse_positionals(const std::vector<std::string>& texts) {
 }
 
 void Args::parse() {
-  flag("-h,--help", state_->help, "print this and exit");
-  flag("--version", state_->version, "print the version and exit");
+  group("Help");
+  flag_with_word(
+      "-h,--help", {"all", "markdown", "bash", "zsh", "fish"}, [this](const std::string& word) { state_->help = word; },
+      "print the options that most people need; all: every option; markdown: as in the manual; bash, zsh, fish: "
+      "a completion script");
+  flag("--version", state_->version, "print the version");
   std::vector<std::string> texts;
   try {
     while (!state_->words.empty() && !state_->help) {
@@ -266,7 +269,8 @@ void Args::parse() {
   } catch (const Error& e) {
     fail(e.code(), "{} (see {} --help)", e.what(), state_->tool);
   }
-  print(state_->help ? help_text() : fmt::format("{} {}+{}\n", state_->tool, BP_VERSION, source_digest()));
+  print(state_->help ? help_of(*state_->help, declaration())
+                     : fmt::format("{} {}+{}\n", state_->tool, BP_VERSION, source_digest()));
   throw Done{};
 }
 
@@ -285,19 +289,11 @@ void Args::excludes(const char* name, const char* other) const {
   if (given(name) && given(other)) fail(ErrorCode::bad_argument, "{} means nothing with {}; leave it out", name, other);
 }
 
-std::string Args::help_text() const {
-  std::string usage = "Usage: " + state_->tool + " [OPTION]...", entries;
-  for (const Option& p : state_->positionals) usage += " " + p.value_name;
-  for (const std::vector<Option>* list : {&state_->positionals, &state_->options}) {
-    for (const Option& o : *list) {
-      const bool named = list == &state_->options && !o.value_name.empty();
-      const std::string left = spaced(o.names) + (named ? " " + o.value_name : "");
-      entries += help_entry(left, o.help + (o.shown_default.empty() ? "" : " (default: " + o.shown_default + ")"));
-    }
-  }
-  std::string text = usage + "\n" + wrapped(state_->about, 0) + "\n" + entries;
-  if (!state_->example.empty()) text += "\nExample:\n  " + state_->example + "\n";
-  return text;
+ToolDeclaration Args::declaration() const {
+  ToolDeclaration tool{state_->tool, state_->about, state_->example, {}, {}};
+  tool.arguments.assign(state_->positionals.begin(), state_->positionals.end());
+  tool.options.assign(state_->options.begin(), state_->options.end());
+  return tool;
 }
 
 }  // namespace bp

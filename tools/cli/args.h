@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "lib/core/grid_frame.h"
+#include "tools/cli/declaration.h"
 #include "tools/cli/length.h"
 
 /// Options of a tool, declared once: parsing, checks, --help and --version follow from the declarations. Opens no file.
@@ -27,8 +29,15 @@ class Args {
   /// --help or --version was printed: nothing is left to do. run_tool ends with status 0.
   struct Done {};
   using Setter = std::function<void(const std::string& text)>;  ///< throws bad_argument if `text` will not do
+  /// A word of a choice, its meaning, and the text that help has for it (may be empty).
   template <class E>
-  using Choices = std::initializer_list<std::pair<const char*, E>>;
+  struct Choice {
+    const char* word;
+    E value;
+    const char* help = "";
+  };
+  template <class E>
+  using Choices = std::initializer_list<Choice<E>>;
 
   Args(std::string tool, int argc, const char* const* argv);
   ~Args();
@@ -37,6 +46,15 @@ class Args {
 
   void about(const std::string& text);    ///< what the tool does, one or two sentences
   void example(const std::string& text);  ///< a whole command line, shown last by --help
+
+  /// The options declared from here on belong to this group of help and manual. A group may be named again.
+  void group(const std::string& name);
+  /// The options, each by one of its names, that `--help` shows; `--help all` shows all.
+  void often(std::initializer_list<const char*> names);
+  /// The words that the option declared last takes, among other values.
+  void words(std::vector<Word> words);
+  /// An option of earlier versions; who gives it is told what replaces it.
+  void removed(const std::string& name, const std::string& replacement);
 
   /// `value` keeps its default if the argument is absent.
   void positional(const std::string& name, std::string& value, const std::string& help);
@@ -48,24 +66,27 @@ class Args {
   /// help shows the default, except of an empty string or optional. Whole numbers are not negative.
   template <class T>
   void option(const std::string& names, const std::string& value_name, T& value, const std::string& help) {
-    add({names, value_name, help, shown(value), [&value](const std::string& text) { parse_into(text, value); }});
+    add({{names, value_name, help, shown(value)}, [&value](const std::string& text) { parse_into(text, value); }});
   }
   /// One of a few words: option("--element", {{"cube", Element::cube}, {"ball", Element::ball}}, element, "...").
   template <class E>
   void option(const std::string& names, Choices<E> choices, E& value, const std::string& help) {
-    const std::vector<std::pair<std::string, E>> table(choices.begin(), choices.end());
-    std::string words, shown_default;
-    for (const auto& [word, e] : table) {
-      words += (words.empty() ? "" : "|") + word;
-      if (e == value) shown_default = word;
+    std::vector<std::pair<std::string, E>> table;
+    std::vector<Word> words;
+    std::string joined, shown_default;
+    for (const Choice<E>& choice : choices) {
+      table.push_back({choice.word, choice.value});
+      words.push_back({choice.word, choice.help});
+      joined += (joined.empty() ? "" : "|") + words.back().text;
+      if (choice.value == value) shown_default = choice.word;
     }
-    const auto set = [&value, table, words](const std::string& text) {
+    const auto set = [&value, table, joined](const std::string& text) {
       for (const auto& [word, e] : table) {
         if (word == text) return void(value = e);
       }
-      refuse_word(text, words);
+      refuse_word(text, joined);
     };
-    add({names, words, help, shown_default, set});
+    add({{names, joined, help, shown_default, "", words}, set});
   }
   /// Values of any other kind.
   void option(const std::string& names, const std::string& value_name, Setter set, const std::string& help);
@@ -90,17 +111,18 @@ class Args {
   void excludes(const char* name, const char* other) const;
 
   [[nodiscard]] const std::string& tool() const;
-  [[nodiscard]] std::string help_text() const;
+  [[nodiscard]] ToolDeclaration declaration() const;
 
  private:
   enum class Value { required, optional, none };
-  struct Option {
-    std::string names, value_name, help, shown_default;
+  struct Option : Declaration {
     Setter set;
     Value value = Value::required;
     bool repeatable = false;
-    std::vector<std::string> words = {};  ///< those that an optional value may be
-    int times = 0;                        ///< given
+    int times = 0;  ///< given
+    [[nodiscard]] bool has_word(const std::string& text) const {
+      return std::any_of(words.begin(), words.end(), [&](const Word& word) { return word.text == text; });
+    }
   };
   void add(Option option);
   [[noreturn]] static void refuse_word(const std::string& text, const std::string& words);

@@ -96,34 +96,39 @@ DeviceChoice parse_device(const std::string& text) {
 
 void CommonOptions::add_to(Args& args, unsigned parts) {
   parts_ = parts;
+  if (parts & overwrite_part) {
+    args.group("Files");
+    args.flag("--overwrite", overwrite, "replace output files that exist");
+  }
+  args.group("Resources");
   if (parts & threads_part) {
     args.option(
         "-j,--threads", "N", [this](const std::string& t) { threads = int(parse_integer(t, 0, kMostThreads)); },
-        "computing threads; 0 is all cores (default: 0)");
+        "number of threads; 0: one for each core (default: 0)");
   }
   if (parts & memory_part) {
     args.option(
         "--memory", "SIZE", [this](const std::string& t) { memory_bytes = parse_size(t); },
-        "keep peak memory below SIZE by spilling to --temp (default: a quarter of this machine's)");
-    args.option("--temp", "DIR", temp, "directory for scratch files (default: $TMPDIR, or /tmp)");
+        "most memory to use, as 4G; the rest goes to --temp (default: a quarter of the machine's)");
+    args.option("--temp", "DIR", temp, "folder for scratch files (default: $TMPDIR, else /tmp)");
   }
   if (parts & device_part) {
     args.option(
         "--device", "DEVICE", [this](const std::string& t) { device = parse_device(t); }, device_text);
   }
+  args.group("Messages");
   if (parts & progress_part) {
     args.flag_with_word(
         "--progress", {"json"},
         [this](const std::string& word) { progress = word.empty() ? ProgressMode::bar : ProgressMode::json; },
-        "show progress on stderr even if it is no terminal; json: as lines of JSON");
+        "show progress on stderr, even if that is no terminal; json: as lines of JSON");
     args.flag(
         "-q,--quiet", [this] { progress = ProgressMode::quiet; },
-        "show neither progress nor notes, which are in the report all the same");
+        "show neither progress nor notes; the report has the notes");
   }
   if (parts & report_part)
     args.option("--report", "FILE", report,
-                "write options, counts, seconds per stage and peak memory as JSON; a report that is there is replaced");
-  if (parts & overwrite_part) args.flag("--overwrite", overwrite, "replace output files that exist");
+                "write options, counts, notes, times and peak memory as JSON; an earlier report is replaced");
 }
 
 void CommonOptions::prepare() {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "io/files/file.h"
 #include "io/scene/scene_parts.h"
@@ -17,8 +16,8 @@
 #include "lib/grid/shelf_stream.h"
 #include "lib/pass/color/vertex_colors.h"
 #include "tools/cli/names.h"
+#include "tools/lod/choices.h"
 #include "tools/lod/proportions.h"
-#include "tools/notes/face_notes.h"
 #include "tools/notes/up_note.h"
 #include "tools/run/grounded_source.h"
 #include "tools/run/scene_budget.h"
@@ -26,44 +25,6 @@
 namespace bp {
 
 namespace {
-
-Json json_of(const LevelRow& row) {
-  Json json{{"file", row.file},         {"bytes", row.bytes},       {"tiles", row.tiles}, {"faces", row.faces},
-            {"error", row.error_world}, {"scale", row.scale_world}, {"voxel", row.voxel}};
-  json.update(row.more);
-  return json;
-}
-
-Json json_of(const FoundJobs& found) {
-  return {{"what", found.what}, {"jobs", found.jobs}, {"kept", found.kept}};
-}
-
-/// What a person wants to know at once, as lines of text on stdout.
-std::string listing(const std::vector<LevelRow>& rows) {
-  std::string text = "file\tfaces\terror\tscale\tvoxel\tbytes\n";
-  for (const LevelRow& row : rows) {
-    const std::string error = std::isnan(row.error_world) ? "-" : fmt::format("{:.4g}", row.error_world);
-    text += fmt::format("{}\t{}\t{}\t{:.4g}\t{:.4g}\t{}\n", row.file, row.faces, error, row.scale_world, row.voxel,
-                        row.bytes);
-  }
-  return text;
-}
-
-/// What a level that has not its faces missed, and why; empty if it has them. Fewer than nobody asked for are none.
-std::string faces_note(const LodLevel& level, const LodTarget& target, bool asked) {
-  const std::uint64_t faces = level.mesh.triangles.size();
-  if (!level.reached)
-    return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", faces,
-                       target.faces, level.scale_world);
-  const std::string few = asked ? too_few_note(faces, target.faces) : "";
-  if (few.empty() && asked && level.attempts > 1)
-    return fmt::format(
-        "closed at {:.4g}, {} times the scale that was tried first: at less, parts and holes take more than {} faces",
-        level.scale_world, std::uint64_t(1) << (level.attempts - 1), target.faces);
-  if (few.empty() || level.attempts == 1) return few;
-  return fmt::format("{} faces instead of {}: at half of its scale of {:.4g}, parts and holes take too many", faces,
-                     target.faces, level.scale_world);
-}
 
 /// What was made stays if it cannot be told: it took far longer than to free the space.
 void print_list(const std::string& text, const std::string& made) {
@@ -90,10 +51,10 @@ Build::Build(const BuildOptions& o)
 }
 
 SceneOptions Build::scene_options(bool beside) const {
-  SceneOptions scene{options.format, budget.reader, options.common.temp};
+  SceneOptions scene{options.voxels.format, budget.reader, options.common.temp};
   scene.walls_only = options.profile == LodProfile::occluder;
   scene.document = document_budget(unpinned(options.common.memory_bytes, pinned_bytes(backends)), kVoxelProgram,
-                                   beside ? 2 : options.scenes.size());
+                                   beside ? 2 : options.voxels.scenes.size());
   return scene;
 }
 
@@ -102,8 +63,8 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   VoxelizeOptions v;
   v.cell_vox = cell_vox;
   v.results = results;
-  v.fill = options.fill;
-  v.up = options.up;
+  v.fill = options.voxels.fill;
+  v.up = options.voxels.up;
   v.memory_bytes = budget.waiting;
   v.tile_memory_bytes = budget.tiles;
   v.make_shelf = make_shelf;
@@ -114,33 +75,41 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   ShelfSink sink(out.solid.get());
   SceneOptions scene = scene_options();
   scene.colors = options.colors;
-  auto source = open_scenes(options.scenes, scene);
-  if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.up);
+  auto source = open_scenes(options.voxels.scenes, scene);
+  if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.voxels.up);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
     const SceneSize size{bounds, source->counts().triangles};
     if (halvings == 0) question_proportions(options, size);
-    return voxel_size(options, size, halvings);
+    const double diagonal = bounds.diagonal();
+    return chosen_voxel(voxel_request(options, diagonal), request_for(options, size.triangles, diagonal), size,
+                        halvings);
   };
-  const auto open = [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
+  const auto open = [&](const StreamHeader& header, const VoxelizeCounts& counts) -> BrickSink& {
     out.header = header;
-    const Estimate estimate = estimate_build(options, header.bounds, header.frame.voxel);
+    const Estimate estimate = estimate_build(options, header.bounds, counts, header.frame.voxel);
     if (halvings == 0) note_estimate(estimate, options.common, progress, report);
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
   triangles_ = out.counts.scene.triangles;
   enclosed_ = enclosed_by(options, triangles_);
-  if (halvings == 0 && !ground) {  // the scene is the same
-    if (const std::string text = skipped(out.counts.scene); !text.empty()) note("skipped " + text);
-    if (const std::string text = up_note(out.header.bounds, options.up || source->up()); !text.empty()) note(text);
-    note_missing_materials();
-    const SceneSize size{out.header.bounds, out.counts.scene.triangles};
-    if (const std::string text = voxel_note(options, size); !text.empty()) note(text);
-    if (const std::string text = origin_note(options, out.header); !text.empty()) note(text);
-    if (const std::string text = enclose_note(options, triangles_); !text.empty()) note(text);
-  }
+  if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
   if (source->has_colors()) gather(*source, out);
   return out;
+}
+
+void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told) {
+  const SceneSize size{scene.header.bounds, scene.counts.scene.triangles};
+  if (const std::string text = skipped(scene.counts.scene); !text.empty()) note("skipped " + text);
+  note(up_note(size.bounds, options.voxels.up || up_told));
+  for (const std::string& path : options.voxels.scenes) {
+    if (!options.colors) break;
+    for (const std::string& file : missing_materials(path))
+      note(fmt::format("{}: {} is not there, and its colours are lost", path, file));
+  }
+  note(voxel_note(options, size));
+  note(origin_note(options, scene.header));
+  note(enclose_note(options, triangles_));
 }
 
 /// The triangles have gone, and so has most of what they were given of the memory.
@@ -156,9 +125,10 @@ void Build::gather(TriangleSource& source, const VoxelizedScene& scene) {
 
 std::vector<TriangleD> Build::scene_triangles() const {
   constexpr std::uint64_t kMost = std::uint64_t(1) << 21;  // whatever the memory: it must not decide what is made
-  const bool fit = options.mode == MeshMode::fit;
+  const bool fit = options.proxy.mode == MeshMode::fit;
   std::vector<TriangleD> all;
-  if (std::count(options.scenes.begin(), options.scenes.end(), "-") > 0) return all;  // stdin cannot be read again
+  if (std::count(options.voxels.scenes.begin(), options.voxels.scenes.end(), "-") > 0)
+    return all;  // stdin cannot be read again
   if (fit && triangles_ > kMost) return all;
   // Fits: twice, and a hierarchy over them. Else here, and in what is enclosed.
   const std::uint64_t bytes = triangles_ * (fit ? 400 : sizeof(TriangleD) + EnclosedTriangles::kBytesEach);
@@ -172,7 +142,7 @@ std::vector<TriangleD> Build::scene_triangles() const {
          fit ? "" : ", or use --enclose input");
   }
   all.reserve(triangles_);
-  const auto source = open_scenes(options.scenes, scene_options(true));
+  const auto source = open_scenes(options.voxels.scenes, scene_options(true));
   for (std::vector<TriangleD> chunk; all.size() <= triangles_ && source->read(chunk);)
     all.insert(all.end(), chunk.begin(), chunk.end());
   if (all.size() != triangles_)
@@ -182,11 +152,11 @@ std::vector<TriangleD> Build::scene_triangles() const {
 
 LodOptions Build::lod_options() {
   LodOptions lod;
-  lod.closing.element = options.element;
-  lod.mode = options.mode;
+  lod.closing.element = options.closing.element;
+  lod.mode = options.proxy.mode;
   lod.enclose = enclosed_;
-  if (options.mode == MeshMode::fit || enclosed_ == Enclose::scene) lod.scene = scene_triangles();
-  lod.tighten = !options.loose;
+  if (options.proxy.mode == MeshMode::fit || enclosed_ == Enclose::scene) lod.scene = scene_triangles();
+  lod.quads = options.profile == LodProfile::cage;
   lod.memory_bytes = budget.work;
   lod.pieces = pieces();
   lod.make_shelf = make_shelf;
@@ -208,7 +178,7 @@ PieceMemory Build::pieces() const {
   return memory;
 }
 
-void Build::finish_level(LodLevel& level, std::size_t i, const LodTarget& target, const std::string& input_hash) {
+void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, const std::string& input_hash) {
   if (colors_ != nullptr) {
     colors_->prepare(level.mesh.frame);
     color_vertices(level.mesh, colors_->all(level.mesh.frame));
@@ -216,41 +186,21 @@ void Build::finish_level(LodLevel& level, std::size_t i, const LodTarget& target
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
-  if (const std::string missed = faces_note(level, target, asks_for_faces(options.request)); !missed.empty())
-    note(fmt::format("level {}: {}", i, missed));
-  if (target.error_world > 0 && level.error_world > target.error_world) {
-    note(error_note(i, level.error_world, target.error_world));
-  }
 }
 
-std::string error_note(std::size_t level, double error_world, double asked_world) {
-  return fmt::format(
-      "level {}: its error is at most {:.4g} instead of {:.4g}: its voxels or its scale are too large for less", level,
-      error_world, asked_world);
-}
-
-std::string origin_note(const BuildOptions& o, const StreamHeader& header) {
-  return o.profile == LodProfile::tiles ? "" : origin_note(o.origin, header.frame, header.bounds);
-}
-
-std::string voxel_note(const BuildOptions& o, const SceneSize& scene) {
-  if (!is_by_scene(o) || scene.triangles <= kTilesetFaces) return "";
-  return fmt::format(
-      "the scene has {} triangles, and voxels of {:.4g}, which are for {}: for more detail, name a smaller --voxel; "
-      "half of it takes some four times as long",
-      scene.triangles, voxel_size(o, scene), kTilesetFaces);
-}
-
-void Build::note_missing_materials() {
-  if (!options.colors) return;
-  for (const std::string& scene : options.scenes) {
-    for (const std::string& file : missing_materials(scene))
-      note(fmt::format("{}: {} is not there, and its colours are lost", scene, file));
-  }
+LevelSteps Build::level_steps(std::function<std::string()> input_hash) {
+  return {[this](const std::string& name) { report.stage(name); },
+          [this, hash = std::move(input_hash)](LodLevel& level, std::size_t number, const LodTarget& target) {
+            complete(level, number, target, hash());
+          }};
 }
 
 void Build::note(const std::string& text) {
-  report.note(text, options.common);
+  if (!text.empty()) report.note(text, options.common);
+}
+
+void Build::note_levels(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out) {
+  for (const std::string& text : level_notes(levels, first, left_out, asks_for_faces(request_of(options)))) note(text);
 }
 
 void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out) {
@@ -262,11 +212,9 @@ void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& row
 
 void Build::finish_jobs(const VoxelizedScene& scene, const JobRange& range, std::uint64_t all,
                         const std::vector<FoundJobs>& found) {
-  std::string text = "jobs\tdone\tkept\n";
-  for (const FoundJobs& f : found) text += fmt::format("{}\t{}\t{}\n", f.what, f.jobs, f.kept);
   report.counts["jobs"] = {{"begin", range.begin}, {"end", range.end}, {"of", all}};
   for (const FoundJobs& f : found) report.counts["levels"].push_back(json_of(f));
-  tell(scene, text, "all results are kept, in " + options.cache);
+  tell(scene, listing(found), "all results are kept, in " + options.cache);
 }
 
 void Build::tell(const VoxelizedScene& scene, const std::string& list, const std::string& made) {
@@ -281,7 +229,7 @@ void Build::tell(const VoxelizedScene& scene, const std::string& list, const std
 
 void Build::write_report(const VoxelizedScene& scene) {
   report.options = options_json(options);
-  report.bytes_in = size_of_files(options.scenes);
+  report.bytes_in = size_of_files(options.voxels.scenes);
   Json counts = {{"triangles", scene.counts.scene.triangles},
                  {"degenerate", scene.counts.scene.degenerate},
                  {"non_finite", scene.counts.scene.non_finite},
@@ -296,14 +244,40 @@ void Build::write_report(const VoxelizedScene& scene) {
   report.write(options.common);
 }
 
-LevelRow row_of(const LodLevel& level, const std::string& file, std::uint64_t bytes) {
-  const LevelCounts& mesh = level.counts.levels.front();
-  LevelRow row{
-      file, 1, level.mesh.triangles.size(), bytes, level.error_world, level.scale_world, level.mesh.frame.voxel};
-  row.more = {
-      {"attempts", level.attempts},    {"distance", level.distance_world},      {"volume", mesh.measures.volume},
-      {"voxels", level.counts.voxels}, {"faces_dense", mesh.simplify.faces_in}, {"stopped_by", mesh.stopped_by}};
-  return row;
+MadeChain make_chain(Build& build) {
+  const BuildOptions& o = build.options;
+  std::string input_hash;
+  ChainSource source;
+  source.voxelize = [&](int halvings) {
+    VoxelizedScene scene = build.voxelize(0, nullptr, halvings);
+    input_hash = scene.counts.input_hash;
+    return scene;
+  };
+  source.options = [&] { return build.lod_options(); };
+  source.request = [&](const StreamHeader& header, std::uint64_t triangles) {
+    return request_for(o, triangles, header.bounds.diagonal(), header.frame.voxel);
+  };
+  source.voxels = [&](const Bounds3d& bounds) { return voxel_request(o, bounds.diagonal()); };
+  source.may_refine = may_refine(o);
+  return make_chain(source, build.backends, build.level_steps([&] { return input_hash; }));
+}
+
+MadeOccluder make_occluder(Build& build) {
+  const BuildOptions& o = build.options;
+  OccluderSource source;
+  source.voxelize = [&](bool ground) { return build.voxelize(0, nullptr, 0, ground); };
+  source.request = [&](const StreamHeader& header) {
+    return request_of(o, header.bounds.diagonal(), header.frame.voxel);
+  };
+  source.may_ground = can_read_again(o);
+  source.hidden = {0, o.closing.element, build.budget.work, build.make_shelf, build.show};
+  source.pieces = build.pieces();
+  MadeOccluder made = make_occluder(source, build.backends, build.level_steps({}));
+  if (made.hidden_voxels > 0) return made;
+  fail(ErrorCode::bad_input,
+       "the scene hides nothing: it is open, also at a scale of {:.4g}, or thinner than its voxels of {:.4g}; try "
+       "another --scale, or smaller voxels",
+       made.scale_world, made.scene.header.frame.voxel);
 }
 
 }  // namespace bp

@@ -5,54 +5,32 @@
 #include <vector>
 
 #include "io/scene/scene_reader.h"
+#include "lib/levels/level_chain.h"
+#include "lib/levels/occluder_level.h"
 #include "lib/pass/color/scene_colors.h"
-#include "lib/pass/voxelize/voxelize_stage.h"
-#include "tools/cli/report.h"
-#include "tools/lod/build_options.h"
+#include "tools/lod/level_list.h"
+#include "tools/lod/level_notes.h"
 #include "tools/run/make_backend.h"
 #include "tools/run/memory_shares.h"
 
-/// What all profiles of bplod have in common: the scene as voxels, levels in one mesh, the list and the report.
+/// What all profiles of bplod have in common: how the options become voxels and levels, the list and the report.
 namespace bp {
-
-struct VoxelizedScene {
-  StreamHeader header;
-  std::unique_ptr<BrickShelf> solid;
-  VoxelizeCounts counts;
-};
-
-/// A line of the list, and of the report.
-struct LevelRow {
-  std::string file;
-  std::uint64_t tiles = 0, faces = 0, bytes = 0;
-  double error_world = 0;  ///< NaN: not measured
-  double scale_world = 0, voxel = 0;
-  Json more = Json::object();  ///< for the report only
-};
-
-/// Jobs of a tileset, and how many of them were found in the store.
-struct FoundJobs {
-  std::string what;
-  std::uint64_t jobs = 0, kept = 0;
-};
-
-/// What is said of a level whose error exceeds the one asked for; scene units.
-[[nodiscard]] std::string error_note(std::size_t level, double error_world, double asked_world);
-
-/// As of OriginOption, but of tilesets, which hold coordinates in double. Throws bad_argument if --origin would round.
-[[nodiscard]] std::string origin_note(const BuildOptions& options, const StreamHeader& header);
-
-/// What is said of a tileset that nobody named voxels for, if the scene has more triangles than those chosen are for;
-/// else empty.
-[[nodiscard]] std::string voxel_note(const BuildOptions& options, const SceneSize& scene);
 
 class Build {
  public:
+  const BuildOptions& options;
+  Report report{"bplod"};
+  Progress progress;
+  Backends backends;
+  const BuildBudget budget;
+  const ShelfFactory make_shelf;
+  std::function<void(const char*, const char*, std::uint64_t, std::uint64_t)> show;  ///< progress of stages
+
   explicit Build(const BuildOptions& options);
   Build(const Build&) = delete;
   Build& operator=(const Build&) = delete;
 
-  /// cell_vox, results: as in VoxelizeOptions. halvings: as in voxel_size().
+  /// cell_vox, results: as in VoxelizeOptions. halvings: as in chosen_voxel().
   /// ground: as if it stood on the ground (tools/run/grounded_source.h); the scene was voxelized without before.
   [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr, int halvings = 0,
                                         bool ground = false);
@@ -64,13 +42,13 @@ class Build {
   [[nodiscard]] PieceMemory pieces() const;
   /// What stays inside bounding levels; after voxelize().
   [[nodiscard]] Enclose enclosed() const { return enclosed_; }
-
-  /// Colours and provenance of a level of a chain, and the notes on what it missed.
-  void finish_level(LodLevel& level, std::size_t number, const LodTarget& target, const std::string& input_hash);
-  void note_missing_materials();
-  void note(const std::string& text);
   /// Null if the scene has no colours, or if none are wanted.
   [[nodiscard]] SceneColors* colors() const { return colors_.get(); }
+  /// Stages go to the report; levels get colours and provenance. `input_hash`: of the scene, for the latter.
+  [[nodiscard]] LevelSteps level_steps(std::function<std::string()> input_hash);
+
+  void note(const std::string& text);
+  void note_levels(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out);
 
   /// Writes the report and prints the list.
   void finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out);
@@ -79,28 +57,23 @@ class Build {
                    const std::vector<FoundJobs>& found);
 
  private:
+  void note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told);
+  void gather(TriangleSource& source, const VoxelizedScene& scene);
+  void complete(LodLevel& level, std::size_t number, const LodTarget& target, const std::string& input_hash);
+  /// The scene, read again; nothing of a fit's if it has too many triangles or comes from a pipe.
+  [[nodiscard]] std::vector<TriangleD> scene_triangles() const;
   /// The report, then the list; a failure says that what was `made` is there.
   void tell(const VoxelizedScene& scene, const std::string& list, const std::string& made);
   void write_report(const VoxelizedScene& scene);
-
- public:
-  const BuildOptions& options;
-  Report report{"bplod"};
-  Progress progress;
-  Backends backends;
-  const BuildBudget budget;
-  const ShelfFactory make_shelf;
-  std::function<void(const char*, const char*, std::uint64_t, std::uint64_t)> show;  ///< progress of stages
-
- private:
-  void gather(TriangleSource& source, const VoxelizedScene& scene);
-  /// The scene, read again; nothing of a fit's if it has too many triangles or comes from a pipe.
-  [[nodiscard]] std::vector<TriangleD> scene_triangles() const;
   std::uint64_t triangles_ = 0;  // of the scene
   Enclose enclosed_ = Enclose::input;
   std::unique_ptr<SceneColors> colors_;
 };
 
-[[nodiscard]] LevelRow row_of(const LodLevel& level, const std::string& file, std::uint64_t bytes);
+/// All levels of a scene, in one mesh each.
+[[nodiscard]] MadeChain make_chain(Build& build);
+
+/// The occluder of a scene. Throws bad_input if the scene hides nothing.
+[[nodiscard]] MadeOccluder make_occluder(Build& build);
 
 }  // namespace bp

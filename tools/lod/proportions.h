@@ -1,4 +1,5 @@
 #pragma once
+#include "lib/levels/voxel_choice.h"
 #include "tools/lod/build_options.h"
 #include "tools/notes/estimate.h"
 
@@ -8,7 +9,8 @@ namespace bp {
 /// (tools/notes/proportion.h): before the work, as soon as the bounds are known.
 void question_proportions(const BuildOptions& options, const SceneSize& scene);
 
-/// What the run will take, about, with voxels of this edge.
-[[nodiscard]] Estimate estimate_build(const BuildOptions& options, const Bounds3d& scene, double voxel);
+/// What the run will take, about, with voxels of this edge. `counts`: of the scene's triangles.
+[[nodiscard]] Estimate estimate_build(const BuildOptions& options, const Bounds3d& scene, const VoxelizeCounts& counts,
+                                      double voxel);
 
 }  // namespace bp

@@ -1,8 +1,7 @@
 #include "tools/mesh/enclosure.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -24,14 +23,6 @@ namespace {
 
 using Kind = EncloseOption::Kind;
 
-/// The word for it; files if it is none.
-Kind kind_of(const std::string& word) {
-  if (word == "auto") return Kind::automatic;
-  if (word == "scene") return Kind::scene;
-  if (word == "input") return Kind::input;
-  return word == "closing" ? Kind::closing : Kind::files;
-}
-
 /// Bytes that so many triangles of a scene take, from when they are read to the end.
 std::uint64_t bytes_of(std::uint64_t triangles, const EnclosureInput& in) {
   const std::uint64_t tree = triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles);
@@ -44,8 +35,7 @@ void check_memory(const std::string& name, std::uint64_t triangles, const Enclos
   if (bytes <= most) return;
   fail(ErrorCode::out_of_resource,
        "{}: its triangles take {} MiB while they are enclosed, and --memory leaves {} MiB for them; raise --memory{}, "
-       "or "
-       "use --enclose {}",
+       "or use --enclose {}",
        name, (bytes >> 20) + 1, most >> 20, in.memory.enough_for(bytes - most),
        in.mode == MeshMode::fit ? "closing" : "input");
 }
@@ -145,11 +135,11 @@ std::optional<Obstacle> take_scene(const EnclosureInput& in, bool any_number, st
   return std::nullopt;
 }
 
-/// Whether `automatic` looks for the scene's triangles at all. A proxy inside a scene is kept by voxels. Without
-/// tightening nothing is kept. A fit whose distance is bounded begins at the closing; and a cube's closing stands off
-/// slanted sides about as far as a fit looks for the scene: thorns.
+/// Whether `automatic` looks for the scene's triangles at all. A proxy inside a scene is kept by voxels. A fit whose
+/// distance is bounded begins at the closing; and a cube's closing stands off slanted sides about as far as a fit looks
+/// for the scene: thorns.
 bool wants_scene(const EnclosureInput& in) {
-  if (!in.tighten || in.mode == MeshMode::inside) return false;
+  if (in.mode == MeshMode::inside) return false;
   const bool cube = in.header.has_closing && in.header.element == StructuringElement::cube;
   return in.mode == MeshMode::bounding || (!in.has_error && !cube);
 }
@@ -170,28 +160,6 @@ Enclosure automatic(const EnclosureInput& in) {
 }
 
 }  // namespace
-
-std::string EncloseOption::text() const {
-  constexpr const char* kNames[] = {"auto", "scene", "input", "closing"};
-  if (kind != Kind::files) return kNames[std::size_t(kind)];
-  std::vector<std::string> names;
-  for (const std::string& file : files) names.push_back(file_name(file));
-  return fmt::format("{}", fmt::join(names, ","));
-}
-
-EncloseOption parse_enclose(const std::vector<std::string>& given) {
-  EncloseOption option;
-  if (given.empty()) return option;
-  option.kind = kind_of(given.front());
-  const bool mixed = std::any_of(given.begin(), given.end(), [&](const std::string& word) {
-    return kind_of(word) != (given.size() > 1 ? Kind::files : option.kind);
-  });
-  if (mixed)
-    fail(ErrorCode::bad_argument,
-         "--enclose takes one of auto, scene, input and closing, or scene files, not a mixture");
-  if (option.kind == Kind::files) option.files = given;
-  return option;
-}
 
 Enclosure make_enclosure(const EncloseOption& option, const EnclosureInput& in) {
   Enclosure out;

@@ -4,27 +4,15 @@
 #include <vector>
 
 #include "lib/pass/mesh/mesh_stage.h"
+#include "tools/cli/options/mesh.h"
 
-/// --enclose of bpmesh: what stays inside while a proxy is tightened, and what a fit is drawn to.
+/// What --enclose of bpmesh asks for, read from its files.
 namespace bp {
-
-struct EncloseOption {
-  enum class Kind { automatic, scene, input, closing, files };
-  Kind kind = Kind::automatic;
-  std::vector<std::string> files;  ///< for Kind::files
-
-  /// As given, but files by their names only: a path is nobody's business in a report or a provenance chain.
-  [[nodiscard]] std::string text() const;
-};
-
-/// Of the words given to --enclose; none: automatic. Throws bad_argument if they are a mixture.
-[[nodiscard]] EncloseOption parse_enclose(const std::vector<std::string>& given);
 
 /// What is known before a brick is read.
 struct EnclosureInput {
   const StreamHeader& header;
   MeshMode mode = MeshMode::bounding;
-  bool tighten = true;
   bool has_error = false;  ///< --error was given
   bool distances = false;  ///< distances to the scene will be measured
   PieceMemory memory;      ///< that the scene's triangles may take

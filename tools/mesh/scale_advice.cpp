@@ -1,13 +1,10 @@
 #include "tools/mesh/scale_advice.h"
 
-#include <fmt/format.h>
-
-#include "io/stream/brick_shelf.h"
-#include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/device/cpu/cpu_backend.h"
 #include "lib/pass/mesh/scale_search.h"
 #include "tools/cli/length.h"
+#include "tools/cli/progress.h"
 #include "tools/mesh/mesh_memory.h"
 #include "tools/run/memory_shares.h"
 
@@ -39,23 +36,28 @@ bool has_scale_to_raise(const StreamHeader& header) {
 }
 
 std::optional<std::string> enough_scale(const StreamHeader& header, BrickShelf& solid, std::uint64_t faces,
-                                        const CommonOptions& common) {
+                                        const ShelfFactory& make_shelf, const CommonOptions& common) {
   try {
+    Progress progress("bpmesh", common.progress);
     Length scale = parse_length(option_of_bpclose(header, "scale"));
     ScaleSearch search;
     search.faces = faces;
     search.keep_cavities = option_of_bpclose(header, "keep-cavities") == "yes";
     search.pieces = mesh_memory(common);
     search.memory_bytes = search.pieces.work_bytes;
-    search.make_shelf = make_shelf_factory(MeshBudget(common.memory_bytes).shelves, common.temp);
+    search.make_shelf = make_shelf;
+    search.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
+                                                        std::uint64_t total) mutable {
+      if (last != stage) progress.begin("try scales: " + (last = stage), total, unit);
+      progress.set(done, total);
+    };
     Backends backends = cpu_backends();
     const std::optional<int> times = enough_scales(header, solid, backends, search);
     if (!times) return "";
     scale.value *= *times;
     return scale.text();
-  } catch (const Error& e) {  // advice is not worth a failure
-    if (e.code() == ErrorCode::out_of_resource || e.code() == ErrorCode::bad_argument) return std::nullopt;
-    throw;
+  } catch (const std::exception&) {  // out of memory, a full disk, no further thread
+    return std::nullopt;
   }
 }
 

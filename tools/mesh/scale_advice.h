@@ -31,7 +31,10 @@ class SolidKeeper final : public BrickSource {
 [[nodiscard]] bool has_scale_to_raise(const StreamHeader& header);
 
 /// "4%", in the unit that bpclose was told: enough for so many faces; "" if none is; nothing where that cannot be told.
+/// Never throws: the proxy is made by then, and advice is not worth its failure. Shows progress.
+///   make_shelf  shares its memory with `solid`
 [[nodiscard]] std::optional<std::string> enough_scale(const StreamHeader& header, BrickShelf& solid,
-                                                      std::uint64_t faces, const CommonOptions& common);
+                                                      std::uint64_t faces, const ShelfFactory& make_shelf,
+                                                      const CommonOptions& common);
 
 }  // namespace bp

@@ -16,6 +16,7 @@ namespace {
 constexpr double kNoteSeconds = 10;               ///< shorter runs say nothing
 constexpr double kSurfacePerArea = 0.6;           ///< voxels that triangles touch, for each voxel face of the bounds
 constexpr double kFacesPerArea = 1;               ///< triangles of the dense surface, the same
+constexpr double kMostFacesPerVoxel = 4;          ///< two triangles on either side of a sheet
 constexpr double kSecondsPerSurfaceVoxel = 1e-7;  ///< bpvox: 0.6 to 1.1e-7
 constexpr double kSecondsPerScaledVoxel = 4e-11;  ///< bpclose, a voxel of the grid and voxel of scale: 2 to 9e-11
 constexpr double kSecondsPerFace = 1.3e-6;        ///< bpmesh, a triangle of the dense surface: 1.1 to 3.7e-6
@@ -53,9 +54,14 @@ void Estimate::then(const Estimate& next) {
   bytes = std::max(bytes, next.bytes);
 }
 
-Estimate estimate_voxelize(const Bounds3d& scene, double voxel) {
+// A plane touches up to 1.7 voxels for each of its area, a line up to one for each step along an axis.
+double most_touched_voxels(const VoxelizeCounts& counts, double voxel) {
+  return 2 * counts.area / voxel / voxel + 2 * counts.extent / voxel + 8 * double(counts.scene.triangles);
+}
+
+Estimate estimate_voxelize(const Bounds3d& scene, double voxel, double touched) {
   Estimate e = of_grid(scene, voxel);
-  const double surface = kSurfacePerArea * area_in_voxels(scene, voxel);
+  const double surface = std::min(kSurfacePerArea * area_in_voxels(scene, voxel), touched);
   e.core_seconds = kSecondsPerSurfaceVoxel * surface;
   e.bytes = kProgramBytes + kVoxBytes * surface;
   return e;
@@ -71,9 +77,9 @@ Estimate estimate_close(const StreamHeader& header, const ScaleField& field) {
   return e;
 }
 
-Estimate estimate_mesh(const Bounds3d& scene, double voxel, double effort) {
+Estimate estimate_mesh(const Bounds3d& scene, double voxel, double effort, double touched) {
   Estimate e = of_grid(scene, voxel);
-  const double faces = kFacesPerArea * area_in_voxels(scene, voxel);
+  const double faces = std::min(kFacesPerArea * area_in_voxels(scene, voxel), kMostFacesPerVoxel * touched);
   e.core_seconds = effort * kSecondsPerFace * faces;
   e.serial_seconds = kSerialShare * e.core_seconds;
   e.bytes = kProgramBytes + kMeshBytes * faces;
@@ -87,10 +93,10 @@ std::string estimate_note(const Estimate& e, std::uint64_t memory, const std::ve
   const double seconds = e.serial_seconds + (e.core_seconds - e.serial_seconds) / cores;
   if (!(seconds > kNoteSeconds)) return "";
   const double limit = double(memory);
-  return fmt::format("a grid of {} x {} x {} voxels: about {} on {} thread{}, and {}{} of memory", e.grid[0], e.grid[1],
-                     e.grid[2], duration_text(seconds), threads, threads == 1 ? "" : "s",
+  return fmt::format("a grid of {} x {} x {} voxels: about {} on {} thread{}, with {} of memory{}", e.grid[0],
+                     e.grid[1], e.grid[2], duration_text(seconds), threads, threads == 1 ? "" : "s",
                      size_text(std::uint64_t(std::min(e.bytes, limit))),
-                     e.bytes > limit ? " (the rest goes to --temp)" : "");
+                     e.bytes > limit ? "; what does not fit goes to files in --temp" : "");
 }
 
 void note_estimate(const Estimate& estimate, const CommonOptions& common, Progress& progress, Report& report,

@@ -5,12 +5,16 @@
 
 #include "lib/grid/scale_field.h"
 #include "lib/grid/stream.h"
+#include "lib/pass/voxelize/voxelize_stage.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/report.h"
 
-/// What a run will take, before the work: a number with a zero too many is noticed at once, not after an hour. Only the
-/// bounds of the scene are known then, so the figures are rough: within a factor of 3 for most scenes.
+/// What a run will take, before the work: a number with a zero too many is noticed at once, not after an hour. The
+/// figures are rough, within a factor of 3 for most scenes: they follow from the bounds of the scene, and are less
+/// where its triangles cannot touch so many voxels.
 namespace bp {
+
+constexpr double kAnyNumber = 1e300;
 
 struct Estimate {
   std::int64_t grid[3] = {};  ///< voxels along each side
@@ -22,16 +26,20 @@ struct Estimate {
   void then(const Estimate& next);
 };
 
-[[nodiscard]] Estimate estimate_voxelize(const Bounds3d& scene, double voxel);
+/// Voxels that the triangles of a scene touch, at most about: many triangles may share one.
+[[nodiscard]] double most_touched_voxels(const VoxelizeCounts& counts, double voxel);
+/// touched: at most so many voxels.
+[[nodiscard]] Estimate estimate_voxelize(const Bounds3d& scene, double voxel, double touched = kAnyNumber);
 [[nodiscard]] Estimate estimate_close(const StreamHeader& header, const ScaleField& field);
-/// effort: of what is beside --faces: 1 for it alone.
-[[nodiscard]] Estimate estimate_mesh(const Bounds3d& scene, double voxel, double effort = 1);
+/// effort: of what is beside --faces: 1 for it alone. touched: as above.
+[[nodiscard]] Estimate estimate_mesh(const Bounds3d& scene, double voxel, double effort = 1,
+                                     double touched = kAnyNumber);
 constexpr double kLodEffort = 2.5;  ///< a level of bplod
 constexpr double kErrorEffort = 5;  ///< --error: each new face is measured
 constexpr double kSceneEffort = 4;  ///< --enclose SCENE: the scene's own triangles stay inside
 
 /// What is said to the user, if it takes more than ten seconds; else empty: "a grid of 2048 x 900 x 700 voxels: about 4
-/// min on 2 threads, and 550 MiB of memory".
+/// min on 2 threads, with 550 MiB of memory".
 ///   memory    --memory: what does not fit is spilled
 ///   backends  names_of(backends), of work that a GPU takes over
 [[nodiscard]] std::string estimate_note(const Estimate& estimate, std::uint64_t memory,

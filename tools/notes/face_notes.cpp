@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "lib/levels/level_request.h"
+
 namespace bp {
 
 namespace {
 
-constexpr double kClearly = 0.95;  // of the faces asked for
-constexpr double kLoose = 2;       // times the volume, or its part
+constexpr double kLoose = 2;  // times the volume, or its part
 
 /// What --scale, or --least-part, does where there are several parts or a handle, or does to the form.
 std::string scale_advice(std::uint64_t shells, std::uint64_t handles, bool inside) {
@@ -25,8 +26,7 @@ std::string scale_advice(std::uint64_t shells, std::uint64_t handles, bool insid
 }  // namespace
 
 std::string too_few_note(std::uint64_t faces, std::uint64_t asked, MeshMode mode) {
-  // A collapse takes two faces at a time, so that merging ends one below an odd number.
-  if (faces + 2 > asked || double(faces) >= kClearly * double(asked)) return "";
+  if (!clearly_fewer(faces, asked)) return "";
   return fmt::format(
       "{} faces instead of {}: the surface of the voxels has no more, flat regions being merged; smaller voxels, or a "
       "smaller --scale, {}",

@@ -55,8 +55,19 @@ std::string grid_text(double voxels, double side) {
 void question_length(const char* option, const Length& length, const Bounds3d& scene, double voxel) {
   const double diagonal = scene.empty() ? 0 : scene.diagonal();
   if (length.unit != Length::Unit::scene || !(diagonal > 0) || length.value <= kLargestShare * diagonal) return;
-  fail(ErrorCode::bad_argument, "{} {}{} {}", option, share_text(length, diagonal),
-       likely_length(length, diagonal, voxel), insist_text(length, diagonal));
+  const std::string insist = length.value > diagonal ? "" : " " + insist_text(length, diagonal);
+  fail(ErrorCode::bad_argument, "{} {}{}{}", option, share_text(length, diagonal),
+       likely_length(length, diagonal, voxel), insist);
+}
+
+void question_scale(const char* option, const Length& scale, const Bounds3d& scene, double voxel) {
+  question_length(option, scale, scene, voxel);
+  if (scale.unit == Length::Unit::scene || (scale.unit == Length::Unit::voxels && !(voxel > 0))) return;
+  const double diagonal = scene.empty() ? 0 : scene.diagonal();
+  if (diagonal > 0 && scale.in_world(diagonal, voxel) > diagonal) {
+    fail(ErrorCode::bad_argument, "{} {} is longer than the scene's diagonal ({:.4g}); 100% is the most", option,
+         scale.text(), diagonal);
+  }
 }
 
 void question_voxel(const char* option, const Length& voxel, const Bounds3d& scene) {

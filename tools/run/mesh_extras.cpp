@@ -82,12 +82,23 @@ std::optional<Vec3d> gltf_origin(const Json& document) {
   return p;
 }
 
+bool has_hulls(const Json& document) {
+  if (!document.is_object() || !document.contains("nodes") || !document.at("nodes").is_array()) return false;
+  return std::any_of(document.at("nodes").begin(), document.at("nodes").end(), [](const Json& node) {
+    return node.is_object() && node.contains("name") && node.at("name").is_string() &&
+           node.at("name").get_ref<const std::string&>().starts_with("UCX_");
+  });
+}
+
 MeshExtras from_gltf(const std::string& text) {
-  if (text.find("\"extras\"") == std::string::npos && text.find("\"MSFT_lod\"") == std::string::npos) return {};
+  const char* const keys[] = {"\"extras\"", "\"MSFT_lod\"", "\"UCX_"};
+  if (std::none_of(std::begin(keys), std::end(keys),
+                   [&](const char* key) { return text.find(key) != std::string::npos; }))
+    return {};
   const Json document = Json::parse(text, nullptr, false);
   static const Json::json_pointer tile("/asset/extras/tile_origin");
   return {gltf_provenance(document), gltf_origin(document), document.is_object() && document.contains(tile),
-          gltf_levels(document)};
+          gltf_levels(document), has_hulls(document)};
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ struct MeshExtras {
   std::optional<Vec3d> origin;          ///< that --origin subtracted from its vertices
   bool tile = false;                    ///< the content of a tile, which its transform puts into its place
   std::size_t levels = 1;               ///< of detail; MSFT_lod of glTF
+  bool hulls = false;                   ///< nodes of glTF are named UCX_*, as convex hulls for Unreal
 };
 [[nodiscard]] MeshExtras mesh_extras(const std::string& path);
 

@@ -91,9 +91,8 @@ std::string origin_note(const OriginOption& option, const GridFrame& frame, cons
   if (option.kind == OriginOption::Kind::off || step <= frame.voxel / kLatticePerVoxel) return "";
   return fmt::format(
       "coordinates of up to {:.6g} have steps of {:.2g} in programs that compute with 32-bit floats, as most engines "
-      "do, "
-      "and vertices may move by half of that; --origin auto writes them relative to a point nearby, --origin off keeps "
-      "them without this note",
+      "do, and vertices may move by half of that; --origin auto writes them relative to a point nearby, --origin off "
+      "keeps them without this note",
       reach, step);
 }
 

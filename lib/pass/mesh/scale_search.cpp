@@ -26,6 +26,7 @@ std::unique_ptr<BrickShelf> closing_of(const StreamHeader& closed, BrickShelf& s
   options.keep_cavities = search.keep_cavities;
   options.memory_bytes = search.memory_bytes;
   options.make_shelf = search.make_shelf;
+  options.progress = search.progress;
   StreamHeader input = closed;
   input.has_closing = false;
   auto closing = search.make_shelf();
@@ -56,9 +57,11 @@ bool has_faces(const StreamHeader& closed, BrickShelf& solid, BrickShelf& closin
 
 std::optional<int> enough_scales(const StreamHeader& header, BrickShelf& solid, Backends& backends,
                                  const ScaleSearch& search) {
+  std::uint64_t tried = 0;
   for (int times = 2; times <= kMostTimes && times * header.scale.base <= header.bounds.diagonal() / 2; times *= 2) {
     const StreamHeader closed = closed_at(header, times * header.scale.base);
     const std::unique_ptr<BrickShelf> closing = closing_of(closed, solid, backends, search);
+    if (search.progress) search.progress("mesh", "scales", tried++, 0);
     repair_contacts(*closing);  // as meshing does: it closes the tiniest holes
     if (may_have(*closing, search) && has_faces(closed, solid, *closing, search)) return times;
   }

@@ -3,6 +3,7 @@
 
 #include "lib/device/backend.h"
 #include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/stage_progress.h"
 
 /// For a proxy that has more faces than were asked for, because its closing has many parts and holes: which scale would
 /// leave few enough.
@@ -14,6 +15,7 @@ struct ScaleSearch {
   std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work
   PieceMemory pieces;
   ShelfFactory make_shelf;
+  StageProgress progress;  ///< stages of each closing, and "mesh" with the number of scales done
 };
 
 /// How many times the scale of `header`, a closing by one scale, is enough: 2, 4, 8, ... Each is tried, closed and

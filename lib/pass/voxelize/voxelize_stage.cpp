@@ -111,6 +111,8 @@ class Run {
 void Run::measure() {
   scene_.measure(options_.progress);
   counts_.scene = source_.counts();
+  counts_.area = scene_.area();
+  counts_.extent = scene_.extent();
   counts_.input_hash = scene_.input_hash();
   counts_.read_twice = scene_.reads_twice();
 }

@@ -40,6 +40,7 @@ struct VoxelizeOptions {
 struct VoxelizeCounts {
   SceneCounts scene;
   std::string input_hash;           ///< XXH3-128 of the triangles' coordinates in their order, hex
+  double area = 0, extent = 0;      ///< of all triangles: areas, and sides of their boxes; scene units, for estimates
   double voxel_asked = 0;           ///< scene units; the frame's may be larger
   std::uint64_t tiles = 0;          ///< of the grid
   std::uint64_t tiles_touched = 0;  ///< that hold triangles

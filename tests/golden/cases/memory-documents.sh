@@ -23,6 +23,17 @@ awk -v n=100000 'BEGIN {
   printf "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}"
 }' > nodes.gltf
 named bpvox nodes.gltf --resolution 100 -o o.bpv
+named bplod nodes.gltf --resolution 100 --faces 500 --up z -o lod
+named bplod nodes.gltf --resolution 100 --profile 3dtiles --up z -o tiles
+bpvox nodes.gltf --resolution 100 -q -o nodes.bpv
+named bpmesh nodes.bpv --faces 500 --enclose nodes.gltf -o o.ply
+# Scenes are opened one after the other, beside the proxy, and beside what is kept of the scenes before.
+printf 'v %d %d %d\n' -1 -1 -1 400 -1 -1 400 400 -1 -1 400 -1 -1 -1 2 400 -1 2 400 400 2 -1 400 2 > box.obj
+printf 'f %d %d %d %d\n' 1 4 3 2 5 6 7 8 1 2 6 5 2 3 7 6 3 4 8 7 4 1 5 8 >> box.obj
+named bpcheck nodes.gltf box.obj
+named bpcheck nodes.gltf nodes.gltf box.obj
+named bpcheck nodes.gltf tiles/tileset.json
+rm -r lod tiles nodes.bpv box.obj o.ply
 awk -v n=300 'BEGIN {
   print "OFF\n" n * n, 2 * n * n, 0
   for (i = 0; i < n; ++i) for (j = 0; j < n; ++j) {
@@ -36,6 +47,7 @@ awk -v n=300 'BEGIN {
 }' > torus.off
 named bpcheck torus.off
 named bpcheck torus.off torus.off
+named bpcheck nodes.gltf torus.off
 # Another program's importer works in a process of its own, within what this one leaves of --memory.
 awk -v n=150000 'BEGIN {
   print "AC3Db\nMATERIAL \"m\" rgb 1 1 1 amb 0 0 0 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT world\nkids 1\nOBJECT poly\nnumvert " 3 * n

@@ -4,7 +4,7 @@ bpvox cube.obj --resolution 64 -o cube.bpv
 try bpclose cube.bpv --scale 2 -o out.bpv
 try bpclose cube.bpv --scale 40 -o out.bpv
 try bpclose cube.bpv --scale 1e100 -o out.bpv
-try bpclose cube.bpv --scale 154% -o insisted.bpv
+try bpclose cube.bpv --scale 50% -o insisted.bpv
 try bpvox cube.obj --voxel 0.00001 -o out.bpv
 try bpvox cube.obj --voxel 10 -o out.bpv
 try bpvox cube.obj --voxel 64 -o out.bpv

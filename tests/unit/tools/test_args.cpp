@@ -1,6 +1,7 @@
 #include "lib/core/error.h"
 #include "tests/catch.h"
 #include "tools/cli/args.h"
+#include "tools/cli/help.h"
 
 using namespace bp;
 
@@ -133,7 +134,7 @@ TEST_CASE("the help shows names, defaults and the example within 80 columns", "[
   args.about("Tests.");
   args.example("bptest --edge 1");
   args.option("-e,--edge", "LENGTH", x, "a text that is long enough to be wrapped at the right margin, and then some");
-  const std::string help = args.help_text();
+  const std::string help = full_help(args.declaration());
   CHECK(help.find("-e, --edge LENGTH") != std::string::npos);
   CHECK(help.find("(default: 0.5)") != std::string::npos);
   CHECK(help.find("bptest --edge 1") != std::string::npos);

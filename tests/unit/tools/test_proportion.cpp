@@ -30,7 +30,7 @@ std::string question(const std::function<void()>& f) {
 }
 
 std::string scale(const std::string& text, const Bounds3d& scene, double voxel = 0.005) {
-  return question([&] { question_length("--scale", parse_length(text), scene, voxel); });
+  return question([&] { question_scale("--scale", parse_length(text), scene, voxel); });
 }
 
 std::string voxel(const std::string& text, const Bounds3d& scene) {
@@ -39,15 +39,22 @@ std::string voxel(const std::string& text, const Bounds3d& scene) {
 
 }  // namespace
 
+TEST_CASE("a share or a number of voxels longer than the scene is refused", "[quick][tools]") {
+  const Bounds3d scene = box(0.5, 1.2, 0);  // diagonal 1.3
+  CHECK(scale("100%", scene).empty());
+  CHECK(scale("4096%", scene) == "--scale 4096% is longer than the scene's diagonal (1.3); 100% is the most");
+  CHECK(scale("130vx", scene, 0.01).empty());
+  CHECK(scale("131vx", scene, 0.01) == "--scale 131vx is longer than the scene's diagonal (1.3); 100% is the most");
+}
+
 TEST_CASE("a length beyond a quarter of the diagonal is questioned", "[quick][tools]") {
   const Bounds3d scene = box(0.5, 1.2, 0);  // diagonal 1.3
-  CHECK(scale("2", scene) ==
-        "--scale 2 is 154 % of the scene's diagonal (1.3): did you mean 2%? to insist, write 154%");
-  CHECK_THAT(scale("60", scene), Contains("did you mean 60vx? to insist, write 4615%"));
-  CHECK_THAT(scale("200", scene), Contains("is the scene in other units? to insist, write 15385%"));
+  CHECK(scale("2", scene) == "--scale 2 is 154 % of the scene's diagonal (1.3): did you mean 2%?");
+  CHECK_THAT(scale("60", scene), Contains("did you mean 60vx?"));
+  CHECK_THAT(scale("200", scene), Contains("is the scene in other units?"));
   CHECK_THAT(scale("0.33", scene), Contains("did you mean 0.33%?"));
   CHECK(scale("0.325", scene).empty());
-  for (const char* word : {"154%", "200vx", "15385%", "0"}) CHECK(scale(word, scene).empty());
+  for (const char* word : {"99%", "200vx", "100%", "0"}) CHECK(scale(word, scene).empty());
   CHECK(scale("2", box(0, 0, 0)).empty());
   CHECK(scale("2", Bounds3d()).empty());
 }
@@ -73,7 +80,16 @@ TEST_CASE("only a run of more than ten seconds is announced", "[quick][tools]") 
   CHECK(estimate_note(estimate_mesh(box(1, 1, 1), 1.0 / 256), memory).empty());
   const Estimate large = estimate_mesh(box(1, 1, 0.5), 1.0 / 16384);
   CHECK_THAT(estimate_note(large, memory), Contains("a grid of 16385 x 16385 x 8193 voxels: about "));
-  CHECK_THAT(estimate_note(large, memory), Contains("1 GiB (the rest goes to --temp) of memory"));
+  CHECK_THAT(estimate_note(large, memory), Contains("with 1 GiB of memory; what does not fit goes to files in --temp"));
+  VoxelizeCounts sparse;  // two small triangles in opposite corners
+  sparse.area = 1e-6;
+  sparse.extent = 4e-3;
+  sparse.scene.triangles = 2;
+  const double touched = most_touched_voxels(sparse, 1.0 / 16384);
+  CHECK(estimate_note(estimate_mesh(box(1, 1, 0.5), 1.0 / 16384, 1, touched), memory).empty());
+  CHECK(estimate_voxelize(box(1, 1, 1), 1.0 / 60000, touched).core_seconds < 1);
+  sparse.area = 1e3;
+  CHECK(estimate_mesh(box(1, 1, 0.5), 1.0 / 16384, 1, most_touched_voxels(sparse, 1.0 / 16384)).bytes == large.bytes);
   Estimate twice = large;
   twice.then(large);
   CHECK(twice.core_seconds == 2 * large.core_seconds);

@@ -2,6 +2,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 #include "lib/store/content_hash.h"
 #include "lib/store/hex.h"
 
@@ -20,6 +21,7 @@ struct ScenePasses::Item {
   std::vector<TriangleD> triangles;
   std::vector<std::uint32_t> places;
   Bounds3d bounds;
+  double area = 0, extent = 0;
 };
 
 void ScenePasses::measure(const StageProgress& progress) {
@@ -29,7 +31,11 @@ void ScenePasses::measure(const StageProgress& progress) {
       thread_count() + 2, [&](Item& item) { return source_.read(item.triangles); },
       [&](Item& item) {
         for (const TriangleD& t : item.triangles) {
-          for (const Vec3d& p : t) item.bounds.add(p);
+          Bounds3d box;
+          for (const Vec3d& p : t) box.add(p);
+          item.bounds.merge(box);
+          for (std::size_t i = 0; i < 3; ++i) item.extent += box.max[i] - box.min[i];
+          item.area += length(cross(t[1] - t[0], t[2] - t[0])) / 2;
         }
         if (chunks_) item.places = ChunkCutter::places(item.triangles);
         if (item.triangles.capacity() > item.triangles.size() / 4 * 5) item.triangles.shrink_to_fit();
@@ -38,6 +44,8 @@ void ScenePasses::measure(const StageProgress& progress) {
         hash.add(std::as_bytes(std::span(item.triangles)));
         if (chunks_) chunks_->measure(item.triangles, item.places);
         bounds_.merge(item.bounds);
+        area_ += item.area;
+        extent_ += item.extent;
         steps.add(item.triangles.size());
         if (!reads_twice_) keep(std::move(item));
       });

@@ -24,6 +24,9 @@ class ScenePasses {
   /// First pass. Throws bad_input if there is no triangle.
   void measure(const StageProgress& progress);
   [[nodiscard]] const Bounds3d& bounds() const { return bounds_; }
+  /// Sums over the triangles, scene units: areas, and sides of their boxes.
+  [[nodiscard]] double area() const { return area_; }
+  [[nodiscard]] double extent() const { return extent_; }
   [[nodiscard]] const std::string& input_hash() const { return input_hash_; }  ///< of VoxelizeCounts
   [[nodiscard]] bool reads_twice() const { return reads_twice_; }
 
@@ -44,6 +47,7 @@ class ScenePasses {
   const std::uint64_t memory_bytes_;
   ChunkedSurface* const chunks_;
   Bounds3d bounds_;
+  double area_ = 0, extent_ = 0;
   std::string input_hash_;
   bool reads_twice_ = false;
   std::vector<Portion> kept_;

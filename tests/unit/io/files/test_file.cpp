@@ -11,6 +11,7 @@
 #include "io/files/file.h"
 #include "io/files/final_names.h"
 #include "io/files/kept_files.h"
+#include "io/scene/scene_parts.h"
 #include "tests/catch.h"
 #include "tests/unit/io/scene/scene_files.h"
 
@@ -202,4 +203,31 @@ TEST_CASE("the folder of a path is what its name stands in", "[quick][io]") {
   CHECK(folder_of("/file") == "/");
   CHECK(folder_of("a/b/file") == "a/b");
   CHECK(folder_of("../file") == "..");
+}
+TEST_CASE("the other files of a glTF are found in any amount of JSON", "[quick][io]") {
+  const TempDir dir;
+  const std::string data = "data:;base64," + std::string(3'000'000, 'A');
+  const std::string rest = R"("nodes":[{"uri":"no.bin","buffers":[{"uri":"no.bin"}]}],"uri":"no.bin",)"
+                           R"("buffers":[{"uri":")" +
+                           data +
+                           R"("},{"uri":"a%20b.bin","extras":{"uri":"no.bin"}},)"
+                           R"({"name":"\"uri\":\\","uri":"\u00e9\/c.bin"}],"extras":[0.)" +
+                           std::string(100'000, '1') + R"(,"\u00e9)" + std::string(100'000, 'x') +
+                           R"(\"{["],"images":[{"uri":"d.png"},{"bufferView":1},7,{"uri":7},[{"uri":"no.bin"}]]})";
+  const auto names_in = [&](const std::string& json) {
+    std::vector<std::string> names = parts_of_scene(dir.file("a.gltf", json));
+    const auto size = std::uint32_t(json.size());
+    const std::uint32_t head[] = {2, size + 28, size, 0x4E4F534A};
+    const std::string bytes(reinterpret_cast<const char*>(head), sizeof head);
+    CHECK(parts_of_scene(dir.file("a.glb", "glTF" + bytes + json + R"({"buffers":[{"uri":"no.bin"}]})")) == names);
+    return names;
+  };
+  const std::vector<std::string> all{dir.path("a b.bin"), dir.path("\u00e9/c.bin"), dir.path("d.png")};
+  CHECK(names_in("{" + rest) == all);
+  for (const std::size_t blanks : {65'400, 65'500, 65'535, 65'536})
+    CHECK(names_in("{" + std::string(blanks, ' ') + rest) == all);
+  CHECK(names_in("{" + rest.substr(0, rest.size() - 20)) == all);  // truncated: what was named before
+  CHECK(names_in("").empty());
+  CHECK(names_in(R"([{"buffers":[{"uri":"no.bin"}]}])").empty());
+  CHECK(names_in(std::string(100'000, '[')).empty());
 }

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -64,6 +65,16 @@ TEST_CASE("a result comes back as it was put, also for another process", "[quick
   CHECK(out == bytes);
   CHECK_FALSE(store->get(key(2), out));
   CHECK(files_of(folder).size() == 1);
+}
+
+TEST_CASE("a store that was given nothing leaves no folder", "[quick][io][cache]") {
+  const TempDir dir;
+  const std::string top = dir.path("above"), folder = top + "/below";
+  std::string out;
+  { CHECK_FALSE(open_result_store(folder)->get(key(1), out)); }
+  CHECK_FALSE(fs::exists(top));
+  { open_result_store(folder)->put(key(1), "result"); }
+  CHECK(fs::exists(folder));
 }
 
 TEST_CASE("a damaged, truncated or foreign result is passed over, and replaced", "[quick][io][cache]") {
@@ -136,19 +147,30 @@ TEST_CASE("where nothing may be written, results are read, and that is said once
   allow(fs::perms::owner_all);
 }
 
-TEST_CASE("threads may put the same results at once", "[quick][io][cache]") {
+TEST_CASE("threads may put the same results at once, and none is ever missing", "[quick][io][cache]") {
   const TempDir dir;
   const auto a = open_result_store(dir.path("store")), b = open_result_store(dir.path("store"));
-  const auto work = [](ResultStore& store) {
-    for (int i = 0; i < 100; ++i) store.put(key(i % 10), std::string(100, char('a' + i % 10)));
+  const auto bytes = [](int i) { return std::string(100, char('a' + i % 10)); };
+  if (GENERATE(false, true)) {  // damaged ones are replaced at once, too
+    for (int i = 0; i < 10; ++i) a->put(key(i), bytes(i));
+    for (const fs::path& file : files_of(dir.path("store"))) fs::resize_file(file, 10);
+  }
+  std::atomic<int> missing{0};
+  const auto work = [&](ResultStore& store) {
+    std::string out;
+    for (int i = 0; i < 100; ++i) {
+      store.put(key(i % 10), bytes(i));
+      if (!store.get(key(i % 10), out) || out != bytes(i)) ++missing;
+    }
   };
-  std::thread one([&] { work(*a); }), two([&] { work(*b); });
-  one.join();
-  two.join();
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) threads.emplace_back([&, i] { work(i % 2 == 0 ? *a : *b); });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(missing == 0);
   std::string out;
   for (int i = 0; i < 10; ++i) {
     REQUIRE(a->get(key(i), out));
-    CHECK(out == std::string(100, char('a' + i)));
+    CHECK(out == bytes(i));
   }
   CHECK(files_of(dir.path("store")).size() == 10);
 }

@@ -1,0 +1,231 @@
+#include "io/tiles/tileset_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <set>
+
+#include "io/files/file.h"
+#include "io/files/final_names.h"
+#include "io/files/kept_files.h"
+#include "io/tiles/tileset_file.h"
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kTileset = "tileset.json";
+constexpr const char* kPartial = "/.partial";
+constexpr const char* kMoving = "/moving";
+
+bool is_inside(const std::string& name) {
+  return !name.empty() && name.find("..") == std::string::npos && name[0] != '/';
+}
+
+std::vector<std::string> contents_of(const std::string& tileset) {
+  std::vector<std::string> uris;
+  for_each_tile(read_tileset(tileset), [&](const Tile& tile, const std::string&, const Transform&) {
+    if (is_inside(tile.uri)) uris.push_back(tile.uri);
+  });
+  return uris;
+}
+
+/// Names, each with a zero after it: a name may hold anything else.
+std::vector<std::string> names_from(const std::string& path) {
+  std::vector<std::string> names;
+  if (!fs::exists(path)) return names;
+  const std::string text = read_text(path, UINT32_MAX);
+  for (std::size_t at = 0, end = 0; (end = text.find('\0', at)) != std::string::npos; at = end + 1) {
+    names.push_back(text.substr(at, end - at));
+    if (!is_inside(names.back())) names.pop_back();
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+bool holds(const std::string& path, const std::string& bytes) {
+  std::error_code missing;
+  if (fs::file_size(path, missing) != bytes.size() || missing) return false;
+  try {
+    return read_text(path, bytes.size()) == bytes;
+  } catch (const Error&) {  // not to be read: then it is written
+    return false;
+  }
+}
+
+std::string without_slash(std::string path) {
+  while (path.size() > 1 && path.back() == '/') path.pop_back();
+  return path;
+}
+
+}  // namespace
+
+TilesetFolder::TilesetFolder(const std::string& path, const std::vector<std::string>& names, bool overwrite)
+    : path_(without_slash(path)),
+      partial_(path_ + kPartial),
+      files_(partial_ + "/files"),
+      overwrite_(overwrite),
+      made_(path_) {
+  lock();
+  try {
+    begin(names);
+  } catch (...) {
+    leave();
+    throw;
+  }
+}
+
+TilesetFolder::~TilesetFolder() {
+  leave();
+}
+
+void TilesetFolder::lock() {
+  if (holds_kept(partial_))
+    fail(ErrorCode::bad_argument, "{}: an input lies in it, and would be lost; move it, or name another folder",
+         partial_);
+  folder_ = PartialOutput(partial_, PartialOutput::Kind::folder);  // before it is there: a signal may come at once
+  make_folder(partial_);
+  lock_ = ::open(partial_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(lock_);
+    fail(ErrorCode::failed, "{}: another process is at work on it", path_);
+  }
+  work_ = PartialOutput(files_, PartialOutput::Kind::tree);
+}
+
+void TilesetFolder::begin(const std::vector<std::string>& names) {
+  // Without tileset.json there was no tileset before, and what is there of the interrupted one is worth nothing.
+  if (!fs::exists(path_ + "/" + kTileset)) moved_ = names_from(partial_ + kMoving);
+  refuse_if_there(kTileset);
+  for (const std::string& name : names) refuse_if_there(name);
+  std::error_code error;
+  fs::remove_all(files_, error);
+  make_folder(files_);
+}
+
+/// What holds something yet stays: the note of a commit that was interrupted.
+void TilesetFolder::leave() {
+  std::error_code ignored;
+  fs::remove_all(files_, ignored);
+  fs::remove(partial_, ignored);
+  if (lock_ >= 0) ::close(lock_);
+}
+
+/// Of a commit that was interrupted: nobody else's.
+bool TilesetFolder::may_replace(const std::string& name) const {
+  return overwrite_ || std::binary_search(moved_.begin(), moved_.end(), name);
+}
+
+void TilesetFolder::refuse_if_there(const std::string& name) const {
+  const fs::path path = path_ + "/" + name;
+  refuse_kept(path.string(), "give the tileset another folder or --name");
+  if (may_replace(name) || !fs::exists(path) || (fs::is_directory(path) && fs::is_empty(path))) return;
+  const auto below = std::lower_bound(moved_.begin(), moved_.end(), name + "/");
+  if (below != moved_.end() && below->starts_with(name + "/")) return;
+  fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", path.string());
+}
+
+void TilesetFolder::write(const std::string& name, const std::string& bytes) {
+  const bool same = holds(path_ + "/" + name, bytes);
+  if (!same) {
+    refuse_if_there(name);
+    make_folder(folder_of(files_ + "/" + name));
+    OutputFile file(files_ + "/" + name, true);
+    file.write(bytes);
+    file.commit(OutputFile::Sync::content);  // it has another name to come
+  }
+  const std::lock_guard lock(mutex_);
+  bytes_ += bytes.size();
+  names_.push_back(name);
+  if (!same) written_.push_back(name);
+}
+
+/// What is there of earlier tilesets.
+std::vector<std::string> TilesetFolder::names_before() {
+  std::vector<std::string> names = names_from(partial_ + kMoving);
+  const std::string tileset = path_ + "/" + kTileset;
+  if (!fs::exists(tileset)) return names;
+  try {
+    const std::vector<std::string> contents = contents_of(tileset);
+    names.insert(names.end(), contents.begin(), contents.end());
+  } catch (const Error& e) {  // then nothing is known to be its
+    complaint_ = e.what();
+  }
+  return names;
+}
+
+void TilesetFolder::commit() {
+  const std::vector<std::string> before = names_before(), moved_before = names_from(partial_ + kMoving);
+  std::sort(names_.begin(), names_.end());
+  note_moves(before, names_);
+  try {
+    move_files();
+  } catch (...) {
+    take_back(moved_before);
+    throw;
+  }
+  remove_others(before);
+  made_.keep();
+  fs::remove(partial_ + kMoving);
+}
+
+void TilesetFolder::note_moves(const std::vector<std::string>& before, const std::vector<std::string>& after) const {
+  OutputFile note(partial_ + kMoving, true);
+  for (const std::vector<std::string>* names : {&before, &after}) {
+    for (const std::string& name : *names) note.write(name + '\0');
+  }
+  note.commit();
+}
+
+void TilesetFolder::move_file(const std::string& name) {
+  const bool replace = may_replace(name);
+  place_file(files_ + "/" + name, path_ + "/" + name, replace);
+  if (!replace) new_.push_back(name);
+}
+
+/// The tileset appears when what it names is there for good, and then what it does not name may go.
+void TilesetFolder::move_files() {
+  std::set<std::string> folders{path_};
+  for (const std::string& name : written_) {
+    if (name == kTileset) continue;
+    const std::string folder = folder_of(path_ + "/" + name);
+    if (folders.insert(folder).second) make_folder(folder);
+    move_file(name);
+  }
+  for (const std::string& folder : folders) sync_folder(folder);
+  if (std::find(written_.begin(), written_.end(), kTileset) == written_.end()) return;
+  move_file(kTileset);
+  sync_folder(path_);
+}
+
+/// After a name was found taken. What the note says is ours to replace must be as before, or the next run would replace
+/// what is another's.
+void TilesetFolder::take_back(const std::vector<std::string>& moved_before) {
+  std::error_code ignored;
+  for (const std::string& name : new_) {
+    (void)remove_file(path_ + "/" + name);
+    const fs::path folder = fs::path(name).parent_path();
+    if (!folder.empty()) fs::remove(path_ / folder, ignored);  // if it is empty now
+  }
+  if (!moved_before.empty()) return note_moves(moved_before, {});
+  fs::remove(partial_ + kMoving, ignored);
+}
+
+void TilesetFolder::remove_others(const std::vector<std::string>& before) const {
+  for (const std::string& name : before) {
+    if (std::binary_search(names_.begin(), names_.end(), name)) continue;
+    (void)remove_file(path_ + "/" + name);
+    std::error_code ignored;
+    const fs::path folder = fs::path(name).parent_path();
+    if (!folder.empty()) fs::remove(path_ / folder, ignored);  // if it is empty now
+  }
+}
+
+}  // namespace bp

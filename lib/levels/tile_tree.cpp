@@ -1,0 +1,120 @@
+#include "lib/levels/tile_tree.h"
+
+#include <algorithm>
+
+#include "lib/volume/reduce.h"
+
+namespace bp {
+
+Bounds3d cell_bounds(const Cells& cells, const GridFrame& frame, CellCoord cell) {
+  const VoxelBox box = cells.box(cell);
+  Bounds3d bounds;
+  for (const VoxelCoord p : {box.min, box.max}) {
+    bounds.add(frame.world({std::int64_t(p.x) * kLatticePerVoxel, std::int64_t(p.y) * kLatticePerVoxel,
+                            std::int64_t(p.z) * kLatticePerVoxel}));
+  }
+  return bounds;
+}
+
+void TileTree::add(std::size_t level, const GridFrame& frame, CellCoord cell, TreeTile tile) {
+  if (level != number_) {  // the level below is complete
+    raise();
+    number_ = level;
+  }
+  frame_ = frame;
+  Node& node = level_[cell];  // its children may be there
+  node.cell = cell_bounds(cells_, frame, cell);
+  for (const Node& child : node.children) {
+    tile.error_world = std::max(tile.error_world, child.tile.error_world);
+    tile.bounds.merge(child.tile.bounds);
+  }
+  node.tile = std::move(tile);
+  errors_.resize(level + 1);
+  errors_[level] = std::max(errors_[level], node.tile.error_world);
+}
+
+/// The cells above those of the level, with what lies in them. A cell above that gets no tile of its own has a node
+/// without content.
+void TileTree::raise() {
+  frame_ = reduced(frame_);
+  Level above;
+  for (auto& [cell, node] : level_) {
+    Node& parent = above[parent_of(cell)];
+    if (parent.children.empty()) {
+      parent.cell = cell_bounds(cells_, frame_, parent_of(cell));
+      parent.tile.origin = node.tile.origin;
+    }
+    parent.tile.bounds.merge(node.tile.bounds);
+    parent.tile.error_world = std::max(parent.tile.error_world, node.tile.error_world);
+    parent.children.push_back(std::move(node));
+  }
+  level_ = std::move(above);
+}
+
+void TileTree::add_whole(TreeTile tile) {
+  Node node;
+  if (root_) {
+    node.cell = root_->cell;
+    node.children.push_back(std::move(*root_));
+  } else if (!level_.empty()) {
+    do raise();  // to the one cell that holds all, if need be by nodes without content
+    while (level_.size() > 1);
+    node.cell = level_.begin()->second.cell;
+    node.children = std::move(level_.begin()->second.children);
+  }
+  for (const Node& child : node.children) {
+    tile.error_world = std::max(tile.error_world, child.tile.error_world);
+    tile.bounds.merge(child.tile.bounds);
+  }
+  errors_.push_back(tile.error_world);
+  node.tile = std::move(tile);
+  root_ = std::move(node);
+}
+
+Tileset TileTree::finish(double diameter) {
+  while (!root_) {  // no level in one mesh: nodes without content on top
+    if (level_.size() == 1) {
+      root_ = std::move(level_.begin()->second);
+    } else {
+      raise();
+    }
+  }
+  Tileset tileset;
+  tileset.up = up_;
+  tileset.root = tile_of(*root_, Vec3d{}, diameter);
+  tileset.root.refine = "REPLACE";
+  tileset.geometric_error = std::max(diameter, tileset.root.geometric_error);
+  return tileset;
+}
+
+/// `above`: the error of the tile above it. A node without content draws nothing, so a viewer must not stop there: it
+/// is refined whenever that one is.
+Tile TileTree::tile_of(const Node& node, const Vec3d& parent, double above) const {
+  Tile tile;
+  const Vec3d from = z_up(parent), to = z_up(node.tile.origin);
+  for (std::size_t i = 0; i < 3; ++i) tile.transform[12 + i] = to[i] - from[i];
+  tile.box = box_of(local(node.tile.bounds, node.tile.origin));
+  if (node.cell) tile.cell = local(*node.cell, node.tile.origin);
+  tile.geometric_error = node.tile.uri.empty() ? above : node.tile.error_world;
+  tile.uri = node.tile.uri;
+  for (const Node& child : node.children)
+    tile.children.push_back(tile_of(child, node.tile.origin, tile.geometric_error));
+  return tile;
+}
+
+/// Relative to `origin`; exact, both being points of the lattice.
+Bounds3d TileTree::local(const Bounds3d& bounds, const Vec3d& origin) const {
+  Bounds3d out;
+  for (Vec3d p : {bounds.min, bounds.max}) {
+    for (std::size_t i = 0; i < 3; ++i) p[i] -= origin[i];
+    out.add(z_up(p));
+  }
+  return out;
+}
+
+/// Scene to 3D Tiles: z up. Exact.
+Vec3d TileTree::z_up(const Vec3d& p) const {
+  return turned(p, up_, UpAxis::z);
+}
+
+}  // namespace bp

@@ -1,0 +1,55 @@
+#include "lib/levels/voxel_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/pass/voxelize/voxelize_stage.h"
+#include "lib/volume/boundary_runs.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::uint64_t kDensePerFaceAsked = 190;  // as kDensePerFace, where faces choose the voxels
+
+/// Of the cube of the same volume: a flat scene shows what is in it along its thickness, too.
+double area_of_cube_like(const Bounds3d& b) {
+  constexpr double kFlattest = 1.0 / 64;
+  double volume = 1;
+  for (std::size_t i = 0; i < 3; ++i) volume *= std::max(b.max[i] - b.min[i], kFlattest * b.longest_side());
+  const double edge = std::cbrt(volume);
+  return 6 * edge * edge;
+}
+
+/// The edge for a dense surface of `dense_faces` triangles over `area`, within two resolutions.
+double voxel_for(double dense_faces, double area, const Bounds3d& bounds, std::int64_t most, int halvings) {
+  const double coarse = voxel_size_of(bounds, kDefaultResolution);
+  const double fine = std::min(coarse, std::sqrt(2 * kSlantedSteps * area / dense_faces));
+  return std::min(coarse, std::max(std::ldexp(fine, -halvings), voxel_size_of(bounds, most)));
+}
+
+}  // namespace
+
+double area_of(const Bounds3d& b) {
+  const double x = b.max[0] - b.min[0], y = b.max[1] - b.min[1], z = b.max[2] - b.min[2];
+  return 2 * (x * y + y * z + z * x);
+}
+
+double chosen_voxel(const VoxelRequest& voxels, const LevelRequest& levels, const SceneSize& scene, int halvings) {
+  const Bounds3d& bounds = scene.bounds;
+  if (voxels.voxel > 0) return voxels.voxel;
+  if (voxels.resolution > 0) return voxel_size_of(bounds, voxels.resolution);
+  if (!levels.errors_world.empty()) return levels.errors_world.front() / kVoxelsPerError;
+  if (voxels.use == VoxelUse::occluder) return voxel_size_of(bounds, kOccluderResolution);
+  if (voxels.use == VoxelUse::tiles) {
+    if (!levels.faces.empty()) return voxel_size_of(bounds, kDefaultResolution);
+    const double faces = double(std::min(scene.triangles, kTilesetFaces));
+    return voxel_for(double(kDensePerFace) * faces, area_of_cube_like(bounds), bounds, kMostTilesetResolution,
+                     halvings);
+  }
+  if (levels.faces.empty()) return voxel_size_of(bounds, kDefaultResolution);
+  const double dense = std::max(double(kDensePerFaceAsked) * double(levels.faces.front()), kLeastDenseFaces);
+  return voxel_for(dense, area_of(bounds), bounds, kMostResolution, halvings);
+}
+
+}  // namespace bp

@@ -1,0 +1,44 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/pass/mesh/mesh_stage.h"
+#include "tools/cli/args.h"
+#include "tools/run/origin.h"
+
+/// What a proxy is to what it is made of: bpmesh and bplod declare the same options.
+namespace bp {
+
+/// What stays inside while a proxy is tightened, and what a fit is drawn to.
+struct EncloseOption {
+  enum class Kind { automatic, scene, input, closing, files };
+  Kind kind = Kind::automatic;
+  std::vector<std::string> files;  ///< for Kind::files
+
+  /// As given, but files by their names only: a path is nobody's business in a report or a provenance chain.
+  [[nodiscard]] std::string text() const;
+  /// scene, input or closing; empty: automatic, or files.
+  [[nodiscard]] std::optional<Enclose> what() const;
+};
+
+/// Of the words given to --enclose; none: automatic. Throws bad_argument if they are a mixture.
+[[nodiscard]] EncloseOption parse_enclose(const std::vector<std::string>& given);
+
+struct ProxyOptions {
+  MeshMode mode = MeshMode::bounding;
+  EncloseOption enclose;
+  OriginOption origin;
+
+  /// Of a stream: every mode, and --enclose may name files.
+  void add_of_stream(Args& args);
+  /// Of a scene: the modes bounding and fit, and --enclose takes no files.
+  void add_of_scene(Args& args);
+  /// After args.parse(), of a stream: reads the words given to --enclose.
+  void check();
+
+ private:
+  std::vector<std::string> enclose_words_;
+};
+
+}  // namespace bp

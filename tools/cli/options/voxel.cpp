@@ -1,0 +1,66 @@
+#include "tools/cli/options/voxel.h"
+
+#include "lib/core/error.h"
+#include "tools/cli/common_options.h"
+#include "tools/run/inputs.h"
+
+namespace bp {
+
+namespace {
+
+constexpr const char* kFillHelp = "what counts as inside, in addition to the voxels that the surface touches";
+constexpr Args::Choice<FillMode> kFlood = {"flood", FillMode::flood, "all that the outside cannot reach"};
+constexpr Args::Choice<FillMode> kWinding = {"winding", FillMode::winding,
+                                             "where the winding number is not 0; cavities stay empty"};
+constexpr Args::Choice<FillMode> kNone = {"none", FillMode::none, "nothing"};
+constexpr Args::Choice<FillMode> kInside = {"inside", FillMode::inside,
+                                            "as flood, but without the voxels that the surface touches; for bpclose "
+                                            "--inner and bpmesh --mode inside"};
+
+void add_size(VoxelOptions& o, Args& args, const std::string& resolution_default) {
+  args.group("Voxels");
+  args.option("--voxel", "LENGTH", o.voxel,
+              "edge length of a voxel: in scene units, or as a percentage of the scene's diagonal (0.5%)");
+  args.option(
+      "--resolution", "N", o.resolution,
+      "number of voxels along the longest side of the scene, instead of --voxel (default: " + resolution_default + ")");
+}
+
+void add_up(VoxelOptions& o, Args& args) {
+  args.option("--up", "x|y|z|-x|-y|-z", o.up,
+              "axis of the scene that points up; glTF is turned by it (default: what the scene tells, else y)");
+  args.words({{"x", ""}, {"y", ""}, {"z", ""}, {"-x", ""}, {"-y", ""}, {"-z", ""}});
+}
+
+}  // namespace
+
+void VoxelOptions::add_scenes(Args& args, const std::string& scenes_help) {
+  args.positional("SCENE", scenes, scenes_help + "; - is stdin and needs --format");
+  args.group("Files");
+  args.option("--format", "NAME", format,
+              "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");
+}
+
+void VoxelOptions::add_to(Args& args, const std::string& resolution_default) {
+  add_size(*this, args, resolution_default);
+  args.option("--fill", {kFlood, kWinding, kNone}, fill, kFillHelp);
+  add_up(*this, args);
+}
+
+void VoxelOptions::add_with_inside(Args& args, const std::string& resolution_default) {
+  add_size(*this, args, resolution_default);
+  args.option("--fill", {kFlood, kWinding, kNone, kInside}, fill, kFillHelp);
+  add_up(*this, args);
+}
+
+void VoxelOptions::check() const {
+  check_scene_format(format, scenes);
+  keep_inputs(scenes);
+  if (voxel && resolution) fail(ErrorCode::bad_argument, "--voxel and --resolution exclude each other");
+  if (voxel && voxel->unit == Length::Unit::voxels)
+    fail(ErrorCode::bad_argument, "--voxel {}: a voxel is not measured in voxels", voxel->text());
+  if (voxel && !(voxel->value > 0)) fail(ErrorCode::bad_argument, "--voxel {}: must be above 0", voxel->text());
+  if (resolution && *resolution < 1) fail(ErrorCode::bad_argument, "--resolution 0: at least 1 voxel is needed");
+}
+
+}  // namespace bp

@@ -1,0 +1,66 @@
+#include "tools/lod/kept_results.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "io/store/result_store.h"
+#include "lib/store/source_digest.h"
+
+namespace bp {
+
+namespace {
+
+/// Results that are there; nothing is added.
+class LookUpStore final : public ResultStore {
+ public:
+  explicit LookUpStore(const std::string& folder) {
+    if (std::filesystem::is_directory(folder)) results_ = open_result_store(folder);
+  }
+  bool get(const ResultKey& key, std::string& out) override { return results_ && results_->get(key, out); }
+  void put(const ResultKey&, std::string_view) override {}
+
+ private:
+  std::unique_ptr<ResultStore> results_;
+};
+
+/// What a cache holds belongs to the sources of a program: a file of their name tells which ones were here. True if
+/// only others were. `leave`: this one's name, too, if that can be, and as of now: what is old may be deleted.
+bool is_of_others(const std::string& folder, bool leave) {
+  constexpr std::string_view kName = "made-by-";
+  std::error_code error;
+  bool mine = false, others = false;
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    const bool tells = name.starts_with(kName);
+    mine = mine || (tells && name.substr(kName.size()) == source_digest());
+    others = others || tells || name.size() == 2;  // results are in folders ab/; not all builds told their name
+  }
+  if (leave) {
+    const auto file = std::filesystem::path(folder) / (std::string(kName) + std::string(source_digest()));
+    if (!mine) std::ofstream{file};
+    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), error);
+  }
+  return others && !mine;
+}
+
+}  // namespace
+
+std::unique_ptr<ResultStore> open_kept_results(const BuildOptions& o, std::string& read_only) {
+  if (o.cache.empty()) return nullptr;
+  std::function<void(const std::string&)> when_read_only;
+  if (!o.tiles) when_read_only = [&read_only](const std::string& why) { read_only = why; };
+  std::unique_ptr<ResultStore> results = open_result_store(o.cache, when_read_only);
+  static_cast<void>(is_of_others(o.cache, true));
+  return results;
+}
+
+std::unique_ptr<ResultStore> look_up_kept_results(const std::string& path) {
+  return std::make_unique<LookUpStore>(path);
+}
+
+std::string cache_note(const BuildOptions& options) {
+  if (options.cache.empty() || !is_of_others(options.cache, false)) return "";
+  return options.cache + ": holds results of other builds of bplod, and none of this one: all is made anew";
+}
+
+}  // namespace bp

@@ -1,0 +1,20 @@
+#pragma once
+#include <memory>
+
+#include "lib/store/result_store.h"
+#include "tools/lod/build_options.h"
+
+/// The folder of --cache.
+namespace bp {
+
+/// Null without --cache. A cache that others fill may be read-only: then `read_only` says why, later. A run of --tiles
+/// must be able to fill it.
+[[nodiscard]] std::unique_ptr<ResultStore> open_kept_results(const BuildOptions& options, std::string& read_only);
+
+/// What is there; nothing is added. The folder need not be there.
+[[nodiscard]] std::unique_ptr<ResultStore> look_up_kept_results(const std::string& path);
+
+/// What is said of a --cache that only other builds of the program have filled: its results are of no use; else empty.
+[[nodiscard]] std::string cache_note(const BuildOptions& options);
+
+}  // namespace bp

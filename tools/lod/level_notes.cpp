@@ -1,0 +1,79 @@
+#include "tools/lod/level_notes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/lod/choices.h"
+#include "tools/notes/face_notes.h"
+#include "tools/run/enclosed_triangles_limit.h"
+
+namespace bp {
+
+std::string faces_note(const LevelFacts& level, bool asked) {
+  const std::uint64_t budget = level.target.faces;
+  if (!level.reached)
+    return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", level.faces,
+                       budget, level.scale_world);
+  const std::string few = asked ? too_few_note(level.faces, budget) : "";
+  if (few.empty() && asked && level.attempts > 1)
+    return fmt::format(
+        "closed at {:.4g}, {} times the scale that was tried first: at less, parts and holes take more than {} faces",
+        level.scale_world, std::uint64_t(1) << (level.attempts - 1), budget);
+  if (few.empty() || level.attempts == 1) return few;
+  return fmt::format("{} faces instead of {}: at half of its scale of {:.4g}, parts and holes take too many",
+                     level.faces, budget, level.scale_world);
+}
+
+std::string error_note(std::size_t level, double error_world, double asked_world) {
+  return fmt::format(
+      "level {}: its error is at most {:.4g} instead of {:.4g}: its voxels or its scale are too large for less", level,
+      error_world, asked_world);
+}
+
+std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out,
+                                     bool asked) {
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const LevelFacts& level = levels[i];
+    if (const std::string missed = faces_note(level, asked); !missed.empty())
+      notes.push_back(fmt::format("level {}: {}", first + i, missed));
+    if (const double error = level.target.error_world; error > 0 && level.error_world > error)
+      notes.push_back(error_note(first + i, level.error_world, error));
+  }
+  if (left_out > 0)
+    notes.push_back(
+        fmt::format("{} of {} levels {} left out: no fewer faces than the one before, or an error beyond the "
+                    "scene's size",
+                    left_out, levels.size() + left_out, left_out == 1 ? "is" : "are"));
+  return notes;
+}
+
+std::string origin_note(const BuildOptions& o, const StreamHeader& header) {
+  return o.is_tileset() ? "" : origin_note(o.proxy.origin, header.frame, header.bounds);
+}
+
+std::string voxel_note(const BuildOptions& o, const SceneSize& scene) {
+  if (!is_by_scene(o) || scene.triangles <= kTilesetFaces) return "";
+  return fmt::format(
+      "the scene has {} triangles, and voxels of {:.4g}, which are for {}: for more detail, name a smaller --voxel; "
+      "half of it takes some four times as long",
+      scene.triangles, voxel_size(o, scene), kTilesetFaces);
+}
+
+std::string enclose_note(const BuildOptions& o, std::uint64_t triangles) {
+  if (o.proxy.enclose.what() || !may_enclose_scene(o) || enclosed_by(o, triangles) == Enclose::scene) return "";
+  const bool file = can_read_again(o);
+  return fmt::format("{}: levels enclose the scene's voxels, not its triangles, and are less tight; {}",
+                     file ? fmt::format("the scene has {} triangles, more than {}", triangles, kMostEnclosedTriangles)
+                          : "the scene comes from a pipe and cannot be read again",
+                     file ? "--enclose scene takes them all the same" : "give it as a file");
+}
+
+std::string heavier_note(const LevelFacts& finest, std::uint64_t triangles) {
+  if (finest.faces <= std::max(triangles, kLeastFaces)) return "";
+  return fmt::format("level 0 has {} faces, and the scene {} triangles; --faces 50% makes half as many", finest.faces,
+                     triangles);
+}
+
+}  // namespace bp

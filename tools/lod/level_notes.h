@@ -1,0 +1,30 @@
+#pragma once
+#include "lib/levels/level_chain.h"
+#include "tools/lod/build_options.h"
+
+/// What a person should know of what bplod made. Each is one line, or empty.
+namespace bp {
+
+/// A level that has not its faces: why. `asked`: faces were asked for.
+[[nodiscard]] std::string faces_note(const LevelFacts& level, bool asked);
+
+/// A level whose error exceeds the one asked for; scene units.
+[[nodiscard]] std::string error_note(std::size_t level, double error_world, double asked_world);
+
+/// Notes of levels in one mesh, the first of which is level `first`.
+[[nodiscard]] std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std::size_t first,
+                                                   std::size_t left_out, bool asked);
+
+/// As of OriginOption, but of tilesets, which hold coordinates in double. Throws bad_argument if --origin would round.
+[[nodiscard]] std::string origin_note(const BuildOptions& options, const StreamHeader& header);
+
+/// A tileset whose voxels follow from the scene, if the scene has more triangles than these are for.
+[[nodiscard]] std::string voxel_note(const BuildOptions& options, const SceneSize& scene);
+
+/// Levels that do not enclose the triangles of a scene although such levels could, and nobody asked for it.
+[[nodiscard]] std::string enclose_note(const BuildOptions& options, std::uint64_t triangles);
+
+/// Levels with more faces than the scene has triangles.
+[[nodiscard]] std::string heavier_note(const LevelFacts& finest, std::uint64_t triangles);
+
+}  // namespace bp
