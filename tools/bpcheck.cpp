@@ -13,6 +13,7 @@
 #include "lib/check/verdict_text.h"
 #include "lib/core/error.h"
 #include "tools/check/check_budget.h"
+#include "tools/check/check_run.h"
 #include "tools/check/hiding_recipe.h"
 #include "tools/check/hints.h"
 #include "tools/check/tileset_verdict.h"
@@ -29,62 +30,10 @@
 
 namespace {
 
-constexpr std::uint64_t kExamples = 5, kSamples = 5000;
-
-struct Options {
-  bp::CommonOptions common;
-  std::vector<std::string> files;  // scenes, then the proxy
-  std::string format;
-  bool json = false, inside = false, convex = false;
-  std::uint64_t samples = kSamples;  // 0: no distances
-  bool samples_given = false;
-  std::optional<bp::Vec3d> origin;
-};
-
-Options parse(bp::Args& args) {
-  Options o;
-  args.about(
-      "Proves that a proxy is closed, oriented, 2-manifold, free of self-intersections, and strictly encloses its "
-      "scenes; or names the places where it does not. Exact for the coordinates as read. Exit status: 0 proven, 1 "
-      "refuted, 5 not decided.");
-  args.positional("[SCENE...] PROXY", o.files, "scenes and their proxy, or a proxy alone");
-  args.group("Question");
-  args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
-  args.flag("--convex", o.convex,
-            "prove that the parts of the proxy, which may overlap, are convex and enclose the scenes together");
-  args.group("Files");
-  args.option("--format", "NAME", o.format, "format of stdin, or of files whose names do not tell");
-  args.option(
-      "--origin", "X,Y,Z", o.origin,
-      "add this point to every vertex of the proxy, exactly (default: what its --origin subtracted, if the file "
-      "tells)");
-  args.group("Verdict");
-  args.flag("--json", o.json, "print the verdict as JSON");
-  args.option("--samples", "N", o.samples, "triangles of each side to measure distances from; 0 measures none");
-  o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
-  args.removed("--no-distances", "--samples 0 measures none");
-  args.removed("--examples", "bpcheck names the first 5 places of each kind");
-  for (const char* const name : {"--image", "--image-size", "--up", "--azimuth", "--elevation", "--zoom", "--look-at"})
-    args.removed(name, "bpinfo SCENE PROXY --image FILE draws both");
-  args.often({"--inside", "--convex", "--json", "--memory"});
-  args.example("bpcheck scene.glb proxy.glb");
-  args.parse();
-  args.excludes("--samples", "--inside");  // measures none
-  args.excludes("--samples", "--convex");
-  args.excludes("--convex", "--inside");
-  bp::check_scene_format(o.format, o.files);
-  bp::check_stdin_once(o.files);
-  bp::keep_inputs(o.files);
-  o.samples_given = args.given("--samples");
-  if (o.samples_given && o.files.size() < 2)
-    bp::fail(bp::ErrorCode::bad_argument, "--samples means nothing without a scene; leave it out");
-  if (o.inside && o.files.size() < 2)
-    bp::fail(bp::ErrorCode::bad_argument, "--inside asks for a scene around the proxy; name it before the proxy");
-  return o;
-}
+constexpr std::uint64_t kExamples = 5;
 
 /// What --origin says, or else the proxy, which is noted.
-bp::Vec3d origin_of(const Options& o, bp::Report& report) {
+bp::Vec3d origin_of(const bp::CheckRun& o, bp::Report& report) {
   if (o.origin) return *o.origin;
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
   const std::optional<bp::Vec3d> told = bp::told_origin(scenes, o.files.back());
@@ -95,7 +44,7 @@ bp::Vec3d origin_of(const Options& o, bp::Report& report) {
   return *told;
 }
 
-void fill_report(bp::Report& report, const Options& o, const bp::Vec3d& origin,
+void fill_report(bp::Report& report, const bp::CheckRun& o, const bp::Vec3d& origin,
                  const std::vector<bp::CheckReport>& verdicts) {
   report.options = {{"inside", o.inside}, {"convex", o.convex}, {"origin", origin}, {"samples", o.samples}};
   report.counts = bp::counts_of(verdicts[0]);
@@ -109,7 +58,7 @@ void fill_report(bp::Report& report, const Options& o, const bp::Vec3d& origin,
 }
 
 /// An answer to another question than was asked would be none.
-void refuse_for_tileset(const Options& o) {
+void refuse_for_tileset(const bp::CheckRun& o) {
   for (const auto& [option, given] : {std::pair{"--inside", o.inside},
                                       {"--convex", o.convex},
                                       {"--origin", o.origin.has_value()},
@@ -118,7 +67,7 @@ void refuse_for_tileset(const Options& o) {
   }
 }
 
-void note_hint(bp::Report& report, const Options& o, const std::string& hint) {
+void note_hint(bp::Report& report, const bp::CheckRun& o, const std::string& hint) {
   if (!hint.empty()) report.note(hint, o.common);
 }
 
@@ -129,7 +78,7 @@ int status_of(bp::Answer answer) {
 }
 
 /// A tileset is many proxies and what holds them together.
-int run_tileset(const Options& o) {
+int run_tileset(const bp::CheckRun& o) {
   refuse_for_tileset(o);
   bp::Report report("bpcheck");
   report.stage("check");
@@ -151,14 +100,14 @@ int run_tileset(const Options& o) {
 }
 
 /// Of enclosure, or with --inside of its opposite.
-bool answers_hold(const Options& o, const std::vector<bp::CheckReport>& verdicts) {
+bool answers_hold(const bp::CheckRun& o, const std::vector<bp::CheckReport>& verdicts) {
   return o.files.size() < 2 || std::all_of(verdicts.begin(), verdicts.end(), [&](const bp::CheckReport& v) {
            return o.inside ? v.inside() || v.holds() : v.encloses();
          });
 }
 
 /// Each level as a proxy of its own.
-std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::IndexedMesh>& levels,
+std::vector<bp::CheckReport> check(const bp::CheckRun& o, const std::vector<bp::IndexedMesh>& levels,
                                    bp::TriangleSource* scene, const std::optional<bp::HidingQuestion>& hidden,
                                    std::uint64_t scene_bytes) {
   bp::CheckOptions options;
@@ -183,7 +132,7 @@ std::vector<bp::CheckReport> check(const Options& o, const std::vector<bp::Index
 }
 
 /// Whether the proxy fails as one surface in a way that convex parts do: they intersect, or share vertices or edges.
-bool parts_meet(const Options& o, const std::vector<bp::CheckReport>& verdicts) {
+bool parts_meet(const bp::CheckRun& o, const std::vector<bp::CheckReport>& verdicts) {
   if (o.convex || o.inside) return false;
   return std::any_of(verdicts.begin(), verdicts.end(),
                      [](const bp::CheckReport& v) { return v.components > 1 && (!v.embedded() || !v.manifold()); });
@@ -201,7 +150,7 @@ bool has_convex_parts(const std::vector<bp::IndexedMesh>& levels) {
 }
 
 /// What the proxy's file says that it is hidden by, if it says so; `walls` opens the scene for it.
-std::optional<bp::HidingQuestion> hiding_question(const Options& o, const std::vector<std::string>& scenes,
+std::optional<bp::HidingQuestion> hiding_question(const bp::CheckRun& o, const std::vector<std::string>& scenes,
                                                   bp::SceneOptions options,
                                                   std::unique_ptr<bp::TriangleSource>& walls) {
   if (!o.inside || std::count(scenes.begin(), scenes.end(), "-") > 0) return {};  // stdin cannot be read again
@@ -214,7 +163,7 @@ std::optional<bp::HidingQuestion> hiding_question(const Options& o, const std::v
   return bp::HidingQuestion{recipe->hiding, walls.get()};
 }
 
-int run(const Options& o) {
+int run(const bp::CheckRun& o) {
   if (bp::is_tileset(o.files.back())) return run_tileset(o);
   bp::Report report("bpcheck");
   report.stage("read the proxy");
@@ -253,5 +202,5 @@ int run(const Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return bp::run_tool("bpcheck", argc, argv, parse, run);
+  return bp::run_tool("bpcheck", argc, argv, bp::parse_check_run, run);
 }

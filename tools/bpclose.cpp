@@ -47,7 +47,7 @@ Options parse(bp::Args& args) {
   o.common.device_text =
       "auto, cpu, cuda (every GPU) or cuda:0,1 (default: auto, one GPU where the work is worth its start, or the CPU)";
   o.common.add_to(args);
-  args.often({"--output", "--scale", "--element", "--inner", "--memory", "--overwrite"});
+  args.often({"--output", "--scale", "--element", "--inner", "--overwrite"});
   args.parse();
   args.excludes("--keep-cavities", "--inner");
   bp::check_stream_name(o.out);
@@ -131,6 +131,22 @@ bp::CloseCounts open_stream(bp::BrickSource& source, bp::BrickSink& sink, bp::Ba
   return counts;
 }
 
+void fill_report(bp::Report& report, const bp::Backends& backends, const bp::CloseCounts& counts) {
+  report.counts = {{"backends", bp::names_of(backends)},
+                   {"tile_vox", counts.tile_vox},
+                   {"tiles", counts.tiles},
+                   {"tiles_closed", counts.tiles_closed},
+                   {"halo_vox", counts.halo_vox},
+                   {"solid_bricks", counts.solid_bricks},
+                   {"closing_bricks", counts.closing_bricks},
+                   {"cavity_voxels", counts.cavity_voxels}};
+  const bp::CloseTimes& t = counts.seconds;
+  report.counts["thread_seconds"] = {{"reading", t.reading},     {"waiting", t.waiting},   {"closing", t.closing},
+                                     {"labelling", t.labelling}, {"shelving", t.shelving}, {"filling", t.filling},
+                                     {"writing", t.writing}};
+  if (counts.ignored_bricks > 0) report.notes.push_back("the input's closing layer was made anew from its solid layer");
+}
+
 void run(const Options& o) {
   bp::Report report("bpclose");
   bp::Progress progress("bpclose", o.common.progress);
@@ -158,19 +174,7 @@ void run(const Options& o) {
   report.options["memory"] = o.common.memory_bytes;
   report.bytes_in = source.totals().bytes;
   report.bytes_out = output->bytes();
-  report.counts = {{"backends", bp::names_of(backends)},
-                   {"tile_vox", counts.tile_vox},
-                   {"tiles", counts.tiles},
-                   {"tiles_closed", counts.tiles_closed},
-                   {"halo_vox", counts.halo_vox},
-                   {"solid_bricks", counts.solid_bricks},
-                   {"closing_bricks", counts.closing_bricks},
-                   {"cavity_voxels", counts.cavity_voxels}};
-  const bp::CloseTimes& t = counts.seconds;
-  report.counts["thread_seconds"] = {{"reading", t.reading},     {"waiting", t.waiting},   {"closing", t.closing},
-                                     {"labelling", t.labelling}, {"shelving", t.shelving}, {"filling", t.filling},
-                                     {"writing", t.writing}};
-  if (counts.ignored_bricks > 0) report.notes.push_back("the input's closing layer was made anew from its solid layer");
+  fill_report(report, backends, counts);
   report.write(o.common);
 }
 

@@ -88,13 +88,19 @@ void note_estimate(bp::Report& report, const bp::MeshOptions& o, const bp::Strea
   if (!text.empty()) report.note(text, o.common);
 }
 
+/// One for each level.
+std::vector<std::unique_ptr<bp::OutputFile>> open_outputs(const bp::MeshOptions& o) {
+  std::vector<std::unique_ptr<bp::OutputFile>> outputs;
+  for (std::size_t i = 0; i < std::max<std::size_t>(o.levels.faces.size(), 1); ++i)
+    outputs.push_back(bp::open_output(bp::level_name(o, i), o.common.overwrite));
+  return outputs;
+}
+
 void run(const bp::MeshOptions& o) {
   const bp::MeshFormat format = bp::output_format(o);
   bp::Report report("bpmesh");
   report.stage("read and mesh");
-  std::vector<std::unique_ptr<bp::OutputFile>> outputs;
-  for (std::size_t i = 0; i < std::max<std::size_t>(o.levels.faces.size(), 1); ++i)
-    outputs.push_back(bp::open_output(bp::level_name(o, i), o.common.overwrite));
+  const std::vector<std::unique_ptr<bp::OutputFile>> outputs = open_outputs(o);
   bp::BrickReader source(o.in);
   const bp::Vec3d origin = bp::origin_of(o.proxy.origin, source.header().frame, source.header().bounds);
   bp::MeshParams params = mesh_params(o, source.header());

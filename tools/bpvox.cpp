@@ -42,7 +42,7 @@ Options parse(bp::Args& args) {
   o.voxels.add_with_inside(args, std::to_string(kDefaultResolution));
   o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
   args.removed("--device", "bpvox always computes on the CPU");
-  args.often({"--output", "--voxel", "--resolution", "--fill", "--up", "--memory", "--overwrite"});
+  args.often({"--output", "--voxel", "--resolution", "--fill", "--up", "--overwrite"});
   args.parse();
   o.voxels.check();
   bp::check_stream_name(o.out);

@@ -111,7 +111,7 @@ void add_size(const std::string& tool, Words& words) {
   if (tool == "bpvox" || tool == "bplod") add("--resolution", "8", {"--voxel", "--resolution"});
   if (tool == "bpclose" || tool == "bplod") add("--scale", "1vx", {"--scale", "--field"});
   if (tool == "bpmesh") add("--faces", "12", {"--faces"});
-  if (tool == "bplod") add("--levels", "1", {"--levels", "--faces", "--error", "--screen"});
+  if (tool == "bplod") add("--levels", "1", {"--levels", "--faces", "--error"});
 }
 
 void add_option(Choices& c, const Option& option, const Workplace& place, Words& words) {

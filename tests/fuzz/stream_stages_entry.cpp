@@ -27,6 +27,7 @@ Words close_options(Choices& c, Workplace& place, double voxel) {
     add(words, {"--scale", length_text(c)});
   }
   if (c.once_in(2)) add(words, {"--element", "ball"});
+  if (c.once_in(4)) (void)c.below(5);  // an option that is gone: kept findings draw it
   if (c.once_in(4)) add(words, {c.of<std::string>({"--keep-cavities", "--inner"})});
   return words;
 }
@@ -42,7 +43,9 @@ Words mesh_options(Choices& c) {
   if (c.once_in(8)) add(words, {"--enclose", c.of<std::string>({"input", "closing"})});
   if (c.once_in(12)) add(words, {"--inset", c.once_in(2) ? text_of(extreme_number(c)) : "0.3"});
   if (c.once_in(12)) add(words, {"--least-part", c.once_in(2) ? text_of(extreme_number(c)) : "0.1"});
+  (void)c.once_in(12);  // options that are gone
   if (c.once_in(12)) add(words, {"--quads"});
+  (void)c.once_in(8);
   if (c.once_in(16)) add(words, {"--origin", text_of(extreme_number(c)) + ",0," + text_of(extreme_number(c))});
   return words;
 }

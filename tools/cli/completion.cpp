@@ -34,24 +34,27 @@ std::string quotable(std::string text, const std::string& without) {
   return text;
 }
 
+/// What bash completes after an option, and the names of all.
+void add_bash_case(const Declaration& d, std::string& cases, std::string& names) {
+  std::string pattern;
+  for (const std::string& name : parts_of(d.names, ',')) {
+    pattern += (pattern.empty() ? "" : "|") + name;
+    if (name.starts_with("--")) names += (names.empty() ? "" : " ") + name;
+  }
+  const std::string words = "COMPREPLY=($(compgen -W '" + words_of(d) + "' -- \"$cur\"))";
+  const Kind kind = kind_of(d);
+  std::string action = "COMPREPLY=()";
+  if (kind == Kind::words) action = words;
+  if (kind == Kind::file) action = (d.words.empty() ? "" : words + "; ") + "_bp_files -f";
+  if (kind == Kind::folder) action = "_bp_files -d";
+  if (needs_value(d)) cases += fmt::format("    {}) {}; return ;;\n", pattern, action);
+  if (!needs_value(d) && !d.words.empty())  // the word may be left out
+    cases += fmt::format("    {}) {}; [[ -n $cur && ${{#COMPREPLY[@]}} -gt 0 ]] && return ;;\n", pattern, action);
+}
+
 std::string bash(const ToolDeclaration& tool) {
   std::string cases, names;
-  for (const Declaration& d : tool.options) {
-    std::string pattern;
-    for (const std::string& name : parts_of(d.names, ',')) {
-      pattern += (pattern.empty() ? "" : "|") + name;
-      if (name.starts_with("--")) names += (names.empty() ? "" : " ") + name;
-    }
-    const std::string words = "COMPREPLY=($(compgen -W '" + words_of(d) + "' -- \"$cur\"))";
-    const Kind kind = kind_of(d);
-    std::string action = "COMPREPLY=()";
-    if (kind == Kind::words) action = words;
-    if (kind == Kind::file) action = (d.words.empty() ? "" : words + "; ") + "_bp_files -f";
-    if (kind == Kind::folder) action = "_bp_files -d";
-    if (needs_value(d)) cases += fmt::format("    {}) {}; return ;;\n", pattern, action);
-    if (!needs_value(d) && !d.words.empty())  // the word may be left out
-      cases += fmt::format("    {}) {}; [[ -n $cur && ${{#COMPREPLY[@]}} -gt 0 ]] && return ;;\n", pattern, action);
-  }
+  for (const Declaration& d : tool.options) add_bash_case(d, cases, names);
   return fmt::format(R"(# Completion of {0} for bash; made by: {0} --help bash
 _{0}() {{
   local cur=${{COMP_WORDS[COMP_CWORD]}} prev=${{COMP_WORDS[COMP_CWORD-1]}} name

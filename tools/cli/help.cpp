@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <functional>
+#include <regex>
 
 namespace bp {
 
 namespace {
 
-constexpr std::size_t kHelpColumn = 28, kHelpWidth = 80;
+constexpr std::size_t kHelpColumn = 28, kWordColumn = 8, kHelpWidth = 80;
 
 /// Words of `text`, as many to a line as fit, from `column` on; the first line is already begun.
 std::string wrapped(const std::string& text, std::size_t column) {
@@ -56,9 +57,8 @@ std::string entry(const Declaration& d) {
   std::size_t longest = 0;
   for (const Word& word : d.words) longest = std::max(longest, word.text.size());
   for (const Word& word : d.words) {
-    const std::size_t column = kHelpColumn + 2 + longest + 2;
-    const std::string left(kHelpColumn + 2, ' ');
-    out += left + fmt::format("{:{}}", word.text, longest + 2) + wrapped(word.help, column);
+    const std::size_t column = kWordColumn + longest + 2;
+    out += std::string(kWordColumn, ' ') + fmt::format("{:{}}", word.text, longest + 2) + wrapped(word.help, column);
   }
   return out;
 }
@@ -95,12 +95,28 @@ std::string help_of(const ToolDeclaration& tool, const std::vector<Declaration>&
   return text;
 }
 
+/// Up to the first semicolon, colon or bracket.
+std::string first_clause(const std::string& text) {
+  return text.substr(0, std::min({text.find("; "), text.find(": "), text.find(" (")}));
+}
+
+/// With the names of options as code: "`--temp`".
+std::string with_code(const std::string& text) {
+  static const std::regex option("(^|[ (])(--[a-z][a-z-]*)");
+  return std::regex_replace(text, option, "$1`$2`");
+}
+
 }  // namespace
 
 std::string short_help(const ToolDeclaration& tool) {
   std::vector<Declaration> often;
   std::copy_if(tool.options.begin(), tool.options.end(), std::back_inserter(often),
                [](const Declaration& d) { return d.often; });
+  if (often.empty()) return full_help(tool);
+  for (Declaration& d : often) {
+    d.help = first_clause(d.help);
+    for (Word& word : d.words) word.help = first_clause(word.help);
+  }
   const std::size_t others = tool.options.size() - often.size();
   return help_of(tool, often) +
          fmt::format("{0} more options: {1} --help all. The manual: man {1}.\n", others, tool.tool);
@@ -113,14 +129,14 @@ std::string full_help(const ToolDeclaration& tool) {
 std::string markdown_help(const ToolDeclaration& tool) {
   std::string text;
   const auto add = [&](const Declaration& d, const std::string& left) {
-    text += fmt::format("- `{}`: {}\n", left, text_of(d));
+    text += fmt::format("- `{}`: {}\n", left, with_code(text_of(d)));
     for (const Word& word : d.words) {
-      if (!word.help.empty()) text += fmt::format("  - `{}`: {}\n", word.text, word.help);
+      if (!word.help.empty()) text += fmt::format("  - `{}`: {}\n", word.text, with_code(word.help));
     }
   };
   for (const Declaration& d : tool.arguments) add(d, d.names);
   for_each_group(tool.options, [&](const std::string& group, const std::vector<Declaration>& its) {
-    text += fmt::format("\n### {}\n\n", group);
+    text += fmt::format("\n## {}\n\n", group);
     for (const Declaration& d : its) add(d, signature(d));
   });
   return text;

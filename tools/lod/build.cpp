@@ -208,6 +208,9 @@ void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& row
   for (const LevelRow& row : rows) report.counts["levels"].push_back(json_of(row));
   report.bytes_out = bytes_out;
   tell(scene, listing(rows), "all files are complete, in " + options.out);
+  if (options.common.progress == ProgressMode::quiet) return;
+  const std::string proof = proof_command(options, options.is_tileset() ? "tileset.json" : rows.front().file);
+  fmt::print(stderr, "bplod: the files are in {}{}{}\n", options.out, proof.empty() ? "" : "; prove it: ", proof);
 }
 
 void Build::finish_jobs(const VoxelizedScene& scene, const JobRange& range, std::uint64_t all,

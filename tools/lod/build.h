@@ -50,7 +50,7 @@ class Build {
   void note(const std::string& text);
   void note_levels(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out);
 
-  /// Writes the report and prints the list.
+  /// Writes the report and prints the list; then, on stderr, where the files are, and what proves them.
   void finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out);
   /// The same of a run of --tiles: `range` of `all` numbers.
   void finish_jobs(const VoxelizedScene& scene, const JobRange& range, std::uint64_t all,

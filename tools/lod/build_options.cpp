@@ -78,8 +78,13 @@ void check_profile(const Args& args, const BuildOptions& o) {
       if (args.given(name))
         fail(ErrorCode::bad_argument, "{} has no meaning with --profile {}", name, name_of(o.profile));
   };
-  if (!o.is_tileset()) args.needs({"--tile", "--tiles", "--cache"}, "--profile 3dtiles");
-  if (o.profile != LodProfile::collision) args.needs({"--hulls"}, "--profile collision");
+  const auto needs = [&](std::initializer_list<const char*> names, LodProfile profile) {
+    for (const char* const name : names)
+      if (args.given(name) && o.profile != profile)
+        fail(ErrorCode::bad_argument, "{} needs --profile {}", name, name_of(profile));
+  };
+  needs({"--tile", "--tiles", "--cache"}, LodProfile::tiles);
+  needs({"--hulls"}, LodProfile::collision);
   if (o.is_tileset() && args.given("--origin"))
     fail(ErrorCode::bad_argument,
          "--origin: a tileset holds its place in double, in the transforms of its tiles; leave it out, and move the "
@@ -145,14 +150,13 @@ void check_jobs(const BuildOptions& o) {
 
 void declare_profile(Args& args, BuildOptions& o) {
   args.group("Profile");
-  args.option(
-      "--profile",
-      {{"gltf", LodProfile::gltf, "levels of detail: a GLB for each, and one GLB with all of them (MSFT_lod)"},
-       {"3dtiles", LodProfile::tiles, "a tileset for CesiumJS and other viewers of 3D Tiles; check --up"},
-       {"collision", LodProfile::collision, "one mesh around the scene, with files for Godot, Unreal and Unity"},
-       {"occluder", LodProfile::occluder, "one mesh inside the scene that hides what lies behind it, for Godot"},
-       {"cage", LodProfile::cage, "one mesh of quads around the scene, to deform it by: OBJ, and GLB to look at"}},
-      o.profile, "what the levels are for");
+  args.option("--profile",
+              {{"gltf", LodProfile::gltf, "levels of detail as GLB"},
+               {"3dtiles", LodProfile::tiles, "a tileset for CesiumJS and the like"},
+               {"collision", LodProfile::collision, "one mesh for physics in game engines"},
+               {"occluder", LodProfile::occluder, "one mesh inside, for culling in Godot"},
+               {"cage", LodProfile::cage, "one mesh of quads, to deform with"}},
+              o.profile, "what the levels are for");
   args.option(
       "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_count(text, 1, kMostHullsAsked); },
       "collision: largest number of convex hulls in Unreal's file (default: 32, or one for each part where there are "
@@ -198,7 +202,7 @@ void declare(Args& args, BuildOptions& o) {
   args.removed("--resume", "--cache DIR keeps what is done, and a run after a kill goes on from there");
   args.removed("--screen",
                "--error takes pixels: --error 800px is one pixel where the scene's diagonal is 800 pixels on screen");
-  args.often({"--output", "--profile", "--faces", "--error", "--levels", "--up", "--memory", "--overwrite"});
+  args.often({"--output", "--profile", "--faces", "--error", "--levels", "--up", "--overwrite"});
   args.example("bplod plant.glb --profile collision -o plant-collision");
 }
 

@@ -10,6 +10,19 @@
 
 namespace bp {
 
+namespace {
+
+/// As a shell takes it for one word.
+std::string quoted(const std::string& word) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-,:@%=";
+  if (word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
+}
+
+}  // namespace
+
 std::string faces_note(const LevelFacts& level, bool asked) {
   const std::uint64_t budget = level.target.faces;
   if (!level.reached)
@@ -74,6 +87,14 @@ std::string heavier_note(const LevelFacts& finest, std::uint64_t triangles) {
   if (finest.faces <= std::max(triangles, kLeastFaces)) return "";
   return fmt::format("level 0 has {} faces, and the scene {} triangles; --faces 50% makes half as many", finest.faces,
                      triangles);
+}
+
+std::string proof_command(const BuildOptions& o, const std::string& file) {
+  if (o.proxy.mode == MeshMode::fit || !can_read_again(o)) return "";
+  std::string command = o.profile == LodProfile::occluder ? "bpcheck --inside" : "bpcheck";
+  if (!o.voxels.format.empty()) command += " --format " + o.voxels.format;
+  for (const std::string& scene : o.voxels.scenes) command += " " + quoted(scene);
+  return command + " " + quoted(o.out + (o.out.ends_with('/') ? "" : "/") + file);
 }
 
 }  // namespace bp

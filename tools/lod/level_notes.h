@@ -27,4 +27,8 @@ namespace bp {
 /// Levels with more faces than the scene has triangles.
 [[nodiscard]] std::string heavier_note(const LevelFacts& finest, std::uint64_t triangles);
 
+/// The command that proves `file`, one of those in the folder of the levels: "bpcheck SCENE OUT/FILE". Empty of fits,
+/// which enclose nothing, and of a scene from a pipe.
+[[nodiscard]] std::string proof_command(const BuildOptions& options, const std::string& file);
+
 }  // namespace bp

@@ -57,6 +57,8 @@ void note(Build& build, const MadeOccluder& made) {
   if (made.scale_world > 0)
     build.note(
         fmt::format("openings narrower than {:.4g} are taken for closed; --scale 0 closes none", 2 * made.scale_world));
+  else if (!build.options.closing.scale)
+    build.note("no opening is taken for closed: to close some would hide little more");
   if (!made.level.reached)
     build.note(fmt::format("{} faces instead of {}: no further edge can be merged", made.level.mesh.triangles.size(),
                            made.faces_asked));

@@ -12,7 +12,7 @@ MeshOptions parse_mesh_options(Args& args) {
   args.about("Makes a coarse mesh of a stream of voxels: closed, free of self-intersections, and around the scene.");
   args.positional("INPUT", o.in, "stream of voxels; - is stdin");
   args.group("Files");
-  args.option("-o,--output", "FILE", o.out, "proxy: .glb .gltf .ply .obj .stl; - is stdout and needs --format");
+  args.option("-o,--output", "FILE", o.out, "proxy, as .glb .gltf .ply .obj or .stl; - is stdout and needs --format");
   args.option("--format", "NAME", o.format, "format of the output, if its name does not tell");
   o.levels.add_of_stream(args);
   args.option("--volume", "RATIO", o.volume, "largest volume, as a multiple of the voxels' volume; 0: no limit");
@@ -29,7 +29,7 @@ MeshOptions parse_mesh_options(Args& args) {
   args.removed("--measure", "--report has volume and edges, and bpcheck measures distances");
   o.common.add_to(args, CommonOptions::all_parts & ~unsigned(CommonOptions::device_part));
   args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
-  args.often({"--output", "--faces", "--error", "--mode", "--enclose", "--memory", "--overwrite"});
+  args.often({"--output", "--faces", "--error", "--mode", "--enclose", "--overwrite"});
   args.parse();
   o.proxy.check();
   std::vector<std::string> inputs = o.proxy.enclose.files;

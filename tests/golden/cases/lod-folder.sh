@@ -72,14 +72,13 @@ try bplod "${tileset[@]}" -o killed | cut -f 1
 LC_ALL=C ls -A killed
 cp tiles/tileset.json killed2/
 try bplod "${tileset[@]}" -o killed2
-try bplod "${tileset[@]}" -o killed2 --resume | cut -f 1
+try bplod "${tileset[@]}" -o killed2 --overwrite | cut -f 1
 LC_ALL=C ls -A killed2
 ls cube.obj
 
 # Of folders that were made for a run that fails, or that a signal ends, nothing stays.
 try bplod missing.obj -o x/y/z
 try bplod missing.obj -o x/y/z --profile 3dtiles
-try bplod missing.obj -o x/y/z --profile 3dtiles --resume
 try bplod cube.obj -o cube.obj/x
 mkfifo in
 exec 3<> in

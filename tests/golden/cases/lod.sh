@@ -13,9 +13,9 @@ budgets 200,20 < list
 try bpcheck part*.obj tiles/tileset.json
 bplod part*.obj --name cubes --faces 200,20 --resolution 60 -q --up z --profile 3dtiles -o again -j 2 > list
 diff -r tiles again && echo "the same bytes"
-bplod part*.obj --name cubes --error 5.77%,69.2% -o errors > list
+bplod part*.obj --name cubes -q --error 5.77%,69.2% -o errors > list
 awk -F '\t' 'NR > 1 { print $1, ($3 <= (NR == 2 ? 1 : 12) ? "keeps" : "breaks") " its error" }' list
-bplod part*.obj --name cubes --screen 50,1.5 -q -o screen | cut -f 1
+bplod part*.obj --name cubes --error 50px,1.5px -q -o screen | cut -f 1
 
 # Levels that are cut into tiles.
 bplod part*.obj --name cubes --resolution 160 --tile 128 --profile 3dtiles -q -o cut -j 1 --memory 300M | cut -f 1
@@ -54,9 +54,9 @@ bplod courts.obj --up z --voxel 0.5 --tile 128 --levels 1 --faces 120 --profile 
 rm -r courts courts.obj
 
 # Collision: names that importers go by; the convex pieces enclose, too.
-bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision | cut -f 1,2
+bplod part*.obj --name cubes --faces 96 --resolution 60 -q --profile collision -o collision | cut -f 1,2
 cut_errors() { awk -F '\t' 'NR > 1 { print $1, ($3 == "-" ? "not measured" : $3 > 0 ? "measured" : "none"), $4 == s || NR == 2; s = $4 }'; }
-bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision --overwrite | cut_errors
+bplod part*.obj --name cubes --faces 96 --resolution 60 -q --profile collision -o collision --overwrite | cut_errors
 for f in godot unity unreal; do bpcheck part*.obj collision/cubes_$f.glb --samples 0 | tail -1; done
 for f in unreal godot; do said "bpcheck --convex part*.obj collision/cubes_$f.glb | sed -n '/each part/p;\$p'"; done
 # An angle is cut; as one hull it is closed, as the engine would, and that is said. Parts that are too many have hulls together.
@@ -104,11 +104,12 @@ said 'bplod part*.obj --name cubes --faces 20000 --resolution 60 --profile colli
 said 'bplod cube.obj --levels 2 --resolution 24 -o few > list'  # what nobody asked for is no miss
 # A budget chooses the voxels, and finer ones where it is not spent; levels that are no coarser are left out.
 falls() { awk -F '\t' -v most="$1" 'NR == 2 { print ($5 < most ? "fine" : "coarse") " voxels" } NR > 2 { print $1, ($2 < faces ? "falls" : "does not fall") } { faces = $2 }'; }
-said 'bplod part*.obj --name cubes --faces 60000,20000,16,4 -o chosen > list' | grep -v 'a grid of' | some
+said 'bplod part[01].obj --name cubes --faces 60000,20000,16 -o chosen > list' | grep -v 'a grid of' | some
 falls 0.035 < list
 ls chosen
-bplod part*.obj --name cubes --faces 60000 --levels 3 -q -o chosen2 > list
+bplod part[01].obj --name cubes --faces 60000 --levels 3 -q -o chosen2 > list
 falls 0.035 < list
+for n in 13 4; do said "bplod part*.obj --name cubes --faces $n --levels 1 --resolution 60 -o closed$n > list" | some; done
 said 'bplod cube.obj --faces 12,6,5,4 --resolution 40 -o chosen3 | cut -f 1,2'
 # Budgets that follow are quarters, on voxels that suffice for them; what an earlier set had more of goes.
 awk 'function box(x, y, z, w, h,  i) {
@@ -122,7 +123,7 @@ said 'bplod studs.obj --up z --faces 2400 --levels 3 -o studs | cut -f 1,2,5' | 
 said 'bplod studs.obj --up z --faces 40 --levels 3 --resolution 64 -o studs --overwrite | cut -f 1,2' | some
 ls studs
 rm -r studs studs.obj
-for f in chosen/cubes.glb chosen2/cubes.glb; do bpcheck part*.obj $f --samples 0 | tail -1; done
+for f in chosen/cubes.glb chosen2/cubes.glb; do bpcheck part[01].obj $f --samples 0 | tail -1; done
 
 # What bpinfo says of a tileset.
 bplod cube.obj --name c --voxel 0.05 --tile 64 --faces 12 --up z --profile 3dtiles -q -o info > list

@@ -25,9 +25,9 @@ enough() {
 enough bpclose cube.bp --scale 40vx -o x.bp
 rm x.bp
 enough bpmesh closed.bp --faces 30000 -o x.glb
-enough bplod plant.ply --resolution 600 --faces 30000 --levels 1 --no-tighten -o x
+enough bplod plant.ply --resolution 600 --faces 30000 --levels 1 -o x
 rm -r x x.glb
-enough bplod plant.ply --resolution 600 --tile 384 --levels 1 --no-tighten --profile 3dtiles -o x
+enough bplod plant.ply --resolution 600 --tile 384 --levels 1 --profile 3dtiles -o x
 rm -r x said
 full() { (ulimit -f 1; "$@"); }
 for profile in gltf collision 3dtiles; do

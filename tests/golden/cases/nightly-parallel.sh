@@ -29,7 +29,7 @@ done
 echo "v 1 2" > scenes/broken.obj
 table() { sed 's/made in [0-9]* s/made/' | cut -f 1-3; }
 exec 2> as-it-goes  # in no order
-options=(--voxel 0.022 --tile 128 --levels 2 --no-tighten --profile 3dtiles --name "it's")
+options=(--voxel 0.022 --tile 128 --levels 2 --profile 3dtiles --name "it's")
 "$BP_ROOT/samples/nightly" "$PWD/scenes" serial "${options[@]}" | table > table
 PATH=$PWD/bin:$PATH PARTS=3 "$BP_ROOT/samples/nightly-parallel" scenes "o ut" "${options[@]}" | table
 diff table <(table < "o ut/report.tsv") && echo "the same table"

@@ -16,6 +16,7 @@ try bplod cube.obj --scale 2 -o out
 try bplod cube.obj --voxel 2 -o out
 try bplod cube.obj --error 1 -o out
 try bplod cube.obj --error 1e-6 -o out
+try bplod cube.obj --error 100000px -o out
 try bplod cube.obj --screen 100000 -o out
 try bplod cube.obj --scale 2 --explain
 # A header is enough for bpclose: it does not wait for the voxels.

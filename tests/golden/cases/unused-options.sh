@@ -1,13 +1,13 @@
 # An option that would mean nothing is refused before any work, in every tool: nobody waits for what was not heard.
 write_cube cube.obj
-for profile in gltf collision; do
-  for option in '--tile 64' '--cache c' '--resume' '--tiles 0..1'; do try bplod cube.obj -o x --profile $profile $option; done
+for profile in gltf collision cage; do
+  for option in '--tile 64' '--cache c' '--tiles 0..1'; do try bplod cube.obj -o x --profile $profile $option; done
 done
 try bplod cube.obj -o x --tile 512  # the default, too
 try bplod cube.obj -o x --profile collision --colors auto
 try bplod cube.obj -o x --mode fit --enclose input
-try bplod cube.obj -o x --mode fit --no-tighten
-try bplod cube.obj -o x --no-tighten --enclose closing
+try bplod cube.obj -o x --profile cage --mode fit
+for option in --no-tighten --resume '--screen 800'; do try bplod cube.obj -o x $option; done
 bpvox cube.obj --resolution 10 -o cube.bpv
 bpvox cube.obj --resolution 10 --fill inside -o inside.bpv
 try bpclose inside.bpv --inner --keep-cavities --scale 1vx -o x
@@ -31,8 +31,8 @@ try bpcheck cube.obj --inside
 try bpvox cube.obj -o cube.glb
 try bpclose cube.bpv --scale 1vx -o cube.PLY
 # What goes together does.
-try bplod cube.obj -o made --profile collision --colors off --no-tighten --resolution 10 | cut -f 1
-try bplod cube.obj -o near --error 50% --no-tighten --enclose closing --levels 1 | cut -f 1
+try bplod cube.obj -o made --profile collision --colors off --resolution 10 | cut -f 1
+try bplod cube.obj -o near --error 50% --enclose closing --levels 1 | cut -f 1
 files
 # A format that no input needs, or that is none; values that are empty; lengths that count in what is not there.
 cp cube.obj nameless

@@ -15,15 +15,15 @@ done
 cmp -s y.png z.png || echo 'the pictures differ'
 # Levels of a z-up scene stay z-up, and so do levels of such levels; tilesets say it in their transforms.
 for profile in gltf collision 3dtiles; do
-  bplod z.glb --resolution 30 --levels 1 --faces 30 --profile $profile --name a -o $profile > list
-  bplod z.glb --resolution 30 --levels 1 --faces 30 --profile $profile --name a --up z -o again > list
+  bplod z.glb --resolution 30 --levels 1 --faces 30 -q --profile $profile --name a -o $profile > list
+  bplod z.glb --resolution 30 --levels 1 --faces 30 -q --profile $profile --name a --up z -o again > list
   cmp <(cat $profile/*) <(cat again/*) && rm -r again
 done
 for level in gltf/a_LOD0.glb gltf/a.glb collision/a_*.glb; do bpvox $level --resolution 20 | bpinfo | grep -o '. is up'; done
-bplod gltf/a_LOD0.glb --resolution 30 --levels 1 --faces 30 --name a -o levels > list
+bplod gltf/a_LOD0.glb --resolution 30 --levels 1 --faces 30 -q --name a -o levels > list
 bpvox levels/a_LOD0.glb --resolution 20 | bpinfo | grep -o '. is up'
 for tileset in 3dtiles/tileset.json; do bpcheck z.glb $tileset | tail -1; done
-bplod gltf/a_LOD0.glb --resolution 30 --levels 1 --faces 30 --name a --up y --overwrite -o levels > list
+bplod gltf/a_LOD0.glb --resolution 30 --levels 1 --faces 30 -q --name a --up y --overwrite -o levels > list
 bpvox levels/a_LOD0.glb --resolution 20 | bpinfo | grep -o '. is up'
 # Any axis may be up: a file comes back in the scene's own axes, and other readers see it stand.
 for up in x -x -y -z; do

@@ -162,3 +162,37 @@ TEST_CASE("counts may be in thousands and millions", "[quick][tools]") {
   CHECK_THAT(complaint({"--faces", "1.2345k"}), Catch::Matchers::Contains("'1.2345k' is not a whole number"));
   CHECK_THAT(complaint({"--faces", "9G"}), Catch::Matchers::Contains("'9G' is not a whole number from 0 to"));
 }
+
+TEST_CASE("an option of earlier versions is answered with what replaces it", "[quick][tools]") {
+  const char* const words[] = {"bptest", "--old"};
+  Args args("bptest", 2, words);
+  args.removed("--old", "--new does the same");
+  using Catch::Matchers::Contains;
+  try {
+    args.parse();
+    FAIL("--old was taken");
+  } catch (const Error& e) {
+    CHECK_THAT(e.what(), Contains("there is no option --old any more; --new does the same"));
+  }
+}
+
+TEST_CASE("the short help has the options that are needed often, the full help and the manual have all",
+          "[quick][tools]") {
+  const char* const words[] = {"bptest"};
+  Args args("bptest", 1, words);
+  double edge = 0.5;
+  int kind = 0;
+  args.group("Size");
+  args.option("-e,--edge", "LENGTH", edge, "length of an edge; a longer text");
+  args.group("Kind");
+  args.option("--kind", {{"plain", 0, "nothing else"}, {"round", 1, "as --edge says"}}, kind, "what is made");
+  args.often({"--edge"});
+  const ToolDeclaration tool = args.declaration();
+  CHECK(short_help(tool).find("length of an edge (default: 0.5)\n") != std::string::npos);
+  CHECK(short_help(tool).find("--kind") == std::string::npos);
+  CHECK(full_help(tool).find("Kind:\n  --kind plain|round") != std::string::npos);
+  CHECK(full_help(tool).find("        round  as --edge says\n") != std::string::npos);
+  CHECK(markdown_help(tool).find("## Kind\n\n- `--kind plain|round`: what is made (default: plain)\n") !=
+        std::string::npos);
+  CHECK(markdown_help(tool).find("  - `round`: as `--edge` says\n") != std::string::npos);
+}

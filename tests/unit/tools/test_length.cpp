@@ -71,3 +71,11 @@ TEST_CASE("what is not a size is refused", "[quick][tools]") {
   CAPTURE(text);
   CHECK_THROWS_AS(parse_size(text), Error);
 }
+
+TEST_CASE("an error may be a pixel of a size on screen, and nothing else may", "[quick][tools]") {
+  const Length error = parse_error_length("800px");
+  CHECK(error.in_world(400, 0) == 0.5);
+  CHECK(error.text() == "800px");
+  CHECK_THROWS_AS(parse_error_length("0px"), Error);
+  CHECK_THROWS_AS(parse_length("800px"), Error);
+}

@@ -1,0 +1,46 @@
+# Man pages, made by pandoc of docs/NAME.1.md, and completion for bash, zsh and fish, printed by the tools themselves.
+find_program(BP_PANDOC pandoc)
+if(BP_PANDOC)
+  message(STATUS "Man pages: ${BP_PANDOC}")
+else()
+  message(STATUS "Man pages: skipped, for pandoc was not found; docs/*.1.md hold the same texts")
+endif()
+string(TIMESTAMP bp_manual_date "%Y-%m-%d" UTC)  # SOURCE_DATE_EPOCH, if set
+
+# bp_add_manual(tool): makes and installs the man page and the completion of a tool.
+function(bp_add_manual tool)
+  set(made)
+  if(BP_PANDOC)
+    set(page ${CMAKE_CURRENT_BINARY_DIR}/man/${tool}.1)
+    set(manual ${PROJECT_SOURCE_DIR}/docs/${tool}.1.md)
+    set(filter ${PROJECT_SOURCE_DIR}/cmake/man.lua)
+    add_custom_command(
+      OUTPUT ${page}
+      COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/man
+      COMMAND ${BP_PANDOC} -s -f markdown-smart -t man -L ${filter} -M date=${bp_manual_date} -M "footer=${PROJECT_NAME} ${PROJECT_VERSION}"
+              -o ${page} ${manual}
+      DEPENDS ${manual} ${filter}
+      VERBATIM)
+    install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+    list(APPEND made ${page})
+  endif()
+  if(NOT CMAKE_CROSSCOMPILING)
+    set(folder_bash bash-completion/completions)
+    set(folder_zsh zsh/site-functions)
+    set(folder_fish fish/vendor_completions.d)
+    set(name_bash ${tool})
+    set(name_zsh _${tool})
+    set(name_fish ${tool}.fish)
+    foreach(shell bash zsh fish)
+      set(script ${CMAKE_CURRENT_BINARY_DIR}/completion/${shell}/${name_${shell}})
+      add_custom_command(
+        OUTPUT ${script}
+        COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/completion/${shell}
+        COMMAND ${tool} --help ${shell} > ${script}
+        DEPENDS ${tool})
+      install(FILES ${script} DESTINATION ${CMAKE_INSTALL_DATADIR}/${folder_${shell}} OPTIONAL)
+      list(APPEND made ${script})
+    endforeach()
+  endif()
+  add_custom_target(${tool}_manual ALL DEPENDS ${made})
+endfunction()

@@ -1,0 +1,59 @@
+#include "tools/check/check_run.h"
+
+#include "io/scene/scene_reader.h"
+#include "lib/core/error.h"
+#include "tools/run/inputs.h"
+
+namespace bp {
+
+namespace {
+
+void declare(Args& args, CheckRun& o) {
+  args.about(
+      "Proves that a proxy is closed, oriented, 2-manifold, free of self-intersections, and strictly encloses its "
+      "scenes; or names the places where it does not. Exact for the coordinates as read. Exit status: 0 proven, 1 "
+      "refuted, 5 not decided.");
+  args.positional("[SCENE...] PROXY", o.files, "scenes and their proxy, or a proxy alone");
+  args.group("Question");
+  args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
+  args.flag("--convex", o.convex,
+            "prove that the parts of the proxy, which may overlap, are convex and enclose the scenes together");
+  args.group("Files");
+  args.option("--format", "NAME", o.format, "format of stdin, or of files whose names do not tell");
+  args.option(
+      "--origin", "X,Y,Z", o.origin,
+      "add this point to every vertex of the proxy, exactly (default: what its --origin subtracted, if the file "
+      "tells)");
+  args.group("Verdict");
+  args.flag("--json", o.json, "print the verdict as JSON");
+  args.option("--samples", "N", o.samples, "triangles of each side to measure distances from; 0 measures none");
+  o.common.add_to(args, CommonOptions::all_parts & ~unsigned(CommonOptions::device_part));
+  args.removed("--no-distances", "--samples 0 measures none");
+  args.removed("--examples", "bpcheck names the first 5 places of each kind");
+  for (const char* const name : {"--image", "--image-size", "--up", "--azimuth", "--elevation", "--zoom", "--look-at"})
+    args.removed(name, "bpinfo SCENE PROXY --image FILE draws both");
+  args.often({"--inside", "--convex", "--json", "--memory"});
+}
+
+}  // namespace
+
+CheckRun parse_check_run(Args& args) {
+  CheckRun o;
+  declare(args, o);
+  args.example("bpcheck scene.glb proxy.glb");
+  args.parse();
+  args.excludes("--samples", "--inside");  // measures none
+  args.excludes("--samples", "--convex");
+  args.excludes("--convex", "--inside");
+  check_scene_format(o.format, o.files);
+  check_stdin_once(o.files);
+  keep_inputs(o.files);
+  o.samples_given = args.given("--samples");
+  if (o.samples_given && o.files.size() < 2)
+    fail(ErrorCode::bad_argument, "--samples means nothing without a scene; leave it out");
+  if (o.inside && o.files.size() < 2)
+    fail(ErrorCode::bad_argument, "--inside asks for a scene around the proxy; name it before the proxy");
+  return o;
+}
+
+}  // namespace bp

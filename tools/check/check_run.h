@@ -1,0 +1,25 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/cli/common_options.h"
+
+/// The command line of bpcheck.
+namespace bp {
+
+struct CheckRun {
+  CommonOptions common;
+  std::vector<std::string> files;  // scenes, then the proxy
+  std::string format;
+  bool json = false, inside = false, convex = false;
+  std::uint64_t samples = 5000;  // 0: no distances
+  bool samples_given = false;
+  std::optional<Vec3d> origin;
+};
+
+/// Throws bad_argument if options contradict each other.
+[[nodiscard]] CheckRun parse_check_run(Args& args);
+
+}  // namespace bp
