@@ -24,6 +24,7 @@
 #include "tools/cli/run_tool.h"
 #include "tools/run/grounded_source.h"
 #include "tools/run/inputs.h"
+#include "tools/run/memory_shares.h"
 #include "tools/run/origin.h"
 #include "tools/run/scene_budget.h"
 
@@ -83,7 +84,7 @@ int run_tileset(const bp::CheckRun& o) {
   report.stage("check");
   bp::SceneOptions options{o.format, o.common.memory_bytes / 4, o.common.temp};
   options.keep_extremes = true;
-  options.document = bp::document_budget(o.common.memory_bytes, std::uint64_t(48) << 20, 2);
+  options.document = bp::document_budget(o.common.memory_bytes, bp::kMeshProgram, 2);
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
   const bp::TilesetVerdict verdict = bp::check_tileset_file(o.files.back(), scenes, options, o.common.memory_bytes / 2);
   const std::string name = bp::file_name(o.files.back());

@@ -15,6 +15,7 @@
 #include "tools/notes/scale_notes.h"
 #include "tools/run/inputs.h"
 #include "tools/run/make_backend.h"
+#include "tools/run/memory_shares.h"
 #include "tools/run/provenance.h"
 
 namespace {
@@ -79,7 +80,7 @@ bp::OptionText option_text(const Options& o, const bp::ScaleField& field) {
 
 /// How --memory is shared out: the program, the stream's batches and `pinned` memory, the shelves, the tiles at work.
 bp::CloseOptions stage_options(const Options& o, std::uint64_t pinned, bp::Progress& progress) {
-  const std::uint64_t fixed = (std::uint64_t(96) << 20) + pinned, memory = o.common.memory_bytes;
+  const std::uint64_t fixed = bp::kVoxelProgram + pinned, memory = o.common.memory_bytes;
   const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
   bp::CloseOptions options;
   options.enough_for = [fixed](std::uint64_t for_tiles) {

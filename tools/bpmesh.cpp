@@ -71,7 +71,7 @@ std::string set_enclosure(const bp::MeshOptions& o, const bp::StreamHeader& head
   // Nobody asked for the scene: the bound is on what bpmesh adds to the closing that was asked for.
   if (o.error() && o.proxy.mode == bp::MeshMode::bounding && o.proxy.enclose.kind == bp::EncloseOption::Kind::automatic)
     params.distances_to = bp::Enclose::closing;
-  return o.proxy.enclose.kind == bp::EncloseOption::Kind::files ? o.proxy.enclose.text() : enclosure.name();
+  return o.proxy.enclose.kind == bp::EncloseOption::Kind::files ? o.proxy.enclose.text() : name_of(enclosure.what);
 }
 
 /// glTF has y up; other formats tell nothing.

@@ -136,10 +136,10 @@ void run(const Options& o) {
   bp::Report report("bpvox");
   bp::Progress progress("bpvox", o.common.progress);
   bp::Backends backends = bp::make_backends(o.common, 0);  // reading takes far longer than voxelizing
-  const std::uint64_t pinned = std::min(bp::pinned_bytes(backends), o.common.memory_bytes / 2);
-  const bp::VoxelizeBudget budget(o.common.memory_bytes - pinned);
+  const std::uint64_t memory = bp::unpinned(o.common.memory_bytes, bp::pinned_bytes(backends));
+  const bp::VoxelizeBudget budget(memory);
   bp::SceneOptions scene{o.voxels.format, budget.reader, o.common.temp};
-  scene.document = bp::document_budget(o.common.memory_bytes - pinned, std::uint64_t(96) << 20, o.voxels.scenes.size());
+  scene.document = bp::document_budget(memory, bp::kVoxelProgram, o.voxels.scenes.size());
   const auto source = bp::open_scenes(o.voxels.scenes, scene);
   const auto file = bp::open_output(o.out, o.common.overwrite);
   std::optional<bp::BrickWriter> writer;

@@ -36,8 +36,22 @@ class KeptFiles {
     std::string path, owner;
   };
 
+  void begin() {
+    const std::scoped_lock lock(mutex_);
+    ++scopes_;
+  }
+
+  void end() {
+    const std::scoped_lock lock(mutex_);
+    if (--scopes_ > 0) return;
+    names_.clear();
+    identities_.clear();
+    unread_.clear();
+  }
+
   void add(const std::string& path, PartsOfFile parts) {
     const std::scoped_lock lock(mutex_);
+    if (scopes_ == 0) return;
     add_entry({path, ""});
     if (parts && path != "-") unread_.push_back({path, parts});
   }
@@ -49,13 +63,6 @@ class KeptFiles {
     const auto named = names_.find(whole_path(path));
     if (named != names_.end()) return named->second;
     return id ? find_identity(*id) : std::nullopt;
-  }
-
-  void clear() {
-    const std::scoped_lock lock(mutex_);
-    names_.clear();
-    identities_.clear();
-    unread_.clear();
   }
 
   bool any_below(const std::string& folder) {
@@ -87,6 +94,7 @@ class KeptFiles {
   }
 
   std::mutex mutex_;
+  int scopes_ = 0;                      ///< KeepsInputs that live
   std::map<std::string, Entry> names_;  ///< by whole path
   std::map<Identity, Entry> identities_;
   std::vector<std::pair<std::string, PartsOfFile>> unread_;  ///< files whose parts are not known yet
@@ -98,6 +106,14 @@ KeptFiles& kept_files() {
 }
 
 }  // namespace
+
+KeepsInputs::KeepsInputs() {
+  kept_files().begin();
+}
+
+KeepsInputs::~KeepsInputs() {
+  kept_files().end();
+}
 
 void keep_file(const std::string& path) {
   kept_files().add(path, nullptr);
@@ -114,10 +130,6 @@ void refuse_kept(const std::string& path, const char* remedy) {
     fail(ErrorCode::bad_argument, "{}: belongs to the input {}, and would be lost; {}", path,
          entry->owner.substr(entry->owner.rfind('/') + 1), remedy);
   fail(ErrorCode::bad_argument, "{}: is an input, and would be lost; {}", path, remedy);
-}
-
-void forget_kept() {
-  kept_files().clear();
 }
 
 bool is_kept(const std::string& path) {

@@ -2,10 +2,20 @@
 #include <string>
 #include <vector>
 
-/// The files that this process reads. None of them is ever replaced, removed or written over by it, whatever it is
-/// called: another path, a symbolic link and a hard link name the same file. OutputFile, place_file() and
+/// Files that are read are kept: while a KeepsInputs lives, this process neither replaces nor removes them, whatever
+/// they are called. Another path, a symbolic link and a hard link name the same file. OutputFile, place_file() and
 /// remove_file() (io/files/final_names.h) ask here. Thread-safe.
 namespace bp {
+
+/// A tool's main has one. Without one nothing is kept: a program may read a file with this library and write it later.
+/// When the last of several ends, nothing is kept any more.
+class KeepsInputs {
+ public:
+  KeepsInputs();
+  ~KeepsInputs();
+  KeepsInputs(const KeepsInputs&) = delete;
+  KeepsInputs& operator=(const KeepsInputs&) = delete;
+};
 
 /// From now on this file is kept; "-" is stdin, if that is a file. A path that names nothing yet is kept as a name.
 /// Costs a look at the file's inode. A scene is kept with its parts: keep_scene(), io/scene/scene_parts.h.
@@ -17,8 +27,6 @@ void keep_file_and_parts(const std::string& path, PartsOfFile parts);
 
 /// Throws bad_argument if `path` names a file that is kept: it says why, and gives `remedy`.
 void refuse_kept(const std::string& path, const char* remedy = "give the output another name");
-/// Nothing is kept any more: another run begins in this process, as in tests.
-void forget_kept();
 /// Whether `path` names a file that is kept.
 [[nodiscard]] bool is_kept(const std::string& path);
 /// Whether a file that is kept lies in this folder, or below.

@@ -1,9 +1,8 @@
-#include <algorithm>
 #include <optional>
 
-#include "io/scene/byte_stream.h"
 #include "io/scene/detail/packed_ply.h"
-#include "io/scene/detail/ply_values.h"
+#include "io/scene/detail/ply_cursor.h"
+#include "io/scene/detail/ply_vertices.h"
 #include "io/scene/detail/raw_source.h"
 #include "io/scene/detail/vertex_pool.h"
 
@@ -16,190 +15,6 @@
 namespace bp {
 
 namespace {
-
-// --- Where the file is read: one cursor per kind of file, same functions ---------------------------------------------
-
-class BinaryCursor {
- public:
-  struct Mark {
-    std::uint64_t offset = 0;
-  };
-  BinaryCursor(SceneFilePtr file, const PlyHeader& header)
-      : bytes_(std::move(file), header.data.offset),
-        swap_((header.format == PlyHeader::Format::big_endian) != (std::endian::native == std::endian::big)) {}
-
-  double real(PlyType type) { return decode_real(bytes_.take(bytes_of(type)), type, swap_); }
-  std::int64_t integer(PlyType type) { return decode_integer(bytes_.take(bytes_of(type)), type, swap_); }
-  void skip(PlyType type, std::uint64_t n) {
-    if (n > bytes_.remaining() / bytes_of(type)) bytes_.fail_truncated();
-    bytes_.skip(n * bytes_of(type));
-  }
-  /// False for a record with lists, whose size is not known.
-  bool skip_records(const PlyElement& element) {
-    if (element.has_lists()) return false;
-    const std::uint64_t size = element.fixed_bytes();
-    check_count(element, size);
-    bytes_.skip(size * element.count);
-    return true;
-  }
-  /// Throws if the file cannot hold that many records.
-  void check_count(const PlyElement& element, std::uint64_t record_bytes) const {
-    if (record_bytes == 0 || element.count <= bytes_.remaining() / record_bytes) return;
-    fail(ErrorCode::bad_input,
-         "{}: promises {} records '{}' of at least {} bytes at byte {}, but has {} bytes left; the file is truncated",
-         bytes_.file().name(), element.count, element.name, record_bytes, bytes_.offset(), bytes_.remaining());
-  }
-  void check_count(const PlyElement& element) const {
-    std::uint64_t size = element.fixed_bytes();
-    for (const PlyProperty& p : element.properties) size += p.is_list ? bytes_of(p.count_type) : 0;
-    check_count(element, size);
-  }
-  void end_record() {}
-  [[noreturn]] void fail_here(const std::string& what) const {
-    fail(ErrorCode::bad_input, "{}: byte {}: {}", bytes_.file().name(), bytes_.offset(), what);
-  }
-  [[nodiscard]] Mark mark() const { return {bytes_.offset()}; }
-  void seek(Mark mark) { bytes_.seek(mark.offset); }
-  [[nodiscard]] bool swap() const { return swap_; }
-
- private:
-  ByteStream bytes_;
-  bool swap_;
-};
-
-class AsciiCursor {
- public:
-  using Mark = TextScanner::Mark;
-  AsciiCursor(SceneFilePtr file, const PlyHeader& header) : text_(std::move(file), header.data) {}
-
-  double real(PlyType) {
-    need_word();
-    double value = 0;
-    if (!text_.real(value)) text_.fail_here("a number was expected; is the file damaged?");
-    return value;
-  }
-  std::int64_t integer(PlyType) {
-    need_word();
-    std::int64_t value = 0;
-    if (!text_.count(value)) text_.fail_here("an integer was expected; is the file damaged?");
-    return value;
-  }
-  void skip(PlyType, std::uint64_t n) {
-    for (; n > 0; --n) {
-      need_word();
-      text_.skip_word();
-    }
-  }
-  bool skip_records(const PlyElement&) { return false; }
-  /// A number takes two characters at least; the last one may lack its line end.
-  void check_count(const PlyElement& element) const {
-    const std::uint64_t size = 2 * element.properties.size();
-    if (size == 0 || element.count <= (text_.remaining() + 1) / size) return;
-    text_.fail_here("promises {} records '{}', but has {} bytes left; the file is truncated", element.count,
-                    element.name, text_.remaining());
-  }
-  /// A record ends with its line. Words beyond what the header declares occur, and are passed over.
-  void end_record() { text_.next_line(); }
-  [[noreturn]] void fail_here(const std::string& what) const { text_.fail_here("{}", what); }
-  [[nodiscard]] Mark mark() const { return text_.mark(); }
-  void seek(Mark mark) { text_.seek(mark); }
-
- private:
-  void need_word() {
-    if (!text_.word_anywhere()) text_.fail_here("the file ends in the middle of its data; it is truncated");
-  }
-  TextScanner text_;
-};
-
-// --- Vertices
-// ----------------------------------------------------------------------------------------------------------
-
-struct Position {
-  std::size_t property[3];  // x, y, z among the element's properties
-  /// Which of the three numbers a property is; 3: none.
-  [[nodiscard]] std::size_t axis_of(std::size_t k) const {
-    std::size_t axis = 0;
-    while (axis < 3 && property[axis] != k) ++axis;
-    return axis;
-  }
-};
-
-/// Where red, green and blue of a vertex or a face stand, if they do.
-struct ColorNumbers : Position {
-  double full = 255;  // of their type
-
-  static std::optional<ColorNumbers> of(const PlyElement& e) {
-    ColorNumbers c{};
-    const char* const names[] = {"red", "green", "blue"};
-    for (std::size_t i = 0; i < 3; ++i) {
-      c.property[i] = e.index_of(names[i]);
-      if (c.property[i] == e.properties.size() || e.properties[c.property[i]].is_list) return {};
-    }
-    const PlyType type = e.properties[c.property[0]].type;
-    if (type == PlyType::u16) c.full = 65535;
-    if (type == PlyType::f32 || type == PlyType::f64) c.full = 1;
-    return c;
-  }
-  [[nodiscard]] LinearColor color(const Vec3d& rgb) const {
-    return color_from_srgb({rgb[0] / full, rgb[1] / full, rgb[2] / full});
-  }
-};
-
-bool has_colors_in(const PlyHeader& header) {
-  return std::any_of(header.elements.begin(), header.elements.end(), [](const PlyElement& e) {
-    return (e.name == "vertex" || e.name == "face") && ColorNumbers::of(e).has_value();
-  });
-}
-
-Position position_of(const PlyElement& vertex, const std::string& file) {
-  Position position{};
-  const char* const names[] = {"x", "y", "z"};
-  for (std::size_t i = 0; i < 3; ++i) {
-    position.property[i] = vertex.index_of(names[i]);
-    if (position.property[i] == vertex.properties.size() || vertex.properties[position.property[i]].is_list)
-      fail(ErrorCode::bad_input, "{}: its vertices have no number '{}'; is it a mesh?", file, names[i]);
-  }
-  return position;
-}
-
-/// Vertices of fixed size, read where they stand in the file.
-class PackedVertices {
- public:
-  PackedVertices(SceneFilePtr file, std::uint64_t budget, std::uint64_t offset, const PlyElement& vertex,
-                 const Position& position, bool swap)
-      : cache_(std::move(file), budget), offset_(offset), stride_(vertex.fixed_bytes()), swap_(swap) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      type_[i] = vertex.properties[position.property[i]].type;
-      for (std::size_t k = 0; k < position.property[i]; ++k) at_[i] += bytes_of(vertex.properties[k].type);
-    }
-    together_ = type_[1] == type_[0] && type_[2] == type_[0] && at_[1] == at_[0] + bytes_of(type_[0]) &&
-                at_[2] == at_[1] + bytes_of(type_[0]);
-  }
-  Vec3d operator[](std::uint64_t i) {
-    const std::uint64_t record = offset_ + i * stride_;
-    std::byte raw[3][8];
-    std::byte* const packed = raw[0];
-    if (together_) {
-      const std::size_t size = bytes_of(type_[0]);
-      cache_.read(record + at_[0], packed, 3 * size);
-      return {decode_real(packed, type_[0], swap_), decode_real(packed + size, type_[0], swap_),
-              decode_real(packed + 2 * size, type_[0], swap_)};
-    }
-    for (std::size_t k = 0; k < 3; ++k) cache_.read(record + at_[k], raw[k], bytes_of(type_[k]));
-    return {decode_real(raw[0], type_[0], swap_), decode_real(raw[1], type_[1], swap_),
-            decode_real(raw[2], type_[2], swap_)};
-  }
-
- private:
-  BlockCache cache_;
-  std::uint64_t offset_, stride_;
-  bool swap_, together_ = false;
-  PlyType type_[3]{};
-  std::uint64_t at_[3]{};  // of x, y, z in the record
-};
-
-// --- The source
-// --------------------------------------------------------------------------------------------------------
 
 /// Turns a strip into triangles: each corner closes one with the two before it, every other one mirrored.
 class Strip {
@@ -224,7 +39,7 @@ template <class Cursor>
 class PlySource final : public PolygonSource {
  public:
   PlySource(const SceneFilePtr& file, const SceneOptions& options, PlyHeader header)
-      : header_(std::move(header)), has_colors_(options.colors && has_colors_in(header_)), cursor_(file, header_) {
+      : header_(std::move(header)), has_colors_(options.colors && ply_has_colors(header_)), cursor_(file, header_) {
     find_parts(file, options);
     rewind_faces();
   }
@@ -249,7 +64,7 @@ class PlySource final : public PolygonSource {
 
   void find_parts(const SceneFilePtr& file, const SceneOptions& options);
   void take_vertices(const SceneFilePtr& file, const SceneOptions& options, const PlyElement& element);
-  void load_vertices(const PlyElement& element, const Position& position);
+  void load_vertices(const PlyElement& element, const PlyPosition& position);
   void skip_property(const PlyProperty& p);
   void skip_element(const PlyElement& element);
   std::uint64_t list_size(const PlyProperty& list);
@@ -264,18 +79,18 @@ class PlySource final : public PolygonSource {
   const bool has_colors_;
   Cursor cursor_;
   std::uint64_t vertex_count_ = 0;
-  std::unique_ptr<PackedVertices> packed_;
+  std::unique_ptr<PlyPackedVertices> packed_;
   std::unique_ptr<VertexPool> pool_;
-  std::optional<ColorNumbers> vertex_numbers_;     // if colours are asked for and there
-  std::unique_ptr<PackedVertices> packed_colors_;  // as packed_
-  std::unique_ptr<VertexPool> color_pool_;         // as pool_
-  std::optional<ColorNumbers> face_numbers_;       // of the element now being read
-  LinearColor face_color_;                         // of the last face
-  typename Cursor::Mark start_{};                  // of the first element with faces
-  std::size_t first_ = kNone;                      // its number
-  std::size_t element_ = 0;                        // now being read
-  std::uint64_t record_ = 0;                       // of that element
-  std::uint64_t strip_left_ = 0;                   // indices of the open strip
+  std::optional<PlyColors> vertex_numbers_;           // if colours are asked for and there
+  std::unique_ptr<PlyPackedVertices> packed_colors_;  // as packed_
+  std::unique_ptr<VertexPool> color_pool_;            // as pool_
+  std::optional<PlyColors> face_numbers_;             // of the element now being read
+  LinearColor face_color_;                            // of the last face
+  typename Cursor::Mark start_{};                     // of the first element with faces
+  std::size_t first_ = kNone;                         // its number
+  std::size_t element_ = 0;                           // now being read
+  std::uint64_t record_ = 0;                          // of that element
+  std::uint64_t strip_left_ = 0;                      // indices of the open strip
   Strip strip_;
 };
 
@@ -303,16 +118,16 @@ void PlySource<Cursor>::find_parts(const SceneFilePtr& file, const SceneOptions&
 template <class Cursor>
 void PlySource<Cursor>::take_vertices(const SceneFilePtr& file, const SceneOptions& options,
                                       const PlyElement& element) {
-  const Position position = position_of(element, file->name());
+  const PlyPosition position = ply_position_of(element, file->name());
   vertex_count_ = element.count;
-  if (has_colors_) vertex_numbers_ = ColorNumbers::of(element);
-  if constexpr (std::is_same_v<Cursor, BinaryCursor>) {
+  if (has_colors_) vertex_numbers_ = PlyColors::of(element);
+  if constexpr (std::is_same_v<Cursor, PlyBinaryCursor>) {
     if (!element.has_lists()) {
-      packed_ = std::make_unique<PackedVertices>(file, options.memory_bytes, cursor_.mark().offset, element, position,
-                                                 cursor_.swap());
+      packed_ = std::make_unique<PlyPackedVertices>(file, options.memory_bytes, cursor_.mark().offset, element,
+                                                    position, cursor_.swap());
       if (vertex_numbers_)
-        packed_colors_ = std::make_unique<PackedVertices>(file, options.memory_bytes / 2, cursor_.mark().offset,
-                                                          element, *vertex_numbers_, cursor_.swap());
+        packed_colors_ = std::make_unique<PlyPackedVertices>(file, options.memory_bytes / 2, cursor_.mark().offset,
+                                                             element, *vertex_numbers_, cursor_.swap());
       cursor_.skip_records(element);
       return;
     }
@@ -323,7 +138,7 @@ void PlySource<Cursor>::take_vertices(const SceneFilePtr& file, const SceneOptio
 }
 
 template <class Cursor>
-void PlySource<Cursor>::load_vertices(const PlyElement& element, const Position& position) {
+void PlySource<Cursor>::load_vertices(const PlyElement& element, const PlyPosition& position) {
   for (std::uint64_t i = 0; i < element.count; ++i) {
     Vec3d p{}, rgb{};
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
@@ -383,7 +198,7 @@ bool PlySource<Cursor>::next_face(std::vector<std::uint64_t>& corners) {
     const PlyElement& element = header_.elements[element_];
     const std::size_t list = holds_faces(element) ? vertex_list(element) : kNone;
     if (record_ == 0 && strip_left_ == 0) cursor_.check_count(element);
-    if (record_ == 0 && has_colors_) face_numbers_ = ColorNumbers::of(element);
+    if (record_ == 0 && has_colors_) face_numbers_ = PlyColors::of(element);
     if (list == kNone) {
       skip_element(element);
     } else if (element.name == "face" && record_ < element.count) {
@@ -452,10 +267,10 @@ void PlySource<Cursor>::end_strip(const PlyElement& element, std::size_t list) {
 RawSourcePtr open_ply(SceneFilePtr file, const SceneOptions& options) {
   PlyHeader header = read_ply_header(file);
   if (header.format == PlyHeader::Format::ascii)
-    return std::make_unique<PlySource<AsciiCursor>>(file, options, std::move(header));
-  const bool colors = options.colors && has_colors_in(header);  // those the other one does not know
+    return std::make_unique<PlySource<PlyAsciiCursor>>(file, options, std::move(header));
+  const bool colors = options.colors && ply_has_colors(header);  // those the other one does not know
   if (RawSourcePtr packed = colors ? nullptr : open_packed_ply(file, options, header)) return packed;
-  return std::make_unique<PlySource<BinaryCursor>>(file, options, std::move(header));
+  return std::make_unique<PlySource<PlyBinaryCursor>>(file, options, std::move(header));
 }
 
 }  // namespace bp

@@ -4,8 +4,8 @@
 
 namespace bp {
 
-/// From now on nothing replaces or removes this scene, nor the files that it names (keep_file(),
-/// io/files/kept_files.h).
+/// From now on, while a KeepsInputs lives, nothing replaces or removes this scene, nor the files that it names
+/// (keep_file(), io/files/kept_files.h).
 void keep_scene(const std::string& path);
 
 /// Paths of the other files that a scene consists of: buffers and images of glTF, materials of OBJ and their textures.

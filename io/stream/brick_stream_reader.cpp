@@ -164,7 +164,9 @@ struct BrickReader::State {
     return bytes;
   }
 
+  void check_magic(std::span<const std::byte> head);
   void read_header();
+  void read_payload(std::vector<std::byte>& payload, std::size_t known);
   bool fetch(InBatch& batch);
   void accept(const InBatch& batch);
   void close_slab();
@@ -174,16 +176,10 @@ struct BrickReader::State {
   void decode_ahead();
 };
 
-/// Section 4. The version comes first: a later one may have changed anything after it.
-void BrickReader::State::read_header() {
-  std::array<std::byte, kFrameHeadBytes + kStreamMagic.size() + 2> start;
-  const std::size_t got = file.read(start);
-  if (got == 0) {
-    fail(ErrorCode::bad_input, "{}: is empty, not a brick stream; did the tool before it fail?", file.name());
-  }
-  const std::span<const std::byte> head(start.data(), got);
+/// Refuses what is not the beginning of a brick stream, as far as it goes.
+void BrickReader::State::check_magic(std::span<const std::byte> head) {
   const auto begins = [&](std::size_t at, const void* bytes, std::size_t n) {
-    return at >= got || std::memcmp(start.data() + at, bytes, std::min(n, got - at)) == 0;
+    return at >= head.size() || std::memcmp(head.data() + at, bytes, std::min(n, head.size() - at)) == 0;
   };
   if (!begins(0, &kFrameMagic, 4)) fail(ErrorCode::bad_input, "{}: {}; bpvox makes one", file.name(), describe(head));
   if (!begins(kFrameHeadBytes, kStreamMagic.data(), kStreamMagic.size())) {
@@ -193,6 +189,16 @@ void BrickReader::State::read_header() {
     fail(ErrorCode::bad_input, "{}: is a zstd file of something else, not a brick stream; bpvox makes one",
          file.name());
   }
+}
+
+/// Section 4. The version comes first: a later one may have changed anything after it.
+void BrickReader::State::read_header() {
+  std::array<std::byte, kFrameHeadBytes + kStreamMagic.size() + 2> start;
+  const std::size_t got = file.read(start);
+  if (got == 0) {
+    fail(ErrorCode::bad_input, "{}: is empty, not a brick stream; did the tool before it fail?", file.name());
+  }
+  check_magic(std::span(start).first(got));
   if (got < start.size()) take(std::span(start).subspan(got), "header");
   ByteSource in(start);
   (void)in.get<std::uint32_t>();
@@ -206,10 +212,15 @@ void BrickReader::State::read_header() {
   if (size < kHeaderFixedBytes + kHashBytes ||
       size > kHeaderFixedBytes + kMaxScaleBytes + kMaxProvenanceBytes + kMaxSceneBytes + kHashBytes)
     refuse(4, "a header of {} bytes cannot be; the stream is damaged", size);
-
   std::vector<std::byte> payload(size);
   const std::size_t known = start.size() - kFrameHeadBytes;
   std::copy(start.begin() + kFrameHeadBytes, start.end(), payload.begin());
+  read_payload(payload, known);
+}
+
+/// The rest of a header of which `known` bytes are there.
+void BrickReader::State::read_payload(std::vector<std::byte>& payload, std::size_t known) {
+  const std::size_t size = payload.size();
   // The two texts are declared in the fixed part: check before reading on.
   take(std::span(payload).subspan(known, kHeaderFixedBytes - known), "header");
   ByteSource sizes(std::span<const std::byte>(payload).subspan(kHeaderFixedBytes - 8));

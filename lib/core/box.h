@@ -75,7 +75,8 @@ struct Bounds3d {
     add(b.max);
   }
   friend bool operator==(const Bounds3d&, const Bounds3d&) = default;
-  [[nodiscard]] double diagonal() const;  ///< length of the diagonal, 0 when empty
+  [[nodiscard]] double diagonal() const;      ///< length of the diagonal, 0 when empty
+  [[nodiscard]] double longest_side() const;  ///< 0 when empty
 };
 
 }  // namespace bp

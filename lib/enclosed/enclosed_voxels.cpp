@@ -7,126 +7,16 @@
 
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/enclosed/detail/cell_window.h"
+#include "lib/enclosed/detail/resting_points.h"
+#include "lib/enclosed/detail/separator.h"
+
+// Tetrahedra are told from cubes by detail/separator.h, first from bricks, then from blocks of 8^3 voxels, then from
+// voxels; detail/cell_window.h has those of them that a box meets. What a proxy rests on: detail/resting_points.h.
 
 namespace bp {
 
-/// Separating axes of one tetrahedron against axis-aligned cubes: the cube's 3 face normals (its bounding box), the 4
-/// face normals, and the 6 x 3 cross products of edges. Two convex bodies have disjoint interiors iff one of these axes
-/// separates them weakly.
-class Separator {
- public:
-  explicit Separator(const Tetrahedron& t) : box_{t[0], t[0]} {
-    for (const LatticeCoord& p : t) box_.add(p);
-    for (std::size_t i = 0; i < 4; ++i) corners_[i] = t[i] - box_.min;
-    const LatticeCoord side = box_.max - box_.min;
-    reach_ = 2 * double(side.x + side.y + side.z) + 4 * double(kLargestCube);
-    for (std::size_t skip = 0; skip < 4; ++skip)
-      add_axis(normal_of(t[(skip + 1) % 4], t[(skip + 2) % 4], t[(skip + 3) % 4]));
-  }
-
-  [[nodiscard]] const LatticeBox& box() const { return box_; }
-
-  /// True if the open cube [corner, corner + edge]^3, which meets the open box, and the open tetrahedron are disjoint.
-  [[nodiscard]] bool separates(const LatticeCoord& corner, std::int64_t edge) {
-    const LatticeCoord c = corner - box_.min;
-    for (std::size_t a = 0; a < axes_.size(); ++a) {
-      if (a == count_) {
-        if (complete_) return false;
-        add_edge_axes();
-        if (a == count_) return false;
-      }
-      if (!separates_along(axes_[a], c, edge)) continue;
-      last_ = a;
-      return true;
-    }
-    return false;
-  }
-
-  /// Of a layer of cubes, bit 8 y + x the one at corner + (x, y, 0) edge, those that the axis that told the last cube
-  /// apart leaves: few.
-  [[nodiscard]] std::uint64_t left(std::uint64_t layer, const LatticeCoord& corner, std::int64_t edge) const {
-    if (count_ == 0) return layer;
-    const Axis& axis = axes_[last_];
-    const LatticeCoord c = corner - box_.min;
-    const double e = double(edge), step_x = axis.x * e, step_y = axis.y * e;
-    const double at = axis.x * double(c.x) + axis.y * double(c.y) + axis.z * double(c.z);
-    const double from = axis.max - axis.negative * e + 2 * axis.slack,
-                 to = axis.min - axis.positive * e - 2 * axis.slack;
-    std::uint64_t left = 0;
-    for (std::uint64_t rest = layer; rest != 0; rest &= rest - 1) {
-      const int bit = std::countr_zero(rest);
-      const double there = at + step_x * (bit % 8) + step_y * (bit / 8);
-      left |= std::uint64_t((there < from) & (there > to)) << bit;
-    }
-    return left;
-  }
-
- private:
-  static constexpr std::int64_t kLargestCube = std::int64_t(kBrickEdge) * kLatticePerVoxel;
-
-  /// Coordinates are relative to the low corner of the tetrahedron's box. The doubles decide unless they are within
-  /// rounding, which those of all but huge tetrahedra are free of.
-  struct Axis {
-    LatticeCoord n;
-    double x, y, z;
-    double negative, positive;  // sums of the negative and of the positive components: extent of a unit cube
-    double min, max;            // of the tetrahedron
-    double slack;               // a dozen roundings of terms below |n|_1 * reach_; 0: integers that doubles hold
-  };
-
-  [[nodiscard]] bool separates_along(const Axis& axis, const LatticeCoord& c, std::int64_t edge) const {
-    const double at = axis.x * double(c.x) + axis.y * double(c.y) + axis.z * double(c.z), e = double(edge);
-    const double over = std::max(at + axis.negative * e - axis.max, axis.min - (at + axis.positive * e));
-    if (over < -axis.slack) return false;
-    return over > axis.slack || axis.slack == 0 || separates_exactly(axis.n, c, edge);
-  }
-
-  [[nodiscard]] bool separates_exactly(const LatticeCoord& n, const LatticeCoord& c, std::int64_t edge) const {
-    const auto along = [&](const LatticeCoord& p) { return int128(n.x) * p.x + int128(n.y) * p.y + int128(n.z) * p.z; };
-    int128 min = along(corners_[0]), max = min, low = along(c), high = low;
-    for (const LatticeCoord& p : corners_) {
-      min = std::min(min, along(p));
-      max = std::max(max, along(p));
-    }
-    for (int i = 0; i < 3; ++i) (n[i] < 0 ? low : high) += int128(n[i]) * edge;
-    return low >= max || high <= min;
-  }
-
-  /// The faces' normals tell nearly all cubes apart: the others wait until one asks.
-  void add_edge_axes() {
-    complete_ = true;
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t j = i + 1; j < 4; ++j) {
-        const LatticeCoord e = corners_[j] - corners_[i];
-        add_axis({0, e.z, -e.y});
-        add_axis({-e.z, 0, e.x});
-        add_axis({e.y, -e.x, 0});
-      }
-    }
-  }
-
-  void add_axis(const LatticeCoord& n) {
-    if (n == LatticeCoord{}) return;
-    Axis axis{n, double(n.x), double(n.y), double(n.z), 0, 0, 0, 0, 0};
-    for (int i = 0; i < 3; ++i) (n[i] < 0 ? axis.negative : axis.positive) += double(n[i]);
-    for (std::size_t i = 0; i < 4; ++i) {
-      const double at =
-          axis.x * double(corners_[i].x) + axis.y * double(corners_[i].y) + axis.z * double(corners_[i].z);
-      axis.min = i == 0 ? at : std::min(axis.min, at);
-      axis.max = i == 0 ? at : std::max(axis.max, at);
-    }
-    const double bound = (axis.positive - axis.negative) * reach_;
-    axis.slack = bound < 0x1p52 ? 0 : 0x1p-49 * bound;
-    axes_[count_++] = axis;
-  }
-
-  Tetrahedron corners_;  // relative to box_.min
-  double reach_;         // bounds the sum of sizes of the coordinates of a corner, of either body
-  LatticeBox box_;
-  std::array<Axis, 22> axes_;
-  std::size_t count_ = 0, last_ = 0;  // the one that told the last cube apart often does the next
-  bool complete_ = false;             // the edges' axes are there
-};
+using namespace detail;
 
 namespace {
 
@@ -170,35 +60,6 @@ std::uint64_t columns_of(const BrickBits& bits, std::size_t b) {
   return any;
 }
 
-/// The bits first to last of 8, both included, and within 0 to 7.
-std::uint64_t bits_between(std::int64_t first, std::int64_t last) {
-  first = std::max<std::int64_t>(first, 0);
-  last = std::min<std::int64_t>(last, 7);
-  return first > last ? 0 : (std::uint64_t(0xff) >> (7 - last + first)) << first;
-}
-
-/// Boxes of 8^3 cells, word z, bit 8 y + x: the bits of the cells that the box around a tetrahedron meets.
-class CellWindow {
- public:
-  /// `first`: the low corner of cell (0, 0, 0).
-  CellWindow(const LatticeBox& box, const LatticeCoord& first, std::int64_t edge) {
-    const auto low = [&](int i) { return floor_div(box.min[i] - first[i], edge); };
-    const auto high = [&](int i) { return floor_div(box.max[i] - 1 - first[i], edge); };
-    const std::uint64_t columns = bits_between(low(0), high(0));
-    for (std::uint64_t y = bits_between(low(1), high(1)); y != 0; y &= y - 1)
-      word_ |= columns << (8 * std::countr_zero(y));
-    low_z_ = std::max<std::int64_t>(low(2), 0);
-    high_z_ = std::min<std::int64_t>(high(2), 7);
-  }
-  [[nodiscard]] std::int64_t low_z() const { return low_z_; }
-  [[nodiscard]] std::int64_t high_z() const { return high_z_; }  ///< included
-  [[nodiscard]] std::uint64_t word() const { return word_; }     ///< of each z between
-
- private:
-  std::int64_t low_z_, high_z_;
-  std::uint64_t word_ = 0;
-};
-
 /// Of a point and a cube.
 inline double squared_distance(const LatticeCoord& p, const LatticeCoord& low, std::int64_t edge) {
   const auto away = [edge](std::int64_t at, std::int64_t from) {
@@ -206,88 +67,6 @@ inline double squared_distance(const LatticeCoord& p, const LatticeCoord& low, s
   };
   const double x = away(p.x, low.x), y = away(p.y, low.y), z = away(p.z, low.z);
   return x * x + y * y + z * z;
-}
-
-/// The 8 voxels around each corner of a row: bit i of the index for axis i, set on the high side.
-using Around = std::array<std::uint64_t, 8>;
-
-Around around(const BitBox& bits, std::int32_t y, std::int32_t z) {
-  Around w;
-  for (std::size_t i = 0; i < 8; i += 2) {
-    const std::uint64_t* r = bits.row(y - (i & 2 ? 0 : 1), z - (i & 4 ? 0 : 1));
-    w[i] = (r[1] << 1) | (r[0] >> 63);
-    w[i + 1] = r[1];
-  }
-  return w;
-}
-
-/// No voxel touches a corner of the row, of the brick that the middle words of the box hold.
-bool nothing_around(const BitBox& bits, std::int32_t y, std::int32_t z) {
-  std::uint64_t any = 0;
-  for (const std::int32_t dz : {-1, 0}) {
-    for (const std::int32_t dy : {-1, 0}) {
-      const std::uint64_t* r = bits.row(y + dy, z + dz);
-      any |= r[1] | (r[0] >> 63);
-    }
-  }
-  return any == 0;
-}
-
-/// Corners inside a flat side across `axis`: occupied on one side of it, empty on the other.
-std::uint64_t inside_side(const Around& w, std::size_t axis) {
-  std::array<std::uint64_t, 2> all = {~std::uint64_t(0), ~std::uint64_t(0)}, any{};
-  for (std::size_t i = 0; i < 8; ++i) {
-    all[i >> axis & 1] &= w[i];
-    any[i >> axis & 1] |= w[i];
-  }
-  return (all[0] & ~any[1]) | (all[1] & ~any[0]);
-}
-
-/// Corners between two voxels that follow each other along `axis`.
-std::uint64_t between_two(const Around& w, std::size_t axis) {
-  std::uint64_t both = 0;
-  for (std::size_t i = 0; i < 8; ++i) {
-    if ((i >> axis & 1) == 0) both |= w[i] & w[i | std::size_t(1) << axis];
-  }
-  return both;
-}
-
-/// Those corners of a row that the proxy may rest on; `sampled`: corners at a multiple of the spacing along each axis.
-std::uint64_t resting_points(const Around& w, const std::array<std::uint64_t, 3>& sampled) {
-  std::uint64_t one = 0, two = 0, three = 0;  // or more voxels
-  for (const std::uint64_t v : w) {
-    three |= two & v;
-    two |= one & v;
-    one |= v;
-  }
-  std::uint64_t points = one & ~two;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    points |= two & ~three & between_two(w, axis) & sampled[axis];
-    points |= inside_side(w, axis) & sampled[(axis + 1) % 3] & sampled[(axis + 2) % 3];
-  }
-  return points;
-}
-
-/// Corners of voxels, those at the low sides of a brick's voxels: all convex ones; of straight edges and flat sides
-/// samples, without which nothing would tell a large face beside them where it rests.
-std::vector<VoxelCoord> resting_points_of(const BrickShelf& shelf, BrickCoord coord) {
-  constexpr std::int32_t kSpacing = 8;
-  constexpr std::uint64_t kAll = ~std::uint64_t(0), kEachEighth = kAll / 0xff;
-  const VoxelCoord first = first_voxel(coord);
-  BitBox bits({{first.x - 64, first.y - 1, first.z - 1}, {first.x + 64, first.y + 64, first.z + 64}});
-  load_voxels(shelf, bits);
-  std::vector<VoxelCoord> points;
-  for (std::int32_t z = 0; z < kBrickEdge; ++z) {
-    for (std::int32_t y = 0; y < kBrickEdge; ++y) {
-      const std::array<std::uint64_t, 3> sampled = {kEachEighth, y % kSpacing == 0 ? kAll : 0,
-                                                    z % kSpacing == 0 ? kAll : 0};
-      if (nothing_around(bits, first.y + y, first.z + z)) continue;
-      for (std::uint64_t row = resting_points(around(bits, first.y + y, first.z + z), sampled); row != 0;
-           row &= row - 1)
-        points.push_back({first.x + std::countr_zero(row), first.y + y, first.z + z});
-    }
-  }
-  return points;
 }
 
 LatticeCoord low_corner(VoxelCoord v) {

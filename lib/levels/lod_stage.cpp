@@ -19,8 +19,6 @@ namespace {
 
 // What a level needs of its voxels. Fewer dense triangles per face than this, and the steps of the voxels show.
 constexpr double kDenseFacesPerFace = 100;
-constexpr double kVoxelsPerError = 8;  // the error holds the voxels' diagonal, the closing and the simplification
-constexpr double kScalesPerError = 4;  // the cube's dilation reaches sqrt(3) scales
 constexpr double kScalesPerEdge = 4;
 constexpr double kLeastScaleVox = 1 + kBeyondWholeVox;  // below 1, closing is the identity
 constexpr double kLeastSideVox = 48;                    // of a reduced grid

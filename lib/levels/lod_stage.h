@@ -27,6 +27,8 @@ struct LodTarget {
 /// Triangles of the dense surface below which voxels are not doubled, nor chosen, for a budget: they take a second or
 /// two, and larger voxels cost more error and volume than the budget does.
 constexpr double kLeastDenseFaces = 500000;
+constexpr double kVoxelsPerError = 8;  ///< the error holds the voxels' diagonal, the closing and the simplification
+constexpr double kScalesPerError = 4;  ///< the cube's dilation reaches sqrt(3) scales
 
 /// What decides at which scale, and on which voxels, a level is tried first.
 struct LodGround {

@@ -18,7 +18,7 @@ constexpr double kLeastScaleVox = 2;                             // that is trie
 constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;  // of the scene's diagonal
 constexpr double kLeastPart = 1e-3, kMostLeastPart = 0.3;        // of the largest one, by volume
 constexpr std::uint64_t kFaces = 100, kFacesPerPart = 24, kMostFaces = 2400;
-constexpr std::uint64_t kFewFacesPerPart = 12;  // of a box; with fewer, parts are left out
+constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;  // with fewer, parts are left out
 
 /// What a scene hides at a scale.
 struct Hidden {

@@ -8,8 +8,6 @@ namespace bp {
 
 namespace {
 
-constexpr double kScalesPerError = 4;  // as in LodChain
-
 double scale_of(const LodTarget& target, double voxel) {
   if (target.scale_world) return *target.scale_world;
   if (target.error_world > 0) return std::max(target.error_world / kScalesPerError, (1 + kBeyondWholeVox) * voxel);

@@ -10,15 +10,13 @@ namespace bp {
 
 namespace {
 
-constexpr double kVoxelsPerError = 8;              // of the finest level
 constexpr std::uint64_t kDensePerFaceAsked = 190;  // as kDensePerFace, where faces choose the voxels
 
 /// Of the cube of the same volume: a flat scene shows what is in it along its thickness, too.
 double area_of_cube_like(const Bounds3d& b) {
   constexpr double kFlattest = 1.0 / 64;
-  double volume = 1, longest = 0;
-  for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, b.max[i] - b.min[i]);
-  for (std::size_t i = 0; i < 3; ++i) volume *= std::max(b.max[i] - b.min[i], kFlattest * longest);
+  double volume = 1;
+  for (std::size_t i = 0; i < 3; ++i) volume *= std::max(b.max[i] - b.min[i], kFlattest * b.longest_side());
   const double edge = std::cbrt(volume);
   return 6 * edge * edge;
 }

@@ -27,6 +27,6 @@ struct ShapeLimits {
 /// of 20 faces, takes an eighth of an extent. Everywhere for fewer faces than a box has (kLeastFacesWithRoom), which
 /// may need all of it to exist, and where no number is wanted (0): errors bound that.
 [[nodiscard]] LatticeBox room_around(const LatticeBox& surface, std::uint64_t faces);
-constexpr std::uint64_t kLeastFacesWithRoom = 12;
+constexpr std::uint64_t kFacesOfBox = 12, kLeastFacesWithRoom = kFacesOfBox;
 
 }  // namespace bp

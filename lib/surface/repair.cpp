@@ -105,6 +105,56 @@ std::vector<std::pair<std::uint16_t, std::uint64_t>> words_of(const BrickBits& b
   return words;
 }
 
+/// 64 blocks of eight voxels: bit x of word i is voxel i of block x.
+using Blocks = std::array<std::uint64_t, 8>;
+
+/// Those around the low corners of the voxels of `word`, between the rows y and y + 1, z and z + 1.
+Blocks blocks_at(const BitBox& bits, std::int32_t y, std::int32_t z, int word) {
+  Blocks v;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::uint64_t* row = bits.row(y + std::int32_t(i & 1), z + std::int32_t(i >> 1));
+    v[2 * i] = row[word];
+    v[2 * i + 1] = next_voxel(row, word);
+  }
+  return v;
+}
+
+/// The blocks that are neither empty nor full.
+std::uint64_t mixed(const Blocks& v) {
+  std::uint64_t some = 0, all = ~std::uint64_t(0);
+  for (const std::uint64_t voxels : v) some |= voxels, all &= voxels;
+  return some & ~all;
+}
+
+/// The blocks that are not manifold.
+std::uint64_t not_manifold(const Blocks& v) {
+  const auto crossed = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+    return ~(v[a] ^ v[d]) & ~(v[b] ^ v[c]) & (v[a] ^ v[b]);
+  };
+  std::uint64_t bad = crossed(0, 1, 2, 3) | crossed(4, 5, 6, 7) | crossed(0, 1, 4, 5) | crossed(2, 3, 6, 7) |
+                      crossed(0, 2, 4, 6) | crossed(1, 3, 5, 7);
+  for (std::size_t low = 0; low < 4; ++low) {  // a space diagonal that differs from all six others
+    std::uint64_t alone = ~(v[low] ^ v[7 - low]);
+    for (std::size_t i = 0; i < 8; ++i) {
+      if (i != low && i != 7 - low) alone &= v[low] ^ v[i];
+    }
+    bad |= alone;
+  }
+  return bad;
+}
+
+/// Adds the voxels of `fill`, of the block with low corner (x, y, z), that lie in the brick. False if there are none.
+bool add_fill(Corner fill, std::int32_t x, std::int32_t y, std::int32_t z, BrickBits& add) {
+  bool any = false;
+  for (int i = 0; i < 8; ++i) {
+    const std::int32_t bx = x + (i & 1), by = y + ((i >> 1) & 1), bz = z + (i >> 2);
+    if (!((fill >> i) & 1) || bx < 0 || bx > 63 || by < 0 || by > 63 || bz < 0 || bz > 63) continue;
+    add[std::size_t(bz * kBrickEdge + by)] |= std::uint64_t(1) << bx;
+    any = true;
+  }
+  return any;
+}
+
 /// The voxels that blocks add to the brick. False if there are none.
 /// Finds blocks that are not manifold 64 at a time; those few then use the table.
 bool additions(const Neighbourhood& n, const std::array<Corner, 256>& table, BrickBits& add) {
@@ -112,44 +162,15 @@ bool additions(const Neighbourhood& n, const std::array<Corner, 256>& table, Bri
   bool any = false;
   for (std::int32_t z = -1; z < kBrickEdge; ++z) {
     for (std::int32_t y = -1; y < kBrickEdge; ++y) {
-      const std::uint64_t* rows[4] = {n.bits.row(first.y + y, first.z + z), n.bits.row(first.y + y + 1, first.z + z),
-                                      n.bits.row(first.y + y, first.z + z + 1),
-                                      n.bits.row(first.y + y + 1, first.z + z + 1)};
       for (int word = 0; word < 2; ++word) {  // word 0: only its last block, x = -1, reaches the brick
-        std::uint64_t v[8];
-        std::uint64_t some = 0, all = ~std::uint64_t(0);
-        for (int i = 0; i < 4; ++i) {
-          v[2 * i] = rows[i][word];
-          v[2 * i + 1] = next_voxel(rows[i], word);
-          some |= v[2 * i] | v[2 * i + 1];
-          all &= v[2 * i] & v[2 * i + 1];
-        }
-        std::uint64_t mixed = some & ~all;
-        if (word == 0) mixed &= std::uint64_t(1) << 63;
-        if (mixed == 0) continue;
-        const auto crossed = [&](int a, int b, int c, int d) {
-          return ~(v[a] ^ v[d]) & ~(v[b] ^ v[c]) & (v[a] ^ v[b]);
-        };
-        std::uint64_t bad = crossed(0, 1, 2, 3) | crossed(4, 5, 6, 7) | crossed(0, 1, 4, 5) | crossed(2, 3, 6, 7) |
-                            crossed(0, 2, 4, 6) | crossed(1, 3, 5, 7);
-        for (int low = 0; low < 4; ++low) {  // a space diagonal that differs from all six others
-          std::uint64_t alone = ~(v[low] ^ v[7 - low]);
-          for (int i = 0; i < 8; ++i) {
-            if (i != low && i != 7 - low) alone &= v[low] ^ v[i];
-          }
-          bad |= alone;
-        }
-        for (bad &= mixed; bad != 0; bad &= bad - 1) {
+        const Blocks v = blocks_at(n.bits, first.y + y, first.z + z, word);
+        std::uint64_t bad = mixed(v) & (word == 0 ? std::uint64_t(1) << 63 : ~std::uint64_t(0));
+        if (bad == 0) continue;
+        for (bad &= not_manifold(v); bad != 0; bad &= bad - 1) {
           const int bit = std::countr_zero(bad);
           unsigned block = 0;
-          for (int i = 0; i < 8; ++i) block |= unsigned((v[i] >> bit) & 1) << i;
-          const Corner fill = table[block];
-          for (int i = 0; i < 8; ++i) {
-            const std::int32_t x = (word - 1) * 64 + bit + (i & 1), by = y + ((i >> 1) & 1), bz = z + (i >> 2);
-            if (!((fill >> i) & 1) || x < 0 || x > 63 || by < 0 || by > 63 || bz < 0 || bz > 63) continue;
-            add[std::size_t(bz * kBrickEdge + by)] |= std::uint64_t(1) << x;
-            any = true;
-          }
+          for (std::size_t i = 0; i < 8; ++i) block |= unsigned((v[i] >> bit) & 1) << i;
+          any |= add_fill(table[block], (word - 1) * 64 + bit, y, z, add);
         }
       }
     }

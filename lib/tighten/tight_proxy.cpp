@@ -42,8 +42,7 @@ TightenParams one_sweep(const SimplifyParams& params) {
   return once;
 }
 
-// --- The steps of docs/decisions/0003-order-of-steps.md, with its numbers
-// ---------------------------------------------
+// --- The steps of docs/decisions/0003-order-of-steps.md, with its numbers ---
 
 TightenCounts sweep_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
                           const TightenParams& sweeps) {
@@ -173,8 +172,7 @@ void try_growing(Way other, Way& way, const Enclosed& enclosed, const SimplifyPa
   way = std::move(other);
 }
 
-// --- Their order
-// ------------------------------------------------------------------------------------------------------
+// --- Their order ---
 
 /// All that follows (1).
 Way tight_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams& params) {

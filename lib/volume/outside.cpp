@@ -1,51 +1,20 @@
 #include "lib/volume/outside.h"
 
 #include <algorithm>
-#include <bit>
 #include <unordered_map>
 #include <utility>
 
 #include "lib/core/error.h"
+#include "lib/volume/detail/tile_components.h"
 
-// Connected components by runs: the empty voxels of a row come as runs (begin, end) from the packed words, each run is
-// united with those that overlap it in the row before and in the slice before. Only two slices of runs are alive; a
-// second scan repeats the same provisional labels instead of storing them.
+// Connected components by runs (detail/empty_runs.h), tile by tile (detail/tile_components.h). Here tiles are joined:
+// by runs along the faces that they share.
 
 namespace bp {
 
+using namespace detail;
+
 namespace {
-
-/// Union-find over small integers; the root of a set is its smallest member, so numbering follows the scan.
-class Forest {
- public:
-  std::uint32_t add() {
-    parent_.push_back(std::uint32_t(parent_.size()));
-    return parent_.back();
-  }
-  [[nodiscard]] std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  /// Afterwards parent(i) is the root of i.
-  void flatten() {
-    for (std::uint32_t& p : parent_) p = parent_[p];  // parents come first
-  }
-  [[nodiscard]] std::uint32_t parent(std::uint32_t i) const { return parent_[i]; }
-  [[nodiscard]] std::uint32_t size() const { return std::uint32_t(parent_.size()); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
-struct Run {
-  std::int32_t begin, end;  ///< voxels from the tile's min.x
-  std::uint32_t label;
-};
 
 /// Run of positions u + v * width of a face, all of one component. Gaps are occupied voxels.
 struct FaceRun {
@@ -60,177 +29,6 @@ void append(FaceRuns& runs, std::uint32_t begin, std::uint32_t end, std::uint32_
   } else {
     runs.push_back({begin, end, label});
   }
-}
-
-/// Bits [begin, end) of a word.
-std::uint64_t bit_range(std::int32_t begin, std::int32_t end) {
-  return (~std::uint64_t(0) << begin) & (~std::uint64_t(0) >> (64 - end));
-}
-
-/// emit(begin, end) for each run of zero bits in bits [first, last) of `row`; positions count from `first`.
-template <class Emit>
-void for_empty_runs(const std::uint64_t* row, std::int32_t first, std::int32_t last, const Emit& emit) {
-  std::int32_t open = -1;  // begin of the run that reaches the current word, in bits of the row
-  for (std::int32_t base = first & ~63; base < last; base += 64) {
-    std::uint64_t empty = ~row[base / 64] & bit_range(std::max(first - base, 0), std::min(last - base, 64));
-    if (empty == ~std::uint64_t(0)) {
-      if (open < 0) open = base;
-      continue;
-    }
-    if (open >= 0) {
-      const int ones = std::countr_one(empty);
-      emit(open - first, base + ones - first);
-      open = -1;
-      empty &= empty + 1;  // clears the trailing ones
-    }
-    while (empty != 0) {
-      const int begin = std::countr_zero(empty), length = std::countr_one(empty >> begin);
-      if (begin + length == 64) {
-        open = base + begin;
-        break;
-      }
-      emit(base + begin - first, base + begin + length - first);
-      empty &= empty + (std::uint64_t(1) << begin);  // clears the lowest run of ones
-    }
-  }
-  if (open >= 0) emit(open - first, last - first);
-}
-
-/// The runs of one slice, row by row.
-struct Slice {
-  std::vector<Run> runs;
-  std::vector<std::uint32_t> rows;  ///< rows[y] .. rows[y + 1] are the runs of row y
-
-  void clear() {
-    runs.clear();
-    rows.assign(1, 0);
-  }
-  void reserve_row(std::int32_t voxels) {
-    const std::size_t need = runs.size() + std::size_t(voxels) / 2 + 1;
-    if (runs.capacity() < need) runs.reserve(2 * need);
-  }
-  [[nodiscard]] const Run* begin(std::int32_t y) const { return runs.data() + rows[std::size_t(y)]; }
-  [[nodiscard]] const Run* end(std::int32_t y) const { return runs.data() + rows[std::size_t(y) + 1]; }
-};
-
-constexpr std::uint32_t kNoLabel = ~std::uint32_t(0);
-
-/// A cursor over the runs of a neighbouring row; calls get ascending runs.
-class Neighbours {
- public:
-  Neighbours(const Run* begin, const Run* end) : at_(begin), end_(end) {}
-  /// touch(label) for each run that overlaps [begin, end).
-  template <class Touch>
-  void overlaps(std::int32_t begin, std::int32_t end, const Touch& touch) {
-    while (at_ != end_ && at_->end <= begin) ++at_;
-    for (const Run* r = at_; r != end_ && r->begin < end; ++r) touch(r->label);
-  }
-
- private:
-  const Run *at_, *end_;
-};
-
-/// True if bits [first, last) of `row` are zero, both multiples of 64.
-bool empty_words(const std::uint64_t* row, std::int32_t first, std::int32_t last) {
-  std::uint64_t any = 0;
-  for (std::int32_t word = first / 64; word < last / 64; ++word) any |= row[word];
-  return any == 0;
-}
-
-/// Scans the empty runs of `tile` in a fixed order. Each gets the provisional label of the first run that overlaps it
-/// in the row before, else in the slice before, else fresh(); unite(a, b) reports every other overlap. Then
-/// visit(run, y, z), y and z from the tile's corner. Two scans of the same bits give the same labels.
-template <class Fresh, class Unite, class Visit>
-void scan(const BitBox& solid, const VoxelBox& tile, const Fresh& fresh, const Unite& unite, const Visit& visit) {
-  const VoxelCoord size = tile.size();
-  const std::int32_t first = tile.min.x - solid.box().min.x;
-  const bool aligned = first % 64 == 0 && size.x % 64 == 0;
-  Slice before, now;
-  for (std::int32_t z = 0; z < size.z; ++z) {
-    now.clear();
-    for (std::int32_t y = 0; y < size.y; ++y) {
-      now.reserve_row(size.x);  // the pointers below stay valid
-      // Most rows are empty beside empty ones: the run beside takes them in, whatever lies below.
-      const Run* last = now.runs.empty() ? nullptr : &now.runs.back();
-      if (aligned && y > 0 && now.end(y - 1) - now.begin(y - 1) == 1 && last->begin == 0 && last->end == size.x &&
-          empty_words(solid.row(tile.min.y + y, tile.min.z + z), first, first + size.x)) {
-        const std::uint32_t label = last->label;
-        if (z > 0) {
-          for (const Run* r = before.begin(y); r != before.end(y); ++r) {
-            if (r->label != label) unite(label, r->label);
-          }
-        }
-        now.runs.push_back({0, size.x, label});
-        visit(now.runs.back(), y, z);
-        now.rows.push_back(std::uint32_t(now.runs.size()));
-        continue;
-      }
-      Neighbours beside = y > 0 ? Neighbours(now.begin(y - 1), now.end(y - 1)) : Neighbours(nullptr, nullptr);
-      Neighbours below = z > 0 ? Neighbours(before.begin(y), before.end(y)) : Neighbours(nullptr, nullptr);
-      for_empty_runs(solid.row(tile.min.y + y, tile.min.z + z), first, first + size.x,
-                     [&](std::int32_t begin, std::int32_t end) {
-                       std::uint32_t label = kNoLabel;
-                       const auto touch = [&](std::uint32_t other) {
-                         if (label == kNoLabel) {
-                           label = other;
-                         } else if (label != other) {
-                           unite(label, other);
-                         }
-                       };
-                       beside.overlaps(begin, end, touch);
-                       below.overlaps(begin, end, touch);
-                       if (label == kNoLabel) label = fresh();
-                       now.runs.push_back({begin, end, label});
-                       visit(now.runs.back(), y, z);
-                     });
-      now.rows.push_back(std::uint32_t(now.runs.size()));
-    }
-    std::swap(before, now);
-  }
-}
-
-/// Components of one tile. Those that touch a face are numbered 0, 1, ... by first appearance in the scan; the others
-/// are enclosed already.
-struct Components {
-  Forest forest;
-  std::vector<std::uint8_t> at_face;   ///< per provisional label
-  std::vector<std::uint32_t> face_id;  ///< per provisional label; kNoLabel inside
-  std::uint32_t face_count = 0;
-  bool any_inside = false;
-
-  /// After the scan: numbers the components.
-  void number() {
-    forest.flatten();
-    for (std::uint32_t i = 0; i < forest.size(); ++i) at_face[forest.parent(i)] |= at_face[i];
-    face_id.assign(forest.size(), kNoLabel);
-    for (std::uint32_t i = 0; i < forest.size(); ++i) {
-      const std::uint32_t root = forest.parent(i);
-      if (root == i && at_face[i] != 0) face_id[i] = face_count++;
-      if (root == i && at_face[i] == 0) any_inside = true;
-      face_id[i] = face_id[root];
-    }
-  }
-};
-
-/// First scan; visit as in scan().
-template <class Visit>
-void find_components(const BitBox& solid, const VoxelBox& tile, Components& c, const Visit& visit) {
-  const VoxelCoord size = tile.size();
-  scan(
-      solid, tile,
-      [&] {
-        c.at_face.push_back(0);
-        return c.forest.add();
-      },
-      [&](std::uint32_t a, std::uint32_t b) { c.forest.unite(a, b); },
-      [&](const Run& run, std::int32_t y, std::int32_t z) {
-        const bool face = run.begin == 0 || run.end == size.x || y == 0 || y == size.y - 1 || z == 0 || z == size.z - 1;
-        if (face) {
-          c.at_face[run.label] = 1;
-          visit(run, y, z);
-        }
-      });
-  c.number();
 }
 
 void check_face_area(const VoxelBox& tile) {

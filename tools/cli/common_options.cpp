@@ -177,9 +177,8 @@ void keep_inputs(const std::vector<std::string>& paths) {
   }
 }
 
-void forget_files() {
+void forget_outputs() {
   named_outputs().clear();
-  forget_kept();
 }
 
 std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary) {

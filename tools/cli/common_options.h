@@ -63,11 +63,11 @@ struct CommonOptions {
 [[nodiscard]] std::uint64_t least_memory(int threads);
 
 /// From now on these files, and those that they name (parts_of_scene()), are neither replaced nor removed, whatever
-/// they are called: --overwrite must not cost a scene (io/files/kept_files.h). Throws bad_argument if one of them is an
-/// output that was opened before.
+/// they are called, while a KeepsInputs lives (io/files/kept_files.h): --overwrite must not cost a scene. Throws
+/// bad_argument if one of them is an output that was opened before.
 void keep_inputs(const std::vector<std::string>& paths);
-/// Forgets what keep_inputs() and open_output() were told: another run of a tool begins in this process, as in tests.
-void forget_files();
+/// Forgets what open_output() was told: another run of a tool begins in this process, as in tests.
+void forget_outputs();
 /// The tool's data output. Throws bad_argument if binary data would go to a terminal, if the file exists and
 /// `overwrite` is false, if it is an input that is to be kept, or if this name was opened before.
 [[nodiscard]] std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary = true);

@@ -9,6 +9,7 @@
 #include <new>
 #include <system_error>
 
+#include "io/files/kept_files.h"
 #include "io/files/partial_outputs.h"
 #include "lib/core/error.h"
 #include "tools/cli/common_options.h"
@@ -67,7 +68,8 @@ int complain(const char* tool, const Error& e) {
 int guard(const char* tool, const std::function<int()>& body) {
   occupy_standard_streams();
   install_handlers();
-  forget_files();
+  const KeepsInputs inputs;
+  forget_outputs();
   try {
     return body();
   } catch (const Args::Done&) {

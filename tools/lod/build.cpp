@@ -41,7 +41,7 @@ Build::Build(const BuildOptions& o)
     : options(o),
       progress("bplod", o.common.progress),
       backends(make_backends(o.common, 0)),  // reading and meshing take far longer than closing
-      budget(o.common.memory_bytes - std::min(pinned_bytes(backends), o.common.memory_bytes / 2)),
+      budget(unpinned(o.common.memory_bytes, pinned_bytes(backends))),
       make_shelf(make_shelf_factory(budget.shelf, o.common.temp)) {
   show = [this, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
                                       std::uint64_t total) mutable {
@@ -53,8 +53,7 @@ Build::Build(const BuildOptions& o)
 SceneOptions Build::scene_options(bool beside) const {
   SceneOptions scene{options.voxels.format, budget.reader, options.common.temp};
   scene.walls_only = options.profile == LodProfile::occluder;
-  const std::uint64_t pinned = std::min(pinned_bytes(backends), options.common.memory_bytes / 2);
-  scene.document = document_budget(options.common.memory_bytes - pinned, std::uint64_t(96) << 20,
+  scene.document = document_budget(unpinned(options.common.memory_bytes, pinned_bytes(backends)), kVoxelProgram,
                                    beside ? 2 : options.voxels.scenes.size());
   return scene;
 }

@@ -8,15 +8,6 @@
 
 namespace bp {
 
-namespace {
-
-const char* name_of(Enclose enclose) {
-  constexpr const char* kNames[] = {"closing", "input", "scene"};
-  return kNames[std::size_t(enclose)];
-}
-
-}  // namespace
-
 LevelRequest request_of(const BuildOptions& o, double diagonal, double voxel) {
   LevelRequest r;
   r.levels = o.levels.levels;

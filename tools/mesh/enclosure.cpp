@@ -14,6 +14,7 @@
 #include "tools/cli/common_options.h"
 #include "tools/cli/names.h"
 #include "tools/run/enclosed_triangles_limit.h"
+#include "tools/run/memory_shares.h"
 #include "tools/run/scene_budget.h"
 
 namespace bp {
@@ -45,7 +46,7 @@ SceneOptions scene_options(const EnclosureInput& in, const std::string& format) 
   options.format = format;
   options.memory_bytes = in.memory.bytes() / 2;
   options.temp_dir = in.temp_dir;
-  options.document = document_budget(in.memory.limit_bytes, std::uint64_t(48) << 20, 2);
+  options.document = document_budget(in.memory.limit_bytes, kMeshProgram, 2);
   return options;
 }
 
@@ -159,11 +160,6 @@ Enclosure automatic(const EnclosureInput& in) {
 }
 
 }  // namespace
-
-const char* Enclosure::name() const {
-  constexpr const char* kNames[] = {"closing", "input", "scene"};
-  return kNames[std::size_t(what)];
-}
 
 Enclosure make_enclosure(const EncloseOption& option, const EnclosureInput& in) {
   Enclosure out;

@@ -23,8 +23,6 @@ struct Enclosure {
   Enclose what = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene
   std::string note;              ///< why `automatic` does without the scene's triangles; empty: nothing to say
-
-  [[nodiscard]] const char* name() const;  ///< closing, input, scene
 };
 
 /// Chooses, and reads the scene's triangles where they are needed. `automatic` is the scene's triangles if the stream

@@ -9,12 +9,6 @@ namespace bp {
 
 namespace {
 
-double longest_side(const Bounds3d& scene) {
-  double longest = 0;
-  for (std::size_t i = 0; !scene.empty() && i < 3; ++i) longest = std::max(longest, scene.max[i] - scene.min[i]);
-  return longest;
-}
-
 /// With three digits or more, and without an exponent where people would write none.
 std::string number(double x) {
   return x >= 1000 && x < 1e15 ? fmt::format("{:.0f}", x) : fmt::format("{:.3g}", x);
@@ -77,7 +71,7 @@ void question_scale(const char* option, const Length& scale, const Bounds3d& sce
 }
 
 void question_voxel(const char* option, const Length& voxel, const Bounds3d& scene) {
-  const double side = longest_side(scene), voxels = side / voxel.value;
+  const double side = scene.longest_side(), voxels = side / voxel.value;
   if (voxel.unit != Length::Unit::scene || !(side > 0) || is_in_proportion(voxels)) return;
   if (voxels > kMostVoxels) return question_grid(fmt::format("{} {}", option, voxel.text()), voxel.value, scene);
   fail(ErrorCode::bad_argument, "{} {} {}: {} {}", option, voxel.text(), grid_text(voxels, side),
@@ -85,7 +79,7 @@ void question_voxel(const char* option, const Length& voxel, const Bounds3d& sce
 }
 
 void question_grid(const std::string& what, double voxel, const Bounds3d& scene, const char* likely) {
-  const double side = longest_side(scene), voxels = side / voxel;
+  const double side = scene.longest_side(), voxels = side / voxel;
   if (!(voxels > kMostVoxels)) return;
   fail(ErrorCode::bad_argument, "{} {}, more than {}: {} to insist, give that number to --resolution", what,
        grid_text(voxels, side), number(kMostVoxels), likely);

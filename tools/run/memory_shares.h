@@ -1,16 +1,26 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
 #include "lib/core/parallel.h"
 
 namespace bp {
 
+/// What the program takes of --memory where scenes are voxelized or streams closed, and where meshes are made or
+/// checked.
+constexpr std::uint64_t kVoxelProgram = std::uint64_t(96) << 20, kMeshProgram = std::uint64_t(48) << 20;
+
+/// What is left of --memory beside what a device pins. That is at most half of it.
+[[nodiscard]] inline std::uint64_t unpinned(std::uint64_t memory, std::uint64_t pinned) {
+  return memory - std::min(pinned, memory / 2);
+}
+
 /// What is left of --memory beside the program and what each thread has in hand, bytes.
 struct UsableMemory {
-  std::uint64_t bytes;
-  double growth;  ///< with each byte more of --memory, at least
-  UsableMemory(std::uint64_t memory, std::uint64_t program) {
-    const std::uint64_t fixed = program + std::uint64_t(thread_count()) * (8 << 20);
+  std::uint64_t fixed, bytes;  ///< for program and threads, at least; left
+  double growth;               ///< with each byte more of --memory, at least
+  UsableMemory(std::uint64_t memory, std::uint64_t program)
+      : fixed(program + std::uint64_t(thread_count()) * (8 << 20)) {
     bytes = memory > 2 * fixed ? memory - fixed : memory / 2;
     growth = memory > 2 * fixed ? 1 : 0.5;
   }
@@ -23,7 +33,7 @@ struct VoxelizeBudget {
   std::uint64_t waiting;  ///< triangles and bricks, what store and shelf hold included
   std::uint64_t store, shelf;
   std::uint64_t tiles;  ///< at work
-  explicit VoxelizeBudget(std::uint64_t memory) : VoxelizeBudget(UsableMemory(memory, std::uint64_t(96) << 20)) {}
+  explicit VoxelizeBudget(std::uint64_t memory) : VoxelizeBudget(UsableMemory(memory, kVoxelProgram)) {}
 
  protected:
   explicit VoxelizeBudget(const UsableMemory& usable) {
@@ -40,7 +50,7 @@ struct VoxelizeBudget {
 struct BuildBudget : VoxelizeBudget {
   std::uint64_t work;
   double work_growth;  ///< with each byte more of --memory
-  explicit BuildBudget(std::uint64_t memory) : BuildBudget(UsableMemory(memory, std::uint64_t(96) << 20)) {}
+  explicit BuildBudget(std::uint64_t memory) : BuildBudget(UsableMemory(memory, kVoxelProgram)) {}
 
  private:
   explicit BuildBudget(const UsableMemory& usable) : VoxelizeBudget(usable) {
@@ -56,7 +66,7 @@ struct MeshBudget {
   std::uint64_t store;          ///< further ones that wait, compressed
   double waiting_growth, work_growth;
   explicit MeshBudget(std::uint64_t memory) {
-    const UsableMemory usable(memory, std::uint64_t(48) << 20);
+    const UsableMemory usable(memory, kMeshProgram);
     shelves = usable.bytes / 20 * 5;
     waiting = usable.bytes / 20 * 5;
     work = usable.bytes / 20 * 6;

@@ -15,12 +15,6 @@ namespace {
 
 constexpr double kNear = 8;  // sides: floats lose 3 bits of 24
 
-double longest_side(const Bounds3d& b) {
-  double side = 0;
-  for (std::size_t i = 0; i < 3; ++i) side = std::max(side, b.max[i] - b.min[i]);
-  return side;
-}
-
 /// Of the coordinates, when `origin` is subtracted.
 double reach_of(const Bounds3d& b, const Vec3d& origin) {
   double reach = 0;
@@ -72,7 +66,7 @@ OriginOption parse_origin(const std::string& text) {
 }
 
 Vec3d auto_origin(const Bounds3d& bounds) {
-  const double side = longest_side(bounds);
+  const double side = bounds.longest_side();
   if (bounds.empty() || !(side > 0) || reach_of(bounds, {}) <= kNear * side) return {};
   const double step = round_step(side);
   Vec3d origin;

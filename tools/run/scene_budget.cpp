@@ -12,9 +12,8 @@ DocumentBudget document_budget(std::uint64_t memory, std::uint64_t program, std:
   DocumentBudget budget;
   budget.bytes = usable.bytes / share;
   budget.enough_for = [=](std::uint64_t missing) {
-    const std::uint64_t fixed = program + std::uint64_t(thread_count()) * (8 << 20);
     const std::uint64_t needed = usable.bytes + missing * share;
-    return fmt::format(" to at least {} MiB", ((needed > fixed ? needed + fixed : 2 * needed) >> 20) + 1);
+    return fmt::format(" to at least {} MiB", ((needed > usable.fixed ? needed + usable.fixed : 2 * needed) >> 20) + 1);
   };
   return budget;
 }

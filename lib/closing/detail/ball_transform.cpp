@@ -4,42 +4,29 @@
 // - Only m < 0 matters, so every pass stops at 0 and looks no further than R = floor(sqrt(w_max - 1)). Values stay in
 //   [-w_max, 0]: 16 bits for scales up to 128 voxels.
 // - x: 64 voxels of a row at once. A row gives min over its seeds s of (x - s)^2 - w(s), one vector minimum per seed;
-// with
-//   one w for the row only the ends of runs of seeds and the nearest seed to either side count.
+//   with one w for the row only the ends of runs of seeds and the nearest seed to either side count.
 // - y: for 64 voxels, minimum over the rows within R that hold seeds, of the row's values + dy^2.
 // - z: with w at the seed nothing is left to minimise. What reaches a slice at value m < 0 reaches the slices within
 //   dz^2 < -m, so two sweeps that carry "slices to go" decide all voxels, whatever R. With w at the target the minimum
 //   itself is compared, over the slices within the target's own reach.
 // - Passes run only where a target needs them: rows within R in z of a word that holds one.
+// The passes over rows are in ball_passes.h; here is what they run on, and when.
 #include "lib/closing/detail/ball_transform.h"
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <limits>
 #include <type_traits>
 
+#include "lib/closing/detail/ball_passes.h"
 #include "lib/closing/detail/simd.h"
 
 namespace bp::detail {
 
 namespace {
 
-constexpr std::int32_t kBlockRows = 64;                    // rows handled together, at most
 constexpr std::size_t kFieldBytes = std::size_t(4) << 20;  // what the values of a block of rows may take
 constexpr std::int32_t kSmallBound = 1 << 14;              // largest w for 16-bit values
-
-/// need[z][y] = max over slices z' of need[z'][y] - |z - z'|, not below 0.
-BP_CLONES void spread(std::uint16_t* need, std::int32_t slices) {
-  const auto pull = [](const std::uint16_t* from, std::uint16_t* to) __attribute__((always_inline)) {
-    for (int y = 0; y < kBlockRows; ++y) {
-      const std::uint16_t less = from[y] > 0 ? std::uint16_t(from[y] - 1) : std::uint16_t(0);
-      to[y] = std::max(to[y], less);
-    }
-  };
-  for (std::int32_t z = 1; z < slices; ++z) pull(need + (z - 1) * kBlockRows, need + z * kBlockRows);
-  for (std::int32_t z = slices - 2; z >= 0; --z) pull(need + (z + 1) * kBlockRows, need + z * kBlockRows);
-}
 
 /// The seeds of one row around a word: bits of the word itself and of the words to either side within reach.
 struct SeedWords {
@@ -53,191 +40,6 @@ struct SeedWords {
     return w[y - y0] & (k == -side ? left_mask : k == side ? right_mask : ~std::uint64_t(0));
   }
 };
-
-/// `squares[i]` = i^2, saturated; row = min(0, (x - s)^2 - bound) for seed s.
-template <class T>
-BP_INLINE void nearest_seeds(std::uint64_t middle, std::int32_t left, std::int32_t right, std::int32_t none, T bound,
-                             const T* squares, T* row) {
-  Lanes<T> acc{};
-  const std::uint64_t inner = middle & (middle << 1) & (middle >> 1);
-  for (std::uint64_t edges = middle & ~inner; edges != 0; edges &= edges - 1)
-    acc.min_sum(squares - std::countr_zero(edges), T(-bound));
-  if (left != none) acc.min_sum(squares - left, T(-bound));
-  if (right != none) acc.min_sum(squares - right, T(-bound));
-  if (inner != 0) {
-    T masks[kLanes];
-    for (int i = 0; i < 8; ++i)
-      std::memcpy(masks + 8 * i, kByteMasks<T>.rows[(inner >> (8 * i)) & 255].data(), 8 * sizeof(T));
-    for (int i = 0; i < kLanes; ++i) masks[i] = T(masks[i] & T(-bound));
-    acc.min(masks);
-  }
-  acc.store(row);
-}
-BP_CLONES void nearest(std::uint64_t middle, std::int32_t left, std::int32_t right, std::int32_t none,
-                       std::int16_t bound, const std::int16_t* squares, std::int16_t* row) {
-  nearest_seeds(middle, left, right, none, bound, squares, row);
-}
-BP_CLONES void nearest(std::uint64_t middle, std::int32_t left, std::int32_t right, std::int32_t none,
-                       std::int32_t bound, const std::int32_t* squares, std::int32_t* row) {
-  nearest_seeds(middle, left, right, none, bound, squares, row);
-}
-
-/// row = min(row, squares + c): one seed of a row of seeds that differ in w.
-BP_CLONES void lower(const std::int16_t* squares, std::int16_t c, std::int16_t* row) {
-  Lanes<std::int16_t> acc = Lanes<std::int16_t>::load(row);
-  acc.min_sum(squares, c);
-  acc.store(row);
-}
-BP_CLONES void lower(const std::int32_t* squares, std::int32_t c, std::int32_t* row) {
-  Lanes<std::int32_t> acc = Lanes<std::int32_t>::load(row);
-  acc.min_sum(squares, c);
-  acc.store(row);
-}
-
-/// acc = min(acc, min over j of rows[j] + (row_y[j] - y)^2).
-template <class T>
-BP_INLINE void lowest_over_rows(const T* rows, const std::int32_t* row_y, std::int32_t count, std::int32_t y,
-                                Lanes<T>& acc) {
-  for (std::int32_t j = 0; j < count; ++j) {
-    const std::int32_t dy = row_y[j] - y;
-    acc.min_sum(rows + std::size_t(j) * kLanes, T(dy * dy));
-  }
-}
-
-/// For value m: how many slices, its own included, a seed of this value reaches: the number of dz >= 0 with
-/// m + dz^2 < 0. That is floor(sqrt(-m - 1)) + 1 if m < 0; the root is found bit by bit from `top` down.
-template <class T, class Reach>
-BP_INLINE void store_reach(Lanes<T>& acc, T top, Reach* out) {
-  using Vector = typename Lanes<T>::Vector;
-  T reach[kLanes];
-  for (int i = 0; i < Lanes<T>::kCount; ++i) {
-    const Vector n = ~acc.v[i];  // -m - 1
-    Vector root{};
-    for (T b = top; b > 0; b = T(b >> 1)) {
-      const Vector c = root + b;
-      root += (c * c <= n) & b;
-    }
-    acc.v[i] = root - (n >= 0);  // a mask is -1
-  }
-  acc.store(reach);
-  for (int i = 0; i < kLanes; ++i) out[i] = Reach(reach[i]);
-}
-
-/// The y pass of one slice: rows y0 + i with need[i] != 0 get 64 values at out + i * step.
-struct RowPass {
-  const std::int32_t* row_y;  ///< of the rows that hold seeds, ascending
-  std::int32_t count, y0, radius;
-  const std::uint16_t* need;
-  std::size_t step;
-};
-/// Values are how far they reach along z if Out differs from T, else the minima themselves.
-template <class T, class Out>
-BP_INLINE void pass_rows(const T* rows, const RowPass& p, T top, Out* out) {
-  std::int32_t lo = 0, hi = 0;
-  for (std::int32_t i = 0; i < kBlockRows; ++i) {
-    if (p.need[i] == 0) continue;
-    const std::int32_t y = p.y0 + i;
-    while (lo < p.count && p.row_y[lo] < y - p.radius) ++lo;
-    while (hi < p.count && p.row_y[hi] <= y + p.radius) ++hi;
-    Lanes<T> acc{};
-    lowest_over_rows(rows + std::size_t(lo) * kLanes, p.row_y + lo, hi - lo, y, acc);
-    if constexpr (std::is_same_v<T, Out>) {
-      acc.store(out + std::size_t(i) * p.step);
-    } else {
-      store_reach(acc, top, out + std::size_t(i) * p.step);
-    }
-  }
-}
-BP_CLONES void y_pass(const std::int16_t* rows, const RowPass& p, std::int16_t top, std::uint8_t* out) {
-  pass_rows(rows, p, top, out);
-}
-BP_CLONES void y_pass(const std::int32_t* rows, const RowPass& p, std::int32_t top, std::uint16_t* out) {
-  pass_rows(rows, p, top, out);
-}
-BP_CLONES void y_pass(const std::int16_t* rows, const RowPass& p, std::int16_t top, std::int16_t* out) {
-  pass_rows(rows, p, top, out);
-}
-BP_CLONES void y_pass(const std::int32_t* rows, const RowPass& p, std::int32_t top, std::int32_t* out) {
-  pass_rows(rows, p, top, out);
-}
-
-/// One row (column, y) along z: the values and needs of its slices, and where its targets lie among them.
-template <class T>
-struct Line {
-  T* values;  ///< 64 per slice
-  const std::uint16_t* need;
-  std::int32_t slices;
-  std::uint64_t* target;  ///< word of the first slice that has one
-  std::size_t target_step;
-  std::int32_t first_target, target_count;
-};
-
-/// Slices to go, carried up and then down; a target with some left is reached.
-template <class T>
-BP_INLINE void sweep_line(const Line<T>& line) {
-  using Vector = typename Lanes<T>::Vector;
-  Lanes<T> carry{};
-  const auto carry_to = [&](std::int32_t z) __attribute__((always_inline)) {
-    const Lanes<T> here = Lanes<T>::load(line.values + std::size_t(z) * kLanes);
-    for (int i = 0; i < Lanes<T>::kCount; ++i) {
-      const Vector less = carry.v[i] - Vector((carry.v[i] != 0) & 1);
-      carry.v[i] = less > here.v[i] ? less : here.v[i];
-    }
-  };
-  for (std::int32_t z = 0; z < line.slices; ++z) {
-    if (line.need[std::size_t(z) * kBlockRows] == 0) {
-      carry = {};
-      continue;
-    }
-    carry_to(z);
-    carry.store(line.values + std::size_t(z) * kLanes);
-  }
-  carry = {};
-  for (std::int32_t z = line.slices - 1; z >= 0; --z) {
-    if (line.need[std::size_t(z) * kBlockRows] == 0) {
-      carry = {};
-      continue;
-    }
-    carry_to(z);
-    const std::int32_t t = z - line.first_target;
-    if (t < 0 || t >= line.target_count) continue;
-    std::uint64_t& word = line.target[std::size_t(t) * line.target_step];
-    if (word == 0) continue;
-    T left[kLanes];
-    carry.store(left);
-    word &= nonzero_bits(left);
-  }
-}
-BP_CLONES void z_sweep(const Line<std::uint8_t>& line) {
-  sweep_line(line);
-}
-BP_CLONES void z_sweep(const Line<std::uint16_t>& line) {
-  sweep_line(line);
-}
-
-/// Bits of the 64 targets at slice z whose minimum over the slices within `reach` is below their own `limit`.
-template <class T>
-BP_INLINE std::uint64_t below_limit(const T* values, const std::uint8_t* present, std::int32_t z, std::int32_t slices,
-                                    std::int32_t reach, const T* limit) {
-  Lanes<T> acc{};
-  const std::int32_t end = std::min(z + reach + 1, slices);
-  for (std::int32_t i = std::max(z - reach, 0); i < end; ++i) {
-    if (present[i] != 0) acc.min_sum(values + std::size_t(i) * kLanes, T((i - z) * (i - z)));
-  }
-  T low[kLanes];
-  acc.store(low);
-  std::uint8_t yes[kLanes];
-  for (int i = 0; i < kLanes; ++i) yes[i] = low[i] < limit[i] ? 255 : 0;
-  return nonzero_bits(yes);
-}
-BP_CLONES std::uint64_t z_minimum(const std::int16_t* values, const std::uint8_t* present, std::int32_t z,
-                                  std::int32_t slices, std::int32_t reach, const std::int16_t* limit) {
-  return below_limit(values, present, z, slices, reach, limit);
-}
-BP_CLONES std::uint64_t z_minimum(const std::int32_t* values, const std::uint8_t* present, std::int32_t z,
-                                  std::int32_t slices, std::int32_t reach, const std::int32_t* limit) {
-  return below_limit(values, present, z, slices, reach, limit);
-}
 
 template <class T>
 T* room(std::vector<std::byte>& memory, std::size_t count) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 
 #include "lib/grid/stream.h"
@@ -16,6 +17,9 @@ enum class MeshMode { bounding, inside, fit };
 /// What must stay inside while the proxy is made tighter: the layer that is meshed, the stream's solid layer (the
 /// scene, to a voxel), or triangles of the scene itself.
 enum class Enclose { closing, input, scene };  // of a fit: what it is drawn to; closing, or the scene where it is near
+[[nodiscard]] constexpr const char* name_of(Enclose what) {
+  return std::array{"closing", "input", "scene"}[std::size_t(what)];
+}
 
 struct MeshParams {
   MeshMode mode = MeshMode::bounding;

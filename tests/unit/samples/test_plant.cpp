@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <map>
 
-#include "io/files/kept_files.h"
 #include "io/scene/scene_reader.h"
 #include "lib/core/box.h"
 #include "lib/core/error.h"
@@ -91,7 +90,6 @@ TEST_CASE("a changed plant differs in the vertices of one component", "[quick][s
   const Site site(20000, 3);
   const auto vertices = [&](void (*write)(const Site&, bp::OutputFile&)) {
     const auto path = std::filesystem::temp_directory_path() / "bp-test-changed.ply";
-    bp::forget_kept();  // it was read, and is written anew
     bp::OutputFile file(path.string(), true);
     write(site, file);
     file.commit();

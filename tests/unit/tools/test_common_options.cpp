@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "io/files/kept_files.h"
 #include "io/scene/scene_parts.h"
 #include "lib/core/error.h"
 #include "tests/catch.h"
@@ -119,6 +120,7 @@ TEST_CASE("the option text is canonical", "[quick][tools]") {
 }
 
 TEST_CASE("an output is neither an input nor another output", "[quick][tools]") {
+  const KeepsInputs scope;
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   const std::string scene = (folder / "bp-test-scene.obj").string(), out = (folder / "bp-test-out.bpv").string();
   keep_inputs({scene, "-"});
@@ -131,6 +133,7 @@ TEST_CASE("an output is neither an input nor another output", "[quick][tools]") 
 }
 
 TEST_CASE("an output is no buffer, texture or material of an input", "[quick][tools]") {
+  const KeepsInputs scope;
   const test::TempDir dir;
   const std::string gltf = dir.file(
       "s.gltf",
@@ -147,6 +150,7 @@ TEST_CASE("an output is no buffer, texture or material of an input", "[quick][to
 }
 
 TEST_CASE("an output is no input by another name", "[quick][tools]") {
+  const KeepsInputs scope;
   const test::TempDir dir;
   const std::string scene = dir.file("scene.obj", "v 0 0 0\n");
   keep_inputs({scene});

@@ -136,6 +136,7 @@ TEST_CASE("each way of naming a file leaves one that is there alone", "[quick][i
 }
 
 TEST_CASE("a file that is kept is neither replaced, removed nor written over, by whatever name", "[quick][io]") {
+  const KeepsInputs scope;
   const TempDir dir;
   const std::string kept = dir.file("out.partial-1", "an input of that name");
   keep_file(kept);
@@ -155,6 +156,7 @@ TEST_CASE("a file that is kept is neither replaced, removed nor written over, by
 }
 
 TEST_CASE("a file that was read after the output was opened is kept", "[quick][io]") {
+  const KeepsInputs scope;
   const TempDir dir;
   OutputFile out(dir.path("out"), true);
   out.write("new");
@@ -164,6 +166,7 @@ TEST_CASE("a file that was read after the output was opened is kept", "[quick][i
 }
 
 TEST_CASE("another file that has the number of one that is gone is not kept", "[quick][io]") {
+  const KeepsInputs scope;
   const TempDir dir;
   const std::string first = dir.file("first", "");
   std::filesystem::create_hard_link(first, dir.path("second"));
@@ -171,6 +174,28 @@ TEST_CASE("another file that has the number of one that is gone is not kept", "[
   CHECK(is_kept(dir.path("second")));
   std::filesystem::remove(first);
   CHECK_FALSE(is_kept(dir.path("second")));
+}
+
+TEST_CASE("files are kept until the last scope ends, and without one not at all", "[quick][io]") {
+  const TempDir dir;
+  const std::string file = dir.file("file", "old");
+  keep_file(file);
+  CHECK_FALSE(is_kept(file));
+  {
+    const KeepsInputs outer;
+    {
+      const KeepsInputs inner;
+      keep_file(file);
+    }
+    CHECK(is_kept(file));
+    CHECK_THROWS_AS(OutputFile(file, true), Error);
+  }
+  CHECK_FALSE(is_kept(file));
+  CHECK_FALSE(holds_kept(dir.path(".")));
+  OutputFile out(file, true);
+  out.write("new");
+  out.commit();
+  CHECK(bytes_of_file(file) == "new");
 }
 
 TEST_CASE("the folder of a path is what its name stands in", "[quick][io]") {

@@ -1,0 +1,106 @@
+#include "io/scene/detail/open_raw.h"
+
+#include <cstring>
+
+#include "io/files/lower.h"
+#include "io/scene/detail/foreign_format.h"
+#include "io/scene/scene_format.h"
+#include "io/stream/stream_format.h"
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+enum class Reader { ply, stl, obj, off, gltf, other, unknown };
+
+Reader reader_of(const std::string& extension) {
+  if (extension == "ply") return Reader::ply;
+  if (extension == "stl" || extension == "stla" || extension == "stlb") return Reader::stl;
+  if (extension == "obj") return Reader::obj;
+  if (extension == "off") return Reader::off;
+  if (extension == "gltf" || extension == "glb") return Reader::gltf;
+  return extension.empty() ? Reader::unknown : Reader::other;
+}
+
+bool is_binary_stl(const std::string& start, std::uint64_t size) {
+  if (start.size() < 84) return false;
+  std::uint32_t triangles = 0;
+  std::memcpy(&triangles, start.data() + 80, sizeof triangles);
+  return 84 + std::uint64_t(50) * triangles == size;
+}
+
+std::string start_of(const SceneFile& file) {
+  std::string start(1024, '\0');
+  start.resize(file.read_at(0, std::as_writable_bytes(std::span(start))));
+  return start;
+}
+
+/// What the first bytes of a file tell; `extension` is set for a format that goes to Assimp.
+Reader reader_by_content(const SceneFile& file, std::string& extension) {
+  const std::string start = start_of(file);
+  if (is_binary_stl(start, file.size())) return Reader::stl;
+  const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  const std::string text = first == std::string::npos ? std::string() : start.substr(first);
+  const auto begins = [&](const char* word) { return text.compare(0, std::strlen(word), word) == 0; };
+  if (begins("ply\n") || begins("ply\r")) return Reader::ply;
+  if (begins("glTF") || (begins("{") && text.find('"') != std::string::npos)) return Reader::gltf;
+  if (lower(text.substr(0, 5)) == "solid") return Reader::stl;
+  for (const char* keyword : {"OFF", "COFF", "NOFF", "CNOFF", "STOFF"}) {
+    if (begins(keyword)) return Reader::off;
+  }
+  for (const char* line : {"\nv ", "\nf ", "\nmtllib "}) {
+    if (("\n" + text).find(line) != std::string::npos) return Reader::obj;
+  }
+  if (begins("AC3D")) extension = "ac";
+  return extension.empty() ? Reader::unknown : Reader::other;
+}
+
+void refuse_brick_stream(const SceneFile& file) {
+  std::uint32_t magic = 0;
+  file.read_at(0, std::as_writable_bytes(std::span(&magic, 1)));
+  if (magic == detail::kFrameMagic)
+    fail(ErrorCode::bad_input, "{}: a brick stream, not a scene or a mesh; bpmesh makes a mesh of it", file.name());
+}
+
+}  // namespace
+
+RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const SceneOptions& options) {
+  std::string extension = scene_format_of(path);
+  if (extension.empty() && !options.format.empty()) extension = scene_format_named(options.format);
+  Reader reader = reader_of(extension);
+  if (file->size() == 0 && reader != Reader::obj)  // of OBJ it is a mesh without faces
+    fail(ErrorCode::bad_input, "{}: is empty; did the tool before it fail?", file->name());
+  if (reader == Reader::unknown) refuse_foreign(file->name(), start_of(*file));
+  if (reader == Reader::unknown) reader = reader_by_content(*file, extension);
+  switch (reader) {
+    case Reader::ply:
+      return open_ply(file, options);
+    case Reader::stl:
+      return open_stl(file, options);
+    case Reader::obj:
+      return open_obj(file, options);
+    case Reader::off:
+      return open_off(file, options);
+    case Reader::gltf:
+      return open_gltf(file, options);
+    case Reader::other:
+      return open_with_assimp(file, extension, options);
+    case Reader::unknown:
+      break;
+  }
+  fail(ErrorCode::bad_input, "{}: neither its name nor its first bytes tell its format; name it with --format",
+       file->name());
+}
+
+SceneFilePtr open_scene_or_mesh(const std::string& path, const SceneOptions& options) {
+  SceneFilePtr file = open_scene_file(path, temp_dir_of(options));
+  refuse_brick_stream(*file);
+  return file;
+}
+
+RawSourcePtr open_raw(const std::string& path, const SceneOptions& options) {
+  return open_raw(open_scene_or_mesh(path, options), path, options);
+}
+
+}  // namespace bp
