@@ -26,7 +26,6 @@ struct Options {
   bp::CommonOptions common;
   std::string in = "-", out = "-", field;
   bp::ClosingOptions closing;
-  int tile_vox = 0;
   bool keep_cavities = false, inner = false;
 };
 
@@ -39,7 +38,7 @@ Options parse(bp::Args& args) {
   args.option("-o,--output", "FILE", o.out, "stream of voxels, with the closing; - is stdout");
   o.closing.add_to(args, "", "");
   args.option("--field", "FILE", o.field, "scales that differ from place to place, as JSON, instead of --scale");
-  args.option("--tile", "N", o.tile_vox, "voxels along a tile, a multiple of 64; 0: chosen by memory and scale");
+  args.removed("--tile", "bpclose chooses the tiles by --memory");
   args.flag("--keep-cavities", o.keep_cavities, "leave hollows empty that the closing cuts off from the outside");
   args.flag("--inner", o.inner,
             "open instead of close: parts narrower than the scale are removed, nothing is added; for bpmesh --mode "
@@ -87,7 +86,6 @@ bp::CloseOptions stage_options(const Options& o, std::uint64_t pinned, bp::Progr
     const std::uint64_t all = for_tiles > fixed / 2 ? 2 * for_tiles + fixed : 4 * for_tiles;
     return fmt::format(" to at least {} MiB", (all >> 20) + 1);
   };
-  options.tile_vox = o.tile_vox;
   options.keep_cavities = o.keep_cavities || o.inner;  // the cavities of the complement are the solid
   options.memory_bytes = usable / 2;
   options.make_shelf = bp::make_shelf_factory(usable / 5 * 2, o.common.temp);

@@ -25,28 +25,27 @@ struct Options {
   std::string format;
   bp::PictureOptions picture;
   std::optional<std::size_t> level;
-  bool json = false, checksum = false, dump = false, no_edges = false;
+  bool json = false, checksum = false, dump = false;
 };
 
 Options parse(bp::Args& args) {
   Options o;
-  args.about("Says what brick streams, meshes or tilesets hold, and checks a stream to its end.");
-  args.positional("[INPUT...]", o.in, "brick streams, meshes or scenes, tilesets (*.json); - is stdin (default: -)");
-  args.flag("--json", o.json, "as JSON");
-  args.flag(
-      "--checksum", o.checksum,
-      "print the checksum of the content only: of the voxels, or of the triangles as a set; it does not depend on "
-      "order, tiles or compression");
-  args.flag("--dump", o.dump, "print a stream as text, one line a brick");
-  o.picture.image.add_to(
-      args, "draw what they hold into a PNG, side by side at one scale",
-      "axis that points up in the image, of INPUTs that do not tell (default: y, or that of the first that tells)");
-  args.flag("--no-edges", o.no_edges, "leave out the edges of meshes of few triangles");
+  args.about("Tells what streams of voxels, meshes and tilesets hold, draws them, and checks a stream to its end.");
+  args.positional("[INPUT...]", o.in, "streams, meshes or scenes, tilesets (*.json); - is stdin (default: -)");
+  args.group("Text");
+  args.flag("--json", o.json, "print JSON");
+  args.flag("--checksum", o.checksum,
+            "print a checksum of the voxels, or of the triangles as a set; order, tiles and compression do not change "
+            "it");
+  args.flag("--dump", o.dump, "print a stream as text, one line for each brick");
+  o.picture.image.add_to(args);
+  args.group("Input");
   args.option("--level", "N", o.level,
-              "level to draw of a tileset, or to show of a glTF file; 0 is the finest (default)");
+              "level of a glTF file to show, or of a tileset to draw; 0, the finest (default)");
   args.option("--format", "NAME", o.format,
-              "inputs are meshes, and this is the format of stdin, or of files whose names do not tell");
+              "INPUTs are meshes, and this is the format of stdin, or of files whose names do not tell");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::overwrite_part);
+  args.often({"--json", "--image", "--view", "--zoom", "--look-at", "--level", "--overwrite"});
   args.example("bpinfo scene.glb closed.bpv proxy.glb --image all.png");
   args.parse();
   if (o.in.empty()) o.in = {"-"};
@@ -57,9 +56,7 @@ Options parse(bp::Args& args) {
   if (int(o.json) + int(o.checksum) + int(o.dump) > 1)
     bp::fail(bp::ErrorCode::bad_argument, "--json, --checksum and --dump exclude each other");
   o.picture.image.check(args);
-  args.needs({"--no-edges"}, "--image");
   o.picture.several = o.in.size() > 1;
-  o.picture.edges = !o.no_edges;
   o.picture.overwrite = o.common.overwrite;
   if (o.in.size() > 1 && (o.json || o.dump)) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump take one INPUT");
   return o;

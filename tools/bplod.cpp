@@ -3,6 +3,7 @@
 
 #include "tools/cli/run_tool.h"
 #include "tools/lod/build.h"
+#include "tools/lod/choices.h"
 #include "tools/lod/explain.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/lod/occluder.h"
@@ -23,12 +24,12 @@ bp::LevelRow row_of(const bp::WrittenFile& file, const std::vector<bp::LevelFact
 
 /// One mesh a level.
 void build_chain(const bp::BuildOptions& o) {
-  bp::OutputFolder out(o.out, bp::profile_files(o.profile, o.name, bp::level_count(o.request)), o.common.overwrite);
+  bp::OutputFolder out(o.out, bp::profile_files(o.profile, o.name, bp::level_count(request_of(o))), o.common.overwrite);
   bp::Build build(o);
   const auto [scene, made] = bp::make_chain(build);
   build.note_levels(made.facts, 0, made.left_out);
-  const bp::Vec3d origin = bp::origin_of(o.origin, scene.header.frame, scene.header.bounds);
-  for (std::size_t i = made.levels.size(); i < bp::level_count(o.request); ++i)  // as many as there may be
+  const bp::Vec3d origin = bp::origin_of(o.proxy.origin, scene.header.frame, scene.header.bounds);
+  for (std::size_t i = made.levels.size(); i < bp::level_count(request_of(o)); ++i)  // as many as there may be
     out.leave_out(bp::level_name(o.name, i) + ".glb");
   build.progress.end();
   build.note(bp::heavier_note(made.facts.front(), scene.counts.scene.triangles));

@@ -40,7 +40,8 @@ Options parse(bp::Args& args) {
   o.voxels.add_scenes(args, "scenes, voxelized together");
   args.option("-o,--output", "FILE", o.out, "stream of voxels; - is stdout");
   o.voxels.add_with_inside(args, std::to_string(kDefaultResolution));
-  o.common.add_to(args);
+  o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
+  args.removed("--device", "bpvox always computes on the CPU");
   args.often({"--output", "--voxel", "--resolution", "--fill", "--up", "--memory", "--overwrite"});
   args.parse();
   o.voxels.check();

@@ -67,17 +67,11 @@ std::string without_slash(std::string path) {
 
 }  // namespace
 
-std::string TilesetFolder::results_of(const std::string& path) {
-  return without_slash(path) + kPartial + "/results";
-}
-
-TilesetFolder::TilesetFolder(const std::string& path, const std::vector<std::string>& names, bool overwrite,
-                             bool resume)
+TilesetFolder::TilesetFolder(const std::string& path, const std::vector<std::string>& names, bool overwrite)
     : path_(without_slash(path)),
       partial_(path_ + kPartial),
       files_(partial_ + "/files"),
       overwrite_(overwrite),
-      resume_(resume),
       made_(path_) {
   lock();
   try {
@@ -96,33 +90,30 @@ void TilesetFolder::lock() {
   if (holds_kept(partial_))
     fail(ErrorCode::bad_argument, "{}: an input lies in it, and would be lost; move it, or name another folder",
          partial_);
-  folders_[1] = PartialOutput(partial_, PartialOutput::Kind::folder);  // before it is there: a signal may come at once
+  folder_ = PartialOutput(partial_, PartialOutput::Kind::folder);  // before it is there: a signal may come at once
   make_folder(partial_);
   lock_ = ::open(partial_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(lock_);
     fail(ErrorCode::failed, "{}: another process is at work on it", path_);
   }
-  folders_[0] = PartialOutput(results(), PartialOutput::Kind::folder);
   work_ = PartialOutput(files_, PartialOutput::Kind::tree);
 }
 
 void TilesetFolder::begin(const std::vector<std::string>& names) {
   // Without tileset.json there was no tileset before, and what is there of the interrupted one is worth nothing.
-  if (resume_ || !fs::exists(path_ + "/" + kTileset)) moved_ = names_from(partial_ + kMoving);
+  if (!fs::exists(path_ + "/" + kTileset)) moved_ = names_from(partial_ + kMoving);
   refuse_if_there(kTileset);
   for (const std::string& name : names) refuse_if_there(name);
   std::error_code error;
-  if (!resume_) fs::remove_all(results(), error);
   fs::remove_all(files_, error);
   make_folder(files_);
 }
 
-/// What holds something yet stays: results, the note of a commit that was interrupted.
+/// What holds something yet stays: the note of a commit that was interrupted.
 void TilesetFolder::leave() {
   std::error_code ignored;
   fs::remove_all(files_, ignored);
-  fs::remove(results(), ignored);
   fs::remove(partial_, ignored);
   if (lock_ >= 0) ::close(lock_);
 }
@@ -182,7 +173,6 @@ void TilesetFolder::commit() {
   }
   remove_others(before);
   made_.keep();
-  fs::remove_all(results());
   fs::remove(partial_ + kMoving);
 }
 

@@ -15,22 +15,19 @@ namespace bp {
 /// whoever writes OUT next goes on with it and takes away what is left over.
 class TilesetFolder {
  public:
-  /// Makes OUT if it is not there. Takes away the files that an interrupted run left in OUT/.partial, and, unless
-  /// `resume`, its results. Throws bad_argument if OUT has a tileset.json or one of `names`, `overwrite` is false, and
-  /// they are not of a commit that was interrupted; `failed` if another process is at work on OUT.
-  /// Files that are kept (io/files/kept_files.h) are neither replaced nor taken away: bad_argument if one of `names` is
-  /// one, here or in write(), or if one lies in OUT/.partial.
+  /// Makes OUT if it is not there. Takes away the files that an interrupted run left in OUT/.partial. Throws
+  /// bad_argument if OUT has a tileset.json or one of `names`, `overwrite` is false, and they are not of a commit that
+  /// was interrupted; `failed` if another process is at work on OUT. Files that are kept (io/files/kept_files.h) are
+  /// neither replaced nor taken away: bad_argument if one of `names` is one, here or in write(), or if one lies in
+  /// OUT/.partial.
   ///   names  of files, or of folders with files, that will be written for certain: those that are there are not found
   ///          out after the work only
-  TilesetFolder(const std::string& path, const std::vector<std::string>& names, bool overwrite, bool resume);
-  /// Without commit() nothing stays behind but, to resume, the results. A signal leaves no more.
+  TilesetFolder(const std::string& path, const std::vector<std::string>& names, bool overwrite);
+  /// Without commit() nothing stays behind, also after a signal.
   ~TilesetFolder();
   TilesetFolder(const TilesetFolder&) = delete;
   TilesetFolder& operator=(const TilesetFolder&) = delete;
 
-  /// Where results wait to be gone on with; removed by commit().
-  [[nodiscard]] std::string results() const { return results_of(path_); }
-  [[nodiscard]] static std::string results_of(const std::string& path);
   /// `name` may hold one folder: "level/tile.glb". Throws bad_argument if OUT has another file of that name, and it is
   /// not to be replaced. Thread-safe.
   void write(const std::string& name, const std::string& bytes);
@@ -55,11 +52,11 @@ class TilesetFolder {
   void remove_others(const std::vector<std::string>& before) const;
 
   std::string path_, partial_, files_;
-  bool overwrite_, resume_;
-  MadeFolders made_;                 ///< OUT, and those above it
-  PartialOutput work_, folders_[2];  ///< files_; results() and partial_: for signal handlers
-  int lock_ = -1;                    ///< of partial_; the system lets go of it however the process ends
-  std::vector<std::string> moved_;   ///< by a commit that was interrupted; sorted
+  bool overwrite_;
+  MadeFolders made_;                ///< OUT, and those above it
+  PartialOutput work_, folder_;     ///< files_, and partial_: for signal handlers
+  int lock_ = -1;                   ///< of partial_; the system lets go of it however the process ends
+  std::vector<std::string> moved_;  ///< by a commit that was interrupted; sorted
   std::mutex mutex_;
   std::vector<std::string> names_, written_;  ///< all files; those that are not there already
   std::vector<std::string> new_;              ///< that were moved, and replaced nothing

@@ -92,11 +92,7 @@ void add_voxels(KeyHash& hash, const BrickShelf& shelf, const VoxelBox& box, Bri
   for_each_brick(box, [&](BrickCoord c) {
     const BrickFill fill = get_within(shelf, c, box, bits);
     if (fill == BrickFill::empty) return;
-    hash.add(std::int64_t(1))
-        .add(std::int64_t(c.x - origin.x))
-        .add(std::int64_t(c.y - origin.y))
-        .add(std::int64_t(c.z - origin.z));
-    hash.add(std::int64_t(fill));
+    hash.add(true, c - origin, fill);
     if (fill != BrickFill::mixed) return;
     const Rows rows = rows_within(c, box);
     for (std::int32_t z = rows.z.begin; z < rows.z.end; ++z) {
@@ -104,7 +100,7 @@ void add_voxels(KeyHash& hash, const BrickShelf& shelf, const VoxelBox& box, Bri
       hash.add(std::as_bytes(std::span(slice + rows.y.begin, slice + rows.y.end)));
     }
   });
-  hash.add(std::int64_t(0));
+  hash.add(false);
 }
 
 }  // namespace bp

@@ -18,7 +18,6 @@ TileParams tile_params(const CutLevel& cut, const CutOptions& options, double sc
   TileParams params;
   params.mode = options.mode;
   params.enclose = options.enclose;
-  params.tighten = options.tighten;
   params.faces = cut.target.faces;
   // What is enclosed is within a diagonal of a voxel of the scene.
   if (const double asked = cut.target.error_world; asked > 0)

@@ -14,7 +14,6 @@ struct CutOptions {
   Cells cells;
   MeshMode mode = MeshMode::bounding;
   Enclose enclose = Enclose::input;
-  bool tighten = true;
   SceneColors* colors = nullptr;       ///< null: none
   const TriangleBvh* scene = nullptr;  ///< of fits; null: the closing
   std::optional<JobRange> jobs;        ///< empty: all

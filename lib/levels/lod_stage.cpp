@@ -265,6 +265,7 @@ struct LodChain::State {
     params.memory = options.pieces;
     params.mode = options.mode;
     params.tighten = options.tighten;
+    params.quads = options.quads;
     params.enclose = options.enclose;
     if (options.enclose == Enclose::scene) {  // distances are to its voxels, as without
       params.scene = options.scene;

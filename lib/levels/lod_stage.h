@@ -51,6 +51,7 @@ struct LodOptions {
   std::shared_ptr<const BrickShelf> surface;
   double least_scale_world = 0;  ///< no level is closed at less
   bool tighten = true;
+  bool quads = false;  ///< join triangles in pairs (lib/quads/quads.h)
   bool keep_cavities = false;
   int max_attempts = 12;  ///< at most so many scales for one level
   /// For tiles at work and, between, for surfaces: PieceMemory of as much. The scene's outside, and `scene`, come off

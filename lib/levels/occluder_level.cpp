@@ -129,7 +129,6 @@ class OccluderMesh {
     params.mode = MeshMode::inside;
     params.faces = {faces_ > 0 ? faces_ : kFaces};
     params.enclose = Enclose::input;
-    params.tighten = source_.tighten;
     params.least_part = least_part;
     params.memory = source_.pieces;
     try {

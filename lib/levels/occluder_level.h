@@ -11,8 +11,7 @@ struct OccluderSource {
   std::function<VoxelizedScene(bool ground)> voxelize;
   std::function<LevelRequest(const StreamHeader&)> request;  ///< faces and scale count; after voxelize()
   bool may_ground = false;                                   ///< the scene can be voxelized again, on the ground
-  bool tighten = true;
-  HiddenOptions hidden;  ///< all but the scale
+  HiddenOptions hidden;                                      ///< all but the scale
   PieceMemory pieces;
 };
 

@@ -1,9 +1,7 @@
 #include "lib/levels/tile_stage.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <mutex>
 
 #include "lib/core/error.h"
@@ -12,6 +10,7 @@
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/detail/voxel_distance.h"
 #include "lib/pass/mesh/surface_around.h"
+#include "lib/store/packing.h"
 #include "lib/volume/dilate.h"
 #include "lib/volume/reach.h"
 
@@ -24,25 +23,16 @@ constexpr std::uint64_t kBytesPerDenseFace = 320, kBytesPerTile = std::uint64_t(
 
 constexpr const char* kJobName = "tile";
 
-/// Measures and content, as the store keeps them.
+/// As the store keeps it.
 std::string packed(const LevelTile& tile) {
-  const TileMeasures& m = tile.measures;
-  std::int64_t words[11];
-  for (int i = 0; i < 3; ++i) words[i] = m.min[i], words[3 + i] = m.max[i];
-  words[6] = std::int64_t(m.faces), words[7] = std::int64_t(m.faces_asked), words[8] = std::int64_t(m.faces_dense);
-  words[9] = std::bit_cast<std::int64_t>(m.volume), words[10] = std::bit_cast<std::int64_t>(m.error_world);
-  return std::string(reinterpret_cast<const char*>(words), sizeof words) + tile.content;
+  std::string bytes;
+  pack(bytes, tile.measures);
+  return bytes + tile.content;
 }
 
-bool unpack(const std::string& bytes, LevelTile& tile) {
-  std::int64_t words[11];
-  if (bytes.size() <= sizeof words) return false;
-  std::memcpy(words, bytes.data(), sizeof words);
-  TileMeasures& m = tile.measures;
-  for (int i = 0; i < 3; ++i) m.min[i] = words[i], m.max[i] = words[3 + i];
-  m.faces = std::uint64_t(words[6]), m.faces_asked = std::uint64_t(words[7]), m.faces_dense = std::uint64_t(words[8]);
-  m.volume = std::bit_cast<double>(words[9]), m.error_world = std::bit_cast<double>(words[10]);
-  tile.content = bytes.substr(sizeof words);
+bool unpack_tile(std::string_view bytes, LevelTile& tile) {
+  if (!unpack(bytes, tile.measures)) return false;
+  tile.content = bytes;
   return true;
 }
 
@@ -88,14 +78,9 @@ class Maker {
 
   /// Everything that the tile depends on.
   [[nodiscard]] ResultKey key() const {
-    const GridFrame& frame = level_.header.frame;
+    const TileShape& shape = params_;
     KeyHash hash(kJobName);
-    hash.add(std::string_view(params_.encoding)).add(frame.voxel).add(std::int64_t(frame.up));
-    for (std::size_t i = 0; i < 3; ++i) hash.add(frame.origin[i] + cell_.min[int(i)]);
-    for (int i = 0; i < 3; ++i) hash.add(std::int64_t(coord_[i]));
-    hash.add(std::int64_t(level_.cells.edge_vox)).add(std::int64_t(params_.mode)).add(std::int64_t(params_.enclose));
-    hash.add(std::int64_t(params_.tighten)).add(params_.scale_world).add(std::int64_t(params_.element));
-    hash.add(std::int64_t(params_.faces)).add(params_.error_world);
+    hash.add(shape, level_.header.frame, coord_, level_.cells);
     const BrickCoord origin = brick_of(cell_.min);
     add_voxels(hash, level_.closing, grown_, origin);
     add_voxels(hash, level_.solid, grown_, origin);
@@ -343,7 +328,7 @@ class TileMaking {
       job.key = Maker(*job.task, job.job.cell).key();
       LevelTile tile;
       std::string bytes;
-      tile.kept = params.store->get(job.key, bytes) && (bytes.empty() || unpack(bytes, tile));
+      tile.kept = params.store->get(job.key, bytes) && (bytes.empty() || unpack_tile(bytes, tile));
       if (!tile.kept) return;
       kept[std::size_t(i)] = 1;
       finish(job, std::move(tile), !bytes.empty());

@@ -25,7 +25,8 @@ struct TileLevel {
   Cells cells;
 };
 
-struct TileParams {
+/// What decides a tile, besides the voxels, the scene and the cell. Its key has all of it.
+struct TileShape {
   MeshMode mode = MeshMode::bounding;  ///< bounding or fit
   Enclose enclose = Enclose::input;    ///< of bounding tiles: closing or input
   bool tighten = true;
@@ -34,13 +35,17 @@ struct TileParams {
   std::uint64_t faces = 0;  ///< of each tile; 0: kDenseFacesPerFace
   /// Largest distance of a tile to what it encloses; 0: none. A budget of faces has no meaning then.
   double error_world = 0;
+  std::string encoding;  ///< all that encode() puts into a file besides cell and mesh
+};
+
+/// How tiles are made and kept.
+struct TileParams : TileShape {
   const TriangleBvh* scene = nullptr;  ///< what fits are drawn to; null: the closing
   ShelfFactory make_shelf;
   ResultStore* store = nullptr;           ///< tiles are looked up there, and put; null: made anew
   std::function<bool(CellCoord)> wanted;  ///< other tiles are passed over; empty: all are wanted
   bool make = true;                       ///< false: what is not in the store comes without measures and content
-  std::string encoding;                   ///< all that encode() puts into a file beside cell and mesh, for their keys
-  std::function<void(CellCoord, KeyHash&)> add_to_key;  ///< the same where it depends on the cell; may be empty
+  std::function<void(CellCoord, KeyHash&)> add_to_key;  ///< what else decides a tile; may be empty
 
   static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastFaces = 60;  ///< of a tile without a budget
   /// A bounding tile without a budget keeps more faces where these would take it farther from what it encloses: thin

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <type_traits>
 
-#include "lib/core/error.h"
 #include "lib/grid/clip.h"
+#include "lib/store/packing.h"
 #include "lib/store/result_key.h"
 
 namespace bp {
@@ -35,111 +33,27 @@ Vec3d common_origin(const std::vector<LodLevel>& levels) {
   return origin;
 }
 
-/// Writes values one after the other: numbers as their bytes, texts and lists with their length.
-class Packer {
- public:
-  template <class... T>
-  void operator()(T&... values) {
-    (put(values), ...);
-  }
-  std::string bytes;
-
- private:
-  template <class T>
-  void put(T& value) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
-      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-    } else {
-      std::uint64_t size = value.size();
-      put(size);
-      if constexpr (std::is_same_v<T, std::string>) {
-        bytes += value;
-      } else {
-        for (auto& item : value) fields(*this, item);
-      }
-    }
-  }
-};
-
-/// Reads them again. Throws bad_input if they end too early.
-class Unpacker {
- public:
-  explicit Unpacker(const std::string& bytes) : bytes_(bytes) {}
-  template <class... T>
-  void operator()(T&... values) {
-    (get(values), ...);
-  }
-
- private:
-  template <class T>
-  void get(T& value) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
-      std::memcpy(&value, take(sizeof value), sizeof value);
-    } else {
-      std::uint64_t size = 0;
-      get(size);
-      if constexpr (std::is_same_v<T, std::string>) {
-        value.assign(take(size), size);
-      } else {
-        (void)take(0);
-        for (value.clear(); value.size() < size;) fields(*this, value.emplace_back());
-      }
-    }
-  }
-  const char* take(std::uint64_t size) {
-    if (size > bytes_.size() - at_) fail(ErrorCode::bad_input, "a kept result is too short");
-    at_ += size;
-    return bytes_.data() + at_ - size;
-  }
-  const std::string& bytes_;
-  std::size_t at_ = 0;
-};
-
-template <class Archive>
-void fields(Archive& a, Provenance& p) {
-  a(p.tool, p.version, p.options, p.input_hash);
-}
-
-template <class Archive>
-void fields(Archive& a, LevelFacts& f) {
-  a(f.target.faces, f.target.error_world, f.faces, f.error_world, f.distance_world, f.scale_world, f.voxel, f.volume,
-    f.voxels, f.faces_dense, f.attempts, f.reached, f.stopped_by);
-}
-
-template <class Archive>
-void fields(Archive& a, WholeLevel& level) {
-  a(level.content, level.bounds.min, level.bounds.max, level.provenance);
-  fields(a, level.facts);
-}
-
-template <class Archive>
-void fields(Archive& a, WholeLevels& whole) {
-  a(whole.origin, whole.left_out, whole.levels);
-}
-
 /// Everything that the levels depend on.
 ResultKey key_of(const WholeInput& input) {
+  const auto& [header, solid, first, count, request, lod, colors, encoding] = input;
+  const GridFrame& frame = header.frame;
   KeyHash hash(kJob);
-  hash.add(std::string_view(input.encoding));
-  hash.add(std::int64_t(input.first)).add(std::int64_t(input.count)).add(input.lod.least_scale_world);
-  hash.add(std::int64_t(input.lod.scene.size())).add(std::as_bytes(std::span(input.lod.scene)));
-  const GridFrame& frame = input.header.frame;
-  hash.add(frame.voxel).add(std::int64_t(frame.up));
-  for (const std::int64_t x : frame.origin) hash.add(x);
-  for (const Vec3d& p : {input.header.bounds.min, input.header.bounds.max})
-    for (const double x : p) hash.add(x);
-  for (std::size_t i = 0; i < input.count; ++i) {  // dense faces are of the solid
-    const LodTarget target = level_target(input.request, input.first + i, input.first, 1000000);
-    hash.add(std::int64_t(target.faces)).add(target.error_world).add(target.scale_world.value_or(-1));
+  hash.add(encoding, first, count, frame, header.bounds, request.faces.size());
+  hash.add(lod.least_scale_world, std::as_bytes(std::span(lod.scene)));
+  for (std::size_t i = 0; i < count; ++i) {  // dense faces are of the solid
+    hash.add(level_target(request, first + i, first, 1000000));
   }
-  hash.add(std::int64_t(input.request.faces.size()));
-  add_voxels(hash, *input.solid, voxels_of(input.header.bricks), {});
-  add_voxels(hash, *input.lod.surface, voxels_of(input.header.bricks), {});
-  if (input.colors != nullptr) {
-    input.colors->prepare(frame);
-    input.colors->all(frame).add_to(hash);
+  add_voxels(hash, *solid, voxels_of(header.bricks), {});
+  add_voxels(hash, *lod.surface, voxels_of(header.bricks), {});
+  if (colors != nullptr) {
+    colors->prepare(frame);
+    hash.add(colors->all(frame));
   }
   return hash.key();
+}
+
+bool unpack_whole(std::string_view bytes, WholeLevels& whole) {
+  return unpack(bytes, whole) && bytes.empty();
 }
 
 WholeLevels make(WholeInput input, Backends& backends, const LevelSteps& steps, const WholeEncoder& encode) {
@@ -168,17 +82,15 @@ WholeLevels make_whole_levels(WholeInput input, Backends& backends, const LevelS
                               ResultStore* store) {
   if (store == nullptr) return make(std::move(input), backends, steps, encode);
   const ResultKey key = key_of(input);
-  WholeLevels whole;
-  if (std::string bytes; store->get(key, bytes)) {
-    Unpacker unpack(bytes);
-    fields(unpack, whole);
-    whole.kept = true;
-    return whole;
+  std::string bytes;
+  if (WholeLevels kept; store->get(key, bytes) && unpack_whole(bytes, kept)) {
+    kept.kept = true;
+    return kept;
   }
-  whole = make(std::move(input), backends, steps, encode);
-  Packer pack;
-  fields(pack, whole);
-  store->put(key, pack.bytes);
+  WholeLevels whole = make(std::move(input), backends, steps, encode);
+  bytes.clear();
+  pack(bytes, whole);
+  store->put(key, bytes);
   return whole;
 }
 

@@ -18,13 +18,13 @@ struct Option {
   std::string name, value;  ///< "--faces", "N[,N...]"; no value: a flag
 };
 
-/// As --help lists them: whatever is added to a tool is tried from then on.
+/// As --help all lists them: whatever is added to a tool is tried from then on.
 std::vector<Option> options_of(Workplace& place, const std::string& tool) {
   std::vector<Option> options;
-  std::istringstream help(place.run(tool, {"--help"}).output);
+  std::istringstream help(place.run(tool, {"--help", "all"}).output);
   for (std::string line; std::getline(help, line);) {
     const std::size_t at = line.find("--");
-    if (at == std::string::npos || line.find_first_not_of(' ') > at || line[line.find_first_not_of(' ')] != '-')
+    if (at == std::string::npos || line.find_first_not_of(' ') != 2 || line[line.find_first_not_of(' ')] != '-')
       continue;
     std::istringstream words(line.substr(at));
     Option option;

@@ -27,7 +27,6 @@ Words close_options(Choices& c, Workplace& place, double voxel) {
     add(words, {"--scale", length_text(c)});
   }
   if (c.once_in(2)) add(words, {"--element", "ball"});
-  if (c.once_in(4)) add(words, {"--tile", c.of<std::string>({"64", "128", "0", "63", "2147483584"})});
   if (c.once_in(4)) add(words, {c.of<std::string>({"--keep-cavities", "--inner"})});
   return words;
 }
@@ -43,9 +42,7 @@ Words mesh_options(Choices& c) {
   if (c.once_in(8)) add(words, {"--enclose", c.of<std::string>({"input", "closing"})});
   if (c.once_in(12)) add(words, {"--inset", c.once_in(2) ? text_of(extreme_number(c)) : "0.3"});
   if (c.once_in(12)) add(words, {"--least-part", c.once_in(2) ? text_of(extreme_number(c)) : "0.1"});
-  if (c.once_in(12)) add(words, {"--no-tighten"});
   if (c.once_in(12)) add(words, {"--quads"});
-  if (c.once_in(8)) add(words, {"--measure"});
   if (c.once_in(16)) add(words, {"--origin", text_of(extreme_number(c)) + ",0," + text_of(extreme_number(c))});
   return words;
 }

@@ -52,7 +52,7 @@ pipe_cases() {
     rm again.bpv
   done
   for element in cube ball; do
-    bpclose flood.bpv --scale 3vx --element $element --device cpu -j 1 --tile 64 -q -o $element.bpv
+    bpclose flood.bpv --scale 3vx --element $element --device cpu -j 1 -q -o $element.bpv
     bpclose flood.bpv --scale 3vx --element $element --device cpu -j 3 --memory 192M -q -o again.bpv
     same "close $element" $element.bpv again.bpv
     rm again.bpv
@@ -110,12 +110,12 @@ lod_cases() {
   bplod "${tiles[@]}" --cache parts --tiles 0..3 > /dev/null
   bplod "${tiles[@]}" --cache parts --tiles 3..1000000 > /dev/null
   bplod "${tiles[@]}" --cache parts -o from-parts > /dev/null
-  bplod "${tiles[@]}" --resume -o resumed > /dev/null &
+  bplod "${tiles[@]}" --cache killed -o resumed > /dev/null &
   local job=$!
   sleep 0.5
   kill -9 $job 2> /dev/null || true
   wait $job 2> /dev/null || true
-  [ -e resumed/tileset.json ] || bplod "${tiles[@]}" --resume -o resumed > /dev/null
+  [ -e resumed/tileset.json ] || bplod "${tiles[@]}" --cache killed -o resumed > /dev/null
   local way
   for way in cached from-cache from-parts resumed; do same "tiles $way" tiles $way; done
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Whole streams by the GPU against the CPU, byte by byte: every model through bpvox (flood, winding) and bpclose (cube and
-# ball, constant and varying scale, tiles of 64 and 256 voxels against 128 on the CPU): ten comparisons a model.
+# ball, constant and varying scale, little memory and plenty, which give other tiles): ten comparisons a model.
 #   tests/large/gpu_streams.sh BIN_DIR [MODELS [RESOLUTION [DEVICE [ONLY]]]]
 # BIN_DIR holds bpvox, bpclose and bpinfo. MODELS: folder of scenes ($BP_MODELS, or ../shared/models). RESOLUTION: 256. DEVICE:
 # cuda. ONLY: a part of the names of the models to take. A model that bpvox refuses on the CPU (status 3) must be refused
@@ -29,14 +29,14 @@ same() {
 # vox DEVICE FILL OUT: status of bpvox
 vox() {
   local status=0
-  "$bin/bpvox" "$model" --resolution "$resolution" --fill "$2" --device "$1" -q --overwrite -o "$folder/$3" \
+  BP_BACKEND=$1 "$bin/bpvox" "$model" --resolution "$resolution" --fill "$2" -q --overwrite -o "$folder/$3" \
     2> "$folder/message" || status=$?
   return $status
 }
 
-# close DEVICE TILE OUT OPTIONS...
+# close DEVICE MEMORY OUT OPTIONS...
 close() {
-  "$bin/bpclose" "$folder/solid.bp" --device "$1" --tile "$2" -q --overwrite -o "$folder/$3" "${@:4}"
+  "$bin/bpclose" "$folder/solid.bp" --device "$1" --memory "$2" -q --overwrite -o "$folder/$3" "${@:4}"
 }
 
 # field: half of the scale in one corner of the scene
@@ -70,12 +70,12 @@ for model in "$models"/*; do
   field
   for element in cube ball; do
     for scale in "--scale 3%" "--field $folder/field.json"; do
-      for tile in 64 256; do
+      for memory in 1G 8G; do
         # shellcheck disable=SC2086
-        close cpu 128 cpu.bp --element $element $scale || true  # no file: differs
+        close cpu 4G cpu.bp --element $element $scale || true  # no file: differs
         # shellcheck disable=SC2086
-        close "$device" $tile gpu.bp --element $element $scale || true
-        same "$name bpclose $element ${scale%% *} tile $tile"
+        close "$device" $memory gpu.bp --element $element $scale || true
+        same "$name bpclose $element ${scale%% *} memory $memory"
       done
     done
   done

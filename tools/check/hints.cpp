@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 
 #include "lib/core/error.h"
@@ -13,6 +16,30 @@ namespace {
 
 bool all_finite(const Vec3d& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
+/// The first one, of what is worst.
+std::optional<Vec3d> bad_place(const CheckReport& v) {
+  for (const Finding* finding :
+       {&v.boundary_edges, &v.misoriented_edges, &v.nonmanifold_edges, &v.nonmanifold_vertices, &v.self_intersections,
+        &v.degenerate_triangles, &v.duplicate_triangles, &v.inverted_components, &v.nonconvex_parts, &v.touching,
+        &v.outside, &v.not_held, &v.swallowed, &v.outside_parts, &v.exposed}) {
+    for (const Example& example : finding->examples) {
+      if (all_finite(example.position)) return example.position;
+    }
+  }
+  return {};
+}
+
+/// A word of a command line.
+std::string quoted(const std::string& text) {
+  const bool plain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c > 127 || std::strchr("_./+-,:@%", c) != nullptr;
+  });
+  if (plain) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
 }
 
 }  // namespace
@@ -60,6 +87,21 @@ std::string convex_hint(const std::string& proxy, bool convex_parts) {
       "{} {}, and was checked as one surface: check it with --convex, which asks whether each is convex and whether "
       "together they cover the scene",
       proxy, named ? "holds convex hulls, by the names of its nodes (UCX_)" : "consists of convex parts that meet");
+}
+
+std::string look_hint(const std::vector<std::string>& files, const std::string& format, const Vec3d& origin,
+                      const std::vector<CheckReport>& verdicts) {
+  std::optional<Vec3d> place;
+  for (const CheckReport& verdict : verdicts) {
+    if (!place && !verdict.holds()) place = bad_place(verdict);
+  }
+  const std::size_t drawn = files.size() - (origin == Vec3d{} ? 0 : 1);
+  if (!place || drawn == 0 || std::count(files.begin(), files.end(), "-") > 0) return "";
+  std::string command = "bpinfo";
+  for (std::size_t i = 0; i < drawn; ++i) command += " " + quoted(files[i]);
+  if (!format.empty()) command += " --format " + quoted(format);
+  return fmt::format("to see the first place: {} --image place.png --zoom 8 --look-at={:.9g},{:.9g},{:.9g}", command,
+                     (*place)[0], (*place)[1], (*place)[2]);
 }
 
 std::string fit_hint(const std::string& content) {

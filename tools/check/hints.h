@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/check/check_report.h"
 #include "lib/core/coords.h"
 #include "tools/run/mesh_extras.h"
 
@@ -21,6 +22,10 @@ namespace bp {
 /// Where a proxy is refuted as one surface: that --convex asks of its parts, if they are hulls by the names of their
 /// nodes, or if there are several (`convex_parts`) and each is convex. Empty: neither.
 [[nodiscard]] std::string convex_hint(const std::string& proxy, bool convex_parts);
+/// The command that draws the first bad place; empty if there is none, or if a file came from a pipe. origin: what was
+/// added to the proxy, which is not drawn then.
+[[nodiscard]] std::string look_hint(const std::vector<std::string>& files, const std::string& format,
+                                    const Vec3d& origin, const std::vector<CheckReport>& verdicts);
 /// The same of a content of a tileset.
 [[nodiscard]] std::string fit_hint(const std::string& content);
 

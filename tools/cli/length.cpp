@@ -18,6 +18,23 @@ std::string_view take_number(std::string_view text, double& value, std::string_v
   return text.substr(std::size_t(end - text.data()));
 }
 
+Length length_of(std::string_view text, std::string_view what, bool may_be_pixels) {
+  Length length;
+  const std::string_view unit = take_number(text, length.value, what);
+  if (unit == "%") {
+    length.unit = Length::Unit::percent;
+  } else if (unit == "vx") {
+    length.unit = Length::Unit::voxels;
+  } else if (unit == "px" && may_be_pixels) {
+    length.unit = Length::Unit::pixels;
+  } else if (!unit.empty()) {
+    fail(ErrorCode::bad_argument, "'{}' is not {}", text, what);
+  }
+  if (length.value < 0) fail(ErrorCode::bad_argument, "'{}' is negative; a length is at least 0", text);
+  length.value += 0.0;  // -0 is 0, also as text
+  return length;
+}
+
 }  // namespace
 
 double parse_number(std::string_view text) {
@@ -102,10 +119,10 @@ std::string size_text(std::uint64_t bytes) {
 
 double Length::in_world(double diagonal, double voxel) const {
   if (unit == Unit::scene) return value;
-  if (unit == Unit::percent) {
+  if (unit == Unit::percent || unit == Unit::pixels) {
     if (!(diagonal > 0))
       fail(ErrorCode::bad_argument, "{}: the bounding box has no diagonal here; use scene units", text());
-    return value / 100 * diagonal;
+    return unit == Unit::pixels ? diagonal / value : value / 100 * diagonal;
   }
   if (!(voxel > 0))
     fail(ErrorCode::bad_argument, "{}: no voxel size is known here; use scene units or a percentage", text());
@@ -113,23 +130,18 @@ double Length::in_world(double diagonal, double voxel) const {
 }
 
 std::string Length::text() const {
-  return fmt::format("{}{}", value, unit == Unit::percent ? "%" : unit == Unit::voxels ? "vx" : "");
+  constexpr const char* kUnits[] = {"", "%", "vx", "px"};
+  return fmt::format("{}{}", value, kUnits[std::size_t(unit)]);
 }
 
 Length parse_length(std::string_view text) {
-  constexpr std::string_view kWhat = "a length such as 0.5, 2% or 20vx";
-  Length length;
-  const std::string_view unit = take_number(text, length.value, kWhat);
-  if (unit == "%") {
-    length.unit = Length::Unit::percent;
-  } else if (unit == "vx") {
-    length.unit = Length::Unit::voxels;
-  } else if (!unit.empty()) {
-    fail(ErrorCode::bad_argument, "'{}' is not {}", text, kWhat);
-  }
-  if (length.value < 0) fail(ErrorCode::bad_argument, "'{}' is negative; a length is at least 0", text);
-  length.value += 0.0;  // -0 is 0, also as text
-  return length;
+  return length_of(text, "a length such as 0.5, 2% or 20vx", false);
+}
+
+Length parse_error_length(std::string_view text) {
+  const Length error = length_of(text, "a length such as 0.5, 2%, 20vx or 800px", true);
+  if (!(error.value > 0)) fail(ErrorCode::bad_argument, "{}: an error must be above 0", text);
+  return error;
 }
 
 }  // namespace bp

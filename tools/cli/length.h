@@ -27,9 +27,10 @@ void for_each_item(std::string_view text, const std::function<void(std::string_v
 [[nodiscard]] std::uint64_t parse_size(std::string_view text);
 [[nodiscard]] std::string size_text(std::uint64_t bytes);  ///< for people: "1.5 GiB"
 
-/// A LENGTH: `0.5` scene units, `2%` of the diagonal of the scene's bounding box, or `20vx` voxels. Never negative.
+/// A LENGTH: `0.5` scene units, `2%` of the diagonal of the scene's bounding box, or `20vx` voxels. Never negative. As
+/// a bound on errors also `800px`: a pixel, where the diagonal is 800 pixels on screen.
 struct Length {
-  enum class Unit { scene, percent, voxels };
+  enum class Unit { scene, percent, voxels, pixels };
   double value = 0;
   Unit unit = Unit::scene;
 
@@ -41,5 +42,7 @@ struct Length {
 };
 /// Throws bad_argument if `text` is no length, negative or not finite.
 [[nodiscard]] Length parse_length(std::string_view text);
+/// The same, of a bound on errors, which may be in pixels. It is above 0.
+[[nodiscard]] Length parse_error_length(std::string_view text);
 
 }  // namespace bp

@@ -130,7 +130,7 @@ void Picture::add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, c
     panel->view.colors = panel->colors;
     panel->inner_edges = std::move(info.inner_edges);
     panel->view.inner_edges = panel->inner_edges;
-    panel->view.edges = o_.edges && panel->triangles.size() <= (o_.several ? kEdgesOfMany : kEdges);
+    panel->view.edges = panel->triangles.size() <= (o_.several ? kEdgesOfMany : kEdges);
     if (o_.several && panel->view.edges) panel->view.color = {238, 192, 130};
   } else {
     panel->source = std::move(source);

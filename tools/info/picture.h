@@ -10,7 +10,7 @@
 #include "lib/grid/stream.h"
 #include "lib/image/render.h"
 #include "lib/volume/coarse_view.h"
-#include "tools/cli/image_options.h"
+#include "tools/info/image_options.h"
 #include "tools/info/mesh_info.h"
 
 /// The PNG of bpinfo --image.
@@ -20,7 +20,6 @@ struct PictureOptions {
   ImageOptions image;
   bool overwrite = false;
   bool several = false;  ///< inputs
-  bool edges = true;     ///< of meshes of few triangles
 };
 
 /// One panel, and what it draws.

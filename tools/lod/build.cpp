@@ -16,6 +16,7 @@
 #include "lib/grid/shelf_stream.h"
 #include "lib/pass/color/vertex_colors.h"
 #include "tools/cli/names.h"
+#include "tools/lod/choices.h"
 #include "tools/lod/proportions.h"
 #include "tools/notes/up_note.h"
 #include "tools/run/grounded_source.h"
@@ -50,11 +51,11 @@ Build::Build(const BuildOptions& o)
 }
 
 SceneOptions Build::scene_options(bool beside) const {
-  SceneOptions scene{options.format, budget.reader, options.common.temp};
+  SceneOptions scene{options.voxels.format, budget.reader, options.common.temp};
   scene.walls_only = options.profile == LodProfile::occluder;
   const std::uint64_t pinned = std::min(pinned_bytes(backends), options.common.memory_bytes / 2);
   scene.document = document_budget(options.common.memory_bytes - pinned, std::uint64_t(96) << 20,
-                                   beside ? 2 : options.scenes.size());
+                                   beside ? 2 : options.voxels.scenes.size());
   return scene;
 }
 
@@ -63,8 +64,8 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   VoxelizeOptions v;
   v.cell_vox = cell_vox;
   v.results = results;
-  v.fill = options.fill;
-  v.up = options.up;
+  v.fill = options.voxels.fill;
+  v.up = options.voxels.up;
   v.memory_bytes = budget.waiting;
   v.tile_memory_bytes = budget.tiles;
   v.make_shelf = make_shelf;
@@ -75,8 +76,8 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   ShelfSink sink(out.solid.get());
   SceneOptions scene = scene_options();
   scene.colors = options.colors;
-  auto source = open_scenes(options.scenes, scene);
-  if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.up);
+  auto source = open_scenes(options.voxels.scenes, scene);
+  if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.voxels.up);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
     const SceneSize size{bounds, source->counts().triangles};
     if (halvings == 0) question_proportions(options, size);
@@ -101,8 +102,8 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
 void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told) {
   const SceneSize size{scene.header.bounds, scene.counts.scene.triangles};
   if (const std::string text = skipped(scene.counts.scene); !text.empty()) note("skipped " + text);
-  note(up_note(size.bounds, options.up || up_told));
-  for (const std::string& path : options.scenes) {
+  note(up_note(size.bounds, options.voxels.up || up_told));
+  for (const std::string& path : options.voxels.scenes) {
     if (!options.colors) break;
     for (const std::string& file : missing_materials(path))
       note(fmt::format("{}: {} is not there, and its colours are lost", path, file));
@@ -125,9 +126,10 @@ void Build::gather(TriangleSource& source, const VoxelizedScene& scene) {
 
 std::vector<TriangleD> Build::scene_triangles() const {
   constexpr std::uint64_t kMost = std::uint64_t(1) << 21;  // whatever the memory: it must not decide what is made
-  const bool fit = options.mode == MeshMode::fit;
+  const bool fit = options.proxy.mode == MeshMode::fit;
   std::vector<TriangleD> all;
-  if (std::count(options.scenes.begin(), options.scenes.end(), "-") > 0) return all;  // stdin cannot be read again
+  if (std::count(options.voxels.scenes.begin(), options.voxels.scenes.end(), "-") > 0)
+    return all;  // stdin cannot be read again
   if (fit && triangles_ > kMost) return all;
   // Fits: twice, and a hierarchy over them. Else here, and in what is enclosed.
   const std::uint64_t bytes = triangles_ * (fit ? 400 : sizeof(TriangleD) + EnclosedTriangles::kBytesEach);
@@ -141,7 +143,7 @@ std::vector<TriangleD> Build::scene_triangles() const {
          fit ? "" : ", or use --enclose input");
   }
   all.reserve(triangles_);
-  const auto source = open_scenes(options.scenes, scene_options(true));
+  const auto source = open_scenes(options.voxels.scenes, scene_options(true));
   for (std::vector<TriangleD> chunk; all.size() <= triangles_ && source->read(chunk);)
     all.insert(all.end(), chunk.begin(), chunk.end());
   if (all.size() != triangles_)
@@ -151,11 +153,11 @@ std::vector<TriangleD> Build::scene_triangles() const {
 
 LodOptions Build::lod_options() {
   LodOptions lod;
-  lod.closing.element = options.element;
-  lod.mode = options.mode;
+  lod.closing.element = options.closing.element;
+  lod.mode = options.proxy.mode;
   lod.enclose = enclosed_;
-  if (options.mode == MeshMode::fit || enclosed_ == Enclose::scene) lod.scene = scene_triangles();
-  lod.tighten = !options.loose;
+  if (options.proxy.mode == MeshMode::fit || enclosed_ == Enclose::scene) lod.scene = scene_triangles();
+  lod.quads = options.profile == LodProfile::cage;
   lod.memory_bytes = budget.work;
   lod.pieces = pieces();
   lod.make_shelf = make_shelf;
@@ -199,7 +201,7 @@ void Build::note(const std::string& text) {
 }
 
 void Build::note_levels(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out) {
-  for (const std::string& text : level_notes(levels, first, left_out, asks_for_faces(options.request))) note(text);
+  for (const std::string& text : level_notes(levels, first, left_out, asks_for_faces(request_of(options)))) note(text);
 }
 
 void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out) {
@@ -228,7 +230,7 @@ void Build::tell(const VoxelizedScene& scene, const std::string& list, const std
 
 void Build::write_report(const VoxelizedScene& scene) {
   report.options = options_json(options);
-  report.bytes_in = size_of_files(options.scenes);
+  report.bytes_in = size_of_files(options.voxels.scenes);
   Json counts = {{"triangles", scene.counts.scene.triangles},
                  {"degenerate", scene.counts.scene.degenerate},
                  {"non_finite", scene.counts.scene.non_finite},
@@ -266,11 +268,10 @@ MadeOccluder make_occluder(Build& build) {
   OccluderSource source;
   source.voxelize = [&](bool ground) { return build.voxelize(0, nullptr, 0, ground); };
   source.request = [&](const StreamHeader& header) {
-    return request_of(o.request, header.bounds.diagonal(), header.frame.voxel);
+    return request_of(o, header.bounds.diagonal(), header.frame.voxel);
   };
   source.may_ground = can_read_again(o);
-  source.tighten = !o.loose;
-  source.hidden = {0, o.element, build.budget.work, build.make_shelf, build.show};
+  source.hidden = {0, o.closing.element, build.budget.work, build.make_shelf, build.show};
   source.pieces = build.pieces();
   MadeOccluder made = make_occluder(source, build.backends, build.level_steps({}));
   if (made.hidden_voxels > 0) return made;

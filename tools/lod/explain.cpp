@@ -12,6 +12,7 @@
 #include "lib/geometry/triangle_totals.h"
 #include "lib/levels/level_plan.h"
 #include "tools/lod/build.h"
+#include "tools/lod/choices.h"
 #include "tools/lod/kept_results.h"
 #include "tools/lod/proportions.h"
 #include "tools/lod/tile_build.h"
@@ -36,11 +37,12 @@ struct Scene {
 
 Scene read_scene(const Build& build) {
   const BuildOptions& o = build.options;
-  const auto source = open_scenes(o.scenes, build.scene_options());
+  const auto source = open_scenes(o.voxels.scenes, build.scene_options());
   TriangleTotals totals;
   for (std::vector<TriangleD> chunk; source->read(chunk);) totals.add(chunk);
   if (totals.triangles == 0) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());
-  return {source->counts(), totals.bounds, totals.area, source->up(), o.up.value_or(source->up().value_or(UpAxis::y))};
+  return {source->counts(), totals.bounds, totals.area, source->up(),
+          o.voxels.up.value_or(source->up().value_or(UpAxis::y))};
 }
 
 /// What would be made.
@@ -67,10 +69,10 @@ double file_bytes(const Plan& plan, bool tileset, const Scene& scene) {
 
 Plan plan_of(const Build& build, const Scene& scene) {
   const BuildOptions& o = build.options;
-  const bool tileset = o.profile == LodProfile::tiles;
+  const bool tileset = o.is_tileset();
   const double diagonal = scene.bounds.diagonal();
   VoxelizeOptions v;
-  v.fill = o.fill;
+  v.fill = o.voxels.fill;
   if (tileset) v.cell_vox = o.tile_vox;
   Plan plan;
   plan.header = solid_header(scene.bounds, voxel_size(o, {scene.bounds, scene.counts.triangles}), scene.up, v);
@@ -79,12 +81,12 @@ Plan plan_of(const Build& build, const Scene& scene) {
     const TilesetPlan tiles = plan_tileset(request, Cells{o.tile_vox}, plan.header);
     plan.levels = planned_tileset(tiles, request, plan.header, scene.area);
     plan.jobs = tiles.jobs();
-    if (o.resume || !o.cache.empty()) plan.kept = look_up_tileset(o);
+    if (!o.cache.empty()) plan.kept = look_up_tileset(o);
   } else {
     plan.levels = planned_chain(request, plan.header, scene.area);
     plan.jobs = plan.levels.size();
   }
-  plan.origin = origin_of(o.origin, plan.header.frame, plan.header.bounds);
+  plan.origin = origin_of(o.proxy.origin, plan.header.frame, plan.header.bounds);
   plan.file_bytes = file_bytes(plan, tileset, scene);
   const double triangles = double(scene.counts.triangles);
   if (triangles * sizeof(TriangleD) > double(build.budget.waiting) * 0.6)
@@ -167,7 +169,7 @@ void explain(const BuildOptions& options) {
   Build build(options);
   build.report.stage("read");
   const Scene scene = read_scene(build);
-  build.note(up_note(scene.bounds, options.up || scene.up_told));
+  build.note(up_note(scene.bounds, options.voxels.up || scene.up_told));
   const SceneSize size{scene.bounds, scene.counts.triangles};
   question_proportions(options, size);
   build.note(voxel_note(options, size));
@@ -176,7 +178,7 @@ void explain(const BuildOptions& options) {
   const Plan plan = plan_of(build, scene);
   build.note(origin_note(options, plan.header));
   build.report.options = options_json(options);
-  build.report.bytes_in = size_of_files(options.scenes);
+  build.report.bytes_in = size_of_files(options.voxels.scenes);
   build.report.counts = json_of(build, scene, plan);
   build.report.write(options.common);
   print(text_of(build, scene, plan));

@@ -4,7 +4,7 @@
 namespace bp {
 
 /// bplod --explain: prints the plan of a run, and writes it into the report, without running. The scene is read once,
-/// for its bounds; with --cache or --resume it is voxelized, too, to find what is kept (look_up_tileset()).
+/// for its bounds; with --cache it is voxelized, too, to find what is kept (look_up_tileset()).
 void explain(const BuildOptions& options);
 
 }  // namespace bp

@@ -45,12 +45,12 @@ bool is_of_others(const std::string& folder, bool leave) {
 
 }  // namespace
 
-std::unique_ptr<ResultStore> open_kept_results(const BuildOptions& o, const std::string& path, std::string& read_only) {
-  if (path.empty()) return nullptr;
+std::unique_ptr<ResultStore> open_kept_results(const BuildOptions& o, std::string& read_only) {
+  if (o.cache.empty()) return nullptr;
   std::function<void(const std::string&)> when_read_only;
-  if (!o.tiles && !o.resume) when_read_only = [&read_only](const std::string& why) { read_only = why; };
-  std::unique_ptr<ResultStore> results = open_result_store(path, when_read_only);
-  if (!o.resume) static_cast<void>(is_of_others(path, true));
+  if (!o.tiles) when_read_only = [&read_only](const std::string& why) { read_only = why; };
+  std::unique_ptr<ResultStore> results = open_result_store(o.cache, when_read_only);
+  static_cast<void>(is_of_others(o.cache, true));
   return results;
 }
 

@@ -7,10 +7,9 @@
 /// The folder of --cache.
 namespace bp {
 
-/// Null if `path` is empty. A cache that others fill may be read-only: then `read_only` says why, later. To fill it, or
-/// to resume, it must take what is put.
-[[nodiscard]] std::unique_ptr<ResultStore> open_kept_results(const BuildOptions& options, const std::string& path,
-                                                             std::string& read_only);
+/// Null without --cache. A cache that others fill may be read-only: then `read_only` says why, later. A run of --tiles
+/// must be able to fill it.
+[[nodiscard]] std::unique_ptr<ResultStore> open_kept_results(const BuildOptions& options, std::string& read_only);
 
 /// What is there; nothing is added. The folder need not be there.
 [[nodiscard]] std::unique_ptr<ResultStore> look_up_kept_results(const std::string& path);

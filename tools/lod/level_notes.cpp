@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tools/lod/choices.h"
 #include "tools/notes/face_notes.h"
 #include "tools/run/enclosed_triangles_limit.h"
 
@@ -49,7 +50,7 @@ std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std:
 }
 
 std::string origin_note(const BuildOptions& o, const StreamHeader& header) {
-  return o.profile == LodProfile::tiles ? "" : origin_note(o.origin, header.frame, header.bounds);
+  return o.is_tileset() ? "" : origin_note(o.proxy.origin, header.frame, header.bounds);
 }
 
 std::string voxel_note(const BuildOptions& o, const SceneSize& scene) {
@@ -61,7 +62,7 @@ std::string voxel_note(const BuildOptions& o, const SceneSize& scene) {
 }
 
 std::string enclose_note(const BuildOptions& o, std::uint64_t triangles) {
-  if (o.enclose || !may_enclose_scene(o) || enclosed_by(o, triangles) == Enclose::scene) return "";
+  if (o.proxy.enclose.what() || !may_enclose_scene(o) || enclosed_by(o, triangles) == Enclose::scene) return "";
   const bool file = can_read_again(o);
   return fmt::format("{}: levels enclose the scene's voxels, not its triangles, and are less tight; {}",
                      file ? fmt::format("the scene has {} triangles, more than {}", triangles, kMostEnclosedTriangles)

@@ -1,5 +1,7 @@
 #include "tools/lod/lod_outputs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -56,7 +58,7 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
   const NamedMesh godot{name + "-colonly", &mesh}, unity{name + "_Collider", &mesh};
   write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"), origin);
   write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"), origin);
-  const std::uint64_t faces = o.request.faces.empty() ? mesh.triangles.size() : o.request.faces.front();
+  const std::uint64_t faces = o.levels.faces.empty() ? mesh.triangles.size() : o.levels.faces.front();
   const ConvexParts parts = convex_parts(mesh, std::size_t(o.hulls), faces);
   std::vector<NamedMesh> unreal;
   const auto volume6 = double(volume6_of(mesh));
@@ -78,6 +80,19 @@ std::vector<WrittenFile> write_occluder_profile(const std::string& name, const L
   const NamedMesh godot{name + "-occonly", &mesh};
   write_parts_glb({&godot, 1}, out.file(name + "_occluder.glb"), origin);
   return {{name + "_occluder.glb", 0, mesh.triangles.size()}};
+}
+
+/// Quads are of OBJ; the GLB has triangles, for viewers that read no OBJ.
+std::vector<WrittenFile> write_cage_profile(const std::string& name, const LatticeMesh& mesh, const Vec3d& origin,
+                                            OutputFolder& out) {
+  const NamedMesh shown{name + "_Cage", &mesh};
+  const std::uint64_t quads = mesh.quads.size();
+  write_mesh(mesh, out.file(name + "_cage.obj"), MeshFormat::obj, {origin});
+  write_parts_glb({&shown, 1}, out.file(name + "_cage.glb"), origin);
+  const std::string note =
+      fmt::format("{} has {} quads and {} triangles", name + "_cage.obj", quads, mesh.triangles.size() - 2 * quads);
+  return {{name + "_cage.obj", 0, mesh.triangles.size(), true, 0, 0, note},
+          {name + "_cage.glb", 0, mesh.triangles.size()}};
 }
 
 }  // namespace
@@ -127,6 +142,7 @@ std::string level_name(const std::string& name, std::size_t level) {
 std::vector<std::string> profile_files(LodProfile profile, const std::string& name, std::size_t levels) {
   if (profile == LodProfile::collision) return {name + "_godot.glb", name + "_unreal.glb", name + "_unity.glb"};
   if (profile == LodProfile::occluder) return {name + "_occluder.glb"};
+  if (profile == LodProfile::cage) return {name + "_cage.obj", name + "_cage.glb"};
   std::vector<std::string> files;
   for (std::size_t i = 0; i < levels; ++i) files.push_back(level_name(name, i) + ".glb");
   files.push_back(name + ".glb");
@@ -142,6 +158,8 @@ std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::v
       break;  // tile_build.h
     case LodProfile::occluder:
       return write_occluder_profile(options.name, levels.front().mesh, origin, out);
+    case LodProfile::cage:
+      return write_cage_profile(options.name, levels.front().mesh, origin, out);
     case LodProfile::collision:
       return write_collision_profile(options, levels.front().mesh, origin, out);
   }

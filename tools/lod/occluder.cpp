@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/cli/names.h"
+#include "tools/lod/choices.h"
 #include "tools/lod/lod_outputs.h"
 
 namespace bp {
@@ -26,10 +27,10 @@ OptionText option_text(const BuildOptions& o, const MadeOccluder& made) {
   const GridFrame& frame = made.scene.header.frame;
   OptionText text;
   text.add("mode", "inside").add("faces", made.faces_asked).add("openings", made.scale_world);
-  text.add("element", name_of(o.element)).add("walls", "opaque").add("ground", made.ground);
+  text.add("element", name_of(o.closing.element)).add("walls", "opaque").add("ground", made.ground);
   text.add("voxel", frame.voxel);
   text.add("grid", fmt::format("{},{},{}", frame.origin[0], frame.origin[1], frame.origin[2]));
-  return text.add("opening", made.opening_world).add("up", name_of(frame.up)).add("tighten", !o.loose);
+  return text.add("opening", made.opening_world).add("up", name_of(frame.up)).add("tighten", true);
 }
 
 Json json_of(const MadeOccluder& made) {
@@ -76,7 +77,7 @@ void build_occluder(const BuildOptions& o) {
   std::vector<LodLevel> levels;
   levels.push_back(std::move(made.level));
   const StreamHeader& header = made.scene.header;
-  const Vec3d origin = origin_of(o.origin, header.frame, header.bounds);
+  const Vec3d origin = origin_of(o.proxy.origin, header.frame, header.bounds);
   const WrittenFile file = write_profile(o, levels, 0, origin, out).front();
   out.commit();
   LevelRow row = row_of(facts, file.name, out.bytes(file.name));

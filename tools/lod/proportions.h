@@ -1,4 +1,5 @@
 #pragma once
+#include "lib/levels/voxel_choice.h"
 #include "tools/lod/build_options.h"
 #include "tools/notes/estimate.h"
 

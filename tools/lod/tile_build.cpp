@@ -11,6 +11,7 @@
 #include "lib/levels/cut_levels.h"
 #include "lib/levels/whole_levels.h"
 #include "tools/lod/build.h"
+#include "tools/lod/choices.h"
 #include "tools/lod/kept_results.h"
 #include "tools/lod/lod_outputs.h"
 
@@ -99,7 +100,7 @@ void finish(const Shop& shop, std::size_t number, const CutLevel& cut, LevelAtWo
   for (auto& [cell, node] : level.tiles) made.tree->add(number, cut.frame, cell, std::move(node));
   level.row.more = {{"faces_dense", level.dense}, {"kept", level.found.kept}};
   made.rows.push_back(level.row);
-  if (level.over_faces > 0 && !shop.options().request.faces.empty())
+  if (level.over_faces > 0 && !shop.options().levels.faces.empty())
     shop.build.note(
         fmt::format("level {}: {} of {} tiles have more faces than were asked for: no further edge can be merged at a "
                     "scale of {:.4g}",
@@ -121,9 +122,8 @@ void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<Triangle
   }
   CutOptions cut;
   cut.cells = shop.cells();
-  cut.mode = o.mode;
-  cut.enclose = o.enclose.value_or(Enclose::input);
-  cut.tighten = !o.loose;
+  cut.mode = o.proxy.mode;
+  cut.enclose = o.proxy.enclose.what().value_or(Enclose::input);
   cut.colors = shop.build.colors();
   cut.scene = tree.get();
   if (shop.task == Task::some_jobs) cut.jobs = o.tiles;
@@ -187,7 +187,7 @@ void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const Le
 PyramidOptions pyramid_options(const Shop& shop) {
   PyramidOptions options;
   options.cells = shop.cells();
-  options.closing.element = shop.options().element;
+  options.closing.element = shop.options().closing.element;
   options.memory_bytes = shop.build.budget.work;
   options.pieces = shop.build.pieces();
   options.make_shelf = shop.build.make_shelf;
@@ -201,7 +201,7 @@ MadeTileset make_tileset(const Shop& shop) {
   MadeTileset made;
   made.scene = shop.build.voxelize(o.tile_vox, shop.results);
   const StreamHeader& header = made.scene.header;
-  const LevelRequest request = request_of(o.request, header.bounds.diagonal(), header.frame.voxel);
+  const LevelRequest request = request_of(o, header.bounds.diagonal(), header.frame.voxel);
   made.plan = plan_tileset(request, shop.cells(), header);
   made.tree.emplace(header.frame.up, shop.cells());
   if (shop.task == Task::some_jobs && o.tiles->begin >= made.plan.jobs())
@@ -252,7 +252,7 @@ void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
 /// Of the levels that were asked for: each is one mesh, or a folder of tiles.
 std::vector<std::string> certain_names(const BuildOptions& o) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < level_count(o.request); ++i) {
+  for (std::size_t i = 0; i < level_count(request_of(o)); ++i) {
     names.push_back(level_name(o.name, i));
     names.push_back(names.back() + ".glb");
   }
@@ -264,13 +264,12 @@ std::vector<std::string> certain_names(const BuildOptions& o) {
 void build_tileset(const BuildOptions& o) {
   const Task task = o.tiles ? Task::some_jobs : Task::tileset;
   std::optional<TilesetFolder> folder;
-  if (task == Task::tileset) folder.emplace(o.out, certain_names(o), o.common.overwrite, o.resume);
+  if (task == Task::tileset) folder.emplace(o.out, certain_names(o), o.common.overwrite);
   Build build(o);
   const std::unique_ptr<ChunkStore> files = make_chunk_store(build.budget.store, o.common.temp);
   build.note(cache_note(o));
   std::string read_only;  // why the cache keeps nothing: known once the levels are made
-  const std::string path = o.resume ? TilesetFolder::results_of(o.out) : o.cache;
-  const std::unique_ptr<ResultStore> results = open_kept_results(o, path, read_only);
+  const std::unique_ptr<ResultStore> results = open_kept_results(o, read_only);
   const Shop shop{build, task, results.get(), files.get()};
   MadeTileset made = make_tileset(shop);
   build.progress.end();
@@ -281,8 +280,7 @@ void build_tileset(const BuildOptions& o) {
 
 std::vector<FoundJobs> look_up_tileset(const BuildOptions& o) {
   Build build(o);
-  const std::unique_ptr<ResultStore> results =
-      look_up_kept_results(o.resume ? TilesetFolder::results_of(o.out) : o.cache);
+  const std::unique_ptr<ResultStore> results = look_up_kept_results(o.cache);
   return make_tileset({build, Task::look_up, results.get(), nullptr}).found;
 }
 

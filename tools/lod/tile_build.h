@@ -8,7 +8,7 @@ namespace bp {
 /// first one that is not on, levels are made whole. With --tiles only those jobs are done, and their results kept.
 void build_tileset(const BuildOptions& options);
 
-/// What is kept of the jobs of a tileset in --cache, or where --resume goes on: of each level that is cut, then of the
+/// What is kept of the jobs of a tileset in --cache: of each level that is cut, then of the
 /// levels in one mesh, which are one job. The scene is voxelized, and closings that are not kept are made; nothing is
 /// written. `kept` is exact; so is `jobs` if all are kept, else a cavity may be counted as a tile.
 [[nodiscard]] std::vector<FoundJobs> look_up_tileset(const BuildOptions& options);

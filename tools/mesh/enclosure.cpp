@@ -134,11 +134,11 @@ std::optional<Obstacle> take_scene(const EnclosureInput& in, bool any_number, st
   return std::nullopt;
 }
 
-/// Whether `automatic` looks for the scene's triangles at all. A proxy inside a scene is kept by voxels. Without
-/// tightening nothing is kept. A fit whose distance is bounded begins at the closing; and a cube's closing stands off
-/// slanted sides about as far as a fit looks for the scene: thorns.
+/// Whether `automatic` looks for the scene's triangles at all. A proxy inside a scene is kept by voxels. A fit whose
+/// distance is bounded begins at the closing; and a cube's closing stands off slanted sides about as far as a fit looks
+/// for the scene: thorns.
 bool wants_scene(const EnclosureInput& in) {
-  if (!in.tighten || in.mode == MeshMode::inside) return false;
+  if (in.mode == MeshMode::inside) return false;
   const bool cube = in.header.has_closing && in.header.element == StructuringElement::cube;
   return in.mode == MeshMode::bounding || (!in.has_error && !cube);
 }

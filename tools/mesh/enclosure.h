@@ -13,7 +13,6 @@ namespace bp {
 struct EnclosureInput {
   const StreamHeader& header;
   MeshMode mode = MeshMode::bounding;
-  bool tighten = true;
   bool has_error = false;  ///< --error was given
   bool distances = false;  ///< distances to the scene will be measured
   PieceMemory memory;      ///< that the scene's triangles may take

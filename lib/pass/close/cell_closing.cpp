@@ -157,9 +157,7 @@ class Run {
 
   [[nodiscard]] ResultKey key_of(const VoxelBox& cell) const {
     KeyHash hash(kJob);
-    hash.add(std::int64_t(scale_))
-        .add(std::int64_t(options_.closing.element))
-        .add(std::int64_t(options_.cells.edge_vox));
+    hash.add(scale_, options_.closing, options_.cells);
     add_voxels(hash, solid_, cell.grown(halo_.total_vox()), brick_of(cell.min));
     return hash.key();
   }

@@ -102,11 +102,8 @@ LinearColor NearbyColors::at(const Vec3d& lattice) const {
 }
 
 void NearbyColors::add_to(KeyHash& hash) const {
-  hash.add(std::int64_t(cells_.size()));
-  for (const CellColor& c : cells_) {
-    for (int i = 0; i < 3; ++i) hash.add(std::int64_t(c.cell[i] - min_[i]));
-    hash.add(std::int64_t(c.color.r) << 32 | std::int64_t(c.color.g) << 16 | std::int64_t(c.color.b));
-  }
+  hash.add(cells_.size());
+  for (const CellColor& c : cells_) hash.add(CellColor{c.cell - min_, c.color});
 }
 
 SceneColors::SceneColors(const GridFrame& frame, std::unique_ptr<ColorGrid> finest) : frame_(frame) {

@@ -7,14 +7,14 @@ try bpcheck cube.obj missing.obj
 echo nothing > noise.xyz
 try bpcheck noise.xyz
 : > empty.obj
-try bpcheck empty.obj --no-distances
-try bpcheck cube.obj --image missing/cube.png
-try bpcheck cube.obj --image cube.png --image-size 3
+try bpcheck empty.obj
+try bpinfo cube.obj --image missing/cube.png
+try bpinfo cube.obj --image cube.png --image-size 3
 bpvox cube.obj --resolution 10 -o cube.bpv
 try bpcheck cube.bpv
 try bpcheck cube.bpv cube.obj
 stdin=cube.bpv try bpcheck - cube.obj --format obj
-try bpcheck cube.obj --image cube.jpg
+try bpinfo cube.obj --image cube.jpg
 try bpcheck cube.obj --origin 1,2
 try bpcheck cube.obj --origin 1e-20,0,0
 said 'bpcheck cube.obj > /dev/full'

@@ -3,18 +3,19 @@ write_cube inner.obj 1
 sed 's/^v \(.*\) \(.*\) \(.*\)$/echo v $((\1 * 3 - 1)) $((\2 * 3 - 1)) $((\3 * 3 - 1))/e' inner.obj > outer.obj  # -1 to 2
 try bpcheck inner.obj outer.obj
 try bpcheck outer.obj
-try bpcheck outer.obj inner.obj --examples 1 --no-distances
-try bpcheck inner.obj inner.obj --examples 1 --no-distances
+try bpcheck outer.obj inner.obj --samples 0
+try bpcheck inner.obj inner.obj --samples 0
 head -n -1 outer.obj > open.obj
-try bpcheck inner.obj open.obj --examples 2 --no-distances
+try bpcheck inner.obj open.obj --samples 0
 try bpcheck inner.obj outer.obj --json
-try bpcheck inner.obj outer.obj --image both.png --image-size 100
-try bpcheck inner.obj outer.obj --image both.png --image-size 100
+try bpcheck inner.obj outer.obj --image both.png  # of earlier versions
+try bpcheck inner.obj outer.obj --examples 1
+try bpcheck inner.obj outer.obj --no-distances
 
 # What files say of their making tells what may be wrong with the question.
 for mode in bounding fit inside; do (echo "# provenance: bpmesh 0.1.0 mode=$mode faces=12"; cat inner.obj) > $mode.obj; done
 for files in 'bounding.obj inner.obj' 'inner.obj fit.obj' 'inner.obj inside.obj' '--inside inner.obj bounding.obj' '--inside inner.obj inside.obj' \
-  'inner.obj bounding.obj' 'bounding.obj fit.obj' 'bounding.obj outer.obj' 'fit.obj'; do said "bpcheck $files --no-distances | tail -1"; done
+  'inner.obj bounding.obj' 'bounding.obj fit.obj' 'bounding.obj outer.obj' 'fit.obj'; do said "bpcheck $files | tail -1"; done
 rm bounding.obj fit.obj inside.obj
 
 # A file with levels (MSFT_lod): each is a proxy of its own, and all must hold.
@@ -40,9 +41,9 @@ write_levels() {
 GLTF
 }
 write_levels levels.gltf 2 3 5
-try bpcheck inner.obj levels.gltf --no-distances | grep -v '^  '
+try bpcheck inner.obj levels.gltf --samples 0 | grep -v '^  '
 write_levels levels.gltf 2 0.5 5
-said 'bpcheck inner.obj levels.gltf --no-distances --examples 0 | grep -v "^  "'
+said 'bpcheck inner.obj levels.gltf --samples 0 | grep -v "^  "'
 said 'bpcheck inner.obj levels.gltf --json --report levels.json | grep -E "^ ? ? ? ?.?.?\"(holds|levels)"'
 sed -n '/counts/,/\]/p' levels.json
 said 'bpcheck inner.obj - --format gltf < levels.gltf | tail -1'

@@ -6,8 +6,8 @@ try bpvox cube.obj -o out.bp --memory 1K -j 1
 try bpvox cube.obj -o out.bp --memory lots
 try bpvox cube.obj -o out.bp -j -1
 try bpvox cube.obj -o out.bp --threads many
-try bpvox cube.obj -o out.bp --device gpu
-try bpvox cube.obj -o out.bp --device cuda:x
+try bpclose cube.obj --scale 1 -o out.bp --device gpu
+try bpclose cube.obj --scale 1 -o out.bp --device cuda:x
 echo kept > report.json  # no report
 try bpvox cube.obj -o out.bp --report report.json
 cat report.json

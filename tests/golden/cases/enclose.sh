@@ -13,7 +13,7 @@ said "$pipe --enclose input -o input.ply" && enclosed
 said "$pipe --enclose closing -o closing.ply" && enclosed
 for f in auto input closing; do echo "$f $(volume $f.ply)"; done | sort -n -k 2 | cut -d ' ' -f 1 | tr '\n' ' '; echo
 bpinfo auto.ply | grep -o 'enclose=[a-z]*'
-bpcheck oct.obj auto.ply --no-distances | tail -1
+bpcheck oct.obj auto.ply --samples 0 | tail -1
 
 # The stream says where it comes from, and so does its closing. Other commands see the files from their own folder.
 bpvox oct.obj --resolution 40 -o oct.bpv
@@ -65,7 +65,6 @@ try bpmesh side.bpv --faces 12 -o side.ply --report r.json --overwrite && enclos
 
 # Where triangles are of no use, none are read.
 cp good.obj oct.obj
-remesh --no-tighten
 remesh --mode fit
 bpclose oct.bpv --scale 5% --element ball -o closed.bpv --overwrite
 remesh --mode fit
@@ -92,7 +91,7 @@ rm -rf plant.* p.ply said lod
 level() { bpinfo "$1" | grep -o 'enclose=[a-z]*'; }
 try bplod oct.obj --faces 20 --resolution 40 -o lod && level lod/oct_LOD0.glb
 said 'bplod oct.obj --faces 20 --resolution 40 --profile collision -o lod | cut -f 1,2' && level lod/oct_unity.glb
-bpcheck oct.obj lod/oct_LOD0.glb --no-distances | tail -1
+bpcheck oct.obj lod/oct_LOD0.glb --samples 0 | tail -1
 said 'bplod - --name oct --format obj --faces 20 --resolution 40 -o lod --overwrite < oct.obj | cut -f 1,2' && level lod/oct_LOD0.glb
 said 'bplod oct.obj --enclose input --faces 20 --resolution 40 -o lod --overwrite | cut -f 1,2' && level lod/oct_LOD0.glb
 said 'bplod oct.obj --faces 20 --resolution 40 --profile 3dtiles -o tiles | cut -f 1' && level tiles/tileset.json

@@ -7,7 +7,7 @@ budgets() { awk -F '\t' -v want="$1" 'BEGIN { split(want, n, ",") } NR > 1 { pri
 
 bplod part*.obj --name cubes --faces 200,20 --resolution 60 -q -o gltf > list
 budgets 200,20 < list
-for f in cubes_LOD0 cubes_LOD1 cubes; do bpcheck part*.obj gltf/$f.glb --no-distances | tail -1; done
+for f in cubes_LOD0 cubes_LOD1 cubes; do bpcheck part*.obj gltf/$f.glb --samples 0 | tail -1; done
 bplod part*.obj --name cubes --faces 200,20 --resolution 60 -q --up z --profile 3dtiles -o tiles -j 1 --memory 300M > list
 budgets 200,20 < list
 try bpcheck part*.obj tiles/tileset.json
@@ -57,7 +57,7 @@ rm -r courts courts.obj
 bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision | cut -f 1,2
 cut_errors() { awk -F '\t' 'NR > 1 { print $1, ($3 == "-" ? "not measured" : $3 > 0 ? "measured" : "none"), $4 == s || NR == 2; s = $4 }'; }
 bplod part*.obj --name cubes --faces 96 --resolution 60 --profile collision -o collision --overwrite | cut_errors
-for f in godot unity unreal; do bpcheck part*.obj collision/cubes_$f.glb --no-distances | tail -1; done
+for f in godot unity unreal; do bpcheck part*.obj collision/cubes_$f.glb --samples 0 | tail -1; done
 for f in unreal godot; do said "bpcheck --convex part*.obj collision/cubes_$f.glb | sed -n '/each part/p;\$p'"; done
 # An angle is cut; as one hull it is closed, as the engine would, and that is said. Parts that are too many have hulls together.
 printf '%s\n' v\ {0,4}\ {0,1}\ {0,1} v\ {0,1}\ {1,4}\ {0,1} > angle.obj
@@ -122,7 +122,7 @@ said 'bplod studs.obj --up z --faces 2400 --levels 3 -o studs | cut -f 1,2,5' | 
 said 'bplod studs.obj --up z --faces 40 --levels 3 --resolution 64 -o studs --overwrite | cut -f 1,2' | some
 ls studs
 rm -r studs studs.obj
-for f in chosen/cubes.glb chosen2/cubes.glb; do bpcheck part*.obj $f --no-distances | tail -1; done
+for f in chosen/cubes.glb chosen2/cubes.glb; do bpcheck part*.obj $f --samples 0 | tail -1; done
 
 # What bpinfo says of a tileset.
 bplod cube.obj --name c --voxel 0.05 --tile 64 --faces 12 --up z --profile 3dtiles -q -o info > list

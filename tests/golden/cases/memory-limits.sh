@@ -23,9 +23,8 @@ enough() {
   cat said
 }
 enough bpclose cube.bp --scale 40vx -o x.bp
-enough bpclose cube.bp --scale 20vx --tile 256 -o x.bp --overwrite
 rm x.bp
-enough bpmesh closed.bp --faces 30000 --no-tighten -o x.glb
+enough bpmesh closed.bp --faces 30000 -o x.glb
 enough bplod plant.ply --resolution 600 --faces 30000 --levels 1 --no-tighten -o x
 rm -r x x.glb
 enough bplod plant.ply --resolution 600 --tile 384 --levels 1 --no-tighten --profile 3dtiles -o x

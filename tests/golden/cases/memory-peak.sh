@@ -25,10 +25,10 @@ awk 'BEGIN {
   }
 }' > boxes.obj
 bpvox boxes.obj --voxel 0.25 -q -o boxes.bpv
-bpmesh boxes.bpv --faces 12000,11900 --no-tighten -j 1 -q -o roomy.ply
+bpmesh boxes.bpv --faces 12000,11900 -j 1 -q -o roomy.ply
 limit=104
-within bpmesh boxes.bpv --faces 12000,11900 --no-tighten -o tight.ply
+within bpmesh boxes.bpv --faces 12000,11900 -o tight.ply
 cmp roomy.1.ply tight.1.ply && echo "the same bytes"
-try bpmesh boxes.bpv --faces 12000 --no-tighten -j 1 --memory 96M -q -o small.ply
-try bpmesh boxes.bpv --faces 12000,11900 --no-tighten -j 1 --memory 96M -q -o small.ply --overwrite
+try bpmesh boxes.bpv --faces 12000 -j 1 --memory 96M -q -o small.ply
+try bpmesh boxes.bpv --faces 12000,11900 -j 1 --memory 96M -q -o small.ply --overwrite
 (ulimit -v 400000; try bplod plant.ply --resolution 1500 --levels 1 -j 1 --memory 64M -q -o y | sed 's/[0-9.]* MiB/N MiB/g')

@@ -15,7 +15,6 @@ try bpclose cube.bp -o out.bp
 try bpclose cube.bp --scale -1 -o out.bp
 try bpclose cube.bp --scale nan -o out.bp
 try bpclose cube.bp --scale 1e9vx -o out.bp
-try bpclose cube.bp --scale 1vx --tile 100 -o out.bp
 try bpclose cube.bp --field missing.json -o out.bp
 echo '{"base": -1}' > field.json
 try bpclose cube.bp --field field.json -o out.bp
@@ -64,7 +63,7 @@ cp cube.glb levels/cube_LOD0.glb
 try bplod levels/cube_LOD0.glb --name cube --levels 1 -o levels --overwrite
 said 'bpvox cube.obj --resolution 8 --report /dev/null -o /dev/null'
 echo '# nothing' > nothing.obj
-try bpcheck nothing.obj cube.glb --no-distances
+try bpcheck nothing.obj cube.glb --samples 0
 try bpcheck nothing.obj cube.glb --inside
 try bpcheck nothing.obj cube.glb --convex
 said 'cat cube.obj | bpcheck - - --format obj'
@@ -72,7 +71,7 @@ said 'cat cube.obj | bpcheck - - --format obj'
 try bpcheck cube.obj empty.glb
 echo 'no JSON' > text.gltf
 try bpcheck cube.obj text.gltf
-try bpcheck cube.obj cube.glb --image x.png --image-size 3
+try bpinfo cube.obj cube.glb --image x.png --image-size 3
 try bpmesh closed.bp --origin 1e30,0,0 -o x.ply
 try bpmesh closed.bp -o missing/x.ply
 files

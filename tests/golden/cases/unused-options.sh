@@ -13,12 +13,16 @@ bpvox cube.obj --resolution 10 --fill inside -o inside.bpv
 try bpclose inside.bpv --inner --keep-cavities --scale 1vx -o x
 try bpmesh cube.bpv --least-part 0 -o x.ply
 try bpmesh cube.bpv --inset 0.5 -o x.ply
-for option in '--image-size 720' '--up y' '--azimuth 35' '--elevation 22' '--zoom 2' '--look-at 0,0,0'; do
+for option in '--image-size 720' '--up y' '--view 35,22' '--zoom 2' '--look-at 0,0,0'; do
   try bpinfo cube.obj $option
-  try bpcheck cube.obj $option
 done
-try bpinfo cube.obj --no-edges
-try bpcheck cube.obj cube.obj --no-distances --samples 10
+# Options of earlier versions: the message names what replaces them.
+for option in --no-edges '--azimuth 35' '--elevation 22'; do try bpinfo cube.obj $option; done
+for view in 35 35,22,1 a,b; do try bpinfo cube.obj --image x.png --view $view; done
+try bpvox cube.obj --device cpu -o x.bpv
+try bpclose cube.bpv --scale 2vx --tile 64 -o x.bpv
+for option in --no-tighten --measure; do try bpmesh cube.bpv $option -o x.ply; done
+try bpcheck cube.obj --look-at 0,0,0
 try bpcheck cube.obj cube.obj --inside --samples 10
 try bpcheck cube.obj cube.obj --convex --samples 10
 try bpcheck cube.obj cube.obj --convex --inside

@@ -6,8 +6,8 @@ bpvox cube.obj --resolution 30 | bpmesh --faces 30 -o y.glb
 for proxy in z.glb y.glb cube.obj; do bpvox $proxy --resolution 20 | bpinfo | grep -o '. is up'; done
 bpvox z.glb --resolution 20 --up y | bpinfo | grep -oE '. is up|up=.*'
 for up in z y; do
-  bpcheck cube.obj $up.glb --no-distances --image-size 99 --image $up.png > said || cat said
-  bpcheck cube.obj $up.glb --no-distances --image-size 99 --image said.png --up $up > said && cmp $up.png said.png
+  bpinfo cube.obj $up.glb --image-size 99 --image $up.png > said || cat said
+  bpinfo cube.obj $up.glb --image-size 99 --image said.png --up $up > said && cmp $up.png said.png
   bpinfo $up.glb --image-size 99 --image info-$up.png > said
   bpinfo $up.glb --image-size 99 --image said.png --up $up --overwrite > said && cmp info-$up.png said.png
   rm said.png
@@ -30,7 +30,7 @@ for up in x -x -y -z; do
   bpvox cube.obj --resolution 30 --up $up | bpmesh --faces 30 -o up$up.glb
   bpvox up$up.glb --resolution 20 | bpinfo | grep -oE -- '-?[xyz] is up'
   bpcheck cube.obj up$up.glb | tail -1
-  bpcheck cube.obj up$up.glb --no-distances --image-size 99 --image up$up.png > said || cat said
+  bpinfo cube.obj up$up.glb --image-size 99 --image up$up.png > said || cat said
   for profile in gltf 3dtiles; do
     bplod cube.obj -q --resolution 30 --levels 1 --faces 30 --up $up --profile $profile --name a -o up$up-$profile > list
   done

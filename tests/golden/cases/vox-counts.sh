@@ -4,7 +4,7 @@ try bpvox cube.obj --voxel 0.125 -o cube.bp --report report.json
 grep -E '"(triangles|voxel|surface_voxels|solid_voxels|open_columns)"' report.json
 said 'bpvox cube.obj --voxel 0.125 | cmp - cube.bp'
 said '[ $(bpvox - --format obj --voxel 0.125 < cube.obj | bpinfo --checksum) = $(bpinfo --checksum cube.bp) ]'
-said 'bpvox cube.obj --voxel 0.125 -j 1 --memory 64M --device cpu | cmp - cube.bp'
+said 'bpvox cube.obj --voxel 0.125 -j 1 --memory 64M | cmp - cube.bp'
 try bpvox cube.obj --voxel 0.125 --fill none -o shell.bp --report shell.json
 grep solid_voxels shell.json
 try bpvox cube.obj --resolution 8 --fill winding -o winding.bp --report winding.json

@@ -1,4 +1,5 @@
 #include <map>
+#include <set>
 
 #include "lib/check/check_proxy.h"
 #include "lib/check/detail/surface.h"
@@ -7,6 +8,7 @@
 #include "lib/levels/tile_pyramid.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "tests/catch.h"
+#include "tests/support/each_member.h"
 #include "tests/support/voxelized.h"
 
 namespace bp::test {
@@ -175,6 +177,61 @@ TEST_CASE("a tile far from a change stays the same", "[quick][stage][lod]") {
     ++same;
   }
   CHECK(4 * same > a.size());
+}
+
+TEST_CASE("a tile's key depends on all that decides the tile", "[quick][stage][lod][cache]") {
+  struct Keys final : ResultStore {  // nothing is kept
+    bool get(const ResultKey& key, std::string&) override {
+      const std::lock_guard lock(mutex);
+      asked.insert(key);
+      return false;
+    }
+    void put(const ResultKey&, std::string_view) override {}
+    std::mutex mutex;
+    std::set<ResultKey> asked;
+  };
+  Triangles scene;
+  add_box(scene, {3, 3, 3}, {40, 30, 20});
+  Backends backends = cpu_backends();
+  const auto keys = [&](const TileShape& shape, double scale = 2, const Cells& cells = kCells) {
+    Keys store;
+    TileParams params;
+    static_cast<TileShape&>(params) = shape;
+    params.make = false;
+    Voxelized solid = voxelized(scene, 1, cells.edge_vox);
+    PyramidOptions options;
+    options.cells = cells;
+    options.closing.element = shape.element;
+    options.make_shelf = memory_shelves();
+    options.store = &store;
+    TilePyramid from(solid.header, std::move(solid.shelf), backends, options);
+    from.add_level(
+        scale, params, [](CellCoord, const LatticeMesh&) { return ""; }, [](LevelTile&&) {});
+    store.asked.clear();  // of closings
+    from.make_tiles();
+    CHECK_FALSE(store.asked.empty());
+    return store.asked;
+  };
+  TileShape shape;
+  std::vector<std::set<ResultKey>> all{keys(shape)};
+  const std::set<ResultKey> again = keys(shape);
+  CHECK(again == all.front());
+  for_each_field(shape, [&](auto& member) {
+    if (static_cast<void*>(&member) == &shape.scale_world) return;  // add_level() sets it
+    change_each_member(member, [&] { all.push_back(keys(shape)); });
+  });
+  all.push_back(keys(shape, 3));
+  all.push_back(keys(shape, 2, Cells{2 * kEdge}));
+  scene[0][0][0] += 2;
+  all.push_back(keys(shape));
+  std::size_t sum = 0;
+  std::set<ResultKey> distinct;
+  for (const std::set<ResultKey>& some : all) {
+    sum += some.size();
+    distinct.insert(some.begin(), some.end());
+  }
+  CHECK(all.size() == 1 + 7 + 3);
+  CHECK(distinct.size() == sum);
 }
 
 TEST_CASE("a tile without a voxel of the scene is made of the closing alone", "[quick][stage][lod]") {

@@ -5,28 +5,20 @@
 
 namespace bp {
 
-namespace {
-
-/// A bound on the distance, in any unit.
-Length parse_error(const std::string& text) {
-  const Length error = parse_length(text);
-  if (!(error.value > 0)) fail(ErrorCode::bad_argument, "{}: must be above 0; leave it out for no limit", text);
-  return error;
-}
-
-}  // namespace
-
 std::vector<Length> parse_error_list(const std::string& text) {
   std::vector<Length> all;
   for_each_item(text, [&](std::string_view item) {
-    all.push_back(parse_length(item));
+    all.push_back(parse_error_length(item));
     const Length& last = all.back();
     if (last.unit == Length::Unit::voxels)
       fail(ErrorCode::bad_argument, "{}: the voxels follow from the errors; use scene units or percent", text);
-    if (!(last.value > 0)) fail(ErrorCode::bad_argument, "{}: an error must be above 0", text);
     if (last.unit != all.front().unit) fail(ErrorCode::bad_argument, "{}: mixes units", text);
-    if (all.size() > 1 && last.value <= all[all.size() - 2].value)
-      fail(ErrorCode::bad_argument, "{}: each level must have a larger one than the one before", text);
+    if (all.size() == 1) return;
+    const double before = all[all.size() - 2].value;
+    const bool pixels = last.unit == Length::Unit::pixels;  // the larger on screen, the smaller the error
+    if (pixels ? last.value >= before : last.value <= before)
+      fail(ErrorCode::bad_argument, "{}: each level must have {} than the one before", text,
+           pixels ? "fewer pixels" : "a larger one");
   });
   return all;
 }
@@ -43,7 +35,7 @@ void LevelOptions::add_of_stream(Args& args) {
               "largest number of triangles; several falling numbers make as many levels, finest first, each of which "
               "encloses the one before");
   args.option(
-      "--error", "LENGTH", [this](const std::string& text) { errors = {parse_error(text)}; },
+      "--error", "LENGTH", [this](const std::string& text) { errors = {parse_error_length(text)}; },
       "largest distance from any point of the proxy to the closing, or to what --enclose names");
 }
 
@@ -63,7 +55,7 @@ void LevelOptions::add_of_scene(Args& args, const std::string& levels_default, c
   args.option(
       "--error", "LENGTH[,...]", [this](const std::string& text) { errors = parse_error_list(text); },
       "largest distance between the scene and each level, finest first; after a single length each further level has "
-      "twice that");
+      "twice that; 800px is one pixel where the scene's diagonal is 800 pixels on screen");
 }
 
 }  // namespace bp

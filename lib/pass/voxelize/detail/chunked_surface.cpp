@@ -13,7 +13,7 @@ constexpr const char* kMetJob = "a chunk was voxelized";
 
 /// Of a mark beside the voxels, which knows of no frame.
 ResultKey met_key(const ChunkCutter::Chunk& chunk) {
-  return KeyHash(kMetJob).add(std::as_bytes(std::span(chunk.content.words))).key();
+  return KeyHash(kMetJob).add(chunk.content).key();
 }
 
 }  // namespace

@@ -133,10 +133,7 @@ std::vector<ChunkCutter::Chunk> ChunkCutter::finish() {
 }
 
 ResultKey chunk_key(const ChunkCutter::Chunk& chunk, const GridFrame& frame) {
-  KeyHash hash(kJob);
-  hash.add(std::int64_t(chunk.triangles)).add(std::as_bytes(std::span(chunk.content.words))).add(frame.voxel);
-  for (const std::int64_t o : frame.origin) hash.add(o);
-  return hash.key();
+  return KeyHash(kJob).add(chunk, frame).key();
 }
 
 // --- Voxels ----------------------------------------------------------------------------------------------------------

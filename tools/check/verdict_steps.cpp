@@ -1,0 +1,41 @@
+#include "tools/check/verdict_steps.h"
+
+#include <cmath>
+
+#include "lib/core/error.h"
+
+namespace bp {
+
+void add_origin(IndexedMesh& mesh, const Vec3d& by) {
+  if (by == Vec3d{}) return;
+  for (Vec3d& p : mesh.vertices) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double sum = p[i] + by[i], part = sum - by[i];
+      if (std::isfinite(sum) && (sum - part != by[i] || part != p[i])) {
+        fail(ErrorCode::bad_argument,
+             "--origin: {} + {} is no exact double; give the origin that bpmesh or bplod was given", p[i], by[i]);
+      }
+      p[i] = sum;
+    }
+  }
+}
+
+Json counts_of(const CheckReport& verdict) {
+  return {{"holds", verdict.holds()},
+          {"answer", to_string(verdict.answer())},
+          {"proxy_triangles", verdict.triangles},
+          {"scene_triangles", verdict.scene_triangles},
+          {"self_intersections", verdict.self_intersections.count},
+          {"touching", verdict.touching.count},
+          {"outside", verdict.outside.count}};
+}
+
+void refuse_empty_scene(const CheckReport& verdict) {
+  const SceneCounts& c = verdict.scene_counts;
+  if (verdict.scene_name.empty() || verdict.scene_triangles > 0) return;
+  fail(ErrorCode::bad_input,
+       "{}: no triangles ({} degenerate, {} non-finite, {} bad faces skipped); a scene needs at least one with an area",
+       verdict.scene_name, c.degenerate, c.non_finite, c.bad_faces);
+}
+
+}  // namespace bp

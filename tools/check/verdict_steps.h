@@ -1,0 +1,19 @@
+#pragma once
+#include "lib/check/check_report.h"
+#include "lib/core/indexed_mesh.h"
+#include "tools/cli/report.h"
+
+/// Steps of bpcheck.
+namespace bp {
+
+/// Undoes --origin of bpmesh and bplod. An answer for rounded vertices would be one for another proxy: throws
+/// bad_argument if a sum is not exact.
+void add_origin(IndexedMesh& mesh, const Vec3d& by);
+
+/// For --report.
+[[nodiscard]] Json counts_of(const CheckReport& verdict);
+
+/// Throws bad_input if the scene has no triangle: an export that went wrong must not prove a proxy.
+void refuse_empty_scene(const CheckReport& verdict);
+
+}  // namespace bp

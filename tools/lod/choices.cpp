@@ -1,0 +1,97 @@
+#include "tools/lod/choices.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "tools/cli/names.h"
+#include "tools/run/enclosed_triangles_limit.h"
+
+namespace bp {
+
+namespace {
+
+const char* name_of(Enclose enclose) {
+  constexpr const char* kNames[] = {"closing", "input", "scene"};
+  return kNames[std::size_t(enclose)];
+}
+
+}  // namespace
+
+LevelRequest request_of(const BuildOptions& o, double diagonal, double voxel) {
+  LevelRequest r;
+  r.levels = o.levels.levels;
+  r.faces = o.levels.faces;
+  r.shares = o.levels.shares;
+  for (const Length& error : o.levels.errors) r.errors_world.push_back(error.in_world(diagonal, 0));
+  if (o.closing.scale) r.scale_world = o.closing.scale->in_world(diagonal, voxel);
+  return r;
+}
+
+LevelRequest request_for(const BuildOptions& o, std::uint64_t triangles, double diagonal, double voxel) {
+  constexpr double kPerCollisionFace = 8;
+  const LevelRequest request = request_of(o, diagonal, voxel);
+  if (o.is_tileset() || o.profile == LodProfile::occluder) return request;
+  LevelDefaults defaults;
+  if (o.profile == LodProfile::collision) defaults = {kPerCollisionFace, kMostCollisionFaces};
+  if (o.profile == LodProfile::cage) defaults.most_faces = kMostCageFaces;
+  defaults.by_voxels = o.profile != LodProfile::cage && (o.voxels.voxel || o.voxels.resolution);
+  return with_defaults(request, triangles, defaults);
+}
+
+VoxelRequest voxel_request(const BuildOptions& o, double diagonal) {
+  VoxelRequest voxels;
+  if (o.voxels.voxel) voxels.voxel = o.voxels.voxel->in_world(diagonal, 0);
+  voxels.resolution = o.voxels.resolution.value_or(0);
+  if (o.is_tileset()) voxels.use = VoxelUse::tiles;
+  if (o.profile == LodProfile::occluder) voxels.use = VoxelUse::occluder;
+  return voxels;
+}
+
+double voxel_size(const BuildOptions& o, const SceneSize& scene) {
+  const double diagonal = scene.bounds.diagonal();
+  return chosen_voxel(voxel_request(o, diagonal), request_for(o, scene.triangles, diagonal), scene);
+}
+
+bool is_by_scene(const BuildOptions& o) {
+  return o.is_tileset() && !o.voxels.voxel && !o.voxels.resolution && asks_for_nothing(request_of(o));
+}
+
+bool can_read_again(const BuildOptions& o) {
+  return std::all_of(o.voxels.scenes.begin(), o.voxels.scenes.end(), [](const std::string& scene) {
+    std::error_code none;  // what is no file, a pipe say, can be read once
+    return scene != "-" && std::filesystem::is_regular_file(scene, none);
+  });
+}
+
+bool may_refine(const BuildOptions& o) {
+  return !o.voxels.voxel && !o.voxels.resolution && o.levels.errors.empty() && !o.is_tileset() && can_read_again(o);
+}
+
+bool may_enclose_scene(const BuildOptions& o) {
+  return !o.is_tileset() && o.proxy.mode == MeshMode::bounding;
+}
+
+Enclose enclosed_by(const BuildOptions& o, std::uint64_t triangles) {
+  if (const std::optional<Enclose> asked = o.proxy.enclose.what()) return *asked;
+  const bool scene = may_enclose_scene(o) && can_read_again(o) && triangles <= kMostEnclosedTriangles;
+  return scene ? Enclose::scene : Enclose::input;
+}
+
+OptionText option_text(const BuildOptions& o, Enclose enclosed, const LodTarget& target, std::size_t i,
+                       double scale_world, const GridFrame& frame) {
+  OptionText text;
+  text.add("level", i).add("mode", name_of(o.proxy.mode));
+  if (target.faces > 0) text.add("faces", target.faces);
+  if (target.error_world > 0) text.add("error", target.error_world);
+  text.add("scale", scale_world)
+      .add("voxel", frame.voxel)
+      .add("element", name_of(o.closing.element))
+      .add("enclose", name_of(enclosed))
+      .add("fill", name_of(o.voxels.fill))
+      .add("up", name_of(frame.up))
+      .add("tighten", true);
+  if (o.profile == LodProfile::cage) text.add("quads", true);
+  return text;
+}
+
+}  // namespace bp

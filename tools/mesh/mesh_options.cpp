@@ -1,0 +1,69 @@
+#include "tools/mesh/mesh_options.h"
+
+#include "io/scene/scene_format.h"
+#include "io/scene/scene_reader.h"
+#include "lib/core/error.h"
+#include "tools/run/inputs.h"
+
+namespace bp {
+
+MeshOptions parse_mesh_options(Args& args) {
+  MeshOptions o;
+  args.about("Makes a coarse mesh of a stream of voxels: closed, free of self-intersections, and around the scene.");
+  args.positional("INPUT", o.in, "stream of voxels; - is stdin");
+  args.group("Files");
+  args.option("-o,--output", "FILE", o.out, "proxy: .glb .gltf .ply .obj .stl; - is stdout and needs --format");
+  args.option("--format", "NAME", o.format, "format of the output, if its name does not tell");
+  o.levels.add_of_stream(args);
+  args.option("--volume", "RATIO", o.volume, "largest volume, as a multiple of the voxels' volume; 0: no limit");
+  args.option("--edge-length", "RATIO", o.edge_length, "longest edge, as a multiple of the scale there; 0: no limit");
+  o.proxy.add_of_stream(args);
+  args.option("--inset", "RATIO", o.inset,
+              "with --mode fit: how far the proxy lies inside the voxels' surface, in voxels, 0 to 1 (default: 0.5, as "
+              "the scene does on average)");
+  args.option("--least-part", "RATIO", o.least_part,
+              "with --mode inside: leave out parts smaller than RATIO times the largest part, by volume; 0 keeps all "
+              "(default: 0.001)");
+  args.flag("--quads", o.quads, "join triangles to quads, safe for either diagonal; for .obj and .ply");
+  args.removed("--no-tighten", "bpmesh always makes the proxy tighter");
+  args.removed("--measure", "--report has volume and edges, and bpcheck measures distances");
+  o.common.add_to(args, CommonOptions::all_parts & ~unsigned(CommonOptions::device_part));
+  args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
+  args.often({"--output", "--faces", "--error", "--mode", "--enclose", "--memory", "--overwrite"});
+  args.parse();
+  o.proxy.check();
+  std::vector<std::string> inputs = o.proxy.enclose.files;
+  inputs.push_back(o.in);
+  check_stdin_once(inputs);
+  keep_inputs(inputs);
+  return o;
+}
+
+std::string level_name(const MeshOptions& o, std::size_t level) {
+  if (o.levels.faces.size() < 2) return o.out;
+  const std::size_t dot = o.out.rfind('.');
+  if (o.out == "-") {
+    fail(ErrorCode::bad_argument,
+         "-o -: {} levels are as many files; name them with -o proxy.glb, for proxy.0.glb and so on, or ask for one "
+         "number of --faces",
+         o.levels.faces.size());
+  }
+  if (dot == std::string::npos || o.out.find('/', dot) != std::string::npos)
+    fail(ErrorCode::bad_argument, "-o {}: the numbers of levels go before the extension; give it one, as proxy.glb",
+         o.out);
+  return o.out.substr(0, dot) + "." + std::to_string(level) + o.out.substr(dot);
+}
+
+MeshFormat output_format(const MeshOptions& o) {
+  if (o.out == "-" && o.format.empty()) fail(ErrorCode::bad_argument, "name the output with -o, or its --format");
+  const MeshFormat format = o.format.empty() ? mesh_format_of(o.out) : mesh_format_named(o.format);
+  const std::string told = scene_format_of(o.out);
+  if (!o.format.empty() && !told.empty() && mesh_format_of(o.out) != format)
+    fail(ErrorCode::bad_argument, "--format {}, but -o {} is named .{}; leave --format out, or rename the output",
+         o.format, o.out, told);
+  if (o.quads && format != MeshFormat::obj && format != MeshFormat::ply)
+    fail(ErrorCode::bad_argument, "--quads: only .obj and .ply hold quads");
+  return format;
+}
+
+}  // namespace bp

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+
+#include "lib/pass/mesh/mesh_stage.h"
+#include "tools/cli/report.h"
+#include "tools/mesh/mesh_options.h"
+#include "tools/run/provenance.h"
+
+/// What bpmesh tells of a run: in the files that it writes, and in --report.
+namespace bp {
+
+/// Of a level. enclosed: what stayed inside; input: checksum of the stream.
+[[nodiscard]] Provenance mesh_provenance(const MeshOptions& options, const std::string& enclosed,
+                                         const std::string& input, std::size_t level);
+
+void fill_report(Report& report, const MeshOptions& options, const MeshCounts& counts);
+
+}  // namespace bp

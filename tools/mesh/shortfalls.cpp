@@ -1,0 +1,141 @@
+#include "tools/mesh/shortfalls.h"
+
+#include <fmt/ranges.h>
+
+#include "lib/tighten/few_faces.h"
+#include "tools/notes/face_notes.h"
+
+namespace bp {
+
+namespace {
+
+std::string level_text(const MeshCounts& c, std::size_t level) {
+  return c.levels.size() > 1 ? fmt::format("level {}: ", level) : "";
+}
+
+/// Whether --error and the measures are distances to the closing: nobody asked for the scene or its voxels.
+bool counts_from_closing(const MeshOptions& o) {
+  using Kind = EncloseOption::Kind;
+  return o.proxy.enclose.kind == Kind::closing || (o.error() && o.proxy.enclose.kind == Kind::automatic);
+}
+
+/// What distances of the proxy are measured to.
+std::string measured_to(const MeshOptions& o) {
+  if (o.proxy.mode == MeshMode::inside) return "what it lies in";
+  if (o.proxy.mode == MeshMode::fit) return "what it is drawn to";
+  return counts_from_closing(o) ? "what is meshed" : "what it encloses";
+}
+
+/// Of a level that no step has taken beyond --error and --volume, but that was beyond from its beginning.
+void note_bounds(Report& report, const MeshOptions& o, const MeshCounts& c, std::size_t i, double error_world) {
+  const LevelCounts& level = c.levels[i];
+  const std::string which = level_text(c, i);
+  const auto& distance = level.measures.proxy_to_enclosed;
+  if (error_world > 0 && distance && distance->at_least > error_world * (1 + 1e-9)) {
+    const std::string why =
+        i > 0 && o.proxy.mode != MeshMode::fit
+            ? "the voxels at the level before are as far; use smaller voxels, fewer levels or a larger --error"
+            : fmt::format(
+                  "the voxels {} as far; use a smaller --scale or smaller voxels{}",
+                  o.proxy.mode == MeshMode::inside ? "themselves are" : "around it are",
+                  counts_from_closing(o) ? "" : ", or leave --enclose out: distances then count from the closing");
+    report.note(fmt::format("{}the proxy is up to {:.4g} from {} instead of {:.4g}: {}", which, distance->at_least,
+                            measured_to(o), error_world, why),
+                o.common);
+  }
+  const double share = level.measures.volume / c.solid_volume_world;
+  const bool beyond = o.proxy.mode == MeshMode::inside ? share < o.volume * (1 - 1e-9) : share > o.volume * (1 + 1e-9);
+  if (o.volume > 0 && beyond) {
+    report.note(
+        fmt::format(
+            "{}the volume is {:.4g} times that of the voxels that are meshed instead of {:.4g}, as it is of the "
+            "voxels {}; use smaller voxels, {}or another --volume",
+            which, share, o.volume, i > 0 ? "at the level before" : "to begin with", i > 0 ? "fewer levels " : ""),
+        o.common);
+  }
+}
+
+/// "3 by topology, 1 by --volume": why edges that are left were not merged.
+std::string refusals_text(const MeshOptions& o, const SimplifyCounts& s) {
+  const char* const limits = !o.error() ? "--volume" : o.volume == 0 ? "--error" : "--error or --volume";
+  const std::pair<std::uint64_t, const char*> all[] = {
+      {s.refused[Refusal::limits], limits},
+      {s.refused[Refusal::link], "topology"},
+      {s.refused[Refusal::constraints] + s.refused[Refusal::enclosed], "enclosure"},
+      {s.refused[Refusal::shape], "shape"},
+      {s.refused[Refusal::growth], "growth"},
+      {s.refused[Refusal::length], "--edge-length"},
+      {s.refused[Refusal::guard], "intersection"}};
+  std::vector<std::string> parts;
+  for (const auto& [count, what] : all) {
+    if (count > 0) parts.push_back(fmt::format("{} by {}", count, what));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// What kept a level from its faces. `scale`: one that would do (enough_scale()).
+std::string obstacle_text(const MeshOptions& o, const LevelCounts& level, const std::optional<std::string>& scale) {
+  const std::string& by = level.stopped_by;
+  if (by == "error" && o.error()) return fmt::format("--error {} was reached first", o.error()->text());
+  if (by == "volume") return fmt::format("--volume {} was reached first", o.volume);
+  if (by == "edge-length") return fmt::format("--edge-length {} was reached first", o.edge_length);
+  return merged_note(level.simplify.faces_out, level.measures.shells, level.measures.handles, o.proxy.mode, scale);
+}
+
+/// Of a level that has not the faces that were asked for.
+void note_faces(Report& report, const MeshOptions& o, const MeshCounts& c, std::size_t i,
+                const std::optional<std::string>& scale) {
+  const LevelCounts& level = c.levels[i];
+  const std::uint64_t faces = level.simplify.faces_out;
+  if (i >= o.levels.faces.size()) return;
+  if (level.stopped_by == kLeastVolume) {
+    report.note(fmt::format("{}{} faces instead of {}: with so few, more would not hold less volume", level_text(c, i),
+                            faces, o.levels.faces[i]),
+                o.common);
+    return;
+  }
+  if (const std::string few = too_few_note(faces, o.levels.faces[i], o.proxy.mode); !few.empty())
+    report.note(level_text(c, i) + few, o.common);
+  if (faces <= o.levels.faces[i]) return;
+  const bool coarser = i == 0 || faces < c.levels[i - 1].simplify.faces_out;
+  const std::string refusals = refusals_text(o, level.simplify);
+  report.note(fmt::format("{}{} faces instead of {}{}: {}{}", level_text(c, i), faces, o.levels.faces[i],
+                          coarser ? "" : fmt::format(", no fewer than level {} has", i - 1),
+                          obstacle_text(o, level, i == 0 ? scale : std::nullopt),
+                          refusals.empty() ? "" : " (tries refused: " + refusals + ")"),
+              o.common);
+}
+
+/// Of a level that has its faces at the price of its volume.
+void note_volume(Report& report, const MeshOptions& o, const MeshCounts& c, std::size_t i) {
+  if (i >= o.levels.faces.size() || o.volume > 0) return;
+  const LevelCounts& level = c.levels[i];
+  const std::string loose = loose_note(level.simplify.faces_out, level.measures.volume / c.solid_volume_world,
+                                       level.measures.shells, level.measures.handles, o.proxy.mode);
+  if (!loose.empty()) report.note(level_text(c, i) + loose, o.common);
+}
+
+}  // namespace
+
+bool wants_scale(const MeshOptions& o, const MeshCounts& c) {
+  const LevelCounts& level = c.levels.front();
+  const std::string& by = level.stopped_by;
+  return !o.levels.faces.empty() && level.simplify.faces_out > o.levels.faces.front() && by != "error" &&
+         by != "volume" && by != "edge-length" && (level.measures.shells > 1 || level.measures.handles > 0);
+}
+
+void note_shortfalls(Report& report, const MeshOptions& o, const MeshCounts& c, double error_world,
+                     const std::optional<std::string>& scale) {
+  if (c.dropped_parts > 0) {
+    report.note(fmt::format("small parts left out: {}, with {} of {} voxels; --least-part 0 keeps them",
+                            c.dropped_parts, c.dropped_voxels, c.voxels),
+                o.common);
+  }
+  for (std::size_t i = 0; i < c.levels.size(); ++i) {
+    note_faces(report, o, c, i, scale);
+    note_bounds(report, o, c, i, error_world);
+    note_volume(report, o, c, i);
+  }
+}
+
+}  // namespace bp
