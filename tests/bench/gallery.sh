@@ -8,18 +8,26 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$2" && cd "$2"
 export PATH="$build/tools:$build/samples:$PATH"
 
-# mesh INPUT OPTION...: its report as lines of the tables. A bound on the distance that nothing reaches (--error 100%) has the
-# distances measured.
+# mesh OUT QUESTION INPUT OPTION...: lines of the tables: level, faces, volume over that of the voxels, and of QUESTION "scene"
+# the distance from the proxy to the scene, mean (largest of the samples); "none" asks for no distances.
 mesh() {
-  bpmesh "$@" --overwrite -q --report report.json
-  python3 - <<'P'
-import json
-counts = json.load(open("report.json"))["counts"]
-for i, level in enumerate(counts["levels"]):
-    far = level.get("distance")
-    show = lambda k: "%.2f (%.3g)" % (far[k]["mean"], far[k]["at_most"]) if far else "-"
-    ratio = level["volume"] / counts["volume_of_voxels"]
-    print(f'| {i} | {level["faces"]} | {ratio:.3f} | {show("proxy_to_enclosed")} | {show("enclosed_to_proxy")} |')
+  local out=$1 question=$2
+  shift 2
+  bpmesh "$@" -o "$out" --overwrite -q --report report.json
+  python3 - "$out" "$question" <<'P'
+import json, subprocess, sys
+report, out = json.load(open("report.json")), sys.argv[1]
+levels = report["counts"]["levels"]
+for i, level in enumerate(levels):
+    name = out if len(levels) == 1 else out.replace(".", f".{i}.")
+    line = f'| {i} | {level["faces"]} | {level["volume"] / report["counts"]["volume_of_voxels"]:.3f} |'
+    if sys.argv[2] == "scene":
+        check = subprocess.run(["bpcheck", "plant.ply", name, "--json"], capture_output=True, text=True).stdout
+        distance = json.loads(check)["measures"]["proxy_to_scene"]
+        line += " %.2f (%.3g) |" % (distance["mean"], distance["max"])
+    if "quads" in level:
+        line += " quads: " + json.dumps(level["quads"])
+    print(line)
 P
 }
 draw() {
@@ -31,22 +39,22 @@ draw() {
 bp-plant --triangles 200000 -o plant.ply --overwrite
 bpvox plant.ply --resolution 192 -q | bpclose --scale 2% -q -o closed.bpv --overwrite
 echo "proxy"
-mesh closed.bpv --enclose closing --faces 1000 --error 100% -o proxy.glb
+mesh proxy.glb scene closed.bpv --faces 1000
 draw gallery-stages.png 400 plant.ply closed.bpv proxy.glb
 bpvox plant.ply --resolution 256 -q | bpclose --scale 2% -q | bpmesh --faces 3000 -q -o plant.glb --overwrite
 draw plant.png 440 plant.ply plant.glb
 echo "levels"
-mesh closed.bpv --enclose closing --faces 2000,600,200 --error 100% -o lod.glb
+mesh lod.glb scene closed.bpv --faces 2000,600,200
 draw gallery-levels.png 340 lod.0.glb lod.1.glb lod.2.glb
 echo "inside"
 bpvox plant.ply --resolution 192 --fill inside -q | bpclose --inner --scale 1% -q -o opened.bpv --overwrite
-mesh opened.bpv --mode inside --faces 300 -o inside.glb
+mesh inside.glb none opened.bpv --mode inside --faces 300
 draw gallery-inside.png 400 plant.ply inside.glb
 echo "fit"
-mesh closed.bpv --mode fit --faces 1000 -o fit.glb
+mesh fit.glb scene closed.bpv --mode fit --faces 1000
 draw gallery-fit.png 400 closed.bpv fit.glb
 echo "quads"
-mesh closed.bpv --enclose closing --faces 700 --error 100% --quads -o cage.obj
+mesh cage.obj scene closed.bpv --faces 700 --quads
 grep -c '^f [^ ]* [^ ]* [^ ]* ' cage.obj | sed 's/$/ quads/'
 draw gallery-quads.png 400 cage.obj
 
