@@ -271,7 +271,7 @@ int run(const Options& o) {
   std::unique_ptr<bp::OutputFile> picture;  // opened first: a name that cannot be written fails before the work
   if (!o.image.file.empty()) picture = bp::open_output(o.image.file, o.common.overwrite);
   bp::CheckBudget budget(o.common.memory_bytes, o.files.size() > 1);
-  bp::SceneOptions scene_options = budget.of_proxy(o.files.back());
+  bp::SceneOptions scene_options = budget.of_proxy();
   scene_options.format = o.format;
   scene_options.temp_dir = o.common.temp;
   std::vector<bp::IndexedMesh> levels = bp::read_levels(o.files.back(), scene_options);

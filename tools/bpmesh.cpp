@@ -383,7 +383,6 @@ bp::MeshParams mesh_params(const Options& o, const bp::StreamHeader& header) {
   params.distances = o.measure || (o.error && (chosen || o.faces.size() > 1));
   if (!params.tighten && !params.distances && chosen)
     bp::fail(bp::ErrorCode::bad_argument, "--enclose says what tightening keeps inside; --no-tighten leaves that out");
-  params.memory = bp::mesh_memory(o.common);
   return params;
 }
 
@@ -397,9 +396,9 @@ void note_origin(bp::Report& report, const Options& o, const bp::StreamHeader& h
 
 /// What is enclosed; a note where it is less than could be.
 std::string set_enclosure(const Options& o, const bp::StreamHeader& header, bp::MeshParams& params,
-                          bp::Report& report) {
+                          const bp::PieceMemory& memory, bp::Report& report) {
   bp::Enclosure enclosure = bp::make_enclosure(
-      o.enclose, {header, o.mode, params.tighten, o.error.has_value(), params.distances, params.memory, o.common.temp});
+      o.enclose, {header, o.mode, params.tighten, o.error.has_value(), params.distances, memory, o.common.temp});
   if (!enclosure.note.empty()) report.note(enclosure.note, o.common);
   params.enclose = enclosure.what;
   params.scene = std::move(enclosure.scene);
@@ -448,17 +447,19 @@ void run(const Options& o) {
   bp::BrickReader source(o.in);
   const bp::Vec3d origin = bp::origin_of(o.origin, source.header().frame, source.header().bounds);
   bp::MeshParams params = mesh_params(o, source.header());
-  const std::string enclosed = set_enclosure(o, source.header(), params, report);
+  bp::PassContext context;
+  context.pieces = bp::mesh_memory(o.common);
+  context.make_shelf = bp::make_shelf_factory(bp::MeshBudget(o.common.memory_bytes).shelves, o.common.temp);
+  const std::string enclosed = set_enclosure(o, source.header(), params, context.pieces, report);
   note_estimate(report, o, source.header(), params.enclose);
   note_axes(report, o, source.header(), format);
   const double error_world = params.error_world;
   bp::MeshCounts counts;
-  const auto make_shelf = bp::make_shelf_factory(bp::MeshBudget(o.common.memory_bytes).shelves, o.common.temp);
-  bp::SolidKeeper keeper(source, make_shelf());
+  bp::SolidKeeper keeper(source, context.make_shelf());
   const bool may_raise =
       o.mode == bp::MeshMode::bounding && !o.faces.empty() && bp::has_scale_to_raise(source.header());
   bp::BrickSource& bricks = may_raise ? static_cast<bp::BrickSource&>(keeper) : source;
-  std::vector<bp::LatticeMesh> levels = bp::mesh_stream(bricks, make_shelf, std::move(params), counts);
+  std::vector<bp::LatticeMesh> levels = bp::mesh_stream(bricks, context, std::move(params), counts);
   report.bytes_in = source.totals().bytes;
 
   report.stage("write");

@@ -20,18 +20,13 @@ constexpr std::uint64_t kBytesPerFace = 400, kBytesPerVertex = 64;
 CheckBudget::CheckBudget(std::uint64_t memory, bool has_scene)
     : memory_(memory), usable_(UsableMemory(memory, kProgram).bytes), share_(has_scene ? 3 : 4) {}
 
-SceneOptions CheckBudget::of_proxy(const std::string& name) const {
+SceneOptions CheckBudget::of_proxy() const {
   SceneOptions options;
   options.keep_extremes = true;
   options.memory_bytes = usable_ / 8;
   options.document = document_budget(memory_, kProgram, 1);
-  const std::uint64_t left = usable_ / 4 * share_;
-  options.mesh = {left, kBytesPerFace, kBytesPerVertex, [=, *this](std::uint64_t triangles, std::uint64_t bytes) {
-                    fail(ErrorCode::out_of_resource,
-                         "{}: {} triangles take {} MiB, and --memory leaves {} MiB for them; raise --memory{}", name,
-                         triangles, (bytes >> 20) + 1, left >> 20,
-                         document_budget(memory_, kProgram, 1).enough_for(bytes / share_ * 4 - usable_));
-                  }};
+  const MemoryLimit limit = UsableMemory(memory_, kProgram).limit;
+  options.mesh = {{usable_ / 4 * share_, double(share_) / 4, limit}, kBytesPerFace, kBytesPerVertex, "checking"};
   return options;
 }
 

@@ -10,7 +10,7 @@ class CheckBudget {
   CheckBudget(std::uint64_t memory, bool has_scene);
 
   /// Of the file that is read as a whole; refused if it needs more than its share.
-  [[nodiscard]] SceneOptions of_proxy(const std::string& name) const;
+  [[nodiscard]] SceneOptions of_proxy() const;
   /// What the proxy takes is no longer there for the scene.
   void take(const std::vector<IndexedMesh>& proxy);
   [[nodiscard]] std::uint64_t reader_bytes() const { return usable_ / 3; }

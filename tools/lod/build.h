@@ -60,8 +60,8 @@ class Build {
   [[nodiscard]] SceneOptions scene_options(bool beside = false) const;
   /// For LodChain; after voxelize(), as all that follow.
   [[nodiscard]] LodOptions lod_options();
-  /// For surfaces: budget.work, and what spills.
-  [[nodiscard]] PieceMemory pieces() const;
+  /// Of all that follows voxelize(): budget.work, and what spills.
+  [[nodiscard]] PassContext context(ResultStore* results = nullptr) const;
   /// What stays inside bounding levels; after voxelize().
   [[nodiscard]] Enclose enclosed() const { return enclosed_; }
 
@@ -90,7 +90,7 @@ class Build {
   Backends backends;
   const BuildBudget budget;
   const ShelfFactory make_shelf;
-  std::function<void(const char*, const char*, std::uint64_t, std::uint64_t)> show;  ///< progress of stages
+  StageProgress show;  ///< progress of stages
 
  private:
   void gather(TriangleSource& source, const VoxelizedScene& scene);

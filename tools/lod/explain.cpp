@@ -100,7 +100,7 @@ class Plan {
               {"reader_bytes", build_.budget.reader},
               {"waiting_bytes", build_.budget.waiting},
               {"shelf_bytes", build_.budget.shelf},
-              {"work_bytes", build_.budget.work},
+              {"work_bytes", build_.budget.work.bytes},
               {"devices", names_of(build_.backends)},
               {"threads", thread_count()},
               {"levels", Json::array()},
@@ -124,7 +124,7 @@ class Plan {
     const BuildBudget& b = build_.budget;
     out += fmt::format("memory\t{}: reading with {}, {} for what waits; then {} for voxels, {} for surfaces\n",
                        size_text(options_.common.memory_bytes), size_text(b.reader), size_text(b.waiting),
-                       size_text(b.shelf), size_text(b.work));
+                       size_text(b.shelf), size_text(b.work.bytes));
     out += fmt::format("disk\tabout {} of files, about {} of scratch\n", size_text(file_bytes()),
                        size_text(scratch_bytes()));
     out += "level\tvoxel\tscale\thalo\ttiles\tnumbers\tfaces\n";

@@ -37,9 +37,7 @@ HiddenOptions hidden_options(const Build& build, double scale) {
   HiddenOptions o;
   o.scale_world = scale;
   o.element = build.options.element;
-  o.memory_bytes = build.budget.work;
-  o.make_shelf = build.make_shelf;
-  o.progress = build.show;
+  o.context = build.context();
   return o;
 }
 
@@ -142,9 +140,8 @@ class OccluderMesh {
     params.enclose = Enclose::input;
     params.tighten = !build_.options.loose;
     params.least_part = least_part;
-    params.memory = build_.pieces();
     try {
-      level.mesh = std::move(mesh_stream(source, build_.make_shelf, std::move(params), level.counts).front());
+      level.mesh = std::move(mesh_stream(source, build_.context(), std::move(params), level.counts).front());
     } catch (const Error& e) {
       if (scale == 0 || e.code() != ErrorCode::bad_input) throw;
       return false;  // too thin to be meshed

@@ -132,11 +132,7 @@ class TilesetBuild {
     PyramidOptions pyramid_options;
     pyramid_options.cells = cells_;
     pyramid_options.closing.element = options_.element;
-    pyramid_options.memory_bytes = build_.budget.work;
-    pyramid_options.pieces = build_.pieces();
-    pyramid_options.make_shelf = build_.make_shelf;
-    pyramid_options.store = results_.get();
-    pyramid_options.progress = build_.show;
+    pyramid_options.context = build_.context(results_.get());
     TilePyramid pyramid(scene.header, std::move(scene.solid), build_.backends, pyramid_options);
     LodOptions lod = build_.lod_options();
     make_cut_levels(pyramid, scene.header, lod.scene);

@@ -45,9 +45,9 @@ std::optional<std::string> enough_scale(const StreamHeader& header, BrickShelf& 
     ScaleSearch search;
     search.faces = faces;
     search.keep_cavities = option_of_bpclose(header, "keep-cavities") == "yes";
-    search.pieces = mesh_memory(common);
-    search.memory_bytes = search.pieces.work_bytes;
-    search.make_shelf = make_shelf_factory(MeshBudget(common.memory_bytes).shelves, common.temp);
+    search.context.pieces = mesh_memory(common);
+    search.context.memory.bytes = search.context.pieces.work_bytes;
+    search.context.make_shelf = make_shelf_factory(MeshBudget(common.memory_bytes).shelves, common.temp);
     Backends backends = cpu_backends();
     const std::optional<int> times = enough_scales(header, solid, backends, search);
     if (!times) return "";

@@ -141,17 +141,17 @@ class Run {
 
   /// Bits of a cell with its halo, and what closing and labelling need of about the same size.
   [[nodiscard]] int in_flight() const {
+    const MemoryShare& memory = options_.context.memory;
     const double side = double(options_.cells.edge_vox) + 2.0 * halo_.total_vox() + 64;
     const double bytes = 12 * side * side * side / 8 + (16 << 20), least = bytes / 3;  // where little is occupied
-    if (least > double(options_.memory_bytes)) {
-      fail(ErrorCode::out_of_resource,
-           "closing a cell of {} voxels with a halo of {} takes {:.0f} MiB, and --memory leaves {:.0f} MiB for it; "
-           "raise "
-           "--memory{}, or use a smaller --tile or --scale",
-           options_.cells.edge_vox, halo_.total_vox(), least / (1 << 20), double(options_.memory_bytes) / (1 << 20),
-           options_.enough_for ? options_.enough_for(std::uint64_t(least) - options_.memory_bytes) : "");
+    if (least > double(memory.bytes)) {
+      const auto needed = std::uint64_t(least);
+      throw NeedsMemory(
+          fmt::format("closing a cell of {} voxels with a halo of {}", options_.cells.edge_vox, halo_.total_vox()),
+          needed, memory.bytes, memory.limit_with(needed - memory.bytes),
+          {Remedy::smaller_tiles, Remedy::smaller_scale});
     }
-    const double fit = std::min(double(options_.memory_bytes) / bytes, double(backends_.size()));
+    const double fit = std::min(double(memory.bytes) / bytes, double(backends_.size()));
     return std::max(1, int(fit));
   }
 
@@ -169,9 +169,9 @@ class Run {
     ResultKey key;
     std::string result;
     BitBox closed;
-    if (options_.store != nullptr) {
+    if (options_.context.results != nullptr) {
       key = key_of(cell);
-      if (options_.store->get(key, result) && unpack(result, cell, closing_)) {
+      if (options_.context.results->get(key, result) && unpack(result, cell, closing_)) {
         ++kept_;
         closed.reset(cell);
         if (flood_) load_voxels(closing_, closed);
@@ -180,7 +180,7 @@ class Run {
     }
     close_by_backend(cell, closed);
     store_voxels(closed, closing_);
-    if (options_.store != nullptr) options_.store->put(key, packed(closed));
+    if (options_.context.results != nullptr) options_.context.results->put(key, packed(closed));
     label(cell, closed);
   }
 
@@ -221,7 +221,7 @@ class Run {
   }
 
   void report(const char* stage, std::uint64_t done, std::uint64_t total) const {
-    if (options_.progress) options_.progress(stage, "cells", done, total);
+    options_.context.report(stage, "cells", done, total);
   }
 
   const StreamHeader& header_;

@@ -95,8 +95,8 @@ class Run {
         header_(source.header()),
         axis_(header_.slab_axis),
         widest_(widest_halo(scale.upper_bound(header_.frame))),
-        solid_(options.make_shelf()),
-        closing_(options.make_shelf()) {
+        solid_(options.context.make_shelf()),
+        closing_(options.context.make_shelf()) {
     lay_tiles(backends);
   }
 
@@ -106,7 +106,7 @@ class Run {
         boxes_->count() + 2, [&](TileCoord& tile) { return next_tile(tile); },
         [&](const TileCoord& tile) { close(tile); },
         [&](const TileCoord& tile) {
-          report("closing", "tiles", ++done_, 0);
+          options_.context.report("closing", "tiles", ++done_, 0);
           if (options_.keep_cavities) emit_done(tile[axis_]);
         });
     read_before(std::numeric_limits<std::int64_t>::max());  // to the end record
@@ -135,9 +135,6 @@ class Run {
   void fill_tile(TileCoord tile);
   void emit_done(std::int32_t current_layer);
   void emit(const LayerTiles& tiles);
-  void report(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total) const {
-    if (options_.progress) options_.progress(stage, unit, done, total);
-  }
   /// First voxel across the slab axis that is no longer in the layer.
   [[nodiscard]] std::int64_t end_of(std::int32_t layer) const {
     return tiles_.voxels.min[axis_] + (std::int64_t(layer) + 1) * tiles_.edge_vox;
@@ -173,28 +170,29 @@ class Run {
 void Run::lay_tiles(Backends& backends) {
   if (backends.empty()) fail(ErrorCode::bad_argument, "closing needs a backend, and none was made");
   const VoxelBox grid = voxels_of(closing_bricks(header_, scale_));
+  const MemoryShare& memory = options_.context.memory;
   // A GPU has few backends: while they compute, the other threads label and shelve what came back.
   const std::size_t workers = std::max(backends.size(), std::size_t(thread_count()));
   // And its halos are cheap, so that small tiles keep all busy.
   const bool small = backends.size() < workers && widest_.total_vox() <= kMaxTileVox / 8;
   const std::int32_t edge = options_.tile_vox != 0 ? options_.tile_vox
-                                                   : choose_tile(grid.size(), widest_, workers, options_.memory_bytes,
+                                                   : choose_tile(grid.size(), widest_, workers, memory.bytes,
                                                                  small ? kMaxTileVox / 2 : kMaxTileVox);
   if (edge < 0 || edge % kBrickEdge != 0)
     fail(ErrorCode::bad_argument, "a tile of {} voxels a side is no multiple of {}", edge, kBrickEdge);
   const double bytes = tile_bytes(grid.size(), edge, widest_);
-  if (bytes > double(options_.memory_bytes)) {
-    fail(ErrorCode::out_of_resource,
-         "closing a tile of {} voxels with a halo of {} takes {:.0f} MiB, and --memory leaves {:.0f} MiB for it; raise "
-         "--memory{}, or use larger voxels or a smaller --scale{}",
-         edge, widest_.total_vox(), bytes / (1 << 20), double(options_.memory_bytes) / (1 << 20),
-         options_.enough_for ? options_.enough_for(std::uint64_t(std::ceil(bytes))) : "",
-         edge > kBrickEdge ? " or --tile" : "");
+  if (bytes > double(memory.bytes)) {
+    const auto needed = std::uint64_t(std::ceil(bytes));
+    Remedies others{Remedy::larger_voxels, Remedy::smaller_scale};
+    if (edge > kBrickEdge) others.push_back(Remedy::smaller_tiles);
+    throw NeedsMemory(fmt::format("closing a tile of {} voxels with a halo of {}", edge, widest_.total_vox()), needed,
+                      memory.bytes, memory.limit_with(needed - memory.bytes), others);
   }
   tiles_ = TileGrid(grid, edge);
   if (tiles_.total() > kMaxTiles)
-    fail(ErrorCode::bad_argument, "the grid has {:.0f} tiles of {} voxels; use a larger --tile", tiles_.total(), edge);
-  const auto fit = std::size_t(std::max(1.0, std::min(double(workers), double(options_.memory_bytes) / bytes)));
+    fail(ErrorCode::bad_argument, {Remedy::larger_tiles}, "the grid has {:.0f} tiles of {} voxels", tiles_.total(),
+         edge);
+  const auto fit = std::size_t(std::max(1.0, std::min(double(workers), double(memory.bytes) / bytes)));
   std::vector<Backend*> at_work;
   for (std::size_t i = 0; i < std::min(fit, backends.size()); ++i) at_work.push_back(backends[i].get());
   backends_ = std::make_unique<Pool<Backend*>>(std::move(at_work));
@@ -325,7 +323,7 @@ void Run::finish_layers() {
       },
       [&](const std::size_t& i) {
         emit(left[i].second);
-        report("filling", "layers", ++written, left.size());
+        options_.context.report("filling", "layers", ++written, left.size());
       });
 }
 

@@ -24,15 +24,13 @@ ScaleField uniform(double scale) {
 CloseOptions close_options(const HiddenOptions& o, bool keep_cavities) {
   CloseOptions c;
   c.keep_cavities = keep_cavities;
-  c.memory_bytes = o.memory_bytes;
-  c.make_shelf = o.make_shelf;
-  c.progress = o.progress;
+  c.context = o.context;
   return c;
 }
 
 Shelf closing(const StreamHeader& header, BrickShelf& solid, double scale, bool keep_cavities, Backends& backends,
               const HiddenOptions& o) {
-  Shelf closed = o.make_shelf();
+  Shelf closed = o.context.make_shelf();
   ShelfSource source(header, solid, nullptr, ShelfSource::Keep::all);
   ShelfSink sink(nullptr, closed.get());
   close_stream(source, sink, backends, uniform(scale), {o.element}, close_options(o, keep_cavities));
@@ -49,7 +47,7 @@ Shelf filled(const StreamHeader& header, BrickShelf& solid, Backends& backends, 
 /// G and C.
 Shelf walls(const BrickShelf& touched, const BrickShelf& closed, const BrickShelf& closed_filled,
             const HiddenOptions& o) {
-  Shelf out = o.make_shelf();
+  Shelf out = o.context.make_shelf();
   const std::vector<BrickCoord> coords = closed_filled.coords();
   parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
     const BrickCoord at = coords[std::size_t(i)];
@@ -96,7 +94,7 @@ HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Back
     closed.reset();
     unreached = filled(header, *both, backends, o);
   }
-  HiddenVoxels out{o.make_shelf()};
+  HiddenVoxels out{o.context.make_shelf()};
   std::atomic<std::uint64_t> count{0};
   const std::vector<BrickCoord> coords = unreached->coords();
   parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
@@ -110,7 +108,7 @@ HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Back
 
 std::unique_ptr<BrickShelf> opening(const StreamHeader& header, BrickShelf& solid, Backends& backends,
                                     const HiddenOptions& o) {
-  Shelf out = o.make_shelf();
+  Shelf out = o.context.make_shelf();
   StreamHeader around = header;
   around.bricks = bricks_around(solid);
   ShelfSource source(around, solid, nullptr, ShelfSource::Keep::all);

@@ -24,11 +24,10 @@ std::unique_ptr<BrickShelf> closing_of(const StreamHeader& closed, BrickShelf& s
                                        const ScaleSearch& search) {
   CloseOptions options;
   options.keep_cavities = search.keep_cavities;
-  options.memory_bytes = search.memory_bytes;
-  options.make_shelf = search.make_shelf;
+  options.context = search.context;
   StreamHeader input = closed;
   input.has_closing = false;
-  auto closing = search.make_shelf();
+  auto closing = search.context.make_shelf();
   ShelfSource source(input, solid, nullptr, ShelfSource::Keep::all);
   ShelfSink sink(nullptr, closing.get());
   close_stream(source, sink, backends, closed.scale, {closed.element}, options);
@@ -37,7 +36,7 @@ std::unique_ptr<BrickShelf> closing_of(const StreamHeader& closed, BrickShelf& s
 
 /// False if parts and handles alone take more faces, whatever is merged.
 bool may_have(const BrickShelf& closing, const ScaleSearch& search) {
-  if (topology_bytes(closing) > search.pieces.bytes()) return true;  // not known
+  if (topology_bytes(closing) > search.context.pieces.bytes()) return true;  // not known
   const SolidTopology topology = topology_of(closing);
   return (topology.parts + topology.handles) * kLeastFaces <= search.faces;
 }
@@ -46,10 +45,9 @@ bool has_faces(const StreamHeader& closed, BrickShelf& solid, BrickShelf& closin
   MeshParams params;
   params.faces = {search.faces};
   params.tighten = false;
-  params.memory = search.pieces;
   MeshCounts counts;
   ShelfSource source(closed, solid, &closing, ShelfSource::Keep::solid);
-  return mesh_stream(source, search.make_shelf, params, counts).front().triangles.size() <= search.faces;
+  return mesh_stream(source, search.context, params, counts).front().triangles.size() <= search.faces;
 }
 
 }  // namespace

@@ -43,13 +43,13 @@ class Run {
   Run(TriangleSource& source, Backends& backends, const VoxelizeOptions& options)
       : source_(source),
         options_(options),
-        shelf_(options.make_shelf()),
-        store_(options.make_store()),
-        chunks_(options.results != nullptr && options.fill != FillMode::winding
-                    ? std::make_unique<ChunkedSurface>(*options.results)
+        shelf_(options.context.make_shelf()),
+        store_(options.context.make_store()),
+        chunks_(options.context.results != nullptr && options.fill != FillMode::winding
+                    ? std::make_unique<ChunkedSurface>(*options.context.results)
                     : nullptr),
         // Their bins, half as large, then fit beside them.
-        scene_(source, options.memory_bytes / 5 * 3, chunks_.get()) {
+        scene_(source, options.context.memory.bytes / 5 * 3, chunks_.get()) {
     for (int i = 0; backends.empty() && i < thread_count(); ++i) own_.push_back(std::make_unique<CpuBackend>());
     std::vector<Backend*> all;
     for (const auto& backend : backends.empty() ? own_ : backends) all.push_back(backend.get());
@@ -109,7 +109,7 @@ class Run {
 };
 
 void Run::measure() {
-  scene_.measure(options_.progress);
+  scene_.measure(options_.context.progress);
   counts_.scene = source_.counts();
   counts_.input_hash = scene_.input_hash();
   counts_.read_twice = scene_.reads_twice();
@@ -126,12 +126,12 @@ void Run::lay_grid() {
   tiles_ = TileGrid(grid, edge);
   const VoxelCoord size = grid.size();
   if (tiles_.total() > kMaxTiles) {
-    fail(ErrorCode::bad_argument,
-         "a grid of {} x {} x {} voxels is too fine; use a larger --voxel or a smaller --resolution", size.x, size.y,
+    fail(ErrorCode::bad_argument, {Remedy::coarser_grid}, "a grid of {} x {} x {} voxels is too fine", size.x, size.y,
          size.z);
   }
   if (options_.fill == FillMode::winding && std::max({size.x, size.y, size.z}) > kWindingVoxels)
-    fail(ErrorCode::bad_argument, "a grid over 2^24 voxels a side cannot be filled by winding; use --fill flood");
+    fail(ErrorCode::bad_argument, {Remedy::flood_fill},
+         "a grid over 2^24 voxels a side cannot be filled by winding numbers");
   counts_.tiles = std::uint64_t(tiles_.total());
   // A GPU has few backends: the other threads load, label and shelve meanwhile.
   const std::uint64_t fit = std::max<std::uint64_t>(1, options_.tile_memory_bytes / work_bytes(edge));
@@ -155,18 +155,19 @@ void Run::sort_triangles() {
 
 /// The triangles of chunks that are known are not looked at again; if all are, the scene is not read twice.
 void Run::look_up_chunks() {
-  chunks_->look_up(header_.frame, header_.bricks, options_.memory_bytes / 10 * 3, *shelf_);
+  chunks_->look_up(header_.frame, header_.bricks, options_.context.memory.bytes / 10 * 3, *shelf_);
   counts_.chunks = chunks_->chunks();
   counts_.chunks_kept = chunks_->kept();
   if (chunks_->complete()) return;
   if (chunks_->needs_met()) scene_.read_twice();
   counts_.read_twice = scene_.reads_twice();
-  StageSteps steps(options_.progress, "voxelizing", "triangles", counts_.scene.triangles);
+  StageSteps steps(options_.context.progress, "voxelizing", "triangles", counts_.scene.triangles);
   scene_.again([&](const NextPortion& next) {
-    chunks_->add_missing(next, options_.memory_bytes / 10, [&](std::uint64_t n, std::vector<TriangleD>&& large) {
-      if (!large.empty()) bin(bins_->sort(to_fixed(large)));
-      steps.add(n);
-    });
+    chunks_->add_missing(next, options_.context.memory.bytes / 10,
+                         [&](std::uint64_t n, std::vector<TriangleD>&& large) {
+                           if (!large.empty()) bin(bins_->sort(to_fixed(large)));
+                           steps.add(n);
+                         });
   });
 }
 
@@ -179,7 +180,7 @@ std::vector<FixedTriangle> Run::to_fixed(std::span<const TriangleD> triangles) c
 
 void Run::bin(TriangleBatch&& batch) {
   bins_->add(std::move(batch));
-  if (waiting_bytes() > options_.memory_bytes) make_room();
+  if (waiting_bytes() > options_.context.memory.bytes) make_room();
 }
 
 /// Triangles to fixed point, into the bins of their tiles.
@@ -188,7 +189,7 @@ void Run::bin(const NextPortion& next) {
     Portion portion;
     TriangleBatch batch;
   };
-  StageSteps steps(options_.progress, "sorting", "triangles", counts_.scene.triangles);
+  StageSteps steps(options_.context.progress, "sorting", "triangles", counts_.scene.triangles);
   pipeline<Item>(
       thread_count() + 2, [&](Item& item) { return next(item.portion); },
       [&](Item& item) {
@@ -205,7 +206,7 @@ void Run::bin(const NextPortion& next) {
 /// What fills memory_bytes. Were more than half of it put aside, the bins would have nothing to grow in.
 std::uint64_t Run::waiting_bytes() const {
   const std::uint64_t aside = store_->memory_bytes() + shelf_->memory_bytes() + bins_->table_bytes();
-  return bins_->memory_bytes() + std::min(aside, options_.memory_bytes / 2);
+  return bins_->memory_bytes() + std::min(aside, options_.context.memory.bytes / 2);
 }
 
 /// Tiles with many triangles are voxelized now: their bits are far smaller. The triangles of the others go to the
@@ -247,7 +248,7 @@ void Run::voxelize() {
   const std::vector<std::uint64_t> tiles = tiles_with_triangles();
   for (const std::uint64_t tile : tiles) on_shelf_[tile];
   counts_.tiles_touched = tiles.size();
-  StageSteps steps(options_.progress, "voxelizing", "tiles", tiles.size());
+  StageSteps steps(options_.context.progress, "voxelizing", "tiles", tiles.size());
   parallel_for(std::int64_t(tiles.size()), [&](std::int64_t i) {
     const std::uint64_t tile = tiles[std::size_t(i)];
     voxelize_tile(tile, on_shelf_.at(tile), true);
@@ -289,12 +290,12 @@ struct Run::Slab {
 
 void Run::fill_and_emit(BrickSink& sink) {
   if (options_.fill == FillMode::winding) {
-    fill_->fill_columns(options_.progress);
+    fill_->fill_columns(options_.context.progress);
     counts_.open_columns = fill_->open_columns();
   }
   const int axis = header_.slab_axis;
   const int a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
-  StageSteps steps(options_.progress, "filling", "slabs", std::uint64_t(tiles_.count[axis]));
+  StageSteps steps(options_.context.progress, "filling", "slabs", std::uint64_t(tiles_.count[axis]));
   TileCoord at{};
   pipeline<Slab>(
       2,
