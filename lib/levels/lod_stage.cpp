@@ -208,11 +208,7 @@ struct LodChain::State {
     CloseOptions o;
     o.keep_cavities = options.keep_cavities;
     o.context = context;
-    auto closing = context.make_shelf();
-    ShelfSource source(header, *solid, nullptr, ShelfSource::Keep::all);
-    ShelfSink sink(nullptr, closing.get());
-    close_stream(source, sink, backends, uniform(scale), options.closing, o);
-    return closing;
+    return close_shelf(header, *solid, backends, scale, options.closing, o);
   }
 
   /// The closing at half of `scale`, which is halved then, where a budget has faces enough for what parts and holes it

@@ -1,5 +1,7 @@
 #include "tools/cli/advice.h"
 
+#include <string_view>
+
 namespace bp {
 
 namespace {
@@ -69,10 +71,14 @@ const char* text_of(Remedy remedy) {
 std::string advised(const Error& error) {
   std::string text = error.what();
   bool first = text.find("; ") == std::string::npos;  // nothing is advised yet
+  std::string_view before;
   for (const Remedy& remedy : error.remedies()) {
     const bool last = &remedy == &error.remedies().back();
     text += first ? "; " : last ? ", or " : ", ";
-    text += text_of(remedy);
+    std::string_view words = text_of(remedy);
+    if (before.starts_with("use ") && words.starts_with("use ")) words.remove_prefix(4);  // is said already
+    before = text_of(remedy);
+    text += words;
     if (remedy == Remedy::more_memory && error.memory_bytes() > 0)
       text += fmt::format(" to at least {} MiB", (error.memory_bytes() >> 20) + 1);
     first = false;

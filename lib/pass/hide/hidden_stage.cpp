@@ -15,12 +15,6 @@ namespace {
 using Shelf = std::unique_ptr<BrickShelf>;
 constexpr int kLayers = 2;  // of voxels of the scene that are seen
 
-ScaleField uniform(double scale) {
-  ScaleField field;
-  field.base = scale;
-  return field;
-}
-
 CloseOptions close_options(const HiddenOptions& o, bool keep_cavities) {
   CloseOptions c;
   c.keep_cavities = keep_cavities;
@@ -30,11 +24,7 @@ CloseOptions close_options(const HiddenOptions& o, bool keep_cavities) {
 
 Shelf closing(const StreamHeader& header, BrickShelf& solid, double scale, bool keep_cavities, Backends& backends,
               const HiddenOptions& o) {
-  Shelf closed = o.context.make_shelf();
-  ShelfSource source(header, solid, nullptr, ShelfSource::Keep::all);
-  ShelfSink sink(nullptr, closed.get());
-  close_stream(source, sink, backends, uniform(scale), {o.element}, close_options(o, keep_cavities));
-  return closed;
+  return close_shelf(header, solid, backends, scale, {o.element}, close_options(o, keep_cavities));
 }
 
 /// The voxels that solid ones enclose, and these.
@@ -115,7 +105,9 @@ std::unique_ptr<BrickShelf> opening(const StreamHeader& header, BrickShelf& soli
   ComplementSource complement(source);
   ShelfSink sink(nullptr, out.get());
   ComplementSink opened(sink, around);
-  close_stream(complement, opened, backends, uniform(o.scale_world), {o.element}, close_options(o, true));
+  ScaleField scale;
+  scale.base = o.scale_world;
+  close_stream(complement, opened, backends, scale, {o.element}, close_options(o, true));
   opened.finish();
   return out->coords().empty() ? nullptr : std::move(out);
 }

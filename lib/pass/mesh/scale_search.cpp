@@ -27,11 +27,7 @@ std::unique_ptr<BrickShelf> closing_of(const StreamHeader& closed, BrickShelf& s
   options.context = search.context;
   StreamHeader input = closed;
   input.has_closing = false;
-  auto closing = search.context.make_shelf();
-  ShelfSource source(input, solid, nullptr, ShelfSource::Keep::all);
-  ShelfSink sink(nullptr, closing.get());
-  close_stream(source, sink, backends, closed.scale, {closed.element}, options);
-  return closing;
+  return close_shelf(input, solid, backends, closed.scale.base, {closed.element}, options);
 }
 
 /// False if parts and handles alone take more faces, whatever is merged.

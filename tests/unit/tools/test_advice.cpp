@@ -17,7 +17,7 @@ TEST_CASE("the advice on an error names the options that would help", "[quick][t
       advised(
           NeedsMemory("closing a tile", 7 * mib, 3 * mib, 20 * mib, {Remedy::larger_voxels, Remedy::fewer_faces})) ==
       "closing a tile takes 8 MiB, and the limit on memory leaves 3 MiB for it; raise --memory to at least 21 MiB, use "
-      "larger voxels, or use fewer faces");
+      "larger voxels, or fewer faces");
 }
 
 TEST_CASE("a limit on memory is known from what one share of it lacks", "[quick][tools]") {

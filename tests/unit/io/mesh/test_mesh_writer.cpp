@@ -84,7 +84,7 @@ TEST_CASE("STL is written when each coordinate is a float, and refused otherwise
   CHECK(bytes_of_file(dir.path("m.stl")).compare(0, 6, "bpmesh") == 0);
 
   const LatticeMesh far = random_mesh(frame_at({6801760.25, -455564.7, 31.3}, 100, 0.125, UpAxis::y), 64 * 100, 5);
-  CHECK_THAT(refusal(far, "m.stl"), Contains("from an origin of"));
+  CHECK_THAT(refusal(far, "m.stl"), Contains("to an origin of"));
   MeshWriteOptions moved;
   moved.origin = far.frame.world_origin();
   const auto back = soup(read_mesh(write(dir, far, "far.stl", moved)));
