@@ -144,8 +144,8 @@ class CudaBackend final : public Backend {
     if (error == cudaSuccess) return;
     (void)cudaGetLastError();
     throw DeviceError(fmt::format(
-        "{} (compute capability {}.{}): this build holds no code that runs there ({}); rebuild with "
-        "-DCMAKE_CUDA_ARCHITECTURES={}{}, or use --device cpu",
+        "{} (compute capability {}.{}): this build holds no code that runs there ({}); one with "
+        "-DCMAKE_CUDA_ARCHITECTURES={}{} does",
         name_, properties_.major, properties_.minor, cudaGetErrorName(error), properties_.major, properties_.minor));
   }
 
@@ -341,8 +341,8 @@ class CudaBackend final : public Backend {
     VoxelBox lower = interior, upper = interior;
     const int axis = longest_divisible_axis(interior);
     if (axis < 0) {
-      throw DeviceError(fmt::format("{}: not enough device memory for a tile of {} x {} x {} voxels; use --device cpu",
-                                    name_, interior.size().x, interior.size().y, interior.size().z));
+      throw DeviceError(fmt::format("{}: not enough device memory for a tile of {} x {} x {} voxels", name_,
+                                    interior.size().x, interior.size().y, interior.size().z));
     }
     const std::int32_t unit = axis == 0 ? kBrickEdge : kUnit;  // whole words along x
     lower.max[axis] = upper.min[axis] = floor_div(interior.min[axis] + (interior.size()[axis] + unit) / 2, unit) * unit;
@@ -378,8 +378,7 @@ std::vector<CudaDevice> cuda_devices() {
     (void)cudaGetLastError();
     if (cudaDriverGetVersion(&driver) != cudaSuccess || driver == 0) return {};
     throw DeviceError(
-        fmt::format("GPU: the driver is for CUDA {}.{}, older than this build needs; update it, or use "
-                    "--device cpu",
+        fmt::format("GPU: the driver is for CUDA {}.{}, older than this build needs, and is to be updated",
                     driver / 1000, driver % 1000 / 10));
   }
   if (error == cudaErrorNoDevice) {

@@ -168,7 +168,7 @@ int run(const bp::CheckRun& o) {
   bp::Report report("bpcheck");
   report.stage("read the proxy");
   bp::CheckBudget budget(o.common.memory_bytes, o.files.size() - 1);
-  bp::SceneOptions scene_options = budget.of_proxy(o.files.back());
+  bp::SceneOptions scene_options = budget.of_proxy();
   scene_options.format = o.format;
   scene_options.temp_dir = o.common.temp;
   std::vector<bp::IndexedMesh> levels = bp::read_levels(o.files.back(), scene_options);

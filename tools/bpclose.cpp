@@ -80,18 +80,14 @@ bp::OptionText option_text(const Options& o, const bp::ScaleField& field) {
 
 /// How --memory is shared out: the program, the stream's batches and `pinned` memory, the shelves, the tiles at work.
 bp::CloseOptions stage_options(const Options& o, std::uint64_t pinned, bp::Progress& progress) {
-  const std::uint64_t fixed = bp::kVoxelProgram + pinned, memory = o.common.memory_bytes;
-  const std::uint64_t usable = memory > 2 * fixed ? memory - fixed : memory / 2;
+  const bp::MemoryLimit limit{o.common.memory_bytes, bp::kVoxelProgram + pinned};
+  const std::uint64_t usable = limit.rest_bytes();
   bp::CloseOptions options;
-  options.enough_for = [fixed](std::uint64_t for_tiles) {
-    const std::uint64_t all = for_tiles > fixed / 2 ? 2 * for_tiles + fixed : 4 * for_tiles;
-    return fmt::format(" to at least {} MiB", (all >> 20) + 1);
-  };
   options.keep_cavities = o.keep_cavities || o.inner;  // the cavities of the complement are the solid
-  options.memory_bytes = usable / 2;
-  options.make_shelf = bp::make_shelf_factory(usable / 5 * 2, o.common.temp);
-  options.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
-                                                       std::uint64_t total) mutable {
+  options.context.memory = {usable / 2, 0.5, limit};
+  options.context.make_shelf = bp::make_shelf_factory(usable / 5 * 2, o.common.temp);
+  options.context.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
+                                                               std::uint64_t total) mutable {
     if (last != stage) progress.begin(last = stage, total, unit);
     progress.set(done, total);
   };

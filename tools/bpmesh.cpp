@@ -48,7 +48,6 @@ bp::MeshParams mesh_params(const bp::MeshOptions& o, const bp::StreamHeader& hea
   // What may come out beyond --error is measured, so that it can be told.
   const bool chosen = o.proxy.enclose.kind != bp::EncloseOption::Kind::automatic;
   params.distances = o.error() && (chosen || o.levels.faces.size() > 1);
-  params.memory = bp::mesh_memory(o.common);
   return params;
 }
 
@@ -62,9 +61,9 @@ void note_origin(bp::Report& report, const bp::MeshOptions& o, const bp::StreamH
 
 /// What is enclosed; a note where it is less than could be.
 std::string set_enclosure(const bp::MeshOptions& o, const bp::StreamHeader& header, bp::MeshParams& params,
-                          bp::Report& report) {
+                          const bp::PieceMemory& memory, bp::Report& report) {
   bp::Enclosure enclosure = bp::make_enclosure(
-      o.proxy.enclose, {header, o.proxy.mode, o.error().has_value(), params.distances, params.memory, o.common.temp});
+      o.proxy.enclose, {header, o.proxy.mode, o.error().has_value(), params.distances, memory, o.common.temp});
   if (!enclosure.note.empty()) report.note(enclosure.note, o.common);
   params.enclose = enclosure.what;
   params.scene = std::move(enclosure.scene);
@@ -104,17 +103,19 @@ void run(const bp::MeshOptions& o) {
   bp::BrickReader source(o.in);
   const bp::Vec3d origin = bp::origin_of(o.proxy.origin, source.header().frame, source.header().bounds);
   bp::MeshParams params = mesh_params(o, source.header());
-  const std::string enclosed = set_enclosure(o, source.header(), params, report);
+  bp::PassContext context;
+  context.pieces = bp::mesh_memory(o.common);
+  context.make_shelf = bp::make_shelf_factory(bp::MeshBudget(o.common.memory_bytes).shelves, o.common.temp);
+  const std::string enclosed = set_enclosure(o, source.header(), params, context.pieces, report);
   note_estimate(report, o, source.header(), params.enclose);
   note_axes(report, o, source.header(), format);
   const double error_world = params.error_world;
   bp::MeshCounts counts;
-  const auto make_shelf = bp::make_shelf_factory(bp::MeshBudget(o.common.memory_bytes).shelves, o.common.temp);
-  bp::SolidKeeper keeper(source, make_shelf());
+  bp::SolidKeeper keeper(source, context.make_shelf());
   const bool may_raise =
       o.proxy.mode == bp::MeshMode::bounding && !o.levels.faces.empty() && bp::has_scale_to_raise(source.header());
   bp::BrickSource& bricks = may_raise ? static_cast<bp::BrickSource&>(keeper) : source;
-  std::vector<bp::LatticeMesh> levels = bp::mesh_stream(bricks, make_shelf, std::move(params), counts);
+  std::vector<bp::LatticeMesh> levels = bp::mesh_stream(bricks, context, std::move(params), counts);
   report.bytes_in = source.totals().bytes;
 
   report.stage("write");
@@ -132,7 +133,7 @@ void run(const bp::MeshOptions& o) {
   if (may_raise && bp::wants_scale(o, counts)) {
     report.stage("try scales");
     levels.clear();  // they are written, and their memory is counted on
-    scale = bp::enough_scale(source.header(), keeper.shelf(), o.levels.faces.front(), make_shelf, o.common);
+    scale = bp::enough_scale(source.header(), keeper.shelf(), o.levels.faces.front(), context.make_shelf, o.common);
   }
   bp::note_shortfalls(report, o, counts, error_world, scale);
   report.write(o.common);

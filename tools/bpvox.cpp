@@ -86,12 +86,12 @@ bp::VoxelizeOptions stage_options(const Options& o, const bp::VoxelizeBudget& bu
   v.voxel_size = [&o](const bp::Bounds3d& bounds) { return voxel_size(o, bounds); };
   v.fill = o.voxels.fill;
   v.up = o.voxels.up;
-  v.memory_bytes = budget.waiting;
+  v.context.memory.bytes = budget.waiting;
   v.tile_memory_bytes = budget.tiles;
-  v.make_shelf = bp::make_shelf_factory(budget.shelf, o.common.temp);
-  v.make_store = [&o, budget] { return bp::make_chunk_store(budget.store, o.common.temp); };
-  v.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
-                                                 std::uint64_t total) mutable {
+  v.context.make_shelf = bp::make_shelf_factory(budget.shelf, o.common.temp);
+  v.context.make_store = [&o, budget] { return bp::make_chunk_store(budget.store, o.common.temp); };
+  v.context.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
+                                                         std::uint64_t total) mutable {
     if (last != stage) progress.begin(last = stage, total, unit);
     progress.set(done, total);
   };

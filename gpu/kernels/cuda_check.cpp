@@ -28,21 +28,19 @@ void check_cuda(cudaError_t error, const char* what) {
   (void)cudaGetLastError();  // an error that is not sticky must not show up in the next call
   const std::string device = current_device();
   if (error == cudaErrorMemoryAllocation) {
-    throw OutOfDeviceMemory(fmt::format(
-        "{}: out of device memory in {}; use smaller tiles, fewer tools on this GPU, or --device cpu", device, what));
+    throw OutOfDeviceMemory(fmt::format("{}: out of device memory in {}", device, what));
   }
-  throw DeviceError(
-      fmt::format("{}: {} failed: {} ({}); rerun with BP_DEBUG_SYNC=1 to name the kernel, or use --device cpu", device,
-                  what, cudaGetErrorString(error), cudaGetErrorName(error)));
+  throw DeviceError(fmt::format("{}: {} failed: {} ({}); BP_DEBUG_SYNC=1 in the environment names the kernel", device,
+                                what, cudaGetErrorString(error), cudaGetErrorName(error)));
 }
 
 void check_pinned(cudaError_t error, std::size_t bytes) {
   if (error != cudaErrorMemoryAllocation) return check_cuda(error, "cudaMallocHost");
   (void)cudaGetLastError();
-  throw DeviceError(
-      fmt::format("{}: {} MiB of page-locked host memory cannot be had; raise the limit of this container or of "
-                  "ulimit -l, or use --device cpu",
-                  current_device(), bytes >> 20));
+  throw DeviceError(fmt::format(
+      "{}: {} MiB of page-locked host memory cannot be had; the limit of this container, or ulimit -l, is too "
+      "low",
+      current_device(), bytes >> 20));
 }
 
 void check_launch(cudaError_t error, const char* kernel, cudaStream_t stream) {

@@ -9,7 +9,8 @@ namespace bp {
 /// The device has no room for something; its parts may fit.
 class OutOfDeviceMemory : public DeviceError {
  public:
-  explicit OutOfDeviceMemory(const std::string& message) : DeviceError(message) {}
+  explicit OutOfDeviceMemory(const std::string& message)
+      : DeviceError(message, {Remedy::smaller_tiles, Remedy::fewer_users_of_device, Remedy::use_cpu}) {}
 };
 
 }  // namespace bp

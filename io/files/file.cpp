@@ -130,7 +130,7 @@ OutputFile::OutputFile(const std::string& path, bool overwrite)
     return;
   }
   refuse_kept(path);
-  if (!overwrite && is_there(path)) fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", path);
+  if (!overwrite && is_there(path)) fail(ErrorCode::bad_argument, {Remedy::overwrite}, "{}: exists", path);
   open_partial();
 }
 
@@ -251,7 +251,7 @@ ScratchFile::ScratchFile(const std::string& directory) : state_(new State) {
     if (state_->fd >= 0) ::unlink(state_->name.c_str());
   }
   if (state_->fd < 0) {
-    fail(ErrorCode::out_of_resource, "{}: cannot create a scratch file: {}; choose another --temp", directory,
+    fail(ErrorCode::out_of_resource, {Remedy::other_scratch_folder}, "{}: cannot create a scratch file: {}", directory,
          std::strerror(errno));
   }
 }

@@ -40,8 +40,8 @@ void place_file(const std::string& from, const std::string& name, bool overwrite
   const int error = place(from.c_str(), name.c_str(), overwrite, partial);
   if (error == 0) return;
   if (error == EEXIST && !overwrite)
-    fail(ErrorCode::bad_argument,
-         "{}: appeared during the work, and is not replaced; name another output, or add --overwrite", name);
+    fail(ErrorCode::bad_argument, {Remedy::other_output, Remedy::overwrite},
+         "{}: appeared during the work, and is not replaced", name);
   const bool full = error == ENOSPC || error == EDQUOT;
   fail(full ? ErrorCode::out_of_resource : ErrorCode::failed, "{}: cannot write: {}", name, std::strerror(error));
 }

@@ -65,10 +65,9 @@ void check_floats(const LatticeMesh& mesh, const WorldVertices& vertices, const 
   for (const Vec3d& p : vertices) {
     for (const double c : p) {
       if (double(float(c)) == c) continue;
-      fail(ErrorCode::bad_argument,
-           "{}: STL holds 32-bit floats, and the coordinate {} is none; move the mesh with --origin={}, or write "
-           "GLB, PLY or OBJ",
-           name, text_of(c), text_of(rounded_to_voxels(mesh.frame, vertices.front()), ","));
+      fail(ErrorCode::bad_argument, {Remedy::set_origin, Remedy::double_format},
+           "{}: STL holds 32-bit floats, and the coordinate {} is none (relative to an origin of {} it may be)", name,
+           text_of(c), text_of(rounded_to_voxels(mesh.frame, vertices.front()), ","));
     }
   }
 }
@@ -151,7 +150,7 @@ MeshFormat mesh_format_of(const std::string& path) {
 
 MeshFormat mesh_format_named(const std::string& name) {
   if (const auto format = format_of(name)) return *format;
-  fail(ErrorCode::bad_argument, "--format: '{}' is none of glb gltf ply obj stl", name);
+  fail(ErrorCode::bad_argument, "the format '{}' is none of glb gltf ply obj stl", name);
 }
 
 void write_mesh(const LatticeMesh& mesh, OutputFile& out, MeshFormat format, const MeshWriteOptions& options) {

@@ -37,7 +37,7 @@ constexpr std::uint64_t kAnswerCopies = 4;  // of what the child sends, and what
 
 /// Assimp takes some 20 times the size of a file; this allows twice as much. Of what a document may take, the answer
 /// gets a quarter once the child is gone.
-ChildLimits limits_for(std::uint64_t file_bytes, const DocumentBudget& budget) {
+ChildLimits limits_for(std::uint64_t file_bytes, const MemoryShare& budget) {
   ChildLimits limits;
   limits.memory_bytes = std::min(kMaxMemoryBytes, (std::uint64_t(1) << 30) + 40 * file_bytes);
   limits.cpu_seconds = 5 + file_bytes / 50000;
@@ -49,15 +49,16 @@ ChildLimits limits_for(std::uint64_t file_bytes, const DocumentBudget& budget) {
 }
 
 [[noreturn]] void fail_memory(const std::string& name, const std::string& what, std::uint64_t file_bytes,
-                              const ChildLimits& limits, const DocumentBudget& budget) {
+                              const ChildLimits& limits, const MemoryShare& budget) {
   if (budget.bytes == 0 || limits.memory_bytes < budget.bytes) {
     fail(ErrorCode::bad_input, "{}: {} wants more than {} MiB, too much for a file of this size; repair it, or {}",
          name, what, limits.memory_bytes >> 20, remedy_for(name));
   }
   const std::uint64_t wanted = std::max(2 * limits.memory_bytes, 4 * file_bytes);  // at least
-  fail(ErrorCode::out_of_resource,
-       "{}: {} takes more than the {} MiB that --memory leaves for it; raise --memory{}, or {}", name, what,
-       limits.memory_bytes >> 20, budget.enough_for ? budget.enough_for(wanted - budget.bytes) : "", remedy_for(name));
+  throw Error(ErrorCode::out_of_resource,
+              fmt::format("{}: {} takes more than the {} MiB that the limit on memory leaves for it; {}", name, what,
+                          limits.memory_bytes >> 20, remedy_for(name)),
+              {Remedy::more_memory}, budget.limit_with(wanted - budget.bytes));
 }
 
 // --- What the child sends: plain records, counted

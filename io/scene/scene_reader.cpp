@@ -22,21 +22,25 @@ bool in_predicate_domain(const TriangleD& t) {
 }
 
 /// Of a mesh read so far: counts the triangles that are left, too, so that the figure is known.
-void check_limit(const MeshLimit& limit, std::uint64_t before, const IndexedMesh& mesh, RawSource& raw,
-                 RawBatch& batch) {
+void check_limit(const std::string& name, const MeshLimit& limit, std::uint64_t before, const IndexedMesh& mesh,
+                 RawSource& raw, RawBatch& batch) {
   const std::uint64_t here = mesh.triangles.size();
-  if (limit.bytes == 0 || here == 0 || before + limit.needed(here, mesh.vertices.size()) <= limit.bytes) return;
+  if (limit.memory.bytes == 0 || here == 0 || before + limit.needed(here, mesh.vertices.size()) <= limit.memory.bytes)
+    return;
   std::uint64_t all = here;
   while (raw.next(batch)) {
     raw.complete(batch);
     all += batch.triangles.size();
   }
   const double vertices = double(mesh.vertices.size()) / double(here) * double(all);  // as many of each triangle
-  limit.refuse(all, before + limit.needed(all, std::uint64_t(vertices)));
+  const std::uint64_t bytes = before + limit.needed(all, std::uint64_t(vertices));
+  throw NeedsMemory(fmt::format("{}: {} {} triangles", name, limit.purpose, all), bytes, limit.memory.bytes,
+                    limit.memory.limit_with(bytes - limit.memory.bytes));
 }
 
 /// `before`: bytes of levels that are in memory.
-IndexedMesh mesh_of(RawSource& raw, const SceneOptions& options, std::uint64_t before, SceneCounts& met) {
+IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions& options, std::uint64_t before,
+                    SceneCounts& met) {
   const bool keep_extremes = options.keep_extremes;
   IndexedMesh mesh;
   PositionIndex index(mesh.vertices);
@@ -55,7 +59,7 @@ IndexedMesh mesh_of(RawSource& raw, const SceneOptions& options, std::uint64_t b
       }
       mesh.triangles.push_back({index.add(t[0]), index.add(t[1]), index.add(t[2])});
     }
-    check_limit(options.mesh, before, mesh, raw, batch);
+    check_limit(name, options.mesh, before, mesh, raw, batch);
   }
   mesh.up = raw.up();
   met.triangles = mesh.triangles.size();
@@ -303,7 +307,7 @@ std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, cons
 
 IndexedMesh read_mesh(const std::string& path, const SceneOptions& options, SceneCounts* counts) {
   SceneCounts met;
-  IndexedMesh mesh = mesh_of(*open_raw(path, options), options, 0, met);
+  IndexedMesh mesh = mesh_of(path, *open_raw(path, options), options, 0, met);
   if (counts != nullptr) *counts = met;
   return mesh;
 }
@@ -320,7 +324,7 @@ std::vector<IndexedMesh> read_levels(const std::string& path, const SceneOptions
     constexpr std::size_t kMost = 64;  // each of them is read by itself
     if (count > kMost) fail(ErrorCode::bad_input, "{}: {} levels, and at most {} are read", path, count, kMost);
     SceneCounts ignored;
-    levels.push_back(mesh_of(*raw, one, bytes, ignored));
+    levels.push_back(mesh_of(path, *raw, one, bytes, ignored));
     bytes += options.mesh.needed(levels.back().triangles.size(), levels.back().vertices.size());
   }
   return levels;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/core/indexed_mesh.h"
+#include "lib/core/memory_share.h"
 #include "lib/core/triangle_source.h"
 
 /// Scenes and meshes from files. PLY, STL, OBJ, OFF and glTF/GLB are streamed by readers of our own: their memory is
@@ -30,19 +31,12 @@
 ///   - A glTF asset whose `extras.up` is "z" (mesh_writer.h) is delivered in its own z-up coordinates.
 namespace bp {
 
-/// For what describes a scene while it is opened: the JSON of glTF, or an importer's process and what it sends.
-struct DocumentBudget {
-  std::uint64_t bytes = 0;  ///< 0: no limit
-  /// For messages: " to at least N MiB", the --memory that leaves `missing` bytes more; may be empty.
-  std::function<std::string(std::uint64_t missing)> enough_for;
-};
-
 /// For meshes that are read as a whole.
 struct MeshLimit {
-  std::uint64_t bytes = 0;  ///< 0: none
+  MemoryShare memory{0};  ///< 0: none
   std::uint64_t per_triangle = 0, per_vertex = 0;
-  /// Called if they are exceeded, all levels so far together, with the number of triangles and the bytes. Throws.
-  std::function<void(std::uint64_t triangles, std::uint64_t bytes)> refuse;
+  /// What is refused if it takes more, all levels so far together.
+  const char* purpose = "reading";
 
   [[nodiscard]] std::uint64_t needed(std::uint64_t triangles, std::uint64_t vertices) const {
     return triangles * per_triangle + vertices * per_vertex;
@@ -59,7 +53,9 @@ struct SceneOptions {
   bool walls_only = false;  ///< leave out what can be seen through, see below; not counted
   /// Coordinates below the range of the exact predicates stay as they are: for proofs, which must not move a vertex.
   bool keep_extremes = false;
-  DocumentBudget document{};
+  /// For what describes a scene while it is opened: the JSON of glTF, or an importer's process and what it sends. 0: no
+  /// limit.
+  MemoryShare document{0};
   MeshLimit mesh{};
 };
 

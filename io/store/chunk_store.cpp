@@ -59,8 +59,8 @@ class ZstdChunkStore final : public ChunkStore {
     out.resize(chunk.size);
     const std::size_t size = ZSTD_decompressDCtx(context.get(), out.data(), out.size(), packed.data(), packed.size());
     if (ZSTD_isError(size) || size != chunk.size)
-      fail(ErrorCode::failed, "scratch data in {} came back damaged; check the disk or choose another --temp",
-           temp_dir_);
+      fail(ErrorCode::failed, {Remedy::other_scratch_folder},
+           "scratch data in {} came back damaged: its disk may be failing", temp_dir_);
   }
 
   void drop(Handle handle) override {

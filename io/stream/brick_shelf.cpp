@@ -63,7 +63,7 @@ class PageFile {
     std::copy(free_.end() - std::ptrdiff_t(old), free_.end(), pages.begin());
     free_.resize(free_.size() - old);
     if (end_ + (pages.size() - old) > 0xffffffffu)
-      fail(ErrorCode::out_of_resource, "the scratch file in {} would exceed 4 TiB; raise --memory", directory_);
+      fail(ErrorCode::out_of_resource, {Remedy::more_memory}, "the scratch file in {} would exceed 4 TiB", directory_);
     for (std::uint32_t& page : pages.subspan(old)) page = std::uint32_t(end_++);
     std::sort(pages.begin(), pages.end());  // neighbours go in one call
     return *file_;
@@ -108,10 +108,8 @@ struct ShelfPool::State {
   void check_index() const {
     const std::uint64_t bytes = (entries + 1) * kIndexBytes;
     if (bytes <= budget + kLeastIndex) return;
-    fail(ErrorCode::out_of_resource,
-         "the index of {} bricks that wait takes {} MiB, and --memory leaves {} MiB for it; raise --memory, or use "
-         "larger voxels",
-         entries.load(), bytes >> 20, budget >> 20);
+    throw NeedsMemory(fmt::format("the index of {} bricks that wait", entries.load()), bytes, budget, 0,
+                      {Remedy::larger_voxels});
   }
   void take_entry() {
     ++entries;

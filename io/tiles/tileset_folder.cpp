@@ -125,11 +125,11 @@ bool TilesetFolder::may_replace(const std::string& name) const {
 
 void TilesetFolder::refuse_if_there(const std::string& name) const {
   const fs::path path = path_ + "/" + name;
-  refuse_kept(path.string(), "give the tileset another folder or --name");
+  refuse_kept(path.string(), "give the tileset another folder or another name");
   if (may_replace(name) || !fs::exists(path) || (fs::is_directory(path) && fs::is_empty(path))) return;
   const auto below = std::lower_bound(moved_.begin(), moved_.end(), name + "/");
   if (below != moved_.end() && below->starts_with(name + "/")) return;
-  fail(ErrorCode::bad_argument, "{}: exists; add --overwrite to replace it", path.string());
+  fail(ErrorCode::bad_argument, {Remedy::overwrite}, "{}: exists", path.string());
 }
 
 void TilesetFolder::write(const std::string& name, const std::string& bytes) {

@@ -1,12 +1,14 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 /// The one exception type of the suite. Thrown anywhere, caught once per process in tools/cli/run_tool.h, which
-/// prints the message and exits with exit_code(). A message names the object, the fact and the remedy
-/// (docs/exit-codes.md).
+/// prints the message and exits with exit_code(). A message names the object and the fact (docs/exit-codes.md). The
+/// library does not know the options of a tool: what would help is a Remedy, and tools/cli/advice.h names the option.
 namespace bp {
 
 enum class ErrorCode {
@@ -35,19 +37,81 @@ enum class ErrorCode {
   return 1;
 }
 
+/// What would help.
+enum class Remedy {
+  more_memory,
+  larger_voxels,
+  smaller_voxels,
+  coarser_grid,    ///< where the tool itself makes the voxels
+  units_of_scene,  ///< for the size of voxels
+  other_units,     ///< for the scene
+  smaller_scale,
+  smaller_tiles,
+  larger_tiles,
+  fewer_faces,
+  split_scene,
+  flood_fill,
+  fill_inside,  ///< the stream holds what the scene touches, and should hold its inside
+  mode_inside,  ///< the other way round
+  enclose_closing,
+  enclose_input,
+  enclose_own_scene,  ///< that the stream was made from
+  no_volume,
+  no_least_part,
+  fewer_users_of_device,
+  use_cpu,
+  other_scratch_folder,
+  other_output,
+  overwrite,
+  name_format,
+  set_origin,
+  double_format,  ///< one that holds doubles
+};
+using Remedies = std::vector<Remedy>;
+
 class Error : public std::runtime_error {
  public:
-  Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  Error(ErrorCode code, const std::string& message, Remedies remedies = {}, std::uint64_t memory_bytes = 0)
+      : std::runtime_error(message), code_(code), remedies_(std::move(remedies)), memory_bytes_(memory_bytes) {}
   [[nodiscard]] ErrorCode code() const { return code_; }
+  [[nodiscard]] const Remedies& remedies() const { return remedies_; }  ///< any one of them
+  /// Of Remedy::more_memory: the limit on memory that would do; 0: not known.
+  [[nodiscard]] std::uint64_t memory_bytes() const { return memory_bytes_; }
 
  private:
   ErrorCode code_;
+  Remedies remedies_;
+  std::uint64_t memory_bytes_;
+};
+
+/// A step does not fit in its share of the memory.
+class NeedsMemory : public Error {
+ public:
+  /// what: "closing a tile of 64 voxels". needed, left: bytes of the step and of its share. limit: as memory_bytes().
+  NeedsMemory(const std::string& what, std::uint64_t needed, std::uint64_t left, std::uint64_t limit,
+              const Remedies& others = {})
+      : Error(ErrorCode::out_of_resource,
+              fmt::format("{} takes {} MiB, and the limit on memory leaves {} MiB for it", what, (needed >> 20) + 1,
+                          left >> 20),
+              with_memory(others), limit) {}
+
+ private:
+  static Remedies with_memory(const Remedies& others) {
+    Remedies all{Remedy::more_memory};
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+  }
 };
 
 /// fail(ErrorCode::bad_input, "{}: no triangles", name) throws an Error with the formatted message.
 template <class... Args>
 [[noreturn]] void fail(ErrorCode code, fmt::format_string<Args...> format, Args&&... args) {
   throw Error(code, fmt::format(format, std::forward<Args>(args)...));
+}
+/// The same, with what would help.
+template <class... Args>
+[[noreturn]] void fail(ErrorCode code, Remedies remedies, fmt::format_string<Args...> format, Args&&... args) {
+  throw Error(code, fmt::format(format, std::forward<Args>(args)...), std::move(remedies));
 }
 
 }  // namespace bp

@@ -35,11 +35,9 @@ void check_voxel(const Bounds3d& bounds, double voxel) {
   if (!(voxel > 0) || !std::isfinite(voxel))
     fail(ErrorCode::bad_argument, "a voxel size of {} is not positive and finite", voxel);
   if (voxel >= kLeastVoxel && voxel <= kMostVoxel / 2) return;
-  fail(ErrorCode::bad_argument,
-       "a voxel size of {:.3g} is not between {:.1g} and {:.1g}; the scene has a diagonal of {:.3g}: give --voxel in "
-       "its "
-       "units, or convert the scene to another unit of length",
-       voxel, kLeastVoxel, kMostVoxel / 2, bounds.diagonal());
+  fail(ErrorCode::bad_argument, {Remedy::units_of_scene, Remedy::other_units},
+       "a voxel size of {:.3g} is not between {:.1g} and {:.1g}, and the scene has a diagonal of {:.3g}", voxel,
+       kLeastVoxel, kMostVoxel / 2, bounds.diagonal());
 }
 
 }  // namespace
@@ -57,8 +55,7 @@ GridFrame make_frame(const Bounds3d& bounds, double voxel, UpAxis up) {
   for (std::size_t i = 0; i < 3; ++i) {
     const double side = (bounds.max[i] - bounds.min[i]) / voxel;
     if (!(side < 2147483648.0 - 16384)) {
-      fail(ErrorCode::bad_argument,
-           "a grid of {:.15g} voxels a side exceeds 2^31; use a larger --voxel or a smaller --resolution",
+      fail(ErrorCode::bad_argument, {Remedy::coarser_grid}, "a grid of {:.15g} voxels a side exceeds 2^31",
            std::floor(side));
     }
   }

@@ -9,7 +9,8 @@ namespace bp {
 /// end with the exit code of devices.
 class DeviceError : public Error {
  public:
-  explicit DeviceError(const std::string& message) : Error(ErrorCode::out_of_resource, message) {}
+  explicit DeviceError(const std::string& message, Remedies remedies = {Remedy::use_cpu})
+      : Error(ErrorCode::out_of_resource, message, std::move(remedies)) {}
 };
 
 }  // namespace bp

@@ -33,10 +33,9 @@ class Outside {
   const std::uint64_t dense_faces;
   const VoxelBox box;
 
-  /// Throws out_of_resource, before it takes anything, if it takes more than `memory_bytes`.
-  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, std::uint64_t memory_bytes,
-          const PieceMemory& pieces)
-      : Outside(solid, surface, frame, boundary_size(solid), memory_bytes, pieces) {}
+  /// Throws out_of_resource, before it takes anything, if it takes more than `memory`.
+  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, const MemoryShare& memory)
+      : Outside(solid, surface, frame, boundary_size(solid), memory) {}
 
   [[nodiscard]] double voxel() const { return frame_.voxel; }
   /// Of the memory, from the beginning to the end.
@@ -66,19 +65,16 @@ class Outside {
   };
 
   Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, const BoundarySize& size,
-          std::uint64_t memory_bytes, const PieceMemory& pieces)
+          const MemoryShare& memory)
       : dense_faces(2 * size.faces), box(size.box), frame_(frame) {
     const std::uint64_t runs = surface != nullptr ? count_runs(*surface, box) : size.runs;
     const std::uint64_t bytes = runs * sizeof(VoxelRun) + measuring_bytes(runs);
-    if (bytes > memory_bytes) {
-      fail(ErrorCode::out_of_resource,
-           "the outside of the scene takes {} MiB to be measured, and --memory leaves {} MiB for it; raise --memory{}, "
-           "or use larger voxels",
-           (bytes >> 20) + 1, memory_bytes >> 20, pieces.enough_for(bytes - memory_bytes));
-    }
+    if (bytes > memory.bytes)
+      throw NeedsMemory("measuring distances to the outside of the scene", bytes, memory.bytes,
+                        memory.limit_with(bytes - memory.bytes), {Remedy::larger_voxels});
     runs_ = surface != nullptr ? runs_of(*surface, box) : boundary_of(solid).runs;
     runs_.shrink_to_fit();
-    if (measuring_bytes(runs) <= memory_bytes / 16) kept_ = std::make_unique<Ruler>(runs_, frame_);
+    if (measuring_bytes(runs) <= memory.bytes / 16) kept_ = std::make_unique<Ruler>(runs_, frame_);
   }
 
   /// That distance() takes for a moment.
@@ -123,11 +119,15 @@ int reductions_for(const LodGround& ground, const LodTarget& target, double scal
 
 struct LodChain::State {
   State(const StreamHeader& h, std::unique_ptr<BrickShelf> s, Backends& b, LodOptions o)
-      : options(std::move(o)), backends(b), header(h), solid(std::move(s)), diagonal(h.bounds.diagonal()) {
+      : options(std::move(o)),
+        context(options.context),
+        backends(b),
+        header(h),
+        solid(std::move(s)),
+        diagonal(h.bounds.diagonal()) {
     if (solid->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
     take_off(options.scene.size() * sizeof(TriangleD));
-    outside =
-        std::make_unique<Outside>(*solid, options.surface.get(), header.frame, options.memory_bytes, options.pieces);
+    outside = std::make_unique<Outside>(*solid, options.surface.get(), header.frame, context.memory);
     options.surface.reset();
     take_off(outside->bytes());
     last_scale = options.least_scale_world;
@@ -149,7 +149,7 @@ struct LodChain::State {
         continue;
       }
       last_scale = scale;
-      report("measuring", "levels", 0, 1);
+      context.report("measuring", "levels", 0, 1);
       outside->measure(level, options.mode);
       return level;
     }
@@ -161,6 +161,7 @@ struct LodChain::State {
   }
 
   LodOptions options;
+  PassContext& context;  // its memory shrinks by what is held here
   Backends& backends;
   StreamHeader header;  // of `solid`
   std::unique_ptr<BrickShelf> solid;
@@ -171,15 +172,15 @@ struct LodChain::State {
 
  private:
   void take_off(std::uint64_t bytes) {
-    options.memory_bytes -= std::min(options.memory_bytes, bytes);
-    options.pieces = options.pieces.without(bytes);
+    context.memory.bytes -= std::min(context.memory.bytes, bytes);
+    context.pieces = context.pieces.without(bytes);
   }
 
   [[nodiscard]] LodGround ground() const { return {outside->voxel(), diagonal, outside->dense_faces, longest_side()}; }
 
   void reduce_to(int n) {
     for (; reductions < n; ++reductions) {
-      auto coarse = options.make_shelf();
+      auto coarse = context.make_shelf();
       reduce(*solid, header.frame, *coarse);
       header = reduced(header);
       solid = std::move(coarse);
@@ -204,14 +205,8 @@ struct LodChain::State {
   std::unique_ptr<BrickShelf> closing_at(double scale) {
     CloseOptions o;
     o.keep_cavities = options.keep_cavities;
-    o.memory_bytes = options.memory_bytes;
-    o.make_shelf = options.make_shelf;
-    o.progress = options.progress;
-    auto closing = options.make_shelf();
-    ShelfSource source(header, *solid, nullptr, ShelfSource::Keep::all);
-    ShelfSink sink(nullptr, closing.get());
-    close_stream(source, sink, backends, uniform(scale), options.closing, o);
-    return closing;
+    o.context = context;
+    return close_shelf(header, *solid, backends, scale, options.closing, o);
   }
 
   /// The closing at half of `scale`, which is halved then, where a budget has faces enough for what parts and holes it
@@ -234,21 +229,19 @@ struct LodChain::State {
 
   /// Against what the surface is to be meshed in, of which nothing is taken yet.
   void check_memory_for_topology(const BrickShelf& closing) const {
-    const std::uint64_t bytes = topology_bytes(closing), most = options.pieces.bytes();
-    if (bytes <= most) return;
-    fail(
-        ErrorCode::out_of_resource,
-        "the parts and holes of a level take {} MiB to be counted, and --memory leaves {} MiB for it; raise --memory{}",
-        (bytes >> 20) + 1, most >> 20, options.pieces.enough_for(bytes - most));
+    const std::uint64_t bytes = topology_bytes(closing), most = context.pieces.bytes();
+    if (bytes > most)
+      throw NeedsMemory("counting the parts and holes of a level", bytes, most,
+                        context.pieces.limit_with(bytes - most));
   }
 
   LodLevel mesh(const LodTarget& target, double scale, std::unique_ptr<BrickShelf> closing) {
     LodLevel level;
     level.scale_world = scale;
     level.reductions = reductions;
-    report("meshing", "levels", 0, 1);
+    context.report("meshing", "levels", 0, 1);
     ShelfSource source(closed_header(uniform(scale)), *solid, closing.get(), ShelfSource::Keep::solid);
-    level.mesh = std::move(mesh_stream(source, options.make_shelf, mesh_params(target), level.counts).front());
+    level.mesh = std::move(mesh_stream(source, context, mesh_params(target), level.counts).front());
     return level;
   }
 
@@ -260,7 +253,6 @@ struct LodChain::State {
       params.error_world = std::max(target.error_world - std::sqrt(3.0) * (header.frame.voxel + outside->voxel()),
                                     target.error_world / 4);
     params.near = true;
-    params.memory = options.pieces;
     params.mode = options.mode;
     params.tighten = options.tighten;
     params.quads = options.quads;
@@ -275,10 +267,6 @@ struct LodChain::State {
       params.scene = options.scene;
     }
     return params;
-  }
-
-  void report(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total) const {
-    if (options.progress) options.progress(stage, unit, done, total);
   }
 };
 

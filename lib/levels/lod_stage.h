@@ -4,8 +4,8 @@
 
 #include "lib/device/backend.h"
 #include "lib/pass/close/close_stage.h"
+#include "lib/pass/context.h"
 #include "lib/pass/mesh/mesh_stage.h"
-#include "lib/pass/stage_progress.h"
 
 /// bplod's work: a chain of levels of detail from one solid. The scene is voxelized once; each level is closed at a
 /// scale of its own, coarser ones on conservative reductions of the voxels (lib/volume/reduce.h), and meshed to its
@@ -56,12 +56,8 @@ struct LodOptions {
   bool quads = false;  ///< join triangles in pairs (lib/quads/quads.h)
   bool keep_cavities = false;
   int max_attempts = 12;  ///< at most so many scales for one level
-  /// For tiles at work and, between, for surfaces: PieceMemory of as much. The scene's outside, and `scene`, come off
-  /// it.
-  std::uint64_t memory_bytes = std::uint64_t(512) << 20;
-  PieceMemory pieces;
-  ShelfFactory make_shelf;
-  StageProgress progress;  ///< called now and then
+  /// The memory is for tiles at work and, between, for surfaces. The scene's outside, and `scene`, come off both.
+  PassContext context;
 };
 
 struct LodLevel {
@@ -82,8 +78,8 @@ struct LodLevel {
 
 class LodChain {
  public:
-  /// `solid` holds the bricks of `header`, a solid layer. Keeps references to `backends` and `options.make_shelf`.
-  /// Throws bad_input if it is empty, out_of_resource if memory_bytes does not suffice for the scene's outside.
+  /// `solid` holds the bricks of `header`, a solid layer. Keeps references to `backends`.
+  /// Throws bad_input if it is empty, out_of_resource if the memory does not suffice for the scene's outside.
   LodChain(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends, LodOptions options);
   ~LodChain();
   LodChain(const LodChain&) = delete;

@@ -130,9 +130,8 @@ class OccluderMesh {
     params.faces = {faces_ > 0 ? faces_ : kFaces};
     params.enclose = Enclose::input;
     params.least_part = least_part;
-    params.memory = source_.pieces;
     try {
-      level.mesh = std::move(mesh_stream(shelf, source_.hidden.make_shelf, std::move(params), level.counts).front());
+      level.mesh = std::move(mesh_stream(shelf, source_.hidden.context, std::move(params), level.counts).front());
     } catch (const Error& e) {
       if (scale == 0 || e.code() != ErrorCode::bad_input) throw;
       return false;  // too thin to be meshed

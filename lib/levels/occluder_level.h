@@ -12,7 +12,6 @@ struct OccluderSource {
   std::function<LevelRequest(const StreamHeader&)> request;  ///< faces and scale count; after voxelize()
   bool may_ground = false;                                   ///< the scene can be voxelized again, on the ground
   HiddenOptions hidden;                                      ///< all but the scale
-  PieceMemory pieces;
 };
 
 struct MadeOccluder {

@@ -10,7 +10,7 @@ TilePyramid::TilePyramid(const StreamHeader& header, std::unique_ptr<BrickShelf>
                          PyramidOptions options)
     : header_(header), solid_(std::move(solid)), backends_(backends), options_(std::move(options)) {
   if (solid_->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
-  surface_ = options_.make_shelf();
+  surface_ = options_.context.make_shelf();
   boundary_layer(*solid_, *surface_);
 }
 
@@ -19,11 +19,8 @@ std::unique_ptr<BrickShelf> TilePyramid::close(double scale_world) {
   o.cells = options_.cells;
   o.closing = options_.closing;
   o.keep_cavities = options_.keep_cavities;
-  o.memory_bytes = options_.memory_bytes;
-  o.enough_for = [this](std::uint64_t missing) { return options_.pieces.enough_for(missing); };
-  o.store = options_.store;
-  o.progress = options_.progress;
-  auto closing = options_.make_shelf();
+  o.context = options_.context;
+  auto closing = options_.context.make_shelf();
   close_cells(header_, *solid_, backends_, scale_world, o, *closing);
   return closing;
 }
@@ -33,8 +30,6 @@ void TilePyramid::add_level(double scale_world, TileParams params, TileEncoder e
   waiting_.push_back({close(scale_world), nullptr, nullptr});
   params.scale_world = scale_world;
   params.element = options_.closing.element;
-  params.make_shelf = options_.make_shelf;
-  params.store = options_.store;
   tasks_.push_back({{header_, *solid_, *surface_, *waiting_.back().closing, options_.cells},
                     std::move(params),
                     std::move(encode),
@@ -43,14 +38,14 @@ void TilePyramid::add_level(double scale_world, TileParams params, TileEncoder e
 }
 
 void TilePyramid::make_tiles() {
-  bp::make_tiles(tasks_, {options_.memory_bytes, options_.pieces, options_.progress});
+  bp::make_tiles(tasks_, options_.context);
   tasks_.clear();
   waiting_.clear();
   added_ = false;
 }
 
 void TilePyramid::reduce() {
-  auto solid = options_.make_shelf(), surface = options_.make_shelf();
+  auto solid = options_.context.make_shelf(), surface = options_.context.make_shelf();
   bp::reduce(*solid_, header_.frame, *solid);
   bp::reduce(*surface_, header_.frame, *surface);
   header_ = reduced(header_);

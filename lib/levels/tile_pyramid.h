@@ -2,7 +2,7 @@
 #include "lib/device/backend.h"
 #include "lib/levels/tile_stage.h"
 #include "lib/pass/close/cell_closing.h"
-#include "lib/pass/stage_progress.h"
+#include "lib/pass/context.h"
 
 /// The levels of a scene that are too large for one mesh: level n has the voxels of the solid reduced n times, closed,
 /// and cut into tiles (tile_stage.h). What the scene shows to the outside is reduced along, so that errors are measured
@@ -13,11 +13,7 @@ struct PyramidOptions {
   Cells cells;
   ClosingParams closing;
   bool keep_cavities = false;
-  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work
-  PieceMemory pieces;                                     ///< the same, for their surfaces
-  ShelfFactory make_shelf;
-  ResultStore* store = nullptr;  ///< of closings and tiles; null: all are made
-  StageProgress progress;        ///< called now and then
+  PassContext context;  ///< results: closings and tiles
 };
 
 class TilePyramid {
@@ -31,8 +27,8 @@ class TilePyramid {
   /// The level need not be cut: the bricks of its header lie in one cell, which a plan knows without the voxels.
   [[nodiscard]] bool in_one_cell() const { return cells_spanned(options_.cells, header_.bricks).count() == 1; }
 
-  /// Closes the level, and has its tiles made along with those of other levels; sets scale, element, shelves and store
-  /// of `params`. Each level at most once. As close_cells().
+  /// Closes the level, and has its tiles made along with those of other levels; sets scale and element of
+  /// `params`. Each level at most once. As close_cells().
   void add_level(double scale_world, TileParams params, TileEncoder encode, std::function<void(LevelTile&&)> consume);
   /// Of the levels that were added, whose voxels go then.
   void make_tiles();

@@ -3,8 +3,8 @@
 #include <span>
 
 #include "lib/grid/cells.h"
+#include "lib/pass/context.h"
 #include "lib/pass/mesh/mesh_stage.h"
-#include "lib/pass/stage_progress.h"
 #include "lib/store/result_key.h"
 
 /// A level of detail in pieces: one proxy for each cell of the grid, as an independent job.
@@ -40,11 +40,9 @@ struct TileShape {
 
 /// How tiles are made and kept.
 struct TileParams : TileShape {
-  const TriangleBvh* scene = nullptr;  ///< what fits are drawn to; null: the closing
-  ShelfFactory make_shelf;
-  ResultStore* store = nullptr;           ///< tiles are looked up there, and put; null: made anew
-  std::function<bool(CellCoord)> wanted;  ///< other tiles are passed over; empty: all are wanted
-  bool make = true;                       ///< false: what is not in the store comes without measures and content
+  const TriangleBvh* scene = nullptr;                   ///< what fits are drawn to; null: the closing
+  std::function<bool(CellCoord)> wanted;                ///< other tiles are passed over; empty: all are wanted
+  bool make = true;                                     ///< false: what is not kept comes without measures and content
   std::function<void(CellCoord, KeyHash&)> add_to_key;  ///< what else decides a tile; may be empty
 
   static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastFaces = 60;  ///< of a tile without a budget
@@ -71,7 +69,7 @@ struct LevelTile {
   CellCoord cell{};
   TileMeasures measures;
   std::string content;  ///< what encode() made of it
-  bool kept = false;    ///< found in the store
+  bool kept = false;    ///< found among the results
 };
 
 /// The file of a tile; its mesh is in the frame of the level. On any thread.
@@ -86,16 +84,9 @@ struct TileTask {
   std::function<void(LevelTile&&)> consume;
 };
 
-/// What the tiles of all levels share.
-struct TileRun {
-  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work
-  PieceMemory pieces;                                     ///< the same, for their surfaces
-  StageProgress progress;                                 ///< called now and then
-};
-
 /// All tiles of all levels: those whose cell holds voxels of the closing, but for cavities that the closing fills.
-/// First those that a store has, then the others, large ones first; none waits for another. Memory: 320 bytes for each
-/// triangle of the dense surface of a tile at work. Throws out_of_resource if not even one tile fits.
-void make_tiles(std::span<const TileTask> tasks, const TileRun& run);
+/// First those that are kept among the results, then the others, large ones first; none waits for another. Memory: 320
+/// bytes for each triangle of the dense surface of a tile at work. Throws out_of_resource if not even one tile fits.
+void make_tiles(std::span<const TileTask> tasks, const PassContext& context);
 
 }  // namespace bp

@@ -194,10 +194,8 @@ class SurfaceTree {
 void check_work(std::uint64_t faces, const PieceMemory& memory, bool others_wait) {
   const std::uint64_t needed = faces * kWorkPerFace, left = others_wait ? memory.work_bytes : memory.bytes();
   if (needed <= left) return;
-  fail(ErrorCode::out_of_resource,
-       "simplifying {} triangles at once needs {} MiB, and --memory leaves {} MiB for it; raise --memory{}, or use "
-       "larger voxels or fewer faces",
-       faces, (needed >> 20) + 1, left >> 20, memory.enough_for(needed - left, others_wait));
+  throw NeedsMemory(fmt::format("simplifying {} triangles at once", faces), needed, left,
+                    memory.limit_with(needed - left, others_wait), {Remedy::larger_voxels, Remedy::fewer_faces});
 }
 
 namespace {

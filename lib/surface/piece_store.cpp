@@ -1,9 +1,6 @@
 #include "lib/surface/piece_store.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -59,11 +56,8 @@ void decode(std::span<const std::byte> bytes, Piece& piece) {
 }  // namespace
 
 // What else takes its part comes off what may wait first: as long as nothing may, all growth is for work.
-std::string PieceMemory::enough_for(std::uint64_t missing, bool for_work) const {
-  const double growth = work_growth + (for_work && waiting_bytes > 0 ? 0 : waiting_growth);
-  if (!(growth > 0)) return "";
-  const double bytes = double(limit_bytes) + double(missing) / growth;
-  return fmt::format(" to at least {} MiB", std::uint64_t(std::ceil(bytes / (1 << 20))));
+std::uint64_t PieceMemory::limit_with(std::uint64_t missing, bool for_work) const {
+  return limit.with(missing, work_share + (for_work && waiting_bytes > 0 ? 0 : waiting_share));
 }
 
 PieceMemory PieceMemory::without(std::uint64_t bytes) const {
@@ -78,8 +72,8 @@ PieceMemory PieceMemory::split(std::uint64_t n) const {
   PieceMemory one = *this;
   one.waiting_bytes /= n;
   one.work_bytes /= n;
-  one.waiting_growth /= double(n);
-  one.work_growth /= double(n);
+  one.waiting_share /= double(n);
+  one.work_share /= double(n);
   return one;
 }
 

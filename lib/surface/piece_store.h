@@ -2,6 +2,7 @@
 #include <mutex>
 #include <string>
 
+#include "lib/core/memory_share.h"
 #include "lib/store/chunk_store.h"
 #include "lib/surface/piece.h"
 
@@ -14,13 +15,11 @@ struct PieceMemory {
   std::uint64_t work_bytes = UINT64_MAX / 2;     ///< those in hand, and all that simplification needs beside them
   ChunkStoreFactory make_store;                  ///< for further ones that wait; without it, all wait as they are
   [[nodiscard]] std::uint64_t bytes() const { return waiting_bytes + work_bytes; }  ///< for the whole, at the end
-  /// For messages that say how much would do: what all of this is a share of, and how much of a byte more comes here;
-  /// 0: not known.
-  std::uint64_t limit_bytes = 0;
-  double waiting_growth = 0, work_growth = 0;
+  MemoryLimit limit{};                                                              ///< that both are shares of
+  double waiting_share = 0, work_share = 0;
 
-  /// " to at least 300 MiB": what it takes so that `missing` more of this is there; nothing if that is not known.
-  [[nodiscard]] std::string enough_for(std::uint64_t missing, bool for_work = false) const;
+  /// The limit at which `missing` bytes more of this are there; 0: not known.
+  [[nodiscard]] std::uint64_t limit_with(std::uint64_t missing, bool for_work = false) const;
   /// What is left beside something else that takes so much.
   [[nodiscard]] PieceMemory without(std::uint64_t bytes) const;
   /// For one of n at work.

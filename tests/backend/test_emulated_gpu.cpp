@@ -176,7 +176,7 @@ TEST_CASE("a GPU whose launches fail says which it is, and the CPU takes over wh
       [&] { backend->close(tile.solid, tile.scale, tile.halo, {StructuringElement::ball}, tile.interior, got); });
   CHECK(said.find("cuda:0: ") == 0);
   std::string warning;
-  FallbackBackend either(make_cuda_backend(0), [&](const std::string& what) { warning = what; });
+  FallbackBackend either(make_cuda_backend(0), [&](const DeviceError& e) { warning = e.what(); });
   emulator::faults.launch = cudaErrorLaunchFailure;
   either.close(tile.solid, tile.scale, tile.halo, {StructuringElement::ball}, tile.interior, got);
   emulator::faults = {};

@@ -59,7 +59,7 @@ TEST_CASE("once a device fails, the CPU does the call and all later ones to the 
   int living = 0;
   std::vector<std::string> warnings;
   FallbackBackend backend(std::make_unique<FailingBackend>(good_calls, &living),
-                          [&](const std::string& what) { warnings.push_back(what); });
+                          [&](const DeviceError& e) { warnings.push_back(e.what()); });
   CHECK(backend.name() == "fake:0");
   CHECK(backend.pinned_bytes() == 8);
   CpuBackend cpu;
@@ -120,7 +120,7 @@ TEST_CASE("an error that is not the device's is not hidden", "[quick][backend]")
                BitBox&) override {}
   };
   bool warned = false;
-  FallbackBackend backend(std::make_unique<Refusing>(), [&](const std::string&) { warned = true; });
+  FallbackBackend backend(std::make_unique<Refusing>(), [&](const DeviceError&) { warned = true; });
   BitBox bits(VoxelBox{{0, 0, 0}, {64, 1, 1}});
   CHECK_THROWS_AS(backend.voxelize({}, bits), Error);
   CHECK_FALSE(warned);

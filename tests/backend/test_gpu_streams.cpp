@@ -38,7 +38,7 @@ std::vector<Bricks::Entry> close_all(const VoxelBox& box, Backends& backends, co
   Bricks sink;
   CloseOptions options;
   options.tile_vox = 64;
-  options.make_shelf = test::memory_shelves();
+  options.context.make_shelf = test::memory_shelves();
   (void)close_stream(source, sink, backends, field, {element}, options);
   return sink.all;
 }

@@ -90,7 +90,7 @@ void check_levels(const VoxelBox& box, const BitBox& solid, const BitBox& closin
   // As in a larger scene, so that without a target the stop of [CB17] lets the surface move by two voxels.
   source.header().bounds.add({box.min.x + 200.0, double(box.min.y), double(box.min.z)});
   MeshCounts counts;
-  const std::vector<LatticeMesh> levels = mesh_stream(source, test::memory_shelves(), params, counts);
+  const std::vector<LatticeMesh> levels = mesh_stream(source, test::memory_context(), params, counts);
   CAPTURE(name_of(params), params.faces, params.error_world);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     CAPTURE(i);

@@ -5,6 +5,7 @@
 #include "lib/core/indexed_mesh.h"
 #include "lib/grid/stream.h"
 #include "lib/mesh/lattice_mesh.h"
+#include "lib/pass/context.h"
 #include "tests/support/memory_shelf.h"
 
 /// Streams of voxels in memory, for tests of the meshing stage.
@@ -75,6 +76,11 @@ class VoxelSource final : public BrickSource {
 
 [[nodiscard]] inline ShelfFactory memory_shelves() {
   return [] { return std::make_unique<MemoryShelf>(); };
+}
+[[nodiscard]] inline PassContext memory_context() {
+  PassContext context;
+  context.make_shelf = memory_shelves();
+  return context;
 }
 
 /// In scene units, as bpcheck would read it.

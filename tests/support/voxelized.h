@@ -31,9 +31,9 @@ inline Voxelized voxelized(const Triangles& scene, double voxel, std::int32_t ce
   VoxelizeOptions options;
   options.voxel_size = [&](const Bounds3d&) { return voxel; };
   options.cell_vox = cell_vox;
-  options.make_shelf = memory_shelves();
-  options.memory_bytes = UINT64_MAX / 8;
-  options.make_store = [] { return std::make_unique<NoStore>(); };
+  options.context.make_shelf = memory_shelves();
+  options.context.memory.bytes = UINT64_MAX / 8;
+  options.context.make_store = [] { return std::make_unique<NoStore>(); };
   const auto open = [&](const StreamHeader& h, const VoxelizeCounts&) -> BrickSink& {
     out.header = h;
     return sink;

@@ -19,29 +19,19 @@ constexpr std::uint64_t kBytesPerFace = 400, kBytesPerVertex = 64;
 CheckBudget::CheckBudget(std::uint64_t memory, std::size_t scenes)
     : memory_(memory), usable_(UsableMemory(memory, kMeshProgram).bytes), scenes_(scenes), share_(scenes > 0 ? 3 : 4) {}
 
-SceneOptions CheckBudget::of_proxy(const std::string& name) const {
+SceneOptions CheckBudget::of_proxy() const {
   SceneOptions options;
   options.keep_extremes = true;
   options.memory_bytes = usable_ / 8;
   options.document = document_budget(memory_, kMeshProgram, 1);
-  const std::uint64_t left = usable_ / 4 * share_;
-  options.mesh = {left, kBytesPerFace, kBytesPerVertex, [=, *this](std::uint64_t triangles, std::uint64_t bytes) {
-                    fail(ErrorCode::out_of_resource,
-                         "{}: {} triangles take {} MiB, and --memory leaves {} MiB for them; raise --memory{}", name,
-                         triangles, (bytes >> 20) + 1, left >> 20,
-                         document_budget(memory_, kMeshProgram, 1).enough_for(bytes / share_ * 4 - usable_));
-                  }};
+  const MemoryLimit limit = UsableMemory(memory_, kMeshProgram).limit;
+  options.mesh = {{usable_ / 4 * share_, double(share_) / 4, limit}, kBytesPerFace, kBytesPerVertex, "checking"};
   return options;
 }
 
-DocumentBudget CheckBudget::of_scene_document() const {
-  const std::uint64_t share = scenes_ > 1 ? 3 : 1;  // the reader's third, or all
-  DocumentBudget budget;
-  budget.bytes = std::max<std::uint64_t>(1, usable_ / share);
-  budget.enough_for = [share, all = document_budget(memory_, kMeshProgram, 1)](std::uint64_t missing) {
-    return all.enough_for(missing * share);
-  };
-  return budget;
+MemoryShare CheckBudget::of_scene_document() const {
+  const std::uint64_t parts = scenes_ > 1 ? 3 : 1;  // the reader's third, or all
+  return {std::max<std::uint64_t>(1, usable_ / parts), 1.0 / double(parts), UsableMemory(memory_, kMeshProgram).limit};
 }
 
 void CheckBudget::take(const std::vector<IndexedMesh>& proxy) {

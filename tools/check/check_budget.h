@@ -10,12 +10,12 @@ class CheckBudget {
   CheckBudget(std::uint64_t memory, std::size_t scenes);
 
   /// Of the file that is read as a whole; refused if it needs more than its share.
-  [[nodiscard]] SceneOptions of_proxy(const std::string& name) const;
+  [[nodiscard]] SceneOptions of_proxy() const;
   /// What the proxy takes is no longer there for the scene.
   void take(const std::vector<IndexedMesh>& proxy);
   /// Of the scenes, which are opened one after the other: the largest document counts. One alone is opened beside the
   /// proxy; of several, the next one beside the triangles of those before, too.
-  [[nodiscard]] DocumentBudget of_scene_document() const;
+  [[nodiscard]] MemoryShare of_scene_document() const;
   [[nodiscard]] std::uint64_t reader_bytes() const { return usable_ / 3; }
   [[nodiscard]] std::uint64_t scene_bytes() const { return usable_ / 3 * 2; }  ///< for distances
 

@@ -9,6 +9,7 @@
 #include "lib/check/tile_cover.h"
 #include "lib/check/tileset.h"
 #include "lib/core/error.h"
+#include "tools/cli/advice.h"
 #include "tools/cli/report.h"
 
 namespace bp {
@@ -70,7 +71,7 @@ class CoverTiles {
       known.found = true;
     } catch (const Error& e) {
       if (e.code() != ErrorCode::bad_input) throw;
-      known.complaint = e.what();
+      known.complaint = advised(e);
     }
     return known;
   }

@@ -12,6 +12,7 @@
 #include "io/files/kept_files.h"
 #include "io/files/partial_outputs.h"
 #include "lib/core/error.h"
+#include "tools/cli/advice.h"
 #include "tools/cli/common_options.h"
 
 namespace bp::detail {
@@ -60,7 +61,7 @@ int complain(const char* tool, std::string message, int status) {
 
 int complain(const char* tool, const Error& e) {
   if (e.code() == ErrorCode::closed_pipe) return exit_code(e.code());
-  return complain(tool, e.what(), exit_code(e.code()));
+  return complain(tool, advised(e), exit_code(e.code()));
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ Build::Build(const BuildOptions& o)
     : options(o),
       progress("bplod", o.common.progress),
       backends(make_backends(o.common, 0)),  // reading and meshing take far longer than closing
-      budget(unpinned(o.common.memory_bytes, pinned_bytes(backends))),
+      budget(o.common.memory_bytes, std::min(pinned_bytes(backends), o.common.memory_bytes / 2)),
       make_shelf(make_shelf_factory(budget.shelf, o.common.temp)) {
   show = [this, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
                                       std::uint64_t total) mutable {
@@ -62,14 +62,12 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   report.stage("voxelize");
   VoxelizeOptions v;
   v.cell_vox = cell_vox;
-  v.results = results;
   v.fill = options.voxels.fill;
   v.up = options.voxels.up;
-  v.memory_bytes = budget.waiting;
+  v.context = context(results);
+  v.context.memory.bytes = budget.waiting;
+  v.context.make_store = [this] { return make_chunk_store(budget.store, options.common.temp); };
   v.tile_memory_bytes = budget.tiles;
-  v.make_shelf = make_shelf;
-  v.make_store = [this] { return make_chunk_store(budget.store, options.common.temp); };
-  v.progress = show;
   VoxelizedScene out;
   out.solid = make_shelf();
   ShelfSink sink(out.solid.get());
@@ -115,11 +113,9 @@ void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_tol
 /// The triangles have gone, and so has most of what they were given of the memory.
 void Build::gather(TriangleSource& source, const VoxelizedScene& scene) {
   report.stage("colours");
-  ColorOptions c;
-  c.memory_bytes = budget.work / 2;
-  c.make_shelf = make_shelf;
+  PassContext c = context();
+  c.memory.bytes /= 2;
   c.make_store = [this] { return make_chunk_store(budget.reader / 2, options.common.temp); };
-  c.progress = show;
   colors_ = gather_colors(source, scene.header.frame, *scene.solid, c);
 }
 
@@ -132,15 +128,10 @@ std::vector<TriangleD> Build::scene_triangles() const {
   if (fit && triangles_ > kMost) return all;
   // Fits: twice, and a hierarchy over them. Else here, and in what is enclosed.
   const std::uint64_t bytes = triangles_ * (fit ? 400 : sizeof(TriangleD) + EnclosedTriangles::kBytesEach);
-  const std::uint64_t memory = fit ? budget.work / 2 : budget.work;
-  if (bytes > memory) {
-    const double missing = double(bytes - memory) / (fit ? budget.work_growth / 2 : budget.work_growth);
-    fail(ErrorCode::out_of_resource,
-         "to {} {} triangles takes {} MiB, and --memory leaves {} MiB for it; raise --memory to at least {} MiB{}",
-         fit ? "fit" : "enclose", triangles_, (bytes >> 20) + 1, memory >> 20,
-         std::uint64_t(std::ceil((double(options.common.memory_bytes) + missing) / (1 << 20))),
-         fit ? "" : ", or use --enclose input");
-  }
+  const MemoryShare memory{budget.work.bytes / (fit ? 2 : 1), budget.work.share / (fit ? 2 : 1), budget.work.limit};
+  if (bytes > memory.bytes)
+    throw NeedsMemory(fmt::format("{} {} triangles", fit ? "fitting to" : "enclosing", triangles_), bytes, memory.bytes,
+                      memory.limit_with(bytes - memory.bytes), fit ? Remedies{} : Remedies{Remedy::enclose_input});
   all.reserve(triangles_);
   const auto source = open_scenes(options.voxels.scenes, scene_options(true));
   for (std::vector<TriangleD> chunk; all.size() <= triangles_ && source->read(chunk);)
@@ -157,25 +148,27 @@ LodOptions Build::lod_options() {
   lod.enclose = enclosed_;
   if (options.proxy.mode == MeshMode::fit || enclosed_ == Enclose::scene) lod.scene = scene_triangles();
   lod.quads = options.profile == LodProfile::cage;
-  lod.memory_bytes = budget.work;
-  lod.pieces = pieces();
-  lod.make_shelf = make_shelf;
-  lod.progress = show;
+  lod.context = context();
   return lod;
 }
 
-PieceMemory Build::pieces() const {
-  PieceMemory memory;
-  memory.waiting_bytes = budget.work / 20 * 9;
-  memory.work_bytes = budget.work - memory.waiting_bytes;
+PassContext Build::context(ResultStore* results) const {
+  PassContext context;
+  context.memory = budget.work;
+  context.make_shelf = make_shelf;
+  context.results = results;
+  context.progress = show;
+  PieceMemory& memory = context.pieces;
+  memory.waiting_bytes = budget.work.bytes / 20 * 9;
+  memory.work_bytes = budget.work.bytes - memory.waiting_bytes;
   // One for each surface at work, when all that waits in memory is spent.
   memory.make_store = [bytes = budget.store / std::uint64_t(thread_count()), temp = options.common.temp] {
     return make_chunk_store(bytes, temp);
   };
-  memory.limit_bytes = options.common.memory_bytes;
-  memory.waiting_growth = budget.work_growth * 0.45;
-  memory.work_growth = budget.work_growth * 0.55;
-  return memory;
+  memory.limit = budget.work.limit;
+  memory.waiting_share = budget.work.share * 0.45;
+  memory.work_share = budget.work.share * 0.55;
+  return context;
 }
 
 void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, const std::string& input_hash) {
@@ -273,8 +266,7 @@ MadeOccluder make_occluder(Build& build) {
     return request_of(o, header.bounds.diagonal(), header.frame.voxel);
   };
   source.may_ground = can_read_again(o);
-  source.hidden = {0, o.closing.element, build.budget.work, build.make_shelf, build.show};
-  source.pieces = build.pieces();
+  source.hidden = {0, o.closing.element, build.context()};
   MadeOccluder made = make_occluder(source, build.backends, build.level_steps({}));
   if (made.hidden_voxels > 0) return made;
   fail(ErrorCode::bad_input,

@@ -38,8 +38,8 @@ class Build {
   [[nodiscard]] SceneOptions scene_options(bool beside = false) const;
   /// For LodChain; after voxelize(), as all that follow.
   [[nodiscard]] LodOptions lod_options();
-  /// For surfaces: budget.work, and what spills.
-  [[nodiscard]] PieceMemory pieces() const;
+  /// Of all that follows voxelize(): budget.work, and what spills.
+  [[nodiscard]] PassContext context(ResultStore* results = nullptr) const;
   /// What stays inside bounding levels; after voxelize().
   [[nodiscard]] Enclose enclosed() const { return enclosed_; }
   /// Null if the scene has no colours, or if none are wanted.

@@ -123,7 +123,7 @@ Json json_of(const Build& build, const Scene& scene, const Plan& plan) {
             {"reader_bytes", build.budget.reader},
             {"waiting_bytes", build.budget.waiting},
             {"shelf_bytes", build.budget.shelf},
-            {"work_bytes", build.budget.work},
+            {"work_bytes", build.budget.work.bytes},
             {"devices", names_of(build.backends)},
             {"threads", thread_count()},
             {"levels", Json::array()},
@@ -154,7 +154,7 @@ std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
   const BuildBudget& b = build.budget;
   out += fmt::format("memory\t{}: reading with {}, {} for what waits; then {} for voxels, {} for surfaces\n",
                      size_text(build.options.common.memory_bytes), size_text(b.reader), size_text(b.waiting),
-                     size_text(b.shelf), size_text(b.work));
+                     size_text(b.shelf), size_text(b.work.bytes));
   out += fmt::format("disk\tabout {} of files, about {} of scratch\n", size_text(std::uint64_t(plan.file_bytes)),
                      size_text(std::uint64_t(plan.scratch_bytes)));
   out += "level\tvoxel\tscale\thalo\ttiles\tnumbers\tfaces\n";

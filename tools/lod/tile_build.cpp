@@ -188,11 +188,7 @@ PyramidOptions pyramid_options(const Shop& shop) {
   PyramidOptions options;
   options.cells = shop.cells();
   options.closing.element = shop.options().closing.element;
-  options.memory_bytes = shop.build.budget.work;
-  options.pieces = shop.build.pieces();
-  options.make_shelf = shop.build.make_shelf;
-  options.store = shop.results;
-  options.progress = shop.build.show;
+  options.context = shop.build.context(shop.results);
   return options;
 }
 

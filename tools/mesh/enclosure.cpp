@@ -33,11 +33,8 @@ std::uint64_t bytes_of(std::uint64_t triangles, const EnclosureInput& in) {
 void check_memory(const std::string& name, std::uint64_t triangles, const EnclosureInput& in) {
   const std::uint64_t bytes = bytes_of(triangles, in), most = in.memory.bytes();
   if (bytes <= most) return;
-  fail(ErrorCode::out_of_resource,
-       "{}: its triangles take {} MiB while they are enclosed, and --memory leaves {} MiB for them; raise --memory{}, "
-       "or use --enclose {}",
-       name, (bytes >> 20) + 1, most >> 20, in.memory.enough_for(bytes - most),
-       in.mode == MeshMode::fit ? "closing" : "input");
+  throw NeedsMemory(fmt::format("{}: enclosing its triangles", name), bytes, most, in.memory.limit_with(bytes - most),
+                    {in.mode == MeshMode::fit ? Remedy::enclose_closing : Remedy::enclose_input});
 }
 
 /// Nothing of the voxels or the surface is there yet: half of the memory is for the reader's vertices.
@@ -46,7 +43,7 @@ SceneOptions scene_options(const EnclosureInput& in, const std::string& format) 
   options.format = format;
   options.memory_bytes = in.memory.bytes() / 2;
   options.temp_dir = in.temp_dir;
-  options.document = document_budget(in.memory.limit_bytes, kMeshProgram, 2);
+  options.document = document_budget(in.memory.limit.bytes, kMeshProgram, 2);
   return options;
 }
 

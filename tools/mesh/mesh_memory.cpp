@@ -10,9 +10,9 @@ PieceMemory mesh_memory(const CommonOptions& common) {
   PieceMemory memory;
   memory.waiting_bytes = budget.waiting;
   memory.work_bytes = budget.work;
-  memory.limit_bytes = common.memory_bytes;
-  memory.waiting_growth = budget.waiting_growth;
-  memory.work_growth = budget.work_growth;
+  memory.limit = budget.limit;
+  memory.waiting_share = MeshBudget::kWaitingShare;
+  memory.work_share = MeshBudget::kWorkShare;
   memory.make_store = [store = budget.store, temp = common.temp] { return make_chunk_store(store, temp); };
   return memory;
 }

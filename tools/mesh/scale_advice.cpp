@@ -43,11 +43,11 @@ std::optional<std::string> enough_scale(const StreamHeader& header, BrickShelf& 
     ScaleSearch search;
     search.faces = faces;
     search.keep_cavities = option_of_bpclose(header, "keep-cavities") == "yes";
-    search.pieces = mesh_memory(common);
-    search.memory_bytes = search.pieces.work_bytes;
-    search.make_shelf = make_shelf;
-    search.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
-                                                        std::uint64_t total) mutable {
+    search.context.pieces = mesh_memory(common);
+    search.context.memory.bytes = search.context.pieces.work_bytes;
+    search.context.make_shelf = make_shelf;
+    search.context.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
+                                                                std::uint64_t total) mutable {
       if (last != stage) progress.begin("try scales: " + (last = stage), total, unit);
       progress.set(done, total);
     };

@@ -95,8 +95,8 @@ Backends make_gpu_backends_if_worth(const CommonOptions& common, double core_sec
   } catch (const DeviceError& e) {
     report->note(fmt::format("{}; the CPU is used", e.what()), common);
   }
-  const auto warn = [report, &common, said = std::make_shared<std::once_flag>()](const std::string& what) {
-    std::call_once(*said, [&] { report->note(fmt::format("{}; the CPU takes over", what), common); });
+  const auto warn = [report, &common, said = std::make_shared<std::once_flag>()](const DeviceError& e) {
+    std::call_once(*said, [&] { report->note(fmt::format("{}; the CPU takes over", e.what()), common); });
   };
   for (auto& backend : backends) backend = std::make_unique<FallbackBackend>(std::move(backend), warn);
   return backends;

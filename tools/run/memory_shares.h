@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "lib/core/memory_share.h"
 #include "lib/core/parallel.h"
 
 namespace bp {
@@ -17,13 +18,12 @@ constexpr std::uint64_t kVoxelProgram = std::uint64_t(96) << 20, kMeshProgram = 
 
 /// What is left of --memory beside the program and what each thread has in hand, bytes.
 struct UsableMemory {
-  std::uint64_t fixed, bytes;  ///< for program and threads, at least; left
-  double growth;               ///< with each byte more of --memory, at least
-  UsableMemory(std::uint64_t memory, std::uint64_t program)
-      : fixed(program + std::uint64_t(thread_count()) * (8 << 20)) {
-    bytes = memory > 2 * fixed ? memory - fixed : memory / 2;
-    growth = memory > 2 * fixed ? 1 : 0.5;
-  }
+  MemoryLimit limit;
+  std::uint64_t bytes;
+  /// `pinned`: by GPUs, of `memory`.
+  UsableMemory(std::uint64_t memory, std::uint64_t program, std::uint64_t pinned = 0)
+      : limit{memory, program + std::uint64_t(thread_count()) * (8 << 20) + pinned},
+        bytes(MemoryLimit{memory - pinned, limit.fixed_bytes - pinned}.rest_bytes()) {}
 };
 
 /// How --memory is shared out while a scene is voxelized, bytes. The rest is for the program, and for what the threads
@@ -48,14 +48,13 @@ struct VoxelizeBudget {
 /// How bplod does: as above while it voxelizes. Then triangles and reader have gone, and what shelf and store leave is
 /// for tiles and surfaces at work, and for what distances are measured with.
 struct BuildBudget : VoxelizeBudget {
-  std::uint64_t work;
-  double work_growth;  ///< with each byte more of --memory
-  explicit BuildBudget(std::uint64_t memory) : BuildBudget(UsableMemory(memory, kVoxelProgram)) {}
+  static constexpr double kWorkShare = 0.5;
+  MemoryShare work;
+  BuildBudget(std::uint64_t memory, std::uint64_t pinned) : BuildBudget(UsableMemory(memory, kVoxelProgram, pinned)) {}
 
  private:
   explicit BuildBudget(const UsableMemory& usable) : VoxelizeBudget(usable) {
-    work = usable.bytes / 2;
-    work_growth = usable.growth / 2;
+    work = {usable.bytes / 2, kWorkShare, usable.limit};
   }
 };
 
@@ -64,15 +63,15 @@ struct MeshBudget {
   std::uint64_t shelves;        ///< voxels
   std::uint64_t waiting, work;  ///< pieces of the surface, those in hand
   std::uint64_t store;          ///< further ones that wait, compressed
-  double waiting_growth, work_growth;
+  static constexpr double kWaitingShare = 0.25, kWorkShare = 0.3;
+  MemoryLimit limit;
   explicit MeshBudget(std::uint64_t memory) {
     const UsableMemory usable(memory, kMeshProgram);
     shelves = usable.bytes / 20 * 5;
     waiting = usable.bytes / 20 * 5;
     work = usable.bytes / 20 * 6;
     store = usable.bytes / 20;
-    waiting_growth = usable.growth / 20 * 5;
-    work_growth = usable.growth / 20 * 6;
+    limit = usable.limit;
   }
 };
 

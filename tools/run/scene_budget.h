@@ -1,10 +1,10 @@
 #pragma once
-#include "io/scene/scene_reader.h"
+#include "lib/core/memory_share.h"
 
 namespace bp {
 
 /// What the description of a scene may take of --memory while nothing else does: all that the program and its threads
 /// leave. `program`: as UsableMemory. Of several scenes one is opened while the triangles of others wait: a fifth.
-[[nodiscard]] DocumentBudget document_budget(std::uint64_t memory, std::uint64_t program, std::size_t scenes);
+[[nodiscard]] MemoryShare document_budget(std::uint64_t memory, std::uint64_t program, std::size_t scenes);
 
 }  // namespace bp

@@ -89,7 +89,7 @@ RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const S
     case Reader::unknown:
       break;
   }
-  fail(ErrorCode::bad_input, "{}: neither its name nor its first bytes tell its format; name it with --format",
+  fail(ErrorCode::bad_input, {Remedy::name_format}, "{}: neither its name nor its first bytes tell its format",
        file->name());
 }
 

@@ -83,10 +83,8 @@ bool is_finite(const TriangleD& t) {
 void check_document(const SceneOptions& options, const std::string& name, const char* what, std::uint64_t bytes,
                     std::uint64_t left, std::uint64_t per_missing) {
   if (options.document.bytes == 0 || bytes <= left) return;
-  fail(ErrorCode::out_of_resource,
-       "{}: {} takes {} MiB, and --memory leaves {} MiB for it; raise --memory{}, or split it", name, what,
-       (bytes >> 20) + 1, left >> 20,
-       options.document.enough_for ? options.document.enough_for((bytes - left) * per_missing) : "");
+  throw NeedsMemory(fmt::format("{}: {}", name, what), bytes, left,
+                    options.document.limit_with((bytes - left) * per_missing), {Remedy::split_scene});
 }
 
 std::string temp_dir_of(const SceneOptions& options) {

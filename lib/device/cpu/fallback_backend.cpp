@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "lib/device/device_error.h"
-
 namespace bp {
 
 bool FallbackBackend::device_does(const std::function<void(Backend&)>& call) {
@@ -13,7 +11,7 @@ bool FallbackBackend::device_does(const std::function<void(Backend&)>& call) {
     return true;
   } catch (const DeviceError& e) {
     device_.reset();
-    warn_(e.what());
+    warn_(e);
     return false;
   }
 }

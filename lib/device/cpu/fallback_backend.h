@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "lib/device/cpu/cpu_backend.h"
+#include "lib/device/device_error.h"
 
 namespace bp {
 
@@ -11,7 +12,7 @@ namespace bp {
 class FallbackBackend final : public Backend {
  public:
   /// warn: called once, on the thread of the call that failed, with what failed.
-  FallbackBackend(std::unique_ptr<Backend> device, std::function<void(const std::string&)> warn)
+  FallbackBackend(std::unique_ptr<Backend> device, std::function<void(const DeviceError&)> warn)
       : device_(std::move(device)), warn_(std::move(warn)), name_(device_->name()) {}
 
   [[nodiscard]] std::string name() const override { return device_ ? name_ : name_ + ", then cpu"; }
@@ -32,7 +33,7 @@ class FallbackBackend final : public Backend {
 
   std::unique_ptr<Backend> device_;  ///< null once it has failed
   CpuBackend cpu_;
-  std::function<void(const std::string&)> warn_;
+  std::function<void(const DeviceError&)> warn_;
   std::string name_;
 };
 

@@ -3,41 +3,18 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
-#include <mutex>
 #include <set>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/clip.h"
-#include "lib/volume/outside.h"
+#include "lib/pass/close/detail/tile_closer.h"
 
 namespace bp {
 
 namespace {
 
 constexpr const char* kJob = "closing of a cell";
-
-/// Backends that jobs take and give back; there are as many as jobs at work.
-class IdleBackends {
- public:
-  explicit IdleBackends(Backends& all) {
-    for (const auto& backend : all) idle_.push_back(backend.get());
-  }
-  Backend* take() {
-    const std::lock_guard lock(mutex_);
-    Backend* backend = idle_.back();
-    idle_.pop_back();
-    return backend;
-  }
-  void give(Backend* backend) {
-    const std::lock_guard lock(mutex_);
-    idle_.push_back(backend);
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<Backend*> idle_;
-};
 
 /// The bricks of a box that are not empty: place, fill, and bits unless full; then the end.
 std::string packed(const BitBox& bits) {
@@ -86,16 +63,24 @@ bool unpack(const std::string& in, const VoxelBox& cell, BrickShelf& shelf) {
   return true;
 }
 
-class Run {
+ScaleField uniform(double scale_world) {
+  ScaleField field;
+  field.base = scale_world;
+  return field;
+}
+
+/// Closes the cells of a level.
+class CellCloser {
  public:
-  Run(const StreamHeader& header, const BrickShelf& solid, Backends& backends, double scale_world,
-      const CellClosing& options, BrickShelf& closing)
-      : header_(header), solid_(solid), options_(options), closing_(closing), backends_(backends), idle_(backends) {
-    field_.base = scale_world;
-    scale_ = field_.upper_bound(header.frame);
-    halo_ = {element_reach(scale_) + 1, element_reach(scale_)};
-    if (backends.empty()) fail(ErrorCode::bad_argument, "closing needs a backend, and none was made");
-  }
+  CellCloser(const StreamHeader& header, const BrickShelf& solid, Backends& backends, double scale_world,
+             const CellClosing& options, BrickShelf& closing)
+      : solid_(solid),
+        options_(options),
+        closing_(closing),
+        field_(uniform(scale_world)),
+        scale_(field_.upper_bound(header.frame)),
+        backends_(backends.size()),
+        closer_({header, solid, field_, options.closing}, closing, backends, backends.size()) {}
 
   CellClosingCounts operator()() {
     const std::vector<CellCoord> cells = cells_in_reach();
@@ -111,7 +96,7 @@ class Run {
         },
         [&](const CellCoord& cell) { close(cell); },
         [&](const CellCoord&) { report("closing", ++done, cells.size()); });
-    if (flood_) fill_cavities();
+    if (closer_.floods()) fill_cavities();
     counts_.kept = kept_;
     return counts_;
   }
@@ -121,7 +106,7 @@ class Run {
     std::set<CellCoord> cells;
     for (const BrickCoord brick : solid_.coords()) {
       const VoxelBox reach =
-          voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(halo_.dilation_vox);
+          voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(closer_.widest().dilation_vox);
       const CellCoord first = options_.cells.of(reach.min);
       const CellCoord last = options_.cells.of({reach.max.x - 1, reach.max.y - 1, reach.max.z - 1});
       for (CellCoord c = first; c.z <= last.z; ++c.z) {
@@ -135,30 +120,29 @@ class Run {
 
   void lay_flood(const std::vector<CellCoord>& cells) {
     for (const CellCoord c : cells) grid_ = hull(grid_, options_.cells.box(c));
-    const std::int32_t edge = options_.cells.edge_vox;
-    flood_ = std::make_unique<OutsideFlood>(grid_, VoxelCoord{edge, edge, edge});
+    closer_.flood(grid_, options_.cells.edge_vox);
   }
 
   /// Bits of a cell with its halo, and what closing and labelling need of about the same size.
   [[nodiscard]] int in_flight() const {
-    const double side = double(options_.cells.edge_vox) + 2.0 * halo_.total_vox() + 64;
+    const MemoryShare& memory = options_.context.memory;
+    const double side = double(options_.cells.edge_vox) + 2.0 * closer_.widest().total_vox() + 64;
     const double bytes = 12 * side * side * side / 8 + (16 << 20), least = bytes / 3;  // where little is occupied
-    if (least > double(options_.memory_bytes)) {
-      fail(ErrorCode::out_of_resource,
-           "closing a cell of {} voxels with a halo of {} takes {:.0f} MiB, and --memory leaves {:.0f} MiB for it; "
-           "raise "
-           "--memory{}, or use a smaller --tile or --scale",
-           options_.cells.edge_vox, halo_.total_vox(), least / (1 << 20), double(options_.memory_bytes) / (1 << 20),
-           options_.enough_for ? options_.enough_for(std::uint64_t(least) - options_.memory_bytes) : "");
+    if (least > double(memory.bytes)) {
+      const auto needed = std::uint64_t(least);
+      throw NeedsMemory(fmt::format("closing a cell of {} voxels with a halo of {}", options_.cells.edge_vox,
+                                    closer_.widest().total_vox()),
+                        needed, memory.bytes, memory.limit_with(needed - memory.bytes),
+                        {Remedy::smaller_tiles, Remedy::smaller_scale});
     }
-    const double fit = std::min(double(options_.memory_bytes) / bytes, double(backends_.size()));
+    const double fit = std::min(double(memory.bytes) / bytes, double(backends_));
     return std::max(1, int(fit));
   }
 
   [[nodiscard]] ResultKey key_of(const VoxelBox& cell) const {
     KeyHash hash(kJob);
     hash.add(scale_, options_.closing, options_.cells);
-    add_voxels(hash, solid_, cell.grown(halo_.total_vox()), brick_of(cell.min));
+    add_voxels(hash, solid_, cell.grown(closer_.widest().total_vox()), brick_of(cell.min));
     return hash.key();
   }
 
@@ -167,73 +151,46 @@ class Run {
     ResultKey key;
     std::string result;
     BitBox closed;
-    if (options_.store != nullptr) {
+    if (options_.context.results != nullptr) {
       key = key_of(cell);
-      if (options_.store->get(key, result) && unpack(result, cell, closing_)) {
+      if (options_.context.results->get(key, result) && unpack(result, cell, closing_)) {
         ++kept_;
         closed.reset(cell);
-        if (flood_) load_voxels(closing_, closed);
-        return label(cell, closed);
+        if (closer_.floods()) load_voxels(closing_, closed);
+        return closer_.label(cell, closed);
       }
     }
-    close_by_backend(cell, closed);
-    store_voxels(closed, closing_);
-    if (options_.store != nullptr) options_.store->put(key, packed(closed));
-    label(cell, closed);
-  }
-
-  void close_by_backend(const VoxelBox& cell, BitBox& closed) {
-    const ScaleLattice lattice = field_.sample(header_.frame, cell.grown(halo_.erosion_vox + kBrickEdge));
-    Backend* backend = idle_.take();
-    try {
-      backend->close_from_shelf(solid_, header_.bricks, lattice, halo_, options_.closing, cell, closed);
-    } catch (...) {
-      idle_.give(backend);
-      throw;
-    }
-    idle_.give(backend);
-  }
-
-  void label(const VoxelBox& cell, const BitBox& closed) {
-    if (!flood_) return;
-    OutsideFlood::Labels labels = OutsideFlood::label(closed, cell);
-    const std::lock_guard lock(flood_mutex_);
-    flood_->join(std::move(labels));
+    closer_.close(cell, closer_.widest(), closed);
+    closer_.keep(cell, closed);
+    if (options_.context.results != nullptr) options_.context.results->put(key, packed(closed));
   }
 
   /// Cavities reach into cells that hold no voxel, too.
   void fill_cavities() {
-    flood_->resolve();
+    closer_.resolve();
     const CellCoord first = options_.cells.of(grid_.min);
     const VoxelCoord size = grid_.size();
     const std::int64_t edge = options_.cells.edge_vox, nx = size.x / edge, ny = size.y / edge, nz = size.z / edge;
     parallel_for(nx * ny * nz, [&](std::int64_t i) {
       const CellCoord at{std::int32_t(i % nx), std::int32_t(i / nx % ny), std::int32_t(i / nx / ny)};
       const VoxelBox cell = options_.cells.box(first + at);
-      if (!flood_->has_enclosed(cell)) return;
-      BitBox bits(cell);
-      load_voxels(closing_, bits);
-      flood_->fill_enclosed(cell, bits);
-      store_voxels(bits, closing_);
+      BitBox bits;
+      if (closer_.has_enclosed(cell)) closer_.fill(cell, bits);
     });
   }
 
   void report(const char* stage, std::uint64_t done, std::uint64_t total) const {
-    if (options_.progress) options_.progress(stage, "cells", done, total);
+    options_.context.report(stage, "cells", done, total);
   }
 
-  const StreamHeader& header_;
   const BrickShelf& solid_;
   const CellClosing& options_;
   BrickShelf& closing_;
-  Backends& backends_;
-  IdleBackends idle_;
-  ScaleField field_;
-  Scale scale_ = 0;
-  Halo halo_;
+  const ScaleField field_;
+  const Scale scale_;
+  const std::size_t backends_;
+  TileCloser closer_;
   VoxelBox grid_;
-  std::unique_ptr<OutsideFlood> flood_;
-  std::mutex flood_mutex_;
   std::atomic<std::uint64_t> kept_{0};
   CellClosingCounts counts_;
 };
@@ -242,7 +199,7 @@ class Run {
 
 CellClosingCounts close_cells(const StreamHeader& header, const BrickShelf& solid, Backends& backends,
                               double scale_world, const CellClosing& options, BrickShelf& closing) {
-  return Run(header, solid, backends, scale_world, options, closing)();
+  return CellCloser(header, solid, backends, scale_world, options, closing)();
 }
 
 }  // namespace bp

@@ -1,11 +1,8 @@
 #pragma once
-#include <functional>
-
 #include "lib/device/backend.h"
 #include "lib/grid/cells.h"
 #include "lib/grid/stream.h"
-#include "lib/pass/stage_progress.h"
-#include "lib/store/result_store.h"
+#include "lib/pass/context.h"
 
 /// The closing of a level cell by cell, each a job whose result can be kept: it depends on the voxels in the cell and
 /// its halo, on the scale and the element, not on where the cell lies. Same voxels as close_stream().
@@ -15,11 +12,7 @@ struct CellClosing {
   Cells cells;
   ClosingParams closing;
   bool keep_cavities = false;
-  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for cells at work
-  /// For messages: " to at least N MiB", where so many bytes are missing. May be empty.
-  std::function<std::string(std::uint64_t)> enough_for;
-  ResultStore* store = nullptr;  ///< results are looked up there, and put; null: made anew
-  StageProgress progress;        ///< called now and then
+  PassContext context;
 };
 
 struct CellClosingCounts {
@@ -27,7 +20,7 @@ struct CellClosingCounts {
 };
 
 /// Puts the closing of `solid`, with bricks of `header`, onto `closing`. `scale_world` is the same everywhere. Throws
-/// as close_stream(), out_of_resource if not even one cell fits in memory_bytes.
+/// as close_stream(), out_of_resource if not even one cell fits in the memory.
 CellClosingCounts close_cells(const StreamHeader& header, const BrickShelf& solid, Backends& backends,
                               double scale_world, const CellClosing& options, BrickShelf& closing);
 

@@ -2,21 +2,19 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <set>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
-#include "lib/core/pool.h"
 #include "lib/grid/clip.h"
 #include "lib/grid/header_fault.h"
+#include "lib/grid/shelf_stream.h"
 #include "lib/grid/tile_grid.h"
-#include "lib/volume/outside.h"
+#include "lib/pass/close/detail/tile_closer.h"
 
 namespace bp {
 
@@ -25,11 +23,6 @@ namespace {
 constexpr double kMaxTiles = 1 << 27;        // the fill asks every tile; beyond, a grid is a slip of the finger
 constexpr std::size_t kBricksAtATime = 128;  // taken off the shelf together to be written: 8 MiB
 constexpr std::int32_t kMaxTileVox = 512;    // beyond, halos cost little and tiles get few
-
-/// The halo of any tile where `s` is the largest scale.
-Halo widest_halo(Scale s) {
-  return {element_reach(s) + 1, element_reach(s)};
-}
 
 /// Bytes that closing one tile of a grid takes, every voxel of tile and halo in play: the boxes of close_tile, and as
 /// much again as the tile itself for the components of its empty voxels.
@@ -68,25 +61,11 @@ std::int32_t choose_tile(const VoxelCoord& grid, const Halo& halo, std::size_t w
   return best;
 }
 
-/// Adds the time of its scope to a sum.
-class Stopwatch {
+/// Closes a stream. A layer is one step of tiles across the slab axis.
+class StreamCloser {
  public:
-  explicit Stopwatch(std::atomic<double>& sum) : sum_(sum), start_(Clock::now()) {}
-  ~Stopwatch() { sum_.fetch_add(std::chrono::duration<double>(Clock::now() - start_).count()); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  std::atomic<double>& sum_;
-  Clock::time_point start_;
-};
-
-/// One run of close_stream(). A layer is one step of tiles across the slab axis.
-class Run {
- public:
-  Run(BrickSource& source, BrickSink& sink, Backends& backends, const ScaleField& scale, const ClosingParams& params,
-      const CloseOptions& options)
+  StreamCloser(BrickSource& source, BrickSink& sink, Backends& backends, const ScaleField& scale,
+               const ClosingParams& params, const CloseOptions& options)
       : source_(source),
         sink_(sink),
         scale_(scale),
@@ -95,8 +74,8 @@ class Run {
         header_(source.header()),
         axis_(header_.slab_axis),
         widest_(widest_halo(scale.upper_bound(header_.frame))),
-        solid_(options.make_shelf()),
-        closing_(options.make_shelf()) {
+        solid_(options.context.make_shelf()),
+        closing_(options.context.make_shelf()) {
     lay_tiles(backends);
   }
 
@@ -106,16 +85,17 @@ class Run {
         boxes_->count() + 2, [&](TileCoord& tile) { return next_tile(tile); },
         [&](const TileCoord& tile) { close(tile); },
         [&](const TileCoord& tile) {
-          report("closing", "tiles", ++done_, 0);
+          options_.context.report("closing", "tiles", ++done_, 0);
           if (options_.keep_cavities) emit_done(tile[axis_]);
         });
     read_before(std::numeric_limits<std::int64_t>::max());  // to the end record
-    if (flood_) flood_->resolve();
+    if (closer_->floods()) closer_->resolve();
     finish_layers();
     counts_.tiles_closed = tiles_closed_;
     counts_.cavity_voxels = cavity_voxels_;
     counts_.halo_vox = halo_vox_;
-    counts_.seconds = {reading_, waiting_, closing_time_, labelling_, shelving_, filling_, writing_};
+    counts_.seconds = {reading_,          closer_->waiting, closer_->closing, closer_->labelling,
+                       closer_->shelving, closer_->filling, writing_};
     return counts_;
   }
 
@@ -127,17 +107,10 @@ class Run {
   void read_before(std::int64_t end_vox);
   void take_brick();
   void close(TileCoord tile);
-  void close_by_backend(const VoxelBox& box, const Halo& halo, const ScaleLattice& lattice, BitBox& closed);
-  [[nodiscard]] BrickFill fill_of(const VoxelBox& voxels) const;
-  void keep(TileCoord tile, const BitBox& bits);
   void finish_layers();
   void fill_cavities(std::int32_t layer, LayerTiles& tiles);
-  void fill_tile(TileCoord tile);
   void emit_done(std::int32_t current_layer);
   void emit(const LayerTiles& tiles);
-  void report(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total) const {
-    if (options_.progress) options_.progress(stage, unit, done, total);
-  }
   /// First voxel across the slab axis that is no longer in the layer.
   [[nodiscard]] std::int64_t end_of(std::int32_t layer) const {
     return tiles_.voxels.min[axis_] + (std::int64_t(layer) + 1) * tiles_.edge_vox;
@@ -153,61 +126,59 @@ class Run {
   const Halo widest_;
   const std::unique_ptr<BrickShelf> solid_, closing_;
   TileGrid tiles_;
-  std::unique_ptr<Pool<Backend*>> backends_;
+  std::unique_ptr<TileCloser> closer_;
   std::unique_ptr<Pool<std::unique_ptr<BitBox>>> boxes_;  ///< of closed tiles: as many as threads work on them
-  std::unique_ptr<OutsideFlood> flood_;
   CloseCounts counts_;
   std::uint64_t done_ = 0;
   std::atomic<std::uint64_t> tiles_closed_{0}, cavity_voxels_{0};
   std::atomic<std::int32_t> halo_vox_{0};
-  std::atomic<double> reading_{0}, waiting_{0}, closing_time_{0}, labelling_{0}, shelving_{0}, filling_{0}, writing_{0};
+  std::atomic<double> reading_{0}, writing_{0};
 
   Brick brick_;  ///< read, not yet taken
   bool more_ = true;
   std::vector<TileCoord> queue_;  ///< of the layer being closed, last first
   std::int32_t next_layer_ = 0;
-  std::mutex layers_mutex_, flood_mutex_;
+  std::mutex layers_mutex_;
   std::map<std::int32_t, LayerTiles> layers_;  ///< not yet emitted: their tiles with a solid brick in reach
 };
 
-void Run::lay_tiles(Backends& backends) {
-  if (backends.empty()) fail(ErrorCode::bad_argument, "closing needs a backend, and none was made");
+void StreamCloser::lay_tiles(Backends& backends) {
   const VoxelBox grid = voxels_of(closing_bricks(header_, scale_));
+  const MemoryShare& memory = options_.context.memory;
   // A GPU has few backends: while they compute, the other threads label and shelve what came back.
   const std::size_t workers = std::max(backends.size(), std::size_t(thread_count()));
   // And its halos are cheap, so that small tiles keep all busy.
   const bool small = backends.size() < workers && widest_.total_vox() <= kMaxTileVox / 8;
   const std::int32_t edge = options_.tile_vox != 0 ? options_.tile_vox
-                                                   : choose_tile(grid.size(), widest_, workers, options_.memory_bytes,
+                                                   : choose_tile(grid.size(), widest_, workers, memory.bytes,
                                                                  small ? kMaxTileVox / 2 : kMaxTileVox);
   if (edge < 0 || edge % kBrickEdge != 0)
     fail(ErrorCode::bad_argument, "a tile of {} voxels a side is no multiple of {}", edge, kBrickEdge);
   const double bytes = tile_bytes(grid.size(), edge, widest_);
-  if (bytes > double(options_.memory_bytes)) {
-    fail(ErrorCode::out_of_resource,
-         "closing a tile of {} voxels with a halo of {} takes {:.0f} MiB, and --memory leaves {:.0f} MiB for it; raise "
-         "--memory{}, or use larger voxels or a smaller --scale{}",
-         edge, widest_.total_vox(), bytes / (1 << 20), double(options_.memory_bytes) / (1 << 20),
-         options_.enough_for ? options_.enough_for(std::uint64_t(std::ceil(bytes))) : "",
-         edge > kBrickEdge ? " or --tile" : "");
+  if (bytes > double(memory.bytes)) {
+    const auto needed = std::uint64_t(std::ceil(bytes));
+    Remedies others{Remedy::larger_voxels, Remedy::smaller_scale};
+    if (edge > kBrickEdge) others.push_back(Remedy::smaller_tiles);
+    throw NeedsMemory(fmt::format("closing a tile of {} voxels with a halo of {}", edge, widest_.total_vox()), needed,
+                      memory.bytes, memory.limit_with(needed - memory.bytes), others);
   }
   tiles_ = TileGrid(grid, edge);
   if (tiles_.total() > kMaxTiles)
-    fail(ErrorCode::bad_argument, "the grid has {:.0f} tiles of {} voxels; use a larger --tile", tiles_.total(), edge);
-  const auto fit = std::size_t(std::max(1.0, std::min(double(workers), double(options_.memory_bytes) / bytes)));
-  std::vector<Backend*> at_work;
-  for (std::size_t i = 0; i < std::min(fit, backends.size()); ++i) at_work.push_back(backends[i].get());
-  backends_ = std::make_unique<Pool<Backend*>>(std::move(at_work));
+    fail(ErrorCode::bad_argument, {Remedy::larger_tiles}, "the grid has {:.0f} tiles of {} voxels", tiles_.total(),
+         edge);
+  const auto fit = std::size_t(std::max(1.0, std::min(double(workers), double(memory.bytes) / bytes)));
+  closer_ =
+      std::make_unique<TileCloser>(TileCloser::Input{header_, *solid_, scale_, params_}, *closing_, backends, fit);
   std::vector<std::unique_ptr<BitBox>> boxes(fit);
   for (auto& box : boxes) box = std::make_unique<BitBox>();
   boxes_ = std::make_unique<Pool<std::unique_ptr<BitBox>>>(std::move(boxes));
-  if (!options_.keep_cavities) flood_ = std::make_unique<OutsideFlood>(grid, VoxelCoord{edge, edge, edge});
+  if (!options_.keep_cavities) closer_->flood(grid, edge);
   counts_.tile_vox = edge;
   counts_.tiles = std::uint64_t(tiles_.total());
 }
 
 /// Layer by layer, once all bricks that any tile of the layer can see have been taken.
-bool Run::next_tile(TileCoord& tile) {
+bool StreamCloser::next_tile(TileCoord& tile) {
   while (queue_.empty()) {
     if (next_layer_ == tiles_.count[axis_]) return false;
     read_before(end_of(next_layer_) + widest_.total_vox());
@@ -224,7 +195,7 @@ bool Run::next_tile(TileCoord& tile) {
 }
 
 /// Takes the bricks that begin before `end_vox` across the slab axis.
-void Run::read_before(std::int64_t end_vox) {
+void StreamCloser::read_before(std::int64_t end_vox) {
   const Stopwatch watch(reading_);
   while (more_ && std::int64_t(brick_.coord[axis_]) * kBrickEdge < end_vox) {
     take_brick();
@@ -232,7 +203,7 @@ void Run::read_before(std::int64_t end_vox) {
   }
 }
 
-void Run::take_brick() {
+void StreamCloser::take_brick() {
   if (brick_.layer != Layer::solid) {
     ++counts_.ignored_bricks;
     return;
@@ -253,64 +224,21 @@ void Run::take_brick() {
   }
 }
 
-/// Empty or full if all bricks that hold voxels of the box are.
-BrickFill Run::fill_of(const VoxelBox& voxels) const {
-  bool all_empty = true, all_full = true;
-  const BrickBox wanted = bricks_of(voxels), there = intersect(wanted, header_.bricks);
-  if (there.empty()) return BrickFill::empty;
-  for_each_brick(there, [&](BrickCoord c) {
-    const BrickFill fill = solid_->fill(c);
-    all_empty = all_empty && fill == BrickFill::empty;
-    all_full = all_full && fill == BrickFill::full;
-  });
-  return all_empty ? BrickFill::empty : all_full && there == wanted ? BrickFill::full : BrickFill::mixed;
-}
-
-void Run::close(TileCoord tile) {
+void StreamCloser::close(TileCoord tile) {
   const VoxelBox box = tiles_.box(tile);
-  const Halo halo = scale_.constant() ? widest_ : halo_of(box, scale_, header_.frame);
-  const VoxelBox seen = box.grown(halo.total_vox());
-  if (fill_of(seen) == BrickFill::empty) return;
+  const Halo halo = closer_->halo(box);
+  if (!closer_->in_reach(box, halo)) return;
   ++tiles_closed_;
   for (std::int32_t most = halo_vox_;
        most < halo.total_vox() && !halo_vox_.compare_exchange_weak(most, halo.total_vox());)
     ;
   const Pool<std::unique_ptr<BitBox>>::Lease closed(*boxes_);
-  if (fill_of(box) == BrickFill::full) {
-    closed->reset(box);
-    std::fill_n(closed->data(), closed->word_count(), ~std::uint64_t(0));
-  } else {
-    VoxelBox sampled = hull(intersect(seen, voxels_of(header_.bricks)), box.grown(halo.erosion_vox));
-    sampled.min.x = floor_div(sampled.min.x, kBrickEdge) * kBrickEdge;  // whole words are computed
-    sampled.max.x = ceil_div(sampled.max.x, kBrickEdge) * kBrickEdge;
-    const ScaleLattice lattice = scale_.sample(header_.frame, sampled);
-    close_by_backend(box, halo, lattice, *closed);
-  }
-  keep(tile, *closed);
-}
-
-void Run::close_by_backend(const VoxelBox& box, const Halo& halo, const ScaleLattice& lattice, BitBox& closed) {
-  std::optional<Stopwatch> waits(waiting_);
-  const Pool<Backend*>::Lease backend(*backends_);
-  waits.reset();
-  const Stopwatch works(closing_time_);
-  backend->close_from_shelf(*solid_, header_.bricks, lattice, halo, params_, box, closed);
-}
-
-void Run::keep(TileCoord tile, const BitBox& bits) {
-  {
-    const Stopwatch watch(shelving_);
-    store_voxels(bits, *closing_);
-  }
-  if (!flood_) return;
-  const Stopwatch watch(labelling_);
-  OutsideFlood::Labels labels = OutsideFlood::label(bits, tiles_.box(tile));
-  const std::lock_guard lock(flood_mutex_);
-  flood_->join(std::move(labels));
+  closer_->close(box, halo, *closed);
+  closer_->keep(box, *closed);
 }
 
 /// Fills and emits the layers that are left: one is filled while the one before is written.
-void Run::finish_layers() {
+void StreamCloser::finish_layers() {
   std::vector<std::pair<std::int32_t, LayerTiles>> left(layers_.begin(), layers_.end());
   layers_.clear();
   std::size_t next = 0, written = 0;
@@ -321,16 +249,16 @@ void Run::finish_layers() {
         return next++ < left.size();
       },
       [&](const std::size_t& i) {
-        if (flood_) fill_cavities(left[i].first, left[i].second);
+        if (closer_->floods()) fill_cavities(left[i].first, left[i].second);
       },
       [&](const std::size_t& i) {
         emit(left[i].second);
-        report("filling", "layers", ++written, left.size());
+        options_.context.report("filling", "layers", ++written, left.size());
       });
 }
 
 /// Cavities reach into tiles that hold no voxel; a layer of none but such tiles is open to the outside.
-void Run::fill_cavities(std::int32_t layer, LayerTiles& tiles) {
+void StreamCloser::fill_cavities(std::int32_t layer, LayerTiles& tiles) {
   TileCoord count = tiles_.count;
   count[axis_] = 1;
   const std::int64_t total = std::int64_t(count.x) * count.y * count.z;
@@ -338,25 +266,16 @@ void Run::fill_cavities(std::int32_t layer, LayerTiles& tiles) {
   parallel_for(total, [&](std::int64_t i) {
     TileCoord tile{std::int32_t(i % count.x), std::int32_t(i / count.x % count.y), std::int32_t(i / count.x / count.y)};
     tile[axis_] = layer;
-    if (!flood_->has_enclosed(tiles_.box(tile))) return;
-    fill_tile(tile);
+    if (!closer_->has_enclosed(tiles_.box(tile))) return;
+    const Pool<std::unique_ptr<BitBox>>::Lease bits(*boxes_);
+    cavity_voxels_ += closer_->fill(tiles_.box(tile), *bits);
     const std::lock_guard lock(mutex);
     tiles.insert(tile);
   });
 }
 
-void Run::fill_tile(TileCoord tile) {
-  const Stopwatch watch(filling_);
-  const Pool<std::unique_ptr<BitBox>>::Lease closed(*boxes_);
-  const VoxelBox box = tiles_.box(tile);
-  closed->reset(box);
-  load_voxels(*closing_, *closed);
-  cavity_voxels_ += flood_->fill_enclosed(box, *closed);
-  store_voxels(*closed, *closing_);
-}
-
 /// Emits the layers before `current` that no tile from there on can see.
-void Run::emit_done(std::int32_t current) {
+void StreamCloser::emit_done(std::int32_t current) {
   for (;;) {
     LayerTiles tiles;
     {
@@ -371,7 +290,7 @@ void Run::emit_done(std::int32_t current) {
 }
 
 /// Both layers of the bricks of these tiles, in slab order. Every solid brick lies in the closing.
-void Run::emit(const LayerTiles& tiles) {
+void StreamCloser::emit(const LayerTiles& tiles) {
   const Stopwatch watch(writing_);
   std::vector<BrickCoord> bricks;
   for (const TileCoord& tile : tiles) {
@@ -411,7 +330,7 @@ void Run::emit(const LayerTiles& tiles) {
 
 BrickBox closing_bricks(const StreamHeader& header, const ScaleField& scale) {
   if (header.bricks.empty()) return header.bricks;
-  const std::int32_t margin = ceil_div(element_reach(scale.upper_bound(header.frame)) + 1, kBrickEdge);
+  const std::int32_t margin = ceil_div(widest_halo(scale.upper_bound(header.frame)).erosion_vox, kBrickEdge);
   const BrickBox grown = header.bricks.grown(margin);
   if (brick_box_fault(grown) != nullptr)
     fail(ErrorCode::bad_argument, "the closing leaves the grid of 2^31 voxels a side; use larger voxels");
@@ -420,7 +339,18 @@ BrickBox closing_bricks(const StreamHeader& header, const ScaleField& scale) {
 
 CloseCounts close_stream(BrickSource& source, BrickSink& sink, Backends& backends, const ScaleField& scale,
                          const ClosingParams& params, const CloseOptions& options) {
-  return Run(source, sink, backends, scale, params, options)();
+  return StreamCloser(source, sink, backends, scale, params, options)();
+}
+
+std::unique_ptr<BrickShelf> close_shelf(const StreamHeader& header, BrickShelf& solid, Backends& backends,
+                                        double scale_world, const ClosingParams& params, const CloseOptions& options) {
+  ScaleField scale;
+  scale.base = scale_world;
+  auto closing = options.context.make_shelf();
+  ShelfSource source(header, solid, nullptr, ShelfSource::Keep::all);
+  ShelfSink sink(nullptr, closing.get());
+  close_stream(source, sink, backends, scale, params, options);
+  return closing;
 }
 
 }  // namespace bp

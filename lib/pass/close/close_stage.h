@@ -1,11 +1,7 @@
 #pragma once
-
-#include <functional>
-#include <string>
-
 #include "lib/device/backend.h"
 #include "lib/grid/stream.h"
-#include "lib/pass/stage_progress.h"
+#include "lib/pass/context.h"
 
 /// bpclose's work: a stream of solid bricks in, the same bricks and their closing out, tile by tile, out of core.
 ///
@@ -18,12 +14,7 @@ namespace bp {
 struct CloseOptions {
   std::int32_t tile_vox = 0;   ///< 0: by memory, halo and number of backends; else a multiple of 64
   bool keep_cavities = false;  ///< leave empty what the closing encloses
-  /// For the tiles at work; what the shelves hold comes on top.
-  std::uint64_t memory_bytes = std::uint64_t(512) << 20;
-  /// " to at least 700 MiB": what the user may be told to raise if memory_bytes should be so much; may be left out.
-  std::function<std::string(std::uint64_t memory_bytes)> enough_for;
-  ShelfFactory make_shelf;  ///< called twice: solid and closing
-  StageProgress progress;   ///< called now and then
+  PassContext context;         ///< two shelves are made: solid and closing
 };
 
 /// Where the time went, in seconds, summed over the threads at work.
@@ -56,8 +47,13 @@ struct CloseCounts {
 /// Reads `source` to its end (a closing layer in it is passed over: the closing is made from the solid layer) and
 /// writes both layers to `sink`; the caller calls finish(). The sink's header is the source's with bricks =
 /// closing_bricks(), has_closing, scale and element set. Throws bad_argument if tile_vox will not do or a scale is out
-/// of range, out_of_resource if not even one tile fits in memory_bytes.
+/// of range, out_of_resource if not even one tile fits in the memory.
 CloseCounts close_stream(BrickSource& source, BrickSink& sink, Backends& backends, const ScaleField& scale,
                          const ClosingParams& params, const CloseOptions& options);
+
+/// The same of voxels on a shelf, with bricks of `header`, by one scale, in scene units: the closing, on a new shelf.
+[[nodiscard]] std::unique_ptr<BrickShelf> close_shelf(const StreamHeader& header, BrickShelf& solid, Backends& backends,
+                                                      double scale_world, const ClosingParams& params,
+                                                      const CloseOptions& options);
 
 }  // namespace bp

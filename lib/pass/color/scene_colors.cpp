@@ -144,12 +144,12 @@ Vec3d SceneColors::origin_in(const GridFrame& level) const {
 }
 
 std::unique_ptr<SceneColors> gather_colors(TriangleSource& source, const GridFrame& frame, const BrickShelf& solid,
-                                           const ColorOptions& options) {
+                                           const PassContext& context) {
   struct Item {
     std::vector<TriangleD> triangles;
     std::vector<TriangleColors> colors;
   };
-  auto grid = std::make_unique<ColorGrid>(options.make_store(), options.memory_bytes);
+  auto grid = std::make_unique<ColorGrid>(context.make_store(), context.memory.bytes);
   std::uint64_t done = 0;
   source.rewind();
   pipeline<Item>(
@@ -164,10 +164,8 @@ std::unique_ptr<SceneColors> gather_colors(TriangleSource& source, const GridFra
         }
         grid->add(sums);
       },
-      [&](Item& item) {
-        if (options.progress) options.progress("colours", "triangles", done += item.triangles.size(), 0);
-      });
-  const auto boundary = options.make_shelf();
+      [&](Item& item) { context.report("colours", "triangles", done += item.triangles.size(), 0); });
+  const auto boundary = context.make_shelf();
   boundary_layer(solid, *boundary);
   grid->finish([&](ColorBrick b) { return mask_of(*boundary, b); });
   if (grid->all_white()) return nullptr;

@@ -4,7 +4,7 @@
 #include "lib/core/triangle_source.h"
 #include "lib/grid/stream.h"
 #include "lib/pass/color/detail/color_grid.h"
-#include "lib/pass/stage_progress.h"
+#include "lib/pass/context.h"
 #include "lib/store/result_key.h"
 
 /// The colours of a scene's surface for all of its levels of detail (docs/decisions/0008-colours.md). Cells of a level
@@ -54,17 +54,11 @@ class SceneColors {
   std::vector<std::unique_ptr<ColorGrid>> levels_;
 };
 
-struct ColorOptions {
-  std::uint64_t memory_bytes = std::uint64_t(64) << 20;  ///< for cells at work
-  ShelfFactory make_shelf;
-  ChunkStoreFactory make_store;  ///< of cells that wait
-  StageProgress progress;        ///< called now and then
-};
-
 /// Reads `source` once more, from its start, for the colours of what `solid`, its voxels in `frame`, shows to the
 /// outside: what lies deeper than a cell inside does not count. Null if all of that is white. The result depends
-/// neither on the order of the triangles nor on threads or memory.
+/// neither on the order of the triangles nor on threads or memory. The memory is for cells at
+/// work, the store for those that wait.
 [[nodiscard]] std::unique_ptr<SceneColors> gather_colors(TriangleSource& source, const GridFrame& frame,
-                                                         const BrickShelf& solid, const ColorOptions& options);
+                                                         const BrickShelf& solid, const PassContext& context);
 
 }  // namespace bp

@@ -15,28 +15,16 @@ namespace {
 using Shelf = std::unique_ptr<BrickShelf>;
 constexpr int kLayers = 2;  // of voxels of the scene that are seen
 
-ScaleField uniform(double scale) {
-  ScaleField field;
-  field.base = scale;
-  return field;
-}
-
 CloseOptions close_options(const HiddenOptions& o, bool keep_cavities) {
   CloseOptions c;
   c.keep_cavities = keep_cavities;
-  c.memory_bytes = o.memory_bytes;
-  c.make_shelf = o.make_shelf;
-  c.progress = o.progress;
+  c.context = o.context;
   return c;
 }
 
 Shelf closing(const StreamHeader& header, BrickShelf& solid, double scale, bool keep_cavities, Backends& backends,
               const HiddenOptions& o) {
-  Shelf closed = o.make_shelf();
-  ShelfSource source(header, solid, nullptr, ShelfSource::Keep::all);
-  ShelfSink sink(nullptr, closed.get());
-  close_stream(source, sink, backends, uniform(scale), {o.element}, close_options(o, keep_cavities));
-  return closed;
+  return close_shelf(header, solid, backends, scale, {o.element}, close_options(o, keep_cavities));
 }
 
 /// The voxels that solid ones enclose, and these.
@@ -49,7 +37,7 @@ Shelf filled(const StreamHeader& header, BrickShelf& solid, Backends& backends, 
 /// G and C.
 Shelf walls(const BrickShelf& touched, const BrickShelf& closed, const BrickShelf& closed_filled,
             const HiddenOptions& o) {
-  Shelf out = o.make_shelf();
+  Shelf out = o.context.make_shelf();
   const std::vector<BrickCoord> coords = closed_filled.coords();
   parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
     const BrickCoord at = coords[std::size_t(i)];
@@ -96,7 +84,7 @@ HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Back
     closed.reset();
     unreached = filled(header, *both, backends, o);
   }
-  HiddenVoxels out{o.make_shelf()};
+  HiddenVoxels out{o.context.make_shelf()};
   std::atomic<std::uint64_t> count{0};
   const std::vector<BrickCoord> coords = unreached->coords();
   parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
@@ -110,14 +98,16 @@ HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Back
 
 std::unique_ptr<BrickShelf> opening(const StreamHeader& header, BrickShelf& solid, Backends& backends,
                                     const HiddenOptions& o) {
-  Shelf out = o.make_shelf();
+  Shelf out = o.context.make_shelf();
   StreamHeader around = header;
   around.bricks = bricks_around(solid);
   ShelfSource source(around, solid, nullptr, ShelfSource::Keep::all);
   ComplementSource complement(source);
   ShelfSink sink(nullptr, out.get());
   ComplementSink opened(sink, around);
-  close_stream(complement, opened, backends, uniform(o.scale_world), {o.element}, close_options(o, true));
+  ScaleField scale;
+  scale.base = o.scale_world;
+  close_stream(complement, opened, backends, scale, {o.element}, close_options(o, true));
   opened.finish();
   return out->coords().empty() ? nullptr : std::move(out);
 }

@@ -16,9 +16,7 @@ namespace bp {
 struct HiddenOptions {
   double scale_world = 0;  ///< scene units; below a voxel nothing is closed
   StructuringElement element = StructuringElement::cube;
-  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< as in CloseOptions
-  ShelfFactory make_shelf;
-  StageProgress progress;
+  PassContext context;  ///< as in CloseOptions
 };
 
 struct HiddenVoxels {

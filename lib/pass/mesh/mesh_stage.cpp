@@ -4,43 +4,37 @@
 #include <cmath>
 
 #include "lib/core/error.h"
-#include "lib/enclosed/enclosed_scene.h"
 #include "lib/enclosed/enclosed_triangles.h"
-#include "lib/enclosed/enclosed_voxels.h"
 #include "lib/grid/count_bits.h"
 #include "lib/mesh/lattice_geometry.h"
-#include "lib/pass/mesh/complement.h"
 #include "lib/pass/mesh/detail/components.h"
 #include "lib/pass/mesh/detail/fit_target.h"
+#include "lib/pass/mesh/detail/ground.h"
+#include "lib/pass/mesh/detail/params_check.h"
 #include "lib/pass/mesh/detail/proxy_limits.h"
-#include "lib/pass/mesh/detail/scene_check.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "lib/quads/quad_slack.h"
 #include "lib/quads/quads.h"
-#include "lib/simplify/flatten.h"
 #include "lib/simplify/surface_tree.h"
 #include "lib/surface/repair.h"
 #include "lib/tighten/few_faces.h"
 #include "lib/tighten/tight_proxy.h"
-#include "lib/volume/boundary_rects.h"
 #include "lib/volume/boundary_runs.h"
 
 namespace bp {
 
 namespace {
 
-struct Shelves {
-  std::unique_ptr<BrickShelf> meshed;  // the closing, or the solid of a stream without one
-  std::unique_ptr<BrickShelf> input;   // the solid; null if nobody asks for it
-};
-
 [[noreturn]] void fail_empty(const StreamHeader& header) {
   if (header.fill != FillMode::inside)
     fail(ErrorCode::bad_input, "the stream holds no occupied voxel; there is nothing to mesh");
-  fail(ErrorCode::bad_input,
-       "nothing is left of the inside of the scene: it is open there, or thinner than {}; try smaller voxels{}, and "
-       "bpinfo on the stream of bpvox shows what is inside",
-       header.has_closing ? "two scales" : "the voxels", header.has_closing ? ", a smaller --scale" : "");
+  Remedies remedies{Remedy::smaller_voxels};
+  if (header.has_closing) remedies.push_back(Remedy::smaller_scale);
+  fail(
+      ErrorCode::bad_input, remedies,
+      "nothing is left of the inside of the scene: it is open there, or thinner than {} (bpinfo on the stream of bpvox "
+      "shows what is inside)",
+      header.has_closing ? "two scales" : "the voxels");
 }
 
 Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool want_input, MeshCounts& counts) {
@@ -54,143 +48,8 @@ Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool wa
   }
   if (counts.voxels == 0) fail_empty(source.header());
   if (shelves.input && shelves.input->coords().empty())
-    fail(ErrorCode::bad_input, "the stream's solid layer holds no voxel; --enclose input has nothing to keep inside");
+    fail(ErrorCode::bad_input, {Remedy::enclose_closing}, "the stream's solid layer holds no voxel to keep inside");
   return shelves;
-}
-
-void check(const MeshParams& params) {
-  for (std::size_t i = 1; i < params.faces.size(); ++i) {
-    if (params.faces[i] < params.faces[i - 1]) continue;
-    fail(ErrorCode::bad_argument, "{} faces after {}: each level must have fewer than the one before", params.faces[i],
-         params.faces[i - 1]);
-  }
-  if (params.mode == MeshMode::inside && params.enclose == Enclose::scene)
-    fail(ErrorCode::bad_argument, "a proxy inside a scene is kept by voxels; --enclose takes closing or input");
-  if (params.mode == MeshMode::fit && params.enclose == Enclose::input)
-    fail(ErrorCode::bad_argument, "a fit is drawn to the closing or to scene files; --enclose input has no meaning");
-  if (params.mode == MeshMode::fit && params.volume_ratio != 0)
-    fail(ErrorCode::bad_argument, "a fit encloses nothing; --volume has no meaning");
-  if (!(params.error_world >= 0)) fail(ErrorCode::bad_argument, "an error of {} is below 0", params.error_world);
-  if (!(params.volume_ratio >= 0))
-    fail(ErrorCode::bad_argument, "a volume ratio of {} is below 0", params.volume_ratio);
-  if (!(params.edge_factor >= 0))
-    fail(ErrorCode::bad_argument, "an edge length of {} times the scale is below 0", params.edge_factor);
-  if (!(params.inset >= 0 && params.inset <= 1))
-    fail(ErrorCode::bad_argument, "the inset of a fit is 0 to 1 extents of a voxel, not {}", params.inset);
-  if (params.least_part < 0 || params.least_part > 1)
-    fail(ErrorCode::bad_argument, "the least part is a share of the largest, from 0 to 1, not {}", params.least_part);
-  if (params.mode != MeshMode::inside && params.least_part != 0)
-    fail(ErrorCode::bad_argument, "only a proxy inside a scene may leave parts out; --least-part needs --mode inside");
-  if (params.mode == MeshMode::inside && params.volume_ratio > 1)
-    fail(ErrorCode::bad_argument, "a volume ratio of {} is above 1, and what lies inside is no larger",
-         params.volume_ratio);
-  if (params.mode == MeshMode::bounding && params.volume_ratio != 0 && params.volume_ratio < 1)
-    fail(ErrorCode::bad_argument, "a volume ratio of {} is below 1, and a proxy is no smaller than what it encloses",
-         params.volume_ratio);
-}
-
-void check_fill(const MeshParams& params, const StreamHeader& header) {
-  const bool inside = header.fill == FillMode::inside;
-  if (params.mode == MeshMode::inside && !inside) {
-    fail(ErrorCode::bad_input,
-         "the stream holds voxels that the scene touches; --mode inside needs bpvox --fill inside");
-  }
-  if (params.mode == MeshMode::inside || !inside) return;
-  fail(ErrorCode::bad_input, "the stream holds the inside of the scene only (bpvox --fill inside); use --mode inside");
-}
-
-/// What must stay inside, and its surface where distances to it are asked for.
-struct Ground {
-  std::unique_ptr<Enclosed> enclosed;  // null: nothing is tightened
-  std::vector<TriangleD> surface;
-  std::unique_ptr<TriangleBvh> tree;
-
-  [[nodiscard]] std::uint64_t bytes() const {
-    return (enclosed ? enclosed->bytes() : 0) + surface.capacity() * sizeof(TriangleD) + (tree ? tree->bytes() : 0);
-  }
-};
-
-/// The surface that simplification begins with. A proxy inside is one around the complement, turned over: what must
-/// stay "inside" is then what surrounds it.
-struct Start {
-  std::unique_ptr<BrickShelf> around;  // inside: the complement of the layer that is meshed
-  std::unique_ptr<LatticeMesh> mesh;   // inside: its surface
-  std::unique_ptr<SurfaceSource> surface;
-};
-
-/// The same surface with few triangles.
-std::vector<TriangleD> merged_triangles(const SurfaceSource& surface, const PieceMemory& memory) {
-  SimplifyParams params;
-  params.memory = memory;
-  SimplifyCounts counts;
-  Piece whole = simplified_surface(surface, params, {}, counts);
-  HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
-  merge_flat_regions(mesh);
-  return world_triangles(mesh.compact(surface.frame()));
-}
-
-/// The same for voxels that may touch along edges, where no faces can be merged but those in a rectangle.
-std::vector<TriangleD> rect_triangles(const BrickShelf& shelf, const GridFrame& frame, const PieceMemory& memory) {
-  const std::vector<FaceRect> rects = boundary_rects(shelf);
-  const std::uint64_t n = 2 * rects.size();
-  const std::uint64_t bytes = rects.size() * sizeof(FaceRect) + n * sizeof(TriangleD) + TriangleBvh::bytes_needed(n);
-  if (bytes > memory.bytes()) {
-    fail(ErrorCode::out_of_resource,
-         "the surface that distances are measured from takes {} MiB, and --memory leaves {} MiB for it; raise "
-         "--memory{}, or use larger voxels",
-         (bytes >> 20) + 1, memory.bytes() >> 20, memory.enough_for(bytes - memory.bytes()));
-  }
-  std::vector<TriangleD> triangles;
-  triangles.reserve(n);
-  for (const FaceRect& r : rects) {
-    const int across = r.min.x == r.max.x ? 0 : r.min.y == r.max.y ? 1 : 2, u = across == 0 ? 1 : 0;
-    VoxelCoord b = r.min, d = r.max;
-    b[u] = r.max[u];
-    d[u] = r.min[u];
-    const auto world = [&](const VoxelCoord& c) {
-      return frame.world({std::int64_t(c.x) * kLatticePerVoxel, std::int64_t(c.y) * kLatticePerVoxel,
-                          std::int64_t(c.z) * kLatticePerVoxel});
-    };
-    triangles.push_back({world(r.min), world(b), world(r.max)});
-    triangles.push_back({world(r.min), world(r.max), world(d)});
-  }
-  return triangles;
-}
-
-std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& params, const Start& start,
-                                        const ShelfFactory& make_shelf) {
-  if (params.enclose == Enclose::scene) {
-    const GridFrame& frame = start.surface->frame();
-    if (params.mode == MeshMode::bounding && !lies_within(params.scene, frame, *shelves.meshed)) {
-      fail(ErrorCode::bad_input,
-           "--enclose: the scene named lies not inside the voxels of the stream, so the stream was made from another "
-           "one; name the scene that bpvox read");
-    }
-    if (params.near && params.mode == MeshMode::bounding)
-      return std::make_unique<EnclosedScene>(std::move(params.scene), frame, *shelves.input);
-    return std::make_unique<EnclosedTriangles>(std::move(params.scene), frame);
-  }
-  if (params.enclose == Enclose::closing)
-    return std::make_unique<EnclosedVoxels>(start.around ? *start.around : *shelves.meshed);
-  if (params.mode == MeshMode::bounding) return std::make_unique<EnclosedVoxels>(*shelves.input);
-  const auto around = make_shelf();
-  complement(*shelves.input, bricks_around(*shelves.input), *around);
-  return std::make_unique<EnclosedVoxels>(*around);
-}
-
-Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& start, const ShelfFactory& make_shelf) {
-  Ground ground;
-  const bool target = params.mode == MeshMode::fit && params.enclose == Enclose::scene;
-  if (params.error_world > 0 || params.distances || target) {
-    const Enclose to = params.distances_to.value_or(params.enclose);
-    ground.surface = to == Enclose::scene   ? params.scene
-                     : to == Enclose::input ? rect_triangles(*shelves.input, start.surface->frame(), params.memory)
-                                            : merged_triangles(*start.surface, params.memory);
-    ground.tree = std::make_unique<TriangleBvh>(ground.surface);
-  }
-  if (params.tighten && params.mode != MeshMode::fit)
-    ground.enclosed = make_enclosed(shelves, params, start, make_shelf);
-  return ground;
 }
 
 /// No edge longer than `factor` times S anywhere along it; but never below two voxels, or nothing could be merged where
@@ -205,9 +64,9 @@ EdgeLimit scaled_edges(const ScaleField& scale, const GridFrame& frame, double f
 }
 
 SimplifyParams simplify_params(const StreamHeader& header, const GridFrame& frame, const MeshParams& params,
-                               std::uint64_t faces) {
+                               const PieceMemory& memory, std::uint64_t faces) {
   SimplifyParams out;
-  out.memory = params.memory;
+  out.memory = memory;
   out.faces = std::min<std::uint64_t>(faces, std::uint64_t(1) << 32);  // a mesh indexes fewer; multiples stay exact
   if (faces == 0 && params.error_world == 0 && params.volume_ratio == 0) {
     const bool cube = header.has_closing && header.element == StructuringElement::cube;
@@ -274,9 +133,8 @@ std::uint64_t bytes_of(const std::vector<LatticeMesh>& meshes) {
 /// What is left beside what the limits of a level take.
 PieceMemory beside_limits(const PieceMemory& memory, std::uint64_t bytes) {
   if (bytes <= memory.bytes()) return memory.without(bytes);
-  fail(ErrorCode::out_of_resource,
-       "keeping a level within a distance takes {} MiB, and --memory leaves {} MiB for it; raise --memory{}",
-       bytes >> 20, memory.bytes() >> 20, memory.enough_for(bytes - memory.bytes()));
+  throw NeedsMemory("keeping a level within a distance", bytes, memory.bytes(),
+                    memory.limit_with(bytes - memory.bytes()));
 }
 
 constexpr int kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
@@ -284,16 +142,20 @@ constexpr int kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatti
 /// All levels, one after the other.
 class LevelMaker {
  public:
-  LevelMaker(const StreamHeader& header, const ShelfFactory& make_shelf, MeshParams params, MeshCounts& counts)
-      : header_(header), make_shelf_(make_shelf), params_(std::move(params)), counts_(counts) {}
+  LevelMaker(const StreamHeader& header, const PassContext& context, MeshParams params, MeshCounts& counts)
+      : header_(header),
+        context_(context),
+        make_shelf_(context.make_shelf),
+        memory_(context.pieces),
+        params_(std::move(params)),
+        counts_(counts) {}
 
   std::vector<LatticeMesh> run(const Shelves& shelves) {
     const std::vector<std::uint64_t> faces = params_.faces.empty() ? std::vector<std::uint64_t>{0} : params_.faces;
     Start start = make_start(shelves);
     bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
-    ground_ = make_ground(shelves, params_, start, make_shelf_);
-    const PieceMemory memory = params_.memory;
-    params_.memory = memory.without(ground_.bytes());
+    ground_ = make_ground(shelves, params_, start, context_);
+    memory_ = context_.pieces.without(ground_.bytes());
     const bool fit = params_.mode == MeshMode::fit;
     const double error_share = params_.error_world / double(fit ? 1 : faces.size());
     bounds_.error_world = error_share;
@@ -303,7 +165,7 @@ class LevelMaker {
     start = {};
     for (std::size_t i = 1; i < faces.size(); ++i) {
       bounds_.error_world = error_share * double(i + 1);
-      params_.memory = memory.without(ground_.bytes() + bytes_of(levels));
+      memory_ = context_.pieces.without(ground_.bytes() + bytes_of(levels));
       levels.push_back(next_level(levels.back(), faces[i], error_share));
     }
     return levels;
@@ -317,12 +179,12 @@ class LevelMaker {
       return start;
     }
     start.around = make_shelf_();
-    check_work(count_faces(ShelfSurface(*shelves.meshed, header_.frame)), params_.memory);
+    check_work(count_faces(ShelfSurface(*shelves.meshed, header_.frame)), memory_);
     start.mesh =
         std::make_unique<LatticeMesh>(inward_surface(*shelves.meshed, header_.frame, make_shelf_, *start.around));
     if (start.mesh->triangles.empty())
-      fail(ErrorCode::bad_input,
-           "the inside of the scene is too thin to mesh; use smaller voxels or a smaller --scale");
+      fail(ErrorCode::bad_input, {Remedy::smaller_voxels, Remedy::smaller_scale},
+           "the inside of the scene is too thin to mesh");
     counts_.repaired = counts_.voxels - std::uint64_t(-volume6_of(*start.mesh) / kVolume6OfVoxel);
     counts_.solid_volume_world -= double(counts_.repaired) * std::pow(header_.frame.voxel, 3);
     drop_crumbs(*start.mesh);
@@ -335,10 +197,10 @@ class LevelMaker {
     const double voxel = level_voxel(before, header_.frame.voxel, faces, error_share);
     if (!inside()) {
       const auto around = make_shelf_();
-      const GridFrame frame = voxels_around(before, voxel, make_shelf_, params_.memory, *around);
+      const GridFrame frame = voxels_around(before, voxel, make_shelf_, memory_, *around);
       return finish_around(before, ShelfSurface(*around, frame), faces);
     }
-    LatticeMesh dense = surface_within(before, voxel, make_shelf_, params_.memory);
+    LatticeMesh dense = surface_within(before, voxel, make_shelf_, memory_);
     drop_small_parts(dense, params_.least_part);  // a level may fall into parts
     return finish_around(before, MeshSurface(dense), faces);
   }
@@ -346,7 +208,7 @@ class LevelMaker {
   LatticeMesh finish_around(const LatticeMesh& before, const SurfaceSource& dense, std::uint64_t faces) {
     if (!params_.tighten) return finish(dense, nullptr, faces);
     const EnclosedTriangles enclosed(drawable_world_triangles(before), dense.frame());
-    params_.memory = params_.memory.without(enclosed.bytes());
+    memory_ = memory_.without(enclosed.bytes());
     return finish(dense, &enclosed, faces);
   }
 
@@ -355,8 +217,8 @@ class LevelMaker {
     const FitTarget target = params_.enclose == Enclose::scene
                                  ? scene_target(*ground_.tree, dense.frame(), params_.inset)
                                  : inset_target(params_.inset);
-    const EdgeLimit edges = simplify_params(header_, dense.frame(), params_, faces[0]).edge_limit;
-    const FineFit fine = fine_fit(dense, faces[0], target, edges, params_.memory);
+    const EdgeLimit edges = simplify_params(header_, dense.frame(), params_, memory_, faces[0]).edge_limit;
+    const FineFit fine = fine_fit(dense, faces[0], target, edges, memory_);
     std::vector<LatticeMesh> levels;
     for (const std::uint64_t n : faces) {
       levels.push_back(finish(dense.frame(), n, [&](const SimplifyParams& params, LevelCounts& counts) {
@@ -397,7 +259,7 @@ class LevelMaker {
   LatticeMesh finish(const GridFrame& frame, std::uint64_t faces, const Make& make) {
     LevelCounts& counts = counts_.levels.emplace_back();
     counts.error_world = bounds_.error_world;
-    SimplifyParams params = simplify_params(header_, frame, params_, faces);
+    SimplifyParams params = simplify_params(header_, frame, params_, memory_, faces);
     params.memory = beside_limits(params.memory, ProxyLimits::bytes_needed(bounds_, frame, ground_.tree.get()));
     ProxyLimits limits(bounds_, frame, ground_.tree.get());
     if (bounds_.error_world > 0 || bounds_.volume_world != 0) params.limits = &limits;
@@ -413,7 +275,9 @@ class LevelMaker {
   }
 
   const StreamHeader& header_;
+  const PassContext& context_;
   const ShelfFactory& make_shelf_;
+  PieceMemory memory_;  // what is left of it
   MeshParams params_;
   MeshCounts& counts_;
   ProxyBounds bounds_;
@@ -422,23 +286,23 @@ class LevelMaker {
 
 }  // namespace
 
-std::vector<LatticeMesh> mesh_stream(BrickSource& source, const ShelfFactory& make_shelf, MeshParams params,
+std::vector<LatticeMesh> mesh_stream(BrickSource& source, const PassContext& context, MeshParams params,
                                      MeshCounts& counts) {
   counts = {};
-  check(params);
+  check_params(params);
   const StreamHeader& header = source.header();
   check_fill(params, header);
   const bool distances = params.error_world > 0 || params.distances;
   const bool near_scene = params.mode == MeshMode::bounding && params.near && params.enclose == Enclose::scene;
   const bool want_input = (params.tighten && (params.enclose == Enclose::input || near_scene)) ||
                           (distances && params.distances_to.value_or(params.enclose) == Enclose::input);
-  const Shelves shelves = read_layers(source, make_shelf, want_input, counts);
+  const Shelves shelves = read_layers(source, context.make_shelf, want_input, counts);
   counts.solid_volume_world = double(counts.voxels) * std::pow(header.frame.voxel, 3);
   if (params.mode != MeshMode::inside) {
     counts.repaired = repair_contacts(*shelves.meshed);
     counts.solid_volume_world += double(counts.repaired) * std::pow(header.frame.voxel, 3);
   }
-  return LevelMaker(header, make_shelf, std::move(params), counts).run(shelves);
+  return LevelMaker(header, context, std::move(params), counts).run(shelves);
 }
 
 }  // namespace bp

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "lib/grid/stream.h"
+#include "lib/pass/context.h"
 #include "lib/pass/mesh/detail/mesh_measures.h"
 #include "lib/simplify/simplify.h"
 #include "lib/tighten/tighten.h"
@@ -46,7 +47,6 @@ struct MeshParams {
   /// their closing; 0 fits the voxels.
   double inset = 0.5;
   bool quads = false;      ///< join triangles in pairs (quads.h)
-  PieceMemory memory;      ///< for the surface, which is never whole in memory unless limits or distances need it
   bool distances = false;  ///< measure the distances between the proxies and what they enclose
   /// With no target at all: the quadric error at which [CB17] §3.4 stops, as a share of the scene's diagonal.
   static constexpr double kErrorShareBall = 1e-3, kErrorShareCube = 1e-2;
@@ -71,8 +71,8 @@ struct MeshCounts {
 /// The proxies, finest first: one per number in params.faces, or one. `params` by value: the scene's triangles are
 /// moved out of it. Meshes the closing layer if the stream has one, else the solid layer. Throws bad_input if that
 /// layer is empty or not what the mode needs, bad_argument if the targets make no sense, out_of_resource if
-/// params.memory does not suffice.
-[[nodiscard]] std::vector<LatticeMesh> mesh_stream(BrickSource& source, const ShelfFactory& make_shelf,
-                                                   MeshParams params, MeshCounts& counts);
+/// context.pieces do not suffice for the surface, which is never whole in memory unless limits or distances need it.
+[[nodiscard]] std::vector<LatticeMesh> mesh_stream(BrickSource& source, const PassContext& context, MeshParams params,
+                                                   MeshCounts& counts);
 
 }  // namespace bp

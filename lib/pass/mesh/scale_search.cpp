@@ -24,21 +24,15 @@ std::unique_ptr<BrickShelf> closing_of(const StreamHeader& closed, BrickShelf& s
                                        const ScaleSearch& search) {
   CloseOptions options;
   options.keep_cavities = search.keep_cavities;
-  options.memory_bytes = search.memory_bytes;
-  options.make_shelf = search.make_shelf;
-  options.progress = search.progress;
+  options.context = search.context;
   StreamHeader input = closed;
   input.has_closing = false;
-  auto closing = search.make_shelf();
-  ShelfSource source(input, solid, nullptr, ShelfSource::Keep::all);
-  ShelfSink sink(nullptr, closing.get());
-  close_stream(source, sink, backends, closed.scale, {closed.element}, options);
-  return closing;
+  return close_shelf(input, solid, backends, closed.scale.base, {closed.element}, options);
 }
 
 /// False if parts and handles alone take more faces, whatever is merged.
 bool may_have(const BrickShelf& closing, const ScaleSearch& search) {
-  if (topology_bytes(closing) > search.pieces.bytes()) return true;  // not known
+  if (topology_bytes(closing) > search.context.pieces.bytes()) return true;  // not known
   const SolidTopology topology = topology_of(closing);
   return (topology.parts + topology.handles) * kLeastFaces <= search.faces;
 }
@@ -47,10 +41,9 @@ bool has_faces(const StreamHeader& closed, BrickShelf& solid, BrickShelf& closin
   MeshParams params;
   params.faces = {search.faces};
   params.tighten = false;
-  params.memory = search.pieces;
   MeshCounts counts;
   ShelfSource source(closed, solid, &closing, ShelfSource::Keep::solid);
-  return mesh_stream(source, search.make_shelf, params, counts).front().triangles.size() <= search.faces;
+  return mesh_stream(source, search.context, params, counts).front().triangles.size() <= search.faces;
 }
 
 }  // namespace
@@ -61,7 +54,7 @@ std::optional<int> enough_scales(const StreamHeader& header, BrickShelf& solid, 
   for (int times = 2; times <= kMostTimes && times * header.scale.base <= header.bounds.diagonal() / 2; times *= 2) {
     const StreamHeader closed = closed_at(header, times * header.scale.base);
     const std::unique_ptr<BrickShelf> closing = closing_of(closed, solid, backends, search);
-    if (search.progress) search.progress("mesh", "scales", tried++, 0);
+    if (search.context.progress) search.context.progress("mesh", "scales", tried++, 0);
     repair_contacts(*closing);  // as meshing does: it closes the tiniest holes
     if (may_have(*closing, search) && has_faces(closed, solid, *closing, search)) return times;
   }

@@ -10,12 +10,9 @@
 namespace bp {
 
 struct ScaleSearch {
-  std::uint64_t faces = 0;                                ///< asked for
-  bool keep_cavities = false;                             ///< as bpclose was told
-  std::uint64_t memory_bytes = std::uint64_t(512) << 20;  ///< for tiles at work
-  PieceMemory pieces;
-  ShelfFactory make_shelf;
-  StageProgress progress;  ///< stages of each closing, and "mesh" with the number of scales done
+  std::uint64_t faces = 0;     ///< asked for
+  bool keep_cavities = false;  ///< as bpclose was told
+  PassContext context;         ///< progress: stages of each closing, and "mesh" with the number of scales done
 };
 
 /// How many times the scale of `header`, a closing by one scale, is enough: 2, 4, 8, ... Each is tried, closed and

@@ -66,11 +66,11 @@ GridFrame voxelize_mesh(const LatticeMesh& mesh, double voxel, FillMode fill, co
   options.fill = fill;
   options.up = mesh.frame.up;
   const PieceMemory left = memory.without(source.bytes());
-  options.memory_bytes = left.waiting_bytes;
+  options.context.memory.bytes = left.waiting_bytes;
   options.tile_memory_bytes = left.work_bytes;
-  options.make_shelf = make_shelf;
-  options.make_store = memory.make_store;
-  if (!options.make_store) options.make_store = [] { return std::make_unique<MemoryChunkStore>(); };
+  options.context.make_shelf = make_shelf;
+  options.context.make_store = memory.make_store;
+  if (!options.context.make_store) options.context.make_store = [] { return std::make_unique<MemoryChunkStore>(); };
   GridFrame frame;
   const auto open = [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
     frame = header.frame;

@@ -37,19 +37,19 @@ std::uint64_t work_bytes(std::int32_t edge_vox) {
   return 3 * edge * edge * edge / 8 + (std::uint64_t(4) << 20);
 }
 
-/// One run of voxelize_stream().
-class Run {
+/// Voxelizes a scene.
+class SceneVoxelizer {
  public:
-  Run(TriangleSource& source, Backends& backends, const VoxelizeOptions& options)
+  SceneVoxelizer(TriangleSource& source, Backends& backends, const VoxelizeOptions& options)
       : source_(source),
         options_(options),
-        shelf_(options.make_shelf()),
-        store_(options.make_store()),
-        chunks_(options.results != nullptr && options.fill != FillMode::winding
-                    ? std::make_unique<ChunkedSurface>(*options.results)
+        shelf_(options.context.make_shelf()),
+        store_(options.context.make_store()),
+        chunks_(options.context.results != nullptr && options.fill != FillMode::winding
+                    ? std::make_unique<ChunkedSurface>(*options.context.results)
                     : nullptr),
         // Their bins, half as large, then fit beside them.
-        scene_(source, options.memory_bytes / 5 * 3, chunks_.get()) {
+        scene_(source, options.context.memory.bytes / 5 * 3, chunks_.get()) {
     for (int i = 0; backends.empty() && i < thread_count(); ++i) own_.push_back(std::make_unique<CpuBackend>());
     std::vector<Backend*> all;
     for (const auto& backend : backends.empty() ? own_ : backends) all.push_back(backend.get());
@@ -108,8 +108,8 @@ class Run {
   std::atomic<std::uint64_t> surface_voxels_{0};
 };
 
-void Run::measure() {
-  scene_.measure(options_.progress);
+void SceneVoxelizer::measure() {
+  scene_.measure(options_.context.progress);
   counts_.scene = source_.counts();
   counts_.area = scene_.area();
   counts_.extent = scene_.extent();
@@ -117,7 +117,7 @@ void Run::measure() {
   counts_.read_twice = scene_.reads_twice();
 }
 
-void Run::lay_grid() {
+void SceneVoxelizer::lay_grid() {
   counts_.voxel_asked = options_.voxel_size(scene_.bounds());
   header_ = solid_header(scene_.bounds(), counts_.voxel_asked,
                          options_.up ? *options_.up : source_.up().value_or(UpAxis::y), options_);
@@ -128,12 +128,12 @@ void Run::lay_grid() {
   tiles_ = TileGrid(grid, edge);
   const VoxelCoord size = grid.size();
   if (tiles_.total() > kMaxTiles) {
-    fail(ErrorCode::bad_argument,
-         "a grid of {} x {} x {} voxels is too fine; use a larger --voxel or a smaller --resolution", size.x, size.y,
+    fail(ErrorCode::bad_argument, {Remedy::coarser_grid}, "a grid of {} x {} x {} voxels is too fine", size.x, size.y,
          size.z);
   }
   if (options_.fill == FillMode::winding && std::max({size.x, size.y, size.z}) > kWindingVoxels)
-    fail(ErrorCode::bad_argument, "a grid over 2^24 voxels a side cannot be filled by winding; use --fill flood");
+    fail(ErrorCode::bad_argument, {Remedy::flood_fill},
+         "a grid over 2^24 voxels a side cannot be filled by winding numbers");
   counts_.tiles = std::uint64_t(tiles_.total());
   // A GPU has few backends: the other threads load, label and shelve meanwhile.
   const std::uint64_t fit = std::max<std::uint64_t>(1, options_.tile_memory_bytes / work_bytes(edge));
@@ -145,7 +145,7 @@ void Run::lay_grid() {
     fill_ = std::make_unique<TileFill>(options_.fill, tiles_, *shelf_, *store_, *backends_, *works_);
 }
 
-void Run::sort_triangles() {
+void SceneVoxelizer::sort_triangles() {
   bins_ = std::make_unique<TriangleBins>(tiles_, *store_);
   if (chunks_) {
     look_up_chunks();
@@ -156,41 +156,42 @@ void Run::sort_triangles() {
 }
 
 /// The triangles of chunks that are known are not looked at again; if all are, the scene is not read twice.
-void Run::look_up_chunks() {
-  chunks_->look_up(header_.frame, header_.bricks, options_.memory_bytes / 10 * 3, *shelf_);
+void SceneVoxelizer::look_up_chunks() {
+  chunks_->look_up(header_.frame, header_.bricks, options_.context.memory.bytes / 10 * 3, *shelf_);
   counts_.chunks = chunks_->chunks();
   counts_.chunks_kept = chunks_->kept();
   if (chunks_->complete()) return;
   if (chunks_->needs_met()) scene_.read_twice();
   counts_.read_twice = scene_.reads_twice();
-  StageSteps steps(options_.progress, "voxelizing", "triangles", counts_.scene.triangles);
+  StageSteps steps(options_.context.progress, "voxelizing", "triangles", counts_.scene.triangles);
   scene_.again([&](const NextPortion& next) {
-    chunks_->add_missing(next, options_.memory_bytes / 10, [&](std::uint64_t n, std::vector<TriangleD>&& large) {
-      if (!large.empty()) bin(bins_->sort(to_fixed(large)));
-      steps.add(n);
-    });
+    chunks_->add_missing(next, options_.context.memory.bytes / 10,
+                         [&](std::uint64_t n, std::vector<TriangleD>&& large) {
+                           if (!large.empty()) bin(bins_->sort(to_fixed(large)));
+                           steps.add(n);
+                         });
   });
 }
 
-std::vector<FixedTriangle> Run::to_fixed(std::span<const TriangleD> triangles) const {
+std::vector<FixedTriangle> SceneVoxelizer::to_fixed(std::span<const TriangleD> triangles) const {
   std::vector<FixedTriangle> fixed;
   fixed.reserve(triangles.size());
   for (const TriangleD& t : triangles) fixed.push_back(bp::to_fixed(header_.frame, t));
   return fixed;
 }
 
-void Run::bin(TriangleBatch&& batch) {
+void SceneVoxelizer::bin(TriangleBatch&& batch) {
   bins_->add(std::move(batch));
-  if (waiting_bytes() > options_.memory_bytes) make_room();
+  if (waiting_bytes() > options_.context.memory.bytes) make_room();
 }
 
 /// Triangles to fixed point, into the bins of their tiles.
-void Run::bin(const NextPortion& next) {
+void SceneVoxelizer::bin(const NextPortion& next) {
   struct Item {
     Portion portion;
     TriangleBatch batch;
   };
-  StageSteps steps(options_.progress, "sorting", "triangles", counts_.scene.triangles);
+  StageSteps steps(options_.context.progress, "sorting", "triangles", counts_.scene.triangles);
   pipeline<Item>(
       thread_count() + 2, [&](Item& item) { return next(item.portion); },
       [&](Item& item) {
@@ -205,14 +206,14 @@ void Run::bin(const NextPortion& next) {
 }
 
 /// What fills memory_bytes. Were more than half of it put aside, the bins would have nothing to grow in.
-std::uint64_t Run::waiting_bytes() const {
+std::uint64_t SceneVoxelizer::waiting_bytes() const {
   const std::uint64_t aside = store_->memory_bytes() + shelf_->memory_bytes() + bins_->table_bytes();
-  return bins_->memory_bytes() + std::min(aside, options_.memory_bytes / 2);
+  return bins_->memory_bytes() + std::min(aside, options_.context.memory.bytes / 2);
 }
 
 /// Tiles with many triangles are voxelized now: their bits are far smaller. The triangles of the others go to the
 /// store; so do all while chunks still add to their bricks.
-void Run::make_room() {
+void SceneVoxelizer::make_room() {
   const std::uint64_t tile_bytes =
       std::uint64_t(tiles_.edge_vox) * std::uint64_t(tiles_.edge_vox) * std::uint64_t(tiles_.edge_vox) / 8;
   std::vector<std::uint64_t> many, few;
@@ -233,7 +234,7 @@ void Run::make_room() {
   bins_->spill(few);
 }
 
-std::vector<std::uint64_t> Run::tiles_with_triangles() const {
+std::vector<std::uint64_t> SceneVoxelizer::tiles_with_triangles() const {
   std::vector<std::uint64_t> tiles = bins_->tiles();
   if (!chunks_) return tiles;
   for (const BrickCoord brick : chunks_->bricks().coords()) {
@@ -245,11 +246,11 @@ std::vector<std::uint64_t> Run::tiles_with_triangles() const {
   return tiles;
 }
 
-void Run::voxelize() {
+void SceneVoxelizer::voxelize() {
   const std::vector<std::uint64_t> tiles = tiles_with_triangles();
   for (const std::uint64_t tile : tiles) on_shelf_[tile];
   counts_.tiles_touched = tiles.size();
-  StageSteps steps(options_.progress, "voxelizing", "tiles", tiles.size());
+  StageSteps steps(options_.context.progress, "voxelizing", "tiles", tiles.size());
   parallel_for(std::int64_t(tiles.size()), [&](std::int64_t i) {
     const std::uint64_t tile = tiles[std::size_t(i)];
     voxelize_tile(tile, on_shelf_.at(tile), true);
@@ -261,7 +262,7 @@ void Run::voxelize() {
 }
 
 /// Adds the tile's waiting triangles to its voxels; `last`: there will be no more of them.
-void Run::voxelize_tile(std::uint64_t tile, bool& on_shelf, bool last) {
+void SceneVoxelizer::voxelize_tile(std::uint64_t tile, bool& on_shelf, bool last) {
   const TileWorks::Lease work(*works_);
   const VoxelBox box = tile_box(tile);
   work->bits.reset(box);
@@ -284,19 +285,19 @@ void Run::voxelize_tile(std::uint64_t tile, bool& on_shelf, bool last) {
 }
 
 /// The tiles, and then the bricks, of one step across the slab axis.
-struct Run::Slab {
+struct SceneVoxelizer::Slab {
   std::vector<std::uint64_t> tiles;
   std::vector<BrickCoord> bricks;  ///< not empty, in slab order
 };
 
-void Run::fill_and_emit(BrickSink& sink) {
+void SceneVoxelizer::fill_and_emit(BrickSink& sink) {
   if (options_.fill == FillMode::winding) {
-    fill_->fill_columns(options_.progress);
+    fill_->fill_columns(options_.context.progress);
     counts_.open_columns = fill_->open_columns();
   }
   const int axis = header_.slab_axis;
   const int a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
-  StageSteps steps(options_.progress, "filling", "slabs", std::uint64_t(tiles_.count[axis]));
+  StageSteps steps(options_.context.progress, "filling", "slabs", std::uint64_t(tiles_.count[axis]));
   TileCoord at{};
   pipeline<Slab>(
       2,
@@ -321,7 +322,7 @@ void Run::fill_and_emit(BrickSink& sink) {
       });
 }
 
-void Run::list_bricks(Slab& slab) const {
+void SceneVoxelizer::list_bricks(Slab& slab) const {
   for (const std::uint64_t tile : slab.tiles) {
     // Most tiles of a wide grid hold nothing: their bricks are not asked one by one.
     if (!on_shelf_.contains(tile) && !(fill_ && fill_->has_filled(tile))) continue;
@@ -333,7 +334,7 @@ void Run::list_bricks(Slab& slab) const {
             [&](BrickCoord p, BrickCoord q) { return slab_order(header_.slab_axis, p, q); });
 }
 
-void Run::emit(const Slab& slab, BrickSink& sink) {
+void SceneVoxelizer::emit(const Slab& slab, BrickSink& sink) {
   Brick brick;
   for (const BrickCoord c : slab.bricks) {
     brick.coord = c;
@@ -373,7 +374,7 @@ StreamHeader solid_header(const Bounds3d& bounds, double voxel, UpAxis up, const
 
 VoxelizeCounts voxelize_stream(TriangleSource& source, const OpenSink& open, Backends& backends,
                                const VoxelizeOptions& options) {
-  return Run(source, backends, options)(open);
+  return SceneVoxelizer(source, backends, options)(open);
 }
 
 }  // namespace bp

@@ -5,9 +5,7 @@
 #include "lib/core/triangle_source.h"
 #include "lib/device/backend.h"
 #include "lib/grid/stream.h"
-#include "lib/pass/stage_progress.h"
-#include "lib/store/chunk_store.h"
-#include "lib/store/result_store.h"
+#include "lib/pass/context.h"
 
 /// bpvox's work: a stream of triangles in, a stream of solid bricks out, tile by tile, out of core.
 ///
@@ -22,19 +20,15 @@ struct VoxelizeOptions {
   std::int32_t cell_vox = 0;  ///< edge of cells that the frame is aligned to (lib/grid/cells.h); 0: none
   FillMode fill = FillMode::flood;
   std::optional<UpAxis> up;  ///< of the header; empty: what the scene tells, else y
-  /// For what waits: triangles, as they are or compressed in the store, and bricks on the shelf. The store and the
-  /// shelf have their own bounds, together at most half of this; triangles get what these leave, and when it is spent,
-  /// tiles are voxelized or go to the store. What a thread has in hand, and the tiles at work, come on top.
-  std::uint64_t memory_bytes = std::uint64_t(512) << 20;
-  std::uint64_t tile_memory_bytes = std::uint64_t(512)
-                                    << 20;  ///< for tiles at work: at least one, at most one a thread
-  std::int32_t tile_vox = 0;                ///< 0: by the size of the grid; else a multiple of 64, <= 512
-  ShelfFactory make_shelf;                  ///< bricks between voxelizing and filling
-  ChunkStoreFactory make_store;             ///< triangles beyond memory_bytes, crossings of columns
-  /// The voxels of chunks of the scene (surface_chunks.h) are looked up there, and put; null: all are made. Winding
-  /// numbers need all triangles, and use none.
-  ResultStore* results = nullptr;
-  StageProgress progress;  ///< called now and then
+  /// For tiles at work: at least one, at most one a thread.
+  std::uint64_t tile_memory_bytes = std::uint64_t(512) << 20;
+  std::int32_t tile_vox = 0;  ///< 0: by the size of the grid; else a multiple of 64, <= 512
+  /// The memory is for what waits: triangles, as they are or compressed in the store, and bricks on the shelf. The
+  /// store and the shelf have their own bounds, together at most half of it; triangles get what these leave, and when
+  /// it is spent, tiles are voxelized or go to the store. What a thread has in hand, and the tiles at work, come on
+  /// top. The results are the voxels of chunks of the scene (surface_chunks.h); winding numbers need all triangles, and
+  /// use none.
+  PassContext context;
 };
 
 struct VoxelizeCounts {
@@ -47,7 +41,7 @@ struct VoxelizeCounts {
   std::uint64_t surface_voxels = 0, solid_voxels = 0, bricks = 0, full_bricks = 0;
   std::uint64_t open_columns = 0;  ///< winding: columns whose crossings do not cancel; the flood decided there
   bool read_twice = false;         ///< the scene did not fit in memory, or chunks were not what they were
-  std::uint64_t chunks = 0, chunks_kept = 0;  ///< of the scene's triangles; found in VoxelizeOptions::results
+  std::uint64_t chunks = 0, chunks_kept = 0;  ///< of the scene's triangles; found among the results
   std::uint64_t scratch_bytes = 0;            ///< triangles and crossings put aside, compressed
 };
 

@@ -58,7 +58,7 @@ TEST_CASE("a fit loses the half voxel that voxels stand out, and stays sound", "
     params.enclose = Enclose::scene;
   }
   MeshCounts counts;
-  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_context(), params, counts);
   REQUIRE(levels.size() == 2);
   const double volume = 4 * M_PI / 3 * std::pow(kRadius, 3);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -77,15 +77,15 @@ TEST_CASE("without inset a fit is nearer to the voxels, and as large as they are
   params.mode = MeshMode::fit;
   params.faces = {300};
   MeshCounts inset, flush;
-  (void)mesh_stream(source, memory_shelves(), params, inset);
+  (void)mesh_stream(source, memory_context(), params, inset);
   params.inset = 0;
-  (void)mesh_stream(again, memory_shelves(), params, flush);
+  (void)mesh_stream(again, memory_context(), params, flush);
   const double voxels = flush.solid_volume_world;
   CHECK(std::abs(flush.levels[0].measures.volume / voxels - 1) < 0.01);
   CHECK(inset.levels[0].measures.volume < 0.95 * voxels);
   params.inset = 1.5;
   VoxelSource third(kBox, ball);
-  CHECK_THROWS_AS(mesh_stream(third, memory_shelves(), params, inset), Error);
+  CHECK_THROWS_AS(mesh_stream(third, memory_context(), params, inset), Error);
 }
 
 TEST_CASE("vertices settle where the surface is nearest to given points, on any number of threads",
@@ -95,7 +95,7 @@ TEST_CASE("vertices settle where the surface is nearest to given points, on any 
   params.tighten = false;
   params.faces = {120};  // far out, and coarse
   MeshCounts counts;
-  const LatticeMesh start = mesh_stream(source, memory_shelves(), params, counts)[0];
+  const LatticeMesh start = mesh_stream(source, memory_context(), params, counts)[0];
   std::vector<TriangleD> sphere;
   add_sphere(sphere, kCentre, kRadius, 24);
   std::vector<Vec3d> points;
@@ -123,7 +123,7 @@ TEST_CASE("vertices are drawn to their targets only as far as the surface stays 
   params.tighten = false;
   params.faces = {400};
   MeshCounts counts;
-  const LatticeMesh start = mesh_stream(source, memory_shelves(), params, counts)[0];
+  const LatticeMesh start = mesh_stream(source, memory_context(), params, counts)[0];
   HalfEdgeMesh mesh(start);
   const Vec3d point{17 * 64, 12 * 64, 13 * 64};  // all to one point: most cannot get there
   const std::uint64_t moves = draw_to_targets(
@@ -140,7 +140,7 @@ TEST_CASE("fits of many thin plates face outwards, however few faces are left", 
   params.mode = MeshMode::fit;
   params.faces = {1500, 500};  // 128 plates: the last are tetrahedra
   MeshCounts counts;
-  for (const LatticeMesh& level : mesh_stream(source, memory_shelves(), params, counts)) {
+  for (const LatticeMesh& level : mesh_stream(source, memory_context(), params, counts)) {
     CAPTURE(thick, level.triangles.size());
     CHECK(check_proxy(indexed(level), nullptr).holds());
   }
@@ -177,5 +177,5 @@ TEST_CASE("targets without a meaning for a fit are refused", "[quick][meshing]")
     params.enclose = Enclose::input;
   }
   MeshCounts counts;
-  CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
+  CHECK_THROWS_AS(mesh_stream(source, memory_context(), params, counts), Error);
 }

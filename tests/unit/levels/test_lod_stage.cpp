@@ -15,7 +15,7 @@ namespace {
 
 LodOptions lod_options() {
   LodOptions options;
-  options.make_shelf = memory_shelves();
+  options.context.make_shelf = memory_shelves();
   return options;
 }
 
@@ -268,27 +268,29 @@ TEST_CASE("levels keep to their memory, and are the same", "[quick][stage][lod]"
   LodOptions options = lod_options();
   const LodLevel level = make(options);
   std::uint64_t put = 0, held = 0;
-  options.pieces.waiting_bytes = 0;
-  options.pieces.work_bytes = std::uint64_t(64) << 20;
-  options.pieces.make_store = [&] { return std::make_unique<MemoryStore>(put, held); };
+  options.context.pieces.waiting_bytes = 0;
+  options.context.pieces.work_bytes = std::uint64_t(64) << 20;
+  options.context.pieces.make_store = [&] { return std::make_unique<MemoryStore>(put, held); };
   const LodLevel spilled = make(options);
   CHECK(put > 0);
   CHECK(held == 0);
   CHECK(spilled.mesh.vertices == level.mesh.vertices);
   CHECK(spilled.mesh.triangles == level.mesh.triangles);
 
-  options.pieces.work_bytes = std::uint64_t(1) << 20;
+  options.context.pieces.work_bytes = std::uint64_t(1) << 20;
   CHECK_THROWS_AS(make(options), Error);
   options = lod_options();
-  options.memory_bytes = std::uint64_t(1) << 20;
-  options.pieces.limit_bytes = std::uint64_t(10) << 20;
-  options.pieces.work_growth = 1;
-  try {
-    (void)make(options);
-    FAIL("the outside of the scene takes more than 1 MiB");
-  } catch (const Error& e) {
-    CHECK(e.code() == ErrorCode::out_of_resource);
-    CHECK(std::string(e.what()).find("raise --memory to at least 1") != std::string::npos);
+  // The outside of the scene takes more than 1 MiB, a tile that is closed more than 6 MiB.
+  for (const int mebibytes : {1, 6}) {
+    const MemoryLimit limit{std::uint64_t(2 * mebibytes) << 20, 0};
+    options.context.memory = {std::uint64_t(mebibytes) << 20, 0.5, limit};
+    try {
+      (void)make(options);
+      FAIL("fits in " << mebibytes << " MiB");
+    } catch (const NeedsMemory& e) {
+      CHECK(std::string(e.what()).find(mebibytes == 1 ? "measuring" : "closing") == 0);
+      CHECK(e.memory_bytes() > limit.bytes);
+    }
   }
 }
 

@@ -36,7 +36,7 @@ TilePyramid pyramid(const Triangles& scene, Backends& backends, const Cells& cel
   Voxelized solid = voxelized(scene, 1, cells.edge_vox);
   PyramidOptions options;
   options.cells = cells;
-  options.make_shelf = memory_shelves();
+  options.context.make_shelf = memory_shelves();
   return TilePyramid(solid.header, std::move(solid.shelf), backends, options);
 }
 
@@ -148,8 +148,8 @@ TEST_CASE("tiles do not depend on threads or on memory", "[quick][stage][lod]") 
   PyramidOptions options;
   Voxelized solid = voxelized(scene(), 1, kEdge);
   options.cells = kCells;
-  options.make_shelf = memory_shelves();
-  options.memory_bytes = std::uint64_t(16) << 20;  // one tile at a time
+  options.context.make_shelf = memory_shelves();
+  options.context.memory.bytes = std::uint64_t(16) << 20;  // one tile at a time
   TilePyramid again(solid.header, std::move(solid.shelf), backends, options);
   const Level other = make(again, {});
   REQUIRE(level.size() == other.size());

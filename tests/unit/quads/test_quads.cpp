@@ -74,7 +74,7 @@ TEST_CASE("however the quads are split, the proxy encloses and does not meet its
   params.quads = true;
   params.tighten = GENERATE(true, false);
   MeshCounts counts;
-  const LatticeMesh proxy = mesh_stream(source, memory_shelves(), params, counts)[0];
+  const LatticeMesh proxy = mesh_stream(source, memory_context(), params, counts)[0];
   const PolygonFaces faces = polygon_faces(proxy);
   CAPTURE(proxy.triangles.size(), faces.quads.size(), faces.triangles.size());
   CHECK(faces.triangles.size() + 2 * faces.quads.size() == proxy.triangles.size());
@@ -105,7 +105,7 @@ TEST_CASE("levels of quads enclose each other, however each is split", "[quick][
     source.header().fill = FillMode::inside;
   }
   MeshCounts counts;
-  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_context(), params, counts);
   std::mt19937 random{11};
   const std::vector<std::function<bool(std::size_t)>> choices = {[](std::size_t) { return false; },
                                                                  [](std::size_t) { return true; },
@@ -125,11 +125,11 @@ TEST_CASE("room for quads joins half of the triangles, for little volume", "[qui
   MeshParams params;
   params.faces = {300};
   MeshCounts counts;
-  const LatticeMesh tight = mesh_stream(source, memory_shelves(), params, counts)[0];
+  const LatticeMesh tight = mesh_stream(source, memory_context(), params, counts)[0];
   VoxelSource again(kBox, shape);
   params.quads = true;
   MeshCounts with_quads;
-  const LatticeMesh proxy = mesh_stream(again, memory_shelves(), params, with_quads)[0];
+  const LatticeMesh proxy = mesh_stream(again, memory_context(), params, with_quads)[0];
   CHECK(proxy.triangles.size() == tight.triangles.size());
   const MeshMeasures& m = with_quads.levels[0].measures;
   REQUIRE(m.quads);
@@ -149,7 +149,7 @@ TEST_CASE("a box of twelve triangles becomes six squares", "[quick][meshing]") {
   params.faces = {12};
   params.quads = true;
   MeshCounts counts;
-  const LatticeMesh proxy = mesh_stream(source, memory_shelves(), params, counts)[0];
+  const LatticeMesh proxy = mesh_stream(source, memory_context(), params, counts)[0];
   const PolygonFaces faces = polygon_faces(proxy);
   REQUIRE(faces.quads.size() == 6);
   CHECK(faces.triangles.empty());

@@ -351,15 +351,17 @@ TEST_CASE("a description that needs more than it may take is refused with the fi
       return fmt::format("{} triangles", read_all(path, options).size());
     } catch (const Error& e) {
       CHECK(e.code() == ErrorCode::out_of_resource);
+      CHECK(e.memory_bytes() > options.document.limit.bytes);
       return std::string(e.what());
     }
   };
-  options.document.enough_for = [](std::uint64_t missing) { return fmt::format(" by {} MiB", missing >> 20); };
+  options.document.share = 1;
+  options.document.limit.bytes = std::uint64_t(128) << 20;
   options.document.bytes = std::uint64_t(1) << 20;
-  CHECK_THAT(complaint(), Contains("its JSON takes") && Contains("leaves 1 MiB for it; raise --memory by"));
+  CHECK_THAT(complaint(), Contains("its JSON takes") && Contains("leaves 1 MiB for it"));
   options.document.bytes = std::uint64_t(64) << 20;
   options.memory_bytes = std::uint64_t(1) << 20;
-  CHECK_THAT(complaint(), Contains("the list of its nodes takes 3 MiB, and --memory leaves 2 MiB"));
+  CHECK_THAT(complaint(), Contains("the list of its nodes takes 3 MiB, and the limit on memory leaves 2 MiB"));
   options.memory_bytes = std::uint64_t(4) << 20;
   CHECK(complaint() == "40000 triangles");
 }

@@ -134,7 +134,7 @@ TEST_CASE("the reader follows the name, and the first bytes where the name says 
                           "solid x\nfacet normal 0 0 0 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop "
                           "endfacet endsolid x\n"))
             .size() == 1);
-  CHECK_THAT(complaint_of(dir.file("what", "hello")), Contains("--format"));
+  CHECK_THAT(complaint_of(dir.file("what", "hello")), Contains("tell its format"));
   SceneOptions options;
   options.format = "OBJ";
   CHECK(read_all(dir.file("bare", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3"), options).size() == 1);

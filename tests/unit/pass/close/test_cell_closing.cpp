@@ -57,7 +57,7 @@ TEST_CASE("closing by cells gives the voxels of closing as a stream, from the st
     field.base = scale;
     CloseOptions o;
     o.keep_cavities = keep_cavities;
-    o.make_shelf = memory_shelves();
+    o.context.make_shelf = memory_shelves();
     ShelfSource again(source.header(), solid, nullptr, ShelfSource::Keep::all);
     ShelfSink sink(nullptr, &expected);
     close_stream(again, sink, all, field, {}, o);
@@ -66,8 +66,8 @@ TEST_CASE("closing by cells gives the voxels of closing as a stream, from the st
   CellClosing o;
   o.cells = Cells{128};
   o.keep_cavities = keep_cavities;
-  o.memory_bytes = GENERATE(std::uint64_t(1) << 30, std::uint64_t(64) << 20);
-  o.store = &store;
+  o.context.memory.bytes = GENERATE(std::uint64_t(1) << 30, std::uint64_t(64) << 20);
+  o.context.results = &store;
   std::vector<std::uint64_t> kept;
   for (int i = 0; i < 3; ++i) {
     if (i == 2)

@@ -122,8 +122,8 @@ Result run(const Case& c, const Setup& setup) {
   CloseOptions options;
   options.tile_vox = setup.tile_vox;
   options.keep_cavities = setup.keep_cavities;
-  options.memory_bytes = setup.memory_bytes;
-  options.make_shelf = make_shelf_factory(setup.shelf_bytes, std::filesystem::temp_directory_path().string());
+  options.context.memory.bytes = setup.memory_bytes;
+  options.context.make_shelf = make_shelf_factory(setup.shelf_bytes, std::filesystem::temp_directory_path().string());
   Result r;
   r.counts = close_stream(source, sink, backends, c.field, {c.element}, options);
   CHECK(source.left() == 0);

@@ -58,8 +58,8 @@ std::unique_ptr<SceneColors> gathered(const ColoredScene& scene, const Voxelized
                                       std::uint64_t* put = nullptr) {
   static std::uint64_t ignored = 0, held = 0;
   ColoredSource source(scene.triangles, scene.colors);
-  ColorOptions options;
-  options.memory_bytes = memory;
+  PassContext options;
+  options.memory.bytes = memory;
   options.make_shelf = memory_shelves();
   options.make_store = [put] { return std::make_unique<MemoryStore>(put != nullptr ? *put : ignored, held); };
   return gather_colors(source, voxels.header.frame, *voxels.shelf, options);

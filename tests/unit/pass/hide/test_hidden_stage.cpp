@@ -31,7 +31,7 @@ Made made(const Solid& touched, double scale, StructuringElement element, std::i
   HiddenOptions options;
   options.scale_world = scale;
   options.element = element;
-  options.make_shelf = memory_shelves();
+  options.context.make_shelf = memory_shelves();
   const HiddenVoxels hidden = hidden_voxels(header, shelf, backends, options);
   Made out{BitBox(voxels_of(bricks_of(kBox))), hidden.count};
   load_voxels(*hidden.voxels, out.bits);
@@ -151,7 +151,7 @@ TEST_CASE("an opening leaves what is wider than twice the scale", "[quick][stage
   while (source.read(brick)) shelf.put(brick.coord, brick.fill, brick.bits);
   Backends backends = plain_backends(1);
   HiddenOptions options;
-  options.make_shelf = memory_shelves();
+  options.context.make_shelf = memory_shelves();
   options.scale_world = 4;
   const auto opened = opening(source.header(), shelf, backends, options);
   REQUIRE(opened);

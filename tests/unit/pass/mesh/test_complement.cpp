@@ -55,7 +55,7 @@ TEST_CASE("the opening is the complement of the closing of the complement", "[qu
   backends.push_back(std::make_unique<CpuBackend>());
   CloseOptions options;
   options.keep_cavities = true;
-  options.make_shelf = memory_shelves();
+  options.context.make_shelf = memory_shelves();
   ComplementSource complement(source);
   ComplementSink sink(written, source.header());
   close_stream(complement, sink, backends, field, {element}, options);

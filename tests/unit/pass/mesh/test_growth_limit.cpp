@@ -97,7 +97,7 @@ TEST_CASE("proxies draw no spikes where thin parts end, however few faces are as
   params.faces = {60};
   params.tighten = tighten;
   MeshCounts counts;
-  const LatticeMesh proxy = mesh_stream(source, memory_shelves(), params, counts).front();
+  const LatticeMesh proxy = mesh_stream(source, memory_context(), params, counts).front();
   const LatticeBox around = box_of(proxy.vertices);
   CAPTURE(proxy.triangles.size(), around.min.z, around.max.z);
   constexpr double kExtent = 36, kShare = 0.02 + 5.0 / 60;
@@ -114,5 +114,5 @@ TEST_CASE("a ball has proxies of as few faces as are asked for", "[quick][stage]
   params.faces = {GENERATE(4u, 6u, 8u, 12u, 20u)};
   VoxelSource source({{0, 0, 0}, {64, 64, 64}}, ball);
   MeshCounts counts;
-  CHECK(mesh_stream(source, memory_shelves(), params, counts).front().triangles.size() == params.faces[0]);
+  CHECK(mesh_stream(source, memory_context(), params, counts).front().triangles.size() == params.faces[0]);
 }

@@ -29,9 +29,10 @@ bool dumbbell(VoxelCoord p) {
          (p.x > 10 && p.x < 40 && length_of(0, p.y - 24, p.z - 24) < 3) || length_of(p.x - 40, p.y - 6, p.z - 8) < 3;
 }
 
-std::vector<LatticeMesh> mesh(const MeshParams& params, MeshCounts& counts, const Solid& solid = dumbbell) {
+std::vector<LatticeMesh> mesh(const MeshParams& params, MeshCounts& counts, const Solid& solid = dumbbell,
+                              const PassContext& context = memory_context()) {
   VoxelSource source(kBox, solid);
-  return mesh_stream(source, memory_shelves(), params, counts);
+  return mesh_stream(source, context, params, counts);
 }
 
 /// A sound proxy that strictly encloses `inner`, if given.
@@ -122,7 +123,7 @@ TEST_CASE("the error holds against the input too, where the closing is near it",
   params.error_world = 1.5;
   params.distances = true;
   MeshCounts counts;
-  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_context(), params, counts);
   const std::vector<TriangleD> inner = points_inside();
   check(levels[0], &inner);
   CHECK(counts.levels[0].measures.proxy_to_enclosed->at_least <= 1.5 * (1 + 1e-9));
@@ -247,7 +248,7 @@ TEST_CASE("numbers below zero are refused", "[quick][stage]") {
   const int which = GENERATE(0, 1, 2);
   (which == 0 ? params.error_world : which == 1 ? params.volume_ratio : params.edge_factor) = -1;
   MeshCounts counts;
-  CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
+  CHECK_THROWS_AS(mesh_stream(source, memory_context(), params, counts), Error);
 }
 
 TEST_CASE("edges stay below --edge-length times the scale", "[quick][stage]") {
@@ -257,7 +258,7 @@ TEST_CASE("edges stay below --edge-length times the scale", "[quick][stage]") {
   params.edge_factor = 2;
   params.faces = {50};
   MeshCounts counts;
-  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_context(), params, counts);
   CHECK(counts.levels[0].stopped_by == "edge-length");
   CHECK(counts.levels[0].measures.edge_max <= 6 * std::sqrt(1.0) + 1e-9);
   check(levels[0], nullptr);
@@ -277,7 +278,7 @@ TEST_CASE("edges across a finer region stay below what the scale is there", "[qu
   params.mode = GENERATE(MeshMode::bounding, MeshMode::fit);
   if (params.mode == MeshMode::fit && !params.tighten) return;
   MeshCounts counts;
-  const LatticeMesh level = mesh_stream(source, memory_shelves(), params, counts)[0];
+  const LatticeMesh level = mesh_stream(source, memory_context(), params, counts)[0];
   CHECK(counts.levels[0].stopped_by == "edge-length");
   CHECK(counts.levels[0].measures.edge_max > 10);  // where it may
   const auto at = [](const Vec3d& a, const Vec3d& b, double t) {
@@ -302,7 +303,7 @@ TEST_CASE("a fit keeps --edge-length", "[quick][stage]") {
   params.edge_factor = 3;
   params.faces = {100};
   MeshCounts counts;
-  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_context(), params, counts);
   CHECK(counts.levels[0].stopped_by == "edge-length");
   CHECK(counts.levels[0].measures.edge_max <= 3 + 1e-9);
   CHECK(levels[0].triangles.size() > 100);
@@ -327,14 +328,14 @@ TEST_CASE("what a bound on distances takes is refused where it does not fit", "[
     params.faces = {40};
     params.error_world = error_world;
     params.tighten = false;
-    params.memory.waiting_bytes = 0;
-    params.memory.work_bytes = work_bytes;
+    PassContext context = memory_context();
+    context.pieces.waiting_bytes = 0;
+    context.pieces.work_bytes = work_bytes;
     MeshCounts counts;
     try {
-      (void)mesh_stream(source, memory_shelves(), params, counts);
-    } catch (const Error& e) {
-      if (e.code() == ErrorCode::out_of_resource) return e.what();
-      throw;
+      (void)mesh_stream(source, context, params, counts);
+    } catch (const NeedsMemory& e) {
+      return e.what();
     }
     return "";
   };
@@ -347,7 +348,8 @@ TEST_CASE("what a bound on distances takes is refused where it does not fit", "[
   CHECK(refusal(0, taken).empty());
   CHECK(refusal(1, 2 * taken).empty());
   // The surface that distances are measured from takes its part, too.
-  CHECK(refusal(1, taken).find("within a distance takes 1 MiB, and --memory leaves 0 MiB") != std::string::npos);
+  CHECK(refusal(1, taken).find("within a distance takes 2 MiB, and the limit on memory leaves 0 MiB") !=
+        std::string::npos);
 }
 
 TEST_CASE("a chain of levels is the same for every memory, and what waits goes to the store", "[quick][stage]") {
@@ -356,10 +358,11 @@ TEST_CASE("a chain of levels is the same for every memory, and what waits goes t
   MeshCounts counts;
   const std::vector<LatticeMesh> roomy = mesh(params, counts);
   std::uint64_t put = 0, held = 0;
-  params.memory.waiting_bytes = 0;
-  params.memory.work_bytes = std::uint64_t(32) << 20;
-  params.memory.make_store = [&] { return std::make_unique<MemoryStore>(put, held); };
-  const std::vector<LatticeMesh> tight = mesh(params, counts);
+  PassContext context = memory_context();
+  context.pieces.waiting_bytes = 0;
+  context.pieces.work_bytes = std::uint64_t(32) << 20;
+  context.pieces.make_store = [&] { return std::make_unique<MemoryStore>(put, held); };
+  const std::vector<LatticeMesh> tight = mesh(params, counts, dumbbell, context);
   CHECK(put > 0);
   REQUIRE(tight.size() == roomy.size());
   for (std::size_t i = 0; i < roomy.size(); ++i) {
@@ -376,7 +379,7 @@ TEST_CASE("a proxy inside lies in the voxels that are meshed, and each level in 
   params.faces = {600, 150, 50};
   params.tighten = GENERATE(true, false);
   MeshCounts counts;
-  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_context(), params, counts);
   REQUIRE(levels.size() == 3);
   std::vector<TriangleD> outer;  // what is not meshed, as the scene; closed
   for (VoxelCoord p = kBox.min; p.z < kBox.max.z; ++p.z) {
@@ -409,7 +412,7 @@ TEST_CASE("a stream that does not hold what the mode needs is refused", "[quick]
   params.mode = GENERATE(MeshMode::inside, MeshMode::bounding);
   if (params.mode == MeshMode::bounding) source.header().fill = FillMode::inside;
   MeshCounts counts;
-  CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
+  CHECK_THROWS_AS(mesh_stream(source, memory_context(), params, counts), Error);
 }
 
 TEST_CASE("a closing without the voxels that must stay inside is refused", "[quick][stage]") {
@@ -420,7 +423,7 @@ TEST_CASE("a closing without the voxels that must stay inside is refused", "[qui
   params.faces = {40};
   params.error_world = GENERATE(0.0, 3.0);
   MeshCounts counts;
-  CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
+  CHECK_THROWS_AS(mesh_stream(source, memory_context(), params, counts), Error);
 }
 
 TEST_CASE("the volume of a proxy inside stays above --volume", "[quick][stage]") {
@@ -430,7 +433,7 @@ TEST_CASE("the volume of a proxy inside stays above --volume", "[quick][stage]")
   params.mode = MeshMode::inside;
   params.volume_ratio = 0.9;
   MeshCounts counts;
-  (void)mesh_stream(source, memory_shelves(), params, counts);
+  (void)mesh_stream(source, memory_context(), params, counts);
   CHECK(counts.levels[0].stopped_by == "volume");
   CHECK(counts.levels[0].measures.volume >= 0.9 * counts.solid_volume_world * (1 - 1e-12));
 }
@@ -448,7 +451,7 @@ TEST_CASE("a proxy inside leaves out small parts, and says how much that is", "[
   params.faces = {200};
   params.least_part = GENERATE(0.0, 4.0 / 8000, 0.001);  // 4 voxels are not less than 4 of 8000
   MeshCounts counts;
-  const LatticeMesh proxy = mesh_stream(source, memory_shelves(), params, counts)[0];
+  const LatticeMesh proxy = mesh_stream(source, memory_context(), params, counts)[0];
   const std::uint64_t parts = params.least_part == 0.001 ? 2 : 0;
   CHECK(counts.dropped_parts == parts);
   CHECK(counts.dropped_voxels == 4 * parts);
@@ -466,7 +469,7 @@ TEST_CASE("a least part without a meaning is refused", "[quick][stage]") {
     params.least_part = GENERATE(-0.1, 1.5);
   }
   MeshCounts counts;
-  CHECK_THROWS_AS(mesh_stream(source, memory_shelves(), params, counts), Error);
+  CHECK_THROWS_AS(mesh_stream(source, memory_context(), params, counts), Error);
 }
 
 TEST_CASE("levels inside a wall stay in it, and out of what it encloses", "[quick][stage]") {
@@ -480,7 +483,7 @@ TEST_CASE("levels inside a wall stay in it, and out of what it encloses", "[quic
   params.mode = MeshMode::inside;
   params.faces = {600, 200};
   MeshCounts counts;
-  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_shelves(), params, counts);
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_context(), params, counts);
   MemorySource scene(world_triangles(levels[0]));
   CheckOptions options;
   options.inside = true;

@@ -42,7 +42,7 @@ TEST_CASE("parts that hold nothing may vanish, but never come out inside out", "
   params.faces = {GENERATE(600u, 150u, 60u)};
   params.error_world = GENERATE(0.0, 4.0);
   MeshCounts counts;
-  const LatticeMesh proxy = mesh_stream(source, memory_shelves(), params, counts)[0];
+  const LatticeMesh proxy = mesh_stream(source, memory_context(), params, counts)[0];
   CAPTURE(seed, params.faces[0], params.error_world, proxy.triangles.size(), counts.levels[0].measures.volume);
   std::vector<TriangleD> scene;
   const double l = 1.0 / 128;
@@ -68,7 +68,7 @@ TEST_CASE("pockets that a proxy inside may fill never come out inside out", "[qu
   params.enclose = Enclose::input;
   params.faces = {8};
   MeshCounts counts;
-  const LatticeMesh proxy = mesh_stream(source, memory_shelves(), params, counts)[0];
+  const LatticeMesh proxy = mesh_stream(source, memory_context(), params, counts)[0];
   CAPTURE(seed, proxy.triangles.size());
   const CheckReport report = check_proxy(indexed(proxy), nullptr);
   CHECK(report.holds());

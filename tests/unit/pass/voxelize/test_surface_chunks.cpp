@@ -53,10 +53,10 @@ struct Result {
 };
 
 Result run(const Triangles& scene, VoxelizeOptions o, ResultStore* results) {
-  o.make_shelf = [] { return std::make_unique<test::MemoryShelf>(); };
-  o.make_store = [] { return make_chunk_store(1000, "."); };
+  o.context.make_shelf = [] { return std::make_unique<test::MemoryShelf>(); };
+  o.context.make_store = [] { return make_chunk_store(1000, "."); };
   if (!o.voxel_size) o.voxel_size = [](const Bounds3d&) { return 0.75; };
-  o.results = results;
+  o.context.results = results;
   test::MemorySource source(scene);
   test::MemorySink sink;
   Backends none;
@@ -178,8 +178,9 @@ TEST_CASE("bytes that are no chunk of this grid are refused whole", "[quick][sta
 TEST_CASE("a scene from kept chunks has the voxels of one from nothing, after any edits", "[quick][stage]") {
   VoxelizeOptions o;
   o.fill = GENERATE(FillMode::flood, FillMode::none, FillMode::winding);
-  o.memory_bytes = GENERATE(std::uint64_t(1) << 30, std::uint64_t(100000));  // the latter: read twice, over the shelf
-  CAPTURE(int(o.fill), o.memory_bytes);
+  o.context.memory.bytes =
+      GENERATE(std::uint64_t(1) << 30, std::uint64_t(100000));  // the latter: read twice, over the shelf
+  CAPTURE(int(o.fill), o.context.memory.bytes);
   Triangles scene = strand(6, 60000);
   std::mt19937 random(7);
   test::MemoryResults results;
@@ -209,7 +210,7 @@ TEST_CASE("triangles too large for a chunk are voxelized in every build", "[quic
   scene.insert(scene.end(), small.begin(), small.end());
   VoxelizeOptions o;
   o.voxel_size = [](const Bounds3d&) { return 0.25; };
-  o.memory_bytes = GENERATE(std::uint64_t(1) << 30, std::uint64_t(100000));
+  o.context.memory.bytes = GENERATE(std::uint64_t(1) << 30, std::uint64_t(100000));
   test::MemoryResults results;
   const Result clean = run(scene, o, nullptr);
   CHECK((run(scene, o, &results).bits == clean.bits));
@@ -263,11 +264,11 @@ TEST_CASE("a scene that changes between two readings leaves no chunk behind", "[
   test::MemoryResults results;
   test::MemorySink sink;
   VoxelizeOptions o;
-  o.make_shelf = [] { return std::make_unique<test::MemoryShelf>(); };
-  o.make_store = [] { return make_chunk_store(1000, "."); };
+  o.context.make_shelf = [] { return std::make_unique<test::MemoryShelf>(); };
+  o.context.make_store = [] { return make_chunk_store(1000, "."); };
   o.voxel_size = [](const Bounds3d&) { return 0.75; };
-  o.memory_bytes = 100000;
-  o.results = &results;
+  o.context.memory.bytes = 100000;
+  o.context.results = &results;
   Backends none;
   const auto open = [&](const StreamHeader& h, const VoxelizeCounts&) -> BrickSink& {
     sink.header = h;

@@ -24,8 +24,8 @@ struct Result {
 
 VoxelizeOptions default_options() {
   VoxelizeOptions o;
-  o.make_shelf = [] { return std::make_unique<test::MemoryShelf>(); };
-  o.make_store = [] { return make_chunk_store(1000, "."); };
+  o.context.make_shelf = [] { return std::make_unique<test::MemoryShelf>(); };
+  o.context.make_store = [] { return make_chunk_store(1000, "."); };
   return o;
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("tile size, memory and threads change no voxel", "[quick][stage]") {
     for (const std::uint64_t memory : {std::uint64_t(1) << 30, std::uint64_t(20000)}) {
       for (const int threads : {1, 4}) {
         o.tile_vox = tile;
-        o.memory_bytes = memory;
+        o.context.memory.bytes = memory;
         const ThreadLimit limit(threads);
         CAPTURE(tile, memory, threads);
         const Result r = run(scene, o, 0.8, threads);
@@ -125,7 +125,7 @@ TEST_CASE("many triangles in one tile are voxelized before the scene ends", "[qu
   o.fill = fill;
   const Result whole = run(scene, o, 1.0);
   o.tile_vox = 64;
-  o.memory_bytes = 200000;
+  o.context.memory.bytes = 200000;
   CHECK(run(scene, o, 1.0).bits == whole.bits);
 }
 
@@ -333,7 +333,7 @@ TEST_CASE("a source that changes between two readings is reported", "[quick][sta
   test::MemorySink sink;
   Backends all = test::plain_backends(1);
   VoxelizeOptions o = default_options();
-  o.memory_bytes = 1000;
+  o.context.memory.bytes = 1000;
   o.voxel_size = [](const Bounds3d&) { return 0.1; };
   CHECK_THROWS_AS(voxelize_stream(
                       source,

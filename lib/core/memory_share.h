@@ -1,0 +1,31 @@
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+namespace bp {
+
+/// The memory that a process may take. A part of it is for the process itself; the rest is shared out.
+struct MemoryLimit {
+  std::uint64_t bytes = 0;        ///< 0: not known
+  std::uint64_t fixed_bytes = 0;  ///< for the process itself; half of all if that is less
+  [[nodiscard]] std::uint64_t rest_bytes() const { return bytes > 2 * fixed_bytes ? bytes - fixed_bytes : bytes / 2; }
+
+  /// The limit at which `share` of the rest has `missing` bytes more than now; 0: not known.
+  [[nodiscard]] std::uint64_t with(std::uint64_t missing, double share) const {
+    if (bytes == 0 || !(share > 0)) return 0;
+    const double rest = double(rest_bytes()) + double(missing) / share, fixed = double(fixed_bytes);
+    return std::uint64_t(std::ceil(rest > fixed ? rest + fixed : 2 * rest)) + 1;
+  }
+};
+
+/// The memory that a step may take: so much of the rest of a limit.
+struct MemoryShare {
+  std::uint64_t bytes = std::uint64_t(512) << 20;
+  double share = 0;  ///< between 0 and 1; 0: not known
+  MemoryLimit limit{};
+
+  /// The limit at which `missing` bytes more are there; 0: not known.
+  [[nodiscard]] std::uint64_t limit_with(std::uint64_t missing) const { return limit.with(missing, share); }
+};
+
+}  // namespace bp

@@ -1,0 +1,212 @@
+#include "lib/levels/detail/tile_maker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/grid/clip.h"
+#include "lib/grid/shelf_stream.h"
+#include "lib/levels/detail/voxel_distance.h"
+#include "lib/pass/mesh/surface_around.h"
+#include "lib/volume/dilate.h"
+#include "lib/volume/reach.h"
+
+namespace bp {
+
+namespace {
+
+constexpr const char* kJobName = "tile";
+
+}  // namespace
+
+ResultKey TileMaker::key() const {
+  const TileShape& shape = params_;
+  KeyHash hash(kJobName);
+  hash.add(shape, level_.header.frame, coord_, level_.cells);
+  const BrickCoord origin = brick_of(cell_.min);
+  add_voxels(hash, level_.closing, grown_, origin);
+  add_voxels(hash, level_.solid, grown_, origin);
+  add_voxels(hash, level_.surface, reach(), origin);
+  if (params_.mode == MeshMode::fit) {
+    const std::vector<TriangleD> scene = scene_nearby();
+    hash.add(std::as_bytes(std::span(scene)));
+  }
+  if (params_.add_to_key) params_.add_to_key(coord_, hash);
+  return hash.key();
+}
+
+bool TileMaker::begin() {
+  solid_ = clipped(level_.solid, grown_, context_.make_shelf);
+  closing_ = clipped(level_.closing, grown_, context_.make_shelf);
+  if (solid_->coords().empty() && is_full(*closing_, cell_)) return false;
+  if (params_.mode == MeshMode::bounding && params_.enclose == Enclose::input) leave_out_fringes();
+  if (closing_->coords().empty()) return false;
+  boundary_ = boundary_of(*solid_);
+  hold_stray_parts();
+  return true;
+}
+
+LatticeMesh TileMaker::make(TileMeasures& measures) {
+  MeshCounts counts;
+  LatticeMesh mesh = mesh_cell(measures, counts);
+  measure(mesh, measures);
+  measures.faces_dense = counts.levels.front().simplify.faces_in;
+  measures.volume = counts.levels.front().measures.volume;
+  return mesh;
+}
+
+/// What the closing has here only for voxels of the next cells: sheets along the walls, over which a tile would stand
+/// far off all that it encloses. That is what lies beyond the closing's reach from the solid, and is not shut in by
+/// the rest: what fills cavities stays.
+void TileMaker::leave_out_fringes() {
+  BitBox closing(grown_), kept(grown_), outside(grown_);
+  load_voxels(*closing_, closing);
+  load_voxels(*solid_, kept);
+  dilate(kept, std::int32_t(std::ceil(params_.scale_world / level_.header.frame.voxel)) + 1);
+  const VoxelBox box = closing.box();
+  const std::int32_t words = closing.words_per_row();
+  std::vector<std::uint64_t> here(std::size_t(words), 0);  // of a row, the voxels of the cell
+  for (std::int32_t x = grown_.min.x; x < grown_.max.x; ++x)
+    here[std::size_t((x - box.min.x) / 64)] |= std::uint64_t(1) << ((x - box.min.x) % 64);
+  const auto for_each_word = [&](const auto& body) {
+    for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
+      for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
+        for (std::int32_t i = 0; i < words; ++i)
+          body(closing.row(y, z)[i], kept.row(y, z)[i], outside.row(y, z)[i], here[std::size_t(i)]);
+      }
+    }
+  };
+  std::uint64_t far = 0;
+  for_each_word([&](std::uint64_t c, std::uint64_t& near, std::uint64_t& out, std::uint64_t cell) {
+    far |= c & ~near;
+    out = ~c & cell;
+    near = (~c | ~near) & cell;  // where the outside may go
+  });
+  if (far == 0) return;
+  grow_within(kept, outside);
+  for_each_word([&](std::uint64_t& c, std::uint64_t, std::uint64_t out, std::uint64_t) { c &= ~out; });
+  closing_ = context_.make_shelf();
+  for_each_brick(grown_, [&](BrickCoord c) {
+    BrickBits bits{};
+    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+        const VoxelCoord p = first_voxel(c) + VoxelCoord{0, y, z};
+        if (row_within(c, y, z, grown_) == 0) continue;
+        bits[std::size_t(z * kBrickEdge + y)] = closing.row(p.y, p.z)[(p.x - box.min.x) / kBrickEdge];
+      }
+    }
+    if (classify(bits) != BrickFill::empty) closing_->put(c, classify(bits), bits);
+  });
+}
+
+/// Where a part of the closing holds no voxel of the solid in this cell, nothing would stop it as it is tightened: it
+/// might pass through itself. So it is to enclose itself.
+void TileMaker::hold_stray_parts() {
+  BitBox closing(grown_), held(grown_);
+  load_voxels(*closing_, closing);
+  load_voxels(*solid_, held);
+  grow_within(closing, held);
+  BrickBits bits, before;
+  for_each_brick(grown_, [&](BrickCoord c) {
+    const VoxelCoord first = first_voxel(c);
+    bool stray = false;
+    solid_->get(c, before);
+    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+        const VoxelCoord p = first + VoxelCoord{0, y, z};
+        std::uint64_t& word = bits[std::size_t(z * kBrickEdge + y)];
+        word = before[std::size_t(z * kBrickEdge + y)];
+        if (row_within(c, y, z, grown_) == 0) continue;
+        const std::int32_t i = (p.x - closing.box().min.x) / kBrickEdge;
+        const std::uint64_t left = closing.row(p.y, p.z)[i] & ~held.row(p.y, p.z)[i];
+        stray = stray || left != 0;
+        word |= left;
+      }
+    }
+    if (stray) solid_->put(c, classify(bits), bits);
+  });
+}
+
+MeshParams TileMaker::mesh_params(TileMeasures& measures) const {
+  MeshParams mesh;
+  mesh.mode = params_.mode;
+  mesh.tighten = params_.tighten;
+  mesh.enclose = params_.enclose;
+  mesh.error_world = params_.error_world;
+  mesh.near = true;  // where the error below is no limit
+  if (params_.error_world == 0) {
+    const std::uint64_t solid_faces = 2 * boundary_.faces;
+    measures.faces_asked = params_.faces > 0
+                               ? params_.faces
+                               : std::max(solid_faces / TileParams::kDenseFacesPerFace, TileParams::kLeastFaces);
+    mesh.faces = {measures.faces_asked};
+    if (params_.faces == 0 && params_.mode == MeshMode::bounding && solid_faces <= TileParams::kMostFacesForError)
+      mesh.error_world = TileParams::kErrorVox * level_.header.frame.voxel;
+  }
+  if (params_.mode == MeshMode::fit) {
+    mesh.scene = scene_nearby();
+    mesh.enclose = mesh.scene.empty() ? Enclose::closing : Enclose::scene;
+  }
+  return mesh;
+}
+
+LatticeMesh TileMaker::mesh_cell(TileMeasures& measures, MeshCounts& counts) const {
+  ShelfSource source(header(), *solid_, closing_.get(), ShelfSource::Keep::solid);
+  return std::move(mesh_stream(source, context_, mesh_params(measures), counts).front());
+}
+
+StreamHeader TileMaker::header() const {
+  StreamHeader header = level_.header;
+  header.bricks = bricks_of(grown_);
+  header.slab_axis = longest_axis(header.bricks);
+  header.has_closing = true;
+  header.scale = {};
+  header.scale.base = params_.scale_world;
+  header.element = params_.element;
+  return header;
+}
+
+/// Triangles that a fit may be drawn to.
+std::vector<TriangleD> TileMaker::scene_nearby() const {
+  std::vector<std::pair<std::uint32_t, TriangleD>> found;
+  if (params_.scene == nullptr) return {};
+  const VoxelBox reach = grown_.grown(4);
+  Bounds3d bounds;
+  for (const VoxelCoord p : {reach.min, reach.max}) {
+    bounds.add(level_.header.frame.world({std::int64_t(p.x) * kLatticePerVoxel, std::int64_t(p.y) * kLatticePerVoxel,
+                                          std::int64_t(p.z) * kLatticePerVoxel}));
+  }
+  params_.scene->visit(bounds, [&](const TriangleBvh::Item& item) {
+    found.emplace_back(item.id, item.corners);
+    return false;
+  });
+  std::sort(found.begin(), found.end());
+  std::vector<TriangleD> triangles;
+  for (const auto& [id, corners] : found) triangles.push_back(corners);
+  return triangles;
+}
+
+/// Where every voxel of the closing in the cell finds one of the scene.
+VoxelBox TileMaker::reach() const {
+  return grown_.grown(std::int32_t(std::ceil(params_.scale_world / level_.header.frame.voxel)) + 2);
+}
+
+void TileMaker::measure(const LatticeMesh& mesh, TileMeasures& measures) const {
+  measures.faces = mesh.triangles.size();
+  measures.min = measures.max = mesh.vertices.front();
+  for (const LatticeCoord& v : mesh.vertices) {
+    for (int i = 0; i < 3; ++i) {
+      measures.min[i] = std::min(measures.min[i], v[i]);
+      measures.max[i] = std::max(measures.max[i], v[i]);
+    }
+  }
+  const GridFrame& frame = mesh.frame;
+  const std::vector<TriangleD> triangles = world_triangles(mesh);
+  std::vector<VoxelRun> near = runs_of(level_.surface, reach());
+  near.insert(near.end(), boundary_.runs.begin(), boundary_.runs.end());  // walls
+  measures.error_world = distance_from_mesh(triangles, TriangleBvh(segments_of(near, frame)), frame.voxel);
+  if (params_.mode != MeshMode::fit) return;
+  measures.error_world = distance_beyond_mesh(segments_of(runs_of(level_.surface, cell_), frame),
+                                              TriangleBvh(triangles), frame.voxel, measures.error_world);
+}
+
+}  // namespace bp

@@ -1,0 +1,26 @@
+#pragma once
+#include "lib/core/memory_share.h"
+#include "lib/grid/stream.h"
+#include "lib/pass/stage_progress.h"
+#include "lib/store/chunk_store.h"
+#include "lib/store/result_store.h"
+#include "lib/surface/piece_store.h"
+
+namespace bp {
+
+/// What a tool gives to every pass: memory, places for what waits, and who is told of the progress. None of it changes
+/// a result.
+struct PassContext {
+  MemoryShare memory;              ///< for what is at work; what the shelves and stores hold comes on top
+  PieceMemory pieces;              ///< the same, for surfaces
+  ShelfFactory make_shelf;         ///< for bricks that wait
+  ChunkStoreFactory make_store;    ///< for triangles, crossings and colours that wait
+  ResultStore* results = nullptr;  ///< results of jobs are looked up there, and put; null: all are made
+  StageProgress progress;          ///< called now and then; may be empty
+
+  void report(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total) const {
+    if (progress) progress(stage, unit, done, total);
+  }
+};
+
+}  // namespace bp

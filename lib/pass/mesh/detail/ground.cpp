@@ -1,0 +1,92 @@
+#include "lib/pass/mesh/detail/ground.h"
+
+#include "lib/core/error.h"
+#include "lib/enclosed/enclosed_scene.h"
+#include "lib/enclosed/enclosed_triangles.h"
+#include "lib/enclosed/enclosed_voxels.h"
+#include "lib/pass/mesh/complement.h"
+#include "lib/pass/mesh/detail/scene_check.h"
+#include "lib/pass/mesh/surface_around.h"
+#include "lib/simplify/flatten.h"
+#include "lib/simplify/surface_tree.h"
+#include "lib/volume/boundary_rects.h"
+
+namespace bp {
+
+namespace {
+
+/// The same surface with few triangles.
+std::vector<TriangleD> merged_triangles(const SurfaceSource& surface, const PieceMemory& memory) {
+  SimplifyParams params;
+  params.memory = memory;
+  SimplifyCounts counts;
+  Piece whole = simplified_surface(surface, params, {}, counts);
+  HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
+  merge_flat_regions(mesh);
+  return world_triangles(mesh.compact(surface.frame()));
+}
+
+/// The same for voxels that may touch along edges, where no faces can be merged but those in a rectangle.
+std::vector<TriangleD> rect_triangles(const BrickShelf& shelf, const GridFrame& frame, const PieceMemory& memory) {
+  const std::vector<FaceRect> rects = boundary_rects(shelf);
+  const std::uint64_t n = 2 * rects.size();
+  const std::uint64_t bytes = rects.size() * sizeof(FaceRect) + n * sizeof(TriangleD) + TriangleBvh::bytes_needed(n);
+  if (bytes > memory.bytes())
+    throw NeedsMemory("the surface that distances are measured from", bytes, memory.bytes(),
+                      memory.limit_with(bytes - memory.bytes()), {Remedy::larger_voxels});
+  std::vector<TriangleD> triangles;
+  triangles.reserve(n);
+  for (const FaceRect& r : rects) {
+    const int across = r.min.x == r.max.x ? 0 : r.min.y == r.max.y ? 1 : 2, u = across == 0 ? 1 : 0;
+    VoxelCoord b = r.min, d = r.max;
+    b[u] = r.max[u];
+    d[u] = r.min[u];
+    const auto world = [&](const VoxelCoord& c) {
+      return frame.world({std::int64_t(c.x) * kLatticePerVoxel, std::int64_t(c.y) * kLatticePerVoxel,
+                          std::int64_t(c.z) * kLatticePerVoxel});
+    };
+    triangles.push_back({world(r.min), world(b), world(r.max)});
+    triangles.push_back({world(r.min), world(r.max), world(d)});
+  }
+  return triangles;
+}
+
+std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& params, const Start& start,
+                                        const ShelfFactory& make_shelf) {
+  if (params.enclose == Enclose::scene) {
+    const GridFrame& frame = start.surface->frame();
+    if (params.mode == MeshMode::bounding && !lies_within(params.scene, frame, *shelves.meshed)) {
+      fail(ErrorCode::bad_input, {Remedy::enclose_own_scene},
+           "the scene to be enclosed does not lie inside the voxels of the stream: the stream was made from another "
+           "scene");
+    }
+    if (params.near && params.mode == MeshMode::bounding)
+      return std::make_unique<EnclosedScene>(std::move(params.scene), frame, *shelves.input);
+    return std::make_unique<EnclosedTriangles>(std::move(params.scene), frame);
+  }
+  if (params.enclose == Enclose::closing)
+    return std::make_unique<EnclosedVoxels>(start.around ? *start.around : *shelves.meshed);
+  if (params.mode == MeshMode::bounding) return std::make_unique<EnclosedVoxels>(*shelves.input);
+  const auto around = make_shelf();
+  complement(*shelves.input, bricks_around(*shelves.input), *around);
+  return std::make_unique<EnclosedVoxels>(*around);
+}
+
+}  // namespace
+
+Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& start, const PassContext& context) {
+  Ground ground;
+  const bool target = params.mode == MeshMode::fit && params.enclose == Enclose::scene;
+  if (params.error_world > 0 || params.distances || target) {
+    const Enclose to = params.distances_to.value_or(params.enclose);
+    ground.surface = to == Enclose::scene   ? params.scene
+                     : to == Enclose::input ? rect_triangles(*shelves.input, start.surface->frame(), context.pieces)
+                                            : merged_triangles(*start.surface, context.pieces);
+    ground.tree = std::make_unique<TriangleBvh>(ground.surface);
+  }
+  if (params.tighten && params.mode != MeshMode::fit)
+    ground.enclosed = make_enclosed(shelves, params, start, context.make_shelf);
+  return ground;
+}
+
+}  // namespace bp

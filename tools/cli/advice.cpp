@@ -1,0 +1,89 @@
+#include "tools/cli/advice.h"
+
+#include <string_view>
+
+namespace bp {
+
+namespace {
+
+const char* text_of(Remedy remedy) {
+  switch (remedy) {
+    case Remedy::more_memory:
+      return "raise --memory";
+    case Remedy::larger_voxels:
+      return "use larger voxels";
+    case Remedy::smaller_voxels:
+      return "use smaller voxels";
+    case Remedy::coarser_grid:
+      return "use a larger --voxel or a smaller --resolution";
+    case Remedy::units_of_scene:
+      return "give --voxel in the units of the scene";
+    case Remedy::other_units:
+      return "convert the scene to another unit of length";
+    case Remedy::smaller_scale:
+      return "use a smaller --scale";
+    case Remedy::smaller_tiles:
+      return "use a smaller --tile";
+    case Remedy::larger_tiles:
+      return "use a larger --tile";
+    case Remedy::fewer_faces:
+      return "use fewer faces";
+    case Remedy::split_scene:
+      return "split it";
+    case Remedy::flood_fill:
+      return "use --fill flood";
+    case Remedy::fill_inside:
+      return "make the stream with bpvox --fill inside";
+    case Remedy::mode_inside:
+      return "use --mode inside";
+    case Remedy::enclose_closing:
+      return "use --enclose closing";
+    case Remedy::enclose_input:
+      return "use --enclose input";
+    case Remedy::enclose_own_scene:
+      return "name with --enclose the scene that bpvox read";
+    case Remedy::no_volume:
+      return "leave out --volume";
+    case Remedy::no_least_part:
+      return "leave out --least-part";
+    case Remedy::fewer_users_of_device:
+      return "run fewer tools on this GPU";
+    case Remedy::use_cpu:
+      return "use --device cpu";
+    case Remedy::other_scratch_folder:
+      return "choose another --temp";
+    case Remedy::other_output:
+      return "name another output";
+    case Remedy::overwrite:
+      return "add --overwrite to replace it";
+    case Remedy::name_format:
+      return "name it with --format";
+    case Remedy::set_origin:
+      return "set --origin";
+    case Remedy::double_format:
+      return "write GLB, PLY or OBJ";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string advised(const Error& error) {
+  std::string text = error.what();
+  bool first = text.find("; ") == std::string::npos;  // nothing is advised yet
+  std::string_view before;
+  for (const Remedy& remedy : error.remedies()) {
+    const bool last = &remedy == &error.remedies().back();
+    text += first ? "; " : last ? ", or " : ", ";
+    std::string_view words = text_of(remedy);
+    if (before.starts_with("use ") && words.starts_with("use ")) words.remove_prefix(4);  // is said already
+    before = text_of(remedy);
+    text += words;
+    if (remedy == Remedy::more_memory && error.memory_bytes() > 0)
+      text += fmt::format(" to at least {} MiB", (error.memory_bytes() >> 20) + 1);
+    first = false;
+  }
+  return text;
+}
+
+}  // namespace bp
