@@ -202,8 +202,8 @@ TEST_CASE("a tile's key depends on all that decides the tile", "[quick][stage][l
     PyramidOptions options;
     options.cells = cells;
     options.closing.element = shape.element;
-    options.make_shelf = memory_shelves();
-    options.store = &store;
+    options.context.make_shelf = memory_shelves();
+    options.context.results = &store;
     TilePyramid from(solid.header, std::move(solid.shelf), backends, options);
     from.add_level(
         scale, params, [](CellCoord, const LatticeMesh&) { return ""; }, [](LevelTile&&) {});
