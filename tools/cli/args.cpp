@@ -169,9 +169,9 @@ Args::Option& Args::State::find(const std::string& name, const std::string& word
     names.insert(names.end(), own.begin(), own.end());
   }
   const std::string slip = word.empty() ? name : "-" + word;
-  std::string hint = owner_of(slip, false);
+  std::string hint = owner_of(tool, slip, false);
   if (hint.empty()) hint = did_you_mean(slip, names);
-  if (hint.empty()) hint = owner_of(slip, true);
+  if (hint.empty()) hint = owner_of(tool, slip, true);
   fail(ErrorCode::bad_argument, "there is no option {}{}", name, hint);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "tools/cli/nearest.h"
@@ -68,7 +69,9 @@ constexpr OptionOfTools kOptionsOfTools[] = {
 
 }  // namespace
 
-std::string owner_of(const std::string& name, bool similar) {
+std::string owner_of(const std::string& tool, const std::string& name, bool similar) {
+  constexpr const char* kPipe[] = {"bpvox", "bpclose", "bpmesh", "bpcheck", "bplod", "bpinfo"};
+  if (std::find(std::begin(kPipe), std::end(kPipe), tool) == std::end(kPipe)) return "";
   std::vector<std::string> names;
   for (const OptionOfTools& o : kOptionsOfTools) names.push_back(o.option);
   const std::string meant = similar ? nearest_word(name, names) : name;

@@ -3,8 +3,8 @@
 
 namespace bp {
 
-/// "; --faces is an option of bpmesh and bplod", if another tool of the pipe has this option; else nothing. `similar`:
-/// a slip will do.
-[[nodiscard]] std::string owner_of(const std::string& name, bool similar);
+/// "; --faces is an option of bpmesh and bplod", if another tool of the pipe has this option and `tool` belongs to the
+/// pipe, too; else nothing. `similar`: a slip will do.
+[[nodiscard]] std::string owner_of(const std::string& tool, const std::string& name, bool similar);
 
 }  // namespace bp
