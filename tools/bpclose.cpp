@@ -4,7 +4,7 @@
 #include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
-#include "lib/pass/close/close_stage.h"
+#include "lib/pass/close/close_pass.h"
 #include "lib/pass/mesh/complement.h"
 #include "tools/cli/names.h"
 #include "tools/cli/options/closing.h"

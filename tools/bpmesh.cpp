@@ -6,7 +6,7 @@
 #include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
-#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/mesh_pass.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
 #include "tools/mesh/enclosure.h"

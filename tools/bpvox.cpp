@@ -5,11 +5,11 @@
 
 #include "io/scene/scene_format.h"
 #include "io/scene/scene_reader.h"
-#include "io/store/chunk_store.h"
+#include "io/store/scratch.h"
 #include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
-#include "lib/pass/voxelize/voxelize_stage.h"
+#include "lib/pass/voxelize/voxelize_pass.h"
 #include "tools/cli/names.h"
 #include "tools/cli/options/voxel.h"
 #include "tools/cli/report.h"
@@ -89,7 +89,7 @@ bp::VoxelizeOptions stage_options(const Options& o, const bp::VoxelizeBudget& bu
   v.context.memory.bytes = budget.waiting;
   v.tile_memory_bytes = budget.tiles;
   v.context.make_shelf = bp::make_shelf_factory(budget.shelf, o.common.temp);
-  v.context.make_store = [&o, budget] { return bp::make_chunk_store(budget.store, o.common.temp); };
+  v.context.make_scratch = [&o, budget] { return bp::make_scratch(budget.store, o.common.temp); };
   v.context.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
                                                          std::uint64_t total) mutable {
     if (last != stage) progress.begin(last = stage, total, unit);

@@ -1,8 +1,8 @@
 #include <optional>
 
-#include "io/scene/detail/packed_ply.h"
-#include "io/scene/detail/ply_cursor.h"
-#include "io/scene/detail/ply_vertices.h"
+#include "io/scene/detail/ply/packed_ply.h"
+#include "io/scene/detail/ply/ply_cursor.h"
+#include "io/scene/detail/ply/ply_vertices.h"
 #include "io/scene/detail/raw_source.h"
 #include "io/scene/detail/vertex_pool.h"
 

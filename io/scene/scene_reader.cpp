@@ -11,7 +11,7 @@
 #include "io/scene/scene_format.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 
 namespace bp {
 

@@ -10,7 +10,7 @@
 #include "lib/closing/closing.h"
 #include "lib/closing/closing_scratch.h"
 #include "lib/core/parallel.h"
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 #include "lib/volume/dilate.h"
 #include "lib/volume/reach.h"
 #include "lib/voxel/voxelize.h"

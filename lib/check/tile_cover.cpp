@@ -8,7 +8,7 @@
 #include "lib/check/detail/clipped_triangle.h"
 #include "lib/check/detail/surface.h"
 #include "lib/core/parallel.h"
-#include "lib/core/triangle_intersection.h"
+#include "lib/exact/triangle_intersection.h"
 
 namespace bp {
 

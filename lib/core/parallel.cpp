@@ -40,7 +40,7 @@ void parallel_for(std::int64_t n, const std::function<void(std::int64_t)>& body)
       std::int64_t(0), n, [&](std::int64_t i) { body(i); }, own.get());
 }
 
-void parallel_chunks(std::int64_t n, std::int64_t grain, const std::function<void(std::int64_t, std::int64_t)>& body) {
+void parallel_ranges(std::int64_t n, std::int64_t grain, const std::function<void(std::int64_t, std::int64_t)>& body) {
   const std::int64_t chunks = (n + grain - 1) / grain;  // fixed boundaries: they do not depend on the thread count
   OwnContext own;
   tbb::parallel_for(

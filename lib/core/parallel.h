@@ -28,7 +28,7 @@ class ThreadLimit {
 void parallel_for(std::int64_t n, const std::function<void(std::int64_t)>& body);
 
 /// body(begin, end) over consecutive chunks of at most `grain` items.
-void parallel_chunks(std::int64_t n, std::int64_t grain, const std::function<void(std::int64_t, std::int64_t)>& body);
+void parallel_ranges(std::int64_t n, std::int64_t grain, const std::function<void(std::int64_t, std::int64_t)>& body);
 
 /// A pipeline with at most `in_flight` items: produce() in order on one thread at a time until it returns false, work()
 /// in parallel, consume() in the order of production. `Item` is default-constructible and movable.

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "lib/core/triangle_intersection.h"
 #include "lib/core/vec3.h"
+#include "lib/exact/triangle_intersection.h"
 
 namespace bp {
 

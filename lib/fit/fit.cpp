@@ -70,7 +70,7 @@ class SmoothNormals {
 
 void move_to_targets(std::vector<Vec3d>& points, const HalfEdgeMesh& surface, const FitTarget& target) {
   const SmoothNormals normals(surface);
-  parallel_chunks(std::int64_t(points.size()), 256, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(points.size()), 256, [&](std::int64_t begin, std::int64_t end) {
     std::uint32_t guess = 0;
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
       points[i] = target(points[i], normals.at(points[i], guess));

@@ -1,6 +1,6 @@
 #include "lib/geometry/crossing.h"
 
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 
 namespace bp {
 

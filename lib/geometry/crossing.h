@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/core/wide_predicates.h"
+#include "lib/exact/wide_predicates.h"
 
 /// Winding numbers by counting crossings.
 namespace bp {

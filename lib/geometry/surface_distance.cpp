@@ -112,7 +112,7 @@ struct Chunk {
 std::vector<Chunk> examine_all(const std::vector<TriangleD>& from, const TriangleBvh& to, double step) {
   const auto n = std::int64_t(from.size());
   std::vector<Chunk> chunks(std::size_t((n + kGrain - 1) / kGrain));
-  parallel_chunks(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
     Chunk& chunk = chunks[std::size_t(begin / kGrain)];
     std::uint32_t guess = 0, guess_mean = 0;
     double at_least = 0;
@@ -153,7 +153,7 @@ class Search {
       round.clear();
       while (!done() && round.size() < kRound) round.push_back(pop());
       found.resize(round.size());
-      parallel_chunks(std::int64_t(round.size()), kGrainOfRound, [&](std::int64_t begin, std::int64_t end) {
+      parallel_ranges(std::int64_t(round.size()), kGrainOfRound, [&](std::int64_t begin, std::int64_t end) {
         std::vector<TriangleD> pieces;
         for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
           pieces.clear();

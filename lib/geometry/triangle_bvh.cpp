@@ -100,7 +100,7 @@ struct TriangleBvh::Builder {
   std::vector<Primitive> primitives;
 
   explicit Builder(const std::vector<TriangleD>& triangles) : primitives(triangles.size()) {
-    parallel_chunks(std::int64_t(triangles.size()), 1 << 14, [&](std::int64_t begin, std::int64_t end) {
+    parallel_ranges(std::int64_t(triangles.size()), 1 << 14, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i)
         primitives[std::size_t(i)] = {bounds_of(triangles[std::size_t(i)]), std::uint32_t(i)};
     });
@@ -222,7 +222,7 @@ TriangleBvh::TriangleBvh(const std::vector<TriangleD>& triangles) {
     built[i] = {};
   }
   items_.resize(n);
-  parallel_chunks(n, 1 << 14, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(n, 1 << 14, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
       const std::uint32_t id = builder.primitives[std::size_t(i)].id;
       items_[std::size_t(i)] = {triangles[id], id};

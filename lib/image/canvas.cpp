@@ -161,7 +161,7 @@ void Canvas::draw_shaded(std::span<const TriangleD> triangles, const ColorOf& co
   for (std::size_t begin = 0; begin < triangles.size(); begin += kBatch) {
     const std::size_t n = std::min(kBatch, triangles.size() - begin);
     ready.resize(n);
-    parallel_chunks(std::int64_t(n), 1024, [&](std::int64_t b, std::int64_t e) {
+    parallel_ranges(std::int64_t(n), 1024, [&](std::int64_t b, std::int64_t e) {
       for (auto i = std::size_t(b); i < std::size_t(e); ++i)
         ready[i] = Shaded(triangles[begin + i], color_of(begin + i), width_, height_);
     });

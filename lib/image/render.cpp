@@ -81,7 +81,7 @@ class PanelPainter {
   void paint(std::size_t n, const Corners& corners, std::span<const TriangleColors> colors = {}) {
     for (std::size_t begin = 0; begin < n; begin += kBatch) {
       projected_.resize(std::min(kBatch, n - begin));
-      parallel_chunks(std::int64_t(projected_.size()), 2048, [&](std::int64_t b, std::int64_t e) {
+      parallel_ranges(std::int64_t(projected_.size()), 2048, [&](std::int64_t b, std::int64_t e) {
         for (auto i = std::size_t(b); i < std::size_t(e); ++i) {
           const TriangleD t = corners(begin + i);
           for (std::size_t k = 0; k < 3; ++k) projected_[i][k] = camera_.project(t[k]);

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "lib/levels/voxel_choice.h"
-#include "lib/pass/voxelize/voxelize_stage.h"
+#include "lib/pass/voxelize/voxelize_pass.h"
 
 /// The levels of a chain: each has fewer faces than the one before, and spends its budget as far as the voxels can.
 namespace bp {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "lib/levels/lod_stage.h"
+#include "lib/levels/lod_chain.h"
 
 /// Which levels of detail are wanted, in numbers and scene units, and the target of each.
 namespace bp {

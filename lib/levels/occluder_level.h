@@ -1,8 +1,8 @@
 #pragma once
 #include "lib/levels/level_chain.h"
-#include "lib/pass/hide/hidden_stage.h"
+#include "lib/pass/hide/hidden_pass.h"
 
-/// One mesh that lies strictly within what a scene hides from every eye outside (lib/pass/hide/hidden_stage.h).
+/// One mesh that lies strictly within what a scene hides from every eye outside (lib/pass/hide/hidden_pass.h).
 namespace bp {
 
 /// What an occluder is made from.

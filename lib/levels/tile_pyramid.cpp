@@ -14,7 +14,7 @@ TilePyramid::TilePyramid(const StreamHeader& header, std::unique_ptr<BrickShelf>
   boundary_layer(*solid_, *surface_);
 }
 
-std::unique_ptr<BrickShelf> TilePyramid::close(double scale_world) {
+std::unique_ptr<BrickShelf> TilePyramid::closing_at(double scale_world) {
   CellClosing o;
   o.cells = options_.cells;
   o.closing = options_.closing;
@@ -27,7 +27,7 @@ std::unique_ptr<BrickShelf> TilePyramid::close(double scale_world) {
 
 void TilePyramid::add_level(double scale_world, TileParams params, TileEncoder encode,
                             std::function<void(LevelTile&&)> consume) {
-  waiting_.push_back({close(scale_world), nullptr, nullptr});
+  waiting_.push_back({closing_at(scale_world), nullptr, nullptr});
   params.scale_world = scale_world;
   params.element = options_.closing.element;
   tasks_.push_back({{header_, *solid_, *surface_, *waiting_.back().closing, options_.cells},

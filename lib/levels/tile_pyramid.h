@@ -1,12 +1,12 @@
 #pragma once
 #include "lib/device/backend.h"
-#include "lib/levels/tile_stage.h"
+#include "lib/levels/level_tiles.h"
 #include "lib/pass/close/cell_closing.h"
 #include "lib/pass/context.h"
 
 /// The levels of a scene that are too large for one mesh: level n has the voxels of the solid reduced n times, closed,
-/// and cut into tiles (tile_stage.h). What the scene shows to the outside is reduced along, so that errors are measured
-/// against the scene and not against the level before.
+/// and cut into tiles (level_tiles.h). What the scene shows to the outside is reduced along, so that errors are
+/// measured against the scene and not against the level before.
 namespace bp {
 
 struct PyramidOptions {
@@ -39,7 +39,7 @@ class TilePyramid {
   [[nodiscard]] std::unique_ptr<BrickShelf> take_surface() { return std::move(surface_); }
 
  private:
-  [[nodiscard]] std::unique_ptr<BrickShelf> close(double scale_world);
+  [[nodiscard]] std::unique_ptr<BrickShelf> closing_at(double scale_world);
   /// A level whose tiles are to be made.
   struct Waiting {
     std::unique_ptr<BrickShelf> closing;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/pass/voxelize/voxelize_stage.h"
+#include "lib/pass/voxelize/voxelize_pass.h"
 #include "lib/volume/boundary_runs.h"
 
 namespace bp {

@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
-#include "lib/core/triangle_intersection.h"
 #include "lib/core/vec3.h"
+#include "lib/exact/triangle_intersection.h"
 
 namespace bp {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 #include "lib/mesh/box_tree.h"
 #include "lib/mesh/lattice_mesh.h"
 

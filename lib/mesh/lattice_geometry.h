@@ -1,8 +1,8 @@
 #pragma once
 #include <cmath>
 
-#include "lib/core/predicates.h"
 #include "lib/core/vec3.h"
+#include "lib/exact/predicates.h"
 
 /// Small vector helpers over lattice points. Exact where they return integers.
 namespace bp {

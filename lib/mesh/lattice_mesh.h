@@ -5,7 +5,7 @@
 
 #include "lib/core/color.h"
 #include "lib/core/grid_frame.h"
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 #include "lib/grid/stream.h"
 
 /// A triangle mesh with integer vertices: what bpmesh works on and writes. Vertices are lattice points (1/64 voxel) of

@@ -1,6 +1,6 @@
 #include "lib/mesh/shells.h"
 
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 #include "lib/mesh/face_tree.h"
 
 namespace bp {

@@ -2,8 +2,8 @@
 #include "lib/core/memory_share.h"
 #include "lib/grid/stream.h"
 #include "lib/pass/stage_progress.h"
-#include "lib/store/chunk_store.h"
 #include "lib/store/result_store.h"
+#include "lib/store/scratch.h"
 #include "lib/surface/piece_store.h"
 
 namespace bp {
@@ -14,7 +14,7 @@ struct PassContext {
   MemoryShare memory;              ///< for what is at work; what the shelves and stores hold comes on top
   PieceMemory pieces;              ///< the same, for surfaces
   ShelfFactory make_shelf;         ///< for bricks that wait
-  ChunkStoreFactory make_store;    ///< for triangles, crossings and colours that wait
+  ScratchFactory make_scratch;     ///< for triangles, crossings and colours that wait
   ResultStore* results = nullptr;  ///< results of jobs are looked up there, and put; null: all are made
   StageProgress progress;          ///< called now and then; may be empty
 

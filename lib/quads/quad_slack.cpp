@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "lib/core/predicates.h"
 #include "lib/core/vec3.h"
+#include "lib/exact/predicates.h"
 #include "lib/quads/quads.h"
 #include "lib/tighten/fan_fit.h"
 #include "lib/tighten/proxy_editor.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/core/triangle_intersection.h"
+#include "lib/exact/triangle_intersection.h"
 
 namespace bp {
 

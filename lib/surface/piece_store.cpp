@@ -106,7 +106,7 @@ Piece PieceStore::take(WaitingPiece&& waiting) {
     return piece;
   }
   std::vector<std::byte> all, chunk;
-  for (const ChunkStore::Handle handle : waiting.in_store_) {
+  for (const Scratch::Handle handle : waiting.in_store_) {
     store().get(handle, chunk);
     store().drop(handle);
     all.insert(all.end(), chunk.begin(), chunk.end());
@@ -117,14 +117,14 @@ Piece PieceStore::take(WaitingPiece&& waiting) {
 
 bool PieceStore::reserve(std::uint64_t bytes) {
   const std::lock_guard lock(mutex_);
-  if (memory_.make_store && used_ + bytes > memory_.waiting_bytes) return false;
+  if (memory_.make_scratch && used_ + bytes > memory_.waiting_bytes) return false;
   used_ += bytes;
   return true;
 }
 
-ChunkStore& PieceStore::store() {
+Scratch& PieceStore::store() {
   const std::lock_guard lock(mutex_);
-  if (!store_) store_ = memory_.make_store();
+  if (!store_) store_ = memory_.make_scratch();
   return *store_;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "lib/core/memory_share.h"
-#include "lib/store/chunk_store.h"
+#include "lib/store/scratch.h"
 #include "lib/surface/piece.h"
 
 /// Where the pieces of a surface wait until the cell around them is made.
@@ -13,7 +13,7 @@ namespace bp {
 struct PieceMemory {
   std::uint64_t waiting_bytes = UINT64_MAX / 2;  ///< pieces that wait as they are
   std::uint64_t work_bytes = UINT64_MAX / 2;     ///< those in hand, and all that simplification needs beside them
-  ChunkStoreFactory make_store;                  ///< for further ones that wait; without it, all wait as they are
+  ScratchFactory make_scratch;                   ///< for further ones that wait; without it, all wait as they are
   [[nodiscard]] std::uint64_t bytes() const { return waiting_bytes + work_bytes; }  ///< for the whole, at the end
   MemoryLimit limit{};                                                              ///< that both are shares of
   double waiting_share = 0, work_share = 0;
@@ -33,8 +33,8 @@ class WaitingPiece {
 
  private:
   friend class PieceStore;
-  Piece piece_;                               // as it is, or empty
-  std::vector<ChunkStore::Handle> in_store_;  // the same in chunks
+  Piece piece_;                            // as it is, or empty
+  std::vector<Scratch::Handle> in_store_;  // the same in chunks
   std::uint64_t faces_ = 0, bytes_ = 0;
 };
 
@@ -47,12 +47,12 @@ class PieceStore {
 
  private:
   [[nodiscard]] bool reserve(std::uint64_t bytes);
-  [[nodiscard]] ChunkStore& store();
+  [[nodiscard]] Scratch& store();
 
   const PieceMemory& memory_;
   std::mutex mutex_;
   std::uint64_t used_ = 0;
-  std::unique_ptr<ChunkStore> store_;  // made when it is first needed
+  std::unique_ptr<Scratch> store_;  // made when it is first needed
 };
 
 }  // namespace bp

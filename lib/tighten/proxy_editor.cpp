@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/core/predicates.h"
 #include "lib/core/vec3.h"
+#include "lib/exact/predicates.h"
 #include "lib/mesh/shells.h"
 
 namespace bp {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/core/predicates.h"
 #include "lib/core/vec3.h"
+#include "lib/exact/predicates.h"
 #include "lib/mesh/shells.h"
 #include "lib/tighten/detail/joint_fit.h"
 #include "lib/tighten/fan_fit.h"

@@ -6,7 +6,7 @@
 #include "gpu/cuda_backend.h"
 #include "lib/core/parallel.h"
 #include "lib/device/cpu/cpu_backend.h"
-#include "lib/pass/close/close_stage.h"
+#include "lib/pass/close/close_pass.h"
 #include "tests/backend/available_backends.h"
 #include "tests/catch.h"
 #include "tests/support/voxel_source.h"

@@ -14,7 +14,7 @@
 #include "lib/core/pool.h"
 #include "lib/device/cpu/cpu_backend.h"
 #include "lib/grid/tile_grid.h"
-#include "lib/pass/close/close_stage.h"
+#include "lib/pass/close/close_pass.h"
 #include "tests/bench/median.h"
 #ifdef BP_HAVE_CUDA
 #include "gpu/cuda_backend.h"

@@ -5,7 +5,7 @@
 
 #include "lib/check/check_proxy.h"
 #include "lib/closing/closing_scratch.h"
-#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/mesh_pass.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "tests/catch.h"
 #include "tests/reference/random_closing.h"

@@ -3,7 +3,7 @@
 #include <vector>
 
 // Intersection of two triangles with small integer corners, by clipping in exact rational arithmetic. Knows nothing of
-// orientation predicates: the definition that lib/core/triangle_intersection.h is compared with.
+// orientation predicates: the definition that lib/exact/triangle_intersection.h is compared with.
 namespace bp::reference {
 
 using Point = std::array<long, 3>;

@@ -1,22 +1,22 @@
 #pragma once
 #include <atomic>
 
-#include "lib/store/memory_chunk_store.h"
+#include "lib/store/memory_scratch.h"
 
 namespace bp::test {
 
 /// Counts the bytes that it was given and those that it holds.
-class MemoryStore final : public MemoryChunkStore {
+class MemoryStore final : public MemoryScratch {
  public:
   MemoryStore(std::uint64_t& put, std::uint64_t& held) : put_(put), held_(held) {}
   Handle put(std::span<const std::byte> bytes) override {
     std::atomic_ref(put_) += bytes.size();
-    const Handle handle = MemoryChunkStore::put(bytes);
+    const Handle handle = MemoryScratch::put(bytes);
     held_of_now();
     return handle;
   }
   void drop(Handle handle) override {
-    MemoryChunkStore::drop(handle);
+    MemoryScratch::drop(handle);
     held_of_now();
   }
 

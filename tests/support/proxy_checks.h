@@ -2,7 +2,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <functional>
 
-#include "lib/core/triangle_intersection.h"
+#include "lib/exact/triangle_intersection.h"
 #include "lib/mesh/half_edge_mesh.h"
 #include "tests/catch.h"
 #include "tests/support/memory_shelf.h"

@@ -1,14 +1,14 @@
 #pragma once
 #include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
-#include "lib/pass/voxelize/voxelize_stage.h"
+#include "lib/pass/voxelize/voxelize_pass.h"
 #include "tests/support/memory_scene.h"
 #include "tests/support/voxel_source.h"
 
 namespace bp::test {
 
 /// For a scene that is in memory already.
-class NoStore final : public ChunkStore {
+class NoStore final : public Scratch {
  public:
   Handle put(std::span<const std::byte>) override { fail(ErrorCode::failed, "triangles left memory"); }
   void get(Handle, std::vector<std::byte>&) const override {}
@@ -33,7 +33,7 @@ inline Voxelized voxelized(const Triangles& scene, double voxel, std::int32_t ce
   options.cell_vox = cell_vox;
   options.context.make_shelf = memory_shelves();
   options.context.memory.bytes = UINT64_MAX / 8;
-  options.context.make_store = [] { return std::make_unique<NoStore>(); };
+  options.context.make_scratch = [] { return std::make_unique<NoStore>(); };
   const auto open = [&](const StreamHeader& h, const VoxelizeCounts&) -> BrickSink& {
     out.header = h;
     return sink;

@@ -7,11 +7,11 @@
 #include "io/files/file.h"
 #include "lib/core/error.h"
 #include "lib/store/source_digest.h"
-#include "tools/cli/completion.h"
-#include "tools/cli/help.h"
+#include "tools/cli/help/completion.h"
+#include "tools/cli/help/help.h"
+#include "tools/cli/help/nearest.h"
+#include "tools/cli/help/option_owners.h"
 #include "tools/cli/names.h"
-#include "tools/cli/nearest.h"
-#include "tools/cli/option_owners.h"
 
 namespace bp {
 

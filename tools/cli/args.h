@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lib/core/grid_frame.h"
-#include "tools/cli/declaration.h"
+#include "tools/cli/help/declaration.h"
 #include "tools/cli/length.h"
 
 /// Options of a tool, declared once: parsing, checks, --help and --version follow from the declarations. Opens no file.

@@ -4,7 +4,7 @@
 #include "lib/core/grid_frame.h"
 #include "lib/core/triangle_source.h"
 #include "lib/grid/stream.h"
-#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/mesh_pass.h"
 
 /// Choices as options, reports and provenance write them; counts as notes do.
 namespace bp {

@@ -8,7 +8,7 @@
 #include "io/files/file.h"
 #include "io/scene/scene_parts.h"
 #include "io/scene/scene_reader.h"
-#include "io/store/chunk_store.h"
+#include "io/store/scratch.h"
 #include "io/stream/brick_shelf.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -66,7 +66,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   v.up = options.voxels.up;
   v.context = context(results);
   v.context.memory.bytes = budget.waiting;
-  v.context.make_store = [this] { return make_chunk_store(budget.store, options.common.temp); };
+  v.context.make_scratch = [this] { return make_scratch(budget.store, options.common.temp); };
   v.tile_memory_bytes = budget.tiles;
   VoxelizedScene out;
   out.solid = make_shelf();
@@ -115,7 +115,7 @@ void Build::gather(TriangleSource& source, const VoxelizedScene& scene) {
   report.stage("colours");
   PassContext c = context();
   c.memory.bytes /= 2;
-  c.make_store = [this] { return make_chunk_store(budget.reader / 2, options.common.temp); };
+  c.make_scratch = [this] { return make_scratch(budget.reader / 2, options.common.temp); };
   colors_ = gather_colors(source, scene.header.frame, *scene.solid, c);
 }
 
@@ -162,8 +162,8 @@ PassContext Build::context(ResultStore* results) const {
   memory.waiting_bytes = budget.work.bytes / 20 * 9;
   memory.work_bytes = budget.work.bytes - memory.waiting_bytes;
   // One for each surface at work, when all that waits in memory is spent.
-  memory.make_store = [bytes = budget.store / std::uint64_t(thread_count()), temp = options.common.temp] {
-    return make_chunk_store(bytes, temp);
+  memory.make_scratch = [bytes = budget.store / std::uint64_t(thread_count()), temp = options.common.temp] {
+    return make_scratch(bytes, temp);
   };
   memory.limit = budget.work.limit;
   memory.waiting_share = budget.work.share * 0.45;

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "io/mesh/lod_writer.h"
-#include "io/store/chunk_store.h"
 #include "io/store/result_store.h"
+#include "io/store/scratch.h"
 #include "io/tiles/tileset_file.h"
 #include "io/tiles/tileset_folder.h"
 #include "lib/core/parallel.h"
@@ -27,7 +27,7 @@ struct Shop {
   Build& build;
   Task task;
   ResultStore* results;  ///< may be null
-  ChunkStore* files;     ///< where files wait until all are there
+  Scratch* files;        ///< where files wait until all are there
   [[nodiscard]] const BuildOptions& options() const { return build.options; }
   [[nodiscard]] Cells cells() const { return {build.options.tile_vox}; }
   [[nodiscard]] bool wants(std::uint64_t number, std::uint64_t count) const {
@@ -38,7 +38,7 @@ struct Shop {
 /// A file that waits.
 struct Waiting {
   std::string name;
-  ChunkStore::Handle content;
+  Scratch::Handle content;
 };
 
 /// A level that is cut, while its tiles come in.
@@ -262,7 +262,7 @@ void build_tileset(const BuildOptions& o) {
   std::optional<TilesetFolder> folder;
   if (task == Task::tileset) folder.emplace(o.out, certain_names(o), o.common.overwrite);
   Build build(o);
-  const std::unique_ptr<ChunkStore> files = make_chunk_store(build.budget.store, o.common.temp);
+  const std::unique_ptr<Scratch> files = make_scratch(build.budget.store, o.common.temp);
   build.note(cache_note(o));
   std::string read_only;  // why the cache keeps nothing: known once the levels are made
   const std::unique_ptr<ResultStore> results = open_kept_results(o, read_only);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/mesh_pass.h"
 #include "tools/cli/options/mesh.h"
 
 /// What --enclose of bpmesh asks for, read from its files.

@@ -1,6 +1,6 @@
 #include "tools/mesh/mesh_memory.h"
 
-#include "io/store/chunk_store.h"
+#include "io/store/scratch.h"
 #include "tools/run/memory_shares.h"
 
 namespace bp {
@@ -13,7 +13,7 @@ PieceMemory mesh_memory(const CommonOptions& common) {
   memory.limit = budget.limit;
   memory.waiting_share = MeshBudget::kWaitingShare;
   memory.work_share = MeshBudget::kWorkShare;
-  memory.make_store = [store = budget.store, temp = common.temp] { return make_chunk_store(store, temp); };
+  memory.make_scratch = [store = budget.store, temp = common.temp] { return make_scratch(store, temp); };
   return memory;
 }
 

@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/mesh_pass.h"
 #include "tools/cli/report.h"
 #include "tools/mesh/mesh_options.h"
 

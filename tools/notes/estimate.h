@@ -5,7 +5,7 @@
 
 #include "lib/grid/scale_field.h"
 #include "lib/grid/stream.h"
-#include "lib/pass/voxelize/voxelize_stage.h"
+#include "lib/pass/voxelize/voxelize_pass.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/report.h"
 

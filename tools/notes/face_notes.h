@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/mesh_pass.h"
 
 /// What a user should know of a mesh that has not the faces wanted.
 namespace bp {

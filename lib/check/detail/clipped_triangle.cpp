@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "lib/core/triangle_intersection.h"
+#include "lib/exact/triangle_intersection.h"
 
 namespace bp {
 

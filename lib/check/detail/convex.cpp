@@ -5,7 +5,7 @@
 #include "lib/check/detail/convex_cover.h"
 #include "lib/core/box.h"
 #include "lib/core/parallel.h"
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 
 namespace bp {
 

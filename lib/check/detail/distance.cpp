@@ -55,7 +55,7 @@ std::vector<Vec3d> TriangleSample::points() const {
 
 SampledDistance distances(const std::vector<Vec3d>& points, const TriangleBvh& to) {
   std::vector<double> d(points.size());
-  parallel_chunks(std::int64_t(points.size()), 1024, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(points.size()), 1024, [&](std::int64_t begin, std::int64_t end) {
     std::uint32_t guess = 0;  // neighbours in the stream are mostly neighbours in space
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
       const TriangleBvh::Nearest nearest = to.nearest(points[i], guess);

@@ -3,7 +3,7 @@
 #include "lib/check/detail/edge_sum.h"
 #include "lib/check/detail/hiding.h"
 #include "lib/core/parallel.h"
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 #include "lib/geometry/crossing.h"
 
 namespace bp {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 
 namespace bp {
 

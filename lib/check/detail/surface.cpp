@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <tuple>
 
-#include "lib/core/expansion.h"
 #include "lib/core/parallel.h"
-#include "lib/core/triangle_intersection.h"
+#include "lib/exact/expansion.h"
+#include "lib/exact/triangle_intersection.h"
 #include "lib/geometry/crossing.h"
 
 namespace bp {
@@ -91,7 +91,7 @@ Surface::Surface(const WeldedMesh& mesh) : mesh_(mesh), triangle_(with_area(mesh
 Finding Surface::self_intersections(std::size_t max_examples, bool within_parts) const {
   const auto n = std::int64_t(bvh_.size());
   std::vector<Finding> found(std::size_t((n + kGrain - 1) / kGrain));
-  parallel_chunks(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
     Finding& here = found[std::size_t(begin / kGrain)];
     for (std::int64_t i = begin; i < end; ++i) {
       const TriangleBvh::Item& a = bvh_.item(std::size_t(i));

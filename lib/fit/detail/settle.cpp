@@ -53,7 +53,7 @@ class Settler {
     }
     const TriangleBvh tree(triangles);
     pulls_.resize(points_.size());
-    parallel_chunks(std::int64_t(points_.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    parallel_ranges(std::int64_t(points_.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
       std::uint32_t guess = 0;
       for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
         guess = tree.nearest(points_[i], guess).item;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/core/coords.h"
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 
 /// Convex hulls of lattice points, exact.
 namespace bp {

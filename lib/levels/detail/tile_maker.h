@@ -1,10 +1,10 @@
 #pragma once
-#include "lib/levels/tile_stage.h"
+#include "lib/levels/level_tiles.h"
 #include "lib/volume/boundary_runs.h"
 
 namespace bp {
 
-/// One tile: see tile_stage.h.
+/// One tile: see level_tiles.h.
 class TileMaker {
  public:
   /// Keeps references.

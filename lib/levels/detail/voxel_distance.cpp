@@ -22,7 +22,7 @@ constexpr std::size_t kPlaces = 512;  // of a grain
 double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh& to) {
   const auto n = std::int64_t(from.size());
   std::vector<double> largest(std::size_t((n + kGrain - 1) / kGrain));
-  parallel_chunks(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
     std::uint32_t guess = 0;
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
       Vec3d c{};
@@ -39,7 +39,7 @@ double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh
 /// Those of `from` that are not surely within `limit`, in their order.
 std::vector<TriangleD> farther_than(double limit, const std::vector<TriangleD>& from, const TriangleBvh& to) {
   std::vector<char> far(from.size());
-  parallel_chunks(std::int64_t(from.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(from.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
     NearSurface near(to, limit / 2, kPlaces);
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) far[i] = !near.holds(from[i], limit);
   });
@@ -69,7 +69,7 @@ double distance_of_centres(const std::vector<TriangleD>& segments, const Triangl
                            double known) {
   const auto n = std::int64_t(segments.size());
   std::vector<double> largest(std::size_t((n + kGrain - 1) / kGrain), known);
-  parallel_chunks(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
     std::uint32_t guess = 0;
     double& far = largest[std::size_t(begin / kGrain)];
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {

@@ -149,7 +149,7 @@ std::unique_ptr<SceneColors> gather_colors(TriangleSource& source, const GridFra
     std::vector<TriangleD> triangles;
     std::vector<TriangleColors> colors;
   };
-  auto grid = std::make_unique<ColorGrid>(context.make_store(), context.memory.bytes);
+  auto grid = std::make_unique<ColorGrid>(context.make_scratch(), context.memory.bytes);
   std::uint64_t done = 0;
   source.rewind();
   pipeline<Item>(

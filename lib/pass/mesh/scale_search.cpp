@@ -1,7 +1,7 @@
 #include "lib/pass/mesh/scale_search.h"
 
 #include "lib/grid/shelf_stream.h"
-#include "lib/pass/close/close_stage.h"
+#include "lib/pass/close/close_pass.h"
 #include "lib/surface/repair.h"
 #include "lib/volume/topology.h"
 

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "lib/device/backend.h"
-#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/mesh_pass.h"
 #include "lib/pass/stage_progress.h"
 
 /// For a proxy that has more faces than were asked for, because its closing has many parts and holes: which scale would

@@ -3,10 +3,10 @@
 #include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/pass/mesh/complement.h"
-#include "lib/pass/voxelize/voxelize_stage.h"
+#include "lib/pass/voxelize/voxelize_pass.h"
 #include "lib/quads/quads.h"
 #include "lib/simplify/surface_tree.h"
-#include "lib/store/memory_chunk_store.h"
+#include "lib/store/memory_scratch.h"
 #include "lib/surface/repair.h"
 #include "lib/surface/surface.h"
 
@@ -69,8 +69,8 @@ GridFrame voxelize_mesh(const LatticeMesh& mesh, double voxel, FillMode fill, co
   options.context.memory.bytes = left.waiting_bytes;
   options.tile_memory_bytes = left.work_bytes;
   options.context.make_shelf = make_shelf;
-  options.context.make_store = memory.make_store;
-  if (!options.context.make_store) options.context.make_store = [] { return std::make_unique<MemoryChunkStore>(); };
+  options.context.make_scratch = memory.make_scratch;
+  if (!options.context.make_scratch) options.context.make_scratch = [] { return std::make_unique<MemoryScratch>(); };
   GridFrame frame;
   const auto open = [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
     frame = header.frame;

@@ -1,7 +1,7 @@
 // The proxy alone: each finding has a mesh where it is found and nothing else is wrong (or what follows from it).
 #include <random>
 
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 #include "tests/catch.h"
 #include "tests/reference/triangle_clip.h"
 #include "tests/unit/check/meshes.h"

@@ -4,7 +4,7 @@
 
 #include "lib/check/detail/surface.h"
 #include "lib/core/parallel.h"
-#include "lib/core/triangle_intersection.h"
+#include "lib/exact/triangle_intersection.h"
 #include "tests/catch.h"
 #include "tests/unit/check/meshes.h"
 

@@ -1,5 +1,5 @@
-#include "lib/core/triangle_intersection.h"
 #include "lib/enclosed/enclosed_triangles.h"
+#include "lib/exact/triangle_intersection.h"
 #include "tests/catch.h"
 #include "tests/support/random_lattice.h"
 

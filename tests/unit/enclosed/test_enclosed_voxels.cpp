@@ -1,5 +1,5 @@
-#include "lib/core/predicates.h"
 #include "lib/enclosed/enclosed_voxels.h"
+#include "lib/exact/predicates.h"
 #include "tests/catch.h"
 #include "tests/support/memory_shelf.h"
 #include "tests/support/proxy_checks.h"

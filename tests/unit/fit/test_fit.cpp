@@ -8,7 +8,7 @@
 #include "lib/fit/detail/vertex_mover.h"
 #include "lib/fit/fit.h"
 #include "lib/geometry/surface_distance.h"
-#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/mesh_pass.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "tests/catch.h"
 #include "tests/support/lattice_boxes.h"

@@ -4,7 +4,7 @@
 
 #include "lib/check/check_proxy.h"
 #include "lib/core/parallel.h"
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 #include "lib/hulls/convex_parts.h"
 #include "lib/hulls/detail/convex_shape.h"
 #include "lib/hulls/detail/convex_simplify.h"

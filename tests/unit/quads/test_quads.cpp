@@ -4,7 +4,7 @@
 
 #include "lib/check/check_proxy.h"
 #include "lib/pass/mesh/detail/proxy_limits.h"
-#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/mesh_pass.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "lib/quads/quads.h"
 #include "tests/catch.h"

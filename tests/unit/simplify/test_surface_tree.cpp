@@ -147,7 +147,7 @@ TEST_CASE("brick by brick, the result does not depend on memory, and nothing sta
   CAPTURE(waiting);
   params.memory.waiting_bytes = waiting;
   params.memory.work_bytes = 40 << 20;  // the whole takes 33 MiB at the end
-  params.memory.make_store = [&] { return std::make_unique<MemoryStore>(put, held); };
+  params.memory.make_scratch = [&] { return std::make_unique<MemoryStore>(put, held); };
   const LatticeMesh tight = simplify(ShelfSurface(shelf, {}), params, counts);
   CHECK(put > 0);
   CHECK(held == 0);

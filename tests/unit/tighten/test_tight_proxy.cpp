@@ -1,9 +1,9 @@
 #include <cmath>
 #include <random>
 
-#include "lib/core/triangle_intersection.h"
 #include "lib/core/vec3.h"
 #include "lib/enclosed/enclosed_triangles.h"
+#include "lib/exact/triangle_intersection.h"
 #include "lib/tighten/fan_fit.h"
 #include "lib/tighten/tight_proxy.h"
 #include "tests/catch.h"

@@ -1,7 +1,7 @@
 #include "lib/core/error.h"
 #include "tests/catch.h"
 #include "tools/cli/args.h"
-#include "tools/cli/help.h"
+#include "tools/cli/help/help.h"
 
 using namespace bp;
 

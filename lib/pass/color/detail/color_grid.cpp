@@ -24,7 +24,7 @@ ColorCell cell_of(ColorBrick brick, std::uint64_t index) {
 
 }  // namespace
 
-ColorGrid::ColorGrid(std::shared_ptr<ChunkStore> store, std::uint64_t memory_bytes)
+ColorGrid::ColorGrid(std::shared_ptr<Scratch> store, std::uint64_t memory_bytes)
     : store_(std::move(store)), memory_bytes_(memory_bytes) {}
 
 ColorGrid::~ColorGrid() {
@@ -85,7 +85,7 @@ void ColorGrid::spill() {
 std::vector<ColorGrid::Entry> ColorGrid::all_of(const Brick& brick) const {
   std::vector<Entry> entries = brick.entries;
   std::vector<std::byte> bytes;
-  for (const ChunkStore::Handle h : brick.chunks) {
+  for (const Scratch::Handle h : brick.chunks) {
     store_->get(h, bytes);
     const std::size_t old = entries.size();
     entries.resize(old + bytes.size() / sizeof(Entry));
@@ -97,7 +97,7 @@ std::vector<ColorGrid::Entry> ColorGrid::all_of(const Brick& brick) const {
 
 void ColorGrid::finish(const std::function<Mask(ColorBrick)>& keep) {
   struct Done {
-    std::optional<ChunkStore::Handle> chunk;
+    std::optional<Scratch::Handle> chunk;
     std::uint64_t cells = 0;
     bool white = true;
   };
@@ -109,7 +109,7 @@ void ColorGrid::finish(const std::function<Mask(ColorBrick)>& keep) {
     const ColorBrick coord = coords[std::size_t(i)];
     Brick& brick = gathering_.at(coord);
     std::vector<Entry> entries = all_of(brick);
-    for (const ChunkStore::Handle h : brick.chunks) store_->drop(h);
+    for (const Scratch::Handle h : brick.chunks) store_->drop(h);
     std::vector<Entry>().swap(brick.entries);
     const Mask kept = keep(coord);
     std::erase_if(entries, [&](const Entry& e) { return !kept(cell_of(coord, e.index)); });

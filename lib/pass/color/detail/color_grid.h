@@ -6,7 +6,7 @@
 
 #include "lib/core/box.h"
 #include "lib/core/coord_hash.h"
-#include "lib/store/chunk_store.h"
+#include "lib/store/scratch.h"
 #include "lib/voxel/color_sums.h"
 
 /// The colours of a level's surface, out of core: sparse cells, gathered in any order, kept compressed by bricks.
@@ -36,7 +36,7 @@ class ColorGrid {
   }
 
   /// memory_bytes: of cells that are not in the store yet. The store may be shared.
-  ColorGrid(std::shared_ptr<ChunkStore> store, std::uint64_t memory_bytes);
+  ColorGrid(std::shared_ptr<Scratch> store, std::uint64_t memory_bytes);
   ~ColorGrid();
   ColorGrid(const ColorGrid&) = delete;
   ColorGrid& operator=(const ColorGrid&) = delete;
@@ -65,18 +65,18 @@ class ColorGrid {
   struct Brick {
     std::vector<Entry> entries;
     std::size_t merged = 0;  ///< of the entries, that many are sorted, each once
-    std::vector<ChunkStore::Handle> chunks;
+    std::vector<Scratch::Handle> chunks;
   };
   static void merge(std::vector<Entry>& entries);
   void spill();
   [[nodiscard]] std::vector<Entry> all_of(const Brick& brick) const;
   void each_cell(ColorBrick brick, const std::function<void(ColorCell, const ColorSum&)>& body) const;
 
-  std::shared_ptr<ChunkStore> store_;
+  std::shared_ptr<Scratch> store_;
   std::uint64_t memory_bytes_, used_bytes_ = 0;
   std::mutex mutex_;
   std::unordered_map<ColorBrick, Brick, CoordHash> gathering_;
-  std::vector<std::pair<ColorBrick, ChunkStore::Handle>> bricks_;  ///< sorted; after finish()
+  std::vector<std::pair<ColorBrick, Scratch::Handle>> bricks_;  ///< sorted; after finish()
   bool all_white_ = true;
   std::uint64_t cells_ = 0;
 };

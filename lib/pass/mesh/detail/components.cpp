@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "lib/core/box.h"
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 #include "lib/geometry/crossing.h"
 #include "lib/mesh/lattice_geometry.h"
 
@@ -84,14 +84,14 @@ void drop(LatticeMesh& mesh, const std::vector<Shell>& shells, const std::vector
 
 }  // namespace
 
-DroppedParts drop_small_parts(LatticeMesh& mesh, double share) {
+DroppedComponents drop_small_components(LatticeMesh& mesh, double share) {
   constexpr double kVolume6OfVoxel = 6.0 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
   const std::vector<Shell> shells = shells_of(mesh);
   double largest = 0;  // in magnitude; an outer shell, since a cavity is smaller than the shell around it
   for (const Shell& s : shells) {
     if (std::abs(double(s.volume6)) > std::abs(largest)) largest = double(s.volume6);
   }
-  DroppedParts dropped;
+  DroppedComponents dropped;
   std::vector<bool> marked(shells.size());
   std::vector<std::size_t> small;
   for (std::size_t s = 0; s < shells.size(); ++s) {

@@ -7,13 +7,13 @@
 /// all that lies within it.
 namespace bp {
 
-struct DroppedParts {
+struct DroppedComponents {
   std::uint64_t parts = 0;
   double volume_vox = 0;  ///< voxels in them
 };
 
 /// Takes away the parts whose outer shell encloses less than `share` of what the largest encloses. `mesh` may be turned
 /// inwards as a whole. Keeps all other triangles in their order. Cost: linear, and cavities times small parts.
-DroppedParts drop_small_parts(LatticeMesh& mesh, double share);
+DroppedComponents drop_small_components(LatticeMesh& mesh, double share);
 
 }  // namespace bp

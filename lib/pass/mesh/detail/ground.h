@@ -3,7 +3,7 @@
 
 #include "lib/enclosed/enclosed.h"
 #include "lib/geometry/triangle_bvh.h"
-#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/mesh_pass.h"
 
 namespace bp {
 

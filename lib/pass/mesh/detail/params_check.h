@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/mesh_pass.h"
 
 namespace bp {
 

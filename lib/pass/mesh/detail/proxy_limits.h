@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "lib/core/predicates.h"
+#include "lib/exact/predicates.h"
 #include "lib/geometry/near_surface.h"
 #include "lib/mesh/lattice_mesh.h"
 #include "lib/mesh/step_limits.h"

@@ -9,7 +9,7 @@
 
 namespace bp {
 
-TileFill::TileFill(FillMode mode, const TileGrid& tiles, BrickShelf& shelf, ChunkStore& store, BackendPool& backends,
+TileFill::TileFill(FillMode mode, const TileGrid& tiles, BrickShelf& shelf, Scratch& store, BackendPool& backends,
                    TileWorks& works)
     : mode_(mode),
       tiles_(tiles),
@@ -21,7 +21,7 @@ TileFill::TileFill(FillMode mode, const TileGrid& tiles, BrickShelf& shelf, Chun
 
 void TileFill::add_crossings(std::uint64_t tile, std::span<const Crossing> crossings) {
   if (crossings.empty()) return;
-  const ChunkStore::Handle handle = store_.put(std::as_bytes(crossings));
+  const Scratch::Handle handle = store_.put(std::as_bytes(crossings));
   const std::lock_guard lock(mutex_);
   crossings_[tile].push_back(handle);
 }
@@ -31,7 +31,7 @@ void TileFill::get_crossings(std::uint64_t tile, std::vector<Crossing>& out) con
   const auto at = crossings_.find(tile);
   if (at == crossings_.end()) return;
   std::vector<std::byte> bytes;
-  for (const ChunkStore::Handle h : at->second) {
+  for (const Scratch::Handle h : at->second) {
     store_.get(h, bytes);
     const std::size_t old = out.size();
     out.resize(old + bytes.size() / sizeof(Crossing));

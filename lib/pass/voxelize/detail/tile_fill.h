@@ -10,7 +10,7 @@
 #include "lib/grid/stream.h"
 #include "lib/grid/tile_grid.h"
 #include "lib/pass/stage_progress.h"
-#include "lib/store/chunk_store.h"
+#include "lib/store/scratch.h"
 #include "lib/volume/outside.h"
 
 /// What the surface voxels of a grid of tiles enclose, added to them on their shelf.
@@ -29,7 +29,7 @@ using BackendPool = Pool<Backend*>;
 class TileFill {
  public:
   /// Keeps references to all but `tiles`. The tiles' surface voxels are on the shelf; crossings go to the store.
-  TileFill(FillMode mode, const TileGrid& tiles, BrickShelf& shelf, ChunkStore& store, BackendPool& backends,
+  TileFill(FillMode mode, const TileGrid& tiles, BrickShelf& shelf, Scratch& store, BackendPool& backends,
            TileWorks& works);
 
   /// Winding only; some of the crossings of a tile. Tiles at work in turn, but those of one tile one after the other.
@@ -62,13 +62,13 @@ class TileFill {
   const FillMode mode_;
   const TileGrid tiles_;
   BrickShelf& shelf_;
-  ChunkStore& store_;
+  Scratch& store_;
   BackendPool& backends_;
   TileWorks& works_;
   OutsideFlood flood_;
-  std::unordered_map<std::uint64_t, std::vector<ChunkStore::Handle>> crossings_;  // of tiles
-  std::unordered_set<std::uint64_t> with_surface_;                                // FillMode::inside: tiles
-  std::unordered_set<std::uint64_t> filled_;                                      // tiles
+  std::unordered_map<std::uint64_t, std::vector<Scratch::Handle>> crossings_;  // of tiles
+  std::unordered_set<std::uint64_t> with_surface_;                             // FillMode::inside: tiles
+  std::unordered_set<std::uint64_t> filled_;                                   // tiles
   mutable std::mutex mutex_;
   std::atomic<std::uint64_t> open_columns_{0};
 };

@@ -68,7 +68,7 @@ class BatchSorter {
 };
 
 template <class T>
-void put_chunks(ChunkStore& store, Blocks<T>& records, std::vector<ChunkStore::Handle>& handles) {
+void put_chunks(Scratch& store, Blocks<T>& records, std::vector<Scratch::Handle>& handles) {
   constexpr std::size_t kRecords = kChunkBytes / sizeof(T);
   std::vector<T> chunk;
   const auto put = [&] {
@@ -85,10 +85,10 @@ void put_chunks(ChunkStore& store, Blocks<T>& records, std::vector<ChunkStore::H
 
 /// body(span of T) for each chunk.
 template <class T, class Body>
-void get_chunks(const ChunkStore& store, const std::vector<ChunkStore::Handle>& handles, const Body& body) {
+void get_chunks(const Scratch& store, const std::vector<Scratch::Handle>& handles, const Body& body) {
   std::vector<std::byte> bytes;
   std::vector<T> records;
-  for (const ChunkStore::Handle h : handles) {
+  for (const Scratch::Handle h : handles) {
     store.get(h, bytes);
     records.resize(bytes.size() / sizeof(T));
     std::memcpy(static_cast<void*>(records.data()), bytes.data(), records.size() * sizeof(T));
@@ -121,7 +121,7 @@ void TriangleBins::add(TriangleBatch&& batch) {
 
 std::uint64_t TriangleBins::table_bytes() const {
   constexpr std::uint64_t kNodeBytes = sizeof(Bin) + 48;  // key, links, bucket, and what malloc adds
-  return bins_.size() * kNodeBytes + chunks_ * sizeof(ChunkStore::Handle);
+  return bins_.size() * kNodeBytes + chunks_ * sizeof(Scratch::Handle);
 }
 
 std::vector<std::uint64_t> TriangleBins::tiles() const {
@@ -176,8 +176,8 @@ void TriangleBins::release(std::uint64_t tile) {
   const auto at = bins_.find(tile);
   if (at == bins_.end()) return;
   Bin& bin = at->second;
-  for (const ChunkStore::Handle h : bin.narrow_chunks) store_.drop(h);
-  for (const ChunkStore::Handle h : bin.wide_chunks) store_.drop(h);
+  for (const Scratch::Handle h : bin.narrow_chunks) store_.drop(h);
+  for (const Scratch::Handle h : bin.wide_chunks) store_.drop(h);
   bin = Bin();
 }
 

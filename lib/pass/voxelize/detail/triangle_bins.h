@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "lib/grid/tile_grid.h"
-#include "lib/store/chunk_store.h"
 #include "lib/store/page_block.h"
+#include "lib/store/scratch.h"
 #include "lib/voxel/fixed_triangle.h"
 
-/// Triangles sorted by the tiles they meet, in memory up to a budget, then in a ChunkStore.
+/// Triangles sorted by the tiles they meet, in memory up to a budget, then in a Scratch.
 namespace bp {
 
 /// Nine coordinates relative to the tile's corner, fixed point, 36 bytes: for triangles within 2^15 voxels of it.
@@ -68,7 +68,7 @@ class Blocks {
 
 class TriangleBins {
  public:
-  TriangleBins(const TileGrid& grid, ChunkStore& store) : grid_(grid), store_(store) {}
+  TriangleBins(const TileGrid& grid, Scratch& store) : grid_(grid), store_(store) {}
 
   /// Thread-safe. A triangle goes into each tile that it meets (lib/voxel/voxelize.h, for_each_tile).
   [[nodiscard]] TriangleBatch sort(std::span<const FixedTriangle> triangles) const;
@@ -94,11 +94,11 @@ class TriangleBins {
   struct Bin {
     Blocks<NarrowTriangle> narrow;
     Blocks<FixedTriangle> wide;
-    std::vector<ChunkStore::Handle> narrow_chunks, wide_chunks;
+    std::vector<Scratch::Handle> narrow_chunks, wide_chunks;
     [[nodiscard]] std::uint64_t bytes() const { return narrow.bytes() + wide.bytes(); }
   };
   TileGrid grid_;
-  ChunkStore& store_;
+  Scratch& store_;
   std::unordered_map<std::uint64_t, Bin> bins_;
   std::uint64_t memory_bytes_ = 0, records_ = 0;
   std::uint64_t chunks_ = 0;  // in the store, when memory was counted last

@@ -1,6 +1,6 @@
 #include <random>
 
-#include "io/store/chunk_store.h"
+#include "io/store/scratch.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "tests/catch.h"
@@ -9,14 +9,14 @@ using namespace bp;
 
 TEST_CASE("chunks come back as they were, from memory and from scratch", "[quick][io]") {
   const std::uint64_t memory = GENERATE(as<std::uint64_t>{}, 0, 20000, 1 << 30);
-  const auto store = make_chunk_store(memory, ".");
+  const auto store = make_scratch(memory, ".");
   std::mt19937 rng(1);
   std::vector<std::vector<std::byte>> chunks(200);
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     chunks[i].resize(rng() % 5000);
     for (auto& b : chunks[i]) b = std::byte(rng() % (1 + i));
   }
-  std::vector<ChunkStore::Handle> handles(chunks.size());
+  std::vector<Scratch::Handle> handles(chunks.size());
   parallel_for(200, [&](std::int64_t i) { handles[std::size_t(i)] = store->put(chunks[std::size_t(i)]); });
   for (std::size_t i = 0; i < chunks.size(); i += 3) store->drop(handles[i]);
   std::vector<std::byte> back;
@@ -35,7 +35,7 @@ TEST_CASE("chunks come back as they were, from memory and from scratch", "[quick
 }
 
 TEST_CASE("a store whose directory is missing fails when it needs it", "[quick][io]") {
-  const auto store = make_chunk_store(200, "./no-such-directory");
+  const auto store = make_scratch(200, "./no-such-directory");
   const std::vector<std::byte> small(50), large(1000000);
   CHECK_NOTHROW(store->put(small));
   std::vector<std::byte> noise(5000);

@@ -38,16 +38,16 @@ Bytes TempFile::bytes() const {
   return bytes;
 }
 
-Scratch::Scratch() : path_(std::filesystem::temp_directory_path().string() + "/bp-test-XXXXXX") {
+StreamFolder::StreamFolder() : path_(std::filesystem::temp_directory_path().string() + "/bp-test-XXXXXX") {
   if (::mkdtemp(path_.data()) == nullptr) throw std::runtime_error("no temporary folder");
   folder_ = path_;
   path_ += "/out";
 }
-Scratch::~Scratch() {
+StreamFolder::~StreamFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(folder_, ignored);
 }
-Bytes Scratch::bytes() const {
+Bytes StreamFolder::bytes() const {
   std::ifstream in(path_, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
@@ -137,7 +137,7 @@ std::vector<Brick> small_bricks() {
 }
 
 Bytes written(const StreamHeader& header, const std::vector<Brick>& bricks, int level) {
-  Scratch file;
+  StreamFolder file;
   OutputFile out(file.path(), false);
   BrickWriter writer(out, header, level);
   for (const Brick& b : bricks) writer.write(b);

@@ -27,12 +27,12 @@ class TempFile {
 };
 
 /// A name in a new folder, for an output; all of it is gone when this goes.
-class Scratch {
+class StreamFolder {
  public:
-  Scratch();
-  ~Scratch();
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
+  StreamFolder();
+  ~StreamFolder();
+  StreamFolder(const StreamFolder&) = delete;
+  StreamFolder& operator=(const StreamFolder&) = delete;
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] Bytes bytes() const;
 

@@ -151,7 +151,7 @@ TEST_CASE("more full bricks than fit a batch are cut into several", "[quick][io]
   b.bits.fill(~std::uint64_t(0));
   b.fill = BrickFill::full;
   std::vector<Brick> bricks;
-  Scratch file;
+  StreamFolder file;
   OutputFile out(file.path(), false);
   BrickWriter writer(out, header);
   for (b.coord.y = 0; b.coord.y < 100; ++b.coord.y) {
@@ -243,7 +243,7 @@ TEST_CASE("zstd accepts a stream", "[quick][io]") {
 }
 
 TEST_CASE("a writer refuses bricks that its reader would refuse", "[quick][io]") {
-  Scratch file;
+  StreamFolder file;
   OutputFile out(file.path(), false);
   StreamHeader header = small_header();
   header.bricks.max = {4, 4, 4};
@@ -304,7 +304,7 @@ TEST_CASE("a header beyond the format is refused by the writer", "[quick][io]") 
   for (const Fault& fault : faults) {
     StreamHeader h = small_header();
     fault.make(h);
-    Scratch file;
+    StreamFolder file;
     OutputFile out(file.path(), false);
     CHECK_THROWS_WITH(BrickWriter(out, h), ContainsSubstring(fault.says));
   }

@@ -312,7 +312,7 @@ TEST_CASE("the bricks before a damage are the same for any number of threads", "
 TEST_CASE("a stream can be read through a pipe", "[quick][io]") {
   const StreamHeader header = random_header(5);
   const Bytes bytes = written(header, random_bricks(header, 5, 60));
-  const Scratch file;
+  const StreamFolder file;
   std::ofstream(file.path(), std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), long(bytes.size()));
   FILE* pipe = ::popen(("cat " + file.path()).c_str(), "r");
   REQUIRE(pipe != nullptr);

@@ -4,7 +4,7 @@
 #include "lib/device/cpu/cpu_backend.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/pass/close/cell_closing.h"
-#include "lib/pass/close/close_stage.h"
+#include "lib/pass/close/close_pass.h"
 #include "tests/catch.h"
 #include "tests/support/memory_results.h"
 #include "tests/support/voxel_source.h"

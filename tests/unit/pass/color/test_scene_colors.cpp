@@ -61,7 +61,7 @@ std::unique_ptr<SceneColors> gathered(const ColoredScene& scene, const Voxelized
   PassContext options;
   options.memory.bytes = memory;
   options.make_shelf = memory_shelves();
-  options.make_store = [put] { return std::make_unique<MemoryStore>(put != nullptr ? *put : ignored, held); };
+  options.make_scratch = [put] { return std::make_unique<MemoryStore>(put != nullptr ? *put : ignored, held); };
   return gather_colors(source, voxels.header.frame, *voxels.shelf, options);
 }
 

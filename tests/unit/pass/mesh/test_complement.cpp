@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "lib/device/cpu/cpu_backend.h"
-#include "lib/pass/close/close_stage.h"
+#include "lib/pass/close/close_pass.h"
 #include "lib/pass/mesh/complement.h"
 #include "tests/catch.h"
 #include "tests/reference/closing.h"

@@ -52,7 +52,7 @@ TEST_CASE("small parts are dropped with the cavities in them, whichever way the 
   LatticeMesh mesh = lattice(parts());
   if (turned) turn_over(mesh);
   const std::size_t triangles = mesh.triangles.size();
-  const DroppedParts dropped = drop_small_parts(mesh, c.share);
+  const DroppedComponents dropped = drop_small_components(mesh, c.share);
   CAPTURE(c.share, turned);
   CHECK(dropped.parts == c.parts);
   CHECK(volume_vox(mesh) == (turned ? -c.left : c.left));

@@ -2,7 +2,7 @@
 // of ShapeLimits::room: how far its vertices may go.
 #include "lib/enclosed/enclosed_voxels.h"
 #include "lib/pass/mesh/detail/proxy_limits.h"
-#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/mesh_pass.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "lib/simplify/simplify.h"
 #include "lib/tighten/tight_proxy.h"

@@ -2,7 +2,7 @@
 #include <random>
 
 #include "lib/check/check_proxy.h"
-#include "lib/pass/mesh/mesh_stage.h"
+#include "lib/pass/mesh/mesh_pass.h"
 #include "tests/catch.h"
 #include "tests/support/memory_scene.h"
 #include "tests/support/voxel_source.h"

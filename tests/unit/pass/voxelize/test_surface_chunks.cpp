@@ -3,11 +3,11 @@
 #include <random>
 #include <set>
 
-#include "io/store/chunk_store.h"
+#include "io/store/scratch.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/pass/voxelize/detail/surface_chunks.h"
-#include "lib/pass/voxelize/voxelize_stage.h"
+#include "lib/pass/voxelize/voxelize_pass.h"
 #include "lib/voxel/voxelize.h"
 #include "tests/catch.h"
 #include "tests/support/memory_results.h"
@@ -54,7 +54,7 @@ struct Result {
 
 Result run(const Triangles& scene, VoxelizeOptions o, ResultStore* results) {
   o.context.make_shelf = [] { return std::make_unique<test::MemoryShelf>(); };
-  o.context.make_store = [] { return make_chunk_store(1000, "."); };
+  o.context.make_scratch = [] { return make_scratch(1000, "."); };
   if (!o.voxel_size) o.voxel_size = [](const Bounds3d&) { return 0.75; };
   o.context.results = results;
   test::MemorySource source(scene);
@@ -265,7 +265,7 @@ TEST_CASE("a scene that changes between two readings leaves no chunk behind", "[
   test::MemorySink sink;
   VoxelizeOptions o;
   o.context.make_shelf = [] { return std::make_unique<test::MemoryShelf>(); };
-  o.context.make_store = [] { return make_chunk_store(1000, "."); };
+  o.context.make_scratch = [] { return make_scratch(1000, "."); };
   o.voxel_size = [](const Bounds3d&) { return 0.75; };
   o.context.memory.bytes = 100000;
   o.context.results = &results;

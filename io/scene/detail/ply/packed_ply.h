@@ -1,0 +1,13 @@
+#pragma once
+#include "io/scene/detail/ply/ply_header.h"
+#include "io/scene/detail/raw_source.h"
+
+namespace bp {
+
+/// Binary PLY as most programs write it: vertices of one size, then faces with one list. Blocks of faces are decoded in
+/// parallel; the vertices are held as they stand in the file if SceneOptions::memory_bytes has room for them, else read
+/// through block caches. Null if the header describes anything else, or promises more than the file holds: that is for
+/// the general reader.
+[[nodiscard]] RawSourcePtr open_packed_ply(SceneFilePtr file, const SceneOptions& options, const PlyHeader& header);
+
+}  // namespace bp

@@ -1,0 +1,105 @@
+#pragma once
+#include <bit>
+#include <string>
+#include <utility>
+
+#include "io/scene/byte_stream.h"
+#include "io/scene/detail/ply/ply_values.h"
+#include "lib/core/error.h"
+
+/// Where a PLY file is read: one cursor for each kind of file, with the same functions.
+namespace bp {
+
+class PlyBinaryCursor {
+ public:
+  struct Mark {
+    std::uint64_t offset = 0;
+  };
+  PlyBinaryCursor(SceneFilePtr file, const PlyHeader& header)
+      : bytes_(std::move(file), header.data.offset),
+        swap_((header.format == PlyHeader::Format::big_endian) != (std::endian::native == std::endian::big)) {}
+
+  double real(PlyType type) { return decode_real(bytes_.take(bytes_of(type)), type, swap_); }
+  std::int64_t integer(PlyType type) { return decode_integer(bytes_.take(bytes_of(type)), type, swap_); }
+  void skip(PlyType type, std::uint64_t n) {
+    if (n > bytes_.remaining() / bytes_of(type)) bytes_.fail_truncated();
+    bytes_.skip(n * bytes_of(type));
+  }
+  /// False for a record with lists, whose size is not known.
+  bool skip_records(const PlyElement& element) {
+    if (element.has_lists()) return false;
+    const std::uint64_t size = element.fixed_bytes();
+    check_count(element, size);
+    bytes_.skip(size * element.count);
+    return true;
+  }
+  /// Throws if the file cannot hold that many records.
+  void check_count(const PlyElement& element, std::uint64_t record_bytes) const {
+    if (record_bytes == 0 || element.count <= bytes_.remaining() / record_bytes) return;
+    fail(ErrorCode::bad_input,
+         "{}: promises {} records '{}' of at least {} bytes at byte {}, but has {} bytes left; the file is truncated",
+         bytes_.file().name(), element.count, element.name, record_bytes, bytes_.offset(), bytes_.remaining());
+  }
+  void check_count(const PlyElement& element) const {
+    std::uint64_t size = element.fixed_bytes();
+    for (const PlyProperty& p : element.properties) size += p.is_list ? bytes_of(p.count_type) : 0;
+    check_count(element, size);
+  }
+  void end_record() {}
+  [[noreturn]] void fail_here(const std::string& what) const {
+    fail(ErrorCode::bad_input, "{}: byte {}: {}", bytes_.file().name(), bytes_.offset(), what);
+  }
+  [[nodiscard]] Mark mark() const { return {bytes_.offset()}; }
+  void seek(Mark mark) { bytes_.seek(mark.offset); }
+  [[nodiscard]] bool swap() const { return swap_; }
+
+ private:
+  ByteStream bytes_;
+  bool swap_;
+};
+
+class PlyAsciiCursor {
+ public:
+  using Mark = TextScanner::Mark;
+  PlyAsciiCursor(SceneFilePtr file, const PlyHeader& header) : text_(std::move(file), header.data) {}
+
+  double real(PlyType) {
+    need_word();
+    double value = 0;
+    if (!text_.real(value)) text_.fail_here("a number was expected; is the file damaged?");
+    return value;
+  }
+  std::int64_t integer(PlyType) {
+    need_word();
+    std::int64_t value = 0;
+    if (!text_.count(value)) text_.fail_here("an integer was expected; is the file damaged?");
+    return value;
+  }
+  void skip(PlyType, std::uint64_t n) {
+    for (; n > 0; --n) {
+      need_word();
+      text_.skip_word();
+    }
+  }
+  bool skip_records(const PlyElement&) { return false; }
+  /// A number takes two characters at least; the last one may lack its line end.
+  void check_count(const PlyElement& element) const {
+    const std::uint64_t size = 2 * element.properties.size();
+    if (size == 0 || element.count <= (text_.remaining() + 1) / size) return;
+    text_.fail_here("promises {} records '{}', but has {} bytes left; the file is truncated", element.count,
+                    element.name, text_.remaining());
+  }
+  /// A record ends with its line. Words beyond what the header declares occur, and are passed over.
+  void end_record() { text_.next_line(); }
+  [[noreturn]] void fail_here(const std::string& what) const { text_.fail_here("{}", what); }
+  [[nodiscard]] Mark mark() const { return text_.mark(); }
+  void seek(Mark mark) { text_.seek(mark); }
+
+ private:
+  void need_word() {
+    if (!text_.word_anywhere()) text_.fail_here("the file ends in the middle of its data; it is truncated");
+  }
+  TextScanner text_;
+};
+
+}  // namespace bp

@@ -1,0 +1,291 @@
+#include "lib/levels/lod_chain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/closing/closing.h"
+#include "lib/core/error.h"
+#include "lib/grid/shelf_stream.h"
+#include "lib/levels/detail/voxel_distance.h"
+#include "lib/pass/mesh/surface_around.h"
+#include "lib/surface/repair.h"
+#include "lib/volume/boundary_runs.h"
+#include "lib/volume/reduce.h"
+#include "lib/volume/topology.h"
+
+namespace bp {
+
+namespace {
+
+// What a level needs of its voxels. Fewer dense triangles per face than this, and the steps of the voxels show.
+constexpr double kDenseFacesPerFace = 100;
+constexpr double kScalesPerEdge = 4;
+constexpr double kLeastScaleVox = 1 + kBeyondWholeVox;  // below 1, closing is the identity
+constexpr double kLeastSideVox = 48;                    // of a reduced grid
+// Faces that a part or a hole of a closing at half of the scale should leave to show its shape.
+constexpr std::uint64_t kFacesPerPart = 100;
+
+/// What the solid shows to the outside. With the inside filled, every boundary voxel is touched by the scene. While
+/// levels are meshed, it is but the runs of its voxels; what distances are measured with is made when they are, unless
+/// it is small.
+class Outside {
+ public:
+  const std::uint64_t dense_faces;
+  const VoxelBox box;
+
+  /// Throws out_of_resource, before it takes anything, if it takes more than `memory`.
+  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, const MemoryShare& memory)
+      : Outside(solid, surface, frame, boundary_size(solid), memory) {}
+
+  [[nodiscard]] double voxel() const { return frame_.voxel; }
+  /// Of the memory, from the beginning to the end.
+  [[nodiscard]] std::uint64_t bytes() const {
+    return runs_.capacity() * sizeof(VoxelRun) + (kept_ ? measuring_bytes(runs_.size()) : 0);
+  }
+
+  /// error_world and distance_world of a level.
+  void measure(LodLevel& level, MeshMode mode) const {
+    kept_ ? kept_->measure(level, mode) : Ruler(runs_, frame_).measure(level, mode);
+  }
+
+ private:
+  struct Ruler {
+    double voxel;
+    std::vector<TriangleD> segments;
+    TriangleBvh tree;
+    Ruler(const std::vector<VoxelRun>& runs, const GridFrame& frame)
+        : voxel(frame.voxel), segments(segments_of(runs, frame)), tree(segments) {}
+    void measure(LodLevel& level, MeshMode mode) const {
+      const std::vector<TriangleD> triangles = world_triangles(level.mesh);
+      const TriangleBvh mesh(triangles);
+      const double there = distance_from_mesh(triangles, tree, voxel);
+      level.error_world = mode == MeshMode::fit ? distance_beyond_mesh(segments, mesh, voxel, there) : there;
+      level.distance_world = std::max(there, distance_to_mesh(segments, mesh, voxel));
+    }
+  };
+
+  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, const BoundarySize& size,
+          const MemoryShare& memory)
+      : dense_faces(2 * size.faces), box(size.box), frame_(frame) {
+    const std::uint64_t runs = surface != nullptr ? count_runs(*surface, box) : size.runs;
+    const std::uint64_t bytes = runs * sizeof(VoxelRun) + measuring_bytes(runs);
+    if (bytes > memory.bytes)
+      throw NeedsMemory("measuring distances to the outside of the scene", bytes, memory.bytes,
+                        memory.limit_with(bytes - memory.bytes), {Remedy::larger_voxels});
+    runs_ = surface != nullptr ? runs_of(*surface, box) : boundary_of(solid).runs;
+    runs_.shrink_to_fit();
+    if (measuring_bytes(runs) <= memory.bytes / 16) kept_ = std::make_unique<Ruler>(runs_, frame_);
+  }
+
+  /// That distance() takes for a moment.
+  static std::uint64_t measuring_bytes(std::uint64_t runs) {
+    return runs * sizeof(TriangleD) + TriangleBvh::bytes_needed(runs);
+  }
+
+  GridFrame frame_;
+  std::vector<VoxelRun> runs_;
+  std::unique_ptr<Ruler> kept_;
+};
+
+/// Length of an edge of `faces` equilateral triangles over the scene's surface.
+double edge_of(const LodGround& ground, std::uint64_t faces) {
+  const double area = double(ground.dense_faces) / 2 / kSlantedSteps * ground.voxel * ground.voxel;
+  return std::sqrt(4 / std::sqrt(3.0) * area / double(faces));
+}
+
+}  // namespace
+
+double first_scale(const LodGround& ground, const LodTarget& target, double last) {
+  if (target.scale_world) return std::max(*target.scale_world, last);
+  double scale = ground.diagonal;
+  if (target.faces > 0) scale = std::min(scale, edge_of(ground, target.faces) / (kScalesPerEdge * target.detail));
+  if (target.error_world > 0) scale = std::min(scale, target.error_world / kScalesPerError);
+  // Never below the level before: a coarser level closes at least as much.
+  return std::max({scale, last, kLeastScaleVox * ground.voxel});
+}
+
+int reductions_for(const LodGround& ground, const LodTarget& target, double scale, int before) {
+  double coarsest = std::min(scale / kLeastScaleVox, double(ground.longest_side_vox) / kLeastSideVox * ground.voxel);
+  if (target.faces > 0) {
+    const double per_face = double(ground.dense_faces) / double(target.faces);
+    coarsest = std::min(coarsest, std::sqrt(per_face / kDenseFacesPerFace) / target.detail * ground.voxel);
+    coarsest = std::min(coarsest, std::sqrt(double(ground.dense_faces) / kLeastDenseFaces) * ground.voxel);
+  }
+  if (target.error_world > 0) coarsest = std::min(coarsest, target.error_world / kVoxelsPerError);
+  int n = before;
+  while (ground.voxel * std::ldexp(1.0, n + 1) <= coarsest) ++n;
+  return n;
+}
+
+struct LodChain::State {
+  State(const StreamHeader& h, std::unique_ptr<BrickShelf> s, Backends& b, LodOptions o)
+      : options(std::move(o)),
+        context(options.context),
+        backends(b),
+        header(h),
+        solid(std::move(s)),
+        diagonal(h.bounds.diagonal()) {
+    if (solid->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
+    take_off(options.scene.size() * sizeof(TriangleD));
+    outside = std::make_unique<Outside>(*solid, options.surface.get(), header.frame, context.memory);
+    options.surface.reset();
+    take_off(outside->bytes());
+    last_scale = options.least_scale_world;
+  }
+
+  LodLevel make(const LodTarget& target) {
+    double scale = first_scale(ground(), target, last_scale);
+    std::unique_ptr<BrickShelf> closing = half_scale(target, scale);
+    for (int attempt = 1;; ++attempt) {
+      if (closing == nullptr) {
+        reduce_to(reductions_for(ground(), target, scale, reductions));
+        closing = closing_at(scale);
+      }
+      LodLevel level = mesh(target, scale, std::move(closing));
+      level.attempts = attempt;
+      level.reached = target.faces == 0 || level.mesh.triangles.size() <= target.faces;
+      if (!level.reached && 2 * scale <= diagonal / 2 && attempt < options.max_attempts) {
+        scale *= 2;
+        continue;
+      }
+      last_scale = scale;
+      context.report("measuring", "levels", 0, 1);
+      outside->measure(level, options.mode);
+      return level;
+    }
+  }
+
+  [[nodiscard]] std::int64_t longest_side() const {
+    const VoxelCoord size = outside->box.size();
+    return std::max({size.x, size.y, size.z});
+  }
+
+  LodOptions options;
+  PassContext& context;  // its memory shrinks by what is held here
+  Backends& backends;
+  StreamHeader header;  // of `solid`
+  std::unique_ptr<BrickShelf> solid;
+  double diagonal;
+  std::unique_ptr<Outside> outside;
+  int reductions = 0;
+  double last_scale = 0;
+
+ private:
+  void take_off(std::uint64_t bytes) {
+    context.memory.bytes -= std::min(context.memory.bytes, bytes);
+    context.pieces = context.pieces.without(bytes);
+  }
+
+  [[nodiscard]] LodGround ground() const { return {outside->voxel(), diagonal, outside->dense_faces, longest_side()}; }
+
+  void reduce_to(int n) {
+    for (; reductions < n; ++reductions) {
+      auto coarse = context.make_shelf();
+      reduce(*solid, header.frame, *coarse);
+      header = reduced(header);
+      solid = std::move(coarse);
+    }
+  }
+
+  [[nodiscard]] StreamHeader closed_header(const ScaleField& field) const {
+    StreamHeader closed = header;
+    closed.bricks = closing_bricks(header, field);
+    closed.has_closing = true;
+    closed.scale = field;
+    closed.element = options.closing.element;
+    return closed;
+  }
+
+  static ScaleField uniform(double scale) {
+    ScaleField field;
+    field.base = scale;
+    return field;
+  }
+
+  std::unique_ptr<BrickShelf> closing_at(double scale) {
+    CloseOptions o;
+    o.keep_cavities = options.keep_cavities;
+    o.context = context;
+    return close_shelf(header, *solid, backends, scale, options.closing, o);
+  }
+
+  /// The closing at half of `scale`, which is halved then, where a budget has faces enough for what parts and holes it
+  /// leaves. Where it does not, they take the faces that shape wants, and all of the level is farther off.
+  std::unique_ptr<BrickShelf> half_scale(const LodTarget& target, double& scale) {
+    const double half = std::max(scale / 2, last_scale);
+    const bool by_budget = target.faces > 0 && target.error_world == 0 && !target.scale_world;
+    if (!by_budget || options.mode != MeshMode::bounding || half >= scale) return nullptr;
+    const int n = reductions_for(ground(), target, half, reductions);
+    if (half < kLeastScaleVox * outside->voxel() * std::ldexp(1.0, n)) return nullptr;
+    reduce_to(n);
+    auto closing = closing_at(half);
+    repair_contacts(*closing);  // as meshing would: it closes the tiniest holes
+    check_memory_for_topology(*closing);
+    const SolidTopology topology = topology_of(*closing);
+    if ((topology.parts + topology.handles) * kFacesPerPart > target.faces) return nullptr;
+    scale = half;
+    return closing;
+  }
+
+  /// Against what the surface is to be meshed in, of which nothing is taken yet.
+  void check_memory_for_topology(const BrickShelf& closing) const {
+    const std::uint64_t bytes = topology_bytes(closing), most = context.pieces.bytes();
+    if (bytes > most)
+      throw NeedsMemory("counting the parts and holes of a level", bytes, most,
+                        context.pieces.limit_with(bytes - most));
+  }
+
+  LodLevel mesh(const LodTarget& target, double scale, std::unique_ptr<BrickShelf> closing) {
+    LodLevel level;
+    level.scale_world = scale;
+    level.reductions = reductions;
+    context.report("meshing", "levels", 0, 1);
+    ShelfSource source(closed_header(uniform(scale)), *solid, closing.get(), ShelfSource::Keep::solid);
+    level.mesh = std::move(mesh_stream(source, context, mesh_params(target), level.counts).front());
+    return level;
+  }
+
+  [[nodiscard]] MeshParams mesh_params(const LodTarget& target) const {
+    MeshParams params;
+    if (target.faces > 0) params.faces = {target.faces};
+    // What is enclosed is within a diagonal of a voxel of the scene.
+    if (target.error_world > 0)
+      params.error_world = std::max(target.error_world - std::sqrt(3.0) * (header.frame.voxel + outside->voxel()),
+                                    target.error_world / 4);
+    params.near = true;
+    params.mode = options.mode;
+    params.tighten = options.tighten;
+    params.quads = options.quads;
+    params.enclose = options.enclose;
+    if (options.enclose == Enclose::scene) {  // distances are to its voxels, as without
+      params.scene = options.scene;
+      params.distances_to = Enclose::input;
+    }
+    if (options.mode == MeshMode::fit) {
+      params.distances_to.reset();
+      params.enclose = options.scene.empty() ? Enclose::closing : Enclose::scene;
+      params.scene = options.scene;
+    }
+    return params;
+  }
+};
+
+LodChain::LodChain(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends,
+                   LodOptions options)
+    : state_(std::make_unique<State>(header, std::move(solid), backends, std::move(options))) {}
+
+LodChain::~LodChain() = default;
+
+std::uint64_t LodChain::dense_faces() const {
+  return state_->outside->dense_faces;
+}
+
+std::int64_t LodChain::longest_side_vox() const {
+  return state_->longest_side();
+}
+
+LodLevel LodChain::make(const LodTarget& target) {
+  return state_->make(target);
+}
+
+}  // namespace bp

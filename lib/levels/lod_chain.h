@@ -1,0 +1,103 @@
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "lib/device/backend.h"
+#include "lib/pass/close/close_pass.h"
+#include "lib/pass/context.h"
+#include "lib/pass/mesh/mesh_pass.h"
+
+/// bplod's work: a chain of levels of detail from one solid. The scene is voxelized once; each level is closed at a
+/// scale of its own, coarser ones on conservative reductions of the voxels (lib/volume/reduce.h), and meshed to its
+/// target. A bounding level strictly encloses the scene by itself; it need not enclose the level before. A fitted one
+/// encloses nothing.
+namespace bp {
+
+/// What a level is asked to be. With no scale, faces decide it: a quarter of the edge that `faces` equilateral
+/// triangles over the scene's surface would have, or half of that where the closing of a bounding level leaves few
+/// parts and holes then; and an error: a quarter of it.
+struct LodTarget {
+  std::uint64_t faces = 0;            ///< 0: none
+  double error_world = 0;             ///< largest distance of a point of the level to the scene, scene units; 0: none
+  std::optional<double> scale_world;  ///< closing radius to begin with, scene units; never below the level before's
+  /// Of `faces`: scale and voxels are so many times finer than for equilateral triangles. Flat regions take few.
+  double detail = 1;
+};
+
+/// Triangles of the dense surface below which voxels are not doubled, nor chosen, for a budget: they take a second or
+/// two, and larger voxels cost more error and volume than the budget does.
+constexpr double kLeastDenseFaces = 500000;
+constexpr double kVoxelsPerError = 8;  ///< the error holds the voxels' diagonal, the closing and the simplification
+constexpr double kScalesPerError = 4;  ///< the cube's dilation reaches sqrt(3) scales
+
+/// What decides at which scale, and on which voxels, a level is tried first.
+struct LodGround {
+  double voxel = 0, diagonal = 0;     ///< of the solid; scene units
+  std::uint64_t dense_faces = 0;      ///< triangles of the dense surface of the solid
+  std::int64_t longest_side_vox = 0;  ///< of the solid
+};
+/// The scale, scene units, before it is halved, at least `last`, that of the level before.
+[[nodiscard]] double first_scale(const LodGround& ground, const LodTarget& target, double last);
+/// How often the voxels are doubled: while the target leaves enough of them, and the scale is not below one. At least
+/// `before` times.
+[[nodiscard]] int reductions_for(const LodGround& ground, const LodTarget& target, double scale, int before);
+
+struct LodOptions {
+  ClosingParams closing;
+  MeshMode mode = MeshMode::bounding;  ///< bounding or fit
+  Enclose enclose = Enclose::input;    ///< of bounding levels
+  /// The scene's triangles, scene units: of Enclose::scene, and what fits are drawn to; without, these follow the
+  /// closing.
+  std::vector<TriangleD> scene;
+  /// Voxels of the solid that hold a point of what the scene shows to the outside; null: those of its boundary.
+  std::shared_ptr<const BrickShelf> surface;
+  double least_scale_world = 0;  ///< no level is closed at less
+  bool tighten = true;
+  bool quads = false;  ///< join triangles in pairs (lib/quads/quads.h)
+  bool keep_cavities = false;
+  int max_attempts = 12;  ///< at most so many scales for one level
+  /// The memory is for tiles at work and, between, for surfaces. The scene's outside, and `scene`, come off both.
+  PassContext context;
+};
+
+struct LodLevel {
+  LatticeMesh mesh;        ///< in the frame of its voxels
+  double scale_world = 0;  ///< that it was closed at
+  int reductions = 0;      ///< the voxels are 2^reductions times those of the solid
+  int attempts = 0;        ///< scales that were tried
+  bool reached = true;     ///< it has at most the faces asked for
+  /// What a viewer can see, scene units: upper bound of the distance of a point of the level to the outside of the
+  /// scene (what its solid shows to the outside), and of a point of that which is outside the level to the level. None
+  /// is outside a bounding one. As a rule at most three voxels of the solid and 4 % above the largest.
+  double error_world = 0;
+  /// The same of all points, wherever they are: of the symmetric Hausdorff distance. Deep where a level closes a
+  /// cavity.
+  double distance_world = 0;
+  MeshCounts counts;
+};
+
+class LodChain {
+ public:
+  /// `solid` holds the bricks of `header`, a solid layer. Keeps references to `backends`.
+  /// Throws bad_input if it is empty, out_of_resource if the memory does not suffice for the scene's outside.
+  LodChain(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends, LodOptions options);
+  ~LodChain();
+  LodChain(const LodChain&) = delete;
+  LodChain& operator=(const LodChain&) = delete;
+
+  /// Triangles of the dense surface of the solid: what budgets are measured against.
+  [[nodiscard]] std::uint64_t dense_faces() const;
+  /// Length of the longest side of the solid, in voxels.
+  [[nodiscard]] std::int64_t longest_side_vox() const;
+
+  /// The next level; targets come finest first. A face budget that cannot be met, because parts stay apart or keep
+  /// holes, is tried again at twice the scale, on coarser voxels where the budget allows, until it is met or the scale
+  /// is half the scene; LodLevel says at what. Throws as close_stream() and mesh_stream().
+  [[nodiscard]] LodLevel make(const LodTarget& target);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bp

@@ -1,0 +1,356 @@
+#include "lib/pass/close/close_pass.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/grid/clip.h"
+#include "lib/grid/header_fault.h"
+#include "lib/grid/shelf_stream.h"
+#include "lib/grid/tile_grid.h"
+#include "lib/pass/close/detail/tile_closer.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kMaxTiles = 1 << 27;        // the fill asks every tile; beyond, a grid is a slip of the finger
+constexpr std::size_t kBricksAtATime = 128;  // taken off the shelf together to be written: 8 MiB
+constexpr std::int32_t kMaxTileVox = 512;    // beyond, halos cost little and tiles get few
+
+/// Bytes that closing one tile of a grid takes, every voxel of tile and halo in play: the boxes of close_tile, and as
+/// much again as the tile itself for the components of its empty voxels.
+double tile_bytes(const VoxelCoord& grid, std::int32_t tile, const Halo& halo) {
+  const auto box_bytes = [&](std::int32_t margin) {
+    double bytes = 1.0 / 8;
+    for (int axis = 0; axis < 3; ++axis)
+      bytes *= std::min(double(tile) + 2.0 * margin, double(grid[axis])) + (axis == 0 ? 126 : 0);
+    return bytes;
+  };
+  const double solid = box_bytes(halo.total_vox()), dilation = box_bytes(halo.erosion_vox), core = box_bytes(0);
+  const double side = std::min(double(tile) + 2.0 * halo.total_vox(), double(std::max({grid.x, grid.y, grid.z})));
+  const double distances = 6 * (side + 160) * (side + 2);  // three slices of a varying cube dilation
+  constexpr double kTransform = 8 << 20;                   // a block of rows of the ball transform
+  return 3 * solid + 4 * dilation + 4 * core + distances + kTransform;
+}
+
+/// The tile size that promises most: workers that fit in memory and find enough tiles, times the share of the voxels
+/// they read that are not halo.
+std::int32_t choose_tile(const VoxelCoord& grid, const Halo& halo, std::size_t workers, std::uint64_t memory_bytes,
+                         std::int32_t largest) {
+  std::int32_t best = kBrickEdge;
+  double best_score = 0;
+  for (std::int32_t tile = kBrickEdge; tile <= largest; tile += kBrickEdge) {
+    const double fit = std::floor(double(memory_bytes) / tile_bytes(grid, tile, halo));
+    double count = 1;
+    for (int axis = 0; axis < 3; ++axis) count *= std::ceil(double(grid[axis]) / tile);
+    const double busy = std::min({double(workers), fit, std::max(1.0, count / 3)});
+    const double share = double(tile) / (tile + halo.total_vox());
+    const double score = busy * share * share;
+    if (score > best_score) {
+      best = tile;
+      best_score = score;
+    }
+  }
+  return best;
+}
+
+/// Closes a stream. A slab is one step of tiles across the slab axis.
+class StreamCloser {
+ public:
+  StreamCloser(BrickSource& source, BrickSink& sink, Backends& backends, const ScaleField& scale,
+               const ClosingParams& params, const CloseOptions& options)
+      : source_(source),
+        sink_(sink),
+        scale_(scale),
+        params_(params),
+        options_(options),
+        header_(source.header()),
+        axis_(header_.slab_axis),
+        widest_(widest_halo(scale.upper_bound(header_.frame))),
+        solid_(options.context.make_shelf()),
+        closing_(options.context.make_shelf()) {
+    lay_tiles(backends);
+  }
+
+  CloseCounts operator()() {
+    more_ = source_.read(brick_);
+    pipeline<TileCoord>(
+        boxes_->count() + 2, [&](TileCoord& tile) { return next_tile(tile); },
+        [&](const TileCoord& tile) { close(tile); },
+        [&](const TileCoord& tile) {
+          options_.context.report("closing", "tiles", ++done_, 0);
+          if (options_.keep_cavities) emit_done(tile[axis_]);
+        });
+    read_before(std::numeric_limits<std::int64_t>::max());  // to the end record
+    if (closer_->floods()) closer_->resolve();
+    finish_slabs();
+    counts_.tiles_closed = tiles_closed_;
+    counts_.cavity_voxels = cavity_voxels_;
+    counts_.halo_vox = halo_vox_;
+    counts_.seconds = {reading_,          closer_->waiting, closer_->closing, closer_->labelling,
+                       closer_->shelving, closer_->filling, writing_};
+    return counts_;
+  }
+
+ private:
+  using SlabTiles = std::set<TileCoord>;
+
+  void lay_tiles(Backends& backends);
+  bool next_tile(TileCoord& tile);
+  void read_before(std::int64_t end_vox);
+  void take_brick();
+  void close(TileCoord tile);
+  void finish_slabs();
+  void fill_cavities(std::int32_t slab, SlabTiles& tiles);
+  void emit_done(std::int32_t current_slab);
+  void emit(const SlabTiles& tiles);
+  /// First voxel across the slab axis that is no longer in the slab.
+  [[nodiscard]] std::int64_t end_of(std::int32_t slab) const {
+    return tiles_.voxels.min[axis_] + (std::int64_t(slab) + 1) * tiles_.edge_vox;
+  }
+
+  BrickSource& source_;
+  BrickSink& sink_;
+  const ScaleField& scale_;
+  const ClosingParams params_;
+  const CloseOptions& options_;
+  const StreamHeader& header_;
+  const int axis_;
+  const Halo widest_;
+  const std::unique_ptr<BrickShelf> solid_, closing_;
+  TileGrid tiles_;
+  std::unique_ptr<TileCloser> closer_;
+  std::unique_ptr<Pool<std::unique_ptr<BitBox>>> boxes_;  ///< of closed tiles: as many as threads work on them
+  CloseCounts counts_;
+  std::uint64_t done_ = 0;
+  std::atomic<std::uint64_t> tiles_closed_{0}, cavity_voxels_{0};
+  std::atomic<std::int32_t> halo_vox_{0};
+  std::atomic<double> reading_{0}, writing_{0};
+
+  Brick brick_;  ///< read, not yet taken
+  bool more_ = true;
+  std::vector<TileCoord> queue_;  ///< of the slab being closed, last first
+  std::int32_t next_slab_ = 0;
+  std::mutex slabs_mutex_;
+  std::map<std::int32_t, SlabTiles> slabs_;  ///< not yet emitted: their tiles with a solid brick in reach
+};
+
+void StreamCloser::lay_tiles(Backends& backends) {
+  const VoxelBox grid = voxels_of(closing_bricks(header_, scale_));
+  const MemoryShare& memory = options_.context.memory;
+  // A GPU has few backends: while they compute, the other threads label and shelve what came back.
+  const std::size_t workers = std::max(backends.size(), std::size_t(thread_count()));
+  // And its halos are cheap, so that small tiles keep all busy.
+  const bool small = backends.size() < workers && widest_.total_vox() <= kMaxTileVox / 8;
+  const std::int32_t edge = options_.tile_vox != 0 ? options_.tile_vox
+                                                   : choose_tile(grid.size(), widest_, workers, memory.bytes,
+                                                                 small ? kMaxTileVox / 2 : kMaxTileVox);
+  if (edge < 0 || edge % kBrickEdge != 0)
+    fail(ErrorCode::bad_argument, "a tile of {} voxels a side is no multiple of {}", edge, kBrickEdge);
+  const double bytes = tile_bytes(grid.size(), edge, widest_);
+  if (bytes > double(memory.bytes)) {
+    const auto needed = std::uint64_t(std::ceil(bytes));
+    Remedies others{Remedy::larger_voxels, Remedy::smaller_scale};
+    if (edge > kBrickEdge) others.push_back(Remedy::smaller_tiles);
+    throw NeedsMemory(fmt::format("closing a tile of {} voxels with a halo of {}", edge, widest_.total_vox()), needed,
+                      memory.bytes, memory.limit_with(needed - memory.bytes), others);
+  }
+  tiles_ = TileGrid(grid, edge);
+  if (tiles_.total() > kMaxTiles)
+    fail(ErrorCode::bad_argument, {Remedy::larger_tiles}, "the grid has {:.0f} tiles of {} voxels", tiles_.total(),
+         edge);
+  const auto fit = std::size_t(std::max(1.0, std::min(double(workers), double(memory.bytes) / bytes)));
+  closer_ =
+      std::make_unique<TileCloser>(TileCloser::Input{header_, *solid_, scale_, params_}, *closing_, backends, fit);
+  std::vector<std::unique_ptr<BitBox>> boxes(fit);
+  for (auto& box : boxes) box = std::make_unique<BitBox>();
+  boxes_ = std::make_unique<Pool<std::unique_ptr<BitBox>>>(std::move(boxes));
+  if (!options_.keep_cavities) closer_->flood(grid, edge);
+  counts_.tile_vox = edge;
+  counts_.tiles = std::uint64_t(tiles_.total());
+}
+
+/// Slab by slab, once all bricks that any tile of the slab can see have been taken.
+bool StreamCloser::next_tile(TileCoord& tile) {
+  while (queue_.empty()) {
+    if (next_slab_ == tiles_.count[axis_]) return false;
+    read_before(end_of(next_slab_) + widest_.total_vox());
+    const std::lock_guard lock(slabs_mutex_);
+    const auto found = slabs_.lower_bound(next_slab_);
+    if (found == slabs_.end() && !more_) return false;
+    if (found != slabs_.end() && found->first == next_slab_)
+      queue_.assign(found->second.rbegin(), found->second.rend());
+    ++next_slab_;
+  }
+  tile = queue_.back();
+  queue_.pop_back();
+  return true;
+}
+
+/// Takes the bricks that begin before `end_vox` across the slab axis.
+void StreamCloser::read_before(std::int64_t end_vox) {
+  const Stopwatch watch(reading_);
+  while (more_ && std::int64_t(brick_.coord[axis_]) * kBrickEdge < end_vox) {
+    take_brick();
+    more_ = source_.read(brick_);
+  }
+}
+
+void StreamCloser::take_brick() {
+  if (brick_.layer != Layer::solid) {
+    ++counts_.ignored_bricks;
+    return;
+  }
+  solid_->put(brick_.coord, brick_.fill, brick_.bits);
+  const BrickCoord next{brick_.coord.x + 1, brick_.coord.y + 1, brick_.coord.z + 1};
+  const VoxelBox reach = intersect(voxels_of({brick_.coord, next}).grown(widest_.dilation_vox), tiles_.voxels);
+  TileCoord first, last;
+  for (int i = 0; i < 3; ++i) {
+    first[i] = (reach.min[i] - tiles_.voxels.min[i]) / tiles_.edge_vox;
+    last[i] = (reach.max[i] - 1 - tiles_.voxels.min[i]) / tiles_.edge_vox;
+  }
+  const std::lock_guard lock(slabs_mutex_);
+  for (TileCoord t = first; t.z <= last.z; ++t.z) {
+    for (t.y = first.y; t.y <= last.y; ++t.y) {
+      for (t.x = first.x; t.x <= last.x; ++t.x) slabs_[t[axis_]].insert(t);
+    }
+  }
+}
+
+void StreamCloser::close(TileCoord tile) {
+  const VoxelBox box = tiles_.box(tile);
+  const Halo halo = closer_->halo(box);
+  if (!closer_->in_reach(box, halo)) return;
+  ++tiles_closed_;
+  for (std::int32_t most = halo_vox_;
+       most < halo.total_vox() && !halo_vox_.compare_exchange_weak(most, halo.total_vox());)
+    ;
+  const Pool<std::unique_ptr<BitBox>>::Lease closed(*boxes_);
+  closer_->close(box, halo, *closed);
+  closer_->keep(box, *closed);
+}
+
+/// Fills and emits the slabs that are left: one is filled while the one before is written.
+void StreamCloser::finish_slabs() {
+  std::vector<std::pair<std::int32_t, SlabTiles>> left(slabs_.begin(), slabs_.end());
+  slabs_.clear();
+  std::size_t next = 0, written = 0;
+  pipeline<std::size_t>(
+      2,
+      [&](std::size_t& i) {
+        i = next;
+        return next++ < left.size();
+      },
+      [&](const std::size_t& i) {
+        if (closer_->floods()) fill_cavities(left[i].first, left[i].second);
+      },
+      [&](const std::size_t& i) {
+        emit(left[i].second);
+        options_.context.report("filling", "slabs", ++written, left.size());
+      });
+}
+
+/// Cavities reach into tiles that hold no voxel; a slab of none but such tiles is open to the outside.
+void StreamCloser::fill_cavities(std::int32_t slab, SlabTiles& tiles) {
+  TileCoord count = tiles_.count;
+  count[axis_] = 1;
+  const std::int64_t total = std::int64_t(count.x) * count.y * count.z;
+  std::mutex mutex;
+  parallel_for(total, [&](std::int64_t i) {
+    TileCoord tile{std::int32_t(i % count.x), std::int32_t(i / count.x % count.y), std::int32_t(i / count.x / count.y)};
+    tile[axis_] = slab;
+    if (!closer_->has_enclosed(tiles_.box(tile))) return;
+    const Pool<std::unique_ptr<BitBox>>::Lease bits(*boxes_);
+    cavity_voxels_ += closer_->fill(tiles_.box(tile), *bits);
+    const std::lock_guard lock(mutex);
+    tiles.insert(tile);
+  });
+}
+
+/// Emits the slabs before `current` that no tile from there on can see.
+void StreamCloser::emit_done(std::int32_t current) {
+  for (;;) {
+    SlabTiles tiles;
+    {
+      const std::lock_guard lock(slabs_mutex_);
+      const auto first = slabs_.begin();
+      if (first == slabs_.end() || end_of(first->first) + widest_.total_vox() > end_of(current - 1)) return;
+      tiles = std::move(first->second);
+      slabs_.erase(first);
+    }
+    emit(tiles);
+  }
+}
+
+/// Both layers of the bricks of these tiles, in slab order. Every solid brick lies in the closing.
+void StreamCloser::emit(const SlabTiles& tiles) {
+  const Stopwatch watch(writing_);
+  std::vector<BrickCoord> bricks;
+  for (const TileCoord& tile : tiles) {
+    for_each_brick(bricks_of(tiles_.box(tile)), [&](BrickCoord c) {
+      if (closing_->fill(c) != BrickFill::empty) bricks.push_back(c);
+    });
+  }
+  std::sort(bricks.begin(), bricks.end(), [&](BrickCoord a, BrickCoord b) { return slab_order(axis_, a, b); });
+  struct Layers {
+    Brick solid, closing;
+  };
+  std::vector<Layers> some(std::min(bricks.size(), kBricksAtATime));
+  const auto fetch = [](BrickShelf& shelf, BrickCoord c, Layer layer, Brick& out) {
+    out.coord = c;
+    out.layer = layer;
+    out.fill = shelf.get(c, out.bits);
+    if (out.fill != BrickFill::empty) shelf.drop(c);
+  };
+  for (std::size_t at = 0; at < bricks.size(); at += some.size()) {
+    const std::size_t n = std::min(some.size(), bricks.size() - at);
+    parallel_for(std::int64_t(n), [&](std::int64_t i) {
+      const BrickCoord c = bricks[at + std::size_t(i)];
+      fetch(*solid_, c, Layer::solid, some[std::size_t(i)].solid);
+      fetch(*closing_, c, Layer::closing, some[std::size_t(i)].closing);
+    });
+    for (std::size_t i = 0; i < n; ++i) {
+      for (const Brick* brick : {&some[i].solid, &some[i].closing}) {
+        if (brick->fill == BrickFill::empty) continue;
+        ++(brick->layer == Layer::solid ? counts_.solid_bricks : counts_.closing_bricks);
+        sink_.write(*brick);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+BrickBox closing_bricks(const StreamHeader& header, const ScaleField& scale) {
+  if (header.bricks.empty()) return header.bricks;
+  const std::int32_t margin = ceil_div(widest_halo(scale.upper_bound(header.frame)).erosion_vox, kBrickEdge);
+  const BrickBox grown = header.bricks.grown(margin);
+  if (brick_box_fault(grown) != nullptr)
+    fail(ErrorCode::bad_argument, "the closing leaves the grid of 2^31 voxels a side; use larger voxels");
+  return grown;
+}
+
+CloseCounts close_stream(BrickSource& source, BrickSink& sink, Backends& backends, const ScaleField& scale,
+                         const ClosingParams& params, const CloseOptions& options) {
+  return StreamCloser(source, sink, backends, scale, params, options)();
+}
+
+std::unique_ptr<BrickShelf> close_shelf(const StreamHeader& header, BrickShelf& solid, Backends& backends,
+                                        double scale_world, const ClosingParams& params, const CloseOptions& options) {
+  ScaleField scale;
+  scale.base = scale_world;
+  auto closing = options.context.make_shelf();
+  ShelfSource source(header, solid, nullptr, ShelfSource::Keep::all);
+  ShelfSink sink(nullptr, closing.get());
+  close_stream(source, sink, backends, scale, params, options);
+  return closing;
+}
+
+}  // namespace bp

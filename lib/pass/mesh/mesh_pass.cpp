@@ -1,0 +1,308 @@
+#include "lib/pass/mesh/mesh_pass.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/error.h"
+#include "lib/enclosed/enclosed_triangles.h"
+#include "lib/grid/count_bits.h"
+#include "lib/mesh/lattice_geometry.h"
+#include "lib/pass/mesh/detail/components.h"
+#include "lib/pass/mesh/detail/fit_target.h"
+#include "lib/pass/mesh/detail/ground.h"
+#include "lib/pass/mesh/detail/params_check.h"
+#include "lib/pass/mesh/detail/proxy_limits.h"
+#include "lib/pass/mesh/surface_around.h"
+#include "lib/quads/quad_slack.h"
+#include "lib/quads/quads.h"
+#include "lib/simplify/surface_tree.h"
+#include "lib/surface/repair.h"
+#include "lib/tighten/few_faces.h"
+#include "lib/tighten/tight_proxy.h"
+#include "lib/volume/boundary_runs.h"
+
+namespace bp {
+
+namespace {
+
+[[noreturn]] void fail_empty(const StreamHeader& header) {
+  if (header.fill != FillMode::inside)
+    fail(ErrorCode::bad_input, "the stream holds no occupied voxel; there is nothing to mesh");
+  Remedies remedies{Remedy::smaller_voxels};
+  if (header.has_closing) remedies.push_back(Remedy::smaller_scale);
+  fail(
+      ErrorCode::bad_input, remedies,
+      "nothing is left of the inside of the scene: it is open there, or thinner than {} (bpinfo on the stream of bpvox "
+      "shows what is inside)",
+      header.has_closing ? "two scales" : "the voxels");
+}
+
+Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool want_input, MeshCounts& counts) {
+  const Layer layer = source.header().has_closing ? Layer::closing : Layer::solid;
+  Shelves shelves{make_shelf(), want_input ? make_shelf() : nullptr};
+  for (Brick brick; source.read(brick);) {
+    if (shelves.input && brick.layer == Layer::solid) shelves.input->put(brick.coord, brick.fill, brick.bits);
+    if (brick.layer != layer) continue;
+    counts.voxels += count_bits(std::as_bytes(std::span(brick.bits)));
+    shelves.meshed->put(brick.coord, brick.fill, brick.bits);
+  }
+  if (counts.voxels == 0) fail_empty(source.header());
+  if (shelves.input && shelves.input->coords().empty())
+    fail(ErrorCode::bad_input, {Remedy::enclose_closing}, "the stream's solid layer holds no voxel to keep inside");
+  return shelves;
+}
+
+/// No edge longer than `factor` times S anywhere along it; but never below two voxels, or nothing could be merged where
+/// the scale vanishes.
+EdgeLimit scaled_edges(const ScaleField& scale, const GridFrame& frame, double factor) {
+  return [&scale, frame, factor](const LatticeCoord& a, const LatticeCoord& b) {
+    const double edge = length(to_double(b - a));
+    return edge <= 2 * kLatticePerVoxel ||
+           scale.reaches_along(frame.world(a), frame.world(b), edge / kLatticePerVoxel * frame.voxel / factor,
+                               frame.voxel);
+  };
+}
+
+SimplifyParams simplify_params(const StreamHeader& header, const GridFrame& frame, const MeshParams& params,
+                               const PieceMemory& memory, std::uint64_t faces) {
+  SimplifyParams out;
+  out.memory = memory;
+  out.faces = std::min<std::uint64_t>(faces, std::uint64_t(1) << 32);  // a mesh indexes fewer; multiples stay exact
+  if (faces == 0 && params.error_world == 0 && params.volume_ratio == 0) {
+    const bool cube = header.has_closing && header.element == StructuringElement::cube;
+    const double share = cube ? MeshParams::kErrorShareCube : MeshParams::kErrorShareBall;
+    out.error_vox = header.bounds.diagonal() * share / frame.voxel;
+  }
+  if (params.edge_factor > 0) out.edge_limit = scaled_edges(header.scale, frame, params.edge_factor);
+  return out;
+}
+
+/// Tightening made room below the limits: more collapses, more tightening, until they merge little.
+LatticeMesh use_room(LatticeMesh proxy, const Enclosed& enclosed, SimplifyParams params, LevelCounts& counts) {
+  constexpr int kRounds = 8;
+  params.dense = false;
+  params.enclosed = &enclosed;
+  TightenParams tightening;
+  static_cast<ShapeLimits&>(tightening) = params;
+  for (int round = 0; round < kRounds && counts.simplify.stop == StopReason::limits; ++round) {
+    const std::size_t before = proxy.triangles.size();
+    SimplifyCounts more;
+    proxy = simplify(proxy, params, more);
+    counts.simplify.add(more);
+    if (proxy.triangles.size() * 20 > before * 19) break;
+    proxy = tighten(proxy, enclosed, tightening, counts.tighten);
+  }
+  return proxy;
+}
+
+/// One level, from the surface of all that it must enclose. `few`: nothing but a number of faces below kFewFaces
+/// matters.
+LatticeMesh make_level(const SurfaceSource& dense, const Enclosed* enclosed, const SimplifyParams& params, bool few,
+                       LevelCounts& counts) {
+  if (enclosed == nullptr) return simplify(dense, params, counts.simplify);
+  if (few) return tight_proxy_of_few(dense, *enclosed, params, counts.simplify, counts.tighten);
+  LatticeMesh proxy = tight_proxy(dense, *enclosed, params, counts.simplify, counts.tighten);
+  return params.limits == nullptr ? proxy : use_room(std::move(proxy), *enclosed, params, counts);
+}
+
+double area_world(const LatticeMesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles)
+    sum += length(to_double(normal_of(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]))) / 2;
+  return sum * std::pow(mesh.frame.voxel / kLatticePerVoxel, 2);
+}
+
+/// Edge of the voxels around a level: the stream's, or as large as gives a dense surface of enough faces for the next
+/// and takes no more than half of its share of the error.
+double level_voxel(const LatticeMesh& inner, double voxel, std::uint64_t faces, double error_share) {
+  constexpr double kFacesPerFace = 200;
+  constexpr double kFacesPerVoxelFace = 2 * kSlantedSteps;
+  constexpr double kVoxelsPerShare = 4;  // a voxel that is touched reaches as far as its diagonal
+  const double most = error_share > 0 ? error_share / kVoxelsPerShare : HUGE_VAL;
+  const double enough = std::sqrt(kFacesPerVoxelFace * area_world(inner) / (kFacesPerFace * double(faces)));
+  return std::max(voxel, std::min(enough, most));
+}
+
+std::uint64_t bytes_of(const std::vector<LatticeMesh>& meshes) {
+  std::uint64_t sum = 0;
+  for (const LatticeMesh& mesh : meshes)
+    sum += mesh.vertices.size() * sizeof(mesh.vertices[0]) + mesh.triangles.size() * sizeof(mesh.triangles[0]);
+  return sum;
+}
+
+/// What is left beside what the limits of a level take.
+PieceMemory beside_limits(const PieceMemory& memory, std::uint64_t bytes) {
+  if (bytes <= memory.bytes()) return memory.without(bytes);
+  throw NeedsMemory("keeping a level within a distance", bytes, memory.bytes(),
+                    memory.limit_with(bytes - memory.bytes()));
+}
+
+constexpr int kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
+
+/// All levels, one after the other.
+class LevelMaker {
+ public:
+  LevelMaker(const StreamHeader& header, const PassContext& context, MeshParams params, MeshCounts& counts)
+      : header_(header),
+        context_(context),
+        make_shelf_(context.make_shelf),
+        memory_(context.pieces),
+        params_(std::move(params)),
+        counts_(counts) {}
+
+  std::vector<LatticeMesh> run(const Shelves& shelves) {
+    const std::vector<std::uint64_t> faces = params_.faces.empty() ? std::vector<std::uint64_t>{0} : params_.faces;
+    Start start = make_start(shelves);
+    bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
+    ground_ = make_ground(shelves, params_, start, context_);
+    memory_ = context_.pieces.without(ground_.bytes());
+    const bool fit = params_.mode == MeshMode::fit;
+    const double error_share = params_.error_world / double(fit ? 1 : faces.size());
+    bounds_.error_world = error_share;
+    if (fit) return fits(*start.surface, faces);
+    std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed.get(), faces[0])};
+    ground_.enclosed.reset();
+    start = {};
+    for (std::size_t i = 1; i < faces.size(); ++i) {
+      bounds_.error_world = error_share * double(i + 1);
+      memory_ = context_.pieces.without(ground_.bytes() + bytes_of(levels));
+      levels.push_back(next_level(levels.back(), faces[i], error_share));
+    }
+    return levels;
+  }
+
+ private:
+  Start make_start(const Shelves& shelves) {
+    Start start;
+    if (!inside()) {
+      start.surface = std::make_unique<ShelfSurface>(*shelves.meshed, header_.frame);
+      return start;
+    }
+    start.around = make_shelf_();
+    check_work(count_faces(ShelfSurface(*shelves.meshed, header_.frame)), memory_);
+    start.mesh =
+        std::make_unique<LatticeMesh>(inward_surface(*shelves.meshed, header_.frame, make_shelf_, *start.around));
+    if (start.mesh->triangles.empty())
+      fail(ErrorCode::bad_input, {Remedy::smaller_voxels, Remedy::smaller_scale},
+           "the inside of the scene is too thin to mesh");
+    counts_.repaired = counts_.voxels - std::uint64_t(-volume6_of(*start.mesh) / kVolume6OfVoxel);
+    counts_.solid_volume_world -= double(counts_.repaired) * std::pow(header_.frame.voxel, 3);
+    drop_crumbs(*start.mesh);
+    start.surface = std::make_unique<MeshSurface>(*start.mesh);
+    return start;
+  }
+
+  /// A level around `before`, or within it.
+  LatticeMesh next_level(const LatticeMesh& before, std::uint64_t faces, double error_share) {
+    const double voxel = level_voxel(before, header_.frame.voxel, faces, error_share);
+    if (!inside()) {
+      const auto around = make_shelf_();
+      const GridFrame frame = voxels_around(before, voxel, make_shelf_, memory_, *around);
+      return finish_around(before, ShelfSurface(*around, frame), faces);
+    }
+    LatticeMesh dense = surface_within(before, voxel, make_shelf_, memory_);
+    drop_small_components(dense, params_.least_part);  // a level may fall into parts
+    return finish_around(before, MeshSurface(dense), faces);
+  }
+
+  LatticeMesh finish_around(const LatticeMesh& before, const SurfaceSource& dense, std::uint64_t faces) {
+    if (!params_.tighten) return finish(dense, nullptr, faces);
+    const EnclosedTriangles enclosed(drawable_world_triangles(before), dense.frame());
+    memory_ = memory_.without(enclosed.bytes());
+    return finish(dense, &enclosed, faces);
+  }
+
+  /// Levels of detail that do not enclose: each of the same fine surface.
+  std::vector<LatticeMesh> fits(const SurfaceSource& dense, const std::vector<std::uint64_t>& faces) {
+    const FitTarget target = params_.enclose == Enclose::scene
+                                 ? scene_target(*ground_.tree, dense.frame(), params_.inset)
+                                 : inset_target(params_.inset);
+    const EdgeLimit edges = simplify_params(header_, dense.frame(), params_, memory_, faces[0]).edge_limit;
+    const FineFit fine = fine_fit(dense, faces[0], target, edges, memory_);
+    std::vector<LatticeMesh> levels;
+    for (const std::uint64_t n : faces) {
+      levels.push_back(finish(dense.frame(), n, [&](const SimplifyParams& params, LevelCounts& counts) {
+        LatticeMesh level = fit_level(fine, params, counts.simplify);
+        if (params_.quads) level.quads = pair_triangles(level, QuadKeeps::nothing, nullptr);
+        return level;
+      }));
+    }
+    return levels;
+  }
+
+  [[nodiscard]] bool inside() const { return params_.mode == MeshMode::inside; }
+
+  void drop_crumbs(LatticeMesh& dense) {
+    const DroppedComponents dropped = drop_small_components(dense, params_.least_part);
+    counts_.dropped_parts = dropped.parts;
+    counts_.dropped_voxels = std::uint64_t(std::llround(dropped.volume_vox));
+    counts_.solid_volume_world -= dropped.volume_vox * std::pow(header_.frame.voxel, 3);
+  }
+
+  LatticeMesh finish(const SurfaceSource& dense, const Enclosed* enclosed, std::uint64_t faces) {
+    return finish(dense.frame(), faces, [&](SimplifyParams params, LevelCounts& counts) {
+      if (faces >= kLeastFacesWithRoom) params.room = room_around(dense.box(), faces);  // the box reads all voxels
+      if (params_.near && params.limits == nullptr && faces > 0)
+        params.reach = (header_.scale.base / dense.frame().voxel + 1) * kLatticePerVoxel;
+      const bool few = faces > 0 && faces < kFewFaces && params.limits == nullptr && !params.edge_limit &&
+                       !params_.near && !inside();
+      LatticeMesh proxy = make_level(dense, enclosed, params, few, counts);
+      if (!params_.quads) return proxy;
+      if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);
+      proxy.quads = pair_triangles(proxy, QuadKeeps::enclosed, enclosed);
+      return proxy;
+    });
+  }
+
+  /// One level by make(params, counts), with its counts and measures.
+  template <class Make>
+  LatticeMesh finish(const GridFrame& frame, std::uint64_t faces, const Make& make) {
+    LevelCounts& counts = counts_.levels.emplace_back();
+    counts.error_world = bounds_.error_world;
+    SimplifyParams params = simplify_params(header_, frame, params_, memory_, faces);
+    params.memory = beside_limits(params.memory, ProxyLimits::bytes_needed(bounds_, frame, ground_.tree.get()));
+    ProxyLimits limits(bounds_, frame, ground_.tree.get());
+    if (bounds_.error_world > 0 || bounds_.volume_world != 0) params.limits = &limits;
+    LatticeMesh proxy = make(params, counts);
+    if (params.limits != nullptr) keep_pairs_within(limits, proxy);
+    if (inside()) turn_over(proxy);
+    const StopReason stop = counts.simplify.stop;
+    counts.stopped_by = stop == StopReason::limits ? counts.simplify.limit : to_string(stop);
+    counts.measures = measure(proxy);
+    if (params_.distances) measure_distances(proxy, ground_.surface, *ground_.tree, counts.measures);
+    proxy.provenance = header_.provenance;
+    return proxy;
+  }
+
+  const StreamHeader& header_;
+  const PassContext& context_;
+  const ShelfFactory& make_shelf_;
+  PieceMemory memory_;  // what is left of it
+  MeshParams params_;
+  MeshCounts& counts_;
+  ProxyBounds bounds_;
+  Ground ground_;
+};
+
+}  // namespace
+
+std::vector<LatticeMesh> mesh_stream(BrickSource& source, const PassContext& context, MeshParams params,
+                                     MeshCounts& counts) {
+  counts = {};
+  check_params(params);
+  const StreamHeader& header = source.header();
+  check_fill(params, header);
+  const bool distances = params.error_world > 0 || params.distances;
+  const bool near_scene = params.mode == MeshMode::bounding && params.near && params.enclose == Enclose::scene;
+  const bool want_input = (params.tighten && (params.enclose == Enclose::input || near_scene)) ||
+                          (distances && params.distances_to.value_or(params.enclose) == Enclose::input);
+  const Shelves shelves = read_layers(source, context.make_shelf, want_input, counts);
+  counts.solid_volume_world = double(counts.voxels) * std::pow(header.frame.voxel, 3);
+  if (params.mode != MeshMode::inside) {
+    counts.repaired = repair_contacts(*shelves.meshed);
+    counts.solid_volume_world += double(counts.repaired) * std::pow(header.frame.voxel, 3);
+  }
+  return LevelMaker(header, context, std::move(params), counts).run(shelves);
+}
+
+}  // namespace bp

@@ -1,0 +1,303 @@
+#include <random>
+
+#include "lib/check/check_proxy.h"
+#include "lib/geometry/crossing.h"
+#include "lib/levels/lod_chain.h"
+#include "lib/pass/mesh/surface_around.h"
+#include "lib/volume/reduce.h"
+#include "tests/catch.h"
+#include "tests/support/memory_store.h"
+#include "tests/support/voxelized.h"
+
+namespace bp::test {
+
+namespace {
+
+LodOptions lod_options() {
+  LodOptions options;
+  options.context.make_shelf = memory_shelves();
+  return options;
+}
+
+/// 3 x 3 x 2 boxes that lie apart.
+Triangles boxes() {
+  Triangles scene;
+  for (int i = 0; i < 18; ++i) {
+    const Vec3d lo{10.0 * (i % 3), 11.0 * (i / 3 % 3), 9.0 * (i / 9)};
+    add_box(scene, lo, {lo[0] + 6, lo[1] + 5, lo[2] + 4});
+  }
+  return scene;
+}
+
+bool encloses(const LatticeMesh& mesh, const Triangles& scene) {
+  MemorySource source(scene);
+  return check_proxy(indexed(mesh), &source).holds();
+}
+
+Vec3d point_on(const TriangleD& t, std::mt19937& random) {
+  double u = double(random()) / 4294967296.0, v = double(random()) / 4294967296.0;
+  if (u + v > 1) u = 1 - u, v = 1 - v;
+  Vec3d p;
+  for (std::size_t i = 0; i < 3; ++i) p[i] = t[0][i] + u * (t[1][i] - t[0][i]) + v * (t[2][i] - t[0][i]);
+  return p;
+}
+
+/// Largest distance of sampled points of one to the other.
+double sampled_distance(const std::vector<TriangleD>& from, const std::vector<TriangleD>& to, int per_triangle) {
+  std::mt19937 random(7);
+  const TriangleBvh tree(to);
+  double largest = 0;
+  for (const TriangleD& t : from)
+    for (int i = 0; i < per_triangle; ++i)
+      largest = std::max(largest, std::sqrt(tree.nearest(point_on(t, random)).distance_squared));
+  return largest;
+}
+
+/// A box with a room of 40 x 40 x 30 in it, which has a hole of 4 x 4 in its roof and a post in its middle.
+Triangles hollow_box() {
+  Triangles scene;
+  add_box(scene, {0, 0, 0}, {50, 50, 5});
+  add_box(scene, {0, 0, 0}, {5, 50, 40});
+  add_box(scene, {45, 0, 0}, {50, 50, 40});
+  add_box(scene, {0, 0, 0}, {50, 5, 40});
+  add_box(scene, {0, 45, 0}, {50, 50, 40});
+  add_box(scene, {0, 0, 35}, {23, 50, 40});
+  add_box(scene, {27, 0, 35}, {50, 50, 40});
+  add_box(scene, {0, 0, 35}, {50, 23, 40});
+  add_box(scene, {0, 27, 35}, {50, 50, 40});
+  add_box(scene, {23, 23, 0}, {27, 27, 20});
+  return scene;
+}
+
+/// Largest distance of sampled points of `scene` outside `mesh`, which is closed, to it.
+double sampled_distance_beyond(const std::vector<TriangleD>& scene, const std::vector<TriangleD>& mesh,
+                               int per_triangle) {
+  std::mt19937 random(7);
+  const TriangleBvh tree(mesh);
+  double largest = 0;
+  for (const TriangleD& t : scene) {
+    for (int i = 0; i < per_triangle; ++i) {
+      const Vec3d p = point_on(t, random);
+      int winding = 0;
+      for (const TriangleD& face : mesh) winding += crossing_above(face, p);
+      if (winding < 1) largest = std::max(largest, std::sqrt(tree.nearest(p).distance_squared));
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("each level of a chain encloses the scene, on coarser voxels", "[quick][stage][lod]") {
+  Triangles scene;
+  add_sphere(scene, {3, 4, 5}, 40, 24);
+  add_box(scene, {-30, 30, -10}, {-10, 70, 10});
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 1);
+  LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
+  CHECK(chain.longest_side_vox() > 80);
+  int reductions = -1;
+  double error = 0;
+  for (const std::uint64_t faces : {2000, 400, 80}) {
+    CAPTURE(faces);
+    const LodLevel level = chain.make({faces, 0, {}});
+    CHECK(level.reached);
+    CHECK(level.mesh.triangles.size() <= faces);
+    CHECK(encloses(level.mesh, scene));
+    CHECK(level.reductions >= reductions);
+    CHECK(level.error_world > error);
+    reductions = level.reductions;
+    error = level.error_world;
+  }
+  CHECK(reductions == 0);  // so few voxels cost little
+  const LodLevel coarse = chain.make({0, 24, {}});
+  CHECK(coarse.reductions > 0);
+  CHECK(encloses(coarse.mesh, scene));
+}
+
+TEST_CASE("a budget takes no voxels so large that few are left", "[quick][stage][lod]") {
+  const LodGround ground{1, 2000, 33 * std::uint64_t(kLeastDenseFaces), 1000};
+  CHECK(reductions_for(ground, {100, 0, {}}, 64, 0) == 2);
+  CHECK(reductions_for(ground, {100000, 0, {}}, 64, 0) == 0);
+  CHECK(reductions_for(ground, {0, 64, {}}, 64, 0) == 3);  // of an error, eight to it
+}
+
+TEST_CASE("the scale is halved where that leaves few parts and holes, not where they take the faces",
+          "[quick][stage][lod]") {
+  const bool apart = GENERATE(false, true);
+  CAPTURE(apart);
+  Triangles scene = boxes();
+  if (!apart) add_box(scene, {-1, -1, -1}, {27, 28, 14});
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 0.125);
+  const double diagonal = solid.header.bounds.diagonal();
+  LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
+  const LodTarget target{apart ? 1700u : 500u, 0, {}};
+  const double scale = first_scale({0.125, diagonal, chain.dense_faces(), chain.longest_side_vox()}, target, 0);
+  REQUIRE(scale / 2 > 1.07 * 0.125);
+  CHECK(chain.make(target).scale_world == (apart ? scale : scale / 2));
+}
+
+TEST_CASE("a level of separate thin parts by faces is about as near as one by error", "[quick][stage][lod]") {
+  Triangles scene;
+  for (int i = 0; i < 9; ++i) {
+    const double x = 9.0 * (i % 3), z = 10.0 * (i / 3);
+    add_box(scene, {x, 0, z}, {x + 1, 30.0 + i, z + 1.5});
+  }
+  Backends backends = plain_backends(2);
+  Voxelized by_error = voxelized(scene, 0.2), by_faces = voxelized(scene, 0.2);
+  LodChain errors(by_error.header, std::move(by_error.shelf), backends, lod_options());
+  const LodLevel near = errors.make({0, 2, {}});
+  LodChain faces(by_faces.header, std::move(by_faces.shelf), backends, lod_options());
+  const LodLevel level = faces.make({near.mesh.triangles.size(), 0, {}});
+  CHECK(level.mesh.triangles.size() <= near.mesh.triangles.size());
+  CHECK(level.error_world < 2 * near.error_world);
+}
+
+TEST_CASE("a budget below what the parts need is met by closing them together", "[quick][stage][lod]") {
+  const Triangles scene = boxes();
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 0.5);
+  LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
+  const LodLevel level = chain.make({40, 0, 0.5});  // 18 parts need 72
+  CHECK(level.reached);
+  CHECK(level.mesh.triangles.size() <= 40);
+  CHECK(level.attempts > 1);
+  CHECK(level.scale_world == std::ldexp(0.5, level.attempts - 1));
+  CHECK(encloses(level.mesh, scene));
+}
+
+TEST_CASE("a budget that nothing meets is reported, and what there is encloses", "[quick][stage][lod]") {
+  const Triangles scene = boxes();
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 1);
+  LodOptions options = lod_options();
+  options.max_attempts = 2;
+  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+  const LodLevel level = chain.make({3, 0, 1.0});
+  CHECK_FALSE(level.reached);
+  CHECK(level.attempts == 2);
+  CHECK(encloses(level.mesh, scene));
+}
+
+TEST_CASE("the measured distance bounds that both ways, the error what can be seen, and not by far",
+          "[quick][stage][lod]") {
+  const Triangles scene = boxes();
+  const double voxel = 0.5;
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, voxel);
+  LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
+  for (const LodTarget& target : {LodTarget{0, 5, {}}, LodTarget{300, 0, 1.5}, LodTarget{60, 0, 4.0}}) {
+    const LodLevel level = chain.make(target);
+    const std::vector<TriangleD> proxy = world_triangles(level.mesh);
+    const double there = sampled_distance(proxy, scene, 200), back = sampled_distance(scene, proxy, 40);
+    CAPTURE(target.faces, there, back);
+    CHECK(level.error_world >= there);
+    CHECK(level.error_world <= 1.04 * there + 3 * voxel);
+    CHECK(level.distance_world >= std::max(there, back));
+    CHECK(level.distance_world <= 1.3 * std::max(there, back) + 2.5 * voxel);
+    if (target.error_world > 0) CHECK(there <= target.error_world);
+  }
+}
+
+TEST_CASE("a room that a level closes is no error of it", "[quick][stage][lod]") {
+  const Triangles scene = hollow_box();
+  Backends backends = plain_backends(2);
+  LodOptions options = lod_options();
+  options.mode = GENERATE(MeshMode::bounding, MeshMode::fit);
+  if (options.mode == MeshMode::fit) options.scene = scene;
+  Voxelized solid = voxelized(scene, 1);
+  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+  const LodLevel level = chain.make({60, 0, 3.0});  // the hole is at most 4 wide
+  CHECK(level.distance_world > 18);                 // of the post
+  CHECK(level.error_world < 8);
+}
+
+TEST_CASE("what sticks out of a fitted level is an error of it, what lies inside is none", "[quick][stage][lod]") {
+  Triangles scene = hollow_box();
+  add_box(scene, {20, 4, 20}, {22, 6, 80});  // a mast on the wall
+  Backends backends = plain_backends(2);
+  LodOptions options = lod_options();
+  options.mode = MeshMode::fit;
+  options.scene = scene;
+  double largest = 0;
+  for (const std::uint64_t faces : {40, 10, 4}) {
+    Voxelized solid = voxelized(scene, 1);
+    LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+    const LodLevel level = chain.make({faces, 0, 3.0});
+    const std::vector<TriangleD> fit = world_triangles(level.mesh);
+    const double there = sampled_distance(fit, scene, 500), beyond = sampled_distance_beyond(scene, fit, 200);
+    CAPTURE(faces, level.mesh.triangles.size(), there, beyond, level.distance_world);
+    CHECK(level.error_world >= std::max(there, beyond));
+    CHECK(level.error_world <= 1.04 * std::max(there, beyond) + 3);
+    if (beyond > there) largest = std::max(largest, beyond);
+  }
+  CHECK(largest > 5);  // of the mast, somewhere
+}
+
+TEST_CASE("fitted levels keep their budgets and lie nearer to the scene than bounding ones", "[quick][stage][lod]") {
+  Triangles scene;
+  add_sphere(scene, {3, 4, 5}, 20, 24);
+  Backends backends = plain_backends(2);
+  LodOptions options = lod_options();
+  double error[2] = {};
+  for (const bool fit : {false, true}) {
+    options.mode = fit ? MeshMode::fit : MeshMode::bounding;
+    if (fit) options.scene = scene;
+    Voxelized solid = voxelized(scene, 1);
+    LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+    const LodLevel level = chain.make({200, 0, {}});
+    CHECK(level.mesh.triangles.size() <= 200);
+    CHECK(check_proxy(indexed(level.mesh), nullptr).holds());
+    const std::vector<TriangleD> proxy = world_triangles(level.mesh);
+    error[fit] = std::max(sampled_distance(proxy, scene, 50), sampled_distance(scene, proxy, 5));
+    CHECK(error[fit] <= level.error_world);
+  }
+  CHECK(error[1] < error[0]);
+}
+
+TEST_CASE("levels keep to their memory, and are the same", "[quick][stage][lod]") {
+  Triangles scene;
+  add_sphere(scene, {3, 4, 5}, 20, 24);
+  Backends backends = plain_backends(2);
+  const auto make = [&](const LodOptions& options) {
+    Voxelized solid = voxelized(scene, 0.5);
+    LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+    return chain.make({200, 0, {}});
+  };
+  LodOptions options = lod_options();
+  const LodLevel level = make(options);
+  std::uint64_t put = 0, held = 0;
+  options.context.pieces.waiting_bytes = 0;
+  options.context.pieces.work_bytes = std::uint64_t(64) << 20;
+  options.context.pieces.make_scratch = [&] { return std::make_unique<MemoryStore>(put, held); };
+  const LodLevel spilled = make(options);
+  CHECK(put > 0);
+  CHECK(held == 0);
+  CHECK(spilled.mesh.vertices == level.mesh.vertices);
+  CHECK(spilled.mesh.triangles == level.mesh.triangles);
+
+  options.context.pieces.work_bytes = std::uint64_t(1) << 20;
+  CHECK_THROWS_AS(make(options), Error);
+  options = lod_options();
+  // The outside of the scene takes more than 1 MiB, a tile that is closed more than 6 MiB.
+  for (const int mebibytes : {1, 6}) {
+    const MemoryLimit limit{std::uint64_t(2 * mebibytes) << 20, 0};
+    options.context.memory = {std::uint64_t(mebibytes) << 20, 0.5, limit};
+    try {
+      (void)make(options);
+      FAIL("fits in " << mebibytes << " MiB");
+    } catch (const NeedsMemory& e) {
+      CHECK(std::string(e.what()).find(mebibytes == 1 ? "measuring" : "closing") == 0);
+      CHECK(e.memory_bytes() > limit.bytes);
+    }
+  }
+}
+
+TEST_CASE("an empty solid is refused", "[quick][stage][lod]") {
+  Backends backends = plain_backends(2);
+  StreamHeader header;
+  CHECK_THROWS_AS(LodChain(header, std::make_unique<MemoryShelf>(), backends, lod_options()), Error);
+}
+
+}  // namespace bp::test

@@ -1,0 +1,164 @@
+#include <random>
+
+#include "lib/device/cpu/cpu_backend.h"
+#include "lib/pass/hide/hidden_pass.h"
+#include "tests/catch.h"
+#include "tests/reference/closing.h"
+#include "tests/reference/flood.h"
+#include "tests/support/memory_scene.h"
+#include "tests/support/voxel_source.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+constexpr VoxelBox kBox{{0, 0, 0}, {72, 40, 40}};
+
+struct Made {
+  BitBox bits;
+  std::uint64_t count = 0;
+};
+
+Made made(const Solid& touched, double scale, StructuringElement element, std::int32_t threads = 2) {
+  VoxelSource source(kBox, touched);
+  MemoryShelf shelf;
+  Brick brick;
+  while (source.read(brick)) shelf.put(brick.coord, brick.fill, brick.bits);
+  StreamHeader header = source.header();
+  header.slab_axis = longest_axis(header.bricks);
+  Backends backends = plain_backends(threads);
+  HiddenOptions options;
+  options.scale_world = scale;
+  options.element = element;
+  options.context.make_shelf = memory_shelves();
+  const HiddenVoxels hidden = hidden_voxels(header, shelf, backends, options);
+  Made out{BitBox(voxels_of(bricks_of(kBox))), hidden.count};
+  load_voxels(*hidden.voxels, out.bits);
+  return out;
+}
+
+bool beside(const BitBox& bits, VoxelCoord p) {
+  for (VoxelCoord d{-1, -1, -1}; d.x < 2; ++d.x)
+    for (d.y = -1; d.y < 2; ++d.y)
+      for (d.z = -1; d.z < 2; ++d.z)
+        if (bits.test(p + d)) return true;
+  return false;
+}
+
+/// The definition, voxel by voxel.
+BitBox defined(const Solid& touched, double scale, StructuringElement element) {
+  const VoxelBox wide = kBox.grown(16);
+  BitBox g(wide);
+  copy_voxels(bits_of(kBox, touched), g);
+  ScaleField field;
+  field.base = scale;
+  const BitBox e = reference::close(g, field.sample(GridFrame{}, wide.grown(16)), element, wide);
+  const BitBox filled = reference::fill_enclosed(e, wide);
+  BitBox walls = g, seen(wide), seen_more(wide), hidden(voxels_of(bricks_of(kBox)));
+  for (std::int64_t i = 0; i < walls.word_count(); ++i) walls.data()[i] |= filled.data()[i] & ~e.data()[i];
+  const BitBox unreached = reference::fill_enclosed(walls, wide);
+  const auto each = [&](const auto& f) {
+    for (VoxelCoord p = wide.min; p.z < wide.max.z; ++p.z)
+      for (p.y = wide.min.y; p.y < wide.max.y; ++p.y)
+        for (p.x = wide.min.x; p.x < wide.max.x; ++p.x) f(p);
+  };
+  BitBox reached(wide);
+  each([&](VoxelCoord p) {
+    if (!unreached.test(p)) reached.set(p);
+  });
+  each([&](VoxelCoord p) {
+    if (g.test(p) && beside(reached, p)) seen.set(p);
+  });
+  each([&](VoxelCoord p) {
+    if (g.test(p) && beside(seen, p)) seen_more.set(p);
+  });
+  each([&](VoxelCoord p) {
+    if (unreached.test(p) && !seen.test(p) && !seen_more.test(p)) hidden.set(p);
+  });
+  return hidden;
+}
+
+/// A room from (8,8,8) to (40,32,32) with walls of three voxels, and a door in it, 6 voxels wide.
+bool room(VoxelCoord p) {
+  const auto within = [&](int margin) {
+    return p.x >= 8 + margin && p.x < 40 - margin && p.y >= 8 + margin && p.y < 32 - margin && p.z >= 8 + margin &&
+           p.z < 32 - margin;
+  };
+  const bool door = p.x >= 37 && p.y >= 16 && p.y < 22 && p.z >= 11 && p.z < 24;
+  return within(0) && !within(3) && !door;
+}
+
+}  // namespace
+
+TEST_CASE("hidden voxels are those of the definition", "[quick][stage][occluder]") {
+  const auto element = GENERATE(StructuringElement::ball, StructuringElement::cube);
+  const double scale = GENERATE(0.0, 2.0, 3.5);
+  const int seed = GENERATE(0, 1, 2);
+  std::mt19937 random(unsigned(seed) * 7 + 1);
+  std::vector<VoxelBox> plates;
+  for (int i = 0; i < 14; ++i) {
+    const auto number = [&](int most) { return std::int32_t(random() % unsigned(most)); };
+    const VoxelCoord at{number(50), number(28), number(28)};
+    VoxelCoord size{6 + number(12), 6 + number(8), 6 + number(8)};
+    size[i % 3] = 2;
+    plates.push_back({at, at + size});
+  }
+  const Solid touched = [&](VoxelCoord p) {
+    return room(p) || std::any_of(plates.begin(), plates.end(), [&](const VoxelBox& b) { return b.contains(p); });
+  };
+  CAPTURE(scale, seed);
+  const Made got = made(touched, scale, element);
+  CHECK(got.bits == defined(touched, scale, element));
+  CHECK(got.count == got.bits.count());
+  CHECK(got.bits == made(touched, scale, element, 1).bits);
+}
+
+TEST_CASE("a room is hidden once its door is closed, and nothing before its walls ever is",
+          "[quick][stage][occluder]") {
+  const VoxelCoord middle{20, 20, 20}, in_door{38, 18, 14};
+  const Made open = made(room, 2, StructuringElement::cube);
+  CHECK_FALSE(open.bits.test(middle));
+  const Made closed = made(room, 3, StructuringElement::cube);
+  CHECK(closed.bits.test(middle));
+  CHECK_FALSE(closed.bits.test(in_door));
+  const Solid corner = [](VoxelCoord p) {
+    return room(p) || (p.x >= 40 && p.x < 60 && p.y >= 8 && p.y < 10 && p.z >= 8 && p.z < 32);
+  };
+  const Made beside_wall = made(corner, 3, StructuringElement::cube);
+  for (VoxelCoord p{40, 8, 8}; p.z < 32; ++p.z)
+    for (p.y = 8; p.y < 32; ++p.y)
+      for (p.x = 40; p.x < 60; ++p.x) REQUIRE_FALSE(beside_wall.bits.test(p));  // the closing adds some in the corner
+}
+
+TEST_CASE("an alley that the closing fills is not hidden", "[quick][stage][occluder]") {
+  const Solid houses = [](VoxelCoord p) {
+    return p.y >= 8 && p.y < 30 && p.z >= 8 && p.z < 30 && p.x >= 8 && p.x < 60 && !(p.x >= 30 && p.x < 34);
+  };
+  const Made alley = made(houses, 4, StructuringElement::cube);
+  CHECK(alley.bits.test({20, 20, 20}));
+  CHECK_FALSE(alley.bits.test({32, 20, 20}));
+}
+
+TEST_CASE("an opening leaves what is wider than twice the scale", "[quick][stage][occluder]") {
+  const Solid shape = [](VoxelCoord p) {
+    const bool block = p.x >= 4 && p.x < 24 && p.y >= 4 && p.y < 24 && p.z >= 4 && p.z < 24;
+    return block || (p.x >= 24 && p.x < 60 && p.y >= 8 && p.y < 11 && p.z >= 8 && p.z < 11);
+  };
+  VoxelSource source(kBox, shape);
+  MemoryShelf shelf;
+  Brick brick;
+  while (source.read(brick)) shelf.put(brick.coord, brick.fill, brick.bits);
+  Backends backends = plain_backends(1);
+  HiddenOptions options;
+  options.context.make_shelf = memory_shelves();
+  options.scale_world = 4;
+  const auto opened = opening(source.header(), shelf, backends, options);
+  REQUIRE(opened);
+  BitBox bits(voxels_of(bricks_of(kBox)));
+  load_voxels(*opened, bits);
+  CHECK(bits.test({14, 14, 14}));
+  CHECK_FALSE(bits.test({40, 9, 9}));
+  options.scale_world = 30;
+  CHECK(opening(source.header(), shelf, backends, options) == nullptr);
+}

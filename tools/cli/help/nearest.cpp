@@ -1,0 +1,56 @@
+#include "tools/cli/help/nearest.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace bp {
+
+namespace {
+
+/// Changes that make `b` of `a`: the optimal string alignment distance.
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        d[i][j] = i + j;
+        continue;
+      }
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  }
+  return d[a.size()][b.size()];
+}
+
+std::string lowered(std::string text) {
+  for (char& c : text) c = char(std::tolower((unsigned char)c));
+  return text;
+}
+
+}  // namespace
+
+std::string nearest_word(const std::string& slip, const std::vector<std::string>& words) {
+  constexpr std::size_t kLongest = 64, kLettersPerChange = 3;
+  const std::string text = lowered(slip);
+  const std::size_t dashes = std::min(text.find_first_not_of('-'), text.size()), letters = text.size() - dashes;
+  if (letters < 2 || text.size() > kLongest) return "";
+  std::string nearest;
+  std::size_t least = letters / kLettersPerChange + 1;  // exclusive
+  for (const std::string& word : words) {
+    if (word.starts_with(text)) return word;
+    const std::size_t changes = distance(text, word);
+    if (changes >= least) continue;
+    least = changes;
+    nearest = word;
+  }
+  return nearest;
+}
+
+std::string did_you_mean(const std::string& slip, const std::vector<std::string>& words) {
+  const std::string word = nearest_word(slip, words);
+  return word.empty() ? "" : "; did you mean " + word + "?";
+}
+
+}  // namespace bp

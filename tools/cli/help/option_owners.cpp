@@ -1,0 +1,84 @@
+#include "tools/cli/help/option_owners.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "tools/cli/help/nearest.h"
+
+namespace bp {
+
+namespace {
+
+/// Which tools have an option, of those that not all of the pipe's tools have. A golden case (manuals) holds it against
+/// the tools.
+struct OptionOfTools {
+  const char *option, *tools;
+};
+constexpr OptionOfTools kOptionsOfTools[] = {
+    {"--cache", "bplod"},
+    {"--checksum", "bpinfo"},
+    {"--colors", "bplod"},
+    {"--convex", "bpcheck"},
+    {"--device", "bpclose and bplod"},
+    {"--dump", "bpinfo"},
+    {"--edge-length", "bpmesh"},
+    {"--element", "bpclose and bplod"},
+    {"--enclose", "bpmesh and bplod"},
+    {"--error", "bpmesh and bplod"},
+    {"--explain", "bplod"},
+    {"--faces", "bpmesh and bplod"},
+    {"--field", "bpclose"},
+    {"--fill", "bpvox and bplod"},
+    {"--format", "bpvox, bpmesh, bpcheck, bplod and bpinfo"},
+    {"--hulls", "bplod"},
+    {"--image", "bpinfo"},
+    {"--image-size", "bpinfo"},
+    {"--inner", "bpclose"},
+    {"--inset", "bpmesh"},
+    {"--inside", "bpcheck"},
+    {"--json", "bpcheck and bpinfo"},
+    {"--keep-cavities", "bpclose"},
+    {"--least-part", "bpmesh"},
+    {"--level", "bpinfo"},
+    {"--levels", "bplod"},
+    {"--look-at", "bpinfo"},
+    {"--memory", "bpvox, bpclose, bpmesh, bpcheck and bplod"},
+    {"--mode", "bpmesh and bplod"},
+    {"--name", "bplod"},
+    {"--origin", "bpmesh, bpcheck and bplod"},
+    {"--output", "bpvox, bpclose, bpmesh and bplod"},
+    {"--profile", "bplod"},
+    {"--progress", "bpvox, bpclose, bpmesh, bpcheck and bplod"},
+    {"--quads", "bpmesh"},
+    {"--quiet", "bpvox, bpclose, bpmesh, bpcheck and bplod"},
+    {"--report", "bpvox, bpclose, bpmesh, bpcheck and bplod"},
+    {"--resolution", "bpvox and bplod"},
+    {"--samples", "bpcheck"},
+    {"--scale", "bpclose and bplod"},
+    {"--temp", "bpvox, bpclose, bpmesh, bpcheck and bplod"},
+    {"--tile", "bplod"},
+    {"--tiles", "bplod"},
+    {"--up", "bpvox, bplod and bpinfo"},
+    {"--view", "bpinfo"},
+    {"--volume", "bpmesh"},
+    {"--voxel", "bpvox and bplod"},
+    {"--zoom", "bpinfo"},
+};
+
+}  // namespace
+
+std::string owner_of(const std::string& tool, const std::string& name, bool similar) {
+  constexpr const char* kPipe[] = {"bpvox", "bpclose", "bpmesh", "bpcheck", "bplod", "bpinfo"};
+  if (std::find(std::begin(kPipe), std::end(kPipe), tool) == std::end(kPipe)) return "";
+  std::vector<std::string> names;
+  for (const OptionOfTools& o : kOptionsOfTools) names.push_back(o.option);
+  const std::string meant = similar ? nearest_word(name, names) : name;
+  for (const OptionOfTools& o : kOptionsOfTools) {
+    if (o.option == meant) return fmt::format("; {} is an option of {}", meant, o.tools);
+  }
+  return "";
+}
+
+}  // namespace bp
