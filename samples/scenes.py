@@ -207,7 +207,7 @@ def tower(s, rand, x, y):
 def main():
     scenes = {"house": house, "truck": truck, "figure": figure, "city": city}
     names = sys.argv[2:] or list(scenes)
-    if len(sys.argv) < 2 or not set(names) <= set(scenes):
+    if len(sys.argv) < 2 or sys.argv[1].startswith("-") or not set(names) <= set(scenes):
         sys.exit(__doc__)
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)

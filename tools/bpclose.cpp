@@ -33,7 +33,7 @@ struct Options {
 Options parse(bp::Args& args) {
   Options o;
   args.about("Closes a stream of voxels: gaps, holes and grooves narrower than the scale are filled.");
-  args.example("bpvox plant.glb --voxel 0.1 | bpclose --scale 2 | bpmesh --faces 5000 -o proxy.glb");
+  args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
   args.positional("INPUT", o.in, "stream of voxels; - is stdin");
   args.group("Files");
   args.option("-o,--output", "FILE", o.out, "stream of voxels, with the closing; - is stdout");

@@ -36,7 +36,7 @@ struct Options {
 Options parse(bp::Args& args) {
   Options o;
   args.about("Turns scenes of any size into a stream of voxels: all voxels that the surface touches, and the inside.");
-  args.example("bpvox plant.glb --voxel 0.1 | bpclose --scale 2 | bpmesh --faces 5000 -o proxy.glb");
+  args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
   o.voxels.add_scenes(args, "scenes, voxelized together");
   args.option("-o,--output", "FILE", o.out, "stream of voxels; - is stdout");
   o.voxels.add_with_inside(args, std::to_string(kDefaultResolution));

@@ -76,7 +76,7 @@ VoxelBox voxel_bounds(const GridFrame& frame, const Bounds3d& bounds) {
   constexpr double kReach = double(kBrickReach) * kBrickEdge - 2;
   VoxelBox box;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!(lo[i] >= -kReach && hi[i] <= kReach))
+    if (!(lo[i] >= -kReach && lo[i] <= hi[i] && hi[i] <= kReach))  // empty bounds are infinite
       fail(ErrorCode::bad_argument, "the scene leaves a grid of 2^31 voxels a side; use larger voxels");
     box.min[int(i)] = std::int32_t(std::floor(lo[i])) - 1;
     box.max[int(i)] = std::int32_t(std::floor(hi[i])) + 2;

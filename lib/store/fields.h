@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <type_traits>
 
-/// All members of a struct, in their order. What goes through them cannot forget one: a struct of more than 10 members,
+/// All members of a struct, in their order. What goes through them cannot forget one: a struct of more than 12 members,
 /// or one that is not an aggregate, does not compile.
 namespace bp {
 

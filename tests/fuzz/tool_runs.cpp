@@ -88,7 +88,9 @@ bool begins_with_name(const std::string& line, const std::string& tool) {
 const char* fault_of(const ToolResult& result, const std::string& tool) {
   const int status = result.status;
   const auto says = [&](const char* text) { return result.messages.find(text) != std::string::npos; };
-  if (says((tool + ": unexpected").c_str())) return "fails in a way that nobody foresaw";
+  const std::string unforeseen = tool + ": unexpected";  // at the beginning of a line: an input may hold these words
+  if (result.messages.starts_with(unforeseen) || says(("\n" + unforeseen).c_str()))
+    return "fails in a way that nobody foresaw";
   if ((status == 1 || status == 5) && tool == "bpcheck") return nullptr;  // no, not decided
   if (status == 1 && says("cannot write")) return nullptr;
   if (status != 0 && (status < 2 || status > 4)) return "ends with a status that it should not";

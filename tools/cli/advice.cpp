@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "tools/cli/help/option_owners.h"
+
 namespace bp {
 
 namespace {
@@ -66,14 +68,25 @@ const char* text_of(Remedy remedy) {
   return "";
 }
 
+/// Whether `tool` has the option that an advice names; an advice that names another tool is for that one.
+bool is_for(const std::string& tool, std::string_view advice) {
+  const std::size_t at = advice.find("--");
+  if (at == std::string_view::npos || advice.find("bpvox") != std::string_view::npos) return true;
+  return may_have_option(tool, std::string(advice.substr(at, advice.find(' ', at) - at)));
+}
+
 }  // namespace
 
-std::string advised(const Error& error) {
+std::string advised(const Error& error, const std::string& tool) {
   std::string text = error.what();
-  bool first = text.find("; ") == std::string::npos;  // nothing is advised yet
+  const std::size_t fact = text.rfind(": ");
+  bool first = text.find("; ", fact == std::string::npos ? 0 : fact) == std::string::npos;  // nothing is advised yet
   std::string_view before;
-  for (const Remedy& remedy : error.remedies()) {
-    const bool last = &remedy == &error.remedies().back();
+  Remedies remedies;
+  for (const Remedy remedy : error.remedies())
+    if (is_for(tool, text_of(remedy))) remedies.push_back(remedy);
+  for (const Remedy& remedy : remedies) {
+    const bool last = &remedy == &remedies.back();
     text += first ? "; " : last ? ", or " : ", ";
     std::string_view words = text_of(remedy);
     if (before.starts_with("use ") && words.starts_with("use ")) words.remove_prefix(4);  // is said already

@@ -61,7 +61,7 @@ int complain(const char* tool, std::string message, int status) {
 
 int complain(const char* tool, const Error& e) {
   if (e.code() == ErrorCode::closed_pipe) return exit_code(e.code());
-  return complain(tool, advised(e), exit_code(e.code()));
+  return complain(tool, advised(e, tool), exit_code(e.code()));
 }
 
 }  // namespace

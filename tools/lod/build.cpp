@@ -101,9 +101,12 @@ void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_tol
   if (const std::string text = skipped(scene.counts.scene); !text.empty()) note("skipped " + text);
   note(up_note(size.bounds, options.voxels.up || up_told));
   for (const std::string& path : options.voxels.scenes) {
-    if (!options.colors) break;
+    const bool occluder = options.profile == LodProfile::occluder;
+    if (!options.colors && !occluder) break;
     for (const std::string& file : missing_materials(path))
-      note(fmt::format("{}: {} is not there, and its colours are lost", path, file));
+      note(fmt::format("{}: {} is not there, {}", path, file,
+                       occluder ? "so nobody knows what is glass: all of the scene is taken for walls"
+                                : "and its colours are lost"));
   }
   note(voxel_note(options, size));
   note(origin_note(options, scene.header));

@@ -65,6 +65,7 @@ std::vector<TriangleD> read_files(const std::vector<std::string>& files, const E
     all.insert(all.end(), chunk.begin(), chunk.end());
     check_memory(scene->name(), all.size(), in);
   }
+  if (all.empty()) fail(ErrorCode::bad_input, "{}: no triangles; there is nothing to enclose", scene->name());
   return all;
 }
 

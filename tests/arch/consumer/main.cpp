@@ -1,7 +1,10 @@
 #include "io/files/file.h"
+#include "lib/check/check_proxy.h"
 #include "lib/core/error.h"
 #include "lib/core/grid_frame.h"
 #include "lib/core/parallel.h"
+#include "lib/levels/level_chain.h"
+#include "lib/pass/mesh/mesh_pass.h"
 
 int main() {
   bp::Bounds3d bounds;

@@ -10,6 +10,11 @@ TEST_CASE("the advice on an error names the options that would help", "[quick][t
         "x.glb: exists; add --overwrite to replace it");
   CHECK(advised(Error(ErrorCode::bad_argument, "a; repair it", {Remedy::use_cpu})) ==
         "a; repair it, or use --device cpu");
+  CHECK(advised(Error(ErrorCode::bad_argument, "a; b.bpv: exists", {Remedy::overwrite})) ==
+        "a; b.bpv: exists; add --overwrite to replace it");
+  const Error tiles(ErrorCode::bad_argument, "too many", {Remedy::larger_voxels, Remedy::larger_tiles});
+  CHECK(advised(tiles, "bpclose") == "too many; use larger voxels");  // it has no --tile
+  CHECK(advised(tiles, "bplod") == "too many; use larger voxels, or a larger --tile");
   const std::uint64_t mib = std::uint64_t(1) << 20;
   CHECK(advised(NeedsMemory("closing a tile", 7 * mib, 3 * mib, 0)) ==
         "closing a tile takes 8 MiB, and the limit on memory leaves 3 MiB for it; raise --memory");

@@ -67,11 +67,15 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--zoom", "bpinfo"},
 };
 
+bool is_of_pipe(const std::string& tool) {
+  constexpr const char* kPipe[] = {"bpvox", "bpclose", "bpmesh", "bpcheck", "bplod", "bpinfo"};
+  return std::find(std::begin(kPipe), std::end(kPipe), tool) != std::end(kPipe);
+}
+
 }  // namespace
 
 std::string owner_of(const std::string& tool, const std::string& name, bool similar) {
-  constexpr const char* kPipe[] = {"bpvox", "bpclose", "bpmesh", "bpcheck", "bplod", "bpinfo"};
-  if (std::find(std::begin(kPipe), std::end(kPipe), tool) == std::end(kPipe)) return "";
+  if (!is_of_pipe(tool)) return "";
   std::vector<std::string> names;
   for (const OptionOfTools& o : kOptionsOfTools) names.push_back(o.option);
   const std::string meant = similar ? nearest_word(name, names) : name;
@@ -79,6 +83,13 @@ std::string owner_of(const std::string& tool, const std::string& name, bool simi
     if (o.option == meant) return fmt::format("; {} is an option of {}", meant, o.tools);
   }
   return "";
+}
+
+bool may_have_option(const std::string& tool, const std::string& name) {
+  if (!is_of_pipe(tool)) return true;
+  for (const OptionOfTools& o : kOptionsOfTools)
+    if (o.option == name) return std::string(o.tools).find(tool) != std::string::npos;
+  return true;
 }
 
 }  // namespace bp

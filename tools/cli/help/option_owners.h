@@ -7,4 +7,7 @@ namespace bp {
 /// pipe, too; else nothing. `similar`: a slip will do.
 [[nodiscard]] std::string owner_of(const std::string& tool, const std::string& name, bool similar);
 
+/// False if `tool` belongs to the pipe and has no such option.
+[[nodiscard]] bool may_have_option(const std::string& tool, const std::string& name);
+
 }  // namespace bp
