@@ -7,14 +7,15 @@ target_compile_definitions(bp_compile_options INTERFACE BP_VERSION="${PROJECT_VE
 
 # Same bytes from every build: no contraction of a*b+c, no reassociation. Exact predicates depend on it.
 target_compile_options(bp_compile_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+# Warnings are ours, not those of who uses an installed copy.
 target_compile_options(
   bp_compile_options
-  INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual>)
+  INTERFACE "$<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wnon-virtual-dtor;-Woverloaded-virtual>>")
 if(BP_WERROR)
-  target_compile_options(bp_compile_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
+  target_compile_options(bp_compile_options INTERFACE $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Werror>>)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # False at -O3 for "text" + std::string (GCC bug 105651): shown, but no reason to stop.
-    target_compile_options(bp_compile_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-error=restrict>)
+    target_compile_options(bp_compile_options INTERFACE $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wno-error=restrict>>)
   endif()
 endif()
 
