@@ -148,7 +148,7 @@ TEST_CASE("the voxels of a chunk are those of its triangles, also on their way o
   test::MemoryShelf shelf;
   BrickSum sum(grid, memory, shelf);
   std::atomic<int> refused{0};
-  parallel_for(8, [&](std::int64_t i) {
+  parallel_for(8, [&, &frame = frame, &grid = grid](std::int64_t i) {
     const auto n = scene.size() / 8 + 1, begin = std::min(scene.size(), std::size_t(i) * n);
     const auto part = std::span(scene).subspan(begin, std::min(n, scene.size() - begin));
     refused += !sum.add(*chunk_voxels(part, frame, grid));
