@@ -86,11 +86,7 @@ bp::CloseOptions stage_options(const Options& o, std::uint64_t pinned, bp::Progr
   options.keep_cavities = o.keep_cavities || o.inner;  // the cavities of the complement are the solid
   options.context.memory = {usable / 2, 0.5, limit};
   options.context.make_shelf = bp::make_shelf_factory(usable / 5 * 2, o.common.temp);
-  options.context.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
-                                                               std::uint64_t total) mutable {
-    if (last != stage) progress.begin(last = stage, total, unit);
-    progress.set(done, total);
-  };
+  options.context.progress = progress.for_pass();
   return options;
 }
 

@@ -9,6 +9,7 @@
 #include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
+#include "lib/levels/voxel_choice.h"
 #include "lib/pass/voxelize/voxelize_pass.h"
 #include "tools/cli/names.h"
 #include "tools/cli/options/voxel.h"
@@ -25,8 +26,6 @@
 
 namespace {
 
-constexpr std::int64_t kDefaultResolution = 256;
-
 struct Options {
   bp::CommonOptions common;
   bp::VoxelOptions voxels;
@@ -39,7 +38,7 @@ Options parse(bp::Args& args) {
   args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
   o.voxels.add_scenes(args, "scenes, voxelized together");
   args.option("-o,--output", "FILE", o.out, "stream of voxels; - is stdout");
-  o.voxels.add_with_inside(args, std::to_string(kDefaultResolution));
+  o.voxels.add_with_inside(args, std::to_string(bp::kDefaultResolution));
   o.common.add_to(args, bp::CommonOptions::all_parts & ~unsigned(bp::CommonOptions::device_part));
   args.removed("--device", "bpvox always computes on the CPU");
   args.often({"--output", "--voxel", "--resolution", "--fill", "--up", "--overwrite"});
@@ -55,7 +54,7 @@ bp::OptionText option_text(const Options& o, bp::UpAxis up, bool told) {
   if (o.voxels.voxel) {
     text.add("voxel", *o.voxels.voxel);
   } else {
-    text.add("resolution", o.voxels.resolution.value_or(kDefaultResolution));
+    text.add("resolution", o.voxels.resolution.value_or(bp::kDefaultResolution));
   }
   text.add("fill", name_of(o.voxels.fill)).add("up", name_of(up));
   if (told && up == bp::UpAxis::y) text.add(bp::kUpTold, true);
@@ -64,7 +63,7 @@ bp::OptionText option_text(const Options& o, bp::UpAxis up, bool told) {
 
 /// Asked for when the scene has been read once.
 double voxel_size(const Options& o, const bp::Bounds3d& bounds) {
-  if (!o.voxels.voxel) return bp::voxel_size_of(bounds, o.voxels.resolution.value_or(kDefaultResolution));
+  if (!o.voxels.voxel) return bp::voxel_size_of(bounds, o.voxels.resolution.value_or(bp::kDefaultResolution));
   bp::question_voxel("--voxel", *o.voxels.voxel, bounds);
   return o.voxels.voxel->in_world(bounds.diagonal(), 0);
 }
@@ -90,11 +89,7 @@ bp::VoxelizeOptions stage_options(const Options& o, const bp::VoxelizeBudget& bu
   v.tile_memory_bytes = budget.tiles;
   v.context.make_shelf = bp::make_shelf_factory(budget.shelf, o.common.temp);
   v.context.make_scratch = [&o, budget] { return bp::make_scratch(budget.store, o.common.temp); };
-  v.context.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
-                                                         std::uint64_t total) mutable {
-    if (last != stage) progress.begin(last = stage, total, unit);
-    progress.set(done, total);
-  };
+  v.context.progress = progress.for_pass();
   return v;
 }
 

@@ -9,7 +9,6 @@ constexpr int kCell = 8;           ///< voxels along one side of the cells in wh
 constexpr int kUnit = 16;          ///< outputs that one thread of the y and z passes holds in registers
 constexpr int kRowGroup = 8;       ///< inputs that the y and z passes take or skip at a time
 constexpr int kPassThreads = 256;  ///< threads of a block in all passes
-constexpr int kWindowRun = 32;     ///< outputs of one thread of a window pass, at most
 /// Seeds around a word of a row beyond which the row pass looks around each voxel rather than at each seed (varying
 /// scale).
 constexpr int kFewSeeds = 12;

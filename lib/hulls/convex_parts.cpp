@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 
+#include "lib/core/disjoint_sets.h"
 #include "lib/core/parallel.h"
 #include "lib/hulls/convex_budget.h"
 #include "lib/hulls/detail/convex_cut.h"
@@ -19,11 +19,6 @@ namespace bp {
 namespace {
 
 using Face = std::array<std::uint32_t, 3>;
-
-std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
 
 /// The part of `mesh` made of these faces, with only the vertices that they use, in the order of first use.
 LatticeMesh part_of(const LatticeMesh& mesh, const std::vector<Face>& faces) {
@@ -141,15 +136,14 @@ std::vector<ConvexHull> few_hulls(const std::vector<Wrapped>& wrapped, std::size
 }  // namespace
 
 std::vector<LatticeMesh> components_of(const LatticeMesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0u);
+  DisjointSets joined(mesh.vertices.size());
   for (const Face& f : mesh.triangles) {
-    for (const std::uint32_t v : f) parent[find_root(parent, v)] = find_root(parent, f[0]);
+    for (const std::uint32_t v : f) joined.unite(v, f[0]);
   }
   std::map<std::uint32_t, std::size_t> number;
   std::vector<std::vector<Face>> faces;
   for (const Face& f : mesh.triangles) {
-    const auto [found, is_new] = number.emplace(find_root(parent, f[0]), faces.size());
+    const auto [found, is_new] = number.emplace(joined.find(f[0]), faces.size());
     if (is_new) faces.emplace_back();
     faces[found->second].push_back(f);
   }

@@ -29,8 +29,7 @@ struct TileLevel {
 struct TileShape {
   MeshMode mode = MeshMode::bounding;  ///< bounding or fit
   Enclose enclose = Enclose::input;    ///< of bounding tiles: closing or input
-  bool tighten = true;
-  double scale_world = 0;  ///< that the closing was made with
+  double scale_world = 0;              ///< that the closing was made with
   StructuringElement element = StructuringElement::cube;
   std::uint64_t faces = 0;  ///< of each tile; 0: kDenseFacesPerFace
   /// Largest distance of a tile to what it encloses; 0: none. A budget of faces has no meaning then.

@@ -204,7 +204,6 @@ struct LodChain::State {
 
   std::unique_ptr<BrickShelf> closing_at(double scale) {
     CloseOptions o;
-    o.keep_cavities = options.keep_cavities;
     o.context = context;
     return close_shelf(header, *solid, backends, scale, options.closing, o);
   }
@@ -254,7 +253,6 @@ struct LodChain::State {
                                     target.error_world / 4);
     params.near = true;
     params.mode = options.mode;
-    params.tighten = options.tighten;
     params.quads = options.quads;
     params.enclose = options.enclose;
     if (options.enclose == Enclose::scene) {  // distances are to its voxels, as without

@@ -52,10 +52,8 @@ struct LodOptions {
   /// Voxels of the solid that hold a point of what the scene shows to the outside; null: those of its boundary.
   std::shared_ptr<const BrickShelf> surface;
   double least_scale_world = 0;  ///< no level is closed at less
-  bool tighten = true;
-  bool quads = false;  ///< join triangles in pairs (lib/quads/quads.h)
-  bool keep_cavities = false;
-  int max_attempts = 12;  ///< at most so many scales for one level
+  bool quads = false;            ///< join triangles in pairs (lib/quads/quads.h)
+  int max_attempts = 12;         ///< at most so many scales for one level
   /// The memory is for tiles at work and, between, for surfaces. The scene's outside, and `scene`, come off both.
   PassContext context;
 };

@@ -18,7 +18,6 @@ std::unique_ptr<BrickShelf> TilePyramid::closing_at(double scale_world) {
   CellClosing o;
   o.cells = options_.cells;
   o.closing = options_.closing;
-  o.keep_cavities = options_.keep_cavities;
   o.context = options_.context;
   auto closing = options_.context.make_shelf();
   close_cells(header_, *solid_, backends_, scale_world, o, *closing);

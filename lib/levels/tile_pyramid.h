@@ -12,7 +12,6 @@ namespace bp {
 struct PyramidOptions {
   Cells cells;
   ClosingParams closing;
-  bool keep_cavities = false;
   PassContext context;  ///< results: closings and tiles
 };
 

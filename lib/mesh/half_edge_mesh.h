@@ -51,7 +51,6 @@ class HalfEdgeMesh {
   [[nodiscard]] HalfEdgeId edge(HalfEdgeId h) const {
     return h < twin_[h] ? h : twin_[h];
   }  ///< one name for both halves
-  [[nodiscard]] HalfEdgeId outgoing(VertexId v) const { return out_[v]; }
   [[nodiscard]] HalfEdgeId rotate(HalfEdgeId h) const {
     return twin_[prev(h)];
   }  ///< next outgoing one, counter-clockwise

@@ -103,7 +103,7 @@ struct OutsideFlood::State {
 
   VoxelBox grid;
   VoxelCoord tile_vox, tiles;
-  Forest nodes;                                            ///< node 0 is the outside
+  DisjointSets nodes;                                      ///< node 0 is the outside
   std::unordered_map<std::uint64_t, Joined> joined;        ///< by tile index
   std::unordered_map<std::uint64_t, FaceRuns> waiting[3];  ///< by axis and index of the tile above the face
   std::vector<std::vector<EmptyRun>> empty_rows;           ///< after resolve(), by ty + tz * tiles.y
@@ -138,7 +138,7 @@ struct OutsideFlood::State {
 namespace {
 
 /// Unites the components of both sides wherever both are empty.
-void join_runs(Forest& nodes, const FaceRuns& a, const FaceRuns& b) {
+void join_runs(DisjointSets& nodes, const FaceRuns& a, const FaceRuns& b) {
   for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
     if (a[i].begin < b[j].end && b[j].begin < a[i].end) nodes.unite(a[i].label, b[j].label);
     if (a[i].end < b[j].end) {
@@ -149,7 +149,7 @@ void join_runs(Forest& nodes, const FaceRuns& a, const FaceRuns& b) {
   }
 }
 
-void join_all(Forest& nodes, const FaceRuns& runs, std::uint32_t node) {
+void join_all(DisjointSets& nodes, const FaceRuns& runs, std::uint32_t node) {
   for (const FaceRun& r : runs) nodes.unite(r.label, node);
 }
 

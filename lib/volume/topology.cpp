@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "lib/core/disjoint_sets.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/clip.h"
 #include "lib/volume/boundary_runs.h"
@@ -53,8 +54,7 @@ auto row_of(const VoxelRun& run) {
 /// Runs that touch are of one part.
 class Parts {
  public:
-  explicit Parts(std::vector<VoxelRun> runs) : runs_(std::move(runs)), parent_(runs_.size()), parts_(runs_.size()) {
-    std::iota(parent_.begin(), parent_.end(), std::uint32_t(0));
+  explicit Parts(std::vector<VoxelRun> runs) : runs_(std::move(runs)), sets_(runs_.size()), parts_(runs_.size()) {
     std::sort(runs_.begin(), runs_.end(), [](const VoxelRun& a, const VoxelRun& b) {
       return std::tuple(row_of(a), a.first.x) < std::tuple(row_of(b), b.first.x);
     });
@@ -80,19 +80,10 @@ class Parts {
     }
   }
 
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t i, std::size_t j) {
-    const std::uint32_t a = root(std::uint32_t(i)), b = root(std::uint32_t(j));
-    if (a == b) return;
-    parent_[std::max(a, b)] = std::min(a, b);
-    --parts_;
-  }
+  void join(std::size_t i, std::size_t j) { parts_ -= sets_.unite(std::uint32_t(i), std::uint32_t(j)); }
 
   std::vector<VoxelRun> runs_;  // by z, y, x
-  std::vector<std::uint32_t> parent_;
+  DisjointSets sets_;
   std::uint64_t parts_;
 };
 

@@ -180,9 +180,9 @@ void Args::State::take(Option& option, const std::string& name, const std::strin
   if (text.empty() && option.value == Value::required)
     fail(ErrorCode::bad_argument, "{} is empty; was a variable not set?", name);
   if (!text.empty() && option.value == Value::optional && !option.words.empty() && !option.has_word(text)) {
-    const std::string words = joined(texts_of(option.words));
-    fail(ErrorCode::bad_argument, "{}: '{}' is none of [{}]{}", name, text, words,
-         did_you_mean(text, parts_of(words, '|')));
+    const std::string allowed = joined(texts_of(option.words));
+    fail(ErrorCode::bad_argument, "{}: '{}' is none of [{}]{}", name, text, allowed,
+         did_you_mean(text, parts_of(allowed, '|')));
   }
   try {
     option.set(text);

@@ -118,10 +118,12 @@ std::string Progress::json_line(double seconds) const {
       stage_, done_.load(), total_.load(), unit_, seconds);
 }
 
-std::function<void(std::uint64_t, std::uint64_t)> Progress::callback(const std::string& stage,
-                                                                     const std::string& unit) {
-  begin(stage, 0, unit);
-  return [this](std::uint64_t done, std::uint64_t total) { set(done, total); };
+StageProgress Progress::for_pass(const std::string& before) {
+  return [this, before, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
+                                              std::uint64_t total) mutable {
+    if (last != stage) begin(before + (last = stage), total, unit);
+    set(done, total);
+  };
 }
 
 }  // namespace bp

@@ -2,9 +2,10 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <mutex>
 #include <string>
+
+#include "lib/pass/stage_progress.h"
 
 /// One line on stderr: bar, share, rate and time left. Silent unless stderr is a terminal and the work is long; in a
 /// pipe of tools only the last one draws. stdout is never touched.
@@ -27,9 +28,9 @@ class Progress {
   void set(std::uint64_t done, std::uint64_t total);
   void end();
 
-  /// For stages, which know nothing of terminals: callback(done, total).
-  [[nodiscard]] std::function<void(std::uint64_t, std::uint64_t)> callback(const std::string& stage,
-                                                                           const std::string& unit);
+  /// For passes, which know nothing of terminals: begins a stage whenever its name changes. `before` stands before each
+  /// name. Keeps a reference to this object.
+  [[nodiscard]] StageProgress for_pass(const std::string& before = "");
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -42,13 +42,8 @@ Build::Build(const BuildOptions& o)
       progress("bplod", o.common.progress),
       backends(make_backends(o.common, 0)),  // reading and meshing take far longer than closing
       budget(o.common.memory_bytes, std::min(pinned_bytes(backends), o.common.memory_bytes / 2)),
-      make_shelf(make_shelf_factory(budget.shelf, o.common.temp)) {
-  show = [this, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
-                                      std::uint64_t total) mutable {
-    if (last != stage) progress.begin(last = stage, total, unit);
-    progress.set(done, total);
-  };
-}
+      make_shelf(make_shelf_factory(budget.shelf, o.common.temp)),
+      show(progress.for_pass()) {}
 
 SceneOptions Build::scene_options(bool beside) const {
   SceneOptions scene{options.voxels.format, budget.reader, options.common.temp};

@@ -24,7 +24,7 @@ class Build {
   Backends backends;
   const BuildBudget budget;
   const ShelfFactory make_shelf;
-  std::function<void(const char*, const char*, std::uint64_t, std::uint64_t)> show;  ///< progress of stages
+  StageProgress show;  ///< progress of stages
 
   explicit Build(const BuildOptions& options);
   Build(const Build&) = delete;

@@ -46,11 +46,7 @@ std::optional<std::string> enough_scale(const StreamHeader& header, BrickShelf& 
     search.context.pieces = mesh_memory(common);
     search.context.memory.bytes = search.context.pieces.work_bytes;
     search.context.make_shelf = make_shelf;
-    search.context.progress = [&progress, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
-                                                                std::uint64_t total) mutable {
-      if (last != stage) progress.begin("try scales: " + (last = stage), total, unit);
-      progress.set(done, total);
-    };
+    search.context.progress = progress.for_pass("try scales: ");
     Backends backends = cpu_backends();
     const std::optional<int> times = enough_scales(header, solid, backends, search);
     if (!times) return "";

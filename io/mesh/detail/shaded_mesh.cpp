@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "lib/core/disjoint_sets.h"
 #include "lib/core/vec3.h"
 
 namespace bp {
@@ -19,23 +19,6 @@ Vec3d direction(LatticeCoord from, LatticeCoord to) {
   const LatticeCoord d = to - from;
   return {double(d.x), double(d.y), double(d.z)};
 }
-
-/// Corners of one vertex that share a normal, as sets.
-class Groups {
- public:
-  explicit Groups(std::size_t corners) : parent_(corners) { std::iota(parent_.begin(), parent_.end(), Corner(0)); }
-  Corner of(Corner c) {
-    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
-    return c;
-  }
-  void join(Corner a, Corner b) {
-    a = of(a), b = of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Corner> parent_;
-};
 
 class Shader {
  public:
@@ -83,15 +66,15 @@ class Shader {
     if (vertex_of(a) != vertex_of(next(b))) return;  // the faces are turned against each other
     const Vec3d &m = faces_[a / 3], &n = faces_[b / 3];
     if (!(dot(m, n) >= least * length(m) * length(n))) return;
-    groups_.join(a, next(b));
-    groups_.join(next(a), b);
+    groups_.unite(a, next(b));
+    groups_.unite(next(a), b);
   }
 
   void number_groups() {
     std::vector<std::uint32_t> number(3 * faces_.size());
     out_.triangles.resize(faces_.size());
     for (Corner c = 0; c < 3 * faces_.size(); ++c) {
-      const Corner first = groups_.of(c);  // the least of its group: numbered already, or now
+      const Corner first = groups_.find(c);  // the least of its group: numbered already, or now
       if (first == c) {
         number[c] = std::uint32_t(out_.vertex.size());
         out_.vertex.push_back(vertex_of(c));
@@ -120,7 +103,7 @@ class Shader {
 
   const LatticeMesh& mesh_;
   std::vector<Vec3d> faces_;  // normals, twice the area long
-  Groups groups_;
+  DisjointSets groups_;       ///< corners of one vertex that share a normal
   ShadedMesh out_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lib/core/disjoint_sets.h"
 #include "lib/exact/predicates.h"
 
 namespace bp {
@@ -15,23 +16,6 @@ using Index = std::uint32_t;
 bool finite(const Vec3d& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
-
-/// Union-find with the lowest member as the name of a set.
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(Index a, Index b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
 
 /// For each vertex of the input, the number of its position among the distinct ones, in the order of first appearance;
 /// -0 equals 0.
@@ -112,7 +96,7 @@ Vec3d middle(const Vec3d& a, const Vec3d& b) {
 }
 
 /// Judges each edge, unites the triangles around it, returns the number of edges.
-std::uint64_t check_edges(const WeldedMesh& mesh, const EdgeTable& table, std::size_t max_examples, Sets& sets,
+std::uint64_t check_edges(const WeldedMesh& mesh, const EdgeTable& table, std::size_t max_examples, DisjointSets& sets,
                           CheckReport& report) {
   std::uint64_t edges = 0;
   for (Index v = 0; v < mesh.points.size(); ++v) {
@@ -160,7 +144,7 @@ std::size_t count_fans(const CornerTable& table, std::size_t vertex, std::vector
   for (std::size_t i = 0; i < n; ++i)
     for (const Index other : table.others[begin + i]) ends.push_back({other, Index(i)});
   std::sort(ends.begin(), ends.end());
-  Sets fans(n);
+  DisjointSets fans(n);
   for (std::size_t i = 1; i < ends.size(); ++i)
     if (ends[i][0] == ends[i - 1][0]) fans.unite(ends[i][1], ends[i - 1][1]);
   std::size_t count = 0;
@@ -198,7 +182,7 @@ void check_duplicates(const WeldedMesh& mesh, std::size_t max_examples, CheckRep
     report.duplicate_triangles.add({mesh.number[later], mesh.number[first], mesh.corners(later)[0]}, max_examples);
 }
 
-void number_components(WeldedMesh& mesh, Sets& sets, CheckReport& report) {
+void number_components(WeldedMesh& mesh, DisjointSets& sets, CheckReport& report) {
   mesh.component.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Index first = sets.find(Index(t));
@@ -241,7 +225,7 @@ WeldedMesh weld(const IndexedMesh& mesh, std::size_t max_examples, CheckReport& 
 }
 
 void check_topology(WeldedMesh& mesh, std::size_t max_examples, CheckReport& report) {
-  Sets sets(mesh.triangles.size());
+  DisjointSets sets(mesh.triangles.size());
   const std::uint64_t edges = check_edges(mesh, collect_edges(mesh), max_examples, sets, report);
   check_fans(mesh, max_examples, report);
   check_duplicates(mesh, max_examples, report);

@@ -129,7 +129,6 @@ void TileMaker::hold_stray_parts() {
 MeshParams TileMaker::mesh_params(TileMeasures& measures) const {
   MeshParams mesh;
   mesh.mode = params_.mode;
-  mesh.tighten = params_.tighten;
   mesh.enclose = params_.enclose;
   mesh.error_world = params_.error_world;
   mesh.near = true;  // where the error below is no limit

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
+#include "lib/core/disjoint_sets.h"
 #include "lib/volume/detail/empty_runs.h"
-#include "lib/volume/detail/forest.h"
 
 /// Connected components of the empty voxels of one tile.
 namespace bp::detail {
@@ -10,7 +10,7 @@ namespace bp::detail {
 /// Components of one tile. Those that touch a face are numbered 0, 1, ... by first appearance in the scan; the others
 /// are enclosed already.
 struct Components {
-  Forest forest;
+  DisjointSets forest;
   std::vector<std::uint8_t> at_face;   ///< per provisional label
   std::vector<std::uint32_t> face_id;  ///< per provisional label; kNoLabel inside
   std::uint32_t face_count = 0;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "lib/core/box.h"
+#include "lib/core/disjoint_sets.h"
 #include "lib/exact/predicates.h"
 #include "lib/geometry/crossing.h"
 #include "lib/mesh/lattice_geometry.h"
@@ -19,23 +19,18 @@ struct Shell {
   Bounds3d bounds;  // lattice units
 };
 
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
 /// By first triangle.
 std::vector<Shell> shells_of(const LatticeMesh& mesh) {
   constexpr auto kNone = std::uint32_t(-1);
-  std::vector<std::uint32_t> parent(mesh.vertices.size()), shell_of(mesh.vertices.size(), kNone);
-  std::iota(parent.begin(), parent.end(), 0u);
+  DisjointSets sets(mesh.vertices.size());
+  std::vector<std::uint32_t> shell_of(mesh.vertices.size(), kNone);
   for (const auto& t : mesh.triangles) {
-    for (std::size_t k = 1; k < 3; ++k) parent[root_of(parent, t[0])] = root_of(parent, t[k]);
+    for (std::size_t k = 1; k < 3; ++k) sets.unite(t[0], t[k]);
   }
   std::vector<Shell> shells;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
-    std::uint32_t& number = shell_of[root_of(parent, t[0])];
+    std::uint32_t& number = shell_of[sets.find(t[0])];
     if (number == kNone) number = std::uint32_t(shells.size()), shells.emplace_back();
     Shell& shell = shells[number];
     // Towards a vertex of the shell, so that numbers stay small.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "lib/core/disjoint_sets.h"
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/pass/mesh/detail/proxy_limits.h"
 #include "lib/pass/mesh/surface_around.h"
@@ -15,20 +15,10 @@ namespace {
 
 /// Connected components.
 std::uint64_t shells_in(const LatticeMesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  std::uint64_t shells = parent.size();
+  DisjointSets sets(mesh.vertices.size());
+  std::uint64_t shells = mesh.vertices.size();
   for (const auto& t : mesh.triangles) {
-    for (std::size_t k = 1; k < 3; ++k) {
-      const std::uint32_t a = root(t[0]), b = root(t[k]);
-      if (a == b) continue;
-      parent[a] = b;
-      --shells;
-    }
+    for (std::size_t k = 1; k < 3; ++k) shells -= sets.unite(t[0], t[k]);
   }
   return shells;
 }
