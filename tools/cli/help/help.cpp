@@ -81,7 +81,7 @@ void for_each_group(const std::vector<Declaration>& options,
 
 std::string help_of(const ToolDeclaration& tool, const std::vector<Declaration>& options) {
   std::string text = "Usage: " + tool.tool + " [OPTION]...";
-  for (const Declaration& d : tool.arguments) text += " " + d.value_name;
+  for (const Declaration& d : tool.arguments) text.append(" ").append(d.value_name);
   text += "\n" + wrapped(tool.about, 0) + "\n";
   for (Declaration d : tool.arguments) {
     d.value_name.clear();
