@@ -92,7 +92,7 @@ void measure_distances(const Surface& surface, const SceneMemory& scene, const C
 void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, const CheckOptions& options,
                  CheckReport& report) {
   SceneMemory memory(options);
-  const Enclosure e = check_enclosure(mesh, surface, scene, report.sides_decided, options.max_examples,
+  const EnclosureReport e = check_enclosure(mesh, surface, scene, report.sides_decided, options.max_examples,
                                       [&](std::uint64_t first, const auto& t) { memory.see(first, t); });
   report.has_scene = true;
   report.scene_name = scene.name();
