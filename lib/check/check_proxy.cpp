@@ -116,7 +116,8 @@ void check_scene_around(const WeldedMesh& mesh, const Surface& surface, Triangle
   report.unsettled_parts = inside.unsettled;
   report.undecidable_scene = inside.undecidable;
   if (report.inside() || !options.hidden) return;
-  const auto& [recipe, walls] = *options.hidden;
+  const auto& [recipe, walls, free_of_scene] = *options.hidden;
+  if (free_of_scene && report.touching.count + report.swallowed.count + report.undecidable_scene.count > 0) return;
   const HiddenReport hidden =
       check_hidden(mesh, surface, *walls, recipe, options.max_examples, options.scene_memory_bytes);
   report.asks_hidden = true;
