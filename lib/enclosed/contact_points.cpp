@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/parallel.h"
+
 namespace bp {
 
 namespace {
+
+constexpr std::int64_t kPointsAtOnce = 1024;
 
 /// What lies under faces along a cell's side may lie beyond it.
 LatticeBox grown(const LatticeBox& box, std::int64_t by) {
@@ -53,12 +57,15 @@ ContactPoints::ContactPoints(const Enclosed& enclosed, const HalfEdgeMesh& mesh,
   }
   const double reach = edges / double(mesh.face_count());
   points_ = enclosed.contact_points(origin_, grown(mesh.cell(), std::int64_t(2 * reach) + 1));
+  std::vector<FaceId> nearest_to(points_.size());
+  parallel_ranges(std::int64_t(points_.size()), kPointsAtOnce, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) nearest_to[i] = nearest(points_[i], tree, reach);
+  });
   std::size_t kept = 0;
-  for (const Vec3d& p : points_) {
-    const FaceId f = nearest(p, tree, reach);
-    if (f == kNoId) continue;  // deep inside
-    of_face_[f].push_back(std::uint32_t(kept));
-    points_[kept++] = p;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (nearest_to[i] == kNoId) continue;  // deep inside
+    of_face_[nearest_to[i]].push_back(std::uint32_t(kept));
+    points_[kept++] = points_[i];
   }
   points_.resize(kept);
   points_.shrink_to_fit();

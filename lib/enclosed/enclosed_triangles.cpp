@@ -74,6 +74,9 @@ EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const Gri
   std::vector<std::uint32_t> items(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     boxes[i] = box_around(frame_, triangles[i]);
+    if (i == 0) bounds_ = boxes[i];
+    bounds_.add(boxes[i].min);
+    bounds_.add(boxes[i].max);
     items[i] = std::uint32_t(i);
   }
   tree_.build(boxes, std::move(items));
@@ -261,21 +264,35 @@ std::uint64_t EnclosedTriangles::bytes() const {
   return triangles_.size() * kBytesEach;
 }
 
-std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin, const LatticeBox& within) const {
-  std::vector<Vec3d> points;
-  tree_.query(within, [&](std::uint32_t i) {
-    add_samples(triangles_[i], frame_.voxel, points);
-    return true;
-  });
+std::vector<Vec3d> EnclosedTriangles::samples_of(std::vector<Vec3d> points) const {
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  std::size_t kept = 0;
-  for (const Vec3d& p : points) {
-    const Vec3d v = kLatticePerVoxel * frame_.to_voxels(p);
-    const LatticeCoord near = rounded(v);
-    if (within.meets({near, near})) points[kept++] = v - to_double(origin);
+  for (Vec3d& p : points) p = kLatticePerVoxel * frame_.to_voxels(p);
+  return points;
+}
+
+const std::vector<Vec3d>& EnclosedTriangles::all_samples() const {
+  std::call_once(sampled_, [this] {
+    std::vector<Vec3d> points;
+    for (const TriangleD& t : triangles_) add_samples(t, frame_.voxel, points);
+    samples_ = samples_of(std::move(points));
+  });
+  return samples_;
+}
+
+std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin, const LatticeBox& within) const {
+  std::vector<Vec3d> points;
+  if (within.holds(bounds_)) {
+    points = all_samples();
+  } else {
+    tree_.query(within, [&](std::uint32_t i) {
+      add_samples(triangles_[i], frame_.voxel, points);
+      return true;
+    });
+    points = samples_of(std::move(points));
+    std::erase_if(points, [&](const Vec3d& v) { return !within.holds({rounded(v), rounded(v)}); });
   }
-  points.resize(kept);
+  for (Vec3d& v : points) v = v - to_double(origin);
   return points;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <mutex>
 #include <vector>
 
 #include "lib/core/grid_frame.h"
@@ -28,14 +29,20 @@ class EnclosedTriangles : public Enclosed {
  private:
   class Swept;
   void gather_corners();
+  /// The samples of triangles, in lattice units, each once.
+  [[nodiscard]] std::vector<Vec3d> samples_of(std::vector<Vec3d> world_points) const;
+  [[nodiscard]] const std::vector<Vec3d>& all_samples() const;
   [[nodiscard]] bool is_free(Swept swept, Blocker* blocker) const;
   void report(const TriangleD& triangle, Blocker& blocker) const;
 
   std::vector<TriangleD> triangles_;  // in the order of the tree
   GridFrame frame_;
   BoxTree tree_;
+  LatticeBox bounds_;
   std::vector<EightTriangles> eights_;  // relative to the tree's base
   double reach_ = 0;                    // largest coordinate in eights_
+  mutable std::once_flag sampled_;
+  mutable std::vector<Vec3d> samples_;  // all_samples(), once they are asked for
 };
 
 }  // namespace bp
