@@ -1,20 +1,10 @@
 #pragma once
-#include "lib/enclosed/contact_points.h"
-#include "lib/enclosed/enclosed.h"
-#include "lib/mesh/guard.h"
 #include "lib/mesh/shells.h"
-#include "lib/simplify/refusal.h"
-#include "lib/simplify/shape_limits.h"
+#include "lib/tighten/edit_check.h"
 
 /// Changes of a proxy, each taken only if the proxy stays embedded and keeps inside what must stay inside, both decided
 /// exactly (docs/bounding.md, "Tightening"), and if it makes no needle and no edge too long.
 namespace bp {
-
-struct EditCounts {
-  std::uint64_t tries = 0;
-  Refusals refused;
-  std::uint64_t beyond_reach = 0;  ///< of those refused for their growth
-};
 
 class ProxyEditor {
  public:
@@ -25,16 +15,22 @@ class ProxyEditor {
 
   [[nodiscard]] const HalfEdgeMesh& mesh() const { return mesh_; }
   [[nodiscard]] const ContactPoints& contacts() const { return contacts_; }
-  [[nodiscard]] const EditCounts& counts() const { return counts_; }
+  [[nodiscard]] const EditCounts& counts() const { return check_.counts; }
 
   /// Each returns true if the change was taken.
   [[nodiscard]] bool move(VertexId v, const LatticeCoord& to);
   [[nodiscard]] bool collapse(HalfEdgeId h, const LatticeCoord& to);  ///< the merged vertex keeps the id from(h)
   [[nodiscard]] bool flip(HalfEdgeId h);
 
-  /// What must stay inside and stood in the way of the change refused last, in the coordinates of contacts(); null if
-  /// something else did.
-  [[nodiscard]] const Blocker* blocker() const { return blocked_ ? &blocker_ : nullptr; }
+  /// As EditCheck::blocker(), of the change refused last.
+  [[nodiscard]] const Blocker* blocker() const { return check_.blocker(); }
+
+  /// Checks on other threads: of this proxy, while it does not change. What they allow can be made later, if nothing
+  /// has changed that they have seen. Not for a proxy with limits.
+  [[nodiscard]] EditCheck new_check() const { return EditCheck(proxy_); }
+  void make_move(VertexId v, const LatticeCoord& to);
+  void make_flip(HalfEdgeId h);
+  void add(const EditCounts& counts) { check_.counts += counts; }  ///< of another check
 
   /// More contact points, relative to v, near its faces.
   void learn(VertexId v, std::span<const Vec3d> points);
@@ -55,39 +51,20 @@ class ProxyEditor {
   void refresh() { tree_.rebuild(); }  ///< boxes only grow with the changes; after many of them fresh ones pay
 
  private:
-  void begin();
-  void add_old_face(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c, const LatticeCoord& to);
-  [[nodiscard]] bool shape_is_fine();
-  [[nodiscard]] bool cuts_off_contacts(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& u,
-                                       const LatticeCoord& w) const;
-  [[nodiscard]] bool keeps_enclosed();
-  [[nodiscard]] bool stays_near();
-  [[nodiscard]] bool fan_is_fine(const LatticeCoord& apex);
-  [[nodiscard]] bool is_free(bool free);
   void update_around(VertexId apex);
 
   HalfEdgeMesh& mesh_;
-  const Enclosed& enclosed_;
   EdgeLimit edge_limit_;
-  StepLimits* limits_;
   const bool inwards_;
-  const LatticeBox room_;  // for new vertices
   const double first_reach_;
   double reach_;
   FaceTree tree_;
-  Guard guard_;
   ShellSense sense_;
   ContactPoints contacts_;
-  EditCounts counts_;
+  EditedProxy proxy_;
+  EditCheck check_;
   std::uint64_t beyond_reach_before_ = 0;  // by the reach before
-  // Of the change at hand:
-  std::vector<NewFace> faces_;
-  std::vector<FaceId> replaced_, around_;
-  std::vector<Tetrahedron> swept_;
-  double least_quality_ = 1;  // of the faces replaced
-  LatticeBox star_;           // around them
-  Blocker blocker_;
-  bool blocked_ = false;
+  std::vector<FaceId> replaced_, around_;  // of the change at hand
 };
 
 }  // namespace bp
