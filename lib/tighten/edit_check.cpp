@@ -46,16 +46,10 @@ void EditCheck::add_old_face(const LatticeCoord& a, const LatticeCoord& b, const
   if (replaced_.size() == 1) star_ = {a, a};
   for (const LatticeCoord& p : {a, b, c}) {
     star_.add(p);
-    see(p);
+    seen.add(p);
   }
-  see(to);
+  seen.add(to);
   if (orient3d(a, b, c, to) < 0) swept_.push_back({a, b, c, to});
-}
-
-void EditCheck::see(const LatticeCoord& p) {
-  if (!has_seen_) seen = {p, p};
-  has_seen_ = true;
-  seen.add(p);
 }
 
 /// New edges run from the first to the second corner of each new face.

@@ -49,13 +49,12 @@ class EditCheck {
   [[nodiscard]] const Blocker* blocker() const { return blocked_ ? &blocker_ : nullptr; }
 
   EditCounts counts;  ///< of all questions
-  LatticeBox seen;    ///< around the faces, old and new, of the questions since forget_seen()
-  void forget_seen() { has_seen_ = false; }
+  LatticeBox seen;    ///< around the faces, old and new, of the questions since begin_seeing()
+  void begin_seeing(const LatticeCoord& p) { seen = {p, p}; }
 
  private:
   void begin();
   void add_old_face(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c, const LatticeCoord& to);
-  void see(const LatticeCoord& p);
   [[nodiscard]] bool shape_is_fine();
   [[nodiscard]] bool cuts_off_contacts(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& u,
                                        const LatticeCoord& w) const;
@@ -74,7 +73,7 @@ class EditCheck {
   double least_quality_ = 1;  // of the faces replaced
   LatticeBox star_;           // around them
   Blocker blocker_;
-  bool blocked_ = false, has_seen_ = false;
+  bool blocked_ = false;
 };
 
 }  // namespace bp

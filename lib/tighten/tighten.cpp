@@ -4,24 +4,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/exact/predicates.h"
 #include "lib/mesh/shells.h"
 #include "lib/tighten/detail/joint_fit.h"
-#include "lib/tighten/fan_fit.h"
+#include "lib/tighten/detail/step_planner.h"
+#include "lib/tighten/detail/steps_ahead.h"
 
 namespace bp {
 
 namespace {
 
-constexpr double kReach = 0.5;        // of the mean spoke: how far a vertex may move at once, alone
-constexpr double kJointReach = 0.25;  // and together with its neighbours
-constexpr int kAvoidRounds = 4;
+constexpr double kJointReach = 0.25;  // of the mean spoke: how far a vertex may move at once with its neighbours
+constexpr std::size_t kVerticesPerPlan = 64;  // with fewer, steps are in each other's way
+constexpr std::size_t kPlansPerThread = 3;
 constexpr int kSweepsPerRefresh = 8;
 
 double volume_of(const HalfEdgeMesh& mesh) {
   return double(mesh.volume6()) / 6;
+}
+
+/// Regions have their threads already, and limits count steps one by one.
+std::size_t plans_at_once(const ProxyEditor& editor, const TightenParams& params) {
+  const HalfEdgeMesh& mesh = editor.mesh();
+  if (thread_count() == 1 || params.limits != nullptr || !mesh.cell().holds(kEverywhere)) return 1;
+  return std::clamp<std::size_t>(mesh.face_count() / 2 / kVerticesPerPlan, 1,
+                                 kPlansPerThread * std::size_t(thread_count()));
 }
 
 class Tightener {
@@ -32,8 +43,13 @@ class Tightener {
         params_(params),
         counts_(counts),
         joint_(mesh_, editor.contacts()),
+        ahead_(plans_at_once(editor, params)),
         changed_at_(mesh_.vertex_capacity(), 1),
-        stuck_at_(mesh_.vertex_capacity(), 0) {}
+        stuck_at_(mesh_.vertex_capacity(), 0) {
+    const auto new_planner = [&] { return std::make_unique<StepPlanner>(editor, params.limits != nullptr); };
+    own_ = new_planner();
+    for (std::size_t i = 0; i < ahead_.workers(); ++i) planners_.push_back(new_planner());
+  }
 
   void run() {
     sweep_while_it_gains(params_.sweeps, [this] { move_together(); });
@@ -59,16 +75,13 @@ class Tightener {
   void flip_edges() {
     const std::uint64_t since = flipped_at_;
     flipped_at_ = changes_;
-    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
-      if (!mesh_.alive(HalfEdgeMesh::face(h)) || mesh_.edge(h) != h || mesh_.twin(h) == kNoId) continue;
-      const std::array<VertexId, 4> corners = {mesh_.from(h), mesh_.to(h), mesh_.opposite(h),
-                                               mesh_.opposite(mesh_.twin(h))};
-      if (std::none_of(corners.begin(), corners.end(), [&](VertexId v) { return changed_at_[v] > since; })) continue;
-      if (!editor_.is_convex(h) || !editor_.flip(h)) continue;
-      ++counts_.flips;
-      ++changes_;
-      for (const VertexId v : corners) changed_at_[v] = changes_;
-    }
+    const auto wants = [&](std::size_t i) {
+      const auto h = HalfEdgeId(i);
+      if (!mesh_.alive(HalfEdgeMesh::face(h)) || mesh_.edge(h) != h || mesh_.twin(h) == kNoId) return false;
+      const std::array<VertexId, 4> corners = corners_of(h);
+      return std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return changed_at_[v] > since; });
+    };
+    run(3 * mesh_.face_capacity(), wants, [](StepPlanner& planner, std::size_t i) { planner.flip(HalfEdgeId(i)); });
   }
 
   /// Those that go outwards first: the others then have the room that the joint fit counts on.
@@ -81,41 +94,72 @@ class Tightener {
     std::sort(order_.begin(), order_.end(), [](const auto& a, const auto& b) {
       return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
-    const int128 before = mesh_.volume6();
     went_out_.clear();
     for (const auto& [growth, v] : order_) {
       if (growth > 0) went_out_.emplace_back(v, mesh_.position(v));
-      approach(v, joint_.shift(v));
     }
+    const int128 before = mesh_.volume6();
+    run(order_.size(), always, [&](StepPlanner& planner, std::size_t i) {
+      const VertexId v = order_[i].second;
+      planner.approach(v, joint_.shift(v));
+    });
     if (mesh_.volume6() > before) take_back();
   }
 
   /// Some made room that the others could not take: back where they were.
   void take_back() {
-    for (const auto& [v, p] : went_out_) {
-      gather_rim(v);
-      const Vec3d x = to_double(p - mesh_.position(v));
-      if (fit_.close() && worth_trying(x)) static_cast<void>(try_move(v, x));
-    }
-  }
-
-  /// What is in the way becomes contact points for the next joint fit; this time the vertex goes a part of its way.
-  void approach(VertexId v, const Vec3d& x) {
-    if (rounded(x) == LatticeCoord{} || try_move(v, x)) return;
-    if (editor_.blocker() != nullptr) {
-      gather_rim(v);
-      if (fit_.close() && fit_.avoid(x, *editor_.blocker(), place_of(v))) editor_.learn(v, fit_.obstacles());
-    }
-    if (!try_move(v, 0.5 * x)) try_move(v, 0.25 * x);
+    run(went_out_.size(), always, [&](StepPlanner& planner, std::size_t i) {
+      const auto& [v, p] = went_out_[i];
+      planner.go_back(v, to_double(p - mesh_.position(v)));
+    });
   }
 
   /// A vertex that could not move waits until its star has changed.
   void move_each() {
-    for (VertexId v = 0; v < mesh_.vertex_capacity(); ++v) {
-      if (!is_free(v) || !star_changed(v)) continue;
-      stuck_at_[v] = changes_;
-      move_vertex(v);
+    waits_ = true;
+    run(
+        mesh_.vertex_capacity(), [&](std::size_t v) { return is_free(VertexId(v)) && star_changed(VertexId(v)); },
+        [](StepPlanner& planner, std::size_t v) { planner.find_place(VertexId(v)); });
+    waits_ = false;
+  }
+
+  static bool always(std::size_t) { return true; }
+
+  /// The steps that are wanted, each planned by plan(planner, i).
+  template <class Wants, class Plan>
+  void run(std::size_t n, const Wants& wants, const Plan& plan) {
+    ahead_.run(
+        n, wants,
+        [&](std::size_t i, std::size_t worker) {
+          plan(*planners_[worker], i);
+          return planners_[worker]->seen();
+        },
+        [&](std::size_t worker, LatticeBox& box) { return make(*planners_[worker], box); },
+        [&](std::size_t i, LatticeBox& box) {
+          if (!wants(i)) return false;
+          plan(*own_, i);
+          return make(*own_, box);
+        });
+  }
+
+  bool make(StepPlanner& planner, LatticeBox& box) {
+    const bool flip = planner.edge() != kNoId;
+    if (waits_) stuck_at_[planner.vertex()] = changes_;
+    const bool changed = planner.make(editor_, box);
+    if (!planner.changes_mesh()) return changed;
+    ++changes_;
+    ++(flip ? counts_.flips : counts_.moves);
+    if (!flip) {
+      changed_at_[planner.vertex()] = changes_;
+    } else {
+      for (const VertexId v : corners_of(planner.edge())) changed_at_[v] = changes_;
     }
+    return changed;
+  }
+
+  /// Of the two faces beside it.
+  [[nodiscard]] std::array<VertexId, 4> corners_of(HalfEdgeId h) const {
+    return {mesh_.from(h), mesh_.to(h), mesh_.opposite(h), mesh_.opposite(mesh_.twin(h))};
   }
 
   [[nodiscard]] bool is_free(VertexId v) const { return mesh_.vertex_alive(v) && !mesh_.locked(v); }
@@ -126,76 +170,15 @@ class Tightener {
     return changed;
   }
 
-  void move_vertex(VertexId v) {
-    const double reach = kReach * gather_rim(v);
-    if (!fit_.close()) return;
-    gather_points(v);
-    for (int round = 0;; ++round) {
-      const std::optional<Vec3d> x = fit_.least_volume({}, reach);
-      if (!x || !worth_trying(*x) || try_move(v, *x)) return;
-      if (round < kAvoidRounds && editor_.blocker() != nullptr && fit_.avoid(*x, *editor_.blocker(), place_of(v))) {
-        editor_.learn(v, fit_.obstacles());
-        continue;
-      }
-      shorten(v, *x, reach);
-      return;
-    }
-  }
-
-  /// Less of the way; and where limits may mind a step aside, straight inwards.
-  void shorten(VertexId v, const Vec3d& x, double reach) {
-    for (double share = 0.5; share > 0.1 && worth_trying(share * x); share /= 2) {
-      if (try_move(v, share * x)) return;
-    }
-    if (params_.limits == nullptr) return;
-    const Vec3d inwards = -reach * fit_.outward();
-    for (double share = 0.5; share > 0.01 && worth_trying(share * inwards); share /= 2) {
-      if (try_move(v, share * inwards)) return;
-    }
-  }
-
-  [[nodiscard]] bool worth_trying(const Vec3d& x) const {
-    const LatticeCoord d = rounded(x);
-    return d != LatticeCoord{} && fit_.volume(to_double(d)) < 0;
-  }
-  bool try_move(VertexId v, const Vec3d& x) {
-    const bool taken = editor_.move(v, mesh_.position(v) + rounded(x));
-    counts_.moves += taken;
-    if (taken) changed_at_[v] = ++changes_;
-    return taken;
-  }
-
-  [[nodiscard]] Vec3d place_of(VertexId v) const { return to_double(mesh_.position(v) - editor_.contacts().origin()); }
-
-  /// The star as a fan about the vertex; its mean spoke.
-  double gather_rim(VertexId v) {
-    const LatticeCoord p = mesh_.position(v);
-    fit_.clear();
-    double spokes = 0;
-    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
-      const Vec3d a = to_double(mesh_.position(mesh_.to(h)) - p);
-      fit_.add_rim(a);
-      spokes += length(a);
-    });
-    return spokes / double(fit_.rim().size());
-  }
-
-  void gather_points(VertexId v) {
-    const ContactPoints& contacts = editor_.contacts();
-    const Vec3d shift = place_of(v);
-    std::uint32_t sector = 0;
-    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
-      for (const std::uint32_t i : contacts.of(HalfEdgeMesh::face(h))) fit_.add_point(contacts[i] - shift, sector);
-      ++sector;
-    });
-  }
-
   ProxyEditor& editor_;
   const HalfEdgeMesh& mesh_;
   const TightenParams& params_;
   TightenCounts& counts_;
-  FanFit fit_;
   JointFit joint_;
+  bool waits_ = false;  // a vertex that could not move, until its star has changed
+  StepsAhead ahead_;
+  std::vector<std::unique_ptr<StepPlanner>> planners_;  // a worker's each
+  std::unique_ptr<StepPlanner> own_;
   std::vector<std::pair<double, VertexId>> order_;           // by growth
   std::vector<std::pair<VertexId, LatticeCoord>> went_out_;  // each with its place before
   std::uint64_t changes_ = 1, flipped_at_ = 0;               // moves and flips made so far; before the last flips

@@ -1,0 +1,130 @@
+#include "lib/tighten/detail/step_planner.h"
+
+#include "lib/core/vec3.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kReach = 0.5;  // of the mean spoke: how far a vertex may move at once, alone
+constexpr int kAvoidRounds = 4;
+
+}  // namespace
+
+StepPlanner::StepPlanner(const ProxyEditor& editor, bool any_limits)
+    : editor_(editor), mesh_(editor.mesh()), any_limits_(any_limits), check_(editor.new_check()) {}
+
+void StepPlanner::begin(VertexId v) {
+  vertex_ = v;
+  edge_ = kNoId;
+  to_.reset();
+  flips_ = false;
+  learned_.clear();
+  check_.begin_seeing(mesh_.position(v));
+  mesh_.for_each_outgoing(v, [&](HalfEdgeId h) { check_.seen.add(mesh_.position(mesh_.to(h))); });
+}
+
+/// What is in the way becomes contact points for the next joint fit; this time the vertex goes a part of its way.
+void StepPlanner::approach(VertexId v, const Vec3d& x) {
+  begin(v);
+  if (rounded(x) == LatticeCoord{} || try_move(x)) return;
+  if (check_.blocker() != nullptr) {
+    gather_rim();
+    if (fit_.close()) static_cast<void>(learns(x));
+  }
+  if (!try_move(0.5 * x)) static_cast<void>(try_move(0.25 * x));
+}
+
+void StepPlanner::find_place(VertexId v) {
+  begin(v);
+  const double reach = kReach * gather_rim();
+  if (!fit_.close()) return;
+  gather_points();
+  for (int round = 0;; ++round) {
+    const std::optional<Vec3d> x = fit_.least_volume({}, reach);
+    if (!x || !worth_trying(*x) || try_move(*x)) return;
+    if (round < kAvoidRounds && check_.blocker() != nullptr && learns(*x)) continue;
+    return shorten(*x, reach);
+  }
+}
+
+void StepPlanner::go_back(VertexId v, const Vec3d& x) {
+  begin(v);
+  gather_rim();
+  if (fit_.close() && worth_trying(x)) static_cast<void>(try_move(x));
+}
+
+void StepPlanner::flip(HalfEdgeId h) {
+  begin(mesh_.from(h));
+  edge_ = h;
+  flips_ = editor_.is_convex(h) && check_.allows_flip(h);
+}
+
+bool StepPlanner::make(ProxyEditor& editor, LatticeBox& box) {
+  editor.add(check_.counts);
+  check_.counts = {};
+  box = check_.seen;
+  if (!learned_.empty()) editor.learn(vertex_, learned_);
+  if (to_) editor.make_move(vertex_, *to_);
+  if (flips_) editor.make_flip(edge_);
+  return changes_mesh() || !learned_.empty();
+}
+
+/// Less of the way; and where limits may mind a step aside, straight inwards.
+void StepPlanner::shorten(const Vec3d& x, double reach) {
+  for (double share = 0.5; share > 0.1 && worth_trying(share * x); share /= 2) {
+    if (try_move(share * x)) return;
+  }
+  if (!any_limits_) return;
+  const Vec3d inwards = -reach * fit_.outward();
+  for (double share = 0.5; share > 0.01 && worth_trying(share * inwards); share /= 2) {
+    if (try_move(share * inwards)) return;
+  }
+}
+
+bool StepPlanner::worth_trying(const Vec3d& x) const {
+  const LatticeCoord d = rounded(x);
+  return d != LatticeCoord{} && fit_.volume(to_double(d)) < 0;
+}
+
+bool StepPlanner::try_move(const Vec3d& x) {
+  const LatticeCoord to = mesh_.position(vertex_) + rounded(x);
+  if (check_.allows_move(vertex_, to)) to_ = to;
+  return to_.has_value();
+}
+
+/// From what stood in the way of a move by x; false if the fit knows no way around it.
+bool StepPlanner::learns(const Vec3d& x) {
+  if (!fit_.avoid(x, *check_.blocker(), place())) return false;
+  learned_.insert(learned_.end(), fit_.obstacles().begin(), fit_.obstacles().end());
+  return true;
+}
+
+Vec3d StepPlanner::place() const {
+  return to_double(mesh_.position(vertex_) - editor_.contacts().origin());
+}
+
+/// The star as a fan about the vertex; its mean spoke.
+double StepPlanner::gather_rim() {
+  const LatticeCoord p = mesh_.position(vertex_);
+  fit_.clear();
+  double spokes = 0;
+  mesh_.for_each_outgoing(vertex_, [&](HalfEdgeId h) {
+    const Vec3d a = to_double(mesh_.position(mesh_.to(h)) - p);
+    fit_.add_rim(a);
+    spokes += length(a);
+  });
+  return spokes / double(fit_.rim().size());
+}
+
+void StepPlanner::gather_points() {
+  const ContactPoints& contacts = editor_.contacts();
+  const Vec3d shift = place();
+  std::uint32_t sector = 0;
+  mesh_.for_each_outgoing(vertex_, [&](HalfEdgeId h) {
+    for (const std::uint32_t i : contacts.of(HalfEdgeMesh::face(h))) fit_.add_point(contacts[i] - shift, sector);
+    ++sector;
+  });
+}
+
+}  // namespace bp
