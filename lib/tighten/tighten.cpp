@@ -19,8 +19,8 @@ namespace bp {
 namespace {
 
 constexpr double kJointReach = 0.25;  // of the mean spoke: how far a vertex may move at once with its neighbours
-constexpr std::size_t kVerticesPerPlan = 64;  // with fewer, steps are in each other's way
-constexpr std::size_t kPlansPerThread = 3;
+constexpr std::size_t kVerticesPerPlan = 128;  // with fewer, steps are in each other's way
+constexpr std::size_t kPlansPerThread = 2;
 constexpr int kSweepsPerRefresh = 8;
 
 double volume_of(const HalfEdgeMesh& mesh) {
