@@ -121,7 +121,8 @@ void check_scene_around(const WeldedMesh& mesh, const Surface& surface, Triangle
       check_hidden(mesh, surface, *walls, recipe, options.max_examples, options.scene_memory_bytes);
   report.asks_hidden = true;
   report.openings = 2 * recipe.scale_world;
-  report.hidden_unknown = hidden.undecided, report.exposed = hidden.exposed;
+  report.hidden_unknown = hidden.undecided, report.hidden_bytes = hidden.memory_bytes;
+  report.exposed = hidden.exposed;
 }
 
 void check_scene_in_parts(const WeldedMesh& mesh, TriangleSource& scene, const CheckOptions& options,

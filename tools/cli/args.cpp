@@ -87,6 +87,10 @@ void Args::often(std::initializer_list<const char*> names) {
   for (const char* const name : names) state_->find(name).often = true;
 }
 
+void Args::needed(const char* name) {
+  state_->find(name).needed = true;
+}
+
 void Args::words(std::vector<Word> words) {
   state_->options.back().words = std::move(words);
 }
@@ -187,7 +191,7 @@ void Args::State::take(Option& option, const std::string& name, const std::strin
   try {
     option.set(text);
   } catch (const Error& e) {
-    fail(e.code(), "{}: {}", name, e.what());
+    fail_as(e, "{}: {}", name, e.what());
   }
 }
 
@@ -248,7 +252,7 @@ void Args::parse() {
   flag_with_word(
       "-h,--help", {"all", "markdown", "bash", "zsh", "fish"}, [this](const std::string& word) { state_->help = word; },
       "print the options that most people need; all: every option; markdown: as in the manual; bash, zsh, fish: "
-      "a completion script");
+      "completion");
   flag("--version", state_->version, "print the version");
   std::vector<std::string> texts;
   try {
@@ -267,7 +271,7 @@ void Args::parse() {
     }
     if (!state_->help && !state_->version) return state_->parse_positionals(texts);
   } catch (const Error& e) {
-    fail(e.code(), "{} (see {} --help)", e.what(), state_->tool);
+    fail_as(e, "{} (see {} --help)", e.what(), state_->tool);
   }
   print(state_->help ? help_of(*state_->help, declaration())
                      : fmt::format("{} {}+{}\n", state_->tool, BP_VERSION, source_digest()));

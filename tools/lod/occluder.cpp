@@ -73,7 +73,7 @@ void build_occluder(const BuildOptions& o) {
   made.level.mesh.provenance = {make_provenance("bplod", option_text(o, made), made.scene.counts.input_hash)};
   note(build, made);
   build.progress.end();
-  build.report.stage("write");
+  build.report.begin("write");
   const Json more = json_of(made);
   const LevelFacts facts = facts_of(made.level, {});
   std::vector<LodLevel> levels;
