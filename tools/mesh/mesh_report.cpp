@@ -68,8 +68,6 @@ Provenance mesh_provenance(const MeshOptions& o, const std::string& enclosed, co
       .add("edge-length", o.edge_length)
       .add("enclose", enclosed)
       .add("tighten", true);
-  if (o.least_part) text.add("least-part", *o.least_part);
-  if (o.inset) text.add("inset", *o.inset);
   if (o.quads) text.add("quads", o.quads);
   if (o.levels.faces.size() > 1) text.add("level", level);
   return make_provenance("bpmesh", text, input);
