@@ -23,8 +23,8 @@ namespace bp {
 namespace {
 
 // What is estimated, from plants and scanned models: docs/tilesets.md says that it is.
-constexpr double kBytesPerFace = 4, kBytesPerTile = 2200;  // of compressed GLB; and of a tile's place in the tileset
-constexpr double kBytesPerPlainFace = 18;                  // of GLB
+constexpr double kBytesPerFace = 9, kBytesPerTile = 2500;  // of compressed GLB, and of a tile with its place
+constexpr double kBytesPerPlainFace = 30;                  // of GLB
 constexpr double kScratchPerTriangle = 20;                 // that waits on disk
 
 struct Scene {
