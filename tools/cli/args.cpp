@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <filesystem>
 #include <map>
 
 #include "io/files/file.h"
@@ -33,6 +34,14 @@ std::string help_of(const std::string& word, const ToolDeclaration& tool) {
   if (word == "all") return full_help(tool);
   if (word == "markdown") return markdown_help(tool);
   return word.empty() ? short_help(tool) : completion(tool, word);
+}
+
+/// The name of a stream or a folder that is not there.
+bool is_like_output(const std::string& path) {
+  std::error_code none;
+  const std::filesystem::path name = std::filesystem::path(path).filename();
+  return path != "-" && (name.extension().empty() || name.extension() == ".bpv") &&
+         !std::filesystem::exists(path, none);
 }
 
 }  // namespace
@@ -244,7 +253,13 @@ void Args::State::parse_positionals(const std::vector<std::string>& texts) {
     if (positional.times == 0 && positional.value == Value::required)
       fail(ErrorCode::bad_argument, "{} is missing", positional.names);
   }
-  if (next < texts.size()) fail(ErrorCode::bad_argument, "'{}' is one argument too many", texts[next]);
+  const Option* const output = look_up("--output");
+  const bool wants_output = output != nullptr && output->times == 0;
+  if (next < texts.size())
+    fail(ErrorCode::bad_argument, "'{}' is one argument too many{}", texts[next],
+         wants_output ? "; did you mean -o " + texts[next] + "?" : "");
+  if (wants_output && texts.size() > 1 && is_like_output(texts.back()))
+    fail(ErrorCode::bad_argument, "there is no file {0}; did you mean -o {0}?", texts.back());
 }
 
 void Args::parse() {
