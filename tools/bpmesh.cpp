@@ -115,7 +115,8 @@ void run(bp::MeshOptions o) {
 
   report.begin("write");
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    levels[i].provenance.push_back(bp::mesh_provenance(o, enclosed, source.totals().checksum(), i));
+    levels[i].provenance.push_back(
+        bp::mesh_provenance(o, source.header().frame, enclosed, source.totals().checksum(), i));
     bp::write_mesh(levels[i], *outputs[i], format, {origin, o.proxy.mode == bp::MeshMode::fit});
   }
   bp::OutputFile::commit_all(outputs);
