@@ -93,7 +93,7 @@ void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource&
                  CheckReport& report) {
   SceneMemory memory(options);
   const EnclosureReport e = check_enclosure(mesh, surface, scene, report.sides_decided, options.max_examples,
-                                      [&](std::uint64_t first, const auto& t) { memory.see(first, t); });
+                                            [&](std::uint64_t first, const auto& t) { memory.see(first, t); });
   report.has_scene = true;
   report.scene_name = scene.name();
   report.scene_counts = scene.counts();

@@ -153,7 +153,8 @@ void declare_profile(Args& args, BuildOptions& o) {
   args.option("--profile",
               {{"gltf", LodProfile::gltf, "levels of detail as GLB"},
                {"3dtiles", LodProfile::tiles, "a tileset for CesiumJS and the like"},
-               {"collision", LodProfile::collision, "a body for physics: one mesh for Godot and Unity, convex hulls for Unreal"},
+               {"collision", LodProfile::collision,
+                "a body for physics: one mesh for Godot and Unity, convex hulls for Unreal"},
                {"occluder", LodProfile::occluder, "one mesh inside, for culling in Godot"},
                {"cage", LodProfile::cage, "quads and triangles, to deform with"}},
               o.profile, "what the levels are for");

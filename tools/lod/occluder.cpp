@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "tools/run/hiding_recipe.h"
 #include "tools/cli/names.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/lod_outputs.h"
+#include "tools/run/hiding_recipe.h"
 
 namespace bp {
 

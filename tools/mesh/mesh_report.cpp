@@ -2,8 +2,8 @@
 
 #include <fmt/ranges.h>
 
-#include "tools/run/hiding_recipe.h"
 #include "tools/cli/names.h"
+#include "tools/run/hiding_recipe.h"
 
 namespace bp {
 
