@@ -95,6 +95,17 @@ std::vector<std::unique_ptr<bp::OutputFile>> open_outputs(const bp::MeshOptions&
   return outputs;
 }
 
+/// The levels as files, all or none.
+void write_levels(std::vector<bp::LatticeMesh>& levels, const bp::MeshOptions& o, const std::string& enclosed,
+                  const std::string& checksum, const bp::Vec3d& origin, bp::MeshFormat format,
+                  const std::vector<std::unique_ptr<bp::OutputFile>>& outputs) {
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    levels[i].provenance.push_back(bp::mesh_provenance(o, enclosed, checksum, i));
+    bp::write_mesh(levels[i], *outputs[i], format, {origin, o.proxy.mode == bp::MeshMode::fit});
+  }
+  bp::OutputFile::commit_all(outputs);
+}
+
 void run(const bp::MeshOptions& o) {
   const bp::MeshFormat format = bp::output_format(o);
   bp::Report report("bpmesh");
@@ -119,11 +130,7 @@ void run(const bp::MeshOptions& o) {
   report.bytes_in = source.totals().bytes;
 
   report.stage("write");
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    levels[i].provenance.push_back(bp::mesh_provenance(o, enclosed, source.totals().checksum(), i));
-    bp::write_mesh(levels[i], *outputs[i], format, {origin, o.proxy.mode == bp::MeshMode::fit});
-  }
-  bp::OutputFile::commit_all(outputs);
+  write_levels(levels, o, enclosed, source.totals().checksum(), origin, format, outputs);
   for (const auto& output : outputs) report.bytes_out += output->bytes();
   bp::fill_report(report, o, counts);
   if (origin != bp::Vec3d{}) report.counts["origin"] = origin;
