@@ -14,7 +14,6 @@
 #include "lib/core/error.h"
 #include "tools/check/check_budget.h"
 #include "tools/check/check_run.h"
-#include "tools/check/hiding_recipe.h"
 #include "tools/check/hints.h"
 #include "tools/check/tileset_verdict.h"
 #include "tools/check/verdict_steps.h"
@@ -23,6 +22,7 @@
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
 #include "tools/run/grounded_source.h"
+#include "tools/run/hiding_recipe.h"
 #include "tools/run/inputs.h"
 #include "tools/run/memory_shares.h"
 #include "tools/run/origin.h"
@@ -154,13 +154,13 @@ std::optional<bp::HidingQuestion> hiding_question(const bp::CheckRun& o, const s
                                                   bp::SceneOptions options,
                                                   std::unique_ptr<bp::TriangleSource>& walls) {
   if (!o.inside || std::count(scenes.begin(), scenes.end(), "-") > 0) return {};  // stdin cannot be read again
-  const std::optional<bp::OccluderRecipe> recipe = bp::hiding_recipe(o.files.back());
+  const std::optional<bp::OccluderRecipe> recipe = bp::hiding_recipe(bp::extras_of(o.files.back()));
   if (!recipe) return {};
-  options.walls_only = true;
+  options.walls_only = recipe->opaque_only;
   options.keep_degenerate = false;
   walls = bp::open_scenes(scenes, options);
   if (recipe->ground) walls = std::make_unique<bp::GroundedSource>(std::move(walls), recipe->up);
-  return bp::HidingQuestion{recipe->hiding, walls.get()};
+  return bp::HidingQuestion{recipe->hiding, walls.get(), !recipe->opaque_only};
 }
 
 int run(const bp::CheckRun& o) {

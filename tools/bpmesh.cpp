@@ -95,13 +95,21 @@ std::vector<std::unique_ptr<bp::OutputFile>> open_outputs(const bp::MeshOptions&
   return outputs;
 }
 
+/// What all levels of a run have in common.
+struct Made {
+  const bp::StreamHeader& header;
+  std::string checksum;  ///< of the stream
+  const std::string& enclosed;
+  bp::Vec3d origin;
+  bp::MeshFormat format;
+};
+
 /// The levels as files, all or none.
-void write_levels(std::vector<bp::LatticeMesh>& levels, const bp::MeshOptions& o, const std::string& enclosed,
-                  const std::string& checksum, const bp::Vec3d& origin, bp::MeshFormat format,
+void write_levels(std::vector<bp::LatticeMesh>& levels, const bp::MeshOptions& o, const Made& made,
                   const std::vector<std::unique_ptr<bp::OutputFile>>& outputs) {
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    levels[i].provenance.push_back(bp::mesh_provenance(o, enclosed, checksum, i));
-    bp::write_mesh(levels[i], *outputs[i], format, {origin, o.proxy.mode == bp::MeshMode::fit});
+    levels[i].provenance.push_back(bp::mesh_provenance(o, made.header.frame, made.enclosed, made.checksum, i));
+    bp::write_mesh(levels[i], *outputs[i], made.format, {made.origin, o.proxy.mode == bp::MeshMode::fit});
   }
   bp::OutputFile::commit_all(outputs);
 }
@@ -130,7 +138,7 @@ void run(const bp::MeshOptions& o) {
   report.bytes_in = source.totals().bytes;
 
   report.stage("write");
-  write_levels(levels, o, enclosed, source.totals().checksum(), origin, format, outputs);
+  write_levels(levels, o, {source.header(), source.totals().checksum(), enclosed, origin, format}, outputs);
   for (const auto& output : outputs) report.bytes_out += output->bytes();
   bp::fill_report(report, o, counts);
   if (origin != bp::Vec3d{}) report.counts["origin"] = origin;
