@@ -143,7 +143,7 @@ void note_missing_materials(const std::string& in) {
 }
 
 void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
-  if (o.dump) bp::fail(bp::ErrorCode::bad_argument, "{}: --dump is for brick streams, and this is none", in);
+  if (o.dump) bp::fail(bp::ErrorCode::bad_argument, "{}: --dump is for brick streams, and this is not one", in);
   const bp::MeshExtras extras = bp::mesh_extras(in);
   bp::SceneOptions scene;
   scene.format = o.format;

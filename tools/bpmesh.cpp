@@ -89,6 +89,25 @@ std::vector<std::unique_ptr<bp::OutputFile>> open_outputs(const bp::MeshOptions&
   return outputs;
 }
 
+/// What all levels of a run have in common.
+struct Made {
+  const bp::StreamHeader& header;
+  std::string checksum;  ///< of the stream
+  const std::string& enclosed;
+  bp::Vec3d origin;
+  bp::MeshFormat format;
+};
+
+/// The levels as files, all or none.
+void write_levels(std::vector<bp::LatticeMesh>& levels, const bp::MeshOptions& o, const Made& made,
+                  const std::vector<std::unique_ptr<bp::OutputFile>>& outputs) {
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    levels[i].provenance.push_back(bp::mesh_provenance(o, made.header.frame, made.enclosed, made.checksum, i));
+    bp::write_mesh(levels[i], *outputs[i], made.format, {made.origin, o.proxy.mode == bp::MeshMode::fit});
+  }
+  bp::OutputFile::commit_all(outputs);
+}
+
 void run(bp::MeshOptions o) {
   const bp::MeshFormat format = bp::output_format(o);
   bp::Report report("bpmesh");
@@ -114,12 +133,7 @@ void run(bp::MeshOptions o) {
   report.bytes_in = source.totals().bytes;
 
   report.begin("write");
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    levels[i].provenance.push_back(
-        bp::mesh_provenance(o, source.header().frame, enclosed, source.totals().checksum(), i));
-    bp::write_mesh(levels[i], *outputs[i], format, {origin, o.proxy.mode == bp::MeshMode::fit});
-  }
-  bp::OutputFile::commit_all(outputs);
+  write_levels(levels, o, {source.header(), source.totals().checksum(), enclosed, origin, format}, outputs);
   for (const auto& output : outputs) report.bytes_out += output->bytes();
   bp::fill_report(report, o, counts);
   if (origin != bp::Vec3d{}) report.counts["origin"] = origin;

@@ -66,8 +66,8 @@ void check_floats(const LatticeMesh& mesh, const WorldVertices& vertices, const 
     for (const double c : p) {
       if (double(float(c)) == c) continue;
       fail(ErrorCode::bad_argument, {Remedy::set_origin, Remedy::double_format},
-           "{}: STL holds 32-bit floats, and the coordinate {} is none (relative to an origin of {} it may be)", name,
-           text_of(c), text_of(rounded_to_voxels(mesh.frame, vertices.front()), ","));
+           "{}: STL holds 32-bit floats, and the coordinate {} is not one (relative to an origin of {} it may be)",
+           name, text_of(c), text_of(rounded_to_voxels(mesh.frame, vertices.front()), ","));
     }
   }
 }

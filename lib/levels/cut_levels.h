@@ -3,8 +3,8 @@
 
 #include "lib/levels/tile_plan.h"
 #include "lib/levels/tile_pyramid.h"
-#include "lib/levels/tile_tree.h"
 #include "lib/pass/color/scene_colors.h"
+#include "lib/tileset/tile_tree.h"
 
 /// The levels of a tileset that are cut into tiles, each tile a job of its own.
 namespace bp {

@@ -22,7 +22,6 @@ namespace bp {
 
 namespace {
 
-constexpr double kMaxTiles = 1 << 27;      // the fills visit every tile; beyond, a grid is a slip of the finger
 constexpr std::int32_t kMaxTileVox = 512;  // Crossing has 9 bits
 
 std::int32_t default_tile(const VoxelBox& grid) {
@@ -127,7 +126,7 @@ void SceneVoxelizer::lay_grid() {
     fail(ErrorCode::bad_argument, "a tile of {} voxels a side is no multiple of 64 up to {}", edge, kMaxTileVox);
   tiles_ = TileGrid(grid, edge);
   const VoxelCoord size = grid.size();
-  if (tiles_.total() > kMaxTiles) {
+  if (tiles_.total() > TileGrid::kMostTiles) {
     fail(ErrorCode::bad_argument, {Remedy::coarser_grid}, "a grid of {} x {} x {} voxels is too fine", size.x, size.y,
          size.z);
   }

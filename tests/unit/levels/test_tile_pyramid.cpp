@@ -230,7 +230,7 @@ TEST_CASE("a tile's key depends on all that decides the tile", "[quick][pass][lo
     sum += some.size();
     distinct.insert(some.begin(), some.end());
   }
-  CHECK(all.size() == 1 + 7 + 3);
+  CHECK(all.size() == 1 + (kFieldCount<TileShape> - 1) + 3);
   CHECK(distinct.size() == sum);
 }
 
