@@ -11,12 +11,12 @@ target_compile_options(bp_compile_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-f
 target_compile_options(
   bp_compile_options
   INTERFACE "$<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wnon-virtual-dtor;-Woverloaded-virtual>>")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # False for "text" + std::string (GCC bug 105651).
+  target_compile_options(bp_compile_options INTERFACE $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>>)
+endif()
 if(BP_WERROR)
   target_compile_options(bp_compile_options INTERFACE $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Werror>>)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    # False at -O3 for "text" + std::string (GCC bug 105651): shown, but no reason to stop.
-    target_compile_options(bp_compile_options INTERFACE $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wno-error=restrict>>)
-  endif()
 endif()
 
 if(BP_FUZZ)  # coverage for the fuzzers of tests/fuzz, and sanitizers everywhere; watching comparisons would halve their speed

@@ -13,33 +13,11 @@
 #include "gpu/kernels/voxelize_kernels.h"
 #include "gpu/kernels/winding_kernels.h"
 #include "gpu/staging.h"
+#include "gpu/stream.h"
 
 namespace bp {
 
 namespace {
-
-/// A stream of its own on one device.
-class Stream {
- public:
-  explicit Stream(int device) : device_(device) {
-    select();
-    BP_CUDA_CHECK(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
-  }
-  ~Stream() {
-    (void)cudaSetDevice(device_);
-    (void)cudaStreamDestroy(stream_);
-  }
-  Stream(const Stream&) = delete;
-  Stream& operator=(const Stream&) = delete;
-  void select() const {
-    BP_CUDA_CHECK(cudaSetDevice(device_));
-  }  ///< the calling thread works on this device from now on
-  [[nodiscard]] cudaStream_t get() const { return stream_; }
-
- private:
-  int device_;
-  cudaStream_t stream_{};
-};
 
 cudaDeviceProp properties(int device) {
   cudaDeviceProp p{};

@@ -33,6 +33,26 @@ std::int32_t floor_sqrt(std::uint32_t v) {
   return r;
 }
 
+/// The scale as kernels see it; constant, or from the samples on the device.
+ScaleView view_of(const ScaleLattice& scale, const TileLayout& layout, const Scale* samples) {
+  ScaleView view;
+  view.constant = scale.max;
+  if (scale.constant()) return view;
+  view.samples = samples;
+  view.nx = scale.size.x, view.ny = scale.size.y, view.nz = scale.size.z;
+  view.ox = layout.ox, view.oy = layout.oy, view.oz = layout.oz;
+  return view;
+}
+
+/// Of the erosion by balls.
+TransformBounds bounds_of(Scale most, bool wide) {
+  TransformBounds bounds;
+  bounds.wide = wide;
+  bounds.limit = std::uint32_t(ball_bound(most));
+  bounds.reach = bounds.limit == 0 ? 0 : floor_sqrt(bounds.limit - 1);
+  return bounds;
+}
+
 void zero(void* p, std::size_t bytes, cudaStream_t stream) {
   BP_CUDA_CHECK(cudaMemsetAsync(p, 0, bytes, stream));
 }
@@ -46,8 +66,8 @@ TileLayout lay_out(const VoxelBox& solid, const ScaleLattice& scale, const Halo&
                         low.z + round_up(reach.max.z - low.z, kUnit)};
   const VoxelBox domain{low, high};
   if (domain.volume() / 32 >= std::int64_t(1) << 31) {
-    throw OutOfDeviceMemory(fmt::format("GPU: a tile of {} x {} x {} voxels is too large; use smaller tiles",
-                                        high.x - low.x, high.y - low.y, high.z - low.z));
+    throw OutOfDeviceMemory(
+        fmt::format("GPU: a tile of {} x {} x {} voxels is too large", high.x - low.x, high.y - low.y, high.z - low.z));
   }
   TileLayout t;
   t.shape = {(high.x - low.x) / 32, high.y - low.y, high.z - low.z};
@@ -109,20 +129,13 @@ const std::uint32_t* DeviceClosing::close(const TileLayout& layout, const ScaleL
   const std::size_t quads = shape.quad_count();
   std::uint32_t *solid_cells = flags_.data(), *contour_cells = solid_cells + quads;
   auto* wanted = reinterpret_cast<std::uint8_t*>(contour_cells + quads);  // one byte per quad, twice
-  ScaleView view;
-  view.constant = scale.max;
+  const ScaleView view = view_of(scale, layout, samples);
   if (!scale.constant()) {
-    view.samples = samples;
-    view.nx = scale.size.x, view.ny = scale.size.y, view.nz = scale.size.z;
-    view.ox = layout.ox, view.oy = layout.oy, view.oz = layout.oz;
     bound_cells(view, shape, w_of_cells_.grow(4 * quads), stream);
     done("bounds of scale");
   }
 
-  TransformBounds bounds;
-  bounds.wide = tuning_.wide;
-  bounds.limit = std::uint32_t(ball_bound(scale.max));
-  bounds.reach = bounds.limit == 0 ? 0 : floor_sqrt(bounds.limit - 1);
+  TransformBounds bounds = bounds_of(scale.max, tuning_.wide);
   const bool cube = element == StructuringElement::cube;
   const std::uint32_t* result = solid_.data();
   if (cube && cube_radius(scale.max) > 0) {
@@ -199,6 +212,13 @@ void DeviceClosing::transform(const TileLayout& layout, const ScaleView& view, c
   apply_answers(t.erosion, solid_.data(), dilated_.data(), answers, t.region, shape, t.out, t.wanted, stream);
   done(t.erosion ? "erode: cells" : "dilate: cells");
 
+  transform_slabs(layout, view, t, answers, stream, done);
+}
+
+/// The words of t.region in slabs, as many at a time as the memory for distances takes.
+void DeviceClosing::transform_slabs(const TileLayout& layout, const ScaleView& view, const Transform& t,
+                                    const CellAnswers& answers, cudaStream_t stream, const Mark& done) {
+  const GridShape& shape = layout.shape;
   const int first = std::max(t.region.x0 / 32, 0), last = std::min((t.region.x1 + 31) / 32, shape.words);
   const int step = slab_words(layout, t.bounds, last - first);
   const WorkSizes sizes = work_sizes(shape, step);

@@ -64,6 +64,8 @@ class DeviceClosing {
   void dilate_by_cube(const TileLayout& layout, const ScaleLattice& scale, const ScaleView& view, cudaStream_t stream);
   void transform(const TileLayout& layout, const ScaleView& view, const Transform& t, cudaStream_t stream,
                  const Mark& mark);
+  void transform_slabs(const TileLayout& layout, const ScaleView& view, const Transform& t, const CellAnswers& answers,
+                       cudaStream_t stream, const Mark& done);
   [[nodiscard]] int slab_words(const TileLayout& layout, const TransformBounds& bounds, int words);
 
   ClosingTuning tuning_;

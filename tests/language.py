@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""How long the sentences are, of manuals and pages, of --help and of the comments on public declarations.
+"""How long the sentences are, of manuals and pages, of messages and of the comments on public declarations. The section OPTIONS of
+manuals is what --help prints.
     tests/language.py [--bar] [--long] [ROOT]
 Prints, for each kind of text and for each page, the number of sentences, the median of their words, the share above 40
 words, and the words of a page. --long: also the sentences above 40 words, and words to avoid, with their files. --bar:
-exit status 1 unless each kind keeps to BARS, no manual has more than 1,200 words, and no page has a word to avoid. Code
+exit status 1 unless each kind keeps to BARS, no manual has more than 1,200 words, and no page or message has a word to avoid. Code
 blocks, tables and headings do not count."""
 import re
 import subprocess
@@ -11,8 +12,8 @@ import sys
 from pathlib import Path
 
 LONG, MANUAL = 40, 1200
-BARS = {"pages": (12, 1.0), "comments": (12, 1.0), "help": (12, 1.0)}  # median, percent of long ones
-AVOID = re.compile(r"\b(hangs? on|stands? off|is said|are said|comes to|whatever the|is none)\b", re.I)
+BARS = {"pages": (12, 1.0), "comments": (12, 1.0), "messages": (12, 1.0)}  # median, percent of long ones
+AVOID = re.compile(r"\b(hangs? on|stands? off|is said|are said|comes to|whatever the|is none(?! of))\b", re.I)
 
 
 def sentences(text, name=""):
@@ -46,14 +47,12 @@ def comment_text(text):
     return "\n".join(out)
 
 
-def help_text(text):
-    """What sources hand to Args: the strings of calls of option(), flag(), positional() and about()."""
+def message_text(text):
+    """What users are told: the strings of calls of fail(), NeedsMemory(), note(), say() and warn(), a paragraph for each call."""
     out = []
-    for call in re.finditer(r"args\.(?:option|flag|flag_with_word|positional|about)\((.*?)\);", text, flags=re.S):
-        joined = re.sub(r'"\s*\n?\s*"', "", call.group(1))
-        strings = re.findall(r'"((?:[^"\\]|\\.)*)"', joined)
-        if strings:
-            out.append(max(strings, key=len))
+    for call in re.finditer(r"\b(?:fail|NeedsMemory|DeviceError|note|say|warn)\((.*?)\);", text, flags=re.S):
+        joined = re.sub(r'"\s*\n\s*"', "", call.group(1))
+        out += re.findall(r'"((?:[^"\\]|\\.)* (?:[^"\\]|\\.)*)"', joined)
     return "\n\n".join(out)
 
 
@@ -63,6 +62,13 @@ def row(name, counts, words=None):
     counts = sorted(counts)
     share = 100 * sum(n > LONG for n in counts) / len(counts)
     print(f"{name:44} {len(counts):6} {counts[len(counts) // 2]:6} {share:8.1f}" + (f" {words:7}" if words else ""))
+
+
+def has_words_to_avoid(name, text):
+    found = list(AVOID.finditer(text))
+    for at in found:
+        print(f"{name}: avoid: ...{text[max(0, at.start() - 30):at.end() + 20]!r}")
+    return bool(found)
 
 
 def tracked_files(root):
@@ -78,7 +84,7 @@ def main():
         print("SKIPPED: no clone of the repository")
         return 0
     print(f"{'':44} {'count':>6} {'median':>6} {'% > 40':>8} {'words':>7}")
-    kinds = {"pages": [], "comments": [], "help": []}
+    kinds = {"pages": [], "comments": [], "messages": []}
     for name in files:
         told = name if "--long" in sys.argv else ""
         if name.endswith(".md"):
@@ -89,13 +95,14 @@ def main():
             if name.endswith(".1.md") and words > MANUAL:
                 print(f"{name}: {words} words, {MANUAL} at most")
                 bad = True
-            for found in AVOID.finditer(text):
-                print(f"{name}: avoid: ...{text[max(0, found.start() - 30):found.end() + 20]!r}")
-                bad = True
-        elif name.endswith(".h") and not name.startswith("tests/"):
-            kinds["comments"] += sentences(comment_text((root / name).read_text(encoding="utf-8")), told)
-        elif name.startswith("tools/") and name.endswith(".cpp"):
-            kinds["help"] += sentences(help_text((root / name).read_text(encoding="utf-8")), told)
+            bad |= has_words_to_avoid(name, text)
+        elif name.endswith((".h", ".cpp")) and not name.startswith("tests/"):
+            text = (root / name).read_text(encoding="utf-8")
+            if name.endswith(".h"):
+                kinds["comments"] += sentences(comment_text(text), told)
+            messages = message_text(text)
+            kinds["messages"] += sentences(messages, told)
+            bad |= has_words_to_avoid(name, messages)
     for kind, counts in kinds.items():
         row(kind, counts)
         median, share = BARS[kind]

@@ -28,7 +28,7 @@
 ///   - Can be seen through, for SceneOptions::walls_only: materials of glTF whose alphaMode is not OPAQUE or whose base
 ///     colour has an alpha below 1; of MTL those with d below 1, Tr strictly between 0 and 1, or map_d; Assimp's whose
 ///     opacity is below 1.
-///   - A glTF asset whose `extras.up` is "z" (mesh_writer.h) is delivered in its own z-up coordinates.
+///   - A glTF asset whose `extras.up` is "z" (io/mesh/mesh_writer.h) is delivered in its own z-up coordinates.
 namespace bp {
 
 /// For meshes that are read as a whole.

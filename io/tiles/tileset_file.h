@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "lib/check/tileset.h"
 #include "lib/grid/stream.h"
+#include "lib/tileset/tileset.h"
 
 /// tileset.json of 3D Tiles 1.1: reading and writing. Explicit tilesets with boxes; what else a tileset may hold is
 /// left alone.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/scene/scene_reader.h"
-#include "lib/check/tileset.h"
+#include "lib/tileset/tileset.h"
 
 /// One level of a tileset as a scene: what a viewer draws that refines every tile equally far.
 namespace bp {

@@ -93,7 +93,7 @@ void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource&
                  CheckReport& report) {
   SceneMemory memory(options);
   const EnclosureReport e = check_enclosure(mesh, surface, scene, report.sides_decided, options.max_examples,
-                                      [&](std::uint64_t first, const auto& t) { memory.see(first, t); });
+                                            [&](std::uint64_t first, const auto& t) { memory.see(first, t); });
   report.has_scene = true;
   report.scene_name = scene.name();
   report.scene_counts = scene.counts();
@@ -122,7 +122,8 @@ void check_scene_around(const WeldedMesh& mesh, const Surface& surface, Triangle
       check_hidden(mesh, surface, *walls, recipe, options.max_examples, options.scene_memory_bytes);
   report.asks_hidden = true;
   report.openings = 2 * recipe.scale_world;
-  report.hidden_unknown = hidden.undecided, report.exposed = hidden.exposed;
+  report.hidden_unknown = hidden.undecided, report.hidden_bytes = hidden.memory_bytes;
+  report.exposed = hidden.exposed;
 }
 
 void check_scene_in_parts(const WeldedMesh& mesh, TriangleSource& scene, const CheckOptions& options,

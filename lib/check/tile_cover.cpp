@@ -5,8 +5,8 @@
 #include <atomic>
 #include <memory>
 
-#include "lib/check/detail/triangle_part.h"
 #include "lib/check/detail/surface.h"
+#include "lib/check/detail/triangle_part.h"
 #include "lib/core/parallel.h"
 #include "lib/exact/triangle_intersection.h"
 

@@ -1,35 +1,34 @@
 #include "lib/geometry/triangle_totals.h"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "lib/core/vec3.h"
+#include "lib/store/content_hash.h"
 #include "lib/store/hex.h"
 
 namespace bp {
 
 namespace {
 
-XXH128_hash_t hash_of(TriangleD t) {
+ResultKey hash_of(TriangleD t) {
   for (Vec3d& p : t) {
     for (double& c : p) c = std::isnan(c) ? std::numeric_limits<double>::quiet_NaN() : c + 0.0;
   }
   if (t[0] == t[0] && t[1] == t[1] && t[2] == t[2])
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   static_assert(sizeof(TriangleD) == 72);
-  return XXH3_128bits(&t, sizeof t);
+  return content_hash(std::as_bytes(std::span(&t, 1)));
 }
 
 }  // namespace
 
 void TriangleTotals::add(std::span<const TriangleD> batch) {
   for (const TriangleD& t : batch) {
-    const XXH128_hash_t hash = hash_of(t);
-    checksum_low += hash.low64;
-    checksum_high += hash.high64 + (checksum_low < hash.low64 ? 1 : 0);
+    const auto [high, low] = hash_of(t).words;
+    checksum_low += low;
+    checksum_high += high + (checksum_low < low ? 1 : 0);
     ++triangles;
     const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
     const double twice_area = std::sqrt(dot(normal, normal));

@@ -7,6 +7,8 @@
 namespace bp {
 
 struct TileGrid {
+  /// Fills and closings visit every tile; beyond, a grid is a slip of the finger.
+  static constexpr double kMostTiles = 1 << 27;
   VoxelBox voxels;
   std::int32_t edge_vox = 0;  ///< a multiple of kBrickEdge where tiles are stored as bricks
   TileCoord count{};

@@ -3,8 +3,8 @@
 
 #include "lib/levels/tile_plan.h"
 #include "lib/levels/tile_pyramid.h"
-#include "lib/levels/tile_tree.h"
 #include "lib/pass/color/scene_colors.h"
+#include "lib/tileset/tile_tree.h"
 
 /// The levels of a tileset that are cut into tiles, each tile a job of its own.
 namespace bp {
@@ -29,7 +29,7 @@ struct CutFiles {
 
 /// What a caller does while levels are cut. Tiles come in no order, one at a time, on any thread.
 struct CutSteps {
-  std::function<void(const std::string&)> stage;
+  std::function<void(const std::string&)> begin;
   std::function<CutFiles(std::size_t level, const GridFrame& frame)> files;
   std::function<void(std::size_t level, LevelTile&&)> take;
 };

@@ -44,7 +44,7 @@ struct TileParams : TileShape {
   bool make = true;                                     ///< false: what is not kept comes without measures and content
   std::function<void(CellCoord, KeyHash&)> add_to_key;  ///< what else decides a tile; may be empty
 
-  static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastFaces = 60;  ///< of a tile without a budget
+  static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastTileFaces = 60;  ///< of a tile without a budget
   /// A bounding tile without a budget keeps more faces where these would take it farther from what it encloses: thin
   /// parts that lie apart in one tile have few faces of their voxels' surface, and none to spare. Only where the
   /// surface is small enough to be whole in memory (16 MiB): a limit on distances wants that, and larger ones have

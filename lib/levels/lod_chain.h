@@ -54,7 +54,8 @@ struct LodOptions {
   double least_scale_world = 0;  ///< no level is closed at less
   bool quads = false;            ///< join triangles in pairs (lib/quads/quads.h)
   int max_attempts = 12;         ///< at most so many scales for one level
-  /// The memory is for tiles at work and, between, for surfaces. The scene's outside, and `scene`, come off both.
+  /// The memory is for tiles at work and, between them, for surfaces. The scene's outer surface and `scene` are
+  /// subtracted from both.
   PassContext context;
 };
 
@@ -64,12 +65,13 @@ struct LodLevel {
   int reductions = 0;      ///< the voxels are 2^reductions times those of the solid
   int attempts = 0;        ///< scales that were tried
   bool reached = true;     ///< it has at most the faces asked for
-  /// What a viewer can see, scene units: upper bound of the distance of a point of the level to the outside of the
-  /// scene (what its solid shows to the outside), and of a point of that which is outside the level to the level. None
-  /// is outside a bounding one. As a rule at most three voxels of the solid and 4 % above the largest.
+  /// Upper bound of the distances that a viewer can see, scene units: from a point of the level to the outer surface of
+  /// the scene (what its solid shows to the outside), and from a point of that surface which lies outside the level to
+  /// the level. No such point lies outside a bounding level. As a rule the bound is at most three voxels of the solid
+  /// and 4 % above the largest distance.
   double error_world = 0;
-  /// The same of all points, wherever they are: of the symmetric Hausdorff distance. Deep where a level closes a
-  /// cavity.
+  /// Upper bound of the symmetric Hausdorff distance: of all points, those that nobody sees included. It is large where
+  /// a level closes a cavity.
   double distance_world = 0;
   MeshCounts counts;
 };

@@ -32,8 +32,8 @@ struct JobRange {
 struct TilesetPlan {
   /// Closing radius of a level that is cut, in its voxels, if nobody says.
   static constexpr double kScaleVox = 2 + kBeyondWholeVox;
-  /// Levels below the finest whose longest side has no more voxels are not cut, however small the tiles: what few
-  /// voxels, at a scale of two of them, make of a scene is worth less than its faces (decision 0013).
+  /// Levels below the finest whose longest side has no more voxels are not cut, however small the tiles: so few voxels,
+  /// closed at a scale of two of them, show less of a scene than the same number of faces does (decision 0013).
   static constexpr std::int64_t kWholeVox = 128;
   std::vector<CutLevel> cut;  ///< finest first
   StreamHeader uncut;         ///< of the solid after the last of them

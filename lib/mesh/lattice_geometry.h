@@ -30,10 +30,10 @@ namespace bp {
 /// corners to a point, the point's side of the face.
 [[nodiscard]] inline int side_along(const LatticeCoord& n, const LatticeCoord& d) {
   constexpr std::int64_t n_max = std::int64_t(1) << 40, d_max = std::int64_t(1) << 20;  // 3 * 2^60 < 2^63
-  const auto within = [](std::int64_t v, std::int64_t max) { return std::uint64_t(v + max) < std::uint64_t(2 * max); };
-  if (within(n.x, n_max) & within(n.y, n_max) & within(n.z, n_max) & within(d.x, d_max) & within(d.y, d_max) &
-      within(d.z, d_max))
-    return sign_of(n.x * d.x + n.y * d.y + n.z * d.z);
+  const auto within = [](const LatticeCoord& v, std::int64_t max) {  // a power of two: one comparison for three
+    return (std::uint64_t(v.x + max) | std::uint64_t(v.y + max) | std::uint64_t(v.z + max)) < std::uint64_t(2 * max);
+  };
+  if (within(n, n_max) && within(d, d_max)) return sign_of(n.x * d.x + n.y * d.y + n.z * d.z);
   return sign_of(int128(n.x) * d.x + int128(n.y) * d.y + int128(n.z) * d.z);
 }
 

@@ -17,7 +17,7 @@ struct LatticeMesh {
   GridFrame frame;
   std::vector<LatticeCoord> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::array<std::uint32_t, 2>> quads;  ///< pairs of triangles that a file joins (quads.h); mostly none
+  std::vector<std::array<std::uint32_t, 2>> quads;  ///< triangles that a file joins (lib/quads/quads.h); mostly none
   std::vector<LinearColor> colors;                  ///< of the vertices; empty: none
   std::vector<Provenance> provenance;
 };

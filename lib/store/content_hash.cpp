@@ -4,6 +4,18 @@
 
 namespace bp {
 
+namespace {
+
+ResultKey key_of(const XXH128_hash_t& hash) {
+  return {{hash.high64, hash.low64}};
+}
+
+}  // namespace
+
+ResultKey content_hash(std::span<const std::byte> bytes) {
+  return key_of(XXH3_128bits(bytes.data(), bytes.size()));
+}
+
 struct ContentHash::State {
   XXH3_state_t* hash = XXH3_createState();
   State() { XXH3_128bits_reset(hash); }
@@ -20,8 +32,7 @@ void ContentHash::add(std::span<const std::byte> bytes) {
 }
 
 ResultKey ContentHash::value() const {
-  const XXH128_hash_t h = XXH3_128bits_digest(state_->hash);
-  return {{h.high64, h.low64}};
+  return key_of(XXH3_128bits_digest(state_->hash));
 }
 
 void ContentHash::reset() {

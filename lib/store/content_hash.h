@@ -6,6 +6,9 @@
 
 namespace bp {
 
+/// XXH3-128 of these bytes.
+[[nodiscard]] ResultKey content_hash(std::span<const std::byte> bytes);
+
 /// XXH3-128 of bytes that come in pieces.
 class ContentHash {
  public:

@@ -20,7 +20,7 @@ using Corner = std::uint8_t;
 ///   a 2x2 square with two diagonal voxels: the other two;
 ///   two voxels on a space diagonal: the path x, then y, from the lower one in z to the other;
 ///   two empty voxels on a space diagonal: both.
-/// Applied to any block once, it leaves that block manifold (test_repair.cpp proves it on all 256).
+/// Applied to any block once, it leaves that block manifold (tests/unit/surface/test_repair.cpp proves it on all 256).
 [[nodiscard]] Corner corner_repair(Corner block);
 
 /// Repairs all bricks of a shelf: rounds in which each block adds its voxels at once, until none adds any. Rounds are

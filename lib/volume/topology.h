@@ -9,7 +9,7 @@ struct SolidTopology {
   std::uint64_t handles = 0;  ///< holes that go through them, less the cavities in them; not below 0
 };
 
-/// Of the voxels of `solid`, as they are: repair.h, which closes the tiniest of the holes, comes later. Exact; the same
+/// Of the voxels of `solid`, as they are: lib/surface/repair.h closes the tiniest of the holes later. Exact; the same
 /// for every number of threads. Memory: topology_bytes(), 20 for each run of voxels in a brick. Linear but for sorting.
 [[nodiscard]] SolidTopology topology_of(const BrickShelf& solid);
 [[nodiscard]] std::uint64_t topology_bytes(const BrickShelf& solid);

@@ -6,7 +6,7 @@ namespace plant {
 
 namespace {
 
-constexpr Vec kUp{0, 1, 0}, kX{1, 0, 0}, kZ{0, 0, 1};
+constexpr Vec kX{1, 0, 0}, kZ{0, 0, 1};
 
 void ground(Parts& p) {
   p.box({-0.1, -0.5, -0.1}, {kPlot + 0.1, 0, kPlot + 0.1});
@@ -59,15 +59,8 @@ void tanks(Parts& p) {
   for (int i = 0; i < 4; ++i) p.stairs({1.0, 0, 4.0 + 12 * i}, {-0.9, 0, 0.01}, 1.4, 0.8);
 }
 
-/// A building shell: walls with windows and doors, no floor, a corrugated roof; machines inside.
-void hall(Parts& p) {
-  const double w = 46, d = 32, h = p.random.uniform(8, 12), x = 7, z = 8;
-  const int bays = 8;
-  p.wall({x, 0, z}, kX, w, h, bays, true);
-  p.wall({x + w, 0, z + d}, kX * -1, w, h, bays, true);
-  p.wall({x + w, 0, z}, kZ, d, h, 5, p.random.chance(0.5));
-  p.wall({x, 0, z + d}, kZ * -1, d, h, 5, true);
-  const double ridge = h + 4;
+/// A corrugated roof on frames, over `bays` bays.
+void hall_roof(Parts& p, double x, double z, double w, double d, double h, double ridge, int bays) {
   for (int i = 0; i < bays; ++i) {
     const Vec at{x + w * i / bays, h, z - 0.6}, u{w / bays + 0.1, 0, 0};
     p.zigzag(at, u, {0, ridge - h, d / 2 + 0.6}, 24, kUp * 0.08);
@@ -85,6 +78,17 @@ void hall(Parts& p) {
       p.beam({at, h, z + d * t}, {at, top, z + d * t}, 0.08, 0.08);
     }
   }
+}
+
+/// A building shell: walls with windows and doors, no floor, a roof; machines inside.
+void hall(Parts& p) {
+  const double w = 46, d = 32, h = p.random.uniform(8, 12), x = 7, z = 8, ridge = h + 4;
+  const int bays = 8;
+  p.wall({x, 0, z}, kX, w, h, bays, true);
+  p.wall({x + w, 0, z + d}, kX * -1, w, h, bays, true);
+  p.wall({x + w, 0, z}, kZ, d, h, 5, p.random.chance(0.5));
+  p.wall({x, 0, z + d}, kZ * -1, d, h, 5, true);
+  hall_roof(p, x, z, w, d, h, ridge, bays);
   p.beam({x + 1, h - 1.5, z + 1.2}, {x + w - 1, h - 1.5, z + 1.2}, 0.3, 0.5);
   p.beam({x + 1, h - 1.5, z + d - 1.2}, {x + w - 1, h - 1.5, z + d - 1.2}, 0.3, 0.5);
   p.beam({x + w / 3, h - 1, z + 1}, {x + w / 3, h - 1, z + d - 1}, 0.8, 0.9);

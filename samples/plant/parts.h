@@ -9,6 +9,10 @@
 /// real models. Sines and cosines are our own polynomials, so that every machine makes the same bytes.
 namespace plant {
 
+constexpr Vec kUp{0, 1, 0};
+/// Two unit vectors that make a right-handed frame with `axis`: u x v = axis.
+[[nodiscard]] std::array<Vec, 2> across(Vec axis);
+
 struct Turn {
   double cosine, sine;
 };

@@ -84,9 +84,23 @@ std::string matrix_text(const Placement& p) {
   return fmt::format("[{},0,{},0,0,1,0,0,{},0,{},0,{},0,{},1]", p.xx, p.zx, p.xz, p.zz, p.dx, p.dz);
 }
 
-/// The JSON of the GLB; `meshes` maps a shape to its mesh, as some shapes may not be in use.
+/// The nodes of all placements, and their numbers.
+std::array<std::string, 2> glb_nodes(const Site& site, const std::vector<int>& mesh_of) {
+  std::string nodes, roots;
+  std::uint64_t node = 0;
+  site.for_each([&](const Placement& p) {
+    const char* comma = node > 0 ? "," : "";
+    const bool plain = p.xx == 1 && p.zz == 1;
+    nodes += plain ? fmt::format("{}{{\"mesh\":{},\"translation\":[{},0,{}]}}", comma, mesh_of[p.shape], p.dx, p.dz)
+                   : fmt::format("{}{{\"mesh\":{},\"matrix\":{}}}", comma, mesh_of[p.shape], matrix_text(p));
+    roots += fmt::format("{}{}", comma, node++);
+  });
+  return {nodes, roots};
+}
+
+/// The JSON of the GLB; `mesh_of` maps a shape to its mesh, as some shapes may not be in use.
 std::string glb_json(const Site& site, const std::vector<int>& mesh_of, std::uint64_t binary_bytes) {
-  std::string accessors, views, meshes, nodes, roots;
+  std::string accessors, views, meshes;
   std::uint64_t offset = 0;
   int mesh = 0;
   for (std::size_t s = 0; s < site.shapes().size(); ++s) {
@@ -111,14 +125,7 @@ std::string glb_json(const Site& site, const std::vector<int>& mesh_of, std::uin
     offset += vertex_bytes + index_bytes;
     ++mesh;
   }
-  std::uint64_t node = 0;
-  site.for_each([&](const Placement& p) {
-    const char* comma = node > 0 ? "," : "";
-    const bool plain = p.xx == 1 && p.zz == 1;
-    nodes += plain ? fmt::format("{}{{\"mesh\":{},\"translation\":[{},0,{}]}}", comma, mesh_of[p.shape], p.dx, p.dz)
-                   : fmt::format("{}{{\"mesh\":{},\"matrix\":{}}}", comma, mesh_of[p.shape], matrix_text(p));
-    roots += fmt::format("{}{}", comma, node++);
-  });
+  const auto [nodes, roots] = glb_nodes(site, mesh_of);
   std::string json = fmt::format(
       "{{\"asset\":{{\"version\":\"2.0\",\"generator\":\"bp-plant\"}},\"scene\":0,\"scenes\":[{{\"nodes\":[{}]}}],"
       "\"nodes\":[{}],"

@@ -58,8 +58,14 @@ pipe_cases() {
     rm again.bpv
   done
   bpclose flood.bpv --scale 2% --device cpu --keep-cavities -q -o cavities.bpv
-  bpclose inside.bpv --scale 1vx --inner --device cpu -q -o inner.bpv
-  pin close cube.bpv ball.bpv cavities.bpv inner.bpv
+  bpclose inside.bpv --scale 1vx --device cpu -q -o inner.bpv
+  bpclose winding.bpv --scale 3vx --device cpu -q -o wound.bpv
+  scale_field flood.bpv > field.json
+  bpclose flood.bpv --field field.json --device cpu -j 1 --memory 192M -q -o varied.bpv
+  bpclose flood.bpv --field field.json --device cpu -j 3 -q -o again.bpv
+  same "close field" varied.bpv again.bpv
+  rm again.bpv
+  pin close cube.bpv ball.bpv cavities.bpv inner.bpv wound.bpv varied.bpv
   mesh cube.bpv faces.glb --faces 500
   mesh ball.bpv ball.ply --faces 500
   mesh flood.bpv open.obj --faces 300
@@ -73,6 +79,19 @@ pipe_cases() {
   mesh cube.bpv chain.gltf --faces 500,200,60
   mesh ball.bpv fit.glb --mode fit --faces 500
   mesh inner.bpv inside.ply --mode inside --faces 100
+  mesh varied.bpv varied.ply --faces 500
+  mesh varied.bpv varied-edges.ply --edge-length 3
+}
+
+# scale_field STREAM: scales of two to six voxels, with a box and a stroke in the middle of the scene
+scale_field() {
+  bpinfo "$1" --json | python3 -c '
+import json, sys
+info = json.load(sys.stdin)
+voxel, low, high = info["voxel"], info["bounds"]["min"], info["bounds"]["max"]
+middle = [(a + b) / 2 for a, b in zip(low, high)]
+print(json.dumps({"base": 3 * voxel, "boxes": [{"min": low, "max": middle, "scale": 2 * voxel}],
+                  "strokes": [{"mode": "increase", "position": middle, "support": 16 * voxel, "target": 6 * voxel}]}))'
 }
 
 # mesh STREAM OUTPUT OPTIONS...: alike with one thread and three, little memory and much
@@ -101,7 +120,10 @@ lod_cases() {
   lod faces --resolution 96 --faces 500,100
   lod fit --mode fit --faces 500,100 --resolution 96
   lod error --error 2% --levels 2
+  lod winding --fill winding --faces 300 --resolution 96
   lod collision --profile collision --faces 300 --resolution 96
+  lod occluder --profile occluder --resolution 96
+  lod cage --profile cage --faces 200 --resolution 96
   tiles=("$scene" "${up[@]}" --name m -q --profile 3dtiles --resolution 128 --tile 64)
   bplod "${tiles[@]}" -j 1 -o tiles > tiles.list
   pin lod tiles tiles.list

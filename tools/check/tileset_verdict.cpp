@@ -6,8 +6,8 @@
 
 #include "io/tiles/tileset_file.h"
 #include "lib/check/check_proxy.h"
+#include "lib/check/check_tileset.h"
 #include "lib/check/tile_cover.h"
-#include "lib/check/tileset.h"
 #include "lib/core/error.h"
 #include "tools/cli/advice.h"
 #include "tools/cli/report.h"

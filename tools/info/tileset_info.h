@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/check/tileset.h"
+#include "lib/tileset/tileset.h"
 #include "tools/cli/report.h"
 
 /// What bpinfo says of a tileset.json. Contents are counted and weighed, not read: bpcheck does that.

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "tools/run/hiding_recipe.h"
 #include "tools/cli/names.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/lod_outputs.h"
+#include "tools/run/hiding_recipe.h"
 
 namespace bp {
 
@@ -71,7 +71,7 @@ void build_occluder(const BuildOptions& o) {
   made.level.mesh.provenance = {make_provenance("bplod", option_text(o, made), made.scene.counts.input_hash)};
   note(build, made);
   build.progress.end();
-  build.report.stage("write");
+  build.report.begin("write");
   const Json more = json_of(made);
   const LevelFacts facts = facts_of(made.level, {});
   std::vector<LodLevel> levels;

@@ -2,8 +2,8 @@
 
 #include <fmt/ranges.h>
 
-#include "tools/run/hiding_recipe.h"
 #include "tools/cli/names.h"
+#include "tools/run/hiding_recipe.h"
 
 namespace bp {
 
@@ -69,8 +69,6 @@ Provenance mesh_provenance(const MeshOptions& o, const GridFrame& frame, const s
       .add("edge-length", o.edge_length)
       .add("enclose", enclosed)
       .add("tighten", true);
-  if (o.least_part) text.add("least-part", *o.least_part);
-  if (o.inset) text.add("inset", *o.inset);
   if (o.quads) text.add("quads", o.quads);
   if (o.levels.faces.size() > 1) text.add("level", level);
   if (o.proxy.mode == MeshMode::inside) add_recipe({{frame}, false, false, frame.up}, text);

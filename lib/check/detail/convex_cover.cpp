@@ -55,7 +55,7 @@ ConvexCover::ConvexCover(const std::vector<std::vector<TriangleD>>& parts) : box
   }
 }
 
-/// Each term of the value passes through at most 8 roundings (predicates.h), and `size` bounds what n is made of.
+/// Each term of the value is rounded at most 8 times (lib/exact/predicates.h), and `size` bounds what n is made of.
 ConvexCover::Plane::Height ConvexCover::Plane::height(const Vec3d& p, double off) const {
   const Vec3d d = p - a, steepest = absolute(n) + 16 * kUnit * size;
   return {dot(n, d), 16 * kUnit * dot(size, absolute(d)) + 1.01 * off * (steepest[0] + steepest[1] + steepest[2])};

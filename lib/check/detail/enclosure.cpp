@@ -120,9 +120,9 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, bool decide_sid
 
 }  // namespace
 
-EnclosureReport check_enclosure(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, bool decide_sides,
-                          std::size_t max_examples,
-                          const std::function<void(std::uint64_t, const std::vector<TriangleD>&)>& see) {
+EnclosureReport check_enclosure(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
+                                bool decide_sides, std::size_t max_examples,
+                                const std::function<void(std::uint64_t, const std::vector<TriangleD>&)>& see) {
   EnclosureReport all;
   Vec3d origin{};
   if (!surface.bounds().empty()) origin = surface.bounds().min;

@@ -21,7 +21,7 @@ class Surface {
 
   static constexpr std::int64_t kNone = -1;
   /// A triangle (of WeldedMesh) that `t` touches or crosses, or kNone. Beyond the domain of the predicates the exact
-  /// ones of wide_predicates.h decide: finite coordinates will do.
+  /// ones of lib/exact/wide_predicates.h decide: finite coordinates will do.
   [[nodiscard]] std::int64_t touched_by(const TriangleD& t) const;
 
   /// Winding number of the surface around p, which must not lie on it (there, an arbitrary but fixed side). Triangles

@@ -14,7 +14,7 @@ constexpr double kGrowth = 1e-9;       // of a cell, in its edges
 constexpr double kRounding = 0x1p-50;  // of a point in doubles beside one of the triangle, in its coordinates
 constexpr double kNear = 1e-12;        // the same, in edges of the cell
 
-/// The determinant of orient3d and a bound of its error (predicates.h, "Filter").
+/// The determinant of orient3d and a bound of its error (lib/exact/predicates.h, "Filter").
 struct Side {
   double value, error;
 };

@@ -136,7 +136,7 @@ MeshParams TileMaker::mesh_params(TileMeasures& measures) const {
     const std::uint64_t solid_faces = 2 * boundary_.faces;
     measures.faces_asked = params_.faces > 0
                                ? params_.faces
-                               : std::max(solid_faces / TileParams::kDenseFacesPerFace, TileParams::kLeastFaces);
+                               : std::max(solid_faces / TileParams::kDenseFacesPerFace, TileParams::kLeastTileFaces);
     mesh.faces = {measures.faces_asked};
     if (params_.faces == 0 && params_.mode == MeshMode::bounding && solid_faces <= TileParams::kMostFacesForError)
       mesh.error_world = TileParams::kErrorVox * level_.header.frame.voxel;

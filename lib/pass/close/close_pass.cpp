@@ -20,7 +20,6 @@ namespace bp {
 
 namespace {
 
-constexpr double kMaxTiles = 1 << 27;        // the fill asks every tile; beyond, a grid is a slip of the finger
 constexpr std::size_t kBricksAtATime = 128;  // taken off the shelf together to be written: 8 MiB
 constexpr std::int32_t kMaxTileVox = 512;    // beyond, halos cost little and tiles get few
 
@@ -163,7 +162,7 @@ void StreamCloser::lay_tiles(Backends& backends) {
                       memory.bytes, memory.limit_with(needed - memory.bytes), others);
   }
   tiles_ = TileGrid(grid, edge);
-  if (tiles_.total() > kMaxTiles)
+  if (tiles_.total() > TileGrid::kMostTiles)
     fail(ErrorCode::bad_argument, {Remedy::larger_tiles}, "the grid has {:.0f} tiles of {} voxels", tiles_.total(),
          edge);
   const auto fit = std::size_t(std::max(1.0, std::min(double(workers), double(memory.bytes) / bytes)));
@@ -333,7 +332,7 @@ BrickBox closing_bricks(const StreamHeader& header, const ScaleField& scale) {
   const std::int32_t margin = ceil_div(widest_halo(scale.upper_bound(header.frame)).erosion_vox, kBrickEdge);
   const BrickBox grown = header.bricks.grown(margin);
   if (brick_box_fault(grown) != nullptr)
-    fail(ErrorCode::bad_argument, "the closing leaves the grid of 2^31 voxels a side; use larger voxels");
+    fail(ErrorCode::bad_argument, {Remedy::larger_voxels}, "the closing leaves the grid of 2^31 voxels a side");
   return grown;
 }
 

@@ -10,7 +10,7 @@ namespace bp {
 namespace {
 
 constexpr int kMostTimes = 64;
-constexpr std::uint64_t kLeastFaces = 4;  // of a part, and for a handle
+constexpr std::uint64_t kFacesOfTetrahedron = 4;  // the least of a part; a handle adds as many
 
 StreamHeader closed_at(const StreamHeader& header, double scale) {
   StreamHeader closed = header;
@@ -34,7 +34,7 @@ std::unique_ptr<BrickShelf> closing_of(const StreamHeader& closed, BrickShelf& s
 bool may_have(const BrickShelf& closing, const ScaleSearch& search) {
   if (topology_bytes(closing) > search.context.pieces.bytes()) return true;  // not known
   const SolidTopology topology = topology_of(closing);
-  return (topology.parts + topology.handles) * kLeastFaces <= search.faces;
+  return (topology.parts + topology.handles) * kFacesOfTetrahedron <= search.faces;
 }
 
 bool has_faces(const StreamHeader& closed, BrickShelf& solid, BrickShelf& closing, const ScaleSearch& search) {

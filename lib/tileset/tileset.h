@@ -1,7 +1,6 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +8,7 @@
 #include "lib/core/box.h"
 #include "lib/core/up_axis.h"
 
-/// A 3D Tiles 1.1 tileset (OGC 22-025r4) and what must hold of it beyond its schema.
+/// A 3D Tiles 1.1 tileset (OGC 22-025r4): what is written, read and checked.
 namespace bp {
 
 using Transform = std::array<double, 16>;  ///< 4 x 4 by columns
@@ -30,8 +29,8 @@ struct Tile {
   double geometric_error = 0;
   std::string refine;  ///< "ADD", "REPLACE"; empty: the parent's
   std::string uri;     ///< of the content, percent-decoded: a file name; empty: none
-  /// Cell of the tile, in its own space: it answers for the scene in it (tile_cover.h). Ours only (extras.cell); none:
-  /// for all of the scene.
+  /// Cell of the tile, in its own space: it answers for the scene in it (lib/check/tile_cover.h). Ours only
+  /// (extras.cell); none: for all of the scene.
   std::optional<Bounds3d> cell;
   std::vector<Tile> children;
 };
@@ -42,24 +41,6 @@ struct Tileset {
   double geometric_error = 0;
   Tile root;
 };
-
-/// What is known of the content of a tile.
-struct TileContent {
-  bool found = false;           ///< there, and readable
-  std::string complaint;        ///< why not
-  std::vector<Vec3d> vertices;  ///< in the space of its tile: glTF turned to z up
-};
-/// Reads the content of a tile that has a uri; each is asked for once, depth first, and gone before the next.
-using TileContents = std::function<TileContent(const Tile&)>;
-
-/// One finding per line, with the path of the tile ("root.children[0]"); empty if all holds:
-///   - the version is 1.1; the root says how it refines; errors are finite and not negative;
-///   - the tileset's error is at least the root's; no child's error is above its parent's;
-///   - the corners of a child's box lie in its parent's box, and the content's vertices in its tile's box, each with
-///   its
-///     transforms, but for 1e-9 of the box's size: transforms of doubles round;
-///   - every content is there.
-[[nodiscard]] std::vector<std::string> check_tileset(const Tileset& tileset, const TileContents& content_of);
 
 /// Calls f(tile, path, transform to the tileset's space), depth first, parents before children.
 template <class F>

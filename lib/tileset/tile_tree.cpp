@@ -1,4 +1,4 @@
-#include "lib/levels/tile_tree.h"
+#include "lib/tileset/tile_tree.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "lib/check/tileset.h"
+#include "lib/check/check_tileset.h"
 #include "tests/catch.h"
 
 using namespace bp;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "lib/check/tileset.h"
 #include "lib/grid/cells.h"
+#include "lib/tileset/tileset.h"
 
 namespace bp {
 
