@@ -189,6 +189,28 @@ Way tight_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams&
   return way;
 }
 
+/// From the lattice of a frame to that of another, whose voxels are a whole number of times smaller. Exact.
+class Refining {
+ public:
+  Refining(const GridFrame& coarse, const GridFrame& fine) : factor_(std::llround(coarse.voxel / fine.voxel)) {
+    for (int i = 0; i < 3; ++i)
+      shift_[i] = (coarse.origin[std::size_t(i)] * factor_ - fine.origin[std::size_t(i)]) * kLatticePerVoxel;
+  }
+  [[nodiscard]] LatticeCoord after(const LatticeCoord& p) const { return p * factor_ + shift_; }
+  /// The points that come to lie within the box.
+  [[nodiscard]] LatticeBox before(LatticeBox box) const {
+    for (int i = 0; i < 3; ++i) {
+      box.min[i] = -floor_div(shift_[i] - box.min[i], factor_);
+      box.max[i] = floor_div(box.max[i] - shift_[i], factor_);
+    }
+    return box;
+  }
+
+ private:
+  std::int64_t factor_;
+  LatticeCoord shift_;
+};
+
 LatticeMesh take(Way&& way, SimplifyCounts& simplified, TightenCounts& tightened) {
   simplified = std::move(way.simplified);
   tightened = way.tightened;
@@ -217,10 +239,15 @@ SimplifyParams growing_part_of(const SimplifyParams& params) {
   return early;
 }
 
-LatticeMesh tight_proxy(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params,
-                        SimplifyCounts& simplified, TightenCounts& tightened) {
+LatticeMesh tight_proxy(const SurfaceSource& dense, const GridFrame& frame, const Enclosed& enclosed,
+                        const SimplifyParams& params, SimplifyCounts& simplified, TightenCounts& tightened) {
+  const Refining refining(dense.frame(), frame);
+  SimplifyParams growing = growing_part_of(params);
+  growing.room = refining.before(params.room);
   Way grown;
-  grown.proxy = simplify(dense, growing_part_of(params), grown.simplified);
+  grown.proxy = simplify(dense, growing, grown.simplified);
+  grown.proxy.frame = frame;
+  for (LatticeCoord& p : grown.proxy.vertices) p = refining.after(p);
   return take(tight_from(grown, enclosed, params), simplified, tightened);
 }
 

@@ -7,10 +7,16 @@ namespace bp {
 
 /// `dense`: a dense surface of repaired voxels. Growing collapses to a few times the target, tightening, then collapses
 /// that only keep `enclosed` inside, tightening again: growth that a coarse face could not take back is never made
-/// (docs/decisions/0003-order-of-steps.md).
-[[nodiscard]] LatticeMesh tight_proxy(const SurfaceSource& dense, const Enclosed& enclosed,
+/// (docs/decisions/0003-order-of-steps.md). The result is in `frame`, the one of `enclosed` and `params`. The voxels of
+/// `dense` are as large, or 2, 4, 8 ... times larger.
+[[nodiscard]] LatticeMesh tight_proxy(const SurfaceSource& dense, const GridFrame& frame, const Enclosed& enclosed,
                                       const SimplifyParams& params, SimplifyCounts& simplified,
                                       TightenCounts& tightened);
+[[nodiscard]] inline LatticeMesh tight_proxy(const SurfaceSource& dense, const Enclosed& enclosed,
+                                             const SimplifyParams& params, SimplifyCounts& simplified,
+                                             TightenCounts& tightened) {
+  return tight_proxy(dense, dense.frame(), enclosed, params, simplified, tightened);
+}
 
 /// The same from a mesh, dense or not as params.dense tells.
 [[nodiscard]] LatticeMesh tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params,

@@ -7,6 +7,7 @@
 #include "lib/enclosed/enclosed_triangles.h"
 #include "lib/grid/count_bits.h"
 #include "lib/mesh/lattice_geometry.h"
+#include "lib/pass/mesh/detail/coarse_start.h"
 #include "lib/pass/mesh/detail/components.h"
 #include "lib/pass/mesh/detail/fit_target.h"
 #include "lib/pass/mesh/detail/ground.h"
@@ -95,13 +96,14 @@ LatticeMesh use_room(LatticeMesh proxy, const Enclosed& enclosed, SimplifyParams
   return proxy;
 }
 
-/// One level, from the surface of all that it must enclose. `few`: nothing but a number of faces below kFewFaces
-/// matters.
-LatticeMesh make_level(const SurfaceSource& dense, const Enclosed* enclosed, const SimplifyParams& params, bool few,
-                       LevelCounts& counts) {
+/// One level, from the surface of all that it must enclose, or a coarse one around it. `few`: nothing but a number of
+/// faces below kFewFaces matters.
+LatticeMesh make_level(const SurfaceSource& dense, const SurfaceSource* coarse, const Enclosed* enclosed,
+                       const SimplifyParams& params, bool few, LevelCounts& counts) {
   if (enclosed == nullptr) return simplify(dense, params, counts.simplify);
   if (few) return tight_proxy_of_few(dense, *enclosed, params, counts.simplify, counts.tighten);
-  LatticeMesh proxy = tight_proxy(dense, *enclosed, params, counts.simplify, counts.tighten);
+  LatticeMesh proxy = tight_proxy(coarse != nullptr ? *coarse : dense, dense.frame(), *enclosed, params,
+                                  counts.simplify, counts.tighten);
   return params.limits == nullptr ? proxy : use_room(std::move(proxy), *enclosed, params, counts);
 }
 
@@ -160,8 +162,13 @@ class LevelMaker {
     const double error_share = params_.error_world / double(fit ? 1 : faces.size());
     bounds_.error_world = error_share;
     if (fit) return fits(*start.surface, faces);
-    std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed.get(), faces[0])};
+    const bool by_faces = !inside() && ground_.enclosed && faces[0] >= kFewFaces && params_.error_world == 0 &&
+                          params_.volume_ratio == 0 && params_.edge_factor == 0;
+    CoarseStart coarse;
+    if (by_faces) coarse = coarse_start(*shelves.meshed, header_, faces[0], make_shelf_);
+    std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed.get(), faces[0], coarse.surface.get())};
     ground_.enclosed.reset();
+    coarse = {};
     start = {};
     for (std::size_t i = 1; i < faces.size(); ++i) {
       bounds_.error_world = error_share * double(i + 1);
@@ -239,14 +246,15 @@ class LevelMaker {
     counts_.solid_volume_world -= dropped.volume_vox * std::pow(header_.frame.voxel, 3);
   }
 
-  LatticeMesh finish(const SurfaceSource& dense, const Enclosed* enclosed, std::uint64_t faces) {
+  LatticeMesh finish(const SurfaceSource& dense, const Enclosed* enclosed, std::uint64_t faces,
+                     const SurfaceSource* coarse = nullptr) {
     return finish(dense.frame(), faces, [&](SimplifyParams params, LevelCounts& counts) {
       if (faces >= kLeastFacesWithRoom) params.room = room_around(dense.box(), faces);  // the box reads all voxels
       if (params_.near && params.limits == nullptr && faces > 0)
         params.reach = (header_.scale.base / dense.frame().voxel + 1) * kLatticePerVoxel;
       const bool few = faces > 0 && faces < kFewFaces && params.limits == nullptr && !params.edge_limit &&
                        !params_.near && !inside();
-      LatticeMesh proxy = make_level(dense, enclosed, params, few, counts);
+      LatticeMesh proxy = make_level(dense, coarse, enclosed, params, few, counts);
       if (!params_.quads) return proxy;
       if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);
       proxy.quads = pair_triangles(proxy, QuadKeeps::enclosed, enclosed);

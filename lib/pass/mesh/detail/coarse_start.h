@@ -1,0 +1,21 @@
+#pragma once
+#include <memory>
+
+#include "lib/grid/stream.h"
+#include "lib/surface/surface.h"
+
+namespace bp {
+
+/// A surface around voxels that are some times larger than those of the stream.
+struct CoarseStart {
+  std::unique_ptr<BrickShelf> voxels;
+  std::unique_ptr<SurfaceSource> surface;  ///< null: the stream's voxels are large enough
+};
+
+/// What a proxy of so many faces grows from, in place of the surface of `meshed`: a quarter of the dense faces, or
+/// less. What that adds is taken back by tightening. Outside of a closing every point lies in a ball of radius S that
+/// is outside, so voxels of S / 2 close no gap but a neck between two such balls. Cost: reading the voxels.
+[[nodiscard]] CoarseStart coarse_start(const BrickShelf& meshed, const StreamHeader& header, std::uint64_t faces,
+                                       const ShelfFactory& make_shelf);
+
+}  // namespace bp
