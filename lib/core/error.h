@@ -57,6 +57,7 @@ enum class Remedy {
   enclose_input,
   enclose_own_scene,  ///< that the stream was made from
   no_volume,
+  no_textures,
   no_least_part,
   fewer_users_of_device,
   use_cpu,

@@ -67,7 +67,8 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   out.solid = make_shelf();
   ShelfSink sink(out.solid.get());
   SceneOptions scene = scene_options();
-  scene.colors = options.colors;
+  scene.colors = options.colors();
+  if (options.appearance == Appearance::texture) scene.textures = textures_ = std::make_shared<TextureTable>();
   auto source = open_scenes(options.voxels.scenes, scene);
   if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.voxels.up);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
@@ -87,7 +88,10 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   triangles_ = out.counts.scene.triangles;
   enclosed_ = enclosed_by(options, triangles_);
   if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
-  if (source->has_colors()) gather(*source, out);
+  textured_ = source->has_textures() && can_read_again(options);
+  if (source->has_textures() && !textured_ && halvings == 0)
+    note("a scene from a pipe cannot be read again: its textures are lost; give it as a file");
+  if (source->has_colors() && !textured_) gather(*source, out);
   return out;
 }
 
@@ -97,7 +101,7 @@ void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_tol
   note(up_note(size.bounds, options.voxels.up || up_told));
   for (const std::string& path : options.voxels.scenes) {
     const bool occluder = options.profile == LodProfile::occluder;
-    if (!options.colors && !occluder) break;
+    if (!options.colors() && !occluder) break;
     for (const std::string& file : missing_materials(path))
       note(fmt::format("{}: {} is not there, {}", path, file,
                        occluder ? "so nobody knows what is glass: all of the scene is taken for walls"
@@ -176,6 +180,7 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
   }
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
+  if (textured_) text.add("appearance", "texture");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/scene/scene_reader.h"
+#include "io/scene/texture_table.h"
 #include "lib/levels/level_chain.h"
 #include "lib/levels/occluder_level.h"
 #include "lib/pass/color/scene_colors.h"
@@ -44,6 +45,10 @@ class Build {
   [[nodiscard]] Enclose enclosed() const { return enclosed_; }
   /// Null if the scene has no colours, or if none are wanted.
   [[nodiscard]] SceneColors* colors() const { return colors_.get(); }
+  /// Levels get textures: they are wanted, and the scene has some and can be read again. After voxelize().
+  [[nodiscard]] bool textured() const { return textured_; }
+  [[nodiscard]] const std::shared_ptr<TextureTable>& textures() const { return textures_; }  ///< null: not wanted
+  [[nodiscard]] std::uint64_t triangles() const { return triangles_; }                       ///< of the scene
   /// Stages go to the report; levels get colours and provenance. `input_hash`: of the scene, for the latter.
   [[nodiscard]] LevelSteps level_steps(std::function<std::string()> input_hash);
 
@@ -68,6 +73,8 @@ class Build {
   std::uint64_t triangles_ = 0;  // of the scene
   Enclose enclosed_ = Enclose::input;
   std::unique_ptr<SceneColors> colors_;
+  std::shared_ptr<TextureTable> textures_;
+  bool textured_ = false;
 };
 
 /// All levels of a scene, in one mesh each.

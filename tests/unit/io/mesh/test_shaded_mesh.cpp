@@ -1,7 +1,7 @@
 #include <cmath>
 #include <set>
 
-#include "io/mesh/detail/shaded_mesh.h"
+#include "lib/mesh/shaded_mesh.h"
 #include "tests/catch.h"
 
 using namespace bp;
