@@ -12,7 +12,7 @@ namespace bp {
 namespace {
 
 /// A level is drawn where its error is less than a pixel; from there texels of half of it are as fine as can be seen.
-constexpr double kTexelsPerError = 2;
+constexpr double kTexelsPerError = 4;
 /// So many errors, or scales, the scene is looked for along the normal.
 constexpr double kReach = 4;
 
