@@ -32,15 +32,19 @@ TextureImage sized(std::uint64_t width, std::uint64_t height, const std::string&
   fail(ErrorCode::bad_input, "{}: the image cannot be read: {}", name, why);
 }
 
+struct PngReader : png_image {
+  PngReader(std::span<const std::byte> bytes, const std::string& name) : png_image{} {
+    version = PNG_IMAGE_VERSION;
+    if (png_image_begin_read_from_memory(this, bytes.data(), bytes.size()) == 0)
+      broken(name, static_cast<const char*>(message));
+  }
+  ~PngReader() { png_image_free(this); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+};
+
 TextureImage decode_png(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most_bytes) {
-  struct Reader : png_image {
-    Reader() : png_image{} { version = PNG_IMAGE_VERSION; }
-    ~Reader() { png_image_free(this); }
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
-  } png;
-  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0)
-    broken(name, static_cast<const char*>(png.message));
+  PngReader png(bytes, name);
   png.format = PNG_FORMAT_RGBA;
   TextureImage image = sized(png.width, png.height, name, most_bytes);
   if (png_image_finish_read(&png, nullptr, image.texels.data(), 0, nullptr) == 0)
@@ -101,9 +105,14 @@ TextureImage decode_jpeg(std::span<const std::byte> bytes, const std::string& na
   return image;
 }
 
+std::array<int, 2> webp_size(std::span<const std::byte> bytes, const std::string& name) {
+  std::array<int, 2> size{};
+  if (WebPGetInfo(raw(bytes), bytes.size(), &size[0], &size[1]) == 0) broken(name, "no WebP image");
+  return size;
+}
+
 TextureImage decode_webp(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most_bytes) {
-  int width = 0, height = 0;
-  if (WebPGetInfo(raw(bytes), bytes.size(), &width, &height) == 0) broken(name, "no WebP image");
+  const auto [width, height] = webp_size(bytes, name);
   TextureImage image = sized(std::uint64_t(width), std::uint64_t(height), name, most_bytes);
   if (WebPDecodeRGBAInto(raw(bytes), bytes.size(), image.texels.front().data(), image.texels.size() * 4, width * 4) ==
       nullptr)
@@ -111,16 +120,47 @@ TextureImage decode_webp(std::span<const std::byte> bytes, const std::string& na
   return image;
 }
 
-}  // namespace
+enum class ImageKind { png, jpeg, webp };
 
-TextureImage decode_image(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most_bytes) {
+ImageKind kind_of(std::span<const std::byte> bytes, const std::string& name) {
   const auto begins = [&](std::size_t at, std::string_view magic) {
     return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
   };
-  if (begins(0, "\x89PNG")) return decode_png(bytes, name, most_bytes);
-  if (begins(0, "\xFF\xD8")) return decode_jpeg(bytes, name, most_bytes);
-  if (begins(0, "RIFF") && begins(8, "WEBP")) return decode_webp(bytes, name, most_bytes);
+  if (begins(0, "\x89PNG")) return ImageKind::png;
+  if (begins(0, "\xFF\xD8")) return ImageKind::jpeg;
+  if (begins(0, "RIFF") && begins(8, "WEBP")) return ImageKind::webp;
   broken(name, "it is no PNG, JPEG or WebP");
+}
+
+}  // namespace
+
+TextureImage decode_image(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most_bytes) {
+  switch (kind_of(bytes, name)) {
+    case ImageKind::png:
+      return decode_png(bytes, name, most_bytes);
+    case ImageKind::jpeg:
+      return decode_jpeg(bytes, name, most_bytes);
+    case ImageKind::webp:
+      break;
+  }
+  return decode_webp(bytes, name, most_bytes);
+}
+
+std::array<int, 2> image_size(std::span<const std::byte> head, const std::string& name) {
+  switch (kind_of(head, name)) {
+    case ImageKind::png: {
+      const PngReader png(head, name);
+      return {int(png.width), int(png.height)};
+    }
+    case ImageKind::jpeg: {
+      JpegReader reader;
+      if (!reader.begin(raw(head), head.size())) broken(name, reader.fault.message);
+      return {int(reader.codec.image_width), int(reader.codec.image_height)};
+    }
+    case ImageKind::webp:
+      break;
+  }
+  return webp_size(head, name);
 }
 
 }  // namespace bp

@@ -12,4 +12,7 @@ namespace bp {
 [[nodiscard]] TextureImage decode_image(std::span<const std::byte> bytes, const std::string& name,
                                         std::uint64_t most_bytes);
 
+/// Width and height, of the first bytes of such a file: those before the pixels. Throws bad_input.
+[[nodiscard]] std::array<int, 2> image_size(std::span<const std::byte> head, const std::string& name);
+
 }  // namespace bp

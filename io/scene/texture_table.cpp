@@ -1,5 +1,6 @@
 #include "io/scene/texture_table.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "io/image/image_reader.h"
@@ -19,12 +20,18 @@ std::uint32_t number_of(const std::string& key, const T& value, std::map<std::st
   return found->second;
 }
 
-SceneFilePtr open(const ImagePlace& place) {
-  if (place.bytes) return place.bytes;
+std::vector<std::byte> bytes_of(const ImagePlace& place, std::uint64_t most) {
+  SceneFilePtr file = place.bytes;
   std::error_code unknown;  // a pipe would wait for ever
-  if (place.path.empty() || !std::filesystem::is_regular_file(place.path, unknown))
+  if (!file && (place.path.empty() || !std::filesystem::is_regular_file(place.path, unknown)))
     fail(ErrorCode::bad_input, "{}: the image is not there", place.name);
-  return open_scene_file(place.path, "");
+  if (!file) file = open_scene_file(place.path, "");
+  if (most == kMostBytes && file->size() > kMostBytes)
+    fail(ErrorCode::bad_input, "{}: an image of {} MiB; at most {} are read", place.name, file->size() >> 20,
+         kMostBytes >> 20);
+  std::vector<std::byte> bytes(std::size_t(std::min(most, file->size())));
+  bytes.resize(file->read_at(0, bytes));
+  return bytes;
 }
 
 }  // namespace
@@ -37,15 +44,25 @@ std::uint32_t TextureTable::add_material(const std::string& key, const TextureMa
   return number_of(key, material, material_of_, materials_);
 }
 
+std::array<int, 2> TextureTable::size(std::uint32_t i) const {
+  constexpr std::uint64_t kMostHead = std::uint64_t(1) << 20;
+  try {
+    return image_size(bytes_of(images_.at(i), kMostHead), images_.at(i).name);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+std::vector<std::byte> TextureTable::file(std::uint32_t i) const {
+  try {
+    return bytes_of(images_.at(i), kMostBytes);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 TextureImage TextureTable::image(std::uint32_t i, std::uint64_t most_bytes) const {
-  const ImagePlace& place = images_.at(i);
-  const SceneFilePtr file = open(place);
-  if (file->size() > kMostBytes)
-    fail(ErrorCode::bad_input, "{}: an image of {} MiB; at most {} are read", place.name, file->size() >> 20,
-         kMostBytes >> 20);
-  std::vector<std::byte> bytes(std::size_t(file->size()));
-  bytes.resize(file->read_at(0, bytes));
-  return decode_image(bytes, place.name, most_bytes);
+  return decode_image(bytes_of(images_.at(i), kMostBytes), images_.at(i).name, most_bytes);
 }
 
 }  // namespace bp

@@ -26,6 +26,8 @@ class TextureTable final : public TextureSet {
 
   [[nodiscard]] bool empty() const { return materials_.empty(); }
   [[nodiscard]] const TextureMaterial& material(std::uint32_t i) const override { return materials_.at(i); }
+  [[nodiscard]] std::array<int, 2> size(std::uint32_t i) const override;
+  [[nodiscard]] std::vector<std::byte> file(std::uint32_t i) const override;
   [[nodiscard]] TextureImage image(std::uint32_t i, std::uint64_t most_bytes) const override;
 
  private:

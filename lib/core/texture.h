@@ -52,6 +52,10 @@ class TextureSet {
   virtual ~TextureSet() = default;
   /// Thread-safe while no scene is read. `i` is one of TriangleTexture::material.
   [[nodiscard]] virtual const TextureMaterial& material(std::uint32_t i) const = 0;
+  /// Texels of an image, {0, 0} if it is missing or broken; quick. Thread-safe.
+  [[nodiscard]] virtual std::array<int, 2> size(std::uint32_t i) const = 0;
+  /// The file of an image, undecoded; empty if it is missing. Thread-safe.
+  [[nodiscard]] virtual std::vector<std::byte> file(std::uint32_t i) const = 0;
   /// Decoded at each call; thread-safe. Throws bad_input if the image is missing or broken, out_of_resource if it takes
   /// more than `most_bytes` decoded.
   [[nodiscard]] virtual TextureImage image(std::uint32_t i, std::uint64_t most_bytes) const = 0;

@@ -5,16 +5,38 @@
 
 #include "io/image/texture_writer.h"
 #include "lib/core/error.h"
+#include "lib/core/vec3.h"
 #include "lib/pass/bake/bake.h"
 
 namespace bp {
 
 namespace {
 
-/// A level is drawn where its error is less than a pixel; from there texels of half of it are as fine as can be seen.
+/// A level is drawn where its error is less than a pixel, or, by default, less than 16 in CesiumJS.
 constexpr double kTexelsPerError = 4;
+/// At least so many texels for a face: about as many bytes as the face takes.
+constexpr double kTexelsPerFace = 64;
 /// So many errors, or scales, the scene is looked for along the normal.
 constexpr double kReach = 4;
+
+double error_or(double error_world, double scale_world, double voxel) {
+  return error_world > 0 ? error_world : scale_world + 2 * voxel;
+}
+
+double area_of(const LatticeMesh& mesh) {
+  double area = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3d a = mesh.frame.world(mesh.vertices[t[0]]);
+    area += length(cross(mesh.frame.world(mesh.vertices[t[1]]) - a, mesh.frame.world(mesh.vertices[t[2]]) - a)) / 2;
+  }
+  return area;
+}
+
+/// Of a level: as fine as its error or its faces deserve, but not finer than the scene's images.
+double texel_of(const LatticeMesh& mesh, double error, const SceneLooks& looks) {
+  const double by_faces = std::sqrt(area_of(mesh) / (kTexelsPerFace * double(mesh.triangles.size())));
+  return std::max(std::min(error / kTexelsPerError, by_faces), looks.finest_texel());
+}
 
 MeshTexture with_file(const Atlas& atlas, const TextureImage& image) {
   MeshTexture texture;
@@ -33,6 +55,10 @@ MeshTexture with_file(const Atlas& atlas, const TextureImage& image) {
 
 }  // namespace
 
+double texture_reach(double error_world, double scale_world, double voxel) {
+  return kReach * std::max(error_or(error_world, scale_world, voxel), scale_world);
+}
+
 std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& memory) {
   SceneOptions scene = build.scene_options(true);
   scene.colors = true;
@@ -48,12 +74,11 @@ std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& me
 std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LatticeMesh& mesh, double error_world,
                                                  double scale_world, const SceneLooks& looks) {
   const double voxel = mesh.frame.voxel;
-  const double error = error_world > 0 ? error_world : std::max(scale_world, voxel);
   AtlasParams atlas_params;
-  atlas_params.texel = error / kTexelsPerError / voxel * kLatticePerVoxel;
+  atlas_params.texel = texel_of(mesh, error_or(error_world, scale_world, voxel), looks) / voxel * kLatticePerVoxel;
   const Atlas atlas = unwrap(mesh, atlas_params);
   BakeParams params;
-  params.reach_world = kReach * std::max({error, scale_world, voxel});
+  params.reach_world = texture_reach(error_world, scale_world, voxel);
   params.both_ways = build.options.proxy.mode == MeshMode::fit;
   return std::make_shared<const MeshTexture>(with_file(atlas, bake(mesh, atlas, looks, params)));
 }

@@ -11,6 +11,9 @@ namespace bp {
 /// Reads the scene once more. `memory`: for its triangles and images. Throws NeedsMemory.
 [[nodiscard]] std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& memory);
 
+/// So far from a level lies what decides its texture; `error_world` as below.
+[[nodiscard]] double texture_reach(double error_world, double scale_world, double voxel);
+
 /// The texture of a level whose largest distance to the scene is `error_world` (NaN: not known).
 [[nodiscard]] std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LatticeMesh& mesh,
                                                                double error_world, double scale_world,

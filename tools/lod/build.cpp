@@ -16,6 +16,7 @@
 #include "lib/grid/shelf_stream.h"
 #include "lib/pass/color/vertex_colors.h"
 #include "tools/cli/names.h"
+#include "tools/lod/bake_levels.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/proportions.h"
 #include "tools/notes/up_note.h"
@@ -25,6 +26,12 @@
 namespace bp {
 
 namespace {
+
+MemoryShare half_of(MemoryShare memory) {
+  memory.bytes /= 2;
+  memory.share /= 2;
+  return memory;
+}
 
 /// What was made stays if it cannot be told: it took far longer than to free the space.
 void print_list(const std::string& text, const std::string& made) {
@@ -154,22 +161,29 @@ LodOptions Build::lod_options() {
   return lod;
 }
 
+void Build::hold_looks() {
+  if (!textured_) return;
+  report.stage("textures");
+  looks_ = read_looks(*this, half_of(budget.work));
+}
+
 PassContext Build::context(ResultStore* results) const {
   PassContext context;
-  context.memory = budget.work;
+  const MemoryShare work = looks_ != nullptr ? half_of(budget.work) : budget.work;
+  context.memory = work;
   context.make_shelf = make_shelf;
   context.results = results;
   context.progress = show;
   PieceMemory& memory = context.pieces;
-  memory.waiting_bytes = budget.work.bytes / 20 * 9;
-  memory.work_bytes = budget.work.bytes - memory.waiting_bytes;
+  memory.waiting_bytes = work.bytes / 20 * 9;
+  memory.work_bytes = work.bytes - memory.waiting_bytes;
   // One for each surface at work, when all that waits in memory is spent.
   memory.make_scratch = [bytes = budget.store / std::uint64_t(thread_count()), temp = options.common.temp] {
     return make_scratch(bytes, temp);
   };
-  memory.limit = budget.work.limit;
-  memory.waiting_share = budget.work.share * 0.45;
-  memory.work_share = budget.work.share * 0.55;
+  memory.limit = work.limit;
+  memory.waiting_share = work.share * 0.45;
+  memory.work_share = work.share * 0.55;
   return context;
 }
 
@@ -178,6 +192,8 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
     colors_->prepare(level.mesh.frame);
     color_vertices(level.mesh, colors_->all(level.mesh.frame));
   }
+  if (looks_ != nullptr)
+    level.mesh.texture = level_texture(*this, level.mesh, level.error_world, level.scale_world, *looks_);
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
   if (textured_) text.add("appearance", "texture");

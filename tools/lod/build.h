@@ -8,6 +8,7 @@
 #include "io/scene/texture_table.h"
 #include "lib/levels/level_chain.h"
 #include "lib/levels/occluder_level.h"
+#include "lib/pass/bake/scene_looks.h"
 #include "lib/pass/color/scene_colors.h"
 #include "tools/lod/level_list.h"
 #include "tools/lod/level_notes.h"
@@ -49,6 +50,10 @@ class Build {
   [[nodiscard]] bool textured() const { return textured_; }
   [[nodiscard]] const std::shared_ptr<TextureTable>& textures() const { return textures_; }  ///< null: not wanted
   [[nodiscard]] std::uint64_t triangles() const { return triangles_; }                       ///< of the scene
+  /// From now on levels get their textures as they are made, and half of the memory for work is for the scene's looks.
+  /// Does nothing if the levels get none.
+  void hold_looks();
+  [[nodiscard]] const SceneLooks* looks() const { return looks_.get(); }  ///< null: not held
   /// Stages go to the report; levels get colours and provenance. `input_hash`: of the scene, for the latter.
   [[nodiscard]] LevelSteps level_steps(std::function<std::string()> input_hash);
 
@@ -75,6 +80,7 @@ class Build {
   std::unique_ptr<SceneColors> colors_;
   std::shared_ptr<TextureTable> textures_;
   bool textured_ = false;
+  std::unique_ptr<SceneLooks> looks_;
 };
 
 /// All levels of a scene, in one mesh each.

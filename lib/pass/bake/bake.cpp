@@ -80,14 +80,17 @@ class Band {
       n = n + part[k] * face.normals[k];
     }
     const double l = length(n);
-    const Look look = seen(p, l > 0 ? (1 / l) * n : face.normals[0], threshold);
+    const std::optional<Look> found = seen(p, l > 0 ? (1 / l) * n : face.normals[0], threshold);
+    if (!found) return;
+    const Look& look = *found;
     LinearTexel& sum = image_.texels[std::size_t(y) * std::size_t(image_.width) + std::size_t(x)];
     for (std::size_t i = 0; i < 3; ++i) sum[i] += look.color[i] * look.alpha;
     sum[3] += look.alpha;
     weight(x, y) += 1;
   }
 
-  Look seen(const Vec3d& p, const Vec3d& n, float threshold) {
+  /// Nothing if the scene is out of reach.
+  std::optional<Look> seen(const Vec3d& p, const Vec3d& n, float threshold) {
     bool through = false;                                        // a hole
     const Vec3d out = params_.reach_world * n, in = -1.0 * out;  // from a little before: they may touch
     const Vec3d start_in = p + kBefore * out, start_out = p + kBefore * in;
@@ -98,7 +101,9 @@ class Band {
       if (outwards && (!hit || outwards->along < hit->along)) hit = outwards, start = start_out, direction = out;
     }
     if (hit) return opaque(eye_.at(hit->item, start + hit->along * direction, size_));
-    near_ = scene_.nearest(p, near_).item;
+    const TriangleBvh::Nearest nearest = scene_.nearest(p, near_);
+    near_ = nearest.item;
+    if (nearest.distance_squared > params_.reach_world * params_.reach_world) return {};
     Look look = opaque(eye_.at(near_, nearest_point(p, scene_.item(near_).corners), size_));
     if (through) look.alpha = 0;
     return look;

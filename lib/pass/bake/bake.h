@@ -12,9 +12,9 @@ struct BakeParams {
 };
 
 /// Colours are means over a texel, in linear light. A texel whose line meets nothing within the reach shows the nearest
-/// place of the scene; one whose line goes only through holes of the scene's textures is a hole (alpha). Texels outside
-/// the charts have colours of those beside them. The result does not depend on threads. Cost: four lines through the
-/// scene for each texel; 20 bytes a texel.
+/// place of the scene within it; one whose line goes only through holes of the scene's textures is a hole (alpha).
+/// Texels outside the charts have colours of those beside them. The result does not depend on threads. Cost: four lines
+/// through the scene for each texel; 20 bytes a texel.
 [[nodiscard]] TextureImage bake(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks,
                                 const BakeParams& params);
 

@@ -2,11 +2,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "lib/core/memory_share.h"
 #include "lib/core/triangle_source.h"
 #include "lib/geometry/triangle_bvh.h"
+#include "lib/store/result_key.h"
 
 /// What a scene's surface looks like, at any place of it: colours of its triangles, and images on them.
 namespace bp {
@@ -34,6 +36,11 @@ class SceneLooks {
   SceneLooks& operator=(const SceneLooks&) = delete;
 
   [[nodiscard]] const TriangleBvh& triangles() const { return *triangles_; }
+  /// Texels of the scene's images are about as small as this, scene units: a tenth of the area that has images has
+  /// smaller ones. 0: no image lies on the scene.
+  [[nodiscard]] double finest_texel() const { return finest_texel_; }
+  /// Everything within `box`, images included.
+  void add_to(KeyHash& hash, const Bounds3d& box) const;
   /// What is wrong with images that were wanted so far.
   [[nodiscard]] std::vector<std::string> faults() const;
 
@@ -57,11 +64,15 @@ class SceneLooks {
   };
 
  private:
+  void look_over_images();
+
   std::unique_ptr<TriangleBvh> triangles_;
   std::vector<TriangleColors> colors_;  // by id of triangles_
   std::vector<TriangleTexture> textures_;
   std::shared_ptr<const TextureSet> images_;
   std::unique_ptr<ImageCache> cache_;
+  double finest_texel_ = 0;
+  std::unordered_map<std::uint32_t, ResultKey> files_;  // hashes of images
 };
 
 }  // namespace bp
