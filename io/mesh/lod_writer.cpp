@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "io/gltf/glb_file.h"
 #include "io/gltf/meshopt_codec.h"
@@ -119,17 +120,17 @@ class GlbBuilder {
   void use(const char* extension) { used_.push_back(extension); }
 
   void write(const LatticeMesh& first, const std::vector<std::size_t>& roots, OutputFile& out) {
-    write_glb(document(first, gltf_asset("bplod", first.provenance, first.frame.up, origin_), roots), data_, out);
+    write_glb(document(gltf_asset("bplod", first.provenance, first.frame.up, origin_), roots), data_, out);
   }
   /// As the content of a tile: extras.up does not ask readers of ours to turn back to the axes of the scene.
   [[nodiscard]] std::string tile_bytes(const LatticeMesh& mesh, const Vec3d& tile_origin) {
     Json asset = gltf_asset("bplod", mesh.provenance, UpAxis::y, {});
     asset["extras"]["tile_origin"] = tile_origin;
-    return glb_head(document(mesh, std::move(asset), {0}), data_.size(), file_) + data_;
+    return glb_head(document(std::move(asset), {0}), data_.size(), file_) + data_;
   }
 
  private:
-  std::string document(const LatticeMesh& first, Json asset, const std::vector<std::size_t>& roots) {
+  std::string document(Json asset, const std::vector<std::size_t>& roots) {
     Json doc;
     doc["asset"] = std::move(asset);
     if (compressed_) {
@@ -141,7 +142,7 @@ class GlbBuilder {
     doc["scene"] = 0;
     doc["scenes"] = Json::array({{{"nodes", roots}}});
     doc.update(doc_);
-    doc["materials"] = textured_ ? materials_ : Json::array({gltf_material(!first.colors.empty())});
+    doc["materials"] = materials_;
     doc["buffers"] = Json::array({{{"byteLength", data_.size()}}});
     if (compressed_) {  // where the bytes would be if the views were not compressed; nobody reads it
       doc["buffers"].push_back(
@@ -230,11 +231,12 @@ class GlbBuilder {
   /// Its number.
   std::size_t add_material(const LatticeMesh& mesh) {
     if (!mesh.texture) {
-      if (!textured_) materials_ = Json::array({gltf_material(!mesh.colors.empty())});
-      return 0;
+      if (!plain_material_) {
+        plain_material_ = materials_.size();
+        materials_.push_back(gltf_material(!mesh.colors.empty()));
+      }
+      return *plain_material_;
     }
-    if (!textured_) materials_ = Json::array();
-    textured_ = true;
     const std::size_t offset = append(mesh.texture->image), number = doc_["textures"].size();
     doc_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", mesh.texture->image.size()}});
     doc_["images"].push_back({{"bufferView", doc_["bufferViews"].size() - 1}, {"mimeType", mesh.texture->type}});
@@ -311,8 +313,9 @@ class GlbBuilder {
   const std::string file_;
   const bool compressed_;
   const Vec3d origin_;
-  bool quantized_ = false, textured_ = false;
-  Json materials_;
+  bool quantized_ = false;
+  Json materials_ = Json::array();
+  std::optional<std::size_t> plain_material_;
   std::vector<std::string> used_;
   Json doc_{{"nodes", Json::array()},
             {"meshes", Json::array()},

@@ -44,7 +44,7 @@ set(foreign
   "zstd:^(io|tests)/"
   "png.h:^(io|tests)/"
   "jpeglib.h:^io/image/"
-  "webp/:^io/image/"
+  "webp/:^(io/image|tests)/"
   "freetype:^io/image/label_font\\.cpp$"
   "ft2build:^io/image/label_font\\.cpp$"
   "OpenMesh/:^tests/"
