@@ -31,7 +31,7 @@ try bpcheck cube.obj --inside
 try bpvox cube.obj -o cube.glb
 try bpclose cube.bpv --scale 1vx -o cube.PLY
 # What goes together does.
-try bplod cube.obj -o made --profile collision --colors off --resolution 10 | cut -f 1
+try bplod cube.obj -o made --profile collision --appearance off --resolution 10 | cut -f 1
 try bplod cube.obj -o near --error 50% --enclose closing --levels 1 | cut -f 1
 files
 # A format that no input needs, or that is none; values that are empty; lengths that count in what is not there.
