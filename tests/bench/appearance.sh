@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # How much levels look like their scene, beside gltfpack's simplification (meshoptimizer) at the same triangles: PSNR and SSIM
 # over 24 views, at the size at which the level would be shown: its error is a pixel there (at most 512 pixels).
-# usage: appearance.sh TOOLS OUT SCENE...      SCENE: OBJ or glTF with textures
+# usage: [LEVELS=FACES,...] appearance.sh TOOLS OUT SCENE...      SCENE: OBJ or glTF with textures
 # NODE_PATH: folder of the packages that tests/viewers/run.sh installs, and gltfpack.
 set -euo pipefail
 tools=$(cd "$1" && pwd)
@@ -17,7 +17,8 @@ for scene in "$@"; do
   cp "$(dirname "$scene")"/*.{png,jpg,jpeg} "$work"/ 2> /dev/null || true
   gltfpack -noq -kn -i "$scene" -o "$work/scene.glb" > /dev/null
   triangles=$("$tools/bpinfo" "$work/scene.glb" --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["triangles"])')
-  ${LEVELS:+true} false && faces=(--faces "$LEVELS") || faces=()
+  faces=()
+  [ -z "${LEVELS:-}" ] || faces=(--faces "$LEVELS")
   "$tools/bplod" "$scene" "${faces[@]}" -o "$work/levels" --name level --report "$work/report.json" -q > /dev/null
   "$tools/bplod" "$scene" "${faces[@]}" -o "$work/colors" --name level --appearance color -q > /dev/null
   python3 -c '
@@ -27,7 +28,7 @@ for i, level in enumerate(report["counts"]["levels"]): print(i, level["faces"], 
   while read -r i count error; do
     diagonal=$("$tools/bpinfo" "$work/scene.glb" --json | python3 -c 'import json,math,sys; b=json.load(sys.stdin)["bounds"]; print(math.dist(b["min"],b["max"]))')
     pixels=$(python3 -c "print(int(max(48, min(512, $diagonal / $error))))")
-    gltfpack -noq -si "$(python3 -c "print(min(1, $count / $triangles))")" -i "$scene" -o "$work/pack$i.glb" > /dev/null
+    gltfpack -noq -sa -se 1 -si "$(python3 -c "print(min(1, $count / $triangles))")" -i "$scene" -o "$work/pack$i.glb" > /dev/null
     mapfile -t seen < <(node "$here/appearance.cjs" "$pixels" "$work/scene.glb" "$work/levels/level_LOD$i.glb" "$work/pack$i.glb" "$work/colors/level_LOD$i.glb")
     packed=$("$tools/bpinfo" "$work/pack$i.glb" --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["triangles"])')
     cell() { echo "${1/ / | }"; }

@@ -166,7 +166,7 @@ void declare_profile(Args& args, BuildOptions& o) {
       "--appearance",
       {{"texture", Appearance::texture, "a texture with what the scene's textures show; without any, colours"},
        {"color", Appearance::color, "colours on vertices, of the scene's materials and vertices, if it has any"},
-       {"off", Appearance::off, "none"}},
+       {"off", Appearance::off, "neither"}},
       o.appearance, "textures or colours of the levels");
 }
 

@@ -4,7 +4,7 @@ for profile in gltf collision cage; do
   for option in '--tile 64' '--cache c' '--tiles 0..1'; do try bplod cube.obj -o x --profile $profile $option; done
 done
 try bplod cube.obj -o x --tile 512  # the default, too
-try bplod cube.obj -o x --profile collision --colors auto
+try bplod cube.obj -o x --profile collision --appearance color
 try bplod cube.obj -o x --mode fit --enclose input
 try bplod cube.obj -o x --profile cage --mode fit
 for option in --no-tighten --resume '--screen 800'; do try bplod cube.obj -o x $option; done
