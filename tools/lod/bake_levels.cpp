@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "io/image/texture_writer.h"
-#include "lib/core/error.h"
 #include "lib/core/vec3.h"
 #include "lib/pass/bake/bake.h"
 
@@ -64,21 +63,19 @@ std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& me
   scene.colors = true;
   scene.textures = build.textures();
   const auto source = open_scenes(build.options.voxels.scenes, scene);
-  try {
-    return std::make_unique<SceneLooks>(*source, build.triangles(), build.textures(), memory);
-  } catch (const NeedsMemory& e) {
-    throw Error(e.code(), e.what(), {Remedy::more_memory, Remedy::no_textures}, e.memory_bytes());
-  }
+  return std::make_unique<SceneLooks>(*source, build.triangles(), build.textures(), memory);
 }
 
 std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LatticeMesh& mesh, double error_world,
-                                                 double scale_world, const SceneLooks& looks) {
+                                                 double scale_world, const SceneLooks& looks,
+                                                 const MemoryShare& memory) {
   const double voxel = mesh.frame.voxel;
   AtlasParams atlas_params;
   atlas_params.texel = texel_of(mesh, error_or(error_world, scale_world, voxel), looks) / voxel * kLatticePerVoxel;
   const Atlas atlas = unwrap(mesh, atlas_params);
   BakeParams params;
   params.reach_world = texture_reach(error_world, scale_world, voxel);
+  params.memory = memory;
   params.both_ways = build.options.proxy.mode == MeshMode::fit;
   return std::make_shared<const MeshTexture>(with_file(atlas, bake(mesh, atlas, looks, params)));
 }
@@ -86,9 +83,10 @@ std::shared_ptr<const MeshTexture> level_texture(const Build& build, const Latti
 void bake_levels(Build& build, std::vector<LodLevel>& levels) {
   if (!build.textured()) return;
   build.report.stage("textures");
-  const std::unique_ptr<SceneLooks> looks = read_looks(build, build.budget.work);
+  const std::unique_ptr<SceneLooks> looks = read_looks(build, part_of(build.budget.work, 0.75));
   for (LodLevel& level : levels)
-    level.mesh.texture = level_texture(build, level.mesh, level.error_world, level.scale_world, *looks);
+    level.mesh.texture = level_texture(build, level.mesh, level.error_world, level.scale_world, *looks,
+                                       part_of(build.budget.work, 0.25));
   for (const std::string& fault : looks->faults()) build.note(fault + "; its material's colour is used");
 }
 

@@ -14,10 +14,10 @@ namespace bp {
 /// So far from a level lies what decides its texture; `error_world` as below.
 [[nodiscard]] double texture_reach(double error_world, double scale_world, double voxel);
 
-/// The texture of a level whose largest distance to the scene is `error_world` (NaN: not known).
+/// The texture of a level whose largest distance to the scene is `error_world` (0: not known). `memory`: for the image.
 [[nodiscard]] std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LatticeMesh& mesh,
                                                                double error_world, double scale_world,
-                                                               const SceneLooks& looks);
+                                                               const SceneLooks& looks, const MemoryShare& memory);
 
 /// Gives each level its texture, if the scene has any (Build::textured()). Notes tell of images that cannot be used.
 void bake_levels(Build& build, std::vector<LodLevel>& levels);

@@ -27,12 +27,6 @@ namespace bp {
 
 namespace {
 
-MemoryShare half_of(MemoryShare memory) {
-  memory.bytes /= 2;
-  memory.share /= 2;
-  return memory;
-}
-
 /// What was made stays if it cannot be told: it took far longer than to free the space.
 void print_list(const std::string& text, const std::string& made) {
   try {
@@ -164,12 +158,16 @@ LodOptions Build::lod_options() {
 void Build::hold_looks() {
   if (!textured_) return;
   report.stage("textures");
-  looks_ = read_looks(*this, half_of(budget.work));
+  looks_ = read_looks(*this, part_of(budget.work, 0.4));
+}
+
+MemoryShare Build::texture_memory() const {
+  return part_of(budget.work, 0.1);
 }
 
 PassContext Build::context(ResultStore* results) const {
   PassContext context;
-  const MemoryShare work = looks_ != nullptr ? half_of(budget.work) : budget.work;
+  const MemoryShare work = looks_ != nullptr ? part_of(budget.work, 0.5) : budget.work;
   context.memory = work;
   context.make_shelf = make_shelf;
   context.results = results;
@@ -193,7 +191,8 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
     color_vertices(level.mesh, colors_->all(level.mesh.frame));
   }
   if (looks_ != nullptr)
-    level.mesh.texture = level_texture(*this, level.mesh, level.error_world, level.scale_world, *looks_);
+    level.mesh.texture =
+        level_texture(*this, level.mesh, level.error_world, level.scale_world, *looks_, texture_memory());
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
   if (textured_) text.add("appearance", "texture");

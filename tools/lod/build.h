@@ -54,6 +54,7 @@ class Build {
   /// Does nothing if the levels get none.
   void hold_looks();
   [[nodiscard]] const SceneLooks* looks() const { return looks_.get(); }  ///< null: not held
+  [[nodiscard]] MemoryShare texture_memory() const;                       ///< for each image that is baked meanwhile
   /// Stages go to the report; levels get colours and provenance. `input_hash`: of the scene, for the latter.
   [[nodiscard]] LevelSteps level_steps(std::function<std::string()> input_hash);
 

@@ -95,7 +95,8 @@ CutFiles cut_files(const Build& build, const CutLevel& cut, std::size_t level) {
   files.encode = [&build, scale = cut.scale_world, folder, provenance](CellCoord cell, LatticeMesh&& mesh,
                                                                        LatticeCoord at) {
     mesh.provenance = {provenance};
-    if (build.looks() != nullptr) mesh.texture = level_texture(build, mesh, 0, scale, *build.looks());
+    if (build.looks() != nullptr)
+      mesh.texture = level_texture(build, mesh, 0, scale, *build.looks(), build.texture_memory());
     return tile_glb({folder + "_" + name_of(cell), &mesh}, at);
   };
   if (build.looks() != nullptr) {

@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/mesh/shaded_mesh.h"
+#include "lib/pass/bake/detail/mip_image.h"
 #include "lib/pass/bake/detail/push_pull.h"
 
 namespace bp {
 
 namespace {
 
-constexpr int kSide = 2;          // samples along a side of a texel
+constexpr int kSide = 2;  // samples along a side of a texel
+/// The image, which texels are known, smaller copies; and the file that is made of it.
+constexpr std::uint64_t kBytesPerTexel = 9, kBytesPerFace = sizeof(TriangleD) + 400;
 constexpr double kBefore = 1e-4;  // of the reach
 constexpr int kBand = 16;         // rows of texels at a time
 
@@ -23,17 +27,19 @@ struct Face {
   std::array<Vec3d, 3> normals;
 };
 
-/// The sums of some rows of texels.
+/// Some rows of texels: sums of colours by how much they cover, and of samples.
 class Band {
  public:
-  Band(const SceneLooks& looks, const BakeParams& params, double texel, PartialImage& image, int first)
+  Band(const SceneLooks& looks, const BakeParams& params, double texel, const TextureImage& image, int first)
       : scene_(looks.triangles()),
         eye_(looks),
         params_(params),
         size_(texel / kSide),
-        image_(image),
+        width_(image.width),
         first_(first),
-        last_(std::min(first + kBand, image.height)) {}
+        last_(std::min(first + kBand, image.height)),
+        sums_(std::size_t(width_) * std::size_t(last_ - first)),
+        samples_(sums_.size()) {}
 
   void add(const Face& face) {
     const auto& f = face.flat;
@@ -42,9 +48,22 @@ class Band {
     const auto [left, right] = std::minmax({f[0][0], f[1][0], f[2][0]});
     const auto [top, bottom] = std::minmax({f[0][1], f[1][1], f[2][1]});
     for (int y = std::max(first_, int(top)); y < std::min(last_, int(bottom) + 1); ++y) {
-      for (int x = std::max(0, int(left)); x < std::min(image_.width, int(right) + 1); ++x) add_texel(face, area, x, y);
+      for (int x = std::max(0, int(left)); x < std::min(width_, int(right) + 1); ++x) add_texel(face, area, x, y);
     }
     add_middle(face);
+  }
+
+  /// Means; `known`: which texels have a colour.
+  void write(TextureImage& image, std::vector<std::uint8_t>& known) const {
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      const LinearTexel& sum = sums_[i];
+      const std::size_t to = std::size_t(first_) * std::size_t(width_) + i;
+      const float alpha = sum[3];
+      if (alpha > 0)
+        for (std::size_t k = 0; k < 3; ++k) image.texels[to][k] = byte_of_linear(sum[k] / alpha);
+      image.texels[to][3] = samples_[i] > 0 ? std::uint8_t(alpha / float(samples_[i]) * 255 + 0.5F) : std::uint8_t(255);
+      known[to] = alpha > 0;
+    }
   }
 
  private:
@@ -65,12 +84,12 @@ class Band {
   void add_middle(const Face& face) {
     const auto& f = face.flat;
     const int x = int((f[0][0] + f[1][0] + f[2][0]) / 3), y = int((f[0][1] + f[1][1] + f[2][1]) / 3);
-    if (y < first_ || y >= last_ || x < 0 || x >= image_.width || weight(x, y) > 0) return;
+    if (y < first_ || y >= last_ || x < 0 || x >= width_ || samples_[at(x, y)] > 0) return;
     add_sample(face, {1.0 / 3, 1.0 / 3, 1.0 / 3}, x, y, 0.5F);
   }
 
-  [[nodiscard]] float& weight(int x, int y) {
-    return image_.weight[std::size_t(y) * std::size_t(image_.width) + std::size_t(x)];
+  [[nodiscard]] std::size_t at(int x, int y) const {
+    return std::size_t(y - first_) * std::size_t(width_) + std::size_t(x);
   }
 
   void add_sample(const Face& face, const std::array<double, 3>& part, int x, int y, float threshold) {
@@ -83,10 +102,10 @@ class Band {
     const std::optional<Look> found = seen(p, l > 0 ? (1 / l) * n : face.normals[0], threshold);
     if (!found) return;
     const Look& look = *found;
-    LinearTexel& sum = image_.texels[std::size_t(y) * std::size_t(image_.width) + std::size_t(x)];
+    LinearTexel& sum = sums_[at(x, y)];
     for (std::size_t i = 0; i < 3; ++i) sum[i] += look.color[i] * look.alpha;
     sum[3] += look.alpha;
-    weight(x, y) += 1;
+    ++samples_[at(x, y)];
   }
 
   /// Nothing if the scene is out of reach.
@@ -124,8 +143,9 @@ class Band {
   SceneLooks::Eye eye_;
   const BakeParams& params_;
   double size_;
-  PartialImage& image_;
-  int first_, last_;
+  int width_, first_, last_;
+  std::vector<LinearTexel> sums_;
+  std::vector<std::uint16_t> samples_;
   std::uint32_t near_ = 0;  // found last
 };
 
@@ -154,43 +174,27 @@ std::vector<std::vector<std::uint32_t>> by_band(const std::vector<Face>& faces, 
   return bands;
 }
 
-/// Sums become means; a hole has no colour of its own.
-void divide(PartialImage& image) {
-  for (std::size_t i = 0; i < image.texels.size(); ++i) {
-    LinearTexel& t = image.texels[i];
-    const float alpha = t[3], weight = image.weight[i];
-    for (std::size_t k = 0; k < 3 && alpha > 0; ++k) t[k] /= alpha;
-    if (weight > 0) t[3] = alpha / weight;
-    if (alpha == 0) image.weight[i] = 0;
-  }
-}
-
 }  // namespace
 
 TextureImage bake(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks, const BakeParams& params) {
+  const std::uint64_t texels = std::uint64_t(atlas.width) * std::uint64_t(atlas.height);
+  const std::uint64_t needed = texels * kBytesPerTexel + mesh.triangles.size() * kBytesPerFace;
+  if (needed > params.memory.bytes)
+    throw NeedsMemory(fmt::format("baking a texture of {} x {} texels", atlas.width, atlas.height), needed,
+                      params.memory.bytes, params.memory.limit_with(needed - params.memory.bytes),
+                      {Remedy::no_textures});
   const std::vector<Face> faces = faces_of(mesh, atlas);
   const std::vector<std::vector<std::uint32_t>> bands = by_band(faces, atlas.height);
-  PartialImage image{atlas.width, atlas.height, {}, {}};
-  image.texels.resize(std::size_t(atlas.width) * std::size_t(atlas.height));
-  image.weight.resize(image.texels.size());
+  TextureImage image(atlas.width, atlas.height);
+  std::vector<std::uint8_t> known(image.texels.size());
   const double texel = atlas.texel * mesh.frame.voxel / kLatticePerVoxel;
   parallel_for(std::int64_t(bands.size()), [&](std::int64_t b) {
     Band band(looks, params, texel, image, int(b) * kBand);
     for (const std::uint32_t f : bands[std::size_t(b)]) band.add(faces[f]);
+    band.write(image, known);
   });
-  std::vector<float> alpha(image.texels.size(), 1);
-  for (std::size_t i = 0; i < alpha.size(); ++i) {
-    if (image.weight[i] > 0) alpha[i] = image.texels[i][3] / image.weight[i];
-  }
-  divide(image);
-  fill_gaps(image);
-  TextureImage out(atlas.width, atlas.height);
-  for (std::size_t i = 0; i < out.texels.size(); ++i) {
-    const LinearTexel& t = image.texels[i];
-    out.texels[i] = {byte_of_linear(t[0]), byte_of_linear(t[1]), byte_of_linear(t[2]),
-                     std::uint8_t(alpha[i] * 255 + 0.5F)};
-  }
-  return out;
+  fill_gaps(image, known);
+  return image;
 }
 
 }  // namespace bp

@@ -9,12 +9,13 @@ namespace bp {
 struct BakeParams {
   double reach_world = 0;  ///< so far along the normal the scene is looked for, scene units
   bool both_ways = false;  ///< outwards, too: the mesh may lie inside; the nearest counts
+  MemoryShare memory{};    ///< for the image
 };
 
 /// Colours are means over a texel, in linear light. A texel whose line meets nothing within the reach shows the nearest
 /// place of the scene within it; one whose line goes only through holes of the scene's textures is a hole (alpha).
 /// Texels outside the charts have colours of those beside them. The result does not depend on threads. Cost: four lines
-/// through the scene for each texel; 20 bytes a texel.
+/// through the scene for each texel; 9 bytes a texel. Throws NeedsMemory.
 [[nodiscard]] TextureImage bake(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks,
                                 const BakeParams& params);
 

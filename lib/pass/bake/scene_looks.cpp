@@ -31,7 +31,7 @@ SceneLooks::SceneLooks(TriangleSource& source, std::uint64_t triangles, std::sha
   const std::uint64_t needed = triangles * kBytesEach, room = memory.bytes / 4 * 3;
   if (needed > room)
     throw NeedsMemory(fmt::format("baking textures from {} triangles", triangles), needed, room,
-                      memory.limit_with((needed - room) / 3 * 4));
+                      memory.limit_with((needed - room) / 3 * 4), {Remedy::no_textures});
   std::vector<TriangleD> all, chunk;
   std::vector<TriangleColors> colors;
   std::vector<TriangleTexture> textures;

@@ -1,30 +1,31 @@
 #include "lib/pass/bake/detail/push_pull.h"
 
 #include <algorithm>
+#include <array>
 
 namespace bp {
 
 namespace {
 
-PartialImage halved(const PartialImage& image) {
-  PartialImage half{(image.width + 1) / 2, (image.height + 1) / 2, {}, {}};
-  half.texels.resize(std::size_t(half.width) * std::size_t(half.height));
-  half.weight.resize(half.texels.size());
+/// Half as large; known where one of four texels is.
+TextureImage halved(const TextureImage& image, const std::vector<std::uint8_t>& known,
+                    std::vector<std::uint8_t>& half_known) {
+  TextureImage half((image.width + 1) / 2, (image.height + 1) / 2);
+  half_known.assign(half.texels.size(), 0);
   for (int y = 0; y < half.height; ++y) {
     for (int x = 0; x < half.width; ++x) {
-      LinearTexel sum{};
-      float weight = 0;
+      std::array<int, 3> sum{};
+      int count = 0;
       for (int j = 2 * y; j < std::min(2 * y + 2, image.height); ++j) {
         for (int i = 2 * x; i < std::min(2 * x + 2, image.width); ++i) {
-          const std::size_t from = std::size_t(j) * std::size_t(image.width) + std::size_t(i);
-          if (image.weight[from] == 0) continue;
-          for (std::size_t k = 0; k < 4; ++k) sum[k] += image.texels[from][k];
-          weight += 1;
+          if (known[std::size_t(j) * std::size_t(image.width) + std::size_t(i)] == 0) continue;
+          for (std::size_t k = 0; k < 3; ++k) sum[k] += image.at(i, j)[k];
+          ++count;
         }
       }
-      const std::size_t to = std::size_t(y) * std::size_t(half.width) + std::size_t(x);
-      half.weight[to] = weight;
-      for (std::size_t k = 0; k < 4 && weight > 0; ++k) half.texels[to][k] = sum[k] / weight;
+      if (count == 0) continue;
+      half_known[std::size_t(y) * std::size_t(half.width) + std::size_t(x)] = 1;
+      for (std::size_t k = 0; k < 3; ++k) half.at(x, y)[k] = std::uint8_t((sum[k] + count / 2) / count);
     }
   }
   return half;
@@ -32,16 +33,16 @@ PartialImage halved(const PartialImage& image) {
 
 }  // namespace
 
-void fill_gaps(PartialImage& image) {
+void fill_gaps(TextureImage& image, const std::vector<std::uint8_t>& known) {
   if (image.width <= 1 && image.height <= 1) return;
-  if (std::none_of(image.weight.begin(), image.weight.end(), [](float w) { return w == 0; })) return;
-  PartialImage half = halved(image);
-  fill_gaps(half);
+  if (std::find(known.begin(), known.end(), 0) == known.end()) return;
+  std::vector<std::uint8_t> half_known;
+  TextureImage half = halved(image, known, half_known);
+  fill_gaps(half, half_known);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const std::size_t to = std::size_t(y) * std::size_t(image.width) + std::size_t(x);
-      if (image.weight[to] == 0)
-        image.texels[to] = half.texels[std::size_t(y / 2) * std::size_t(half.width) + std::size_t(x / 2)];
+      if (known[std::size_t(y) * std::size_t(image.width) + std::size_t(x)] != 0) continue;
+      for (std::size_t k = 0; k < 3; ++k) image.at(x, y)[k] = half.at(x / 2, y / 2)[k];
     }
   }
 }

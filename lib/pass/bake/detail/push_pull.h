@@ -1,19 +1,14 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
-#include "lib/pass/bake/detail/mip_image.h"
+#include "lib/core/texture.h"
 
 namespace bp {
 
-/// Texels of an image, some of them without a colour.
-struct PartialImage {
-  int width = 0, height = 0;
-  std::vector<LinearTexel> texels;  ///< by rows
-  std::vector<float> weight;        ///< of each texel; 0: it has no colour
-};
-
-/// Gives each texel without a colour the mean of what lies nearest to it: means over squares of 2, 4, 8 ... texels,
-/// smallest first. O(texels); a third of the image's bytes besides it. Nothing if no texel has a colour.
-void fill_gaps(PartialImage& image);
+/// Gives each texel that is not `known` the colour that lies nearest to it: means over squares of 2, 4, 8 ... texels,
+/// smallest first; alpha stays. Of sRGB values: nobody sees them but as a blend at the edge of what is known.
+/// O(texels); less than two bytes a texel. Nothing if none is known.
+void fill_gaps(TextureImage& image, const std::vector<std::uint8_t>& known);
 
 }  // namespace bp

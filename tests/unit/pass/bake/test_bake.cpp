@@ -218,7 +218,7 @@ TEST_CASE("an image that is not there leaves the colour of its triangles, and is
   const SceneLooks looks(source, scene.triangles.size(), textures_of(TextureImage()), {});
   const LatticeMesh mesh = box_mesh({{1024, 1024, 1024}, {3072, 3072, 3072}});
   const Atlas atlas = unwrap(mesh, {128, 4096});
-  const TextureImage image = bake(mesh, atlas, looks, {0.1, false});
+  const TextureImage image = bake(mesh, atlas, looks, BakeParams{0.1, false, {}});
   for (const TextureImage::Texel& t : image.texels) CHECK(t == TextureImage::Texel{255, 0, 0, 255});
   CHECK(looks.faults().size() == 1);
 }
@@ -230,10 +230,10 @@ TEST_CASE("colours multiply images, or give way to them", "[quick][bake]") {
   const LatticeMesh mesh = box_mesh({{1024, 1024, 1024}, {3072, 3072, 3072}});
   TextureMaterial material;
   const TextureImage grey(4, 4, {100, 100, 100, 255});
-  CHECK(bake_box(mesh, scene, textures_of(grey, material), {0.1, false}).image.texels[0] ==
+  CHECK(bake_box(mesh, scene, textures_of(grey, material), BakeParams{0.1, false, {}}).image.texels[0] ==
         TextureImage::Texel{0, 100, 100, 255});
   material.replaces_color = true;
-  CHECK(bake_box(mesh, scene, textures_of(grey, material), {0.1, false}).image.texels[0] ==
+  CHECK(bake_box(mesh, scene, textures_of(grey, material), BakeParams{0.1, false, {}}).image.texels[0] ==
         TextureImage::Texel{100, 100, 100, 255});
 }
 
@@ -244,7 +244,7 @@ TEST_CASE("places in images that are no numbers are baked, too", "[quick][bake]"
   for (std::size_t i = 0; i < scene.textures.size(); ++i)
     for (auto& uv : scene.textures[i].uv) uv = {bad[i % 6], bad[(i + 3) % 6]};
   const LatticeMesh mesh = box_mesh({{1024, 1024, 1024}, {3072, 3072, 3072}});
-  const Baked baked = bake_box(mesh, scene, textures_of(six_ramps(16)), {0.1, false});
+  const Baked baked = bake_box(mesh, scene, textures_of(six_ramps(16)), BakeParams{0.1, false, {}});
   for (const TextureImage::Texel& t : baked.image.texels) CHECK(int(t[3]) == 255);
 }
 
@@ -252,7 +252,8 @@ TEST_CASE("where the scene is out of reach, colours are those beside", "[quick][
   TexturedScene scene;
   scene.add({0, 0, 0.5}, {0.5, 0, 0}, {0, 1, 0}, 0);  // half of the plate
   const LatticeMesh mesh = box_mesh({{0, 0, 2000}, {4096, 4096, 2096}});
-  const Baked baked = bake_box(mesh, scene, textures_of(TextureImage(2, 2, {9, 99, 199, 255})), {0.05, false});
+  const Baked baked =
+      bake_box(mesh, scene, textures_of(TextureImage(2, 2, {9, 99, 199, 255})), BakeParams{0.05, false, {}});
   for (const TextureImage::Texel& t : baked.image.texels) CHECK(t == TextureImage::Texel{9, 99, 199, 255});
 }
 
@@ -269,6 +270,15 @@ TEST_CASE("a scene that does not fit in the memory says how much does", "[quick]
   }
   memory.bytes = 16 * SceneLooks::kBytesEach;
   REQUIRE_NOTHROW(SceneLooks(source, 12, textures_of(TextureImage(2, 2)), memory));
+}
+
+TEST_CASE("an image that does not fit in the memory is refused with the figure", "[quick][bake]") {
+  TexturedScene scene;
+  scene.add_cube({0.25, 0.25, 0.25}, 0.5, 0);
+  BakeParams params{0.1, false, {100000, 1, {std::uint64_t(1) << 30, 0}}};
+  const LatticeMesh mesh = box_mesh({{1024, 1024, 1024}, {3072, 3072, 3072}});
+  REQUIRE_NOTHROW(bake_box(mesh, scene, textures_of(six_ramps(4)), params, 128));
+  REQUIRE_THROWS_AS(bake_box(mesh, scene, textures_of(six_ramps(4)), params, 16), NeedsMemory);
 }
 
 TEST_CASE("the key of a place knows its triangles and its images, not those elsewhere", "[quick][bake]") {
