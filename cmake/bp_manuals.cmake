@@ -17,7 +17,7 @@ function(bp_add_manual tool)
     add_custom_command(
       OUTPUT ${page}
       COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/man
-      COMMAND ${BP_PANDOC} -s -f markdown-smart -t man -L ${filter} -M date=${bp_manual_date} -M "footer=${PROJECT_NAME} ${PROJECT_VERSION}"
+      COMMAND ${BP_PANDOC} -s -f markdown-smart -t man -L ${filter} -M docs=${CMAKE_INSTALL_FULL_DOCDIR} -M date=${bp_manual_date} -M "footer=${PROJECT_NAME} ${PROJECT_VERSION}"
               -o ${page} ${manual}
       DEPENDS ${manual} ${filter}
       VERBATIM)

@@ -46,8 +46,8 @@ TileLayout lay_out(const VoxelBox& solid, const ScaleLattice& scale, const Halo&
                         low.z + round_up(reach.max.z - low.z, kUnit)};
   const VoxelBox domain{low, high};
   if (domain.volume() / 32 >= std::int64_t(1) << 31) {
-    throw OutOfDeviceMemory(fmt::format("GPU: a tile of {} x {} x {} voxels is too large; use smaller tiles",
-                                        high.x - low.x, high.y - low.y, high.z - low.z));
+    throw OutOfDeviceMemory(
+        fmt::format("GPU: a tile of {} x {} x {} voxels is too large", high.x - low.x, high.y - low.y, high.z - low.z));
   }
   TileLayout t;
   t.shape = {(high.x - low.x) / 32, high.y - low.y, high.z - low.z};

@@ -14,7 +14,6 @@
 #include "lib/core/error.h"
 #include "tools/check/check_budget.h"
 #include "tools/check/check_run.h"
-#include "tools/check/hiding_recipe.h"
 #include "tools/check/hints.h"
 #include "tools/check/tileset_verdict.h"
 #include "tools/check/verdict_steps.h"
@@ -23,6 +22,7 @@
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
 #include "tools/run/grounded_source.h"
+#include "tools/run/hiding_recipe.h"
 #include "tools/run/inputs.h"
 #include "tools/run/memory_shares.h"
 #include "tools/run/origin.h"
@@ -81,7 +81,7 @@ int status_of(bp::Answer answer) {
 int run_tileset(const bp::CheckRun& o) {
   refuse_for_tileset(o);
   bp::Report report("bpcheck");
-  report.stage("check");
+  report.begin("check");
   bp::SceneOptions options{o.format, o.common.memory_bytes / 4, o.common.temp};
   options.keep_extremes = true;
   options.document = bp::document_budget(o.common.memory_bytes, bp::kMeshProgram, 2);
@@ -154,19 +154,19 @@ std::optional<bp::HidingQuestion> hiding_question(const bp::CheckRun& o, const s
                                                   bp::SceneOptions options,
                                                   std::unique_ptr<bp::TriangleSource>& walls) {
   if (!o.inside || std::count(scenes.begin(), scenes.end(), "-") > 0) return {};  // stdin cannot be read again
-  const std::optional<bp::OccluderRecipe> recipe = bp::hiding_recipe(o.files.back());
+  const std::optional<bp::OccluderRecipe> recipe = bp::hiding_recipe(bp::extras_of(o.files.back()));
   if (!recipe) return {};
-  options.walls_only = true;
+  options.walls_only = recipe->opaque_only;
   options.keep_degenerate = false;
   walls = bp::open_scenes(scenes, options);
   if (recipe->ground) walls = std::make_unique<bp::GroundedSource>(std::move(walls), recipe->up);
-  return bp::HidingQuestion{recipe->hiding, walls.get()};
+  return bp::HidingQuestion{recipe->hiding, walls.get(), !recipe->opaque_only};
 }
 
 int run(const bp::CheckRun& o) {
   if (bp::is_tileset(o.files.back())) return run_tileset(o);
   bp::Report report("bpcheck");
-  report.stage("read the proxy");
+  report.begin("read the proxy");
   bp::CheckBudget budget(o.common.memory_bytes, o.files.size() - 1);
   bp::SceneOptions scene_options = budget.of_proxy();
   scene_options.format = o.format;
@@ -184,14 +184,15 @@ int run(const bp::CheckRun& o) {
   std::unique_ptr<bp::TriangleSource> walls;
   const std::optional<bp::HidingQuestion> hidden = hiding_question(o, scenes, scene_options, walls);
 
-  report.stage("check");
-  const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get(), hidden, budget.scene_bytes());
+  report.begin("check");
+  const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get(), hidden, budget.of_scene().bytes);
   const std::string name = bp::file_name(o.files.back());
   const std::string text = o.json ? bp::verdict_json(verdicts, name) : bp::verdict_text(verdicts, name);
   bp::print(text);
   report.bytes_out = text.size();
   fill_report(report, o, origin, verdicts);
   if (parts_meet(o, verdicts)) note_hint(report, o, bp::convex_hint(o.files.back(), has_convex_parts(levels)));
+  note_hint(report, o, bp::memory_hint(verdicts, budget.of_scene()));
   std::string hint;
   if (!answers_hold(o, verdicts)) hint = bp::enclosure_hint(o.files.front(), o.files.back(), o.inside);
   note_hint(report, o, hint.empty() ? bp::look_hint(o.files, o.format, origin, verdicts) : hint);

@@ -27,29 +27,29 @@ struct Options {
   bp::CommonOptions common;
   std::string in = "-", out = "-", field;
   bp::ClosingOptions closing;
-  bool keep_cavities = false, inner = false;
+  bool keep_cavities = false;
 };
 
 Options parse(bp::Args& args) {
   Options o;
-  args.about("Closes a stream of voxels: gaps, holes and grooves narrower than the scale are filled.");
+  args.about(
+      "Closes a stream of voxels: gaps, holes and grooves narrower than the scale are filled. A stream of bpvox --fill "
+      "inside is opened instead: parts narrower than the scale are removed, nothing is added.");
   args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
   args.positional("INPUT", o.in, "stream of voxels; - is stdin");
   args.group("Files");
   args.option("-o,--output", "FILE", o.out, "stream of voxels, with the closing; - is stdout");
   o.closing.add_to(args, "", "");
+  o.closing.add_element(args);
   args.option("--field", "FILE", o.field, "scales that differ from place to place, as JSON, instead of --scale");
   args.removed("--tile", "bpclose chooses the tiles by --memory");
   args.flag("--keep-cavities", o.keep_cavities, "leave hollows empty that the closing cuts off from the outside");
-  args.flag("--inner", o.inner,
-            "open instead of close: parts narrower than the scale are removed, nothing is added; for bpmesh --mode "
-            "inside, and a stream of bpvox --fill inside");
+  args.removed("--inner", "a stream of bpvox --fill inside is opened without it");
   o.common.device_text =
       "auto, cpu, cuda (every GPU) or cuda:0,1 (default: auto, one GPU where the work is worth its start, or the CPU)";
   o.common.add_to(args);
-  args.often({"--output", "--scale", "--element", "--inner", "--overwrite"});
+  args.often({"--output", "--scale", "--element", "--overwrite"});
   args.parse();
-  args.excludes("--keep-cavities", "--inner");
   bp::check_stream_name(o.out);
   bp::keep_inputs({o.in});
   if (!o.field.empty()) bp::keep_inputs({o.field});
@@ -65,7 +65,12 @@ bp::ScaleField scale_field(const Options& o, const bp::StreamHeader& header) {
   return field;
 }
 
-bp::OptionText option_text(const Options& o, const bp::ScaleField& field) {
+/// An opening: what is narrow is removed of the inside of a scene.
+bool opens(const bp::StreamHeader& header) {
+  return header.fill == bp::FillMode::inside;
+}
+
+bp::OptionText option_text(const Options& o, const bp::StreamHeader& header, const bp::ScaleField& field) {
   bp::OptionText text;
   if (o.closing.scale) {
     text.add("scale", *o.closing.scale);
@@ -74,16 +79,16 @@ bp::OptionText option_text(const Options& o, const bp::ScaleField& field) {
   }
   text.add("element", name_of(o.closing.element));
   text.add("keep-cavities", o.keep_cavities);
-  if (o.inner) text.add("inner", o.inner);
+  if (opens(header)) text.add("inner", true);
   return text;
 }
 
 /// How --memory is shared out: the program, the stream's batches and `pinned` memory, the shelves, the tiles at work.
-bp::CloseOptions stage_options(const Options& o, std::uint64_t pinned, bp::Progress& progress) {
+bp::CloseOptions pass_options(const Options& o, bool opening, std::uint64_t pinned, bp::Progress& progress) {
   const bp::MemoryLimit limit{o.common.memory_bytes, bp::kVoxelProgram + pinned};
   const std::uint64_t usable = limit.rest_bytes();
   bp::CloseOptions options;
-  options.keep_cavities = o.keep_cavities || o.inner;  // the cavities of the complement are the solid
+  options.keep_cavities = o.keep_cavities || opening;  // the cavities of the complement are the solid
   options.context.memory = {usable / 2, 0.5, limit};
   options.context.make_shelf = bp::make_shelf_factory(usable / 5 * 2, o.common.temp);
   options.context.progress = progress.for_pass();
@@ -92,24 +97,13 @@ bp::CloseOptions stage_options(const Options& o, std::uint64_t pinned, bp::Progr
 
 bp::StreamHeader closed_header(const Options& o, const bp::StreamHeader& in, const bp::ScaleField& field) {
   bp::StreamHeader header = in;
-  if (!o.inner) header.bricks = bp::closing_bricks(in, field);
+  if (!opens(in)) header.bricks = bp::closing_bricks(in, field);
   header.slab_axis = in.slab_axis;
   header.has_closing = true;
   header.scale = field;
   header.element = o.closing.element;
-  header.provenance.push_back(bp::make_provenance("bpclose", option_text(o, field)));
+  header.provenance.push_back(bp::make_provenance("bpclose", option_text(o, in, field)));
   return header;
-}
-
-/// A closing would leave the inside of the scene; an opening of what triangles touch would not be strictly inside.
-void check_fill(const Options& o, const bp::StreamHeader& header) {
-  const bool inside = header.fill == bp::FillMode::inside;
-  if (o.inner && !inside)
-    fail(ErrorCode::bad_input, "the stream holds voxels that the scene touches; --inner needs bpvox --fill inside");
-  if (!o.inner && inside) {
-    fail(ErrorCode::bad_input,
-         "the stream holds the inside of the scene only (bpvox --fill inside); add --inner, or fill otherwise");
-  }
 }
 
 /// The opening is the complement of the closing of the complement.
@@ -142,27 +136,29 @@ void fill_report(bp::Report& report, const bp::Backends& backends, const bp::Clo
 void run(const Options& o) {
   bp::Report report("bpclose");
   bp::Progress progress("bpclose", o.common.progress);
-  report.stage("open");
+  report.begin("open");
   const auto output = bp::open_output(o.out, o.common.overwrite);
   bp::BrickReader source(o.in);
-  check_fill(o, source.header());
+  const bool opening = opens(source.header());
+  if (opening && o.keep_cavities)
+    fail(ErrorCode::bad_argument, "--keep-cavities means nothing for a stream of bpvox --fill inside; leave it out");
   if (o.closing.scale)
     bp::question_scale("--scale", *o.closing.scale, source.header().bounds, source.header().frame.voxel);
   const bp::ScaleField field = scale_field(o, source.header());
-  for (const std::string& text : bp::scale_notes(field, source.header(), o.inner)) report.note(text, o.common);
+  for (const std::string& text : bp::scale_notes(field, source.header(), opening)) report.note(text, o.common);
   const bp::Estimate estimate = bp::estimate_close(source.header(), field);
   bp::Backends backends = bp::make_backends(o.common, estimate.core_seconds, &report);
   bp::note_estimate(estimate, o.common, progress, report, bp::names_of(backends));
   bp::BrickWriter sink(*output, closed_header(o, source.header(), field));
 
-  report.stage("close");
-  const auto close = o.inner ? open_stream : bp::close_stream;
-  const bp::CloseCounts counts =
-      close(source, sink, backends, field, {o.closing.element}, stage_options(o, bp::pinned_bytes(backends), progress));
+  report.begin("close");
+  const auto close = opening ? open_stream : bp::close_stream;
+  const bp::CloseCounts counts = close(source, sink, backends, field, {o.closing.element},
+                                       pass_options(o, opening, bp::pinned_bytes(backends), progress));
   sink.finish();
   output->commit();
 
-  report.options["options"] = option_text(o, field).text();
+  report.options["options"] = option_text(o, source.header(), field).text();
   report.options["memory"] = o.common.memory_bytes;
   report.bytes_in = source.totals().bytes;
   report.bytes_out = output->bytes();

@@ -31,7 +31,8 @@ struct Options {
 Options parse(bp::Args& args) {
   Options o;
   args.about("Tells what streams of voxels, meshes and tilesets hold, draws them, and checks a stream to its end.");
-  args.positional("[INPUT...]", o.in, "streams, meshes or scenes, tilesets (*.json); - is stdin (default: -)");
+  args.positional("[INPUT...]", o.in,
+                  "streams, meshes or scenes, tilesets (tileset.json or its folder); - is stdin (default: -)");
   args.group("Text");
   args.flag("--json", o.json, "print JSON");
   args.flag("--checksum", o.checksum,
@@ -49,6 +50,7 @@ Options parse(bp::Args& args) {
   args.example("bpinfo scene.glb closed.bpv proxy.glb --image all.png");
   args.parse();
   if (o.in.empty()) o.in = {"-"};
+  for (std::string& in : o.in) in = bp::tileset_in(in);
   bp::check_scene_format(o.format, o.in);
   bp::check_stdin_once(o.in);
   bp::keep_inputs(o.in);

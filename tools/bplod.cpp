@@ -35,7 +35,7 @@ void build_chain(const bp::BuildOptions& o) {
     out.leave_out(bp::level_name(o.name, i) + ".glb");
   build.progress.end();
   build.note(bp::heavier_note(made.facts.front(), scene.counts.scene.triangles));
-  build.report.stage("write");
+  build.report.begin("write");
   const std::vector<bp::WrittenFile> files =
       bp::write_profile(o, made.levels, scene.header.bounds.diagonal(), origin, out);
   out.commit();

@@ -37,13 +37,7 @@ bp::MeshParams mesh_params(const bp::MeshOptions& o, const bp::StreamHeader& hea
   if (o.edge_length > 0 && !header.has_closing)
     bp::fail(bp::ErrorCode::bad_argument,
              "--edge-length counts in scales, and what was not closed has none; use bpclose before, or leave it out");
-  if (o.inset && o.proxy.mode != bp::MeshMode::fit)
-    bp::fail(bp::ErrorCode::bad_argument, "--inset is for fits; it needs --mode fit");
-  if (o.inset) params.inset = *o.inset;
-  if (o.least_part && o.proxy.mode != bp::MeshMode::inside)
-    bp::fail(bp::ErrorCode::bad_argument,
-             "only a proxy inside a scene may leave parts out; --least-part needs --mode inside");
-  params.least_part = o.least_part.value_or(o.proxy.mode == bp::MeshMode::inside ? kLeastPart : 0);
+  if (o.proxy.mode == bp::MeshMode::inside) params.least_part = kLeastPart;
   params.quads = o.quads;
   // What may come out beyond --error is measured, so that it can be told.
   const bool chosen = o.proxy.enclose.kind != bp::EncloseOption::Kind::automatic;
@@ -95,12 +89,13 @@ std::vector<std::unique_ptr<bp::OutputFile>> open_outputs(const bp::MeshOptions&
   return outputs;
 }
 
-void run(const bp::MeshOptions& o) {
+void run(bp::MeshOptions o) {
   const bp::MeshFormat format = bp::output_format(o);
   bp::Report report("bpmesh");
-  report.stage("read and mesh");
+  report.begin("read and mesh");
   const std::vector<std::unique_ptr<bp::OutputFile>> outputs = open_outputs(o);
   bp::BrickReader source(o.in);
+  if (!o.proxy.mode_given && source.header().fill == bp::FillMode::inside) o.proxy.mode = bp::MeshMode::inside;
   const bp::Vec3d origin = bp::origin_of(o.proxy.origin, source.header().frame, source.header().bounds);
   bp::MeshParams params = mesh_params(o, source.header());
   bp::PassContext context;
@@ -118,9 +113,10 @@ void run(const bp::MeshOptions& o) {
   std::vector<bp::LatticeMesh> levels = bp::mesh_stream(bricks, context, std::move(params), counts);
   report.bytes_in = source.totals().bytes;
 
-  report.stage("write");
+  report.begin("write");
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    levels[i].provenance.push_back(bp::mesh_provenance(o, enclosed, source.totals().checksum(), i));
+    levels[i].provenance.push_back(
+        bp::mesh_provenance(o, source.header().frame, enclosed, source.totals().checksum(), i));
     bp::write_mesh(levels[i], *outputs[i], format, {origin, o.proxy.mode == bp::MeshMode::fit});
   }
   bp::OutputFile::commit_all(outputs);
@@ -131,7 +127,7 @@ void run(const bp::MeshOptions& o) {
   report.counts["enclosed"] = enclosed;
   std::optional<std::string> scale;
   if (may_raise && bp::wants_scale(o, counts)) {
-    report.stage("try scales");
+    report.begin("try scales");
     levels.clear();  // they are written, and their memory is counted on
     scale = bp::enough_scale(source.header(), keeper.shelf(), o.levels.faces.front(), context.make_shelf, o.common);
   }

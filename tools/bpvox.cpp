@@ -80,7 +80,7 @@ bp::SceneFiles scene_files(const Options& o, const bp::VoxelizeCounts& counts) {
   return scene;
 }
 
-bp::VoxelizeOptions stage_options(const Options& o, const bp::VoxelizeBudget& budget, bp::Progress& progress) {
+bp::VoxelizeOptions pass_options(const Options& o, const bp::VoxelizeBudget& budget, bp::Progress& progress) {
   bp::VoxelizeOptions v;
   v.voxel_size = [&o](const bp::Bounds3d& bounds) { return voxel_size(o, bounds); };
   v.fill = o.voxels.fill;
@@ -139,9 +139,9 @@ void run(const Options& o) {
   const auto file = bp::open_output(o.out, o.common.overwrite);
   std::optional<bp::BrickWriter> writer;
   bp::StreamHeader header;
-  report.stage("read");
+  report.begin("read");
   const auto open = [&](const bp::StreamHeader& h, const bp::VoxelizeCounts& counts) -> bp::BrickSink& {
-    report.stage("voxelize");
+    report.begin("voxelize");
     header = h;
     const bp::Estimate estimate =
         bp::estimate_voxelize(h.bounds, h.frame.voxel, bp::most_touched_voxels(counts, h.frame.voxel));
@@ -151,7 +151,7 @@ void run(const Options& o) {
     header.scene = scene_files(o, counts);
     return writer.emplace(*file, header);
   };
-  const bp::VoxelizeCounts counts = bp::voxelize_stream(*source, open, backends, stage_options(o, budget, progress));
+  const bp::VoxelizeCounts counts = bp::voxelize_stream(*source, open, backends, pass_options(o, budget, progress));
   writer->finish();
   file->commit();
   progress.end();

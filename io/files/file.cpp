@@ -26,9 +26,9 @@ constexpr std::size_t kBufferBytes = std::size_t(1) << 20;
   const int e = errno;
   if (e == EPIPE) fail(ErrorCode::closed_pipe, "{}: the reader closed the pipe", name);
   if (e == ENOSPC || e == EDQUOT || e == EFBIG)
-    fail(ErrorCode::out_of_resource, "{}: {}; free some space or write elsewhere", name, std::strerror(e));
-  const char* const remedy = e == ENOENT ? "; make its folder first, or write elsewhere" : "";
-  fail(ErrorCode::failed, "{}: cannot write: {}{}", name, std::strerror(e), remedy);
+    fail(ErrorCode::out_of_resource, {Remedy::free_space, Remedy::other_output}, "{}: {}", name, std::strerror(e));
+  if (e == ENOENT) fail(ErrorCode::failed, {Remedy::other_output}, "{}: cannot write: its folder is not there", name);
+  fail(ErrorCode::failed, "{}: cannot write: {}", name, std::strerror(e));
 }
 
 void write_all(int fd, std::span<const std::byte> bytes, const std::string& name) {

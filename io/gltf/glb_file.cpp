@@ -50,7 +50,8 @@ std::string glb_head(std::string json, std::size_t data_bytes, const std::string
   json.append((4 - json.size() % 4) % 4, ' ');
   const std::uint64_t total = 12 + 8 + json.size() + 8 + data_bytes;
   if (total > std::numeric_limits<std::uint32_t>::max())
-    fail(ErrorCode::bad_argument, "{}: a GLB is limited to 4 GiB, and this mesh takes {}; write PLY", name, total);
+    fail(ErrorCode::bad_argument, {Remedy::ply_format}, "{}: a GLB is limited to 4 GiB, and this mesh takes {}", name,
+         total);
   std::string head = "glTF";
   head.append(little_endian(2)).append(little_endian(total));
   head.append(little_endian(json.size())).append("JSON").append(json);

@@ -73,8 +73,7 @@ std::uint64_t unpacked_bytes(const MeshoptView& view) {
 // --------------------------------------------------------------------------------------------------------
 
 void GltfObject::broken(const std::string& what) const {
-  fail(ErrorCode::bad_input, "{}: {} {}; repair or re-export the file", file_, place_.empty() ? "the document" : place_,
-       what);
+  fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: {} {}", file_, place_.empty() ? "the document" : place_, what);
 }
 
 const GltfJson& GltfObject::at(const char* key) const {
@@ -163,7 +162,7 @@ void GltfDocument::open_glb() {
   constexpr std::uint32_t kJson = 0x4E4F534A, kBin = 0x004E4942;
   const std::uint32_t version = word_at(*file_, 4), total = word_at(*file_, 8);
   if (version != 2)
-    fail(ErrorCode::bad_input, "{}: is GLB version {}; only version 2 is read, convert it", file_->name(), version);
+    fail(ErrorCode::bad_input, "{}: is GLB version {}, and only version 2 is read", file_->name(), version);
   if (total > file_->size()) {
     fail(ErrorCode::bad_input, "{}: promises {} bytes and has {}; the file is truncated", file_->name(), total,
          file_->size());
@@ -183,7 +182,7 @@ void GltfDocument::open_glb() {
     }
     at += (size + 3) / 4 * 4;
   }
-  if (!has_json) fail(ErrorCode::bad_input, "{}: has no JSON chunk; re-export the file", file_->name());
+  if (!has_json) fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: has no JSON chunk", file_->name());
 }
 
 void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
@@ -194,8 +193,8 @@ void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
   try {
     json_ = parse_json(std::move(lean.text));
   } catch (const GltfJson::exception& e) {
-    if (size == 0) fail(ErrorCode::bad_input, "{}: is empty; re-export the file", file_->name());
-    fail(ErrorCode::bad_input, "{}: broken JSON: {}; re-export the file", file_->name(), detail::json_fault(e));
+    if (size == 0) fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: is empty", file_->name());
+    fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: broken JSON: {}", file_->name(), detail::json_fault(e));
   }
 }
 
@@ -205,7 +204,7 @@ void GltfDocument::check_version() const {
          file_->name());
   const std::string version = root().object("asset").text("version");
   if (version.compare(0, 2, "2.") != 0)
-    fail(ErrorCode::bad_input, "{}: is glTF version {}; only version 2 is read, convert it", file_->name(), version);
+    fail(ErrorCode::bad_input, "{}: is glTF version {}, and only version 2 is read", file_->name(), version);
 }
 
 // --- GltfDocument: buffers and accessors
@@ -248,7 +247,7 @@ SceneFilePtr GltfDocument::open_beside(const GltfObject& buffer, const std::stri
   try {
     return open_scene_file(path_beside(uri), temp_dir_);
   } catch (const Error& e) {
-    fail(e.code(), "{}: its data are missing: {}; put that file beside it", file_->name(), e.what());
+    fail_as(e, "{}: its data are missing: {}; put that file beside it", file_->name(), e.what());
   }
 }
 

@@ -45,7 +45,7 @@ class GltfObject {
     }
     return otherwise;
   }
-  /// Throws bad_input "file: place what; repair or re-export the file".
+  /// Throws bad_input "file: place what", with Remedy::repair_file.
   [[noreturn]] void broken(const std::string& what) const;
 
  private:

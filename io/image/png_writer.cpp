@@ -31,8 +31,7 @@ std::vector<std::byte> encode_png(const Image& image) {
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::vector<std::byte> bytes(size);
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.pixels.data(), 0, nullptr) == 0)
-    fail(ErrorCode::out_of_resource, "image: it cannot be compressed ({}); ask for a smaller one",
-         static_cast<const char*>(png.message));
+    fail(ErrorCode::out_of_resource, "image: it cannot be compressed ({})", static_cast<const char*>(png.message));
   bytes.resize(size);
   return bytes;
 }

@@ -35,10 +35,9 @@ LatticeCoord centre_of(const LatticeMesh& mesh, const std::string& name) {
   for (int i = 0; i < 3; ++i) {
     centre[i] = lo[i] + (hi[i] - lo[i]) / 2;
     if (hi[i] - centre[i] <= kFloatInteger && centre[i] - lo[i] <= kFloatInteger) continue;
-    fail(ErrorCode::bad_argument,
-         "{}: the mesh spans {} voxels, and glTF's 32-bit floats hold 2^19 of them exactly; write PLY, or use larger "
-         "voxels",
-         name, (hi[i] - lo[i]) / kLatticePerVoxel);
+    fail(ErrorCode::bad_argument, {Remedy::ply_format, Remedy::larger_voxels},
+         "{}: the mesh spans {} voxels, and glTF's 32-bit floats hold 2^19 of them exactly", name,
+         (hi[i] - lo[i]) / kLatticePerVoxel);
   }
   return centre;
 }

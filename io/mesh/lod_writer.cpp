@@ -106,10 +106,9 @@ class GlbBuilder {
     const Extent extent(mesh);
     const LatticeCoord centre = origin != nullptr ? *origin : extent.centre();
     if (!extent.within(centre, -kFloatInteger, kFloatInteger)) {
-      fail(ErrorCode::bad_argument,
-           "{}: a level reaches {} voxels from its centre, and glTF's 32-bit floats hold 2^18 of them exactly; use "
-           "larger voxels",
-           file_, (extent.hi.x - extent.lo.x) / kLatticePerVoxel);
+      fail(ErrorCode::bad_argument, {Remedy::larger_voxels},
+           "{}: a level reaches {} voxels from its centre, and glTF's 32-bit floats hold 2^18 of them exactly", file_,
+           (extent.hi.x - extent.lo.x) / kLatticePerVoxel);
     }
     add_mesh(named, extent, centre);
     doc_["nodes"].push_back(node_of(named, origin != nullptr ? nullptr : &centre));

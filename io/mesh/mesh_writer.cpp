@@ -123,9 +123,9 @@ Vec3d moved_exactly(const GridFrame& frame, const Vec3d& p, const Vec3d& origin)
     if (!d.exact) {
       const Vec3d near_origin = rounded_to_voxels(frame, origin);
       const bool will_do = Difference(p[i], near_origin[i]).exact;
-      fail(ErrorCode::bad_argument, "vertices cannot be moved by the origin {} without rounding; use {}{}",
-           text_of(origin), will_do ? "" : "one near the mesh, as ",
-           text_of(will_do ? near_origin : rounded_to_voxels(frame, p), ","));
+      fail(ErrorCode::bad_argument, {Remedy::set_origin},
+           "vertices cannot be moved by the origin {} without rounding, but by {}{}", text_of(origin),
+           will_do ? "" : "one near the mesh, as ", text_of(will_do ? near_origin : rounded_to_voxels(frame, p), ","));
     }
     moved[i] = d.value + 0.0;  // -0 becomes 0
   }
@@ -195,7 +195,8 @@ std::vector<std::array<float, 3>> vertex_normals(const LatticeMesh& mesh) {
 }
 
 std::vector<std::string> provenance_lines(const LatticeMesh& mesh, const MeshWriteOptions& options) {
-  std::vector<std::string> lines{"made by bpmesh " BP_VERSION};
+  const std::string maker = mesh.provenance.empty() ? "bpmesh" : mesh.provenance.back().tool;
+  std::vector<std::string> lines{"made by " + maker + " " BP_VERSION};
   for (const Provenance& step : mesh.provenance) {
     std::string line = "provenance: " + step.tool + " " + step.version + " " + step.options;
     if (!step.input_hash.empty()) line += " input " + step.input_hash;
@@ -257,7 +258,7 @@ void write_obj(const LatticeMesh& mesh, const WorldVertices& vertices, OutputFil
 void write_stl(const LatticeMesh& mesh, const WorldVertices& vertices, OutputFile& out) {
   check_floats(mesh, vertices, out.name());
   if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max())
-    fail(ErrorCode::bad_argument, "{}: STL counts its triangles in 32 bits; write PLY", out.name());
+    fail(ErrorCode::bad_argument, {Remedy::ply_format}, "{}: STL counts its triangles in 32 bits", out.name());
   char header[80] = "bpmesh " BP_VERSION;
   Bytes bytes(out);
   bytes.put(header);

@@ -104,8 +104,7 @@ char ObjSource::keyword(TextScanner& text) {
 void ObjSource::read_vertex(TextScanner& text) {
   Vec3d p;
   for (double& c : p) {
-    if (!text.word_on_line() || !text.real(c))
-      text.fail_here("a vertex needs three numbers; repair or re-export the file");
+    if (!text.word_on_line() || !text.real(c)) text.fail_here("a vertex needs three numbers; is the file damaged?");
   }
   pool_.push(p);
   if (vertex_colors_) read_vertex_color(text);
@@ -161,11 +160,11 @@ void ObjSource::read_corners(std::vector<std::uint64_t>& corners) {
   corner_places_.clear();
   while (text_.word_on_line() && text_.peek() != '#') {
     std::int64_t index = 0;
-    if (!text_.integer(index)) text_.fail_here("a face corner is not a number; repair or re-export the file");
+    if (!text_.integer(index)) text_.fail_here("a face corner is not a number; is the file damaged?");
     if (texture_ != TriangleTexture::kNoMaterial) read_corner_place();
     if (text_.peek() == '/') text_.skip_word();
     if (static_cast<unsigned char>(text_.peek()) > ' ' && text_.peek() != '\\')
-      text_.fail_here("a face corner is not of the form v/vt/vn; repair or re-export the file");
+      text_.fail_here("a face corner is not of the form v/vt/vn; is the file damaged?");
     if (corners.size() == kMaxCorners)
       text_.fail_here("a face of more than {} corners; is the file intact?", kMaxCorners);
     corners.push_back(resolve(index));

@@ -319,7 +319,7 @@ std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneO
 
 void check_stdin_once(const std::vector<std::string>& paths) {
   if (std::count(paths.begin(), paths.end(), "-") > 1)
-    fail(ErrorCode::bad_argument, "stdin (-) is named twice; give all but one of these inputs as files");
+    fail(ErrorCode::bad_argument, "stdin (-) is named twice, and can be read once");
 }
 
 std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, const SceneOptions& options) {

@@ -36,7 +36,7 @@ struct FreeDecompressor {
 
 template <class Context>
 Context* require(Context* context) {
-  if (context == nullptr) fail(ErrorCode::out_of_resource, "no memory for a zstd context; raise the memory limit");
+  if (context == nullptr) fail(ErrorCode::out_of_resource, "no memory for a zstd context");
   return context;
 }
 

@@ -57,8 +57,10 @@ class Descriptor {
 
 [[noreturn]] void fail_with(const std::string& name, const char* what, int error) {
   const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
-  fail(full ? ErrorCode::out_of_resource : ErrorCode::failed, "{}: cannot {}: {}{}", name, what, std::strerror(error),
-       full ? "; make room, or leave the cache out" : "");
+  if (full)
+    fail(ErrorCode::out_of_resource, {Remedy::free_space, Remedy::no_cache}, "{}: cannot {}: {}", name, what,
+         std::strerror(error));
+  fail(ErrorCode::failed, "{}: cannot {}: {}", name, what, std::strerror(error));
 }
 
 void write_all(int fd, const std::string& name, std::span<const std::byte> bytes) {

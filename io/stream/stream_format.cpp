@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 XXH3_state_t* new_hash_state() {
   XXH3_state_t* state = XXH3_createState();
-  if (state == nullptr) fail(ErrorCode::out_of_resource, "no memory for a hash; raise the memory limit");
+  if (state == nullptr) fail(ErrorCode::out_of_resource, "no memory for a hash");
   return state;
 }
 

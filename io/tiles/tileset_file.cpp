@@ -38,7 +38,7 @@ class Reader {
     try {
       json_ = GltfJson::parse(read_text(path, kMostBytes));
     } catch (const GltfJson::exception& e) {
-      fail(ErrorCode::bad_input, "{}: broken JSON: {}; make it again", path, detail::json_fault(e));
+      fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: broken JSON: {}", path, detail::json_fault(e));
     }
   }
 

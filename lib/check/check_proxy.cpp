@@ -92,8 +92,8 @@ void measure_distances(const Surface& surface, const SceneMemory& scene, const C
 void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, const CheckOptions& options,
                  CheckReport& report) {
   SceneMemory memory(options);
-  const Enclosure e = check_enclosure(mesh, surface, scene, report.sides_decided, options.max_examples,
-                                      [&](std::uint64_t first, const auto& t) { memory.see(first, t); });
+  const EnclosureReport e = check_enclosure(mesh, surface, scene, report.sides_decided, options.max_examples,
+                                            [&](std::uint64_t first, const auto& t) { memory.see(first, t); });
   report.has_scene = true;
   report.scene_name = scene.name();
   report.scene_counts = scene.counts();
@@ -116,12 +116,14 @@ void check_scene_around(const WeldedMesh& mesh, const Surface& surface, Triangle
   report.unsettled_parts = inside.unsettled;
   report.undecidable_scene = inside.undecidable;
   if (report.inside() || !options.hidden) return;
-  const auto& [recipe, walls] = *options.hidden;
+  const auto& [recipe, walls, free_of_scene] = *options.hidden;
+  if (free_of_scene && report.touching.count + report.swallowed.count + report.undecidable_scene.count > 0) return;
   const HiddenReport hidden =
       check_hidden(mesh, surface, *walls, recipe, options.max_examples, options.scene_memory_bytes);
   report.asks_hidden = true;
   report.openings = 2 * recipe.scale_world;
-  report.hidden_unknown = hidden.undecided, report.exposed = hidden.exposed;
+  report.hidden_unknown = hidden.undecided, report.hidden_bytes = hidden.memory_bytes;
+  report.exposed = hidden.exposed;
 }
 
 void check_scene_in_parts(const WeldedMesh& mesh, TriangleSource& scene, const CheckOptions& options,

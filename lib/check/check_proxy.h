@@ -11,7 +11,8 @@ namespace bp {
 /// How an occluder's file says that it was made.
 struct HidingQuestion {
   HidingRecipe recipe;
-  TriangleSource* walls = nullptr;  ///< the scene without what can be seen through
+  TriangleSource* walls = nullptr;  ///< the scene, perhaps without what can be seen through
+  bool free_of_scene = false;       ///< asked only of a proxy that no triangle of the scene meets
 };
 
 struct CheckOptions {

@@ -144,9 +144,11 @@ class HiddenCheck {
     }
     box_ = voxel_bounds(recipe_.frame, bounds).grown(std::int32_t(std::ceil(reach)) + 2);
     for (int i = 0; i < 3; ++i) bytes *= double(box_.size()[i]);
-    if (bytes > double(memory_bytes))
+    if (bytes > double(memory_bytes)) {
+      report_.memory_bytes = std::uint64_t(bytes);
       return undecided(fmt::format("the voxels take {} MiB, and the limit on memory leaves {} MiB for them",
                                    std::uint64_t(bytes) / (1 << 20) + 1, memory_bytes >> 20));
+    }
     return true;
   }
 

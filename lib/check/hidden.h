@@ -24,8 +24,9 @@ struct HidingRecipe {
 };
 
 struct HiddenReport {
-  std::string undecided;        ///< why it is not; empty: it is
-  std::uint64_t triangles = 0;  ///< of the scene
+  std::string undecided;           ///< why it is not; empty: it is
+  std::uint64_t memory_bytes = 0;  ///< that deciding it takes, where memory is why it is undecided
+  std::uint64_t triangles = 0;     ///< of the scene
   Finding exposed;  ///< index: proxy triangle beside, other: 0, position: the middle of a voxel that is not hidden and
                     ///< that the proxy meets
   [[nodiscard]] bool holds() const { return undecided.empty() && exposed.count == 0; }

@@ -5,8 +5,8 @@
 #include <atomic>
 #include <memory>
 
-#include "lib/check/detail/clipped_triangle.h"
 #include "lib/check/detail/surface.h"
+#include "lib/check/detail/triangle_part.h"
 #include "lib/core/parallel.h"
 #include "lib/exact/triangle_intersection.h"
 
@@ -142,7 +142,7 @@ class Checker {
   [[nodiscard]] static bool meets(const TriangleD& t, const std::optional<Bounds3d>& cell) {
     if (!cell) return true;
     const Bounds3d box = grown(*cell, growth_for(*cell, t) / 2);
-    return overlap(bounds_of(t), box) && !ClippedTriangle(t, box).empty();
+    return overlap(bounds_of(t), box) && !TrianglePart(t, box).empty();
   }
 
   /// t meets the cell of tile i. What counts are the tiles of this share.
@@ -197,7 +197,7 @@ class Checker {
     for (const Vec3d& p : t) {
       if (contains(*cell, p)) return body.surface->winding(p) < 1 ? Verdict::outside : Verdict::fine;
     }
-    for (const Vec3d& p : ClippedTriangle(t, grown(*cell, growth / 2)).points_within()) {
+    for (const Vec3d& p : TrianglePart(t, grown(*cell, growth / 2)).points_within()) {
       const Verdict verdict = side_near(body, p, rounding_of(*cell, t));
       if (verdict != Verdict::undecided) return verdict;
     }

@@ -62,6 +62,13 @@ std::optional<double> volume_ratio(const CheckReport& r) {
   return *r.volume / std::abs(*r.scene_volume);
 }
 
+/// What is around the scene has less volume only where the scene winds around a place twice, or where it has a hollow.
+std::string why_small(const CheckReport& r, double ratio) {
+  if (ratio >= 1 || !r.encloses()) return "";
+  return r.components > 1 ? ": the scene's parts overlap and count twice, or the proxy is hollow"
+                          : ": the scene's parts overlap and count twice";
+}
+
 std::string point_text(const Vec3d& p) {
   return fmt::format("({:.9g}, {:.9g}, {:.9g})", p[0], p[1], p[2]);
 }
@@ -160,7 +167,7 @@ std::string measure_lines(const CheckReport& r) {
   const std::optional<double> ratio = volume_ratio(r);
   if (r.has_scene && !r.wants_inside && !r.wants_convex)
     text += fmt::format("  {:<28}{}{}\n", "volume of the scene", volume_text(r.scene_volume),
-                        ratio ? fmt::format(" (ratio {:.6g})", *ratio) : "");
+                        ratio ? fmt::format(" (ratio {:.6g}{})", *ratio, why_small(r, *ratio)) : "");
   text +=
       fmt::format("  {:<28}{:.6g} to {:.6g}, {:.6g} on average\n", "edge lengths", r.edge_min, r.edge_max, r.edge_mean);
   text += fmt::format("  {:<28}{:.4g} degrees\n", "least angle", r.angle_min_degrees);
@@ -257,6 +264,16 @@ std::string text_of(const Json& json) {
 }
 
 }  // namespace
+
+std::optional<Vec3d> first_place(const CheckReport& r) {
+  for (const FindingText& t : kFindings) {
+    if (is_aside(r, t)) continue;
+    for (const Example& e : (r.*t.finding).examples)
+      if (std::isfinite(e.position[0]) && std::isfinite(e.position[1]) && std::isfinite(e.position[2]))
+        return e.position;
+  }
+  return {};
+}
 
 std::string failures(const CheckReport& r) {
   std::string text = r.empty() ? "the proxy is empty" : "";

@@ -18,6 +18,9 @@ namespace bp {
 [[nodiscard]] std::string verdict_json(const std::vector<CheckReport>& levels, const std::string& proxy_name);
 [[nodiscard]] Answer answer_of(const std::vector<CheckReport>& levels);
 
+/// The first finite place that verdict_text() prints; empty: it prints none.
+[[nodiscard]] std::optional<Vec3d> first_place(const CheckReport& report);
+
 /// What does not hold, in a few words: "not closed, 3 scene triangles outside"; empty if all holds.
 [[nodiscard]] std::string failures(const CheckReport& report);
 

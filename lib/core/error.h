@@ -50,6 +50,8 @@ enum class Remedy {
   larger_tiles,
   fewer_faces,
   split_scene,
+  move_scene,  ///< nearer to its origin
+  repair_file,
   flood_fill,
   fill_inside,  ///< the stream holds what the scene touches, and should hold its inside
   mode_inside,  ///< the other way round
@@ -58,7 +60,6 @@ enum class Remedy {
   enclose_own_scene,  ///< that the stream was made from
   no_volume,
   no_textures,
-  no_least_part,
   fewer_users_of_device,
   use_cpu,
   other_scratch_folder,
@@ -67,6 +68,9 @@ enum class Remedy {
   name_format,
   set_origin,
   double_format,  ///< one that holds doubles
+  ply_format,     ///< the one without a limit on what it holds
+  free_space,     ///< on the disk of what is written
+  no_cache,
 };
 using Remedies = std::vector<Remedy>;
 
@@ -113,6 +117,12 @@ template <class... Args>
 template <class... Args>
 [[noreturn]] void fail(ErrorCode code, Remedies remedies, fmt::format_string<Args...> format, Args&&... args) {
   throw Error(code, fmt::format(format, std::forward<Args>(args)...), std::move(remedies));
+}
+/// fail_as(e, "{}: {}", name, e.what()) throws the error `e` again with another message, which tells where it happened
+/// or what it left. Code, remedies and memory_bytes() stay.
+template <class... Args>
+[[noreturn]] void fail_as(const Error& e, fmt::format_string<Args...> format, Args&&... args) {
+  throw Error(e.code(), fmt::format(format, std::forward<Args>(args)...), e.remedies(), e.memory_bytes());
 }
 
 }  // namespace bp

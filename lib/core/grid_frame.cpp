@@ -23,9 +23,7 @@ void check_reach(const Bounds3d& bounds) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (bounds.min[i] >= -kReach && bounds.max[i] <= kReach) continue;
     fail(ErrorCode::bad_input,
-         "the scene reaches from {:.3g} to {:.3g} along {}, farther than any grid; look for a vertex that strayed "
-         "(bpinfo "
-         "names the bounds)",
+         "the scene reaches from {:.3g} to {:.3g} along {}, farther than any grid; a vertex may have strayed",
          bounds.min[i], bounds.max[i], "xyz"[i]);
   }
 }
@@ -49,7 +47,7 @@ double round_up_to_bits(double x, int bits) {
 }
 
 GridFrame make_frame(const Bounds3d& bounds, double voxel, UpAxis up) {
-  if (bounds.empty()) fail(ErrorCode::bad_input, "the scene has no bounds; it holds no usable triangle");
+  if (bounds.empty()) fail(ErrorCode::bad_input, "the scene holds no usable triangle");
   check_reach(bounds);
   check_voxel(bounds, voxel);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -61,8 +59,8 @@ GridFrame make_frame(const Bounds3d& bounds, double voxel, UpAxis up) {
   }
   const int bits = std::clamp(53 - lattice_bits(bounds, voxel), 8, 24);
   if (lattice_bits(bounds, voxel) + 8 > 53) {
-    fail(ErrorCode::bad_argument,
-         "the scene lies too far from its origin for a voxel size of {}; move it or use larger voxels", voxel);
+    fail(ErrorCode::bad_argument, {Remedy::larger_voxels, Remedy::move_scene},
+         "the scene lies too far from its origin for a voxel size of {}", voxel);
   }
   GridFrame frame;
   frame.voxel = round_up_to_bits(voxel, bits);
@@ -77,7 +75,7 @@ VoxelBox voxel_bounds(const GridFrame& frame, const Bounds3d& bounds) {
   VoxelBox box;
   for (std::size_t i = 0; i < 3; ++i) {
     if (!(lo[i] >= -kReach && lo[i] <= hi[i] && hi[i] <= kReach))  // empty bounds are infinite
-      fail(ErrorCode::bad_argument, "the scene leaves a grid of 2^31 voxels a side; use larger voxels");
+      fail(ErrorCode::bad_argument, {Remedy::larger_voxels}, "the scene leaves a grid of 2^31 voxels a side");
     box.min[int(i)] = std::int32_t(std::floor(lo[i])) - 1;
     box.max[int(i)] = std::int32_t(std::floor(hi[i])) + 2;
   }

@@ -9,7 +9,7 @@
 #include "lib/core/grid_frame.h"
 #include "lib/core/texture.h"
 
-/// A stream of triangles in scene units. Readers of scenes implement it (io/), stages pull from it; nothing else of a
+/// A stream of triangles in scene units. Readers of scenes implement it (io/), passes pull from it; nothing else of a
 /// scene is known to lib/.
 namespace bp {
 

@@ -167,9 +167,9 @@ void sample_nodes(const ScaleField& field, const GridFrame& frame, NodeCoord fir
 
 void check_scale(double scale, double voxel, const char* what) {
   if (!(scale >= 0) || !std::isfinite(scale))
-    fail(ErrorCode::bad_argument, "a {} of {} is not a length; give a number from 0 up", what, scale);
+    fail(ErrorCode::bad_argument, "a {} of {} is not a length from 0 up", what, scale);
   if (scale > kMaxScaleVoxels * voxel) {
-    fail(ErrorCode::bad_argument, "a {} of {} is {:.0f} voxels, more than {:.0f}; use larger voxels", what, scale,
+    fail(ErrorCode::bad_argument, {Remedy::larger_voxels}, "a {} of {} is {:.0f} voxels, more than {:.0f}", what, scale,
          scale / voxel, kMaxScaleVoxels);
   }
 }
@@ -256,7 +256,7 @@ Scale ScaleField::upper_bound(const GridFrame& frame) const {
     check_scale(stroke.target, frame.voxel, "stroke target");
     check_point(stroke.position, "stroke");
     if (!(stroke.support >= 0) || !std::isfinite(stroke.support))
-      fail(ErrorCode::bad_argument, "a stroke support of {} is not a length; give a number from 0 up", stroke.support);
+      fail(ErrorCode::bad_argument, "a stroke support of {} is not a length from 0 up", stroke.support);
     if (stroke.mode == BrushMode::increase) bound = std::max(bound, stroke.target);
   }
   return quantise(bound, frame.voxel);

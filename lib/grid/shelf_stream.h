@@ -4,7 +4,7 @@
 
 #include "lib/grid/stream.h"
 
-/// Streams that begin or end on shelves, so that stages run one after the other in one process.
+/// Streams that begin or end on shelves, so that passes run one after the other in one process.
 namespace bp {
 
 /// Puts the bricks of each layer onto its shelf; bricks of a layer without one are passed over.

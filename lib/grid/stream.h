@@ -9,7 +9,7 @@
 #include "lib/grid/brick.h"
 #include "lib/grid/scale_field.h"
 
-/// Streams and shelves of bricks, as the stages see them. io/ implements them with zstd, checksums and scratch files.
+/// Streams and shelves of bricks, as the passes see them. io/ implements them with zstd, checksums and scratch files.
 namespace bp {
 
 enum class StructuringElement : std::uint8_t {
@@ -94,7 +94,7 @@ class BrickShelf {
   [[nodiscard]] virtual std::vector<BrickCoord> coords() const = 0;  ///< of non-empty bricks, sorted x, y, z
   [[nodiscard]] virtual std::uint64_t memory_bytes() const = 0;      ///< held in memory, by all that share its budget
 };
-/// Makes an empty shelf; stages get one from the tool, which knows --memory and --temp.
+/// Makes an empty shelf; passes get one from the tool, which knows --memory and --temp.
 using ShelfFactory = std::function<std::unique_ptr<BrickShelf>()>;
 
 /// Fills `box` with the voxels of the shelf.

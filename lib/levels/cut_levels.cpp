@@ -64,12 +64,12 @@ LatticeCoord tile_origin(const Cells& cells, CellCoord cell) {
 void make_cut_levels(TilePyramid& pyramid, const TilesetPlan& plan, const CutOptions& options, const CutSteps& steps) {
   for (std::size_t level = 0; level < plan.cut.size(); ++level) {
     const CutLevel& cut = plan.cut[level];
-    steps.stage("close level " + std::to_string(level));
+    steps.begin("close level " + std::to_string(level));
     if (!options.jobs || options.jobs->meets(cut.number, cut.cells.count()))
       add_level(pyramid, plan, level, options, steps);
     pyramid.reduce();
   }
-  steps.stage("make tiles");
+  steps.begin("make tiles");
   pyramid.make_tiles();
 }
 

@@ -30,7 +30,7 @@ struct CutFiles {
 
 /// What a caller does while levels are cut. Tiles come in no order, one at a time, on any thread.
 struct CutSteps {
-  std::function<void(const std::string&)> stage;
+  std::function<void(const std::string&)> begin;
   std::function<CutFiles(std::size_t level, const GridFrame& frame)> files;
   std::function<void(std::size_t level, LevelTile&&)> take;
 };

@@ -33,9 +33,9 @@ struct Attempt {
 
   Attempt(const ChainSource& source, Backends& backends, const LevelSteps& steps, int halvings)
       : scene(source.voxelize(halvings)) {
-    steps.stage("measure the scene");
+    steps.begin("measure the scene");
     chain = std::make_unique<LodChain>(scene.header, std::move(scene.solid), backends, source.options());
-    steps.stage("level 0");
+    steps.begin("level 0");
     const SceneSize size{scene.header.bounds, scene.counts.scene.triangles};
     request = source.request(scene.header, size.triangles);
     target = level_target(request, 0, 0, chain->dense_faces());
@@ -105,7 +105,7 @@ MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelStep
     if (i == 0 && finest) {
       level = std::move(*finest);
     } else {
-      steps.stage("level " + std::to_string(number));
+      steps.begin("level " + std::to_string(number));
       level = chain.make(target);
     }
     if (i == 0) short_of_faces = falls_short(level, target);

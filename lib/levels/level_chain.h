@@ -32,7 +32,7 @@ struct LevelFacts {
 
 /// What a caller does while levels are made.
 struct LevelSteps {
-  std::function<void(const std::string&)> stage;  ///< a stage begins
+  std::function<void(const std::string&)> begin;  ///< a step of the work begins
   /// Completes a level: colours, provenance. `number` counts the levels that are kept.
   std::function<void(LodLevel&, std::size_t number, const LodTarget&)> complete;
 };

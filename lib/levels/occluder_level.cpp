@@ -154,7 +154,7 @@ class OccluderMesh {
 MadeOccluder make_occluder(const OccluderSource& source, Backends& backends, const LevelSteps& steps) {
   MadeOccluder made;
   made.scene = source.voxelize(false);
-  steps.stage("close openings");
+  steps.begin("close openings");
   Hidden hidden = best_hidden(source, made.scene, false, backends);
   if (source.may_ground) {
     VoxelizedScene grounded = source.voxelize(true);
@@ -166,7 +166,7 @@ MadeOccluder make_occluder(const OccluderSource& source, Backends& backends, con
   made.hidden_voxels = hidden.voxels.count;
   made.tried = hidden.tried;
   if (made.hidden_voxels == 0) return made;
-  steps.stage("mesh");
+  steps.begin("mesh");
   OccluderMesh mesh(source, made.scene, hidden, backends);
   made.level = mesh.run();
   made.level.scale_world = hidden.scale;

@@ -27,7 +27,7 @@ void HalfEdgeMesh::check_span() const {
   const LatticeBox box = box_of(position_);
   const LatticeCoord size = box.max - box.min;
   if (std::max({size.x, size.y, size.z}) >= kMaxSpan)
-    fail(ErrorCode::failed, "the surface spans {} lattice units, more than 2^29; use larger voxels",
+    fail(ErrorCode::failed, {Remedy::larger_voxels}, "the surface spans {} lattice units, more than 2^29",
          std::max({size.x, size.y, size.z}));
 }
 

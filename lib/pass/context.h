@@ -1,7 +1,7 @@
 #pragma once
 #include "lib/core/memory_share.h"
 #include "lib/grid/stream.h"
-#include "lib/pass/stage_progress.h"
+#include "lib/pass/pass_progress.h"
 #include "lib/store/result_store.h"
 #include "lib/store/scratch.h"
 #include "lib/surface/piece_store.h"
@@ -16,10 +16,10 @@ struct PassContext {
   ShelfFactory make_shelf;         ///< for bricks that wait
   ScratchFactory make_scratch;     ///< for triangles, crossings and colours that wait
   ResultStore* results = nullptr;  ///< results of jobs are looked up there, and put; null: all are made
-  StageProgress progress;          ///< called now and then; may be empty
+  PassProgress progress;           ///< called now and then; may be empty
 
-  void report(const char* stage, const char* unit, std::uint64_t done, std::uint64_t total) const {
-    if (progress) progress(stage, unit, done, total);
+  void report(const char* pass, const char* unit, std::uint64_t done, std::uint64_t total) const {
+    if (progress) progress(pass, unit, done, total);
   }
 };
 

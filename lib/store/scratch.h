@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-/// Bytes that wait, off the heap: what a stage puts aside when its memory is spent. io/store/scratch.h implements
+/// Bytes that wait, off the heap: what a pass puts aside when its memory is spent. io/store/scratch.h implements
 /// it with zstd and a scratch file.
 namespace bp {
 
@@ -22,7 +22,7 @@ class Scratch {
   [[nodiscard]] virtual std::uint64_t memory_bytes() const = 0;            ///< held in memory, compressed
   [[nodiscard]] virtual std::uint64_t scratch_bytes() const = 0;           ///< in the scratch file
 };
-/// Makes an empty store; stages get one from the tool, which knows --memory and --temp.
+/// Makes an empty store; passes get one from the tool, which knows --memory and --temp.
 using ScratchFactory = std::function<std::unique_ptr<Scratch>()>;
 
 }  // namespace bp

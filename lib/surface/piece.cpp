@@ -60,8 +60,8 @@ Piece weld(std::span<Piece> pieces) {
     quadrics |= !p.quadrics.empty();
   }
   if (triangles >= (std::size_t(1) << 32) / 3) {
-    fail(ErrorCode::out_of_resource, "the surface has {} triangles, more than one piece can index; use larger voxels",
-         triangles);
+    fail(ErrorCode::out_of_resource, {Remedy::larger_voxels},
+         "the surface has {} triangles, more than one piece can index", triangles);
   }
   Welder welder;
   welder.reserve(vertices, triangles, quadrics);

@@ -35,7 +35,7 @@ void check_face_area(const VoxelBox& tile) {
   const VoxelCoord s = tile.size();
   const std::int64_t limit = std::int64_t(1) << 32;
   if (std::int64_t(s.x) * s.y >= limit || std::int64_t(s.x) * s.z >= limit || std::int64_t(s.y) * s.z >= limit)
-    fail(ErrorCode::bad_argument, "a tile of {} x {} x {} voxels is too large; use smaller tiles", s.x, s.y, s.z);
+    fail(ErrorCode::bad_argument, {Remedy::smaller_tiles}, "a tile of {} x {} x {} voxels is too large", s.x, s.y, s.z);
 }
 
 }  // namespace
@@ -160,14 +160,13 @@ OutsideFlood::OutsideFlood(const VoxelBox& grid, VoxelCoord tile_vox) : state_(n
   state_->tile_vox = tile_vox;
   double total = 1;
   for (int i = 0; i < 3; ++i) {
-    if (tile_vox[i] <= 0)
-      fail(ErrorCode::bad_argument, "a tile of {} voxels a side cannot be; use 64 or more", tile_vox[i]);
+    if (tile_vox[i] <= 0) fail(ErrorCode::bad_argument, "a tile of {} voxels a side cannot be", tile_vox[i]);
     const std::int64_t side = std::int64_t(grid.max[i]) - grid.min[i];
     state_->tiles[i] = std::int32_t(std::max<std::int64_t>(0, (side + tile_vox[i] - 1) / tile_vox[i]));
     total *= state_->tiles[i];
   }
   if (total >= double(std::int64_t(1) << 62))
-    fail(ErrorCode::bad_argument, "the grid has too many tiles; use larger tiles or larger voxels");
+    fail(ErrorCode::bad_argument, {Remedy::larger_tiles, Remedy::larger_voxels}, "the grid has too many tiles");
   state_->nodes.add();
 }
 

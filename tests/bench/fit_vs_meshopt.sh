@@ -14,7 +14,6 @@ for model in "$@"; do
   closing "$model" "$edge" "$SCALE" "$work/closed.bpv"
   closing "$model" "$(awk "BEGIN { printf \"%.17g\", $edge / 2 }")" $((2 * SCALE)) "$work/finer.bpv"
   "$build/tools/bpmesh" "$work/closed.bpv" --mode fit --faces "$FACES" -o "$work/fit.ply" --overwrite -q
-  "$build/tools/bpmesh" "$work/closed.bpv" --mode fit --inset 0 --faces "$FACES" -o "$work/fit-voxels.ply" --overwrite -q
   "$build/tests/bench/fit_vs_meshopt" "$work/closed.bpv" "$work/finer.bpv" "$model" "$work"/fit*.ply |
     sed "s|^{|{\"model\": \"$(basename "${model%.*}")\", |"
 done

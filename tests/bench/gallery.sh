@@ -47,7 +47,7 @@ echo "levels"
 mesh lod.glb scene closed.bpv --faces 2000,600,200
 draw gallery-levels.png 340 lod.0.glb lod.1.glb lod.2.glb
 echo "inside"
-bpvox plant.ply --resolution 192 --fill inside -q | bpclose --inner --scale 1% -q -o opened.bpv --overwrite
+bpvox plant.ply --resolution 192 --fill inside -q | bpclose --scale 1% -q -o opened.bpv --overwrite
 mesh inside.glb none opened.bpv --mode inside --faces 300
 draw gallery-inside.png 400 plant.ply inside.glb
 echo "fit"

@@ -37,11 +37,9 @@ void look(std::uint32_t way, Workplace& place, const std::string& scene) {
 /// Closes, meshes and proves.
 void finish_pipe(Choices& c, Workplace& place, const std::string& scene, bool inside) {
   Words close{"--scale", c.of<std::string>({"1vx", "2vx", "0", "3%"}), place.path("v.bpv"), "-o", place.path("c.bpv")};
-  if (inside) close.push_back("--inner");
   if (!place.run("bpclose", close, {"c.bpv"}).done()) return;
   const std::string proxy = place.path("p." + c.of<std::string>({"ply", "obj", "glb"}));
   Words mesh{"--faces", c.of<std::string>({"20", "8", "60"}), place.path("c.bpv"), "-o", proxy};
-  if (inside) mesh.insert(mesh.end(), {"--mode", "inside"});
   if (!inside && c.once_in(3)) mesh.insert(mesh.end(), {"--enclose", scene});
   if (!place.run("bpmesh", mesh, {"p.ply", "p.obj", "p.glb"}).done()) return;
   Words check{scene, proxy};

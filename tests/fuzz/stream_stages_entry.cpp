@@ -28,7 +28,7 @@ Words close_options(Choices& c, Workplace& place, double voxel) {
   }
   if (c.once_in(2)) add(words, {"--element", "ball"});
   if (c.once_in(4)) (void)c.below(5);  // an option that is gone: kept findings draw it
-  if (c.once_in(4)) add(words, {c.of<std::string>({"--keep-cavities", "--inner"})});
+  if (c.once_in(4) && c.below(2) == 0) add(words, {"--keep-cavities"});
   return words;
 }
 
@@ -41,9 +41,9 @@ Words mesh_options(Choices& c) {
   if (c.once_in(8)) add(words, {"--edge-length", c.once_in(2) ? text_of(extreme_number(c)) : "2"});
   if (c.once_in(4)) add(words, {"--mode", c.of<std::string>({"inside", "fit"})});
   if (c.once_in(8)) add(words, {"--enclose", c.of<std::string>({"input", "closing"})});
-  if (c.once_in(12)) add(words, {"--inset", c.once_in(2) ? text_of(extreme_number(c)) : "0.3"});
-  if (c.once_in(12)) add(words, {"--least-part", c.once_in(2) ? text_of(extreme_number(c)) : "0.1"});
-  (void)c.once_in(12);  // options that are gone
+  for (int gone = 0; gone < 2; ++gone)  // options that are gone, with a number
+    if (c.once_in(12) && c.once_in(2)) (void)extreme_number(c);
+  (void)c.once_in(12);
   if (c.once_in(12)) add(words, {"--quads"});
   (void)c.once_in(8);
   if (c.once_in(16)) add(words, {"--origin", text_of(extreme_number(c)) + ",0," + text_of(extreme_number(c))});

@@ -58,7 +58,7 @@ pipe_cases() {
     rm again.bpv
   done
   bpclose flood.bpv --scale 2% --device cpu --keep-cavities -q -o cavities.bpv
-  bpclose inside.bpv --scale 1vx --inner --device cpu -q -o inner.bpv
+  bpclose inside.bpv --scale 1vx --device cpu -q -o inner.bpv
   pin close cube.bpv ball.bpv cavities.bpv inner.bpv
   mesh cube.bpv faces.glb --faces 500
   mesh ball.bpv ball.ply --faces 500

@@ -34,6 +34,10 @@ MemoryShare CheckBudget::of_scene_document() const {
   return {std::max<std::uint64_t>(1, usable_ / parts), 1.0 / double(parts), UsableMemory(memory_, kMeshProgram).limit};
 }
 
+MemoryShare CheckBudget::of_scene() const {
+  return {usable_ / 3 * 2, 2.0 / 3, UsableMemory(memory_, kMeshProgram).limit};
+}
+
 void CheckBudget::take(const std::vector<IndexedMesh>& proxy) {
   for (const IndexedMesh& level : proxy)
     usable_ -= std::min(usable_, level.triangles.size() * kBytesPerFace + level.vertices.size() * kBytesPerVertex);

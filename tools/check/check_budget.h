@@ -17,7 +17,7 @@ class CheckBudget {
   /// proxy; of several, the next one beside the triangles of those before, too.
   [[nodiscard]] MemoryShare of_scene_document() const;
   [[nodiscard]] std::uint64_t reader_bytes() const { return usable_ / 3; }
-  [[nodiscard]] std::uint64_t scene_bytes() const { return usable_ / 3 * 2; }  ///< for distances
+  [[nodiscard]] MemoryShare of_scene() const;  ///< for distances, and for the voxels that hide a proxy
 
  private:
   std::uint64_t memory_, usable_;

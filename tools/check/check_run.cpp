@@ -13,7 +13,9 @@ void declare(Args& args, CheckRun& o) {
       "Proves that a proxy is closed, oriented, 2-manifold, free of self-intersections, and strictly encloses its "
       "scenes; or names the places where it does not. Exact for the coordinates as read. Exit status: 0 proven, 1 "
       "refuted, 5 not decided.");
-  args.positional("[SCENE...] PROXY", o.files, "scenes and their proxy, or a proxy alone");
+  args.positional(
+      "[SCENE...] PROXY", o.files,
+      "scenes and their proxy, or a proxy alone; a proxy may be a tileset, by its tileset.json or its folder");
   args.group("Question");
   args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
   args.flag("--convex", o.convex,
@@ -27,7 +29,9 @@ void declare(Args& args, CheckRun& o) {
   args.group("Verdict");
   args.flag("--json", o.json, "print the verdict as JSON");
   args.option("--samples", "N", o.samples, "triangles of each side to measure distances from; 0 measures none");
-  o.common.add_to(args, CommonOptions::all_parts & ~unsigned(CommonOptions::device_part));
+  o.common.add_to(args,
+                  CommonOptions::all_parts & ~unsigned(CommonOptions::device_part | CommonOptions::overwrite_part));
+  args.removed("--overwrite", "--report replaces an earlier report, and no other file");
   args.removed("--no-distances", "--samples 0 measures none");
   args.removed("--examples", "bpcheck names the first 5 places of each kind");
   for (const char* const name : {"--image", "--image-size", "--up", "--azimuth", "--elevation", "--zoom", "--look-at"})
@@ -42,6 +46,7 @@ CheckRun parse_check_run(Args& args) {
   declare(args, o);
   args.example("bpcheck scene.glb proxy.glb");
   args.parse();
+  if (!o.files.empty()) o.files.back() = tileset_in(o.files.back());
   args.excludes("--samples", "--inside");  // measures none
   args.excludes("--samples", "--convex");
   args.excludes("--convex", "--inside");

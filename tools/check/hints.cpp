@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "lib/check/verdict_text.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -16,19 +17,6 @@ namespace {
 
 bool all_finite(const Vec3d& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
-
-/// The first one, of what is worst.
-std::optional<Vec3d> bad_place(const CheckReport& v) {
-  for (const Finding* finding :
-       {&v.boundary_edges, &v.misoriented_edges, &v.nonmanifold_edges, &v.nonmanifold_vertices, &v.self_intersections,
-        &v.degenerate_triangles, &v.duplicate_triangles, &v.inverted_components, &v.nonconvex_parts, &v.touching,
-        &v.outside, &v.not_held, &v.swallowed, &v.outside_parts, &v.exposed}) {
-    for (const Example& example : finding->examples) {
-      if (all_finite(example.position)) return example.position;
-    }
-  }
-  return {};
 }
 
 /// A word of a command line.
@@ -93,7 +81,7 @@ std::string look_hint(const std::vector<std::string>& files, const std::string& 
                       const std::vector<CheckReport>& verdicts) {
   std::optional<Vec3d> place;
   for (const CheckReport& verdict : verdicts) {
-    if (!place && !verdict.holds()) place = bad_place(verdict);
+    if (!place && verdict.answer() == Answer::refuted) place = first_place(verdict);
   }
   const std::size_t drawn = files.size() - (origin == Vec3d{} ? 0 : 1);
   if (!place || drawn == 0 || std::count(files.begin(), files.end(), "-") > 0) return "";
@@ -102,6 +90,14 @@ std::string look_hint(const std::vector<std::string>& files, const std::string& 
   if (!format.empty()) command += " --format " + quoted(format);
   return fmt::format("to see the first place: {} --image place.png --zoom 8 --look-at={:.9g},{:.9g},{:.9g}", command,
                      (*place)[0], (*place)[1], (*place)[2]);
+}
+
+std::string memory_hint(const std::vector<CheckReport>& verdicts, const MemoryShare& memory) {
+  std::uint64_t bytes = 0;
+  for (const CheckReport& verdict : verdicts) bytes = std::max(bytes, verdict.hidden_bytes);
+  if (bytes <= memory.bytes) return "";
+  return fmt::format("to decide whether the proxy is hidden, raise --memory to at least {} MiB",
+                     (memory.limit_with(bytes - memory.bytes) >> 20) + 1);
 }
 
 std::string fit_hint(const std::string& content) {

@@ -5,6 +5,7 @@
 
 #include "lib/check/check_report.h"
 #include "lib/core/coords.h"
+#include "lib/core/memory_share.h"
 #include "tools/run/mesh_extras.h"
 
 namespace bp {
@@ -26,7 +27,9 @@ namespace bp {
 /// added to the proxy, which is not drawn then.
 [[nodiscard]] std::string look_hint(const std::vector<std::string>& files, const std::string& format,
                                     const Vec3d& origin, const std::vector<CheckReport>& verdicts);
-/// The same of a content of a tileset.
+/// Where the voxels that hide do not fit `memory`: how much would do. Empty: they do, or were not asked for.
+[[nodiscard]] std::string memory_hint(const std::vector<CheckReport>& verdicts, const MemoryShare& memory);
+/// The same as enclosure_hint() of a content of a tileset.
 [[nodiscard]] std::string fit_hint(const std::string& content);
 
 }  // namespace bp

@@ -32,6 +32,10 @@ const char* text_of(Remedy remedy) {
       return "use fewer faces";
     case Remedy::split_scene:
       return "split it";
+    case Remedy::move_scene:
+      return "move the scene near to its origin";
+    case Remedy::repair_file:
+      return "repair or re-export the file";
     case Remedy::flood_fill:
       return "use --fill flood";
     case Remedy::fill_inside:
@@ -46,8 +50,6 @@ const char* text_of(Remedy remedy) {
       return "name with --enclose the scene that bpvox read";
     case Remedy::no_volume:
       return "leave out --volume";
-    case Remedy::no_least_part:
-      return "leave out --least-part";
     case Remedy::fewer_users_of_device:
       return "run fewer tools on this GPU";
     case Remedy::use_cpu:
@@ -66,6 +68,12 @@ const char* text_of(Remedy remedy) {
       return "set --origin";
     case Remedy::double_format:
       return "write GLB, PLY or OBJ";
+    case Remedy::ply_format:
+      return "write PLY";
+    case Remedy::free_space:
+      return "free some space";
+    case Remedy::no_cache:
+      return "leave out --cache";
   }
   return "";
 }

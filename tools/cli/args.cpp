@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <filesystem>
 #include <map>
 
 #include "io/files/file.h"
@@ -33,6 +34,14 @@ std::string help_of(const std::string& word, const ToolDeclaration& tool) {
   if (word == "all") return full_help(tool);
   if (word == "markdown") return markdown_help(tool);
   return word.empty() ? short_help(tool) : completion(tool, word);
+}
+
+/// The name of a stream or a folder that is not there.
+bool is_like_output(const std::string& path) {
+  std::error_code none;
+  const std::filesystem::path name = std::filesystem::path(path).filename();
+  return path != "-" && (name.extension().empty() || name.extension() == ".bpv") &&
+         !std::filesystem::exists(path, none);
 }
 
 }  // namespace
@@ -85,6 +94,10 @@ void Args::group(const std::string& name) {
 
 void Args::often(std::initializer_list<const char*> names) {
   for (const char* const name : names) state_->find(name).often = true;
+}
+
+void Args::needed(const char* name) {
+  state_->find(name).needed = true;
 }
 
 void Args::words(std::vector<Word> words) {
@@ -187,7 +200,7 @@ void Args::State::take(Option& option, const std::string& name, const std::strin
   try {
     option.set(text);
   } catch (const Error& e) {
-    fail(e.code(), "{}: {}", name, e.what());
+    fail_as(e, "{}: {}", name, e.what());
   }
 }
 
@@ -240,7 +253,13 @@ void Args::State::parse_positionals(const std::vector<std::string>& texts) {
     if (positional.times == 0 && positional.value == Value::required)
       fail(ErrorCode::bad_argument, "{} is missing", positional.names);
   }
-  if (next < texts.size()) fail(ErrorCode::bad_argument, "'{}' is one argument too many", texts[next]);
+  const Option* const output = look_up("--output");
+  const bool wants_output = output != nullptr && output->times == 0;
+  if (next < texts.size())
+    fail(ErrorCode::bad_argument, "'{}' is one argument too many{}", texts[next],
+         wants_output ? "; did you mean -o " + texts[next] + "?" : "");
+  if (wants_output && texts.size() > 1 && is_like_output(texts.back()))
+    fail(ErrorCode::bad_argument, "there is no file {0}; did you mean -o {0}?", texts.back());
 }
 
 void Args::parse() {
@@ -248,7 +267,7 @@ void Args::parse() {
   flag_with_word(
       "-h,--help", {"all", "markdown", "bash", "zsh", "fish"}, [this](const std::string& word) { state_->help = word; },
       "print the options that most people need; all: every option; markdown: as in the manual; bash, zsh, fish: "
-      "a completion script");
+      "completion");
   flag("--version", state_->version, "print the version");
   std::vector<std::string> texts;
   try {
@@ -267,7 +286,7 @@ void Args::parse() {
     }
     if (!state_->help && !state_->version) return state_->parse_positionals(texts);
   } catch (const Error& e) {
-    fail(e.code(), "{} (see {} --help)", e.what(), state_->tool);
+    fail_as(e, "{} (see {} --help)", e.what(), state_->tool);
   }
   print(state_->help ? help_of(*state_->help, declaration())
                      : fmt::format("{} {}+{}\n", state_->tool, BP_VERSION, source_digest()));

@@ -51,6 +51,8 @@ class Args {
   void group(const std::string& name);
   /// The options, each by one of its names, that `--help` shows; `--help all` shows all.
   void often(std::initializer_list<const char*> names);
+  /// An option that the line "Usage" shows; that it is given is for the tool to check.
+  void needed(const char* name);
   /// The words that the option declared last takes, among other values.
   void words(std::vector<Word> words);
   /// An option of earlier versions; who gives it is told what replaces it.

@@ -135,8 +135,9 @@ void CommonOptions::prepare() {
   const std::uint64_t least = least_memory(threads);
   if (memory_bytes == 0) memory_bytes = std::max(default_memory(), least);
   if (memory_bytes < least)
-    fail(ErrorCode::out_of_resource, "--memory {}: at least {}M is needed with these --threads; raise it",
-         size_text(memory_bytes), least >> 20);
+    fail(ErrorCode::out_of_resource, "--memory {}: at least {}M is needed with these --threads; {}",
+         size_text(memory_bytes), least >> 20,
+         memory_bytes < 1024 ? fmt::format("did you mean {}G?", memory_bytes) : "raise it");
   if (parts_ & memory_part) {
     if (temp.empty()) temp = default_temp();
     check_temp(temp);

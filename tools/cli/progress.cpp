@@ -49,10 +49,10 @@ Progress::~Progress() {
   end();
 }
 
-void Progress::begin(const std::string& stage, std::uint64_t total, const std::string& unit) {
+void Progress::begin(const std::string& pass, std::uint64_t total, const std::string& unit) {
   end();
   const std::scoped_lock lock(mutex_);
-  stage_ = stage;
+  pass_ = pass;
   unit_ = unit;
   done_ = 0;
   total_ = total;
@@ -83,13 +83,13 @@ void Progress::maybe_show() {
 
 void Progress::end() {
   const std::scoped_lock lock(mutex_);
-  if (stage_.empty()) return;
+  if (pass_.empty()) return;
   show(true);
-  stage_.clear();
+  pass_.clear();
 }
 
 void Progress::show(bool last) {
-  if (mode_ == ProgressMode::quiet || stage_.empty()) return;
+  if (mode_ == ProgressMode::quiet || pass_.empty()) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
   if (mode_ == ProgressMode::json) return put(json_line(seconds));
   if (!last) {
@@ -104,24 +104,24 @@ void Progress::show(bool last) {
 std::string Progress::bar_line(double seconds) const {
   const auto done = double(done_), total = double(total_), rate = seconds > 0 ? done / seconds : 0;
   const std::string speed = fmt::format("{} {}/s", short_count(rate), unit_);
-  if (total <= 0) return fmt::format("{}: {} {} {} {}", tool_, stage_, short_count(done), unit_, speed);
+  if (total <= 0) return fmt::format("{}: {} {} {} {}", tool_, pass_, short_count(done), unit_, speed);
   const double share = std::min(done / total, 1.0);
   const auto full = std::size_t(share * kBarWidth);
   const std::string left = rate > 0 ? clock_text((total - done) / rate) + " left" : "";
-  return fmt::format("{}: {} [{}{}] {:3.0f}% {} {}", tool_, stage_, std::string(full, '#'),
+  return fmt::format("{}: {} [{}{}] {:3.0f}% {} {}", tool_, pass_, std::string(full, '#'),
                      std::string(kBarWidth - full, '.'), 100 * share, speed, left);
 }
 
 std::string Progress::json_line(double seconds) const {
   return fmt::format(
-      "{{\"tool\":\"{}\",\"stage\":\"{}\",\"done\":{},\"total\":{},\"unit\":\"{}\",\"seconds\":{:.3f}}}\n", tool_,
-      stage_, done_.load(), total_.load(), unit_, seconds);
+      "{{\"tool\":\"{}\",\"pass\":\"{}\",\"done\":{},\"total\":{},\"unit\":\"{}\",\"seconds\":{:.3f}}}\n", tool_, pass_,
+      done_.load(), total_.load(), unit_, seconds);
 }
 
-StageProgress Progress::for_pass(const std::string& before) {
-  return [this, before, last = std::string()](const char* stage, const char* unit, std::uint64_t done,
+PassProgress Progress::for_pass(const std::string& before) {
+  return [this, before, last = std::string()](const char* pass, const char* unit, std::uint64_t done,
                                               std::uint64_t total) mutable {
-    if (last != stage) begin(before + (last = stage), total, unit);
+    if (last != pass) begin(before + (last = pass), total, unit);
     set(done, total);
   };
 }

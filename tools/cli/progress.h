@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-#include "lib/pass/stage_progress.h"
+#include "lib/pass/pass_progress.h"
 
 /// One line on stderr: bar, share, rate and time left. Silent unless stderr is a terminal and the work is long; in a
 /// pipe of tools only the last one draws. stdout is never touched.
@@ -20,17 +20,17 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Ends the stage before, and begins one of `total` steps (0: not known). unit: "bricks", "triangles".
-  void begin(const std::string& stage, std::uint64_t total, const std::string& unit);
+  /// Ends the pass before, and begins one of `total` steps (0: not known). unit: "bricks", "triangles".
+  void begin(const std::string& pass, std::uint64_t total, const std::string& unit);
   /// Thread-safe and cheap: an atomic add, and a look at the clock.
   void add(std::uint64_t steps = 1);
   /// Sets the steps done and the total; thread-safe.
   void set(std::uint64_t done, std::uint64_t total);
   void end();
 
-  /// For passes, which know nothing of terminals: begins a stage whenever its name changes. `before` stands before each
+  /// For passes, which know nothing of terminals: begins a pass whenever its name changes. `before` stands before each
   /// name. Keeps a reference to this object.
-  [[nodiscard]] StageProgress for_pass(const std::string& before = "");
+  [[nodiscard]] PassProgress for_pass(const std::string& before = "");
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -42,7 +42,7 @@ class Progress {
   const std::string tool_;
   ProgressMode mode_;
   std::mutex mutex_;  ///< guards the output and the strings
-  std::string stage_, unit_;
+  std::string pass_, unit_;
   std::atomic<std::uint64_t> done_{0}, total_{0};
   Clock::time_point begin_;
   std::atomic<std::int64_t> next_ms_{0};  ///< since begin_: when the line is due again

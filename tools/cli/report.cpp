@@ -27,10 +27,10 @@ Json versions() {
 
 Report::Report(std::string tool) : tool_(std::move(tool)) {}
 
-void Report::close_stage() {
-  if (stage_.empty()) return;
-  seconds_[stage_] = seconds_.value(stage_, 0.0) + seconds_since(stage_begin_);
-  stage_.clear();
+void Report::close_pass() {
+  if (pass_.empty()) return;
+  seconds_[pass_] = seconds_.value(pass_, 0.0) + seconds_since(pass_begin_);
+  pass_.clear();
 }
 
 void Report::note(const std::string& text, const CommonOptions& common) {
@@ -38,14 +38,14 @@ void Report::note(const std::string& text, const CommonOptions& common) {
   if (common.progress != ProgressMode::quiet) std::fprintf(stderr, "%s: note: %s\n", tool_.c_str(), text.c_str());
 }
 
-void Report::stage(const std::string& name) {
-  close_stage();
-  stage_ = name;
-  stage_begin_ = Clock::now();
+void Report::begin(const std::string& name) {
+  close_pass();
+  pass_ = name;
+  pass_begin_ = Clock::now();
 }
 
 std::string Report::text() {
-  close_stage();
+  close_pass();
   Json json;
   json["tool"] = tool_;
   json["version"] = BP_VERSION;
@@ -69,7 +69,7 @@ void Report::write(const CommonOptions& common) {
     if (is_report(common.report)) common.report_file->allow_overwrite();  // of another tool of the pipe, just now
     common.report_file->commit();
   } catch (const Error& e) {
-    fail(e.code(), "{}; the report is lost, but what was made is complete", e.what());
+    fail_as(e, "the report is lost, but what was made is complete: {}", e.what());
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include "tools/cli/common_options.h"
 
-/// The JSON of --report: what ran, with which options, what it counted, how long each stage took, peak memory, bytes in
+/// The JSON of --report: what ran, with which options, what it counted, how long each pass took, peak memory, bytes in
 /// and out. Keys keep their order. Times and memory differ from run to run; everything else does not.
 namespace bp {
 
@@ -25,8 +25,8 @@ class Report {
   /// Adds a note, and says it on stderr unless the tool is to be quiet: one line, as an error would be.
   void note(const std::string& text, const CommonOptions& common);
 
-  /// Seconds from here to the next stage() or to write(), under this name; a name met again adds up.
-  void stage(const std::string& name);
+  /// Seconds from here to the next begin() or to write(), under this name; a name met again adds up.
+  void begin(const std::string& name);
 
   [[nodiscard]] std::string text();
   /// Writes the file of --report, complete or not at all; nothing without --report.
@@ -34,9 +34,9 @@ class Report {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void close_stage();
-  std::string tool_, stage_;
-  Clock::time_point begin_ = Clock::now(), stage_begin_ = begin_;
+  void close_pass();
+  std::string tool_, pass_;
+  Clock::time_point begin_ = Clock::now(), pass_begin_ = begin_;
   Json seconds_ = Json::object();
 };
 

@@ -32,7 +32,7 @@ void print_list(const std::string& text, const std::string& made) {
   try {
     print(text);
   } catch (const Error& e) {
-    fail(e.code(), "{}; the list is lost, but {}", e.what(), made);
+    fail_as(e, "the list is lost, but {}: {}", made, e.what());
   }
 }
 
@@ -55,7 +55,7 @@ SceneOptions Build::scene_options(bool beside) const {
 }
 
 VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int halvings, bool ground) {
-  report.stage("voxelize");
+  report.begin("voxelize");
   VoxelizeOptions v;
   v.cell_vox = cell_vox;
   v.fill = options.voxels.fill;
@@ -115,7 +115,7 @@ void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_tol
 
 /// The triangles have gone, and so has most of what they were given of the memory.
 void Build::gather(TriangleSource& source, const VoxelizedScene& scene) {
-  report.stage("colours");
+  report.begin("colours");
   PassContext c = context();
   c.memory.bytes /= 2;
   c.make_scratch = [this] { return make_scratch(budget.reader / 2, options.common.temp); };
@@ -200,7 +200,7 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
 }
 
 LevelSteps Build::level_steps(std::function<std::string()> input_hash) {
-  return {[this](const std::string& name) { report.stage(name); },
+  return {[this](const std::string& name) { report.begin(name); },
           [this, hash = std::move(input_hash)](LodLevel& level, std::size_t number, const LodTarget& target) {
             complete(level, number, target, hash());
           }};
@@ -220,7 +220,13 @@ void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& row
   report.bytes_out = bytes_out;
   tell(scene, listing(rows), "all files are complete, in " + options.out);
   if (options.common.progress == ProgressMode::quiet) return;
-  const std::string proof = proof_command(options, options.is_tileset() ? "tileset.json" : rows.front().file);
+  std::string proof;
+  for (const LevelRow& row : rows) {
+    if (!proof.empty() && options.profile != LodProfile::collision) break;  // one file stands for all
+    const std::string one =
+        proof_command(options, options.is_tileset() ? "tileset.json" : row.file, row.more.contains("hulls"));
+    if (!one.empty()) proof += (proof.empty() ? "" : " && ") + one;
+  }
   fmt::print(stderr, "bplod: the files are in {}{}{}\n", options.out, proof.empty() ? "" : "; prove it: ", proof);
 }
 

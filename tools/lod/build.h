@@ -26,7 +26,7 @@ class Build {
   Backends backends;
   const BuildBudget budget;
   const ShelfFactory make_shelf;
-  StageProgress show;  ///< progress of stages
+  PassProgress show;  ///< progress of passes
 
   explicit Build(const BuildOptions& options);
   Build(const Build&) = delete;

@@ -62,7 +62,7 @@ Json faces_json(const LevelOptions& levels) {
 /// -o foo.glb: who writes that wants a file, and there are several.
 void check_folder_name(const BuildOptions& o) {
   if (o.out.empty() && !o.tiles && !o.explain) fail(ErrorCode::bad_argument, "name the folder of the levels with -o");
-  const std::string extension = scene_format_of(o.out);
+  const std::string extension = o.out.ends_with(".json") ? "json" : scene_format_of(o.out);
   std::error_code none;
   if (extension.empty() || std::filesystem::is_directory(o.out, none)) return;
   const std::string folder = o.out.substr(0, o.out.size() - extension.size() - 1);
@@ -154,7 +154,8 @@ void declare_profile(Args& args, BuildOptions& o) {
   args.option("--profile",
               {{"gltf", LodProfile::gltf, "levels of detail as GLB"},
                {"3dtiles", LodProfile::tiles, "a tileset for CesiumJS and the like"},
-               {"collision", LodProfile::collision, "one mesh for physics in game engines"},
+               {"collision", LodProfile::collision,
+                "a body for physics: one mesh for Godot and Unity, convex hulls for Unreal"},
                {"occluder", LodProfile::occluder, "one mesh inside, for culling in Godot"},
                {"cage", LodProfile::cage, "quads and triangles, to deform with"}},
               o.profile, "what the levels are for");
@@ -189,7 +190,7 @@ void declare(Args& args, BuildOptions& o) {
   args.option("--name", "NAME", o.name, "first part of the names of files and nodes (default: the first scene's)");
   declare_profile(args, o);
   o.levels.add_of_scene(args, "as many as are listed; else 4, or fewer where a level would have less than 12 faces",
-                        "half of the scene's triangles, at most 40000; other profiles: fewer");
+                        "half of the scene's, at most 40000; other profiles: fewer");
   o.proxy.add_of_scene(args);
   o.voxels.add_to(args,
                   "from --faces, 256 to 1024; from --error, 8 voxels to an error; occluder: 512; 3dtiles: from "
@@ -201,10 +202,12 @@ void declare(Args& args, BuildOptions& o) {
   args.flag("--explain", o.explain, "print what would be made, and what is kept of it; make nothing");
   args.removed("--no-tighten", "levels are always tightened; --enclose closing makes the loosest ones");
   args.removed("--colors", "--appearance color|off says what the levels carry");
+  args.removed("--element", "bplod closes with cubes, and with balls for --mode fit; bpclose takes either");
   args.removed("--resume", "--cache DIR keeps what is done, and a run after a kill goes on from there");
   args.removed("--screen",
                "--error takes pixels: --error 800px is one pixel where the scene's diagonal is 800 pixels on screen");
   args.often({"--output", "--profile", "--faces", "--error", "--levels", "--up", "--overwrite"});
+  args.needed("--output");
   args.example("bplod plant.glb --profile collision -o plant-collision");
 }
 
@@ -236,7 +239,7 @@ BuildOptions parse_build_options(Args& args) {
   o.voxels.check();
   check_profile(args, o);
   // Beside slanted sides a cube's closing stands off about as far as a fit looks for the scene: thorns.
-  if (o.proxy.mode == MeshMode::fit && !args.given("--element")) o.closing.element = StructuringElement::ball;
+  if (o.proxy.mode == MeshMode::fit) o.closing.element = StructuringElement::ball;
   set_one_level(o);
   check_levels(o);
   check_folder_name(o);

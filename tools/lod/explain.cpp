@@ -23,8 +23,8 @@ namespace bp {
 namespace {
 
 // What is estimated, from plants and scanned models: docs/tilesets.md says that it is.
-constexpr double kBytesPerFace = 4, kBytesPerTile = 2200;  // of compressed GLB; and of a tile's place in the tileset
-constexpr double kBytesPerPlainFace = 18;                  // of GLB
+constexpr double kBytesPerFace = 9, kBytesPerTile = 2500;  // of compressed GLB, and of a tile with its place
+constexpr double kBytesPerPlainFace = 30;                  // of GLB
 constexpr double kScratchPerTriangle = 20;                 // that waits on disk
 
 struct Scene {
@@ -167,14 +167,14 @@ std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
 
 void explain(const BuildOptions& options) {
   Build build(options);
-  build.report.stage("read");
+  build.report.begin("read");
   const Scene scene = read_scene(build);
   build.note(up_note(scene.bounds, options.voxels.up || scene.up_told));
   const SceneSize size{scene.bounds, scene.counts.triangles};
   question_proportions(options, size);
   build.note(voxel_note(options, size));
   build.note(cache_note(options));
-  build.report.stage("look up");
+  build.report.begin("look up");
   const Plan plan = plan_of(build, scene);
   build.note(origin_note(options, plan.header));
   build.report.options = options_json(options);

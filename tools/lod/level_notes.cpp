@@ -89,9 +89,9 @@ std::string heavier_note(const LevelFacts& finest, std::uint64_t triangles) {
                      triangles);
 }
 
-std::string proof_command(const BuildOptions& o, const std::string& file) {
+std::string proof_command(const BuildOptions& o, const std::string& file, bool hulls) {
   if (o.proxy.mode == MeshMode::fit || !can_read_again(o)) return "";
-  std::string command = o.profile == LodProfile::occluder ? "bpcheck --inside" : "bpcheck";
+  std::string command = o.profile == LodProfile::occluder ? "bpcheck --inside" : hulls ? "bpcheck --convex" : "bpcheck";
   if (!o.voxels.format.empty()) command += " --format " + o.voxels.format;
   for (const std::string& scene : o.voxels.scenes) command += " " + quoted(scene);
   return command + " " + quoted(o.out + (o.out.ends_with('/') ? "" : "/") + file);

@@ -7,6 +7,7 @@
 #include "tools/cli/names.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/lod_outputs.h"
+#include "tools/run/hiding_recipe.h"
 
 namespace bp {
 
@@ -22,15 +23,12 @@ double volume_of(const Bounds3d& b) {
   return (b.max[0] - b.min[0]) * (b.max[1] - b.min[1]) * (b.max[2] - b.min[2]);
 }
 
-/// bpcheck makes the voxels again from this (tools/check/hiding_recipe.h).
 OptionText option_text(const BuildOptions& o, const MadeOccluder& made) {
   const GridFrame& frame = made.scene.header.frame;
   OptionText text;
-  text.add("mode", "inside").add("faces", made.faces_asked).add("openings", made.scale_world);
-  text.add("element", name_of(o.closing.element)).add("walls", "opaque").add("ground", made.ground);
-  text.add("voxel", frame.voxel);
-  text.add("grid", fmt::format("{},{},{}", frame.origin[0], frame.origin[1], frame.origin[2]));
-  return text.add("opening", made.opening_world).add("up", name_of(frame.up)).add("tighten", true);
+  text.add("mode", "inside").add("faces", made.faces_asked);
+  add_recipe({{frame, made.scale_world, o.closing.element}, true, made.ground, frame.up}, text);
+  return text.add("opening", made.opening_world).add("tighten", true);
 }
 
 Json json_of(const MadeOccluder& made) {
@@ -73,7 +71,7 @@ void build_occluder(const BuildOptions& o) {
   made.level.mesh.provenance = {make_provenance("bplod", option_text(o, made), made.scene.counts.input_hash)};
   note(build, made);
   build.progress.end();
-  build.report.stage("write");
+  build.report.begin("write");
   const Json more = json_of(made);
   const LevelFacts facts = facts_of(made.level, {});
   std::vector<LodLevel> levels;

@@ -160,7 +160,7 @@ void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<Triangle
   cut.scene = tree.get();
   if (shop.task == Task::some_jobs) cut.jobs = o.tiles;
   cut.make = shop.task != Task::look_up;
-  const CutSteps steps{[&](const std::string& stage) { shop.build.report.stage(stage); },
+  const CutSteps steps{[&](const std::string& name) { shop.build.report.begin(name); },
                        [&](std::size_t i, const GridFrame&) { return cut_files(shop.build, made.plan.cut[i], i); },
                        [&](std::size_t i, LevelTile&& tile) {
                          take(shop, std::move(tile), made.plan.cut[i], level_name(o.name, i), levels[i], made.files);
@@ -189,7 +189,7 @@ void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const Le
                 MadeTileset& made) {
   Build& build = shop.build;
   const std::size_t cut = made.plan.cut.size();
-  build.report.stage("levels in one mesh");
+  build.report.begin("levels in one mesh");
   if (cut > 0) lod.least_scale_world = TilesetPlan::kScaleVox * pyramid.header().frame.voxel;
   lod.surface = pyramid.take_surface();
   const std::string input_hash = cut > 0 ? "" : made.scene.counts.input_hash;  // tiles do not depend on all of it
@@ -245,7 +245,7 @@ MadeTileset make_tileset(const Shop& shop) {
   if (shop.task == Task::some_jobs && o.tiles->begin >= made.plan.jobs())
     shop.build.note(fmt::format("--tiles {}..{}: there are {} jobs, numbered from 0: nothing is done", o.tiles->begin,
                                 o.tiles->end, made.plan.jobs()));
-  shop.build.report.stage("measure the scene");
+  shop.build.report.begin("measure the scene");
   TilePyramid pyramid(header, std::move(made.scene.solid), shop.build.backends, pyramid_options(shop));
   LodOptions lod = shop.build.lod_options();
   make_cut(shop, pyramid, lod.scene, made);
@@ -267,7 +267,7 @@ OptionText tileset_options(const MadeTileset& made, std::int32_t tile_vox) {
 }
 
 void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
-  shop.build.report.stage("write");
+  shop.build.report.begin("write");
   const Tileset tileset = made.tree->finish(made.scene.header.bounds.diagonal());
   for (std::size_t i = 0; i < made.rows.size(); ++i) made.rows[i].error_world = made.tree->error_of(i);
   if (made.provenance.empty())

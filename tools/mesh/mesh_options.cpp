@@ -18,19 +18,16 @@ MeshOptions parse_mesh_options(Args& args) {
   args.option("--volume", "RATIO", o.volume, "largest volume, as a multiple of the voxels' volume; 0: no limit");
   args.option("--edge-length", "RATIO", o.edge_length, "longest edge, as a multiple of the scale there; 0: no limit");
   o.proxy.add_of_stream(args);
-  args.option("--inset", "RATIO", o.inset,
-              "with --mode fit: how far the proxy lies inside the voxels' surface, in voxels, 0 to 1 (default: 0.5, as "
-              "the scene does on average)");
-  args.option("--least-part", "RATIO", o.least_part,
-              "with --mode inside: leave out parts smaller than RATIO times the largest part, by volume; 0 keeps all "
-              "(default: 0.001)");
   args.flag("--quads", o.quads, "join triangles to quads, safe for either diagonal; for .obj and .ply");
   args.removed("--no-tighten", "bpmesh always makes the proxy tighter");
+  args.removed("--inset", "a fit lies half a voxel inside the voxels' surface, as the scene does on average");
+  args.removed("--least-part", "parts below a thousandth of the largest are left out of a proxy inside");
   args.removed("--measure", "--report has volume and edges, and bpcheck measures distances");
   o.common.add_to(args, CommonOptions::all_parts & ~unsigned(CommonOptions::device_part));
   args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
   args.often({"--output", "--faces", "--error", "--mode", "--enclose", "--overwrite"});
   args.parse();
+  o.proxy.mode_given = args.given("--mode");
   o.proxy.check();
   std::vector<std::string> inputs = o.proxy.enclose.files;
   inputs.push_back(o.in);

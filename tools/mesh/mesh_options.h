@@ -16,8 +16,6 @@ struct MeshOptions {
   ProxyOptions proxy;
   LevelOptions levels;
   double volume = 0, edge_length = 0;
-  std::optional<double> least_part;  // 0.001 inside
-  std::optional<double> inset;       // 0.5 for fits
   bool quads = false;
 
   /// Nothing, or the bound.

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "tools/cli/names.h"
+#include "tools/run/hiding_recipe.h"
 
 namespace bp {
 
@@ -58,8 +59,8 @@ Json json_of(const LevelCounts& c, std::uint64_t asked) {
 
 }  // namespace
 
-Provenance mesh_provenance(const MeshOptions& o, const std::string& enclosed, const std::string& input,
-                           std::size_t level) {
+Provenance mesh_provenance(const MeshOptions& o, const GridFrame& frame, const std::string& enclosed,
+                           const std::string& input, std::size_t level) {
   OptionText text;
   text.add("mode", name_of(o.proxy.mode))
       .add("faces", faces_text(o))
@@ -68,10 +69,9 @@ Provenance mesh_provenance(const MeshOptions& o, const std::string& enclosed, co
       .add("edge-length", o.edge_length)
       .add("enclose", enclosed)
       .add("tighten", true);
-  if (o.least_part) text.add("least-part", *o.least_part);
-  if (o.inset) text.add("inset", *o.inset);
   if (o.quads) text.add("quads", o.quads);
   if (o.levels.faces.size() > 1) text.add("level", level);
+  if (o.proxy.mode == MeshMode::inside) add_recipe({{frame}, false, false, frame.up}, text);
   return make_provenance("bpmesh", text, input);
 }
 

@@ -10,8 +10,8 @@
 namespace bp {
 
 /// Of a level. enclosed: what stayed inside; input: checksum of the stream.
-[[nodiscard]] Provenance mesh_provenance(const MeshOptions& options, const std::string& enclosed,
-                                         const std::string& input, std::size_t level);
+[[nodiscard]] Provenance mesh_provenance(const MeshOptions& options, const GridFrame& frame,
+                                         const std::string& enclosed, const std::string& input, std::size_t level);
 
 void fill_report(Report& report, const MeshOptions& options, const MeshCounts& counts);
 

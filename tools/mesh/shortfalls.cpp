@@ -127,9 +127,9 @@ bool wants_scale(const MeshOptions& o, const MeshCounts& c) {
 void note_shortfalls(Report& report, const MeshOptions& o, const MeshCounts& c, double error_world,
                      const std::optional<std::string>& scale) {
   if (c.dropped_parts > 0) {
-    report.note(fmt::format("small parts left out: {}, with {} of {} voxels; --least-part 0 keeps them",
-                            c.dropped_parts, c.dropped_voxels, c.voxels),
-                o.common);
+    report.note(
+        fmt::format("small parts left out: {}, with {} of {} voxels", c.dropped_parts, c.dropped_voxels, c.voxels),
+        o.common);
   }
   for (std::size_t i = 0; i < c.levels.size(); ++i) {
     note_faces(report, o, c, i, scale);

@@ -10,14 +10,14 @@ namespace {
 
 constexpr double kLoose = 2;  // times the volume, or its part
 
-/// What --scale, or --least-part, does where there are several parts or a handle, or does to the form.
+/// What --scale does where there are several parts or a handle, or does to the form.
 std::string scale_advice(std::uint64_t shells, std::uint64_t handles, bool inside) {
   if (shells <= 1 && handles == 0) {
     return fmt::format("a larger --scale {} makes the form simpler",
                        inside ? "takes narrow things away and" : "fills narrow gaps and");
   }
-  if (inside && shells > 1) return "a larger --least-part leaves small parts out, a larger --scale narrow ones";
-  if (inside) return "a larger --scale takes narrow bars away";
+  if (inside)
+    return shells > 1 ? "a larger --scale leaves narrow parts out" : "a larger --scale takes narrow bars away";
   return fmt::format("a larger --scale {}", handles == 0  ? "joins parts"
                                             : shells <= 1 ? "closes holes"
                                                           : "joins parts and closes holes");

@@ -3,18 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace bp {
+
+namespace {
+
+/// Whether the scene begins about where the axis has 0, as what stands on the ground does along its height.
+bool stands_on(const Bounds3d& scene, std::size_t axis) {
+  return std::abs(scene.min[axis]) <= 0.1 * (scene.max[axis] - scene.min[axis]);
+}
+
+}  // namespace
 
 std::string up_note(const Bounds3d& scene, bool told) {
   constexpr double kFlat = 0.25;  // of the shorter side: rooms and most buildings are not
   if (told || scene.empty()) return "";
   const double x = scene.max[0] - scene.min[0], y = scene.max[1] - scene.min[1], z = scene.max[2] - scene.min[2];
-  if (z >= kFlat * std::min(x, y)) return "";
+  const bool flat = z < kFlat * std::min(x, y);
+  if (!flat && (!stands_on(scene, 2) || stands_on(scene, 1) || y < kFlat * std::min(x, z))) return "";
   return fmt::format(
-      "the scene is {:.4g} x {:.4g} x {:.4g}, flat along z, and y is taken for up: if it is a map, it will stand on "
-      "edge; say --up z, or --up y to be sure",
-      x, y, z);
+      "the scene is {:.4g} x {:.4g} x {:.4g}, {}, and y is taken for up: if {}; say --up z, or --up y to be sure", x, y,
+      z, flat ? "flat along z" : "stands on z = 0",
+      flat ? "it is a map, it will stand on edge" : "z is up, it will lie on its side");
 }
 
 std::string up_note(const StreamHeader& header) {

@@ -1,6 +1,7 @@
 #include "tools/run/inputs.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "io/scene/scene_format.h"
 #include "lib/core/error.h"
@@ -19,6 +20,12 @@ void check_scene_format(const std::string& format, const std::vector<std::string
        "--format {}: is for stdin and for names that do not tell, and {} tells its format; leave it out, or rename the "
        "file",
        format, inputs.front());
+}
+
+std::string tileset_in(const std::string& path) {
+  std::error_code none;
+  const std::filesystem::path tileset = std::filesystem::path(path) / "tileset.json";
+  return std::filesystem::is_regular_file(tileset, none) ? tileset.string() : path;
 }
 
 void check_stream_name(const std::string& output) {

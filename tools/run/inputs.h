@@ -9,6 +9,9 @@ namespace bp {
 /// all names tell another one: it would be passed over in silence.
 void check_scene_format(const std::string& format, const std::vector<std::string>& inputs);
 
+/// The tileset.json in a folder that has one; any other path as it is.
+[[nodiscard]] std::string tileset_in(const std::string& path);
+
 /// What a tool that writes voxels is to write to. Throws bad_argument if its name is that of a mesh.
 void check_stream_name(const std::string& output);
 

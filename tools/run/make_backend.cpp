@@ -27,7 +27,7 @@ DeviceChoice resolve(DeviceChoice choice) {
   try {
     return parse_device(forced);
   } catch (const Error& e) {
-    fail(e.code(), "BP_BACKEND in the environment: {}", e.what());
+    fail_as(e, "BP_BACKEND in the environment: {}", e.what());
   }
 }
 
@@ -60,7 +60,7 @@ std::string list_of(const std::vector<CudaDevice>& devices) {
 Backends make_gpu_backends(const DeviceChoice& choice) {
   const std::vector<CudaDevice> there = cuda_devices();
   if (there.empty())
-    fail(ErrorCode::out_of_resource, "--device cuda: no GPU was found; check the driver, or use --device cpu");
+    fail(ErrorCode::out_of_resource, {Remedy::use_cpu}, "--device cuda: no GPU was found; check the driver");
   std::vector<int> ids = choice.ids;
   for (const int id : ids) {
     if (id >= int(there.size()))

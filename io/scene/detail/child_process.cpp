@@ -22,8 +22,29 @@ namespace bp {
 
 namespace {
 
-// What the child sends back: a tag, then the result, or the code and the text of an error.
+// What the child sends back: a tag, then the result, or an error as packed().
 constexpr char kResult = 'R', kError = 'E', kFailure = 'F', kMemory = 'M';
+
+struct ErrorHead {
+  std::uint64_t memory_bytes = 0;
+  std::uint8_t code = 0, remedies = 0;  // how many; they follow, a byte each, and then the text
+};
+
+std::string packed(const Error& e) {
+  const ErrorHead head{e.memory_bytes(), std::uint8_t(e.code()), std::uint8_t(e.remedies().size())};
+  std::string text(sizeof head, '\0');
+  std::memcpy(text.data(), &head, sizeof head);
+  for (const Remedy remedy : e.remedies()) text += char(remedy);
+  return text + e.what();
+}
+
+[[noreturn]] void throw_packed(const std::string& text) {
+  ErrorHead head;
+  std::memcpy(&head, text.data(), sizeof head);
+  Remedies remedies;
+  for (std::size_t i = 0; i < head.remedies; ++i) remedies.push_back(Remedy(text[sizeof head + i]));
+  throw Error(ErrorCode(head.code), text.substr(sizeof head + head.remedies), remedies, head.memory_bytes);
+}
 
 std::uint64_t address_space() {
   unsigned long pages = 0;
@@ -64,7 +85,7 @@ std::string message_of(const std::function<std::string()>& work) {
   try {
     return kResult + work();
   } catch (const Error& e) {
-    return std::string{kError, char(e.code())} + e.what();
+    return kError + packed(e);
   } catch (const std::bad_alloc&) {
     return std::string(1, kMemory);
   } catch (const std::exception& e) {
@@ -148,7 +169,7 @@ std::string run_in_child(const std::string& name, const std::string& what, const
   if (reception == Reception::large || (message.size() == 1 && message[0] == kMemory)) throw ChildOutOfMemory();
   if (WIFSIGNALED(status))
     fail(ErrorCode::bad_input, "{}: {} {}; {}", name, what, why_killed(WTERMSIG(status), limits), remedy);
-  if (message.size() >= 2 && message[0] == kError) throw Error(ErrorCode(message[1]), message.substr(2));
+  if (message.size() > sizeof(ErrorHead) && message[0] == kError) throw_packed(message.substr(1));
   if (message.empty() || message[0] != kResult) {
     fail(ErrorCode::bad_input, "{}: {} {}; {}", name, what, message.empty() ? "ended early" : message.substr(1),
          remedy);

@@ -16,7 +16,7 @@ constexpr std::size_t kBatch = 8192;  // triangles per work item
 struct Batch {
   std::uint64_t first = 0;
   std::vector<TriangleD> triangles;
-  Enclosure result;
+  EnclosureReport result;
   SignedVolume volume;
 };
 
@@ -99,7 +99,7 @@ bool is_finite(const TriangleD& t) {
 void check_batch(const WeldedMesh& mesh, const Surface& surface, bool decide_sides, const Vec3d& origin,
                  std::size_t max_examples, Batch& batch) {
   SideCache cache;
-  Enclosure& e = batch.result;
+  EnclosureReport& e = batch.result;
   batch.volume = SignedVolume(origin);
   for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
     const TriangleD& t = batch.triangles[i];
@@ -120,10 +120,10 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, bool decide_sid
 
 }  // namespace
 
-Enclosure check_enclosure(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, bool decide_sides,
-                          std::size_t max_examples,
-                          const std::function<void(std::uint64_t, const std::vector<TriangleD>&)>& see) {
-  Enclosure all;
+EnclosureReport check_enclosure(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
+                                bool decide_sides, std::size_t max_examples,
+                                const std::function<void(std::uint64_t, const std::vector<TriangleD>&)>& see) {
+  EnclosureReport all;
   Vec3d origin{};
   if (!surface.bounds().empty()) origin = surface.bounds().min;
   SignedVolume volume(origin);

@@ -8,7 +8,7 @@
 /// Does a surface strictly enclose a scene?
 namespace bp {
 
-struct Enclosure {
+struct EnclosureReport {
   std::uint64_t triangles = 0;
   Finding touching, outside, undecidable;  ///< as in CheckReport
   std::optional<double> volume;            ///< of the scene; none if it is open (SignedVolume)
@@ -17,8 +17,8 @@ struct Enclosure {
 /// Tests every triangle of `scene` from its start, in parallel, in bounded memory. A triangle that touches nothing lies
 /// on one side as a whole, so one of its corners decides; sides are looked at only if `decide_sides`. `see(number of
 /// the first, triangles)` gets the scene in order, on one thread at a time.
-[[nodiscard]] Enclosure check_enclosure(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
-                                        bool decide_sides, std::size_t max_examples,
-                                        const std::function<void(std::uint64_t, const std::vector<TriangleD>&)>& see);
+[[nodiscard]] EnclosureReport check_enclosure(
+    const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, bool decide_sides, std::size_t max_examples,
+    const std::function<void(std::uint64_t, const std::vector<TriangleD>&)>& see);
 
 }  // namespace bp

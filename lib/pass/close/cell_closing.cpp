@@ -179,8 +179,8 @@ class CellCloser {
     });
   }
 
-  void report(const char* stage, std::uint64_t done, std::uint64_t total) const {
-    options_.context.report(stage, "cells", done, total);
+  void report(const char* pass, std::uint64_t done, std::uint64_t total) const {
+    options_.context.report(pass, "cells", done, total);
   }
 
   const BrickShelf& solid_;

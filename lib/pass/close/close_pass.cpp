@@ -333,7 +333,7 @@ BrickBox closing_bricks(const StreamHeader& header, const ScaleField& scale) {
   const std::int32_t margin = ceil_div(widest_halo(scale.upper_bound(header.frame)).erosion_vox, kBrickEdge);
   const BrickBox grown = header.bricks.grown(margin);
   if (brick_box_fault(grown) != nullptr)
-    fail(ErrorCode::bad_argument, "the closing leaves the grid of 2^31 voxels a side; use larger voxels");
+    fail(ErrorCode::bad_argument, {Remedy::larger_voxels}, "the closing leaves the grid of 2^31 voxels a side");
   return grown;
 }
 

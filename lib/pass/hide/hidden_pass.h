@@ -29,7 +29,7 @@ struct HiddenVoxels {
 [[nodiscard]] HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Backends& backends,
                                          const HiddenOptions& options);
 
-/// The opening of `solid`: what is left of it where parts narrower than twice the scale go (bpclose --inner). Null if
+/// The opening of `solid`: what is left of it where parts narrower than twice the scale go, as bpclose does. Null if
 /// nothing is.
 [[nodiscard]] std::unique_ptr<BrickShelf> opening(const StreamHeader& header, BrickShelf& solid, Backends& backends,
                                                   const HiddenOptions& options);

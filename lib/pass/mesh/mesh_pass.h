@@ -8,7 +8,7 @@
 #include "lib/simplify/simplify.h"
 #include "lib/tighten/tighten.h"
 
-/// The last stage of the pipe: bricks in, proxies out (bpmesh).
+/// The last pass of the pipe: bricks in, proxies out (bpmesh).
 namespace bp {
 
 /// bounding: around everything that is meshed. inside: within it, for occluders; of a stream of bpvox --fill inside.

@@ -3,7 +3,7 @@
 
 #include "lib/device/backend.h"
 #include "lib/pass/mesh/mesh_pass.h"
-#include "lib/pass/stage_progress.h"
+#include "lib/pass/pass_progress.h"
 
 /// For a proxy that has more faces than were asked for, because its closing has many parts and holes: which scale would
 /// leave few enough.
@@ -12,7 +12,7 @@ namespace bp {
 struct ScaleSearch {
   std::uint64_t faces = 0;     ///< asked for
   bool keep_cavities = false;  ///< as bpclose was told
-  PassContext context;         ///< progress: stages of each closing, and "mesh" with the number of scales done
+  PassContext context;         ///< progress: passes of each closing, and "mesh" with the number of scales done
 };
 
 /// How many times the scale of `header`, a closing by one scale, is enough: 2, 4, 8, ... Each is tried, closed and

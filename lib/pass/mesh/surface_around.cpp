@@ -113,7 +113,8 @@ LatticeMesh surface_within(const LatticeMesh& outer, double voxel, const ShelfFa
   check_work(count_faces(ShelfSurface(*shelf, frame)), memory);
   LatticeMesh surface = inward_surface(*shelf, frame, make_shelf, *around);
   if (surface.triangles.empty())
-    fail(ErrorCode::failed, "no voxel lies inside a level of {} faces; use smaller voxels", outer.triangles.size());
+    fail(ErrorCode::failed, {Remedy::smaller_voxels}, "no voxel lies inside a level of {} faces",
+         outer.triangles.size());
   return surface;
 }
 

@@ -163,7 +163,7 @@ void SceneVoxelizer::look_up_chunks() {
   if (chunks_->complete()) return;
   if (chunks_->needs_met()) scene_.read_twice();
   counts_.read_twice = scene_.reads_twice();
-  StageSteps steps(options_.context.progress, "voxelizing", "triangles", counts_.scene.triangles);
+  PassSteps steps(options_.context.progress, "voxelizing", "triangles", counts_.scene.triangles);
   scene_.again([&](const NextPortion& next) {
     chunks_->add_missing(next, options_.context.memory.bytes / 10,
                          [&](std::uint64_t n, std::vector<TriangleD>&& large) {
@@ -191,7 +191,7 @@ void SceneVoxelizer::bin(const NextPortion& next) {
     Portion portion;
     TriangleBatch batch;
   };
-  StageSteps steps(options_.context.progress, "sorting", "triangles", counts_.scene.triangles);
+  PassSteps steps(options_.context.progress, "sorting", "triangles", counts_.scene.triangles);
   pipeline<Item>(
       thread_count() + 2, [&](Item& item) { return next(item.portion); },
       [&](Item& item) {
@@ -250,7 +250,7 @@ void SceneVoxelizer::voxelize() {
   const std::vector<std::uint64_t> tiles = tiles_with_triangles();
   for (const std::uint64_t tile : tiles) on_shelf_[tile];
   counts_.tiles_touched = tiles.size();
-  StageSteps steps(options_.context.progress, "voxelizing", "tiles", tiles.size());
+  PassSteps steps(options_.context.progress, "voxelizing", "tiles", tiles.size());
   parallel_for(std::int64_t(tiles.size()), [&](std::int64_t i) {
     const std::uint64_t tile = tiles[std::size_t(i)];
     voxelize_tile(tile, on_shelf_.at(tile), true);
@@ -297,7 +297,7 @@ void SceneVoxelizer::fill_and_emit(BrickSink& sink) {
   }
   const int axis = header_.slab_axis;
   const int a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
-  StageSteps steps(options_.context.progress, "filling", "slabs", std::uint64_t(tiles_.count[axis]));
+  PassSteps steps(options_.context.progress, "filling", "slabs", std::uint64_t(tiles_.count[axis]));
   TileCoord at{};
   pipeline<Slab>(
       2,

@@ -24,7 +24,7 @@ grep -oE '^  "[a-z_]+"' report.json | tr '\n' ' '
 echo
 # Progress as JSON lines goes to stderr, and the output stays what it is.
 bpvox cube.obj --resolution 10 --progress json 2> progress | cmp - out.bp
-grep -vc '^{"tool":"bpvox","stage":".*}$' progress
+grep -vc '^{"tool":"bpvox","pass":".*}$' progress
 rm progress
 # Binary data does not go to a terminal.
 if command -v script > /dev/null; then

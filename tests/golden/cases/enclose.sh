@@ -70,7 +70,7 @@ bpclose oct.bpv --scale 5% --element ball -o closed.bpv --overwrite
 remesh --mode fit
 remesh --mode fit --error 2%
 remesh --error 2%
-bpvox oct.obj --fill inside --resolution 40 | bpclose --inner --scale 5% -o closed.bpv --overwrite
+bpvox oct.obj --fill inside --resolution 40 | bpclose --scale 5% -o closed.bpv --overwrite
 remesh --mode inside
 try bpmesh closed.bpv --enclose auto --enclose oct.obj --faces 20 -o y.ply
 try bpmesh closed.bpv --enclose oct.obj --enclose input --faces 20 -o y.ply

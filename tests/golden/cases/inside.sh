@@ -1,14 +1,12 @@
 # A proxy strictly inside: voxels that the scene encloses and does not touch, their opening, proxies within each other.
 write_cube cube.obj 3
-said 'bpvox cube.obj --resolution 40 --fill inside | bpclose --inner --scale 2vx | bpmesh --mode inside --faces 40,20,12 -o in.ply'
+said 'bpvox cube.obj --resolution 40 --fill inside | bpclose --scale 2vx | bpmesh --mode inside --faces 40,20,12 -o in.ply'
 for i in 0 1 2; do bpcheck --inside cube.obj in.$i.ply | tail -1; done
 for i in 0 1; do bpcheck --inside in.$i.ply in.$((i + 1)).ply | tail -1; done
 try bpcheck --inside in.1.ply in.0.ply
-said 'bpvox cube.obj --resolution 40 --fill inside -j 1 | bpclose --inner --scale 2vx -j 1 | bpmesh --mode inside --faces 40,20,12 -j 1 -o again.ply && cmp in.2.ply again.2.ply'
-said 'bpvox cube.obj --resolution 40 --fill inside | bpclose --scale 2vx | bpmesh --mode inside --faces 12 -o wrong.ply'
-said 'bpvox cube.obj --resolution 40 | bpclose --inner --scale 2vx -o wrong.bpv'
+said 'bpvox cube.obj --resolution 40 --fill inside -j 1 | bpclose --scale 2vx -j 1 | bpmesh --faces 40,20,12 -j 1 -o again.ply && cmp in.2.ply again.2.ply'
 said 'bpvox cube.obj --resolution 40 | bpmesh --mode inside --faces 12 -o wrong.ply'
-said 'bpvox cube.obj --resolution 40 --fill inside | bpmesh --faces 12 -o wrong.ply'
+said 'bpvox cube.obj --resolution 40 --fill inside | bpmesh --mode bounding --faces 12 -o wrong.ply'
 said 'bpvox cube.obj --resolution 40 --fill inside | bpmesh --mode inside --enclose cube.obj -o wrong.ply'
 said 'bpvox cube.obj --resolution 2 --fill inside | bpmesh --mode inside -o wrong.ply'
 files

@@ -23,6 +23,18 @@ cut -d ' ' -f 2 options | sort -u | while read -r option; do
   done
 done
 rm options short
+# A man page fits 80 columns, and names no page that is not there.
+if command -v pandoc > /dev/null && command -v mandoc > /dev/null; then
+  for tool in bpvox bpclose bpmesh bpcheck bpinfo bplod; do
+    pandoc -s -f markdown-smart -t man -M docs=/doc -L "$BP_ROOT/cmake/man.lua" "$BP_ROOT/docs/$tool.1.md" -o page
+    mandoc -T utf8 -O width=78 page | col -bx > shown
+    awk -v t=$tool 'length > 80 { print t ".1: too long: " $0 }' shown
+    mandoc -T utf8 -O width=900 page | col -bx | grep -oE '[a-z0-9/-]+\.md' | sort -u | while read -r page; do
+      [ -e "$BP_ROOT/docs/$page" ] || echo "$tool.1: $page is not there"
+    done
+    rm page shown
+  done
+fi
 try bpvox --faces 100 scene.obj
 try bpvox --face 100 scene.obj
 try bpclose --resolution 64

@@ -10,7 +10,7 @@ try bpmesh closed.bp -o x.glb -j 1 --memory 63M
 try bplod cube.obj -o x -j 1 --memory 63M
 try bplod cube.obj -o x -j 1 --memory 63M --profile 3dtiles
 try bpvox cube.obj -o x.bp -j 100 --memory 1G
-# Of what a stage needs: the minimum that is named will do.
+# Of what a pass needs: the minimum that is named will do.
 enough() {
   echo "\$ $*"
   "$@" -j 1 --memory 64M 2> said > /dev/null

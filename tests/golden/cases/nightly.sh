@@ -11,7 +11,7 @@ nightly scenes out "${options[@]}" | table
 sed 's/made in [0-9]* s/made/' as-it-goes  # a line per scene
 nightly scenes out "${options[@]}" | table
 nightly scenes out -j 1 --memory=1G "${options[@]}" --temp . --device cpu --progress json | table  # no byte differs
-nightly scenes out "${options[@]}" --element ball | table
+nightly scenes out "${options[@]}" --enclose input | table
 nightly scenes out "${options[@]}" -q | table
 write_octahedron scenes/a.obj 4
 rm "scenes/b c.obj" scenes/broken.obj

@@ -28,6 +28,13 @@ try bplod house.obj --profile occluder --resolution 128 --up z -o out --report h
 facts house.json
 said 'bpcheck --inside house.obj out/house_occluder.glb'
 said 'bpcheck --inside house.obj out/house_occluder.glb --json | grep -E "\"(holds|answer|why|mesh|outward|inside|free_of_scene|hidden)\""'
+# What the voxels need is named, and will do.
+bplod house.obj --profile occluder --resolution 512 --up z -o fine -q > /dev/null
+bpcheck --inside house.obj fine/house_occluder.glb -j 1 --memory 64M 2>&1 | sed -n 's/[0-9]* MiB/N MiB/g; /hidden/p'
+bpcheck --inside house.obj fine/house_occluder.glb -j 1 --memory 64M 2> said > /dev/null
+least=$(grep -o 'at least [0-9]*' said | grep -o '[0-9]*')
+bpcheck --inside house.obj fine/house_occluder.glb -j 1 --memory "${least}M" | tail -1
+rm -r fine said
 # A wall of the scene is gone: the same file is refuted, with places.
 write_house ruin.obj inner floor
 said 'bpcheck --inside ruin.obj out/house_occluder.glb | sed -n "/free of the/,/volume/p"'
@@ -55,7 +62,7 @@ try bplod house.obj --profile occluder --faces 200,100 -o wrong
 try bplod house.obj --profile occluder --error 1 -o wrong
 
 # A hollow's cavity lies behind walls; it was made, and refused by bpcheck.
-said 'bpvox "$BP_ROOT/tests/data/bugs/hollow.obj" --resolution 48 --fill inside | bpclose --inner --scale 1vx | bpmesh --mode inside --faces 12 -o cavity.ply'
+said 'bpvox "$BP_ROOT/tests/data/bugs/hollow.obj" --resolution 48 --fill inside | bpclose --scale 1vx | bpmesh --mode inside --faces 12 -o cavity.ply'
 said 'bpcheck --inside "$BP_ROOT/tests/data/bugs/hollow.obj" cavity.ply | grep -E "free|inside|hold"'
 # Nothing is refuted of an open scene that hides the proxy along all axes, and nothing proven: 5.
 write_cube small.obj 1

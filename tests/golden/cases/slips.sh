@@ -42,6 +42,14 @@ cmp cube.bpv counted.bpv
 try bplod cube.obj -o proxy.glb
 try bplod cube.obj -o levels/.glb
 
+try bplod cube.obj -o out --profile tiles
+try bplod cube.obj --output-folder out
+try bpvox cube.obj out.bpv
+try bplod cube.obj out
+try bpmesh cube.bpv out.glb
+try bplod cube.obj -o tiles.json --profile 3dtiles
+try bpvox cube.obj --memory 4 -j 1 -o out.bpv
+
 # Files that are no scenes.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' > points.obj
 printf 'ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n1 1 1\n' > points.ply

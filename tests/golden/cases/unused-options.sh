@@ -7,12 +7,10 @@ try bplod cube.obj -o x --tile 512  # the default, too
 try bplod cube.obj -o x --profile collision --appearance color
 try bplod cube.obj -o x --mode fit --enclose input
 try bplod cube.obj -o x --profile cage --mode fit
-for option in --no-tighten --resume '--screen 800'; do try bplod cube.obj -o x $option; done
+for option in --no-tighten --resume '--screen 800' '--element ball'; do try bplod cube.obj -o x $option; done
 bpvox cube.obj --resolution 10 -o cube.bpv
 bpvox cube.obj --resolution 10 --fill inside -o inside.bpv
-try bpclose inside.bpv --inner --keep-cavities --scale 1vx -o x
-try bpmesh cube.bpv --least-part 0 -o x.ply
-try bpmesh cube.bpv --inset 0.5 -o x.ply
+try bpclose inside.bpv --keep-cavities --scale 1vx -o x
 for option in '--image-size 720' '--up y' '--view 35,22' '--zoom 2' '--look-at 0,0,0'; do
   try bpinfo cube.obj $option
 done
@@ -20,9 +18,10 @@ done
 for option in --no-edges '--azimuth 35' '--elevation 22'; do try bpinfo cube.obj $option; done
 for view in 35 35,22,1 a,b; do try bpinfo cube.obj --image x.png --view $view; done
 try bpvox cube.obj --device cpu -o x.bpv
-try bpclose cube.bpv --scale 2vx --tile 64 -o x.bpv
-for option in --no-tighten --measure; do try bpmesh cube.bpv $option -o x.ply; done
+for option in '--tile 64' --inner; do try bpclose cube.bpv --scale 2vx $option -o x.bpv; done
+for option in --no-tighten --measure '--inset 0.5' '--least-part 0'; do try bpmesh cube.bpv $option -o x.ply; done
 try bpcheck cube.obj --look-at 0,0,0
+try bpcheck cube.obj --report cube.json --overwrite
 try bpcheck cube.obj cube.obj --inside --samples 10
 try bpcheck cube.obj cube.obj --convex --samples 10
 try bpcheck cube.obj cube.obj --convex --inside

@@ -1,4 +1,5 @@
 #include "lib/check/hidden.h"
+#include "lib/check/verdict_text.h"
 #include "tests/catch.h"
 #include "tests/unit/check/meshes.h"
 
@@ -65,6 +66,7 @@ TEST_CASE("a proxy that comes a voxel out of what is hidden is refuted, with a p
     CHECK(r.answer() == Answer::refuted);
     REQUIRE(r.exposed.count > 0);
     CHECK(r.exposed.examples[0].position[0] > 0);
+    CHECK(first_place(r) == r.exposed.examples[0].position);  // other places are not printed
   }
 }
 
@@ -79,6 +81,7 @@ TEST_CASE("what cannot be told of hiding is not decided, and says why", "[quick]
   const CheckReport little = hidden_in(room(), proxy, 4.0625, 1000);
   CHECK(little.answer() == Answer::undecided);
   CHECK(little.hidden_unknown.find("memory") != std::string::npos);
+  CHECK(hidden_in(room(), proxy, 4.0625, little.hidden_bytes).answer() == Answer::proven);
   IndexedMesh moved = proxy;
   moved.vertices[0][0] += 1e-3;
   const CheckReport changed = hidden_in(room(), moved, 4.0625);

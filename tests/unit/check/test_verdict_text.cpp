@@ -30,6 +30,15 @@ TEST_CASE("the text of a failure names what, how often and where", "[quick][chec
   CHECK(failures(check(cube(1))).empty());
 }
 
+TEST_CASE("the text says why a proxy around a scene may have less volume", "[quick][check]") {
+  const auto text_of = [](const IndexedMesh& scene) {
+    return verdict_text(check(cube(1.1), triangles_of(scene)), "p");
+  };
+  const IndexedMesh twice = join(cube(1), cube(1));  // 16, in a box of 10.648
+  CHECK(text_of(twice).find("(ratio 0.6655: the scene's parts overlap and count twice)") != std::string::npos);
+  CHECK(text_of(cube(1)).find("(ratio 1.331)") != std::string::npos);
+}
+
 TEST_CASE("the JSON holds each answer, each finding and null for what was not measured", "[quick][check]") {
   const auto alone = nlohmann::json::parse(verdict_json(check(cube(1)), "p.ply"));
   CHECK(alone["holds"] == true);

@@ -88,7 +88,7 @@ double sampled_distance_beyond(const std::vector<TriangleD>& scene, const std::v
 
 }  // namespace
 
-TEST_CASE("each level of a chain encloses the scene, on coarser voxels", "[quick][stage][lod]") {
+TEST_CASE("each level of a chain encloses the scene, on coarser voxels", "[quick][pass][lod]") {
   Triangles scene;
   add_sphere(scene, {3, 4, 5}, 40, 24);
   add_box(scene, {-30, 30, -10}, {-10, 70, 10});
@@ -115,7 +115,7 @@ TEST_CASE("each level of a chain encloses the scene, on coarser voxels", "[quick
   CHECK(encloses(coarse.mesh, scene));
 }
 
-TEST_CASE("a budget takes no voxels so large that few are left", "[quick][stage][lod]") {
+TEST_CASE("a budget takes no voxels so large that few are left", "[quick][pass][lod]") {
   const LodGround ground{1, 2000, 33 * std::uint64_t(kLeastDenseFaces), 1000};
   CHECK(reductions_for(ground, {100, 0, {}}, 64, 0) == 2);
   CHECK(reductions_for(ground, {100000, 0, {}}, 64, 0) == 0);
@@ -123,7 +123,7 @@ TEST_CASE("a budget takes no voxels so large that few are left", "[quick][stage]
 }
 
 TEST_CASE("the scale is halved where that leaves few parts and holes, not where they take the faces",
-          "[quick][stage][lod]") {
+          "[quick][pass][lod]") {
   const bool apart = GENERATE(false, true);
   CAPTURE(apart);
   Triangles scene = boxes();
@@ -138,7 +138,7 @@ TEST_CASE("the scale is halved where that leaves few parts and holes, not where 
   CHECK(chain.make(target).scale_world == (apart ? scale : scale / 2));
 }
 
-TEST_CASE("a level of separate thin parts by faces is about as near as one by error", "[quick][stage][lod]") {
+TEST_CASE("a level of separate thin parts by faces is about as near as one by error", "[quick][pass][lod]") {
   Triangles scene;
   for (int i = 0; i < 9; ++i) {
     const double x = 9.0 * (i % 3), z = 10.0 * (i / 3);
@@ -154,7 +154,7 @@ TEST_CASE("a level of separate thin parts by faces is about as near as one by er
   CHECK(level.error_world < 2 * near.error_world);
 }
 
-TEST_CASE("a budget below what the parts need is met by closing them together", "[quick][stage][lod]") {
+TEST_CASE("a budget below what the parts need is met by closing them together", "[quick][pass][lod]") {
   const Triangles scene = boxes();
   Backends backends = plain_backends(2);
   Voxelized solid = voxelized(scene, 0.5);
@@ -167,7 +167,7 @@ TEST_CASE("a budget below what the parts need is met by closing them together", 
   CHECK(encloses(level.mesh, scene));
 }
 
-TEST_CASE("a budget that nothing meets is reported, and what there is encloses", "[quick][stage][lod]") {
+TEST_CASE("a budget that nothing meets is reported, and what there is encloses", "[quick][pass][lod]") {
   const Triangles scene = boxes();
   Backends backends = plain_backends(2);
   Voxelized solid = voxelized(scene, 1);
@@ -181,7 +181,7 @@ TEST_CASE("a budget that nothing meets is reported, and what there is encloses",
 }
 
 TEST_CASE("the measured distance bounds that both ways, the error what can be seen, and not by far",
-          "[quick][stage][lod]") {
+          "[quick][pass][lod]") {
   const Triangles scene = boxes();
   const double voxel = 0.5;
   Backends backends = plain_backends(2);
@@ -200,7 +200,7 @@ TEST_CASE("the measured distance bounds that both ways, the error what can be se
   }
 }
 
-TEST_CASE("a room that a level closes is no error of it", "[quick][stage][lod]") {
+TEST_CASE("a room that a level closes is no error of it", "[quick][pass][lod]") {
   const Triangles scene = hollow_box();
   Backends backends = plain_backends(2);
   LodOptions options = lod_options();
@@ -213,7 +213,7 @@ TEST_CASE("a room that a level closes is no error of it", "[quick][stage][lod]")
   CHECK(level.error_world < 8);
 }
 
-TEST_CASE("what sticks out of a fitted level is an error of it, what lies inside is none", "[quick][stage][lod]") {
+TEST_CASE("what sticks out of a fitted level is an error of it, what lies inside is none", "[quick][pass][lod]") {
   Triangles scene = hollow_box();
   add_box(scene, {20, 4, 20}, {22, 6, 80});  // a mast on the wall
   Backends backends = plain_backends(2);
@@ -235,7 +235,7 @@ TEST_CASE("what sticks out of a fitted level is an error of it, what lies inside
   CHECK(largest > 5);  // of the mast, somewhere
 }
 
-TEST_CASE("fitted levels keep their budgets and lie nearer to the scene than bounding ones", "[quick][stage][lod]") {
+TEST_CASE("fitted levels keep their budgets and lie nearer to the scene than bounding ones", "[quick][pass][lod]") {
   Triangles scene;
   add_sphere(scene, {3, 4, 5}, 20, 24);
   Backends backends = plain_backends(2);
@@ -256,7 +256,7 @@ TEST_CASE("fitted levels keep their budgets and lie nearer to the scene than bou
   CHECK(error[1] < error[0]);
 }
 
-TEST_CASE("levels keep to their memory, and are the same", "[quick][stage][lod]") {
+TEST_CASE("levels keep to their memory, and are the same", "[quick][pass][lod]") {
   Triangles scene;
   add_sphere(scene, {3, 4, 5}, 20, 24);
   Backends backends = plain_backends(2);
@@ -294,7 +294,7 @@ TEST_CASE("levels keep to their memory, and are the same", "[quick][stage][lod]"
   }
 }
 
-TEST_CASE("an empty solid is refused", "[quick][stage][lod]") {
+TEST_CASE("an empty solid is refused", "[quick][pass][lod]") {
   Backends backends = plain_backends(2);
   StreamHeader header;
   CHECK_THROWS_AS(LodChain(header, std::make_unique<MemoryShelf>(), backends, lod_options()), Error);

@@ -105,7 +105,7 @@ Backends cpu_backends() {
 
 }  // namespace
 
-TEST_CASE("the tiles of all levels cover the scene together", "[quick][stage][lod]") {
+TEST_CASE("the tiles of all levels cover the scene together", "[quick][pass][lod]") {
   Backends backends = cpu_backends();
   const Cells cells{GENERATE(kBrickEdge, kEdge)};
   TilePyramid levels = pyramid(scene(), backends, cells);
@@ -140,7 +140,7 @@ TEST_CASE("the tiles of all levels cover the scene together", "[quick][stage][lo
   CHECK(tiles.size() > 5);
 }
 
-TEST_CASE("tiles do not depend on threads or on memory", "[quick][stage][lod]") {
+TEST_CASE("tiles do not depend on threads or on memory", "[quick][pass][lod]") {
   Backends backends = cpu_backends();
   TilePyramid levels = pyramid(scene(), backends);
   const Level level = make(levels, {});
@@ -160,7 +160,7 @@ TEST_CASE("tiles do not depend on threads or on memory", "[quick][stage][lod]") 
   }
 }
 
-TEST_CASE("a tile far from a change stays the same", "[quick][stage][lod]") {
+TEST_CASE("a tile far from a change stays the same", "[quick][pass][lod]") {
   Backends backends = cpu_backends();
   Triangles changed = scene();
   for (std::size_t i = 0; i < 12; ++i)  // the first box
@@ -179,7 +179,7 @@ TEST_CASE("a tile far from a change stays the same", "[quick][stage][lod]") {
   CHECK(4 * same > a.size());
 }
 
-TEST_CASE("a tile's key depends on all that decides the tile", "[quick][stage][lod][cache]") {
+TEST_CASE("a tile's key depends on all that decides the tile", "[quick][pass][lod][cache]") {
   struct Keys final : ResultStore {  // nothing is kept
     bool get(const ResultKey& key, std::string&) override {
       const std::lock_guard lock(mutex);
@@ -234,7 +234,7 @@ TEST_CASE("a tile's key depends on all that decides the tile", "[quick][stage][l
   CHECK(distinct.size() == sum);
 }
 
-TEST_CASE("a tile without a voxel of the scene is made of the closing alone", "[quick][stage][lod]") {
+TEST_CASE("a tile without a voxel of the scene is made of the closing alone", "[quick][pass][lod]") {
   Triangles scene;  // two plates whose gap is closed, with a border of cells within the gap
   add_box(scene, {0, 0, 0}, {300, 20, 4});
   add_box(scene, {0, 0, 180}, {300, 20, 184});
@@ -250,7 +250,7 @@ TEST_CASE("a tile without a voxel of the scene is made of the closing alone", "[
   }
 }
 
-TEST_CASE("a room that a tile closes is no error of it", "[quick][stage][lod]") {
+TEST_CASE("a room that a tile closes is no error of it", "[quick][pass][lod]") {
   Backends backends = cpu_backends();
   TileParams params;
   params.mode = GENERATE(MeshMode::bounding, MeshMode::fit);
@@ -263,7 +263,7 @@ TEST_CASE("a room that a tile closes is no error of it", "[quick][stage][lod]") 
 }
 
 TEST_CASE("a room that two tiles close is filled in both, and its contents are no error of them",
-          "[quick][stage][lod]") {
+          "[quick][pass][lod]") {
   Backends backends = cpu_backends();
   TileParams params;
   params.mode = GENERATE(MeshMode::bounding, MeshMode::fit);
@@ -274,13 +274,13 @@ TEST_CASE("a room that two tiles close is filled in both, and its contents are n
 }
 
 // Where both tiles are drawn, nothing is seen of the wall between them.
-TEST_CASE("the wall between two tiles that close a room is no error of them", "[quick][stage][lod][!shouldfail]") {
+TEST_CASE("the wall between two tiles that close a room is no error of them", "[quick][pass][lod][!shouldfail]") {
   Backends backends = cpu_backends();
   TilePyramid levels = pyramid(room(kAcross, 3), backends);
   CHECK(largest_error(make(levels, {})) < 10);
 }
 
-TEST_CASE("a tile leaves out what only the cell below closes", "[quick][stage][lod]") {
+TEST_CASE("a tile leaves out what only the cell below closes", "[quick][pass][lod]") {
   // At a scale of whole voxels flat sides grow by a voxel: for one of these heights, into the next cell.
   const double height = GENERATE(124.5, 125.5, 126.5);
   Triangles all;
@@ -304,7 +304,7 @@ TEST_CASE("a tile leaves out what only the cell below closes", "[quick][stage][l
   CHECK(above == 1);
 }
 
-TEST_CASE("fitted tiles keep their budget", "[quick][stage][lod]") {
+TEST_CASE("fitted tiles keep their budget", "[quick][pass][lod]") {
   Backends backends = cpu_backends();
   TilePyramid levels = pyramid(scene(), backends);
   TileParams params;

@@ -4,6 +4,15 @@
 
 using namespace bp;
 
+namespace {
+
+/// Where an error with this remedy and no other ends, told by `tool`.
+std::string advice_on(Remedy remedy, const char* tool) {
+  return advised(Error(ErrorCode::failed, "a fact", {remedy}), tool).substr(6);
+}
+
+}  // namespace
+
 TEST_CASE("the advice on an error names the options that would help", "[quick][tools]") {
   CHECK(advised(Error(ErrorCode::failed, "a: b")) == "a: b");
   CHECK(advised(Error(ErrorCode::bad_argument, "x.glb: exists", {Remedy::overwrite})) ==
@@ -23,6 +32,58 @@ TEST_CASE("the advice on an error names the options that would help", "[quick][t
           NeedsMemory("closing a tile", 7 * mib, 3 * mib, 20 * mib, {Remedy::larger_voxels, Remedy::fewer_faces})) ==
       "closing a tile takes 8 MiB, and the limit on memory leaves 3 MiB for it; raise --memory to at least 21 MiB, use "
       "larger voxels, or fewer faces");
+}
+
+TEST_CASE("every remedy has its words, and is told only by tools that have the option", "[quick][tools]") {
+  const struct {
+    Remedy remedy;
+    const char *words, *with, *without;  ///< tools with the option, and without; null: there is none
+  } table[] = {{Remedy::more_memory, "raise --memory", "bpcheck", nullptr},
+               {Remedy::larger_voxels, "use larger voxels", "bpmesh", nullptr},
+               {Remedy::smaller_voxels, "use smaller voxels", "bpmesh", nullptr},
+               {Remedy::coarser_grid, "use a larger --voxel or a smaller --resolution", "bpvox", "bpmesh"},
+               {Remedy::units_of_scene, "give --voxel in the units of the scene", "bplod", "bpclose"},
+               {Remedy::other_units, "convert the scene to another unit of length", "bpvox", nullptr},
+               {Remedy::smaller_scale, "use a smaller --scale", "bpclose", "bpvox"},
+               {Remedy::smaller_tiles, "use a smaller --tile", "bplod", "bpmesh"},
+               {Remedy::larger_tiles, "use a larger --tile", "bplod", "bpclose"},
+               {Remedy::fewer_faces, "use fewer faces", "bpmesh", nullptr},
+               {Remedy::split_scene, "split it", "bpvox", nullptr},
+               {Remedy::move_scene, "move the scene near to its origin", "bpvox", nullptr},
+               {Remedy::repair_file, "repair or re-export the file", "bpcheck", nullptr},
+               {Remedy::flood_fill, "use --fill flood", "bpvox", "bpmesh"},
+               {Remedy::fill_inside, "make the stream with bpvox --fill inside", "bpmesh", nullptr},
+               {Remedy::mode_inside, "use --mode inside", "bpmesh", "bpvox"},
+               {Remedy::enclose_closing, "use --enclose closing", "bpmesh", "bpvox"},
+               {Remedy::enclose_input, "use --enclose input", "bpmesh", "bpvox"},
+               {Remedy::enclose_own_scene, "name with --enclose the scene that bpvox read", "bpmesh", nullptr},
+               {Remedy::no_volume, "leave out --volume", "bpmesh", "bpvox"},
+               {Remedy::fewer_users_of_device, "run fewer tools on this GPU", "bpclose", nullptr},
+               {Remedy::use_cpu, "use --device cpu", "bpclose", "bpinfo"},
+               {Remedy::other_scratch_folder, "choose another --temp", "bpvox", nullptr},
+               {Remedy::other_output, "name another output", "bpvox", nullptr},
+               {Remedy::overwrite, "add --overwrite to replace it", "bpvox", nullptr},
+               {Remedy::name_format, "name it with --format", "bpinfo", "bpclose"},
+               {Remedy::set_origin, "set --origin", "bpmesh", "bpvox"},
+               {Remedy::double_format, "write GLB, PLY or OBJ", "bpmesh", nullptr},
+               {Remedy::ply_format, "write PLY", "bpmesh", nullptr},
+               {Remedy::free_space, "free some space", "bpvox", nullptr},
+               {Remedy::no_cache, "leave out --cache", "bplod", "bpmesh"}};
+  for (const auto& row : table) {
+    CAPTURE(row.words);
+    CHECK(advice_on(row.remedy, row.with) == std::string("; ") + row.words);
+    if (row.without != nullptr) CHECK(advice_on(row.remedy, row.without).empty());
+  }
+}
+
+TEST_CASE("an error told again in another place keeps all but its message", "[quick][tools]") {
+  const Error first(ErrorCode::out_of_resource, "it takes 8 MiB", {Remedy::more_memory}, std::uint64_t(20) << 20);
+  try {
+    fail_as(first, "x.glb: {}", first.what());
+  } catch (const Error& e) {
+    CHECK(e.code() == first.code());
+    CHECK(advised(e) == "x.glb: it takes 8 MiB; raise --memory to at least 21 MiB");
+  }
 }
 
 TEST_CASE("a limit on memory is known from what one share of it lacks", "[quick][tools]") {

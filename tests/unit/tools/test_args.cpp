@@ -90,7 +90,7 @@ TEST_CASE("a usage error names the option and the fact", "[quick][tools]") {
   CHECK(complaint({"--scal", "1"}) == "there is no option --scal; did you mean --scale? (see bptest --help)");
   CHECK(complaint({"-x"}) == "there is no option -x (see bptest --help)");
   CHECK(complaint({"-s1", "--scale=1"}) == "--scale is given twice (see bptest --help)");
-  CHECK(complaint({"a", "b"}) == "'b' is one argument too many (see bptest --help)");
+  CHECK(complaint({"a", "b"}) == "'b' is one argument too many; did you mean -o b? (see bptest --help)");
   CHECK(complaint({"--keep=1"}) == "--keep takes no value (see bptest --help)");
   CHECK(complaint({"--element", "Cube"}) ==
         "--element: 'Cube' is none of cube|ball; did you mean cube? (see bptest --help)");

@@ -20,9 +20,9 @@ TEST_CASE("what there is to be done about faces fits the mode, and what there is
   CHECK_FALSE(says(merged_note(100, 3, 0, MeshMode::bounding), "holes"));
   CHECK(says(merged_note(100, 1, 2, MeshMode::bounding), "closes holes"));
   CHECK(says(merged_note(100, 3, 2, MeshMode::bounding), "joins parts and closes holes"));
-  CHECK(says(merged_note(100, 3, 2, MeshMode::inside), "--least-part"));
+  CHECK(says(merged_note(100, 3, 2, MeshMode::inside), "leaves narrow parts out"));
   CHECK_FALSE(says(merged_note(100, 3, 2, MeshMode::inside), "joins"));
-  CHECK_FALSE(says(merged_note(100, 1, 2, MeshMode::inside), "--least-part"));
+  CHECK_FALSE(says(merged_note(100, 1, 2, MeshMode::inside), "narrow parts"));
   for (const MeshMode mode : {MeshMode::bounding, MeshMode::inside, MeshMode::fit})
     CHECK_FALSE(says(merged_note(100, 1, 0, mode), "arts and handles"));
   CHECK_FALSE(says(merged_note(4, 1, 0, MeshMode::inside), "--scale"));

@@ -8,9 +8,9 @@ TEST_CASE("a report keeps the order of its keys and measures its stages", "[quic
   report.options["scale"] = "2%";
   report.counts["zebra"] = 1;
   report.counts["ant"] = 2;
-  report.stage("read");
-  report.stage("write");
-  report.stage("read");
+  report.begin("read");
+  report.begin("write");
+  report.begin("read");
   const Json json = Json::parse(report.text());
   CHECK(json["tool"] == "bptest");
   CHECK(json["counts"].begin().key() == "zebra");

@@ -12,11 +12,12 @@ struct Word {
 };
 
 struct Declaration {
-  std::string names;       ///< "-s,--scale"; of an argument its name
+  std::string names;            ///< "-s,--scale"; of an argument its name
   std::string value_name = {};  ///< "LENGTH"; empty: a flag
   std::string help = {}, shown_default = {}, group = {};
   std::vector<Word> words = {};  ///< all values, or those of many that have a name
-  bool often = false;       ///< most people need it: `--help` shows it, and not only `--help all`
+  bool often = false;            ///< most people need it: `--help` shows it, and not only `--help all`
+  bool needed = false;           ///< no command line is without it: the line "Usage" shows it
 };
 
 struct ToolDeclaration {

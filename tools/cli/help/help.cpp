@@ -80,7 +80,10 @@ void for_each_group(const std::vector<Declaration>& options,
 }
 
 std::string help_of(const ToolDeclaration& tool, const std::vector<Declaration>& options) {
-  std::string text = "Usage: " + tool.tool + " [OPTION]...";
+  std::string text = "Usage: " + tool.tool;
+  for (const Declaration& d : tool.options)
+    if (d.needed) text += " " + parts_of(d.names, ',').front() + " " + d.value_name;
+  text += " [OPTION]...";
   for (const Declaration& d : tool.arguments) text.append(" ").append(d.value_name);
   text += "\n" + wrapped(tool.about, 0) + "\n";
   for (Declaration d : tool.arguments) {

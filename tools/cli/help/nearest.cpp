@@ -29,6 +29,22 @@ std::string lowered(std::string text) {
   return text;
 }
 
+/// A word that holds the other, as "3dtiles" does "tiles"; letters of options without their dashes.
+std::string containing(const std::string& text, const std::vector<std::string>& words) {
+  constexpr std::size_t kFewest = 4;
+  const auto letters = [](const std::string& word) {
+    return word.substr(std::min(word.find_first_not_of('-'), word.size()));
+  };
+  const std::string slip = letters(text);
+  for (const std::string& word : words) {
+    const std::string own = letters(word);
+    if (own.size() >= kFewest && slip.size() >= kFewest &&
+        (own.find(slip) != std::string::npos || slip.find(own) != std::string::npos))
+      return word;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string nearest_word(const std::string& slip, const std::vector<std::string>& words) {
@@ -45,7 +61,7 @@ std::string nearest_word(const std::string& slip, const std::vector<std::string>
     least = changes;
     nearest = word;
   }
-  return nearest;
+  return nearest.empty() ? containing(text, words) : nearest;
 }
 
 std::string did_you_mean(const std::string& slip, const std::vector<std::string>& words) {

@@ -12,8 +12,9 @@ struct ClosingOptions {
   std::optional<Length> scale;
   StructuringElement element = StructuringElement::cube;
 
-  /// scale_of, scale_default: for help, " of the finest level" and " (default: ...)"; may be empty.
+  /// The scale. scale_of, scale_default: for help, " of the finest level" and " (default: ...)"; may be empty.
   void add_to(Args& args, const std::string& scale_of, const std::string& scale_default);
+  void add_element(Args& args);
 };
 
 }  // namespace bp

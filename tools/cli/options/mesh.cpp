@@ -15,7 +15,8 @@ using Kind = EncloseOption::Kind;
 
 constexpr Args::Choice<MeshMode> kBounding = {"bounding", MeshMode::bounding, "the proxy encloses the scene"};
 constexpr Args::Choice<MeshMode> kInside = {
-    "inside", MeshMode::inside, "the proxy lies strictly inside the scene; needs a stream of bpvox --fill inside"};
+    "inside", MeshMode::inside,
+    "the proxy lies strictly inside the scene; the default for a stream of bpvox --fill inside, which it needs"};
 constexpr Args::Choice<MeshMode> kFit = {"fit", MeshMode::fit, "the proxy follows the scene and need not enclose it"};
 constexpr const char* kModeHelp = "where the proxy lies";
 constexpr const char* kEncloseHelp = "what stays inside while the proxy is made tighter";

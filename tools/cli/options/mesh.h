@@ -27,6 +27,7 @@ struct EncloseOption {
 
 struct ProxyOptions {
   MeshMode mode = MeshMode::bounding;
+  bool mode_given = false;  ///< of a stream
   EncloseOption enclose;
   OriginOption origin;
 

@@ -14,8 +14,8 @@ constexpr Args::Choice<FillMode> kWinding = {"winding", FillMode::winding,
                                              "where the winding number is not 0; cavities stay empty"};
 constexpr Args::Choice<FillMode> kNone = {"none", FillMode::none, "nothing"};
 constexpr Args::Choice<FillMode> kInside = {"inside", FillMode::inside,
-                                            "as flood, but without the voxels that the surface touches; for bpclose "
-                                            "--inner and bpmesh --mode inside"};
+                                            "as flood, but without the voxels that the surface touches: for a proxy "
+                                            "inside the scene"};
 
 void add_size(VoxelOptions& o, Args& args, const std::string& resolution_default) {
   args.group("Voxels");

@@ -28,7 +28,7 @@ void check_params(const MeshParams& params) {
   if (params.least_part < 0 || params.least_part > 1)
     fail(ErrorCode::bad_argument, "the least part is a share of the largest, from 0 to 1, not {}", params.least_part);
   if (params.mode != MeshMode::inside && params.least_part != 0)
-    fail(ErrorCode::bad_argument, {Remedy::no_least_part}, "only a proxy inside a scene may leave parts out");
+    fail(ErrorCode::bad_argument, "only a proxy inside a scene may leave parts out");
   if (params.mode == MeshMode::inside && params.volume_ratio > 1)
     fail(ErrorCode::bad_argument, "a volume ratio of {} is above 1, and what lies inside is no larger",
          params.volume_ratio);

@@ -24,8 +24,8 @@ struct ScenePasses::Item {
   double area = 0, extent = 0;
 };
 
-void ScenePasses::measure(const StageProgress& progress) {
-  StageSteps steps(progress, "reading", "triangles", 0);
+void ScenePasses::measure(const PassProgress& progress) {
+  PassSteps steps(progress, "reading", "triangles", 0);
   ContentHash hash;
   pipeline<Item>(
       thread_count() + 2, [&](Item& item) { return source_.read(item.triangles); },

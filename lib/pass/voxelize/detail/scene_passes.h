@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lib/core/box.h"
-#include "lib/pass/stage_progress.h"
+#include "lib/pass/pass_progress.h"
 #include "lib/pass/voxelize/detail/chunked_surface.h"
 
 namespace bp {
@@ -22,7 +22,7 @@ class ScenePasses {
       : source_(source), memory_bytes_(memory_bytes), chunks_(chunks) {}
 
   /// First pass. Throws bad_input if there is no triangle.
-  void measure(const StageProgress& progress);
+  void measure(const PassProgress& progress);
   [[nodiscard]] const Bounds3d& bounds() const { return bounds_; }
   /// Sums over the triangles, scene units: areas, and sides of their boxes.
   [[nodiscard]] double area() const { return area_; }

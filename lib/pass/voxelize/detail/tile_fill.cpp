@@ -76,12 +76,12 @@ bool TileFill::has_filled(std::uint64_t tile) const {
 }
 
 /// A column of tiles without a crossing has nothing to fill, and of a wide grid most are.
-void TileFill::fill_columns(const StageProgress& progress) {
+void TileFill::fill_columns(const PassProgress& progress) {
   const std::uint64_t nx = std::uint64_t(tiles_.count.x), in_layer = nx * std::uint64_t(tiles_.count.y);
   std::set<std::uint64_t> crossed;
   for (const auto& [tile, handles] : crossings_) crossed.insert(tile % in_layer);
   const std::vector<std::uint64_t> columns(crossed.begin(), crossed.end());
-  StageSteps steps(progress, "filling", "columns", columns.size());
+  PassSteps steps(progress, "filling", "columns", columns.size());
   parallel_for(std::int64_t(columns.size()), [&](std::int64_t i) {
     const std::uint64_t column = columns[std::size_t(i)];
     fill_column(std::int32_t(column % nx), std::int32_t(column / nx));

@@ -9,7 +9,7 @@
 #include "lib/device/backend.h"
 #include "lib/grid/stream.h"
 #include "lib/grid/tile_grid.h"
-#include "lib/pass/stage_progress.h"
+#include "lib/pass/pass_progress.h"
 #include "lib/store/scratch.h"
 #include "lib/volume/outside.h"
 
@@ -41,7 +41,7 @@ class TileFill {
   /// FillMode::flood, or inside: then less the surface voxels.
   void fill_flood(std::uint64_t tile);
   /// Winding: all tiles at once.
-  void fill_columns(const StageProgress& progress);
+  void fill_columns(const PassProgress& progress);
   /// Tiles that have been given voxels so far, whether they had some before or not.
   [[nodiscard]] bool has_filled(std::uint64_t tile) const;
   /// Columns whose crossings do not cancel: the flood decided there.

@@ -54,6 +54,19 @@ TEST_CASE("files that Assimp refuses are named with its reason", "[quick][io]") 
   CHECK_THAT(complaint_of(dir.file("c.3ds", "")), Contains("c.3ds"));
 }
 
+TEST_CASE("an Error of a child process comes with all that it holds", "[quick][io]") {
+  const Error thrown(ErrorCode::out_of_resource, "x: too little", {Remedy::more_memory, Remedy::split_scene}, 1 << 30);
+  try {
+    (void)run_in_child("x.ifc", "the importer", "convert it", {}, [&]() -> std::string { throw thrown; });
+    FAIL("nothing was thrown");
+  } catch (const Error& e) {
+    CHECK(std::string(e.what()) == thrown.what());
+    CHECK(e.code() == thrown.code());
+    CHECK(e.remedies() == thrown.remedies());
+    CHECK(e.memory_bytes() == thrown.memory_bytes());
+  }
+}
+
 TEST_CASE("what goes wrong in a child process becomes an Error here", "[quick][io]") {
   ChildLimits limits;
   limits.memory_bytes = std::uint64_t(256) << 20;

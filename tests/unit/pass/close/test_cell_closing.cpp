@@ -42,7 +42,7 @@ std::map<BrickCoord, BrickBits> bricks_of_shelf(const BrickShelf& shelf) {
 
 }  // namespace
 
-TEST_CASE("closing by cells gives the voxels of closing as a stream, from the store as well", "[quick][stage][lod]") {
+TEST_CASE("closing by cells gives the voxels of closing as a stream, from the store as well", "[quick][pass][lod]") {
   const VoxelBox box{{-30, 0, 0}, {270, 130, 160}};
   VoxelSource source(box, blobs(unsigned(GENERATE(1, 2, 3))));
   const double scale = GENERATE(1.5, 6.0, 40.0);

@@ -196,7 +196,7 @@ Case hollow() {
 
 }  // namespace
 
-TEST_CASE("a closed stream is the closing of the whole grid", "[quick][stage]") {
+TEST_CASE("a closed stream is the closing of the whole grid", "[quick][pass]") {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const Case c = random_case(seed);
     const Setup setup{seed % 2 == 0 ? 64 : 128, seed % 3 == 0};
@@ -208,7 +208,7 @@ TEST_CASE("a closed stream is the closing of the whole grid", "[quick][stage]") 
   }
 }
 
-TEST_CASE("tile size, threads and memory change no voxel of a closed stream", "[property][stage]") {
+TEST_CASE("tile size, threads and memory change no voxel of a closed stream", "[property][pass]") {
   for (std::uint64_t seed = 100; seed < 130; ++seed) {
     const Case c = random_case(seed);
     const bool keep = seed % 4 == 0;
@@ -224,7 +224,7 @@ TEST_CASE("tile size, threads and memory change no voxel of a closed stream", "[
   }
 }
 
-TEST_CASE("cavities that span whole tiles are filled, unless they are kept", "[quick][stage]") {
+TEST_CASE("cavities that span whole tiles are filled, unless they are kept", "[quick][pass]") {
   const Case c = hollow();
   const Result filled = run(c, {64});
   const Result kept = run(c, {64, true});
@@ -235,7 +235,7 @@ TEST_CASE("cavities that span whole tiles are filled, unless they are kept", "[q
   CHECK(filled.closing.count() >= std::uint64_t(192 * 192 * 192));
 }
 
-TEST_CASE("kept cavities let the closing leave while the input still arrives", "[quick][stage]") {
+TEST_CASE("kept cavities let the closing leave while the input still arrives", "[quick][pass]") {
   Case c;
   c.solid.reset({{0, 0, 0}, {64, 64, 64 * 30}});
   for (std::int32_t z = 5; z < 64 * 30; z += 10) c.solid.set({z % 64, 3, z});
@@ -244,7 +244,7 @@ TEST_CASE("kept cavities let the closing leave while the input still arrives", "
   CHECK(run(c, {64, false}).first_left == 0);
 }
 
-TEST_CASE("a closing layer in the input is made anew from the solid layer", "[quick][stage]") {
+TEST_CASE("a closing layer in the input is made anew from the solid layer", "[quick][pass]") {
   const Case c = random_case(1);
   Setup again{64};
   again.closed_input = true;
@@ -255,7 +255,7 @@ TEST_CASE("a closing layer in the input is made anew from the solid layer", "[qu
   CHECK(second.counts.ignored_bricks == first.counts.solid_bricks);
 }
 
-TEST_CASE("a stream without bricks closes to nothing", "[quick][stage]") {
+TEST_CASE("a stream without bricks closes to nothing", "[quick][pass]") {
   Case c;
   c.solid.reset({{0, 0, 0}, {64, 64, 64}});
   c.field.base = 20;
@@ -264,7 +264,7 @@ TEST_CASE("a stream without bricks closes to nothing", "[quick][stage]") {
   CHECK(r.counts.tiles_closed == 0);
 }
 
-TEST_CASE("tiles with nothing in reach are not visited", "[quick][stage]") {
+TEST_CASE("tiles with nothing in reach are not visited", "[quick][pass]") {
   Case c;
   c.solid.reset({{0, 0, 0}, {64 * 12, 64, 64 * 12}});
   c.solid.set({5, 5, 5});
@@ -274,7 +274,7 @@ TEST_CASE("tiles with nothing in reach are not visited", "[quick][stage]") {
   CHECK(r.counts.tiles == 14 * 3 * 14);
 }
 
-TEST_CASE("the bricks of a closing surround all that the dilation reaches", "[quick][stage]") {
+TEST_CASE("the bricks of a closing surround all that the dilation reaches", "[quick][pass]") {
   StreamHeader header;
   header.bricks = {{0, 0, 0}, {2, 3, 4}};
   ScaleField field;
@@ -290,7 +290,7 @@ TEST_CASE("the bricks of a closing surround all that the dilation reaches", "[qu
   CHECK_THROWS_AS(closing_bricks(header, field), Error);
 }
 
-TEST_CASE("a closing that does not fit in memory says so before it begins", "[quick][stage]") {
+TEST_CASE("a closing that does not fit in memory says so before it begins", "[quick][pass]") {
   const Case c = random_case(2);
   Setup small{64};
   small.memory_bytes = 1 << 20;

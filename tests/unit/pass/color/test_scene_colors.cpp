@@ -79,7 +79,7 @@ LinearColor at_world(const NearbyColors& colors, const GridFrame& frame, const V
 
 }  // namespace
 
-TEST_CASE("samples of a triangle are shares of its area, near enough to each other", "[quick][stage][colors]") {
+TEST_CASE("samples of a triangle are shares of its area, near enough to each other", "[quick][pass][colors]") {
   const TriangleD t =
       GENERATE(TriangleD{{{0, 0, 0}, {9, 0, 0}, {3, 7, 2}}}, TriangleD{{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}}},
                TriangleD{{{0, 0, 0}, {50, 0, 0}, {25, 0.001, 0}}});
@@ -99,7 +99,7 @@ TEST_CASE("samples of a triangle are shares of its area, near enough to each oth
   for (const double w : centre) CHECK(w == Approx(1.0 / 3));
 }
 
-TEST_CASE("cells have the colours of the surface in them", "[quick][stage][colors]") {
+TEST_CASE("cells have the colours of the surface in them", "[quick][pass][colors]") {
   const ColoredScene scene = two_boxes();
   const Voxelized voxels = voxelized(scene.triangles, 0.125);
   const GridFrame& frame = voxels.header.frame;
@@ -124,7 +124,7 @@ TEST_CASE("cells have the colours of the surface in them", "[quick][stage][color
   CHECK(at_world(colors->around(frame, box, 4), frame, {19, 1, 0}) == kRed);  // blue is out of reach
 }
 
-TEST_CASE("faces between two layers of voxels keep their colours on both sides of a box", "[quick][stage][colors]") {
+TEST_CASE("faces between two layers of voxels keep their colours on both sides of a box", "[quick][pass][colors]") {
   ColoredScene scene = two_boxes();
   add_box(scene.triangles, {4, 4, 4}, {6, 6, 6});  // out of sight
   scene.paint(kWhite);
@@ -140,7 +140,7 @@ TEST_CASE("faces between two layers of voxels keep their colours on both sides o
   }
 }
 
-TEST_CASE("what lies inside has no colour", "[quick][stage][colors]") {
+TEST_CASE("what lies inside has no colour", "[quick][pass][colors]") {
   ColoredScene scene = two_boxes();
   add_box(scene.triangles, {3, 3, 3}, {7, 7, 7});
   scene.paint(LinearColor{0, 65535, 0});
@@ -149,14 +149,14 @@ TEST_CASE("what lies inside has no colour", "[quick][stage][colors]") {
   CHECK(at_world(near, voxels.header.frame, {5, 5, 7}).g == 0);
 }
 
-TEST_CASE("a white scene has no colours", "[quick][stage][colors]") {
+TEST_CASE("a white scene has no colours", "[quick][pass][colors]") {
   ColoredScene scene;
   add_box(scene.triangles, {0, 0, 0}, {10, 10, 10});
   scene.paint(kWhite);
   CHECK(gathered(scene, voxelized(scene.triangles, 0.25), 1 << 20) == nullptr);
 }
 
-TEST_CASE("neither the order of the triangles nor threads nor memory change a colour", "[quick][stage][colors]") {
+TEST_CASE("neither the order of the triangles nor threads nor memory change a colour", "[quick][pass][colors]") {
   std::mt19937 random(5);
   ColoredScene scene;
   std::uniform_int_distribution<std::uint32_t> any(0, 65535);
@@ -190,7 +190,7 @@ TEST_CASE("neither the order of the triangles nor threads nor memory change a co
   CHECK(key_of(other->all(frame)) != key_of(other->all(coarse)));
 }
 
-TEST_CASE("a key knows the colours nearby and no others", "[quick][stage][colors]") {
+TEST_CASE("a key knows the colours nearby and no others", "[quick][pass][colors]") {
   ColoredScene scene = two_boxes();
   const Voxelized voxels = voxelized(scene.triangles, 0.125);
   const GridFrame& frame = voxels.header.frame;
@@ -202,7 +202,7 @@ TEST_CASE("a key knows the colours nearby and no others", "[quick][stage][colors
   CHECK(key_of(before->all(frame)) != key_of(after->all(frame)));
 }
 
-TEST_CASE("vertices get the colours of their side, and none that is nowhere", "[quick][stage][colors]") {
+TEST_CASE("vertices get the colours of their side, and none that is nowhere", "[quick][pass][colors]") {
   const ColoredScene scene = two_boxes();
   const Voxelized voxels = voxelized(scene.triangles, 0.125);
   const GridFrame& frame = voxels.header.frame;

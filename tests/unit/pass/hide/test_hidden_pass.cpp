@@ -91,7 +91,7 @@ bool room(VoxelCoord p) {
 
 }  // namespace
 
-TEST_CASE("hidden voxels are those of the definition", "[quick][stage][occluder]") {
+TEST_CASE("hidden voxels are those of the definition", "[quick][pass][occluder]") {
   const auto element = GENERATE(StructuringElement::ball, StructuringElement::cube);
   const double scale = GENERATE(0.0, 2.0, 3.5);
   const int seed = GENERATE(0, 1, 2);
@@ -114,8 +114,7 @@ TEST_CASE("hidden voxels are those of the definition", "[quick][stage][occluder]
   CHECK(got.bits == made(touched, scale, element, 1).bits);
 }
 
-TEST_CASE("a room is hidden once its door is closed, and nothing before its walls ever is",
-          "[quick][stage][occluder]") {
+TEST_CASE("a room is hidden once its door is closed, and nothing before its walls ever is", "[quick][pass][occluder]") {
   const VoxelCoord middle{20, 20, 20}, in_door{38, 18, 14};
   const Made open = made(room, 2, StructuringElement::cube);
   CHECK_FALSE(open.bits.test(middle));
@@ -131,7 +130,7 @@ TEST_CASE("a room is hidden once its door is closed, and nothing before its wall
       for (p.x = 40; p.x < 60; ++p.x) REQUIRE_FALSE(beside_wall.bits.test(p));  // the closing adds some in the corner
 }
 
-TEST_CASE("an alley that the closing fills is not hidden", "[quick][stage][occluder]") {
+TEST_CASE("an alley that the closing fills is not hidden", "[quick][pass][occluder]") {
   const Solid houses = [](VoxelCoord p) {
     return p.y >= 8 && p.y < 30 && p.z >= 8 && p.z < 30 && p.x >= 8 && p.x < 60 && !(p.x >= 30 && p.x < 34);
   };
@@ -140,7 +139,7 @@ TEST_CASE("an alley that the closing fills is not hidden", "[quick][stage][occlu
   CHECK_FALSE(alley.bits.test({32, 20, 20}));
 }
 
-TEST_CASE("an opening leaves what is wider than twice the scale", "[quick][stage][occluder]") {
+TEST_CASE("an opening leaves what is wider than twice the scale", "[quick][pass][occluder]") {
   const Solid shape = [](VoxelCoord p) {
     const bool block = p.x >= 4 && p.x < 24 && p.y >= 4 && p.y < 24 && p.z >= 4 && p.z < 24;
     return block || (p.x >= 24 && p.x < 60 && p.y >= 8 && p.y < 11 && p.z >= 8 && p.z < 11);

@@ -40,7 +40,7 @@ bool shape(VoxelCoord p) {
 
 }  // namespace
 
-TEST_CASE("the opening is the complement of the closing of the complement", "[quick][stage]") {
+TEST_CASE("the opening is the complement of the closing of the complement", "[quick][pass]") {
   const auto element = GENERATE(StructuringElement::ball, StructuringElement::cube);
   const double scale = GENERATE(1.0, 2.5, 4.0);
   VoxelSource source({{0, 0, 0}, {48, 40, 40}}, shape);
@@ -72,7 +72,7 @@ TEST_CASE("the opening is the complement of the closing of the complement", "[qu
   CHECK(opened.count() > 0);
 }
 
-TEST_CASE("the complement of the complement of a stream is the stream", "[quick][stage]") {
+TEST_CASE("the complement of the complement of a stream is the stream", "[quick][pass]") {
   const VoxelBox box{{-70, 3, 10}, {140, 60, 90}};
   const Solid solid = [](VoxelCoord p) { return (p.x * 7 + p.y * 5 + p.z * 3) % 13 < 5 || p.x > 63; };
   VoxelSource source(box, solid);

@@ -48,7 +48,7 @@ Start start_of(bool inside) {
 
 }  // namespace
 
-TEST_CASE("collapses add no more to a proxy, and take no more from one inside, than most_growth", "[quick][stage]") {
+TEST_CASE("collapses add no more to a proxy, and take no more from one inside, than most_growth", "[quick][pass]") {
   const bool inside = GENERATE(false, true);
   const Start start = start_of(inside);
   const EnclosedVoxels enclosed(*start.enclosed);
@@ -81,7 +81,7 @@ TEST_CASE("collapses add no more to a proxy, and take no more from one inside, t
   CHECK(free.refused == 0);
 }
 
-TEST_CASE("the room around a surface suits its extents, and few faces", "[quick][stage]") {
+TEST_CASE("the room around a surface suits its extents, and few faces", "[quick][pass]") {
   const LatticeBox box{{0, -640, 6400}, {6400, 640, 12800}};
   const LatticeBox many = room_around(box, 1000), few = room_around(box, 20);
   CHECK(many.min == LatticeCoord{-64 - 160, -640 - 64 - 32, 6400 - 64 - 160});
@@ -90,7 +90,7 @@ TEST_CASE("the room around a surface suits its extents, and few faces", "[quick]
   CHECK(few.max.x - box.max.x < 6400 / 3);
 }
 
-TEST_CASE("proxies draw no spikes where thin parts end, however few faces are asked for", "[quick][stage]") {
+TEST_CASE("proxies draw no spikes where thin parts end, however few faces are asked for", "[quick][pass]") {
   const bool tighten = GENERATE(true, false);
   VoxelSource source({{0, 0, 0}, {64, 64, 64}}, table);
   MeshParams params;
@@ -105,7 +105,7 @@ TEST_CASE("proxies draw no spikes where thin parts end, however few faces are as
   CHECK(double(around.max.z) / kLatticePerVoxel < 40 + 1 + kShare * kExtent);
 }
 
-TEST_CASE("a ball has proxies of as few faces as are asked for", "[quick][stage]") {
+TEST_CASE("a ball has proxies of as few faces as are asked for", "[quick][pass]") {
   const auto ball = [](VoxelCoord p) {
     const std::int32_t x = p.x - 32, y = p.y - 32, z = p.z - 32;
     return x * x + y * y + z * z < 400;

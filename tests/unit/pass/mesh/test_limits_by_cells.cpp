@@ -36,7 +36,7 @@ LatticeMesh by_cells(const SurfaceSource& surface, ProxyLimits& limits, Simplify
 
 }  // namespace
 
-TEST_CASE("cells that are simplified at the same time keep a bound on distances", "[quick][stage]") {
+TEST_CASE("cells that are simplified at the same time keep a bound on distances", "[quick][pass]") {
   const int shape = GENERATE(range(0, 4));
   MemoryShelf shelf;
   fill_shelf(shelf, kBox, kSolids[shape]);
@@ -60,7 +60,7 @@ TEST_CASE("cells that are simplified at the same time keep a bound on distances"
   check_proxy(one, kBox, [&](VoxelCoord p) { return (p.x + 2 * p.y + 3 * p.z) % 7 == 0 && kSolids[shape](p); });
 }
 
-TEST_CASE("a bound on the volume is of the surface as a whole", "[quick][stage]") {
+TEST_CASE("a bound on the volume is of the surface as a whole", "[quick][pass]") {
   const TriangleBvh tree({{Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}}});
   CHECK(ProxyLimits({.error_world = 1}, {}, &tree).for_part() != nullptr);
   CHECK(ProxyLimits({.error_world = 1, .volume_world = 9}, {}, &tree).for_part() == nullptr);

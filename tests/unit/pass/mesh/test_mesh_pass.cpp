@@ -64,7 +64,7 @@ std::vector<TriangleD> points_inside() {
 
 }  // namespace
 
-TEST_CASE("levels have their faces, enclose what is meshed, and each encloses the level before", "[quick][stage]") {
+TEST_CASE("levels have their faces, enclose what is meshed, and each encloses the level before", "[quick][pass]") {
   const bool tighten = GENERATE(true, false);
   MeshParams params;
   params.faces = {1500, 400, 100, 40};
@@ -84,21 +84,21 @@ TEST_CASE("levels have their faces, enclose what is meshed, and each encloses th
   }
 }
 
-TEST_CASE("levels whose numbers do not fall are refused", "[quick][stage]") {
+TEST_CASE("levels whose numbers do not fall are refused", "[quick][pass]") {
   MeshParams params;
   params.faces = GENERATE(std::vector<std::uint64_t>{100, 100}, std::vector<std::uint64_t>{100, 50, 60});
   MeshCounts counts;
   CHECK_THROWS_AS(mesh(params, counts), Error);
 }
 
-TEST_CASE("a volume below that of the voxels is refused", "[quick][stage]") {
+TEST_CASE("a volume below that of the voxels is refused", "[quick][pass]") {
   MeshParams params;
   params.volume_ratio = 0.9;
   MeshCounts counts;
   CHECK_THROWS_AS(mesh(params, counts), Error);
 }
 
-TEST_CASE("no point of the proxy is farther from the closing than --error", "[quick][stage]") {
+TEST_CASE("no point of the proxy is farther from the closing than --error", "[quick][pass]") {
   MeshParams params;
   params.error_world = GENERATE(1.0, 2.0, 4.0);
   params.distances = true;
@@ -114,7 +114,7 @@ TEST_CASE("no point of the proxy is farther from the closing than --error", "[qu
   CHECK(counts.levels[0].simplify.faces_out < counts.levels[0].simplify.faces_flat / 2);
 }
 
-TEST_CASE("the error holds against the input too, where the closing is near it", "[quick][stage]") {
+TEST_CASE("the error holds against the input too, where the closing is near it", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell, [](VoxelCoord p) {  // the closing: one voxel thicker in x
     return dumbbell(p) || dumbbell({p.x + 1, p.y, p.z}) || dumbbell({p.x - 1, p.y, p.z});
   });
@@ -129,7 +129,7 @@ TEST_CASE("the error holds against the input too, where the closing is near it",
   CHECK(counts.levels[0].measures.proxy_to_enclosed->at_least <= 1.5 * (1 + 1e-9));
 }
 
-TEST_CASE("the volume stays below --volume, and the first target that is reached is named", "[quick][stage]") {
+TEST_CASE("the volume stays below --volume, and the first target that is reached is named", "[quick][pass]") {
   MeshParams params;
   params.volume_ratio = GENERATE(1.02, 1.1, 1.4);
   params.faces = {300};
@@ -147,7 +147,7 @@ TEST_CASE("the volume stays below --volume, and the first target that is reached
   if (params.volume_ratio > 1.3) CHECK(level.stopped_by == "faces");
 }
 
-TEST_CASE("a stage counts volume from the surface that it begins with", "[quick][stage]") {
+TEST_CASE("a stage counts volume from the surface that it begins with", "[quick][pass]") {
   ProxyLimits limits({.volume_world = 10}, GridFrame{}, nullptr);
   const int128 unit6 = int128(6) * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
   const std::int64_t l = 3 * kLatticePerVoxel;
@@ -160,7 +160,7 @@ TEST_CASE("a stage counts volume from the surface that it begins with", "[quick]
   CHECK(limits.take(flat, peak));
 }
 
-TEST_CASE("levels share --error: none is farther from what level 0 encloses than its share", "[quick][stage]") {
+TEST_CASE("levels share --error: none is farther from what level 0 encloses than its share", "[quick][pass]") {
   MeshParams params;
   params.faces = {400, 120, 40};
   params.error_world = 15;
@@ -178,7 +178,7 @@ TEST_CASE("levels share --error: none is farther from what level 0 encloses than
   }
 }
 
-TEST_CASE("fits each may use all of --error", "[quick][stage]") {
+TEST_CASE("fits each may use all of --error", "[quick][pass]") {
   MeshParams params;
   params.mode = MeshMode::fit;
   params.faces = {400, 120};
@@ -188,7 +188,7 @@ TEST_CASE("fits each may use all of --error", "[quick][stage]") {
   for (const LevelCounts& level : counts.levels) CHECK(level.error_world == 6);
 }
 
-TEST_CASE("error and volume hold for every choice of diagonals", "[quick][stage]") {
+TEST_CASE("error and volume hold for every choice of diagonals", "[quick][pass]") {
   MeshParams params;
   params.quads = true;
   params.faces = {60};
@@ -214,7 +214,7 @@ TEST_CASE("error and volume hold for every choice of diagonals", "[quick][stage]
   }
 }
 
-TEST_CASE("a volume ratio of one is that of the voxels with those that repair adds", "[quick][stage]") {
+TEST_CASE("a volume ratio of one is that of the voxels with those that repair adds", "[quick][pass]") {
   MeshParams params;
   params.volume_ratio = 1;
   MeshCounts counts;
@@ -227,7 +227,7 @@ TEST_CASE("a volume ratio of one is that of the voxels with those that repair ad
   CHECK(counts.levels[0].measures.volume == counts.solid_volume_world);
 }
 
-TEST_CASE("the target that ended merging is named, not one that refused a step later", "[quick][stage]") {
+TEST_CASE("the target that ended merging is named, not one that refused a step later", "[quick][pass]") {
   MeshParams params;
   params.error_world = 1;
   params.volume_ratio = 1.5;  // out of reach within the error
@@ -238,7 +238,7 @@ TEST_CASE("the target that ended merging is named, not one that refused a step l
   CHECK(counts.levels[0].simplify.limit == "error");
 }
 
-TEST_CASE("numbers below zero are refused", "[quick][stage]") {
+TEST_CASE("numbers below zero are refused", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell);
   MeshParams params;
   if (GENERATE(false, true)) {
@@ -251,7 +251,7 @@ TEST_CASE("numbers below zero are refused", "[quick][stage]") {
   CHECK_THROWS_AS(mesh_stream(source, memory_context(), params, counts), Error);
 }
 
-TEST_CASE("edges stay below --edge-length times the scale", "[quick][stage]") {
+TEST_CASE("edges stay below --edge-length times the scale", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell);
   source.header().scale.base = 3;
   MeshParams params;
@@ -264,7 +264,7 @@ TEST_CASE("edges stay below --edge-length times the scale", "[quick][stage]") {
   check(levels[0], nullptr);
 }
 
-TEST_CASE("edges across a finer region stay below what the scale is there", "[quick][stage]") {
+TEST_CASE("edges across a finer region stay below what the scale is there", "[quick][pass]") {
   const VoxelBox box{{0, 0, 0}, {64, 64, 16}};
   VoxelSource source(box,
                      [](VoxelCoord p) { return p.x >= 2 && p.x < 62 && p.y >= 2 && p.y < 62 && p.z >= 4 && p.z < 12; });
@@ -295,7 +295,7 @@ TEST_CASE("edges across a finer region stay below what the scale is there", "[qu
   }
 }
 
-TEST_CASE("a fit keeps --edge-length", "[quick][stage]") {
+TEST_CASE("a fit keeps --edge-length", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell);
   source.header().scale.base = 1;
   MeshParams params;
@@ -309,7 +309,7 @@ TEST_CASE("a fit keeps --edge-length", "[quick][stage]") {
   CHECK(levels[0].triangles.size() > 100);
 }
 
-TEST_CASE("the surface around a mesh strictly encloses it, whatever the voxels", "[quick][stage]") {
+TEST_CASE("the surface around a mesh strictly encloses it, whatever the voxels", "[quick][pass]") {
   MeshParams params;
   params.faces = {120};
   MeshCounts counts;
@@ -321,7 +321,7 @@ TEST_CASE("the surface around a mesh strictly encloses it, whatever the voxels",
   check(around, &triangles);
 }
 
-TEST_CASE("what a bound on distances takes is refused where it does not fit", "[quick][stage]") {
+TEST_CASE("what a bound on distances takes is refused where it does not fit", "[quick][pass]") {
   const auto refusal = [](double error_world, std::uint64_t work_bytes) -> std::string {
     VoxelSource source(kBox, [](VoxelCoord p) { return length_of(p.x - 9, p.y - 9, p.z - 9) < 5; });
     MeshParams params;
@@ -352,7 +352,7 @@ TEST_CASE("what a bound on distances takes is refused where it does not fit", "[
         std::string::npos);
 }
 
-TEST_CASE("a chain of levels is the same for every memory, and what waits goes to the store", "[quick][stage]") {
+TEST_CASE("a chain of levels is the same for every memory, and what waits goes to the store", "[quick][pass]") {
   MeshParams params;
   params.faces = {400, 200, 60};
   MeshCounts counts;
@@ -371,7 +371,7 @@ TEST_CASE("a chain of levels is the same for every memory, and what waits goes t
   }
 }
 
-TEST_CASE("a proxy inside lies in the voxels that are meshed, and each level in the one before", "[quick][stage]") {
+TEST_CASE("a proxy inside lies in the voxels that are meshed, and each level in the one before", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell);
   source.header().fill = FillMode::inside;
   MeshParams params;
@@ -406,7 +406,7 @@ TEST_CASE("a proxy inside lies in the voxels that are meshed, and each level in 
   CHECK(counts.levels[0].measures.volume > 0.5 * counts.solid_volume_world);
 }
 
-TEST_CASE("a stream that does not hold what the mode needs is refused", "[quick][stage]") {
+TEST_CASE("a stream that does not hold what the mode needs is refused", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell);
   MeshParams params;
   params.mode = GENERATE(MeshMode::inside, MeshMode::bounding);
@@ -415,7 +415,7 @@ TEST_CASE("a stream that does not hold what the mode needs is refused", "[quick]
   CHECK_THROWS_AS(mesh_stream(source, memory_context(), params, counts), Error);
 }
 
-TEST_CASE("a closing without the voxels that must stay inside is refused", "[quick][stage]") {
+TEST_CASE("a closing without the voxels that must stay inside is refused", "[quick][pass]") {
   VoxelSource source(
       kBox, [](VoxelCoord) { return false; }, dumbbell);
   MeshParams params;
@@ -426,7 +426,7 @@ TEST_CASE("a closing without the voxels that must stay inside is refused", "[qui
   CHECK_THROWS_AS(mesh_stream(source, memory_context(), params, counts), Error);
 }
 
-TEST_CASE("the volume of a proxy inside stays above --volume", "[quick][stage]") {
+TEST_CASE("the volume of a proxy inside stays above --volume", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell);
   source.header().fill = FillMode::inside;
   MeshParams params;
@@ -438,7 +438,7 @@ TEST_CASE("the volume of a proxy inside stays above --volume", "[quick][stage]")
   CHECK(counts.levels[0].measures.volume >= 0.9 * counts.solid_volume_world * (1 - 1e-12));
 }
 
-TEST_CASE("a proxy inside leaves out small parts, and says how much that is", "[quick][stage]") {
+TEST_CASE("a proxy inside leaves out small parts, and says how much that is", "[quick][pass]") {
   const auto with_crumbs = [](VoxelCoord p) {
     const bool block = p.x >= 4 && p.x < 24 && p.y >= 4 && p.y < 24 && p.z >= 4 && p.z < 24;
     const bool crumb = p.x >= 30 && p.x < 32 && p.y >= 30 && p.y < 32 && (p.z == 8 || p.z == 20);
@@ -459,7 +459,7 @@ TEST_CASE("a proxy inside leaves out small parts, and says how much that is", "[
   CHECK(check_proxy(indexed(proxy), nullptr).components == 3 - parts);
 }
 
-TEST_CASE("a least part without a meaning is refused", "[quick][stage]") {
+TEST_CASE("a least part without a meaning is refused", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell);
   MeshParams params;
   params.least_part = 0.1;
@@ -472,7 +472,7 @@ TEST_CASE("a least part without a meaning is refused", "[quick][stage]") {
   CHECK_THROWS_AS(mesh_stream(source, memory_context(), params, counts), Error);
 }
 
-TEST_CASE("levels inside a wall stay in it, and out of what it encloses", "[quick][stage]") {
+TEST_CASE("levels inside a wall stay in it, and out of what it encloses", "[quick][pass]") {
   const bool neck = GENERATE(false, true);  // the outside comes in, by less than a voxel of the next level
   VoxelSource source(kBox, [neck](VoxelCoord p) {
     const double r = length_of(p.x - 24, p.y - 24, p.z - 24);

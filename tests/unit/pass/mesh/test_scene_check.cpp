@@ -26,7 +26,7 @@ void voxelize(const std::vector<TriangleD>& triangles, const GridFrame& frame, M
 
 }  // namespace
 
-TEST_CASE("a scene lies within its own voxels, and no part of it elsewhere does", "[quick][stage]") {
+TEST_CASE("a scene lies within its own voxels, and no part of it elsewhere does", "[quick][pass]") {
   const GridFrame frame;
   MemoryShelf shelf;
   voxelize(scene(), frame, shelf);
@@ -43,7 +43,7 @@ TEST_CASE("a scene lies within its own voxels, and no part of it elsewhere does"
   CHECK_FALSE(lies_within(moved, frame, shelf));
 }
 
-TEST_CASE("one voxel missing is found", "[quick][stage]") {
+TEST_CASE("one voxel missing is found", "[quick][pass]") {
   const GridFrame frame;
   MemoryShelf shelf;
   voxelize(scene(), frame, shelf);

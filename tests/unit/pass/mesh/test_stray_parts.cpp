@@ -29,7 +29,7 @@ std::vector<VoxelBox> strays(unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("parts that hold nothing may vanish, but never come out inside out", "[quick][stage]") {
+TEST_CASE("parts that hold nothing may vanish, but never come out inside out", "[quick][pass]") {
   const unsigned seed = GENERATE(range(0u, 12u));
   const std::vector<VoxelBox> boxes = strays(seed);
   const auto solid = [](VoxelCoord p) { return kBlock.contains(p); };
@@ -54,7 +54,7 @@ TEST_CASE("parts that hold nothing may vanish, but never come out inside out", "
   CHECK(check_proxy(indexed(proxy), &block, options).holds());
 }
 
-TEST_CASE("pockets that a proxy inside may fill never come out inside out", "[quick][stage]") {
+TEST_CASE("pockets that a proxy inside may fill never come out inside out", "[quick][pass]") {
   const unsigned seed = GENERATE(range(0u, 12u));
   const std::vector<VoxelBox> boxes = strays(seed);
   const auto solid = [](VoxelCoord p) { return !kBlock.contains(p); };

@@ -101,7 +101,7 @@ std::pair<GridFrame, BrickBox> grid_around(const Triangles& scene) {
 
 }  // namespace
 
-TEST_CASE("chunks do not depend on how the triangles arrive", "[quick][stage]") {
+TEST_CASE("chunks do not depend on how the triangles arrive", "[quick][pass]") {
   const Triangles scene = strand(1, 200000);
   const auto whole = cut(scene, scene.size());
   std::uint64_t sum = 0;
@@ -122,7 +122,7 @@ TEST_CASE("chunks do not depend on how the triangles arrive", "[quick][stage]") 
   for (const auto& c : cut(same, 16384)) CHECK(c.triangles <= ChunkCutter::kMost);
 }
 
-TEST_CASE("a change of the triangles changes the chunks around it and no others", "[quick][stage]") {
+TEST_CASE("a change of the triangles changes the chunks around it and no others", "[quick][pass]") {
   const Triangles scene = strand(2, 300000);
   std::set<ResultKey> before;
   for (const auto& c : cut(scene, 16384)) before.insert(c.content);
@@ -137,7 +137,7 @@ TEST_CASE("a change of the triangles changes the chunks around it and no others"
   }
 }
 
-TEST_CASE("the voxels of a chunk are those of its triangles, also on their way over a shelf", "[quick][stage]") {
+TEST_CASE("the voxels of a chunk are those of its triangles, also on their way over a shelf", "[quick][pass]") {
   const Triangles scene = strand(3, 20000);
   const auto [frame, grid] = grid_around(scene);
   BitBox expected(voxels_of(grid));
@@ -161,7 +161,7 @@ TEST_CASE("the voxels of a chunk are those of its triangles, also on their way o
   CHECK((found == expected));
 }
 
-TEST_CASE("bytes that are no chunk of this grid are refused whole", "[quick][stage]") {
+TEST_CASE("bytes that are no chunk of this grid are refused whole", "[quick][pass]") {
   const Triangles scene = strand(4, 5000);
   const auto [frame, grid] = grid_around(scene);
   const std::string bytes = chunk_voxels(scene, frame, grid).value();
@@ -175,7 +175,7 @@ TEST_CASE("bytes that are no chunk of this grid are refused whole", "[quick][sta
   CHECK(sum.coords().empty());
 }
 
-TEST_CASE("a scene from kept chunks has the voxels of one from nothing, after any edits", "[quick][stage]") {
+TEST_CASE("a scene from kept chunks has the voxels of one from nothing, after any edits", "[quick][pass]") {
   VoxelizeOptions o;
   o.fill = GENERATE(FillMode::flood, FillMode::none, FillMode::winding);
   o.context.memory.bytes =
@@ -203,7 +203,7 @@ TEST_CASE("a scene from kept chunks has the voxels of one from nothing, after an
   }
 }
 
-TEST_CASE("triangles too large for a chunk are voxelized in every build", "[quick][stage]") {
+TEST_CASE("triangles too large for a chunk are voxelized in every build", "[quick][pass]") {
   Triangles scene;
   for (int i = 0; i < 120; ++i) scene.push_back({{{-60, i - 60.0, -60}, {60, 60.0 - i, -60}, {i - 60.0, 0, 60}}});
   const Triangles small = strand(11, 40000);
@@ -220,7 +220,7 @@ TEST_CASE("triangles too large for a chunk are voxelized in every build", "[quic
   for (const auto& [key, bytes] : results.results) CHECK(bytes.size() <= kChunkBytes);
 }
 
-TEST_CASE("chunks of other voxels, of another frame, or damaged ones are not taken", "[quick][stage]") {
+TEST_CASE("chunks of other voxels, of another frame, or damaged ones are not taken", "[quick][pass]") {
   const Triangles scene = strand(8, 30000);
   test::MemoryResults results;
   VoxelizeOptions o;
@@ -259,7 +259,7 @@ class Changing final : public TriangleSource {
 
 }  // namespace
 
-TEST_CASE("a scene that changes between two readings leaves no chunk behind", "[quick][stage]") {
+TEST_CASE("a scene that changes between two readings leaves no chunk behind", "[quick][pass]") {
   Changing source;
   test::MemoryResults results;
   test::MemorySink sink;

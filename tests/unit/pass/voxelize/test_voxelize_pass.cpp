@@ -80,7 +80,7 @@ Triangles bodies() {
 
 }  // namespace
 
-TEST_CASE("the flood-filled scene equals its definition", "[quick][stage]") {
+TEST_CASE("the flood-filled scene equals its definition", "[quick][pass]") {
   const Triangles scene = bodies();
   const Result r = run(scene, default_options(), 1.0);
   CHECK(r.bits == expected_flood(scene, r.header));
@@ -94,7 +94,7 @@ TEST_CASE("the flood-filled scene equals its definition", "[quick][stage]") {
   CHECK(r.header.bounds.min[1] <= -45);
 }
 
-TEST_CASE("tile size, memory and threads change no voxel", "[quick][stage]") {
+TEST_CASE("tile size, memory and threads change no voxel", "[quick][pass]") {
   const FillMode fill = GENERATE(FillMode::flood, FillMode::winding, FillMode::none);
   Triangles scene = bodies();
   VoxelizeOptions o = default_options();
@@ -117,7 +117,7 @@ TEST_CASE("tile size, memory and threads change no voxel", "[quick][stage]") {
   }
 }
 
-TEST_CASE("many triangles in one tile are voxelized before the scene ends", "[quick][stage]") {
+TEST_CASE("many triangles in one tile are voxelized before the scene ends", "[quick][pass]") {
   const FillMode fill = GENERATE(FillMode::flood, FillMode::winding);
   Triangles scene = soup(9, 12000, 0.7, 25);  // 430 kB of records in one tile of 32 kB
   test::add_sphere(scene, {3, 2, 1}, 20, 40);
@@ -129,7 +129,7 @@ TEST_CASE("many triangles in one tile are voxelized before the scene ends", "[qu
   CHECK(run(scene, o, 1.0).bits == whole.bits);
 }
 
-TEST_CASE("every point of the scene lies strictly inside the occupied voxels", "[quick][stage]") {
+TEST_CASE("every point of the scene lies strictly inside the occupied voxels", "[quick][pass]") {
   const double offset = GENERATE(0.0, 6.80176e6);
   const Triangles scene = soup(17, 400, 6, 30, {offset, -offset / 7, offset / 3});
   VoxelizeOptions o = default_options();
@@ -155,7 +155,7 @@ TEST_CASE("every point of the scene lies strictly inside the occupied voxels", "
   }
 }
 
-TEST_CASE("a scene far from the origin has the voxels of the same scene near it", "[quick][stage]") {
+TEST_CASE("a scene far from the origin has the voxels of the same scene near it", "[quick][pass]") {
   Triangles near;
   test::add_sphere(near, {0, 0, 0}, 20, 10, 1.0 / 256);
   test::add_box(near, {-25, -5, -5}, {25, 5, 5.5});
@@ -168,7 +168,7 @@ TEST_CASE("a scene far from the origin has the voxels of the same scene near it"
   CHECK(a.bits == b.bits);
 }
 
-TEST_CASE("flat, linear, tiny and point-like scenes have voxels", "[quick][stage]") {
+TEST_CASE("flat, linear, tiny and point-like scenes have voxels", "[quick][pass]") {
   const auto at_resolution = [](const Triangles& scene, std::int64_t n) {
     VoxelizeOptions o = default_options();
     o.voxel_size = [n](const Bounds3d& b) { return voxel_size_of(b, n); };
@@ -189,7 +189,7 @@ TEST_CASE("flat, linear, tiny and point-like scenes have voxels", "[quick][stage
   CHECK(tiny.counts.solid_voxels > 64);
 }
 
-TEST_CASE("a triangle across the whole grid and tiles without triangles", "[quick][stage]") {
+TEST_CASE("a triangle across the whole grid and tiles without triangles", "[quick][pass]") {
   Triangles scene;
   test::add_box(scene, {0, 0, 0}, {3, 3, 3});
   test::add_box(scene, {75, 20, 80}, {78, 23, 83});
@@ -204,7 +204,7 @@ TEST_CASE("a triangle across the whole grid and tiles without triangles", "[quic
   CHECK(r.bits == expected_flood(scene, r.header));
 }
 
-TEST_CASE("a large hollow body is filled through tiles that hold no triangle", "[quick][stage]") {
+TEST_CASE("a large hollow body is filled through tiles that hold no triangle", "[quick][pass]") {
   const FillMode fill = GENERATE(FillMode::flood, FillMode::winding);
   Triangles scene;
   test::add_box(scene, {1, 1, 1}, {200, 200, 200});
@@ -218,7 +218,7 @@ TEST_CASE("a large hollow body is filled through tiles that hold no triangle", "
   CHECK(r.counts.open_columns == 0);
 }
 
-TEST_CASE("sheets thinner than a voxel, and sheets on voxel borders, stay connected", "[quick][stage]") {
+TEST_CASE("sheets thinner than a voxel, and sheets on voxel borders, stay connected", "[quick][pass]") {
   Triangles scene;
   const double z = GENERATE(0.0, 0.5, 0.999999);
   test::add_box(scene, {0, 0, z}, {100, 50, z + 0.001});
@@ -228,7 +228,7 @@ TEST_CASE("sheets thinner than a voxel, and sheets on voxel borders, stay connec
     for (std::int32_t x = 0; x < 100; ++x) REQUIRE(r.bits.test({x, y, std::int32_t(std::floor(z - std::floor(z)))}));
 }
 
-TEST_CASE("winding fills overlapping, nested and inverted bodies; open ones fall back to the flood", "[quick][stage]") {
+TEST_CASE("winding fills overlapping, nested and inverted bodies; open ones fall back to the flood", "[quick][pass]") {
   VoxelizeOptions o = default_options();
   o.fill = FillMode::winding;
   o.tile_vox = 64;
@@ -267,7 +267,7 @@ TEST_CASE("winding fills overlapping, nested and inverted bodies; open ones fall
   }
 }
 
-TEST_CASE("winding leaves a cavity open that the flood would fill", "[quick][stage]") {
+TEST_CASE("winding leaves a cavity open that the flood would fill", "[quick][pass]") {
   Triangles scene;
   test::add_sphere(scene, {0, 0, 0}, 40, 12);
   const std::size_t inner = scene.size();
@@ -283,7 +283,7 @@ TEST_CASE("winding leaves a cavity open that the flood would fill", "[quick][sta
   CHECK_FALSE(winding.bits.test(centre));
 }
 
-TEST_CASE("what cannot be voxelized is refused with a reason", "[quick][stage]") {
+TEST_CASE("what cannot be voxelized is refused with a reason", "[quick][pass]") {
   const auto code = [](const Triangles& scene, VoxelizeOptions o, double voxel) {
     try {
       run(scene, std::move(o), voxel);
@@ -304,7 +304,7 @@ TEST_CASE("what cannot be voxelized is refused with a reason", "[quick][stage]")
   CHECK(code(one, odd, 0.1) == int(ErrorCode::bad_argument));
 }
 
-TEST_CASE("a source that changes between two readings is reported", "[quick][stage]") {
+TEST_CASE("a source that changes between two readings is reported", "[quick][pass]") {
   class Fickle final : public TriangleSource {
    public:
     Fickle(int batches, double height) : batches_(batches), height_(height) {}

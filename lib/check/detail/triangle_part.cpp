@@ -1,4 +1,4 @@
-#include "lib/check/detail/clipped_triangle.h"
+#include "lib/check/detail/triangle_part.h"
 
 #include <algorithm>
 #include <array>
@@ -136,7 +136,7 @@ Bounds3d grown(const Bounds3d& box, double by) {
 }
 
 template <class Height>
-void ClippedTriangle::cut(const Height& height) {
+void TrianglePart::cut(const Height& height) {
   std::vector<Vec3d> kept;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const Vec3d &p = points_[k], &q = points_[(k + 1) % points_.size()];
@@ -149,7 +149,7 @@ void ClippedTriangle::cut(const Height& height) {
   points_ = std::move(kept);
 }
 
-ClippedTriangle::ClippedTriangle(const TriangleD& t, const Bounds3d& box) {
+TrianglePart::TrianglePart(const TriangleD& t, const Bounds3d& box) {
   Vec3d size;
   for (std::size_t i = 0; i < 3; ++i) size[i] = box.max[i] - box.min[i];
   for (const Vec3d& p : t) points_.push_back({p[0] - box.min[0], p[1] - box.min[1], p[2] - box.min[2]});
@@ -160,7 +160,7 @@ ClippedTriangle::ClippedTriangle(const TriangleD& t, const Bounds3d& box) {
   origin_ = box.min;
 }
 
-std::vector<Vec3d> ClippedTriangle::points_within() const {
+std::vector<Vec3d> TrianglePart::points_within() const {
   if (empty()) return {};
   Vec3d middle{};
   for (const Vec3d& p : points_)

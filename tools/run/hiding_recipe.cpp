@@ -1,8 +1,10 @@
-#include "tools/check/hiding_recipe.h"
+#include "tools/run/hiding_recipe.h"
+
+#include <fmt/format.h>
 
 #include "lib/core/error.h"
-#include "tools/check/hints.h"
 #include "tools/cli/length.h"
+#include "tools/cli/names.h"
 
 namespace bp {
 
@@ -29,6 +31,7 @@ OccluderRecipe parsed(const std::string& line) {
     recipe.frame.origin[i++] = parse_integer(number, -kMost, kMost);
   });
   if (i != 3) fail(ErrorCode::bad_argument, "a grid of fewer than three numbers");
+  whole.opaque_only = value_of(line, "walls") == "opaque";
   whole.ground = value_of(line, "ground") == "yes";
   const std::optional<UpAxis> up = up_axis_named(value_of(line, "up"));
   if (!up) fail(ErrorCode::bad_argument, "no axis that points up");
@@ -38,9 +41,16 @@ OccluderRecipe parsed(const std::string& line) {
 
 }  // namespace
 
-std::optional<OccluderRecipe> hiding_recipe(const std::string& path) {
-  const MeshExtras extras = extras_of(path);
-  if (made_by(extras) != "bplod" || mode_of(extras) != "inside") return {};
+void add_recipe(const OccluderRecipe& recipe, OptionText& text) {
+  const auto& [frame, scale_world, element] = recipe.hiding;
+  text.add("openings", scale_world).add("element", name_of(element));
+  text.add("walls", recipe.opaque_only ? "opaque" : "all").add("ground", recipe.ground).add("up", name_of(recipe.up));
+  text.add("voxel", frame.voxel);
+  text.add("grid", fmt::format("{},{},{}", frame.origin[0], frame.origin[1], frame.origin[2]));
+}
+
+std::optional<OccluderRecipe> hiding_recipe(const MeshExtras& extras) {
+  if (mode_of(extras) != "inside") return {};
   try {
     return parsed(extras.provenance.back());
   } catch (const Error&) {

@@ -18,9 +18,9 @@ namespace bp {
 [[nodiscard]] Bounds3d grown(const Bounds3d& box, double by);
 
 /// Triangle ∩ box, a convex polygon; in doubles, relative to the box's corner, so that errors are small beside it.
-class ClippedTriangle {
+class TrianglePart {
  public:
-  ClippedTriangle(const TriangleD& t, const Bounds3d& box);
+  TrianglePart(const TriangleD& t, const Bounds3d& box);
   [[nodiscard]] bool empty() const { return points_.empty(); }
   /// The middle, and points between it and the corners.
   [[nodiscard]] std::vector<Vec3d> points_within() const;
