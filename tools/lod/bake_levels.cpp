@@ -82,7 +82,7 @@ std::shared_ptr<const MeshTexture> level_texture(const Build& build, const Latti
 
 void bake_levels(Build& build, std::vector<LodLevel>& levels) {
   if (!build.textured()) return;
-  build.report.stage("textures");
+  build.report.begin("textures");
   const std::unique_ptr<SceneLooks> looks = read_looks(build, part_of(build.budget.work, 0.75));
   for (LodLevel& level : levels)
     level.mesh.texture = level_texture(build, level.mesh, level.error_world, level.scale_world, *looks,

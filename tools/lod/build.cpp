@@ -157,7 +157,7 @@ LodOptions Build::lod_options() {
 
 void Build::hold_looks() {
   if (!textured_) return;
-  report.stage("textures");
+  report.begin("textures");
   looks_ = read_looks(*this, part_of(budget.work, 0.4));
 }
 
