@@ -44,6 +44,12 @@ std::uint32_t TextureTable::add_material(const std::string& key, const TextureMa
   return number_of(key, material, material_of_, materials_);
 }
 
+bool TextureTable::has_images() const {
+  for (std::uint32_t i = 0; i < images_.size(); ++i)
+    if (size(i)[0] > 0) return true;
+  return false;
+}
+
 std::array<int, 2> TextureTable::size(std::uint32_t i) const {
   constexpr std::uint64_t kMostHead = std::uint64_t(1) << 20;
   try {

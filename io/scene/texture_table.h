@@ -24,7 +24,8 @@ class TextureTable final : public TextureSet {
   std::uint32_t add_image(const std::string& key, ImagePlace place);
   std::uint32_t add_material(const std::string& key, const TextureMaterial& material);
 
-  [[nodiscard]] bool empty() const { return materials_.empty(); }
+  /// Whether an image is there whose head can be read.
+  [[nodiscard]] bool has_images() const;
   [[nodiscard]] const TextureMaterial& material(std::uint32_t i) const override { return materials_.at(i); }
   [[nodiscard]] std::array<int, 2> size(std::uint32_t i) const override;
   [[nodiscard]] std::vector<std::byte> file(std::uint32_t i) const override;

@@ -89,9 +89,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   triangles_ = out.counts.scene.triangles;
   enclosed_ = enclosed_by(options, triangles_);
   if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
-  textured_ = source->has_textures() && can_read_again(options);
-  if (source->has_textures() && !textured_ && halvings == 0)
-    note("a scene from a pipe cannot be read again: its textures are lost; give it as a file");
+  choose_textures(source->has_textures(), halvings == 0);
   if (source->has_colors() && !textured_) gather(*source, out);
   return out;
 }
@@ -111,6 +109,14 @@ void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_tol
   note(voxel_note(options, size));
   note(origin_note(options, scene.header));
   note(enclose_note(options, triangles_));
+}
+
+void Build::choose_textures(bool has_textures, bool tell) {
+  textured_ = has_textures && can_read_again(options) && textures_->has_images();
+  if (!has_textures || textured_ || !tell) return;
+  note(can_read_again(options)
+           ? "no image of the scene's textures is there, or can be read: levels have colours instead"
+           : "a scene from a pipe cannot be read again: its textures are lost; give it as a file");
 }
 
 /// The triangles have gone, and so has most of what they were given of the memory.

@@ -70,6 +70,8 @@ class Build {
  private:
   void note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told);
   void gather(TriangleSource& source, const VoxelizedScene& scene);
+  /// After the scene has been read. `tell`: notes why there will be no textures.
+  void choose_textures(bool has_textures, bool tell);
   void complete(LodLevel& level, std::size_t number, const LodTarget& target, const std::string& input_hash);
   /// The scene, read again; nothing of a fit's if it has too many triangles or comes from a pipe.
   [[nodiscard]] std::vector<TriangleD> scene_triangles() const;

@@ -88,6 +88,7 @@ TEST_CASE("glTF: images beside the file, within it, and as text", "[quick][io]")
   CHECK(beside.textures[0].uv == kPlaces);
   CHECK(int(number_of(beside, 0)) == 7);
   CHECK(beside.table->size(0) == std::array{4, 2});
+  CHECK(beside.table->has_images());
   doc["images"][0]["uri"] = "data:image/png;base64," + base64_of(image_file(9));
   CHECK(int(number_of(read_textured({dir.file("text.gltf", gltf_of(doc))}), 0)) == 9);
   // Two files: images and materials of each.
@@ -121,6 +122,7 @@ TEST_CASE("glTF: wrap modes, alpha and KHR_texture_transform", "[quick][io]") {
   // The image is missing: that is found when it is wanted.
   CHECK(r.table->size(m.image) == std::array{0, 0});
   CHECK(r.table->file(m.image).empty());
+  CHECK_FALSE(r.table->has_images());
   REQUIRE_THROWS_WITH(r.table->image(m.image, 1000), Contains("none.png"));
 }
 
