@@ -40,7 +40,7 @@ attributes first/cubes_LOD0/*.glb | cut -d : -f 2- | sort -u
 bpcheck part*.obj painted/tileset.json | sed 's/[0-9]* triangles/some triangles/'
 
 # A missing or broken image is a note, and its material's colour is used; if all are, there are only colours.
-head -c 40 <(base64 -d <<< $blue) > chequered.png
+head -c 60 <(base64 -d <<< $blue) > chequered.png
 said 'bplod part0.obj --name cubes --resolution 30 --levels 1 -o broken | cut -f 1'
 rm chequered.png
 said 'bplod part0.obj --name cubes --resolution 30 --levels 1 -o missing | cut -f 1'
