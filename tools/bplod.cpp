@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "tools/cli/run_tool.h"
+#include "tools/lod/bake_levels.h"
 #include "tools/lod/build.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/explain.h"
@@ -26,7 +27,8 @@ bp::LevelRow row_of(const bp::WrittenFile& file, const std::vector<bp::LevelFact
 void build_chain(const bp::BuildOptions& o) {
   bp::OutputFolder out(o.out, bp::profile_files(o.profile, o.name, bp::level_count(request_of(o))), o.common.overwrite);
   bp::Build build(o);
-  const auto [scene, made] = bp::make_chain(build);
+  auto [scene, made] = bp::make_chain(build);
+  bp::bake_levels(build, made.levels);
   build.note_levels(made.facts, 0, made.left_out);
   const bp::Vec3d origin = bp::origin_of(o.proxy.origin, scene.header.frame, scene.header.bounds);
   for (std::size_t i = made.levels.size(); i < bp::level_count(request_of(o)); ++i)  // as many as there may be

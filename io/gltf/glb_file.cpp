@@ -38,6 +38,14 @@ GltfOutJson gltf_material(bool colored) {
            {{"baseColorFactor", GltfOutJson::array({c, c, c, 1})}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}};
 }
 
+GltfOutJson gltf_textured_material(std::size_t texture, bool has_holes) {
+  GltfOutJson material{{"name", "matte texture"},
+                       {"pbrMetallicRoughness",
+                        {{"baseColorTexture", {{"index", texture}}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}};
+  if (has_holes) material["alphaMode"] = "MASK";
+  return material;
+}
+
 std::string glb_head(std::string json, std::size_t data_bytes, const std::string& name) {
   json.append((4 - json.size() % 4) % 4, ' ');
   const std::uint64_t total = 12 + 8 + json.size() + 8 + data_bytes;

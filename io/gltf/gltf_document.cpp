@@ -94,6 +94,12 @@ std::uint64_t GltfObject::number(const char* key, std::uint64_t otherwise) const
   return has(key) ? number(key) : otherwise;
 }
 
+double GltfObject::real(const char* key) const {
+  const GltfJson& value = at(key);
+  if (!value.is_number()) broken(fmt::format("has a '{}' that is not a number", key));
+  return value.get<double>();
+}
+
 bool GltfObject::holds_text(const char* key, const char* inner_key, const char* value) const {
   const auto found = json_->find(key);
   if (found == json_->end() || !found->is_object()) return false;
@@ -180,7 +186,7 @@ void GltfDocument::open_glb() {
 }
 
 void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
-  LeanJson lean = read_lean_json(file_, offset, size, temp_dir_);
+  LeanJson lean = read_lean_json(file_, offset, size, temp_dir_, options_.textures != nullptr);
   lifted_ = std::move(lean.data);
   check_document(options_, file_->name(), "its JSON", lean.text.size() + bytes_to_parse(lean.text),
                  options_.document.bytes);
@@ -204,15 +210,42 @@ void GltfDocument::check_version() const {
 // --- GltfDocument: buffers and accessors
 // ---------------------------------------------------------------------------------
 
-SceneFilePtr GltfDocument::open_beside(const GltfObject& buffer, const std::string& uri) const {
-  const std::string path = file_->path();
-  if (path.empty()) buffer.broken("lies in another file, which stdin cannot name");
-  if (uri.find("://") != std::string::npos) buffer.broken("lies on the network; download it");
+std::string GltfDocument::path_beside(const std::string& uri) const {
+  const std::string path = file_->path(), name = detail::percent_decoded(uri);
   const std::size_t slash = path.find_last_of('/');
-  const std::string name = detail::percent_decoded(uri);
   const bool absolute = !name.empty() && name[0] == '/';
+  return absolute || slash == std::string::npos ? name : path.substr(0, slash + 1) + name;
+}
+
+/// What a string of the JSON held; null if it is none that was lifted.
+SceneFilePtr GltfDocument::lifted(const std::string& uri) const {
+  constexpr std::string_view kLifted = "data:lifted,";
+  if (!uri.starts_with(kLifted)) return nullptr;
+  std::size_t number = 0;
+  std::from_chars(uri.data() + kLifted.size(), uri.data() + uri.size(), number);
+  return number < lifted_.size() ? lifted_[number] : nullptr;
+}
+
+ImagePlace GltfDocument::image(std::uint64_t i) {
+  const GltfObject object = root().item("images", i);
+  ImagePlace place{fmt::format("{}: images[{}]", file_->name(), i), nullptr, ""};
+  if (object.has("bufferView")) {
+    const View v = view(object.number("bufferView"));
+    place.bytes = part_of(bytes_, v.address, v.size);
+  } else if (object.has("uri")) {
+    const std::string uri = object.text("uri");
+    place.bytes = lifted(uri);
+    const bool beside = !place.bytes && !file_->path().empty() && !uri.starts_with("data:");
+    if (beside) place.path = place.name = path_beside(uri);
+  }
+  return place;
+}
+
+SceneFilePtr GltfDocument::open_beside(const GltfObject& buffer, const std::string& uri) const {
+  if (file_->path().empty()) buffer.broken("lies in another file, which stdin cannot name");
+  if (uri.find("://") != std::string::npos) buffer.broken("lies on the network; download it");
   try {
-    return open_scene_file(absolute || slash == std::string::npos ? name : path.substr(0, slash + 1) + name, temp_dir_);
+    return open_scene_file(path_beside(uri), temp_dir_);
   } catch (const Error& e) {
     fail_as(e, "{}: its data are missing: {}; put that file beside it", file_->name(), e.what());
   }
@@ -225,12 +258,7 @@ SceneFilePtr GltfDocument::open_buffer(std::uint64_t i) {
     return glb_data_;
   }
   const std::string uri = buffer.text("uri");
-  constexpr std::string_view kLifted = "data:lifted,";
-  if (uri.compare(0, kLifted.size(), kLifted) == 0) {
-    std::size_t number = 0;
-    std::from_chars(uri.data() + kLifted.size(), uri.data() + uri.size(), number);
-    if (number < lifted_.size()) return lifted_[number];
-  }
+  if (SceneFilePtr data = lifted(uri)) return data;
   if (uri.compare(0, 5, "data:") == 0) buffer.broken("has embedded data that is not base64");
   return open_beside(buffer, uri);
 }
@@ -286,7 +314,10 @@ GltfDocument::View GltfDocument::unpacked(std::uint64_t i, const GltfObject& obj
 Accessor GltfDocument::accessor(std::uint64_t i, std::size_t components) {
   const GltfObject object = root().item("accessors", i);
   const std::string type = object.text("type");
-  const char* const expected = components == 1 ? "SCALAR" : components == 3 ? "VEC3" : "VEC4";
+  const char* const expected = components == 1   ? "SCALAR"
+                               : components == 2 ? "VEC2"
+                               : components == 3 ? "VEC3"
+                                                 : "VEC4";
   if (type != expected) object.broken(fmt::format("has the type {} where {} is needed", type, expected));
   Accessor a;
   a.count = object.number("count");

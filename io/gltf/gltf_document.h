@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/scene/instanced_scene.h"
+#include "io/scene/texture_table.h"
 #include "lib/core/error.h"
 
 /// A glTF 2.0 document: its JSON, and where its buffers lie. Everything that a file may get wrong is checked on the way
@@ -24,6 +25,7 @@ class GltfObject {
   /// A whole number up to 2^53, or `otherwise` if it is not there.
   [[nodiscard]] std::uint64_t number(const char* key, std::uint64_t otherwise) const;
   [[nodiscard]] std::uint64_t number(const char* key) const;
+  [[nodiscard]] double real(const char* key) const;
   [[nodiscard]] std::string text(const char* key) const;
   [[nodiscard]] bool flag(const char* key) const;  ///< false if it is not there
   [[nodiscard]] GltfObject object(const char* key) const;
@@ -59,6 +61,8 @@ class GltfDocument {
   [[nodiscard]] GltfObject root() const { return GltfObject(json_, file_->name(), ""); }
   /// Accessor i, checked against its views; `components` is what its type must have.
   Accessor accessor(std::uint64_t i, std::size_t components);
+  /// Where image i lies.
+  ImagePlace image(std::uint64_t i);
   /// All buffers that accessors have named so far, in one file.
   [[nodiscard]] SceneFilePtr bytes() const { return bytes_; }
 
@@ -74,6 +78,8 @@ class GltfDocument {
   void check_version() const;
   const Data& buffer(std::uint64_t i);
   SceneFilePtr open_buffer(std::uint64_t i);
+  [[nodiscard]] SceneFilePtr lifted(const std::string& uri) const;
+  [[nodiscard]] std::string path_beside(const std::string& uri) const;
   SceneFilePtr open_beside(const GltfObject& buffer, const std::string& uri) const;
   View view(std::uint64_t i);
   View unpacked(std::uint64_t i, const GltfObject& object);  ///< a view with EXT_meshopt_compression

@@ -2,6 +2,7 @@
 #include <malloc.h>
 #endif
 
+#include <cmath>
 #include <set>
 #include <unordered_map>
 
@@ -21,7 +22,9 @@ class SceneBuilder {
   SceneBuilder(const SceneFilePtr& file, const SceneOptions& options)
       : doc_(file, options),
         root_(doc_.root()),
+        file_(file),
         colors_(options.colors),
+        textures_(options.textures.get()),
         walls_only_(options.walls_only),
         level_(options.level) {}
 
@@ -52,6 +55,10 @@ class SceneBuilder {
   Range mesh(std::uint64_t i);
   void add_primitive(const GltfObject& p);
   void add_colors(const GltfObject& p, const GltfObject& attributes, Primitive& primitive);
+  void add_texture(std::uint64_t material, const GltfObject& attributes, Primitive& primitive);
+  [[nodiscard]] std::optional<GltfObject> base_texture(const GltfObject& material) const;
+  std::uint32_t texture_material(std::uint64_t i, const GltfObject& material, std::uint64_t texture);
+  std::uint32_t image_of(const GltfObject& texture);
   [[nodiscard]] std::array<double, 4> base_color(std::uint64_t material) const;
   [[nodiscard]] bool see_through(std::uint64_t material) const;
   std::optional<std::uint32_t> instance_array(const GltfObject& node);
@@ -59,7 +66,10 @@ class SceneBuilder {
 
   GltfDocument doc_;
   GltfObject root_;
-  const bool colors_, walls_only_;
+  SceneFilePtr file_;
+  const bool colors_;
+  TextureTable* const textures_;  // null: not asked for
+  const bool walls_only_;
   const std::size_t level_;
   InstancedScene scene_;
   std::unordered_map<std::uint64_t, Range> meshes_;
@@ -200,6 +210,7 @@ void SceneBuilder::add_primitive(const GltfObject& p) {
       p.broken("has indices that are not unsigned integers");
   }
   if (colors_) add_colors(p, attributes, primitive);
+  if (textures_ != nullptr && p.has("material")) add_texture(p.number("material"), attributes, primitive);
   scene_.primitives.push_back(primitive);
 }
 
@@ -216,6 +227,67 @@ void SceneBuilder::add_colors(const GltfObject& p, const GltfObject& attributes,
   if (primitive.colors->count != primitive.positions.count)
     attributes.broken(
         fmt::format("have {} colours for {} positions", primitive.colors->count, primitive.positions.count));
+}
+
+// Section 3.9.2 again, and KHR_texture_transform: the image that multiplies the colours.
+void SceneBuilder::add_texture(std::uint64_t i, const GltfObject& attributes, Primitive& primitive) {
+  const GltfObject material = root_.item("materials", i);
+  const std::optional<GltfObject> info = base_texture(material);
+  if (!info) return;
+  std::uint64_t set = info->number("texCoord", 0);
+  if (info->has("extensions") && info->object("extensions").has("KHR_texture_transform")) {
+    const GltfObject moved = info->object("extensions").object("KHR_texture_transform");
+    const auto offset = moved.numbers<2>("offset", {0, 0}), scale = moved.numbers<2>("scale", {1, 1});
+    const double turn = moved.has("rotation") ? moved.real("rotation") : 0, c = std::cos(turn), s = std::sin(turn);
+    primitive.uv_transform = {c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]};
+    set = moved.number("texCoord", set);
+  }
+  const std::string name = fmt::format("TEXCOORD_{}", set);
+  if (!attributes.has(name.c_str())) return;
+  primitive.uv = doc_.accessor(attributes.number(name.c_str()), 2);
+  if (primitive.uv->count != primitive.positions.count)
+    attributes.broken(
+        fmt::format("have {} places in images for {} positions", primitive.uv->count, primitive.positions.count));
+  primitive.material = texture_material(i, material, info->number("index"));
+}
+
+std::optional<GltfObject> SceneBuilder::base_texture(const GltfObject& material) const {
+  constexpr const char* kOlder = "KHR_materials_pbrSpecularGlossiness";
+  if (material.has("extensions") && material.object("extensions").has(kOlder)) {
+    const GltfObject older = material.object("extensions").object(kOlder);
+    if (older.has("diffuseTexture")) return older.object("diffuseTexture");
+  }
+  if (!material.has("pbrMetallicRoughness")) return {};
+  const GltfObject pbr = material.object("pbrMetallicRoughness");
+  if (!pbr.has("baseColorTexture")) return {};
+  return pbr.object("baseColorTexture");
+}
+
+std::uint32_t SceneBuilder::texture_material(std::uint64_t i, const GltfObject& material, std::uint64_t texture) {
+  constexpr std::uint64_t kClamp = 33071, kMirror = 33648;
+  const GltfObject object = root_.item("textures", texture);
+  TextureMaterial m;
+  m.image = image_of(object);
+  const auto wrap = [&](const char* key) {
+    if (!object.has("sampler")) return TextureWrap::repeat;
+    const std::uint64_t mode = root_.item("samplers", object.number("sampler")).number(key, 0);
+    return mode == kClamp ? TextureWrap::clamp : mode == kMirror ? TextureWrap::mirror : TextureWrap::repeat;
+  };
+  m.wrap = {wrap("wrapS"), wrap("wrapT")};
+  const std::string mode = material.has("alphaMode") ? material.text("alphaMode") : "OPAQUE";
+  m.alpha_mode = mode == "MASK" ? AlphaMode::mask : mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
+  m.alpha = float(base_color(i)[3]);
+  if (material.has("alphaCutoff")) m.cutoff = float(material.real("alphaCutoff"));
+  return textures_->add_material(fmt::format("{}: materials[{}]", file_->name(), i), m);
+}
+
+std::uint32_t SceneBuilder::image_of(const GltfObject& texture) {
+  std::optional<std::uint64_t> source;
+  if (texture.has("source")) source = texture.number("source");
+  if (texture.has("extensions") && texture.object("extensions").has("EXT_texture_webp"))
+    source = texture.object("extensions").object("EXT_texture_webp").number("source");
+  if (!source) return TextureMaterial::kNoImage;
+  return textures_->add_image(fmt::format("{}: images[{}]", file_->name(), *source), doc_.image(*source));
 }
 
 std::array<double, 4> SceneBuilder::base_color(std::uint64_t i) const {

@@ -6,9 +6,9 @@
 #include "io/gltf/base64.h"
 #include "io/gltf/glb_file.h"
 #include "io/mesh/detail/mesh_writers.h"
-#include "io/mesh/detail/shaded_mesh.h"
 #include "lib/core/box.h"
 #include "lib/core/error.h"
+#include "lib/mesh/shaded_mesh.h"
 
 // glTF 2.0 without loss. Vertices are written as lattice integers relative to a whole-number centre, which float32
 // holds up to 2^24 exactly. The node's scale is the lattice unit (a double of few bits) and its translation the centre

@@ -4,12 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "io/gltf/glb_file.h"
 #include "io/gltf/meshopt_codec.h"
 #include "io/mesh/detail/mesh_writers.h"
-#include "io/mesh/detail/shaded_mesh.h"
 #include "lib/core/error.h"
+#include "lib/mesh/shaded_mesh.h"
 
 namespace bp {
 
@@ -20,6 +21,7 @@ using Json = GltfOutJson;
 constexpr std::int64_t kFloatInteger = std::int64_t(1) << 24;  // float32 holds integers up to this
 constexpr std::int64_t kShortInteger = 32767;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+constexpr int kLinear = 9729, kLinearMipmapLinear = 9987, kClampToEdge = 33071;
 constexpr int kByte = 5120, kUint8 = 5121, kShort = 5122, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
 
 struct Extent {
@@ -117,17 +119,17 @@ class GlbBuilder {
   void use(const char* extension) { used_.push_back(extension); }
 
   void write(const LatticeMesh& first, const std::vector<std::size_t>& roots, OutputFile& out) {
-    write_glb(document(first, gltf_asset("bplod", first.provenance, first.frame.up, origin_), roots), data_, out);
+    write_glb(document(gltf_asset("bplod", first.provenance, first.frame.up, origin_), roots), data_, out);
   }
   /// As the content of a tile: extras.up does not ask readers of ours to turn back to the axes of the scene.
   [[nodiscard]] std::string tile_bytes(const LatticeMesh& mesh, const Vec3d& tile_origin) {
     Json asset = gltf_asset("bplod", mesh.provenance, UpAxis::y, {});
     asset["extras"]["tile_origin"] = tile_origin;
-    return glb_head(document(mesh, std::move(asset), {0}), data_.size(), file_) + data_;
+    return glb_head(document(std::move(asset), {0}), data_.size(), file_) + data_;
   }
 
  private:
-  std::string document(const LatticeMesh& first, Json asset, const std::vector<std::size_t>& roots) {
+  std::string document(Json asset, const std::vector<std::size_t>& roots) {
     Json doc;
     doc["asset"] = std::move(asset);
     if (compressed_) {
@@ -139,7 +141,7 @@ class GlbBuilder {
     doc["scene"] = 0;
     doc["scenes"] = Json::array({{{"nodes", roots}}});
     doc.update(doc_);
-    doc["materials"] = Json::array({gltf_material(!first.colors.empty())});
+    doc["materials"] = materials_;
     doc["buffers"] = Json::array({{{"byteLength", data_.size()}}});
     if (compressed_) {  // where the bytes would be if the views were not compressed; nobody reads it
       doc["buffers"].push_back(
@@ -153,6 +155,7 @@ class GlbBuilder {
     ShadedMesh drawn = shaded(mesh);
     std::vector<std::uint32_t> order = optimize_order(drawn.triangles, drawn.vertex.size());
     const std::vector<std::array<float, 3>> normals = normals_of(drawn, order, mesh.frame.up);
+    const std::string uv = uv_bytes(drawn, order);
     for (std::uint32_t& i : order) i = drawn.vertex[i];
     std::size_t positions = 0;
     if (compressed_ && extent.within(centre, -kShortInteger, kShortInteger)) {
@@ -163,8 +166,9 @@ class GlbBuilder {
     }
     Json attributes{{"POSITION", positions}, {"NORMAL", add_normals(normals)}};
     if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(color_bytes(mesh, order));
+    if (mesh.texture) attributes["TEXCOORD_0"] = add_uv(uv, order.size());
     const std::size_t indices = add_indices(drawn.triangles, order.size());
-    const Json primitive{{"attributes", attributes}, {"indices", indices}, {"material", 0}};
+    const Json primitive{{"attributes", attributes}, {"indices", indices}, {"material", add_material(mesh)}};
     doc_["meshes"].push_back({{"name", named.name}, {"primitives", Json::array({primitive})}});
   }
 
@@ -198,6 +202,50 @@ class GlbBuilder {
                          {"normalized", true},
                          {"count", bytes.size() / 4},
                          {"type", "VEC4"}});
+  }
+
+  /// Of the copies in `order`; 16-bit integers for [0, 1] where the mesh is compressed: a 16th of a texel.
+  [[nodiscard]] std::string uv_bytes(const ShadedMesh& mesh, const std::vector<std::uint32_t>& order) const {
+    std::string bytes;
+    if (mesh.uv.empty()) return bytes;
+    for (const std::uint32_t i : order) {
+      for (const float x : mesh.uv[i]) {
+        const auto integer = std::uint16_t(std::clamp(x, 0.0F, 1.0F) * 65535 + 0.5F);
+        compressed_ ? bytes.append(reinterpret_cast<const char*>(&integer), sizeof integer)
+                    : bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+      }
+    }
+    return bytes;
+  }
+
+  std::size_t add_uv(const std::string& bytes, std::size_t count) {
+    Json accessor{{"bufferView", add_attributes(bytes, compressed_ ? 4 : 8)},
+                  {"componentType", compressed_ ? kUint16 : kFloat},
+                  {"count", count},
+                  {"type", "VEC2"}};
+    if (compressed_) accessor["normalized"] = true;
+    return add_accessor(std::move(accessor));
+  }
+
+  /// Its number.
+  std::size_t add_material(const LatticeMesh& mesh) {
+    if (!mesh.texture) {
+      if (!plain_material_) {
+        plain_material_ = materials_.size();
+        materials_.push_back(gltf_material(!mesh.colors.empty()));
+      }
+      return *plain_material_;
+    }
+    const std::size_t offset = append(mesh.texture->image), number = doc_["textures"].size();
+    doc_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", mesh.texture->image.size()}});
+    doc_["images"].push_back({{"bufferView", doc_["bufferViews"].size() - 1}, {"mimeType", mesh.texture->type}});
+    doc_["samplers"] = Json::array({{{"magFilter", kLinear},
+                                     {"minFilter", kLinearMipmapLinear},
+                                     {"wrapS", kClampToEdge},
+                                     {"wrapT", kClampToEdge}}});
+    doc_["textures"].push_back({{"sampler", 0}, {"source", number}});
+    materials_.push_back(gltf_textured_material(number, mesh.texture->has_holes));
+    return materials_.size() - 1;
   }
 
   std::size_t add_attributes(const std::string& bytes, std::size_t stride, const char* filter = nullptr) {
@@ -265,6 +313,8 @@ class GlbBuilder {
   const bool compressed_;
   const Vec3d origin_;
   bool quantized_ = false;
+  Json materials_ = Json::array();
+  std::optional<std::size_t> plain_material_;
   std::vector<std::string> used_;
   Json doc_{{"nodes", Json::array()},
             {"meshes", Json::array()},

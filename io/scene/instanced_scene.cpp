@@ -135,14 +135,21 @@ class InstancedSource final : public RawSource {
     rewind();
   }
 
-  bool read(std::vector<TriangleD>& out) override { return read(out, nullptr); }
+  bool read(std::vector<TriangleD>& out) override { return read(out, nullptr, nullptr); }
   bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
-    return read(out, &colors);
+    return read(out, &colors, nullptr);
+  }
+  bool next(RawBatch& batch) override {
+    batch.bad_faces = 0;
+    return read(batch.triangles, batch.colored ? &batch.colors : nullptr, batch.textured ? &batch.textures : nullptr);
   }
   [[nodiscard]] bool has_colors() const override {
     return std::any_of(scene_.primitives.begin(), scene_.primitives.end(), [](const Primitive& p) {
       return p.colors || p.base_color != std::array<double, 3>{1, 1, 1};
     });
+  }
+  [[nodiscard]] bool has_textures() const override {
+    return std::any_of(scene_.primitives.begin(), scene_.primitives.end(), [](const Primitive& p) { return p.uv; });
   }
   void rewind() override {
     node_ = 0;
@@ -157,11 +164,12 @@ class InstancedSource final : public RawSource {
  private:
   static constexpr std::size_t kWindow = 3 * 1024;  // indices at a time: whole triangles, within a cache block
 
-  bool read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors) {
+  bool read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors, std::vector<TriangleTexture>* textures) {
     out.clear();
     if (colors != nullptr) colors->clear();
+    if (textures != nullptr) textures->clear();
     while (out.size() < kBatch && enter_primitive()) {
-      for (; out.size() < kBatch && triangle_ < triangles_; ++triangle_) add_triangle(out, colors);
+      for (; out.size() < kBatch && triangle_ < triangles_; ++triangle_) add_triangle(out, colors, textures);
       if (triangle_ == triangles_) leave_primitive();
     }
     return !out.empty();
@@ -181,7 +189,9 @@ class InstancedSource final : public RawSource {
   }
   void place();
   void count_triangles(const Primitive& p);
-  void add_triangle(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors);
+  void add_triangle(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors,
+                    std::vector<TriangleTexture>* textures);
+  [[nodiscard]] TriangleTexture texture_of(const Primitive& p, const std::array<std::uint64_t, 3>& corners);
   [[nodiscard]] LinearColor color_of(const Primitive& p, std::uint64_t vertex);
   std::uint64_t index(std::uint64_t i);
 
@@ -255,7 +265,8 @@ std::uint64_t InstancedSource::index(std::uint64_t i) {
   return window_[std::size_t(i - window_begin_)];
 }
 
-void InstancedSource::add_triangle(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors) {
+void InstancedSource::add_triangle(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors,
+                                   std::vector<TriangleTexture>* textures) {
   const Primitive& p = scene_.primitives[primitive_];
   const std::uint64_t t = triangle_;
   std::array<std::uint64_t, 3> corner{};
@@ -278,6 +289,19 @@ void InstancedSource::add_triangle(std::vector<TriangleD>& out, std::vector<Tria
   }
   out.push_back(triangle);
   if (colors != nullptr) colors->push_back({color_of(p, corner[0]), color_of(p, corner[1]), color_of(p, corner[2])});
+  if (textures != nullptr) textures->push_back(texture_of(p, corner));
+}
+
+TriangleTexture InstancedSource::texture_of(const Primitive& p, const std::array<std::uint64_t, 3>& corners) {
+  if (!p.uv) return {};
+  TriangleTexture t;
+  t.material = p.material;
+  const std::array<double, 6>& m = p.uv_transform;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::array<double, 2> uv = elements_.vector<2>(*p.uv, corners[k]);
+    t.uv[k] = {float(m[0] * uv[0] + m[1] * uv[1] + m[2]), float(m[3] * uv[0] + m[4] * uv[1] + m[5])};
+  }
+  return t;
 }
 
 LinearColor InstancedSource::color_of(const Primitive& p, std::uint64_t vertex) {

@@ -20,42 +20,55 @@ class ObjSource final : public PolygonSource {
   ObjSource(const SceneFilePtr& file, const SceneOptions& options)
       : file_(file), text_(file), pool_(options.memory_bytes, temp_dir_of(options)), walls_only_(options.walls_only) {
     if (options.colors) vertex_colors_.emplace(options.memory_bytes / 2, temp_dir_of(options));
+    if (options.textures) places_.emplace(options.memory_bytes / 2, temp_dir_of(options));
+    textures_ = options.textures;
   }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
+  [[nodiscard]] bool has_textures() const override { return has_textures_; }
 
  private:
   bool next_face(std::vector<std::uint64_t>& corners) override;
   [[nodiscard]] std::uint64_t vertex_count() const override { return pool_.size(); }
   [[nodiscard]] Vec3d vertex(std::uint64_t i) override { return pool_[i]; }
   [[nodiscard]] LinearColor corner_color(std::uint64_t i) override;
+  [[nodiscard]] std::uint32_t face_material() const override { return texture_; }
+  [[nodiscard]] std::array<float, 2> corner_uv(std::size_t k) override;
   void rewind_faces() override {
     text_.seek({});
-    seen_ = 0;
+    seen_ = seen_places_ = 0;
+    texture_ = TriangleTexture::kNoMaterial;
     material_ = kWhite;
     passed_over_ = false;
   }
 
-  /// Consumes the keyword: 'v' or 'f' if that is all of it, 'u' for "usemtl" and 'm' for "mtllib", 0 for any other,
-  /// comments included.
+  /// Consumes the keyword: 'v' or 'f' if that is all of it, 't' for "vt", 'u' for "usemtl" and 'm' for "mtllib", 0 for
+  /// any other, comments included.
   static char keyword(TextScanner& text);
   void read_vertex(TextScanner& text);
   void read_vertex_color(TextScanner& text);
+  void read_place();
   void use_material(char key);
   void read_corners(std::vector<std::uint64_t>& corners);
+  void read_corner_place();
   std::uint64_t resolve(std::int64_t index);
   void load_ahead();
 
   SceneFilePtr file_;
   TextScanner text_;
   VertexPool pool_;
-  std::optional<VertexPool> vertex_colors_;  // if asked for; up to the last vertex that has one
+  std::optional<VertexPool> vertex_colors_;   // if asked for; up to the last vertex that has one
+  std::optional<VertexPool> places_;          // "vt" lines, if asked for
+  std::vector<std::uint64_t> corner_places_;  // of the face; kNoVertex: none
+  std::shared_ptr<TextureTable> textures_;
   MtlMaterials materials_;
+  std::string material_name_;
+  std::uint32_t texture_ = TriangleTexture::kNoMaterial;  // of material_name_
   LinearColor material_;
-  bool has_colors_ = false;
+  bool has_colors_ = false, has_textures_ = false;
   const bool walls_only_;
-  bool passed_over_ = false;  // faces of the current material
-  std::uint64_t seen_ = 0;    // "v" lines of this pass
-  bool all_loaded_ = false;   // the pool holds every vertex of the file
+  bool passed_over_ = false;                  // faces of the current material
+  std::uint64_t seen_ = 0, seen_places_ = 0;  // "v" and "vt" lines of this pass
+  bool all_loaded_ = false;                   // the pool holds every vertex of the file
 };
 
 bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
@@ -65,6 +78,9 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
     if (key == 'v') {
       if (seen_ == pool_.size()) read_vertex(text_);
       ++seen_;
+    } else if (key == 't' && places_) {
+      if (seen_places_ == places_->size()) read_place();
+      ++seen_places_;
     } else if (key == 'u' || key == 'm') {
       use_material(key);
     } else if (key == 'f' && !passed_over_) {
@@ -81,6 +97,7 @@ char ObjSource::keyword(TextScanner& text) {
   const char first = text.peek();
   if (first != 'v' && first != 'f' && first != 'u' && first != 'm') return 0;
   const std::string_view word = text.word();
+  if (word == "vt") return 't';
   return word.size() == 1 || word == "usemtl" || word == "mtllib" ? first : 0;
 }
 
@@ -104,6 +121,21 @@ void ObjSource::read_vertex_color(TextScanner& text) {
   has_colors_ = true;
 }
 
+void ObjSource::read_place() {
+  Vec3d place{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!text_.word_on_line() || !text_.real(place[i])) break;
+  }
+  places_->push(place);
+}
+
+std::array<float, 2> ObjSource::corner_uv(std::size_t k) {
+  const std::uint64_t i = k < corner_places_.size() ? corner_places_[k] : kNoVertex;
+  if (i >= places_->size()) return {};
+  const Vec3d place = (*places_)[i];
+  return materials_.place(material_name_, place[0], place[1]);
+}
+
 LinearColor ObjSource::corner_color(std::uint64_t i) {
   if (vertex_colors_ && i < vertex_colors_->size()) return color_from_srgb((*vertex_colors_)[i]);
   return material_;
@@ -113,6 +145,9 @@ void ObjSource::use_material(char key) {
   if (!vertex_colors_ && !walls_only_) return;
   const std::string name = text_.rest_of_line();
   if (key == 'm') return materials_.load(file_->path(), name);
+  material_name_ = name;
+  if (textures_) texture_ = materials_.texture(name, *textures_);
+  has_textures_ = has_textures_ || texture_ != TriangleTexture::kNoMaterial;
   passed_over_ = walls_only_ && materials_.see_through(name);
   if (!vertex_colors_) return;
   material_ = materials_.color(name);
@@ -122,9 +157,11 @@ void ObjSource::use_material(char key) {
 // Corners are "v", "v/vt", "v//vn", "v/vt/vn", with any of the later numbers missing.
 void ObjSource::read_corners(std::vector<std::uint64_t>& corners) {
   corners.clear();
+  corner_places_.clear();
   while (text_.word_on_line() && text_.peek() != '#') {
     std::int64_t index = 0;
     if (!text_.integer(index)) text_.fail_here("a face corner is not a number; is the file damaged?");
+    if (texture_ != TriangleTexture::kNoMaterial) read_corner_place();
     if (text_.peek() == '/') text_.skip_word();
     if (static_cast<unsigned char>(text_.peek()) > ' ' && text_.peek() != '\\')
       text_.fail_here("a face corner is not of the form v/vt/vn; is the file damaged?");
@@ -132,6 +169,17 @@ void ObjSource::read_corners(std::vector<std::uint64_t>& corners) {
       text_.fail_here("a face of more than {} corners; is the file intact?", kMaxCorners);
     corners.push_back(resolve(index));
   }
+}
+
+/// What follows the number of a vertex: its place in the image must stand further up.
+void ObjSource::read_corner_place() {
+  corner_places_.push_back(kNoVertex);
+  if (text_.peek() != '/') return;
+  text_.step();
+  std::int64_t index = 0;
+  if (text_.integer(index) && index != 0 && index >= -std::int64_t(seen_places_) && index <= std::int64_t(seen_places_))
+    corner_places_.back() = index > 0 ? std::uint64_t(index) - 1 : seen_places_ - std::uint64_t(-index);
+  text_.skip_word();
 }
 
 std::uint64_t ObjSource::resolve(std::int64_t index) {

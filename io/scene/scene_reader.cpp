@@ -90,6 +90,14 @@ class FilteredScene final : public TriangleSource {
     colors.swap(batch_->colors);
     return more;
   }
+  bool read_textured(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
+                     std::vector<TriangleTexture>& textures) override {
+    const bool more = read_batch(true, true);
+    out.swap(batch_->triangles);
+    colors.swap(batch_->colors);
+    textures.swap(batch_->textures);
+    return more;
+  }
   bool read_faces(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
                   std::vector<std::uint8_t>& inner_edges) override {
     const bool more = read_colored(out, colors);
@@ -98,6 +106,7 @@ class FilteredScene final : public TriangleSource {
     return more;
   }
   [[nodiscard]] bool has_colors() const override { return raw_->has_colors(); }
+  [[nodiscard]] bool has_textures() const override { return raw_->has_textures(); }
   void rewind() override {
     raw_->rewind();
     counts_ = {};
@@ -121,12 +130,13 @@ class FilteredScene final : public TriangleSource {
   }
 
   /// Sets batch_ to the next one with triangles; false, and one without, at the end.
-  bool read_batch(bool colored) {
+  bool read_batch(bool colored, bool textured = false) {
     batch_ = &end_;
     end_.triangles.clear();
     end_.colors.clear();
+    end_.textures.clear();
     end_.inner_edges.clear();
-    while (batch_->triangles.empty() && (next_ < ready_ || fetch(colored))) {
+    while (batch_->triangles.empty() && (next_ < ready_ || fetch(colored, textured))) {
       Batch& batch = batches_[next_++];
       batch_ = &batch.raw;
       counts_.add(batch.counts);
@@ -139,12 +149,14 @@ class FilteredScene final : public TriangleSource {
     return !batch_->triangles.empty();
   }
 
-  bool fetch(bool colored) {
+  bool fetch(bool colored, bool textured) {
     next_ = ready_ = 0;
     while (ready_ < batches_.size()) {
       RawBatch& batch = batches_[ready_].raw;
       batch.colored = colored;
+      batch.textured = textured;
       batch.colors.clear();
+      batch.textures.clear();
       batch.inner_edges.clear();
       if (!raw_->next(batch)) break;
       ++ready_;
@@ -170,6 +182,7 @@ class FilteredScene final : public TriangleSource {
   [[nodiscard]] SceneCounts keep_good(RawBatch& batch) const {
     std::vector<TriangleD>& triangles = batch.triangles;
     if (batch.colored) batch.colors.resize(triangles.size());
+    if (batch.textured) batch.textures.resize(triangles.size());
     if (!batch.inner_edges.empty()) batch.inner_edges.resize(triangles.size());
     SceneCounts counts;
     std::size_t kept = 0;
@@ -186,11 +199,13 @@ class FilteredScene final : public TriangleSource {
       if (degenerate) ++counts.degenerate;
       if (degenerate && !keep_degenerate_) continue;
       if (batch.colored) batch.colors[kept] = batch.colors[i];
+      if (batch.textured) batch.textures[kept] = batch.textures[i];
       if (!batch.inner_edges.empty()) batch.inner_edges[kept] = batch.inner_edges[i];
       triangles[kept++] = t;
     }
     triangles.resize(kept);
     if (batch.colored) batch.colors.resize(kept);
+    if (batch.textured) batch.textures.resize(kept);
     counts.triangles = kept;
     return counts;
   }
@@ -226,6 +241,13 @@ class SceneRow final : public TriangleSource {
     colors.clear();
     return read_next([&](TriangleSource& scene) { return scene.read_colored(out, colors); });
   }
+  bool read_textured(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
+                     std::vector<TriangleTexture>& textures) override {
+    out.clear();
+    colors.clear();
+    textures.clear();
+    return read_next([&](TriangleSource& scene) { return scene.read_textured(out, colors, textures); });
+  }
   bool read_faces(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
                   std::vector<std::uint8_t>& inner_edges) override {
     out.clear();
@@ -234,6 +256,7 @@ class SceneRow final : public TriangleSource {
     return read_next([&](TriangleSource& scene) { return scene.read_faces(out, colors, inner_edges); });
   }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
+  [[nodiscard]] bool has_textures() const override { return has_textures_; }
   void rewind() override {
     scene_.reset();
     entered_ = false;
@@ -254,6 +277,7 @@ class SceneRow final : public TriangleSource {
       const bool more = read(scene);
       if (!up_) up_ = scene.up();
       has_colors_ = has_colors_ || scene.has_colors();
+      has_textures_ = has_textures_ || scene.has_textures();
       counts_ = finished_;
       counts_.add(scene.counts());
       if (more) return true;
@@ -281,7 +305,7 @@ class SceneRow final : public TriangleSource {
   std::vector<std::string> paths_;
   SceneOptions options_;
   std::size_t next_ = 0;
-  bool entered_ = false, has_colors_ = false;
+  bool entered_ = false, has_colors_ = false, has_textures_ = false;
   std::unique_ptr<TriangleSource> scene_, stdin_;
   SceneCounts finished_, counts_;
   std::optional<UpAxis> up_;

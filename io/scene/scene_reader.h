@@ -9,6 +9,10 @@
 #include "lib/core/memory_share.h"
 #include "lib/core/triangle_source.h"
 
+namespace bp {
+class TextureTable;
+}
+
 /// Scenes and meshes from files. PLY, STL, OBJ, OFF and glTF/GLB are streamed by readers of our own: their memory is
 /// bounded by SceneOptions::memory_bytes, whatever the file holds. Every other format goes through Assimp, in a child
 /// process, so that a crash in an importer is an Error here.
@@ -48,6 +52,7 @@ struct SceneOptions {
   std::uint64_t memory_bytes = std::uint64_t(256) << 20;  ///< for vertices; more of them go to a scratch file
   std::string temp_dir;                                   ///< of scratch files; empty: $TMPDIR, else /tmp
   bool colors = false;                                    ///< look for them; else all triangles are white
+  std::shared_ptr<TextureTable> textures{};               ///< look for them, and name them here; null: there are none
   std::size_t level = 0;                                  ///< of glTF's MSFT_lod; 0 is the finest
   bool keep_degenerate = false;                           ///< deliver triangles of no area, too; counted all the same
   bool walls_only = false;  ///< leave out what can be seen through, see below; not counted

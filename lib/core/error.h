@@ -59,6 +59,7 @@ enum class Remedy {
   enclose_input,
   enclose_own_scene,  ///< that the stream was made from
   no_volume,
+  no_textures,
   fewer_users_of_device,
   use_cpu,
   other_scratch_folder,

@@ -7,6 +7,7 @@
 #include "lib/core/color.h"
 #include "lib/core/coords.h"
 #include "lib/core/grid_frame.h"
+#include "lib/core/texture.h"
 
 /// A stream of triangles in scene units. Readers of scenes implement it (io/), passes pull from it; nothing else of a
 /// scene is known to lib/.
@@ -35,10 +36,17 @@ class TriangleSource {
   virtual bool read(std::vector<TriangleD>& out) = 0;
 
   /// As read(), with the colours of each triangle's corners: white where the scene says nothing. From one rewind() to
-  /// the next, one of the two is called.
+  /// the next, one of these is called.
   virtual bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) {
     const bool more = read(out);
     colors.assign(out.size(), TriangleColors{});
+    return more;
+  }
+  /// As read_colored(), and what lies on each triangle: nothing where the scene says nothing.
+  virtual bool read_textured(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
+                             std::vector<TriangleTexture>& textures) {
+    const bool more = read_colored(out, colors);
+    textures.assign(out.size(), TriangleTexture{});
     return more;
   }
   /// As read_colored(), and for each triangle its inner edges, within a polygon that it is a part of: bit k stands for
@@ -51,6 +59,9 @@ class TriangleSource {
   }
   /// False if every triangle is white; known after all of them were read once.
   [[nodiscard]] virtual bool has_colors() const { return false; }
+
+  /// True if an image lies on some triangle; known after all of them were read once.
+  [[nodiscard]] virtual bool has_textures() const { return false; }
 
   /// Starts over from the first triangle; the same triangles follow in the same order.
   virtual void rewind() = 0;

@@ -74,6 +74,17 @@ Vec3d nearest_point(const Vec3d& p, const TriangleD& t) {
   return best;
 }
 
+double along_segment(const Vec3d& start, const Vec3d& direction, const TriangleD& t) {
+  constexpr double kSlack = 1e-9;  // of a side: no ray passes between two triangles
+  const Vec3d u = t[1] - t[0], v = t[2] - t[0], p = cross(direction, v);
+  const double det = dot(u, p);
+  if (det == 0) return NAN;
+  const Vec3d s = start - t[0], q = cross(s, u);
+  const double a = dot(s, p) / det, b = dot(direction, q) / det, along = dot(v, q) / det;
+  const bool inside = a >= -kSlack && b >= -kSlack && a + b <= 1 + kSlack && along >= 0 && along <= 1;
+  return inside ? along : NAN;
+}
+
 std::array<double, 3> barycentric(const TriangleD& t, const Vec3d& p) {
   const Vec3d u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
   const double nn = dot(n, n);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "lib/core/box.h"
@@ -24,6 +25,10 @@ class TriangleBvh {
   struct Item {
     TriangleD corners;
     std::uint32_t id;  ///< position in the vector that the hierarchy was built from
+  };
+  struct Hit {
+    double along;        ///< the place is start + along * direction; in [0, 1]
+    std::uint32_t item;  ///< for item()
   };
   struct Nearest {
     double distance_squared;
@@ -52,6 +57,11 @@ class TriangleBvh {
     };
     walk(meets, [&](const Item& item) { return f(item), false; });
   }
+  /// The first triangle on the ray from `start`, up to start + direction, that accept(item, along) takes; of several at
+  /// one place that with the least id. In floating point; triangles count from both sides. Triangles that lie behind
+  /// the answer may be offered to accept(), too.
+  template <class Accept>
+  [[nodiscard]] std::optional<Hit> first_along(const Vec3d& start, const Vec3d& direction, Accept&& accept) const;
   /// The nearest triangle (one of them), in floating point. `guess` is where the search starts: the answer for a point
   /// close by makes it fast. The distance does not depend on it. Must not be empty.
   [[nodiscard]] Nearest nearest(const Vec3d& p, std::uint32_t guess = 0) const { return near_enough(p, -1, guess); }
@@ -92,6 +102,59 @@ class TriangleBvh {
   std::vector<Node> nodes_;
   std::vector<Item> items_;
 };
+
+/// Where the segment from `start` to start + direction meets the triangle: 0 at its start, 1 at its end; NaN if it does
+/// not, or runs along it. In floating point.
+[[nodiscard]] double along_segment(const Vec3d& start, const Vec3d& direction, const TriangleD& t);
+
+/// Where the segment from `start` along `direction` enters the box, if it does so up to `most`, at most 1; else 2. In
+/// floating point, with some room.
+[[nodiscard]] inline double enters_along(const Vec3d& start, const Vec3d& direction, const Bounds3d& box, double most) {
+  double from = 0, to = most;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (direction[i] == 0) {
+      if (start[i] < box.min[i] || start[i] > box.max[i]) return 2;
+      continue;
+    }
+    double a = (box.min[i] - start[i]) / direction[i], z = (box.max[i] - start[i]) / direction[i];
+    if (a > z) std::swap(a, z);
+    from = std::max(from, a - 1e-12);
+    to = std::min(to, z + 1e-12);
+  }
+  return from <= to ? from : 2;
+}
+
+template <class Accept>
+std::optional<TriangleBvh::Hit> TriangleBvh::first_along(const Vec3d& start, const Vec3d& direction,
+                                                         Accept&& accept) const {
+  struct Entry {
+    double along;
+    std::uint32_t node;
+  };
+  Hit best{1, ~std::uint32_t(0)};
+  bool found = false;
+  const auto enters = [&](const Bounds3d& b) { return enters_along(start, direction, b, best.along); };
+  Entry stack[kStack];
+  int top = 0;
+  if (!items_.empty()) stack[top++] = {enters(nodes_[0].box), 0};
+  while (top > 0) {
+    const Entry e = stack[--top];
+    if (e.along > best.along) continue;
+    const Node& n = nodes_[e.node];
+    for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
+      const double along = along_segment(start, direction, items_[i].corners);
+      if (!(along <= best.along)) continue;
+      if (found && along == best.along && items_[i].id > items_[best.item].id) continue;
+      if (accept(i, along)) best = {along, i}, found = true;
+    }
+    if (n.count != 0) continue;
+    Entry near{enters(nodes_[n.first].box), n.first}, far{enters(nodes_[n.first + 1].box), n.first + 1};
+    if (far.along < near.along) std::swap(near, far);
+    if (far.along <= best.along) stack[top++] = far;
+    if (near.along <= best.along) stack[top++] = near;
+  }
+  return found ? std::optional(best) : std::nullopt;
+}
 
 /// Square of the distance from p to the closed triangle, in floating point.
 [[nodiscard]] double distance_squared(const Vec3d& p, const TriangleD& t);

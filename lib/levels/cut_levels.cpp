@@ -41,6 +41,7 @@ void add_level(TilePyramid& pyramid, const TilesetPlan& plan, std::size_t level,
   CutFiles files = steps.files(level, cut.frame);
   TileParams params = tile_params(cut, options, plan.cut.front().frame.voxel);
   params.encoding = files.encoding;
+  if (files.add_to_key) params.add_to_key = files.add_to_key;
   if (options.colors != nullptr) options.colors->prepare(cut.frame);
   const auto encode = [&options, &cut, files = std::move(files)](CellCoord cell, const LatticeMesh& mesh) {
     LatticeMesh colored = mesh;

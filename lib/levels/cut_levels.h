@@ -25,6 +25,7 @@ struct CutFiles {
   std::string encoding;  ///< as TileParams::encoding
   /// The file; the mesh has its colours. `origin`: of the lattice, near the middle of the cell.
   std::function<std::string(CellCoord, LatticeMesh&&, LatticeCoord origin)> encode;
+  std::function<void(CellCoord, KeyHash&)> add_to_key;  ///< as TileParams::add_to_key; may be empty
 };
 
 /// What a caller does while levels are cut. Tiles come in no order, one at a time, on any thread.

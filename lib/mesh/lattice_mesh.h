@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lib/core/color.h"
@@ -13,6 +15,15 @@
 /// outside.
 namespace bp {
 
+/// An image that lies on a mesh.
+struct MeshTexture {
+  using Corners = std::array<std::array<float, 2>, 3>;
+  std::vector<Corners> uv;           ///< of each triangle's corners: (0, 0) is the image's upper left corner
+  std::vector<std::uint32_t> chart;  ///< of each triangle: a vertex has one place in the image for each of its charts
+  std::string image, type;           ///< as a file holds it: "image/jpeg" or "image/png"
+  bool has_holes = false;            ///< where the image's alpha is below a half
+};
+
 struct LatticeMesh {
   GridFrame frame;
   std::vector<LatticeCoord> vertices;
@@ -20,6 +31,7 @@ struct LatticeMesh {
   std::vector<std::array<std::uint32_t, 2>> quads;  ///< triangles that a file joins (lib/quads/quads.h); mostly none
   std::vector<LinearColor> colors;                  ///< of the vertices; empty: none
   std::vector<Provenance> provenance;
+  std::shared_ptr<const MeshTexture> texture;  ///< null: none
 };
 
 /// Six times the volume that a closed surface encloses, lattice units cubed; exact.

@@ -33,6 +33,11 @@ for up in y z; do
   bplod red.obj --levels 2 --resolution 64 --mode fit --up $up -o gltf-red-$up > /dev/null
   bplod red.obj --levels 2 --resolution 64 --mode fit --up $up --profile 3dtiles -o tiles-red-$up > /dev/null
 done
+# Textures.
+"$here/../../samples/town.py" town 4 > /dev/null
+bplod town/town.obj --levels 2 --resolution 64 -o gltf-town > /dev/null
+bplod town/town.obj --levels 3 --resolution 96 --tile 64 --profile 3dtiles -o tiles-town > /dev/null
+cp tiles-town/town_LOD0/*.glb tiles-town/ 2> /dev/null || true
 node "$here/validate.cjs" gltf-*/*.glb tiles-*/*.glb
 
 # The same triangles, bit for bit, by another decoder.

@@ -21,6 +21,8 @@ bp-plant --triangles 100000 -o plant.ply --overwrite > /dev/null
 bplod plant.ply --faces 2000 --resolution 160 -o data/gltf > /dev/null
 bplod plant.ply --levels 3 --resolution 192 --tile 64 --profile 3dtiles -o data/tiles > /dev/null
 bpvox plant.ply --resolution 128 | bpclose --scale 1% | bpmesh --faces 1000 -o data/bpmesh.glb
+"$here/../../samples/town.py" town 16 > /dev/null
+bplod town/town.obj --faces 3000 --resolution 160 -o data/town > /dev/null
 
 failed=0
 # picture VIEWER FILE NAME
@@ -32,5 +34,6 @@ picture() {
 }
 picture three data/gltf/plant_LOD0.glb three-level
 picture three data/bpmesh.glb three-bpmesh
+picture three data/town/town_LOD0.glb three-town
 picture cesium data/tiles/tileset.json cesium-tiles
 exit $failed

@@ -16,6 +16,7 @@
 #include "lib/grid/shelf_stream.h"
 #include "lib/pass/color/vertex_colors.h"
 #include "tools/cli/names.h"
+#include "tools/lod/bake_levels.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/proportions.h"
 #include "tools/notes/up_note.h"
@@ -67,7 +68,8 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   out.solid = make_shelf();
   ShelfSink sink(out.solid.get());
   SceneOptions scene = scene_options();
-  scene.colors = options.colors;
+  scene.colors = options.colors();
+  if (options.appearance == Appearance::texture) scene.textures = textures_ = std::make_shared<TextureTable>();
   auto source = open_scenes(options.voxels.scenes, scene);
   if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.voxels.up);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
@@ -87,7 +89,8 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   triangles_ = out.counts.scene.triangles;
   enclosed_ = enclosed_by(options, triangles_);
   if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
-  if (source->has_colors()) gather(*source, out);
+  choose_textures(source->has_textures(), halvings == 0);
+  if (source->has_colors() && !textured_) gather(*source, out);
   return out;
 }
 
@@ -97,7 +100,7 @@ void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_tol
   note(up_note(size.bounds, options.voxels.up || up_told));
   for (const std::string& path : options.voxels.scenes) {
     const bool occluder = options.profile == LodProfile::occluder;
-    if (!options.colors && !occluder) break;
+    if (!options.colors() && !occluder) break;
     for (const std::string& file : missing_materials(path))
       note(fmt::format("{}: {} is not there, {}", path, file,
                        occluder ? "so nobody knows what is glass: all of the scene is taken for walls"
@@ -106,6 +109,14 @@ void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_tol
   note(voxel_note(options, size));
   note(origin_note(options, scene.header));
   note(enclose_note(options, triangles_));
+}
+
+void Build::choose_textures(bool has_textures, bool tell) {
+  textured_ = has_textures && can_read_again(options) && textures_->has_images();
+  if (!has_textures || textured_ || !tell) return;
+  note(can_read_again(options)
+           ? "no image of the scene's textures is there, or can be read: levels have colours instead"
+           : "a scene from a pipe cannot be read again: its textures are lost; give it as a file");
 }
 
 /// The triangles have gone, and so has most of what they were given of the memory.
@@ -150,22 +161,33 @@ LodOptions Build::lod_options() {
   return lod;
 }
 
+void Build::hold_looks() {
+  if (!textured_) return;
+  report.begin("textures");
+  looks_ = read_looks(*this, part_of(budget.work, 0.4));
+}
+
+MemoryShare Build::texture_memory() const {
+  return part_of(budget.work, 0.1);
+}
+
 PassContext Build::context(ResultStore* results) const {
   PassContext context;
-  context.memory = budget.work;
+  const MemoryShare work = looks_ != nullptr ? part_of(budget.work, 0.5) : budget.work;
+  context.memory = work;
   context.make_shelf = make_shelf;
   context.results = results;
   context.progress = show;
   PieceMemory& memory = context.pieces;
-  memory.waiting_bytes = budget.work.bytes / 20 * 9;
-  memory.work_bytes = budget.work.bytes - memory.waiting_bytes;
+  memory.waiting_bytes = work.bytes / 20 * 9;
+  memory.work_bytes = work.bytes - memory.waiting_bytes;
   // One for each surface at work, when all that waits in memory is spent.
   memory.make_scratch = [bytes = budget.store / std::uint64_t(thread_count()), temp = options.common.temp] {
     return make_scratch(bytes, temp);
   };
-  memory.limit = budget.work.limit;
-  memory.waiting_share = budget.work.share * 0.45;
-  memory.work_share = budget.work.share * 0.55;
+  memory.limit = work.limit;
+  memory.waiting_share = work.share * 0.45;
+  memory.work_share = work.share * 0.55;
   return context;
 }
 
@@ -174,8 +196,12 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
     colors_->prepare(level.mesh.frame);
     color_vertices(level.mesh, colors_->all(level.mesh.frame));
   }
+  if (looks_ != nullptr)
+    level.mesh.texture =
+        level_texture(*this, level.mesh, level.error_world, level.scale_world, *looks_, texture_memory());
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
+  if (textured_) text.add("appearance", "texture");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
 }
 

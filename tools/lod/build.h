@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "io/scene/scene_reader.h"
+#include "io/scene/texture_table.h"
 #include "lib/levels/level_chain.h"
 #include "lib/levels/occluder_level.h"
+#include "lib/pass/bake/scene_looks.h"
 #include "lib/pass/color/scene_colors.h"
 #include "tools/lod/level_list.h"
 #include "tools/lod/level_notes.h"
@@ -44,6 +46,15 @@ class Build {
   [[nodiscard]] Enclose enclosed() const { return enclosed_; }
   /// Null if the scene has no colours, or if none are wanted.
   [[nodiscard]] SceneColors* colors() const { return colors_.get(); }
+  /// Levels get textures: they are wanted, and the scene has some and can be read again. After voxelize().
+  [[nodiscard]] bool textured() const { return textured_; }
+  [[nodiscard]] const std::shared_ptr<TextureTable>& textures() const { return textures_; }  ///< null: not wanted
+  [[nodiscard]] std::uint64_t triangles() const { return triangles_; }                       ///< of the scene
+  /// From now on levels get their textures as they are made, and half of the memory for work is for the scene's looks.
+  /// Does nothing if the levels get none.
+  void hold_looks();
+  [[nodiscard]] const SceneLooks* looks() const { return looks_.get(); }  ///< null: not held
+  [[nodiscard]] MemoryShare texture_memory() const;                       ///< for each image that is baked meanwhile
   /// Stages go to the report; levels get colours and provenance. `input_hash`: of the scene, for the latter.
   [[nodiscard]] LevelSteps level_steps(std::function<std::string()> input_hash);
 
@@ -59,6 +70,8 @@ class Build {
  private:
   void note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told);
   void gather(TriangleSource& source, const VoxelizedScene& scene);
+  /// After the scene has been read. `tell`: notes why there will be no textures.
+  void choose_textures(bool has_textures, bool tell);
   void complete(LodLevel& level, std::size_t number, const LodTarget& target, const std::string& input_hash);
   /// The scene, read again; nothing of a fit's if it has too many triangles or comes from a pipe.
   [[nodiscard]] std::vector<TriangleD> scene_triangles() const;
@@ -68,6 +81,9 @@ class Build {
   std::uint64_t triangles_ = 0;  // of the scene
   Enclose enclosed_ = Enclose::input;
   std::unique_ptr<SceneColors> colors_;
+  std::shared_ptr<TextureTable> textures_;
+  bool textured_ = false;
+  std::unique_ptr<SceneLooks> looks_;
 };
 
 /// All levels of a scene, in one mesh each.

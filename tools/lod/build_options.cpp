@@ -89,10 +89,11 @@ void check_profile(const Args& args, const BuildOptions& o) {
     fail(ErrorCode::bad_argument,
          "--origin: a tileset holds its place in double, in the transforms of its tiles; leave it out, and move the "
          "tileset by the transform of its root");
-  if (o.profile == LodProfile::collision && args.given("--colors") && o.colors)
-    fail(ErrorCode::bad_argument, "--profile collision has no colours; leave --colors out");
-  if (o.profile == LodProfile::occluder) refuse({"--mode", "--enclose", "--fill", "--error", "--colors", "--explain"});
-  if (o.profile == LodProfile::cage) refuse({"--mode", "--colors"});
+  if (o.profile == LodProfile::collision && args.given("--appearance") && o.colors())
+    fail(ErrorCode::bad_argument, "--profile collision has no colours; leave --appearance out");
+  if (o.profile == LodProfile::occluder)
+    refuse({"--mode", "--enclose", "--fill", "--error", "--appearance", "--explain"});
+  if (o.profile == LodProfile::cage) refuse({"--mode", "--appearance"});
   if (o.profile == LodProfile::collision && o.proxy.mode != MeshMode::bounding)
     fail(ErrorCode::bad_argument, "--profile collision needs --mode bounding");
   if (o.proxy.mode == MeshMode::fit && args.given("--enclose"))
@@ -109,7 +110,7 @@ void set_one_level(BuildOptions& o) {
   if (o.profile == LodProfile::gltf || o.is_tileset()) return;
   if (!o.levels.levels && asks_for_nothing(request_of(o))) o.levels.levels = 1;
   if (level_count(request_of(o)) != 1) fail(ErrorCode::bad_argument, "--profile {} has one level", name_of(o.profile));
-  o.colors = false;
+  o.appearance = Appearance::off;
   if (o.profile != LodProfile::occluder) return;
   if (!o.levels.shares.empty())
     fail(ErrorCode::bad_argument, "--faces {}%: an occluder takes a number of faces; some hundred are enough",
@@ -162,10 +163,12 @@ void declare_profile(Args& args, BuildOptions& o) {
       "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_count(text, 1, kMostHullsAsked); },
       "collision: largest number of convex hulls in Unreal's file (default: 32, or one for each part where there are "
       "more)");
-  args.option("--colors",
-              {{"auto", true, "vertices have the colours of the scene's materials and vertices, if it has any"},
-               {"off", false, "no colours"}},
-              o.colors, "colours of the levels");
+  args.option(
+      "--appearance",
+      {{"texture", Appearance::texture, "a texture with what the scene's textures show; without any, colours"},
+       {"color", Appearance::color, "colours on vertices, of the scene's materials and vertices, if it has any"},
+       {"off", Appearance::off, "neither"}},
+      o.appearance, "textures or colours of the levels");
 }
 
 void declare_tileset(Args& args, BuildOptions& o) {
@@ -198,6 +201,7 @@ void declare(Args& args, BuildOptions& o) {
   args.group("Messages");
   args.flag("--explain", o.explain, "print what would be made, and what is kept of it; make nothing");
   args.removed("--no-tighten", "levels are always tightened; --enclose closing makes the loosest ones");
+  args.removed("--colors", "--appearance color|off says what the levels carry");
   args.removed("--element", "bplod closes with cubes, and with balls for --mode fit; bpclose takes either");
   args.removed("--resume", "--cache DIR keeps what is done, and a run after a kill goes on from there");
   args.removed("--screen",
@@ -216,6 +220,11 @@ JobRange parse_job_range(const std::string& text) {
   const std::int64_t end = parse_integer(std::string_view(text).substr(dots + 2), 0, INT64_MAX);
   if (begin > end) fail(ErrorCode::bad_argument, "{}: ends before it begins", text);
   return {std::uint64_t(begin), std::uint64_t(end)};
+}
+
+const char* name_of(Appearance appearance) {
+  constexpr const char* kNames[] = {"off", "color", "texture"};
+  return kNames[std::size_t(appearance)];
 }
 
 const char* name_of(LodProfile profile) {
@@ -259,7 +268,7 @@ Json options_json(const BuildOptions& o) {
           {"element", name_of(o.closing.element)},
           {"enclose", o.proxy.enclose.text()},
           {"fill", name_of(o.voxels.fill)},
-          {"colors", o.colors},
+          {"appearance", name_of(o.appearance)},
           {"up", o.voxels.up ? Json(name_of(*o.voxels.up)) : Json(nullptr)},
           {"origin", o.proxy.origin.text().empty() ? Json(nullptr) : Json(o.proxy.origin.text())},
           {"threads", o.common.threads},

@@ -17,6 +17,11 @@ namespace bp {
 enum class LodProfile { gltf, tiles, collision, occluder, cage };
 [[nodiscard]] const char* name_of(LodProfile profile);
 
+/// What levels carry of the scene's looks, if it has any: nothing; colours on vertices; its textures, baked into one
+/// for each mesh, or colours where it has none.
+enum class Appearance { off, color, texture };
+[[nodiscard]] const char* name_of(Appearance appearance);
+
 /// "A..B". Throws bad_argument.
 [[nodiscard]] JobRange parse_job_range(const std::string& text);
 
@@ -33,8 +38,9 @@ struct BuildOptions {
   std::string cache;              ///< folder of results of earlier builds; empty: none
   std::optional<JobRange> tiles;  ///< the jobs to do, without a tileset; empty: all, and the tileset
   bool explain = false;           ///< print the plan; do nothing
-  bool colors = true;             ///< carry the scene's, if it has any
+  Appearance appearance = Appearance::texture;
 
+  [[nodiscard]] bool colors() const { return appearance != Appearance::off; }
   [[nodiscard]] bool is_tileset() const { return profile == LodProfile::tiles; }
 };
 

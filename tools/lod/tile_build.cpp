@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "io/mesh/lod_writer.h"
 #include "io/store/result_store.h"
 #include "io/store/scratch.h"
@@ -10,6 +12,8 @@
 #include "lib/core/parallel.h"
 #include "lib/levels/cut_levels.h"
 #include "lib/levels/whole_levels.h"
+#include "lib/store/hex.h"
+#include "tools/lod/bake_levels.h"
 #include "tools/lod/build.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/kept_results.h"
@@ -64,16 +68,44 @@ std::string name_of(CellCoord c) {
   return fmt::format("{}_{}_{}", c.x, c.y, c.z);
 }
 
+/// Of a tile, what decides its texture.
+Bounds3d around(const VoxelBox& box, const GridFrame& frame, double scale_world) {
+  const double reach = texture_reach(0, scale_world, frame.voxel) + scale_world + 2 * frame.voxel;
+  const auto corner = [&](VoxelCoord v, double by) {
+    Vec3d p = frame.world({v.x * std::int64_t(kLatticePerVoxel), v.y * std::int64_t(kLatticePerVoxel),
+                           v.z * std::int64_t(kLatticePerVoxel)});
+    for (double& x : p) x += by;
+    return p;
+  };
+  Bounds3d bounds;
+  bounds.add(corner(box.min, -reach));
+  bounds.add(corner(box.max, reach));
+  return bounds;
+}
+
 /// Names and provenance of the tiles of a level.
 CutFiles cut_files(const Build& build, const CutLevel& cut, std::size_t level) {
   const std::string folder = level_name(build.options.name, level);
   OptionText text = option_text(build.options, build.enclosed(), cut.target, level, cut.scale_world, cut.frame);
   if (build.colors() != nullptr) text.add("colors", "auto");
+  if (build.textured()) text.add("appearance", "texture");
   const Provenance provenance = make_provenance("bplod", text);
-  return {folder + " " + provenance.options, [folder, provenance](CellCoord cell, LatticeMesh&& mesh, LatticeCoord at) {
-            mesh.provenance = {provenance};
-            return tile_glb({folder + "_" + name_of(cell), &mesh}, at);
-          }};
+  CutFiles files;
+  files.encoding = folder + " " + provenance.options;
+  files.encode = [&build, scale = cut.scale_world, folder, provenance](CellCoord cell, LatticeMesh&& mesh,
+                                                                       LatticeCoord at) {
+    mesh.provenance = {provenance};
+    if (build.looks() != nullptr)
+      mesh.texture = level_texture(build, mesh, 0, scale, *build.looks(), build.texture_memory());
+    return tile_glb({folder + "_" + name_of(cell), &mesh}, at);
+  };
+  if (build.looks() != nullptr) {
+    files.add_to_key = [&build, cells = Cells{build.options.tile_vox}, frame = cut.frame, scale = cut.scale_world](
+                           CellCoord cell, KeyHash& hash) {
+      build.looks()->add_to(hash, around(cells.box(cell), frame, scale));
+    };
+  }
+  return files;
 }
 
 /// A tile has come.
@@ -139,8 +171,17 @@ void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<Triangle
 
 /// Everything that files of levels in one mesh depend on, beside what WholeInput says: names and provenance.
 std::string whole_encoding(const Build& build, const std::string& input_hash, const GridFrame& frame) {
-  return fmt::format("{} {} {}", build.options.name, input_hash,
-                     option_text(build.options, build.enclosed(), {}, 0, 0, frame).text());
+  std::string text = fmt::format("{} {} {}", build.options.name, input_hash,
+                                 option_text(build.options, build.enclosed(), {}, 0, 0, frame).text());
+  if (build.looks() != nullptr) {
+    KeyHash hash("looks");
+    Bounds3d everything;
+    everything.add({-HUGE_VAL, -HUGE_VAL, -HUGE_VAL});
+    everything.add({HUGE_VAL, HUGE_VAL, HUGE_VAL});
+    build.looks()->add_to(hash, everything);
+    text += " " + hex_of(hash.key().words[0], hash.key().words[1]);
+  }
+  return text;
 }
 
 /// The levels in one mesh.
@@ -196,6 +237,7 @@ MadeTileset make_tileset(const Shop& shop) {
   const BuildOptions& o = shop.options();
   MadeTileset made;
   made.scene = shop.build.voxelize(o.tile_vox, shop.results);
+  shop.build.hold_looks();
   const StreamHeader& header = made.scene.header;
   const LevelRequest request = request_of(o, header.bounds.diagonal(), header.frame.voxel);
   made.plan = plan_tileset(request, shop.cells(), header);

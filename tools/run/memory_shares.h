@@ -11,6 +11,12 @@ namespace bp {
 /// checked.
 constexpr std::uint64_t kVoxelProgram = std::uint64_t(96) << 20, kMeshProgram = std::uint64_t(48) << 20;
 
+[[nodiscard]] inline MemoryShare part_of(MemoryShare memory, double part) {
+  memory.bytes = std::uint64_t(double(memory.bytes) * part);
+  memory.share *= part;
+  return memory;
+}
+
 /// What is left of --memory beside what a device pins. That is at most half of it.
 [[nodiscard]] inline std::uint64_t unpinned(std::uint64_t memory, std::uint64_t pinned) {
   return memory - std::min(pinned, memory / 2);

@@ -13,8 +13,8 @@ constexpr std::size_t kMaxPrefix = 256;  // of a data URI, up to its comma
 
 class JsonLifter {
  public:
-  JsonLifter(const SceneFilePtr& file, std::uint64_t offset, std::uint64_t size, std::string temp_dir)
-      : name_(file->name()), bytes_(file, offset), left_(size), temp_dir_(std::move(temp_dir)) {}
+  JsonLifter(const SceneFilePtr& file, std::uint64_t offset, std::uint64_t size, std::string temp_dir, bool images)
+      : name_(file->name()), bytes_(file, offset), left_(size), temp_dir_(std::move(temp_dir)), images_(images) {}
 
   LeanJson run() {
     while (left_ > 0) {
@@ -43,6 +43,7 @@ class JsonLifter {
   ByteStream bytes_;
   std::uint64_t left_;
   std::string temp_dir_;
+  bool images_;
   LeanJson json_;
   std::shared_ptr<ScratchFile> scratch_;
   std::vector<std::byte> decoded_;
@@ -67,7 +68,7 @@ bool JsonLifter::is_base64(std::size_t start) const {
 }
 
 void JsonLifter::lift(std::size_t start) {
-  const bool image = json_.text.compare(start, 11, "data:image/") == 0;
+  const bool image = !images_ && json_.text.compare(start, 11, "data:image/") == 0;
   json_.text.resize(start);
   if (image) {
     decode(nullptr);
@@ -140,9 +141,9 @@ std::uint64_t bytes_to_parse(const std::string& text) {
   return bytes;
 }
 
-LeanJson read_lean_json(const SceneFilePtr& file, std::uint64_t offset, std::uint64_t size,
-                        const std::string& temp_dir) {
-  return JsonLifter(file, offset, size, temp_dir).run();
+LeanJson read_lean_json(const SceneFilePtr& file, std::uint64_t offset, std::uint64_t size, const std::string& temp_dir,
+                        bool images) {
+  return JsonLifter(file, offset, size, temp_dir, images).run();
 }
 
 }  // namespace bp

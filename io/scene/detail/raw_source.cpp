@@ -11,11 +11,10 @@ namespace bp {
 bool PolygonSource::next(RawBatch& batch) {
   batch.bad_faces = 0;
   batch.inner_edges.clear();
-  return read(batch.triangles, batch.colored ? &batch.colors : nullptr, &batch.inner_edges);
+  return read(batch.triangles, batch.colored ? &batch.colors : nullptr, &batch);
 }
 
-bool PolygonSource::read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors,
-                         std::vector<std::uint8_t>* inner_edges) {
+bool PolygonSource::read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors, RawBatch* rest) {
   out.clear();
   if (colors != nullptr) colors->clear();
   while (out.size() < kBatch) {
@@ -33,14 +32,21 @@ bool PolygonSource::read(std::vector<TriangleD>& out, std::vector<TriangleColors
     out.push_back({first_, previous_, next});
     if (colors != nullptr)
       colors->push_back({corner_color(corners_[0]), corner_color(corners_[fan_ - 1]), corner_color(corners_[fan_])});
-    if (inner_edges != nullptr && corners_.size() > 3) {
-      inner_edges->resize(out.size());
-      inner_edges->back() = inner_edges_of_fan(fan_ - 2, corners_.size() - 2);
-    }
+    if (rest != nullptr) add_rest(*rest, out.size() - 1);
     previous_ = next;
     if (++fan_ == corners_.size()) fan_ = 0;
   }
   return !out.empty();
+}
+
+void PolygonSource::add_rest(RawBatch& rest, std::size_t triangle) {
+  if (corners_.size() > 3) {
+    rest.inner_edges.resize(triangle + 1);
+    rest.inner_edges.back() = inner_edges_of_fan(fan_ - 2, corners_.size() - 2);
+  }
+  if (!rest.textured || face_material() == TriangleTexture::kNoMaterial) return;
+  rest.textures.resize(triangle + 1);
+  rest.textures.back() = {{corner_uv(0), corner_uv(fan_ - 1), corner_uv(fan_)}, face_material()};
 }
 
 void PolygonSource::rewind() {

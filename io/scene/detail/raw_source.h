@@ -7,9 +7,10 @@ namespace bp {
 
 /// Triangles on their way from a file.
 struct RawBatch {
-  bool colored = false;  ///< asked for
+  bool colored = false, textured = false;  ///< asked for; textures only along with colours
   std::vector<TriangleD> triangles;
   std::vector<TriangleColors> colors;     ///< if asked for; fewer than triangles: all are white
+  std::vector<TriangleTexture> textures;  ///< if asked for; fewer than triangles: the rest has none
   std::vector<std::uint8_t> inner_edges;  ///< TriangleSource::read_faces(); fewer than triangles: the rest has none
   std::vector<std::byte> bytes;           ///< that complete() will make them of
   std::uint64_t records = 0, count = 0;   ///< faces in `bytes`, and their triangles if all are good
@@ -30,6 +31,7 @@ class RawSource {
     return more;
   }
   [[nodiscard]] virtual bool has_colors() const { return false; }
+  [[nodiscard]] virtual bool has_textures() const { return false; }
   /// The same in two steps, so that many batches are decoded at once: next() fetches one, in order, on one thread at a
   /// time; complete() makes its triangles, on any thread. A batch may turn out to hold no triangle.
   virtual bool next(RawBatch& batch) {
@@ -56,9 +58,9 @@ class PolygonSource : public RawSource {
  public:
   static constexpr std::size_t kMaxCorners = std::size_t(1) << 20;  ///< of a face; more is taken for a broken file
 
-  bool read(std::vector<TriangleD>& out) final { return read(out, nullptr); }
+  bool read(std::vector<TriangleD>& out) final { return read(out, nullptr, nullptr); }
   bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) final {
-    return read(out, &colors);
+    return read(out, &colors, nullptr);
   }
   bool next(RawBatch& batch) final;
   void rewind() final;
@@ -73,11 +75,15 @@ class PolygonSource : public RawSource {
   [[nodiscard]] virtual Vec3d vertex(std::uint64_t i) = 0;
   /// Of a corner of the face that next_face() gave last.
   [[nodiscard]] virtual LinearColor corner_color(std::uint64_t) { return kWhite; }
+  /// Of the face that next_face() gave last, and of its corner number k.
+  [[nodiscard]] virtual std::uint32_t face_material() const { return TriangleTexture::kNoMaterial; }
+  [[nodiscard]] virtual std::array<float, 2> corner_uv(std::size_t) { return {}; }
   virtual void rewind_faces() = 0;
 
  private:
-  bool read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors,
-            std::vector<std::uint8_t>* inner_edges = nullptr);
+  /// `rest`: for textures, if it asks for them, and inner edges.
+  bool read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors, RawBatch* rest);
+  void add_rest(RawBatch& rest, std::size_t triangle);
   [[nodiscard]] bool good_face() const;
 
   std::vector<std::uint64_t> corners_;

@@ -10,7 +10,7 @@ same() { diff -r "$1" "$2" > differences && echo "$1 and $2: the same bytes" || 
 bplod part*.obj --name cubes --resolution 100 --levels 2 -q -o on | cut -f 1
 bplod part*.obj --name cubes --resolution 100 --levels 2 -q -o on1 -j 1 --memory 300M > list
 same on on1
-bplod part*.obj --name cubes --resolution 100 --levels 2 -q -o off --colors off > list
+bplod part*.obj --name cubes --resolution 100 --levels 2 -q -o off --appearance off > list
 attributes on/*.glb off/*.glb
 for f in cubes_LOD0 cubes_LOD1; do
   [ "$(bpinfo --checksum on/$f.glb)" = "$(bpinfo --checksum off/$f.glb)" ] && echo "$f: the same triangles"
@@ -49,4 +49,4 @@ files
 # Colours that the scene names and does not have are missed.
 rm cubes.mtl
 said 'bplod part0.obj --name cubes --resolution 30 --levels 1 -o colourless | cut -f 1'
-said 'bplod part0.obj --name cubes --resolution 30 --levels 1 --colors off -o colourless-too | cut -f 1'
+said 'bplod part0.obj --name cubes --resolution 30 --levels 1 --appearance off -o colourless-too | cut -f 1'

@@ -4,7 +4,7 @@ for profile in gltf collision cage; do
   for option in '--tile 64' '--cache c' '--tiles 0..1'; do try bplod cube.obj -o x --profile $profile $option; done
 done
 try bplod cube.obj -o x --tile 512  # the default, too
-try bplod cube.obj -o x --profile collision --colors auto
+try bplod cube.obj -o x --profile collision --appearance color
 try bplod cube.obj -o x --mode fit --enclose input
 try bplod cube.obj -o x --profile cage --mode fit
 for option in --no-tighten --resume '--screen 800' '--element ball'; do try bplod cube.obj -o x $option; done
@@ -30,7 +30,7 @@ try bpcheck cube.obj --inside
 try bpvox cube.obj -o cube.glb
 try bpclose cube.bpv --scale 1vx -o cube.PLY
 # What goes together does.
-try bplod cube.obj -o made --profile collision --colors off --resolution 10 | cut -f 1
+try bplod cube.obj -o made --profile collision --appearance off --resolution 10 | cut -f 1
 try bplod cube.obj -o near --error 50% --enclose closing --levels 1 | cut -f 1
 files
 # A format that no input needs, or that is none; values that are empty; lengths that count in what is not there.

@@ -19,7 +19,7 @@ struct OptionOfTools {
 constexpr OptionOfTools kOptionsOfTools[] = {
     {"--cache", "bplod"},
     {"--checksum", "bpinfo"},
-    {"--colors", "bplod"},
+    {"--appearance", "bplod"},
     {"--convex", "bpcheck"},
     {"--device", "bpclose and bplod"},
     {"--dump", "bpinfo"},

@@ -291,3 +291,46 @@ TEST_CASE("the screen coverage of a level is where its error is a pixel", "[quic
   CHECK(half > 0.110);
   CHECK(half < 0.111);
 }
+
+TEST_CASE("a texture splits vertices by charts and moves none", "[quick][io]") {
+  const TempDir dir;
+  LatticeMesh mesh = random_mesh(frame_at({100, 200, 300}, 0.5, UpAxis::z), 20000, 6);
+  const std::vector<TriangleD> before = canonical(soup(mesh));
+  auto texture = std::make_shared<MeshTexture>();
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const std::uint32_t chart = i % 7;
+    texture->chart.push_back(chart);
+    MeshTexture::Corners& uv = texture->uv.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) uv[k] = {float(mesh.triangles[i][k]) / 300, float(chart) / 7};
+  }
+  texture->image = "an image";
+  texture->type = "image/jpeg";
+  mesh.texture = texture;
+  LatticeMesh plain = mesh;
+  plain.texture = nullptr;
+  const std::string path = dir.path("x.glb");
+  OutputFile out(path, true);
+  write_lod_glb(std::vector<NamedMesh>{{"textured", &mesh}, {"plain", &plain}}, std::vector<double>{0.5, 0}, out);
+  out.commit();
+  for (const IndexedMesh& level : read_levels(path)) CHECK(canonical(soup(level)) == before);
+  const std::string bytes = bytes_of_file(path);
+  std::uint32_t size = 0;
+  std::memcpy(&size, bytes.data() + 12, 4);
+  const Json doc = Json::parse(bytes.substr(20, size));
+  CHECK(doc["materials"].size() == 2);
+  const Json &first = doc["meshes"][0]["primitives"][0], &second = doc["meshes"][1]["primitives"][0];
+  CHECK(first["material"] != second["material"]);
+  CHECK(first["attributes"].contains("TEXCOORD_0"));
+  CHECK_FALSE(second["attributes"].contains("TEXCOORD_0"));
+  CHECK(doc["materials"][first["material"].get<std::size_t>()]["pbrMetallicRoughness"].contains("baseColorTexture"));
+  CHECK_FALSE(
+      doc["materials"][second["material"].get<std::size_t>()]["pbrMetallicRoughness"].contains("baseColorTexture"));
+  const Json& view = doc["bufferViews"][doc["images"][0]["bufferView"].get<std::size_t>()];
+  CHECK(bytes.substr(20 + size + 8 + view["byteOffset"].get<std::size_t>(), view["byteLength"].get<std::size_t>()) ==
+        "an image");
+
+  const LatticeCoord origin{0, 0, 0};
+  const std::string tile = tile_glb({"tile", &mesh}, origin), plain_tile = tile_glb({"tile", &plain}, origin);
+  CHECK(canonical(soup(read_mesh(dir.file("t.glb", tile)))) ==
+        canonical(soup(read_mesh(dir.file("p.glb", plain_tile)))));
+}

@@ -1,7 +1,8 @@
-#include "io/mesh/detail/shaded_mesh.h"
+#include "lib/mesh/shaded_mesh.h"
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
 
 #include "lib/core/disjoint_sets.h"
@@ -71,20 +72,23 @@ class Shader {
   }
 
   void number_groups() {
-    std::vector<std::uint32_t> number(3 * faces_.size());
+    std::unordered_map<std::uint64_t, std::uint32_t> number;  // of a group in a chart
+    const MeshTexture* const texture = mesh_.texture.get();
     out_.triangles.resize(faces_.size());
     for (Corner c = 0; c < 3 * faces_.size(); ++c) {
-      const Corner first = groups_.find(c);  // the least of its group: numbered already, or now
-      if (first == c) {
-        number[c] = std::uint32_t(out_.vertex.size());
-        out_.vertex.push_back(vertex_of(c));
-      }
-      out_.triangles[c / 3][c % 3] = number[first];
+      const Corner first = groups_.find(c);
+      const std::uint64_t chart = texture != nullptr ? texture->chart[c / 3] : 0;
+      const auto [copy, is_new] = number.try_emplace(chart << 32 | first, std::uint32_t(out_.vertex.size()));
+      out_.triangles[c / 3][c % 3] = copy->second;
+      if (!is_new) continue;
+      out_.vertex.push_back(vertex_of(c));
+      group_of_copy_.push_back(first);
+      if (texture != nullptr) out_.uv.push_back(texture->uv[c / 3][c % 3]);
     }
   }
 
   void set_normals() {
-    std::vector<Vec3d> sums(out_.vertex.size(), Vec3d{});
+    std::vector<Vec3d> sums(3 * faces_.size(), Vec3d{});  // by the first corner of a group
     for (Corner c = 0; c < 3 * faces_.size(); ++c) {
       const LatticeCoord at = mesh_.vertices[vertex_of(c)];
       const Vec3d u = direction(at, mesh_.vertices[vertex_of(next(c))]),
@@ -92,9 +96,10 @@ class Shader {
       const double area = length(faces_[c / 3]);
       if (!(area > 0)) continue;
       const double weight = std::atan2(area, dot(u, v)) / area;
-      for (std::size_t i = 0; i < 3; ++i) sums[out_.triangles[c / 3][c % 3]][i] += weight * faces_[c / 3][i];
+      for (std::size_t i = 0; i < 3; ++i) sums[groups_.find(c)][i] += weight * faces_[c / 3][i];
     }
-    for (const Vec3d& s : sums) {
+    for (const Corner group : group_of_copy_) {
+      const Vec3d& s = sums[group];
       const double l = length(s);
       out_.normals.push_back(l > 0 ? std::array<float, 3>{float(s[0] / l), float(s[1] / l), float(s[2] / l)}
                                    : std::array<float, 3>{0, 0, 1});
@@ -103,7 +108,8 @@ class Shader {
 
   const LatticeMesh& mesh_;
   std::vector<Vec3d> faces_;  // normals, twice the area long
-  DisjointSets groups_;       ///< corners of one vertex that share a normal
+  std::vector<Corner> group_of_copy_;
+  DisjointSets groups_;  ///< corners of one vertex that share a normal
   ShadedMesh out_;
 };
 

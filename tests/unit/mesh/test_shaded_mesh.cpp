@@ -1,7 +1,7 @@
 #include <cmath>
 #include <set>
 
-#include "io/mesh/detail/shaded_mesh.h"
+#include "lib/mesh/shaded_mesh.h"
 #include "tests/catch.h"
 
 using namespace bp;
@@ -74,4 +74,30 @@ TEST_CASE("flat triangles and triangles without area do not disturb normals", "[
   const ShadedMesh drawn = shaded(mesh);
   CHECK(same_triangles(mesh, drawn));
   for (const auto& n : drawn.normals) CHECK(std::abs(std::hypot(n[0], n[1], n[2]) - 1) < 1e-6f);
+}
+
+TEST_CASE("charts of a texture split vertices, and normals stay", "[quick]") {
+  LatticeMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {100, 0, 5}, {100, 100, 0}, {0, 100, 7}, {200, 50, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}};
+  const ShadedMesh plain = shaded(mesh);
+  auto texture = std::make_shared<MeshTexture>();
+  texture->chart = {0, 0, 1};
+  for (std::size_t i = 0; i < 3; ++i) {
+    MeshTexture::Corners& uv = texture->uv.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) uv[k] = {float(mesh.triangles[i][k]), float(texture->chart[i])};
+  }
+  mesh.texture = texture;
+  const ShadedMesh split = shaded(mesh);
+  REQUIRE(plain.vertex.size() == 5);
+  CHECK(plain.uv.empty());
+  REQUIRE(split.vertex.size() == 7);  // vertices 1 and 2 are in both charts
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t copy = split.triangles[i][k];
+      CHECK(split.vertex[copy] == mesh.triangles[i][k]);
+      CHECK(split.uv[copy] == texture->uv[i][k]);
+      CHECK(split.normals[copy] == plain.normals[plain.triangles[i][k]]);
+    }
+  }
 }

@@ -15,13 +15,15 @@ constexpr double kCreaseDegrees = 30;
 struct ShadedMesh {
   std::vector<std::uint32_t> vertex;  ///< of each copy: its number in the mesh
   std::vector<std::array<float, 3>>
-      normals;  ///< of each copy: a unit vector; (0, 0, 1) where the faces' normals cancel
+      normals;                           ///< of each copy: a unit vector; (0, 0, 1) where the faces' normals cancel
+  std::vector<std::array<float, 2>> uv;  ///< of each copy; empty if the mesh has no texture
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< those of the mesh, in its order, of copies
 };
 
 /// Splits each vertex where edges at it are creases: faces share a normal if edges at the vertex lead from one to the
-/// other without a crease. The normal is the mean of theirs, weighted by their angle at the vertex. Copies are in the
-/// order of their first use. O(n log n) time, about 100 bytes a triangle.
+/// other without a crease. The normal is the mean of theirs, weighted by their angle at the vertex. A
+/// vertex has a copy for each chart of the mesh's texture, too; it does not change normals. Copies are in the order of
+/// their first use. O(n log n) time, about 100 bytes a triangle.
 [[nodiscard]] ShadedMesh shaded(const LatticeMesh& mesh);
 
 }  // namespace bp

@@ -1,0 +1,166 @@
+#include "io/image/image_reader.h"
+
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+// libjpeg needs <cstdio> before it.
+#include <jpeglib.h>
+#include <png.h>
+#include <webp/decode.h>
+
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+const unsigned char* raw(std::span<const std::byte> bytes) {
+  return reinterpret_cast<const unsigned char*>(bytes.data());
+}
+
+/// An image of this size, if it may be so large.
+TextureImage sized(std::uint64_t width, std::uint64_t height, const std::string& name, std::uint64_t most_bytes) {
+  constexpr std::uint64_t kMostPixels = std::uint64_t(1) << 28, kMostSide = 1 << 16;
+  if (width == 0 || height == 0 || width > kMostSide || height > kMostSide || width * height > kMostPixels)
+    fail(ErrorCode::bad_input, "{}: an image of {} x {} pixels; at most 2^28 are read", name, width, height);
+  const std::uint64_t bytes = width * height * sizeof(TextureImage::Texel);
+  if (bytes > most_bytes) throw NeedsMemory(fmt::format("{}: the image", name), bytes, most_bytes, 0);
+  return {int(width), int(height)};
+}
+
+[[noreturn]] void broken(const std::string& name, const char* why) {
+  fail(ErrorCode::bad_input, "{}: the image cannot be read: {}", name, why);
+}
+
+struct PngReader : png_image {
+  PngReader(std::span<const std::byte> bytes, const std::string& name) : png_image{} {
+    version = PNG_IMAGE_VERSION;
+    if (png_image_begin_read_from_memory(this, bytes.data(), bytes.size()) == 0)
+      broken(name, static_cast<const char*>(message));
+  }
+  ~PngReader() { png_image_free(this); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+};
+
+TextureImage decode_png(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most_bytes) {
+  PngReader png(bytes, name);
+  png.format = PNG_FORMAT_RGBA;
+  TextureImage image = sized(png.width, png.height, name, most_bytes);
+  if (png_image_finish_read(&png, nullptr, image.texels.data(), 0, nullptr) == 0)
+    broken(name, static_cast<const char*>(png.message));
+  return image;
+}
+
+/// libjpeg leaves by a jump: nothing with a destructor may live between setjmp() and it.
+struct JpegFault {
+  jpeg_error_mgr manager;
+  std::jmp_buf back;
+  char message[JMSG_LENGTH_MAX];
+};
+
+void leave_jpeg(j_common_ptr codec) {
+  auto* const fault = reinterpret_cast<JpegFault*>(codec->err);
+  codec->err->format_message(codec, fault->message);
+  std::longjmp(fault->back, 1);
+}
+
+struct JpegReader {
+  jpeg_decompress_struct codec{};
+  JpegFault fault{};
+  JpegReader() {
+    codec.err = jpeg_std_error(&fault.manager);
+    fault.manager.error_exit = leave_jpeg;
+    fault.manager.output_message = [](j_common_ptr) {};
+  }
+  ~JpegReader() { jpeg_destroy_decompress(&codec); }
+  JpegReader(const JpegReader&) = delete;
+  JpegReader& operator=(const JpegReader&) = delete;
+
+  bool begin(const unsigned char* bytes, std::size_t size) {
+    if (setjmp(fault.back) != 0) return false;
+    jpeg_create_decompress(&codec);
+    jpeg_mem_src(&codec, bytes, size);
+    jpeg_read_header(&codec, TRUE);
+    codec.out_color_space = JCS_EXT_RGBA;
+    return true;
+  }
+  bool read(TextureImage::Texel* texels) {
+    if (setjmp(fault.back) != 0) return false;
+    jpeg_start_decompress(&codec);
+    while (codec.output_scanline < codec.output_height) {
+      JSAMPROW row = texels[std::size_t(codec.output_scanline) * codec.output_width].data();
+      jpeg_read_scanlines(&codec, &row, 1);
+    }
+    jpeg_finish_decompress(&codec);
+    return true;
+  }
+};
+
+TextureImage decode_jpeg(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most_bytes) {
+  JpegReader reader;
+  if (!reader.begin(raw(bytes), bytes.size())) broken(name, reader.fault.message);
+  TextureImage image = sized(reader.codec.image_width, reader.codec.image_height, name, most_bytes);
+  if (!reader.read(image.texels.data())) broken(name, reader.fault.message);
+  return image;
+}
+
+std::array<int, 2> webp_size(std::span<const std::byte> bytes, const std::string& name) {
+  std::array<int, 2> size{};
+  if (WebPGetInfo(raw(bytes), bytes.size(), &size[0], &size[1]) == 0) broken(name, "no WebP image");
+  return size;
+}
+
+TextureImage decode_webp(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most_bytes) {
+  const auto [width, height] = webp_size(bytes, name);
+  TextureImage image = sized(std::uint64_t(width), std::uint64_t(height), name, most_bytes);
+  if (WebPDecodeRGBAInto(raw(bytes), bytes.size(), image.texels.front().data(), image.texels.size() * 4, width * 4) ==
+      nullptr)
+    broken(name, "broken WebP data");
+  return image;
+}
+
+enum class ImageKind { png, jpeg, webp };
+
+ImageKind kind_of(std::span<const std::byte> bytes, const std::string& name) {
+  const auto begins = [&](std::size_t at, std::string_view magic) {
+    return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
+  };
+  if (begins(0, "\x89PNG")) return ImageKind::png;
+  if (begins(0, "\xFF\xD8")) return ImageKind::jpeg;
+  if (begins(0, "RIFF") && begins(8, "WEBP")) return ImageKind::webp;
+  broken(name, "it is no PNG, JPEG or WebP");
+}
+
+}  // namespace
+
+TextureImage decode_image(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most_bytes) {
+  switch (kind_of(bytes, name)) {
+    case ImageKind::png:
+      return decode_png(bytes, name, most_bytes);
+    case ImageKind::jpeg:
+      return decode_jpeg(bytes, name, most_bytes);
+    case ImageKind::webp:
+      break;
+  }
+  return decode_webp(bytes, name, most_bytes);
+}
+
+std::array<int, 2> image_size(std::span<const std::byte> head, const std::string& name) {
+  switch (kind_of(head, name)) {
+    case ImageKind::png: {
+      const PngReader png(head, name);
+      return {int(png.width), int(png.height)};
+    }
+    case ImageKind::jpeg: {
+      JpegReader reader;
+      if (!reader.begin(raw(head), head.size())) broken(name, reader.fault.message);
+      return {int(reader.codec.image_width), int(reader.codec.image_height)};
+    }
+    case ImageKind::webp:
+      break;
+  }
+  return webp_size(head, name);
+}
+
+}  // namespace bp

@@ -1,0 +1,74 @@
+#include "io/scene/texture_table.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/image/image_reader.h"
+#include "lib/core/error.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::uint64_t kMostBytes = std::uint64_t(512) << 20;  // of an image as it lies in its file
+
+template <class T>
+std::uint32_t number_of(const std::string& key, const T& value, std::map<std::string, std::uint32_t>& numbers,
+                        std::vector<T>& values) {
+  const auto [found, is_new] = numbers.try_emplace(key, std::uint32_t(values.size()));
+  if (is_new) values.push_back(value);
+  return found->second;
+}
+
+std::vector<std::byte> bytes_of(const ImagePlace& place, std::uint64_t most) {
+  SceneFilePtr file = place.bytes;
+  std::error_code unknown;  // a pipe would wait for ever
+  if (!file && (place.path.empty() || !std::filesystem::is_regular_file(place.path, unknown)))
+    fail(ErrorCode::bad_input, "{}: the image is not there", place.name);
+  if (!file) file = open_scene_file(place.path, "");
+  if (most == kMostBytes && file->size() > kMostBytes)
+    fail(ErrorCode::bad_input, "{}: an image of {} MiB; at most {} are read", place.name, file->size() >> 20,
+         kMostBytes >> 20);
+  std::vector<std::byte> bytes(std::size_t(std::min(most, file->size())));
+  bytes.resize(file->read_at(0, bytes));
+  return bytes;
+}
+
+}  // namespace
+
+std::uint32_t TextureTable::add_image(const std::string& key, ImagePlace place) {
+  return number_of(key, place, image_of_, images_);
+}
+
+std::uint32_t TextureTable::add_material(const std::string& key, const TextureMaterial& material) {
+  return number_of(key, material, material_of_, materials_);
+}
+
+bool TextureTable::has_images() const {
+  for (std::uint32_t i = 0; i < images_.size(); ++i)
+    if (size(i)[0] > 0) return true;
+  return false;
+}
+
+std::array<int, 2> TextureTable::size(std::uint32_t i) const {
+  constexpr std::uint64_t kMostHead = std::uint64_t(1) << 20;
+  try {
+    return image_size(bytes_of(images_.at(i), kMostHead), images_.at(i).name);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+std::vector<std::byte> TextureTable::file(std::uint32_t i) const {
+  try {
+    return bytes_of(images_.at(i), kMostBytes);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+TextureImage TextureTable::image(std::uint32_t i, std::uint64_t most_bytes) const {
+  return decode_image(bytes_of(images_.at(i), kMostBytes), images_.at(i).name, most_bytes);
+}
+
+}  // namespace bp

@@ -1,0 +1,40 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/scene/scene_file.h"
+#include "lib/core/texture.h"
+
+/// What readers of scenes say of images: where they are, and how materials show them. Images are decoded when asked
+/// for.
+namespace bp {
+
+/// Bytes of a scene's own, or a file; neither: the image is missing.
+struct ImagePlace {
+  std::string name;    ///< for messages
+  SceneFilePtr bytes;  ///< may be null
+  std::string path;    ///< may be empty
+};
+
+class TextureTable final : public TextureSet {
+ public:
+  /// The number of the image, or the material, with this key; added if there is none yet. Not while others ask.
+  std::uint32_t add_image(const std::string& key, ImagePlace place);
+  std::uint32_t add_material(const std::string& key, const TextureMaterial& material);
+
+  /// Whether an image is there whose head can be read.
+  [[nodiscard]] bool has_images() const;
+  [[nodiscard]] const TextureMaterial& material(std::uint32_t i) const override { return materials_.at(i); }
+  [[nodiscard]] std::array<int, 2> size(std::uint32_t i) const override;
+  [[nodiscard]] std::vector<std::byte> file(std::uint32_t i) const override;
+  [[nodiscard]] TextureImage image(std::uint32_t i, std::uint64_t most_bytes) const override;
+
+ private:
+  std::vector<ImagePlace> images_;
+  std::vector<TextureMaterial> materials_;
+  std::map<std::string, std::uint32_t> image_of_, material_of_;
+};
+
+}  // namespace bp

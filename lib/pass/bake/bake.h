@@ -1,0 +1,22 @@
+#pragma once
+#include "lib/atlas/atlas.h"
+#include "lib/pass/bake/scene_looks.h"
+
+/// Textures of meshes that stand for a scene: each texel shows what is seen of the scene there, from outside, along the
+/// mesh's normal (docs/decisions/0021-textures.md).
+namespace bp {
+
+struct BakeParams {
+  double reach_world = 0;  ///< so far along the normal the scene is looked for, scene units
+  bool both_ways = false;  ///< outwards, too: the mesh may lie inside; the nearest counts
+  MemoryShare memory{};    ///< for the image
+};
+
+/// Colours are means over a texel, in linear light. A texel whose line meets nothing within the reach shows the nearest
+/// place of the scene within it; one whose line goes only through holes of the scene's textures is a hole (alpha).
+/// Texels outside the charts have colours of those beside them. The result does not depend on threads. Cost: four lines
+/// through the scene for each texel; 9 bytes a texel. Throws NeedsMemory.
+[[nodiscard]] TextureImage bake(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks,
+                                const BakeParams& params);
+
+}  // namespace bp

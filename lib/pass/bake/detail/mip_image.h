@@ -1,0 +1,33 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "lib/core/texture.h"
+
+namespace bp {
+
+/// Red, green, blue in linear light and alpha, from 0 to 1; not multiplied by it.
+using LinearTexel = std::array<float, 4>;
+
+/// An image and its smaller copies, each half as large: a mean over some of its texels is one look at a copy.
+class MipImage {
+ public:
+  explicit MipImage(TextureImage image);
+
+  [[nodiscard]] int width() const { return levels_.front().width; }
+  [[nodiscard]] int height() const { return levels_.front().height; }
+  [[nodiscard]] std::uint64_t bytes() const;
+  /// Around (u, v), which may be anything, over about `texels` texels along each side.
+  [[nodiscard]] LinearTexel at(double u, double v, double texels, const std::array<TextureWrap, 2>& wrap) const;
+
+ private:
+  [[nodiscard]] LinearTexel at_level(std::size_t level, double u, double v,
+                                     const std::array<TextureWrap, 2>& wrap) const;
+  std::vector<TextureImage> levels_;
+};
+
+/// 8-bit sRGB to linear light, and back to the nearest.
+[[nodiscard]] float linear_of_byte(std::uint8_t srgb);
+[[nodiscard]] std::uint8_t byte_of_linear(float linear);
+
+}  // namespace bp

@@ -1,0 +1,171 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "io/gltf/base64.h"
+#include "io/image/texture_writer.h"
+#include "io/scene/texture_table.h"
+#include "tests/catch.h"
+#include "tests/unit/io/scene/scene_files.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+using Json = nlohmann::json;
+
+struct TexturedRead {
+  std::vector<TriangleD> triangles;
+  std::vector<TriangleColors> colors;
+  std::vector<TriangleTexture> textures;
+  std::shared_ptr<TextureTable> table = std::make_shared<TextureTable>();
+  bool has_textures = false;
+};
+
+TexturedRead read_textured(const std::vector<std::string>& paths) {
+  TexturedRead r;
+  SceneOptions options;
+  options.colors = true;
+  options.textures = r.table;
+  const auto source = open_scenes(paths, options);
+  std::vector<TriangleD> triangles;
+  std::vector<TriangleColors> colors;
+  std::vector<TriangleTexture> textures;
+  for (int pass = 0; pass < 2; ++pass) {  // the second gives the same
+    r.triangles.clear(), r.colors.clear(), r.textures.clear();
+    while (source->read_textured(triangles, colors, textures)) {
+      r.triangles.insert(r.triangles.end(), triangles.begin(), triangles.end());
+      r.colors.insert(r.colors.end(), colors.begin(), colors.end());
+      r.textures.insert(r.textures.end(), textures.begin(), textures.end());
+    }
+    source->rewind();
+  }
+  r.has_textures = source->has_textures();
+  REQUIRE(r.textures.size() == r.triangles.size());
+  return r;
+}
+
+/// Red, with the number of the image as green.
+std::string image_file(std::uint8_t number) {
+  return encode_texture(TextureImage(4, 2, {255, number, 0, 200})).bytes;
+}
+
+std::uint8_t number_of(const TexturedRead& r, std::size_t triangle) {
+  return r.table->image(r.table->material(r.textures.at(triangle).material).image, 1 << 20).at(0, 0)[1];
+}
+
+/// A triangle with places in images, as glTF; `doc` has textures, images and materials.
+std::string gltf_of(Json doc) {
+  const float data[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25F, 0.5F, 1, 0.5F, 0.25F, 0.75F};
+  const auto* const bytes = reinterpret_cast<const char*>(data);
+  doc["asset"]["version"] = "2.0";
+  doc["buffers"] = {{{"byteLength", sizeof data},
+                     {"uri", "data:application/octet-stream;base64," + base64_of(std::string(bytes, sizeof data))}}};
+  doc["bufferViews"] = {{{"buffer", 0}, {"byteLength", 36}}, {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 24}}};
+  doc["accessors"] = {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
+                      {{"bufferView", 1}, {"componentType", 5126}, {"count", 3}, {"type", "VEC2"}}};
+  const Json all{{"POSITION", 0}, {"TEXCOORD_0", 1}};
+  doc["meshes"] = {{{"primitives", {{{"attributes", all}, {"material", 0}}}}}};
+  doc["nodes"] = {{{"mesh", 0}}};
+  return doc.dump();
+}
+
+Json base_color(const Json& info) {
+  return {{{"pbrMetallicRoughness", {{"baseColorTexture", info}}}}};
+}
+
+constexpr std::array<std::array<float, 2>, 3> kPlaces{{{0.25F, 0.5F}, {1, 0.5F}, {0.25F, 0.75F}}};
+
+}  // namespace
+
+TEST_CASE("glTF: images beside the file, within it, and as text", "[quick][io]") {
+  const TempDir dir;
+  (void)dir.file("a b.png", image_file(7));
+  Json doc{
+      {"materials", base_color({{"index", 0}})}, {"textures", {{{"source", 0}}}}, {"images", {{{"uri", "a%20b.png"}}}}};
+  const TexturedRead beside = read_textured({dir.file("beside.gltf", gltf_of(doc))});
+  CHECK(beside.has_textures);
+  CHECK(beside.textures[0].uv == kPlaces);
+  CHECK(int(number_of(beside, 0)) == 7);
+  CHECK(beside.table->size(0) == std::array{4, 2});
+  CHECK(beside.table->has_images());
+  doc["images"][0]["uri"] = "data:image/png;base64," + base64_of(image_file(9));
+  CHECK(int(number_of(read_textured({dir.file("text.gltf", gltf_of(doc))}), 0)) == 9);
+  // Two files: images and materials of each.
+  const TexturedRead both = read_textured({dir.path("text.gltf"), dir.path("beside.gltf")});
+  CHECK(int(number_of(both, 0)) == 9);
+  CHECK(int(number_of(both, 1)) == 7);
+}
+
+TEST_CASE("glTF: wrap modes, alpha and KHR_texture_transform", "[quick][io]") {
+  const TempDir dir;
+  const Json moved{{"offset", {0.5, 0.25}}, {"rotation", 1.5707963267948966}, {"scale", {2, 4}}};
+  Json doc{{"materials", base_color({{"index", 0}, {"extensions", {{"KHR_texture_transform", moved}}}})},
+           {"textures", {{{"source", 0}, {"sampler", 0}}}},
+           {"samplers", {{{"wrapS", 33071}, {"wrapT", 33648}}}},
+           {"images", {{{"uri", "none.png"}}}}};
+  doc["materials"][0]["alphaMode"] = "MASK";
+  doc["materials"][0]["alphaCutoff"] = 0.25;
+  doc["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {1, 0, 0, 0.5};
+  const TexturedRead r = read_textured({dir.file("x.gltf", gltf_of(doc))});
+  const TextureMaterial& m = r.table->material(r.textures[0].material);
+  CHECK(m.wrap == std::array{TextureWrap::clamp, TextureWrap::mirror});
+  CHECK(m.alpha_mode == AlphaMode::mask);
+  CHECK(m.cutoff == 0.25F);
+  CHECK(m.alpha == 0.5F);
+  CHECK(r.colors[0][0] == LinearColor{65535, 0, 0});
+  for (std::size_t k = 0; k < 3; ++k) {  // the extension's own formula: translation * rotation * scale
+    const double u = 2 * double(kPlaces[k][0]), v = 4 * double(kPlaces[k][1]);
+    CHECK(r.textures[0].uv[k][0] == Approx(0.5 + v));
+    CHECK(r.textures[0].uv[k][1] == Approx(0.25 - u));
+  }
+  // The image is missing: that is found when it is wanted.
+  CHECK(r.table->size(m.image) == std::array{0, 0});
+  CHECK(r.table->file(m.image).empty());
+  CHECK_FALSE(r.table->has_images());
+  REQUIRE_THROWS_WITH(r.table->image(m.image, 1000), Contains("none.png"));
+}
+
+TEST_CASE("glTF: textures that name what does not exist", "[quick][io]") {
+  const TempDir dir;
+  const Json info = base_color({{"index", 0}}), textures{{{"source", 0}}}, images{{{"uri", "x.png"}}};
+  REQUIRE_THROWS_WITH(read_textured({dir.file("a.gltf", gltf_of({{"materials", info}}))}), Contains("textures[0]"));
+  REQUIRE_THROWS_WITH(read_textured({dir.file("b.gltf", gltf_of({{"materials", info}, {"textures", textures}}))}),
+                      Contains("images[0]"));
+  // Without places, or without a source, there is no texture.
+  const TexturedRead none =
+      read_textured({dir.file("c.gltf", gltf_of({{"materials", base_color({{"index", 0}, {"texCoord", 3}})},
+                                                 {"textures", textures},
+                                                 {"images", images}}))});
+  CHECK_FALSE(none.has_textures);
+  CHECK(none.textures[0].material == TriangleTexture::kNoMaterial);
+  const TexturedRead empty =
+      read_textured({dir.file("d.gltf", gltf_of({{"materials", info}, {"textures", {Json::object()}}}))});
+  CHECK(empty.table->material(empty.textures[0].material).image == TextureMaterial::kNoImage);
+}
+
+TEST_CASE("OBJ: places of corners, also from the end, and images of map_Kd", "[quick][io]") {
+  const TempDir dir;
+  (void)dir.file("wall of bricks.png", image_file(3));
+  (void)dir.file(
+      "m.mtl",
+      "newmtl wall\nKd 0.5 0.5 0.5\nmap_Kd -clamp on -s 2 4 1 -o 0.5 wall of bricks.png\nnewmtl plain\nKd 1 0 0\n");
+  const std::string path =
+      dir.file("x.obj",
+               "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0.5\nvt 1 0\nvt 0 1\n"
+               "usemtl wall\nf 1/1 2/2 3/3\nf 1/-3/9 2/-2 3/-1\nf 1//5 2 3/99\nusemtl plain\nf 1/1 2/2 3/3\n");
+  const TexturedRead r = read_textured({path});
+  REQUIRE(r.triangles.size() == 4);
+  CHECK(r.has_textures);
+  for (const std::size_t i : {0, 1}) {
+    CHECK(r.textures[i].uv[0] == std::array{1.0F, -1.0F});  // 2 * 0.25 + 0.5, 1 - 4 * 0.5
+    CHECK(r.textures[i].uv[1] == std::array{2.5F, 1.0F});
+    CHECK(int(number_of(r, i)) == 3);
+  }
+  for (const auto& uv : r.textures[2].uv) CHECK(uv == std::array{0.0F, 0.0F});
+  CHECK(r.textures[3].material == TriangleTexture::kNoMaterial);
+  const TextureMaterial& m = r.table->material(r.textures[0].material);
+  CHECK(m.replaces_color);
+  CHECK(m.wrap == std::array{TextureWrap::clamp, TextureWrap::clamp});
+  CHECK(r.colors[0][0] == color_from_srgb({0.5, 0.5, 0.5}));
+}

@@ -1,0 +1,43 @@
+#include "lib/pass/bake/detail/push_pull.h"
+#include "tests/catch.h"
+#include "tests/support/random_lattice.h"
+
+using namespace bp;
+using namespace bp::test;
+
+TEST_CASE("gaps take the colours beside them, and colours stay", "[quick][bake]") {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    RandomLattice random(seed);
+    TextureImage image(int(random.between(1, 40)), int(random.between(1, 40)));
+    std::vector<std::uint8_t> known(image.texels.size());
+    int least = 255, most = 0;
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      image.texels[i][3] = std::uint8_t(i);
+      if (i > 0 && random.between(0, 9) > 0) continue;
+      known[i] = 1;
+      image.texels[i] = {std::uint8_t(random.between(20, 220)), 100, 0, std::uint8_t(i)};
+      least = std::min(least, int(image.texels[i][0]));
+      most = std::max(most, int(image.texels[i][0]));
+    }
+    const TextureImage before = image;
+    fill_gaps(image, known);
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (known[i] != 0) CHECK(image.texels[i] == before.texels[i]);
+      CHECK(int(image.texels[i][0]) >= least);
+      CHECK(int(image.texels[i][0]) <= most);
+      CHECK(int(image.texels[i][1]) == 100);
+      CHECK(image.texels[i][3] == before.texels[i][3]);
+    }
+  }
+}
+
+TEST_CASE("a texel beside a colour has that colour", "[quick][bake]") {
+  TextureImage image(8, 8);
+  std::vector<std::uint8_t> known(64);
+  image.texels[0] = {255, 0, 0, 255};
+  image.texels[63] = {0, 0, 255, 255};
+  known[0] = known[63] = 1;
+  fill_gaps(image, known);
+  CHECK(image.texels[1] == TextureImage::Texel{255, 0, 0, 0});
+  CHECK(image.texels[62] == TextureImage::Texel{0, 0, 255, 0});
+}

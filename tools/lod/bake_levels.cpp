@@ -1,0 +1,93 @@
+#include "tools/lod/bake_levels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/image/texture_writer.h"
+#include "lib/core/vec3.h"
+#include "lib/pass/bake/bake.h"
+
+namespace bp {
+
+namespace {
+
+/// A level is drawn where its error is less than a pixel, or, by default, less than 16 in CesiumJS.
+constexpr double kTexelsPerError = 4;
+/// At least so many texels for a face: about as many bytes as the face takes.
+constexpr double kTexelsPerFace = 64;
+/// So many errors, or scales, the scene is looked for along the normal.
+constexpr double kReach = 4;
+
+double error_or(double error_world, double scale_world, double voxel) {
+  return error_world > 0 ? error_world : scale_world + 2 * voxel;
+}
+
+double area_of(const LatticeMesh& mesh) {
+  double area = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3d a = mesh.frame.world(mesh.vertices[t[0]]);
+    area += length(cross(mesh.frame.world(mesh.vertices[t[1]]) - a, mesh.frame.world(mesh.vertices[t[2]]) - a)) / 2;
+  }
+  return area;
+}
+
+/// Of a level: as fine as its error or its faces deserve, but not finer than the scene's images.
+double texel_of(const LatticeMesh& mesh, double error, const SceneLooks& looks) {
+  const double by_faces = std::sqrt(area_of(mesh) / (kTexelsPerFace * double(mesh.triangles.size())));
+  return std::max(std::min(error / kTexelsPerError, by_faces), looks.finest_texel());
+}
+
+MeshTexture with_file(const Atlas& atlas, const TextureImage& image) {
+  MeshTexture texture;
+  texture.chart = atlas.chart;
+  texture.uv = atlas.corners;
+  for (MeshTexture::Corners& corners : texture.uv) {
+    for (std::array<float, 2>& p : corners) p = {p[0] / float(atlas.width), p[1] / float(atlas.height)};
+  }
+  texture.has_holes =
+      std::any_of(image.texels.begin(), image.texels.end(), [](const TextureImage::Texel& t) { return t[3] < 255; });
+  EncodedImage file = encode_texture(image);
+  texture.image = std::move(file.bytes);
+  texture.type = std::move(file.type);
+  return texture;
+}
+
+}  // namespace
+
+double texture_reach(double error_world, double scale_world, double voxel) {
+  return kReach * std::max(error_or(error_world, scale_world, voxel), scale_world);
+}
+
+std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& memory) {
+  SceneOptions scene = build.scene_options(true);
+  scene.colors = true;
+  scene.textures = build.textures();
+  const auto source = open_scenes(build.options.voxels.scenes, scene);
+  return std::make_unique<SceneLooks>(*source, build.triangles(), build.textures(), memory);
+}
+
+std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LatticeMesh& mesh, double error_world,
+                                                 double scale_world, const SceneLooks& looks,
+                                                 const MemoryShare& memory) {
+  const double voxel = mesh.frame.voxel;
+  AtlasParams atlas_params;
+  atlas_params.texel = texel_of(mesh, error_or(error_world, scale_world, voxel), looks) / voxel * kLatticePerVoxel;
+  const Atlas atlas = unwrap(mesh, atlas_params);
+  BakeParams params;
+  params.reach_world = texture_reach(error_world, scale_world, voxel);
+  params.memory = memory;
+  params.both_ways = build.options.proxy.mode == MeshMode::fit;
+  return std::make_shared<const MeshTexture>(with_file(atlas, bake(mesh, atlas, looks, params)));
+}
+
+void bake_levels(Build& build, std::vector<LodLevel>& levels) {
+  if (!build.textured()) return;
+  build.report.begin("textures");
+  const std::unique_ptr<SceneLooks> looks = read_looks(build, part_of(build.budget.work, 0.75));
+  for (LodLevel& level : levels)
+    level.mesh.texture = level_texture(build, level.mesh, level.error_world, level.scale_world, *looks,
+                                       part_of(build.budget.work, 0.25));
+  for (const std::string& fault : looks->faults()) build.note(fault + "; its material's colour is used");
+}
+
+}  // namespace bp

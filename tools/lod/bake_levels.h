@@ -1,0 +1,25 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "lib/pass/bake/scene_looks.h"
+#include "tools/lod/build.h"
+
+/// Textures of levels, from those of the scene.
+namespace bp {
+
+/// Reads the scene once more. `memory`: for its triangles and images. Throws NeedsMemory.
+[[nodiscard]] std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& memory);
+
+/// So far from a level lies what decides its texture; `error_world` as below.
+[[nodiscard]] double texture_reach(double error_world, double scale_world, double voxel);
+
+/// The texture of a level whose largest distance to the scene is `error_world` (0: not known). `memory`: for the image.
+[[nodiscard]] std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LatticeMesh& mesh,
+                                                               double error_world, double scale_world,
+                                                               const SceneLooks& looks, const MemoryShare& memory);
+
+/// Gives each level its texture, if the scene has any (Build::textured()). Notes tell of images that cannot be used.
+void bake_levels(Build& build, std::vector<LodLevel>& levels);
+
+}  // namespace bp
