@@ -21,12 +21,17 @@ void StepPlanner::begin(VertexId v) {
   flips_ = false;
   learned_.clear();
   check_.begin_seeing(mesh_.position(v));
+}
+
+/// Not of a vertex at the rim of a region: its star is open.
+void StepPlanner::begin_star(VertexId v) {
+  begin(v);
   mesh_.for_each_outgoing(v, [&](HalfEdgeId h) { check_.seen.add(mesh_.position(mesh_.to(h))); });
 }
 
 /// What is in the way becomes contact points for the next joint fit; this time the vertex goes a part of its way.
 void StepPlanner::approach(VertexId v, const Vec3d& x) {
-  begin(v);
+  begin_star(v);
   if (rounded(x) == LatticeCoord{} || try_move(x)) return;
   if (check_.blocker() != nullptr) {
     gather_rim();
@@ -36,7 +41,7 @@ void StepPlanner::approach(VertexId v, const Vec3d& x) {
 }
 
 void StepPlanner::find_place(VertexId v) {
-  begin(v);
+  begin_star(v);
   const double reach = kReach * gather_rim();
   if (!fit_.close()) return;
   gather_points();
@@ -49,7 +54,7 @@ void StepPlanner::find_place(VertexId v) {
 }
 
 void StepPlanner::go_back(VertexId v, const Vec3d& x) {
-  begin(v);
+  begin_star(v);
   gather_rim();
   if (fit_.close() && worth_trying(x)) static_cast<void>(try_move(x));
 }
@@ -57,6 +62,8 @@ void StepPlanner::go_back(VertexId v, const Vec3d& x) {
 void StepPlanner::flip(HalfEdgeId h) {
   begin(mesh_.from(h));
   edge_ = h;
+  for (const VertexId v : {mesh_.to(h), mesh_.opposite(h), mesh_.opposite(mesh_.twin(h))})
+    check_.seen.add(mesh_.position(v));
   flips_ = editor_.is_convex(h) && check_.allows_flip(h);
 }
 

@@ -32,6 +32,7 @@ class StepPlanner {
 
  private:
   void begin(VertexId v);
+  void begin_star(VertexId v);
   double gather_rim();
   void gather_points();
   [[nodiscard]] bool try_move(const Vec3d& x);
