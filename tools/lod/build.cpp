@@ -86,8 +86,8 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
-  triangles_ = out.counts.scene.triangles;
-  enclosed_ = enclosed_by(options, triangles_);
+  size_ = {out.header.bounds, out.counts.scene.triangles};
+  enclosed_ = enclosed_by(options, size_.triangles);
   if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
   choose_textures(source->has_textures(), halvings == 0);
   if (source->has_colors() && !textured_) gather(*source, out);
@@ -95,9 +95,8 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
 }
 
 void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told) {
-  const SceneSize size{scene.header.bounds, scene.counts.scene.triangles};
   if (const std::string text = skipped(scene.counts.scene); !text.empty()) note("skipped " + text);
-  note(up_note(size.bounds, options.voxels.up || up_told));
+  note(up_note(size_.bounds, options.voxels.up || up_told));
   for (const std::string& path : options.voxels.scenes) {
     const bool occluder = options.profile == LodProfile::occluder;
     if (!options.colors() && !occluder) break;
@@ -106,12 +105,14 @@ void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_tol
                        occluder ? "so nobody knows what is glass: all of the scene is taken for walls"
                                 : "and its colours are lost"));
   }
-  note(voxel_note(options, size));
+  note(voxel_note(options, size_));
   note(origin_note(options, scene.header));
-  note(enclose_note(options, triangles_));
+  note(enclose_note(options, size_.triangles));
 }
 
 void Build::choose_textures(bool has_textures, bool tell) {
+  if (textures_ && tell)
+    for (const std::string& fault : textures_->faults()) note(fault + "; its material's colour is used");
   textured_ = has_textures && can_read_again(options) && textures_->has_images();
   if (!has_textures || textured_ || !tell) return;
   note(can_read_again(options)
@@ -134,18 +135,19 @@ std::vector<TriangleD> Build::scene_triangles() const {
   std::vector<TriangleD> all;
   if (std::count(options.voxels.scenes.begin(), options.voxels.scenes.end(), "-") > 0)
     return all;  // stdin cannot be read again
-  if (fit && triangles_ > kMost) return all;
+  if (fit && size_.triangles > kMost) return all;
   // Fits: twice, and a hierarchy over them. Else here, and in what is enclosed.
-  const std::uint64_t bytes = triangles_ * (fit ? 400 : sizeof(TriangleD) + EnclosedTriangles::kBytesEach);
+  const std::uint64_t bytes = size_.triangles * (fit ? 400 : sizeof(TriangleD) + EnclosedTriangles::kBytesEach);
   const MemoryShare memory{budget.work.bytes / (fit ? 2 : 1), budget.work.share / (fit ? 2 : 1), budget.work.limit};
   if (bytes > memory.bytes)
-    throw NeedsMemory(fmt::format("{} {} triangles", fit ? "fitting to" : "enclosing", triangles_), bytes, memory.bytes,
-                      memory.limit_with(bytes - memory.bytes), fit ? Remedies{} : Remedies{Remedy::enclose_input});
-  all.reserve(triangles_);
+    throw NeedsMemory(fmt::format("{} {} triangles", fit ? "fitting to" : "enclosing", size_.triangles), bytes,
+                      memory.bytes, memory.limit_with(bytes - memory.bytes),
+                      fit ? Remedies{} : Remedies{Remedy::enclose_input});
+  all.reserve(size_.triangles);
   const auto source = open_scenes(options.voxels.scenes, scene_options(true));
-  for (std::vector<TriangleD> chunk; all.size() <= triangles_ && source->read(chunk);)
+  for (std::vector<TriangleD> chunk; all.size() <= size_.triangles && source->read(chunk);)
     all.insert(all.end(), chunk.begin(), chunk.end());
-  if (all.size() != triangles_)
+  if (all.size() != size_.triangles)
     fail(ErrorCode::bad_input, "{}: has changed while it was at work; run it again", source->name());
   return all;
 }

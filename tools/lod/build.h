@@ -49,7 +49,7 @@ class Build {
   /// Levels get textures: they are wanted, and the scene has some and can be read again. After voxelize().
   [[nodiscard]] bool textured() const { return textured_; }
   [[nodiscard]] const std::shared_ptr<TextureTable>& textures() const { return textures_; }  ///< null: not wanted
-  [[nodiscard]] std::uint64_t triangles() const { return triangles_; }                       ///< of the scene
+  [[nodiscard]] const SceneSize& scene_size() const { return size_; }                        ///< after voxelize()
   /// From now on levels get their textures as they are made, and half of the memory for work is for the scene's looks.
   /// Does nothing if the levels get none.
   void hold_looks();
@@ -78,7 +78,7 @@ class Build {
   /// The report, then the list; a failure says that what was `made` is there.
   void tell(const VoxelizedScene& scene, const std::string& list, const std::string& made);
   void write_report(const VoxelizedScene& scene);
-  std::uint64_t triangles_ = 0;  // of the scene
+  SceneSize size_;
   Enclose enclosed_ = Enclose::input;
   std::unique_ptr<SceneColors> colors_;
   std::shared_ptr<TextureTable> textures_;
