@@ -69,7 +69,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   ShelfSink sink(out.solid.get());
   SceneOptions scene = scene_options();
   scene.colors = options.colors();
-  if (options.appearance == Appearance::texture) scene.textures = textures_ = std::make_shared<TextureTable>();
+  if (options.may_have_textures()) scene.textures = textures_ = std::make_shared<TextureTable>();
   auto source = open_scenes(options.voxels.scenes, scene);
   if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.voxels.up);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
@@ -89,7 +89,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   size_ = {out.header.bounds, out.counts.scene.triangles};
   enclosed_ = enclosed_by(options, size_.triangles);
   if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
-  choose_textures(source->has_textures(), halvings == 0);
+  choose_textures(*source, halvings == 0);
   if (source->has_colors() && !textured_) gather(*source, out);
   return out;
 }
@@ -110,11 +110,14 @@ void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_tol
   note(enclose_note(options, size_.triangles));
 }
 
-void Build::choose_textures(bool has_textures, bool tell) {
-  if (textures_ && tell)
-    for (const std::string& fault : textures_->faults()) note(fault + "; its material's colour is used");
-  textured_ = has_textures && can_read_again(options) && textures_->has_images();
-  if (!has_textures || textured_ || !tell) return;
+void Build::choose_textures(const TriangleSource& source, bool tell) {
+  if (!textures_) return;
+  const bool from_colors = options.appearance == Appearance::texture && source.has_colors();
+  const bool wanted = source.has_textures() || from_colors;
+  textured_ = wanted && can_read_again(options) && (from_colors || textures_->has_images());
+  if (!tell) return;
+  for (const std::string& fault : textures_->faults()) note(fault + "; its material's colour is used");
+  if (!wanted || textured_) return;
   note(can_read_again(options)
            ? "no image of the scene's textures is there, or can be read: levels have colours instead"
            : "a scene from a pipe cannot be read again: its textures are lost; give it as a file");

@@ -41,7 +41,7 @@ struct Scene {
 Scene read_scene(const Build& build) {
   const BuildOptions& o = build.options;
   SceneOptions options = build.scene_options();
-  if (o.appearance == Appearance::texture) {
+  if (o.may_have_textures()) {
     options.colors = true;
     options.textures = std::make_shared<TextureTable>();
   }
@@ -49,12 +49,12 @@ Scene read_scene(const Build& build) {
   TriangleTotals totals;
   for (std::vector<TriangleD> chunk; source->read(chunk);) totals.add(chunk);
   if (totals.triangles == 0) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());
-  return {source->counts(),
-          totals.bounds,
-          totals.area,
-          source->up(),
-          o.voxels.up.value_or(source->up().value_or(UpAxis::y)),
-          options.textures && source->has_textures() && options.textures->has_images() && can_read_again(o)};
+  Scene scene{source->counts(), totals.bounds, totals.area, source->up(),
+              o.voxels.up.value_or(source->up().value_or(UpAxis::y))};
+  const bool from_colors = o.appearance == Appearance::texture && source->has_colors();
+  scene.textured = options.textures && can_read_again(o) &&
+                   (from_colors || (source->has_textures() && options.textures->has_images()));
+  return scene;
 }
 
 /// What would be made.

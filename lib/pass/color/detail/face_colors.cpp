@@ -14,7 +14,7 @@ constexpr double kSpacing = kColorCellVox * kLatticePerVoxel / 2;  // lattice un
 constexpr int kLeastRows = 2;
 constexpr double kTowardsMean = 0.05;
 /// Colours that differ: by so much of the range of what is seen, and by so many standard deviations within the faces.
-constexpr double kLeastStep = 0.1, kLeastDeviations = 2;
+constexpr double kLeastStep = 0.1, kLeastDeviations = 1;
 
 Rgb rgb_of(LinearColor c) {
   return {double(c.r), double(c.g), double(c.b)};
