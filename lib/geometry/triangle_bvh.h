@@ -57,12 +57,12 @@ class TriangleBvh {
     };
     walk(meets, [&](const Item& item) { return f(item), false; });
   }
-  /// The first triangle on the ray from `start`, up to start + direction, that accept(item, along) takes; of several at
-  /// one place the one that is before(item, item) the others. In floating point; triangles count from both sides.
-  /// Triangles that lie behind the answer may be offered to accept(), too.
+  /// The first triangle on the ray from `start`, up to start + most * direction (at most 1), that accept(item, along)
+  /// takes; of several at one place the one that is before(item, item) the others. In floating point; triangles count
+  /// from both sides. Triangles that lie behind the answer may be offered to accept(), too.
   template <class Accept, class Before>
-  [[nodiscard]] std::optional<Hit> first_along(const Vec3d& start, const Vec3d& direction, const Accept& accept,
-                                               const Before& before) const;
+  [[nodiscard]] std::optional<Hit> first_along(const Vec3d& start, const Vec3d& direction, double most,
+                                               const Accept& accept, const Before& before) const;
   /// The nearest triangle whose squared distance is at most `most`; of several the one that is before(item, item) the
   /// others. In floating point.
   template <class Before>
@@ -134,13 +134,13 @@ class TriangleBvh {
 }
 
 template <class Accept, class Before>
-std::optional<TriangleBvh::Hit> TriangleBvh::first_along(const Vec3d& start, const Vec3d& direction,
+std::optional<TriangleBvh::Hit> TriangleBvh::first_along(const Vec3d& start, const Vec3d& direction, double most,
                                                          const Accept& accept, const Before& before) const {
   struct Entry {
     double along;
     std::uint32_t node;
   };
-  Hit best{1, ~std::uint32_t(0)};
+  Hit best{most, ~std::uint32_t(0)};
   bool found = false;
   const auto enters = [&](const Bounds3d& b) { return enters_along(start, direction, b, best.along); };
   Entry stack[kStack];

@@ -10,6 +10,8 @@
 #include "lib/pass/bake/detail/look_blocks.h"
 #include "lib/pass/bake/detail/scene_eye.h"
 #include "lib/pass/bake/detail/triangle_sorter.h"
+#include "lib/store/content_hash.h"
+#include "lib/store/packing.h"
 
 namespace bp {
 
@@ -86,13 +88,18 @@ void SceneLooks::note_image(std::uint32_t material) {
   if (noted.is_known) return;
   noted.is_known = true;
   const TextureMaterial& m = images_->material(material);
-  KeyHash hash("material");
-  hash.add(m.wrap, m.alpha_mode, double(m.alpha), double(m.cutoff), m.replaces_color);
+  std::string all;  // not as KeyHash: it decides what is seen of surfaces at one place, in every version
+  pack(all, m.wrap[0]);
+  pack(all, m.wrap[1]);
+  pack(all, m.alpha_mode);
+  pack(all, m.alpha);
+  pack(all, m.cutoff);
+  pack(all, m.replaces_color);
   if (m.image != TextureMaterial::kNoImage) {
     noted.size = images_->size(m.image);
-    hash.add(content_hash(images_->file(m.image)));
+    for (const std::uint64_t word : content_hash(images_->file(m.image)).words) pack(all, word);
   }
-  noted.key = hash.key();
+  noted.key = content_hash(std::as_bytes(std::span(all)));
 }
 
 /// A sum of the hashes of triangles: it does not depend on their order, and little is in memory.

@@ -90,8 +90,8 @@ std::optional<SceneEye::Seen> SceneEye::first_along(const Vec3d& start, const Ve
       return does;
     };
     const auto found = here->triangles().first_along(
-        start, direction, accept, [&](std::uint32_t a, std::uint32_t b) { return before(*here, a, *here, b); });
-    if (!found || found->along > along) continue;
+        start, direction, along, accept, [&](std::uint32_t a, std::uint32_t b) { return before(*here, a, *here, b); });
+    if (!found) continue;
     if (best.block && found->along == along && !before(*here, found->item, *best.block, best.item)) continue;
     best = {here, found->item};
     along = found->along;
