@@ -2,8 +2,8 @@
 #include <memory>
 #include <vector>
 
-#include "lib/geometry/triangle_bvh.h"
 #include "lib/core/lru_cache.h"
+#include "lib/geometry/triangle_bvh.h"
 #include "lib/pass/bake/detail/textured_triangle.h"
 #include "lib/store/scratch.h"
 

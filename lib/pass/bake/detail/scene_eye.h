@@ -1,6 +1,6 @@
 #pragma once
-#include "lib/pass/bake/detail/look_blocks.h"
 #include "lib/image/mip_image.h"
+#include "lib/pass/bake/detail/look_blocks.h"
 #include "lib/pass/bake/scene_looks.h"
 
 namespace bp {

@@ -2,9 +2,9 @@
 
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
-#include "lib/pass/bake/bake.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/image/mip_image.h"
+#include "lib/pass/bake/bake.h"
 #include "lib/store/memory_scratch.h"
 #include "tests/catch.h"
 #include "tests/support/lattice_boxes.h"
