@@ -6,6 +6,7 @@
 #include "io/scene/scene_format.h"
 #include "io/scene/scene_parts.h"
 #include "io/scene/scene_reader.h"
+#include "io/scene/texture_table.h"
 #include "io/stream/brick_stream.h"
 #include "io/tiles/tileset_file.h"
 #include "io/tiles/tileset_level.h"
@@ -142,12 +143,17 @@ void note_missing_materials(const std::string& in) {
     note(fmt::format("{}: {} is not there, and its colours are not drawn", in, file));
 }
 
+void note_faults(const bp::SceneOptions& scene) {
+  for (const std::string& fault : scene.textures->faults()) note(fault + "; its material's colour is drawn");
+}
+
 void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
   if (o.dump) bp::fail(bp::ErrorCode::bad_argument, "{}: --dump is for brick streams, and this is not one", in);
   const bp::MeshExtras extras = bp::mesh_extras(in);
   bp::SceneOptions scene;
   scene.format = o.format;
   scene.colors = picture.wanted();
+  if (picture.wanted()) scene.textures = std::make_shared<bp::TextureTable>();
   if (is_gltf(in)) scene.level = o.level.value_or(0);
   check_level(in, scene.level, extras.levels);
   auto source = bp::open_scene(in, scene);
@@ -161,7 +167,8 @@ void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
   }
   if (!picture.wanted()) return;
   note_missing_materials(in);
-  picture.add_mesh(info, std::move(source), in, bp::level_text(info.level, extras.levels));
+  note_faults(scene);
+  picture.add_mesh(info, std::move(source), in, bp::level_text(info.level, extras.levels), scene.textures);
 }
 
 void draw_tileset(const Options& o, const bp::Tileset& tileset, const std::string& in, bp::Picture& picture) {
@@ -175,11 +182,13 @@ void draw_tileset(const Options& o, const bp::Tileset& tileset, const std::strin
                      level.missing.size(), all, wanted, level.missing[0]));
   bp::SceneOptions scene;
   scene.colors = true;
+  scene.textures = std::make_shared<bp::TextureTable>();
   auto source = bp::open_contents(tileset, std::move(level.contents), in, scene);
   bp::MeshInfo info = bp::measure(*source);
   const std::string which = bp::level_text(wanted, level.levels);
   picture.add_mesh(info, std::move(source), in,
-                   fmt::format("{}{} tile{}", which.empty() ? "" : which + "\n", there, there == 1 ? "" : "s"));
+                   fmt::format("{}{} tile{}", which.empty() ? "" : which + "\n", there, there == 1 ? "" : "s"),
+                   scene.textures);
 }
 
 void show_tileset(const Options& o, const std::string& in, bp::Picture& picture) {

@@ -55,6 +55,7 @@ class SceneBuilder {
   Range mesh(std::uint64_t i);
   void add_primitive(const GltfObject& p);
   void add_colors(const GltfObject& p, const GltfObject& attributes, Primitive& primitive);
+  void try_texture(std::uint64_t material, const GltfObject& attributes, Primitive& primitive);
   void add_texture(std::uint64_t material, const GltfObject& attributes, Primitive& primitive);
   [[nodiscard]] std::optional<GltfObject> base_texture(const GltfObject& material) const;
   std::uint32_t texture_material(std::uint64_t i, const GltfObject& material, std::uint64_t texture);
@@ -210,7 +211,7 @@ void SceneBuilder::add_primitive(const GltfObject& p) {
       p.broken("has indices that are not unsigned integers");
   }
   if (colors_) add_colors(p, attributes, primitive);
-  if (textures_ != nullptr && p.has("material")) add_texture(p.number("material"), attributes, primitive);
+  if (textures_ != nullptr && p.has("material")) try_texture(p.number("material"), attributes, primitive);
   scene_.primitives.push_back(primitive);
 }
 
@@ -227,6 +228,17 @@ void SceneBuilder::add_colors(const GltfObject& p, const GltfObject& attributes,
   if (primitive.colors->count != primitive.positions.count)
     attributes.broken(
         fmt::format("have {} colours for {} positions", primitive.colors->count, primitive.positions.count));
+}
+
+/// What is wrong with an image's place on the triangles is no reason to refuse them.
+void SceneBuilder::try_texture(std::uint64_t material, const GltfObject& attributes, Primitive& primitive) {
+  try {
+    add_texture(material, attributes, primitive);
+  } catch (const Error& e) {
+    if (e.code() != ErrorCode::bad_input) throw;
+    primitive.uv.reset();
+    textures_->add_fault(e.what());
+  }
 }
 
 // Section 3.9.2 again, and KHR_texture_transform: the image that multiplies the colours.

@@ -76,9 +76,10 @@ class PanelPainter {
  public:
   PanelPainter(const Camera& camera, Canvas& canvas, Color color) : camera_(camera), canvas_(canvas), color_(color) {}
 
-  /// corner(i) -> TriangleD in scene units, for i in [0, n). colors: one for each, or none.
+  /// corner(i) -> TriangleD in scene units, for i in [0, n). colors, textures: one for each, or none.
   template <class Corners>
-  void paint(std::size_t n, const Corners& corners, std::span<const TriangleColors> colors = {}) {
+  void paint(std::size_t n, const Corners& corners, std::span<const TriangleColors> colors = {},
+             std::span<const TriangleTexture> textures = {}, ImageCache* images = nullptr) {
     for (std::size_t begin = 0; begin < n; begin += kBatch) {
       projected_.resize(std::min(kBatch, n - begin));
       parallel_ranges(std::int64_t(projected_.size()), 2048, [&](std::int64_t b, std::int64_t e) {
@@ -90,7 +91,8 @@ class PanelPainter {
       if (colors.empty()) {
         canvas_.draw(projected_, color_);
       } else {
-        canvas_.draw(projected_, colors.subspan(begin, projected_.size()));
+        canvas_.draw(projected_, colors.subspan(begin, projected_.size()),
+                     textures.subspan(std::min(begin, textures.size())), images);
       }
     }
   }
@@ -108,23 +110,37 @@ TriangleD corners_or_nothing(const IndexedMesh& mesh, std::size_t t) {
   return corners;
 }
 
+/// Triangles of a source, in batches.
+struct SourceBatch {
+  std::vector<TriangleD> triangles;
+  std::vector<TriangleColors> colors;
+  std::vector<TriangleTexture> textures;
+
+  [[nodiscard]] bool read(const View& view) {
+    colors.clear();
+    textures.clear();
+    if (view.source_images != nullptr) return view.source->read_textured(triangles, colors, textures);
+    return view.source_colors ? view.source->read_colored(triangles, colors) : view.source->read(triangles);
+  }
+  void add(const SourceBatch& part) {
+    triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
+    colors.insert(colors.end(), part.colors.begin(), part.colors.end());
+    textures.insert(textures.end(), part.textures.begin(), part.textures.end());
+  }
+};
+
 void paint_source(const View& view, PanelPainter& painter) {
-  std::vector<TriangleD> batch, part;
-  std::vector<TriangleColors> batch_colors, part_colors;
+  SourceBatch batch, part;
   const auto paint = [&] {
     painter.paint(
-        batch.size(), [&](std::size_t t) { return batch[t]; }, batch_colors);
-    batch.clear();
-    batch_colors.clear();
+        batch.triangles.size(), [&](std::size_t t) { return batch.triangles[t]; }, batch.colors, batch.textures,
+        view.source_images);
+    batch = {};
   };
   view.source->rewind();
-  const auto read = [&] {
-    return view.source_colors ? view.source->read_colored(part, part_colors) : view.source->read(part);
-  };
-  while (read()) {  // parts may be small
-    batch.insert(batch.end(), part.begin(), part.end());
-    batch_colors.insert(batch_colors.end(), part_colors.begin(), part_colors.end());
-    if (batch.size() >= kBatch) paint();
+  while (part.read(view)) {  // parts may be small
+    batch.add(part);
+    if (batch.triangles.size() >= kBatch) paint();
   }
   paint();
 }

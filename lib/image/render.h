@@ -8,6 +8,7 @@
 #include "lib/core/indexed_mesh.h"
 #include "lib/core/triangle_source.h"
 #include "lib/image/image.h"
+#include "lib/image/image_cache.h"
 #include "lib/image/typeface.h"
 
 /// A small software rasteriser: meshes side by side, each with its label below. Needs no display. The same bytes on
@@ -23,6 +24,7 @@ struct View {
   Color color{176, 188, 204};  ///< of all that has none of its own
   std::span<const TriangleColors> colors;     ///< of `triangles`; empty: none
   bool source_colors = false;                 ///< draw `source` in its own
+  ImageCache* source_images = nullptr;        ///< draw `source` with these on it, and in its colours; null: none
   std::span<const std::uint8_t> inner_edges;  ///< of `triangles` (TriangleSource::read_faces()); empty: none
   bool edges = false;  ///< draws the edges of `mesh` and `triangles`, but inner ones, as dark lines
   Bounds3d bounds;     ///< what to show, at a scale of its own; empty: as RenderOptions say

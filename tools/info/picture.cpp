@@ -14,8 +14,9 @@ namespace bp {
 
 namespace {
 
-constexpr double kFarApart = 4;                              // largest inputs between them
-constexpr std::size_t kEdges = 50000, kEdgesOfMany = 20000;  // more would only darken the picture
+constexpr double kFarApart = 4;                                // largest inputs between them
+constexpr std::uint64_t kImageBytes = std::uint64_t(3) << 29;  // of textures of an input: the largest fits
+constexpr std::size_t kEdges = 50000, kEdgesOfMany = 20000;    // more would only darken the picture
 
 std::string shown_name(const std::string& in) {
   return in == "-" ? "stdin" : file_name(in);
@@ -50,6 +51,12 @@ class TurnedSource final : public TriangleSource {
   }
   bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
     const bool more = source_->read_colored(out, colors);
+    turn(out, from_, to_);
+    return more;
+  }
+  bool read_textured(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
+                     std::vector<TriangleTexture>& textures) override {
+    const bool more = source_->read_textured(out, colors, textures);
     turn(out, from_, to_);
     return more;
   }
@@ -118,13 +125,15 @@ void Picture::add_layer(Layer layer, const CoarseView& cells, const StreamHeader
 }
 
 void Picture::add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, const std::string& in,
-                       const std::string& which) {
+                       const std::string& which, std::shared_ptr<const TextureSet> textures) {
   auto panel = std::make_unique<Panel>();
   panel->input = in;
   panel->up = source->up();
   panel->bounds = info.totals.bounds;
   panel->view.label = fmt::format("{}{}{}", info.faces.text(), which.empty() ? "" : ", ", which);
-  if (info.triangles.size() == info.totals.triangles) {
+  const bool textured = textures && source->has_textures();
+  if (textured) panel->images = std::make_unique<ImageCache>(std::move(textures), MemoryShare{kImageBytes});
+  if (!textured && info.triangles.size() == info.totals.triangles) {
     panel->triangles = std::move(info.triangles);
     panel->colors = std::move(info.colors);
     panel->view.colors = panel->colors;
@@ -135,6 +144,7 @@ void Picture::add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, c
   } else {
     panel->source = std::move(source);
     panel->view.source_colors = panel->source->has_colors();
+    panel->view.source_images = panel->images.get();
     panel->view.source = panel->source.get();
   }
   panels_.push_back(std::move(panel));
@@ -214,6 +224,11 @@ std::vector<std::string> Picture::write() {
   std::vector<View> views;
   for (const auto& panel : panels_) views.push_back(panel->view);
   file_->write(encode_png(render(views, options)));
+  for (const auto& panel : panels_) {
+    if (!panel->images) continue;
+    for (const std::string& fault : panel->images->faults())
+      notes.push_back(fault + "; its material's colour is drawn");
+  }
   file_->commit();
   return notes;
 }

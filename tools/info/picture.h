@@ -28,7 +28,8 @@ struct Panel {
   std::vector<TriangleD> triangles;
   std::vector<TriangleColors> colors;
   std::vector<std::uint8_t> inner_edges;
-  std::unique_ptr<TriangleSource> source;  ///< of a mesh too large to keep
+  std::unique_ptr<TriangleSource> source;  ///< of a mesh too large to keep, or with textures
+  std::unique_ptr<ImageCache> images;
   Bounds3d bounds;
   std::optional<UpAxis> up;  ///< if the input tells
   View view;
@@ -44,9 +45,10 @@ class Picture {
   /// The layers of a stream; of one among several inputs only the last.
   void add_stream(const CoarseView& cells, const StreamHeader& header, const StreamTotals& totals,
                   const std::string& in);
-  /// `info` of `source`; what it kept is taken. `which` of its levels it is; empty if there is one.
-  void add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, const std::string& in,
-                const std::string& which);
+  /// `info` of `source`; what it kept is taken. `which` of its levels it is; empty if there is one. `textures`: what
+  /// the source may show; null: nothing.
+  void add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, const std::string& in, const std::string& which,
+                std::shared_ptr<const TextureSet> textures = nullptr);
   /// Returns what the user should know of the picture.
   [[nodiscard]] std::vector<std::string> write();
 

@@ -165,7 +165,8 @@ void declare_profile(Args& args, BuildOptions& o) {
       "more)");
   args.option(
       "--appearance",
-      {{"texture", Appearance::texture, "a texture with what the scene's textures show; without any, colours"},
+      {{"auto", Appearance::automatic, "a texture if the scene has textures, else colours"},
+       {"texture", Appearance::texture, "a texture with what the scene's textures and colours show, if it has any"},
        {"color", Appearance::color, "colours on vertices, of the scene's materials and vertices, if it has any"},
        {"off", Appearance::off, "neither"}},
       o.appearance, "textures or colours of the levels");
@@ -223,7 +224,7 @@ JobRange parse_job_range(const std::string& text) {
 }
 
 const char* name_of(Appearance appearance) {
-  constexpr const char* kNames[] = {"off", "color", "texture"};
+  constexpr const char* kNames[] = {"off", "color", "texture", "auto"};
   return kNames[std::size_t(appearance)];
 }
 

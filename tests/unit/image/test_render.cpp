@@ -5,6 +5,7 @@
 #include "lib/image/canvas.h"
 #include "lib/image/render.h"
 #include "tests/catch.h"
+#include "tests/support/textured_scene.h"
 #include "tests/unit/check/meshes.h"
 #include "tests/unit/image/block_typeface.h"
 
@@ -301,4 +302,38 @@ TEST_CASE("zoom enlarges about the middle or the point looked at", "[quick][imag
   const Image image = picture({edges}, corner);
   CHECK(image.at(40, 31).r < 130);  // the lower edge
   CHECK(image.at(32, 20).r < 130);  // the left edge
+}
+
+TEST_CASE("images lie on triangles where their places say, also on ones cut off far away, and holes show",
+          "[quick][image]") {
+  auto textures = std::make_shared<MemoryTextures>();
+  TextureImage four(2, 2);
+  four.texels = {{255, 0, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {0, 0, 0, 0}};
+  textures->images.push_back(four);
+  textures->materials.push_back({0, {TextureWrap::clamp, TextureWrap::clamp}, AlphaMode::mask});
+  ImageCache images(textures, {});
+  for (const double far : {0.0, 1e7}) {
+    // The square of 64 samples, and so much of its plane around it.
+    const double lo = -far, hi = 64 + far;
+    const auto uv = [](double x) { return float(x / 64); };
+    const std::vector<TriangleD> square{{Vec3d{lo, lo, 1}, {hi, lo, 1}, {hi, hi, 1}},
+                                        {Vec3d{lo, lo, 1}, {hi, hi, 1}, {lo, hi, 1}}};
+    std::vector<TriangleTexture> laid;
+    for (const TriangleD& t : square) {
+      laid.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) laid.back().uv[k] = {uv(t[k][0]), uv(t[k][1])};
+      laid.back().material = 0;
+    }
+    const std::vector<TriangleColors> white(2);
+    Canvas canvas(64, 64, {9, 9, 9});
+    canvas.draw(square, white, laid, &images);
+    Image image(32, 32, {});
+    canvas.resolve(image, 0, 0);
+    const auto only = [](std::uint8_t a, std::uint8_t b, std::uint8_t c) { return a > 150 && b == 0 && c == 0; };
+    CAPTURE(far);
+    CHECK(only(image.at(4, 4).r, image.at(4, 4).g, image.at(4, 4).b));
+    CHECK(only(image.at(28, 4).g, image.at(28, 4).r, image.at(28, 4).b));
+    CHECK(only(image.at(4, 28).b, image.at(4, 28).r, image.at(4, 28).g));
+    CHECK(image.at(28, 28) == Color{9, 9, 9});
+  }
 }
