@@ -14,8 +14,6 @@ using namespace bp::test;
 
 namespace {
 
-constexpr std::uint32_t kNone = TriangleTexture::kNoMaterial;
-
 /// Six colour ramps side by side, each its own way: no two places look the same, and a texel is like its neighbours.
 TextureImage six_ramps(int edge) {
   TextureImage image(6 * edge, edge);
