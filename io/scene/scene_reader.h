@@ -62,6 +62,9 @@ struct SceneOptions {
   /// limit.
   MemoryShare document{0};
   MeshLimit mesh{};
+  /// Deliver only parts whose name fits (* and ? as in file names); empty: all. Names of OBJ: o, g, usemtl; of glTF: of
+  /// nodes, with all below them, of meshes, of materials. Other formats are refused.
+  std::string parts{};
 };
 
 /// Triangles of one file; "-" is stdin, which is spooled to a scratch file. The reader is chosen by the file's

@@ -327,6 +327,11 @@ void Canvas::draw_line(const std::array<Vec3d, 2>& line, Color color, double hal
   }
 }
 
+std::optional<double> Canvas::depth(int x, int y) const {
+  const float z = depth_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
+  return std::isfinite(z) ? std::optional<double>(z) : std::nullopt;
+}
+
 void Canvas::resolve(Image& image, int x, int y) const {
   for (int j = 0; j < height_ / 2; ++j) {
     for (int i = 0; i < width_ / 2; ++i) {

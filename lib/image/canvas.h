@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "lib/core/box.h"
@@ -24,6 +25,9 @@ class Canvas {
 
   /// Antialiased, where nothing lies in front. Parallel.
   void draw_lines(std::span<const std::array<Vec3d, 2>> lines, Color color, double half_width);
+
+  /// Distance from the viewer of what is seen in a sample; none: nothing is.
+  [[nodiscard]] std::optional<double> depth(int x, int y) const;
 
   /// Mean of each 2 x 2 samples, copied into `image` with the upper left corner at (x, y).
   void resolve(Image& image, int x, int y) const;

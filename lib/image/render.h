@@ -7,6 +7,7 @@
 #include "lib/core/grid_frame.h"
 #include "lib/core/indexed_mesh.h"
 #include "lib/core/triangle_source.h"
+#include "lib/image/color_bar.h"
 #include "lib/image/image.h"
 #include "lib/image/image_cache.h"
 #include "lib/image/typeface.h"
@@ -30,6 +31,7 @@ struct View {
   Bounds3d bounds;     ///< what to show, at a scale of its own; empty: as RenderOptions say
   std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};  ///< that the panel shows as x, y, z
   std::string label;                                                          ///< lines separated by \n
+  ColorBar bar;                                                               ///< what its colours mean
 };
 
 constexpr int kLeastPanelSide = 16, kMostImageSide = 16384;  ///< pixels; the latter of all panels together
@@ -53,5 +55,11 @@ struct RenderOptions {
 /// Memory: 32 bytes a pixel of one panel. Throws bad_argument if a side is too small or too large; passes on what a
 /// source throws.
 [[nodiscard]] Image render(std::span<const View> views, const RenderOptions& options = {});
+
+/// The point that such a picture shows at pixel (x, y), which counts from the upper left corner: in the middle of the
+/// pixel, on what lies nearest to the viewer. None where nothing is drawn. Its error is a small part of a pixel.
+/// Throws as render(), and bad_argument if the pixel is in no panel.
+[[nodiscard]] std::optional<Vec3d> point_behind(std::span<const View> views, const RenderOptions& options, int x,
+                                                int y);
 
 }  // namespace bp

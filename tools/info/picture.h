@@ -40,7 +40,7 @@ class Picture {
  public:
   /// Opens the file: a name that cannot be written fails before the work.
   explicit Picture(const PictureOptions& options);
-  [[nodiscard]] bool wanted() const { return file_ != nullptr; }
+  [[nodiscard]] bool wanted() const { return file_ != nullptr || o_.image.pick; }
 
   /// The layers of a stream; of one among several inputs only the last.
   void add_stream(const CoarseView& cells, const StreamHeader& header, const StreamTotals& totals,
@@ -51,6 +51,9 @@ class Picture {
                 std::shared_ptr<const TextureSet> textures = nullptr);
   /// Returns what the user should know of the picture.
   [[nodiscard]] std::vector<std::string> write();
+  /// "X,Y,Z" of ImageOptions::pick, in the axes of the input that is seen there; after write(). Throws bad_argument if
+  /// nothing is.
+  [[nodiscard]] std::string picked() const { return picked_; }
 
  private:
   void add_layer(Layer layer, const CoarseView& cells, const StreamHeader& header, const StreamTotals& totals,
@@ -60,7 +63,10 @@ class Picture {
   void label_panels();
   Bounds3d place_panels(RenderOptions& options);
 
+  void pick(const std::vector<View>& views, const RenderOptions& options);
+
   PictureOptions o_;
+  std::string picked_;
   std::unique_ptr<OutputFile> file_;
   std::vector<std::unique_ptr<Panel>> panels_;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "io/files/file.h"
 #include "io/scene/scene_parts.h"
@@ -21,6 +22,7 @@
 #include "tools/lod/proportions.h"
 #include "tools/notes/up_note.h"
 #include "tools/run/grounded_source.h"
+#include "tools/run/scale_rules.h"
 #include "tools/run/scene_budget.h"
 
 namespace bp {
@@ -34,6 +36,21 @@ void print_list(const std::string& text, const std::string& made) {
   } catch (const Error& e) {
     fail_as(e, "the list is lost, but {}: {}", made, e.what());
   }
+}
+
+/// Levels have scales of their own: the rules say how much finer or coarser a place is.
+ScaleField read_field(const BuildOptions& o, const VoxelizedScene& voxels) {
+  const std::string& file = o.field;
+  StreamHeader header = voxels.header;
+  header.scene.format = o.voxels.format;
+  for (const std::string& name : o.voxels.scenes) {
+    if (can_read_again(o)) header.scene.files.push_back({name, std::filesystem::file_size(name)});
+  }
+  ScaleField field = read_rules(file, header);
+  (void)field.upper_bound(header.frame);
+  if (!(field.base > 0))
+    fail(ErrorCode::bad_input, "{}: scale field: base is 0; the scales of levels are measured by it", file);
+  return field;
 }
 
 }  // namespace
@@ -88,6 +105,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   out.counts = voxelize_stream(*source, open, backends, v);
   size_ = {out.header.bounds, out.counts.scene.triangles};
   enclosed_ = enclosed_by(options, size_.triangles);
+  if (!options.field.empty()) field_ = read_field(options, out);
   if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
   choose_textures(*source, halvings == 0);
   if (source->has_colors() && !textured_) gather(*source, out);
@@ -161,6 +179,7 @@ LodOptions Build::lod_options() {
   lod.mode = options.proxy.mode;
   lod.enclose = enclosed_;
   if (options.proxy.mode == MeshMode::fit || enclosed_ == Enclose::scene) lod.scene = scene_triangles();
+  lod.field = field_;
   lod.quads = options.profile == LodProfile::cage;
   lod.context = context();
   return lod;
@@ -206,6 +225,7 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
         level_texture(*this, level.mesh, level.error_world, level.scale_world, *looks_, texture_memory());
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
+  if (field_) text.add("field", provenance_text(*field_));
   if (textured_) text.add("appearance", "texture");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
 }

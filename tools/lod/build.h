@@ -80,6 +80,7 @@ class Build {
   void write_report(const VoxelizedScene& scene);
   SceneSize size_;
   Enclose enclosed_ = Enclose::input;
+  std::optional<ScaleField> field_;  // of --field
   std::unique_ptr<SceneColors> colors_;
   std::shared_ptr<TextureTable> textures_;
   bool textured_ = false;

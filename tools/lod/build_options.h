@@ -29,6 +29,7 @@ struct BuildOptions {
   CommonOptions common;
   VoxelOptions voxels;
   ClosingOptions closing;
+  std::string field;  ///< file of rules; empty: none
   LevelOptions levels;
   ProxyOptions proxy;
   std::string out, name;

@@ -2,6 +2,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 #include "lib/image/canvas.h"
 #include "lib/image/render.h"
 #include "tests/catch.h"
@@ -336,4 +337,40 @@ TEST_CASE("images lie on triangles where their places say, also on ones cut off 
     CHECK(only(image.at(4, 28).b, image.at(4, 28).r, image.at(4, 28).g));
     CHECK(image.at(28, 28) == Color{9, 9, 9});
   }
+}
+
+TEST_CASE("the point behind a pixel is the one that the picture shows there", "[quick][image]") {
+  const Vec3d centre{6e6, -4e6, 12};
+  const IndexedMesh ball = sphere(5, 2, centre), block = box({6e6 - 9, -4e6, 12}, {6e6 - 5, -4e6 + 3, 14});
+  const std::vector<View> views{view_of(ball), view_of(block)};
+  RenderOptions options;
+  options.panel_width = options.panel_height = 64;
+  options.up = GENERATE(UpAxis::y, UpAxis::z, UpAxis::minus_x);
+  options.azimuth = 50, options.elevation = -10;
+  options.zoom = GENERATE(1.0, 3.0);
+  const Image image = render(views, options);
+  int found = 0, beside = 0;
+  for (int y = 0; y < 64; y += 3) {
+    for (int x = 0; x < 128; x += 3) {
+      const std::optional<Vec3d> p = point_behind(views, options, x, y);
+      CHECK(p.has_value() == (image.at(x, y) != kPaper));
+      if (!p) continue;
+      ++found;
+      // A picture around that point shows it in the middle, and nothing lies before it.
+      RenderOptions near = options;
+      near.look_at = p;
+      near.zoom = 100;
+      const std::optional<Vec3d> again = point_behind(views, near, x < 64 ? 32 : 96, 32);
+      if (!again) {  // beside the outline
+        ++beside;
+        continue;
+      }
+      if (length(*again - *p) > 0.1) FAIL_CHECK("pixel " << x << " " << y << ": " << length(*again - *p));
+      if (x < 64 && std::abs(length(*p - centre) - 2) > 0.02) FAIL_CHECK("not on the ball");
+    }
+  }
+  CHECK(found > 50);
+  CHECK(beside * 50 < found);
+  CHECK_THROWS_AS(point_behind(views, options, 128, 0), Error);
+  CHECK_THROWS_AS(point_behind(views, options, 0, -1), Error);
 }
