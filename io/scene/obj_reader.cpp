@@ -2,9 +2,9 @@
 #include <optional>
 
 #include "io/scene/detail/mtl_file.h"
-#include "io/scene/detail/raw_source.h"
 #include "io/scene/detail/text_scanner.h"
 #include "io/scene/detail/vertex_pool.h"
+#include "io/scene/raw_source.h"
 
 // Wavefront OBJ: the lines "v" and "f", everything else is passed over; if colours or walls are asked for, "usemtl" and
 // "mtllib" too, and the three numbers after a vertex' position (an extension of many programs). One pass streams faces

@@ -1,5 +1,5 @@
 #pragma once
-#include "io/scene/detail/raw_source.h"
+#include "io/scene/raw_source.h"
 
 /// Which reader a scene's file goes to.
 namespace bp {
