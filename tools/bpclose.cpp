@@ -39,22 +39,20 @@ Options parse(bp::Args& args) {
   args.positional("INPUT", o.in, "stream of voxels; - is stdin");
   args.group("Files");
   args.option("-o,--output", "FILE", o.out, "stream of voxels, with the closing; - is stdout");
-  o.closing.add_to(args, "", "");
+  o.closing.add_to(args, "", " (default: 2%)");
   o.closing.add_element(args);
   args.option("--field", "FILE", o.field, "scales that differ from place to place, as JSON, instead of --scale");
   args.removed("--tile", "bpclose chooses the tiles by --memory");
   args.flag("--keep-cavities", o.keep_cavities, "leave hollows empty that the closing cuts off from the outside");
   args.removed("--inner", "a stream of bpvox --fill inside is opened without it");
-  o.common.device_text =
-      "auto, cpu, cuda (every GPU) or cuda:0,1 (default: auto, one GPU where the work is worth its start, or the CPU)";
   o.common.add_to(args);
   args.often({"--output", "--scale", "--element", "--overwrite"});
   args.parse();
   bp::check_stream_name(o.out);
   bp::keep_inputs({o.in});
   if (!o.field.empty()) bp::keep_inputs({o.field});
-  if (!o.closing.scale && o.field.empty()) fail(ErrorCode::bad_argument, "give a --scale or a --field");
   if (o.closing.scale && !o.field.empty()) fail(ErrorCode::bad_argument, "--scale and --field exclude each other");
+  if (o.field.empty() && !o.closing.scale) o.closing.scale = bp::Length{2, bp::Length::Unit::percent};
   return o;
 }
 

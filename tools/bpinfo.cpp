@@ -1,4 +1,4 @@
-// bpinfo: what a brick stream or a mesh holds. Manual: docs/bpinfo.1.md
+// bpinfo: what a stream of voxels or a mesh holds. Manual: docs/bpinfo.1.md
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -10,6 +10,7 @@
 #include "io/tiles/tileset_file.h"
 #include "io/tiles/tileset_level.h"
 #include "lib/core/error.h"
+#include "tools/cli/options/voxel.h"
 #include "tools/cli/run_tool.h"
 #include "tools/info/mesh_info.h"
 #include "tools/info/picture.h"
@@ -25,7 +26,7 @@ struct Options {
   std::string format;
   bp::PictureOptions picture;
   std::optional<std::size_t> level;
-  bool json = false, checksum = false, dump = false;
+  bool json = false, dump = false;
 };
 
 Options parse(bp::Args& args) {
@@ -35,17 +36,14 @@ Options parse(bp::Args& args) {
                   "streams, meshes or scenes, tilesets (tileset.json or its folder); - is stdin (default: -)");
   args.group("Text");
   args.flag("--json", o.json, "print JSON");
-  args.flag("--checksum", o.checksum,
-            "print a checksum of the voxels, or of the triangles as a set; order, tiles and compression do not change "
-            "it");
   args.flag("--dump", o.dump, "print a stream as text, one line for each brick");
   o.picture.image.add_to(args);
   args.group("Input");
   args.option("--level", "N", o.level,
               "level of a glTF file to show, or of a tileset to draw; 0, the finest (default)");
-  args.option("--format", "NAME", o.format,
-              "INPUTs are meshes, and this is the format of stdin, or of files whose names do not tell");
+  bp::add_scene_format(args, o.format, "INPUTs are meshes, and this is the ");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::overwrite_part);
+  args.removed("--checksum", "the text and --json have it");
   args.often({"--json", "--image", "--view", "--zoom", "--look-at", "--level", "--overwrite"});
   args.example("bpinfo scene.glb closed.bpv proxy.glb --image all.png");
   args.parse();
@@ -55,8 +53,7 @@ Options parse(bp::Args& args) {
   bp::check_stdin_once(o.in);
   bp::keep_inputs(o.in);
   if (!o.picture.image.file.empty()) bp::check_panel_size(o.picture.image.panel_size, o.in.size());
-  if (int(o.json) + int(o.checksum) + int(o.dump) > 1)
-    bp::fail(bp::ErrorCode::bad_argument, "--json, --checksum and --dump exclude each other");
+  if (o.json && o.dump) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump exclude each other");
   o.picture.image.check(args);
   o.picture.several = o.in.size() > 1;
   o.picture.overwrite = o.common.overwrite;
@@ -64,7 +61,7 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-/// stdin and pipes are brick streams, for they cannot be tried twice; files by their first bytes.
+/// stdin and pipes are streams of voxels, for they cannot be tried twice; files by their first bytes.
 bool is_stream(const Options& o, const std::string& in) {
   if (!o.format.empty()) return false;
   if (in == "-") return true;
@@ -127,8 +124,6 @@ void show_stream(const Options& o, const std::string& in, bp::Picture& picture) 
   if (picture.wanted()) picture.add_stream(cells, header, totals, in);
   if (o.dump) {
     out.write(bp::dump_end(totals));
-  } else if (o.checksum) {
-    out.write(totals.checksum() + "\n");
   } else if (o.json) {
     out.write(bp::stream_json(header, totals).dump(2) + "\n");
   } else {
@@ -143,7 +138,7 @@ void note_missing_materials(const std::string& in) {
 }
 
 void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
-  if (o.dump) bp::fail(bp::ErrorCode::bad_argument, "{}: --dump is for brick streams, and this is not one", in);
+  if (o.dump) bp::fail(bp::ErrorCode::bad_argument, "{}: --dump is for streams of voxels, and this is not one", in);
   const bp::MeshExtras extras = bp::mesh_extras(in);
   bp::SceneOptions scene;
   scene.format = o.format;
@@ -154,11 +149,7 @@ void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
   bp::MeshInfo info = bp::measure(*source);
   info.extras = extras;
   info.level = scene.level;
-  if (o.checksum) {
-    bp::print(info.totals.checksum() + "\n");
-  } else {
-    bp::print(o.json ? bp::mesh_json(info).dump(2) + "\n" : bp::mesh_text(info, in == "-" ? "stdin" : in));
-  }
+  bp::print(o.json ? bp::mesh_json(info).dump(2) + "\n" : bp::mesh_text(info, in == "-" ? "stdin" : in));
   if (!picture.wanted()) return;
   note_missing_materials(in);
   picture.add_mesh(info, std::move(source), in, bp::level_text(info.level, extras.levels));
@@ -183,7 +174,7 @@ void draw_tileset(const Options& o, const bp::Tileset& tileset, const std::strin
 }
 
 void show_tileset(const Options& o, const std::string& in, bp::Picture& picture) {
-  if (o.dump || o.checksum)
+  if (o.dump)
     bp::fail(bp::ErrorCode::bad_argument,
              "{}: a tileset is described and drawn only; name its contents to see what they hold", in);
   const bp::Tileset tileset = bp::read_tileset(in);

@@ -74,13 +74,11 @@ pipe_cases() {
   mesh cube.bpv scene.ply --faces 500 --enclose "$scene"
   mesh cube.bpv error.ply --error 2%
   mesh cube.bpv volume.ply --volume 1.3
-  mesh cube.bpv edges.ply --edge-length 2
   mesh cube.bpv quads.obj --faces 300 --quads
   mesh cube.bpv chain.gltf --faces 500,200,60
   mesh ball.bpv fit.glb --mode fit --faces 500
   mesh inner.bpv inside.ply --mode inside --faces 100
   mesh varied.bpv varied.ply --faces 500
-  mesh varied.bpv varied-edges.ply --edge-length 3
 }
 
 # scale_field STREAM: scales of two to six voxels, with a box and a stroke in the middle of the scene
