@@ -17,11 +17,14 @@
 #include "tools/run/make_backend.h"
 #include "tools/run/memory_shares.h"
 #include "tools/run/provenance.h"
+#include "tools/run/scale_rules.h"
 
 namespace {
 
 using bp::ErrorCode;
 using bp::fail;
+
+constexpr bp::Length kDefaultScale{2, bp::Length::Unit::percent};
 
 struct Options {
   bp::CommonOptions common;
@@ -39,9 +42,10 @@ Options parse(bp::Args& args) {
   args.positional("INPUT", o.in, "stream of voxels; - is stdin");
   args.group("Files");
   args.option("-o,--output", "FILE", o.out, "stream of voxels, with the closing; - is stdout");
-  o.closing.add_to(args, "", " (default: 2%)");
+  o.closing.add_to(args, "", " (default: that of bpscale, else 2%)");
   o.closing.add_element(args);
-  args.option("--field", "FILE", o.field, "scales that differ from place to place, as JSON, instead of --scale");
+  args.option("--field", "FILE", o.field,
+              "rules for scales that differ from place to place (bpscale(1)), instead of --scale");
   args.removed("--tile", "bpclose chooses the tiles by --memory");
   args.flag("--keep-cavities", o.keep_cavities, "leave hollows empty that the closing cuts off from the outside");
   args.removed("--inner", "a stream of bpvox --fill inside is opened without it");
@@ -52,12 +56,16 @@ Options parse(bp::Args& args) {
   bp::keep_inputs({o.in});
   if (!o.field.empty()) bp::keep_inputs({o.field});
   if (o.closing.scale && !o.field.empty()) fail(ErrorCode::bad_argument, "--scale and --field exclude each other");
-  if (o.field.empty() && !o.closing.scale) o.closing.scale = bp::Length{2, bp::Length::Unit::percent};
   return o;
 }
 
+/// By the options, or by the field that bpscale gave the stream.
 bp::ScaleField scale_field(const Options& o, const bp::StreamHeader& header) {
-  if (!o.field.empty()) return bp::parse_scale_field(bp::read_text(o.field), o.field);
+  if (header.has_field && (o.closing.scale || !o.field.empty()))
+    fail(ErrorCode::bad_argument, "{} and the field that bpscale gave the stream exclude each other",
+         o.closing.scale ? "--scale" : "--field");
+  if (header.has_field) return header.scale;
+  if (!o.field.empty()) return bp::read_rules(o.field, header);
   bp::ScaleField field;
   field.base = o.closing.scale->in_world(header.bounds.diagonal(), header.frame.voxel);
   return field;
@@ -72,8 +80,8 @@ bp::OptionText option_text(const Options& o, const bp::StreamHeader& header, con
   bp::OptionText text;
   if (o.closing.scale) {
     text.add("scale", *o.closing.scale);
-  } else {
-    text.add("field", bp::to_json(field));
+  } else if (!header.has_field) {  // else bpscale tells
+    text.add("field", bp::provenance_text(field));
   }
   text.add("element", name_of(o.closing.element));
   text.add("keep-cavities", o.keep_cavities);
@@ -98,6 +106,7 @@ bp::StreamHeader closed_header(const Options& o, const bp::StreamHeader& in, con
   if (!opens(in)) header.bricks = bp::closing_bricks(in, field);
   header.slab_axis = in.slab_axis;
   header.has_closing = true;
+  header.has_field = false;
   header.scale = field;
   header.element = o.closing.element;
   header.provenance.push_back(bp::make_provenance("bpclose", option_text(o, in, field)));
@@ -131,12 +140,13 @@ void fill_report(bp::Report& report, const bp::Backends& backends, const bp::Clo
   if (counts.ignored_bricks > 0) report.notes.push_back("the input's closing layer was made anew from its solid layer");
 }
 
-void run(const Options& o) {
+void run(Options o) {
   bp::Report report("bpclose");
   bp::Progress progress("bpclose", o.common.progress);
   report.begin("open");
   const auto output = bp::open_output(o.out, o.common.overwrite);
   bp::BrickReader source(o.in);
+  if (!o.closing.scale && o.field.empty() && !source.header().has_field) o.closing.scale = kDefaultScale;
   const bool opening = opens(source.header());
   if (opening && o.keep_cavities)
     fail(ErrorCode::bad_argument, "--keep-cavities means nothing for a stream of bpvox --fill inside; leave it out");
