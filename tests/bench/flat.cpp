@@ -222,7 +222,8 @@ void run(int argc, char** argv) {
     counts.try_emplace(level.size());
   }
   if (std::getenv("MESHOPT") == nullptr) return;
-  for (const auto& [faces, unused] : counts) print("meshopt of the scene", scene, simplified(scene, faces));
+  for (const auto& [faces, unused] : counts)
+    if (faces < scene.triangles.size()) print("meshopt of the scene", scene, simplified(scene, faces));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 #include <span>
 
+#include "lib/fit/fit_place.h"
 #include "lib/mesh/edge_limit.h"
 #include "lib/mesh/step_limits.h"
 
@@ -12,7 +13,7 @@ namespace bp {
 /// an embedded mesh stays embedded, `edge_limit` (may be empty) and `limits` (may be null) are kept, and no face turns
 /// over or becomes a needle. Cost: `rounds` searches per point, parallel; the result does not depend on the number of
 /// threads. Returns the number of moves.
-std::uint64_t settle(HalfEdgeMesh& mesh, std::span<const Vec3d> points, const EdgeLimit& edge_limit, StepLimits* limits,
+std::uint64_t settle(HalfEdgeMesh& mesh, std::span<const FitPlace> points, const EdgeLimit& edge_limit, StepLimits* limits,
                      int rounds);
 
 }  // namespace bp

@@ -98,8 +98,8 @@ TEST_CASE("vertices settle where the surface is nearest to given points, on any 
   const LatticeMesh start = mesh_stream(source, memory_context(), params, counts)[0];
   std::vector<TriangleD> sphere;
   add_sphere(sphere, kCentre, kRadius, 24);
-  std::vector<Vec3d> points;
-  for (const TriangleD& t : sphere) points.push_back(kLatticePerVoxel * (1.0 / 3 * (t[0] + t[1] + t[2])));
+  std::vector<FitPlace> points;
+  for (const TriangleD& t : sphere) points.push_back({kLatticePerVoxel * (1.0 / 3 * (t[0] + t[1] + t[2]))});
   const TriangleBvh tree(sphere);
   const auto distance = [&](const LatticeMesh& mesh) { return surface_distance(world_triangles(mesh), tree).mean; };
   HalfEdgeMesh mesh(start);
@@ -127,7 +127,7 @@ TEST_CASE("vertices are drawn to their targets only as far as the surface stays 
   HalfEdgeMesh mesh(start);
   const Vec3d point{17 * 64, 12 * 64, 13 * 64};  // all to one point: most cannot get there
   const std::uint64_t moves = draw_to_targets(
-      mesh, [&](const Vec3d&, const Vec3d&) { return point; }, {}, 6);
+      mesh, [&](const Vec3d&, const Vec3d&) { return FitPlace{point}; }, {}, 6);
   CHECK(moves > 10);
   CHECK(check_proxy(indexed(mesh.compact(start.frame)), nullptr).holds());
 }
