@@ -7,6 +7,7 @@
 #include "lib/core/vec3.h"
 #include "lib/fit/detail/face_points.h"
 #include "lib/fit/detail/vertex_mover.h"
+#include "lib/geometry/triangle_bvh.h"
 #include "lib/mesh/constrained_minimum.h"
 
 namespace bp {
@@ -16,8 +17,10 @@ namespace {
 constexpr double kSlide = 0.1;  // weight of a point's distance along its face, against that across it
 constexpr double kStay = 0.02;  // of a vertex's own place, against that of its points together
 // A face stands for a plane of the scene if so many of its points lie in it, to this angle (cosine) and distance.
-constexpr double kMostPoints = 0.6, kSameNormal = 0.996, kSamePlane = 0.1 * kLatticePerVoxel;
+constexpr double kMostPoints = 0.7, kSameNormal = 0.996, kSamePlane = 0.1 * kLatticePerVoxel;
 constexpr std::size_t kFewPoints = 4;
+constexpr double kFlipGain = 0.1;  // of the squared distances of the points of two faces: a flip must save as much
+constexpr int kRoundsPerFlips = 3;
 
 class Settler {
  public:
@@ -26,6 +29,7 @@ class Settler {
 
   std::uint64_t round() {
     points_.assign(mesh_);
+    if (++rounds_ % kRoundsPerFlips == 0 && flip_edges() > 0) points_.assign(mesh_);
     find_planes();
     std::uint64_t moves = 0;
     for (VertexId v = 0; v < mesh_.vertex_capacity(); ++v) {
@@ -38,6 +42,37 @@ class Settler {
   }
 
  private:
+  /// So that they run along the edges of the scene; each face changes once at most.
+  std::uint64_t flip_edges() {
+    std::uint64_t flips = 0;
+    std::vector<char> changed(mesh_.face_capacity(), 0);
+    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
+      const FaceId f = HalfEdgeMesh::face(h);
+      if (!mesh_.alive(f) || mesh_.edge(h) != h) continue;
+      const FaceId g = HalfEdgeMesh::face(mesh_.twin(h));
+      if (changed[f] || changed[g] || !gains_by_flip(h) || !mover_.flip(h)) continue;
+      changed[f] = changed[g] = 1;
+      ++flips;
+    }
+    return flips;
+  }
+
+  [[nodiscard]] bool gains_by_flip(HalfEdgeId h) const {
+    const HalfEdgeId t = mesh_.twin(h);
+    const auto at = [&](VertexId v) { return to_double(mesh_.position(v)); };
+    const Vec3d u = at(mesh_.from(h)), w = at(mesh_.to(h)), a = at(mesh_.opposite(h)), b = at(mesh_.opposite(t));
+    const std::array<TriangleD, 2> now{TriangleD{u, w, a}, TriangleD{w, u, b}}, then{TriangleD{b, a, u}, TriangleD{a, b, w}};
+    double before = 0, after = 0;
+    for (const HalfEdgeId side : {h, t}) {
+      for (const std::uint32_t i : points_.of(HalfEdgeMesh::face(side))) {
+        const Vec3d& p = points_[i].at;
+        before += distance_squared(p, now[side == h ? 0 : 1]);
+        after += std::min(distance_squared(p, then[0]), distance_squared(p, then[1]));
+      }
+    }
+    return after < (1 - kFlipGain) * before;
+  }
+
   void find_planes() {
     planes_.assign(mesh_.face_capacity(), std::nullopt);
     for (FaceId f = 0; f < mesh_.face_capacity(); ++f) {
@@ -106,6 +141,7 @@ class Settler {
   HalfEdgeMesh& mesh_;
   VertexMover mover_;
   FacePoints points_;
+  int rounds_ = 0;
   std::vector<std::optional<FitPlace>> planes_;  // per face: that it stands for
 };
 
