@@ -83,7 +83,8 @@ struct Planes {
     const double offset = bp::dot(n, t[0] - middle);
     constexpr double kCell = 0.02;
     const auto key_of = [&](const bp::Vec3d& m, double d) {
-      return Key{std::lround(m[0] / kCell), std::lround(m[1] / kCell), std::lround(m[2] / kCell), std::lround(d / (8 * tolerance))};
+      return Key{std::lround(m[0] / kCell), std::lround(m[1] / kCell), std::lround(m[2] / kCell),
+                 std::lround(d / (8 * tolerance))};
     };
     const Key key = key_of(n, offset);
     for (long a = -1; a <= 1; ++a)

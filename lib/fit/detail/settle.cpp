@@ -61,7 +61,8 @@ class Settler {
     const HalfEdgeId t = mesh_.twin(h);
     const auto at = [&](VertexId v) { return to_double(mesh_.position(v)); };
     const Vec3d u = at(mesh_.from(h)), w = at(mesh_.to(h)), a = at(mesh_.opposite(h)), b = at(mesh_.opposite(t));
-    const std::array<TriangleD, 2> now{TriangleD{u, w, a}, TriangleD{w, u, b}}, then{TriangleD{b, a, u}, TriangleD{a, b, w}};
+    const std::array<TriangleD, 2> now{TriangleD{u, w, a}, TriangleD{w, u, b}},
+        then{TriangleD{b, a, u}, TriangleD{a, b, w}};
     double before = 0, after = 0;
     for (const HalfEdgeId side : {h, t}) {
       for (const std::uint32_t i : points_.of(HalfEdgeMesh::face(side))) {
@@ -99,7 +100,8 @@ class Settler {
   }
 
   [[nodiscard]] static bool is_in(const FitPlace& p, const FitPlace& plane) {
-    return std::abs(dot(p.normal, plane.normal)) > kSameNormal && std::abs(dot(plane.normal, p.at - plane.at)) < kSamePlane;
+    return std::abs(dot(p.normal, plane.normal)) > kSameNormal &&
+           std::abs(dot(plane.normal, p.at - plane.at)) < kSamePlane;
   }
 
   /// Where v would be best, its neighbours standing still; from where it is.
@@ -109,7 +111,7 @@ class Settler {
       const FaceId f = HalfEdgeMesh::face(h);
       if (planes_[f]) {
         add_plane(*planes_[f], v, double(points_.of(f).size()), q);
-      } 
+      }
       add_points(f, int(h % 3), q);
     });
     if (q.weight == 0) return {};

@@ -13,7 +13,7 @@ namespace bp {
 /// an embedded mesh stays embedded, `edge_limit` (may be empty) and `limits` (may be null) are kept, and no face turns
 /// over or becomes a needle. Cost: `rounds` searches per point, parallel; the result does not depend on the number of
 /// threads. Returns the number of moves.
-std::uint64_t settle(HalfEdgeMesh& mesh, std::span<const FitPlace> points, const EdgeLimit& edge_limit, StepLimits* limits,
-                     int rounds);
+std::uint64_t settle(HalfEdgeMesh& mesh, std::span<const FitPlace> points, const EdgeLimit& edge_limit,
+                     StepLimits* limits, int rounds);
 
 }  // namespace bp
