@@ -17,6 +17,7 @@
 #include "tools/run/make_backend.h"
 #include "tools/run/memory_shares.h"
 #include "tools/run/provenance.h"
+#include "tools/run/scale_rules.h"
 
 namespace {
 
@@ -41,7 +42,8 @@ Options parse(bp::Args& args) {
   args.option("-o,--output", "FILE", o.out, "stream of voxels, with the closing; - is stdout");
   o.closing.add_to(args, "", "");
   o.closing.add_element(args);
-  args.option("--field", "FILE", o.field, "scales that differ from place to place, as JSON, instead of --scale");
+  args.option("--field", "FILE", o.field,
+              "rules for scales that differ from place to place (bpscale(1)), instead of --scale");
   args.removed("--tile", "bpclose chooses the tiles by --memory");
   args.flag("--keep-cavities", o.keep_cavities, "leave hollows empty that the closing cuts off from the outside");
   args.removed("--inner", "a stream of bpvox --fill inside is opened without it");
@@ -53,13 +55,20 @@ Options parse(bp::Args& args) {
   bp::check_stream_name(o.out);
   bp::keep_inputs({o.in});
   if (!o.field.empty()) bp::keep_inputs({o.field});
-  if (!o.closing.scale && o.field.empty()) fail(ErrorCode::bad_argument, "give a --scale or a --field");
   if (o.closing.scale && !o.field.empty()) fail(ErrorCode::bad_argument, "--scale and --field exclude each other");
   return o;
 }
 
+/// By the options, or by the field that bpscale gave the stream.
 bp::ScaleField scale_field(const Options& o, const bp::StreamHeader& header) {
-  if (!o.field.empty()) return bp::parse_scale_field(bp::read_text(o.field), o.field);
+  const bool told = o.closing.scale || !o.field.empty();
+  if (!told && !header.has_field)
+    fail(ErrorCode::bad_argument, "give a --scale or a --field; the stream has no field of bpscale");
+  if (told && header.has_field)
+    fail(ErrorCode::bad_argument, "{} and the field that bpscale gave the stream exclude each other",
+         o.closing.scale ? "--scale" : "--field");
+  if (header.has_field) return header.scale;
+  if (!o.field.empty()) return bp::read_rules(o.field, header);
   bp::ScaleField field;
   field.base = o.closing.scale->in_world(header.bounds.diagonal(), header.frame.voxel);
   return field;
@@ -74,8 +83,8 @@ bp::OptionText option_text(const Options& o, const bp::StreamHeader& header, con
   bp::OptionText text;
   if (o.closing.scale) {
     text.add("scale", *o.closing.scale);
-  } else {
-    text.add("field", bp::to_json(field));
+  } else if (!header.has_field) {  // else bpscale tells
+    text.add("field", bp::provenance_text(field));
   }
   text.add("element", name_of(o.closing.element));
   text.add("keep-cavities", o.keep_cavities);
@@ -100,6 +109,7 @@ bp::StreamHeader closed_header(const Options& o, const bp::StreamHeader& in, con
   if (!opens(in)) header.bricks = bp::closing_bricks(in, field);
   header.slab_axis = in.slab_axis;
   header.has_closing = true;
+  header.has_field = false;
   header.scale = field;
   header.element = o.closing.element;
   header.provenance.push_back(bp::make_provenance("bpclose", option_text(o, in, field)));

@@ -6,6 +6,7 @@
 #include "io/scene/scene_format.h"
 #include "io/scene/scene_parts.h"
 #include "io/scene/scene_reader.h"
+#include "io/scene/texture_table.h"
 #include "io/stream/brick_stream.h"
 #include "io/tiles/tileset_file.h"
 #include "io/tiles/tileset_level.h"
@@ -46,7 +47,7 @@ Options parse(bp::Args& args) {
   args.option("--format", "NAME", o.format,
               "INPUTs are meshes, and this is the format of stdin, or of files whose names do not tell");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::overwrite_part);
-  args.often({"--json", "--image", "--view", "--zoom", "--look-at", "--level", "--overwrite"});
+  args.often({"--json", "--image", "--view", "--zoom", "--look-at", "--pick", "--level", "--overwrite"});
   args.example("bpinfo scene.glb closed.bpv proxy.glb --image all.png");
   args.parse();
   if (o.in.empty()) o.in = {"-"};
@@ -58,6 +59,9 @@ Options parse(bp::Args& args) {
   if (int(o.json) + int(o.checksum) + int(o.dump) > 1)
     bp::fail(bp::ErrorCode::bad_argument, "--json, --checksum and --dump exclude each other");
   o.picture.image.check(args);
+  if (o.picture.image.pick && (o.json || o.checksum || o.dump))
+    bp::fail(bp::ErrorCode::bad_argument,
+             "--pick prints a point and nothing else; leave out --json, --checksum, --dump");
   o.picture.several = o.in.size() > 1;
   o.picture.overwrite = o.common.overwrite;
   if (o.in.size() > 1 && (o.json || o.dump)) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump take one INPUT");
@@ -131,7 +135,7 @@ void show_stream(const Options& o, const std::string& in, bp::Picture& picture) 
     out.write(totals.checksum() + "\n");
   } else if (o.json) {
     out.write(bp::stream_json(header, totals).dump(2) + "\n");
-  } else {
+  } else if (!o.picture.image.pick) {
     out.write(bp::stream_text(header, totals, in == "-" ? "stdin" : in));
   }
   out.commit();
@@ -142,12 +146,17 @@ void note_missing_materials(const std::string& in) {
     note(fmt::format("{}: {} is not there, and its colours are not drawn", in, file));
 }
 
+void note_faults(const bp::SceneOptions& scene) {
+  for (const std::string& fault : scene.textures->faults()) note(fault + "; its material's colour is drawn");
+}
+
 void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
   if (o.dump) bp::fail(bp::ErrorCode::bad_argument, "{}: --dump is for brick streams, and this is not one", in);
   const bp::MeshExtras extras = bp::mesh_extras(in);
   bp::SceneOptions scene;
   scene.format = o.format;
   scene.colors = picture.wanted();
+  if (picture.wanted()) scene.textures = std::make_shared<bp::TextureTable>();
   if (is_gltf(in)) scene.level = o.level.value_or(0);
   check_level(in, scene.level, extras.levels);
   auto source = bp::open_scene(in, scene);
@@ -156,12 +165,13 @@ void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
   info.level = scene.level;
   if (o.checksum) {
     bp::print(info.totals.checksum() + "\n");
-  } else {
+  } else if (!o.picture.image.pick) {
     bp::print(o.json ? bp::mesh_json(info).dump(2) + "\n" : bp::mesh_text(info, in == "-" ? "stdin" : in));
   }
   if (!picture.wanted()) return;
   note_missing_materials(in);
-  picture.add_mesh(info, std::move(source), in, bp::level_text(info.level, extras.levels));
+  note_faults(scene);
+  picture.add_mesh(info, std::move(source), in, bp::level_text(info.level, extras.levels), scene.textures);
 }
 
 void draw_tileset(const Options& o, const bp::Tileset& tileset, const std::string& in, bp::Picture& picture) {
@@ -175,11 +185,13 @@ void draw_tileset(const Options& o, const bp::Tileset& tileset, const std::strin
                      level.missing.size(), all, wanted, level.missing[0]));
   bp::SceneOptions scene;
   scene.colors = true;
+  scene.textures = std::make_shared<bp::TextureTable>();
   auto source = bp::open_contents(tileset, std::move(level.contents), in, scene);
   bp::MeshInfo info = bp::measure(*source);
   const std::string which = bp::level_text(wanted, level.levels);
   picture.add_mesh(info, std::move(source), in,
-                   fmt::format("{}{} tile{}", which.empty() ? "" : which + "\n", there, there == 1 ? "" : "s"));
+                   fmt::format("{}{} tile{}", which.empty() ? "" : which + "\n", there, there == 1 ? "" : "s"),
+                   scene.textures);
 }
 
 void show_tileset(const Options& o, const std::string& in, bp::Picture& picture) {
@@ -188,7 +200,7 @@ void show_tileset(const Options& o, const std::string& in, bp::Picture& picture)
              "{}: a tileset is described and drawn only; name its contents to see what they hold", in);
   const bp::Tileset tileset = bp::read_tileset(in);
   const bp::TilesetInfo info = bp::tileset_info(tileset, in);
-  bp::print(o.json ? bp::tileset_json(info).dump(2) + "\n" : bp::tileset_text(info, in));
+  if (!o.picture.image.pick) bp::print(o.json ? bp::tileset_json(info).dump(2) + "\n" : bp::tileset_text(info, in));
   if (picture.wanted()) draw_tileset(o, tileset, in, picture);
 }
 
@@ -199,6 +211,7 @@ void run(const Options& o) {
     (is_tileset(o, in) ? show_tileset : is_stream(o, in) ? show_stream : show_mesh)(o, in, picture);
   if (!picture.wanted()) return;
   for (const std::string& text : picture.write()) note(text);
+  if (o.picture.image.pick) bp::print(picture.picked() + "\n");
 }
 
 }  // namespace

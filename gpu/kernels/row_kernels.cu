@@ -106,9 +106,10 @@ __host__ __device__ std::size_t row_memory_bytes(int side) {
 /// Blocks to a multiprocessor: the pass waits for memory more than it computes.
 constexpr int kPowerBlocks = 5;
 #if defined(__CUDA_ARCH__) && __CUDA_ARCH__ < 800
-constexpr int kPowerResident = 4;  ///< no more threads fit on a multiprocessor of compute capability 7.5
+[[maybe_unused]] constexpr int kPowerResident =
+    4;  ///< no more threads fit on a multiprocessor of compute capability 7.5
 #else
-constexpr int kPowerResident = kPowerBlocks;
+[[maybe_unused]] constexpr int kPowerResident = kPowerBlocks;
 #endif
 /// Groups of kRun inputs in reach of kRun outputs, and the reach they come to.
 __host__ __device__ int run_reach(int reach) {

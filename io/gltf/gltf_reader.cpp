@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "io/gltf/gltf_document.h"
+#include "io/scene/name_pattern.h"
 
 // glTF 2.0 and GLB (Khronos, glTF 2.0 specification, section 3.7 on geometry, 3.5 on nodes). Only what says where
 // triangles are is looked at: the default scene, nodes, POSITION and indices, sparse accessors, quantized positions
@@ -26,6 +27,7 @@ class SceneBuilder {
         colors_(options.colors),
         textures_(options.textures.get()),
         walls_only_(options.walls_only),
+        parts_(options.parts),
         level_(options.level) {}
 
   InstancedScene build() {
@@ -44,6 +46,7 @@ class SceneBuilder {
   struct Pending {
     std::uint64_t node;
     Affine parent;
+    bool wanted;  // it is below a node whose name fits
   };
   [[nodiscard]] std::optional<UpAxis> up() const;
   [[nodiscard]] Affine world() const;
@@ -51,10 +54,13 @@ class SceneBuilder {
   void add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world);
   std::uint64_t level_of(std::uint64_t i);
   [[nodiscard]] std::set<std::uint64_t> coarser_nodes() const;
-  void add_mesh_node(const GltfObject& node, const Affine& transform);
-  Range mesh(std::uint64_t i);
+  void add_mesh_node(const GltfObject& node, const Affine& transform, bool wanted);
+  Range mesh(std::uint64_t i, bool wanted);
+  [[nodiscard]] bool fits(const GltfObject& named) const;
+  [[nodiscard]] bool has_material_that_fits(const GltfObject& primitive) const;
   void add_primitive(const GltfObject& p);
   void add_colors(const GltfObject& p, const GltfObject& attributes, Primitive& primitive);
+  void try_texture(std::uint64_t material, const GltfObject& attributes, Primitive& primitive);
   void add_texture(std::uint64_t material, const GltfObject& attributes, Primitive& primitive);
   [[nodiscard]] std::optional<GltfObject> base_texture(const GltfObject& material) const;
   std::uint32_t texture_material(std::uint64_t i, const GltfObject& material, std::uint64_t texture);
@@ -70,9 +76,10 @@ class SceneBuilder {
   const bool colors_;
   TextureTable* const textures_;  // null: not asked for
   const bool walls_only_;
+  const std::string parts_;  // SceneOptions::parts
   const std::size_t level_;
   InstancedScene scene_;
-  std::unordered_map<std::uint64_t, Range> meshes_;
+  std::unordered_map<std::uint64_t, Range> meshes_, wanted_meshes_;  // parts of them, and all
   std::vector<bool> visited_;
 };
 
@@ -120,7 +127,7 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
   std::vector<Pending> stack;
   const std::set<std::uint64_t> coarser = level_ > 0 ? coarser_nodes() : std::set<std::uint64_t>{};
   for (std::size_t i = roots.size(); i-- > 0;) {
-    if (!coarser.contains(roots[i])) stack.push_back({roots[i], world});
+    if (!coarser.contains(roots[i])) stack.push_back({roots[i], world, parts_.empty()});
   }
   while (!stack.empty()) {
     Pending next = stack.back();
@@ -130,9 +137,10 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
     if (visited_[std::size_t(next.node)]) node.broken("is reached twice, and nodes must form trees");
     visited_[std::size_t(next.node)] = true;
     const Affine transform = next.parent * transform_of(node);
-    if (node.has("mesh")) add_mesh_node(node, transform);
+    const bool wanted = next.wanted || fits(node);
+    if (node.has("mesh")) add_mesh_node(node, transform, wanted);
     for (std::size_t k = node.array("children").size(); k-- > 0;)
-      stack.push_back({node.index("children", k), transform});
+      stack.push_back({node.index("children", k), transform, wanted});
   }
 }
 
@@ -171,20 +179,33 @@ Affine SceneBuilder::transform_of(const GltfObject& node) {
                    node.numbers<3>("scale", {1, 1, 1}));
 }
 
-void SceneBuilder::add_mesh_node(const GltfObject& node, const Affine& transform) {
-  const Range range = mesh(node.number("mesh"));
+bool SceneBuilder::fits(const GltfObject& named) const {
+  return named.has("name") && fits_pattern(named.text("name"), parts_);
+}
+
+bool SceneBuilder::has_material_that_fits(const GltfObject& primitive) const {
+  return primitive.has("material") && fits(root_.item("materials", primitive.number("material")));
+}
+
+void SceneBuilder::add_mesh_node(const GltfObject& node, const Affine& transform, bool wanted) {
+  const Range range = mesh(node.number("mesh"), wanted);
   if (range.first == range.end) return;
   scene_.nodes.push_back({transform, range.first, range.end, instance_array(node)});
 }
 
-SceneBuilder::Range SceneBuilder::mesh(std::uint64_t i) {
-  const auto known = meshes_.find(i);
-  if (known != meshes_.end()) return known->second;
+SceneBuilder::Range SceneBuilder::mesh(std::uint64_t i, bool wanted) {
+  auto& meshes = wanted ? wanted_meshes_ : meshes_;
+  const auto known = meshes.find(i);
+  if (known != meshes.end()) return known->second;
   const GltfObject mesh = root_.item("meshes", i);
+  wanted = wanted || fits(mesh);
   Range range{std::uint32_t(scene_.primitives.size()), 0};
-  for (std::size_t k = 0; k < mesh.array("primitives").size(); ++k) add_primitive(mesh.item("primitives", k));
+  for (std::size_t k = 0; k < mesh.array("primitives").size(); ++k) {
+    const GltfObject primitive = mesh.item("primitives", k);
+    if (wanted || has_material_that_fits(primitive)) add_primitive(primitive);
+  }
   range.end = std::uint32_t(scene_.primitives.size());
-  meshes_.emplace(i, range);
+  meshes.emplace(i, range);
   return range;
 }
 
@@ -210,7 +231,7 @@ void SceneBuilder::add_primitive(const GltfObject& p) {
       p.broken("has indices that are not unsigned integers");
   }
   if (colors_) add_colors(p, attributes, primitive);
-  if (textures_ != nullptr && p.has("material")) add_texture(p.number("material"), attributes, primitive);
+  if (textures_ != nullptr && p.has("material")) try_texture(p.number("material"), attributes, primitive);
   scene_.primitives.push_back(primitive);
 }
 
@@ -227,6 +248,17 @@ void SceneBuilder::add_colors(const GltfObject& p, const GltfObject& attributes,
   if (primitive.colors->count != primitive.positions.count)
     attributes.broken(
         fmt::format("have {} colours for {} positions", primitive.colors->count, primitive.positions.count));
+}
+
+/// What is wrong with an image's place on the triangles is no reason to refuse them.
+void SceneBuilder::try_texture(std::uint64_t material, const GltfObject& attributes, Primitive& primitive) {
+  try {
+    add_texture(material, attributes, primitive);
+  } catch (const Error& e) {
+    if (e.code() != ErrorCode::bad_input) throw;
+    primitive.uv.reset();
+    textures_->add_fault(e.what());
+  }
 }
 
 // Section 3.9.2 again, and KHR_texture_transform: the image that multiplies the colours.

@@ -80,7 +80,7 @@ std::vector<std::array<float, 3>> normals_of(const ShadedMesh& mesh, const std::
   return normals;
 }
 
-std::string color_bytes(const LatticeMesh& mesh, const std::vector<std::uint32_t>& order) {
+std::string color_bytes(const ShadedMesh& mesh, const std::vector<std::uint32_t>& order) {
   std::string bytes;
   bytes.reserve(4 * order.size());
   for (const std::uint32_t i : order) {
@@ -155,7 +155,7 @@ class GlbBuilder {
     ShadedMesh drawn = shaded(mesh);
     std::vector<std::uint32_t> order = optimize_order(drawn.triangles, drawn.vertex.size());
     const std::vector<std::array<float, 3>> normals = normals_of(drawn, order, mesh.frame.up);
-    const std::string uv = uv_bytes(drawn, order);
+    const std::string uv = uv_bytes(drawn, order), colors = mesh.colors.empty() ? "" : color_bytes(drawn, order);
     for (std::uint32_t& i : order) i = drawn.vertex[i];
     std::size_t positions = 0;
     if (compressed_ && extent.within(centre, -kShortInteger, kShortInteger)) {
@@ -165,7 +165,7 @@ class GlbBuilder {
       positions = add_positions(Positions<float>(mesh, order, centre, 12), 12, kFloat, order.size());
     }
     Json attributes{{"POSITION", positions}, {"NORMAL", add_normals(normals)}};
-    if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(color_bytes(mesh, order));
+    if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(colors);
     if (mesh.texture) attributes["TEXCOORD_0"] = add_uv(uv, order.size());
     const std::size_t indices = add_indices(drawn.triangles, order.size());
     const Json primitive{{"attributes", attributes}, {"indices", indices}, {"material", add_material(mesh)}};

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/files/kept_files.h"
+#include "io/scene/detail/assimp_textures.h"
 #include "io/scene/detail/child_process.h"
 #include "io/scene/detail/foreign_format.h"
 #include "io/scene/instanced_scene.h"
@@ -68,6 +69,7 @@ struct MeshRecord {
   std::uint64_t positions = 0, vertices = 0, indices = 0, triangles = 0;  // addresses in the scratch file, and counts
   std::uint64_t colors = Accessor::kZeros;                                // address; kZeros: the vertices have none
   std::array<double, 3> base_color{1, 1, 1};
+  TextureRecord texture;
 };
 struct NodeRecord {
   Affine transform;
@@ -77,7 +79,8 @@ struct Summary {
   std::uint64_t bytes = 0, bad_faces = 0;  // of the scratch file; faces whose corners do not exist
   std::vector<MeshRecord> meshes;
   std::vector<NodeRecord> nodes;
-  std::string parts;  // names of the other files that were read, each with a zero after it
+  std::string parts;     // names of the other files that were read, each with a zero after it
+  std::string textures;  // names of images
 };
 
 template <class T>
@@ -87,21 +90,27 @@ void append(std::string& to, const T* from, std::size_t n) {
 }
 
 std::string packed(const Summary& s) {
-  const std::uint64_t counts[] = {s.bytes, s.bad_faces, s.meshes.size(), s.nodes.size(), s.parts.size()};
+  const std::uint64_t counts[] = {s.bytes,        s.bad_faces,    s.meshes.size(),
+                                  s.nodes.size(), s.parts.size(), s.textures.size()};
   std::string bytes;
-  append(bytes, counts, 5);
+  append(bytes, counts, std::size(counts));
   append(bytes, s.meshes.data(), s.meshes.size());
   append(bytes, s.nodes.data(), s.nodes.size());
-  return bytes + s.parts;
+  return bytes + s.parts + s.textures;
 }
 
 Summary unpacked(const std::string& bytes, const std::string& name) {
-  std::uint64_t counts[5] = {};
+  std::uint64_t counts[6] = {};
   if (bytes.size() >= sizeof counts) std::memcpy(counts, bytes.data(), sizeof counts);
-  if (bytes.size() != sizeof counts + counts[2] * sizeof(MeshRecord) + counts[3] * sizeof(NodeRecord) + counts[4])
+  if (bytes.size() !=
+      sizeof counts + counts[2] * sizeof(MeshRecord) + counts[3] * sizeof(NodeRecord) + counts[4] + counts[5])
     fail(ErrorCode::failed, "{}: the importer's process sent a garbled answer", name);
-  Summary s{counts[0], counts[1], std::vector<MeshRecord>(counts[2]), std::vector<NodeRecord>(counts[3]),
-            bytes.substr(bytes.size() - counts[4])};
+  Summary s{counts[0],
+            counts[1],
+            std::vector<MeshRecord>(counts[2]),
+            std::vector<NodeRecord>(counts[3]),
+            bytes.substr(bytes.size() - counts[4] - counts[5], counts[4]),
+            bytes.substr(bytes.size() - counts[5])};
   const char* const meshes = bytes.data() + sizeof counts;
   if (!s.meshes.empty()) std::memcpy(s.meshes.data(), meshes, counts[2] * sizeof(MeshRecord));
   if (!s.nodes.empty())
@@ -160,13 +169,19 @@ class SceneFileSystem final : public Assimp::DefaultIOSystem {
 class SceneUnloader {
  public:
   SceneUnloader(ScratchFile& scratch, const SceneOptions& options)
-      : scratch_(scratch), colors_(options.colors), walls_only_(options.walls_only) {}
+      : scratch_(scratch),
+        colors_(options.colors),
+        walls_only_(options.walls_only),
+        wants_textures_(options.textures != nullptr),
+        textures_(scratch) {}
   Summary unload(const aiScene& scene) {
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
       add_mesh(*scene.mMeshes[i], walls_only_ && see_through(*scene.mMeshes[i], scene));
       if (colors_) add_colors(*scene.mMeshes[i], scene);
+      if (wants_textures_) summary_.meshes.back().texture = textures_.unload(*scene.mMeshes[i], scene);
     }
     if (scene.mRootNode != nullptr) add_nodes(*scene.mRootNode);
+    summary_.textures = textures_.names();
     summary_.bytes = scratch_.size();
     return std::move(summary_);
   }
@@ -186,7 +201,8 @@ class SceneUnloader {
   void add_nodes(const aiNode& root);
 
   ScratchFile& scratch_;
-  const bool colors_, walls_only_;
+  const bool colors_, walls_only_, wants_textures_;
+  TextureUnloader textures_;
   Summary summary_;
 };
 
@@ -293,11 +309,15 @@ Primitive primitive_of(const MeshRecord& mesh) {
   return p;
 }
 
-InstancedScene scene_of(const Summary& summary, SceneFilePtr bytes) {
+InstancedScene scene_of(const Summary& summary, SceneFilePtr bytes, const std::string& path, TextureTable* textures) {
   InstancedScene scene;
   scene.bytes = std::move(bytes);
   scene.bad_faces = summary.bad_faces;
-  for (const MeshRecord& mesh : summary.meshes) scene.primitives.push_back(primitive_of(mesh));
+  for (const MeshRecord& mesh : summary.meshes) {
+    scene.primitives.push_back(primitive_of(mesh));
+    if (textures != nullptr)
+      lay_texture(mesh.texture, summary.textures, scene.bytes, path, *textures, scene.primitives.back());
+  }
   for (const NodeRecord& node : summary.nodes) {
     if (node.mesh < summary.meshes.size() && summary.meshes[node.mesh].triangles > 0)
       scene.nodes.push_back({node.transform, std::uint32_t(node.mesh), std::uint32_t(node.mesh + 1), {}});
@@ -329,7 +349,8 @@ RawSourcePtr open_with_assimp(SceneFilePtr file, const std::string& extension, c
   const Summary summary = unpacked(std::exchange(answer, {}), file->name());
   for (std::size_t at = 0; at < summary.parts.size(); at = summary.parts.find('\0', at) + 1)
     keep_file(summary.parts.c_str() + at);
-  return stream_instances(scene_of(summary, view_of(scratch, file->name(), summary.bytes)), options);
+  SceneFilePtr bytes = view_of(scratch, file->name(), summary.bytes);
+  return stream_instances(scene_of(summary, std::move(bytes), file->path(), options.textures.get()), options);
 }
 
 }  // namespace bp

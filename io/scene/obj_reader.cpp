@@ -1,10 +1,12 @@
 #include <limits>
 #include <optional>
+#include <sstream>
 
 #include "io/scene/detail/mtl_file.h"
 #include "io/scene/detail/raw_source.h"
 #include "io/scene/detail/text_scanner.h"
 #include "io/scene/detail/vertex_pool.h"
+#include "io/scene/name_pattern.h"
 
 // Wavefront OBJ: the lines "v" and "f", everything else is passed over; if colours or walls are asked for, "usemtl" and
 // "mtllib" too, and the three numbers after a vertex' position (an extension of many programs). One pass streams faces
@@ -18,7 +20,11 @@ namespace {
 class ObjSource final : public PolygonSource {
  public:
   ObjSource(const SceneFilePtr& file, const SceneOptions& options)
-      : file_(file), text_(file), pool_(options.memory_bytes, temp_dir_of(options)), walls_only_(options.walls_only) {
+      : file_(file),
+        text_(file),
+        pool_(options.memory_bytes, temp_dir_of(options)),
+        walls_only_(options.walls_only),
+        parts_(options.parts) {
     if (options.colors) vertex_colors_.emplace(options.memory_bytes / 2, temp_dir_of(options));
     if (options.textures) places_.emplace(options.memory_bytes / 2, temp_dir_of(options));
     textures_ = options.textures;
@@ -39,15 +45,18 @@ class ObjSource final : public PolygonSource {
     texture_ = TriangleTexture::kNoMaterial;
     material_ = kWhite;
     passed_over_ = false;
+    fits_ = {};
   }
 
-  /// Consumes the keyword: 'v' or 'f' if that is all of it, 't' for "vt", 'u' for "usemtl" and 'm' for "mtllib", 0 for
-  /// any other, comments included.
+  /// Consumes the keyword: 'v', 'f', 'o' or 'g' if that is all of it, 't' for "vt", 'u' for "usemtl" and 'm' for
+  /// "mtllib", 0 for any other, comments included.
   static char keyword(TextScanner& text);
+  [[nodiscard]] bool is_wanted() const { return parts_.empty() || fits_.object || fits_.group || fits_.material; }
   void read_vertex(TextScanner& text);
   void read_vertex_color(TextScanner& text);
   void read_place();
   void use_material(char key);
+  void use_name(char key);
   void read_corners(std::vector<std::uint64_t>& corners);
   void read_corner_place();
   std::uint64_t resolve(std::int64_t index);
@@ -66,6 +75,10 @@ class ObjSource final : public PolygonSource {
   LinearColor material_;
   bool has_colors_ = false, has_textures_ = false;
   const bool walls_only_;
+  const std::string parts_;  // SceneOptions::parts
+  struct {
+    bool object = false, group = false, material = false;
+  } fits_;                                    // parts_, of what the next faces belong to
   bool passed_over_ = false;                  // faces of the current material
   std::uint64_t seen_ = 0, seen_places_ = 0;  // "v" and "vt" lines of this pass
   bool all_loaded_ = false;                   // the pool holds every vertex of the file
@@ -81,9 +94,11 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
     } else if (key == 't' && places_) {
       if (seen_places_ == places_->size()) read_place();
       ++seen_places_;
+    } else if (!parts_.empty() && (key == 'o' || key == 'g' || key == 'u')) {
+      use_name(key);
     } else if (key == 'u' || key == 'm') {
       use_material(key);
-    } else if (key == 'f' && !passed_over_) {
+    } else if (key == 'f' && !passed_over_ && is_wanted()) {
       read_corners(corners);
       text_.next_line();
       return true;
@@ -95,7 +110,7 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
 
 char ObjSource::keyword(TextScanner& text) {
   const char first = text.peek();
-  if (first != 'v' && first != 'f' && first != 'u' && first != 'm') return 0;
+  if (std::string_view("vfumog").find(first) == std::string_view::npos) return 0;
   const std::string_view word = text.word();
   if (word == "vt") return 't';
   return word.size() == 1 || word == "usemtl" || word == "mtllib" ? first : 0;
@@ -152,6 +167,17 @@ void ObjSource::use_material(char key) {
   if (!vertex_colors_) return;
   material_ = materials_.color(name);
   has_colors_ = has_colors_ || material_ != kWhite;
+}
+
+// A line "g" may name several groups.
+void ObjSource::use_name(char key) {
+  const std::string name = text_.rest_of_line();
+  if (key == 'o') fits_.object = fits_pattern(name, parts_);
+  if (key == 'u') fits_.material = fits_pattern(name, parts_);
+  if (key != 'g') return;
+  fits_.group = fits_pattern(name, parts_);
+  std::istringstream words(name);
+  for (std::string word; words >> word;) fits_.group = fits_.group || fits_pattern(word, parts_);
 }
 
 // Corners are "v", "v/vt", "v//vn", "v/vt/vn", with any of the later numbers missing.

@@ -77,6 +77,7 @@ class FilteredScene final : public TriangleSource {
         raw_(std::move(raw)),
         keep_degenerate_(options.keep_degenerate),
         keep_extremes_(options.keep_extremes),
+        some_parts_(!options.parts.empty()),
         batches_(batches_in(options.memory_bytes)) {}
 
   bool read(std::vector<TriangleD>& out) override {
@@ -144,7 +145,8 @@ class FilteredScene final : public TriangleSource {
     counts_.bad_faces = raw_->bad_faces() + bad_faces_;
     counts_.instances = raw_->instances();
     const SceneCounts& c = counts_;  // at the end; whoever names a file of points wants them enclosed
-    if (batch_->triangles.empty() && c.triangles + c.degenerate + c.non_finite + c.bad_faces == 0 && raw_->points() > 0)
+    if (!some_parts_ && batch_->triangles.empty() && c.triangles + c.degenerate + c.non_finite + c.bad_faces == 0 &&
+        raw_->points() > 0)
       refuse_points(name_, raw_->points());
     return !batch_->triangles.empty();
   }
@@ -212,7 +214,7 @@ class FilteredScene final : public TriangleSource {
 
   std::string name_;
   RawSourcePtr raw_;
-  bool keep_degenerate_, keep_extremes_;
+  bool keep_degenerate_, keep_extremes_, some_parts_;
   SceneCounts counts_;
   std::vector<Batch> batches_;
   RawBatch end_;  // without triangles

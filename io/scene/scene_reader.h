@@ -28,7 +28,7 @@ class TextureTable;
 ///   MTL
 ///     and the diffuse colour of Assimp's materials, vertex colours of OBJ, PLY and Assimp's formats, face colours of
 ///     PLY, all taken as sRGB.
-///     Textures and transparency are not looked at. A material that is not there is white, and no error.
+///     Textures: SceneOptions::textures. A material that is not there is white, and no error.
 ///   - Can be seen through, for SceneOptions::walls_only: materials of glTF whose alphaMode is not OPAQUE or whose base
 ///     colour has an alpha below 1; of MTL those with d below 1, Tr strictly between 0 and 1, or map_d; Assimp's whose
 ///     opacity is below 1.
@@ -62,6 +62,9 @@ struct SceneOptions {
   /// limit.
   MemoryShare document{0};
   MeshLimit mesh{};
+  /// Deliver only parts whose name fits (* and ? as in file names); empty: all. Names of OBJ: o, g, usemtl; of glTF: of
+  /// nodes, with all below them, of meshes, of materials. Other formats are refused.
+  std::string parts{};
 };
 
 /// Triangles of one file; "-" is stdin, which is spooled to a scratch file. The reader is chosen by the file's

@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ class TextureTable final : public TextureSet {
   std::uint32_t add_image(const std::string& key, ImagePlace place);
   std::uint32_t add_material(const std::string& key, const TextureMaterial& material);
 
+  /// A texture that cannot be shown, and why; its material's colour is used.
+  void add_fault(const std::string& fault) { faults_.insert(fault); }
+  [[nodiscard]] const std::set<std::string>& faults() const { return faults_; }
+
   /// Whether an image is there whose head can be read.
   [[nodiscard]] bool has_images() const;
   [[nodiscard]] const TextureMaterial& material(std::uint32_t i) const override { return materials_.at(i); }
@@ -35,6 +40,7 @@ class TextureTable final : public TextureSet {
   std::vector<ImagePlace> images_;
   std::vector<TextureMaterial> materials_;
   std::map<std::string, std::uint32_t> image_of_, material_of_;
+  std::set<std::string> faults_;
 };
 
 }  // namespace bp

@@ -56,6 +56,16 @@ std::vector<Provenance> provenance_of(const std::string& text, const std::string
   return chain;
 }
 
+ScaleField field_of(const std::string& text, const GridFrame& frame, const std::string& name) {
+  ScaleField field = parse_scale_field(text, name);
+  try {
+    (void)field.upper_bound(frame);
+  } catch (const Error& e) {
+    fail(ErrorCode::bad_input, "{}: header: {}", name, e.what());
+  }
+  return field;
+}
+
 /// The enumerator `value`, if there are so many.
 template <class Enum>
 Enum enum_of(std::uint8_t value, int count, const char* what, const std::string& name) {
@@ -98,7 +108,8 @@ std::vector<std::byte> frame_of(std::vector<std::byte> payload, bool sealed) {
 
 std::vector<std::byte> encode_header(const StreamHeader& h) {
   if (const char* fault = header_fault(h)) fail(ErrorCode::bad_argument, "the stream cannot be written: {}", fault);
-  const std::string scale = h.has_closing ? to_json(h.scale) : "", provenance = provenance_text(h.provenance);
+  const std::string scale = h.has_closing || h.has_field ? to_json(h.scale) : "",
+                    provenance = provenance_text(h.provenance);
   const std::string scene = scene_text(h.scene);
   if (scale.size() > kMaxScaleBytes || provenance.size() > kMaxProvenanceBytes) {
     fail(ErrorCode::bad_argument,
@@ -108,7 +119,8 @@ std::vector<std::byte> encode_header(const StreamHeader& h) {
   ByteSink out;
   for (const unsigned char c : kStreamMagic) out.put(c);
   out.put(kStreamVersion);
-  out.put(std::uint16_t((h.has_closing ? kFlagClosing : 0) | (scene.empty() ? 0 : kFlagScene)));
+  out.put(std::uint16_t((h.has_closing ? kFlagClosing : 0) | (scene.empty() ? 0 : kFlagScene) |
+                        (h.has_field && !h.has_closing ? kFlagField : 0)));
   out.put(std::uint8_t(h.fill));
   out.put(std::uint8_t(h.has_closing ? h.element : StructuringElement::ball));
   out.put(std::uint8_t(h.slab_axis));
@@ -131,9 +143,12 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
   ByteSource in(payload.subspan(kStreamMagic.size() + 2));
   StreamHeader h;
   const auto flags = in.get<std::uint16_t>();
-  if ((flags & ~(kFlagClosing | kFlagScene)) != 0)
+  if ((flags & ~(kFlagClosing | kFlagScene | kFlagField)) != 0)
     fail(ErrorCode::bad_input, "{}: header: unknown flags {:#x}; update this tool", name, flags);
   h.has_closing = (flags & kFlagClosing) != 0;
+  h.has_field = (flags & kFlagField) != 0;
+  if (h.has_closing && h.has_field)
+    fail(ErrorCode::bad_input, "{}: header: a closing, and a scale field for a closing to come", name);
   h.fill = enum_of<FillMode>(in.get<std::uint8_t>(), 4, "fill mode", name);
   const auto element = enum_of<StructuringElement>(in.get<std::uint8_t>(), h.has_closing ? 2 : 1, "element", name);
   if (h.has_closing) h.element = element;
@@ -147,19 +162,13 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
   h.bricks.max = in.get_coord();
   const auto scale_bytes = in.get<std::uint32_t>(), provenance_bytes = in.get<std::uint32_t>();
   const std::string scale = in.get_text(scale_bytes);
-  if (h.has_closing != !scale.empty())
-    fail(ErrorCode::bad_input, "{}: header: a scale field without a closing, or a closing without one", name);
+  if ((h.has_closing || h.has_field) != !scale.empty())
+    fail(ErrorCode::bad_input, "{}: header: a scale field without its flag or a closing, or one of them without it",
+         name);
   h.provenance = provenance_of(in.get_text(provenance_bytes), name);
   if (const char* fault = header_fault(h))
     fail(ErrorCode::bad_input, "{}: header: {}; make the stream anew", name, fault);
-  if (h.has_closing) {
-    h.scale = parse_scale_field(scale, name);
-    try {
-      (void)h.scale.upper_bound(h.frame);
-    } catch (const Error& e) {
-      fail(ErrorCode::bad_input, "{}: header: {}", name, e.what());
-    }
-  }
+  if (!scale.empty()) h.scale = field_of(scale, h.frame, name);
   const std::size_t scene_bytes = payload.size() - kHeaderFixedBytes - scale_bytes - provenance_bytes;
   if (((flags & kFlagScene) != 0) != (scene_bytes > 0))
     fail(ErrorCode::bad_input, "{}: header: scene files without their flag, or the flag without them", name);

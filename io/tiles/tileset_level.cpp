@@ -63,7 +63,15 @@ class ContentsSource final : public TriangleSource {
     colors.clear();
     return read_next(out, [&](TriangleSource& content) { return content.read_colored(out, colors); });
   }
+  bool read_textured(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
+                     std::vector<TriangleTexture>& textures) override {
+    out.clear();
+    colors.clear();
+    textures.clear();
+    return read_next(out, [&](TriangleSource& content) { return content.read_textured(out, colors, textures); });
+  }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
+  [[nodiscard]] bool has_textures() const override { return has_textures_; }
   void rewind() override {
     content_.reset();
     next_ = 0;
@@ -80,6 +88,7 @@ class ContentsSource final : public TriangleSource {
       if (!content_) content_ = open_scene(contents_[next_].path, options_);
       const bool more = read(*content_);
       has_colors_ = has_colors_ || content_->has_colors();
+      has_textures_ = has_textures_ || content_->has_textures();
       counts_ = finished_;
       counts_.add(content_->counts());
       if (more) {
@@ -107,7 +116,7 @@ class ContentsSource final : public TriangleSource {
   SceneOptions options_;
   std::unique_ptr<TriangleSource> content_;
   std::size_t next_ = 0;
-  bool has_colors_ = false;
+  bool has_colors_ = false, has_textures_ = false;
   SceneCounts finished_, counts_;
 };
 

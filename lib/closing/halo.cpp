@@ -12,6 +12,7 @@
 
 #include "lib/closing/closing.h"
 #include "lib/closing/detail/scale_row.h"
+#include "lib/core/vec3.h"
 
 namespace bp {
 
@@ -61,9 +62,10 @@ class ErosionReach {
   void visit(const VoxelBox& box) {
     const Distance d = distance(tile_, box);
     if (d.farthest <= found_) return;
-    const ScaleField here = part_of_field(box);
-    const std::int32_t bound = reach_of(bound_of(here).upper_bound(frame_));
-    if (d.nearest > bound) return;
+    const Ball ball = around(box.grown(2 * kScaleStep));  // the samples of its voxels lie there
+    const ScaleField here = field_.near(ball.centre, ball.radius);
+    const std::int32_t bound = reach_of(scale_of(here.range(ball.centre, ball.radius).most, frame_));
+    if (d.nearest > bound || bound <= found_) return;
     if (here.constant()) return raise(d, bound);
     int longest = 0;
     for (int axis = 1; axis < 3; ++axis) {
@@ -88,40 +90,15 @@ class ErosionReach {
     }
   }
 
-  /// The boxes and strokes that may matter on the samples of `box`, with a cell to spare.
-  [[nodiscard]] ScaleField part_of_field(const VoxelBox& box) const {
-    Bounds3d where;
-    const VoxelBox wide = box.grown(2 * kScaleStep);
-    for (const VoxelCoord c : {wide.min, wide.max}) {
-      where.add(frame_.world({std::int64_t(c.x) * kLatticePerVoxel, std::int64_t(c.y) * kLatticePerVoxel,
-                              std::int64_t(c.z) * kLatticePerVoxel}));
-    }
-    ScaleField part;
-    part.base = field_.base;
-    for (const ScaleBox& b : field_.boxes) {
-      bool apart = false;
-      for (std::size_t i = 0; i < 3; ++i) apart = apart || b.min[i] > where.max[i] || b.max[i] < where.min[i];
-      if (!apart) part.boxes.push_back(b);
-    }
-    for (const BrushStroke& s : field_.strokes) {
-      const double radius = (s.mode == BrushMode::erase ? field_.base : s.target) + s.support;
-      bool apart = false;
-      for (std::size_t i = 0; i < 3; ++i)
-        apart = apart || s.position[i] - radius > where.max[i] || s.position[i] + radius < where.min[i];
-      if (!apart) part.strokes.push_back(s);
-    }
-    return part;
-  }
-
-  /// A constant field as large as `part` is anywhere.
-  [[nodiscard]] static ScaleField bound_of(const ScaleField& part) {
-    ScaleField bound;
-    bound.base = part.base;
-    for (const ScaleBox& b : part.boxes) bound.base = std::max(bound.base, b.scale);
-    for (const BrushStroke& s : part.strokes) {
-      if (s.mode == BrushMode::increase) bound.base = std::max(bound.base, s.target);
-    }
-    return bound;
+  struct Ball {
+    Vec3d centre{};
+    double radius = 0;
+  };
+  [[nodiscard]] Ball around(const VoxelBox& box) const {
+    const std::int64_t unit = kLatticePerVoxel;
+    const Vec3d a = frame_.world({box.min.x * unit, box.min.y * unit, box.min.z * unit}),
+                b = frame_.world({box.max.x * unit, box.max.y * unit, box.max.z * unit});
+    return {0.5 * (a + b), length(b - a) / 2};
   }
 
   const VoxelBox& tile_;

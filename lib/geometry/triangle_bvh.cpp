@@ -30,6 +30,8 @@ double segment_distance_squared(const Vec3d& p, const Vec3d& a, const Vec3d& b) 
   return dot(d, d);
 }
 
+}  // namespace
+
 double distance_squared(const Vec3d& p, const Bounds3d& b) {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -38,8 +40,6 @@ double distance_squared(const Vec3d& p, const Bounds3d& b) {
   }
   return sum;
 }
-
-}  // namespace
 
 double distance_squared(const Vec3d& p, const TriangleD& t) {
   const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);

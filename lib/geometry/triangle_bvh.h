@@ -57,11 +57,16 @@ class TriangleBvh {
     };
     walk(meets, [&](const Item& item) { return f(item), false; });
   }
-  /// The first triangle on the ray from `start`, up to start + direction, that accept(item, along) takes; of several at
-  /// one place that with the least id. In floating point; triangles count from both sides. Triangles that lie behind
-  /// the answer may be offered to accept(), too.
-  template <class Accept>
-  [[nodiscard]] std::optional<Hit> first_along(const Vec3d& start, const Vec3d& direction, Accept&& accept) const;
+  /// The first triangle on the ray from `start`, up to start + most * direction (at most 1), that accept(item, along)
+  /// takes; of several at one place the one that is before(item, item) the others. In floating point; triangles count
+  /// from both sides. Triangles that lie behind the answer may be offered to accept(), too.
+  template <class Accept, class Before>
+  [[nodiscard]] std::optional<Hit> first_along(const Vec3d& start, const Vec3d& direction, double most,
+                                               const Accept& accept, const Before& before) const;
+  /// The nearest triangle whose squared distance is at most `most`; of several the one that is before(item, item) the
+  /// others. In floating point.
+  template <class Before>
+  [[nodiscard]] std::optional<Nearest> nearest_within(const Vec3d& p, double most, const Before& before) const;
   /// The nearest triangle (one of them), in floating point. `guess` is where the search starts: the answer for a point
   /// close by makes it fast. The distance does not depend on it. Must not be empty.
   [[nodiscard]] Nearest nearest(const Vec3d& p, std::uint32_t guess = 0) const { return near_enough(p, -1, guess); }
@@ -103,6 +108,10 @@ class TriangleBvh {
   std::vector<Item> items_;
 };
 
+/// Squares of the distances from p to the closed triangle and box, in floating point.
+[[nodiscard]] double distance_squared(const Vec3d& p, const TriangleD& t);
+[[nodiscard]] double distance_squared(const Vec3d& p, const Bounds3d& b);
+
 /// Where the segment from `start` to start + direction meets the triangle: 0 at its start, 1 at its end; NaN if it does
 /// not, or runs along it. In floating point.
 [[nodiscard]] double along_segment(const Vec3d& start, const Vec3d& direction, const TriangleD& t);
@@ -124,14 +133,14 @@ class TriangleBvh {
   return from <= to ? from : 2;
 }
 
-template <class Accept>
-std::optional<TriangleBvh::Hit> TriangleBvh::first_along(const Vec3d& start, const Vec3d& direction,
-                                                         Accept&& accept) const {
+template <class Accept, class Before>
+std::optional<TriangleBvh::Hit> TriangleBvh::first_along(const Vec3d& start, const Vec3d& direction, double most,
+                                                         const Accept& accept, const Before& before) const {
   struct Entry {
     double along;
     std::uint32_t node;
   };
-  Hit best{1, ~std::uint32_t(0)};
+  Hit best{most, ~std::uint32_t(0)};
   bool found = false;
   const auto enters = [&](const Bounds3d& b) { return enters_along(start, direction, b, best.along); };
   Entry stack[kStack];
@@ -144,7 +153,7 @@ std::optional<TriangleBvh::Hit> TriangleBvh::first_along(const Vec3d& start, con
     for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
       const double along = along_segment(start, direction, items_[i].corners);
       if (!(along <= best.along)) continue;
-      if (found && along == best.along && items_[i].id > items_[best.item].id) continue;
+      if (found && along == best.along && !before(i, best.item)) continue;
       if (accept(i, along)) best = {along, i}, found = true;
     }
     if (n.count != 0) continue;
@@ -156,8 +165,37 @@ std::optional<TriangleBvh::Hit> TriangleBvh::first_along(const Vec3d& start, con
   return found ? std::optional(best) : std::nullopt;
 }
 
-/// Square of the distance from p to the closed triangle, in floating point.
-[[nodiscard]] double distance_squared(const Vec3d& p, const TriangleD& t);
+template <class Before>
+std::optional<TriangleBvh::Nearest> TriangleBvh::nearest_within(const Vec3d& p, double most,
+                                                                const Before& before) const {
+  constexpr double kRounding = 1 - 1e-12;  // boxes of flat triangles are not farther away than these
+  struct Entry {
+    double distance;
+    std::uint32_t node;
+  };
+  const auto distance_to = [&](std::uint32_t node) { return kRounding * distance_squared(p, nodes_[node].box); };
+  Nearest best{most, ~std::uint32_t(0)};
+  Entry stack[kStack];
+  int top = 0;
+  if (!items_.empty()) stack[top++] = {distance_to(0), 0};
+  while (top > 0) {
+    const Entry e = stack[--top];
+    if (e.distance > best.distance_squared) continue;
+    const Node& n = nodes_[e.node];
+    for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
+      const double d = distance_squared(p, items_[i].corners);
+      const bool is_none = best.item == ~std::uint32_t(0);
+      if (d < best.distance_squared || (d == best.distance_squared && (is_none || before(i, best.item)))) best = {d, i};
+    }
+    if (n.count != 0) continue;
+    Entry near{distance_to(n.first), n.first}, far{distance_to(n.first + 1), n.first + 1};
+    if (far.distance < near.distance) std::swap(near, far);
+    if (far.distance <= best.distance_squared) stack[top++] = far;
+    if (near.distance <= best.distance_squared) stack[top++] = near;
+  }
+  return best.item == ~std::uint32_t(0) ? std::nullopt : std::optional(best);
+}
+
 /// The point of the closed triangle nearest to p, in floating point.
 [[nodiscard]] Vec3d nearest_point(const Vec3d& p, const TriangleD& t);
 /// Barycentric coordinates of a point of the triangle, in floating point; its first corner if it has no area.

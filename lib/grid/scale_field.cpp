@@ -1,6 +1,7 @@
-// The brush-based scale field of [CB17] Appendix A, and its samples.
+// The scale field: a base and rules in their order, and its samples.
 //
-// The paper's kernel, with p the position, sigma the support and s the target of a stroke, t = |x - p|:
+// The brush of [CB17] Appendix A has the kernel, with p the position, sigma the support and s the target of a stroke,
+// and t = |x - p|:
 //   phi(x, s_prev, s) = (1 - gamma(t)) s_prev + gamma(t) s
 //   gamma(t) = 1 for t in [0, s[,  (1 - (t / sigma)^2)^2 for t in [s, s + sigma],  0 otherwise
 // Read literally, gamma jumps at t = s, is not 0 at t = s + sigma, and exceeds 1 there when s > (sqrt 2 - 1) sigma, so
@@ -8,7 +9,10 @@
 //   gamma(t) = (1 - ((t - s) / sigma)^2)^2 for t in [s, s + sigma]
 // which is 1 at s, 0 at s + sigma and smooth at both. Full effect reaches s because a ball of that radius is what the
 // closing places at p. In erase mode the paper calls phi with s = s_base; so does the radius of full effect.
-// Boxes are not in the paper: they replace the base before the first stroke.
+// A stroke along a path takes the distance to the path. Rules without a support are not in the paper.
+//
+// Why the scale changes by at most the slope per unit of length: s + slope t and s - slope t do, and the larger and the
+// smaller of two such functions do.
 #include "lib/grid/scale_field.h"
 
 #include <algorithm>
@@ -22,53 +26,96 @@ namespace bp {
 namespace {
 
 using NodeCoord = decltype(ScaleLattice::origin);
+using Range = ScaleField::Range;
 constexpr double kMaxScaleVoxels = 4095;
+constexpr double kRounding = 1e-9;  // of distances and scales, relative
 constexpr std::int32_t kBlock = 8;  // nodes along one side of a block that shares one culled list: 64 voxels
-
-double goal(const BrushStroke& stroke, double base) {
-  return stroke.mode == BrushMode::erase ? base : stroke.target;
-}
-
-double falloff(double t, double s, double sigma) {
-  if (t < s) return 1;
-  if (!(t < s + sigma)) return 0;
-  const double u = (t - s) / sigma, v = 1 - u * u;
-  return v * v;
-}
 
 double distance(const Vec3d& a, const Vec3d& b) {
   return length(a - b);
 }
 
-/// One stroke, of strength `gamma`. Stays between `s_prev` and the goal `s` to the last bit, so that upper_bound() is
-/// one. Does not fall where s_prev rises.
-double apply(BrushMode mode, double gamma, double s, double s_prev) {
-  const double phi = std::clamp((1 - gamma) * s_prev + gamma * s, std::min(s_prev, s), std::max(s_prev, s));
-  switch (mode) {
-    case BrushMode::increase:
-      return std::max(phi, s_prev);
-    case BrushMode::decrease:
-      return std::min(phi, s_prev);
-    case BrushMode::erase:
-      break;
+double distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
+  const Vec3d ab = b - a;
+  const double squared = dot(ab, ab);
+  const double t = squared > 0 ? std::clamp(dot(p - a, ab) / squared, 0.0, 1.0) : 0;
+  return distance(p, a + t * ab);
+}
+
+double distance_to_box(const Vec3d& p, const Vec3d& min, const Vec3d& max) {
+  Vec3d d{};
+  for (std::size_t i = 0; i < 3; ++i) d[i] = std::max({min[i] - p[i], p[i] - max[i], 0.0});
+  return length(d);
+}
+
+/// From p to the shape, its radius not counted.
+double distance_to(const ScaleRule& rule, const Vec3d& p) {
+  const std::vector<Vec3d>& q = rule.points;
+  if (rule.shape == ScaleShape::box) return distance_to_box(p, q[0], q[1]);
+  double d = distance(p, q[0]);
+  for (std::size_t i = 1; i < q.size(); ++i) d = std::min(d, distance_to_segment(p, q[i - 1], q[i]));
+  return d;
+}
+
+/// gamma at distance t of the shape.
+double falloff(const ScaleRule& rule, double t) {
+  if (t < rule.radius || t == 0) return 1;
+  if (!(t < rule.radius + rule.support)) return 0;
+  const double u = (t - rule.radius) / rule.support, v = 1 - u * u;
+  return v * v;
+}
+
+/// What a rule makes of a scale, at distance t of its shape. Grows with the scale. Stays between the scale and the goal
+/// to the last bit, so that upper_bound() is one.
+double applied(const ScaleField& field, const ScaleRule& rule, double t, double before) {
+  const double goal = rule.mode == ScaleMode::erase ? field.base : rule.scale;
+  double s = before;
+  if (rule.shape == ScaleShape::view) {
+    s = std::min(goal, rule.per_distance * t);
+  } else if (rule.support == ScaleRule::kNoSupport) {
+    const double give = field.slope * std::max(t - rule.radius, 0.0);
+    s = std::max(goal - give, std::min(before, goal + give));
+  } else if (const double gamma = falloff(rule, t); gamma > 0) {
+    s = std::clamp((1 - gamma) * before + gamma * goal, std::min(before, goal), std::max(before, goal));
   }
-  return gamma == 0 ? s_prev : phi;
+  if (rule.mode == ScaleMode::increase) return std::max(s, before);
+  return rule.mode == ScaleMode::decrease ? std::min(s, before) : s;
 }
 
-double apply(const BrushStroke& stroke, double base, const Vec3d& x, double s_prev) {
-  const double s = goal(stroke, base);
-  return apply(stroke.mode, falloff(distance(x, stroke.position), s, stroke.support), s, s_prev);
+/// Distances of the points of a ball to the shape.
+Range distances_to(const ScaleRule& rule, const Vec3d& centre, double radius) {
+  const double t = distance_to(rule, centre), slack = kRounding * (t + radius);
+  return {std::max(t - radius - slack, 0.0), t + radius + slack};
 }
 
-bool inside(const ScaleBox& box, const Vec3d& p) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!(p[i] >= box.min[i] && p[i] <= box.max[i])) return false;
+/// Each rule moves scales one way as the distance grows: towards what they were, or a view upwards.
+Range applied(const ScaleField& field, const ScaleRule& rule, const Range& t, const Range& s) {
+  const auto at = [&](double distance, double before) { return applied(field, rule, distance, before); };
+  return {std::min(at(t.least, s.least), at(t.most, s.least)), std::max(at(t.least, s.most), at(t.most, s.most))};
+}
+
+/// Nowhere in the ball does the rule change a scale of this range.
+bool is_idle(const ScaleField& field, const ScaleRule& rule, const Range& t, const Range& s) {
+  for (const double distance : {t.least, t.most}) {
+    for (const double before : {s.least, s.most}) {
+      if (applied(field, rule, distance, before) != before) return false;
+    }
   }
   return true;
 }
 
-Scale quantise(double scale, double voxel) {
-  return Scale(std::floor(scale / voxel * kScaleOne + 0.5));
+/// body(rule) for each rule that may change S in the ball, in order. Returns S after the last one.
+template <class Body>
+Range follow(const ScaleField& field, const Vec3d& centre, double radius, const Body& body) {
+  Range s{field.base, field.base};
+  for (const ScaleRule& rule : field.rules) {
+    const Range t = distances_to(rule, centre, radius);
+    if (is_idle(field, rule, t, s)) continue;
+    body(rule);
+    s = applied(field, rule, t, s);
+    s = {s.least * (1 - kRounding), s.most * (1 + kRounding)};
+  }
+  return s;
 }
 
 /// Centre of the voxel that node `n` samples, scene units.
@@ -77,76 +124,13 @@ Vec3d node_world(const GridFrame& frame, std::int64_t x, std::int64_t y, std::in
   return frame.world({x * step + half, y * step + half, z * step + half});
 }
 
-Bounds3d bounds_of_nodes(const GridFrame& frame, NodeCoord first, NodeCoord count) {
-  Bounds3d bounds;
-  bounds.add(node_world(frame, first.x, first.y, first.z));
-  bounds.add(node_world(frame, std::int64_t(first.x) + count.x - 1, std::int64_t(first.y) + count.y - 1,
-                        std::int64_t(first.z) + count.z - 1));
-  return bounds;
-}
-
-/// True unless `stroke` changes nothing anywhere in `where`. The margin covers the rounding of the distances.
-bool reaches(const BrushStroke& stroke, double base, const Bounds3d& where) {
-  double d2 = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double d = std::max({where.min[i] - stroke.position[i], stroke.position[i] - where.max[i], 0.0});
-    d2 += d * d;
-  }
-  return !(std::sqrt(d2) > (goal(stroke, base) + stroke.support) * (1 + 1e-9));
-}
-
-bool reaches(const ScaleBox& box, const Bounds3d& where) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (box.min[i] > where.max[i] || box.max[i] < where.min[i]) return false;
-  }
-  return true;
-}
-
-double distance_to_line(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
-  double along = 0, squared = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    along += (p[i] - a[i]) * (b[i] - a[i]);
-    squared += (b[i] - a[i]) * (b[i] - a[i]);
-  }
-  const double t = squared > 0 ? std::clamp(along / squared, 0.0, 1.0) : 0;
-  return distance(p, {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])});
-}
-
-/// A lower bound of S along the line from a to b: each stroke is taken at the place that suits it worst.
-double least_along(const ScaleField& field, const Vec3d& a, const Vec3d& b) {
-  Bounds3d around;
-  around.add(a);
-  around.add(b);
-  double s = field.base;
-  for (const ScaleBox& box : field.boxes) {
-    if (inside(box, a) && inside(box, b)) {
-      s = box.scale;
-    } else if (reaches(box, around)) {
-      s = std::min(s, box.scale);
-    }
-  }
-  for (const BrushStroke& stroke : field.strokes) {
-    if (!reaches(stroke, field.base, around)) continue;
-    const double to = goal(stroke, field.base);
-    const double most = falloff(distance_to_line(stroke.position, a, b), to, stroke.support);
-    const double least =
-        falloff(std::max(distance(stroke.position, a), distance(stroke.position, b)), to, stroke.support);
-    s = std::min(apply(stroke.mode, most, to, s), apply(stroke.mode, least, to, s));
-  }
-  return s;
-}
-
-/// The part of `field` that can matter in `where`; evaluates to the same there, to the last bit.
-void cull(const ScaleField& field, const Bounds3d& where, ScaleField& out) {
-  out.base = field.base;
-  out.strokes.clear();
-  out.boxes.clear();
-  for (const BrushStroke& s : field.strokes) {
-    if (reaches(s, field.base, where)) out.strokes.push_back(s);
-  }
-  for (const ScaleBox& b : field.boxes) {
-    if (reaches(b, where)) out.boxes.push_back(b);
-  }
+/// The part of `field` that matters on these nodes.
+ScaleField near_nodes(const ScaleField& field, const GridFrame& frame, NodeCoord first, NodeCoord count) {
+  const Vec3d a = node_world(frame, first.x, first.y, first.z),
+              b = node_world(frame, std::int64_t(first.x) + count.x - 1, std::int64_t(first.y) + count.y - 1,
+                             std::int64_t(first.z) + count.z - 1);
+  const Vec3d centre = 0.5 * (a + b);
+  return field.near(centre, distance(centre, b));
 }
 
 /// Sets the samples [first, first + count) of the lattice.
@@ -159,7 +143,7 @@ void sample_nodes(const ScaleField& field, const GridFrame& frame, NodeCoord fir
       for (std::int32_t x = first.x; x < first.x + count.x; ++x) {
         const Vec3d p =
             node_world(frame, std::int64_t(origin.x) + x, std::int64_t(origin.y) + y, std::int64_t(origin.z) + z);
-        row[x] = quantise(field.evaluate(p), frame.voxel);
+        row[x] = scale_of(field.evaluate(p), frame);
       }
     }
   }
@@ -174,12 +158,51 @@ void check_scale(double scale, double voxel, const char* what) {
   }
 }
 
-void check_point(const Vec3d& p, const char* what) {
-  if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-    fail(ErrorCode::bad_argument, "the {} of the scale field is not finite", what);
+void check_length(double x, const char* what) {
+  if (!(x >= 0) || !std::isfinite(x)) fail(ErrorCode::bad_argument, "a {} of {} is not a length from 0 up", what, x);
+}
+
+void check_rule(const ScaleRule& rule, const ScaleField& field, double voxel) {
+  check_scale(rule.scale, voxel, "scale of a rule");
+  check_length(rule.radius, "radius of a rule");
+  if (rule.support != ScaleRule::kNoSupport) check_length(rule.support, "support of a rule");
+  if (rule.points.empty() || (rule.shape == ScaleShape::box && rule.points.size() != 2))
+    fail(ErrorCode::bad_argument, "a rule of the scale field has no place");
+  for (const Vec3d& p : rule.points) {
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+      fail(ErrorCode::bad_argument, "a point of the scale field is not finite");
+  }
+  if (rule.shape == ScaleShape::view && rule.mode == ScaleMode::erase)
+    fail(ErrorCode::bad_argument, "a view of the scale field has the mode erase");
+  if (rule.shape == ScaleShape::view && !(rule.per_distance >= 0 && rule.per_distance <= field.slope))
+    fail(ErrorCode::bad_argument, "a view has a scale per distance of {}, and not from 0 to {}, the slope",
+         rule.per_distance, field.slope);
 }
 
 }  // namespace
+
+Scale scale_of(double scale, const GridFrame& frame) {
+  return Scale(std::floor(scale / frame.voxel * kScaleOne + 0.5));
+}
+
+ScaleRule box_rule(const Vec3d& min, const Vec3d& max, double scale) {
+  ScaleRule rule;
+  rule.shape = ScaleShape::box;
+  rule.points = {min, max};
+  rule.support = 0;
+  rule.scale = scale;
+  return rule;
+}
+
+ScaleRule stroke_rule(ScaleMode mode, const Vec3d& position, double support, double target, double base) {
+  ScaleRule rule;
+  rule.mode = mode;
+  rule.points = {position};
+  rule.radius = mode == ScaleMode::erase ? base : target;
+  rule.support = support;
+  rule.scale = target;
+  return rule;
+}
 
 Scale ScaleLattice::at(VoxelCoord p) const {
   const auto cell = [](std::int32_t v, std::int32_t first) { return std::size_t(floor_div(v, kScaleStep) - first); };
@@ -194,19 +217,33 @@ Scale ScaleLattice::at(VoxelCoord p) const {
 
 double ScaleField::evaluate(const Vec3d& p) const {
   double s = base;
-  for (auto box = boxes.rbegin(); box != boxes.rend(); ++box) {  // the last one that holds p wins
-    if (!inside(*box, p)) continue;
-    s = box->scale;
-    break;
-  }
-  for (const BrushStroke& stroke : strokes) s = apply(stroke, base, p, s);
+  for (const ScaleRule& rule : rules) s = applied(*this, rule, distance_to(rule, p), s);
   return s;
 }
 
+std::vector<double> ScaleField::steps(const Vec3d& p) const {
+  std::vector<double> s{base};
+  for (const ScaleRule& rule : rules) s.push_back(applied(*this, rule, distance_to(rule, p), s.back()));
+  return s;
+}
+
+Range ScaleField::range(const Vec3d& centre, double radius) const {
+  return follow(*this, centre, radius, [](const ScaleRule&) {});
+}
+
+ScaleField ScaleField::near(const Vec3d& centre, double radius) const {
+  ScaleField part;
+  part.base = base;
+  part.slope = slope;
+  follow(*this, centre, radius, [&](const ScaleRule& rule) { part.rules.push_back(rule); });
+  return part;
+}
+
 bool ScaleField::reaches_along(const Vec3d& a, const Vec3d& b, double scale, double shortest) const {
-  if (least_along(*this, a, b) >= scale) return true;
-  const Vec3d middle{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
-  if (evaluate(middle) < scale) return false;
+  const Vec3d middle = 0.5 * (a + b);
+  const Range around = range(middle, distance(a, b) / 2);
+  if (around.least >= scale) return true;
+  if (around.most < scale || evaluate(middle) < scale) return false;
   if (distance(a, b) <= shortest) return evaluate(a) >= scale && evaluate(b) >= scale;
   return reaches_along(a, middle, scale, shortest) && reaches_along(middle, b, scale, shortest);
 }
@@ -214,7 +251,7 @@ bool ScaleField::reaches_along(const Vec3d& a, const Vec3d& b, double scale, dou
 ScaleLattice ScaleField::sample(const GridFrame& frame, const VoxelBox& box) const {
   (void)upper_bound(frame);  // refuses what has no samples
   ScaleLattice lattice;
-  lattice.min = lattice.max = quantise(base, frame.voxel);
+  lattice.min = lattice.max = scale_of(base, frame);
   if (box.empty()) return lattice;
   for (int axis = 0; axis < 3; ++axis) {
     lattice.origin[axis] = floor_div(box.min[axis], kScaleStep);
@@ -223,17 +260,15 @@ ScaleLattice ScaleField::sample(const GridFrame& frame, const VoxelBox& box) con
   const NodeCoord origin = lattice.origin, size = lattice.size;
   lattice.samples.assign(std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z), lattice.min);
 
-  ScaleField here, block;
-  cull(*this, bounds_of_nodes(frame, origin, size), here);
+  const ScaleField here = near_nodes(*this, frame, origin, size);
   if (here.constant()) return lattice;
   for (std::int32_t z0 = 0; z0 < size.z; z0 += kBlock) {
     for (std::int32_t y0 = 0; y0 < size.y; y0 += kBlock) {
       for (std::int32_t x0 = 0; x0 < size.x; x0 += kBlock) {
         const NodeCoord first{x0, y0, z0},
             count{std::min(kBlock, size.x - x0), std::min(kBlock, size.y - y0), std::min(kBlock, size.z - z0)};
-        cull(here, bounds_of_nodes(frame, origin + first, count), block);
-        if (block.constant()) continue;
-        sample_nodes(block, frame, first, count, lattice);
+        const ScaleField block = near_nodes(here, frame, origin + first, count);
+        if (!block.constant()) sample_nodes(block, frame, first, count, lattice);
       }
     }
   }
@@ -245,21 +280,24 @@ ScaleLattice ScaleField::sample(const GridFrame& frame, const VoxelBox& box) con
 
 Scale ScaleField::upper_bound(const GridFrame& frame) const {
   check_scale(base, frame.voxel, "scale");
+  if (!(slope >= 0) || !std::isfinite(slope)) fail(ErrorCode::bad_argument, "a slope of {} is not from 0 up", slope);
   double bound = base;
-  for (const ScaleBox& box : boxes) {
-    check_scale(box.scale, frame.voxel, "box scale");
-    check_point(box.min, "box");
-    check_point(box.max, "box");
-    bound = std::max(bound, box.scale);
+  for (const ScaleRule& rule : rules) {
+    check_rule(rule, *this, frame.voxel);
+    if (rule.mode == ScaleMode::set || rule.mode == ScaleMode::increase) bound = std::max(bound, rule.scale);
   }
-  for (const BrushStroke& stroke : strokes) {
-    check_scale(stroke.target, frame.voxel, "stroke target");
-    check_point(stroke.position, "stroke");
-    if (!(stroke.support >= 0) || !std::isfinite(stroke.support))
-      fail(ErrorCode::bad_argument, "a stroke support of {} is not a length from 0 up", stroke.support);
-    if (stroke.mode == BrushMode::increase) bound = std::max(bound, stroke.target);
+  return scale_of(bound, frame);
+}
+
+ScaleField ScaleField::scaled(double factor) const {
+  ScaleField other = *this;
+  other.base *= factor;
+  for (ScaleRule& rule : other.rules) {
+    rule.scale *= factor;
+    rule.per_distance *= factor;
+    if (rule.shape == ScaleShape::view) rule.per_distance = std::min(rule.per_distance, slope);
   }
-  return quantise(bound, frame.voxel);
+  return other;
 }
 
 }  // namespace bp

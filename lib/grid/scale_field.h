@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,24 +12,6 @@
 namespace bp {
 
 using Scale = std::uint16_t;  ///< 1/16 voxel
-
-enum class BrushMode : std::uint8_t { increase, decrease, erase };
-
-/// One stroke of the brush of [CB17] Appendix A: S := mode(phi(x, S(x), target), S(x)).
-struct BrushStroke {
-  BrushMode mode = BrushMode::increase;
-  Vec3d position{};    ///< scene units
-  double support = 0;  ///< sigma, scene units
-  double target = 0;   ///< s, scene units; erase ignores it and goes back to the base
-  friend bool operator==(const BrushStroke&, const BrushStroke&) = default;
-};
-
-/// A box in which the scale is `scale`; later entries win over earlier ones.
-struct ScaleBox {
-  Vec3d min{}, max{};  ///< scene units
-  double scale = 0;    ///< scene units
-  friend bool operator==(const ScaleBox&, const ScaleBox&) = default;
-};
 
 /// Samples of S over a box of voxels: sample (i,j,k) is S at voxel 8 (origin + (i,j,k)).
 struct ScaleLattice {
@@ -48,29 +31,83 @@ struct ScaleLattice {
   return std::int32_t((std::uint32_t(s) * s + kScaleOne * kScaleOne - 1) / (kScaleOne * kScaleOne));
 }
 
+/// The nearest multiple of 1/16 voxel; `scale` is in scene units and fits.
+[[nodiscard]] Scale scale_of(double scale, const GridFrame& frame);
+
+enum class ScaleMode : std::uint8_t { set, increase, decrease, erase };
+enum class ScaleShape : std::uint8_t { box, path, view };
+
+/// One rule of a scale field; lengths in scene units. With t the distance of a point to the shape, beyond `radius`,
+/// and s the goal (`scale`, or the base of the field for erase), it makes of the scale S there
+///   without `support`   S' = S, but at most s + slope t, and at least s - slope t
+///   with `support`      S' = (1 - gamma(t)) S + gamma(t) s: a brush stroke of [CB17] Appendix A, if radius = s
+///   of a view           S' = min(s, per_distance t)
+/// and then: increase takes the larger of S and S', decrease the smaller one, set and erase S'.
+struct ScaleRule {
+  static constexpr double kNoSupport = -1;
+  ScaleShape shape = ScaleShape::path;
+  ScaleMode mode = ScaleMode::set;
+  std::vector<Vec3d> points;    ///< of a box: min and max; else a path: one point, or straight lines from each to the
+                                ///< next
+  double radius = 0;            ///< the rule has its full effect so far around the shape
+  double support = kNoSupport;  ///< sigma of a brush stroke; 0: the scale jumps
+  double per_distance = 0;      ///< of a view
+  double scale = 0;             ///< of a view: the most; erase ignores it
+  std::string name;             ///< for people; may be empty
+  friend bool operator==(const ScaleRule&, const ScaleRule&) = default;
+};
+
+/// In the box the scale is `scale`, and jumps at its sides.
+[[nodiscard]] ScaleRule box_rule(const Vec3d& min, const Vec3d& max, double scale);
+/// The brush of [CB17] Appendix A at one position; `base` is that of the field, where an erase goes back to.
+[[nodiscard]] ScaleRule stroke_rule(ScaleMode mode, const Vec3d& position, double support, double target, double base);
+
 struct ScaleField {
-  double base = 0;                   ///< scene units
-  std::vector<BrushStroke> strokes;  ///< applied in order, after the boxes
-  std::vector<ScaleBox> boxes;
+  double base = 0;               ///< scene units
+  double slope = kDefaultSlope;  ///< the scale changes by at most so much per unit of length, but for brush strokes
+  std::vector<ScaleRule> rules;  ///< applied in order
   friend bool operator==(const ScaleField&, const ScaleField&) = default;
 
-  [[nodiscard]] bool constant() const { return strokes.empty() && boxes.empty(); }
+  /// Below 1, the distance to the scene minus S has no place where it stands still: a closing has no islands.
+  static constexpr double kDefaultSlope = 0.5;
+
+  [[nodiscard]] bool constant() const { return rules.empty(); }
   /// S at a point, scene units: the definition, in doubles.
   [[nodiscard]] double evaluate(const Vec3d& p) const;
+  /// S there after the base and after each rule; the last one is evaluate().
+  [[nodiscard]] std::vector<double> steps(const Vec3d& p) const;
+
+  struct Range {
+    double least = 0, most = 0;
+  };
+  /// Bounds of S within `radius` of a point. Visits all rules.
+  [[nodiscard]] Range range(const Vec3d& centre, double radius) const;
+  /// The rules that may change S within `radius` of a point: evaluates to the same there, to the last bit.
+  [[nodiscard]] ScaleField near(const Vec3d& centre, double radius) const;
   /// True if S is at least `scale` all along the straight line from a to b; scene units. Decided by bounds of S over
   /// ever shorter pieces; where these do not tell for one of `shortest` or less, S at its ends does. Cost: a bound,
-  /// which visits all strokes and boxes, or some per change of S along the line.
+  /// which visits all rules, or some per change of S along the line.
   [[nodiscard]] bool reaches_along(const Vec3d& a, const Vec3d& b, double scale, double shortest) const;
   /// Samples that interpolate S over all voxels of `box`. Depends on `box` only through its extent: tilings agree.
   [[nodiscard]] ScaleLattice sample(const GridFrame& frame, const VoxelBox& box) const;
   /// Upper bound of S anywhere, 1/16 voxel. Throws bad_argument if a scale is negative, not finite, or beyond 4095
-  /// voxels.
+  /// voxels, or another number is out of range.
   [[nodiscard]] Scale upper_bound(const GridFrame& frame) const;
+  /// The base and the scales of all rules times `factor`; shapes, slope and supports stay.
+  [[nodiscard]] ScaleField scaled(double factor) const;
 };
 
-/// JSON of `bpclose --field`: {"base": L, "strokes": [{"mode","position","support","target"}], "boxes":
-/// [{"min","max","scale"}]}. Throws bad_input with the key at fault.
-[[nodiscard]] ScaleField parse_scale_field(const std::string& json, const std::string& name);
+/// What the rules of a file refer to. In streams all lengths are numbers, in scene units, and no rule names a part.
+struct RuleContext {
+  double diagonal = 0, voxel = 0;  ///< scene units; 0: not known, lengths are numbers only
+  /// Boxes of the parts of the scene whose name or material matches; throws bad_input or bad_argument. Empty: none are
+  /// known.
+  std::function<std::vector<Bounds3d>(const std::string& pattern)> parts;
+};
+
+/// Rules as JSON (docs/bpscale.1.md). Throws bad_input with the key at fault.
+[[nodiscard]] ScaleField parse_scale_field(const std::string& json, const std::string& name,
+                                           const RuleContext& context = {});
 [[nodiscard]] std::string to_json(const ScaleField& field);  ///< canonical: same field, same text
 
 }  // namespace bp

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "lib/core/error.h"
+#include "lib/core/length.h"
 #include "lib/grid/scale_field.h"
 
 // Scale fields as JSON.
@@ -42,6 +43,7 @@ class Node {
     if (!json_.is_array()) refuse("is not a list");
     return json_.size();
   }
+  [[nodiscard]] bool is_number() const { return json_.is_number(); }
   [[nodiscard]] double number() const {
     if (!json_.is_number()) refuse("is not a number");
     const double x = json_.get<double>();
@@ -61,6 +63,13 @@ class Node {
     if (!json_.is_string()) refuse("is not a text");
     return json_.get<std::string>();
   }
+  /// For people to read.
+  [[nodiscard]] std::string plain_text() const {
+    const std::string x = text();
+    if (std::any_of(x.begin(), x.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+      refuse("holds control characters");
+    return x;
+  }
 
  private:
   [[nodiscard]] Node join(const std::string& key) const {
@@ -71,28 +80,138 @@ class Node {
   const std::string& name_;
 };
 
-constexpr const char* kModeNames[] = {"increase", "decrease", "erase"};
+constexpr const char* kModeNames[] = {"set", "increase", "decrease", "erase"};
 
-BrushStroke stroke_of(const Node& node) {
-  node.expect_keys({"mode", "position", "support", "target"});
-  BrushStroke stroke;
-  const std::string mode = node.at("mode").text();
+ScaleMode mode_of(const Node& node) {
+  const std::string mode = node.text();
   const auto found = std::find(std::begin(kModeNames), std::end(kModeNames), mode);
-  if (found == std::end(kModeNames)) node.at("mode").refuse("is none of increase, decrease, erase");
-  stroke.mode = BrushMode(found - std::begin(kModeNames));
-  stroke.position = node.at("position").point();
-  stroke.support = node.at("support").length();
-  if (stroke.mode != BrushMode::erase || node.has("target")) stroke.target = node.at("target").length();
-  return stroke;
+  if (found == std::end(kModeNames)) node.refuse("is none of set, increase, decrease, erase");
+  return ScaleMode(found - std::begin(kModeNames));
 }
 
-ScaleBox box_of(const Node& node) {
-  node.expect_keys({"min", "max", "scale"});
-  const ScaleBox box{node.at("min").point(), node.at("max").point(), node.at("scale").length()};
+/// One point, or a list of them.
+std::vector<Vec3d> points_of(const Node& node) {
+  if (node.list_size() == 0) node.refuse("is an empty list");
+  if (node.item(0).is_number()) return {node.point()};
+  std::vector<Vec3d> points;
+  for (std::size_t i = 0; i < node.list_size(); ++i) points.push_back(node.item(i).point());
+  return points;
+}
+
+void check_box(const Node& node, const ScaleRule& box) {
   for (std::size_t i = 0; i < 3; ++i) {
-    if (box.min[i] > box.max[i]) node.refuse("has its min above its max");
+    if (box.points[0][i] > box.points[1][i]) node.refuse("has its min above its max");
   }
-  return box;
+}
+
+/// The one key that says where the rule is.
+std::string place_key(const Node& node) {
+  std::string found;
+  for (const char* key : {"at", "box", "node", "view"}) {
+    if (!node.has(key)) continue;
+    if (!found.empty()) node.refuse(fmt::format("has both '{}' and '{}'", found, key));
+    found = key;
+  }
+  if (found.empty()) node.refuse("says no place: give it one of at, box, node, view");
+  return found;
+}
+
+/// Reads the rules of a file.
+class RuleReader {
+ public:
+  RuleReader(ScaleField& field, const RuleContext& context) : field_(field), context_(context) {}
+
+  [[nodiscard]] double length(const Node& node) const {
+    if (node.is_number() || !(context_.diagonal > 0 || context_.voxel > 0)) return node.length();
+    try {
+      return parse_length(node.text()).in_world(context_.diagonal, context_.voxel);
+    } catch (const Error& e) {
+      node.refuse(fmt::format("is no length: {}", e.what()));
+    }
+  }
+
+  void add(const Node& node) {
+    const std::string place = place_key(node);
+    if (place == "view") return add_view(node);
+    node.expect_keys({"name", place.c_str(), "radius", "support", "mode", "scale"});
+    ScaleRule rule = start(node);
+    if (node.has("support")) rule.support = length(node.at("support"));
+    if (place == "at") {
+      rule.points = points_of(node.at("at"));
+      rule.radius = rule.mode == ScaleMode::erase ? field_.base : rule.scale;
+    }
+    if (node.has("radius")) rule.radius = length(node.at("radius"));
+    if (place == "node") return add_parts(node.at("node"), rule);
+    if (place == "box") {
+      rule.shape = ScaleShape::box;
+      rule.points = points_of(node.at("box"));
+      if (rule.points.size() != 2) node.at("box").refuse("is not a list of two points");
+      check_box(node.at("box"), rule);
+    }
+    field_.rules.push_back(rule);
+  }
+
+  /// As earlier versions wrote them: their scale jumps at the sides.
+  void add_old_box(const Node& node) {
+    node.expect_keys({"min", "max", "scale"});
+    const ScaleRule box = box_rule(node.at("min").point(), node.at("max").point(), node.at("scale").length());
+    check_box(node, box);
+    field_.rules.push_back(box);
+  }
+
+  void add_old_stroke(const Node& node) {
+    node.expect_keys({"mode", "position", "support", "target"});
+    const ScaleMode mode = mode_of(node.at("mode"));
+    if (mode == ScaleMode::set) node.at("mode").refuse("is none of increase, decrease, erase");
+    const Vec3d position = node.at("position").point();
+    const double support = node.at("support").length();
+    const bool has_target = mode != ScaleMode::erase || node.has("target");
+    const double target = has_target ? node.at("target").length() : 0;
+    field_.rules.push_back(stroke_rule(mode, position, support, target, field_.base));
+  }
+
+ private:
+  /// Name, mode and scale.
+  [[nodiscard]] ScaleRule start(const Node& node) const {
+    ScaleRule rule;
+    if (node.has("name")) rule.name = node.at("name").plain_text();
+    if (node.has("mode")) rule.mode = mode_of(node.at("mode"));
+    if (rule.mode != ScaleMode::erase || node.has("scale")) rule.scale = length(node.at("scale"));
+    return rule;
+  }
+
+  void add_view(const Node& node) {
+    node.expect_keys({"name", "view", "per_distance", "mode", "scale"});
+    ScaleRule rule = start(node);
+    rule.shape = ScaleShape::view;
+    if (!node.has("mode")) rule.mode = ScaleMode::increase;
+    if (rule.mode == ScaleMode::erase) node.at("mode").refuse("is none of set, increase, decrease, as a view needs");
+    rule.points = points_of(node.at("view"));
+    rule.per_distance = node.at("per_distance").length();
+    if (rule.per_distance > field_.slope) node.at("per_distance").refuse("is above the slope of the field");
+    field_.rules.push_back(rule);
+  }
+
+  void add_parts(const Node& node, ScaleRule rule) {
+    const std::string pattern = node.plain_text();
+    if (!context_.parts) node.refuse("names parts of a scene, and none is known here");
+    rule.shape = ScaleShape::box;
+    if (rule.name.empty()) rule.name = pattern;
+    for (const Bounds3d& box : context_.parts(pattern)) {
+      rule.points = {box.min, box.max};
+      field_.rules.push_back(rule);
+    }
+  }
+
+  ScaleField& field_;
+  const RuleContext& context_;
+};
+
+template <class Add>
+void for_each_of(const Node& root, const char* key, const Add& add) {
+  if (!root.has(key)) return;
+  const Node list = root.at(key);
+  for (std::size_t i = 0; i < list.list_size(); ++i) add(list.item(i));
 }
 
 /// nlohmann keeps the last of two equal keys without a word; we refuse them.
@@ -121,36 +240,52 @@ Json json_of(const Vec3d& p) {
   return Json::array({p[0] + 0.0, p[1] + 0.0, p[2] + 0.0});  // -0 becomes 0: equal fields, equal text
 }
 
+Json json_of(const std::vector<Vec3d>& points) {
+  Json list = Json::array();
+  for (const Vec3d& p : points) list.push_back(json_of(p));
+  return list;
+}
+
+Json json_of(const ScaleRule& rule) {
+  constexpr const char* kPlaces[] = {"box", "at", "view"};
+  Json j;
+  if (!rule.name.empty()) j["name"] = rule.name;
+  j[kPlaces[int(rule.shape)]] = json_of(rule.points);
+  if (rule.shape == ScaleShape::view) {
+    j["per_distance"] = rule.per_distance + 0.0;
+  } else {
+    j["radius"] = rule.radius + 0.0;
+    if (rule.support != ScaleRule::kNoSupport) j["support"] = rule.support + 0.0;
+  }
+  j["mode"] = kModeNames[int(rule.mode)];
+  j["scale"] = rule.scale + 0.0;
+  return j;
+}
+
 }  // namespace
 
-ScaleField parse_scale_field(const std::string& json, const std::string& name) {
+ScaleField parse_scale_field(const std::string& json, const std::string& name, const RuleContext& context) {
   const Json document = parse_without_repeats(json, name);
   const Node root(document, "", name);
-  root.expect_keys({"base", "strokes", "boxes"});
+  root.expect_keys({"base", "slope", "rules", "boxes", "strokes"});
   ScaleField field;
-  field.base = root.at("base").length();
-  if (root.has("strokes")) {
-    const Node list = root.at("strokes");
-    for (std::size_t i = 0; i < list.list_size(); ++i) field.strokes.push_back(stroke_of(list.item(i)));
-  }
-  if (root.has("boxes")) {
-    const Node list = root.at("boxes");
-    for (std::size_t i = 0; i < list.list_size(); ++i) field.boxes.push_back(box_of(list.item(i)));
-  }
+  RuleReader reader(field, context);
+  field.base = reader.length(root.at("base"));
+  if (root.has("slope")) field.slope = root.at("slope").length();
+  if (root.has("rules") && (root.has("boxes") || root.has("strokes")))
+    root.refuse("has 'rules' and, as earlier versions had them, 'boxes' or 'strokes'");
+  for_each_of(root, "rules", [&](const Node& node) { reader.add(node); });
+  for_each_of(root, "boxes", [&](const Node& node) { reader.add_old_box(node); });
+  for_each_of(root, "strokes", [&](const Node& node) { reader.add_old_stroke(node); });
   return field;
 }
 
 std::string to_json(const ScaleField& field) {
-  Json strokes = Json::array(), boxes = Json::array();
-  for (const BrushStroke& s : field.strokes) {
-    strokes.push_back(Json{{"mode", kModeNames[int(s.mode)]},
-                           {"position", json_of(s.position)},
-                           {"support", s.support + 0.0},
-                           {"target", s.target + 0.0}});
-  }
-  for (const ScaleBox& b : field.boxes)
-    boxes.push_back(Json{{"min", json_of(b.min)}, {"max", json_of(b.max)}, {"scale", b.scale + 0.0}});
-  return Json{{"base", field.base + 0.0}, {"strokes", strokes}, {"boxes", boxes}}.dump();
+  if (field.constant()) return Json{{"base", field.base + 0.0}}.dump();
+  Json rules = Json::array();
+  for (const ScaleRule& rule : field.rules) rules.push_back(json_of(rule));
+  return Json{{"base", field.base + 0.0}, {"slope", field.slope + 0.0}, {"rules", rules}}.dump(
+      -1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace bp

@@ -49,8 +49,9 @@ struct StreamHeader {
   BrickBox bricks;           ///< every brick of the stream lies in it
   int slab_axis = 2;         ///< bricks come in slabs across this axis (the longest), see slab_order
   bool has_closing = false;  ///< the closing layer is present beside the solid layer
+  bool has_field = false;    ///< it is not, and `scale` is given for the closing to come
   FillMode fill = FillMode::flood;
-  ScaleField scale;  ///< of the closing; meaningful if has_closing
+  ScaleField scale;  ///< of the closing; meaningful if has_closing or has_field
   StructuringElement element = StructuringElement::cube;
   std::vector<Provenance> provenance;
   SceneFiles scene;

@@ -45,6 +45,16 @@ class Camera {
             scale_ * (d[2] - centre_[2])};
   }
 
+  /// The point of the scene that is projected there.
+  [[nodiscard]] Vec3d unproject(const Vec3d& p) const {
+    const Vec3d d{centre_[0] + (p[0] - middle_x_) / scale_, centre_[1] + (middle_y_ - p[1]) / scale_,
+                  centre_[2] + p[2] / scale_};
+    Vec3d v{};
+    for (std::size_t i = 0; i < 3; ++i) v[i] = d[0] * right_[i] + d[1] * up_[i] + d[2] * forward_[i];
+    v = bp::turned(v, UpAxis::z, axes_);
+    return {origin_[0] + v[0], origin_[1] + v[1], origin_[2] + v[2]};
+  }
+
   /// Right, down, away from the viewer of a direction, at its length.
   [[nodiscard]] Vec3d turned(const Vec3d& direction) const {
     const Vec3d d = along_axes(direction);

@@ -87,25 +87,43 @@ struct Canvas::Shaded {
   float z_low, z_high;
   Color color;
   bool varies = false;  // the colour over the triangle: linear light as planes, and the shade
-  double light[3], dl_dx[3], dl_dy[3], s = 1;
+  double light[3]{}, dl_dx[3]{}, dl_dy[3]{}, s = 1;
+  std::uint32_t material = TriangleTexture::kNoMaterial;  // of the image on it; its place as planes
+  double uv[2], duv_dx[2], duv_dy[2];
 
   Shaded() = default;
   Shaded(const TriangleD& t, const TriangleColors& colors, int width, int height)
       : Shaded(t, shown(colors[0].r, colors[0].g, colors[0].b), width, height) {
     varies = (colors[0] != colors[1] || colors[0] != colors[2]) && x_min <= x_max;
-    if (!varies) return;
-    const double ux = t[1][0] - t[0][0], uy = t[1][1] - t[0][1], vx = t[2][0] - t[0][0], vy = t[2][1] - t[0][1];
     const auto channel = [](LinearColor c, int i) { return double(i == 0 ? c.r : i == 1 ? c.g : c.b); };
     for (int i = 0; i < 3; ++i) {
-      const double first = channel(colors[0], i), du = channel(colors[1], i) - first,
-                   dv = channel(colors[2], i) - first;
-      dl_dx[i] = (du * vy - dv * uy) / (ux * vy - uy * vx), dl_dy[i] = (dv * ux - du * vx) / (ux * vy - uy * vx);
-      light[i] = first + (0.5 - t[0][0]) * dl_dx[i] + (0.5 - t[0][1]) * dl_dy[i];
+      light[i] = channel(colors[0], i);
+      if (varies) set_plane(t, {light[i], channel(colors[1], i), channel(colors[2], i)}, light[i], dl_dx[i], dl_dy[i]);
     }
   }
-  [[nodiscard]] Color color_at(int px, int py) const {
+  /// The linear function with these values at the corners: at sample (0, 0), and its steps.
+  static void set_plane(const TriangleD& t, const Vec3d& at, double& first, double& d_dx, double& d_dy) {
+    const double ux = t[1][0] - t[0][0], uy = t[1][1] - t[0][1], vx = t[2][0] - t[0][0], vy = t[2][1] - t[0][1];
+    const double du = at[1] - at[0], dv = at[2] - at[0];
+    d_dx = (du * vy - dv * uy) / (ux * vy - uy * vx), d_dy = (dv * ux - du * vx) / (ux * vy - uy * vx);
+    first = at[0] + (0.5 - t[0][0]) * d_dx + (0.5 - t[0][1]) * d_dy;
+  }
+  /// `t`: the triangle, of which this may be a part.
+  void lay(const TriangleTexture& texture, const TriangleD& t) {
+    if (x_min > x_max) return;
+    material = texture.material;
+    for (std::size_t i = 0; i < 2; ++i)
+      set_plane(t, {texture.uv[0][i], texture.uv[1][i], texture.uv[2][i]}, uv[i], duv_dx[i], duv_dy[i]);
+  }
+  /// Linear light, before the shade.
+  [[nodiscard]] std::array<double, 3> light_at(int px, int py) const {
     const auto at = [&](int i) { return light[i] + px * dl_dx[i] + py * dl_dy[i]; };
-    return varies ? scaled(shown(at(0), at(1), at(2)), s) : color;
+    return {at(0), at(1), at(2)};
+  }
+  [[nodiscard]] Color color_at(int px, int py) const {
+    if (!varies) return color;
+    const auto [r, g, b] = light_at(px, py);
+    return scaled(shown(r, g, b), s);
   }
   Shaded(const TriangleD& t, Color base, int width, int height) {
     if (!drawable(t)) return;
@@ -134,6 +152,56 @@ struct Canvas::Shaded {
   static int sample_at_or_before(std::int32_t c) { return (c - (1 << (kSubBits - 1))) >> kSubBits; }
 };
 
+/// Images on triangles; null: there are none.
+class Canvas::Painter {
+ public:
+  Painter() = default;
+  Painter(std::span<const TriangleTexture> textures, ImageCache* images)
+      : textures_(images != nullptr ? textures : std::span<const TriangleTexture>()), images_(images) {}
+
+  void lay(Shaded& shaded, std::size_t i, const TriangleD& t) const {
+    if (i < textures_.size()) shaded.lay(textures_[i], t);
+  }
+
+  /// The image of one triangle.
+  class Coat {
+   public:
+    Coat(const Painter& painter, const Shaded& t) : t_(t) {
+      if (t.material == TriangleTexture::kNoMaterial) return;
+      material_ = &painter.images_->material(t.material);
+      image_ = painter.images_->get(material_->image);
+      if (image_ == nullptr) return;
+      const double area = std::abs(t.duv_dx[0] * t.duv_dy[1] - t.duv_dx[1] * t.duv_dy[0]);
+      texels_ = std::sqrt(area * image_->width() * image_->height());
+    }
+    /// False at a hole; alpha in between is one from a half on.
+    bool color_at(int x, int y, Color& color) const {
+      if (image_ == nullptr) {
+        color = t_.color_at(x, y);
+        return true;
+      }
+      const auto place = [&](std::size_t i) { return t_.uv[i] + x * t_.duv_dx[i] + y * t_.duv_dy[i]; };
+      const LinearTexel texel = image_->at(place(0), place(1), texels_, material_->wrap);
+      const float least = material_->alpha_mode == AlphaMode::mask ? material_->cutoff : 0.5F;
+      if (material_->alpha_mode != AlphaMode::opaque && texel[3] * material_->alpha < least) return false;
+      std::array<double, 3> light{65535, 65535, 65535};
+      if (!material_->replaces_color) light = t_.light_at(x, y);
+      color = scaled(shown(light[0] * texel[0], light[1] * texel[1], light[2] * texel[2]), t_.s);
+      return true;
+    }
+
+   private:
+    const Shaded& t_;
+    const TextureMaterial* material_ = nullptr;
+    std::shared_ptr<const MipImage> image_;
+    double texels_ = 0;
+  };
+
+ private:
+  std::span<const TriangleTexture> textures_;
+  ImageCache* images_ = nullptr;
+};
+
 Canvas::Canvas(int width, int height, Color background)
     : width_(width),
       height_(height),
@@ -147,37 +215,43 @@ void Canvas::for_each_band(const std::function<void(Row)>& body) const {
 }
 
 void Canvas::draw(std::span<const TriangleD> triangles, Color color) {
-  draw_shaded(triangles, [&](std::size_t) { return color; });
+  draw_shaded(triangles, [&](std::size_t) { return color; }, {});
 }
 
-void Canvas::draw(std::span<const TriangleD> triangles, std::span<const TriangleColors> colors) {
-  draw_shaded(triangles, [&](std::size_t i) { return colors[i]; });
+void Canvas::draw(std::span<const TriangleD> triangles, std::span<const TriangleColors> colors,
+                  std::span<const TriangleTexture> textures, ImageCache* images) {
+  draw_shaded(
+      triangles, [&](std::size_t i) { return colors[i]; }, Painter(textures, images));
 }
 
 template <class ColorOf>
-void Canvas::draw_shaded(std::span<const TriangleD> triangles, const ColorOf& color_of) {
+void Canvas::draw_shaded(std::span<const TriangleD> triangles, const ColorOf& color_of, const Painter& painter) {
   constexpr std::size_t kBatch = 1 << 15;
   std::vector<Shaded> ready;
   for (std::size_t begin = 0; begin < triangles.size(); begin += kBatch) {
     const std::size_t n = std::min(kBatch, triangles.size() - begin);
     ready.resize(n);
     parallel_ranges(std::int64_t(n), 1024, [&](std::int64_t b, std::int64_t e) {
-      for (auto i = std::size_t(b); i < std::size_t(e); ++i)
+      for (auto i = std::size_t(b); i < std::size_t(e); ++i) {
         ready[i] = Shaded(triangles[begin + i], color_of(begin + i), width_, height_);
+        painter.lay(ready[i], begin + i, triangles[begin + i]);
+      }
     });
     for (std::size_t i = begin; i < begin + n; ++i) {
       if (drawable(triangles[i])) continue;
-      for (const ClippedTriangle& part : clipped(triangles[i], color_of(i)))
+      for (const ClippedTriangle& part : clipped(triangles[i], color_of(i))) {
         ready.emplace_back(part.corners, color_of_part(part, color_of(i)), width_, height_);
+        painter.lay(ready.back(), i, triangles[i]);
+      }
     }
     for_each_band([&](Row rows) {
       for (const Shaded& t : ready)
-        if (t.y_min < rows.end && t.y_max >= rows.begin && t.x_min <= t.x_max) fill(t, rows);
+        if (t.y_min < rows.end && t.y_max >= rows.begin && t.x_min <= t.x_max) fill(t, rows, painter);
     });
   }
 }
 
-void Canvas::fill(const Shaded& t, Row rows) {
+void Canvas::fill(const Shaded& t, Row rows, const Painter& painter) {
   // Twice the signed areas of (edge, sample centre), stepped from sample to sample. Inside: positive, or zero on an
   // edge that owns its samples.
   std::int64_t row_value[3], step_x[3], step_y[3];
@@ -190,15 +264,15 @@ void Canvas::fill(const Shaded& t, Row rows) {
     row_value[e] = dx * cy - dy * cx - (owns_its_samples(dx, dy) ? 0 : 1);
     step_x[e] = -dy * (1 << kSubBits), step_y[e] = dx * (1 << kSubBits);
   }
+  const Painter::Coat coat(painter, t);
   for (int y = y_begin; y < y_end; ++y) {
     std::int64_t a = row_value[0], b = row_value[1], c = row_value[2];
     const std::size_t row = std::size_t(y) * std::size_t(width_);
     for (int x = t.x_min; x <= t.x_max; ++x, a += step_x[0], b += step_x[1], c += step_x[2]) {
       if ((a | b | c) < 0) continue;
       const float z = std::clamp(float(t.z + x * t.dz_dx + y * t.dz_dy), t.z_low, t.z_high);
-      if (z >= depth_[row + std::size_t(x)]) continue;
+      if (z >= depth_[row + std::size_t(x)] || !coat.color_at(x, y, color_[row + std::size_t(x)])) continue;
       depth_[row + std::size_t(x)] = z;
-      color_[row + std::size_t(x)] = t.color_at(x, y);
     }
     for (int e = 0; e < 3; ++e) row_value[e] += step_y[e];
   }
@@ -251,6 +325,11 @@ void Canvas::draw_line(const std::array<Vec3d, 2>& line, Color color, double hal
       c = blend(c, color, coverage * 0.8);
     }
   }
+}
+
+std::optional<double> Canvas::depth(int x, int y) const {
+  const float z = depth_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
+  return std::isfinite(z) ? std::optional<double>(z) : std::nullopt;
 }
 
 void Canvas::resolve(Image& image, int x, int y) const {

@@ -1,10 +1,12 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "lib/core/box.h"
 #include "lib/core/color.h"
 #include "lib/image/image.h"
+#include "lib/image/image_cache.h"
 
 namespace bp {
 
@@ -17,23 +19,28 @@ class Canvas {
   /// Flat shaded, facing either way. Triangles are cut off far beyond the canvas (2^21 samples); those with coordinates
   /// that are not finite are left out. Parallel.
   void draw(std::span<const TriangleD> triangles, Color color);
-  /// The same with colours of their own, one for each triangle.
-  void draw(std::span<const TriangleD> triangles, std::span<const TriangleColors> colors);
+  /// The same with colours of their own, one for each triangle; and with images on them, unless `images` is null.
+  void draw(std::span<const TriangleD> triangles, std::span<const TriangleColors> colors,
+            std::span<const TriangleTexture> textures = {}, ImageCache* images = nullptr);
 
   /// Antialiased, where nothing lies in front. Parallel.
   void draw_lines(std::span<const std::array<Vec3d, 2>> lines, Color color, double half_width);
+
+  /// Distance from the viewer of what is seen in a sample; none: nothing is.
+  [[nodiscard]] std::optional<double> depth(int x, int y) const;
 
   /// Mean of each 2 x 2 samples, copied into `image` with the upper left corner at (x, y).
   void resolve(Image& image, int x, int y) const;
 
  private:
   struct Shaded;
+  class Painter;
   template <class ColorOf>
-  void draw_shaded(std::span<const TriangleD> triangles, const ColorOf& color_of);
+  void draw_shaded(std::span<const TriangleD> triangles, const ColorOf& color_of, const Painter& painter);
   struct Row {
     int begin, end;
   };
-  void fill(const Shaded& t, Row rows);
+  void fill(const Shaded& t, Row rows, const Painter& painter);
   void draw_line(const std::array<Vec3d, 2>& line, Color color, double half_width, Row rows);
   [[nodiscard]] bool hidden(double x, double y, double depth) const;
   void for_each_band(const std::function<void(Row)>& body) const;

@@ -101,6 +101,21 @@ void Legend::draw_ruler(Image& image, int right, int bottom, double pixels_per_u
   if (typeface_ != nullptr) typeface_->draw(image, x0 - text_width - size_ / 2, y + size_ / 3, text, size_, ink_);
 }
 
+void Legend::draw_bar(Image& image, int x, int bottom, const ColorBar& bar) const {
+  if (!marks_ || bar.low.empty()) return;
+  const auto text_width = [&](const std::string& text) {
+    return typeface_ != nullptr ? typeface_->width(text, size_) : 0;
+  };
+  const int length = int(std::lround(kRulerShare * width_)), gap = size_ / 2;
+  const int x0 = x + size_ + text_width(bar.low) + gap, x1 = x0 + length, top = bottom - 2 * size_;
+  fill(image, x, top - gap, x1 + gap + text_width(bar.high) + gap, bottom, paper_);
+  for (int i = 0; i < length; ++i)
+    fill(image, x0 + i, top, x0 + i + 1, top + size_, color_on_bar(double(i) / std::max(1, length - 1)));
+  if (typeface_ == nullptr) return;
+  typeface_->draw(image, x + size_, top + size_ * 9 / 10, bar.low, size_, ink_);
+  typeface_->draw(image, x1 + gap, top + size_ * 9 / 10, bar.high, size_, ink_);
+}
+
 bool Legend::fits(const std::string& text) const {
   return typeface_->width(text, size_) <= width_ - axes_side() - size_;
 }

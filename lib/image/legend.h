@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/core/coords.h"
+#include "lib/image/color_bar.h"
 #include "lib/image/image.h"
 #include "lib/image/typeface.h"
 
@@ -30,6 +31,8 @@ class Legend {
   void draw_axes(Image& image, int x, int y, const std::array<Vec3d, 3>& directions) const;
   /// A bar of a round length, with its length in scene units. (right, bottom): lower right corner of the panel.
   void draw_ruler(Image& image, int right, int bottom, double pixels_per_unit) const;
+  /// The colours of color_on_bar() with the numbers at its ends. (x, bottom): lower left corner of the panel.
+  void draw_bar(Image& image, int x, int bottom, const ColorBar& bar) const;
   /// From left to right, to the right of the axes.
   void write(Image& image, int x, int y, const std::vector<std::string>& lines) const;
 

@@ -76,9 +76,10 @@ class PanelPainter {
  public:
   PanelPainter(const Camera& camera, Canvas& canvas, Color color) : camera_(camera), canvas_(canvas), color_(color) {}
 
-  /// corner(i) -> TriangleD in scene units, for i in [0, n). colors: one for each, or none.
+  /// corner(i) -> TriangleD in scene units, for i in [0, n). colors, textures: one for each, or none.
   template <class Corners>
-  void paint(std::size_t n, const Corners& corners, std::span<const TriangleColors> colors = {}) {
+  void paint(std::size_t n, const Corners& corners, std::span<const TriangleColors> colors = {},
+             std::span<const TriangleTexture> textures = {}, ImageCache* images = nullptr) {
     for (std::size_t begin = 0; begin < n; begin += kBatch) {
       projected_.resize(std::min(kBatch, n - begin));
       parallel_ranges(std::int64_t(projected_.size()), 2048, [&](std::int64_t b, std::int64_t e) {
@@ -90,7 +91,8 @@ class PanelPainter {
       if (colors.empty()) {
         canvas_.draw(projected_, color_);
       } else {
-        canvas_.draw(projected_, colors.subspan(begin, projected_.size()));
+        canvas_.draw(projected_, colors.subspan(begin, projected_.size()),
+                     textures.subspan(std::min(begin, textures.size())), images);
       }
     }
   }
@@ -108,23 +110,37 @@ TriangleD corners_or_nothing(const IndexedMesh& mesh, std::size_t t) {
   return corners;
 }
 
+/// Triangles of a source, in batches.
+struct SourceBatch {
+  std::vector<TriangleD> triangles;
+  std::vector<TriangleColors> colors;
+  std::vector<TriangleTexture> textures;
+
+  [[nodiscard]] bool read(const View& view) {
+    colors.clear();
+    textures.clear();
+    if (view.source_images != nullptr) return view.source->read_textured(triangles, colors, textures);
+    return view.source_colors ? view.source->read_colored(triangles, colors) : view.source->read(triangles);
+  }
+  void add(const SourceBatch& part) {
+    triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
+    colors.insert(colors.end(), part.colors.begin(), part.colors.end());
+    textures.insert(textures.end(), part.textures.begin(), part.textures.end());
+  }
+};
+
 void paint_source(const View& view, PanelPainter& painter) {
-  std::vector<TriangleD> batch, part;
-  std::vector<TriangleColors> batch_colors, part_colors;
+  SourceBatch batch, part;
   const auto paint = [&] {
     painter.paint(
-        batch.size(), [&](std::size_t t) { return batch[t]; }, batch_colors);
-    batch.clear();
-    batch_colors.clear();
+        batch.triangles.size(), [&](std::size_t t) { return batch.triangles[t]; }, batch.colors, batch.textures,
+        view.source_images);
+    batch = {};
   };
   view.source->rewind();
-  const auto read = [&] {
-    return view.source_colors ? view.source->read_colored(part, part_colors) : view.source->read(part);
-  };
-  while (read()) {  // parts may be small
-    batch.insert(batch.end(), part.begin(), part.end());
-    batch_colors.insert(batch_colors.end(), part_colors.begin(), part_colors.end());
-    if (batch.size() >= kBatch) paint();
+  while (part.read(view)) {  // parts may be small
+    batch.add(part);
+    if (batch.triangles.size() >= kBatch) paint();
   }
   paint();
 }
@@ -164,6 +180,7 @@ void draw_legend(Image& image, const Legend& legend, const View& view, const Cam
   for (std::size_t k = 0; k < 3; ++k) axes[k] = camera.turned(view.axes[k]);
   legend.draw_axes(image, x, below, axes);
   legend.draw_ruler(image, x + options.panel_width, below, camera.samples_per_unit() / kSamples);
+  legend.draw_bar(image, x, below, view.bar);
   legend.write(image, x, below, legend.lines(view.label));
 }
 
@@ -174,15 +191,27 @@ void draw_borders(Image& image, const RenderOptions& options) {
     for (int y = 0; y < image.height; ++y) image.at(x, y) = kBorder;
 }
 
+void check_size(const RenderOptions& options, int columns) {
+  const int w = options.panel_width, h = options.panel_height;
+  if (std::min(w, h) < kLeastPanelSide || std::max<std::int64_t>(h, std::int64_t(w) * columns) > kMostImageSide)
+    fail(ErrorCode::bad_argument,
+         "image of {} panels, {} x {} pixels each: sides must be {} to {}, all panels together", columns, w, h,
+         kLeastPanelSide, kMostImageSide);
+}
+
+/// Of a panel; `common` is that of all.
+Camera camera_of(const Camera& common, std::span<const View> views, std::size_t i, const RenderOptions& options) {
+  Camera camera = common;
+  if (!views[i].bounds.empty()) aim(camera, views.subspan(i, 1), views[i].bounds, options);
+  return camera;
+}
+
 }  // namespace
 
 Image render(std::span<const View> views, const RenderOptions& options) {
   const int w = options.panel_width, h = options.panel_height;
   const int columns = std::max(1, int(views.size()));
-  if (std::min(w, h) < kLeastPanelSide || std::max<std::int64_t>(h, std::int64_t(w) * columns) > kMostImageSide)
-    fail(ErrorCode::bad_argument,
-         "image of {} panels, {} x {} pixels each: sides must be {} to {}, all panels together", columns, w, h,
-         kLeastPanelSide, kMostImageSide);
+  check_size(options, columns);
   const Legend legend(w, options.typeface, options.marks, options.ink, options.background);
   std::size_t lines = 0;
   for (const View& v : views) lines = std::max(lines, legend.lines(v.label).size());
@@ -192,8 +221,7 @@ Image render(std::span<const View> views, const RenderOptions& options) {
   const bool anything = aim(common, views, options.bounds, options);
   for (std::size_t i = 0; i < views.size(); ++i) {
     Canvas canvas(w * kSamples, h * kSamples, options.background);
-    Camera camera = common;
-    if (!views[i].bounds.empty()) aim(camera, views.subspan(i, 1), views[i].bounds, options);
+    const Camera camera = camera_of(common, views, i, options);
     if (anything) {
       paint_faces(views[i], camera, canvas);
       if (views[i].edges) canvas.draw_lines(edges_of(views[i], camera), options.ink, 0.9);
@@ -203,6 +231,28 @@ Image render(std::span<const View> views, const RenderOptions& options) {
   }
   if (options.marks) draw_borders(image, options);
   return image;
+}
+
+std::optional<Vec3d> point_behind(std::span<const View> views, const RenderOptions& options, int x, int y) {
+  const int w = options.panel_width, h = options.panel_height;
+  check_size(options, std::max(1, int(views.size())));
+  if (x < 0 || y < 0 || x >= w * int(views.size()) || y >= h)
+    fail(ErrorCode::bad_argument, "pixel {},{} is in no panel; the panels take {} x {} pixels", x, y,
+         w * int(views.size()), h);
+  const auto i = std::size_t(x / w);
+  Camera common(options);
+  if (!aim(common, views, options.bounds, options)) return {};
+  Canvas canvas(w * kSamples, h * kSamples, options.background);
+  const Camera camera = camera_of(common, views, i, options);
+  paint_faces(views[i], camera, canvas);
+  std::optional<Vec3d> nearest;  // of the samples of the pixel
+  for (int sample = 0; sample < kSamples * kSamples; ++sample) {
+    const int sx = x % w * kSamples + sample % kSamples, sy = y * kSamples + sample / kSamples;
+    const std::optional<double> depth = canvas.depth(sx, sy);
+    if (depth && (!nearest || *depth < (*nearest)[2])) nearest = Vec3d{sx + 0.5, sy + 0.5, *depth};
+  }
+  if (nearest) nearest = camera.unproject(*nearest);
+  return nearest;
 }
 
 }  // namespace bp

@@ -7,7 +7,9 @@
 #include "lib/core/grid_frame.h"
 #include "lib/core/indexed_mesh.h"
 #include "lib/core/triangle_source.h"
+#include "lib/image/color_bar.h"
 #include "lib/image/image.h"
+#include "lib/image/image_cache.h"
 #include "lib/image/typeface.h"
 
 /// A small software rasteriser: meshes side by side, each with its label below. Needs no display. The same bytes on
@@ -23,11 +25,13 @@ struct View {
   Color color{176, 188, 204};  ///< of all that has none of its own
   std::span<const TriangleColors> colors;     ///< of `triangles`; empty: none
   bool source_colors = false;                 ///< draw `source` in its own
+  ImageCache* source_images = nullptr;        ///< draw `source` with these on it, and in its colours; null: none
   std::span<const std::uint8_t> inner_edges;  ///< of `triangles` (TriangleSource::read_faces()); empty: none
   bool edges = false;  ///< draws the edges of `mesh` and `triangles`, but inner ones, as dark lines
   Bounds3d bounds;     ///< what to show, at a scale of its own; empty: as RenderOptions say
   std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};  ///< that the panel shows as x, y, z
   std::string label;                                                          ///< lines separated by \n
+  ColorBar bar;                                                               ///< what its colours mean
 };
 
 constexpr int kLeastPanelSide = 16, kMostImageSide = 16384;  ///< pixels; the latter of all panels together
@@ -51,5 +55,11 @@ struct RenderOptions {
 /// Memory: 32 bytes a pixel of one panel. Throws bad_argument if a side is too small or too large; passes on what a
 /// source throws.
 [[nodiscard]] Image render(std::span<const View> views, const RenderOptions& options = {});
+
+/// The point that such a picture shows at pixel (x, y), which counts from the upper left corner: in the middle of the
+/// pixel, on what lies nearest to the viewer. None where nothing is drawn. Its error is a small part of a pixel.
+/// Throws as render(), and bad_argument if the pixel is in no panel.
+[[nodiscard]] std::optional<Vec3d> point_behind(std::span<const View> views, const RenderOptions& options, int x,
+                                                int y);
 
 }  // namespace bp

@@ -138,7 +138,7 @@ struct LodChain::State {
     std::unique_ptr<BrickShelf> closing = half_scale(target, scale);
     for (int attempt = 1;; ++attempt) {
       if (closing == nullptr) {
-        reduce_to(reductions_for(ground(), target, scale, reductions));
+        reduce_to(reductions_for(ground(), target, scale * finest(), reductions));
         closing = closing_at(scale);
       }
       LodLevel level = mesh(target, scale, std::move(closing));
@@ -196,16 +196,27 @@ struct LodChain::State {
     return closed;
   }
 
-  static ScaleField uniform(double scale) {
+  [[nodiscard]] ScaleField field_at(double scale) const {
+    if (options.field) return options.field->scaled(scale / options.field->base);
     ScaleField field;
     field.base = scale;
     return field;
   }
 
+  /// The finest scale anywhere, for a level's scale of 1.
+  [[nodiscard]] double finest() const {
+    if (!options.field) return 1;
+    double least = options.field->base;
+    for (const ScaleRule& rule : options.field->rules) {
+      if (rule.shape != ScaleShape::view && rule.mode != ScaleMode::erase) least = std::min(least, rule.scale);
+    }
+    return least / options.field->base;
+  }
+
   std::unique_ptr<BrickShelf> closing_at(double scale) {
     CloseOptions o;
     o.context = context;
-    return close_shelf(header, *solid, backends, scale, options.closing, o);
+    return close_shelf(header, *solid, backends, field_at(scale), options.closing, o);
   }
 
   /// The closing at half of `scale`, which is halved then, where a budget has faces enough for what parts and holes it
@@ -214,7 +225,7 @@ struct LodChain::State {
     const double half = std::max(scale / 2, last_scale);
     const bool by_budget = target.faces > 0 && target.error_world == 0 && !target.scale_world;
     if (!by_budget || options.mode != MeshMode::bounding || half >= scale) return nullptr;
-    const int n = reductions_for(ground(), target, half, reductions);
+    const int n = reductions_for(ground(), target, half * finest(), reductions);
     if (half < kLeastScaleVox * outside->voxel() * std::ldexp(1.0, n)) return nullptr;
     reduce_to(n);
     auto closing = closing_at(half);
@@ -239,7 +250,7 @@ struct LodChain::State {
     level.scale_world = scale;
     level.reductions = reductions;
     context.report("meshing", "levels", 0, 1);
-    ShelfSource source(closed_header(uniform(scale)), *solid, closing.get(), ShelfSource::Keep::solid);
+    ShelfSource source(closed_header(field_at(scale)), *solid, closing.get(), ShelfSource::Keep::solid);
     level.mesh = std::move(mesh_stream(source, context, mesh_params(target), level.counts).front());
     return level;
   }

@@ -29,7 +29,7 @@ struct LatticeMesh {
   std::vector<LatticeCoord> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint32_t, 2>> quads;  ///< triangles that a file joins (lib/quads/quads.h); mostly none
-  std::vector<LinearColor> colors;                  ///< of the vertices; empty: none
+  std::vector<TriangleColors> colors;               ///< of each triangle's corners; empty: none
   std::vector<Provenance> provenance;
   std::shared_ptr<const MeshTexture> texture;  ///< null: none
 };

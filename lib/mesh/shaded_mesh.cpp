@@ -7,6 +7,7 @@
 
 #include "lib/core/disjoint_sets.h"
 #include "lib/core/vec3.h"
+#include "lib/mesh/inner_edges.h"
 
 namespace bp {
 
@@ -31,36 +32,15 @@ class Shader {
   }
 
   ShadedMesh run() {
-    join_smooth_edges();
+    for_each_inner_edge(mesh_.triangles, [this](Corner a, Corner b) { join_across(a, b); });
     number_groups();
     set_normals();
     return std::move(out_);
   }
 
  private:
-  struct HalfEdge {
-    std::array<std::uint32_t, 2> ends;  // the lesser first
-    Corner from;                        // the corner where it begins
-    friend bool operator<(const HalfEdge& a, const HalfEdge& b) {
-      return std::pair(a.ends, a.from) < std::pair(b.ends, b.from);
-    }
-  };
   static Corner next(Corner c) { return c % 3 == 2 ? c - 2 : c + 1; }
   [[nodiscard]] std::uint32_t vertex_of(Corner c) const { return mesh_.triangles[c / 3][c % 3]; }
-
-  void join_smooth_edges() {
-    std::vector<HalfEdge> edges;
-    edges.reserve(3 * faces_.size());
-    for (Corner c = 0; c < 3 * faces_.size(); ++c) {
-      const std::uint32_t a = vertex_of(c), b = vertex_of(next(c));
-      edges.push_back({{std::min(a, b), std::max(a, b)}, c});
-    }
-    std::sort(edges.begin(), edges.end());
-    for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
-      for (end = i + 1; end < edges.size() && edges[end].ends == edges[i].ends;) ++end;
-      if (end == i + 2) join_across(edges[i].from, edges[i + 1].from);
-    }
-  }
 
   void join_across(Corner a, Corner b) {
     static const double least = std::cos(kCreaseDegrees * kPi / 180);
@@ -71,19 +51,28 @@ class Shader {
     groups_.unite(next(a), b);
   }
 
+  /// What makes a corner a copy of its own: its group, chart and colour.
+  [[nodiscard]] std::array<std::uint64_t, 2> kind_of(Corner c) {
+    const std::uint64_t chart = mesh_.texture ? mesh_.texture->chart[c / 3] : 0;
+    const LinearColor color = mesh_.colors.empty() ? kWhite : mesh_.colors[c / 3][c % 3];
+    return {chart << 32 | groups_.find(c),
+            std::uint64_t(color.r) << 32 | std::uint64_t(color.g) << 16 | std::uint64_t(color.b)};
+  }
+
   void number_groups() {
-    std::unordered_map<std::uint64_t, std::uint32_t> number;  // of a group in a chart
-    const MeshTexture* const texture = mesh_.texture.get();
+    const auto hash = [](const std::array<std::uint64_t, 2>& k) {
+      return std::size_t(k[0] * 0x9E3779B97F4A7C15 ^ k[1] * 0xC2B2AE3D27D4EB4F);
+    };
+    std::unordered_map<std::array<std::uint64_t, 2>, std::uint32_t, decltype(hash)> number(16, hash);
     out_.triangles.resize(faces_.size());
     for (Corner c = 0; c < 3 * faces_.size(); ++c) {
-      const Corner first = groups_.find(c);
-      const std::uint64_t chart = texture != nullptr ? texture->chart[c / 3] : 0;
-      const auto [copy, is_new] = number.try_emplace(chart << 32 | first, std::uint32_t(out_.vertex.size()));
+      const auto [copy, is_new] = number.try_emplace(kind_of(c), std::uint32_t(out_.vertex.size()));
       out_.triangles[c / 3][c % 3] = copy->second;
       if (!is_new) continue;
       out_.vertex.push_back(vertex_of(c));
-      group_of_copy_.push_back(first);
-      if (texture != nullptr) out_.uv.push_back(texture->uv[c / 3][c % 3]);
+      group_of_copy_.push_back(groups_.find(c));
+      if (mesh_.texture) out_.uv.push_back(mesh_.texture->uv[c / 3][c % 3]);
+      if (!mesh_.colors.empty()) out_.colors.push_back(mesh_.colors[c / 3][c % 3]);
     }
   }
 

@@ -111,6 +111,7 @@ StreamHeader reduced(const StreamHeader& fine) {
   coarse.slab_axis = longest_axis(coarse.bricks);
   coarse.has_closing = false;
   coarse.scale = {};
+  coarse.has_field = false;
   return coarse;
 }
 

@@ -32,7 +32,7 @@ set(rules
   "lib/pass/close:lib/core lib/grid lib/volume lib/device lib/pass"
   "lib/pass/mesh:lib/core lib/exact lib/store lib/geometry lib/grid lib/volume lib/voxel lib/device lib/mesh lib/enclosed lib/surface lib/simplify lib/tighten lib/quads lib/fit lib/pass lib/pass/voxelize lib/pass/close"
   "lib/pass/color:lib/core lib/store lib/grid lib/volume lib/voxel lib/mesh lib/pass"
-  "lib/pass/bake:lib/core lib/store lib/geometry lib/mesh lib/atlas"
+  "lib/pass/bake:lib/core lib/store lib/geometry lib/mesh lib/atlas lib/image"
   "lib/pass/hide:lib/core lib/grid lib/volume lib/pass/close lib/pass/mesh"
   "lib/levels:lib/core lib/store lib/geometry lib/grid lib/volume lib/closing lib/device lib/surface lib/tileset lib/pass lib/pass/voxelize lib/pass/close lib/pass/mesh lib/pass/color lib/pass/hide"
   "io/files:lib/core"

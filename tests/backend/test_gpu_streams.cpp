@@ -58,7 +58,7 @@ TEST_CASE("streams closed by eight backends at a time on each GPU have the CPU's
   const ThreadLimit threads(kPerDevice);
   ScaleField constant, varying;
   constant.base = varying.base = 3;
-  varying.boxes.push_back({{0, 0, 0}, {100, 50, 40}, 1.5});
+  varying.rules.push_back(box_rule({0, 0, 0}, {100, 50, 40}, 1.5));
   Backends cpu;
   for (int i = 0; i < kPerDevice; ++i) cpu.push_back(std::make_unique<CpuBackend>());
   Backends one, all;

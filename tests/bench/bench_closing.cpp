@@ -87,11 +87,10 @@ ScaleField field_of(const BitBox& solid, double scale_vox, bool varying) {
   if (varying) {
     const VoxelBox& box = solid.box();
     const double side = double(std::max({box.size().x, box.size().y, box.size().z}));
-    field.strokes.push_back(
-        {BrushMode::increase,
-         {0.5 * (box.min.x + box.max.x), 0.5 * (box.min.y + box.max.y), 0.5 * (box.min.z + box.max.z)},
-         0.6 * side,
-         scale_vox});
+    field.rules.push_back(
+        stroke_rule(ScaleMode::increase,
+                    {0.5 * (box.min.x + box.max.x), 0.5 * (box.min.y + box.max.y), 0.5 * (box.min.z + box.max.z)},
+                    0.6 * side, scale_vox, field.base));
   }
   return field;
 }

@@ -66,6 +66,11 @@ bplod house.obj --profile occluder -q -o house-occluder > /dev/null
 draw guide-occluder.png 400 house.obj house-occluder/house_occluder.glb
 bpvox figure.obj --resolution 256 -q | bpclose --scale 2% -q | bpmesh --faces 700 --quads -q -o figure_cage.obj --overwrite
 draw guide-cage.png 400 figure.obj figure_cage.obj
+echo "{\"base\": \"4%\", \"rules\": [{\"at\": [$(bpinfo figure.obj --pick 355,125)], \"radius\": \"14%\", \"scale\": \"0.5%\"}]}" > head.json
+bpvox figure.obj --resolution 256 -q | bpscale head.json -q | bpclose -q -o closed.bpv --overwrite
+bpmesh closed.bpv --faces 800 -q -o finer.glb --overwrite
+bpvox figure.obj --resolution 256 -q | bpclose --scale 4% -q | bpmesh --faces 800 -q -o one-scale.glb --overwrite
+draw guide-scale.png 340 figure.obj closed.bpv finer.glb one-scale.glb
 bplod figure.obj --faces 4000,1000,250 -q -o figure-lod > /dev/null
 draw guide-levels.png 280 figure.obj figure-lod/figure_LOD{0,1,2}.glb
 bplod city.obj --up z --profile 3dtiles -q -o city-tiles > /dev/null

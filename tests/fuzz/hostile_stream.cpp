@@ -151,6 +151,35 @@ std::string hostile_field(Choices& c, double voxel) {
   return text + "}";
 }
 
+std::string hostile_rules(Choices& c, double voxel) {
+  const auto length_text = [&](double unit) {
+    if (!c.once_in(4)) return json_of(length(c, unit));
+    const double value = c.below(6);  // a share of a long box is honest work for minutes
+    const std::string small = text_of(c.once_in(8) ? extreme_number(c) : value);
+    return "\"" + c.of<std::string>({small + "vx", small, small + "px", text_of(value / 10) + "%"}) + "\"";
+  };
+  const auto points = [&](std::uint32_t count) {
+    std::string text = "[";
+    for (std::uint32_t i = 0; i < count; ++i) text += (i > 0 ? "," : "") + point(c, voxel);
+    return text + "]";
+  };
+  std::string text = "{\"base\":" + length_text(voxel);
+  if (c.once_in(4)) text += ",\"slope\":" + json_of(c.once_in(4) ? extreme_number(c) : c.below(8) / 8.0);
+  text += ",\"rules\":[";
+  for (std::uint32_t i = 0, count = c.below(5); i < count; ++i) {
+    const std::string place = c.of<std::string>({"at", "box", "view", "node", "on"});
+    text += (i > 0 ? ",{\"" : "{\"") + place + "\":";
+    text += place == "node" ? "\"*\"" : points(place == "box" && !c.once_in(12) ? 2 : 1 + c.below(4));
+    text += ",\"scale\":" + length_text(voxel);
+    if (c.once_in(2)) text += ",\"mode\":\"" + c.of<std::string>({"set", "increase", "decrease", "erase", ""}) + "\"";
+    if (place == "view") text += ",\"per_distance\":" + json_of(c.once_in(8) ? extreme_number(c) : c.below(8) / 16.0);
+    if (c.once_in(3)) text += ",\"radius\":" + length_text(4 * voxel);
+    if (c.once_in(4)) text += ",\"support\":" + length_text(8 * voxel);
+    text += "}";
+  }
+  return text + "]}";
+}
+
 RawStream hostile_stream(Choices& c) {
   RawStream s;
   s.flags = c.once_in(3) ? 1 : 0;

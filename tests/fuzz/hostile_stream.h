@@ -27,6 +27,9 @@ struct RawStream {
 /// do not nest.
 [[nodiscard]] RawStream hostile_stream(Choices& choices);
 
+/// Rules of all shapes as JSON, for bpscale; lengths as below, or texts with units.
+[[nodiscard]] std::string hostile_rules(Choices& choices, double voxel);
+
 /// A scale field as JSON, for streams and for bpclose --field; lengths are about as large as `voxel`, or hostile.
 [[nodiscard]] std::string hostile_field(Choices& choices, double voxel);
 

@@ -50,7 +50,7 @@ struct Inputs {
                     {"in.closed.bpv"});
     (void)place.run("bpmesh", {place.path("in.bpv"), "--faces", "12", "-o", place.path("in.ply")}, {"in.ply"});
     place.write("in.json", R"({"base": 0.2})");
-    for (const char* tool : {"bpvox", "bpclose", "bpmesh", "bpcheck", "bplod", "bpinfo"})
+    for (const char* tool : {"bpvox", "bpscale", "bpclose", "bpmesh", "bpcheck", "bplod", "bpinfo"})
       options[tool] = options_of(place, tool);
   }
 };
@@ -90,6 +90,7 @@ bool is_path(const Option& option) {
 /// What a tool needs to do anything, at a size that takes no time.
 Words sound_words(Choices& c, const std::string& tool, const Workplace& place) {
   if (tool == "bpvox") return {place.path("in.obj"), "-o", place.path("out.bpv")};
+  if (tool == "bpscale") return {place.path("in.json"), place.path("in.bpv"), "-o", place.path("out.bpv")};
   if (tool == "bpclose") return {place.path("in.bpv"), "-o", place.path("out.bpv")};
   if (tool == "bpmesh")
     return {place.path(c.of<std::string>({"in.closed.bpv", "in.bpv"})), "-o",
@@ -131,7 +132,8 @@ void options(const std::uint8_t* data, std::size_t size) {
   Workplace& place = inputs.place;
   Choices c(data, size);
   static const Words kTools{"bpvox", "bpclose", "bpmesh", "bpcheck", "bpinfo"};
-  const std::string tool = roll(data, size, 16) == 0 ? "bplod" : c.of(kTools);
+  const std::uint32_t rare = roll(data, size, 16);
+  const std::string tool = rare == 0 ? "bplod" : rare == 1 ? "bpscale" : c.of(kTools);
   Words words = sound_words(c, tool, place);
   for (std::uint32_t count = 1 + c.below(3); count > 0; --count)
     add_option(c, c.of(inputs.options.at(tool)), place, words);

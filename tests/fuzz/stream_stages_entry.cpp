@@ -83,6 +83,29 @@ void close_and_mesh(Choices& c, Workplace& place, double voxel, bool readable) {
   mesh(c, place, "y.bpv", true);
 }
 
+/// With a field in the header, by the fuzzer or by bpscale; then on through the pipe.
+void scale_and_close(Choices& c, Workplace& place, RawStream stream, bool readable) {
+  const std::string rules = hostile_rules(c, stream.voxel);
+  if ((stream.flags & 1) == 0 && c.once_in(3)) {
+    stream.flags |= 4;
+    stream.scale = rules;
+    place.write("x.bpv", bytes_of(stream));
+    readable = place.run("bpinfo", {place.path("x.bpv")}).done();
+  } else {
+    place.write("rules.json", rules);
+    const Words words{place.path("rules.json"), place.path("x.bpv")};
+    (void)place.run("bpscale", {words[0], words[1], "--explain", "1,2," + text_of(extreme_number(c))});
+    const bool scaled = place.run("bpscale", {words[0], words[1], "-o", place.path("s.bpv")}, {"s.bpv"}).done();
+    if (!scaled) return;
+    if (!readable) fail_fuzz("x.bpv", "bpscale reads what bpinfo refuses");
+    if (!place.run("bpinfo", {place.path("s.bpv")}).done()) fail_fuzz("s.bpv", "bpscale made what bpinfo refuses");
+  }
+  const std::string from = place.has("s.bpv") ? "s.bpv" : "x.bpv";
+  if (!place.run("bpclose", {place.path(from), "-o", place.path("y.bpv")}, {"y.bpv"}).done()) return;
+  if (!readable) fail_fuzz(from, "bpclose reads what bpinfo refuses");
+  mesh(c, place, "y.bpv", true);
+}
+
 }  // namespace
 
 void stream_stages(const std::uint8_t* data, std::size_t size) {
@@ -97,6 +120,7 @@ void stream_stages(const std::uint8_t* data, std::size_t size) {
   const bool readable = place.run("bpinfo", info, {"x.png"}).done();
   if (way > 4 && way < 14) mesh(c, place, "x.bpv", readable);
   if (way >= 14 && way < 18) close_and_mesh(c, place, stream.voxel, readable);
+  if (way >= 18 && way < 22) scale_and_close(c, place, stream, readable);
 }
 
 }  // namespace fuzz

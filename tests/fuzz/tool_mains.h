@@ -2,6 +2,7 @@
 
 /// The mains of the tools, under names of their own (CMakeLists.txt).
 int bpvox_main(int argc, char** argv);
+int bpscale_main(int argc, char** argv);
 int bpclose_main(int argc, char** argv);
 int bpmesh_main(int argc, char** argv);
 int bpcheck_main(int argc, char** argv);

@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 using Main = int (*)(int, char**);
 
 Main main_of(const std::string& tool) {
-  static const std::map<std::string, Main> kMains{{"bpvox", bpvox_main},   {"bpclose", bpclose_main},
-                                                  {"bpmesh", bpmesh_main}, {"bpcheck", bpcheck_main},
-                                                  {"bplod", bplod_main},   {"bpinfo", bpinfo_main}};
+  static const std::map<std::string, Main> kMains{
+      {"bpvox", bpvox_main},     {"bpscale", bpscale_main}, {"bpclose", bpclose_main}, {"bpmesh", bpmesh_main},
+      {"bpcheck", bpcheck_main}, {"bplod", bplod_main},     {"bpinfo", bpinfo_main}};
   return kMains.at(tool);
 }
 
@@ -101,7 +101,7 @@ const char* fault_of(const ToolResult& result, const std::string& tool) {
 }
 
 bool takes_scratch(const std::string& tool) {
-  return tool != "bpinfo";
+  return tool != "bpinfo" && tool != "bpscale";
 }
 
 }  // namespace

@@ -65,7 +65,15 @@ pipe_cases() {
   bpclose flood.bpv --field field.json --device cpu -j 3 -q -o again.bpv
   same "close field" varied.bpv again.bpv
   rm again.bpv
-  pin close cube.bpv ball.bpv cavities.bpv inner.bpv wound.bpv varied.bpv
+  scale_rules flood.bpv > rules.json
+  bpscale rules.json flood.bpv | bpclose --device cpu -j 1 --memory 192M -q -o ruled.bpv
+  bpclose flood.bpv --field rules.json --device cpu -j 3 -q -o again.bpv
+  bpinfo ruled.bpv --checksum > ruled.sum
+  bpinfo again.bpv --checksum > again.sum
+  same "close rules" ruled.sum again.sum
+  rm ruled.sum again.sum
+  rm again.bpv
+  pin close cube.bpv ball.bpv cavities.bpv inner.bpv wound.bpv varied.bpv ruled.bpv
   mesh cube.bpv faces.glb --faces 500
   mesh ball.bpv ball.ply --faces 500
   mesh flood.bpv open.obj --faces 300
@@ -92,6 +100,20 @@ voxel, low, high = info["voxel"], info["bounds"]["min"], info["bounds"]["max"]
 middle = [(a + b) / 2 for a, b in zip(low, high)]
 print(json.dumps({"base": 3 * voxel, "boxes": [{"min": low, "max": middle, "scale": 2 * voxel}],
                   "strokes": [{"mode": "increase", "position": middle, "support": 16 * voxel, "target": 6 * voxel}]}))'
+}
+
+# scale_rules STREAM: rules of all shapes
+scale_rules() {
+  bpinfo "$1" --json | python3 -c '
+import json, sys
+info = json.load(sys.stdin)
+low, high = info["bounds"]["min"], info["bounds"]["max"]
+at = lambda f: [a + f * (b - a) for a, b in zip(low, high)]
+print(json.dumps({"base": "3vx", "rules": [
+  {"view": [low], "per_distance": 0.02, "scale": "7vx"},
+  {"at": [at(0.1), at(0.5), high], "radius": "4vx", "scale": "1.5vx"},
+  {"box": [at(0.6), at(0.9)], "scale": "6vx", "mode": "increase"},
+  {"at": at(0.4), "support": "16vx", "scale": "2vx", "mode": "decrease"}]}))'
 }
 
 # mesh STREAM OUTPUT OPTIONS...: alike with one thread and three, little memory and much

@@ -152,7 +152,7 @@ TEST_CASE("a halo one voxel short is noticed", "[quick][closing]") {
   const GridFrame frame;
   ScaleField field;
   field.base = 1;
-  field.boxes.push_back({{16, -1000, -1000}, {1000, 1000, 1000}, 17.5});
+  field.rules.push_back(box_rule({16, -1000, -1000}, {1000, 1000, 1000}, 17.5));
   const VoxelBox tile{{-64, -8, -8}, {0, 8, 8}};
   const Halo halo = halo_of(tile, field, frame);
   CHECK(halo.erosion_vox == 17 + 1);

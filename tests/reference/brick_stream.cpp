@@ -75,7 +75,7 @@ void Reader::header() {
   require(in.text(8) == "BPVS\r\n\x1a\n", "magic");
   require(in.number(2) == 1, "version");
   const std::uint64_t flags = in.number(2);
-  require(flags <= 3, "flags");
+  require(flags <= 7 && flags % 2 + flags / 4 <= 1, "flags");
   out.has_closing = flags % 2 == 1;
   out.fill = int(in.number(1));
   out.element = int(in.number(1));
@@ -108,9 +108,11 @@ void Reader::header() {
     require(at >= 64.0 * out.box[i % 3] && at <= 64.0 * out.box[i % 3 + 3], "bounds beyond the box");
   }
   const std::uint64_t s = in.number(4), p = in.number(4);
-  require(s <= 1u << 22 && p >= 2 && p <= 1u << 20 && (s > 0) == out.has_closing && size >= 136 + s + p, "sizes");
+  require(
+      s <= 1u << 22 && p >= 2 && p <= 1u << 20 && (s > 0) == (out.has_closing || flags / 4 == 1) && size >= 136 + s + p,
+      "sizes");
   const std::uint64_t f = size - 136 - s - p;
-  require(flags >= 2 ? f >= 2 && f <= 1u << 20 : f == 0, "scene files");
+  require(flags / 2 % 2 == 1 ? f >= 2 && f <= 1u << 20 : f == 0, "scene files");
   out.scale = in.text(s);
   out.provenance = in.text(p);
   out.scene = in.text(f);

@@ -103,17 +103,29 @@ ScaleField random_field(Random& random, const VoxelBox& box, double largest) {
   field.base = length() / 2;
   for (std::int32_t i = random.between(0, 2); i > 0; --i) {
     const Vec3d a = point(), b = point();
-    ScaleBox entry;
+    Vec3d min{}, max{};
     for (std::size_t k = 0; k < 3; ++k) {
-      entry.min[k] = std::min(a[k], b[k]);
-      entry.max[k] = std::max(a[k], b[k]);
+      min[k] = std::min(a[k], b[k]);
+      max[k] = std::max(a[k], b[k]);
     }
-    entry.scale = length();
-    field.boxes.push_back(entry);
+    field.rules.push_back(box_rule(min, max, length()));
   }
   for (std::int32_t i = random.between(0, 3); i > 0; --i) {
-    const auto mode = BrushMode(random.between(0, 2));
-    field.strokes.push_back({mode, point(), double(random.between(0, 20)), length()});
+    const auto mode = ScaleMode(random.between(1, 3));
+    field.rules.push_back(stroke_rule(mode, point(), double(random.between(0, 20)), length(), field.base));
+  }
+  for (std::int32_t i = random.between(0, 2); i > 0; --i) {
+    ScaleRule rule;
+    rule.mode = ScaleMode(random.between(0, 3));
+    for (std::int32_t k = random.between(1, 3); k > 0; --k) rule.points.push_back(point());
+    rule.radius = random.between(0, 12);
+    rule.scale = length();
+    if (random.between(0, 3) == 0) {
+      rule.shape = ScaleShape::view;
+      if (rule.mode == ScaleMode::erase) rule.mode = ScaleMode::increase;
+      rule.per_distance = field.slope * random.between(0, 8) / 8;
+    }
+    field.rules.push_back(rule);
   }
   return field;
 }

@@ -9,40 +9,6 @@
 
 namespace bp {
 
-namespace {
-
-/// Parses a number at the front of `text` and returns what follows it. `text` itself is for the message.
-std::string_view take_number(std::string_view text, double& value, std::string_view what) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || !std::isfinite(value)) fail(ErrorCode::bad_argument, "'{}' is not {}", text, what);
-  return text.substr(std::size_t(end - text.data()));
-}
-
-Length length_of(std::string_view text, std::string_view what, bool may_be_pixels) {
-  Length length;
-  const std::string_view unit = take_number(text, length.value, what);
-  if (unit == "%") {
-    length.unit = Length::Unit::percent;
-  } else if (unit == "vx") {
-    length.unit = Length::Unit::voxels;
-  } else if (unit == "px" && may_be_pixels) {
-    length.unit = Length::Unit::pixels;
-  } else if (!unit.empty()) {
-    fail(ErrorCode::bad_argument, "'{}' is not {}", text, what);
-  }
-  if (length.value < 0) fail(ErrorCode::bad_argument, "'{}' is negative; a length is at least 0", text);
-  length.value += 0.0;  // -0 is 0, also as text
-  return length;
-}
-
-}  // namespace
-
-double parse_number(std::string_view text) {
-  double value = 0;
-  if (!take_number(text, value, "a number").empty()) fail(ErrorCode::bad_argument, "'{}' is not a number", text);
-  return value;
-}
-
 void for_each_item(std::string_view text, const std::function<void(std::string_view)>& f) {
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
@@ -115,33 +81,6 @@ std::string size_text(std::uint64_t bytes) {
   std::size_t unit = 0;
   while (value >= 1024 && unit + 1 < kUnits.size()) value /= 1024, ++unit;
   return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.3g} {}", value, kUnits[unit]);
-}
-
-double Length::in_world(double diagonal, double voxel) const {
-  if (unit == Unit::scene) return value;
-  if (unit == Unit::percent || unit == Unit::pixels) {
-    if (!(diagonal > 0))
-      fail(ErrorCode::bad_argument, "{}: the bounding box has no diagonal here; use scene units", text());
-    return unit == Unit::pixels ? diagonal / value : value / 100 * diagonal;
-  }
-  if (!(voxel > 0))
-    fail(ErrorCode::bad_argument, "{}: no voxel size is known here; use scene units or a percentage", text());
-  return value * voxel;
-}
-
-std::string Length::text() const {
-  constexpr const char* kUnits[] = {"", "%", "vx", "px"};
-  return fmt::format("{}{}", value, kUnits[std::size_t(unit)]);
-}
-
-Length parse_length(std::string_view text) {
-  return length_of(text, "a length such as 0.5, 2% or 20vx", false);
-}
-
-Length parse_error_length(std::string_view text) {
-  const Length error = length_of(text, "a length such as 0.5, 2%, 20vx or 800px", true);
-  if (!(error.value > 0)) fail(ErrorCode::bad_argument, "{}: an error must be above 0", text);
-  return error;
 }
 
 }  // namespace bp

@@ -23,6 +23,11 @@ void ImageOptions::add_to(Args& args) {
       "direction of the viewer in degrees: from the front to the right, and above the horizon (default: 35,22)");
   args.option("--zoom", "FACTOR", zoom, "enlarge around the middle of the picture");
   args.option("--look-at", "X,Y,Z", look_at, "point in the middle of the picture (default: the middle of all INPUTs)");
+  args.option(
+      "--pick", "PX,PY", [this](const std::string& text) { set_pick(text); },
+      "print the point of the scene at a pixel of the picture, X,Y,Z, and nothing else; pixels count from the upper "
+      "left "
+      "corner");
   args.removed("--azimuth", "--view AZIMUTH,ELEVATION takes both");
   args.removed("--elevation", "--view AZIMUTH,ELEVATION takes both");
   args.removed("--no-edges", "meshes of few triangles are always drawn with their edges");
@@ -36,8 +41,15 @@ void ImageOptions::set_view(const std::string& text) {
   azimuth = angles[0], elevation = angles[1];
 }
 
+void ImageOptions::set_pick(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) fail(ErrorCode::bad_argument, "'{}' is not PX,PY, a pixel such as 300,200", text);
+  const auto pixel = [&](const std::string& part) { return int(parse_integer(part, 0, kMostImageSide)); };
+  pick = {pixel(text.substr(0, comma)), pixel(text.substr(comma + 1))};
+}
+
 void ImageOptions::check(const Args& args) const {
-  args.needs({"--image-size", "--up", "--view", "--zoom", "--look-at"}, "--image");
+  if (!pick) args.needs({"--image-size", "--up", "--view", "--zoom", "--look-at"}, "--image");
   check_png_name(file);
   if (!(zoom >= kLeastZoom && zoom <= kMostZoom))
     fail(ErrorCode::bad_argument, "--zoom {}: must be {} to {:.0f}; 2 draws everything twice as large", zoom,

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 
@@ -15,15 +16,18 @@ struct ImageOptions {
   double azimuth = 35, elevation = 22;  ///< degrees
   double zoom = 1;
   std::optional<Vec3d> look_at;
+  std::optional<std::array<int, 2>> pick;  ///< the point behind this pixel is wanted
 
   void add_to(Args& args);
-  /// After args.parse(). Throws bad_argument if an option means nothing without --image, or has no meaning at all.
+  /// After args.parse(). Throws bad_argument if an option means nothing without --image or --pick, or has no meaning at
+  /// all.
   void check(const Args& args) const;
   /// Of square panels with axes and a ruler; without a typeface.
   [[nodiscard]] RenderOptions render_options(UpAxis up_axis) const;
 
  private:
   void set_view(const std::string& text);
+  void set_pick(const std::string& text);
 };
 
 /// Throws bad_argument if no picture has so many panels of that size.

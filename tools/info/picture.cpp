@@ -3,19 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/image/label_font.h"
 #include "io/image/png_writer.h"
+#include "lib/core/error.h"
 #include "tools/cli/common_options.h"
 #include "tools/cli/names.h"
+#include "tools/info/scale_colors.h"
 #include "tools/notes/panel_label.h"
 
 namespace bp {
 
 namespace {
 
-constexpr double kFarApart = 4;                              // largest inputs between them
-constexpr std::size_t kEdges = 50000, kEdgesOfMany = 20000;  // more would only darken the picture
+constexpr double kFarApart = 4;                                // largest inputs between them
+constexpr std::uint64_t kImageBytes = std::uint64_t(3) << 29;  // of textures of an input: the largest fits
+constexpr std::size_t kEdges = 50000, kEdgesOfMany = 20000;    // more would only darken the picture
 
 std::string shown_name(const std::string& in) {
   return in == "-" ? "stdin" : file_name(in);
@@ -50,6 +54,12 @@ class TurnedSource final : public TriangleSource {
   }
   bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
     const bool more = source_->read_colored(out, colors);
+    turn(out, from_, to_);
+    return more;
+  }
+  bool read_textured(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
+                     std::vector<TriangleTexture>& textures) override {
+    const bool more = source_->read_textured(out, colors, textures);
     turn(out, from_, to_);
     return more;
   }
@@ -114,17 +124,26 @@ void Picture::add_layer(Layer layer, const CoarseView& cells, const StreamHeader
   panel->view.label =
       fmt::format("{}: {} voxels of {:.4g}", i == 0 ? "solid" : "closing", totals.layers[i].voxels, header.frame.voxel);
   if (cells.cell_voxels() > 1) panel->view.label += fmt::format("\ndrawn in cells of {} voxels", cells.cell_voxels());
+  if ((header.has_closing || header.has_field) && !header.scale.constant() && !panel->triangles.empty()) {
+    constexpr double kCells = 4;  // along an edge that has one colour to the next
+    const double longest = kCells * cells.cell_voxels() * header.frame.voxel;
+    panel->view.bar = color_by_scale(header.scale, longest, panel->triangles, panel->colors);
+    panel->view.colors = panel->colors;
+    panel->view.label += "\ncolours: the scale";
+  }
   panels_.push_back(std::move(panel));
 }
 
 void Picture::add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, const std::string& in,
-                       const std::string& which) {
+                       const std::string& which, std::shared_ptr<const TextureSet> textures) {
   auto panel = std::make_unique<Panel>();
   panel->input = in;
   panel->up = source->up();
   panel->bounds = info.totals.bounds;
   panel->view.label = fmt::format("{}{}{}", info.faces.text(), which.empty() ? "" : ", ", which);
-  if (info.triangles.size() == info.totals.triangles) {
+  const bool textured = textures && source->has_textures();
+  if (textured) panel->images = std::make_unique<ImageCache>(std::move(textures), MemoryShare{kImageBytes});
+  if (!textured && info.triangles.size() == info.totals.triangles) {
     panel->triangles = std::move(info.triangles);
     panel->colors = std::move(info.colors);
     panel->view.colors = panel->colors;
@@ -135,6 +154,7 @@ void Picture::add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, c
   } else {
     panel->source = std::move(source);
     panel->view.source_colors = panel->source->has_colors();
+    panel->view.source_images = panel->images.get();
     panel->view.source = panel->source.get();
   }
   panels_.push_back(std::move(panel));
@@ -193,6 +213,18 @@ Bounds3d Picture::place_panels(RenderOptions& options) {
   return all;
 }
 
+void Picture::pick(const std::vector<View>& views, const RenderOptions& options) {
+  const auto [x, y] = *o_.image.pick;
+  std::optional<Vec3d> point = point_behind(views, options, x, y);
+  if (!point) fail(ErrorCode::bad_argument, "--pick {},{}: nothing is drawn at this pixel", x, y);
+  const Panel& panel = *panels_[std::size_t(x / options.panel_width)];
+  if (panel.up) point = turned(*point, options.up, *panel.up);
+  const double pixel = panel.bounds.diagonal() / options.panel_width / options.zoom;
+  const int digits = std::clamp(int(std::ceil(1 - std::log10(pixel))), 0, 17);
+  picked_ = fmt::format("{:.{}f},{:.{}f},{:.{}f}", (*point)[0] + 0.0, digits, (*point)[1] + 0.0, digits,
+                        (*point)[2] + 0.0, digits);
+}
+
 std::vector<std::string> Picture::write() {
   label_panels();
   RenderOptions options = o_.image.render_options(common_up());
@@ -213,7 +245,14 @@ std::vector<std::string> Picture::write() {
   if (std::string note = note_on_font(typeface.get()); !note.empty()) notes.push_back(std::move(note));
   std::vector<View> views;
   for (const auto& panel : panels_) views.push_back(panel->view);
+  if (o_.image.pick) pick(views, options);
+  if (!file_) return notes;
   file_->write(encode_png(render(views, options)));
+  for (const auto& panel : panels_) {
+    if (!panel->images) continue;
+    for (const std::string& fault : panel->images->faults())
+      notes.push_back(fault + "; its material's colour is drawn");
+  }
   file_->commit();
   return notes;
 }

@@ -28,7 +28,8 @@ struct Panel {
   std::vector<TriangleD> triangles;
   std::vector<TriangleColors> colors;
   std::vector<std::uint8_t> inner_edges;
-  std::unique_ptr<TriangleSource> source;  ///< of a mesh too large to keep
+  std::unique_ptr<TriangleSource> source;  ///< of a mesh too large to keep, or with textures
+  std::unique_ptr<ImageCache> images;
   Bounds3d bounds;
   std::optional<UpAxis> up;  ///< if the input tells
   View view;
@@ -39,16 +40,20 @@ class Picture {
  public:
   /// Opens the file: a name that cannot be written fails before the work.
   explicit Picture(const PictureOptions& options);
-  [[nodiscard]] bool wanted() const { return file_ != nullptr; }
+  [[nodiscard]] bool wanted() const { return file_ != nullptr || o_.image.pick; }
 
   /// The layers of a stream; of one among several inputs only the last.
   void add_stream(const CoarseView& cells, const StreamHeader& header, const StreamTotals& totals,
                   const std::string& in);
-  /// `info` of `source`; what it kept is taken. `which` of its levels it is; empty if there is one.
-  void add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, const std::string& in,
-                const std::string& which);
+  /// `info` of `source`; what it kept is taken. `which` of its levels it is; empty if there is one. `textures`: what
+  /// the source may show; null: nothing.
+  void add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, const std::string& in, const std::string& which,
+                std::shared_ptr<const TextureSet> textures = nullptr);
   /// Returns what the user should know of the picture.
   [[nodiscard]] std::vector<std::string> write();
+  /// "X,Y,Z" of ImageOptions::pick, in the axes of the input that is seen there; after write(). Throws bad_argument if
+  /// nothing is.
+  [[nodiscard]] std::string picked() const { return picked_; }
 
  private:
   void add_layer(Layer layer, const CoarseView& cells, const StreamHeader& header, const StreamTotals& totals,
@@ -58,7 +63,10 @@ class Picture {
   void label_panels();
   Bounds3d place_panels(RenderOptions& options);
 
+  void pick(const std::vector<View>& views, const RenderOptions& options);
+
   PictureOptions o_;
+  std::string picked_;
   std::unique_ptr<OutputFile> file_;
   std::vector<std::unique_ptr<Panel>> panels_;
 };

@@ -34,7 +34,7 @@ std::string coord(BrickCoord c) {
 
 std::string scale_text(const ScaleField& s) {
   if (s.constant()) return fmt::format("{}", s.base);
-  return fmt::format("{}, {} boxes, {} brush strokes", s.base, s.boxes.size(), s.strokes.size());
+  return fmt::format("{}, and {} rule{}", s.base, s.rules.size(), s.rules.size() == 1 ? "" : "s");
 }
 
 /// How much smaller the file is than the bits of the voxels of its bricks.
@@ -67,7 +67,8 @@ std::string stream_text(const StreamHeader& h, const StreamTotals& t, const std:
     s += fmt::format("scene       {} to {}, diagonal {:.6g}\n", point(h.bounds.min), point(h.bounds.max),
                      h.bounds.diagonal());
   s += fmt::format("fill        {}\n", name_of(h.fill));
-  if (h.has_closing) s += fmt::format("element     {}\nscale       {}\n", name_of(h.element), scale_text(h.scale));
+  if (h.has_closing) s += fmt::format("element     {}\n", name_of(h.element));
+  if (h.has_closing || h.has_field) s += fmt::format("scale       {}\n", scale_text(h.scale));
   for (const Provenance& p : h.provenance) s += fmt::format("made by     {} {} {}\n", p.tool, p.version, p.options);
   for (const SceneFiles::File& file : h.scene.files)
     s += fmt::format("scene file  {}, {}\n", file.name, size_text(file.bytes));
@@ -88,10 +89,8 @@ Json stream_json(const StreamHeader& h, const StreamTotals& t) {
   j["bricks"] = {{"min", list(h.bricks.min)}, {"max", list(h.bricks.max)}};
   j["slab_axis"] = axis_name(h.slab_axis);
   j["fill"] = name_of(h.fill);
-  if (h.has_closing) {
-    j["element"] = name_of(h.element);
-    j["scale"] = Json::parse(to_json(h.scale));
-  }
+  if (h.has_closing) j["element"] = name_of(h.element);
+  if (h.has_closing || h.has_field) j["scale"] = Json::parse(to_json(h.scale));
   j["layers"] = Json::object();
   for (int layer = 0; layer < layer_count(h); ++layer) {
     const LayerTotals& l = t.layers[std::size_t(layer)];
@@ -117,7 +116,8 @@ std::string dump_header(const StreamHeader& h) {
   if (!h.bounds.empty()) s += fmt::format("bounds {} to {}\n", point(h.bounds.min), point(h.bounds.max));
   s += fmt::format("bricks {} to {} slabs {}\n", coord(h.bricks.min), coord(h.bricks.max), axis_name(h.slab_axis));
   s += fmt::format("fill {}\n", name_of(h.fill));
-  if (h.has_closing) s += fmt::format("element {}\nscale {}\n", name_of(h.element), to_json(h.scale));
+  if (h.has_closing) s += fmt::format("element {}\n", name_of(h.element));
+  if (h.has_closing || h.has_field) s += fmt::format("scale {}\n", to_json(h.scale));
   for (const Provenance& p : h.provenance)
     s += fmt::format("provenance {} {} [{}] {}\n", p.tool, p.version, p.options, p.input_hash);
   for (const SceneFiles::File& file : h.scene.files) s += fmt::format("scene file {} {} B\n", file.name, file.bytes);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/image/texture_writer.h"
+#include "io/store/scratch.h"
 #include "lib/core/vec3.h"
 #include "lib/pass/bake/bake.h"
 
@@ -17,10 +18,6 @@ constexpr double kTexelsPerError = 4;
 constexpr double kTexelsPerFace = 64;
 /// So many errors, or scales, the scene is looked for along the normal.
 constexpr double kReach = 4;
-
-double error_or(double error_world, double scale_world, double voxel) {
-  return error_world > 0 ? error_world : scale_world + 2 * voxel;
-}
 
 double area_of(const LatticeMesh& mesh) {
   double area = 0;
@@ -54,6 +51,17 @@ MeshTexture with_file(const Atlas& atlas, const TextureImage& image) {
 
 }  // namespace
 
+double error_or(double error_world, double scale_world, double voxel) {
+  return error_world > 0 ? error_world : scale_world + 2 * voxel;
+}
+
+/// A scene's outside is hardly larger than its bounds.
+double planned_texels(double faces, const Bounds3d& bounds, double error_world) {
+  const Vec3d s = bounds.max - bounds.min;
+  const double area = 2 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]), texels = kTexelsPerError / error_world;
+  return std::max(kTexelsPerFace * faces, error_world > 0 ? area * texels * texels : 0);
+}
+
 double texture_reach(double error_world, double scale_world, double voxel) {
   return kReach * std::max(error_or(error_world, scale_world, voxel), scale_world);
 }
@@ -63,7 +71,8 @@ std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& me
   scene.colors = true;
   scene.textures = build.textures();
   const auto source = open_scenes(build.options.voxels.scenes, scene);
-  return std::make_unique<SceneLooks>(*source, build.triangles(), build.textures(), memory);
+  const SceneLooks::Scene read{*source, build.scene_size().bounds, build.scene_size().triangles, build.textures()};
+  return std::make_unique<SceneLooks>(read, make_scratch(build.budget.tiles, build.options.common.temp), memory);
 }
 
 std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LatticeMesh& mesh, double error_world,
@@ -83,10 +92,10 @@ std::shared_ptr<const MeshTexture> level_texture(const Build& build, const Latti
 void bake_levels(Build& build, std::vector<LodLevel>& levels) {
   if (!build.textured()) return;
   build.report.begin("textures");
-  const std::unique_ptr<SceneLooks> looks = read_looks(build, part_of(build.budget.work, 0.75));
+  const std::unique_ptr<SceneLooks> looks = read_looks(build, part_of(build.budget.work, 0.6));
   for (LodLevel& level : levels)
-    level.mesh.texture = level_texture(build, level.mesh, level.error_world, level.scale_world, *looks,
-                                       part_of(build.budget.work, 0.25));
+    level.mesh.texture =
+        level_texture(build, level.mesh, level.error_world, level.scale_world, *looks, part_of(build.budget.work, 0.4));
   for (const std::string& fault : looks->faults()) build.note(fault + "; its material's colour is used");
 }
 

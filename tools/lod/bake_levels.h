@@ -8,8 +8,14 @@
 /// Textures of levels, from those of the scene.
 namespace bp {
 
-/// Reads the scene once more. `memory`: for its triangles and images. Throws NeedsMemory.
+/// Reads the scene once more. `memory`: for what is at work of its triangles and images.
 [[nodiscard]] std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& memory);
+
+/// What decides how fine the texture of a level is: its error, or what stands for it if that is 0: not known.
+[[nodiscard]] double error_or(double error_world, double scale_world, double voxel);
+
+/// Texels of all textures of a level, about. `error_world`: as error_or(), or 0: the faces decide.
+[[nodiscard]] double planned_texels(double faces, const Bounds3d& bounds, double error_world);
 
 /// So far from a level lies what decides its texture; `error_world` as below.
 [[nodiscard]] double texture_reach(double error_world, double scale_world, double voxel);

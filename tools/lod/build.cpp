@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "io/files/file.h"
 #include "io/scene/scene_parts.h"
@@ -21,6 +22,7 @@
 #include "tools/lod/proportions.h"
 #include "tools/notes/up_note.h"
 #include "tools/run/grounded_source.h"
+#include "tools/run/scale_rules.h"
 #include "tools/run/scene_budget.h"
 
 namespace bp {
@@ -34,6 +36,21 @@ void print_list(const std::string& text, const std::string& made) {
   } catch (const Error& e) {
     fail_as(e, "the list is lost, but {}: {}", made, e.what());
   }
+}
+
+/// Levels have scales of their own: the rules say how much finer or coarser a place is.
+ScaleField read_field(const BuildOptions& o, const VoxelizedScene& voxels) {
+  const std::string& file = o.field;
+  StreamHeader header = voxels.header;
+  header.scene.format = o.voxels.format;
+  for (const std::string& name : o.voxels.scenes) {
+    if (can_read_again(o)) header.scene.files.push_back({name, std::filesystem::file_size(name)});
+  }
+  ScaleField field = read_rules(file, header);
+  (void)field.upper_bound(header.frame);
+  if (!(field.base > 0))
+    fail(ErrorCode::bad_input, "{}: scale field: base is 0; the scales of levels are measured by it", file);
+  return field;
 }
 
 }  // namespace
@@ -69,7 +86,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   ShelfSink sink(out.solid.get());
   SceneOptions scene = scene_options();
   scene.colors = options.colors();
-  if (options.appearance == Appearance::texture) scene.textures = textures_ = std::make_shared<TextureTable>();
+  if (options.may_have_textures()) scene.textures = textures_ = std::make_shared<TextureTable>();
   auto source = open_scenes(options.voxels.scenes, scene);
   if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.voxels.up);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
@@ -86,18 +103,18 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
-  triangles_ = out.counts.scene.triangles;
-  enclosed_ = enclosed_by(options, triangles_);
+  size_ = {out.header.bounds, out.counts.scene.triangles};
+  enclosed_ = enclosed_by(options, size_.triangles);
+  if (!options.field.empty()) field_ = read_field(options, out);
   if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
-  choose_textures(source->has_textures(), halvings == 0);
+  choose_textures(*source, halvings == 0);
   if (source->has_colors() && !textured_) gather(*source, out);
   return out;
 }
 
 void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told) {
-  const SceneSize size{scene.header.bounds, scene.counts.scene.triangles};
   if (const std::string text = skipped(scene.counts.scene); !text.empty()) note("skipped " + text);
-  note(up_note(size.bounds, options.voxels.up || up_told));
+  note(up_note(size_.bounds, options.voxels.up || up_told));
   for (const std::string& path : options.voxels.scenes) {
     const bool occluder = options.profile == LodProfile::occluder;
     if (!options.colors() && !occluder) break;
@@ -106,14 +123,19 @@ void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_tol
                        occluder ? "so nobody knows what is glass: all of the scene is taken for walls"
                                 : "and its colours are lost"));
   }
-  note(voxel_note(options, size));
+  note(voxel_note(options, size_));
   note(origin_note(options, scene.header));
-  note(enclose_note(options, triangles_));
+  note(enclose_note(options, size_.triangles));
 }
 
-void Build::choose_textures(bool has_textures, bool tell) {
-  textured_ = has_textures && can_read_again(options) && textures_->has_images();
-  if (!has_textures || textured_ || !tell) return;
+void Build::choose_textures(const TriangleSource& source, bool tell) {
+  if (!textures_) return;
+  const bool from_colors = options.appearance == Appearance::texture && source.has_colors();
+  const bool wanted = source.has_textures() || from_colors;
+  textured_ = wanted && can_read_again(options) && (from_colors || textures_->has_images());
+  if (!tell) return;
+  for (const std::string& fault : textures_->faults()) note(fault + "; its material's colour is used");
+  if (!wanted || textured_) return;
   note(can_read_again(options)
            ? "no image of the scene's textures is there, or can be read: levels have colours instead"
            : "a scene from a pipe cannot be read again: its textures are lost; give it as a file");
@@ -134,18 +156,19 @@ std::vector<TriangleD> Build::scene_triangles() const {
   std::vector<TriangleD> all;
   if (std::count(options.voxels.scenes.begin(), options.voxels.scenes.end(), "-") > 0)
     return all;  // stdin cannot be read again
-  if (fit && triangles_ > kMost) return all;
+  if (fit && size_.triangles > kMost) return all;
   // Fits: twice, and a hierarchy over them. Else here, and in what is enclosed.
-  const std::uint64_t bytes = triangles_ * (fit ? 400 : sizeof(TriangleD) + EnclosedTriangles::kBytesEach);
+  const std::uint64_t bytes = size_.triangles * (fit ? 400 : sizeof(TriangleD) + EnclosedTriangles::kBytesEach);
   const MemoryShare memory{budget.work.bytes / (fit ? 2 : 1), budget.work.share / (fit ? 2 : 1), budget.work.limit};
   if (bytes > memory.bytes)
-    throw NeedsMemory(fmt::format("{} {} triangles", fit ? "fitting to" : "enclosing", triangles_), bytes, memory.bytes,
-                      memory.limit_with(bytes - memory.bytes), fit ? Remedies{} : Remedies{Remedy::enclose_input});
-  all.reserve(triangles_);
+    throw NeedsMemory(fmt::format("{} {} triangles", fit ? "fitting to" : "enclosing", size_.triangles), bytes,
+                      memory.bytes, memory.limit_with(bytes - memory.bytes),
+                      fit ? Remedies{} : Remedies{Remedy::enclose_input});
+  all.reserve(size_.triangles);
   const auto source = open_scenes(options.voxels.scenes, scene_options(true));
-  for (std::vector<TriangleD> chunk; all.size() <= triangles_ && source->read(chunk);)
+  for (std::vector<TriangleD> chunk; all.size() <= size_.triangles && source->read(chunk);)
     all.insert(all.end(), chunk.begin(), chunk.end());
-  if (all.size() != triangles_)
+  if (all.size() != size_.triangles)
     fail(ErrorCode::bad_input, "{}: has changed while it was at work; run it again", source->name());
   return all;
 }
@@ -156,6 +179,7 @@ LodOptions Build::lod_options() {
   lod.mode = options.proxy.mode;
   lod.enclose = enclosed_;
   if (options.proxy.mode == MeshMode::fit || enclosed_ == Enclose::scene) lod.scene = scene_triangles();
+  lod.field = field_;
   lod.quads = options.profile == LodProfile::cage;
   lod.context = context();
   return lod;
@@ -201,6 +225,7 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
         level_texture(*this, level.mesh, level.error_world, level.scale_world, *looks_, texture_memory());
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
+  if (field_) text.add("field", provenance_text(*field_));
   if (textured_) text.add("appearance", "texture");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
 }

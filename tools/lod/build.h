@@ -46,10 +46,10 @@ class Build {
   [[nodiscard]] Enclose enclosed() const { return enclosed_; }
   /// Null if the scene has no colours, or if none are wanted.
   [[nodiscard]] SceneColors* colors() const { return colors_.get(); }
-  /// Levels get textures: they are wanted, and the scene has some and can be read again. After voxelize().
+  /// Levels get textures: they are wanted, and the scene has looks for them and can be read again. After voxelize().
   [[nodiscard]] bool textured() const { return textured_; }
   [[nodiscard]] const std::shared_ptr<TextureTable>& textures() const { return textures_; }  ///< null: not wanted
-  [[nodiscard]] std::uint64_t triangles() const { return triangles_; }                       ///< of the scene
+  [[nodiscard]] const SceneSize& scene_size() const { return size_; }                        ///< after voxelize()
   /// From now on levels get their textures as they are made, and half of the memory for work is for the scene's looks.
   /// Does nothing if the levels get none.
   void hold_looks();
@@ -71,15 +71,16 @@ class Build {
   void note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told);
   void gather(TriangleSource& source, const VoxelizedScene& scene);
   /// After the scene has been read. `tell`: notes why there will be no textures.
-  void choose_textures(bool has_textures, bool tell);
+  void choose_textures(const TriangleSource& source, bool tell);
   void complete(LodLevel& level, std::size_t number, const LodTarget& target, const std::string& input_hash);
   /// The scene, read again; nothing of a fit's if it has too many triangles or comes from a pipe.
   [[nodiscard]] std::vector<TriangleD> scene_triangles() const;
   /// The report, then the list; a failure says that what was `made` is there.
   void tell(const VoxelizedScene& scene, const std::string& list, const std::string& made);
   void write_report(const VoxelizedScene& scene);
-  std::uint64_t triangles_ = 0;  // of the scene
+  SceneSize size_;
   Enclose enclosed_ = Enclose::input;
+  std::optional<ScaleField> field_;  // of --field
   std::unique_ptr<SceneColors> colors_;
   std::shared_ptr<TextureTable> textures_;
   bool textured_ = false;

@@ -92,7 +92,8 @@ void check_profile(const Args& args, const BuildOptions& o) {
   if (o.profile == LodProfile::collision && args.given("--appearance") && o.colors())
     fail(ErrorCode::bad_argument, "--profile collision has no colours; leave --appearance out");
   if (o.profile == LodProfile::occluder)
-    refuse({"--mode", "--enclose", "--fill", "--error", "--appearance", "--explain"});
+    refuse({"--mode", "--enclose", "--fill", "--error", "--appearance", "--explain", "--field"});
+  if (o.is_tileset()) refuse({"--field"});
   if (o.profile == LodProfile::cage) refuse({"--mode", "--appearance"});
   if (o.profile == LodProfile::collision && o.proxy.mode != MeshMode::bounding)
     fail(ErrorCode::bad_argument, "--profile collision needs --mode bounding");
@@ -165,7 +166,8 @@ void declare_profile(Args& args, BuildOptions& o) {
       "more)");
   args.option(
       "--appearance",
-      {{"texture", Appearance::texture, "a texture with what the scene's textures show; without any, colours"},
+      {{"auto", Appearance::automatic, "a texture if the scene has textures, else colours"},
+       {"texture", Appearance::texture, "a texture with what the scene's textures and colours show, if it has any"},
        {"color", Appearance::color, "colours on vertices, of the scene's materials and vertices, if it has any"},
        {"off", Appearance::off, "neither"}},
       o.appearance, "textures or colours of the levels");
@@ -196,6 +198,9 @@ void declare(Args& args, BuildOptions& o) {
                   "from --faces, 256 to 1024; from --error, 8 voxels to an error; occluder: 512; 3dtiles: from "
                   "the scene, 256 to 4096");
   o.closing.add_to(args, " of the finest level; it doubles from level to level", " (default: from --faces or --error)");
+  args.option(
+      "--field", "FILE", o.field,
+      "rules (bpscale(1)) for where levels are finer or coarser: a level's scale is to a rule's as the base is");
   declare_tileset(args, o);
   o.common.add_to(args);
   args.group("Messages");
@@ -223,7 +228,7 @@ JobRange parse_job_range(const std::string& text) {
 }
 
 const char* name_of(Appearance appearance) {
-  constexpr const char* kNames[] = {"off", "color", "texture"};
+  constexpr const char* kNames[] = {"off", "color", "texture", "auto"};
   return kNames[std::size_t(appearance)];
 }
 
@@ -237,6 +242,7 @@ BuildOptions parse_build_options(Args& args) {
   declare(args, o);
   args.parse();
   o.voxels.check();
+  if (!o.field.empty()) keep_inputs({o.field});
   check_profile(args, o);
   // Beside slanted sides a cube's closing stands off about as far as a fit looks for the scene: thorns.
   if (o.proxy.mode == MeshMode::fit) o.closing.element = StructuringElement::ball;
@@ -265,6 +271,7 @@ Json options_json(const BuildOptions& o) {
           {"tiles", o.tiles ? Json{o.tiles->begin, o.tiles->end} : Json(nullptr)},
           {"explain", o.explain},
           {"scale", optional_json(o.closing.scale)},
+          {"field", !o.field.empty()},
           {"element", name_of(o.closing.element)},
           {"enclose", o.proxy.enclose.text()},
           {"fill", name_of(o.voxels.fill)},

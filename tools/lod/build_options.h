@@ -17,9 +17,9 @@ namespace bp {
 enum class LodProfile { gltf, tiles, collision, occluder, cage };
 [[nodiscard]] const char* name_of(LodProfile profile);
 
-/// What levels carry of the scene's looks, if it has any: nothing; colours on vertices; its textures, baked into one
-/// for each mesh, or colours where it has none.
-enum class Appearance { off, color, texture };
+/// What levels carry of the scene's looks, if it has any: nothing; colours on vertices; a texture of their own; a
+/// texture if the scene has images, else colours.
+enum class Appearance { off, color, texture, automatic };
 [[nodiscard]] const char* name_of(Appearance appearance);
 
 /// "A..B". Throws bad_argument.
@@ -29,6 +29,7 @@ struct BuildOptions {
   CommonOptions common;
   VoxelOptions voxels;
   ClosingOptions closing;
+  std::string field;  ///< file of rules; empty: none
   LevelOptions levels;
   ProxyOptions proxy;
   std::string out, name;
@@ -38,9 +39,10 @@ struct BuildOptions {
   std::string cache;              ///< folder of results of earlier builds; empty: none
   std::optional<JobRange> tiles;  ///< the jobs to do, without a tileset; empty: all, and the tileset
   bool explain = false;           ///< print the plan; do nothing
-  Appearance appearance = Appearance::texture;
+  Appearance appearance = Appearance::automatic;
 
   [[nodiscard]] bool colors() const { return appearance != Appearance::off; }
+  [[nodiscard]] bool may_have_textures() const { return appearance >= Appearance::texture; }
   [[nodiscard]] bool is_tileset() const { return profile == LodProfile::tiles; }
 };
 

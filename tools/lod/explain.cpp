@@ -11,6 +11,7 @@
 #include "lib/core/parallel.h"
 #include "lib/geometry/triangle_totals.h"
 #include "lib/levels/level_plan.h"
+#include "tools/lod/bake_levels.h"
 #include "tools/lod/build.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/kept_results.h"
@@ -25,7 +26,8 @@ namespace {
 // What is estimated, from plants and scanned models: docs/tilesets.md says that it is.
 constexpr double kBytesPerFace = 9, kBytesPerTile = 2500;  // of compressed GLB, and of a tile with its place
 constexpr double kBytesPerPlainFace = 30;                  // of GLB
-constexpr double kScratchPerTriangle = 20;                 // that waits on disk
+constexpr double kBytesPerTexel = 1;
+constexpr double kScratchPerTriangle = 20, kScratchPerTexturedTriangle = 60;  // that waits on disk
 
 struct Scene {
   SceneCounts counts;
@@ -33,16 +35,26 @@ struct Scene {
   double area = 0;
   std::optional<UpAxis> up_told;
   UpAxis up = UpAxis::y;
+  bool textured = false;
 };
 
 Scene read_scene(const Build& build) {
   const BuildOptions& o = build.options;
-  const auto source = open_scenes(o.voxels.scenes, build.scene_options());
+  SceneOptions options = build.scene_options();
+  if (o.may_have_textures()) {
+    options.colors = true;
+    options.textures = std::make_shared<TextureTable>();
+  }
+  const auto source = open_scenes(o.voxels.scenes, options);
   TriangleTotals totals;
   for (std::vector<TriangleD> chunk; source->read(chunk);) totals.add(chunk);
   if (totals.triangles == 0) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());
-  return {source->counts(), totals.bounds, totals.area, source->up(),
-          o.voxels.up.value_or(source->up().value_or(UpAxis::y))};
+  Scene scene{source->counts(), totals.bounds, totals.area, source->up(),
+              o.voxels.up.value_or(source->up().value_or(UpAxis::y))};
+  const bool from_colors = o.appearance == Appearance::texture && source->has_colors();
+  scene.textured = options.textures && can_read_again(o) &&
+                   (from_colors || (source->has_textures() && options.textures->has_images()));
+  return scene;
 }
 
 /// What would be made.
@@ -62,7 +74,9 @@ double file_bytes(const Plan& plan, bool tileset, const Scene& scene) {
     const double faces =
         level.faces > 0 ? double(level.faces)
                         : double(planned_dense_faces(scene.area, scene.bounds, level.voxel)) / double(kDensePerFace);
-    sum += tileset ? kBytesPerFace * faces + kBytesPerTile * double(level.tiles) : 2 * kBytesPerPlainFace * faces;
+    const double texture = scene.textured ? kBytesPerTexel * planned_texels(faces, scene.bounds, level.scale_world) : 0;
+    sum += tileset ? kBytesPerFace * faces + kBytesPerTile * double(level.tiles) + texture
+                   : 2 * (kBytesPerPlainFace * faces + texture);
   }
   return sum;
 }
@@ -91,6 +105,8 @@ Plan plan_of(const Build& build, const Scene& scene) {
   const double triangles = double(scene.counts.triangles);
   if (triangles * sizeof(TriangleD) > double(build.budget.waiting) * 0.6)
     plan.scratch_bytes = triangles * kScratchPerTriangle;
+  if (scene.textured && triangles * kScratchPerTexturedTriangle > double(build.budget.tiles))
+    plan.scratch_bytes += triangles * kScratchPerTexturedTriangle;
   return plan;
 }
 

@@ -6,14 +6,32 @@ namespace bp {
 
 namespace {
 
-bool meet(const ScaleBox& box, const Bounds3d& bounds, double margin) {
+/// False if the rule changes no scale within `margin` of the scene.
+bool matters(const ScaleRule& rule, const ScaleField& field, double largest, const Bounds3d& scene, double margin) {
+  if (rule.shape == ScaleShape::view) return true;
+  Bounds3d place;
+  for (const Vec3d& p : rule.points) place.add(p);
+  const bool ramp = rule.support == ScaleRule::kNoSupport;
+  if (ramp && !(field.slope > 0)) return true;
+  margin += rule.radius + (ramp ? largest / field.slope : rule.support);
   for (std::size_t i = 0; i < 3; ++i) {
-    if (box.max[i] < bounds.min[i] - margin || box.min[i] > bounds.max[i] + margin) return false;
+    if (place.max[i] < scene.min[i] - margin || place.min[i] > scene.max[i] + margin) return false;
   }
   return true;
 }
 
 }  // namespace
+
+std::string rule_text(const ScaleRule& rule) {
+  const std::string name = rule.name.empty() ? "" : rule.name + ": ";
+  const Vec3d& p = rule.points[0];
+  const std::string first = fmt::format("{:.6g},{:.6g},{:.6g}", p[0], p[1], p[2]);
+  if (rule.shape == ScaleShape::box)
+    return fmt::format("{}box {} to {:.6g},{:.6g},{:.6g}", name, first, rule.points[1][0], rule.points[1][1],
+                       rule.points[1][2]);
+  const std::string more = rule.points.size() > 1 ? fmt::format(" and {} more", rule.points.size() - 1) : "";
+  return fmt::format("{}{} {}{}", name, rule.shape == ScaleShape::view ? "view" : "at", first, more);
+}
 
 std::vector<std::string> scale_notes(const ScaleField& field, const StreamHeader& header, bool inner) {
   std::vector<std::string> notes;
@@ -25,10 +43,10 @@ std::vector<std::string> scale_notes(const ScaleField& field, const StreamHeader
         inner ? "takes nothing away: the opening is the input" : "closes nothing: the closing is the input"));
   }
   if (header.bounds.empty()) return notes;
-  for (std::size_t i = 0; i < field.boxes.size(); ++i) {
+  for (const ScaleRule& rule : field.rules) {
     // One scale around the scene is as far as its dilation goes.
-    if (meet(field.boxes[i], header.bounds, (largest + 1) * voxel)) continue;
-    notes.push_back(fmt::format("boxes[{}] of the field is nowhere near the scene; its scale changes nothing", i));
+    if (matters(rule, field, largest * voxel, header.bounds, (largest + 1) * voxel)) continue;
+    notes.push_back(rule_text(rule) + " is nowhere near the scene; this rule of the field changes nothing");
   }
   return notes;
 }

@@ -73,6 +73,8 @@ RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const S
     fail(ErrorCode::bad_input, "{}: is empty; did the tool before it fail?", file->name());
   if (reader == Reader::unknown) refuse_foreign(file->name(), start_of(*file));
   if (reader == Reader::unknown) reader = reader_by_content(*file, extension);
+  if (!options.parts.empty() && reader != Reader::obj && reader != Reader::gltf)
+    fail(ErrorCode::bad_input, "{}: names of parts are known of OBJ and glTF, and this is neither", file->name());
   switch (reader) {
     case Reader::ply:
       return open_ply(file, options);

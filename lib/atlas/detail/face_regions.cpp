@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "lib/core/vec3.h"
+#include "lib/mesh/inner_edges.h"
 
 namespace bp {
 
@@ -40,27 +41,11 @@ FaceRegions::FaceRegions(const LatticeMesh& mesh) {
 }
 
 void FaceRegions::join(const LatticeMesh& mesh) {
-  struct HalfEdge {
-    std::uint32_t low, high, corner;
-    bool operator<(const HalfEdge& e) const { return std::tie(low, high, corner) < std::tie(e.low, e.high, e.corner); }
-  };
   neighbours_.assign(mesh.triangles.size(), {kNone, kNone, kNone});
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = mesh.triangles[f][k], b = mesh.triangles[f][(k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), 3 * f + k});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
-    for (end = i + 1; end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high;) ++end;
-    if (end != i + 2) continue;
-    const std::uint32_t c = edges[i].corner, d = edges[i + 1].corner;
+  for_each_inner_edge(mesh.triangles, [this](std::uint32_t c, std::uint32_t d) {
     neighbours_[c / 3][c % 3] = d / 3;
     neighbours_[d / 3][d % 3] = c / 3;
-  }
+  });
 }
 
 Vec3d FaceRegions::direction(const std::vector<std::uint32_t>& faces) const {

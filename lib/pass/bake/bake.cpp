@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/image/mip_image.h"
 #include "lib/mesh/shaded_mesh.h"
-#include "lib/pass/bake/detail/mip_image.h"
 #include "lib/pass/bake/detail/push_pull.h"
+#include "lib/pass/bake/detail/scene_eye.h"
 
 namespace bp {
 
@@ -18,7 +20,7 @@ constexpr int kSide = 2;  // samples along a side of a texel
 /// The image, which texels are known, smaller copies; and the file that is made of it.
 constexpr std::uint64_t kBytesPerTexel = 9, kBytesPerFace = sizeof(TriangleD) + 400;
 constexpr double kBefore = 1e-4;  // of the reach
-constexpr int kBand = 16;         // rows of texels at a time
+constexpr int kSquare = 32;       // texels along a side, at work at a time
 
 /// A face as it lies in the image and in the scene.
 struct Face {
@@ -27,18 +29,23 @@ struct Face {
   std::array<Vec3d, 3> normals;
 };
 
-/// Some rows of texels: sums of colours by how much they cover, and of samples.
-class Band {
+/// A chart's texels in a square of the image: no other chart has any of them.
+struct Plot {
+  std::uint64_t place = 0;  // along a curve through the scene's space: neighbours need the same of the scene
+  std::array<int, 2> begin{}, end{};
+  std::vector<std::uint32_t> faces;
+};
+
+/// Sums of colours by how much they cover, and of samples.
+class PlotBaker {
  public:
-  Band(const SceneLooks& looks, const BakeParams& params, double texel, const TextureImage& image, int first)
-      : scene_(looks.triangles()),
-        eye_(looks),
+  PlotBaker(const SceneLooks& looks, const BakeParams& params, double texel, const Plot& plot)
+      : eye_(looks),
         params_(params),
         size_(texel / kSide),
-        width_(image.width),
-        first_(first),
-        last_(std::min(first + kBand, image.height)),
-        sums_(std::size_t(width_) * std::size_t(last_ - first)),
+        begin_(plot.begin),
+        end_(plot.end),
+        sums_(std::size_t(end_[0] - begin_[0]) * std::size_t(end_[1] - begin_[1])),
         samples_(sums_.size()) {}
 
   void add(const Face& face) {
@@ -47,22 +54,26 @@ class Band {
     if (area == 0) return;
     const auto [left, right] = std::minmax({f[0][0], f[1][0], f[2][0]});
     const auto [top, bottom] = std::minmax({f[0][1], f[1][1], f[2][1]});
-    for (int y = std::max(first_, int(top)); y < std::min(last_, int(bottom) + 1); ++y) {
-      for (int x = std::max(0, int(left)); x < std::min(width_, int(right) + 1); ++x) add_texel(face, area, x, y);
+    for (int y = std::max(begin_[1], int(top)); y < std::min(end_[1], int(bottom) + 1); ++y) {
+      for (int x = std::max(begin_[0], int(left)); x < std::min(end_[0], int(right) + 1); ++x)
+        add_texel(face, area, x, y);
     }
     add_middle(face);
   }
 
   /// Means; `known`: which texels have a colour.
   void write(TextureImage& image, std::vector<std::uint8_t>& known) const {
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const LinearTexel& sum = sums_[i];
-      const std::size_t to = std::size_t(first_) * std::size_t(width_) + i;
-      const float alpha = sum[3];
-      if (alpha > 0)
-        for (std::size_t k = 0; k < 3; ++k) image.texels[to][k] = byte_of_linear(sum[k] / alpha);
-      image.texels[to][3] = samples_[i] > 0 ? std::uint8_t(alpha / float(samples_[i]) * 255 + 0.5F) : std::uint8_t(255);
-      known[to] = alpha > 0;
+    for (int y = begin_[1]; y < end_[1]; ++y) {
+      for (int x = begin_[0]; x < end_[0]; ++x) {
+        const std::uint16_t samples = samples_[at(x, y)];
+        if (samples == 0) continue;
+        const LinearTexel& sum = sums_[at(x, y)];
+        TextureImage::Texel& texel = image.at(x, y);
+        const float alpha = sum[3];
+        for (std::size_t k = 0; k < 3 && alpha > 0; ++k) texel[k] = byte_of_linear(sum[k] / alpha);
+        texel[3] = std::uint8_t(alpha / float(samples) * 255 + 0.5F);
+        known[std::size_t(y) * std::size_t(image.width) + std::size_t(x)] = alpha > 0;
+      }
     }
   }
 
@@ -84,12 +95,12 @@ class Band {
   void add_middle(const Face& face) {
     const auto& f = face.flat;
     const int x = int((f[0][0] + f[1][0] + f[2][0]) / 3), y = int((f[0][1] + f[1][1] + f[2][1]) / 3);
-    if (y < first_ || y >= last_ || x < 0 || x >= width_ || samples_[at(x, y)] > 0) return;
+    if (y < begin_[1] || y >= end_[1] || x < begin_[0] || x >= end_[0] || samples_[at(x, y)] > 0) return;
     add_sample(face, {1.0 / 3, 1.0 / 3, 1.0 / 3}, x, y, 0.5F);
   }
 
   [[nodiscard]] std::size_t at(int x, int y) const {
-    return std::size_t(y - first_) * std::size_t(width_) + std::size_t(x);
+    return std::size_t(y - begin_[1]) * std::size_t(end_[0] - begin_[0]) + std::size_t(x - begin_[0]);
   }
 
   void add_sample(const Face& face, const std::array<double, 3>& part, int x, int y, float threshold) {
@@ -112,41 +123,22 @@ class Band {
   std::optional<Look> seen(const Vec3d& p, const Vec3d& n, float threshold) {
     bool through = false;                                        // a hole
     const Vec3d out = params_.reach_world * n, in = -1.0 * out;  // from a little before: they may touch
-    const Vec3d start_in = p + kBefore * out, start_out = p + kBefore * in;
-    std::optional<TriangleBvh::Hit> hit = look_along(start_in, in, threshold, through);
-    Vec3d start = start_in, direction = in;
+    auto found = eye_.first_along(p + kBefore * out, in, size_, threshold, through);
     if (params_.both_ways) {
-      const auto outwards = look_along(start_out, out, threshold, through);
-      if (outwards && (!hit || outwards->along < hit->along)) hit = outwards, start = start_out, direction = out;
+      const auto outwards = eye_.first_along(p + kBefore * in, out, size_, threshold, through);
+      if (outwards && (!found || outwards->along < found->along)) found = outwards;
     }
-    if (hit) return opaque(eye_.at(hit->item, start + hit->along * direction, size_));
-    const TriangleBvh::Nearest nearest = scene_.nearest(p, near_);
-    near_ = nearest.item;
-    if (nearest.distance_squared > params_.reach_world * params_.reach_world) return {};
-    Look look = opaque(eye_.at(near_, nearest_point(p, scene_.item(near_).corners), size_));
-    if (through) look.alpha = 0;
-    return look;
-  }
-  std::optional<TriangleBvh::Hit> look_along(const Vec3d& p, const Vec3d& direction, float threshold, bool& through) {
-    return scene_.first_along(p, direction, [&](std::uint32_t item, double along) {
-      const bool covers = eye_.covers(item, p + along * direction, size_, threshold);
-      through = through || !covers;
-      return covers;
-    });
-  }
-  static Look opaque(Look look) {
-    look.alpha = 1;
+    std::optional<Look> look = found ? found->look : eye_.nearest(p, params_.reach_world, size_);
+    if (look) look->alpha = found || !through ? 1 : 0;
     return look;
   }
 
-  const TriangleBvh& scene_;
-  SceneLooks::Eye eye_;
+  SceneEye eye_;
   const BakeParams& params_;
   double size_;
-  int width_, first_, last_;
+  std::array<int, 2> begin_, end_;
   std::vector<LinearTexel> sums_;
   std::vector<std::uint16_t> samples_;
-  std::uint32_t near_ = 0;  // found last
 };
 
 std::vector<Face> faces_of(const LatticeMesh& mesh, const Atlas& atlas) {
@@ -163,15 +155,42 @@ std::vector<Face> faces_of(const LatticeMesh& mesh, const Atlas& atlas) {
   return faces;
 }
 
-/// Faces by the bands of rows that they touch, in order.
-std::vector<std::vector<std::uint32_t>> by_band(const std::vector<Face>& faces, int height) {
-  std::vector<std::vector<std::uint32_t>> bands(std::size_t((height + kBand - 1) / kBand));
-  for (std::uint32_t f = 0; f < faces.size(); ++f) {
-    const auto [top, bottom] = std::minmax({faces[f].flat[0][1], faces[f].flat[1][1], faces[f].flat[2][1]});
-    for (int b = int(top) / kBand; b <= std::min(int(bottom) / kBand, int(bands.size()) - 1); ++b)
-      bands[std::size_t(b)].push_back(f);
+/// Squares of the image that faces touch, of a chart.
+void add_plots(const std::vector<std::uint32_t>& chart, const std::vector<Face>& faces, const Bounds3d& bounds,
+               std::vector<Plot>& plots) {
+  std::map<std::array<int, 2>, std::size_t> by_square;
+  for (const std::uint32_t f : chart) {
+    const auto& p = faces[f].flat;
+    const auto [left, right] = std::minmax({p[0][0], p[1][0], p[2][0]});
+    const auto [top, bottom] = std::minmax({p[0][1], p[1][1], p[2][1]});
+    for (int y = int(top) / kSquare; y <= int(bottom) / kSquare; ++y) {
+      for (int x = int(left) / kSquare; x <= int(right) / kSquare; ++x) {
+        const auto [found, is_new] = by_square.try_emplace({y, x}, plots.size());
+        if (is_new) plots.push_back({morton_of(middle_of(faces[f].corners), bounds), {int(left), int(top)}, {}, {}});
+        Plot& plot = plots[found->second];
+        plot.faces.push_back(f);
+        const std::array<int, 2> lo{int(left), int(top)}, hi{int(right) + 1, int(bottom) + 1}, square{x, y};
+        for (std::size_t i = 0; i < 2; ++i) {
+          plot.begin[i] = std::max(std::min(plot.begin[i], lo[i]), square[i] * kSquare);
+          plot.end[i] = std::min(std::max(plot.end[i], hi[i]), (square[i] + 1) * kSquare);
+        }
+      }
+    }
   }
-  return bands;
+}
+
+std::vector<Plot> plots_of(const std::vector<Face>& faces, const Atlas& atlas) {
+  Bounds3d bounds;
+  std::vector<std::vector<std::uint32_t>> charts;
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
+    bounds.merge(bounds_of(faces[f].corners));
+    if (charts.size() <= atlas.chart[f]) charts.resize(atlas.chart[f] + 1);
+    charts[atlas.chart[f]].push_back(f);
+  }
+  std::vector<Plot> plots;
+  for (const std::vector<std::uint32_t>& chart : charts) add_plots(chart, faces, bounds, plots);
+  std::stable_sort(plots.begin(), plots.end(), [](const Plot& a, const Plot& b) { return a.place < b.place; });
+  return plots;
 }
 
 }  // namespace
@@ -184,14 +203,15 @@ TextureImage bake(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks&
                       params.memory.bytes, params.memory.limit_with(needed - params.memory.bytes),
                       {Remedy::no_textures});
   const std::vector<Face> faces = faces_of(mesh, atlas);
-  const std::vector<std::vector<std::uint32_t>> bands = by_band(faces, atlas.height);
-  TextureImage image(atlas.width, atlas.height);
+  const std::vector<Plot> plots = plots_of(faces, atlas);
+  TextureImage image(atlas.width, atlas.height, {0, 0, 0, 255});
   std::vector<std::uint8_t> known(image.texels.size());
   const double texel = atlas.texel * mesh.frame.voxel / kLatticePerVoxel;
-  parallel_for(std::int64_t(bands.size()), [&](std::int64_t b) {
-    Band band(looks, params, texel, image, int(b) * kBand);
-    for (const std::uint32_t f : bands[std::size_t(b)]) band.add(faces[f]);
-    band.write(image, known);
+  parallel_for(std::int64_t(plots.size()), [&](std::int64_t i) {
+    const Plot& plot = plots[std::size_t(i)];
+    PlotBaker baker(looks, params, texel, plot);
+    for (const std::uint32_t f : plot.faces) baker.add(faces[f]);
+    baker.write(image, known);
   });
   fill_gaps(image, known);
   return image;

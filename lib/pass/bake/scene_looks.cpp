@@ -1,156 +1,131 @@
 #include "lib/pass/bake/scene_looks.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "lib/core/error.h"
 #include "lib/core/vec3.h"
-#include "lib/pass/bake/detail/image_cache.h"
+#include "lib/image/image_cache.h"
+#include "lib/pass/bake/detail/look_blocks.h"
+#include "lib/pass/bake/detail/scene_eye.h"
+#include "lib/pass/bake/detail/triangle_sorter.h"
+#include "lib/store/content_hash.h"
+#include "lib/store/packing.h"
 
 namespace bp {
 
 namespace {
 
-constexpr std::size_t kMostHeld = 4;
+/// Areas by the size of the texels on them.
+class TexelSizes {
+ public:
+  void add(double texel, double area) {
+    areas_[bin_of(float(texel))] += area;
+    total_ += area;
+  }
+  /// A tenth of the area has smaller texels than this, a bin more or less; 0 if there is none.
+  [[nodiscard]] double tenth() const {
+    double area = 0;
+    for (std::size_t bin = 0; bin < areas_.size(); ++bin) {
+      area += areas_[bin];
+      if (area > 0 && area >= total_ * (0.1 - 1e-9))  // rounding decides nothing
+        return std::bit_cast<float>(std::uint32_t(bin) << kShift);
+    }
+    return 0;
+  }
 
-/// Texels of an image along a length of 1 on a triangle.
-double texels_per_unit(const TriangleD& t, const TriangleTexture& texture, int width, int height) {
-  const auto& [a, b, c] = texture.uv;
-  const double flat =
-      std::abs((double(b[0]) - a[0]) * (double(c[1]) - a[1]) - (double(c[0]) - a[0]) * (double(b[1]) - a[1]));
-  const double area = length(cross(t[1] - t[0], t[2] - t[0]));
-  const double texels = std::sqrt(flat * width * height / area);
-  return std::isfinite(texels) ? texels : 0;
-}
+ private:
+  static constexpr int kShift = 21;  // the sign, the exponent, and four steps for each
+  static std::size_t bin_of(float x) { return std::bit_cast<std::uint32_t>(x) >> kShift; }
+  std::vector<double> areas_ = std::vector<double>(std::size_t(1) << (31 - kShift));
+  double total_ = 0;
+};
 
 }  // namespace
 
-SceneLooks::SceneLooks(TriangleSource& source, std::uint64_t triangles, std::shared_ptr<const TextureSet> images,
-                       const MemoryShare& memory)
-    : images_(std::move(images)) {
-  const std::uint64_t needed = triangles * kBytesEach, room = memory.bytes / 4 * 3;
-  if (needed > room)
-    throw NeedsMemory(fmt::format("baking textures from {} triangles", triangles), needed, room,
-                      memory.limit_with((needed - room) / 3 * 4), {Remedy::no_textures});
-  std::vector<TriangleD> all, chunk;
-  std::vector<TriangleColors> colors;
-  std::vector<TriangleTexture> textures;
-  all.reserve(triangles);
-  colors_.reserve(triangles);
-  textures_.reserve(triangles);
-  source.rewind();
-  while (all.size() <= triangles && source.read_textured(chunk, colors, textures)) {
-    all.insert(all.end(), chunk.begin(), chunk.end());
-    colors_.insert(colors_.end(), colors.begin(), colors.end());
-    textures_.insert(textures_.end(), textures.begin(), textures.end());
-  }
-  if (all.size() != triangles)
-    fail(ErrorCode::bad_input, "{}: has changed while it was at work; run it again", source.name());
-  triangles_ = std::make_unique<TriangleBvh>(all);
+SceneLooks::SceneLooks(const Scene& scene, std::unique_ptr<Scratch> store, const MemoryShare& memory)
+    : blocks_(std::make_unique<LookBlocks>(std::move(store))), images_(scene.images) {
+  read(scene, memory.bytes);
+  const double part = std::min(0.5, double(scene.triangles * LookBlocks::kBytesEach) / double(memory.bytes));
   MemoryShare rest = memory;
-  rest.bytes -= needed;
+  rest.bytes = std::uint64_t(double(memory.bytes) * (1 - part));
+  rest.share *= 1 - part;
+  blocks_->close(memory.bytes - rest.bytes);
   cache_ = std::make_unique<ImageCache>(images_, rest);
-  look_over_images();
-}
-
-void SceneLooks::look_over_images() {
-  struct Part {
-    float texel, area;
-  };
-  std::vector<Part> parts;
-  std::unordered_map<std::uint32_t, std::array<int, 2>> sizes;
-  double total = 0;
-  for (std::size_t i = 0; i < triangles_->size(); ++i) {
-    const auto& [t, id] = triangles_->item(i);
-    const TriangleTexture& texture = textures_[id];
-    if (texture.material == TriangleTexture::kNoMaterial) continue;
-    const std::uint32_t image = images_->material(texture.material).image;
-    if (image == TextureMaterial::kNoImage) continue;
-    if (!sizes.contains(image)) {
-      sizes[image] = images_->size(image);
-      ContentHash hash;
-      hash.add(images_->file(image));
-      files_[image] = hash.value();
-    }
-    const auto [width, height] = sizes[image];
-    const double texels = texels_per_unit(t, texture, width, height);
-    if (!(texels > 0)) continue;
-    const double area = length(cross(t[1] - t[0], t[2] - t[0]));
-    parts.push_back({float(1 / texels), float(area)});
-    total += parts.back().area;
-  }
-  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.texel < b.texel; });
-  double area = 0;
-  for (const Part& p : parts) {
-    finest_texel_ = p.texel;
-    if ((area += p.area) >= total / 10) break;
-  }
-}
-
-void SceneLooks::add_to(KeyHash& hash, const Bounds3d& box) const {
-  std::vector<const TriangleBvh::Item*> items;
-  triangles_->visit(box, [&](const TriangleBvh::Item& item) {
-    items.push_back(&item);
-    return false;
-  });
-  std::sort(items.begin(), items.end(), [](const auto* a, const auto* b) { return a->id < b->id; });
-  for (const TriangleBvh::Item* const item : items) {
-    hash.add(item->corners, colors_[item->id]);
-    const TriangleTexture& texture = textures_[item->id];
-    if (texture.material == TriangleTexture::kNoMaterial) continue;
-    const TextureMaterial& m = images_->material(texture.material);
-    for (const auto& [u, v] : texture.uv) hash.add(double(u), double(v));
-    hash.add(m.wrap, m.alpha_mode, double(m.alpha), double(m.cutoff), m.replaces_color);
-    if (const auto found = files_.find(m.image); found != files_.end()) hash.add(found->second);
-  }
 }
 
 SceneLooks::~SceneLooks() = default;
 
+void SceneLooks::read(const Scene& scene, std::uint64_t memory_bytes) {
+  TriangleSorter sorter(scene.bounds, blocks_->store(), memory_bytes / 2);
+  TexelSizes sizes;
+  std::vector<TriangleD> triangles;
+  std::vector<TriangleColors> colors;
+  std::vector<TriangleTexture> textures;
+  std::uint64_t count = 0;
+  scene.source.rewind();
+  while (count <= scene.triangles && scene.source.read_textured(triangles, colors, textures)) {
+    count += triangles.size();
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const TriangleD& t = triangles[i];
+      sorter.add({t, colors[i], textures[i]});
+      if (textures[i].material == TriangleTexture::kNoMaterial) continue;
+      note_image(textures[i].material);
+      const double texels = texels_per_unit(t, textures[i], materials_[textures[i].material].size);
+      if (texels > 0) sizes.add(1 / texels, length(cross(t[1] - t[0], t[2] - t[0])));
+    }
+  }
+  if (count != scene.triangles)
+    fail(ErrorCode::bad_input, "{}: has changed while it was at work; run it again", scene.source.name());
+  sorter.finish(LookBlocks::kTriangles, [&](std::span<const TexturedTriangle> block) { blocks_->add(block); });
+  finest_texel_ = sizes.tenth();
+}
+
+void SceneLooks::note_image(std::uint32_t material) {
+  if (materials_.size() <= material) materials_.resize(material + 1);
+  Material& noted = materials_[material];
+  if (noted.is_known) return;
+  noted.is_known = true;
+  const TextureMaterial& m = images_->material(material);
+  std::string all;  // not as KeyHash: it decides what is seen of surfaces at one place, in every version
+  pack(all, m.wrap[0]);
+  pack(all, m.wrap[1]);
+  pack(all, m.alpha_mode);
+  pack(all, m.alpha);
+  pack(all, m.cutoff);
+  pack(all, m.replaces_color);
+  if (m.image != TextureMaterial::kNoImage) {
+    noted.size = images_->size(m.image);
+    for (const std::uint64_t word : content_hash(images_->file(m.image)).words) pack(all, word);
+  }
+  noted.key = content_hash(std::as_bytes(std::span(all)));
+}
+
+/// A sum of the hashes of triangles: it does not depend on their order, and little is in memory.
+void SceneLooks::add_to(KeyHash& hash, const Bounds3d& box) const {
+  std::array<std::uint64_t, 2> sum{};
+  std::uint64_t count = 0;
+  ContentHash one;
+  blocks_->visit(box, [&](std::uint32_t block) {
+    for (const TexturedTriangle& t : blocks_->load(block)) {
+      if (!overlap(bounds_of(t.corners), box)) continue;
+      one.reset();
+      one.add(std::as_bytes(std::span(t.corners)));
+      one.add(std::as_bytes(std::span(t.colors)));
+      if (t.texture.material != TriangleTexture::kNoMaterial) {
+        one.add(std::as_bytes(std::span(t.texture.uv)));
+        one.add(std::as_bytes(std::span(materials_[t.texture.material].key.words)));
+      }
+      for (std::size_t i = 0; i < 2; ++i) sum[i] += one.value().words[i];
+      ++count;
+    }
+  });
+  hash.add(count, sum, finest_texel_);
+}
+
 std::vector<std::string> SceneLooks::faults() const {
   return cache_->faults();
-}
-
-const MipImage* SceneLooks::Eye::image(std::uint32_t number) {
-  const auto found = std::find_if(held_.begin(), held_.end(), [&](const Held& h) { return h.number == number; });
-  if (found != held_.end()) return found->image.get();
-  if (held_.size() == kMostHeld) held_.erase(held_.begin());
-  held_.push_back({number, looks_.cache_->get(number)});
-  return held_.back().image.get();
-}
-
-Look SceneLooks::Eye::at(std::uint32_t item, const Vec3d& p, double size) {
-  const auto& [corners, id] = looks_.triangles_->item(item);
-  std::array<double, 3> part = barycentric(corners, p);
-  for (double& x : part) x = std::clamp(x, 0.0, 1.0);
-  Look look;
-  const TriangleColors& colors = looks_.colors_[id];
-  const auto mean = [&](std::uint16_t LinearColor::*c) {
-    return float((part[0] * colors[0].*c + part[1] * colors[1].*c + part[2] * colors[2].*c) / 65535);
-  };
-  look.color = {mean(&LinearColor::r), mean(&LinearColor::g), mean(&LinearColor::b)};
-  const TriangleTexture& texture = looks_.textures_[id];
-  if (texture.material == TriangleTexture::kNoMaterial) return look;
-  const TextureMaterial& material = looks_.images_->material(texture.material);
-  const MipImage* const seen = image(material.image);
-  if (seen == nullptr) return look;
-  std::array<double, 2> uv{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < 2; ++i) uv[i] += part[k] * double(texture.uv[k][i]);
-  }
-  const LinearTexel texel =
-      seen->at(uv[0], uv[1], size * texels_per_unit(corners, texture, seen->width(), seen->height()), material.wrap);
-  for (std::size_t i = 0; i < 3; ++i) look.color[i] = material.replaces_color ? texel[i] : look.color[i] * texel[i];
-  if (material.alpha_mode != AlphaMode::opaque) look.alpha = std::clamp(texel[3] * material.alpha, 0.0F, 1.0F);
-  return look;
-}
-
-bool SceneLooks::Eye::covers(std::uint32_t item, const Vec3d& p, double size, float threshold) {
-  const TriangleTexture& texture = looks_.textures_[looks_.triangles_->item(item).id];
-  if (texture.material == TriangleTexture::kNoMaterial) return true;
-  const TextureMaterial& material = looks_.images_->material(texture.material);
-  if (material.alpha_mode == AlphaMode::opaque) return true;
-  return at(item, p, size).alpha >= (material.alpha_mode == AlphaMode::mask ? material.cutoff : threshold);
 }
 
 }  // namespace bp

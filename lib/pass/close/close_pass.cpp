@@ -342,9 +342,8 @@ CloseCounts close_stream(BrickSource& source, BrickSink& sink, Backends& backend
 }
 
 std::unique_ptr<BrickShelf> close_shelf(const StreamHeader& header, BrickShelf& solid, Backends& backends,
-                                        double scale_world, const ClosingParams& params, const CloseOptions& options) {
-  ScaleField scale;
-  scale.base = scale_world;
+                                        const ScaleField& scale, const ClosingParams& params,
+                                        const CloseOptions& options) {
   auto closing = options.context.make_shelf();
   ShelfSource source(header, solid, nullptr, ShelfSource::Keep::all);
   ShelfSink sink(nullptr, closing.get());

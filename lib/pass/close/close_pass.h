@@ -51,9 +51,9 @@ struct CloseCounts {
 CloseCounts close_stream(BrickSource& source, BrickSink& sink, Backends& backends, const ScaleField& scale,
                          const ClosingParams& params, const CloseOptions& options);
 
-/// The same of voxels on a shelf, with bricks of `header`, by one scale, in scene units: the closing, on a new shelf.
+/// The same of voxels on a shelf, with bricks of `header`: the closing, on a new shelf.
 [[nodiscard]] std::unique_ptr<BrickShelf> close_shelf(const StreamHeader& header, BrickShelf& solid, Backends& backends,
-                                                      double scale_world, const ClosingParams& params,
+                                                      const ScaleField& scale, const ClosingParams& params,
                                                       const CloseOptions& options);
 
 }  // namespace bp

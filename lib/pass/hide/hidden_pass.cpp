@@ -22,9 +22,15 @@ CloseOptions close_options(const HiddenOptions& o, bool keep_cavities) {
   return c;
 }
 
+ScaleField uniform(double scale) {
+  ScaleField field;
+  field.base = scale;
+  return field;
+}
+
 Shelf closing(const StreamHeader& header, BrickShelf& solid, double scale, bool keep_cavities, Backends& backends,
               const HiddenOptions& o) {
-  return close_shelf(header, solid, backends, scale, {o.element}, close_options(o, keep_cavities));
+  return close_shelf(header, solid, backends, uniform(scale), {o.element}, close_options(o, keep_cavities));
 }
 
 /// The voxels that solid ones enclose, and these.
@@ -105,9 +111,7 @@ std::unique_ptr<BrickShelf> opening(const StreamHeader& header, BrickShelf& soli
   ComplementSource complement(source);
   ShelfSink sink(nullptr, out.get());
   ComplementSink opened(sink, around);
-  ScaleField scale;
-  scale.base = o.scale_world;
-  close_stream(complement, opened, backends, scale, {o.element}, close_options(o, true));
+  close_stream(complement, opened, backends, uniform(o.scale_world), {o.element}, close_options(o, true));
   opened.finish();
   return out->coords().empty() ? nullptr : std::move(out);
 }

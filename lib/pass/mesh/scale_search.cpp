@@ -15,6 +15,7 @@ constexpr std::uint64_t kFacesOfTetrahedron = 4;  // the least of a part; a hand
 StreamHeader closed_at(const StreamHeader& header, double scale) {
   StreamHeader closed = header;
   closed.scale = {};
+  closed.has_field = false;
   closed.scale.base = scale;
   closed.bricks = closing_bricks(header, closed.scale);
   return closed;
@@ -27,7 +28,7 @@ std::unique_ptr<BrickShelf> closing_of(const StreamHeader& closed, BrickShelf& s
   options.context = search.context;
   StreamHeader input = closed;
   input.has_closing = false;
-  return close_shelf(input, solid, backends, closed.scale.base, {closed.element}, options);
+  return close_shelf(input, solid, backends, closed.scale, {closed.element}, options);
 }
 
 /// False if parts and handles alone take more faces, whatever is merged.

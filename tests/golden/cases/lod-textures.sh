@@ -48,3 +48,14 @@ attributes broken/*_LOD0.glb missing/*_LOD0.glb
 try bplod part0.obj --resolution 30 --levels 1 --memory 1M -o small
 try bplod part0.obj --appearance picture -o x
 try bplod part0.obj --profile cage --appearance texture -o x
+
+# The disk space that --explain names knows of textures.
+base64 -d <<< $red > chequered.png
+for profile in gltf 3dtiles; do
+  bplod part*.obj --name cubes --resolution 60 --profile $profile --explain -q --report explained.json > list
+  about=$(grep -o '"file_bytes_about": [0-9]*' explained.json | grep -o '[0-9]*$')
+  bplod part*.obj --name cubes --resolution 60 --profile $profile --appearance off --explain -q --overwrite --report plain.json > list
+  plain=$(grep -o '"file_bytes_about": [0-9]*' plain.json | grep -o '[0-9]*$')
+  [ $((2 * about)) -gt $((3 * plain)) ] || echo "$profile: about $about bytes with textures, and $plain without"
+  rm explained.json plain.json
+done

@@ -45,8 +45,9 @@ TEST_CASE("the first triangle along a ray is the one that a look at all of them 
         const double along = along_segment(start, direction, triangles[k]);
         if (taken(k) && along < first) first = along, id = k;
       }
-      const auto hit =
-          tree.first_along(start, direction, [&](std::uint32_t item, double) { return taken(tree.item(item).id); });
+      const auto hit = tree.first_along(
+          start, direction, 1, [&](std::uint32_t item, double) { return taken(tree.item(item).id); },
+          [&](std::uint32_t a, std::uint32_t b) { return tree.item(a).id < tree.item(b).id; });
       REQUIRE(hit.has_value() == (first < HUGE_VAL));
       if (!hit) continue;
       CHECK(hit->along == first);
@@ -64,5 +65,7 @@ TEST_CASE("a ray meets a triangle from both sides, and as far as it goes", "[qui
   CHECK(std::isnan(along_segment({1, 1, 2}, {0, 0, 4}, t)));
   CHECK(std::isnan(along_segment({3, 3, 2}, {0, 0, -4}, t)));
   CHECK(std::isnan(along_segment({1, 1, 0}, {1, 0, 0}, t)));
-  CHECK_FALSE(TriangleBvh({}).first_along({0, 0, 0}, {1, 1, 1}, [](std::uint32_t, double) { return true; }));
+  const auto any = [](std::uint32_t, double) { return true; };
+  CHECK_FALSE(TriangleBvh({}).first_along({0, 0, 0}, {1, 1, 1}, 1, any, any));
+  CHECK_FALSE(TriangleBvh({}).nearest_within({0, 0, 0}, 1, any));
 }

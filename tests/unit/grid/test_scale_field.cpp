@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -5,8 +6,10 @@
 #include "lib/core/error.h"
 #include "lib/grid/scale_field.h"
 #include "tests/catch.h"
+#include "tests/unit/grid/random_fields.h"
 
 using namespace bp;
+using namespace bp::test;
 
 namespace {
 
@@ -17,44 +20,46 @@ GridFrame frame_at(std::int64_t x) {
   return frame;
 }
 
-ScaleField random_field(std::uint32_t seed) {
-  std::mt19937 random(seed);
-  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
-  ScaleField field;
-  field.base = uniform(0, 8);
-  for (int i = 0; i < 20; ++i) {
-    BrushStroke s;
-    s.mode = BrushMode(random() % 3);
-    for (double& c : s.position) c = uniform(-40, 40);
-    s.support = random() % 5 == 0 ? 0 : uniform(0, 12);
-    s.target = uniform(0, 10);
-    field.strokes.push_back(s);
+/// The text of docs/bpscale.1.md, word by word: a rule on a scale, `t` away from the shape.
+double defined(const ScaleField& field, const ScaleRule& rule, double t, double before) {
+  const double goal = rule.mode == ScaleMode::erase ? field.base : rule.scale, beyond = std::max(t - rule.radius, 0.0);
+  double s = 0;
+  if (rule.shape == ScaleShape::view) {
+    s = std::min(rule.per_distance * t, rule.scale);
+  } else if (rule.support < 0) {
+    const double most = goal + field.slope * beyond, least = goal - field.slope * beyond;
+    s = before > most ? most : before < least ? least : before;
+  } else {
+    const double u = rule.support > 0 ? beyond / rule.support : t < rule.radius || t == 0 ? 0 : 1;
+    const double gamma = u < 1 ? (1 - u * u) * (1 - u * u) : 0;
+    s = (1 - gamma) * before + gamma * goal;
   }
-  for (int i = 0; i < 5; ++i) {
-    ScaleBox b;
-    for (std::size_t k = 0; k < 3; ++k) {
-      b.min[k] = uniform(-40, 30);
-      b.max[k] = b.min[k] + uniform(0, 30);
+  if (rule.mode == ScaleMode::increase) return std::max(s, before);
+  if (rule.mode == ScaleMode::decrease) return std::min(s, before);
+  return s;
+}
+
+double distance(const Vec3d& a, const Vec3d& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/// By trying points of the shape: at most `step` too large.
+double distance_by_trial(const ScaleRule& rule, const Vec3d& p) {
+  double least = std::numeric_limits<double>::infinity();
+  if (rule.shape == ScaleShape::box) {
+    Vec3d q = p;
+    for (std::size_t i = 0; i < 3; ++i) q[i] = std::clamp(p[i], rule.points[0][i], rule.points[1][i]);
+    return distance(p, q);
+  }
+  for (std::size_t i = 0; i + 1 < std::max<std::size_t>(rule.points.size(), 2); ++i) {
+    const Vec3d &a = rule.points[i], &b = rule.points[std::min(i + 1, rule.points.size() - 1)];
+    for (int k = 0; k <= 20000; ++k) {
+      const double t = k / 20000.0;
+      least =
+          std::min(least, distance(p, {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])}));
     }
-    b.scale = uniform(0, 12);
-    field.boxes.push_back(b);
   }
-  return field;
-}
-
-std::string error_of(const std::string& json) {
-  try {
-    (void)parse_scale_field(json, "f.json");
-  } catch (const Error& e) {
-    CHECK(e.code() == ErrorCode::bad_input);
-    return e.what();
-  }
-  return "";
-}
-
-bool names(const std::string& message, const std::string& part) {
-  CAPTURE(message, part);
-  return message.find(part) != std::string::npos;
+  return least;
 }
 
 }  // namespace
@@ -62,7 +67,7 @@ bool names(const std::string& message, const std::string& part) {
 TEST_CASE("a stroke has full effect within its target, none beyond its support, and is continuous", "[quick][grid]") {
   ScaleField field;
   field.base = 2;
-  field.strokes = {{BrushMode::increase, {1, 2, 3}, 4, 6}};
+  field.rules = {stroke_rule(ScaleMode::increase, {1, 2, 3}, 4, 6, field.base)};
   const auto at = [&](double t) { return field.evaluate({1 + t, 2, 3}); };
   CHECK(at(0) == 6);
   CHECK(at(5.999) == 6);
@@ -79,13 +84,13 @@ TEST_CASE("a stroke has full effect within its target, none beyond its support, 
 TEST_CASE("increase never lowers, decrease never raises, erase goes back to the base", "[quick][grid]") {
   ScaleField field;
   field.base = 3;
-  field.boxes = {{{-100, -100, -100}, {100, 100, 100}, 5}};
-  field.strokes = {{BrushMode::increase, {0, 0, 0}, 1, 4}, {BrushMode::decrease, {0, 0, 0}, 1, 7}};
+  field.rules = {box_rule({-100, -100, -100}, {100, 100, 100}, 5), stroke_rule(ScaleMode::increase, {0, 0, 0}, 1, 4, 3),
+                 stroke_rule(ScaleMode::decrease, {0, 0, 0}, 1, 7, 3)};
   CHECK(field.evaluate({0, 0, 0}) == 5);
-  field.strokes.push_back({BrushMode::decrease, {0, 0, 0}, 1, 1});
+  field.rules.push_back(stroke_rule(ScaleMode::decrease, {0, 0, 0}, 1, 1, 3));
   CHECK(field.evaluate({0, 0, 0}) == 1);
   CHECK(field.evaluate({1.5, 0, 0}) == 5 + (1 - 5) * 0.5625);
-  field.strokes.push_back({BrushMode::erase, {0, 0, 0}, 2, 99});
+  field.rules.push_back(stroke_rule(ScaleMode::erase, {0, 0, 0}, 2, 99, 3));
   CHECK(field.evaluate({0, 0, 0}) == 3);
   CHECK(field.evaluate({2.9, 0, 0}) == 3);  // full effect of an erase reaches the base scale
   CHECK(field.evaluate({20, 0, 0}) == 5);
@@ -94,7 +99,7 @@ TEST_CASE("increase never lowers, decrease never raises, erase goes back to the 
 TEST_CASE("of overlapping boxes the later wins, edges included", "[quick][grid]") {
   ScaleField field;
   field.base = 1;
-  field.boxes = {{{0, 0, 0}, {4, 4, 4}, 2}, {{4, 0, 0}, {8, 4, 4}, 3}};
+  field.rules = {box_rule({0, 0, 0}, {4, 4, 4}, 2), box_rule({4, 0, 0}, {8, 4, 4}, 3)};
   CHECK(field.evaluate({0, 4, 0}) == 2);
   CHECK(field.evaluate({4, 1, 1}) == 3);
   CHECK(field.evaluate({8.001, 1, 1}) == 1);
@@ -194,51 +199,74 @@ TEST_CASE("scales that have no samples are refused", "[quick][grid]") {
   CHECK_THROWS_AS(field.upper_bound(frame), Error);
   CHECK_THROWS_AS(field.sample(frame, {{0, 0, 0}, {8, 8, 8}}), Error);
   field.base = 1;
-  field.strokes = {{BrushMode::decrease, {}, 1, bad}};
+  field.rules = {stroke_rule(ScaleMode::decrease, {}, 1, bad, 1)};
   CHECK_THROWS_AS(field.upper_bound(frame), Error);
-  field.strokes.clear();
-  field.boxes = {{{}, {}, bad}};
+  field.rules = {box_rule({}, {}, bad)};
   CHECK_THROWS_AS(field.upper_bound(frame), Error);
 }
 
-TEST_CASE("a scale field survives its text, and equal fields have equal texts", "[quick][grid]") {
-  ScaleField field = random_field(GENERATE(range(0u, 6u)));
-  CHECK(parse_scale_field(to_json(field), "x") == field);
-  field.strokes[0].position = {-0.0, 0.0, 1};
-  const std::string text = to_json(field);
-  field.strokes[0].position = {0.0, 0.0, 1};
-  CHECK(to_json(field) == text);
-  CHECK(to_json(parse_scale_field(R"({"base":2})", "x")) == R"({"base":2.0,"strokes":[],"boxes":[]})");
+TEST_CASE("each rule does what its definition says, in the order of the rules", "[quick][grid]") {
+  const std::uint32_t seed = GENERATE(range(0u, 6u));
+  const ScaleField field = random_field(seed);
+  Random random(seed);
+  for (int i = 0; i < 12; ++i) {
+    const Vec3d p = random_point(random, 50);
+    const std::vector<double> steps = field.steps(p);
+    REQUIRE(steps.size() == field.rules.size() + 1);
+    CHECK(steps.front() == field.base);
+    CHECK(steps.back() == field.evaluate(p));
+    for (std::size_t k = 0; k < field.rules.size(); ++k) {
+      CAPTURE(seed, i, k);
+      CHECK(std::abs(steps[k + 1] - defined(field, field.rules[k], distance_by_trial(field.rules[k], p), steps[k])) <
+            0.01);
+    }
+  }
 }
 
-TEST_CASE("an erase stroke needs no target", "[quick][grid]") {
-  const ScaleField f =
-      parse_scale_field(R"({"base":1,"strokes":[{"mode":"erase","position":[0,1,2],"support":3}]})", "x");
-  CHECK(f.strokes.at(0) == BrushStroke{BrushMode::erase, {0, 1, 2}, 3, 0});
+TEST_CASE("without strokes the scale changes by at most the slope", "[quick][grid]") {
+  const std::uint32_t seed = GENERATE(range(0u, 12u));
+  const ScaleField field = random_ramps(seed);
+  Random random(seed);
+  double steepest = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3d p = random_point(random, 50), d = random_point(random, i % 2 ? 1 : 20);
+    const Vec3d q{p[0] + d[0], p[1] + d[1], p[2] + d[2]};
+    steepest = std::max(steepest, std::abs(field.evaluate(p) - field.evaluate(q)) / distance(p, q));
+  }
+  CHECK(steepest <= field.slope * (1 + 1e-9));
+  CHECK(steepest > field.slope / 10);
 }
 
-TEST_CASE("a broken scale field is refused by the key at fault", "[quick][grid]") {
-  CHECK(names(error_of("{"), "f.json: scale field: not valid JSON at byte 2"));
-  CHECK(names(error_of(""), "not valid JSON"));
-  CHECK(names(error_of("[]"), "the document is not an object"));
-  CHECK(names(error_of("{}"), "base is missing"));
-  CHECK(names(error_of(R"({"base":"2"})"), "base is not a number"));
-  CHECK(names(error_of(R"({"base":-2})"), "base is negative"));
-  CHECK(names(error_of(R"({"base":NaN})"), "not valid JSON"));
-  CHECK(names(error_of(R"({"base":1e999})"), "too large"));
-  CHECK(names(error_of(R"({"base":1,"bass":2})"), "unknown key 'bass'"));
-  CHECK(names(error_of(R"({"base":1,"base":2})"), "'base' appears twice"));
-  CHECK(names(error_of(R"({"base":1,"strokes":{}})"), "strokes is not a list"));
-  CHECK(names(error_of(R"({"base":1,"strokes":[4]})"), "strokes[0] is not an object"));
-  const auto stroke = [](const std::string& s) { return error_of(R"({"base":1,"strokes":[{)" + s + "}]}"); };
-  CHECK(names(stroke(R"("mode":"up","position":[0,0,0],"support":1,"target":1)"), "strokes[0].mode is none of"));
-  CHECK(names(stroke(R"("mode":"increase","position":[0,0],"support":1,"target":1)"), "strokes[0].position"));
-  CHECK(names(stroke(R"("mode":"increase","position":[0,0,"a"],"support":1,"target":1)"), "strokes[0].position[2]"));
-  CHECK(names(stroke(R"("mode":"increase","position":[0,0,0],"support":-1,"target":1)"), "strokes[0].support"));
-  CHECK(names(stroke(R"("mode":"increase","position":[0,0,0],"support":1)"), "strokes[0].target is missing"));
-  CHECK(names(stroke(R"("mode":"erase","position":[0,0,0],"support":1,"size":1)"), "strokes[0].size"));
-  CHECK(names(error_of(R"({"base":1,"boxes":[{"min":[0,0,0],"max":[1,-1,1],"scale":1}]})"), "min above its max"));
-  CHECK(names(error_of(R"({"base":1,"boxes":[{"min":[0,0,0],"max":[1,1,1]}]})"), "boxes[0].scale is missing"));
+TEST_CASE("within a ball the bounds hold, and the rules near it give the same scale", "[quick][grid]") {
+  const std::uint32_t seed = GENERATE(range(0u, 12u));
+  const ScaleField field = random_field(seed);
+  Random random(seed);
+  std::size_t left_out = 0;
+  for (int i = 0; i < 50; ++i) {
+    const Vec3d centre = random_point(random, 50);
+    const double radius = uniform(random, 0, 8);
+    const ScaleField::Range range = field.range(centre, radius);
+    const ScaleField near = field.near(centre, radius);
+    left_out += field.rules.size() - near.rules.size();
+    for (int k = 0; k < 200; ++k) {
+      const Vec3d d = random_point(random, 1);
+      const double f = radius * std::cbrt(uniform(random, 0, 1)) / std::max(std::hypot(d[0], d[1], d[2]), 1e-9);
+      const Vec3d p{centre[0] + f * d[0], centre[1] + f * d[1], centre[2] + f * d[2]};
+      const double s = field.evaluate(p);
+      if (s < range.least || s > range.most || near.evaluate(p) != s) FAIL_CHECK("ball " << i << " point " << k);
+    }
+  }
+  CHECK(left_out > 500);
+}
+
+TEST_CASE("a field for another base has all scales times as large", "[quick][grid]") {
+  const ScaleField field = random_ramps(3);
+  const ScaleField twice = field.scaled(2);
+  CHECK(twice.base == 2 * field.base);
+  CHECK(twice.slope == field.slope);
+  CHECK(twice.rules[0].scale == 2 * field.rules[0].scale);
+  CHECK(twice.rules[0].points == field.rules[0].points);
+  (void)twice.upper_bound(frame_at(0));
 }
 
 TEST_CASE("a scale is reached along a line only where it is at every point of it", "[quick][grid]") {
@@ -266,9 +294,9 @@ TEST_CASE("a scale is reached along a line only where it is at every point of it
 TEST_CASE("a thin box is found between the ends of a line", "[quick][grid]") {
   ScaleField field;
   field.base = 8;
-  field.boxes.push_back({{4.9, -1, -1}, {5.1, 1, 1}, 2});
-  field.boxes.push_back({{-9, -9, 3}, {0, 9, 9}, 6});  // two that touch
-  field.boxes.push_back({{0, -9, 3}, {9, 9, 9}, 7});
+  field.rules.push_back(box_rule({4.9, -1, -1}, {5.1, 1, 1}, 2));
+  field.rules.push_back(box_rule({-9, -9, 3}, {0, 9, 9}, 6));  // two that touch
+  field.rules.push_back(box_rule({0, -9, 3}, {9, 9, 9}, 7));
   CHECK_FALSE(field.reaches_along({-9, 0, 0}, {90, 0, 0}, 3, 0.1));
   CHECK(field.reaches_along({-9, 0, 0}, {90, 0, 0}, 2, 0.1));
   CHECK(field.reaches_along({-9, 0, 2}, {90, 0, 2}, 8, 0.1));

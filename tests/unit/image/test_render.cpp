@@ -2,9 +2,11 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 #include "lib/image/canvas.h"
 #include "lib/image/render.h"
 #include "tests/catch.h"
+#include "tests/support/textured_scene.h"
 #include "tests/unit/check/meshes.h"
 #include "tests/unit/image/block_typeface.h"
 
@@ -301,4 +303,74 @@ TEST_CASE("zoom enlarges about the middle or the point looked at", "[quick][imag
   const Image image = picture({edges}, corner);
   CHECK(image.at(40, 31).r < 130);  // the lower edge
   CHECK(image.at(32, 20).r < 130);  // the left edge
+}
+
+TEST_CASE("images lie on triangles where their places say, also on ones cut off far away, and holes show",
+          "[quick][image]") {
+  auto textures = std::make_shared<MemoryTextures>();
+  TextureImage four(2, 2);
+  four.texels = {{255, 0, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {0, 0, 0, 0}};
+  textures->images.push_back(four);
+  textures->materials.push_back({0, {TextureWrap::clamp, TextureWrap::clamp}, AlphaMode::mask});
+  ImageCache images(textures, {});
+  for (const double far : {0.0, 1e7}) {
+    // The square of 64 samples, and so much of its plane around it.
+    const double lo = -far, hi = 64 + far;
+    const auto uv = [](double x) { return float(x / 64); };
+    const std::vector<TriangleD> square{{Vec3d{lo, lo, 1}, {hi, lo, 1}, {hi, hi, 1}},
+                                        {Vec3d{lo, lo, 1}, {hi, hi, 1}, {lo, hi, 1}}};
+    std::vector<TriangleTexture> laid;
+    for (const TriangleD& t : square) {
+      laid.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) laid.back().uv[k] = {uv(t[k][0]), uv(t[k][1])};
+      laid.back().material = 0;
+    }
+    const std::vector<TriangleColors> white(2);
+    Canvas canvas(64, 64, {9, 9, 9});
+    canvas.draw(square, white, laid, &images);
+    Image image(32, 32, {});
+    canvas.resolve(image, 0, 0);
+    const auto only = [](std::uint8_t a, std::uint8_t b, std::uint8_t c) { return a > 150 && b == 0 && c == 0; };
+    CAPTURE(far);
+    CHECK(only(image.at(4, 4).r, image.at(4, 4).g, image.at(4, 4).b));
+    CHECK(only(image.at(28, 4).g, image.at(28, 4).r, image.at(28, 4).b));
+    CHECK(only(image.at(4, 28).b, image.at(4, 28).r, image.at(4, 28).g));
+    CHECK(image.at(28, 28) == Color{9, 9, 9});
+  }
+}
+
+TEST_CASE("the point behind a pixel is the one that the picture shows there", "[quick][image]") {
+  const Vec3d centre{6e6, -4e6, 12};
+  const IndexedMesh ball = sphere(5, 2, centre), block = box({6e6 - 9, -4e6, 12}, {6e6 - 5, -4e6 + 3, 14});
+  const std::vector<View> views{view_of(ball), view_of(block)};
+  RenderOptions options;
+  options.panel_width = options.panel_height = 64;
+  options.up = GENERATE(UpAxis::y, UpAxis::z, UpAxis::minus_x);
+  options.azimuth = 50, options.elevation = -10;
+  options.zoom = GENERATE(1.0, 3.0);
+  const Image image = render(views, options);
+  int found = 0, beside = 0;
+  for (int y = 0; y < 64; y += 3) {
+    for (int x = 0; x < 128; x += 3) {
+      const std::optional<Vec3d> p = point_behind(views, options, x, y);
+      CHECK(p.has_value() == (image.at(x, y) != kPaper));
+      if (!p) continue;
+      ++found;
+      // A picture around that point shows it in the middle, and nothing lies before it.
+      RenderOptions near = options;
+      near.look_at = p;
+      near.zoom = 100;
+      const std::optional<Vec3d> again = point_behind(views, near, x < 64 ? 32 : 96, 32);
+      if (!again) {  // beside the outline
+        ++beside;
+        continue;
+      }
+      if (length(*again - *p) > 0.1) FAIL_CHECK("pixel " << x << " " << y << ": " << length(*again - *p));
+      if (x < 64 && std::abs(length(*p - centre) - 2) > 0.02) FAIL_CHECK("not on the ball");
+    }
+  }
+  CHECK(found > 50);
+  CHECK(beside * 50 < found);
+  CHECK_THROWS_AS(point_behind(views, options, 128, 0), Error);
+  CHECK_THROWS_AS(point_behind(views, options, 0, -1), Error);
 }

@@ -115,6 +115,40 @@ TEST_CASE("each level of a chain encloses the scene, on coarser voxels", "[quick
   CHECK(encloses(coarse.mesh, scene));
 }
 
+TEST_CASE("a field closes a level less where its rules say so, and the level encloses", "[quick][pass][lod]") {
+  Triangles scene;  // two combs, far apart
+  for (int i = 0; i < 8; ++i) {
+    add_box(scene, {6.0 * i, 0, 0}, {6.0 * i + 3, 20, 30});
+    add_box(scene, {6.0 * i + 200, 0, 0}, {6.0 * i + 203, 20, 30});
+  }
+  Backends backends = plain_backends(2);
+  const auto volumes = [&](std::optional<ScaleField> field) {
+    Voxelized solid = voxelized(scene, 1);
+    LodOptions options = lod_options();
+    options.field = std::move(field);
+    LodChain chain(solid.header, std::move(solid.shelf), backends, std::move(options));
+    const LodLevel level = chain.make({0, 0.5, 6});
+    CHECK(encloses(level.mesh, scene));
+    std::array<double, 2> volume{};
+    for (const TriangleD& t : world_triangles(level.mesh))
+      volume[t[0][0] > 120] +=
+          (t[0][0] * (t[1][1] * t[2][2] - t[1][2] * t[2][1]) - t[0][1] * (t[1][0] * t[2][2] - t[1][2] * t[2][0]) +
+           t[0][2] * (t[1][0] * t[2][1] - t[1][1] * t[2][0])) /
+          6;
+    return volume;
+  };
+  ScaleField field;
+  field.base = 2;  // the level's scale is three times as large
+  ScaleRule rule;
+  rule.shape = ScaleShape::box;
+  rule.points = {{195, -5, -5}, {250, 25, 35}};
+  rule.scale = 0.1;
+  field.rules = {rule};
+  const auto plain = volumes({}), finer = volumes(field);
+  CHECK(finer[0] == Approx(plain[0]).epsilon(0.02));
+  CHECK(finer[1] < 0.9 * plain[1]);  // voxels around the teeth take half of the gaps
+}
+
 TEST_CASE("a budget takes no voxels so large that few are left", "[quick][pass][lod]") {
   const LodGround ground{1, 2000, 33 * std::uint64_t(kLeastDenseFaces), 1000};
   CHECK(reductions_for(ground, {100, 0, {}}, 64, 0) == 2);

@@ -101,3 +101,17 @@ TEST_CASE("charts of a texture split vertices, and normals stay", "[quick]") {
     }
   }
 }
+
+TEST_CASE("a vertex is split where its faces have colours of their own, and normals stay", "[quick]") {
+  LatticeMesh mesh = box(100, 200, 300);
+  const LinearColor red{65535, 0, 0}, blue{0, 0, 65535};
+  mesh.colors.assign(12, {red, red, red});
+  CHECK(shaded(mesh).vertex.size() == 24);
+  mesh.colors[0] = {blue, blue, blue};  // half of a side
+  const ShadedMesh drawn = shaded(mesh);
+  CHECK(same_triangles(mesh, drawn));
+  CHECK(drawn.vertex.size() == 26);
+  for (std::size_t t = 0; t < 12; ++t)
+    for (std::size_t k = 0; k < 3; ++k) CHECK(drawn.colors[drawn.triangles[t][k]] == (t == 0 ? blue : red));
+  CHECK(drawn.normals[drawn.triangles[0][0]] == drawn.normals[drawn.triangles[1][0]]);
+}

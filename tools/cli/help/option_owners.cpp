@@ -27,9 +27,9 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--element", "bpclose"},
     {"--enclose", "bpmesh and bplod"},
     {"--error", "bpmesh and bplod"},
-    {"--explain", "bplod"},
+    {"--explain", "bpscale and bplod"},
     {"--faces", "bpmesh and bplod"},
-    {"--field", "bpclose"},
+    {"--field", "bpclose and bplod"},
     {"--fill", "bpvox and bplod"},
     {"--format", "bpvox, bpmesh, bpcheck, bplod and bpinfo"},
     {"--hulls", "bplod"},
@@ -45,13 +45,14 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--mode", "bpmesh and bplod"},
     {"--name", "bplod"},
     {"--origin", "bpmesh, bpcheck and bplod"},
-    {"--output", "bpvox, bpclose, bpmesh and bplod"},
-    {"--overwrite", "bpvox, bpclose, bpmesh, bplod and bpinfo"},
+    {"--output", "bpvox, bpscale, bpclose, bpmesh and bplod"},
+    {"--overwrite", "bpvox, bpscale, bpclose, bpmesh, bplod and bpinfo"},
+    {"--pick", "bpinfo"},
     {"--profile", "bplod"},
-    {"--progress", "bpvox, bpclose, bpmesh, bpcheck and bplod"},
+    {"--progress", "bpvox, bpscale, bpclose, bpmesh, bpcheck and bplod"},
     {"--quads", "bpmesh"},
-    {"--quiet", "bpvox, bpclose, bpmesh, bpcheck and bplod"},
-    {"--report", "bpvox, bpclose, bpmesh, bpcheck and bplod"},
+    {"--quiet", "bpvox, bpscale, bpclose, bpmesh, bpcheck and bplod"},
+    {"--report", "bpvox, bpscale, bpclose, bpmesh, bpcheck and bplod"},
     {"--resolution", "bpvox and bplod"},
     {"--samples", "bpcheck"},
     {"--scale", "bpclose and bplod"},
@@ -66,7 +67,7 @@ constexpr OptionOfTools kOptionsOfTools[] = {
 };
 
 bool is_of_pipe(const std::string& tool) {
-  constexpr const char* kPipe[] = {"bpvox", "bpclose", "bpmesh", "bpcheck", "bplod", "bpinfo"};
+  constexpr const char* kPipe[] = {"bpvox", "bpscale", "bpclose", "bpmesh", "bpcheck", "bplod", "bpinfo"};
   return std::find(std::begin(kPipe), std::end(kPipe), tool) != std::end(kPipe);
 }
 

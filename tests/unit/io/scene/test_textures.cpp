@@ -1,4 +1,5 @@
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "io/gltf/base64.h"
@@ -129,9 +130,23 @@ TEST_CASE("glTF: wrap modes, alpha and KHR_texture_transform", "[quick][io]") {
 TEST_CASE("glTF: textures that name what does not exist", "[quick][io]") {
   const TempDir dir;
   const Json info = base_color({{"index", 0}}), textures{{{"source", 0}}}, images{{{"uri", "x.png"}}};
-  REQUIRE_THROWS_WITH(read_textured({dir.file("a.gltf", gltf_of({{"materials", info}}))}), Contains("textures[0]"));
-  REQUIRE_THROWS_WITH(read_textured({dir.file("b.gltf", gltf_of({{"materials", info}, {"textures", textures}}))}),
-                      Contains("images[0]"));
+  // The triangles are there all the same, and the fault is told.
+  const auto fault_of = [&](const std::string& file) {
+    const TexturedRead r = read_textured({dir.file("x.gltf", file)});
+    CHECK(r.triangles.size() == 1);
+    CHECK_FALSE(r.has_textures);
+    REQUIRE(r.table->faults().size() == 1);
+    return *r.table->faults().begin();
+  };
+  CHECK_THAT(fault_of(gltf_of({{"materials", info}})), Contains("textures[0]"));
+  CHECK_THAT(fault_of(gltf_of({{"materials", info}, {"textures", textures}})), Contains("images[0]"));
+  const std::string whole = gltf_of({{"materials", info}, {"textures", textures}, {"images", images}});
+  const auto places = [&](std::string with) {
+    return with + whole.substr(whole.find(R"("count":3,"type":"VEC2")") + 9);
+  };
+  const std::string before = whole.substr(0, whole.find(R"("count":3,"type":"VEC2")"));
+  CHECK_THAT(fault_of(before + places(R"("count":300)")), Contains("accessors[1]"));
+  CHECK_THAT(fault_of(before + places(R"("count":2)")), Contains("2 places in images for 3 positions"));
   // Without places, or without a source, there is no texture.
   const TexturedRead none =
       read_textured({dir.file("c.gltf", gltf_of({{"materials", base_color({{"index", 0}, {"texCoord", 3}})},
@@ -142,6 +157,35 @@ TEST_CASE("glTF: textures that name what does not exist", "[quick][io]") {
   const TexturedRead empty =
       read_textured({dir.file("d.gltf", gltf_of({{"materials", info}, {"textures", {Json::object()}}}))});
   CHECK(empty.table->material(empty.textures[0].material).image == TextureMaterial::kNoImage);
+}
+
+TEST_CASE("what Assimp reads: an image beside the scene, wherever its path once was, and places from below",
+          "[quick][io]") {
+  const TempDir dir;
+  (void)dir.file("wall.png", image_file(5));
+  const auto ac3d = [](const std::string& image) {
+    return "AC3Db\nMATERIAL \"m\" rgb 0.5 0 1 amb 0 0 0 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT world\nkids "
+           "1\nOBJECT poly\ntexture \"" +
+           image +
+           "\"\ntexrep 2 1\nnumvert 3\n0 0 0\n1 0 0\n1 1 0\nnumsurf 1\nSURF 0x0\nmat 0\nrefs 3\n0 0.25 0.5\n1 1 0\n2 "
+           "0 1\nkids 0\n";
+  };
+  for (const char* const image : {"wall.png", "C:\\pictures\\wall.png", "/home/someone/wall.png"}) {
+    CAPTURE(image);
+    const TexturedRead r = read_textured({dir.file("x.ac", ac3d(image))});
+    REQUIRE(r.triangles.size() == 1);
+    REQUIRE(r.has_textures);
+    CHECK(int(number_of(r, 0)) == 5);
+    std::map<Vec3d, std::array<float, 2>> places;
+    for (std::size_t k = 0; k < 3; ++k) places[r.triangles[0][k]] = r.textures[0].uv[k];
+    CHECK(places[{0, 0, 0}] == std::array{0.5F, 0.5F});
+    CHECK(places[{1, 0, 0}] == std::array{2.0F, 1.0F});
+    CHECK(places[{1, 1, 0}] == std::array{0.0F, 0.0F});
+    CHECK(r.table->material(r.textures[0].material).replaces_color);
+  }
+  const TexturedRead missing = read_textured({dir.file("y.ac", ac3d("none.png"))});
+  CHECK(missing.has_textures);
+  CHECK_FALSE(missing.table->has_images());
 }
 
 TEST_CASE("OBJ: places of corners, also from the end, and images of map_Kd", "[quick][io]") {

@@ -76,8 +76,8 @@ StreamHeader random_header(std::uint32_t seed) {
   if (h.has_closing) {
     h.element = StructuringElement(random() % 2);
     h.scale.base = 2 * h.frame.voxel;
-    h.scale.strokes = {{BrushMode::decrease, {1, 2, 3}, 4, h.frame.voxel}};
-    h.scale.boxes = {{{0, 0, 0}, {1, 1, 1}, 0.5 * h.frame.voxel}};
+    h.scale.rules = {box_rule({0, 0, 0}, {1, 1, 1}, 0.5 * h.frame.voxel),
+                     stroke_rule(ScaleMode::decrease, {1, 2, 3}, 4, h.frame.voxel, h.scale.base)};
   }
   for (std::uint32_t i = 0; i < random() % 3; ++i)
     h.provenance.push_back({"bpvox", "0.1.0", "--voxel 0.1 --name \"\xc3\xa9\"", "00ff"});

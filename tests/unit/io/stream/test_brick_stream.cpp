@@ -187,6 +187,21 @@ TEST_CASE("a brick is stored as what it holds, whatever it is called", "[quick][
   CHECK(read_back(written(header, bricks)).totals.checksum() == content.totals.checksum());
 }
 
+TEST_CASE("a scale field for a closing to come survives the stream, and needs its flag", "[quick][io]") {
+  StreamHeader header = random_header(5);
+  header.has_closing = false;
+  header.element = StructuringElement::cube;
+  header.has_field = true;
+  header.scale = {};
+  header.scale.base = 3 * header.frame.voxel;
+  header.scale.rules = {box_rule({0, 0, 0}, {1, 2, 3}, header.frame.voxel)};
+  CHECK(read_back(written(header, {})).header == header);
+  header.has_field = false;
+  const StreamHeader without = read_back(written(header, {})).header;
+  CHECK_FALSE(without.has_field);
+  CHECK(without.scale == ScaleField{});
+}
+
 TEST_CASE("the checksum tells content from everything else", "[quick][io]") {
   StreamHeader header = random_header(3);
   header.bricks = {{0, 0, 0}, {3, 3, 3}};

@@ -153,12 +153,13 @@ TEST_CASE("a version, flag or value from the future is refused", "[quick][io]") 
   };
   CHECK(says(changed(8, 2), "byte 16: version 2 of the brick stream; this tool reads version 1"));
   CHECK(says(changed(10, 3), "scene files without their flag, or the flag without them"));
-  CHECK(says(changed(10, 5), "unknown flags 0x5"));
+  CHECK(says(changed(10, 9), "unknown flags 0x9"));
+  CHECK(says(changed(10, 5), "a closing, and a scale field for a closing to come"));
   CHECK(says(changed(12, 4), "unknown fill mode 4"));
   CHECK(says(changed(13, 2), "unknown element 2"));
   CHECK(says(changed(14, 3), "slab axis"));
   CHECK(says(changed(15, 6), "unknown up axis 6"));
-  CHECK(says(changed(10, 0), "scale field without a closing"));
+  CHECK(says(changed(10, 0), "a scale field without its flag"));
   CHECK(changed(12, 1).empty());  // a lawful change, to see that sealing works
 }
 

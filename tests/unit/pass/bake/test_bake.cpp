@@ -2,8 +2,10 @@
 
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/geometry/triangle_bvh.h"
+#include "lib/image/mip_image.h"
 #include "lib/pass/bake/bake.h"
-#include "lib/pass/bake/detail/mip_image.h"
+#include "lib/store/memory_scratch.h"
 #include "tests/catch.h"
 #include "tests/support/lattice_boxes.h"
 #include "tests/support/random_lattice.h"
@@ -13,8 +15,6 @@ using namespace bp;
 using namespace bp::test;
 
 namespace {
-
-constexpr std::uint32_t kNone = TriangleTexture::kNoMaterial;
 
 /// Six colour ramps side by side, each its own way: no two places look the same, and a texel is like its neighbours.
 TextureImage six_ramps(int edge) {
@@ -45,6 +45,19 @@ LatticeMesh box_mesh(LatticeBox box) {
   return mesh;
 }
 
+Bounds3d bounds_of(const TexturedScene& scene) {
+  Bounds3d bounds;
+  for (const TriangleD& t : scene.triangles) bounds.merge(bp::bounds_of(t));
+  return bounds;
+}
+
+std::unique_ptr<SceneLooks> looks_of(const TexturedScene& scene, const std::shared_ptr<const TextureSet>& textures,
+                                     const MemoryShare& memory = {}) {
+  TexturedSource source(scene);
+  const SceneLooks::Scene read{source, bounds_of(scene), scene.triangles.size(), textures};
+  return std::make_unique<SceneLooks>(read, std::make_unique<MemoryScratch>(), memory);
+}
+
 struct Baked {
   Atlas atlas;
   TextureImage image;
@@ -52,11 +65,9 @@ struct Baked {
 
 Baked bake_box(const LatticeMesh& mesh, const TexturedScene& scene, const std::shared_ptr<MemoryTextures>& textures,
                const BakeParams& params, double texel = 64) {
-  TexturedSource source(scene);
-  const SceneLooks looks(source, scene.triangles.size(), textures, {});
   Baked b;
   b.atlas = unwrap(mesh, {texel, 4096});
-  b.image = bake(mesh, b.atlas, looks, params);
+  b.image = bake(mesh, b.atlas, *looks_of(scene, textures), params);
   return b;
 }
 
@@ -214,13 +225,12 @@ TEST_CASE("an image that is not there leaves the colour of its triangles, and is
   TexturedScene scene;
   scene.add_cube({0.25, 0.25, 0.25}, 0.5, 0);
   scene.color = {LinearColor{65535, 0, 0}, {65535, 0, 0}, {65535, 0, 0}};
-  TexturedSource source(scene);
-  const SceneLooks looks(source, scene.triangles.size(), textures_of(TextureImage()), {});
+  const auto looks = looks_of(scene, textures_of(TextureImage()));
   const LatticeMesh mesh = box_mesh({{1024, 1024, 1024}, {3072, 3072, 3072}});
   const Atlas atlas = unwrap(mesh, {128, 4096});
-  const TextureImage image = bake(mesh, atlas, looks, BakeParams{0.1, false, {}});
+  const TextureImage image = bake(mesh, atlas, *looks, BakeParams{0.1, false, {}});
   for (const TextureImage::Texel& t : image.texels) CHECK(t == TextureImage::Texel{255, 0, 0, 255});
-  CHECK(looks.faults().size() == 1);
+  CHECK(looks->faults().size() == 1);
 }
 
 TEST_CASE("colours multiply images, or give way to them", "[quick][bake]") {
@@ -257,19 +267,31 @@ TEST_CASE("where the scene is out of reach, colours are those beside", "[quick][
   for (const TextureImage::Texel& t : baked.image.texels) CHECK(t == TextureImage::Texel{9, 99, 199, 255});
 }
 
-TEST_CASE("a scene that does not fit in the memory says how much does", "[quick][bake]") {
+TEST_CASE("the same texture for any memory, and for any order of the scene's triangles", "[quick][bake]") {
   TexturedScene scene;
-  scene.add_cube({0.25, 0.25, 0.25}, 0.5, 0);
-  TexturedSource source(scene);
-  MemoryShare memory{12 * SceneLooks::kBytesEach, 1, {std::uint64_t(1) << 30, 0}};
-  try {
-    const SceneLooks looks(source, 12, textures_of(TextureImage(2, 2)), memory);
-    FAIL("no error");
-  } catch (const NeedsMemory& e) {
-    CHECK(e.memory_bytes() > std::uint64_t(1) << 30);
+  RandomLattice random(7);
+  for (int i = 0; i < 600; ++i) {  // some large, and some at one place with another image
+    const LatticeCoord c = random.point(0, 3000);
+    scene.add_cube({double(c.x) / 4096, double(c.y) / 4096, double(c.z) / 4096}, i % 50 == 0 ? 0.3 : 0.03, 0);
+    if (i % 10 == 0) scene.add_cube({double(c.x) / 4096, double(c.y) / 4096, double(c.z) / 4096}, 0.03, 1);
   }
-  memory.bytes = 16 * SceneLooks::kBytesEach;
-  REQUIRE_NOTHROW(SceneLooks(source, 12, textures_of(TextureImage(2, 2)), memory));
+  REQUIRE(scene.triangles.size() > 3 * 2048);
+  auto textures = textures_of(six_ramps(32));
+  textures->images.push_back(six_ramps(16));
+  textures->materials.push_back(textures->materials[0]);
+  textures->materials[1].image = 1;
+  TexturedScene turned = scene;
+  std::reverse(turned.triangles.begin(), turned.triangles.end());
+  std::reverse(turned.textures.begin(), turned.textures.end());
+  const LatticeMesh mesh = box_mesh({{0, 0, 0}, {4096, 4096, 4096}});
+  const Atlas atlas = unwrap(mesh, {40, 4096});
+  const BakeParams params{0.5, true, {}};
+  const auto baked = [&](const TexturedScene& s, std::uint64_t memory_bytes) {
+    return bake(mesh, atlas, *looks_of(s, textures, {memory_bytes}), params).texels;
+  };
+  const auto plenty = baked(scene, std::uint64_t(1) << 30);
+  CHECK(baked(scene, 100000) == plenty);  // blocks come and go, and images
+  CHECK(baked(turned, std::uint64_t(1) << 30) == plenty);
 }
 
 TEST_CASE("an image that does not fit in the memory is refused with the figure", "[quick][bake]") {
@@ -289,13 +311,11 @@ TEST_CASE("the key of a place knows its triangles and its images, not those else
   textures->images.emplace_back(2, 2, TextureImage::Texel{1, 2, 3, 255});
   textures->materials.push_back({1});
   const auto key = [&] {
-    TexturedSource source(scene);
-    const SceneLooks looks(source, scene.triangles.size(), textures, {});
     KeyHash hash("test");
     Bounds3d here;
     here.add({-1, -1, -1});
     here.add({1, 1, 1});
-    looks.add_to(hash, here);
+    looks_of(scene, textures)->add_to(hash, here);
     return hash.key();
   };
   const ResultKey before = key();

@@ -7,6 +7,7 @@
 #include "lib/volume/reduce.h"
 #include "lib/voxel/color_samples.h"
 #include "tests/catch.h"
+#include "tests/support/lattice_boxes.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/voxelized.h"
 
@@ -224,19 +225,61 @@ TEST_CASE("vertices get the colours of their side, and none that is nowhere", "[
       }
     }
   }
-  mesh.vertices.push_back(mesh.vertices.front());  // of no triangle
   color_vertices(mesh, colors->all(frame));
-  REQUIRE(mesh.colors.size() == mesh.vertices.size());
-  for (std::uint32_t i = 0; i < n; ++i) {
-    for (std::uint32_t k = 0; k < n; ++k) {
-      const LinearColor c = mesh.colors[i * n + k];
-      CAPTURE(i, k, c.r, c.g, c.b);
+  REQUIRE(mesh.colors.size() == mesh.triangles.size());
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t i = mesh.triangles[f][k] / n;
+      const LinearColor c = mesh.colors[f][k];
+      CAPTURE(f, i, c.r, c.g, c.b);
       if (i < 7) CHECK(c == kRed);
+      if (i == 7) CHECK(c.r > 60000);  // one square from the border
+      if (i == 9) CHECK(c.b > 60000);
       if (i > 9) CHECK(c == kBlue);
       CHECK(c.g == 0);
     }
   }
-  CHECK(mesh.colors[7 * n + 5].r > 60000);  // one square from the border
-  CHECK(mesh.colors[9 * n + 5].b > 60000);
-  CHECK(mesh.colors.back() == kRed);
+}
+
+TEST_CASE("colours do not bleed over edges of the scene, and go on where it is smooth", "[quick][pass][colors]") {
+  // A box with a red top; the sides are blue below and fade to green above.
+  ColoredScene scene;
+  const auto add = [&](const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d, const TriangleColors& abc,
+                       const LinearColor& of_d) {
+    scene.triangles.push_back({a, b, c});
+    scene.colors.push_back(abc);
+    scene.triangles.push_back({a, c, d});
+    scene.colors.push_back({abc[0], abc[2], of_d});
+  };
+  const std::array<Vec3d, 4> foot{Vec3d{0, 0, 0}, {20, 0, 0}, {20, 0, 20}, {0, 0, 20}};
+  const auto up = [](Vec3d p) { return Vec3d{p[0], 20, p[2]}; };
+  constexpr LinearColor kGreen{0, 65535, 0};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3d &p = foot[k], &q = foot[(k + 1) % 4];
+    add(q, p, up(p), up(q), {kBlue, kBlue, kGreen}, kGreen);
+  }
+  add(up(foot[3]), up(foot[2]), up(foot[1]), up(foot[0]), {kRed, kRed, kRed}, kRed);
+  add(foot[0], foot[1], foot[2], foot[3], {kBlue, kBlue, kBlue}, kBlue);
+  const Voxelized voxels = voxelized(scene.triangles, 0.125);
+  const GridFrame& frame = voxels.header.frame;
+  const auto colors = gathered(scene, voxels, 1 << 20);
+  LatticeMesh mesh;
+  mesh.frame = frame;
+  const auto lattice = [&](double x) { return std::int64_t(std::lround(x * 64)); };
+  const Vec3d lo = frame.to_voxels({0, 0, 0}), hi = frame.to_voxels({20, 20, 20});
+  add_box(mesh, {{lattice(lo[0]), lattice(lo[1]), lattice(lo[2])}, {lattice(hi[0]), lattice(hi[1]), lattice(hi[2])}});
+  color_vertices(mesh, colors->all(frame));
+  REQUIRE(mesh.colors.size() == mesh.triangles.size());
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const auto& t = mesh.triangles[f];
+    const auto is_up = [&](std::uint32_t v) { return mesh.vertices[v].y > lattice(lo[1]); };
+    const bool is_top = is_up(t[0]) && is_up(t[1]) && is_up(t[2]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const LinearColor c = mesh.colors[f][k];
+      CAPTURE(f, k, c.r, c.g, c.b);
+      if (is_top) CHECK(c.r > 58000);
+      if (!is_top) CHECK(c.r < 6000);
+      if (!is_top && is_up(t[k])) CHECK(c.g > 50000);
+    }
+  }
 }

@@ -173,7 +173,7 @@ TEST_CASE("edges across a finer region stay below what the scale is there", "[qu
                      [](VoxelCoord p) { return p.x >= 2 && p.x < 62 && p.y >= 2 && p.y < 62 && p.z >= 4 && p.z < 12; });
   ScaleField& scale = source.header().scale;
   scale.base = 20;
-  scale.boxes.push_back({{28, 0, 0}, {36, 64, 16}, 1.5});  // a slab between the ends of the plate
+  scale.rules.push_back(box_rule({28, 0, 0}, {36, 64, 16}, 1.5));  // a slab between the ends of the plate
   MeshParams params;
   params.edge_factor = 2;
   params.faces = {50};

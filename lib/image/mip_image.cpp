@@ -1,4 +1,4 @@
-#include "lib/pass/bake/detail/mip_image.h"
+#include "lib/image/mip_image.h"
 
 #include <algorithm>
 #include <cmath>

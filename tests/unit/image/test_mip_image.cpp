@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "lib/core/color.h"
-#include "lib/pass/bake/detail/image_cache.h"
+#include "lib/image/image_cache.h"
 #include "tests/catch.h"
 #include "tests/support/textured_scene.h"
 

@@ -1,0 +1,163 @@
+#include "lib/pass/bake/detail/scene_eye.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "lib/core/vec3.h"
+#include "lib/image/image_cache.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::size_t kMostHeld = 4;
+
+template <class Held, class Get>
+auto held(Held& all, std::uint32_t number, const Get& get) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& h) { return h.first == number; });
+  if (found != all.end()) {
+    std::rotate(found, found + 1, all.end());
+  } else {
+    if (all.size() == kMostHeld) all.erase(all.begin());
+    all.emplace_back(number, get(number));
+  }
+  return all.back().second;
+}
+
+/// Bits: a place in an image may be no number.
+std::array<std::array<std::uint32_t, 2>, 3> bits_of(const TriangleTexture& t) {
+  return std::bit_cast<std::array<std::array<std::uint32_t, 2>, 3>>(t.uv);
+}
+
+}  // namespace
+
+double texels_per_unit(const TriangleD& t, const TriangleTexture& texture, const std::array<int, 2>& size) {
+  const auto& [a, b, c] = texture.uv;
+  const double flat =
+      std::abs((double(b[0]) - a[0]) * (double(c[1]) - a[1]) - (double(c[0]) - a[0]) * (double(b[1]) - a[1]));
+  const double area = length(cross(t[1] - t[0], t[2] - t[0]));
+  const double texels = std::sqrt(flat * size[0] * size[1] / area);
+  return std::isfinite(texels) ? texels : 0;
+}
+
+SceneEye::Block SceneEye::block(std::uint32_t number) {
+  return held(blocks_, number, [&](std::uint32_t i) { return looks_.blocks_->get(i); });
+}
+
+const MipImage* SceneEye::image(std::uint32_t number) {
+  return held(images_, number, [&](std::uint32_t i) { return looks_.cache_->get(i); }).get();
+}
+
+/// Blocks that are no farther away than `most`, the nearest first.
+template <class Distance>
+void SceneEye::find_candidates(const Bounds3d& box, double most, const Distance& distance) {
+  candidates_.clear();
+  looks_.blocks_->visit(box, [&](std::uint32_t block) {
+    const double d = distance(looks_.blocks_->box(block));
+    if (d <= most) candidates_.push_back({d, block});
+  });
+  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.distance, a.block) < std::tie(b.distance, b.block);
+  });
+}
+
+bool SceneEye::before(const LookBlock& a, std::uint32_t item_a, const LookBlock& b, std::uint32_t item_b) const {
+  const auto key = [&](const TriangleTexture& t) {
+    return t.material == TriangleTexture::kNoMaterial ? ResultKey{} : looks_.materials_[t.material].key;
+  };
+  const TriangleTexture &s = a.texture(item_a), &t = b.texture(item_b);
+  if (const ResultKey k = key(s), l = key(t); k.words != l.words) return k.words < l.words;
+  if (a.colors(item_a) != b.colors(item_b)) return a.colors(item_a) < b.colors(item_b);
+  return std::tuple(bits_of(s), a.triangles().item(item_a).corners) <
+         std::tuple(bits_of(t), b.triangles().item(item_b).corners);
+}
+
+std::optional<SceneEye::Seen> SceneEye::first_along(const Vec3d& start, const Vec3d& direction, double size,
+                                                    float threshold, bool& through) {
+  Bounds3d box;
+  box.add(start);
+  box.add(start + direction);
+  find_candidates(box, 1, [&](const Bounds3d& b) { return enters_along(start, direction, b, 1); });
+  Place best;
+  double along = 1;
+  for (const Candidate& c : candidates_) {
+    if (c.distance > along) break;
+    const Block here = block(c.block);
+    const auto accept = [&](std::uint32_t item, double at) {
+      const bool does = covers(*here, item, start + at * direction, size, threshold);
+      through = through || !does;
+      return does;
+    };
+    const auto found = here->triangles().first_along(
+        start, direction, along, accept, [&](std::uint32_t a, std::uint32_t b) { return before(*here, a, *here, b); });
+    if (!found) continue;
+    if (best.block && found->along == along && !before(*here, found->item, *best.block, best.item)) continue;
+    best = {here, found->item};
+    along = found->along;
+  }
+  if (!best.block) return {};
+  return Seen{along, at(*best.block, best.item, start + along * direction, size)};
+}
+
+std::optional<Look> SceneEye::nearest(const Vec3d& p, double reach, double size) {
+  double most = reach * reach;
+  if (near_.block) most = std::min(most, distance_squared(p, near_.block->triangles().item(near_.item).corners));
+  Bounds3d box;
+  const double side = std::sqrt(most) * (1 + 1e-9);
+  box.add({p[0] - side, p[1] - side, p[2] - side});
+  box.add({p[0] + side, p[1] + side, p[2] + side});
+  constexpr double kRounding = 1 - 1e-12;  // as in TriangleBvh::nearest_within()
+  find_candidates(box, most, [&](const Bounds3d& b) { return kRounding * distance_squared(p, b); });
+  Place best;
+  for (const Candidate& c : candidates_) {
+    if (c.distance > most) break;
+    const Block here = block(c.block);
+    const auto found = here->triangles().nearest_within(
+        p, most, [&](std::uint32_t a, std::uint32_t b) { return before(*here, a, *here, b); });
+    if (!found) continue;
+    if (best.block && found->distance_squared == most && !before(*here, found->item, *best.block, best.item)) continue;
+    best = {here, found->item};
+    most = found->distance_squared;
+  }
+  if (!best.block) return {};
+  near_ = best;
+  const TriangleD& corners = best.block->triangles().item(best.item).corners;
+  return at(*best.block, best.item, nearest_point(p, corners), size);
+}
+
+Look SceneEye::at(const LookBlock& block, std::uint32_t item, const Vec3d& p, double size) {
+  const TriangleD& corners = block.triangles().item(item).corners;
+  std::array<double, 3> part = barycentric(corners, p);
+  for (double& x : part) x = std::clamp(x, 0.0, 1.0);
+  Look look;
+  const TriangleColors& colors = block.colors(item);
+  const auto mean = [&](std::uint16_t LinearColor::*c) {
+    return float((part[0] * colors[0].*c + part[1] * colors[1].*c + part[2] * colors[2].*c) / 65535);
+  };
+  look.color = {mean(&LinearColor::r), mean(&LinearColor::g), mean(&LinearColor::b)};
+  const TriangleTexture& texture = block.texture(item);
+  if (texture.material == TriangleTexture::kNoMaterial) return look;
+  const TextureMaterial& material = looks_.images_->material(texture.material);
+  const MipImage* const seen = image(material.image);
+  if (seen == nullptr) return look;
+  std::array<double, 2> uv{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < 2; ++i) uv[i] += part[k] * double(texture.uv[k][i]);
+  }
+  const double texels = size * texels_per_unit(corners, texture, {seen->width(), seen->height()});
+  const LinearTexel texel = seen->at(uv[0], uv[1], texels, material.wrap);
+  for (std::size_t i = 0; i < 3; ++i) look.color[i] = material.replaces_color ? texel[i] : look.color[i] * texel[i];
+  if (material.alpha_mode != AlphaMode::opaque) look.alpha = std::clamp(texel[3] * material.alpha, 0.0F, 1.0F);
+  return look;
+}
+
+bool SceneEye::covers(const LookBlock& block, std::uint32_t item, const Vec3d& p, double size, float threshold) {
+  const TriangleTexture& texture = block.texture(item);
+  if (texture.material == TriangleTexture::kNoMaterial) return true;
+  const TextureMaterial& material = looks_.images_->material(texture.material);
+  if (material.alpha_mode == AlphaMode::opaque) return true;
+  return at(block, item, p, size).alpha >= (material.alpha_mode == AlphaMode::mask ? material.cutoff : threshold);
+}
+
+}  // namespace bp

@@ -1,0 +1,59 @@
+#pragma once
+#include "lib/image/mip_image.h"
+#include "lib/pass/bake/detail/look_blocks.h"
+#include "lib/pass/bake/scene_looks.h"
+
+namespace bp {
+
+/// Looks at a scene. Keeps the blocks and images at hand that it had last. Not thread-safe: one for each thread.
+class SceneEye {
+ public:
+  explicit SceneEye(const SceneLooks& looks) : looks_(looks) {}
+
+  /// What is seen from `start` up to start + direction, over about `size` scene units along each side.
+  struct Seen {
+    double along = 1;
+    Look look;
+  };
+  /// `threshold`: what covers at least that much of what is behind is seen, and alone; `through`: set if something was
+  /// in the way that covers less.
+  [[nodiscard]] std::optional<Seen> first_along(const Vec3d& start, const Vec3d& direction, double size,
+                                                float threshold, bool& through);
+  /// The nearest place within `reach`.
+  [[nodiscard]] std::optional<Look> nearest(const Vec3d& p, double reach, double size);
+
+ private:
+  using Block = std::shared_ptr<const LookBlock>;
+  /// An item of a block.
+  struct Place {
+    Block block;
+    std::uint32_t item = 0;
+  };
+  struct Candidate {
+    double distance;
+    std::uint32_t block;
+  };
+  template <class T>
+  using Held = std::vector<std::pair<std::uint32_t, std::shared_ptr<const T>>>;  // the latest last
+
+  [[nodiscard]] Block block(std::uint32_t number);
+  [[nodiscard]] const MipImage* image(std::uint32_t number);
+  [[nodiscard]] Look at(const LookBlock& block, std::uint32_t item, const Vec3d& p, double size);
+  [[nodiscard]] bool covers(const LookBlock& block, std::uint32_t item, const Vec3d& p, double size, float threshold);
+  /// Of two triangles at one place, which is seen.
+  [[nodiscard]] bool before(const LookBlock& a, std::uint32_t item_a, const LookBlock& b, std::uint32_t item_b) const;
+  template <class Distance>
+  void find_candidates(const Bounds3d& box, double most, const Distance& distance);
+
+  const SceneLooks& looks_;
+  Held<LookBlock> blocks_;
+  Held<MipImage> images_;
+  std::vector<Candidate> candidates_;
+  Place near_;  // found last
+};
+
+/// Texels of an image of this size along a length of 1 on a triangle; 0 if it cannot be told.
+[[nodiscard]] double texels_per_unit(const TriangleD& t, const TriangleTexture& texture,
+                                     const std::array<int, 2>& size);
+
+}  // namespace bp

@@ -1,0 +1,32 @@
+#pragma once
+#include "lib/core/box.h"
+#include "lib/core/color.h"
+#include "lib/core/texture.h"
+
+namespace bp {
+
+struct TexturedTriangle {
+  TriangleD corners;
+  TriangleColors colors;
+  TriangleTexture texture;
+};
+
+[[nodiscard]] inline Vec3d middle_of(const TriangleD& t) {
+  Vec3d p;
+  for (std::size_t i = 0; i < 3; ++i) p[i] = t[0][i] / 3 + t[1][i] / 3 + t[2][i] / 3;
+  return p;
+}
+
+/// Points of `bounds` along a curve that mostly goes from neighbour to neighbour (Morton order), up to 2^57.
+[[nodiscard]] inline std::uint64_t morton_of(const Vec3d& p, const Bounds3d& bounds) {
+  constexpr int kBits = 19;
+  std::uint64_t code = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double part = (p[i] - bounds.min[i]) / (bounds.max[i] - bounds.min[i]);  // NaN: flat
+    const auto x = std::uint64_t(part > 0 ? std::min(part, 1.0) * ((1 << kBits) - 1) : 0);
+    for (int bit = 0; bit < kBits; ++bit) code |= (x >> bit & 1) << (3 * bit + int(i));
+  }
+  return code;
+}
+
+}  // namespace bp

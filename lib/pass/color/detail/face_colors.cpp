@@ -1,0 +1,120 @@
+#include "lib/pass/color/detail/face_colors.h"
+
+#include <cmath>
+
+#include "lib/core/parallel.h"
+#include "lib/mesh/inner_edges.h"
+#include "lib/voxel/color_samples.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kSpacing = kColorCellVox * kLatticePerVoxel / 2;  // lattice units: as the scene was sampled
+constexpr int kLeastRows = 2;
+constexpr double kTowardsMean = 0.05;
+/// Colours that differ: by so much of the range of what is seen, and by so many standard deviations within the faces.
+constexpr double kLeastStep = 0.1, kLeastDeviations = 1;
+
+Rgb rgb_of(LinearColor c) {
+  return {double(c.r), double(c.g), double(c.b)};
+}
+
+TriangleD corners_of(const LatticeMesh& mesh, std::size_t f) {
+  TriangleD t;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const LatticeCoord v = mesh.vertices[mesh.triangles[f][k]];
+    t[k] = {double(v.x), double(v.y), double(v.z)};
+  }
+  return t;
+}
+
+FaceColors sampled(const TriangleD& corners, const NearbyColors& colors) {
+  FaceColors face;
+  const double area = area_of(corners);
+  for_each_sample(corners, kSpacing, kLeastRows, [&](const std::array<double, 3>& w, double share) {
+    const Rgb c = rgb_of(colors.at(point_of(corners, w)));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double weight = area * share * w[k];
+      face.products[k] += weight * w[k];
+      face.products[3 + k] += weight * w[(k + 1) % 3];
+      face.mass[k] += weight;
+      for (std::size_t i = 0; i < 3; ++i) face.sums[k][i] += weight * c[i];
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      face.squares[i] += area * share * c[i] * c[i];
+      face.low[i] = std::min(face.low[i], c[i]);
+      face.high[i] = std::max(face.high[i], c[i]);
+    }
+  });
+  return face;
+}
+
+/// The linear function that is nearest to a face's colours, if nothing else is asked of it.
+struct FaceFit {
+  std::array<Rgb, 3> corners;  // by channel
+  double variance = 0;         // of the colours around it, the sum over the channels
+};
+
+FaceFit fit_of(const FaceColors& face) {
+  const auto& m = face.products;
+  const double area = face.area();
+  std::array<Vec3d, 3> rows{Vec3d{m[0], m[3], m[5]}, {m[3], m[1], m[4]}, {m[5], m[4], m[2]}}, held = rows;
+  for (std::size_t k = 0; k < 3; ++k) held[k][k] += kTowardsMean * face.mass[k];
+  const std::array<Vec3d, 3> inverse{cross(held[1], held[2]), cross(held[2], held[0]), cross(held[0], held[1])};
+  const double determinant = dot(held[0], inverse[0]);
+  FaceFit fit;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d sums{face.sums[0][i], face.sums[1][i], face.sums[2][i]};
+    const double mean = (sums[0] + sums[1] + sums[2]) / area;
+    Vec3d x{};
+    for (std::size_t k = 0; k < 3; ++k)
+      x = x + (sums[k] + kTowardsMean * face.mass[k] * mean) / determinant * inverse[k];
+    for (double& c : x) c = std::clamp(c, face.low[i], face.high[i]);
+    fit.corners[i] = x;
+    const Vec3d product{dot(rows[0], x), dot(rows[1], x), dot(rows[2], x)};
+    fit.variance += std::max(0.0, face.squares[i] - 2 * dot(sums, x) + dot(product, x)) / area;
+  }
+  return fit;
+}
+
+/// Of the two faces' colours, in the middle of the edge that begins at these places in them.
+bool differ(const FaceFit& a, std::size_t in_a, const FaceFit& b, std::size_t in_b) {
+  double difference = 0, step = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double p = (a.corners[i][in_a] + a.corners[i][(in_a + 1) % 3]) / 2,
+                 q = (b.corners[i][in_b] + b.corners[i][(in_b + 1) % 3]) / 2;
+    difference += (p - q) * (p - q);
+    step = std::max(step, std::abs(std::sqrt(p / 65535) - std::sqrt(q / 65535)));  // about what sRGB does
+  }
+  return step > kLeastStep && difference > kLeastDeviations * kLeastDeviations * (a.variance + b.variance);
+}
+
+}  // namespace
+
+std::vector<FaceColors> face_colors(const LatticeMesh& mesh, const NearbyColors& colors) {
+  std::vector<FaceColors> faces(mesh.triangles.size());
+  parallel_ranges(std::int64_t(faces.size()), 256, [&](std::int64_t begin, std::int64_t end) {
+    for (auto f = std::size_t(begin); f < std::size_t(end); ++f) faces[f] = sampled(corners_of(mesh, f), colors);
+  });
+  return faces;
+}
+
+DisjointSets color_groups(const LatticeMesh& mesh, const std::vector<FaceColors>& faces) {
+  std::vector<FaceFit> fits(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (faces[f].area() > 0) fits[f] = fit_of(faces[f]);
+  DisjointSets groups(3 * faces.size());
+  const auto next = [](std::uint32_t c) { return c % 3 == 2 ? c - 2 : c + 1; };
+  const auto vertex = [&](std::uint32_t c) { return mesh.triangles[c / 3][c % 3]; };
+  for_each_inner_edge(mesh.triangles, [&](std::uint32_t c, std::uint32_t d) {
+    if (!(faces[c / 3].area() > 0) || !(faces[d / 3].area() > 0)) return;
+    if (differ(fits[c / 3], c % 3, fits[d / 3], d % 3)) return;
+    const bool same_way = vertex(c) == vertex(d);
+    groups.unite(c, same_way ? d : next(d));
+    groups.unite(next(c), same_way ? next(d) : d);
+  });
+  return groups;
+}
+
+}  // namespace bp

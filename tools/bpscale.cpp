@@ -1,0 +1,92 @@
+// bpscale: adds a scale field to a stream of voxels, for bpclose. Manual: docs/bpscale.1.md
+#include <optional>
+
+#include "io/stream/brick_stream.h"
+#include "lib/core/error.h"
+#include "tools/cli/report.h"
+#include "tools/cli/run_tool.h"
+#include "tools/notes/scale_notes.h"
+#include "tools/run/inputs.h"
+#include "tools/run/provenance.h"
+#include "tools/run/scale_rules.h"
+#include "tools/scale/explain.h"
+
+namespace {
+
+using bp::ErrorCode;
+using bp::fail;
+
+struct Options {
+  bp::CommonOptions common;
+  std::string rules, in = "-", out = "-";
+  std::optional<bp::Vec3d> explain;
+};
+
+Options parse(bp::Args& args) {
+  Options o;
+  args.about("Adds a scale field to a stream of voxels: rules tell bpclose where the closing is finer or coarser.");
+  args.example("bpvox scene.glb --resolution 256 | bpscale rules.json | bpclose | bpmesh --faces 1000 -o proxy.glb");
+  args.positional("RULES", o.rules, "JSON file of rules");
+  args.positional("INPUT", o.in, "stream of voxels; - is stdin");
+  args.group("Files");
+  args.option("-o,--output", "FILE", o.out, "stream of voxels, with the field; - is stdout");
+  args.group("Field");
+  args.option("--explain", "X,Y,Z", o.explain,
+              "print what scale a point gets, and what each rule does there; write no stream");
+  o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::progress_part |
+                            bp::CommonOptions::report_part | bp::CommonOptions::overwrite_part);
+  args.often({"--output", "--explain", "--overwrite"});
+  args.parse();
+  if (o.rules.empty()) fail(ErrorCode::bad_argument, "name a file of rules");
+  if (o.explain && args.given("--output"))
+    fail(ErrorCode::bad_argument, "--explain writes no stream; leave out --output");
+  bp::check_stream_name(o.out);
+  bp::keep_inputs({o.rules, o.in});
+  return o;
+}
+
+bp::StreamHeader with_field(const bp::StreamHeader& in, const bp::ScaleField& field) {
+  bp::StreamHeader header = in;
+  header.has_field = true;
+  header.scale = field;
+  bp::OptionText text;
+  text.add("field", bp::provenance_text(field));
+  header.provenance.push_back(bp::make_provenance("bpscale", text));
+  return header;
+}
+
+std::uint64_t copy(bp::BrickReader& source, bp::BrickWriter& sink) {
+  std::uint64_t bricks = 0;
+  for (bp::Brick brick; source.read(brick); ++bricks) sink.write(brick);
+  sink.finish();
+  return bricks;
+}
+
+void run(const Options& o) {
+  bp::Report report("bpscale");
+  report.begin("open");
+  const auto output = o.explain ? nullptr : bp::open_output(o.out, o.common.overwrite);
+  bp::BrickReader source(o.in);
+  const bp::StreamHeader& header = source.header();
+  if (header.has_closing)
+    fail(ErrorCode::bad_input, "{}: is closed already; bpscale comes between bpvox and bpclose", o.in);
+  const bp::ScaleField field = bp::read_rules(o.rules, header);
+  (void)field.upper_bound(header.frame);  // refuses what is out of range
+  if (o.explain) return bp::print(bp::explain_scale(field, header, *o.explain));
+  const bool opening = header.fill == bp::FillMode::inside;
+  for (const std::string& text : bp::scale_notes(field, header, opening)) report.note(text, o.common);
+
+  report.begin("copy");
+  bp::BrickWriter sink(*output, with_field(header, field));
+  report.counts = {{"rules", field.rules.size()}, {"bricks", copy(source, sink)}};
+  output->commit();
+  report.bytes_in = source.totals().bytes;
+  report.bytes_out = output->bytes();
+  report.write(o.common);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return bp::run_tool("bpscale", argc, argv, parse, run);
+}

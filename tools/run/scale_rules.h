@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+#include "lib/grid/stream.h"
+
+namespace bp {
+
+/// Reads a file of rules (docs/bpscale.1.md) for the scene and the grid of `header`. Throws bad_input with the key at
+/// fault.
+[[nodiscard]] ScaleField read_rules(const std::string& file, const StreamHeader& header);
+
+/// A field for the provenance: its JSON, or the hash of that where it is long; the header holds all of it.
+[[nodiscard]] std::string provenance_text(const ScaleField& field);
+
+}  // namespace bp
