@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint64_t kFineFactor = 10, kFineFaces = 20000;
 constexpr std::uint64_t kPointsPerFace = 30, kLeastPoints = 30000;
 constexpr double kLongest = 2.5;  // edges, times the square root of a face's share of the area
-constexpr int kSweeps = 4, kRounds = 8;
+constexpr int kSweeps = 4, kRounds = 7;
 
 /// Middles of faces, which are all of the same size: about the given share of them, chosen by a hash of where they are,
 /// because regular choices beat with the steps of the surface.

@@ -18,7 +18,7 @@ constexpr double kSlide = 0.1;  // weight of a point's distance along its face, 
 constexpr double kStay = 0.02;  // of a vertex's own place, against that of its points together
 // A face stands for a plane of the scene if so many of its points lie in it, to this angle (cosine) and distance.
 constexpr double kMostPoints = 0.7, kSameNormal = 0.996, kSamePlane = 0.1 * kLatticePerVoxel;
-constexpr std::size_t kFewPoints = 4;
+constexpr std::size_t kFewPoints = 4, kMostCandidates = 16;
 constexpr double kFlipGain = 0.1;  // of the squared distances of the points of two faces: a flip must save as much
 constexpr int kRoundsPerFlips = 3;
 
@@ -87,8 +87,8 @@ class Settler {
     if (points.size() < kFewPoints) return std::nullopt;
     std::size_t most = 0;
     FitPlace best;
-    for (const std::uint32_t i : points) {
-      const FitPlace& plane = points_[i];
+    for (std::size_t k = 0; k < points.size(); k += 1 + points.size() / kMostCandidates) {
+      const FitPlace& plane = points_[points[k]];
       const auto votes = std::size_t(
           std::count_if(points.begin(), points.end(), [&](std::uint32_t j) { return is_in(points_[j], plane); }));
       if (votes <= most) continue;
