@@ -18,6 +18,7 @@ fi
 export NODE_PATH=$PWD/node_modules
 rm -rf data
 bp-plant --triangles 100000 -o plant.ply --overwrite > /dev/null
+mkdir -p data
 bplod plant.ply --faces 2000 --resolution 160 -o data/gltf > /dev/null
 bplod plant.ply --levels 3 --resolution 192 --tile 64 --profile 3dtiles -o data/tiles > /dev/null
 bpvox plant.ply --resolution 128 | bpclose --scale 1% | bpmesh --faces 1000 -o data/bpmesh.glb
