@@ -285,7 +285,7 @@ std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin,
   if (within.holds(bounds_)) {
     points = all_samples();
   } else {
-    tree_.query(within, [&](std::uint32_t i) {
+    tree_.query_places(within, [&](std::uint32_t i) {
       add_samples(triangles_[i], frame_.voxel, points);
       return true;
     });

@@ -4,6 +4,7 @@
 
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/fit/detail/face_points.h"
 #include "lib/fit/detail/settle.h"
 #include "lib/fit/detail/vertex_mover.h"
 #include "lib/geometry/triangle_bvh.h"
@@ -16,24 +17,24 @@ namespace {
 constexpr std::uint64_t kFineFactor = 10, kFineFaces = 20000;
 constexpr std::uint64_t kPointsPerFace = 30, kLeastPoints = 30000;
 constexpr double kLongest = 2.5;  // edges, times the square root of a face's share of the area
-constexpr int kSweeps = 4, kRounds = 8;
+constexpr int kSweeps = 4, kRounds = 7;
 
 /// Middles of faces, which are all of the same size: about the given share of them, chosen by a hash of where they are,
 /// because regular choices beat with the steps of the surface.
-std::vector<Vec3d> spread_points(const SurfaceSource& dense, double share) {
+std::vector<FitPlace> spread_points(const SurfaceSource& dense, double share) {
   constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
   const std::vector<BrickCoord> bricks = dense.bricks();
-  std::vector<std::vector<Vec3d>> chosen(bricks.size());
+  std::vector<std::vector<FitPlace>> chosen(bricks.size());
   parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
     const Piece piece = dense.piece(bricks[std::size_t(i)]);
     for (const auto& t : piece.triangles) {
       const LatticeCoord sum = piece.vertices[t[0]] + piece.vertices[t[1]] + piece.vertices[t[2]];
       std::uint64_t hash = 0;
       for (int k = 0; k < 3; ++k) hash = ((hash ^ std::uint64_t(sum[k])) * kMix) ^ (hash >> 29);
-      if (double((hash * kMix) >> 32) < share * 0x1p32) chosen[std::size_t(i)].push_back(1.0 / 3 * to_double(sum));
+      if (double((hash * kMix) >> 32) < share * 0x1p32) chosen[std::size_t(i)].push_back({1.0 / 3 * to_double(sum)});
     }
   });
-  std::vector<Vec3d> points;
+  std::vector<FitPlace> points;
   for (const auto& some : chosen) points.insert(points.end(), some.begin(), some.end());
   return points;
 }
@@ -68,12 +69,12 @@ class SmoothNormals {
   std::unique_ptr<TriangleBvh> tree_;
 };
 
-void move_to_targets(std::vector<Vec3d>& points, const HalfEdgeMesh& surface, const FitTarget& target) {
+void move_to_targets(std::vector<FitPlace>& points, const HalfEdgeMesh& surface, const FitTarget& target) {
   const SmoothNormals normals(surface);
   parallel_ranges(std::int64_t(points.size()), 256, [&](std::int64_t begin, std::int64_t end) {
     std::uint32_t guess = 0;
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
-      points[i] = target(points[i], normals.at(points[i], guess));
+      points[i] = target(points[i].at, normals.at(points[i].at, guess));
   });
 }
 
@@ -83,7 +84,7 @@ std::uint64_t draw_to_targets(HalfEdgeMesh& mesh, const FitTarget& target, const
   VertexMover mover(mesh, edge_limit, nullptr);
   std::vector<LatticeCoord> targets(mesh.vertex_capacity());
   for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {  // all from where the surface is now: no drift
-    if (mesh.vertex_alive(v)) targets[v] = rounded(target(to_double(mesh.position(v)), vertex_normal(mesh, v)));
+    if (mesh.vertex_alive(v)) targets[v] = rounded(target(to_double(mesh.position(v)), vertex_normal(mesh, v)).at);
   }
   std::uint64_t moves = 0;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -116,6 +117,7 @@ FineFit fine_fit(const SurfaceSource& dense, std::uint64_t faces, const FitTarge
   draw_to_targets(mesh, target, edge_limit, kSweeps);
   erase_inner_shells(mesh);
   fine.surface = mesh.compact(dense.frame());
+  fine.quadrics = quadrics_of_points(HalfEdgeMesh(fine.surface), fine.points);
   return fine;
 }
 
@@ -123,7 +125,7 @@ LatticeMesh fit_level(const FineFit& fine, const SimplifyParams& params, Simplif
   SimplifyParams free = params;
   free.free = true;
   free.dense = false;
-  const LatticeMesh level = simplify(fine.surface, free, counts);
+  const LatticeMesh level = simplify(fine.surface, fine.quadrics, free, counts);
   HalfEdgeMesh mesh(level);
   settle(mesh, fine.points, params.edge_limit, params.limits, kRounds);
   erase_inner_shells(mesh);  // what has moved over what it does not touch

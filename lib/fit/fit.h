@@ -1,6 +1,5 @@
 #pragma once
-#include <functional>
-
+#include "lib/fit/fit_place.h"
 #include "lib/simplify/simplify.h"
 
 /// Fitting: levels of detail that need not enclose ([CB17] §5.4). The closing has merged parts and closed holes; its
@@ -9,14 +8,11 @@
 /// closed, 2-manifold and embedded.
 namespace bp {
 
-/// Where a point of the dense surface at `p` should be, given the unit normal of the surface there; lattice units. Must
-/// be callable by several threads at a time.
-using FitTarget = std::function<Vec3d(const Vec3d& p, const Vec3d& normal)>;
-
 /// The start of every level.
 struct FineFit {
   LatticeMesh surface;
-  std::vector<Vec3d> points;  ///< evenly over the dense surface, each at its target; lattice units
+  std::vector<Quadric> quadrics;  ///< per vertex and about it: of the planes at the points
+  std::vector<FitPlace> points;   ///< evenly over the dense surface, each at its target
 };
 
 /// `dense`, the surface of repaired voxels, freely simplified to some ten times `faces` (at least 20,000), then drawn

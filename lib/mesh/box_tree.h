@@ -27,11 +27,16 @@ class BoxTree {
   /// visit(item) for every item whose box meets `box`; stops when visit returns false, and returns false then.
   template <class Visit>
   bool query(const LatticeBox& box, Visit&& visit) const {
+    return query_places(box, [&](std::uint32_t place) { return visit(order_[place]); });
+  }
+  /// The same, by their places in order().
+  template <class Visit>
+  bool query_places(const LatticeBox& box, Visit&& visit) const {
     const SmallBox small = to_small(box);
     return walk([&](const BoxGroup& group) { return group.meeting(small); },
                 [&](std::uint32_t first, std::uint32_t hits) {
                   for (; hits != 0; hits &= hits - 1) {
-                    if (!visit(order_[first + std::uint32_t(std::countr_zero(hits))])) return false;
+                    if (!visit(first + std::uint32_t(std::countr_zero(hits)))) return false;
                   }
                   return true;
                 });

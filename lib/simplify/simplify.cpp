@@ -150,15 +150,18 @@ LatticeMesh simplify(const SurfaceSource& dense, const SimplifyParams& params, S
 }
 
 LatticeMesh simplify(const LatticeMesh& mesh, const SimplifyParams& params, SimplifyCounts& counts) {
+  if (!params.dense || mesh.triangles.empty()) return simplify(mesh, {}, params, counts);
+  LatticeMesh out = simplify(MeshSurface(mesh), params, counts);
+  out.provenance = mesh.provenance;
+  return out;
+}
+
+LatticeMesh simplify(const LatticeMesh& mesh, const std::vector<Quadric>& quadrics, const SimplifyParams& params,
+                     SimplifyCounts& counts) {
   counts = {};
   if (mesh.triangles.empty()) return mesh;
-  LatticeMesh out;
-  if (params.dense) {
-    out = simplify(MeshSurface(mesh), params, counts);
-  } else {
-    counts.faces_in = counts.faces_flat = mesh.triangles.size();
-    out = simplify_whole({kEverywhere, mesh.vertices, mesh.triangles, {}}, mesh.frame, params, counts);
-  }
+  counts.faces_in = counts.faces_flat = mesh.triangles.size();
+  LatticeMesh out = simplify_whole({kEverywhere, mesh.vertices, mesh.triangles, quadrics}, mesh.frame, params, counts);
   out.provenance = mesh.provenance;
   return out;
 }

@@ -72,4 +72,9 @@ struct SimplifyCounts {
 /// The same of a mesh: with params.dense a dense_surface, else any that is closed, oriented, 2-manifold and embedded.
 [[nodiscard]] LatticeMesh simplify(const LatticeMesh& mesh, const SimplifyParams& params, SimplifyCounts& counts);
 
+/// The same of a mesh that is not dense, which stands for other planes than its own: `quadrics`, per vertex and about
+/// it.
+[[nodiscard]] LatticeMesh simplify(const LatticeMesh& mesh, const std::vector<Quadric>& quadrics,
+                                   const SimplifyParams& params, SimplifyCounts& counts);
+
 }  // namespace bp

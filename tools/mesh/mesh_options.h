@@ -27,8 +27,8 @@ struct MeshOptions {
 /// Throws bad_argument if options contradict each other.
 [[nodiscard]] MeshOptions parse_mesh_options(Args& args);
 
-/// proxy.glb, or proxy.0.glb and so on if there are several levels. After output_format(). Throws bad_argument if stdout is
-/// to take several.
+/// proxy.glb, or proxy.0.glb and so on if there are several levels. After output_format(). Throws bad_argument if
+/// stdout is to take several.
 [[nodiscard]] std::string level_name(const MeshOptions& options, std::size_t level);
 /// By the name of the output; stdout is GLB. Throws bad_argument if the name tells none, or if the format holds no
 /// quads that are asked for.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <optional>
 
-#include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/fit/detail/face_points.h"
 #include "lib/fit/detail/vertex_mover.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/mesh/constrained_minimum.h"
@@ -14,23 +14,23 @@ namespace bp {
 
 namespace {
 
-constexpr std::int64_t kGrain = 256;  // points per work item
-constexpr double kSlide = 0.1;        // weight of a point's distance along its face, against that across it
-constexpr double kStay = 0.02;        // of a vertex's own place, against that of its points together
-
-/// A point and the place nearest to it: of a face, by the shares of its corners.
-struct Pull {
-  FaceId face = 0;
-  std::array<double, 3> share{};
-};
+constexpr double kSlide = 0.1;  // weight of a point's distance along its face, against that across it
+constexpr double kStay = 0.02;  // of a vertex's own place, against that of its points together
+// A face stands for a plane of the scene if so many of its points lie in it, to this angle (cosine) and distance.
+constexpr double kMostPoints = 0.7, kSameNormal = 0.996, kSamePlane = 0.1 * kLatticePerVoxel;
+constexpr std::size_t kFewPoints = 4, kMostCandidates = 16;
+constexpr double kFlipGain = 0.1;  // of the squared distances of the points of two faces: a flip must save as much
+constexpr int kRoundsPerFlips = 3;
 
 class Settler {
  public:
-  Settler(HalfEdgeMesh& mesh, std::span<const Vec3d> points, const EdgeLimit& edge_limit, StepLimits* limits)
+  Settler(HalfEdgeMesh& mesh, std::span<const FitPlace> points, const EdgeLimit& edge_limit, StepLimits* limits)
       : mesh_(mesh), mover_(mesh, edge_limit, limits), points_(points) {}
 
   std::uint64_t round() {
-    assign();
+    points_.assign(mesh_);
+    if (++rounds_ % kRoundsPerFlips == 0 && flip_edges() > 0) points_.assign(mesh_);
+    find_planes();
     std::uint64_t moves = 0;
     for (VertexId v = 0; v < mesh_.vertex_capacity(); ++v) {
       if (!mesh_.vertex_alive(v)) continue;
@@ -42,72 +42,115 @@ class Settler {
   }
 
  private:
-  /// Each point to the face nearest to it; points by face.
-  void assign() {
-    std::vector<TriangleD> triangles;
-    std::vector<FaceId> faces;
-    for (FaceId f = 0; f < mesh_.face_capacity(); ++f) {
-      if (!mesh_.alive(f)) continue;
-      triangles.push_back(triangle(f));
-      faces.push_back(f);
+  /// So that they run along the edges of the scene; each face changes once at most.
+  std::uint64_t flip_edges() {
+    std::uint64_t flips = 0;
+    std::vector<char> changed(mesh_.face_capacity(), 0);
+    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
+      const FaceId f = HalfEdgeMesh::face(h);
+      if (!mesh_.alive(f) || mesh_.edge(h) != h) continue;
+      const FaceId g = HalfEdgeMesh::face(mesh_.twin(h));
+      if (changed[f] || changed[g] || !gains_by_flip(h) || !mover_.flip(h)) continue;
+      changed[f] = changed[g] = 1;
+      ++flips;
     }
-    const TriangleBvh tree(triangles);
-    pulls_.resize(points_.size());
-    parallel_ranges(std::int64_t(points_.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
-      std::uint32_t guess = 0;
-      for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
-        guess = tree.nearest(points_[i], guess).item;
-        const TriangleBvh::Item& item = tree.item(guess);
-        pulls_[i] = {faces[item.id], barycentric(item.corners, nearest_point(points_[i], item.corners))};
+    return flips;
+  }
+
+  [[nodiscard]] bool gains_by_flip(HalfEdgeId h) const {
+    const HalfEdgeId t = mesh_.twin(h);
+    const auto at = [&](VertexId v) { return to_double(mesh_.position(v)); };
+    const Vec3d u = at(mesh_.from(h)), w = at(mesh_.to(h)), a = at(mesh_.opposite(h)), b = at(mesh_.opposite(t));
+    const std::array<TriangleD, 2> now{TriangleD{u, w, a}, TriangleD{w, u, b}},
+        then{TriangleD{b, a, u}, TriangleD{a, b, w}};
+    double before = 0, after = 0;
+    for (const HalfEdgeId side : {h, t}) {
+      for (const std::uint32_t i : points_.of(HalfEdgeMesh::face(side))) {
+        const Vec3d& p = points_[i].at;
+        before += distance_squared(p, now[side == h ? 0 : 1]);
+        after += std::min(distance_squared(p, then[0]), distance_squared(p, then[1]));
       }
-    });
-    begin_.assign(mesh_.face_capacity() + 1, 0);
-    for (const Pull& pull : pulls_) ++begin_[pull.face + 1];
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    order_.resize(points_.size());
-    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::uint32_t i = 0; i < pulls_.size(); ++i) order_[next[pulls_[i].face]++] = i;
+    }
+    return after < (1 - kFlipGain) * before;
+  }
+
+  void find_planes() {
+    planes_.assign(mesh_.face_capacity(), std::nullopt);
+    for (FaceId f = 0; f < mesh_.face_capacity(); ++f) {
+      if (mesh_.alive(f)) planes_[f] = plane_of(f);
+    }
+  }
+
+  /// The plane that most of the face's points lie in.
+  [[nodiscard]] std::optional<FitPlace> plane_of(FaceId f) const {
+    const std::span<const std::uint32_t> points = points_.of(f);
+    if (points.size() < kFewPoints) return std::nullopt;
+    std::size_t most = 0;
+    FitPlace best;
+    for (std::size_t k = 0; k < points.size(); k += 1 + points.size() / kMostCandidates) {
+      const FitPlace& plane = points_[points[k]];
+      const auto votes = std::size_t(
+          std::count_if(points.begin(), points.end(), [&](std::uint32_t j) { return is_in(points_[j], plane); }));
+      if (votes <= most) continue;
+      most = votes;
+      best = plane;
+    }
+    if (double(most) < kMostPoints * double(points.size())) return std::nullopt;
+    return best;
+  }
+
+  [[nodiscard]] static bool is_in(const FitPlace& p, const FitPlace& plane) {
+    return std::abs(dot(p.normal, plane.normal)) > kSameNormal &&
+           std::abs(dot(plane.normal, p.at - plane.at)) < kSamePlane;
   }
 
   /// Where v would be best, its neighbours standing still; from where it is.
   [[nodiscard]] Vec3d wanted_step(VertexId v) const {
     Quadric q;
-    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) { add_points(HalfEdgeMesh::face(h), int(h % 3), q); });
+    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
+      const FaceId f = HalfEdgeMesh::face(h);
+      if (planes_[f]) {
+        add_plane(*planes_[f], v, double(points_.of(f).size()), q);
+      }
+      add_points(f, int(h % 3), q);
+    });
     if (q.weight == 0) return {};
     for (const Vec3d& axis : kAxes) q.add_plane(axis, 0, kStay * q.weight);
     return minimum(q, {});
   }
 
-  void add_points(FaceId f, int corner, Quadric& q) const {
-    const TriangleD t = triangle(f);
-    Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
-    n = 1 / length(n) * n;
-    for (std::uint32_t k = begin_[f]; k < begin_[f + 1]; ++k) {
-      const std::array<double, 3>& s = pulls_[order_[k]].share;
-      const double own = s[std::size_t(corner)];
-      const Vec3d off = points_[order_[k]] - (s[0] * t[0] + s[1] * t[1] + s[2] * t[2]);
-      q.add_plane(own * n, -dot(n, off), 1);
-      for (std::size_t i = 0; i < 3; ++i) q.add_plane(own * kAxes[i], -off[i], kSlide);
-    }
+  void add_plane(const FitPlace& plane, VertexId v, double weight, Quadric& q) const {
+    q.add_plane(plane.normal, dot(plane.normal, to_double(mesh_.position(v)) - plane.at), weight);
   }
 
-  [[nodiscard]] TriangleD triangle(FaceId f) const {
-    return {to_double(mesh_.corner(f, 0)), to_double(mesh_.corner(f, 1)), to_double(mesh_.corner(f, 2))};
+  void add_points(FaceId f, int corner, Quadric& q) const {
+    const std::array<Vec3d, 3> t = corners_of(mesh_, f);
+    Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
+    n = 1 / length(n) * n;
+    for (const std::uint32_t i : points_.of(f)) {
+      const bool flat = planes_[f].has_value();
+      if (flat && !is_in(points_[i], *planes_[f])) continue;
+      const std::array<double, 3>& s = points_.shares(i);
+      const double own = s[std::size_t(corner)];
+      const Vec3d off = points_[i].at - (s[0] * t[0] + s[1] * t[1] + s[2] * t[2]);
+      if (!flat) q.add_plane(own * n, -dot(n, off), 1);
+      for (std::size_t k = 0; k < 3; ++k) q.add_plane(own * kAxes[k], -off[k], kSlide);
+    }
   }
 
   static constexpr std::array<Vec3d, 3> kAxes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
 
   HalfEdgeMesh& mesh_;
   VertexMover mover_;
-  std::span<const Vec3d> points_;
-  std::vector<Pull> pulls_;                   // per point
-  std::vector<std::uint32_t> begin_, order_;  // per face: a range of point numbers
+  FacePoints points_;
+  int rounds_ = 0;
+  std::vector<std::optional<FitPlace>> planes_;  // per face: that it stands for
 };
 
 }  // namespace
 
-std::uint64_t settle(HalfEdgeMesh& mesh, std::span<const Vec3d> points, const EdgeLimit& edge_limit, StepLimits* limits,
-                     int rounds) {
+std::uint64_t settle(HalfEdgeMesh& mesh, std::span<const FitPlace> points, const EdgeLimit& edge_limit,
+                     StepLimits* limits, int rounds) {
   Settler settler(mesh, points, edge_limit, limits);
   std::uint64_t moves = 0;
   for (int i = 0; i < rounds; ++i) moves += settler.round();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/vec3.h"
+
 namespace bp {
 
 namespace {
@@ -37,6 +39,29 @@ bool VertexMover::draw(VertexId v, const LatticeCoord& q) {
     if (try_move(v, at)) return true;
   }
   return false;
+}
+
+bool VertexMover::flip(HalfEdgeId h) {
+  if (!mesh_.can_flip(h)) return false;
+  const HalfEdgeId t = mesh_.twin(h);
+  const VertexId u = mesh_.from(h), w = mesh_.to(h), a = mesh_.opposite(h), b = mesh_.opposite(t);
+  const LatticeCoord &pu = mesh_.position(u), &pw = mesh_.position(w), &pa = mesh_.position(a), &pb = mesh_.position(b);
+  star_ = {{{b, a, u}, {pb, pa, pu}}, {{a, b, w}, {pa, pb, pw}}};
+  replaced_ = {HalfEdgeMesh::face(h), HalfEdgeMesh::face(t)};
+  const Vec3d before = to_double(normal_of(pu, pw, pa)) + to_double(normal_of(pw, pu, pb));
+  const double quality = std::min(triangle_quality(pu, pw, pa), triangle_quality(pw, pu, pb));
+  for (const NewFace& f : star_) {
+    const Vec3d n = to_double(normal_of(f.corners[0], f.corners[1], f.corners[2]));
+    const double after = triangle_quality(f.corners[0], f.corners[1], f.corners[2]);
+    if (!(dot(n, before) > 0) || after < std::min(QualityFloor::kDraw, quality)) return false;
+  }
+  if ((edge_limit_ && !edge_limit_(pa, pb)) || !guard_.faces_are_free(star_, replaced_)) return false;
+  const int128 gain6 = fan_gain6(mesh_, replaced_, pb);
+  if (sense_.turns(replaced_.front(), gain6) || !within_limits(limits_, mesh_, replaced_, star_)) return false;
+  sense_.add(replaced_.front(), gain6);
+  mesh_.flip(h);
+  for (const FaceId f : replaced_) tree_.update(f);
+  return true;
 }
 
 bool VertexMover::try_move(VertexId v, const LatticeCoord& q) {

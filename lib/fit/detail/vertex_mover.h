@@ -26,6 +26,9 @@ class VertexMover {
   /// turn a shell inside out, is not made. True if v has moved.
   bool draw(VertexId v, const LatticeCoord& q);
 
+  /// Flips the edge under the same conditions. True if it was.
+  bool flip(HalfEdgeId h);
+
  private:
   bool try_move(VertexId v, const LatticeCoord& q);
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "lib/enclosed/enclosed_triangles.h"
 #include "lib/exact/triangle_intersection.h"
 #include "tests/catch.h"
@@ -30,6 +32,28 @@ bool allowed(const std::vector<TriangleD>& triangles, const GridFrame& frame, co
 }
 
 }  // namespace
+
+TEST_CASE("the contact points of a part of the scene are those of the whole that lie there", "[quick][meshing]") {
+  RandomLattice random(11);
+  GridFrame frame;
+  frame.voxel = 0.375;
+  frame.origin = {-3, 1000, 17};
+  std::vector<TriangleD> triangles;
+  for (int i = 0; i < 300; ++i) {
+    const LatticeCoord p = random.point(0, 4000);
+    triangles.push_back(
+        {frame.world(p), frame.world(p + random.point(-50, 50)), frame.world(p + random.point(-50, 50))});
+  }
+  const EnclosedTriangles enclosed(triangles, frame);
+  const LatticeBox all{{-100000, -100000, -100000}, {100000, 100000, 100000}},
+      part{{0, -100000, -100000}, {2000, 100000, 100000}};
+  std::vector<Vec3d> there = enclosed.contact_points({}, all), found = enclosed.contact_points({}, part);
+  std::erase_if(there, [&](const Vec3d& v) { return !part.holds({rounded(v), rounded(v)}); });
+  std::sort(there.begin(), there.end());
+  std::sort(found.begin(), found.end());
+  CHECK(there.size() > 50);
+  CHECK(found == there);
+}
 
 TEST_CASE("a set of triangles allows what its definition allows, to the last bit", "[quick][meshing]") {
   const std::int64_t unit = GENERATE(1, 40000);  // corners close together, on few planes; over a large grid

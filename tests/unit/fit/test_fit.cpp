@@ -91,8 +91,8 @@ TEST_CASE("vertices settle where the surface is nearest to given points, on any 
   const LatticeMesh start = mesh_stream(source, memory_context(), params, counts)[0];
   std::vector<TriangleD> sphere;
   add_sphere(sphere, kCentre, kRadius, 24);
-  std::vector<Vec3d> points;
-  for (const TriangleD& t : sphere) points.push_back(kLatticePerVoxel * (1.0 / 3 * (t[0] + t[1] + t[2])));
+  std::vector<FitPlace> points;
+  for (const TriangleD& t : sphere) points.push_back({kLatticePerVoxel * (1.0 / 3 * (t[0] + t[1] + t[2]))});
   const TriangleBvh tree(sphere);
   const auto distance = [&](const LatticeMesh& mesh) { return surface_distance(world_triangles(mesh), tree).mean; };
   HalfEdgeMesh mesh(start);
@@ -105,6 +105,54 @@ TEST_CASE("vertices settle where the surface is nearest to given points, on any 
   HalfEdgeMesh twin(start);
   settle(twin, points, {}, nullptr, 8);
   CHECK(twin.compact(start.frame).vertices == settled.vertices);
+}
+
+TEST_CASE("faces settle on the planes of the scene, and edges run where these meet", "[quick][meshing]") {
+  const VoxelBox box{{0, 0, 0}, {64, 64, 64}};
+  const Vec3d low{9.3, 10.4, 11.2}, high{53.6, 51.3, 40.7}, middle = 0.5 * (low + high);
+  const double tilt = 0.3;  // about the vertical
+  const auto turned = [&](const Vec3d& p, double by) {
+    const Vec3d d = p - middle;
+    return middle + Vec3d{std::cos(by) * d[0] - std::sin(by) * d[1], std::sin(by) * d[0] + std::cos(by) * d[1], d[2]};
+  };
+  VoxelSource source(box, [&](VoxelCoord p) {  // about as if its triangles were voxelized
+    const Vec3d q = turned({double(p.x) + 0.5, double(p.y) + 0.5, double(p.z) + 0.5}, -tilt);
+    bool in = true;
+    for (std::size_t i = 0; i < 3; ++i) in = in && q[i] > low[i] - 0.5 && q[i] < high[i] + 0.5;
+    return in;
+  });
+  MeshParams params;
+  params.mode = MeshMode::fit;
+  params.enclose = Enclose::scene;
+  params.faces = {400};
+  std::vector<Vec3d> normals;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double side : {low[axis], high[axis]}) {
+      std::array<Vec3d, 4> c{low, low, low, low};
+      for (std::size_t k = 0; k < 4; ++k) {
+        c[k][axis] = side;
+        if (k == 1 || k == 2) c[k][(axis + 1) % 3] = high[(axis + 1) % 3];
+        if (k >= 2) c[k][(axis + 2) % 3] = high[(axis + 2) % 3];
+        c[k] = turned(c[k], tilt);
+      }
+      params.scene.push_back({c[0], c[1], c[2]});
+      params.scene.push_back({c[0], c[2], c[3]});
+      const Vec3d n = cross(c[1] - c[0], c[2] - c[0]);
+      normals.push_back(1 / length(n) * n);
+    }
+  }
+  MeshCounts counts;
+  const LatticeMesh level = mesh_stream(source, memory_context(), params, counts)[0];
+  CHECK(check_proxy(indexed(level), nullptr).holds());
+  double flat = 0, area = 0;
+  for (const TriangleD& t : world_triangles(level)) {
+    const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
+    double along = 0;
+    for (const Vec3d& m : normals) along = std::max(along, std::abs(dot(m, n)));
+    area += length(n);
+    if (along > std::cos(0.0349) * length(n)) flat += length(n);
+  }
+  CHECK(flat > 0.999 * area);
 }
 
 TEST_CASE("vertices are drawn to their targets only as far as the surface stays embedded", "[quick][meshing]") {
@@ -120,7 +168,7 @@ TEST_CASE("vertices are drawn to their targets only as far as the surface stays 
   HalfEdgeMesh mesh(start);
   const Vec3d point{17 * 64, 12 * 64, 13 * 64};  // all to one point: most cannot get there
   const std::uint64_t moves = draw_to_targets(
-      mesh, [&](const Vec3d&, const Vec3d&) { return point; }, {}, 6);
+      mesh, [&](const Vec3d&, const Vec3d&) { return FitPlace{point}; }, {}, 6);
   CHECK(moves > 10);
   CHECK(check_proxy(indexed(mesh.compact(start.frame)), nullptr).holds());
 }

@@ -10,24 +10,33 @@ namespace bp {
 namespace {
 
 constexpr double kReach = 2.5;  // voxels: a voxel's diagonal, twice its bias, and some
+constexpr double kAlong = 0.5;  // cosine: at a corner of a box it is 0.58
 
 Vec3d inset(const Vec3d& p, const Vec3d& normal, double extents) {
   const double extent = std::abs(normal[0]) + std::abs(normal[1]) + std::abs(normal[2]);
   return p - extents * extent * kLatticePerVoxel * normal;
 }
 
+/// Of a triangle that the surface runs along; zero where the two do not go together, as at the edge of a plate.
+Vec3d normal_like(const TriangleD& t, const Vec3d& normal) {
+  const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
+  const double size = length(n);
+  return size > 0 && std::abs(dot(n, normal)) > kAlong * size ? 1 / size * n : Vec3d{};
+}
+
 }  // namespace
 
 FitTarget inset_target(double extents) {
-  return [extents](const Vec3d& p, const Vec3d& normal) { return inset(p, normal, extents); };
+  return [extents](const Vec3d& p, const Vec3d& normal) { return FitPlace{inset(p, normal, extents)}; };
 }
 
 FitTarget scene_target(const TriangleBvh& scene, const GridFrame& frame, double extents) {
-  return [&scene, frame, extents](const Vec3d& p, const Vec3d& normal) {
+  return [&scene, frame, extents](const Vec3d& p, const Vec3d& normal) -> FitPlace {
     const Vec3d at = frame.world_origin() + frame.voxel / kLatticePerVoxel * p;
     const TriangleBvh::Nearest found = scene.nearest(at);
-    if (found.distance_squared > kReach * kReach * frame.voxel * frame.voxel) return inset(p, normal, extents);
-    return kLatticePerVoxel * frame.to_voxels(nearest_point(at, scene.item(found.item).corners));
+    if (found.distance_squared > kReach * kReach * frame.voxel * frame.voxel) return {inset(p, normal, extents)};
+    const TriangleD& t = scene.item(found.item).corners;
+    return {kLatticePerVoxel * frame.to_voxels(nearest_point(at, t)), normal_like(t, normal)};
   };
 }
 

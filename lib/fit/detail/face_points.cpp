@@ -1,0 +1,67 @@
+#include "lib/fit/detail/face_points.h"
+
+#include <numeric>
+
+#include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
+#include "lib/geometry/triangle_bvh.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::int64_t kGrain = 256;  // points per work item
+
+}  // namespace
+
+void FacePoints::assign(const HalfEdgeMesh& mesh) {
+  std::vector<TriangleD> triangles;
+  std::vector<FaceId> faces;
+  for (FaceId f = 0; f < mesh.face_capacity(); ++f) {
+    if (!mesh.alive(f)) continue;
+    triangles.push_back(corners_of(mesh, f));
+    faces.push_back(f);
+  }
+  const TriangleBvh tree(triangles);
+  pulls_.resize(points_.size());
+  parallel_ranges(std::int64_t(points_.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    std::uint32_t guess = 0;
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+      const Vec3d& p = points_[i].at;
+      guess = tree.nearest(p, guess).item;
+      const TriangleBvh::Item& item = tree.item(guess);
+      pulls_[i] = {faces[item.id], barycentric(item.corners, nearest_point(p, item.corners))};
+    }
+  });
+  begin_.assign(mesh.face_capacity() + 1, 0);
+  for (const Pull& pull : pulls_) ++begin_[pull.face + 1];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  order_.resize(points_.size());
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+  for (std::uint32_t i = 0; i < pulls_.size(); ++i) order_[next[pulls_[i].face]++] = i;
+}
+
+std::vector<Quadric> quadrics_of_points(const HalfEdgeMesh& mesh, std::span<const FitPlace> points) {
+  FacePoints of_faces(points);
+  of_faces.assign(mesh);
+  std::vector<Quadric> quadrics(mesh.vertex_capacity());
+  for (FaceId f = 0; f < mesh.face_capacity(); ++f) {
+    if (!mesh.alive(f)) continue;
+    const std::array<Vec3d, 3> t = corners_of(mesh, f);
+    const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
+    const double size = length(n);
+    std::vector<FitPlace> planes;
+    for (const std::uint32_t i : of_faces.of(f)) {
+      if (dot(of_faces[i].normal, of_faces[i].normal) > 0) planes.push_back(of_faces[i]);
+    }
+    if (planes.empty()) planes.push_back({t[0], 1 / size * n});
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      Quadric& q = quadrics[mesh.from(3 * f + k)];
+      for (const FitPlace& p : planes)
+        q.add_plane(p.normal, dot(p.normal, t[k] - p.at), size / 2 / double(planes.size()));
+    }
+  }
+  return quadrics;
+}
+
+}  // namespace bp
