@@ -22,15 +22,13 @@ install_packages() {
 
 packages() { sed -e 's/#.*//' "$root/.ci/packages.txt" | tr '\n' ' '; }
 
-# build_release [TARGET...]: all targets by default.
+# build_release [-DNAME=VALUE...]: the arguments go to the configuration.
 build_release() {
   local log=$root/build/configure.log
   mkdir -p "$root/build"
-  cmake -S "$root" --preset release > "$log" 2>&1 || {
+  cmake -S "$root" --preset release "$@" > "$log" 2>&1 || {
     cat "$log" >&2
     return 1
   }
-  local targets=()
-  [ $# = 0 ] || targets=(--target "$@")
-  cmake --build "$build" "${targets[@]}"
+  cmake --build "$build"
 }

@@ -21,7 +21,7 @@ function(bp_add_manual tool)
               -o ${page} ${manual}
       DEPENDS ${manual} ${filter}
       VERBATIM)
-    install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+    install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
     list(APPEND made ${page})
   endif()
   if(NOT CMAKE_CROSSCOMPILING)
@@ -38,7 +38,7 @@ function(bp_add_manual tool)
         COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/completion/${shell}
         COMMAND ${tool} --help ${shell} > ${script}
         DEPENDS ${tool})
-      install(FILES ${script} DESTINATION ${CMAKE_INSTALL_DATADIR}/${folder_${shell}} OPTIONAL)
+      install(FILES ${script} DESTINATION ${CMAKE_INSTALL_DATADIR}/${folder_${shell}})
       list(APPEND made ${script})
     endforeach()
   endif()

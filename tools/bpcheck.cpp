@@ -46,7 +46,7 @@ bp::Vec3d origin_of(const bp::CheckRun& o, bp::Report& report) {
 
 void fill_report(bp::Report& report, const bp::CheckRun& o, const bp::Vec3d& origin,
                  const std::vector<bp::CheckReport>& verdicts) {
-  report.options = {{"inside", o.inside}, {"convex", o.convex}, {"origin", origin}, {"samples", o.samples}};
+  report.options = {{"inside", o.inside}, {"convex", o.convex}, {"origin", origin}};
   report.counts = bp::counts_of(verdicts[0]);
   if (verdicts.size() > 1) {
     const bp::Answer answer = answer_of(verdicts);
@@ -59,10 +59,8 @@ void fill_report(bp::Report& report, const bp::CheckRun& o, const bp::Vec3d& ori
 
 /// An answer to another question than was asked would be none.
 void refuse_for_tileset(const bp::CheckRun& o) {
-  for (const auto& [option, given] : {std::pair{"--inside", o.inside},
-                                      {"--convex", o.convex},
-                                      {"--origin", o.origin.has_value()},
-                                      {"--samples", o.samples_given}}) {
+  for (const auto& [option, given] :
+       {std::pair{"--inside", o.inside}, {"--convex", o.convex}, {"--origin", o.origin.has_value()}}) {
     if (given) bp::fail(bp::ErrorCode::bad_argument, "{}: is for meshes; leave it out for a tileset", option);
   }
 }
@@ -115,8 +113,6 @@ std::vector<bp::CheckReport> check(const bp::CheckRun& o, const std::vector<bp::
   options.inside = o.inside;
   options.hidden = hidden;
   options.convex = o.convex;
-  options.distances = o.samples > 0;
-  options.distance_samples = o.samples;
   options.scene_memory_bytes = scene_bytes;
   bp::Progress progress("bpcheck", o.common.progress);
   progress.begin("check", 0, "triangles");

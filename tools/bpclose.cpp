@@ -24,6 +24,8 @@ namespace {
 using bp::ErrorCode;
 using bp::fail;
 
+constexpr bp::Length kDefaultScale{2, bp::Length::Unit::percent};
+
 struct Options {
   bp::CommonOptions common;
   std::string in = "-", out = "-", field;
@@ -40,15 +42,13 @@ Options parse(bp::Args& args) {
   args.positional("INPUT", o.in, "stream of voxels; - is stdin");
   args.group("Files");
   args.option("-o,--output", "FILE", o.out, "stream of voxels, with the closing; - is stdout");
-  o.closing.add_to(args, "", "");
+  o.closing.add_to(args, "", " (default: that of bpscale, else 2%)");
   o.closing.add_element(args);
   args.option("--field", "FILE", o.field,
               "rules for scales that differ from place to place (bpscale(1)), instead of --scale");
   args.removed("--tile", "bpclose chooses the tiles by --memory");
   args.flag("--keep-cavities", o.keep_cavities, "leave hollows empty that the closing cuts off from the outside");
   args.removed("--inner", "a stream of bpvox --fill inside is opened without it");
-  o.common.device_text =
-      "auto, cpu, cuda (every GPU) or cuda:0,1 (default: auto, one GPU where the work is worth its start, or the CPU)";
   o.common.add_to(args);
   args.often({"--output", "--scale", "--element", "--overwrite"});
   args.parse();
@@ -61,10 +61,7 @@ Options parse(bp::Args& args) {
 
 /// By the options, or by the field that bpscale gave the stream.
 bp::ScaleField scale_field(const Options& o, const bp::StreamHeader& header) {
-  const bool told = o.closing.scale || !o.field.empty();
-  if (!told && !header.has_field)
-    fail(ErrorCode::bad_argument, "give a --scale or a --field; the stream has no field of bpscale");
-  if (told && header.has_field)
+  if (header.has_field && (o.closing.scale || !o.field.empty()))
     fail(ErrorCode::bad_argument, "{} and the field that bpscale gave the stream exclude each other",
          o.closing.scale ? "--scale" : "--field");
   if (header.has_field) return header.scale;
@@ -143,12 +140,13 @@ void fill_report(bp::Report& report, const bp::Backends& backends, const bp::Clo
   if (counts.ignored_bricks > 0) report.notes.push_back("the input's closing layer was made anew from its solid layer");
 }
 
-void run(const Options& o) {
+void run(Options o) {
   bp::Report report("bpclose");
   bp::Progress progress("bpclose", o.common.progress);
   report.begin("open");
   const auto output = bp::open_output(o.out, o.common.overwrite);
   bp::BrickReader source(o.in);
+  if (!o.closing.scale && o.field.empty() && !source.header().has_field) o.closing.scale = kDefaultScale;
   const bool opening = opens(source.header());
   if (opening && o.keep_cavities)
     fail(ErrorCode::bad_argument, "--keep-cavities means nothing for a stream of bpvox --fill inside; leave it out");

@@ -1,4 +1,4 @@
-// bpinfo: what a brick stream or a mesh holds. Manual: docs/bpinfo.1.md
+// bpinfo: what a stream of voxels or a mesh holds. Manual: docs/bpinfo.1.md
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -11,6 +11,7 @@
 #include "io/tiles/tileset_file.h"
 #include "io/tiles/tileset_level.h"
 #include "lib/core/error.h"
+#include "tools/cli/options/voxel.h"
 #include "tools/cli/run_tool.h"
 #include "tools/info/mesh_info.h"
 #include "tools/info/picture.h"
@@ -26,7 +27,7 @@ struct Options {
   std::string format;
   bp::PictureOptions picture;
   std::optional<std::size_t> level;
-  bool json = false, checksum = false, dump = false;
+  bool json = false, dump = false;
 };
 
 Options parse(bp::Args& args) {
@@ -36,17 +37,14 @@ Options parse(bp::Args& args) {
                   "streams, meshes or scenes, tilesets (tileset.json or its folder); - is stdin (default: -)");
   args.group("Text");
   args.flag("--json", o.json, "print JSON");
-  args.flag("--checksum", o.checksum,
-            "print a checksum of the voxels, or of the triangles as a set; order, tiles and compression do not change "
-            "it");
   args.flag("--dump", o.dump, "print a stream as text, one line for each brick");
   o.picture.image.add_to(args);
   args.group("Input");
   args.option("--level", "N", o.level,
               "level of a glTF file to show, or of a tileset to draw; 0, the finest (default)");
-  args.option("--format", "NAME", o.format,
-              "INPUTs are meshes, and this is the format of stdin, or of files whose names do not tell");
+  bp::add_scene_format(args, o.format, "INPUTs are meshes, and this is the ");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::overwrite_part);
+  args.removed("--checksum", "the text and --json have it");
   args.often({"--json", "--image", "--view", "--zoom", "--look-at", "--pick", "--level", "--overwrite"});
   args.example("bpinfo scene.glb closed.bpv proxy.glb --image all.png");
   args.parse();
@@ -56,19 +54,17 @@ Options parse(bp::Args& args) {
   bp::check_stdin_once(o.in);
   bp::keep_inputs(o.in);
   if (!o.picture.image.file.empty()) bp::check_panel_size(o.picture.image.panel_size, o.in.size());
-  if (int(o.json) + int(o.checksum) + int(o.dump) > 1)
-    bp::fail(bp::ErrorCode::bad_argument, "--json, --checksum and --dump exclude each other");
+  if (o.json && o.dump) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump exclude each other");
   o.picture.image.check(args);
-  if (o.picture.image.pick && (o.json || o.checksum || o.dump))
-    bp::fail(bp::ErrorCode::bad_argument,
-             "--pick prints a point and nothing else; leave out --json, --checksum, --dump");
+  if (o.picture.image.pick && (o.json || o.dump))
+    bp::fail(bp::ErrorCode::bad_argument, "--pick prints a point and nothing else; leave out --json and --dump");
   o.picture.several = o.in.size() > 1;
   o.picture.overwrite = o.common.overwrite;
   if (o.in.size() > 1 && (o.json || o.dump)) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump take one INPUT");
   return o;
 }
 
-/// stdin and pipes are brick streams, for they cannot be tried twice; files by their first bytes.
+/// stdin and pipes are streams of voxels, for they cannot be tried twice; files by their first bytes.
 bool is_stream(const Options& o, const std::string& in) {
   if (!o.format.empty()) return false;
   if (in == "-") return true;
@@ -131,8 +127,6 @@ void show_stream(const Options& o, const std::string& in, bp::Picture& picture) 
   if (picture.wanted()) picture.add_stream(cells, header, totals, in);
   if (o.dump) {
     out.write(bp::dump_end(totals));
-  } else if (o.checksum) {
-    out.write(totals.checksum() + "\n");
   } else if (o.json) {
     out.write(bp::stream_json(header, totals).dump(2) + "\n");
   } else if (!o.picture.image.pick) {
@@ -151,7 +145,7 @@ void note_faults(const bp::SceneOptions& scene) {
 }
 
 void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
-  if (o.dump) bp::fail(bp::ErrorCode::bad_argument, "{}: --dump is for brick streams, and this is not one", in);
+  if (o.dump) bp::fail(bp::ErrorCode::bad_argument, "{}: --dump is for streams of voxels, and this is not one", in);
   const bp::MeshExtras extras = bp::mesh_extras(in);
   bp::SceneOptions scene;
   scene.format = o.format;
@@ -163,11 +157,8 @@ void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
   bp::MeshInfo info = bp::measure(*source);
   info.extras = extras;
   info.level = scene.level;
-  if (o.checksum) {
-    bp::print(info.totals.checksum() + "\n");
-  } else if (!o.picture.image.pick) {
+  if (!o.picture.image.pick)
     bp::print(o.json ? bp::mesh_json(info).dump(2) + "\n" : bp::mesh_text(info, in == "-" ? "stdin" : in));
-  }
   if (!picture.wanted()) return;
   note_missing_materials(in);
   note_faults(scene);
@@ -195,7 +186,7 @@ void draw_tileset(const Options& o, const bp::Tileset& tileset, const std::strin
 }
 
 void show_tileset(const Options& o, const std::string& in, bp::Picture& picture) {
-  if (o.dump || o.checksum)
+  if (o.dump)
     bp::fail(bp::ErrorCode::bad_argument,
              "{}: a tileset is described and drawn only; name its contents to see what they hold", in);
   const bp::Tileset tileset = bp::read_tileset(in);

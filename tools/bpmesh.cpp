@@ -1,4 +1,4 @@
-// bpmesh: brick stream in, proxy out. Manual: docs/bpmesh.1.md
+// bpmesh: stream of voxels in, proxy out. Manual: docs/bpmesh.1.md
 #include <algorithm>
 #include <optional>
 
@@ -33,10 +33,6 @@ bp::MeshParams mesh_params(const bp::MeshOptions& o, const bp::StreamHeader& hea
   if (o.error()) bp::question_length("--error", *o.error(), header.bounds, header.frame.voxel);
   if (o.error()) params.error_world = o.error()->in_world(header.bounds.diagonal(), header.frame.voxel);
   params.volume_ratio = o.volume;
-  params.edge_factor = o.edge_length;
-  if (o.edge_length > 0 && !header.has_closing)
-    bp::fail(bp::ErrorCode::bad_argument,
-             "--edge-length counts in scales, and what was not closed has none; use bpclose before, or leave it out");
   if (o.proxy.mode == bp::MeshMode::inside) params.least_part = kLeastPart;
   params.quads = o.quads;
   // What may come out beyond --error is measured, so that it can be told.

@@ -29,6 +29,10 @@ int why_none(const std::string& folder, int error) {
 }
 
 [[noreturn]] void fail_to_make(const std::string& path, int error) {
+  std::string name = path;
+  while (name.size() > 1 && name.ends_with('/')) name.pop_back();
+  if (error == ENOENT)
+    fail(ErrorCode::bad_argument, "{}: cannot be made, for there is no folder {}", path, folder_of(name));
   fail(ErrorCode::failed, "{}: cannot make this folder: {}", path, std::strerror(error));
 }
 
@@ -40,37 +44,21 @@ void make_folder(const std::string& path) {
   if (error != 0) fail_to_make(path, error);
 }
 
-MadeFolders::MadeFolders(const std::string& path) {
-  for (std::size_t end = 0; end != std::string::npos;) {
-    end = path.find('/', end + 1);
-    const std::string folder = path.substr(0, end);
-    PartialOutput entry;
-    int error = make(folder, &entry);
-    if (error == 0) {
-      made_.emplace_back(folder, std::move(entry));
-      continue;
-    }
-    error = why_none(folder, error);
-    if (error == 0) continue;
-    remove();
-    fail_to_make(path, error);
-  }
+MadeFolder::MadeFolder(const std::string& path) : path_(path) {
+  int error = make(path, &entry_);
+  made_ = error == 0;
+  if (!made_) error = why_none(path, error);
+  if (error != 0) fail_to_make(path, error);
 }
 
-MadeFolders::~MadeFolders() {
-  remove();
+MadeFolder::~MadeFolder() {
+  if (made_) ::rmdir(path_.c_str());
 }
 
-void MadeFolders::keep() {
-  for (const auto& made : made_) sync_folder(folder_of(made.first));
-  made_.clear();
-}
-
-void MadeFolders::remove() {
-  while (!made_.empty()) {
-    ::rmdir(made_.back().first.c_str());
-    made_.pop_back();
-  }
+void MadeFolder::keep() {
+  if (made_) sync_folder(folder_of(path_));
+  made_ = false;
+  entry_ = {};
 }
 
 }  // namespace bp

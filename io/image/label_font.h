@@ -11,7 +11,7 @@ namespace bp {
 /// both have the same font file and FreeType.
 [[nodiscard]] std::span<const std::string> label_font_paths();
 
-/// The first of `paths` that FreeType can read and scale; null if there is none. Never throws but for want of memory.
+/// The first of `paths` that FreeType can read and scale; null if there is none. Throws only if memory runs out.
 [[nodiscard]] std::unique_ptr<Typeface> open_label_font(std::span<const std::string> paths = label_font_paths());
 
 }  // namespace bp

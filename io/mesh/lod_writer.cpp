@@ -329,9 +329,9 @@ class GlbBuilder {
 void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out,
                    const Vec3d& origin) {
   GlbBuilder builder(out.name(), GlbBuilder::Data::plain, origin);
+  builder.add(levels.front(), nullptr);
   std::vector<std::size_t> coarser;
-  for (const NamedMesh& level : levels) coarser.push_back(builder.add(level, nullptr));
-  coarser.erase(coarser.begin());
+  for (const NamedMesh& level : levels.subspan(1)) coarser.push_back(builder.add(level, nullptr));
   if (!coarser.empty()) {
     builder.use("MSFT_lod");
     builder.node(0)["extensions"] = {{"MSFT_lod", {{"ids", coarser}}}};

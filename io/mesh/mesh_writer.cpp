@@ -148,11 +148,6 @@ MeshFormat mesh_format_of(const std::string& path) {
   fail(ErrorCode::bad_argument, "{}: no mesh format; end the name with .glb .gltf .ply .obj or .stl", path);
 }
 
-MeshFormat mesh_format_named(const std::string& name) {
-  if (const auto format = format_of(name)) return *format;
-  fail(ErrorCode::bad_argument, "the format '{}' is none of glb gltf ply obj stl", name);
-}
-
 void write_mesh(const LatticeMesh& mesh, OutputFile& out, MeshFormat format, const MeshWriteOptions& options) {
   check_mesh(mesh);
   const WorldVertices vertices = world_vertices(mesh, options.origin);

@@ -24,9 +24,6 @@ struct MeshWriteOptions {
 /// Format by extension, case ignored. Throws bad_argument for any other.
 [[nodiscard]] MeshFormat mesh_format_of(const std::string& path);
 
-/// Format by its name, case ignored: glb gltf ply obj stl. Throws bad_argument for any other.
-[[nodiscard]] MeshFormat mesh_format_named(const std::string& name);
-
 /// Before there is a mesh: throws bad_argument, naming an origin that fits, if subtracting `origin` from lattice points
 /// of `box` would round.
 void check_origin(const GridFrame& frame, const VoxelBox& box, const Vec3d& origin);

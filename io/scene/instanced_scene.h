@@ -1,8 +1,8 @@
 #pragma once
 #include <optional>
 
-#include "io/scene/detail/affine.h"
-#include "io/scene/detail/raw_source.h"
+#include "io/scene/affine.h"
+#include "io/scene/raw_source.h"
 
 /// Meshes that lie as arrays in files, and the places where they stand: what glTF describes, and what is left of any
 /// format after Assimp has read it. Streamed without ever expanding an instance.

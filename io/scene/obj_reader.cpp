@@ -3,10 +3,10 @@
 #include <sstream>
 
 #include "io/scene/detail/mtl_file.h"
-#include "io/scene/detail/raw_source.h"
 #include "io/scene/detail/text_scanner.h"
 #include "io/scene/detail/vertex_pool.h"
 #include "io/scene/name_pattern.h"
+#include "io/scene/raw_source.h"
 
 // Wavefront OBJ: the lines "v" and "f", everything else is passed over; if colours or walls are asked for, "usemtl" and
 // "mtllib" too, and the three numbers after a vertex' position (an extension of many programs). One pass streams faces

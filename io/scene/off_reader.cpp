@@ -1,6 +1,6 @@
-#include "io/scene/detail/raw_source.h"
 #include "io/scene/detail/text_scanner.h"
 #include "io/scene/detail/vertex_pool.h"
+#include "io/scene/raw_source.h"
 
 // OFF (Geomview's object file format), ASCII: OFF and its variants with colours, normals and texture coordinates (COFF,
 // NOFF, STOFF, CNOFF ...), whose extra numbers follow the three of the position on the same line. The header may be

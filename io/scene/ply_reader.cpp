@@ -3,8 +3,8 @@
 #include "io/scene/detail/ply/packed_ply.h"
 #include "io/scene/detail/ply/ply_cursor.h"
 #include "io/scene/detail/ply/ply_vertices.h"
-#include "io/scene/detail/raw_source.h"
 #include "io/scene/detail/vertex_pool.h"
+#include "io/scene/raw_source.h"
 
 // PLY (Turk 1994), ASCII and binary of both byte orders. Elements other than vertex, face and tristrips, and properties
 // other than x, y, z and the vertex lists, are passed over; if colours are asked for, red, green and blue of vertices

@@ -5,7 +5,7 @@
 
 #include "io/files/lower.h"
 #include "io/scene/detail/foreign_format.h"
-#include "io/scene/detail/raw_source.h"
+#include "io/scene/raw_source.h"
 #include "lib/core/error.h"
 
 namespace bp {

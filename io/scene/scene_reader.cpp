@@ -7,7 +7,7 @@
 #include "io/scene/detail/foreign_format.h"
 #include "io/scene/detail/open_raw.h"
 #include "io/scene/detail/position_index.h"
-#include "io/scene/detail/raw_source.h"
+#include "io/scene/raw_source.h"
 #include "io/scene/scene_format.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"

@@ -3,8 +3,8 @@
 
 #include "io/files/lower.h"
 #include "io/scene/byte_stream.h"
-#include "io/scene/detail/raw_source.h"
 #include "io/scene/detail/text_scanner.h"
+#include "io/scene/raw_source.h"
 
 // STL, ASCII and binary. Many binary files start with "solid" too, so the size decides first: 84 bytes and 50 for each
 // of the triangles that bytes 80 to 83 promise. Only then words count: "solid", and a "facet" or an "endsolid" near by.

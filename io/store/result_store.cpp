@@ -156,7 +156,7 @@ class FolderStore final : public ResultStore {
   const std::function<void(const std::string&)> on_read_only_;
   std::atomic<bool> read_only_{false};
   std::once_flag first_put_;
-  MadeFolders made_;  ///< a run that fails before its first result leaves no folder
+  MadeFolder made_;  ///< a run that fails before its first result leaves no folder
 };
 
 }  // namespace

@@ -40,15 +40,15 @@ std::string describe(std::span<const std::byte> head) {
       {"{", "a JSON or glTF file"},
       {"# ", "a text file"},
       {"v ", "an OBJ mesh"},
-      {"BPVS", "a brick stream without its frame"},
+      {"BPVS", "a stream of voxels without its frame"},
       {"\x28\xb5\x2f\xfd", "a zstd file of something else"},
   };
   for (const Kind& kind : kinds) {
-    if (starts_with(head, kind.start)) return fmt::format("looks like {}, not a brick stream", kind.what);
+    if (starts_with(head, kind.start)) return fmt::format("looks like {}, not a stream of voxels", kind.what);
   }
   std::string hex;
   for (const std::byte b : head.first(std::min<std::size_t>(head.size(), 8))) hex += fmt::format(" {:02x}", int(b));
-  return fmt::format("is not a brick stream; it begins with{}", hex);
+  return fmt::format("is not a stream of voxels; it begins with{}", hex);
 }
 
 /// A batch on its way in.
@@ -186,7 +186,7 @@ void BrickReader::State::check_magic(std::span<const std::byte> head) {
     if (begins(kFrameHeadBytes, kStreamMagic.data(), 4))
       refuse(kFrameHeadBytes + 4,
              "the magic is damaged, as by a transfer in text mode; copy the stream in binary mode");
-    fail(ErrorCode::bad_input, "{}: is a zstd file of something else, not a brick stream; bpvox makes one",
+    fail(ErrorCode::bad_input, "{}: is a zstd file of something else, not a stream of voxels; bpvox makes one",
          file.name());
   }
 }
@@ -196,7 +196,7 @@ void BrickReader::State::read_header() {
   std::array<std::byte, kFrameHeadBytes + kStreamMagic.size() + 2> start;
   const std::size_t got = file.read(start);
   if (got == 0) {
-    fail(ErrorCode::bad_input, "{}: is empty, not a brick stream; did the tool before it fail?", file.name());
+    fail(ErrorCode::bad_input, "{}: is empty, not a stream of voxels; did the tool before it fail?", file.name());
   }
   check_magic(std::span(start).first(got));
   if (got < start.size()) take(std::span(start).subspan(got), "header");
@@ -206,8 +206,8 @@ void BrickReader::State::read_header() {
   (void)in.get<std::uint64_t>();
   const auto version = in.get<std::uint16_t>();
   if (version != kStreamVersion) {
-    refuse(kFrameHeadBytes + kStreamMagic.size(), "version {} of the brick stream; this tool reads version {}", version,
-           kStreamVersion);
+    refuse(kFrameHeadBytes + kStreamMagic.size(), "version {} of the stream of voxels; this tool reads version {}",
+           version, kStreamVersion);
   }
   if (size < kHeaderFixedBytes + kHashBytes ||
       size > kHeaderFixedBytes + kMaxScaleBytes + kMaxProvenanceBytes + kMaxSceneBytes + kHashBytes)

@@ -53,7 +53,7 @@ class TilesetFolder {
 
   std::string path_, partial_, files_;
   bool overwrite_;
-  MadeFolders made_;                ///< OUT, and those above it
+  MadeFolder made_;                 ///< OUT
   PartialOutput work_, folder_;     ///< files_, and partial_: for signal handlers
   int lock_ = -1;                   ///< of partial_; the system lets go of it however the process ends
   std::vector<std::string> moved_;  ///< by a commit that was interrupted; sorted

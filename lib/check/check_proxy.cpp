@@ -8,6 +8,7 @@
 #include "lib/check/detail/convex.h"
 #include "lib/check/detail/distance.h"
 #include "lib/check/detail/enclosure.h"
+#include "lib/check/detail/hidden.h"
 #include "lib/check/detail/inside.h"
 #include "lib/check/detail/surface.h"
 #include "lib/core/vec3.h"

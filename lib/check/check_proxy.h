@@ -1,6 +1,6 @@
 #pragma once
 #include "lib/check/check_report.h"
-#include "lib/check/hidden.h"
+#include "lib/check/hiding_recipe.h"
 #include "lib/core/indexed_mesh.h"
 
 /// The exact verdict on a proxy. Shares nothing with the code that makes proxies but the predicates, so that it can

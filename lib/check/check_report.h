@@ -96,7 +96,7 @@ struct CheckReport {
   // The proxy hidden by the scene, once openings are closed (hidden.h).
   bool asks_hidden = false;        ///< its file says how; asked if the proxy is not proven to be strictly inside
   double openings = 0;             ///< width below which they are closed, scene units
-  std::string hidden_unknown;      ///< why it is not decided; empty: it is
+  std::string hidden_unknown;      ///< why the question is not decided; empty if it is decided
   std::uint64_t hidden_bytes = 0;  ///< of memory that deciding it takes, where memory is why it is not decided
   Finding exposed;                 ///< index: proxy triangle; position: middle of a voxel there that is not hidden
 

@@ -18,42 +18,56 @@ using Json = nlohmann::ordered_json;
 struct FindingText {
   Finding CheckReport::*finding;
   const char* key;
-  const char* text;
+  const char* text;   ///< "[edge has|edges have] one triangle only"
   const char* index;  ///< nullptr: none
   const char* other;
 };
 
 constexpr FindingText kFindings[] = {
-    {&CheckReport::bad_faces, "bad_faces", "triangles name a vertex that does not exist", "triangle", nullptr},
-    {&CheckReport::non_finite_vertices, "non_finite_vertices", "vertices are not finite", "vertex", nullptr},
+    {&CheckReport::bad_faces, "bad_faces", "[triangle names|triangles name] a vertex that does not exist", "triangle",
+     nullptr},
+    {&CheckReport::non_finite_vertices, "non_finite_vertices", "[vertex is|vertices are] not finite", "vertex",
+     nullptr},
     {&CheckReport::undecidable_vertices, "undecidable_vertices",
-     "vertices have coordinates beyond 1e90 or below 1e-90, where nothing can be proven", "vertex", nullptr},
-    {&CheckReport::degenerate_triangles, "degenerate_triangles", "triangles have no area", "triangle", nullptr},
-    {&CheckReport::duplicate_triangles, "duplicate_triangles", "triangles repeat another one", "triangle",
-     "earlier_triangle"},
-    {&CheckReport::boundary_edges, "boundary_edges", "edges have one triangle only: holes", "vertex", "other_vertex"},
-    {&CheckReport::misoriented_edges, "misoriented_edges", "edges join triangles of opposite orientation", "vertex",
-     "other_vertex"},
-    {&CheckReport::nonmanifold_edges, "nonmanifold_edges", "edges have more than two triangles", "vertex",
-     "other_vertex"},
-    {&CheckReport::nonmanifold_vertices, "nonmanifold_vertices", "vertices join separate fans of triangles", "vertex",
+     "[vertex has|vertices have] coordinates beyond 1e90 or below 1e-90, where nothing can be proven", "vertex",
      nullptr},
-    {&CheckReport::self_intersections, "self_intersections", "pairs of triangles intersect", "triangle",
-     "other_triangle"},
-    {&CheckReport::inverted_components, "inverted_components", "outer components face inwards", "triangle", nullptr},
-    {&CheckReport::touching, "touching", "scene triangles touch or cross the proxy", "scene_triangle", "triangle"},
-    {&CheckReport::outside, "outside", "scene triangles lie outside the proxy", "scene_triangle", nullptr},
-    {&CheckReport::swallowed, "swallowed", "scene triangles lie inside the proxy", "scene_triangle", nullptr},
-    {&CheckReport::outside_parts, "outside_parts", "parts of the proxy are seen from outside the scene", "triangle",
+    {&CheckReport::degenerate_triangles, "degenerate_triangles", "[triangle has|triangles have] no area", "triangle",
      nullptr},
+    {&CheckReport::duplicate_triangles, "duplicate_triangles", "[triangle repeats|triangles repeat] another one",
+     "triangle", "earlier_triangle"},
+    {&CheckReport::boundary_edges, "boundary_edges", "[edge has|edges have] one triangle only: holes", "vertex",
+     "other_vertex"},
+    {&CheckReport::misoriented_edges, "misoriented_edges", "[edge joins|edges join] triangles of opposite orientation",
+     "vertex", "other_vertex"},
+    {&CheckReport::nonmanifold_edges, "nonmanifold_edges", "[edge has|edges have] more than two triangles", "vertex",
+     "other_vertex"},
+    {&CheckReport::nonmanifold_vertices, "nonmanifold_vertices",
+     "[vertex joins|vertices join] separate fans of triangles", "vertex", nullptr},
+    {&CheckReport::self_intersections, "self_intersections",
+     "[pair of triangles intersects|pairs of triangles intersect]", "triangle", "other_triangle"},
+    {&CheckReport::inverted_components, "inverted_components", "[outer component faces|outer components face] inwards",
+     "triangle", nullptr},
+    {&CheckReport::touching, "touching", "[scene triangle touches or crosses|scene triangles touch or cross] the proxy",
+     "scene_triangle", "triangle"},
+    {&CheckReport::outside, "outside", "[scene triangle lies|scene triangles lie] outside the proxy", "scene_triangle",
+     nullptr},
+    {&CheckReport::swallowed, "swallowed", "[scene triangle lies|scene triangles lie] inside the proxy",
+     "scene_triangle", nullptr},
+    {&CheckReport::outside_parts, "outside_parts",
+     "[part of the proxy is|parts of the proxy are] seen from outside the scene", "triangle", nullptr},
     {&CheckReport::unsettled_parts, "unsettled_parts",
-     "parts of the proxy have no closed shell of the scene around them", "triangle", nullptr},
-    {&CheckReport::exposed, "exposed", "triangles of the proxy lie where the outside comes", "triangle", nullptr},
-    {&CheckReport::nonconvex_parts, "nonconvex_parts", "parts are not convex, or face inwards", "triangle", "vertex"},
-    {&CheckReport::not_held, "not_held", "scene triangles are not covered by the parts", "scene_triangle", nullptr},
+     "[part of the proxy has no closed shell of the scene around it|parts of the proxy have no closed shell of the "
+     "scene around them]",
+     "triangle", nullptr},
+    {&CheckReport::exposed, "exposed",
+     "[triangle of the proxy lies|triangles of the proxy lie] where the outside comes", "triangle", nullptr},
+    {&CheckReport::nonconvex_parts, "nonconvex_parts",
+     "[part is not convex, or faces|parts are not convex, or face] inwards", "triangle", "vertex"},
+    {&CheckReport::not_held, "not_held", "[scene triangle is|scene triangles are] not covered by the parts",
+     "scene_triangle", nullptr},
     {&CheckReport::undecidable_scene, "undecidable_scene",
-     "scene triangles have coordinates beyond 1e90 or below 1e-90, where nothing can be proven", "scene_triangle",
-     nullptr},
+     "[scene triangle has|scene triangles have] coordinates beyond 1e90 or below 1e-90, where nothing can be proven",
+     "scene_triangle", nullptr},
 };
 
 /// The scene may face inwards: its sign does not matter.
@@ -79,9 +93,17 @@ std::string spaced(std::string s) {
   return s;
 }
 
+/// "1 edge has one triangle only", "2 edges have one triangle only".
+std::string counted(const Finding& f, const FindingText& t) {
+  const std::string text = t.text;
+  const std::size_t open = text.find('['), bar = text.find('|'), close = text.find(']');
+  const std::string noun = f.count == 1 ? text.substr(open + 1, bar - open - 1) : text.substr(bar + 1, close - bar - 1);
+  return fmt::format("{} {}{}", f.count, noun, text.substr(close + 1));
+}
+
 std::string finding_lines(const Finding& f, const FindingText& t) {
   if (f.count == 0) return "";
-  std::string text = fmt::format("    {} {}\n", f.count, t.text);
+  std::string text = "    " + counted(f, t) + "\n";
   for (const Example& e : f.examples) {
     text += fmt::format("      {} {}", spaced(t.index), e.index);
     if (t.other != nullptr) text += fmt::format(", {} {}", spaced(t.other), e.other);
@@ -120,9 +142,7 @@ std::string inside_rows(const CheckReport& r) {
   std::string text;
   const bool other = r.asks_hidden && r.hiddenness() == Answer::proven;  // then these decide nothing
   const auto add = [&](const char* question, Answer answer) {
-    text += other && answer != Answer::proven ? fmt::format("  {:<28}{} (not asked of an occluder)\n", question,
-                                                            answer == Answer::refuted ? "no" : "not decided")
-                                              : row(question, answer, scene_doubt(r));
+    if (!other || answer == Answer::proven) text += row(question, answer, scene_doubt(r));
   };
   const bool is_free = r.touching.count + r.swallowed.count == 0;
   if (r.sides_decided) add("free of the scene", is_free ? Answer::proven : Answer::refuted);
@@ -150,7 +170,8 @@ std::string enclosure_row(const CheckReport& r) {
 std::string scene_lines(const CheckReport& r) {
   if (!r.has_scene) return "";
   const SceneCounts& c = r.scene_counts;
-  std::string text = fmt::format("scene {}: {} triangles\n", r.scene_name, r.scene_triangles);
+  std::string text =
+      fmt::format("scene {}: {} triangle{}\n", r.scene_name, r.scene_triangles, r.scene_triangles == 1 ? "" : "s");
   if (c.non_finite + c.degenerate + c.bad_faces != 0)
     text += fmt::format("  left out: {} without area{}, {} not finite, {} faces without corners\n", c.degenerate,
                         r.wants_inside ? " (but for whether the scene is closed)" : "", c.non_finite, c.bad_faces);
@@ -280,7 +301,7 @@ std::string failures(const CheckReport& r) {
   for (const FindingText& t : kFindings) {
     if ((r.*t.finding).count == 0 || is_aside(r, t)) continue;
     if (!text.empty()) text += "; ";
-    text += fmt::format("{} {}", (r.*t.finding).count, t.text);
+    text += counted(r.*t.finding, t);
   }
   return text;
 }

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "lib/closing/closing_scratch.h"
+#include "lib/closing/detail/closing_parts.h"
 
 namespace bp {
 
@@ -67,7 +67,7 @@ class TileClosing {
  public:
   TileClosing(const BitBox& solid, const ScaleLattice& scale, const VoxelBox& occupied, const VoxelBox& dilated,
               ScaleRange range, ClosingScratch& scratch)
-      : solid_(solid), scale_(scale), occupied_(occupied), range_(range), s_(scratch) {
+      : solid_(solid), scale_(scale), occupied_(occupied), range_(range), s_(scratch.parts()) {
     s_.dilation.reset(dilated);
   }
 
@@ -183,7 +183,7 @@ class TileClosing {
   const ScaleLattice& scale_;
   const VoxelBox occupied_;
   const ScaleRange range_;
-  ClosingScratch& s_;
+  ClosingScratch::Parts& s_;
 };
 
 /// Adds to `closed`, which holds G, what the closing adds.
@@ -209,6 +209,10 @@ void add_closing(const BitBox& solid, const ScaleLattice& scale, const Halo& hal
 }
 
 }  // namespace
+
+ClosingScratch::ClosingScratch() : parts_(std::make_unique<Parts>()) {}
+
+ClosingScratch::~ClosingScratch() = default;
 
 void close_tile(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
                 const VoxelBox& interior, BitBox& closed, ClosingScratch& scratch) {

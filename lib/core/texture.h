@@ -35,7 +35,7 @@ struct TextureMaterial {
   std::array<TextureWrap, 2> wrap{};  ///< along u, along v
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha = 1, cutoff = 0.5F;  ///< multiplies the image's alpha; of AlphaMode::mask
-  bool replaces_color = false;     ///< the triangle's colour is for want of the image; else it multiplies the image
+  bool replaces_color = false;     ///< true: use the triangle's colour, because the image is missing; else multiply
 };
 
 /// What lies on a triangle beside its colours.

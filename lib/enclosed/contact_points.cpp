@@ -9,7 +9,55 @@ namespace bp {
 
 namespace {
 
-constexpr std::int64_t kPointsAtOnce = 1024;
+constexpr std::int64_t kPointsAtOnce = 1024, kFacesAtOnce = 64;
+constexpr std::size_t kPointsPerFace = 64;  // that are kept in any case
+constexpr std::size_t kBinsPerEdge = 12;    // of a face with more
+constexpr double kTilt = 1;                 // how far a face may turn, as a slope
+
+/// The points that a face meets first, wherever in it and however it turns. What lies under them guides nothing.
+class Outermost {
+ public:
+  explicit Outermost(const std::array<Vec3d, 3>& face) : corner_(face[0]) {
+    const Vec3d ab = face[1] - face[0], ac = face[2] - face[0], normal = cross(ab, ac);
+    const double area = std::max(length(normal), 1e-9);
+    const Vec3d up = (1 / area) * normal, along = (kTilt / std::max(length(ab), 1e-9)) * ab, across = cross(up, along);
+    directions_ = {up, up + along, up - along, up + across, up - across};
+    to_c_ = (1 / area) * cross(up, ab);
+    to_b_ = (1 / area) * cross(ac, up);
+    best_.fill({-1e300, 0});
+  }
+
+  void add(const Vec3d& point, std::uint32_t number) {
+    const Vec3d p = point - corner_;
+    Best* const bin = &best_[(bin_of(dot(to_b_, p)) * kBinsPerEdge + bin_of(dot(to_c_, p))) * directions_.size()];
+    for (std::size_t k = 0; k < directions_.size(); ++k) {
+      const double height = dot(directions_[k], p);
+      if (height > bin[k].height) bin[k] = {height, number};
+    }
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> take() const {
+    std::vector<std::uint32_t> numbers;
+    for (const Best& b : best_) {
+      if (b.height > -1e300) numbers.push_back(b.number);
+    }
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    return numbers;
+  }
+
+ private:
+  struct Best {
+    double height;
+    std::uint32_t number;
+  };
+  static std::size_t bin_of(double share) {
+    return std::size_t(std::clamp(share * double(kBinsPerEdge), 0.0, double(kBinsPerEdge) - 1));
+  }
+  Vec3d corner_, to_b_{}, to_c_{};  // its share of the way to each of the others
+  std::array<Vec3d, 5> directions_{};
+  std::array<Best, kBinsPerEdge * kBinsPerEdge * 5> best_{};
+};
 
 /// What lies under faces along a cell's side may lie beyond it.
 LatticeBox grown(const LatticeBox& box, std::int64_t by) {
@@ -61,14 +109,39 @@ ContactPoints::ContactPoints(const Enclosed& enclosed, const HalfEdgeMesh& mesh,
   parallel_ranges(std::int64_t(points_.size()), kPointsAtOnce, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) nearest_to[i] = nearest(points_[i], tree, reach);
   });
-  std::size_t kept = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (nearest_to[i] == kNoId) continue;  // deep inside
-    of_face_[nearest_to[i]].push_back(std::uint32_t(kept));
+    if (nearest_to[i] != kNoId) of_face_[nearest_to[i]].push_back(std::uint32_t(i));  // else deep inside
+  }
+  parallel_ranges(std::int64_t(of_face_.size()), kFacesAtOnce, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t f = begin; f < end; ++f) keep_outermost(FaceId(f));
+  });
+  drop_unlisted();
+}
+
+void ContactPoints::keep_outermost(FaceId f) {
+  std::vector<std::uint32_t>& list = of_face_[f];
+  if (list.size() <= kPointsPerFace) return;
+  Outermost outermost(corners(f));
+  for (const std::uint32_t i : list) outermost.add(points_[i], i);
+  list = outermost.take();
+}
+
+void ContactPoints::drop_unlisted() {
+  std::vector<std::uint32_t> place(points_.size(), 0);
+  for (const auto& list : of_face_) {
+    for (const std::uint32_t i : list) place[i] = 1;
+  }
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (place[i] == 0) continue;
+    place[i] = kept;
     points_[kept++] = points_[i];
   }
   points_.resize(kept);
   points_.shrink_to_fit();
+  for (auto& list : of_face_) {
+    for (std::uint32_t& i : list) i = place[i];
+  }
 }
 
 std::array<Vec3d, 3> ContactPoints::corners(FaceId f) const {

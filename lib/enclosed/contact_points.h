@@ -7,11 +7,12 @@
 #include "lib/enclosed/enclosed.h"
 
 /// Points of what must stay inside, each listed with the face of the proxy that it is nearest to. They guide where
-/// vertices go; nothing is proved by them.
+/// vertices go; nothing is proved by them. Of many with one face, those are kept that it meets first: at most 720.
 namespace bp {
 
 class ContactPoints {
  public:
+  /// Parallel. Cost: a search in the tree for each point.
   ContactPoints(const Enclosed& enclosed, const HalfEdgeMesh& mesh, const FaceTree& tree);
 
   [[nodiscard]] const std::vector<std::uint32_t>& of(FaceId f) const { return of_face_[f]; }
@@ -44,6 +45,8 @@ class ContactPoints {
   [[nodiscard]] Target target(FaceId f) const;
   [[nodiscard]] std::size_t nearest_target(const Vec3d& p, std::size_t first) const;
   [[nodiscard]] FaceId nearest(const Vec3d& p, const FaceTree& tree, double reach) const;
+  void keep_outermost(FaceId f);
+  void drop_unlisted();
 
   const HalfEdgeMesh& mesh_;
   LatticeCoord origin_{};

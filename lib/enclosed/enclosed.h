@@ -30,8 +30,8 @@ class Enclosed {
   /// units; rounded. They guide the search, allows() decides.
   [[nodiscard]] virtual std::vector<Vec3d> contact_points(const LatticeCoord& origin,
                                                           const LatticeBox& within) const = 0;
-  /// Whether each point of the faces has some of it within `distance`, lattice units. True if they do; at times where
-  /// it is within 1.35 of that only (and lattice units of rounding); and where it is not known.
+  /// True if every point of the faces is within `distance`, lattice units, of the enclosed set. May also return true up
+  /// to 1.35 times that distance (and lattice units of rounding), or if unknown.
   [[nodiscard]] virtual bool is_near(std::span<const NewFace> faces, double distance) const {
     static_cast<void>(faces), static_cast<void>(distance);
     return true;

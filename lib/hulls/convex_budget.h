@@ -2,13 +2,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/hulls/detail/convex_hull.h"
+#include "lib/hulls/convex_hull.h"
 
 /// Hulls with no more faces in all than are wanted.
 namespace bp {
 
 /// Takes corners from hulls, always where that adds the least volume for a corner, until they have at most `faces`
-/// faces together, or four each. Each comes to lie around what it was, and without slivers if it had none. Parallel;
+/// faces together, or four each. Each then encloses what it was, and has no slivers if it had none. Parallel;
 /// the same for any number of threads. Cost: a millisecond or two for each corner taken.
 void keep_to_faces(std::vector<ConvexHull>& hulls, std::uint64_t faces);
 

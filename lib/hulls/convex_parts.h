@@ -16,7 +16,7 @@ struct ConvexParts {
   bool limited = false;            ///< as many hulls as were allowed: with more they might come nearer
   bool short_of_faces = false;     ///< all the faces that were allowed: with more they might come nearer
 };
-constexpr std::size_t kMostHulls = 32;    ///< if nobody says how many, and there are no more parts
+constexpr std::size_t kMostHulls = 32;    ///< default number of hulls
 constexpr std::size_t kMostCorners = 64;  ///< of a hull
 
 /// Convex hulls that together enclose, exactly, what the closed and embedded mesh encloses: whatever lies in the open

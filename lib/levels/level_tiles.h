@@ -39,10 +39,11 @@ struct TileShape {
 
 /// How tiles are made and kept.
 struct TileParams : TileShape {
-  const TriangleBvh* scene = nullptr;                   ///< what fits are drawn to; null: the closing
-  std::function<bool(CellCoord)> wanted;                ///< other tiles are passed over; empty: all are wanted
-  bool make = true;                                     ///< false: what is not kept comes without measures and content
-  std::function<void(CellCoord, KeyHash&)> add_to_key;  ///< what else decides a tile; may be empty
+  const TriangleBvh* scene = nullptr;     ///< surface that vertices of a fit move to; null: the closing
+  std::function<bool(CellCoord)> wanted;  ///< other tiles are passed over; empty: all are wanted
+  bool make = true;                       ///< false: what is not kept comes without measures and content
+  std::function<void(CellCoord, KeyHash&)>
+      add_to_key;  ///< adds further inputs of a tile to its cache key; may be empty
 
   static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastTileFaces = 60;  ///< of a tile without a budget
   /// A bounding tile without a budget keeps more faces where these would take it farther from what it encloses: thin

@@ -17,6 +17,8 @@ namespace bp {
 
 namespace {
 
+constexpr int kMostAttempts = 12;  // scales for one level
+
 // What a level needs of its voxels. Fewer dense triangles per face than this, and the steps of the voxels show.
 constexpr double kDenseFacesPerFace = 100;
 constexpr double kScalesPerEdge = 4;
@@ -144,7 +146,7 @@ struct LodChain::State {
       LodLevel level = mesh(target, scale, std::move(closing));
       level.attempts = attempt;
       level.reached = target.faces == 0 || level.mesh.triangles.size() <= target.faces;
-      if (!level.reached && 2 * scale <= diagonal / 2 && attempt < options.max_attempts) {
+      if (!level.reached && 2 * scale <= diagonal / 2 && attempt < kMostAttempts) {
         scale *= 2;
         continue;
       }

@@ -46,7 +46,7 @@ struct LodOptions {
   ClosingParams closing;
   MeshMode mode = MeshMode::bounding;  ///< bounding or fit
   Enclose enclose = Enclose::input;    ///< of bounding levels
-  /// The scene's triangles, scene units: of Enclose::scene, and what fits are drawn to; without, these follow the
+  /// The scene's triangles, scene units: of Enclose::scene, and those that fits follow; without, these follow the
   /// closing.
   std::vector<TriangleD> scene;
   /// Voxels of the solid that hold a point of what the scene shows to the outside; null: those of its boundary.
@@ -54,8 +54,7 @@ struct LodOptions {
   double least_scale_world = 0;  ///< no level is closed at less
   /// Where a level's scale is finer or coarser: times the level's scale over the base, which is above 0. None: nowhere.
   std::optional<ScaleField> field;
-  bool quads = false;     ///< join triangles in pairs (lib/quads/quads.h)
-  int max_attempts = 12;  ///< at most so many scales for one level
+  bool quads = false;  ///< join triangles in pairs (lib/quads/quads.h)
   /// The memory is for tiles at work and, between them, for surfaces. The scene's outer surface and `scene` are
   /// subtracted from both.
   PassContext context;

@@ -23,8 +23,6 @@ class TilePyramid {
               PyramidOptions options);
 
   [[nodiscard]] const StreamHeader& header() const { return header_; }  ///< of the level's solid
-  /// The level need not be cut: the bricks of its header lie in one cell, which a plan knows without the voxels.
-  [[nodiscard]] bool in_one_cell() const { return cells_spanned(options_.cells, header_.bricks).count() == 1; }
 
   /// Closes the level, and has its tiles made along with those of other levels; sets scale and element of
   /// `params`. Each level at most once. As close_cells().

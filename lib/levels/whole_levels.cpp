@@ -37,11 +37,11 @@ Vec3d common_origin(const std::vector<LodLevel>& levels) {
 ResultKey key_of(const WholeInput& input) {
   const auto& [header, solid, first, count, request, lod, colors, encoding] = input;
   // No byte depends on the memory, which is all of `context` and of how `surface` is kept.
-  const auto& [closing, mode, enclose, scene, surface, least_scale_world, field, quads, max_attempts, context] = lod;
+  const auto& [closing, mode, enclose, scene, surface, least_scale_world, field, quads, context] = lod;
   const GridFrame& frame = header.frame;
   KeyHash hash(kJob);
   hash.add(encoding, first, count, frame, header.bounds, request.faces.size());
-  hash.add(closing, mode, enclose, std::as_bytes(std::span(scene)), least_scale_world, quads, max_attempts,
+  hash.add(closing, mode, enclose, std::as_bytes(std::span(scene)), least_scale_world, quads,
            field ? to_json(*field) : "");
   for (std::size_t i = 0; i < count; ++i) {  // dense faces are of the solid
     hash.add(level_target(request, first + i, first, 1000000));

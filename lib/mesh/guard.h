@@ -30,9 +30,9 @@ class Guard {
   [[nodiscard]] bool star_is_free(std::span<const NewFace> star, std::span<const FaceId> replaced);
 
   /// The same for a star that only grows the solid, of a mesh that bounds a solid from outside (its winding number is 0
-  /// or 1 everywhere). Mostly without testing more than the few faces beside it that look the other way: then it holds
-  /// only if no face of near() lies between the old faces and the new ones; if one does, ask rest_is_free() too.
-  /// `before`: the normals of the faces replaced and a box around them.
+  /// or 1 everywhere). It mostly tests only the few faces beside the star that look the other way. True then holds
+  /// under the condition that no face of near() lies between the old faces and the new ones. If one may lie there, ask
+  /// rest_is_free(), too. `before`: the normals of the faces replaced and a box around them.
   struct Before {
     std::span<const LatticeCoord> normals;
     LatticeBox box;

@@ -48,11 +48,13 @@ constexpr double kPerTwiceArea = 3.4641016151377544;  ///< 2 sqrt(3): triangle_q
 /// Floors of triangle_quality(). A step that leaves a worse face is refused, since needles jam the steps that follow;
 /// but not where faces are bad already, or they would never go.
 struct QualityFloor {
-  static constexpr double kFlat = 0.02;      ///< merging flat regions: these faces go soon, so nearly anything will do
-  static constexpr double kCollapse = 0.05;  ///< collapses; or half of the worst face replaced
-  static constexpr double kDraw = 0.05;      ///< vertices drawn to a surface; or the worst face replaced
+  static constexpr double kFlat = 0.02;  ///< merging flat regions; these faces go soon
+  static constexpr double kCollapse =
+      0.05;  ///< collapses: lowest quality accepted, or half of that of the worst face replaced
+  static constexpr double kDraw =
+      0.05;  ///< vertices that move to a surface: the same, or that of the worst face replaced
   static constexpr double kEdit =
-      0.08;  ///< shrinking a proxy, whose volume alone would rather have needles; or the same
+      0.08;  ///< shrinking a proxy: lowest quality accepted, or that of the worst face replaced
 };
 
 }  // namespace bp

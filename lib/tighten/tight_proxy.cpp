@@ -14,9 +14,10 @@ namespace {
 // Growing collapses turn to strict order at a multiple of the wanted faces; at least at so many: these are quick.
 constexpr std::uint64_t kEarlyStrict = 16, kEarlyStrictLeast = 10000;
 constexpr std::uint64_t kEarlyFactor = 6;  // of the wanted faces: where growing collapses end
+constexpr double kMiddleFactor = 3;        // where sweeps are made again if the first found much room
 constexpr double kLateFactor = 1.5;        // where the order of collapses changes from quadric error to volume
 constexpr double kMostGrowth = 6;          // of one collapse: some times a face's share of the volume
-constexpr double kMuchRoom = 0.04;         // share of the volume: an early sweep that gains more is worth others
+constexpr double kMuchRoom = 0.04;         // share of the volume: a first sweep that gains more is worth others
 
 /// A proxy on the way, and what led to it.
 struct Way {
@@ -55,10 +56,14 @@ TightenCounts sweep_early(LatticeMesh& proxy, const Enclosed& enclosed, const Si
   return counts;
 }
 
-/// (2) One sweep; a few more if that found much room.
-void tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params) {
+/// (2) One sweep. True if it found much room.
+bool tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params) {
   const TightenCounts counts = sweep_early(proxy, enclosed, params, one_sweep(params));
-  if (counts.volume_before - counts.volume_after <= kMuchRoom * std::abs(counts.volume_after)) return;
+  return counts.volume_before - counts.volume_after > kMuchRoom * std::abs(counts.volume_after);
+}
+
+/// (3) After much room: sweeps on half of the faces gain as much as on all of them.
+void tighten_middle(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params) {
   TightenParams few = one_sweep(params);
   few.sweeps = 3;
   few.final_sweeps = 2;
@@ -85,11 +90,12 @@ SimplifyCounts simplify_on(LatticeMesh& proxy, const SimplifyParams& params, Sim
   return now;
 }
 
-/// (3) In order of quadric error. Where faces jam by their reach, collapses go on with a longer one.
-void collapse_by_error(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
+/// (3) In order of quadric error, to `factor` times the faces. Where faces jam by their reach, collapses go on with a
+/// longer one.
+void collapse_by_error(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, double factor,
                        SimplifyCounts& counts) {
   SimplifyParams late = params;
-  late.faces = std::uint64_t((by_volume(params) ? kLateFactor : 1) * double(params.faces));
+  late.faces = std::uint64_t(factor * double(params.faces));
   late.dense = false;
   late.enclosed = &enclosed;
   late.most_growth = kMostGrowth;
@@ -180,10 +186,12 @@ Way tight_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams&
   Way way = grown;
   if (params.limits != nullptr) {
     tighten_to_limits(way.proxy, enclosed, params);
-  } else if (params.faces > 0) {
-    tighten_early(way.proxy, enclosed, params);
+  } else if (params.faces > 0 && tighten_early(way.proxy, enclosed, params)) {
+    collapse_by_error(way.proxy, enclosed, params, kMiddleFactor, way.simplified);
+    tighten_middle(way.proxy, enclosed, params);
   }
-  if (params.faces > 0 || params.limits != nullptr) collapse_by_error(way.proxy, enclosed, params, way.simplified);
+  if (params.faces > 0 || params.limits != nullptr)
+    collapse_by_error(way.proxy, enclosed, params, by_volume(params) ? kLateFactor : 1, way.simplified);
   finish(way, enclosed, params);
   if (is_above_target(way.proxy, params)) try_growing(grown, way, enclosed, params);
   return way;

@@ -36,7 +36,7 @@ class TileTree {
  private:
   struct Node {
     TreeTile tile;
-    std::optional<Bounds3d> cell;  ///< none: whole, with no level cut
+    std::optional<Bounds3d> cell;  ///< empty if no level is cut into tiles
     std::vector<Node> children;
   };
   using Level = std::map<CellCoord, Node>;

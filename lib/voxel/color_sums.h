@@ -28,6 +28,12 @@ struct ColorCellSum {
   ColorSum sum;
 };
 
+struct CellColor {
+  ColorCell cell;
+  LinearColor color;
+  friend bool operator==(const CellColor&, const CellColor&) = default;
+};
+
 /// Appends what a triangle, given in voxels, adds to the cells that it crosses; a cell may come several times. Samples
 /// lie half a cell apart: a cell in which it has less may be passed over. 64 bits hold 2^28 samples of white in a cell.
 void add_colors(const TriangleD& triangle_vox, const TriangleColors& colors, std::vector<ColorCellSum>& out);

@@ -48,7 +48,7 @@ set(rules
   "tools/run:lib/* io/files io/scene io/mesh gpu tools/cli"
   "tools/cli/options:lib/* tools/cli tools/run"
   "tools/notes:lib/* tools/cli"
-  "tools/check:lib/* io/* tools/cli tools/run"
+  "tools/check:lib/* io/* tools/cli tools/cli/options tools/run"
   "tools/info:lib/* io/* tools/cli tools/run tools/notes"
   "tools/lod:lib/* io/* tools/cli tools/cli/options tools/run tools/notes"
   "tools/mesh:lib/* io/* tools/cli tools/cli/options tools/run tools/notes"
@@ -146,6 +146,9 @@ foreach(folder lib io gpu tools samples tests)
           string(FIND "${file}" "${home}/" at)
           if(NOT at EQUAL 0 AND NOT file MATCHES "^tests/")
             complain("${file}: ${header} is private to ${home}")
+          endif()
+          if(file MATCHES "\\.h$" AND NOT file MATCHES "^tests/|/detail/")
+            complain("${file}: a public header must not include ${header}, which is private")
           endif()
         endif()
       else()

@@ -23,6 +23,9 @@ said() {
 # files: what lies in the folder now, hidden and partial files too.
 files() { echo "files: $(LC_ALL=C ls -A | tr '\n' ' ')"; }
 
+# bpinfo FILE | checksum: of its voxels or triangles.
+checksum() { sed -n 's/^checksum *//p'; }
+
 # write_octahedron FILE.obj [SIZE]: its slanted sides have as many faces as a level may want.
 write_octahedron() {
   awk -v s="${2:-1}" 'BEGIN {

@@ -68,8 +68,8 @@ pipe_cases() {
   scale_rules flood.bpv > rules.json
   bpscale rules.json flood.bpv | bpclose --device cpu -j 1 --memory 192M -q -o ruled.bpv
   bpclose flood.bpv --field rules.json --device cpu -j 3 -q -o again.bpv
-  bpinfo ruled.bpv --checksum > ruled.sum
-  bpinfo again.bpv --checksum > again.sum
+  bpinfo ruled.bpv | grep checksum > ruled.sum
+  bpinfo again.bpv | grep checksum > again.sum
   same "close rules" ruled.sum again.sum
   rm ruled.sum again.sum
   rm again.bpv
@@ -82,13 +82,11 @@ pipe_cases() {
   mesh cube.bpv scene.ply --faces 500 --enclose "$scene"
   mesh cube.bpv error.ply --error 2%
   mesh cube.bpv volume.ply --volume 1.3
-  mesh cube.bpv edges.ply --edge-length 2
   mesh cube.bpv quads.obj --faces 300 --quads
   mesh cube.bpv chain.gltf --faces 500,200,60
   mesh ball.bpv fit.glb --mode fit --faces 500
   mesh inner.bpv inside.ply --mode inside --faces 100
   mesh varied.bpv varied.ply --faces 500
-  mesh varied.bpv varied-edges.ply --edge-length 3
 }
 
 # scale_field STREAM: scales of two to six voxels, with a box and a stroke in the middle of the scene

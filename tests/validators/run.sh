@@ -43,7 +43,7 @@ node "$here/validate.cjs" gltf-*/*.glb tiles-*/*.glb
 # The same triangles, bit for bit, by another decoder.
 for tile in tiles-*/*.glb; do
   gltf-transform cp "$tile" decoded.glb > /dev/null
-  [ "$(bpinfo --checksum decoded.glb)" = "$(bpinfo --checksum "$tile")" ] || { echo "$tile: decodes to other triangles"; exit 1; }
+  [ "$(bpinfo decoded.glb | grep checksum)" = "$(bpinfo "$tile" | grep checksum)" ] || { echo "$tile: decodes to other triangles"; exit 1; }
   rm decoded.glb
 done
 for up in y z; do bpcheck plant.ply tiles-$up/tileset.json; done

@@ -2,6 +2,7 @@
 
 #include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
+#include "tools/cli/options/voxel.h"
 #include "tools/run/inputs.h"
 
 namespace bp {
@@ -21,18 +22,18 @@ void declare(Args& args, CheckRun& o) {
   args.flag("--convex", o.convex,
             "prove that the parts of the proxy, which may overlap, are convex and enclose the scenes together");
   args.group("Files");
-  args.option("--format", "NAME", o.format, "format of stdin, or of files whose names do not tell");
+  add_scene_format(args, o.format);
   args.option(
       "--origin", "X,Y,Z", o.origin,
       "add this point to every vertex of the proxy, exactly (default: what its --origin subtracted, if the file "
       "tells)");
   args.group("Verdict");
   args.flag("--json", o.json, "print the verdict as JSON");
-  args.option("--samples", "N", o.samples, "triangles of each side to measure distances from; 0 measures none");
   o.common.add_to(args,
                   CommonOptions::all_parts & ~unsigned(CommonOptions::device_part | CommonOptions::overwrite_part));
   args.removed("--overwrite", "--report replaces an earlier report, and no other file");
-  args.removed("--no-distances", "--samples 0 measures none");
+  args.removed("--no-distances", "distances are always measured");
+  args.removed("--samples", "distances are always measured, from 5000 triangles of each side");
   args.removed("--examples", "bpcheck names the first 5 places of each kind");
   for (const char* const name : {"--image", "--image-size", "--up", "--azimuth", "--elevation", "--zoom", "--look-at"})
     args.removed(name, "bpinfo SCENE PROXY --image FILE draws both");
@@ -47,15 +48,10 @@ CheckRun parse_check_run(Args& args) {
   args.example("bpcheck scene.glb proxy.glb");
   args.parse();
   if (!o.files.empty()) o.files.back() = tileset_in(o.files.back());
-  args.excludes("--samples", "--inside");  // measures none
-  args.excludes("--samples", "--convex");
   args.excludes("--convex", "--inside");
   check_scene_format(o.format, o.files);
   check_stdin_once(o.files);
   keep_inputs(o.files);
-  o.samples_given = args.given("--samples");
-  if (o.samples_given && o.samples > 0 && o.files.size() < 2)
-    fail(ErrorCode::bad_argument, "--samples means nothing without a scene; leave it out");
   if (o.inside && o.files.size() < 2)
     fail(ErrorCode::bad_argument, "--inside asks for a scene around the proxy; name it before the proxy");
   return o;

@@ -14,8 +14,6 @@ struct CheckRun {
   std::vector<std::string> files;  // scenes, then the proxy
   std::string format;
   bool json = false, inside = false, convex = false;
-  std::uint64_t samples = 5000;  // 0: no distances
-  bool samples_given = false;
   std::optional<Vec3d> origin;
 };
 

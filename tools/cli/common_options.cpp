@@ -114,7 +114,10 @@ void CommonOptions::add_to(Args& args, unsigned parts) {
   }
   if (parts & device_part) {
     args.option(
-        "--device", "DEVICE", [this](const std::string& t) { device = parse_device(t); }, device_text);
+        "--device", "DEVICE", [this](const std::string& t) { device = parse_device(t); },
+        "auto, cpu, cuda (every GPU) or cuda:0,1 (default: auto, one GPU where the work is worth its start, or the "
+        "CPU)");
+    args.words({{"auto", ""}, {"cpu", ""}, {"cuda", ""}});
   }
   args.group("Messages");
   if (parts & progress_part) {

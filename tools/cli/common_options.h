@@ -37,7 +37,6 @@ struct CommonOptions {
   std::string temp;                ///< directory for scratch; prepare() replaces "" by $TMPDIR or /tmp
   DeviceChoice device;
   /// What --help says of it; a tool for which auto may mean a GPU says so.
-  const char* device_text = "auto, cpu, cuda (every GPU) or cuda:0,1 (default: auto, the CPU: reading takes longest)";
   ProgressMode progress = ProgressMode::automatic;
   std::string report;                       ///< file name; empty: none
   std::shared_ptr<OutputFile> report_file;  ///< opened by prepare()

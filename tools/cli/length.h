@@ -16,7 +16,7 @@ namespace bp {
 /// The same of a count, which may be in thousands, millions or billions: `2k`, `1.5M`, `1G`, powers of 1000.
 [[nodiscard]] std::int64_t parse_count(std::string_view text, std::int64_t lo, std::int64_t hi);
 
-/// f(item) for what stands between commas, in order; once, if there is none.
+/// Calls f for each item of a comma-separated list, in order.
 void for_each_item(std::string_view text, const std::function<void(std::string_view)>& f);
 
 /// `X,Y,Z`. Throws bad_argument otherwise.

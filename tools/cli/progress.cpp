@@ -17,8 +17,7 @@ constexpr int kBarWidth = 24;
 
 /// The last tool of a pipe draws: two lines on one terminal would overwrite each other.
 bool may_draw() {
-  struct stat out {};
-  return ::isatty(2) != 0 && !(::fstat(1, &out) == 0 && (S_ISFIFO(out.st_mode) || S_ISSOCK(out.st_mode)));
+  return ::isatty(2) != 0 && !stdout_is_pipe();
 }
 
 void put(const std::string& text) {
@@ -40,6 +39,11 @@ std::string clock_text(double seconds) {
 }
 
 }  // namespace
+
+bool stdout_is_pipe() {
+  struct stat out {};
+  return ::fstat(1, &out) == 0 && (S_ISFIFO(out.st_mode) || S_ISSOCK(out.st_mode));
+}
 
 Progress::Progress(std::string tool, ProgressMode mode) : tool_(std::move(tool)), mode_(mode) {
   if (mode_ == ProgressMode::automatic) mode_ = may_draw() ? ProgressMode::automatic : ProgressMode::quiet;

@@ -13,6 +13,9 @@ namespace bp {
 
 enum class ProgressMode { automatic, bar, json, quiet };
 
+/// Whether what this process prints goes to another tool.
+[[nodiscard]] bool stdout_is_pipe();
+
 class Progress {
  public:
   Progress(std::string tool, ProgressMode mode);

@@ -59,7 +59,7 @@ Json scene_json(const SceneFiles& scene) {
 
 std::string stream_text(const StreamHeader& h, const StreamTotals& t, const std::string& name) {
   const BrickCoord size = h.bricks.size();
-  std::string s = fmt::format("{}: brick stream, {}\n", name, size_text(t.bytes));
+  std::string s = fmt::format("{}: stream of voxels, {}\n", name, size_text(t.bytes));
   s += fmt::format("voxel       {}\n", h.frame.voxel);
   s += fmt::format("grid        {} x {} x {} bricks from {}; {} is up, slabs across {}\n", size.x, size.y, size.z,
                    coord(h.bricks.min), name_of(h.frame.up), axis_name(h.slab_axis));
@@ -81,7 +81,7 @@ std::string stream_text(const StreamHeader& h, const StreamTotals& t, const std:
 
 Json stream_json(const StreamHeader& h, const StreamTotals& t) {
   const auto list = [](BrickCoord c) { return Json::array({c.x, c.y, c.z}); };
-  Json j{{"kind", "brick stream"}, {"bytes", t.bytes}, {"checksum", t.checksum()}};
+  Json j{{"kind", "stream of voxels"}, {"bytes", t.bytes}, {"checksum", t.checksum()}};
   j["voxel"] = h.frame.voxel;
   j["origin_voxels"] = h.frame.origin;
   j["up"] = name_of(h.frame.up);

@@ -4,7 +4,7 @@
 #include "io/stream/brick_stream.h"
 #include "tools/cli/report.h"
 
-/// What bpinfo says of a brick stream.
+/// What bpinfo says of a stream of voxels.
 namespace bp {
 
 [[nodiscard]] std::string stream_text(const StreamHeader& header, const StreamTotals& totals, const std::string& name);

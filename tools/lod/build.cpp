@@ -38,6 +38,12 @@ void print_list(const std::string& text, const std::string& made) {
   }
 }
 
+/// The file that stands for all levels, or this one.
+std::string name_of_all(const BuildOptions& o, const std::string& file) {
+  if (o.is_tileset()) return "tileset.json";
+  return o.profile == LodProfile::gltf ? o.name + ".glb" : file;
+}
+
 /// Levels have scales of their own: the rules say how much finer or coarser a place is.
 ScaleField read_field(const BuildOptions& o, const VoxelizedScene& voxels) {
   const std::string& file = o.field;
@@ -253,9 +259,8 @@ void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& row
   if (options.common.progress == ProgressMode::quiet) return;
   std::string proof;
   for (const LevelRow& row : rows) {
-    if (!proof.empty() && options.profile != LodProfile::collision) break;  // one file stands for all
-    const std::string one =
-        proof_command(options, options.is_tileset() ? "tileset.json" : row.file, row.more.contains("hulls"));
+    if (!proof.empty() && options.profile != LodProfile::collision) break;  // of the others, one file stands for all
+    const std::string one = proof_command(options, name_of_all(options, row.file), row.more.contains("hulls"));
     if (!one.empty()) proof += (proof.empty() ? "" : " && ") + one;
   }
   fmt::print(stderr, "bplod: the files are in {}{}{}\n", options.out, proof.empty() ? "" : "; prove it: ", proof);

@@ -197,17 +197,19 @@ void declare(Args& args, BuildOptions& o) {
   o.voxels.add_to(args,
                   "from --faces, 256 to 1024; from --error, 8 voxels to an error; occluder: 512; 3dtiles: from "
                   "the scene, 256 to 4096");
-  o.closing.add_to(args, " of the finest level; it doubles from level to level", " (default: from --faces or --error)");
+  o.closing.add_to(args, " of the finest level", "; it doubles from level to level (default: from --faces or --error)");
   args.option(
       "--field", "FILE", o.field,
       "rules (bpscale(1)) for where levels are finer or coarser: a level's scale is to a rule's as the base is");
   declare_tileset(args, o);
-  o.common.add_to(args);
+  o.common.add_to(args, CommonOptions::all_parts & ~unsigned(CommonOptions::device_part));
   args.group("Messages");
   args.flag("--explain", o.explain, "print what would be made, and what is kept of it; make nothing");
   args.removed("--no-tighten", "levels are always tightened; --enclose closing makes the loosest ones");
   args.removed("--colors", "--appearance color|off says what the levels carry");
   args.removed("--element", "bplod closes with cubes, and with balls for --mode fit; bpclose takes either");
+  args.removed("--device",
+               "bplod computes on the CPU, which takes most of the time anyway; BP_BACKEND chooses another");
   args.removed("--resume", "--cache DIR keeps what is done, and a run after a kill goes on from there");
   args.removed("--screen",
                "--error takes pixels: --error 800px is one pixel where the scene's diagonal is 800 pixels on screen");

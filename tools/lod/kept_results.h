@@ -14,7 +14,7 @@ namespace bp {
 /// What is there; nothing is added. The folder need not be there.
 [[nodiscard]] std::unique_ptr<ResultStore> look_up_kept_results(const std::string& path);
 
-/// What is said of a --cache that only other builds of the program have filled: its results are of no use; else empty.
+/// The note for a cache filled only by other builds; empty if none is needed.
 [[nodiscard]] std::string cache_note(const BuildOptions& options);
 
 }  // namespace bp

@@ -68,10 +68,11 @@ std::string origin_note(const BuildOptions& o, const StreamHeader& header) {
 
 std::string voxel_note(const BuildOptions& o, const SceneSize& scene) {
   if (!is_by_scene(o) || scene.triangles <= kTilesetFaces) return "";
+  const double voxel = voxel_size(o, scene);
   return fmt::format(
-      "the scene has {} triangles, and voxels of {:.4g}, which are for {}: for more detail, name a smaller --voxel; "
-      "half of it takes some four times as long",
-      scene.triangles, voxel_size(o, scene), kTilesetFaces);
+      "the scene has {} triangles, and its voxels of {:.4g} suit {}; --voxel {:.2g} shows more and takes about 4 times "
+      "as long",
+      scene.triangles, voxel, kTilesetFaces, voxel / 2);
 }
 
 std::string enclose_note(const BuildOptions& o, std::uint64_t triangles) {

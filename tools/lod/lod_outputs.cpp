@@ -37,17 +37,17 @@ std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::
   return files;
 }
 
-/// What hulls leave to be desired, and whether more would help; empty if they are as good as the level.
-std::string hull_note(const WrittenFile& file, const ConvexParts& parts) {
+/// What hulls leave to be desired, and whether more would help; empty if they are as good as the level. body: the file
+/// that holds the level itself.
+std::string hull_note(const WrittenFile& file, const ConvexParts& parts, const std::string& body) {
   constexpr double kAsGood = 1.1;
   if (file.hull_volume < kAsGood) return "";
-  const char* advice = parts.short_of_faces ? "give more --faces to come nearer, or use"
-                       : parts.limited      ? "give more --hulls to come nearer, or use"
-                                            : "more --hulls would hardly change that: use";
+  const char* advice = parts.short_of_faces ? "more --faces fit closer; or"
+                       : parts.limited      ? "more --hulls fit closer; or"
+                                            : "more --hulls would hardly fit closer;";
   return fmt::format(
-      "{}: {} hull{} with {:.3g} times the level's volume; {} another of the files, the level itself, as complex "
-      "collision",
-      file.name, file.hulls, file.hulls == 1 ? "" : "s", file.hull_volume, advice);
+      "{}: {} hull{} with {:.3g} times the body's volume; {} use {}, the body itself, as complex collision", file.name,
+      file.hulls, file.hulls == 1 ? "" : "s", file.hull_volume, advice, body);
 }
 
 /// What importers go by: Godot by the suffix "-colonly" (collision only, the mesh itself), Unreal by the prefix
@@ -69,7 +69,7 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
     unreal.push_back({fmt::format("UCX_{}_{:02}", name, unreal.size()), &hull});
   }
   write_parts_glb(unreal, out.file(hull_file.name), origin);
-  hull_file.note = hull_note(hull_file, parts);
+  hull_file.note = hull_note(hull_file, parts, name + "_godot.glb");
   const std::uint64_t own = mesh.triangles.size();
   return {{name + "_godot.glb", 0, own}, hull_file, {name + "_unity.glb", 0, own}};
 }

@@ -28,7 +28,7 @@ class OutputFolder {
  private:
   std::string path_;
   bool overwrite_;
-  MadeFolders made_;
+  MadeFolder made_;
   std::vector<std::string> names_, left_out_;
   std::vector<std::unique_ptr<OutputFile>> files_;
 };

@@ -56,7 +56,7 @@ void note(Build& build, const MadeOccluder& made) {
     build.note(
         fmt::format("openings narrower than {:.4g} are taken for closed; --scale 0 closes none", 2 * made.scale_world));
   else if (!build.options.closing.scale)
-    build.note("no opening is taken for closed: to close some would hide little more");
+    build.note("openings stay open: closing them would hide little more");
   if (!made.level.reached)
     build.note(fmt::format("{} faces instead of {}: no further edge can be merged", made.level.mesh.triangles.size(),
                            made.faces_asked));

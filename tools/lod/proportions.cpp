@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "tools/lod/choices.h"
 #include "tools/notes/proportion.h"
 
@@ -32,14 +30,8 @@ void question_proportions(const BuildOptions& o, const SceneSize& scene) {
 }
 
 Estimate estimate_build(const BuildOptions& o, const Bounds3d& scene, const VoxelizeCounts& counts, double voxel) {
-  const double effort = kLodEffort * (o.levels.errors.empty() ? 1 : kErrorEffort);
-  const double coarser = o.is_tileset() ? 2 : 1;  // voxels of the next level
-  Estimate all = estimate_voxelize(scene, voxel, most_touched_voxels(counts, voxel));
-  for (std::size_t i = 0; i < level_count(request_of(o)); ++i) {
-    const double edge = voxel * std::pow(coarser, i);
-    all.then(estimate_mesh(scene, edge, effort, most_touched_voxels(counts, edge)));
-  }
-  return all;
+  return estimate_levels(scene, counts, voxel, level_count(request_of(o)), o.is_tileset(),
+                         o.levels.errors.empty() ? 1 : kErrorEffort);
 }
 
 }  // namespace bp

@@ -1,6 +1,5 @@
 #include "tools/mesh/mesh_options.h"
 
-#include "io/scene/scene_format.h"
 #include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
 #include "tools/run/inputs.h"
@@ -12,13 +11,13 @@ MeshOptions parse_mesh_options(Args& args) {
   args.about("Makes a coarse mesh of a stream of voxels: closed, free of self-intersections, and around the scene.");
   args.positional("INPUT", o.in, "stream of voxels; - is stdin");
   args.group("Files");
-  args.option("-o,--output", "FILE", o.out, "proxy, as .glb .gltf .ply .obj or .stl; - is stdout and needs --format");
-  args.option("--format", "NAME", o.format, "format of the output, if its name does not tell");
+  args.option("-o,--output", "FILE", o.out, "proxy, as .glb .gltf .ply .obj or .stl; - is stdout, as GLB");
   o.levels.add_of_stream(args);
   args.option("--volume", "RATIO", o.volume, "largest volume, as a multiple of the voxels' volume; 0: no limit");
-  args.option("--edge-length", "RATIO", o.edge_length, "longest edge, as a multiple of the scale there; 0: no limit");
   o.proxy.add_of_stream(args);
   args.flag("--quads", o.quads, "join triangles to quads, safe for either diagonal; for .obj and .ply");
+  args.removed("--format", "the name of the output tells it; -o - writes GLB");
+  args.removed("--edge-length", "--error bounds the shape");
   args.removed("--no-tighten", "bpmesh always makes the proxy tighter");
   args.removed("--inset", "a fit lies half a voxel inside the voxels' surface, as the scene does on average");
   args.removed("--least-part", "parts below a thousandth of the largest are left out of a proxy inside");
@@ -27,6 +26,9 @@ MeshOptions parse_mesh_options(Args& args) {
   args.example("bpvox scene.glb --resolution 256 | bpclose --scale 2% | bpmesh --faces 1000 -o proxy.glb");
   args.often({"--output", "--faces", "--error", "--mode", "--enclose", "--overwrite"});
   args.parse();
+  if (!args.given("--output"))
+    fail(ErrorCode::bad_argument, "name the output with -o{}",
+         stdout_is_pipe() ? "; bpmesh comes last in the pipe, after bpvox and bpclose" : "");
   o.proxy.mode_given = args.given("--mode");
   o.proxy.check();
   std::vector<std::string> inputs = o.proxy.enclose.files;
@@ -45,19 +47,11 @@ std::string level_name(const MeshOptions& o, std::size_t level) {
          "number of --faces",
          o.levels.faces.size());
   }
-  if (dot == std::string::npos || o.out.find('/', dot) != std::string::npos)
-    fail(ErrorCode::bad_argument, "-o {}: the numbers of levels go before the extension; give it one, as proxy.glb",
-         o.out);
   return o.out.substr(0, dot) + "." + std::to_string(level) + o.out.substr(dot);
 }
 
 MeshFormat output_format(const MeshOptions& o) {
-  if (o.out == "-" && o.format.empty()) fail(ErrorCode::bad_argument, "name the output with -o, or its --format");
-  const MeshFormat format = o.format.empty() ? mesh_format_of(o.out) : mesh_format_named(o.format);
-  const std::string told = scene_format_of(o.out);
-  if (!o.format.empty() && !told.empty() && mesh_format_of(o.out) != format)
-    fail(ErrorCode::bad_argument, "--format {}, but -o {} is named .{}; leave --format out, or rename the output",
-         o.format, o.out, told);
+  const MeshFormat format = o.out == "-" ? MeshFormat::glb : mesh_format_of(o.out);
   if (o.quads && format != MeshFormat::obj && format != MeshFormat::ply)
     fail(ErrorCode::bad_argument, "--quads: only .obj and .ply hold quads");
   return format;

@@ -12,10 +12,10 @@ namespace bp {
 
 struct MeshOptions {
   CommonOptions common;
-  std::string in = "-", out = "-", format;
+  std::string in = "-", out = "-";
   ProxyOptions proxy;
   LevelOptions levels;
-  double volume = 0, edge_length = 0;
+  double volume = 0;
   bool quads = false;
 
   /// Nothing, or the bound.
@@ -27,10 +27,11 @@ struct MeshOptions {
 /// Throws bad_argument if options contradict each other.
 [[nodiscard]] MeshOptions parse_mesh_options(Args& args);
 
-/// proxy.glb, or proxy.0.glb and so on if there are several levels. Throws bad_argument if these have no names.
+/// proxy.glb, or proxy.0.glb and so on if there are several levels. After output_format(). Throws bad_argument if
+/// stdout is to take several.
 [[nodiscard]] std::string level_name(const MeshOptions& options, std::size_t level);
-/// Throws bad_argument if --format and the name of the output differ, or if the format holds no quads that are asked
-/// for.
+/// By the name of the output; stdout is GLB. Throws bad_argument if the name tells none, or if the format holds no
+/// quads that are asked for.
 [[nodiscard]] MeshFormat output_format(const MeshOptions& options);
 
 }  // namespace bp

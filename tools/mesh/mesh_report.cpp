@@ -66,7 +66,6 @@ Provenance mesh_provenance(const MeshOptions& o, const GridFrame& frame, const s
       .add("faces", faces_text(o))
       .add("error", o.error() ? o.error()->text() : "")
       .add("volume", o.volume)
-      .add("edge-length", o.edge_length)
       .add("enclose", enclosed)
       .add("tighten", true);
   if (o.quads) text.add("quads", o.quads);
@@ -80,7 +79,6 @@ void fill_report(Report& report, const MeshOptions& o, const MeshCounts& c) {
                     {"faces", o.levels.faces},
                     {"error", o.error() ? o.error()->text() : ""},
                     {"volume", o.volume},
-                    {"edge-length", o.edge_length},
                     {"enclose", o.proxy.enclose.text()},
                     {"origin", o.proxy.origin.text()}};
   Json levels = Json::array();

@@ -64,7 +64,6 @@ std::string refusals_text(const MeshOptions& o, const SimplifyCounts& s) {
       {s.refused[Refusal::constraints] + s.refused[Refusal::enclosed], "enclosure"},
       {s.refused[Refusal::shape], "shape"},
       {s.refused[Refusal::growth], "growth"},
-      {s.refused[Refusal::length], "--edge-length"},
       {s.refused[Refusal::guard], "intersection"}};
   std::vector<std::string> parts;
   for (const auto& [count, what] : all) {
@@ -78,7 +77,6 @@ std::string obstacle_text(const MeshOptions& o, const LevelCounts& level, const 
   const std::string& by = level.stopped_by;
   if (by == "error" && o.error()) return fmt::format("--error {} was reached first", o.error()->text());
   if (by == "volume") return fmt::format("--volume {} was reached first", o.volume);
-  if (by == "edge-length") return fmt::format("--edge-length {} was reached first", o.edge_length);
   return merged_note(level.simplify.faces_out, level.measures.shells, level.measures.handles, o.proxy.mode, scale);
 }
 
@@ -121,7 +119,7 @@ bool wants_scale(const MeshOptions& o, const MeshCounts& c) {
   const LevelCounts& level = c.levels.front();
   const std::string& by = level.stopped_by;
   return !o.levels.faces.empty() && level.simplify.faces_out > o.levels.faces.front() && by != "error" &&
-         by != "volume" && by != "edge-length" && (level.measures.shells > 1 || level.measures.handles > 0);
+         by != "volume" && (level.measures.shells > 1 || level.measures.handles > 0);
 }
 
 void note_shortfalls(Report& report, const MeshOptions& o, const MeshCounts& c, double error_world,

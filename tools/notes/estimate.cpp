@@ -20,6 +20,9 @@ constexpr double kMostFacesPerVoxel = 4;          ///< two triangles on either s
 constexpr double kSecondsPerSurfaceVoxel = 1e-7;  ///< bpvox: 0.6 to 1.1e-7
 constexpr double kSecondsPerScaledVoxel = 4e-11;  ///< bpclose, a voxel of the grid and voxel of scale: 2 to 9e-11
 constexpr double kSecondsPerFace = 1.3e-6;        ///< bpmesh, a triangle of the dense surface: 1.1 to 3.7e-6
+constexpr double kLodEffort = 2.5;                ///< a level of bplod, over bpmesh
+constexpr double kTilesEffort = 6.5;              ///< a level of a tileset, over bpmesh: 2.5 to 17
+constexpr double kTilesBytes = 150e6;             ///< tiles at work: 130e6 to 260e6
 constexpr double kCoresPerGpu = 64;               ///< bpclose as a whole: 2 to 5 times as fast as 16 cores
 constexpr double kSerialShare = 0.5;              ///< of bpmesh
 constexpr double kProgramBytes = 25e6, kVoxBytes = 10, kCloseBytes = 100, kMeshBytes = 32;  ///< the last three: of each
@@ -84,6 +87,18 @@ Estimate estimate_mesh(const Bounds3d& scene, double voxel, double effort, doubl
   e.serial_seconds = kSerialShare * e.core_seconds;
   e.bytes = kProgramBytes + kMeshBytes * faces;
   return e;
+}
+
+Estimate estimate_levels(const Bounds3d& scene, const VoxelizeCounts& counts, double voxel, std::size_t levels,
+                         bool tiles, double effort) {
+  Estimate all = estimate_voxelize(scene, voxel, most_touched_voxels(counts, voxel));
+  for (std::size_t i = 0; i < levels; ++i) {
+    const double edge = voxel * (tiles ? std::pow(2.0, i) : 1);
+    all.then(
+        estimate_mesh(scene, edge, effort * (tiles ? kTilesEffort : kLodEffort), most_touched_voxels(counts, edge)));
+  }
+  if (tiles) all.bytes += kTilesBytes;
+  return all;
 }
 
 std::string estimate_note(const Estimate& e, std::uint64_t memory, const std::vector<std::string>& backends) {

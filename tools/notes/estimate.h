@@ -34,11 +34,14 @@ struct Estimate {
 /// effort: of what is beside --faces: 1 for it alone. touched: as above.
 [[nodiscard]] Estimate estimate_mesh(const Bounds3d& scene, double voxel, double effort = 1,
                                      double touched = kAnyNumber);
-constexpr double kLodEffort = 2.5;  ///< a level of bplod
+/// All of bplod: `levels` on the same voxels, or `tiles`, where each next level has voxels twice as large. effort: as
+/// of estimate_mesh().
+[[nodiscard]] Estimate estimate_levels(const Bounds3d& scene, const VoxelizeCounts& counts, double voxel,
+                                       std::size_t levels, bool tiles, double effort = 1);
 constexpr double kErrorEffort = 5;  ///< --error: each new face is measured
 constexpr double kSceneEffort = 4;  ///< --enclose SCENE: the scene's own triangles stay inside
 
-/// What is said to the user, if it takes more than ten seconds; else empty: "a grid of 2048 x 900 x 700 voxels: about 4
+/// The note for the user, if it takes more than ten seconds; else empty: "a grid of 2048 x 900 x 700 voxels: about 4
 /// min on 2 threads, with 550 MiB of memory".
 ///   memory    --memory: what does not fit is spilled
 ///   backends  names_of(backends), of work that a GPU takes over

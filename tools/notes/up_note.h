@@ -4,7 +4,7 @@
 #include "lib/core/box.h"
 #include "lib/grid/stream.h"
 
-/// What is said of a scene that lies flat in x and y, as maps do, or stands on z = 0 and not on y = 0, if nobody told
+/// The note about a scene that lies flat in x and y, as maps do, or stands on z = 0 and not on y = 0, if nobody told
 /// which axis is up and glTF is written, which has y up; else empty.
 namespace bp {
 

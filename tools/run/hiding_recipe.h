@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "lib/check/hidden.h"
+#include "lib/check/hiding_recipe.h"
 #include "tools/run/mesh_extras.h"
 #include "tools/run/provenance.h"
 

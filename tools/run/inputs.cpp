@@ -1,12 +1,31 @@
 #include "tools/run/inputs.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include "io/scene/scene_format.h"
 #include "lib/core/error.h"
 
 namespace bp {
+
+namespace {
+
+constexpr std::size_t kNamed = 5;
+
+/// Their names, sorted.
+std::vector<std::string> meshes_in(const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (!scene_format_of(entry.path().string()).empty()) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
 
 void check_scene_format(const std::string& format, const std::vector<std::string>& inputs) {
   if (format.empty()) return;
@@ -25,7 +44,12 @@ void check_scene_format(const std::string& format, const std::vector<std::string
 std::string tileset_in(const std::string& path) {
   std::error_code none;
   const std::filesystem::path tileset = std::filesystem::path(path) / "tileset.json";
-  return std::filesystem::is_regular_file(tileset, none) ? tileset.string() : path;
+  if (std::filesystem::is_regular_file(tileset, none)) return tileset.string();
+  if (!std::filesystem::is_directory(path, none)) return path;
+  const std::vector<std::string> meshes = meshes_in(path);
+  if (meshes.empty()) fail(ErrorCode::bad_argument, "{}: a folder with neither a tileset nor a mesh", path);
+  fail(ErrorCode::bad_argument, "{}: a folder without a tileset; name one of its meshes: {}{}", path,
+       fmt::join(std::span(meshes).first(std::min(kNamed, meshes.size())), " "), meshes.size() > kNamed ? " ..." : "");
 }
 
 void check_stream_name(const std::string& output) {

@@ -9,7 +9,8 @@ namespace bp {
 /// all names tell another one: it would be passed over in silence.
 void check_scene_format(const std::string& format, const std::vector<std::string>& inputs);
 
-/// The tileset.json in a folder that has one; any other path as it is.
+/// The tileset.json in a folder that has one; a file as it is. Throws bad_argument for any other folder, and names the
+/// meshes in it.
 [[nodiscard]] std::string tileset_in(const std::string& path);
 
 /// What a tool that writes voxels is to write to. Throws bad_argument if its name is that of a mesh.

@@ -60,7 +60,7 @@ void refuse_brick_stream(const SceneFile& file) {
   std::uint32_t magic = 0;
   file.read_at(0, std::as_writable_bytes(std::span(&magic, 1)));
   if (magic == detail::kFrameMagic)
-    fail(ErrorCode::bad_input, "{}: a brick stream, not a scene or a mesh; bpmesh makes a mesh of it", file.name());
+    fail(ErrorCode::bad_input, "{}: a stream of voxels, not a scene or a mesh; bpmesh makes a mesh of it", file.name());
 }
 
 }  // namespace

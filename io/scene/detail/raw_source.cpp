@@ -1,4 +1,4 @@
-#include "io/scene/detail/raw_source.h"
+#include "io/scene/raw_source.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -6,8 +6,8 @@
 /// Does a proxy lie strictly inside a scene, as an occluder must?
 namespace bp {
 
-/// Strictly inside: no triangle of the scene meets the solid that the proxy bounds, and no path from far away comes to
-/// a part of it that does not cross the scene, since the scene, or a closed shell of it, winds around the part. Exact.
+/// Strictly inside: no triangle of the scene meets the solid that the proxy bounds, and every path from far away to a
+/// part of it crosses the scene, since the scene, or a closed shell of it, winds around the part. Exact.
 /// Triangles of no area count for their edges alone, if these close the T-junctions of the others: they bound nothing.
 struct InsideReport {
   std::uint64_t triangles = 0;  ///< of the scene, tested: those with an area, from which numbers count

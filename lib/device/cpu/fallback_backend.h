@@ -8,7 +8,7 @@ namespace bp {
 
 /// A device's backend for as long as the device works. The first call that ends in a DeviceError gives the device's
 /// memory back and is made again on the CPU, with its arguments as they were; so are all later ones. What a call both
-/// reads and writes is copied first: little beside the way to a device.
+/// reads and writes is copied first; this costs little compared with the transfer.
 class FallbackBackend final : public Backend {
  public:
   /// warn: called once, on the thread of the call that failed, with what failed.

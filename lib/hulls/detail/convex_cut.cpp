@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "lib/core/parallel.h"
-#include "lib/hulls/detail/convex_hull.h"
+#include "lib/hulls/convex_hull.h"
 
 namespace bp {
 

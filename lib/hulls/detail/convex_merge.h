@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "lib/hulls/detail/convex_hull.h"
+#include "lib/hulls/convex_hull.h"
 
 /// Fewer hulls around the same: the second half of an approximate convex decomposition, after [MG09].
 namespace bp {

@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/hulls/detail/convex_hull.h"
+#include "lib/hulls/convex_hull.h"
 
 /// Slivers of convex hulls: what physics engines and modellers stumble over.
 namespace bp {

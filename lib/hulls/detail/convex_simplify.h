@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/hulls/detail/convex_hull.h"
+#include "lib/hulls/convex_hull.h"
 
 /// Convex hulls with fewer corners around those with more.
 namespace bp {

@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "lib/hulls/detail/convex_hull.h"
+#include "lib/hulls/convex_hull.h"
 #include "lib/mesh/box_tree.h"
 #include "lib/mesh/constrained_minimum.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <span>
 
-#include "lib/hulls/detail/convex_hull.h"
+#include "lib/hulls/convex_hull.h"
 
-/// Convex hulls drawn to what they are around.
+/// Convex hulls made tighter around what they hold.
 namespace bp {
 
 /// Moves the corners of `hull`, each to where the volume is least while all of `points`, which lie in it, stay in it:

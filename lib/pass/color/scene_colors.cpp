@@ -6,6 +6,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/pass/color/detail/color_grid.h"
 #include "lib/volume/boundary_runs.h"
 
 namespace bp {
@@ -108,6 +109,12 @@ void NearbyColors::add_to(KeyHash& hash) const {
 
 SceneColors::SceneColors(const GridFrame& frame, std::unique_ptr<ColorGrid> finest) : frame_(frame) {
   levels_.push_back(std::move(finest));
+}
+
+SceneColors::~SceneColors() = default;
+
+std::uint64_t SceneColors::cells() const {
+  return levels_.front()->cells();
 }
 
 void SceneColors::prepare(const GridFrame& level) {

@@ -1,11 +1,14 @@
 #pragma once
+#include <memory>
 #include <unordered_map>
+#include <vector>
 
+#include "lib/core/coord_hash.h"
 #include "lib/core/triangle_source.h"
 #include "lib/grid/stream.h"
-#include "lib/pass/color/detail/color_grid.h"
 #include "lib/pass/context.h"
 #include "lib/store/result_key.h"
+#include "lib/voxel/color_sums.h"
 
 /// The colours of a scene's surface for all of its levels of detail (docs/decisions/0008-colours.md). Cells of a level
 /// are four of its voxels wide; those of the finest gather the scene's triangles, coarser ones are their sums.
@@ -33,10 +36,13 @@ class NearbyColors {
   std::vector<Cells> coarser_;  ///< [n]: 2^n of the level's cells wide, counted from min_
 };
 
+class ColorGrid;
+
 class SceneColors {
  public:
   /// `frame`: whose voxels the cells of `finest` are made of.
   SceneColors(const GridFrame& frame, std::unique_ptr<ColorGrid> finest);
+  ~SceneColors();
 
   /// Makes the cells of the level with this frame: that of the finest, reduced any number of times
   /// (lib/volume/reduce.h). Not while others are at work here.
@@ -45,7 +51,7 @@ class SceneColors {
   /// thread.
   [[nodiscard]] NearbyColors around(const GridFrame& level, const VoxelBox& box, std::int32_t margin_vox) const;
   [[nodiscard]] NearbyColors all(const GridFrame& level) const;
-  [[nodiscard]] std::uint64_t cells() const { return levels_.front()->cells(); }  ///< of the finest level
+  [[nodiscard]] std::uint64_t cells() const;  ///< of the finest level
 
  private:
   [[nodiscard]] std::size_t number_of(const GridFrame& level) const;

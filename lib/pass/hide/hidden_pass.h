@@ -10,7 +10,8 @@
 ///   T       voxels of G beside O', and those of G beside these; over faces, edges and corners: each point of the scene
 ///           that is seen from O' lies in these alone
 ///   hidden  all others
-/// Without a scale it is what the scene encloses. docs/bounding.md says what follows; lib/check/hidden.h decides it.
+/// Without a scale it is what the scene encloses. docs/bounding.md says what follows; lib/check/hiding_recipe.h has it,
+/// too.
 namespace bp {
 
 struct HiddenOptions {

@@ -11,6 +11,7 @@
 #include "lib/pass/mesh/detail/components.h"
 #include "lib/pass/mesh/detail/fit_target.h"
 #include "lib/pass/mesh/detail/ground.h"
+#include "lib/pass/mesh/detail/mesh_measures.h"
 #include "lib/pass/mesh/detail/params_check.h"
 #include "lib/pass/mesh/detail/proxy_limits.h"
 #include "lib/pass/mesh/surface_around.h"
@@ -25,6 +26,10 @@
 namespace bp {
 
 namespace {
+
+/// How far inside the surface of the voxels a fit takes the surface of what they stand for to lie, in extents of a
+/// voxel along the normal: on average half of one, for the voxels that a surface touches and for their closing.
+constexpr double kInset = 0.5;
 
 [[noreturn]] void fail_empty(const StreamHeader& header) {
   if (header.fill != FillMode::inside)
@@ -221,9 +226,8 @@ class LevelMaker {
 
   /// Levels of detail that do not enclose: each of the same fine surface.
   std::vector<LatticeMesh> fits(const SurfaceSource& dense, const std::vector<std::uint64_t>& faces) {
-    const FitTarget target = params_.enclose == Enclose::scene
-                                 ? scene_target(*ground_.tree, dense.frame(), params_.inset)
-                                 : inset_target(params_.inset);
+    const FitTarget target =
+        params_.enclose == Enclose::scene ? scene_target(*ground_.tree, dense.frame(), kInset) : inset_target(kInset);
     const EdgeLimit edges = simplify_params(header_, dense.frame(), params_, memory_, faces[0]).edge_limit;
     const FineFit fine = fine_fit(dense, faces[0], target, edges, memory_);
     std::vector<LatticeMesh> levels;

@@ -4,7 +4,7 @@
 
 #include "lib/grid/stream.h"
 #include "lib/pass/context.h"
-#include "lib/pass/mesh/detail/mesh_measures.h"
+#include "lib/pass/mesh/mesh_measures.h"
 #include "lib/simplify/simplify.h"
 #include "lib/tighten/tighten.h"
 
@@ -12,12 +12,13 @@
 namespace bp {
 
 /// bounding: around everything that is meshed. inside: within it, for occluders; of a stream of bpvox --fill inside.
-/// fit: as near as can be, neither around nor within (fit.h).
+/// fit: near the surface, neither around nor within (fit.h).
 enum class MeshMode { bounding, inside, fit };
 
 /// What must stay inside while the proxy is made tighter: the layer that is meshed, the stream's solid layer (the
-/// scene, to a voxel), or triangles of the scene itself.
-enum class Enclose { closing, input, scene };  // of a fit: what it is drawn to; closing, or the scene where it is near
+/// scene, to a voxel), or triangles of the scene itself. Mode fit: the surface that vertices move to, which is that of
+/// the closing, or the scene where it is near.
+enum class Enclose { closing, input, scene };
 [[nodiscard]] constexpr const char* name_of(Enclose what) {
   return std::array{"closing", "input", "scene"}[std::size_t(what)];
 }
@@ -42,10 +43,6 @@ struct MeshParams {
   bool tighten = true;  ///< afterwards, lower the volume while what is enclosed stays inside
   /// inside: parts whose volume is below this share of the largest one's are left out, at each level; 0: none.
   double least_part = 0;
-  /// fit: how far inside the surface of the voxels the surface of what they stand for is taken to lie, in extents of a
-  /// voxel along the normal, 0 to 1. Half of one is right on average for the voxels that a surface touches, and for
-  /// their closing; 0 fits the voxels.
-  double inset = 0.5;
   bool quads = false;      ///< join triangles in pairs (quads.h)
   bool distances = false;  ///< measure the distances between the proxies and what they enclose
   /// With no target at all: the quadric error at which [CB17] §3.4 stops, as a share of the scene's diagonal.

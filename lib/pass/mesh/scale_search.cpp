@@ -1,7 +1,8 @@
 #include "lib/pass/mesh/scale_search.h"
 
-#include "lib/grid/shelf_stream.h"
 #include "lib/pass/close/close_pass.h"
+#include "lib/pass/mesh/detail/coarse_start.h"
+#include "lib/simplify/simplify.h"
 #include "lib/surface/repair.h"
 #include "lib/volume/topology.h"
 
@@ -38,13 +39,16 @@ bool may_have(const BrickShelf& closing, const ScaleSearch& search) {
   return (topology.parts + topology.handles) * kFacesOfTetrahedron <= search.faces;
 }
 
-bool has_faces(const StreamHeader& closed, BrickShelf& solid, BrickShelf& closing, const ScaleSearch& search) {
-  MeshParams params;
-  params.faces = {search.faces};
-  params.tighten = false;
-  MeshCounts counts;
-  ShelfSource source(closed, solid, &closing, ShelfSource::Keep::solid);
-  return mesh_stream(source, search.context, params, counts).front().triangles.size() <= search.faces;
+/// By growing alone, and from larger voxels as meshing does: what that gets to, tightening gets to as well.
+bool has_faces(const StreamHeader& closed, const BrickShelf& closing, const ScaleSearch& search) {
+  const CoarseStart coarse = coarse_start(closing, closed, search.faces, search.context.make_shelf);
+  const ShelfSurface dense(closing, closed.frame);
+  SimplifyParams params;
+  params.faces = search.faces;
+  params.memory = search.context.pieces;
+  SimplifyCounts counts;
+  const SurfaceSource& surface = coarse.surface ? *coarse.surface : static_cast<const SurfaceSource&>(dense);
+  return simplify(surface, params, counts).triangles.size() <= search.faces;
 }
 
 }  // namespace
@@ -57,7 +61,7 @@ std::optional<int> enough_scales(const StreamHeader& header, BrickShelf& solid, 
     const std::unique_ptr<BrickShelf> closing = closing_of(closed, solid, backends, search);
     if (search.context.progress) search.context.progress("mesh", "scales", tried++, 0);
     repair_contacts(*closing);  // as meshing does: it closes the tiniest holes
-    if (may_have(*closing, search) && has_faces(closed, solid, *closing, search)) return times;
+    if (may_have(*closing, search) && has_faces(closed, *closing, search)) return times;
   }
   return std::nullopt;
 }

@@ -5,9 +5,9 @@ try bpinfo cube.obj --json
 # The order of faces, and the corner that each begins with, do not matter; orientation does.
 (grep ^v cube.obj; echo 'f 3 2 1 4'; grep ^f cube.obj | tail -n +2 | tac) > turned.obj
 (grep ^v cube.obj; echo 'f 1 2 3 4'; grep ^f cube.obj | tail -n +2) > flipped.obj
-for file in cube turned flipped; do try bpinfo --checksum $file.obj; done
-stdin=cube.obj try bpinfo --format obj --checksum
-try bpinfo cube.obj --image cube.png --checksum
+for file in cube turned flipped; do said "bpinfo $file.obj | checksum"; done
+said 'bpinfo --format obj < cube.obj | checksum'
+said 'bpinfo cube.obj --image cube.png | checksum'
 try bpinfo cube.obj --dump
 stdin=cube.obj try bpinfo
 (echo '# provenance: bpvox 0.1.0 voxel=1'; echo '# provenance: bpmesh 0.1.0 faces=12'; cat cube.obj) > made.obj
@@ -30,7 +30,7 @@ head -c 20 all.png | tail -c 4 | od -An -tx1  # panels side by side; the height 
 awk '/^v/ { print "v", $2 + 500, $3, $4; next } { print }' cube.obj > far.obj
 try bpinfo far.obj cube.obj --image far.png --image-size 64 | grep far
 try bpinfo cube.obj turned.obj --image near.png --image-size 64 | grep far
-try bpinfo cube.obj turned.obj --checksum
+said 'bpinfo cube.obj turned.obj | checksum'
 try bpinfo cube.obj turned.obj --json
 try bpinfo cube.obj --up w
 # Quads and other polygons are counted.
@@ -41,20 +41,20 @@ said 'bpinfo faces.obj --json | grep -A 4 \"faces\"'
 said 'bpcheck cube.obj | head -1'
 said 'bpcheck faces.obj | head -1'
 # A part in detail. What no zoom can be is refused.
-try bpinfo cube.obj --image part.png --image-size 64 --zoom 3 --look-at 0,0,0 --checksum
-bpinfo cube.obj --image whole.png --image-size 64 --checksum > said
+said 'bpinfo cube.obj --image part.png --image-size 64 --zoom 3 --look-at 0,0,0 | checksum'
+bpinfo cube.obj --image whole.png --image-size 64 > said
 cmp -s part.png whole.png && echo 'the same picture'
 for zoom in 0 -1 1e9 nan x; do try bpinfo cube.obj --image no.png --zoom $zoom; done
 try bpinfo cube.obj --image no.png --look-at 1,2
 # Pictures of panels that are large enough have marks below them, and the same bytes each time.
-bpinfo cube.obj turned.obj --image marks.png --image-size 200 --checksum > said
-bpinfo cube.obj turned.obj --image again.png --image-size 200 --checksum --threads 1 > said
+bpinfo cube.obj turned.obj --image marks.png --image-size 200 > said
+bpinfo cube.obj turned.obj --image again.png --image-size 200 --threads 1 > said
 cmp marks.png again.png
 [ $((16#$(od -An -tx1 -j 20 -N 4 marks.png | tr -d ' '))) -gt 240 ] || echo 'nothing is below the panels'
 rm faces.obj part.png whole.png marks.png again.png said
 # Materials that are not there are named where colours would be seen.
 (echo 'mtllib gone.mtl'; cat cube.obj) > plain.obj
-try bpinfo plain.obj --checksum
-try bpinfo plain.obj --checksum --image plain.png
+said 'bpinfo plain.obj | checksum'
+said 'bpinfo plain.obj --image plain.png | checksum'
 rm plain.obj plain.png
 files

@@ -4,16 +4,16 @@ sed -n '/^## 12/,$p' "$BP_ROOT/docs/brick-stream.md" | sed -n '/^```$/,/^```$/p'
 try bpinfo one.bpv
 try bpinfo one.bpv --json
 try bpinfo one.bpv --dump
-try bpinfo --checksum one.bpv
-said 'bpinfo --checksum < one.bpv'
-try bpinfo one.bpv --image one.png --checksum
+said 'bpinfo one.bpv | checksum'
+said 'bpinfo < one.bpv | checksum'
+said 'bpinfo one.bpv --image one.png | checksum'
 try bpinfo one.bpv --image one.png
 head -c 8 one.png | tail -c 7 | head -c 3; echo
 head -c 300 one.bpv > cut.bpv
 try bpinfo cut.bpv
 head -c 400 one.bpv | stdin=/dev/stdin try bpinfo --dump
 (cat one.bpv; echo) > tail.bpv
-try bpinfo tail.bpv --checksum
+try bpinfo tail.bpv
 (head -c 270 one.bpv; printf '\x29'; tail -c +272 one.bpv) > flip.bpv
 try bpinfo flip.bpv
 try bpinfo one.png

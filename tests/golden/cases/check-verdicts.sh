@@ -3,10 +3,10 @@ write_cube inner.obj 1
 sed 's/^v \(.*\) \(.*\) \(.*\)$/echo v $((\1 * 3 - 1)) $((\2 * 3 - 1)) $((\3 * 3 - 1))/e' inner.obj > outer.obj  # -1 to 2
 try bpcheck inner.obj outer.obj
 try bpcheck outer.obj
-try bpcheck outer.obj inner.obj --samples 0
-try bpcheck inner.obj inner.obj --samples 0
+try bpcheck outer.obj inner.obj
+try bpcheck inner.obj inner.obj
 head -n -1 outer.obj > open.obj
-try bpcheck inner.obj open.obj --samples 0
+try bpcheck inner.obj open.obj
 try bpcheck inner.obj outer.obj --json
 try bpcheck inner.obj outer.obj --image both.png  # of earlier versions
 try bpcheck inner.obj outer.obj --examples 1
@@ -41,9 +41,9 @@ write_levels() {
 GLTF
 }
 write_levels levels.gltf 2 3 5
-try bpcheck inner.obj levels.gltf --samples 0 | grep -v '^  '
+try bpcheck inner.obj levels.gltf | grep -v '^  '
 write_levels levels.gltf 2 0.5 5
-said 'bpcheck inner.obj levels.gltf --samples 0 | grep -v "^  "'
+said 'bpcheck inner.obj levels.gltf | grep -v "^  "'
 said 'bpcheck inner.obj levels.gltf --json --report levels.json | grep -E "^ ? ? ? ?.?.?\"(holds|levels)"'
 sed -n '/counts/,/\]/p' levels.json
 said 'bpcheck inner.obj - --format gltf < levels.gltf | tail -1'

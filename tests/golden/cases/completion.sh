@@ -26,6 +26,8 @@ asked bpclose --temp ''
 asked bpclose --scale 2 --element ''
 asked bpinfo --image sc
 asked bpmesh --enclose cl
+asked bpmesh --enclose ''
+asked bpvox --format ''
 asked bpmesh --progress ''
 asked bpmesh --progress j
 asked bplod --prof
@@ -39,9 +41,51 @@ for tool in bpvox bpscale bpclose bpmesh bpcheck bpinfo bplod; do
   ! command -v zsh > /dev/null || zsh -fc 'autoload -Uz compinit; compinit -u -d dump; functions[_tool]=$(< script); whence -w _tool' > said 2>&1 ||
     { echo "$tool: zsh:"; cat said; }
 done
-if command -v fish > /dev/null; then
-  export HOME=$PWD XDG_CONFIG_HOME=$PWD/none XDG_DATA_HOME=$PWD/none
-  fished() { fish -c "$1 --help fish | source; complete -C'$2'" 2> said | cut -f 1 | LC_ALL=C sort | tr '\n' ' '; }
-  [ "$(fished bpmesh 'bpmesh --mo')" = '--mode ' ] || echo "fish: --mo: $(fished bpmesh 'bpmesh --mo')"
-  [ "$(fished bpmesh 'bpmesh --mode ')" = 'bounding fit inside ' ] || echo "fish: --mode: $(fished bpmesh 'bpmesh --mode ')"
-fi
+# What zsh and fish offer for a line. zsh: compadd tells its matches, and a widget that it has done.
+cat > .ask.zsh << 'ZSH'
+zmodload zsh/zpty
+cat > .inner.zsh << INNER
+autoload -Uz compinit; compinit -u -D
+functions[_tool]=\$($1 --help zsh)
+compdef _tool $1
+compadd() {
+  if [[ \${@[1,(i)(-|--)]} == *-[OAD]\ * ]]; then builtin compadd "\$@"; return; fi
+  local -a hits
+  builtin compadd -A hits "\$@"
+  print -l -- \$hits >> .hits
+  builtin compadd "\$@"
+}
+tell() { zle complete-word; touch .done }
+zle -N tell
+bindkey '^X' tell
+touch .ready
+INNER
+await() { for i in {1..1200}; do [[ -e $1 ]] && return; sleep .05; done; print "no $1" }
+rm -f .ready .done .hits
+zpty inner zsh -f
+zpty -w inner 'source ./.inner.zsh'
+await .ready
+zpty -w -n inner "$2"$'\C-x'
+await .done
+zpty -d inner
+[[ ! -e .hits ]] || cat .hits
+ZSH
+export HOME=$PWD XDG_CONFIG_HOME=$PWD/none XDG_DATA_HOME=$PWD/none
+offer() {  # SHELL LINE
+  if [ "$1" = zsh ]; then zsh -f .ask.zsh "${2%% *}" "$2"; else fish -c "${2%% *} --help fish | source; complete -C'$2'" 2> .said | cut -f 1; fi
+}
+offers() {  # LINE WORDS: both shells that are here offer these
+  for shell in zsh fish; do
+    command -v $shell > /dev/null || continue
+    got=$(offer $shell "$1" | sed 's|/$||; /^$/d' | LC_ALL=C sort -u | tr '\n' ' ')
+    [ "$got" = "$2 " ] || echo "$shell: $1<TAB>: $got instead of $2"
+  done
+}
+rm -f complete.bash script said
+offers 'bpmesh --mo' '--mode'
+offers 'bpmesh --mode ' 'bounding fit inside'
+offers 'bpmesh --enclose c' 'closing'
+offers 'bpmesh --enclose s' 'scene scene.obj'
+offers 'bpvox --format o' 'obj off'
+offers 'bpclose --device c' 'cpu cuda'
+offers 'bplod --cache f' 'folder'

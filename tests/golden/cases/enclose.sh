@@ -7,13 +7,13 @@ said "$pipe -o auto.ply"
 enclosed
 said "$pipe --enclose oct.obj -o files.ply"
 said "$pipe --enclose scene -o scene.ply -j 1 --memory 300M" && enclosed
-[ "$(bpinfo --checksum auto.ply)" = "$(bpinfo --checksum files.ply)" ] && echo "the same proxy"
+[ "$(bpinfo auto.ply | checksum)" = "$(bpinfo files.ply | checksum)" ] && echo "the same proxy"
 cmp auto.ply scene.ply && echo "the same bytes"
 said "$pipe --enclose input -o input.ply" && enclosed
 said "$pipe --enclose closing -o closing.ply" && enclosed
 for f in auto input closing; do echo "$f $(volume $f.ply)"; done | sort -n -k 2 | cut -d ' ' -f 1 | tr '\n' ' '; echo
 bpinfo auto.ply | grep -o 'enclose=[a-z]*'
-bpcheck oct.obj auto.ply --samples 0 | tail -1
+bpcheck oct.obj auto.ply | tail -1
 
 # The stream says where it comes from, and so does its closing. Other commands see the files from their own folder.
 bpvox oct.obj --resolution 40 -o oct.bpv
@@ -47,10 +47,10 @@ remesh
 rm oct.obj
 
 # Side files count as far as triangles depend on them.
-printf '\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f' > side.bin  # a corner of a cube
-printf '\0\2\1\0\1\3\1\2\3\2\0\3' >> side.bin
+printf '\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f' > buffer.ply  # a corner of a cube
+printf '\0\2\1\0\1\3\1\2\3\2\0\3' >> buffer.ply
 cat > side.gltf << 'GLTF'
-{"asset": {"version": "2.0"}, "buffers": [{"uri": "side.bin", "byteLength": 60}],
+{"asset": {"version": "2.0"}, "buffers": [{"uri": "buffer.ply", "byteLength": 60}],
  "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1]},
                {"bufferView": 1, "componentType": 5121, "count": 12, "type": "SCALAR"}],
@@ -59,8 +59,8 @@ cat > side.gltf << 'GLTF'
 GLTF
 bpvox side.gltf --resolution 40 -o side.bpv
 try bpmesh side.bpv --faces 12 -o side.ply --report r.json && enclosed
-try bpmesh side.bpv --faces 12 -o side.bin --format ply --overwrite
-printf '\x40' | dd of=side.bin bs=1 seek=14 conv=notrunc 2> /dev/null
+try bpmesh side.bpv --faces 12 -o buffer.ply --overwrite
+printf '\x40' | dd of=buffer.ply bs=1 seek=14 conv=notrunc 2> /dev/null
 try bpmesh side.bpv --faces 12 -o side.ply --report r.json --overwrite && enclosed
 
 # Where triangles are of no use, none are read.
@@ -91,7 +91,7 @@ rm -rf plant.* p.ply said lod
 level() { bpinfo "$1" | grep -o 'enclose=[a-z]*'; }
 try bplod oct.obj --faces 20 --resolution 40 -o lod && level lod/oct_LOD0.glb
 said 'bplod oct.obj --faces 20 --resolution 40 --profile collision -o lod | cut -f 1,2' && level lod/oct_unity.glb
-bpcheck oct.obj lod/oct_LOD0.glb --samples 0 | tail -1
+bpcheck oct.obj lod/oct_LOD0.glb | tail -1
 said 'bplod - --name oct --format obj --faces 20 --resolution 40 -o lod --overwrite < oct.obj | cut -f 1,2' && level lod/oct_LOD0.glb
 said 'bplod oct.obj --enclose input --faces 20 --resolution 40 -o lod --overwrite | cut -f 1,2' && level lod/oct_LOD0.glb
 said 'bplod oct.obj --faces 20 --resolution 40 --profile 3dtiles -o tiles | cut -f 1' && level tiles/tileset.json

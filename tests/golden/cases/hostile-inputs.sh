@@ -25,9 +25,9 @@ rm o.bpv corners.obj cube.obj
 ask bpinfo count_sparse.gltf
 ask bpinfo count_instances.gltf
 # Coordinates beyond the range of the exact predicates in doubles: outside by 4e-91; inside by 5e-324; and 2e90 away.
-ask bpcheck tiny_outside.obj tiny_proxy.obj --samples 0
-ask bpcheck denormal_inside.off denormal_proxy.ply --samples 0
-ask bpcheck huge_beside.obj huge_proxy.ply --samples 0
+ask bpcheck tiny_outside.obj tiny_proxy.obj
+ask bpcheck denormal_inside.off denormal_proxy.ply
+ask bpcheck huge_beside.obj huge_proxy.ply
 # An importer that would go on for ever.
 try timeout 600 bpvox busy.smd --resolution 1 -o o.bpv
 # What is finite is not left out: no proxy is made of a scene without its farthest vertex.

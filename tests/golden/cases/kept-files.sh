@@ -4,7 +4,7 @@ options=(--name m --resolution 24 --levels 1 --faces 20 -q)
 sums() { (cd "$1" && find . -type f | LC_ALL=C sort | xargs cksum); }
 
 # A buffer of the input is a tile of the tileset that was there before: it stays.
-bpvox cube.obj --resolution 24 | bpmesh --faces 20 -q --format gltf -o scene.gltf
+bpvox cube.obj --resolution 24 | bpmesh --faces 20 -q -o scene.gltf
 mkdir T
 sed 's|"uri":"data:[^"]*"|"uri":"ext.bin"|; s|"uri": "data:[^"]*"|"uri": "ext.bin"|' scene.gltf > T/ext.gltf
 grep -o 'base64,[^"]*' scene.gltf | head -1 | cut -c 8- | base64 -d > T/ext.bin

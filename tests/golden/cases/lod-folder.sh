@@ -33,7 +33,7 @@ said "bplod ${tileset[*]} -o tiles --cache cache > /dev/full"
 said "bplod ${tileset[*]} --tiles 0..1 --cache cache > /dev/full"
 said "bplod ${options[*]} -o pipe --report pipe.json | true"
 LC_ALL=C ls -A full tiles pipe pipe.json
-bpcheck cube.obj full/m.glb --samples 0 | tail -1
+bpcheck cube.obj full/m.glb | tail -1
 bpcheck cube.obj tiles | sed 's/[0-9]* triangles/some triangles/'
 bplod "${tileset[@]}" --tiles 0..1 --cache cache
 said "bplod ${options[*]} -o reported2 --report /dev/full | cut -f 1"
@@ -76,15 +76,17 @@ try bplod "${tileset[@]}" -o killed2 --overwrite | cut -f 1
 LC_ALL=C ls -A killed2
 ls cube.obj
 
-# Of folders that were made for a run that fails, or that a signal ends, nothing stays.
-try bplod missing.obj -o x/y/z
-try bplod missing.obj -o x/y/z --profile 3dtiles
+# One folder is made, and not those above it. Of one that was made for a run that fails, or that a signal ends, nothing stays.
+for profile in gltf 3dtiles; do try bplod cube.obj -o x/y --profile $profile; done
+try bplod cube.obj --profile 3dtiles --cache x/y -o tiles-of-cube
+try bplod missing.obj -o x
+try bplod missing.obj -o x --profile 3dtiles
 try bplod cube.obj -o cube.obj/x
 mkfifo in
 exec 3<> in
 for _ in $(seq 40); do  # at whatever moment, from the first folder on
   for profile in gltf 3dtiles; do
-    bplod - --format obj --profile $profile -q -o x/y/z <&3 > list &
+    bplod - --format obj --profile $profile -q -o x <&3 > list &
     for ((k = 0; k < 100000; ++k)); do [ -e x ] && break; done
     kill $!
     wait $!
@@ -96,7 +98,7 @@ done 2> /dev/null | sort | uniq -c | sed 's/^ *//'
 bpcheck cube.obj tiles/tileset.json --json | sed 's/"triangles": [0-9]*/"triangles": SOME/'
 rm tiles/m_LOD1.glb
 try bpcheck tiles/tileset.json --json | sed 's/"triangles": [0-9]*/"triangles": SOME/'
-for option in --inside '--origin 0,0,0' '--samples 5000'; do
+for option in --inside '--origin 0,0,0'; do
   try bpcheck cube.obj tiles/tileset.json $option
 done
 

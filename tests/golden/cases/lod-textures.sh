@@ -19,7 +19,7 @@ bplod "${options[@]}" --appearance color -o color > list
 bplod "${options[@]}" --appearance off -o off > list
 attributes on/*.glb color/cubes_LOD0.glb off/cubes_LOD0.glb
 for f in cubes_LOD0 cubes_LOD1; do
-  [ "$(bpinfo --checksum on/$f.glb)" = "$(bpinfo --checksum off/$f.glb)" ] && echo "$f: the same triangles"
+  [ "$(bpinfo on/$f.glb | checksum)" = "$(bpinfo off/$f.glb | checksum)" ] && echo "$f: the same triangles"
 done
 bpcheck part*.obj on/cubes_LOD0.glb | tail -1
 

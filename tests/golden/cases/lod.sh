@@ -7,7 +7,7 @@ budgets() { awk -F '\t' -v want="$1" 'BEGIN { split(want, n, ",") } NR > 1 { pri
 
 bplod part*.obj --name cubes --faces 200,20 --resolution 60 -q -o gltf > list
 budgets 200,20 < list
-for f in cubes_LOD0 cubes_LOD1 cubes; do bpcheck part*.obj gltf/$f.glb --samples 0 | tail -1; done
+for f in cubes_LOD0 cubes_LOD1 cubes; do bpcheck part*.obj gltf/$f.glb | tail -1; done
 bplod part*.obj --name cubes --faces 200,20 --resolution 60 -q --up z --profile 3dtiles -o tiles -j 1 --memory 300M > list
 budgets 200,20 < list
 try bpcheck part*.obj tiles/tileset.json
@@ -57,7 +57,7 @@ rm -r courts courts.obj
 bplod part*.obj --name cubes --faces 96 --resolution 60 -q --profile collision -o collision | cut -f 1,2
 cut_errors() { awk -F '\t' 'NR > 1 { print $1, ($3 == "-" ? "not measured" : $3 > 0 ? "measured" : "none"), $4 == s || NR == 2; s = $4 }'; }
 bplod part*.obj --name cubes --faces 96 --resolution 60 -q --profile collision -o collision --overwrite | cut_errors
-for f in godot unity unreal; do bpcheck part*.obj collision/cubes_$f.glb --samples 0 | tail -1; done
+for f in godot unity unreal; do bpcheck part*.obj collision/cubes_$f.glb | tail -1; done
 for f in unreal godot; do said "bpcheck --convex part*.obj collision/cubes_$f.glb | sed -n '/each part/p;\$p'"; done
 # An angle is cut; as one hull it is closed, as the engine would, and that is said. Parts that are too many have hulls together.
 printf '%s\n' v\ {0,4}\ {0,1}\ {0,1} v\ {0,1}\ {1,4}\ {0,1} > angle.obj
@@ -123,7 +123,7 @@ said 'bplod studs.obj --up z --faces 2400 --levels 3 -o studs | cut -f 1,2,5' | 
 said 'bplod studs.obj --up z --faces 40 --levels 3 --resolution 64 -o studs --overwrite | cut -f 1,2' | some
 ls studs
 rm -r studs studs.obj
-for f in chosen/cubes.glb chosen2/cubes.glb; do bpcheck part[01].obj $f --samples 0 | tail -1; done
+for f in chosen/cubes.glb chosen2/cubes.glb; do bpcheck part[01].obj $f | tail -1; done
 
 # What bpinfo says of a tileset.
 bplod cube.obj --name c --voxel 0.05 --tile 64 --faces 12 --up z --profile 3dtiles -q -o info > list
@@ -131,7 +131,7 @@ said 'bpinfo info/tileset.json | sed -E "s/, [0-9.]+ KiB/, SOME KiB/; s/(error|b
 bpinfo info/tileset.json --json | grep -E '"(kind|tiles|contents|missing|up)"'
 rm info/c_LOD0/1_*
 said 'bpinfo info/tileset.json | grep missing'
-for option in --dump --checksum; do try bpinfo info/tileset.json $option; done
+try bpinfo info/tileset.json --dump
 # Drawn, it is drawn whole: a level of all tiles, upright, in the place of its scene.
 bplod part*.obj --name cubes --resolution 160 --tile 128 --levels 3 --up z --profile 3dtiles -q -o drawn > list
 bpinfo part*.obj drawn/tileset.json --up z --image beside.png --image-size 64 > said

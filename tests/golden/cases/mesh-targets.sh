@@ -4,22 +4,20 @@ write_cube cube.obj 3
 bpvox cube.obj --resolution 40 | bpclose --scale 2vx -o cube.bpv
 try bpmesh cube.bpv --faces 12 -o one.glb
 try bpmesh cube.bpv --faces 40,20,12 -o chain.ply
-for i in 0 1; do bpcheck chain.$i.ply chain.$((i + 1)).ply --samples 0 | tail -1; done
-bpcheck cube.obj chain.0.ply --samples 0 | tail -1
+for i in 0 1; do bpcheck chain.$i.ply chain.$((i + 1)).ply | tail -1; done
+bpcheck cube.obj chain.0.ply | tail -1
 said 'bpmesh cube.bpv --faces 40,20,12 -j 1 -o again.ply && for i in 0 1 2; do cmp chain.$i.ply again.$i.ply; done'
 printf 'v 0 0 0\nv 9 1 0\nv 2 8 1\nv 3 2 7\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' > slanted.obj
 bpvox slanted.obj --resolution 50 -o slanted.bpv
 for target in '--faces 100' '--error 1vx' '--volume 1.05 --enclose closing' '--faces 20 --volume 1.5 --error 65%'; do
   try bpmesh slanted.bpv $target --report report.json -o proxy.glb --overwrite
   grep stopped_by report.json
-  bpcheck slanted.obj proxy.glb --samples 0 | tail -1
+  bpcheck slanted.obj proxy.glb | tail -1
 done
-try bpmesh cube.bpv --edge-length 2 --overwrite --report report.json -o short.glb
-grep stopped_by report.json
 try bpmesh slanted.bpv --enclose slanted.obj --error 0.1vx -o near.glb
 # Whatever keeps a proxy from the faces wanted is said, and stands in the report.
 bpclose slanted.bpv --scale 2vx -o closed.bpv
-for target in '--volume 1.05 --enclose closing' '--error 0.2vx' '--edge-length 2' '--volume 1.05 --enclose closing --mode bounding -q'; do
+for target in '--volume 1.05 --enclose closing' '--error 0.2vx' '--volume 1.05 --enclose closing --mode bounding -q'; do
   try bpmesh closed.bpv --faces 20 $target --report short.json -o short.ply --overwrite | some
   grep -cE '"(faces_asked": 20,|stopped_by)|faces instead of 20' short.json
 done
@@ -28,12 +26,10 @@ try bpmesh cube.bpv --faces 12,0 -o wrong.glb
 try bpmesh cube.bpv --faces 12, -o wrong.glb
 try bpmesh cube.bpv --faces 1,000 -o wrong.glb
 try bplod cube.obj --faces 10,500 -o wrong
-try bpmesh cube.bpv --faces 40,12 --format glb
-try bpmesh cube.bpv --faces 40,12 --format glb -o -
-try bpmesh cube.bpv --faces 40,12 --format glb -o chain
+try bpmesh cube.bpv --faces 40,12 -o -
+try bpmesh cube.bpv --faces 40,12 -o chain
 for error in 0 0vx 0%; do try bpmesh cube.bpv --faces 12 --error $error -o wrong.glb; done
 try bpmesh cube.bpv --volume 0.5 -o wrong.glb
-try bpmesh cube.bpv --edge-length -1 -o wrong.glb
 try bpmesh cube.bpv --volume -1 -o wrong.glb
 try bpmesh slanted.bpv --enclose closing --faces 60,40,12 --volume 1.15 -o coarser.ply | some
 try bpmesh slanted.bpv --faces 60,20 --error 0.6vx -o near.ply | some

@@ -10,7 +10,7 @@ options=(--faces 60,20 --resolution 24 --profile 3dtiles)
 nightly scenes out "${options[@]}" | table
 sed 's/made in [0-9]* s/made/' as-it-goes  # a line per scene
 nightly scenes out "${options[@]}" | table
-nightly scenes out -j 1 --memory=1G "${options[@]}" --temp . --device cpu --progress json | table  # no byte differs
+nightly scenes out -j 1 --memory=1G "${options[@]}" --temp . --progress json | table  # no byte differs
 nightly scenes out "${options[@]}" --enclose input | table
 nightly scenes out "${options[@]}" -q | table
 write_octahedron scenes/a.obj 4

@@ -11,7 +11,7 @@ echo "this is no stream" > text.bp
 rm closed.bp cube.bp
 bpvox cube.obj --resolution 20 -o cube.bp
 files
-try bpclose cube.bp -o out.bp
+said 'bpclose cube.bp | bpinfo | grep "made by.*bpclose"'
 try bpclose cube.bp --scale -1 -o out.bp
 try bpclose cube.bp --scale nan -o out.bp
 try bpclose cube.bp --scale 1e9vx -o out.bp
@@ -35,12 +35,13 @@ try bpmesh almost.bp -o out.glb
 try bpmesh flipped.bp -o out.glb
 try bpmesh cube.bp
 try bpmesh cube.bp -o out.xyz
-try bpmesh cube.bp --format foo -o out
+said 'bpmesh cube.bp | bpclose -o out.bp'
+try bpmesh cube.bp -o out
 try bpmesh cube.bp --faces 99999999999999999999 -o out.glb
 try bpmesh cube.bp --origin 1,2 -o out.glb
 try bpmesh cube.bp -o cube.glb
 try bpmesh cube.bp -o out.glb --enclose input --enclose cube.obj
-try bpmesh cube.bp --format glb -o /dev/full
+ln -s /dev/full full.glb; try bpmesh cube.bp -o full.glb
 try bpclose cube.bp --scale 1vx -o /dev/full
 stdin=text.bp try bpclose --scale 1 -o out.bp
 said 'bpvox missing.obj | bpclose --scale 1 | bpmesh -o out.glb'
@@ -63,7 +64,7 @@ cp cube.glb levels/cube_LOD0.glb
 try bplod levels/cube_LOD0.glb --name cube --levels 1 -o levels --overwrite
 said 'bpvox cube.obj --resolution 8 --report /dev/null -o /dev/null'
 echo '# nothing' > nothing.obj
-try bpcheck nothing.obj cube.glb --samples 0
+try bpcheck nothing.obj cube.glb
 try bpcheck nothing.obj cube.glb --inside
 try bpcheck nothing.obj cube.glb --convex
 said 'cat cube.obj | bpcheck - - --format obj'

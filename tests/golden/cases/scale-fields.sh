@@ -8,9 +8,9 @@ said 'bpscale rules.json cube.bpv -o scaled.bpv'
 said 'bpinfo scaled.bpv --json | grep -A 12 "\"scale\""'
 said 'bpinfo scaled.bpv | grep -E "^(scale|element|made)" | sed "s/+[0-9a-f]*//"'
 # Both ways to the same closing, whatever the threads and the memory.
-said 'bpclose scaled.bpv -j 1 | bpinfo --checksum'
-said 'bpscale rules.json cube.bpv | bpclose -j 3 --memory 100M | bpinfo --checksum'
-said 'bpclose --field rules.json cube.bpv | bpinfo --checksum'
+said 'bpclose scaled.bpv -j 1 | bpinfo | checksum'
+said 'bpscale rules.json cube.bpv | bpclose -j 3 --memory 100M | bpinfo | checksum'
+said 'bpclose --field rules.json cube.bpv | bpinfo | checksum'
 said 'bpclose --field rules.json cube.bpv | bpinfo | grep -E "^(scale|element)"'
 try bpscale rules.json cube.bpv --explain 0.1,0.1,0.1
 try bpscale rules.json cube.bpv --explain 1,1,1

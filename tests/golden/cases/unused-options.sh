@@ -22,8 +22,6 @@ for option in '--tile 64' --inner; do try bpclose cube.bpv --scale 2vx $option -
 for option in --no-tighten --measure '--inset 0.5' '--least-part 0'; do try bpmesh cube.bpv $option -o x.ply; done
 try bpcheck cube.obj --look-at 0,0,0
 try bpcheck cube.obj --report cube.json --overwrite
-try bpcheck cube.obj cube.obj --inside --samples 10
-try bpcheck cube.obj cube.obj --convex --samples 10
 try bpcheck cube.obj cube.obj --convex --inside
 try bpcheck cube.obj --inside
 # Voxels are no mesh, whatever the file is called.
@@ -41,7 +39,6 @@ for format in ply nonsense ''; do
   try bplod cube.obj --format "$format" -o x
   try bpcheck cube.obj proxy.glb --format "$format"
   try bpinfo proxy.glb --format "$format"
-  try bpmesh cube.bpv --format "$format" -o x.glb
 done
 try bpvox nameless --format obj --resolution 10 -o nameless.bpv
 said 'cat cube.obj | bpvox - cube.obj --format obj --resolution 10 -o piped.bpv'
@@ -49,6 +46,4 @@ said 'bpvox nameless --format .OBJ --resolution 10 | cmp - nameless.bpv'
 try bpvox '' -o x.bpv
 try bpvox cube.obj -o ''
 try bpinfo cube.obj --image ''
-try bpmesh cube.bpv --edge-length 2 -o x.ply
-try bpcheck proxy.glb --samples 10
 files

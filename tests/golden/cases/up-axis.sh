@@ -1,7 +1,7 @@
 # A proxy of a z-up scene says so, and every tool that reads it believes it unless told otherwise.
 write_cube cube.obj 3
 sed -i 's/^v 3 3 3/v 3 3 9/' cube.obj
-bpvox cube.obj --resolution 30 --up z | bpmesh --faces 30 -o z.glb
+bpvox cube.obj --resolution 30 --up Z | bpmesh --faces 30 -o z.glb
 bpvox cube.obj --resolution 30 | bpmesh --faces 30 -o y.glb
 for proxy in z.glb y.glb cube.obj; do bpvox $proxy --resolution 20 | bpinfo | grep -o '. is up'; done
 bpvox z.glb --resolution 20 --up y | bpinfo | grep -oE '. is up|up=.*'

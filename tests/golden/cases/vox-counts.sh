@@ -3,7 +3,7 @@ write_cube cube.obj
 try bpvox cube.obj --voxel 0.125 -o cube.bp --report report.json
 grep -E '"(triangles|voxel|surface_voxels|solid_voxels|open_columns)"' report.json
 said 'bpvox cube.obj --voxel 0.125 | cmp - cube.bp'
-said '[ $(bpvox - --format obj --voxel 0.125 < cube.obj | bpinfo --checksum) = $(bpinfo --checksum cube.bp) ]'
+said '[ $(bpvox - --format obj --voxel 0.125 < cube.obj | bpinfo | checksum) = $(bpinfo cube.bp | checksum) ]'
 said 'bpvox cube.obj --voxel 0.125 -j 1 --memory 64M | cmp - cube.bp'
 try bpvox cube.obj --voxel 0.125 --fill none -o shell.bp --report shell.json
 grep solid_voxels shell.json

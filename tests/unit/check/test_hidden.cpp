@@ -1,4 +1,4 @@
-#include "lib/check/hidden.h"
+#include "lib/check/detail/hidden.h"
 #include "lib/check/verdict_text.h"
 #include "tests/catch.h"
 #include "tests/unit/check/meshes.h"

@@ -1,4 +1,4 @@
-#include "lib/hulls/detail/convex_hull.h"
+#include "lib/hulls/convex_hull.h"
 #include "lib/hulls/detail/solid_cell.h"
 #include "lib/mesh/lattice_geometry.h"
 #include "tests/catch.h"

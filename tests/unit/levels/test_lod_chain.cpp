@@ -205,12 +205,10 @@ TEST_CASE("a budget that nothing meets is reported, and what there is encloses",
   const Triangles scene = boxes();
   Backends backends = plain_backends(2);
   Voxelized solid = voxelized(scene, 1);
-  LodOptions options = lod_options();
-  options.max_attempts = 2;
-  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+  LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
   const LodLevel level = chain.make({3, 0, 1.0});
   CHECK_FALSE(level.reached);
-  CHECK(level.attempts == 2);
+  CHECK(level.attempts > 1);
   CHECK(encloses(level.mesh, scene));
 }
 

@@ -6,13 +6,12 @@ namespace bp {
 
 namespace {
 
-/// What a shell completes a value with. Folders and files are told by the name of the value.
-enum class Kind { none, words, file, folder };
+/// What a shell completes a value with, in addition to its words. Folders and files are told by the name of the value.
+enum class Kind { none, file, folder };
 
 Kind kind_of(const Declaration& d) {
   if (d.value_name.find("DIR") != std::string::npos) return Kind::folder;
-  if (d.value_name.find("FILE") != std::string::npos) return Kind::file;
-  return d.words.empty() ? Kind::none : Kind::words;
+  return d.value_name.find("FILE") != std::string::npos ? Kind::file : Kind::none;
 }
 
 /// A flag that may carry a word, as `--progress [json]`, needs none.
@@ -26,12 +25,15 @@ std::string words_of(const Declaration& d) {
   return all;
 }
 
-/// Without what would end a quoted text of a shell.
-std::string quotable(std::string text, const std::string& without) {
-  for (char& c : text) {
-    if (without.find(c) != std::string::npos) c = ' ';
+/// With a backslash before each of `marks`, and as the inside of a text in single quotes. `quote`: how the shell writes
+/// a single quote there.
+std::string quoted(const std::string& text, const std::string& marks, const std::string& quote) {
+  std::string out;
+  for (const char c : text) {
+    if (marks.find(c) != std::string::npos) out += '\\';
+    out += c == '\'' ? quote : std::string(1, c);
   }
-  return text;
+  return out;
 }
 
 /// What bash completes after an option, and the names of all.
@@ -41,12 +43,9 @@ void add_bash_case(const Declaration& d, std::string& cases, std::string& names)
     pattern += (pattern.empty() ? "" : "|") + name;
     if (name.starts_with("--")) names += (names.empty() ? "" : " ") + name;
   }
-  const std::string words = "COMPREPLY=($(compgen -W '" + words_of(d) + "' -- \"$cur\"))";
-  const Kind kind = kind_of(d);
   std::string action = "COMPREPLY=()";
-  if (kind == Kind::words) action = words;
-  if (kind == Kind::file) action = (d.words.empty() ? "" : words + "; ") + "_bp_files -f";
-  if (kind == Kind::folder) action = "_bp_files -d";
+  if (!d.words.empty()) action = "COMPREPLY=($(compgen -W '" + words_of(d) + "' -- \"$cur\"))";
+  if (kind_of(d) != Kind::none) action += kind_of(d) == Kind::file ? "; _bp_files -f" : "; _bp_files -d";
   if (needs_value(d)) cases += fmt::format("    {}) {}; return ;;\n", pattern, action);
   if (!needs_value(d) && !d.words.empty())  // the word may be left out
     cases += fmt::format("    {}) {}; [[ -n $cur && ${{#COMPREPLY[@]}} -gt 0 ]] && return ;;\n", pattern, action);
@@ -80,23 +79,26 @@ complete -F _{0} {0}
                      tool.tool, cases, names);
 }
 
+/// What zsh completes a value with: an action of _arguments.
+std::string zsh_action(const Declaration& d) {
+  const Kind kind = kind_of(d);
+  const std::string files = kind == Kind::file ? "_files" : kind == Kind::folder ? "_files -/" : "";
+  if (d.words.empty()) return files.empty() ? " " : files;
+  const std::string words = "(" + words_of(d) + ")";
+  return files.empty() ? words : fmt::format(R"({{_alternative "words\:word\:{}" "files\:file\:{}"}})", words, files);
+}
+
 std::string zsh(const ToolDeclaration& tool) {
   std::string specs;
   for (const Declaration& d : tool.options) {
-    const std::string text = quotable(d.help, "'[]:\\`$\"");
-    const Kind kind = kind_of(d);
     std::string value;
     if (!d.value_name.empty()) {
-      const std::string name = quotable(d.value_name, "'[]:\\|");
-      const std::string action = kind == Kind::words    ? "(" + words_of(d) + ")"
-                                 : kind == Kind::file   ? "_files"
-                                 : kind == Kind::folder ? "_files -/"
-                                                        : " ";
-      value = (needs_value(d) ? ":" : "::") + name + ":" + action;
+      value = needs_value(d) ? ":" : "::";
+      value += quoted(d.value_name, ":\\", "'\\''") + ":" + zsh_action(d);
     }
     for (const std::string& option : parts_of(d.names, ',')) {
       const std::string equals = needs_value(d) ? (option.starts_with("--") ? "=" : "+") : "";
-      specs += fmt::format("  '{}{}[{}]{}' \\\n", option, equals, text, value);
+      specs += fmt::format("  '{}{}[{}]{}' \\\n", option, equals, quoted(d.help, "[]:\\", "'\\''"), value);
     }
   }
   return fmt::format(
@@ -115,7 +117,7 @@ std::string fish(const ToolDeclaration& tool) {
     if (needs_value(d)) line += kind == Kind::file ? " -r -F" : " -x";
     if (kind == Kind::folder) line += " -a '(__fish_complete_directories)'";
     if (!d.words.empty()) line += " -a '" + words_of(d) + "'";
-    text += line + " -d '" + quotable(d.help, "'\\") + "'\n";
+    text += line + " -d '" + quoted(d.help, "\\", "\\'") + "'\n";
   }
   return text;
 }

@@ -4,7 +4,7 @@
 namespace bp {
 
 /// "; --faces is an option of bpmesh and bplod", if another tool of the pipe has this option and `tool` belongs to the
-/// pipe, too; else nothing. `similar`: a slip will do.
+/// pipe, too; else nothing. `similar`: also finds misspelt names.
 [[nodiscard]] std::string owner_of(const std::string& tool, const std::string& name, bool similar);
 
 /// False if `tool` belongs to the pipe and has no such option.

@@ -2,13 +2,13 @@
 
 namespace bp {
 
-void ClosingOptions::add_to(Args& args, const std::string& scale_of, const std::string& scale_default) {
+void ClosingOptions::add_to(Args& args, const std::string& scale_of, const std::string& scale_more) {
   args.group("Closing");
   args.option("-s,--scale", "LENGTH", scale,
               "closing radius" + scale_of +
-                  ": in scene units, as a percentage of the scene's diagonal (2%), or in voxels "
-                  "(20vx); narrower gaps and holes are filled" +
-                  scale_default);
+                  ", as 0.5, 2% or 20vx: scene units, a share of the scene's diagonal, or voxels; gaps and holes "
+                  "narrower than about twice the radius are filled" +
+                  scale_more);
 }
 
 void ClosingOptions::add_element(Args& args) {

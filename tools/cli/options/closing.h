@@ -12,8 +12,9 @@ struct ClosingOptions {
   std::optional<Length> scale;
   StructuringElement element = StructuringElement::cube;
 
-  /// The scale. scale_of, scale_default: for help, " of the finest level" and " (default: ...)"; may be empty.
-  void add_to(Args& args, const std::string& scale_of, const std::string& scale_default);
+  /// The scale. scale_of: for help, " of the finest level"; may be empty. scale_more: the end of the help, with the
+  /// default.
+  void add_to(Args& args, const std::string& scale_of, const std::string& scale_more);
   void add_element(Args& args);
 };
 

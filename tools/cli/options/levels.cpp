@@ -54,7 +54,8 @@ void LevelOptions::add_of_scene(Args& args, const std::string& levels_default, c
           faces_default + ")");
   args.option(
       "--error", "LENGTH[,...]", [this](const std::string& text) { errors = parse_error_list(text); },
-      "largest distance between the scene and each level, finest first; after a single length each further level has "
+      "largest distance from each level to what is visible of the scene, finest first; after a single length each "
+      "further level has "
       "twice that; 800px is one pixel where the scene's diagonal is 800 pixels on screen");
 }
 

@@ -10,7 +10,7 @@
 /// What a proxy is to what it is made of: bpmesh and bplod declare the same options.
 namespace bp {
 
-/// What stays inside while a proxy is tightened, and what a fit is drawn to.
+/// What stays inside while a proxy is tightened, and the surface that a fit follows.
 struct EncloseOption {
   enum class Kind { automatic, scene, input, closing, files };
   Kind kind = Kind::automatic;

@@ -20,7 +20,7 @@ constexpr Args::Choice<FillMode> kInside = {"inside", FillMode::inside,
 void add_size(VoxelOptions& o, Args& args, const std::string& resolution_default) {
   args.group("Voxels");
   args.option("--voxel", "LENGTH", o.voxel,
-              "edge length of a voxel: in scene units, or as a percentage of the scene's diagonal (0.5%)");
+              "edge length of a voxel, as 0.5 or 0.5%: scene units, or a share of the scene's diagonal");
   args.option(
       "--resolution", "N", o.resolution,
       "number of voxels along the longest side of the scene, instead of --voxel (default: " + resolution_default + ")");
@@ -34,11 +34,16 @@ void add_up(VoxelOptions& o, Args& args) {
 
 }  // namespace
 
+void add_scene_format(Args& args, std::string& format, const std::string& before) {
+  args.option("--format", "NAME", format,
+              before + "format of stdin, or of files whose names do not tell: ply stl obj off gltf glb ...");
+  args.words({{"ply", ""}, {"stl", ""}, {"obj", ""}, {"off", ""}, {"gltf", ""}, {"glb", ""}});
+}
+
 void VoxelOptions::add_scenes(Args& args, const std::string& scenes_help) {
   args.positional("SCENE", scenes, scenes_help + "; - is stdin and needs --format");
   args.group("Files");
-  args.option("--format", "NAME", format,
-              "format of stdin, or of files whose names do not tell: ply stl obj off glb ...");
+  add_scene_format(args, format);
 }
 
 void VoxelOptions::add_to(Args& args, const std::string& resolution_default) {

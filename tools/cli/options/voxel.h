@@ -11,6 +11,9 @@
 /// The scenes, and the voxels that are made of them: bpvox and bplod declare the same options.
 namespace bp {
 
+/// --format of a tool that reads scenes or meshes. before: begins its help.
+void add_scene_format(Args& args, std::string& format, const std::string& before = "");
+
 struct VoxelOptions {
   std::vector<std::string> scenes;
   std::string format;           ///< of stdin, or of files whose names do not tell

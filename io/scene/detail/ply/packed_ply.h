@@ -1,6 +1,6 @@
 #pragma once
 #include "io/scene/detail/ply/ply_header.h"
-#include "io/scene/detail/raw_source.h"
+#include "io/scene/raw_source.h"
 
 namespace bp {
 

@@ -14,13 +14,6 @@ namespace bp {
 
 using ColorBrick = Coord3<struct ColorBrickSpace, std::int32_t>;  ///< cells [16 b, 16 b + 16): a brick of voxels
 
-/// Cells of a box with their colours, in order of (z, y, x).
-struct CellColor {
-  ColorCell cell;
-  LinearColor color;
-  friend bool operator==(const CellColor&, const CellColor&) = default;
-};
-
 class ColorGrid {
  public:
   static constexpr std::int32_t kEdge = 16;  ///< cells along a side of a brick
@@ -50,7 +43,7 @@ class ColorGrid {
   [[nodiscard]] bool empty() const { return bricks_.empty(); }
   [[nodiscard]] bool all_white() const { return all_white_; }
   [[nodiscard]] std::uint64_t cells() const { return cells_; }
-  /// Cells [min, max).
+  /// Cells [min, max), in order of (z, y, x).
   [[nodiscard]] std::vector<CellColor> load(ColorCell min, ColorCell max) const;
   /// Cells twice as large: cell c of this grid lies in half_of(c).
   [[nodiscard]] std::unique_ptr<ColorGrid> reduced() const;

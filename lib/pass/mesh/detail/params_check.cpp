@@ -23,8 +23,6 @@ void check_params(const MeshParams& params) {
     fail(ErrorCode::bad_argument, "a volume ratio of {} is below 0", params.volume_ratio);
   if (!(params.edge_factor >= 0))
     fail(ErrorCode::bad_argument, "an edge length of {} times the scale is below 0", params.edge_factor);
-  if (!(params.inset >= 0 && params.inset <= 1))
-    fail(ErrorCode::bad_argument, "the inset of a fit is 0 to 1 extents of a voxel, not {}", params.inset);
   if (params.least_part < 0 || params.least_part > 1)
     fail(ErrorCode::bad_argument, "the least part is a share of the largest, from 0 to 1, not {}", params.least_part);
   if (params.mode != MeshMode::inside && params.least_part != 0)

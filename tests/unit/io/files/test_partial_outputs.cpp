@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 
 TEST_CASE("what is being made goes when a signal comes: files, trees, folders with nothing else", "[quick][io]") {
   const TempDir dir;
-  const MadeFolders made(dir.path("a/b/c"));
+  const MadeFolder a(dir.path("a")), b(dir.path("a/b")), c(dir.path("a/b/c"));
   const PartialOutput tree(dir.path("a/b/c/tree"), PartialOutput::Kind::tree);
   const PartialOutput file(dir.file("a/b/c/file", "x"));
   fs::create_directories(dir.path("a/b/c/tree/d/e"));
@@ -23,20 +23,27 @@ TEST_CASE("what is being made goes when a signal comes: files, trees, folders wi
   CHECK(fs::exists(dir.path(".")));
 }
 
-TEST_CASE("folders that were made go again, unless kept or used", "[quick][io]") {
+TEST_CASE("a folder that was made goes again, unless kept or used", "[quick][io]") {
   const TempDir dir;
-  { const MadeFolders made(dir.path("a/b//c/")); }
+  { const MadeFolder made(dir.path("a/")); }
   CHECK_FALSE(fs::exists(dir.path("a")));
   fs::create_directory(dir.path("a"));
-  { const MadeFolders made(dir.path("a/b")); }
+  { const MadeFolder made(dir.path("a")), inner(dir.path("a/b")); }
   CHECK(fs::exists(dir.path("a")));
   CHECK_FALSE(fs::exists(dir.path("a/b")));
   {
-    MadeFolders made(dir.path("a/b"));
+    MadeFolder made(dir.path("a/b"));
     made.keep();
   }
   CHECK(fs::exists(dir.path("a/b")));
   (void)dir.file("a/file", "x");
-  CHECK_THROWS_AS(MadeFolders(dir.path("a/file")), Error);
-  CHECK_THROWS_AS(MadeFolders(dir.path("a/file/x")), Error);
+  CHECK_THROWS_AS(MadeFolder(dir.path("a/file")), Error);
+  CHECK_THROWS_AS(MadeFolder(dir.path("a/file/x")), Error);
+}
+
+TEST_CASE("a folder is not made where the one above it is missing", "[quick][io]") {
+  const TempDir dir;
+  CHECK_THROWS_WITH(MadeFolder(dir.path("none/deep/")),
+                    Catch::Matchers::EndsWith("there is no folder " + dir.path("none")));
+  CHECK_FALSE(fs::exists(dir.path("none")));
 }

@@ -149,8 +149,6 @@ TEST_CASE("mesh formats are known by extension", "[quick][io]") {
   CHECK(mesh_format_of("x.stl") == MeshFormat::stl);
   CHECK_THROWS_AS(mesh_format_of("x.fbx"), Error);
   CHECK_THROWS_AS(mesh_format_of("dir.glb/file"), Error);
-  CHECK(mesh_format_named("PLY") == MeshFormat::ply);
-  CHECK_THROWS_WITH(mesh_format_named("foo"), "the format 'foo' is none of glb gltf ply obj stl");
 }
 
 TEST_CASE("the chain of tools is written into each mesh", "[quick][io]") {

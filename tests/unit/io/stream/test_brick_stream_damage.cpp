@@ -130,7 +130,7 @@ TEST_CASE("bytes after the end are reported", "[quick][io]") {
 
 TEST_CASE("a file of another kind is called by its name", "[quick][io]") {
   const auto named = [](const std::string& s) { return error_of(Bytes(s.begin(), s.end())); };
-  CHECK(says(named("\x89PNG\r\n\x1a\n...................."), "looks like a PNG image, not a brick stream"));
+  CHECK(says(named("\x89PNG\r\n\x1a\n...................."), "looks like a PNG image, not a stream of voxels"));
   CHECK(says(named("glTF\x02.................."), "a GLB scene"));
   CHECK(says(named("ply\nformat ascii 1.0\n"), "a PLY mesh"));
   CHECK(says(named("{\"asset\":{}}          "), "a JSON or glTF file"));
@@ -151,7 +151,7 @@ TEST_CASE("a version, flag or value from the future is refused", "[quick][io]") 
     seal_header(b);
     return error_of(b);
   };
-  CHECK(says(changed(8, 2), "byte 16: version 2 of the brick stream; this tool reads version 1"));
+  CHECK(says(changed(8, 2), "byte 16: version 2 of the stream of voxels; this tool reads version 1"));
   CHECK(says(changed(10, 3), "scene files without their flag, or the flag without them"));
   CHECK(says(changed(10, 9), "unknown flags 0x9"));
   CHECK(says(changed(10, 5), "a closing, and a scale field for a closing to come"));

@@ -154,7 +154,7 @@ TEST_CASE("the target that ended merging is named, not one that refused a step l
   CHECK(counts.levels[0].simplify.limit == "error");
 }
 
-TEST_CASE("edges stay below --edge-length times the scale", "[quick][pass]") {
+TEST_CASE("edges stay below edge_factor times the scale", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell);
   source.header().scale.base = 3;
   MeshParams params;
@@ -198,7 +198,7 @@ TEST_CASE("edges across a finer region stay below what the scale is there", "[qu
   }
 }
 
-TEST_CASE("a fit keeps --edge-length", "[quick][pass]") {
+TEST_CASE("a fit keeps edge_factor", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell);
   source.header().scale.base = 1;
   MeshParams params;

@@ -95,3 +95,19 @@ TEST_CASE("only a run of more than ten seconds is announced", "[quick][tools]") 
   CHECK(twice.core_seconds == 2 * large.core_seconds);
   CHECK(twice.bytes == large.bytes);
 }
+
+TEST_CASE("the estimate of a tileset is within a factor of 3 of what runs took", "[quick][tools]") {
+  // Sides of the grid in voxels; user seconds and peak memory of bplod --profile 3dtiles with its defaults.
+  struct Run {
+    double x, y, z, seconds, bytes;
+  };
+  const Run run =
+      GENERATE(Run{1822, 1223, 51, 57.8, 346e6}, Run{1562, 977, 45, 33.5, 299e6}, Run{692, 711, 218, 19.7, 286e6},
+               Run{821, 237, 552, 45.6, 339e6}, Run{806, 493, 269, 6.6, 356e6});
+  VoxelizeCounts many;
+  many.area = 1e12;
+  const Estimate e = estimate_levels(box(run.x, run.y, run.z), many, 1, 4, true);
+  CAPTURE(e.core_seconds, run.seconds, e.bytes, run.bytes);
+  CHECK(std::abs(std::log(e.core_seconds / run.seconds)) < std::log(3.0));
+  CHECK(std::abs(std::log(e.bytes / run.bytes)) < std::log(3.0));
+}

@@ -4,27 +4,14 @@
 
 #include "lib/check/check_report.h"
 #include "lib/check/detail/surface.h"
-#include "lib/core/grid_frame.h"
+#include "lib/check/hiding_recipe.h"
 #include "lib/core/triangle_source.h"
-#include "lib/grid/stream.h"
 
 /// Is a proxy hidden by a scene, once openings that are narrower than twice a scale are closed?
 namespace bp {
 
-/// The voxels and the closing that say what is hidden (docs/bounding.md, "Occluders"). With G the voxels that the scene
-/// touches, E their closing:
-///   O       what the outside reaches through faces of voxels not in E
-///   O'      what it reaches through those not in G, nor behind the closing: not in the complement of E and O
-///   T       voxels of G beside O', and those of G beside these; over faces, edges and corners
-///   hidden  all others: not in O', not in T
-struct HidingRecipe {
-  GridFrame frame;
-  double scale_world = 0;
-  StructuringElement element = StructuringElement::cube;
-};
-
 struct HiddenReport {
-  std::string undecided;           ///< why it is not; empty: it is
+  std::string undecided;           ///< why the question is not decided; empty if it is decided
   std::uint64_t memory_bytes = 0;  ///< that deciding it takes, where memory is why it is undecided
   std::uint64_t triangles = 0;     ///< of the scene
   Finding exposed;  ///< index: proxy triangle beside, other: 0, position: the middle of a voxel that is not hidden and

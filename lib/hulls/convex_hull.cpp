@@ -1,4 +1,4 @@
-#include "lib/hulls/detail/convex_hull.h"
+#include "lib/hulls/convex_hull.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "lib/check/hidden.h"
+#include "lib/check/detail/hidden.h"
 
 #include <fmt/format.h>
 

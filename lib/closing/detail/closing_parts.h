@@ -1,0 +1,18 @@
+#pragma once
+#include "lib/closing/closing_scratch.h"
+#include "lib/closing/detail/ball_transform.h"
+#include "lib/closing/detail/chessboard.h"
+#include "lib/closing/detail/cube_dilation.h"
+
+namespace bp {
+
+struct ClosingScratch::Parts {
+  BitBox dilation;                          ///< D
+  BitBox inner;                             ///< voxels known to be in D without computing a distance
+  detail::ColumnBits seeds, contour, band;  ///< G or Dc, by columns; D minus G, by columns
+  detail::CubeDilation cube;
+  detail::VaryingCubeDilation varying;
+  detail::BallTransform ball;
+};
+
+}  // namespace bp
