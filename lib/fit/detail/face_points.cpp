@@ -54,11 +54,11 @@ std::vector<Quadric> quadrics_of_points(const HalfEdgeMesh& mesh, std::span<cons
     for (const std::uint32_t i : of_faces.of(f)) {
       if (dot(of_faces[i].normal, of_faces[i].normal) > 0) planes.push_back(of_faces[i]);
     }
-    if (planes.empty()) planes.push_back({t[0], 1 / size * n});
     for (std::uint32_t k = 0; k < 3; ++k) {
       Quadric& q = quadrics[mesh.from(3 * f + k)];
       for (const FitPlace& p : planes)
         q.add_plane(p.normal, dot(p.normal, t[k] - p.at), size / 2 / double(planes.size()));
+      if (planes.empty()) q.add_plane({n[0] / size, n[1] / size, n[2] / size}, 0, size / 2);
     }
   }
   return quadrics;
