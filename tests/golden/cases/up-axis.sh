@@ -1,8 +1,8 @@
 # A proxy of a z-up scene says so, and every tool that reads it believes it unless told otherwise.
 write_cube cube.obj 3
 sed -i 's/^v 3 3 3/v 3 3 9/' cube.obj
-bpvox cube.obj --resolution 30 --up Z | bpmesh --faces 30 -o z.glb
-bpvox cube.obj --resolution 30 | bpmesh --faces 30 -o y.glb
+bpvox cube.obj --resolution 30 --up Z | bpmesh --faces 30 -q -o z.glb
+bpvox cube.obj --resolution 30 | bpmesh --faces 30 -q -o y.glb
 for proxy in z.glb y.glb cube.obj; do bpvox $proxy --resolution 20 | bpinfo | grep -o '. is up'; done
 bpvox z.glb --resolution 20 --up y | bpinfo | grep -oE '. is up|up=.*'
 for up in z y; do
@@ -27,7 +27,7 @@ bplod gltf/a_LOD0.glb --resolution 30 --levels 1 --faces 30 -q --name a --up y -
 bpvox levels/a_LOD0.glb --resolution 20 | bpinfo | grep -o '. is up'
 # Any axis may be up: a file comes back in the scene's own axes, and other readers see it stand.
 for up in x -x -y -z; do
-  bpvox cube.obj --resolution 30 --up $up | bpmesh --faces 30 -o up$up.glb
+  bpvox cube.obj --resolution 30 --up $up | bpmesh --faces 30 -q -o up$up.glb
   bpvox up$up.glb --resolution 20 | bpinfo | grep -oE -- '-?[xyz] is up'
   bpcheck cube.obj up$up.glb | tail -1
   bpinfo cube.obj up$up.glb --image-size 99 --image up$up.png > said || cat said
@@ -38,8 +38,8 @@ for up in x -x -y -z; do
   bpcheck cube.obj up$up-3dtiles/tileset.json | tail -1
   bpinfo up$up-3dtiles/tileset.json | grep -oE 'up is -?[xyz]'
   for format in ply obj stl; do  # these have no axes
-    bpvox cube.obj --resolution 30 --up $up | bpmesh --faces 30 -o up.$format
-    bpvox cube.obj --resolution 30 | bpmesh --faces 30 -o plain.$format
+    bpvox cube.obj --resolution 30 --up $up | bpmesh --faces 30 -q -o up.$format
+    bpvox cube.obj --resolution 30 | bpmesh --faces 30 -q -o plain.$format
     grep -av 'up=' up.$format | cmp - <(grep -av 'up=' plain.$format)
     rm up.$format plain.$format
   done
@@ -51,8 +51,8 @@ said 'bplod map.obj --resolution 30 --levels 1 --profile 3dtiles -o map > list'
 said 'bplod map.obj --resolution 30 --levels 1 --profile 3dtiles --explain > list'
 for up in y z; do said "bplod map.obj --resolution 30 --levels 1 --profile 3dtiles --up $up -o map.$up > list"; done
 said 'bplod map.obj --resolution 30 --levels 1 -o flat > list'
-for up in '' '--up y' '--up z'; do said "bpvox map.obj --resolution 60 $up | bpmesh --faces 30 -o flat.glb --overwrite"; done
-said 'bpvox map.obj --resolution 60 | bpmesh --faces 30 -o flat.ply'
+for up in '' '--up y' '--up z'; do said "bpvox map.obj --resolution 60 $up | bpmesh --faces 30 -q -o flat.glb --overwrite"; done
+said 'bpvox map.obj --resolution 60 | bpmesh --faces 30 -q -o flat.ply'
 said 'bplod cube.obj --resolution 30 --levels 1 --profile 3dtiles -o upright > list'
 said 'bplod z.glb --resolution 30 --levels 1 --profile 3dtiles -o told > list'
 # A picture believes what a file tells, and says where --up differs.
