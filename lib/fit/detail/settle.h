@@ -6,8 +6,8 @@
 #include "lib/mesh/step_limits.h"
 
 /// The last step of a fit: vertices settle where the surface is nearest to points of what it stands for, in the least
-/// squares sense ([HDD93]). By turns points are assigned to faces, edges flipped and vertices moved. A face most of whose
-/// points lie in one plane is held to that plane.
+/// squares sense ([HDD93]). By turns points are assigned to faces, edges flipped and vertices moved. A face most of
+/// whose points lie in one plane is held to that plane.
 namespace bp {
 
 /// `points`: lattice units, spread evenly over the surface that is wanted; some tens per face. Every move is checked:

@@ -51,8 +51,8 @@ said 'bplod map.obj --resolution 30 --levels 1 --profile 3dtiles -o map > list'
 said 'bplod map.obj --resolution 30 --levels 1 --profile 3dtiles --explain > list'
 for up in y z; do said "bplod map.obj --resolution 30 --levels 1 --profile 3dtiles --up $up -o map.$up > list"; done
 said 'bplod map.obj --resolution 30 --levels 1 -o flat > list'
-for up in '' '--up y' '--up z'; do said "bpvox map.obj --resolution 60 $up | bpmesh --faces 30 -q -o flat.glb --overwrite"; done
-said 'bpvox map.obj --resolution 60 | bpmesh --faces 30 -q -o flat.ply'
+for up in '' '--up y' '--up z'; do said "bpvox map.obj --resolution 60 $up | bpmesh --faces 30 -o flat.glb --overwrite"; done
+said 'bpvox map.obj --resolution 60 | bpmesh --faces 30 -o flat.ply'
 said 'bplod cube.obj --resolution 30 --levels 1 --profile 3dtiles -o upright > list'
 said 'bplod z.glb --resolution 30 --levels 1 --profile 3dtiles -o told > list'
 # A picture believes what a file tells, and says where --up differs.
