@@ -42,14 +42,16 @@ Vec3d point_on(const TriangleD& t, std::mt19937& random) {
   return p;
 }
 
-/// Largest distance of sampled points of one to the other.
+/// Largest distance of sampled points and all corners of one to the other.
 double sampled_distance(const std::vector<TriangleD>& from, const std::vector<TriangleD>& to, int per_triangle) {
   std::mt19937 random(7);
   const TriangleBvh tree(to);
   double largest = 0;
-  for (const TriangleD& t : from)
-    for (int i = 0; i < per_triangle; ++i)
-      largest = std::max(largest, std::sqrt(tree.nearest(point_on(t, random)).distance_squared));
+  const auto meet = [&](const Vec3d& p) { largest = std::max(largest, std::sqrt(tree.nearest(p).distance_squared)); };
+  for (const TriangleD& t : from) {
+    for (const Vec3d& corner : t) meet(corner);
+    for (int i = 0; i < per_triangle; ++i) meet(point_on(t, random));
+  }
   return largest;
 }
 
