@@ -6,8 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "io/gltf/glb_file.h"
-#include "io/gltf/meshopt_codec.h"
+#include "io/mesh/detail/glb_data.h"
 #include "io/mesh/detail/mesh_writers.h"
 #include "lib/core/error.h"
 #include "lib/mesh/shaded_mesh.h"
@@ -20,9 +19,7 @@ using Json = GltfOutJson;
 
 constexpr std::int64_t kFloatInteger = std::int64_t(1) << 24;  // float32 holds integers up to this
 constexpr std::int64_t kShortInteger = 32767;
-constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr int kLinear = 9729, kLinearMipmapLinear = 9987, kClampToEdge = 33071;
-constexpr int kByte = 5120, kUint8 = 5121, kShort = 5122, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
 
 struct Extent {
   LatticeCoord lo, hi;
@@ -96,7 +93,7 @@ class GlbBuilder {
 
   /// `origin`: is subtracted from all coordinates, and told; exactly, or it throws.
   explicit GlbBuilder(const std::string& file, Data data, const Vec3d& origin = {})
-      : file_(file), compressed_(data == Data::compressed), origin_(origin) {}
+      : file_(file), data_(data == Data::compressed), origin_(origin) {}
 
   /// Adds mesh and node; returns the node's number. `origin`: what vertices are relative to; null: the node's own
   /// translation.
@@ -111,43 +108,28 @@ class GlbBuilder {
            (extent.hi.x - extent.lo.x) / kLatticePerVoxel);
     }
     add_mesh(named, extent, centre);
-    doc_["nodes"].push_back(node_of(named, origin != nullptr ? nullptr : &centre));
-    return doc_["nodes"].size() - 1;
+    json()["nodes"].push_back(node_of(named, origin != nullptr ? nullptr : &centre));
+    return json()["nodes"].size() - 1;
   }
 
-  Json& node(std::size_t i) { return doc_["nodes"][i]; }
-  void use(const char* extension) { used_.push_back(extension); }
+  Json& node(std::size_t i) { return json()["nodes"][i]; }
+  void use(const char* extension) { data_.use(extension, false); }
 
   void write(const LatticeMesh& first, const std::vector<std::size_t>& roots, OutputFile& out) {
-    write_glb(document(gltf_asset("bplod", first.provenance, first.frame.up, origin_), roots), data_, out);
+    write_glb(document(gltf_asset("bplod", first.provenance, first.frame.up, origin_), roots), data_.bytes(), out);
   }
   /// As the content of a tile: extras.up does not ask readers of ours to turn back to the axes of the scene.
   [[nodiscard]] std::string tile_bytes(const LatticeMesh& mesh, const Vec3d& tile_origin) {
     Json asset = gltf_asset("bplod", mesh.provenance, UpAxis::y, {});
     asset["extras"]["tile_origin"] = tile_origin;
-    return glb_head(document(std::move(asset), {0}), data_.size(), file_) + data_;
+    return glb_head(document(std::move(asset), {0}), data_.bytes().size(), file_) + data_.bytes();
   }
 
  private:
+  Json& json() { return data_.json(); }
   std::string document(Json asset, const std::vector<std::size_t>& roots) {
-    Json doc;
-    doc["asset"] = std::move(asset);
-    if (compressed_) {
-      use("EXT_meshopt_compression");
-      if (quantized_) use("KHR_mesh_quantization");
-      doc["extensionsRequired"] = used_;
-    }
-    if (!used_.empty()) doc["extensionsUsed"] = used_;
-    doc["scene"] = 0;
-    doc["scenes"] = Json::array({{{"nodes", roots}}});
-    doc.update(doc_);
-    doc["materials"] = materials_;
-    doc["buffers"] = Json::array({{{"byteLength", data_.size()}}});
-    if (compressed_) {  // where the bytes would be if the views were not compressed; nobody reads it
-      doc["buffers"].push_back(
-          {{"byteLength", fallback_}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
-    }
-    return doc.dump();
+    json()["materials"] = materials_;
+    return data_.document(std::move(asset), roots);
   }
 
   void add_mesh(const NamedMesh& named, const Extent& extent, LatticeCoord centre) {
@@ -158,50 +140,29 @@ class GlbBuilder {
     const std::string uv = uv_bytes(drawn, order), colors = mesh.colors.empty() ? "" : color_bytes(drawn, order);
     for (std::uint32_t& i : order) i = drawn.vertex[i];
     std::size_t positions = 0;
-    if (compressed_ && extent.within(centre, -kShortInteger, kShortInteger)) {
-      quantized_ = true;
-      positions = add_positions(Positions<std::int16_t>(mesh, order, centre, 8), 8, kShort, order.size());
+    if (data_.is_compressed() && extent.within(centre, -kShortInteger, kShortInteger)) {
+      data_.quantize();
+      positions = add_positions(Positions<std::int16_t>(mesh, order, centre, 8), 8, kGltfShort, order.size());
     } else {
-      positions = add_positions(Positions<float>(mesh, order, centre, 12), 12, kFloat, order.size());
+      positions = add_positions(Positions<float>(mesh, order, centre, 12), 12, kGltfFloat, order.size());
     }
-    Json attributes{{"POSITION", positions}, {"NORMAL", add_normals(normals)}};
+    Json attributes{{"POSITION", positions}, {"NORMAL", data_.add_normals(normals)}};
     if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(colors);
     if (mesh.texture) attributes["TEXCOORD_0"] = add_uv(uv, order.size());
-    const std::size_t indices = add_indices(drawn.triangles, order.size());
+    const std::size_t indices = data_.add_indices(drawn.triangles, order.size());
     const Json primitive{{"attributes", attributes}, {"indices", indices}, {"material", add_material(mesh)}};
-    doc_["meshes"].push_back({{"name", named.name}, {"primitives", Json::array({primitive})}});
+    json()["meshes"].push_back({{"name", named.name}, {"primitives", Json::array({primitive})}});
   }
 
   template <class Number>
   std::size_t add_positions(const Positions<Number>& p, std::size_t stride, int type, std::size_t count) {
-    return add_accessor({{"bufferView", add_attributes(p.bytes, stride)},
-                         {"componentType", type},
-                         {"count", count},
-                         {"type", "VEC3"},
-                         {"min", p.min},
-                         {"max", p.max}});
-  }
-
-  std::size_t add_normals(const std::vector<std::array<float, 3>>& normals) {
-    Json accessor{{"bufferView", 0}, {"componentType", kFloat}, {"count", normals.size()}, {"type", "VEC3"}};
-    if (compressed_) {
-      quantized_ = true;
-      accessor["bufferView"] = add_attributes(octahedral(normals), 4, "OCTAHEDRAL");
-      accessor["componentType"] = kByte;
-      accessor["normalized"] = true;
-    } else {
-      const auto* const bytes = reinterpret_cast<const char*>(normals.data());
-      accessor["bufferView"] = add_attributes(std::string(bytes, normals.size() * sizeof normals[0]), 12);
-    }
-    return add_accessor(std::move(accessor));
+    return data_.add_attributes(
+        p.bytes, stride, {{"componentType", type}, {"count", count}, {"type", "VEC3"}, {"min", p.min}, {"max", p.max}});
   }
 
   std::size_t add_colors(const std::string& bytes) {
-    return add_accessor({{"bufferView", add_attributes(bytes, 4)},
-                         {"componentType", kUint8},
-                         {"normalized", true},
-                         {"count", bytes.size() / 4},
-                         {"type", "VEC4"}});
+    return data_.add_attributes(
+        bytes, 4, {{"componentType", kGltfUint8}, {"normalized", true}, {"count", bytes.size() / 4}, {"type", "VEC4"}});
   }
 
   /// Of the copies in `order`; 16-bit integers for [0, 1] where the mesh is compressed: a 16th of a texel.
@@ -211,20 +172,18 @@ class GlbBuilder {
     for (const std::uint32_t i : order) {
       for (const float x : mesh.uv[i]) {
         const auto integer = std::uint16_t(std::clamp(x, 0.0F, 1.0F) * 65535 + 0.5F);
-        compressed_ ? bytes.append(reinterpret_cast<const char*>(&integer), sizeof integer)
-                    : bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+        data_.is_compressed() ? bytes.append(reinterpret_cast<const char*>(&integer), sizeof integer)
+                              : bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
       }
     }
     return bytes;
   }
 
   std::size_t add_uv(const std::string& bytes, std::size_t count) {
-    Json accessor{{"bufferView", add_attributes(bytes, compressed_ ? 4 : 8)},
-                  {"componentType", compressed_ ? kUint16 : kFloat},
-                  {"count", count},
-                  {"type", "VEC2"}};
-    if (compressed_) accessor["normalized"] = true;
-    return add_accessor(std::move(accessor));
+    Json accessor{
+        {"componentType", data_.is_compressed() ? kGltfUint16 : kGltfFloat}, {"count", count}, {"type", "VEC2"}};
+    if (data_.is_compressed()) accessor["normalized"] = true;
+    return data_.add_attributes(bytes, data_.is_compressed() ? 4 : 8, std::move(accessor));
   }
 
   /// Its number.
@@ -236,72 +195,22 @@ class GlbBuilder {
       }
       return *plain_material_;
     }
-    const std::size_t offset = append(mesh.texture->image), number = doc_["textures"].size();
-    doc_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", mesh.texture->image.size()}});
-    doc_["images"].push_back({{"bufferView", doc_["bufferViews"].size() - 1}, {"mimeType", mesh.texture->type}});
-    doc_["samplers"] = Json::array({{{"magFilter", kLinear},
-                                     {"minFilter", kLinearMipmapLinear},
-                                     {"wrapS", kClampToEdge},
-                                     {"wrapT", kClampToEdge}}});
-    doc_["textures"].push_back({{"sampler", 0}, {"source", number}});
+    const std::size_t number = json()["textures"].size();
+    json()["images"].push_back(
+        {{"bufferView", data_.add_image_bytes(mesh.texture->image)}, {"mimeType", mesh.texture->type}});
+    json()["samplers"] = Json::array({{{"magFilter", kLinear},
+                                       {"minFilter", kLinearMipmapLinear},
+                                       {"wrapS", kClampToEdge},
+                                       {"wrapT", kClampToEdge}}});
+    json()["textures"].push_back({{"sampler", 0}, {"source", number}});
     materials_.push_back(gltf_textured_material(number, mesh.texture->has_holes));
     return materials_.size() - 1;
-  }
-
-  std::size_t add_attributes(const std::string& bytes, std::size_t stride, const char* filter = nullptr) {
-    Json view = add_view(bytes, stride, "ATTRIBUTES", compressed_ ? encode_attributes(bytes, stride) : bytes);
-    if (compressed_) view["byteStride"] = stride;
-    if (filter != nullptr) view["extensions"]["EXT_meshopt_compression"]["filter"] = filter;
-    view["target"] = kArrayBuffer;
-    doc_["bufferViews"].push_back(view);
-    return doc_["bufferViews"].size() - 1;
-  }
-
-  std::size_t add_indices(const TriangleIndices& triangles, std::size_t vertices) {
-    const bool narrow = vertices < 65535;  // the last one means "restart"
-    std::string bytes;
-    for (const auto& t : triangles) {
-      for (const std::uint32_t v : t) bytes.append(reinterpret_cast<const char*>(&v), narrow ? 2 : 4);
-    }
-    Json view =
-        add_view(bytes, narrow ? 2 : 4, "TRIANGLES", compressed_ ? encode_triangles(triangles, vertices) : bytes);
-    view["target"] = kElementArrayBuffer;
-    doc_["bufferViews"].push_back(view);
-    return add_accessor({{"bufferView", doc_["bufferViews"].size() - 1},
-                         {"componentType", narrow ? kUint16 : kUint32},
-                         {"count", 3 * triangles.size()},
-                         {"type", "SCALAR"}});
-  }
-
-  Json add_view(const std::string& bytes, std::size_t stride, const char* mode, const std::string& stored) {
-    const std::size_t offset = append(stored);
-    if (!compressed_) return {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes.size()}};
-    const Json packed{{"buffer", 0},          {"byteOffset", offset},           {"byteLength", stored.size()},
-                      {"byteStride", stride}, {"count", bytes.size() / stride}, {"mode", mode}};
-    const Json view{{"buffer", 1},
-                    {"byteOffset", fallback_},
-                    {"byteLength", bytes.size()},
-                    {"extensions", {{"EXT_meshopt_compression", packed}}}};
-    fallback_ += (bytes.size() + 3) / 4 * 4;
-    return view;
-  }
-
-  std::size_t append(const std::string& bytes) {
-    const std::size_t offset = data_.size();
-    data_ += bytes;
-    data_.append((4 - data_.size() % 4) % 4, '\0');
-    return offset;
-  }
-
-  std::size_t add_accessor(Json accessor) {
-    doc_["accessors"].push_back(std::move(accessor));
-    return doc_["accessors"].size() - 1;
   }
 
   Json node_of(const NamedMesh& named, const LatticeCoord* centre) {
     const GridFrame& frame = named.mesh->frame;
     const double u = frame.voxel / kLatticePerVoxel;
-    Json node{{"name", named.name}, {"mesh", doc_["meshes"].size() - 1}};
+    Json node{{"name", named.name}, {"mesh", json()["meshes"].size() - 1}};
     if (centre != nullptr) {
       node["translation"] = to_y_up(frame.up)(moved_exactly(frame, frame.world(*centre), origin_));
     }
@@ -310,18 +219,10 @@ class GlbBuilder {
   }
 
   const std::string file_;
-  const bool compressed_;
+  GlbData data_;
   const Vec3d origin_;
-  bool quantized_ = false;
   Json materials_ = Json::array();
   std::optional<std::size_t> plain_material_;
-  std::vector<std::string> used_;
-  Json doc_{{"nodes", Json::array()},
-            {"meshes", Json::array()},
-            {"accessors", Json::array()},
-            {"bufferViews", Json::array()}};
-  std::string data_;
-  std::size_t fallback_ = 0;  // bytes of the views uncompressed
 };
 
 }  // namespace

@@ -50,6 +50,7 @@ class Reader {
       if (root.object("asset").holds_text("extras", "up", name)) tileset.up = *up_axis_named(name);
     }
     tileset.geometric_error = number_of(json_, root, "geometricError");
+    tileset.images = images(root.object("asset"));
     tileset.root = tile(root.object("root"), json_["root"], 0);
     return tileset;
   }
@@ -72,11 +73,22 @@ class Reader {
     if (object.has("extras") && object.object("extras").has("cell")) {
       const auto cell = object.object("extras").numbers<6>("cell", {});
       tile.cell = Bounds3d{{cell[0], cell[1], cell[2]}, {cell[3], cell[4], cell[5]}};
+      tile.is_leaf = object.object("extras").has("leaf") && object.object("extras").flag("leaf");
     }
     if (object.has("children") && object.array("children").empty()) object.broken("has 'children', and none in it");
     for (std::size_t i = 0; i < object.array("children").size(); ++i)
       tile.children.push_back(this->tile(object.item("children", i), json["children"][i], depth + 1));
     return tile;
+  }
+
+  /// Of a tileset of ours; anything else there is someone else's business.
+  static std::vector<std::string> images(const GltfObject& asset) {
+    std::vector<std::string> images;
+    if (!asset.has("extras") || !asset.object("extras").has("images")) return images;
+    for (const GltfJson& name : asset.object("extras").array("images")) {
+      if (name.is_string()) images.push_back(name.get<std::string>());
+    }
+    return images;
   }
 
   static std::string content(const GltfObject& object) {
@@ -109,6 +121,7 @@ Json json_of(const Tile& tile) {
   if (tile.cell) {
     const auto& [min, max] = *tile.cell;
     json["extras"] = {{"cell", {min[0], min[1], min[2], max[0], max[1], max[2]}}};
+    if (tile.is_leaf) json["extras"]["leaf"] = true;
   }
   for (const Tile& child : tile.children) json["children"].push_back(json_of(child));
   return json;
@@ -124,6 +137,7 @@ std::string tileset_text(const Tileset& tileset, const std::vector<Provenance>& 
   Json asset = gltf_asset("bplod", provenance, tileset.up, {});
   asset["version"] = tileset.version;
   asset.erase("generator");
+  if (!tileset.images.empty()) asset["extras"]["images"] = tileset.images;
   const Json doc{{"asset", asset}, {"geometricError", tileset.geometric_error}, {"root", json_of(tileset.root)}};
   return doc.dump(1) + "\n";
 }

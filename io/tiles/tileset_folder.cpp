@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <iterator>
 #include <set>
 
 #include "io/files/file.h"
@@ -31,7 +32,9 @@ bool is_inside(const std::string& name) {
 
 std::vector<std::string> contents_of(const std::string& tileset) {
   std::vector<std::string> uris;
-  for_each_tile(read_tileset(tileset), [&](const Tile& tile, const std::string&, const Transform&) {
+  const Tileset read = read_tileset(tileset);
+  std::copy_if(read.images.begin(), read.images.end(), std::back_inserter(uris), is_inside);
+  for_each_tile(read, [&](const Tile& tile, const std::string&, const Transform&) {
     if (is_inside(tile.uri)) uris.push_back(tile.uri);
   });
   return uris;

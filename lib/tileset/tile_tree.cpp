@@ -16,6 +16,15 @@ Bounds3d cell_bounds(const Cells& cells, const GridFrame& frame, CellCoord cell)
   return bounds;
 }
 
+Bounds3d octant_of(const Bounds3d& box, int k) {
+  Bounds3d out = box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double middle = box.min[i] + (box.max[i] - box.min[i]) / 2;
+    ((k >> i & 1) != 0 ? out.min[i] : out.max[i]) = middle;
+  }
+  return out;
+}
+
 void TileTree::add(std::size_t level, const GridFrame& frame, CellCoord cell, TreeTile tile) {
   if (level != number_) {  // the level below is complete
     raise();
@@ -31,6 +40,40 @@ void TileTree::add(std::size_t level, const GridFrame& frame, CellCoord cell, Tr
   node.tile = std::move(tile);
   errors_.resize(level + 1);
   errors_[level] = std::max(errors_[level], node.tile.error_world);
+}
+
+void TileTree::add_leaf(const GridFrame& frame, CellCoord cell, TileLeaf leaf) {
+  frame_ = frame;
+  Node* node = &level_[cell];
+  if (!node->cell) {
+    node->cell = cell_bounds(cells_, frame_, cell);
+    node->tile.origin = leaf.tile.origin;
+  }
+  node->tile.bounds.merge(leaf.tile.bounds);
+  for (const char digit : leaf.path) {
+    const Bounds3d octant = octant_of(*node->cell, digit - '0');
+    const auto found = std::find_if(node->children.begin(), node->children.end(),
+                                    [&](const Node& child) { return child.cell == octant; });
+    if (found == node->children.end()) {
+      Node child;
+      child.tile.origin = node->tile.origin;
+      child.cell = octant;
+      node->children.push_back(std::move(child));
+      node = &node->children.back();
+    } else {
+      node = &*found;
+    }
+    node->tile.bounds.merge(leaf.tile.bounds);
+  }
+  Node end;
+  end.tile = std::move(leaf.tile);
+  end.cell = leaf.cell;
+  end.is_leaf = true;
+  if (leaf.path.empty()) {
+    node->children.push_back(std::move(end));
+  } else {
+    *node = std::move(end);
+  }
 }
 
 /// The cells above those of the level, with what lies in them. A cell above that gets no tile of its own has a node
@@ -97,6 +140,7 @@ Tile TileTree::tile_of(const Node& node, const Vec3d& parent, double above) cons
   if (node.cell) tile.cell = local(*node.cell, node.tile.origin);
   tile.geometric_error = node.tile.uri.empty() ? above : node.tile.error_world;
   tile.uri = node.tile.uri;
+  tile.is_leaf = node.is_leaf;
   for (const Node& child : node.children)
     tile.children.push_back(tile_of(child, node.tile.origin, tile.geometric_error));
   return tile;

@@ -17,6 +17,13 @@ struct TreeTile {
   double error_world = 0;
 };
 
+/// A piece of the scene as it is, below a tile: for its cell, or for octants of it (a digit each: octant_of()).
+struct TileLeaf {
+  TreeTile tile;
+  Bounds3d cell;
+  std::string path;
+};
+
 /// Puts the tiles of all levels together: the root above, each tile above the eight cells that its own is made of; a
 /// level in one mesh is a chain of its own on top.
 class TileTree {
@@ -25,6 +32,8 @@ class TileTree {
 
   /// A tile of level `level`, which is cut; `frame`: of the level. Levels come finest first.
   void add(std::size_t level, const GridFrame& frame, CellCoord cell, TreeTile tile);
+  /// Below the tile of a cell of the finest level, which is there already if that level is cut.
+  void add_leaf(const GridFrame& frame, CellCoord cell, TileLeaf leaf);
   /// A level in one mesh, after all that are cut; coarser ones follow.
   void add_whole(TreeTile tile);
 
@@ -38,6 +47,7 @@ class TileTree {
     TreeTile tile;
     std::optional<Bounds3d> cell;  ///< empty if no level is cut into tiles
     std::vector<Node> children;
+    bool is_leaf = false;
   };
   using Level = std::map<CellCoord, Node>;
 
@@ -55,6 +65,8 @@ class TileTree {
   std::vector<double> errors_;
 };
 
+/// Octant k of a box: bit i of k says which half along axis i.
+[[nodiscard]] Bounds3d octant_of(const Bounds3d& box, int k);
 /// Bounds of a cell of a level, scene units.
 [[nodiscard]] Bounds3d cell_bounds(const Cells& cells, const GridFrame& frame, CellCoord cell);
 

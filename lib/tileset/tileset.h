@@ -32,6 +32,7 @@ struct Tile {
   /// Cell of the tile, in its own space: it answers for the scene in it (lib/check/tile_cover.h). Ours only
   /// (extras.cell); none: for all of the scene.
   std::optional<Bounds3d> cell;
+  bool is_leaf = false;  ///< its content is a piece of the scene itself; ours only (extras.leaf)
   std::vector<Tile> children;
 };
 
@@ -39,6 +40,7 @@ struct Tileset {
   std::string version = "1.1";
   UpAxis up = UpAxis::z;  ///< of the scene it was made from; ours only (asset.extras.up)
   double geometric_error = 0;
+  std::vector<std::string> images;  ///< files that contents share; ours only (asset.extras.images)
   Tile root;
 };
 

@@ -68,7 +68,7 @@ double texture_reach(double error_world, double scale_world, double voxel) {
 
 std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& memory) {
   SceneOptions scene = build.scene_options(true);
-  scene.colors = true;
+  scene.colors = build.options.colors();
   scene.textures = build.textures();
   const auto source = open_scenes(build.options.voxels.scenes, scene);
   const SceneLooks::Scene read{*source, build.scene_size().bounds, build.scene_size().triangles, build.textures()};

@@ -192,7 +192,7 @@ LodOptions Build::lod_options() {
 }
 
 void Build::hold_looks() {
-  if (!textured_) return;
+  if (!textured_ && !options.leaves) return;
   report.begin("textures");
   looks_ = read_looks(*this, part_of(budget.work, 0.4));
 }
@@ -226,7 +226,7 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
     colors_->prepare(level.mesh.frame);
     color_vertices(level.mesh, colors_->all(level.mesh.frame));
   }
-  if (looks_ != nullptr)
+  if (looks() != nullptr)
     level.mesh.texture =
         level_texture(*this, level.mesh, level.error_world, level.scale_world, *looks_, texture_memory());
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);

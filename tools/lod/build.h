@@ -51,10 +51,11 @@ class Build {
   [[nodiscard]] const std::shared_ptr<TextureTable>& textures() const { return textures_; }  ///< null: not wanted
   [[nodiscard]] const SceneSize& scene_size() const { return size_; }                        ///< after voxelize()
   /// From now on levels get their textures as they are made, and half of the memory for work is for the scene's looks.
-  /// Does nothing if the levels get none.
+  /// Does nothing if neither levels nor leaves need them.
   void hold_looks();
-  [[nodiscard]] const SceneLooks* looks() const { return looks_.get(); }  ///< null: not held
-  [[nodiscard]] MemoryShare texture_memory() const;                       ///< for each image that is baked meanwhile
+  [[nodiscard]] const SceneLooks* looks() const { return textured_ ? looks_.get() : nullptr; }  ///< null: not held
+  [[nodiscard]] const SceneLooks* scene_looks() const { return looks_.get(); }  ///< also where only leaves need them
+  [[nodiscard]] MemoryShare texture_memory() const;  ///< for each image that is baked meanwhile
   /// Stages go to the report; levels get colours and provenance. `input_hash`: of the scene, for the latter.
   [[nodiscard]] LevelSteps level_steps(std::function<std::string()> input_hash);
 

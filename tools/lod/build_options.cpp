@@ -83,7 +83,7 @@ void check_profile(const Args& args, const BuildOptions& o) {
       if (args.given(name) && o.profile != profile)
         fail(ErrorCode::bad_argument, "{} needs --profile {}", name, name_of(profile));
   };
-  needs({"--tile", "--tiles", "--cache"}, LodProfile::tiles);
+  needs({"--tile", "--tiles", "--cache", "--leaves"}, LodProfile::tiles);
   needs({"--hulls"}, LodProfile::collision);
   if (o.is_tileset() && args.given("--origin"))
     fail(ErrorCode::bad_argument,
@@ -99,6 +99,8 @@ void check_profile(const Args& args, const BuildOptions& o) {
     fail(ErrorCode::bad_argument, "--profile collision needs --mode bounding");
   if (o.proxy.mode == MeshMode::fit && args.given("--enclose"))
     fail(ErrorCode::bad_argument, "a fit encloses nothing and is not tightened; --enclose has no meaning");
+  if (o.leaves && !can_read_again(o))
+    fail(ErrorCode::bad_argument, "--leaves scene: a scene from a pipe cannot be read again; give it as a file");
   const bool scene = o.proxy.enclose.kind == EncloseOption::Kind::scene;
   if (scene && o.is_tileset())
     fail(ErrorCode::bad_argument, "--enclose scene: tiles enclose voxels; leave it out, or take another --profile");
@@ -176,6 +178,11 @@ void declare_profile(Args& args, BuildOptions& o) {
 void declare_tileset(Args& args, BuildOptions& o) {
   args.group("Tileset");
   args.option("--tile", "N", o.tile_vox, "voxels along the side of a tile; a level that is larger is cut into tiles");
+  args.option(
+      "--leaves",
+      {{"none", false, "the finest level ends the tileset"},
+       {"scene", true, "the scene's own triangles, colours and images, cut along the tiles, are shown up close"}},
+      o.leaves, "what lies below the finest level");
   args.option(
       "--cache", "DIR", o.cache,
       "keep the results of all jobs in DIR, and take from there what has not changed; a run that was killed goes "
@@ -270,6 +277,7 @@ Json options_json(const BuildOptions& o) {
           {"tile", o.tile_vox},
           {"hulls", o.hulls > 0 ? Json(o.hulls) : Json(nullptr)},
           {"cache", !o.cache.empty()},
+          {"leaves", o.leaves ? "scene" : "none"},
           {"tiles", o.tiles ? Json{o.tiles->begin, o.tiles->end} : Json(nullptr)},
           {"explain", o.explain},
           {"scale", optional_json(o.closing.scale)},

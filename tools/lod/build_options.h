@@ -37,6 +37,7 @@ struct BuildOptions {
   std::int32_t tile_vox = 512;    ///< edge of a cell of a tileset
   std::int64_t hulls = 0;         ///< of a collision mesh, at most; 0: kMostHulls, or as many as parts
   std::string cache;              ///< folder of results of earlier builds; empty: none
+  bool leaves = false;            ///< below the finest level are the scene's own triangles
   std::optional<JobRange> tiles;  ///< the jobs to do, without a tileset; empty: all, and the tileset
   bool explain = false;           ///< print the plan; do nothing
   Appearance appearance = Appearance::automatic;

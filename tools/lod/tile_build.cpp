@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "io/mesh/lod_writer.h"
 #include "io/store/result_store.h"
@@ -12,11 +13,13 @@
 #include "lib/core/parallel.h"
 #include "lib/levels/cut_levels.h"
 #include "lib/levels/whole_levels.h"
+#include "lib/pass/leaf/scene_leaf.h"
 #include "lib/store/hex.h"
 #include "tools/lod/bake_levels.h"
 #include "tools/lod/build.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/kept_results.h"
+#include "tools/lod/leaves.h"
 #include "tools/lod/lod_outputs.h"
 
 namespace bp {
@@ -59,7 +62,9 @@ struct MadeTileset {
   std::vector<FoundJobs> found;
   // Of a whole tileset only:
   std::vector<LevelRow> rows;
+  std::optional<LevelRow> leaves;
   std::vector<Waiting> files;
+  std::map<std::string, std::uint32_t> images;  ///< that leaves show: numbers in the scene's TextureSet
   std::optional<TileTree> tree;
   std::vector<Provenance> provenance;  ///< empty: each tile has its own
 };
@@ -141,6 +146,20 @@ void finish(const Shop& shop, std::size_t number, const CutLevel& cut, LevelAtWo
   if (asked > 0 && level.row.error_world > asked) shop.build.note(error_note(number, level.row.error_world, asked));
 }
 
+/// The scene itself below the tiles of the finest level, which are there.
+void add_leaves(const Shop& shop, const std::vector<CellCoord>& cells, const GridFrame& frame, MadeTileset& made) {
+  if (!shop.options().leaves || shop.task != Task::tileset) return;
+  shop.build.report.begin("leaves");
+  MadeLeaves leaves = make_leaves(shop.build, {frame, cells, shop.results, shop.files});
+  for (auto& [cell, leaf] : leaves.places) made.tree->add_leaf(frame, cell, std::move(leaf));
+  for (LeafFile& file : leaves.files) made.files.push_back({std::move(file.name), file.content});
+  made.images = std::move(leaves.images);
+  LevelRow row{leaf_folder(shop.options()) + "/*.glb", leaves.files.size(), leaves.triangles, leaves.bytes};
+  row.error_world = leaf_error(leaf_unit(frame.voxel, shop.options().tile_vox));
+  row.more = {{"kept", leaves.kept}};
+  made.leaves = std::move(row);
+}
+
 /// The levels of more than one cell.
 void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<TriangleD>& scene, MadeTileset& made) {
   const BuildOptions& o = shop.options();
@@ -166,7 +185,12 @@ void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<Triangle
                          take(shop, std::move(tile), made.plan.cut[i], level_name(o.name, i), levels[i], made.files);
                        }};
   make_cut_levels(pyramid, made.plan, cut, steps);
-  for (std::size_t i = 0; i < levels.size(); ++i) finish(shop, i, made.plan.cut[i], levels[i], made);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    finish(shop, i, made.plan.cut[i], levels[i], made);
+    std::vector<CellCoord> cells;
+    for (const auto& [cell, node] : levels[i].tiles) cells.push_back(cell);
+    if (i == 0) add_leaves(shop, cells, made.plan.cut[i].frame, made);
+  }
 }
 
 /// Everything that files of levels in one mesh depend on, beside what WholeInput says: names and provenance.
@@ -254,6 +278,7 @@ MadeTileset make_tileset(const Shop& shop) {
         fmt::format("the coarsest level has {} tiles, and nothing is drawn instead of them from afar: it takes {} "
                     "levels to come to one mesh, or larger tiles",
                     made.rows.back().tiles, levels_to_one_mesh(request, shop.cells(), header)));
+  if (made.plan.cut.empty()) add_leaves(shop, {cells_spanned(shop.cells(), header.bricks).first}, header.frame, made);
   if (made.plan.whole > 0 && shop.wants(made.plan.whole_number(), 1))
     make_whole(shop, pyramid, std::move(lod), request, made);
   return made;
@@ -268,7 +293,7 @@ OptionText tileset_options(const MadeTileset& made, std::int32_t tile_vox) {
 
 void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
   shop.build.report.begin("write");
-  const Tileset tileset = made.tree->finish(made.scene.header.bounds.diagonal());
+  Tileset tileset = made.tree->finish(made.scene.header.bounds.diagonal());
   for (std::size_t i = 0; i < made.rows.size(); ++i) made.rows[i].error_world = made.tree->error_of(i);
   if (made.provenance.empty())
     made.provenance = {
@@ -280,6 +305,13 @@ void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
     folder.write(file.name, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     shop.files->drop(file.content);
   });
+  for (const auto& [name, number] : made.images) {
+    const std::vector<std::byte> bytes = shop.build.textures()->file(number);
+    tileset.images.push_back(leaf_folder(shop.options()) + "/" + name);
+    folder.write(tileset.images.back(), std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    if (made.leaves) made.leaves->bytes += bytes.size();
+  }
+  if (made.leaves) made.rows.insert(made.rows.begin(), *made.leaves);
   folder.write("tileset.json", tileset_text(tileset, made.provenance));
   folder.commit();
   if (!folder.complaint().empty())
@@ -290,6 +322,7 @@ void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
 /// Of the levels that were asked for: each is one mesh, or a folder of tiles.
 std::vector<std::string> certain_names(const BuildOptions& o) {
   std::vector<std::string> names;
+  if (o.leaves) names.push_back(leaf_folder(o));
   for (std::size_t i = 0; i < level_count(request_of(o)); ++i) {
     names.push_back(level_name(o.name, i));
     names.push_back(names.back() + ".glb");

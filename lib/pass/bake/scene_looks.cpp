@@ -10,6 +10,7 @@
 #include "lib/pass/bake/detail/look_blocks.h"
 #include "lib/pass/bake/detail/scene_eye.h"
 #include "lib/pass/bake/detail/triangle_sorter.h"
+#include "lib/pass/bake/textured_triangle.h"
 #include "lib/store/content_hash.h"
 #include "lib/store/packing.h"
 
@@ -102,26 +103,36 @@ void SceneLooks::note_image(std::uint32_t material) {
   noted.key = content_hash(std::as_bytes(std::span(all)));
 }
 
+void SceneLooks::visit(const Bounds3d& box, const std::function<void(const TexturedTriangle&)>& f) const {
+  blocks_->visit(box, [&](std::uint32_t block) {
+    for (const TexturedTriangle& t : blocks_->load(block)) {
+      if (overlap(bounds_of(t.corners), box)) f(t);
+    }
+  });
+}
+
 /// A sum of the hashes of triangles: it does not depend on their order, and little is in memory.
-void SceneLooks::add_to(KeyHash& hash, const Bounds3d& box) const {
+void SceneLooks::add_triangles_to(KeyHash& hash, const Bounds3d& box) const {
   std::array<std::uint64_t, 2> sum{};
   std::uint64_t count = 0;
   ContentHash one;
-  blocks_->visit(box, [&](std::uint32_t block) {
-    for (const TexturedTriangle& t : blocks_->load(block)) {
-      if (!overlap(bounds_of(t.corners), box)) continue;
-      one.reset();
-      one.add(std::as_bytes(std::span(t.corners)));
-      one.add(std::as_bytes(std::span(t.colors)));
-      if (t.texture.material != TriangleTexture::kNoMaterial) {
-        one.add(std::as_bytes(std::span(t.texture.uv)));
-        one.add(std::as_bytes(std::span(materials_[t.texture.material].key.words)));
-      }
-      for (std::size_t i = 0; i < 2; ++i) sum[i] += one.value().words[i];
-      ++count;
+  visit(box, [&](const TexturedTriangle& t) {
+    one.reset();
+    one.add(std::as_bytes(std::span(t.corners)));
+    one.add(std::as_bytes(std::span(t.colors)));
+    if (t.texture.material != TriangleTexture::kNoMaterial) {
+      one.add(std::as_bytes(std::span(t.texture.uv)));
+      one.add(std::as_bytes(std::span(materials_[t.texture.material].key.words)));
     }
+    for (std::size_t i = 0; i < 2; ++i) sum[i] += one.value().words[i];
+    ++count;
   });
-  hash.add(count, sum, finest_texel_);
+  hash.add(count, sum);
+}
+
+void SceneLooks::add_to(KeyHash& hash, const Bounds3d& box) const {
+  add_triangles_to(hash, box);
+  hash.add(finest_texel_);
 }
 
 std::vector<std::string> SceneLooks::faults() const {

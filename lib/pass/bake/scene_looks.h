@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@ namespace bp {
 class ImageCache;
 class LookBlock;
 class LookBlocks;
+struct TexturedTriangle;
 
 /// Red, green and blue in linear light, from 0 to 1, and how much of what is behind is covered.
 struct Look {
@@ -46,6 +48,16 @@ class SceneLooks {
   [[nodiscard]] double finest_texel() const { return finest_texel_; }
   /// Everything within `box`, images included, and finest_texel().
   void add_to(KeyHash& hash, const Bounds3d& box) const;
+  /// The same without finest_texel().
+  void add_triangles_to(KeyHash& hash, const Bounds3d& box) const;
+  /// Calls f for each triangle whose bounds meet the box, in any order. Thread-safe; in memory is one block.
+  void visit(const Bounds3d& box, const std::function<void(const TexturedTriangle&)>& f) const;
+  /// Hash of all that decides how a material of the scene looks; zeros for TriangleTexture::kNoMaterial.
+  [[nodiscard]] ResultKey key_of(std::uint32_t material) const {
+    return material == TriangleTexture::kNoMaterial ? ResultKey{} : materials_[material].key;
+  }
+  /// Null if nobody asked for them.
+  [[nodiscard]] const TextureSet* images() const { return images_.get(); }
   /// What is wrong with images that were wanted so far.
   [[nodiscard]] std::vector<std::string> faults() const;
 

@@ -4,7 +4,7 @@
 
 #include "lib/core/lru_cache.h"
 #include "lib/geometry/triangle_bvh.h"
-#include "lib/pass/bake/detail/textured_triangle.h"
+#include "lib/pass/bake/textured_triangle.h"
 #include "lib/store/scratch.h"
 
 namespace bp {

@@ -63,11 +63,8 @@ void SceneEye::find_candidates(const Bounds3d& box, double most, const Distance&
 }
 
 bool SceneEye::before(const LookBlock& a, std::uint32_t item_a, const LookBlock& b, std::uint32_t item_b) const {
-  const auto key = [&](const TriangleTexture& t) {
-    return t.material == TriangleTexture::kNoMaterial ? ResultKey{} : looks_.materials_[t.material].key;
-  };
   const TriangleTexture &s = a.texture(item_a), &t = b.texture(item_b);
-  if (const ResultKey k = key(s), l = key(t); k.words != l.words) return k.words < l.words;
+  if (const ResultKey k = looks_.key_of(s.material), l = looks_.key_of(t.material); k.words != l.words) return k.words < l.words;
   if (a.colors(item_a) != b.colors(item_b)) return a.colors(item_a) < b.colors(item_b);
   return std::tuple(bits_of(s), a.triangles().item(item_a).corners) <
          std::tuple(bits_of(t), b.triangles().item(item_b).corners);

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/pass/bake/detail/textured_triangle.h"
+#include "lib/pass/bake/textured_triangle.h"
 #include "lib/store/scratch.h"
 
 namespace bp {

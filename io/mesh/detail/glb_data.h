@@ -1,0 +1,56 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "io/gltf/glb_file.h"
+#include "io/gltf/meshopt_codec.h"
+
+/// Arrays of a GLB that is being written, plain or with EXT_meshopt_compression.
+namespace bp {
+
+constexpr int kGltfByte = 5120, kGltfUint8 = 5121, kGltfShort = 5122, kGltfUint16 = 5123, kGltfUint32 = 5125,
+              kGltfFloat = 5126;
+
+class GlbData {
+ public:
+  explicit GlbData(bool compressed) : compressed_(compressed) {}
+
+  [[nodiscard]] bool is_compressed() const { return compressed_; }
+  /// The file uses it; `required`: and cannot be shown without.
+  void use(const std::string& extension, bool required);
+  /// What is quantized needs KHR_mesh_quantization; once.
+  void quantize() { quantized_ = true; }
+
+  /// An accessor of a new view; `accessor` has all but the view. `filter`: of EXT_meshopt_compression.
+  std::size_t add_attributes(const std::string& bytes, std::size_t stride, GltfOutJson accessor,
+                             const char* filter = nullptr);
+  std::size_t add_indices(const TriangleIndices& triangles, std::size_t vertices);
+  /// Bytes that are an image; the number of their view.
+  std::size_t add_image_bytes(const std::string& bytes);
+  /// As octahedral bytes where the file is compressed.
+  std::size_t add_normals(const std::vector<std::array<float, 3>>& normals);
+
+  /// What goes into the document beside accessors and views: nodes, meshes, materials ...
+  [[nodiscard]] GltfOutJson& json() { return doc_; }
+  /// The whole, with `json` first.
+  [[nodiscard]] std::string document(GltfOutJson asset, const std::vector<std::size_t>& roots);
+  [[nodiscard]] const std::string& bytes() const { return data_; }
+
+ private:
+  [[nodiscard]] GltfOutJson add_view(const std::string& bytes, std::size_t stride, const char* mode,
+                                     const std::string& stored);
+  std::size_t append(const std::string& bytes);
+  std::size_t add_accessor(GltfOutJson accessor);
+
+  const bool compressed_;
+  bool quantized_ = false;
+  std::vector<std::string> used_, required_;
+  GltfOutJson doc_{{"nodes", GltfOutJson::array()},
+                   {"meshes", GltfOutJson::array()},
+                   {"accessors", GltfOutJson::array()},
+                   {"bufferViews", GltfOutJson::array()}};
+  std::string data_;
+  std::size_t fallback_ = 0;  // bytes of the views uncompressed
+};
+
+}  // namespace bp

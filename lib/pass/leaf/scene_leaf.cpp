@@ -1,0 +1,190 @@
+#include "lib/pass/leaf/scene_leaf.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+#include "lib/core/vec3.h"
+#include "lib/geometry/triangle_bvh.h"
+#include "lib/pass/bake/textured_triangle.h"
+#include "lib/pass/leaf/detail/corner_normals.h"
+#include "lib/pass/leaf/detail/cut_triangle.h"
+#include "lib/tileset/tile_tree.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::size_t kMostDeep = 12;  // octants of octants
+constexpr double kAround = 0.125;      // of a box's side: as far normals of faces are joined
+
+Bounds3d grown(const Bounds3d& box) {
+  Bounds3d out = box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double by = kAround * (box.max[i] - box.min[i]);
+    out.min[i] -= by;
+    out.max[i] += by;
+  }
+  return out;
+}
+
+/// In an order that depends on nothing but what they are.
+std::vector<TexturedTriangle> triangles_in(const SceneLooks& looks, const Bounds3d& box) {
+  std::vector<TexturedTriangle> all;
+  looks.visit(box, [&](const TexturedTriangle& t) { all.push_back(t); });
+  const auto bits = [](const TriangleTexture& t) {
+    return std::bit_cast<std::array<std::array<std::uint32_t, 2>, 3>>(t.uv);
+  };
+  const auto key = [&](const TriangleTexture& t) { return looks.key_of(t.material); };
+  std::sort(all.begin(), all.end(), [&](const TexturedTriangle& a, const TexturedTriangle& b) {
+    return std::tuple(a.corners, key(a.texture), a.colors, bits(a.texture)) <
+           std::tuple(b.corners, key(b.texture), b.colors, bits(b.texture));
+  });
+  return all;
+}
+
+/// A part while it grows.
+struct GrowingPart {
+  LeafPart part;
+  struct Hash {
+    std::size_t operator()(const LeafVertex& v) const {
+      std::uint64_t h = 0;
+      const auto mix = [&h](std::uint64_t x) { h = (h ^ x) * 0x9E3779B97F4A7C15, h ^= h >> 29; };
+      for (const std::int32_t x : v.at) mix(std::uint32_t(x));
+      for (const float x : v.normal) mix(std::bit_cast<std::uint32_t>(x));
+      for (const float x : v.uv) mix(std::bit_cast<std::uint32_t>(x));
+      mix(std::uint64_t(v.color.r) << 32 | std::uint64_t(v.color.g) << 16 | v.color.b);
+      return std::size_t(h);
+    }
+  };
+  std::unordered_map<LeafVertex, std::uint32_t, Hash> numbers;
+
+  std::uint32_t number_of(const LeafVertex& v) {
+    const auto [found, is_new] = numbers.try_emplace(v, std::uint32_t(part.vertices.size()));
+    if (is_new) part.vertices.push_back(v);
+    return found->second;
+  }
+};
+
+class LeafCutter {
+ public:
+  LeafCutter(const SceneLooks& looks, const Bounds3d& box, double unit) : looks_(looks), box_(box) {
+    for (std::size_t i = 0; i < 3; ++i) leaf_.origin[i] = box.min[i] + (box.max[i] - box.min[i]) / 2;
+    leaf_.unit = unit;
+  }
+
+  SceneLeaf run() {
+    const Bounds3d around = grown(box_);
+    const std::vector<TexturedTriangle> all = triangles_in(looks_, around);
+    std::vector<TriangleD> corners;
+    corners.reserve(all.size());
+    for (const TexturedTriangle& t : all) corners.push_back(t.corners);
+    const std::vector<std::array<Vec3d, 3>> normals = corner_normals(corners, around);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (overlap(bounds_of(all[i].corners), box_)) add(all[i], normals[i]);
+    }
+    for (auto& [key, growing] : parts_) {
+      if (!growing.part.triangles.empty()) leaf_.parts.push_back(std::move(growing.part));
+    }
+    return std::move(leaf_);
+  }
+
+ private:
+  void add(const TexturedTriangle& t, const std::array<Vec3d, 3>& normals) {
+    const bool textured = t.texture.material != TriangleTexture::kNoMaterial;
+    std::array<CutPoint, 3> triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangle[k] = {
+          t.corners[k], normals[k], {}, {double(t.colors[k].r), double(t.colors[k].g), double(t.colors[k].b)}};
+      for (std::size_t i = 0; i < 2 && textured; ++i)
+        triangle[k].uv[i] = std::isfinite(t.texture.uv[k][i]) ? double(t.texture.uv[k][i]) : 0;
+    }
+    const std::vector<CutPoint> polygon = cut_triangle(triangle, box_);
+    if (polygon.empty()) return;
+    GrowingPart& growing = parts_[looks_.key_of(t.texture.material)];
+    growing.part.material = t.texture.material;
+    std::vector<LeafVertex> corners;
+    for (const CutPoint& p : polygon) corners.push_back(vertex_of(p));
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) add_face(growing, corners[0], corners[i], corners[i + 1]);
+  }
+
+  void add_face(GrowingPart& growing, const LeafVertex& a, const LeafVertex& b, const LeafVertex& c) {
+    std::array<std::int64_t, 3> u{}, v{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      u[i] = std::int64_t(b.at[i]) - a.at[i];
+      v[i] = std::int64_t(c.at[i]) - a.at[i];
+    }
+    const bool flat = u[1] * v[2] == u[2] * v[1] && u[2] * v[0] == u[0] * v[2] && u[0] * v[1] == u[1] * v[0];
+    if (flat) return;
+    growing.part.triangles.push_back({growing.number_of(a), growing.number_of(b), growing.number_of(c)});
+    for (const LeafVertex* p : {&a, &b, &c}) {
+      Vec3d at;
+      for (std::size_t i = 0; i < 3; ++i) at[i] = leaf_.origin[i] + leaf_.unit * p->at[i];
+      leaf_.bounds.add(at);
+    }
+  }
+
+  [[nodiscard]] LeafVertex vertex_of(const CutPoint& p) const {
+    LeafVertex v;
+    const double l = length(p.normal);
+    for (std::size_t i = 0; i < 3; ++i) {
+      v.at[i] = std::int32_t(std::nearbyint(p.at[i] / leaf_.unit) - std::nearbyint(leaf_.origin[i] / leaf_.unit));
+      v.normal[i] = float(l > 0 ? p.normal[i] / l : double(i == 2));
+    }
+    v.uv = {float(p.uv[0]), float(p.uv[1])};
+    const auto rounded = [](double c) { return std::uint16_t(std::clamp(c, 0.0, 65535.0) + 0.5); };
+    v.color = {rounded(p.color[0]), rounded(p.color[1]), rounded(p.color[2])};
+    return v;
+  }
+
+  const SceneLooks& looks_;
+  const Bounds3d box_;
+  SceneLeaf leaf_;
+  std::map<ResultKey, GrowingPart> parts_;  // by all that decides how it looks
+};
+
+void find_boxes(const SceneLooks& looks, const LeafBox& at, std::vector<LeafBox>& out) {
+  std::uint64_t triangles = 0;
+  looks.visit(at.box, [&](const TexturedTriangle&) { ++triangles; });
+  if (triangles == 0) return;
+  if (triangles <= kMostLeafTriangles || at.path.size() == kMostDeep) return out.push_back(at);
+  for (int k = 0; k < 8; ++k) find_boxes(looks, {octant_of(at.box, k), at.path + char('0' + k)}, out);
+}
+
+}  // namespace
+
+std::uint64_t SceneLeaf::triangles() const {
+  std::uint64_t n = 0;
+  for (const LeafPart& part : parts) n += part.triangles.size();
+  return n;
+}
+
+std::vector<LeafBox> leaf_boxes(const SceneLooks& looks, const Bounds3d& cell) {
+  std::vector<LeafBox> boxes;
+  find_boxes(looks, {cell, ""}, boxes);
+  return boxes;
+}
+
+double leaf_unit(double voxel, std::int32_t edge_vox) {
+  constexpr int kFloatBits = 24;
+  const auto half = std::uint32_t(edge_vox + 1) / 2;
+  return std::ldexp(voxel, int(std::bit_width(half - 1)) - kFloatBits);
+}
+
+double leaf_error(double unit) {
+  return unit * 0.87;  // half a diagonal, and what doubles round
+}
+
+void add_leaf_to(KeyHash& hash, const SceneLooks& looks, const Bounds3d& box) {
+  hash.add(box);
+  looks.add_triangles_to(hash, grown(box));
+}
+
+SceneLeaf cut_leaf(const SceneLooks& looks, const Bounds3d& box, double unit) {
+  return LeafCutter(looks, box, unit).run();
+}
+
+}  // namespace bp

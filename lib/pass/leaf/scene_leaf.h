@@ -1,0 +1,58 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "lib/pass/bake/scene_looks.h"
+
+/// Pieces of a scene as it is: its own triangles, cut by the faces of boxes (docs/decisions/0024-leaves.md).
+namespace bp {
+
+/// Positions are whole multiples of a short double, so that float32 holds them, and neighbours agree.
+struct LeafVertex {
+  std::array<std::int32_t, 3> at{};  ///< from SceneLeaf::origin, in units
+  std::array<float, 3> normal{};     ///< of length 1
+  std::array<float, 2> uv{};
+  LinearColor color;
+  friend auto operator<=>(const LeafVertex&, const LeafVertex&) = default;
+};
+
+/// Triangles that look alike.
+struct LeafPart {
+  std::uint32_t material = TriangleTexture::kNoMaterial;
+  std::vector<LeafVertex> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+struct SceneLeaf {
+  Vec3d origin{};
+  double unit = 0;  ///< scene units
+  std::vector<LeafPart> parts;
+  Bounds3d bounds;  ///< of the vertices, scene units
+  [[nodiscard]] std::uint64_t triangles() const;
+};
+
+/// A box, and the octants from the cell to it: a digit each (octant_of()).
+struct LeafBox {
+  Bounds3d box;
+  std::string path;
+};
+
+/// Triangles that meet a leaf, at most, unless smaller boxes do not help.
+constexpr std::uint64_t kMostLeafTriangles = std::uint64_t(1) << 16;
+
+/// A cell, or octants of it that have few enough triangles; none where there are no triangles.
+[[nodiscard]] std::vector<LeafBox> leaf_boxes(const SceneLooks& looks, const Bounds3d& cell);
+
+/// The lattice of all leaves of cells with `edge_vox` voxels of `voxel`: float32 holds half a cell of its units.
+[[nodiscard]] double leaf_unit(double voxel, std::int32_t edge_vox);
+/// No vertex of a leaf lies farther than this from where it is in the scene.
+[[nodiscard]] double leaf_error(double unit);
+
+/// Everything that decides cut_leaf().
+void add_leaf_to(KeyHash& hash, const SceneLooks& looks, const Bounds3d& box);
+
+/// The scene in the closed box. Where the scene has no normals, those of faces that meet at less than kCreaseDegrees
+/// are joined. The same for any order of the scene's triangles. Memory: 500 bytes for each of them.
+[[nodiscard]] SceneLeaf cut_leaf(const SceneLooks& looks, const Bounds3d& box, double unit);
+
+}  // namespace bp

@@ -1,0 +1,223 @@
+#include "tools/lod/leaves.h"
+
+#include <algorithm>
+#include <mutex>
+#include <set>
+
+#include "io/mesh/leaf_writer.h"
+#include "lib/core/parallel.h"
+#include "lib/pass/bake/textured_triangle.h"
+#include "lib/pass/leaf/scene_leaf.h"
+#include "lib/store/content_hash.h"
+#include "lib/store/hex.h"
+#include "lib/store/packing.h"
+#include "lib/store/result_key.h"
+#include "tools/run/provenance.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::uint64_t kBytesPerLeaf = kMostLeafTriangles * 1000;  // while it is cut and written
+
+/// Of the first bytes.
+const char* extension_of(std::span<const std::byte> file) {
+  const auto at = [&](std::size_t i) { return i < file.size() ? std::to_integer<int>(file[i]) : 0; };
+  return at(0) == 0xFF ? "jpg" : at(0) == 'R' ? "webp" : "png";
+}
+
+/// Names of images by what they hold: a changed image has another name.
+class ImageNames {
+ public:
+  explicit ImageNames(const TextureSet* images) : images_(images) {}
+
+  /// Empty if it is missing or broken.
+  std::string operator()(std::uint32_t image) {
+    const std::lock_guard lock(mutex_);
+    const auto [found, is_new] = names_.try_emplace(image);
+    if (is_new && images_->size(image)[0] > 0) {
+      const std::vector<std::byte> file = images_->file(image);
+      const ResultKey hash = content_hash(file);
+      found->second = hex_of(hash.words[0], hash.words[1]) + "." + extension_of(file);
+      number_.try_emplace(found->second, image);
+    }
+    return found->second;
+  }
+  /// Of a name that was given.
+  [[nodiscard]] std::uint32_t number_of(const std::string& name) const { return number_.at(name); }
+
+ private:
+  const TextureSet* images_;
+  std::mutex mutex_;
+  std::map<std::uint32_t, std::string> names_;
+  std::map<std::string, std::uint32_t> number_;
+};
+
+/// A leaf as the store keeps it.
+struct KeptLeaf {
+  Bounds3d bounds;
+  std::uint64_t triangles = 0;
+  std::string content;
+};
+
+std::string packed(const KeptLeaf& leaf) {
+  std::string bytes;
+  pack(bytes, leaf.bounds);
+  pack(bytes, leaf.triangles);
+  return bytes + leaf.content;
+}
+
+bool unpack_leaf(std::string_view bytes, KeptLeaf& leaf) {
+  if (!unpack(bytes, leaf.bounds) || !unpack(bytes, leaf.triangles)) return false;
+  leaf.content = bytes;
+  return true;
+}
+
+class LeafMaker {
+ public:
+  LeafMaker(const Build& build, const LeafTask& task)
+      : build_(build),
+        task_(task),
+        looks_(*build.scene_looks()),
+        cells_{build.options.tile_vox},
+        unit_(leaf_unit(task.frame.voxel, build.options.tile_vox)),
+        names_(looks_.images()) {
+    provenance_ = {make_provenance("bplod", OptionText().add("leaves", "scene").add("tile", build.options.tile_vox))};
+  }
+
+  MadeLeaves run() {
+    find();
+    const auto at_once =
+        int(std::clamp<std::uint64_t>(build_.context().memory.bytes / kBytesPerLeaf, 1, std::uint64_t(thread_count())));
+    std::size_t next = 0;
+    run_jobs<std::size_t>(
+        at_once,
+        [&](std::size_t& i) {
+          i = next++;
+          return i < leaves_.size();
+        },
+        [&](const std::size_t& i) { make(leaves_[i]); });
+    return collected();
+  }
+
+ private:
+  struct Leaf {
+    CellCoord cell{};
+    LeafBox box;
+    std::string name;
+    Bounds3d bounds;
+    std::uint64_t triangles = 0, bytes = 0;
+    bool kept = false;
+    Scratch::Handle content = 0;
+  };
+
+  void find() {
+    std::vector<std::vector<LeafBox>> boxes(task_.cells.size());
+    parallel_for(std::int64_t(boxes.size()), [&](std::int64_t i) {
+      boxes[std::size_t(i)] = leaf_boxes(looks_, cell_bounds(cells_, task_.frame, task_.cells[std::size_t(i)]));
+    });
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const CellCoord c = task_.cells[i];
+      for (LeafBox& box : boxes[i]) {
+        const std::string dash = box.path.empty() ? "" : "-" + box.path;
+        std::string name = fmt::format("{}_{}_{}{}", c.x, c.y, c.z, dash);
+        leaves_.push_back({c, std::move(box), std::move(name), {}});
+      }
+    }
+  }
+
+  [[nodiscard]] ResultKey key_of(const Leaf& leaf) const {
+    KeyHash hash("leaf");
+    hash.add(build_.options.name, leaf.name, unit_, build_.options.appearance, task_.frame.up,
+             provenance_.front().options);
+    add_leaf_to(hash, looks_, leaf.box.box);
+    return hash.key();
+  }
+
+  void make(Leaf& leaf) {
+    KeptLeaf made;
+    ResultKey key;
+    std::string bytes;
+    if (task_.results != nullptr) {
+      key = key_of(leaf);
+      leaf.kept = task_.results->get(key, bytes) && unpack_leaf(bytes, made);
+    }
+    if (!leaf.kept) {
+      made = cut(leaf);
+      if (task_.results != nullptr) task_.results->put(key, packed(made));
+    }
+    leaf.bounds = made.bounds;
+    leaf.triangles = made.triangles;
+    leaf.bytes = made.content.size();
+    if (leaf.triangles > 0) leaf.content = task_.files->put(std::as_bytes(std::span(made.content)));
+    note_images(leaf);
+  }
+
+  /// Of what may show them: a few that it does not show would do no harm.
+  void note_images(const Leaf& leaf) {
+    if (looks_.images() == nullptr) return;
+    std::set<std::uint32_t> materials;
+    looks_.visit(leaf.box.box, [&](const TexturedTriangle& t) {
+      if (t.texture.material != TriangleTexture::kNoMaterial) materials.insert(t.texture.material);
+    });
+    for (const std::uint32_t material : materials) {
+      const std::uint32_t image = looks_.images()->material(material).image;
+      if (image == TextureMaterial::kNoImage) continue;
+      const std::string name = names_(image);
+      if (name.empty()) continue;
+      const std::lock_guard lock(mutex_);
+      used_.insert(name);
+    }
+  }
+
+  KeptLeaf cut(const Leaf& leaf) {
+    const SceneLeaf cut = cut_leaf(looks_, leaf.box.box, unit_);
+    KeptLeaf made{cut.bounds, cut.triangles(), ""};
+    if (made.triangles == 0) return made;
+    const LeafLooks looks{looks_.images(), [this](std::uint32_t image) { return names_(image); },
+                          build_.options.colors()};
+    made.content = leaf_glb(build_.options.name + "_" + leaf.name, cut, looks, task_.frame.up, provenance_);
+    return made;
+  }
+
+  MadeLeaves collected() {
+    MadeLeaves made;
+    for (Leaf& leaf : leaves_) {
+      made.kept += leaf.kept;
+      if (leaf.triangles == 0) continue;
+      made.triangles += leaf.triangles;
+      made.bytes += leaf.bytes;
+      const std::string file = leaf_folder(build_.options) + "/" + leaf.name + ".glb";
+      made.files.push_back({file, leaf.content});
+      const Bounds3d& box = leaf.box.box;
+      Vec3d middle;
+      for (std::size_t i = 0; i < 3; ++i) middle[i] = box.min[i] + (box.max[i] - box.min[i]) / 2;
+      made.places.push_back({leaf.cell, {{file, middle, leaf.bounds, leaf_error(unit_)}, box, leaf.box.path}});
+    }
+    for (const std::string& name : used_) made.images.emplace(name, names_.number_of(name));
+    return made;
+  }
+
+  const Build& build_;
+  const LeafTask& task_;
+  const SceneLooks& looks_;
+  const Cells cells_;
+  const double unit_;
+  ImageNames names_;
+  std::vector<Provenance> provenance_;
+  std::vector<Leaf> leaves_;
+  std::mutex mutex_;
+  std::set<std::string> used_;
+};
+
+}  // namespace
+
+std::string leaf_folder(const BuildOptions& options) {
+  return options.name + "_leaves";
+}
+
+MadeLeaves make_leaves(const Build& build, const LeafTask& task) {
+  return LeafMaker(build, task).run();
+}
+
+}  // namespace bp
