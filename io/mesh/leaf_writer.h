@@ -2,8 +2,8 @@
 #include <functional>
 #include <string>
 
+#include "io/gltf/glb_file.h"
 #include "lib/core/up_axis.h"
-#include "lib/grid/stream.h"
 #include "lib/pass/leaf/scene_leaf.h"
 
 namespace bp {

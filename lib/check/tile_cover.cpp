@@ -2,25 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <memory>
 
 #include "lib/check/detail/surface.h"
 #include "lib/check/detail/triangle_part.h"
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 #include "lib/exact/triangle_intersection.h"
+#include "lib/tileset/tile_tree.h"
 
 namespace bp {
 
 namespace {
 
-enum class Verdict { fine, touching, outside, undecided };
+enum class Verdict { fine, touching, outside, undecided, missing };
 
 /// The content of a tile as a surface, and the triangles of the scene that it fails.
 struct Body {
   WeldedMesh mesh;
   std::unique_ptr<Surface> surface;
   bool closed = false, sound = true;
+  double area = 0;  ///< of a leaf
   void drop() {
     surface.reset();
     mesh = {};
@@ -28,7 +33,8 @@ struct Body {
 };
 
 struct Counts {
-  std::atomic<std::uint64_t> touching{0}, outside{0}, undecided{0}, uncovered{0}, bare{0};
+  std::atomic<std::uint64_t> touching{0}, outside{0}, undecided{0}, uncovered{0}, bare{0}, missing{0};
+  std::atomic<double> area{0}, slack{0};  ///< of the scene in a leaf; that rounding may add
 };
 
 class Checker {
@@ -84,6 +90,11 @@ class Checker {
     Body& body = bodies_[i];
     CheckReport report;
     body.mesh = weld(content_of_(i), 1, report);
+    if (tiles_[i].leaf_error) {
+      body.surface = std::make_unique<Surface>(body.mesh);
+      body.area = area_of(body.mesh);
+      return;
+    }
     check_topology(body.mesh, 1, report);
     body.surface = std::make_unique<Surface>(body.mesh);
     report.self_intersections = body.surface->self_intersections(1);
@@ -113,18 +124,9 @@ class Checker {
     if (p == c) return tiles_[parent].children.size() == 1;
     if (!p || !c) return false;
     for (int k = 0; k < 8; ++k) {
-      if (octant(*p, k) == *c) return true;
+      if (octant_of(*p, k) == *c) return true;
     }
     return false;
-  }
-
-  static Bounds3d octant(const Bounds3d& box, int k) {
-    Bounds3d out = box;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double middle = box.min[i] + (box.max[i] - box.min[i]) / 2;
-      ((k >> i & 1) != 0 ? out.min[i] : out.max[i]) = middle;
-    }
-    return out;
   }
 
   [[nodiscard]] bool in_root(const TriangleD& t) const {
@@ -152,7 +154,8 @@ class Checker {
     const bool mine = i >= begin_ && i < end_;
     if (mine && !tile.triangles && tile.children.empty()) ++counts_[i].bare;
     if (mine && tile.triangles) {
-      const Verdict verdict = examine(i, t);
+      const Verdict verdict = tile.leaf_error ? compare(i, t) : examine(i, t);
+      counts_[i].missing += verdict == Verdict::missing;
       counts_[i].touching += verdict == Verdict::touching;
       counts_[i].outside += verdict == Verdict::outside;
       counts_[i].undecided += verdict == Verdict::undecided;
@@ -161,7 +164,7 @@ class Checker {
     if (tile.children.size() == 1 && tiles_[tile.children[0]].cell == tile.cell) return visit(tile.children[0], t);
     if (!tile.cell) return;
     for (int k = 0; k < 8; ++k) {
-      const Bounds3d box = octant(*tile.cell, k);
+      const Bounds3d box = octant_of(*tile.cell, k);
       if (!meets(t, box)) continue;
       const std::size_t child = child_at(tile, box);
       if (child != 0) {
@@ -177,6 +180,38 @@ class Checker {
       if (tiles_[child].cell == box) return child;
     }
     return 0;
+  }
+
+  static double area_of(const WeldedMesh& mesh) {
+    double area = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const TriangleD t = mesh.corners(i);
+      area += length(cross(t[1] - t[0], t[2] - t[0])) / 2;
+    }
+    return area;
+  }
+
+  /// Of a leaf.
+  Verdict compare(std::size_t i, const TriangleD& t) {
+    const Bounds3d& cell = *tiles_[i].cell;
+    const TrianglePart part(t, cell);
+    if (part.empty()) return Verdict::fine;
+    const double error = *tiles_[i].leaf_error + 16 * rounding_of(cell, t);
+    const std::vector<Vec3d> corners = part.corners();
+    double around = 0, area = 0;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec3d u = corners[k] - corners[0], v = corners[(k + 1) % corners.size()] - corners[0];
+      area += length(cross(u, v)) / 2;
+      around += length(v - u);
+    }
+    counts_[i].area += area;
+    counts_[i].slack += error * (around + error);
+    std::vector<Vec3d> points = part.points_within();
+    points.insert(points.end(), corners.begin(), corners.end());
+    const TriangleBvh& shown = bodies_[i].surface->bvh();
+    const bool all = std::all_of(points.begin(), points.end(),
+                                 [&](const Vec3d& p) { return shown.nearest(p).distance_squared <= error * error; });
+    return all || area <= error * around ? Verdict::fine : Verdict::missing;
   }
 
   [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t) const {
@@ -241,6 +276,10 @@ class Checker {
       if (n == 0) return;
       findings_.push_back({fmt::format("{}: {} {} {} triangles of the scene", tile.place, tile.uri, what, n), answer});
     };
+    add(c.missing, "does not show");
+    if (const double more = bodies_[i].area - c.area; tile.leaf_error && std::abs(more) > c.slack + 1e-9 * c.area)
+      findings_.push_back({fmt::format("{}: {} has an area of {:.6g}, and the scene there {:.6g}", tile.place, tile.uri,
+                                       bodies_[i].area, c.area.load())});
     add(c.touching, "is touched by");
     add(c.outside, "leaves outside");
     add(c.undecided, "cannot be decided for", Answer::undecided);

@@ -18,6 +18,10 @@
 ///   - the cells of a tile's children are octants of its own, or its own again; t meets no octant without a child.
 /// A tile without a cell answers for all of space; one without content draws nothing, and must have children.
 ///
+/// A leaf encloses nothing: it is the scene itself in its cell. Of each t ∩ cell, the corners, the middle and points
+/// between must lie within `leaf_error` of the content, and the areas of both must be equal. That compares, and proves
+/// nothing.
+///
 /// Decided exactly or on the safe side: cells are grown by 1e-9 of their edge, or 2^-46 of the largest coordinate where
 /// that is more, and t is cut by them in doubles, whose errors are far smaller; where t meets a face, bounds of the
 /// common segment (exact predicates say which edges meet which triangle, intervals where) must miss the grown cell. So
@@ -29,6 +33,7 @@ struct CoverTile {
   std::optional<std::uint64_t> triangles;  ///< of its content; none: nothing is drawn
   std::optional<Bounds3d> cell;            ///< scene units
   std::vector<std::size_t> children;       ///< numbers of tiles
+  std::optional<double> leaf_error = {};   ///< a leaf: so far from the scene at most
 };
 /// Reads the content of a tile that has one, scene units. Called on several threads.
 using CoverContents = std::function<IndexedMesh(std::size_t tile)>;

@@ -62,6 +62,8 @@ class CoverTiles {
     while (tiles_[next_].uri.empty()) ++next_;
     CoverTile& noted = tiles_[next_++];
     ++verdict.contents;
+    verdict.leaves += tile.is_leaf;
+    if (tile.is_leaf) verdict.leaf_error = std::max(verdict.leaf_error, tile.geometric_error);
     TileContent known;
     try {
       IndexedMesh mesh = read_content(folder_ + tile.uri, options_);
@@ -88,6 +90,7 @@ class CoverTiles {
     out.place = place;
     out.uri = tile.uri;
     if (tile.cell) out.cell = moved(*tile.cell, transform);
+    if (tile.cell && tile.is_leaf) out.leaf_error = tile.geometric_error;
     transforms_.push_back(transform);
     places_[place] = tiles_.size() - 1;
     const std::size_t end = place.rfind(".children[");
@@ -139,6 +142,11 @@ bool is_tileset(const std::string& path) {
 std::string TilesetVerdict::text(const std::string& name) const {
   std::string lines;
   for (const std::string& finding : findings) lines += finding + "\n";
+  if (scene && leaves > 0)
+    lines += fmt::format(
+        "{}: {} of the contents are pieces of the scene and enclose nothing; they were compared with it, "
+        "to within {:.3g}\n",
+        name, leaves, leaf_error);
   return lines + fmt::format("{}: {} tiles, {} contents, {} triangles{}: {}\n", name, tiles, contents, triangles,
                              scene ? ", checked against the scene" : "",
                              holds()                         ? "holds"
@@ -147,11 +155,13 @@ std::string TilesetVerdict::text(const std::string& name) const {
 }
 
 std::string TilesetVerdict::json(const std::string& name) const {
-  const Json all = {{"holds", holds()},
-                    {"answer", to_string(answer())},
-                    {"tileset", {{"name", name}, {"tiles", tiles}, {"contents", contents}, {"triangles", triangles}}},
-                    {"scene", scene},
-                    {"findings", findings}};
+  const Json all = {
+      {"holds", holds()},
+      {"answer", to_string(answer())},
+      {"tileset",
+       {{"name", name}, {"tiles", tiles}, {"contents", contents}, {"leaves", leaves}, {"triangles", triangles}}},
+      {"scene", scene},
+      {"findings", findings}};
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -10,6 +10,8 @@ namespace bp {
 struct TilesetVerdict {
   std::vector<std::string> findings;  ///< one line each; empty: all holds
   std::uint64_t tiles = 0, contents = 0, triangles = 0;
+  std::uint64_t leaves = 0;     ///< of the contents: pieces of the scene itself
+  double leaf_error = 0;        ///< the largest of theirs, scene units
   bool scene = false;           ///< the contents were checked against scenes
   std::uint64_t undecided = 0;  ///< of the findings: they prove nothing, and refute nothing
   [[nodiscard]] Answer answer() const {

@@ -30,6 +30,7 @@ struct MeshTile {
   std::optional<IndexedMesh> content;
   std::optional<Bounds3d> cell;
   std::vector<std::size_t> children;
+  std::optional<double> leaf_error = {};
 };
 
 /// A root of edge 16 around a bar along x, and two children that each hold half of it.
@@ -49,7 +50,7 @@ Triangles bar() {
 std::vector<std::string> findings(const std::vector<MeshTile>& tiles, const Triangles& scene = bar()) {
   std::vector<CoverTile> cover;
   for (const MeshTile& t : tiles) {
-    cover.push_back({t.place, t.uri, {}, t.cell, t.children});
+    cover.push_back({t.place, t.uri, {}, t.cell, t.children, t.leaf_error});
     if (t.content) cover.back().triangles = t.content->triangles.size();
   }
   std::atomic<int> reads{0};
@@ -179,6 +180,31 @@ TEST_CASE("missing and misplaced tiles are found", "[quick][check][tileset]") {
   Triangles scene = bar();
   add_box(scene, {-3, 2, 2}, {-2, 3, 3});
   CHECK_THAT(only(findings(good(), scene)), ContainsSubstring("root: 12 triangles of the scene leave its cell"));
+}
+
+TEST_CASE("a leaf must show the scene in its cell, and nothing else", "[quick][check][tileset]") {
+  Triangles scene;
+  add_box(scene, {2, 2, 2}, {6, 3, 3});
+  const auto with_leaf = [&](const Triangles& shown) {
+    std::vector<MeshTile> tiles{{"root", "r", box_mesh({1, 1, 1}, {15, 4, 4}), bounds({0, 0, 0}, {16, 16, 16}), {1}},
+                                {"root.0", "a", IndexedMesh(), bounds({0, 0, 0}, {16, 16, 16}), {}}};
+    tiles[1].leaf_error = 0.001;
+    for (const TriangleD& t : shown) {
+      const auto n = std::uint32_t(tiles[1].content->vertices.size());
+      for (const Vec3d& p : t) tiles[1].content->vertices.push_back(p);
+      tiles[1].content->triangles.push_back({n, n + 1, n + 2});
+    }
+    return tiles;
+  };
+  CHECK(findings(with_leaf(scene), scene).empty());
+  Triangles moved = scene;
+  for (Vec3d& p : moved[0]) p[2] += 0.0005;
+  CHECK(findings(with_leaf(moved), scene).empty());
+  for (Vec3d& p : moved[0]) p = {p[0] + 0.01, p[1] + 0.01, p[2] + 0.01};
+  CHECK_THAT(only(findings(with_leaf(moved), scene)), ContainsSubstring("root.0: a does not show 1 triangles"));
+  Triangles more = scene;
+  more.push_back({Vec3d{2, 5, 5}, {3, 5, 5}, {3, 6, 5}});
+  CHECK_THAT(only(findings(with_leaf(more), scene)), ContainsSubstring("root.0: a has an area of"));
 }
 
 }  // namespace bp::test

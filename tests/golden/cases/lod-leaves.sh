@@ -1,0 +1,51 @@
+# Tilesets that hold the scene itself up close. Two cubes in a row, one with an image.
+red=iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAGklEQVR42mP4hQROyMnBEQMVJZA5yIqoKAEAaed+QclKqjgAAAAASUVORK5CYII=
+blue=iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAGklEQVR42mP4hQTk5E7AEQMVJZA5yIqoKAEAP2d+Qe6vEAoAAAAASUVORK5CYII=
+printf 'newmtl chequered\nKd 0 1 0\nmap_Kd chequered.png\nnewmtl plain\nKd 0 0 1\n' > cubes.mtl
+base64 -d <<< $red > chequered.png
+write_cube cube.obj 3
+for i in 0 1; do
+  { echo "mtllib cubes.mtl"; echo "vt 0 0"; echo "vt 1 0"; echo "vt 1 1"; echo "vt 0 1"; echo "usemtl $([ $i = 0 ] && echo chequered || echo plain)"
+    sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 40 * $i)) \2 \3/e; s/^f \(.*\) \(.*\) \(.*\) \(.*\)$/f \1\/1 \2\/2 \3\/3 \4\/4/" cube.obj; } > part$i.obj
+done
+same() { diff -r "$1" "$2" > differences && echo "$1 and $2: the same bytes" || echo "$1 and $2 differ: $(wc -l < differences)"; }
+kept() { grep -o '"kept": [0-9]*' "$1" | tr '\n' ' '; echo; }
+tiles=(part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles --leaves scene -q)
+
+bplod "${tiles[@]}" -o first --cache cache | cut -f 1,2
+ls first first/cubes_leaves
+bplod "${tiles[@]}" -o again -j 1 --memory 300M --cache cache --report again.json > list
+bplod "${tiles[@]}" -o from-nothing -j 1 --memory 300M > list
+same first again
+same first from-nothing
+kept again.json
+for f in first/cubes_leaves/*.glb; do
+  echo "$f: $(grep -ao '"attributes":{[^}]*}' $f | tr '\n' ' ')$(grep -ao '"images":[^]]*\]' $f) $(grep -ao '"baseColorFactor":[^]]*\]' $f | tr '\n' ' ')"
+done | sort | uniq
+bpcheck part*.obj first | sed 's/[0-9]* triangles/some triangles/'
+
+# A changed image is another file, and changes the leaves that show it.
+base64 -d <<< $blue > chequered.png
+bplod "${tiles[@]}" -o first --overwrite --cache cache --report painted.json > list
+bplod "${tiles[@]}" -o painted > list
+same first painted
+kept painted.json
+# A cube that moves changes its own leaves only.
+sed -i 's/^v \(.*\) 3 \(.*\)$/v \1 2 \2/' part1.obj
+bplod "${tiles[@]}" -o first --overwrite --cache cache --report moved.json > list
+bplod "${tiles[@]}" -o moved > list
+same first moved
+kept moved.json
+# Without leaves, theirs are taken away.
+bplod part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles -o first --overwrite -q > list
+ls first
+# A leaf that is not the scene is found.
+leaf=$(ls painted/cubes_leaves/*.glb | head -1)
+cp "$leaf" moved/cubes_leaves/"$(basename "$(ls moved/cubes_leaves/*.glb | tail -1)")"
+bpcheck part*.obj moved > list || echo "= $?"
+grep -c 'does not show\|has an area' list
+# A scene in one mesh has one leaf.
+bplod part0.obj --resolution 30 --profile 3dtiles --leaves scene -o small -q | cut -f 1,2
+bpcheck part0.obj small | tail -1
+try bplod part0.obj -o x --leaves scene
+try bplod - --format obj --profile 3dtiles -o x --leaves scene
