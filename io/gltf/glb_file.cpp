@@ -8,6 +8,8 @@ namespace bp {
 
 namespace {
 
+constexpr double kGrey = 0.6;  // linear light
+
 std::string little_endian(std::uint64_t x) {
   std::string bytes(4, '\0');
   for (int i = 0; i < 4; ++i) bytes[std::size_t(i)] = char(x >> (8 * i));
@@ -31,17 +33,32 @@ GltfOutJson gltf_asset(const std::string& tool, const std::vector<Provenance>& p
 }
 
 GltfOutJson gltf_material(bool colored) {
-  constexpr double kGrey = 0.6;  // linear light
   const double c = colored ? 1 : kGrey;
   return {{"name", colored ? "matte vertex colors" : "matte grey"},
           {"pbrMetallicRoughness",
            {{"baseColorFactor", GltfOutJson::array({c, c, c, 1})}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}};
 }
 
-GltfOutJson gltf_textured_material(std::size_t texture, bool has_holes) {
-  GltfOutJson material{{"name", "matte texture"},
-                       {"pbrMetallicRoughness",
-                        {{"baseColorTexture", {{"index", texture}}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}};
+GltfOutJson gltf_textured_material(const GltfTextures& textures, bool has_holes) {
+  GltfOutJson pbr;
+  if (textures.color) {
+    pbr["baseColorTexture"] = {{"index", *textures.color}};
+  } else {
+    pbr["baseColorFactor"] = GltfOutJson::array({kGrey, kGrey, kGrey, 1});
+  }
+  const bool plain = !textures.roughness;
+  if (plain && textures.metal_factor == 0) pbr["metallicFactor"] = 0;
+  if (plain && textures.metal_factor != 0) pbr["metallicFactor"] = textures.metal_factor;
+  if (plain && textures.roughness_factor == 1) pbr["roughnessFactor"] = 1;
+  if (plain && textures.roughness_factor != 1) pbr["roughnessFactor"] = textures.roughness_factor;
+  if (!plain) pbr["metallicRoughnessTexture"] = {{"index", *textures.roughness}};
+  const bool is_matte = plain && textures.metal_factor == 0 && textures.roughness_factor == 1;
+  GltfOutJson material{{"name", is_matte ? "matte texture" : "texture"}, {"pbrMetallicRoughness", std::move(pbr)}};
+  if (textures.normal) material["normalTexture"] = {{"index", *textures.normal}};
+  if (textures.emission) {
+    material["emissiveTexture"] = {{"index", *textures.emission}};
+    material["emissiveFactor"] = GltfOutJson::array({1, 1, 1});
+  }
   if (has_holes) material["alphaMode"] = "MASK";
   return material;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,8 +23,13 @@ using GltfOutJson = nlohmann::ordered_json;  ///< keys keep their order: same me
 /// without light. White under the colours of vertices, else grey.
 [[nodiscard]] GltfOutJson gltf_material(bool colored);
 
-/// A matte material with texture number `texture`; one with holes is cut out where alpha is below a half.
-[[nodiscard]] GltfOutJson gltf_textured_material(std::size_t texture, bool has_holes);
+/// Numbers of the textures of a material, and what holds without them.
+struct GltfTextures {
+  std::optional<std::size_t> color, normal, roughness, emission;
+  double roughness_factor = 1, metal_factor = 0;
+};
+/// Grey without a texture of colours; one with holes is cut out where alpha is below a half.
+[[nodiscard]] GltfOutJson gltf_textured_material(const GltfTextures& textures, bool has_holes);
 
 /// What a GLB holds before the bytes of its binary chunk. Throws as write_glb(), for the file `name`.
 [[nodiscard]] std::string glb_head(std::string json, std::size_t data_bytes, const std::string& name);

@@ -45,6 +45,7 @@ class GltfObject {
     }
     return otherwise;
   }
+  [[nodiscard]] std::string dump() const { return json_->dump(); }  ///< its JSON
   /// Throws bad_input "file: place what", with Remedy::repair_file.
   [[noreturn]] void broken(const std::string& what) const;
 

@@ -102,11 +102,15 @@ std::string encode_attributes(const std::string& data, std::size_t stride) {
 }
 
 std::string octahedral(const std::vector<std::array<float, 3>>& normals) {
-  std::vector<float> padded;
-  padded.reserve(4 * normals.size());
-  for (const auto& n : normals) padded.insert(padded.end(), {n[0], n[1], n[2], 0.0f});
-  std::string out(4 * normals.size(), '\0');
-  meshopt_encodeFilterOct(out.data(), normals.size(), 4, 8, padded.data());
+  std::vector<std::array<float, 4>> padded;
+  padded.reserve(normals.size());
+  for (const auto& n : normals) padded.push_back({n[0], n[1], n[2], 0.0F});
+  return octahedral(padded);
+}
+
+std::string octahedral(const std::vector<std::array<float, 4>>& tangents) {
+  std::string out(4 * tangents.size(), '\0');
+  if (!tangents.empty()) meshopt_encodeFilterOct(out.data(), tangents.size(), 4, 8, tangents[0].data());
   return out;
 }
 

@@ -21,6 +21,8 @@ using TriangleIndices = std::vector<std::array<std::uint32_t, 3>>;
 /// Unit vectors as octahedral coordinates of 8 bits, 4 bytes each: what encode_attributes() gets for a view with the
 /// filter OCTAHEDRAL, which decodes them to within 1.1 degrees.
 [[nodiscard]] std::string octahedral(const std::vector<std::array<float, 3>>& normals);
+/// The same with a fourth number from -1 to 1, as tangents have it.
+[[nodiscard]] std::string octahedral(const std::vector<std::array<float, 4>>& tangents);
 /// Decoding may turn a triangle's corners around, and keeps their cyclic order.
 [[nodiscard]] std::string encode_triangles(const TriangleIndices& triangles, std::size_t vertices);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "io/mesh/detail/glb_data.h"
 
@@ -129,15 +130,19 @@ class LeafBuilder {
     } else if (one_color && !replaced) {
       factor = {first.r / 65535.0, first.g / 65535.0, first.b / 65535.0, 1};
     }
-    add_material(material, image, factor);
-    return LeafPrimitive(part, up_, data_).json(!image.empty(), !one_color);
+    const bool mapped = add_material(material, image, factor);
+    return LeafPrimitive(part, up_, data_).json(mapped, !one_color);
   }
 
-  void add_material(const TextureMaterial& material, const std::string& image, std::array<double, 4> factor) {
-    Json pbr{{"metallicFactor", 0}, {"roughnessFactor", 1}};
+  /// Whether it has an image.
+  bool add_material(const TextureMaterial& material, const std::string& image, std::array<double, 4> factor) {
+    const TextureSurface& surface = material.surface;
+    Json pbr{{"metallicFactor", surface.metal_factor}, {"roughnessFactor", surface.roughness_factor}};
     if (!image.empty()) pbr["baseColorTexture"] = {{"index", add_texture(image, material.wrap)}};
     if (material.alpha_mode != AlphaMode::opaque) factor[3] = std::clamp(double(material.alpha), 0.0, 1.0);
     if (factor != std::array<double, 4>{1, 1, 1, 1}) pbr["baseColorFactor"] = factor;
+    const auto rough = map_of(surface.roughness), normal = map_of(surface.normal), light = map_of(surface.emission);
+    if (rough) pbr["metallicRoughnessTexture"] = {{"index", *rough}};
     Json json{{"name", image.empty() ? "the scene's colors" : "the scene's texture"},
               {"pbrMetallicRoughness", std::move(pbr)},
               {"doubleSided", true}};
@@ -147,7 +152,17 @@ class LeafBuilder {
     } else if (material.alpha_mode == AlphaMode::blend) {
       json["alphaMode"] = "BLEND";
     }
+    if (normal) json["normalTexture"] = {{"index", *normal}, {"scale", surface.normal_scale}};
+    if (light) json["emissiveTexture"] = {{"index", *light}};
+    if (surface.emission_factor != std::array<float, 3>{}) json["emissiveFactor"] = surface.emission_factor;
     materials_.push_back(std::move(json));
+    return !image.empty() || rough || normal || light;
+  }
+
+  std::optional<std::size_t> map_of(const TextureMap& map) {
+    const std::string image = map.is_there() && looks_.colors ? looks_.name_of(map.image) : "";
+    if (image.empty()) return {};
+    return add_texture(image, map.wrap);
   }
 
   std::size_t add_texture(const std::string& image, const std::array<TextureWrap, 2>& wrap) {

@@ -10,6 +10,7 @@
 #include "io/mesh/detail/mesh_writers.h"
 #include "lib/core/error.h"
 #include "lib/mesh/shaded_mesh.h"
+#include "lib/mesh/tangents.h"
 
 namespace bp {
 
@@ -77,6 +78,18 @@ std::vector<std::array<float, 3>> normals_of(const ShadedMesh& mesh, const std::
   return normals;
 }
 
+std::vector<std::array<float, 4>> tangents_for(const LatticeMesh& mesh, const ShadedMesh& drawn,
+                                               const std::vector<std::uint32_t>& order) {
+  const std::vector<std::array<float, 4>> all = tangents_of(mesh, drawn);
+  std::vector<std::array<float, 4>> tangents;
+  tangents.reserve(order.size());
+  for (const std::uint32_t i : order) {
+    const std::array<float, 3> t = to_y_up(mesh.frame.up)(std::array<float, 3>{all[i][0], all[i][1], all[i][2]});
+    tangents.push_back({t[0], t[1], t[2], all[i][3]});
+  }
+  return tangents;
+}
+
 std::string color_bytes(const ShadedMesh& mesh, const std::vector<std::uint32_t>& order) {
   std::string bytes;
   bytes.reserve(4 * order.size());
@@ -138,6 +151,8 @@ class GlbBuilder {
     std::vector<std::uint32_t> order = optimize_order(drawn.triangles, drawn.vertex.size());
     const std::vector<std::array<float, 3>> normals = normals_of(drawn, order, mesh.frame.up);
     const std::string uv = uv_bytes(drawn, order), colors = mesh.colors.empty() ? "" : color_bytes(drawn, order);
+    std::vector<std::array<float, 4>> tangents;
+    if (mesh.texture && mesh.texture->normal.is_there()) tangents = tangents_for(mesh, drawn, order);
     for (std::uint32_t& i : order) i = drawn.vertex[i];
     std::size_t positions = 0;
     if (data_.is_compressed() && extent.within(centre, -kShortInteger, kShortInteger)) {
@@ -149,6 +164,7 @@ class GlbBuilder {
     Json attributes{{"POSITION", positions}, {"NORMAL", data_.add_normals(normals)}};
     if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(colors);
     if (mesh.texture) attributes["TEXCOORD_0"] = add_uv(uv, order.size());
+    if (!tangents.empty()) attributes["TANGENT"] = data_.add_tangents(tangents);
     const std::size_t indices = data_.add_indices(drawn.triangles, order.size());
     const Json primitive{{"attributes", attributes}, {"indices", indices}, {"material", add_material(mesh)}};
     json()["meshes"].push_back({{"name", named.name}, {"primitives", Json::array({primitive})}});
@@ -195,16 +211,28 @@ class GlbBuilder {
       }
       return *plain_material_;
     }
-    const std::size_t number = json()["textures"].size();
-    json()["images"].push_back(
-        {{"bufferView", data_.add_image_bytes(mesh.texture->image)}, {"mimeType", mesh.texture->type}});
+    const MeshTexture& own = *mesh.texture;
     json()["samplers"] = Json::array({{{"magFilter", kLinear},
                                        {"minFilter", kLinearMipmapLinear},
                                        {"wrapS", kClampToEdge},
                                        {"wrapT", kClampToEdge}}});
-    json()["textures"].push_back({{"sampler", 0}, {"source", number}});
-    materials_.push_back(gltf_textured_material(number, mesh.texture->has_holes));
+    const GltfTextures textures{add_texture(own.image, own.type),
+                                add_texture(own.normal.bytes, own.normal.type),
+                                add_texture(own.roughness.bytes, own.roughness.type),
+                                add_texture(own.emission.bytes, own.emission.type),
+                                own.roughness_factor,
+                                own.metal_factor};
+    materials_.push_back(gltf_textured_material(textures, own.has_holes));
     return materials_.size() - 1;
+  }
+
+  /// Its number; none without an image.
+  std::optional<std::size_t> add_texture(const std::string& image, const std::string& type) {
+    if (image.empty()) return {};
+    const std::size_t number = json()["textures"].size();
+    json()["images"].push_back({{"bufferView", data_.add_image_bytes(image)}, {"mimeType", type}});
+    json()["textures"].push_back({{"sampler", 0}, {"source", number}});
+    return number;
   }
 
   Json node_of(const NamedMesh& named, const LatticeCoord* centre) {

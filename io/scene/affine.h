@@ -24,6 +24,17 @@ struct Affine {
     }
     return product;
   }
+  /// Of a surface's normal, of any length; the outside stays outside.
+  [[nodiscard]] Vec3d normal(const Vec3d& n) const {
+    const double sign = mirrors() ? -1 : 1;
+    Vec3d out{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto &b = m[(i + 1) % 3], &c = m[(i + 2) % 3];
+      out[i] = sign * ((b[1] * c[2] - b[2] * c[1]) * n[0] + (b[2] * c[0] - b[0] * c[2]) * n[1] +
+                       (b[0] * c[1] - b[1] * c[0]) * n[2]);
+    }
+    return out;
+  }
   /// True if it turns the outside of a mesh into its inside.
   [[nodiscard]] bool mirrors() const {
     return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +

@@ -149,7 +149,8 @@ class InstancedSource final : public RawSource {
     });
   }
   [[nodiscard]] bool has_textures() const override {
-    return std::any_of(scene_.primitives.begin(), scene_.primitives.end(), [](const Primitive& p) { return p.uv; });
+    return std::any_of(scene_.primitives.begin(), scene_.primitives.end(),
+                       [](const Primitive& p) { return p.has_image; });
   }
   void rewind() override {
     node_ = 0;
@@ -293,14 +294,15 @@ void InstancedSource::add_triangle(std::vector<TriangleD>& out, std::vector<Tria
 }
 
 TriangleTexture InstancedSource::texture_of(const Primitive& p, const std::array<std::uint64_t, 3>& corners) {
-  if (!p.uv) return {};
   TriangleTexture t;
   t.material = p.material;
   const std::array<double, 6>& m = p.uv_transform;
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3 && p.uv; ++k) {
     const std::array<double, 2> uv = elements_.vector<2>(*p.uv, corners[k]);
     t.uv[k] = {float(m[0] * uv[0] + m[1] * uv[1] + m[2]), float(m[3] * uv[0] + m[4] * uv[1] + m[5])};
   }
+  for (std::size_t k = 0; k < 3 && p.normals; ++k)
+    t.normals[k] = pack_normal(transform_.normal(elements_.vector<3>(*p.normals, corners[k])));
   return t;
 }
 

@@ -44,8 +44,10 @@ struct Primitive {
   std::optional<Accessor> uv;                 ///< one for each position, two components
   /// u, v of an image: the first three times (u, v, 1), the other three times it.
   std::array<double, 6> uv_transform{1, 0, 0, 0, 1, 0};
-  std::uint32_t material = TriangleTexture::kNoMaterial;  ///< if `uv` is there
-  bool srgb = false;                                      ///< transfer function of both; else they are linear
+  std::uint32_t material = TriangleTexture::kNoMaterial;
+  bool has_image = false;           ///< of colours, at `uv`
+  std::optional<Accessor> normals;  ///< one for each position, three components
+  bool srgb = false;                ///< transfer function of both; else they are linear
 };
 
 /// Transforms of many instances of one node's mesh, applied before the node's own; absent accessors have count 0.

@@ -27,6 +27,7 @@ class ObjSource final : public PolygonSource {
         parts_(options.parts) {
     if (options.colors) vertex_colors_.emplace(options.memory_bytes / 2, temp_dir_of(options));
     if (options.textures) places_.emplace(options.memory_bytes / 2, temp_dir_of(options));
+    if (options.textures && options.surface) normals_.emplace(options.memory_bytes / 2, temp_dir_of(options));
     textures_ = options.textures;
   }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
@@ -39,35 +40,38 @@ class ObjSource final : public PolygonSource {
   [[nodiscard]] LinearColor corner_color(std::uint64_t i) override;
   [[nodiscard]] std::uint32_t face_material() const override { return texture_; }
   [[nodiscard]] std::array<float, 2> corner_uv(std::size_t k) override;
+  [[nodiscard]] PackedNormal corner_normal(std::size_t k) override;
   void rewind_faces() override {
     text_.seek({});
-    seen_ = seen_places_ = 0;
+    seen_ = seen_places_ = seen_normals_ = 0;
     texture_ = TriangleTexture::kNoMaterial;
     material_ = kWhite;
     passed_over_ = false;
     fits_ = {};
   }
 
-  /// Consumes the keyword: 'v', 'f', 'o' or 'g' if that is all of it, 't' for "vt", 'u' for "usemtl" and 'm' for
-  /// "mtllib", 0 for any other, comments included.
+  /// Consumes the keyword: 'v', 'f', 'o' or 'g' if that is all of it, 't' for "vt", 'n' for "vn", 'u' for "usemtl" and
+  /// 'm' for "mtllib", 0 for any other, comments included.
   static char keyword(TextScanner& text);
   [[nodiscard]] bool is_wanted() const { return parts_.empty() || fits_.object || fits_.group || fits_.material; }
   void read_vertex(TextScanner& text);
   void read_vertex_color(TextScanner& text);
-  void read_place();
+  static void read_vector(TextScanner& text, std::size_t numbers, VertexPool& pool);
   void use_material(char key);
   void use_name(char key);
   void read_corners(std::vector<std::uint64_t>& corners);
   void read_corner_place();
+  [[nodiscard]] static std::uint64_t number_before(std::int64_t index, std::uint64_t seen);
   std::uint64_t resolve(std::int64_t index);
   void load_ahead();
 
   SceneFilePtr file_;
   TextScanner text_;
   VertexPool pool_;
-  std::optional<VertexPool> vertex_colors_;   // if asked for; up to the last vertex that has one
-  std::optional<VertexPool> places_;          // "vt" lines, if asked for
-  std::vector<std::uint64_t> corner_places_;  // of the face; kNoVertex: none
+  std::optional<VertexPool> vertex_colors_;                    // if asked for; up to the last vertex that has one
+  std::optional<VertexPool> places_;                           // "vt" lines, if asked for
+  std::optional<VertexPool> normals_;                          // "vn" lines, if asked for
+  std::vector<std::uint64_t> corner_places_, corner_normals_;  // of the face; kNoVertex: none
   std::shared_ptr<TextureTable> textures_;
   MtlMaterials materials_;
   std::string material_name_;
@@ -78,10 +82,10 @@ class ObjSource final : public PolygonSource {
   const std::string parts_;  // SceneOptions::parts
   struct {
     bool object = false, group = false, material = false;
-  } fits_;                                    // parts_, of what the next faces belong to
-  bool passed_over_ = false;                  // faces of the current material
-  std::uint64_t seen_ = 0, seen_places_ = 0;  // "v" and "vt" lines of this pass
-  bool all_loaded_ = false;                   // the pool holds every vertex of the file
+  } fits_;                                                       // parts_, of what the next faces belong to
+  bool passed_over_ = false;                                     // faces of the current material
+  std::uint64_t seen_ = 0, seen_places_ = 0, seen_normals_ = 0;  // "v", "vt" and "vn" lines of this pass
+  bool all_loaded_ = false;                                      // the pool holds every vertex of the file
 };
 
 bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
@@ -92,8 +96,11 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
       if (seen_ == pool_.size()) read_vertex(text_);
       ++seen_;
     } else if (key == 't' && places_) {
-      if (seen_places_ == places_->size()) read_place();
+      if (seen_places_ == places_->size()) read_vector(text_, 2, *places_);
       ++seen_places_;
+    } else if (key == 'n' && normals_) {
+      if (seen_normals_ == normals_->size()) read_vector(text_, 3, *normals_);
+      ++seen_normals_;
     } else if (!parts_.empty() && (key == 'o' || key == 'g' || key == 'u')) {
       use_name(key);
     } else if (key == 'u' || key == 'm') {
@@ -113,6 +120,7 @@ char ObjSource::keyword(TextScanner& text) {
   if (std::string_view("vfumog").find(first) == std::string_view::npos) return 0;
   const std::string_view word = text.word();
   if (word == "vt") return 't';
+  if (word == "vn") return 'n';
   return word.size() == 1 || word == "usemtl" || word == "mtllib" ? first : 0;
 }
 
@@ -136,12 +144,18 @@ void ObjSource::read_vertex_color(TextScanner& text) {
   has_colors_ = true;
 }
 
-void ObjSource::read_place() {
-  Vec3d place{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (!text_.word_on_line() || !text_.real(place[i])) break;
+/// Numbers that are missing are 0.
+void ObjSource::read_vector(TextScanner& text, std::size_t numbers, VertexPool& pool) {
+  Vec3d v{};
+  for (std::size_t i = 0; i < numbers; ++i) {
+    if (!text.word_on_line() || !text.real(v[i])) break;
   }
-  places_->push(place);
+  pool.push(v);
+}
+
+PackedNormal ObjSource::corner_normal(std::size_t k) {
+  const std::uint64_t i = k < corner_normals_.size() ? corner_normals_[k] : kNoVertex;
+  return normals_ && i < normals_->size() ? pack_normal((*normals_)[i]) : 0;
 }
 
 std::array<float, 2> ObjSource::corner_uv(std::size_t k) {
@@ -184,10 +198,11 @@ void ObjSource::use_name(char key) {
 void ObjSource::read_corners(std::vector<std::uint64_t>& corners) {
   corners.clear();
   corner_places_.clear();
+  corner_normals_.clear();
   while (text_.word_on_line() && text_.peek() != '#') {
     std::int64_t index = 0;
     if (!text_.integer(index)) text_.fail_here("a face corner is not a number; is the file damaged?");
-    if (texture_ != TriangleTexture::kNoMaterial) read_corner_place();
+    if (texture_ != TriangleTexture::kNoMaterial || normals_) read_corner_place();
     if (text_.peek() == '/') text_.skip_word();
     if (static_cast<unsigned char>(text_.peek()) > ' ' && text_.peek() != '\\')
       text_.fail_here("a face corner is not of the form v/vt/vn; is the file damaged?");
@@ -197,14 +212,24 @@ void ObjSource::read_corners(std::vector<std::uint64_t>& corners) {
   }
 }
 
-/// What follows the number of a vertex: its place in the image must stand further up.
+/// Of a number in a line "f" that counts lines so far, from 1, or backwards; kNoVertex: none.
+std::uint64_t ObjSource::number_before(std::int64_t index, std::uint64_t seen) {
+  if (index == 0 || index < -std::int64_t(seen) || index > std::int64_t(seen)) return kNoVertex;
+  return index > 0 ? std::uint64_t(index) - 1 : seen - std::uint64_t(-index);
+}
+
+/// What follows the number of a vertex: its place in the image and its normal must stand further up.
 void ObjSource::read_corner_place() {
   corner_places_.push_back(kNoVertex);
+  if (normals_) corner_normals_.push_back(kNoVertex);
   if (text_.peek() != '/') return;
   text_.step();
   std::int64_t index = 0;
-  if (text_.integer(index) && index != 0 && index >= -std::int64_t(seen_places_) && index <= std::int64_t(seen_places_))
-    corner_places_.back() = index > 0 ? std::uint64_t(index) - 1 : seen_places_ - std::uint64_t(-index);
+  if (text_.integer(index)) corner_places_.back() = number_before(index, seen_places_);
+  if (normals_ && text_.peek() == '/') {
+    text_.step();
+    if (text_.integer(index)) corner_normals_.back() = number_before(index, seen_normals_);
+  }
   text_.skip_word();
 }
 

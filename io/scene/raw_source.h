@@ -78,6 +78,8 @@ class PolygonSource : public RawSource {
   /// Of the face that next_face() gave last, and of its corner number k.
   [[nodiscard]] virtual std::uint32_t face_material() const { return TriangleTexture::kNoMaterial; }
   [[nodiscard]] virtual std::array<float, 2> corner_uv(std::size_t) { return {}; }
+  /// Of that corner, if SceneOptions::surface asked for them.
+  [[nodiscard]] virtual PackedNormal corner_normal(std::size_t) { return 0; }
   virtual void rewind_faces() = 0;
 
  private:

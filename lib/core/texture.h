@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/packed_normal.h"
+
 /// Images that lie on triangles of scenes. Readers of scenes implement TextureSet (io/scene); nothing else of an image
 /// is known to lib/.
 namespace bp {
@@ -28,14 +30,35 @@ enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
 /// What an alpha does: nothing; all below a cutoff is a hole; it is the share that covers what is behind.
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
+constexpr std::uint32_t kNoTextureImage = ~std::uint32_t(0);
+
+/// An image of something else than colour; it lies where the material's colours do.
+struct TextureMap {
+  std::uint32_t image = kNoTextureImage;
+  std::array<TextureWrap, 2> wrap{};
+  [[nodiscard]] bool is_there() const { return image != kNoTextureImage; }
+  friend bool operator==(const TextureMap&, const TextureMap&) = default;
+};
+
+/// How a surface answers to light, beside its colour (glTF 2.0, section 3.9).
+struct TextureSurface {
+  TextureMap normal;     ///< directions in tangent space, green upwards
+  TextureMap roughness;  ///< green: roughness, blue: metal; times the factors
+  TextureMap emission;   ///< light of its own, times the factor
+  float normal_scale = 1, roughness_factor = 1, metal_factor = 0;
+  std::array<float, 3> emission_factor{};  ///< linear light
+  friend bool operator==(const TextureSurface&, const TextureSurface&) = default;
+};
+
 /// How a triangle shows an image.
 struct TextureMaterial {
-  static constexpr std::uint32_t kNoImage = ~std::uint32_t(0);
+  static constexpr std::uint32_t kNoImage = kNoTextureImage;
   std::uint32_t image = kNoImage;
   std::array<TextureWrap, 2> wrap{};  ///< along u, along v
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha = 1, cutoff = 0.5F;  ///< multiplies the image's alpha; of AlphaMode::mask
   bool replaces_color = false;     ///< true: use the triangle's colour, because the image is missing; else multiply
+  TextureSurface surface{};        ///< if SceneOptions::surface asked for it
 };
 
 /// What lies on a triangle beside its colours.
@@ -44,6 +67,7 @@ struct TriangleTexture {
   std::array<std::array<float, 2>, 3> uv{};  ///< of the corners: (0, 0) is the image's upper left, (1, 1) its lower
                                              ///< right corner; may be anything, NaN included
   std::uint32_t material = kNoMaterial;      ///< of the scene's TextureSet
+  std::array<PackedNormal, 3> normals{};     ///< of the corners, if SceneOptions::surface asked for them
 };
 
 /// Materials and images of scenes. Numbers stay when a scene is read again.

@@ -4,14 +4,14 @@
 
 namespace bp {
 
-std::shared_ptr<const MipImage> ImageCache::get(std::uint32_t image) {
+std::shared_ptr<const MipImage> ImageCache::get(std::uint32_t image, MipImage::Kind kind) {
   if (image == TextureMaterial::kNoImage) return nullptr;
-  return kept_.get(image, [&] { return decode(image); });
+  return kept_.get(2 * image + std::uint32_t(kind), [&] { return decode(image, kind); });
 }
 
-std::shared_ptr<const MipImage> ImageCache::decode(std::uint32_t image) {
+std::shared_ptr<const MipImage> ImageCache::decode(std::uint32_t image, MipImage::Kind kind) {
   try {
-    return std::make_shared<const MipImage>(images_->image(image, memory_.bytes / 4 * 3));
+    return std::make_shared<const MipImage>(images_->image(image, memory_.bytes / 4 * 3), kind);
   } catch (const NeedsMemory& e) {
     throw Error(e.code(), e.what(), e.remedies(), memory_.limit_with(memory_.bytes));
   } catch (const Error& e) {

@@ -19,12 +19,12 @@ class ImageCache {
 
   [[nodiscard]] const TextureMaterial& material(std::uint32_t i) const { return images_->material(i); }
   /// Null if the image is missing or broken. Throws NeedsMemory if it alone is too large.
-  [[nodiscard]] std::shared_ptr<const MipImage> get(std::uint32_t image);
+  [[nodiscard]] std::shared_ptr<const MipImage> get(std::uint32_t image, MipImage::Kind kind = MipImage::Kind::color);
   /// What is wrong with those that are null; in the order of their numbers.
   [[nodiscard]] std::vector<std::string> faults() const;
 
  private:
-  [[nodiscard]] std::shared_ptr<const MipImage> decode(std::uint32_t image);
+  [[nodiscard]] std::shared_ptr<const MipImage> decode(std::uint32_t image, MipImage::Kind kind);
   std::shared_ptr<const TextureSet> images_;
   MemoryShare memory_;
   LruCache<MipImage> kept_;

@@ -39,7 +39,8 @@ const SrgbTables& tables() {
   return kTables;
 }
 
-LinearTexel linear_of(const TextureImage::Texel& t) {
+LinearTexel linear_of(const TextureImage::Texel& t, MipImage::Kind kind) {
+  if (kind == MipImage::Kind::numbers) return {float(t[0]) / 255, float(t[1]) / 255, float(t[2]) / 255, 1};
   const auto& table = tables().linear;
   return {table[t[0]], table[t[1]], table[t[2]], float(t[3]) / 255};
 }
@@ -60,11 +61,13 @@ struct Sum {
   }
 };
 
-TextureImage::Texel bytes_of(const LinearTexel& t) {
+TextureImage::Texel bytes_of(const LinearTexel& t, MipImage::Kind kind) {
+  const auto plain = [](float x) { return std::uint8_t(x * 255 + 0.5F); };
+  if (kind == MipImage::Kind::numbers) return {plain(t[0]), plain(t[1]), plain(t[2]), 255};
   return {byte_of_linear(t[0]), byte_of_linear(t[1]), byte_of_linear(t[2]), std::uint8_t(t[3] * 255 + 0.5F)};
 }
 
-TextureImage halved(const TextureImage& image) {
+TextureImage halved(const TextureImage& image, MipImage::Kind kind) {
   TextureImage half(std::max(1, image.width / 2), std::max(1, image.height / 2));
   for (int y = 0; y < half.height; ++y) {
     for (int x = 0; x < half.width; ++x) {
@@ -72,9 +75,9 @@ TextureImage halved(const TextureImage& image) {
       const int last_x = x + 1 == half.width ? image.width - 1 : 2 * x + 1;
       const int last_y = y + 1 == half.height ? image.height - 1 : 2 * y + 1;
       for (int j = 2 * y; j <= last_y; ++j) {
-        for (int i = 2 * x; i <= last_x; ++i) sum.add(linear_of(image.at(i, j)), 1);
+        for (int i = 2 * x; i <= last_x; ++i) sum.add(linear_of(image.at(i, j), kind), 1);
       }
-      half.at(x, y) = bytes_of(sum.mean());
+      half.at(x, y) = bytes_of(sum.mean(), kind);
     }
   }
   return half;
@@ -103,9 +106,9 @@ std::uint8_t byte_of_linear(float linear) {
   return tables().byte_of(linear);
 }
 
-MipImage::MipImage(TextureImage image) {
+MipImage::MipImage(TextureImage image, Kind kind) : kind_(kind) {
   levels_.push_back(std::move(image));
-  while (levels_.back().width > 1 || levels_.back().height > 1) levels_.push_back(halved(levels_.back()));
+  while (levels_.back().width > 1 || levels_.back().height > 1) levels_.push_back(halved(levels_.back(), kind_));
 }
 
 std::uint64_t MipImage::bytes() const {
@@ -123,7 +126,8 @@ LinearTexel MipImage::at_level(std::size_t n, double u, double v, const std::arr
   for (int dy = 0; dy < 2; ++dy) {
     for (int dx = 0; dx < 2; ++dx) {
       const float w = (dx == 0 ? 1 - fx : fx) * (dy == 0 ? 1 - fy : fy);
-      sum.add(linear_of(level.at(wrapped(i + dx, level.width, wrap[0]), wrapped(j + dy, level.height, wrap[1]))), w);
+      sum.add(linear_of(level.at(wrapped(i + dx, level.width, wrap[0]), wrapped(j + dy, level.height, wrap[1])), kind_),
+              w);
     }
   }
   return sum.mean();

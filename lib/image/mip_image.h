@@ -12,7 +12,9 @@ using LinearTexel = std::array<float, 4>;
 /// An image and its smaller copies, each half as large: a mean over some of its texels is one look at a copy.
 class MipImage {
  public:
-  explicit MipImage(TextureImage image);
+  /// What the image's numbers are: colours as sRGB with alpha, or plain numbers, whose alpha means nothing.
+  enum class Kind : std::uint8_t { color, numbers };
+  explicit MipImage(TextureImage image, Kind kind = Kind::color);
 
   [[nodiscard]] int width() const { return levels_.front().width; }
   [[nodiscard]] int height() const { return levels_.front().height; }
@@ -24,6 +26,7 @@ class MipImage {
   [[nodiscard]] LinearTexel at_level(std::size_t level, double u, double v,
                                      const std::array<TextureWrap, 2>& wrap) const;
   std::vector<TextureImage> levels_;
+  Kind kind_;
 };
 
 /// 8-bit sRGB to linear light, and back to the nearest.

@@ -15,6 +15,12 @@
 /// outside.
 namespace bp {
 
+/// As a file holds it: "image/jpeg" or "image/png".
+struct ImageFile {
+  std::string bytes, type;
+  [[nodiscard]] bool is_there() const { return !bytes.empty(); }
+};
+
 /// An image that lies on a mesh.
 struct MeshTexture {
   using Corners = std::array<std::array<float, 2>, 3>;
@@ -22,6 +28,10 @@ struct MeshTexture {
   std::vector<std::uint32_t> chart;  ///< of each triangle: a vertex has one place in the image for each of its charts
   std::string image, type;           ///< as a file holds it: "image/jpeg" or "image/png"
   bool has_holes = false;            ///< where the image's alpha is below a half
+  /// As glTF has them, beside the image or instead of it: directions in the tangent space of tangents_of(), roughness
+  /// and metal, light of its own.
+  ImageFile normal, roughness, emission;
+  double roughness_factor = 1, metal_factor = 0;  ///< without an image of them
 };
 
 struct LatticeMesh {

@@ -59,7 +59,7 @@ grep -c '^f [^ ]* [^ ]* [^ ]* ' cage.obj | sed 's/$/ quads/'
 draw gallery-quads.png 400 cage.obj
 
 "$root/samples/scenes.py" . > /dev/null
-rm -rf truck-collision house-occluder figure-lod city-tiles town-lod night levels
+rm -rf truck-collision house-occluder figure-lod city-tiles town-lod town-tiles night levels
 bplod truck.obj --profile collision --faces 500 -q -o truck-collision > /dev/null
 draw guide-collision.png 360 truck.obj truck-collision/truck_godot.glb truck-collision/truck_unreal.glb
 bplod house.obj --profile occluder -q -o house-occluder > /dev/null
@@ -77,6 +77,8 @@ bplod city.obj --up z --profile 3dtiles -q -o city-tiles > /dev/null
 if [ -n "${NODE_PATH:-}" ]; then
   node "$root/tests/viewers/shot.cjs" cesium city-tiles/tileset.json guide-tileset.png 'width=520&radii=1.3&pixels=4' > /dev/null
   "$root/samples/town.py" town > /dev/null
+  bplod town/town.obj --profile 3dtiles --leaves scene --resolution 512 --tile 128 -q -o town-tiles > /dev/null
+  node "$root/tests/viewers/shot.cjs" cesium town-tiles/tileset.json guide-leaves.png 'width=520&radii=0.35' > /dev/null
   bplod town/town.obj --faces 6000,1500,400 -q -o town-lod > /dev/null
   node "$root/tests/viewers/shot.cjs" three town-lod/town_LOD0.glb guide-textures.png 'width=420&radii=0.33' > /dev/null
 fi

@@ -36,9 +36,11 @@ done
 # Textures.
 "$here/../../samples/town.py" town 4 > /dev/null
 bplod town/town.obj --levels 2 --resolution 64 -o gltf-town > /dev/null
+bplod town/town.obj --levels 1 --resolution 64 --appearance full -o gltf-full > /dev/null
 bplod town/town.obj --levels 3 --resolution 96 --tile 64 --profile 3dtiles -o tiles-town > /dev/null
+bplod town/town.obj --levels 2 --resolution 96 --tile 64 --profile 3dtiles --appearance full --leaves scene -o tiles-full > /dev/null
 cp tiles-town/town_LOD0/*.glb tiles-town/ 2> /dev/null || true
-node "$here/validate.cjs" gltf-*/*.glb tiles-*/*.glb
+node "$here/validate.cjs" gltf-*/*.glb tiles-*/*.glb tiles-full/*/*.glb
 
 # The same triangles, bit for bit, by another decoder.
 for tile in tiles-*/*.glb; do

@@ -25,6 +25,9 @@ bpvox plant.ply --resolution 128 | bpclose --scale 1% | bpmesh --faces 1000 -o d
 "$here/../../samples/town.py" town 16 > /dev/null
 bplod town/town.obj --faces 3000 --resolution 160 -o data/town > /dev/null
 
+bplod town/town.obj --resolution 256 --tile 64 --profile 3dtiles --leaves scene -o data/leaves > /dev/null
+bplod plant.ply --faces 2000 --levels 1 --resolution 160 --appearance full -o data/full > /dev/null
+
 failed=0
 # picture VIEWER FILE NAME
 picture() {
@@ -36,5 +39,7 @@ picture() {
 picture three data/gltf/plant_LOD0.glb three-level
 picture three data/bpmesh.glb three-bpmesh
 picture three data/town/town_LOD0.glb three-town
+picture three data/full/plant_LOD0.glb three-full
 picture cesium data/tiles/tileset.json cesium-tiles
+picture cesium data/leaves/tileset.json cesium-leaves
 exit $failed

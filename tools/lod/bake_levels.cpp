@@ -34,19 +34,54 @@ double texel_of(const LatticeMesh& mesh, double error, const SceneLooks& looks) 
   return std::max(std::min(error / kTexelsPerError, by_faces), looks.finest_texel());
 }
 
-MeshTexture with_file(const Atlas& atlas, const TextureImage& image) {
+MeshTexture with_places(const Atlas& atlas) {
   MeshTexture texture;
   texture.chart = atlas.chart;
   texture.uv = atlas.corners;
   for (MeshTexture::Corners& corners : texture.uv) {
     for (std::array<float, 2>& p : corners) p = {p[0] / float(atlas.width), p[1] / float(atlas.height)};
   }
+  return texture;
+}
+
+void add_color(const TextureImage& image, MeshTexture& texture) {
   texture.has_holes =
       std::any_of(image.texels.begin(), image.texels.end(), [](const TextureImage::Texel& t) { return t[3] < 255; });
   EncodedImage file = encode_texture(image);
   texture.image = std::move(file.bytes);
   texture.type = std::move(file.type);
-  return texture;
+}
+
+/// Whether all texels are about the first one.
+bool is_plain(const TextureImage& image) {
+  constexpr int kSame = 2;
+  const TextureImage::Texel first = image.texels.front();
+  return std::all_of(image.texels.begin(), image.texels.end(), [&](const TextureImage::Texel& t) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (std::abs(int(t[i]) - int(first[i])) > kSame) return false;
+    }
+    return true;
+  });
+}
+
+/// What is the same everywhere needs no image.
+void add_surface(const BakedSurface& baked, MeshTexture& texture) {
+  const auto file_of = [](const TextureImage& image) {
+    EncodedImage file = encode_texture(image);
+    return ImageFile{std::move(file.bytes), std::move(file.type)};
+  };
+  const TextureImage::Texel normal = baked.normal.texels.front(), light = baked.emission.texels.front();
+  const bool flat = is_plain(baked.normal) && normal[2] > 250;
+  if (!flat) texture.normal = file_of(baked.normal);
+  const bool dark = is_plain(baked.emission) && std::max({light[0], light[1], light[2]}) < 4;
+  if (!dark) texture.emission = file_of(baked.emission);
+  if (is_plain(baked.roughness)) {
+    const TextureImage::Texel rough = baked.roughness.texels.front();
+    texture.roughness_factor = rough[1] / 255.0;
+    texture.metal_factor = rough[2] / 255.0;
+  } else {
+    texture.roughness = file_of(baked.roughness);
+  }
 }
 
 }  // namespace
@@ -70,6 +105,7 @@ std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& me
   SceneOptions scene = build.scene_options(true);
   scene.colors = build.options.colors();
   scene.textures = build.textures();
+  scene.surface = build.options.full() || build.options.leaves;
   const auto source = open_scenes(build.options.voxels.scenes, scene);
   const SceneLooks::Scene read{*source, build.scene_size().bounds, build.scene_size().triangles, build.textures()};
   return std::make_unique<SceneLooks>(read, make_scratch(build.budget.tiles, build.options.common.temp), memory);
@@ -86,7 +122,15 @@ std::shared_ptr<const MeshTexture> level_texture(const Build& build, const Latti
   params.reach_world = texture_reach(error_world, scale_world, voxel);
   params.memory = memory;
   params.both_ways = build.options.proxy.mode == MeshMode::fit;
-  return std::make_shared<const MeshTexture>(with_file(atlas, bake(mesh, atlas, looks, params)));
+  MeshTexture texture = with_places(atlas);
+  if (build.options.full()) {
+    const BakedSurface baked = bake_surface(mesh, atlas, looks, params);
+    if (build.has_colors()) add_color(baked.color, texture);
+    add_surface(baked, texture);
+  } else {
+    add_color(bake(mesh, atlas, looks, params), texture);
+  }
+  return std::make_shared<const MeshTexture>(std::move(texture));
 }
 
 void bake_levels(Build& build, std::vector<LodLevel>& levels) {

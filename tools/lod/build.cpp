@@ -93,6 +93,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   SceneOptions scene = scene_options();
   scene.colors = options.colors();
   if (options.may_have_textures()) scene.textures = textures_ = std::make_shared<TextureTable>();
+  scene.surface = options.full() || options.leaves;
   auto source = open_scenes(options.voxels.scenes, scene);
   if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.voxels.up);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
@@ -114,7 +115,8 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   if (!options.field.empty()) field_ = read_field(options, out);
   if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
   choose_textures(*source, halvings == 0);
-  if (source->has_colors() && !textured_) gather(*source, out);
+  colored_ = source->has_colors();
+  if (colored_ && !textured_) gather(*source, out);
   return out;
 }
 
@@ -136,7 +138,7 @@ void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_tol
 
 void Build::choose_textures(const TriangleSource& source, bool tell) {
   if (!textures_) return;
-  const bool from_colors = options.appearance == Appearance::texture && source.has_colors();
+  const bool from_colors = options.full() || (options.appearance == Appearance::texture && source.has_colors());
   const bool wanted = source.has_textures() || from_colors;
   textured_ = wanted && can_read_again(options) && (from_colors || textures_->has_images());
   if (!tell) return;
@@ -232,7 +234,7 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
   if (field_) text.add("field", provenance_text(*field_));
-  if (textured_) text.add("appearance", "texture");
+  if (textured_) text.add("appearance", options.full() ? "full" : "texture");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
 }
 

@@ -48,6 +48,8 @@ class Build {
   [[nodiscard]] SceneColors* colors() const { return colors_.get(); }
   /// Levels get textures: they are wanted, and the scene has looks for them and can be read again. After voxelize().
   [[nodiscard]] bool textured() const { return textured_; }
+  /// Images of the levels show more than grey.
+  [[nodiscard]] bool has_colors() const { return colored_ || (textures_ && textures_->has_images()); }
   [[nodiscard]] const std::shared_ptr<TextureTable>& textures() const { return textures_; }  ///< null: not wanted
   [[nodiscard]] const SceneSize& scene_size() const { return size_; }                        ///< after voxelize()
   /// From now on levels get their textures as they are made, and half of the memory for work is for the scene's looks.
@@ -84,7 +86,7 @@ class Build {
   std::optional<ScaleField> field_;  // of --field
   std::unique_ptr<SceneColors> colors_;
   std::shared_ptr<TextureTable> textures_;
-  bool textured_ = false;
+  bool textured_ = false, colored_ = false;
   std::unique_ptr<SceneLooks> looks_;
 };
 

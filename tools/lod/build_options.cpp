@@ -170,6 +170,7 @@ void declare_profile(Args& args, BuildOptions& o) {
       "--appearance",
       {{"auto", Appearance::automatic, "a texture if the scene has textures, else colours"},
        {"texture", Appearance::texture, "a texture with what the scene's textures and colours show, if it has any"},
+       {"full", Appearance::full, "also normals, roughness, metal and light of its own, as images"},
        {"color", Appearance::color, "colours on vertices, of the scene's materials and vertices, if it has any"},
        {"off", Appearance::off, "neither"}},
       o.appearance, "textures or colours of the levels");
@@ -237,7 +238,7 @@ JobRange parse_job_range(const std::string& text) {
 }
 
 const char* name_of(Appearance appearance) {
-  constexpr const char* kNames[] = {"off", "color", "texture", "auto"};
+  constexpr const char* kNames[] = {"off", "color", "texture", "full", "auto"};
   return kNames[std::size_t(appearance)];
 }
 

@@ -18,8 +18,8 @@ enum class LodProfile { gltf, tiles, collision, occluder, cage };
 [[nodiscard]] const char* name_of(LodProfile profile);
 
 /// What levels carry of the scene's looks, if it has any: nothing; colours on vertices; a texture of their own; a
-/// texture if the scene has images, else colours.
-enum class Appearance { off, color, texture, automatic };
+/// texture, and how the scene answers to light; a texture if the scene has images, else colours.
+enum class Appearance { off, color, texture, full, automatic };
 [[nodiscard]] const char* name_of(Appearance appearance);
 
 /// "A..B". Throws bad_argument.
@@ -43,6 +43,7 @@ struct BuildOptions {
   Appearance appearance = Appearance::automatic;
 
   [[nodiscard]] bool colors() const { return appearance != Appearance::off; }
+  [[nodiscard]] bool full() const { return appearance == Appearance::full; }
   [[nodiscard]] bool may_have_textures() const { return appearance >= Appearance::texture; }
   [[nodiscard]] bool is_tileset() const { return profile == LodProfile::tiles; }
 };

@@ -161,12 +161,13 @@ class LeafMaker {
       if (t.texture.material != TriangleTexture::kNoMaterial) materials.insert(t.texture.material);
     });
     for (const std::uint32_t material : materials) {
-      const std::uint32_t image = looks_.images()->material(material).image;
-      if (image == TextureMaterial::kNoImage) continue;
-      const std::string name = names_(image);
-      if (name.empty()) continue;
-      const std::lock_guard lock(mutex_);
-      used_.insert(name);
+      const TextureMaterial& m = looks_.images()->material(material);
+      for (const std::uint32_t image :
+           {m.image, m.surface.normal.image, m.surface.roughness.image, m.surface.emission.image}) {
+        const std::string name = image == TextureMaterial::kNoImage ? "" : names_(image);
+        const std::lock_guard lock(mutex_);
+        if (!name.empty()) used_.insert(name);
+      }
     }
   }
 

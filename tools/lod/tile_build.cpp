@@ -93,7 +93,7 @@ CutFiles cut_files(const Build& build, const CutLevel& cut, std::size_t level) {
   const std::string folder = level_name(build.options.name, level);
   OptionText text = option_text(build.options, build.enclosed(), cut.target, level, cut.scale_world, cut.frame);
   if (build.colors() != nullptr) text.add("colors", "auto");
-  if (build.textured()) text.add("appearance", "texture");
+  if (build.textured()) text.add("appearance", build.options.full() ? "full" : "texture");
   const Provenance provenance = make_provenance("bplod", text);
   CutFiles files;
   files.encoding = folder + " " + provenance.options;

@@ -56,6 +56,18 @@ std::size_t GlbData::add_normals(const std::vector<std::array<float, 3>>& normal
       {{"componentType", kGltfByte}, {"count", normals.size()}, {"type", "VEC3"}, {"normalized", true}}, "OCTAHEDRAL");
 }
 
+std::size_t GlbData::add_tangents(const std::vector<std::array<float, 4>>& tangents) {
+  if (!compressed_) {
+    const auto* const bytes = reinterpret_cast<const char*>(tangents.data());
+    return add_attributes(std::string(bytes, tangents.size() * sizeof tangents[0]), 16,
+                          {{"componentType", kGltfFloat}, {"count", tangents.size()}, {"type", "VEC4"}});
+  }
+  quantize();
+  return add_attributes(
+      octahedral(tangents), 4,
+      {{"componentType", kGltfByte}, {"count", tangents.size()}, {"type", "VEC4"}, {"normalized", true}}, "OCTAHEDRAL");
+}
+
 std::size_t GlbData::add_indices(const TriangleIndices& triangles, std::size_t vertices) {
   const bool narrow = vertices < 65535;  // the last one means "restart"
   std::string bytes;

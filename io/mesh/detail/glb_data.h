@@ -28,6 +28,7 @@ class GlbData {
   /// Bytes that are an image; the number of their view.
   std::size_t add_image_bytes(const std::string& bytes);
   /// As octahedral bytes where the file is compressed.
+  std::size_t add_tangents(const std::vector<std::array<float, 4>>& tangents);
   std::size_t add_normals(const std::vector<std::array<float, 3>>& normals);
 
   /// What goes into the document beside accessors and views: nodes, meshes, materials ...

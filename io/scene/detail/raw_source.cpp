@@ -44,9 +44,14 @@ void PolygonSource::add_rest(RawBatch& rest, std::size_t triangle) {
     rest.inner_edges.resize(triangle + 1);
     rest.inner_edges.back() = inner_edges_of_fan(fan_ - 2, corners_.size() - 2);
   }
-  if (!rest.textured || face_material() == TriangleTexture::kNoMaterial) return;
+  if (!rest.textured) return;
+  TriangleTexture t;
+  t.material = face_material();
+  t.normals = {corner_normal(0), corner_normal(fan_ - 1), corner_normal(fan_)};
+  if (t.material == TriangleTexture::kNoMaterial && t.normals[0] == 0) return;
+  if (t.material != TriangleTexture::kNoMaterial) t.uv = {corner_uv(0), corner_uv(fan_ - 1), corner_uv(fan_)};
   rest.textures.resize(triangle + 1);
-  rest.textures.back() = {{corner_uv(0), corner_uv(fan_ - 1), corner_uv(fan_)}, face_material()};
+  rest.textures.back() = t;
 }
 
 void PolygonSource::rewind() {

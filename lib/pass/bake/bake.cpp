@@ -9,6 +9,7 @@
 #include "lib/core/vec3.h"
 #include "lib/image/mip_image.h"
 #include "lib/mesh/shaded_mesh.h"
+#include "lib/mesh/tangents.h"
 #include "lib/pass/bake/detail/push_pull.h"
 #include "lib/pass/bake/detail/scene_eye.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 constexpr int kSide = 2;  // samples along a side of a texel
 /// The image, which texels are known, smaller copies; and the file that is made of it.
-constexpr std::uint64_t kBytesPerTexel = 9, kBytesPerFace = sizeof(TriangleD) + 400;
+constexpr std::uint64_t kBytesPerTexel = 9, kBytesPerSurfaceTexel = 21, kBytesPerFace = sizeof(TriangleD) + 400;
 constexpr double kBefore = 1e-4;  // of the reach
 constexpr int kSquare = 32;       // texels along a side, at work at a time
 
@@ -27,6 +28,42 @@ struct Face {
   std::array<std::array<float, 2>, 3> flat;
   TriangleD corners;
   std::array<Vec3d, 3> normals;
+  std::array<Vec3d, 3> tangents{};  // if surfaces are wanted
+  double mirrored = 1;              // tangents_of()
+};
+
+/// Images that are filled; all but the first may be null.
+struct Canvas {
+  TextureImage* color;
+  TextureImage* normal = nullptr;
+  TextureImage* roughness = nullptr;
+  TextureImage* emission = nullptr;
+};
+
+/// Of a texel's samples, weighted by how much they cover.
+struct SurfaceSum {
+  Vec3d normal{};  // in tangent space
+  float roughness = 0, metal = 0;
+  std::array<float, 3> emission{};
+
+  void add(const Look& look, const Vec3d& in_tangent_space) {
+    normal = normal + double(look.alpha) * in_tangent_space;
+    roughness += look.alpha * look.roughness;
+    metal += look.alpha * look.metal;
+    for (std::size_t i = 0; i < 3; ++i) emission[i] += look.alpha * look.emission[i];
+  }
+  void write(const Canvas& to, int x, int y, float alpha) const {
+    constexpr double kLeast = 0.05;  // of a normal that looks away: viewers know no others
+    Vec3d n = normal;
+    n[2] = std::max(n[2], kLeast * length(n));
+    const double l = length(n);
+    if (l > 0) n = (1 / l) * n;
+    TextureImage::Texel& texel = to.normal->at(x, y);
+    for (std::size_t i = 0; i < 3; ++i) texel[i] = std::uint8_t((n[i] / 2 + 0.5) * 255 + 0.5);
+    const auto byte = [&](float sum) { return std::uint8_t(sum / alpha * 255 + 0.5F); };
+    to.roughness->at(x, y) = {255, byte(roughness), byte(metal), 255};
+    for (std::size_t i = 0; i < 3; ++i) to.emission->at(x, y)[i] = byte_of_linear(emission[i] / alpha);
+  }
 };
 
 /// A chart's texels in a square of the image: no other chart has any of them.
@@ -39,14 +76,15 @@ struct Plot {
 /// Sums of colours by how much they cover, and of samples.
 class PlotBaker {
  public:
-  PlotBaker(const SceneLooks& looks, const BakeParams& params, double texel, const Plot& plot)
-      : eye_(looks),
+  PlotBaker(const SceneLooks& looks, const BakeParams& params, double texel, const Plot& plot, bool surfaces)
+      : eye_(looks, surfaces),
         params_(params),
         size_(texel / kSide),
         begin_(plot.begin),
         end_(plot.end),
         sums_(std::size_t(end_[0] - begin_[0]) * std::size_t(end_[1] - begin_[1])),
-        samples_(sums_.size()) {}
+        samples_(sums_.size()),
+        surfaces_(surfaces ? sums_.size() : 0) {}
 
   void add(const Face& face) {
     const auto& f = face.flat;
@@ -62,7 +100,8 @@ class PlotBaker {
   }
 
   /// Means; `known`: which texels have a colour.
-  void write(TextureImage& image, std::vector<std::uint8_t>& known) const {
+  void write(const Canvas& to, std::vector<std::uint8_t>& known) const {
+    TextureImage& image = *to.color;
     for (int y = begin_[1]; y < end_[1]; ++y) {
       for (int x = begin_[0]; x < end_[0]; ++x) {
         const std::uint16_t samples = samples_[at(x, y)];
@@ -72,6 +111,7 @@ class PlotBaker {
         const float alpha = sum[3];
         for (std::size_t k = 0; k < 3 && alpha > 0; ++k) texel[k] = byte_of_linear(sum[k] / alpha);
         texel[3] = std::uint8_t(alpha / float(samples) * 255 + 0.5F);
+        if (!surfaces_.empty() && alpha > 0) surfaces_[at(x, y)].write(to, x, y, alpha);
         known[std::size_t(y) * std::size_t(image.width) + std::size_t(x)] = alpha > 0;
       }
     }
@@ -110,13 +150,24 @@ class PlotBaker {
       n = n + part[k] * face.normals[k];
     }
     const double l = length(n);
-    const std::optional<Look> found = seen(p, l > 0 ? (1 / l) * n : face.normals[0], threshold);
+    n = l > 0 ? (1 / l) * n : face.normals[0];
+    eye_.look_from(n);
+    const std::optional<Look> found = seen(p, n, threshold);
     if (!found) return;
     const Look& look = *found;
     LinearTexel& sum = sums_[at(x, y)];
     for (std::size_t i = 0; i < 3; ++i) sum[i] += look.color[i] * look.alpha;
     sum[3] += look.alpha;
+    if (!surfaces_.empty()) surfaces_[at(x, y)].add(look, in_tangent_space(face, part, n, look.normal));
     ++samples_[at(x, y)];
+  }
+
+  static Vec3d in_tangent_space(const Face& face, const std::array<double, 3>& part, const Vec3d& n,
+                                const std::array<float, 3>& direction) {
+    Vec3d tangent{};
+    for (std::size_t k = 0; k < 3; ++k) tangent = tangent + part[k] * face.tangents[k];
+    const Vec3d up = face.mirrored * cross(n, tangent), d{direction[0], direction[1], direction[2]};
+    return {dot(d, tangent), dot(d, up), dot(d, n)};
   }
 
   /// Nothing if the scene is out of reach.
@@ -139,7 +190,31 @@ class PlotBaker {
   std::array<int, 2> begin_, end_;
   std::vector<LinearTexel> sums_;
   std::vector<std::uint16_t> samples_;
+  std::vector<SurfaceSum> surfaces_;  // empty: not wanted
 };
+
+/// The mesh as it is drawn with a texture, charts apart; tangents change nothing else.
+LatticeMesh with_places(const LatticeMesh& mesh, const Atlas& atlas) {
+  LatticeMesh out = mesh;
+  auto texture = std::make_shared<MeshTexture>();
+  texture->uv = atlas.corners;
+  texture->chart = atlas.chart;
+  out.texture = std::move(texture);
+  return out;
+}
+
+void add_tangents(const LatticeMesh& mesh, const Atlas& atlas, std::vector<Face>& faces) {
+  const LatticeMesh placed = with_places(mesh, atlas);
+  const ShadedMesh drawn = shaded(placed);
+  const std::vector<std::array<float, 4>> tangents = tangents_of(placed, drawn);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::array<float, 4>& t = tangents[drawn.triangles[f][k]];
+      faces[f].tangents[k] = {t[0], t[1], t[2]};
+      faces[f].mirrored = double(t[3]);
+    }
+  }
+}
 
 std::vector<Face> faces_of(const LatticeMesh& mesh, const Atlas& atlas) {
   const ShadedMesh drawn = shaded(mesh);
@@ -193,28 +268,48 @@ std::vector<Plot> plots_of(const std::vector<Face>& faces, const Atlas& atlas) {
   return plots;
 }
 
-}  // namespace
-
-TextureImage bake(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks, const BakeParams& params) {
+void bake_into(const Canvas& to, const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks,
+               const BakeParams& params) {
+  const bool surfaces = to.normal != nullptr;
   const std::uint64_t texels = std::uint64_t(atlas.width) * std::uint64_t(atlas.height);
-  const std::uint64_t needed = texels * kBytesPerTexel + mesh.triangles.size() * kBytesPerFace;
+  const std::uint64_t needed =
+      texels * (surfaces ? kBytesPerSurfaceTexel : kBytesPerTexel) + mesh.triangles.size() * kBytesPerFace;
   if (needed > params.memory.bytes)
     throw NeedsMemory(fmt::format("baking a texture of {} x {} texels", atlas.width, atlas.height), needed,
                       params.memory.bytes, params.memory.limit_with(needed - params.memory.bytes),
                       {Remedy::no_textures});
-  const std::vector<Face> faces = faces_of(mesh, atlas);
+  std::vector<Face> faces = faces_of(mesh, atlas);
+  if (surfaces) add_tangents(mesh, atlas, faces);
   const std::vector<Plot> plots = plots_of(faces, atlas);
-  TextureImage image(atlas.width, atlas.height, {0, 0, 0, 255});
-  std::vector<std::uint8_t> known(image.texels.size());
+  for (TextureImage* const image : {to.color, to.normal, to.roughness, to.emission}) {
+    if (image != nullptr) *image = TextureImage(atlas.width, atlas.height, {0, 0, 0, 255});
+  }
+  std::vector<std::uint8_t> known(to.color->texels.size());
   const double texel = atlas.texel * mesh.frame.voxel / kLatticePerVoxel;
   parallel_for(std::int64_t(plots.size()), [&](std::int64_t i) {
     const Plot& plot = plots[std::size_t(i)];
-    PlotBaker baker(looks, params, texel, plot);
+    PlotBaker baker(looks, params, texel, plot, surfaces);
     for (const std::uint32_t f : plot.faces) baker.add(faces[f]);
-    baker.write(image, known);
+    baker.write(to, known);
   });
-  fill_gaps(image, known);
+  for (TextureImage* const image : {to.color, to.normal, to.roughness, to.emission}) {
+    if (image != nullptr) fill_gaps(*image, known);
+  }
+}
+
+}  // namespace
+
+TextureImage bake(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks, const BakeParams& params) {
+  TextureImage image;
+  bake_into({&image}, mesh, atlas, looks, params);
   return image;
+}
+
+BakedSurface bake_surface(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks,
+                          const BakeParams& params) {
+  BakedSurface baked;
+  bake_into({&baked.color, &baked.normal, &baked.roughness, &baked.emission}, mesh, atlas, looks, params);
+  return baked;
 }
 
 }  // namespace bp

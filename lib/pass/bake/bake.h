@@ -1,5 +1,6 @@
 #pragma once
 #include "lib/atlas/atlas.h"
+#include "lib/core/texture.h"
 #include "lib/pass/bake/scene_looks.h"
 
 /// Textures of meshes that stand for a scene: each texel shows what is seen of the scene there, from outside, along the
@@ -9,7 +10,15 @@ namespace bp {
 struct BakeParams {
   double reach_world = 0;  ///< so far along the normal the scene is looked for, scene units
   bool both_ways = false;  ///< outwards, too: the mesh may lie inside; the nearest counts
-  MemoryShare memory{};    ///< for the image
+  MemoryShare memory{};    ///< for the images
+};
+
+/// How a level answers to light; as many texels as the image of colours.
+struct BakedSurface {
+  TextureImage color;
+  TextureImage normal;     ///< in the tangent space of tangents_of(), green upwards
+  TextureImage roughness;  ///< green: roughness, blue: metal
+  TextureImage emission;   ///< sRGB
 };
 
 /// Colours are means over a texel, in linear light. A texel whose line meets nothing within the reach shows the nearest
@@ -18,5 +27,10 @@ struct BakeParams {
 /// through the scene for each texel; 9 bytes a texel. Throws NeedsMemory.
 [[nodiscard]] TextureImage bake(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks,
                                 const BakeParams& params);
+
+/// Besides, normals, roughness, metal and light of what is seen, where bake() takes its colour: means, by how much is
+/// covered. 21 bytes a texel.
+[[nodiscard]] BakedSurface bake_surface(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks,
+                                        const BakeParams& params);
 
 }  // namespace bp

@@ -43,6 +43,18 @@ class TexelSizes {
   double total_ = 0;
 };
 
+void pack_surface(std::string& all, const TextureSurface& surface, const TextureSet& images) {
+  for (const TextureMap* map : {&surface.normal, &surface.roughness, &surface.emission}) {
+    pack(all, map->wrap[0]);
+    pack(all, map->wrap[1]);
+    pack(all, map->is_there());
+    if (!map->is_there()) continue;
+    for (const std::uint64_t word : content_hash(images.file(map->image)).words) pack(all, word);
+  }
+  for (const float x : {surface.normal_scale, surface.roughness_factor, surface.metal_factor}) pack(all, x);
+  for (const float x : surface.emission_factor) pack(all, x);
+}
+
 }  // namespace
 
 SceneLooks::SceneLooks(const Scene& scene, std::unique_ptr<Scratch> store, const MemoryShare& memory)
@@ -96,6 +108,7 @@ void SceneLooks::note_image(std::uint32_t material) {
   pack(all, m.alpha);
   pack(all, m.cutoff);
   pack(all, m.replaces_color);
+  if (m.surface != TextureSurface{}) pack_surface(all, m.surface, *images_);
   if (m.image != TextureMaterial::kNoImage) {
     noted.size = images_->size(m.image);
     for (const std::uint64_t word : content_hash(images_->file(m.image)).words) pack(all, word);
@@ -124,6 +137,7 @@ void SceneLooks::add_triangles_to(KeyHash& hash, const Bounds3d& box) const {
       one.add(std::as_bytes(std::span(t.texture.uv)));
       one.add(std::as_bytes(std::span(materials_[t.texture.material].key.words)));
     }
+    if (t.texture.normals[0] != 0) one.add(std::as_bytes(std::span(t.texture.normals)));
     for (std::size_t i = 0; i < 2; ++i) sum[i] += one.value().words[i];
     ++count;
   });

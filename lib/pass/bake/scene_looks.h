@@ -23,6 +23,10 @@ struct TexturedTriangle;
 struct Look {
   std::array<float, 3> color{};
   float alpha = 1;
+  // If asked for:
+  std::array<float, 3> normal{};  ///< in the scene, of length 1
+  float roughness = 1, metal = 0;
+  std::array<float, 3> emission{};  ///< linear light
 };
 
 /// They do not depend on the order of the triangles, nor on the memory.

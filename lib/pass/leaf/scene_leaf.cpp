@@ -40,8 +40,8 @@ std::vector<TexturedTriangle> triangles_in(const SceneLooks& looks, const Bounds
   };
   const auto key = [&](const TriangleTexture& t) { return looks.key_of(t.material); };
   std::sort(all.begin(), all.end(), [&](const TexturedTriangle& a, const TexturedTriangle& b) {
-    return std::tuple(a.corners, key(a.texture), a.colors, bits(a.texture)) <
-           std::tuple(b.corners, key(b.texture), b.colors, bits(b.texture));
+    return std::tuple(a.corners, key(a.texture), a.colors, bits(a.texture), a.texture.normals) <
+           std::tuple(b.corners, key(b.texture), b.colors, bits(b.texture), b.texture.normals);
   });
   return all;
 }
@@ -97,8 +97,11 @@ class LeafCutter {
     const bool textured = t.texture.material != TriangleTexture::kNoMaterial;
     std::array<CutPoint, 3> triangle;
     for (std::size_t k = 0; k < 3; ++k) {
-      triangle[k] = {
-          t.corners[k], normals[k], {}, {double(t.colors[k].r), double(t.colors[k].g), double(t.colors[k].b)}};
+      const bool own = t.texture.normals[k] != 0;
+      triangle[k] = {t.corners[k],
+                     own ? unpack_normal(t.texture.normals[k]) : normals[k],
+                     {},
+                     {double(t.colors[k].r), double(t.colors[k].g), double(t.colors[k].b)}};
       for (std::size_t i = 0; i < 2 && textured; ++i)
         triangle[k].uv[i] = std::isfinite(t.texture.uv[k][i]) ? double(t.texture.uv[k][i]) : 0;
     }

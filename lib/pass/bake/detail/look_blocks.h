@@ -31,7 +31,7 @@ class LookBlocks {
   /// Of a block, at most. Few enough that its hierarchy is built without other threads.
   static constexpr std::size_t kTriangles = 2048;
   /// Bytes of a triangle at work, at most.
-  static constexpr std::uint64_t kBytesEach = sizeof(TriangleBvh::Item) + 2 * 56 + 48;
+  static constexpr std::uint64_t kBytesEach = sizeof(TriangleBvh::Item) + 2 * 56 + 64;
 
   explicit LookBlocks(std::unique_ptr<Scratch> store) : store_(std::move(store)) {}
 

@@ -11,7 +11,7 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kMostHeld = 4;
+constexpr std::size_t kMostHeld = 8;
 
 template <class Held, class Get>
 auto held(Held& all, std::uint32_t number, const Get& get) {
@@ -30,6 +30,26 @@ std::array<std::array<std::uint32_t, 2>, 3> bits_of(const TriangleTexture& t) {
   return std::bit_cast<std::array<std::array<std::uint32_t, 2>, 3>>(t.uv);
 }
 
+Vec3d unit(const Vec3d& v) {
+  const double l = length(v);
+  return l > 0 ? (1 / l) * v : Vec3d{0, 0, 1};
+}
+
+/// The unit normal of a place by what its image of directions says there.
+Vec3d bent(const Vec3d& normal, const TriangleD& t, const TriangleTexture& texture, const LinearTexel& said,
+           double scale) {
+  const auto& [a, b, c] = texture.uv;
+  const double u1 = double(b[0]) - a[0], v1 = double(b[1]) - a[1], u2 = double(c[0]) - a[0], v2 = double(c[1]) - a[1];
+  const double area = u1 * v2 - u2 * v1;  // v goes down
+  const Vec3d along = (v2 / area) * (t[1] - t[0]) - (v1 / area) * (t[2] - t[0]);
+  const Vec3d tangent = unit(along - dot(along, normal) * normal);
+  if (!std::isfinite(tangent[0]) || !(std::abs(dot(tangent, normal)) < 0.5)) return normal;
+  const Vec3d up = (area < 0 ? 1.0 : -1.0) * cross(normal, tangent);
+  const double x = scale * (2 * double(said[0]) - 1), y = scale * (2 * double(said[1]) - 1),
+               z = 2 * double(said[2]) - 1;
+  return unit(x * tangent + y * up + z * normal);
+}
+
 }  // namespace
 
 double texels_per_unit(const TriangleD& t, const TriangleTexture& texture, const std::array<int, 2>& size) {
@@ -45,8 +65,11 @@ SceneEye::Block SceneEye::block(std::uint32_t number) {
   return held(blocks_, number, [&](std::uint32_t i) { return looks_.blocks_->get(i); });
 }
 
-const MipImage* SceneEye::image(std::uint32_t number) {
-  return held(images_, number, [&](std::uint32_t i) { return looks_.cache_->get(i); }).get();
+const MipImage* SceneEye::image(std::uint32_t number, MipImage::Kind kind) {
+  if (number == TextureMaterial::kNoImage) return nullptr;
+  return held(images_, 2 * number + std::uint32_t(kind),
+              [&](std::uint32_t) { return looks_.cache_->get(number, kind); })
+      .get();
 }
 
 /// Blocks that are no farther away than `most`, the nearest first.
@@ -64,7 +87,8 @@ void SceneEye::find_candidates(const Bounds3d& box, double most, const Distance&
 
 bool SceneEye::before(const LookBlock& a, std::uint32_t item_a, const LookBlock& b, std::uint32_t item_b) const {
   const TriangleTexture &s = a.texture(item_a), &t = b.texture(item_b);
-  if (const ResultKey k = looks_.key_of(s.material), l = looks_.key_of(t.material); k.words != l.words) return k.words < l.words;
+  if (const ResultKey k = looks_.key_of(s.material), l = looks_.key_of(t.material); k.words != l.words)
+    return k.words < l.words;
   if (a.colors(item_a) != b.colors(item_b)) return a.colors(item_a) < b.colors(item_b);
   return std::tuple(bits_of(s), a.triangles().item(item_a).corners) <
          std::tuple(bits_of(t), b.triangles().item(item_b).corners);
@@ -134,19 +158,56 @@ Look SceneEye::at(const LookBlock& block, std::uint32_t item, const Vec3d& p, do
   };
   look.color = {mean(&LinearColor::r), mean(&LinearColor::g), mean(&LinearColor::b)};
   const TriangleTexture& texture = block.texture(item);
+  Spot spot{part, {}, size};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < 2; ++i) spot.uv[i] += part[k] * double(texture.uv[k][i]);
+  }
+  if (surfaces_) add_surface(block, item, spot, look);
   if (texture.material == TriangleTexture::kNoMaterial) return look;
   const TextureMaterial& material = looks_.images_->material(texture.material);
-  const MipImage* const seen = image(material.image);
-  if (seen == nullptr) return look;
-  std::array<double, 2> uv{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < 2; ++i) uv[i] += part[k] * double(texture.uv[k][i]);
+  LinearTexel texel{1, 1, 1, 1};
+  if (const MipImage* const seen = image(material.image)) {
+    const double texels = size * texels_per_unit(corners, texture, {seen->width(), seen->height()});
+    texel = seen->at(spot.uv[0], spot.uv[1], texels, material.wrap);
+    for (std::size_t i = 0; i < 3; ++i) look.color[i] = material.replaces_color ? texel[i] : look.color[i] * texel[i];
+  } else if (!surfaces_) {
+    return look;
   }
-  const double texels = size * texels_per_unit(corners, texture, {seen->width(), seen->height()});
-  const LinearTexel texel = seen->at(uv[0], uv[1], texels, material.wrap);
-  for (std::size_t i = 0; i < 3; ++i) look.color[i] = material.replaces_color ? texel[i] : look.color[i] * texel[i];
   if (material.alpha_mode != AlphaMode::opaque) look.alpha = std::clamp(texel[3] * material.alpha, 0.0F, 1.0F);
   return look;
+}
+
+LinearTexel SceneEye::numbers_at(const TextureMap& map, const TriangleD& t, const TriangleTexture& texture,
+                                 const Spot& spot, MipImage::Kind kind) {
+  const MipImage* const seen = image(map.image, kind);
+  if (seen == nullptr) return {1, 1, 1, 1};
+  const double texels = spot.size * texels_per_unit(t, texture, {seen->width(), seen->height()});
+  return seen->at(spot.uv[0], spot.uv[1], texels, map.wrap);
+}
+
+/// Normals of corners, else of the triangle; then the image of directions, in a tangent space that follows from the
+/// triangle's places in it, as viewers have it that know no tangents.
+void SceneEye::add_surface(const LookBlock& block, std::uint32_t item, const Spot& spot, Look& look) {
+  const TriangleD& t = block.triangles().item(item).corners;
+  const TriangleTexture& texture = block.texture(item);
+  const Vec3d flat = unit(cross(t[1] - t[0], t[2] - t[0]));
+  Vec3d normal{};
+  for (std::size_t k = 0; k < 3; ++k) normal = normal + spot.part[k] * unpack_normal(texture.normals[k]);
+  normal = dot(normal, flat) > 0 ? unit(normal) : flat;
+  if (texture.material != TriangleTexture::kNoMaterial) {
+    const TextureSurface& surface = looks_.images_->material(texture.material).surface;
+    const LinearTexel rough = numbers_at(surface.roughness, t, texture, spot, MipImage::Kind::numbers),
+                      light = numbers_at(surface.emission, t, texture, spot, MipImage::Kind::color);
+    look.roughness = std::clamp(surface.roughness_factor * rough[1], 0.0F, 1.0F);
+    look.metal = std::clamp(surface.metal_factor * rough[2], 0.0F, 1.0F);
+    for (std::size_t i = 0; i < 3; ++i)
+      look.emission[i] = std::clamp(surface.emission_factor[i] * light[i], 0.0F, 1.0F);
+    if (image(surface.normal.image, MipImage::Kind::numbers) != nullptr)
+      normal = bent(normal, t, texture, numbers_at(surface.normal, t, texture, spot, MipImage::Kind::numbers),
+                    double(surface.normal_scale));
+  }
+  const double turn = dot(flat, side_) < 0 ? -1 : 1;
+  for (std::size_t i = 0; i < 3; ++i) look.normal[i] = float(turn * normal[i]);
 }
 
 bool SceneEye::covers(const LookBlock& block, std::uint32_t item, const Vec3d& p, double size, float threshold) {

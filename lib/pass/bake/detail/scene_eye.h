@@ -8,7 +8,11 @@ namespace bp {
 /// Looks at a scene. Keeps the blocks and images at hand that it had last. Not thread-safe: one for each thread.
 class SceneEye {
  public:
-  explicit SceneEye(const SceneLooks& looks) : looks_(looks) {}
+  /// `surfaces`: looks have all, not colours and alpha only.
+  explicit SceneEye(const SceneLooks& looks, bool surfaces = false) : looks_(looks), surfaces_(surfaces) {}
+
+  /// The side of surfaces that is looked at: normals are turned this way.
+  void look_from(const Vec3d& side) { side_ = side; }
 
   /// What is seen from `start` up to start + direction, over about `size` scene units along each side.
   struct Seen {
@@ -37,8 +41,17 @@ class SceneEye {
   using Held = std::vector<std::pair<std::uint32_t, std::shared_ptr<const T>>>;  // the latest last
 
   [[nodiscard]] Block block(std::uint32_t number);
-  [[nodiscard]] const MipImage* image(std::uint32_t number);
+  [[nodiscard]] const MipImage* image(std::uint32_t number, MipImage::Kind kind = MipImage::Kind::color);
   [[nodiscard]] Look at(const LookBlock& block, std::uint32_t item, const Vec3d& p, double size);
+  /// Where an image is looked at.
+  struct Spot {
+    std::array<double, 3> part{};  ///< of the triangle's corners
+    std::array<double, 2> uv{};
+    double size = 0;  ///< scene units
+  };
+  void add_surface(const LookBlock& block, std::uint32_t item, const Spot& spot, Look& look);
+  [[nodiscard]] LinearTexel numbers_at(const TextureMap& map, const TriangleD& t, const TriangleTexture& texture,
+                                       const Spot& spot, MipImage::Kind kind);
   [[nodiscard]] bool covers(const LookBlock& block, std::uint32_t item, const Vec3d& p, double size, float threshold);
   /// Of two triangles at one place, which is seen.
   [[nodiscard]] bool before(const LookBlock& a, std::uint32_t item_a, const LookBlock& b, std::uint32_t item_b) const;
@@ -46,6 +59,8 @@ class SceneEye {
   void find_candidates(const Bounds3d& box, double most, const Distance& distance);
 
   const SceneLooks& looks_;
+  const bool surfaces_;
+  Vec3d side_{};
   Held<LookBlock> blocks_;
   Held<MipImage> images_;
   std::vector<Candidate> candidates_;

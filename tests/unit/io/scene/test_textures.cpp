@@ -23,9 +23,10 @@ struct TexturedRead {
   bool has_textures = false;
 };
 
-TexturedRead read_textured(const std::vector<std::string>& paths) {
+TexturedRead read_textured(const std::vector<std::string>& paths, bool surface = false) {
   TexturedRead r;
   SceneOptions options;
+  options.surface = surface;
   options.colors = true;
   options.textures = r.table;
   const auto source = open_scenes(paths, options);
@@ -125,6 +126,48 @@ TEST_CASE("glTF: wrap modes, alpha and KHR_texture_transform", "[quick][io]") {
   CHECK(r.table->file(m.image).empty());
   CHECK_FALSE(r.table->has_images());
   REQUIRE_THROWS_WITH(r.table->image(m.image, 1000), Contains("none.png"));
+}
+
+TEST_CASE("glTF: how a material answers to light, if that is asked for", "[quick][io]") {
+  const TempDir dir;
+  Json doc{{"textures", {{{"source", 0}}, {{"source", 1}}}}, {"images", {{{"uri", "a.png"}}, {{"uri", "b.png"}}}}};
+  doc["materials"] = {
+      {{"normalTexture", {{"index", 1}, {"scale", 0.5}}},
+       {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}},
+       {"emissiveFactor", {1, 0.5, 0}},
+       {"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 0}}}, {"roughnessFactor", 0.25}}}}};
+  const std::string path = dir.file("x.gltf", gltf_of(doc));
+  const TexturedRead plain = read_textured({path});
+  CHECK(plain.textures[0].material == TriangleTexture::kNoMaterial);
+  const TexturedRead r = read_textured({path}, true);
+  CHECK_FALSE(r.has_textures);  // of colours
+  CHECK(r.textures[0].uv == kPlaces);
+  const TextureSurface& s = r.table->material(r.textures[0].material).surface;
+  CHECK(s.normal.is_there());
+  CHECK(s.normal_scale == 0.5F);
+  CHECK(s.roughness.is_there());
+  CHECK(s.roughness_factor == 0.25F);
+  CHECK(s.metal_factor == 1);
+  CHECK(s.emission_factor == std::array{1.0F, 0.5F, 0.0F});
+  CHECK_FALSE(s.emission.is_there());  // it lies elsewhere, which is told
+  REQUIRE(r.table->faults().size() == 1);
+  CHECK_THAT(*r.table->faults().begin(), ContainsSubstring("other places"));
+}
+
+TEST_CASE("OBJ: normals of corners, if they are asked for", "[quick][io]") {
+  const TempDir dir;
+  const std::string path = dir.file("x.obj",
+                                    "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 2\nvn 1 0 0\n"
+                                    "f 1//1 2//2 3//-1\nf 1/1/2 2/1 3/1/9\n");
+  CHECK(read_textured({path}).textures[0].normals[0] == 0);
+  const TexturedRead r = read_textured({path}, true);
+  REQUIRE(r.textures.size() == 2);
+  CHECK(unpack_normal(r.textures[0].normals[0])[2] == Approx(1));
+  CHECK(unpack_normal(r.textures[0].normals[1])[0] == Approx(1));
+  CHECK(unpack_normal(r.textures[0].normals[2])[0] == Approx(1));
+  CHECK(unpack_normal(r.textures[1].normals[0])[0] == Approx(1));
+  CHECK(r.textures[1].normals[1] == 0);
+  CHECK(r.textures[1].normals[2] == 0);
 }
 
 TEST_CASE("glTF: textures that name what does not exist", "[quick][io]") {

@@ -328,3 +328,41 @@ TEST_CASE("the key of a place knows its triangles and its images, not those else
   scene.textures[0].uv[0][0] += 0.5F;
   CHECK(key() != before);
 }
+
+TEST_CASE("the key of a place knows how fine the scene's images are, wherever they lie", "[quick][bake]") {
+  TexturedScene scene;
+  scene.add_cube({0, 0, 0}, 0.5, 0);
+  scene.add_cube({10, 0, 0}, 0.5, 1);
+  auto textures = textures_of(TextureImage(6, 1, {1, 2, 3, 255}));
+  textures->images.emplace_back(6, 1, TextureImage::Texel{1, 2, 3, 255});
+  textures->materials.push_back({1});
+  const auto key = [&] {
+    KeyHash hash("test");
+    looks_of(scene, textures)->add_to(hash, Bounds3d{{-1, -1, -1}, {1, 1, 1}});
+    return hash.key();
+  };
+  const ResultKey before = key();
+  textures->images[1] = TextureImage(600, 100, {1, 2, 3, 255});  // levels here get finer texels, too
+  CHECK(key() != before);
+}
+
+TEST_CASE("of surfaces at one place the same is seen, whatever their numbers and order", "[quick][bake]") {
+  const LatticeMesh mesh = box_mesh({{1000, 1000, 1000}, {3096, 3096, 3096}});
+  const Atlas atlas = unwrap(mesh, {64, 4096});
+  const auto seen = [&](bool swap_materials, bool swap_order) {
+    TexturedScene scene;
+    for (const int i : {0, 1}) scene.add_cube({0.25, 0.25, 0.25}, 0.5, std::uint32_t(swap_order ? 1 - i : i));
+    auto textures = textures_of(TextureImage(2, 2, {200, 10, 10, 255}));
+    textures->images.emplace_back(2, 2, TextureImage::Texel{10, 10, 200, 255});
+    textures->materials.push_back({1});
+    if (swap_materials) {
+      std::swap(textures->images[0], textures->images[1]);
+      for (TriangleTexture& t : scene.textures) t.material = 1 - t.material;
+    }
+    return bake(mesh, atlas, *looks_of(scene, textures), BakeParams{0.3, false, {}}).texels;
+  };
+  const auto plain = seen(false, false);
+  CHECK(seen(false, true) == plain);
+  CHECK(seen(true, false) == plain);
+  CHECK(seen(true, true) == plain);
+}
