@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What people see: levels and tiles in three.js and CesiumJS, in headless Chromium. A lit picture has many grey values; a
+# What people see: levels and tiles in three.js and CesiumJS, in headless Chromium, and in Blender, if it is there. A lit picture has many grey values; a
 # file without normals or material is a flat silhouette, or black. Packages come from npm, pinned; without Chromium, node
 # or network the test is skipped (77).
 #   tests/viewers/run.sh FOLDER      FOLDER keeps the installed packages and the pictures; the tools are on PATH
@@ -26,20 +26,31 @@ bpvox plant.ply --resolution 128 | bpclose --scale 1% | bpmesh --faces 1000 -o d
 bplod town/town.obj --faces 3000 --resolution 160 -o data/town > /dev/null
 
 bplod town/town.obj --resolution 256 --tile 64 --profile 3dtiles --leaves scene -o data/leaves > /dev/null
-bplod plant.ply --faces 2000 --levels 1 --resolution 160 --appearance full -o data/full > /dev/null
+"$here/../../samples/scenes.py" scenes > /dev/null
+bplod scenes/figure.obj --faces 1000 --levels 1 --resolution 160 --appearance full -o data/figure > /dev/null
+bplod scenes/truck.obj --faces 3000 --levels 1 --resolution 160 -o data/truck > /dev/null
 
 failed=0
 # picture VIEWER FILE NAME
 picture() {
   local greys
-  greys=$(node "$here/shot.cjs" "$1" "$2" "$3.png")
+  if [ "$1" = blender ]; then
+    command -v blender > /dev/null || { echo "$3: blender is not installed"; return; }
+    greys=$(blender -b --factory-startup --python "$here/blender.py" -- "$2" "$PWD/$3.png" 2> /dev/null | sed -n 's/^greys //p')
+  else
+    greys=$(node "$here/shot.cjs" "$1" "$2" "$3.png")
+  fi
   echo "$3: $greys grey values"
-  [ "$greys" -ge 20 ] || failed=1
+  [ "${greys:-0}" -ge 20 ] || failed=1
 }
 picture three data/gltf/plant_LOD0.glb three-level
 picture three data/bpmesh.glb three-bpmesh
 picture three data/town/town_LOD0.glb three-town
-picture three data/full/plant_LOD0.glb three-full
+picture three data/figure/figure_LOD0.glb three-figure
+picture three data/truck/truck_LOD0.glb three-truck
 picture cesium data/tiles/tileset.json cesium-tiles
 picture cesium data/leaves/tileset.json cesium-leaves
+for level in gltf/plant town/town figure/figure truck/truck; do
+  picture blender data/${level}_LOD0.glb blender-${level#*/}
+done
 exit $failed

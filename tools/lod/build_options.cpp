@@ -170,7 +170,7 @@ void declare_profile(Args& args, BuildOptions& o) {
       "--appearance",
       {{"auto", Appearance::automatic, "a texture if the scene has textures, else colours"},
        {"texture", Appearance::texture, "a texture with what the scene's textures and colours show, if it has any"},
-       {"full", Appearance::full, "also normals, roughness, metal and light of its own, as images"},
+       {"full", Appearance::full, "and normals, roughness, metal and light, as images"},
        {"color", Appearance::color, "colours on vertices, of the scene's materials and vertices, if it has any"},
        {"off", Appearance::off, "neither"}},
       o.appearance, "textures or colours of the levels");
@@ -179,11 +179,10 @@ void declare_profile(Args& args, BuildOptions& o) {
 void declare_tileset(Args& args, BuildOptions& o) {
   args.group("Tileset");
   args.option("--tile", "N", o.tile_vox, "voxels along the side of a tile; a level that is larger is cut into tiles");
-  args.option(
-      "--leaves",
-      {{"none", false, "the finest level ends the tileset"},
-       {"scene", true, "the scene's own triangles, colours and images, cut along the tiles, are shown up close"}},
-      o.leaves, "what lies below the finest level");
+  args.option("--leaves",
+              {{"none", false, "the finest level ends the tileset"},
+               {"scene", true, "the scene's own triangles and images, for close views"}},
+              o.leaves, "what lies below the finest level");
   args.option(
       "--cache", "DIR", o.cache,
       "keep the results of all jobs in DIR, and take from there what has not changed; a run that was killed goes "
