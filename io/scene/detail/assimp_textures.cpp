@@ -92,6 +92,7 @@ void lay_texture(const TextureRecord& record, const std::string& names, const Sc
   material.alpha_mode = record.opacity < 1 ? AlphaMode::blend : AlphaMode::opaque;
   primitive.material = textures.add_material(
       fmt::format("{} {} {} {}", key, int(record.wrap[0]), int(record.wrap[1]), record.opacity), material);
+  primitive.has_image = true;
   primitive.uv = Accessor();
   primitive.uv->components = 2;
   primitive.uv->count = record.vertices;
