@@ -36,6 +36,7 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--inside", "bpcheck"},
     {"--json", "bpcheck and bpinfo"},
     {"--keep-cavities", "bpclose"},
+    {"--leaves", "bplod"},
     {"--level", "bpinfo"},
     {"--levels", "bplod"},
     {"--look-at", "bpinfo"},
