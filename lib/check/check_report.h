@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "lib/check/face_counts.h"
 #include "lib/core/coords.h"
-#include "lib/core/face_counts.h"
 #include "lib/core/triangle_source.h"
 
 /// The verdict of check_proxy(): what was counted, and the first few places of each kind.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/face_counts.h"
+#include "lib/check/face_counts.h"
 #include "lib/core/triangle_source.h"
 #include "lib/geometry/triangle_totals.h"
 #include "tools/cli/report.h"

@@ -105,7 +105,6 @@ std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& me
   SceneOptions scene = build.scene_options(true);
   scene.colors = build.options.colors();
   scene.textures = build.textures();
-  scene.surface = build.options.full() || build.options.leaves;
   const auto source = open_scenes(build.options.voxels.scenes, scene);
   const SceneLooks::Scene read{*source, build.scene_size().bounds, build.scene_size().triangles, build.textures()};
   return std::make_unique<SceneLooks>(read, make_scratch(build.budget.tiles, build.options.common.temp), memory);

@@ -71,6 +71,7 @@ Build::Build(const BuildOptions& o)
 
 SceneOptions Build::scene_options(bool beside) const {
   SceneOptions scene{options.voxels.format, budget.reader, options.common.temp};
+  scene.surface = options.full() || options.leaves;
   scene.walls_only = options.profile == LodProfile::occluder;
   scene.document = document_budget(unpinned(options.common.memory_bytes, pinned_bytes(backends)), kVoxelProgram,
                                    beside ? 2 : options.voxels.scenes.size());
@@ -93,7 +94,6 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   SceneOptions scene = scene_options();
   scene.colors = options.colors();
   if (options.may_have_textures()) scene.textures = textures_ = std::make_shared<TextureTable>();
-  scene.surface = options.full() || options.leaves;
   auto source = open_scenes(options.voxels.scenes, scene);
   if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.voxels.up);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
@@ -115,7 +115,6 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   if (!options.field.empty()) field_ = read_field(options, out);
   if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
   choose_textures(*source, halvings == 0);
-  colored_ = source->has_colors();
   if (colored_ && !textured_) gather(*source, out);
   return out;
 }
@@ -137,8 +136,9 @@ void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_tol
 }
 
 void Build::choose_textures(const TriangleSource& source, bool tell) {
+  colored_ = source.has_colors();
   if (!textures_) return;
-  const bool from_colors = options.full() || (options.appearance == Appearance::texture && source.has_colors());
+  const bool from_colors = options.full() || (options.appearance == Appearance::texture && colored_);
   const bool wanted = source.has_textures() || from_colors;
   textured_ = wanted && can_read_again(options) && (from_colors || textures_->has_images());
   if (!tell) return;

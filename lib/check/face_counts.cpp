@@ -1,4 +1,4 @@
-#include "lib/core/face_counts.h"
+#include "lib/check/face_counts.h"
 
 #include <fmt/format.h>
 
