@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+"""Prints the jobs of a scene's tileset as JSON, from what bplod --explain says.
+  plan.py SCENE MACHINES [--memory SIZE] [OPTION...]    OPTIONs go to bplod
+memory: bytes that each job keeps to; 0: not known. ranges: of tiles, as for --tiles; about 30 s of work (BATCH) each or more, and at most
+four for each machine. Scenes that bplod cannot read, and levels that are no tiles, have none."""
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+SECONDS = float(os.environ.get("BATCH", 30))
+RANGES_PER_MACHINE = 4    # a job begins with the voxels of the whole scene: more ranges repeat that more often
+SECONDS_PER_FACE = 1.1e-5 # of the voxels' surface in all tiles, on one core
+FACES_PER_SQUARE = 3.6    # of all levels, for each square of a voxel's size in the scene's area
+
+
+def main():
+    scene, machines, *options = sys.argv[1:]
+    with tempfile.NamedTemporaryFile(suffix=".json") as report:
+        command = ["bplod", scene, *options, "--explain", "-q", "--overwrite", "--report", report.name]
+        told = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        if told.returncode not in (0, 2, 3):  # of the machine, not of the scene: to be tried again
+            sys.exit(told.stderr)
+        plan = json.load(open(report.name)) if told.returncode == 0 else None
+    print(json.dumps({"memory": plan["options"]["memory"] if plan else 0, "ranges": ranges(plan, int(machines))}))
+
+
+def ranges(plan, machines):
+    if plan is None or plan["options"]["profile"] != "3dtiles":
+        return []
+    counts = plan["counts"]
+    jobs, work = counts["jobs"], counts["area"] / counts["voxel"] ** 2 * FACES_PER_SQUARE * SECONDS_PER_FACE
+    number = min(math.ceil(work / SECONDS), RANGES_PER_MACHINE * machines, jobs)
+    if number < 2:
+        return []
+    edges = [jobs * i // number for i in range(number + 1)]
+    return [f"{a}..{b}" for a, b in zip(edges, edges[1:])]
+
+
+main()
