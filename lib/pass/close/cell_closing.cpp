@@ -9,7 +9,7 @@
 #include "lib/core/parallel.h"
 #include "lib/grid/clip.h"
 #include "lib/pass/close/detail/tile_closer.h"
-#include "lib/store/turn.h"
+#include "lib/pass/turn.h"
 
 namespace bp {
 

@@ -5,7 +5,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
-#include "lib/store/turn.h"
+#include "lib/pass/turn.h"
 
 namespace bp {
 

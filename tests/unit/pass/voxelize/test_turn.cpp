@@ -2,7 +2,7 @@
 #include <numeric>
 #include <set>
 
-#include "lib/store/turn.h"
+#include "lib/pass/turn.h"
 #include "tests/catch.h"
 
 namespace bp {
