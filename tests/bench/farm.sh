@@ -2,7 +2,8 @@
 # How much faster several nodes make one tileset than one node does. Nodes are simulated: each is bound to cores of its own on this host,
 # and does one job at a time. The jobs are those of samples/farm, handed out by a plain loop, so that no Snakemake is needed.
 #   tests/bench/farm.sh [TRIANGLES [NODES [OPTION...]]]    (10000000 3 --voxel 0.5 --tile 128); tools and samples on PATH
-# Prints seconds of: one node without parts; one node; NODES nodes; and what they repeat. Fails if the bytes differ.
+# Prints seconds of one node without parts, of one node, and of NODES nodes, then a table of the jobs, which tests/bench/farm_simulation.py
+# reads. Fails if the bytes differ.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 triangles=${1:-10000000} nodes=${2:-3}
@@ -14,7 +15,8 @@ cores=$(($(nproc) / nodes))
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
-bp-plant --triangles "$triangles" -o plant.glb 2> /dev/null
+TIMEFORMAT="%U %S" # of the processor
+bp-plant --triangles "$triangles" -o plant.glb > /dev/null
 nightly=$root/samples/nightly
 options+=(--memory 8G -j "$cores")
 
@@ -31,7 +33,8 @@ work_off() { # NODE OUT
   local range begin
   while range=$(flock "$2.lock" sh -c 'head -1 "$1" && sed -i 1d "$1"' sh "$2.queue") && [ -n "$range" ]; do
     begin=$(now)
-    on_node "$1" "$nightly" --part "$range" plant.glb "$2" "${options[@]}" --report "$2.$range.json"
+    { time on_node "$1" "$nightly" --part "$range" plant.glb "$2" "${options[@]}" --report "$2.$range.json" 2>&3; } \
+      3>&2 2> "$2.$range.cpu"
     echo "  node $1: $range in $(since "$begin") s" >> "$2.jobs"
   done
 }
@@ -62,16 +65,19 @@ on_node 0 bpcheck plant.glb plain/plant.glb/tileset.json > /dev/null
 echo "of this, the check: $(since "$begin") s"
 farm 1 one
 farm "$nodes" many
-diff -r -x .cache -x levels.tsv plain one
-diff -r -x .cache -x levels.tsv plain many
+diff -r -x levels.tsv plain/plant.glb one/plant.glb
+diff -r -x levels.tsv plain/plant.glb many/plant.glb
 echo "same bytes"
+du -sb many/.cache many/plant.glb plant.glb | awk '{ print $2 "\t" $1 " bytes" }'
 python3 - many.*..*.json << 'PYTHON'
 import json, sys
-print("range  voxels_kept  seconds: voxelize  measure  close  tiles")
+print("job", "chunks_kept", "chunks", "processor", "voxelize", "measure", "close", "tiles", sep="\t")
 for path in sys.argv[1:]:
     report = json.load(open(path))
     s, c = report["seconds"], report["counts"]
+    processor = sum(map(float, open(path[:-5] + ".cpu").read().split()))
     close = sum(v for k, v in s.items() if k.startswith("close"))
-    print(path.split(".", 1)[1][:-5], f"{c['chunks_kept']}/{c['chunks']}",
-          *(f"{x:.1f}" for x in (s["voxelize"], s["measure the scene"], close, s.get("make tiles", 0))))
+    tiles = s["total"] - s["voxelize"] - s["measure the scene"] - close
+    print(path.split(".", 1)[1][:-5], c["chunks_kept"], c["chunks"],
+          *(f"{x:.2f}" for x in (processor, s["voxelize"], s["measure the scene"], close, tiles)), sep="\t")
 PYTHON
