@@ -2,7 +2,7 @@
 """Prints the jobs of a scene's tileset as JSON, from what bplod --explain says.
   plan.py SCENE MACHINES [--memory SIZE] [OPTION...]    OPTIONs go to bplod
 memory: bytes that each job keeps to; 0: not known. ranges: of tiles, as for --tiles; about 30 s of work (BATCH) each or more, and at most
-four for each machine. Scenes that bplod cannot read, and levels that are no tiles, have none."""
+eight for each machine. Scenes that bplod cannot read, and levels that are no tiles, have none."""
 import json
 import math
 import os
@@ -11,9 +11,10 @@ import sys
 import tempfile
 
 SECONDS = float(os.environ.get("BATCH", 30))
-RANGES_PER_MACHINE = 4    # a job begins with the voxels of the whole scene: more ranges repeat that more often
-SECONDS_PER_FACE = 1.1e-5 # of the voxels' surface in all tiles, on one core
-FACES_PER_SQUARE = 3.6    # of all levels, for each square of a voxel's size in the scene's area
+RANGES_PER_MACHINE = 8
+SECONDS_PER_FACE = 1.1e-5     # of the voxels' surface in all tiles, on one core
+FACES_PER_SQUARE = 3.6        # of all levels, for each square of a voxel's size in the scene's area
+SECONDS_PER_TRIANGLE = 5e-7   # of the scene, which each job reads, with its voxels and closings: a fifth of its time or less
 
 
 def main():
@@ -31,12 +32,28 @@ def ranges(plan, machines):
     if plan is None or plan["options"]["profile"] != "3dtiles":
         return []
     counts = plan["counts"]
-    jobs, work = counts["jobs"], counts["area"] / counts["voxel"] ** 2 * FACES_PER_SQUARE * SECONDS_PER_FACE
-    number = min(math.ceil(work / SECONDS), RANGES_PER_MACHINE * machines, jobs)
+    work = counts["area"] / counts["voxel"] ** 2 * FACES_PER_SQUARE * SECONDS_PER_FACE
+    each = max(SECONDS, 5 * SECONDS_PER_TRIANGLE * counts["triangles"])
+    number = min(math.ceil(work / each), RANGES_PER_MACHINE * machines, counts["jobs"])
     if number < 2:
         return []
-    edges = [jobs * i // number for i in range(number + 1)]
+    edges = cut(counts, number)
     return [f"{a}..{b}" for a, b in zip(edges, edges[1:])]
+
+
+def cut(counts, number):
+    """Edges of ranges of about the same work: a level has a quarter of the surface of the level before."""
+    weights = [0] * counts["jobs"]
+    for i, level in enumerate(counts["levels"]):
+        tiles = level.get("tiles_at_most", 1)
+        for n in range(tiles):
+            weights[level["first_number"] + n] += 4**-i / tiles
+    edges, done, all_ = [0], 0, sum(weights)
+    for n, weight in enumerate(weights):
+        done += weight
+        if done >= all_ * len(edges) / number:
+            edges.append(n + 1)
+    return sorted({*edges[:number], len(weights)})
 
 
 main()

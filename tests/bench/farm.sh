@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # How much faster several nodes make one tileset than one node does. Nodes are simulated: each is bound to cores of its own on this host,
 # and does one job at a time. The jobs are those of samples/farm, handed out by a plain loop, so that no Snakemake is needed.
-#   tests/bench/farm.sh [TRIANGLES [NODES [OPTION...]]]    (10000000 3 --voxel 0.5 --tile 128); tools and samples on PATH
+#   tests/bench/farm.sh [TRIANGLES [NODES [OPTION...]]]    (10000000 3 --voxel 0.25 --tile 128); tools and samples on PATH
 # Prints seconds of one node without parts, of one node, and of NODES nodes, then a table of the jobs, which tests/bench/farm_simulation.py
 # reads. Fails if the bytes differ.
 set -euo pipefail
@@ -9,7 +9,7 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 triangles=${1:-10000000} nodes=${2:-3}
 shift $(($# < 2 ? $# : 2))
 options=(--profile 3dtiles --appearance off "$@")
-[ $# -gt 0 ] || options+=(--voxel 0.5 --tile 128)
+[ $# -gt 0 ] || options+=(--voxel 0.25 --tile 128)
 cores=$(($(nproc) / nodes))
 [ $cores -gt 0 ] || { echo "farm: $nodes nodes need as many cores" >&2 && exit 2; }
 work=$(mktemp -d)

@@ -8,7 +8,7 @@ import heapq
 import random
 import re
 
-RANGES_PER_NODE = 4  # as samples/farm/plan.py
+RANGES_PER_NODE = 8  # as samples/farm/plan.py
 PARTS = (("tiles", "#4477aa"), ("repeated by each job", "#ee8866"), ("plan, last step", "#bbbbbb"), ("waiting for the store", "#aa3377"))
 
 
