@@ -14,7 +14,7 @@ SECONDS = float(os.environ.get("BATCH", 30))
 RANGES_PER_MACHINE = 8
 SECONDS_PER_FACE = 1.1e-5     # of the voxels' surface in all tiles, on one core
 FACES_PER_SQUARE = 3.6        # of all levels, for each square of a voxel's size in the scene's area
-SECONDS_PER_TRIANGLE = 5e-7   # of the scene, which each job reads, with its voxels and closings: a fifth of its time or less
+SECONDS_PER_TRIANGLE = 5e-7   # of the scene, which each job reads, with its voxels and closings: rather a fifth of its time than more
 
 
 def main():
@@ -33,8 +33,8 @@ def ranges(plan, machines):
         return []
     counts = plan["counts"]
     work = counts["area"] / counts["voxel"] ** 2 * FACES_PER_SQUARE * SECONDS_PER_FACE
-    each = max(SECONDS, 5 * SECONDS_PER_TRIANGLE * counts["triangles"])
-    number = min(math.ceil(work / each), RANGES_PER_MACHINE * machines, counts["jobs"])
+    worth = work / (5 * SECONDS_PER_TRIANGLE * counts["triangles"])
+    number = min(math.ceil(work / SECONDS), max(machines, min(int(worth), RANGES_PER_MACHINE * machines)), counts["jobs"])
     if number < 2:
         return []
     edges = cut(counts, number)

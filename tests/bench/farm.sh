@@ -21,6 +21,7 @@ nightly=$root/samples/nightly
 options+=(--memory 8G -j "$cores")
 
 now() { date +%s.%N; }
+spent() { awk '{ printf "%.2f s of the processor", $1 + $2 }' "$1"; }
 since() { awk -v a="$1" -v b="$(now)" 'BEGIN { printf "%.1f", b - a }'; }
 on_node() { # NODE COMMAND...
   local first=$(($1 * cores))
@@ -42,17 +43,17 @@ work_off() { # NODE OUT
 farm() { # NODES OUT
   local begin step node pids=()
   begin=$(now)
-  on_node 0 "$nightly" --plan "$nodes" plant.glb "$2" "${options[@]}" > "$2.plan"
+  { time on_node 0 "$nightly" --plan "$nodes" plant.glb "$2" "${options[@]}" > "$2.plan"; } 2> "$2.cpu"
   python3 -c 'import json, sys; print(*json.load(sys.stdin)["ranges"], sep="\n")' < "$2.plan" > "$2.queue"
-  echo "plan $(since "$begin") s: $(wc -l < "$2.queue") jobs"
+  echo "plan $(since "$begin") s, $(spent "$2.cpu"): $(wc -l < "$2.queue") jobs"
   step=$(now)
   for ((node = 0; node < $1; ++node)); do work_off $node "$2" & pids+=($!); done
   for node in "${pids[@]}"; do wait "$node"; done
   cat "$2.jobs"
   echo "tiles $(since "$step") s"
   step=$(now)
-  on_node 0 "$nightly" --one plant.glb "$2" "${options[@]}" 2> /dev/null
-  echo "put together and checked $(since "$step") s"
+  { time on_node 0 "$nightly" --one plant.glb "$2" "${options[@]}" 2> /dev/null; } 2> "$2.cpu"
+  echo "put together and checked $(since "$step") s, $(spent "$2.cpu")"
   echo "$1 nodes of $cores cores: $(since "$begin") s"
 }
 

@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
 """Simulates a farm from measured jobs: how long a scene takes on many nodes, what is moved, and what limits it.
   farm_simulation.py MEASURED.txt [--triangles 1e10] [--cores 16] [--link 1e9] [--svg FILE]
-MEASURED.txt: the output of tests/bench/farm.sh. All work is taken to grow with the triangles, and to use all cores of a node, but for the
-plan and the last step. LINK: bytes a second that the store of scene and cache gives to all nodes together."""
+MEASURED.txt: the output of tests/bench/farm.sh. All work is taken to grow with the triangles, and to use all cores of a node; the plan
+uses one. LINK: bytes a second that the store of scene and cache gives to all nodes together."""
 import argparse
 import heapq
 import random
 import re
 
-RANGES_PER_NODE = 8  # as samples/farm/plan.py
-PARTS = (("tiles", "#4477aa"), ("repeated by each job", "#ee8866"), ("plan, last step", "#bbbbbb"), ("waiting for the store", "#aa3377"))
+PARTS = (("tiles", "#4477aa"), ("repeated by each job", "#ee8866"), ("plan, last step: one node", "#bbbbbb"), ("waiting for the store", "#aa3377"))
 
 
 def measured(path):
@@ -23,12 +22,13 @@ def measured(path):
         if kept == chunks:
             again.append(sum(share[:3]))
     return {"triangles": number(r"^(\d+) triangles,"), "tiles": tiles, "again": sorted(again)[len(again) // 2],
-            "serial": number(r"^plan ([\d.]+) s") + number(r"^put together and checked ([\d.]+) s"),
+            "plan": number(r"^plan .*s, ([\d.]+) s"), "last": number(r"^put together .*s, ([\d.]+) s"),
             "scene_bytes": number(r"^plant.glb\t(\d+)"), "cache_bytes": number(r"^many/.cache\t(\d+)")}
 
 
 def simulate(m, triangles, nodes, cores, link):
-    grow, ranges = triangles / m["triangles"], nodes * RANGES_PER_NODE
+    grow = triangles / m["triangles"]
+    ranges = round(max(nodes, min(8 * nodes, sum(m["tiles"]) / m["again"] / 5)))  # as samples/farm/plan.py
     work = sum(m["tiles"]) * grow / ranges  # of one range, on average
     draws = max(1, min(1000, round(len(m["tiles"]) * grow / ranges)))
     mean = sum(m["tiles"]) / len(m["tiles"])
@@ -40,7 +40,8 @@ def simulate(m, triangles, nodes, cores, link):
     for _ in range(ranges):  # the next range goes to the node that is free first
         begin = heapq.heappop(free)
         heapq.heappush(free, begin + load + again + each() / cores)
-    spent = [max(free) - RANGES_PER_NODE * (again + load), RANGES_PER_NODE * again, m["serial"] * grow, RANGES_PER_NODE * load]
+    most = -(-ranges // nodes)  # jobs of a node
+    spent = [max(free) - most * (again + load), most * again, (m["plan"] + m["last"] / cores) * grow, most * load]
     return spent, moved * ranges
 
 
