@@ -43,9 +43,9 @@ work_off() { # NODE OUT
 farm() { # NODES OUT
   local begin step node pids=()
   begin=$(now)
-  { time on_node 0 "$nightly" --plan "$nodes" plant.glb "$2" "${options[@]}" > "$2.plan"; } 2> "$2.cpu"
+  on_node 0 "$nightly" --plan "$nodes" plant.glb "$2" "${options[@]}" > "$2.plan"
   python3 -c 'import json, sys; print(*json.load(sys.stdin)["ranges"], sep="\n")' < "$2.plan" > "$2.queue"
-  echo "plan $(since "$begin") s, $(spent "$2.cpu"): $(wc -l < "$2.queue") jobs"
+  echo "plan $(since "$begin") s: $(wc -l < "$2.queue") jobs"
   step=$(now)
   for ((node = 0; node < $1; ++node)); do work_off $node "$2" & pids+=($!); done
   for node in "${pids[@]}"; do wait "$node"; done
@@ -69,6 +69,8 @@ farm "$nodes" many
 diff -r -x levels.tsv plain/plant.glb one/plant.glb
 diff -r -x levels.tsv plain/plant.glb many/plant.glb
 echo "same bytes"
+bplod plant.glb "${options[@]}" --explain -q --report plan.json > /dev/null
+python3 -c 'import json; print("of the plan, reading: {read:.2f} s".format(**json.load(open("plan.json"))["seconds"]))'
 du -sb many/.cache many/plant.glb plant.glb | awk '{ print $2 "\t" $1 " bytes" }'
 python3 - many.*..*.json << 'PYTHON'
 import json, sys

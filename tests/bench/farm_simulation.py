@@ -22,7 +22,7 @@ def measured(path):
         if kept == chunks:
             again.append(sum(share[:3]))
     return {"triangles": number(r"^(\d+) triangles,"), "tiles": tiles, "again": sorted(again)[len(again) // 2],
-            "plan": number(r"^plan .*s, ([\d.]+) s"), "last": number(r"^put together .*s, ([\d.]+) s"),
+            "plan": number(r"^of the plan, reading: ([\d.]+) s"), "last": number(r"^put together .*s, ([\d.]+) s"),
             "scene_bytes": number(r"^plant.glb\t(\d+)"), "cache_bytes": number(r"^many/.cache\t(\d+)")}
 
 
