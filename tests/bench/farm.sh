@@ -69,8 +69,8 @@ farm "$nodes" many
 diff -r -x levels.tsv plain/plant.glb one/plant.glb
 diff -r -x levels.tsv plain/plant.glb many/plant.glb
 echo "same bytes"
-bplod plant.glb "${options[@]}" --explain -q --report plan.json > /dev/null
-python3 -c 'import json; print("of the plan, reading: {read:.2f} s".format(**json.load(open("plan.json"))["seconds"]))'
+{ time bplod plant.glb "${options[@]}" --explain -q > /dev/null; } 2> plan.cpu
+echo "of the plan, bplod: $(spent plan.cpu)"
 du -sb many/.cache many/plant.glb plant.glb | awk '{ print $2 "\t" $1 " bytes" }'
 python3 - many.*..*.json << 'PYTHON'
 import json, sys

@@ -5,10 +5,11 @@ MEASURED.txt: the output of tests/bench/farm.sh. All work is taken to grow with 
 uses one. LINK: bytes a second that the store of scene and cache gives to all nodes together."""
 import argparse
 import heapq
+import math
 import random
 import re
 
-PARTS = (("tiles", "#4477aa"), ("repeated by each job", "#ee8866"), ("plan, last step: one node", "#bbbbbb"), ("waiting for the store", "#aa3377"))
+PARTS = (("tiles", "#4477aa"), ("repeated by each job", "#ee8866"), ("plan, last step", "#bbbbbb"), ("waiting for the store", "#aa3377"))
 
 
 def measured(path):
@@ -22,7 +23,7 @@ def measured(path):
         if kept == chunks:
             again.append(sum(share[:3]))
     return {"triangles": number(r"^(\d+) triangles,"), "tiles": tiles, "again": sorted(again)[len(again) // 2],
-            "plan": number(r"^of the plan, reading: ([\d.]+) s"), "last": number(r"^put together .*s, ([\d.]+) s"),
+            "plan": number(r"^of the plan, bplod: ([\d.]+) s"), "last": number(r"^put together .*s, ([\d.]+) s"),
             "scene_bytes": number(r"^plant.glb\t(\d+)"), "cache_bytes": number(r"^many/.cache\t(\d+)")}
 
 
@@ -46,13 +47,13 @@ def simulate(m, triangles, nodes, cores, link):
 
 
 def svg(columns, title):
-    width, height, top = 720, 400, max(sum(spent) for _, spent in columns) / 3600
-    step, scale = (width - 90) / len(columns), (height - 90) / top
+    width, height, top = 720, 420, math.ceil(max(sum(spent) for _, spent in columns) / 3600)
+    step, scale = (width - 90) / len(columns), (height - 110) / top
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="sans-serif" font-size="13">',
            f'<rect width="{width}" height="{height}" fill="white"/><text x="60" y="22" font-size="15">{title}</text>']
-    for i in range(5):
-        y = height - 40 - i * top / 4 * scale
-        out.append(f'<path d="M55 {y:.0f}H{width - 20}" stroke="#ddd"/><text x="48" y="{y + 4:.0f}" text-anchor="end">{i * top / 4:.3g} h</text>')
+    for i in range(0, top + 1, max(1, top // 6)):
+        y = height - 40 - i * scale
+        out.append(f'<path d="M55 {y:.0f}H{width - 20}" stroke="#ddd"/><text x="48" y="{y + 4:.0f}" text-anchor="end">{i} h</text>')
     for i, (nodes, spent) in enumerate(columns):
         y = height - 40
         for seconds, (_, color) in zip(spent, PARTS):
@@ -60,7 +61,8 @@ def svg(columns, title):
             out.append(f'<rect x="{65 + i * step:.0f}" y="{y:.1f}" width="{step * .7:.0f}" height="{seconds / 3600 * scale:.1f}" fill="{color}"/>')
         out.append(f'<text x="{65 + (i + .35) * step:.0f}" y="{height - 22}" text-anchor="middle">{nodes}</text>')
     for i, (name, color) in enumerate(PARTS):
-        out.append(f'<rect x="{width - 230}" y="{40 + 20 * i}" width="12" height="12" fill="{color}"/><text x="{width - 212}" y="{51 + 20 * i}">{name}</text>')
+        x = 60 + 165 * i
+        out.append(f'<rect x="{x}" y="36" width="12" height="12" fill="{color}"/><text x="{x + 18}" y="47">{name}</text>')
     return "\n".join(out + [f'<text x="{width / 2:.0f}" y="{height - 5}" text-anchor="middle">nodes</text></svg>', ""])
 
 
@@ -73,7 +75,7 @@ def main():
     o = parser.parse_args()
     m, columns = measured(o.measured), []
     print("nodes", "hours", *(name for name, _ in PARTS), "terabytes", sep="\t")
-    for nodes in (1, 2, 4, 8, 16, 32, 64, 128):
+    for nodes in (1, 2, 4, 8, 16, 32, 64):
         spent, moved = simulate(m, o.triangles, nodes, o.cores, o.link)
         columns.append((nodes, spent))
         print(nodes, *(f"{s / 3600:.2f}" for s in [sum(spent), *spent]), f"{moved / 1e12:.1f}", sep="\t")
