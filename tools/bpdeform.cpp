@@ -1,0 +1,114 @@
+// bpdeform: binds a scene to a cage, and moves it as the cage is moved. Manual: docs/bpdeform.1.md
+#include "io/files/lower.h"
+#include "io/scene/scene_format.h"
+#include "lib/core/error.h"
+#include "tools/cli/report.h"
+#include "tools/cli/run_tool.h"
+#include "tools/deform/apply.h"
+#include "tools/deform/bind.h"
+
+namespace {
+
+using bp::ErrorCode;
+using bp::fail;
+
+enum class Outside { refuse, near };
+
+struct Options {
+  bp::CommonOptions common;
+  std::string command, out;
+  std::vector<std::string> files;
+  Outside outside = Outside::refuse;
+};
+
+Options parse(bp::Args& args) {
+  Options o;
+  args.about(
+      "Moves a scene by a cage. `bind SCENE CAGE` finds out how each vertex of the scene depends on the cage. `apply "
+      "WEIGHTS CAGE2` writes the scene again, as the moved cage carries it.");
+  args.example(
+      "bpdeform bind figure.obj cage.obj -o figure.bpw && bpdeform apply figure.bpw posed.obj -o posed_figure.obj");
+  args.positional("COMMAND", o.command, "bind or apply");
+  args.positional("[FILE...]", o.files, "of bind: scene (OBJ, PLY or GLB) and cage; of apply: weights and moved cage");
+  args.group("Files");
+  args.option("-o,--output", "FILE", o.out, "of bind: weights; of apply: the scene, in the format of the scene");
+  args.needed("--output");
+  args.group("Binding");
+  args.option("--outside",
+              {{"refuse", Outside::refuse, "is an error, with their number"},
+               {"near", Outside::near, "follow the nearest face, and turn with the whole cage"}},
+              o.outside, "vertices outside the cage");
+  o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::memory_part |
+                            bp::CommonOptions::progress_part | bp::CommonOptions::report_part |
+                            bp::CommonOptions::overwrite_part);
+  args.often({"--output", "--outside", "--overwrite"});
+  args.parse();
+  if (o.command != "bind" && o.command != "apply") fail(ErrorCode::bad_argument, "begin with a command: bind or apply");
+  if (o.files.size() != 2)
+    fail(ErrorCode::bad_argument, "{} takes two files: {}", o.command,
+         o.command == "bind" ? "the scene and the cage" : "the weights and the moved cage");
+  if (o.out.empty()) fail(ErrorCode::bad_argument, "name the output with --output");
+  if (o.command == "apply" && args.given("--outside")) fail(ErrorCode::bad_argument, "--outside belongs to bind");
+  if (std::find(o.files.begin(), o.files.end(), "-") != o.files.end())
+    fail(ErrorCode::bad_argument, "bpdeform reads files, not stdin: apply reads the scene again");
+  bp::keep_inputs(o.files);
+  return o;
+}
+
+bp::SceneOptions scene_options(const Options& o) {
+  bp::SceneOptions options;
+  options.temp_dir = o.common.temp;
+  options.memory_bytes = o.common.memory_bytes / 4;
+  options.keep_extremes = true;
+  return options;
+}
+
+void bind(const Options& o, bp::Report& report, bp::Progress& progress) {
+  const auto output = bp::open_output(o.out, o.common.overwrite);
+  const bp::BindRequest request{o.files[0], o.files[1], o.outside == Outside::near, o.common.memory_bytes,
+                                scene_options(o)};
+  const bp::WeightTotals totals = bp::bind_scene(request, *output, progress);
+  report.counts = {{"vertices", totals.points}, {"outside", totals.outside}};
+  if (totals.outside > 0)
+    report.note(fmt::format("{} of {} vertices lie outside the cage and follow its nearest faces", totals.outside,
+                            totals.points),
+                o.common);
+  output->commit();
+  report.bytes_in = bp::size_of_files({o.files[0]});
+  report.bytes_out = output->bytes();
+}
+
+void apply(const Options& o, bp::Report& report, bp::Progress& progress) {
+  bp::WeightReader weights(o.files[0]);
+  const std::string& scene = weights.header().scene;
+  bp::keep_inputs({scene});
+  if (bp::scene_format_of(o.out) != bp::scene_format_of(scene))
+    fail(ErrorCode::bad_argument, "{}: the scene is written in its own format: name it .{}", o.out,
+         bp::scene_format_of(scene));
+  const auto output = bp::open_output(o.out, o.common.overwrite);
+  const bp::ApplyRequest request{o.files[0], o.files[1], o.common.memory_bytes, scene_options(o)};
+  const bp::Applied applied = bp::apply_cage(weights, request, *output, progress);
+  report.counts = {{"vertices", applied.points}};
+  if (!applied.left_behind.empty()) report.note(fmt::format("{}: {}", o.out, applied.left_behind), o.common);
+  output->commit();
+  report.bytes_in = bp::size_of_files({scene});
+  report.bytes_out = output->bytes();
+}
+
+void run(const Options& o) {
+  bp::Report report("bpdeform");
+  bp::Progress progress("bpdeform", o.common.progress);
+  report.begin(o.command);
+  if (o.command == "bind") {
+    bind(o, report, progress);
+  } else {
+    apply(o, report, progress);
+  }
+  report.write(o.common);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return bp::run_tool("bpdeform", argc, argv, parse, run);
+}
