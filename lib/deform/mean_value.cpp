@@ -10,6 +10,7 @@ namespace bp {
 
 namespace {
 
+constexpr std::size_t kWide = detail::kWide;
 constexpr double kOnCage = 1e-9;  // of the diagonal: nearer points are taken for points of the cage
 constexpr double kFarAway = 8;    // diagonals: such points are outside, and their weights have few digits
 
@@ -26,45 +27,38 @@ bool is_finite(const Vec3d& p) {
 
 }  // namespace
 
-/// Four points at work.
-struct MeanValueCoordinates::Group {
-  detail::RawScratch raw;
-  std::vector<double> weights;  // of one point
-};
-
 MeanValueCoordinates::MeanValueCoordinates(Cage cage) : cage_(std::move(cage)), faces_(triangles_of(cage_)) {}
 
 void MeanValueCoordinates::evaluate(std::span<const Vec3d> points, CoordinateRows& out) const {
-  thread_local Group group;
-  group.weights.resize(cage_.vertices.size());
-  out.points = points.size();
-  out.weights.resize(points.size() * cage_.vertices.size());
+  thread_local detail::RawScratch raw;
+  out.columns = cage_.vertices.size();
+  out.weights.resize(points.size() * out.columns);
   out.places.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); i += 4) take_group(points, i, group, out);
+  for (std::size_t i = 0; i < points.size(); i += kWide) take_group(points, i, raw, out);
 }
 
 /// A group that is not full repeats its last point.
-void MeanValueCoordinates::take_group(std::span<const Vec3d> points, std::size_t first, Group& group,
+void MeanValueCoordinates::take_group(std::span<const Vec3d> points, std::size_t first, detail::RawScratch& raw,
                                       CoordinateRows& out) const {
-  const std::size_t count = std::min<std::size_t>(4, points.size() - first);
-  detail::FourVec four{};
-  Vec3d local[4];
-  for (std::size_t k = 0; k < 4; ++k) {
+  const std::size_t count = std::min(kWide, points.size() - first);
+  detail::WideVec group{};
+  Vec3d local[kWide];
+  for (std::size_t k = 0; k < kWide; ++k) {
     const Vec3d& p = points[first + std::min(k, count - 1)];
     local[k] = is_finite(p) ? cage_.to_cage(p) : Vec3d{};
-    four.x[k] = local[k][0], four.y[k] = local[k][1], four.z[k] = local[k][2];
+    group.x[k] = local[k][0], group.y[k] = local[k][1], group.z[k] = local[k][2];
   }
-  const unsigned doubtful = detail::raw_weights(cage_, four, group.raw);
+  const unsigned doubtful = detail::raw_weights(cage_, group, raw);
   for (std::size_t k = 0; k < count; ++k) {
-    for (std::size_t v = 0; v < group.weights.size(); ++v) group.weights[v] = group.raw.vertices[v].sum[k];
+    const std::span<double> weights = out.row(first + k);
     CoordinateRows::Place& place = out.places[first + k];
-    place = CoordinateRows::Place::nowhere;
     if (is_finite(points[first + k])) {
-      finish(local[k], group.weights, place, (doubtful >> k & 1) == 0);
+      for (std::size_t v = 0; v < weights.size(); ++v) weights[v] = raw.vertices[v].sum[k];
+      finish(local[k], weights, place, (doubtful >> k & 1) == 0);
     } else {
-      std::fill(group.weights.begin(), group.weights.end(), 0.0);
+      std::fill(weights.begin(), weights.end(), 0.0);
+      place = CoordinateRows::Place::nowhere;
     }
-    for (std::size_t v = 0; v < group.weights.size(); ++v) out.weights[v * out.points + first + k] = group.weights[v];
   }
 }
 

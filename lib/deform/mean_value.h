@@ -9,13 +9,23 @@
 
 namespace bp {
 
-/// Coordinates of points: a row for each vertex of the cage, in it a number for each point.
+namespace detail {
+struct RawScratch;
+}
+
+/// Coordinates of points: a row for each point, in it a number for each vertex of the cage.
 struct CoordinateRows {
   enum class Place : std::uint8_t { inside, outside, nowhere };  ///< nowhere: the point is not finite
 
-  std::size_t points = 0;
-  std::vector<double> weights;  ///< of vertex v and point i: [v * points + i]; all 0 for a point that is nowhere
+  std::size_t columns = 0;      ///< vertices of the cage
+  std::vector<double> weights;  ///< of point i and vertex v: [i * columns + v]; all 0 for a point that is nowhere
   std::vector<Place> places;    ///< by point; a point on the cage is inside
+
+  [[nodiscard]] std::size_t points() const { return places.size(); }
+  [[nodiscard]] std::span<double> row(std::size_t i) { return std::span(weights).subspan(i * columns, columns); }
+  [[nodiscard]] std::span<const double> row(std::size_t i) const {
+    return std::span(weights).subspan(i * columns, columns);
+  }
 };
 
 /// Mean value coordinates of a cage ([JSW05]). The coordinates of a point sum to 1, and reproduce the point: an affine
@@ -32,8 +42,7 @@ class MeanValueCoordinates {
   void evaluate(std::span<const Vec3d> points, CoordinateRows& out) const;
 
  private:
-  struct Group;
-  void take_group(std::span<const Vec3d> points, std::size_t first, Group& group, CoordinateRows& out) const;
+  void take_group(std::span<const Vec3d> points, std::size_t first, detail::RawScratch& raw, CoordinateRows& out) const;
   void finish(const Vec3d& point, std::span<double> weights, CoordinateRows::Place& place, bool trusted) const;
   [[nodiscard]] double nearest(const Vec3d& point, std::span<double> weights) const;
   void reproduce(const Vec3d& point, std::span<double> weights) const;

@@ -33,9 +33,9 @@ Frame frame_of(const Vec3d& normal, const Vec3d* tangent) {
 }
 
 std::vector<Vec3d> moves_at(const CoordinateRows& rows, std::span<const Vec3d> moves) {
-  std::vector<Vec3d> out(rows.points);
-  for (std::size_t v = 0; v < moves.size(); ++v) {
-    for (std::size_t i = 0; i < rows.points; ++i) out[i] = out[i] + rows.weights[v * rows.points + i] * moves[v];
+  std::vector<Vec3d> out(rows.points());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    for (std::size_t v = 0; v < moves.size(); ++v) out[i] = out[i] + rows.row(i)[v] * moves[v];
   }
   return out;
 }

@@ -19,31 +19,37 @@ int bits_for(double largest) {
   return bits;
 }
 
+/// The sum so far is rounded, not the weight: what rounding takes from one column it gives to the next. `units` are
+/// `stride` apart. Returns the bits.
+int round_row(std::span<const double> weights, std::int32_t* units, std::size_t stride) {
+  double largest = 0, sum = 0;
+  for (const double w : weights) largest = std::max(largest, std::abs(w));
+  const int bits = bits_for(largest);
+  const double scale = std::ldexp(1.0, bits);
+  std::int64_t before = 0;
+  for (std::size_t c = 0; c < weights.size(); ++c) {
+    sum += weights[c];
+    const auto rounded = std::int64_t(std::nearbyint(sum * scale));
+    units[c * stride] = std::int32_t(rounded - before);
+    before = rounded;
+  }
+  return bits;
+}
+
 }  // namespace
 
-void round_weights(const CoordinateRows& rows, WeightBlock& out) {
-  const std::size_t n = rows.points;
-  out.points = n;
-  out.columns = n == 0 ? 0 : rows.weights.size() / n;
-  out.bits.resize(n);
-  out.units.resize(n * out.columns);
-  std::vector<double> largest(n), sum(n), scale(n);
-  std::vector<std::int64_t> before(n);
-  for (std::size_t c = 0; c < out.columns; ++c) {
-    for (std::size_t i = 0; i < n; ++i) largest[i] = std::max(largest[i], std::abs(rows.weights[c * n + i]));
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    out.bits[i] = std::uint8_t(bits_for(largest[i]));
-    scale[i] = std::ldexp(1.0, out.bits[i]);
-  }
-  // The sum so far is rounded, not the weight: what rounding takes from one column it gives to the next.
-  for (std::size_t c = 0; c < out.columns; ++c) {
-    for (std::size_t i = 0; i < n; ++i) {
-      sum[i] += rows.weights[c * n + i];
-      const std::int64_t rounded = std::llrint(sum[i] * scale[i]);
-      out.units[c * n + i] = std::int32_t(rounded - before[i]);
-      before[i] = rounded;
-    }
+WeightBlock::WeightBlock(std::size_t point_count, std::size_t column_count)
+    : points(point_count), columns(column_count), bits(points), units(points * columns) {}
+
+void round_weights(const CoordinateRows& rows, std::size_t first, WeightBlock& out) {
+  constexpr std::size_t kTile = 16;  // points: one line of the cache in each column
+  std::vector<std::int32_t> tile(kTile * rows.columns);
+  for (std::size_t at = 0; at < rows.points(); at += kTile) {
+    const std::size_t count = std::min(kTile, rows.points() - at);
+    for (std::size_t i = 0; i < count; ++i)
+      out.bits[first + at + i] = std::uint8_t(round_row(rows.row(at + i), tile.data() + i, kTile));
+    for (std::size_t c = 0; c < rows.columns; ++c)
+      std::copy_n(tile.data() + c * kTile, count, out.units.data() + c * out.points + first + at);
   }
 }
 

@@ -53,18 +53,22 @@ class BlockCutter {
   ContentHash hash_;
 };
 
+/// In steps that stay in the cache.
 void work_on(const MeanValueCoordinates& coordinates, bool carry_outside, Block& block) {
+  constexpr std::size_t kStep = 128;
   CoordinateRows rows;
-  WeightBlock rounded;
-  coordinates.evaluate(block.points, rows);
-  for (std::size_t i = 0; i < block.points.size(); ++i) {
-    if (rows.places[i] != CoordinateRows::Place::outside || block.outside++ > 0) continue;
-    block.first_outside = i;
-    block.place = block.points[i];
+  WeightBlock rounded(block.points.size(), coordinates.cage().vertices.size());
+  for (std::size_t first = 0; first < block.points.size(); first += kStep) {
+    const std::size_t count = std::min(kStep, block.points.size() - first);
+    coordinates.evaluate(std::span(block.points).subspan(first, count), rows);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (rows.places[i] != CoordinateRows::Place::outside || block.outside++ > 0) continue;
+      block.first_outside = first + i;
+      block.place = block.points[first + i];
+    }
+    if (block.outside == 0 || carry_outside) round_weights(rows, first, rounded);
   }
-  if (block.outside > 0 && !carry_outside) return;
-  round_weights(rows, rounded);
-  pack_weights(rounded, block.packed);
+  if (block.outside == 0 || carry_outside) pack_weights(rounded, block.packed);
 }
 
 /// Counts, and remembers the first point outside.

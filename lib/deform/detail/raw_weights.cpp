@@ -15,54 +15,54 @@ namespace {
 constexpr double kNear = 1e-9;    // of the diagonal, and of angles: nearer than this nothing is trusted
 constexpr double kMean2 = 1e-16;  // square of a mean vector that may be left out
 
-BP_INLINE void cross_four(const FourVec& a, const FourVec& b, FourVec& out) {
+BP_INLINE void cross_wide(const WideVec& a, const WideVec& b, WideVec& out) {
   out.x = a.y * b.z - a.z * b.y;
   out.y = a.z * b.x - a.x * b.z;
   out.z = a.x * b.y - a.y * b.x;
 }
 
-BP_INLINE void take_vertices(const Cage& cage, const FourVec& points, RawScratch& scratch, FourBits& near) {
+BP_INLINE void take_vertices(const Cage& cage, const WideVec& points, RawScratch& scratch, WideBits& near) {
   for (std::size_t i = 0; i < cage.vertices.size(); ++i) {
     const Vec3d& v = cage.vertices[i];
-    FourVec d{v[0] - points.x, v[1] - points.y, v[2] - points.z};
-    Four length = BP_DOT(d, d);
+    WideVec d{v[0] - points.x, v[1] - points.y, v[2] - points.z};
+    Wide length = BP_DOT(d, d);
     root(length);
     near |= length < kNear;
-    const Four one = 1.0 / (length < 1e-300 ? length + 1.0 : length);
-    scratch.vertices[i] = {{d.x * one, d.y * one, d.z * one}, one, Four{}};
+    const Wide one = 1.0 / (length < 1e-300 ? length + 1.0 : length);
+    scratch.vertices[i] = {{d.x * one, d.y * one, d.z * one}, one, Wide{}};
   }
 }
 
-BP_INLINE void take_edges(const Cage& cage, RawScratch& scratch, FourBits& near) {
+BP_INLINE void take_edges(const Cage& cage, RawScratch& scratch, WideBits& near) {
   for (std::size_t i = 0; i < cage.edges.size(); ++i) {
-    const FourVec &a = scratch.vertices[cage.edges[i].a].toward, &b = scratch.vertices[cage.edges[i].b].toward;
-    FourVec n;
-    cross_four(a, b, n);
-    Four sine = BP_DOT(n, n), theta;
-    const Four cosine = BP_DOT(a, b);
+    const WideVec &a = scratch.vertices[cage.edges[i].a].toward, &b = scratch.vertices[cage.edges[i].b].toward;
+    WideVec n;
+    cross_wide(a, b, n);
+    Wide sine = BP_DOT(n, n), theta;
+    const Wide cosine = BP_DOT(a, b);
     root(sine);
     near |= (sine < kNear) & (cosine < 0.0);
     angle(sine, cosine, theta);
-    const Four factor = 0.5 * theta / (sine < 1e-300 ? sine + 1.0 : sine);
+    const Wide factor = 0.5 * theta / (sine < 1e-300 ? sine + 1.0 : sine);
     scratch.edges[i] = {n, {n.x * factor, n.y * factor, n.z * factor}};
   }
 }
 
 /// In the plane of a face, but not in the face, its weights are 0.
-BP_INLINE void take_face(const Cage::Face& face, RawScratch& scratch, FourBits& near) {
+BP_INLINE void take_face(const Cage::Face& face, RawScratch& scratch, WideBits& near) {
   const RawScratch::Edge &e0 = scratch.edges[face.edge[0]], &e1 = scratch.edges[face.edge[1]],
                          &e2 = scratch.edges[face.edge[2]];
   RawScratch::Vertex &v0 = scratch.vertices[face.corner[0]], &v1 = scratch.vertices[face.corner[1]],
                      &v2 = scratch.vertices[face.corner[2]];
   const double* s = face.sign.data();
-  const FourVec mean{s[0] * e0.mean.x + s[1] * e1.mean.x + s[2] * e2.mean.x,
+  const WideVec mean{s[0] * e0.mean.x + s[1] * e1.mean.x + s[2] * e2.mean.x,
                      s[0] * e0.mean.y + s[1] * e1.mean.y + s[2] * e2.mean.y,
                      s[0] * e0.mean.z + s[1] * e1.mean.z + s[2] * e2.mean.z};
-  const Four height = s[0] * BP_DOT(e0.across, v0.toward);
-  const FourBits flat = (height < kNear) & (height > -kNear);
+  const Wide height = s[0] * BP_DOT(e0.across, v0.toward);
+  const WideBits flat = (height < kNear) & (height > -kNear);
   near |= flat & (BP_DOT(mean, mean) > kMean2);
-  const Four zero{};
-  const Four per = flat ? zero : 1.0 / (flat ? height + 1.0 : height);
+  const Wide zero{};
+  const Wide per = flat ? zero : 1.0 / (flat ? height + 1.0 : height);
   v0.sum += s[0] * per * BP_DOT(e0.across, mean);
   v1.sum += s[1] * per * BP_DOT(e1.across, mean);
   v2.sum += s[2] * per * BP_DOT(e2.across, mean);
@@ -70,15 +70,17 @@ BP_INLINE void take_face(const Cage::Face& face, RawScratch& scratch, FourBits& 
 
 }  // namespace
 
-BP_CLONES unsigned raw_weights(const Cage& cage, const FourVec& points, RawScratch& scratch) {
+BP_WIDE_CLONES unsigned raw_weights(const Cage& cage, const WideVec& points, RawScratch& scratch) {
   scratch.vertices.resize(cage.vertices.size());
   scratch.edges.resize(cage.edges.size());
-  FourBits near{};
+  WideBits near{};
   take_vertices(cage, points, scratch, near);
   take_edges(cage, scratch, near);
   for (const Cage::Face& face : cage.faces) take_face(face, scratch, near);
   for (RawScratch::Vertex& v : scratch.vertices) v.sum *= v.per_length;
-  return unsigned((near[0] & 1) | (near[1] & 2) | (near[2] & 4) | (near[3] & 8));
+  unsigned bits = 0;
+  for (int i = 0; i < kWide; ++i) bits |= unsigned(near[i] & 1) << i;
+  return bits;
 }
 
 namespace {

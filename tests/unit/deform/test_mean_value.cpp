@@ -111,8 +111,8 @@ TEST_CASE("the weights reproduce a point to 1e-6 before that is enforced", "[def
         near = near || distance_squared(p, TriangleD{cage.vertices[f.corner[0]], cage.vertices[f.corner[1]],
                                                      cage.vertices[f.corner[2]]}) < 4e-18;
       if (near) continue;
-      detail::FourVec four{};
-      for (int k = 0; k < 4; ++k) four.x[k] = p[0], four.y[k] = p[1], four.z[k] = p[2];
+      detail::WideVec four{};
+      for (int k = 0; k < detail::kWide; ++k) four.x[k] = p[0], four.y[k] = p[1], four.z[k] = p[2];
       std::vector<double> weights(cage.vertices.size());
       if (detail::raw_weights(cage, four, scratch) != 0) {
         ++slow;
@@ -197,7 +197,7 @@ TEST_CASE("a cage that faces inwards is turned, and coordinates do not depend on
     CHECK((alone.place == all.places[i]));
     CHECK((alone.place == other.place));
     for (std::size_t v = 0; v < alone.weights.size(); ++v) {
-      CHECK(alone.weights[v] == all.weights[v * points.size() + i]);
+      CHECK(alone.weights[v] == all.row(i)[v]);
       CHECK(std::abs(alone.weights[v] - other.weights[v]) < 1e-12);
     }
   }

@@ -45,8 +45,8 @@ TEST_CASE("rounded weights add up to 1, and keep affine maps to 1e-6", "[deform]
   const std::vector<Vec3d> points = points_inside(500);
   CoordinateRows rows;
   coordinates.evaluate(points, rows);
-  WeightBlock block;
-  round_weights(rows, block);
+  WeightBlock block(points.size(), mesh.vertices.size());
+  round_weights(rows, 0, block);
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::int64_t sum = 0;
     for (std::size_t c = 0; c < block.columns; ++c) sum += block.units[c * points.size() + i];
@@ -67,9 +67,9 @@ TEST_CASE("a point far outside keeps a rounded weight, and one too far is refuse
   const auto error_at = [&](double distance) {
     const std::vector<Vec3d> points{{distance, 0, 0}, {0.1, 0.1, 0}};
     CoordinateRows rows;
-    WeightBlock block;
+    WeightBlock block(2, mesh.vertices.size());
     coordinates.evaluate(points, rows);
-    round_weights(rows, block);
+    round_weights(rows, 0, block);
     CHECK(int(block.bits[1]) == WeightBlock::kBits);
     std::vector<Vec3d> moved(2);
     add_moves(block, moves_by(mesh, affine), moved);
