@@ -6,6 +6,7 @@
 #include "tools/cli/run_tool.h"
 #include "tools/deform/apply.h"
 #include "tools/deform/bind.h"
+#include "tools/run/scene_budget.h"
 
 namespace {
 
@@ -29,14 +30,15 @@ Options parse(bp::Args& args) {
   args.example(
       "bpdeform bind figure.obj cage.obj -o figure.bpw && bpdeform apply figure.bpw posed.obj -o posed_figure.obj");
   args.positional("COMMAND", o.command, "bind or apply");
-  args.positional("[FILE...]", o.files, "of bind: scene (OBJ, PLY or GLB) and cage; of apply: weights and moved cage");
+  args.positional("[FILE...]", o.files,
+                  "a scene (OBJ, PLY or GLB) and its cage, to bind; or weights and the moved cage, to apply");
   args.group("Files");
-  args.option("-o,--output", "FILE", o.out, "of bind: weights; of apply: the scene, in the format of the scene");
+  args.option("-o,--output", "FILE", o.out, "the weights, or the moved scene in the format of the scene");
   args.needed("--output");
   args.group("Binding");
   args.option("--outside",
-              {{"refuse", Outside::refuse, "is an error, with their number"},
-               {"near", Outside::near, "follow the nearest face, and turn with the whole cage"}},
+              {{"refuse", Outside::refuse, "an error that tells their number"},
+               {"near", Outside::near, "they follow the nearest face"}},
               o.outside, "vertices outside the cage");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::memory_part |
                             bp::CommonOptions::progress_part | bp::CommonOptions::report_part |
@@ -60,6 +62,9 @@ bp::SceneOptions scene_options(const Options& o) {
   options.temp_dir = o.common.temp;
   options.memory_bytes = o.common.memory_bytes / 4;
   options.keep_extremes = true;
+  options.document = bp::document_budget(o.common.memory_bytes, bp::least_memory(o.common.threads), 1);
+  options.document.bytes /= 2;  // the JSON of a GLB is also kept as it is to be written
+  options.document.share /= 2;
   return options;
 }
 
@@ -70,7 +75,7 @@ void bind(const Options& o, bp::Report& report, bp::Progress& progress) {
   const bp::WeightTotals totals = bp::bind_scene(request, *output, progress);
   report.counts = {{"vertices", totals.points}, {"outside", totals.outside}};
   if (totals.outside > 0)
-    report.note(fmt::format("{} of {} vertices lie outside the cage and follow its nearest faces", totals.outside,
+    report.note(fmt::format("vertices outside the cage, which follow its nearest faces: {} of {}", totals.outside,
                             totals.points),
                 o.common);
   output->commit();

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::array<unsigned char, 8> kWeightMagic{'B', 'P', 'W', 'T', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint16_t kVersion = 1;
+constexpr std::uint32_t kMeanValue = 0;  // kind of coordinates
 constexpr char kBlockTag[] = "BLCK";
 constexpr std::size_t kFixedBytes = 36, kBlockHeadBytes = 24, kWeightEndBytes = 48;
 constexpr std::uint32_t kMostName = 4096, kMostTriangles = 1u << 18;
@@ -35,7 +36,7 @@ std::vector<std::byte> encode(const WeightHeader& h) {
   for (const unsigned char c : kWeightMagic) out.put(c);
   out.put(kVersion);
   out.put(std::uint16_t(0));
-  out.put(std::uint32_t(0));
+  out.put(kMeanValue);
   out.put(std::uint32_t(h.cage.vertices.size()));
   out.put(std::uint32_t(h.cage.triangles.size()));
   out.put(std::uint32_t(h.scene.size()));
@@ -194,8 +195,8 @@ void WeightReader::State::read_header() {
   ByteSource in(payload);
   (void)in.get<std::uint64_t>();
   const auto version = in.get<std::uint16_t>(), flags = in.get<std::uint16_t>();
-  const auto reserved = in.get<std::uint32_t>();
-  if (version != kVersion || flags != 0 || reserved != 0)
+  const auto kind = in.get<std::uint32_t>();
+  if (version != kVersion || flags != 0 || kind != kMeanValue)
     refuse(kFrameHeadBytes,
            fmt::format("version {} of the file of weights; this tool reads version {}", version, kVersion));
   Sizes sizes{};

@@ -113,9 +113,9 @@ WeightTotals bind_scene(const BindRequest& request, OutputFile& out, Progress& p
   progress.end();
   if (tally.totals.outside > 0 && !request.carry_outside)
     fail(ErrorCode::bad_input,
-         "{}: {} of {} vertices lie outside {}, the first is number {} at {:.6g},{:.6g},{:.6g}; use a larger cage, or "
+         "{}: vertices outside {}: {} of {}, the first is number {} at {:.6g},{:.6g},{:.6g}; use a larger cage, or "
          "--outside near",
-         request.scene, tally.totals.outside, tally.totals.points, request.cage, tally.first + 1, tally.place[0],
+         request.scene, request.cage, tally.totals.outside, tally.totals.points, tally.first + 1, tally.place[0],
          tally.place[1], tally.place[2]);
   tally.totals.hash = cutter.hash();
   writer.finish(tally.totals);
