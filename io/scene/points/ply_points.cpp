@@ -54,7 +54,7 @@ VertexElement vertices_of(const PlyHeader& header, const std::string& name) {
     for (std::size_t i = 0; i < 3; ++i) {
       v.position[i] = position.property[i];
       if (!is_real(e.properties[v.position[i]].type))
-        fail(ErrorCode::bad_input, "{}: its vertices are whole numbers, and would be rounded; write floats", name);
+        fail(ErrorCode::bad_input, "{}: its vertices are whole numbers, and would be rounded", name);
     }
     v.normal = normal_of(e);
     return v;
