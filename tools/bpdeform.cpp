@@ -31,7 +31,7 @@ Options parse(bp::Args& args) {
       "bpdeform bind figure.obj cage.obj -o figure.bpw && bpdeform apply figure.bpw posed.obj -o posed_figure.obj");
   args.positional("COMMAND", o.command, "bind or apply");
   args.positional("[FILE...]", o.files,
-                  "a scene (OBJ, PLY or GLB) and its cage, to bind; or weights and the moved cage, to apply");
+                  "a scene (OBJ, PLY, glTF) and its cage, to bind; or weights and the moved cage, to apply");
   args.group("Files");
   args.option("-o,--output", "FILE", o.out, "the weights, or the moved scene in the format of the scene");
   args.needed("--output");
@@ -63,7 +63,7 @@ bp::SceneOptions scene_options(const Options& o) {
   options.memory_bytes = o.common.memory_bytes / 4;
   options.keep_extremes = true;
   options.document = bp::document_budget(o.common.memory_bytes, bp::least_memory(o.common.threads), 1);
-  options.document.bytes /= 2;  // the JSON of a GLB is also kept as it is to be written
+  options.document.bytes /= 2;  // the JSON of glTF is also kept as it is to be written
   options.document.share /= 2;
   return options;
 }

@@ -8,10 +8,10 @@ namespace bp {
 
 std::unique_ptr<ScenePoints> open_points(const std::string& path, const SceneOptions& options) {
   const std::string format = scene_format_of(path);
-  if (format != "obj" && format != "ply" && format != "glb")
-    fail(ErrorCode::bad_input, "{}: vertices are moved in OBJ, PLY and GLB; convert the scene to one of them", path);
+  if (format != "obj" && format != "ply" && format != "gltf" && format != "glb")
+    fail(ErrorCode::bad_input, "{}: vertices are moved in OBJ, PLY and glTF; convert the scene to one of them", path);
   SceneFilePtr file = open_scene_file(path, temp_dir_of(options));
-  if (format == "glb") return glb_points(std::move(file), options);
+  if (format == "gltf" || format == "glb") return gltf_points(std::move(file), options);
   return format == "obj" ? obj_points(std::move(file)) : ply_points(std::move(file));
 }
 

@@ -35,13 +35,13 @@ class ScenePoints {
   [[nodiscard]] virtual std::string left_behind() const { return {}; }
 };
 
-/// Opens an OBJ, PLY or GLB, by the extension of its name. Memory: a batch, and the JSON of a GLB. Scratch of
-/// options.temp_dir: as much as a GLB has bytes. Throws bad_input if it is of another format, broken, or holds what
-/// cannot be kept.
+/// Opens an OBJ, PLY, glTF or GLB, by the extension of its name. Memory: a batch, and the JSON of glTF. Scratch of
+/// options.temp_dir: as much as the buffer of glTF has bytes. A .gltf is written with its buffer in it. Throws
+/// bad_input if it is of another format, broken, or holds what cannot be kept.
 [[nodiscard]] std::unique_ptr<ScenePoints> open_points(const std::string& path, const SceneOptions& options);
 
 [[nodiscard]] std::unique_ptr<ScenePoints> obj_points(SceneFilePtr file);
 [[nodiscard]] std::unique_ptr<ScenePoints> ply_points(SceneFilePtr file);
-[[nodiscard]] std::unique_ptr<ScenePoints> glb_points(SceneFilePtr file, const SceneOptions& options);
+[[nodiscard]] std::unique_ptr<ScenePoints> gltf_points(SceneFilePtr file, const SceneOptions& options);
 
 }  // namespace bp

@@ -118,7 +118,7 @@ TEST_CASE("files whose points cannot be moved are refused", "[io][deform][quick]
   const auto refused = [&](const std::string& name, const std::string& bytes, const char* why) {
     CHECK_THROWS_WITH(points_of(dir.file(name, bytes)), Contains(why));
   };
-  refused("a.stl", "solid\nendsolid\n", "moved in OBJ, PLY and GLB");
+  refused("a.stl", "solid\nendsolid\n", "moved in OBJ, PLY and glTF");
   refused("a.obj", "v 1 2\n", "three numbers");
   const std::string head = "ply\nformat ascii 1.0\nelement vertex 1\n";
   refused("a.ply", head + "property int x\nproperty int y\nproperty int z\nend_header\n1 2 3\n", "whole numbers");

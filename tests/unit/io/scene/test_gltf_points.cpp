@@ -80,6 +80,25 @@ TEST_CASE("the points of a GLB move in the coordinates of the scene, and normals
   CHECK(bounds["min"] == Json({1, 0, 0}));
 }
 
+TEST_CASE("a .gltf is written with its moved buffer in it, and keeps the rest", "[io][deform][quick]") {
+  const TempDir dir;
+  Document d = two_parts();
+  d.json["nodes"][0]["name"] = "base64,_";
+  d.json["extras"]["far"] = "base64,";
+  (void)dir.file("a.bin", d.bytes);
+  const std::string path = dir.file("a.gltf", d.gltf("a.bin"));
+  OutputFile out(dir.path("moved.gltf"), true);
+  open_points(path, {})->write([](PointBatch&) {}, out);
+  out.commit();
+  CHECK(points_of(out.name()) == points_of(path));
+  const Json before = Json::parse(d.gltf("a.bin")), after = Json::parse(bytes_of_file(out.name()));
+  CHECK(after["nodes"] == before["nodes"]);
+  CHECK(after["meshes"] == before["meshes"]);
+  CHECK(after["extras"] == before["extras"]);
+  CHECK(after["buffers"][0]["byteLength"] == d.bytes.size());
+  CHECK(read_all(out.name()) == read_all(path));
+}
+
 TEST_CASE("interleaved positions and normals move side by side", "[io][deform][quick]") {
   const TempDir dir;
   Document d;
@@ -119,6 +138,7 @@ TEST_CASE("a GLB that cannot keep what it has is refused", "[io][deform][quick]"
   refused("morph targets", [](Json& j) { j["meshes"][0]["primitives"][0]["targets"] = Json::array({Json::object()}); });
   refused("flattens", [](Json& j) { j["nodes"][1]["scale"] = {1, 0, 1}; });
   refused("quantized", [](Json& j) { j["accessors"][0]["componentType"] = kI16; });
+  refused("second buffer", [](Json& j) { j["bufferViews"][0]["buffer"] = 1; });
   refused("sparse", [](Json& j) { j["accessors"][0].erase("bufferView"); });
   refused("shares its positions", [](Json& j) { j["meshes"][1]["primitives"][0]["attributes"]["POSITION"] = 0; });
   refused("share bytes", [](Json& j) { j["accessors"][2]["bufferView"] = j["accessors"][0]["bufferView"]; });

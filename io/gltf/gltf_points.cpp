@@ -4,15 +4,14 @@
 #include <map>
 #include <set>
 
-#include "io/gltf/detail/glb_copy.h"
+#include "io/gltf/detail/gltf_copy.h"
 #include "io/gltf/gltf_nodes.h"
 #include "io/scene/points/scene_points.h"
-#include "io/scene/raw_source.h"
 #include "lib/core/vec3.h"
 
-// GLB: the accessors POSITION, NORMAL and TANGENT of every mesh that a node shows are written anew, in their places,
-// and the bounds of POSITION in the JSON. What cannot follow so is refused: a mesh that stands in two places, skins,
-// morph targets, positions that are quantized, sparse or compressed.
+// glTF and GLB: the accessors POSITION, NORMAL and TANGENT of every mesh that a node shows are written anew, in their
+// places, and the bounds of POSITION in the JSON. All must lie in the first buffer. What cannot follow so is refused: a
+// mesh that stands in two places, skins, morph targets, positions that are quantized, sparse or compressed.
 
 namespace bp {
 
@@ -123,8 +122,7 @@ Accessor VertexFinder::floats(std::uint64_t number, std::size_t components) {
   const GltfObject view = root_.item("bufferViews", object.number("bufferView"));
   if (view.has("extensions") && view.object("extensions").has("EXT_meshopt_compression"))
     view.broken("is compressed, and vertices that move must not be: unpack it, for instance with gltf-transform");
-  if (view.number("buffer") != 0 || root_.item("buffers", 0).has("uri"))
-    view.broken("lies outside the GLB; pack all buffers into it");
+  if (view.number("buffer") != 0) view.broken("lies in a second buffer; pack all buffers into one");
   const Accessor accessor = doc_.accessor(number, components);
   if (accessor.type != ComponentType::f32)
     object.broken("is quantized, and would be rounded: write floats, for instance with gltf-transform dequantize");
@@ -188,11 +186,11 @@ void VertexFinder::check_shared_bytes() const {
   }
 }
 
-class GlbPoints final : public ScenePoints {
+class GltfPoints final : public ScenePoints {
  public:
-  GlbPoints(SceneFilePtr file, const SceneOptions& options)
-      : file_(std::move(file)), temp_dir_(temp_dir_of(options)), doc_(file_, options) {
-    detail::check_glb(*file_);
+  GltfPoints(SceneFilePtr file, const SceneOptions& options)
+      : file_(std::move(file)), options_(options), doc_(file_, options_) {
+    detail::check_container(*file_);
     vertices_ = VertexFinder(doc_).find();
   }
   bool read(std::vector<Vec3d>& out) override {
@@ -209,7 +207,8 @@ class GlbPoints final : public ScenePoints {
     return false;
   }
   void write(const MovePoints& move, OutputFile& out) override {
-    detail::GlbCopy copy(file_, temp_dir_);
+    const std::uint64_t bytes = vertices_.empty() ? 0 : doc_.root().item("buffers", 0).number("byteLength");
+    detail::GltfCopy copy(file_, *doc_.bytes(), std::min(bytes, doc_.bytes()->size()), options_);
     for (const Vertices& v : vertices_) {
       Bounds3d bounds;
       for (std::uint64_t first = 0; first < v.position.count; first += kBatch)
@@ -221,8 +220,8 @@ class GlbPoints final : public ScenePoints {
   }
 
  private:
-  void write_batch(const Vertices& v, std::uint64_t first, std::size_t n, const MovePoints& move, detail::GlbCopy& copy,
-                   Bounds3d& bounds);
+  void write_batch(const Vertices& v, std::uint64_t first, std::size_t n, const MovePoints& move,
+                   detail::GltfCopy& copy, Bounds3d& bounds);
   /// The first three components; the bytes stay in bytes_.
   template <class File>
   void take(const File& file, const Accessor& a, std::uint64_t first, std::size_t n, std::vector<Vec3d>& out) {
@@ -236,7 +235,7 @@ class GlbPoints final : public ScenePoints {
     }
   }
   /// Of what take() took. Values that stay keep their bytes.
-  void put(detail::GlbCopy& copy, const Accessor& a, std::uint64_t first, const std::vector<Vec3d>& values) {
+  void put(detail::GltfCopy& copy, const Accessor& a, std::uint64_t first, const std::vector<Vec3d>& values) {
     take(copy, a, first, values.size(), scratch_);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::array<float, 3> now{float(values[i][0]), float(values[i][1]), float(values[i][2])};
@@ -246,7 +245,7 @@ class GlbPoints final : public ScenePoints {
   }
 
   SceneFilePtr file_;
-  std::string temp_dir_;
+  const SceneOptions options_;
   GltfDocument doc_;
   std::vector<Vertices> vertices_;
   std::size_t at_ = 0;
@@ -255,8 +254,8 @@ class GlbPoints final : public ScenePoints {
   std::vector<Vec3d> scratch_;
 };
 
-void GlbPoints::write_batch(const Vertices& v, std::uint64_t first, std::size_t n, const MovePoints& move,
-                            detail::GlbCopy& copy, Bounds3d& bounds) {
+void GltfPoints::write_batch(const Vertices& v, std::uint64_t first, std::size_t n, const MovePoints& move,
+                             detail::GltfCopy& copy, Bounds3d& bounds) {
   PointBatch local, world;
   take(copy, v.position, first, n, local.positions);
   for (const Vec3d& p : local.positions) world.positions.push_back(v.to_world(p));
@@ -284,8 +283,8 @@ void GlbPoints::write_batch(const Vertices& v, std::uint64_t first, std::size_t 
 
 }  // namespace
 
-std::unique_ptr<ScenePoints> glb_points(SceneFilePtr file, const SceneOptions& options) {
-  return std::make_unique<GlbPoints>(std::move(file), options);
+std::unique_ptr<ScenePoints> gltf_points(SceneFilePtr file, const SceneOptions& options) {
+  return std::make_unique<GltfPoints>(std::move(file), options);
 }
 
 }  // namespace bp
