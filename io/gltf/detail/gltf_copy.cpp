@@ -66,6 +66,34 @@ GltfCopy::GltfCopy(SceneFilePtr file, const SceneFile& buffer, std::uint64_t byt
     fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: broken JSON: {}", file_->name(), json_fault(e));
   }
   each_block(buffer, bytes, [&](std::span<const std::byte> b) { data_->append(b); });
+  data_->append(std::vector<std::byte>(std::size_t((4 - bytes % 4) % 4)));
+}
+
+std::uint64_t GltfCopy::add_accessor(std::uint64_t like, std::uint64_t offset, std::uint64_t bytes) {
+  constexpr int kVertexData = 34962;
+  json_["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes}, {"target", kVertexData}});
+  GltfOutJson accessor = json_["accessors"][like];
+  accessor["bufferView"] = json_["bufferViews"].size() - 1;
+  accessor.erase("byteOffset");
+  json_["accessors"].push_back(std::move(accessor));
+  return json_["accessors"].size() - 1;
+}
+
+std::uint64_t GltfCopy::mesh_of_its_own(std::uint64_t node, std::uint64_t mesh) {
+  const auto [known, is_new] = own_meshes_.try_emplace(node, json_["meshes"].size());
+  if (is_new) {
+    json_["meshes"].push_back(GltfOutJson(json_["meshes"][mesh]));
+    json_["nodes"][node]["mesh"] = known->second;
+  }
+  return known->second;
+}
+
+void GltfCopy::set_accessors(std::uint64_t mesh, std::uint64_t primitive, const std::array<std::uint64_t, 3>& numbers) {
+  constexpr const char* kNames[] = {"POSITION", "NORMAL", "TANGENT"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (numbers[i] > 0) json_["meshes"][mesh]["primitives"][primitive]["attributes"][kNames[i]] = numbers[i] - 1;
+  }
 }
 
 void GltfCopy::set_bounds(std::uint64_t accessor, const Bounds3d& bounds) {
@@ -75,11 +103,10 @@ void GltfCopy::set_bounds(std::uint64_t accessor, const Bounds3d& bounds) {
 }
 
 void GltfCopy::write(OutputFile& out) {
+  if (data_->size() > 0) json_["buffers"][0]["byteLength"] = data_->size();
   if (!is_glb(*file_)) return write_json(out);
-  const std::uint64_t size = data_->size();
-  out.write(glb_head(json_.dump(), (size + 3) / 4 * 4, out.name()));
-  each_block(*data_, size, [&](std::span<const std::byte> b) { out.write(b); });
-  out.write(std::string((4 - size % 4) % 4, '\0'));
+  out.write(glb_head(json_.dump(), data_->size(), out.name()));
+  each_block(*data_, data_->size(), [&](std::span<const std::byte> b) { out.write(b); });
 }
 
 /// The buffer goes to the place of a mark that stands nowhere else.
