@@ -58,6 +58,7 @@ Options parse(bp::Args& args) {
 }
 
 bp::SceneOptions scene_options(const Options& o) {
+  constexpr std::uint64_t kBytesPerFace = 32, kBytesPerVertex = 128;  // of a cage while it is read
   bp::SceneOptions options;
   options.temp_dir = o.common.temp;
   options.memory_bytes = o.common.memory_bytes / 4;
@@ -65,6 +66,7 @@ bp::SceneOptions scene_options(const Options& o) {
   options.document = bp::document_budget(o.common.memory_bytes, bp::least_memory(o.common.threads), 1);
   options.document.bytes /= 2;  // the JSON of glTF is also kept as it is to be written
   options.document.share /= 2;
+  options.mesh = {options.document, kBytesPerFace, kBytesPerVertex, "reading the cage"};
   return options;
 }
 

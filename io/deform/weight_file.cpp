@@ -18,7 +18,7 @@ constexpr std::uint16_t kVersion = 1;
 constexpr std::uint32_t kMeanValue = 0;  // kind of coordinates
 constexpr char kBlockTag[] = "BLCK";
 constexpr std::size_t kFixedBytes = 36, kBlockHeadBytes = 24, kWeightEndBytes = 48;
-constexpr std::uint32_t kMostName = 4096, kMostTriangles = 1u << 18;
+constexpr std::uint32_t kMostName = 4096, kMostTriangles = kMostCageTriangles;
 
 struct Sizes {
   std::uint32_t vertices, triangles, name;

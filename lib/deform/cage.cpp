@@ -13,9 +13,9 @@ namespace {
 
 void check_vertices(const IndexedMesh& mesh, const std::string& name) {
   if (mesh.triangles.empty()) fail(ErrorCode::bad_input, "{}: has no faces, and is no cage", name);
-  if (mesh.vertices.size() > kMostCageVertices)
-    fail(ErrorCode::bad_input, "{}: a cage has {} vertices at most, and this one {}", name, kMostCageVertices,
-         mesh.vertices.size());
+  if (mesh.vertices.size() > kMostCageVertices || mesh.triangles.size() > kMostCageTriangles)
+    fail(ErrorCode::bad_input, "{}: a cage has {} vertices and {} triangles at most, and this one {} and {}", name,
+         kMostCageVertices, kMostCageTriangles, mesh.vertices.size(), mesh.triangles.size());
   for (const Vec3d& v : mesh.vertices) {
     if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
       fail(ErrorCode::bad_input, "{}: a cage has a vertex that is not finite", name);

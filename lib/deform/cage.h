@@ -33,11 +33,11 @@ struct Cage {
   }
 };
 
-constexpr std::size_t kMostCageVertices = std::size_t(1) << 16;
+constexpr std::size_t kMostCageVertices = std::size_t(1) << 16, kMostCageTriangles = std::size_t(1) << 18;
 
 /// Throws bad_input, beginning with `name`, if the mesh is no cage: it is empty, has a vertex that is not finite, more
-/// than kMostCageVertices vertices, an open edge or faces that face both ways, or no volume. A cage that faces inwards
-/// is turned.
+/// than kMostCageVertices vertices or kMostCageTriangles triangles, an open edge or faces that face both ways, or no
+/// volume. A cage that faces inwards is turned.
 [[nodiscard]] Cage make_cage(const IndexedMesh& mesh, const std::string& name);
 
 }  // namespace bp

@@ -61,7 +61,11 @@ std::vector<TriangleD> faces_of(const std::string& path, SceneOptions options) {
   options.keep_degenerate = true;
   std::vector<TriangleD> all, some;
   const std::unique_ptr<TriangleSource> source = open_scene(path, options);
-  while (source->read(some)) all.insert(all.end(), some.begin(), some.end());
+  while (source->read(some)) {
+    all.insert(all.end(), some.begin(), some.end());
+    if (all.size() > kMostCageTriangles)
+      fail(ErrorCode::bad_input, "{}: has more than {} triangles, and is no cage", path, kMostCageTriangles);
+  }
   return all;
 }
 

@@ -216,6 +216,7 @@ TEST_CASE("what is no cage is refused", "[deform][quick]") {
   std::swap(torn.triangles[3][0], torn.triangles[3][1]);
   refused(torn, "face both ways");
   refused({}, "has no faces");
+  refused(sphere_cage(260, 260), "65536 vertices and 262144 triangles at most, and this one 67342 and 134680");
   IndexedMesh flat = prism({{0, 0}, {1, 0}, {1, 1}}, 0);
   refused(flat, "without volume");
   IndexedMesh broken = sphere_cage(4, 5);
