@@ -31,7 +31,7 @@ Options parse(bp::Args& args) {
       "bpdeform bind figure.obj cage.obj -o figure.bpw && bpdeform apply figure.bpw posed.obj -o posed_figure.obj");
   args.positional("COMMAND", o.command, "bind or apply");
   args.positional("[FILE...]", o.files,
-                  "a scene (OBJ, PLY, glTF) and its cage, to bind; or weights and the moved cage, to apply");
+                  "a scene (OBJ, PLY, glTF) and its cage, to bind; or weights and moved cages, to apply");
   args.group("Files");
   args.option("-o,--output", "FILE", o.out, "the weights, or the moved scene in the format of the scene");
   args.needed("--output");
@@ -46,9 +46,10 @@ Options parse(bp::Args& args) {
   args.often({"--output", "--outside", "--overwrite"});
   args.parse();
   if (o.command != "bind" && o.command != "apply") fail(ErrorCode::bad_argument, "begin with a command: bind or apply");
-  if (o.files.size() != 2)
-    fail(ErrorCode::bad_argument, "{} takes two files: {}", o.command,
-         o.command == "bind" ? "the scene and the cage" : "the weights and the moved cage");
+  if (o.command == "bind" && o.files.size() != 2)
+    fail(ErrorCode::bad_argument, "bind takes two files: the scene and the cage");
+  if (o.command == "apply" && o.files.size() < 2)
+    fail(ErrorCode::bad_argument, "apply takes the weights and one moved cage or more");
   if (o.out.empty()) fail(ErrorCode::bad_argument, "name the output with --output");
   if (o.command == "apply" && args.given("--outside")) fail(ErrorCode::bad_argument, "--outside belongs to bind");
   if (std::find(o.files.begin(), o.files.end(), "-") != o.files.end())
@@ -85,21 +86,33 @@ void bind(const Options& o, bp::Report& report, bp::Progress& progress) {
   report.bytes_out = output->bytes();
 }
 
+/// Of scene number i of n: its number stands before the extension, with as many digits as the last one has.
+std::string numbered(const std::string& name, std::size_t i, std::size_t n) {
+  if (n == 1) return name;
+  const std::size_t dot = name.find_last_of('.');
+  return fmt::format("{}.{:0{}}{}", name.substr(0, dot), i, std::to_string(n - 1).size(), name.substr(dot));
+}
+
+/// Each scene appears when it is complete.
 void apply(const Options& o, bp::Report& report, bp::Progress& progress) {
-  bp::WeightReader weights(o.files[0]);
-  const std::string& scene = weights.header().scene;
+  const std::string scene = bp::WeightReader(o.files[0]).header().scene;
   bp::keep_inputs({scene});
   if (bp::scene_format_of(o.out) != bp::scene_format_of(scene))
     fail(ErrorCode::bad_argument, "{}: the scene is written in its own format: name it .{}", o.out,
          bp::scene_format_of(scene));
-  const auto output = bp::open_output(o.out, o.common.overwrite);
-  const bp::ApplyRequest request{o.files[0], o.files[1], o.common.memory_bytes, scene_options(o)};
-  const bp::Applied applied = bp::apply_cage(weights, request, *output, progress);
-  report.counts = {{"vertices", applied.points}};
+  const std::size_t cages = o.files.size() - 1;
+  bp::Applied applied;
+  for (std::size_t i = 0; i < cages; ++i) {
+    const auto output = bp::open_output(numbered(o.out, i, cages), o.common.overwrite);
+    bp::WeightReader weights(o.files[0]);
+    const bp::ApplyRequest request{o.files[0], o.files[i + 1], o.common.memory_bytes, scene_options(o)};
+    applied = bp::apply_cage(weights, request, *output, progress);
+    output->commit();
+    report.bytes_out += output->bytes();
+  }
+  report.counts = {{"vertices", applied.points}, {"scenes", cages}};
   if (!applied.left_behind.empty()) report.note(fmt::format("{}: {}", o.out, applied.left_behind), o.common);
-  output->commit();
   report.bytes_in = bp::size_of_files({scene});
-  report.bytes_out = output->bytes();
 }
 
 void run(const Options& o) {

@@ -15,6 +15,10 @@ said 'diff scene.obj affine_scene.obj'
 awk '/^v/ && $2 == 4 { $4 += 1 } { print }' cage.obj > bent.obj
 try bpdeform apply scene.bpw bent.obj -o bent_scene.obj -q
 said 'grep "^v " bent_scene.obj'
+# A sequence of cages gives a sequence of scenes.
+try bpdeform apply scene.bpw cage.obj bent.obj affine.obj -o frame.obj -q
+said 'cmp frame.0.obj scene.obj && cmp frame.1.obj bent_scene.obj && cmp frame.2.obj affine_scene.obj && echo same'
+try bpdeform apply scene.bpw
 # The same bytes for any number of threads and limit on memory.
 try bpdeform bind scene.obj cage.obj -o again.bpw -j 1 --memory 100M
 said 'cmp scene.bpw again.bpw && echo same'
