@@ -112,7 +112,7 @@ void VertexFinder::add_primitive(GltfEdit place, const GltfObject& primitive, co
   place.vertices = known->second;
   if (is_new) {
     for (const std::uint64_t number : v.numbers) v.is_copy = (number > 0 && !taken_.insert(number).second) || v.is_copy;
-    plan_.vertices.push_back(std::move(v));
+    plan_.vertices.push_back(v);
   }
   if (plan_.vertices[place.vertices].is_copy) plan_.edits.push_back(place);
 }
