@@ -2,7 +2,7 @@
 # How much faster several nodes make one tileset than one node does. Nodes are simulated: each is bound to cores of its own on this host,
 # and does one job at a time. The jobs are those of samples/farm, handed out by a plain loop, so that no Snakemake is needed.
 #   tests/bench/farm.sh [TRIANGLES [NODES [OPTION...]]]    (10000000 3 --voxel 0.25 --tile 128); tools and samples on PATH
-# Prints seconds of one node without parts, of one node, and of NODES nodes, then a table of the jobs, which tests/bench/farm_simulation.py
+# Prints seconds of one node without parts, of one node, and of NODES nodes, then a table of the jobs, which samples/farm/simulate.py
 # reads. Fails if the bytes differ.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)

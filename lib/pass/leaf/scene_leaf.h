@@ -4,7 +4,7 @@
 
 #include "lib/pass/bake/scene_looks.h"
 
-/// Pieces of a scene as it is: its own triangles, cut by the faces of boxes (docs/decisions/0024-leaves.md).
+/// Pieces of a scene as it is: its own triangles, cut by the faces of boxes (docs/decisions/0025-leaves.md).
 namespace bp {
 
 /// Positions are whole multiples of a short double, so that float32 holds them, and neighbours agree.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Simulates a farm from measured jobs: how long a scene takes on many nodes, what is moved, and what limits it.
-  farm_simulation.py MEASURED.txt [--triangles 1e10] [--cores 16] [--link 1e9] [--svg FILE]
+  simulate.py MEASURED.txt [--triangles 1e10] [--cores 16] [--link 1e9] [--svg FILE]
 MEASURED.txt: the output of tests/bench/farm.sh. All work is taken to grow with the triangles, and to use all cores of a node; the plan
 uses one. LINK: bytes a second that the store of scene and cache gives to all nodes together."""
 import argparse
