@@ -54,7 +54,7 @@ bool any_within(VoxelCoord p, std::int32_t r, const Is& is) {
 /// The definitions, voxel by voxel.
 struct Plain {
   explicit Plain(const BitBox& of) : solid(of) {
-    constexpr std::int32_t kFar = 9;
+    constexpr std::int32_t kFar = 4;  // no reach is larger
     for_each_voxel(solid.box(), [&](VoxelCoord p) {
       std::int32_t r = 0;
       while (r < kFar && !any_within(p, r, [&](VoxelCoord q) { return solid.test(q); })) ++r;
