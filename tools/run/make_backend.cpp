@@ -5,6 +5,7 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <string_view>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -21,11 +22,16 @@ namespace {
 
 using Kind = DeviceChoice::Kind;
 
-DeviceChoice resolve(DeviceChoice choice) {
+struct Wish {
+  DeviceChoice choice;
+  std::string_view by = "--device";  ///< for messages
+};
+
+Wish resolve(const DeviceChoice& choice) {
   const char* forced = std::getenv("BP_BACKEND");
-  if (choice.kind != Kind::automatic || forced == nullptr || *forced == '\0') return choice;
+  if (choice.kind != Kind::automatic || forced == nullptr || *forced == '\0') return {choice};
   try {
-    return parse_device(forced);
+    return {parse_device(forced), "BP_BACKEND"};
   } catch (const Error& e) {
     fail_as(e, "BP_BACKEND in the environment: {}", e.what());
   }
@@ -56,15 +62,15 @@ std::string list_of(const std::vector<CudaDevice>& devices) {
   return text;
 }
 
-/// --device cuda
-Backends make_gpu_backends(const DeviceChoice& choice) {
+/// cuda
+Backends make_gpu_backends(const Wish& wish) {
   const std::vector<CudaDevice> there = cuda_devices();
   if (there.empty())
-    fail(ErrorCode::out_of_resource, {Remedy::use_cpu}, "--device cuda: no GPU was found; check the driver");
-  std::vector<int> ids = choice.ids;
+    fail(ErrorCode::out_of_resource, "{0} cuda: no GPU was found; check the driver, or use {0} cpu", wish.by);
+  std::vector<int> ids = wish.choice.ids;
   for (const int id : ids) {
     if (id >= int(there.size()))
-      fail(ErrorCode::out_of_resource, "--device cuda:{}: no such GPU; here are {}", id, list_of(there));
+      fail(ErrorCode::out_of_resource, "{} cuda:{}: no such GPU; here are {}", wish.by, id, list_of(there));
   }
   if (ids.empty()) {
     for (const CudaDevice& device : there) ids.push_back(device.index);
@@ -86,7 +92,7 @@ Backends make_on_first_gpu() {
   return {};
 }
 
-/// --device auto: a GPU if the cores would take longer than it takes to start. Empty if there is none that works.
+/// auto: a GPU if the cores would take longer than it takes to start. Empty if there is none that works.
 Backends make_gpu_backends_if_worth(const CommonOptions& common, double core_seconds, Report* report) {
   if (report == nullptr || core_seconds / thread_count() < kGpuStartSeconds) return {};
   Backends backends;
@@ -105,19 +111,19 @@ Backends make_gpu_backends_if_worth(const CommonOptions& common, double core_sec
 Backends make_gpu_backends_if_worth(const CommonOptions&, double, Report*) {
   return {};
 }
-Backends make_gpu_backends(const DeviceChoice&) {
-  fail(ErrorCode::out_of_resource,
-       "--device cuda: this build has no GPU support; rebuild with -DBP_CUDA=ON, or use --device cpu");
+Backends make_gpu_backends(const Wish& wish) {
+  fail(ErrorCode::out_of_resource, "{0} cuda: this build has no GPU support; rebuild with -DBP_CUDA=ON, or use {0} cpu",
+       wish.by);
 }
 #endif
 
 }  // namespace
 
 Backends make_backends(const CommonOptions& common, double core_seconds, Report* report) {
-  const DeviceChoice choice = resolve(common.device);
+  const Wish wish = resolve(common.device);
   Backends backends;
-  if (choice.kind == Kind::cuda) backends = make_gpu_backends(choice);
-  if (choice.kind == Kind::automatic) backends = make_gpu_backends_if_worth(common, core_seconds, report);
+  if (wish.choice.kind == Kind::cuda) backends = make_gpu_backends(wish);
+  if (wish.choice.kind == Kind::automatic) backends = make_gpu_backends_if_worth(common, core_seconds, report);
   return backends.empty() ? make_cpu_backends() : std::move(backends);
 }
 

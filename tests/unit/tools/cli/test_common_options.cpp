@@ -93,6 +93,18 @@ TEST_CASE("a GPU that a CPU build is asked for is a missing resource", "[quick][
 #endif
 }
 
+TEST_CASE("a GPU that BP_BACKEND asks for and that is not there is an error that names the variable", "[quick][tools]") {
+  ::setenv("BP_BACKEND", "cuda:999", 1);
+  try {
+    (void)make_backends(parse({}), 0);
+    FAIL("no error");
+  } catch (const Error& e) {
+    CHECK(e.code() == ErrorCode::out_of_resource);
+    CHECK(std::string(e.what()).find("BP_BACKEND cuda") == 0);
+  }
+  ::unsetenv("BP_BACKEND");
+}
+
 TEST_CASE("a BP_BACKEND that names no device is a usage error that names the variable", "[quick][tools]") {
   ::setenv("BP_BACKEND", "gpu", 1);
   try {
