@@ -43,7 +43,8 @@ Reaches reaches_of(const ShapeRule& rule, const ScaleField& before, const GridFr
     least = cube_radius(scale_of(rule.least, frame));
   } else {
     least = std::int32_t(std::max(length_vox - 1, 0.0) / 2);  // a gap leaves one free voxel less than it is wide
-    if (rule.mode != ScaleMode::decrease) {
+    const bool closed_anyway = before.constant() && before.base >= (least + kLargestBelow) * frame.voxel;
+    if (rule.mode != ScaleMode::decrease && !closed_anyway) {
       r.closes = least;
       most = std::max(most, least);
     }
