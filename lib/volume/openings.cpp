@@ -1,8 +1,9 @@
 // With X + r for the dilation of X by a cube of reach r, and S the solid: the middles of free cubes are F(r) = not
 // (S + r), and the places that they hold F(r) + r. What is asked about a tile T needs, for level k,
-//   places of the level on T + rk:      F(rk) on T + 2 rk,             S on T + 3 rk
-//                                       F(r(k-1)) on T + rk + r(k-1),  S on T + rk + 2 r(k-1)
-// so a box that holds T + 3 r(k-1) suffices for level k.
+//   the middles on T + rk, so places of the level on T + 2 rk:
+//     F(rk) on T + 3 rk              and S on T + 4 rk
+//     F(r(k-1)) on T + 2 rk + r(k-1) and S on T + 2 rk + 2 r(k-1)
+// so a box that holds T + 4 r(k-1) suffices for level k.
 #include "lib/volume/openings.h"
 
 #include <algorithm>
@@ -71,22 +72,26 @@ BitBox narrow_places(const BitBox& solid, std::int32_t r) {
   return narrow;
 }
 
-void middles_of_openings(const BitBox& solid, const BitBox* near, const std::vector<std::int32_t>& reaches,
-                         const VoxelBox& tile, const std::function<void(std::size_t, const BitBox&)>& found) {
+void openings(const BitBox& solid, const BitBox* near, const std::vector<std::int32_t>& reaches, const VoxelBox& tile,
+              const std::function<void(std::size_t, const BitBox&)>& found) {
   BitBox wider = dilated(free_middles(solid, reaches[0]), reaches[0]);
   for (std::size_t k = 1; k < reaches.size(); ++k) {
     const std::int32_t above = reaches[k - 1], reach = reaches[k];
-    const BitBox here = cut(solid, intersect(tile.grown(3 * above + 1), solid.box()));
+    const BitBox here = cut(solid, intersect(tile.grown(4 * above + 1), solid.box()));
     wider = cut(wider, here.box());
     const BitBox free = free_middles(here, reach);
     const BitBox held = dilated(free, reach);
-    BitBox middles = held;
-    take_away(middles, wider);
+    BitBox places = held;
+    take_away(places, wider);
     wider = held;
-    if (is_empty(middles)) continue;
-    dilate(middles, reach);
+    if (is_empty(places)) continue;
+    BitBox middles = dilated(places, reach);
     keep_common(middles, free);
-    if (near != nullptr) keep_common(middles, dilated(cut(*near, here.box()), above + 1));
+    if (near != nullptr) {
+      keep_common(middles, dilated(cut(*near, here.box()), above + 1));
+      keep_common(places, dilated(middles, reach));
+    }
+    combine(middles, places, [](std::uint64_t a, std::uint64_t b) { return a | b; });
     if (!is_empty(cut(middles, intersect(tile, here.box())))) found(k, middles);
   }
 }

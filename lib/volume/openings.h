@@ -19,13 +19,13 @@ namespace bp {
 /// The empty voxels that no free cube of reach `r` holds. Exact 2 r voxels within the box.
 [[nodiscard]] BitBox narrow_places(const BitBox& solid, std::int32_t r);
 
-/// Middles of openings, by their width. `reaches` fall: r0 > r1 > ... Of level k, from 1 up, a place is in a free cube
-/// of reach rk and in none of reach r(k-1). The middles of the level are those of free cubes of reach rk that hold such
-/// a place, if a voxel of `near` lies within r(k-1) + 1 of the middle; null: all of them.
+/// Openings by their width. `reaches` fall: r0 > r1 > ... A place of level k, from 1 up, is in a free cube of reach rk
+/// and in none of reach r(k-1). Of each level, the places and the middles of free cubes of reach rk that hold one of
+/// them; with `near`, only those middles within r(k-1) + 1 of a voxel of it, and the places that they hold.
 ///
-/// found(k, middles) is called for each k that has some within `tile`. `middles` has them, and more around. Exact if
-/// the boxes hold tile.grown(3 r0 + 1). Cost: three dilations per level, of boxes that shrink with the reach.
-void middles_of_openings(const BitBox& solid, const BitBox* near, const std::vector<std::int32_t>& reaches,
-                         const VoxelBox& tile, const std::function<void(std::size_t, const BitBox&)>& found);
+/// found(k, voxels) is called for each k that has some within `tile`. `voxels` has them, and more around. Exact if the
+/// boxes hold tile.grown(4 r0 + 1). Cost: four dilations per level, of boxes that shrink with the reach.
+void openings(const BitBox& solid, const BitBox* near, const std::vector<std::int32_t>& reaches, const VoxelBox& tile,
+              const std::function<void(std::size_t, const BitBox&)>& found);
 
 }  // namespace bp

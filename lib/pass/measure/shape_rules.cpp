@@ -17,18 +17,19 @@ namespace {
 
 constexpr std::size_t kMostBoxes = 4096;
 constexpr double kMostCells = 1 << 28;      // bits: 32 MiB a level
-constexpr double kBoxesAtWork = 10;         // of a tile and its halo, in middles_of_openings
+constexpr double kBoxesAtWork = 10;         // of a tile and its halo, in openings()
 constexpr double kLargestBelow = 15. / 16;  // the largest scale with a reach of r is r and this
 
 /// What a rule means in voxels.
 struct Reaches {
   std::int32_t thin = 0;             ///< h of thin_parts(); 0: of all parts
   std::int32_t closes = -1;          ///< reach of the free cubes that keep a place open; -1: nothing is closed
-  std::vector<std::int32_t> levels;  ///< of openings, as middles_of_openings() takes them; empty: none is kept
+  std::vector<std::int32_t> levels;  ///< as openings() takes them; empty: none is kept open
+  std::vector<std::int32_t> scales;  ///< of each level, voxels, without kLargestBelow
   /// Voxels around a tile that decide about it.
   [[nodiscard]] std::int32_t halo() const {
     const std::int32_t widest = levels.empty() ? 0 : levels[0];
-    return std::max({3 * widest + 1, thin > 0 ? widest + 1 + 4 * thin : 0, 2 * closes, 1});
+    return std::max({4 * widest + 1, thin > 0 ? 2 * widest + 1 + 4 * thin : 0, 2 * closes, 1});
   }
   /// Farthest that a voxel may lie from the solid to be marked.
   [[nodiscard]] std::int32_t farthest() const { return std::max(2 * (levels.empty() ? 0 : levels[0]), closes) + 1; }
@@ -51,9 +52,14 @@ Reaches reaches_of(const ShapeRule& rule, const ScaleField& before, const GridFr
     if (rule.mode == ScaleMode::increase) return r;
   }
   if (least >= most) return r;
-  for (std::int32_t reach = least; reach < most; reach = std::max(reach + 1, reach * 3 / 2)) r.levels.push_back(reach);
+  for (std::int32_t scale = least; r.levels.empty() || 2 * scale < most; scale = std::max(scale + 1, scale * 3 / 2)) {
+    r.levels.push_back(r.levels.empty() ? least : 2 * scale);
+    r.scales.push_back(scale);
+  }
   r.levels.push_back(most);
+  r.scales.push_back(most);
   std::reverse(r.levels.begin(), r.levels.end());
+  std::reverse(r.scales.begin(), r.scales.end());
   return r;
 }
 
@@ -146,8 +152,8 @@ class ShapeMeasurer {
     BitBox thin;
     if (reaches_.thin > 0) thin = thin_parts(solid, reaches_.thin);
     if (reaches_.thin > 0 && thin.count() == 0) return;
-    middles_of_openings(solid, reaches_.thin > 0 ? &thin : nullptr, reaches_.levels, tile,
-                        [&](std::size_t level, const BitBox& middles) { mark(level, middles, tile); });
+    openings(solid, reaches_.thin > 0 ? &thin : nullptr, reaches_.levels, tile,
+             [&](std::size_t level, const BitBox& voxels) { mark(level, voxels, tile); });
   }
 
   /// Marks the cells of the voxels in the tile.
@@ -172,7 +178,7 @@ class ShapeMeasurer {
     const std::size_t most = kMostBoxes / cells_.size();
     for (std::size_t level = 0; level < cells_.size(); ++level) {
       const bool closes = level == 0;
-      const std::int32_t reach = closes ? reaches_.closes : reaches_.levels[level];
+      const std::int32_t reach = closes ? reaches_.closes : reaches_.scales[level];
       const FewBoxes few = few_boxes_of(cells_[level], most);
       for (const VoxelBox& box : few.boxes) {
         ScaleRule& rule = rules.emplace_back();

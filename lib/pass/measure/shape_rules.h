@@ -13,10 +13,9 @@ struct MeasureOptions {
 
 /// Boxes with a scale each, to be applied after the rules of `before`, which tell how large scales get. At most some
 /// thousand.
-/// - What stays open: each free cube that a place needs, has its middle q in a box whose scale is less than its reach
-/// + 1.
-///   So q is not in the closing, with either element, whatever the rules of `before` say. Scales are as large as that
-///   allows, but for steps of a half.
+/// - What stays open: the places of an opening, and the middles of the free cubes that hold them (openings.h), are in
+///   boxes of one scale: half of the reach of the cubes, or the least. A voxel there that is farther from the solid, by
+///   the cube, is not in the closing, with either element, whatever the rules of `before` say.
 /// - What closes: the places narrower than the gap are in boxes with a scale that closes them.
 /// Throws bad_argument if a scale of `before` is out of range, out_of_resource if not even one tile fits in the memory.
 [[nodiscard]] std::vector<ScaleRule> shape_rules(const StreamHeader& header, const BrickShelf& solid,

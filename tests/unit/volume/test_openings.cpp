@@ -118,23 +118,28 @@ TEST_CASE("thin parts are what lies away from all solid cubes", "[quick][grid]")
   CHECK(same);
 }
 
-TEST_CASE("middles of openings are found by width, and near what is asked for", "[quick][grid]") {
+TEST_CASE("openings are found by width, and near what is asked for", "[quick][grid]") {
   const std::vector<std::int32_t> reaches{3, 2, 0};
-  const Scene s(GENERATE(1u, 2u), 3 * reaches[0] + 1);
+  const Scene s(GENERATE(1u, 2u), 4 * reaches[0] + 1);
   BitBox near(s.seen.box());
   for_each_voxel(near.box(), [&](VoxelCoord p) {
     if (p.x < 6 && s.seen.test(p)) near.set(p);
   });
   const bool by_part = GENERATE(false, true);
   std::vector<BitBox> found(reaches.size());
-  middles_of_openings(s.seen, by_part ? &near : nullptr, reaches, s.tile,
-                      [&](std::size_t k, const BitBox& middles) { found[k] = middles; });
+  openings(s.seen, by_part ? &near : nullptr, reaches, s.tile,
+           [&](std::size_t k, const BitBox& voxels) { found[k] = voxels; });
   const Plain plain(s.solid);
   std::size_t wrong = 0, some = 0;
   for (std::size_t k = 1; k < reaches.size(); ++k) {
+    const std::int32_t above = reaches[k - 1], reach = reaches[k];
+    const auto is_middle = [&](VoxelCoord p) {
+      return plain.middle(p, above, reach) &&
+             (!by_part || any_within(p, above + 1, [&](VoxelCoord q) { return near.test(q); }));
+    };
     for_each_voxel(s.tile, [&](VoxelCoord p) {
-      const bool in_reach = !by_part || any_within(p, reaches[k - 1] + 1, [&](VoxelCoord q) { return near.test(q); });
-      const bool expected = in_reach && plain.middle(p, reaches[k - 1], reaches[k]);
+      const bool is_place = plain.held(p, reach) && !plain.held(p, above);
+      const bool expected = is_middle(p) || (is_place && any_within(p, reach, is_middle));
       wrong += found[k].test(p) != expected;
       some += expected;
     });
