@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "io/gltf/gltf_document.h"
+#include "io/gltf/gltf_nodes.h"
 #include "io/scene/name_pattern.h"
 
 // glTF 2.0 and GLB (Khronos, glTF 2.0 specification, section 3.7 on geometry, 3.5 on nodes). Only what says where
@@ -33,8 +34,8 @@ class SceneBuilder {
   InstancedScene build() {
     scene_.nodes.reserve(root_.array("nodes").size());
     visited_.resize(root_.array("nodes").size());
-    scene_.up = up();
-    add_nodes(scene_roots(), world());
+    scene_.up = gltf_up(root_);
+    add_nodes(gltf_roots(root_), gltf_world(scene_.up));
     scene_.bytes = doc_.bytes();
     return std::move(scene_);
   }
@@ -48,9 +49,6 @@ class SceneBuilder {
     Affine parent;
     bool wanted;  // it is below a node whose name fits
   };
-  [[nodiscard]] std::optional<UpAxis> up() const;
-  [[nodiscard]] Affine world() const;
-  [[nodiscard]] std::vector<std::uint64_t> scene_roots() const;
   void add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world);
   std::uint64_t level_of(std::uint64_t i);
   [[nodiscard]] std::set<std::uint64_t> coarser_nodes() const;
@@ -68,7 +66,6 @@ class SceneBuilder {
   [[nodiscard]] std::array<double, 4> base_color(std::uint64_t material) const;
   [[nodiscard]] bool see_through(std::uint64_t material) const;
   std::optional<std::uint32_t> instance_array(const GltfObject& node);
-  static Affine transform_of(const GltfObject& node);
 
   GltfDocument doc_;
   GltfObject root_;
@@ -82,45 +79,6 @@ class SceneBuilder {
   std::unordered_map<std::uint64_t, Range> meshes_, wanted_meshes_;  // parts of them, and all
   std::vector<bool> visited_;
 };
-
-std::optional<UpAxis> SceneBuilder::up() const {
-  const GltfObject asset = root_.object("asset");
-  for (const char* const name : kUpNames) {
-    if (asset.holds_text("extras", "up", name)) return up_axis_named(name);
-  }
-  return {};
-}
-
-// Files of ours stand upright in glTF's y-up world: back to their own coordinates.
-Affine SceneBuilder::world() const {
-  Affine a;
-  const AxisTurn back = to_y_up(scene_.up.value_or(UpAxis::y)).inverse();
-  a.m = {};
-  for (std::size_t i = 0; i < 3; ++i) a.m[i][back.axis[i]] = back.negative[i] ? -1 : 1;
-  return a;
-}
-
-// The default scene, else the first; a document without scenes shows every node that is no child.
-std::vector<std::uint64_t> SceneBuilder::scene_roots() const {
-  std::vector<std::uint64_t> roots;
-  if (root_.array("scenes").empty()) {
-    const std::size_t nodes = root_.array("nodes").size();
-    std::vector<bool> child(nodes);
-    for (std::size_t i = 0; i < nodes; ++i) {
-      const GltfObject node = root_.item("nodes", i);
-      for (std::size_t k = 0; k < node.array("children").size(); ++k) {
-        if (node.index("children", k) < nodes) child[std::size_t(node.index("children", k))] = true;
-      }
-    }
-    for (std::size_t i = 0; i < nodes; ++i) {
-      if (!child[i]) roots.push_back(i);
-    }
-    return roots;
-  }
-  const GltfObject scene = root_.item("scenes", root_.number("scene", 0));
-  for (std::size_t k = 0; k < scene.array("nodes").size(); ++k) roots.push_back(scene.index("nodes", k));
-  return roots;
-}
 
 // Depth first, without recursion: a chain of nodes may be as long as the file.
 void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world) {
@@ -136,7 +94,7 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
     const GltfObject node = root_.item("nodes", next.node);
     if (visited_[std::size_t(next.node)]) node.broken("is reached twice, and nodes must form trees");
     visited_[std::size_t(next.node)] = true;
-    const Affine transform = next.parent * transform_of(node);
+    const Affine transform = next.parent * gltf_transform(node);
     const bool wanted = next.wanted || fits(node);
     if (node.has("mesh")) add_mesh_node(node, transform, wanted);
     for (std::size_t k = node.array("children").size(); k-- > 0;)
@@ -164,19 +122,6 @@ std::uint64_t SceneBuilder::level_of(std::uint64_t i) {
   const std::size_t coarser = lod.array("ids").size();
   scene_.levels = std::max(scene_.levels, 1 + coarser);
   return level_ == 0 || coarser == 0 ? i : lod.index("ids", std::min(level_, coarser) - 1);
-}
-
-Affine SceneBuilder::transform_of(const GltfObject& node) {
-  if (node.has("matrix")) {  // by columns
-    const auto m = node.numbers<16>("matrix", {});
-    Affine a;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 4; ++j) a.m[i][j] = m[4 * j + i];
-    }
-    return a;
-  }
-  return affine_of(node.numbers<3>("translation", {0, 0, 0}), node.numbers<4>("rotation", {0, 0, 0, 1}),
-                   node.numbers<3>("scale", {1, 1, 1}));
 }
 
 bool SceneBuilder::fits(const GltfObject& named) const {

@@ -10,8 +10,8 @@
 
 #include "io/files/file.h"
 #include "io/store/brick_codec.h"
-#include "lib/core/coord_hash.h"
 #include "lib/core/error.h"
+#include "lib/grid/coord_hash.h"
 
 namespace bp {
 

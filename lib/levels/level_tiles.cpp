@@ -43,7 +43,8 @@ struct Job {
 
 /// Cells of the closing's bricks, and how much there is to do in each.
 std::vector<Job> jobs_of(const TileLevel& level, const std::function<bool(CellCoord)>& wanted) {
-  const std::vector<BrickCoord> bricks = level.closing.coords();
+  std::vector<BrickCoord> bricks = level.closing.coords();
+  if (wanted) std::erase_if(bricks, [&](BrickCoord c) { return !wanted(level.cells.of(first_voxel(c))); });
   std::vector<std::pair<CellCoord, std::uint64_t>> parts(bricks.size());
   parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
     const BrickCoord brick = bricks[std::size_t(i)];
@@ -52,7 +53,6 @@ std::vector<Job> jobs_of(const TileLevel& level, const std::function<bool(CellCo
   std::sort(parts.begin(), parts.end());
   std::vector<Job> jobs;
   for (const auto& [cell, faces] : parts) {
-    if (wanted && !wanted(cell)) continue;
     if (jobs.empty() || jobs.back().cell != cell) jobs.push_back({cell, 0});
     jobs.back().dense_faces += faces;
   }

@@ -16,6 +16,7 @@ struct PassContext {
   ShelfFactory make_shelf;         ///< for bricks that wait
   ScratchFactory make_scratch;     ///< for triangles, crossings and colours that wait
   ResultStore* results = nullptr;  ///< results of jobs are looked up there, and put; null: all are made
+  std::uint64_t turn = 0;          ///< of a job that shares work with others through `results` (lib/pass/turn.h)
   PassProgress progress;           ///< called now and then; may be empty
 
   void report(const char* pass, const char* unit, std::uint64_t done, std::uint64_t total) const {

@@ -9,7 +9,7 @@
 /// with other cells.
 namespace bp {
 
-constexpr std::uint64_t kFacesPerRegion = 8192;  ///< if nobody says
+constexpr std::uint64_t kFacesPerRegion = 2048;  ///< if nobody says
 
 struct Region {
   LatticeBox cell;                 ///< closed; those of different regions have no inner point in common

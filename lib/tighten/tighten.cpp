@@ -81,7 +81,8 @@ class Tightener {
       const std::array<VertexId, 4> corners = corners_of(h);
       return std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return changed_at_[v] > since; });
     };
-    run(3 * mesh_.face_capacity(), wants, [](StepPlanner& planner, std::size_t i) { planner.flip(HalfEdgeId(i)); });
+    const auto plan = [](StepPlanner& planner, std::size_t i) { planner.flip(HalfEdgeId(i)); };
+    run(alone_, 3 * mesh_.face_capacity(), wants, plan);  // a flip takes less than waking another thread
   }
 
   /// Those that go outwards first: the others then have the room that the joint fit counts on.
@@ -99,7 +100,7 @@ class Tightener {
       if (growth > 0) went_out_.emplace_back(v, mesh_.position(v));
     }
     const int128 before = mesh_.volume6();
-    run(order_.size(), always, [&](StepPlanner& planner, std::size_t i) {
+    run(ahead_, order_.size(), always, [&](StepPlanner& planner, std::size_t i) {
       const VertexId v = order_[i].second;
       planner.approach(v, joint_.shift(v));
     });
@@ -108,7 +109,7 @@ class Tightener {
 
   /// Some made room that the others could not take: back where they were.
   void take_back() {
-    run(went_out_.size(), always, [&](StepPlanner& planner, std::size_t i) {
+    run(ahead_, went_out_.size(), always, [&](StepPlanner& planner, std::size_t i) {
       const auto& [v, p] = went_out_[i];
       planner.go_back(v, to_double(p - mesh_.position(v)));
     });
@@ -118,7 +119,8 @@ class Tightener {
   void move_each() {
     waits_ = true;
     run(
-        mesh_.vertex_capacity(), [&](std::size_t v) { return is_free(VertexId(v)) && star_changed(VertexId(v)); },
+        ahead_, mesh_.vertex_capacity(),
+        [&](std::size_t v) { return is_free(VertexId(v)) && star_changed(VertexId(v)); },
         [](StepPlanner& planner, std::size_t v) { planner.find_place(VertexId(v)); });
     waits_ = false;
   }
@@ -127,8 +129,8 @@ class Tightener {
 
   /// The steps that are wanted, each planned by plan(planner, i).
   template <class Wants, class Plan>
-  void run(std::size_t n, const Wants& wants, const Plan& plan) {
-    ahead_.run(
+  void run(StepsAhead& steps, std::size_t n, const Wants& wants, const Plan& plan) {
+    steps.run(
         n, wants,
         [&](std::size_t i, std::size_t worker) {
           plan(*planners_[worker], i);
@@ -176,7 +178,7 @@ class Tightener {
   TightenCounts& counts_;
   JointFit joint_;
   bool waits_ = false;  // a vertex that could not move, until its star has changed
-  StepsAhead ahead_;
+  StepsAhead ahead_, alone_{1};
   std::vector<std::unique_ptr<StepPlanner>> planners_;  // a worker's each
   std::unique_ptr<StepPlanner> own_;
   std::vector<std::pair<double, VertexId>> order_;           // by growth

@@ -10,7 +10,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${PREFIX} ${PREFIX}-build)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX})
-foreach(tool bpvox bpscale bpclose bpmesh bpcheck bpinfo bplod)
+foreach(tool bpvox bpscale bpclose bpmesh bpcheck bpinfo bplod bpdeform)
   foreach(file bash-completion/completions/${tool} zsh/site-functions/_${tool} fish/vendor_completions.d/${tool}.fish)
     if(NOT EXISTS ${PREFIX}/share/${file})
       message(FATAL_ERROR "share/${file} is not installed")

@@ -207,6 +207,7 @@ PassContext Build::context(ResultStore* results) const {
   context.memory = work;
   context.make_shelf = make_shelf;
   context.results = results;
+  if (options.tiles) context.turn = options.tiles->begin;
   context.progress = show;
   PieceMemory& memory = context.pieces;
   memory.waiting_bytes = work.bytes / 20 * 9;

@@ -7,17 +7,10 @@
 #include <emmintrin.h>
 #endif
 
-/// Vectors of small integers, 64 voxels at a time. Plain loops over the vector type of GCC and Clang, so that one
-/// source serves SSE2, AVX2 and NEON; BP_CLONES has the compiler emit an AVX2 version beside the baseline and choose at
-/// load time. Sanitizer builds take the baseline only: the choice runs before their runtimes are up.
-#if defined(__x86_64__) && defined(__GNUC__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(__clang__)
-#define BP_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define BP_CLONES
-#endif
-#define BP_INLINE inline __attribute__((always_inline))
+#include "lib/core/clones.h"
 
+/// Vectors of small integers, 64 voxels at a time. Plain loops over the vector type of GCC and Clang, so that one
+/// source serves SSE2, AVX2 and NEON.
 namespace bp::detail {
 
 constexpr int kLanes = 64;  ///< voxels of a word

@@ -9,6 +9,7 @@
 #include "lib/core/parallel.h"
 #include "lib/grid/clip.h"
 #include "lib/pass/close/detail/tile_closer.h"
+#include "lib/pass/turn.h"
 
 namespace bp {
 
@@ -83,7 +84,8 @@ class CellCloser {
         closer_({header, solid, field_, options.closing}, closing, backends, backends.size()) {}
 
   CellClosingCounts operator()() {
-    const std::vector<CellCoord> cells = cells_in_reach();
+    std::vector<CellCoord> cells = cells_in_reach();
+    put_in_turn(cells, options_.context.turn);
     counts_.cells = cells.size();
     if (!options_.keep_cavities && !cells.empty()) lay_flood(cells);
     std::size_t next = 0, done = 0;

@@ -3,8 +3,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "lib/core/coord_hash.h"
 #include "lib/core/triangle_source.h"
+#include "lib/grid/coord_hash.h"
 #include "lib/grid/stream.h"
 #include "lib/pass/context.h"
 #include "lib/store/result_key.h"

@@ -45,7 +45,7 @@ class SceneVoxelizer {
         shelf_(options.context.make_shelf()),
         store_(options.context.make_scratch()),
         chunks_(options.context.results != nullptr && options.fill != FillMode::winding
-                    ? std::make_unique<ChunkedSurface>(*options.context.results)
+                    ? std::make_unique<ChunkedSurface>(*options.context.results, options.context.turn)
                     : nullptr),
         // Their bins, half as large, then fit beside them.
         scene_(source, options.context.memory.bytes / 5 * 3, chunks_.get()) {
@@ -164,12 +164,13 @@ void SceneVoxelizer::look_up_chunks() {
   counts_.read_twice = scene_.reads_twice();
   PassSteps steps(options_.context.progress, "voxelizing", "triangles", counts_.scene.triangles);
   scene_.again([&](const NextPortion& next) {
-    chunks_->add_missing(next, options_.context.memory.bytes / 10,
-                         [&](std::uint64_t n, std::vector<TriangleD>&& large) {
-                           if (!large.empty()) bin(bins_->sort(to_fixed(large)));
-                           steps.add(n);
-                         });
+    const std::uint64_t memory = options_.context.memory.bytes;
+    chunks_->add_missing(next, memory / 10, memory / 5 * 3, [&](std::uint64_t n, std::vector<TriangleD>&& large) {
+      if (!large.empty()) bin(bins_->sort(to_fixed(large)));
+      steps.add(n);
+    });
   });
+  counts_.chunks_kept = chunks_->kept();
 }
 
 std::vector<FixedTriangle> SceneVoxelizer::to_fixed(std::span<const TriangleD> triangles) const {

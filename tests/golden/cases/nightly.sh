@@ -27,7 +27,3 @@ for options in "--profile collision --faces 60" "--mode fit --faces 60" "--mode 
   nightly scenes out $options --resolution 24 | table
 done
 try "$BP_ROOT/samples/nightly" nowhere out | sed "s|$BP_ROOT/||"
-if command -v parallel > /dev/null; then
-  "$BP_ROOT/samples/nightly-parallel" scenes parallel --faces 60,20 --resolution 24 2> /dev/null | table > table
-  grep -q "^a.obj.made.2$" table || cat table
-fi

@@ -39,21 +39,22 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--level", "bpinfo"},
     {"--levels", "bplod"},
     {"--look-at", "bpinfo"},
-    {"--memory", "bpvox, bpscale, bpclose, bpmesh, bpcheck and bplod"},
+    {"--memory", "bpvox, bpscale, bpclose, bpmesh, bpcheck, bpdeform and bplod"},
     {"--mode", "bpmesh and bplod"},
     {"--name", "bplod"},
     {"--origin", "bpmesh, bpcheck and bplod"},
-    {"--output", "bpvox, bpscale, bpclose, bpmesh and bplod"},
-    {"--overwrite", "bpvox, bpscale, bpclose, bpmesh, bplod and bpinfo"},
+    {"--output", "bpvox, bpscale, bpclose, bpmesh, bpdeform and bplod"},
+    {"--outside", "bpdeform"},
+    {"--overwrite", "bpvox, bpscale, bpclose, bpmesh, bpdeform, bplod and bpinfo"},
     {"--pick", "bpinfo"},
     {"--profile", "bplod"},
-    {"--progress", "bpvox, bpscale, bpclose, bpmesh, bpcheck and bplod"},
+    {"--progress", "bpvox, bpscale, bpclose, bpmesh, bpcheck, bpdeform and bplod"},
     {"--quads", "bpmesh"},
-    {"--quiet", "bpvox, bpscale, bpclose, bpmesh, bpcheck and bplod"},
-    {"--report", "bpvox, bpscale, bpclose, bpmesh, bpcheck and bplod"},
+    {"--quiet", "bpvox, bpscale, bpclose, bpmesh, bpcheck, bpdeform and bplod"},
+    {"--report", "bpvox, bpscale, bpclose, bpmesh, bpcheck, bpdeform and bplod"},
     {"--resolution", "bpvox and bplod"},
     {"--scale", "bpclose and bplod"},
-    {"--temp", "bpvox, bpscale, bpclose, bpmesh, bpcheck and bplod"},
+    {"--temp", "bpvox, bpscale, bpclose, bpmesh, bpcheck, bpdeform and bplod"},
     {"--tile", "bplod"},
     {"--tiles", "bplod"},
     {"--up", "bpvox, bplod and bpinfo"},
@@ -64,7 +65,7 @@ constexpr OptionOfTools kOptionsOfTools[] = {
 };
 
 bool is_of_pipe(const std::string& tool) {
-  constexpr const char* kPipe[] = {"bpvox", "bpscale", "bpclose", "bpmesh", "bpcheck", "bplod", "bpinfo"};
+  constexpr const char* kPipe[] = {"bpvox", "bpscale", "bpclose", "bpmesh", "bpcheck", "bplod", "bpinfo", "bpdeform"};
   return std::find(std::begin(kPipe), std::end(kPipe), tool) != std::end(kPipe);
 }
 

@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "lib/core/box.h"
-#include "lib/core/coord_hash.h"
+#include "lib/grid/coord_hash.h"
 #include "lib/store/scratch.h"
 #include "lib/voxel/color_sums.h"
 

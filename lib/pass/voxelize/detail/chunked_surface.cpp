@@ -1,9 +1,11 @@
 #include "lib/pass/voxelize/detail/chunked_surface.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/pass/turn.h"
 
 namespace bp {
 
@@ -14,6 +16,10 @@ constexpr const char* kMetJob = "a chunk was voxelized";
 /// Of a mark beside the voxels, which knows of no frame.
 ResultKey met_key(const ChunkCutter::Chunk& chunk) {
   return KeyHash(kMetJob).add(chunk.content).key();
+}
+
+[[noreturn]] void fail_changed() {
+  fail(ErrorCode::bad_input, "the scene changed between the first and the second reading");
 }
 
 }  // namespace
@@ -88,33 +94,50 @@ void ChunkedSurface::look_up(const GridFrame& frame, const BrickBox& grid, std::
   met_.resize(chunks_.size());  // the last one ends here
   parallel_for(std::int64_t(chunks_.size()), [&](std::int64_t n) {
     const auto i = std::size_t(n);
-    std::string bytes;
-    found_[i] = results_.get(chunk_key(chunks_[i], frame_), bytes) && bricks_->add(bytes);
+    found_[i] = take_kept(i);
     if (found_[i] != 0 && met_[i] == 0) results_.put(met_key(chunks_[i]), "");
   });
   kept_ = std::uint64_t(std::count(found_.begin(), found_.end(), 1));
 }
 
-void ChunkedSurface::add_missing(const NextPortion& next, std::uint64_t memory_bytes,
+/// The chunk's voxels are among the results, and are added.
+bool ChunkedSurface::take_kept(std::size_t chunk) {
+  std::string bytes;
+  return results_.get(chunk_key(chunks_[chunk], frame_), bytes) && bricks_->add(bytes);
+}
+
+/// The next missing chunks, last one first: one, or in a turn as many as there is room for. False if there are no more.
+bool ChunkedSurface::read_window(Reader& reader, std::uint64_t bytes, std::vector<Item>& window) {
+  Item item;
+  for (std::uint64_t held = 0; read_ < chunks_.size() && (window.empty() || (turn_ != 0 && held < bytes)); ++read_) {
+    const std::uint64_t n = chunks_[read_].triangles;
+    const bool missing = found_[read_] == 0;
+    if (missing) item.triangles.reserve(n);
+    if (!reader.take(n, missing ? &item.triangles : nullptr)) fail_changed();
+    item.count += n;
+    if (!missing) continue;
+    held += n * sizeof(TriangleD);
+    item.chunk = read_;
+    window.push_back(std::exchange(item, {}));
+  }
+  put_in_turn(window, turn_);
+  return !window.empty();
+}
+
+void ChunkedSurface::add_missing(const NextPortion& next, std::uint64_t work_bytes, std::uint64_t window_bytes,
                                  const std::function<void(std::uint64_t, std::vector<TriangleD>&&)>& done) {
   Reader reader(next);
-  std::size_t chunk = 0;
-  const auto changed = [] { fail(ErrorCode::bad_input, "the scene changed between the first and the second reading"); };
+  std::vector<Item> window;
   pipeline<Item>(
-      int(std::clamp<std::uint64_t>(memory_bytes / kChunkWorkBytes, 1, std::uint64_t(thread_count()) + 1)),
+      int(std::clamp<std::uint64_t>(work_bytes / kChunkWorkBytes, 1, std::uint64_t(thread_count()) + 1)),
       [&](Item& item) {
-        for (; chunk < chunks_.size() && found_[chunk] != 0; ++chunk) {
-          item.count += chunks_[chunk].triangles;
-          if (!reader.take(chunks_[chunk].triangles, nullptr)) changed();
-        }
-        if (chunk == chunks_.size()) return false;
-        item.chunk = chunk;
-        item.count += chunks_[chunk].triangles;
-        if (!reader.take(chunks_[chunk++].triangles, &item.triangles)) changed();
+        if (window.empty() && !read_window(reader, window_bytes, window)) return false;
+        item = std::move(window.back());
+        window.pop_back();
         return true;
       },
       [&](Item& item) {
-        if (ChunkCutter::content_of(item.triangles) != chunks_[item.chunk].content) changed();
+        if (ChunkCutter::content_of(item.triangles) != chunks_[item.chunk].content) fail_changed();
         make(item);
       },
       [&](Item& item) { done(item.count, std::move(item.triangles)); });
@@ -122,9 +145,13 @@ void ChunkedSurface::add_missing(const NextPortion& next, std::uint64_t memory_b
 
 /// Leaves the triangles of a chunk that cannot be kept.
 void ChunkedSurface::make(Item& item) {
+  if (turn_ != 0 && take_kept(item.chunk)) {
+    ++kept_;
+    return std::vector<TriangleD>().swap(item.triangles);
+  }
   const std::optional<std::string> bytes = chunk_voxels(item.triangles, frame_, grid_);
   if (!bytes) return;
-  item.triangles.clear();
+  std::vector<TriangleD>().swap(item.triangles);
   results_.put(chunk_key(chunks_[item.chunk], frame_), *bytes);
   results_.put(met_key(chunks_[item.chunk]), "");
   if (!bricks_->add(*bytes)) fail(ErrorCode::failed, "a chunk of triangles has voxels outside the grid of its scene");

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <functional>
 
 #include "lib/pass/voxelize/detail/surface_chunks.h"
@@ -15,7 +16,8 @@ class ChunkedSurface {
   };
   using NextPortion = std::function<bool(Portion&)>;  ///< as TriangleSource::read()
 
-  explicit ChunkedSurface(ResultStore& results) : results_(results) {}
+  /// `turn`: as of PassContext.
+  ChunkedSurface(ResultStore& results, std::uint64_t turn) : results_(results), turn_(turn) {}
 
   /// First pass: the triangles in their order, with ChunkCutter::places().
   void measure(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places);
@@ -30,26 +32,32 @@ class ChunkedSurface {
   [[nodiscard]] bool needs_met() const;
   /// Voxelizes the other chunks, and keeps them. `next` gives all triangles once more; done(n, large): behind n more of
   /// them, of which `large` are too large for a chunk: their voxels are for the caller to find, in every build.
-  /// `memory_bytes`: for chunks at work. Throws bad_input if the triangles are not those of the first pass.
-  void add_missing(const NextPortion& next, std::uint64_t memory_bytes,
+  /// In a turn, chunks that another job has kept meanwhile are taken from there. `work_bytes`: for chunks at work.
+  /// `window_bytes`: for triangles that wait, so that a turn has something to choose from. Throws bad_input if the
+  /// triangles are not those of the first pass.
+  void add_missing(const NextPortion& next, std::uint64_t work_bytes, std::uint64_t window_bytes,
                    const std::function<void(std::uint64_t, std::vector<TriangleD>&&)>& done);
 
   [[nodiscard]] std::uint64_t chunks() const { return chunks_.size(); }
-  [[nodiscard]] std::uint64_t kept() const { return kept_; }
+  [[nodiscard]] std::uint64_t kept() const { return kept_; }  ///< those of other jobs at work, too
   [[nodiscard]] BrickSum& bricks() { return *bricks_; }
 
  private:
   class Reader;
   struct Item;
+  [[nodiscard]] bool read_window(Reader& reader, std::uint64_t bytes, std::vector<Item>& window);
+  [[nodiscard]] bool take_kept(std::size_t chunk);
   void make(Item& item);
 
   ResultStore& results_;
+  const std::uint64_t turn_;
   ChunkCutter cutter_;
   std::vector<ChunkCutter::Chunk> chunks_;
   std::vector<char> met_, found_;                               // by chunk
   std::uint64_t ended_ = 0;                                     // triangles in chunks that have ended
   std::vector<std::pair<std::uint64_t, std::uint64_t>> unmet_;  // triangles in chunks that were never voxelized
-  std::uint64_t kept_ = 0;
+  std::atomic<std::uint64_t> kept_{0};
+  std::size_t read_ = 0;  // chunks that add_missing() has passed
   GridFrame frame_;
   BrickBox grid_;
   std::unique_ptr<BrickSum> bricks_;

@@ -244,6 +244,48 @@ TEST_CASE("chunks of other voxels, of another frame, or damaged ones are not tak
 
 namespace {
 
+/// As soon as the first voxels are put, another job has put all of its results.
+class SharedResults final : public ResultStore {
+ public:
+  explicit SharedResults(const test::MemoryResults& other) : other_(other) {}
+  bool get(const ResultKey& key, std::string& out) override { return mine_.get(key, out); }
+  void put(const ResultKey& key, std::string_view bytes) override {
+    mine_.put(key, bytes);
+    if (bytes.empty()) return;  // a mark
+    ++made;
+    for (const auto& [other_key, other_bytes] : other_.results) mine_.put(other_key, other_bytes);
+  }
+  std::atomic<int> made{0};
+
+ private:
+  const test::MemoryResults& other_;
+  test::MemoryResults mine_;
+};
+
+}  // namespace
+
+TEST_CASE("jobs at work at the same time share the chunks of their scene", "[quick][pass]") {
+  const Triangles scene = strand(12, 100000);
+  VoxelizeOptions o;
+  // One chunk at work at a time; the latter: read twice.
+  o.context.memory.bytes = GENERATE(std::uint64_t(1) << 26, std::uint64_t(100000));
+  test::MemoryResults other;
+  const Result clean = run(scene, o, nullptr);
+  REQUIRE(run(scene, o, &other).counts.chunks > 4);
+  for (const std::uint64_t turn : {1, 2}) {
+    SharedResults shared(other);
+    o.context.turn = turn;
+    const Result found = run(scene, o, &shared);
+    CHECK((found.bits == clean.bits));
+    CHECK(found.counts.surface_voxels == clean.counts.surface_voxels);
+    CHECK(found.counts.input_hash == clean.counts.input_hash);
+    CHECK(shared.made == 1);
+    CHECK(found.counts.chunks_kept == found.counts.chunks - 1);
+  }
+}
+
+namespace {
+
 /// Other triangles in each reading, as many.
 class Changing final : public TriangleSource {
  public:

@@ -93,7 +93,8 @@ TEST_CASE("a GPU that a CPU build is asked for is a missing resource", "[quick][
 #endif
 }
 
-TEST_CASE("a GPU that BP_BACKEND asks for and that is not there is an error that names the variable", "[quick][tools]") {
+TEST_CASE("a GPU that BP_BACKEND asks for and that is not there is an error that names the variable",
+          "[quick][tools]") {
   ::setenv("BP_BACKEND", "cuda:999", 1);
   try {
     (void)make_backends(parse({}), 0);

@@ -1,0 +1,57 @@
+#include "io/gltf/gltf_nodes.h"
+
+namespace bp {
+
+std::optional<UpAxis> gltf_up(const GltfObject& root) {
+  const GltfObject asset = root.object("asset");
+  for (const char* const name : kUpNames) {
+    if (asset.holds_text("extras", "up", name)) return up_axis_named(name);
+  }
+  return {};
+}
+
+// Files of ours stand upright in glTF's y-up world: back to their own coordinates.
+Affine gltf_world(std::optional<UpAxis> up) {
+  Affine a;
+  const AxisTurn back = to_y_up(up.value_or(UpAxis::y)).inverse();
+  a.m = {};
+  for (std::size_t i = 0; i < 3; ++i) a.m[i][back.axis[i]] = back.negative[i] ? -1 : 1;
+  return a;
+}
+
+// The default scene, else the first; a document without scenes shows every node that is no child.
+std::vector<std::uint64_t> gltf_roots(const GltfObject& root) {
+  std::vector<std::uint64_t> roots;
+  if (root.array("scenes").empty()) {
+    const std::size_t nodes = root.array("nodes").size();
+    std::vector<bool> child(nodes);
+    for (std::size_t i = 0; i < nodes; ++i) {
+      const GltfObject node = root.item("nodes", i);
+      for (std::size_t k = 0; k < node.array("children").size(); ++k) {
+        if (node.index("children", k) < nodes) child[std::size_t(node.index("children", k))] = true;
+      }
+    }
+    for (std::size_t i = 0; i < nodes; ++i) {
+      if (!child[i]) roots.push_back(i);
+    }
+    return roots;
+  }
+  const GltfObject scene = root.item("scenes", root.number("scene", 0));
+  for (std::size_t k = 0; k < scene.array("nodes").size(); ++k) roots.push_back(scene.index("nodes", k));
+  return roots;
+}
+
+Affine gltf_transform(const GltfObject& node) {
+  if (node.has("matrix")) {  // by columns
+    const auto m = node.numbers<16>("matrix", {});
+    Affine a;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) a.m[i][j] = m[4 * j + i];
+    }
+    return a;
+  }
+  return affine_of(node.numbers<3>("translation", {0, 0, 0}), node.numbers<4>("rotation", {0, 0, 0, 1}),
+                   node.numbers<3>("scale", {1, 1, 1}));
+}
+
+}  // namespace bp

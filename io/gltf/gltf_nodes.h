@@ -1,0 +1,20 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "io/gltf/gltf_document.h"
+#include "io/scene/affine.h"
+
+/// The nodes of a glTF document: where they begin, and where they stand.
+namespace bp {
+
+/// Axis that is up in the scene's own coordinates, if the asset tells (io/gltf/glb_file.h).
+[[nodiscard]] std::optional<UpAxis> gltf_up(const GltfObject& root);
+/// From the y-up world of glTF to the scene's own coordinates.
+[[nodiscard]] Affine gltf_world(std::optional<UpAxis> up);
+/// Nodes of the default scene, else of the first; without scenes every node that is no child.
+[[nodiscard]] std::vector<std::uint64_t> gltf_roots(const GltfObject& root);
+/// From a node to its parent.
+[[nodiscard]] Affine gltf_transform(const GltfObject& node);
+
+}  // namespace bp

@@ -1,0 +1,47 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/files/file.h"
+#include "io/scene/scene_file.h"
+#include "io/scene/scene_reader.h"
+
+/// The vertices of a scene in the order of its file, and the scene written again with other positions. Everything else
+/// of the file stays as it is: parts, materials, places in images, colours, order.
+namespace bp {
+
+/// Vertices of a file, in scene units. Unlike triangles, they come as they stand: also those that no face names.
+struct PointBatch {
+  std::vector<Vec3d> positions;
+  std::vector<Vec3d> normals;   ///< as many, or none: unit vectors
+  std::vector<Vec3d> tangents;  ///< as many, or none
+};
+/// Replaces positions; and normals and tangents, if there are any, which need not have the length 1 then.
+using MovePoints = std::function<void(PointBatch&)>;
+
+class ScenePoints {
+ public:
+  static constexpr std::size_t kBatch = std::size_t(1) << 15;  ///< vertices of a batch, at most
+
+  virtual ~ScenePoints() = default;
+  /// Replaces `out` by the positions of the next vertices; false, and `out` empty, at the end.
+  virtual bool read(std::vector<Vec3d>& out) = 0;
+  /// Writes the scene, from its beginning. `move` gets all vertices in the order of read(). A number whose value stays
+  /// keeps its bytes.
+  virtual void write(const MovePoints& move, OutputFile& out) = 0;
+  /// What stays although it should follow; empty: nothing.
+  [[nodiscard]] virtual std::string left_behind() const { return {}; }
+};
+
+/// Opens an OBJ, PLY, glTF or GLB, by the extension of its name. Memory: a batch, and the JSON of glTF. Scratch of
+/// options.temp_dir: as much as the buffer of glTF has bytes. A .gltf is written with its buffer in it. Throws
+/// bad_input if it is of another format, broken, or holds what cannot be kept.
+[[nodiscard]] std::unique_ptr<ScenePoints> open_points(const std::string& path, const SceneOptions& options);
+
+[[nodiscard]] std::unique_ptr<ScenePoints> obj_points(SceneFilePtr file);
+[[nodiscard]] std::unique_ptr<ScenePoints> ply_points(SceneFilePtr file);
+[[nodiscard]] std::unique_ptr<ScenePoints> gltf_points(SceneFilePtr file, const SceneOptions& options);
+
+}  // namespace bp

@@ -1,0 +1,65 @@
+# bpdeform: a scene bound to a cage, and moved with it.
+write_cube cage.obj 4
+write_octahedron scene.obj
+echo 'vn 0 0 1' >> scene.obj
+sed -i '1i mtllib scene.mtl\no part' scene.obj
+sed -i 's/^v .*/& 0.5 0.25 1/' scene.obj
+# The scene lies in the corner of the cage, on its faces.
+try bpdeform bind scene.obj cage.obj -o scene.bpw
+try bpdeform apply scene.bpw cage.obj -o rest.obj
+said 'cmp rest.obj scene.obj && echo same'
+# The whole cage moves: so does the scene. One side of it moves: the scene is stretched.
+awk '/^v/ { $2 += 10; $3 *= 2 } { print }' cage.obj > affine.obj
+try bpdeform apply scene.bpw affine.obj -o affine_scene.obj
+said 'diff scene.obj affine_scene.obj'
+awk '/^v/ && $2 == 4 { $4 += 1 } { print }' cage.obj > bent.obj
+try bpdeform apply scene.bpw bent.obj -o bent_scene.obj -q
+said 'grep "^v " bent_scene.obj'
+# A sequence of cages gives a sequence of scenes.
+try bpdeform apply scene.bpw cage.obj bent.obj affine.obj -o frame.obj -q
+said 'cmp frame.0.obj scene.obj && cmp frame.1.obj bent_scene.obj && cmp frame.2.obj affine_scene.obj && echo same'
+try bpdeform apply scene.bpw
+# The same bytes for any number of threads and limit on memory.
+try bpdeform bind scene.obj cage.obj -o again.bpw -j 1 --memory 100M
+said 'cmp scene.bpw again.bpw && echo same'
+# PLY and GLB keep their format; the cage may come in any.
+said 'bpvox scene.obj --resolution 20 -q | bpclose -q | bpmesh --faces 20 -q -o scene.glb'
+for kind in glb ply; do
+  [ $kind = glb ] || said 'bpvox scene.obj --resolution 20 -q | bpclose -q | bpmesh --faces 20 -q -o scene.ply'
+  try bpdeform bind scene.$kind cage.obj -o kind.bpw --overwrite --outside near -q
+  try bpdeform apply kind.bpw affine.obj -o moved.$kind
+  said "bpinfo scene.$kind | grep -E '^(triangles|bounds)'"
+  said "bpinfo moved.$kind | grep -E '^(triangles|bounds)'"
+done
+# Vertices outside.
+write_octahedron large.obj 5
+try bpdeform bind large.obj cage.obj -o large.bpw
+try bpdeform bind large.obj cage.obj -o large.bpw --outside near
+try bpdeform apply large.bpw affine.obj -o moved_large.obj
+said 'grep "^v " moved_large.obj'
+# What does not fit.
+try bpdeform
+try bpdeform bend scene.obj cage.obj -o x.bpw
+try bpdeform bind scene.obj -o x.bpw
+try bpdeform bind scene.obj cage.obj
+try bpdeform bind - cage.obj -o x.bpw
+try bpdeform bind missing.obj cage.obj -o x.bpw
+try bpdeform bind scene.obj cage.obj -o scene.bpw
+try bpdeform bind scene.obj scene.obj -o scene.obj --overwrite
+grep -v '^f 1 4' cage.obj > open.obj
+try bpdeform bind scene.obj open.obj -o x.bpw
+try bpdeform apply scene.bpw open.obj -o x.obj
+sed 's/^f 1 4 3 2/f 4 3 2 1/' cage.obj > turned.obj
+try bpdeform apply scene.bpw turned.obj -o x.obj
+try bpdeform apply scene.bpw affine.obj -o x.ply
+try bpdeform apply scene.bpw affine.obj -o scene.obj --overwrite
+try bpdeform apply scene.bpw affine.obj -o x.obj --outside near
+try bpdeform apply scene.obj affine.obj -o x.obj
+head -c 200 scene.bpw > cut.bpw
+try bpdeform apply cut.bpw affine.obj -o x.obj
+sed -i 's/^v 1 /v 2 /' scene.obj
+try bpdeform apply scene.bpw affine.obj -o x.obj
+echo 'v 1 2 3' >> scene.obj
+try bpdeform apply scene.bpw affine.obj -o x.obj
+try bpdeform bind moved.ply.stl cage.obj -o x.bpw
+files

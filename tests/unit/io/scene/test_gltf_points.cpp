@@ -1,0 +1,170 @@
+#include "io/scene/points/scene_points.h"
+#include "lib/core/vec3.h"
+#include "tests/unit/io/scene/gltf_document.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+std::vector<Vec3d> points_of(const std::string& path) {
+  const auto points = open_points(path, {});
+  std::vector<Vec3d> all, some;
+  while (points->read(some)) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+std::string moved(const TempDir& dir, const std::string& path, const MovePoints& move) {
+  OutputFile out(dir.path("moved.glb"), true);
+  open_points(path, {})->write(move, out);
+  out.commit();
+  return out.name();
+}
+
+/// Two parts with normals; the second stands turned, stretched and moved.
+Document two_parts() {
+  Document d;
+  const int first = d.quad_mesh(), second = d.quad_mesh();
+  for (const int mesh : {first, second}) {
+    const int normals = d.floats({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}});
+    const int colors = d.floats({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
+    Json& attributes = d.json["meshes"][std::size_t(mesh)]["primitives"][0]["attributes"];
+    attributes["NORMAL"] = normals;
+    attributes["COLOR_0"] = colors;
+  }
+  d.json["scenes"][0]["nodes"] = {0, 1};
+  d.node({{"mesh", first}, {"name", "a\xC3\xA4"}});
+  d.node({{"mesh", second}, {"translation", {5, 0, 0}}, {"rotation", {0.5, 0.5, 0.5, 0.5}}, {"scale", {2, 1, 4}}});
+  return d;
+}
+
+}  // namespace
+
+TEST_CASE("a GLB whose points stay keeps all but the layout of its JSON", "[io][deform][quick]") {
+  const TempDir dir;
+  const std::string path = dir.file("a.glb", two_parts().glb());
+  const std::string after = bytes_of_file(moved(dir, path, [](PointBatch&) {}));
+  CHECK(points_of(dir.file("b.glb", after)) == points_of(path));
+  const std::string data = two_parts().bytes;
+  CHECK(after.find(data) != std::string::npos);
+  CHECK(after.find("a\xC3\xA4") != std::string::npos);
+}
+
+TEST_CASE("the points of a GLB move in the coordinates of the scene, and normals follow", "[io][deform][quick]") {
+  const TempDir dir;
+  const std::string path = dir.file("a.glb", two_parts().glb());
+  std::vector<Vec3d> expected = points_of(path), normals;
+  for (Vec3d& p : expected) p = {p[0] + 1, 2 * p[1], p[2]};
+  const std::string after = moved(dir, path, [&](PointBatch& batch) {
+    for (Vec3d& p : batch.positions) p = {p[0] + 1, 2 * p[1], p[2]};
+    for (Vec3d& n : batch.normals) {
+      CHECK(std::abs(length(n) - 1) < 1e-6);
+      n = {n[2], n[0], n[1]};
+      normals.push_back(n);
+    }
+  });
+  const std::vector<Vec3d> found = points_of(after);
+  REQUIRE(found.size() == 8);
+  for (std::size_t i = 0; i < found.size(); ++i) CHECK(length(found[i] - expected[i]) < 1e-6);
+  std::size_t i = 0;
+  OutputFile out(dir.path("again.glb"), true);
+  open_points(after, {})->write(
+      [&](PointBatch& batch) {
+        for (const Vec3d& n : batch.normals) CHECK(length(n - normals[i++]) < 1e-6);
+      },
+      out);
+  CHECK(i == 8);
+  const auto bounds =
+      Json::parse(bytes_of_file(after).substr(20, bytes_of_file(after).find("BIN") - 24))["accessors"][0];
+  CHECK(bounds["max"] == Json({2, 2, 0}));
+  CHECK(bounds["min"] == Json({1, 0, 0}));
+}
+
+TEST_CASE("a mesh that stands in several places moves in each, and the file stays a glTF of the same scene",
+          "[io][deform][quick]") {
+  const TempDir dir;
+  Document d = two_parts();
+  d.json["nodes"][1]["mesh"] = 0;
+  d.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+  d.node({{"mesh", 1}, {"translation", {0, 9, 0}}});
+  d.node({{"mesh", 0}});                                                              // where the first one stands
+  d.json["meshes"][1]["primitives"].push_back(d.json["meshes"][0]["primitives"][0]);  // shares accessors
+  const std::string path = dir.file("a.glb", d.glb());
+  const auto bend = [](Vec3d& p) { p = {p[0] + 0.1 * p[1] * p[1], p[1] + p[2] * p[0], p[2]}; };
+  const std::string after = moved(dir, path, [&](PointBatch& batch) {
+    for (Vec3d& p : batch.positions) bend(p);
+  });
+  std::vector<TriangleD> expected = read_all(path);
+  const std::vector<TriangleD> found = read_all(after);
+  REQUIRE(expected.size() == 10);
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t t = 0; t < found.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      bend(expected[t][i]);
+      CHECK(length(found[t][i] - expected[t][i]) < 1e-5);
+    }
+  }
+  CHECK(points_of(path).size() == 16);  // two places and a copy in each of them for what is shared
+}
+
+TEST_CASE("a .gltf is written with its moved buffer in it, and keeps the rest", "[io][deform][quick]") {
+  const TempDir dir;
+  Document d = two_parts();
+  d.json["nodes"][0]["name"] = "base64,_";
+  d.json["extras"]["far"] = "base64,";
+  (void)dir.file("a.bin", d.bytes);
+  const std::string path = dir.file("a.gltf", d.gltf("a.bin"));
+  OutputFile out(dir.path("moved.gltf"), true);
+  open_points(path, {})->write([](PointBatch&) {}, out);
+  out.commit();
+  CHECK(points_of(out.name()) == points_of(path));
+  const Json before = Json::parse(d.gltf("a.bin")), after = Json::parse(bytes_of_file(out.name()));
+  CHECK(after["nodes"] == before["nodes"]);
+  CHECK(after["meshes"] == before["meshes"]);
+  CHECK(after["extras"] == before["extras"]);
+  CHECK(after["buffers"][0]["byteLength"] == d.bytes.size());
+  CHECK(read_all(out.name()) == read_all(path));
+}
+
+TEST_CASE("interleaved positions and normals move side by side", "[io][deform][quick]") {
+  const TempDir dir;
+  Document d;
+  std::string data;
+  for (const Vec3d& p : kQuad) {
+    for (const double c : p) data += raw(float(c));
+    for (const float c : {0.F, 0.F, 1.F}) data += raw(c);
+  }
+  const int view = d.view(data, 24);
+  const int positions = d.accessor({{"bufferView", view}, {"componentType", kF32}, {"count", 4}, {"type", "VEC3"}});
+  const int normals =
+      d.accessor({{"bufferView", view}, {"byteOffset", 12}, {"componentType", kF32}, {"count", 4}, {"type", "VEC3"}});
+  d.mesh(positions);
+  d.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = normals;
+  d.node({{"mesh", 0}});
+  const std::string after = moved(dir, dir.file("a.glb", d.glb()), [](PointBatch& batch) {
+    for (Vec3d& p : batch.positions) p[2] = 7;
+    for (Vec3d& n : batch.normals) n = {0, 1, 0};
+  });
+  std::string expected;
+  for (const Vec3d& p : kQuad) {
+    for (const double c : {p[0], p[1], 7.0, 0.0, 1.0, 0.0}) expected += raw(float(c));
+  }
+  CHECK(bytes_of_file(after).find(expected) != std::string::npos);
+}
+
+TEST_CASE("a GLB that cannot keep what it has is refused", "[io][deform][quick]") {
+  const TempDir dir;
+  const auto refused = [&](const char* why, const auto& change) {
+    Document d = two_parts();
+    change(d.json);
+    CHECK_THROWS_WITH(points_of(dir.file("a.glb", d.glb())), Contains(why));
+  };
+  refused("has a skin", [](Json& j) { j["nodes"][0]["skin"] = 0; });
+  refused("in many places", [](Json& j) { j["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = Json::object(); });
+  refused("morph targets", [](Json& j) { j["meshes"][0]["primitives"][0]["targets"] = Json::array({Json::object()}); });
+  refused("flattens", [](Json& j) { j["nodes"][1]["scale"] = {1, 0, 1}; });
+  refused("quantized", [](Json& j) { j["accessors"][0]["componentType"] = kI16; });
+  refused("second buffer", [](Json& j) { j["bufferViews"][0]["buffer"] = 1; });
+  refused("sparse", [](Json& j) { j["accessors"][0].erase("bufferView"); });
+  refused("share bytes", [](Json& j) { j["accessors"][2]["bufferView"] = j["accessors"][0]["bufferView"]; });
+}

@@ -1,0 +1,134 @@
+// bpdeform: binds a scene to a cage, and moves it as the cage is moved. Manual: docs/bpdeform.1.md
+#include "io/files/lower.h"
+#include "io/scene/scene_format.h"
+#include "lib/core/error.h"
+#include "tools/cli/report.h"
+#include "tools/cli/run_tool.h"
+#include "tools/deform/apply.h"
+#include "tools/deform/bind.h"
+#include "tools/run/scene_budget.h"
+
+namespace {
+
+using bp::ErrorCode;
+using bp::fail;
+
+enum class Outside { refuse, near };
+
+struct Options {
+  bp::CommonOptions common;
+  std::string command, out;
+  std::vector<std::string> files;
+  Outside outside = Outside::refuse;
+};
+
+Options parse(bp::Args& args) {
+  Options o;
+  args.about(
+      "Moves a scene by a cage. `bind SCENE CAGE` finds out how each vertex of the scene depends on the cage. `apply "
+      "WEIGHTS CAGE2` writes the scene again, as the moved cage carries it.");
+  args.example(
+      "bpdeform bind figure.obj cage.obj -o figure.bpw && bpdeform apply figure.bpw posed.obj -o posed_figure.obj");
+  args.positional("COMMAND", o.command, "bind or apply");
+  args.positional("[FILE...]", o.files,
+                  "a scene (OBJ, PLY, glTF) and its cage, to bind; or weights and moved cages, to apply");
+  args.group("Files");
+  args.option("-o,--output", "FILE", o.out, "the weights, or the moved scene in the format of the scene");
+  args.needed("--output");
+  args.group("Binding");
+  args.option("--outside",
+              {{"refuse", Outside::refuse, "an error that tells their number"},
+               {"near", Outside::near, "they follow the nearest face"}},
+              o.outside, "vertices outside the cage");
+  o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::memory_part |
+                            bp::CommonOptions::progress_part | bp::CommonOptions::report_part |
+                            bp::CommonOptions::overwrite_part);
+  args.often({"--output", "--outside", "--overwrite"});
+  args.parse();
+  if (o.command != "bind" && o.command != "apply") fail(ErrorCode::bad_argument, "begin with a command: bind or apply");
+  if (o.command == "bind" && o.files.size() != 2)
+    fail(ErrorCode::bad_argument, "bind takes two files: the scene and the cage");
+  if (o.command == "apply" && o.files.size() < 2)
+    fail(ErrorCode::bad_argument, "apply takes the weights and one moved cage or more");
+  if (o.out.empty()) fail(ErrorCode::bad_argument, "name the output with --output");
+  if (o.command == "apply" && args.given("--outside")) fail(ErrorCode::bad_argument, "--outside belongs to bind");
+  if (std::find(o.files.begin(), o.files.end(), "-") != o.files.end())
+    fail(ErrorCode::bad_argument, "bpdeform reads files, not stdin: apply reads the scene again");
+  bp::keep_inputs(o.files);
+  return o;
+}
+
+bp::SceneOptions scene_options(const Options& o) {
+  constexpr std::uint64_t kBytesPerFace = 32, kBytesPerVertex = 128;  // of a cage while it is read
+  bp::SceneOptions options;
+  options.temp_dir = o.common.temp;
+  options.memory_bytes = o.common.memory_bytes / 4;
+  options.keep_extremes = true;
+  options.document = bp::document_budget(o.common.memory_bytes, bp::least_memory(o.common.threads), 1);
+  options.document.bytes /= 2;  // the JSON of glTF is also kept as it is to be written
+  options.document.share /= 2;
+  options.mesh = {options.document, kBytesPerFace, kBytesPerVertex, "reading the cage"};
+  return options;
+}
+
+void bind(const Options& o, bp::Report& report, bp::Progress& progress) {
+  const auto output = bp::open_output(o.out, o.common.overwrite);
+  const bp::BindRequest request{o.files[0], o.files[1], o.outside == Outside::near, o.common.memory_bytes,
+                                scene_options(o)};
+  const bp::WeightTotals totals = bp::bind_scene(request, *output, progress);
+  report.counts = {{"vertices", totals.points}, {"outside", totals.outside}};
+  if (totals.outside > 0)
+    report.note(fmt::format("vertices outside the cage, which follow its nearest faces: {} of {}", totals.outside,
+                            totals.points),
+                o.common);
+  output->commit();
+  report.bytes_in = bp::size_of_files({o.files[0]});
+  report.bytes_out = output->bytes();
+}
+
+/// Of scene number i of n: its number stands before the extension, with as many digits as the last one has.
+std::string numbered(const std::string& name, std::size_t i, std::size_t n) {
+  if (n == 1) return name;
+  const std::size_t dot = name.find_last_of('.');
+  return fmt::format("{}.{:0{}}{}", name.substr(0, dot), i, std::to_string(n - 1).size(), name.substr(dot));
+}
+
+/// Each scene appears when it is complete.
+void apply(const Options& o, bp::Report& report, bp::Progress& progress) {
+  const std::string scene = bp::WeightReader(o.files[0]).header().scene;
+  bp::keep_inputs({scene});
+  if (bp::scene_format_of(o.out) != bp::scene_format_of(scene))
+    fail(ErrorCode::bad_argument, "{}: the scene is written in its own format: name it .{}", o.out,
+         bp::scene_format_of(scene));
+  const std::size_t cages = o.files.size() - 1;
+  bp::Applied applied;
+  for (std::size_t i = 0; i < cages; ++i) {
+    const auto output = bp::open_output(numbered(o.out, i, cages), o.common.overwrite);
+    bp::WeightReader weights(o.files[0]);
+    const bp::ApplyRequest request{o.files[0], o.files[i + 1], o.common.memory_bytes, scene_options(o)};
+    applied = bp::apply_cage(weights, request, *output, progress);
+    output->commit();
+    report.bytes_out += output->bytes();
+  }
+  report.counts = {{"vertices", applied.points}, {"scenes", cages}};
+  if (!applied.left_behind.empty()) report.note(fmt::format("{}: {}", o.out, applied.left_behind), o.common);
+  report.bytes_in = bp::size_of_files({scene});
+}
+
+void run(const Options& o) {
+  bp::Report report("bpdeform");
+  bp::Progress progress("bpdeform", o.common.progress);
+  report.begin(o.command);
+  if (o.command == "bind") {
+    bind(o, report, progress);
+  } else {
+    apply(o, report, progress);
+  }
+  report.write(o.common);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return bp::run_tool("bpdeform", argc, argv, parse, run);
+}

@@ -1,0 +1,125 @@
+#include "tools/deform/bind.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "io/scene/points/scene_points.h"
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/store/content_hash.h"
+#include "tools/cli/common_options.h"
+#include "tools/cli/report.h"
+
+namespace bp {
+
+namespace {
+
+/// Points on their way.
+struct Block {
+  std::vector<Vec3d> points;
+  std::uint64_t outside = 0, first_outside = 0;  // the latter within the block, if there is one
+  Vec3d place{};                                 // of it
+  PackedWeights packed;
+};
+
+/// Cuts batches of points into blocks.
+class BlockCutter {
+ public:
+  BlockCutter(ScenePoints& points, std::size_t size) : points_(points), size_(size) {}
+
+  bool next(std::vector<Vec3d>& out) {
+    out.clear();
+    while (out.size() < size_) {
+      if (at_ == batch_.size() && !refill()) break;
+      const std::size_t n = std::min(size_ - out.size(), batch_.size() - at_);
+      out.insert(out.end(), batch_.begin() + std::ptrdiff_t(at_), batch_.begin() + std::ptrdiff_t(at_ + n));
+      at_ += n;
+    }
+    return !out.empty();
+  }
+  [[nodiscard]] ResultKey hash() const { return hash_.value(); }
+
+ private:
+  bool refill() {
+    at_ = 0;
+    const bool more = points_.read(batch_);
+    hash_.add(std::as_bytes(std::span(batch_)));
+    return more;
+  }
+  ScenePoints& points_;
+  const std::size_t size_;
+  std::vector<Vec3d> batch_;
+  std::size_t at_ = 0;
+  ContentHash hash_;
+};
+
+/// In steps that stay in the cache.
+void work_on(const MeanValueCoordinates& coordinates, bool carry_outside, Block& block) {
+  constexpr std::size_t kStep = 128;
+  CoordinateRows rows;
+  WeightBlock rounded(block.points.size(), coordinates.cage().vertices.size());
+  for (std::size_t first = 0; first < block.points.size(); first += kStep) {
+    const std::size_t count = std::min(kStep, block.points.size() - first);
+    coordinates.evaluate(std::span(block.points).subspan(first, count), rows);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (rows.places[i] != CoordinateRows::Place::outside || block.outside++ > 0) continue;
+      block.first_outside = first + i;
+      block.place = block.points[first + i];
+    }
+    if (block.outside == 0 || carry_outside) round_weights(rows, first, rounded);
+  }
+  if (block.outside == 0 || carry_outside) pack_weights(rounded, block.packed);
+}
+
+/// Counts, and remembers the first point outside.
+struct Tally {
+  WeightTotals totals;
+  std::uint64_t first = 0;
+  Vec3d place{};
+
+  void add(const Block& block) {
+    if (block.outside > 0 && totals.outside == 0) first = totals.points + block.first_outside, place = block.place;
+    totals.points += block.points.size();
+    totals.outside += block.outside;
+  }
+};
+
+}  // namespace
+
+int blocks_at_work(std::uint64_t memory_bytes, std::size_t columns) {
+  const std::uint64_t weights = points_of_block(columns) * columns, block = 24 * weights;
+  const std::uint64_t fixed = least_memory(0), left = memory_bytes > fixed ? memory_bytes - fixed : 0;
+  if (left < block) throw NeedsMemory("a block of weights", block, left, fixed + block);
+  return int(std::clamp<std::uint64_t>(left / block, 1, 2 * std::uint64_t(thread_count())));
+}
+
+WeightTotals bind_scene(const BindRequest& request, OutputFile& out, Progress& progress) {
+  WeightHeader header{request.scene, size_of_files({request.scene}), read_mesh(request.cage, request.scene_options)};
+  const MeanValueCoordinates coordinates(make_cage(header.cage, request.cage));
+  const std::unique_ptr<ScenePoints> points = open_points(request.scene, request.scene_options);
+  const std::size_t columns = header.cage.vertices.size();
+  BlockCutter cutter(*points, points_of_block(columns));
+  WeightWriter writer(out, header);
+  Tally tally;
+  progress.begin("bind", 0, "vertices");
+  pipeline<Block>(
+      blocks_at_work(request.memory_bytes, columns), [&](Block& block) { return cutter.next(block.points); },
+      [&](Block& block) { work_on(coordinates, request.carry_outside, block); },
+      [&](Block& block) {
+        tally.add(block);
+        if (tally.totals.outside == 0 || request.carry_outside) writer.write(block.packed);
+        progress.add(block.points.size());
+      });
+  progress.end();
+  if (tally.totals.outside > 0 && !request.carry_outside)
+    fail(ErrorCode::bad_input,
+         "{}: vertices outside {}: {} of {}, the first is number {} at {:.6g},{:.6g},{:.6g}; use a larger cage, or "
+         "--outside near",
+         request.scene, request.cage, tally.totals.outside, tally.totals.points, tally.first + 1, tally.place[0],
+         tally.place[1], tally.place[2]);
+  tally.totals.hash = cutter.hash();
+  writer.finish(tally.totals);
+  return tally.totals;
+}
+
+}  // namespace bp

@@ -1,0 +1,27 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "io/deform/weight_file.h"
+#include "io/scene/scene_reader.h"
+#include "lib/core/box.h"
+#include "tools/cli/progress.h"
+
+namespace bp {
+
+/// Blocks of weights at work at the same time: as many as memory and threads allow, at least one for each two threads.
+/// Throws NeedsMemory if not even one fits.
+[[nodiscard]] int blocks_at_work(std::uint64_t memory_bytes, std::size_t columns);
+
+struct BindRequest {
+  std::string scene, cage;
+  bool carry_outside = false;  ///< points outside follow the nearest face; else they are refused
+  std::uint64_t memory_bytes = 0;
+  SceneOptions scene_options;
+};
+
+/// Binds a scene: streams its vertices through the coordinates of the cage into `out`. Throws bad_input if points lie
+/// outside and are not to be carried, with their number.
+[[nodiscard]] WeightTotals bind_scene(const BindRequest& request, OutputFile& out, Progress& progress);
+
+}  // namespace bp
