@@ -26,6 +26,9 @@ namespace {
 /// A tenth of the diameter: what hides a hundredth of the largest part costs as many triangles.
 constexpr double kLeastPart = 1e-3;
 
+/// Where the scale differs from place to place, so do the edges: no longer than so many scales.
+constexpr double kEdgeFactor = 4;
+
 bp::MeshParams mesh_params(const bp::MeshOptions& o, const bp::StreamHeader& header) {
   bp::MeshParams params;
   params.mode = o.proxy.mode;
@@ -35,6 +38,8 @@ bp::MeshParams mesh_params(const bp::MeshOptions& o, const bp::StreamHeader& hea
   params.volume_ratio = o.volume;
   if (o.proxy.mode == bp::MeshMode::inside) params.least_part = kLeastPart;
   params.quads = o.quads;
+  if (!header.scale.constant()) params.edge_factor = kEdgeFactor;
+  params.edges_yield = true;
   // What may come out beyond --error is measured, so that it can be told.
   const bool chosen = o.proxy.enclose.kind != bp::EncloseOption::Kind::automatic;
   params.distances = o.error() && (chosen || o.levels.faces.size() > 1);

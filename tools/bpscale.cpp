@@ -1,12 +1,16 @@
 // bpscale: adds a scale field to a stream of voxels, for bpclose. Manual: docs/bpscale.1.md
 #include <optional>
 
+#include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
+#include "lib/grid/shelf_stream.h"
+#include "lib/pass/measure/shape_rules.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
 #include "tools/notes/scale_notes.h"
 #include "tools/run/inputs.h"
+#include "tools/run/memory_shares.h"
 #include "tools/run/provenance.h"
 #include "tools/run/scale_rules.h"
 #include "tools/scale/explain.h"
@@ -33,8 +37,9 @@ Options parse(bp::Args& args) {
   args.group("Field");
   args.option("--explain", "X,Y,Z", o.explain,
               "print what scale a point gets, and what each rule does there; write no stream");
-  o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::progress_part |
-                            bp::CommonOptions::report_part | bp::CommonOptions::overwrite_part);
+  o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::memory_part |
+                            bp::CommonOptions::progress_part | bp::CommonOptions::report_part |
+                            bp::CommonOptions::overwrite_part);
   args.often({"--output", "--explain", "--overwrite"});
   args.parse();
   if (o.rules.empty()) fail(ErrorCode::bad_argument, "name a file of rules");
@@ -55,12 +60,46 @@ bp::StreamHeader with_field(const bp::StreamHeader& in, const bp::ScaleField& fi
   return header;
 }
 
-std::uint64_t copy(bp::BrickReader& source, bp::BrickWriter& sink) {
-  std::uint64_t bricks = 0;
-  for (bp::Brick brick; source.read(brick); ++bricks) sink.write(brick);
-  sink.finish();
-  return bricks;
-}
+/// The voxels of a stream, read as soon as a rule is measured on them.
+class MeasuredVoxels {
+ public:
+  MeasuredVoxels(bp::BrickReader& source, const Options& o) : source_(source), progress_("bpscale", o.common.progress) {
+    const bp::MemoryLimit limit{o.common.memory_bytes, bp::kVoxelProgram};
+    options_.context.memory = {limit.rest_bytes() / 2, 0.5, limit};
+    options_.context.make_shelf = bp::make_shelf_factory(limit.rest_bytes() / 5 * 2, o.common.temp);
+    options_.context.progress = progress_.for_pass();
+  }
+
+  std::vector<bp::ScaleRule> measure(const bp::ShapeRule& rule, const bp::ScaleField& before) {
+    if (source_.header().fill == bp::FillMode::inside)
+      fail(ErrorCode::bad_input, "rules by shape are for closings, and a stream of bpvox --fill inside is opened");
+    if (!shelf_) {
+      shelf_ = options_.context.make_shelf();
+      for (bp::Brick brick; source_.read(brick);) shelf_->put(brick.coord, brick.fill, brick.bits);
+    }
+    return bp::shape_rules(source_.header(), *shelf_, rule, before, options_);
+  }
+
+  /// The bricks of the stream, from the shelf or the stream itself. Returns their number.
+  std::uint64_t copy(bp::BrickSink& sink) {
+    if (!shelf_) return copy(source_, sink);
+    bp::ShelfSource kept(source_.header(), *shelf_, nullptr, bp::ShelfSource::Keep::all);
+    return copy(kept, sink);
+  }
+
+ private:
+  static std::uint64_t copy(bp::BrickSource& source, bp::BrickSink& sink) {
+    std::uint64_t bricks = 0;
+    for (bp::Brick brick; source.read(brick); ++bricks) sink.write(brick);
+    sink.finish();
+    return bricks;
+  }
+
+  bp::BrickReader& source_;
+  bp::Progress progress_;
+  bp::MeasureOptions options_;
+  std::unique_ptr<bp::BrickShelf> shelf_;
+};
 
 void run(const Options& o) {
   bp::Report report("bpscale");
@@ -70,7 +109,10 @@ void run(const Options& o) {
   const bp::StreamHeader& header = source.header();
   if (header.has_closing)
     fail(ErrorCode::bad_input, "{}: is closed already; bpscale comes between bpvox and bpclose", o.in);
-  const bp::ScaleField field = bp::read_rules(o.rules, header);
+  MeasuredVoxels voxels(source, o);
+  const bp::ScaleField field = bp::read_rules(
+      o.rules, header,
+      [&](const bp::ShapeRule& rule, const bp::ScaleField& before) { return voxels.measure(rule, before); });
   (void)field.upper_bound(header.frame);  // refuses what is out of range
   if (o.explain) return bp::print(bp::explain_scale(field, header, *o.explain));
   const bool opening = header.fill == bp::FillMode::inside;
@@ -78,7 +120,7 @@ void run(const Options& o) {
 
   report.begin("copy");
   bp::BrickWriter sink(*output, with_field(header, field));
-  report.counts = {{"rules", field.rules.size()}, {"bricks", copy(source, sink)}};
+  report.counts = {{"rules", field.rules.size()}, {"bricks", voxels.copy(sink)}};
   output->commit();
   report.bytes_in = source.totals().bytes;
   report.bytes_out = output->bytes();

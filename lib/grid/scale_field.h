@@ -97,12 +97,28 @@ struct ScaleField {
   [[nodiscard]] ScaleField scaled(double factor) const;
 };
 
+/// A rule that is measured on the voxels of a scene, and becomes boxes (lib/pass/measure). Widths and thicknesses are
+/// those of cubes, lib/volume/openings.h.
+struct ShapeRule {
+  enum class Kind : std::uint8_t {
+    thickness,  ///< openings beside thin parts stay open
+    gap         ///< openings stay open from a width on, narrower ones close
+  };
+  Kind kind = Kind::thickness;
+  double length = 0;                ///< scene units: parts up to so thick are thin; openings from so wide on stay open
+  double least = 0;                 ///< of thickness, scene units: no scale becomes smaller
+  ScaleMode mode = ScaleMode::set;  ///< of gap; increase: only what closes, decrease: only what stays open
+  std::string name;
+};
+
 /// What the rules of a file refer to. In streams all lengths are numbers, in scene units, and no rule names a part.
 struct RuleContext {
   double diagonal = 0, voxel = 0;  ///< scene units; 0: not known, lengths are numbers only
   /// Boxes of the parts of the scene whose name or material matches; throws bad_input or bad_argument. Empty: none are
   /// known.
   std::function<std::vector<Bounds3d>(const std::string& pattern)> parts;
+  /// The rules that a rule by shape becomes, under those of `before`. Empty: the voxels are not known.
+  std::function<std::vector<ScaleRule>(const ShapeRule& rule, const ScaleField& before)> measure;
 };
 
 /// Rules as JSON (docs/bpscale.1.md). Throws bad_input with the key at fault.

@@ -107,12 +107,12 @@ void check_box(const Node& node, const ScaleRule& box) {
 /// The one key that says where the rule is.
 std::string place_key(const Node& node) {
   std::string found;
-  for (const char* key : {"at", "box", "node", "view"}) {
+  for (const char* key : {"at", "box", "node", "view", "thickness", "gap"}) {
     if (!node.has(key)) continue;
     if (!found.empty()) node.refuse(fmt::format("has both '{}' and '{}'", found, key));
     found = key;
   }
-  if (found.empty()) node.refuse("says no place: give it one of at, box, node, view");
+  if (found.empty()) node.refuse("says no place: give it one of at, box, node, view, thickness, gap");
   return found;
 }
 
@@ -133,6 +133,7 @@ class RuleReader {
   void add(const Node& node) {
     const std::string place = place_key(node);
     if (place == "view") return add_view(node);
+    if (place == "thickness" || place == "gap") return add_shape(node, place.c_str());
     node.expect_keys({"name", place.c_str(), "radius", "support", "mode", "scale"});
     ScaleRule rule = start(node);
     if (node.has("support")) rule.support = length(node.at("support"));
@@ -190,6 +191,21 @@ class RuleReader {
     rule.per_distance = node.at("per_distance").length();
     if (rule.per_distance > field_.slope) node.at("per_distance").refuse("is above the slope of the field");
     field_.rules.push_back(rule);
+  }
+
+  void add_shape(const Node& node, const char* place) {
+    ShapeRule rule;
+    const bool thin = std::string(place) == "thickness";
+    rule.kind = thin ? ShapeRule::Kind::thickness : ShapeRule::Kind::gap;
+    node.expect_keys({"name", place, thin ? "scale" : "mode"});
+    rule.length = length(node.at(place));
+    if (!(rule.length > 0)) node.at(place).refuse("is 0");
+    if (node.has("scale")) rule.least = length(node.at("scale"));
+    if (node.has("mode")) rule.mode = mode_of(node.at("mode"));
+    if (rule.mode == ScaleMode::erase) node.at("mode").refuse("is none of set, increase, decrease, as a gap needs");
+    rule.name = node.has("name") ? node.at("name").plain_text() : thin ? "thin parts" : "openings";
+    if (!context_.measure) node.at(place).refuse("is measured on voxels, and only bpscale has them at hand");
+    for (ScaleRule& box : context_.measure(rule, field_)) field_.rules.push_back(std::move(box));
   }
 
   void add_parts(const Node& node, ScaleRule rule) {

@@ -6,13 +6,48 @@ namespace bp {
 
 namespace {
 
-void dilate_row(std::uint64_t* row, std::int32_t words, std::int32_t reach) {
-  for (std::int32_t step = 0; step < reach; ++step) {
-    std::uint64_t before = 0;  // the word to the left, as it was
+/// body(step) for steps that make voxels within `reach` of voxels: what lies within r, and that moved by `step` both
+/// ways, is what lies within r + step, for steps up to r + 1. Then no step goes beyond the voxel that it looks for, and
+/// out of the box.
+template <class Body>
+void for_each_step(std::int32_t reach, const Body& body) {
+  for (std::int32_t r = 0; r < reach;) {
+    const std::int32_t step = std::min(r + 1, reach - r);
+    body(step);
+    r += step;
+  }
+}
+
+/// The word that begins at `bit` of a row, which may lie outside of it.
+std::uint64_t word_at(const std::uint64_t* row, std::int32_t words, std::int64_t bit) {
+  const std::int64_t i = floor_div<std::int64_t>(bit, 64);
+  const int b = int(bit - i * 64);
+  const auto word = [&](std::int64_t k) { return k >= 0 && k < words ? row[k] : 0; };
+  return b == 0 ? word(i) : word(i) >> b | word(i + 1) << (64 - b);
+}
+
+void dilate_row(std::uint64_t* row, std::int32_t words, std::int32_t reach, std::vector<std::uint64_t>& before) {
+  for_each_step(reach, [&](std::int32_t step) {
+    before.assign(row, row + words);
     for (std::int32_t i = 0; i < words; ++i) {
-      const std::uint64_t word = row[i], after = i + 1 < words ? row[i + 1] : 0;
-      row[i] = word | word << 1 | word >> 1 | before >> 63 | after << 63;
-      before = word;
+      const std::int64_t at = std::int64_t(i) * 64;
+      row[i] |= word_at(before.data(), words, at - step) | word_at(before.data(), words, at + step);
+    }
+  });
+}
+
+/// Adds what lies `step` before and behind along y or z.
+void add_moved(BitBox& voxels, const BitBox& before, int axis, std::int32_t step) {
+  const VoxelBox& box = voxels.box();
+  const std::int32_t words = voxels.words_per_row();
+  for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
+    for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
+      std::uint64_t* row = voxels.row(y, z);
+      for (const std::int32_t at : {(axis == 1 ? y : z) - step, (axis == 1 ? y : z) + step}) {
+        if (at < box.min[axis] || at >= box.max[axis]) continue;
+        const std::uint64_t* near = axis == 1 ? before.row(at, z) : before.row(y, at);
+        for (std::int32_t i = 0; i < words; ++i) row[i] |= near[i];
+      }
     }
   }
 }
@@ -21,23 +56,16 @@ void dilate_row(std::uint64_t* row, std::int32_t words, std::int32_t reach) {
 
 void dilate(BitBox& voxels, std::int32_t reach) {
   const VoxelBox& box = voxels.box();
-  const std::int32_t words = voxels.words_per_row();
-  for (const int axis : {1, 2}) {
-    const BitBox before = voxels;
-    for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
-      for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
-        const std::int32_t at = axis == 1 ? y : z;
-        const std::int32_t first = std::max(box.min[axis], at - reach), last = std::min(box.max[axis] - 1, at + reach);
-        std::uint64_t* row = voxels.row(y, z);
-        for (std::int32_t k = first; k <= last; ++k) {
-          const std::uint64_t* near = axis == 1 ? before.row(k, z) : before.row(y, k);
-          for (std::int32_t i = 0; i < words; ++i) row[i] |= near[i];
-        }
-      }
-    }
-  }
+  std::vector<std::uint64_t> line;
   for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
-    for (std::int32_t y = box.min.y; y < box.max.y; ++y) dilate_row(voxels.row(y, z), words, reach);
+    for (std::int32_t y = box.min.y; y < box.max.y; ++y)
+      dilate_row(voxels.row(y, z), voxels.words_per_row(), reach, line);
+  }
+  for (const int axis : {1, 2}) {
+    for_each_step(reach, [&](std::int32_t step) {
+      const BitBox before = voxels;
+      add_moved(voxels, before, axis, step);
+    });
   }
 }
 

@@ -76,6 +76,12 @@ bpvox figure.obj --resolution 256 -q | bpscale head.json -q | bpclose -q -o clos
 bpmesh closed.bpv --faces 800 -q -o finer.glb --overwrite
 bpvox figure.obj --resolution 256 -q | bpclose --scale 4% -q | bpmesh --faces 800 -q -o one-scale.glb --overwrite
 draw guide-scale.png 340 figure.obj closed.bpv finer.glb one-scale.glb
+echo '{"base": "3%", "rules": [{"gap": 10}]}' > streets.json
+bpvox city.obj --up z --resolution 384 -q -o city.bpv --overwrite
+bpscale streets.json city.bpv -q | bpclose -q -o streets.bpv --overwrite
+bpmesh streets.bpv --faces 4000 -q -o streets.glb --overwrite
+bpclose city.bpv --scale 3% -q | bpmesh --faces 4000 -q -o no-streets.glb --overwrite
+draw guide-streets.png 400 no-streets.glb streets.bpv streets.glb --view 30,45
 bplod figure.obj --faces 4000,1000,250 -q -o figure-lod > /dev/null
 draw guide-levels.png 280 figure.obj figure-lod/figure_LOD{0,1,2}.glb
 bplod city.obj --up z --profile 3dtiles -q -o city-tiles > /dev/null

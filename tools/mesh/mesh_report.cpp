@@ -48,6 +48,7 @@ Json json_of(const LevelCounts& c, std::uint64_t asked) {
                {"refused", refused},
                {"moves", c.tighten.moves},
                {"flips", c.tighten.flips}};
+  if (c.edge_factor > 0) json["edges_over_scale_at_most"] = c.edge_factor;
   if (m.quads) json["quads"] = json_of(*m.quads);
   if (m.proxy_to_enclosed) {
     json["distance"] = {{"proxy_to_enclosed", json_of(*m.proxy_to_enclosed)},

@@ -11,8 +11,10 @@
 
 namespace bp {
 
-ScaleField read_rules(const std::string& file, const StreamHeader& header) {
+ScaleField read_rules(const std::string& file, const StreamHeader& header,
+                      const decltype(RuleContext::measure)& measure) {
   RuleContext context;
+  context.measure = measure;
   context.diagonal = header.bounds.empty() ? 0 : header.bounds.diagonal();
   context.voxel = header.frame.voxel;
   context.parts = [&](const std::string& pattern) { return part_boxes(header.scene, header.bounds, pattern); };

@@ -5,9 +5,10 @@
 
 namespace bp {
 
-/// Reads a file of rules (docs/bpscale.1.md) for the scene and the grid of `header`. Throws bad_input with the key at
-/// fault.
-[[nodiscard]] ScaleField read_rules(const std::string& file, const StreamHeader& header);
+/// Reads a file of rules (docs/bpscale.1.md) for the scene and the grid of `header`. Without `measure`, rules by shape
+/// are refused. Throws bad_input with the key at fault.
+[[nodiscard]] ScaleField read_rules(const std::string& file, const StreamHeader& header,
+                                    const decltype(RuleContext::measure)& measure = {});
 
 /// A field for the provenance: its JSON, or the hash of that where it is long; the header holds all of it.
 [[nodiscard]] std::string provenance_text(const ScaleField& field);

@@ -14,6 +14,7 @@
 #include "lib/pass/mesh/detail/mesh_measures.h"
 #include "lib/pass/mesh/detail/params_check.h"
 #include "lib/pass/mesh/detail/proxy_limits.h"
+#include "lib/pass/mesh/detail/scaled_edges.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "lib/quads/quad_slack.h"
 #include "lib/quads/quads.h"
@@ -58,17 +59,6 @@ Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool wa
   return shelves;
 }
 
-/// No edge longer than `factor` times S anywhere along it; but never below two voxels, or nothing could be merged where
-/// the scale vanishes.
-EdgeLimit scaled_edges(const ScaleField& scale, const GridFrame& frame, double factor) {
-  return [&scale, frame, factor](const LatticeCoord& a, const LatticeCoord& b) {
-    const double edge = length(to_double(b - a));
-    return edge <= 2 * kLatticePerVoxel ||
-           scale.reaches_along(frame.world(a), frame.world(b), edge / kLatticePerVoxel * frame.voxel / factor,
-                               frame.voxel);
-  };
-}
-
 SimplifyParams simplify_params(const StreamHeader& header, const GridFrame& frame, const MeshParams& params,
                                const PieceMemory& memory, std::uint64_t faces) {
   SimplifyParams out;
@@ -79,7 +69,6 @@ SimplifyParams simplify_params(const StreamHeader& header, const GridFrame& fram
     const double share = cube ? MeshParams::kErrorShareCube : MeshParams::kErrorShareBall;
     out.error_vox = header.bounds.diagonal() * share / frame.voxel;
   }
-  if (params.edge_factor > 0) out.edge_limit = scaled_edges(header.scale, frame, params.edge_factor);
   return out;
 }
 
@@ -228,7 +217,8 @@ class LevelMaker {
   std::vector<LatticeMesh> fits(const SurfaceSource& dense, const std::vector<std::uint64_t>& faces) {
     const FitTarget target =
         params_.enclose == Enclose::scene ? scene_target(*ground_.tree, dense.frame(), kInset) : inset_target(kInset);
-    const EdgeLimit edges = simplify_params(header_, dense.frame(), params_, memory_, faces[0]).edge_limit;
+    const double factor = params_.edge_factor;
+    const EdgeLimit edges = factor > 0 ? scaled_edges(header_.scale, dense.frame(), factor) : EdgeLimit{};
     const FineFit fine = fine_fit(dense, faces[0], target, edges, memory_);
     std::vector<LatticeMesh> levels;
     for (const std::uint64_t n : faces) {
@@ -266,12 +256,30 @@ class LevelMaker {
     });
   }
 
-  /// One level by make(params, counts), with its counts and measures.
+  /// One level by make(params, counts), with its counts and measures; where edges yield, by the shortest that so few
+  /// faces allow.
   template <class Make>
   LatticeMesh finish(const GridFrame& frame, std::uint64_t faces, const Make& make) {
+    constexpr double kLooser = 1.5, kMostFactor = 1000;
     LevelCounts& counts = counts_.levels.emplace_back();
+    for (double factor = params_.edge_factor;;) {
+      LatticeMesh level = finish(frame, faces, factor, make, counts);
+      const std::uint64_t left = level.triangles.size();
+      if (!params_.edges_yield || faces == 0 || factor == 0 || left <= faces) return level;
+      if (counts.simplify.stop != StopReason::edge_length) return level;
+      factor *= std::max(kLooser, std::sqrt(double(left) / double(faces)));  // faces go with the square of edges
+      if (factor > kMostFactor) factor = 0;
+      counts = {};
+    }
+  }
+
+  template <class Make>
+  LatticeMesh finish(const GridFrame& frame, std::uint64_t faces, double edge_factor, const Make& make,
+                     LevelCounts& counts) {
     counts.error_world = bounds_.error_world;
+    counts.edge_factor = edge_factor;
     SimplifyParams params = simplify_params(header_, frame, params_, memory_, faces);
+    if (edge_factor > 0) params.edge_limit = scaled_edges(header_.scale, frame, edge_factor);
     params.memory = beside_limits(params.memory, ProxyLimits::bytes_needed(bounds_, frame, ground_.tree.get()));
     ProxyLimits limits(bounds_, frame, ground_.tree.get());
     if (bounds_.error_world > 0 || bounds_.volume_world != 0) params.limits = &limits;

@@ -34,8 +34,9 @@ struct MeshParams {
   /// With nothing but `faces` wanted, in bounding mode: no step takes a face farther from what is enclosed than the
   /// scale and a voxel, as far as so few faces allow it. Volume alone does not mind a face far out.
   bool near = false;
-  double volume_ratio = 0;  ///< largest volume, in volumes of the meshed voxels, at least 1; inside: least, at most 1
-  double edge_factor = 0;   ///< edges at most edge_factor * S long, S the scale field there; 0: no limit
+  double volume_ratio = 0;   ///< largest volume, in volumes of the meshed voxels, at least 1; inside: least, at most 1
+  double edge_factor = 0;    ///< edges at most edge_factor * S long, S the scale field there; 0: no limit
+  bool edges_yield = false;  ///< where so few faces are not to be had otherwise, the factor grows
   Enclose enclose = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
   /// What distances count from, if not from what is enclosed; closing: the surface of what is meshed.
@@ -53,6 +54,7 @@ struct LevelCounts {
   SimplifyCounts simplify;
   TightenCounts tighten;
   double error_world = 0;  ///< bound on the distance to what level 0 encloses, scene units; 0: none
+  double edge_factor = 0;  ///< of the edges; 0: no limit
   std::string stopped_by;  ///< the target that was reached first: faces, error, volume, edge-length; or what else
   MeshMeasures measures;
 };

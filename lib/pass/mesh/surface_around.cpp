@@ -91,6 +91,17 @@ void take_away(const BrickShelf& less, BrickShelf& from) {
   }
 }
 
+/// Empty if no voxel of that size lies inside.
+LatticeMesh surface_of_voxels_within(const LatticeMesh& mesh, double voxel, const ShelfFactory& make_shelf,
+                                     const PieceMemory& memory) {
+  const auto shelf = make_shelf(), around = make_shelf(), touched = make_shelf();
+  const GridFrame frame = voxelize_mesh(mesh, voxel, FillMode::winding, make_shelf, memory, *shelf);
+  voxelize_mesh(mesh, voxel, FillMode::none, make_shelf, memory, *touched);
+  take_away(*touched, *shelf);
+  check_work(count_faces(ShelfSurface(*shelf, frame)), memory);
+  return inward_surface(*shelf, frame, make_shelf, *around);
+}
+
 }  // namespace
 
 GridFrame voxels_around(const LatticeMesh& inner, double voxel, const ShelfFactory& make_shelf,
@@ -102,20 +113,15 @@ GridFrame voxels_around(const LatticeMesh& inner, double voxel, const ShelfFacto
 
 LatticeMesh surface_within(const LatticeMesh& outer, double voxel, const ShelfFactory& make_shelf,
                            const PieceMemory& memory) {
-  const auto shelf = make_shelf(), around = make_shelf();
+  constexpr int kMostHalvings = 6;
   // Not what may be drawn: what lies between the diagonals of a quad is inside by some choices only. And not what a
   // flood cannot reach: a cavity is outside.
   const LatticeMesh innermost = innermost_choice(outer);
-  const GridFrame frame = voxelize_mesh(innermost, voxel, FillMode::winding, make_shelf, memory, *shelf);
-  const auto touched = make_shelf();
-  voxelize_mesh(innermost, voxel, FillMode::none, make_shelf, memory, *touched);
-  take_away(*touched, *shelf);
-  check_work(count_faces(ShelfSurface(*shelf, frame)), memory);
-  LatticeMesh surface = inward_surface(*shelf, frame, make_shelf, *around);
-  if (surface.triangles.empty())
-    fail(ErrorCode::failed, {Remedy::smaller_voxels}, "no voxel lies inside a level of {} faces",
-         outer.triangles.size());
-  return surface;
+  for (int halvings = 0; halvings <= kMostHalvings; ++halvings, voxel /= 2) {
+    LatticeMesh surface = surface_of_voxels_within(innermost, voxel, make_shelf, memory);
+    if (!surface.triangles.empty()) return surface;
+  }
+  fail(ErrorCode::bad_input, {Remedy::smaller_voxels}, "the inside of the scene is too thin for one more level");
 }
 
 LatticeMesh inward_surface(const BrickShelf& solid, const GridFrame& frame, const ShelfFactory& make_shelf,

@@ -15,8 +15,9 @@ namespace bp {
                                       const PieceMemory& memory, BrickShelf& around);
 
 /// The same on the other side, for proxies inside a solid: the dense surface of the voxels that `outer`, over every
-/// choice of diagonals, encloses and does not touch, turned inwards (its solid is what surrounds it). Throws `failed`
-/// if there is no such voxel, out_of_resource if the surface does not fit in `memory`.
+/// choice of diagonals, encloses and does not touch, turned inwards (its solid is what surrounds it). Where no voxel
+/// fits, they are halved until some do. Throws bad_input if `outer` is too thin for that, out_of_resource if the
+/// surface does not fit in `memory`.
 [[nodiscard]] LatticeMesh surface_within(const LatticeMesh& outer, double voxel, const ShelfFactory& make_shelf,
                                          const PieceMemory& memory);
 

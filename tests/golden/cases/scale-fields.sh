@@ -31,6 +31,31 @@ done
 said 'bpvox - --format obj --resolution 20 < parts.obj | bpscale names.json | bpinfo'
 echo 'o more' >> parts.obj
 try bpscale names.json parts.bpv --explain 1,1,1
+# By the shape: two boxes with a gap of 0.3, and a pole of 0.1 at 0.2 beside one of them.
+boxes() {
+  local n=0 b
+  for b in "$@"; do
+    set -- $b
+    for z in $3 $6; do printf 'v %s %s %s\n' $1 $2 $z $4 $2 $z $4 $5 $z $1 $5 $z; done
+    for f in '1 4 3 2' '5 6 7 8' '1 2 6 5' '2 3 7 6' '3 4 8 7' '4 1 5 8'; do
+      set -- $f
+      echo "f $((n + $1)) $((n + $2)) $((n + $3)) $((n + $4))"
+    done
+    n=$((n + 8))
+  done
+}
+boxes '0 0 0 1 1 1' '1.3 0 0 2.3 1 1' '2.5 0 0.4 2.6 1.6 0.5' > shapes.obj
+bpvox shapes.obj --resolution 128 -o shapes.bpv
+for rule in '"thickness": 0.1' '"gap": 0.25' '"gap": 0.4' '"gap": 0.4, "mode": "decrease"'; do
+  echo "{\"base\": 0.3, \"rules\": [{$rule}]}" > shape.json
+  said 'cat shape.json; bpscale shape.json shapes.bpv -j 1 | bpinfo | grep -E "^scale"'
+  said 'bpscale shape.json shapes.bpv -o - | bpclose | bpinfo | checksum'
+  said 'bpscale shape.json shapes.bpv -j 3 --memory 100M | bpclose | bpinfo | checksum'
+  try bpscale shape.json shapes.bpv --explain 1.15,0.5,0.5
+  try bpscale shape.json shapes.bpv --explain 2.4,0.5,0.45
+done
+try bpclose --field shape.json shapes.bpv -o x.bpv
+said 'bpvox shapes.obj --resolution 64 --fill inside | bpscale shape.json -o x.bpv'
 # What is refused.
 try bpscale
 try bpscale missing.json cube.bpv -o x.bpv
@@ -50,6 +75,9 @@ refused '{"base": 1, "rules": [{"at": [0, 0], "scale": 1}]}'
 refused '{"base": 1, "rules": [{"at": [0, 0, 0], "scales": 1}]}'
 refused '{"base": 1, "slope": 0.1, "rules": [{"view": [0, 0, 0], "per_distance": 0.2, "scale": 1}]}'
 refused '{"base": 1, "boxes": [], "rules": []}'
+refused '{"base": 1, "rules": [{"thickness": 0}]}'
+refused '{"base": 1, "rules": [{"thickness": 1, "mode": "set"}]}'
+refused '{"base": 1, "rules": [{"gap": 1, "mode": "erase"}]}'
 refused '{"base": "5000vx"}'
 refused '{"base": 0.1, "rules": [{"at": [90, 90, 90], "scale": 0.05}]}'
 rm -f x.bpv

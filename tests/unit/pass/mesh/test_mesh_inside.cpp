@@ -61,6 +61,23 @@ TEST_CASE("a proxy inside leaves out small parts, and says how much that is", "[
   CHECK(check_proxy(indexed(proxy), nullptr).components == 3 - parts);
 }
 
+TEST_CASE("a level goes on inside one that no voxel fits in", "[quick][pass]") {
+  VoxelSource source(
+      kBox, [](VoxelCoord p) { return p.y == 8 && (p.x == 8 || p.x == 20 || p.x == 30) && p.z >= 4 && p.z < 4 + p.x; });
+  source.header().fill = FillMode::inside;
+  MeshParams params;
+  params.mode = MeshMode::inside;
+  params.faces = {100, 20};
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_context(), params, counts);
+  MemorySource scene(world_triangles(levels[0]));
+  CheckOptions options;
+  options.inside = true;
+  const CheckReport report = check_proxy(indexed(levels[1]), &scene, options);
+  CHECK(report.holds());
+  CHECK(report.volume > 0);
+}
+
 TEST_CASE("a least part without a meaning is refused", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell);
   MeshParams params;

@@ -198,6 +198,38 @@ TEST_CASE("edges across a finer region stay below what the scale is there", "[qu
   }
 }
 
+TEST_CASE("edges that yield are as short as so few faces allow", "[quick][pass]") {
+  VoxelSource source(kBox, dumbbell);
+  ScaleField& scale = source.header().scale;
+  scale.base = 4;
+  ScaleRule small;
+  small.points = {{36, 24, 24}};
+  small.radius = 8;
+  small.scale = 1;
+  scale.rules.push_back(small);
+  MeshParams params;
+  params.edge_factor = 1;
+  params.edges_yield = true;
+  params.faces = {500, 120};
+  params.mode = GENERATE(MeshMode::bounding, MeshMode::fit);
+  MeshCounts counts;
+  const std::vector<LatticeMesh> levels = mesh_stream(source, memory_context(), params, counts);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(levels[i].triangles.size() <= params.faces[i]);
+    const double factor = counts.levels[i].edge_factor;
+    CHECK(factor > 0);
+    for (const auto& t : levels[i].triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3d a = levels[i].frame.world(levels[i].vertices[t[k]]);
+        const Vec3d b = levels[i].frame.world(levels[i].vertices[t[(k + 1) % 3]]);
+        const double edge = std::sqrt(std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2) + std::pow(a[2] - b[2], 2));
+        REQUIRE(edge <= std::max(factor * std::min(scale.evaluate(a), scale.evaluate(b)), 4.0) + 1e-9);
+      }
+    }
+  }
+  CHECK(counts.levels[0].edge_factor < counts.levels[1].edge_factor);
+}
+
 TEST_CASE("a fit keeps edge_factor", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell);
   source.header().scale.base = 1;

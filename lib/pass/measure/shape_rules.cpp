@@ -1,0 +1,223 @@
+#include "lib/pass/measure/shape_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <set>
+
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/grid/tile_grid.h"
+#include "lib/volume/cell_boxes.h"
+#include "lib/volume/openings.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::size_t kMostBoxes = 4096;
+constexpr double kMostCells = 1 << 28;      // bits: 32 MiB a level
+constexpr double kBoxesAtWork = 10;         // of a tile and its halo, in openings()
+constexpr double kLargestBelow = 15. / 16;  // the largest scale with a reach of r is r and this
+
+/// What a rule means in voxels.
+struct Reaches {
+  std::int32_t thin = 0;             ///< h of thin_parts(); 0: of all parts
+  std::int32_t closes = -1;          ///< reach of the free cubes that keep a place open; -1: nothing is closed
+  std::vector<std::int32_t> levels;  ///< as openings() takes them; empty: none is kept open
+  std::vector<std::int32_t> scales;  ///< of each level, voxels, without kLargestBelow
+  /// Voxels around a tile that decide about it.
+  [[nodiscard]] std::int32_t halo() const {
+    const std::int32_t widest = levels.empty() ? 0 : levels[0];
+    return std::max({4 * widest + 1, thin > 0 ? 2 * widest + 1 + 4 * thin : 0, 2 * closes, 1});
+  }
+  /// Farthest that a voxel may lie from the solid to be marked.
+  [[nodiscard]] std::int32_t farthest() const { return std::max(2 * (levels.empty() ? 0 : levels[0]), closes) + 1; }
+};
+
+Reaches reaches_of(const ShapeRule& rule, const ScaleField& before, const GridFrame& frame) {
+  Reaches r;
+  const double length_vox = std::min(rule.length / frame.voxel, double(1 << 20));
+  std::int32_t least = 0, most = cube_radius(before.upper_bound(frame));
+  if (rule.kind == ShapeRule::Kind::thickness) {
+    r.thin = std::int32_t(std::ceil(length_vox / 2)) + 1;  // a part touches two voxels more than it is thick
+    least = cube_radius(scale_of(rule.least, frame));
+  } else {
+    least = std::int32_t(std::max(length_vox - 1, 0.0) / 2);  // a gap leaves one free voxel less than it is wide
+    const bool closed_anyway = before.constant() && before.base >= (least + kLargestBelow) * frame.voxel;
+    if (rule.mode != ScaleMode::decrease && !closed_anyway) {
+      r.closes = least;
+      most = std::max(most, least);
+    }
+    if (rule.mode == ScaleMode::increase) return r;
+  }
+  if (least >= most) return r;
+  for (std::int32_t scale = least; r.levels.empty() || 2 * scale < most; scale = std::max(scale + 1, scale * 3 / 2)) {
+    r.levels.push_back(r.levels.empty() ? least : 2 * scale);
+    r.scales.push_back(scale);
+  }
+  r.levels.push_back(most);
+  r.scales.push_back(most);
+  std::reverse(r.levels.begin(), r.levels.end());
+  std::reverse(r.scales.begin(), r.scales.end());
+  return r;
+}
+
+class ShapeMeasurer {
+ public:
+  ShapeMeasurer(const StreamHeader& header, const BrickShelf& solid, const ShapeRule& rule, const Reaches& reaches,
+                const MeasureOptions& options)
+      : header_(header), solid_(solid), rule_(rule), reaches_(reaches), options_(options) {}
+
+  std::vector<ScaleRule> operator()() {
+    const int at_work = lay_tiles();
+    lay_cells();
+    const std::vector<TileCoord> tiles = tiles_in_reach();
+    std::size_t next = 0, done = 0;
+    pipeline<TileCoord>(
+        at_work,
+        [&](TileCoord& tile) {
+          if (next == tiles.size()) return false;
+          tile = tiles[next++];
+          return true;
+        },
+        [&](const TileCoord& tile) { measure(tiles_.box(tile)); },
+        [&](const TileCoord&) { options_.context.report("measuring", "tiles", ++done, tiles.size()); });
+    return rules();
+  }
+
+ private:
+  /// Returns how many fit in the memory at once.
+  int lay_tiles() {
+    const MemoryShare& memory = options_.context.memory;
+    const auto bytes = [&](std::int32_t edge) {
+      return kBoxesAtWork * std::pow(double(edge) + 2.0 * reaches_.halo() + 64, 3) / 8;
+    };
+    std::int32_t edge = kBrickEdge;
+    double best = 0;
+    for (std::int32_t tile = kBrickEdge; tile <= 8 * kBrickEdge; tile *= 2) {
+      const double at_work = std::min(std::floor(double(memory.bytes) / bytes(tile)), double(thread_count()));
+      const double score = at_work * std::pow(tile / (tile + 2.0 * reaches_.halo()), 3);
+      if (score > best) edge = tile;
+      best = std::max(best, score);
+    }
+    if (options_.tile_vox > 0) edge = options_.tile_vox;
+    if (bytes(edge) > double(memory.bytes)) {
+      const auto needed = std::uint64_t(bytes(edge));
+      throw NeedsMemory(fmt::format("measuring a tile of {} voxels with a halo of {}", edge, reaches_.halo()), needed,
+                        memory.bytes, memory.limit_with(needed - memory.bytes),
+                        {Remedy::larger_voxels, Remedy::smaller_scale});
+    }
+    tiles_ = TileGrid(voxels_of(bricks_of(voxels_of(header_.bricks).grown(reaches_.farthest()))), edge);
+    return int(std::clamp(double(memory.bytes) / bytes(edge), 1.0, double(thread_count())));
+  }
+
+  /// Cells of the samples, or larger ones where these would be too many.
+  void lay_cells() {
+    const VoxelBox& grid = tiles_.voxels;
+    while (double(grid.volume()) / std::pow(step_, 3) > kMostCells) step_ *= 2;
+    VoxelBox cells;
+    for (int axis = 0; axis < 3; ++axis) {
+      cells.min[axis] = floor_div(grid.min[axis], step_);
+      cells.max[axis] = ceil_div(grid.max[axis], step_);
+    }
+    cells_.assign(std::max<std::size_t>(reaches_.levels.size(), 1), BitBox(cells));
+  }
+
+  [[nodiscard]] std::vector<TileCoord> tiles_in_reach() const {
+    std::set<TileCoord> tiles;
+    for (const BrickCoord brick : solid_.coords()) {
+      const VoxelBox reach =
+          intersect(voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(reaches_.farthest()),
+                    tiles_.voxels);
+      TileCoord first, last;
+      for (int i = 0; i < 3; ++i) {
+        first[i] = (reach.min[i] - tiles_.voxels.min[i]) / tiles_.edge_vox;
+        last[i] = (reach.max[i] - 1 - tiles_.voxels.min[i]) / tiles_.edge_vox;
+      }
+      for (TileCoord t = first; t.z <= last.z; ++t.z) {
+        for (t.y = first.y; t.y <= last.y; ++t.y) {
+          for (t.x = first.x; t.x <= last.x; ++t.x) tiles.insert(t);
+        }
+      }
+    }
+    return {tiles.begin(), tiles.end()};
+  }
+
+  void measure(const VoxelBox& tile) {
+    BitBox solid(tile.grown(reaches_.halo()));
+    load_voxels(solid_, solid);
+    if (reaches_.closes > 0) mark(0, narrow_places(solid, reaches_.closes), tile);
+    if (reaches_.levels.empty()) return;
+    BitBox thin;
+    if (reaches_.thin > 0) thin = thin_parts(solid, reaches_.thin);
+    if (reaches_.thin > 0 && thin.count() == 0) return;
+    openings(solid, reaches_.thin > 0 ? &thin : nullptr, reaches_.levels, tile,
+             [&](std::size_t level, const BitBox& voxels) { mark(level, voxels, tile); });
+  }
+
+  /// Marks the cells of the voxels in the tile.
+  void mark(std::size_t level, const BitBox& voxels, const VoxelBox& tile) {
+    std::vector<VoxelCoord> cells;
+    for (std::int32_t z = tile.min.z; z < tile.max.z; ++z) {
+      for (std::int32_t y = tile.min.y; y < tile.max.y; ++y) {
+        const std::uint64_t* row = voxels.row(y, z);
+        for (std::int32_t x = floor_div(tile.min.x, 8) * 8; x < tile.max.x; x += 8) {  // a byte of a row is in one cell
+          const std::int32_t at = x - voxels.box().min.x;
+          if ((row[at >> 6] >> (at & 63) & 0xff) == 0) continue;
+          cells.push_back({floor_div(x, step_), floor_div(y, step_), floor_div(z, step_)});
+        }
+      }
+    }
+    const std::lock_guard lock(mutex_);
+    for (const VoxelCoord& c : cells) cells_[level].set(c);
+  }
+
+  [[nodiscard]] std::vector<ScaleRule> rules() const {
+    std::vector<ScaleRule> rules;
+    const std::size_t most = kMostBoxes / cells_.size();
+    for (std::size_t level = 0; level < cells_.size(); ++level) {
+      const bool closes = level == 0;
+      const std::int32_t reach = closes ? reaches_.closes : reaches_.scales[level];
+      const FewBoxes few = few_boxes_of(cells_[level], most);
+      for (const VoxelBox& box : few.boxes) {
+        ScaleRule& rule = rules.emplace_back();
+        rule.shape = ScaleShape::box;
+        rule.mode = closes ? ScaleMode::increase : ScaleMode::decrease;
+        rule.points = {sample_at(box.min, few.unit), sample_at(box.max, few.unit)};
+        rule.scale = (reach + kLargestBelow) * header_.frame.voxel;
+        rule.name = rule_.name;
+      }
+    }
+    return rules;
+  }
+
+  /// The sample at the least corner of a cell: what lies between the samples of a box has its scale.
+  [[nodiscard]] Vec3d sample_at(VoxelCoord cell, std::int32_t unit) const {
+    const auto along = [&](std::int32_t c) {
+      return std::int64_t(c) * unit * step_ * kLatticePerVoxel + kLatticePerVoxel / 2;
+    };
+    return header_.frame.world({along(cell.x), along(cell.y), along(cell.z)});
+  }
+
+  const StreamHeader& header_;
+  const BrickShelf& solid_;
+  const ShapeRule& rule_;
+  const Reaches& reaches_;
+  const MeasureOptions& options_;
+  TileGrid tiles_;
+  std::int32_t step_ = kScaleStep;  // of the cells, voxels
+  std::vector<BitBox> cells_;       // of each level; of level 0, what closes
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+std::vector<ScaleRule> shape_rules(const StreamHeader& header, const BrickShelf& solid, const ShapeRule& rule,
+                                   const ScaleField& before, const MeasureOptions& options) {
+  const Reaches reaches = reaches_of(rule, before, header.frame);
+  if (reaches.levels.empty() && reaches.closes <= 0) return {};
+  return ShapeMeasurer(header, solid, rule, reaches, options)();
+}
+
+}  // namespace bp

@@ -1,0 +1,25 @@
+#pragma once
+#include "lib/grid/stream.h"
+#include "lib/pass/context.h"
+
+/// Rules of scale fields that are measured on voxels (ShapeRule), tile by tile, out of core. Tiles, threads and memory
+/// change nothing.
+namespace bp {
+
+struct MeasureOptions {
+  std::int32_t tile_vox = 0;  ///< 0: by memory
+  PassContext context;
+};
+
+/// Boxes with a scale each, to be applied after the rules of `before`, which tell how large scales get. At most some
+/// thousand.
+/// - What stays open: the places of an opening, and the middles of the free cubes that hold them (openings.h), are in
+///   boxes of one scale: half of the reach of the cubes, or the least. A voxel there that is farther from the solid, by
+///   the cube, is not in the closing, with either element, whatever the rules of `before` say.
+/// - What closes: the places narrower than the gap are in boxes with a scale that closes them.
+/// Throws bad_argument if a scale of `before` is out of range, out_of_resource if not even one tile fits in the memory.
+[[nodiscard]] std::vector<ScaleRule> shape_rules(const StreamHeader& header, const BrickShelf& solid,
+                                                 const ShapeRule& rule, const ScaleField& before,
+                                                 const MeasureOptions& options);
+
+}  // namespace bp
