@@ -4,7 +4,7 @@
 # The picture of CesiumJS needs the packages that tests/viewers/run.sh installs: NODE_PATH names their folder.
 set -euo pipefail
 build=$(cd "$1" && pwd)
-root=$(cd "$(dirname "$0")/../.." && pwd)
+root=$(cd "$(dirname "$0")/.." && pwd)
 mkdir -p "$2" && cd "$2"
 export PATH="$build/tools:$build/samples:$PATH"
 
