@@ -209,8 +209,9 @@ class Checker {
     std::vector<Vec3d> points = part.points_within();
     points.insert(points.end(), corners.begin(), corners.end());
     const TriangleBvh& shown = bodies_[i].surface->bvh();
-    const bool all = std::all_of(points.begin(), points.end(),
-                                 [&](const Vec3d& p) { return shown.nearest(p).distance_squared <= error * error; });
+    const bool all = !shown.empty() && std::all_of(points.begin(), points.end(), [&](const Vec3d& p) {
+      return shown.nearest(p).distance_squared <= error * error;
+    });
     return all || area <= error * around ? Verdict::fine : Verdict::missing;
   }
 

@@ -1,5 +1,6 @@
 #include "lib/simplify/collapse_regions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -16,6 +17,9 @@ constexpr double kNearly = 1.1;  // of the faces wanted
 constexpr int kTurns = 5;        // at most
 constexpr int kSets = 3;         // of cells: after so many turns all vertices have been free, or nearly
 constexpr double kJam = 1e-3;    // of the faces: a turn that takes less is the last
+// Regions with few faces are mostly sides, which stay fine while the middles are collapsed to spikes: with so many
+// times the faces of one, the rest is for the whole.
+constexpr std::uint64_t kLeast = 2;
 
 /// A region at work.
 struct Part {
@@ -123,8 +127,10 @@ void collapse_in_regions(Piece& whole, const SimplifyParams& params, SimplifyCou
   SimplifyParams own = params;
   own.whole.volume6 = std::abs(double(volume6_of(whole.vertices, whole.triangles)));
   if (whole.quadrics.empty()) whole.quadrics = quadrics_of(HalfEdgeMesh(whole.vertices, whole.triangles, kEverywhere));
-  const double wanted = double(params.faces), halfway = std::sqrt(double(whole.triangles.size()) * wanted);
-  for (int number = 0; number < kTurns && whole.triangles.size() > params.faces; ++number) {
+  const std::uint64_t least = std::max(params.faces, kLeast * params.faces_per_region);
+  const auto wanted = double(least);
+  const double halfway = std::sqrt(double(whole.triangles.size()) * wanted);
+  for (int number = 0; number < kTurns && whole.triangles.size() > least; ++number) {
     const double enough = number == 0 ? std::max(halfway, wanted) : number == 1 ? kNearly * wanted : wanted;
     const std::size_t before = whole.triangles.size();
     if (double(before) <= enough) continue;

@@ -114,6 +114,6 @@ night=$!
 kill_node
 wait $night || { cat out/.farm/log/snakemake >&2 && exit 1; }
 echo "three nodes, one of which died: $((SECONDS - begin)) s"
-grep -h "Error executing rule" out/.farm/log/snakemake || echo "no job was tried again" 
+grep -h "Error executing rule" out/.farm/log/snakemake || { echo "no job was tried again" && exit 1; }
 sinfo -h -N -o "%N %T" | sort
 diff <(files one) <(files out/plant.glb) && echo "same bytes: $(files one | wc -l) files"

@@ -37,7 +37,7 @@ class ObjPoints final : public ScenePoints {
   }
 
  private:
-  static constexpr std::uint64_t kShort = 9;  // characters: a float says as much
+  static constexpr std::uint64_t kShort = 7;  // characters: a float says as much
 
   void next(TextScanner& text);
   SceneFilePtr file_;

@@ -84,6 +84,7 @@ Cursor cursor_at_vertices(const SceneFilePtr& file, const PlyHeader& header, con
         fail(ErrorCode::bad_input, "{}: its vertices come after lists ('{}'), and cannot be moved", file->name(),
              e.name);
     } else {
+      cursor.check_count(e);
       for (std::uint64_t i = 0; i < e.count; ++i) cursor.end_record();
     }
   }

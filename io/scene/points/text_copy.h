@@ -7,6 +7,7 @@
 
 #include "io/files/file.h"
 #include "io/scene/scene_file.h"
+#include "lib/core/error.h"
 
 namespace bp {
 
@@ -40,7 +41,7 @@ class TextCopy {
     while (at_ < end) {
       const std::size_t want = std::size_t(std::min<std::uint64_t>(block.size(), end - at_));
       const std::size_t n = file_->read_at(at_, std::span(block).first(want));
-      if (n == 0) return;
+      if (n == 0) fail(ErrorCode::bad_input, "{}: ends at byte {}; it changed while it was read", file_->name(), at_);
       out_.write(std::span<const std::byte>(block).first(n));
       at_ += n;
     }

@@ -1,6 +1,7 @@
 #include "lib/pass/leaf/scene_leaf.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -149,12 +150,26 @@ class LeafCutter {
   std::map<ResultKey, GrowingPart> parts_;  // by all that decides how it looks
 };
 
-void find_boxes(const SceneLooks& looks, const LeafBox& at, std::vector<LeafBox>& out) {
-  std::uint64_t triangles = 0;
-  looks.visit(at.box, [&](const TexturedTriangle&) { ++triangles; });
+std::uint64_t triangles_in(const SceneLooks& looks, const LeafBox& at) {
+  std::uint64_t n = 0;
+  looks.visit(at.box, [&](const TexturedTriangle&) { ++n; });
+  return n;
+}
+
+/// Octants help if few triangles reach into several of them.
+void find_boxes(const SceneLooks& looks, const LeafBox& at, std::uint64_t triangles, std::vector<LeafBox>& out) {
   if (triangles == 0) return;
-  if (triangles <= kMostLeafTriangles || at.path.size() == kMostDeep) return out.push_back(at);
-  for (int k = 0; k < 8; ++k) find_boxes(looks, {octant_of(at.box, k), at.path + char('0' + k)}, out);
+  std::array<LeafBox, 8> octants;
+  std::array<std::uint64_t, 8> of_octants{};
+  std::uint64_t sum = 0;
+  if (triangles > kMostLeafTriangles && at.path.size() < kMostDeep) {
+    for (std::size_t k = 0; k < 8; ++k) {
+      octants[k] = {octant_of(at.box, int(k)), at.path + char('0' + k)};
+      sum += of_octants[k] = triangles_in(looks, octants[k]);
+    }
+  }
+  if (sum == 0 || sum > 2 * triangles) return out.push_back(at);
+  for (std::size_t k = 0; k < 8; ++k) find_boxes(looks, octants[k], of_octants[k], out);
 }
 
 }  // namespace
@@ -167,7 +182,7 @@ std::uint64_t SceneLeaf::triangles() const {
 
 std::vector<LeafBox> leaf_boxes(const SceneLooks& looks, const Bounds3d& cell) {
   std::vector<LeafBox> boxes;
-  find_boxes(looks, {cell, ""}, boxes);
+  find_boxes(looks, {cell, ""}, triangles_in(looks, {cell, ""}), boxes);
   return boxes;
 }
 

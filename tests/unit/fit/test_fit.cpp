@@ -71,6 +71,30 @@ TEST_CASE("a fit loses the half voxel that voxels stand out, and stays sound", "
   CHECK(counts.solid_volume_world > 1.1 * volume);  // what was lost
 }
 
+TEST_CASE("a fit of few faces is near its scene, though regions begin it", "[quick][meshing]") {
+  constexpr double kLarge = 60;  // whose surface has several times the faces at which regions begin
+  const auto touches = [](VoxelCoord p) {
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double lo = p[i] - 64.0, hi = lo + 1;
+      const double d = lo > 0 ? lo : hi < 0 ? hi : 0;
+      sum += d * d;
+    }
+    return sum <= kLarge * kLarge;
+  };
+  VoxelSource source({{0, 0, 0}, {128, 128, 128}}, touches);
+  MeshParams params;
+  params.mode = MeshMode::fit;
+  params.faces = {500};
+  MeshCounts counts;
+  const LatticeMesh level = mesh_stream(source, memory_context(), params, counts).front();
+  CHECK(level.triangles.size() == 500);
+  double farthest = 0;
+  for (const LatticeCoord& v : level.vertices)
+    farthest = std::max(farthest, std::abs(length(level.frame.world(v) - Vec3d{64, 64, 64}) - kLarge));
+  CHECK(farthest < 3);
+}
+
 TEST_CASE("a fit lies inside the voxels' surface", "[quick][meshing]") {
   VoxelSource source(kBox, ball);
   MeshParams params;
