@@ -97,6 +97,19 @@ TEST_CASE("the points of an OBJ move, and the rest of the text stays", "[io][def
   CHECK(points->left_behind() != "");
 }
 
+TEST_CASE("points of an OBJ far from the origin move as exactly as they are written", "[io][deform][quick]") {
+  const TempDir dir;
+  const std::string path = dir.file("far.obj", "v 4321567.8 432156.75 0.125\nv 4321567.81 1 2\n");
+  const MovePoints shift = [](PointBatch& batch) {
+    for (Vec3d& p : batch.positions) p = p + Vec3d{0.25, 0.25, 0.25};
+  };
+  const auto points = points_of(dir.file("moved-far.obj", moved(dir, path, shift)));
+  REQUIRE(points.size() == 2);
+  CHECK(std::abs(points[0][0] - 4321568.05) < 1e-6);
+  CHECK(std::abs(points[0][1] - 432157.0) < 1e-6);
+  CHECK(std::abs(points[1][0] - 4321568.06) < 1e-6);
+}
+
 TEST_CASE("the points and normals of a PLY move, and the rest stays", "[io][deform][quick]") {
   const TempDir dir;
   const std::string path = dir.file("b.ply", ascii_ply());
@@ -124,5 +137,9 @@ TEST_CASE("files whose points cannot be moved are refused", "[io][deform][quick]
   refused("a.ply", head + "property int x\nproperty int y\nproperty int z\nend_header\n1 2 3\n", "whole numbers");
   refused("b.ply", head + "property list uchar int x\nend_header\n1 2\n", "have lists");
   refused("c.ply", head + "property float x\nproperty float y\nproperty float z\nend_header\n1 2\n", "truncated");
+  refused("e.ply",
+          "ply\nformat ascii 1.0\nelement thing 9000000000000000000\nproperty int a\nelement vertex 1\nproperty float "
+          "x\nproperty float y\nproperty float z\nend_header\n1\n0 0 0\n",
+          "truncated");
   refused("d.ply", binary_ply(false).substr(0, 250), "truncated");
 }
