@@ -34,7 +34,19 @@ struct Body {
 
 struct Counts {
   std::atomic<std::uint64_t> touching{0}, outside{0}, undecided{0}, uncovered{0}, bare{0}, missing{0};
-  std::atomic<double> area{0}, slack{0};  ///< of the scene in a leaf; that rounding may add
+  double area = 0, slack = 0;  ///< of the scene in a leaf; that rounding may add
+};
+
+/// What a triangle adds to a leaf.
+struct LeafShare {
+  std::size_t tile = 0;
+  double area = 0, slack = 0;
+};
+
+/// Triangles of the scene, and what they add to leaves, in their order.
+struct Chunk {
+  std::vector<TriangleD> triangles;
+  std::vector<LeafShare> shares;
 };
 
 class Checker {
@@ -105,18 +117,23 @@ class Checker {
 
   void pass(TriangleSource& scene) {
     scene.rewind();
-    pipeline<std::vector<TriangleD>>(
-        2 * thread_count(), [&](std::vector<TriangleD>& chunk) { return scene.read(chunk); },
-        [&](std::vector<TriangleD>& chunk) {
-          for (const TriangleD& t : chunk) {
+    pipeline<Chunk>(
+        2 * thread_count(), [&](Chunk& chunk) { return scene.read(chunk.triangles); },
+        [&](Chunk& chunk) {
+          for (const TriangleD& t : chunk.triangles) {
             if (in_root(t)) {
-              visit(0, t);
+              visit(0, t, chunk.shares);
             } else if (begin_ == 0) {
               ++astray_;
             }
           }
         },
-        [](std::vector<TriangleD>&) {});
+        [&](Chunk& chunk) {  // in order: sums do not depend on threads
+          for (const LeafShare& share : chunk.shares) {
+            counts_[share.tile].area += share.area;
+            counts_[share.tile].slack += share.slack;
+          }
+        });
   }
 
   [[nodiscard]] bool fits(std::size_t parent, std::size_t child) const {
@@ -148,27 +165,28 @@ class Checker {
   }
 
   /// t meets the cell of tile i. What counts are the tiles of this share.
-  void visit(std::size_t i, const TriangleD& t) {
+  void visit(std::size_t i, const TriangleD& t, std::vector<LeafShare>& shares) {
     if (below_[i].first >= end_ || below_[i].last < begin_) return;
     const CoverTile& tile = tiles_[i];
     const bool mine = i >= begin_ && i < end_;
     if (mine && !tile.triangles && tile.children.empty()) ++counts_[i].bare;
     if (mine && tile.triangles) {
-      const Verdict verdict = tile.leaf_error ? compare(i, t) : examine(i, t);
+      const Verdict verdict = tile.leaf_error ? compare(i, t, shares) : examine(i, t);
       counts_[i].missing += verdict == Verdict::missing;
       counts_[i].touching += verdict == Verdict::touching;
       counts_[i].outside += verdict == Verdict::outside;
       counts_[i].undecided += verdict == Verdict::undecided;
     }
     if (tile.children.empty()) return;
-    if (tile.children.size() == 1 && tiles_[tile.children[0]].cell == tile.cell) return visit(tile.children[0], t);
+    if (tile.children.size() == 1 && tiles_[tile.children[0]].cell == tile.cell)
+      return visit(tile.children[0], t, shares);
     if (!tile.cell) return;
     for (int k = 0; k < 8; ++k) {
       const Bounds3d box = octant_of(*tile.cell, k);
       if (!meets(t, box)) continue;
       const std::size_t child = child_at(tile, box);
       if (child != 0) {
-        visit(child, t);
+        visit(child, t, shares);
       } else if (mine) {
         ++counts_[i].uncovered;
       }
@@ -192,7 +210,7 @@ class Checker {
   }
 
   /// Of a leaf.
-  Verdict compare(std::size_t i, const TriangleD& t) {
+  Verdict compare(std::size_t i, const TriangleD& t, std::vector<LeafShare>& shares) const {
     const Bounds3d& cell = *tiles_[i].cell;
     const TrianglePart part(t, cell);
     if (part.empty()) return Verdict::fine;
@@ -204,8 +222,7 @@ class Checker {
       area += length(cross(u, v)) / 2;
       around += length(v - u);
     }
-    counts_[i].area += area;
-    counts_[i].slack += error * (around + error);
+    shares.push_back({i, area, error * (around + error)});
     std::vector<Vec3d> points = part.points_within();
     points.insert(points.end(), corners.begin(), corners.end());
     const TriangleBvh& shown = bodies_[i].surface->bvh();
@@ -280,7 +297,7 @@ class Checker {
     add(c.missing, "does not show");
     if (const double more = bodies_[i].area - c.area; tile.leaf_error && std::abs(more) > c.slack + 1e-9 * c.area)
       findings_.push_back({fmt::format("{}: {} has an area of {:.6g}, and the scene there {:.6g}", tile.place, tile.uri,
-                                       bodies_[i].area, c.area.load())});
+                                       bodies_[i].area, c.area)});
     add(c.touching, "is touched by");
     add(c.outside, "leaves outside");
     add(c.undecided, "cannot be decided for", Answer::undecided);
