@@ -20,7 +20,7 @@
 ///
 /// A leaf encloses nothing: it is the scene itself in its cell. Of each t ∩ cell, the corners, the middle and points
 /// between must lie within `leaf_error` of the content, and the areas of both must be equal. That compares, and proves
-/// nothing.
+/// nothing. Whoever fills a CoverTile answers for it that a leaf is one (leaf_fault()).
 ///
 /// Decided exactly or on the safe side: cells are grown by 1e-9 of their edge, or 2^-46 of the largest coordinate where
 /// that is more, and t is cut by them in doubles, whose errors are far smaller; where t meets a face, bounds of the

@@ -44,6 +44,11 @@ leaf=$(ls painted/cubes_leaves/*.glb | head -1)
 cp "$leaf" moved/cubes_leaves/"$(basename "$(ls moved/cubes_leaves/*.glb | tail -1)")"
 bpcheck part*.obj moved > list || echo "= $?"
 grep -c 'does not show\|has an area' list
+# A proxy that its file calls a leaf is none.
+cp -r painted called
+sed -i 's/"cell": \[/"leaf": true,\n"cell": [/' called/tileset.json
+bpcheck called > list || echo "= $?"
+grep -c 'extras.leaf is true, but' list
 # A scene in one mesh has one leaf.
 bplod part0.obj --resolution 30 --profile 3dtiles --leaves scene -o small -q | cut -f 1,2
 bpcheck part0.obj small | tail -1
