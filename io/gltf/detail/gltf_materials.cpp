@@ -124,7 +124,8 @@ TextureSurface GltfMaterials::surface_of(const GltfObject& material, const std::
 /// None if it lies elsewhere than the image of colours, which is told.
 TextureMap GltfMaterials::map_of(const GltfObject& info, const std::optional<GltfObject>& places) {
   if (places && !same_places(info, *places)) {
-    textures_->add_fault(fmt::format("{}: an image lies at other places than its material's first one", file_));
+    textures_->add_fault(
+        fmt::format("{}: an image lies at other places than its material's first one; it is left out", file_));
     return {};
   }
   const GltfObject texture = doc_.root().item("textures", info.number("index"));

@@ -12,6 +12,7 @@ same() { diff -r "$1" "$2" > differences && echo "$1 and $2: the same bytes" || 
 kept() { grep -o '"kept": [0-9]*' "$1" | tr '\n' ' '; echo; }
 tiles=(part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles --leaves scene -q)
 
+bplod "${tiles[@]}" --explain | grep '^leaves\|^disk'
 bplod "${tiles[@]}" -o first --cache cache | cut -f 1,2
 ls first first/cubes_leaves
 bplod "${tiles[@]}" -o again -j 1 --memory 300M --cache cache --report again.json > list
@@ -22,6 +23,8 @@ kept again.json
 for f in first/cubes_leaves/*.glb; do
   echo "$f: $(grep -ao '"attributes":{[^}]*}' $f | tr '\n' ' ')$(grep -ao '"images":[^]]*\]' $f) $(grep -ao '"baseColorFactor":[^]]*\]' $f | tr '\n' ' ')"
 done | sort | uniq
+bpinfo first | grep -o 'tile=.*leaves=[a-z]*'
+bpinfo first --level 3 --image x.png 2>&1 > list | sed 's/^/| /'
 bpcheck part*.obj first | sed 's/[0-9]* triangles/some triangles/'
 
 # A changed image is another file, and changes the leaves that show it.
@@ -51,6 +54,7 @@ bpcheck called > list || echo "= $?"
 grep -c 'extras.leaf is true, but' list
 # A scene in one mesh has one leaf.
 bplod part0.obj --resolution 30 --profile 3dtiles --leaves scene -o small -q | cut -f 1,2
+bpinfo small | grep -o 'leaves=[a-z]*'
 bpcheck part0.obj small | tail -1
 try bplod part0.obj -o x --leaves scene
 try bplod - --format obj --profile 3dtiles -o x --leaves scene
