@@ -1,6 +1,5 @@
 # Normals, roughness, metal and light of a scene on its levels. A cube whose material has an image for each.
-red=iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAGklEQVR42mP4hQROyMnBEQMVJZA5yIqoKAEAaed+QclKqjgAAAAASUVORK5CYII=
-base64 -d <<< $red > chequered.png
+chequer red
 one='\000\000\200\077' zero='\000\000\000\000'
 for part in position place; do
   for i in 0 1 2 3 4 5 6 7; do
@@ -22,7 +21,6 @@ cat > cube.gltf << 'GLTF'
  "buffers": [{"uri": "cube.bin", "byteLength": 196}]}
 GLTF
 shown() { for f in "$@"; do echo "$f: $(grep -ao '"attributes":{[^}]*}' "$f" | sort -u) $(grep -ao '"materials":.*}\],"buffers"' "$f")"; done; }
-same() { diff -r "$1" "$2" > differences && echo "$1 and $2: the same bytes" || echo "$1 and $2 differ: $(wc -l < differences)"; }
 options=(cube.gltf --resolution 60 --levels 1 -q)
 
 bplod "${options[@]}" --appearance full -o full | cut -f 1

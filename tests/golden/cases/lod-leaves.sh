@@ -1,15 +1,5 @@
 # Tilesets that hold the scene itself up close. Two cubes in a row, one with an image.
-red=iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAGklEQVR42mP4hQROyMnBEQMVJZA5yIqoKAEAaed+QclKqjgAAAAASUVORK5CYII=
-blue=iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAGklEQVR42mP4hQTk5E7AEQMVJZA5yIqoKAEAP2d+Qe6vEAoAAAAASUVORK5CYII=
-printf 'newmtl chequered\nKd 0 1 0\nmap_Kd chequered.png\nnewmtl plain\nKd 0 0 1\n' > cubes.mtl
-base64 -d <<< $red > chequered.png
-write_cube cube.obj 3
-for i in 0 1; do
-  { echo "mtllib cubes.mtl"; echo "vt 0 0"; echo "vt 1 0"; echo "vt 1 1"; echo "vt 0 1"; echo "usemtl $([ $i = 0 ] && echo chequered || echo plain)"
-    sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 40 * $i)) \2 \3/e; s/^f \(.*\) \(.*\) \(.*\) \(.*\)$/f \1\/1 \2\/2 \3\/3 \4\/4/" cube.obj; } > part$i.obj
-done
-same() { diff -r "$1" "$2" > differences && echo "$1 and $2: the same bytes" || echo "$1 and $2 differ: $(wc -l < differences)"; }
-kept() { grep -o '"kept": [0-9]*' "$1" | tr '\n' ' '; echo; }
+write_painted_cubes
 tiles=(part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles --leaves scene -q)
 
 bplod "${tiles[@]}" --explain | grep '^leaves\|^disk'
@@ -28,7 +18,7 @@ bpinfo first --level 3 --image x.png 2>&1 > list | sed 's/^/| /'
 bpcheck part*.obj first | sed 's/[0-9]* triangles/some triangles/'
 
 # A changed image is another file, and changes the leaves that show it.
-base64 -d <<< $blue > chequered.png
+chequer blue
 bplod "${tiles[@]}" -o first --overwrite --cache cache --report painted.json > list
 bplod "${tiles[@]}" -o painted > list
 same first painted
