@@ -8,8 +8,8 @@
 #include "lib/core/vec3.h"
 
 // glTF and GLB: the accessors POSITION, NORMAL and TANGENT of every mesh that a node shows are written anew, and the
-// bounds of POSITION in the JSON. They stay in their places; a mesh that stands in several places gets copies at the end
-// of the first buffer. What cannot follow is refused (gltf_vertices.cpp).
+// bounds of POSITION in the JSON. They stay in their places; a mesh that stands in several places gets copies at the
+// end of the first buffer. What cannot follow is refused (gltf_vertices.cpp).
 
 namespace bp {
 
