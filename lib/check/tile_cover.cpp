@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "lib/check/detail/leaf_proof.h"
 #include "lib/check/detail/surface.h"
 #include "lib/check/detail/triangle_part.h"
 #include "lib/core/parallel.h"
@@ -25,8 +26,9 @@ struct Body {
   WeldedMesh mesh;
   std::unique_ptr<Surface> surface;
   bool closed = false, sound = true;
-  double area = 0;  ///< of a leaf
+  std::unique_ptr<LeafProof> proof;  ///< of a leaf
   void drop() {
+    proof.reset();
     surface.reset();
     mesh = {};
   }
@@ -34,19 +36,7 @@ struct Body {
 
 struct Counts {
   std::atomic<std::uint64_t> touching{0}, outside{0}, undecided{0}, uncovered{0}, bare{0}, missing{0};
-  double area = 0, slack = 0;  ///< of the scene in a leaf; that rounding may add
-};
-
-/// What a triangle adds to a leaf.
-struct LeafShare {
-  std::size_t tile = 0;
-  double area = 0, slack = 0;
-};
-
-/// Triangles of the scene, and what they add to leaves, in their order.
-struct Chunk {
-  std::vector<TriangleD> triangles;
-  std::vector<LeafShare> shares;
+  std::uint64_t strays = 0;  ///< triangles of a leaf
 };
 
 class Checker {
@@ -61,7 +51,10 @@ class Checker {
       end_ = end_of_share(memory_bytes);
       parallel_for(std::int64_t(end_ - begin_), [&](std::int64_t i) { load(begin_ + std::size_t(i)); });
       pass(scene);
-      for (std::size_t i = begin_; i < end_; ++i) bodies_[i].drop();
+      for (std::size_t i = begin_; i < end_; ++i) {
+        if (bodies_[i].proof) counts_[i].strays = bodies_[i].proof->strays();
+        bodies_[i].drop();
+      }
     }
     for (std::size_t i = 0; i < tiles_.size(); ++i) say_of_tile(i);
     if (astray_ > 0)
@@ -104,7 +97,7 @@ class Checker {
     body.mesh = weld(content_of_(i), 1, report);
     if (tiles_[i].leaf_error) {
       body.surface = std::make_unique<Surface>(body.mesh);
-      body.area = area_of(body.mesh);
+      body.proof = std::make_unique<LeafProof>(body.surface->bvh());
       return;
     }
     check_topology(body.mesh, 1, report);
@@ -117,23 +110,18 @@ class Checker {
 
   void pass(TriangleSource& scene) {
     scene.rewind();
-    pipeline<Chunk>(
-        2 * thread_count(), [&](Chunk& chunk) { return scene.read(chunk.triangles); },
-        [&](Chunk& chunk) {
-          for (const TriangleD& t : chunk.triangles) {
+    pipeline<std::vector<TriangleD>>(
+        2 * thread_count(), [&](std::vector<TriangleD>& chunk) { return scene.read(chunk); },
+        [&](std::vector<TriangleD>& chunk) {
+          for (const TriangleD& t : chunk) {
             if (in_root(t)) {
-              visit(0, t, chunk.shares);
+              visit(0, t);
             } else if (begin_ == 0) {
               ++astray_;
             }
           }
         },
-        [&](Chunk& chunk) {  // in order: sums do not depend on threads
-          for (const LeafShare& share : chunk.shares) {
-            counts_[share.tile].area += share.area;
-            counts_[share.tile].slack += share.slack;
-          }
-        });
+        [](std::vector<TriangleD>&) {});
   }
 
   [[nodiscard]] bool fits(std::size_t parent, std::size_t child) const {
@@ -165,28 +153,27 @@ class Checker {
   }
 
   /// t meets the cell of tile i. What counts are the tiles of this share.
-  void visit(std::size_t i, const TriangleD& t, std::vector<LeafShare>& shares) {
+  void visit(std::size_t i, const TriangleD& t) {
     if (below_[i].first >= end_ || below_[i].last < begin_) return;
     const CoverTile& tile = tiles_[i];
     const bool mine = i >= begin_ && i < end_;
     if (mine && !tile.triangles && tile.children.empty()) ++counts_[i].bare;
     if (mine && tile.triangles) {
-      const Verdict verdict = tile.leaf_error ? compare(i, t, shares) : examine(i, t);
+      const Verdict verdict = tile.leaf_error ? compare(i, t) : examine(i, t);
       counts_[i].missing += verdict == Verdict::missing;
       counts_[i].touching += verdict == Verdict::touching;
       counts_[i].outside += verdict == Verdict::outside;
       counts_[i].undecided += verdict == Verdict::undecided;
     }
     if (tile.children.empty()) return;
-    if (tile.children.size() == 1 && tiles_[tile.children[0]].cell == tile.cell)
-      return visit(tile.children[0], t, shares);
+    if (tile.children.size() == 1 && tiles_[tile.children[0]].cell == tile.cell) return visit(tile.children[0], t);
     if (!tile.cell) return;
     for (int k = 0; k < 8; ++k) {
       const Bounds3d box = octant_of(*tile.cell, k);
       if (!meets(t, box)) continue;
       const std::size_t child = child_at(tile, box);
       if (child != 0) {
-        visit(child, t, shares);
+        visit(child, t);
       } else if (mine) {
         ++counts_[i].uncovered;
       }
@@ -200,36 +187,14 @@ class Checker {
     return 0;
   }
 
-  static double area_of(const WeldedMesh& mesh) {
-    double area = 0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      const TriangleD t = mesh.corners(i);
-      area += length(cross(t[1] - t[0], t[2] - t[0])) / 2;
-    }
-    return area;
-  }
-
   /// Of a leaf.
-  Verdict compare(std::size_t i, const TriangleD& t, std::vector<LeafShare>& shares) const {
-    const Bounds3d& cell = *tiles_[i].cell;
-    const TrianglePart part(t, cell);
+  [[nodiscard]] Verdict compare(std::size_t i, const TriangleD& t) {
+    const std::vector<Vec3d> part = part_within(t, *tiles_[i].cell);
     if (part.empty()) return Verdict::fine;
-    const double error = *tiles_[i].leaf_error + 16 * rounding_of(cell, t);
-    const std::vector<Vec3d> corners = part.corners();
-    double around = 0, area = 0;
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const Vec3d u = corners[k] - corners[0], v = corners[(k + 1) % corners.size()] - corners[0];
-      area += length(cross(u, v)) / 2;
-      around += length(v - u);
-    }
-    shares.push_back({i, area, error * (around + error)});
-    std::vector<Vec3d> points = part.points_within();
-    points.insert(points.end(), corners.begin(), corners.end());
-    const TriangleBvh& shown = bodies_[i].surface->bvh();
-    const bool all = !shown.empty() && std::all_of(points.begin(), points.end(), [&](const Vec3d& p) {
-      return shown.nearest(p).distance_squared <= error * error;
-    });
-    return all || area <= error * around ? Verdict::fine : Verdict::missing;
+    const double error = *tiles_[i].leaf_error + 16 * rounding_of(*tiles_[i].cell, t);
+    const LeafProof::Cover cover = bodies_[i].proof->add(part, error);
+    if (cover == LeafProof::Cover::undecided) return Verdict::undecided;
+    return cover == LeafProof::Cover::whole ? Verdict::fine : Verdict::missing;
   }
 
   [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t) const {
@@ -295,9 +260,9 @@ class Checker {
       findings_.push_back({fmt::format("{}: {} {} {} triangles of the scene", tile.place, tile.uri, what, n), answer});
     };
     add(c.missing, "does not show");
-    if (const double more = bodies_[i].area - c.area; tile.leaf_error && std::abs(more) > c.slack + 1e-9 * c.area)
-      findings_.push_back({fmt::format("{}: {} has an area of {:.6g}, and the scene there {:.6g}", tile.place, tile.uri,
-                                       bodies_[i].area, c.area)});
+    if (c.strays > 0)
+      findings_.push_back(
+          {fmt::format("{}: {} shows {} triangles that the scene does not have", tile.place, tile.uri, c.strays)});
     add(c.touching, "is touched by");
     add(c.outside, "leaves outside");
     add(c.undecided, "cannot be decided for", Answer::undecided);
