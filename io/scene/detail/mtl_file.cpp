@@ -146,7 +146,8 @@ TextureSurface MtlMaterials::surface_of(const Material& material, TextureTable& 
     if (s.roughness.is_there() && both) s.metal_factor = 1;
   } else if (!material.roughness_map.image.empty() || !material.metal_map.image.empty()) {
     textures.add_fault(fmt::format(
-        "{}: a metal is read with map_Pr only if map_Pm names the same image; numbers are used", material.file));
+        "{}: roughness and metal come from one image for both, or from map_Pr where Pm is 0; numbers are used",
+        material.file));
   }
   if (material.has_heights && !s.normal.is_there())
     textures.add_fault(

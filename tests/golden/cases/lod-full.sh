@@ -44,3 +44,19 @@ bpcheck cube.gltf tiles | tail -1
 write_octahedron ball.obj
 bplod ball.obj --resolution 30 --faces 40 --levels 1 --appearance full -o ball -q | cut -f 1
 shown ball/ball_LOD0.glb
+
+# The same of MTL. A height is no normal map, and two images for roughness and metal would have to be mixed.
+write_painted_cubes
+cp chequered.png other.png
+cat > cubes.mtl << 'MTL'
+newmtl chequered
+Kd 0 1 0
+norm chequered.png
+map_Pr chequered.png
+map_Ke chequered.png
+MTL
+bplod part0.obj --resolution 30 --levels 1 --appearance full -o painted -q > list
+shown painted/part0_LOD0.glb
+sed -i 's/norm/map_Bump -bm 1/; s/map_Pr/map_Pm other.png\n&/' cubes.mtl
+said 'bplod part0.obj --resolution 30 --levels 1 --appearance full -o mixed | cut -f 1'
+shown mixed/part0_LOD0.glb

@@ -293,7 +293,7 @@ TEST_CASE("MTL: how a material answers to light, if that is asked for", "[quick]
   std::string faults;
   for (const std::string& fault : r.table->faults()) faults += fault + "\n";
   for (const char* part : {"n.png: lies at other places", "m.mtl: map_Bump is taken for heights",
-                           "gone.png: is not there", "m.mtl: a metal is read with map_Pr only if"})
+                           "gone.png: is not there", "m.mtl: roughness and metal come from one image"})
     CHECK_THAT(faults, ContainsSubstring(part));
   const TexturedRead colors = read_textured({path});
   CHECK(colors.textures[1].material == TriangleTexture::kNoMaterial);
