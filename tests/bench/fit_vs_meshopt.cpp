@@ -18,7 +18,7 @@
 #include "lib/simplify/flatten.h"
 #include "lib/surface/repair.h"
 #include "lib/surface/surface.h"
-#include "tests/bench/simplified.h"
+#include "tests/support/simplified.h"
 
 namespace {
 

@@ -19,7 +19,7 @@
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/geometry/surface_distance.h"
-#include "tests/bench/simplified.h"
+#include "tests/support/simplified.h"
 
 namespace {
 
