@@ -10,6 +10,7 @@
 
 namespace {
 
+using bp::CoordinateKind;
 using bp::ErrorCode;
 using bp::fail;
 
@@ -20,6 +21,7 @@ struct Options {
   std::string command, out;
   std::vector<std::string> files;
   Outside outside = Outside::refuse;
+  CoordinateKind kind = CoordinateKind::mean_value;
 };
 
 Options parse(bp::Args& args) {
@@ -36,6 +38,12 @@ Options parse(bp::Args& args) {
   args.option("-o,--output", "FILE", o.out, "the weights, or the moved scene in the format of the scene");
   args.needed("--output");
   args.group("Binding");
+  args.option(
+      "--coordinates",
+      {{"mean-value", CoordinateKind::mean_value, "smooth, and exact for stretch and shear"},
+       {"green", CoordinateKind::green, "keep shapes: angles hardly change; the scene may leave the cage"},
+       {"maximum-likelihood", CoordinateKind::maximum_likelihood, "as mean-value, and nothing moves against the cage"}},
+      o.kind, "how vertices follow the cage");
   args.option("--outside",
               {{"refuse", Outside::refuse, "an error that tells their number"},
                {"near", Outside::near, "they follow the nearest face"}},
@@ -43,7 +51,7 @@ Options parse(bp::Args& args) {
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::memory_part |
                             bp::CommonOptions::progress_part | bp::CommonOptions::report_part |
                             bp::CommonOptions::overwrite_part);
-  args.often({"--output", "--outside", "--overwrite"});
+  args.often({"--output", "--coordinates", "--outside", "--overwrite"});
   args.parse();
   if (o.command != "bind" && o.command != "apply") fail(ErrorCode::bad_argument, "begin with a command: bind or apply");
   if (o.command == "bind" && o.files.size() != 2)
@@ -51,7 +59,9 @@ Options parse(bp::Args& args) {
   if (o.command == "apply" && o.files.size() < 2)
     fail(ErrorCode::bad_argument, "apply takes the weights and one moved cage or more");
   if (o.out.empty()) fail(ErrorCode::bad_argument, "name the output with --output");
-  if (o.command == "apply" && args.given("--outside")) fail(ErrorCode::bad_argument, "--outside belongs to bind");
+  for (const char* option : {"--outside", "--coordinates"}) {
+    if (o.command == "apply" && args.given(option)) fail(ErrorCode::bad_argument, "{} belongs to bind", option);
+  }
   if (std::find(o.files.begin(), o.files.end(), "-") != o.files.end())
     fail(ErrorCode::bad_argument, "bpdeform reads files, not stdin: apply reads the scene again");
   bp::keep_inputs(o.files);
@@ -73,8 +83,8 @@ bp::SceneOptions scene_options(const Options& o) {
 
 void bind(const Options& o, bp::Report& report, bp::Progress& progress) {
   const auto output = bp::open_output(o.out, o.common.overwrite);
-  const bp::BindRequest request{o.files[0], o.files[1], o.outside == Outside::near, o.common.memory_bytes,
-                                scene_options(o)};
+  const bp::BindRequest request{
+      o.files[0], o.files[1], o.out, o.kind, o.outside == Outside::near, o.common.memory_bytes, scene_options(o)};
   const bp::WeightTotals totals = bp::bind_scene(request, *output, progress);
   report.counts = {{"vertices", totals.points}, {"outside", totals.outside}};
   if (totals.outside > 0)
@@ -95,7 +105,7 @@ std::string numbered(const std::string& name, std::size_t i, std::size_t n) {
 
 /// Each scene appears when it is complete.
 void apply(const Options& o, bp::Report& report, bp::Progress& progress) {
-  const std::string scene = bp::WeightReader(o.files[0]).header().scene;
+  const std::string scene = bp::scene_of(bp::WeightReader(o.files[0]), o.files[0]);
   bp::keep_inputs({scene});
   if (bp::scene_format_of(o.out) != bp::scene_format_of(scene))
     fail(ErrorCode::bad_argument, "{}: the scene is written in its own format: name it .{}", o.out,
@@ -105,7 +115,7 @@ void apply(const Options& o, bp::Report& report, bp::Progress& progress) {
   for (std::size_t i = 0; i < cages; ++i) {
     const auto output = bp::open_output(numbered(o.out, i, cages), o.common.overwrite);
     bp::WeightReader weights(o.files[0]);
-    const bp::ApplyRequest request{o.files[0], o.files[i + 1], o.common.memory_bytes, scene_options(o)};
+    const bp::ApplyRequest request{o.files[0], scene, o.files[i + 1], o.common.memory_bytes, scene_options(o)};
     applied = bp::apply_cage(weights, request, *output, progress);
     output->commit();
     report.bytes_out += output->bytes();

@@ -54,6 +54,11 @@ class GltfPoints final : public ScenePoints {
     }
     return false;
   }
+  [[nodiscard]] std::uint64_t count() const override {
+    std::uint64_t sum = 0;
+    for (const GltfVertices& v : plan_.vertices) sum += v.position.count;
+    return sum;
+  }
   void write(const MovePoints& move, OutputFile& out) override {
     const std::uint64_t bytes = plan_.vertices.empty() ? 0 : doc_.root().item("buffers", 0).number("byteLength");
     detail::GltfCopy copy(file_, *doc_.bytes(), std::min(bytes, doc_.bytes()->size()), options_);

@@ -41,7 +41,7 @@ std::vector<Vec3d> moves_by(const IndexedMesh& m, const Map& map) {
 
 TEST_CASE("rounded weights add up to 1, and keep affine maps to 1e-6", "[deform][quick]") {
   const IndexedMesh mesh = sphere_cage(12, 14);
-  const MeanValueCoordinates coordinates(make_cage(mesh, "sphere"));
+  const CageCoordinates coordinates(make_cage(mesh, "sphere"));
   const std::vector<Vec3d> points = points_inside(500);
   CoordinateRows rows;
   coordinates.evaluate(points, rows);
@@ -63,7 +63,7 @@ TEST_CASE("rounded weights add up to 1, and keep affine maps to 1e-6", "[deform]
 
 TEST_CASE("a point far outside keeps a rounded weight, and one too far is refused", "[deform][quick]") {
   const IndexedMesh mesh = sphere_cage(5, 6);
-  const MeanValueCoordinates coordinates(make_cage(mesh, "sphere"));
+  const CageCoordinates coordinates(make_cage(mesh, "sphere"));
   const auto error_at = [&](double distance) {
     const std::vector<Vec3d> points{{distance, 0, 0}, {0.1, 0.1, 0}};
     CoordinateRows rows;
@@ -83,7 +83,7 @@ TEST_CASE("a point far outside keeps a rounded weight, and one too far is refuse
 
 TEST_CASE("normals and tangents turn as the cage does", "[deform][quick]") {
   const IndexedMesh mesh = sphere_cage(12, 14);
-  const MeanValueCoordinates coordinates(make_cage(mesh, "sphere"));
+  const CageCoordinates coordinates(make_cage(mesh, "sphere"));
   const std::vector<Vec3d> points = points_inside(64);
   const Vec3d normal = (1 / std::sqrt(14.0)) * Vec3d{1, 2, 3}, tangent = (1 / std::sqrt(5.0)) * Vec3d{2, -1, 0};
   std::vector<Vec3d> normals(points.size(), normal), tangents(points.size(), tangent);
