@@ -14,6 +14,8 @@ using bp::CoordinateKind;
 using bp::ErrorCode;
 using bp::fail;
 
+constexpr double kMostPerSecond = 1000;
+
 enum class Outside { refuse, near };
 
 struct Options {
@@ -22,6 +24,7 @@ struct Options {
   std::vector<std::string> files;
   Outside outside = Outside::refuse;
   CoordinateKind kind = CoordinateKind::mean_value;
+  double per_second = 0;  // 0: a scene for each cage
 };
 
 Options parse(bp::Args& args) {
@@ -48,16 +51,21 @@ Options parse(bp::Args& args) {
               {{"refuse", Outside::refuse, "an error that tells their number"},
                {"near", Outside::near, "they follow the nearest face"}},
               o.outside, "vertices outside the cage");
+  args.group("Applying");
+  args.option("--animate", "NUMBER", o.per_second,
+              "one glTF that moves from each cage to the next, so many cages a second");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::memory_part |
                             bp::CommonOptions::progress_part | bp::CommonOptions::report_part |
                             bp::CommonOptions::overwrite_part);
-  args.often({"--output", "--coordinates", "--outside", "--overwrite"});
+  args.often({"--output", "--coordinates", "--outside", "--animate", "--overwrite"});
   args.parse();
   if (o.command != "bind" && o.command != "apply") fail(ErrorCode::bad_argument, "begin with a command: bind or apply");
   if (o.command == "bind" && o.files.size() != 2)
     fail(ErrorCode::bad_argument, "bind takes two files: the scene and the cage");
   if (o.command == "apply" && o.files.size() < 2)
     fail(ErrorCode::bad_argument, "apply takes the weights and one moved cage or more");
+  if (args.given("--animate") && (o.command == "bind" || !(o.per_second > 0 && o.per_second <= kMostPerSecond)))
+    fail(ErrorCode::bad_argument, "--animate belongs to apply, and takes a number above 0, up to {}", kMostPerSecond);
   if (o.out.empty()) fail(ErrorCode::bad_argument, "name the output with --output");
   for (const char* option : {"--outside", "--coordinates"}) {
     if (o.command == "apply" && args.given(option)) fail(ErrorCode::bad_argument, "{} belongs to bind", option);
@@ -110,17 +118,18 @@ void apply(const Options& o, bp::Report& report, bp::Progress& progress) {
   if (bp::scene_format_of(o.out) != bp::scene_format_of(scene))
     fail(ErrorCode::bad_argument, "{}: the scene is written in its own format: name it .{}", o.out,
          bp::scene_format_of(scene));
-  const std::size_t cages = o.files.size() - 1;
+  const std::span<const std::string> cages = std::span(o.files).subspan(1);
+  const std::size_t scenes = o.per_second > 0 ? 1 : cages.size();
+  const bp::ApplyRequest request{o.files[0], scene, o.common.memory_bytes, scene_options(o)};
   bp::Applied applied;
-  for (std::size_t i = 0; i < cages; ++i) {
-    const auto output = bp::open_output(numbered(o.out, i, cages), o.common.overwrite);
-    bp::WeightReader weights(o.files[0]);
-    const bp::ApplyRequest request{o.files[0], scene, o.files[i + 1], o.common.memory_bytes, scene_options(o)};
-    applied = bp::apply_cage(weights, request, *output, progress);
+  for (std::size_t i = 0; i < scenes; ++i) {
+    const auto output = bp::open_output(numbered(o.out, i, scenes), o.common.overwrite);
+    applied = o.per_second > 0 ? bp::animate_cages(request, cages, o.per_second, *output, progress)
+                               : bp::apply_cage(request, cages[i], *output, progress);
     output->commit();
     report.bytes_out += output->bytes();
   }
-  report.counts = {{"vertices", applied.points}, {"scenes", cages}};
+  report.counts = {{"vertices", applied.points}, {"scenes", scenes}};
   if (!applied.left_behind.empty()) report.note(fmt::format("{}: {}", o.out, applied.left_behind), o.common);
   report.bytes_in = bp::size_of_files({scene});
 }

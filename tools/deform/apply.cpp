@@ -78,12 +78,48 @@ void turn(const CageCoordinates& coordinates, const std::vector<Vec3d>& moves, i
   });
 }
 
-void check_scene(const WeightReader& weights, const ApplyRequest& request) {
-  const std::uint64_t bytes = size_of_files({request.scene}), expected = weights.header().scene_bytes;
-  if (bytes != expected)
-    fail(ErrorCode::bad_input, "{}: has {} bytes, and had {} when {} was made of it; bind it again", request.scene,
-         bytes, expected, request.weights);
-}
+/// What one moved cage does to the scene.
+class CageMover {
+ public:
+  CageMover(const ApplyRequest& request, const std::string& cage)
+      : request_(request),
+        weights_(request.weights),
+        coordinates_(make_cage(weights_.header().cage, request.weights), weights_.header().kind),
+        moves_(coordinates_.moves_of_columns(
+            moves_of_cage(weights_.header().cage, faces_of(cage, request.scene_options), cage))),
+        at_work_(blocks_at_work(request.memory_bytes, coordinates_)),
+        stream_(weights_, moves_, at_work_) {
+    const std::uint64_t bytes = size_of_files({request.scene}), expected = weights_.header().scene_bytes;
+    if (bytes != expected)
+      fail(ErrorCode::bad_input, "{}: has {} bytes, and had {} when {} was made of it; bind it again", request.scene,
+           bytes, expected, request.weights);
+  }
+  [[nodiscard]] std::uint64_t expected() const { return weights_.points_declared(); }
+  void move(PointBatch& batch) {
+    hash_.add(std::as_bytes(std::span(batch.positions)));
+    turn(coordinates_, moves_, at_work_, batch);
+    const std::vector<Vec3d> shifts = stream_.take(batch.positions.size());
+    for (std::size_t i = 0; i < shifts.size(); ++i) batch.positions[i] = batch.positions[i] + shifts[i];
+    points_ += shifts.size();
+  }
+  /// Throws bad_input if the scene was another; returns its vertices.
+  std::uint64_t finish() {
+    if (!stream_.take(1).empty() || weights_.totals().points != points_ || weights_.totals().hash != hash_.value())
+      fail(ErrorCode::bad_input, "{}: its vertices are not those that {} was made of; bind it again", request_.scene,
+           request_.weights);
+    return points_;
+  }
+
+ private:
+  const ApplyRequest& request_;
+  WeightReader weights_;
+  const CageCoordinates coordinates_;
+  const std::vector<Vec3d> moves_;
+  const int at_work_;
+  MoveStream stream_;
+  ContentHash hash_;
+  std::uint64_t points_ = 0;
+};
 
 }  // namespace
 
@@ -96,34 +132,39 @@ std::string scene_of(const WeightReader& weights, const std::string& path) {
        beside.string());
 }
 
-Applied apply_cage(WeightReader& weights, const ApplyRequest& request, OutputFile& out, Progress& progress) {
-  const WeightHeader& header = weights.header();
+Applied apply_cage(const ApplyRequest& request, const std::string& cage, OutputFile& out, Progress& progress) {
   const std::unique_ptr<ScenePoints> scene = open_points(request.scene, request.scene_options);
-  check_scene(weights, request);
-  const CageCoordinates coordinates(make_cage(header.cage, request.weights), header.kind);
-  const std::vector<Vec3d> moves = coordinates.moves_of_columns(
-      moves_of_cage(header.cage, faces_of(request.cage, request.scene_options), request.cage));
-  const int at_work = blocks_at_work(request.memory_bytes, coordinates);
-  MoveStream stream(weights, moves, at_work);
-  Applied applied;
-  ContentHash hash;
-  progress.begin("apply", weights.points_declared(), "vertices");
+  CageMover mover(request, cage);
+  progress.begin("apply", mover.expected(), "vertices");
   scene->write(
       [&](PointBatch& batch) {
-        hash.add(std::as_bytes(std::span(batch.positions)));
-        turn(coordinates, moves, at_work, batch);
-        const std::vector<Vec3d> shifts = stream.take(batch.positions.size());
-        for (std::size_t i = 0; i < shifts.size(); ++i) batch.positions[i] = batch.positions[i] + shifts[i];
-        applied.points += shifts.size();
-        progress.add(shifts.size());
+        mover.move(batch);
+        progress.add(batch.positions.size());
       },
       out);
   progress.end();
-  if (!stream.take(1).empty() || weights.totals().points != applied.points || weights.totals().hash != hash.value())
-    fail(ErrorCode::bad_input, "{}: its vertices are not those that {} was made of; bind it again", request.scene,
-         request.weights);
-  applied.left_behind = scene->left_behind();
-  return applied;
+  return {mover.finish(), scene->left_behind()};
+}
+
+Applied animate_cages(const ApplyRequest& request, std::span<const std::string> cages, double per_second,
+                      OutputFile& out, Progress& progress) {
+  const std::unique_ptr<ScenePoints> scene = open_points(request.scene, request.scene_options);
+  auto mover = std::make_unique<CageMover>(request, cages[0]);
+  progress.begin("apply", mover->expected() * cages.size(), "vertices");
+  std::size_t at = 0;
+  scene->write_frames(
+      cages.size(), 1 / per_second,
+      [&](std::size_t frame, PointBatch& batch) {
+        if (frame != at) {
+          (void)mover->finish();
+          mover = std::make_unique<CageMover>(request, cages[at = frame]);
+        }
+        mover->move(batch);
+        progress.add(batch.positions.size());
+      },
+      out);
+  progress.end();
+  return {mover->finish(), ""};
 }
 
 }  // namespace bp
