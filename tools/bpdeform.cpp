@@ -27,6 +27,22 @@ struct Options {
   double per_second = 0;  // 0: a scene for each cage
 };
 
+void check(const Options& o, bp::Args& args) {
+  if (o.command != "bind" && o.command != "apply") fail(ErrorCode::bad_argument, "begin with a command: bind or apply");
+  if (o.command == "bind" && o.files.size() != 2)
+    fail(ErrorCode::bad_argument, "bind takes two files: the scene and the cage");
+  if (o.command == "apply" && o.files.size() < 2)
+    fail(ErrorCode::bad_argument, "apply takes the weights and one moved cage or more");
+  if (args.given("--animate") && (o.command == "bind" || !(o.per_second > 0 && o.per_second <= kMostPerSecond)))
+    fail(ErrorCode::bad_argument, "--animate belongs to apply, and takes a number above 0, up to {}", kMostPerSecond);
+  if (o.out.empty()) fail(ErrorCode::bad_argument, "name the output with --output");
+  for (const char* option : {"--outside", "--coordinates"}) {
+    if (o.command == "apply" && args.given(option)) fail(ErrorCode::bad_argument, "{} belongs to bind", option);
+  }
+  if (std::find(o.files.begin(), o.files.end(), "-") != o.files.end())
+    fail(ErrorCode::bad_argument, "bpdeform reads files, not stdin: apply reads the scene again");
+}
+
 Options parse(bp::Args& args) {
   Options o;
   args.about(
@@ -59,19 +75,7 @@ Options parse(bp::Args& args) {
                             bp::CommonOptions::overwrite_part);
   args.often({"--output", "--coordinates", "--outside", "--animate", "--overwrite"});
   args.parse();
-  if (o.command != "bind" && o.command != "apply") fail(ErrorCode::bad_argument, "begin with a command: bind or apply");
-  if (o.command == "bind" && o.files.size() != 2)
-    fail(ErrorCode::bad_argument, "bind takes two files: the scene and the cage");
-  if (o.command == "apply" && o.files.size() < 2)
-    fail(ErrorCode::bad_argument, "apply takes the weights and one moved cage or more");
-  if (args.given("--animate") && (o.command == "bind" || !(o.per_second > 0 && o.per_second <= kMostPerSecond)))
-    fail(ErrorCode::bad_argument, "--animate belongs to apply, and takes a number above 0, up to {}", kMostPerSecond);
-  if (o.out.empty()) fail(ErrorCode::bad_argument, "name the output with --output");
-  for (const char* option : {"--outside", "--coordinates"}) {
-    if (o.command == "apply" && args.given(option)) fail(ErrorCode::bad_argument, "{} belongs to bind", option);
-  }
-  if (std::find(o.files.begin(), o.files.end(), "-") != o.files.end())
-    fail(ErrorCode::bad_argument, "bpdeform reads files, not stdin: apply reads the scene again");
+  check(o, args);
   bp::keep_inputs(o.files);
   return o;
 }
