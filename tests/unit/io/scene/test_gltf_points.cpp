@@ -138,6 +138,48 @@ TEST_CASE("interleaved positions and normals move side by side", "[io][deform][q
   CHECK(bytes_of_file(after).find(expected) != std::string::npos);
 }
 
+TEST_CASE("frames become morph targets of an animation, and the scene stays at rest", "[io][deform][quick]") {
+  const TempDir dir;
+  Document d = two_parts();
+  d.node({{"mesh", 0}, {"translation", {0, 0, 3}}});  // the first part once more
+  d.json["scenes"][0]["nodes"] = {0, 1, 2};
+  const std::string path = dir.file("a.glb", d.glb());
+  OutputFile out(dir.path("moving.glb"), true);
+  open_points(path, {})->write_frames(
+      2, 0.5,
+      [](std::size_t frame, PointBatch& batch) {
+        for (Vec3d& p : batch.positions) p[0] += frame == 0 ? 0.0 : 7.0;
+        for (Vec3d& n : batch.normals) n = frame == 0 ? n : Vec3d{0, 1, 0};
+      },
+      out);
+  out.commit();
+  CHECK(read_all(out.name()) == read_all(path));
+  const std::string bytes = bytes_of_file(out.name());
+  const Json after = Json::parse(bytes.substr(20, bytes.find("BIN") - 24));
+  REQUIRE(after["animations"].size() == 1);
+  CHECK(after["animations"][0]["channels"].size() == 3);
+  for (const Json& mesh : after["meshes"]) {
+    CHECK(mesh["weights"] == Json({0, 0}));
+    const Json& targets = mesh["primitives"][0]["targets"];
+    REQUIRE(targets.size() == 2);
+    CHECK(targets[1].contains("NORMAL"));
+    CHECK(after["accessors"][targets[0]["POSITION"].get<std::size_t>()]["max"] == Json({0, 0, 0}));
+  }
+  const Json& first =
+      after["accessors"][after["meshes"][0]["primitives"][0]["targets"][1]["POSITION"].get<std::size_t>()];
+  CHECK(first["max"] == Json({7, 0, 0}));
+  CHECK(first["count"] == 4);
+  const std::size_t times = after["animations"][0]["samplers"][0]["input"];
+  CHECK(after["accessors"][times]["max"] == Json({0.5}));
+}
+
+TEST_CASE("frames in one file are kept by glTF alone", "[io][deform][quick]") {
+  const TempDir dir;
+  OutputFile out(dir.path("b.obj"), true);
+  CHECK_THROWS_WITH(open_points(dir.file("a.obj", "v 1 2 3\n"), {})->write_frames(1, 1, {}, out),
+                    Contains("only glTF"));
+}
+
 TEST_CASE("a GLB that cannot keep what it has is refused", "[io][deform][quick]") {
   const TempDir dir;
   const auto refused = [&](const char* why, const auto& change) {
