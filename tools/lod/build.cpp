@@ -15,6 +15,7 @@
 #include "lib/core/parallel.h"
 #include "lib/enclosed/enclosed_triangles.h"
 #include "lib/grid/shelf_stream.h"
+#include "lib/levels/margin.h"
 #include "lib/pass/color/vertex_colors.h"
 #include "tools/cli/names.h"
 #include "tools/lod/bake_levels.h"
@@ -111,6 +112,9 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   };
   out.counts = voxelize_stream(*source, open, backends, v);
   size_ = {out.header.bounds, out.counts.scene.triangles};
+  voxel_ = out.header.frame.voxel;
+  margin_ = margin_of(options, out.header.bounds.diagonal(), voxel_);
+  if (margin_ > 0) add_margin(out, margin_, make_shelf);
   enclosed_ = enclosed_by(options, size_.triangles);
   if (!options.field.empty()) field_ = read_field(options, out);
   if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
@@ -225,6 +229,11 @@ PassContext Build::context(ResultStore* results) const {
 }
 
 void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, const std::string& input_hash) {
+  if (margin_ > 0) {
+    const double more = farthest_of_margin(margin_, voxel_);
+    level.error_world += more;
+    level.distance_world += more;
+  }
   if (colors_ != nullptr) {
     colors_->prepare(level.mesh.frame);
     color_vertices(level.mesh, colors_->all(level.mesh.frame));
@@ -234,6 +243,7 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
         level_texture(*this, level.mesh, level.error_world, level.scale_world, *looks_, texture_memory());
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
+  if (margin_ > 0) text.add("margin", margin_);
   if (field_) text.add("field", provenance_text(*field_));
   if (textured_) text.add("appearance", options.full() ? "full" : "texture");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
@@ -263,7 +273,7 @@ void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& row
   std::string proof;
   for (const LevelRow& row : rows) {
     if (!proof.empty() && options.profile != LodProfile::collision) break;  // of the others, one file stands for all
-    const std::string one = proof_command(options, name_of_all(options, row.file), row.more.contains("hulls"));
+    const std::string one = proof_command(options, name_of_all(options, row.file), row.more.contains("hulls"), margin_);
     if (!one.empty()) proof += (proof.empty() ? "" : " && ") + one;
   }
   fmt::print(stderr, "bplod: the files are in {}{}{}\n", options.out, proof.empty() ? "" : "; prove it: ", proof);

@@ -44,6 +44,7 @@ class Build {
   [[nodiscard]] PassContext context(ResultStore* results = nullptr) const;
   /// What stays inside bounding levels; after voxelize().
   [[nodiscard]] Enclose enclosed() const { return enclosed_; }
+  [[nodiscard]] double margin() const { return margin_; }  ///< scene units; after voxelize()
   /// Null if the scene has no colours, or if none are wanted.
   [[nodiscard]] SceneColors* colors() const { return colors_.get(); }
   /// Levels get textures: they are wanted, and the scene has looks for them and can be read again. After voxelize().
@@ -82,6 +83,7 @@ class Build {
   void tell(const VoxelizedScene& scene, const std::string& list, const std::string& made);
   void write_report(const VoxelizedScene& scene);
   SceneSize size_;
+  double voxel_ = 0, margin_ = 0;  // of the scene, scene units
   Enclose enclosed_ = Enclose::input;
   std::optional<ScaleField> field_;  // of --field
   std::unique_ptr<SceneColors> colors_;

@@ -85,6 +85,7 @@ void check_profile(const Args& args, const BuildOptions& o) {
   };
   needs({"--tile", "--tiles", "--cache", "--leaves"}, LodProfile::tiles);
   needs({"--hulls"}, LodProfile::collision);
+  needs({"--margin"}, LodProfile::cage);
   if (o.is_tileset() && args.given("--origin"))
     fail(ErrorCode::bad_argument,
          "--origin: a tileset holds its place in double, in the transforms of its tiles; leave it out, and move the "
@@ -94,7 +95,9 @@ void check_profile(const Args& args, const BuildOptions& o) {
   if (o.profile == LodProfile::occluder)
     refuse({"--mode", "--enclose", "--fill", "--error", "--appearance", "--explain", "--field"});
   if (o.is_tileset()) refuse({"--field"});
-  if (o.profile == LodProfile::cage) refuse({"--mode", "--appearance"});
+  if (o.is_cage()) refuse({"--mode", "--appearance"});
+  if (o.is_cage() && o.margin.value > 0 && o.proxy.enclose.kind == EncloseOption::Kind::scene)
+    fail(ErrorCode::bad_argument, "--enclose scene: a cage with a margin encloses voxels; leave it out, or --margin 0");
   if (o.profile == LodProfile::collision && o.proxy.mode != MeshMode::bounding)
     fail(ErrorCode::bad_argument, "--profile collision needs --mode bounding");
   if (o.proxy.mode == MeshMode::fit && args.given("--enclose"))
@@ -166,6 +169,7 @@ void declare_profile(Args& args, BuildOptions& o) {
       "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_count(text, 1, kMostHullsAsked); },
       "collision: largest number of convex hulls in Unreal's file (default: 32, or one for each part where there are "
       "more)");
+  args.option("--margin", "LENGTH", o.margin, "cage: least distance from the scene");
   args.option(
       "--appearance",
       {{"auto", Appearance::automatic, "a texture if the scene has textures, else colours"},
@@ -275,6 +279,7 @@ Json options_json(const BuildOptions& o) {
           {"voxel", optional_json(o.voxels.voxel)},
           {"resolution", optional_json(o.voxels.resolution)},
           {"tile", o.tile_vox},
+          {"margin", o.is_cage() ? Json(o.margin.text()) : Json(nullptr)},
           {"hulls", o.hulls > 0 ? Json(o.hulls) : Json(nullptr)},
           {"cache", !o.cache.empty()},
           {"leaves", o.leaves ? "scene" : "none"},

@@ -59,7 +59,12 @@ bool may_refine(const BuildOptions& o) {
 }
 
 bool may_enclose_scene(const BuildOptions& o) {
-  return !o.is_tileset() && o.proxy.mode == MeshMode::bounding;
+  const bool margin = o.is_cage() && o.margin.value > 0;
+  return !o.is_tileset() && o.proxy.mode == MeshMode::bounding && !margin;
+}
+
+double margin_of(const BuildOptions& o, double diagonal, double voxel) {
+  return o.is_cage() ? o.margin.in_world(diagonal, voxel) : 0;
 }
 
 Enclose enclosed_by(const BuildOptions& o, std::uint64_t triangles) {
