@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "lib/core/error.h"
+#include "lib/levels/symmetry.h"
 #include "lib/volume/dilate_ball.h"
 
 namespace bp {
@@ -16,10 +17,7 @@ void add_margin(VoxelizedScene& scene, double margin_world, const ShelfFactory& 
   auto grown = make_shelf();
   dilate_ball(*scene.solid, reach, *grown);
   scene.solid = std::move(grown);
-  VoxelBox box;
-  for (const BrickCoord& c : scene.solid->coords())
-    box = hull(box, {first_voxel(c), first_voxel({c.x + 1, c.y + 1, c.z + 1})});
-  scene.header.bricks = hull(scene.header.bricks, bricks_of(box));
+  widen_bricks(scene);
 }
 
 double farthest_of_margin(double margin_world, double voxel) {

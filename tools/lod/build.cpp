@@ -16,6 +16,7 @@
 #include "lib/enclosed/enclosed_triangles.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/margin.h"
+#include "lib/levels/symmetry.h"
 #include "lib/pass/color/vertex_colors.h"
 #include "tools/cli/names.h"
 #include "tools/lod/bake_levels.h"
@@ -114,13 +115,28 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   size_ = {out.header.bounds, out.counts.scene.triangles};
   voxel_ = out.header.frame.voxel;
   margin_ = margin_of(options, out.header.bounds.diagonal(), voxel_);
-  if (margin_ > 0) add_margin(out, margin_, make_shelf);
+  if (options.is_cage()) make_room(out);
   enclosed_ = enclosed_by(options, size_.triangles);
   if (!options.field.empty()) field_ = read_field(options, out);
   if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
   choose_textures(*source, halvings == 0);
   if (colored_ && !textured_) gather(*source, out);
   return out;
+}
+
+/// Of cages: the voxels are symmetric where they are to be, and stand off from the scene.
+void Build::make_room(VoxelizedScene& scene) {
+  switch (options.symmetry) {
+    case Symmetry::off:
+      break;
+    case Symmetry::automatic:
+      plane_ = symmetry_of(scene, make_shelf);
+      break;
+    default:
+      plane_ = middle_plane(scene.header, int(options.symmetry));
+  }
+  if (plane_) add_image(scene, *plane_, make_shelf);
+  if (margin_ > 0) add_margin(scene, margin_, make_shelf);
 }
 
 void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told) {
@@ -192,7 +208,7 @@ LodOptions Build::lod_options() {
   lod.enclose = enclosed_;
   if (options.proxy.mode == MeshMode::fit || enclosed_ == Enclose::scene) lod.scene = scene_triangles();
   lod.field = field_;
-  lod.quads = options.profile == LodProfile::cage;
+  if (options.is_cage()) lod.cage = CageParams{plane_};
   lod.context = context();
   return lod;
 }
@@ -244,6 +260,7 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
   if (margin_ > 0) text.add("margin", margin_);
+  if (plane_) text.add("symmetry", name_of(Symmetry(plane_->axis)));
   if (field_) text.add("field", provenance_text(*field_));
   if (textured_) text.add("appearance", options.full() ? "full" : "texture");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};

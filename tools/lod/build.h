@@ -83,6 +83,8 @@ class Build {
   void tell(const VoxelizedScene& scene, const std::string& list, const std::string& made);
   void write_report(const VoxelizedScene& scene);
   SceneSize size_;
+  void make_room(VoxelizedScene& scene);
+  std::optional<MirrorPlane> plane_;  // of a cage
   double voxel_ = 0, margin_ = 0;  // of the scene, scene units
   Enclose enclosed_ = Enclose::input;
   std::optional<ScaleField> field_;  // of --field

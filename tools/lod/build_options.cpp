@@ -85,7 +85,7 @@ void check_profile(const Args& args, const BuildOptions& o) {
   };
   needs({"--tile", "--tiles", "--cache", "--leaves"}, LodProfile::tiles);
   needs({"--hulls"}, LodProfile::collision);
-  needs({"--margin"}, LodProfile::cage);
+  needs({"--margin", "--symmetry"}, LodProfile::cage);
   if (o.is_tileset() && args.given("--origin"))
     fail(ErrorCode::bad_argument,
          "--origin: a tileset holds its place in double, in the transforms of its tiles; leave it out, and move the "
@@ -95,9 +95,7 @@ void check_profile(const Args& args, const BuildOptions& o) {
   if (o.profile == LodProfile::occluder)
     refuse({"--mode", "--enclose", "--fill", "--error", "--appearance", "--explain", "--field"});
   if (o.is_tileset()) refuse({"--field"});
-  if (o.is_cage()) refuse({"--mode", "--appearance"});
-  if (o.is_cage() && o.margin.value > 0 && o.proxy.enclose.kind == EncloseOption::Kind::scene)
-    fail(ErrorCode::bad_argument, "--enclose scene: a cage with a margin encloses voxels; leave it out, or --margin 0");
+  if (o.is_cage()) refuse({"--mode", "--appearance", "--enclose", "--error", "--scale", "--field"});
   if (o.profile == LodProfile::collision && o.proxy.mode != MeshMode::bounding)
     fail(ErrorCode::bad_argument, "--profile collision needs --mode bounding");
   if (o.proxy.mode == MeshMode::fit && args.given("--enclose"))
@@ -169,6 +167,13 @@ void declare_profile(Args& args, BuildOptions& o) {
       "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_count(text, 1, kMostHullsAsked); },
       "collision: largest number of convex hulls in Unreal's file (default: 32, or one for each part where there are "
       "more)");
+  args.option("--symmetry",
+              {{"auto", Symmetry::automatic, "if the scene is its own mirror image, to two voxels"},
+               {"x", Symmetry::x, "left and right differ in x"},
+               {"y", Symmetry::y, "in y"},
+               {"z", Symmetry::z, "in z"},
+               {"off", Symmetry::off, "never"}},
+              o.symmetry, "cage: whether its halves mirror each other, in the middle of the scene");
   args.option("--margin", "LENGTH", o.margin, "cage: least distance from the scene");
   args.option(
       "--appearance",
@@ -245,6 +250,11 @@ const char* name_of(Appearance appearance) {
   return kNames[std::size_t(appearance)];
 }
 
+const char* name_of(Symmetry symmetry) {
+  constexpr const char* kNames[] = {"x", "y", "z", "off", "auto"};
+  return kNames[std::size_t(symmetry)];
+}
+
 const char* name_of(LodProfile profile) {
   constexpr const char* kNames[] = {"gltf", "3dtiles", "collision", "occluder", "cage"};
   return kNames[std::size_t(profile)];
@@ -279,6 +289,7 @@ Json options_json(const BuildOptions& o) {
           {"voxel", optional_json(o.voxels.voxel)},
           {"resolution", optional_json(o.voxels.resolution)},
           {"tile", o.tile_vox},
+          {"symmetry", o.is_cage() ? Json(name_of(o.symmetry)) : Json(nullptr)},
           {"margin", o.is_cage() ? Json(o.margin.text()) : Json(nullptr)},
           {"hulls", o.hulls > 0 ? Json(o.hulls) : Json(nullptr)},
           {"cache", !o.cache.empty()},

@@ -22,6 +22,10 @@ enum class LodProfile { gltf, tiles, collision, occluder, cage };
 enum class Appearance { off, color, texture, full, automatic };
 [[nodiscard]] const char* name_of(Appearance appearance);
 
+/// Across which axis a cage is its own mirror image: one of the three, none, or that of the scene if it has one.
+enum class Symmetry { x, y, z, off, automatic };
+[[nodiscard]] const char* name_of(Symmetry symmetry);
+
 /// Least distance of a cage from the scene, percent of the scene's diagonal: coordinates bend sharply near a cage.
 constexpr double kCageMargin = 0.5;
 
@@ -38,6 +42,7 @@ struct BuildOptions {
   std::string out, name;
   LodProfile profile = LodProfile::gltf;
   std::int32_t tile_vox = 512;    ///< edge of a cell of a tileset
+  Symmetry symmetry = Symmetry::automatic;              ///< of a cage
   Length margin{kCageMargin, Length::Unit::percent};  ///< of a cage
   std::int64_t hulls = 0;         ///< of a collision mesh, at most; 0: kMostHulls, or as many as parts
   std::string cache;              ///< folder of results of earlier builds; empty: none

@@ -32,7 +32,7 @@ namespace bp {
 /// Least distance of the levels from the scene, scene units; `voxel` of the scene.
 [[nodiscard]] double margin_of(const BuildOptions& options, double diagonal, double voxel);
 /// What stays inside the levels of a scene of so many triangles: as asked; else the triangles, where levels are one
-/// mesh each without a margin, the scene can be read again, and it has no more than kMostEnclosedTriangles; else its voxels. Memory has
+/// mesh each and no cages, the scene can be read again, and it has no more than kMostEnclosedTriangles; else its voxels. Memory has
 /// no say.
 [[nodiscard]] Enclose enclosed_by(const BuildOptions& options, std::uint64_t triangles);
 

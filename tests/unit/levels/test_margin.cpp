@@ -38,7 +38,7 @@ TEST_CASE("a cage keeps its margin from the scene, over either diagonal of its q
   Backends backends = plain_backends(2);
   LodOptions options;
   options.context.make_shelf = memory_shelves();
-  options.quads = true;
+  options.cage.emplace();
   LodChain chain(grown.header, std::move(grown.solid), backends, options);
   LatticeMesh cage = chain.make({200, 0, {}, 1}).mesh;
   CHECK(cage.triangles.size() <= 200);
