@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "lib/surface/repair.h"
+#include "lib/quads/detail/cells.h"
 
 namespace bp {
 
@@ -15,45 +15,6 @@ namespace {
 
 constexpr std::int32_t kUnitsAlong = 128;
 constexpr std::int32_t kCubesAlong = 40;  // before planes are taken away
-
-/// A dense box of flags, with a rim of empty ones.
-class Grid {
- public:
-  Grid() = default;
-  explicit Grid(const VoxelBox& inner) : box_(inner.grown(1)), size_(box_.size()), bits_(std::size_t(box_.volume())) {}
-  [[nodiscard]] const VoxelBox& box() const { return box_; }
-  [[nodiscard]] char& at(const VoxelCoord& p) { return bits_[index(p)]; }
-  [[nodiscard]] char at(const VoxelCoord& p) const { return bits_[index(p)]; }
-
-  template <class Visit>
-  void for_each(const VoxelBox& box, const Visit& visit) const {
-    for (VoxelCoord p = box.min; p.z < box.max.z; ++p.z) {
-      for (p.y = box.min.y; p.y < box.max.y; ++p.y) {
-        for (p.x = box.min.x; p.x < box.max.x; ++p.x) visit(p);
-      }
-    }
-  }
-
- private:
-  [[nodiscard]] std::size_t index(const VoxelCoord& p) const {
-    const VoxelCoord d = p - box_.min;
-    return (std::size_t(d.z) * std::size_t(size_.y) + std::size_t(d.y)) * std::size_t(size_.x) + std::size_t(d.x);
-  }
-  VoxelBox box_;
-  VoxelCoord size_;
-  std::vector<char> bits_;
-};
-
-template <class Visit>
-void for_each_neighbour(const VoxelCoord& p, const Visit& visit) {
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const std::int32_t step : {-1, 1}) {
-      VoxelCoord q = p;
-      q[axis] += step;
-      visit(q, axis, step > 0);
-    }
-  }
-}
 
 template <class Visit>
 void for_each_voxel(const BrickShelf& shelf, const Visit& visit) {
@@ -111,39 +72,6 @@ Units units_of(const BrickShelf& shelf, const std::optional<MirrorPlane>& plane)
   return units;
 }
 
-/// What the outside does not reach.
-void fill(Grid& cells) {
-  constexpr char kOutside = 2;
-  std::vector<VoxelCoord> stack{cells.box().min};
-  cells.at(stack.back()) = kOutside;
-  while (!stack.empty()) {
-    const VoxelCoord p = stack.back();
-    stack.pop_back();
-    for_each_neighbour(p, [&](const VoxelCoord& q, int, bool) {
-      if (!cells.box().contains(q) || cells.at(q)) return;
-      cells.at(q) = kOutside;
-      stack.push_back(q);
-    });
-  }
-  cells.for_each(cells.box(), [&](const VoxelCoord& p) { cells.at(p) = cells.at(p) != kOutside; });
-}
-
-/// Boxes between planes across the axes, and which of them are solid. Box i of an axis lies between its planes i and
-/// i + 1, in units.
-struct Cells {
-  std::array<std::vector<std::int32_t>, 3> planes;
-  Grid solid;
-
-  [[nodiscard]] std::int32_t thickness(int axis, std::int32_t i) const {
-    const auto& p = planes[std::size_t(axis)];
-    return p[std::size_t(i) + 1] - p[std::size_t(i)];
-  }
-  [[nodiscard]] VoxelBox box() const {
-    const auto n = [&](std::size_t axis) { return std::int32_t(planes[axis].size()) - 1; };
-    return {{0, 0, 0}, {n(0), n(1), n(2)}};
-  }
-};
-
 /// Cubes that hold units of the surface, and what is inside of them.
 Cells cubes_of(const Units& units, std::int32_t edge, const std::optional<MirrorPlane>& plane) {
   Cells cells;
@@ -182,63 +110,26 @@ Cells without_plane(const Cells& cells, int axis, std::int32_t i) {
   return out;
 }
 
-/// One round of repairs; the cells are their own image in the plane before and after.
-bool repair_once(Grid& cells, int mirrored_axis, std::int32_t last) {
-  std::vector<VoxelCoord> added;
-  VoxelBox blocks = cells.box();
-  blocks.max = blocks.max - VoxelCoord{1, 1, 1};
-  const auto corner = [](const VoxelCoord& p, int i) { return p + VoxelCoord{i & 1, (i >> 1) & 1, i >> 2}; };
-  cells.for_each(blocks, [&](const VoxelCoord& p) {
-    Corner block = 0;
-    for (int i = 0; i < 8; ++i) block = Corner(block | (cells.at(corner(p, i)) ? 1 << i : 0));
-    const Corner more = corner_repair(block);
-    for (int i = 0; i < 8; ++i) {
-      if (more >> i & 1) added.push_back(corner(p, i));
-    }
+/// Volume between solid boxes that would be filled without the plane between the boxes i and i + 1: limbs grow
+/// together there. `middle`: box i - 1 is the mirror image of i.
+double gaps_filled(const Cells& cells, int axis, std::int32_t i, bool middle) {
+  double volume = 0;
+  VoxelBox layer = cells.box();
+  layer.min[axis] = i;
+  layer.max[axis] = i + 1;
+  const int u = (axis + 1) % 3, w = (axis + 2) % 3;
+  cells.solid.for_each(layer, [&](const VoxelCoord& p) {
+    const auto solid = [&](std::int32_t k) {
+      VoxelCoord q = p;
+      q[axis] += k;
+      return cells.solid.at(q) != 0;
+    };
+    if (solid(0) == solid(1)) return;
+    const bool gap = solid(1) ? middle || solid(-1) : solid(2);
+    const std::int32_t thickness = cells.thickness(axis, solid(1) ? i : i + 1);
+    if (gap) volume += double(thickness) * cells.thickness(u, p[u]) * cells.thickness(w, p[w]);
   });
-  for (VoxelCoord p : added) {
-    cells.at(p) = 1;
-    if (mirrored_axis < 0) continue;
-    p[mirrored_axis] = last - p[mirrored_axis];
-    cells.at(p) = 1;
-  }
-  return !added.empty();
-}
-
-std::uint64_t count(const Grid& cells) {
-  std::uint64_t n = 0;
-  cells.for_each(cells.box(), [&](const VoxelCoord& p) { n += cells.at(p) != 0; });
-  return n;
-}
-
-struct Size {
-  double volume = 0, area = 0;  // in units
-  std::uint64_t faces = 0;
-};
-
-Size size_of(const Cells& cells) {
-  Size size;
-  cells.solid.for_each(cells.box(), [&](const VoxelCoord& p) {
-    if (!cells.solid.at(p)) return;
-    const Vec3d t{double(cells.thickness(0, p.x)), double(cells.thickness(1, p.y)), double(cells.thickness(2, p.z))};
-    size.volume += t[0] * t[1] * t[2];
-    for_each_neighbour(p, [&](const VoxelCoord& q, int axis, bool) {
-      if (cells.solid.at(q)) return;
-      size.faces += 2;
-      size.area += t[std::size_t((axis + 1) % 3)] * t[std::size_t((axis + 2) % 3)];
-    });
-  });
-  return size;
-}
-
-/// Repaired, and without hollows.
-void mend(Cells& cells, const std::optional<MirrorPlane>& plane) {
-  for (std::uint64_t before = 0; before != count(cells.solid);) {
-    before = count(cells.solid);
-    const std::int32_t last = plane ? cells.box().max[plane->axis] - 1 : 0;
-    while (repair_once(cells.solid, plane ? plane->axis : -1, last)) continue;
-    fill(cells.solid);
-  }
+  return volume;
 }
 
 /// Takes planes away, one after the other: that which adds the least volume for the faces that it saves. Boxes beyond
@@ -270,7 +161,9 @@ class Merger {
       for (std::int32_t i = mirrored ? n / 2 : 0; i + 1 < n; ++i) {
         Cells other = without_plane(cells_, axis, i);
         if (mirrored) other = without_plane(other, axis, n - 2 - i);
-        const double price = price_of(other, now, cells_.thickness(axis, i) + cells_.thickness(axis, i + 1));
+        Size then = size_of(other);
+        then.volume += kGapWeight * gaps_filled(cells_, axis, i, mirrored && i == n / 2);
+        const double price = price_of(then, now, cells_.thickness(axis, i) + cells_.thickness(axis, i + 1));
         if (price >= least) continue;
         least = price;
         best = std::move(other);
@@ -280,13 +173,13 @@ class Merger {
     return best.has_value();
   }
 
-  [[nodiscard]] double price_of(const Cells& other, const Size& now, double thickness) const {
-    const Size then = size_of(other);
+  [[nodiscard]] double price_of(const Size& then, const Size& now, double thickness) const {
     const double saved = double(now.faces) - double(then.faces), added = then.volume - now.volume;
     const double shape = std::max(1.0, thickness / edge_);
     return (added + kLeastAdded * now.volume) * shape * shape * shape * shape / std::max(saved, kLeastSaved);
   }
 
+  static constexpr double kGapWeight = 40;
   static constexpr double kLeastAdded = 1e-4, kLeastSaved = 0.1;
   Cells cells_;
   std::uint64_t faces_;

@@ -1,5 +1,5 @@
-// A cage of large cells shrinks like a skin: each vertex goes to the mean of its neighbours and inwards, as far as it
-// may.
+// [XLG09] takes the boundary of voxels, too, and smooths it. Here it shrinks like a skin: each vertex goes to the mean
+// of its neighbours along quads, and inwards, as far as it may; at last to where it encloses least.
 #include "lib/quads/quad_cage.h"
 
 #include <algorithm>
@@ -153,6 +153,36 @@ class Skin {
   FanFit fit_;
 };
 
+/// The mesh without the faces that were erased.
+LatticeMesh left_of(const CellQuads& cage, const HalfEdgeMesh& mesh, std::vector<FaceId>& number) {
+  LatticeMesh out;
+  out.frame = cage.mesh.frame;
+  for (VertexId v = 0; v < cage.mesh.vertices.size(); ++v) out.vertices.push_back(mesh.position(v));
+  number.assign(cage.mesh.triangles.size(), kNoId);
+  for (FaceId f = 0; f < number.size(); ++f) {
+    if (!mesh.alive(f)) continue;
+    number[f] = FaceId(out.triangles.size());
+    out.triangles.push_back(cage.mesh.triangles[f]);
+  }
+  drop_unused_vertices(out.vertices, out.triangles);
+  return out;
+}
+
+/// Of each pair: it may stay joined, and so may its mirror image. The second half of the pairs mirrors the first.
+std::vector<std::array<std::uint32_t, 2>> pairs_left(const CellQuads& cage, const LatticeMesh& mesh,
+                                                     const std::vector<FaceId>& number, const Enclosed& enclosed) {
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  for (const auto& [f, g] : cage.mesh.quads) pairs.push_back({number[f], number[g]});
+  const std::vector<std::array<std::uint32_t, 2>> safe = safe_pairs(mesh, pairs, QuadKeeps::enclosed, &enclosed);
+  const auto is_safe = [&](std::size_t i) { return std::binary_search(safe.begin(), safe.end(), pairs[i]); };
+  std::vector<std::array<std::uint32_t, 2>> left;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const std::size_t image = cage.mate.empty() ? i : (i + pairs.size() / 2) % pairs.size();
+    if (is_safe(i) && is_safe(image)) left.push_back(pairs[i]);
+  }
+  return left;
+}
+
 }  // namespace
 
 LatticeMesh shrunk_cage(const CellQuads& cage, const Enclosed& enclosed, const std::optional<MirrorPlane>& plane) {
@@ -163,9 +193,10 @@ LatticeMesh shrunk_cage(const CellQuads& cage, const Enclosed& enclosed, const s
   Skin skin(cage, mesh, editor, plane);
   for (int i = 0; i < kSweeps; ++i) skin.relax();
   for (int i = 0; i < kFits; ++i) skin.fit();
-  LatticeMesh out = cage.mesh;
-  for (VertexId v = 0; v < out.vertices.size(); ++v) out.vertices[v] = mesh.position(v);
-  out.quads = safe_pairs(out, out.quads, QuadKeeps::enclosed, &enclosed);
+  editor.erase_inner_shells();
+  std::vector<FaceId> number;
+  LatticeMesh out = left_of(cage, mesh, number);
+  out.quads = pairs_left(cage, out, number, enclosed);
   return out;
 }
 

@@ -52,11 +52,12 @@ class Pairing {
   }
 
   /// Of these alone.
-  std::vector<std::array<std::uint32_t, 2>> run(const std::vector<std::array<std::uint32_t, 2>>& wanted) {
+  std::vector<std::array<std::uint32_t, 2>> run(std::vector<std::array<std::uint32_t, 2>> wanted) {
+    std::sort(wanted.begin(), wanted.end());
     find_candidates();
     match_.assign(lattice_.triangles.size(), kNone);
     for (std::uint32_t c = 0; c < candidates_.size(); ++c) {
-      if (std::find(wanted.begin(), wanted.end(), candidates_[c].faces) != wanted.end()) set(c, true);
+      if (std::binary_search(wanted.begin(), wanted.end(), candidates_[c].faces)) set(c, true);
     }
     return pairs_without_conflicts();
   }

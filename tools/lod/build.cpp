@@ -113,9 +113,6 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   };
   out.counts = voxelize_stream(*source, open, backends, v);
   size_ = {out.header.bounds, out.counts.scene.triangles};
-  voxel_ = out.header.frame.voxel;
-  margin_ = margin_of(options, out.header.bounds.diagonal(), voxel_);
-  if (options.is_cage()) make_room(out);
   enclosed_ = enclosed_by(options, size_.triangles);
   if (!options.field.empty()) field_ = read_field(options, out);
   if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
@@ -124,8 +121,9 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   return out;
 }
 
-/// Of cages: the voxels are symmetric where they are to be, and stand off from the scene.
 void Build::make_room(VoxelizedScene& scene) {
+  voxel_ = scene.header.frame.voxel;
+  margin_ = margin_of(options, size_.bounds.diagonal(), voxel_);
   switch (options.symmetry) {
     case Symmetry::off:
       break;
@@ -336,6 +334,7 @@ MadeChain make_chain(Build& build) {
   ChainSource source;
   source.voxelize = [&](int halvings) {
     VoxelizedScene scene = build.voxelize(0, nullptr, halvings);
+    if (o.is_cage()) build.make_room(scene);
     input_hash = scene.counts.input_hash;
     return scene;
   };

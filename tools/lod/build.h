@@ -36,6 +36,8 @@ class Build {
   /// ground: as if it stood on the ground (tools/run/grounded_source.h); the scene was voxelized without before.
   [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr, int halvings = 0,
                                         bool ground = false);
+  /// Of a cage, after voxelize(): the voxels are their own mirror image where that is wanted, and hold the margin.
+  void make_room(VoxelizedScene& scene);
   /// How scenes are read. `beside`: something else of them is in memory meanwhile.
   [[nodiscard]] SceneOptions scene_options(bool beside = false) const;
   /// For LodChain; after voxelize(), as all that follow.
@@ -83,9 +85,8 @@ class Build {
   void tell(const VoxelizedScene& scene, const std::string& list, const std::string& made);
   void write_report(const VoxelizedScene& scene);
   SceneSize size_;
-  void make_room(VoxelizedScene& scene);
   std::optional<MirrorPlane> plane_;  // of a cage
-  double voxel_ = 0, margin_ = 0;  // of the scene, scene units
+  double voxel_ = 0, margin_ = 0;     // of the scene, scene units
   Enclose enclosed_ = Enclose::input;
   std::optional<ScaleField> field_;  // of --field
   std::unique_ptr<SceneColors> colors_;

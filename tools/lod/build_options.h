@@ -41,8 +41,8 @@ struct BuildOptions {
   ProxyOptions proxy;
   std::string out, name;
   LodProfile profile = LodProfile::gltf;
-  std::int32_t tile_vox = 512;    ///< edge of a cell of a tileset
-  Symmetry symmetry = Symmetry::automatic;              ///< of a cage
+  std::int32_t tile_vox = 512;                        ///< edge of a cell of a tileset
+  Symmetry symmetry = Symmetry::automatic;            ///< of a cage
   Length margin{kCageMargin, Length::Unit::percent};  ///< of a cage
   std::int64_t hulls = 0;         ///< of a collision mesh, at most; 0: kMostHulls, or as many as parts
   std::string cache;              ///< folder of results of earlier builds; empty: none

@@ -32,8 +32,8 @@ namespace bp {
 /// Least distance of the levels from the scene, scene units; `voxel` of the scene.
 [[nodiscard]] double margin_of(const BuildOptions& options, double diagonal, double voxel);
 /// What stays inside the levels of a scene of so many triangles: as asked; else the triangles, where levels are one
-/// mesh each and no cages, the scene can be read again, and it has no more than kMostEnclosedTriangles; else its voxels. Memory has
-/// no say.
+/// mesh each and no cages, the scene can be read again, and it has no more than kMostEnclosedTriangles; else its
+/// voxels. Memory has no say.
 [[nodiscard]] Enclose enclosed_by(const BuildOptions& options, std::uint64_t triangles);
 
 /// Of a level, for its provenance. `enclosed`: of enclosed_by().

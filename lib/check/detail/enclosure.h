@@ -22,8 +22,8 @@ struct EnclosureQuestion {
 };
 
 /// Tests every triangle of `scene` from its start, in parallel, in bounded memory. A triangle that touches nothing lies
-/// on one side as a whole, so one of its corners decides; sides are looked at only if the question asks for them. `see(number of
-/// the first, triangles)` gets the scene in order, on one thread at a time.
+/// on one side as a whole, so one of its corners decides; sides are looked at only if the question asks for them.
+/// `see(number of the first, triangles)` gets the scene in order, on one thread at a time.
 [[nodiscard]] EnclosureReport check_enclosure(
     const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, const EnclosureQuestion& question,
     const std::function<void(std::uint64_t, const std::vector<TriangleD>&)>& see);

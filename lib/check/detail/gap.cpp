@@ -61,7 +61,8 @@ Nearest nearest_of(const TriangleD& a, const TriangleD& b) {
 double size_around(const Vec3d& p, const TriangleD& a, const TriangleD& b) {
   double size = 0;
   for (const TriangleD* t : {&a, &b}) {
-    for (const Vec3d& c : *t) size = std::max({size, std::abs(c[0] - p[0]), std::abs(c[1] - p[1]), std::abs(c[2] - p[2])});
+    for (const Vec3d& c : *t)
+      size = std::max({size, std::abs(c[0] - p[0]), std::abs(c[1] - p[1]), std::abs(c[2] - p[2])});
   }
   return size;
 }

@@ -199,7 +199,8 @@ class LevelMaker {
     const std::optional<MirrorPlane>& plane = params_.cage->plane;
     const CellQuads start = cell_quads(*shelves.meshed, header_.frame, faces, plane);
     if (start.mesh.triangles.empty())
-      fail(ErrorCode::bad_argument, "{} faces: a cage of quads has at least {} triangles", faces, kFacesOfBox);
+      fail(ErrorCode::bad_argument, "{} faces: a cage of quads has at least 12 triangles, and a symmetric one 20",
+           faces);
     return {finish(header_.frame, faces, [&](const SimplifyParams&, LevelCounts& counts) {
       counts.simplify.stop = StopReason::faces;
       return shrunk_cage(start, *ground_.enclosed, plane);
