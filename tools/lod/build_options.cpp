@@ -51,6 +51,13 @@ void check_name(BuildOptions& o) {
          given ? "--name" : "the scene's name", o.name);
 }
 
+Symmetry parse_symmetry(const std::string& text) {
+  for (const Symmetry s : {Symmetry::x, Symmetry::y, Symmetry::z, Symmetry::off, Symmetry::automatic}) {
+    if (text == name_of(s)) return s;
+  }
+  fail(ErrorCode::bad_argument, "{}: must be auto, x, y, z or off", text);
+}
+
 /// Numbers as numbers, percentages as text.
 Json faces_json(const LevelOptions& levels) {
   if (levels.shares.empty()) return levels.faces;
@@ -167,13 +174,9 @@ void declare_profile(Args& args, BuildOptions& o) {
       "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_count(text, 1, kMostHullsAsked); },
       "collision: largest number of convex hulls in Unreal's file (default: 32, or one for each part where there are "
       "more)");
-  args.option("--symmetry",
-              {{"auto", Symmetry::automatic, "if the scene is its own mirror image, to two voxels"},
-               {"x", Symmetry::x, "left and right differ in x"},
-               {"y", Symmetry::y, "in y"},
-               {"z", Symmetry::z, "in z"},
-               {"off", Symmetry::off, "never"}},
-              o.symmetry, "cage: whether its halves mirror each other, in the middle of the scene");
+  args.option(
+      "--symmetry", "auto|x|y|z|off", [&o](const std::string& text) { o.symmetry = parse_symmetry(text); },
+      "cage: the axis across which its halves mirror each other (default: the scene's, if it has one)");
   args.option("--margin", "LENGTH", o.margin, "cage: least distance from the scene");
   args.option(
       "--appearance",
