@@ -7,9 +7,9 @@
 #include "io/scene/points/scene_points.h"
 #include "lib/core/vec3.h"
 
-// glTF and GLB: the accessors POSITION, NORMAL and TANGENT of every mesh that a node shows are written anew, in their
-// places, and the bounds of POSITION in the JSON. All must lie in the first buffer. What cannot follow so is refused: a
-// mesh that stands in two places, skins, morph targets, positions that are quantized, sparse or compressed.
+// glTF and GLB: the accessors POSITION, NORMAL and TANGENT of every mesh that a node shows are written anew, and the
+// bounds of POSITION in the JSON. They stay in their places; a mesh that stands in several places gets copies at the
+// end of the first buffer. What cannot follow is refused (gltf_vertices.cpp).
 
 namespace bp {
 

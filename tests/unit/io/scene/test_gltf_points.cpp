@@ -1,25 +1,11 @@
-#include "io/scene/points/scene_points.h"
 #include "lib/core/vec3.h"
 #include "tests/unit/io/scene/gltf_document.h"
+#include "tests/unit/io/scene/moved_points.h"
 
 using namespace bp;
 using namespace bp::test;
 
 namespace {
-
-std::vector<Vec3d> points_of(const std::string& path) {
-  const auto points = open_points(path, {});
-  std::vector<Vec3d> all, some;
-  while (points->read(some)) all.insert(all.end(), some.begin(), some.end());
-  return all;
-}
-
-std::string moved(const TempDir& dir, const std::string& path, const MovePoints& move) {
-  OutputFile out(dir.path("moved.glb"), true);
-  open_points(path, {})->write(move, out);
-  out.commit();
-  return out.name();
-}
 
 /// Two parts with normals; the second stands turned, stretched and moved.
 Document two_parts() {
@@ -43,7 +29,7 @@ Document two_parts() {
 TEST_CASE("a GLB whose points stay keeps all but the layout of its JSON", "[io][deform][quick]") {
   const TempDir dir;
   const std::string path = dir.file("a.glb", two_parts().glb());
-  const std::string after = bytes_of_file(moved(dir, path, [](PointBatch&) {}));
+  const std::string after = moved(dir, path, [](PointBatch&) {});
   CHECK(points_of(dir.file("b.glb", after)) == points_of(path));
   const std::string data = two_parts().bytes;
   CHECK(after.find(data) != std::string::npos);
@@ -55,7 +41,7 @@ TEST_CASE("the points of a GLB move in the coordinates of the scene, and normals
   const std::string path = dir.file("a.glb", two_parts().glb());
   std::vector<Vec3d> expected = points_of(path), normals;
   for (Vec3d& p : expected) p = {p[0] + 1, 2 * p[1], p[2]};
-  const std::string after = moved(dir, path, [&](PointBatch& batch) {
+  const std::string after = moved_file(dir, path, [&](PointBatch& batch) {
     for (Vec3d& p : batch.positions) p = {p[0] + 1, 2 * p[1], p[2]};
     for (Vec3d& n : batch.normals) {
       CHECK(std::abs(length(n) - 1) < 1e-6);
@@ -91,7 +77,7 @@ TEST_CASE("a mesh that stands in several places moves in each, and the file stay
   d.json["meshes"][1]["primitives"].push_back(d.json["meshes"][0]["primitives"][0]);  // shares accessors
   const std::string path = dir.file("a.glb", d.glb());
   const auto bend = [](Vec3d& p) { p = {p[0] + 0.1 * p[1] * p[1], p[1] + p[2] * p[0], p[2]}; };
-  const std::string after = moved(dir, path, [&](PointBatch& batch) {
+  const std::string after = moved_file(dir, path, [&](PointBatch& batch) {
     for (Vec3d& p : batch.positions) bend(p);
   });
   std::vector<TriangleD> expected = read_all(path);
@@ -141,7 +127,7 @@ TEST_CASE("interleaved positions and normals move side by side", "[io][deform][q
   d.mesh(positions);
   d.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = normals;
   d.node({{"mesh", 0}});
-  const std::string after = moved(dir, dir.file("a.glb", d.glb()), [](PointBatch& batch) {
+  const std::string after = moved_file(dir, dir.file("a.glb", d.glb()), [](PointBatch& batch) {
     for (Vec3d& p : batch.positions) p[2] = 7;
     for (Vec3d& n : batch.normals) n = {0, 1, 0};
   });
