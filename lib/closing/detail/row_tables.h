@@ -1,0 +1,50 @@
+#pragma once
+#include <vector>
+
+#include "lib/closing/detail/oriented_cube.h"
+#include "lib/grid/bit_box.h"
+
+/// One slice of a box of voxels, made ready for the question: where does a row of voxels, moved along with 64 x 8
+/// voxels at once, meet something?
+namespace bp::detail {
+
+class RowTables {
+ public:
+  static constexpr std::int32_t kRows = 8;
+
+  /// A row of an element: two windows, each a power of two wide, that cover it. Each window is read from two words.
+  struct Window {
+    std::int32_t dy;
+    std::int32_t word[4];       ///< from that of the asking voxels in the finest table
+    std::uint8_t down[2], up[2];  ///< shifts
+  };
+  struct Element {
+    CubeRows rows;
+    std::vector<Window> windows;  ///< one for each of its rows
+    std::int32_t most_dz = 0;
+  };
+
+  /// Lays tables for questions from voxels of `region` by elements of this reach.
+  void lay(const VoxelBox& region, std::int32_t reach, std::int32_t longest);
+  [[nodiscard]] Element prepare(CubeRows rows) const;
+
+  /// Loads slice z of `solid`. False if nothing of it is in reach.
+  bool load(const BitBox& solid, std::int32_t z);
+  /// acc[i] |= the voxels (x .. x + 63, y + i) that slice dz of the element meets something from. x: of whole words.
+  void ask(const Element& element, std::int32_t dz, std::int32_t x, std::int32_t y, std::uint64_t* acc) const;
+
+ private:
+  [[nodiscard]] std::size_t level_words() const { return std::size_t(columns_) * std::size_t(height_); }
+
+  VoxelBox region_;
+  std::int32_t pad_ = 0;      ///< columns left and right of the region
+  std::int32_t first_y_ = 0;  ///< of the tables
+  std::int32_t columns_ = 0, height_ = 0, levels_ = 0;
+  std::vector<std::uint64_t> tables_;  ///< level k: x to x + 2^k - 1 together; by columns, y fastest
+  struct Span {
+    std::int32_t min, max;
+  };
+  std::vector<Span> occupied_;  ///< rows, of a column and those within reach of it
+};
+
+}  // namespace bp::detail
