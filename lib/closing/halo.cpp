@@ -110,8 +110,7 @@ class ErosionReach {
 
 }  // namespace
 
-Halo halo_of(const VoxelBox& tile, const ScaleField& scale, const GridFrame& frame,
-             const ClosingParams& params) {
+Halo halo_of(const VoxelBox& tile, const ScaleField& scale, const GridFrame& frame, const ClosingParams& params) {
   Halo halo;
   halo.erosion_vox = ErosionReach(tile, scale, frame).find() + 1;
   const Scale largest =

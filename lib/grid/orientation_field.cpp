@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 
-
 namespace bp {
 
 Rotation rotation_of(double w, double x, double y, double z) {
@@ -62,9 +61,11 @@ const char* orientation_fault(const OrientationField& f) {
     if (count > OrientationField::kMostCells) return "the orientation has too few or too many cells";
   }
   if (f.cells.size() != count) return "the orientation has too few or too many cells";
-  if (f.rotations.empty() || f.rotations.size() > std::size_t(1) << 16) return "the orientation has no rotation, or too many";
+  if (f.rotations.empty() || f.rotations.size() > std::size_t(1) << 16)
+    return "the orientation has no rotation, or too many";
   for (const FixedQuaternion& q : f.rotations) {
-    const auto n = std::int64_t(q.w) * q.w + std::int64_t(q.x) * q.x + std::int64_t(q.y) * q.y + std::int64_t(q.z) * q.z;
+    const auto n =
+        std::int64_t(q.w) * q.w + std::int64_t(q.x) * q.x + std::int64_t(q.y) * q.y + std::int64_t(q.z) * q.z;
     if (n < (std::int64_t(1) << (2 * kRotationBits - 1))) return "a quaternion of the orientation is shorter than 0.7";
   }
   if (std::any_of(f.cells.begin(), f.cells.end(), [&](std::uint16_t i) { return i >= f.rotations.size(); }))

@@ -110,9 +110,9 @@ void Reader::header() {
     require(at >= 64.0 * out.box[i % 3] && at <= 64.0 * out.box[i % 3 + 3], "bounds beyond the box");
   }
   const std::uint64_t s = in.number(4), p = in.number(4);
-  require(
-      s <= 1u << 22 && p >= 2 && p <= 1u << 20 && (s > 0) == (out.has_closing || flags / 4 % 2 == 1) && size >= 136 + s + p,
-      "sizes");
+  require(s <= 1u << 22 && p >= 2 && p <= 1u << 20 && (s > 0) == (out.has_closing || flags / 4 % 2 == 1) &&
+              size >= 136 + s + p,
+          "sizes");
   std::uint64_t f = size - 136 - s - p, o = 0;
   if (oriented) {
     require(s > 0 && (!out.has_closing || out.element == 1) && f >= 36, "orientation");

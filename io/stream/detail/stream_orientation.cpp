@@ -25,8 +25,7 @@ OrientationField take_orientation(std::span<const std::byte>& rest, const std::s
   if (rest.size() < kFixedBytes + kSizeBytes) damaged("the orientation is cut off");
   const std::size_t bytes = ByteSource(rest.last(kSizeBytes)).get<std::uint32_t>();
   rest = rest.first(rest.size() - kSizeBytes);
-  if (bytes < kFixedBytes || bytes > rest.size() || bytes > kMaxOrientationBytes)
-    damaged("the orientation is cut off");
+  if (bytes < kFixedBytes || bytes > rest.size() || bytes > kMaxOrientationBytes) damaged("the orientation is cut off");
   ByteSource in(rest.last(bytes));
   rest = rest.first(rest.size() - bytes);
   OrientationField f;

@@ -15,9 +15,7 @@ struct CubeBounds {
   std::int64_t column_sum = 1 << kRotationBits;  ///< the same of a column
 
   /// Radius of the cube inside, times 16: every voxel within floor(that / 16) along each axis is in the turned cube.
-  [[nodiscard]] std::int32_t inner(Scale s) const {
-    return std::int32_t((std::int64_t(s) << kRotationBits) / row_sum);
-  }
+  [[nodiscard]] std::int32_t inner(Scale s) const { return std::int32_t((std::int64_t(s) << kRotationBits) / row_sum); }
   /// Radius of the cube around, times 16. The columns' sums are those of the inverse, but for the rounding of the rows,
   /// which 1/512 and a voxel allow for.
   [[nodiscard]] std::int32_t outer(Scale s) const {

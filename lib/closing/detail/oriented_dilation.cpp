@@ -89,9 +89,11 @@ void OrientedDilation::bound(const BitBox& solid, const ScaleLattice& scale, Bit
     return;
   }
   ScaleLattice bounds;
-  changed(scale, [&](Scale s) { return widest_.inner(s); }, bounds);
+  changed(
+      scale, [&](Scale s) { return widest_.inner(s); }, bounds);
   varying_.run(solid, bounds, out.box(), out);
-  if (changed(scale, [&](Scale s) { return widest_.outer(s); }, bounds)) {
+  if (changed(
+          scale, [&](Scale s) { return widest_.outer(s); }, bounds)) {
     varying_.run(solid, bounds, out.box(), outer_);
   } else {
     cube_.run(solid, widest_.reach(range.max), outer_);
@@ -141,15 +143,18 @@ bool OrientedDilation::take_open(Block& block, const BitBox& out) {
 void OrientedDilation::add_parts(Block& block, const ScaleLattice& scale, const OrientationField& field) {
   std::uint64_t open = 0;
   for (std::size_t i = 0; i < std::size_t(kEdge * kEdge); ++i) open |= open_[block.open + i];
-  constexpr std::int32_t kStep = kScaleOne / 2;  // scales that differ in a cell are rounded, so that cells share elements
+  constexpr std::int32_t kStep =
+      kScaleOne / 2;  // scales that differ in a cell are rounded, so that cells share elements
   for (std::int32_t i = 0; i < 64 / kEdge; ++i) {
     const std::uint64_t mask = (open >> (kEdge * i) & 0xff) << (kEdge * i);
     if (mask == 0) continue;
     const VoxelCoord first{block.first.x + kEdge * i, block.first.y, block.first.z};
     ScaleRange s = scale_range(scale, {first, first + VoxelCoord{kEdge, kEdge, kEdge}});
-    if (s.min != s.max) s = {Scale(s.min / kStep * kStep), Scale(std::min(ceil_div(int(s.max), kStep) * kStep, 0xffff))};
+    if (s.min != s.max)
+      s = {Scale(s.min / kStep * kStep), Scale(std::min(ceil_div(int(s.max), kStep) * kStep, 0xffff))};
     const std::uint16_t rotation = of_palette_[field.index_at(first)];
-    const RowTables::Element *least = element(rotation, s.min), *most = s.min == s.max ? least : element(rotation, s.max);
+    const RowTables::Element *least = element(rotation, s.min),
+                             *most = s.min == s.max ? least : element(rotation, s.max);
     block.varies = block.varies || least != most;
     const auto same = std::find_if(parts_.begin() + std::ptrdiff_t(block.part), parts_.end(),
                                    [&](const Part& p) { return p.least == least && p.most == most; });
@@ -170,7 +175,7 @@ const RowTables::Element* OrientedDilation::element(std::uint16_t rotation, Scal
 
 void OrientedDilation::sweep(const BitBox& solid) {
   if (blocks_.empty()) return;
-  std::size_t first = 0, last = 0;  // blocks in reach of the slice
+  std::size_t first = 0, last = 0;               // blocks in reach of the slice
   const std::int32_t most = reach_ + kScaleOne;  // scales are rounded
   for (std::int32_t z = blocks_.front().first.z - most; z < blocks_.back().first.z + kEdge + most; ++z) {
     while (first < blocks_.size() && blocks_[first].first.z + kEdge - 1 + most < z) ++first;

@@ -37,8 +37,8 @@ class OrientedDilation {
   struct Block {
     VoxelCoord first;
     std::size_t part, parts;
-    std::size_t open;   ///< of its kEdge^2 words in open_: y fastest
-    std::size_t maybe;  ///< of words in maybe_, if the scale varies
+    std::size_t open;          ///< of its kEdge^2 words in open_: y fastest
+    std::size_t maybe;         ///< of words in maybe_, if the scale varies
     std::uint32_t slices = 0;  ///< that have open voxels
     bool varies = false;
   };
@@ -54,8 +54,8 @@ class OrientedDilation {
   void decide(const Block& block, const BitBox& solid, const ScaleLattice& scale);
   [[nodiscard]] bool holds(const Part& part, const BitBox& solid, VoxelCoord p, Scale s) const;
 
-  std::vector<Rotation> rotations_;           ///< different ones of the region
-  std::vector<std::uint16_t> of_palette_;     ///< which of them a rotation of the field is
+  std::vector<Rotation> rotations_;        ///< different ones of the region
+  std::vector<std::uint16_t> of_palette_;  ///< which of them a rotation of the field is
   CubeBounds widest_;
   BitBox outer_;
   RowTables tables_;

@@ -15,7 +15,7 @@ class RowTables {
   /// A row of an element: two windows, each a power of two wide, that cover it. Each window is read from two words.
   struct Window {
     std::int32_t dy;
-    std::int32_t word[4];       ///< from that of the asking voxels in the finest table
+    std::int32_t word[4];         ///< from that of the asking voxels in the finest table
     std::uint8_t down[2], up[2];  ///< shifts
   };
   struct Element {

@@ -17,9 +17,9 @@ using detail::Frame;
 using detail::FrameLattice;
 using detail::FrameTensor;
 
-constexpr std::int32_t kMostCells = 32;                ///< along an axis
-constexpr double kPlaceWeight = 1000;                  ///< of a frame at a place; 1: a cell's side full of surface
-constexpr double kAlike = 0.99984769515639123915;      ///< cosine of a degree
+constexpr std::int32_t kMostCells = 32;            ///< along an axis
+constexpr double kPlaceWeight = 1000;              ///< of a frame at a place; 1: a cell's side full of surface
+constexpr double kAlike = 0.99984769515639123915;  ///< cosine of a degree
 
 /// The smallest cells that will do.
 std::int32_t cell_edge(const VoxelBox& voxels, double scale_vox) {
@@ -39,14 +39,37 @@ FixedQuaternion fixed(const std::array<double, 4>& q) {
   return {part(q[0]), part(q[1]), part(q[2]), part(q[3])};
 }
 
+constexpr std::uint16_t kNotYet = 0xffff;
+
+/// Rotations that the cells around a cell have got, in a fixed order.
+std::vector<std::uint16_t> beside(const OrientationField& field, std::size_t cell) {
+  const auto i = std::int64_t(cell);
+  const std::int64_t nx = field.size.x, ny = field.size.y, x = i % nx, y = i / nx % ny, z = i / nx / ny;
+  std::vector<std::uint16_t> found;
+  for (std::int64_t c = std::max<std::int64_t>(z - 1, 0); c <= std::min<std::int64_t>(z + 1, field.size.z - 1); ++c) {
+    for (std::int64_t b = std::max<std::int64_t>(y - 1, 0); b <= std::min(y + 1, ny - 1); ++b) {
+      for (std::int64_t a = std::max<std::int64_t>(x - 1, 0); a <= std::min(x + 1, nx - 1); ++a) {
+        const std::uint16_t there = field.cells[std::size_t((c * ny + b) * nx + a)];
+        if (there != kNotYet) found.push_back(there);
+      }
+    }
+  }
+  return found;
+}
+
 /// Gives cells of like frames one rotation: that of the cell with the largest weight.
 class Palette {
  public:
   Palette() : frames_{{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}}, rotations_{FixedQuaternion{}} {}
 
-  std::uint16_t index(const Frame& frame) {
-    for (std::size_t i = 0; i < frames_.size(); ++i) {
+  /// One of the first rotations, one of those `beside` it, or a new one.
+  std::uint16_t index(const Frame& frame, const std::vector<std::uint16_t>& beside) {
+    constexpr std::size_t kFirst = 64;
+    for (std::size_t i = 0; i < std::min(frames_.size(), kFirst); ++i) {
       if (detail::likeness(frame, frames_[i]) >= kAlike) return std::uint16_t(i);
+    }
+    for (const std::uint16_t i : beside) {
+      if (detail::likeness(frame, frames_[i]) >= kAlike) return i;
     }
     const FixedQuaternion q = fixed(detail::least_turn(frame));
     frames_.push_back(frame);
@@ -149,8 +172,8 @@ OrientationField OrientationMaker::make() const {
                    [&](std::size_t a, std::size_t b) { return lattice.weight[a] > lattice.weight[b]; });
   Palette palette;
   OrientationField field = sums_->field;
-  field.cells.resize(lattice.count());
-  for (const std::size_t i : order) field.cells[i] = palette.index(frames[i]);
+  field.cells.assign(lattice.count(), kNotYet);
+  for (const std::size_t i : order) field.cells[i] = palette.index(frames[i], beside(field, i));
   field.rotations = palette.rotations();
   return field;
 }

@@ -10,8 +10,8 @@ namespace bp {
 
 class OrientationMaker {
  public:
-  /// For a closing of the grid of `header` by cubes of about this scale: cells are as large as the scale, or larger, and
-  /// at most 32 along each axis. Throws bad_input if the header has no scene.
+  /// For a closing of the grid of `header` by cubes of about this scale: cells are as large as the scale, or larger,
+  /// and at most 32 along each axis. Throws bad_input if the header has no scene.
   OrientationMaker(const StreamHeader& header, double scale_world);
   ~OrientationMaker();
   OrientationMaker(const OrientationMaker&) = delete;

@@ -10,7 +10,7 @@ namespace bp::detail {
 namespace {
 
 struct Monomial {
-  int a, b, c;  ///< x^a y^b z^c
+  int a, b, c;   ///< x^a y^b z^c
   double times;  ///< 4! / (a! b! c!)
 };
 constexpr std::array<Monomial, FrameTensor::kParts> kMonomials{{{4, 0, 0, 1},
@@ -37,7 +37,9 @@ struct Powers {
       for (int k = 1; k < 5; ++k) p[i][k] = p[i][k - 1] * v[i];
     }
   }
-  [[nodiscard]] double of(int a, int b, int c) const { return a < 0 || b < 0 || c < 0 ? 0 : p[0][a] * p[1][b] * p[2][c]; }
+  [[nodiscard]] double of(int a, int b, int c) const {
+    return a < 0 || b < 0 || c < 0 ? 0 : p[0][a] * p[1][b] * p[2][c];
+  }
 };
 
 Frame transposed_inverse(const Frame& m) {
@@ -138,8 +140,8 @@ Frame best_frame(const FrameTensor& tensor) {
                                                                   {1, -kSkew, kSkew, kSkew},
                                                                   {1, kSkew, -kSkew, -kSkew}}};
   // The polynomial grows by this times itself at least, so that the ascent is one where a direction says nothing.
-  const double total = tensor.m[0] + tensor.m[1] + tensor.m[2] +
-                       2 * (tensor.m[9] + tensor.m[10] + tensor.m[11]);  // of all weights
+  const double total =
+      tensor.m[0] + tensor.m[1] + tensor.m[2] + 2 * (tensor.m[9] + tensor.m[10] + tensor.m[11]);  // of all weights
   if (!(total > 0)) return {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
   Frame best{};
   double most = -1;
