@@ -21,6 +21,8 @@ bool changed(const ScaleLattice& from, const Change& change, ScaleLattice& to) {
   return change(from.max) <= 0xffff;
 }
 
+constexpr std::int32_t kStep = kScaleOne / 2;  ///< scales that differ in a cell are rounded to it: cells share elements
+
 /// Any of the bits [first, last] of a row that begins at bit 0, `bits` long.
 template <class Test>
 bool any_bit(const std::uint64_t* row, std::int32_t bits, std::int32_t first, std::int32_t last, const Test& test) {
@@ -36,6 +38,37 @@ bool any_bit(const std::uint64_t* row, std::int32_t bits, std::int32_t first, st
     }
   }
   return false;
+}
+
+/// out := voxels of `box`, grown by `r` along y or z, within r of one of `solid` along that axis. `box` is in that of
+/// `solid`.
+void dilate_along(const BitBox& solid, int axis, std::int32_t r, VoxelBox box, BitBox& out) {
+  box.min[axis] -= r;
+  box.max[axis] += r;
+  out.reset(box);
+  copy_voxels(solid, out);
+  const VoxelBox& all = out.box();
+  const std::int32_t rows = all.max[axis] - all.min[axis], others = all.max[3 - axis] - all.min[3 - axis];
+  const auto words = std::size_t(out.words_per_row());
+  // Row t takes the `width` rows that end, or begin, with it.
+  const auto widen = [&](std::int32_t step, std::int32_t width) {
+    const auto row = [&](std::int32_t t, std::int32_t k) {
+      const std::int32_t at = all.min[axis] + (step > 0 ? rows - 1 - t : t), other = all.min[3 - axis] + k;
+      return axis == 2 ? out.row(other, at) : out.row(at, other);
+    };
+    for (std::int32_t has = 1; has < width;) {
+      const std::int32_t shift = std::min(has, width - has);
+      for (std::int32_t t = 0; t + shift < rows; ++t) {
+        for (std::int32_t k = 0; k < others; ++k) {
+          std::uint64_t *to = row(t, k), *from = row(t + shift, k);
+          for (std::size_t i = 0; i < words; ++i) to[i] |= from[i];
+        }
+      }
+      has += shift;
+    }
+  };
+  widen(1, r + 1);
+  widen(-1, r + 1);
 }
 
 }  // namespace
@@ -70,13 +103,26 @@ bool OrientedDilation::turns(const OrientationField& field, const VoxelBox& regi
 void OrientedDilation::run(const BitBox& solid, const ScaleLattice& scale, const OrientationField& field, BitBox& out) {
   bound(solid, scale, out);
   const ScaleRange range = scale_range(scale, out.box());
-  reach_ = widest_.reach(range.max);
+  reach_ = widest_.reach(Scale(std::min(range.max + kStep, 0xffff)));
   longest_ = 2 * reach_ + 1;
   tables_.lay(out.box(), reach_, longest_);
   elements_.clear();
+  find_kept_axis(solid, range, out.box());
   list_blocks(scale, field, out);
-  sweep(solid);
+  sweep(kept_ >= 0 ? along_ : solid);
   finish(solid, scale, out);
+}
+
+/// Cubes of one size that are turned about y or z are dilated along that axis first; then one slice of them is left.
+void OrientedDilation::find_kept_axis(const BitBox& solid, const ScaleRange& range, const VoxelBox& region) {
+  kept_ = -1;
+  for (const int axis : {1, 2}) {
+    if (range.min == range.max &&
+        std::all_of(rotations_.begin(), rotations_.end(), [&](const Rotation& r) { return keeps_axis(r, axis); }))
+      kept_ = axis;
+  }
+  if (kept_ >= 0)
+    dilate_along(solid, kept_, cube_radius(range.max), intersect(solid.box(), region.grown(reach_)), along_);
 }
 
 /// out := voxels that are in for sure, outer_ := those that may be.
@@ -143,8 +189,6 @@ bool OrientedDilation::take_open(Block& block, const BitBox& out) {
 void OrientedDilation::add_parts(Block& block, const ScaleLattice& scale, const OrientationField& field) {
   std::uint64_t open = 0;
   for (std::size_t i = 0; i < std::size_t(kEdge * kEdge); ++i) open |= open_[block.open + i];
-  constexpr std::int32_t kStep =
-      kScaleOne / 2;  // scales that differ in a cell are rounded, so that cells share elements
   for (std::int32_t i = 0; i < 64 / kEdge; ++i) {
     const std::uint64_t mask = (open >> (kEdge * i) & 0xff) << (kEdge * i);
     if (mask == 0) continue;
@@ -165,51 +209,56 @@ void OrientedDilation::add_parts(Block& block, const ScaleLattice& scale, const 
     }
   }
   block.parts = parts_.size() - block.part;
+  for (std::size_t i = block.part; i < parts_.size(); ++i) block.reach = std::max(block.reach, parts_[i].most->most_dz);
 }
 
 const RowTables::Element* OrientedDilation::element(std::uint16_t rotation, Scale s) {
   auto& found = elements_[{rotation, s}];
-  if (!found) found = std::make_unique<RowTables::Element>(tables_.prepare(CubeRows(rotations_[rotation], s)));
+  if (!found) found = std::make_unique<RowTables::Element>(tables_.prepare(CubeRows(rotations_[rotation], s, kept_)));
   return found.get();
 }
 
 void OrientedDilation::sweep(const BitBox& solid) {
   if (blocks_.empty()) return;
-  std::size_t first = 0, last = 0;               // blocks in reach of the slice
-  const std::int32_t most = reach_ + kScaleOne;  // scales are rounded
-  for (std::int32_t z = blocks_.front().first.z - most; z < blocks_.back().first.z + kEdge + most; ++z) {
-    while (first < blocks_.size() && blocks_[first].first.z + kEdge - 1 + most < z) ++first;
-    while (last < blocks_.size() && blocks_[last].first.z - most <= z) ++last;
+  std::size_t first = 0, last = 0;  // blocks in reach of the slice
+  for (std::int32_t z = blocks_.front().first.z - reach_; z < blocks_.back().first.z + kEdge + reach_; ++z) {
+    while (first < blocks_.size() && blocks_[first].first.z + kEdge - 1 + reach_ < z) ++first;
+    while (last < blocks_.size() && blocks_[last].first.z - reach_ <= z) ++last;
     if (first == last || !tables_.load(solid, z)) continue;
     for (std::size_t i = first; i < last; ++i) ask(blocks_[i], z - blocks_[i].first.z);
   }
 }
 
 void OrientedDilation::ask(Block& block, std::int32_t dz_of_first) {
+  std::uint64_t any = 0;
+  for (std::size_t i = 0; i < std::size_t(kEdge * kEdge); ++i) any |= open_[block.open + i];
+  if (any == 0 ||
+      !tables_.look({block.first.x, block.first.y, std::countr_zero(any), 63 - std::countl_zero(any), block.reach}))
+    return;
   for (std::uint32_t slices = block.slices; slices != 0; slices &= slices - 1) {
     const int k = std::countr_zero(slices);
-    const std::int32_t dz = dz_of_first - k;
-    std::uint64_t* open = &open_[block.open + std::size_t(k * kEdge)];
     std::uint64_t left = 0;
-    for (std::size_t i = block.part; i < block.part + block.parts; ++i) {
-      const Part& part = parts_[i];
-      if (std::abs(dz) > part.most->most_dz) {
-        left = ~std::uint64_t(0);
-        continue;
-      }
-      std::uint64_t any = 0;
-      for (std::int32_t j = 0; j < kEdge; ++j) any |= open[j] & part.mask;
-      if (any == 0) continue;
-      std::uint64_t met[kEdge] = {};
-      if (std::abs(dz) <= part.least->most_dz) tables_.ask(*part.least, dz, block.first.x, block.first.y, met);
-      for (std::int32_t j = 0; j < kEdge; ++j) left |= (open[j] &= ~(met[j] & part.mask));
-      if (part.least == part.most) continue;
-      tables_.ask(*part.most, dz, block.first.x, block.first.y, met);
-      std::uint64_t* maybe = &maybe_[block.maybe + std::size_t(k * kEdge)];
-      for (std::int32_t j = 0; j < kEdge; ++j) maybe[j] |= met[j] & part.mask;
-    }
+    for (std::size_t i = block.part; i < block.part + block.parts; ++i)
+      left |= ask(block, parts_[i], k, dz_of_first - k);
     if (left == 0) block.slices &= ~(1U << k);
   }
+}
+
+/// Of one slice of the block. 0 if none of the part's voxels there is open any more.
+std::uint64_t OrientedDilation::ask(const Block& block, const Part& part, int slice, std::int32_t dz) {
+  std::uint64_t* open = &open_[block.open + std::size_t(slice * kEdge)];
+  std::uint64_t left = 0;
+  for (std::int32_t j = 0; j < kEdge; ++j) left |= open[j] & part.mask;
+  if (left == 0 || std::abs(dz) > part.most->most_dz) return left;
+  std::uint64_t met[kEdge] = {};
+  if (std::abs(dz) <= part.least->most_dz) tables_.ask(*part.least, dz, met);
+  left = 0;
+  for (std::int32_t j = 0; j < kEdge; ++j) left |= (open[j] &= ~(met[j] & part.mask)) & part.mask;
+  if (part.least == part.most) return left;
+  tables_.ask(*part.most, dz, met);
+  std::uint64_t* maybe = &maybe_[block.maybe + std::size_t(slice * kEdge)];
+  for (std::int32_t j = 0; j < kEdge; ++j) maybe[j] |= met[j] & part.mask;
+  return left;
 }
 
 void OrientedDilation::finish(const BitBox& solid, const ScaleLattice& scale, BitBox& out) {

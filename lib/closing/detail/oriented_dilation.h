@@ -40,9 +40,11 @@ class OrientedDilation {
     std::size_t open;          ///< of its kEdge^2 words in open_: y fastest
     std::size_t maybe;         ///< of words in maybe_, if the scale varies
     std::uint32_t slices = 0;  ///< that have open voxels
+    std::int32_t reach = 0;    ///< of its elements
     bool varies = false;
   };
 
+  void find_kept_axis(const BitBox& solid, const ScaleRange& range, const VoxelBox& region);
   void bound(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
   void list_blocks(const ScaleLattice& scale, const OrientationField& field, const BitBox& out);
   bool take_open(Block& block, const BitBox& out);
@@ -50,6 +52,7 @@ class OrientedDilation {
   const RowTables::Element* element(std::uint16_t rotation, Scale s);
   void sweep(const BitBox& solid);
   void ask(Block& block, std::int32_t dz_of_first);
+  std::uint64_t ask(const Block& block, const Part& part, int slice, std::int32_t dz);
   void finish(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
   void decide(const Block& block, const BitBox& solid, const ScaleLattice& scale);
   [[nodiscard]] bool holds(const Part& part, const BitBox& solid, VoxelCoord p, Scale s) const;
@@ -58,6 +61,8 @@ class OrientedDilation {
   std::vector<std::uint16_t> of_palette_;  ///< which of them a rotation of the field is
   CubeBounds widest_;
   BitBox outer_;
+  int kept_ = -1;  ///< an axis about which all cubes are turned: y, z, or none
+  BitBox along_;   ///< solid, dilated along it
   RowTables tables_;
   std::map<std::pair<std::uint16_t, Scale>, std::unique_ptr<RowTables::Element>> elements_;
   std::vector<Part> parts_;

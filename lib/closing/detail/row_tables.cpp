@@ -1,7 +1,6 @@
 #include "lib/closing/detail/row_tables.h"
 
 #include <bit>
-#include <limits>
 
 #include "lib/core/clones.h"
 
@@ -19,16 +18,42 @@ BP_CLONES void widen(const std::uint64_t* from, const std::uint64_t* near, const
   }
 }
 
+/// to[i] |= from[i] & mask
+BP_INLINE void gather(const std::uint64_t* from, std::uint64_t mask, std::size_t n, std::uint64_t* to) {
+  for (std::size_t i = 0; i < n; ++i) to[i] |= from[i] & mask;
+}
+
+/// Windows whose rows hold nothing are passed over: rows[w.dy].
 BP_WIDE_CLONES void or_windows(const RowTables::Window* first, const RowTables::Window* last, const std::uint64_t* at,
-                               std::uint64_t* acc) {
+                               const std::uint64_t* rows, std::uint64_t* acc) {
   std::uint64_t sum[RowTables::kRows];
   for (int i = 0; i < RowTables::kRows; ++i) sum[i] = acc[i];
   for (const RowTables::Window* w = first; w < last; ++w) {
+    if (rows[w->dy] == 0) continue;
     const std::uint64_t *a = at + w->word[0], *b = at + w->word[1], *c = at + w->word[2], *d = at + w->word[3];
     for (int i = 0; i < RowTables::kRows; ++i)
       sum[i] |= a[i] >> w->down[0] | b[i] << w->up[0] | c[i] >> w->down[1] | d[i] << w->up[1];
   }
   for (int i = 0; i < RowTables::kRows; ++i) acc[i] = sum[i];
+}
+
+/// rows[i] := what rows i to i + kRows - 1 hold of the words [first, last] of `columns`, cut to two masks.
+BP_WIDE_CLONES bool held_rows(const std::uint64_t* column, std::size_t stride, std::int32_t count, std::uint64_t first,
+                              std::uint64_t last, std::size_t n, std::uint64_t* rows) {
+  for (std::size_t i = 0; i < n; ++i) rows[i] = 0;
+  for (std::int32_t k = 0; k < count; ++k) {
+    std::uint64_t mask = ~std::uint64_t(0);
+    if (k == 0) mask &= first;
+    if (k == count - 1) mask &= last;
+    gather(column + std::size_t(k) * stride, mask, n, rows);
+  }
+  std::uint64_t any = 0;
+  for (std::size_t i = 0; i < n; ++i) any |= rows[i];
+  if (any == 0) return false;
+  for (const std::size_t step : {1, 2, 4}) {
+    for (std::size_t i = 0; i + step < n; ++i) rows[i] |= rows[i + step];
+  }
+  return true;
 }
 
 }  // namespace
@@ -41,7 +66,6 @@ void RowTables::lay(const VoxelBox& region, std::int32_t reach, std::int32_t lon
   height_ = ceil_div(region.max.y, kRows) * kRows + reach - first_y_;
   columns_ = (region.max.x - region.min.x) / 64 + 2 * pad_ + 1;
   tables_.assign(level_words() * std::size_t(levels_), 0);
-  occupied_.resize(std::size_t(columns_));
 }
 
 RowTables::Element RowTables::prepare(CubeRows rows) const {
@@ -70,8 +94,6 @@ bool RowTables::load(const BitBox& solid, std::int32_t z) {
   if (z < box.min.z || z >= box.max.z) return false;
   const std::int32_t y0 = std::max(box.min.y, first_y_), y1 = std::min(box.max.y, first_y_ + height_);
   const std::int32_t left = region_.min.x - 64 * pad_;
-  constexpr Span kNone{std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::min()};
-  std::vector<Span> own(std::size_t(columns_), kNone);
   std::fill_n(tables_.begin(), level_words(), 0);
   const std::int32_t c0 = std::max(0, (box.min.x - left) / 64), c1 = std::min(columns_, (box.max.x - left) / 64);
   bool any = false;
@@ -80,18 +102,10 @@ bool RowTables::load(const BitBox& solid, std::int32_t z) {
     for (std::int32_t c = c0; c < c1; ++c) {
       if (row[c] == 0) continue;
       tables_[std::size_t(c) * std::size_t(height_) + std::size_t(y - first_y_)] = row[c];
-      Span& span = own[std::size_t(c)];
-      span = {std::min(span.min, y), std::max(span.max, y)};
       any = true;
     }
   }
   if (!any) return false;
-  for (std::int32_t c = 0; c < columns_; ++c) {
-    Span span = kNone;
-    for (std::int32_t d = std::max(0, c - pad_); d <= std::min(columns_ - 1, c + pad_); ++d)
-      span = {std::min(span.min, own[std::size_t(d)].min), std::max(span.max, own[std::size_t(d)].max)};
-    occupied_[std::size_t(c)] = span;
-  }
   const auto h = std::size_t(height_);
   for (std::int32_t k = 1; k < levels_; ++k) {
     const std::int32_t shift = 1 << (k - 1);
@@ -107,16 +121,24 @@ bool RowTables::load(const BitBox& solid, std::int32_t z) {
   return true;
 }
 
-void RowTables::ask(const Element& e, std::int32_t dz, std::int32_t x, std::int32_t y, std::uint64_t* acc) const {
-  const std::int32_t column = (x - region_.min.x) / 64 + pad_;
-  const Span span = occupied_[std::size_t(column)];
-  if (span.min > span.max) return;
+bool RowTables::look(const Asking& asking) {
+  asking_ = asking;
+  const std::int32_t from = asking.first - asking.reach, to = asking.last + asking.reach;
+  const std::int32_t column = (asking.x - region_.min.x) / 64 + pad_, c0 = column + floor_div(from, 64),
+                     c1 = column + floor_div(to, 64);
+  const auto at = std::size_t(asking.y - first_y_ - asking.reach), n = std::size_t(2 * asking.reach + kRows);
+  held_.resize(std::max(held_.size(), n));
+  return held_rows(tables_.data() + std::size_t(c0) * std::size_t(height_) + at, std::size_t(height_), c1 - c0 + 1,
+                   ~std::uint64_t(0) << (from & 63), ~std::uint64_t(0) >> (63 - (to & 63)), n, held_.data());
+}
+
+void RowTables::ask(const Element& e, std::int32_t dz, std::uint64_t* acc) const {
   const CubeRow* all = e.rows.begin(-e.most_dz);
   const Window *first = e.windows.data() + (e.rows.begin(dz) - all),
                *last = e.windows.data() + (e.rows.begin(dz + 1) - all);
-  while (first < last && first->dy + y + kRows <= span.min) ++first;
-  while (first < last && (last - 1)->dy + y > span.max) --last;
-  or_windows(first, last, tables_.data() + std::size_t(column) * std::size_t(height_) + std::size_t(y - first_y_), acc);
+  const std::int32_t column = (asking_.x - region_.min.x) / 64 + pad_;
+  const std::size_t here = std::size_t(column) * std::size_t(height_) + std::size_t(asking_.y - first_y_);
+  or_windows(first, last, tables_.data() + here, held_.data() + asking_.reach, acc);
 }
 
 }  // namespace bp::detail

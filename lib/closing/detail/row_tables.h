@@ -30,8 +30,16 @@ class RowTables {
 
   /// Loads slice z of `solid`. False if nothing of it is in reach.
   bool load(const BitBox& solid, std::int32_t z);
-  /// acc[i] |= the voxels (x .. x + 63, y + i) that slice dz of the element meets something from. x: of whole words.
-  void ask(const Element& element, std::int32_t dz, std::int32_t x, std::int32_t y, std::uint64_t* acc) const;
+  /// 64 x kRows voxels from (x, y) on, of which those from x + `first` to x + `last` ask elements of this reach. x: of
+  /// whole words.
+  struct Asking {
+    std::int32_t x, y, first, last, reach;
+  };
+  /// Who asks from now on. False if nothing of the slice is in reach.
+  bool look(const Asking& asking);
+  /// acc[i] |= the voxels of row y + i that slice dz of the element meets something from; of those that do not ask,
+  /// some.
+  void ask(const Element& element, std::int32_t dz, std::uint64_t* acc) const;
 
  private:
   [[nodiscard]] std::size_t level_words() const { return std::size_t(columns_) * std::size_t(height_); }
@@ -41,10 +49,8 @@ class RowTables {
   std::int32_t first_y_ = 0;  ///< of the tables
   std::int32_t columns_ = 0, height_ = 0, levels_ = 0;
   std::vector<std::uint64_t> tables_;  ///< level k: x to x + 2^k - 1 together; by columns, y fastest
-  struct Span {
-    std::int32_t min, max;
-  };
-  std::vector<Span> occupied_;  ///< rows, of a column and those within reach of it
+  Asking asking_{};
+  std::vector<std::uint64_t> held_;  ///< of the rows y - reach to y + reach: not 0 if kRows from there hold something
 };
 
 }  // namespace bp::detail

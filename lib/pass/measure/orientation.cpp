@@ -57,6 +57,24 @@ std::vector<std::uint16_t> beside(const OrientationField& field, std::size_t cel
   return found;
 }
 
+/// An axis within a degree of one of the grid becomes that: what stands upright is closed faster.
+Frame upright(Frame frame) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t g = 0; g < 3; ++g) {
+      if (std::abs(frame[i][g]) < kAlike) continue;
+      Vec3d &axis = frame[i], &next = frame[(i + 1) % 3];
+      const double sign = axis[g] < 0 ? -1 : 1;
+      axis = {};
+      axis[g] = sign;
+      next[g] = 0;
+      next = (1 / length(next)) * next;
+      frame[(i + 2) % 3] = cross(axis, next);
+      return frame;
+    }
+  }
+  return frame;
+}
+
 /// Gives cells of like frames one rotation: that of the cell with the largest weight.
 class Palette {
  public:
@@ -165,7 +183,7 @@ OrientationField OrientationMaker::make() const {
   const std::vector<FrameTensor> tensors = detail::smoothed(lattice);
   std::vector<Frame> frames(lattice.count());
   parallel_for(std::int64_t(lattice.count()),
-               [&](std::int64_t i) { frames[std::size_t(i)] = detail::best_frame(tensors[std::size_t(i)]); });
+               [&](std::int64_t i) { frames[std::size_t(i)] = upright(detail::best_frame(tensors[std::size_t(i)])); });
   std::vector<std::size_t> order(lattice.count());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
