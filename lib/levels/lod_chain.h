@@ -54,7 +54,7 @@ struct LodOptions {
   double least_scale_world = 0;  ///< no level is closed at less
   /// Where a level's scale is finer or coarser: times the level's scale over the base, which is above 0. None: nowhere.
   std::optional<ScaleField> field;
-  bool quads = false;  ///< join triangles in pairs (lib/quads/quads.h)
+  std::optional<CageParams> cage;  ///< levels are cages of quads around the voxels as they are, of faces alone
   /// The memory is for tiles at work and, between them, for surfaces. The scene's outer surface and `scene` are
   /// subtracted from both.
   PassContext context;

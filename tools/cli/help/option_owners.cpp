@@ -17,9 +17,11 @@ struct OptionOfTools {
   const char *option, *tools;
 };
 constexpr OptionOfTools kOptionsOfTools[] = {
-    {"--cache", "bplod"},
+    {"--animate", "bpdeform"},
     {"--appearance", "bplod"},
+    {"--cache", "bplod"},
     {"--convex", "bpcheck"},
+    {"--coordinates", "bpdeform"},
     {"--device", "bpclose"},
     {"--dump", "bpinfo"},
     {"--element", "bpclose"},
