@@ -14,6 +14,7 @@
 #include "tools/run/provenance.h"
 #include "tools/run/scale_rules.h"
 #include "tools/scale/explain.h"
+#include "tools/scale/orientation_rules.h"
 
 namespace {
 
@@ -36,7 +37,7 @@ Options parse(bp::Args& args) {
   args.option("-o,--output", "FILE", o.out, "stream of voxels, with the field; - is stdout");
   args.group("Field");
   args.option("--explain", "X,Y,Z", o.explain,
-              "print what scale a point gets, and what each rule does there; write no stream");
+              "print what scale and orientation a point gets, and what each rule does there; write no stream");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::memory_part |
                             bp::CommonOptions::progress_part | bp::CommonOptions::report_part |
                             bp::CommonOptions::overwrite_part);
@@ -50,12 +51,21 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-bp::StreamHeader with_field(const bp::StreamHeader& in, const bp::ScaleField& field) {
+/// What the rules say.
+struct Fields {
+  bp::ScaleField scale;
+  bp::OrientationField orientation;
+  std::string orientation_rules;  ///< JSON; empty: none
+};
+
+bp::StreamHeader with_fields(const bp::StreamHeader& in, const Fields& fields) {
   bp::StreamHeader header = in;
   header.has_field = true;
-  header.scale = field;
+  header.scale = fields.scale;
+  header.orientation = fields.orientation;
   bp::OptionText text;
-  text.add("field", bp::provenance_text(field));
+  text.add("field", bp::provenance_text(fields.scale));
+  text.add("orientation", bp::provenance_text(fields.orientation_rules, "places"));
   header.provenance.push_back(bp::make_provenance("bpscale", text));
   return header;
 }
@@ -110,16 +120,22 @@ void run(const Options& o) {
   if (header.has_closing)
     fail(ErrorCode::bad_input, "{}: is closed already; bpscale comes between bpvox and bpclose", o.in);
   MeasuredVoxels voxels(source, o);
-  const bp::ScaleField field = bp::read_rules(
+  Fields fields;
+  fields.scale = bp::read_rules(
       o.rules, header,
-      [&](const bp::ShapeRule& rule, const bp::ScaleField& before) { return voxels.measure(rule, before); });
+      [&](const bp::ShapeRule& rule, const bp::ScaleField& before) { return voxels.measure(rule, before); },
+      [&](const std::string& json, const bp::ScaleField& scale) {
+        fields.orientation_rules = json;
+        fields.orientation = bp::make_orientation(json, o.rules, header, scale);
+      });
+  const bp::ScaleField& field = fields.scale;
   (void)field.upper_bound(header.frame);  // refuses what is out of range
-  if (o.explain) return bp::print(bp::explain_scale(field, header, *o.explain));
+  if (o.explain) return bp::print(bp::explain_point(field, fields.orientation, header, *o.explain));
   const bool opening = header.fill == bp::FillMode::inside;
   for (const std::string& text : bp::scale_notes(field, header, opening)) report.note(text, o.common);
 
   report.begin("copy");
-  bp::BrickWriter sink(*output, with_field(header, field));
+  bp::BrickWriter sink(*output, with_fields(header, fields));
   report.counts = {{"rules", field.rules.size()}, {"bricks", voxels.copy(sink)}};
   output->commit();
   report.bytes_in = source.totals().bytes;

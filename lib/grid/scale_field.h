@@ -119,6 +119,8 @@ struct RuleContext {
   std::function<std::vector<Bounds3d>(const std::string& pattern)> parts;
   /// The rules that a rule by shape becomes, under those of `before`. Empty: the voxels are not known.
   std::function<std::vector<ScaleRule>(const ShapeRule& rule, const ScaleField& before)> measure;
+  /// Takes what the file says of the orientation of cubes, as JSON, when all else is read. Empty: it may say nothing.
+  std::function<void(const std::string& json, const ScaleField& field)> orientation;
 };
 
 /// Rules as JSON (docs/bpscale.1.md). Throws bad_input with the key at fault.

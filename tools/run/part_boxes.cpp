@@ -1,12 +1,11 @@
 #include "tools/run/part_boxes.h"
 
 #include <cmath>
-#include <filesystem>
 #include <set>
 
-#include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/core/vec3.h"
+#include "tools/run/read_again.h"
 
 namespace bp {
 
@@ -126,44 +125,11 @@ class TouchedCells {
   Bounds3d bounds_;  // of all triangles
 };
 
-void check_files(const SceneFiles& scene) {
-  if (scene.files.empty())
-    fail(ErrorCode::bad_input, "the stream names no scene file, and its parts are not known; give bpvox a file");
-  for (const SceneFiles::File& file : scene.files) {
-    std::error_code none;
-    if (!std::filesystem::is_regular_file(file.name, none)) fail(ErrorCode::bad_input, "{}: is not there", file.name);
-    if (std::filesystem::file_size(file.name, none) != file.bytes)
-      fail(ErrorCode::bad_input, "{}: has changed since the stream was made; run bpvox again", file.name);
-  }
-}
-
-/// Else it would be cut into cells without an end.
-void check_within(const TriangleD& t, const Bounds3d& bounds, const std::string& name) {
-  for (const Vec3d& p : t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!(p[i] >= bounds.min[i] && p[i] <= bounds.max[i]))
-        fail(ErrorCode::bad_input, "{}: has changed since the stream was made; run bpvox again", name);
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<Bounds3d> part_boxes(const SceneFiles& scene, const Bounds3d& bounds, const std::string& pattern) {
-  check_files(scene);
-  std::vector<std::string> names;
-  for (const SceneFiles::File& file : scene.files) names.push_back(file.name);
-  SceneOptions options;
-  options.format = scene.format;
-  options.parts = pattern;
   TouchedCells cells(bounds.min, std::max(bounds.diagonal() / kCells, 1e-300));
-  const auto source = open_scenes(names, options);
-  for (std::vector<TriangleD> chunk; source->read(chunk);) {
-    for (const TriangleD& t : chunk) {
-      check_within(t, bounds, source->name());
-      cells.add(t);
-    }
-  }
+  read_again(scene, bounds, pattern, [&](const TriangleD& t) { cells.add(t); });
   if (cells.empty())
     fail(ErrorCode::bad_input, "no part of the scene has a name or a material that fits '{}'", pattern);
   return cells.boxes();

@@ -12,8 +12,10 @@
 namespace bp {
 
 ScaleField read_rules(const std::string& file, const StreamHeader& header,
-                      const decltype(RuleContext::measure)& measure) {
+                      const decltype(RuleContext::measure)& measure,
+                      const decltype(RuleContext::orientation)& orientation) {
   RuleContext context;
+  context.orientation = orientation;
   context.measure = measure;
   context.diagonal = header.bounds.empty() ? 0 : header.bounds.diagonal();
   context.voxel = header.frame.voxel;
@@ -22,13 +24,16 @@ ScaleField read_rules(const std::string& file, const StreamHeader& header,
 }
 
 std::string provenance_text(const ScaleField& field) {
+  return provenance_text(to_json(field), fmt::format("{} rules", field.rules.size()));
+}
+
+std::string provenance_text(const std::string& json, const std::string& what) {
   constexpr std::size_t kLong = 1000;
-  std::string text = to_json(field);
-  if (text.size() <= kLong) return text;
+  if (json.size() <= kLong) return json;
   ContentHash hash;
-  hash.add(std::as_bytes(std::span(text)));
+  hash.add(std::as_bytes(std::span(json)));
   const auto [high, low] = hash.value().words;
-  return fmt::format("{} rules, hash {}", field.rules.size(), hex_of(high, low));
+  return fmt::format("{}, hash {}", what, hex_of(high, low));
 }
 
 }  // namespace bp

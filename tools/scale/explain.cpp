@@ -6,6 +6,7 @@
 
 #include "lib/core/error.h"
 #include "tools/notes/scale_notes.h"
+#include "tools/scale/orientation_rules.h"
 
 namespace bp {
 
@@ -25,7 +26,8 @@ VoxelCoord voxel_of(const GridFrame& frame, const Vec3d& point) {
 
 }  // namespace
 
-std::string explain_scale(const ScaleField& field, const StreamHeader& header, const Vec3d& point) {
+std::string explain_point(const ScaleField& field, const OrientationField& orientation, const StreamHeader& header,
+                          const Vec3d& point) {
   const VoxelCoord voxel = voxel_of(header.frame, point);
   const VoxelBox one{voxel, {voxel.x + 1, voxel.y + 1, voxel.z + 1}};
   const double sampled = double(field.sample(header.frame, one).at(voxel)) / kScaleOne;
@@ -43,6 +45,8 @@ std::string explain_scale(const ScaleField& field, const StreamHeader& header, c
     text += fmt::format("{:.6g}  {}\n", steps[i + 1], rule_text(rule));
   }
   if (idle > 0) text += fmt::format("{} rule{} nothing here\n", idle, idle == 1 ? " changes" : "s change");
+  if (!orientation.empty())
+    text += "cube " + orientation_text(orientation.rotations[orientation.index_at(voxel)]) + "\n";
   return text;
 }
 
