@@ -72,6 +72,7 @@ class Build {
 
  private:
   void note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told);
+  [[nodiscard]] ScalePlan read_field(const VoxelizedScene& voxels, bool tell);
   void gather(TriangleSource& source, const VoxelizedScene& scene);
   /// After the scene has been read. `tell`: notes why there will be no textures.
   void choose_textures(const TriangleSource& source, bool tell);
@@ -83,7 +84,7 @@ class Build {
   void write_report(const VoxelizedScene& scene);
   SceneSize size_;
   Enclose enclosed_ = Enclose::input;
-  std::optional<ScaleField> field_;  // of --field
+  std::optional<ScalePlan> field_;  // of --field
   std::unique_ptr<SceneColors> colors_;
   std::shared_ptr<TextureTable> textures_;
   bool textured_ = false, colored_ = false;
