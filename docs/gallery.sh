@@ -76,6 +76,8 @@ bpvox figure.obj --resolution 256 -q | bpscale head.json -q | bpclose -q -o clos
 bpmesh closed.bpv --faces 800 -q -o finer.glb --overwrite
 bpvox figure.obj --resolution 256 -q | bpclose --scale 4% -q | bpmesh --faces 800 -q -o one-scale.glb --overwrite
 draw guide-scale.png 340 figure.obj closed.bpv finer.glb one-scale.glb
+"$root/samples/lessons" lessons > /dev/null
+for lesson in brush pinch; do cp "lessons/$lesson.png" "lesson-$lesson.png"; done
 echo '{"base": "3%", "rules": [{"gap": 10}]}' > streets.json
 bpvox city.obj --up z --resolution 384 -q -o city.bpv --overwrite
 bpscale streets.json city.bpv -q | bpclose -q -o streets.bpv --overwrite
