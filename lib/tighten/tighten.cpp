@@ -75,14 +75,14 @@ class Tightener {
   void flip_edges() {
     const std::uint64_t since = flipped_at_;
     flipped_at_ = changes_;
-    const auto wants = [&](std::size_t i) {
-      const auto h = HalfEdgeId(i);
-      if (!mesh_.alive(HalfEdgeMesh::face(h)) || mesh_.edge(h) != h || mesh_.twin(h) == kNoId) return false;
+    LatticeBox box;
+    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {  // a flip takes less than waking another thread
+      if (!mesh_.alive(HalfEdgeMesh::face(h)) || mesh_.edge(h) != h || mesh_.twin(h) == kNoId) continue;
       const std::array<VertexId, 4> corners = corners_of(h);
-      return std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return changed_at_[v] > since; });
-    };
-    const auto plan = [](StepPlanner& planner, std::size_t i) { planner.flip(HalfEdgeId(i)); };
-    run(alone_, 3 * mesh_.face_capacity(), wants, plan);  // a flip takes less than waking another thread
+      if (std::none_of(corners.begin(), corners.end(), [&](VertexId v) { return changed_at_[v] > since; })) continue;
+      own_->flip(h);
+      static_cast<void>(make(*own_, box));
+    }
   }
 
   /// Those that go outwards first: the others then have the room that the joint fit counts on.
@@ -100,7 +100,7 @@ class Tightener {
       if (growth > 0) went_out_.emplace_back(v, mesh_.position(v));
     }
     const int128 before = mesh_.volume6();
-    run(ahead_, order_.size(), always, [&](StepPlanner& planner, std::size_t i) {
+    run(order_.size(), always, [&](StepPlanner& planner, std::size_t i) {
       const VertexId v = order_[i].second;
       planner.approach(v, joint_.shift(v));
     });
@@ -109,7 +109,7 @@ class Tightener {
 
   /// Some made room that the others could not take: back where they were.
   void take_back() {
-    run(ahead_, went_out_.size(), always, [&](StepPlanner& planner, std::size_t i) {
+    run(went_out_.size(), always, [&](StepPlanner& planner, std::size_t i) {
       const auto& [v, p] = went_out_[i];
       planner.go_back(v, to_double(p - mesh_.position(v)));
     });
@@ -119,8 +119,7 @@ class Tightener {
   void move_each() {
     waits_ = true;
     run(
-        ahead_, mesh_.vertex_capacity(),
-        [&](std::size_t v) { return is_free(VertexId(v)) && star_changed(VertexId(v)); },
+        mesh_.vertex_capacity(), [&](std::size_t v) { return is_free(VertexId(v)) && star_changed(VertexId(v)); },
         [](StepPlanner& planner, std::size_t v) { planner.find_place(VertexId(v)); });
     waits_ = false;
   }
@@ -129,8 +128,8 @@ class Tightener {
 
   /// The steps that are wanted, each planned by plan(planner, i).
   template <class Wants, class Plan>
-  void run(StepsAhead& steps, std::size_t n, const Wants& wants, const Plan& plan) {
-    steps.run(
+  void run(std::size_t n, const Wants& wants, const Plan& plan) {
+    ahead_.run(
         n, wants,
         [&](std::size_t i, std::size_t worker) {
           plan(*planners_[worker], i);
@@ -178,7 +177,7 @@ class Tightener {
   TightenCounts& counts_;
   JointFit joint_;
   bool waits_ = false;  // a vertex that could not move, until its star has changed
-  StepsAhead ahead_, alone_{1};
+  StepsAhead ahead_;
   std::vector<std::unique_ptr<StepPlanner>> planners_;  // a worker's each
   std::unique_ptr<StepPlanner> own_;
   std::vector<std::pair<double, VertexId>> order_;           // by growth
