@@ -71,6 +71,9 @@ awk '/^v / { y = $3 > 0.9 ? $3 - 0.9 : 0; c = cos(0.55 * y); s = sin(0.55 * y)  
 bpdeform bind figure.obj figure_cage.obj -o figure.bpw --overwrite
 bpdeform apply figure.bpw posed_cage.obj -o posed.obj --overwrite
 draw guide-cage-pose.png 340 figure.obj figure_cage.obj posed_cage.obj posed.obj
+bpvox figure.obj --resolution 200 -q | bpclose --scale 4% -q | bpmesh --faces 300 --enclose closing -q -o coarse.obj --overwrite
+"$root/samples/softbody.py" figure.obj coarse.obj soft 42
+draw guide-softbody.png 280 soft/scene.{00,13,17,24,30,36}.obj --zoom 1.2
 echo "{\"base\": \"4%\", \"rules\": [{\"at\": [$(bpinfo figure.obj --pick 355,125)], \"radius\": \"14%\", \"scale\": \"0.5%\"}]}" > head.json
 bpvox figure.obj --resolution 256 -q | bpscale head.json -q | bpclose -q -o closed.bpv --overwrite
 bpmesh closed.bpv --faces 800 -q -o finer.glb --overwrite

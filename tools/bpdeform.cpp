@@ -10,8 +10,11 @@
 
 namespace {
 
+using bp::CoordinateKind;
 using bp::ErrorCode;
 using bp::fail;
+
+constexpr double kMostPerSecond = 1000;
 
 enum class Outside { refuse, near };
 
@@ -20,7 +23,25 @@ struct Options {
   std::string command, out;
   std::vector<std::string> files;
   Outside outside = Outside::refuse;
+  CoordinateKind kind = CoordinateKind::mean_value;
+  double per_second = 0;  // 0: a scene for each cage
 };
+
+void check(const Options& o, bp::Args& args) {
+  if (o.command != "bind" && o.command != "apply") fail(ErrorCode::bad_argument, "begin with a command: bind or apply");
+  if (o.command == "bind" && o.files.size() != 2)
+    fail(ErrorCode::bad_argument, "bind takes two files: the scene and the cage");
+  if (o.command == "apply" && o.files.size() < 2)
+    fail(ErrorCode::bad_argument, "apply takes the weights and one moved cage or more");
+  if (args.given("--animate") && (o.command == "bind" || !(o.per_second > 0 && o.per_second <= kMostPerSecond)))
+    fail(ErrorCode::bad_argument, "--animate belongs to apply, and takes a number above 0, up to {}", kMostPerSecond);
+  if (o.out.empty()) fail(ErrorCode::bad_argument, "name the output with --output");
+  for (const char* option : {"--outside", "--coordinates"}) {
+    if (o.command == "apply" && args.given(option)) fail(ErrorCode::bad_argument, "{} belongs to bind", option);
+  }
+  if (std::find(o.files.begin(), o.files.end(), "-") != o.files.end())
+    fail(ErrorCode::bad_argument, "bpdeform reads files, not stdin: apply reads the scene again");
+}
 
 Options parse(bp::Args& args) {
   Options o;
@@ -36,24 +57,25 @@ Options parse(bp::Args& args) {
   args.option("-o,--output", "FILE", o.out, "the weights, or the moved scene in the format of the scene");
   args.needed("--output");
   args.group("Binding");
+  args.option(
+      "--coordinates",
+      {{"mean-value", CoordinateKind::mean_value, "smooth, and exact for stretch and shear"},
+       {"green", CoordinateKind::green, "keep shapes: angles hardly change; the scene may leave the cage"},
+       {"maximum-likelihood", CoordinateKind::maximum_likelihood, "as mean-value, and nothing moves against the cage"}},
+      o.kind, "how vertices follow the cage");
   args.option("--outside",
               {{"refuse", Outside::refuse, "an error that tells their number"},
                {"near", Outside::near, "they follow the nearest face"}},
               o.outside, "vertices outside the cage");
+  args.group("Applying");
+  args.option("--animate", "NUMBER", o.per_second,
+              "one glTF that moves from each cage to the next, so many cages a second");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::memory_part |
                             bp::CommonOptions::progress_part | bp::CommonOptions::report_part |
                             bp::CommonOptions::overwrite_part);
-  args.often({"--output", "--outside", "--overwrite"});
+  args.often({"--output", "--coordinates", "--outside", "--animate", "--overwrite"});
   args.parse();
-  if (o.command != "bind" && o.command != "apply") fail(ErrorCode::bad_argument, "begin with a command: bind or apply");
-  if (o.command == "bind" && o.files.size() != 2)
-    fail(ErrorCode::bad_argument, "bind takes two files: the scene and the cage");
-  if (o.command == "apply" && o.files.size() < 2)
-    fail(ErrorCode::bad_argument, "apply takes the weights and one moved cage or more");
-  if (o.out.empty()) fail(ErrorCode::bad_argument, "name the output with --output");
-  if (o.command == "apply" && args.given("--outside")) fail(ErrorCode::bad_argument, "--outside belongs to bind");
-  if (std::find(o.files.begin(), o.files.end(), "-") != o.files.end())
-    fail(ErrorCode::bad_argument, "bpdeform reads files, not stdin: apply reads the scene again");
+  check(o, args);
   bp::keep_inputs(o.files);
   return o;
 }
@@ -73,8 +95,8 @@ bp::SceneOptions scene_options(const Options& o) {
 
 void bind(const Options& o, bp::Report& report, bp::Progress& progress) {
   const auto output = bp::open_output(o.out, o.common.overwrite);
-  const bp::BindRequest request{o.files[0], o.files[1], o.outside == Outside::near, o.common.memory_bytes,
-                                scene_options(o)};
+  const bp::BindRequest request{
+      o.files[0], o.files[1], o.out, o.kind, o.outside == Outside::near, o.common.memory_bytes, scene_options(o)};
   const bp::WeightTotals totals = bp::bind_scene(request, *output, progress);
   report.counts = {{"vertices", totals.points}, {"outside", totals.outside}};
   if (totals.outside > 0)
@@ -95,22 +117,23 @@ std::string numbered(const std::string& name, std::size_t i, std::size_t n) {
 
 /// Each scene appears when it is complete.
 void apply(const Options& o, bp::Report& report, bp::Progress& progress) {
-  const std::string scene = bp::WeightReader(o.files[0]).header().scene;
+  const std::string scene = bp::scene_of(bp::WeightReader(o.files[0]), o.files[0]);
   bp::keep_inputs({scene});
   if (bp::scene_format_of(o.out) != bp::scene_format_of(scene))
     fail(ErrorCode::bad_argument, "{}: the scene is written in its own format: name it .{}", o.out,
          bp::scene_format_of(scene));
-  const std::size_t cages = o.files.size() - 1;
+  const std::span<const std::string> cages = std::span(o.files).subspan(1);
+  const std::size_t scenes = o.per_second > 0 ? 1 : cages.size();
+  const bp::ApplyRequest request{o.files[0], scene, o.common.memory_bytes, scene_options(o)};
   bp::Applied applied;
-  for (std::size_t i = 0; i < cages; ++i) {
-    const auto output = bp::open_output(numbered(o.out, i, cages), o.common.overwrite);
-    bp::WeightReader weights(o.files[0]);
-    const bp::ApplyRequest request{o.files[0], o.files[i + 1], o.common.memory_bytes, scene_options(o)};
-    applied = bp::apply_cage(weights, request, *output, progress);
+  for (std::size_t i = 0; i < scenes; ++i) {
+    const auto output = bp::open_output(numbered(o.out, i, scenes), o.common.overwrite);
+    applied = o.per_second > 0 ? bp::animate_cages(request, cages, o.per_second, *output, progress)
+                               : bp::apply_cage(request, cages[i], *output, progress);
     output->commit();
     report.bytes_out += output->bytes();
   }
-  report.counts = {{"vertices", applied.points}, {"scenes", cages}};
+  report.counts = {{"vertices", applied.points}, {"scenes", scenes}};
   if (!applied.left_behind.empty()) report.note(fmt::format("{}: {}", o.out, applied.left_behind), o.common);
   report.bytes_in = bp::size_of_files({scene});
 }

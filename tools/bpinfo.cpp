@@ -148,7 +148,7 @@ void note_missing_materials(const std::string& in) {
 }
 
 void note_faults(const bp::SceneOptions& scene) {
-  for (const std::string& fault : scene.textures->faults()) note(fault + "; its material's colour is drawn");
+  for (const std::string& fault : scene.textures->faults()) note(fault);
 }
 
 void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<unsigned char, 8> kWeightMagic{'B', 'P', 'W', 'T', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint16_t kVersion = 1;
-constexpr std::uint32_t kMeanValue = 0;  // kind of coordinates
+constexpr auto kLastKind = std::uint32_t(CoordinateKind::maximum_likelihood);
 constexpr char kBlockTag[] = "BLCK";
 constexpr std::size_t kFixedBytes = 36, kBlockHeadBytes = 24, kWeightEndBytes = 48;
 constexpr std::uint32_t kMostName = 4096, kMostTriangles = kMostCageTriangles;
@@ -36,7 +36,7 @@ std::vector<std::byte> encode(const WeightHeader& h) {
   for (const unsigned char c : kWeightMagic) out.put(c);
   out.put(kVersion);
   out.put(std::uint16_t(0));
-  out.put(kMeanValue);
+  out.put(std::uint32_t(h.kind));
   out.put(std::uint32_t(h.cage.vertices.size()));
   out.put(std::uint32_t(h.cage.triangles.size()));
   out.put(std::uint32_t(h.scene.size()));
@@ -143,6 +143,7 @@ struct WeightReader::State {
   InputFile file;
   WeightHeader header{};
   WeightTotals totals{};
+  std::size_t columns = 0;
   std::uint64_t points = 0, blocks = 0;
   bool ended = false;
 
@@ -166,10 +167,8 @@ struct WeightReader::State {
       refuse(offset, "the file is damaged");
     std::vector<std::byte> payload(size);
     take(payload);
-    const auto hashed = std::span(payload).first(size - kHashBytes);
-    if (ByteSource(std::span<const std::byte>(payload).last(kHashBytes)).get<std::uint64_t>() != hash64(hashed))
-      refuse(offset, "a checksum differs");
-    payload.resize(hashed.size());
+    if (!seal_holds(payload)) refuse(offset, "a checksum differs");
+    payload.resize(size - kHashBytes);
     return payload;
   }
   void check_start();
@@ -196,9 +195,11 @@ void WeightReader::State::read_header() {
   (void)in.get<std::uint64_t>();
   const auto version = in.get<std::uint16_t>(), flags = in.get<std::uint16_t>();
   const auto kind = in.get<std::uint32_t>();
-  if (version != kVersion || flags != 0 || kind != kMeanValue)
+  if (version != kVersion || flags != 0)
     refuse(kFrameHeadBytes,
            fmt::format("version {} of the file of weights; this tool reads version {}", version, kVersion));
+  if (kind > kLastKind) refuse(kFrameHeadBytes, fmt::format("coordinates of kind {}, which this tool lacks", kind));
+  header.kind = CoordinateKind(kind);
   Sizes sizes{};
   sizes.vertices = in.get<std::uint32_t>(), sizes.triangles = in.get<std::uint32_t>();
   sizes.name = in.get<std::uint32_t>();
@@ -208,6 +209,7 @@ void WeightReader::State::read_header() {
   header.scene_bytes = in.get<std::uint64_t>();
   read_cage(in, sizes);
   header.scene = in.get_text(sizes.name);
+  columns = columns_of(header.kind, header.cage);
 }
 
 void WeightReader::State::read_cage(ByteSource& in, const Sizes& sizes) {
@@ -245,6 +247,14 @@ WeightReader::~WeightReader() = default;
 const WeightHeader& WeightReader::header() const {
   return state_->header;
 }
+std::uint64_t WeightReader::points_declared() const {
+  constexpr std::size_t kAt = 8, kFrame = kFrameHeadBytes + kWeightEndBytes + kHashBytes;
+  std::uint64_t points = 0;
+  const std::uint64_t size = state_->file.size();
+  if (size > kFrame)
+    state_->file.read_at(size - kFrame + kFrameHeadBytes + kAt, std::as_writable_bytes(std::span(&points, 1)));
+  return points;
+}
 const WeightTotals& WeightReader::totals() const {
   return state_->totals;
 }
@@ -258,14 +268,13 @@ bool WeightReader::next(PackedWeights& out) {
     s.read_end(payload);
     return false;
   }
-  const std::size_t columns = s.header.cage.vertices.size();
   ByteSource in(payload);
   const bool is_block = payload.size() == kBlockHeadBytes && in.get_text(4) == kBlockTag;
   if (!is_block) s.refuse(out.offset, "neither a block nor the end begins here");
   out.points = in.get<std::uint32_t>();
   const auto first = in.get<std::uint64_t>(), bytes = in.get<std::uint64_t>();
-  if (out.points == 0 || out.points > points_of_block(columns) || first != s.points || bytes == 0 ||
-      bytes > compress_bound(out.points * (4 * columns + 1)))
+  if (out.points == 0 || out.points > points_of_block(s.columns) || first != s.points || bytes == 0 ||
+      bytes > compress_bound(out.points * (4 * s.columns + 1)))
     s.refuse(out.offset, "a block is out of place, or cannot be");
   out.bytes.resize(bytes);
   s.take(out.bytes);
@@ -276,7 +285,7 @@ bool WeightReader::next(PackedWeights& out) {
 
 void WeightReader::unpack(const PackedWeights& packed, WeightBlock& out) const {
   out.points = packed.points;
-  out.columns = state_->header.cage.vertices.size();
+  out.columns = state_->columns;
   std::vector<std::byte> raw(out.points * (4 * out.columns + 1));
   if (const char* fault = decompress(packed.bytes, raw))
     state_->refuse(packed.offset, fmt::format("a block {}", fault));

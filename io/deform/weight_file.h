@@ -12,9 +12,10 @@
 namespace bp {
 
 struct WeightHeader {
-  std::string scene;              ///< name of its file, as given
+  std::string scene;              ///< name of its file; a relative one counts from the folder of the weights
   std::uint64_t scene_bytes = 0;  ///< of that file
   IndexedMesh cage;               ///< at rest: vertices and triangles
+  CoordinateKind kind = CoordinateKind::mean_value;
 };
 
 struct WeightTotals {
@@ -53,6 +54,8 @@ class WeightReader {
   explicit WeightReader(const std::string& path);
   ~WeightReader();
   [[nodiscard]] const WeightHeader& header() const;
+  /// What the end of the file says, which is not checked yet; 0: nothing.
+  [[nodiscard]] std::uint64_t points_declared() const;
   /// False at the end; totals() are known then.
   bool next(PackedWeights& out);
   [[nodiscard]] const WeightTotals& totals() const;

@@ -7,9 +7,9 @@
 #include "io/scene/points/scene_points.h"
 #include "lib/core/vec3.h"
 
-// glTF and GLB: the accessors POSITION, NORMAL and TANGENT of every mesh that a node shows are written anew, in their
-// places, and the bounds of POSITION in the JSON. All must lie in the first buffer. What cannot follow so is refused: a
-// mesh that stands in two places, skins, morph targets, positions that are quantized, sparse or compressed.
+// glTF and GLB: the accessors POSITION, NORMAL and TANGENT of every mesh that a node shows are written anew, and the
+// bounds of POSITION in the JSON. They stay in their places; a mesh that stands in several places gets copies at the
+// end of the first buffer. What cannot follow is refused (gltf_vertices.cpp).
 
 namespace bp {
 
@@ -54,9 +54,13 @@ class GltfPoints final : public ScenePoints {
     }
     return false;
   }
+  [[nodiscard]] std::uint64_t count() const override {
+    std::uint64_t sum = 0;
+    for (const GltfVertices& v : plan_.vertices) sum += v.position.count;
+    return sum;
+  }
   void write(const MovePoints& move, OutputFile& out) override {
-    const std::uint64_t bytes = plan_.vertices.empty() ? 0 : doc_.root().item("buffers", 0).number("byteLength");
-    detail::GltfCopy copy(file_, *doc_.bytes(), std::min(bytes, doc_.bytes()->size()), options_);
+    detail::GltfCopy copy = copy_of_file();
     const std::vector<GltfVertices> targets = targets_in(copy);
     for (const GltfVertices& v : targets) {
       Bounds3d bounds;
@@ -67,10 +71,20 @@ class GltfPoints final : public ScenePoints {
     }
     copy.write(out);
   }
+  void write_frames(std::size_t frames, double seconds, const MoveFrame& move, OutputFile& out) override;
 
  private:
+  [[nodiscard]] detail::GltfCopy copy_of_file() {
+    const std::uint64_t bytes = plan_.vertices.empty() ? 0 : doc_.root().item("buffers", 0).number("byteLength");
+    return {file_, *doc_.bytes(), std::min(bytes, doc_.bytes()->size()), options_};
+  }
   [[nodiscard]] std::vector<GltfVertices> targets_in(detail::GltfCopy& copy);
   void append(detail::GltfCopy& copy, Accessor& accessor, std::uint64_t& number);
+  /// Moves some vertices; where they are in the nodes, before and after.
+  PointBatch move_batch(const GltfVertices& v, std::uint64_t first, std::size_t n, const MovePoints& move,
+                        const detail::GltfCopy& copy, PointBatch& local);
+  std::vector<float> changes_of(const GltfVertices& v, std::uint64_t first, std::size_t n, const MovePoints& move,
+                                const detail::GltfCopy& copy, Bounds3d& bounds);
   void write_batch(const GltfVertices& v, std::uint64_t first, std::size_t n, const MovePoints& move,
                    detail::GltfCopy& copy, Bounds3d& bounds);
   /// The first three components; the bytes stay in bytes_.
@@ -141,21 +155,20 @@ void GltfPoints::append(detail::GltfCopy& copy, Accessor& a, std::uint64_t& numb
   number = copy.add_accessor(number - 1, address, a.count * size) + 1;
 }
 
-void GltfPoints::write_batch(const GltfVertices& v, std::uint64_t first, std::size_t n, const MovePoints& move,
-                             detail::GltfCopy& copy, Bounds3d& bounds) {
-  PointBatch local, world;
+PointBatch GltfPoints::move_batch(const GltfVertices& v, std::uint64_t first, std::size_t n, const MovePoints& move,
+                                  const detail::GltfCopy& copy, PointBatch& local) {
+  PointBatch world;
   take(copy, v.position, first, n, local.positions);
   for (const Vec3d& p : local.positions) world.positions.push_back(v.to_world(p));
   if (v.normal) take(copy, *v.normal, first, n, local.normals);
   for (const Vec3d& d : local.normals) world.normals.push_back(unit(transposed(v.from_world, d)));
   if (v.tangent) take(copy, *v.tangent, first, n, local.tangents);
   for (const Vec3d& d : local.tangents) world.tangents.push_back(linear(v.to_world, d));
-  const PointBatch before = world;
+  const PointBatch before = world, rest = local;
   move(world);
   for (std::size_t i = 0; i < n; ++i) {
     local.positions[i] = local.positions[i] + linear(v.from_world, world.positions[i] - before.positions[i]);
     for (double& c : local.positions[i]) c = double(float(c));
-    bounds.add(local.positions[i]);
   }
   for (std::size_t i = 0; i < local.normals.size(); ++i) {
     if (world.normals[i] != before.normals[i]) local.normals[i] = unit(transposed(v.to_world, world.normals[i]));
@@ -163,9 +176,56 @@ void GltfPoints::write_batch(const GltfVertices& v, std::uint64_t first, std::si
   for (std::size_t i = 0; i < local.tangents.size(); ++i) {
     if (world.tangents[i] != before.tangents[i]) local.tangents[i] = unit(linear(v.from_world, world.tangents[i]));
   }
+  return rest;
+}
+
+void GltfPoints::write_batch(const GltfVertices& v, std::uint64_t first, std::size_t n, const MovePoints& move,
+                             detail::GltfCopy& copy, Bounds3d& bounds) {
+  PointBatch local;
+  move_batch(v, first, n, move, copy, local);
+  for (const Vec3d& p : local.positions) bounds.add(p);
   put(copy, v.position, first, local.positions);
   if (v.normal) put(copy, *v.normal, first, local.normals);
   if (v.tangent) put(copy, *v.tangent, first, local.tangents);
+}
+
+/// The scene itself stays at rest.
+void GltfPoints::write_frames(std::size_t frames, double seconds, const MoveFrame& move, OutputFile& out) {
+  detail::GltfCopy copy = copy_of_file();
+  const std::vector<GltfVertices> targets = targets_in(copy);
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    const MovePoints here = [&](PointBatch& batch) { move(frame, batch); };
+    for (const GltfVertices& v : targets) {
+      const std::uint64_t offset = copy.size();
+      Bounds3d bounds;
+      for (std::uint64_t first = 0; first < v.position.count; first += kBatch) {
+        const auto n = std::size_t(std::min<std::uint64_t>(kBatch, v.position.count - first));
+        const std::vector<float> changes = changes_of(v, first, n, here, copy, bounds);
+        copy.append(std::as_bytes(std::span(changes)));
+      }
+      copy.add_target(v.numbers, offset, v.position.count, bounds);
+    }
+  }
+  copy.add_animation(frames, seconds);
+  copy.write(out);
+}
+
+/// Positions, with normals between them if there are any.
+std::vector<float> GltfPoints::changes_of(const GltfVertices& v, std::uint64_t first, std::size_t n,
+                                          const MovePoints& move, const detail::GltfCopy& copy, Bounds3d& bounds) {
+  PointBatch local;
+  const PointBatch rest = move_batch(v, first, n, move, copy, local);
+  std::vector<float> changes;
+  const auto add = [&](const Vec3d& from, const Vec3d& to) {
+    Vec3d change = to - from;
+    for (double& c : change) changes.push_back(float(c)), c = double(changes.back());
+    return change;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    bounds.add(add(rest.positions[i], local.positions[i]));
+    if (!local.normals.empty()) add(rest.normals[i], local.normals[i]);
+  }
+  return changes;
 }
 
 }  // namespace

@@ -207,7 +207,7 @@ void SceneBuilder::try_texture(std::uint64_t material, const GltfObject& attribu
     primitive.uv.reset();
     primitive.has_image = false;
     primitive.material = TriangleTexture::kNoMaterial;
-    textures_->add_fault(e.what());
+    textures_->add_fault(std::string(e.what()) + "; its material's colour is used");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "io/gltf/gltf_sampler.h"
 #include "io/mesh/detail/glb_data.h"
 
 namespace bp {
@@ -11,13 +12,6 @@ namespace bp {
 namespace {
 
 using Json = GltfOutJson;
-
-constexpr int kLinear = 9729, kLinearMipmapLinear = 9987;
-
-int wrap_number(TextureWrap wrap) {
-  constexpr int kRepeat = 10497, kClamp = 33071, kMirror = 33648;
-  return wrap == TextureWrap::clamp ? kClamp : wrap == TextureWrap::mirror ? kMirror : kRepeat;
-}
 
 template <class Number>
 void append(std::string& bytes, const Number& x) {
@@ -169,10 +163,7 @@ class LeafBuilder {
     const auto found = std::find(images_.begin(), images_.end(), image);
     const auto source = std::size_t(found - images_.begin());
     if (found == images_.end()) images_.push_back(image);
-    Json texture{{"sampler", number_of(samplers_, {{"magFilter", kLinear},
-                                                   {"minFilter", kLinearMipmapLinear},
-                                                   {"wrapS", wrap_number(wrap[0])},
-                                                   {"wrapT", wrap_number(wrap[1])}})}};
+    Json texture{{"sampler", number_of(samplers_, gltf_sampler(wrap))}};
     if (image.ends_with(".webp")) {
       has_webp_ = true;
       texture["extensions"] = {{"EXT_texture_webp", {{"source", source}}}};

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "io/gltf/gltf_sampler.h"
 #include "io/mesh/detail/glb_data.h"
 #include "io/mesh/detail/mesh_writers.h"
 #include "lib/core/error.h"
@@ -20,7 +21,6 @@ using Json = GltfOutJson;
 
 constexpr std::int64_t kFloatInteger = std::int64_t(1) << 24;  // float32 holds integers up to this
 constexpr std::int64_t kShortInteger = 32767;
-constexpr int kLinear = 9729, kLinearMipmapLinear = 9987, kClampToEdge = 33071;
 
 struct Extent {
   LatticeCoord lo, hi;
@@ -212,10 +212,8 @@ class GlbBuilder {
       return *plain_material_;
     }
     const MeshTexture& own = *mesh.texture;
-    json()["samplers"] = Json::array({{{"magFilter", kLinear},
-                                       {"minFilter", kLinearMipmapLinear},
-                                       {"wrapS", kClampToEdge},
-                                       {"wrapT", kClampToEdge}}});
+    json()["samplers"] = Json::array();
+    json()["samplers"].push_back(gltf_sampler({TextureWrap::clamp, TextureWrap::clamp}));
     const GltfTextures textures{add_texture(own.image, own.type),
                                 add_texture(own.normal.bytes, own.normal.type),
                                 add_texture(own.roughness.bytes, own.roughness.type),

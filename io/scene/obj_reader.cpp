@@ -175,8 +175,8 @@ void ObjSource::use_material(char key) {
   const std::string name = text_.rest_of_line();
   if (key == 'm') return materials_.load(file_->path(), name);
   material_name_ = name;
-  if (textures_) texture_ = materials_.texture(name, *textures_);
-  has_textures_ = has_textures_ || texture_ != TriangleTexture::kNoMaterial;
+  if (textures_) texture_ = materials_.texture(name, *textures_, normals_.has_value());
+  has_textures_ = has_textures_ || (textures_ && materials_.has_image(name));
   passed_over_ = walls_only_ && materials_.see_through(name);
   if (!vertex_colors_) return;
   material_ = materials_.color(name);

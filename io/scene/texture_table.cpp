@@ -50,6 +50,16 @@ bool TextureTable::has_images() const {
   return false;
 }
 
+std::uint64_t TextureTable::file_bytes() const {
+  std::uint64_t sum = 0;
+  for (const ImagePlace& place : images_) {
+    std::error_code missing;
+    const std::uintmax_t size = place.bytes ? place.bytes->size() : std::filesystem::file_size(place.path, missing);
+    if (!missing) sum += size;
+  }
+  return sum;
+}
+
 std::array<int, 2> TextureTable::size(std::uint32_t i) const {
   constexpr std::uint64_t kMostHead = std::uint64_t(1) << 20;
   try {

@@ -25,12 +25,14 @@ class TextureTable final : public TextureSet {
   std::uint32_t add_image(const std::string& key, ImagePlace place);
   std::uint32_t add_material(const std::string& key, const TextureMaterial& material);
 
-  /// A texture that cannot be shown, and why; its material's colour is used.
+  /// A texture that cannot be shown, why, and what is done instead.
   void add_fault(const std::string& fault) { faults_.insert(fault); }
   [[nodiscard]] const std::set<std::string>& faults() const { return faults_; }
 
   /// Whether an image is there whose head can be read.
   [[nodiscard]] bool has_images() const;
+  /// Of all image files together; those that are missing have none.
+  [[nodiscard]] std::uint64_t file_bytes() const;
   [[nodiscard]] const TextureMaterial& material(std::uint32_t i) const override { return materials_.at(i); }
   [[nodiscard]] std::array<int, 2> size(std::uint32_t i) const override;
   [[nodiscard]] std::vector<std::byte> file(std::uint32_t i) const override;

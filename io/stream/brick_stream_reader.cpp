@@ -230,10 +230,8 @@ void BrickReader::State::read_payload(std::vector<std::byte>& payload, std::size
       size > kHeaderFixedBytes + scale + provenance + kMaxSceneBytes + kHashBytes)
     refuse(kFrameHeadBytes + kHeaderFixedBytes - 8, "the sizes in the header disagree; the stream is damaged");
   take(std::span(payload).subspan(kHeaderFixedBytes), "header");
-  const std::span<const std::byte> hashed(payload.data(), size - kHashBytes);
-  if (ByteSource(std::span<const std::byte>(payload).last(kHashBytes)).get<std::uint64_t>() != hash64(hashed))
-    refuse(kFrameHeadBytes, "the checksum of the header differs; the stream is damaged");
-  header = decode_header(hashed, file.name());
+  if (!seal_holds(payload)) refuse(kFrameHeadBytes, "the checksum of the header differs; the stream is damaged");
+  header = decode_header(std::span(payload).first(size - kHashBytes), file.name());
 }
 
 /// Section 5, and the bytes of section 6. False when the index comes instead, which is then read, with the end record.
@@ -315,9 +313,8 @@ void BrickReader::State::read_end() {
   const auto found = take<kFrameHeadBytes + kEndBytes>("end record");
   totals.bytes = file.offset();
   const std::vector<std::byte> expected = encode_end(totals, index_offset, totals.bytes);
-  const std::span<const std::byte> payload = std::span(found).subspan(kFrameHeadBytes);
   if (!std::equal(found.begin(), found.begin() + kFrameHeadBytes + 4, expected.begin()) ||
-      ByteSource(payload.last(kHashBytes)).get<std::uint64_t>() != hash64(payload.first(kEndBytes - kHashBytes)))
+      !seal_holds(std::span(found).subspan(kFrameHeadBytes)))
     refuse(offset, "the end record is damaged");
   if (!std::equal(found.begin(), found.end(), expected.begin())) {
     refuse(offset, "the end record counts other bricks or voxels than were read; the stream is damaged");

@@ -97,6 +97,11 @@ std::size_t batches_ahead() {
   return std::size_t(std::clamp(thread_count(), 1, 8));
 }
 
+bool seal_holds(std::span<const std::byte> payload) {
+  const std::size_t n = payload.size() - kHashBytes;
+  return ByteSource(payload.subspan(n)).get<std::uint64_t>() == hash64(payload.first(n));
+}
+
 std::vector<std::byte> frame_of(std::vector<std::byte> payload, bool sealed) {
   ByteSink frame;
   frame.put(kFrameMagic);

@@ -98,6 +98,8 @@ class Digest {
 
 /// Wraps a payload in a skippable frame. `sealed`: the payload gets its hash at the end first.
 [[nodiscard]] std::vector<std::byte> frame_of(std::vector<std::byte> payload, bool sealed);
+/// Whether a payload of at least kHashBytes ends with the hash of its bytes before.
+[[nodiscard]] bool seal_holds(std::span<const std::byte> payload);
 
 /// Payload of the header, without hash. Throws bad_argument if the header is out of range.
 [[nodiscard]] std::vector<std::byte> encode_header(const StreamHeader& header);

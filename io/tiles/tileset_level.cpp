@@ -11,6 +11,19 @@ namespace bp {
 
 namespace {
 
+/// Without leaves, nor tiles that only lead to some.
+Tile without_leaves(const Tile& tile) {
+  Tile out = tile;
+  out.children.clear();
+  for (const Tile& child : tile.children) {
+    if (child.is_leaf) continue;
+    Tile kept = without_leaves(child);
+    const bool led_to_leaves = kept.uri.empty() && kept.children.empty() && !child.children.empty();
+    if (!led_to_leaves) out.children.push_back(std::move(kept));
+  }
+  return out;
+}
+
 /// Depths of the tree at which there are contents.
 void add_depths(const Tile& tile, std::size_t depth, std::set<std::size_t>& depths) {
   if (!tile.uri.empty()) depths.insert(depth);
@@ -123,13 +136,14 @@ class ContentsSource final : public TriangleSource {
 }  // namespace
 
 TilesetLevel tileset_level(const Tileset& tileset, const std::string& path, std::size_t level) {
+  const Tile root = without_leaves(tileset.root);
   std::set<std::size_t> depths;
-  add_depths(tileset.root, 0, depths);
+  add_depths(root, 0, depths);
   TilesetLevel out;
   out.levels = depths.size();
   if (level < out.levels) {
     const std::size_t depth = *std::next(depths.rbegin(), std::ptrdiff_t(level));
-    LevelFinder(folder_of(path), depth, out).find(tileset.root, 0, kNoTransform, false);
+    LevelFinder(folder_of(path), depth, out).find(root, 0, kNoTransform, false);
   }
   return out;
 }

@@ -23,9 +23,9 @@ struct TilesetLevel {
 };
 
 /// Level 0 is the finest. The tiles of level n lie n depths above the deepest, of those at which there are contents;
-/// where a branch ends before, its last
-/// tile stands for it, and where a tile there has no content, those below it. Tiles that are refined by adding keep
-/// theirs. Empty if the tileset has no such level.
+/// where a branch ends before, its last tile stands for it, and where a tile there has no content, those below it.
+/// Tiles that are refined by adding keep theirs. Leaves (Tile::is_leaf) are no level. Empty if the tileset has no such
+/// level.
 [[nodiscard]] TilesetLevel tileset_level(const Tileset& tileset, const std::string& path, std::size_t level);
 
 /// Their triangles in the axes of the scene (Tileset::up). One content is read at a time, each pass anew; throws as

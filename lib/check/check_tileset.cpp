@@ -11,7 +11,8 @@ namespace bp {
 
 namespace {
 
-constexpr double kSlack = 1e-9;  // of the size of a box
+constexpr double kSlack = 1e-9;         // of the size of a box
+constexpr double kLeafError = 0x1p-22;  // of the edge of a cell; float32 rounds by a quarter of that
 
 /// How far p lies outside of the box along one of its axes, in half-lengths of that axis beyond 1; 0 inside. A flat box
 /// has a thickness of nothing.
@@ -38,7 +39,7 @@ class Checker {
     if (tileset_.root.refine.empty()) say("root: has no 'refine', and nothing to inherit it from");
     if (tileset_.geometric_error < tileset_.root.geometric_error)
       say("tileset: geometricError {} is below the root's {}", tileset_.geometric_error, tileset_.root.geometric_error);
-    check(tileset_.root, "root");
+    check(tileset_.root, "root", nullptr);
     return std::move(findings_);
   }
 
@@ -49,13 +50,19 @@ class Checker {
   }
   static bool usable(double error) { return std::isfinite(error) && error >= 0; }
 
-  void check(const Tile& tile, const std::string& path) {
+  /// `above`: the nearest tile above with content.
+  void check(const Tile& tile, const std::string& path, const Tile* above) {
     if (!usable(tile.geometric_error)) say("{}: geometricError {} is no length", path, tile.geometric_error);
     if (!tile.refine.empty() && tile.refine != "ADD" && tile.refine != "REPLACE")
       say("{}: refine is \"{}\", neither ADD nor REPLACE", path, tile.refine);
-    if (!tile.uri.empty()) check_content(tile, path);
+    if (const std::string fault = tile.is_leaf ? leaf_fault(tile, above) : ""; !fault.empty())
+      say("{}: extras.leaf is true, but {}", path, fault);
+    if (!tile.uri.empty()) {
+      check_content(tile, path);
+      above = &tile;
+    }
     for (std::size_t i = 0; i < tile.children.size(); ++i)
-      check_child(tile, tile.children[i], path + ".children[" + std::to_string(i) + "]");
+      check_child(tile, tile.children[i], path + ".children[" + std::to_string(i) + "]", above);
   }
 
   void check_content(const Tile& tile, const std::string& path) {
@@ -74,7 +81,7 @@ class Checker {
           content.vertices.size(), tile.uri, worst);
   }
 
-  void check_child(const Tile& parent, const Tile& child, const std::string& path) {
+  void check_child(const Tile& parent, const Tile& child, const std::string& path, const Tile* above) {
     if (child.geometric_error > parent.geometric_error)
       say("{}: geometricError {} is above its parent's {}", path, child.geometric_error, parent.geometric_error);
     if (parent.box && child.box) {
@@ -84,7 +91,7 @@ class Checker {
       if (worst > kSlack)
         say("{}: its box reaches out of its parent's, by {:.3g} of the half-length of that", path, worst);
     }
-    check(child, path);
+    check(child, path, above);
   }
 
   const Tileset& tileset_;
@@ -92,7 +99,24 @@ class Checker {
   std::vector<std::string> findings_;
 };
 
+double edge_of(const Bounds3d& cell) {
+  return std::max({cell.max[0] - cell.min[0], cell.max[1] - cell.min[1], cell.max[2] - cell.min[2]});
+}
+
 }  // namespace
+
+std::string leaf_fault(const Tile& leaf, const Tile* above) {
+  if (leaf.uri.empty()) return "it has no content";
+  if (!leaf.children.empty()) return "it has children";
+  if (above == nullptr || above->is_leaf || !above->cell) return "no proven tile lies above it";
+  if (!(leaf.geometric_error < above->geometric_error))
+    return fmt::format("its geometricError {} is not below the {} of the proven tile above it", leaf.geometric_error,
+                       above->geometric_error);
+  const double most = kLeafError * edge_of(*above->cell);
+  if (leaf.geometric_error > most)
+    return fmt::format("its geometricError {} is more than rounding, {:.3g}", leaf.geometric_error, most);
+  return "";
+}
 
 std::vector<std::string> check_tileset(const Tileset& tileset, const TileContents& content_of) {
   return Checker(tileset, content_of).run();

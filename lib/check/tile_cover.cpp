@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "lib/check/detail/leaf_proof.h"
 #include "lib/check/detail/surface.h"
 #include "lib/check/detail/triangle_part.h"
 #include "lib/core/parallel.h"
@@ -25,8 +26,9 @@ struct Body {
   WeldedMesh mesh;
   std::unique_ptr<Surface> surface;
   bool closed = false, sound = true;
-  double area = 0;  ///< of a leaf
+  std::unique_ptr<LeafProof> proof;  ///< of a leaf
   void drop() {
+    proof.reset();
     surface.reset();
     mesh = {};
   }
@@ -34,7 +36,7 @@ struct Body {
 
 struct Counts {
   std::atomic<std::uint64_t> touching{0}, outside{0}, undecided{0}, uncovered{0}, bare{0}, missing{0};
-  std::atomic<double> area{0}, slack{0};  ///< of the scene in a leaf; that rounding may add
+  std::uint64_t strays = 0;  ///< triangles of a leaf
 };
 
 class Checker {
@@ -49,7 +51,10 @@ class Checker {
       end_ = end_of_share(memory_bytes);
       parallel_for(std::int64_t(end_ - begin_), [&](std::int64_t i) { load(begin_ + std::size_t(i)); });
       pass(scene);
-      for (std::size_t i = begin_; i < end_; ++i) bodies_[i].drop();
+      for (std::size_t i = begin_; i < end_; ++i) {
+        if (bodies_[i].proof) counts_[i].strays = bodies_[i].proof->strays();
+        bodies_[i].drop();
+      }
     }
     for (std::size_t i = 0; i < tiles_.size(); ++i) say_of_tile(i);
     if (astray_ > 0)
@@ -92,7 +97,7 @@ class Checker {
     body.mesh = weld(content_of_(i), 1, report);
     if (tiles_[i].leaf_error) {
       body.surface = std::make_unique<Surface>(body.mesh);
-      body.area = area_of(body.mesh);
+      body.proof = std::make_unique<LeafProof>(body.surface->bvh());
       return;
     }
     check_topology(body.mesh, 1, report);
@@ -182,37 +187,14 @@ class Checker {
     return 0;
   }
 
-  static double area_of(const WeldedMesh& mesh) {
-    double area = 0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      const TriangleD t = mesh.corners(i);
-      area += length(cross(t[1] - t[0], t[2] - t[0])) / 2;
-    }
-    return area;
-  }
-
   /// Of a leaf.
-  Verdict compare(std::size_t i, const TriangleD& t) {
-    const Bounds3d& cell = *tiles_[i].cell;
-    const TrianglePart part(t, cell);
+  [[nodiscard]] Verdict compare(std::size_t i, const TriangleD& t) {
+    const std::vector<Vec3d> part = part_within(t, *tiles_[i].cell);
     if (part.empty()) return Verdict::fine;
-    const double error = *tiles_[i].leaf_error + 16 * rounding_of(cell, t);
-    const std::vector<Vec3d> corners = part.corners();
-    double around = 0, area = 0;
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const Vec3d u = corners[k] - corners[0], v = corners[(k + 1) % corners.size()] - corners[0];
-      area += length(cross(u, v)) / 2;
-      around += length(v - u);
-    }
-    counts_[i].area += area;
-    counts_[i].slack += error * (around + error);
-    std::vector<Vec3d> points = part.points_within();
-    points.insert(points.end(), corners.begin(), corners.end());
-    const TriangleBvh& shown = bodies_[i].surface->bvh();
-    const bool all = !shown.empty() && std::all_of(points.begin(), points.end(), [&](const Vec3d& p) {
-      return shown.nearest(p).distance_squared <= error * error;
-    });
-    return all || area <= error * around ? Verdict::fine : Verdict::missing;
+    const double error = *tiles_[i].leaf_error + 16 * rounding_of(*tiles_[i].cell, t);
+    const LeafProof::Cover cover = bodies_[i].proof->add(part, error);
+    if (cover == LeafProof::Cover::undecided) return Verdict::undecided;
+    return cover == LeafProof::Cover::whole ? Verdict::fine : Verdict::missing;
   }
 
   [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t) const {
@@ -278,9 +260,9 @@ class Checker {
       findings_.push_back({fmt::format("{}: {} {} {} triangles of the scene", tile.place, tile.uri, what, n), answer});
     };
     add(c.missing, "does not show");
-    if (const double more = bodies_[i].area - c.area; tile.leaf_error && std::abs(more) > c.slack + 1e-9 * c.area)
-      findings_.push_back({fmt::format("{}: {} has an area of {:.6g}, and the scene there {:.6g}", tile.place, tile.uri,
-                                       bodies_[i].area, c.area.load())});
+    if (c.strays > 0)
+      findings_.push_back(
+          {fmt::format("{}: {} shows {} triangles that the scene does not have", tile.place, tile.uri, c.strays)});
     add(c.touching, "is touched by");
     add(c.outside, "leaves outside");
     add(c.undecided, "cannot be decided for", Answer::undecided);

@@ -18,9 +18,10 @@
 ///   - the cells of a tile's children are octants of its own, or its own again; t meets no octant without a child.
 /// A tile without a cell answers for all of space; one without content draws nothing, and must have children.
 ///
-/// A leaf encloses nothing: it is the scene itself in its cell. Of each t ∩ cell, the corners, the middle and points
-/// between must lie within `leaf_error` of the content, and the areas of both must be equal. That compares, and proves
-/// nothing.
+/// A leaf encloses nothing: it is the scene itself in its cell. Each of its triangles must lie within `leaf_error` of a
+/// t ∩ cell. Each t ∩ cell must be covered by such triangles, so that its points lie within 3 errors of them; what is
+/// thinner than six errors may be missing (detail/leaf_proof.h). In doubles. Whoever fills a CoverTile answers for it
+/// that a leaf is one (leaf_fault()).
 ///
 /// Decided exactly or on the safe side: cells are grown by 1e-9 of their edge, or 2^-46 of the largest coordinate where
 /// that is more, and t is cut by them in doubles, whose errors are far smaller; where t meets a face, bounds of the

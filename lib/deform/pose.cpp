@@ -11,7 +11,8 @@ namespace bp {
 
 namespace {
 
-constexpr double kStep = 1e-6;  // of the diagonal: long beside rounding, short beside the cage
+constexpr std::size_t kProbes = 3;  // places for each direction
+constexpr double kStep = 1e-6;      // of the diagonal: long beside rounding, short beside the cage
 
 /// Two directions along the surface; the first is that of the tangent, if there is one.
 struct Frame {
@@ -38,6 +39,30 @@ std::vector<Vec3d> moves_at(const CoordinateRows& rows, std::span<const Vec3d> m
     for (std::size_t v = 0; v < moves.size(); ++v) out[i] = out[i] + rows.row(i)[v] * moves[v];
   }
   return out;
+}
+
+void turn_some(const CageCoordinates& coordinates, std::span<const Vec3d> moves, std::span<const Vec3d> positions,
+               std::span<Vec3d> normals, std::span<Vec3d> tangents, CoordinateRows& rows) {
+  const double step = kStep * coordinates.cage().diagonal;
+  std::vector<Frame> frames;
+  std::vector<Vec3d> places;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    frames.push_back(frame_of(normals[i], tangents.empty() ? nullptr : &tangents[i]));
+    places.push_back(positions[i]);
+    places.push_back(positions[i] + step * frames[i].first);
+    places.push_back(positions[i] + step * frames[i].second);
+  }
+  coordinates.evaluate(places, rows);
+  const std::vector<Vec3d> moved = moves_at(rows, moves);
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const Vec3d& here = moved[kProbes * i];
+    if (moved[kProbes * i + 1] == here && moved[kProbes * i + 2] == here) continue;
+    const Vec3d first = frames[i].first + (1 / step) * (moved[kProbes * i + 1] - here);
+    const Vec3d second = frames[i].second + (1 / step) * (moved[kProbes * i + 2] - here);
+    const Vec3d normal = cross(first, second);
+    if (length(normal) > 0) normals[i] = (1 / length(normal)) * normal;
+    if (!tangents.empty()) tangents[i] = first;
+  }
 }
 
 }  // namespace
@@ -69,28 +94,14 @@ std::vector<Vec3d> moves_of_cage(const IndexedMesh& cage, const std::vector<Tria
   return moves;
 }
 
-void turn_directions(const MeanValueCoordinates& coordinates, std::span<const Vec3d> moves,
-                     std::span<const Vec3d> positions, std::span<Vec3d> normals, std::span<Vec3d> tangents) {
-  const double step = kStep * coordinates.cage().diagonal;
-  std::vector<Frame> frames;
-  std::vector<Vec3d> places;
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    frames.push_back(frame_of(normals[i], tangents.empty() ? nullptr : &tangents[i]));
-    places.push_back(positions[i]);
-    places.push_back(positions[i] + step * frames[i].first);
-    places.push_back(positions[i] + step * frames[i].second);
-  }
+void turn_directions(const CageCoordinates& coordinates, std::span<const Vec3d> moves, std::span<const Vec3d> positions,
+                     std::span<Vec3d> normals, std::span<Vec3d> tangents) {
+  const std::size_t step = std::max<std::size_t>(coordinates.points_at_once() / kProbes, 1);
   CoordinateRows rows;
-  coordinates.evaluate(places, rows);
-  const std::vector<Vec3d> moved = moves_at(rows, moves);
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    const Vec3d& here = moved[3 * i];
-    if (moved[3 * i + 1] == here && moved[3 * i + 2] == here) continue;
-    const Vec3d first = frames[i].first + (1 / step) * (moved[3 * i + 1] - here);
-    const Vec3d second = frames[i].second + (1 / step) * (moved[3 * i + 2] - here);
-    const Vec3d normal = cross(first, second);
-    if (length(normal) > 0) normals[i] = (1 / length(normal)) * normal;
-    if (!tangents.empty()) tangents[i] = first;
+  for (std::size_t first = 0; first < normals.size(); first += step) {
+    const std::size_t n = std::min(step, normals.size() - first);
+    turn_some(coordinates, moves, positions.subspan(first, n), normals.subspan(first, n),
+              tangents.empty() ? tangents : tangents.subspan(first, n), rows);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lib/core/indexed_mesh.h"
-#include "lib/deform/mean_value.h"
+#include "lib/deform/coordinates.h"
 
 /// Cages in another pose, and what they do to directions.
 namespace bp {
@@ -17,8 +17,9 @@ namespace bp {
 
 /// Turns normals and tangents of points as the cage turns what is around them, to about 1e-6; they need not keep their
 /// length. `tangents`: as many as normals, or none; tangents without normals stay. Directions that the cage does not
-/// turn keep their bits. On the caller's thread. Cost: three evaluations for each point.
-void turn_directions(const MeanValueCoordinates& coordinates, std::span<const Vec3d> moves,
-                     std::span<const Vec3d> positions, std::span<Vec3d> normals, std::span<Vec3d> tangents);
+/// turn keep their bits. `moves`: moves_of_columns(). On the caller's thread, in coordinates.bytes_at_once(). Cost:
+/// three evaluations for each point.
+void turn_directions(const CageCoordinates& coordinates, std::span<const Vec3d> moves, std::span<const Vec3d> positions,
+                     std::span<Vec3d> normals, std::span<Vec3d> tangents);
 
 }  // namespace bp

@@ -22,8 +22,10 @@ int bits_for(double largest) {
 /// The sum so far is rounded, not the weight: what rounding takes from one column it gives to the next. `units` are
 /// `stride` apart. Returns the bits.
 int round_row(std::span<const double> weights, std::int32_t* units, std::size_t stride) {
-  double largest = 0, sum = 0;
-  for (const double w : weights) largest = std::max(largest, std::abs(w));
+  double largest = 0, all = 0, sum = 0;
+  for (const double w : weights) largest = std::max(largest, std::abs(w)), all += w;
+  if (!std::isfinite(all))
+    fail(ErrorCode::bad_input, "a point has weights that are not finite: the cage is degenerate");
   const int bits = bits_for(largest);
   const double scale = std::ldexp(1.0, bits);
   std::int64_t before = 0;

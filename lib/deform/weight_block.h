@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/deform/mean_value.h"
+#include "lib/deform/coordinates.h"
 
 namespace bp {
 
@@ -11,7 +11,7 @@ namespace bp {
 struct WeightBlock {
   static constexpr int kBits = 26;  ///< binary places of a weight, but for points whose weights are 32 or more
 
-  std::size_t points = 0, columns = 0;  ///< a column for each vertex of the cage
+  std::size_t points = 0, columns = 0;  ///< columns_of()
   std::vector<std::uint8_t> bits;       ///< by point: its weights are units / 2^bits
   std::vector<std::int32_t> units;      ///< of column c and point i: [c * points + i]
 
@@ -20,13 +20,13 @@ struct WeightBlock {
 };
 
 /// Rounds the rows of some points, the first of which is point `first` of the block. Rounds so, that the units of each
-/// point add up to 2^bits: a cage that moves as a whole moves the points by as much, without rounding. Each unit is off
-/// by less than 1, and sums of neighbouring columns, too. A point that is nowhere gets zeros. Throws bad_input if a
-/// weight is 2^30 or more: a point lies too far outside.
+/// point add up to 2^bits, those of Green coordinates over the vertices: a cage that moves as a whole moves the points
+/// by as much, without rounding. Each unit is off by less than 1, and sums of neighbouring columns, too. A point that
+/// is nowhere gets zeros. Throws bad_input if a weight is 2^30 or more, as of a point too far outside, or not finite.
 void round_weights(const CoordinateRows& rows, std::size_t first, WeightBlock& out);
 
-/// out[i] = the sum over the columns of weight times moves[column]: by how much each point moves if the vertices of the
-/// cage move so. Exactly 0 where no vertex moves. The order of the sum is that of the columns.
+/// out[i] = the sum over the columns of weight times moves[column]: by how much each point moves. `moves` are those of
+/// CageCoordinates::moves_of_columns(). Exactly 0 where no vertex moves. The order of the sum is that of the columns.
 void add_moves(const WeightBlock& block, std::span<const Vec3d> moves, std::span<Vec3d> out);
 
 }  // namespace bp

@@ -7,6 +7,7 @@ import html
 import os
 import subprocess
 import sys
+from urllib.parse import quote
 
 STYLE = ("body{font:15px sans-serif;max-width:60em;margin:2em auto}td,th{padding:.3em 1em .3em 0;text-align:left;vertical-align:top}"
          ".failed{color:#b00}img{max-width:15em}")
@@ -22,7 +23,7 @@ def table(path):
 
 def times(out, scene):
     seconds = []
-    for path in glob.glob(os.path.join(glob.escape(os.path.join(out, ".farm", scene)), "*.time")):
+    for path in glob.glob(os.path.join(glob.escape(os.path.join(out, ".farm", quote(scene, safe=""))), "*.time")):
         with open(path) as file:
             seconds += [float(row["s"]) for row in csv.DictReader(file, delimiter="\t")]
     return len(seconds), round(sum(seconds))
@@ -39,7 +40,7 @@ def picture(out, scene):
     if not os.path.exists(image):
         subprocess.run(["bpinfo", files[0], "--image", image, "--image-size", "480"], stdout=subprocess.DEVNULL,
                        stderr=subprocess.DEVNULL)
-    return f'<img src="{html.escape(scene)}/picture.png" alt="">' if os.path.exists(image) else ""
+    return f'<img src="{quote(scene)}/picture.png" alt="">' if os.path.exists(image) else ""
 
 
 def number(now, before):

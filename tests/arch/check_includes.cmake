@@ -72,7 +72,7 @@ set(foreign
   "freetype:^io/image/label_font\\.cpp$"
   "ft2build:^io/image/label_font\\.cpp$"
   "OpenMesh/:^tests/"
-  "meshoptimizer:^(tests/bench/.*\\.cpp|io/gltf/meshopt_codec\\.cpp)$"
+  "meshoptimizer:^(tests/bench/.*\\.cpp|tests/support/simplified\\.h|io/gltf/meshopt_codec\\.cpp)$"
   "tbb/:^lib/core/parallel\\.(h|cpp)$"
   "oneapi/:^lib/core/parallel\\.(h|cpp)$"
   "cuda:^(gpu/|tests/)"

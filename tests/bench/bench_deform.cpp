@@ -9,7 +9,7 @@
 #include "io/scene/scene_reader.h"
 #include "lib/core/box.h"
 #include "lib/core/parallel.h"
-#include "lib/deform/mean_value.h"
+#include "lib/deform/coordinates.h"
 #include "tests/bench/median.h"
 #include "tests/reference/mean_value.h"
 
@@ -32,7 +32,7 @@ struct Seconds {
 };
 
 /// In the bounds of the cage, and inside it.
-std::vector<Vec3d> points_inside(const IndexedMesh& cage, const MeanValueCoordinates& coordinates, std::size_t n) {
+std::vector<Vec3d> points_inside(const IndexedMesh& cage, const CageCoordinates& coordinates, std::size_t n) {
   Bounds3d bounds;
   for (const Vec3d& v : cage.vertices) bounds.add(v);
   std::mt19937_64 random(1);
@@ -52,7 +52,7 @@ std::vector<Vec3d> points_inside(const IndexedMesh& cage, const MeanValueCoordin
   return points;
 }
 
-void run_ours(const MeanValueCoordinates& coordinates, const std::vector<Vec3d>& points) {
+void run_ours(const CageCoordinates& coordinates, const std::vector<Vec3d>& points) {
   constexpr std::int64_t kBlock = 4096, kStep = 128;
   parallel_ranges(std::int64_t(points.size()), kBlock, [&](std::int64_t begin, std::int64_t end) {
     CoordinateRows rows;
@@ -71,7 +71,7 @@ void run_plain(const IndexedMesh& cage, std::span<const Vec3d> points) {
 int main(int argc, char** argv) {
   if (argc < 2) return std::fprintf(stderr, "usage: bench_deform CAGE [POINTS]\n"), 2;
   const IndexedMesh cage = read_mesh(argv[1]);
-  const MeanValueCoordinates coordinates(make_cage(cage, argv[1]));
+  const CageCoordinates coordinates(make_cage(cage, argv[1]));
   const std::vector<Vec3d> points =
       points_inside(cage, coordinates, argc > 2 ? std::size_t(std::atol(argv[2])) : 1000000);
   constexpr std::size_t kShare = 20;  // of the points, for the plain loop

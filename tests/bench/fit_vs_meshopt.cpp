@@ -4,15 +4,12 @@
 // One JSON line for each FIT, a file of bpmesh --mode fit, and for each count of faces among them: meshopt_simplify of
 // the scene itself, and of the closing's dense surface. Distances in voxels, means over the area, both ways; to the
 // surface of the closing's voxels, and to the scene.
-#include <meshoptimizer.h>
-
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <set>
 
-#include "io/scene/scene_reader.h"
 #include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
@@ -21,17 +18,12 @@
 #include "lib/simplify/flatten.h"
 #include "lib/surface/repair.h"
 #include "lib/surface/surface.h"
+#include "tests/support/simplified.h"
 
 namespace {
 
 using Triangles = std::vector<bp::TriangleD>;
-
-Triangles read_triangles(const std::string& path) {
-  const auto scene = bp::open_scenes({path}, {});
-  Triangles all;
-  for (Triangles chunk; scene->read(chunk);) all.insert(all.end(), chunk.begin(), chunk.end());
-  return all;
-}
+using bp::test::read_triangles;
 
 bp::LatticeMesh closing_surface(const std::string& path) {
   bp::BrickReader source(path);
@@ -43,35 +35,14 @@ bp::LatticeMesh closing_surface(const std::string& path) {
   return bp::dense_surface(*shelf, source.header().frame);
 }
 
-/// With equal positions merged, as meshoptimizer wants it; in floats relative to the middle of the bounds.
 Triangles simplified(const Triangles& in, std::size_t faces) {
   bp::Bounds3d bounds;
   for (const bp::TriangleD& t : in) {
     for (const bp::Vec3d& p : t) bounds.add(p);
   }
-  std::map<bp::Vec3d, unsigned> number;
-  std::vector<float> points;
-  std::vector<unsigned> indices;
-  const auto from_middle = [&](const bp::Vec3d& p, std::size_t i) {
-    return p[i] - (bounds.min[i] + bounds.max[i]) / 2;
-  };
-  for (const bp::TriangleD& t : in) {
-    for (const bp::Vec3d& p : t) {
-      const auto [at, fresh] = number.try_emplace(p, unsigned(number.size()));
-      for (std::size_t i = 0; fresh && i < 3; ++i) points.push_back(float(from_middle(p, i)));
-      indices.push_back(at->second);
-    }
-  }
-  constexpr float kAnyError = 1e9f;
-  std::vector<unsigned> out(indices.size());
-  out.resize(meshopt_simplify(out.data(), indices.data(), indices.size(), points.data(), number.size(),
-                              3 * sizeof(float), 3 * faces, kAnyError, 0, nullptr));
-  Triangles result(out.size() / 3);
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    for (std::size_t i = 0; i < 3; ++i)
-      result[k / 3][k % 3][i] = double(points[3 * out[k] + i]) + (bounds.min[i] + bounds.max[i]) / 2;
-  }
-  return result;
+  bp::Vec3d middle;
+  for (std::size_t i = 0; i < 3; ++i) middle[i] = (bounds.min[i] + bounds.max[i]) / 2;
+  return bp::test::simplified(in, middle, faces);
 }
 
 /// The surface of a closing with few triangles.

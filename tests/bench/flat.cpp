@@ -7,8 +7,6 @@
 //   to_scene, from_scene   mean distances, % of the diagonal
 // A plane of the scene is a set of coplanar triangles (1 degree, 0.05 % of the diagonal) with at least the area of a
 // mean face of the level. Nearby: 1 % of the diagonal, or REACH % from the environment.
-#include <meshoptimizer.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -17,26 +15,20 @@
 #include <map>
 #include <numeric>
 
-#include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/geometry/surface_distance.h"
+#include "tests/support/simplified.h"
 
 namespace {
 
 using bp::operator+, bp::operator-, bp::operator*;
+using bp::test::read_triangles, bp::test::simplified;
 using Triangles = std::vector<bp::TriangleD>;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kSamples = 200000;
-
-Triangles read_triangles(const std::string& path) {
-  const auto scene = bp::open_scenes({path}, {});
-  Triangles all;
-  for (Triangles chunk; scene->read(chunk);) all.insert(all.end(), chunk.begin(), chunk.end());
-  return all;
-}
 
 bp::Vec3d area_vector(const bp::TriangleD& t) {
   return 0.5 * bp::cross(t[1] - t[0], t[2] - t[0]);
@@ -191,29 +183,6 @@ void print(const char* what, const Scene& scene, const Triangles& mesh) {
   std::fflush(stdout);
 }
 
-/// With equal positions merged, as meshoptimizer wants it; in floats relative to the middle of the bounds.
-Triangles simplified(const Scene& scene, std::size_t faces) {
-  std::map<bp::Vec3d, unsigned> number;
-  std::vector<float> points;
-  std::vector<unsigned> indices;
-  for (const bp::TriangleD& t : scene.triangles) {
-    for (const bp::Vec3d& p : t) {
-      const auto [at, fresh] = number.try_emplace(p, unsigned(number.size()));
-      for (std::size_t i = 0; fresh && i < 3; ++i) points.push_back(float(p[i] - scene.middle[i]));
-      indices.push_back(at->second);
-    }
-  }
-  constexpr float kAnyError = 1e9f;
-  std::vector<unsigned> out(indices.size());
-  out.resize(meshopt_simplify(out.data(), indices.data(), indices.size(), points.data(), number.size(),
-                              3 * sizeof(float), 3 * faces, kAnyError, 0, nullptr));
-  Triangles result(out.size() / 3);
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    for (std::size_t i = 0; i < 3; ++i) result[k / 3][k % 3][i] = double(points[3 * out[k] + i]) + scene.middle[i];
-  }
-  return result;
-}
-
 void run(int argc, char** argv) {
   const Scene scene(read_triangles(argv[1]));
   std::map<std::size_t, bool> counts;
@@ -224,7 +193,8 @@ void run(int argc, char** argv) {
   }
   if (std::getenv("MESHOPT") == nullptr) return;
   for (const auto& [faces, unused] : counts)
-    if (faces < scene.triangles.size()) print("meshopt of the scene", scene, simplified(scene, faces));
+    if (faces < scene.triangles.size())
+      print("meshopt of the scene", scene, simplified(scene.triangles, scene.middle, faces));
 }
 
 }  // namespace

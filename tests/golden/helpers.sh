@@ -55,3 +55,28 @@ f 3 4 8 7
 f 4 1 5 8
 OBJ
 }
+
+# same A B: whether two folders hold the same bytes.
+same() { diff -r "$1" "$2" > differences && echo "$1 and $2: the same bytes" || echo "$1 and $2 differ: $(wc -l < differences)"; }
+
+# kept REPORT: what of the results was in the cache.
+kept() { grep -o '"kept": [0-9]*' "$1" | tr '\n' ' '; echo; }
+
+# chequer red|blue: writes chequered.png.
+chequer() {
+  local middle=hQROyMnBEQMVJZA5yIqoKAEAaed+QclKqjgAAAAA
+  [ "$1" = red ] || middle=hQTk5E7AEQMVJZA5yIqoKAEAP2d+Qe6vEAoAAAAA
+  base64 -d <<< "iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAGklEQVR42mP4${middle}SUVORK5CYII=" > chequered.png
+}
+
+# write_painted_cubes: part0.obj, whose image is chequered.png, and part1.obj in a row with it.
+write_painted_cubes() {
+  local i
+  printf 'newmtl chequered\nKd 0 1 0\nmap_Kd chequered.png\nnewmtl plain\nKd 0 0 1\n' > cubes.mtl
+  chequer red
+  write_cube cube.obj 3
+  for i in 0 1; do
+    { echo "mtllib cubes.mtl"; echo "vt 0 0"; echo "vt 1 0"; echo "vt 1 1"; echo "vt 0 1"; echo "usemtl $([ $i = 0 ] && echo chequered || echo plain)"
+      sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 40 * $i)) \2 \3/e; s/^f \(.*\) \(.*\) \(.*\) \(.*\)$/f \1\/1 \2\/2 \3\/3 \4\/4/" cube.obj; } > part$i.obj
+  done
+}

@@ -12,8 +12,16 @@ done
 work=$(mktemp -d)
 chmod 755 "$work"
 cd "$work"
-pids=()
+pids=() night=
+descendants() {
+  local child
+  for child in $(pgrep -P "$1"); do descendants "$child"; done
+  echo "$1"
+}
+
 finish() {
+  # A night whose Slurm is gone would ask for ever.
+  [ -z "$night" ] || kill $(descendants "$night") 2> /dev/null || true
   for pid in "${pids[@]}"; do kill "$pid" 2> /dev/null || true; done
   [ ! -f munge/pid ] || kill "$(cat munge/pid)" || true
   wait
@@ -76,10 +84,12 @@ CONF
   return 1
 }
 
-descendants() {
-  local child
-  for child in $(pgrep -P "$1"); do descendants "$child"; done
-  echo "$1"
+# stepd_of JOB: of this Slurm, and no other one on this host: it has files open in our folder.
+stepd_of() {
+  local pid
+  for pid in $(pgrep -f "^slurmstepd: \[$1[.]batch\]"); do
+    [[ $(readlink "/proc/$pid/cwd" "/proc/$pid/fd/"* 2> /dev/null) != *"$work/"* ]] || echo "$pid"
+  done
 }
 
 # Its slurmd, and the job on it with all that it started, at once, as if the power were gone.
@@ -87,8 +97,9 @@ kill_node() {
   local job stepd=""
   for ((i = 0; i < 600; ++i)); do
     job=$(squeue -h -w n2 -t R -n tiles -o %A | head -1)
-    [ -z "$job" ] || stepd=$(pgrep -f "^slurmstepd: \[$job[.]batch\]" || true)
+    [ -z "$job" ] || stepd=$(stepd_of "$job")
     [ -n "$stepd" ] && break
+    kill -0 "$night" || break
     sleep 0.2
   done
   [ -n "$stepd" ] || { echo "n2 never had a job" && return 1; }
@@ -112,7 +123,8 @@ SNAKEMAKE="--profile $root/samples/farm/slurm" MACHINES=3 THREADS=2 MEMORY=2G BA
   "$root/samples/farm/night" scenes out "${options[@]}" &
 night=$!
 kill_node
-wait $night || { cat out/.farm/log/snakemake >&2 && exit 1; }
+wait "$night" || { night= && cat out/.farm/log/snakemake >&2 && exit 1; }
+night=
 echo "three nodes, one of which died: $((SECONDS - begin)) s"
 grep -h "Error executing rule" out/.farm/log/snakemake || { echo "no job was tried again" && exit 1; }
 sinfo -h -N -o "%N %T" | sort

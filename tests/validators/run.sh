@@ -40,6 +40,14 @@ bplod town/town.obj --levels 1 --resolution 64 --appearance full -o gltf-full > 
 bplod town/town.obj --levels 3 --resolution 96 --tile 64 --profile 3dtiles -o tiles-town > /dev/null
 bplod town/town.obj --levels 2 --resolution 96 --tile 64 --profile 3dtiles --appearance full --leaves scene -o tiles-full > /dev/null
 cp tiles-town/town_LOD0/*.glb tiles-town/ 2> /dev/null || true
+# Morph targets and an animation, of a scene with normals and of one in two places.
+awk 'BEGIN { for (i = 0; i < 8; ++i) print "v", (i % 2 ? 99 : -99), (int(i / 2) % 2 ? 99 : -99), (i > 3 ? 99 : -99)
+  split("1 3 4 2 5 6 8 7 1 2 6 5 3 7 8 4 1 5 7 3 2 4 8 6", v); for (i = 1; i < 25; i += 4) print "f", v[i], v[i+1], v[i+2], v[i+3] }' > cage.obj
+awk '$1 == "v" && $3 > 0 { $2 += 50 } { print }' cage.obj > bent.obj
+for level in gltf-y/bpmesh gltf-red-y/red_LOD0; do
+  bpdeform bind $level.glb cage.obj -o moving.bpw --overwrite
+  bpdeform apply moving.bpw cage.obj bent.obj --animate 1 -o ${level}_moving.glb
+done
 node "$here/validate.cjs" gltf-*/*.glb tiles-*/*.glb tiles-full/*/*.glb
 
 # The same triangles, bit for bit, by another decoder.

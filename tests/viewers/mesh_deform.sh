@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
 # Blender binds our cages with its modifier Mesh Deform, and takes vertices where bpdeform takes them: a sheared cage, and a bent
 # one. Its coordinates are harmonic and computed on a grid, ours are mean value, so the bars are shares of the diagonal. Without Blender the test is
-# skipped (77). With BP_MODELS it takes models from there, too.
-#   tests/viewers/mesh_deform.sh FOLDER      FOLDER keeps the files; the tools are on PATH
+# skipped (77).
+#   tests/viewers/mesh_deform.sh FOLDER [SCENE...]    FOLDER keeps the files; SCENEs: besides generated ones; the tools are on PATH
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 command -v blender > /dev/null || { echo "skipped: blender is not installed"; exit 77; }
-mkdir -p "$1" && cd "$1"
-"$here/../../samples/scenes.py" . > /dev/null
+folder=$1
+shift
 scenes=(figure.obj truck.obj)
-for model in common_ogre paper_beast paper_octopus openfoam_motorBike nasty_libigl_tut_truck; do
-  [ ! -e "${BP_MODELS:-/nowhere}/$model.obj" ] || scenes+=("$BP_MODELS/$model.obj")
-done
+for scene; do scenes+=("$(realpath "$scene")"); done
+mkdir -p "$folder" && cd "$folder"
+"$here/../../samples/scenes.py" . > /dev/null
 
 # pose FILE AWK: the cage with other vertices, as x y z and the share t of the height (axis y).
 pose() {

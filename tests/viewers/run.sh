@@ -53,4 +53,20 @@ picture cesium data/leaves/tileset.json cesium-leaves
 for level in gltf/plant town/town figure/figure truck/truck; do
   picture blender data/${level}_LOD0.glb blender-${level#*/}
 done
+
+# An animated scene: at the time of a cage three.js sees it where `apply` of that cage writes it.
+awk 'BEGIN { for (i = 0; i < 8; ++i) print "v", (i % 2 ? 2 : -2), (int(i / 2) % 2 ? 4 : -1), (i > 3 ? 2 : -2)
+  split("1 3 4 2 5 6 8 7 1 2 6 5 3 7 8 4 1 5 7 3 2 4 8 6", v); for (i = 1; i < 25; i += 4) print "f", v[i], v[i+1], v[i+2], v[i+3] }' > cage.obj
+awk '$1 == "v" && $3 > 0 { $2 += 1.5; $4 *= 1.5 } { print }' cage.obj > bent.obj
+bpdeform bind data/figure/figure_LOD0.glb cage.obj -o figure.bpw --overwrite
+bpdeform apply figure.bpw cage.obj bent.obj cage.obj --animate 2 -o data/moving.glb --overwrite
+bpdeform apply figure.bpw bent.obj -o data/bent.glb --overwrite
+node "$here/shot.cjs" three data/moving.glb moving.png time=0.5 > moving
+bpinfo data/bent.glb --json > bent.json
+python3 - << 'P' || { echo "moving: not where it should be"; failed=1; }
+import json, sys
+seen, bounds = [float(x) for x in open("moving").read().split()[1:]], json.load(open("bent.json"))["bounds"]
+print("moving:", seen)
+sys.exit(len(seen) != 6 or max(abs(a - b) for a, b in zip(seen, bounds["min"] + bounds["max"])) > 1e-3)
+P
 exit $failed

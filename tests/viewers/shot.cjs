@@ -2,6 +2,7 @@
 // VIEWER: three or cesium. QUERY: width=PIXELS, and what the page of the viewer takes.
 // Served are FILE's folder, the pages beside this script, and node_modules of NODE_PATH. Prints the number of grey values of
 // the pixels that are not background: a flat silhouette has few.
+// A second line has the bounds at a time, if the page tells them.
 const fs = require('fs'), http = require('http'), path = require('path');
 const { chromium } = require('playwright-core');
 const [viewer, file, out, query] = process.argv.slice(2);
@@ -42,6 +43,8 @@ async function main() {
       return found.size;
     });
     console.log(greys);
+    const box = await page.evaluate(() => document.body.dataset.box);
+    if (box) console.log(box);
   } finally {
     await browser.close();
     server.close();

@@ -62,8 +62,8 @@ class CoverTiles {
     while (tiles_[next_].uri.empty()) ++next_;
     CoverTile& noted = tiles_[next_++];
     ++verdict.contents;
-    verdict.leaves += tile.is_leaf;
-    if (tile.is_leaf) verdict.leaf_error = std::max(verdict.leaf_error, tile.geometric_error);
+    verdict.leaves += noted.leaf_error.has_value();
+    verdict.leaf_error = std::max(verdict.leaf_error, noted.leaf_error.value_or(0));
     TileContent known;
     try {
       IndexedMesh mesh = read_content(folder_ + tile.uri, options_);
@@ -90,11 +90,19 @@ class CoverTiles {
     out.place = place;
     out.uri = tile.uri;
     if (tile.cell) out.cell = moved(*tile.cell, transform);
-    if (tile.cell && tile.is_leaf) out.leaf_error = tile.geometric_error;
     transforms_.push_back(transform);
-    places_[place] = tiles_.size() - 1;
-    const std::size_t end = place.rfind(".children[");
-    if (end != std::string::npos) tiles_[places_.at(place.substr(0, end))].children.push_back(tiles_.size() - 1);
+    const std::size_t number = tiles_.size() - 1, end = place.rfind(".children[");
+    Place& here = places_[place] = {number, nullptr};
+    if (end != std::string::npos) {
+      const Place& parent = places_.at(place.substr(0, end));
+      tiles_[parent.number].children.push_back(number);
+      here.proven = parent.proven;
+    }
+    if (tile.cell && tile.is_leaf && leaf_fault(tile, here.proven).empty()) {
+      tiles_[number].leaf_error = tile.geometric_error;
+    } else if (!tile.uri.empty()) {
+      here.proven = &tile;
+    }
   }
   [[nodiscard]] Vec3d to_scene(const Transform& transform, const Vec3d& p) const {
     return turned(transformed(transform, p), UpAxis::z, up_);
@@ -113,7 +121,11 @@ class CoverTiles {
   const SceneOptions& options_;
   std::vector<CoverTile> tiles_;
   std::vector<Transform> transforms_;
-  std::map<std::string, std::size_t> places_;
+  struct Place {
+    std::size_t number = 0;
+    const Tile* proven = nullptr;  ///< with content: itself, or the nearest above
+  };
+  std::map<std::string, Place> places_;
   std::size_t next_ = 0;  ///< tile to look for a uri at
 };
 
@@ -143,10 +155,8 @@ std::string TilesetVerdict::text(const std::string& name) const {
   std::string lines;
   for (const std::string& finding : findings) lines += finding + "\n";
   if (scene && leaves > 0)
-    lines += fmt::format(
-        "{}: {} of the contents are pieces of the scene and enclose nothing; they were compared with it, "
-        "to within {:.3g}\n",
-        name, leaves, leaf_error);
+    lines += fmt::format("{}: {} of the contents enclose nothing: they must be the scene itself, to within {:.3g}\n", name,
+                         leaves, 3 * leaf_error);
   return lines + fmt::format("{}: {} tiles, {} contents, {} triangles{}: {}\n", name, tiles, contents, triangles,
                              scene ? ", checked against the scene" : "",
                              holds()                         ? "holds"

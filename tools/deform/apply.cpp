@@ -1,6 +1,7 @@
 #include "tools/deform/apply.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "io/scene/points/scene_points.h"
 #include "lib/core/error.h"
@@ -57,66 +58,113 @@ class MoveStream {
   std::size_t at_ = 0;
 };
 
-std::vector<TriangleD> faces_of(const std::string& path, SceneOptions options) {
-  options.keep_degenerate = true;
-  std::vector<TriangleD> all, some;
-  const std::unique_ptr<TriangleSource> source = open_scene(path, options);
-  while (source->read(some)) {
-    all.insert(all.end(), some.begin(), some.end());
-    if (all.size() > kMostCageTriangles)
-      fail(ErrorCode::bad_input, "{}: has more than {} triangles, and is no cage", path, kMostCageTriangles);
-  }
-  return all;
+/// Also those that are not finite, which moves_of_cage() names.
+std::vector<TriangleD> faces_of(const std::string& path, const SceneOptions& options) {
+  const IndexedMesh mesh = read_mesh(path, options);
+  std::vector<TriangleD> faces;
+  for (const auto& t : mesh.triangles) faces.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+  return faces;
 }
 
-void turn(const MeanValueCoordinates& coordinates, const std::vector<Vec3d>& moves, PointBatch& batch) {
-  constexpr std::int64_t kGrain = 512;
-  parallel_ranges(std::int64_t(batch.normals.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
-    const auto first = std::size_t(begin), n = std::size_t(end - begin);
-    const auto some = [&](std::vector<Vec3d>& all) {
-      return all.empty() ? std::span<Vec3d>() : std::span(all).subspan(first, n);
+/// In so many slices, each with the memory of a worker.
+void turn(const CageCoordinates& coordinates, const std::vector<Vec3d>& moves, int slices, PointBatch& batch) {
+  const std::size_t all = batch.normals.size(), step = (all + std::size_t(slices) - 1) / std::size_t(slices);
+  parallel_for(all == 0 ? 0 : slices, [&](std::int64_t slice) {
+    const std::size_t first = std::min(all, std::size_t(slice) * step), n = std::min(step, all - first);
+    const auto some = [&](std::vector<Vec3d>& total) {
+      return total.empty() ? std::span<Vec3d>() : std::span(total).subspan(first, n);
     };
     turn_directions(coordinates, moves, some(batch.positions), some(batch.normals), some(batch.tangents));
   });
 }
 
-void check_scene(const WeightReader& weights, const std::string& path) {
-  const WeightHeader& header = weights.header();
-  const std::uint64_t bytes = size_of_files({header.scene});
-  if (bytes != header.scene_bytes)
-    fail(ErrorCode::bad_input, "{}: has {} bytes, and had {} when {} was made of it; bind it again", header.scene,
-         bytes, header.scene_bytes, path);
-}
+/// What one moved cage does to the scene.
+class CageMover {
+ public:
+  CageMover(const ApplyRequest& request, const std::string& cage)
+      : request_(request),
+        weights_(request.weights),
+        coordinates_(make_cage(weights_.header().cage, request.weights), weights_.header().kind),
+        moves_(coordinates_.moves_of_columns(
+            moves_of_cage(weights_.header().cage, faces_of(cage, request.scene_options), cage))),
+        at_work_(blocks_at_work(request.memory_bytes, coordinates_)),
+        stream_(weights_, moves_, at_work_) {
+    const std::uint64_t bytes = size_of_files({request.scene}), expected = weights_.header().scene_bytes;
+    if (bytes != expected)
+      fail(ErrorCode::bad_input, "{}: has {} bytes, and had {} when {} was made of it; bind it again", request.scene,
+           bytes, expected, request.weights);
+  }
+  [[nodiscard]] std::uint64_t expected() const { return weights_.points_declared(); }
+  void move(PointBatch& batch) {
+    hash_.add(std::as_bytes(std::span(batch.positions)));
+    turn(coordinates_, moves_, at_work_, batch);
+    const std::vector<Vec3d> shifts = stream_.take(batch.positions.size());
+    for (std::size_t i = 0; i < shifts.size(); ++i) batch.positions[i] = batch.positions[i] + shifts[i];
+    points_ += shifts.size();
+  }
+  /// Throws bad_input if the scene was another; returns its vertices.
+  std::uint64_t finish() {
+    if (!stream_.take(1).empty() || weights_.totals().points != points_ || weights_.totals().hash != hash_.value())
+      fail(ErrorCode::bad_input, "{}: its vertices are not those that {} was made of; bind it again", request_.scene,
+           request_.weights);
+    return points_;
+  }
+
+ private:
+  const ApplyRequest& request_;
+  WeightReader weights_;
+  const CageCoordinates coordinates_;
+  const std::vector<Vec3d> moves_;
+  const int at_work_;
+  MoveStream stream_;
+  ContentHash hash_;
+  std::uint64_t points_ = 0;
+};
 
 }  // namespace
 
-Applied apply_cage(WeightReader& weights, const ApplyRequest& request, OutputFile& out, Progress& progress) {
-  const WeightHeader& header = weights.header();
-  const std::unique_ptr<ScenePoints> scene = open_points(header.scene, request.scene_options);
-  check_scene(weights, request.weights);
-  const std::vector<Vec3d> moves =
-      moves_of_cage(header.cage, faces_of(request.cage, request.scene_options), request.cage);
-  const MeanValueCoordinates coordinates(make_cage(header.cage, request.weights));
-  MoveStream stream(weights, moves, blocks_at_work(request.memory_bytes, moves.size()));
-  Applied applied;
-  ContentHash hash;
-  progress.begin("apply", 0, "vertices");
+std::string scene_of(const WeightReader& weights, const std::string& path) {
+  const std::filesystem::path name = weights.header().scene;
+  const std::filesystem::path beside = std::filesystem::path(path).parent_path() / name;
+  if (std::filesystem::exists(beside)) return beside.string();
+  if (std::filesystem::exists(name)) return name.string();  // as a file of weights before this rule has it
+  fail(ErrorCode::bad_input, "{}: its scene is {}, which is not there; put it there, or bind it again", path,
+       beside.string());
+}
+
+Applied apply_cage(const ApplyRequest& request, const std::string& cage, OutputFile& out, Progress& progress) {
+  const std::unique_ptr<ScenePoints> scene = open_points(request.scene, request.scene_options);
+  CageMover mover(request, cage);
+  progress.begin("apply", mover.expected(), "vertices");
   scene->write(
       [&](PointBatch& batch) {
-        hash.add(std::as_bytes(std::span(batch.positions)));
-        turn(coordinates, moves, batch);
-        const std::vector<Vec3d> shifts = stream.take(batch.positions.size());
-        for (std::size_t i = 0; i < shifts.size(); ++i) batch.positions[i] = batch.positions[i] + shifts[i];
-        applied.points += shifts.size();
-        progress.add(shifts.size());
+        mover.move(batch);
+        progress.add(batch.positions.size());
       },
       out);
   progress.end();
-  if (!stream.take(1).empty() || weights.totals().points != applied.points || weights.totals().hash != hash.value())
-    fail(ErrorCode::bad_input, "{}: its vertices are not those that {} was made of; bind it again", header.scene,
-         request.weights);
-  applied.left_behind = scene->left_behind();
-  return applied;
+  return {mover.finish(), scene->left_behind()};
+}
+
+Applied animate_cages(const ApplyRequest& request, std::span<const std::string> cages, double per_second,
+                      OutputFile& out, Progress& progress) {
+  const std::unique_ptr<ScenePoints> scene = open_points(request.scene, request.scene_options);
+  auto mover = std::make_unique<CageMover>(request, cages[0]);
+  progress.begin("apply", mover->expected() * cages.size(), "vertices");
+  std::size_t at = 0;
+  scene->write_frames(
+      cages.size(), 1 / per_second,
+      [&](std::size_t frame, PointBatch& batch) {
+        if (frame != at) {
+          (void)mover->finish();
+          mover = std::make_unique<CageMover>(request, cages[at = frame]);
+        }
+        mover->move(batch);
+        progress.add(batch.positions.size());
+      },
+      out);
+  progress.end();
+  return {mover->finish(), ""};
 }
 
 }  // namespace bp

@@ -1,6 +1,7 @@
 #include "tools/deform/bind.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "io/scene/points/scene_points.h"
@@ -17,6 +18,7 @@ namespace {
 /// Points on their way.
 struct Block {
   std::vector<Vec3d> points;
+  std::uint64_t expected = 0;                    // in the whole scene
   std::uint64_t outside = 0, first_outside = 0;  // the latter within the block, if there is one
   Vec3d place{};                                 // of it
   PackedWeights packed;
@@ -27,14 +29,15 @@ class BlockCutter {
  public:
   BlockCutter(ScenePoints& points, std::size_t size) : points_(points), size_(size) {}
 
-  bool next(std::vector<Vec3d>& out) {
-    out.clear();
+  bool next(Block& block) {
+    std::vector<Vec3d>& out = block.points;
     while (out.size() < size_) {
       if (at_ == batch_.size() && !refill()) break;
       const std::size_t n = std::min(size_ - out.size(), batch_.size() - at_);
       out.insert(out.end(), batch_.begin() + std::ptrdiff_t(at_), batch_.begin() + std::ptrdiff_t(at_ + n));
       at_ += n;
     }
+    block.expected = points_.count();
     return !out.empty();
   }
   [[nodiscard]] ResultKey hash() const { return hash_.value(); }
@@ -53,13 +56,12 @@ class BlockCutter {
   ContentHash hash_;
 };
 
-/// In steps that stay in the cache.
-void work_on(const MeanValueCoordinates& coordinates, bool carry_outside, Block& block) {
-  constexpr std::size_t kStep = 128;
+void work_on(const CageCoordinates& coordinates, bool carry_outside, Block& block) {
+  const std::size_t step = coordinates.points_at_once();
   CoordinateRows rows;
-  WeightBlock rounded(block.points.size(), coordinates.cage().vertices.size());
-  for (std::size_t first = 0; first < block.points.size(); first += kStep) {
-    const std::size_t count = std::min(kStep, block.points.size() - first);
+  WeightBlock rounded(block.points.size(), coordinates.columns());
+  for (std::size_t first = 0; first < block.points.size(); first += step) {
+    const std::size_t count = std::min(step, block.points.size() - first);
     coordinates.evaluate(std::span(block.points).subspan(first, count), rows);
     for (std::size_t i = 0; i < count; ++i) {
       if (rows.places[i] != CoordinateRows::Place::outside || block.outside++ > 0) continue;
@@ -84,31 +86,41 @@ struct Tally {
   }
 };
 
+/// The name of a file from the folder of another; one that begins at the root stays.
+std::string name_from(const std::string& from, const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::absolute(from).parent_path();
+  if (std::filesystem::path(file).is_absolute()) return file;
+  return std::filesystem::proximate(file, folder).string();
+}
+
 }  // namespace
 
-int blocks_at_work(std::uint64_t memory_bytes, std::size_t columns) {
-  const std::uint64_t weights = points_of_block(columns) * columns, block = 24 * weights;
-  const std::uint64_t fixed = least_memory(0), left = memory_bytes > fixed ? memory_bytes - fixed : 0;
+int blocks_at_work(std::uint64_t memory_bytes, const CageCoordinates& coordinates) {
+  constexpr std::uint64_t kPerFace = 512;  // of the cage: its vertices, edges, tables and hierarchy
+  const std::size_t columns = coordinates.columns();
+  const std::uint64_t block = 24 * points_of_block(columns) * columns + coordinates.bytes_at_once();
+  const std::uint64_t fixed = least_memory(0) + kPerFace * coordinates.cage().faces.size();
+  const std::uint64_t left = memory_bytes > fixed ? memory_bytes - fixed : 0;
   if (left < block) throw NeedsMemory("a block of weights", block, left, fixed + block);
   return int(std::clamp<std::uint64_t>(left / block, 1, 2 * std::uint64_t(thread_count())));
 }
 
 WeightTotals bind_scene(const BindRequest& request, OutputFile& out, Progress& progress) {
-  WeightHeader header{request.scene, size_of_files({request.scene}), read_mesh(request.cage, request.scene_options)};
-  const MeanValueCoordinates coordinates(make_cage(header.cage, request.cage));
+  const WeightHeader header{name_from(request.weights, request.scene), size_of_files({request.scene}),
+                            read_mesh(request.cage, request.scene_options), request.kind};
+  const CageCoordinates coordinates(make_cage(header.cage, request.cage), request.kind);
   const std::unique_ptr<ScenePoints> points = open_points(request.scene, request.scene_options);
-  const std::size_t columns = header.cage.vertices.size();
-  BlockCutter cutter(*points, points_of_block(columns));
+  BlockCutter cutter(*points, points_of_block(coordinates.columns()));
   WeightWriter writer(out, header);
   Tally tally;
   progress.begin("bind", 0, "vertices");
   pipeline<Block>(
-      blocks_at_work(request.memory_bytes, columns), [&](Block& block) { return cutter.next(block.points); },
+      blocks_at_work(request.memory_bytes, coordinates), [&](Block& block) { return cutter.next(block); },
       [&](Block& block) { work_on(coordinates, request.carry_outside, block); },
       [&](Block& block) {
         tally.add(block);
         if (tally.totals.outside == 0 || request.carry_outside) writer.write(block.packed);
-        progress.add(block.points.size());
+        progress.set(tally.totals.points, std::max(block.expected, tally.totals.points));
       });
   progress.end();
   if (tally.totals.outside > 0 && !request.carry_outside)

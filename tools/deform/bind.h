@@ -9,12 +9,13 @@
 
 namespace bp {
 
-/// Blocks of weights at work at the same time: as many as memory and threads allow, at least one for each two threads.
-/// Throws NeedsMemory if not even one fits.
-[[nodiscard]] int blocks_at_work(std::uint64_t memory_bytes, std::size_t columns);
+/// Blocks of weights at work at the same time, each with coordinates at work: as many as memory and threads allow, at
+/// most two for each thread. Throws NeedsMemory if not even one fits.
+[[nodiscard]] int blocks_at_work(std::uint64_t memory_bytes, const CageCoordinates& coordinates);
 
 struct BindRequest {
-  std::string scene, cage;
+  std::string scene, cage, weights;  ///< weights: the name of `out`
+  CoordinateKind kind = CoordinateKind::mean_value;
   bool carry_outside = false;  ///< points outside follow the nearest face; else they are refused
   std::uint64_t memory_bytes = 0;
   SceneOptions scene_options;

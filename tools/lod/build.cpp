@@ -144,7 +144,7 @@ void Build::choose_textures(const TriangleSource& source, bool tell) {
   const bool wanted = source.has_textures() || from_colors;
   textured_ = wanted && can_read_again(options) && (from_colors || textures_->has_images());
   if (!tell) return;
-  for (const std::string& fault : textures_->faults()) note(fault + "; its material's colour is used");
+  for (const std::string& fault : textures_->faults()) note(fault);
   if (!wanted || textured_) return;
   note(can_read_again(options)
            ? "no image of the scene's textures is there, or can be read: levels have colours instead"

@@ -27,6 +27,7 @@ namespace {
 constexpr double kBytesPerFace = 9, kBytesPerTile = 2500;  // of compressed GLB, and of a tile with its place
 constexpr double kBytesPerPlainFace = 30;                  // of GLB
 constexpr double kBytesPerTexel = 1;
+constexpr double kBytesPerLeafTriangle = 20;                                  // of the scene: some are cut
 constexpr double kScratchPerTriangle = 20, kScratchPerTexturedTriangle = 60;  // that waits on disk
 
 struct Scene {
@@ -36,6 +37,7 @@ struct Scene {
   std::optional<UpAxis> up_told;
   UpAxis up = UpAxis::y;
   bool textured = false;
+  std::uint64_t image_bytes = 0;  ///< of files
 };
 
 Scene read_scene(const Build& build) {
@@ -51,6 +53,7 @@ Scene read_scene(const Build& build) {
   if (totals.triangles == 0) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());
   Scene scene{source->counts(), totals.bounds, totals.area, source->up(),
               o.voxels.up.value_or(source->up().value_or(UpAxis::y))};
+  if (options.textures) scene.image_bytes = options.textures->file_bytes();
   const bool from_colors = o.appearance == Appearance::texture && source->has_colors();
   scene.textured = options.textures && can_read_again(o) &&
                    (from_colors || (source->has_textures() && options.textures->has_images()));
@@ -64,12 +67,13 @@ struct Plan {
   std::vector<PlannedLevel> levels;
   Vec3d origin{};
   std::vector<FoundJobs> kept;
+  double leaf_bytes = 0;  ///< with their images; 0: none are wanted
   double file_bytes = 0, scratch_bytes = 0;
 };
 
-/// Of all levels, about.
+/// Of all levels and leaves, about.
 double file_bytes(const Plan& plan, bool tileset, const Scene& scene) {
-  double sum = 0;
+  double sum = plan.leaf_bytes;
   for (const PlannedLevel& level : plan.levels) {
     const double faces =
         level.faces > 0 ? double(level.faces)
@@ -101,11 +105,14 @@ Plan plan_of(const Build& build, const Scene& scene) {
     plan.jobs = plan.levels.size();
   }
   plan.origin = origin_of(o.proxy.origin, plan.header.frame, plan.header.bounds);
-  plan.file_bytes = file_bytes(plan, tileset, scene);
   const double triangles = double(scene.counts.triangles);
+  if (o.leaves)
+    plan.leaf_bytes = kBytesPerLeafTriangle * triangles + kBytesPerTile * double(plan.levels.front().tiles) +
+                      double(scene.image_bytes);
+  plan.file_bytes = file_bytes(plan, tileset, scene);
   if (triangles * sizeof(TriangleD) > double(build.budget.waiting) * 0.6)
     plan.scratch_bytes = triangles * kScratchPerTriangle;
-  if (scene.textured && triangles * kScratchPerTexturedTriangle > double(build.budget.tiles))
+  if ((scene.textured || o.leaves) && triangles * kScratchPerTexturedTriangle > double(build.budget.tiles))
     plan.scratch_bytes += triangles * kScratchPerTexturedTriangle;
   return plan;
 }
@@ -147,6 +154,7 @@ Json json_of(const Build& build, const Scene& scene, const Plan& plan) {
             {"file_bytes_about", std::uint64_t(plan.file_bytes)},
             {"scratch_bytes_about", std::uint64_t(plan.scratch_bytes)}};
   for (const PlannedLevel& level : plan.levels) json["levels"].push_back(json_of(level));
+  if (plan.leaf_bytes > 0) json["leaf_bytes_about"] = std::uint64_t(plan.leaf_bytes);
   if (plan.origin != Vec3d{}) json["origin"] = plan.origin;
   for (const FoundJobs& f : plan.kept) json["kept"].push_back(json_of(f));
   return json;
@@ -173,6 +181,9 @@ std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
                      size_text(b.shelf), size_text(b.work.bytes));
   out += fmt::format("disk\tabout {} of files, about {} of scratch\n", size_text(std::uint64_t(plan.file_bytes)),
                      size_text(std::uint64_t(plan.scratch_bytes)));
+  if (plan.leaf_bytes > 0)
+    out += fmt::format("leaves\tabout {} of the files, {} triangles and more\n",
+                       size_text(std::uint64_t(plan.leaf_bytes)), scene.counts.triangles);
   out += "level\tvoxel\tscale\thalo\ttiles\tnumbers\tfaces\n";
   for (std::size_t i = 0; i < plan.levels.size(); ++i) out += row_of(plan.levels[i], i);
   for (const FoundJobs& f : plan.kept) out += fmt::format("kept\t{}: {} of {}\n", f.what, f.kept, f.jobs);

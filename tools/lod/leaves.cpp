@@ -5,6 +5,7 @@
 #include <set>
 
 #include "io/mesh/leaf_writer.h"
+#include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/pass/bake/textured_triangle.h"
 #include "lib/pass/leaf/scene_leaf.h"
@@ -17,8 +18,6 @@
 namespace bp {
 
 namespace {
-
-constexpr std::uint64_t kBytesPerLeaf = kMostLeafTriangles * 1000;  // while it is cut and written
 
 /// Of the first bytes.
 const char* extension_of(std::span<const std::byte> file) {
@@ -87,11 +86,9 @@ class LeafMaker {
 
   MadeLeaves run() {
     find();
-    const auto at_once =
-        int(std::clamp<std::uint64_t>(build_.context().memory.bytes / kBytesPerLeaf, 1, std::uint64_t(thread_count())));
     std::size_t next = 0;
     run_jobs<std::size_t>(
-        at_once,
+        at_once(),
         [&](std::size_t& i) {
           i = next++;
           return i < leaves_.size();
@@ -124,6 +121,18 @@ class LeafMaker {
         leaves_.push_back({c, std::move(box), std::move(name), {}});
       }
     }
+  }
+
+  /// Leaves that fit the memory together, however large. Throws NeedsMemory if one does not.
+  [[nodiscard]] int at_once() const {
+    std::uint64_t triangles = 1;
+    for (const Leaf& leaf : leaves_) triangles = std::max(triangles, leaf.box.triangles);
+    const MemoryShare memory = build_.context().memory;
+    const std::uint64_t needed = triangles * kLeafBytesPerTriangle;
+    if (needed > memory.bytes)
+      throw NeedsMemory(fmt::format("cutting a leaf of {} triangles", triangles), needed, memory.bytes,
+                        memory.limit_with(needed - memory.bytes));
+    return int(std::min(memory.bytes / needed, std::uint64_t(thread_count())));
   }
 
   [[nodiscard]] ResultKey key_of(const Leaf& leaf) const {

@@ -298,6 +298,7 @@ void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
   if (made.provenance.empty())
     made.provenance = {
         make_provenance("bplod", tileset_options(made, shop.options().tile_vox), made.scene.counts.input_hash)};
+  if (made.leaves) made.provenance.back().options += " leaves=scene";
   parallel_for(std::int64_t(made.files.size()), [&](std::int64_t i) {  // each waits for the disk
     const Waiting& file = made.files[std::size_t(i)];
     std::vector<std::byte> bytes;

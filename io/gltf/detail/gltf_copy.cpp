@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint32_t kJson = 0x4E4F534A, kBin = 0x004E4942;
 constexpr std::uint64_t kFirst = 12;
+constexpr int kVertexData = 34962;
 
 struct Chunk {
   std::uint64_t begin = 0, size = 0;  ///< of its content
@@ -70,7 +71,6 @@ GltfCopy::GltfCopy(SceneFilePtr file, const SceneFile& buffer, std::uint64_t byt
 }
 
 std::uint64_t GltfCopy::add_accessor(std::uint64_t like, std::uint64_t offset, std::uint64_t bytes) {
-  constexpr int kVertexData = 34962;
   json_["bufferViews"].push_back(
       {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes}, {"target", kVertexData}});
   GltfOutJson accessor = json_["accessors"][like];
@@ -100,6 +100,61 @@ void GltfCopy::set_bounds(std::uint64_t accessor, const Bounds3d& bounds) {
   if (bounds.empty()) return;
   json_["accessors"][accessor]["min"] = bounds.min;
   json_["accessors"][accessor]["max"] = bounds.max;
+}
+
+std::size_t GltfCopy::add_floats(std::size_t view, std::uint64_t offset, std::uint64_t count, const char* type) {
+  constexpr int kFloat = 5126;
+  json_["accessors"].push_back({{"bufferView", view}, {"componentType", kFloat}, {"count", count}, {"type", type}});
+  if (offset > 0) json_["accessors"].back()["byteOffset"] = offset;
+  return json_["accessors"].size() - 1;
+}
+
+std::size_t GltfCopy::add_scalars(const std::vector<float>& values) {
+  json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", size()}, {"byteLength", 4 * values.size()}});
+  append(std::as_bytes(std::span(values)));
+  return add_floats(json_["bufferViews"].size() - 1, 0, values.size(), "SCALAR");
+}
+
+void GltfCopy::add_target(const std::array<std::uint64_t, 3>& numbers, std::uint64_t offset, std::uint64_t count,
+                          const Bounds3d& bounds) {
+  constexpr std::uint64_t kThreeFloats = 12;
+  const bool has_normals = numbers[1] > 0;
+  const std::uint64_t stride = has_normals ? 2 * kThreeFloats : kThreeFloats;
+  GltfOutJson view{{"buffer", 0}, {"byteOffset", offset}, {"byteLength", count * stride}};
+  if (has_normals) view["byteStride"] = stride;
+  view["target"] = kVertexData;
+  json_["bufferViews"].push_back(std::move(view));
+  const std::size_t at = json_["bufferViews"].size() - 1;
+  GltfOutJson target{{"POSITION", add_floats(at, 0, count, "VEC3")}};
+  set_bounds(json_["accessors"].size() - 1, bounds);
+  if (has_normals) target["NORMAL"] = add_floats(at, kThreeFloats, count, "VEC3");
+  for (GltfOutJson& mesh : json_["meshes"]) {
+    for (GltfOutJson& primitive : mesh["primitives"]) {
+      const GltfOutJson& attributes = primitive["attributes"];
+      if (attributes.value("POSITION", ~std::uint64_t(0)) + 1 == numbers[0] &&
+          attributes.value("NORMAL", ~std::uint64_t(0)) + 1 == numbers[1])
+        primitive["targets"].push_back(target);
+    }
+  }
+}
+
+void GltfCopy::add_animation(std::size_t targets, double seconds) {
+  std::vector<float> times, weights(targets * targets);
+  for (std::size_t i = 0; i < targets; ++i) times.push_back(float(double(i) * seconds)), weights[i * targets + i] = 1;
+  const std::size_t input = add_scalars(times), output = add_scalars(weights);
+  json_["accessors"][input]["min"] = {times.front()};
+  json_["accessors"][input]["max"] = {times.back()};
+  GltfOutJson channels = GltfOutJson::array();
+  for (std::size_t n = 0; n < json_["nodes"].size(); ++n) {
+    if (!json_["nodes"][n].contains("mesh")) continue;
+    GltfOutJson& mesh = json_["meshes"][json_["nodes"][n]["mesh"].get<std::size_t>()];
+    if (!mesh["primitives"][0].contains("targets")) continue;
+    mesh["weights"] = std::vector<int>(targets, 0);
+    channels.push_back({{"sampler", 0}, {"target", {{"node", n}, {"path", "weights"}}}});
+  }
+  json_["animations"].push_back(
+      {{"samplers", GltfOutJson::array({{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}})},
+       {"channels", channels}});
 }
 
 void GltfCopy::write(OutputFile& out) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/files/file.h"
 #include "io/gltf/glb_file.h"
@@ -35,11 +36,20 @@ class GltfCopy {
   void set_accessors(std::uint64_t mesh, std::uint64_t primitive, const std::array<std::uint64_t, 3>& numbers);
   /// `min` and `max` of an accessor.
   void set_bounds(std::uint64_t accessor, const Bounds3d& bounds);
+  /// A morph target for all primitives of these accessors (as for set_accessors()). From `offset` on there are `count`
+  /// changes of POSITION, with those of NORMAL behind each if there are any.
+  void add_target(const std::array<std::uint64_t, 3>& numbers, std::uint64_t offset, std::uint64_t count,
+                  const Bounds3d& bounds);
+  /// An animation that shows one morph target after the other, `seconds` apart.
+  void add_animation(std::size_t targets, double seconds);
   /// A GLB as a GLB; else JSON with the buffer in it.
   void write(OutputFile& out);
 
  private:
   void write_json(OutputFile& out);
+  /// The number of a new accessor.
+  std::size_t add_floats(std::size_t view, std::uint64_t offset, std::uint64_t count, const char* type);
+  std::size_t add_scalars(const std::vector<float>& values);
   SceneFilePtr file_;
   GltfOutJson json_;
   std::unique_ptr<ScratchFile> data_;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "io/gltf/gltf_sampler.h"
+
 // glTF 2.0, section 3.9, and KHR_materials_pbrSpecularGlossiness, which came before it.
 
 namespace bp {
@@ -74,11 +76,9 @@ std::optional<GltfObject> GltfMaterials::base_texture(const GltfObject& material
 }
 
 std::array<TextureWrap, 2> GltfMaterials::wrap_of(const GltfObject& texture) const {
-  constexpr std::uint64_t kClamp = 33071, kMirror = 33648;
   const auto wrap = [&](const char* key) {
     if (!texture.has("sampler")) return TextureWrap::repeat;
-    const std::uint64_t mode = doc_.root().item("samplers", texture.number("sampler")).number(key, 0);
-    return mode == kClamp ? TextureWrap::clamp : mode == kMirror ? TextureWrap::mirror : TextureWrap::repeat;
+    return wrap_of_gltf(doc_.root().item("samplers", texture.number("sampler")).number(key, 0));
   };
   return {wrap("wrapS"), wrap("wrapT")};
 }
@@ -124,7 +124,8 @@ TextureSurface GltfMaterials::surface_of(const GltfObject& material, const std::
 /// None if it lies elsewhere than the image of colours, which is told.
 TextureMap GltfMaterials::map_of(const GltfObject& info, const std::optional<GltfObject>& places) {
   if (places && !same_places(info, *places)) {
-    textures_->add_fault(fmt::format("{}: an image lies at other places than its material's first one", file_));
+    textures_->add_fault(
+        fmt::format("{}: an image lies at other places than its material's first one; it is left out", file_));
     return {};
   }
   const GltfObject texture = doc_.root().item("textures", info.number("index"));

@@ -45,27 +45,24 @@ std::size_t GlbData::add_attributes(const std::string& bytes, std::size_t stride
 }
 
 std::size_t GlbData::add_normals(const std::vector<std::array<float, 3>>& normals) {
-  if (!compressed_) {
-    const auto* const bytes = reinterpret_cast<const char*>(normals.data());
-    return add_attributes(std::string(bytes, normals.size() * sizeof normals[0]), 12,
-                          {{"componentType", kGltfFloat}, {"count", normals.size()}, {"type", "VEC3"}});
-  }
-  quantize();
-  return add_attributes(
-      octahedral(normals), 4,
-      {{"componentType", kGltfByte}, {"count", normals.size()}, {"type", "VEC3"}, {"normalized", true}}, "OCTAHEDRAL");
+  return add_directions(normals, "VEC3");
 }
 
 std::size_t GlbData::add_tangents(const std::vector<std::array<float, 4>>& tangents) {
+  return add_directions(tangents, "VEC4");
+}
+
+template <std::size_t N>
+std::size_t GlbData::add_directions(const std::vector<std::array<float, N>>& all, const char* type) {
   if (!compressed_) {
-    const auto* const bytes = reinterpret_cast<const char*>(tangents.data());
-    return add_attributes(std::string(bytes, tangents.size() * sizeof tangents[0]), 16,
-                          {{"componentType", kGltfFloat}, {"count", tangents.size()}, {"type", "VEC4"}});
+    const auto* const bytes = reinterpret_cast<const char*>(all.data());
+    return add_attributes(std::string(bytes, all.size() * sizeof all[0]), sizeof all[0],
+                          {{"componentType", kGltfFloat}, {"count", all.size()}, {"type", type}});
   }
   quantize();
-  return add_attributes(
-      octahedral(tangents), 4,
-      {{"componentType", kGltfByte}, {"count", tangents.size()}, {"type", "VEC4"}, {"normalized", true}}, "OCTAHEDRAL");
+  return add_attributes(octahedral(all), 4,
+                        {{"componentType", kGltfByte}, {"count", all.size()}, {"type", type}, {"normalized", true}},
+                        "OCTAHEDRAL");
 }
 
 std::size_t GlbData::add_indices(const TriangleIndices& triangles, std::size_t vertices) {

@@ -38,6 +38,8 @@ class GlbData {
   [[nodiscard]] const std::string& bytes() const { return data_; }
 
  private:
+  template <std::size_t N>
+  std::size_t add_directions(const std::vector<std::array<float, N>>& all, const char* type);
   [[nodiscard]] GltfOutJson add_view(const std::string& bytes, std::size_t stride, const char* mode,
                                      const std::string& stored);
   std::size_t append(const std::string& bytes);

@@ -1,9 +1,21 @@
 #include "io/scene/detail/mtl_file.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "io/scene/detail/text_scanner.h"
 #include "lib/core/error.h"
 
 namespace bp {
+
+namespace {
+
+/// From 0 to 1; NaN is 0.
+double part_of(double x) {
+  return std::min(1.0, std::max(0.0, x));
+}
+
+}  // namespace
 
 void MtlMaterials::load(const std::string& beside, const std::string& name) {
   if (beside.empty() || name.empty()) return;
@@ -16,6 +28,7 @@ void MtlMaterials::load(const std::string& beside, const std::string& name) {
 
 void MtlMaterials::read(const std::string& path) {
   TextScanner text(open_scene_file(path, ""));
+  const std::string folder = path.substr(0, path.rfind('/') + 1);
   Material* current = nullptr;
   for (; !text.at_end(); text.next_line()) {
     if (!text.word_on_line()) continue;
@@ -24,27 +37,49 @@ void MtlMaterials::read(const std::string& path) {
       const std::string name = text.rest_of_line();
       if (materials_.size() == kMost) return;
       current = &(materials_[name] = {});
-    } else if (key == "Kd" && current != nullptr) {
-      std::array<double, 3> rgb{};
-      bool numbers = true;
-      for (double& c : rgb) numbers = numbers && text.word_on_line() && text.real(c);
-      if (numbers) current->color = color_from_srgb(rgb);
-    } else if ((key == "d" || key == "Tr") && current != nullptr) {
-      double x = 0;
-      if (text.word_on_line() && text.real(x) && x < 1 && (key == "d" || x > 0)) {
-        current->see_through = true;
-        current->alpha = key == "d" ? x : 1 - x;
-      }
-    } else if (key == "map_Kd" && current != nullptr) {
-      read_image(text, path.substr(0, path.rfind('/') + 1), *current);
-    } else if (key == "map_d" && current != nullptr) {
-      current->see_through = true;
+      current->file = path;
+    } else if (current != nullptr) {
+      read_line(text, key, folder, *current);
     }
   }
 }
 
+void MtlMaterials::read_line(TextScanner& text, const std::string& key, const std::string& folder, Material& material) {
+  const auto numbers = [&](auto& all) {
+    bool there = true;
+    for (double& x : all) there = there && text.word_on_line() && text.real(x);
+    return there;
+  };
+  std::array<double, 3> rgb{};
+  std::array<double, 1> x{};
+  if (key == "Kd") {
+    if (numbers(rgb)) material.color = color_from_srgb(rgb);
+  } else if (key == "Ke") {
+    if (numbers(rgb)) material.emission = color_from_srgb(rgb);
+  } else if (key == "Pr") {
+    if (numbers(x)) material.roughness = part_of(x[0]);
+  } else if (key == "Pm") {
+    if (numbers(x)) material.metal = part_of(x[0]);
+  } else if (key == "d" || key == "Tr") {
+    if (!numbers(x) || !(x[0] < 1 && (key == "d" || x[0] > 0))) return;
+    material.see_through = true;
+    material.alpha = key == "d" ? x[0] : 1 - x[0];
+  } else if (key == "map_d") {
+    material.see_through = true;
+  } else if (key == "map_Bump" || key == "map_bump" || key == "bump") {
+    material.has_heights = true;
+  } else {
+    const std::map<std::string, Map*> maps{{"map_Kd", &material.color_map},
+                                           {"norm", &material.normal_map},
+                                           {"map_Pr", &material.roughness_map},
+                                           {"map_Pm", &material.metal_map},
+                                           {"map_Ke", &material.emission_map}};
+    if (const auto found = maps.find(key); found != maps.end()) read_map(text, folder, *found->second);
+  }
+}
+
 // "map_Kd -s 2 2 1 -clamp on some name.png": options have words or numbers after them, and the name may have blanks.
-void MtlMaterials::read_image(TextScanner& text, const std::string& folder, Material& material) {
+void MtlMaterials::read_map(TextScanner& text, const std::string& folder, Map& map) {
   while (text.word_on_line() && text.peek() == '-') {
     const std::string option(text.word());
     if (option == "-s" || option == "-o" || option == "-t") {
@@ -54,36 +89,104 @@ void MtlMaterials::read_image(TextScanner& text, const std::string& folder, Mate
       }
       if (option == "-t") continue;
       const std::size_t at = option == "-s" ? 0 : 1;
-      material.uv[at] = numbers[0];
-      material.uv[at + 2] = numbers[1];
+      map.uv[at] = numbers[0];
+      map.uv[at + 2] = numbers[1];
+    } else if (option == "-bm") {
+      double strength = 1;
+      if (text.word_on_line() && text.real(strength) && std::isfinite(strength)) map.strength = strength;
     } else {
       const std::string value = text.word_on_line() ? std::string(text.word()) : "";
-      if (option == "-clamp") material.clamp = value == "on";
+      if (option == "-clamp") map.clamp = value == "on";
       if (option == "-mm" && text.word_on_line()) (void)text.word();
     }
   }
   std::string name = text.word_on_line() ? text.rest_of_line() : "";
   for (char& c : name) c = c == '\\' ? '/' : c;
-  if (!name.empty()) material.image = name[0] == '/' ? name : folder + name;
+  if (!name.empty()) map.image = name[0] == '/' ? name : folder + name;
 }
 
-std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& textures) const {
+const MtlMaterials::Map& MtlMaterials::Material::first_map() const {
+  for (const Map* map : {&color_map, &normal_map, &roughness_map, &metal_map, &emission_map})
+    if (!map->image.empty()) return *map;
+  return color_map;
+}
+
+/// None if it is not there, or lies elsewhere than the material's first one: that is told.
+TextureMap MtlMaterials::map_of(const Map& map, const Material& material, TextureTable& textures) {
+  if (map.image.empty()) return {};
+  if (map.uv != material.first_map().uv) {
+    textures.add_fault(
+        fmt::format("{}: lies at other places than its material's first image; it is left out", map.image));
+    return {};
+  }
+  const std::uint32_t image = textures.add_image(map.image, {map.image, nullptr, map.image});
+  if (textures.size(image)[0] == 0) {
+    textures.add_fault(fmt::format("{}: is not there, or cannot be read; it is left out", map.image));
+    return {};
+  }
+  const TextureWrap wrap = map.clamp ? TextureWrap::clamp : TextureWrap::repeat;
+  return {image, {wrap, wrap}};
+}
+
+/// Roughness and metal come from one image (TextureSurface): two would have to be mixed.
+TextureSurface MtlMaterials::surface_of(const Material& material, TextureTable& textures) {
+  TextureSurface s;
+  s.roughness_factor = float(material.roughness);
+  s.metal_factor = float(material.metal);
+  s.emission_factor = {float(material.emission.r) / 65535, float(material.emission.g) / 65535,
+                       float(material.emission.b) / 65535};
+  s.normal = map_of(material.normal_map, material, textures);
+  s.normal_scale = float(material.normal_map.strength);
+  s.emission = map_of(material.emission_map, material, textures);
+  if (s.emission.is_there()) s.emission_factor = {1, 1, 1};
+  const bool both = material.roughness_map == material.metal_map;
+  if (both || (material.metal_map.image.empty() && material.metal == 0)) {
+    s.roughness = map_of(material.roughness_map, material, textures);
+    if (s.roughness.is_there()) s.roughness_factor = 1;
+    if (s.roughness.is_there() && both) s.metal_factor = 1;
+  } else if (!material.roughness_map.image.empty() || !material.metal_map.image.empty()) {
+    textures.add_fault(fmt::format(
+        "{}: roughness and metal come from one image for both, or from map_Pr where Pm is 0; numbers are used",
+        material.file));
+  }
+  if (material.has_heights && !s.normal.is_there())
+    textures.add_fault(
+        fmt::format("{}: map_Bump is taken for heights and left out; norm names a normal map", material.file));
+  return s;
+}
+
+std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& textures, bool surface) {
   const auto found = materials_.find(material);
-  if (found == materials_.end() || found->second.image.empty()) return TriangleTexture::kNoMaterial;
-  const Material& m = found->second;
+  if (found == materials_.end()) return TriangleTexture::kNoMaterial;
+  Material& m = found->second;
+  if (m.number) return *m.number;
   TextureMaterial t;
-  t.image = textures.add_image(m.image, {m.image, nullptr, m.image});
-  t.replaces_color = true;
+  if (surface) t.surface = surface_of(m, textures);
+  if (m.color_map.image.empty() && t.surface == TextureSurface{}) {
+    m.number = TriangleTexture::kNoMaterial;
+    return *m.number;
+  }
+  const Map& map = m.color_map;
+  if (!map.image.empty()) t.image = textures.add_image(map.image, {map.image, nullptr, map.image});
+  t.replaces_color = !map.image.empty();
   t.alpha = float(m.alpha);
   t.alpha_mode = m.see_through ? AlphaMode::blend : AlphaMode::opaque;
-  if (m.clamp) t.wrap = {TextureWrap::clamp, TextureWrap::clamp};
-  return textures.add_material(fmt::format("{} {} {} {}", m.image, m.clamp, m.see_through, m.alpha), t);
+  if (map.clamp) t.wrap = {TextureWrap::clamp, TextureWrap::clamp};
+  std::string key = fmt::format("{} {} {} {}", map.image, map.clamp, m.see_through, m.alpha);
+  if (t.surface != TextureSurface{}) key += fmt::format(" {} {}", m.file, material);
+  m.number = textures.add_material(key, t);
+  return *m.number;
+}
+
+bool MtlMaterials::has_image(const std::string& material) const {
+  const auto found = materials_.find(material);
+  return found != materials_.end() && !found->second.color_map.image.empty();
 }
 
 std::array<float, 2> MtlMaterials::place(const std::string& material, double u, double v) const {
   const auto found = materials_.find(material);
   if (found == materials_.end()) return {};
-  const std::array<double, 4>& by = found->second.uv;
+  const std::array<double, 4>& by = found->second.first_map().uv;
   return {float(by[0] * u + by[1]), float(1 - (by[2] * v + by[3]))};
 }
 

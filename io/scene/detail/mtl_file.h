@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 
 #include "io/scene/detail/text_scanner.h"
@@ -8,7 +9,8 @@
 
 /// Wavefront MTL: of the materials the diffuse colour, Kd, taken as sRGB, as programs show it; and whether they can be
 /// seen through: d below 1, Tr (which is 1 - d; some write 1 for opaque) between 0 and 1, or map_d; and
-/// the image of map_Kd, which replaces Kd, as most programs have it.
+/// the image of map_Kd, which replaces Kd, as most programs have it. If surfaces are asked for, also Pr, Pm, Ke, their
+/// images, which replace them, and the normal map of norm. map_Bump is a height, and left out.
 namespace bp {
 
 class MtlMaterials {
@@ -20,23 +22,38 @@ class MtlMaterials {
   [[nodiscard]] LinearColor color(const std::string& material) const;
   /// Of a place that a face gives (vt): the place in the image.
   [[nodiscard]] std::array<float, 2> place(const std::string& material, double u, double v) const;
-  /// Its image on triangles (map_Kd), added to `textures`; TriangleTexture::kNoMaterial if it has none.
-  [[nodiscard]] std::uint32_t texture(const std::string& material, TextureTable& textures) const;
+  /// What lies on its triangles, added to `textures`, faults too; TriangleTexture::kNoMaterial if nothing does.
+  [[nodiscard]] std::uint32_t texture(const std::string& material, TextureTable& textures, bool surface);
+  /// Whether it has an image of colours (map_Kd).
+  [[nodiscard]] bool has_image(const std::string& material) const;
   /// False if there is no such material.
   [[nodiscard]] bool see_through(const std::string& material) const;
 
  private:
   static constexpr std::size_t kMost = std::size_t(1) << 20;
-  struct Material {
-    LinearColor color;
-    bool see_through = false;
+  struct Map {
     std::string image;  // path; empty: none
-    bool clamp = false, holes = false;
-    double alpha = 1;
+    bool clamp = false;
     std::array<double, 4> uv{1, 0, 1, 0};  // factor and offset of u, of v
+    double strength = 1;                   // -bm
+    friend bool operator==(const Map&, const Map&) = default;
+  };
+  struct Material {
+    std::string file;  // that it stands in
+    LinearColor color, emission{0, 0, 0};
+    bool see_through = false;
+    double alpha = 1, roughness = 1, metal = 0;
+    Map color_map, normal_map, roughness_map, metal_map, emission_map;
+    bool has_heights = false;             // map_Bump
+    std::optional<std::uint32_t> number;  // in the table of textures
+    /// That says where all of them lie.
+    [[nodiscard]] const Map& first_map() const;
   };
   void read(const std::string& path);
-  static void read_image(TextScanner& text, const std::string& folder, Material& material);
+  static void read_line(TextScanner& text, const std::string& key, const std::string& folder, Material& material);
+  static void read_map(TextScanner& text, const std::string& folder, Map& map);
+  [[nodiscard]] static TextureSurface surface_of(const Material& material, TextureTable& textures);
+  [[nodiscard]] static TextureMap map_of(const Map& map, const Material& material, TextureTable& textures);
   std::map<std::string, Material> materials_;
 };
 

@@ -17,7 +17,11 @@ class ObjPoints final : public ScenePoints {
   bool read(std::vector<Vec3d>& out) override {
     next(text_);
     out = std::move(batch_.positions);
+    taken_ += out.size();
     return !out.empty();
+  }
+  [[nodiscard]] std::uint64_t count() const override {
+    return text_.offset() == 0 ? 0 : std::uint64_t(double(taken_) * double(file_->size()) / double(text_.offset()));
   }
   void write(const MovePoints& move, OutputFile& out) override {
     TextScanner text(file_);
@@ -44,6 +48,7 @@ class ObjPoints final : public ScenePoints {
   TextScanner text_;
   PointBatch batch_;
   std::vector<NumberPlace> places_;  // three for each of the batch
+  std::uint64_t taken_ = 0;
   bool has_normals_ = false;
 };
 

@@ -106,6 +106,7 @@ class BinaryPlyPoints final : public ScenePoints {
     out = std::move(batch_.positions);
     return !out.empty();
   }
+  [[nodiscard]] std::uint64_t count() const override { return vertices_.element.count; }
   void write(const MovePoints& move, OutputFile& out) override {
     TextCopy copy(file_, out);
     done_ = 0;
@@ -173,6 +174,7 @@ class TextPlyPoints final : public ScenePoints {
     out = std::move(batch_.positions);
     return !out.empty();
   }
+  [[nodiscard]] std::uint64_t count() const override { return vertices_.element.count; }
   void write(const MovePoints& move, OutputFile& out) override {
     TextCopy copy(file_, out);
     restart();

@@ -6,6 +6,10 @@
 
 namespace bp {
 
+void ScenePoints::write_frames(std::size_t, double, const MoveFrame&, OutputFile& out) {
+  fail(ErrorCode::bad_input, "{}: only glTF keeps several frames in one file", out.name());
+}
+
 std::unique_ptr<ScenePoints> open_points(const std::string& path, const SceneOptions& options) {
   const std::string format = scene_format_of(path);
   if (format != "obj" && format != "ply" && format != "gltf" && format != "glb")

@@ -20,6 +20,7 @@ struct PointBatch {
 };
 /// Replaces positions; and normals and tangents, if there are any, which need not have the length 1 then.
 using MovePoints = std::function<void(PointBatch&)>;
+using MoveFrame = std::function<void(std::size_t, PointBatch&)>;
 
 class ScenePoints {
  public:
@@ -28,9 +29,14 @@ class ScenePoints {
   virtual ~ScenePoints() = default;
   /// Replaces `out` by the positions of the next vertices; false, and `out` empty, at the end.
   virtual bool read(std::vector<Vec3d>& out) = 0;
+  /// Vertices in all; of an OBJ a guess from what read() took so far, 0 before that.
+  [[nodiscard]] virtual std::uint64_t count() const = 0;
   /// Writes the scene, from its beginning. `move` gets all vertices in the order of read(). A number whose value stays
   /// keeps its bytes.
   virtual void write(const MovePoints& move, OutputFile& out) = 0;
+  /// Writes the scene, from its beginning, with a morph target for each of so many frames, and an animation that shows
+  /// one after the other, `seconds` apart. `move` gets a frame, then as in write(). Throws bad_input if it is no glTF.
+  virtual void write_frames(std::size_t frames, double seconds, const MoveFrame& move, OutputFile& out);
   /// What stays although it should follow; empty: nothing.
   [[nodiscard]] virtual std::string left_behind() const { return {}; }
 };

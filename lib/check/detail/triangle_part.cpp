@@ -160,12 +160,6 @@ TrianglePart::TrianglePart(const TriangleD& t, const Bounds3d& box) {
   origin_ = box.min;
 }
 
-std::vector<Vec3d> TrianglePart::corners() const {
-  std::vector<Vec3d> all;
-  for (const Vec3d& p : points_) all.push_back(at(p));
-  return all;
-}
-
 std::vector<Vec3d> TrianglePart::points_within() const {
   if (empty()) return {};
   Vec3d middle{};

@@ -22,7 +22,6 @@ class TrianglePart {
  public:
   TrianglePart(const TriangleD& t, const Bounds3d& box);
   [[nodiscard]] bool empty() const { return points_.empty(); }
-  [[nodiscard]] std::vector<Vec3d> corners() const;
   /// The middle, and points between it and the corners.
   [[nodiscard]] std::vector<Vec3d> points_within() const;
 

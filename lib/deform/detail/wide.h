@@ -21,6 +21,12 @@ BP_INLINE void set(Wide& out, double value) {
 BP_INLINE void root(Wide& x) {
   for (int i = 0; i < kWide; ++i) x[i] = std::sqrt(x[i]);
 }
+/// Bit k: lane k is true.
+BP_INLINE unsigned bits_of(const WideBits& lanes) {
+  unsigned bits = 0;
+  for (int i = 0; i < kWide; ++i) bits |= unsigned(lanes[i] & 1) << i;
+  return bits;
+}
 #define BP_DOT(a, b) ((a).x * (b).x + (a).y * (b).y + (a).z * (b).z)
 
 /// out = angle of the point (t, s), s >= 0, not both 0: from 0 to pi, to 1e-15. The polynomial is the best of degree 9
@@ -43,6 +49,34 @@ BP_INLINE void angle(const Wide& s, const Wide& t, Wide& out) {
   p = large ? p + kPi / 4 : p;
   p = steep ? kPi / 2 - p : p;
   out = t < zero ? kPi - p : p;
+}
+
+/// out = log x, of normal x >= 1, to 1e-15: the exponent, and the series of the area tangent of (m - 1) / (m + 1) for
+/// the rest m of x from 1/sqrt 2 to sqrt 2.
+BP_INLINE void logarithm(const Wide& x, Wide& out) {
+  constexpr long long kOne = 0x3FF0000000000000, kMantissa = 0xFFFFFFFFFFFFF, kCount = 0x4330000000000000;
+  constexpr double kLog2 = 0.6931471805599453, kRoot2 = 1.4142135623730951, kLarge = 4503599627370496.0;
+  const WideBits bits = (WideBits)x;
+  Wide m = (Wide)((bits & kMantissa) | kOne), exponent = (Wide)((bits >> 52) + kCount) - kLarge - 1023.0;
+  const WideBits large = m > kRoot2;
+  m = large ? m * 0.5 : m;
+  exponent = large ? exponent + 1.0 : exponent;
+  const Wide z = (m - 1.0) / (m + 1.0), square = z * z;
+  Wide p;
+  set(p, 1.0 / 19);
+  for (int n = 17; n > 0; n -= 2) p = p * square + 1.0 / n;
+  out = exponent * kLog2 + 2.0 * (z * p);
+}
+
+// The same of one number in extended precision, for code that is written once for both.
+BP_INLINE void root(long double& x) {
+  x = std::sqrt(x);
+}
+BP_INLINE void angle(const long double& s, const long double& t, long double& out) {
+  out = std::atan2(s, t);
+}
+BP_INLINE void logarithm(const long double& x, long double& out) {
+  out = std::log(x);
 }
 
 }  // namespace bp::detail

@@ -57,7 +57,7 @@ struct SurfaceSum {
     Vec3d n = normal;
     n[2] = std::max(n[2], kLeast * length(n));
     const double l = length(n);
-    if (l > 0) n = (1 / l) * n;
+    n = l > 0 ? (1 / l) * n : Vec3d{0, 0, 1};  // they may cancel
     TextureImage::Texel& texel = to.normal->at(x, y);
     for (std::size_t i = 0; i < 3; ++i) texel[i] = std::uint8_t((n[i] / 2 + 0.5) * 255 + 0.5);
     const auto byte = [&](float sum) { return std::uint8_t(sum / alpha * 255 + 0.5F); };

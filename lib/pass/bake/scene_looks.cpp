@@ -137,7 +137,7 @@ void SceneLooks::add_triangles_to(KeyHash& hash, const Bounds3d& box) const {
       one.add(std::as_bytes(std::span(t.texture.uv)));
       one.add(std::as_bytes(std::span(materials_[t.texture.material].key.words)));
     }
-    if (t.texture.normals[0] != 0) one.add(std::as_bytes(std::span(t.texture.normals)));
+    if (t.texture.normals != decltype(t.texture.normals){}) one.add(std::as_bytes(std::span(t.texture.normals)));
     for (std::size_t i = 0; i < 2; ++i) sum[i] += one.value().words[i];
     ++count;
   });

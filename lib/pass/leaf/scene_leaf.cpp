@@ -150,26 +150,25 @@ class LeafCutter {
   std::map<ResultKey, GrowingPart> parts_;  // by all that decides how it looks
 };
 
-std::uint64_t triangles_in(const SceneLooks& looks, const LeafBox& at) {
-  std::uint64_t n = 0;
-  looks.visit(at.box, [&](const TexturedTriangle&) { ++n; });
-  return n;
+LeafBox counted(const SceneLooks& looks, const Bounds3d& box, std::string path) {
+  LeafBox out{box, std::move(path)};
+  looks.visit(box, [&](const TexturedTriangle&) { ++out.triangles; });
+  return out;
 }
 
 /// Octants help if few triangles reach into several of them.
-void find_boxes(const SceneLooks& looks, const LeafBox& at, std::uint64_t triangles, std::vector<LeafBox>& out) {
-  if (triangles == 0) return;
+void find_boxes(const SceneLooks& looks, const LeafBox& at, std::vector<LeafBox>& out) {
+  if (at.triangles == 0) return;
   std::array<LeafBox, 8> octants;
-  std::array<std::uint64_t, 8> of_octants{};
   std::uint64_t sum = 0;
-  if (triangles > kMostLeafTriangles && at.path.size() < kMostDeep) {
+  if (at.triangles > kMostLeafTriangles && at.path.size() < kMostDeep) {
     for (std::size_t k = 0; k < 8; ++k) {
-      octants[k] = {octant_of(at.box, int(k)), at.path + char('0' + k)};
-      sum += of_octants[k] = triangles_in(looks, octants[k]);
+      octants[k] = counted(looks, octant_of(at.box, int(k)), at.path + char('0' + k));
+      sum += octants[k].triangles;
     }
   }
-  if (sum == 0 || sum > 2 * triangles) return out.push_back(at);
-  for (std::size_t k = 0; k < 8; ++k) find_boxes(looks, octants[k], of_octants[k], out);
+  if (sum == 0 || sum > 2 * at.triangles) return out.push_back(at);
+  for (const LeafBox& octant : octants) find_boxes(looks, octant, out);
 }
 
 }  // namespace
@@ -182,7 +181,7 @@ std::uint64_t SceneLeaf::triangles() const {
 
 std::vector<LeafBox> leaf_boxes(const SceneLooks& looks, const Bounds3d& cell) {
   std::vector<LeafBox> boxes;
-  find_boxes(looks, {cell, ""}, triangles_in(looks, {cell, ""}), boxes);
+  find_boxes(looks, counted(looks, cell, ""), boxes);
   return boxes;
 }
 

@@ -35,10 +35,14 @@ struct SceneLeaf {
 struct LeafBox {
   Bounds3d box;
   std::string path;
+  std::uint64_t triangles = 0;  ///< of the scene that meet it, by their bounds
 };
 
 /// Triangles that meet a leaf, at most, unless smaller boxes do not help.
 constexpr std::uint64_t kMostLeafTriangles = std::uint64_t(1) << 16;
+
+/// While a leaf is cut and written; those around it count, too.
+constexpr std::uint64_t kLeafBytesPerTriangle = 1000;
 
 /// A cell, or octants of it that have few enough triangles; none where there are no triangles.
 [[nodiscard]] std::vector<LeafBox> leaf_boxes(const SceneLooks& looks, const Bounds3d& cell);
@@ -52,7 +56,8 @@ constexpr std::uint64_t kMostLeafTriangles = std::uint64_t(1) << 16;
 void add_leaf_to(KeyHash& hash, const SceneLooks& looks, const Bounds3d& box);
 
 /// The scene in the closed box. Where the scene has no normals, those of faces that meet at less than kCreaseDegrees
-/// are joined. The same for any order of the scene's triangles. Memory: 500 bytes for each of them.
+/// are joined. The same for any order of the scene's triangles. Memory: kLeafBytesPerTriangle for each of
+/// LeafBox::triangles.
 [[nodiscard]] SceneLeaf cut_leaf(const SceneLooks& looks, const Bounds3d& box, double unit);
 
 }  // namespace bp

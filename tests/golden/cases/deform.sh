@@ -22,6 +22,23 @@ try bpdeform apply scene.bpw
 # The same bytes for any number of threads and limit on memory.
 try bpdeform bind scene.obj cage.obj -o again.bpw -j 1 --memory 100M
 said 'cmp scene.bpw again.bpw && echo same'
+# Other coordinates: the whole cage turns and grows, and so does the scene.
+awk '/^v/ { x = $2; $2 = 9 - 2 * $3; $3 = 2 * x; $4 *= 2 } { print }' cage.obj > similar.obj
+for kind in green maximum-likelihood; do
+  try bpdeform bind scene.obj cage.obj -o kind.bpw --coordinates $kind --overwrite
+  try bpdeform apply kind.bpw cage.obj -o kind.obj -q --overwrite
+  said 'cmp kind.obj scene.obj && echo same'
+  try bpdeform apply kind.bpw similar.obj -o kind.obj -q --overwrite
+  said "awk '/^v / { printf \"%.5f %.5f %.5f\\n\", \$2, \$3, \$4 }' kind.obj"
+done
+try bpdeform apply kind.bpw similar.obj -o kind.obj --coordinates green
+# The scene is found from any folder.
+mkdir -p elsewhere/weights
+try bpdeform bind scene.obj cage.obj -o elsewhere/weights/scene.bpw
+said '(cd elsewhere && bpdeform apply weights/scene.bpw ../cage.obj -o rest.obj -q) && cmp elsewhere/rest.obj scene.obj && echo same'
+mkdir alone && cp scene.bpw alone
+said '(cd alone && bpdeform apply scene.bpw ../cage.obj -o rest.obj)'
+rm -r elsewhere alone
 # PLY and GLB keep their format; the cage may come in any.
 said 'bpvox scene.obj --resolution 20 -q | bpclose -q | bpmesh --faces 20 -q -o scene.glb'
 for kind in glb ply; do
@@ -30,7 +47,10 @@ for kind in glb ply; do
   try bpdeform apply kind.bpw affine.obj -o moved.$kind
   said "bpinfo scene.$kind | grep -E '^(triangles|bounds)'"
   said "bpinfo moved.$kind | grep -E '^(triangles|bounds)'"
+  try bpdeform apply kind.bpw cage.obj affine.obj -o moving.$kind --animate 24
 done
+try bpdeform apply kind.bpw cage.obj -o moving.ply --animate 0
+try bpdeform bind scene.ply cage.obj -o x.bpw --animate 24
 # Vertices outside.
 write_octahedron large.obj 5
 try bpdeform bind large.obj cage.obj -o large.bpw
@@ -51,6 +71,8 @@ try bpdeform bind scene.obj open.obj -o x.bpw
 try bpdeform apply scene.bpw open.obj -o x.obj
 sed 's/^f 1 4 3 2/f 4 3 2 1/' cage.obj > turned.obj
 try bpdeform apply scene.bpw turned.obj -o x.obj
+sed '0,/^v .*/s//v nan 0 0/' cage.obj > nan.obj
+try bpdeform apply scene.bpw nan.obj -o x.obj
 try bpdeform apply scene.bpw affine.obj -o x.ply
 try bpdeform apply scene.bpw affine.obj -o scene.obj --overwrite
 try bpdeform apply scene.bpw affine.obj -o x.obj --outside near

@@ -1,25 +1,27 @@
 # The farm on this machine: the same files and table as the nightly sample, tilesets in parts; a broken scene does not stop the others.
 command -v snakemake > /dev/null || { echo "there is no snakemake" && exit 77; }
-mkdir scenes
+mkdir "{scenes}"
 for i in 0 2; do
   write_cube cube.obj 3
-  sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 7 * $i)) \2 \$((\3 + $i))/e" cube.obj > "scenes/part $i.obj"
+  sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 7 * $i)) \2 \$((\3 + $i))/e" cube.obj > "{scenes}/part {$i}.obj"
 done
-echo "v 1 2" > scenes/broken.obj
+echo "v 1 2" > "{scenes}/broken.obj"
 export BATCH=0.01 MACHINES=1 WAIT=0 MEMORY=500M THREADS=1 SNAKEMAKE=-c2
 table() { sed "s/made in [0-9]* s/made/; s|$PWD/||" | cut -f 1-3; }
-farm() { "$BP_ROOT/samples/farm/night" scenes "o ut" "$@" | table; }
+farm() { "$BP_ROOT/samples/farm/night" "{scenes}" "o {ut}" "$@" | table; }
 options=(--voxel 0.022 --tile 128 --levels 2 --profile 3dtiles --name "it's")
-"$BP_ROOT/samples/nightly" "$PWD/scenes" serial "${options[@]}" 2> /dev/null | table > table
+"$BP_ROOT/samples/nightly" "$PWD/{scenes}" serial "${options[@]}" 2> /dev/null | table > table
 farm "${options[@]}"
-diff table <(table < "o ut/report.tsv") && echo "the same table"
-diff -r -x .cache -x .farm -x 'report.*' -x '.*.log' -x picture.png serial "o ut" && echo "the same files"
-grep -c "^rule tiles" "o ut/.farm/log/snakemake"
-grep -o '<img[^>]*>\|[0-9]* made, .* gone\|class="failed"' "o ut/report.html"
+diff table <(table < "o {ut}/report.tsv") && echo "the same table"
+diff -r -x .cache -x .farm -x 'report.*' -x '.*.log' -x picture.png serial "o {ut}" && echo "the same files"
+grep -c "^rule tiles" "o {ut}/.farm/log/snakemake"
+grep -o 'mem_mb=[0-9]*' "o {ut}/.farm/log/snakemake" | sort -u
+grep -o '<img[^>]*>\|[0-9]* made, .* gone\|class="failed"' "o {ut}/report.html"
 # Nothing is made twice; after a change only that scene.
 farm "${options[@]}"
-grep -c "^rule tiles" "o ut/.farm/log/snakemake"
-write_cube "scenes/part 2.obj" 4
+grep -c "^rule tiles" "o {ut}/.farm/log/snakemake"
+write_cube "{scenes}/part {2}.obj" 4
 farm "${options[@]}"
-grep -o '([-+][0-9,]*)' "o ut/report.html" | head -1 # what changed
+grep -o '([-+][0-9,]*)' "o {ut}/report.html" | head -1 # what changed
+try env MACHINES=many "$BP_ROOT/samples/farm/night" "{scenes}" "o {ut}" | sed "s|$BP_ROOT/||"
 try "$BP_ROOT/samples/farm/night" nowhere out | sed "s|$BP_ROOT/||"

@@ -5,7 +5,6 @@ for i in 0 1 2; do
 done
 options=(part*.obj --name cubes --voxel 0.025 --tile 256 --profile 3dtiles -q)
 build() { bplod "${options[@]}" "$@" > list; }
-kept() { grep -o '"kept": [0-9]*' "$1" | tr '\n' ' '; echo; }
 build -o whole
 build -o first --cache cache --report first.json
 build -o second --cache cache --report second.json -j 1

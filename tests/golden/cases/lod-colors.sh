@@ -5,7 +5,6 @@ for i in 0 1 2; do
   { echo "mtllib cubes.mtl"; sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 7 * $i)) \2 \$((\3 + $i))/e; s/^f 1 4 3 2/usemtl $([ $i = 2 ] && echo green || echo red)\n&/" cube.obj; } > part$i.obj
 done
 attributes() { for f in "$@"; do echo "$f: $(grep -ao '"attributes":{[^}]*}' "$f" | sort -u | tr '\n' ' ')"; done; }
-same() { diff -r "$1" "$2" > differences && echo "$1 and $2: the same bytes" || echo "$1 and $2 differ: $(wc -l < differences)"; }
 
 bplod part*.obj --name cubes --resolution 100 --levels 2 -q -o on | cut -f 1
 bplod part*.obj --name cubes --resolution 100 --levels 2 -q -o on1 -j 1 --memory 300M > list
@@ -24,7 +23,6 @@ printf 'newmtl red\nKd 1 0 0\nnewmtl green\nKd 0 1 0\n' > cubes.mtl
 
 # Tilesets: the cache knows colours. One part changes its colour alone.
 options=(part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles -q)
-kept() { grep -o '"kept": [0-9]*' "$1" | tr '\n' ' '; echo; }
 bplod "${options[@]}" -o first --cache cache > list
 bplod "${options[@]}" -o again -j 1 --cache cache --report again.json > list
 same first again

@@ -1,6 +1,5 @@
 # Normals, roughness, metal and light of a scene on its levels. A cube whose material has an image for each.
-red=iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAGklEQVR42mP4hQROyMnBEQMVJZA5yIqoKAEAaed+QclKqjgAAAAASUVORK5CYII=
-base64 -d <<< $red > chequered.png
+chequer red
 one='\000\000\200\077' zero='\000\000\000\000'
 for part in position place; do
   for i in 0 1 2 3 4 5 6 7; do
@@ -22,7 +21,6 @@ cat > cube.gltf << 'GLTF'
  "buffers": [{"uri": "cube.bin", "byteLength": 196}]}
 GLTF
 shown() { for f in "$@"; do echo "$f: $(grep -ao '"attributes":{[^}]*}' "$f" | sort -u) $(grep -ao '"materials":.*}\],"buffers"' "$f")"; done; }
-same() { diff -r "$1" "$2" > differences && echo "$1 and $2: the same bytes" || echo "$1 and $2 differ: $(wc -l < differences)"; }
 options=(cube.gltf --resolution 60 --levels 1 -q)
 
 bplod "${options[@]}" --appearance full -o full | cut -f 1
@@ -46,3 +44,19 @@ bpcheck cube.gltf tiles | tail -1
 write_octahedron ball.obj
 bplod ball.obj --resolution 30 --faces 40 --levels 1 --appearance full -o ball -q | cut -f 1
 shown ball/ball_LOD0.glb
+
+# The same of MTL. A height is no normal map, and two images for roughness and metal would have to be mixed.
+write_painted_cubes
+cp chequered.png other.png
+cat > cubes.mtl << 'MTL'
+newmtl chequered
+Kd 0 1 0
+norm chequered.png
+map_Pr chequered.png
+map_Ke chequered.png
+MTL
+bplod part0.obj --resolution 30 --levels 1 --appearance full -o painted -q > list
+shown painted/part0_LOD0.glb
+sed -i 's/norm/map_Bump -bm 1/; s/map_Pr/map_Pm other.png\n&/' cubes.mtl
+said 'bplod part0.obj --resolution 30 --levels 1 --appearance full -o mixed | cut -f 1'
+shown mixed/part0_LOD0.glb

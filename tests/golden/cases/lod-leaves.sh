@@ -1,17 +1,8 @@
 # Tilesets that hold the scene itself up close. Two cubes in a row, one with an image.
-red=iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAGklEQVR42mP4hQROyMnBEQMVJZA5yIqoKAEAaed+QclKqjgAAAAASUVORK5CYII=
-blue=iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAGklEQVR42mP4hQTk5E7AEQMVJZA5yIqoKAEAP2d+Qe6vEAoAAAAASUVORK5CYII=
-printf 'newmtl chequered\nKd 0 1 0\nmap_Kd chequered.png\nnewmtl plain\nKd 0 0 1\n' > cubes.mtl
-base64 -d <<< $red > chequered.png
-write_cube cube.obj 3
-for i in 0 1; do
-  { echo "mtllib cubes.mtl"; echo "vt 0 0"; echo "vt 1 0"; echo "vt 1 1"; echo "vt 0 1"; echo "usemtl $([ $i = 0 ] && echo chequered || echo plain)"
-    sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 40 * $i)) \2 \3/e; s/^f \(.*\) \(.*\) \(.*\) \(.*\)$/f \1\/1 \2\/2 \3\/3 \4\/4/" cube.obj; } > part$i.obj
-done
-same() { diff -r "$1" "$2" > differences && echo "$1 and $2: the same bytes" || echo "$1 and $2 differ: $(wc -l < differences)"; }
-kept() { grep -o '"kept": [0-9]*' "$1" | tr '\n' ' '; echo; }
+write_painted_cubes
 tiles=(part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles --leaves scene -q)
 
+bplod "${tiles[@]}" --explain | grep '^leaves\|^disk'
 bplod "${tiles[@]}" -o first --cache cache | cut -f 1,2
 ls first first/cubes_leaves
 bplod "${tiles[@]}" -o again -j 1 --memory 300M --cache cache --report again.json > list
@@ -22,10 +13,12 @@ kept again.json
 for f in first/cubes_leaves/*.glb; do
   echo "$f: $(grep -ao '"attributes":{[^}]*}' $f | tr '\n' ' ')$(grep -ao '"images":[^]]*\]' $f) $(grep -ao '"baseColorFactor":[^]]*\]' $f | tr '\n' ' ')"
 done | sort | uniq
+bpinfo first | grep -o 'tile=.*leaves=[a-z]*'
+bpinfo first --level 3 --image x.png 2>&1 > list | sed 's/^/| /'
 bpcheck part*.obj first | sed 's/[0-9]* triangles/some triangles/'
 
 # A changed image is another file, and changes the leaves that show it.
-base64 -d <<< $blue > chequered.png
+chequer blue
 bplod "${tiles[@]}" -o first --overwrite --cache cache --report painted.json > list
 bplod "${tiles[@]}" -o painted > list
 same first painted
@@ -43,9 +36,15 @@ ls first
 leaf=$(ls painted/cubes_leaves/*.glb | head -1)
 cp "$leaf" moved/cubes_leaves/"$(basename "$(ls moved/cubes_leaves/*.glb | tail -1)")"
 bpcheck part*.obj moved > list || echo "= $?"
-grep -c 'does not show\|has an area' list
+grep -c 'does not show\|that the scene does not have' list
+# A proxy that its file calls a leaf is none.
+cp -r painted called
+sed -i 's/"cell": \[/"leaf": true,\n"cell": [/' called/tileset.json
+bpcheck called > list || echo "= $?"
+grep -c 'extras.leaf is true, but' list
 # A scene in one mesh has one leaf.
 bplod part0.obj --resolution 30 --profile 3dtiles --leaves scene -o small -q | cut -f 1,2
+bpinfo small | grep -o 'leaves=[a-z]*'
 bpcheck part0.obj small | tail -1
 try bplod part0.obj -o x --leaves scene
 try bplod - --format obj --profile 3dtiles -o x --leaves scene

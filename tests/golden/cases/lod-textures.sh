@@ -1,15 +1,6 @@
 # Textures of a scene on its levels. Two cubes in a row, one with a chequered image; what is compared is bytes with bytes.
-red=iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAGklEQVR42mP4hQROyMnBEQMVJZA5yIqoKAEAaed+QclKqjgAAAAASUVORK5CYII=
-blue=iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAGklEQVR42mP4hQTk5E7AEQMVJZA5yIqoKAEAP2d+Qe6vEAoAAAAASUVORK5CYII=
-printf 'newmtl chequered\nKd 0 1 0\nmap_Kd chequered.png\nnewmtl plain\nKd 0 0 1\n' > cubes.mtl
-base64 -d <<< $red > chequered.png
-write_cube cube.obj 3
-for i in 0 1; do
-  { echo "mtllib cubes.mtl"; echo "vt 0 0"; echo "vt 1 0"; echo "vt 1 1"; echo "vt 0 1"; echo "usemtl $([ $i = 0 ] && echo chequered || echo plain)"
-    sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 40 * $i)) \2 \3/e; s/^f \(.*\) \(.*\) \(.*\) \(.*\)$/f \1\/1 \2\/2 \3\/3 \4\/4/" cube.obj; } > part$i.obj
-done
+write_painted_cubes
 attributes() { for f in "$@"; do echo "$f: $(grep -ao '"attributes":{[^}]*}' "$f" | sort -u | tr '\n' ' ')$(grep -ao 'image/[a-z]*' "$f" | sort -u | tr '\n' ' ')"; done; }
-same() { diff -r "$1" "$2" > differences && echo "$1 and $2: the same bytes" || echo "$1 and $2 differ: $(wc -l < differences)"; }
 options=(part*.obj --name cubes --resolution 60 --levels 2 -q)
 
 bplod "${options[@]}" -o on | cut -f 1
@@ -25,12 +16,11 @@ bpcheck part*.obj on/cubes_LOD0.glb | tail -1
 
 # Tilesets: the cache knows images.
 tiles=(part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles -q)
-kept() { grep -o '"kept": [0-9]*' "$1" | tr '\n' ' '; echo; }
 bplod "${tiles[@]}" -o first --cache cache > list
 bplod "${tiles[@]}" -o again -j 1 --cache cache --report again.json > list
 same first again
 kept again.json
-base64 -d <<< $blue > chequered.png
+chequer blue
 bplod "${tiles[@]}" -o painted --cache cache --report painted.json > list
 bplod "${tiles[@]}" -o from-nothing > list
 same painted from-nothing
@@ -40,7 +30,7 @@ attributes first/cubes_LOD0/*.glb | cut -d : -f 2- | sort -u
 bpcheck part*.obj painted/tileset.json | sed 's/[0-9]* triangles/some triangles/'
 
 # A missing or broken image is a note, and its material's colour is used; if all are, there are only colours.
-head -c 60 <(base64 -d <<< $blue) > chequered.png
+chequer blue && truncate -s 60 chequered.png
 said 'bplod part0.obj --name cubes --resolution 30 --levels 1 -o broken | cut -f 1'
 rm chequered.png
 said 'bplod part0.obj --name cubes --resolution 30 --levels 1 -o missing | cut -f 1'
@@ -50,7 +40,7 @@ try bplod part0.obj --appearance picture -o x
 try bplod part0.obj --profile cage --appearance texture -o x
 
 # The disk space that --explain names knows of textures.
-base64 -d <<< $red > chequered.png
+chequer red
 for profile in gltf 3dtiles; do
   bplod part*.obj --name cubes --resolution 60 --profile $profile --explain -q --report explained.json > list
   about=$(grep -o '"file_bytes_about": [0-9]*' explained.json | grep -o '[0-9]*$')

@@ -91,6 +91,37 @@ TEST_CASE("each thing that may be wrong with a tileset is found where it is", "[
   CHECK(says(finding(good(), c), "root.children[0]: content a.glb: a.glb: no such file"));
 }
 
+TEST_CASE("a file cannot call any content a piece of the scene", "[quick][check][tileset]") {
+  Tileset t = good();
+  t.root.cell = Bounds3d{{0, 0, 0}, {16, 8, 8}};
+  Tile& leaf = t.root.children[1];
+  leaf.is_leaf = true;
+  leaf.cell = Bounds3d{{0, 0, 0}, {8, 8, 8}};
+  leaf.geometric_error = 0x1p-18;
+  CHECK(findings(t, contents()).empty());
+  leaf.geometric_error = 0x1.1p-18;
+  CHECK(says(finding(t), "root.children[1]: extras.leaf is true, but its geometricError"));
+  CHECK(says(finding(t), "is more than rounding"));
+  leaf.geometric_error = 0;
+  t.root.geometric_error = t.root.children[0].geometric_error = 0;
+  CHECK(says(finding(t), "root.children[1]: extras.leaf is true, but its geometricError 0 is not below"));
+  t.root.geometric_error = 1;
+  t.root.uri.clear();  // draws nothing
+  std::vector<TileContent> c = contents();
+  c.erase(c.begin());
+  CHECK(says(finding(t, c), "but no proven tile lies above it"));
+  t.root.uri = "root.glb";
+  t.root.is_leaf = true;
+  CHECK(findings(t, contents()).size() == 2);
+  t.root.is_leaf = false;
+  Tile below = leaf;
+  below.is_leaf = false;
+  below.uri.clear();
+  leaf.children.push_back(below);
+  leaf.children[0].transform = kNoTransform;
+  CHECK(says(finding(t), "but it has children"));
+}
+
 TEST_CASE("boxes may be turned, skewed or flat", "[quick][check][tileset]") {
   Tileset t = good();
   t.root.children.clear();

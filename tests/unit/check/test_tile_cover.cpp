@@ -201,10 +201,59 @@ TEST_CASE("a leaf must show the scene in its cell, and nothing else", "[quick][c
   for (Vec3d& p : moved[0]) p[2] += 0.0005;
   CHECK(findings(with_leaf(moved), scene).empty());
   for (Vec3d& p : moved[0]) p = {p[0] + 0.01, p[1] + 0.01, p[2] + 0.01};
-  CHECK_THAT(only(findings(with_leaf(moved), scene)), ContainsSubstring("root.0: a does not show 1 triangles"));
+  const std::vector<std::string> astray = findings(with_leaf(moved), scene);
+  REQUIRE(astray.size() == 2);
+  CHECK_THAT(astray[0], ContainsSubstring("root.0: a does not show 1 triangles"));
+  CHECK_THAT(astray[1], ContainsSubstring("root.0: a shows 1 triangles that the scene does not have"));
   Triangles more = scene;
   more.push_back({Vec3d{2, 5, 5}, {3, 5, 5}, {3, 6, 5}});
-  CHECK_THAT(only(findings(with_leaf(more), scene)), ContainsSubstring("root.0: a has an area of"));
+  CHECK_THAT(only(findings(with_leaf(more), scene)),
+             ContainsSubstring("root.0: a shows 1 triangles that the scene does not have"));
+}
+
+TEST_CASE("a leaf may cut the scene's triangles, and leaves no hole in them", "[quick][check][tileset]") {
+  const TriangleD whole{Vec3d{1, 1, 1}, {15, 1, 3}, {1, 15, 5}};
+  const auto at = [&](double a, double b) {
+    Vec3d p;
+    for (std::size_t i = 0; i < 3; ++i)
+      p[i] = whole[0][i] + a * (whole[1][i] - whole[0][i]) + b * (whole[2][i] - whole[0][i]);
+    return p;
+  };
+  constexpr int kSteps = 20;  // 400 pieces
+  std::vector<MeshTile> tiles{{"root", "r", box_mesh({0, 0, 0}, {16, 16, 16}), bounds({0, 0, 0}, {16, 16, 16}), {1}},
+                              {"root.0", "a", IndexedMesh(), bounds({0, 0, 0}, {16, 16, 16}), {}}};
+  tiles[1].leaf_error = 1e-6;
+  IndexedMesh& leaf = *tiles[1].content;
+  const auto add = [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const auto n = std::uint32_t(leaf.vertices.size());
+    leaf.vertices.insert(leaf.vertices.end(), {a, b, c});
+    leaf.triangles.push_back({n, n + 1, n + 2});
+  };
+  for (int i = 0; i < kSteps; ++i) {
+    for (int k = 0; i + k < kSteps; ++k) {
+      const double a = double(i) / kSteps, b = double(k) / kSteps, d = 1.0 / kSteps;
+      add(at(a, b), at(a + d, b), at(a, b + d));
+      if (i + k + 1 < kSteps) add(at(a + d, b), at(a + d, b + d), at(a, b + d));
+    }
+  }
+  CHECK(findings(tiles, {whole}).empty());
+  leaf.triangles[GENERATE(57, 123, 301)] = leaf.triangles[3];  // one is there twice, and another is missing
+  CHECK_THAT(only(findings(tiles, {whole})), ContainsSubstring("root.0: a does not show 1 triangles"));
+}
+
+TEST_CASE("a triangle just beyond a face belongs to the neighbour's leaf", "[quick][check][tileset]") {
+  const double x = GENERATE(0.0, 0x1p-60, -0x1p-60);  // gone relative to a corner of the cell
+  const Triangles scene{{Vec3d{x, 1, 1}, {x, 6, 1}, {x, 1, 6}}};
+  IndexedMesh leaf;
+  leaf.vertices.assign(scene[0].begin(), scene[0].end());
+  leaf.triangles = {{0, 1, 2}};
+  std::vector<MeshTile> tiles{
+      {"root", "r", box_mesh({-7, 0.5, 0.5}, {7, 7, 7}), bounds({-8, 0, 0}, {8, 16, 16}), {1, 2}},
+      {"root.0", "a", x <= 0 ? leaf : IndexedMesh(), bounds({-8, 0, 0}, {0, 8, 8}), {}, 1e-6},
+      {"root.1", "b", x >= 0 ? leaf : IndexedMesh(), bounds({0, 0, 0}, {8, 8, 8}), {}, 1e-6}};
+  CHECK(findings(tiles, scene).empty());
+  tiles[x <= 0 ? 1 : 2].content = IndexedMesh();
+  CHECK(findings(tiles, scene).size() == 1);
 }
 
 }  // namespace bp::test

@@ -41,7 +41,7 @@ std::vector<Vec3d> moves_by(const IndexedMesh& m, const Map& map) {
 
 TEST_CASE("rounded weights add up to 1, and keep affine maps to 1e-6", "[deform][quick]") {
   const IndexedMesh mesh = sphere_cage(12, 14);
-  const MeanValueCoordinates coordinates(make_cage(mesh, "sphere"));
+  const CageCoordinates coordinates(make_cage(mesh, "sphere"));
   const std::vector<Vec3d> points = points_inside(500);
   CoordinateRows rows;
   coordinates.evaluate(points, rows);
@@ -63,7 +63,7 @@ TEST_CASE("rounded weights add up to 1, and keep affine maps to 1e-6", "[deform]
 
 TEST_CASE("a point far outside keeps a rounded weight, and one too far is refused", "[deform][quick]") {
   const IndexedMesh mesh = sphere_cage(5, 6);
-  const MeanValueCoordinates coordinates(make_cage(mesh, "sphere"));
+  const CageCoordinates coordinates(make_cage(mesh, "sphere"));
   const auto error_at = [&](double distance) {
     const std::vector<Vec3d> points{{distance, 0, 0}, {0.1, 0.1, 0}};
     CoordinateRows rows;
@@ -81,9 +81,46 @@ TEST_CASE("a point far outside keeps a rounded weight, and one too far is refuse
   CHECK_THROWS_AS(error_at(1e12), Error);
 }
 
+TEST_CASE("weights that are not finite are refused", "[deform][quick]") {
+  CoordinateRows rows;
+  rows.columns = 2;
+  rows.places.resize(1);
+  WeightBlock block(1, 2);
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    rows.weights = {bad, 1};
+    CHECK_THROWS_AS(round_weights(rows, 0, block), Error);
+  }
+}
+
+TEST_CASE("Green coordinates carry similarities to 1e-6 when they are rounded, and keep a scene at rest",
+          "[deform][quick]") {
+  const IndexedMesh mesh = sphere_cage(12, 14);
+  const CageCoordinates coordinates(make_cage(mesh, "sphere"), CoordinateKind::green);
+  const std::vector<Vec3d> points = points_inside(200);
+  CoordinateRows rows;
+  coordinates.evaluate(points, rows);
+  WeightBlock block(points.size(), coordinates.columns());
+  round_weights(rows, 0, block);
+  const auto similar = [](const Vec3d& p) { return Vec3d{-2 * p[1] + 7, 2 * p[0] - 3, 2 * p[2] + 1000}; };
+  std::vector<Vec3d> moved(points.size());
+  add_moves(block, coordinates.moves_of_columns(moves_by(mesh, similar)), moved);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    CHECK(length(points[i] + moved[i] - similar(points[i])) < 1e-6 * 2 * std::sqrt(3.0));
+  add_moves(block, coordinates.moves_of_columns(std::vector<Vec3d>(mesh.vertices.size(), Vec3d{})), moved);
+  for (const Vec3d& m : moved) REQUIRE(m == Vec3d{});
+}
+
+TEST_CASE("coordinates of a dense cage work in memory that is told", "[deform][quick]") {
+  const CageCoordinates coordinates(make_cage(sphere_cage(250, 250), "dense"));
+  const std::size_t columns = coordinates.columns();
+  CHECK(coordinates.points_at_once() * columns * 8 < (std::size_t(1) << 22));
+  CHECK(coordinates.bytes_at_once() > columns * 8);
+  CHECK(coordinates.bytes_at_once() < (std::size_t(1) << 27));
+}
+
 TEST_CASE("normals and tangents turn as the cage does", "[deform][quick]") {
   const IndexedMesh mesh = sphere_cage(12, 14);
-  const MeanValueCoordinates coordinates(make_cage(mesh, "sphere"));
+  const CageCoordinates coordinates(make_cage(mesh, "sphere"));
   const std::vector<Vec3d> points = points_inside(64);
   const Vec3d normal = (1 / std::sqrt(14.0)) * Vec3d{1, 2, 3}, tangent = (1 / std::sqrt(5.0)) * Vec3d{2, -1, 0};
   std::vector<Vec3d> normals(points.size(), normal), tangents(points.size(), tangent);

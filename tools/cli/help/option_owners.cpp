@@ -19,8 +19,11 @@ struct OptionOfTools {
 constexpr OptionOfTools kOptionsOfTools[] = {
     {"--boxes", "bpinfo"},
     {"--cache", "bplod"},
+    {"--animate", "bpdeform"},
     {"--appearance", "bplod"},
+    {"--cache", "bplod"},
     {"--convex", "bpcheck"},
+    {"--coordinates", "bpdeform"},
     {"--device", "bpclose"},
     {"--dump", "bpinfo"},
     {"--element", "bpclose"},

@@ -35,15 +35,19 @@ Vec3d unit(const Vec3d& v) {
   return l > 0 ? (1 / l) * v : Vec3d{0, 0, 1};
 }
 
-/// The unit normal of a place by what its image of directions says there.
+/// The unit normal of a place by what its image of directions says there; the same one where the triangle has no area
+/// in the image.
 Vec3d bent(const Vec3d& normal, const TriangleD& t, const TriangleTexture& texture, const LinearTexel& said,
            double scale) {
   const auto& [a, b, c] = texture.uv;
   const double u1 = double(b[0]) - a[0], v1 = double(b[1]) - a[1], u2 = double(c[0]) - a[0], v2 = double(c[1]) - a[1];
   const double area = u1 * v2 - u2 * v1;  // v goes down
   const Vec3d along = (v2 / area) * (t[1] - t[0]) - (v1 / area) * (t[2] - t[0]);
-  const Vec3d tangent = unit(along - dot(along, normal) * normal);
-  if (!std::isfinite(tangent[0]) || !(std::abs(dot(tangent, normal)) < 0.5)) return normal;
+  const Vec3d flat = along - dot(along, normal) * normal;
+  const double l = length(flat);
+  if (!(l > 0) || !std::isfinite(l)) return normal;
+  const Vec3d tangent = (1 / l) * flat;
+  if (!(std::abs(dot(tangent, normal)) < 0.5)) return normal;
   const Vec3d up = (area < 0 ? 1.0 : -1.0) * cross(normal, tangent);
   const double x = scale * (2 * double(said[0]) - 1), y = scale * (2 * double(said[1]) - 1),
                z = 2 * double(said[2]) - 1;

@@ -1,52 +1,112 @@
 #include "lib/pass/leaf/detail/cut_triangle.h"
 
-// Sutherland and Hodgman's clipping: x, y, z, the lower face before the upper one. Boxes on both sides of a face have
-// the same other faces, or halves of them, so an edge is cut by the same faces in the same order.
+#include <algorithm>
+
+// Sutherland and Hodgman's clipping: x, y, z, the lower face before the upper one. An edge of the polygon is a piece of
+// a segment: an edge of the triangle, or all that it has of the plane of a face. Every point is computed from the ends
+// of the whole segment, the lesser first. So triangles on both sides of an edge, and boxes on both sides of a face,
+// have the same points, bit for bit, whatever else cuts them.
 
 namespace bp {
 
 namespace {
 
+/// The ends of a segment, the lesser first.
+struct Segment {
+  CutPoint a, b;
+};
+
+/// A corner of the polygon, and the segment that the edge from here to the next corner is a piece of.
+struct Corner {
+  CutPoint point;
+  std::size_t segment;
+};
+
+/// Between a and b, whatever is rounded.
 template <std::size_t N>
 std::array<double, N> between(const std::array<double, N>& a, const std::array<double, N>& b, double part) {
   std::array<double, N> out;
-  for (std::size_t i = 0; i < N; ++i) out[i] = a[i] + part * (b[i] - a[i]);
+  for (std::size_t i = 0; i < N; ++i)
+    out[i] = std::clamp(a[i] + part * (b[i] - a[i]), std::min(a[i], b[i]), std::max(a[i], b[i]));
   return out;
 }
 
-/// The same point, whichever end comes first.
-CutPoint crossing(const CutPoint& a, const CutPoint& b, std::size_t axis, double face) {
-  if (b.at < a.at) return crossing(b, a, axis, face);
-  const double part = (face - a.at[axis]) / (b.at[axis] - a.at[axis]);
-  CutPoint p{between(a.at, b.at, part), between(a.normal, b.normal, part), between(a.uv, b.uv, part),
-             between(a.color, b.color, part)};
+CutPoint crossing(const Segment& s, std::size_t axis, double face) {
+  const double run = s.b.at[axis] - s.a.at[axis];
+  const double part = run != 0 ? std::clamp((face - s.a.at[axis]) / run, 0.0, 1.0) : 0;
+  CutPoint p{between(s.a.at, s.b.at, part), between(s.a.normal, s.b.normal, part), between(s.a.uv, s.b.uv, part),
+             between(s.a.color, s.b.color, part)};
   p.at[axis] = face;
   return p;
 }
 
-/// Keeps what lies on the upper side of a face, or on the lower one.
-void cut(std::vector<CutPoint>& polygon, std::size_t axis, double face, bool upper) {
-  const auto is_in = [&](const CutPoint& p) { return upper ? p.at[axis] >= face : p.at[axis] <= face; };
-  std::vector<CutPoint> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const CutPoint &p = polygon[i], &next = polygon[(i + 1) % polygon.size()];
-    if (is_in(p)) kept.push_back(p);
-    if (is_in(p) != is_in(next) && p.at[axis] != face && next.at[axis] != face)
-      kept.push_back(crossing(p, next, axis, face));
+class TriangleCutter {
+ public:
+  explicit TriangleCutter(const std::array<CutPoint, 3>& triangle) : triangle_(triangle) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const CutPoint &p = triangle[k], &q = triangle[(k + 1) % 3];
+      segments_.push_back(q.at < p.at ? Segment{q, p} : Segment{p, q});
+      polygon_.push_back({p, k});
+    }
   }
-  polygon = std::move(kept);
-}
+
+  /// Keeps what lies on the upper side of a face, or on the lower one.
+  void cut(std::size_t axis, double face, bool upper) {
+    const auto is_in = [&](const CutPoint& p) { return upper ? p.at[axis] >= face : p.at[axis] <= face; };
+    std::vector<Corner> kept;
+    std::size_t in_face = kNone;
+    for (std::size_t i = 0; i < polygon_.size(); ++i) {
+      const Corner &p = polygon_[i], &next = polygon_[(i + 1) % polygon_.size()];
+      if (is_in(p.point)) kept.push_back(p);
+      if (is_in(p.point) == is_in(next.point)) continue;
+      if (p.point.at[axis] != face && next.point.at[axis] != face)
+        kept.push_back({crossing(segments_[p.segment], axis, face), p.segment});
+      if (!is_in(p.point)) continue;
+      if (in_face == kNone)
+        in_face = add_segment(axis, face);  // where the polygon is left, its edge in the face begins
+      kept.back().segment = in_face;
+    }
+    polygon_ = std::move(kept);
+  }
+
+  [[nodiscard]] std::vector<CutPoint> points() const {
+    std::vector<CutPoint> all;
+    if (polygon_.size() < 3) return all;
+    for (const Corner& c : polygon_) all.push_back(c.point);
+    return all;
+  }
+
+ private:
+  static constexpr std::size_t kNone = ~std::size_t(0);
+
+  /// Where the triangle, which has corners on both sides of the face or on it, meets its plane.
+  std::size_t add_segment(std::size_t axis, double face) {
+    std::vector<CutPoint> ends;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double here = triangle_[k].at[axis], next = triangle_[(k + 1) % 3].at[axis];
+      if (here == face) ends.push_back(triangle_[k]);
+      if ((here < face && next > face) || (here > face && next < face))
+        ends.push_back(crossing(segments_[k], axis, face));
+    }
+    std::sort(ends.begin(), ends.end(), [](const CutPoint& a, const CutPoint& b) { return a.at < b.at; });
+    segments_.push_back({ends.front(), ends.back()});
+    return segments_.size() - 1;
+  }
+
+  const std::array<CutPoint, 3>& triangle_;
+  std::vector<Segment> segments_;  ///< the first three: edges of the triangle
+  std::vector<Corner> polygon_;
+};
 
 }  // namespace
 
 std::vector<CutPoint> cut_triangle(const std::array<CutPoint, 3>& triangle, const Bounds3d& box) {
-  std::vector<CutPoint> polygon(triangle.begin(), triangle.end());
+  TriangleCutter cutter(triangle);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    cut(polygon, axis, box.min[axis], true);
-    cut(polygon, axis, box.max[axis], false);
+    cutter.cut(axis, box.min[axis], true);
+    cutter.cut(axis, box.max[axis], false);
   }
-  if (polygon.size() < 3) polygon.clear();
-  return polygon;
+  return cutter.points();
 }
 
 }  // namespace bp

@@ -14,7 +14,8 @@ struct CutPoint {
 };
 
 /// What of a triangle lies in the closed box: a convex polygon, or nothing. Triangles with a common edge are cut at the
-/// same points of it, in the boxes on both sides, too.
+/// same points of it, and boxes with a common face have the same points on that face, bit for bit; a box may have more
+/// points there than its neighbour. The triangle's corners may come in any order.
 [[nodiscard]] std::vector<CutPoint> cut_triangle(const std::array<CutPoint, 3>& triangle, const Bounds3d& box);
 
 }  // namespace bp

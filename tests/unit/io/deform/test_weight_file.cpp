@@ -55,6 +55,30 @@ std::size_t read_to_end(const std::string& path) {
 
 }  // namespace
 
+TEST_CASE("a file of weights names its coordinates, and those it does not know are refused", "[io][deform][quick]") {
+  const TempDir dir;
+  WeightHeader header{"scene.obj", 1234, sphere_cage(4, 5), CoordinateKind::green};
+  const std::size_t columns = columns_of(header.kind, header.cage);
+  CHECK(columns == header.cage.vertices.size() + header.cage.triangles.size());
+  const auto write = [&](const std::string& path) {
+    OutputFile out(path, true);
+    WeightWriter writer(out, header);
+    PackedWeights packed;
+    pack_weights(random_block(5, columns, 1), packed);
+    writer.write(packed);
+    writer.finish({5, 0, ResultKey{{5, 6}}});
+    out.commit();
+  };
+  write(dir.path("a.bpw"));
+  WeightReader reader(dir.path("a.bpw"));
+  CHECK((reader.header().kind == CoordinateKind::green));
+  CHECK(reader.points_declared() == 5);
+  CHECK(read_to_end(dir.path("a.bpw")) == 1);
+  header.kind = CoordinateKind(9);
+  write(dir.path("b.bpw"));
+  CHECK_THROWS_WITH(WeightReader(dir.path("b.bpw")), ContainsSubstring("coordinates of kind 9"));
+}
+
 TEST_CASE("a file of weights gives back what was written", "[io][deform][quick]") {
   const TempDir dir;
   const Written written;

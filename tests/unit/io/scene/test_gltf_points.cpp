@@ -1,25 +1,11 @@
-#include "io/scene/points/scene_points.h"
 #include "lib/core/vec3.h"
 #include "tests/unit/io/scene/gltf_document.h"
+#include "tests/unit/io/scene/moved_points.h"
 
 using namespace bp;
 using namespace bp::test;
 
 namespace {
-
-std::vector<Vec3d> points_of(const std::string& path) {
-  const auto points = open_points(path, {});
-  std::vector<Vec3d> all, some;
-  while (points->read(some)) all.insert(all.end(), some.begin(), some.end());
-  return all;
-}
-
-std::string moved(const TempDir& dir, const std::string& path, const MovePoints& move) {
-  OutputFile out(dir.path("moved.glb"), true);
-  open_points(path, {})->write(move, out);
-  out.commit();
-  return out.name();
-}
 
 /// Two parts with normals; the second stands turned, stretched and moved.
 Document two_parts() {
@@ -43,7 +29,7 @@ Document two_parts() {
 TEST_CASE("a GLB whose points stay keeps all but the layout of its JSON", "[io][deform][quick]") {
   const TempDir dir;
   const std::string path = dir.file("a.glb", two_parts().glb());
-  const std::string after = bytes_of_file(moved(dir, path, [](PointBatch&) {}));
+  const std::string after = moved(dir, path, [](PointBatch&) {});
   CHECK(points_of(dir.file("b.glb", after)) == points_of(path));
   const std::string data = two_parts().bytes;
   CHECK(after.find(data) != std::string::npos);
@@ -55,7 +41,7 @@ TEST_CASE("the points of a GLB move in the coordinates of the scene, and normals
   const std::string path = dir.file("a.glb", two_parts().glb());
   std::vector<Vec3d> expected = points_of(path), normals;
   for (Vec3d& p : expected) p = {p[0] + 1, 2 * p[1], p[2]};
-  const std::string after = moved(dir, path, [&](PointBatch& batch) {
+  const std::string after = moved_file(dir, path, [&](PointBatch& batch) {
     for (Vec3d& p : batch.positions) p = {p[0] + 1, 2 * p[1], p[2]};
     for (Vec3d& n : batch.normals) {
       CHECK(std::abs(length(n) - 1) < 1e-6);
@@ -91,7 +77,7 @@ TEST_CASE("a mesh that stands in several places moves in each, and the file stay
   d.json["meshes"][1]["primitives"].push_back(d.json["meshes"][0]["primitives"][0]);  // shares accessors
   const std::string path = dir.file("a.glb", d.glb());
   const auto bend = [](Vec3d& p) { p = {p[0] + 0.1 * p[1] * p[1], p[1] + p[2] * p[0], p[2]}; };
-  const std::string after = moved(dir, path, [&](PointBatch& batch) {
+  const std::string after = moved_file(dir, path, [&](PointBatch& batch) {
     for (Vec3d& p : batch.positions) bend(p);
   });
   std::vector<TriangleD> expected = read_all(path);
@@ -141,7 +127,7 @@ TEST_CASE("interleaved positions and normals move side by side", "[io][deform][q
   d.mesh(positions);
   d.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = normals;
   d.node({{"mesh", 0}});
-  const std::string after = moved(dir, dir.file("a.glb", d.glb()), [](PointBatch& batch) {
+  const std::string after = moved_file(dir, dir.file("a.glb", d.glb()), [](PointBatch& batch) {
     for (Vec3d& p : batch.positions) p[2] = 7;
     for (Vec3d& n : batch.normals) n = {0, 1, 0};
   });
@@ -150,6 +136,48 @@ TEST_CASE("interleaved positions and normals move side by side", "[io][deform][q
     for (const double c : {p[0], p[1], 7.0, 0.0, 1.0, 0.0}) expected += raw(float(c));
   }
   CHECK(bytes_of_file(after).find(expected) != std::string::npos);
+}
+
+TEST_CASE("frames become morph targets of an animation, and the scene stays at rest", "[io][deform][quick]") {
+  const TempDir dir;
+  Document d = two_parts();
+  d.node({{"mesh", 0}, {"translation", {0, 0, 3}}});  // the first part once more
+  d.json["scenes"][0]["nodes"] = {0, 1, 2};
+  const std::string path = dir.file("a.glb", d.glb());
+  OutputFile out(dir.path("moving.glb"), true);
+  open_points(path, {})->write_frames(
+      2, 0.5,
+      [](std::size_t frame, PointBatch& batch) {
+        for (Vec3d& p : batch.positions) p[0] += frame == 0 ? 0.0 : 7.0;
+        for (Vec3d& n : batch.normals) n = frame == 0 ? n : Vec3d{0, 1, 0};
+      },
+      out);
+  out.commit();
+  CHECK(read_all(out.name()) == read_all(path));
+  const std::string bytes = bytes_of_file(out.name());
+  const Json after = Json::parse(bytes.substr(20, bytes.find("BIN") - 24));
+  REQUIRE(after["animations"].size() == 1);
+  CHECK(after["animations"][0]["channels"].size() == 3);
+  for (const Json& mesh : after["meshes"]) {
+    CHECK(mesh["weights"] == Json({0, 0}));
+    const Json& targets = mesh["primitives"][0]["targets"];
+    REQUIRE(targets.size() == 2);
+    CHECK(targets[1].contains("NORMAL"));
+    CHECK(after["accessors"][targets[0]["POSITION"].get<std::size_t>()]["max"] == Json({0, 0, 0}));
+  }
+  const Json& first =
+      after["accessors"][after["meshes"][0]["primitives"][0]["targets"][1]["POSITION"].get<std::size_t>()];
+  CHECK(first["max"] == Json({7, 0, 0}));
+  CHECK(first["count"] == 4);
+  const std::size_t times = after["animations"][0]["samplers"][0]["input"];
+  CHECK(after["accessors"][times]["max"] == Json({0.5}));
+}
+
+TEST_CASE("frames in one file are kept by glTF alone", "[io][deform][quick]") {
+  const TempDir dir;
+  OutputFile out(dir.path("b.obj"), true);
+  CHECK_THROWS_WITH(open_points(dir.file("a.obj", "v 1 2 3\n"), {})->write_frames(1, 1, {}, out),
+                    Contains("only glTF"));
 }
 
 TEST_CASE("a GLB that cannot keep what it has is refused", "[io][deform][quick]") {

@@ -1,27 +1,11 @@
-#include "io/scene/points/scene_points.h"
 #include "lib/core/vec3.h"
 #include "tests/unit/io/scene/gltf_document.h"
-#include "tests/unit/io/scene/scene_files.h"
+#include "tests/unit/io/scene/moved_points.h"
 
 using namespace bp;
 using namespace bp::test;
 
 namespace {
-
-std::vector<Vec3d> points_of(const std::string& path) {
-  const auto points = open_points(path, {});
-  std::vector<Vec3d> all, some;
-  while (points->read(some)) all.insert(all.end(), some.begin(), some.end());
-  return all;
-}
-
-/// The bytes of the scene with its points moved.
-std::string moved(const TempDir& dir, const std::string& path, const MovePoints& move) {
-  OutputFile out(dir.path("moved" + path.substr(path.rfind('.'))), true);
-  open_points(path, {})->write(move, out);
-  out.commit();
-  return bytes_of_file(out.name());
-}
 
 void stay(PointBatch&) {}
 void double_x(PointBatch& batch) {

@@ -256,3 +256,47 @@ TEST_CASE("OBJ: places of corners, also from the end, and images of map_Kd", "[q
   CHECK(m.wrap == std::array{TextureWrap::clamp, TextureWrap::clamp});
   CHECK(r.colors[0][0] == color_from_srgb({0.5, 0.5, 0.5}));
 }
+
+TEST_CASE("MTL: how a material answers to light, if that is asked for", "[quick][io]") {
+  const TempDir dir;
+  for (const char* name : {"base.png", "n.png", "pr.png", "ke.png"}) (void)dir.file(name, image_file(1));
+  (void)dir.file("m.mtl",
+                 "newmtl all\nmap_Kd -s 2 2 1 base.png\nnorm -bm 0.5 -s 2 2 1 n.png\nPr 0.25\nPm 0.5\nKe 1 0 0\n"
+                 "newmtl images\nnorm n.png\nmap_Pr -clamp on pr.png\nPr 0.5\nKe 0 0 1\nmap_Ke ke.png\n"
+                 "newmtl packed\nmap_Pr pr.png\nmap_Pm pr.png\nnewmtl two\nmap_Pr pr.png\nmap_Pm ke.png\nPm 0.5\n"
+                 "newmtl astray\nmap_Kd base.png\nnorm -o 0.5 n.png\nnewmtl gone\nKe 0 1 0\nmap_Ke gone.png\n"
+                 "newmtl high\nmap_Bump -bm 1 n.png\nnewmtl plain\nKd 1 0 0\n");
+  const std::vector<std::string> names{"all", "images", "packed", "two", "astray", "gone", "high", "plain"};
+  std::string obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n";
+  for (const std::string& name : names) obj += "usemtl " + name + "\nf 1/1 2/2 3/3\n";
+  const std::string path = dir.file("a.obj", obj);
+  const TexturedRead r = read_textured({path}, true);
+  const auto surface = [&](std::size_t i) { return r.table->material(r.textures.at(i).material).surface; };
+  CHECK(surface(0).normal.is_there());
+  CHECK(surface(0).normal_scale == 0.5F);
+  CHECK(surface(0).roughness_factor == 0.25F);
+  CHECK(surface(0).metal_factor == 0.5F);
+  CHECK(surface(0).emission_factor == std::array<float, 3>{1, 0, 0});
+  CHECK(r.table->material(r.textures[1].material).image == TextureMaterial::kNoImage);
+  CHECK(surface(1).roughness.wrap[0] == TextureWrap::clamp);
+  CHECK(surface(1).roughness_factor == 1);
+  CHECK(surface(1).emission.is_there());
+  CHECK(surface(1).emission_factor == std::array<float, 3>{1, 1, 1});
+  CHECK(surface(2).roughness.is_there());
+  CHECK(surface(2).metal_factor == 1);
+  CHECK(surface(3).metal_factor == 0.5F);
+  CHECK_FALSE(surface(3).roughness.is_there());
+  CHECK(surface(4) == TextureSurface{});
+  CHECK(surface(5).emission_factor == std::array<float, 3>{0, 1, 0});
+  CHECK(r.textures[6].material == TriangleTexture::kNoMaterial);
+  CHECK(r.textures[7].material == TriangleTexture::kNoMaterial);
+  std::string faults;
+  for (const std::string& fault : r.table->faults()) faults += fault + "\n";
+  for (const char* part : {"n.png: lies at other places", "m.mtl: map_Bump is taken for heights",
+                           "gone.png: is not there", "m.mtl: roughness and metal come from one image"})
+    CHECK_THAT(faults, ContainsSubstring(part));
+  const TexturedRead colors = read_textured({path});
+  CHECK(colors.textures[1].material == TriangleTexture::kNoMaterial);
+  CHECK(colors.table->material(colors.textures[0].material).surface == TextureSurface{});
+  CHECK(colors.table->faults().empty());
+}

@@ -48,6 +48,18 @@ TEST_CASE("a level of a tileset is as far above its deepest tile, or what stands
   CHECK(tileset_level(Tileset{}, "tileset.json", 0).levels == 0);
 }
 
+TEST_CASE("leaves are no level, nor is what leads to them", "[quick][io][lod]") {
+  const TempDir dir;
+  for (const char* name : {"a", "b", "leaf"}) (void)dir.file(name, "");
+  Tile leaf = tile("leaf");
+  leaf.is_leaf = true;
+  Tileset t;
+  t.root = tile("a", {tile("b", {tile("", {leaf, leaf}), leaf}), leaf});
+  CHECK(tileset_level(t, dir.path("tileset.json"), 0).levels == 2);
+  CHECK(drawn(dir, t, 0) == "b 0, ");
+  CHECK(drawn(dir, t, 1) == "a 0, ");
+}
+
 TEST_CASE("contents that are not there are named", "[quick][io][lod]") {
   const TempDir dir;
   for (const char* name : {"b", "c"}) (void)dir.file(name, "");

@@ -58,6 +58,12 @@ std::unique_ptr<SceneLooks> looks_of(const TexturedScene& scene, const std::shar
   return std::make_unique<SceneLooks>(read, std::make_unique<MemoryScratch>(), memory);
 }
 
+ResultKey key_near_origin(const SceneLooks& looks) {
+  KeyHash hash("test");
+  looks.add_to(hash, Bounds3d{{-1, -1, -1}, {1, 1, 1}});
+  return hash.key();
+}
+
 struct Baked {
   Atlas atlas;
   TextureImage image;
@@ -310,14 +316,7 @@ TEST_CASE("the key of a place knows its triangles and its images, not those else
   auto textures = textures_of(TextureImage(2, 2, {1, 2, 3, 255}));
   textures->images.emplace_back(2, 2, TextureImage::Texel{1, 2, 3, 255});
   textures->materials.push_back({1});
-  const auto key = [&] {
-    KeyHash hash("test");
-    Bounds3d here;
-    here.add({-1, -1, -1});
-    here.add({1, 1, 1});
-    looks_of(scene, textures)->add_to(hash, here);
-    return hash.key();
-  };
+  const auto key = [&] { return key_near_origin(*looks_of(scene, textures)); };
   const ResultKey before = key();
   textures->images[1].at(0, 0) = {9, 9, 9, 255};
   CHECK(key() == before);
@@ -336,11 +335,7 @@ TEST_CASE("the key of a place knows how fine the scene's images are, wherever th
   auto textures = textures_of(TextureImage(6, 1, {1, 2, 3, 255}));
   textures->images.emplace_back(6, 1, TextureImage::Texel{1, 2, 3, 255});
   textures->materials.push_back({1});
-  const auto key = [&] {
-    KeyHash hash("test");
-    looks_of(scene, textures)->add_to(hash, Bounds3d{{-1, -1, -1}, {1, 1, 1}});
-    return hash.key();
-  };
+  const auto key = [&] { return key_near_origin(*looks_of(scene, textures)); };
   const ResultKey before = key();
   textures->images[1] = TextureImage(600, 100, {1, 2, 3, 255});  // levels here get finer texels, too
   CHECK(key() != before);

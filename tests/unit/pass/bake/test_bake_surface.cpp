@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
@@ -111,6 +112,16 @@ TEST_CASE("a level's image of directions says what the scene's says, on all side
       break;
     }
   }
+}
+
+TEST_CASE("an image of directions says nothing of triangles without an area in it", "[quick][bake]") {
+  Fixture f;
+  const float place = GENERATE(0.5F, std::numeric_limits<float>::infinity(), NAN);
+  for (TriangleTexture& t : f.scene.textures)
+    for (auto& uv : t.uv) uv = {place, 0.5F};
+  f.surface().normal.image = f.add({200, 150, 220, 255});
+  const std::vector<Vec3d> found = f.directions(f.bake().normal);
+  for (std::size_t face = 0; face < found.size(); ++face) CHECK(dot(found[face], normal_of(f.mesh, face)) > 0.995);
 }
 
 TEST_CASE("a level's image of directions has the normals of the scene's corners", "[quick][bake]") {

@@ -145,6 +145,9 @@ TEST_CASE("a leaf depends on the triangles nearby, and not on their order", "[qu
   }
   scene.add({1, 1, 1}, {1, 0, 0}, {0, 1, 0}, 0);
   CHECK(key() != key_before);
+  const ResultKey without_normal = key();
+  scene.textures.back().normals[2] = pack_normal({0, 0.5, 1});  // of one corner only
+  CHECK(key() != without_normal);
 }
 
 TEST_CASE("a flat side has one normal, and edges of less than 30 degrees are smooth", "[quick][leaf]") {
@@ -178,6 +181,8 @@ TEST_CASE("a cell of many triangles is cut into octants", "[quick][leaf]") {
     Bounds3d box = kBox;
     for (const char digit : b.path) box = octant_of(box, digit - '0');
     CHECK(box == b.box);
+    CHECK(b.triangles > 0);
+    CHECK(b.triangles <= kMostLeafTriangles);
     triangles += cut_leaf(*looks, box, leaf_unit(0.25, 64)).triangles();
   }
   CHECK(triangles >= scene.triangles.size());

@@ -5,6 +5,20 @@
 using namespace bp;
 using namespace bp::test;
 
+namespace {
+
+/// It is sound, and lies strictly inside `outer`.
+void check_inside(const LatticeMesh& proxy, const std::vector<TriangleD>& outer) {
+  MemorySource scene(outer);
+  CheckOptions options;
+  options.inside = true;
+  const CheckReport report = check_proxy(indexed(proxy), &scene, options);
+  CHECK(report.holds());
+  CHECK(report.volume > 0);
+}
+
+}  // namespace
+
 TEST_CASE("a proxy inside lies in the voxels that are meshed, and each level in the one before", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell);
   source.header().fill = FillMode::inside;
@@ -28,12 +42,7 @@ TEST_CASE("a proxy inside lies in the voxels that are meshed, and each level in 
   for (std::size_t i = 0; i < levels.size(); ++i) {
     CAPTURE(i, counts.levels[i].stopped_by, levels[i].triangles.size());
     CHECK(levels[i].triangles.size() <= params.faces[i]);
-    MemorySource scene(outer);
-    CheckOptions options;
-    options.inside = true;
-    const CheckReport report = check_proxy(indexed(levels[i]), &scene, options);
-    CHECK(report.holds());
-    CHECK(report.volume > 0);
+    check_inside(levels[i], outer);
     outer = world_triangles(levels[i]);
   }
   CHECK(counts.levels[0].measures.volume <= counts.solid_volume_world);
@@ -70,12 +79,7 @@ TEST_CASE("a level goes on inside one that no voxel fits in", "[quick][pass]") {
   params.faces = {100, 20};
   MeshCounts counts;
   const std::vector<LatticeMesh> levels = mesh_stream(source, memory_context(), params, counts);
-  MemorySource scene(world_triangles(levels[0]));
-  CheckOptions options;
-  options.inside = true;
-  const CheckReport report = check_proxy(indexed(levels[1]), &scene, options);
-  CHECK(report.holds());
-  CHECK(report.volume > 0);
+  check_inside(levels[1], world_triangles(levels[0]));
 }
 
 TEST_CASE("a least part without a meaning is refused", "[quick][pass]") {
@@ -103,9 +107,6 @@ TEST_CASE("levels inside a wall stay in it, and out of what it encloses", "[quic
   params.faces = {600, 200};
   MeshCounts counts;
   const std::vector<LatticeMesh> levels = mesh_stream(source, memory_context(), params, counts);
-  MemorySource scene(world_triangles(levels[0]));
-  CheckOptions options;
-  options.inside = true;
-  CHECK(check_proxy(indexed(levels[1]), &scene, options).holds());
+  check_inside(levels[1], world_triangles(levels[0]));
   CHECK(counts.levels[1].measures.volume < counts.levels[0].measures.volume);
 }

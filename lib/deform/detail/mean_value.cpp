@@ -4,16 +4,17 @@
 // vectors of a closed mesh cancel out, edge by edge, which is why the weights reproduce linear functions. Each edge is
 // computed once for both its faces, and cancels to the bit. [JSW05] takes the factors from angles alone; that loses all
 // digits near the plane of a face.
-#include "lib/deform/detail/raw_weights.h"
+#include "lib/deform/detail/mean_value.h"
 
 #include <cmath>
+#include <functional>
+#include <vector>
 
 namespace bp::detail {
 
 namespace {
 
-constexpr double kNear = 1e-9;    // of the diagonal, and of angles: nearer than this nothing is trusted
-constexpr double kMean2 = 1e-16;  // square of a mean vector that may be left out
+constexpr double kNear = kNearCage;
 
 BP_INLINE void cross_wide(const WideVec& a, const WideVec& b, WideVec& out) {
   out.x = a.y * b.z - a.z * b.y;
@@ -21,7 +22,7 @@ BP_INLINE void cross_wide(const WideVec& a, const WideVec& b, WideVec& out) {
   out.z = a.x * b.y - a.y * b.x;
 }
 
-BP_INLINE void take_vertices(const Cage& cage, const WideVec& points, RawScratch& scratch, WideBits& near) {
+BP_INLINE void take_vertices(const Cage& cage, const WideVec& points, CoordinateScratch& scratch, WideBits& near) {
   for (std::size_t i = 0; i < cage.vertices.size(); ++i) {
     const Vec3d& v = cage.vertices[i];
     WideVec d{v[0] - points.x, v[1] - points.y, v[2] - points.z};
@@ -33,7 +34,7 @@ BP_INLINE void take_vertices(const Cage& cage, const WideVec& points, RawScratch
   }
 }
 
-BP_INLINE void take_edges(const Cage& cage, RawScratch& scratch, WideBits& near) {
+BP_INLINE void take_edges(const Cage& cage, CoordinateScratch& scratch, WideBits& near) {
   for (std::size_t i = 0; i < cage.edges.size(); ++i) {
     const WideVec &a = scratch.vertices[cage.edges[i].a].toward, &b = scratch.vertices[cage.edges[i].b].toward;
     WideVec n;
@@ -48,39 +49,28 @@ BP_INLINE void take_edges(const Cage& cage, RawScratch& scratch, WideBits& near)
   }
 }
 
-/// In the plane of a face, but not in the face, its weights are 0.
-BP_INLINE void take_face(const Cage::Face& face, RawScratch& scratch, WideBits& near) {
-  const RawScratch::Edge &e0 = scratch.edges[face.edge[0]], &e1 = scratch.edges[face.edge[1]],
-                         &e2 = scratch.edges[face.edge[2]];
-  RawScratch::Vertex &v0 = scratch.vertices[face.corner[0]], &v1 = scratch.vertices[face.corner[1]],
-                     &v2 = scratch.vertices[face.corner[2]];
-  const double* s = face.sign.data();
-  const WideVec mean{s[0] * e0.mean.x + s[1] * e1.mean.x + s[2] * e2.mean.x,
-                     s[0] * e0.mean.y + s[1] * e1.mean.y + s[2] * e2.mean.y,
-                     s[0] * e0.mean.z + s[1] * e1.mean.z + s[2] * e2.mean.z};
-  const Wide height = s[0] * BP_DOT(e0.across, v0.toward);
-  const WideBits flat = (height < kNear) & (height > -kNear);
-  near |= flat & (BP_DOT(mean, mean) > kMean2);
-  const Wide zero{};
-  const Wide per = flat ? zero : 1.0 / (flat ? height + 1.0 : height);
-  v0.sum += s[0] * per * BP_DOT(e0.across, mean);
-  v1.sum += s[1] * per * BP_DOT(e1.across, mean);
-  v2.sum += s[2] * per * BP_DOT(e2.across, mean);
+BP_INLINE void take_face(const Cage::Face& face, CoordinateScratch& scratch, WideBits& near) {
+  Wide share[3];
+  face_shares(face, scratch, share, near);
+  for (std::size_t i = 0; i < 3; ++i) scratch.vertices[face.corner[i]].sum += share[i];
 }
 
 }  // namespace
 
-BP_WIDE_CLONES unsigned raw_weights(const Cage& cage, const WideVec& points, RawScratch& scratch) {
+BP_WIDE_CLONES unsigned mean_value_weights(const Cage& cage, const WideVec& points, CoordinateScratch& scratch,
+                                           Wide& total) {
   scratch.vertices.resize(cage.vertices.size());
   scratch.edges.resize(cage.edges.size());
   WideBits near{};
+  total = Wide{};
   take_vertices(cage, points, scratch, near);
   take_edges(cage, scratch, near);
   for (const Cage::Face& face : cage.faces) take_face(face, scratch, near);
-  for (RawScratch::Vertex& v : scratch.vertices) v.sum *= v.per_length;
-  unsigned bits = 0;
-  for (int i = 0; i < kWide; ++i) bits |= unsigned(near[i] & 1) << i;
-  return bits;
+  for (CoordinateScratch::Vertex& v : scratch.vertices) {
+    v.sum *= v.per_length;
+    total += v.sum;
+  }
+  return bits_of(near);
 }
 
 namespace {
@@ -102,18 +92,17 @@ RealVec mean_of(const RealVec& a, const RealVec& b, const RealVec& normal) {
   return {factor * normal[0], factor * normal[1], factor * normal[2]};
 }
 
-}  // namespace
-
-void raw_weights_slowly(const Cage& cage, const Vec3d& point, std::vector<double>& sums) {
+void each_face_slowly(const Cage& cage, const Vec3d& point, std::span<long double> lengths,
+                      const std::function<void(std::size_t, const RealVec&)>& take) {
   constexpr Real kFlat = 1e-15L;
   std::vector<RealVec> toward(cage.vertices.size());
-  std::vector<Real> length(cage.vertices.size()), total(cage.vertices.size());
   for (std::size_t i = 0; i < toward.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) toward[i][k] = Real(cage.vertices[i][k]) - Real(point[k]);
-    length[i] = std::sqrt(dot(toward[i], toward[i]));
-    for (Real& x : toward[i]) x /= length[i];
+    lengths[i] = std::sqrt(dot(toward[i], toward[i]));
+    for (Real& x : toward[i]) x /= lengths[i];
   }
-  for (const Cage::Face& face : cage.faces) {
+  for (std::size_t f = 0; f < cage.faces.size(); ++f) {
+    const Cage::Face& face = cage.faces[f];
     RealVec normal[3], mean{};
     for (std::size_t i = 0; i < 3; ++i) {
       const RealVec &a = toward[face.corner[(i + 1) % 3]], &b = toward[face.corner[(i + 2) % 3]];
@@ -122,11 +111,28 @@ void raw_weights_slowly(const Cage& cage, const Vec3d& point, std::vector<double
       for (std::size_t k = 0; k < 3; ++k) mean[k] += part[k];
     }
     const Real height = dot(normal[0], toward[face.corner[0]]);
-    if (std::abs(height) < kFlat) continue;
-    for (std::size_t i = 0; i < 3; ++i) total[face.corner[i]] += dot(normal[i], mean) / height;
+    const bool flat = std::abs(height) < kFlat;
+    RealVec shares{};
+    for (std::size_t i = 0; i < 3 && !flat; ++i) shares[i] = dot(normal[i], mean) / height;
+    take(f, shares);
   }
-  sums.resize(total.size());
-  for (std::size_t i = 0; i < total.size(); ++i) sums[i] = double(total[i] / length[i]);
+}
+
+}  // namespace
+
+void mean_value_weights_slowly(const Cage& cage, const Vec3d& point, std::span<double> weights) {
+  std::vector<Real> lengths(cage.vertices.size()), total(cage.vertices.size());
+  each_face_slowly(cage, point, lengths, [&](std::size_t f, const RealVec& shares) {
+    for (std::size_t i = 0; i < 3; ++i) total[cage.faces[f].corner[i]] += shares[i];
+  });
+  for (std::size_t i = 0; i < total.size(); ++i) weights[i] = double(total[i] / lengths[i]);
+}
+
+void face_shares_slowly(const Cage& cage, const Vec3d& point, std::size_t lane, CoordinateScratch& scratch) {
+  std::vector<Real> lengths(cage.vertices.size());
+  each_face_slowly(cage, point, lengths, [&](std::size_t f, const RealVec& shares) {
+    for (std::size_t i = 0; i < 3; ++i) scratch.faces[f].share[i][int(lane)] = double(shares[i]);
+  });
 }
 
 }  // namespace bp::detail

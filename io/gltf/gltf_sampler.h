@@ -1,0 +1,28 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "io/gltf/glb_file.h"
+#include "lib/core/texture.h"
+
+/// Numbers of samplers (glTF 2.0, section 5.26).
+namespace bp {
+
+/// Repeats, unless the number is another known one.
+[[nodiscard]] inline TextureWrap wrap_of_gltf(std::uint64_t number) {
+  return number == 33071 ? TextureWrap::clamp : number == 33648 ? TextureWrap::mirror : TextureWrap::repeat;
+}
+
+/// A sampler that is smooth near and far.
+[[nodiscard]] inline GltfOutJson gltf_sampler(const std::array<TextureWrap, 2>& wrap) {
+  const auto number = [](TextureWrap w) {
+    return w == TextureWrap::clamp ? 33071 : w == TextureWrap::mirror ? 33648 : 10497;
+  };
+  constexpr int kLinear = 9729, kLinearMipmapLinear = 9987;
+  return {{"magFilter", kLinear},
+          {"minFilter", kLinearMipmapLinear},
+          {"wrapS", number(wrap[0])},
+          {"wrapT", number(wrap[1])}};
+}
+
+}  // namespace bp

@@ -1,0 +1,190 @@
+#include "lib/check/detail/leaf_proof.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "lib/core/vec3.h"
+
+// A leaf's triangle lies within the error of a convex part if its corners do. In the plane of the part it is grown by
+// 3/2 errors, so that neighbours whose corners are rounded leave no gap: lines beside its edges, and across its sharp
+// corners. A point between these lines is farther than 1.5 * sqrt(2) errors from it nowhere, and 2.4 in space.
+
+namespace bp {
+
+namespace {
+
+using Flat = std::array<double, 2>;
+using Polygon = std::vector<Flat>;
+
+constexpr std::size_t kMostPieces = 1000;
+constexpr double kGrowth = 1.5;  // errors
+
+double dot(const Flat& a, const Flat& b) {
+  return a[0] * b[0] + a[1] * b[1];
+}
+Flat minus(const Flat& a, const Flat& b) {
+  return {a[0] - b[0], a[1] - b[1]};
+}
+Flat unit(const Flat& a) {
+  const double l = std::hypot(a[0], a[1]);
+  return {a[0] / l, a[1] / l};
+}
+
+/// The side of a line: normal · p <= most.
+struct Side {
+  Flat normal;
+  double most;
+  [[nodiscard]] double beyond(const Flat& p) const { return dot(normal, p) - most; }
+};
+
+/// Coordinates in the plane of a polygon.
+class Plane {
+ public:
+  explicit Plane(const std::vector<Vec3d>& polygon) : from_(polygon[0]) {
+    Vec3d n{}, longest{};
+    for (std::size_t k = 1; k < polygon.size(); ++k) {
+      const Vec3d side = polygon[k] - from_;
+      if (bp::dot(side, side) > bp::dot(longest, longest)) longest = side;
+      n = n + cross(side, polygon[(k + 1) % polygon.size()] - from_);
+    }
+    u_ = (1 / length(longest)) * longest;
+    v_ = cross((1 / length(n)) * n, u_);
+  }
+  [[nodiscard]] Flat operator()(const Vec3d& p) const { return {bp::dot(p - from_, u_), bp::dot(p - from_, v_)}; }
+
+ private:
+  Vec3d from_, u_, v_;
+};
+
+/// Between them lies what a triangle covers; nothing if it is a line there.
+std::vector<Side> sides_of(std::array<Flat, 3> t, double growth) {
+  const Flat a = minus(t[1], t[0]), b = minus(t[2], t[0]);
+  const double area = a[0] * b[1] - a[1] * b[0];
+  if (!(std::abs(area) > 1e-12 * std::max(dot(a, a), dot(b, b)))) return {};
+  if (area < 0) std::swap(t[1], t[2]);
+  std::vector<Side> sides;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Flat along = unit(minus(t[(k + 1) % 3], t[k])), outwards{along[1], -along[0]};
+    sides.push_back({outwards, dot(outwards, t[k]) + growth});
+    const Flat back = unit(minus(t[k], t[(k + 2) % 3]));
+    if (dot(along, back) >= 0) continue;  // a blunt corner
+    const Flat tip = unit(minus(back, along));
+    sides.push_back({tip, dot(tip, t[k]) + growth});
+  }
+  return sides;
+}
+
+/// What of a convex polygon lies on one side of a line, or strictly on the other.
+Polygon cut(const Polygon& polygon, const Side& side, bool inside) {
+  Polygon kept;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Flat &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
+    const double hp = side.beyond(p), hq = side.beyond(q);
+    if ((hp <= 0) == inside) kept.push_back(p);
+    if ((hp <= 0) == (hq <= 0)) continue;
+    const double s = hp / (hp - hq);
+    kept.push_back({p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1])});
+  }
+  if (kept.size() < 3) kept.clear();
+  return kept;
+}
+
+/// Takes what lies between the sides out of a polygon; the rest goes to `rest`, in pieces.
+void take_out(const std::vector<Side>& sides, const Polygon& polygon, std::vector<Polygon>& rest) {
+  std::vector<Polygon> pieces;
+  Polygon within = polygon;
+  for (const Side& side : sides) {
+    if (Polygon beyond = cut(within, side, false); !beyond.empty()) pieces.push_back(std::move(beyond));
+    within = cut(within, side, true);
+    if (within.empty()) return rest.push_back(polygon);
+  }
+  for (Polygon& piece : pieces) rest.push_back(std::move(piece));
+}
+
+double area_of(const TriangleD& t) {
+  return length(cross(t[1] - t[0], t[2] - t[0])) / 2;
+}
+
+bool is_thin(const std::vector<Vec3d>& part, double error) {
+  double around = 0, area = 0;
+  for (std::size_t k = 0; k < part.size(); ++k) {
+    const Vec3d u = part[k] - part[0], v = part[(k + 1) % part.size()] - part[0];
+    area += length(cross(u, v)) / 2;
+    around += length(v - u);
+  }
+  return area <= error * around;
+}
+
+}  // namespace
+
+std::vector<Vec3d> part_within(const TriangleD& t, const Bounds3d& box) {
+  std::vector<Vec3d> polygon(t.begin(), t.end());
+  for (std::size_t face = 0; face < 6; ++face) {
+    const std::size_t i = face / 2;
+    const double at = face % 2 == 0 ? box.min[i] : box.max[i];
+    const auto is_in = [&](const Vec3d& p) { return face % 2 == 0 ? p[i] >= at : p[i] <= at; };
+    std::vector<Vec3d> kept;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Vec3d &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
+      if (is_in(p)) kept.push_back(p);
+      if (is_in(p) == is_in(q)) continue;
+      kept.push_back(p + ((at - p[i]) / (q[i] - p[i])) * (q - p));
+      kept.back()[i] = at;
+    }
+    polygon = std::move(kept);
+  }
+  if (polygon.size() < 3) polygon.clear();
+  return polygon;
+}
+
+/// The largest first: they leave the fewest pieces.
+std::vector<const TriangleBvh::Item*> LeafProof::near(const std::vector<Vec3d>& part, double error) const {
+  Bounds3d box;
+  for (const Vec3d& p : part) box.add(p);
+  for (std::size_t i = 0; i < 3; ++i) box.min[i] -= error, box.max[i] += error;
+  const auto is_near = [&](const Vec3d& p) {
+    for (std::size_t k = 1; k + 1 < part.size(); ++k)
+      if (distance_squared(p, TriangleD{part[0], part[k], part[k + 1]}) <= error * error) return true;
+    return false;
+  };
+  std::vector<const TriangleBvh::Item*> found;
+  shown_.visit(box, [&](const TriangleBvh::Item& item) {
+    const TriangleD& t = item.corners;
+    const bool in_box = std::all_of(t.begin(), t.end(), [&](const Vec3d& p) { return overlap(box, Bounds3d{p, p}); });
+    if (in_box && std::all_of(t.begin(), t.end(), is_near)) found.push_back(&item);
+    return false;
+  });
+  std::sort(found.begin(), found.end(), [](const auto* a, const auto* b) {
+    const double x = area_of(a->corners), y = area_of(b->corners);
+    return x != y ? x > y : a->id < b->id;
+  });
+  return found;
+}
+
+LeafProof::Cover LeafProof::add(const std::vector<Vec3d>& part, double error) {
+  const std::vector<const TriangleBvh::Item*> found = near(part, error);
+  for (const TriangleBvh::Item* item : found) on_scene_[item->id] = true;
+  if (is_thin(part, error)) return Cover::whole;
+  const Plane plane(part);
+  std::vector<Polygon> left(1), rest;
+  for (const Vec3d& p : part) left[0].push_back(plane(p));
+  for (const TriangleBvh::Item* item : found) {
+    const TriangleD& t = item->corners;
+    const std::vector<Side> sides = sides_of({plane(t[0]), plane(t[1]), plane(t[2])}, kGrowth * error);
+    if (sides.empty()) continue;
+    rest.clear();
+    for (const Polygon& polygon : left) take_out(sides, polygon, rest);
+    left.swap(rest);
+    if (left.empty()) return Cover::whole;
+    if (left.size() > kMostPieces) return Cover::undecided;
+  }
+  return Cover::missing;
+}
+
+std::uint64_t LeafProof::strays() const {
+  return std::uint64_t(std::count(on_scene_.begin(), on_scene_.end(), false));
+}
+
+}  // namespace bp

@@ -1,0 +1,35 @@
+#pragma once
+#include <atomic>
+#include <vector>
+
+#include "lib/geometry/triangle_bvh.h"
+
+/// Is a leaf the scene itself? Both ways: each of its triangles lies on a triangle of the scene, and each triangle of
+/// the scene is covered by those that lie on it.
+namespace bp {
+
+/// A triangle in a closed box: a convex polygon, or nothing. Which side of a face a point is on is exact, as it is
+/// where leaves are cut: a triangle just beyond a face belongs to the neighbour. New points are rounded.
+[[nodiscard]] std::vector<Vec3d> part_within(const TriangleD& t, const Bounds3d& box);
+
+class LeafProof {
+ public:
+  /// Keeps a reference to the leaf's triangles.
+  explicit LeafProof(const TriangleBvh& shown) : shown_(shown), on_scene_(shown.size()) {}
+
+  enum class Cover { whole, missing, undecided };
+  /// `part`: what a triangle of the scene has in the leaf's cell, a convex polygon. Notes the triangles of the leaf
+  /// that lie within `error` of it. Whole: each point of the part lies within 3 errors of one of these, or the part is
+  /// thinner than six errors. Thread-safe. O(n log n) for n triangles of the leaf near the part, in practice.
+  Cover add(const std::vector<Vec3d>& part, double error);
+  /// Triangles of the leaf that lie on no part so far.
+  [[nodiscard]] std::uint64_t strays() const;
+
+ private:
+  [[nodiscard]] std::vector<const TriangleBvh::Item*> near(const std::vector<Vec3d>& part, double error) const;
+
+  const TriangleBvh& shown_;
+  std::vector<std::atomic<bool>> on_scene_;
+};
+
+}  // namespace bp
