@@ -17,10 +17,9 @@ struct OptionOfTools {
   const char *option, *tools;
 };
 constexpr OptionOfTools kOptionsOfTools[] = {
-    {"--boxes", "bpinfo"},
-    {"--cache", "bplod"},
     {"--animate", "bpdeform"},
     {"--appearance", "bplod"},
+    {"--boxes", "bpinfo"},
     {"--cache", "bplod"},
     {"--convex", "bpcheck"},
     {"--coordinates", "bpdeform"},
