@@ -59,13 +59,16 @@ grep -c '^f [^ ]* [^ ]* [^ ]* ' cage.obj | sed 's/$/ quads/'
 draw gallery-quads.png 400 cage.obj
 
 "$root/samples/scenes.py" . > /dev/null
-rm -rf truck-collision house-occluder figure-lod city-tiles town-lod town-tiles night levels
+rm -rf figure-cage truck-collision house-occluder figure-lod city-tiles town-lod town-tiles night levels
 bplod truck.obj --profile collision --faces 500 -q -o truck-collision > /dev/null
 draw guide-collision.png 360 truck.obj truck-collision/truck_godot.glb truck-collision/truck_unreal.glb
 bplod house.obj --profile occluder -q -o house-occluder > /dev/null
 draw guide-occluder.png 400 house.obj house-occluder/house_occluder.glb
-bpvox figure.obj --resolution 256 -q | bpclose --scale 2% -q | bpmesh --faces 700 --quads -q -o figure_cage.obj --overwrite
+bpvox figure.obj --resolution 256 -q | bpclose --scale 2% -q | bpmesh --faces 1000 --quads -q -o figure_pairs.obj --overwrite
+bplod figure.obj --profile cage -q -o figure-cage > /dev/null
+cp figure-cage/figure_cage.obj .
 draw guide-cage.png 400 figure.obj figure_cage.obj
+draw guide-cage-quads.png 400 figure_pairs.obj figure_cage.obj
 awk '/^v / { y = $3 > 0.9 ? $3 - 0.9 : 0; c = cos(0.55 * y); s = sin(0.55 * y)  # leans to the side, above the hips
   $0 = sprintf("v %.6f %.6f %s", $2 * c + 0.8 * y * s, $3 - $2 * s - 0.3 * y * (1 - c), $4) } { print }' figure_cage.obj > posed_cage.obj
 bpdeform bind figure.obj figure_cage.obj -o figure.bpw --overwrite

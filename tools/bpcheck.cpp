@@ -59,8 +59,10 @@ void fill_report(bp::Report& report, const bp::CheckRun& o, const bp::Vec3d& ori
 
 /// An answer to another question than was asked would be none.
 void refuse_for_tileset(const bp::CheckRun& o) {
-  for (const auto& [option, given] :
-       {std::pair{"--inside", o.inside}, {"--convex", o.convex}, {"--origin", o.origin.has_value()}}) {
+  for (const auto& [option, given] : {std::pair{"--inside", o.inside},
+                                      {"--convex", o.convex},
+                                      {"--margin", o.margin > 0},
+                                      {"--origin", o.origin.has_value()}}) {
     if (given) bp::fail(bp::ErrorCode::bad_argument, "{}: is for meshes; leave it out for a tileset", option);
   }
 }
@@ -113,6 +115,7 @@ std::vector<bp::CheckReport> check(const bp::CheckRun& o, const std::vector<bp::
   options.inside = o.inside;
   options.hidden = hidden;
   options.convex = o.convex;
+  options.margin_world = o.margin;
   options.scene_memory_bytes = scene_bytes;
   bp::Progress progress("bpcheck", o.common.progress);
   progress.begin("check", 0, "triangles");

@@ -93,13 +93,16 @@ void measure_distances(const Surface& surface, const SceneMemory& scene, const C
 void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, const CheckOptions& options,
                  CheckReport& report) {
   SceneMemory memory(options);
-  const EnclosureReport e = check_enclosure(mesh, surface, scene, report.sides_decided, options.max_examples,
+  const EnclosureQuestion question{report.sides_decided, options.margin_world, options.max_examples};
+  const EnclosureReport e = check_enclosure(mesh, surface, scene, question,
                                             [&](std::uint64_t first, const auto& t) { memory.see(first, t); });
   report.has_scene = true;
   report.scene_name = scene.name();
   report.scene_counts = scene.counts();
   report.scene_triangles = e.triangles;
   report.touching = e.touching, report.outside = e.outside, report.undecidable_scene = e.undecidable;
+  report.margin = options.margin_world;
+  report.too_near = e.too_near, report.perhaps_near = e.perhaps_near;
   report.scene_volume = e.volume;
   measure_distances(surface, memory, options, report);
 }

@@ -20,8 +20,9 @@ struct CheckOptions {
   bool inside = false;                   ///< the proxy is to lie inside the scene, not around it; no distances then
   std::optional<HidingQuestion> hidden;  ///< with `inside`: asked if the proxy is not proven to be strictly inside
   bool convex = false;                   ///< the proxy is a union of convex parts (convex.h); no distances then
-  bool distances = true;                 ///< sample distances between scene and proxy
-  std::size_t distance_samples = 5000;   ///< triangles sampled on each side, at most
+  double margin_world = 0;              ///< above 0: also asked is whether the proxy keeps this distance from the scene
+  bool distances = true;                ///< sample distances between scene and proxy
+  std::size_t distance_samples = 5000;  ///< triangles sampled on each side, at most
   std::uint64_t scene_memory_bytes = 512ull << 20;  ///< the scene is kept for distances only if it fits
 };
 

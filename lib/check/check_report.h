@@ -86,6 +86,11 @@ struct CheckReport {
   Finding outside;                    ///< index: scene triangle that touches nothing and has winding number < 1
   Finding undecidable_scene;          ///< index: scene triangle outside the domain of exact predicates
 
+  // The least distance between both (gap.h).
+  double margin = 0;     ///< asked for, scene units; 0: not asked
+  Finding too_near;      ///< index: scene triangle, other: proxy triangle that is nearer to it
+  Finding perhaps_near;  ///< the same, where doubles do not decide
+
   // The proxy inside the scene (inside.h).
   bool wants_inside = false;  ///< asked for, instead of enclosure
   bool scene_closed = false;
@@ -128,6 +133,11 @@ struct CheckReport {
     if (touching.count + outside.count + not_held.count > 0) return Answer::refuted;
     return undecidable_scene.count > 0 ? Answer::undecided : Answer::proven;
   }
+  /// No point of the scene is nearer to the proxy's surface than `margin`.
+  [[nodiscard]] Answer keeps_margin() const {
+    if (too_near.count > 0) return Answer::refuted;
+    return perhaps_near.count + undecidable_scene.count > 0 ? Answer::undecided : Answer::proven;
+  }
   [[nodiscard]] bool encloses() const { return enclosure() == Answer::proven; }
   [[nodiscard]] bool convex() const { return sides_decided && nonconvex_parts.count == 0; }
   /// Strict: the solid of the proxy meets no scene triangle, and every path to it from far away crosses the scene.
@@ -154,7 +164,8 @@ struct CheckReport {
   /// Of all that was asked.
   [[nodiscard]] Answer answer() const {
     if (!has_scene) return soundness();
-    return all_of(soundness(), asks_hidden ? hiddenness() : wants_inside ? insideness() : enclosure());
+    const Answer place = all_of(soundness(), asks_hidden ? hiddenness() : wants_inside ? insideness() : enclosure());
+    return margin > 0 ? all_of(place, keeps_margin()) : place;
   }
   [[nodiscard]] bool holds() const { return answer() == Answer::proven; }
 };

@@ -51,6 +51,10 @@ constexpr FindingText kFindings[] = {
      "scene_triangle", "triangle"},
     {&CheckReport::outside, "outside", "[scene triangle lies|scene triangles lie] outside the proxy", "scene_triangle",
      nullptr},
+    {&CheckReport::too_near, "too_near", "[scene triangle is|scene triangles are] nearer to the proxy than the margin",
+     "scene_triangle", "triangle"},
+    {&CheckReport::perhaps_near, "perhaps_near",
+     "[scene triangle is|scene triangles are] as near as the margin, to the last digits", "scene_triangle", "triangle"},
     {&CheckReport::swallowed, "swallowed", "[scene triangle lies|scene triangles lie] inside the proxy",
      "scene_triangle", nullptr},
     {&CheckReport::outside_parts, "outside_parts",
@@ -131,9 +135,15 @@ std::string scene_doubt(const CheckReport& r) {
   return r.scene_closed ? "the scene is of parts that overlap or touch" : "the scene is open, so it has no inside";
 }
 
+/// Why the margin is not decided.
+std::string margin_doubt(const CheckReport& r) {
+  return r.undecidable_scene.count > 0 ? scene_doubt(r) : "the least distance is the margin, to the last digits";
+}
+
 /// Why not all that was asked is decided, though nothing is refuted.
 std::string doubt_of(const CheckReport& r) {
   if (r.soundness() == Answer::undecided) return "the proxy has coordinates that are too large or too small";
+  if (r.margin > 0 && r.enclosure() == Answer::proven) return margin_doubt(r);
   return r.asks_hidden ? r.hidden_unknown : scene_doubt(r);
 }
 
@@ -153,6 +163,11 @@ std::string inside_rows(const CheckReport& r) {
                             r.openings > 0 ? fmt::format(", with openings below {:.4g} closed", r.openings) : "");
 }
 
+/// Of questions that were not asked, which no report mentions.
+bool is_unasked(const CheckReport& r, const FindingText& t) {
+  return r.margin == 0 && (t.finding == &CheckReport::too_near || t.finding == &CheckReport::perhaps_near);
+}
+
 /// Findings that are no failures: what the proxy is asked instead is decided, or what cannot be judged may hide it.
 bool is_aside(const CheckReport& r, const FindingText& t) {
   if (t.finding == &CheckReport::outside_parts && r.undecidable_scene.count > 0) return true;
@@ -164,7 +179,8 @@ bool is_aside(const CheckReport& r, const FindingText& t) {
 std::string enclosure_row(const CheckReport& r) {
   if (!r.has_scene) return "";
   if (r.wants_inside) return inside_rows(r);
-  return row("strictly encloses the scene", r.enclosure(), scene_doubt(r));
+  std::string text = row("strictly encloses the scene", r.enclosure(), scene_doubt(r));
+  return r.margin > 0 ? text + row("keeps the margin", r.keeps_margin(), margin_doubt(r)) : text;
 }
 
 std::string scene_lines(const CheckReport& r) {
@@ -234,6 +250,7 @@ Json verdict_of(const CheckReport& r) {
   if (r.wants_convex) v["convex"] = r.convex();
   v["encloses"] = r.has_scene && !r.wants_inside ? Json(r.encloses()) : Json(nullptr);
   if (r.wants_inside) v["inside"] = r.inside();
+  if (r.margin > 0) v["keeps_margin"] = r.keeps_margin() == Answer::proven;
   return v;
 }
 
@@ -244,13 +261,15 @@ Json answers_of(const CheckReport& r) {
     a[r.wants_inside ? "inside" : "encloses"] = to_string(r.wants_inside ? r.insideness() : r.enclosure());
   if (r.wants_inside && r.sides_decided)
     a["free_of_scene"] = to_string(r.touching.count + r.swallowed.count == 0 ? Answer::proven : Answer::refuted);
+  if (r.margin > 0) a["margin"] = to_string(r.keeps_margin());
   if (r.asks_hidden) a["hidden"] = to_string(r.hiddenness());
   return a;
 }
 
 Json json_of(const CheckReport& r, const std::string& proxy_name) {
   Json findings = Json::object();
-  for (const FindingText& t : kFindings) findings[t.key] = json_of(r.*t.finding, t);
+  for (const FindingText& t : kFindings)
+    if (!is_unasked(r, t)) findings[t.key] = json_of(r.*t.finding, t);
   const Json faces = {{"triangles", r.faces.triangles}, {"quads", r.faces.quads}, {"polygons", r.faces.polygons}};
   Json proxy = {{"name", proxy_name},
                 {"triangles", r.triangles},
@@ -268,6 +287,7 @@ Json json_of(const CheckReport& r, const std::string& proxy_name) {
   measures["angle_min_degrees"] = r.angle_min_degrees;
   measures["scene_to_proxy"] = json_of(r.scene_to_proxy);
   measures["proxy_to_scene"] = json_of(r.proxy_to_scene);
+  if (r.margin > 0) measures["margin"] = r.margin;
   measures["note"] = r.distance_note;
   Json all = {{"holds", r.holds()}, {"answer", to_string(r.answer())}};
   all["why"] = r.answer() == Answer::undecided ? Json(doubt_of(r)) : Json(nullptr);

@@ -12,7 +12,7 @@ constexpr std::uint64_t kDensePerFace = 100;  ///< triangles of the dense surfac
 constexpr std::uint64_t kMostLevels = 32;
 constexpr std::uint64_t kLeastFaces = kFacesOfBox;  ///< of a level whose faces are chosen
 /// The most faces that are chosen: for a finest level, for time; a collision mesh, for physics; a cage, for hands.
-constexpr std::uint64_t kMostDefaultFaces = 40000, kMostCollisionFaces = 5000, kMostCageFaces = 500;
+constexpr std::uint64_t kMostDefaultFaces = 40000, kMostCollisionFaces = 5000, kMostCageFaces = 1000;
 
 /// At most one of faces, shares and errors is given: as a list, or as the finest level's number. The numbers of the
 /// other levels follow from that one.

@@ -138,6 +138,26 @@ struct LodChain::State {
   }
 
   LodLevel make(const LodTarget& target) {
+    LodLevel level = options.cage ? cage(target) : closed(target);
+    context.report("measuring", "levels", 0, 1);
+    outside->measure(level, options.mode);
+    return level;
+  }
+
+  /// Around the voxels as they are.
+  LodLevel cage(const LodTarget& target) {
+    LodLevel level;
+    MeshParams params;
+    params.faces = {target.faces};
+    params.enclose = Enclose::closing;
+    params.cage = options.cage;
+    context.report("meshing", "levels", 0, 1);
+    ShelfSource source(header, *solid, nullptr, ShelfSource::Keep::solid);
+    level.mesh = std::move(mesh_stream(source, context, std::move(params), level.counts).front());
+    return level;
+  }
+
+  LodLevel closed(const LodTarget& target) {
     double scale = first_scale(ground(), target, last_scale);
     Closed closing = half_scale(target, scale);
     for (int attempt = 1;; ++attempt) {
@@ -153,8 +173,6 @@ struct LodChain::State {
         continue;
       }
       last_scale = scale;
-      context.report("measuring", "levels", 0, 1);
-      outside->measure(level, options.mode);
       return level;
     }
   }
@@ -281,7 +299,6 @@ struct LodChain::State {
                                     target.error_world / 4);
     params.near = true;
     params.mode = options.mode;
-    params.quads = options.quads;
     params.enclose = options.enclose;
     if (options.enclose == Enclose::scene) {  // distances are to its voxels, as without
       params.scene = options.scene;

@@ -48,6 +48,22 @@ class Pairing {
     charge_room();
     match();
     improve();
+    return pairs_without_conflicts();
+  }
+
+  /// Of these alone.
+  std::vector<std::array<std::uint32_t, 2>> run(std::vector<std::array<std::uint32_t, 2>> wanted) {
+    std::sort(wanted.begin(), wanted.end());
+    find_candidates();
+    match_.assign(lattice_.triangles.size(), kNone);
+    for (std::uint32_t c = 0; c < candidates_.size(); ++c) {
+      if (std::binary_search(wanted.begin(), wanted.end(), candidates_[c].faces)) set(c, true);
+    }
+    return pairs_without_conflicts();
+  }
+
+ private:
+  std::vector<std::array<std::uint32_t, 2>> pairs_without_conflicts() {
     drop_conflicts();
     std::vector<std::array<std::uint32_t, 2>> pairs;
     for (const Candidate& c : candidates_) {
@@ -57,7 +73,6 @@ class Pairing {
     return pairs;
   }
 
- private:
   void find_candidates() {
     const FaceTree tree(mesh_);
     Guard guard(mesh_, tree);
@@ -251,6 +266,12 @@ double quad_quality(const std::array<LatticeCoord, 4>& p) {
 std::vector<std::array<std::uint32_t, 2>> pair_triangles(const LatticeMesh& mesh, QuadKeeps keeps,
                                                          const Enclosed* enclosed) {
   return Pairing(mesh, keeps, enclosed).run();
+}
+
+std::vector<std::array<std::uint32_t, 2>> safe_pairs(const LatticeMesh& mesh,
+                                                     const std::vector<std::array<std::uint32_t, 2>>& pairs,
+                                                     QuadKeeps keeps, const Enclosed* enclosed) {
+  return Pairing(mesh, keeps, enclosed).run(pairs);
 }
 
 Quad quad_of(const Triangle& a, const Triangle& b) {

@@ -37,6 +37,11 @@ constexpr double kMostQuadBend = 0.2;      ///< quad_bend()
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> pair_triangles(const LatticeMesh& mesh, QuadKeeps keeps,
                                                                        const Enclosed* enclosed);
 
+/// Those of `pairs` that pair_triangles() might return together: of two that exclude each other, the better one.
+[[nodiscard]] std::vector<std::array<std::uint32_t, 2>> safe_pairs(
+    const LatticeMesh& mesh, const std::vector<std::array<std::uint32_t, 2>>& pairs, QuadKeeps keeps,
+    const Enclosed* enclosed);
+
 /// The quad of two triangles with a common edge.
 [[nodiscard]] Quad quad_of(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b);
 

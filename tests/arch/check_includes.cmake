@@ -26,7 +26,7 @@ set(rules
   "lib/simplify:lib/core lib/mesh lib/enclosed lib/surface"
   "lib/hulls:lib/core lib/exact lib/mesh"
   "lib/tighten:lib/core lib/exact lib/mesh lib/enclosed lib/simplify lib/hulls"
-  "lib/quads:lib/core lib/exact lib/mesh lib/enclosed lib/simplify lib/tighten"
+  "lib/quads:lib/core lib/exact lib/grid lib/mesh lib/enclosed lib/surface lib/simplify lib/tighten"
   "lib/fit:lib/core lib/geometry lib/mesh lib/simplify"
   "lib/pass:lib/core lib/store lib/grid lib/surface"
   "lib/pass/voxelize:lib/core lib/store lib/grid lib/volume lib/voxel lib/device lib/device/cpu lib/pass"

@@ -21,7 +21,8 @@ pose() {
 }
 failed=0
 for scene in "${scenes[@]}"; do
-  bpvox "$scene" --resolution 200 -q | bpclose --scale 2% -q | bpmesh --faces 300 --enclose closing -q -o cage.obj --overwrite
+  bplod "$scene" --profile cage --faces 600 --name scene -q -o made --overwrite > /dev/null
+  cp made/scene_cage.obj cage.obj
   pose sheared.obj 'x = x + 0.5 * y; z = 1.5 * z'
   pose bent.obj 'x = x + 0.3 * h * t * t; y = y - 0.05 * h * t * t'
   bpdeform bind "$scene" cage.obj -o weights.bpw --overwrite

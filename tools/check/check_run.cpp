@@ -21,6 +21,7 @@ void declare(Args& args, CheckRun& o) {
   args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
   args.flag("--convex", o.convex,
             "prove that the parts of the proxy, which may overlap, are convex and enclose the scenes together");
+  args.option("--margin", "D", o.margin, "prove also that the proxy keeps this distance from the scenes, scene units");
   args.group("Files");
   add_scene_format(args, o.format);
   args.option(
@@ -49,6 +50,9 @@ CheckRun parse_check_run(Args& args) {
   args.parse();
   if (!o.files.empty()) o.files.back() = tileset_in(o.files.back());
   args.excludes("--convex", "--inside");
+  args.excludes("--margin", "--inside");
+  args.excludes("--margin", "--convex");
+  if (!(o.margin >= 0)) fail(ErrorCode::bad_argument, "--margin {}: is below 0", o.margin);
   check_scene_format(o.format, o.files);
   check_stdin_once(o.files);
   keep_inputs(o.files);

@@ -15,6 +15,8 @@
 #include "lib/core/parallel.h"
 #include "lib/enclosed/enclosed_triangles.h"
 #include "lib/grid/shelf_stream.h"
+#include "lib/levels/margin.h"
+#include "lib/levels/symmetry.h"
 #include "lib/pass/color/vertex_colors.h"
 #include "tools/cli/names.h"
 #include "tools/lod/bake_levels.h"
@@ -121,6 +123,22 @@ ScalePlan Build::read_field(const VoxelizedScene& voxels, bool tell) {
   return plan;
 }
 
+void Build::make_room(VoxelizedScene& scene) {
+  voxel_ = scene.header.frame.voxel;
+  margin_ = margin_of(options, size_.bounds.diagonal(), voxel_);
+  switch (options.symmetry) {
+    case Symmetry::off:
+      break;
+    case Symmetry::automatic:
+      plane_ = symmetry_of(scene, make_shelf);
+      break;
+    default:
+      plane_ = middle_plane(scene.header, int(options.symmetry));
+  }
+  if (plane_) add_image(scene, *plane_, make_shelf);
+  if (margin_ > 0) add_margin(scene, margin_, make_shelf);
+}
+
 void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told) {
   if (const std::string text = skipped(scene.counts.scene); !text.empty()) note("skipped " + text);
   note(up_note(size_.bounds, options.voxels.up || up_told));
@@ -190,7 +208,7 @@ LodOptions Build::lod_options() {
   lod.enclose = enclosed_;
   if (options.proxy.mode == MeshMode::fit || enclosed_ == Enclose::scene) lod.scene = scene_triangles();
   lod.field = field_;
-  lod.quads = options.profile == LodProfile::cage;
+  if (options.is_cage()) lod.cage = CageParams{plane_};
   lod.context = context();
   return lod;
 }
@@ -227,6 +245,11 @@ PassContext Build::context(ResultStore* results) const {
 }
 
 void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, const std::string& input_hash) {
+  if (margin_ > 0) {
+    const double more = farthest_of_margin(margin_, voxel_);
+    level.error_world += more;
+    level.distance_world += more;
+  }
   if (colors_ != nullptr) {
     colors_->prepare(level.mesh.frame);
     color_vertices(level.mesh, colors_->all(level.mesh.frame));
@@ -236,6 +259,8 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
         level_texture(*this, level.mesh, level.error_world, level.scale_world, *looks_, texture_memory());
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
+  if (margin_ > 0) text.add("margin", margin_);
+  if (plane_) text.add("symmetry", name_of(Symmetry(plane_->axis)));
   if (field_) text.add("field", provenance_text(*field_));
   if (textured_) text.add("appearance", options.full() ? "full" : "texture");
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
@@ -265,7 +290,7 @@ void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& row
   std::string proof;
   for (const LevelRow& row : rows) {
     if (!proof.empty() && options.profile != LodProfile::collision) break;  // of the others, one file stands for all
-    const std::string one = proof_command(options, name_of_all(options, row.file), row.more.contains("hulls"));
+    const std::string one = proof_command(options, name_of_all(options, row.file), row.more.contains("hulls"), margin_);
     if (!one.empty()) proof += (proof.empty() ? "" : " && ") + one;
   }
   fmt::print(stderr, "bplod: the files are in {}{}{}\n", options.out, proof.empty() ? "" : "; prove it: ", proof);
@@ -311,6 +336,7 @@ MadeChain make_chain(Build& build) {
   ChainSource source;
   source.voxelize = [&](int halvings) {
     VoxelizedScene scene = build.voxelize(0, nullptr, halvings);
+    if (o.is_cage()) build.make_room(scene);
     input_hash = scene.counts.input_hash;
     return scene;
   };

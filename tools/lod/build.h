@@ -36,6 +36,8 @@ class Build {
   /// ground: as if it stood on the ground (tools/run/grounded_source.h); the scene was voxelized without before.
   [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr, int halvings = 0,
                                         bool ground = false);
+  /// Of a cage, after voxelize(): the voxels are their own mirror image where that is wanted, and hold the margin.
+  void make_room(VoxelizedScene& scene);
   /// How scenes are read. `beside`: something else of them is in memory meanwhile.
   [[nodiscard]] SceneOptions scene_options(bool beside = false) const;
   /// For LodChain; after voxelize(), as all that follow.
@@ -44,6 +46,7 @@ class Build {
   [[nodiscard]] PassContext context(ResultStore* results = nullptr) const;
   /// What stays inside bounding levels; after voxelize().
   [[nodiscard]] Enclose enclosed() const { return enclosed_; }
+  [[nodiscard]] double margin() const { return margin_; }  ///< scene units; after voxelize()
   /// Null if the scene has no colours, or if none are wanted.
   [[nodiscard]] SceneColors* colors() const { return colors_.get(); }
   /// Levels get textures: they are wanted, and the scene has looks for them and can be read again. After voxelize().
@@ -83,6 +86,8 @@ class Build {
   void tell(const VoxelizedScene& scene, const std::string& list, const std::string& made);
   void write_report(const VoxelizedScene& scene);
   SceneSize size_;
+  std::optional<MirrorPlane> plane_;  // of a cage
+  double voxel_ = 0, margin_ = 0;     // of the scene, scene units
   Enclose enclosed_ = Enclose::input;
   std::optional<ScalePlan> field_;  // of --field
   std::unique_ptr<SceneColors> colors_;

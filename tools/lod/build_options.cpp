@@ -51,6 +51,13 @@ void check_name(BuildOptions& o) {
          given ? "--name" : "the scene's name", o.name);
 }
 
+Symmetry parse_symmetry(const std::string& text) {
+  for (const Symmetry s : {Symmetry::x, Symmetry::y, Symmetry::z, Symmetry::off, Symmetry::automatic}) {
+    if (text == name_of(s)) return s;
+  }
+  fail(ErrorCode::bad_argument, "{}: must be auto, x, y, z or off", text);
+}
+
 /// Numbers as numbers, percentages as text.
 Json faces_json(const LevelOptions& levels) {
   if (levels.shares.empty()) return levels.faces;
@@ -85,6 +92,7 @@ void check_profile(const Args& args, const BuildOptions& o) {
   };
   needs({"--tile", "--tiles", "--cache", "--leaves"}, LodProfile::tiles);
   needs({"--hulls"}, LodProfile::collision);
+  needs({"--margin", "--symmetry"}, LodProfile::cage);
   if (o.is_tileset() && args.given("--origin"))
     fail(ErrorCode::bad_argument,
          "--origin: a tileset holds its place in double, in the transforms of its tiles; leave it out, and move the "
@@ -94,7 +102,7 @@ void check_profile(const Args& args, const BuildOptions& o) {
   if (o.profile == LodProfile::occluder)
     refuse({"--mode", "--enclose", "--fill", "--error", "--appearance", "--explain", "--field"});
   if (o.is_tileset()) refuse({"--field"});
-  if (o.profile == LodProfile::cage) refuse({"--mode", "--appearance"});
+  if (o.is_cage()) refuse({"--mode", "--appearance", "--enclose", "--error", "--scale", "--field"});
   if (o.profile == LodProfile::collision && o.proxy.mode != MeshMode::bounding)
     fail(ErrorCode::bad_argument, "--profile collision needs --mode bounding");
   if (o.proxy.mode == MeshMode::fit && args.given("--enclose"))
@@ -166,6 +174,10 @@ void declare_profile(Args& args, BuildOptions& o) {
       "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_count(text, 1, kMostHullsAsked); },
       "collision: largest number of convex hulls in Unreal's file (default: 32, or one for each part where there are "
       "more)");
+  args.option(
+      "--symmetry", "auto|x|y|z|off", [&o](const std::string& text) { o.symmetry = parse_symmetry(text); },
+      "cage: the axis across which its halves mirror each other (default: the scene's, if it has one)");
+  args.option("--margin", "LENGTH", o.margin, "cage: least distance from the scene");
   args.option(
       "--appearance",
       {{"auto", Appearance::automatic, "a texture if the scene has textures, else colours"},
@@ -241,6 +253,11 @@ const char* name_of(Appearance appearance) {
   return kNames[std::size_t(appearance)];
 }
 
+const char* name_of(Symmetry symmetry) {
+  constexpr const char* kNames[] = {"x", "y", "z", "off", "auto"};
+  return kNames[std::size_t(symmetry)];
+}
+
 const char* name_of(LodProfile profile) {
   constexpr const char* kNames[] = {"gltf", "3dtiles", "collision", "occluder", "cage"};
   return kNames[std::size_t(profile)];
@@ -275,6 +292,8 @@ Json options_json(const BuildOptions& o) {
           {"voxel", optional_json(o.voxels.voxel)},
           {"resolution", optional_json(o.voxels.resolution)},
           {"tile", o.tile_vox},
+          {"symmetry", o.is_cage() ? Json(name_of(o.symmetry)) : Json(nullptr)},
+          {"margin", o.is_cage() ? Json(o.margin.text()) : Json(nullptr)},
           {"hulls", o.hulls > 0 ? Json(o.hulls) : Json(nullptr)},
           {"cache", !o.cache.empty()},
           {"leaves", o.leaves ? "scene" : "none"},

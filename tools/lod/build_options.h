@@ -22,6 +22,13 @@ enum class LodProfile { gltf, tiles, collision, occluder, cage };
 enum class Appearance { off, color, texture, full, automatic };
 [[nodiscard]] const char* name_of(Appearance appearance);
 
+/// Across which axis a cage is its own mirror image: one of the three, none, or that of the scene if it has one.
+enum class Symmetry { x, y, z, off, automatic };
+[[nodiscard]] const char* name_of(Symmetry symmetry);
+
+/// Least distance of a cage from the scene, percent of the scene's diagonal: coordinates bend sharply near a cage.
+constexpr double kCageMargin = 0.5;
+
 /// "A..B". Throws bad_argument.
 [[nodiscard]] JobRange parse_job_range(const std::string& text);
 
@@ -34,7 +41,9 @@ struct BuildOptions {
   ProxyOptions proxy;
   std::string out, name;
   LodProfile profile = LodProfile::gltf;
-  std::int32_t tile_vox = 512;    ///< edge of a cell of a tileset
+  std::int32_t tile_vox = 512;                        ///< edge of a cell of a tileset
+  Symmetry symmetry = Symmetry::automatic;            ///< of a cage
+  Length margin{kCageMargin, Length::Unit::percent};  ///< of a cage
   std::int64_t hulls = 0;         ///< of a collision mesh, at most; 0: kMostHulls, or as many as parts
   std::string cache;              ///< folder of results of earlier builds; empty: none
   bool leaves = false;            ///< below the finest level are the scene's own triangles
@@ -45,6 +54,7 @@ struct BuildOptions {
   [[nodiscard]] bool colors() const { return appearance != Appearance::off; }
   [[nodiscard]] bool full() const { return appearance == Appearance::full; }
   [[nodiscard]] bool may_have_textures() const { return appearance >= Appearance::texture; }
+  [[nodiscard]] bool is_cage() const { return profile == LodProfile::cage; }
   [[nodiscard]] bool is_tileset() const { return profile == LodProfile::tiles; }
 };
 

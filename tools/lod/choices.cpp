@@ -55,11 +55,16 @@ bool can_read_again(const BuildOptions& o) {
 }
 
 bool may_refine(const BuildOptions& o) {
-  return !o.voxels.voxel && !o.voxels.resolution && o.levels.errors.empty() && !o.is_tileset() && can_read_again(o);
+  return !o.voxels.voxel && !o.voxels.resolution && o.levels.errors.empty() && !o.is_tileset() && !o.is_cage() &&
+         can_read_again(o);
 }
 
 bool may_enclose_scene(const BuildOptions& o) {
-  return !o.is_tileset() && o.proxy.mode == MeshMode::bounding;
+  return !o.is_tileset() && !o.is_cage() && o.proxy.mode == MeshMode::bounding;
+}
+
+double margin_of(const BuildOptions& o, double diagonal, double voxel) {
+  return o.is_cage() ? o.margin.in_world(diagonal, voxel) : 0;
 }
 
 Enclose enclosed_by(const BuildOptions& o, std::uint64_t triangles) {

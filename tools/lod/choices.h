@@ -27,11 +27,13 @@ namespace bp {
 /// scene can be read again, and no cells depend on them.
 [[nodiscard]] bool may_refine(const BuildOptions& options);
 
-/// Whether levels are one mesh each, and something has to stay inside while they are tightened.
+/// Whether levels are one mesh each, and the scene's own triangles may be what stays inside while they are tightened.
 [[nodiscard]] bool may_enclose_scene(const BuildOptions& options);
+/// Least distance of the levels from the scene, scene units; `voxel` of the scene.
+[[nodiscard]] double margin_of(const BuildOptions& options, double diagonal, double voxel);
 /// What stays inside the levels of a scene of so many triangles: as asked; else the triangles, where levels are one
-/// mesh each, the scene can be read again, and it has no more than kMostEnclosedTriangles; else its voxels. Memory has
-/// no say.
+/// mesh each and no cages, the scene can be read again, and it has no more than kMostEnclosedTriangles; else its
+/// voxels. Memory has no say.
 [[nodiscard]] Enclose enclosed_by(const BuildOptions& options, std::uint64_t triangles);
 
 /// Of a level, for its provenance. `enclosed`: of enclosed_by().

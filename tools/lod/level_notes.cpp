@@ -90,9 +90,10 @@ std::string heavier_note(const LevelFacts& finest, std::uint64_t triangles) {
                      triangles);
 }
 
-std::string proof_command(const BuildOptions& o, const std::string& file, bool hulls) {
+std::string proof_command(const BuildOptions& o, const std::string& file, bool hulls, double margin) {
   if (o.proxy.mode == MeshMode::fit || !can_read_again(o)) return "";
   std::string command = o.profile == LodProfile::occluder ? "bpcheck --inside" : hulls ? "bpcheck --convex" : "bpcheck";
+  if (margin > 0) command += fmt::format(" --margin {}", margin);
   if (!o.voxels.format.empty()) command += " --format " + o.voxels.format;
   for (const std::string& scene : o.voxels.scenes) command += " " + quoted(scene);
   return command + " " + quoted(o.out + (o.out.ends_with('/') ? "" : "/") + file);

@@ -28,7 +28,8 @@ namespace bp {
 [[nodiscard]] std::string heavier_note(const LevelFacts& finest, std::uint64_t triangles);
 
 /// The command that proves `file`, one of those in the folder of the levels: "bpcheck SCENE OUT/FILE". Empty of fits,
-/// which enclose nothing, and of a scene from a pipe. hulls: the file holds convex hulls.
-[[nodiscard]] std::string proof_command(const BuildOptions& options, const std::string& file, bool hulls);
+/// which enclose nothing, and of a scene from a pipe. hulls: the file holds convex hulls. margin: scene units; 0: none.
+[[nodiscard]] std::string proof_command(const BuildOptions& options, const std::string& file, bool hulls,
+                                        double margin = 0);
 
 }  // namespace bp

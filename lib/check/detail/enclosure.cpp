@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "lib/check/detail/gap.h"
 #include "lib/core/parallel.h"
 #include "lib/geometry/signed_volume.h"
 
@@ -96,8 +97,18 @@ bool is_finite(const TriangleD& t) {
                      [](const Vec3d& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); });
 }
 
-void check_batch(const WeldedMesh& mesh, const Surface& surface, bool decide_sides, const Vec3d& origin,
-                 std::size_t max_examples, Batch& batch) {
+void check_gap(const WeldedMesh& mesh, const Surface& surface, const EnclosureQuestion& question, std::uint64_t number,
+               const TriangleD& t, EnclosureReport& e) {
+  if (question.margin == 0) return;
+  const GapAnswer gap = keeps_gap(t, surface.bvh(), question.margin);
+  if (gap.answer == Answer::proven) return;
+  const std::uint64_t other = mesh.number[surface.triangle(gap.item)];
+  (gap.answer == Answer::refuted ? e.too_near : e.perhaps_near).add({number, other, centre(t)}, question.max_examples);
+}
+
+void check_batch(const WeldedMesh& mesh, const Surface& surface, const EnclosureQuestion& question, const Vec3d& origin,
+                 Batch& batch) {
+  const std::size_t max_examples = question.max_examples;
   SideCache cache;
   EnclosureReport& e = batch.result;
   batch.volume = SignedVolume(origin);
@@ -112,8 +123,9 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, bool decide_sid
     const std::int64_t touched = surface.touched_by(t);
     if (touched != Surface::kNone)
       e.touching.add({number, mesh.number[std::size_t(touched)], centre(t)}, max_examples);
-    else if (decide_sides && winding_of(t, surface, cache) < 1)
+    else if (question.decide_sides && winding_of(t, surface, cache) < 1)
       e.outside.add({number, 0, centre(t)}, max_examples);
+    check_gap(mesh, surface, question, number, t, e);
   }
   e.triangles = batch.triangles.size();
 }
@@ -121,7 +133,7 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, bool decide_sid
 }  // namespace
 
 EnclosureReport check_enclosure(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
-                                bool decide_sides, std::size_t max_examples,
+                                const EnclosureQuestion& question,
                                 const std::function<void(std::uint64_t, const std::vector<TriangleD>&)>& see) {
   EnclosureReport all;
   Vec3d origin{};
@@ -131,13 +143,16 @@ EnclosureReport check_enclosure(const WeldedMesh& mesh, const Surface& surface, 
   Batcher batcher(scene);
   pipeline<Batch>(
       4 * thread_count(), [&](Batch& batch) { return batcher.next(batch); },
-      [&](Batch& batch) { check_batch(mesh, surface, decide_sides, origin, max_examples, batch); },
+      [&](Batch& batch) { check_batch(mesh, surface, question, origin, batch); },
       [&](Batch& batch) {
         see(batch.first, batch.triangles);
+        const std::size_t max_examples = question.max_examples;
         all.triangles += batch.result.triangles;
         all.touching.append(batch.result.touching, max_examples);
         all.outside.append(batch.result.outside, max_examples);
         all.undecidable.append(batch.result.undecidable, max_examples);
+        all.too_near.append(batch.result.too_near, max_examples);
+        all.perhaps_near.append(batch.result.perhaps_near, max_examples);
         volume.add(batch.volume);
       });
   all.volume = volume.value();

@@ -11,14 +11,21 @@ namespace bp {
 struct EnclosureReport {
   std::uint64_t triangles = 0;
   Finding touching, outside, undecidable;  ///< as in CheckReport
+  Finding too_near, perhaps_near;          ///< as in CheckReport
   std::optional<double> volume;            ///< of the scene; none if it is open (SignedVolume)
 };
 
+struct EnclosureQuestion {
+  bool decide_sides = false;  ///< the proxy is closed
+  double margin = 0;          ///< CheckOptions::margin_world
+  std::size_t max_examples = 0;
+};
+
 /// Tests every triangle of `scene` from its start, in parallel, in bounded memory. A triangle that touches nothing lies
-/// on one side as a whole, so one of its corners decides; sides are looked at only if `decide_sides`. `see(number of
-/// the first, triangles)` gets the scene in order, on one thread at a time.
+/// on one side as a whole, so one of its corners decides; sides are looked at only if the question asks for them.
+/// `see(number of the first, triangles)` gets the scene in order, on one thread at a time.
 [[nodiscard]] EnclosureReport check_enclosure(
-    const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, bool decide_sides, std::size_t max_examples,
+    const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, const EnclosureQuestion& question,
     const std::function<void(std::uint64_t, const std::vector<TriangleD>&)>& see);
 
 }  // namespace bp

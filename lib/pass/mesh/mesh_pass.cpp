@@ -16,6 +16,7 @@
 #include "lib/pass/mesh/detail/proxy_limits.h"
 #include "lib/pass/mesh/detail/scaled_edges.h"
 #include "lib/pass/mesh/surface_around.h"
+#include "lib/quads/quad_cage.h"
 #include "lib/quads/quad_slack.h"
 #include "lib/quads/quads.h"
 #include "lib/simplify/surface_tree.h"
@@ -156,6 +157,7 @@ class LevelMaker {
     const double error_share = params_.error_world / double(fit ? 1 : faces.size());
     bounds_.error_world = error_share;
     if (fit) return fits(*start.surface, faces);
+    if (params_.cage) return cage(shelves, faces[0]);
     const bool by_faces = !inside() && ground_.enclosed && faces[0] >= kFewFaces && params_.error_world == 0 &&
                           params_.volume_ratio == 0 && params_.edge_factor == 0;
     CoarseStart coarse;
@@ -191,6 +193,18 @@ class LevelMaker {
     drop_crumbs(*start.mesh);
     start.surface = std::make_unique<MeshSurface>(*start.mesh);
     return start;
+  }
+
+  std::vector<LatticeMesh> cage(const Shelves& shelves, std::uint64_t faces) {
+    const std::optional<MirrorPlane>& plane = params_.cage->plane;
+    const CellQuads start = cell_quads(*shelves.meshed, header_.frame, faces, plane);
+    if (start.mesh.triangles.empty())
+      fail(ErrorCode::bad_argument, "{} faces: a cage of quads has at least 12 triangles, and a symmetric one 20",
+           faces);
+    return {finish(header_.frame, faces, [&](const SimplifyParams&, LevelCounts& counts) {
+      counts.simplify.stop = StopReason::faces;
+      return shrunk_cage(start, *ground_.enclosed, plane);
+    })};
   }
 
   /// A level around `before`, or within it.
@@ -318,7 +332,7 @@ std::vector<LatticeMesh> mesh_stream(BrickSource& source, const PassContext& con
                           (distances && params.distances_to.value_or(params.enclose) == Enclose::input);
   const Shelves shelves = read_layers(source, context.make_shelf, want_input, counts);
   counts.solid_volume_world = double(counts.voxels) * std::pow(header.frame.voxel, 3);
-  if (params.mode != MeshMode::inside) {
+  if (params.mode != MeshMode::inside && !params.cage) {
     counts.repaired = repair_contacts(*shelves.meshed);
     counts.solid_volume_world += double(counts.repaired) * std::pow(header.frame.voxel, 3);
   }

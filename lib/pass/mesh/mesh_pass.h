@@ -2,6 +2,7 @@
 #include <array>
 #include <optional>
 
+#include "lib/grid/mirror_plane.h"
 #include "lib/grid/stream.h"
 #include "lib/pass/context.h"
 #include "lib/pass/mesh/mesh_measures.h"
@@ -22,6 +23,10 @@ enum class Enclose { closing, input, scene };
 [[nodiscard]] constexpr const char* name_of(Enclose what) {
   return std::array{"closing", "input", "scene"}[std::size_t(what)];
 }
+
+struct CageParams {
+  std::optional<MirrorPlane> plane;  ///< the voxels are their own mirror image about it; so is the cage
+};
 
 struct MeshParams {
   MeshMode mode = MeshMode::bounding;
@@ -44,8 +49,9 @@ struct MeshParams {
   bool tighten = true;  ///< afterwards, lower the volume while what is enclosed stays inside
   /// inside: parts whose volume is below this share of the largest one's are left out, at each level; 0: none.
   double least_part = 0;
-  bool quads = false;      ///< join triangles in pairs (quads.h)
-  bool distances = false;  ///< measure the distances between the proxies and what they enclose
+  bool quads = false;              ///< join triangles in pairs (quads.h)
+  std::optional<CageParams> cage;  ///< one level, of nothing but quads (quad_cage.h) around what is enclosed
+  bool distances = false;          ///< measure the distances between the proxies and what they enclose
   /// With no target at all: the quadric error at which [CB17] §3.4 stops, as a share of the scene's diagonal.
   static constexpr double kErrorShareBall = 1e-3, kErrorShareCube = 1e-2;
 };

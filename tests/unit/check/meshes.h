@@ -89,9 +89,9 @@ inline IndexedMesh sphere(int levels, double radius, const Vec3d& centre = {0, 0
   return m;
 }
 
-inline CheckReport check(const IndexedMesh& proxy, std::vector<TriangleD> scene) {
+inline CheckReport check(const IndexedMesh& proxy, std::vector<TriangleD> scene, const CheckOptions& options = {}) {
   VectorSource source(std::move(scene));
-  return check_proxy(proxy, &source);
+  return check_proxy(proxy, &source, options);
 }
 inline CheckReport check(const IndexedMesh& proxy) {
   return check_proxy(proxy, nullptr);

@@ -1,0 +1,106 @@
+// The points of two triangles that are nearest to each other are found as usual, corner to face and edge to edge, and
+// prove nothing. The direction between them does: both triangles lie beyond planes across it, so many units apart.
+#include "lib/check/detail/gap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/vec3.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kRounding = 1e-14;  // of what is computed from some twenty products, in sizes of the triangles
+
+struct Nearest {
+  Vec3d on_a{}, on_b{};
+  double distance = HUGE_VAL;
+
+  void offer(const Vec3d& p, const Vec3d& q) {
+    const double d = length(q - p);
+    if (d < distance) *this = {p, q, d};
+  }
+};
+
+double clamped(double x) {
+  return std::clamp(x, 0.0, 1.0);
+}
+
+/// Of the segments p + s u and q + t v.
+void offer_edges(const Vec3d& p, const Vec3d& u, const Vec3d& q, const Vec3d& v, Nearest& nearest) {
+  const Vec3d w = p - q;
+  const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
+  if (!(uu > 0 && vv > 0)) return;  // corners are offered anyway
+  const double area = uu * vv - uv * uv;
+  double s = area > 0 ? clamped((uv * vw - vv * uw) / area) : 0;
+  const double t = clamped((uv * s + vw) / vv);
+  s = clamped((uv * t - uw) / uu);
+  nearest.offer(p + s * u, q + t * v);
+}
+
+/// Where the edge from p along u crosses the triangle.
+void offer_crossing(const Vec3d& p, const Vec3d& u, const TriangleD& t, Nearest& nearest) {
+  const double along = along_segment(p, u, t);
+  const Vec3d x = p + along * u;
+  if (!std::isnan(along)) nearest.offer(x, nearest_point(x, t));
+}
+
+Nearest nearest_of(const TriangleD& a, const TriangleD& b) {
+  Nearest nearest;
+  for (std::size_t i = 0; i < 3; ++i) {
+    offer_crossing(a[i], a[(i + 1) % 3] - a[i], b, nearest);
+    offer_crossing(b[i], b[(i + 1) % 3] - b[i], a, nearest);
+    nearest.offer(a[i], nearest_point(a[i], b));
+    nearest.offer(nearest_point(b[i], a), b[i]);
+    for (std::size_t j = 0; j < 3; ++j) offer_edges(a[i], a[(i + 1) % 3] - a[i], b[j], b[(j + 1) % 3] - b[j], nearest);
+  }
+  return nearest;
+}
+
+double size_around(const Vec3d& p, const TriangleD& a, const TriangleD& b) {
+  double size = 0;
+  for (const TriangleD* t : {&a, &b}) {
+    for (const Vec3d& c : *t)
+      size = std::max({size, std::abs(c[0] - p[0]), std::abs(c[1] - p[1]), std::abs(c[2] - p[2])});
+  }
+  return size;
+}
+
+}  // namespace
+
+Answer keeps_gap(const TriangleD& a, const TriangleD& b, double margin) {
+  const Nearest nearest = nearest_of(a, b);
+  const Vec3d& p = nearest.on_a;
+  // A point near a corner is as exact as the coordinates themselves.
+  double far = 0;
+  for (const double x : p) far = std::max(far, std::abs(x));
+  const double rounding = kRounding * (size_around(p, a, b) + nearest.distance) + 4e-16 * far;
+  if (nearest.distance < margin - rounding) return Answer::refuted;
+  const Vec3d n = (1 / nearest.distance) * (nearest.on_b - p);
+  double before = -HUGE_VAL, behind = HUGE_VAL;
+  for (const Vec3d& c : a) before = std::max(before, dot(n, c - p));
+  for (const Vec3d& c : b) behind = std::min(behind, dot(n, c - p));
+  const double between = (behind - before) / length(n);
+  // p is where the planes are measured from: wherever it is, they are so far apart.
+  return between >= margin + kRounding * (size_around(p, a, b) + nearest.distance) ? Answer::proven : Answer::undecided;
+}
+
+GapAnswer keeps_gap(const TriangleD& t, const TriangleBvh& surface, double margin) {
+  Bounds3d box = bounds_of(t);
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.min[i] = std::nextafter(box.min[i] - margin, -HUGE_VAL);
+    box.max[i] = std::nextafter(box.max[i] + margin, HUGE_VAL);
+  }
+  GapAnswer all;
+  surface.visit(box, [&](const TriangleBvh::Item& item) {
+    const Answer answer = keeps_gap(t, item.corners, margin);
+    if (answer == Answer::proven) return false;
+    const bool first = all.answer == Answer::proven || (all.answer == Answer::undecided && answer == Answer::refuted);
+    if (first || (answer == all.answer && item.id < all.item)) all = {answer, item.id};
+    return false;
+  });
+  return all;
+}
+
+}  // namespace bp

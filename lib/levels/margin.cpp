@@ -1,0 +1,28 @@
+#include "lib/levels/margin.h"
+
+#include <cmath>
+
+#include "lib/core/error.h"
+#include "lib/levels/symmetry.h"
+#include "lib/volume/dilate_ball.h"
+
+namespace bp {
+
+void add_margin(VoxelizedScene& scene, double margin_world, const ShelfFactory& make_shelf) {
+  constexpr double kRounding = 1 + 1e-12;  // of the quotient and of squares
+  const double reach = margin_world / scene.header.frame.voxel * kRounding;
+  if (!(reach <= kMostReach))
+    fail(ErrorCode::bad_argument, {Remedy::larger_voxels}, "a margin of {} is {:.0f} voxels, more than {}",
+         margin_world, reach, kMostReach);
+  auto grown = make_shelf();
+  dilate_ball(*scene.solid, reach, *grown);
+  scene.solid = std::move(grown);
+  widen_bricks(scene);
+}
+
+double farthest_of_margin(double margin_world, double voxel) {
+  // The grown voxel holds the point, the voxel that it is near to holds one of the scene.
+  return margin_world + 2 * std::sqrt(3.0) * voxel;
+}
+
+}  // namespace bp

@@ -1,0 +1,279 @@
+#include "lib/quads/cell_quads.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "lib/quads/detail/cells.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::int32_t kUnitsAlong = 128;
+constexpr std::int32_t kCubesAlong = 40;  // before planes are taken away
+
+template <class Visit>
+void for_each_voxel(const BrickShelf& shelf, const Visit& visit) {
+  BrickBits bits;
+  for (const BrickCoord& c : shelf.coords()) {
+    (void)shelf.get(c, bits);
+    const VoxelCoord first = first_voxel(c);
+    for (std::int32_t i = 0; i < std::int32_t(bits.size()); ++i) {
+      for (std::uint64_t w = bits[std::size_t(i)]; w != 0; w &= w - 1)
+        visit(VoxelCoord{first.x + std::countr_zero(w), first.y + i % kBrickEdge, first.z + i / kBrickEdge});
+    }
+  }
+}
+
+VoxelBox box_of_voxels(const BrickShelf& shelf) {
+  VoxelBox box;
+  for_each_voxel(shelf, [&](const VoxelCoord& p) {
+    if (box.empty()) box = {p, {p.x + 1, p.y + 1, p.z + 1}};
+    for (int i = 0; i < 3; ++i) {
+      box.min[i] = std::min(box.min[i], p[i]);
+      box.max[i] = std::max(box.max[i], p[i] + 1);
+    }
+  });
+  return box;
+}
+
+/// Units of so many voxels, counted from `origin`; those at the surface.
+struct Units {
+  VoxelCoord origin;
+  std::int32_t edge = 1;
+  VoxelBox box;
+  std::vector<VoxelCoord> surface;
+};
+
+Units units_of(const BrickShelf& shelf, const std::optional<MirrorPlane>& plane) {
+  Units units;
+  const VoxelBox box = box_of_voxels(shelf);
+  const VoxelCoord size = box.size();
+  units.origin = box.min;
+  if (plane) units.origin[plane->axis] = plane->at;
+  units.edge = (std::max({size.x, size.y, size.z}) + kUnitsAlong - 1) / kUnitsAlong;
+  const auto unit = [&](VoxelCoord p) {
+    for (int i = 0; i < 3; ++i) p[i] = floor_div(p[i] - units.origin[i], units.edge);
+    return p;
+  };
+  units.box.min = unit(box.min);
+  units.box.max = unit({box.max.x - 1, box.max.y - 1, box.max.z - 1}) + VoxelCoord{1, 1, 1};
+  Grid grid(units.box);
+  for_each_voxel(shelf, [&](const VoxelCoord& p) { grid.at(unit(p)) = 1; });
+  grid.for_each(units.box, [&](const VoxelCoord& p) {
+    bool open = false;
+    if (grid.at(p)) for_each_neighbour(p, [&](const VoxelCoord& q, int, bool) { open = open || !grid.at(q); });
+    if (open) units.surface.push_back(p);
+  });
+  return units;
+}
+
+/// Cubes that hold units of the surface, and what is inside of them.
+Cells cubes_of(const Units& units, std::int32_t edge, const std::optional<MirrorPlane>& plane) {
+  Cells cells;
+  VoxelCoord first;
+  for (int i = 0; i < 3; ++i) {
+    first[i] = floor_div(units.box.min[i], edge);
+    std::int32_t last = floor_div(units.box.max[i] - 1, edge) + 1;
+    if (plane && plane->axis == i) last = std::max(last, -first[i]), first[i] = -last;
+    for (std::int32_t c = first[i]; c <= last; ++c) cells.planes[std::size_t(i)].push_back(c * edge);
+  }
+  cells.solid = Grid(cells.box());
+  for (VoxelCoord p : units.surface) {
+    for (int i = 0; i < 3; ++i) p[i] = floor_div(p[i], edge) - first[i];
+    cells.solid.at(p) = 1;
+    if (!plane) continue;
+    p[plane->axis] = cells.box().max[plane->axis] - 1 - p[plane->axis];
+    cells.solid.at(p) = 1;
+  }
+  fill(cells.solid);
+  return cells;
+}
+
+/// Without the plane between the boxes i and i + 1 of an axis: what is solid in either is solid.
+Cells without_plane(const Cells& cells, int axis, std::int32_t i) {
+  Cells out;
+  out.planes = cells.planes;
+  auto& planes = out.planes[std::size_t(axis)];
+  planes.erase(planes.begin() + i + 1);
+  out.solid = Grid(out.box());
+  cells.solid.for_each(cells.box(), [&](const VoxelCoord& p) {
+    if (!cells.solid.at(p)) return;
+    VoxelCoord q = p;
+    q[axis] -= p[axis] > i;
+    out.solid.at(q) = 1;
+  });
+  return out;
+}
+
+/// Volume between solid boxes that would be filled without the plane between the boxes i and i + 1: limbs grow
+/// together there. `middle`: box i - 1 is the mirror image of i.
+double gaps_filled(const Cells& cells, int axis, std::int32_t i, bool middle) {
+  double volume = 0;
+  VoxelBox layer = cells.box();
+  layer.min[axis] = i;
+  layer.max[axis] = i + 1;
+  const int u = (axis + 1) % 3, w = (axis + 2) % 3;
+  cells.solid.for_each(layer, [&](const VoxelCoord& p) {
+    const auto solid = [&](std::int32_t k) {
+      VoxelCoord q = p;
+      q[axis] += k;
+      return cells.solid.at(q) != 0;
+    };
+    if (solid(0) == solid(1)) return;
+    const bool gap = solid(1) ? middle || solid(-1) : solid(2);
+    const std::int32_t thickness = cells.thickness(axis, solid(1) ? i : i + 1);
+    if (gap) volume += double(thickness) * cells.thickness(u, p[u]) * cells.thickness(w, p[w]);
+  });
+  return volume;
+}
+
+/// Takes planes away, one after the other: that which adds the least volume for the faces that it saves. Boxes beyond
+/// the edge that so many squares would have come last.
+class Merger {
+ public:
+  Merger(Cells cells, std::uint64_t faces, const std::optional<MirrorPlane>& plane)
+      : cells_(std::move(cells)), faces_(faces), plane_(plane) {
+    mend(cells_, plane_);
+  }
+
+  std::optional<Cells> run() {
+    for (;;) {
+      const Size now = size_of(cells_);
+      if (now.faces <= faces_) return std::move(cells_);
+      edge_ = std::sqrt(now.area / (double(faces_) / 2));
+      if (!merge(now)) return std::nullopt;
+      mend(cells_, plane_);
+    }
+  }
+
+ private:
+  bool merge(const Size& now) {
+    std::optional<Cells> best;
+    double least = HUGE_VAL;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::int32_t n = cells_.box().max[axis];
+      const bool mirrored = plane_ && plane_->axis == axis;
+      for (std::int32_t i = mirrored ? n / 2 : 0; i + 1 < n; ++i) {
+        Cells other = without_plane(cells_, axis, i);
+        if (mirrored) other = without_plane(other, axis, n - 2 - i);
+        Size then = size_of(other);
+        then.volume += kGapWeight * gaps_filled(cells_, axis, i, mirrored && i == n / 2);
+        const double price = price_of(then, now, cells_.thickness(axis, i) + cells_.thickness(axis, i + 1));
+        if (price >= least) continue;
+        least = price;
+        best = std::move(other);
+      }
+    }
+    if (best) cells_ = std::move(*best);
+    return best.has_value();
+  }
+
+  [[nodiscard]] double price_of(const Size& then, const Size& now, double thickness) const {
+    const double saved = double(now.faces) - double(then.faces), added = then.volume - now.volume;
+    const double shape = std::max(1.0, thickness / edge_);
+    return (added + kLeastAdded * now.volume) * shape * shape * shape * shape / std::max(saved, kLeastSaved);
+  }
+
+  static constexpr double kGapWeight = 40;
+  static constexpr double kLeastAdded = 1e-4, kLeastSaved = 0.1;
+  Cells cells_;
+  std::uint64_t faces_;
+  const std::optional<MirrorPlane>& plane_;
+  double edge_ = 0;
+};
+
+/// The faces between cells and what is not, as pairs of triangles.
+class QuadMesher {
+ public:
+  QuadMesher(const Cells& cells, const Units& units, const std::optional<MirrorPlane>& plane)
+      : cells_(cells), units_(units), plane_(plane) {}
+
+  CellQuads run(const GridFrame& frame) {
+    out_.mesh.frame = frame;
+    const Grid& cells = cells_.solid;
+    const std::int32_t middle = plane_ ? cells_.box().max[plane_->axis] / 2 : 0;
+    cells.for_each(cells_.box(), [&](const VoxelCoord& p) {
+      if (!cells.at(p) || (plane_ && p[plane_->axis] < middle)) return;
+      for_each_neighbour(p, [&](const VoxelCoord& q, int axis, bool high) {
+        if (!cells.at(q)) face(high ? q : p, axis, high);
+      });
+    });
+    if (plane_) mirror();
+    return std::move(out_);
+  }
+
+ private:
+  std::uint32_t vertex(const VoxelCoord& corner) {
+    const auto [it, fresh] = number_.try_emplace(std::tuple(corner.x, corner.y, corner.z), number_.size());
+    if (fresh) {
+      LatticeCoord p;
+      for (int i = 0; i < 3; ++i) {
+        const std::int64_t unit = cells_.planes[std::size_t(i)][std::size_t(corner[i])];
+        p[i] = (unit * units_.edge + units_.origin[i]) * kLatticePerVoxel;
+      }
+      out_.mesh.vertices.push_back(p);
+    }
+    return std::uint32_t(it->second);
+  }
+
+  void face(const VoxelCoord& first, int axis, bool high) {
+    const int u = (axis + 1) % 3, w = (axis + 2) % 3;
+    std::uint32_t q[4];
+    for (int k = 0; k < 4; ++k) {
+      const int i = high ? k : (4 - k) % 4;
+      VoxelCoord corner = first;
+      corner[u] += i == 1 || i == 2;
+      corner[w] += i >= 2;
+      q[k] = vertex(corner);
+    }
+    add({q[0], q[1], q[2]}, {q[0], q[2], q[3]});
+  }
+
+  void add(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
+    auto& triangles = out_.mesh.triangles;
+    const auto n = std::uint32_t(triangles.size());
+    triangles.push_back(a);
+    triangles.push_back(b);
+    out_.mesh.quads.push_back({n, n + 1});
+  }
+
+  void mirror() {
+    auto& vertices = out_.mesh.vertices;
+    const auto n = std::uint32_t(vertices.size());
+    out_.mate.resize(n);
+    for (std::uint32_t v = 0; v < n; ++v) {
+      out_.mate[v] = v;
+      if (vertices[v][plane_->axis] == plane_->lattice()) continue;
+      out_.mate[v] = std::uint32_t(vertices.size());
+      out_.mate.push_back(v);
+      vertices.push_back(plane_->mirrored(vertices[v]));
+    }
+    const auto half = out_.mesh.triangles;
+    const auto over = [&](const std::array<std::uint32_t, 3>& t) {
+      return std::array<std::uint32_t, 3>{out_.mate[t[0]], out_.mate[t[2]], out_.mate[t[1]]};
+    };
+    for (std::size_t i = 0; i < half.size(); i += 2) add(over(half[i]), over(half[i + 1]));
+  }
+
+  const Cells& cells_;
+  const Units& units_;
+  const std::optional<MirrorPlane>& plane_;
+  std::map<std::tuple<std::int32_t, std::int32_t, std::int32_t>, std::size_t> number_;
+  CellQuads out_;
+};
+
+}  // namespace
+
+CellQuads cell_quads(const BrickShelf& voxels, const GridFrame& frame, std::uint64_t faces,
+                     const std::optional<MirrorPlane>& plane) {
+  const Units units = units_of(voxels, plane);
+  std::optional<Cells> cells = Merger(cubes_of(units, kUnitsAlong / kCubesAlong, plane), faces, plane).run();
+  return cells ? QuadMesher(*cells, units, plane).run(frame) : CellQuads{};
+}
+
+}  // namespace bp

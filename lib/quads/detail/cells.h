@@ -1,0 +1,83 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "lib/core/box.h"
+#include "lib/grid/mirror_plane.h"
+
+/// Boxes between planes across the axes, some of which are solid.
+namespace bp {
+
+/// A dense box of flags, with a rim of empty ones.
+class Grid {
+ public:
+  Grid() = default;
+  explicit Grid(const VoxelBox& inner) : box_(inner.grown(1)), size_(box_.size()), bits_(std::size_t(box_.volume())) {}
+  [[nodiscard]] const VoxelBox& box() const { return box_; }
+  [[nodiscard]] char& at(const VoxelCoord& p) { return bits_[index(p)]; }
+  [[nodiscard]] char at(const VoxelCoord& p) const { return bits_[index(p)]; }
+
+  template <class Visit>
+  void for_each(const VoxelBox& box, const Visit& visit) const {
+    for (VoxelCoord p = box.min; p.z < box.max.z; ++p.z) {
+      for (p.y = box.min.y; p.y < box.max.y; ++p.y) {
+        for (p.x = box.min.x; p.x < box.max.x; ++p.x) visit(p);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(const VoxelCoord& p) const {
+    const VoxelCoord d = p - box_.min;
+    return (std::size_t(d.z) * std::size_t(size_.y) + std::size_t(d.y)) * std::size_t(size_.x) + std::size_t(d.x);
+  }
+  VoxelBox box_;
+  VoxelCoord size_;
+  std::vector<char> bits_;
+};
+
+/// visit(q, axis, high) for the six.
+template <class Visit>
+void for_each_neighbour(const VoxelCoord& p, const Visit& visit) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const std::int32_t step : {-1, 1}) {
+      VoxelCoord q = p;
+      q[axis] += step;
+      visit(q, axis, step > 0);
+    }
+  }
+}
+
+/// Boxes between planes across the axes, and which of them are solid. Box i of an axis lies between its planes i and
+/// i + 1, in units.
+struct Cells {
+  std::array<std::vector<std::int32_t>, 3> planes;
+  Grid solid;
+
+  [[nodiscard]] std::int32_t thickness(int axis, std::int32_t i) const {
+    const auto& p = planes[std::size_t(axis)];
+    return p[std::size_t(i) + 1] - p[std::size_t(i)];
+  }
+  [[nodiscard]] VoxelBox box() const {
+    const auto n = [&](std::size_t axis) { return std::int32_t(planes[axis].size()) - 1; };
+    return {{0, 0, 0}, {n(0), n(1), n(2)}};
+  }
+};
+
+/// Of what is solid.
+struct Size {
+  double volume = 0, area = 0;  // in units
+  std::uint64_t faces = 0;
+};
+
+[[nodiscard]] Size size_of(const Cells& cells);
+
+/// Makes solid what the outside does not reach.
+void fill(Grid& solid);
+
+/// Repairs the solid (lib/surface/repair.h) and fills it, until neither adds a box. With a plane, which is in the
+/// middle, it stays its own mirror image.
+void mend(Cells& cells, const std::optional<MirrorPlane>& plane);
+
+}  // namespace bp

@@ -1,0 +1,81 @@
+#pragma once
+#include <algorithm>
+#include <vector>
+
+#include "lib/enclosed/enclosed.h"
+#include "lib/exact/predicates.h"
+#include "lib/quads/quads.h"
+
+namespace bp {
+
+/// What must stay inside under either diagonal of each pair.
+class EnclosedByPairs final : public Enclosed {
+ public:
+  EnclosedByPairs(const HalfEdgeMesh& mesh, const Enclosed& enclosed)
+      : mesh_(mesh), enclosed_(enclosed), partner_(mesh.face_capacity(), kNoId) {}
+
+  void join(FaceId f, FaceId g) {
+    partner_[f] = g;
+    partner_[g] = f;
+  }
+  /// Flips are refused but while this is set: they would break pairs.
+  void allow_flips(bool on) { flips_ = on; }
+
+  [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
+                            Blocker* blocker) const override {
+    const bool flip = star[0].ids[0] != star[1].ids[0];
+    if (flip) return flips_ && enclosed_.allows(star, swept, blocker);
+    return enclosed_.allows(star, swept, blocker) && across_allows(star[0].ids[0], star[0].corners[0], blocker);
+  }
+  [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override {
+    return enclosed_.contact_points(origin, within);
+  }
+  [[nodiscard]] std::uint64_t bytes() const override { return enclosed_.bytes(); }
+
+ private:
+  /// The pairs around v, drawn the other way.
+  [[nodiscard]] bool across_allows(VertexId v, const LatticeCoord& to, Blocker* blocker) const {
+    std::vector<NewFace> faces;
+    std::vector<Tetrahedron> swept;
+    bool fine = true;
+    const LatticeCoord p = mesh_.position(v);
+    const auto add = [&](VertexId a, VertexId b) {
+      const LatticeCoord &pa = mesh_.position(a), &pb = mesh_.position(b);
+      faces.push_back({{v, a, b}, {to, pa, pb}});
+      if (orient3d(p, pa, pb, to) < 0) swept.push_back({p, pa, pb, to});
+    };
+    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
+      const FaceId partner = partner_[HalfEdgeMesh::face(h)];
+      if (partner == kNoId) return;
+      std::array<VertexId, 4> quad;  // from v on
+      const HalfEdgeId beyond = mesh_.twin(HalfEdgeMesh::next(h));
+      if (HalfEdgeMesh::face(mesh_.twin(h)) == partner) {  // the diagonal ends here: once for both faces
+        quad = {v, mesh_.opposite(mesh_.twin(h)), mesh_.to(h), mesh_.opposite(h)};
+        add(quad[1], quad[3]);
+      } else if (HalfEdgeMesh::face(beyond) == partner) {
+        quad = {v, mesh_.to(h), mesh_.opposite(beyond), mesh_.opposite(h)};
+        add(quad[1], quad[2]);
+        add(quad[2], quad[3]);
+      } else {
+        return;
+      }
+      fine = fine && keeps_shape(quad, to);
+    });
+    return fine && (faces.empty() || enclosed_.allows(faces, swept, blocker));
+  }
+
+  [[nodiscard]] bool keeps_shape(const std::array<VertexId, 4>& quad, const LatticeCoord& to) const {
+    std::array<LatticeCoord, 4> p;
+    for (std::size_t i = 0; i < 4; ++i) p[i] = mesh_.position(quad[i]);
+    const double before = quad_quality(p);
+    p[0] = to;
+    return quad_quality(p) >= std::min(before, kLeastQuadQuality);
+  }
+
+  const HalfEdgeMesh& mesh_;
+  const Enclosed& enclosed_;
+  std::vector<FaceId> partner_;
+  bool flips_ = false;
+};
+
+}  // namespace bp
