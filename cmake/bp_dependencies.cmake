@@ -9,11 +9,12 @@ find_package(PNG REQUIRED)
 find_package(Freetype REQUIRED)
 find_package(JPEG REQUIRED)
 
-# zstd, xxHash and WebP ship pkg-config files everywhere, CMake packages only here and there.
+# zstd, xxHash, WebP and Draco ship pkg-config files everywhere, CMake packages only here and there.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(webp REQUIRED IMPORTED_TARGET libwebp)
+pkg_check_modules(draco REQUIRED IMPORTED_TARGET draco)
 
 if(BP_TESTS)
   find_package(OpenMesh REQUIRED)  # a second opinion on meshes

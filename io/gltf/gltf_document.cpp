@@ -7,7 +7,6 @@
 #include "io/files/uri.h"
 #include "io/gltf/detail/data_uri.h"
 #include "io/gltf/json_fault.h"
-#include "io/gltf/meshopt_codec.h"
 
 namespace bp {
 
@@ -20,13 +19,6 @@ std::uint32_t word_at(const SceneFile& file, std::uint64_t offset) {
   if (file.read_at(offset, std::as_writable_bytes(std::span(&word, 1))) != sizeof word)
     fail(ErrorCode::bad_input, "{}: ends in the header at byte {}; the file is truncated", file.name(), file.size());
   return word;
-}
-
-ComponentType component_type(const GltfObject& o) {
-  const std::uint64_t type = o.number("componentType");
-  if (type < 5120 || (type > 5126 && type != 5130) || type == 5124)
-    o.broken(fmt::format("has the unknown componentType {}", type));
-  return ComponentType(type);
 }
 
 // Some exporters write names in Latin-1, which is no JSON. Names do not matter here.
@@ -42,32 +34,14 @@ GltfJson parse_json(std::string text) {
   return GltfJson::parse(text);
 }
 
-MeshoptView meshopt_view(const GltfObject& packed) {
-  MeshoptView view;
-  view.count = packed.number("count");
-  view.stride = packed.number("byteStride");
-  const std::string mode = packed.text("mode");
-  const std::string filter = packed.has("filter") ? packed.text("filter") : "NONE";
-  if (mode != "ATTRIBUTES" && mode != "TRIANGLES" && mode != "INDICES")
-    packed.broken(fmt::format("has the unknown mode {}", mode));
-  view.mode = mode == "TRIANGLES" ? MeshoptMode::triangles
-              : mode == "INDICES" ? MeshoptMode::indices
-                                  : MeshoptMode::attributes;
-  if (filter == "NONE") return view;
-  if (filter != "OCTAHEDRAL" && filter != "QUATERNION" && filter != "EXPONENTIAL")
-    packed.broken(fmt::format("has the unknown filter {}", filter));
-  view.filter = filter == "OCTAHEDRAL"   ? MeshoptFilter::octahedral
-                : filter == "QUATERNION" ? MeshoptFilter::quaternion
-                                         : MeshoptFilter::exponential;
-  return view;
-}
-
-/// Saturated: what cannot be is found out later.
-std::uint64_t unpacked_bytes(const MeshoptView& view) {
-  return std::uint64_t(std::min(0x1p62, double(view.count) * double(view.stride)));
-}
-
 }  // namespace
+
+ComponentType component_type(const GltfObject& o) {
+  const std::uint64_t type = o.number("componentType");
+  if (type < 5120 || (type > 5126 && type != 5130) || type == 5124)
+    o.broken(fmt::format("has the unknown componentType {}", type));
+  return ComponentType(type);
+}
 
 // --- GltfObject
 // --------------------------------------------------------------------------------------------------------
@@ -275,8 +249,15 @@ const GltfDocument::Data& GltfDocument::buffer(std::uint64_t i) {
 
 GltfDocument::View GltfDocument::view(std::uint64_t i) {
   const GltfObject object = root().item("bufferViews", i);
-  if (object.has("extensions") && object.object("extensions").has("EXT_meshopt_compression"))
-    return unpacked(i, object);
+  for (const char* name : kMeshoptNames) {
+    if (object.has("extensions") && object.object("extensions").has(name))
+      return unpacked(i, object.object("extensions").object(name));
+  }
+  return part_of_buffer(object);
+}
+
+/// A view as its object says, or the packed bytes of one.
+GltfDocument::View GltfDocument::part_of_buffer(const GltfObject& object) {
   const Data& data = buffer(object.number("buffer"));
   const std::uint64_t offset = object.number("byteOffset", 0), size = object.number("byteLength");
   if (offset > data.size || size > data.size - offset) {
@@ -286,38 +267,10 @@ GltfDocument::View GltfDocument::view(std::uint64_t i) {
   return {data.address + offset, size, object.number("byteStride", 0)};
 }
 
-// The unpacked bytes go to a scratch file: memory does not grow with what a file unpacks to.
-GltfDocument::View GltfDocument::unpacked(std::uint64_t i, const GltfObject& object) {
-  const auto known = unpacked_.find(i);
-  if (known != unpacked_.end()) return known->second;
-  const GltfObject packed = object.object("extensions").object("EXT_meshopt_compression");
-  const MeshoptView what = meshopt_view(packed);
-  const Data& data = buffer(packed.number("buffer"));
-  const std::uint64_t offset = packed.number("byteOffset", 0), size = packed.number("byteLength");
-  if (offset > data.size || size > data.size - offset)
-    packed.broken(fmt::format("spans bytes {} to {} of a buffer that has {}, so the data are truncated", offset,
-                              offset + size, data.size));
-  check_document(options_, file_->name(), "a view that is compressed", size + unpacked_bytes(what),
-                 options_.document.bytes);
-  std::vector<std::byte> bytes(size), plain;
-  if (bytes_->read_at(data.address + offset, bytes) != size) packed.broken("lies beyond the end of the file");
-  const std::string wrong = decode_meshopt(what, bytes, plain);
-  if (!wrong.empty()) packed.broken("holds data that " + wrong);
-  if (!scratch_) scratch_ = std::make_shared<ScratchFile>(temp_dir_);
-  const std::uint64_t begin = scratch_->append(plain);
-  const SceneFilePtr file = part_of(view_of(scratch_, file_->name(), begin + plain.size()), begin, plain.size());
-  const View view{bytes_->add(file), plain.size(), what.stride};
-  unpacked_.emplace(i, view);
-  return view;
-}
-
 Accessor GltfDocument::accessor(std::uint64_t i, std::size_t components) {
   const GltfObject object = root().item("accessors", i);
   const std::string type = object.text("type");
-  const char* const expected = components == 1   ? "SCALAR"
-                               : components == 2 ? "VEC2"
-                               : components == 3 ? "VEC3"
-                                                 : "VEC4";
+  const char* const expected = kVectorTypes[components - 1];
   if (type != expected) object.broken(fmt::format("has the type {} where {} is needed", type, expected));
   Accessor a;
   a.count = object.number("count");
@@ -325,7 +278,12 @@ Accessor GltfDocument::accessor(std::uint64_t i, std::size_t components) {
   a.components = components;
   a.normalized = object.flag("normalized") && a.type < ComponentType::u32;
   const std::uint64_t size = bytes_of(a.type) * components;
-  if (object.has("bufferView")) {
+  const auto numbers = unpacked_numbers_.find(i);
+  if (numbers != unpacked_numbers_.end()) {
+    a.address = numbers->second.address;
+    a.count = numbers->second.count;
+    a.stride = size;
+  } else if (object.has("bufferView")) {
     const View v = view(object.number("bufferView"));
     const std::uint64_t offset = object.number("byteOffset", 0);
     a.stride = v.stride > 0 ? v.stride : size;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -55,6 +56,13 @@ class GltfObject {
   std::string file_, place_;
 };
 
+/// The componentType of an accessor, one that glTF knows.
+[[nodiscard]] ComponentType component_type(const GltfObject& accessor);
+
+inline constexpr std::array kVectorTypes = {"SCALAR", "VEC2", "VEC3", "VEC4"};  ///< by components
+/// The extension of views, and its later name: KHR adds codecs, which are not read.
+inline constexpr std::array kMeshoptNames = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
+
 class GltfDocument {
  public:
   GltfDocument(const SceneFilePtr& file, const SceneOptions& options);
@@ -62,6 +70,9 @@ class GltfDocument {
   [[nodiscard]] GltfObject root() const { return GltfObject(json_, file_->name(), ""); }
   /// Accessor i, checked against its views; `components` is what its type must have.
   Accessor accessor(std::uint64_t i, std::size_t components);
+  /// Of a primitive with KHR_draco_mesh_compression, unpacks what its accessors say: they have data then. False if it
+  /// is none.
+  bool unpack(const GltfObject& primitive);
   /// Where image i lies.
   ImagePlace image(std::uint64_t i);
   /// All buffers that accessors have named so far, in one file.
@@ -83,7 +94,11 @@ class GltfDocument {
   [[nodiscard]] std::string path_beside(const std::string& uri) const;
   SceneFilePtr open_beside(const GltfObject& buffer, const std::string& uri) const;
   View view(std::uint64_t i);
-  View unpacked(std::uint64_t i, const GltfObject& object);  ///< a view with EXT_meshopt_compression
+  View part_of_buffer(const GltfObject& object);
+  /// A view with EXT_meshopt_compression, or KHR_meshopt_compression.
+  View unpacked(std::uint64_t i, const GltfObject& packed);
+  [[nodiscard]] std::vector<std::byte> packed_bytes(const View& view) const;
+  [[nodiscard]] std::uint64_t keep(std::span<const std::byte> plain);  ///< in scratch; its address
   void read_sparse(const GltfObject& sparse, Accessor& a);
 
   SceneFilePtr file_;
@@ -94,8 +109,12 @@ class GltfDocument {
   SceneFilePtr glb_data_;             // the binary chunk
   std::shared_ptr<JoinedFile> bytes_ = std::make_shared<JoinedFile>();
   std::vector<std::optional<Data>> buffers_;
+  struct Numbers {
+    std::uint64_t address = 0, count = 0;
+  };
   std::map<std::uint64_t, View> unpacked_;
-  std::shared_ptr<ScratchFile> scratch_;  // of unpacked views
+  std::map<std::uint64_t, Numbers> unpacked_numbers_;  // of accessors, without gaps
+  std::shared_ptr<ScratchFile> scratch_;               // of what was unpacked
 };
 
 }  // namespace bp

@@ -13,8 +13,9 @@
 
 // glTF 2.0 and GLB (Khronos, glTF 2.0 specification, section 3.7 on geometry, 3.5 on nodes). Only what says where
 // triangles are is looked at: the default scene, nodes, POSITION and indices, sparse accessors, quantized positions
-// (KHR_mesh_quantization) and instance arrays (EXT_mesh_gpu_instancing), and, if asked for, colours; of nodes with
-// levels (MSFT_lod) one, the finest unless asked. Skins and morph targets are left at rest.
+// (KHR_mesh_quantization), what is compressed (KHR_draco_mesh_compression, EXT_meshopt_compression) and instance arrays
+// (EXT_mesh_gpu_instancing), and, if asked for, colours; of nodes with levels (MSFT_lod) one, the finest unless asked.
+// Skins and morph targets are left at rest.
 
 namespace bp {
 
@@ -159,12 +160,11 @@ void SceneBuilder::add_primitive(const GltfObject& p) {
   if (mode > kFan) p.broken(fmt::format("has the unknown mode {}", mode));
   const GltfObject attributes = p.object("attributes");
   if (mode < kTriangles || !attributes.has("POSITION")) return;  // points and lines
-  if (p.has("extensions") && p.object("extensions").has("KHR_draco_mesh_compression"))
-    p.broken(
-        "is compressed (KHR_draco_mesh_compression), which is not read: unpack it, for instance with gltf-transform");
   if (walls_only_ && p.has("material") && materials_.see_through(p.number("material"))) return;
   Primitive primitive;
-  primitive.mode = mode == kFan     ? Primitive::Mode::fan
+  const bool plain = doc_.unpack(p);  // its triangles are no strip then
+  primitive.mode = plain            ? Primitive::Mode::triangles
+                   : mode == kFan   ? Primitive::Mode::fan
                    : mode == kStrip ? Primitive::Mode::strip
                                     : Primitive::Mode::triangles;
   primitive.positions = doc_.accessor(attributes.number("POSITION"), 3);

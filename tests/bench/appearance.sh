@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# How much levels look like their scene, beside gltfpack's simplification (meshoptimizer) at the same triangles: PSNR and SSIM
-# over 24 views, at the size at which the level would be shown: its error is a pixel there (at most 512 pixels).
-# usage: [LEVELS=FACES,...] appearance.sh TOOLS OUT SCENE...      SCENE: OBJ or glTF with textures
+# How much levels look like their scene, beside gltfpack's simplification (meshoptimizer) at the same triangles or bytes: PSNR and
+# SSIM over 24 views, at the size at which the level would be shown: its error is a pixel there (at most 512 pixels).
+# usage: [LEVELS=FACES,...] [MODE=fit] [SAME=bytes] appearance.sh TOOLS OUT SCENE...      SCENE: OBJ or glTF
 # NODE_PATH: folder of the packages that tests/viewers/run.sh installs, and gltfpack.
 set -euo pipefail
 tools=$(cd "$1" && pwd)
@@ -9,6 +9,22 @@ here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$2" && out=$(cd "$2" && pwd)
 shift 2
 gltfpack() { node "$NODE_PATH/gltfpack/cli.js" "$@"; }
+mode=(--mode "${MODE:-bounding}")
+
+# pack RATIO SCENE OUT [OPTION...]: leaves such a share of the triangles.
+pack() { gltfpack -noq -se 1 -si "$1" -i "$2" -o "$3" "${@:4}" > /dev/null; }
+
+# pack_into BYTES SCENE OUT [OPTION...]: as many triangles as fit.
+pack_into() {
+  local low=-14 high=0 middle step
+  for step in 1 2 3 4 5 6 7 8 9 10; do
+    middle=$(python3 -c "print(($low + $high) / 2)")
+    pack "$(python3 -c "import math; print(math.exp($middle))")" "${@:2}"
+    if [ "$(stat -c %s "$3")" -gt "$1" ]; then high=$middle; else low=$middle; fi
+  done
+  pack "$(python3 -c "import math; print(math.exp($low))")" "${@:2}"
+}
+
 echo "| scene | level | faces | bytes | pixels | PSNR | SSIM | gltfpack: faces | bytes | PSNR | SSIM | colours only: PSNR | SSIM |"
 echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
 for scene in "$@"; do
@@ -19,8 +35,8 @@ for scene in "$@"; do
   triangles=$("$tools/bpinfo" "$work/scene.glb" --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["triangles"])')
   faces=()
   [ -z "${LEVELS:-}" ] || faces=(--faces "$LEVELS")
-  "$tools/bplod" "$scene" "${faces[@]}" -o "$work/levels" --name level --report "$work/report.json" -q > /dev/null
-  "$tools/bplod" "$scene" "${faces[@]}" -o "$work/colors" --name level --appearance color -q > /dev/null
+  "$tools/bplod" "$scene" "${faces[@]}" "${mode[@]}" -o "$work/levels" --name level --report "$work/report.json" -q > /dev/null
+  "$tools/bplod" "$scene" "${faces[@]}" "${mode[@]}" -o "$work/colors" --name level --appearance color -q > /dev/null
   python3 -c '
 import json, sys
 report = json.load(open(sys.argv[1]))
@@ -28,10 +44,26 @@ for i, level in enumerate(report["counts"]["levels"]): print(i, level["faces"], 
   while read -r i count error; do
     diagonal=$("$tools/bpinfo" "$work/scene.glb" --json | python3 -c 'import json,math,sys; b=json.load(sys.stdin)["bounds"]; print(math.dist(b["min"],b["max"]))')
     pixels=$(python3 -c "print(int(max(48, min(512, $diagonal / $error))))")
-    gltfpack -noq -sa -se 1 -si "$(python3 -c "print(min(1, $count / $triangles))")" -i "$scene" -o "$work/pack$i.glb" > /dev/null
-    mapfile -t seen < <(node "$here/appearance.cjs" "$pixels" "$work/scene.glb" "$work/levels/level_LOD$i.glb" "$work/pack$i.glb" "$work/colors/level_LOD$i.glb")
-    packed=$("$tools/bpinfo" "$work/pack$i.glb" --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["triangles"])')
+    size=$(stat -c %s "$work/levels/level_LOD$i.glb") packs=()
+    for option in "" -sa; do # that keep all parts, or may drop some: the better one that fits counts
+      pack=$work/pack$i$option.glb
+      if [ "${SAME:-triangles}" = bytes ]; then
+        pack_into "$size" "$scene" "$pack" $option
+        [ "$(stat -c %s "$pack")" -gt "$size" ] || packs+=("$pack")
+      else
+        pack "$(python3 -c "print(min(1, $count / $triangles))")" "$scene" "$pack" $option
+        packs+=("$pack")
+      fi
+    done
+    [ ${#packs[@]} -gt 0 ] || packs=("$pack")
+    mapfile -t seen < <(node "$here/appearance.cjs" "$pixels" "$work/scene.glb" "$work/levels/level_LOD$i.glb" "$work/colors/level_LOD$i.glb" "${packs[@]}")
+    best=2
+    for ((k = 3; k < ${#seen[@]}; ++k)); do
+      [ "$(python3 -c "print(${seen[k]% *} > ${seen[best]% *})")" = False ] || best=$k
+    done
+    pack=${packs[best - 2]}
+    packed=$("$tools/bpinfo" "$pack" --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["triangles"])')
     cell() { echo "${1/ / | }"; }
-    echo "| $name | $i | $count | $(stat -c %s "$work/levels/level_LOD$i.glb") | $pixels | $(cell "${seen[0]}") | $packed | $(stat -c %s "$work/pack$i.glb") | $(cell "${seen[1]}") | $(cell "${seen[2]}") |"
+    echo "| $name | $i | $count | $size | $pixels | $(cell "${seen[0]}") | $packed | $(stat -c %s "$pack") | $(cell "${seen[best]}") | $(cell "${seen[1]}") |"
   done
 done

@@ -91,7 +91,8 @@ Accessor VertexFinder::floats(std::uint64_t number, std::size_t components) {
   const GltfObject object = root_.item("accessors", number);
   if (object.has("sparse") || !object.has("bufferView")) object.broken("is sparse, and vertices that move must not be");
   const GltfObject view = root_.item("bufferViews", object.number("bufferView"));
-  if (view.has("extensions") && view.object("extensions").has("EXT_meshopt_compression"))
+  const auto packs = [&](const char* name) { return view.has("extensions") && view.object("extensions").has(name); };
+  if (std::any_of(kMeshoptNames.begin(), kMeshoptNames.end(), packs))
     view.broken("is compressed, and vertices that move must not be: unpack it, for instance with gltf-transform");
   if (view.number("buffer") != 0) view.broken("lies in a second buffer; pack all buffers into one");
   const Accessor accessor = doc_.accessor(number, components);

@@ -17,6 +17,7 @@ struct OptionOfTools {
   const char *option, *tools;
 };
 constexpr OptionOfTools kOptionsOfTools[] = {
+    {"--boxes", "bpinfo"},
     {"--cache", "bplod"},
     {"--appearance", "bplod"},
     {"--convex", "bpcheck"},

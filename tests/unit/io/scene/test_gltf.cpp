@@ -247,9 +247,8 @@ TEST_CASE("broken glTF is refused with the place that is wrong", "[quick][io]") 
   CHECK_THAT(broken("/bufferViews/0/byteOffset", 9007199254740992.0), Contains("truncated"));
   CHECK_THAT(broken("/bufferViews/0/buffer", 1), Contains("buffers[1]"));
   CHECK_THAT(broken("/meshes/0/primitives/0/mode", 9), Contains("mode 9"));
-  CHECK_THAT(broken("/meshes/0/primitives/0/extensions", {{"KHR_draco_mesh_compression", Json::object()}}),
-             Contains("draco"));
-  CHECK_THAT(broken("/bufferViews/0/extensions", {{"EXT_meshopt_compression", Json::object()}}), Contains("meshopt"));
+  for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+    CHECK_THAT(broken("/bufferViews/0/extensions", {{name, Json::object()}}), Contains(name));
   CHECK_THAT(broken("/asset/version", "1.0"), Contains("version 1.0"));
   CHECK_THAT(broken("/meshes", 5), Contains("not an array"));
   CHECK_THAT(broken("/nodes/0", 5), Contains("not an object"));

@@ -1,0 +1,122 @@
+#include <algorithm>
+
+#include "io/gltf/draco_codec.h"
+#include "io/gltf/gltf_document.h"
+#include "io/gltf/meshopt_codec.h"
+
+// Views and primitives that are compressed. What they unpack to goes to a scratch file: memory does not grow with it.
+
+namespace bp {
+
+namespace {
+
+MeshoptView meshopt_view(const GltfObject& packed) {
+  MeshoptView view;
+  view.count = packed.number("count");
+  view.stride = packed.number("byteStride");
+  const std::string mode = packed.text("mode");
+  const std::string filter = packed.has("filter") ? packed.text("filter") : "NONE";
+  if (mode != "ATTRIBUTES" && mode != "TRIANGLES" && mode != "INDICES")
+    packed.broken(fmt::format("has the unknown mode {}", mode));
+  view.mode = mode == "TRIANGLES" ? MeshoptMode::triangles
+              : mode == "INDICES" ? MeshoptMode::indices
+                                  : MeshoptMode::attributes;
+  if (filter == "NONE") return view;
+  if (filter != "OCTAHEDRAL" && filter != "QUATERNION" && filter != "EXPONENTIAL")
+    packed.broken(fmt::format("has the unknown filter {}", filter));
+  view.filter = filter == "OCTAHEDRAL"   ? MeshoptFilter::octahedral
+                : filter == "QUATERNION" ? MeshoptFilter::quaternion
+                                         : MeshoptFilter::exponential;
+  return view;
+}
+
+/// Saturated: what cannot be is found out later.
+std::uint64_t unpacked_bytes(const MeshoptView& view) {
+  return std::uint64_t(std::min(0x1p62, double(view.count) * double(view.stride)));
+}
+
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+constexpr int kSets = 8;  // of texture coordinates, at most
+
+DracoAttribute attribute_of(const GltfObject& accessor, std::uint64_t id) {
+  const std::string type = accessor.text("type");
+  const auto known = std::find(kVectorTypes.begin(), kVectorTypes.end(), type);
+  if (known == kVectorTypes.end()) accessor.broken("has a type that vertices do not have: " + type);
+  return {std::uint32_t(id), component_type(accessor), std::size_t(known - kVectorTypes.begin()) + 1, {}};
+}
+
+std::vector<std::string> attribute_names() {
+  std::vector<std::string> names{"POSITION", "NORMAL", "TANGENT", "COLOR_0"};
+  for (int i = 0; i < kSets; ++i) names.push_back("TEXCOORD_" + std::to_string(i));
+  return names;
+}
+
+std::vector<std::byte> in_type(const std::vector<std::uint32_t>& indices, ComponentType type) {
+  std::vector<std::byte> out(indices.size() * bytes_of(type));
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    std::copy_n(reinterpret_cast<const std::byte*>(&indices[i]), bytes_of(type), out.data() + i * bytes_of(type));
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::byte> GltfDocument::packed_bytes(const View& view) const {
+  std::vector<std::byte> bytes(view.size);
+  if (bytes_->read_at(view.address, bytes) != view.size)
+    fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: ends within compressed data", file_->name());
+  return bytes;
+}
+
+std::uint64_t GltfDocument::keep(std::span<const std::byte> plain) {
+  if (!scratch_) scratch_ = std::make_shared<ScratchFile>(temp_dir_);
+  const std::uint64_t begin = scratch_->append(plain);
+  return bytes_->add(part_of(view_of(scratch_, file_->name(), begin + plain.size()), begin, plain.size()));
+}
+
+GltfDocument::View GltfDocument::unpacked(std::uint64_t i, const GltfObject& packed) {
+  const auto known = unpacked_.find(i);
+  if (known != unpacked_.end()) return known->second;
+  const MeshoptView what = meshopt_view(packed);
+  const View bytes = part_of_buffer(packed);
+  check_document(options_, file_->name(), "a view that is compressed", bytes.size + unpacked_bytes(what),
+                 options_.document.bytes);
+  std::vector<std::byte> plain;
+  const std::string wrong = decode_meshopt(what, packed_bytes(bytes), plain);
+  if (!wrong.empty()) packed.broken("holds data that " + wrong);
+  const View view{keep(plain), plain.size(), what.stride};
+  unpacked_.emplace(i, view);
+  return view;
+}
+
+bool GltfDocument::unpack(const GltfObject& primitive) {
+  if (!primitive.has("extensions") || !primitive.object("extensions").has(kDraco)) return false;
+  const GltfObject packed = primitive.object("extensions").object(kDraco), ids = packed.object("attributes");
+  const GltfObject attributes = primitive.object("attributes");
+  const std::uint64_t numbers = primitive.number("indices");
+  if (unpacked_numbers_.contains(numbers)) return true;  // another primitive has shared them
+  const GltfObject indices = root().item("accessors", numbers);
+  const std::uint64_t triangles = indices.number("count") / 3;
+  const View bytes = view(packed.number("bufferView"));
+  check_document(options_, file_->name(), "a primitive that is compressed",
+                 bytes.size + std::min(triangles, std::uint64_t(1) << 50) * kDracoBytesPerTriangle,
+                 options_.document.bytes);
+  std::vector<DracoAttribute> values;
+  std::vector<std::uint64_t> accessors;
+  for (const std::string& name : attribute_names()) {
+    if (!ids.has(name.c_str()) || !attributes.has(name.c_str())) continue;
+    accessors.push_back(attributes.number(name.c_str()));
+    values.push_back(attribute_of(root().item("accessors", accessors.back()), ids.number(name.c_str())));
+  }
+  DracoMesh mesh;
+  const std::string wrong = decode_draco(packed_bytes(bytes), triangles, mesh, values);
+  if (!wrong.empty()) packed.broken("holds data that " + wrong);
+  const ComponentType type = component_type(indices);
+  if (type != ComponentType::u32 && mesh.vertices > std::uint64_t(1) << (8 * bytes_of(type)))
+    indices.broken(fmt::format("cannot number {} vertices", mesh.vertices));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    unpacked_numbers_[accessors[k]] = {keep(values[k].values), mesh.vertices};
+  unpacked_numbers_[numbers] = {keep(in_type(mesh.indices, type)), mesh.indices.size()};
+  return true;
+}
+
+}  // namespace bp

@@ -1,0 +1,104 @@
+#include "io/gltf/draco_codec.h"
+
+#include <draco/compression/decode.h>
+#include <draco/compression/mesh/mesh_decoder.h>
+#include <draco/core/varint_decoding.h>
+#include <draco/metadata/metadata_decoder.h>
+#include <fmt/format.h>
+
+namespace bp {
+
+namespace {
+
+draco::DecoderBuffer buffer_of(std::span<const std::byte> bytes) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return buffer;
+}
+
+/// The head of the bytes: how many triangles follow. Draco makes room for as many as it says, so it is asked first.
+bool read_head(std::span<const std::byte> bytes, std::uint32_t& triangles) {
+  draco::DecoderBuffer buffer = buffer_of(bytes);
+  draco::DracoHeader header{};
+  if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) return false;
+  if (header.encoder_type != draco::TRIANGULAR_MESH) return false;
+  buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
+  if (header.version_major != 2 || header.version_minor < 2) return false;  // the extension asks for 2.2
+  draco::GeometryMetadata metadata;
+  if ((header.flags & METADATA_FLAG_MASK) != 0 && !draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
+    return false;
+  if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
+    std::uint8_t traversal = 0;
+    std::uint32_t vertices = 0;
+    if (!buffer.Decode(&traversal) || !draco::DecodeVarint(&vertices, &buffer)) return false;
+  }
+  return draco::DecodeVarint(&triangles, &buffer);
+}
+
+template <class Number>
+bool values_of(const draco::PointAttribute& from, std::size_t vertices, std::size_t components,
+               std::vector<std::byte>& values) {
+  values.resize(vertices * components * sizeof(Number));
+  std::vector<Number> value(components);
+  for (std::size_t i = 0; i < vertices; ++i) {
+    const draco::AttributeValueIndex index = from.mapped_index(draco::PointIndex(std::uint32_t(i)));
+    if (index.value() >= from.size()) return false;
+    if (!from.ConvertValue<Number>(index, std::int8_t(components), value.data())) return false;
+    std::memcpy(values.data() + i * components * sizeof(Number), value.data(), components * sizeof(Number));
+  }
+  return true;
+}
+
+bool take_values(const draco::PointAttribute& from, std::size_t vertices, DracoAttribute& to) {
+  switch (to.type) {
+    case ComponentType::i8:
+      return values_of<std::int8_t>(from, vertices, to.components, to.values);
+    case ComponentType::u8:
+      return values_of<std::uint8_t>(from, vertices, to.components, to.values);
+    case ComponentType::i16:
+      return values_of<std::int16_t>(from, vertices, to.components, to.values);
+    case ComponentType::u16:
+      return values_of<std::uint16_t>(from, vertices, to.components, to.values);
+    case ComponentType::u32:
+      return values_of<std::uint32_t>(from, vertices, to.components, to.values);
+    case ComponentType::f32:
+      return values_of<float>(from, vertices, to.components, to.values);
+    case ComponentType::f64:
+      return values_of<double>(from, vertices, to.components, to.values);
+  }
+  return false;
+}
+
+bool take_triangles(const draco::Mesh& from, DracoMesh& to) {
+  to.vertices = from.num_points();
+  to.indices.reserve(3 * std::size_t(from.num_faces()));
+  for (std::uint32_t f = 0; f < from.num_faces(); ++f) {
+    for (const draco::PointIndex& corner : from.face(draco::FaceIndex(f))) {
+      if (corner.value() >= to.vertices) return false;
+      to.indices.push_back(corner.value());
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string decode_draco(std::span<const std::byte> bytes, std::uint64_t most_triangles, DracoMesh& mesh,
+                         std::span<DracoAttribute> attributes) {
+  const std::string damaged = "are damaged, or of another version than 2.2";
+  std::uint32_t triangles = 0;
+  if (!read_head(bytes, triangles)) return damaged;
+  if (triangles > most_triangles)
+    return fmt::format("have {} triangles, and {} indices", triangles, 3 * most_triangles);
+  draco::DecoderBuffer buffer = buffer_of(bytes);
+  auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
+  if (!decoded.ok() || !take_triangles(*decoded.value(), mesh)) return damaged;
+  for (DracoAttribute& attribute : attributes) {
+    const draco::PointAttribute* const from = decoded.value()->GetAttributeByUniqueId(attribute.id);
+    if (from == nullptr) return fmt::format("have no attribute {}", attribute.id);
+    if (!take_values(*from, mesh.vertices, attribute)) return damaged;
+  }
+  return {};
+}
+
+}  // namespace bp
