@@ -209,8 +209,8 @@ void BrickReader::State::read_header() {
     refuse(kFrameHeadBytes + kStreamMagic.size(), "version {} of the stream of voxels; this tool reads version {}",
            version, kStreamVersion);
   }
-  if (size < kHeaderFixedBytes + kHashBytes ||
-      size > kHeaderFixedBytes + kMaxScaleBytes + kMaxProvenanceBytes + kMaxSceneBytes + kMaxOrientationBytes + 4 + kHashBytes)
+  if (size < kHeaderFixedBytes + kHashBytes || size > kHeaderFixedBytes + kMaxScaleBytes + kMaxProvenanceBytes +
+                                                          kMaxSceneBytes + kMaxOrientationBytes + 4 + kHashBytes)
     refuse(4, "a header of {} bytes cannot be; the stream is damaged", size);
   std::vector<std::byte> payload(size);
   const std::size_t known = start.size() - kFrameHeadBytes;

@@ -173,11 +173,7 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
     fail(ErrorCode::bad_input, "{}: header: {}; make the stream anew", name, fault);
   if (!scale.empty()) h.scale = field_of(scale, h.frame, name);
   std::span<const std::byte> rest = payload.subspan(kHeaderFixedBytes + scale_bytes + provenance_bytes);
-  if ((flags & kFlagOrientation) != 0) {
-    if (scale.empty() || (h.has_closing && h.element != StructuringElement::cube))
-      fail(ErrorCode::bad_input, "{}: header: an orientation without cubes that it turns", name);
-    h.orientation = take_orientation(rest, name);
-  }
+  if ((flags & kFlagOrientation) != 0) take_orientation(rest, h, name);
   const std::size_t scene_bytes = rest.size();
   if (((flags & kFlagScene) != 0) != (scene_bytes > 0))
     fail(ErrorCode::bad_input, "{}: header: scene files without their flag, or the flag without them", name);

@@ -52,7 +52,7 @@ struct StreamHeader {
   bool has_closing = false;  ///< the closing layer is present beside the solid layer
   bool has_field = false;    ///< it is not, and `scale` is given for the closing to come
   FillMode fill = FillMode::flood;
-  ScaleField scale;  ///< of the closing; meaningful if has_closing or has_field
+  ScaleField scale;              ///< of the closing; meaningful if has_closing or has_field
   OrientationField orientation;  ///< of the closing's cubes, or of those to come; may be empty
   StructuringElement element = StructuringElement::cube;
   std::vector<Provenance> provenance;

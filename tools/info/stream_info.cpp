@@ -70,8 +70,8 @@ std::string stream_text(const StreamHeader& h, const StreamTotals& t, const std:
   if (h.has_closing) s += fmt::format("element     {}\n", name_of(h.element));
   if (h.has_closing || h.has_field) s += fmt::format("scale       {}\n", scale_text(h.scale));
   if (!h.orientation.empty())
-    s += fmt::format("orientation {} rotations, cells of {} voxels\n", h.orientation.rotations.size(),
-                     h.orientation.cell_vox);
+    s += fmt::format("orientation {} rotation{}, cells of {} voxels\n", h.orientation.rotations.size(),
+                     h.orientation.rotations.size() == 1 ? "" : "s", h.orientation.cell_vox);
   for (const Provenance& p : h.provenance) s += fmt::format("made by     {} {} {}\n", p.tool, p.version, p.options);
   for (const SceneFiles::File& file : h.scene.files)
     s += fmt::format("scene file  {}, {}\n", file.name, size_text(file.bytes));

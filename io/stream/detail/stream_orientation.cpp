@@ -20,8 +20,10 @@ void put_orientation(ByteSink& sink, const OrientationField& f) {
   sink.put(std::uint32_t(kFixedBytes + kRotationBytes * f.rotations.size() + kCellBytes * f.cells.size()));
 }
 
-OrientationField take_orientation(std::span<const std::byte>& rest, const std::string& name) {
+void take_orientation(std::span<const std::byte>& rest, StreamHeader& header, const std::string& name) {
   const auto damaged = [&](const char* fact) { fail(ErrorCode::bad_input, "{}: header: {}", name, fact); };
+  if (!(header.has_field || (header.has_closing && header.element == StructuringElement::cube)))
+    damaged("an orientation without cubes that it turns");
   if (rest.size() < kFixedBytes + kSizeBytes) damaged("the orientation is cut off");
   const std::size_t bytes = ByteSource(rest.last(kSizeBytes)).get<std::uint32_t>();
   rest = rest.first(rest.size() - kSizeBytes);
@@ -43,7 +45,7 @@ OrientationField take_orientation(std::span<const std::byte>& rest, const std::s
   for (std::size_t i = (bytes - kFixedBytes - kRotationBytes * count) / kCellBytes; i > 0; --i)
     f.cells.push_back(in.get<std::uint16_t>());
   if (const char* fault = orientation_fault(f)) damaged(fault);
-  return f;
+  header.orientation = std::move(f);
 }
 
 }  // namespace bp::detail

@@ -7,7 +7,8 @@ namespace bp::detail {
 /// The field, and then the number of its bytes.
 void put_orientation(ByteSink& sink, const OrientationField& field);
 
-/// The field that `rest` ends with; `rest` keeps what comes before it. Throws bad_input, naming what is wrong.
-[[nodiscard]] OrientationField take_orientation(std::span<const std::byte>& rest, const std::string& name);
+/// Into `header`, whose other fields are there but for the scene: the orientation that `rest` ends with; `rest` keeps
+/// what comes before it. Throws bad_input, naming what is wrong.
+void take_orientation(std::span<const std::byte>& rest, StreamHeader& header, const std::string& name);
 
 }  // namespace bp::detail

@@ -57,6 +57,21 @@ std::vector<std::uint16_t> beside(const OrientationField& field, std::size_t cel
   return found;
 }
 
+/// A little of the whole scene, where a cell has walls of one direction only.
+void add_mean(const FrameLattice& lattice, std::vector<FrameTensor>& tensors) {
+  constexpr double kShare = 0.02;
+  FrameTensor mean;
+  double weights = 0;
+  for (std::size_t i = 0; i < lattice.count(); ++i) {
+    weights += lattice.weight[i];
+    for (std::size_t k = 0; k < FrameTensor::kParts; ++k) mean.m[k] += lattice.weight[i] * lattice.known[i].m[k];
+  }
+  if (!(weights > 0)) return;
+  for (FrameTensor& t : tensors) {
+    for (std::size_t k = 0; k < FrameTensor::kParts; ++k) t.m[k] += kShare * mean.m[k] / weights;
+  }
+}
+
 /// An axis within a degree of one of the grid becomes that: what stands upright is closed faster.
 Frame upright(Frame frame) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -170,6 +185,7 @@ void OrientationMaker::add(const TriangleD& triangle) {
 
 void OrientationMaker::add(const Vec3d& at, const std::array<Vec3d, 3>& axes) {
   const std::size_t cell = sums_->cell_of(at);
+  sums_->lattice.places = true;
   sums_->lattice.known[cell].add(axes, kPlaceWeight);
   sums_->lattice.weight[cell] += kPlaceWeight;
 }
@@ -180,7 +196,8 @@ OrientationField OrientationMaker::make() const {
     if (!(lattice.weight[i] > 0)) continue;
     for (double& part : lattice.known[i].m) part /= lattice.weight[i];
   }
-  const std::vector<FrameTensor> tensors = detail::smoothed(lattice);
+  std::vector<FrameTensor> tensors = detail::smoothed(lattice);
+  if (!lattice.places) add_mean(lattice, tensors);
   std::vector<Frame> frames(lattice.count());
   parallel_for(std::int64_t(lattice.count()),
                [&](std::int64_t i) { frames[std::size_t(i)] = upright(detail::best_frame(tensors[std::size_t(i)])); });
@@ -193,6 +210,10 @@ OrientationField OrientationMaker::make() const {
   field.cells.assign(lattice.count(), kNotYet);
   for (const std::size_t i : order) field.cells[i] = palette.index(frames[i], beside(field, i));
   field.rotations = palette.rotations();
+  if (std::find(field.cells.begin(), field.cells.end(), 0) == field.cells.end()) {  // all are turned
+    field.rotations.erase(field.rotations.begin());
+    for (std::uint16_t& cell : field.cells) --cell;
+  }
   return field;
 }
 

@@ -33,7 +33,7 @@ double product(const Numbers& a, const Numbers& b) {
   return sum;
 }
 
-/// (weight + L L) u = weight * known, for one part of the tensors.
+/// (weight + L L) u = weight * known, or with -L in place of L L, for one part of the tensors.
 class Solver {
  public:
   Solver(const FrameLattice& lattice, std::size_t part) : lattice_(lattice), part_(part), scratch_(lattice.count()) {}
@@ -71,13 +71,14 @@ class Solver {
     return weights > 0 ? sum / weights : 0;
   }
   void apply(const Numbers& in, Numbers& out) {
-    laplacian(lattice_.size, in, scratch_);
-    laplacian(lattice_.size, scratch_, out);
-    for (std::size_t i = 0; i < in.size(); ++i) out[i] += lattice_.weight[i] * in[i];
+    laplacian(lattice_.size, in, lattice_.places ? scratch_ : out);
+    if (lattice_.places) laplacian(lattice_.size, scratch_, out);
+    const double sign = lattice_.places ? 1 : -1;
+    for (std::size_t i = 0; i < in.size(); ++i) out[i] = sign * out[i] + lattice_.weight[i] * in[i];
   }
   void precondition(const Numbers& in, Numbers& out) const {
-    constexpr double kDiagonal = 42;  // of L L, inside
-    for (std::size_t i = 0; i < in.size(); ++i) out[i] = in[i] / (kDiagonal + lattice_.weight[i]);
+    const double diagonal = lattice_.places ? 42 : 6;  // of L L, and of L, inside
+    for (std::size_t i = 0; i < in.size(); ++i) out[i] = in[i] / (diagonal + lattice_.weight[i]);
   }
 
   const FrameLattice& lattice_;

@@ -50,9 +50,15 @@ Frame transposed_inverse(const Frame& m) {
 
 /// The nearest rotation of a matrix with a positive determinant.
 Frame polar(Frame m) {
-  for (int i = 0; i < 12; ++i) {
+  double change = 1;
+  for (int i = 0; i < 60 && change > 1e-28; ++i) {
     const Frame t = transposed_inverse(m);
-    for (std::size_t k = 0; k < 3; ++k) m[k] = 0.5 * (m[k] + t[k]);
+    change = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d next = 0.5 * (m[k] + t[k]);
+      change += dot(next - m[k], next - m[k]);
+      m[k] = next;
+    }
   }
   return m;
 }
@@ -89,9 +95,10 @@ std::array<double, 4> quaternion_of(const Frame& r) {
   return q;
 }
 
-/// Each step solves for the axes along the gradients, which a convex function never makes worse.
+/// Each step takes the axes nearest to the gradients, which makes a convex function no worse. A little of the frame
+/// itself is kept, for tensors that say nothing about a direction.
 Frame ascend(const FrameTensor& tensor, Frame frame, double keep) {
-  constexpr int kMostSteps = 80;
+  constexpr int kMostSteps = 200;
   for (int step = 0; step < kMostSteps; ++step) {
     Frame next;
     for (std::size_t i = 0; i < 3; ++i) next[i] = tensor.gradient(frame[i]) + keep * frame[i];
@@ -139,14 +146,13 @@ Frame best_frame(const FrameTensor& tensor) {
                                                                   {1, -kSkew, -kSkew, kSkew},
                                                                   {1, -kSkew, kSkew, kSkew},
                                                                   {1, kSkew, -kSkew, -kSkew}}};
-  // The polynomial grows by this times itself at least, so that the ascent is one where a direction says nothing.
   const double total =
       tensor.m[0] + tensor.m[1] + tensor.m[2] + 2 * (tensor.m[9] + tensor.m[10] + tensor.m[11]);  // of all weights
   if (!(total > 0)) return {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
   Frame best{};
   double most = -1;
   for (const auto& start : kStarts) {
-    const Frame frame = ascend(tensor, frame_of(start), 0.1 * total);
+    const Frame frame = ascend(tensor, frame_of(start), 1e-3 * total);
     double value = 0;
     for (const Vec3d& axis : frame) value += dot(axis, tensor.gradient(axis));
     if (value > most + 1e-9 * total) best = frame, most = value;  // the first of equals
