@@ -124,7 +124,7 @@ struct RuleEntry {
 struct ScalePlan {
   ScaleField field;
   std::vector<RuleEntry> entries;
-  std::string orientation{};  ///< of cubes, as JSON; empty: nothing is said
+  std::string orientation{};  ///< of cubes, as JSON; may be empty
   friend bool operator==(const ScalePlan&, const ScalePlan&) = default;
 };
 
