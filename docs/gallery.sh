@@ -84,6 +84,11 @@ bpvox figure.obj --resolution 256 -q | bpclose --scale 4% -q | bpmesh --faces 80
 draw guide-scale.png 340 figure.obj closed.bpv finer.glb one-scale.glb
 "$root/samples/lessons" lessons > /dev/null
 for lesson in brush pinch; do cp "lessons/$lesson.png" "lesson-$lesson.png"; done
+echo '{"base": "3%", "orientation": "auto"}' > office.json
+bpvox office.obj --resolution 384 -q -o office.bpv --overwrite
+bpscale office.json office.bpv -q | bpclose -q -o office-auto.bpv --overwrite
+bpclose office.bpv --scale 3% -q -o office-axes.bpv --overwrite
+draw guide-office.png 400 office.obj office-axes.bpv office-auto.bpv
 echo '{"base": "3%", "rules": [{"gap": 10}]}' > streets.json
 bpvox city.obj --up z --resolution 384 -q -o city.bpv --overwrite
 bpscale streets.json city.bpv -q | bpclose -q -o streets.bpv --overwrite

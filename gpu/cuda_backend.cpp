@@ -14,6 +14,7 @@
 #include "gpu/kernels/winding_kernels.h"
 #include "gpu/staging.h"
 #include "gpu/stream.h"
+#include "lib/closing/closing_scratch.h"
 
 namespace bp {
 
@@ -92,6 +93,8 @@ class CudaBackend final : public Backend {
 
   void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
              const VoxelBox& interior, BitBox& closed) override {
+    // Turned cubes are closed on the calling thread.
+    if (params.turned()) return close_tile(solid, scale, halo, params, interior, closed, scratch_);
     stream_.select();
     closed.reset(interior);
     if (interior.empty()) return;
@@ -105,7 +108,7 @@ class CudaBackend final : public Backend {
   void close_from_shelf(const BrickShelf& solid, const BrickBox& bricks, const ScaleLattice& scale, const Halo& halo,
                         const ClosingParams& params, const VoxelBox& interior, BitBox& closed) override {
     stream_.select();
-    if (whole_bricks(interior)) {
+    if (whole_bricks(interior) && !params.turned()) {
       try {
         return close_bricks(solid, bricks, scale, halo, params, interior, closed);
       } catch (const OutOfDeviceMemory&) {
@@ -345,6 +348,7 @@ class CudaBackend final : public Backend {
   DeviceBuffer<FixedTriangle> triangles_;
   DeviceBuffer<Crossing> crossings_;
   DeviceBuffer<std::int32_t> numbers_;
+  ClosingScratch scratch_;
 };
 
 }  // namespace

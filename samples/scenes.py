@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Small sample scenes for the guides, as OBJ with materials.
-    samples/scenes.py FOLDER [house|truck|figure|city]...       all of them by default
+    samples/scenes.py FOLDER [house|truck|figure|city|office]...       all of them by default
 house:   12 m wide, with rooms, furniture, an open door, windows of glass; y up
 truck:   8 m long, of separate parts; y up
 figure:  an animal on two legs, of overlapping parts; y up
 city:    24 blocks of houses, towers and trees, in map coordinates; z up
+office:  a block with a wing, at an angle of 30 degrees to the axes; y up
 The same bytes on every machine."""
 import math
 import random
@@ -123,6 +124,16 @@ def house(s):
     s.box((9, 6.5, 2.2), (9.7, 8.8, 2.9), "roof")
 
 
+def office(s):
+    """A block with a wing and pilasters, at an angle of 30 degrees to the axes."""
+    s.box((0, 0, 0), (20, 10, 12), "wall")
+    s.box((0, 0, 0), (8, 8, 24), "wall")
+    for i in range(10):
+        s.box((2 * i + .6, 2, 11.9), (2 * i + 1.4, 8, 12.5), "tower")
+    c, n = math.cos(math.pi / 6), math.sin(math.pi / 6)
+    s.points = [(c * x + n * z, y, c * z - n * x) for x, y, z in s.points]
+
+
 def truck(s):
     s.box((0, .75, -.45), (7.6, 1.0, .45), "metal")
     s.box((5.7, 1.0, -1.1), (7.8, 1.9, 1.1), "paint")
@@ -205,7 +216,7 @@ def tower(s, rand, x, y):
 
 
 def main():
-    scenes = {"house": house, "truck": truck, "figure": figure, "city": city}
+    scenes = {"house": house, "truck": truck, "figure": figure, "city": city, "office": office}
     names = sys.argv[2:] or list(scenes)
     if len(sys.argv) < 2 or sys.argv[1].startswith("-") or not set(names) <= set(scenes):
         sys.exit(__doc__)

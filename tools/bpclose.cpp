@@ -106,9 +106,19 @@ bp::CloseOptions pass_options(const Options& o, bool opening, std::uint64_t pinn
   return options;
 }
 
-bp::StreamHeader closed_header(const Options& o, const bp::StreamHeader& in, const bp::ScalePlan& plan) {
+/// With cubes as bpscale turned them.
+bp::ClosingParams closing_params(const Options& o, const bp::StreamHeader& header) {
+  bp::ClosingParams params{o.closing.element};
+  if (header.has_field && !header.orientation.empty() && params.element == bp::StructuringElement::cube)
+    params.orientation = &header.orientation;
+  return params;
+}
+
+bp::StreamHeader closed_header(const bp::ClosingParams& params, const Options& o, const bp::StreamHeader& in,
+                               const bp::ScalePlan& plan) {
   bp::StreamHeader header = in;
-  if (!opens(in)) header.bricks = bp::closing_bricks(in, plan.field);
+  if (!opens(in)) header.bricks = bp::closing_bricks(in, plan.field, params);
+  if (!params.turned()) header.orientation = {};
   header.slab_axis = in.slab_axis;
   header.has_closing = true;
   header.has_field = false;
@@ -162,16 +172,20 @@ void run(Options o) {
   const bp::ScalePlan plan = scale_plan(o, source);
   const bp::ScaleField& field = plan.field;
   for (const std::string& text : bp::scale_notes(plan, source.header())) report.note(text, o.common);
+  const bp::ClosingParams params = closing_params(o, source.header());
+  if (source.header().has_field && !source.header().orientation.empty() && !params.turned())
+    report.note("balls cannot be turned; the orientation of the stream changes nothing", o.common);
   const bp::Estimate estimate = bp::estimate_close(source.header(), field);
-  bp::Backends backends = bp::make_backends(o.common, estimate.core_seconds, &report);
+  // A GPU leaves turned cubes to the CPU.
+  bp::Backends backends = bp::make_backends(o.common, params.turned() ? 0 : estimate.core_seconds, &report);
   if (const std::uint64_t pinned = bp::pinned_bytes(backends); pinned > 0)
     options = pass_options(o, opening, pinned, progress);
   bp::note_estimate(estimate, o.common, progress, report, bp::names_of(backends));
-  bp::BrickWriter sink(*output, closed_header(o, source.header(), plan));
+  bp::BrickWriter sink(*output, closed_header(params, o, source.header(), plan));
 
   report.begin("close");
   const auto close = opening ? open_stream : bp::close_stream;
-  const bp::CloseCounts counts = close(source, sink, backends, field, {o.closing.element}, options);
+  const bp::CloseCounts counts = close(source, sink, backends, field, params, options);
   sink.finish();
   output->commit();
 

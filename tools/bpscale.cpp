@@ -12,6 +12,7 @@
 #include "tools/run/provenance.h"
 #include "tools/run/scale_rules.h"
 #include "tools/scale/explain.h"
+#include "tools/scale/orientation_rules.h"
 
 namespace {
 
@@ -34,7 +35,7 @@ Options parse(bp::Args& args) {
   args.option("-o,--output", "FILE", o.out, "stream of voxels, with the field; - is stdout");
   args.group("Field");
   args.option("--explain", "X,Y,Z", o.explain,
-              "print what scale a point gets, and what each rule does there; write no stream");
+              "print what scale and orientation a point gets, and what each rule does there; write no stream");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::memory_part |
                             bp::CommonOptions::progress_part | bp::CommonOptions::report_part |
                             bp::CommonOptions::overwrite_part);
@@ -48,12 +49,15 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-bp::StreamHeader with_field(const bp::StreamHeader& in, const bp::ScalePlan& plan) {
+bp::StreamHeader with_fields(const bp::StreamHeader& in, const bp::ScalePlan& plan,
+                             const bp::OrientationField& orientation) {
   bp::StreamHeader header = in;
   header.has_field = true;
   header.scale = plan.field;
+  header.orientation = orientation;
   bp::OptionText text;
   text.add("field", bp::provenance_text(plan));
+  text.add("orientation", bp::provenance_text(plan.orientation, "places"));
   header.provenance.push_back(bp::make_provenance("bpscale", text));
   return header;
 }
@@ -84,12 +88,14 @@ void run(const Options& o) {
   if (header.has_closing)
     fail(ErrorCode::bad_input, "{}: is closed already; bpscale comes between bpvox and bpclose", o.in);
   bp::RuledSource source(reader, pass_context(o, progress), o.common.memory_bytes, o.common.temp);
-  const bp::ScalePlan plan = source.read_rules(o.rules);
-  if (o.explain) return bp::print(bp::explain_scale(plan, header, *o.explain));
+  const bp::ScalePlan plan = source.read_rules(o.rules, true);
+  bp::OrientationField orientation;
+  if (!plan.orientation.empty()) orientation = bp::make_orientation(plan.orientation, o.rules, header, plan.field);
+  if (o.explain) return bp::print(bp::explain_point(plan, orientation, header, *o.explain));
   for (const std::string& text : bp::scale_notes(plan, header)) report.note(text, o.common);
 
   report.begin("copy");
-  bp::BrickWriter sink(*output, with_field(header, plan));
+  bp::BrickWriter sink(*output, with_fields(header, plan, orientation));
   report.counts = {{"rules", plan.field.rules.size()}, {"bricks", copy(source, sink)}};
   output->commit();
   report.bytes_in = reader.totals().bytes;

@@ -209,8 +209,8 @@ void BrickReader::State::read_header() {
     refuse(kFrameHeadBytes + kStreamMagic.size(), "version {} of the stream of voxels; this tool reads version {}",
            version, kStreamVersion);
   }
-  if (size < kHeaderFixedBytes + kHashBytes ||
-      size > kHeaderFixedBytes + kMaxScaleBytes + kMaxProvenanceBytes + kMaxSceneBytes + kHashBytes)
+  if (size < kHeaderFixedBytes + kHashBytes || size > kHeaderFixedBytes + kMaxScaleBytes + kMaxProvenanceBytes +
+                                                          kMaxSceneBytes + kMaxOrientationBytes + 4 + kHashBytes)
     refuse(4, "a header of {} bytes cannot be; the stream is damaged", size);
   std::vector<std::byte> payload(size);
   const std::size_t known = start.size() - kFrameHeadBytes;
@@ -227,7 +227,7 @@ void BrickReader::State::read_payload(std::vector<std::byte>& payload, std::size
   const auto scale = sizes.get<std::uint32_t>(), provenance = sizes.get<std::uint32_t>();
   if (scale > kMaxScaleBytes || provenance > kMaxProvenanceBytes ||
       size < kHeaderFixedBytes + scale + provenance + kHashBytes ||
-      size > kHeaderFixedBytes + scale + provenance + kMaxSceneBytes + kHashBytes)
+      size > kHeaderFixedBytes + scale + provenance + kMaxSceneBytes + kMaxOrientationBytes + 4 + kHashBytes)
     refuse(kFrameHeadBytes + kHeaderFixedBytes - 8, "the sizes in the header disagree; the stream is damaged");
   take(std::span(payload).subspan(kHeaderFixedBytes), "header");
   if (!seal_holds(payload)) refuse(kFrameHeadBytes, "the checksum of the header differs; the stream is damaged");

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "io/stream/detail/stream_orientation.h"
 #include "io/stream/detail/stream_scene.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -121,11 +122,12 @@ std::vector<std::byte> encode_header(const StreamHeader& h) {
          "the stream cannot be written: {} bytes of scale field and {} of provenance; at most {} and {}", scale.size(),
          provenance.size(), kMaxScaleBytes, kMaxProvenanceBytes);
   }
+  const bool oriented = (h.has_closing || h.has_field) && !h.orientation.empty();
   ByteSink out;
   for (const unsigned char c : kStreamMagic) out.put(c);
   out.put(kStreamVersion);
   out.put(std::uint16_t((h.has_closing ? kFlagClosing : 0) | (scene.empty() ? 0 : kFlagScene) |
-                        (h.has_field && !h.has_closing ? kFlagField : 0)));
+                        (h.has_field && !h.has_closing ? kFlagField : 0) | (oriented ? kFlagOrientation : 0)));
   out.put(std::uint8_t(h.fill));
   out.put(std::uint8_t(h.has_closing ? h.element : StructuringElement::ball));
   out.put(std::uint8_t(h.slab_axis));
@@ -141,6 +143,7 @@ std::vector<std::byte> encode_header(const StreamHeader& h) {
   out.put_text(scale);
   out.put_text(provenance);
   out.put_text(scene);
+  if (oriented) put_orientation(out, h.orientation);
   return std::move(out.bytes());
 }
 
@@ -148,7 +151,7 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
   ByteSource in(payload.subspan(kStreamMagic.size() + 2));
   StreamHeader h;
   const auto flags = in.get<std::uint16_t>();
-  if ((flags & ~(kFlagClosing | kFlagScene | kFlagField)) != 0)
+  if ((flags & ~(kFlagClosing | kFlagScene | kFlagField | kFlagOrientation)) != 0)
     fail(ErrorCode::bad_input, "{}: header: unknown flags {:#x}; update this tool", name, flags);
   h.has_closing = (flags & kFlagClosing) != 0;
   h.has_field = (flags & kFlagField) != 0;
@@ -174,7 +177,9 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
   if (const char* fault = header_fault(h))
     fail(ErrorCode::bad_input, "{}: header: {}; make the stream anew", name, fault);
   if (!scale.empty()) h.scale = field_of(scale, h.frame, name);
-  const std::size_t scene_bytes = payload.size() - kHeaderFixedBytes - scale_bytes - provenance_bytes;
+  std::span<const std::byte> rest = payload.subspan(kHeaderFixedBytes + scale_bytes + provenance_bytes);
+  if ((flags & kFlagOrientation) != 0) take_orientation(rest, h, name);
+  const std::size_t scene_bytes = rest.size();
   if (((flags & kFlagScene) != 0) != (scene_bytes > 0))
     fail(ErrorCode::bad_input, "{}: header: scene files without their flag, or the flag without them", name);
   if (scene_bytes > 0) h.scene = scene_of(in.get_text(scene_bytes), name);

@@ -15,7 +15,7 @@ namespace bp::detail {
 constexpr std::uint32_t kFrameMagic = 0x184D2A5B;  ///< a skippable zstd frame, of ours
 constexpr std::array<unsigned char, 8> kStreamMagic{'B', 'P', 'V', 'S', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint16_t kStreamVersion = 1;
-constexpr std::uint16_t kFlagClosing = 1, kFlagScene = 2, kFlagField = 4;
+constexpr std::uint16_t kFlagClosing = 1, kFlagScene = 2, kFlagField = 4, kFlagOrientation = 8;
 
 constexpr std::size_t kFrameHeadBytes = 8;
 constexpr std::size_t kHeaderFixedBytes = 128;  ///< before the texts
@@ -26,6 +26,7 @@ constexpr std::size_t kIndexEntryBytes = 24;
 constexpr std::size_t kEndBytes = 96;
 
 constexpr std::uint32_t kMaxScaleBytes = 1u << 22, kMaxProvenanceBytes = 1u << 20, kMaxSceneBytes = 1u << 20;
+constexpr std::uint32_t kMaxOrientationBytes = 32 + 8 * (1u << 16) + 2 * OrientationField::kMostCells;
 constexpr std::uint32_t kMaxRecords = 4096, kMaxMixed = 32;
 constexpr std::uint32_t kMaxRawBytes = kMaxRecords * kRecordBytes + kMaxMixed * kBrickBytes;
 constexpr std::uint32_t kMaxPackedBytes = kMaxRawBytes + 65536;

@@ -71,9 +71,11 @@ class TileClosing {
     s_.dilation.reset(dilated);
   }
 
-  void dilate(StructuringElement element) {
-    if (element == StructuringElement::ball) {
+  void dilate(const ClosingParams& params) {
+    if (params.element == StructuringElement::ball) {
       dilate_ball();
+    } else if (params.turned() && s_.oriented.turns(*params.orientation, s_.dilation.box())) {
+      s_.oriented.run(solid_, scale_, *params.orientation, s_.dilation);
     } else if (cube_radius(range_.min) == cube_radius(range_.max)) {
       s_.cube.run(solid_, cube_radius(range_.max), s_.dilation);
     } else {
@@ -194,14 +196,14 @@ void add_closing(const BitBox& solid, const ScaleLattice& scale, const Halo& hal
   const VoxelBox occupied = occupied_bounds(solid, needed.grown(halo.dilation_vox));
   if (occupied.empty()) return;
   const ScaleRange range = detail::scale_range(scale, needed);
-  const std::int32_t reach = std::max(cube_radius(range.max), detail::ball_reach(ball_bound(range.max)));
+  const std::int32_t reach = element_reach(range.max, params);
   if (reach == 0) return;                              // D = G
   const VoxelBox touched = occupied.grown(reach + 1);  // D and Dc lie in it
   const VoxelBox dilated = intersect(needed, touched);
   if (intersect(dilated, interior).empty()) return;
 
   TileClosing work(solid, scale, occupied, dilated, range, scratch);
-  work.dilate(params.element);
+  work.dilate(params);
   if (!work.find_band(closed)) return;
   const bool eroded = work.find_contour(intersect(interior.grown(std::max(halo.erosion_vox - 1, 0)), touched));
   if (eroded) work.erode();

@@ -1,5 +1,6 @@
 #pragma once
 #include "lib/grid/bit_box.h"
+#include "lib/grid/orientation_field.h"
 #include "lib/grid/scale_field.h"
 #include "lib/grid/stream.h"
 
@@ -7,6 +8,7 @@
 /// the input, r(p) = floor(S(p)), w(p) = ceil(S(p)^2):
 ///   D  = { p : exists g in G with max|p-g| <= r(p) }  (cube)   or   { p : exists g in G with |p-g|^2 < w(p) }  (ball),
 ///        united with G (which matters for the ball where S = 0)
+///        where cubes are turned, by in_oriented_cube() of p's rotation and S(p) (lib/closing/rotation.h)
 ///   Dc = { q not in D : a 6-neighbour of q is in D }
 ///   E  = G  united with  { p in D : no q in Dc has |p-q|^2 < w(q) }
 /// Hence G ⊆ E ⊆ D: a closing always encloses its input. S < 1 is the identity. Outside the grid everything is empty.
@@ -14,6 +16,14 @@ namespace bp {
 
 struct ClosingParams {
   StructuringElement element = StructuringElement::cube;
+  const OrientationField* orientation = nullptr;  ///< of cubes; null: along the axes
+
+  [[nodiscard]] bool turned() const { return orientation != nullptr && element == StructuringElement::cube; }
+  /// Into the key of a kept result; levels, whose results are kept, take no orientation.
+  template <class Hash>
+  void add_to(Hash& hash) const {
+    hash.add(element);
+  }
 };
 
 /// At scales of whole voxels erosion, by an open ball, stops one voxel short of what a cube has added, flat sides
@@ -21,7 +31,7 @@ struct ClosingParams {
 constexpr double kBeyondWholeVox = 1.0 / kScaleOne;
 
 /// Farthest that an element of scale `s`, cube or ball, reaches along an axis, voxels.
-[[nodiscard]] std::int32_t element_reach(Scale s);
+[[nodiscard]] std::int32_t element_reach(Scale s, const ClosingParams& params = {});
 
 /// Voxels of context around a tile that make its interior exact: ceil(s1) + 1 + ceil(s2), where s1 is the largest scale
 /// of any voxel whose erosion ball can reach the tile and s2 the largest scale on what is left of the reach
@@ -31,7 +41,8 @@ struct Halo {
   std::int32_t dilation_vox = 0;  ///< and G this much further
   [[nodiscard]] std::int32_t total_vox() const { return erosion_vox + dilation_vox; }
 };
-[[nodiscard]] Halo halo_of(const VoxelBox& tile, const ScaleField& scale, const GridFrame& frame);
+[[nodiscard]] Halo halo_of(const VoxelBox& tile, const ScaleField& scale, const GridFrame& frame,
+                           const ClosingParams& params = {});
 
 /// Closes the interior of a tile on the calling thread.
 ///   solid     G over the tile and its halo; what it does not hold is empty

@@ -12,6 +12,7 @@
 
 #include "lib/closing/closing.h"
 #include "lib/closing/detail/scale_row.h"
+#include "lib/closing/rotation.h"
 #include "lib/core/vec3.h"
 
 namespace bp {
@@ -109,17 +110,17 @@ class ErosionReach {
 
 }  // namespace
 
-Halo halo_of(const VoxelBox& tile, const ScaleField& scale, const GridFrame& frame) {
+Halo halo_of(const VoxelBox& tile, const ScaleField& scale, const GridFrame& frame, const ClosingParams& params) {
   Halo halo;
   halo.erosion_vox = ErosionReach(tile, scale, frame).find() + 1;
   const Scale largest =
       scale.constant() ? scale.upper_bound(frame) : scale.sample(frame, tile.grown(halo.erosion_vox)).max;
-  halo.dilation_vox = std::max(cube_radius(largest), reach_of(largest));
+  halo.dilation_vox = element_reach(largest, params);
   return halo;
 }
 
-std::int32_t element_reach(Scale s) {
-  return std::max(cube_radius(s), detail::ball_reach(ball_bound(s)));
+std::int32_t element_reach(Scale s, const ClosingParams& params) {
+  return std::max({cube_radius(s), reach_of(s), params.turned() ? oriented_reach(*params.orientation, s) : 0});
 }
 
 }  // namespace bp

@@ -1,36 +1,15 @@
 #pragma once
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "lib/core/coords.h"
 #include "lib/core/host_device.h"
+#include "lib/grid/orientation_field.h"
 #include "lib/grid/scale_field.h"
 
-/// Cubes with an orientation of their own at each voxel, as the structuring element of a dilation ([CB17] §3.3). Only
-/// the hierarchical collision on a GPU closes with them (gpu/hierarchical_kernels.h); decided in integers like
-/// all else.
+/// Cubes with an orientation of their own at each voxel, as the structuring element of a dilation ([CB17] §3.3).
+/// Decided in integers like all else.
 namespace bp {
-
-constexpr int kRotationBits = 14;
-
-/// The cube's axes as rows, times 2^14. What is rounded is the cube: all that decide about it decide alike.
-struct Rotation {
-  std::int16_t row[3][3] = {{1 << kRotationBits, 0, 0}, {0, 1 << kRotationBits, 0}, {0, 0, 1 << kRotationBits}};
-};
-
-/// The rotation of a quaternion of any length but zero.
-[[nodiscard]] inline Rotation rotation_of(double w, double x, double y, double z) {
-  const double n = w * w + x * x + y * y + z * z;
-  const double m[3][3] = {{n - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-                          {2 * (x * y + z * w), n - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-                          {2 * (x * z - y * w), 2 * (y * z + x * w), n - 2 * (x * x + y * y)}};
-  Rotation r;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) r.row[i][j] = std::int16_t(std::lround(m[i][j] / n * (1 << kRotationBits)));
-  }
-  return r;
-}
 
 /// True if the cube of scale `s` around a voxel holds the voxel (x, y, z) away from it: |row . (x, y, z)| <= s for each
 /// row.
@@ -49,6 +28,9 @@ struct Rotation {
   return std::int32_t(s) * 1775 / 1024 / kScaleOne + 1;
 }
 
+/// The same of all cubes of a field: at most oriented_reach(), and cube_radius() where none is turned.
+[[nodiscard]] std::int32_t oriented_reach(const OrientationField& field, Scale s);
+
 /// One rotation for each cell of 8^3 voxels, cells as those of ScaleLattice.
 struct RotationLattice {
   VoxelCoord origin, size;  ///< in cells; x fastest
@@ -60,5 +42,8 @@ struct RotationLattice {
     return cells[(std::size_t(z) * std::size_t(size.y) + std::size_t(y)) * std::size_t(size.x) + std::size_t(x)];
   }
 };
+
+/// The rotations of all voxels of a box.
+[[nodiscard]] RotationLattice sample(const OrientationField& field, const VoxelBox& box);
 
 }  // namespace bp

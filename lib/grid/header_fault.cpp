@@ -74,6 +74,9 @@ const char* header_fault(const StreamHeader& h) {
     return "the grid lies too far from the scene's origin for its voxel size: its points are no exact doubles";
   if (const char* fault = bounds_fault(h)) return fault;
   if (h.slab_axis < 0 || h.slab_axis > 2) return "the slab axis is none of 0, 1, 2";
+  if (!h.orientation.empty()) {
+    if (const char* fault = orientation_fault(h.orientation)) return fault;
+  }
   for (const Provenance& p : h.provenance) {
     if (!is_plain(p.tool) || !is_plain(p.version) || !is_plain(p.options) || !is_plain(p.input_hash))
       return "the provenance holds control characters";

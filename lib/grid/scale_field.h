@@ -124,6 +124,7 @@ struct RuleEntry {
 struct ScalePlan {
   ScaleField field;
   std::vector<RuleEntry> entries;
+  std::string orientation{};  ///< of cubes, as JSON; may be empty
   friend bool operator==(const ScalePlan&, const ScalePlan&) = default;
 };
 
@@ -133,6 +134,8 @@ struct RuleContext {
   /// Boxes of the parts of the scene whose name or material matches; throws bad_input or bad_argument. Empty: none are
   /// known.
   std::function<std::vector<Bounds3d>(const std::string& pattern)> parts;
+  /// The file may say something of the orientation of cubes.
+  bool may_orient = false;
 };
 
 /// Rules as JSON (docs/bpscale.1.md). Throws bad_input with the key at fault.

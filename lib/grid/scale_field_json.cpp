@@ -59,6 +59,7 @@ class Node {
     if (list_size() != 3) refuse("is not a list of three numbers");
     return {item(0).number(), item(1).number(), item(2).number()};
   }
+  [[nodiscard]] std::string json() const { return json_.dump(); }
   [[nodiscard]] std::string text() const {
     if (!json_.is_string()) refuse("is not a text");
     return json_.get<std::string>();
@@ -309,7 +310,7 @@ std::string to_json(const ScaleField& field, const Json& rules) {
 ScalePlan parse_scale_rules(const std::string& json, const std::string& name, const RuleContext& context) {
   const Json document = parse_without_repeats(json, name);
   const Node root(document, "", name);
-  root.expect_keys({"base", "slope", "rules", "boxes", "strokes"});
+  root.expect_keys({"base", "slope", "rules", "boxes", "strokes", "orientation"});
   ScalePlan plan;
   ScaleField& field = plan.field;
   RuleReader reader(plan, context);
@@ -317,9 +318,12 @@ ScalePlan parse_scale_rules(const std::string& json, const std::string& name, co
   if (root.has("slope")) field.slope = root.at("slope").length();
   if (root.has("rules") && (root.has("boxes") || root.has("strokes")))
     root.refuse("has 'rules' and, as earlier versions had them, 'boxes' or 'strokes'");
+  if (root.has("orientation") && !context.may_orient)
+    root.at("orientation").refuse("is made for the voxels of a stream, and only bpscale has them at hand");
   for_each_of(root, "rules", [&](const Node& node) { reader.add(node); });
   for_each_of(root, "boxes", [&](const Node& node) { reader.add_old_box(node); });
   for_each_of(root, "strokes", [&](const Node& node) { reader.add_old_stroke(node); });
+  if (root.has("orientation")) plan.orientation = root.at("orientation").json();
   return plan;
 }
 

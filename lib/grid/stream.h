@@ -7,6 +7,7 @@
 #include "lib/core/grid_frame.h"
 #include "lib/grid/bit_box.h"
 #include "lib/grid/brick.h"
+#include "lib/grid/orientation_field.h"
 #include "lib/grid/scale_field.h"
 
 /// Streams and shelves of bricks, as the passes see them. io/ implements them with zstd, checksums and scratch files.
@@ -51,7 +52,8 @@ struct StreamHeader {
   bool has_closing = false;  ///< the closing layer is present beside the solid layer
   bool has_field = false;    ///< it is not, and `scale` is given for the closing to come
   FillMode fill = FillMode::flood;
-  ScaleField scale;  ///< of the closing; meaningful if has_closing or has_field
+  ScaleField scale;              ///< of the closing; meaningful if has_closing or has_field
+  OrientationField orientation;  ///< of the closing's cubes, or of those to come; may be empty
   StructuringElement element = StructuringElement::cube;
   std::vector<Provenance> provenance;
   SceneFiles scene;

@@ -39,6 +39,32 @@ TEST_CASE("closing a tile equals its definition on each backend", "[quick][backe
   }
 }
 
+TEST_CASE("turned cubes close as their definition says on each backend", "[quick][backend][oriented]") {
+  const auto backends = available_backends();
+  const int seed = GENERATE(range(0, 6));
+  reference::Random random{std::uint64_t(seed) + 900};
+  const Scale largest = Scale(random.between(8, 5 * kScaleOne));
+  const VoxelBox interior = seed == 0 ? VoxelBox{{0, 0, 0}, {64, 64, 64}} : reference::random_box(random, 24);
+  const VoxelBox seen = interior.grown(largest / kScaleOne + 3);
+  const ScaleLattice scale = reference::random_lattice(random, seen, largest);
+  const OrientationField orientation = reference::random_orientation(random, seen);
+  const Halo halo{largest / kScaleOne + 2, oriented_reach(orientation, largest)};
+  const BitBox solid = reference::random_solid(random, interior.grown(seed == 0 ? 0 : halo.total_vox()));
+  const ClosingParams params{StructuringElement::cube, &orientation};
+  const BitBox want = reference::close_oriented(solid, scale, sample(orientation, seen), interior);
+  test::MemoryShelf shelf;
+  if (seed == 0) store_voxels(solid, shelf);
+  for (const auto& backend : backends) {
+    CAPTURE(backend->name(), seed);
+    BitBox got;
+    backend->close(solid, scale, halo, params, interior, got);
+    CHECK(got == want);
+    if (seed != 0) continue;
+    backend->close_from_shelf(shelf, {{0, 0, 0}, {1, 1, 1}}, scale, halo, params, interior, got);
+    CHECK(got == want);
+  }
+}
+
 TEST_CASE("a tile of nothing closes to nothing and a full one stays full on each backend", "[quick][backend]") {
   const VoxelBox interior{{-64, 3, 5}, {64, 21, 30}};
   ScaleLattice scale;

@@ -62,6 +62,7 @@ struct Reader {
     return std::uint32_t(in.number(4));
   }
   void header();
+  void orientation(std::uint64_t bytes);
   void exact();
   void batch(std::size_t offset);
   void record(Cursor& heads, Cursor& data, const std::int32_t* first, const std::int32_t* last, bool is_first,
@@ -75,7 +76,8 @@ void Reader::header() {
   require(in.text(8) == "BPVS\r\n\x1a\n", "magic");
   require(in.number(2) == 1, "version");
   const std::uint64_t flags = in.number(2);
-  require(flags <= 7 && flags % 2 + flags / 4 <= 1, "flags");
+  require(flags <= 15 && flags % 2 + flags / 4 % 2 <= 1, "flags");
+  const bool oriented = flags / 8 == 1;
   out.has_closing = flags % 2 == 1;
   out.fill = int(in.number(1));
   out.element = int(in.number(1));
@@ -108,16 +110,49 @@ void Reader::header() {
     require(at >= 64.0 * out.box[i % 3] && at <= 64.0 * out.box[i % 3 + 3], "bounds beyond the box");
   }
   const std::uint64_t s = in.number(4), p = in.number(4);
-  require(
-      s <= 1u << 22 && p >= 2 && p <= 1u << 20 && (s > 0) == (out.has_closing || flags / 4 == 1) && size >= 136 + s + p,
-      "sizes");
-  const std::uint64_t f = size - 136 - s - p;
+  require(s <= 1u << 22 && p >= 2 && p <= 1u << 20 && (s > 0) == (out.has_closing || flags / 4 % 2 == 1) &&
+              size >= 136 + s + p,
+          "sizes");
+  std::uint64_t f = size - 136 - s - p, o = 0;
+  if (oriented) {
+    require(s > 0 && (!out.has_closing || out.element == 1) && f >= 36, "orientation");
+    Cursor last{in.file, start + size - 12};
+    require(last.at <= in.file.size(), "truncated");
+    o = last.number(4);
+    require(o >= 32 && o + 4 <= f, "orientation size");
+    f -= o + 4;
+  }
   require(flags / 2 % 2 == 1 ? f >= 2 && f <= 1u << 20 : f == 0, "scene files");
   out.scale = in.text(s);
   out.provenance = in.text(p);
   out.scene = in.text(f);
+  if (oriented) orientation(o);
   const std::size_t hashed = in.at - start;
   require(in.number(8) == XXH3_64bits(&in.file[start], hashed), "header hash");
+}
+
+void Reader::orientation(std::uint64_t bytes) {
+  const std::uint64_t edge = in.number(4);
+  require(edge >= 8 && edge % 8 == 0 && edge <= 1u << 20, "orientation cell");
+  for (int i = 0; i < 3; ++i) require(std::abs(std::int64_t(in.i32())) <= 1 << 28, "orientation origin");
+  std::uint64_t cells = 1;
+  for (int i = 0; i < 3; ++i) {
+    const std::uint64_t n = in.number(4);
+    require(n >= 1 && n <= 1u << 18 && cells * n <= 1u << 18, "orientation cells");
+    cells *= n;
+  }
+  const std::uint64_t n = in.number(4);
+  require(n >= 1 && n <= 1u << 16 && bytes == 32 + 8 * n + 2 * cells, "orientation size");
+  for (std::uint64_t i = 0; i < n; ++i) {
+    std::int64_t square = 0;
+    for (int k = 0; k < 4; ++k) {
+      const auto part = std::int64_t(std::int16_t(in.number(2)));
+      square += part * part;
+    }
+    require(square >= 1 << 27, "quaternion");
+  }
+  for (std::uint64_t i = 0; i < cells; ++i) require(in.number(2) < n, "orientation of a cell");
+  require(in.number(4) == bytes, "orientation size");
 }
 
 /// A product of whole numbers that must fit the 53 bits of a double: of 1/64 voxels, and of the voxel's mantissa.

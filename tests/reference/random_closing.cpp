@@ -146,4 +146,24 @@ RotationLattice random_rotations(Random& random, const VoxelBox& box) {
   return r;
 }
 
+OrientationField random_orientation(Random& random, const VoxelBox& box) {
+  OrientationField f;
+  f.cell_vox = random.one_in(2) ? 8 : 16;
+  for (int axis = 0; axis < 3; ++axis) {
+    f.origin[axis] = floor_div(box.min[axis], f.cell_vox) + (random.one_in(4) ? 1 : 0);
+    f.size[axis] = std::max(1, ceil_div(box.max[axis], f.cell_vox) - f.origin[axis]);
+  }
+  const std::int32_t count = f.size.x * f.size.y * f.size.z, kind = random.between(0, 6);
+  for (std::int32_t i = kind < 3 ? 1 : random.between(2, 9); i > 0; --i) {
+    const std::int32_t finest = kind == 0 ? 1 : 12000;  // 1: near a turn of the cube onto itself
+    const auto part = [&] { return std::int16_t(random.between(-finest, finest) * (12000 / finest)); };
+    FixedQuaternion q{std::int16_t(16000), part(), part(), part()};
+    if (kind == 1 || kind >= 5) q.x = 0, (kind == 6 ? q.z : q.y) = 0;  // about y or z alone
+    f.rotations.push_back(q);
+  }
+  for (std::int32_t i = 0; i < count; ++i)
+    f.cells.push_back(std::uint16_t(random.between(0, std::int32_t(f.rotations.size()) - 1)));
+  return f;
+}
+
 }  // namespace bp::reference

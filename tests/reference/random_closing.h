@@ -32,6 +32,9 @@ class Random {
 /// Rotations for all voxels of `box`: none, near a turn by 90 or 120 degrees, one for all, or one for each cell.
 [[nodiscard]] RotationLattice random_rotations(Random& random, const VoxelBox& box);
 
+/// The same as a field: cells of 8 or 16 voxels, over all of `box` or a part of it.
+[[nodiscard]] OrientationField random_orientation(Random& random, const VoxelBox& box);
+
 /// Base, boxes and strokes around `box` in scene units of one voxel; at most `largest` voxels.
 [[nodiscard]] ScaleField random_field(Random& random, const VoxelBox& box, double largest);
 

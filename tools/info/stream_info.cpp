@@ -69,6 +69,9 @@ std::string stream_text(const StreamHeader& h, const StreamTotals& t, const std:
   s += fmt::format("fill        {}\n", name_of(h.fill));
   if (h.has_closing) s += fmt::format("element     {}\n", name_of(h.element));
   if (h.has_closing || h.has_field) s += fmt::format("scale       {}\n", scale_text(h.scale));
+  if (!h.orientation.empty())
+    s += fmt::format("orientation {} rotation{}, cells of {} voxels\n", h.orientation.rotations.size(),
+                     h.orientation.rotations.size() == 1 ? "" : "s", h.orientation.cell_vox);
   for (const Provenance& p : h.provenance) s += fmt::format("made by     {} {} {}\n", p.tool, p.version, p.options);
   for (const SceneFiles::File& file : h.scene.files)
     s += fmt::format("scene file  {}, {}\n", file.name, size_text(file.bytes));
@@ -91,6 +94,8 @@ Json stream_json(const StreamHeader& h, const StreamTotals& t) {
   j["fill"] = name_of(h.fill);
   if (h.has_closing) j["element"] = name_of(h.element);
   if (h.has_closing || h.has_field) j["scale"] = Json::parse(to_json(h.scale));
+  if (!h.orientation.empty())
+    j["orientation"] = {{"rotations", h.orientation.rotations.size()}, {"cell_voxels", h.orientation.cell_vox}};
   j["layers"] = Json::object();
   for (int layer = 0; layer < layer_count(h); ++layer) {
     const LayerTotals& l = t.layers[std::size_t(layer)];

@@ -5,7 +5,7 @@
 #include "lib/core/error.h"
 #include "lib/core/vec3.h"
 #include "lib/volume/cell_boxes.h"
-#include "tools/run/scene_files.h"
+#include "tools/run/read_again.h"
 
 namespace bp {
 
@@ -85,33 +85,13 @@ class TouchedCells {
   Bounds3d bounds_;  // of all triangles
 };
 
-/// Else it would be cut into cells without an end.
-void check_within(const TriangleD& t, const Bounds3d& bounds, const std::string& name) {
-  for (const Vec3d& p : t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!(p[i] >= bounds.min[i] && p[i] <= bounds.max[i]))
-        fail(ErrorCode::bad_input, "{}: has changed since the stream was made; run bpvox again", name);
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<Bounds3d> part_boxes(const SceneFiles& scene, const Bounds3d& bounds, const std::string& pattern,
                                  SceneOptions options) {
-  if (const auto fault = fault_of(scene))
-    fail(ErrorCode::bad_input, "{}; {}", fault->fact,
-         fault->changed ? "run bpvox again" : "give bpvox a file that stays");
-  options.format = scene.format;
   options.parts = pattern;
   TouchedCells cells(bounds, std::max(bounds.diagonal() / kCells, 1e-300));
-  const auto source = open_scenes(names_of(scene), options);
-  for (std::vector<TriangleD> chunk; source->read(chunk);) {
-    for (const TriangleD& t : chunk) {
-      check_within(t, bounds, source->name());
-      cells.add(t);
-    }
-  }
+  read_again(scene, bounds, options, [&](const TriangleD& t) { cells.add(t); });
   if (cells.empty())
     fail(ErrorCode::bad_input, "no part of the scene has a name or a material that fits '{}'", pattern);
   return cells.boxes();

@@ -15,8 +15,9 @@
 
 namespace bp {
 
-ScalePlan read_rules(const std::string& file, const StreamHeader& header, const SceneOptions& scene) {
+ScalePlan read_rules(const std::string& file, const StreamHeader& header, const SceneOptions& scene, bool may_orient) {
   RuleContext context;
+  context.may_orient = may_orient;
   context.diagonal = header.bounds.empty() ? 0 : header.bounds.diagonal();
   context.voxel = header.frame.voxel;
   context.parts = [&](const std::string& pattern) { return part_boxes(header.scene, header.bounds, pattern, scene); };
@@ -32,8 +33,8 @@ RuledSource::RuledSource(BrickSource& source, const PassContext& context, std::u
   scene_.document = document_budget(memory, kVoxelProgram, 2);
 }
 
-ScalePlan RuledSource::read_rules(const std::string& file) {
-  ScalePlan plan = bp::read_rules(file, header(), scene_);
+ScalePlan RuledSource::read_rules(const std::string& file, bool may_orient) {
+  ScalePlan plan = bp::read_rules(file, header(), scene_, may_orient);
   const auto by_shape = [](const RuleEntry& entry) { return entry.shape.has_value(); };
   if (std::none_of(plan.entries.begin(), plan.entries.end(), by_shape)) return plan;
   if (header().fill == FillMode::inside)

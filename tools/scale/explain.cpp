@@ -6,6 +6,7 @@
 
 #include "lib/core/error.h"
 #include "tools/notes/scale_notes.h"
+#include "tools/scale/orientation_rules.h"
 
 namespace bp {
 
@@ -31,7 +32,8 @@ std::string entry_text(const ScalePlan& plan, std::size_t last, std::size_t boxe
 
 }  // namespace
 
-std::string explain_scale(const ScalePlan& plan, const StreamHeader& header, const Vec3d& point) {
+std::string explain_point(const ScalePlan& plan, const OrientationField& orientation, const StreamHeader& header,
+                          const Vec3d& point) {
   const VoxelCoord voxel = voxel_of(header.frame, point);
   const VoxelBox one{voxel, {voxel.x + 1, voxel.y + 1, voxel.z + 1}};
   const double sampled = double(plan.field.sample(header.frame, one).at(voxel)) / kScaleOne;
@@ -51,6 +53,8 @@ std::string explain_scale(const ScalePlan& plan, const StreamHeader& header, con
     next = end;
   }
   if (idle > 0) text += fmt::format("{} rule{} nothing here\n", idle, idle == 1 ? " changes" : "s change");
+  if (!orientation.empty())
+    text += "cube " + orientation_text(orientation.rotations[orientation.index_at(voxel)]) + "\n";
   return text;
 }
 

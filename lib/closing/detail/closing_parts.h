@@ -3,6 +3,7 @@
 #include "lib/closing/detail/ball_transform.h"
 #include "lib/closing/detail/chessboard.h"
 #include "lib/closing/detail/cube_dilation.h"
+#include "lib/closing/detail/oriented_dilation.h"
 
 namespace bp {
 
@@ -12,6 +13,7 @@ struct ClosingScratch::Parts {
   detail::ColumnBits seeds, contour, band;  ///< G or Dc, by columns; D minus G, by columns
   detail::CubeDilation cube;
   detail::VaryingCubeDilation varying;
+  detail::OrientedDilation oriented;
   detail::BallTransform ball;
 };
 

@@ -25,7 +25,7 @@ constexpr std::int32_t kMaxTileVox = 512;    // beyond, halos cost little and ti
 
 /// Bytes that closing one tile of a grid takes, every voxel of tile and halo in play: the boxes of close_tile, and as
 /// much again as the tile itself for the components of its empty voxels.
-double tile_bytes(const VoxelCoord& grid, std::int32_t tile, const Halo& halo) {
+double tile_bytes(const VoxelCoord& grid, std::int32_t tile, const Halo& halo, bool turned) {
   const auto box_bytes = [&](std::int32_t margin) {
     double bytes = 1.0 / 8;
     for (int axis = 0; axis < 3; ++axis)
@@ -36,17 +36,18 @@ double tile_bytes(const VoxelCoord& grid, std::int32_t tile, const Halo& halo) {
   const double side = std::min(double(tile) + 2.0 * halo.total_vox(), double(std::max({grid.x, grid.y, grid.z})));
   const double distances = 6 * (side + 160) * (side + 2);  // three slices of a varying cube dilation
   constexpr double kTransform = 8 << 20;                   // a block of rows of the ball transform
-  return 3 * solid + 4 * dilation + 4 * core + distances + kTransform;
+  const double rows = turned ? 5 * dilation + 4 * (side + 160) * (side + 2) : 0;  // of turned cubes
+  return 3 * solid + 4 * dilation + 4 * core + distances + kTransform + rows;
 }
 
 /// The tile size that promises most: workers that fit in memory and find enough tiles, times the share of the voxels
 /// they read that are not halo.
 std::int32_t choose_tile(const VoxelCoord& grid, const Halo& halo, std::size_t workers, std::uint64_t memory_bytes,
-                         std::int32_t largest) {
+                         std::int32_t largest, bool turned) {
   std::int32_t best = kBrickEdge;
   double best_score = 0;
   for (std::int32_t tile = kBrickEdge; tile <= largest; tile += kBrickEdge) {
-    const double fit = std::floor(double(memory_bytes) / tile_bytes(grid, tile, halo));
+    const double fit = std::floor(double(memory_bytes) / tile_bytes(grid, tile, halo, turned));
     double count = 1;
     for (int axis = 0; axis < 3; ++axis) count *= std::ceil(double(grid[axis]) / tile);
     const double busy = std::min({double(workers), fit, std::max(1.0, count / 3)});
@@ -72,7 +73,7 @@ class StreamCloser {
         options_(options),
         header_(source.header()),
         axis_(header_.slab_axis),
-        widest_(widest_halo(scale.upper_bound(header_.frame))),
+        widest_(widest_halo(scale.upper_bound(header_.frame), params)),
         solid_(options.context.make_shelf()),
         closing_(options.context.make_shelf()) {
     lay_tiles(backends);
@@ -142,18 +143,19 @@ class StreamCloser {
 };
 
 void StreamCloser::lay_tiles(Backends& backends) {
-  const VoxelBox grid = voxels_of(closing_bricks(header_, scale_));
+  const VoxelBox grid = voxels_of(closing_bricks(header_, scale_, params_));
   const MemoryShare& memory = options_.context.memory;
+  const bool turned = params_.turned();
   // A GPU has few backends: while they compute, the other threads label and shelve what came back.
   const std::size_t workers = std::max(backends.size(), std::size_t(thread_count()));
   // And its halos are cheap, so that small tiles keep all busy.
   const bool small = backends.size() < workers && widest_.total_vox() <= kMaxTileVox / 8;
   const std::int32_t edge = options_.tile_vox != 0 ? options_.tile_vox
                                                    : choose_tile(grid.size(), widest_, workers, memory.bytes,
-                                                                 small ? kMaxTileVox / 2 : kMaxTileVox);
+                                                                 small ? kMaxTileVox / 2 : kMaxTileVox, turned);
   if (edge < 0 || edge % kBrickEdge != 0)
     fail(ErrorCode::bad_argument, "a tile of {} voxels a side is no multiple of {}", edge, kBrickEdge);
-  const double bytes = tile_bytes(grid.size(), edge, widest_);
+  const double bytes = tile_bytes(grid.size(), edge, widest_, turned);
   if (bytes > double(memory.bytes)) {
     const auto needed = std::uint64_t(std::ceil(bytes));
     Remedies others{Remedy::larger_voxels, Remedy::smaller_scale};
@@ -318,9 +320,9 @@ void StreamCloser::emit(const SlabTiles& tiles) {
 
 }  // namespace
 
-BrickBox closing_bricks(const StreamHeader& header, const ScaleField& scale) {
+BrickBox closing_bricks(const StreamHeader& header, const ScaleField& scale, const ClosingParams& params) {
   if (header.bricks.empty()) return header.bricks;
-  const std::int32_t margin = ceil_div(widest_halo(scale.upper_bound(header.frame)).erosion_vox, kBrickEdge);
+  const std::int32_t margin = ceil_div(element_reach(scale.upper_bound(header.frame), params) + 1, kBrickEdge);
   const BrickBox grown = header.bricks.grown(margin);
   if (brick_box_fault(grown) != nullptr)
     fail(ErrorCode::bad_argument, {Remedy::larger_voxels}, "the closing leaves the grid of 2^31 voxels a side");

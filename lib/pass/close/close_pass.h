@@ -42,7 +42,8 @@ struct CloseCounts {
 /// Bricks that the closing of a stream can touch: the stream's own, grown by the largest scale and one more voxel, so
 /// that the outside surrounds it. Coordinates may become negative. Same longest axis. Throws bad_argument if a scale is
 /// out of range, or if the grid leaves the 32-bit voxel coordinates.
-[[nodiscard]] BrickBox closing_bricks(const StreamHeader& header, const ScaleField& scale);
+[[nodiscard]] BrickBox closing_bricks(const StreamHeader& header, const ScaleField& scale,
+                                      const ClosingParams& params = {});
 
 /// Reads `source` to its end (a closing layer in it is passed over: the closing is made from the solid layer) and
 /// writes both layers to `sink`; the caller calls finish(). The sink's header is the source's with bricks =

@@ -254,7 +254,7 @@ std::vector<ScaleRule> shape_rules(const StreamHeader& header, const BrickShelf&
 
 ScalePlan measured(const ScalePlan& plan, const StreamHeader& header, const BrickShelf& solid,
                    const MeasureOptions& options) {
-  ScalePlan out{plan.field, plan.entries};
+  ScalePlan out = plan;
   std::vector<ScaleRule>& rules = out.field.rules;
   rules.clear();
   auto next = plan.field.rules.begin();

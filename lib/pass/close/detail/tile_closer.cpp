@@ -19,13 +19,13 @@ std::vector<Backend*> first_of(Backends& backends, std::size_t at_work) {
 
 }  // namespace
 
-Halo widest_halo(Scale s) {
-  return {element_reach(s) + 1, element_reach(s)};
+Halo widest_halo(Scale s, const ClosingParams& params) {
+  return {element_reach(s) + 1, element_reach(s, params)};
 }
 
 TileCloser::TileCloser(const Input& input, BrickShelf& shelf, Backends& backends, std::size_t at_work)
     : input_(input),
-      widest_(widest_halo(input.scale.upper_bound(input.header.frame))),
+      widest_(widest_halo(input.scale.upper_bound(input.header.frame), input.params)),
       shelf_(shelf),
       backends_(first_of(backends, at_work)) {}
 
@@ -34,7 +34,7 @@ void TileCloser::flood(const VoxelBox& grid, std::int32_t tile_vox) {
 }
 
 Halo TileCloser::halo(const VoxelBox& tile) const {
-  return input_.scale.constant() ? widest_ : halo_of(tile, input_.scale, input_.header.frame);
+  return input_.scale.constant() ? widest_ : halo_of(tile, input_.scale, input_.header.frame, input_.params);
 }
 
 bool TileCloser::in_reach(const VoxelBox& tile, const Halo& halo) const {

@@ -25,7 +25,7 @@ class Stopwatch {
 };
 
 /// The halo of any tile where `s` is the largest scale.
-[[nodiscard]] Halo widest_halo(Scale s);
+[[nodiscard]] Halo widest_halo(Scale s, const ClosingParams& params);
 
 /// Closes the tiles of a grid one by one, and then fills what the closing encloses, over all tiles. close_stream() and
 /// close_cells() bring the tiles. Thread-safe, but for the constructor and resolve().

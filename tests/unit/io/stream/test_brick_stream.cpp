@@ -202,6 +202,31 @@ TEST_CASE("a scale field for a closing to come survives the stream, and needs it
   CHECK(without.scale == ScaleField{});
 }
 
+TEST_CASE("an orientation survives the stream, and needs a closing by cubes", "[quick][io][oriented]") {
+  StreamHeader header = random_header(5);
+  header.has_closing = false;
+  header.element = StructuringElement::cube;
+  header.has_field = true;
+  header.scale = {};
+  header.scale.base = 3 * header.frame.voxel;
+  header.orientation = {16, {-1, 0, 2}, {2, 1, 3}, {{}, {16000, 3000, -1, 200}}, {0, 1, 1, 0, 0, 1}};
+  CHECK(read_back(written(header, {})).header == header);
+  CHECK(reference::read_stream(written(header, {})).bricks.empty());
+  header.scene = {};
+  CHECK(read_back(written(header, {})).header == header);
+  CHECK(reference::read_stream(written(header, {})).bricks.empty());
+  header.has_field = false;
+  header.has_closing = true;
+  CHECK(read_back(written(header, {})).header == header);
+  header.has_closing = false;
+  CHECK(read_back(written(header, {})).header.orientation.empty());
+  header.has_field = true;
+  header.orientation.cells[3] = 2;
+  StreamFolder file;
+  OutputFile out(file.path(), false);
+  CHECK_THROWS_WITH(BrickWriter(out, header), ContainsSubstring("names a rotation that is not there"));
+}
+
 TEST_CASE("the checksum tells content from everything else", "[quick][io]") {
   StreamHeader header = random_header(3);
   header.bricks = {{0, 0, 0}, {3, 3, 3}};

@@ -153,7 +153,7 @@ TEST_CASE("a version, flag or value from the future is refused", "[quick][io]") 
   };
   CHECK(says(changed(8, 2), "byte 16: version 2 of the stream of voxels; this tool reads version 1"));
   CHECK(says(changed(10, 3), "scene files without their flag, or the flag without them"));
-  CHECK(says(changed(10, 9), "unknown flags 0x9"));
+  CHECK(says(changed(10, 17), "unknown flags 0x11"));
   CHECK(says(changed(10, 5), "a closing, and a scale field for a closing to come"));
   CHECK(says(changed(12, 4), "unknown fill mode 4"));
   CHECK(says(changed(13, 2), "unknown element 2"));

@@ -1,0 +1,76 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "lib/closing/detail/chessboard.h"
+#include "lib/closing/detail/cube_dilation.h"
+#include "lib/closing/detail/oriented_cube.h"
+#include "lib/closing/detail/row_tables.h"
+#include "lib/closing/detail/scale_row.h"
+
+/// Dilation by cubes that are turned, each voxel's by the rotation of its cell.
+namespace bp::detail {
+
+class OrientedDilation {
+ public:
+  /// Looks up the rotations over `region`. False if no cube is turned there: then this is a cube's dilation.
+  bool turns(const OrientationField& field, const VoxelBox& region);
+  /// Sets `out` (its box is kept, within the region) to the voxels whose turned cube holds a voxel of `solid`.
+  /// The largest cube along the axes that lies in the turned one decides for most voxels that are in, and the smallest
+  /// around it for those that are out. Between, rows of the turned cube are asked for, 64 x 8 voxels at once: some 10
+  /// cycles for each row of the cube in whose slice something lies. Where the scale varies in a cell, the least and the
+  /// largest are asked for, and voxels on which they disagree one by one.
+  void run(const BitBox& solid, const ScaleLattice& scale, const OrientationField& field, BitBox& out);
+
+ private:
+  static constexpr std::int32_t kEdge = RowTables::kRows;  ///< of a block: the cells of the lattice
+
+  /// Voxels of a block by one element: least and largest scale, rounded outwards where they differ.
+  struct Part {
+    std::uint64_t mask;  ///< of x
+    std::uint16_t rotation;
+    const RowTables::Element *least, *most;
+  };
+  /// 64 x 8 x 8 voxels, a cell high and wide.
+  struct Block {
+    VoxelCoord first;
+    std::size_t part, parts;
+    std::size_t open;          ///< of its kEdge^2 words in open_: y fastest
+    std::size_t maybe;         ///< of words in maybe_, if the scale varies
+    std::uint32_t slices = 0;  ///< that have open voxels
+    std::int32_t reach = 0;    ///< of its elements
+    bool varies = false;
+  };
+
+  void find_kept_axis(const BitBox& solid, const ScaleRange& range, const VoxelBox& region);
+  void bound(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
+  void list_blocks(const ScaleLattice& scale, const OrientationField& field, const BitBox& out);
+  bool take_open(Block& block, const BitBox& out);
+  void add_parts(Block& block, const ScaleLattice& scale, const OrientationField& field);
+  const RowTables::Element* element(std::uint16_t rotation, Scale s);
+  void sweep(const BitBox& solid);
+  void ask(Block& block, std::int32_t dz_of_first);
+  std::uint64_t ask(const Block& block, const Part& part, int slice, std::int32_t dz);
+  void finish(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
+  void decide(const Block& block, const BitBox& solid, const ScaleLattice& scale);
+  [[nodiscard]] bool holds(const Part& part, const BitBox& solid, VoxelCoord p, Scale s) const;
+
+  std::vector<Rotation> rotations_;        ///< different ones of the region
+  std::vector<std::uint16_t> of_palette_;  ///< which of them a rotation of the field is
+  CubeBounds widest_;
+  BitBox outer_;
+  int kept_ = -1;  ///< an axis about which all cubes are turned: y, z, or none
+  BitBox along_;   ///< solid, dilated along it
+  RowTables tables_;
+  std::map<std::pair<std::uint16_t, Scale>, std::unique_ptr<RowTables::Element>> elements_;
+  std::vector<Part> parts_;
+  std::vector<Block> blocks_;  ///< by z, then y, then x
+  std::vector<std::uint64_t> open_, maybe_;
+  std::int32_t reach_ = 0, longest_ = 0;
+  CubeDilation cube_;
+  VaryingCubeDilation varying_;
+};
+
+}  // namespace bp::detail

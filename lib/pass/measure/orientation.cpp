@@ -1,0 +1,220 @@
+#include "lib/pass/measure/orientation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
+#include "lib/pass/measure/detail/frame_smoothing.h"
+
+namespace bp {
+
+namespace {
+
+using detail::Frame;
+using detail::FrameLattice;
+using detail::FrameTensor;
+
+constexpr std::int32_t kMostCells = 32;            ///< along an axis
+constexpr double kPlaceWeight = 1000;              ///< of a frame at a place; 1: a cell's side full of surface
+constexpr double kAlike = 0.99984769515639123915;  ///< cosine of a degree
+
+/// The smallest cells that will do.
+std::int32_t cell_edge(const VoxelBox& voxels, double scale_vox) {
+  std::int32_t edge = kScaleStep;
+  const auto too_many = [&] {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (ceil_div(voxels.max[axis], edge) - floor_div(voxels.min[axis], edge) > kMostCells) return true;
+    }
+    return false;
+  };
+  while (edge < scale_vox || too_many()) edge *= 2;
+  return edge;
+}
+
+FixedQuaternion fixed(const std::array<double, 4>& q) {
+  const auto part = [](double x) { return std::int16_t(std::lround(x * (1 << kRotationBits))); };
+  return {part(q[0]), part(q[1]), part(q[2]), part(q[3])};
+}
+
+constexpr std::uint16_t kNotYet = 0xffff;
+
+/// Rotations that the cells around a cell have got, in a fixed order.
+std::vector<std::uint16_t> beside(const OrientationField& field, std::size_t cell) {
+  const auto i = std::int64_t(cell);
+  const std::int64_t nx = field.size.x, ny = field.size.y, x = i % nx, y = i / nx % ny, z = i / nx / ny;
+  std::vector<std::uint16_t> found;
+  for (std::int64_t c = std::max<std::int64_t>(z - 1, 0); c <= std::min<std::int64_t>(z + 1, field.size.z - 1); ++c) {
+    for (std::int64_t b = std::max<std::int64_t>(y - 1, 0); b <= std::min(y + 1, ny - 1); ++b) {
+      for (std::int64_t a = std::max<std::int64_t>(x - 1, 0); a <= std::min(x + 1, nx - 1); ++a) {
+        const std::uint16_t there = field.cells[std::size_t((c * ny + b) * nx + a)];
+        if (there != kNotYet) found.push_back(there);
+      }
+    }
+  }
+  return found;
+}
+
+/// A little of the whole scene, where a cell has walls of one direction only.
+void add_mean(const FrameLattice& lattice, std::vector<FrameTensor>& tensors) {
+  constexpr double kShare = 0.02;
+  FrameTensor mean;
+  double weights = 0;
+  for (std::size_t i = 0; i < lattice.count(); ++i) {
+    weights += lattice.weight[i];
+    for (std::size_t k = 0; k < FrameTensor::kParts; ++k) mean.m[k] += lattice.weight[i] * lattice.known[i].m[k];
+  }
+  if (!(weights > 0)) return;
+  for (FrameTensor& t : tensors) {
+    for (std::size_t k = 0; k < FrameTensor::kParts; ++k) t.m[k] += kShare * mean.m[k] / weights;
+  }
+}
+
+/// An axis within a degree of one of the grid becomes that: what stands upright is closed faster.
+Frame upright(Frame frame) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t g = 0; g < 3; ++g) {
+      if (std::abs(frame[i][g]) < kAlike) continue;
+      Vec3d &axis = frame[i], &next = frame[(i + 1) % 3];
+      const double sign = axis[g] < 0 ? -1 : 1;
+      axis = {};
+      axis[g] = sign;
+      next[g] = 0;
+      next = (1 / length(next)) * next;
+      frame[(i + 2) % 3] = cross(axis, next);
+      return frame;
+    }
+  }
+  return frame;
+}
+
+/// Gives cells of like frames one rotation: that of the cell with the largest weight.
+class Palette {
+ public:
+  Palette() : frames_{{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}}, rotations_{FixedQuaternion{}} {}
+
+  /// One of the first rotations, one of those `beside` it, or a new one.
+  std::uint16_t index(const Frame& frame, const std::vector<std::uint16_t>& beside) {
+    constexpr std::size_t kFirst = 64;
+    for (std::size_t i = 0; i < std::min(frames_.size(), kFirst); ++i) {
+      if (detail::likeness(frame, frames_[i]) >= kAlike) return std::uint16_t(i);
+    }
+    for (const std::uint16_t i : beside) {
+      if (detail::likeness(frame, frames_[i]) >= kAlike) return i;
+    }
+    const FixedQuaternion q = fixed(detail::least_turn(frame));
+    frames_.push_back(frame);
+    rotations_.push_back(q);
+    return std::uint16_t(rotations_.size() - 1);
+  }
+  [[nodiscard]] const std::vector<FixedQuaternion>& rotations() const { return rotations_; }
+
+ private:
+  std::vector<Frame> frames_;
+  std::vector<FixedQuaternion> rotations_;
+};
+
+}  // namespace
+
+struct OrientationMaker::Sums {
+  GridFrame frame;
+  OrientationField field;  ///< its lattice
+  FrameLattice lattice;    ///< known: sums, until made
+
+  [[nodiscard]] std::size_t cell_of(const Vec3d& p) const {
+    const Vec3d at = frame.to_voxels(p);
+    std::size_t index = 0;
+    for (int axis = 2; axis >= 0; --axis) {
+      const double cell = std::floor(at[std::size_t(axis)] / field.cell_vox) - field.origin[axis];
+      index = index * std::size_t(field.size[axis]) + std::size_t(std::clamp(cell, 0.0, field.size[axis] - 1.0));
+    }
+    return index;
+  }
+};
+
+OrientationMaker::OrientationMaker(const StreamHeader& header, double scale_world) : sums_(std::make_unique<Sums>()) {
+  if (header.bounds.empty()) fail(ErrorCode::bad_input, "the stream has no scene whose orientation could be made");
+  const VoxelBox voxels = voxel_bounds(header.frame, header.bounds);
+  sums_->frame = header.frame;
+  OrientationField& f = sums_->field;
+  f.cell_vox = cell_edge(voxels, scale_world / header.frame.voxel);
+  for (int axis = 0; axis < 3; ++axis) {
+    f.origin[axis] = floor_div(voxels.min[axis], f.cell_vox);
+    f.size[axis] = ceil_div(voxels.max[axis], f.cell_vox) - f.origin[axis];
+    sums_->lattice.size[std::size_t(axis)] = f.size[axis];
+  }
+  sums_->lattice.known.resize(sums_->lattice.count());
+  sums_->lattice.weight.resize(sums_->lattice.count());
+}
+
+OrientationMaker::~OrientationMaker() = default;
+
+void OrientationMaker::add(const TriangleD& triangle) {
+  const double edge = sums_->field.cell_vox * sums_->frame.voxel;
+  const Vec3d normal = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+  const double twice = length(normal);
+  if (!(twice > 0) || !std::isfinite(twice)) return;
+  FrameTensor whole;
+  whole.add((1 / twice) * normal, 1);
+  struct Part {
+    TriangleD corners;
+    double weight;  ///< area, in sides of cells
+  };
+  std::vector<Part> left{{triangle, twice / 2 / (edge * edge)}};
+  while (!left.empty()) {
+    const auto [t, weight] = left.back();
+    left.pop_back();
+    std::size_t k = 0;
+    const auto side = [&](std::size_t i) { return length(t[(i + 1) % 3] - t[i]); };
+    for (std::size_t i = 1; i < 3; ++i) {
+      if (side(i) > side(k)) k = i;
+    }
+    if (side(k) > edge) {
+      const Vec3d middle = 0.5 * (t[k] + t[(k + 1) % 3]);
+      left.push_back({{t[k], middle, t[(k + 2) % 3]}, weight / 2});
+      left.push_back({{middle, t[(k + 1) % 3], t[(k + 2) % 3]}, weight / 2});
+      continue;
+    }
+    const std::size_t cell = sums_->cell_of((1.0 / 3) * (t[0] + t[1] + t[2]));
+    sums_->lattice.weight[cell] += weight;
+    for (std::size_t i = 0; i < FrameTensor::kParts; ++i) sums_->lattice.known[cell].m[i] += weight * whole.m[i];
+  }
+}
+
+void OrientationMaker::add(const Vec3d& at, const std::array<Vec3d, 3>& axes) {
+  const std::size_t cell = sums_->cell_of(at);
+  sums_->lattice.places = true;
+  sums_->lattice.known[cell].add(axes, kPlaceWeight);
+  sums_->lattice.weight[cell] += kPlaceWeight;
+}
+
+OrientationField OrientationMaker::make() const {
+  FrameLattice lattice = sums_->lattice;
+  for (std::size_t i = 0; i < lattice.count(); ++i) {
+    if (!(lattice.weight[i] > 0)) continue;
+    for (double& part : lattice.known[i].m) part /= lattice.weight[i];
+  }
+  std::vector<FrameTensor> tensors = detail::smoothed(lattice);
+  if (!lattice.places) add_mean(lattice, tensors);
+  std::vector<Frame> frames(lattice.count());
+  parallel_for(std::int64_t(lattice.count()),
+               [&](std::int64_t i) { frames[std::size_t(i)] = upright(detail::best_frame(tensors[std::size_t(i)])); });
+  std::vector<std::size_t> order(lattice.count());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return lattice.weight[a] > lattice.weight[b]; });
+  Palette palette;
+  OrientationField field = sums_->field;
+  field.cells.assign(lattice.count(), kNotYet);
+  for (const std::size_t i : order) field.cells[i] = palette.index(frames[i], beside(field, i));
+  field.rotations = palette.rotations();
+  if (std::find(field.cells.begin(), field.cells.end(), 0) == field.cells.end()) {  // all are turned
+    field.rotations.erase(field.rotations.begin());
+    for (std::uint16_t& cell : field.cells) --cell;
+  }
+  return field;
+}
+
+}  // namespace bp

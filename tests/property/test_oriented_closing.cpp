@@ -1,0 +1,155 @@
+#include <algorithm>
+
+#include "lib/closing/closing_scratch.h"
+#include "lib/closing/detail/oriented_cube.h"
+#include "tests/catch.h"
+#include "tests/reference/closing.h"
+#include "tests/reference/random_closing.h"
+
+using namespace bp;
+using reference::Random;
+
+namespace {
+
+Halo ample(Scale largest) {
+  return {largest / kScaleOne + 2, oriented_reach(largest) + 1};
+}
+
+BitBox close_box(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const OrientationField& orientation,
+                 const VoxelBox& box) {
+  static ClosingScratch scratch;  // kept on purpose: what a call leaves behind must not matter to the next
+  BitBox closed;
+  close_tile(solid, scale, halo, {StructuringElement::cube, &orientation}, box, closed, scratch);
+  return closed;
+}
+
+BitBox cut(const BitBox& solid, const VoxelBox& box) {
+  BitBox out(box);
+  copy_voxels(solid, out);
+  for (std::int32_t z = out.box().min.z; z < out.box().max.z; ++z) {
+    for (std::int32_t y = out.box().min.y; y < out.box().max.y; ++y) {
+      for (std::int32_t x = out.box().min.x; x < out.box().max.x; ++x) {
+        const std::int32_t i = x - out.box().min.x;
+        if (!box.contains(VoxelCoord{x, y, z})) out.row(y, z)[i >> 6] &= ~(std::uint64_t(1) << (i & 63));
+      }
+    }
+  }
+  return out;
+}
+
+void compare_with_definition(std::uint64_t seed, std::int32_t longest, std::int32_t largest_vox) {
+  Random random(seed);
+  const VoxelBox grid = reference::random_box(random, longest);
+  const BitBox solid = reference::random_solid(random, grid);
+  const auto largest = Scale(random.between(0, largest_vox * kScaleOne));
+  const VoxelBox box = grid.grown(random.between(0, 3)), seen = box.grown(largest / kScaleOne + 3);
+  const ScaleLattice scale = reference::random_lattice(random, seen, largest);
+  const OrientationField orientation = reference::random_orientation(random, seen);
+  REQUIRE(orientation_fault(orientation) == nullptr);
+  CAPTURE(seed, largest, scale.constant(), orientation.rotations.size());
+  CHECK(close_box(solid, scale, ample(largest), orientation, box) ==
+        reference::close_oriented(solid, scale, sample(orientation, seen), box));
+}
+
+/// One random field, closed whole and in tiles of one random size, each with its own halo and nothing else. Returns the
+/// tiles that differ.
+int compare_tiles(std::uint64_t seed) {
+  Random random(seed);
+  const VoxelBox grid = reference::random_box(random, 80);
+  const BitBox solid = reference::random_solid(random, grid);
+  const GridFrame frame;
+  const ScaleField field = reference::random_field(random, grid, 9);
+  const VoxelBox box = grid.grown(10);
+  const OrientationField orientation = reference::random_orientation(random, box);
+  const Halo all = ample(field.upper_bound(frame));
+  const BitBox whole = close_box(solid, field.sample(frame, box.grown(all.total_vox())), all, orientation, box);
+  const VoxelCoord side{random.between(5, 70), random.between(5, 40), random.between(5, 40)};
+  int wrong = 0;
+  for (std::int32_t z = box.min.z; z < box.max.z; z += side.z) {
+    for (std::int32_t y = box.min.y; y < box.max.y; y += side.y) {
+      for (std::int32_t x = box.min.x; x < box.max.x; x += side.x) {
+        const VoxelBox tile = intersect({{x, y, z}, VoxelCoord{x, y, z} + side}, box);
+        const Halo halo = halo_of(tile, field, frame, {StructuringElement::cube, &orientation});
+        CHECK(halo.dilation_vox <= all.dilation_vox);
+        const BitBox part = cut(solid, tile.grown(halo.total_vox()));
+        const BitBox closed = close_box(part, field.sample(frame, part.box()), halo, orientation, tile);
+        wrong += cut(closed, tile) == cut(whole, tile) ? 0 : 1;
+      }
+    }
+  }
+  return wrong;
+}
+
+OrientationField one_rotation(const FixedQuaternion& q) {
+  return {64, {}, {1, 1, 1}, {q}, {0}};
+}
+
+}  // namespace
+
+TEST_CASE("the closing by turned cubes equals its definition on small grids", "[quick][closing][oriented]") {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) compare_with_definition(seed, 9, 3);
+}
+
+TEST_CASE("the closing by turned cubes equals its definition on many random grids", "[property][closing][oriented]") {
+  for (std::uint64_t seed = 1000; seed < 1600; ++seed) compare_with_definition(seed, 15, 4);
+  for (std::uint64_t seed = 3000; seed < 3030; ++seed) compare_with_definition(seed, 6, 9);
+}
+
+TEST_CASE("turned cubes close tile by tile as on the whole grid", "[quick][closing][oriented]") {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    CAPTURE(seed);
+    CHECK(compare_tiles(seed) == 0);
+  }
+}
+
+TEST_CASE("turned cubes close tile by tile as on the whole grid for many fields", "[property][closing][oriented]") {
+  for (std::uint64_t seed = 100; seed < 250; ++seed) {
+    CAPTURE(seed);
+    CHECK(compare_tiles(seed) == 0);
+  }
+}
+
+TEST_CASE("the 24 turns of a cube onto itself close like the cube", "[quick][closing][oriented]") {
+  constexpr std::int16_t k = 1 << kRotationBits, h = k / 2;
+  Random random(5);
+  const VoxelBox box = reference::random_box(random, 40);
+  const BitBox solid = reference::random_solid(random, box);
+  const ScaleLattice scale = reference::random_lattice(random, box.grown(12), 6 * kScaleOne);
+  ClosingScratch scratch;
+  BitBox cube;
+  close_tile(solid, scale, ample(scale.max), {}, box, cube, scratch);
+  for (const FixedQuaternion q : {FixedQuaternion{}, FixedQuaternion{0, k, 0, 0}, FixedQuaternion{k, 0, 0, k},
+                                  FixedQuaternion{h, h, -h, h}, FixedQuaternion{0, k, -k, 0}}) {
+    const OrientationField field = one_rotation(q);
+    CHECK(canonical(rotation_of(q)) == Rotation{});
+    CHECK(oriented_reach(field, 100) == cube_radius(100));
+    CHECK(close_box(solid, scale, ample(scale.max), field, box) == cube);
+  }
+}
+
+TEST_CASE("boxes around and inside a turned cube hold for every rotation and scale", "[quick][closing][oriented]") {
+  Random random(9);
+  for (int i = 0; i < 300; ++i) {
+    const auto part = [&] { return std::int16_t(random.between(-16000, 16000)); };
+    const Rotation r = canonical(rotation_of(FixedQuaternion{12000, part(), part(), part()}));
+    const auto s = Scale(random.between(0, 12 * kScaleOne));
+    const detail::CubeBounds bounds = detail::cube_bounds(r);
+    const detail::CubeRows rows(r, s);
+    const std::int32_t inner = bounds.inner(s) / kScaleOne, outer = bounds.reach(s), far = oriented_reach(s) + 1;
+    CHECK(outer <= oriented_reach(s));
+    std::int64_t held = 0, in_rows = 0;
+    for (std::int32_t z = -far; z <= far; ++z) {
+      for (std::int32_t y = -far; y <= far; ++y) {
+        for (std::int32_t x = -far; x <= far; ++x) {
+          const bool in = in_oriented_cube(r, s, x, y, z);
+          const std::int32_t away = std::max({std::abs(x), std::abs(y), std::abs(z)});
+          held += in ? 1 : 0;
+          if ((away <= inner && !in) || (away > outer && in)) FAIL_CHECK("rotation " << i << ", scale " << s);
+        }
+      }
+    }
+    for (const auto* row = rows.begin(-rows.reach()); row < rows.begin(rows.reach() + 1); ++row)
+      in_rows += row->last - row->first + 1;
+    CHECK(held == in_rows);
+  }
+}
