@@ -50,7 +50,7 @@ std::size_t OrientationField::index_at(VoxelCoord p) const {
 }
 
 const char* orientation_fault(const OrientationField& f) {
-  if (f.cell_vox < kScaleStep || f.cell_vox % kScaleStep != 0 || f.cell_vox > 1 << 20)
+  if (f.cell_vox < kScaleStep || f.cell_vox % kScaleStep != 0 || f.cell_vox > 1 << 26)
     return "the cells of the orientation are no multiple of 8 voxels";
   std::uint64_t count = 1;
   for (int axis = 0; axis < 3; ++axis) {

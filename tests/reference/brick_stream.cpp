@@ -133,7 +133,7 @@ void Reader::header() {
 
 void Reader::orientation(std::uint64_t bytes) {
   const std::uint64_t edge = in.number(4);
-  require(edge >= 8 && edge % 8 == 0 && edge <= 1u << 20, "orientation cell");
+  require(edge >= 8 && edge % 8 == 0 && edge <= 1u << 26, "orientation cell");
   for (int i = 0; i < 3; ++i) require(std::abs(std::int64_t(in.i32())) <= 1 << 28, "orientation origin");
   std::uint64_t cells = 1;
   for (int i = 0; i < 3; ++i) {

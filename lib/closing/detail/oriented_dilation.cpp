@@ -79,12 +79,15 @@ bool OrientedDilation::turns(const OrientationField& field, const VoxelBox& regi
   of_palette_.assign(field.rotations.size(), kUnknown);
   widest_ = CubeBounds{};
   const std::int32_t edge = field.cell_vox;
-  const auto first = [&](int axis) { return floor_div(region.min[axis], edge) * edge; };
-  VoxelCoord p;
-  for (p.z = first(2); p.z < region.max.z; p.z += edge) {
-    for (p.y = first(1); p.y < region.max.y; p.y += edge) {
-      for (p.x = first(0); p.x < region.max.x; p.x += edge) {
-        const std::size_t index = field.index_at(p);
+  VoxelCoord first, end, c;  // in cells
+  for (int axis = 0; axis < 3; ++axis) {
+    first[axis] = floor_div(region.min[axis], edge);
+    end[axis] = ceil_div(region.max[axis], edge);
+  }
+  for (c.z = first.z; c.z < end.z; ++c.z) {
+    for (c.y = first.y; c.y < end.y; ++c.y) {
+      for (c.x = first.x; c.x < end.x; ++c.x) {
+        const std::size_t index = field.index_at(c * edge);
         if (of_palette_[index] != kUnknown) continue;
         const Rotation r = canonical(rotation_of(field.rotations[index]));
         const auto found = std::find(rotations_.begin(), rotations_.end(), r);
