@@ -82,6 +82,8 @@ bpvox figure.obj --resolution 256 -q | bpscale head.json -q | bpclose -q -o clos
 bpmesh closed.bpv --faces 800 -q -o finer.glb --overwrite
 bpvox figure.obj --resolution 256 -q | bpclose --scale 4% -q | bpmesh --faces 800 -q -o one-scale.glb --overwrite
 draw guide-scale.png 340 figure.obj closed.bpv finer.glb one-scale.glb
+"$root/samples/lessons" lessons > /dev/null
+for lesson in brush pinch; do cp "lessons/$lesson.png" "lesson-$lesson.png"; done
 echo '{"base": "3%", "orientation": "auto"}' > office.json
 bpvox office.obj --resolution 384 -q -o office.bpv --overwrite
 bpscale office.json office.bpv -q | bpclose -q -o office-auto.bpv --overwrite

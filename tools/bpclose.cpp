@@ -60,15 +60,20 @@ Options parse(bp::Args& args) {
 }
 
 /// By the options, or by the field that bpscale gave the stream.
-bp::ScaleField scale_field(const Options& o, const bp::StreamHeader& header) {
+bp::ScalePlan scale_plan(const Options& o, bp::RuledSource& source) {
+  const bp::StreamHeader& header = source.header();
   if (header.has_field && (o.closing.scale || !o.field.empty()))
     fail(ErrorCode::bad_argument, "{} and the field that bpscale gave the stream exclude each other",
          o.closing.scale ? "--scale" : "--field");
-  if (header.has_field) return header.scale;
-  if (!o.field.empty()) return bp::read_rules(o.field, header);
-  bp::ScaleField field;
-  field.base = o.closing.scale->in_world(header.bounds.diagonal(), header.frame.voxel);
-  return field;
+  if (!o.field.empty()) return source.read_rules(o.field);
+  bp::ScalePlan plan;
+  if (header.has_field) {
+    plan.field = header.scale;
+    plan.entries.resize(plan.field.rules.size());
+  } else {
+    plan.field.base = o.closing.scale->in_world(header.bounds.diagonal(), header.frame.voxel);
+  }
+  return plan;
 }
 
 /// An opening: what is narrow is removed of the inside of a scene.
@@ -76,12 +81,12 @@ bool opens(const bp::StreamHeader& header) {
   return header.fill == bp::FillMode::inside;
 }
 
-bp::OptionText option_text(const Options& o, const bp::StreamHeader& header, const bp::ScaleField& field) {
+bp::OptionText option_text(const Options& o, const bp::StreamHeader& header, const bp::ScalePlan& plan) {
   bp::OptionText text;
   if (o.closing.scale) {
     text.add("scale", *o.closing.scale);
   } else if (!header.has_field) {  // else bpscale tells
-    text.add("field", bp::provenance_text(field));
+    text.add("field", bp::provenance_text(plan));
   }
   text.add("element", name_of(o.closing.element));
   text.add("keep-cavities", o.keep_cavities);
@@ -110,16 +115,16 @@ bp::ClosingParams closing_params(const Options& o, const bp::StreamHeader& heade
 }
 
 bp::StreamHeader closed_header(const bp::ClosingParams& params, const Options& o, const bp::StreamHeader& in,
-                               const bp::ScaleField& field) {
+                               const bp::ScalePlan& plan) {
   bp::StreamHeader header = in;
-  if (!opens(in)) header.bricks = bp::closing_bricks(in, field, params);
+  if (!opens(in)) header.bricks = bp::closing_bricks(in, plan.field, params);
   if (!params.turned()) header.orientation = {};
   header.slab_axis = in.slab_axis;
   header.has_closing = true;
   header.has_field = false;
-  header.scale = field;
+  header.scale = plan.field;
   header.element = o.closing.element;
-  header.provenance.push_back(bp::make_provenance("bpclose", option_text(o, in, field)));
+  header.provenance.push_back(bp::make_provenance("bpclose", option_text(o, in, plan)));
   return header;
 }
 
@@ -155,34 +160,38 @@ void run(Options o) {
   bp::Progress progress("bpclose", o.common.progress);
   report.begin("open");
   const auto output = bp::open_output(o.out, o.common.overwrite);
-  bp::BrickReader source(o.in);
-  if (!o.closing.scale && o.field.empty() && !source.header().has_field) o.closing.scale = kDefaultScale;
-  const bool opening = opens(source.header());
+  bp::BrickReader reader(o.in);
+  if (!o.closing.scale && o.field.empty() && !reader.header().has_field) o.closing.scale = kDefaultScale;
+  const bool opening = opens(reader.header());
   if (opening && o.keep_cavities)
     fail(ErrorCode::bad_argument, "--keep-cavities means nothing for a stream of bpvox --fill inside; leave it out");
   if (o.closing.scale)
-    bp::question_scale("--scale", *o.closing.scale, source.header().bounds, source.header().frame.voxel);
-  const bp::ScaleField field = scale_field(o, source.header());
-  for (const std::string& text : bp::scale_notes(field, source.header(), opening)) report.note(text, o.common);
+    bp::question_scale("--scale", *o.closing.scale, reader.header().bounds, reader.header().frame.voxel);
+  bp::CloseOptions options = pass_options(o, opening, 0, progress);
+  bp::RuledSource source(reader, options.context, o.common.memory_bytes, o.common.temp);
+  const bp::ScalePlan plan = scale_plan(o, source);
+  const bp::ScaleField& field = plan.field;
+  for (const std::string& text : bp::scale_notes(plan, source.header())) report.note(text, o.common);
   const bp::ClosingParams params = closing_params(o, source.header());
   if (source.header().has_field && !source.header().orientation.empty() && !params.turned())
     report.note("balls cannot be turned; the orientation of the stream changes nothing", o.common);
   const bp::Estimate estimate = bp::estimate_close(source.header(), field);
   // A GPU leaves turned cubes to the CPU.
   bp::Backends backends = bp::make_backends(o.common, params.turned() ? 0 : estimate.core_seconds, &report);
+  if (const std::uint64_t pinned = bp::pinned_bytes(backends); pinned > 0)
+    options = pass_options(o, opening, pinned, progress);
   bp::note_estimate(estimate, o.common, progress, report, bp::names_of(backends));
-  bp::BrickWriter sink(*output, closed_header(params, o, source.header(), field));
+  bp::BrickWriter sink(*output, closed_header(params, o, source.header(), plan));
 
   report.begin("close");
   const auto close = opening ? open_stream : bp::close_stream;
-  const bp::CloseCounts counts =
-      close(source, sink, backends, field, params, pass_options(o, opening, bp::pinned_bytes(backends), progress));
+  const bp::CloseCounts counts = close(source, sink, backends, field, params, options);
   sink.finish();
   output->commit();
 
-  report.options["options"] = option_text(o, source.header(), field).text();
+  report.options["options"] = option_text(o, source.header(), plan).text();
   report.options["memory"] = o.common.memory_bytes;
-  report.bytes_in = source.totals().bytes;
+  report.bytes_in = reader.totals().bytes;
   report.bytes_out = output->bytes();
   fill_report(report, backends, counts);
   report.write(o.common);

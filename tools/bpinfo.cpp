@@ -14,6 +14,7 @@
 #include "tools/cli/options/voxel.h"
 #include "tools/cli/run_tool.h"
 #include "tools/info/mesh_info.h"
+#include "tools/info/part_places.h"
 #include "tools/info/picture.h"
 #include "tools/info/stream_info.h"
 #include "tools/info/tileset_info.h"
@@ -24,7 +25,7 @@ namespace {
 struct Options {
   bp::CommonOptions common;
   std::vector<std::string> in;
-  std::string format;
+  std::string format, boxes;
   bp::PictureOptions picture;
   std::optional<std::size_t> level;
   bool json = false, dump = false;
@@ -38,6 +39,8 @@ Options parse(bp::Args& args) {
   args.group("Text");
   args.flag("--json", o.json, "print JSON");
   args.flag("--dump", o.dump, "print a stream as text, one line for each brick");
+  args.option("--boxes", "NAME", o.boxes,
+              "print boxes around the parts of a scene with this name or material (* and ? as in file names)");
   o.picture.image.add_to(args);
   args.group("Input");
   args.option("--level", "N", o.level,
@@ -45,7 +48,7 @@ Options parse(bp::Args& args) {
   bp::add_scene_format(args, o.format, "INPUTs are meshes, and this is the ");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::overwrite_part);
   args.removed("--checksum", "the text and --json have it");
-  args.often({"--json", "--image", "--view", "--zoom", "--look-at", "--pick", "--level", "--overwrite"});
+  args.often({"--json", "--image", "--view", "--zoom", "--look-at", "--pick", "--boxes", "--level", "--overwrite"});
   args.example("bpinfo scene.glb closed.bpv proxy.glb --image all.png");
   args.parse();
   if (o.in.empty()) o.in = {"-"};
@@ -58,6 +61,10 @@ Options parse(bp::Args& args) {
   o.picture.image.check(args);
   if (o.picture.image.pick && (o.json || o.dump))
     bp::fail(bp::ErrorCode::bad_argument, "--pick prints a point and nothing else; leave out --json and --dump");
+  if (!o.boxes.empty() &&
+      (o.in.size() > 1 || o.json || o.dump || !o.picture.image.file.empty() || o.picture.image.pick))
+    bp::fail(bp::ErrorCode::bad_argument,
+             "--boxes takes one INPUT and prints boxes only; leave out --image, --pick, --json and --dump");
   o.picture.several = o.in.size() > 1;
   o.picture.overwrite = o.common.overwrite;
   if (o.in.size() > 1 && (o.json || o.dump)) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump take one INPUT");
@@ -195,8 +202,31 @@ void show_tileset(const Options& o, const std::string& in, bp::Picture& picture)
   if (picture.wanted()) draw_tileset(o, tileset, in, picture);
 }
 
+/// The scene that a stream was made of, or one in a file.
+std::string part_places(const Options& o, const std::string& in) {
+  if (is_tileset(o, in)) bp::fail(bp::ErrorCode::bad_argument, "{}: --boxes is for scenes; tiles have no parts", in);
+  if (is_stream(o, in)) {
+    const bp::BrickReader stream(in);
+    return bp::part_places(stream.header().scene, stream.header().bounds, o.boxes);
+  }
+  bp::SceneOptions options;
+  options.format = o.format;
+  bp::Bounds3d bounds;
+  const auto source = bp::open_scene(in, options);
+  for (std::vector<bp::TriangleD> chunk; source->read(chunk);) {
+    for (const bp::TriangleD& t : chunk) {
+      for (const bp::Vec3d& p : t) bounds.add(p);
+    }
+  }
+  bp::SceneFiles scene;
+  scene.files = {{in, bp::InputFile(in).size()}};
+  scene.format = o.format;
+  return bp::part_places(scene, bounds, o.boxes);
+}
+
 void run(const Options& o) {
   check_level_is_used(o);
+  if (!o.boxes.empty()) return bp::print(part_places(o, o.in[0]));
   bp::Picture picture(o.picture);
   for (const std::string& in : o.in)
     (is_tileset(o, in) ? show_tileset : is_stream(o, in) ? show_stream : show_mesh)(o, in, picture);

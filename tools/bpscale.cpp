@@ -4,8 +4,6 @@
 #include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
-#include "lib/grid/shelf_stream.h"
-#include "lib/pass/measure/shape_rules.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
 #include "tools/notes/scale_notes.h"
@@ -51,94 +49,56 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-/// What the rules say.
-struct Fields {
-  bp::ScaleField scale;
-  bp::OrientationField orientation;
-  std::string orientation_rules;  ///< JSON; empty: none
-};
-
-bp::StreamHeader with_fields(const bp::StreamHeader& in, const Fields& fields) {
+bp::StreamHeader with_fields(const bp::StreamHeader& in, const bp::ScalePlan& plan,
+                             const bp::OrientationField& orientation) {
   bp::StreamHeader header = in;
   header.has_field = true;
-  header.scale = fields.scale;
-  header.orientation = fields.orientation;
+  header.scale = plan.field;
+  header.orientation = orientation;
   bp::OptionText text;
-  text.add("field", bp::provenance_text(fields.scale));
-  text.add("orientation", bp::provenance_text(fields.orientation_rules, "places"));
+  text.add("field", bp::provenance_text(plan));
+  text.add("orientation", bp::provenance_text(plan.orientation, "places"));
   header.provenance.push_back(bp::make_provenance("bpscale", text));
   return header;
 }
 
-/// The voxels of a stream, read as soon as a rule is measured on them.
-class MeasuredVoxels {
- public:
-  MeasuredVoxels(bp::BrickReader& source, const Options& o) : source_(source), progress_("bpscale", o.common.progress) {
-    const bp::MemoryLimit limit{o.common.memory_bytes, bp::kVoxelProgram};
-    options_.context.memory = {limit.rest_bytes() / 2, 0.5, limit};
-    options_.context.make_shelf = bp::make_shelf_factory(limit.rest_bytes() / 5 * 2, o.common.temp);
-    options_.context.progress = progress_.for_pass();
-  }
+bp::PassContext pass_context(const Options& o, bp::Progress& progress) {
+  const bp::MemoryLimit limit{o.common.memory_bytes, bp::kVoxelProgram};
+  bp::PassContext context;
+  context.memory = {limit.rest_bytes() / 2, 0.5, limit};
+  context.make_shelf = bp::make_shelf_factory(limit.rest_bytes() / 5 * 2, o.common.temp);
+  context.progress = progress.for_pass();
+  return context;
+}
 
-  std::vector<bp::ScaleRule> measure(const bp::ShapeRule& rule, const bp::ScaleField& before) {
-    if (source_.header().fill == bp::FillMode::inside)
-      fail(ErrorCode::bad_input, "rules by shape are for closings, and a stream of bpvox --fill inside is opened");
-    if (!shelf_) {
-      shelf_ = options_.context.make_shelf();
-      for (bp::Brick brick; source_.read(brick);) shelf_->put(brick.coord, brick.fill, brick.bits);
-    }
-    return bp::shape_rules(source_.header(), *shelf_, rule, before, options_);
-  }
-
-  /// The bricks of the stream, from the shelf or the stream itself. Returns their number.
-  std::uint64_t copy(bp::BrickSink& sink) {
-    if (!shelf_) return copy(source_, sink);
-    bp::ShelfSource kept(source_.header(), *shelf_, nullptr, bp::ShelfSource::Keep::all);
-    return copy(kept, sink);
-  }
-
- private:
-  static std::uint64_t copy(bp::BrickSource& source, bp::BrickSink& sink) {
-    std::uint64_t bricks = 0;
-    for (bp::Brick brick; source.read(brick); ++bricks) sink.write(brick);
-    sink.finish();
-    return bricks;
-  }
-
-  bp::BrickReader& source_;
-  bp::Progress progress_;
-  bp::MeasureOptions options_;
-  std::unique_ptr<bp::BrickShelf> shelf_;
-};
+std::uint64_t copy(bp::BrickSource& source, bp::BrickSink& sink) {
+  std::uint64_t bricks = 0;
+  for (bp::Brick brick; source.read(brick); ++bricks) sink.write(brick);
+  sink.finish();
+  return bricks;
+}
 
 void run(const Options& o) {
   bp::Report report("bpscale");
+  bp::Progress progress("bpscale", o.common.progress);
   report.begin("open");
   const auto output = o.explain ? nullptr : bp::open_output(o.out, o.common.overwrite);
-  bp::BrickReader source(o.in);
-  const bp::StreamHeader& header = source.header();
+  bp::BrickReader reader(o.in);
+  const bp::StreamHeader& header = reader.header();
   if (header.has_closing)
     fail(ErrorCode::bad_input, "{}: is closed already; bpscale comes between bpvox and bpclose", o.in);
-  MeasuredVoxels voxels(source, o);
-  Fields fields;
-  fields.scale = bp::read_rules(
-      o.rules, header,
-      [&](const bp::ShapeRule& rule, const bp::ScaleField& before) { return voxels.measure(rule, before); },
-      [&](const std::string& json, const bp::ScaleField& scale) {
-        fields.orientation_rules = json;
-        fields.orientation = bp::make_orientation(json, o.rules, header, scale);
-      });
-  const bp::ScaleField& field = fields.scale;
-  (void)field.upper_bound(header.frame);  // refuses what is out of range
-  if (o.explain) return bp::print(bp::explain_point(field, fields.orientation, header, *o.explain));
-  const bool opening = header.fill == bp::FillMode::inside;
-  for (const std::string& text : bp::scale_notes(field, header, opening)) report.note(text, o.common);
+  bp::RuledSource source(reader, pass_context(o, progress), o.common.memory_bytes, o.common.temp);
+  const bp::ScalePlan plan = source.read_rules(o.rules, true);
+  bp::OrientationField orientation;
+  if (!plan.orientation.empty()) orientation = bp::make_orientation(plan.orientation, o.rules, header, plan.field);
+  if (o.explain) return bp::print(bp::explain_point(plan, orientation, header, *o.explain));
+  for (const std::string& text : bp::scale_notes(plan, header)) report.note(text, o.common);
 
   report.begin("copy");
-  bp::BrickWriter sink(*output, with_fields(header, fields));
-  report.counts = {{"rules", field.rules.size()}, {"bricks", voxels.copy(sink)}};
+  bp::BrickWriter sink(*output, with_fields(header, plan, orientation));
+  report.counts = {{"rules", plan.field.rules.size()}, {"bricks", copy(source, sink)}};
   output->commit();
-  report.bytes_in = source.totals().bytes;
+  report.bytes_in = reader.totals().bytes;
   report.bytes_out = output->bytes();
   report.write(o.common);
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "lib/core/coords.h"
 
@@ -28,6 +29,16 @@ struct Box {
   }
   friend constexpr bool operator==(const Box&, const Box&) = default;
 };
+
+/// f(c) for each c of the box: z, then y, then x, the fastest.
+template <class C, class F>
+constexpr void for_each(const Box<C>& box, const F& f) {
+  for (C c = box.min; c.z < box.max.z; ++c.z) {
+    for (c.y = box.min.y; c.y < box.max.y; ++c.y) {
+      for (c.x = box.min.x; c.x < box.max.x; ++c.x) f(std::as_const(c));
+    }
+  }
+}
 
 using VoxelBox = Box<VoxelCoord>;
 using BrickBox = Box<BrickCoord>;

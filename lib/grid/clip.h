@@ -5,19 +5,10 @@
 /// Part of a solid.
 namespace bp {
 
-/// f(brick) for each brick of `bricks`.
-template <class F>
-void for_each_brick(const BrickBox& bricks, const F& f) {
-  for (BrickCoord c = bricks.min; c.z < bricks.max.z; ++c.z) {
-    for (c.y = bricks.min.y; c.y < bricks.max.y; ++c.y) {
-      for (c.x = bricks.min.x; c.x < bricks.max.x; ++c.x) f(c);
-    }
-  }
-}
-/// For each that holds a voxel of `box`.
+/// f(brick) for each brick that holds a voxel of `box`.
 template <class F>
 void for_each_brick(const VoxelBox& box, const F& f) {
-  for_each_brick(bricks_of(box), f);
+  for_each(bricks_of(box), f);
 }
 
 /// Voxels of row (y, z) of a brick that lie in `box`, as a word.

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -98,7 +99,7 @@ struct ScaleField {
 };
 
 /// A rule that is measured on the voxels of a scene, and becomes boxes (lib/pass/measure). Widths and thicknesses are
-/// those of cubes, lib/volume/openings.h.
+/// those of cubes, lib/volume/openings.h. The lengths stay where other scales are multiplied.
 struct ShapeRule {
   enum class Kind : std::uint8_t {
     thickness,  ///< openings beside thin parts stay open
@@ -109,6 +110,22 @@ struct ShapeRule {
   double least = 0;                 ///< of thickness, scene units: no scale becomes smaller
   ScaleMode mode = ScaleMode::set;  ///< of gap; increase: only what closes, decrease: only what stays open
   std::string name;
+  friend bool operator==(const ShapeRule&, const ShapeRule&) = default;
+};
+
+/// An entry of a file of rules, and the rules of the field that it becomes.
+struct RuleEntry {
+  std::size_t rules = 1;           ///< so many, one after the other
+  std::optional<ShapeRule> shape;  ///< the entry is measured; until then it is no rule
+  friend bool operator==(const RuleEntry&, const RuleEntry&) = default;
+};
+
+/// What a file of rules says. The rules of `field` are those of `entries`, in this order.
+struct ScalePlan {
+  ScaleField field;
+  std::vector<RuleEntry> entries;
+  std::string orientation{};  ///< of cubes, as JSON; may be empty
+  friend bool operator==(const ScalePlan&, const ScalePlan&) = default;
 };
 
 /// What the rules of a file refer to. In streams all lengths are numbers, in scene units, and no rule names a part.
@@ -117,15 +134,15 @@ struct RuleContext {
   /// Boxes of the parts of the scene whose name or material matches; throws bad_input or bad_argument. Empty: none are
   /// known.
   std::function<std::vector<Bounds3d>(const std::string& pattern)> parts;
-  /// The rules that a rule by shape becomes, under those of `before`. Empty: the voxels are not known.
-  std::function<std::vector<ScaleRule>(const ShapeRule& rule, const ScaleField& before)> measure;
-  /// Takes what the file says of the orientation of cubes, as JSON, when all else is read. Empty: it may say nothing.
-  std::function<void(const std::string& json, const ScaleField& field)> orientation;
+  /// The file may say something of the orientation of cubes.
+  bool may_orient = false;
 };
 
 /// Rules as JSON (docs/bpscale.1.md). Throws bad_input with the key at fault.
-[[nodiscard]] ScaleField parse_scale_field(const std::string& json, const std::string& name,
-                                           const RuleContext& context = {});
+[[nodiscard]] ScalePlan parse_scale_rules(const std::string& json, const std::string& name, const RuleContext& context);
+/// The same of a stream's header, where nothing is left to be measured.
+[[nodiscard]] ScaleField parse_scale_field(const std::string& json, const std::string& name);
 [[nodiscard]] std::string to_json(const ScaleField& field);  ///< canonical: same field, same text
+[[nodiscard]] std::string to_json(const ScalePlan& plan);    ///< shapes as in files, with lengths as numbers
 
 }  // namespace bp

@@ -120,7 +120,7 @@ std::string place_key(const Node& node) {
 /// Reads the rules of a file.
 class RuleReader {
  public:
-  RuleReader(ScaleField& field, const RuleContext& context) : field_(field), context_(context) {}
+  RuleReader(ScalePlan& plan, const RuleContext& context) : plan_(plan), field_(plan.field), context_(context) {}
 
   [[nodiscard]] double length(const Node& node) const {
     if (node.is_number() || !(context_.diagonal > 0 || context_.voxel > 0)) return node.length();
@@ -150,7 +150,7 @@ class RuleReader {
       if (rule.points.size() != 2) node.at("box").refuse("is not a list of two points");
       check_box(node.at("box"), rule);
     }
-    field_.rules.push_back(rule);
+    push(rule);
   }
 
   /// As earlier versions wrote them: their scale jumps at the sides.
@@ -158,7 +158,7 @@ class RuleReader {
     node.expect_keys({"min", "max", "scale"});
     const ScaleRule box = box_rule(node.at("min").point(), node.at("max").point(), node.at("scale").length());
     check_box(node, box);
-    field_.rules.push_back(box);
+    push(box);
   }
 
   void add_old_stroke(const Node& node) {
@@ -169,10 +169,15 @@ class RuleReader {
     const double support = node.at("support").length();
     const bool has_target = mode != ScaleMode::erase || node.has("target");
     const double target = has_target ? node.at("target").length() : 0;
-    field_.rules.push_back(stroke_rule(mode, position, support, target, field_.base));
+    push(stroke_rule(mode, position, support, target, field_.base));
   }
 
  private:
+  void push(const ScaleRule& rule) {
+    field_.rules.push_back(rule);
+    plan_.entries.emplace_back();
+  }
+
   /// Name, mode and scale.
   [[nodiscard]] ScaleRule start(const Node& node) const {
     ScaleRule rule;
@@ -191,7 +196,7 @@ class RuleReader {
     rule.points = points_of(node.at("view"));
     rule.per_distance = node.at("per_distance").length();
     if (rule.per_distance > field_.slope) node.at("per_distance").refuse("is above the slope of the field");
-    field_.rules.push_back(rule);
+    push(rule);
   }
 
   void add_shape(const Node& node, const char* place) {
@@ -201,12 +206,13 @@ class RuleReader {
     node.expect_keys({"name", place, thin ? "scale" : "mode"});
     rule.length = length(node.at(place));
     if (!(rule.length > 0)) node.at(place).refuse("is 0");
+    if (context_.diagonal > 0 && rule.length > context_.diagonal)
+      node.at(place).refuse(fmt::format("is longer than the scene's diagonal ({:.4g})", context_.diagonal));
     if (node.has("scale")) rule.least = length(node.at("scale"));
     if (node.has("mode")) rule.mode = mode_of(node.at("mode"));
     if (rule.mode == ScaleMode::erase) node.at("mode").refuse("is none of set, increase, decrease, as a gap needs");
     rule.name = node.has("name") ? node.at("name").plain_text() : thin ? "thin parts" : "openings";
-    if (!context_.measure) node.at(place).refuse("is measured on voxels, and only bpscale has them at hand");
-    for (ScaleRule& box : context_.measure(rule, field_)) field_.rules.push_back(std::move(box));
+    plan_.entries.push_back({0, rule});
   }
 
   void add_parts(const Node& node, ScaleRule rule) {
@@ -214,13 +220,16 @@ class RuleReader {
     if (!context_.parts) node.refuse("names parts of a scene, and none is known here");
     rule.shape = ScaleShape::box;
     if (rule.name.empty()) rule.name = pattern;
-    for (const Bounds3d& box : context_.parts(pattern)) {
+    const std::vector<Bounds3d> boxes = context_.parts(pattern);
+    for (const Bounds3d& box : boxes) {
       rule.points = {box.min, box.max};
       field_.rules.push_back(rule);
     }
+    plan_.entries.push_back({boxes.size(), {}});
   }
 
-  ScaleField& field_;
+  ScalePlan& plan_;
+  ScaleField& field_;  // of the plan
   const RuleContext& context_;
 };
 
@@ -279,33 +288,71 @@ Json json_of(const ScaleRule& rule) {
   return j;
 }
 
+Json json_of(const ShapeRule& rule) {
+  const bool thin = rule.kind == ShapeRule::Kind::thickness;
+  Json j{{"name", rule.name}, {thin ? "thickness" : "gap", rule.length + 0.0}};
+  if (thin) {
+    j["scale"] = rule.least + 0.0;
+  } else {
+    j["mode"] = kModeNames[int(rule.mode)];
+  }
+  return j;
+}
+
+std::string to_json(const ScaleField& field, const Json& rules) {
+  if (rules.empty()) return Json{{"base", field.base + 0.0}}.dump();
+  return Json{{"base", field.base + 0.0}, {"slope", field.slope + 0.0}, {"rules", rules}}.dump(
+      -1, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace
 
-ScaleField parse_scale_field(const std::string& json, const std::string& name, const RuleContext& context) {
+ScalePlan parse_scale_rules(const std::string& json, const std::string& name, const RuleContext& context) {
   const Json document = parse_without_repeats(json, name);
   const Node root(document, "", name);
   root.expect_keys({"base", "slope", "rules", "boxes", "strokes", "orientation"});
-  ScaleField field;
-  RuleReader reader(field, context);
+  ScalePlan plan;
+  ScaleField& field = plan.field;
+  RuleReader reader(plan, context);
   field.base = reader.length(root.at("base"));
   if (root.has("slope")) field.slope = root.at("slope").length();
   if (root.has("rules") && (root.has("boxes") || root.has("strokes")))
     root.refuse("has 'rules' and, as earlier versions had them, 'boxes' or 'strokes'");
-  if (root.has("orientation") && !context.orientation)
+  if (root.has("orientation") && !context.may_orient)
     root.at("orientation").refuse("is made for the voxels of a stream, and only bpscale has them at hand");
   for_each_of(root, "rules", [&](const Node& node) { reader.add(node); });
   for_each_of(root, "boxes", [&](const Node& node) { reader.add_old_box(node); });
   for_each_of(root, "strokes", [&](const Node& node) { reader.add_old_stroke(node); });
-  if (root.has("orientation")) context.orientation(root.at("orientation").json(), field);
-  return field;
+  if (root.has("orientation")) plan.orientation = root.at("orientation").json();
+  return plan;
+}
+
+ScaleField parse_scale_field(const std::string& json, const std::string& name) {
+  ScalePlan plan = parse_scale_rules(json, name, {});
+  for (const RuleEntry& entry : plan.entries) {
+    if (entry.shape)
+      fail(ErrorCode::bad_input, "{}: scale field: '{}' is measured on voxels, and should be boxes by now", name,
+           entry.shape->name);
+  }
+  return std::move(plan.field);
 }
 
 std::string to_json(const ScaleField& field) {
-  if (field.constant()) return Json{{"base", field.base + 0.0}}.dump();
   Json rules = Json::array();
   for (const ScaleRule& rule : field.rules) rules.push_back(json_of(rule));
-  return Json{{"base", field.base + 0.0}, {"slope", field.slope + 0.0}, {"rules", rules}}.dump(
-      -1, ' ', false, Json::error_handler_t::replace);
+  return to_json(field, rules);
+}
+
+std::string to_json(const ScalePlan& plan) {
+  Json rules = Json::array();
+  std::size_t next = 0;
+  for (const RuleEntry& entry : plan.entries) {
+    if (entry.shape) rules.push_back(json_of(*entry.shape));
+    for (std::size_t i = 0; i < entry.rules; ++i, ++next) {
+      if (!entry.shape) rules.push_back(json_of(plan.field.rules[next]));
+    }
+  }
+  return to_json(plan.field, rules);
 }
 
 }  // namespace bp

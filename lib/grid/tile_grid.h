@@ -40,6 +40,15 @@ struct TileGrid {
     }
     return b;
   }
+  /// The tiles that hold a voxel of `in`, which lies in the grid and is not empty.
+  [[nodiscard]] Box<TileCoord> tiles_of(const VoxelBox& in) const {
+    Box<TileCoord> tiles;
+    for (int axis = 0; axis < 3; ++axis) {
+      tiles.min[axis] = (in.min[axis] - voxels.min[axis]) / edge_vox;
+      tiles.max[axis] = (in.max[axis] - 1 - voxels.min[axis]) / edge_vox + 1;
+    }
+    return tiles;
+  }
 };
 
 }  // namespace bp

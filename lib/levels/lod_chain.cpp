@@ -7,6 +7,7 @@
 #include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/detail/voxel_distance.h"
+#include "lib/pass/measure/shape_rules.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "lib/surface/repair.h"
 #include "lib/volume/boundary_runs.h"
@@ -23,6 +24,7 @@ constexpr int kMostAttempts = 12;  // scales for one level
 constexpr double kDenseFacesPerFace = 100;
 constexpr double kScalesPerEdge = 4;
 constexpr double kLeastScaleVox = 1 + kBeyondWholeVox;  // below 1, closing is the identity
+constexpr double kVoxelsPerLength = 8;                  // of a rule by shape, which is measured to within two
 constexpr double kLeastSideVox = 48;                    // of a reduced grid
 // Faces that a part or a hole of a closing at half of the scale should leave to show its shape.
 constexpr std::uint64_t kFacesPerPart = 100;
@@ -157,10 +159,10 @@ struct LodChain::State {
 
   LodLevel closed(const LodTarget& target) {
     double scale = first_scale(ground(), target, last_scale);
-    std::unique_ptr<BrickShelf> closing = half_scale(target, scale);
+    Closed closing = half_scale(target, scale);
     for (int attempt = 1;; ++attempt) {
-      if (closing == nullptr) {
-        reduce_to(reductions_for(ground(), target, scale * finest(), reductions));
+      if (closing.voxels == nullptr) {
+        reduce_to(reductions_for(ground(), target, finest(scale), reductions));
         closing = closing_at(scale);
       }
       LodLevel level = mesh(target, scale, std::move(closing));
@@ -217,42 +219,55 @@ struct LodChain::State {
   }
 
   [[nodiscard]] ScaleField field_at(double scale) const {
-    if (options.field) return options.field->scaled(scale / options.field->base);
-    ScaleField field;
-    field.base = scale;
-    return field;
+    ScaleField constant;
+    constant.base = scale;
+    if (!options.field) return constant;
+    ScalePlan plan = *options.field;
+    plan.field = plan.field.scaled(scale / plan.field.base);
+    return measured(plan, header, *solid, {0, context}).field;
   }
 
-  /// The finest scale anywhere, for a level's scale of 1.
-  [[nodiscard]] double finest() const {
-    if (!options.field) return 1;
-    double least = options.field->base;
-    for (const ScaleRule& rule : options.field->rules) {
+  /// The finest scale that the voxels of a level of this one have to tell.
+  [[nodiscard]] double finest(double scale) const {
+    if (!options.field) return scale;
+    const ScaleField& field = options.field->field;
+    double least = field.base;
+    for (const ScaleRule& rule : field.rules) {
       if (rule.shape != ScaleShape::view && rule.mode != ScaleMode::erase) least = std::min(least, rule.scale);
     }
-    return least / options.field->base;
+    least *= scale / field.base;
+    for (const RuleEntry& entry : options.field->entries) {
+      if (entry.shape) least = std::min(least, entry.shape->length / kVoxelsPerLength);
+    }
+    return least;
   }
 
-  std::unique_ptr<BrickShelf> closing_at(double scale) {
+  struct Closed {
+    ScaleField field;
+    std::unique_ptr<BrickShelf> voxels;
+  };
+  Closed closing_at(double scale) {
     CloseOptions o;
     o.context = context;
-    return close_shelf(header, *solid, backends, field_at(scale), options.closing, o);
+    ScaleField field = field_at(scale);
+    auto voxels = close_shelf(header, *solid, backends, field, options.closing, o);
+    return {std::move(field), std::move(voxels)};
   }
 
   /// The closing at half of `scale`, which is halved then, where a budget has faces enough for what parts and holes it
   /// leaves. Where it does not, they take the faces that shape wants, and all of the level is farther off.
-  std::unique_ptr<BrickShelf> half_scale(const LodTarget& target, double& scale) {
+  Closed half_scale(const LodTarget& target, double& scale) {
     const double half = std::max(scale / 2, last_scale);
     const bool by_budget = target.faces > 0 && target.error_world == 0 && !target.scale_world;
-    if (!by_budget || options.mode != MeshMode::bounding || half >= scale) return nullptr;
-    const int n = reductions_for(ground(), target, half * finest(), reductions);
-    if (half < kLeastScaleVox * outside->voxel() * std::ldexp(1.0, n)) return nullptr;
+    if (!by_budget || options.mode != MeshMode::bounding || half >= scale) return {};
+    const int n = reductions_for(ground(), target, finest(half), reductions);
+    if (half < kLeastScaleVox * outside->voxel() * std::ldexp(1.0, n)) return {};
     reduce_to(n);
-    auto closing = closing_at(half);
-    repair_contacts(*closing);  // as meshing would: it closes the tiniest holes
-    check_memory_for_topology(*closing);
-    const SolidTopology topology = topology_of(*closing);
-    if ((topology.parts + topology.handles) * kFacesPerPart > target.faces) return nullptr;
+    Closed closing = closing_at(half);
+    repair_contacts(*closing.voxels);  // as meshing would: it closes the tiniest holes
+    check_memory_for_topology(*closing.voxels);
+    const SolidTopology topology = topology_of(*closing.voxels);
+    if ((topology.parts + topology.handles) * kFacesPerPart > target.faces) return {};
     scale = half;
     return closing;
   }
@@ -265,12 +280,12 @@ struct LodChain::State {
                         context.pieces.limit_with(bytes - most));
   }
 
-  LodLevel mesh(const LodTarget& target, double scale, std::unique_ptr<BrickShelf> closing) {
+  LodLevel mesh(const LodTarget& target, double scale, Closed closing) {
     LodLevel level;
     level.scale_world = scale;
     level.reductions = reductions;
     context.report("meshing", "levels", 0, 1);
-    ShelfSource source(closed_header(field_at(scale)), *solid, closing.get(), ShelfSource::Keep::solid);
+    ShelfSource source(closed_header(closing.field), *solid, closing.voxels.get(), ShelfSource::Keep::solid);
     level.mesh = std::move(mesh_stream(source, context, mesh_params(target), level.counts).front());
     return level;
   }

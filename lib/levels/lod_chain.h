@@ -52,8 +52,9 @@ struct LodOptions {
   /// Voxels of the solid that hold a point of what the scene shows to the outside; null: those of its boundary.
   std::shared_ptr<const BrickShelf> surface;
   double least_scale_world = 0;  ///< no level is closed at less
-  /// Where a level's scale is finer or coarser: times the level's scale over the base, which is above 0. None: nowhere.
-  std::optional<ScaleField> field;
+  /// Where a level's scale is finer or coarser: times the level's scale over the base, which is above 0. Rules by shape
+  /// are measured on the level's voxels, and keep their lengths. None: nowhere.
+  std::optional<ScalePlan> field;
   std::optional<CageParams> cage;  ///< levels are cages of quads around the voxels as they are, of faces alone
   /// The memory is for tiles at work and, between them, for surfaces. The scene's outer surface and `scene` are
   /// subtracted from both.

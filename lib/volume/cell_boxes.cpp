@@ -6,26 +6,17 @@ namespace bp {
 
 namespace {
 
-template <class Body>
-void for_each_in(const VoxelBox& box, const Body& body) {
-  for (VoxelCoord p = box.min; p.z < box.max.z; ++p.z) {
-    for (p.y = box.min.y; p.y < box.max.y; ++p.y) {
-      for (p.x = box.min.x; p.x < box.max.x; ++p.x) body(p);
-    }
-  }
-}
-
 bool holds_next(const BitBox& voxels, const VoxelBox& box, int axis) {
   VoxelBox next = box;
   next.min[axis] = box.max[axis];
   next.max[axis] = box.max[axis] + 1;
   bool all = true;
-  for_each_in(next, [&](VoxelCoord p) { all = all && voxels.test(p); });
+  for_each(next, [&](VoxelCoord p) { all = all && voxels.test(p); });
   return all;
 }
 
 void clear(BitBox& voxels, const VoxelBox& box) {
-  for_each_in(box, [&](VoxelCoord p) {
+  for_each(box, [&](VoxelCoord p) {
     const std::int32_t i = p.x - voxels.box().min.x;
     voxels.row(p.y, p.z)[i >> 6] &= ~(std::uint64_t(1) << (i & 63));
   });
@@ -49,11 +40,11 @@ void for_each_set(const BitBox& voxels, const F& f) {
   }
 }
 
-}  // namespace
-
-std::vector<VoxelBox> boxes_of(BitBox voxels) {
+/// Rows of voxels, rows beside each other as plates, plates on each other as boxes: the first of them, `most` or fewer.
+std::vector<VoxelBox> boxes_of(BitBox voxels, std::size_t most) {
   std::vector<VoxelBox> boxes;
   for_each_set(voxels, [&](VoxelCoord p) {
+    if (boxes.size() == most) return;
     VoxelBox box{p, {p.x + 1, p.y + 1, p.z + 1}};
     for (const int axis : {0, 1, 2}) {
       while (holds_next(voxels, box, axis)) ++box.max[axis];
@@ -64,6 +55,7 @@ std::vector<VoxelBox> boxes_of(BitBox voxels) {
   return boxes;
 }
 
+/// The same set by voxels twice as large: v lies in floor(v / 2).
 BitBox halved(const BitBox& voxels) {
   VoxelBox box = voxels.box();
   for (int axis = 0; axis < 3; ++axis) {
@@ -75,11 +67,13 @@ BitBox halved(const BitBox& voxels) {
   return out;
 }
 
+}  // namespace
+
 FewBoxes few_boxes_of(BitBox voxels, std::size_t most) {
-  FewBoxes few{boxes_of(voxels)};
+  FewBoxes few{boxes_of(voxels, most + 1)};
   while (few.boxes.size() > most) {
     voxels = halved(voxels);
-    few = {boxes_of(voxels), few.unit * 2};
+    few = {boxes_of(voxels, most + 1), few.unit * 2};
   }
   return few;
 }

@@ -5,15 +5,8 @@
 
 namespace bp {
 
-/// Boxes that hold all voxels of a set, and nothing else: rows of voxels, rows beside each other as plates, plates on
-/// each other as boxes.
-[[nodiscard]] std::vector<VoxelBox> boxes_of(BitBox voxels);
-
-/// The same set by voxels twice as large: v lies in floor(v / 2).
-[[nodiscard]] BitBox halved(const BitBox& voxels);
-
-/// Few boxes that hold all voxels of a set, in units of `unit` voxels: 1, or the least power of two for which `most`
-/// boxes suffice.
+/// Few boxes that hold all voxels of a set, and no other voxel of `unit` voxels a side, in which they are counted: 1,
+/// or the least power of two for which `most` boxes suffice. Memory: twice the set's, and that of the boxes.
 struct FewBoxes {
   std::vector<VoxelBox> boxes;
   std::int32_t unit = 1;

@@ -52,15 +52,11 @@ VoxelBox fine_voxels(BrickCoord coarse, VoxelCoord shift) {
 
 BrickFill fill_of(const BrickShelf& shelf, const BrickBox& bricks) {
   bool all_full = true, all_empty = true;
-  for (BrickCoord c = bricks.min; c.z < bricks.max.z; ++c.z) {
-    for (c.y = bricks.min.y; c.y < bricks.max.y; ++c.y) {
-      for (c.x = bricks.min.x; c.x < bricks.max.x; ++c.x) {
-        const BrickFill fill = shelf.fill(c);
-        all_full = all_full && fill == BrickFill::full;
-        all_empty = all_empty && fill == BrickFill::empty;
-      }
-    }
-  }
+  for_each(bricks, [&](BrickCoord c) {
+    const BrickFill fill = shelf.fill(c);
+    all_full = all_full && fill == BrickFill::full;
+    all_empty = all_empty && fill == BrickFill::empty;
+  });
   return all_empty ? BrickFill::empty : all_full ? BrickFill::full : BrickFill::mixed;
 }
 
@@ -119,12 +115,7 @@ void reduce(const BrickShelf& fine, const GridFrame& frame, BrickShelf& coarse) 
   const VoxelCoord shift = shift_of(frame);
   std::vector<BrickCoord> bricks;
   for (const BrickCoord f : fine.coords()) {
-    const BrickBox reach = coarse_bricks({f, {f.x + 1, f.y + 1, f.z + 1}}, shift);
-    for (BrickCoord c = reach.min; c.z < reach.max.z; ++c.z) {
-      for (c.y = reach.min.y; c.y < reach.max.y; ++c.y) {
-        for (c.x = reach.min.x; c.x < reach.max.x; ++c.x) bricks.push_back(c);
-      }
-    }
+    for_each(coarse_bricks({f, {f.x + 1, f.y + 1, f.z + 1}}, shift), [&](BrickCoord c) { bricks.push_back(c); });
   }
   std::sort(bricks.begin(), bricks.end());
   bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());

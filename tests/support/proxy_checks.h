@@ -1,27 +1,16 @@
 #pragma once
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <functional>
 
 #include "lib/exact/triangle_intersection.h"
 #include "lib/mesh/half_edge_mesh.h"
 #include "tests/catch.h"
-#include "tests/support/memory_shelf.h"
+#include "tests/support/voxel_source.h"
 
 /// What a proxy must be, by tests that share nothing with the code that makes it but the predicates.
 namespace bp::test {
 
-using Solid = std::function<bool(VoxelCoord)>;
-
 inline void fill_shelf(MemoryShelf& shelf, const VoxelBox& box, const Solid& solid) {
-  BitBox bits(voxels_of(bricks_of(box)));
-  for (int z = box.min.z; z < box.max.z; ++z) {
-    for (int y = box.min.y; y < box.max.y; ++y) {
-      for (int x = box.min.x; x < box.max.x; ++x) {
-        if (solid({x, y, z})) bits.set({x, y, z});
-      }
-    }
-  }
-  store_voxels(bits, shelf);
+  store_voxels(bits_of(box, solid), shelf);
 }
 
 /// By trying all pairs.
@@ -80,13 +69,9 @@ inline void check_proxy(const LatticeMesh& proxy, const VoxelBox& box, const Sol
   CHECK(manifold_by_open_mesh(proxy));
   CHECK(self_intersections(proxy) == 0);
   int outside = 0;
-  for (int z = box.min.z; z < box.max.z; ++z) {
-    for (int y = box.min.y; y < box.max.y; ++y) {
-      for (int x = box.min.x; x < box.max.x; ++x) {
-        if (solid({x, y, z})) outside += !inside(proxy, {64 * x + 31, 64 * y + 29, 64 * z + 27});
-      }
-    }
-  }
+  for_each(box, [&](VoxelCoord p) {
+    if (solid(p)) outside += !inside(proxy, {64 * p.x + 31, 64 * p.y + 29, 64 * p.z + 27});
+  });
   CHECK(outside == 0);
 }
 

@@ -15,13 +15,9 @@ using Solid = std::function<bool(VoxelCoord)>;
 
 [[nodiscard]] inline BitBox bits_of(const VoxelBox& box, const Solid& solid) {
   BitBox bits(voxels_of(bricks_of(box)));
-  for (VoxelCoord p = box.min; p.z < box.max.z; ++p.z) {
-    for (p.y = box.min.y; p.y < box.max.y; ++p.y) {
-      for (p.x = box.min.x; p.x < box.max.x; ++p.x) {
-        if (solid(p)) bits.set(p);
-      }
-    }
-  }
+  for_each(box, [&](VoxelCoord p) {
+    if (solid(p)) bits.set(p);
+  });
   return bits;
 }
 

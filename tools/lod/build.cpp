@@ -22,6 +22,7 @@
 #include "tools/lod/bake_levels.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/proportions.h"
+#include "tools/notes/scale_notes.h"
 #include "tools/notes/up_note.h"
 #include "tools/run/grounded_source.h"
 #include "tools/run/scale_rules.h"
@@ -44,21 +45,6 @@ void print_list(const std::string& text, const std::string& made) {
 std::string name_of_all(const BuildOptions& o, const std::string& file) {
   if (o.is_tileset()) return "tileset.json";
   return o.profile == LodProfile::gltf ? o.name + ".glb" : file;
-}
-
-/// Levels have scales of their own: the rules say how much finer or coarser a place is.
-ScaleField read_field(const BuildOptions& o, const VoxelizedScene& voxels) {
-  const std::string& file = o.field;
-  StreamHeader header = voxels.header;
-  header.scene.format = o.voxels.format;
-  for (const std::string& name : o.voxels.scenes) {
-    if (can_read_again(o)) header.scene.files.push_back({name, std::filesystem::file_size(name)});
-  }
-  ScaleField field = read_rules(file, header);
-  (void)field.upper_bound(header.frame);
-  if (!(field.base > 0))
-    fail(ErrorCode::bad_input, "{}: scale field: base is 0; the scales of levels are measured by it", file);
-  return field;
 }
 
 }  // namespace
@@ -114,11 +100,27 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   out.counts = voxelize_stream(*source, open, backends, v);
   size_ = {out.header.bounds, out.counts.scene.triangles};
   enclosed_ = enclosed_by(options, size_.triangles);
-  if (!options.field.empty()) field_ = read_field(options, out);
+  if (!options.field.empty()) field_ = read_field(out, halvings == 0);
   if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
   choose_textures(*source, halvings == 0);
   if (colored_ && !textured_) gather(*source, out);
   return out;
+}
+
+/// Levels have scales of their own: the rules say how much finer or coarser a place is.
+ScalePlan Build::read_field(const VoxelizedScene& voxels, bool tell) {
+  StreamHeader header = voxels.header;
+  header.scene.format = options.voxels.format;
+  for (const std::string& name : options.voxels.scenes) {
+    if (can_read_again(options)) header.scene.files.push_back({name, std::filesystem::file_size(name)});
+  }
+  ScalePlan plan = read_rules(options.field, header, scene_options(true));
+  if (!(plan.field.base > 0))
+    fail(ErrorCode::bad_input, "{}: scale field: base is 0; the scales of levels are measured by it", options.field);
+  if (tell) {
+    for (const std::string& text : short_length_notes(plan, header.frame.voxel)) note(text);
+  }
+  return plan;
 }
 
 void Build::make_room(VoxelizedScene& scene) {

@@ -75,6 +75,7 @@ class Build {
 
  private:
   void note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told);
+  [[nodiscard]] ScalePlan read_field(const VoxelizedScene& voxels, bool tell);
   void gather(TriangleSource& source, const VoxelizedScene& scene);
   /// After the scene has been read. `tell`: notes why there will be no textures.
   void choose_textures(const TriangleSource& source, bool tell);
@@ -88,7 +89,7 @@ class Build {
   std::optional<MirrorPlane> plane_;  // of a cage
   double voxel_ = 0, margin_ = 0;     // of the scene, scene units
   Enclose enclosed_ = Enclose::input;
-  std::optional<ScaleField> field_;  // of --field
+  std::optional<ScalePlan> field_;  // of --field
   std::unique_ptr<SceneColors> colors_;
   std::shared_ptr<TextureTable> textures_;
   bool textured_ = false, colored_ = false;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <optional>
 
 #include "io/scene/scene_reader.h"
@@ -16,6 +15,7 @@
 #include "tools/run/enclosed_triangles_limit.h"
 #include "tools/run/memory_shares.h"
 #include "tools/run/scene_budget.h"
+#include "tools/run/scene_files.h"
 
 namespace bp {
 
@@ -69,31 +69,13 @@ std::vector<TriangleD> read_files(const std::vector<std::string>& files, const E
   return all;
 }
 
-std::vector<std::string> names_of(const SceneFiles& scene) {
-  std::vector<std::string> names;
-  for (const SceneFiles::File& file : scene.files) names.push_back(file.name);
-  return names;
-}
-
 /// Why the scene's triangles cannot be had, and what to do.
 struct Obstacle {
   std::string why, remedy;
 };
 
-Obstacle changed(const std::string& file) {
-  return {file + " has changed since the stream was made", "run bpvox again"};
-}
-
-/// Whether the files that the stream names are surely not what it was made from.
-std::optional<Obstacle> missing_scene(const SceneFiles& scene) {
-  if (scene.files.empty()) return Obstacle{"the stream names no scene file", "name the file with --enclose"};
-  for (const SceneFiles::File& file : scene.files) {
-    std::error_code none;
-    if (!std::filesystem::is_regular_file(file.name, none))
-      return Obstacle{file.name + " is not there", "name the file with --enclose"};
-    if (std::filesystem::file_size(file.name, none) != file.bytes) return changed(file.name);
-  }
-  return std::nullopt;
+Obstacle obstacle(const SceneFault& fault) {
+  return {fault.fact, fault.changed ? "run bpvox again" : "name the file with --enclose"};
 }
 
 /// The triangles that the stream was made from; none if these files hold other ones by now.
@@ -120,7 +102,7 @@ std::vector<TriangleD> read_same(const SceneFiles& scene, const EnclosureInput& 
 /// Fills `out` with the scene's triangles; returns why not, if so.
 std::optional<Obstacle> take_scene(const EnclosureInput& in, bool any_number, std::vector<TriangleD>& out) {
   const SceneFiles& scene = in.header.scene;
-  if (std::optional<Obstacle> obstacle = missing_scene(scene)) return obstacle;
+  if (const auto fault = fault_of(scene)) return obstacle(*fault);
   if (!any_number && scene.triangles > kMostEnclosedTriangles) {
     return Obstacle{fmt::format("the scene has {} triangles, more than {}", scene.triangles, kMostEnclosedTriangles),
                     "--enclose scene takes them all the same"};
@@ -129,7 +111,7 @@ std::optional<Obstacle> take_scene(const EnclosureInput& in, bool any_number, st
   keep_inputs(names_of(scene));
   check_memory(name, scene.triangles, in);
   out = read_same(scene, in);
-  if (out.empty()) return changed(scene.files.size() == 1 ? scene.files.front().name : "a scene file");
+  if (out.empty()) return obstacle(changed_scene(scene.files.size() == 1 ? scene.files.front().name : "a scene file"));
   return std::nullopt;
 }
 

@@ -33,20 +33,38 @@ std::string rule_text(const ScaleRule& rule) {
   return fmt::format("{}{} {}{}", name, rule.shape == ScaleShape::view ? "view" : "at", first, more);
 }
 
-std::vector<std::string> scale_notes(const ScaleField& field, const StreamHeader& header, bool inner) {
-  std::vector<std::string> notes;
+std::vector<std::string> scale_notes(const ScalePlan& plan, const StreamHeader& header) {
+  const ScaleField& field = plan.field;
   const double voxel = header.frame.voxel;
+  std::vector<std::string> notes = short_length_notes(plan, voxel);
+  for (const RuleEntry& entry : plan.entries) {
+    if (entry.shape && entry.rules == 0 && entry.shape->length >= voxel)
+      notes.push_back(entry.shape->name + ": this rule changes no scale in this scene");
+  }
   const double largest = double(field.upper_bound(header.frame)) / kScaleOne;  // voxels
   if (largest < 1) {
+    const bool opens = header.fill == FillMode::inside;
     notes.push_back(fmt::format(
         "a scale of {:.3g} voxels {}; use a larger scale or smaller voxels", largest,
-        inner ? "takes nothing away: the opening is the input" : "closes nothing: the closing is the input"));
+        opens ? "takes nothing away: the opening is the input" : "closes nothing: the closing is the input"));
   }
   if (header.bounds.empty()) return notes;
   for (const ScaleRule& rule : field.rules) {
     // One scale around the scene is as far as its dilation goes.
     if (matters(rule, field, largest * voxel, header.bounds, (largest + 1) * voxel)) continue;
     notes.push_back(rule_text(rule) + " is nowhere near the scene; this rule of the field changes nothing");
+  }
+  return notes;
+}
+
+std::vector<std::string> short_length_notes(const ScalePlan& plan, double voxel) {
+  std::vector<std::string> notes;
+  for (const RuleEntry& entry : plan.entries) {
+    if (!entry.shape || entry.shape->length >= voxel) continue;
+    notes.push_back(
+        fmt::format("{}: {:.3g} is less than a voxel ({:.3g}), the least that can be measured; use smaller "
+                    "voxels or a larger length",
+                    entry.shape->name, entry.shape->length, voxel));
   }
   return notes;
 }

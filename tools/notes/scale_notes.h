@@ -11,8 +11,11 @@ namespace bp {
 /// Name and place of a rule: "head: at 0,1,2", "box 0,0,0 to 1,1,1", "view 0,0,9 and 3 more".
 [[nodiscard]] std::string rule_text(const ScaleRule& rule);
 
-/// Sentences for the user: a scale that closes nothing, rules of the field that the closing cannot reach.
-[[nodiscard]] std::vector<std::string> scale_notes(const ScaleField& field, const StreamHeader& header,
-                                                   bool inner = false);
+/// Sentences for the user: a scale that closes nothing, rules that the closing cannot reach, and, measured, rules by
+/// shape that find nothing.
+[[nodiscard]] std::vector<std::string> scale_notes(const ScalePlan& plan, const StreamHeader& header);
+
+/// Of rules by shape with a length below a voxel.
+[[nodiscard]] std::vector<std::string> short_length_notes(const ScalePlan& plan, double voxel);
 
 }  // namespace bp

@@ -1,10 +1,10 @@
 #include "tools/run/part_boxes.h"
 
 #include <cmath>
-#include <set>
 
 #include "lib/core/error.h"
 #include "lib/core/vec3.h"
+#include "lib/volume/cell_boxes.h"
 #include "tools/run/read_again.h"
 
 namespace bp {
@@ -14,12 +14,14 @@ namespace {
 constexpr double kCells = 256;  // along the scene's diagonal
 constexpr std::size_t kMostBoxes = 2048;
 
-using Cell = std::array<std::int64_t, 3>;  // z, y, x
-
 /// Cells of the space that triangles touch.
 class TouchedCells {
  public:
-  TouchedCells(const Vec3d& origin, double edge) : origin_(origin), edge_(edge) {}
+  /// All triangles will lie within `bounds`.
+  TouchedCells(const Bounds3d& bounds, double edge) : origin_(bounds.min), edge_(edge) {
+    const VoxelCoord last = cell_of(bounds.max);
+    cells_.reset({{0, 0, 0}, {last.x + 1, last.y + 1, last.z + 1}});
+  }
 
   void add(const TriangleD& t) {
     for (const Vec3d& p : t) bounds_.add(p);
@@ -31,26 +33,20 @@ class TouchedCells {
     }
   }
 
-  [[nodiscard]] bool empty() const { return cells_.empty(); }
+  [[nodiscard]] bool empty() const { return bounds_.empty(); }
 
   /// Boxes of the cells; larger cells where these would be too many.
-  [[nodiscard]] std::vector<Bounds3d> boxes() {
-    std::vector<Bounds3d> found = merged();
-    while (found.size() > kMostBoxes) {
-      std::set<Cell> larger;
-      for (const Cell& c : cells_) larger.insert({c[0] >> 1, c[1] >> 1, c[2] >> 1});
-      cells_ = std::move(larger);
-      edge_ *= 2;
-      found = merged();
-    }
-    return found;
+  [[nodiscard]] std::vector<Bounds3d> boxes() const {
+    const FewBoxes few = few_boxes_of(cells_, kMostBoxes);
+    std::vector<Bounds3d> boxes;
+    for (const VoxelBox& box : few.boxes) boxes.push_back(bounds_of(box, edge_ * few.unit));
+    return boxes;
   }
 
  private:
   void add_or_cut(const TriangleD& t, std::vector<TriangleD>& left) {
     Bounds3d b;
     for (const Vec3d& p : t) b.add(p);
-    const Cell low = cell_of(b.min), high = cell_of(b.max);
     if (b.longest_side() > 2 * edge_) {
       std::size_t k = 0;
       const auto edge = [&](std::size_t i) { return length(t[(i + 1) % 3] - t[i]); };
@@ -62,74 +58,40 @@ class TouchedCells {
       left.push_back({middle, t[(k + 1) % 3], t[(k + 2) % 3]});
       return;
     }
-    for (Cell c = low; c[0] <= high[0]; ++c[0]) {
-      for (c[1] = low[1]; c[1] <= high[1]; ++c[1]) {
-        for (c[2] = low[2]; c[2] <= high[2]; ++c[2]) cells_.insert(c);
-      }
-    }
+    const VoxelCoord low = cell_of(b.min), high = cell_of(b.max);
+    for_each(VoxelBox{low, {high.x + 1, high.y + 1, high.z + 1}}, [&](VoxelCoord c) { cells_.set(c); });
   }
 
-  [[nodiscard]] Cell cell_of(const Vec3d& p) const {
-    Cell c{};
-    for (std::size_t i = 0; i < 3; ++i) c[2 - i] = std::int64_t(std::floor((p[i] - origin_[i]) / edge_));
+  [[nodiscard]] VoxelCoord cell_of(const Vec3d& p) const {
+    VoxelCoord c;
+    for (int i = 0; i < 3; ++i) c[i] = std::int32_t(std::floor((p[std::size_t(i)] - origin_[std::size_t(i)]) / edge_));
     return c;
   }
 
-  /// Rows of cells, rows beside each other as plates, plates on each other as boxes.
-  [[nodiscard]] std::vector<Bounds3d> merged() const {
-    std::set<Cell> left = cells_;
-    std::vector<Bounds3d> boxes;
-    while (!left.empty()) {
-      const Cell first = *left.begin();
-      Cell size{1, 1, 1};
-      for (const std::size_t axis : {2, 1, 0}) {
-        while (holds_next(left, first, size, axis)) ++size[axis];
-      }
-      for_each(first, size, [&](const Cell& c) { left.erase(c); });
-      boxes.push_back(box_of(first, size));
-    }
-    return boxes;
-  }
-
-  template <class Body>
-  static void for_each(const Cell& first, const Cell& size, const Body& body) {
-    for (std::int64_t z = 0; z < size[0]; ++z) {
-      for (std::int64_t y = 0; y < size[1]; ++y) {
-        for (std::int64_t x = 0; x < size[2]; ++x) body({first[0] + z, first[1] + y, first[2] + x});
-      }
-    }
-  }
-
-  static bool holds_next(const std::set<Cell>& cells, Cell first, Cell size, std::size_t axis) {
-    first[axis] += size[axis];
-    size[axis] = 1;
-    bool all = true;
-    for_each(first, size, [&](const Cell& c) { all = all && cells.contains(c); });
-    return all;
-  }
-
   /// Not beyond the triangles.
-  [[nodiscard]] Bounds3d box_of(const Cell& first, const Cell& size) const {
+  [[nodiscard]] Bounds3d bounds_of(const VoxelBox& cells, double edge) const {
     Bounds3d box;
     for (std::size_t i = 0; i < 3; ++i) {
-      box.min[i] = std::max(origin_[i] + edge_ * double(first[2 - i]), bounds_.min[i]);
-      box.max[i] = std::min(origin_[i] + edge_ * double(first[2 - i] + size[2 - i]), bounds_.max[i]);
+      box.min[i] = std::max(origin_[i] + edge * cells.min[int(i)], bounds_.min[i]);
+      box.max[i] = std::min(origin_[i] + edge * cells.max[int(i)], bounds_.max[i]);
       box.max[i] = std::max(box.min[i], box.max[i]);  // of a flat part, whose cell may end before it by a rounding
     }
     return box;
   }
 
   const Vec3d origin_;
-  double edge_;
-  std::set<Cell> cells_;
+  const double edge_;
+  BitBox cells_;     // along the scene's diagonal, at most kCells and one
   Bounds3d bounds_;  // of all triangles
 };
 
 }  // namespace
 
-std::vector<Bounds3d> part_boxes(const SceneFiles& scene, const Bounds3d& bounds, const std::string& pattern) {
-  TouchedCells cells(bounds.min, std::max(bounds.diagonal() / kCells, 1e-300));
-  read_again(scene, bounds, pattern, [&](const TriangleD& t) { cells.add(t); });
+std::vector<Bounds3d> part_boxes(const SceneFiles& scene, const Bounds3d& bounds, const std::string& pattern,
+                                 SceneOptions options) {
+  options.parts = pattern;
+  TouchedCells cells(bounds, std::max(bounds.diagonal() / kCells, 1e-300));
+  read_again(scene, bounds, options, [&](const TriangleD& t) { cells.add(t); });
   if (cells.empty())
     fail(ErrorCode::bad_input, "no part of the scene has a name or a material that fits '{}'", pattern);
   return cells.boxes();

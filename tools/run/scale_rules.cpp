@@ -2,29 +2,64 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <span>
 
 #include "io/files/file.h"
+#include "lib/core/error.h"
 #include "lib/store/content_hash.h"
 #include "lib/store/hex.h"
+#include "tools/run/memory_shares.h"
 #include "tools/run/part_boxes.h"
+#include "tools/run/scene_budget.h"
 
 namespace bp {
 
-ScaleField read_rules(const std::string& file, const StreamHeader& header,
-                      const decltype(RuleContext::measure)& measure,
-                      const decltype(RuleContext::orientation)& orientation) {
+ScalePlan read_rules(const std::string& file, const StreamHeader& header, const SceneOptions& scene, bool may_orient) {
   RuleContext context;
-  context.orientation = orientation;
-  context.measure = measure;
+  context.may_orient = may_orient;
   context.diagonal = header.bounds.empty() ? 0 : header.bounds.diagonal();
   context.voxel = header.frame.voxel;
-  context.parts = [&](const std::string& pattern) { return part_boxes(header.scene, header.bounds, pattern); };
-  return parse_scale_field(read_text(file), file, context);
+  context.parts = [&](const std::string& pattern) { return part_boxes(header.scene, header.bounds, pattern, scene); };
+  ScalePlan plan = parse_scale_rules(read_text(file), file, context);
+  (void)plan.field.upper_bound(header.frame);  // refuses what is out of range
+  return plan;
 }
 
-std::string provenance_text(const ScaleField& field) {
-  return provenance_text(to_json(field), fmt::format("{} rules", field.rules.size()));
+RuledSource::RuledSource(BrickSource& source, const PassContext& context, std::uint64_t memory, const std::string& temp)
+    : source_(source), measure_{0, context} {
+  scene_.memory_bytes = MemoryLimit{memory, kVoxelProgram}.rest_bytes() / 2;
+  scene_.temp_dir = temp;
+  scene_.document = document_budget(memory, kVoxelProgram, 2);
+}
+
+ScalePlan RuledSource::read_rules(const std::string& file, bool may_orient) {
+  ScalePlan plan = bp::read_rules(file, header(), scene_, may_orient);
+  const auto by_shape = [](const RuleEntry& entry) { return entry.shape.has_value(); };
+  if (std::none_of(plan.entries.begin(), plan.entries.end(), by_shape)) return plan;
+  if (header().fill == FillMode::inside)
+    fail(ErrorCode::bad_input, "rules by shape are for closings, and a stream of bpvox --fill inside is opened");
+  shelve();
+  return measured(plan, header(), *shelf_, measure_);
+}
+
+void RuledSource::shelve() {
+  shelf_ = measure_.context.make_shelf();
+  for (Brick brick; source_.read(brick);) {
+    if (brick.layer == Layer::solid) shelf_->put(brick.coord, brick.fill, brick.bits);
+  }
+  shelved_ = std::make_unique<ShelfSource>(header(), *shelf_, nullptr, ShelfSource::Keep::all);
+}
+
+bool RuledSource::read(Brick& out) {
+  if (!shelved_) return source_.read(out);
+  if (!shelved_->read(out)) return false;
+  shelf_->drop(out.coord);
+  return true;
+}
+
+std::string provenance_text(const ScalePlan& plan) {
+  return provenance_text(to_json(plan), fmt::format("{} rules", plan.entries.size()));
 }
 
 std::string provenance_text(const std::string& json, const std::string& what) {

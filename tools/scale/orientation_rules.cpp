@@ -77,7 +77,7 @@ OrientationField make_orientation(const std::string& json, const std::string& fi
   const Json rules = Json::parse(json);
   OrientationMaker maker(header, scale.base);
   if (rules == "auto") {
-    read_again(header.scene, header.bounds, "", [&](const TriangleD& t) { maker.add(t); });
+    read_again(header.scene, header.bounds, {}, [&](const TriangleD& t) { maker.add(t); });
   } else if (rules.is_array() && !rules.empty()) {
     for (const Json& place : rules) add_place(maker, place, file);
   } else {

@@ -111,11 +111,7 @@ class CellCloser {
           voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(closer_.widest().dilation_vox);
       const CellCoord first = options_.cells.of(reach.min);
       const CellCoord last = options_.cells.of({reach.max.x - 1, reach.max.y - 1, reach.max.z - 1});
-      for (CellCoord c = first; c.z <= last.z; ++c.z) {
-        for (c.y = first.y; c.y <= last.y; ++c.y) {
-          for (c.x = first.x; c.x <= last.x; ++c.x) cells.insert(c);
-        }
-      }
+      for_each(Box<CellCoord>{first, {last.x + 1, last.y + 1, last.z + 1}}, [&](CellCoord c) { cells.insert(c); });
     }
     return {cells.begin(), cells.end()};
   }

@@ -212,17 +212,8 @@ void StreamCloser::take_brick() {
   solid_->put(brick_.coord, brick_.fill, brick_.bits);
   const BrickCoord next{brick_.coord.x + 1, brick_.coord.y + 1, brick_.coord.z + 1};
   const VoxelBox reach = intersect(voxels_of({brick_.coord, next}).grown(widest_.dilation_vox), tiles_.voxels);
-  TileCoord first, last;
-  for (int i = 0; i < 3; ++i) {
-    first[i] = (reach.min[i] - tiles_.voxels.min[i]) / tiles_.edge_vox;
-    last[i] = (reach.max[i] - 1 - tiles_.voxels.min[i]) / tiles_.edge_vox;
-  }
   const std::lock_guard lock(slabs_mutex_);
-  for (TileCoord t = first; t.z <= last.z; ++t.z) {
-    for (t.y = first.y; t.y <= last.y; ++t.y) {
-      for (t.x = first.x; t.x <= last.x; ++t.x) slabs_[t[axis_]].insert(t);
-    }
-  }
+  for_each(tiles_.tiles_of(reach), [&](TileCoord t) { slabs_[t[axis_]].insert(t); });
 }
 
 void StreamCloser::close(TileCoord tile) {
@@ -295,7 +286,7 @@ void StreamCloser::emit(const SlabTiles& tiles) {
   const Stopwatch watch(writing_);
   std::vector<BrickCoord> bricks;
   for (const TileCoord& tile : tiles) {
-    for_each_brick(bricks_of(tiles_.box(tile)), [&](BrickCoord c) {
+    for_each_brick(tiles_.box(tile), [&](BrickCoord c) {
       if (closing_->fill(c) != BrickFill::empty) bricks.push_back(c);
     });
   }

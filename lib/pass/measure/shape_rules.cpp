@@ -16,9 +16,15 @@ namespace bp {
 namespace {
 
 constexpr std::size_t kMostBoxes = 4096;
-constexpr double kMostCells = 1 << 28;      // bits: 32 MiB a level
+constexpr double kMostCells = 1 << 28;      // bits of all levels: 32 MiB
 constexpr double kBoxesAtWork = 10;         // of a tile and its halo, in openings()
 constexpr double kLargestBelow = 15. / 16;  // the largest scale with a reach of r is r and this
+constexpr std::int32_t kMostReach = 4094;   // of a scale
+
+std::int32_t longest_side(const VoxelBox& box) {
+  const VoxelCoord size = box.size();
+  return std::max({size.x, size.y, size.z});
+}
 
 /// What a rule means in voxels.
 struct Reaches {
@@ -33,19 +39,26 @@ struct Reaches {
   }
   /// Farthest that a voxel may lie from the solid to be marked.
   [[nodiscard]] std::int32_t farthest() const { return std::max(2 * (levels.empty() ? 0 : levels[0]), closes) + 1; }
+  /// Farthest beyond the solid's bounding box: there and farther out, cubes of every reach are free.
+  [[nodiscard]] std::int32_t outermost() const { return std::max(levels.empty() ? 0 : levels[0], closes) + 1; }
 };
 
-Reaches reaches_of(const ShapeRule& rule, const ScaleField& before, const GridFrame& frame) {
+/// `longest_side` of the scene, voxels.
+Reaches reaches_of(const ShapeRule& rule, const ScaleField& before, const GridFrame& frame, std::int32_t longest_side) {
   Reaches r;
-  const double length_vox = std::min(rule.length / frame.voxel, double(1 << 20));
+  const double length_vox = std::min(rule.length / frame.voxel, 4. * kMostReach);
   std::int32_t least = 0, most = cube_radius(before.upper_bound(frame));
   if (rule.kind == ShapeRule::Kind::thickness) {
-    r.thin = std::int32_t(std::ceil(length_vox / 2)) + 1;  // a part touches two voxels more than it is thick
+    // A part touches two voxels more than it is thick, and none is thicker than all.
+    r.thin = std::min(std::int32_t(std::ceil(length_vox / 2)) + 1, longest_side);
     least = cube_radius(scale_of(rule.least, frame));
   } else {
     least = std::int32_t(std::max(length_vox - 1, 0.0) / 2);  // a gap leaves one free voxel less than it is wide
     const bool closed_anyway = before.constant() && before.base >= (least + kLargestBelow) * frame.voxel;
     if (rule.mode != ScaleMode::decrease && !closed_anyway) {
+      if (least >= kMostReach)
+        fail(ErrorCode::bad_argument, {Remedy::larger_voxels}, "a gap of {} is more than {} voxels", rule.length,
+             2 * kMostReach);
       r.closes = least;
       most = std::max(most, least);
     }
@@ -67,11 +80,16 @@ class ShapeMeasurer {
  public:
   ShapeMeasurer(const StreamHeader& header, const BrickShelf& solid, const ShapeRule& rule, const Reaches& reaches,
                 const MeasureOptions& options)
-      : header_(header), solid_(solid), rule_(rule), reaches_(reaches), options_(options) {}
+      : header_(header),
+        solid_(solid),
+        rule_(rule),
+        reaches_(reaches),
+        options_(options),
+        space_(voxels_of(bricks_of(voxels_of(header.bricks).grown(reaches.outermost())))) {}
 
   std::vector<ScaleRule> operator()() {
-    const int at_work = lay_tiles();
     lay_cells();
+    const int at_work = lay_tiles();
     const std::vector<TileCoord> tiles = tiles_in_reach();
     std::size_t next = 0, done = 0;
     pipeline<TileCoord>(
@@ -87,41 +105,45 @@ class ShapeMeasurer {
   }
 
  private:
-  /// Returns how many fit in the memory at once.
-  int lay_tiles() {
-    const MemoryShare& memory = options_.context.memory;
-    const auto bytes = [&](std::int32_t edge) {
-      return kBoxesAtWork * std::pow(double(edge) + 2.0 * reaches_.halo() + 64, 3) / 8;
-    };
-    std::int32_t edge = kBrickEdge;
-    double best = 0;
-    for (std::int32_t tile = kBrickEdge; tile <= 8 * kBrickEdge; tile *= 2) {
-      const double at_work = std::min(std::floor(double(memory.bytes) / bytes(tile)), double(thread_count()));
-      const double score = at_work * std::pow(tile / (tile + 2.0 * reaches_.halo()), 3);
-      if (score > best) edge = tile;
-      best = std::max(best, score);
-    }
-    if (options_.tile_vox > 0) edge = options_.tile_vox;
-    if (bytes(edge) > double(memory.bytes)) {
-      const auto needed = std::uint64_t(bytes(edge));
-      throw NeedsMemory(fmt::format("measuring a tile of {} voxels with a halo of {}", edge, reaches_.halo()), needed,
-                        memory.bytes, memory.limit_with(needed - memory.bytes),
-                        {Remedy::larger_voxels, Remedy::smaller_scale});
-    }
-    tiles_ = TileGrid(voxels_of(bricks_of(voxels_of(header_.bricks).grown(reaches_.farthest()))), edge);
-    return int(std::clamp(double(memory.bytes) / bytes(edge), 1.0, double(thread_count())));
-  }
-
   /// Cells of the samples, or larger ones where these would be too many.
   void lay_cells() {
-    const VoxelBox& grid = tiles_.voxels;
-    while (double(grid.volume()) / std::pow(step_, 3) > kMostCells) step_ *= 2;
-    VoxelBox cells;
-    for (int axis = 0; axis < 3; ++axis) {
-      cells.min[axis] = floor_div(grid.min[axis], step_);
-      cells.max[axis] = ceil_div(grid.max[axis], step_);
+    const std::size_t levels = std::max<std::size_t>(reaches_.levels.size(), 1);
+    while (double(space_.volume()) / std::pow(step_, 3) * double(levels) > kMostCells) step_ *= 2;
+    cells_.assign(levels, BitBox(cells_of(space_)));
+  }
+  /// Of all levels, and of what few_boxes_of() takes of one.
+  [[nodiscard]] double cell_bytes() const {
+    return 8 * double(cells_[0].word_count()) * double(cells_.size() + 2) + 2 * kMostBoxes * sizeof(VoxelBox);
+  }
+
+  /// Returns how many tiles are at work at once.
+  int lay_tiles() {
+    const double cells = cell_bytes(), memory = double(options_.context.memory.bytes);
+    const auto bytes_of = [&](std::int32_t tile) { return kBoxesAtWork * box_volume(tile) / 8; };
+    std::int32_t edge = kBrickEdge;
+    double best = 0;
+    for (std::int32_t tile = kBrickEdge; tile < 2 * longest_side(space_); tile *= 2) {
+      const double tiles = TileGrid(space_, tile).total(), fit = std::floor((memory - cells) / bytes_of(tile));
+      const double speed = std::min({fit, double(thread_count()), tiles}) / (tiles * box_volume(tile));
+      if (speed > best) edge = tile;
+      best = std::max(best, speed);
     }
-    cells_.assign(std::max<std::size_t>(reaches_.levels.size(), 1), BitBox(cells));
+    if (options_.tile_vox > 0) edge = options_.tile_vox;
+    const double bytes = bytes_of(edge);
+    if (cells + bytes > memory) {
+      const MemoryShare& share = options_.context.memory;
+      const auto needed = std::uint64_t(cells + bytes);
+      throw NeedsMemory(fmt::format("measuring a tile of {} voxels with a halo of {}", edge, reaches_.halo()), needed,
+                        share.bytes, share.limit_with(needed - share.bytes),
+                        {Remedy::larger_voxels, Remedy::smaller_scale});
+    }
+    tiles_ = TileGrid(space_, edge);
+    return int(std::clamp((memory - cells) / bytes, 1.0, double(thread_count())));
+  }
+  /// Voxels of the largest box of a tile and its halo, in whole words.
+  [[nodiscard]] double box_volume(std::int32_t tile) const {
+    const auto side = [&](int axis) { return std::min(tile + 2.0 * reaches_.halo(), double(space_.size()[axis])); };
+    return (side(0) + 64) * side(1) * side(2);
   }
 
   [[nodiscard]] std::vector<TileCoord> tiles_in_reach() const {
@@ -130,22 +152,13 @@ class ShapeMeasurer {
       const VoxelBox reach =
           intersect(voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(reaches_.farthest()),
                     tiles_.voxels);
-      TileCoord first, last;
-      for (int i = 0; i < 3; ++i) {
-        first[i] = (reach.min[i] - tiles_.voxels.min[i]) / tiles_.edge_vox;
-        last[i] = (reach.max[i] - 1 - tiles_.voxels.min[i]) / tiles_.edge_vox;
-      }
-      for (TileCoord t = first; t.z <= last.z; ++t.z) {
-        for (t.y = first.y; t.y <= last.y; ++t.y) {
-          for (t.x = first.x; t.x <= last.x; ++t.x) tiles.insert(t);
-        }
-      }
+      for_each(tiles_.tiles_of(reach), [&](TileCoord t) { tiles.insert(t); });
     }
     return {tiles.begin(), tiles.end()};
   }
 
   void measure(const VoxelBox& tile) {
-    BitBox solid(tile.grown(reaches_.halo()));
+    BitBox solid(intersect(tile.grown(reaches_.halo()), space_));
     load_voxels(solid_, solid);
     if (reaches_.closes > 0) mark(0, narrow_places(solid, reaches_.closes), tile);
     if (reaches_.levels.empty()) return;
@@ -159,18 +172,35 @@ class ShapeMeasurer {
   /// Marks the cells of the voxels in the tile.
   void mark(std::size_t level, const BitBox& voxels, const VoxelBox& tile) {
     std::vector<VoxelCoord> cells;
-    for (std::int32_t z = tile.min.z; z < tile.max.z; ++z) {
-      for (std::int32_t y = tile.min.y; y < tile.max.y; ++y) {
+    for_each(cells_of(tile), [&](VoxelCoord c) {
+      if (any_in_cell(c, voxels, tile)) cells.push_back(c);
+    });
+    const std::lock_guard lock(mutex_);
+    for (const VoxelCoord& c : cells) cells_[level].set(c);
+  }
+
+  [[nodiscard]] bool any_in_cell(VoxelCoord cell, const BitBox& voxels, const VoxelBox& tile) const {
+    const VoxelCoord first = cell * step_;
+    const VoxelBox box = intersect(VoxelBox{first, {first.x + step_, first.y + step_, first.z + step_}}, tile);
+    for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
+      for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
         const std::uint64_t* row = voxels.row(y, z);
-        for (std::int32_t x = floor_div(tile.min.x, 8) * 8; x < tile.max.x; x += 8) {  // a byte of a row is in one cell
+        for (std::int32_t x = box.min.x; x < box.max.x; x += 8) {  // a byte of a row is in one cell
           const std::int32_t at = x - voxels.box().min.x;
-          if ((row[at >> 6] >> (at & 63) & 0xff) == 0) continue;
-          cells.push_back({floor_div(x, step_), floor_div(y, step_), floor_div(z, step_)});
+          if ((row[at >> 6] >> (at & 63) & 0xff) != 0) return true;
         }
       }
     }
-    const std::lock_guard lock(mutex_);
-    for (const VoxelCoord& c : cells) cells_[level].set(c);
+    return false;
+  }
+
+  [[nodiscard]] VoxelBox cells_of(const VoxelBox& voxels) const {
+    VoxelBox cells;
+    for (int axis = 0; axis < 3; ++axis) {
+      cells.min[axis] = floor_div(voxels.min[axis], step_);
+      cells.max[axis] = ceil_div(voxels.max[axis], step_);
+    }
+    return cells;
   }
 
   [[nodiscard]] std::vector<ScaleRule> rules() const {
@@ -205,7 +235,8 @@ class ShapeMeasurer {
   const ShapeRule& rule_;
   const Reaches& reaches_;
   const MeasureOptions& options_;
-  TileGrid tiles_;
+  const VoxelBox space_;            // whole bricks
+  TileGrid tiles_;                  // of it
   std::int32_t step_ = kScaleStep;  // of the cells, voxels
   std::vector<BitBox> cells_;       // of each level; of level 0, what closes
   std::mutex mutex_;
@@ -215,9 +246,30 @@ class ShapeMeasurer {
 
 std::vector<ScaleRule> shape_rules(const StreamHeader& header, const BrickShelf& solid, const ShapeRule& rule,
                                    const ScaleField& before, const MeasureOptions& options) {
-  const Reaches reaches = reaches_of(rule, before, header.frame);
+  if (header.bricks.empty()) return {};
+  const Reaches reaches = reaches_of(rule, before, header.frame, longest_side(voxels_of(header.bricks)));
   if (reaches.levels.empty() && reaches.closes <= 0) return {};
   return ShapeMeasurer(header, solid, rule, reaches, options)();
+}
+
+ScalePlan measured(const ScalePlan& plan, const StreamHeader& header, const BrickShelf& solid,
+                   const MeasureOptions& options) {
+  ScalePlan out = plan;
+  std::vector<ScaleRule>& rules = out.field.rules;
+  rules.clear();
+  auto next = plan.field.rules.begin();
+  for (RuleEntry& entry : out.entries) {
+    std::vector<ScaleRule> more;
+    if (entry.shape) {
+      more = shape_rules(header, solid, *entry.shape, out.field, options);
+    } else {
+      more.assign(next, next + std::ptrdiff_t(entry.rules));
+    }
+    next += std::ptrdiff_t(entry.rules);
+    entry.rules = more.size();
+    rules.insert(rules.end(), more.begin(), more.end());
+  }
+  return out;
 }
 
 }  // namespace bp

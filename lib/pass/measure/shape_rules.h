@@ -17,9 +17,15 @@ struct MeasureOptions {
 ///   boxes of one scale: half of the reach of the cubes, or the least. A voxel there that is farther from the solid, by
 ///   the cube, is not in the closing, with either element, whatever the rules of `before` say.
 /// - What closes: the places narrower than the gap are in boxes with a scale that closes them.
-/// Throws bad_argument if a scale of `before` is out of range, out_of_resource if not even one tile fits in the memory.
+/// Throws bad_argument if a scale of `before` is out of range, or the rule is so long that one would be;
+/// out_of_resource if not even one tile fits in the memory. Cost: of the bits of the scene's box, grown by the widest
+/// reach, some dozen passes for each of the widths, which rise by half.
 [[nodiscard]] std::vector<ScaleRule> shape_rules(const StreamHeader& header, const BrickShelf& solid,
                                                  const ShapeRule& rule, const ScaleField& before,
                                                  const MeasureOptions& options);
+
+/// The plan with its rules by shape measured, each under those before it.
+[[nodiscard]] ScalePlan measured(const ScalePlan& plan, const StreamHeader& header, const BrickShelf& solid,
+                                 const MeasureOptions& options);
 
 }  // namespace bp

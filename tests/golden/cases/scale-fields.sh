@@ -31,6 +31,11 @@ done
 said 'bpvox - --format obj --resolution 20 < parts.obj | bpscale names.json | bpinfo'
 echo 'o more' >> parts.obj
 try bpscale names.json parts.bpv --explain 1,1,1
+# Where parts are.
+try bpinfo parts.obj --boxes 'lid_*'
+try bpinfo parts.obj --boxes nothing
+try bpinfo parts.bpv --boxes steel
+try bpinfo parts.obj --boxes steel --json
 # By the shape: two boxes with a gap of 0.3, and a pole of 0.1 at 0.2 beside one of them.
 boxes() {
   local n=0 b
@@ -51,10 +56,15 @@ for rule in '"thickness": 0.1' '"gap": 0.25' '"gap": 0.4' '"gap": 0.4, "mode": "
   said 'cat shape.json; bpscale shape.json shapes.bpv -j 1 | bpinfo | grep -E "^scale"'
   said 'bpscale shape.json shapes.bpv -o - | bpclose | bpinfo | checksum'
   said 'bpscale shape.json shapes.bpv -j 3 --memory 100M | bpclose | bpinfo | checksum'
+  said 'bpclose --field shape.json shapes.bpv --memory 100M | bpinfo | checksum'
   try bpscale shape.json shapes.bpv --explain 1.15,0.5,0.5
   try bpscale shape.json shapes.bpv --explain 2.4,0.5,0.45
 done
-try bpclose --field shape.json shapes.bpv -o x.bpv
+said 'bplod shapes.obj --field shape.json --levels 1 --faces 300 --resolution 64 -q -o shapes > list && bpcheck shapes.obj shapes/shapes.glb | tail -1'
+for rule in '"gap": 4' '"thickness": "101%"' '"gap": 0.01, "mode": "decrease"' '"gap": 0.3, "radius": 1'; do
+  echo "{\"base\": 0.3, \"rules\": [{$rule}]}" > odd.json
+  said 'cat odd.json; bpscale odd.json shapes.bpv | bpinfo | grep -E "^scale"'
+done
 said 'bpvox shapes.obj --resolution 64 --fill inside | bpscale shape.json -o x.bpv'
 # What is refused.
 try bpscale

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "lib/core/box.h"
 #include "lib/core/error.h"
 #include "lib/grid/scale_field.h"
 #include "tests/catch.h"
@@ -221,6 +224,62 @@ TEST_CASE("each rule does what its definition says, in the order of the rules", 
             0.01);
     }
   }
+}
+
+TEST_CASE("every sample of the lattice is Appendix A, stroke by stroke, in its three modes", "[quick][grid]") {
+  Random random(GENERATE(range(0u, 6u)));
+  const double base = uniform(random, 0, 6);
+  std::string json = fmt::format(R"({{"base":{},"rules":[)", base);
+  std::vector<ScaleRule> strokes;
+  for (int i = 0; i < 16; ++i) {
+    ScaleRule& s = strokes.emplace_back();
+    s.mode = ScaleMode(1 + i % 3);
+    s.scale = uniform(random, 0, 8);
+    s.support = i % 5 == 0 ? 0 : uniform(random, 0, 9);
+    for (std::uint32_t k = 1 + random() % 3; k > 0; --k) s.points.push_back(random_point(random, 20));
+    std::string points;
+    for (const Vec3d& p : s.points) points += fmt::format("{}[{},{},{}]", points.empty() ? "" : ",", p[0], p[1], p[2]);
+    const char* const modes[] = {"increase", "decrease", "erase"};
+    json += fmt::format(R"({}{{"at":[{}],"support":{},"scale":{},"mode":"{}"}})", i > 0 ? "," : "", points, s.support,
+                        s.scale, modes[i % 3]);
+  }
+  const ScaleField field = parse_scale_field(json + "]}", "strokes.json");
+  REQUIRE(field.rules.size() == strokes.size());
+  const GridFrame frame = frame_at(-40);
+  const ScaleLattice lattice = field.sample(frame, {{-40, -40, -60}, {100, 90, 70}});
+  const auto definition = [&](const Vec3d& p) {
+    double s = base;
+    for (const ScaleRule& stroke : strokes) {
+      double t = distance(p, stroke.points[0]);
+      for (std::size_t k = 1; k < stroke.points.size(); ++k) {
+        const Vec3d &a = stroke.points[k - 1], &b = stroke.points[k];
+        double along = 0, length = 0;
+        for (std::size_t i = 0; i < 3; ++i) along += (p[i] - a[i]) * (b[i] - a[i]), length += std::pow(b[i] - a[i], 2);
+        along = std::clamp(along / length, 0.0, 1.0);
+        Vec3d q;
+        for (std::size_t i = 0; i < 3; ++i) q[i] = a[i] + along * (b[i] - a[i]);
+        t = std::min(t, distance(p, q));
+      }
+      const double target = stroke.mode == ScaleMode::erase ? base : stroke.scale, u = (t - target) / stroke.support;
+      const double gamma = t < target ? 1 : t < target + stroke.support ? (1 - u * u) * (1 - u * u) : 0;
+      const double phi = (1 - gamma) * s + gamma * target;
+      s = stroke.mode == ScaleMode::increase   ? std::max(s, phi)
+          : stroke.mode == ScaleMode::decrease ? std::min(s, phi)
+                                               : phi;
+    }
+    return s;
+  };
+  std::size_t n = 0, wrong = 0, changed = 0;
+  for_each(Box<decltype(lattice.origin)>{lattice.origin, lattice.origin + lattice.size}, [&](auto node) {
+    Vec3d p;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = (double(frame.origin[i]) + 8 * node[int(i)] + 0.5) * frame.voxel;
+    const double s = definition(p);
+    wrong += std::abs(double(lattice.samples[n++]) - 16 * s / frame.voxel) > 0.5 + 1e-6;
+    changed += std::abs(s - base) > 0.1;
+  });
+  CHECK(n == lattice.samples.size());
+  CHECK(wrong == 0);
+  CHECK(changed > n / 20);
 }
 
 TEST_CASE("without strokes the scale changes by at most the slope", "[quick][grid]") {

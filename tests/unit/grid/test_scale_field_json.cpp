@@ -42,14 +42,17 @@ TEST_CASE("a file of rules gives lengths in scene units, in percent of the diago
     return pattern == "pipe_*" ? std::vector<Bounds3d>{{{0, 0, 0}, {1, 2, 3}}, {{5, 5, 5}, {6, 6, 6}}}
                                : std::vector<Bounds3d>{};
   };
-  const ScaleField field = parse_scale_field(
+  const ScalePlan plan = parse_scale_rules(
       R"({"base":"2%","slope":0.25,"rules":[
         {"at":[1,2,3],"scale":"3vx"},
         {"at":[[1,2,3],[4,5,6]],"radius":"1%","support":7,"scale":1,"mode":"increase","name":"arm"},
         {"box":[[0,0,0],[1,1,1]],"mode":"erase"},
         {"node":"pipe_*","radius":1,"scale":0.5},
+        {"gap":"6vx","mode":"decrease"},
+        {"thickness":1,"scale":"1vx","name":"rails"},
         {"view":[[9,9,9]],"per_distance":0.01,"scale":8}]})",
       "x", context);
+  const ScaleField& field = plan.field;
   CHECK(field.base == 4);
   CHECK(field.slope == 0.25);
   REQUIRE(field.rules.size() == 6);
@@ -60,6 +63,23 @@ TEST_CASE("a file of rules gives lengths in scene units, in percent of the diago
   CHECK(field.rules[4].points == std::vector<Vec3d>{{5, 5, 5}, {6, 6, 6}});
   CHECK(field.rules[5] == ScaleRule{ScaleShape::view, ScaleMode::increase, {{9, 9, 9}}, 0, -1, 0.01, 8, ""});
   CHECK(parse_scale_field(to_json(field), "x") == field);
+  const ShapeRule gap{ShapeRule::Kind::gap, 3, 0, ScaleMode::decrease, "openings"};
+  const ShapeRule thickness{ShapeRule::Kind::thickness, 1, 0.5, ScaleMode::set, "rails"};
+  CHECK(plan.entries == std::vector<RuleEntry>{{1, {}}, {1, {}}, {1, {}}, {2, {}}, {0, gap}, {0, thickness}, {1, {}}});
+  const ScalePlan again = parse_scale_rules(to_json(plan), "x", {});
+  CHECK(again.field == field);
+  CHECK(again.entries.size() == plan.entries.size() + 1);  // the parts are boxes
+  CHECK(again.entries[5] == plan.entries[4]);
+  CHECK(again.entries[6] == plan.entries[5]);
+}
+
+TEST_CASE("rules by shape are refused in streams, and where they are longer than the scene", "[quick][grid]") {
+  CHECK_THROWS_AS(parse_scale_field(R"({"base":1,"rules":[{"gap":2}]})", "x"), Error);
+  RuleContext context;
+  context.diagonal = 10;
+  CHECK_THROWS_AS(parse_scale_rules(R"({"base":1,"rules":[{"gap":11}]})", "x", context), Error);
+  CHECK_THROWS_AS(parse_scale_rules(R"({"base":1,"rules":[{"thickness":"101%"}]})", "x", context), Error);
+  CHECK(parse_scale_rules(R"({"base":1,"rules":[{"gap":10}]})", "x", context).entries.size() == 1);
 }
 
 TEST_CASE("a scale field survives its text, and equal fields have equal texts", "[quick][grid]") {

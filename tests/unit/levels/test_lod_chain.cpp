@@ -1,6 +1,7 @@
 #include <random>
 
 #include "lib/check/check_proxy.h"
+#include "lib/core/vec3.h"
 #include "lib/geometry/crossing.h"
 #include "lib/levels/lod_chain.h"
 #include "lib/pass/mesh/surface_around.h"
@@ -127,7 +128,7 @@ TEST_CASE("a field closes a level less where its rules say so, and the level enc
   const auto volumes = [&](std::optional<ScaleField> field) {
     Voxelized solid = voxelized(scene, 1);
     LodOptions options = lod_options();
-    options.field = std::move(field);
+    if (field) options.field = ScalePlan{*field, std::vector<RuleEntry>(field->rules.size())};
     LodChain chain(solid.header, std::move(solid.shelf), backends, std::move(options));
     const LodLevel level = chain.make({0, 0.5, 6});
     CHECK(encloses(level.mesh, scene));
@@ -149,6 +150,32 @@ TEST_CASE("a field closes a level less where its rules say so, and the level enc
   const auto plain = volumes({}), finer = volumes(field);
   CHECK(finer[0] == Approx(plain[0]).epsilon(0.02));
   CHECK(finer[1] < 0.9 * plain[1]);  // voxels around the teeth take half of the gaps
+}
+
+TEST_CASE("a gap keeps its width at every level's scale", "[quick][pass][lod]") {
+  Triangles scene;  // four blocks, with gaps of 4, 14 and 14
+  for (const double x : {0., 24., 58., 92.}) add_box(scene, {x, 0, 0}, {x + 20, 20, 20});
+  Backends backends = plain_backends(2);
+  ScalePlan plan;
+  plan.field.base = 2;
+  ShapeRule gap;
+  gap.kind = ShapeRule::Kind::gap;
+  gap.length = 9;
+  plan.entries = {{0, gap}};
+  Voxelized solid = voxelized(scene, 1);
+  LodOptions options = lod_options();
+  options.field = plan;
+  LodChain chain(solid.header, std::move(solid.shelf), backends, std::move(options));
+  for (const double scale : {1., 9., 12.}) {
+    const LodLevel level = chain.make({0, 0.5, scale});
+    CHECK(level.scale_world == scale);
+    CHECK(encloses(level.mesh, scene));
+    double volume = 0;
+    for (const TriangleD& t : world_triangles(level.mesh)) volume += dot(t[0], cross(t[1], t[2])) / 6;
+    // Voxels that blocks of 22 fill, with the narrow gap and without a wide one.
+    CHECK(volume > 43100);
+    CHECK(volume < 46000);
+  }
 }
 
 TEST_CASE("a budget takes no voxels so large that few are left", "[quick][pass][lod]") {

@@ -18,11 +18,7 @@ BitBox random_solid(std::uint32_t seed, const VoxelBox& box) {
       block.min[axis] = box.min[axis] + below(box.size()[axis]);
       block.max[axis] = std::min(box.max[axis], block.min[axis] + 1 + below(i < 74 ? 2 : i % 3 == axis ? 3 : 14));
     }
-    for (VoxelCoord p = block.min; p.z < block.max.z; ++p.z) {
-      for (p.y = block.min.y; p.y < block.max.y; ++p.y) {
-        for (p.x = block.min.x; p.x < block.max.x; ++p.x) solid.set(p);
-      }
-    }
+    for_each(block, [&](VoxelCoord p) { solid.set(p); });
   }
   // Two walls, with a gap of four voxels between them.
   for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
@@ -34,20 +30,11 @@ BitBox random_solid(std::uint32_t seed, const VoxelBox& box) {
   return solid;
 }
 
-template <class Body>
-void for_each_voxel(const VoxelBox& box, const Body& body) {
-  for (VoxelCoord p = box.min; p.z < box.max.z; ++p.z) {
-    for (p.y = box.min.y; p.y < box.max.y; ++p.y) {
-      for (p.x = box.min.x; p.x < box.max.x; ++p.x) body(p);
-    }
-  }
-}
-
 /// True if one of the voxels within reach `r` of p is.
 template <class Is>
 bool any_within(VoxelCoord p, std::int32_t r, const Is& is) {
   bool any = false;
-  for_each_voxel(VoxelBox{p, {p.x + 1, p.y + 1, p.z + 1}}.grown(r), [&](VoxelCoord q) { any = any || is(q); });
+  for_each(VoxelBox{p, {p.x + 1, p.y + 1, p.z + 1}}.grown(r), [&](VoxelCoord q) { any = any || is(q); });
   return any;
 }
 
@@ -55,7 +42,7 @@ bool any_within(VoxelCoord p, std::int32_t r, const Is& is) {
 struct Plain {
   explicit Plain(const BitBox& of) : solid(of) {
     constexpr std::int32_t kFar = 4;  // no reach is larger
-    for_each_voxel(solid.box(), [&](VoxelCoord p) {
+    for_each(solid.box(), [&](VoxelCoord p) {
       std::int32_t r = 0;
       while (r < kFar && !any_within(p, r, [&](VoxelCoord q) { return solid.test(q); })) ++r;
       distance.push_back(r);
@@ -87,7 +74,7 @@ struct Scene {
       : tile({{3, -3, 3}, {8, 3, 6}}),
         solid(random_solid(seed, {{-64, -17, -11}, {64, 18, 22}})),
         seen(tile.grown(context)) {
-    for_each_voxel(tile.grown(context), [&](VoxelCoord p) {
+    for_each(tile.grown(context), [&](VoxelCoord p) {
       if (solid.test(p)) seen.set(p);
     });
   }
@@ -103,8 +90,7 @@ TEST_CASE("narrow places are those that no free cube holds", "[quick][grid]") {
   const BitBox narrow = narrow_places(s.seen, r);
   const Plain plain(s.solid);
   bool same = true;
-  for_each_voxel(s.tile,
-                 [&](VoxelCoord p) { same = same && narrow.test(p) == (!s.solid.test(p) && !plain.held(p, r)); });
+  for_each(s.tile, [&](VoxelCoord p) { same = same && narrow.test(p) == (!s.solid.test(p) && !plain.held(p, r)); });
   CHECK(same);
 }
 
@@ -114,7 +100,7 @@ TEST_CASE("thin parts are what lies away from all solid cubes", "[quick][grid]")
   const BitBox thin = thin_parts(s.seen, h);
   const Plain plain(s.solid);
   bool same = true;
-  for_each_voxel(s.tile, [&](VoxelCoord p) { same = same && thin.test(p) == plain.thin(p, h); });
+  for_each(s.tile, [&](VoxelCoord p) { same = same && thin.test(p) == plain.thin(p, h); });
   CHECK(same);
 }
 
@@ -122,7 +108,7 @@ TEST_CASE("openings are found by width, and near what is asked for", "[quick][gr
   const std::vector<std::int32_t> reaches{3, 2, 0};
   const Scene s(GENERATE(1u, 2u), 4 * reaches[0] + 1);
   BitBox near(s.seen.box());
-  for_each_voxel(near.box(), [&](VoxelCoord p) {
+  for_each(near.box(), [&](VoxelCoord p) {
     if (p.x < 6 && s.seen.test(p)) near.set(p);
   });
   const bool by_part = GENERATE(false, true);
@@ -137,7 +123,7 @@ TEST_CASE("openings are found by width, and near what is asked for", "[quick][gr
       return plain.middle(p, above, reach) &&
              (!by_part || any_within(p, above + 1, [&](VoxelCoord q) { return near.test(q); }));
     };
-    for_each_voxel(s.tile, [&](VoxelCoord p) {
+    for_each(s.tile, [&](VoxelCoord p) {
       const bool is_place = plain.held(p, reach) && !plain.held(p, above);
       const bool expected = is_middle(p) || (is_place && any_within(p, reach, is_middle));
       wrong += found[k].test(p) != expected;

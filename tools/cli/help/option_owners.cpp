@@ -19,6 +19,7 @@ struct OptionOfTools {
 constexpr OptionOfTools kOptionsOfTools[] = {
     {"--animate", "bpdeform"},
     {"--appearance", "bplod"},
+    {"--boxes", "bpinfo"},
     {"--cache", "bplod"},
     {"--convex", "bpcheck"},
     {"--coordinates", "bpdeform"},

@@ -46,7 +46,7 @@ BrickFill TileCloser::fill_of(const VoxelBox& voxels) const {
   bool all_empty = true, all_full = true;
   const BrickBox wanted = bricks_of(voxels), there = intersect(wanted, input_.header.bricks);
   if (there.empty()) return BrickFill::empty;
-  for_each_brick(there, [&](BrickCoord c) {
+  for_each(there, [&](BrickCoord c) {
     const BrickFill fill = input_.solid.fill(c);
     all_empty = all_empty && fill == BrickFill::empty;
     all_full = all_full && fill == BrickFill::full;

@@ -1,3 +1,4 @@
+#include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/pass/close/close_pass.h"
 #include "lib/pass/measure/shape_rules.h"
@@ -56,11 +57,7 @@ ShapeRule gap(double length, ScaleMode mode = ScaleMode::set) {
 }
 
 void fill(BitBox& bits, const VoxelBox& box) {
-  for (VoxelCoord p = box.min; p.z < box.max.z; ++p.z) {
-    for (p.y = box.min.y; p.y < box.max.y; ++p.y) {
-      for (p.x = box.min.x; p.x < box.max.x; ++p.x) bits.set(p);
-    }
-  }
+  for_each(box, [&](VoxelCoord p) { bits.set(p); });
 }
 
 /// A wall, poles before it, and blocks with slits between them.
@@ -108,14 +105,10 @@ TEST_CASE("what a rule by shape keeps open stays open, with either element", "[q
   const BitBox lost = scene.closed(constant, element, box);
   const BitBox open = wanted(scene, rule, box);
   std::size_t closed = 0, closed_before = 0;
-  for (VoxelCoord p = box.min; p.z < box.max.z; ++p.z) {
-    for (p.y = box.min.y; p.y < box.max.y; ++p.y) {
-      for (p.x = box.min.x; p.x < box.max.x; ++p.x) {
-        closed += open.test(p) && kept.test(p);
-        closed_before += open.test(p) && lost.test(p);
-      }
-    }
-  }
+  for_each(box, [&](VoxelCoord p) {
+    closed += open.test(p) && kept.test(p);
+    closed_before += open.test(p) && lost.test(p);
+  });
   CHECK(open.count() > 1000);
   CHECK(closed == 0);
   CHECK(closed_before > 500);
@@ -146,6 +139,18 @@ TEST_CASE("only thin parts keep the openings beside them, down to the least scal
   CHECK(kept.test(between_blocks));
   const BitBox coarse = scene.closed(scene.with(thickness(4, 5), 6.5), StructuringElement::cube, box);
   CHECK(coarse.test(beside_pole));
+}
+
+TEST_CASE("the scene's box bounds the memory and the time of a rule by shape", "[quick][measure]") {
+  const Scene scene(town());
+  MeasureOptions options;
+  options.context.memory.bytes = std::uint64_t(48) << 20;
+  const ScaleField all = scene.with(thickness(64), 60, options);  // the scene is 64 voxels long
+  CHECK(!all.rules.empty());
+  CHECK(scene.with(thickness(1e6), 60, options) == all);
+  CHECK_THROWS_AS(scene.with(gap(1e6), 60, options), Error);
+  options.context.memory.bytes = std::uint64_t(1) << 20;
+  CHECK_THROWS_AS(scene.with(thickness(64), 60, options), NeedsMemory);
 }
 
 TEST_CASE("rules by shape are the same for any tiles, threads and memory", "[quick][measure]") {

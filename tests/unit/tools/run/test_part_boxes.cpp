@@ -46,7 +46,7 @@ TEST_CASE("boxes of a part hold its triangles, and no point far from them", "[qu
   const std::string file = rod_file(dir, rod, bounds);
   SceneFiles scene;
   scene.files = {{file, bytes_of_file(file).size()}};
-  const std::vector<Bounds3d> boxes = part_boxes(scene, bounds, "r?d");
+  const std::vector<Bounds3d> boxes = part_boxes(scene, bounds, "r?d", {});
   CHECK(boxes.size() > 20);
   CHECK(boxes.size() <= 2048);
   for (const TriangleD& t : rod) {
@@ -72,7 +72,7 @@ TEST_CASE("parts are refused where the scene is not there any more, or another o
   const std::string file = rod_file(dir, rod, bounds);
   const auto complaint = [&](const SceneFiles& scene, const std::string& pattern) {
     try {
-      (void)part_boxes(scene, bounds, pattern);
+      (void)part_boxes(scene, bounds, pattern, {});
     } catch (const Error& e) {
       CHECK(e.code() == ErrorCode::bad_input);
       return std::string(e.what());
