@@ -155,6 +155,13 @@ void fill_report(bp::Report& report, const bp::Backends& backends, const bp::Clo
   if (counts.ignored_bricks > 0) report.notes.push_back("the input's closing layer was made anew from its solid layer");
 }
 
+/// What makes no sense for this stream.
+void question(const Options& o, const bp::StreamHeader& in) {
+  if (opens(in) && o.keep_cavities)
+    fail(ErrorCode::bad_argument, "--keep-cavities means nothing for a stream of bpvox --fill inside; leave it out");
+  if (o.closing.scale) bp::question_scale("--scale", *o.closing.scale, in.bounds, in.frame.voxel);
+}
+
 void run(Options o) {
   bp::Report report("bpclose");
   bp::Progress progress("bpclose", o.common.progress);
@@ -163,10 +170,7 @@ void run(Options o) {
   bp::BrickReader reader(o.in);
   if (!o.closing.scale && o.field.empty() && !reader.header().has_field) o.closing.scale = kDefaultScale;
   const bool opening = opens(reader.header());
-  if (opening && o.keep_cavities)
-    fail(ErrorCode::bad_argument, "--keep-cavities means nothing for a stream of bpvox --fill inside; leave it out");
-  if (o.closing.scale)
-    bp::question_scale("--scale", *o.closing.scale, reader.header().bounds, reader.header().frame.voxel);
+  question(o, reader.header());
   bp::CloseOptions options = pass_options(o, opening, 0, progress);
   bp::RuledSource source(reader, options.context, o.common.memory_bytes, o.common.temp);
   const bp::ScalePlan plan = scale_plan(o, source);

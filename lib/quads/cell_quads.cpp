@@ -64,7 +64,7 @@ Units units_of(const BrickShelf& shelf, const std::optional<MirrorPlane>& plane)
   units.box.max = unit({box.max.x - 1, box.max.y - 1, box.max.z - 1}) + VoxelCoord{1, 1, 1};
   Grid grid(units.box);
   for_each_voxel(shelf, [&](const VoxelCoord& p) { grid.at(unit(p)) = 1; });
-  grid.for_each(units.box, [&](const VoxelCoord& p) {
+  for_each(units.box, [&](const VoxelCoord& p) {
     bool open = false;
     if (grid.at(p)) for_each_neighbour(p, [&](const VoxelCoord& q, int, bool) { open = open || !grid.at(q); });
     if (open) units.surface.push_back(p);
@@ -73,8 +73,8 @@ Units units_of(const BrickShelf& shelf, const std::optional<MirrorPlane>& plane)
 }
 
 /// Cubes that hold units of the surface, and what is inside of them.
-Cells cubes_of(const Units& units, std::int32_t edge, const std::optional<MirrorPlane>& plane) {
-  Cells cells;
+BoxGrid cubes_of(const Units& units, std::int32_t edge, const std::optional<MirrorPlane>& plane) {
+  BoxGrid cells;
   VoxelCoord first;
   for (int i = 0; i < 3; ++i) {
     first[i] = floor_div(units.box.min[i], edge);
@@ -95,13 +95,13 @@ Cells cubes_of(const Units& units, std::int32_t edge, const std::optional<Mirror
 }
 
 /// Without the plane between the boxes i and i + 1 of an axis: what is solid in either is solid.
-Cells without_plane(const Cells& cells, int axis, std::int32_t i) {
-  Cells out;
+BoxGrid without_plane(const BoxGrid& cells, int axis, std::int32_t i) {
+  BoxGrid out;
   out.planes = cells.planes;
   auto& planes = out.planes[std::size_t(axis)];
   planes.erase(planes.begin() + i + 1);
   out.solid = Grid(out.box());
-  cells.solid.for_each(cells.box(), [&](const VoxelCoord& p) {
+  for_each(cells.box(), [&](const VoxelCoord& p) {
     if (!cells.solid.at(p)) return;
     VoxelCoord q = p;
     q[axis] -= p[axis] > i;
@@ -112,13 +112,13 @@ Cells without_plane(const Cells& cells, int axis, std::int32_t i) {
 
 /// Volume between solid boxes that would be filled without the plane between the boxes i and i + 1: limbs grow
 /// together there. `middle`: box i - 1 is the mirror image of i.
-double gaps_filled(const Cells& cells, int axis, std::int32_t i, bool middle) {
+double gaps_filled(const BoxGrid& cells, int axis, std::int32_t i, bool middle) {
   double volume = 0;
   VoxelBox layer = cells.box();
   layer.min[axis] = i;
   layer.max[axis] = i + 1;
   const int u = (axis + 1) % 3, w = (axis + 2) % 3;
-  cells.solid.for_each(layer, [&](const VoxelCoord& p) {
+  for_each(layer, [&](const VoxelCoord& p) {
     const auto solid = [&](std::int32_t k) {
       VoxelCoord q = p;
       q[axis] += k;
@@ -136,12 +136,12 @@ double gaps_filled(const Cells& cells, int axis, std::int32_t i, bool middle) {
 /// the edge that so many squares would have come last.
 class Merger {
  public:
-  Merger(Cells cells, std::uint64_t faces, const std::optional<MirrorPlane>& plane)
+  Merger(BoxGrid cells, std::uint64_t faces, const std::optional<MirrorPlane>& plane)
       : cells_(std::move(cells)), faces_(faces), plane_(plane) {
     mend(cells_, plane_);
   }
 
-  std::optional<Cells> run() {
+  std::optional<BoxGrid> run() {
     for (;;) {
       const Size now = size_of(cells_);
       if (now.faces <= faces_) return std::move(cells_);
@@ -153,13 +153,13 @@ class Merger {
 
  private:
   bool merge(const Size& now) {
-    std::optional<Cells> best;
+    std::optional<BoxGrid> best;
     double least = HUGE_VAL;
     for (int axis = 0; axis < 3; ++axis) {
       const std::int32_t n = cells_.box().max[axis];
       const bool mirrored = plane_ && plane_->axis == axis;
       for (std::int32_t i = mirrored ? n / 2 : 0; i + 1 < n; ++i) {
-        Cells other = without_plane(cells_, axis, i);
+        BoxGrid other = without_plane(cells_, axis, i);
         if (mirrored) other = without_plane(other, axis, n - 2 - i);
         Size then = size_of(other);
         then.volume += kGapWeight * gaps_filled(cells_, axis, i, mirrored && i == n / 2);
@@ -181,7 +181,7 @@ class Merger {
 
   static constexpr double kGapWeight = 40;
   static constexpr double kLeastAdded = 1e-4, kLeastSaved = 0.1;
-  Cells cells_;
+  BoxGrid cells_;
   std::uint64_t faces_;
   const std::optional<MirrorPlane>& plane_;
   double edge_ = 0;
@@ -190,14 +190,14 @@ class Merger {
 /// The faces between cells and what is not, as pairs of triangles.
 class QuadMesher {
  public:
-  QuadMesher(const Cells& cells, const Units& units, const std::optional<MirrorPlane>& plane)
+  QuadMesher(const BoxGrid& cells, const Units& units, const std::optional<MirrorPlane>& plane)
       : cells_(cells), units_(units), plane_(plane) {}
 
   CellQuads run(const GridFrame& frame) {
     out_.mesh.frame = frame;
     const Grid& cells = cells_.solid;
     const std::int32_t middle = plane_ ? cells_.box().max[plane_->axis] / 2 : 0;
-    cells.for_each(cells_.box(), [&](const VoxelCoord& p) {
+    for_each(cells_.box(), [&](const VoxelCoord& p) {
       if (!cells.at(p) || (plane_ && p[plane_->axis] < middle)) return;
       for_each_neighbour(p, [&](const VoxelCoord& q, int axis, bool high) {
         if (!cells.at(q)) face(high ? q : p, axis, high);
@@ -260,7 +260,7 @@ class QuadMesher {
     for (std::size_t i = 0; i < half.size(); i += 2) add(over(half[i]), over(half[i + 1]));
   }
 
-  const Cells& cells_;
+  const BoxGrid& cells_;
   const Units& units_;
   const std::optional<MirrorPlane>& plane_;
   std::map<std::tuple<std::int32_t, std::int32_t, std::int32_t>, std::size_t> number_;
@@ -272,7 +272,7 @@ class QuadMesher {
 CellQuads cell_quads(const BrickShelf& voxels, const GridFrame& frame, std::uint64_t faces,
                      const std::optional<MirrorPlane>& plane) {
   const Units units = units_of(voxels, plane);
-  std::optional<Cells> cells = Merger(cubes_of(units, kUnitsAlong / kCubesAlong, plane), faces, plane).run();
+  std::optional<BoxGrid> cells = Merger(cubes_of(units, kUnitsAlong / kCubesAlong, plane), faces, plane).run();
   return cells ? QuadMesher(*cells, units, plane).run(frame) : CellQuads{};
 }
 

@@ -155,8 +155,8 @@ std::string TilesetVerdict::text(const std::string& name) const {
   std::string lines;
   for (const std::string& finding : findings) lines += finding + "\n";
   if (scene && leaves > 0)
-    lines += fmt::format("{}: {} of the contents enclose nothing: they must be the scene itself, to within {:.3g}\n", name,
-                         leaves, 3 * leaf_error);
+    lines += fmt::format("{}: {} of the contents enclose nothing: they must be the scene itself, to within {:.3g}\n",
+                         name, leaves, 3 * leaf_error);
   return lines + fmt::format("{}: {} tiles, {} contents, {} triangles{}: {}\n", name, tiles, contents, triangles,
                              scene ? ", checked against the scene" : "",
                              holds()                         ? "holds"

@@ -19,12 +19,13 @@ LevelRequest request_of(const BuildOptions& o, double diagonal, double voxel) {
 }
 
 LevelRequest request_for(const BuildOptions& o, std::uint64_t triangles, double diagonal, double voxel) {
-  constexpr double kPerCollisionFace = 8;
+  constexpr double kPerCollisionFace = 8,
+                   kPerCageFace = 0.05;  // triangles of the scene; a box needs a cage to bend, too
   const LevelRequest request = request_of(o, diagonal, voxel);
   if (o.is_tileset() || o.profile == LodProfile::occluder) return request;
   LevelDefaults defaults;
   if (o.profile == LodProfile::collision) defaults = {kPerCollisionFace, kMostCollisionFaces};
-  if (o.profile == LodProfile::cage) defaults.most_faces = kMostCageFaces;
+  if (o.profile == LodProfile::cage) defaults = {kPerCageFace, kMostCageFaces};
   defaults.by_voxels = o.profile != LodProfile::cage && (o.voxels.voxel || o.voxels.resolution);
   return with_defaults(request, triangles, defaults);
 }

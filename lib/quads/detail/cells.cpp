@@ -12,7 +12,7 @@ bool repair_once(Grid& cells, int mirrored_axis, std::int32_t last) {
   VoxelBox blocks = cells.box();
   blocks.max = blocks.max - VoxelCoord{1, 1, 1};
   const auto corner = [](const VoxelCoord& p, int i) { return p + VoxelCoord{i & 1, (i >> 1) & 1, i >> 2}; };
-  cells.for_each(blocks, [&](const VoxelCoord& p) {
+  for_each(blocks, [&](const VoxelCoord& p) {
     Corner block = 0;
     for (int i = 0; i < 8; ++i) block = Corner(block | (cells.at(corner(p, i)) ? 1 << i : 0));
     const Corner more = corner_repair(block);
@@ -31,7 +31,7 @@ bool repair_once(Grid& cells, int mirrored_axis, std::int32_t last) {
 
 std::uint64_t count(const Grid& cells) {
   std::uint64_t n = 0;
-  cells.for_each(cells.box(), [&](const VoxelCoord& p) { n += cells.at(p) != 0; });
+  for_each(cells.box(), [&](const VoxelCoord& p) { n += cells.at(p) != 0; });
   return n;
 }
 
@@ -50,12 +50,12 @@ void fill(Grid& cells) {
       stack.push_back(q);
     });
   }
-  cells.for_each(cells.box(), [&](const VoxelCoord& p) { cells.at(p) = cells.at(p) != kOutside; });
+  for_each(cells.box(), [&](const VoxelCoord& p) { cells.at(p) = cells.at(p) != kOutside; });
 }
 
-Size size_of(const Cells& cells) {
+Size size_of(const BoxGrid& cells) {
   Size size;
-  cells.solid.for_each(cells.box(), [&](const VoxelCoord& p) {
+  for_each(cells.box(), [&](const VoxelCoord& p) {
     if (!cells.solid.at(p)) return;
     const Vec3d t{double(cells.thickness(0, p.x)), double(cells.thickness(1, p.y)), double(cells.thickness(2, p.z))};
     size.volume += t[0] * t[1] * t[2];
@@ -68,7 +68,7 @@ Size size_of(const Cells& cells) {
   return size;
 }
 
-void mend(Cells& cells, const std::optional<MirrorPlane>& plane) {
+void mend(BoxGrid& cells, const std::optional<MirrorPlane>& plane) {
   for (std::uint64_t before = 0; before != count(cells.solid);) {
     before = count(cells.solid);
     const std::int32_t last = plane ? cells.box().max[plane->axis] - 1 : 0;

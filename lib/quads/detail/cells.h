@@ -18,15 +18,6 @@ class Grid {
   [[nodiscard]] char& at(const VoxelCoord& p) { return bits_[index(p)]; }
   [[nodiscard]] char at(const VoxelCoord& p) const { return bits_[index(p)]; }
 
-  template <class Visit>
-  void for_each(const VoxelBox& box, const Visit& visit) const {
-    for (VoxelCoord p = box.min; p.z < box.max.z; ++p.z) {
-      for (p.y = box.min.y; p.y < box.max.y; ++p.y) {
-        for (p.x = box.min.x; p.x < box.max.x; ++p.x) visit(p);
-      }
-    }
-  }
-
  private:
   [[nodiscard]] std::size_t index(const VoxelCoord& p) const {
     const VoxelCoord d = p - box_.min;
@@ -51,7 +42,7 @@ void for_each_neighbour(const VoxelCoord& p, const Visit& visit) {
 
 /// Boxes between planes across the axes, and which of them are solid. Box i of an axis lies between its planes i and
 /// i + 1, in units.
-struct Cells {
+struct BoxGrid {
   std::array<std::vector<std::int32_t>, 3> planes;
   Grid solid;
 
@@ -71,13 +62,13 @@ struct Size {
   std::uint64_t faces = 0;
 };
 
-[[nodiscard]] Size size_of(const Cells& cells);
+[[nodiscard]] Size size_of(const BoxGrid& cells);
 
 /// Makes solid what the outside does not reach.
 void fill(Grid& solid);
 
 /// Repairs the solid (lib/surface/repair.h) and fills it, until neither adds a box. With a plane, which is in the
 /// middle, it stays its own mirror image.
-void mend(Cells& cells, const std::optional<MirrorPlane>& plane);
+void mend(BoxGrid& cells, const std::optional<MirrorPlane>& plane);
 
 }  // namespace bp
