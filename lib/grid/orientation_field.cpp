@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 
 namespace bp {
 
@@ -49,6 +50,20 @@ std::size_t OrientationField::index_at(VoxelCoord p) const {
   return cells[at];
 }
 
+OrientationField each_cube_once(const OrientationField& field) {
+  OrientationField out = field;
+  out.rotations.clear();
+  std::map<Rotation, std::uint16_t> cubes;
+  std::vector<std::uint16_t> of_rotation;
+  for (const FixedQuaternion& q : field.rotations) {
+    const auto [found, fresh] = cubes.try_emplace(canonical(rotation_of(q)), std::uint16_t(out.rotations.size()));
+    if (fresh) out.rotations.push_back(q);
+    of_rotation.push_back(found->second);
+  }
+  for (std::uint16_t& cell : out.cells) cell = of_rotation[cell];
+  return out;
+}
+
 const char* orientation_fault(const OrientationField& f) {
   if (f.cell_vox < kScaleStep || f.cell_vox % kScaleStep != 0 || f.cell_vox > 1 << 26)
     return "the cells of the orientation are no multiple of 8 voxels";
@@ -61,7 +76,7 @@ const char* orientation_fault(const OrientationField& f) {
     if (count > OrientationField::kMostCells) return "the orientation has too few or too many cells";
   }
   if (f.cells.size() != count) return "the orientation has too few or too many cells";
-  if (f.rotations.empty() || f.rotations.size() > std::size_t(1) << 16)
+  if (f.rotations.empty() || f.rotations.size() > OrientationField::kMostRotations)
     return "the orientation has no rotation, or too many";
   for (const FixedQuaternion& q : f.rotations) {
     const auto n =

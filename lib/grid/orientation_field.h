@@ -16,6 +16,7 @@ constexpr int kRotationBits = 14;
 struct Rotation {
   std::int16_t row[3][3] = {{1 << kRotationBits, 0, 0}, {0, 1 << kRotationBits, 0}, {0, 0, 1 << kRotationBits}};
   friend bool operator==(const Rotation&, const Rotation&) = default;
+  friend auto operator<=>(const Rotation&, const Rotation&) = default;
 };
 
 /// The rotation of a quaternion of any length but zero.
@@ -36,7 +37,7 @@ struct FixedQuaternion {
 using OrientationCell = Coord3<struct OrientationSpace, std::int32_t>;
 
 struct OrientationField {
-  static constexpr std::uint32_t kMostCells = 1 << 18;
+  static constexpr std::uint32_t kMostCells = 1 << 18, kMostRotations = (1 << 16) - 1;
 
   std::int32_t cell_vox = 0;               ///< edge of a cell, a multiple of 8 voxels; 0: there is no field
   OrientationCell origin{}, size{};        ///< in cells: cell (0,0,0) begins at voxel (0,0,0)
@@ -48,6 +49,9 @@ struct OrientationField {
   /// Which of `rotations` holds at a voxel; beyond the lattice that of the nearest cell.
   [[nodiscard]] std::size_t index_at(VoxelCoord p) const;
 };
+
+/// The same field, but for rotations that turn a cube alike: the first of them stands for all. Cost: n log n.
+[[nodiscard]] OrientationField each_cube_once(const OrientationField& field);
 
 /// What is out of range in a field that is not empty, as a fact about it; null if all is well.
 [[nodiscard]] const char* orientation_fault(const OrientationField& field);

@@ -1,7 +1,8 @@
 #include <algorithm>
 
 #include "lib/closing/closing_scratch.h"
-#include "lib/closing/detail/oriented_cube.h"
+#include "lib/closing/detail/oriented_dilation.h"
+#include "lib/closing/rotation.h"
 #include "tests/catch.h"
 #include "tests/reference/closing.h"
 #include "tests/reference/random_closing.h"
@@ -84,6 +85,56 @@ OrientationField one_rotation(const FixedQuaternion& q) {
   return {64, {}, {1, 1, 1}, {q}, {0}};
 }
 
+OrientationField orientation_of(Random& random, const VoxelBox& box, std::int32_t edge, bool about_z) {
+  OrientationField f{edge, {}, {}, {}, {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    f.origin[axis] = floor_div(box.min[axis], edge);
+    f.size[axis] = ceil_div(box.max[axis], edge) - f.origin[axis];
+  }
+  const auto part = [&] { return std::int16_t(random.between(-16000, 16000)); };
+  for (int i = 0; i < 3; ++i)
+    f.rotations.push_back(about_z ? FixedQuaternion{12000, 0, 0, part()}
+                                  : FixedQuaternion{12000, part(), part(), part()});
+  for (int i = 0; i < f.size.x * f.size.y * f.size.z; ++i) f.cells.push_back(std::uint16_t(random.between(0, 2)));
+  return f;
+}
+
+/// Voxels of a small box whose dilation by large cubes differs from the definition: a few points around it.
+int compare_large(std::uint64_t seed) {
+  Random random(seed);
+  const Scale largest = Scale(random.between(20 * kScaleOne, 90 * kScaleOne)),
+              least = seed % 2 == 0 ? largest : Scale(random.between(largest / 2, largest));
+  VoxelBox region;
+  region.min = {random.between(-200, 150), random.between(-20, 20), random.between(-20, 20)};
+  region.max = region.min + VoxelCoord{random.between(1, 140), random.between(1, 20), random.between(1, 20)};
+  BitBox out(region);
+  const VoxelBox box = out.box(), seen = box.grown(oriented_reach(largest) + 1);
+  BitBox solid(seen);
+  std::vector<VoxelCoord> points;
+  for (int i = random.between(1, 6); i > 0; --i) {
+    points.push_back({random.between(seen.min.x, seen.max.x - 1), random.between(seen.min.y, seen.max.y - 1),
+                      random.between(seen.min.z, seen.max.z - 1)});
+    solid.set(points.back());
+  }
+  ScaleLattice scale = reference::random_lattice(random, box, largest);
+  for (Scale& s : scale.samples) s = Scale(random.between(least, largest));
+  scale.min = *std::min_element(scale.samples.begin(), scale.samples.end());
+  scale.max = *std::max_element(scale.samples.begin(), scale.samples.end());
+  const OrientationField field = orientation_of(random, box, seed % 4 == 0 ? 8 : 64, seed % 5 == 0);
+  detail::OrientedDilation dilation;
+  if (!dilation.turns(field, box)) return 0;
+  dilation.run(solid, scale, field, out);
+  int wrong = 0;
+  for_each(region, [&](VoxelCoord p) {
+    const Rotation r = canonical(rotation_of(field.rotations[field.index_at(p)]));
+    const bool held = std::any_of(points.begin(), points.end(), [&](VoxelCoord q) {
+      return in_oriented_cube(r, scale.at(p), q.x - p.x, q.y - p.y, q.z - p.z);
+    });
+    wrong += held == out.test(p) ? 0 : 1;
+  });
+  return wrong;
+}
+
 }  // namespace
 
 TEST_CASE("the closing by turned cubes equals its definition on small grids", "[quick][closing][oriented]") {
@@ -93,6 +144,31 @@ TEST_CASE("the closing by turned cubes equals its definition on small grids", "[
 TEST_CASE("the closing by turned cubes equals its definition on many random grids", "[property][closing][oriented]") {
   for (std::uint64_t seed = 1000; seed < 1600; ++seed) compare_with_definition(seed, 15, 4);
   for (std::uint64_t seed = 3000; seed < 3030; ++seed) compare_with_definition(seed, 6, 9);
+}
+
+TEST_CASE("large turned cubes hold what their definition says", "[quick][closing][oriented]") {
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    CAPTURE(seed);
+    CHECK(compare_large(seed) == 0);
+  }
+}
+
+TEST_CASE("a field of very many rotations is closed at once, and as by each cube once", "[quick][closing][oriented]") {
+  OrientationField field{8, {}, {256, 256, 1}, {}, {}};
+  for (std::uint32_t i = 0; i < OrientationField::kMostRotations; ++i)
+    field.rotations.push_back({16000, std::int16_t(i % 256), std::int16_t(i / 256), 1});
+  for (std::uint32_t i = 0; i < 1U << 16; ++i)
+    field.cells.push_back(std::uint16_t(std::min(i, OrientationField::kMostRotations - 1)));
+  REQUIRE(orientation_fault(field) == nullptr);
+  detail::OrientedDilation dilation;
+  CHECK(dilation.turns(field, {{0, 0, 0}, {2048, 2048, 8}}));
+  const OrientationField once = each_cube_once(field);
+  CHECK(once.rotations.size() < field.rotations.size());
+  for (std::size_t i = 0; i < field.cells.size(); i += 97)
+    CHECK(canonical(rotation_of(once.rotations[once.cells[i]])) ==
+          canonical(rotation_of(field.rotations[field.cells[i]])));
+  field.rotations.push_back({});
+  CHECK(orientation_fault(field) != nullptr);
 }
 
 TEST_CASE("turned cubes close tile by tile as on the whole grid", "[quick][closing][oriented]") {

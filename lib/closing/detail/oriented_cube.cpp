@@ -57,6 +57,7 @@ CubeRows::CubeRows(const Rotation& r, Scale s, int flat) : reach_(cube_bounds(ca
     }
   }
   slices_.push_back(std::uint32_t(rows_.size()));
+  rows_.shrink_to_fit();
 }
 
 }  // namespace bp::detail

@@ -74,7 +74,7 @@ void dilate_along(const BitBox& solid, int axis, std::int32_t r, VoxelBox box, B
 }  // namespace
 
 bool OrientedDilation::turns(const OrientationField& field, const VoxelBox& region) {
-  constexpr std::uint16_t kUnknown = 0xffff;
+  constexpr std::uint16_t kUnknown = OrientationField::kMostRotations;
   rotations_.clear();
   of_palette_.assign(field.rotations.size(), kUnknown);
   widest_ = CubeBounds{};
@@ -90,9 +90,7 @@ bool OrientedDilation::turns(const OrientationField& field, const VoxelBox& regi
         const std::size_t index = field.index_at(c * edge);
         if (of_palette_[index] != kUnknown) continue;
         const Rotation r = canonical(rotation_of(field.rotations[index]));
-        const auto found = std::find(rotations_.begin(), rotations_.end(), r);
-        of_palette_[index] = std::uint16_t(found - rotations_.begin());
-        if (found != rotations_.end()) continue;
+        of_palette_[index] = std::uint16_t(rotations_.size());
         rotations_.push_back(r);
         const CubeBounds b = cube_bounds(r);
         widest_ = {widest_.turned || b.turned, std::max(widest_.row_sum, b.row_sum),
@@ -109,11 +107,9 @@ void OrientedDilation::run(const BitBox& solid, const ScaleLattice& scale, const
   reach_ = widest_.reach(Scale(std::min(range.max + kStep, 0xffff)));
   longest_ = 2 * reach_ + 1;
   tables_.lay(out.box(), reach_, longest_);
-  elements_.clear();
   find_kept_axis(solid, range, out.box());
   list_blocks(scale, field, out);
-  sweep(kept_ >= 0 ? along_ : solid);
-  finish(solid, scale, out);
+  decide_blocks(solid, scale, out);
 }
 
 /// Cubes of one size that are turned about y or z are dilated along that axis first; then one slice of them is left.
@@ -200,35 +196,77 @@ void OrientedDilation::add_parts(Block& block, const ScaleLattice& scale, const 
     if (s.min != s.max)
       s = {Scale(s.min / kStep * kStep), Scale(std::min(ceil_div(int(s.max), kStep) * kStep, 0xffff))};
     const std::uint16_t rotation = of_palette_[field.index_at(first)];
-    const RowTables::Element *least = element(rotation, s.min),
-                             *most = s.min == s.max ? least : element(rotation, s.max);
-    block.varies = block.varies || least != most;
-    const auto same = std::find_if(parts_.begin() + std::ptrdiff_t(block.part), parts_.end(),
-                                   [&](const Part& p) { return p.least == least && p.most == most; });
+    block.varies = block.varies || s.min != s.max;
+    const auto same = std::find_if(parts_.begin() + std::ptrdiff_t(block.part), parts_.end(), [&](const Part& p) {
+      return p.rotation == rotation && p.min == s.min && p.max == s.max;
+    });
     if (same != parts_.end()) {
       same->mask |= mask;
     } else {
-      parts_.push_back({mask, rotation, least, most});
+      parts_.push_back({mask, rotation, s.min, s.max});
     }
   }
   block.parts = parts_.size() - block.part;
-  for (std::size_t i = block.part; i < parts_.size(); ++i) block.reach = std::max(block.reach, parts_[i].most->most_dz);
+}
+
+/// Group by group: a block whose elements do not fit goes on in the next one.
+void OrientedDilation::decide_blocks(const BitBox& solid, const ScaleLattice& scale, BitBox& out) {
+  group_.clear();
+  for (const Block& block : blocks_) {
+    Block some = block;
+    some.parts = 0;
+    for (std::size_t i = block.part; i < block.part + block.parts; ++i) {
+      if (!prepare(parts_[i])) {
+        if (some.parts > 0) group_.push_back(some);
+        decide_group(solid, scale, out);
+        some = block;
+        some.part = i;
+        some.parts = 0;
+        prepare(parts_[i]);
+      }
+      ++some.parts;
+      some.reach = std::max(some.reach, parts_[i].most->most_dz);
+    }
+    group_.push_back(some);
+  }
+  decide_group(solid, scale, out);
+}
+
+void OrientedDilation::decide_group(const BitBox& solid, const ScaleLattice& scale, BitBox& out) {
+  sweep(kept_ >= 0 ? along_ : solid);
+  finish(solid, scale, out);
+  group_.clear();
+  elements_.clear();
+  element_bytes_ = 0;
+}
+
+/// False if the part's elements may not fit beside those that are there.
+bool OrientedDilation::prepare(Part& part) {
+  const std::size_t wanted = elements_.count({part.rotation, part.min}) + elements_.count({part.rotation, part.max});
+  const std::size_t limit = turned_cubes_bytes(reach_);
+  if (wanted < 2 && !elements_.empty() && element_bytes_ + 2 * RowTables::most_bytes(reach_) > limit) return false;
+  part.least = element(part.rotation, part.min);
+  part.most = element(part.rotation, part.max);
+  return true;
 }
 
 const RowTables::Element* OrientedDilation::element(std::uint16_t rotation, Scale s) {
   auto& found = elements_[{rotation, s}];
-  if (!found) found = std::make_unique<RowTables::Element>(tables_.prepare(CubeRows(rotations_[rotation], s, kept_)));
+  if (!found) {
+    found = std::make_unique<RowTables::Element>(tables_.prepare(CubeRows(rotations_[rotation], s, kept_)));
+    element_bytes_ += found->bytes();
+  }
   return found.get();
 }
 
 void OrientedDilation::sweep(const BitBox& solid) {
-  if (blocks_.empty()) return;
+  if (group_.empty()) return;
   std::size_t first = 0, last = 0;  // blocks in reach of the slice
-  for (std::int32_t z = blocks_.front().first.z - reach_; z < blocks_.back().first.z + kEdge + reach_; ++z) {
-    while (first < blocks_.size() && blocks_[first].first.z + kEdge - 1 + reach_ < z) ++first;
-    while (last < blocks_.size() && blocks_[last].first.z - reach_ <= z) ++last;
+  for (std::int32_t z = group_.front().first.z - reach_; z < group_.back().first.z + kEdge + reach_; ++z) {
+    while (first < group_.size() && group_[first].first.z + kEdge - 1 + reach_ < z) ++first;
+    while (last < group_.size() && group_[last].first.z - reach_ <= z) ++last;
     if (first == last || !tables_.load(solid, z)) continue;
-    for (std::size_t i = first; i < last; ++i) ask(blocks_[i], z - blocks_[i].first.z);
+    for (std::size_t i = first; i < last; ++i) ask(group_[i], z - group_[i].first.z);
   }
 }
 
@@ -266,7 +304,7 @@ std::uint64_t OrientedDilation::ask(const Block& block, const Part& part, int sl
 
 void OrientedDilation::finish(const BitBox& solid, const ScaleLattice& scale, BitBox& out) {
   const VoxelBox& box = out.box();
-  for (const Block& block : blocks_) {
+  for (const Block& block : group_) {
     if (block.varies) decide(block, solid, scale);
     const std::int32_t column = (block.first.x - box.min.x) / 64;
     const VoxelBox rows = intersect(box, {block.first, block.first + VoxelCoord{64, kEdge, kEdge}});

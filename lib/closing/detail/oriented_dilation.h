@@ -21,7 +21,8 @@ class OrientedDilation {
   /// The largest cube along the axes that lies in the turned one decides for most voxels that are in, and the smallest
   /// around it for those that are out. Between, rows of the turned cube are asked for, 64 x 8 voxels at once: some 10
   /// cycles for each row of the cube in whose slice something lies. Where the scale varies in a cell, the least and the
-  /// largest are asked for, and voxels on which they disagree one by one.
+  /// largest are asked for, and voxels on which they disagree one by one. The solid is swept once for as many cubes as
+  /// turned_cubes_bytes() hold.
   void run(const BitBox& solid, const ScaleLattice& scale, const OrientationField& field, BitBox& out);
 
  private:
@@ -31,7 +32,8 @@ class OrientedDilation {
   struct Part {
     std::uint64_t mask;  ///< of x
     std::uint16_t rotation;
-    const RowTables::Element *least, *most;
+    Scale min, max;
+    const RowTables::Element *least = nullptr, *most = nullptr;  ///< while it is asked for
   };
   /// 64 x 8 x 8 voxels, a cell high and wide.
   struct Block {
@@ -49,7 +51,10 @@ class OrientedDilation {
   void list_blocks(const ScaleLattice& scale, const OrientationField& field, const BitBox& out);
   bool take_open(Block& block, const BitBox& out);
   void add_parts(Block& block, const ScaleLattice& scale, const OrientationField& field);
+  bool prepare(Part& part);
   const RowTables::Element* element(std::uint16_t rotation, Scale s);
+  void decide_blocks(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
+  void decide_group(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
   void sweep(const BitBox& solid);
   void ask(Block& block, std::int32_t dz_of_first);
   std::uint64_t ask(const Block& block, const Part& part, int slice, std::int32_t dz);
@@ -65,8 +70,10 @@ class OrientedDilation {
   BitBox along_;   ///< solid, dilated along it
   RowTables tables_;
   std::map<std::pair<std::uint16_t, Scale>, std::unique_ptr<RowTables::Element>> elements_;
+  std::size_t element_bytes_ = 0;
   std::vector<Part> parts_;
   std::vector<Block> blocks_;  ///< by z, then y, then x
+  std::vector<Block> group_;   ///< some of them, of some of their parts: those whose elements are there
   std::vector<std::uint64_t> open_, maybe_;
   std::int32_t reach_ = 0, longest_ = 0;
   CubeDilation cube_;

@@ -71,6 +71,7 @@ void RowTables::lay(const VoxelBox& region, std::int32_t reach, std::int32_t lon
 RowTables::Element RowTables::prepare(CubeRows rows) const {
   Element e{std::move(rows), {}, 0};
   e.most_dz = e.rows.reach();
+  e.windows.reserve(std::size_t(e.rows.begin(e.most_dz + 1) - e.rows.begin(-e.most_dz)));
   for (const CubeRow* row = e.rows.begin(-e.most_dz); row < e.rows.begin(e.most_dz + 1); ++row) {
     Window w{};
     w.dy = row->dy;

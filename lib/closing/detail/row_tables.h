@@ -22,7 +22,13 @@ class RowTables {
     CubeRows rows;
     std::vector<Window> windows;  ///< one for each of its rows
     std::int32_t most_dz = 0;
+    [[nodiscard]] std::size_t bytes() const { return windows.size() * kRowBytes; }
   };
+  static constexpr std::size_t kRowBytes = sizeof(Window) + sizeof(CubeRow);
+  /// Of an element of this reach.
+  static constexpr std::size_t most_bytes(std::int32_t reach) {
+    return std::size_t(2 * reach + 1) * std::size_t(2 * reach + 1) * kRowBytes;
+  }
 
   /// Lays tables for questions from voxels of `region` by elements of this reach.
   void lay(const VoxelBox& region, std::int32_t reach, std::int32_t longest);

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <set>
 
+#include "lib/closing/rotation.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/clip.h"
@@ -37,7 +38,8 @@ double tile_bytes(const VoxelCoord& grid, std::int32_t tile, const Halo& halo, b
   const double distances = 6 * (side + 160) * (side + 2);  // three slices of a varying cube dilation
   constexpr double kTransform = 8 << 20;                   // a block of rows of the ball transform
   const double rows = turned ? 5 * dilation + 4 * (side + 160) * (side + 2) : 0;  // of turned cubes
-  return 3 * solid + 4 * dilation + 4 * core + distances + kTransform + rows;
+  const double cubes = turned ? double(turned_cubes_bytes(halo.dilation_vox)) : 0;
+  return 3 * solid + 4 * dilation + 4 * core + distances + kTransform + rows + cubes;
 }
 
 /// The tile size that promises most: workers that fit in memory and find enough tiles, times the share of the voxels
@@ -69,11 +71,12 @@ class StreamCloser {
       : source_(source),
         sink_(sink),
         scale_(scale),
-        params_(params),
+        cubes_(params.turned() ? each_cube_once(*params.orientation) : OrientationField{}),
+        params_{params.element, params.turned() ? &cubes_ : nullptr},
         options_(options),
         header_(source.header()),
         axis_(header_.slab_axis),
-        widest_(widest_halo(scale.upper_bound(header_.frame), params)),
+        widest_(widest_halo(scale.upper_bound(header_.frame), params_)),
         solid_(options.context.make_shelf()),
         closing_(options.context.make_shelf()) {
     lay_tiles(backends);
@@ -119,6 +122,7 @@ class StreamCloser {
   BrickSource& source_;
   BrickSink& sink_;
   const ScaleField& scale_;
+  const OrientationField cubes_;
   const ClosingParams params_;
   const CloseOptions& options_;
   const StreamHeader& header_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "lib/core/error.h"
@@ -17,9 +18,10 @@ using detail::Frame;
 using detail::FrameLattice;
 using detail::FrameTensor;
 
-constexpr std::int32_t kMostCells = 32;            ///< along an axis
-constexpr double kPlaceWeight = 1000;              ///< of a frame at a place; 1: a cell's side full of surface
-constexpr double kAlike = 0.99984769515639123915;  ///< cosine of a degree
+constexpr std::int32_t kMostCells = 32;              ///< along an axis
+constexpr double kPlaceWeight = 1000;                ///< of a frame at a place; 1: a cell's side full of surface
+constexpr double kUpright = 0.99984769515639123915;  ///< cosine of a degree
+constexpr double kMerged = 0.99939082701909573001;   ///< cosine of 2 degrees: a cube turned by them looks the same
 
 /// The smallest cells that will do.
 std::int32_t cell_edge(const VoxelBox& voxels, double scale_vox) {
@@ -37,24 +39,6 @@ std::int32_t cell_edge(const VoxelBox& voxels, double scale_vox) {
 FixedQuaternion fixed(const std::array<double, 4>& q) {
   const auto part = [](double x) { return std::int16_t(std::lround(x * (1 << kRotationBits))); };
   return {part(q[0]), part(q[1]), part(q[2]), part(q[3])};
-}
-
-constexpr std::uint16_t kNotYet = 0xffff;
-
-/// Rotations that the cells around a cell have got, in a fixed order.
-std::vector<std::uint16_t> beside(const OrientationField& field, std::size_t cell) {
-  const auto i = std::int64_t(cell);
-  const std::int64_t nx = field.size.x, ny = field.size.y, x = i % nx, y = i / nx % ny, z = i / nx / ny;
-  std::vector<std::uint16_t> found;
-  for (std::int64_t c = std::max<std::int64_t>(z - 1, 0); c <= std::min<std::int64_t>(z + 1, field.size.z - 1); ++c) {
-    for (std::int64_t b = std::max<std::int64_t>(y - 1, 0); b <= std::min(y + 1, ny - 1); ++b) {
-      for (std::int64_t a = std::max<std::int64_t>(x - 1, 0); a <= std::min(x + 1, nx - 1); ++a) {
-        const std::uint16_t there = field.cells[std::size_t((c * ny + b) * nx + a)];
-        if (there != kNotYet) found.push_back(there);
-      }
-    }
-  }
-  return found;
 }
 
 /// A little of the whole scene, where a cell has walls of one direction only.
@@ -76,7 +60,7 @@ void add_mean(const FrameLattice& lattice, std::vector<FrameTensor>& tensors) {
 Frame upright(Frame frame) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t g = 0; g < 3; ++g) {
-      if (std::abs(frame[i][g]) < kAlike) continue;
+      if (std::abs(frame[i][g]) < kUpright) continue;
       Vec3d &axis = frame[i], &next = frame[(i + 1) % 3];
       const double sign = axis[g] < 0 ? -1 : 1;
       axis = {};
@@ -93,27 +77,49 @@ Frame upright(Frame frame) {
 /// Gives cells of like frames one rotation: that of the cell with the largest weight.
 class Palette {
  public:
-  Palette() : frames_{{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}}, rotations_{FixedQuaternion{}} {}
+  Palette() { add({Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}); }
 
-  /// One of the first rotations, one of those `beside` it, or a new one.
-  std::uint16_t index(const Frame& frame, const std::vector<std::uint16_t>& beside) {
-    constexpr std::size_t kFirst = 64;
-    for (std::size_t i = 0; i < std::min(frames_.size(), kFirst); ++i) {
-      if (detail::likeness(frame, frames_[i]) >= kAlike) return std::uint16_t(i);
+  /// The nearest rotation within kMerged, or a new one. Cost: a look at those nearby.
+  std::uint16_t index(const Frame& frame) {
+    const Place at = place(detail::least_turn(frame));
+    double best = kMerged;
+    std::size_t found = frames_.size();
+    for (int i = 0; i < 27; ++i) {
+      const auto near = places_.find({at[0] + i % 3 - 1, at[1] + i / 3 % 3 - 1, at[2] + i / 9 - 1});
+      if (near == places_.end()) continue;
+      for (const std::uint16_t k : near->second) {
+        const double alike = detail::likeness(frame, frames_[k]);
+        if (alike < best || (alike == best && k > found)) continue;
+        best = alike;
+        found = k;
+      }
     }
-    for (const std::uint16_t i : beside) {
-      if (detail::likeness(frame, frames_[i]) >= kAlike) return i;
-    }
-    const FixedQuaternion q = fixed(detail::least_turn(frame));
-    frames_.push_back(frame);
-    rotations_.push_back(q);
-    return std::uint16_t(rotations_.size() - 1);
+    if (found == frames_.size()) add(frame);
+    return std::uint16_t(found);
   }
   [[nodiscard]] const std::vector<FixedQuaternion>& rotations() const { return rotations_; }
 
  private:
+  /// Of the last three parts of a quaternion: those of rotations within kMerged are in it, or in one beside it.
+  using Place = std::array<int, 3>;
+  static Place place(const std::array<double, 4>& q) {
+    constexpr double kEdge = 0.022;  // rotations that move each axis by 2 degrees at most are 2.45 degrees apart
+    Place p;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = int(std::floor(q[i + 1] / kEdge));
+    return p;
+  }
+  void add(const Frame& frame) {
+    constexpr double kLeast = 0.8;  // the least turn of any frame has more than 0.85, by a turn of 63 degrees
+    for (const auto& q : detail::turns_of(frame)) {
+      if (q[0] > kLeast) places_[place(q)].push_back(std::uint16_t(frames_.size()));
+    }
+    rotations_.push_back(fixed(detail::least_turn(frame)));
+    frames_.push_back(frame);
+  }
+
   std::vector<Frame> frames_;
   std::vector<FixedQuaternion> rotations_;
+  std::map<Place, std::vector<std::uint16_t>> places_;  ///< of each, whichever of the 24 turns comes near
 };
 
 }  // namespace
@@ -207,8 +213,8 @@ OrientationField OrientationMaker::make() const {
                    [&](std::size_t a, std::size_t b) { return lattice.weight[a] > lattice.weight[b]; });
   Palette palette;
   OrientationField field = sums_->field;
-  field.cells.assign(lattice.count(), kNotYet);
-  for (const std::size_t i : order) field.cells[i] = palette.index(frames[i], beside(field, i));
+  field.cells.resize(lattice.count());
+  for (const std::size_t i : order) field.cells[i] = palette.index(frames[i]);
   field.rotations = palette.rotations();
   if (std::find(field.cells.begin(), field.cells.end(), 0) == field.cells.end()) {  // all are turned
     field.rotations.erase(field.rotations.begin());

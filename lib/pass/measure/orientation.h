@@ -22,7 +22,7 @@ class OrientationMaker {
   /// A frame at a place, at right angles, of unit length: what is there is turned so.
   void add(const Vec3d& at, const std::array<Vec3d, 3>& axes);
 
-  /// Smooth between what was added, and nearly constant where it can be: rotations within a degree of each other are
+  /// Smooth between what was added, and nearly constant where it can be: rotations within 2 degrees of each other are
   /// one. The same field for any number of threads.
   [[nodiscard]] OrientationField make() const;
 

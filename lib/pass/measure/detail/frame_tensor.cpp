@@ -160,17 +160,23 @@ Frame best_frame(const FrameTensor& tensor) {
   return best;
 }
 
-std::array<double, 4> least_turn(const Frame& frame) {
+std::vector<std::array<double, 4>> turns_of(const Frame& frame) {
   static constexpr int kOrders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}};
-  std::array<double, 4> best{-1, 0, 0, 0};
+  std::vector<std::array<double, 4>> turns;
   for (const auto& order : kOrders) {
     for (int signs = 0; signs < 8; ++signs) {
       Frame r;
       for (std::size_t i = 0; i < 3; ++i) r[i] = (signs >> i & 1 ? -1.0 : 1.0) * frame[std::size_t(order[i])];
-      if (dot(cross(r[0], r[1]), r[2]) < 0) continue;
-      const std::array<double, 4> q = quaternion_of(r);
-      if (q[0] > best[0] + 1e-12) best = q;
+      if (dot(cross(r[0], r[1]), r[2]) > 0) turns.push_back(quaternion_of(r));
     }
+  }
+  return turns;
+}
+
+std::array<double, 4> least_turn(const Frame& frame) {
+  std::array<double, 4> best{-1, 0, 0, 0};
+  for (const std::array<double, 4>& q : turns_of(frame)) {
+    if (q[0] > best[0] + 1e-12) best = q;
   }
   return best;
 }

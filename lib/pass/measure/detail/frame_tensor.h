@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <vector>
 
 #include "lib/core/coords.h"
 
@@ -26,7 +27,10 @@ struct FrameTensor {
 /// The frame that fits best: the largest sum over its axes of the polynomial, by ascents from fixed starts.
 [[nodiscard]] Frame best_frame(const FrameTensor& tensor);
 
-/// The rotation of the frame's cube that turns least, as a quaternion w, x, y, z of length 1.
+/// The 24 rotations of the frame's cube, as quaternions w, x, y, z of length 1 whose largest part is positive.
+[[nodiscard]] std::vector<std::array<double, 4>> turns_of(const Frame& frame);
+
+/// That which turns least.
 [[nodiscard]] std::array<double, 4> least_turn(const Frame& frame);
 
 /// Cosine of the largest angle between an axis of `a` and that of `b` which is nearest to it.

@@ -114,11 +114,41 @@ TEST_CASE("frames at places hold there, and turn smoothly between", "[quick][ori
   for (double x = 2; x < 31; x += 1) CHECK(detail::likeness(at(x), at(x + 1)) > std::cos(4 * kDegree));
 }
 
+/// Of radius 1, around (0, 0, 0).
+std::vector<TriangleD> sphere(int n) {
+  const auto at = [&](int i, int j) {
+    const double a = i * 180.0 / n * kDegree, b = j * 180.0 / n * kDegree;
+    return Vec3d{std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)};
+  };
+  std::vector<TriangleD> out;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < 2 * n; ++j) {
+      out.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      out.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return out;
+}
+
 TEST_CASE("an orientation has the same bits for any number of threads", "[quick][oriented]") {
-  const std::vector<TriangleD> triangles = box({5, 3, 2}, {4, 2, 1}, frame_of(turn(17, {3, 1, 2})));
-  const OrientationField all = automatic(triangles, 0.05, 0.3);
+  const std::vector<TriangleD> triangles = sphere(24);
+  const OrientationField all = automatic(triangles, 0.02, 0.16);
+  CHECK(all.rotations.size() > 30);
   const ThreadLimit limit(1);
-  CHECK(automatic(triangles, 0.05, 0.3) == all);
+  CHECK(automatic(triangles, 0.02, 0.16) == all);
+}
+
+TEST_CASE("no two rotations of an orientation are within 2 degrees, nor more than are needed", "[quick][oriented]") {
+  const OrientationField f = automatic(sphere(24), 0.02, 0.08);
+  REQUIRE(orientation_fault(f) == nullptr);
+  CHECK(f.rotations.size() * 3 < f.cells.size());
+  std::vector<Frame> frames;
+  for (const FixedQuaternion& q : f.rotations) frames.push_back(frame_of(q));
+  double most = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) most = std::max(most, detail::likeness(frames[i], frames[j]));
+  }
+  CHECK(most < std::cos(1.97 * kDegree));
 }
 
 TEST_CASE("turns of a cube onto itself change no frame", "[quick][oriented]") {
