@@ -14,7 +14,7 @@ std::int32_t oriented_reach(const OrientationField& field, Scale s) {
 }
 
 std::size_t turned_cubes_bytes(std::int32_t reach) {
-  constexpr std::size_t kEnough = 16 << 20;
+  constexpr std::size_t kEnough = 8 << 20;
   return std::max(kEnough, 2 * detail::RowTables::most_bytes(reach));
 }
 

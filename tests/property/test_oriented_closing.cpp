@@ -156,7 +156,7 @@ TEST_CASE("large turned cubes hold what their definition says", "[quick][closing
 TEST_CASE("a field of very many rotations is closed at once, and as by each cube once", "[quick][closing][oriented]") {
   OrientationField field{8, {}, {256, 256, 1}, {}, {}};
   for (std::uint32_t i = 0; i < OrientationField::kMostRotations; ++i)
-    field.rotations.push_back({16000, std::int16_t(i % 256), std::int16_t(i / 256), 1});
+    field.rotations.push_back({16000, std::int16_t(i % 128 * 8), std::int16_t(i / 256 * 8), 1});
   for (std::uint32_t i = 0; i < 1U << 16; ++i)
     field.cells.push_back(std::uint16_t(std::min(i, OrientationField::kMostRotations - 1)));
   REQUIRE(orientation_fault(field) == nullptr);
