@@ -72,6 +72,9 @@ std::string set_enclosure(const bp::MeshOptions& o, const bp::StreamHeader& head
 void note_axes(bp::Report& report, const bp::MeshOptions& o, const bp::StreamHeader& header, bp::MeshFormat format) {
   if (format != bp::MeshFormat::glb && format != bp::MeshFormat::gltf) return;
   if (const std::string text = bp::up_note(header); !text.empty()) report.note(text, o.common);
+  if (header.has_field && !header.has_closing)
+    report.note("the stream has a scale field, and was not closed by it; bpclose goes between bpscale and bpmesh",
+                o.common);
 }
 
 void note_estimate(bp::Report& report, const bp::MeshOptions& o, const bp::StreamHeader& header, bp::Enclose enclosed) {
