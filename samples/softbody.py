@@ -14,6 +14,7 @@ import zlib
 from pathlib import Path
 
 RATE, STEPS, GRAVITY, FRICTION, DAMPING = 24, 12, 9.81, .3, .002
+HEIGHT = 2.4  # of every body while it falls: a model may be in any unit
 EDGE, BRACE, VOLUME = 1.2e-2, .12, 1e-9  # compliances, for masses that sum to 1
 BRACES = 10  # of each vertex
 
@@ -75,6 +76,8 @@ def pull(points, bars, weight, per_square):
 
 def simulate(rest, faces, frames):
     """Yields the points of each frame. It falls tilted, from less than half its height."""
+    unit = (max(p[1] for p in rest) - min(p[1] for p in rest)) / HEIGHT
+    rest = [[c / unit for c in p] for p in rest]
     low, high = (min(p[1] for p in rest), max(p[1] for p in rest))
     tilt, lift = math.radians(8), .4 * (high - low)
     points = [[p[0] * math.cos(tilt) - p[1] * math.sin(tilt), p[0] * math.sin(tilt) + p[1] * math.cos(tilt), p[2]] for p in rest]
@@ -85,7 +88,7 @@ def simulate(rest, faces, frames):
     weight, step = float(len(points)), 1 / RATE / STEPS
     speeds = [[0.0, 0.0, 0.0] for _ in points]
     for _ in range(frames):
-        yield points
+        yield [[unit * c for c in p] for p in points]
         for _ in range(STEPS):
             before = [p[:] for p in points]
             for p, v in zip(points, speeds):
@@ -129,7 +132,7 @@ def add_floor(path, reach, height):
     """The same floor in each picture, and two specks beyond it: so all pictures show the same place."""
     with path.open("a") as file:
         for x, z in ((-.8, -.8), (-.8, .8), (.8, .8), (.8, -.8)):
-            print("v", x * reach, -.01, z * reach, file=file)
+            print("v", x * reach, -.003 * height, z * reach, file=file)
         for side, y in ((-1, height), (1, 0)):
             for i in range(3):
                 print("v", side * reach + i % 2 * 1e-4, y, side * reach + i // 2 * 1e-4, file=file)
@@ -151,7 +154,7 @@ def main(scene, cage, folder, frames="48"):
     subprocess.run(["bpdeform", "apply", folder / "scene.bpw", *cages, *one_file, "-o", folder / f"scene{kind}", "--overwrite", "-q"],
                    check=True)
     if kind != ".obj":
-        return
+        return print("softbody: pictures are made of OBJ scenes only" if not one_file else f"softbody: {folder}/scene{kind} moves")
     pictures = []
     for material in Path(scene).parent.glob("*.mtl"):
         shutil.copy(material, folder)
@@ -163,4 +166,10 @@ def main(scene, cage, folder, frames="48"):
     animated_png(pictures, folder / "softbody.png")
 
 
-main(*sys.argv[1:])
+if __name__ == "__main__":
+    if len(sys.argv) not in (4, 5):
+        sys.exit(__doc__)
+    try:
+        main(*sys.argv[1:])
+    except (OSError, ValueError, subprocess.CalledProcessError) as fault:
+        sys.exit(f"softbody: {fault}")
