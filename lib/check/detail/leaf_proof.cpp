@@ -19,7 +19,8 @@ using Flat = std::array<double, 2>;
 using Polygon = std::vector<Flat>;
 
 constexpr std::size_t kMostPieces = 1000;
-constexpr double kGrowth = 1.5;  // errors
+constexpr double kGrowth = 1.5;   // errors
+constexpr double kThinReach = 3;  // errors
 
 double dot(const Flat& a, const Flat& b) {
   return a[0] * b[0] + a[1] * b[1];
@@ -58,11 +59,28 @@ class Plane {
   Vec3d from_, u_, v_;
 };
 
+constexpr double kLine = 1e-12;  // of a square: a smaller area is none
+
+double doubled_area(const std::array<Flat, 3>& t) {
+  const Flat a = minus(t[1], t[0]), b = minus(t[2], t[0]);
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+/// Seen from behind, and not by rounding of a thin triangle.
+bool is_turned_over(const std::array<Flat, 3>& t, double error) {
+  double around = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Flat side = minus(t[(k + 1) % 3], t[k]);
+    around += std::hypot(side[0], side[1]);
+  }
+  return -doubled_area(t) / 2 > error * around;
+}
+
 /// Between them lies what a triangle covers; nothing if it is a line there.
 std::vector<Side> sides_of(std::array<Flat, 3> t, double growth) {
   const Flat a = minus(t[1], t[0]), b = minus(t[2], t[0]);
-  const double area = a[0] * b[1] - a[1] * b[0];
-  if (!(std::abs(area) > 1e-12 * std::max(dot(a, a), dot(b, b)))) return {};
+  const double area = doubled_area(t);
+  if (!(std::abs(area) > kLine * std::max(dot(a, a), dot(b, b)))) return {};
   if (area < 0) std::swap(t[1], t[2]);
   std::vector<Side> sides;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -107,14 +125,35 @@ double area_of(const TriangleD& t) {
   return length(cross(t[1] - t[0], t[2] - t[0])) / 2;
 }
 
-bool is_thin(const std::vector<Vec3d>& part, double error) {
-  double around = 0, area = 0;
+struct Size {
+  double area = 0, around = 0;
+};
+Size size_of(const std::vector<Vec3d>& part) {
+  Size size;
   for (std::size_t k = 0; k < part.size(); ++k) {
     const Vec3d u = part[k] - part[0], v = part[(k + 1) % part.size()] - part[0];
-    area += length(cross(u, v)) / 2;
-    around += length(v - u);
+    size.area += length(cross(u, v)) / 2;
+    size.around += length(v - u);
   }
-  return area <= error * around;
+  return size;
+}
+
+Bounds3d box_around(const std::vector<Vec3d>& part, double by) {
+  Bounds3d box;
+  for (const Vec3d& p : part) box.add(p);
+  for (std::size_t i = 0; i < 3; ++i) box.min[i] -= by, box.max[i] += by;
+  return box;
+}
+
+/// All of it by one face: what is left there of a triangle that the neighbour shows.
+bool is_along_face(const std::vector<Vec3d>& part, const Bounds3d& cell, double within) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (const double at : {cell.min[i], cell.max[i]}) {
+      if (std::all_of(part.begin(), part.end(), [&](const Vec3d& p) { return std::abs(p[i] - at) <= within; }))
+        return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -141,9 +180,7 @@ std::vector<Vec3d> part_within(const TriangleD& t, const Bounds3d& box) {
 
 /// The largest first: they leave the fewest pieces.
 std::vector<const TriangleBvh::Item*> LeafProof::near(const std::vector<Vec3d>& part, double error) const {
-  Bounds3d box;
-  for (const Vec3d& p : part) box.add(p);
-  for (std::size_t i = 0; i < 3; ++i) box.min[i] -= error, box.max[i] += error;
+  const Bounds3d box = box_around(part, error);
   const auto is_near = [&](const Vec3d& p) {
     for (std::size_t k = 1; k + 1 < part.size(); ++k)
       if (distance_squared(p, TriangleD{part[0], part[k], part[k + 1]}) <= error * error) return true;
@@ -163,16 +200,40 @@ std::vector<const TriangleBvh::Item*> LeafProof::near(const std::vector<Vec3d>& 
   return found;
 }
 
+LeafProof::Cover LeafProof::add_thin(const std::vector<Vec3d>& part, double error) {
+  for (const TriangleBvh::Item* item : near(part, error)) on_scene_[item->id] = true;
+  const double most = kThinReach * error;
+  const bool by_one = shown_.visit(box_around(part, most), [&](const TriangleBvh::Item& item) {
+    return std::all_of(part.begin(), part.end(),
+                       [&](const Vec3d& p) { return distance_squared(p, item.corners) <= most * most; });
+  });
+  if (by_one) return Cover::whole;
+  const auto is_shown = [&](const Vec3d& p) {
+    return !shown_.empty() && shown_.near_enough(p, most * most, 0).distance_squared <= most * most;
+  };
+  if (is_along_face(part, cell_, most) || std::all_of(part.begin(), part.end(), is_shown)) return Cover::thin;
+  return Cover::undecided;
+}
+
 LeafProof::Cover LeafProof::add(const std::vector<Vec3d>& part, double error) {
-  const std::vector<const TriangleBvh::Item*> found = near(part, error);
-  for (const TriangleBvh::Item* item : found) on_scene_[item->id] = true;
-  if (is_thin(part, error)) return Cover::whole;
+  const Size size = size_of(part);
+  if (size.area <= error * size.around) {
+    const Cover cover = add_thin(part, error);
+    return size.area > kLine * size.around * size.around ? cover : Cover::whole;
+  }
   const Plane plane(part);
   std::vector<Polygon> left(1), rest;
   for (const Vec3d& p : part) left[0].push_back(plane(p));
-  for (const TriangleBvh::Item* item : found) {
+  std::vector<std::array<Flat, 3>> covers;
+  for (const TriangleBvh::Item* item : near(part, error)) {
     const TriangleD& t = item->corners;
-    const std::vector<Side> sides = sides_of({plane(t[0]), plane(t[1]), plane(t[2])}, kGrowth * error);
+    const std::array<Flat, 3> flat{plane(t[0]), plane(t[1]), plane(t[2])};
+    if (is_turned_over(flat, error)) continue;
+    on_scene_[item->id] = true;
+    covers.push_back(flat);
+  }
+  for (const std::array<Flat, 3>& t : covers) {
+    const std::vector<Side> sides = sides_of(t, kGrowth * error);
     if (sides.empty()) continue;
     rest.clear();
     for (const Polygon& polygon : left) take_out(sides, polygon, rest);
