@@ -73,16 +73,21 @@ class Checker {
   }
 
  private:
-  /// Least and largest of some tiles.
+  /// A tile and those below.
   struct Numbers {
-    std::size_t first = 0, last = 0;
+    std::size_t first = 0, last = 0;   ///< the least and the largest
+    std::optional<double> leaf_error;  ///< the largest, if those below show nothing but leaves
   };
 
   const Numbers& find_below(std::size_t i) {
-    Numbers& all = below_[i] = {i, i};
+    Numbers& all = below_[i] = {i, i, 0.0};
     for (const std::size_t child : tiles_[i].children) {
       const Numbers& some = find_below(child);
-      all = {std::min(all.first, some.first), std::max(all.last, some.last)};
+      all.first = std::min(all.first, some.first), all.last = std::max(all.last, some.last);
+      const bool is_leaf = tiles_[child].leaf_error.has_value();
+      if (!some.leaf_error || (tiles_[child].triangles && !is_leaf)) all.leaf_error.reset();
+      if (all.leaf_error)
+        all.leaf_error = std::max({*all.leaf_error, *some.leaf_error, tiles_[child].leaf_error.value_or(0)});
     }
     return all;
   }
@@ -195,7 +200,10 @@ class Checker {
       if (child != 0) {
         visit(child, t);
       } else if (mine) {
-        ++counts_[i].uncovered;
+        const Verdict verdict = without_child(i, box, t);
+        counts_[i].thin += verdict == Verdict::thin;
+        counts_[i].undecided += verdict == Verdict::undecided;
+        counts_[i].uncovered += verdict == Verdict::missing;
       }
     }
   }
@@ -209,9 +217,19 @@ class Checker {
 
   /// Of a leaf.
   [[nodiscard]] Verdict compare(std::size_t i, const TriangleD& t) {
-    const std::vector<Vec3d> part = part_within(t, *tiles_[i].cell);
+    return compare(*bodies_[i].proof, *tiles_[i].cell, t, *tiles_[i].leaf_error);
+  }
+  /// No leaf is made of what a neighbour's triangle has just beyond a face.
+  [[nodiscard]] Verdict without_child(std::size_t i, const Bounds3d& octant, const TriangleD& t) const {
+    if (!below_[i].leaf_error) return Verdict::missing;
+    const TriangleBvh nothing({});
+    LeafProof proof(nothing, octant);
+    return compare(proof, octant, t, *below_[i].leaf_error);
+  }
+  [[nodiscard]] static Verdict compare(LeafProof& proof, const Bounds3d& cell, const TriangleD& t, double error) {
+    const std::vector<Vec3d> part = part_within(t, cell);
     if (part.empty()) return Verdict::fine;
-    switch (bodies_[i].proof->add(part, leaf_error(i, t))) {
+    switch (proof.add(part, leaf_error(cell, t, error))) {
       case LeafProof::Cover::whole:
         return Verdict::fine;
       case LeafProof::Cover::thin:
@@ -223,8 +241,8 @@ class Checker {
     }
   }
 
-  [[nodiscard]] double leaf_error(std::size_t i, const TriangleD& t) const {
-    return *tiles_[i].leaf_error + kLeafRounding * rounding_of(*tiles_[i].cell, t);
+  [[nodiscard]] static double leaf_error(const Bounds3d& cell, const TriangleD& t, double error) {
+    return error + kLeafRounding * rounding_of(cell, t);
   }
 
   [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t) const {
@@ -290,7 +308,7 @@ class Checker {
       edge = std::max(edge, bounds_.max[k] - bounds_.min[k]);
       farthest = std::max({farthest, std::abs(bounds_.min[k]), std::abs(bounds_.max[k])});
     }
-    const double error = leaf_error(i, {bounds_.min, bounds_.max, bounds_.max});
+    const double error = leaf_error(*tiles_[i].cell, {bounds_.min, bounds_.max, bounds_.max}, *tiles_[i].leaf_error);
     report_.leaf_error = std::max(report_.leaf_error, error);
     const double most = kMostLeafError * edge + 2 * kLeafRounding * 0x1p-50 * farthest;
     if (error > most)

@@ -15,7 +15,8 @@
 /// drawn. What is proved, for each triangle t:
 ///   - t lies in the cell of the root;
 ///   - for each tile whose cell t meets, t ∩ cell meets no face of the tile's content and lies inside of it;
-///   - the cells of a tile's children are octants of its own, or its own again; t meets no octant without a child.
+///   - the cells of a tile's children are octants of its own, or its own again; t meets no octant without a child,
+///     unless all below are leaves, and t has next to nothing there: what a leaf without triangles would be, too.
 /// A tile without a cell answers for all of space; one without content draws nothing, and must have children.
 ///
 /// A leaf encloses nothing: it is the scene itself in its cell. Each of its triangles must lie within `leaf_error` of a

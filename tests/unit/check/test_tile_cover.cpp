@@ -251,6 +251,21 @@ TEST_CASE("a thin triangle of the scene must be near the leaf", "[quick][check][
   CHECK(found({Vec3d{1, 1, 3}, {9, 1, 3}, {5, 1, 3}}).empty());  // draws nothing
 }
 
+TEST_CASE("an octant that a triangle just touches needs no leaf", "[quick][check][tileset]") {
+  const double beyond = GENERATE(0.0, 1e-6, 1e-3);
+  const Triangles scene{{Vec3d{8 + beyond, 1, 1}, {8 + beyond, 7, 1}, {1, 1, 1}}};
+  IndexedMesh leaf;
+  leaf.vertices = {{8, 1, 1}, {8, 7, 1}, {1, 1, 1}};
+  leaf.triangles = {{0, 1, 2}};
+  std::vector<MeshTile> tiles{{"root", "r", box_mesh({0, 0, 0}, {15, 15, 15}), bounds({0, 0, 0}, {16, 16, 16}), {1}},
+                              {"root.0", "a", leaf, bounds({0, 0, 0}, {8, 8, 8}), {}, 1e-5}};
+  const std::vector<std::string> found = findings(tiles, scene);
+  CHECK(found.empty() == (beyond < 1e-5));
+  tiles[1].leaf_error.reset();  // a proxy
+  tiles[1].content = box_mesh({0.5, 0.5, 0.5}, {10, 8, 2});
+  CHECK_THAT(only(findings(tiles, scene)), ContainsSubstring("root: r has no child where there are 1 triangles"));
+}
+
 TEST_CASE("a leaf may cut the scene's triangles, and leaves no hole in them", "[quick][check][tileset]") {
   const TriangleD whole{Vec3d{1, 1, 1}, {15, 1, 3}, {1, 15, 5}};
   const auto at = [&](double a, double b) {
