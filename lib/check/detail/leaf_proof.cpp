@@ -17,8 +17,10 @@ namespace {
 
 using Flat = std::array<double, 2>;
 using Polygon = std::vector<Flat>;
+using FlatTriangle = std::array<Flat, 3>;
 
-constexpr std::size_t kMostPieces = 1000;
+constexpr std::size_t kMostPieces = 200;
+constexpr int kMostDeep = 12;     // halves of halves
 constexpr double kGrowth = 1.5;   // errors
 constexpr double kThinReach = 3;  // errors
 
@@ -61,13 +63,13 @@ class Plane {
 
 constexpr double kLine = 1e-12;  // of a square: a smaller area is none
 
-double doubled_area(const std::array<Flat, 3>& t) {
+double doubled_area(const FlatTriangle& t) {
   const Flat a = minus(t[1], t[0]), b = minus(t[2], t[0]);
   return a[0] * b[1] - a[1] * b[0];
 }
 
 /// Seen from behind, and not by rounding of a thin triangle.
-bool is_turned_over(const std::array<Flat, 3>& t, double error) {
+bool is_turned_over(const FlatTriangle& t, double error) {
   double around = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Flat side = minus(t[(k + 1) % 3], t[k]);
@@ -77,7 +79,7 @@ bool is_turned_over(const std::array<Flat, 3>& t, double error) {
 }
 
 /// Between them lies what a triangle covers; nothing if it is a line there.
-std::vector<Side> sides_of(std::array<Flat, 3> t, double growth) {
+std::vector<Side> sides_of(FlatTriangle t, double growth) {
   const Flat a = minus(t[1], t[0]), b = minus(t[2], t[0]);
   const double area = doubled_area(t);
   if (!(std::abs(area) > kLine * std::max(dot(a, a), dot(b, b)))) return {};
@@ -123,6 +125,47 @@ void take_out(const std::vector<Side>& sides, const Polygon& polygon, std::vecto
 
 double area_of(const TriangleD& t) {
   return length(cross(t[1] - t[0], t[2] - t[0])) / 2;
+}
+
+using Cover = LeafProof::Cover;
+
+Cover cover_at_once(const Polygon& polygon, const std::vector<FlatTriangle>& covers, double growth) {
+  std::vector<Polygon> left{polygon}, rest;
+  for (const FlatTriangle& t : covers) {
+    const std::vector<Side> sides = sides_of(t, growth);
+    if (sides.empty()) continue;
+    rest.clear();
+    for (const Polygon& piece : left) take_out(sides, piece, rest);
+    left.swap(rest);
+    if (left.empty()) return Cover::whole;
+    if (left.size() > kMostPieces) return Cover::undecided;
+  }
+  return Cover::missing;
+}
+
+/// In halves, if that takes too many pieces.
+Cover cover(const Polygon& polygon, const std::vector<FlatTriangle>& covers, double growth, int depth) {
+  const Cover at_once = cover_at_once(polygon, covers, growth);
+  if (at_once != Cover::undecided || depth == kMostDeep) return at_once;
+  const auto range = [](const auto& points, std::size_t axis) {
+    std::array<double, 2> r{HUGE_VAL, -HUGE_VAL};
+    for (const Flat& p : points) r = {std::min(r[0], p[axis]), std::max(r[1], p[axis])};
+    return r;
+  };
+  const auto x = range(polygon, 0), y = range(polygon, 1);
+  const std::size_t axis = x[1] - x[0] >= y[1] - y[0] ? 0 : 1;
+  const double at = axis == 0 ? x[0] + (x[1] - x[0]) / 2 : y[0] + (y[1] - y[0]) / 2;
+  for (const bool low : {true, false}) {
+    const Polygon half = cut(polygon, {{double(axis == 0), double(axis == 1)}, at}, low);
+    if (half.empty()) continue;
+    std::vector<FlatTriangle> some;
+    for (const FlatTriangle& t : covers) {
+      const auto r = range(t, axis);
+      if (low ? r[0] <= at + 2 * growth : r[1] >= at - 2 * growth) some.push_back(t);
+    }
+    if (const Cover found = cover(half, some, growth, depth + 1); found != Cover::whole) return found;
+  }
+  return Cover::whole;
 }
 
 struct Size {
@@ -222,26 +265,17 @@ LeafProof::Cover LeafProof::add(const std::vector<Vec3d>& part, double error) {
     return size.area > kLine * size.around * size.around ? cover : Cover::whole;
   }
   const Plane plane(part);
-  std::vector<Polygon> left(1), rest;
-  for (const Vec3d& p : part) left[0].push_back(plane(p));
-  std::vector<std::array<Flat, 3>> covers;
+  std::vector<FlatTriangle> covers;
   for (const TriangleBvh::Item* item : near(part, error)) {
     const TriangleD& t = item->corners;
-    const std::array<Flat, 3> flat{plane(t[0]), plane(t[1]), plane(t[2])};
+    const FlatTriangle flat{plane(t[0]), plane(t[1]), plane(t[2])};
     if (is_turned_over(flat, error)) continue;
     on_scene_[item->id] = true;
     covers.push_back(flat);
   }
-  for (const std::array<Flat, 3>& t : covers) {
-    const std::vector<Side> sides = sides_of(t, kGrowth * error);
-    if (sides.empty()) continue;
-    rest.clear();
-    for (const Polygon& polygon : left) take_out(sides, polygon, rest);
-    left.swap(rest);
-    if (left.empty()) return Cover::whole;
-    if (left.size() > kMostPieces) return Cover::undecided;
-  }
-  return Cover::missing;
+  Polygon polygon;
+  for (const Vec3d& p : part) polygon.push_back(plane(p));
+  return cover(polygon, covers, kGrowth * error, 0);
 }
 
 std::uint64_t LeafProof::strays() const {

@@ -274,7 +274,7 @@ TEST_CASE("a leaf may cut the scene's triangles, and leaves no hole in them", "[
       p[i] = whole[0][i] + a * (whole[1][i] - whole[0][i]) + b * (whole[2][i] - whole[0][i]);
     return p;
   };
-  constexpr int kSteps = 20;  // 400 pieces
+  constexpr int kSteps = 60;
   std::vector<MeshTile> tiles{{"root", "r", box_mesh({0, 0, 0}, {16, 16, 16}), bounds({0, 0, 0}, {16, 16, 16}), {1}},
                               {"root.0", "a", IndexedMesh(), bounds({0, 0, 0}, {16, 16, 16}), {}}};
   tiles[1].leaf_error = 1e-6;
