@@ -45,16 +45,19 @@ def cross(a, b):
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
+def volume_of(points, triangles):
+    return sum(p * q for a, b, c in triangles for p, q in zip(points[a], cross(points[b], points[c]))) / 6
+
+
 def keep_volume(points, triangles, rest, weight, stiff):
     """Moves all points along the gradient of the volume."""
-    gradient, volume = [[0, 0, 0] for _ in points], 0
+    gradient = [[0, 0, 0] for _ in points]
     for a, b, c in triangles:
         for i, part in ((a, cross(points[b], points[c])), (b, cross(points[c], points[a])), (c, cross(points[a], points[b]))):
             for k in range(3):
                 gradient[i][k] += part[k] / 6
-        volume += sum(p * q for p, q in zip(points[a], cross(points[b], points[c]))) / 6
     size = weight * sum(g * g for row in gradient for g in row)
-    push = (rest(volume) - volume) / (size + stiff)
+    push = (rest - volume_of(points, triangles)) / (size + stiff)
     for point, row in zip(points, gradient):
         for k in range(3):
             point[k] += weight * push * row[k]
@@ -78,11 +81,7 @@ def simulate(rest, faces, frames):
     drop = lift - min(p[1] for p in points)
     points = [[p[0], p[1] + drop, p[2]] for p in points]
     bars, triangles = springs(rest, faces), [(f[0], f[i], f[i + 1]) for f in faces for i in range(1, len(f) - 1)]
-    kept = []
-
-    def volume_of(now):
-        kept.append(now)
-        return kept[0]
+    volume = volume_of(rest, triangles)
     weight, step = float(len(points)), 1 / RATE / STEPS
     speeds = [[0.0, 0.0, 0.0] for _ in points]
     for _ in range(frames):
@@ -94,7 +93,7 @@ def simulate(rest, faces, frames):
                 for k in range(3):
                     p[k] += step * v[k]
             pull(points, bars, weight, 1 / step ** 2)
-            keep_volume(points, triangles, volume_of, weight, VOLUME / step ** 2)
+            keep_volume(points, triangles, volume, weight, VOLUME / step ** 2)
             for p, old in zip(points, before):
                 if p[1] < 0:
                     p[:] = [p[0] - FRICTION * (p[0] - old[0]), 0.0, p[2] - FRICTION * (p[2] - old[2])]
