@@ -14,6 +14,7 @@ import zlib
 from pathlib import Path
 
 RATE, STEPS, GRAVITY, FRICTION, DAMPING = 24, 12, 9.81, .3, .002
+HEIGHT = 2.4  # of every body while it falls: a model may be in any unit
 EDGE, BRACE, VOLUME = 1.2e-2, .12, 1e-9  # compliances, for masses that sum to 1
 BRACES = 10  # of each vertex
 
@@ -45,16 +46,19 @@ def cross(a, b):
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
+def volume_of(points, triangles):
+    return sum(p * q for a, b, c in triangles for p, q in zip(points[a], cross(points[b], points[c]))) / 6
+
+
 def keep_volume(points, triangles, rest, weight, stiff):
     """Moves all points along the gradient of the volume."""
-    gradient, volume = [[0, 0, 0] for _ in points], 0
+    gradient = [[0, 0, 0] for _ in points]
     for a, b, c in triangles:
         for i, part in ((a, cross(points[b], points[c])), (b, cross(points[c], points[a])), (c, cross(points[a], points[b]))):
             for k in range(3):
                 gradient[i][k] += part[k] / 6
-        volume += sum(p * q for p, q in zip(points[a], cross(points[b], points[c]))) / 6
     size = weight * sum(g * g for row in gradient for g in row)
-    push = (rest(volume) - volume) / (size + stiff)
+    push = (rest - volume_of(points, triangles)) / (size + stiff)
     for point, row in zip(points, gradient):
         for k in range(3):
             point[k] += weight * push * row[k]
@@ -72,21 +76,19 @@ def pull(points, bars, weight, per_square):
 
 def simulate(rest, faces, frames):
     """Yields the points of each frame. It falls tilted, from less than half its height."""
+    unit = (max(p[1] for p in rest) - min(p[1] for p in rest)) / HEIGHT
+    rest = [[c / unit for c in p] for p in rest]
     low, high = (min(p[1] for p in rest), max(p[1] for p in rest))
     tilt, lift = math.radians(8), .4 * (high - low)
     points = [[p[0] * math.cos(tilt) - p[1] * math.sin(tilt), p[0] * math.sin(tilt) + p[1] * math.cos(tilt), p[2]] for p in rest]
     drop = lift - min(p[1] for p in points)
     points = [[p[0], p[1] + drop, p[2]] for p in points]
     bars, triangles = springs(rest, faces), [(f[0], f[i], f[i + 1]) for f in faces for i in range(1, len(f) - 1)]
-    kept = []
-
-    def volume_of(now):
-        kept.append(now)
-        return kept[0]
+    volume = volume_of(rest, triangles)
     weight, step = float(len(points)), 1 / RATE / STEPS
     speeds = [[0.0, 0.0, 0.0] for _ in points]
     for _ in range(frames):
-        yield points
+        yield [[unit * c for c in p] for p in points]
         for _ in range(STEPS):
             before = [p[:] for p in points]
             for p, v in zip(points, speeds):
@@ -94,7 +96,7 @@ def simulate(rest, faces, frames):
                 for k in range(3):
                     p[k] += step * v[k]
             pull(points, bars, weight, 1 / step ** 2)
-            keep_volume(points, triangles, volume_of, weight, VOLUME / step ** 2)
+            keep_volume(points, triangles, volume, weight, VOLUME / step ** 2)
             for p, old in zip(points, before):
                 if p[1] < 0:
                     p[:] = [p[0] - FRICTION * (p[0] - old[0]), 0.0, p[2] - FRICTION * (p[2] - old[2])]
@@ -130,7 +132,7 @@ def add_floor(path, reach, height):
     """The same floor in each picture, and two specks beyond it: so all pictures show the same place."""
     with path.open("a") as file:
         for x, z in ((-.8, -.8), (-.8, .8), (.8, .8), (.8, -.8)):
-            print("v", x * reach, -.01, z * reach, file=file)
+            print("v", x * reach, -.003 * height, z * reach, file=file)
         for side, y in ((-1, height), (1, 0)):
             for i in range(3):
                 print("v", side * reach + i % 2 * 1e-4, y, side * reach + i // 2 * 1e-4, file=file)
@@ -152,7 +154,7 @@ def main(scene, cage, folder, frames="48"):
     subprocess.run(["bpdeform", "apply", folder / "scene.bpw", *cages, *one_file, "-o", folder / f"scene{kind}", "--overwrite", "-q"],
                    check=True)
     if kind != ".obj":
-        return
+        return print("softbody: pictures are made of OBJ scenes only" if not one_file else f"softbody: {folder}/scene{kind} moves")
     pictures = []
     for material in Path(scene).parent.glob("*.mtl"):
         shutil.copy(material, folder)
@@ -164,4 +166,10 @@ def main(scene, cage, folder, frames="48"):
     animated_png(pictures, folder / "softbody.png")
 
 
-main(*sys.argv[1:])
+if __name__ == "__main__":
+    if len(sys.argv) not in (4, 5):
+        sys.exit(__doc__)
+    try:
+        main(*sys.argv[1:])
+    except (OSError, ValueError, subprocess.CalledProcessError) as fault:
+        sys.exit(f"softbody: {fault}")

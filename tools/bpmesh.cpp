@@ -68,8 +68,12 @@ std::string set_enclosure(const bp::MeshOptions& o, const bp::StreamHeader& head
   return o.proxy.enclose.kind == bp::EncloseOption::Kind::files ? o.proxy.enclose.text() : name_of(enclosure.what);
 }
 
-/// glTF has y up; other formats tell nothing.
-void note_axes(bp::Report& report, const bp::MeshOptions& o, const bp::StreamHeader& header, bp::MeshFormat format) {
+/// What the stream tells and the mesh will not: a field that nobody closed by; and of formats that say where up is, the
+/// axis.
+void note_stream(bp::Report& report, const bp::MeshOptions& o, const bp::StreamHeader& header, bp::MeshFormat format) {
+  if (header.has_field && !header.has_closing)
+    report.note("the stream has a scale field, and was not closed by it; bpclose goes between bpscale and bpmesh",
+                o.common);
   if (format != bp::MeshFormat::glb && format != bp::MeshFormat::gltf) return;
   if (const std::string text = bp::up_note(header); !text.empty()) report.note(text, o.common);
 }
@@ -123,7 +127,7 @@ void run(bp::MeshOptions o) {
   context.make_shelf = bp::make_shelf_factory(bp::MeshBudget(o.common.memory_bytes).shelves, o.common.temp);
   const std::string enclosed = set_enclosure(o, source.header(), params, context.pieces, report);
   note_estimate(report, o, source.header(), params.enclose);
-  note_axes(report, o, source.header(), format);
+  note_stream(report, o, source.header(), format);
   const double error_world = params.error_world;
   bp::MeshCounts counts;
   bp::SolidKeeper keeper(source, context.make_shelf());

@@ -1,7 +1,7 @@
 #include "io/gltf/draco_codec.h"
 
-#include <draco/compression/decode.h>
-#include <draco/compression/mesh/mesh_decoder.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/core/varint_decoding.h>
 #include <draco/metadata/metadata_decoder.h>
 #include <fmt/format.h>
@@ -16,8 +16,16 @@ draco::DecoderBuffer buffer_of(std::span<const std::byte> bytes) {
   return buffer;
 }
 
-/// The head of the bytes: how many triangles follow. Draco makes room for as many as it says, so it is asked first.
-bool read_head(std::span<const std::byte> bytes, std::uint32_t& triangles) {
+constexpr std::size_t kMostComponents = 4;      // that glTF knows
+constexpr std::uint64_t kBytesOfCorners = 100;  // for each triangle: its corners, and who is beside it
+
+struct Head {
+  std::uint32_t triangles = 0;
+  bool sequential = false;
+};
+
+/// Of the bytes. Draco makes room for as many triangles as it says, so it is asked first.
+bool read_head(std::span<const std::byte> bytes, Head& head) {
   draco::DecoderBuffer buffer = buffer_of(bytes);
   draco::DracoHeader header{};
   if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) return false;
@@ -27,12 +35,41 @@ bool read_head(std::span<const std::byte> bytes, std::uint32_t& triangles) {
   draco::GeometryMetadata metadata;
   if ((header.flags & METADATA_FLAG_MASK) != 0 && !draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
     return false;
-  if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
-    std::uint8_t traversal = 0;
-    std::uint32_t vertices = 0;
-    if (!buffer.Decode(&traversal) || !draco::DecodeVarint(&vertices, &buffer)) return false;
+  head.sequential = header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING;
+  std::uint8_t traversal = 0;
+  std::uint32_t vertices = 0;
+  if (!head.sequential && !(buffer.Decode(&traversal) && draco::DecodeVarint(&vertices, &buffer))) return false;
+  return draco::DecodeVarint(&head.triangles, &buffer);
+}
+
+/// A decoder that asks how much the attributes take before there is room for their values, once as whole numbers and
+/// once as they are.
+template <class Decoder>
+class Careful final : public Decoder {
+ public:
+  explicit Careful(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+
+ protected:
+  bool DecodeAllAttributes() override {
+    const draco::PointCloud& cloud = *this->point_cloud();
+    std::uint64_t of_vertex = 0;
+    for (int i = 0; i < cloud.num_attributes(); ++i) {
+      const draco::PointAttribute& a = *cloud.attribute(i);
+      if (a.num_components() > kMostComponents) return false;
+      of_vertex += a.num_components() * (sizeof(std::int32_t) + std::uint64_t(draco::DataTypeLength(a.data_type())));
+    }
+    return of_vertex * cloud.num_points() <= most_bytes_ && Decoder::DecodeAllAttributes();
   }
-  return draco::DecodeVarint(&triangles, &buffer);
+
+ private:
+  std::uint64_t most_bytes_;
+};
+
+template <class Decoder>
+bool decode(std::span<const std::byte> bytes, std::uint64_t triangles, draco::Mesh& mesh) {
+  draco::DecoderBuffer buffer = buffer_of(bytes);
+  Careful<Decoder> decoder(triangles * (kDracoBytesPerTriangle - kBytesOfCorners));
+  return decoder.Decode(draco::DecoderOptions(), &buffer, &mesh).ok();
 }
 
 template <class Number>
@@ -85,16 +122,17 @@ bool take_triangles(const draco::Mesh& from, DracoMesh& to) {
 
 std::string decode_draco(std::span<const std::byte> bytes, std::uint64_t most_triangles, DracoMesh& mesh,
                          std::span<DracoAttribute> attributes) {
-  const std::string damaged = "are damaged, or of another version than 2.2";
-  std::uint32_t triangles = 0;
-  if (!read_head(bytes, triangles)) return damaged;
-  if (triangles > most_triangles)
-    return fmt::format("have {} triangles, and {} indices", triangles, 3 * most_triangles);
-  draco::DecoderBuffer buffer = buffer_of(bytes);
-  auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
-  if (!decoded.ok() || !take_triangles(*decoded.value(), mesh)) return damaged;
+  const std::string damaged = "are damaged, of another version than 2.2, or more than glTF has of vertices";
+  Head head;
+  if (!read_head(bytes, head)) return damaged;
+  if (head.triangles > most_triangles)
+    return fmt::format("have {} triangles, and {} indices", head.triangles, 3 * most_triangles);
+  draco::Mesh decoded;
+  const bool fine = head.sequential ? decode<draco::MeshSequentialDecoder>(bytes, most_triangles, decoded)
+                                    : decode<draco::MeshEdgebreakerDecoder>(bytes, most_triangles, decoded);
+  if (!fine || !take_triangles(decoded, mesh)) return damaged;
   for (DracoAttribute& attribute : attributes) {
-    const draco::PointAttribute* const from = decoded.value()->GetAttributeByUniqueId(attribute.id);
+    const draco::PointAttribute* const from = decoded.GetAttributeByUniqueId(attribute.id);
     if (from == nullptr) return fmt::format("have no attribute {}", attribute.id);
     if (!take_values(*from, mesh.vertices, attribute)) return damaged;
   }

@@ -29,6 +29,6 @@ struct DracoMesh {
 [[nodiscard]] std::string decode_draco(std::span<const std::byte> bytes, std::uint64_t most_triangles, DracoMesh& mesh,
                                        std::span<DracoAttribute> attributes);
 
-constexpr std::uint64_t kDracoBytesPerTriangle = 200;  ///< while they are decoded
+constexpr std::uint64_t kDracoBytesPerTriangle = 500;  ///< at most, while they are decoded
 
 }  // namespace bp

@@ -193,17 +193,19 @@ void GltfPoints::write_batch(const GltfVertices& v, std::uint64_t first, std::si
 void GltfPoints::write_frames(std::size_t frames, double seconds, const MoveFrame& move, OutputFile& out) {
   detail::GltfCopy copy = copy_of_file();
   const std::vector<GltfVertices> targets = targets_in(copy);
+  copy.plan_targets(targets, frames, options_);
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const MovePoints here = [&](PointBatch& batch) { move(frame, batch); };
-    for (const GltfVertices& v : targets) {
-      const std::uint64_t offset = copy.size();
+    copy.begin_frame();
+    for (std::size_t part = 0; part < targets.size(); ++part) {
+      const GltfVertices& v = targets[part];
       Bounds3d bounds;
       for (std::uint64_t first = 0; first < v.position.count; first += kBatch) {
         const auto n = std::size_t(std::min<std::uint64_t>(kBatch, v.position.count - first));
         const std::vector<float> changes = changes_of(v, first, n, here, copy, bounds);
         copy.append(std::as_bytes(std::span(changes)));
       }
-      copy.add_target(v.numbers, offset, v.position.count, bounds);
+      copy.add_target(part, bounds);
     }
   }
   copy.add_animation(frames, seconds);

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
+#include <mutex>
 
 #include "lib/check/detail/leaf_proof.h"
 #include "lib/check/detail/surface.h"
@@ -19,7 +20,10 @@ namespace bp {
 
 namespace {
 
-enum class Verdict { fine, touching, outside, undecided, missing };
+constexpr double kLeafRounding = 16;        // rounding_of(): what is computed of a leaf and the scene
+constexpr double kMostLeafError = 0x1p-18;  // of the longest edge of the scene's box
+
+enum class Verdict { fine, thin, touching, outside, undecided, missing };
 
 /// The content of a tile as a surface, and the triangles of the scene that it fails.
 struct Body {
@@ -35,7 +39,7 @@ struct Body {
 };
 
 struct Counts {
-  std::atomic<std::uint64_t> touching{0}, outside{0}, undecided{0}, uncovered{0}, bare{0}, missing{0};
+  std::atomic<std::uint64_t> touching{0}, outside{0}, undecided{0}, uncovered{0}, bare{0}, missing{0}, thin{0};
   std::uint64_t strays = 0;  ///< triangles of a leaf
 };
 
@@ -46,7 +50,7 @@ class Checker {
     find_below(0);
   }
 
-  std::vector<CoverFinding> run(TriangleSource& scene, std::uint64_t memory_bytes) {
+  CoverReport run(TriangleSource& scene, std::uint64_t memory_bytes) {
     for (begin_ = 0; begin_ < tiles_.size(); begin_ = end_) {
       end_ = end_of_share(memory_bytes);
       parallel_for(std::int64_t(end_ - begin_), [&](std::int64_t i) { load(begin_ + std::size_t(i)); });
@@ -56,25 +60,34 @@ class Checker {
         bodies_[i].drop();
       }
     }
-    for (std::size_t i = 0; i < tiles_.size(); ++i) say_of_tile(i);
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      say_of_tile(i);
+      if (tiles_[i].leaf_error && tiles_[i].triangles) say_of_error(i);
+      report_.thin += counts_[i].thin;
+    }
     if (astray_ > 0)
       findings_.push_back(
           {fmt::format("{}: {} triangles of the scene leave its cell", tiles_[0].place, astray_.load())});
     for (std::size_t i = 0; i < tiles_.size(); ++i) say_of_scene(i);
-    return std::move(findings_);
+    return std::move(report_);
   }
 
  private:
-  /// Least and largest of some tiles.
+  /// A tile and those below.
   struct Numbers {
-    std::size_t first = 0, last = 0;
+    std::size_t first = 0, last = 0;   ///< the least and the largest
+    std::optional<double> leaf_error;  ///< the largest, if those below show nothing but leaves
   };
 
   const Numbers& find_below(std::size_t i) {
-    Numbers& all = below_[i] = {i, i};
+    Numbers& all = below_[i] = {i, i, 0.0};
     for (const std::size_t child : tiles_[i].children) {
       const Numbers& some = find_below(child);
-      all = {std::min(all.first, some.first), std::max(all.last, some.last)};
+      all.first = std::min(all.first, some.first), all.last = std::max(all.last, some.last);
+      const bool is_leaf = tiles_[child].leaf_error.has_value();
+      if (!some.leaf_error || (tiles_[child].triangles && !is_leaf)) all.leaf_error.reset();
+      if (all.leaf_error)
+        all.leaf_error = std::max({*all.leaf_error, *some.leaf_error, tiles_[child].leaf_error.value_or(0)});
     }
     return all;
   }
@@ -97,7 +110,7 @@ class Checker {
     body.mesh = weld(content_of_(i), 1, report);
     if (tiles_[i].leaf_error) {
       body.surface = std::make_unique<Surface>(body.mesh);
-      body.proof = std::make_unique<LeafProof>(body.surface->bvh());
+      body.proof = std::make_unique<LeafProof>(body.surface->bvh(), *tiles_[i].cell);
       return;
     }
     check_topology(body.mesh, 1, report);
@@ -113,6 +126,7 @@ class Checker {
     pipeline<std::vector<TriangleD>>(
         2 * thread_count(), [&](std::vector<TriangleD>& chunk) { return scene.read(chunk); },
         [&](std::vector<TriangleD>& chunk) {
+          if (begin_ == 0) add_bounds(chunk);
           for (const TriangleD& t : chunk) {
             if (in_root(t)) {
               visit(0, t);
@@ -122,6 +136,16 @@ class Checker {
           }
         },
         [](std::vector<TriangleD>&) {});
+  }
+
+  void add_bounds(const std::vector<TriangleD>& chunk) {
+    Bounds3d box;
+    for (const TriangleD& t : chunk)
+      for (const Vec3d& p : t) box.add(p);
+    if (chunk.empty()) return;
+    const std::lock_guard lock(bounds_mutex_);
+    bounds_.add(box.min);
+    bounds_.add(box.max);
   }
 
   [[nodiscard]] bool fits(std::size_t parent, std::size_t child) const {
@@ -160,6 +184,7 @@ class Checker {
     if (mine && !tile.triangles && tile.children.empty()) ++counts_[i].bare;
     if (mine && tile.triangles) {
       const Verdict verdict = tile.leaf_error ? compare(i, t) : examine(i, t);
+      counts_[i].thin += verdict == Verdict::thin;
       counts_[i].missing += verdict == Verdict::missing;
       counts_[i].touching += verdict == Verdict::touching;
       counts_[i].outside += verdict == Verdict::outside;
@@ -175,7 +200,10 @@ class Checker {
       if (child != 0) {
         visit(child, t);
       } else if (mine) {
-        ++counts_[i].uncovered;
+        const Verdict verdict = without_child(i, box, t);
+        counts_[i].thin += verdict == Verdict::thin;
+        counts_[i].undecided += verdict == Verdict::undecided;
+        counts_[i].uncovered += verdict == Verdict::missing;
       }
     }
   }
@@ -189,12 +217,32 @@ class Checker {
 
   /// Of a leaf.
   [[nodiscard]] Verdict compare(std::size_t i, const TriangleD& t) {
-    const std::vector<Vec3d> part = part_within(t, *tiles_[i].cell);
+    return compare(*bodies_[i].proof, *tiles_[i].cell, t, *tiles_[i].leaf_error);
+  }
+  /// No leaf is made of what a neighbour's triangle has just beyond a face.
+  [[nodiscard]] Verdict without_child(std::size_t i, const Bounds3d& octant, const TriangleD& t) const {
+    if (!below_[i].leaf_error) return Verdict::missing;
+    const TriangleBvh nothing({});
+    LeafProof proof(nothing, octant);
+    return compare(proof, octant, t, *below_[i].leaf_error);
+  }
+  [[nodiscard]] static Verdict compare(LeafProof& proof, const Bounds3d& cell, const TriangleD& t, double error) {
+    const std::vector<Vec3d> part = part_within(t, cell);
     if (part.empty()) return Verdict::fine;
-    const double error = *tiles_[i].leaf_error + 16 * rounding_of(*tiles_[i].cell, t);
-    const LeafProof::Cover cover = bodies_[i].proof->add(part, error);
-    if (cover == LeafProof::Cover::undecided) return Verdict::undecided;
-    return cover == LeafProof::Cover::whole ? Verdict::fine : Verdict::missing;
+    switch (proof.add(part, leaf_error(cell, t, error))) {
+      case LeafProof::Cover::whole:
+        return Verdict::fine;
+      case LeafProof::Cover::thin:
+        return Verdict::thin;
+      case LeafProof::Cover::missing:
+        return Verdict::missing;
+      default:
+        return Verdict::undecided;
+    }
+  }
+
+  [[nodiscard]] static double leaf_error(const Bounds3d& cell, const TriangleD& t, double error) {
+    return error + kLeafRounding * rounding_of(cell, t);
   }
 
   [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t) const {
@@ -252,6 +300,22 @@ class Checker {
     }
   }
 
+  /// The file chose the error and the cells. What rounding is, only the scene tells.
+  void say_of_error(std::size_t i) {
+    if (!(bounds_.min[0] <= bounds_.max[0])) return;
+    double edge = 0, farthest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      edge = std::max(edge, bounds_.max[k] - bounds_.min[k]);
+      farthest = std::max({farthest, std::abs(bounds_.min[k]), std::abs(bounds_.max[k])});
+    }
+    const double error = leaf_error(*tiles_[i].cell, {bounds_.min, bounds_.max, bounds_.max}, *tiles_[i].leaf_error);
+    report_.leaf_error = std::max(report_.leaf_error, error);
+    const double most = kMostLeafError * edge + 2 * kLeafRounding * 0x1p-50 * farthest;
+    if (error > most)
+      findings_.push_back({fmt::format("{}: {} is compared to within {:.3g}; rounding of this scene is {:.3g} at most",
+                                       tiles_[i].place, tiles_[i].uri, error, most)});
+  }
+
   void say_of_scene(std::size_t i) {
     const CoverTile& tile = tiles_[i];
     const Counts& c = counts_[i];
@@ -277,13 +341,16 @@ class Checker {
   std::vector<Numbers> below_;       ///< of each tile, itself included
   std::size_t begin_ = 0, end_ = 0;  ///< tiles of this share
   std::atomic<std::uint64_t> astray_{0};
-  std::vector<CoverFinding> findings_;
+  Bounds3d bounds_;  ///< of the scene
+  std::mutex bounds_mutex_;
+  CoverReport report_;
+  std::vector<CoverFinding>& findings_ = report_.findings;
 };
 
 }  // namespace
 
-std::vector<CoverFinding> check_cover(const std::vector<CoverTile>& tiles, const CoverContents& content_of,
-                                      TriangleSource& scene, std::uint64_t memory_bytes) {
+CoverReport check_cover(const std::vector<CoverTile>& tiles, const CoverContents& content_of, TriangleSource& scene,
+                        std::uint64_t memory_bytes) {
   return Checker(tiles, content_of).run(scene, memory_bytes);
 }
 

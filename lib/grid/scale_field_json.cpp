@@ -125,10 +125,21 @@ class RuleReader {
   [[nodiscard]] double length(const Node& node) const {
     if (node.is_number() || !(context_.diagonal > 0 || context_.voxel > 0)) return node.length();
     try {
-      return parse_length(node.text()).in_world(context_.diagonal, context_.voxel);
+      const Length length = parse_length(node.text());
+      if (length.unit == Length::Unit::scene)
+        node.refuse(fmt::format("is a text without a unit: write {0}, or \"{0}%\"", length.text()));
+      return length.in_world(context_.diagonal, context_.voxel);
     } catch (const Error& e) {
+      if (e.code() == ErrorCode::bad_input) throw;
       node.refuse(fmt::format("is no length: {}", e.what()));
     }
+  }
+  /// What closes; nothing of a scene is farther apart than its diagonal.
+  [[nodiscard]] double within_scene(const Node& node) const {
+    const double found = length(node);
+    if (context_.diagonal > 0 && found > context_.diagonal)
+      node.refuse(fmt::format("is longer than the scene's diagonal ({:.4g})", context_.diagonal));
+    return found;
   }
 
   void add(const Node& node) {
@@ -183,7 +194,7 @@ class RuleReader {
     ScaleRule rule;
     if (node.has("name")) rule.name = node.at("name").plain_text();
     if (node.has("mode")) rule.mode = mode_of(node.at("mode"));
-    if (rule.mode != ScaleMode::erase || node.has("scale")) rule.scale = length(node.at("scale"));
+    if (rule.mode != ScaleMode::erase || node.has("scale")) rule.scale = within_scene(node.at("scale"));
     return rule;
   }
 
@@ -204,10 +215,8 @@ class RuleReader {
     const bool thin = std::string(place) == "thickness";
     rule.kind = thin ? ShapeRule::Kind::thickness : ShapeRule::Kind::gap;
     node.expect_keys({"name", place, thin ? "scale" : "mode"});
-    rule.length = length(node.at(place));
+    rule.length = within_scene(node.at(place));
     if (!(rule.length > 0)) node.at(place).refuse("is 0");
-    if (context_.diagonal > 0 && rule.length > context_.diagonal)
-      node.at(place).refuse(fmt::format("is longer than the scene's diagonal ({:.4g})", context_.diagonal));
     if (node.has("scale")) rule.least = length(node.at("scale"));
     if (node.has("mode")) rule.mode = mode_of(node.at("mode"));
     if (rule.mode == ScaleMode::erase) node.at("mode").refuse("is none of set, increase, decrease, as a gap needs");
@@ -314,12 +323,12 @@ ScalePlan parse_scale_rules(const std::string& json, const std::string& name, co
   ScalePlan plan;
   ScaleField& field = plan.field;
   RuleReader reader(plan, context);
-  field.base = reader.length(root.at("base"));
+  field.base = reader.within_scene(root.at("base"));
   if (root.has("slope")) field.slope = root.at("slope").length();
   if (root.has("rules") && (root.has("boxes") || root.has("strokes")))
     root.refuse("has 'rules' and, as earlier versions had them, 'boxes' or 'strokes'");
   if (root.has("orientation") && !context.may_orient)
-    root.at("orientation").refuse("is made for the voxels of a stream, and only bpscale has them at hand");
+    root.at("orientation").refuse("is made for the voxels of a stream: bpvox | bpscale RULES | bpclose | bpmesh");
   for_each_of(root, "rules", [&](const Node& node) { reader.add(node); });
   for_each_of(root, "boxes", [&](const Node& node) { reader.add_old_box(node); });
   for_each_of(root, "strokes", [&](const Node& node) { reader.add_old_stroke(node); });

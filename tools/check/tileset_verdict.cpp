@@ -63,7 +63,6 @@ class CoverTiles {
     CoverTile& noted = tiles_[next_++];
     ++verdict.contents;
     verdict.leaves += noted.leaf_error.has_value();
-    verdict.leaf_error = std::max(verdict.leaf_error, noted.leaf_error.value_or(0));
     TileContent known;
     try {
       IndexedMesh mesh = read_content(folder_ + tile.uri, options_);
@@ -157,6 +156,8 @@ std::string TilesetVerdict::text(const std::string& name) const {
   if (scene && leaves > 0)
     lines += fmt::format("{}: {} of the contents enclose nothing: they must be the scene itself, to within {:.3g}\n",
                          name, leaves, 3 * leaf_error);
+  if (thin > 0)
+    lines += fmt::format("{}: of {} thin parts of the scene only the corners were looked for\n", name, thin);
   return lines + fmt::format("{}: {} tiles, {} contents, {} triangles{}: {}\n", name, tiles, contents, triangles,
                              scene ? ", checked against the scene" : "",
                              holds()                         ? "holds"
@@ -188,8 +189,11 @@ TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std
   verdict.findings = check_tileset(tileset, [&](const Tile& tile) { return cover.look_at(tile, verdict); });
   if (!scene) return verdict;
   const auto content = [&](std::size_t i) { return cover.content(i); };
-  for (const CoverFinding& found :
-       has_cells(tileset) ? check_cover(cover.tiles(), content, *scene, memory_bytes) : check_whole(cover, *scene)) {
+  const CoverReport report = has_cells(tileset) ? check_cover(cover.tiles(), content, *scene, memory_bytes)
+                                                : CoverReport{check_whole(cover, *scene)};
+  verdict.leaf_error = report.leaf_error;
+  verdict.thin = report.thin;
+  for (const CoverFinding& found : report.findings) {
     verdict.findings.push_back(found.text);
     verdict.undecided += found.answer == Answer::undecided;
   }

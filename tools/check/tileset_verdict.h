@@ -11,7 +11,8 @@ struct TilesetVerdict {
   std::vector<std::string> findings;  ///< one line each; empty: all holds
   std::uint64_t tiles = 0, contents = 0, triangles = 0;
   std::uint64_t leaves = 0;     ///< of the contents: pieces of the scene itself
-  double leaf_error = 0;        ///< the largest of theirs, scene units
+  double leaf_error = 0;        ///< CoverReport::leaf_error
+  std::uint64_t thin = 0;       ///< CoverReport::thin
   bool scene = false;           ///< the contents were checked against scenes
   std::uint64_t undecided = 0;  ///< of the findings: they prove nothing, and refute nothing
   [[nodiscard]] Answer answer() const {

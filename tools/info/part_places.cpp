@@ -30,8 +30,8 @@ std::vector<Bounds3d> joined(const std::vector<Bounds3d>& boxes, double slack) {
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (!touch(boxes[i], boxes[j], slack)) continue;
-      const auto [low, high] = std::minmax(root_of(i), root_of(j));
-      root[high] = low;
+      const std::size_t a = root_of(i), b = root_of(j);
+      root[std::max(a, b)] = std::min(a, b);
     }
   }
   std::vector<Bounds3d> bounds(boxes.size()), out;

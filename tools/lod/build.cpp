@@ -131,6 +131,7 @@ void Build::make_room(VoxelizedScene& scene) {
       break;
     case Symmetry::automatic:
       plane_ = symmetry_of(scene, make_shelf);
+      if (plane_) note(fmt::format("symmetric across {}, as the scene is", name_of(Symmetry(plane_->axis))));
       break;
     default:
       plane_ = middle_plane(scene.header, int(options.symmetry));

@@ -34,6 +34,8 @@ std::string faces_note(const LevelFacts& level, bool asked) {
         "closed at {:.4g}, {} times the scale that was tried first: at less, parts and holes take more than {} faces",
         level.scale_world, std::uint64_t(1) << (level.attempts - 1), budget);
   if (few.empty() || level.attempts == 1) return few;
+  if (level.scale_world == 0)  // a cage
+    return fmt::format("{} faces instead of {}: one step finer makes too many", level.faces, budget);
   return fmt::format("{} faces instead of {}: at half of its scale of {:.4g}, parts and holes take too many",
                      level.faces, budget, level.scale_world);
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "lib/core/error.h"
 #include "tools/lod/choices.h"
 #include "tools/notes/proportion.h"
 
@@ -17,6 +18,16 @@ std::string finest_target(const BuildOptions& o) {
   return "--error " + o.levels.errors.front().text();
 }
 
+/// Space around a cage: beyond a fifth of the scene no cage follows it, and making it takes long.
+void question_margin(const BuildOptions& o, const Bounds3d& scene, double voxel) {
+  constexpr double kMost = 20;  // percent
+  const double share = 100 * margin_of(o, scene.diagonal(), voxel) / scene.diagonal();
+  if (share <= kMost) return;
+  const bool slip = o.margin.unit == Length::Unit::scene && o.margin.value <= kMost;
+  fail(ErrorCode::bad_argument, "--margin {} is {:.3g} % of the scene's diagonal, and {:g}% is the most{}",
+       o.margin.text(), share, kMost, slip ? fmt::format(": did you mean {}%?", o.margin.text()) : "");
+}
+
 }  // namespace
 
 void question_proportions(const BuildOptions& o, const SceneSize& scene) {
@@ -27,6 +38,7 @@ void question_proportions(const BuildOptions& o, const SceneSize& scene) {
   const char* const likely = pixels ? "are these pixels of a screen?" : "is the scene in other units?";
   if (const std::string what = finest_target(o); !what.empty()) question_grid(what, voxel, scene.bounds, likely);
   if (o.closing.scale) question_scale("--scale", *o.closing.scale, scene.bounds, voxel);
+  if (o.is_cage() && !scene.bounds.empty()) question_margin(o, scene.bounds, voxel);
 }
 
 Estimate estimate_build(const BuildOptions& o, const Bounds3d& scene, const VoxelizeCounts& counts, double voxel) {

@@ -58,7 +58,8 @@ GltfCopy::GltfCopy(SceneFilePtr file, const SceneFile& buffer, std::uint64_t byt
     : file_(std::move(file)), data_(std::make_unique<ScratchFile>(temp_dir_of(options))) {
   constexpr std::uint64_t kPerByte = 12;  // of JSON: memory of what it becomes
   const Chunk json = is_glb(*file_) ? chunk_at(*file_, kFirst) : Chunk{0, file_->size(), kJson};
-  check_document(options, file_->name(), "its JSON", kPerByte * json.size, options.document.bytes);
+  json_bytes_ = kPerByte * json.size;
+  check_document(options, file_->name(), "its JSON", json_bytes_, options.document.bytes);
   std::string text(json.size, ' ');
   file_->read_at(json.begin, std::as_writable_bytes(std::span(text)));
   try {
@@ -109,41 +110,84 @@ std::size_t GltfCopy::add_floats(std::size_t view, std::uint64_t offset, std::ui
   return json_["accessors"].size() - 1;
 }
 
-std::size_t GltfCopy::add_scalars(const std::vector<float>& values) {
-  json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", size()}, {"byteLength", 4 * values.size()}});
-  append(std::as_bytes(std::span(values)));
-  return add_floats(json_["bufferViews"].size() - 1, 0, values.size(), "SCALAR");
+std::size_t GltfCopy::add_scalars(std::uint64_t offset) {
+  const std::uint64_t bytes = size() - offset;
+  json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes}});
+  return add_floats(json_["bufferViews"].size() - 1, 0, bytes / sizeof(float), "SCALAR");
 }
 
-void GltfCopy::add_target(const std::array<std::uint64_t, 3>& numbers, std::uint64_t offset, std::uint64_t count,
-                          const Bounds3d& bounds) {
-  constexpr std::uint64_t kThreeFloats = 12;
-  const bool has_normals = numbers[1] > 0;
-  const std::uint64_t stride = has_normals ? 2 * kThreeFloats : kThreeFloats;
-  GltfOutJson view{{"buffer", 0}, {"byteOffset", offset}, {"byteLength", count * stride}};
-  if (has_normals) view["byteStride"] = stride;
-  view["target"] = kVertexData;
-  json_["bufferViews"].push_back(std::move(view));
-  const std::size_t at = json_["bufferViews"].size() - 1;
-  GltfOutJson target{{"POSITION", add_floats(at, 0, count, "VEC3")}};
-  set_bounds(json_["accessors"].size() - 1, bounds);
-  if (has_normals) target["NORMAL"] = add_floats(at, kThreeFloats, count, "VEC3");
+void GltfCopy::plan_targets(const std::vector<GltfVertices>& parts, std::size_t targets, const SceneOptions& options) {
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> known;
+  for (const GltfVertices& v : parts) {
+    known.emplace(std::pair(v.numbers[0], v.numbers[1]), parts_.size());
+    parts_.push_back({v.position.count, v.numbers[1] > 0, {}});
+  }
   for (GltfOutJson& mesh : json_["meshes"]) {
     for (GltfOutJson& primitive : mesh["primitives"]) {
-      const GltfOutJson& attributes = primitive["attributes"];
-      if (attributes.value("POSITION", ~std::uint64_t(0)) + 1 == numbers[0] &&
-          attributes.value("NORMAL", ~std::uint64_t(0)) + 1 == numbers[1])
-        primitive["targets"].push_back(target);
+      const auto number = [&](const char* name) { return primitive["attributes"].value(name, ~std::uint64_t(0)) + 1; };
+      const auto part = known.find({number("POSITION"), number("NORMAL")});
+      if (part != known.end()) parts_[part->second].primitives.push_back(&primitive);
     }
   }
+  check_targets(targets, options);
+}
+
+/// Bytes of JSON as values, and as the text that is made of them.
+void GltfCopy::check_targets(std::size_t targets, const SceneOptions& options) const {
+  constexpr std::uint64_t kView = 1200, kPositions = 2600, kNormals = 1300, kPrimitive = 800;
+  std::uint64_t of_each = 0, stride = 0;
+  for (const Part& part : parts_) {
+    if (part.stride() != stride) of_each += kView;
+    stride = part.stride();
+    of_each += kPositions + (part.has_normals ? kNormals : 0) + part.primitives.size() * kPrimitive;
+  }
+  check_document(options, file_->name(), "its JSON with a morph target of each part for each cage",
+                 json_bytes_ + targets * of_each, options.document.bytes);
+}
+
+std::size_t GltfCopy::view_of_targets(std::uint64_t bytes, std::uint64_t stride) {
+  GltfOutJson& views = json_["bufferViews"];
+  if (targets_view_ == stride) {
+    views.back()["byteLength"] = views.back()["byteLength"].get<std::uint64_t>() + bytes;
+  } else {
+    views.push_back({{"buffer", 0},
+                     {"byteOffset", size() - bytes},
+                     {"byteLength", bytes},
+                     {"byteStride", stride},
+                     {"target", kVertexData}});
+    targets_view_ = stride;
+  }
+  return views.size() - 1;
+}
+
+void GltfCopy::add_target(std::size_t number, const Bounds3d& bounds) {
+  constexpr std::uint64_t kThreeFloats = 12;
+  const Part& part = parts_[number];
+  const std::uint64_t bytes = part.count * part.stride();
+  const std::size_t view = view_of_targets(bytes, part.stride());
+  const std::uint64_t at = size() - bytes - json_["bufferViews"].back()["byteOffset"].get<std::uint64_t>();
+  GltfOutJson target{{"POSITION", add_floats(view, at, part.count, "VEC3")}};
+  set_bounds(json_["accessors"].size() - 1, bounds);
+  if (part.has_normals) target["NORMAL"] = add_floats(view, at + kThreeFloats, part.count, "VEC3");
+  for (GltfOutJson* primitive : part.primitives) (*primitive)["targets"].push_back(target);
 }
 
 void GltfCopy::add_animation(std::size_t targets, double seconds) {
-  std::vector<float> times, weights(targets * targets);
-  for (std::size_t i = 0; i < targets; ++i) times.push_back(float(double(i) * seconds)), weights[i * targets + i] = 1;
-  const std::size_t input = add_scalars(times), output = add_scalars(weights);
-  json_["accessors"][input]["min"] = {times.front()};
-  json_["accessors"][input]["max"] = {times.back()};
+  std::vector<float> row(targets);
+  for (std::size_t i = 0; i < targets; ++i) row[i] = float(double(i) * seconds);
+  const std::array<float, 2> range{row.front(), row.back()};
+  const std::uint64_t times = size();
+  append(std::as_bytes(std::span(row)));
+  const std::size_t input = add_scalars(times);
+  const std::uint64_t weights = size();
+  for (std::size_t i = 0; i < targets; ++i) {
+    row.assign(targets, 0);
+    row[i] = 1;
+    append(std::as_bytes(std::span(row)));
+  }
+  const std::size_t output = add_scalars(weights);
+  json_["accessors"][input]["min"] = {range[0]};
+  json_["accessors"][input]["max"] = {range[1]};
   GltfOutJson channels = GltfOutJson::array();
   for (std::size_t n = 0; n < json_["nodes"].size(); ++n) {
     if (!json_["nodes"][n].contains("mesh")) continue;
@@ -154,7 +198,7 @@ void GltfCopy::add_animation(std::size_t targets, double seconds) {
   }
   json_["animations"].push_back(
       {{"samplers", GltfOutJson::array({{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}})},
-       {"channels", channels}});
+       {"channels", std::move(channels)}});
 }
 
 void GltfCopy::write(OutputFile& out) {
@@ -164,20 +208,24 @@ void GltfCopy::write(OutputFile& out) {
   each_block(*data_, data_->size(), [&](std::span<const std::byte> b) { out.write(b); });
 }
 
-/// The buffer goes to the place of a mark that stands nowhere else.
+/// The buffer goes to the place of a mark that stands nowhere else. There is one text at a time.
 void GltfCopy::write_json(OutputFile& out) {
   constexpr int kIndent = 2;
   std::string mark = "base64,", text = json_.dump(kIndent);
   while (text.find(mark) != std::string::npos) mark += '_';
   if (data_->size() == 0) return out.write(text + "\n");
   json_["buffers"][0]["uri"] = "data:application/octet-stream;" + mark;
+  text = std::string();
   text = json_.dump(kIndent);
   const std::size_t at = text.find(mark);
-  out.write(text.substr(0, at) + "base64,");
+  const auto all = std::as_bytes(std::span(text));
+  out.write(all.first(at));
+  out.write("base64,");
   each_block(*data_, data_->size(), [&](std::span<const std::byte> b) {
     out.write(base64_of(std::string(reinterpret_cast<const char*>(b.data()), b.size())));
   });
-  out.write(text.substr(at + mark.size()) + "\n");
+  out.write(all.subspan(at + mark.size()));
+  out.write("\n");
 }
 
 }  // namespace bp::detail

@@ -2,11 +2,13 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "io/files/file.h"
+#include "io/gltf/detail/gltf_vertices.h"
 #include "io/gltf/glb_file.h"
 #include "io/scene/scene_file.h"
 #include "io/scene/scene_reader.h"
@@ -36,24 +38,41 @@ class GltfCopy {
   void set_accessors(std::uint64_t mesh, std::uint64_t primitive, const std::array<std::uint64_t, 3>& numbers);
   /// `min` and `max` of an accessor.
   void set_bounds(std::uint64_t accessor, const Bounds3d& bounds);
-  /// A morph target for all primitives of these accessors (as for set_accessors()). From `offset` on there are `count`
-  /// changes of POSITION, with those of NORMAL behind each if there are any.
-  void add_target(const std::array<std::uint64_t, 3>& numbers, std::uint64_t offset, std::uint64_t count,
-                  const Bounds3d& bounds);
+  /// Before add_target(): so many morph targets for the primitives of each of these vertices. Throws NeedsMemory if the
+  /// document would take more than SceneOptions::document leaves.
+  void plan_targets(const std::vector<GltfVertices>& parts, std::size_t targets, const SceneOptions& options);
+  /// The next targets lie in a view of their own.
+  void begin_frame() { targets_view_.reset(); }
+  /// A morph target of the part of this number. It is what was appended last: changes of POSITION, with those of NORMAL
+  /// behind each if there are any.
+  void add_target(std::size_t part, const Bounds3d& bounds);
   /// An animation that shows one morph target after the other, `seconds` apart.
   void add_animation(std::size_t targets, double seconds);
   /// A GLB as a GLB; else JSON with the buffer in it.
   void write(OutputFile& out);
 
  private:
+  struct Part {
+    std::uint64_t count = 0;
+    bool has_normals = false;
+    std::vector<GltfOutJson*> primitives;
+    [[nodiscard]] std::uint64_t stride() const { return has_normals ? 24 : 12; }
+  };
   void write_json(OutputFile& out);
+  void check_targets(std::size_t targets, const SceneOptions& options) const;
+  /// The view that ends with what was appended last, `bytes` of a part.
+  std::size_t view_of_targets(std::uint64_t bytes, std::uint64_t stride);
   /// The number of a new accessor.
   std::size_t add_floats(std::size_t view, std::uint64_t offset, std::uint64_t count, const char* type);
-  std::size_t add_scalars(const std::vector<float>& values);
+  /// The same, of a view that begins at `offset` and holds all bytes since.
+  std::size_t add_scalars(std::uint64_t offset);
   SceneFilePtr file_;
   GltfOutJson json_;
   std::unique_ptr<ScratchFile> data_;
+  std::uint64_t json_bytes_ = 0;                       // of memory
   std::map<std::uint64_t, std::uint64_t> own_meshes_;  // by node
+  std::vector<Part> parts_;
+  std::optional<std::uint64_t> targets_view_;  // the stride of the last view, if it is one of targets
 };
 
 }  // namespace bp::detail

@@ -93,7 +93,6 @@ bool GltfDocument::unpack(const GltfObject& primitive) {
   const GltfObject packed = primitive.object("extensions").object(kDraco), ids = packed.object("attributes");
   const GltfObject attributes = primitive.object("attributes");
   const std::uint64_t numbers = primitive.number("indices");
-  if (unpacked_numbers_.contains(numbers)) return true;  // another primitive has shared them
   const GltfObject indices = root().item("accessors", numbers);
   const std::uint64_t triangles = indices.number("count") / 3;
   const View bytes = view(packed.number("bufferView"));
@@ -102,11 +101,15 @@ bool GltfDocument::unpack(const GltfObject& primitive) {
                  options_.document.bytes);
   std::vector<DracoAttribute> values;
   std::vector<std::uint64_t> accessors;
+  const bool known = unpacked_numbers_.contains(numbers);  // of another primitive, which shares all or nothing
   for (const std::string& name : attribute_names()) {
     if (!ids.has(name.c_str()) || !attributes.has(name.c_str())) continue;
     accessors.push_back(attributes.number(name.c_str()));
+    if (unpacked_numbers_.contains(accessors.back()) != known)
+      packed.broken("shares some of its accessors with another primitive, and not all");
     values.push_back(attribute_of(root().item("accessors", accessors.back()), ids.number(name.c_str())));
   }
+  if (known) return true;
   DracoMesh mesh;
   const std::string wrong = decode_draco(packed_bytes(bytes), triangles, mesh, values);
   if (!wrong.empty()) packed.broken("holds data that " + wrong);

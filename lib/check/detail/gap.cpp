@@ -74,8 +74,8 @@ Answer keeps_gap(const TriangleD& a, const TriangleD& b, double margin) {
   const Vec3d& p = nearest.on_a;
   // A point near a corner is as exact as the coordinates themselves.
   double far = 0;
-  for (const double x : p) far = std::max(far, std::abs(x));
-  const double rounding = kRounding * (size_around(p, a, b) + nearest.distance) + 4e-16 * far;
+  for (std::size_t i = 0; i < 3; ++i) far = std::max({far, std::abs(p[i]), std::abs(nearest.on_b[i])});
+  const double rounding = kRounding * (size_around(p, a, b) + nearest.distance) + 0x1p-48 * far;
   if (nearest.distance < margin - rounding) return Answer::refuted;
   const Vec3d n = (1 / nearest.distance) * (nearest.on_b - p);
   double before = -HUGE_VAL, behind = HUGE_VAL;

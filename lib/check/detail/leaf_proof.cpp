@@ -17,9 +17,12 @@ namespace {
 
 using Flat = std::array<double, 2>;
 using Polygon = std::vector<Flat>;
+using FlatTriangle = std::array<Flat, 3>;
 
-constexpr std::size_t kMostPieces = 1000;
-constexpr double kGrowth = 1.5;  // errors
+constexpr std::size_t kMostPieces = 200;
+constexpr int kMostDeep = 12;     // halves of halves
+constexpr double kGrowth = 1.5;   // errors
+constexpr double kThinReach = 3;  // errors
 
 double dot(const Flat& a, const Flat& b) {
   return a[0] * b[0] + a[1] * b[1];
@@ -58,11 +61,28 @@ class Plane {
   Vec3d from_, u_, v_;
 };
 
-/// Between them lies what a triangle covers; nothing if it is a line there.
-std::vector<Side> sides_of(std::array<Flat, 3> t, double growth) {
+constexpr double kLine = 1e-12;  // of a square: a smaller area is none
+
+double doubled_area(const FlatTriangle& t) {
   const Flat a = minus(t[1], t[0]), b = minus(t[2], t[0]);
-  const double area = a[0] * b[1] - a[1] * b[0];
-  if (!(std::abs(area) > 1e-12 * std::max(dot(a, a), dot(b, b)))) return {};
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+/// Seen from behind, and not by rounding of a thin triangle.
+bool is_turned_over(const FlatTriangle& t, double error) {
+  double around = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Flat side = minus(t[(k + 1) % 3], t[k]);
+    around += std::hypot(side[0], side[1]);
+  }
+  return -doubled_area(t) / 2 > error * around;
+}
+
+/// Between them lies what a triangle covers; nothing if it is a line there.
+std::vector<Side> sides_of(FlatTriangle t, double growth) {
+  const Flat a = minus(t[1], t[0]), b = minus(t[2], t[0]);
+  const double area = doubled_area(t);
+  if (!(std::abs(area) > kLine * std::max(dot(a, a), dot(b, b)))) return {};
   if (area < 0) std::swap(t[1], t[2]);
   std::vector<Side> sides;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -107,14 +127,76 @@ double area_of(const TriangleD& t) {
   return length(cross(t[1] - t[0], t[2] - t[0])) / 2;
 }
 
-bool is_thin(const std::vector<Vec3d>& part, double error) {
-  double around = 0, area = 0;
+using Cover = LeafProof::Cover;
+
+Cover cover_at_once(const Polygon& polygon, const std::vector<FlatTriangle>& covers, double growth) {
+  std::vector<Polygon> left{polygon}, rest;
+  for (const FlatTriangle& t : covers) {
+    const std::vector<Side> sides = sides_of(t, growth);
+    if (sides.empty()) continue;
+    rest.clear();
+    for (const Polygon& piece : left) take_out(sides, piece, rest);
+    left.swap(rest);
+    if (left.empty()) return Cover::whole;
+    if (left.size() > kMostPieces) return Cover::undecided;
+  }
+  return Cover::missing;
+}
+
+/// In halves, if that takes too many pieces.
+Cover cover(const Polygon& polygon, const std::vector<FlatTriangle>& covers, double growth, int depth) {
+  const Cover at_once = cover_at_once(polygon, covers, growth);
+  if (at_once != Cover::undecided || depth == kMostDeep) return at_once;
+  const auto range = [](const auto& points, std::size_t axis) {
+    std::array<double, 2> r{HUGE_VAL, -HUGE_VAL};
+    for (const Flat& p : points) r = {std::min(r[0], p[axis]), std::max(r[1], p[axis])};
+    return r;
+  };
+  const auto x = range(polygon, 0), y = range(polygon, 1);
+  const std::size_t axis = x[1] - x[0] >= y[1] - y[0] ? 0 : 1;
+  const double at = axis == 0 ? x[0] + (x[1] - x[0]) / 2 : y[0] + (y[1] - y[0]) / 2;
+  for (const bool low : {true, false}) {
+    const Polygon half = cut(polygon, {{double(axis == 0), double(axis == 1)}, at}, low);
+    if (half.empty()) continue;
+    std::vector<FlatTriangle> some;
+    for (const FlatTriangle& t : covers) {
+      const auto r = range(t, axis);
+      if (low ? r[0] <= at + 2 * growth : r[1] >= at - 2 * growth) some.push_back(t);
+    }
+    if (const Cover found = cover(half, some, growth, depth + 1); found != Cover::whole) return found;
+  }
+  return Cover::whole;
+}
+
+struct Size {
+  double area = 0, around = 0;
+};
+Size size_of(const std::vector<Vec3d>& part) {
+  Size size;
   for (std::size_t k = 0; k < part.size(); ++k) {
     const Vec3d u = part[k] - part[0], v = part[(k + 1) % part.size()] - part[0];
-    area += length(cross(u, v)) / 2;
-    around += length(v - u);
+    size.area += length(cross(u, v)) / 2;
+    size.around += length(v - u);
   }
-  return area <= error * around;
+  return size;
+}
+
+Bounds3d box_around(const std::vector<Vec3d>& part, double by) {
+  Bounds3d box;
+  for (const Vec3d& p : part) box.add(p);
+  for (std::size_t i = 0; i < 3; ++i) box.min[i] -= by, box.max[i] += by;
+  return box;
+}
+
+/// All of it by one face: what is left there of a triangle that the neighbour shows.
+bool is_along_face(const std::vector<Vec3d>& part, const Bounds3d& cell, double within) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (const double at : {cell.min[i], cell.max[i]}) {
+      if (std::all_of(part.begin(), part.end(), [&](const Vec3d& p) { return std::abs(p[i] - at) <= within; }))
+        return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -141,9 +223,7 @@ std::vector<Vec3d> part_within(const TriangleD& t, const Bounds3d& box) {
 
 /// The largest first: they leave the fewest pieces.
 std::vector<const TriangleBvh::Item*> LeafProof::near(const std::vector<Vec3d>& part, double error) const {
-  Bounds3d box;
-  for (const Vec3d& p : part) box.add(p);
-  for (std::size_t i = 0; i < 3; ++i) box.min[i] -= error, box.max[i] += error;
+  const Bounds3d box = box_around(part, error);
   const auto is_near = [&](const Vec3d& p) {
     for (std::size_t k = 1; k + 1 < part.size(); ++k)
       if (distance_squared(p, TriangleD{part[0], part[k], part[k + 1]}) <= error * error) return true;
@@ -163,24 +243,39 @@ std::vector<const TriangleBvh::Item*> LeafProof::near(const std::vector<Vec3d>& 
   return found;
 }
 
+LeafProof::Cover LeafProof::add_thin(const std::vector<Vec3d>& part, double error) {
+  for (const TriangleBvh::Item* item : near(part, error)) on_scene_[item->id] = true;
+  const double most = kThinReach * error;
+  const bool by_one = shown_.visit(box_around(part, most), [&](const TriangleBvh::Item& item) {
+    return std::all_of(part.begin(), part.end(),
+                       [&](const Vec3d& p) { return distance_squared(p, item.corners) <= most * most; });
+  });
+  if (by_one) return Cover::whole;
+  const auto is_shown = [&](const Vec3d& p) {
+    return !shown_.empty() && shown_.near_enough(p, most * most, 0).distance_squared <= most * most;
+  };
+  if (is_along_face(part, cell_, most) || std::all_of(part.begin(), part.end(), is_shown)) return Cover::thin;
+  return Cover::undecided;
+}
+
 LeafProof::Cover LeafProof::add(const std::vector<Vec3d>& part, double error) {
-  const std::vector<const TriangleBvh::Item*> found = near(part, error);
-  for (const TriangleBvh::Item* item : found) on_scene_[item->id] = true;
-  if (is_thin(part, error)) return Cover::whole;
-  const Plane plane(part);
-  std::vector<Polygon> left(1), rest;
-  for (const Vec3d& p : part) left[0].push_back(plane(p));
-  for (const TriangleBvh::Item* item : found) {
-    const TriangleD& t = item->corners;
-    const std::vector<Side> sides = sides_of({plane(t[0]), plane(t[1]), plane(t[2])}, kGrowth * error);
-    if (sides.empty()) continue;
-    rest.clear();
-    for (const Polygon& polygon : left) take_out(sides, polygon, rest);
-    left.swap(rest);
-    if (left.empty()) return Cover::whole;
-    if (left.size() > kMostPieces) return Cover::undecided;
+  const Size size = size_of(part);
+  if (size.area <= error * size.around) {
+    const Cover cover = add_thin(part, error);
+    return size.area > kLine * size.around * size.around ? cover : Cover::whole;
   }
-  return Cover::missing;
+  const Plane plane(part);
+  std::vector<FlatTriangle> covers;
+  for (const TriangleBvh::Item* item : near(part, error)) {
+    const TriangleD& t = item->corners;
+    const FlatTriangle flat{plane(t[0]), plane(t[1]), plane(t[2])};
+    if (is_turned_over(flat, error)) continue;
+    on_scene_[item->id] = true;
+    covers.push_back(flat);
+  }
+  Polygon polygon;
+  for (const Vec3d& p : part) polygon.push_back(plane(p));
+  return cover(polygon, covers, kGrowth * error, 0);
 }
 
 std::uint64_t LeafProof::strays() const {

@@ -15,20 +15,24 @@ namespace bp {
 class LeafProof {
  public:
   /// Keeps a reference to the leaf's triangles.
-  explicit LeafProof(const TriangleBvh& shown) : shown_(shown), on_scene_(shown.size()) {}
+  LeafProof(const TriangleBvh& shown, const Bounds3d& cell) : shown_(shown), cell_(cell), on_scene_(shown.size()) {}
 
-  enum class Cover { whole, missing, undecided };
+  enum class Cover { whole, thin, missing, undecided };
   /// `part`: what a triangle of the scene has in the leaf's cell, a convex polygon. Notes the triangles of the leaf
-  /// that lie within `error` of it. Whole: each point of the part lies within 3 errors of one of these, or the part is
-  /// thinner than six errors. Thread-safe. O(n log n) for n triangles of the leaf near the part, in practice.
+  /// that lie within `error` of it and face as it does. Whole: each point of the part lies within 3 errors of one of
+  /// these, or the part has no area. A part thinner than six errors is compared in another way: it is whole if one
+  /// triangle of the leaf has all of its corners within 3 errors, thin if several have, or one face of the cell has;
+  /// else undecided. Thread-safe. O(n log n) for n triangles of the leaf near the part, in practice.
   Cover add(const std::vector<Vec3d>& part, double error);
   /// Triangles of the leaf that lie on no part so far.
   [[nodiscard]] std::uint64_t strays() const;
 
  private:
+  Cover add_thin(const std::vector<Vec3d>& part, double error);
   [[nodiscard]] std::vector<const TriangleBvh::Item*> near(const std::vector<Vec3d>& part, double error) const;
 
   const TriangleBvh& shown_;
+  const Bounds3d cell_;
   std::vector<std::atomic<bool>> on_scene_;
 };
 

@@ -33,6 +33,7 @@ small horn.obj -o even --symmetry x
 mirrored even/horn_cage.obj 1
 bpcheck horn.obj even/horn_cage.obj | tail -1
 
+try bplod legs.obj --profile cage --margin 10 -o x
 try bplod legs.obj --profile cage --faces 11 -o x
 try bplod legs.obj --profile cage --scale 2% -o x
 try bplod legs.obj --profile collision --margin 1% -o x

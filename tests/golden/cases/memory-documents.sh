@@ -1,7 +1,8 @@
 # What describes a scene, or is read as a whole, is counted before it is there: the line names the --memory that will do.
+limit=64M
 named() {
   echo "\$ $*"
-  "$@" -j 1 --memory 64M 2> said > out
+  "$@" -j 1 --memory "$limit" 2> said > out
   echo "= $?"
   sed 's/[0-9.]* MiB/N MiB/g; s/^/| /' said
   local again=--overwrite
@@ -36,6 +37,26 @@ named bpcheck nodes.gltf box.obj
 named bpcheck nodes.gltf nodes.gltf box.obj
 named bpcheck nodes.gltf tiles/tileset.json
 rm -r lod tiles nodes.bpv box.obj o.ply
+# An animation: each cage is a morph target of each part.
+awk -v n=2000 'BEGIN {
+  printf "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0"
+  for (i = 1; i < n; ++i) printf ",%d", i
+  printf "]}],\"nodes\":[{\"mesh\":0}"
+  for (i = 1; i < n; ++i) printf ",{\"mesh\":%d}", i
+  printf "],\"meshes\":["
+  for (i = 0; i < n; ++i) printf "%s{\"primitives\":[{\"attributes\":{\"POSITION\":%d}}]}", i ? "," : "", i
+  printf "],\"accessors\":["
+  for (i = 0; i < n; ++i) printf "%s{\"bufferView\":0,\"byteOffset\":%d,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}", i ? "," : "", 36 * i
+  printf "],\"bufferViews\":[{\"buffer\":0,\"byteLength\":%d}],\"buffers\":[{\"byteLength\":%d,\"uri\":\"data:;base64,", 36 * n, 36 * n
+  for (i = 0; i < n; ++i) printf "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"
+  print "\"}]}"
+}' > parts.gltf
+write_cube cage.obj 4
+bpdeform bind parts.gltf cage.obj -o parts.bpw --outside near -q
+limit=80M
+named bpdeform apply parts.bpw $(yes cage.obj | head -20) --animate 24 -o moving.gltf
+limit=64M
+rm parts.gltf parts.bpw cage.obj moving.gltf
 awk -v n=300 'BEGIN {
   print "OFF\n" n * n, 2 * n * n, 0
   for (i = 0; i < n; ++i) for (j = 0; j < n; ++j) {

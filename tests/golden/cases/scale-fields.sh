@@ -107,3 +107,9 @@ try bpinfo cube.obj --pick 720,0
 try bpinfo cube.obj --pick 7
 try bpinfo cube.obj --pick 1,2 --json
 files
+
+# Slips: a number in quotes, and a field that nobody closes by.
+echo '{"base": "3%", "rules": [{"at": [1, 1, 1], "scale": "0.5"}]}' > bad.json
+try bpscale bad.json cube.bpv -o x.bpv
+echo '{"base": "3%"}' > base.json
+bpscale base.json cube.bpv -q | bpmesh --faces 60 -o unclosed.ply 2>&1 | grep field

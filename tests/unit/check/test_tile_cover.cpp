@@ -61,9 +61,9 @@ std::vector<std::string> findings(const std::vector<MeshTile>& tiles, const Tria
     for (const CoverFinding& f : all) lines.push_back(f.text);
     return lines;
   };
-  std::vector<std::string> together = texts(check_cover(cover, read, source));
+  std::vector<std::string> together = texts(check_cover(cover, read, source).findings);
   const int contents = reads;
-  CHECK(texts(check_cover(cover, read, source, 1)) == together);
+  CHECK(texts(check_cover(cover, read, source, 1).findings) == together);
   CHECK(reads == 2 * contents);
   return together;
 }
@@ -188,7 +188,7 @@ TEST_CASE("a leaf must show the scene in its cell, and nothing else", "[quick][c
   const auto with_leaf = [&](const Triangles& shown) {
     std::vector<MeshTile> tiles{{"root", "r", box_mesh({1, 1, 1}, {15, 4, 4}), bounds({0, 0, 0}, {16, 16, 16}), {1}},
                                 {"root.0", "a", IndexedMesh(), bounds({0, 0, 0}, {16, 16, 16}), {}}};
-    tiles[1].leaf_error = 0.001;
+    tiles[1].leaf_error = 1e-5;
     for (const TriangleD& t : shown) {
       const auto n = std::uint32_t(tiles[1].content->vertices.size());
       for (const Vec3d& p : t) tiles[1].content->vertices.push_back(p);
@@ -198,7 +198,7 @@ TEST_CASE("a leaf must show the scene in its cell, and nothing else", "[quick][c
   };
   CHECK(findings(with_leaf(scene), scene).empty());
   Triangles moved = scene;
-  for (Vec3d& p : moved[0]) p[2] += 0.0005;
+  for (Vec3d& p : moved[0]) p[2] += 5e-6;
   CHECK(findings(with_leaf(moved), scene).empty());
   for (Vec3d& p : moved[0]) p = {p[0] + 0.01, p[1] + 0.01, p[2] + 0.01};
   const std::vector<std::string> astray = findings(with_leaf(moved), scene);
@@ -209,6 +209,61 @@ TEST_CASE("a leaf must show the scene in its cell, and nothing else", "[quick][c
   more.push_back({Vec3d{2, 5, 5}, {3, 5, 5}, {3, 6, 5}});
   CHECK_THAT(only(findings(with_leaf(more), scene)),
              ContainsSubstring("root.0: a shows 1 triangles that the scene does not have"));
+  Triangles turned = scene;
+  std::swap(turned[0][1], turned[0][2]);
+  CHECK(findings(with_leaf(turned), scene).size() == 2);
+  Triangles both = scene;  // seen from both sides
+  both.push_back(turned[0]);
+  CHECK(findings(with_leaf(both), both).empty());
+  CHECK_THAT(only(findings(with_leaf(scene), both)), ContainsSubstring("root.0: a does not show 1 triangles"));
+}
+
+TEST_CASE("what rounding of a leaf is does not depend on its cell", "[quick][check][tileset]") {
+  const Triangles scene{{Vec3d{1, 1, 1}, {9, 1, 1}, {1, 9, 1}}, {Vec3d{1, 1, 5}, {9, 1, 5}, {1, 9, 5}}};
+  const double error = GENERATE(60.0, 1e-3, 1e-6);
+  IndexedMesh other;
+  other.vertices = {{3, 1, 20}, {4, 1, 20}, {3, 2, 20}};
+  other.triangles = {{0, 1, 2}};
+  const double far = 0x1p27;
+  const Bounds3d cell = bounds({-far, -far, -far}, {far, far, far});
+  const std::vector<MeshTile> tiles{{"root", "r", box_mesh({-50, -50, -50}, {50, 50, 50}), cell, {1}},
+                                    {"root.0", "a", other, cell, {}, error}};
+  const std::vector<std::string> found = findings(tiles, scene);
+  REQUIRE(!found.empty());
+  CHECK_THAT(found[0], ContainsSubstring("root.0: a is compared to within"));  // 1e-6: in doubles of such a cell
+}
+
+TEST_CASE("a thin triangle of the scene must be near the leaf", "[quick][check][tileset]") {
+  const double error = 1e-5;
+  const TriangleD wide{Vec3d{1, 1, 1}, {9, 1, 1}, {1, 9, 1}};
+  const auto found = [&](const TriangleD& thin) {
+    IndexedMesh leaf;
+    leaf.vertices.assign(wide.begin(), wide.end());
+    leaf.triangles = {{0, 1, 2}};
+    return findings({{"root", "r", box_mesh({0, 0, 0}, {15, 15, 15}), bounds({0, 0, 0}, {16, 16, 16}), {1}},
+                     {"root.0", "a", leaf, bounds({0, 0, 0}, {16, 16, 16}), {}, error}},
+                    {wide, thin});
+  };
+  CHECK(found({Vec3d{1, 1, 1}, {9, 1, 1}, {5, 1 - error, 1}}).empty());
+  CHECK(found({Vec3d{1, 1, 1}, {9, 1, 1}, {5, 1, 1 + error}}).empty());
+  CHECK_THAT(only(found({Vec3d{1, 1, 3}, {9, 1, 3}, {5, 1 - error, 3}})),
+             ContainsSubstring("root.0: a cannot be decided for 1 triangles"));
+  CHECK(found({Vec3d{1, 1, 3}, {9, 1, 3}, {5, 1, 3}}).empty());  // draws nothing
+}
+
+TEST_CASE("an octant that a triangle just touches needs no leaf", "[quick][check][tileset]") {
+  const double beyond = GENERATE(0.0, 1e-6, 1e-3);
+  const Triangles scene{{Vec3d{8 + beyond, 1, 1}, {8 + beyond, 7, 1}, {1, 1, 1}}};
+  IndexedMesh leaf;
+  leaf.vertices = {{8, 1, 1}, {8, 7, 1}, {1, 1, 1}};
+  leaf.triangles = {{0, 1, 2}};
+  std::vector<MeshTile> tiles{{"root", "r", box_mesh({0, 0, 0}, {15, 15, 15}), bounds({0, 0, 0}, {16, 16, 16}), {1}},
+                              {"root.0", "a", leaf, bounds({0, 0, 0}, {8, 8, 8}), {}, 1e-5}};
+  const std::vector<std::string> found = findings(tiles, scene);
+  CHECK(found.empty() == (beyond < 1e-5));
+  tiles[1].leaf_error.reset();  // a proxy
+  tiles[1].content = box_mesh({0.5, 0.5, 0.5}, {10, 8, 2});
+  CHECK_THAT(only(findings(tiles, scene)), ContainsSubstring("root: r has no child where there are 1 triangles"));
 }
 
 TEST_CASE("a leaf may cut the scene's triangles, and leaves no hole in them", "[quick][check][tileset]") {
@@ -219,7 +274,7 @@ TEST_CASE("a leaf may cut the scene's triangles, and leaves no hole in them", "[
       p[i] = whole[0][i] + a * (whole[1][i] - whole[0][i]) + b * (whole[2][i] - whole[0][i]);
     return p;
   };
-  constexpr int kSteps = 20;  // 400 pieces
+  constexpr int kSteps = 60;
   std::vector<MeshTile> tiles{{"root", "r", box_mesh({0, 0, 0}, {16, 16, 16}), bounds({0, 0, 0}, {16, 16, 16}), {1}},
                               {"root.0", "a", IndexedMesh(), bounds({0, 0, 0}, {16, 16, 16}), {}}};
   tiles[1].leaf_error = 1e-6;

@@ -140,7 +140,7 @@ TEST_CASE("the tiles of all levels cover the scene together", "[quick][pass][lod
   MemorySource source(scene());
   CHECK(check_cover(
             tiles, [&](std::size_t i) { return contents[i]; }, source)
-            .empty());
+            .findings.empty());
   CHECK(tiles.size() > 5);
 }
 

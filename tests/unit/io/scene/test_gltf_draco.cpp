@@ -27,16 +27,23 @@ std::vector<TriangleD> sheet() {
   return triangles;
 }
 
-std::string packed(const std::vector<TriangleD>& triangles, int method) {
+/// `more`: components of an attribute of the exporter's own, all zero; 0: there is none.
+std::string packed(const std::vector<TriangleD>& triangles, int method, std::size_t more = 0) {
   draco::TriangleSoupMeshBuilder builder;
   builder.Start(int(triangles.size()));
   const int id = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  const std::vector<double> zeros(more);
+  const int own =
+      more > 0 ? builder.AddAttribute(draco::GeometryAttribute::GENERIC, std::int8_t(more), draco::DT_FLOAT64) : 0;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     std::array<std::array<float, 3>, 3> corners{};
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t axis = 0; axis < 3; ++axis) corners[k][axis] = float(triangles[i][k][axis]);
     builder.SetAttributeValuesForFace(id, draco::FaceIndex(std::uint32_t(i)), corners[0].data(), corners[1].data(),
                                       corners[2].data());
+    if (more > 0)
+      builder.SetAttributeValuesForFace(own, draco::FaceIndex(std::uint32_t(i)), zeros.data(), zeros.data(),
+                                        zeros.data());
   }
   const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
   draco::Encoder encoder;
@@ -85,6 +92,24 @@ TEST_CASE("Draco's bytes are held against what the file says of them", "[quick][
   Document d = document_of(bytes, triangles.size());
   d.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"]["POSITION"] = 7;
   CHECK_THAT(complaint(d), Contains("no attribute 7"));
+  d = document_of(bytes, triangles.size());
+  Json other = d.json["meshes"][0]["primitives"][0];
+  other["attributes"]["POSITION"] = d.accessor({{"componentType", kF32}, {"count", 384}, {"type", "VEC3"}});
+  d.json["meshes"][0]["primitives"].push_back(other);
+  CHECK_THAT(complaint(d), Contains("shares some of its accessors"));
+}
+
+TEST_CASE("attributes of Draco that take memory without end are refused before there is room", "[quick][io]") {
+  const std::size_t components = GENERATE(4, 127);
+  const std::vector<TriangleD> triangles = sheet();
+  const std::string bytes = packed(triangles, draco::MESH_EDGEBREAKER_ENCODING, components);
+  const TempDir dir;
+  const std::string file = dir.file("a.glb", document_of(bytes, triangles.size()).glb());
+  if (components == 4) {
+    CHECK(sorted(read_all(file)) == sorted(triangles));
+  } else {
+    CHECK_THAT(complaint_of(file), Contains("more than glTF has"));
+  }
 }
 
 TEST_CASE("damaged Draco bytes are refused, or give triangles of vertices that are there", "[quick][io]") {

@@ -173,6 +173,41 @@ TEST_CASE("frames become morph targets of an animation, and the scene stays at r
   CHECK(after["accessors"][times]["max"] == Json({0.5}));
 }
 
+TEST_CASE("frames of many parts share views, and what does not fit is refused before the work", "[io][deform][quick]") {
+  constexpr std::size_t kParts = 1000, kFrames = 20;
+  Document d;
+  for (std::size_t i = 0; i < kParts; ++i) {
+    d.node({{"mesh", d.quad_mesh()}});
+    d.json["scenes"][0]["nodes"][i] = i;
+  }
+  const TempDir dir;
+  const std::string path = dir.file("a.glb", d.glb());
+  OutputFile out(dir.path("moving.glb"), true);
+  std::size_t moves = 0;
+  const auto move = [&](std::size_t frame, PointBatch& batch) {
+    for (Vec3d& p : batch.positions) p[2] += double(frame);
+    ++moves;
+  };
+  SceneOptions options;
+  options.document.bytes = std::uint64_t(32) << 20;
+  CHECK_THROWS_AS(open_points(path, options)->write_frames(kFrames, 1, move, out), NeedsMemory);
+  CHECK(moves == 0);
+  options.document.bytes = std::uint64_t(128) << 20;
+  open_points(path, options)->write_frames(kFrames, 1, move, out);
+  CHECK(moves == kFrames * kParts);
+  out.commit();
+  const std::string bytes = bytes_of_file(out.name());
+  const Json after = Json::parse(bytes.substr(20, bytes.find(std::string("BIN\0", 4)) - 24));
+  CHECK(after["bufferViews"].size() == d.json["bufferViews"].size() + kFrames + 2);  // and times and weights
+  const Json& last = after["meshes"][kParts - 1]["primitives"][0]["targets"][kFrames - 1];
+  const Json& accessor = after["accessors"][last["POSITION"].get<std::size_t>()];
+  const Json& view = after["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+  CHECK(accessor["byteOffset"] == (kParts - 1) * 48);
+  CHECK(view["byteLength"] == kParts * 48);
+  const std::size_t at = bytes.find(std::string("BIN\0", 4)) + 4 + view["byteOffset"].get<std::size_t>();
+  CHECK(bytes.substr(at + (kParts - 1) * 48, 12) == raw(0.F) + raw(0.F) + raw(float(kFrames - 1)));
+}
+
 TEST_CASE("frames in one file are kept by glTF alone", "[io][deform][quick]") {
   const TempDir dir;
   OutputFile out(dir.path("b.obj"), true);
