@@ -17,6 +17,8 @@ namespace bp {
 struct ClosingParams {
   StructuringElement element = StructuringElement::cube;
   const OrientationField* orientation = nullptr;  ///< of cubes; null: along the axes
+  /// For the rows of turned cubes, of a tile; at least turned_cubes_bytes() are taken. Changes no result.
+  std::size_t cube_bytes = 0;
 
   [[nodiscard]] bool turned() const { return orientation != nullptr && element == StructuringElement::cube; }
   /// Into the key of a kept result; levels, whose results are kept, take no orientation.

@@ -101,11 +101,13 @@ bool OrientedDilation::turns(const OrientationField& field, const VoxelBox& regi
   return widest_.turned;
 }
 
-void OrientedDilation::run(const BitBox& solid, const ScaleLattice& scale, const OrientationField& field, BitBox& out) {
+void OrientedDilation::run(const BitBox& solid, const ScaleLattice& scale, const OrientationField& field, BitBox& out,
+                           std::size_t most_bytes) {
   bound(solid, scale, out);
   const ScaleRange range = scale_range(scale, out.box());
   reach_ = widest_.reach(Scale(std::min(range.max + kStep, 0xffff)));
   longest_ = 2 * reach_ + 1;
+  most_bytes_ = std::max(most_bytes, turned_cubes_bytes(reach_));
   tables_.lay(out.box(), reach_, longest_);
   find_kept_axis(solid, range, out.box());
   list_blocks(scale, field, out);
@@ -243,8 +245,8 @@ void OrientedDilation::decide_group(const BitBox& solid, const ScaleLattice& sca
 /// False if the part's elements may not fit beside those that are there.
 bool OrientedDilation::prepare(Part& part) {
   const std::size_t wanted = elements_.count({part.rotation, part.min}) + elements_.count({part.rotation, part.max});
-  const std::size_t limit = turned_cubes_bytes(reach_);
-  if (wanted < 2 && !elements_.empty() && element_bytes_ + 2 * RowTables::most_bytes(reach_) > limit) return false;
+  if (wanted < 2 && !elements_.empty() && element_bytes_ + 2 * RowTables::most_bytes(reach_) > most_bytes_)
+    return false;
   part.least = element(part.rotation, part.min);
   part.most = element(part.rotation, part.max);
   return true;

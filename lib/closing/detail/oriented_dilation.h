@@ -22,8 +22,9 @@ class OrientedDilation {
   /// around it for those that are out. Between, rows of the turned cube are asked for, 64 x 8 voxels at once: some 10
   /// cycles for each row of the cube in whose slice something lies. Where the scale varies in a cell, the least and the
   /// largest are asked for, and voxels on which they disagree one by one. The solid is swept once for as many cubes as
-  /// turned_cubes_bytes() hold.
-  void run(const BitBox& solid, const ScaleLattice& scale, const OrientationField& field, BitBox& out);
+  /// most_bytes hold, or turned_cubes_bytes().
+  void run(const BitBox& solid, const ScaleLattice& scale, const OrientationField& field, BitBox& out,
+           std::size_t most_bytes = 0);
 
  private:
   static constexpr std::int32_t kEdge = RowTables::kRows;  ///< of a block: the cells of the lattice
@@ -70,7 +71,7 @@ class OrientedDilation {
   BitBox along_;   ///< solid, dilated along it
   RowTables tables_;
   std::map<std::pair<std::uint16_t, Scale>, std::unique_ptr<RowTables::Element>> elements_;
-  std::size_t element_bytes_ = 0;
+  std::size_t element_bytes_ = 0, most_bytes_ = 0;
   std::vector<Part> parts_;
   std::vector<Block> blocks_;  ///< by z, then y, then x
   std::vector<Block> group_;   ///< some of them, of some of their parts: those whose elements are there

@@ -63,6 +63,12 @@ std::int32_t choose_tile(const VoxelCoord& grid, const Halo& halo, std::size_t w
   return best;
 }
 
+/// Of a worker's share of the memory, beside its tile.
+std::size_t left_of(std::uint64_t memory_bytes, double tile_bytes, std::size_t workers) {
+  constexpr double kShare = 0.75;  // lists of what is open come on top
+  return std::size_t(std::max(0.0, kShare * (double(memory_bytes) / double(workers) - tile_bytes)));
+}
+
 /// Closes a stream. A slab is one step of tiles across the slab axis.
 class StreamCloser {
  public:
@@ -123,7 +129,7 @@ class StreamCloser {
   BrickSink& sink_;
   const ScaleField& scale_;
   const OrientationField cubes_;
-  const ClosingParams params_;
+  ClosingParams params_;
   const CloseOptions& options_;
   const StreamHeader& header_;
   const int axis_;
@@ -172,6 +178,8 @@ void StreamCloser::lay_tiles(Backends& backends) {
     fail(ErrorCode::bad_argument, {Remedy::larger_tiles}, "the grid has {:.0f} tiles of {} voxels", tiles_.total(),
          edge);
   const auto fit = std::size_t(std::max(1.0, std::min(double(workers), double(memory.bytes) / bytes)));
+  // What is left is for the rows of turned cubes: with more at once, the solid is swept less often.
+  if (turned) params_.cube_bytes = turned_cubes_bytes(widest_.dilation_vox) + left_of(memory.bytes, bytes, fit);
   closer_ =
       std::make_unique<TileCloser>(TileCloser::Input{header_, *solid_, scale_, params_}, *closing_, backends, fit);
   std::vector<std::unique_ptr<BitBox>> boxes(fit);
