@@ -35,6 +35,9 @@ constexpr double kBeyondWholeVox = 1.0 / kScaleOne;
 /// Farthest that an element of scale `s`, cube or ball, reaches along an axis, voxels.
 [[nodiscard]] std::int32_t element_reach(Scale s, const ClosingParams& params = {});
 
+/// The least that close_tile() takes for the rows of turned cubes that reach so far along an axis.
+[[nodiscard]] std::size_t turned_cubes_bytes(std::int32_t reach);
+
 /// Voxels of context around a tile that make its interior exact: ceil(s1) + 1 + ceil(s2), where s1 is the largest scale
 /// of any voxel whose erosion ball can reach the tile and s2 the largest scale on what is left of the reach
 /// (docs/pipeline.md, "Halo").

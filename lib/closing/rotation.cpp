@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lib/closing/detail/row_tables.h"
+#include "lib/closing/detail/oriented_cube.h"
 
 namespace bp {
 
@@ -11,11 +11,6 @@ std::int32_t oriented_reach(const OrientationField& field, Scale s) {
   for (const FixedQuaternion& q : field.rotations)
     most = std::max(most, detail::cube_bounds(canonical(rotation_of(q))).reach(s));
   return most;
-}
-
-std::size_t turned_cubes_bytes(std::int32_t reach) {
-  constexpr std::size_t kEnough = 8 << 20;
-  return std::max(kEnough, 2 * detail::RowTables::most_bytes(reach));
 }
 
 RotationLattice sample(const OrientationField& field, const VoxelBox& box) {

@@ -31,9 +31,6 @@ namespace bp {
 /// The same of all cubes of a field: at most oriented_reach(), and cube_radius() where none is turned.
 [[nodiscard]] std::int32_t oriented_reach(const OrientationField& field, Scale s);
 
-/// Most that close_tile() takes for the rows of turned cubes that reach so far along an axis.
-[[nodiscard]] std::size_t turned_cubes_bytes(std::int32_t reach);
-
 /// One rotation for each cell of 8^3 voxels, cells as those of ScaleLattice.
 struct RotationLattice {
   VoxelCoord origin, size;  ///< in cells; x fastest

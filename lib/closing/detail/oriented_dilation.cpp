@@ -3,6 +3,17 @@
 #include <algorithm>
 #include <bit>
 
+#include "lib/closing/closing.h"
+
+namespace bp {
+
+std::size_t turned_cubes_bytes(std::int32_t reach) {
+  constexpr std::size_t kEnough = 8 << 20;
+  return std::max(kEnough, 2 * detail::RowTables::most_bytes(reach));
+}
+
+}  // namespace bp
+
 namespace bp::detail {
 
 namespace {

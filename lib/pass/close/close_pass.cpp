@@ -8,7 +8,6 @@
 #include <mutex>
 #include <set>
 
-#include "lib/closing/rotation.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/clip.h"
