@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
-#include <mutex>
 
 #include "lib/check/detail/leaf_proof.h"
 #include "lib/check/detail/surface.h"
@@ -14,6 +13,7 @@
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/exact/triangle_intersection.h"
+#include "lib/geometry/triangle_totals.h"
 #include "lib/tileset/tile_tree.h"
 
 namespace bp {
@@ -22,8 +22,9 @@ namespace {
 
 constexpr double kLeafRounding = 16;        // rounding_of(): what is computed of a leaf and the scene
 constexpr double kMostLeafError = 0x1p-18;  // of the longest edge of the scene's box
+constexpr double kFlat = 0x1p-22;           // the same: what float32 rounds away in a tile four times as long
 
-enum class Verdict { fine, thin, touching, outside, undecided, missing };
+enum class Verdict { fine, thin, flat, touching, outside, undecided, missing };
 
 /// The content of a tile as a surface, and the triangles of the scene that it fails.
 struct Body {
@@ -39,18 +40,24 @@ struct Body {
 };
 
 struct Counts {
-  std::atomic<std::uint64_t> touching{0}, outside{0}, undecided{0}, uncovered{0}, bare{0}, missing{0}, thin{0};
+  std::atomic<std::uint64_t> touching{0}, outside{0}, undecided{0}, uncovered{0}, bare{0}, missing{0}, thin{0}, flat{0};
   std::uint64_t strays = 0;  ///< triangles of a leaf
 };
 
 class Checker {
  public:
   Checker(const std::vector<CoverTile>& tiles, const CoverContents& content_of)
-      : tiles_(tiles), content_of_(content_of), bodies_(tiles.size()), counts_(tiles.size()), below_(tiles.size()) {
+      : tiles_(tiles),
+        content_of_(content_of),
+        bodies_(tiles.size()),
+        counts_(tiles.size()),
+        below_(tiles.size()),
+        refused_(tiles.size()) {
     find_below(0);
   }
 
   CoverReport run(TriangleSource& scene, std::uint64_t memory_bytes) {
+    judge_errors(scene);
     for (begin_ = 0; begin_ < tiles_.size(); begin_ = end_) {
       end_ = end_of_share(memory_bytes);
       parallel_for(std::int64_t(end_ - begin_), [&](std::int64_t i) { load(begin_ + std::size_t(i)); });
@@ -62,8 +69,8 @@ class Checker {
     }
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
       say_of_tile(i);
-      if (tiles_[i].leaf_error && tiles_[i].triangles) say_of_error(i);
       report_.thin += counts_[i].thin;
+      report_.flat += counts_[i].flat;
     }
     if (astray_ > 0)
       findings_.push_back(
@@ -104,13 +111,13 @@ class Checker {
   }
 
   void load(std::size_t i) {
-    if (!tiles_[i].triangles) return;
+    if (!tiles_[i].triangles || refused_[i]) return;
     Body& body = bodies_[i];
     CheckReport report;
     body.mesh = weld(content_of_(i), 1, report);
     if (tiles_[i].leaf_error) {
       body.surface = std::make_unique<Surface>(body.mesh);
-      body.proof = std::make_unique<LeafProof>(body.surface->bvh(), *tiles_[i].cell);
+      body.proof = std::make_unique<LeafProof>(body.surface->bvh(), *tiles_[i].cell, kFlat * scene_edge_);
       return;
     }
     check_topology(body.mesh, 1, report);
@@ -126,7 +133,6 @@ class Checker {
     pipeline<std::vector<TriangleD>>(
         2 * thread_count(), [&](std::vector<TriangleD>& chunk) { return scene.read(chunk); },
         [&](std::vector<TriangleD>& chunk) {
-          if (begin_ == 0) add_bounds(chunk);
           for (const TriangleD& t : chunk) {
             if (in_root(t)) {
               visit(0, t);
@@ -136,16 +142,6 @@ class Checker {
           }
         },
         [](std::vector<TriangleD>&) {});
-  }
-
-  void add_bounds(const std::vector<TriangleD>& chunk) {
-    Bounds3d box;
-    for (const TriangleD& t : chunk)
-      for (const Vec3d& p : t) box.add(p);
-    if (chunk.empty()) return;
-    const std::lock_guard lock(bounds_mutex_);
-    bounds_.add(box.min);
-    bounds_.add(box.max);
   }
 
   [[nodiscard]] bool fits(std::size_t parent, std::size_t child) const {
@@ -182,9 +178,10 @@ class Checker {
     const CoverTile& tile = tiles_[i];
     const bool mine = i >= begin_ && i < end_;
     if (mine && !tile.triangles && tile.children.empty()) ++counts_[i].bare;
-    if (mine && tile.triangles) {
+    if (mine && tile.triangles && !refused_[i]) {
       const Verdict verdict = tile.leaf_error ? compare(i, t) : examine(i, t);
       counts_[i].thin += verdict == Verdict::thin;
+      counts_[i].flat += verdict == Verdict::flat;
       counts_[i].missing += verdict == Verdict::missing;
       counts_[i].touching += verdict == Verdict::touching;
       counts_[i].outside += verdict == Verdict::outside;
@@ -202,6 +199,7 @@ class Checker {
       } else if (mine) {
         const Verdict verdict = without_child(i, box, t);
         counts_[i].thin += verdict == Verdict::thin;
+        counts_[i].flat += verdict == Verdict::flat;
         counts_[i].undecided += verdict == Verdict::undecided;
         counts_[i].uncovered += verdict == Verdict::missing;
       }
@@ -223,7 +221,7 @@ class Checker {
   [[nodiscard]] Verdict without_child(std::size_t i, const Bounds3d& octant, const TriangleD& t) const {
     if (!below_[i].leaf_error) return Verdict::missing;
     const TriangleBvh nothing({});
-    LeafProof proof(nothing, octant);
+    LeafProof proof(nothing, octant, kFlat * scene_edge_);
     return compare(proof, octant, t, *below_[i].leaf_error);
   }
   [[nodiscard]] static Verdict compare(LeafProof& proof, const Bounds3d& cell, const TriangleD& t, double error) {
@@ -234,6 +232,8 @@ class Checker {
         return Verdict::fine;
       case LeafProof::Cover::thin:
         return Verdict::thin;
+      case LeafProof::Cover::flat:
+        return Verdict::flat;
       case LeafProof::Cover::missing:
         return Verdict::missing;
       default:
@@ -300,18 +300,29 @@ class Checker {
     }
   }
 
-  /// The file chose the error and the cells. What rounding is, only the scene tells.
-  void say_of_error(std::size_t i) {
-    if (!(bounds_.min[0] <= bounds_.max[0])) return;
-    double edge = 0, farthest = 0;
+  /// The file chose the errors of leaves and the cells. What rounding is, only the scene tells. Leaves with larger
+  /// errors are refused, and compared with nothing.
+  void judge_errors(TriangleSource& scene) {
+    const auto is_leaf = [](const CoverTile& tile) { return tile.leaf_error && tile.triangles; };
+    if (std::none_of(tiles_.begin(), tiles_.end(), is_leaf)) return;
+    const Bounds3d bounds = bounds_of(scene);
+    if (bounds.empty()) return;
+    double farthest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      edge = std::max(edge, bounds_.max[k] - bounds_.min[k]);
-      farthest = std::max({farthest, std::abs(bounds_.min[k]), std::abs(bounds_.max[k])});
+      scene_edge_ = std::max(scene_edge_, bounds.max[k] - bounds.min[k]);
+      farthest = std::max({farthest, std::abs(bounds.min[k]), std::abs(bounds.max[k])});
     }
-    const double error = leaf_error(*tiles_[i].cell, {bounds_.min, bounds_.max, bounds_.max}, *tiles_[i].leaf_error);
+    const double most = kMostLeafError * scene_edge_ + 2 * kLeafRounding * 0x1p-50 * farthest;
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      if (is_leaf(tiles_[i])) judge_error(i, {bounds.min, bounds.max, bounds.max}, most);
+    }
+  }
+
+  void judge_error(std::size_t i, const TriangleD& farthest, double most) {
+    const double error = leaf_error(*tiles_[i].cell, farthest, *tiles_[i].leaf_error);
     report_.leaf_error = std::max(report_.leaf_error, error);
-    const double most = kMostLeafError * edge + 2 * kLeafRounding * 0x1p-50 * farthest;
-    if (error > most)
+    refused_[i] = error > most;
+    if (refused_[i])
       findings_.push_back({fmt::format("{}: {} is compared to within {:.3g}; rounding of this scene is {:.3g} at most",
                                        tiles_[i].place, tiles_[i].uri, error, most)});
   }
@@ -341,8 +352,8 @@ class Checker {
   std::vector<Numbers> below_;       ///< of each tile, itself included
   std::size_t begin_ = 0, end_ = 0;  ///< tiles of this share
   std::atomic<std::uint64_t> astray_{0};
-  Bounds3d bounds_;  ///< of the scene
-  std::mutex bounds_mutex_;
+  double scene_edge_ = 0;      ///< the longest of the scene's box, where there are leaves
+  std::vector<bool> refused_;  ///< leaves with too large an error
   CoverReport report_;
   std::vector<CoverFinding>& findings_ = report_.findings;
 };
