@@ -12,7 +12,7 @@ set(rules
   "lib/geometry:lib/core lib/exact lib/store"
   "lib/deform:lib/core lib/geometry"
   "lib/grid:lib/core lib/store"
-  "lib/volume:lib/core lib/grid"
+  "lib/volume:lib/core lib/grid lib/closing"
   "lib/voxel:lib/core lib/grid"
   "lib/closing:lib/core lib/grid"
   "lib/tileset:lib/core lib/grid lib/volume"
