@@ -27,6 +27,11 @@ bpcheck --margin 1 legs.obj wide/legs_cage.obj | tail -1
 bpcheck --margin 3 legs.obj wide/legs_cage.obj | grep margin
 for margin in 0.5% 20%; do bpcheck --margin $margin legs.obj legs/legs_cage.obj | grep keeps; done
 
+# The most is taken, whatever is rounded.
+printf '%s\n' 'v 0 0 0' 'v 1 0 0' 'v 0 1 0' 'v 0 0 1' 'f 1 3 2' 'f 1 2 4' 'f 1 4 3' 'f 2 3 4' > corner.obj
+small corner.obj -o corner --margin 20%
+bpcheck --margin 20% corner.obj corner/corner_cage.obj | tail -1
+
 # What is no mirror image gets another cage, unless it is told to.
 small horn.obj -o horn
 mirrored horn/horn_cage.obj 1 | sed 's/^[1-9][0-9]*/some/'
