@@ -36,7 +36,7 @@ set(rules
   "lib/pass/bake:lib/core lib/store lib/geometry lib/mesh lib/atlas lib/image"
   "lib/pass/leaf:lib/core lib/geometry lib/mesh lib/tileset lib/pass/bake"
   "lib/pass/hide:lib/core lib/grid lib/volume lib/pass/close lib/pass/mesh"
-  "lib/pass/measure:lib/core lib/grid lib/volume lib/pass"
+  "lib/pass/measure:lib/core lib/geometry lib/grid lib/volume lib/pass"
   "lib/levels:lib/core lib/store lib/geometry lib/grid lib/volume lib/closing lib/device lib/surface lib/tileset lib/pass lib/pass/voxelize lib/pass/close lib/pass/measure lib/pass/mesh lib/pass/color lib/pass/hide"
   "io/files:lib/core"
   "io/store:lib/core lib/store lib/grid io/files"
