@@ -10,8 +10,9 @@
 #include "lib/core/triangle_source.h"
 
 namespace bp {
+struct PartNames;
 class TextureTable;
-}
+}  // namespace bp
 
 /// Scenes and meshes from files. PLY, STL, OBJ, OFF and glTF/GLB are streamed by readers of our own: their memory is
 /// bounded by SceneOptions::memory_bytes, whatever the file holds. Every other format goes through Assimp, in a child
@@ -66,6 +67,7 @@ struct SceneOptions {
   /// Deliver only parts whose name fits (* and ? as in file names); empty: all. Names of OBJ: o, g, usemtl; of glTF: of
   /// nodes, with all below them, of meshes, of materials. Other formats are refused.
   std::string parts{};
+  std::shared_ptr<PartNames> part_names{};  ///< put all such names here that are met; null: none
 };
 
 /// Triangles of one file; "-" is stdin, which is spooled to a scratch file. The reader is chosen by the file's
