@@ -14,7 +14,6 @@
 #include "gpu/kernels/winding_kernels.h"
 #include "gpu/staging.h"
 #include "gpu/stream.h"
-#include "lib/closing/closing_scratch.h"
 
 namespace bp {
 
@@ -93,8 +92,6 @@ class CudaBackend final : public Backend {
 
   void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
              const VoxelBox& interior, BitBox& closed) override {
-    // Turned cubes are closed on the calling thread.
-    if (params.turned()) return close_tile(solid, scale, halo, params, interior, closed, scratch_);
     stream_.select();
     closed.reset(interior);
     if (interior.empty()) return;
@@ -108,7 +105,7 @@ class CudaBackend final : public Backend {
   void close_from_shelf(const BrickShelf& solid, const BrickBox& bricks, const ScaleLattice& scale, const Halo& halo,
                         const ClosingParams& params, const VoxelBox& interior, BitBox& closed) override {
     stream_.select();
-    if (whole_bricks(interior) && !params.turned()) {
+    if (whole_bricks(interior)) {
       try {
         return close_bricks(solid, bricks, scale, halo, params, interior, closed);
       } catch (const OutOfDeviceMemory&) {
@@ -196,14 +193,32 @@ class CudaBackend final : public Backend {
     in_.grow(words_in);
     out_.grow(words_out);
     staging_.upload(in_.data(), solid.data(), words_in * 4);
-    upload_samples(scale);
-    closing_.enqueue(layout, in_.data(), scale, samples_.data(), params.element, out_.data(), stream_.get());
+    const CubesOver cubes = cubes_of(params, interior.grown(halo.erosion_vox));
+    closing_.enqueue(layout, in_.data(), upload_field(scale, params.element, cubes, layout), out_.data(),
+                     stream_.get());
     staging_.download(closed.data(), out_.data(), words_out * 4);
   }
 
-  void upload_samples(const ScaleLattice& scale) {
-    if (scale.constant()) return;
-    staging_.upload(samples_.grow(scale.samples.size()), scale.samples.data(), scale.samples.size() * sizeof(Scale));
+  static CubesOver cubes_of(const ClosingParams& params, const VoxelBox& region) {
+    return params.turned() ? cubes_over(*params.orientation, region) : CubesOver{};
+  }
+
+  TileField upload_field(const ScaleLattice& scale, StructuringElement element, const CubesOver& cubes,
+                         const TileLayout& layout) {
+    TileField field{scale, samples_.data(), element};
+    if (!scale.constant()) field.samples = upload(scale.samples, samples_);
+    if (!cubes.widest.turned) return field;
+    field.cubes = &cubes;
+    field.cubes_there = view_of(cubes, layout, scale);
+    field.cubes_there.rotations = upload(cubes.rotations, rotations_);
+    field.cubes_there.cells = upload(cubes.cells, rotation_of_cell_);
+    return field;
+  }
+
+  template <class T>
+  const T* upload(const std::vector<T>& from, DeviceBuffer<T>& to) {
+    staging_.upload(to.grow(from.size()), from.data(), from.size() * sizeof(T));
+    return to.data();
   }
 
   static bool whole_bricks(const VoxelBox& box) { return !box.empty() && voxels_of(bricks_of(box)) == box; }
@@ -215,12 +230,13 @@ class CudaBackend final : public Backend {
     if (seen.empty()) return closed.reset(interior);
     const TileLayout layout = lay_out(voxels_of(seen), scale, halo, interior);
     const BrickTable in = upload_bricks(solid, seen, layout.solid);
-    upload_samples(scale);
+    const CubesOver cubes = cubes_of(params, interior.grown(halo.erosion_vox));
+    const TileField field = upload_field(scale, params.element, cubes, layout);
     const std::size_t n = volume(made);
     BrickTable out = table_of(made, layout.closed);
     out.bits = reinterpret_cast<std::uint64_t*>(out_.grow(n * kBrickWords * 2));
     out.slots = out_slots_.grow(n + 1);
-    closing_.enqueue(layout, in, scale, samples_.data(), params.element, out, out.slots + n, stream_.get());
+    closing_.enqueue(layout, in, field, out, out.slots + n, stream_.get());
     slots_.resize(n + 1);
     staging_.download(slots_.data(), out.slots, (n + 1) * sizeof(std::uint32_t));
     closed.reset(interior);
@@ -300,6 +316,8 @@ class CudaBackend final : public Backend {
     winding_.release();
     for (auto* b : {&in_, &out_, &in_slots_, &out_slots_, &skip_, &count_}) b->release();
     samples_.release();
+    rotations_.release();
+    rotation_of_cell_.release();
     triangles_.release();
     crossings_.release();
     numbers_.release();
@@ -345,10 +363,11 @@ class CudaBackend final : public Backend {
   DeviceBuffer<std::uint32_t> in_, out_, in_slots_, out_slots_, skip_, count_;
   std::vector<std::uint32_t> slots_;
   DeviceBuffer<Scale> samples_;
+  DeviceBuffer<Rotation> rotations_;
+  DeviceBuffer<std::uint16_t> rotation_of_cell_;
   DeviceBuffer<FixedTriangle> triangles_;
   DeviceBuffer<Crossing> crossings_;
   DeviceBuffer<std::int32_t> numbers_;
-  ClosingScratch scratch_;
 };
 
 }  // namespace

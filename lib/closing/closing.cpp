@@ -75,7 +75,7 @@ class TileClosing {
     if (params.element == StructuringElement::ball) {
       dilate_ball();
     } else if (params.turned() && s_.oriented.turns(*params.orientation, s_.dilation.box())) {
-      s_.oriented.run(solid_, scale_, *params.orientation, s_.dilation, params.cube_bytes);
+      s_.oriented.run(solid_, scale_, s_.dilation, params.cube_bytes);
     } else if (cube_radius(range_.min) == cube_radius(range_.max)) {
       s_.cube.run(solid_, cube_radius(range_.max), s_.dilation);
     } else {

@@ -4,6 +4,8 @@
 
 #include "gpu/cuda_backend.h"
 #include "gpu/kernels/device_error.h"
+#include "lib/closing/rotation.h"
+#include "lib/device/cpu/cpu_backend.h"
 #include "lib/device/cpu/fallback_backend.h"
 #include "lib/voxel/voxelize.h"
 #include "lib/voxel/winding.h"
@@ -85,6 +87,31 @@ TEST_CASE("a tile that does not fit in device memory is closed or voxelized in p
   emulator::set_memory_limit(std::size_t(-1));
   backend->close(tile.solid, tile.scale, tile.halo, {StructuringElement::ball}, tile.interior, got);
   CHECK(got == tile.want);
+}
+
+TEST_CASE("turned cubes that do not fit in device memory close in parts, in any order of threads",
+          "[quick][emulated]") {
+  const Tile tile;
+  reference::Random random{17};
+  const OrientationField field = reference::random_orientation(random, tile.interior.grown(tile.halo.erosion_vox));
+  const Halo halo{tile.halo.erosion_vox, oriented_reach(field, tile.scale.max)};
+  const ClosingParams params{StructuringElement::cube, &field};
+  BitBox want, got;
+  CpuBackend().close(tile.solid, tile.scale, halo, params, tile.interior, want);
+  std::size_t whole = 0;
+  for (const unsigned order : {0u, 1u, 77u}) {
+    CAPTURE(order);
+    emulator::set_thread_order(order);
+    const auto backend = make_cuda_backend(0);
+    backend->close(tile.solid, tile.scale, halo, params, tile.interior, got);
+    whole = emulator::memory_in_use();
+    CHECK(got == want);
+  }
+  emulator::set_thread_order(0);
+  emulator::set_memory_limit(whole / 3);
+  make_cuda_backend(0)->close(tile.solid, tile.scale, halo, params, tile.interior, got);
+  emulator::set_memory_limit(std::size_t(-1));
+  CHECK(got == want);
 }
 
 TEST_CASE("crossings and the fill by winding on a device with little memory are the same", "[quick][emulated]") {

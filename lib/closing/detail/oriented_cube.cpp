@@ -1,5 +1,8 @@
 #include "lib/closing/detail/oriented_cube.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace bp::detail {
 
 namespace {
@@ -16,18 +19,6 @@ void cut(std::int64_t a, std::int64_t c, std::int64_t limit, std::int64_t& first
 }
 
 }  // namespace
-
-CubeBounds cube_bounds(const Rotation& r) {
-  CubeBounds b;
-  b.turned = !(r == Rotation{});
-  for (int i = 0; i < 3; ++i) {
-    std::int64_t row = 0, column = 0;
-    for (int j = 0; j < 3; ++j) row += std::abs(r.row[i][j]), column += std::abs(r.row[j][i]);
-    b.row_sum = std::max(b.row_sum, row);
-    b.column_sum = std::max(b.column_sum, column);
-  }
-  return b;
-}
 
 bool keeps_axis(const Rotation& r, int axis) {
   int across = 0;

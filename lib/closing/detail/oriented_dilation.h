@@ -15,7 +15,7 @@ namespace bp::detail {
 
 class OrientedDilation {
  public:
-  /// Looks up the rotations over `region`. False if no cube is turned there: then this is a cube's dilation.
+  /// Looks up the cubes over `region`, for run(). False if no cube is turned there: then this is a cube's dilation.
   bool turns(const OrientationField& field, const VoxelBox& region);
   /// Sets `out` (its box is kept, within the region) to the voxels whose turned cube holds a voxel of `solid`.
   /// The largest cube along the axes that lies in the turned one decides for most voxels that are in, and the smallest
@@ -23,8 +23,7 @@ class OrientedDilation {
   /// cycles for each row of the cube in whose slice something lies. Where the scale varies in a cell, the least and the
   /// largest are asked for, and voxels on which they disagree one by one. The solid is swept once for as many cubes as
   /// most_bytes hold, or turned_cubes_bytes().
-  void run(const BitBox& solid, const ScaleLattice& scale, const OrientationField& field, BitBox& out,
-           std::size_t most_bytes = 0);
+  void run(const BitBox& solid, const ScaleLattice& scale, BitBox& out, std::size_t most_bytes = 0);
 
  private:
   static constexpr std::int32_t kEdge = RowTables::kRows;  ///< of a block: the cells of the lattice
@@ -49,9 +48,9 @@ class OrientedDilation {
 
   void find_kept_axis(const BitBox& solid, const ScaleRange& range, const VoxelBox& region);
   void bound(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
-  void list_blocks(const ScaleLattice& scale, const OrientationField& field, const BitBox& out);
+  void list_blocks(const ScaleLattice& scale, const BitBox& out);
   bool take_open(Block& block, const BitBox& out);
-  void add_parts(Block& block, const ScaleLattice& scale, const OrientationField& field);
+  void add_parts(Block& block, const ScaleLattice& scale);
   bool prepare(Part& part);
   const RowTables::Element* element(std::uint16_t rotation, Scale s);
   void decide_blocks(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
@@ -63,9 +62,7 @@ class OrientedDilation {
   void decide(const Block& block, const BitBox& solid, const ScaleLattice& scale);
   [[nodiscard]] bool holds(const Part& part, const BitBox& solid, VoxelCoord p, Scale s) const;
 
-  std::vector<Rotation> rotations_;        ///< different ones of the region
-  std::vector<std::uint16_t> of_palette_;  ///< which of them a rotation of the field is
-  CubeBounds widest_;
+  CubesOver cubes_;  ///< of the region
   BitBox outer_;
   int kept_ = -1;  ///< an axis about which all cubes are turned: y, z, or none
   BitBox along_;   ///< solid, dilated along it
