@@ -152,7 +152,7 @@ const std::uint32_t* DeviceClosing::close(const TileLayout& layout, const TileFi
   const bool cube = field.element == StructuringElement::cube;
   const std::uint32_t* result = solid_.data();
   if (field.cubes != nullptr) {
-    dilate_by_turned_cubes(layout, field, view, stream);
+    dilate_by_turned_cubes(layout, field, view, stream, done);
     result = dilated_.data();
   } else if (cube && cube_radius(scale.max) > 0) {
     dilate_by_cube(layout, scale, view, stream);
@@ -210,7 +210,7 @@ void DeviceClosing::dilate_by_cube(const TileLayout& layout, const ScaleLattice&
 /// Cubes along the axes decide for most voxels: those around the turned ones for what is out, those in them for what is
 /// in.
 void DeviceClosing::dilate_by_turned_cubes(const TileLayout& layout, const TileField& field, const ScaleView& view,
-                                           cudaStream_t stream) {
+                                           cudaStream_t stream, const Mark& done) {
   const GridShape& shape = layout.shape;
   const int inside = field.cubes->widest.inner(field.scale.min) / kScaleOne,
             around = field.cubes->widest.reach(field.scale.max), longest = 2 * around + 1;
@@ -219,7 +219,9 @@ void DeviceClosing::dilate_by_turned_cubes(const TileLayout& layout, const TileF
   const WindowTables along = windows(shape, inside, around, stream);
   dilate_cube(along, shape, layout.dilated, around, contour_.data(), stream);
   dilate_cube(along, shape, layout.dilated, inside, dilated_.data(), stream);
+  done("dilate: bounds");
   const TurnedTables rows = turned_tables(solid_.data(), shape, longest, tables_.data(), stream);
+  done("dilate: tables");
   zero(counts_.data(), sizeof(WorkCounts), stream);
   dilate_turned(
       {rows, shape, field.cubes_there, view, contour_.data(), dilated_.data(), lists_.data(), &counts_.data()->rows},

@@ -76,7 +76,7 @@ class DeviceClosing {
   [[nodiscard]] WindowTables windows(const GridShape& shape, int least, int most, cudaStream_t stream);
   void dilate_by_cube(const TileLayout& layout, const ScaleLattice& scale, const ScaleView& view, cudaStream_t stream);
   void dilate_by_turned_cubes(const TileLayout& layout, const TileField& field, const ScaleView& view,
-                              cudaStream_t stream);
+                              cudaStream_t stream, const Mark& done);
   void transform(const TileLayout& layout, const ScaleView& view, const Transform& t, cudaStream_t stream,
                  const Mark& mark);
   void transform_slabs(const TileLayout& layout, const ScaleView& view, const Transform& t, const CellAnswers& answers,

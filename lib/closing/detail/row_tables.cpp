@@ -23,18 +23,48 @@ BP_INLINE void gather(const std::uint64_t* from, std::uint64_t mask, std::size_t
   for (std::size_t i = 0; i < n; ++i) to[i] |= from[i] & mask;
 }
 
-/// Windows whose rows hold nothing are passed over: rows[w.dy].
-BP_WIDE_CLONES void or_windows(const RowTables::Window* first, const RowTables::Window* last, const std::uint64_t* at,
-                               const std::uint64_t* rows, std::uint64_t* acc) {
-  std::uint64_t sum[RowTables::kRows];
-  for (int i = 0; i < RowTables::kRows; ++i) sum[i] = acc[i];
-  for (const RowTables::Window* w = first; w < last; ++w) {
-    if (rows[w->dy] == 0) continue;
-    const std::uint64_t *a = at + w->word[0], *b = at + w->word[1], *c = at + w->word[2], *d = at + w->word[3];
-    for (int i = 0; i < RowTables::kRows; ++i)
-      sum[i] |= a[i] >> w->down[0] | b[i] << w->up[0] | c[i] >> w->down[1] | d[i] << w->up[1];
+/// sum[i] |= what the window meets from row i.
+BP_INLINE void add_window(const RowTables::Window& w, const std::uint64_t* at, std::uint64_t* sum) {
+  const std::uint64_t *a = at + w.word[0], *b = at + w.word[1], *c = at + w.word[2], *d = at + w.word[3];
+  for (int i = 0; i < RowTables::kRows; ++i)
+    sum[i] |= a[i] >> w.down[0] | b[i] << w.up[0] | c[i] >> w.down[1] | d[i] << w.up[1];
+}
+
+/// left[i] &= ~met[i]. False if nothing is left that is in `of`.
+BP_INLINE bool take(const std::uint64_t* met, const std::uint64_t* of, std::uint64_t* left) {
+  std::uint64_t any = 0;
+  for (int i = 0; i < RowTables::kRows; ++i) {
+    left[i] &= ~met[i];
+    any |= left[i] & of[i];
   }
-  for (int i = 0; i < RowTables::kRows; ++i) acc[i] = sum[i];
+  return any != 0;
+}
+
+/// Rows that hold nothing are passed over: rows[w.dy]; and groups where no voxel that is left meets any of the rows.
+BP_WIDE_CLONES void ask_groups(const RowTables::Group* first, const RowTables::Group* last,
+                               const RowTables::Window* windows, const std::uint64_t* at, const std::uint64_t* rows,
+                               std::uint64_t* open) {
+  constexpr int n = RowTables::kRows;
+  constexpr std::uint64_t nothing[n] = {};
+  std::uint64_t left[n];
+  for (int i = 0; i < n; ++i) left[i] = open[i];
+  for (const RowTables::Group* g = first; g < last; ++g) {
+    if ((rows[g->some.dy] | rows[g->some.dy + g->count - 1]) == 0) continue;
+    std::uint64_t some[n] = {};
+    add_window(g->some, at, some);
+    if (!take(nothing, some, left)) continue;
+    if (g->shares) {
+      std::uint64_t all[n] = {};
+      add_window(g->all, at, all);
+      if (!take(all, some, left)) continue;
+    }
+    std::uint64_t met[n] = {};
+    for (const RowTables::Window *w = windows + g->first, *end = w + g->count; w < end; ++w) {
+      if (rows[w->dy] != 0) add_window(*w, at, met);
+    }
+    take(met, some, left);
+  }
+  for (int i = 0; i < n; ++i) open[i] = left[i];
 }
 
 /// rows[i] := what rows i to i + kRows - 1 hold of the words [first, last] of `columns`, cut to two masks.
@@ -68,26 +98,51 @@ void RowTables::lay(const VoxelBox& region, std::int32_t reach, std::int32_t lon
   tables_.assign(level_words() * std::size_t(levels_), 0);
 }
 
-RowTables::Element RowTables::prepare(CubeRows rows) const {
-  Element e{std::move(rows), {}, 0};
-  e.most_dz = e.rows.reach();
-  e.windows.reserve(std::size_t(e.rows.begin(e.most_dz + 1) - e.rows.begin(-e.most_dz)));
-  for (const CubeRow* row = e.rows.begin(-e.most_dz); row < e.rows.begin(e.most_dz + 1); ++row) {
-    Window w{};
-    w.dy = row->dy;
-    const int level = std::bit_width(std::uint32_t(row->last - row->first + 1)) - 1;
-    const std::int32_t starts[2] = {row->first, row->last - (1 << level) + 1};
-    for (int i = 0; i < 2; ++i) {
-      const std::int32_t column = floor_div(starts[i], 64), shift = starts[i] - 64 * column;
-      const auto base = std::int32_t(level * std::int32_t(level_words())) + row->dy;
-      w.word[2 * i] = base + column * height_;
-      w.word[2 * i + 1] = shift == 0 ? w.word[2 * i] : w.word[2 * i] + height_;
-      w.down[i] = std::uint8_t(shift);
-      w.up[i] = std::uint8_t(shift == 0 ? 0 : 64 - shift);
-    }
-    e.windows.push_back(w);
+/// Of the voxels [first, last] of row dy; `wide`: of kRows rows from there on.
+RowTables::Window RowTables::window(std::int32_t first, std::int32_t last, std::int32_t dy, bool wide) const {
+  Window w{};
+  w.dy = dy;
+  const int level = std::bit_width(std::uint32_t(last - first + 1)) - 1;
+  const std::int32_t starts[2] = {first, last - (1 << level) + 1};
+  for (int i = 0; i < 2; ++i) {
+    const std::int32_t column = floor_div(starts[i], 64), shift = starts[i] - 64 * column;
+    const auto base = std::int32_t((level + (wide ? levels_ : 0)) * std::int32_t(level_words())) + dy;
+    w.word[2 * i] = base + column * height_;
+    w.word[2 * i + 1] = shift == 0 ? w.word[2 * i] : w.word[2 * i] + height_;
+    w.down[i] = std::uint8_t(shift);
+    w.up[i] = std::uint8_t(shift == 0 ? 0 : 64 - shift);
   }
+  return w;
+}
+
+RowTables::Element RowTables::prepare(CubeRows rows) const {
+  Element e{std::move(rows), {}, {}, {}, 0};
+  e.most_dz = e.rows.reach();
+  const CubeRow *first = e.rows.begin(-e.most_dz), *last = e.rows.begin(e.most_dz + 1);
+  e.windows.reserve(std::size_t(last - first));
+  for (const CubeRow* row = first; row < last; ++row)
+    e.windows.push_back(window(row->first, row->last, row->dy, false));
+  add_groups(e);
   return e;
+}
+
+void RowTables::add_groups(Element& e) const {
+  const CubeRow* all = e.rows.begin(-e.most_dz);
+  for (std::int32_t dz = -e.most_dz; dz <= e.most_dz; ++dz) {
+    e.slices.push_back(std::uint32_t(e.groups.size()));
+    for (const CubeRow *row = e.rows.begin(dz), *end = e.rows.begin(dz + 1), *next; row < end; row = next) {
+      std::int32_t low = row->first, high = row->last, from = low, to = high;  // of any, and of all
+      for (next = row + 1; next < end && next->dy < row->dy + kRows; ++next) {
+        low = std::min(low, next->first), high = std::max(high, next->last);
+        from = std::max(from, next->first), to = std::min(to, next->last);
+      }
+      const auto count = std::int32_t(next - row);
+      const bool shares = count == kRows && from <= to;
+      e.groups.push_back({(next - 1)->dy - row->dy + 1, std::uint32_t(row - all), window(low, high, row->dy, true),
+                          shares ? window(from, to, row->dy, true) : Window{}, shares});
+    }
+  }
+  e.slices.push_back(std::uint32_t(e.groups.size()));
 }
 
 bool RowTables::load(const BitBox& solid, std::int32_t z) {

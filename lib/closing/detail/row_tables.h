@@ -18,16 +18,27 @@ class RowTables {
     std::int32_t word[4];         ///< from that of the asking voxels in the finest table
     std::uint8_t down[2], up[2];  ///< shifts
   };
+  /// Up to kRows rows of an element's slice, next to each other.
+  struct Group {
+    std::int32_t count;
+    std::uint32_t first;  ///< of the windows, one for each row
+    Window some, all;     ///< what any of the rows holds, and what all hold; asked from kRows rows at once
+    bool shares;          ///< kRows rows hold something in common
+  };
   struct Element {
     CubeRows rows;
     std::vector<Window> windows;  ///< one for each of its rows
+    std::vector<Group> groups;
+    std::vector<std::uint32_t> slices;  ///< groups of slice dz: from number dz + most_dz to the next
     std::int32_t most_dz = 0;
-    [[nodiscard]] std::size_t bytes() const { return windows.size() * kRowBytes; }
+    [[nodiscard]] std::size_t bytes() const {
+      return windows.size() * (sizeof(Window) + sizeof(CubeRow)) + groups.size() * sizeof(Group);
+    }
   };
-  static constexpr std::size_t kRowBytes = sizeof(Window) + sizeof(CubeRow);
   /// Of an element of this reach.
   static constexpr std::size_t most_bytes(std::int32_t reach) {
-    return std::size_t(2 * reach + 1) * std::size_t(2 * reach + 1) * kRowBytes;
+    const auto across = std::size_t(2 * reach + 1);
+    return across * (across * (sizeof(Window) + sizeof(CubeRow)) + (across / kRows + 1) * sizeof(Group));
   }
 
   /// Lays tables for questions from voxels of `region` by elements of this reach.
@@ -43,18 +54,21 @@ class RowTables {
   };
   /// Who asks from now on. False if nothing of the slice is in reach.
   bool look(const Asking& asking);
-  /// acc[i] |= the voxels of row y + i that slice dz of the element meets something from; of those that do not ask,
-  /// some.
-  void ask(const Element& element, std::int32_t dz, std::uint64_t* acc) const;
+  /// Takes from left[i] the voxels of row y + i that slice dz of the element meets something from. All that is left
+  /// asks.
+  void ask(const Element& element, std::int32_t dz, std::uint64_t* left) const;
 
  private:
+  [[nodiscard]] Window window(std::int32_t first, std::int32_t last, std::int32_t dy, bool wide) const;
+  void add_groups(Element& element) const;
   [[nodiscard]] std::size_t level_words() const { return std::size_t(columns_) * std::size_t(height_); }
 
   VoxelBox region_;
   std::int32_t pad_ = 0;      ///< columns left and right of the region
   std::int32_t first_y_ = 0;  ///< of the tables
   std::int32_t columns_ = 0, height_ = 0, levels_ = 0;
-  std::vector<std::uint64_t> tables_;  ///< level k: x to x + 2^k - 1 together; by columns, y fastest
+  /// Level k: x to x + 2^k - 1 together; by columns, y fastest. Then the same of the rows y to y + kRows - 1 together.
+  std::vector<std::uint64_t> tables_;
   Asking asking_{};
   std::vector<std::uint64_t> held_;  ///< of the rows y - reach to y + reach: not 0 if kRows from there hold something
 };
