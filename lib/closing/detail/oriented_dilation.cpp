@@ -214,7 +214,6 @@ void OrientedDilation::decide_blocks(const BitBox& solid, const ScaleLattice& sc
         prepare(parts_[i]);
       }
       ++some.parts;
-      some.reach = std::max(some.reach, parts_[i].most->most_dz);
     }
     group_.push_back(some);
   }
@@ -250,45 +249,60 @@ const RowTables::Element* OrientedDilation::element(std::uint16_t rotation, Scal
 
 void OrientedDilation::sweep(const BitBox& solid) {
   if (group_.empty()) return;
-  std::size_t first = 0, last = 0;  // blocks in reach of the slice
-  for (std::int32_t z = group_.front().first.z - reach_; z < group_.back().first.z + kEdge + reach_; ++z) {
+  const std::int32_t before = ceil_div(reach_, kEdge) * kEdge;  // where the first of its blocks of slices may begin
+  std::size_t first = 0, last = 0;                              // blocks in reach of the slice
+  for (std::int32_t z = group_.front().first.z - before; z < group_.back().first.z + kEdge + reach_; ++z) {
     while (first < group_.size() && group_[first].first.z + kEdge - 1 + reach_ < z) ++first;
-    while (last < group_.size() && group_[last].first.z - reach_ <= z) ++last;
-    if (first == last || !tables_.load(solid, z)) continue;
-    for (std::size_t i = first; i < last; ++i) ask(group_[i], z - group_[i].first.z);
+    while (last < group_.size() && group_[last].first.z - before <= z) ++last;
+    if (first == last) continue;
+    const bool any = tables_.load(solid, z);
+    for (std::size_t i = first; i < last; ++i) ask(group_[i], z - group_[i].first.z, any);
   }
 }
 
-void OrientedDilation::ask(Block& block, std::int32_t dz_of_first) {
+/// `any`: the slice or one of the next seven holds something.
+void OrientedDilation::ask(Block& block, std::int32_t dz_of_first, bool any) {
+  tables_.place(block.first.x, block.first.y);
+  for (std::size_t i = block.part; i < block.part + block.parts; ++i) {
+    Part& part = parts_[i];
+    const std::int32_t begins = floor_div(dz_of_first, kEdge) * kEdge;  // of the slice that begins blocks of slices
+    const std::int32_t k = dz_of_first - begins;
+    if (std::uint64_t& near = part.near[k]; (block.slices >> k & 1) != 0) near = any ? look(block, part, k, begins) : 0;
+    for (std::int32_t slice = 0; slice < kEdge; ++slice) {
+      if (part.near[slice] != 0) ask(block, part, slice, dz_of_first - slice);
+    }
+  }
+}
+
+/// The part's voxels that are open in a slice of the block. False if there is none.
+bool OrientedDilation::still_open(const Block& block, const Part& part, int slice, std::uint64_t* open) const {
   std::uint64_t any = 0;
-  for (std::size_t i = 0; i < std::size_t(kEdge * kEdge); ++i) any |= open_[block.open + i];
-  if (any == 0 ||
-      !tables_.look({block.first.x, block.first.y, std::countr_zero(any), 63 - std::countl_zero(any), block.reach}))
-    return;
-  for (std::uint32_t slices = block.slices; slices != 0; slices &= slices - 1) {
-    const int k = std::countr_zero(slices);
-    std::uint64_t left = 0;
-    for (std::size_t i = block.part; i < block.part + block.parts; ++i)
-      left |= ask(block, parts_[i], k, dz_of_first - k);
-    if (left == 0) block.slices &= ~(1U << k);
-  }
+  for (std::int32_t j = 0; j < kEdge; ++j)
+    any |= open[j] = open_[block.open + std::size_t(slice * kEdge + j)] & part.mask;
+  return any != 0;
 }
 
-/// Of one slice of the block. 0 if none of the part's voxels there is open any more.
-std::uint64_t OrientedDilation::ask(const Block& block, const Part& part, int slice, std::int32_t dz) {
+std::uint64_t OrientedDilation::look(const Block& block, const Part& part, int slice, std::int32_t dz) const {
+  const RowTables::Element& most = *part.most;
+  std::uint64_t open[kEdge];
+  if (dz > most.most_dz || dz < kEdge * most.first || !still_open(block, part, slice, open)) return 0;
+  return tables_.near(most, dz, open);
+}
+
+/// Of one slice of the block.
+void OrientedDilation::ask(const Block& block, Part& part, int slice, std::int32_t dz) {
+  std::uint64_t asking[kEdge];
+  if (!still_open(block, part, slice, asking)) {
+    part.near[slice] = 0;
+    return;
+  }
   std::uint64_t* open = &open_[block.open + std::size_t(slice * kEdge)];
-  std::uint64_t left = 0;
-  for (std::int32_t j = 0; j < kEdge; ++j) left |= open[j] & part.mask;
-  if (left == 0 || std::abs(dz) > part.most->most_dz) return left;
-  std::uint64_t met[kEdge] = {};
-  if (std::abs(dz) <= part.least->most_dz) tables_.ask(*part.least, dz, met);
-  left = 0;
-  for (std::int32_t j = 0; j < kEdge; ++j) left |= (open[j] &= ~(met[j] & part.mask)) & part.mask;
-  if (part.least == part.most) return left;
-  tables_.ask(*part.most, dz, met);
+  tables_.ask(*part.least, dz, part.near[slice], asking);
+  for (std::int32_t j = 0; j < kEdge; ++j) open[j] &= asking[j] | ~part.mask;
+  if (part.least == part.most) return;
   std::uint64_t* maybe = &maybe_[block.maybe + std::size_t(slice * kEdge)];
-  for (std::int32_t j = 0; j < kEdge; ++j) maybe[j] |= met[j] & part.mask;
-  return left;
+  tables_.ask(*part.most, dz, part.near[slice], asking);
+  for (std::int32_t j = 0; j < kEdge; ++j) maybe[j] |= open[j] & part.mask & ~asking[j];
 }
 
 void OrientedDilation::finish(const BitBox& solid, const ScaleLattice& scale, BitBox& out) {

@@ -34,6 +34,7 @@ class OrientedDilation {
     std::uint16_t rotation;
     Scale min, max;
     const RowTables::Element *least = nullptr, *most = nullptr;  ///< while it is asked for
+    std::uint64_t near[kEdge] = {};  ///< for each slice: what of the elements' next slices is asked for
   };
   /// 64 x 8 x 8 voxels, a cell high and wide.
   struct Block {
@@ -42,7 +43,6 @@ class OrientedDilation {
     std::size_t open;          ///< of its kEdge^2 words in open_: y fastest
     std::size_t maybe;         ///< of words in maybe_, if the scale varies
     std::uint32_t slices = 0;  ///< that have open voxels
-    std::int32_t reach = 0;    ///< of its elements
     bool varies = false;
   };
 
@@ -56,8 +56,10 @@ class OrientedDilation {
   void decide_blocks(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
   void decide_group(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
   void sweep(const BitBox& solid);
-  void ask(Block& block, std::int32_t dz_of_first);
-  std::uint64_t ask(const Block& block, const Part& part, int slice, std::int32_t dz);
+  void ask(Block& block, std::int32_t dz_of_first, bool any);
+  void ask(const Block& block, Part& part, int slice, std::int32_t dz);
+  [[nodiscard]] bool still_open(const Block& block, const Part& part, int slice, std::uint64_t* open) const;
+  [[nodiscard]] std::uint64_t look(const Block& block, const Part& part, int slice, std::int32_t dz) const;
   void finish(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
   void decide(const Block& block, const BitBox& solid, const ScaleLattice& scale);
   [[nodiscard]] bool holds(const Part& part, const BitBox& solid, VoxelCoord p, Scale s) const;

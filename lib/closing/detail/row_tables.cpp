@@ -1,5 +1,6 @@
 #include "lib/closing/detail/row_tables.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "lib/core/clones.h"
@@ -18,9 +19,28 @@ BP_CLONES void widen(const std::uint64_t* from, const std::uint64_t* near, const
   }
 }
 
-/// to[i] |= from[i] & mask
-BP_INLINE void gather(const std::uint64_t* from, std::uint64_t mask, std::size_t n, std::uint64_t* to) {
-  for (std::size_t i = 0; i < n; ++i) to[i] |= from[i] & mask;
+/// to[i] := words i of `count` slices of n, one after the other.
+BP_CLONES void join_slices(const std::uint64_t* slices, std::size_t n, std::uint64_t* to) {
+  for (std::size_t i = 0; i < n; ++i) {
+    std::uint64_t any = 0;
+    for (std::size_t k = 0; k < std::size_t(RowTables::kRows); ++k) any |= slices[k * n + i];
+    to[i] = any;
+  }
+}
+
+/// to[i] := words i to i + kRows - 1 of n; of the last ones, no more than there are.
+BP_CLONES void join_rows(const std::uint64_t* from, std::size_t n, std::uint64_t* to) {
+  constexpr auto rows = std::size_t(RowTables::kRows);
+  std::size_t i = 0;
+  for (; i + rows <= n; ++i) {
+    std::uint64_t any = 0;
+    for (std::size_t k = 0; k < rows; ++k) any |= from[i + k];
+    to[i] = any;
+  }
+  for (; i < n; ++i) {
+    to[i] = 0;
+    for (std::size_t k = i; k < n; ++k) to[i] |= from[k];
+  }
 }
 
 /// sum[i] |= what the window meets from row i.
@@ -30,60 +50,27 @@ BP_INLINE void add_window(const RowTables::Window& w, const std::uint64_t* at, s
     sum[i] |= a[i] >> w.down[0] | b[i] << w.up[0] | c[i] >> w.down[1] | d[i] << w.up[1];
 }
 
-/// left[i] &= ~met[i]. False if nothing is left that is in `of`.
-BP_INLINE bool take(const std::uint64_t* met, const std::uint64_t* of, std::uint64_t* left) {
-  std::uint64_t any = 0;
-  for (int i = 0; i < RowTables::kRows; ++i) {
-    left[i] &= ~met[i];
-    any |= left[i] & of[i];
-  }
-  return any != 0;
+/// sum[i] |= what the rows meet from row i that are near voxels of left[i]; of other voxels, some.
+BP_WIDE_CLONES void add_rows(const RowTables::Group& g, const RowTables::Window* windows, const std::uint64_t* at,
+                             const std::uint64_t* left, std::uint64_t* sum) {
+  std::uint64_t all[RowTables::kRows] = {}, any = 0;
+  add_window(g.some, at, all);
+  for (int i = 0; i < RowTables::kRows; ++i) any |= all[i] & left[i] & ~sum[i];
+  if (any == 0) return;
+  for (int i = 0; i < RowTables::kRows; ++i) all[i] = sum[i];
+  for (const RowTables::Window* w = windows + g.first; w < windows + g.last; ++w) add_window(*w, at, all);
+  for (int i = 0; i < RowTables::kRows; ++i) sum[i] = all[i];
 }
 
-/// Rows that hold nothing are passed over: rows[w.dy]; and groups where no voxel that is left meets any of the rows.
-BP_WIDE_CLONES void ask_groups(const RowTables::Group* first, const RowTables::Group* last,
-                               const RowTables::Window* windows, const std::uint64_t* at, const std::uint64_t* rows,
-                               std::uint64_t* open) {
-  constexpr int n = RowTables::kRows;
-  constexpr std::uint64_t nothing[n] = {};
-  std::uint64_t left[n];
-  for (int i = 0; i < n; ++i) left[i] = open[i];
-  for (const RowTables::Group* g = first; g < last; ++g) {
-    if ((rows[g->some.dy] | rows[g->some.dy + g->count - 1]) == 0) continue;
-    std::uint64_t some[n] = {};
-    add_window(g->some, at, some);
-    if (!take(nothing, some, left)) continue;
-    if (g->shares) {
-      std::uint64_t all[n] = {};
-      add_window(g->all, at, all);
-      if (!take(all, some, left)) continue;
-    }
-    std::uint64_t met[n] = {};
-    for (const RowTables::Window *w = windows + g->first, *end = w + g->count; w < end; ++w) {
-      if (rows[w->dy] != 0) add_window(*w, at, met);
-    }
-    take(met, some, left);
+/// Flags of the windows that meet something from one of the voxels `left`.
+BP_WIDE_CLONES void find_windows(const RowTables::Window* windows, std::size_t n, const std::uint64_t* at,
+                                 const std::uint64_t* left, bool* found) {
+  for (std::size_t k = 0; k < n; ++k) {
+    std::uint64_t met[RowTables::kRows] = {}, any = 0;
+    add_window(windows[k], at, met);
+    for (int i = 0; i < RowTables::kRows; ++i) any |= met[i] & left[i];
+    found[k] = any != 0;
   }
-  for (int i = 0; i < n; ++i) open[i] = left[i];
-}
-
-/// rows[i] := what rows i to i + kRows - 1 hold of the words [first, last] of `columns`, cut to two masks.
-BP_WIDE_CLONES bool held_rows(const std::uint64_t* column, std::size_t stride, std::int32_t count, std::uint64_t first,
-                              std::uint64_t last, std::size_t n, std::uint64_t* rows) {
-  for (std::size_t i = 0; i < n; ++i) rows[i] = 0;
-  for (std::int32_t k = 0; k < count; ++k) {
-    std::uint64_t mask = ~std::uint64_t(0);
-    if (k == 0) mask &= first;
-    if (k == count - 1) mask &= last;
-    gather(column + std::size_t(k) * stride, mask, n, rows);
-  }
-  std::uint64_t any = 0;
-  for (std::size_t i = 0; i < n; ++i) any |= rows[i];
-  if (any == 0) return false;
-  for (const std::size_t step : {1, 2, 4}) {
-    for (std::size_t i = 0; i + step < n; ++i) rows[i] |= rows[i + step];
-  }
-  return true;
 }
 
 }  // namespace
@@ -92,21 +79,24 @@ void RowTables::lay(const VoxelBox& region, std::int32_t reach, std::int32_t lon
   region_ = region;
   pad_ = ceil_div(reach, 64) + 1;
   levels_ = std::int32_t(std::bit_width(std::uint32_t(std::max(longest, 1))));
-  first_y_ = floor_div(region.min.y, kRows) * kRows - reach;
-  height_ = ceil_div(region.max.y, kRows) * kRows + reach - first_y_;
+  first_y_ = floor_div(region.min.y - reach, kRows) * kRows - kRows;
+  height_ = ceil_div(region.max.y + kRows + reach, kRows) * kRows + kRows - first_y_;
   columns_ = (region.max.x - region.min.x) / 64 + 2 * pad_ + 1;
-  tables_.assign(level_words() * std::size_t(levels_), 0);
+  most_blocks_ = ceil_div(reach, kRows);
+  for (shared_bits_ = 0; (2 * most_blocks_) >> shared_bits_ >= 64;) ++shared_bits_;
+  tables_.assign(3 * level_words() * std::size_t(levels_));
+  slices_.assign(level_words() * std::size_t(kRows));
+  loaded_ = false;
 }
 
-/// Of the voxels [first, last] of row dy; `wide`: of kRows rows from there on.
-RowTables::Window RowTables::window(std::int32_t first, std::int32_t last, std::int32_t dy, bool wide) const {
-  Window w{};
-  w.dy = dy;
-  const int level = std::bit_width(std::uint32_t(last - first + 1)) - 1;
-  const std::int32_t starts[2] = {first, last - (1 << level) + 1};
+/// Of the voxels [first, last] of row dy, or of the rows or blocks that begin there.
+RowTables::Window RowTables::window(std::int32_t first, std::int32_t last, std::int32_t dy, Tables of) const {
+  Window w;
+  const int k = std::bit_width(std::uint32_t(last - first + 1)) - 1;
+  const std::int32_t starts[2] = {first, last - (1 << k) + 1};
   for (int i = 0; i < 2; ++i) {
     const std::int32_t column = floor_div(starts[i], 64), shift = starts[i] - 64 * column;
-    const auto base = std::int32_t((level + (wide ? levels_ : 0)) * std::int32_t(level_words())) + dy;
+    const auto base = std::int32_t(level(of, k)) + dy;
     w.word[2 * i] = base + column * height_;
     w.word[2 * i + 1] = shift == 0 ? w.word[2 * i] : w.word[2 * i] + height_;
     w.down[i] = std::uint8_t(shift);
@@ -116,57 +106,69 @@ RowTables::Window RowTables::window(std::int32_t first, std::int32_t last, std::
 }
 
 RowTables::Element RowTables::prepare(CubeRows rows) const {
-  Element e{std::move(rows), {}, {}, {}, 0};
+  Element e{std::move(rows), {}, {}, {}, 0, 0, 0};
   e.most_dz = e.rows.reach();
   const CubeRow *first = e.rows.begin(-e.most_dz), *last = e.rows.begin(e.most_dz + 1);
   e.windows.reserve(std::size_t(last - first));
   for (const CubeRow* row = first; row < last; ++row)
-    e.windows.push_back(window(row->first, row->last, row->dy, false));
-  add_groups(e);
+    e.windows.push_back(window(row->first, row->last, row->dy, kSlice));
+  add_blocks(e);
   return e;
 }
 
-void RowTables::add_groups(Element& e) const {
+void RowTables::add_blocks(Element& e) const {
+  e.first = floor_div(-e.most_dz, kRows);
+  e.across = floor_div(e.most_dz, kRows) + 1 - e.first;
+  struct Hull {
+    std::int32_t first = std::int32_t(1) << 30, last = -first;
+    void add(const Hull& h) { first = std::min(first, h.first), last = std::max(last, h.last); }
+  };
+  // Nobody asks beyond a block or group without rows: it stands for one voxel.
+  const auto held = [&](const Hull& h, std::int32_t i, Tables of) {
+    return h.first > h.last ? window(0, 0, kRows * i, of) : window(h.first, h.last, kRows * i, of);
+  };
+  std::vector<Hull> blocks(std::size_t(e.across) * std::size_t(e.across));
   const CubeRow* all = e.rows.begin(-e.most_dz);
   for (std::int32_t dz = -e.most_dz; dz <= e.most_dz; ++dz) {
-    e.slices.push_back(std::uint32_t(e.groups.size()));
-    for (const CubeRow *row = e.rows.begin(dz), *end = e.rows.begin(dz + 1), *next; row < end; row = next) {
-      std::int32_t low = row->first, high = row->last, from = low, to = high;  // of any, and of all
-      for (next = row + 1; next < end && next->dy < row->dy + kRows; ++next) {
-        low = std::min(low, next->first), high = std::max(high, next->last);
-        from = std::max(from, next->first), to = std::min(to, next->last);
-      }
-      const auto count = std::int32_t(next - row);
-      const bool shares = count == kRows && from <= to;
-      e.groups.push_back({(next - 1)->dy - row->dy + 1, std::uint32_t(row - all), window(low, high, row->dy, true),
-                          shares ? window(from, to, row->dy, true) : Window{}, shares});
+    const CubeRow* row = e.rows.begin(dz);
+    Hull* block = &blocks[std::size_t(floor_div(dz, kRows) - e.first) * std::size_t(e.across)];
+    for (std::int32_t i = e.first; i < e.first + e.across; ++i, ++block) {
+      const CubeRow* from = row;
+      Hull hull;
+      for (; row < e.rows.begin(dz + 1) && row->dy < kRows * (i + 1); ++row) hull.add({row->first, row->last});
+      e.groups.push_back({held(hull, i, kGroups), std::uint32_t(from - all), std::uint32_t(row - all)});
+      block->add(hull);
     }
   }
-  e.slices.push_back(std::uint32_t(e.groups.size()));
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+    e.blocks.push_back(held(blocks[k], e.first + std::int32_t(k) % e.across, kBlocks));
 }
 
-bool RowTables::load(const BitBox& solid, std::int32_t z) {
+bool RowTables::load_slice(const BitBox& solid, std::int32_t z, std::uint64_t* to) const {
   const VoxelBox& box = solid.box();
+  std::fill_n(to, level_words(), 0);
   if (z < box.min.z || z >= box.max.z) return false;
   const std::int32_t y0 = std::max(box.min.y, first_y_), y1 = std::min(box.max.y, first_y_ + height_);
   const std::int32_t left = region_.min.x - 64 * pad_;
-  std::fill_n(tables_.begin(), level_words(), 0);
   const std::int32_t c0 = std::max(0, (box.min.x - left) / 64), c1 = std::min(columns_, (box.max.x - left) / 64);
   bool any = false;
   for (std::int32_t y = y0; y < y1; ++y) {
     const std::uint64_t* row = solid.row(y, z) - (box.min.x - left) / 64;
     for (std::int32_t c = c0; c < c1; ++c) {
       if (row[c] == 0) continue;
-      tables_[std::size_t(c) * std::size_t(height_) + std::size_t(y - first_y_)] = row[c];
+      to[std::size_t(c) * std::size_t(height_) + std::size_t(y - first_y_)] = row[c];
       any = true;
     }
   }
-  if (!any) return false;
+  return any;
+}
+
+void RowTables::double_along(Tables of) {
   const auto h = std::size_t(height_);
   for (std::int32_t k = 1; k < levels_; ++k) {
     const std::int32_t shift = 1 << (k - 1);
-    const std::uint64_t* from = tables_.data() + std::size_t(k - 1) * level_words();
-    std::uint64_t* to = tables_.data() + std::size_t(k) * level_words();
+    const std::uint64_t* from = tables_.data() + level(of, k - 1);
+    std::uint64_t* to = tables_.data() + level(of, k);
     for (std::int32_t c = 0; c < columns_; ++c) {
       // What lies beyond the last column is out of every element's reach.
       const std::int32_t near = std::min(c + shift / 64, columns_ - 1), far = std::min(near + 1, columns_ - 1);
@@ -174,27 +176,55 @@ bool RowTables::load(const BitBox& solid, std::int32_t z) {
             to + std::size_t(c) * h);
     }
   }
+}
+
+bool RowTables::load(const BitBox& solid, std::int32_t z) {
+  const auto number = [](std::int32_t slice) { return std::size_t(slice & (kRows - 1)); };
+  if (!loaded_ || next_ < z || next_ > z + kRows) next_ = z;
+  for (; next_ < z + kRows; ++next_)
+    held_[number(next_)] = load_slice(solid, next_, slices_.data() + number(next_) * level_words());
+  loaded_ = true;
+  here_ = held_[number(z)];
+  if (std::none_of(held_, held_ + kRows, [](bool held) { return held; })) return false;
+  // What 8 slices hold, in the place of the slice's own until it comes itself.
+  join_slices(slices_.data(), level_words(), tables_.data());
+  join_rows(tables_.data(), level_words(), tables_.data() + level(kBlocks, 0));
+  double_along(kBlocks);
+  if (!here_) return true;
+  std::copy_n(slices_.data() + number(z) * level_words(), level_words(), tables_.data());
+  double_along(kSlice);
+  join_rows(tables_.data(), level_words(), tables_.data() + level(kGroups, 0));
+  double_along(kGroups);
   return true;
 }
 
-bool RowTables::look(const Asking& asking) {
-  asking_ = asking;
-  const std::int32_t from = asking.first - asking.reach, to = asking.last + asking.reach;
-  const std::int32_t column = (asking.x - region_.min.x) / 64 + pad_, c0 = column + floor_div(from, 64),
-                     c1 = column + floor_div(to, 64);
-  const auto at = std::size_t(asking.y - first_y_ - asking.reach), n = std::size_t(2 * asking.reach + kRows);
-  held_.resize(std::max(held_.size(), n));
-  return held_rows(tables_.data() + std::size_t(c0) * std::size_t(height_) + at, std::size_t(height_), c1 - c0 + 1,
-                   ~std::uint64_t(0) << (from & 63), ~std::uint64_t(0) >> (63 - (to & 63)), n, held_.data());
+void RowTables::place(std::int32_t x, std::int32_t y) {
+  at_ = std::size_t((x - region_.min.x) / 64 + pad_) * std::size_t(height_) + std::size_t(y - first_y_);
 }
 
-void RowTables::ask(const Element& e, std::int32_t dz, std::uint64_t* acc) const {
-  const CubeRow* all = e.rows.begin(-e.most_dz);
-  const Window *first = e.windows.data() + (e.rows.begin(dz) - all),
-               *last = e.windows.data() + (e.rows.begin(dz + 1) - all);
-  const std::int32_t column = (asking_.x - region_.min.x) / 64 + pad_;
-  const std::size_t here = std::size_t(column) * std::size_t(height_) + std::size_t(asking_.y - first_y_);
-  or_windows(first, last, tables_.data() + here, held_.data() + asking_.reach, acc);
+std::uint64_t RowTables::near(const Element& e, std::int32_t dz, const std::uint64_t* left) const {
+  constexpr std::int32_t kSome = 64;
+  bool found[kSome];
+  std::uint64_t bits = 0;
+  const Window* blocks = e.blocks.data() + std::size_t(dz / kRows - e.first) * std::size_t(e.across);
+  for (std::int32_t first = 0; first < e.across; first += kSome) {
+    const std::int32_t n = std::min(kSome, e.across - first);
+    find_windows(blocks + first, std::size_t(n), tables_.data() + at_, left, found);
+    for (std::int32_t i = 0; i < n; ++i) bits |= found[i] ? bit_of(e.first + first + i) : 0;
+  }
+  return bits;
+}
+
+void RowTables::ask(const Element& e, std::int32_t dz, std::uint64_t near, std::uint64_t* left) const {
+  if (!here_ || std::abs(dz) > e.most_dz) return;
+  std::uint64_t met[kRows] = {};
+  const Group* groups = e.groups.data() + std::size_t(dz + e.most_dz) * std::size_t(e.across);
+  for (; near != 0; near &= near - 1) {
+    const std::int32_t i = (std::countr_zero(near) << shared_bits_) - most_blocks_ - e.first;
+    for (std::int32_t k = std::max(i, 0); k < std::min(i + (1 << shared_bits_), e.across); ++k)
+      add_rows(groups[k], e.windows.data(), tables_.data() + at_, left, met);
+  }
+  for (std::int32_t i = 0; i < kRows; ++i) left[i] &= ~met[i];
 }
 
 }  // namespace bp::detail
