@@ -263,13 +263,14 @@ void OrientedDilation::sweep(const BitBox& solid) {
 /// `any`: the slice or one of the next seven holds something.
 void OrientedDilation::ask(Block& block, std::int32_t dz_of_first, bool any) {
   tables_.place(block.first.x, block.first.y);
+  const std::int32_t begins = floor_div(dz_of_first, kEdge) * kEdge;  // of the slice that begins blocks of slices
+  const std::int32_t k = dz_of_first - begins;
   for (std::size_t i = block.part; i < block.part + block.parts; ++i) {
     Part& part = parts_[i];
-    const std::int32_t begins = floor_div(dz_of_first, kEdge) * kEdge;  // of the slice that begins blocks of slices
-    const std::int32_t k = dz_of_first - begins;
-    if (std::uint64_t& near = part.near[k]; (block.slices >> k & 1) != 0) near = any ? look(block, part, k, begins) : 0;
-    for (std::int32_t slice = 0; slice < kEdge; ++slice) {
-      if (part.near[slice] != 0) ask(block, part, slice, dz_of_first - slice);
+    if ((block.slices >> k & 1) != 0) look(block, part, k, begins, any);
+    for (std::uint32_t left = part.asks; left != 0; left &= left - 1) {
+      const int slice = std::countr_zero(left);
+      ask(block, part, slice, dz_of_first - slice);
     }
   }
 }
@@ -282,18 +283,19 @@ bool OrientedDilation::still_open(const Block& block, const Part& part, int slic
   return any != 0;
 }
 
-std::uint64_t OrientedDilation::look(const Block& block, const Part& part, int slice, std::int32_t dz) const {
+void OrientedDilation::look(const Block& block, Part& part, int slice, std::int32_t dz, bool any) const {
   const RowTables::Element& most = *part.most;
   std::uint64_t open[kEdge];
-  if (dz > most.most_dz || dz < kEdge * most.first || !still_open(block, part, slice, open)) return 0;
-  return tables_.near(most, dz, open);
+  any = any && dz <= most.most_dz && dz >= kEdge * most.first && still_open(block, part, slice, open);
+  part.near[slice] = any ? tables_.near(most, dz, open) : 0;
+  part.asks = (part.asks & ~(1U << slice)) | (part.near[slice] != 0 ? 1U << slice : 0);
 }
 
 /// Of one slice of the block.
 void OrientedDilation::ask(const Block& block, Part& part, int slice, std::int32_t dz) {
   std::uint64_t asking[kEdge];
   if (!still_open(block, part, slice, asking)) {
-    part.near[slice] = 0;
+    part.asks &= ~(1U << slice);
     return;
   }
   std::uint64_t* open = &open_[block.open + std::size_t(slice * kEdge)];

@@ -35,6 +35,7 @@ class OrientedDilation {
     Scale min, max;
     const RowTables::Element *least = nullptr, *most = nullptr;  ///< while it is asked for
     std::uint64_t near[kEdge] = {};  ///< for each slice: what of the elements' next slices is asked for
+    std::uint32_t asks = 0;          ///< slices of which something is
   };
   /// 64 x 8 x 8 voxels, a cell high and wide.
   struct Block {
@@ -59,7 +60,7 @@ class OrientedDilation {
   void ask(Block& block, std::int32_t dz_of_first, bool any);
   void ask(const Block& block, Part& part, int slice, std::int32_t dz);
   [[nodiscard]] bool still_open(const Block& block, const Part& part, int slice, std::uint64_t* open) const;
-  [[nodiscard]] std::uint64_t look(const Block& block, const Part& part, int slice, std::int32_t dz) const;
+  void look(const Block& block, Part& part, int slice, std::int32_t dz, bool any) const;
   void finish(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
   void decide(const Block& block, const BitBox& solid, const ScaleLattice& scale);
   [[nodiscard]] bool holds(const Part& part, const BitBox& solid, VoxelCoord p, Scale s) const;

@@ -106,7 +106,7 @@ RowTables::Window RowTables::window(std::int32_t first, std::int32_t last, std::
 }
 
 RowTables::Element RowTables::prepare(CubeRows rows) const {
-  Element e{std::move(rows), {}, {}, {}, 0, 0, 0};
+  Element e{std::move(rows), {}, {}, {}, {}, 0, 0, 0};
   e.most_dz = e.rows.reach();
   const CubeRow *first = e.rows.begin(-e.most_dz), *last = e.rows.begin(e.most_dz + 1);
   e.windows.reserve(std::size_t(last - first));
@@ -123,10 +123,6 @@ void RowTables::add_blocks(Element& e) const {
     std::int32_t first = std::int32_t(1) << 30, last = -first;
     void add(const Hull& h) { first = std::min(first, h.first), last = std::max(last, h.last); }
   };
-  // Nobody asks beyond a block or group without rows: it stands for one voxel.
-  const auto held = [&](const Hull& h, std::int32_t i, Tables of) {
-    return h.first > h.last ? window(0, 0, kRows * i, of) : window(h.first, h.last, kRows * i, of);
-  };
   std::vector<Hull> blocks(std::size_t(e.across) * std::size_t(e.across));
   const CubeRow* all = e.rows.begin(-e.most_dz);
   for (std::int32_t dz = -e.most_dz; dz <= e.most_dz; ++dz) {
@@ -136,12 +132,21 @@ void RowTables::add_blocks(Element& e) const {
       const CubeRow* from = row;
       Hull hull;
       for (; row < e.rows.begin(dz + 1) && row->dy < kRows * (i + 1); ++row) hull.add({row->first, row->last});
-      e.groups.push_back({held(hull, i, kGroups), std::uint32_t(from - all), std::uint32_t(row - all)});
+      e.groups.push_back({from < row ? window(hull.first, hull.last, kRows * i, kGroups) : Window{},
+                          std::uint32_t(from - all), std::uint32_t(row - all)});
       block->add(hull);
     }
   }
-  for (std::size_t k = 0; k < blocks.size(); ++k)
-    e.blocks.push_back(held(blocks[k], e.first + std::int32_t(k) % e.across, kBlocks));
+  for (std::size_t j = 0; j < std::size_t(e.across); ++j) {
+    Layer layer{e.first, 0, e.blocks.size()};
+    for (std::int32_t i = 0; i < e.across; ++i) {
+      const Hull& hull = blocks[j * std::size_t(e.across) + std::size_t(i)];
+      if (hull.first > hull.last) continue;  // of a slice that is convex, before its rows or behind them
+      if (layer.count++ == 0) layer.first += i;
+      e.blocks.push_back(window(hull.first, hull.last, kRows * (e.first + i), kBlocks));
+    }
+    e.layers.push_back(layer);
+  }
 }
 
 bool RowTables::load_slice(const BitBox& solid, std::int32_t z, std::uint64_t* to) const {
@@ -206,11 +211,11 @@ std::uint64_t RowTables::near(const Element& e, std::int32_t dz, const std::uint
   constexpr std::int32_t kSome = 64;
   bool found[kSome];
   std::uint64_t bits = 0;
-  const Window* blocks = e.blocks.data() + std::size_t(dz / kRows - e.first) * std::size_t(e.across);
-  for (std::int32_t first = 0; first < e.across; first += kSome) {
-    const std::int32_t n = std::min(kSome, e.across - first);
-    find_windows(blocks + first, std::size_t(n), tables_.data() + at_, left, found);
-    for (std::int32_t i = 0; i < n; ++i) bits |= found[i] ? bit_of(e.first + first + i) : 0;
+  const Layer& layer = e.layers[std::size_t(dz / kRows - e.first)];
+  for (std::int32_t first = 0; first < layer.count; first += kSome) {
+    const std::int32_t n = std::min(kSome, layer.count - first);
+    find_windows(e.blocks.data() + layer.block + first, std::size_t(n), tables_.data() + at_, left, found);
+    for (std::int32_t i = 0; i < n; ++i) bits |= found[i] ? bit_of(layer.first + first + i) : 0;
   }
   return bits;
 }
@@ -222,7 +227,7 @@ void RowTables::ask(const Element& e, std::int32_t dz, std::uint64_t near, std::
   for (; near != 0; near &= near - 1) {
     const std::int32_t i = (std::countr_zero(near) << shared_bits_) - most_blocks_ - e.first;
     for (std::int32_t k = std::max(i, 0); k < std::min(i + (1 << shared_bits_), e.across); ++k)
-      add_rows(groups[k], e.windows.data(), tables_.data() + at_, left, met);
+      if (groups[k].first < groups[k].last) add_rows(groups[k], e.windows.data(), tables_.data() + at_, left, met);
   }
   for (std::int32_t i = 0; i < kRows; ++i) left[i] &= ~met[i];
 }

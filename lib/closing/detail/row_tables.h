@@ -22,24 +22,30 @@ class RowTables {
     Window some;
     std::uint32_t first, last;  ///< of the windows
   };
+  /// Blocks with rows of one j: i from `first` on.
+  struct Layer {
+    std::int32_t first = 0, count = 0;
+    std::size_t block = 0;
+  };
   /// Rows [8 i, 8 i + 8) of slices [8 j, 8 j + 8) are a block.
   struct Element {
     CubeRows rows;
     std::vector<Window> windows;  ///< one for each of its rows
     std::vector<Group> groups;    ///< for each slice and i
-    std::vector<Window> blocks;   ///< for each j and i: what any of its rows holds
+    std::vector<Layer> layers;    ///< for each j
+    std::vector<Window> blocks;   ///< those of the layers, one after the other: what any of a block's rows holds
     std::int32_t most_dz = 0;
     std::int32_t first = 0, across = 0;  ///< least i and j, and how many there are
     [[nodiscard]] std::size_t bytes() const {
       return windows.size() * (sizeof(Window) + sizeof(CubeRow)) + groups.size() * sizeof(Group) +
-             blocks.size() * sizeof(Window);
+             blocks.size() * sizeof(Window) + layers.size() * sizeof(Layer);
     }
   };
   /// Of an element of this reach.
   static constexpr std::size_t most_bytes(std::int32_t reach) {
     const auto side = std::size_t(2 * reach + 1), across = side / kRows + 2;
     return side * side * (sizeof(Window) + sizeof(CubeRow)) + side * across * sizeof(Group) +
-           across * across * sizeof(Window);
+           across * (across * sizeof(Window) + sizeof(Layer));
   }
 
   /// Lays tables for questions from voxels of `region` by elements of this reach.
