@@ -1,7 +1,7 @@
-// A warp has 8 x 8 words of 32 voxels that share a rotation. It asks for blocks of rows of the turned cube: what all
-// rows of a block have in common meets G, then the voxel is in; what any of them has does not, then none of them is
-// asked. Else the block is taken apart. A stretch of x of any length is two windows, each a power of two wide, that are
-// read from tables. So rows are asked one by one only where G ends near the cube's own face.
+// A warp has 8 x 8 words of 32 voxels that share a rotation. It asks for blocks of rows of the turned cube. If nothing
+// that any row of a block has meets G, none of its rows is asked; else the block is taken apart. A stretch of x of any
+// length is two windows, each a power of two wide, that are read from tables. So rows are asked one by one only where G
+// ends near the cube's own face.
 #include "gpu/kernels/launch.h"
 #include "gpu/kernels/turned_kernels.h"
 
@@ -28,37 +28,53 @@ __global__ void __launch_bounds__(kPassThreads)
   to[i] = bits[shape.word(c.w, c.y, c.z)];
 }
 
+/// Four words of a table, y to y + 3: y is a multiple of 4.
+__device__ uint4 either(const uint4& a, const uint4& b) {
+  return make_uint4(a.x | b.x, a.y | b.y, a.z | b.z, a.w | b.w);
+}
+__device__ uint4 four_at(const std::uint32_t* table, std::uint32_t i, bool inside) {
+  return inside ? *reinterpret_cast<const uint4*>(table + i) : make_uint4(0, 0, 0, 0);
+}
+
 /// Windows of twice the length along x, from those of `shift`.
 __global__ void __launch_bounds__(kPassThreads)
     double_along_kernel(const std::uint32_t* __restrict__ from, GridShape shape, int shift,
                         std::uint32_t* __restrict__ to) {
-  const std::uint32_t i = thread_in_grid();
+  const std::uint32_t i = 4 * thread_in_grid(), column = std::uint32_t(shape.ny);
   if (i >= shape.word_count()) return;
   const int w = column_at(shape, i).w + shift / 32;
-  const std::uint32_t at = i + std::uint32_t(shift / 32) * std::uint32_t(shape.ny);
-  const std::uint32_t near = w < shape.words ? from[at] : 0,
-                      far = w + 1 < shape.words ? from[at + std::uint32_t(shape.ny)] : 0;
-  to[i] = from[i] | __funnelshift_r(near, far, unsigned(shift) & 31);
+  const unsigned bits = unsigned(shift) & 31;
+  const std::uint32_t at = i + std::uint32_t(shift / 32) * column;
+  const uint4 near = four_at(from, at, w < shape.words), far = four_at(from, at + column, w + 1 < shape.words);
+  *reinterpret_cast<uint4*>(to + i) = either(
+      four_at(from, i, true), make_uint4(__funnelshift_r(near.x, far.x, bits), __funnelshift_r(near.y, far.y, bits),
+                                         __funnelshift_r(near.z, far.z, bits), __funnelshift_r(near.w, far.w, bits)));
 }
 
-/// Windows of four times as many rows across, from those of `rows`.
+/// Windows of 4 kRows rows each way across, from those of kRows, 1 or 4.
+template <int kRows>
 __global__ void __launch_bounds__(kPassThreads)
-    widen_across_kernel(const std::uint32_t* __restrict__ from, GridShape shape, int rows,
-                        std::uint32_t* __restrict__ to) {
-  const std::uint32_t i = thread_in_grid();
+    widen_across_kernel(const std::uint32_t* __restrict__ from, GridShape shape, std::uint32_t* __restrict__ to) {
+  const std::uint32_t i = 4 * thread_in_grid(), plane = std::uint32_t(shape.words) * std::uint32_t(shape.ny);
   if (i >= shape.word_count()) return;
   const Column c = column_at(shape, i);
-  const std::uint32_t plane = std::uint32_t(shape.words) * std::uint32_t(shape.ny);
-  std::uint32_t sum = 0;
+  uint4 own = make_uint4(0, 0, 0, 0), next = own;
 #pragma unroll
   for (int k = 0; k < 4; ++k) {
+    const bool inside = c.z + k * kRows < shape.nz;
+    const std::uint32_t at = i + std::uint32_t(k * kRows) * plane;
+    own = either(own, four_at(from, at, inside));
 #pragma unroll
-    for (int j = 0; j < 4; ++j) {
-      if (c.y + j * rows < shape.ny && c.z + k * rows < shape.nz)
-        sum |= from[i + std::uint32_t(j * rows) + std::uint32_t(k * rows) * plane];
-    }
+    for (int j = 1; j < (kRows == 1 ? 2 : 4); ++j)
+      next = either(next, four_at(from, at + std::uint32_t(4 * j), inside && c.y + 4 * j < shape.ny));
   }
-  to[i] = sum;
+  if constexpr (kRows == 1) {
+    const std::uint32_t yzw = own.y | own.z | own.w, xyz = next.x | next.y | next.z;
+    own = make_uint4(own.x | yzw, yzw | next.x, own.z | own.w | next.x | next.y, own.w | xyz);
+  } else {
+    own = either(own, next);
+  }
+  *reinterpret_cast<uint4*>(to + i) = own;
 }
 
 // ---------------------------------------------------------------- what is asked
@@ -139,8 +155,8 @@ struct TurnedCube {
 
   __device__ static int limit(int s) { return s * ((1 << kRotationBits) / kScaleOne); }
 
-  /// The x that lie in the cube for all, or for any, of `rows` x `rows` rows from (y, z) on; for `any`, some more.
-  template <bool kAll>
+  /// The x that lie in the cube of a scale in any of `rows` x `rows` rows from (y, z) on, and, if they are several,
+  /// some more.
   __device__ Stretch stretch(int scale, int y, int z, int rows) const {
     Stretch s{-reach, reach};
 #pragma unroll
@@ -148,7 +164,7 @@ struct TurnedCube {
       const int a = rotation.row[i][0], b = rotation.row[i][1], c = rotation.row[i][2];
       const int t = b * y + c * z, low = t + (min(b, 0) + min(c, 0)) * (rows - 1),
                 high = t + (max(b, 0) + max(c, 0)) * (rows - 1);
-      const int first = -limit(scale) - (kAll ? low : high), last = limit(scale) - (kAll ? high : low);
+      const int first = -limit(scale) - high, last = limit(scale) - low;
       if (a == 0) {
         if (first > 0 || last < 0) s.hi = -reach - 1;
       } else {
@@ -196,7 +212,7 @@ struct Asker {
     std::uint32_t met = 0;
     for (; voxels != 0; voxels &= voxels - 1) {
       const int x = __ffs(int(voxels)) - 1;
-      const Stretch s = cube.stretch<true>(a.scale.at(32 * at.w + x, at.y, at.z + 4 * half), dy, dz, 1);
+      const Stretch s = cube.stretch(a.scale.at(32 * at.w + x, at.y, at.z + 4 * half), dy, dz, 1);
       if (s.empty()) continue;
       const int k = 31 - __clz(s.hi - s.lo + 1);
       const std::uint32_t row = column + std::uint32_t((dz + 4 * half) * a.shape.words * a.shape.ny + dy);
@@ -210,35 +226,48 @@ struct Asker {
     return met;
   }
 
+  /// f(stretch, dy, dz) for the stretches of the lanes where `wanted`.
+  template <class F>
+  __device__ void for_each(bool wanted, Stretch own, int dy, int dz, const F& f) const {
+    for (unsigned left = __ballot_sync(kAllLanes, wanted); left != 0; left &= left - 1) {
+      const int i = __ffs(int(left)) - 1;
+      f(Stretch{__shfl_sync(kAllLanes, own.lo, i), __shfl_sync(kAllLanes, own.hi, i)}, __shfl_sync(kAllLanes, dy, i),
+        __shfl_sync(kAllLanes, dz, i));
+    }
+  }
+
+  /// Row by row: the cube of the least scale decides, and where the largest has more, each voxel for itself.
+  __device__ void ask_row(bool inside, int dy, int dz) {
+    std::uint32_t met[2];
+    const Stretch sure = cube.stretch(cube.least, dy, dz, 1);
+    for_each(inside && !sure.empty(), sure, dy, dz, [&](Stretch s, int y, int z) {
+      meet(0, s, y, z, met);
+      open[0] &= ~met[0], open[1] &= ~met[1];
+    });
+    if (cube.least == cube.most) return;
+    const Stretch some = cube.stretch(cube.most, dy, dz, 1);
+    for_each(inside && !some.empty(), some, dy, dz, [&](Stretch s, int y, int z) {
+      meet(0, s, y, z, met);
+      open[0] &= ~decide(met[0] & open[0], 0, y, z), open[1] &= ~decide(met[1] & open[1], 1, y, z);
+    });
+  }
+
   /// Asks for across^2 blocks of rows of a level, the first of which begins at (y0, z0).
   template <int kLevel>
   __device__ void ask(int y0, int z0, int across) {
-    constexpr int kRows = rows_across(kLevel), kShortest = 1 << first_octave(kLevel);
-    for (int first = 0; first < across * across; first += kWarp) {
+    constexpr int kRows = rows_across(kLevel);
+    for (int first = 0; first < across * across && any_open(); first += kWarp) {
       const int dy = y0 + (first + lane_id()) % across * kRows, dz = z0 + (first + lane_id()) / across * kRows;
       const bool inside = first + lane_id() < across * across && dy <= cube.reach && dz <= cube.reach;
-      const bool settles = kLevel == 0 && cube.least == cube.most;
-      const Stretch all = cube.stretch<true>(cube.least, dy, dz, kRows),
-                    some = settles ? all : cube.stretch<false>(cube.most, dy, dz, kRows);
-      std::uint32_t met[2];
-      for (unsigned left = __ballot_sync(kAllLanes, inside && all.hi - all.lo + 1 >= kShortest); left != 0;
-           left &= left - 1) {
-        const int i = __ffs(int(left)) - 1;
-        meet(kLevel, {__shfl_sync(kAllLanes, all.lo, i), __shfl_sync(kAllLanes, all.hi, i)},
-             __shfl_sync(kAllLanes, dy, i), __shfl_sync(kAllLanes, dz, i), met);
-        open[0] &= ~met[0], open[1] &= ~met[1];
-      }
-      if (!any_open()) return;
-      if (settles) continue;
-      for (unsigned left = __ballot_sync(kAllLanes, inside && !some.empty()); left != 0; left &= left - 1) {
-        const int i = __ffs(int(left)) - 1, y = __shfl_sync(kAllLanes, dy, i), z = __shfl_sync(kAllLanes, dz, i);
-        meet(kLevel, {__shfl_sync(kAllLanes, some.lo, i), __shfl_sync(kAllLanes, some.hi, i)}, y, z, met);
-        met[0] &= open[0], met[1] &= open[1];
-        if constexpr (kLevel == 0) {
-          open[0] &= ~decide(met[0], 0, y, z), open[1] &= ~decide(met[1], 1, y, z);
-        } else {
-          if (__any_sync(kAllLanes, (met[0] | met[1]) != 0)) ask<kLevel - 1>(y, z, 4);
-        }
+      if constexpr (kLevel == 0) {
+        ask_row(inside, dy, dz);
+      } else {
+        const Stretch some = cube.stretch(cube.most, dy, dz, kRows);
+        for_each(inside && !some.empty(), some, dy, dz, [&](Stretch s, int y, int z) {
+          std::uint32_t met[2];
+          meet(kLevel, s, y, z, met);
+          if (__any_sync(kAllLanes, ((met[0] & open[0]) | (met[1] & open[1])) != 0)) ask<kLevel - 1>(y, z, 4);
+        });
       }
     }
   }
@@ -295,17 +324,17 @@ int turned_table_count(int longest) {
 TurnedTables turned_tables(const std::uint32_t* bits, const GridShape& shape, int longest, std::uint32_t* memory,
                            cudaStream_t stream) {
   const std::size_t words = shape.word_count();
-  const unsigned blocks = blocks_for(words);
+  const unsigned blocks = blocks_for(words), fours = blocks_for(words / 4);
   TurnedTables tables;
   tables.last = last_octave(longest);
   for (int level = 0; level < kTurnedLevels; ++level) {
     for (int k = first_octave(level); k <= tables.last; ++k, memory += words) {
       tables.table[level][k] = memory;
       if (level > 0) {
-        launch("widen_across_kernel", widen_across_kernel, blocks, kPassThreads, 0, stream, tables.table[level - 1][k],
-               shape, rows_across(level - 1), memory);
+        launch("widen_across_kernel", level == 1 ? widen_across_kernel<1> : widen_across_kernel<4>, fours, kPassThreads,
+               0, stream, tables.table[level - 1][k], shape, memory);
       } else if (k > 0) {
-        launch("double_along_kernel", double_along_kernel, blocks, kPassThreads, 0, stream, tables.table[0][k - 1],
+        launch("double_along_kernel", double_along_kernel, fours, kPassThreads, 0, stream, tables.table[0][k - 1],
                shape, 1 << (k - 1), memory);
       } else {
         launch("columns_kernel", columns_kernel, blocks, kPassThreads, 0, stream, bits, shape, memory);
