@@ -193,20 +193,18 @@ class CudaBackend final : public Backend {
     in_.grow(words_in);
     out_.grow(words_out);
     staging_.upload(in_.data(), solid.data(), words_in * 4);
-    const CubesOver cubes = cubes_of(params, interior.grown(halo.erosion_vox));
-    closing_.enqueue(layout, in_.data(), upload_field(scale, params.element, cubes, layout), out_.data(),
-                     stream_.get());
+    CubesOver cubes;
+    const TileField field = upload_field(scale, params, interior.grown(halo.erosion_vox), layout, cubes);
+    closing_.enqueue(layout, in_.data(), field, out_.data(), stream_.get());
     staging_.download(closed.data(), out_.data(), words_out * 4);
   }
 
-  static CubesOver cubes_of(const ClosingParams& params, const VoxelBox& region) {
-    return params.turned() ? cubes_over(*params.orientation, region) : CubesOver{};
-  }
-
-  TileField upload_field(const ScaleLattice& scale, StructuringElement element, const CubesOver& cubes,
-                         const TileLayout& layout) {
-    TileField field{scale, samples_.data(), element};
+  /// `cubes` is set, and stays in use as the field does.
+  TileField upload_field(const ScaleLattice& scale, const ClosingParams& params, const VoxelBox& dilated,
+                         const TileLayout& layout, CubesOver& cubes) {
+    TileField field{scale, nullptr, params.element};
     if (!scale.constant()) field.samples = upload(scale.samples, samples_);
+    if (params.turned()) cubes = cubes_over(*params.orientation, dilated);
     if (!cubes.widest.turned) return field;
     field.cubes = &cubes;
     field.cubes_there = view_of(cubes, layout, scale);
@@ -230,8 +228,8 @@ class CudaBackend final : public Backend {
     if (seen.empty()) return closed.reset(interior);
     const TileLayout layout = lay_out(voxels_of(seen), scale, halo, interior);
     const BrickTable in = upload_bricks(solid, seen, layout.solid);
-    const CubesOver cubes = cubes_of(params, interior.grown(halo.erosion_vox));
-    const TileField field = upload_field(scale, params.element, cubes, layout);
+    CubesOver cubes;
+    const TileField field = upload_field(scale, params, interior.grown(halo.erosion_vox), layout, cubes);
     const std::size_t n = volume(made);
     BrickTable out = table_of(made, layout.closed);
     out.bits = reinterpret_cast<std::uint64_t*>(out_.grow(n * kBrickWords * 2));
@@ -315,9 +313,7 @@ class CudaBackend final : public Backend {
     voxelizer_.release();
     winding_.release();
     for (auto* b : {&in_, &out_, &in_slots_, &out_slots_, &skip_, &count_}) b->release();
-    samples_.release();
-    rotations_.release();
-    rotation_of_cell_.release();
+    samples_.release(), rotations_.release(), rotation_of_cell_.release();
     triangles_.release();
     crossings_.release();
     numbers_.release();

@@ -149,21 +149,7 @@ const std::uint32_t* DeviceClosing::close(const TileLayout& layout, const TileFi
   }
 
   TransformBounds bounds = bounds_of(scale.max, tuning_.wide);
-  const bool cube = field.element == StructuringElement::cube;
-  const std::uint32_t* result = solid_.data();
-  if (field.cubes != nullptr) {
-    dilate_by_turned_cubes(layout, field, view, stream, done);
-    result = dilated_.data();
-  } else if (cube && cube_radius(scale.max) > 0) {
-    dilate_by_cube(layout, scale, view, stream);
-    result = dilated_.data();
-  } else if (!cube && bounds.reach > 0) {
-    TransformBounds b = bounds;
-    b.bound_at_voxel = !scale.constant();
-    transform(layout, view, {false, b, solid_.data(), solid_cells, wanted, layout.dilated, dilated_.data()}, stream,
-              mark);
-    result = dilated_.data();
-  }
+  const std::uint32_t* result = dilate(layout, field, view, bounds, stream, mark);
   done("dilate");
   if (bounds.reach == 0) return result;  // no ball of the erosion leaves its centre, and E = D
   outer_contour(dilated_.data(), shape, contour_.data(), contour_cells, stream);
@@ -175,6 +161,24 @@ const std::uint32_t* DeviceClosing::close(const TileLayout& layout, const TileFi
       stream, mark);
   done("erode");
   return closed_.data();
+}
+
+/// Where D is.
+const std::uint32_t* DeviceClosing::dilate(const TileLayout& layout, const TileField& field, const ScaleView& view,
+                                           TransformBounds bounds, cudaStream_t stream, const Mark& mark) {
+  if (field.cubes != nullptr) {
+    dilate_by_turned_cubes(layout, field, view, stream, mark);
+  } else if (field.element == StructuringElement::cube && cube_radius(field.scale.max) > 0) {
+    dilate_by_cube(layout, field.scale, view, stream);
+  } else if (field.element == StructuringElement::ball && bounds.reach > 0) {
+    bounds.bound_at_voxel = !field.scale.constant();
+    auto* wanted = reinterpret_cast<std::uint8_t*>(flags_.data() + 2 * layout.shape.quad_count());
+    transform(layout, view, {false, bounds, solid_.data(), flags_.data(), wanted, layout.dilated, dilated_.data()},
+              stream, mark);
+  } else {
+    return solid_.data();
+  }
+  return dilated_.data();
 }
 
 /// Tables of windows for radii from `least` to `most`. The arrays of the contour and of E are free until later.
@@ -210,7 +214,10 @@ void DeviceClosing::dilate_by_cube(const TileLayout& layout, const ScaleLattice&
 /// Cubes along the axes decide for most voxels: those around the turned ones for what is out, those in them for what is
 /// in.
 void DeviceClosing::dilate_by_turned_cubes(const TileLayout& layout, const TileField& field, const ScaleView& view,
-                                           cudaStream_t stream, const Mark& done) {
+                                           cudaStream_t stream, const Mark& mark) {
+  const auto done = [&](const char* stage) {
+    if (mark) mark(stage);
+  };
   const GridShape& shape = layout.shape;
   const int inside = field.cubes->widest.inner(field.scale.min) / kScaleOne,
             around = field.cubes->widest.reach(field.scale.max), longest = 2 * around + 1;

@@ -73,10 +73,12 @@ class DeviceClosing {
   void start(const TileLayout& layout, cudaStream_t stream);
   [[nodiscard]] const std::uint32_t* close(const TileLayout& layout, const TileField& field, cudaStream_t stream,
                                            const Mark& mark);
+  [[nodiscard]] const std::uint32_t* dilate(const TileLayout& layout, const TileField& field, const ScaleView& view,
+                                            TransformBounds bounds, cudaStream_t stream, const Mark& mark);
   [[nodiscard]] WindowTables windows(const GridShape& shape, int least, int most, cudaStream_t stream);
   void dilate_by_cube(const TileLayout& layout, const ScaleLattice& scale, const ScaleView& view, cudaStream_t stream);
   void dilate_by_turned_cubes(const TileLayout& layout, const TileField& field, const ScaleView& view,
-                              cudaStream_t stream, const Mark& done);
+                              cudaStream_t stream, const Mark& mark);
   void transform(const TileLayout& layout, const ScaleView& view, const Transform& t, cudaStream_t stream,
                  const Mark& mark);
   void transform_slabs(const TileLayout& layout, const ScaleView& view, const Transform& t, const CellAnswers& answers,
