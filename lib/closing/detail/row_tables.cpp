@@ -43,34 +43,55 @@ BP_CLONES void join_rows(const std::uint64_t* from, std::size_t n, std::uint64_t
   }
 }
 
-/// sum[i] |= what the window meets from row i.
-BP_INLINE void add_window(const RowTables::Window& w, const std::uint64_t* at, std::uint64_t* sum) {
-  const std::uint64_t *a = at + w.word[0], *b = at + w.word[1], *c = at + w.word[2], *d = at + w.word[3];
-  for (int i = 0; i < RowTables::kRows; ++i)
-    sum[i] |= a[i] >> w.down[0] | b[i] << w.up[0] | c[i] >> w.down[1] | d[i] << w.up[1];
+/// A word of each of kRows rows. Vectors of GCC and Clang: loops over them are not always made into such.
+typedef std::uint64_t Words __attribute__((vector_size(8 * RowTables::kRows)));
+typedef std::uint64_t WordsInMemory __attribute__((vector_size(8 * RowTables::kRows), aligned(8), may_alias));
+
+BP_INLINE bool any(const Words& words) {
+  Words w = words;
+  w |= __builtin_shufflevector(w, w, 4, 5, 6, 7, 0, 1, 2, 3);
+  w |= __builtin_shufflevector(w, w, 2, 3, 0, 1, 6, 7, 4, 5);
+  return (w[0] | w[1]) != 0;
 }
 
-/// sum[i] |= what the rows meet from row i that are near voxels of left[i]; of other voxels, some.
-BP_WIDE_CLONES void add_rows(const RowTables::Group& g, const RowTables::Window* windows, const std::uint64_t* at,
-                             const std::uint64_t* left, std::uint64_t* sum) {
-  std::uint64_t all[RowTables::kRows] = {}, any = 0;
-  add_window(g.some, at, all);
-  for (int i = 0; i < RowTables::kRows; ++i) any |= all[i] & left[i] & ~sum[i];
-  if (any == 0) return;
-  for (int i = 0; i < RowTables::kRows; ++i) all[i] = sum[i];
-  for (const RowTables::Window* w = windows + g.first; w < windows + g.last; ++w) add_window(*w, at, all);
-  for (int i = 0; i < RowTables::kRows; ++i) sum[i] = all[i];
+/// sum |= what the window meets from each row.
+BP_INLINE void add_window(const RowTables::Window& w, const std::uint64_t* at, Words& sum) {
+  const auto* a = reinterpret_cast<const WordsInMemory*>(at + w.word[0]);
+  const auto* b = reinterpret_cast<const WordsInMemory*>(at + w.word[1]);
+  const auto* c = reinterpret_cast<const WordsInMemory*>(at + w.word[2]);
+  const auto* d = reinterpret_cast<const WordsInMemory*>(at + w.word[3]);
+  sum |= *a >> w.down[0] | *b << w.up[0] | *c >> w.down[1] | *d << w.up[1];
 }
 
-/// Flags of the windows that meet something from one of the voxels `left`.
-BP_WIDE_CLONES void find_windows(const RowTables::Window* windows, std::size_t n, const std::uint64_t* at,
-                                 const std::uint64_t* left, bool* found) {
-  for (std::size_t k = 0; k < n; ++k) {
-    std::uint64_t met[RowTables::kRows] = {}, any = 0;
+/// Flags of the windows, number `first` of the bits and on, that meet something from one of the voxels `left`; 2^shared
+/// windows share a bit.
+BP_WIDE_CLONES std::uint64_t find_windows(const RowTables::Window* windows, std::int32_t n, const std::uint64_t* at,
+                                          const std::uint64_t* left, std::int32_t first, std::int32_t shared) {
+  const Words open = *reinterpret_cast<const WordsInMemory*>(left);
+  std::uint64_t bits = 0;
+  for (std::int32_t k = 0; k < n; ++k) {
+    Words met = {};
     add_window(windows[k], at, met);
-    for (int i = 0; i < RowTables::kRows; ++i) any |= met[i] & left[i];
-    found[k] = any != 0;
+    met &= open;
+    bits |= std::uint64_t(any(met)) << ((first + k) >> shared);
   }
+  return bits;
+}
+
+/// Takes from `left` what meets something of the groups' rows; asks first whether it may.
+BP_WIDE_CLONES void ask_groups(const RowTables::Group* first, const RowTables::Group* last,
+                               const RowTables::Window* windows, const std::uint64_t* at, std::uint64_t* left) {
+  Words open = *reinterpret_cast<const WordsInMemory*>(left);
+  for (const RowTables::Group* g = first; g < last; ++g) {
+    if (g->first == g->last) continue;
+    Words some = {}, met = {};
+    add_window(g->some, at, some);
+    some &= open;
+    if (!any(some)) continue;
+    for (const RowTables::Window* w = windows + g->first; w < windows + g->last; ++w) add_window(*w, at, met);
+    open &= ~met;
+  }
+  *reinterpret_cast<WordsInMemory*>(left) = open;
 }
 
 }  // namespace
@@ -208,28 +229,22 @@ void RowTables::place(std::int32_t x, std::int32_t y) {
 }
 
 std::uint64_t RowTables::near(const Element& e, std::int32_t dz, const std::uint64_t* left) const {
-  constexpr std::int32_t kSome = 64;
-  bool found[kSome];
-  std::uint64_t bits = 0;
   const Layer& layer = e.layers[std::size_t(dz / kRows - e.first)];
-  for (std::int32_t first = 0; first < layer.count; first += kSome) {
-    const std::int32_t n = std::min(kSome, layer.count - first);
-    find_windows(e.blocks.data() + layer.block + first, std::size_t(n), tables_.data() + at_, left, found);
-    for (std::int32_t i = 0; i < n; ++i) bits |= found[i] ? bit_of(layer.first + first + i) : 0;
-  }
-  return bits;
+  return find_windows(e.blocks.data() + layer.block, layer.count, tables_.data() + at_, left,
+                      layer.first + most_blocks_, shared_bits_);
 }
 
 void RowTables::ask(const Element& e, std::int32_t dz, std::uint64_t near, std::uint64_t* left) const {
   if (!here_ || std::abs(dz) > e.most_dz) return;
-  std::uint64_t met[kRows] = {};
   const Group* groups = e.groups.data() + std::size_t(dz + e.most_dz) * std::size_t(e.across);
-  for (; near != 0; near &= near - 1) {
-    const std::int32_t i = (std::countr_zero(near) << shared_bits_) - most_blocks_ - e.first;
-    for (std::int32_t k = std::max(i, 0); k < std::min(i + (1 << shared_bits_), e.across); ++k)
-      if (groups[k].first < groups[k].last) add_rows(groups[k], e.windows.data(), tables_.data() + at_, left, met);
+  while (near != 0) {  // run by run
+    const std::int32_t from = std::countr_zero(near), to = from + std::countr_one(near >> from);
+    near = to < 64 ? near >> to << to : 0;
+    const std::int32_t first = (from << shared_bits_) - most_blocks_ - e.first,
+                       last = (to << shared_bits_) - most_blocks_ - e.first;
+    ask_groups(groups + std::max(first, 0), groups + std::min(last, e.across), e.windows.data(), tables_.data() + at_,
+               left);
   }
-  for (std::int32_t i = 0; i < kRows; ++i) left[i] &= ~met[i];
 }
 
 }  // namespace bp::detail

@@ -86,16 +86,11 @@ class RowTables {
     std::vector<std::uint64_t> words_;
   };
 
-  /// Bit of blocks i in near(): several share one where there are many.
-  [[nodiscard]] std::uint64_t bit_of(std::int32_t i) const {
-    return std::uint64_t(1) << ((i + most_blocks_) >> shared_bits_);
-  }
-
   VoxelBox region_;
   std::int32_t pad_ = 0;      ///< columns left and right of the region
   std::int32_t first_y_ = 0;  ///< of the tables
   std::int32_t columns_ = 0, height_ = 0, levels_ = 0;
-  std::int32_t most_blocks_ = 0, shared_bits_ = 0;
+  std::int32_t most_blocks_ = 0, shared_bits_ = 0;  ///< bit of blocks i in near(): (i + most_blocks_) >> shared_bits_
   Lines tables_;                            ///< of the slice; of 8 rows of it together; of 8 rows of 8 slices together
   Lines slices_;                            ///< slice z is number z modulo 8
   std::int32_t next_ = 0;                   ///< slice that is not in them yet
