@@ -56,10 +56,10 @@ BP_INLINE bool any(const Words& words) {
 
 /// sum |= what the window meets from each row.
 BP_INLINE void add_window(const RowTables::Window& w, const std::uint64_t* at, Words& sum) {
-  const auto* a = reinterpret_cast<const WordsInMemory*>(at + w.word[0]);
-  const auto* b = reinterpret_cast<const WordsInMemory*>(at + w.word[1]);
-  const auto* c = reinterpret_cast<const WordsInMemory*>(at + w.word[2]);
-  const auto* d = reinterpret_cast<const WordsInMemory*>(at + w.word[3]);
+  const WordsInMemory* a = reinterpret_cast<const WordsInMemory*>(at + w.word[0]);
+  const WordsInMemory* b = reinterpret_cast<const WordsInMemory*>(at + w.word[1]);
+  const WordsInMemory* c = reinterpret_cast<const WordsInMemory*>(at + w.word[2]);
+  const WordsInMemory* d = reinterpret_cast<const WordsInMemory*>(at + w.word[3]);
   sum |= *a >> w.down[0] | *b << w.up[0] | *c >> w.down[1] | *d << w.up[1];
 }
 
@@ -78,20 +78,12 @@ BP_WIDE_CLONES std::uint64_t find_windows(const RowTables::Window* windows, std:
   return bits;
 }
 
-/// Takes from `left` what meets something of the groups' rows; asks first whether it may.
-BP_WIDE_CLONES void ask_groups(const RowTables::Group* first, const RowTables::Group* last,
-                               const RowTables::Window* windows, const std::uint64_t* at, std::uint64_t* left) {
-  Words open = *reinterpret_cast<const WordsInMemory*>(left);
-  for (const RowTables::Group* g = first; g < last; ++g) {
-    if (g->first == g->last) continue;
-    Words some = {}, met = {};
-    add_window(g->some, at, some);
-    some &= open;
-    if (!any(some)) continue;
-    for (const RowTables::Window* w = windows + g->first; w < windows + g->last; ++w) add_window(*w, at, met);
-    open &= ~met;
-  }
-  *reinterpret_cast<WordsInMemory*>(left) = open;
+/// Takes from `left` what meets something of the windows.
+BP_WIDE_CLONES void ask_windows(const RowTables::Window* first, const RowTables::Window* last, const std::uint64_t* at,
+                                std::uint64_t* left) {
+  Words met = {};
+  for (const RowTables::Window* w = first; w < last; ++w) add_window(*w, at, met);
+  *reinterpret_cast<WordsInMemory*>(left) &= ~met;
 }
 
 }  // namespace
@@ -105,12 +97,12 @@ void RowTables::lay(const VoxelBox& region, std::int32_t reach, std::int32_t lon
   columns_ = (region.max.x - region.min.x) / 64 + 2 * pad_ + 1;
   most_blocks_ = ceil_div(reach, kRows);
   for (shared_bits_ = 0; (2 * most_blocks_) >> shared_bits_ >= 64;) ++shared_bits_;
-  tables_.assign(3 * level_words() * std::size_t(levels_));
+  tables_.assign(2 * level_words() * std::size_t(levels_));
   slices_.assign(level_words() * std::size_t(kRows));
   loaded_ = false;
 }
 
-/// Of the voxels [first, last] of row dy, or of the rows or blocks that begin there.
+/// Of the voxels [first, last] of row dy, or of a block that begins there.
 RowTables::Window RowTables::window(std::int32_t first, std::int32_t last, std::int32_t dy, Tables of) const {
   Window w;
   const int k = std::bit_width(std::uint32_t(last - first + 1)) - 1;
@@ -142,6 +134,7 @@ void RowTables::add_blocks(Element& e) const {
   e.across = floor_div(e.most_dz, kRows) + 1 - e.first;
   struct Hull {
     std::int32_t first = std::int32_t(1) << 30, last = -first;
+    [[nodiscard]] bool empty() const { return first > last; }
     void add(const Hull& h) { first = std::min(first, h.first), last = std::max(last, h.last); }
   };
   std::vector<Hull> blocks(std::size_t(e.across) * std::size_t(e.across));
@@ -150,23 +143,21 @@ void RowTables::add_blocks(Element& e) const {
     const CubeRow* row = e.rows.begin(dz);
     Hull* block = &blocks[std::size_t(floor_div(dz, kRows) - e.first) * std::size_t(e.across)];
     for (std::int32_t i = e.first; i < e.first + e.across; ++i, ++block) {
-      const CubeRow* from = row;
-      Hull hull;
-      for (; row < e.rows.begin(dz + 1) && row->dy < kRows * (i + 1); ++row) hull.add({row->first, row->last});
-      e.groups.push_back({from < row ? window(hull.first, hull.last, kRows * i, kGroups) : Window{},
-                          std::uint32_t(from - all), std::uint32_t(row - all)});
-      block->add(hull);
+      e.starts.push_back(std::uint32_t(row - all));
+      for (; row < e.rows.begin(dz + 1) && row->dy < kRows * (i + 1); ++row) block->add({row->first, row->last});
     }
   }
+  e.starts.push_back(std::uint32_t(e.windows.size()));
   for (std::size_t j = 0; j < std::size_t(e.across); ++j) {
-    Layer layer{e.first, 0, e.blocks.size()};
-    for (std::int32_t i = 0; i < e.across; ++i) {
-      const Hull& hull = blocks[j * std::size_t(e.across) + std::size_t(i)];
-      if (hull.first > hull.last) continue;  // of a slice that is convex, before its rows or behind them
-      if (layer.count++ == 0) layer.first += i;
+    const Hull* hulls = blocks.data() + j * std::size_t(e.across);
+    std::int32_t first = 0, end = e.across;
+    while (first < end && hulls[first].empty()) ++first;
+    while (first < end && hulls[end - 1].empty()) --end;
+    e.layers.push_back({e.first + first, end - first, e.blocks.size()});
+    for (std::int32_t i = first; i < end; ++i) {  // one without rows between others stands for a voxel
+      const Hull hull = hulls[i].empty() ? Hull{0, 0} : hulls[i];
       e.blocks.push_back(window(hull.first, hull.last, kRows * (e.first + i), kBlocks));
     }
-    e.layers.push_back(layer);
   }
 }
 
@@ -219,8 +210,6 @@ bool RowTables::load(const BitBox& solid, std::int32_t z) {
   if (!here_) return true;
   std::copy_n(slices_.data() + number(z) * level_words(), level_words(), tables_.data());
   double_along(kSlice);
-  join_rows(tables_.data(), level_words(), tables_.data() + level(kGroups, 0));
-  double_along(kGroups);
   return true;
 }
 
@@ -236,14 +225,14 @@ std::uint64_t RowTables::near(const Element& e, std::int32_t dz, const std::uint
 
 void RowTables::ask(const Element& e, std::int32_t dz, std::uint64_t near, std::uint64_t* left) const {
   if (!here_ || std::abs(dz) > e.most_dz) return;
-  const Group* groups = e.groups.data() + std::size_t(dz + e.most_dz) * std::size_t(e.across);
+  const std::uint32_t* starts = e.starts.data() + std::size_t(dz + e.most_dz) * std::size_t(e.across);
   while (near != 0) {  // run by run
     const std::int32_t from = std::countr_zero(near), to = from + std::countr_one(near >> from);
     near = to < 64 ? near >> to << to : 0;
-    const std::int32_t first = (from << shared_bits_) - most_blocks_ - e.first,
-                       last = (to << shared_bits_) - most_blocks_ - e.first;
-    ask_groups(groups + std::max(first, 0), groups + std::min(last, e.across), e.windows.data(), tables_.data() + at_,
-               left);
+    const std::int32_t first = std::max((from << shared_bits_) - most_blocks_ - e.first, 0),
+                       last = std::min((to << shared_bits_) - most_blocks_ - e.first, e.across);
+    if (first < last)
+      ask_windows(e.windows.data() + starts[first], e.windows.data() + starts[last], tables_.data() + at_, left);
   }
 }
 

@@ -17,12 +17,7 @@ class RowTables {
     std::int32_t word[4] = {};              ///< from that of the asking voxels in the finest table
     std::uint8_t down[2] = {}, up[2] = {};  ///< shifts
   };
-  /// Up to 8 rows of one slice, and what any of them holds.
-  struct Group {
-    Window some;
-    std::uint32_t first, last;  ///< of the windows
-  };
-  /// Blocks with rows of one j: i from `first` on.
+  /// Blocks of one j, from the first to the last with rows: i from `first` on.
   struct Layer {
     std::int32_t first = 0, count = 0;
     std::size_t block = 0;
@@ -30,21 +25,21 @@ class RowTables {
   /// Rows [8 i, 8 i + 8) of slices [8 j, 8 j + 8) are a block.
   struct Element {
     CubeRows rows;
-    std::vector<Window> windows;  ///< one for each of its rows
-    std::vector<Group> groups;    ///< for each slice and i
-    std::vector<Layer> layers;    ///< for each j
-    std::vector<Window> blocks;   ///< those of the layers, one after the other: what any of a block's rows holds
+    std::vector<Window> windows;        ///< one for each of its rows
+    std::vector<std::uint32_t> starts;  ///< for each slice and i: number of its first row
+    std::vector<Layer> layers;          ///< for each j
+    std::vector<Window> blocks;         ///< those of the layers, one after the other: what any of a block's rows holds
     std::int32_t most_dz = 0;
     std::int32_t first = 0, across = 0;  ///< least i and j, and how many there are
     [[nodiscard]] std::size_t bytes() const {
-      return windows.size() * (sizeof(Window) + sizeof(CubeRow)) + groups.size() * sizeof(Group) +
+      return windows.size() * (sizeof(Window) + sizeof(CubeRow)) + starts.size() * sizeof(std::uint32_t) +
              blocks.size() * sizeof(Window) + layers.size() * sizeof(Layer);
     }
   };
   /// Of an element of this reach.
   static constexpr std::size_t most_bytes(std::int32_t reach) {
     const auto side = std::size_t(2 * reach + 1), across = side / kRows + 2;
-    return side * side * (sizeof(Window) + sizeof(CubeRow)) + side * across * sizeof(Group) +
+    return side * side * (sizeof(Window) + sizeof(CubeRow)) + side * across * sizeof(std::uint32_t) +
            across * (across * sizeof(Window) + sizeof(Layer));
   }
 
@@ -63,7 +58,7 @@ class RowTables {
   void ask(const Element& element, std::int32_t dz, std::uint64_t near, std::uint64_t* left) const;
 
  private:
-  enum Tables { kSlice, kGroups, kBlocks };
+  enum Tables { kSlice, kBlocks };
   [[nodiscard]] Window window(std::int32_t first, std::int32_t last, std::int32_t dy, Tables of) const;
   void add_blocks(Element& element) const;
   bool load_slice(const BitBox& solid, std::int32_t z, std::uint64_t* to) const;
@@ -91,12 +86,12 @@ class RowTables {
   std::int32_t first_y_ = 0;  ///< of the tables
   std::int32_t columns_ = 0, height_ = 0, levels_ = 0;
   std::int32_t most_blocks_ = 0, shared_bits_ = 0;  ///< bit of blocks i in near(): (i + most_blocks_) >> shared_bits_
-  Lines tables_;                            ///< of the slice; of 8 rows of it together; of 8 rows of 8 slices together
-  Lines slices_;                            ///< slice z is number z modulo 8
-  std::int32_t next_ = 0;                   ///< slice that is not in them yet
-  bool held_[kRows] = {}, loaded_ = false;  ///< what of them holds something
-  bool here_ = false;                       ///< the slice itself does
-  std::size_t at_ = 0;                      ///< of who asks, in the finest table
+  Lines tables_;                                    ///< of the slice; of 8 rows of 8 slices together
+  Lines slices_;                                    ///< slice z is number z modulo 8
+  std::int32_t next_ = 0;                           ///< slice that is not in them yet
+  bool held_[kRows] = {}, loaded_ = false;          ///< what of them holds something
+  bool here_ = false;                               ///< the slice itself does
+  std::size_t at_ = 0;                              ///< of who asks, in the finest table
 };
 
 }  // namespace bp::detail
