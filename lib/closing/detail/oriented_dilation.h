@@ -19,10 +19,10 @@ class OrientedDilation {
   bool turns(const OrientationField& field, const VoxelBox& region);
   /// Sets `out` (its box is kept, within the region) to the voxels whose turned cube holds a voxel of `solid`.
   /// The largest cube along the axes that lies in the turned one decides for most voxels that are in, and the smallest
-  /// around it for those that are out. Between, rows of the turned cube are asked for, 64 x 8 voxels at once: some 10
-  /// cycles for each row of the cube in whose slice something lies. Where the scale varies in a cell, the least and the
-  /// largest are asked for, and voxels on which they disagree one by one. The solid is swept once for as many cubes as
-  /// most_bytes hold, or turned_cubes_bytes().
+  /// around it for those that are out. Between, rows of the turned cube are asked for, 64 x 8 voxels at once, and
+  /// blocks of 8 x 8 rows before them: some 5 cycles for each row and block that is asked. Where the scale varies in a
+  /// cell, the least and the largest are asked for, and voxels on which they disagree one by one. The solid is swept
+  /// once for as many cubes as most_bytes hold, or turned_cubes_bytes().
   void run(const BitBox& solid, const ScaleLattice& scale, BitBox& out, std::size_t most_bytes = 0);
 
  private:
