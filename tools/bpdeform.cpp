@@ -6,6 +6,7 @@
 #include "tools/cli/run_tool.h"
 #include "tools/deform/apply.h"
 #include "tools/deform/bind.h"
+#include "tools/run/make_backend.h"
 #include "tools/run/scene_budget.h"
 
 namespace {
@@ -36,7 +37,7 @@ void check(const Options& o, bp::Args& args) {
   if (args.given("--animate") && (o.command == "bind" || !(o.per_second > 0 && o.per_second <= kMostPerSecond)))
     fail(ErrorCode::bad_argument, "--animate belongs to apply, and takes a number above 0, up to {}", kMostPerSecond);
   if (o.out.empty()) fail(ErrorCode::bad_argument, "name the output with --output");
-  for (const char* option : {"--outside", "--coordinates"}) {
+  for (const char* option : {"--outside", "--coordinates", "--device"}) {
     if (o.command == "apply" && args.given(option)) fail(ErrorCode::bad_argument, "{} belongs to bind", option);
   }
   if (std::find(o.files.begin(), o.files.end(), "-") != o.files.end())
@@ -71,8 +72,8 @@ Options parse(bp::Args& args) {
   args.option("--animate", "NUMBER", o.per_second,
               "one glTF that moves from each cage to the next, so many cages a second");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::memory_part |
-                            bp::CommonOptions::progress_part | bp::CommonOptions::report_part |
-                            bp::CommonOptions::overwrite_part);
+                            bp::CommonOptions::device_part | bp::CommonOptions::progress_part |
+                            bp::CommonOptions::report_part | bp::CommonOptions::overwrite_part);
   args.often({"--output", "--coordinates", "--outside", "--animate", "--overwrite"});
   args.parse();
   check(o, args);
@@ -95,10 +96,15 @@ bp::SceneOptions scene_options(const Options& o) {
 
 void bind(const Options& o, bp::Report& report, bp::Progress& progress) {
   const auto output = bp::open_output(o.out, o.common.overwrite);
+  bp::Backends backends;
+  const auto make_backends = [&](double core_seconds) -> const bp::Backends& {
+    return backends = bp::make_backends(o.common, core_seconds, &report);
+  };
   const bp::BindRequest request{
-      o.files[0], o.files[1], o.out, o.kind, o.outside == Outside::near, o.common.memory_bytes, scene_options(o)};
+      o.files[0],       o.files[1],   o.out, o.kind, o.outside == Outside::near, o.common.memory_bytes,
+      scene_options(o), make_backends};
   const bp::WeightTotals totals = bp::bind_scene(request, *output, progress);
-  report.counts = {{"vertices", totals.points}, {"outside", totals.outside}};
+  report.counts = {{"backends", bp::names_of(backends)}, {"vertices", totals.points}, {"outside", totals.outside}};
   if (totals.outside > 0)
     report.note(fmt::format("vertices outside the cage, which follow its nearest faces: {} of {}", totals.outside,
                             totals.points),

@@ -1,10 +1,11 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "io/deform/weight_file.h"
 #include "io/scene/scene_reader.h"
-#include "lib/core/box.h"
+#include "lib/device/backend.h"
 #include "tools/cli/progress.h"
 
 namespace bp {
@@ -19,6 +20,9 @@ struct BindRequest {
   bool carry_outside = false;  ///< points outside follow the nearest face; else they are refused
   std::uint64_t memory_bytes = 0;
   SceneOptions scene_options;
+  /// What computes coordinates. Gets the seconds that they would take on one core, about. Their pinned memory is taken
+  /// off memory_bytes.
+  std::function<const Backends&(double core_seconds)> backends;
 };
 
 /// Binds a scene: streams its vertices through the coordinates of the cage into `out`. Throws bad_input if points lie
