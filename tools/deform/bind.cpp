@@ -103,6 +103,31 @@ std::vector<Backend*> pointers_to(const Backends& backends) {
   return out;
 }
 
+constexpr const char* kSceneFirst = "bind takes the scene first, and then the cage";
+
+/// Larger than the scene, which no cage is.
+bool seems_swapped(const BindRequest& request) {
+  return size_of_files({request.cage}) > size_of_files({request.scene});
+}
+
+IndexedMesh read_cage(const BindRequest& request) {
+  try {
+    IndexedMesh mesh = read_mesh(request.cage, request.scene_options);
+    (void)make_cage(mesh, request.cage);
+    return mesh;
+  } catch (const Error& e) {
+    if (!seems_swapped(request)) throw;
+    fail(ErrorCode::bad_input, "{}; {}, and {} is larger than {}", e.what(), kSceneFirst, request.cage, request.scene);
+  }
+}
+
+[[noreturn]] void refuse_outside(const BindRequest& request, const Tally& tally) {
+  const bool swapped = tally.totals.outside == tally.totals.points && seems_swapped(request);
+  fail(ErrorCode::bad_input, "{}: vertices outside {}: {} of {}, the first is number {} at {:.6g},{:.6g},{:.6g}; {}",
+       request.scene, request.cage, tally.totals.outside, tally.totals.points, tally.first + 1, tally.place[0],
+       tally.place[1], tally.place[2], swapped ? kSceneFirst : "use a larger cage, or --outside near");
+}
+
 /// The name of a file from the folder of another; one that begins at the root stays.
 std::string name_from(const std::string& from, const std::string& file) {
   const std::filesystem::path folder = std::filesystem::absolute(from).parent_path();
@@ -112,11 +137,11 @@ std::string name_from(const std::string& from, const std::string& file) {
 
 }  // namespace
 
-int blocks_at_work(std::uint64_t memory_bytes, const CageCoordinates& coordinates) {
+int blocks_at_work(std::uint64_t memory_bytes, std::uint64_t held, const CageCoordinates& coordinates) {
   constexpr std::uint64_t kPerFace = 512;  // of the cage: its vertices, edges, tables and hierarchy
   const std::size_t columns = coordinates.columns();
   const std::uint64_t block = 24 * points_of_block(columns) * columns + coordinates.bytes_at_once();
-  const std::uint64_t fixed = least_memory(0) + kPerFace * coordinates.cage().faces.size();
+  const std::uint64_t fixed = least_memory(0) + held + kPerFace * coordinates.cage().faces.size();
   const std::uint64_t left = memory_bytes > fixed ? memory_bytes - fixed : 0;
   if (left < block) throw NeedsMemory("a block of weights", block, left, fixed + block);
   return int(std::clamp<std::uint64_t>(left / block, 1, 2 * std::uint64_t(thread_count())));
@@ -125,7 +150,7 @@ int blocks_at_work(std::uint64_t memory_bytes, const CageCoordinates& coordinate
 WeightTotals bind_scene(const BindRequest& request, OutputFile& out, Progress& progress) {
   constexpr std::uint64_t kBytesPerPoint = 100;  // of an OBJ, which does not tell its vertices
   const WeightHeader header{name_from(request.weights, request.scene), size_of_files({request.scene}),
-                            read_mesh(request.cage, request.scene_options), request.kind};
+                            read_cage(request), request.kind};
   const CageCoordinates coordinates(make_cage(header.cage, request.cage), request.kind);
   const std::unique_ptr<ScenePoints> points = open_points(request.scene, request.scene_options);
   const std::uint64_t expected = points->count() > 0 ? points->count() : header.scene_bytes / kBytesPerPoint;
@@ -136,7 +161,7 @@ WeightTotals bind_scene(const BindRequest& request, OutputFile& out, Progress& p
   Tally tally;
   progress.begin("bind", 0, "vertices");
   pipeline<Block>(
-      blocks_at_work(unpinned(request.memory_bytes, pinned_bytes(backends)), coordinates),
+      blocks_at_work(unpinned(request.memory_bytes, pinned_bytes(backends)), points->memory_bytes(), coordinates),
       [&](Block& block) { return cutter.next(block); },
       [&](Block& block) { work_on(pool, coordinates, request.carry_outside, block); },
       [&](Block& block) {
@@ -145,12 +170,7 @@ WeightTotals bind_scene(const BindRequest& request, OutputFile& out, Progress& p
         progress.set(tally.totals.points, std::max(block.expected, tally.totals.points));
       });
   progress.end();
-  if (tally.totals.outside > 0 && !request.carry_outside)
-    fail(ErrorCode::bad_input,
-         "{}: vertices outside {}: {} of {}, the first is number {} at {:.6g},{:.6g},{:.6g}; use a larger cage, or "
-         "--outside near",
-         request.scene, request.cage, tally.totals.outside, tally.totals.points, tally.first + 1, tally.place[0],
-         tally.place[1], tally.place[2]);
+  if (tally.totals.outside > 0 && !request.carry_outside) refuse_outside(request, tally);
   tally.totals.hash = cutter.hash();
   writer.finish(tally.totals);
   return tally.totals;

@@ -11,8 +11,8 @@
 namespace bp {
 
 /// Blocks of weights at work at the same time, each with coordinates at work: as many as memory and threads allow, at
-/// most two for each thread. Throws NeedsMemory if not even one fits.
-[[nodiscard]] int blocks_at_work(std::uint64_t memory_bytes, const CageCoordinates& coordinates);
+/// most two for each thread. `held`: bytes of it that are in use. Throws NeedsMemory if not even one fits.
+[[nodiscard]] int blocks_at_work(std::uint64_t memory_bytes, std::uint64_t held, const CageCoordinates& coordinates);
 
 struct BindRequest {
   std::string scene, cage, weights;  ///< weights: the name of `out`
