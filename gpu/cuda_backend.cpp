@@ -7,8 +7,8 @@
 #include <new>
 
 #include "gpu/device_closing.h"
+#include "gpu/device_weighing.h"
 #include "gpu/kernels/bit_kernels.h"
-#include "gpu/kernels/coordinate_kernels.h"
 #include "gpu/kernels/device_error.h"
 #include "gpu/kernels/tuning.h"
 #include "gpu/kernels/voxelize_kernels.h"
@@ -122,45 +122,11 @@ class CudaBackend final : public Backend {
   void weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside, WeightBlock& out,
              std::span<CoordinateRows::Place> places) override {
     stream_.select();
-    std::vector<std::uint32_t> left;
-    for (std::size_t first = 0, step = points.size(); first < points.size();) {
-      const std::size_t n = std::min(step, points.size() - first);
-      try {
-        weigh_some_there(coordinates, points.subspan(first, n), first, out, places, left);
-        first += n;
-      } catch (const OutOfDeviceMemory&) {
-        if (n == 1) throw;
-        make_room();
-        step = n / 2;
-      }
-    }
-    weigh_some(coordinates, points, left, carry_outside, rows_, out, places);
+    weighing_.weigh(
+        coordinates, points, carry_outside, staging_, stream_.get(), [this] { make_room(); }, out, places);
   }
 
  private:
-  /// `first`: number of the first point in `out`. Adds the points that are left to the calling thread.
-  void weigh_some_there(const CageCoordinates& coordinates, std::span<const Vec3d> points, std::size_t first,
-                        WeightBlock& out, std::span<CoordinateRows::Place> places, std::vector<std::uint32_t>& left) {
-    const std::size_t n = points.size();
-    weigher_.upload(coordinates, points, staging_);
-    weigher_.enqueue(stream_.get());
-    std::vector<std::uint8_t> done(n);
-    staging_.download(done.data(), weigher_.done(), n);
-    const std::size_t all = n * out.columns * sizeof(std::int32_t);
-    if (n == out.points) {
-      staging_.download(out.units.data(), weigher_.units(), all);
-    } else {
-      std::vector<std::int32_t> units(n * out.columns);
-      staging_.download(units.data(), weigher_.units(), all);
-      for (std::size_t c = 0; c < out.columns; ++c)
-        std::copy_n(units.data() + c * n, n, out.units.data() + c * out.points + first);
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      if (done[i] == 0) left.push_back(std::uint32_t(first + i));
-      out.bits[first + i] = WeightBlock::kBits, places[first + i] = CoordinateRows::Place::inside;
-    }
-  }
-
   void require_code() const {
     const cudaError_t error = find_code();
     if (error == cudaErrorMemoryAllocation) check_cuda(error, "loading the kernels");
@@ -340,7 +306,7 @@ class CudaBackend final : public Backend {
     closing_.release();
     voxelizer_.release();
     winding_.release();
-    weigher_.release();
+    weighing_.release();
     for (auto* b : {&in_, &out_, &in_slots_, &out_slots_, &skip_, &count_}) b->release();
     samples_.release();
     triangles_.release();
@@ -385,8 +351,7 @@ class CudaBackend final : public Backend {
   DeviceClosing closing_;
   DeviceVoxelizer voxelizer_;
   DeviceWinding winding_;
-  DeviceWeigher weigher_;
-  CoordinateRows rows_;  ///< of points that are left to the CPU
+  DeviceWeighing weighing_;
   DeviceBuffer<std::uint32_t> in_, out_, in_slots_, out_slots_, skip_, count_;
   std::vector<std::uint32_t> slots_;
   DeviceBuffer<Scale> samples_;
