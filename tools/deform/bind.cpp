@@ -78,7 +78,7 @@ void work_on(Pool<Backend*>& backends, const CageCoordinates& coordinates, bool 
 /// Seconds of a core for the coordinates of a scene, about: 0 if blocks have too few points for a GPU.
 double core_seconds(const CageCoordinates& coordinates, std::uint64_t points) {
   constexpr double kPerFace = 1e-8;
-  constexpr std::size_t kFewPoints = 512;
+  constexpr std::size_t kFewPoints = 256;
   const double kind = coordinates.kind() == CoordinateKind::mean_value ? 1 : 2;
   if (points_of_block(coordinates.columns()) < kFewPoints) return 0;
   return kPerFace * kind * double(coordinates.cage().faces.size()) * double(points);
