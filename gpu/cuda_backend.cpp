@@ -7,6 +7,7 @@
 #include <new>
 
 #include "gpu/device_closing.h"
+#include "gpu/device_weighing.h"
 #include "gpu/kernels/bit_kernels.h"
 #include "gpu/kernels/device_error.h"
 #include "gpu/kernels/tuning.h"
@@ -113,6 +114,13 @@ class CudaBackend final : public Backend {
       }
     }
     Backend::close_from_shelf(solid, bricks, scale, halo, params, interior, closed);
+  }
+
+  void weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside, WeightBlock& out,
+             std::span<CoordinateRows::Place> places) override {
+    stream_.select();
+    weighing_.weigh(
+        coordinates, points, carry_outside, staging_, stream_.get(), [this] { make_room(); }, out, places);
   }
 
  private:
@@ -312,6 +320,7 @@ class CudaBackend final : public Backend {
     closing_.release();
     voxelizer_.release();
     winding_.release();
+    weighing_.release();
     for (auto* b : {&in_, &out_, &in_slots_, &out_slots_, &skip_, &count_}) b->release();
     samples_.release(), rotations_.release(), rotation_of_cell_.release();
     triangles_.release();
@@ -356,6 +365,7 @@ class CudaBackend final : public Backend {
   DeviceClosing closing_;
   DeviceVoxelizer voxelizer_;
   DeviceWinding winding_;
+  DeviceWeighing weighing_;
   DeviceBuffer<std::uint32_t> in_, out_, in_slots_, out_slots_, skip_, count_;
   std::vector<std::uint32_t> slots_;
   DeviceBuffer<Scale> samples_;

@@ -46,6 +46,10 @@ ComponentType component_type(const GltfObject& o) {
 // --- GltfObject
 // --------------------------------------------------------------------------------------------------------
 
+void GltfObject::unfit(const std::string& what) const {
+  fail(ErrorCode::bad_input, "{}: {} {}", file_, place_.empty() ? "the document" : place_, what);
+}
+
 void GltfObject::broken(const std::string& what) const {
   fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: {} {}", file_, place_.empty() ? "the document" : place_, what);
 }
@@ -162,8 +166,8 @@ void GltfDocument::open_glb() {
 void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
   LeanJson lean = read_lean_json(file_, offset, size, temp_dir_, options_.textures != nullptr);
   lifted_ = std::move(lean.data);
-  check_document(options_, file_->name(), "its JSON", lean.text.size() + bytes_to_parse(lean.text),
-                 options_.document.bytes);
+  json_bytes_ = bytes_to_parse(lean.text);
+  check_document(options_, file_->name(), "its JSON", lean.text.size() + json_bytes_, options_.document.bytes);
   try {
     json_ = parse_json(std::move(lean.text));
   } catch (const GltfJson::exception& e) {

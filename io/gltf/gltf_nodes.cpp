@@ -41,7 +41,8 @@ std::vector<std::uint64_t> gltf_roots(const GltfObject& root) {
   return roots;
 }
 
-Affine gltf_transform(const GltfObject& node) {
+Affine gltf_transform(const GltfObject& node, const ScenePose::Node* pose) {
+  const ScenePose::Node rest, &moved = pose != nullptr ? *pose : rest;
   if (node.has("matrix")) {  // by columns
     const auto m = node.numbers<16>("matrix", {});
     Affine a;
@@ -50,8 +51,9 @@ Affine gltf_transform(const GltfObject& node) {
     }
     return a;
   }
-  return affine_of(node.numbers<3>("translation", {0, 0, 0}), node.numbers<4>("rotation", {0, 0, 0, 1}),
-                   node.numbers<3>("scale", {1, 1, 1}));
+  return affine_of(moved.translation.value_or(node.numbers<3>("translation", {0, 0, 0})),
+                   moved.rotation.value_or(node.numbers<4>("rotation", {0, 0, 0, 1})),
+                   moved.scale.value_or(node.numbers<3>("scale", {1, 1, 1})));
 }
 
 }  // namespace bp

@@ -12,6 +12,7 @@
 #include "tests/catch.h"
 #include "tests/reference/closing.h"
 #include "tests/reference/random_closing.h"
+#include "tests/support/cages.h"
 
 using namespace bp;
 
@@ -209,4 +210,39 @@ TEST_CASE("a GPU whose launches fail says which it is, and the CPU takes over wh
   emulator::faults = {};
   CHECK(warning == said);
   CHECK(got == tile.want);
+}
+
+TEST_CASE("points whose numbers do not fit in device memory are weighed in parts, to the same bits",
+          "[quick][emulated]") {
+  const CageCoordinates coordinates(make_cage(test::sphere_cage(6, 7, 0.2), "sphere"));
+  std::vector<Vec3d> points;
+  for (int i = 0; i < 301; ++i) points.push_back({0.001 * i, 0.002 * i - 0.3, 0.1});
+  const auto weigh = [&](Backend& backend) {
+    WeightBlock block(points.size(), coordinates.columns());
+    std::vector<CoordinateRows::Place> places(points.size());
+    backend.weigh(coordinates, points, true, block, places);
+    return block.units;
+  };
+  CpuBackend cpu;
+  const auto gpu = make_cuda_backend(0);
+  emulator::set_memory_limit(std::size_t(600) << 10);
+  const std::vector<std::int32_t> got = weigh(*gpu);
+  CHECK(emulator::memory_in_use() > std::size_t(100) << 10);
+  emulator::set_memory_limit(std::size_t(-1));
+  CHECK(got == weigh(cpu));
+}
+
+TEST_CASE("a device that fails at coordinates leaves them to the CPU, with a warning", "[quick][emulated]") {
+  const CageCoordinates coordinates(make_cage(test::sphere_cage(5, 6), "sphere"));
+  int warnings = 0;
+  FallbackBackend backend(make_cuda_backend(0), [&](const DeviceError&) { ++warnings; });
+  emulator::faults.launch = cudaErrorLaunchFailure;
+  const std::vector<Vec3d> points{{0.1, 0.2, 0.3}};
+  WeightBlock got(1, coordinates.columns()), want = got;
+  std::vector<CoordinateRows::Place> places(1);
+  backend.weigh(coordinates, points, true, got, places);
+  emulator::faults = {};
+  CpuBackend().weigh(coordinates, points, true, want, places);
+  CHECK(got.units == want.units);
+  CHECK(warnings == 1);
 }
