@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <span>
 
+#include "lib/check/detail/known_inside.h"
 #include "lib/check/detail/leaf_proof.h"
 #include "lib/check/detail/surface.h"
 #include "lib/check/detail/triangle_part.h"
@@ -46,8 +49,17 @@ struct Counts {
 class Checker {
  public:
   Checker(const std::vector<CoverTile>& tiles, const CoverContents& content_of)
-      : tiles_(tiles), content_of_(content_of), bodies_(tiles.size()), counts_(tiles.size()), below_(tiles.size()) {
+      : tiles_(tiles),
+        content_of_(content_of),
+        bodies_(tiles.size()),
+        counts_(tiles.size()),
+        below_(tiles.size()),
+        octants_(tiles.size()) {
     find_below(0);
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+      if (!tiles[i].cell) continue;
+      for (int k = 0; k < 8; ++k) octants_[i][std::size_t(k)] = octant(i, k);
+    }
   }
 
   CoverReport run(TriangleSource& scene, std::uint64_t memory_bytes) {
@@ -78,6 +90,20 @@ class Checker {
     std::size_t first = 0, last = 0;   ///< the least and the largest
     std::optional<double> leaf_error;  ///< the largest, if those below show nothing but leaves
   };
+
+  /// An eighth of a tile's cell, and the child that it is the cell of, or 0.
+  struct Octant {
+    Bounds3d box;
+    std::size_t child = 0;
+  };
+
+  [[nodiscard]] Octant octant(std::size_t i, int k) const {
+    Octant out{octant_of(*tiles_[i].cell, k)};
+    for (const std::size_t child : tiles_[i].children) {
+      if (tiles_[child].cell == out.box) out.child = child;
+    }
+    return out;
+  }
 
   const Numbers& find_below(std::size_t i) {
     Numbers& all = below_[i] = {i, i, 0.0};
@@ -127,9 +153,10 @@ class Checker {
         2 * thread_count(), [&](std::vector<TriangleD>& chunk) { return scene.read(chunk); },
         [&](std::vector<TriangleD>& chunk) {
           if (begin_ == 0) add_bounds(chunk);
+          KnownInside known;
           for (const TriangleD& t : chunk) {
             if (in_root(t)) {
-              visit(0, t);
+              visit(0, t, known);
             } else if (begin_ == 0) {
               ++astray_;
             }
@@ -152,10 +179,7 @@ class Checker {
     const auto &p = tiles_[parent].cell, &c = tiles_[child].cell;
     if (p == c) return tiles_[parent].children.size() == 1;
     if (!p || !c) return false;
-    for (int k = 0; k < 8; ++k) {
-      if (octant_of(*p, k) == *c) return true;
-    }
-    return false;
+    return std::any_of(octants_[parent].begin(), octants_[parent].end(), [&](const Octant& o) { return o.box == *c; });
   }
 
   [[nodiscard]] bool in_root(const TriangleD& t) const {
@@ -169,38 +193,36 @@ class Checker {
     return true;
   }
 
-  /// True unless t surely avoids the closed cell.
-  [[nodiscard]] static bool meets(const TriangleD& t, const std::optional<Bounds3d>& cell) {
-    if (!cell) return true;
-    const Bounds3d box = grown(*cell, growth_for(*cell, t) / 2);
-    return overlap(bounds_of(t), box) && !TrianglePart(t, box).empty();
+  /// True unless t, whose box is `bounds`, surely avoids the closed cell.
+  [[nodiscard]] static bool meets(const TriangleD& t, const Bounds3d& bounds, const Bounds3d& cell) {
+    if (lies_in(bounds, cell)) return true;
+    const Bounds3d box = grown(cell, growth_for(cell, t) / 2);
+    return overlap(bounds, box) && !TrianglePart(t, box).empty();
+  }
+  [[nodiscard]] static bool lies_in(const Bounds3d& inner, const Bounds3d& outer) {
+    bool in = true;
+    for (std::size_t i = 0; i < 3; ++i) in = in && inner.min[i] >= outer.min[i] && inner.max[i] <= outer.max[i];
+    return in;
   }
 
   /// t meets the cell of tile i. What counts are the tiles of this share.
-  void visit(std::size_t i, const TriangleD& t) {
+  void visit(std::size_t i, const TriangleD& t, KnownInside& known) {
     if (below_[i].first >= end_ || below_[i].last < begin_) return;
     const CoverTile& tile = tiles_[i];
     const bool mine = i >= begin_ && i < end_;
     if (mine && !tile.triangles && tile.children.empty()) ++counts_[i].bare;
-    if (mine && tile.triangles) {
-      const Verdict verdict = tile.leaf_error ? compare(i, t) : examine(i, t);
-      counts_[i].thin += verdict == Verdict::thin;
-      counts_[i].missing += verdict == Verdict::missing;
-      counts_[i].touching += verdict == Verdict::touching;
-      counts_[i].outside += verdict == Verdict::outside;
-      counts_[i].undecided += verdict == Verdict::undecided;
-    }
+    if (mine && tile.triangles) count(i, tile.leaf_error ? compare(i, t) : examine(i, t, known));
     if (tile.children.empty()) return;
-    if (tile.children.size() == 1 && tiles_[tile.children[0]].cell == tile.cell) return visit(tile.children[0], t);
+    if (tile.children.size() == 1 && tiles_[tile.children[0]].cell == tile.cell)
+      return visit(tile.children[0], t, known);
     if (!tile.cell) return;
-    for (int k = 0; k < 8; ++k) {
-      const Bounds3d box = octant_of(*tile.cell, k);
-      if (!meets(t, box)) continue;
-      const std::size_t child = child_at(tile, box);
-      if (child != 0) {
-        visit(child, t);
+    const Bounds3d bounds = bounds_of(t), near = grown(bounds, growth_for(*tile.cell, t));
+    for (const Octant& octant : octants_[i]) {
+      if (!overlap(near, octant.box) || !meets(t, bounds, octant.box)) continue;
+      if (octant.child != 0) {
+        visit(octant.child, t, known);
       } else if (mine) {
-        const Verdict verdict = without_child(i, box, t);
+        const Verdict verdict = without_child(i, octant.box, t);
         counts_[i].thin += verdict == Verdict::thin;
         counts_[i].undecided += verdict == Verdict::undecided;
         counts_[i].uncovered += verdict == Verdict::missing;
@@ -208,11 +230,13 @@ class Checker {
     }
   }
 
-  [[nodiscard]] std::size_t child_at(const CoverTile& tile, const Bounds3d& box) const {
-    for (const std::size_t child : tile.children) {
-      if (tiles_[child].cell == box) return child;
-    }
-    return 0;
+  void count(std::size_t i, Verdict verdict) {
+    if (verdict == Verdict::fine) return;
+    counts_[i].thin += verdict == Verdict::thin;
+    counts_[i].missing += verdict == Verdict::missing;
+    counts_[i].touching += verdict == Verdict::touching;
+    counts_[i].outside += verdict == Verdict::outside;
+    counts_[i].undecided += verdict == Verdict::undecided;
   }
 
   /// Of a leaf.
@@ -245,7 +269,7 @@ class Checker {
     return error + kLeafRounding * rounding_of(cell, t);
   }
 
-  [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t) const {
+  [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t, KnownInside& known) const {
     const Body& body = bodies_[i];
     if (!body.closed) return Verdict::undecided;
     for (const Vec3d& p : t) {
@@ -260,9 +284,12 @@ class Checker {
     const Bounds3d box = grown(*cell, growth);
     if (touches_within(body, t, box)) return Verdict::touching;
     // No face meets t in the grown cell, so all of t there lies on the side of any point of it.
+    std::array<Vec3d, 3> corners;
+    std::size_t n = 0;
     for (const Vec3d& p : t) {
-      if (contains(*cell, p)) return body.surface->winding(p) < 1 ? Verdict::outside : Verdict::fine;
+      if (contains(*cell, p)) corners[n++] = p;
     }
+    if (n > 0) return side_of(i, {corners.data(), n}, known);
     for (const Vec3d& p : TrianglePart(t, grown(*cell, growth / 2)).points_within()) {
       const Verdict verdict = side_near(body, p, rounding_of(*cell, t));
       if (verdict != Verdict::undecided) return verdict;
@@ -271,6 +298,15 @@ class Checker {
   }
 
   [[nodiscard]] static bool contains(const Bounds3d& box, const Vec3d& p) { return overlap(box, Bounds3d{p, p}); }
+
+  /// Of corners that all lie on one side. Corners that the scene's triangles share are asked for once.
+  [[nodiscard]] Verdict side_of(std::size_t i, std::span<const Vec3d> corners, KnownInside& known) const {
+    const auto is_known = [&](const Vec3d& p) { return known.has(i, p); };
+    if (std::none_of(corners.begin(), corners.end(), is_known) && bodies_[i].surface->winding(corners[0]) < 1)
+      return Verdict::outside;
+    for (const Vec3d& p : corners) known.add(i, p);
+    return Verdict::fine;
+  }
 
   [[nodiscard]] static bool touches_within(const Body& body, const TriangleD& t, const Bounds3d& box) {
     Bounds3d reach = bounds_of(t);
@@ -338,8 +374,9 @@ class Checker {
   const CoverContents& content_of_;
   std::vector<Body> bodies_;  ///< of the tiles of this share
   std::vector<Counts> counts_;
-  std::vector<Numbers> below_;       ///< of each tile, itself included
-  std::size_t begin_ = 0, end_ = 0;  ///< tiles of this share
+  std::vector<Numbers> below_;                  ///< of each tile, itself included
+  std::vector<std::array<Octant, 8>> octants_;  ///< of the cell of each tile
+  std::size_t begin_ = 0, end_ = 0;             ///< tiles of this share
   std::atomic<std::uint64_t> astray_{0};
   Bounds3d bounds_;  ///< of the scene
   std::mutex bounds_mutex_;
