@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <span>
 
 #include "lib/check/detail/known_inside.h"
@@ -17,6 +16,7 @@
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/exact/triangle_intersection.h"
+#include "lib/geometry/triangle_totals.h"
 #include "lib/tileset/tile_tree.h"
 
 namespace bp {
@@ -25,8 +25,10 @@ namespace {
 
 constexpr double kLeafRounding = 16;        // rounding_of(): what is computed of a leaf and the scene
 constexpr double kMostLeafError = 0x1p-18;  // of the longest edge of the scene's box
+constexpr double kFlat = 0x1p-22;           // the same: what float32 rounds away in a tile four times as long
 
-enum class Verdict { fine, thin, touching, outside, undecided, missing };
+/// Of a triangle in the cell of a tile. The last two: where nothing is drawn, in the cell or an octant of it.
+enum class Verdict { fine, thin, flat, touching, outside, undecided, missing, bare, uncovered, count };
 
 /// The content of a tile as a surface, and the triangles of the scene that it fails.
 struct Body {
@@ -42,7 +44,8 @@ struct Body {
 };
 
 struct Counts {
-  std::atomic<std::uint64_t> touching{0}, outside{0}, undecided{0}, uncovered{0}, bare{0}, missing{0}, thin{0};
+  std::array<std::atomic<std::uint64_t>, std::size_t(Verdict::count)> triangles{};
+  [[nodiscard]] std::uint64_t of(Verdict verdict) const { return triangles[std::size_t(verdict)]; }
   std::uint64_t strays = 0;  ///< triangles of a leaf
 };
 
@@ -54,7 +57,8 @@ class Checker {
         bodies_(tiles.size()),
         counts_(tiles.size()),
         below_(tiles.size()),
-        octants_(tiles.size()) {
+        octants_(tiles.size()),
+        refused_(tiles.size()) {
     find_below(0);
     for (std::size_t i = 0; i < tiles.size(); ++i) {
       if (!tiles[i].cell) continue;
@@ -63,6 +67,7 @@ class Checker {
   }
 
   CoverReport run(TriangleSource& scene, std::uint64_t memory_bytes) {
+    judge_errors(scene);
     for (begin_ = 0; begin_ < tiles_.size(); begin_ = end_) {
       end_ = end_of_share(memory_bytes);
       parallel_for(std::int64_t(end_ - begin_), [&](std::int64_t i) { load(begin_ + std::size_t(i)); });
@@ -74,8 +79,8 @@ class Checker {
     }
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
       say_of_tile(i);
-      if (tiles_[i].leaf_error && tiles_[i].triangles) say_of_error(i);
-      report_.thin += counts_[i].thin;
+      report_.thin += counts_[i].of(Verdict::thin);
+      report_.flat += counts_[i].of(Verdict::flat);
     }
     if (astray_ > 0)
       findings_.push_back(
@@ -130,13 +135,13 @@ class Checker {
   }
 
   void load(std::size_t i) {
-    if (!tiles_[i].triangles) return;
+    if (!tiles_[i].triangles || refused_[i]) return;
     Body& body = bodies_[i];
     CheckReport report;
     body.mesh = weld(content_of_(i), 1, report);
     if (tiles_[i].leaf_error) {
       body.surface = std::make_unique<Surface>(body.mesh);
-      body.proof = std::make_unique<LeafProof>(body.surface->bvh(), *tiles_[i].cell);
+      body.proof = std::make_unique<LeafProof>(body.surface->bvh(), *tiles_[i].cell, kFlat * scene_edge_);
       return;
     }
     check_topology(body.mesh, 1, report);
@@ -152,7 +157,6 @@ class Checker {
     pipeline<std::vector<TriangleD>>(
         2 * thread_count(), [&](std::vector<TriangleD>& chunk) { return scene.read(chunk); },
         [&](std::vector<TriangleD>& chunk) {
-          if (begin_ == 0) add_bounds(chunk);
           KnownInside known;
           for (const TriangleD& t : chunk) {
             if (in_root(t)) {
@@ -163,16 +167,6 @@ class Checker {
           }
         },
         [](std::vector<TriangleD>&) {});
-  }
-
-  void add_bounds(const std::vector<TriangleD>& chunk) {
-    Bounds3d box;
-    for (const TriangleD& t : chunk)
-      for (const Vec3d& p : t) box.add(p);
-    if (chunk.empty()) return;
-    const std::lock_guard lock(bounds_mutex_);
-    bounds_.add(box.min);
-    bounds_.add(box.max);
   }
 
   [[nodiscard]] bool fits(std::size_t parent, std::size_t child) const {
@@ -210,8 +204,8 @@ class Checker {
     if (below_[i].first >= end_ || below_[i].last < begin_) return;
     const CoverTile& tile = tiles_[i];
     const bool mine = i >= begin_ && i < end_;
-    if (mine && !tile.triangles && tile.children.empty()) ++counts_[i].bare;
-    if (mine && tile.triangles) count(i, tile.leaf_error ? compare(i, t) : examine(i, t, known));
+    if (mine && !tile.triangles && tile.children.empty()) count(i, Verdict::bare);
+    if (mine && tile.triangles && !refused_[i]) count(i, tile.leaf_error ? compare(i, t) : examine(i, t, known));
     if (tile.children.empty()) return;
     if (tile.children.size() == 1 && tiles_[tile.children[0]].cell == tile.cell)
       return visit(tile.children[0], t, known);
@@ -223,20 +217,13 @@ class Checker {
         visit(octant.child, t, known);
       } else if (mine) {
         const Verdict verdict = without_child(i, octant.box, t);
-        counts_[i].thin += verdict == Verdict::thin;
-        counts_[i].undecided += verdict == Verdict::undecided;
-        counts_[i].uncovered += verdict == Verdict::missing;
+        count(i, verdict == Verdict::missing ? Verdict::uncovered : verdict);
       }
     }
   }
 
   void count(std::size_t i, Verdict verdict) {
-    if (verdict == Verdict::fine) return;
-    counts_[i].thin += verdict == Verdict::thin;
-    counts_[i].missing += verdict == Verdict::missing;
-    counts_[i].touching += verdict == Verdict::touching;
-    counts_[i].outside += verdict == Verdict::outside;
-    counts_[i].undecided += verdict == Verdict::undecided;
+    if (verdict != Verdict::fine) ++counts_[i].triangles[std::size_t(verdict)];
   }
 
   /// Of a leaf.
@@ -247,7 +234,7 @@ class Checker {
   [[nodiscard]] Verdict without_child(std::size_t i, const Bounds3d& octant, const TriangleD& t) const {
     if (!below_[i].leaf_error) return Verdict::missing;
     const TriangleBvh nothing({});
-    LeafProof proof(nothing, octant);
+    LeafProof proof(nothing, octant, kFlat * scene_edge_);
     return compare(proof, octant, t, *below_[i].leaf_error);
   }
   [[nodiscard]] static Verdict compare(LeafProof& proof, const Bounds3d& cell, const TriangleD& t, double error) {
@@ -258,6 +245,8 @@ class Checker {
         return Verdict::fine;
       case LeafProof::Cover::thin:
         return Verdict::thin;
+      case LeafProof::Cover::flat:
+        return Verdict::flat;
       case LeafProof::Cover::missing:
         return Verdict::missing;
       default:
@@ -336,18 +325,29 @@ class Checker {
     }
   }
 
-  /// The file chose the error and the cells. What rounding is, only the scene tells.
-  void say_of_error(std::size_t i) {
-    if (!(bounds_.min[0] <= bounds_.max[0])) return;
-    double edge = 0, farthest = 0;
+  /// The file chose the errors of leaves and the cells. What rounding is, only the scene tells. Leaves with larger
+  /// errors are refused, and compared with nothing.
+  void judge_errors(TriangleSource& scene) {
+    const auto is_leaf = [](const CoverTile& tile) { return tile.leaf_error && tile.triangles; };
+    if (std::none_of(tiles_.begin(), tiles_.end(), is_leaf)) return;
+    const Bounds3d bounds = bounds_of(scene);
+    if (bounds.empty()) return;
+    double farthest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      edge = std::max(edge, bounds_.max[k] - bounds_.min[k]);
-      farthest = std::max({farthest, std::abs(bounds_.min[k]), std::abs(bounds_.max[k])});
+      scene_edge_ = std::max(scene_edge_, bounds.max[k] - bounds.min[k]);
+      farthest = std::max({farthest, std::abs(bounds.min[k]), std::abs(bounds.max[k])});
     }
-    const double error = leaf_error(*tiles_[i].cell, {bounds_.min, bounds_.max, bounds_.max}, *tiles_[i].leaf_error);
+    const double most = kMostLeafError * scene_edge_ + 2 * kLeafRounding * 0x1p-50 * farthest;
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      if (is_leaf(tiles_[i])) judge_error(i, {bounds.min, bounds.max, bounds.max}, most);
+    }
+  }
+
+  void judge_error(std::size_t i, const TriangleD& farthest, double most) {
+    const double error = leaf_error(*tiles_[i].cell, farthest, *tiles_[i].leaf_error);
     report_.leaf_error = std::max(report_.leaf_error, error);
-    const double most = kMostLeafError * edge + 2 * kLeafRounding * 0x1p-50 * farthest;
-    if (error > most)
+    refused_[i] = error > most;
+    if (refused_[i])
       findings_.push_back({fmt::format("{}: {} is compared to within {:.3g}; rounding of this scene is {:.3g} at most",
                                        tiles_[i].place, tiles_[i].uri, error, most)});
   }
@@ -355,19 +355,20 @@ class Checker {
   void say_of_scene(std::size_t i) {
     const CoverTile& tile = tiles_[i];
     const Counts& c = counts_[i];
-    const auto add = [&](std::uint64_t n, const char* what, Answer answer = Answer::refuted) {
+    const auto add = [&](Verdict verdict, const char* what, Answer answer = Answer::refuted) {
+      const std::uint64_t n = c.of(verdict);
       if (n == 0) return;
       findings_.push_back({fmt::format("{}: {} {} {} triangles of the scene", tile.place, tile.uri, what, n), answer});
     };
-    add(c.missing, "does not show");
+    add(Verdict::missing, "does not show");
     if (c.strays > 0)
       findings_.push_back(
           {fmt::format("{}: {} shows {} triangles that the scene does not have", tile.place, tile.uri, c.strays)});
-    add(c.touching, "is touched by");
-    add(c.outside, "leaves outside");
-    add(c.undecided, "cannot be decided for", Answer::undecided);
-    add(c.bare, "draws nothing for");
-    add(c.uncovered, "has no child where there are");
+    add(Verdict::touching, "is touched by");
+    add(Verdict::outside, "leaves outside");
+    add(Verdict::undecided, "cannot be decided for", Answer::undecided);
+    add(Verdict::bare, "draws nothing for");
+    add(Verdict::uncovered, "has no child where there are");
   }
 
   const std::vector<CoverTile>& tiles_;
@@ -378,8 +379,8 @@ class Checker {
   std::vector<std::array<Octant, 8>> octants_;  ///< of the cell of each tile
   std::size_t begin_ = 0, end_ = 0;             ///< tiles of this share
   std::atomic<std::uint64_t> astray_{0};
-  Bounds3d bounds_;  ///< of the scene
-  std::mutex bounds_mutex_;
+  double scene_edge_ = 0;      ///< the longest of the scene's box, where there are leaves
+  std::vector<bool> refused_;  ///< leaves with too large an error
   CoverReport report_;
   std::vector<CoverFinding>& findings_ = report_.findings;
 };
