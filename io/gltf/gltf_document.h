@@ -65,6 +65,9 @@ inline constexpr std::array kVectorTypes = {"SCALAR", "VEC2", "VEC3", "VEC4"};  
 /// The extension of views, and its later name: KHR adds codecs, which are not read.
 inline constexpr std::array kMeshoptNames = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
+/// The JSON of a file that is no glTF. Throws as GltfDocument does.
+[[nodiscard]] GltfJson read_json(const SceneFilePtr& file, const SceneOptions& options);
+
 class GltfDocument {
  public:
   GltfDocument(const SceneFilePtr& file, const SceneOptions& options);

@@ -23,7 +23,7 @@ namespace {
 
 class SceneBuilder {
  public:
-  SceneBuilder(const SceneFilePtr& file, const SceneOptions& options)
+  SceneBuilder(const SceneFilePtr& file, const SceneOptions& options, const std::optional<ContentPlace>& place)
       : doc_(file, options),
         root_(doc_.root()),
         file_(file),
@@ -34,13 +34,14 @@ class SceneBuilder {
         walls_only_(options.walls_only),
         pose_(options.pose.get()),
         parts_(options.parts),
-        level_(options.level) {}
+        level_(options.level),
+        place_(place) {}
 
   InstancedScene build() {
     scene_.nodes.reserve(root_.array("nodes").size());
     visited_.resize(root_.array("nodes").size());
-    scene_.up = gltf_up(root_);
-    add_nodes(gltf_roots(root_), gltf_world(scene_.up));
+    if (!place_) scene_.up = gltf_up(root_);
+    add_nodes(gltf_roots(root_), place_ ? placed() : gltf_world(scene_.up));
     scene_.bytes = doc_.bytes();
     return std::move(scene_);
   }
@@ -54,6 +55,7 @@ class SceneBuilder {
     Affine parent;
     bool wanted;  // it is below a node whose name fits
   };
+  [[nodiscard]] Affine placed() const;
   void add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world);
   std::uint64_t level_of(std::uint64_t i);
   [[nodiscard]] std::set<std::uint64_t> coarser_nodes() const;
@@ -79,10 +81,21 @@ class SceneBuilder {
   const ScenePose* const pose_;  // null: at rest
   const std::string parts_;      // SceneOptions::parts
   const std::size_t level_;
+  const std::optional<ContentPlace> place_;
   InstancedScene scene_;
   std::unordered_map<std::uint64_t, Range> meshes_, wanted_meshes_;  // parts of them, and all
   std::vector<bool> visited_;
 };
+
+// Of a content. Tiles have z up. An extension of older files moves them there.
+Affine SceneBuilder::placed() const {
+  Affine centre;
+  if (root_.has("extensions") && root_.object("extensions").has("CESIUM_RTC")) {
+    const Vec3d at = root_.object("extensions").object("CESIUM_RTC").numbers<3>("center", {0, 0, 0});
+    for (std::size_t i = 0; i < 3; ++i) centre.m[i][3] = at[i];
+  }
+  return place_->tile * centre * affine_of(to_y_up(UpAxis::z).inverse()) * affine_of(to_y_up(place_->up));
+}
 
 // Depth first, without recursion: a chain of nodes may be as long as the file.
 void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world) {
@@ -258,8 +271,8 @@ std::optional<std::uint32_t> SceneBuilder::instance_array(const GltfObject& node
 
 }  // namespace
 
-RawSourcePtr open_gltf(SceneFilePtr file, const SceneOptions& options) {
-  InstancedScene scene = SceneBuilder(file, options).build();
+RawSourcePtr open_gltf(SceneFilePtr file, const SceneOptions& options, const std::optional<ContentPlace>& place) {
+  InstancedScene scene = SceneBuilder(file, options, place).build();
 #ifdef __GLIBC__
   ::malloc_trim(0);  // the document is gone, and what comes counts on its memory
 #endif

@@ -316,8 +316,12 @@ class SceneRow final : public TriangleSource {
 
 }  // namespace
 
+std::unique_ptr<TriangleSource> filtered(std::string name, RawSourcePtr raw, const SceneOptions& options) {
+  return std::make_unique<FilteredScene>(std::move(name), std::move(raw), options);
+}
+
 std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneOptions& options) {
-  return std::make_unique<FilteredScene>(path == "-" ? "stdin" : path, open_raw(path, options), options);
+  return filtered(path == "-" ? "stdin" : path, open_raw(path, options), options);
 }
 
 void check_stdin_once(const std::vector<std::string>& paths) {

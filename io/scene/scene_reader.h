@@ -18,6 +18,8 @@ class TextureTable;
 /// bounded by SceneOptions::memory_bytes, whatever the file holds. Every other format goes through Assimp, in a child
 /// process, so that a crash in an importer is an Error here.
 ///
+/// A file NAME.json is a tileset of 3D Tiles, and read as its contents are (open_tileset(), raw_source.h).
+///
 /// What all readers share:
 ///   - Coordinates are doubles from the file to the caller; node transforms are composed in double.
 ///   - Below 1e-90 in magnitude a coordinate is read as 0: exact predicates need the range (keep_extremes). A large one
