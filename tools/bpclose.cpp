@@ -63,7 +63,9 @@ Options parse(bp::Args& args) {
 bp::ScalePlan scale_plan(const Options& o, bp::RuledSource& source) {
   const bp::StreamHeader& header = source.header();
   if (header.has_field && (o.closing.scale || !o.field.empty()))
-    fail(ErrorCode::bad_argument, "{} and the field that bpscale gave the stream exclude each other",
+    fail(ErrorCode::bad_argument,
+         "{0}: bpscale gave the stream a field, which says the scales; leave out {0}, or close the stream that bpscale "
+         "read",
          o.closing.scale ? "--scale" : "--field");
   if (!o.field.empty()) return source.read_rules(o.field);
   bp::ScalePlan plan;

@@ -28,7 +28,7 @@ struct Options {
   std::string format, boxes;
   bp::PictureOptions picture;
   std::optional<std::size_t> level;
-  bool json = false, dump = false;
+  bool json = false, dump = false, quiet = false;
 };
 
 Options parse(bp::Args& args) {
@@ -47,6 +47,7 @@ Options parse(bp::Args& args) {
               "level of a glTF file to show, or of a tileset to draw; 0, the finest (default)");
   bp::add_scene_format(args, o.format, "INPUTs are meshes, and this is the ");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::overwrite_part);
+  args.flag("-q,--quiet", o.quiet, "show no notes");
   args.removed("--checksum", "the text and --json have it");
   args.often({"--json", "--image", "--view", "--zoom", "--look-at", "--pick", "--boxes", "--level", "--overwrite"});
   args.example("bpinfo scene.glb closed.bpv proxy.glb --image all.png");
@@ -78,10 +79,7 @@ bool is_stream(const Options& o, const std::string& in) {
   const bp::InputFile file(in);
   if (!file.seekable()) return true;
   if (file.size() == 0) return bp::scene_format_of(in).empty();
-  std::array<std::byte, 4> magic{};
-  (void)file.read_at(0, magic);
-  return magic == std::array{std::byte(0x5b), std::byte(0x2a), std::byte(0x4d), std::byte(0x18)} ||
-         in.ends_with(".bpv");
+  return bp::begins_as_stream(in) || in.ends_with(".bpv");
 }
 
 /// By its name, as bpcheck does.
@@ -89,8 +87,8 @@ bool is_tileset(const Options& o, const std::string& in) {
   return o.format.empty() && in.ends_with(".json");
 }
 
-void note(const std::string& text) {
-  std::fprintf(stderr, "bpinfo: note: %s\n", text.c_str());
+void note(const Options& o, const std::string& text) {
+  if (!o.quiet) std::fprintf(stderr, "bpinfo: note: %s\n", text.c_str());
 }
 
 void check_level(const std::string& in, std::size_t level, std::size_t levels) {
@@ -142,13 +140,13 @@ void show_stream(const Options& o, const std::string& in, bp::Picture& picture) 
   out.commit();
 }
 
-void note_missing_materials(const std::string& in) {
+void note_missing_materials(const Options& o, const std::string& in) {
   for (const std::string& file : bp::missing_materials(in))
-    note(fmt::format("{}: {} is not there, and its colours are not drawn", in, file));
+    note(o, fmt::format("{}: {} is not there, and its colours are not drawn", in, file));
 }
 
-void note_faults(const bp::SceneOptions& scene) {
-  for (const std::string& fault : scene.textures->faults()) note(fault);
+void note_faults(const Options& o, const bp::SceneOptions& scene) {
+  for (const std::string& fault : scene.textures->faults()) note(o, fault);
 }
 
 void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
@@ -158,17 +156,20 @@ void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
   scene.format = o.format;
   scene.colors = picture.wanted();
   if (picture.wanted()) scene.textures = std::make_shared<bp::TextureTable>();
+  scene.part_names = std::make_shared<bp::PartNames>();
   if (is_gltf(in)) scene.level = o.level.value_or(0);
   check_level(in, scene.level, extras.levels);
   auto source = bp::open_scene(in, scene);
   bp::MeshInfo info = bp::measure(*source);
   info.extras = extras;
   info.level = scene.level;
+  info.names = *scene.part_names;
   if (!o.picture.image.pick)
-    bp::print(o.json ? bp::mesh_json(info).dump(2) + "\n" : bp::mesh_text(info, in == "-" ? "stdin" : in));
+    bp::print(o.json ? bp::mesh_json(info).dump(2, ' ', false, bp::Json::error_handler_t::replace) + "\n"
+                     : bp::mesh_text(info, in == "-" ? "stdin" : in));
   if (!picture.wanted()) return;
-  note_missing_materials(in);
-  note_faults(scene);
+  note_missing_materials(o, in);
+  note_faults(o, scene);
   picture.add_mesh(info, std::move(source), in, bp::level_text(info.level, extras.levels), scene.textures);
 }
 
@@ -179,8 +180,8 @@ void draw_tileset(const Options& o, const bp::Tileset& tileset, const std::strin
   check_level(in, wanted, level.levels);
   const std::size_t there = level.contents.size(), all = there + level.missing.size();
   if (!level.missing.empty())
-    note(fmt::format("{}: {} of {} contents of level {} are not there, and not drawn; the first is {}", in,
-                     level.missing.size(), all, wanted, level.missing[0]));
+    note(o, fmt::format("{}: {} of {} contents of level {} are not there, and not drawn; the first is {}", in,
+                        level.missing.size(), all, wanted, level.missing[0]));
   bp::SceneOptions scene;
   scene.colors = true;
   scene.textures = std::make_shared<bp::TextureTable>();
@@ -231,7 +232,7 @@ void run(const Options& o) {
   for (const std::string& in : o.in)
     (is_tileset(o, in) ? show_tileset : is_stream(o, in) ? show_stream : show_mesh)(o, in, picture);
   if (!picture.wanted()) return;
-  for (const std::string& text : picture.write()) note(text);
+  for (const std::string& text : picture.write()) note(o, text);
   if (o.picture.image.pick) bp::print(picture.picked() + "\n");
 }
 

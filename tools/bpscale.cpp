@@ -42,6 +42,9 @@ Options parse(bp::Args& args) {
   args.often({"--output", "--explain", "--overwrite"});
   args.parse();
   if (o.rules.empty()) fail(ErrorCode::bad_argument, "name a file of rules");
+  if (bp::begins_as_stream(o.rules))
+    fail(ErrorCode::bad_argument, "{} is a stream of voxels; the rules come first: bpscale {} {}", o.rules,
+         o.in == "-" ? "RULES" : o.in, o.rules);
   if (o.explain && args.given("--output"))
     fail(ErrorCode::bad_argument, "--explain writes no stream; leave out --output");
   bp::check_stream_name(o.out);
@@ -96,7 +99,7 @@ void run(const Options& o) {
 
   report.begin("copy");
   bp::BrickWriter sink(*output, with_fields(header, plan, orientation));
-  report.counts = {{"rules", plan.field.rules.size()}, {"bricks", copy(source, sink)}};
+  report.counts = {{"rules", plan.entries.size()}, {"bricks", copy(source, sink)}};
   output->commit();
   report.bytes_in = reader.totals().bytes;
   report.bytes_out = output->bytes();

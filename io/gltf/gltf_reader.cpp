@@ -9,7 +9,7 @@
 #include "io/gltf/detail/gltf_materials.h"
 #include "io/gltf/gltf_document.h"
 #include "io/gltf/gltf_nodes.h"
-#include "io/scene/name_pattern.h"
+#include "io/scene/part_names.h"
 
 // glTF 2.0 and GLB (Khronos, glTF 2.0 specification, section 3.7 on geometry, 3.5 on nodes). Only what says where
 // triangles are is looked at: the default scene, nodes, POSITION and indices, sparse accessors, quantized positions
@@ -33,7 +33,7 @@ class SceneBuilder {
         materials_(doc_, file->name(), textures_, surface_),
         walls_only_(options.walls_only),
         pose_(options.pose.get()),
-        parts_(options.parts),
+        parts_(options.parts, options.part_names),
         level_(options.level),
         place_(place) {}
 
@@ -79,7 +79,7 @@ class SceneBuilder {
   GltfMaterials materials_;
   const bool walls_only_;
   const ScenePose* const pose_;  // null: at rest
-  const std::string parts_;      // SceneOptions::parts
+  const PartFilter parts_;
   const std::size_t level_;
   const std::optional<ContentPlace> place_;
   InstancedScene scene_;
@@ -102,7 +102,7 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
   std::vector<Pending> stack;
   const std::set<std::uint64_t> coarser = level_ > 0 ? coarser_nodes() : std::set<std::uint64_t>{};
   for (std::size_t i = roots.size(); i-- > 0;) {
-    if (!coarser.contains(roots[i])) stack.push_back({roots[i], world, parts_.empty()});
+    if (!coarser.contains(roots[i])) stack.push_back({roots[i], world, parts_.takes_all()});
   }
   while (!stack.empty()) {
     Pending next = stack.back();
@@ -113,7 +113,7 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
     visited_[std::size_t(next.node)] = true;
     const ScenePose::Node* const pose = pose_of(next.node);
     const Affine transform = next.parent * gltf_transform(node, pose);
-    const bool wanted = next.wanted || fits(node);
+    const bool wanted = fits(node) || next.wanted;
     if (node.has("mesh")) add_mesh_node(node, transform, wanted, weights_of(node, pose));
     for (std::size_t k = node.array("children").size(); k-- > 0;)
       stack.push_back({node.index("children", k), transform, wanted});
@@ -143,7 +143,7 @@ std::uint64_t SceneBuilder::level_of(std::uint64_t i) {
 }
 
 bool SceneBuilder::fits(const GltfObject& named) const {
-  return named.has("name") && fits_pattern(named.text("name"), parts_);
+  return named.has("name") && parts_.fits(named.text("name"));
 }
 
 bool SceneBuilder::has_material_that_fits(const GltfObject& primitive) const {
@@ -183,11 +183,11 @@ SceneBuilder::Range SceneBuilder::mesh(std::uint64_t i, bool wanted, const std::
   const auto known = meshes.find(i);
   if (known != meshes.end() && weights.empty()) return known->second;
   const GltfObject mesh = root_.item("meshes", i);
-  wanted = wanted || fits(mesh);
+  wanted = fits(mesh) || wanted;
   Range range{std::uint32_t(scene_.primitives.size()), 0};
   for (std::size_t k = 0; k < mesh.array("primitives").size(); ++k) {
     const GltfObject primitive = mesh.item("primitives", k);
-    if (wanted || has_material_that_fits(primitive)) add_primitive(primitive, weights);
+    if (has_material_that_fits(primitive) || wanted) add_primitive(primitive, weights);
   }
   range.end = std::uint32_t(scene_.primitives.size());
   if (weights.empty()) meshes.emplace(i, range);

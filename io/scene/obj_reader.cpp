@@ -5,7 +5,7 @@
 #include "io/scene/detail/mtl_file.h"
 #include "io/scene/detail/text_scanner.h"
 #include "io/scene/detail/vertex_pool.h"
-#include "io/scene/name_pattern.h"
+#include "io/scene/part_names.h"
 #include "io/scene/raw_source.h"
 
 // Wavefront OBJ: the lines "v" and "f", everything else is passed over; if colours or walls are asked for, "usemtl" and
@@ -24,7 +24,7 @@ class ObjSource final : public PolygonSource {
         text_(file),
         pool_(options.memory_bytes, temp_dir_of(options)),
         walls_only_(options.walls_only),
-        parts_(options.parts) {
+        parts_(options.parts, options.part_names) {
     if (options.colors) vertex_colors_.emplace(options.memory_bytes / 2, temp_dir_of(options));
     if (options.textures) places_.emplace(options.memory_bytes / 2, temp_dir_of(options));
     if (options.textures && options.surface) normals_.emplace(options.memory_bytes / 2, temp_dir_of(options));
@@ -53,12 +53,12 @@ class ObjSource final : public PolygonSource {
   /// Consumes the keyword: 'v', 'f', 'o' or 'g' if that is all of it, 't' for "vt", 'n' for "vn", 'u' for "usemtl" and
   /// 'm' for "mtllib", 0 for any other, comments included.
   static char keyword(TextScanner& text);
-  [[nodiscard]] bool is_wanted() const { return parts_.empty() || fits_.object || fits_.group || fits_.material; }
+  [[nodiscard]] bool is_wanted() const { return parts_.takes_all() || fits_.object || fits_.group || fits_.material; }
   void read_vertex(TextScanner& text);
   void read_vertex_color(TextScanner& text);
   static void read_vector(TextScanner& text, std::size_t numbers, VertexPool& pool);
-  void use_material(char key);
-  void use_name(char key);
+  void use_material(char key, const std::string& name);
+  void use_name(char key, const std::string& name);
   void read_corners(std::vector<std::uint64_t>& corners);
   void read_corner_place();
   [[nodiscard]] static std::uint64_t number_before(std::int64_t index, std::uint64_t seen);
@@ -79,7 +79,7 @@ class ObjSource final : public PolygonSource {
   LinearColor material_;
   bool has_colors_ = false, has_textures_ = false;
   const bool walls_only_;
-  const std::string parts_;  // SceneOptions::parts
+  const PartFilter parts_;
   struct {
     bool object = false, group = false, material = false;
   } fits_;                                                       // parts_, of what the next faces belong to
@@ -101,10 +101,10 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
     } else if (key == 'n' && normals_) {
       if (seen_normals_ == normals_->size()) read_vector(text_, 3, *normals_);
       ++seen_normals_;
-    } else if (!parts_.empty() && (key == 'o' || key == 'g' || key == 'u')) {
-      use_name(key);
-    } else if (key == 'u' || key == 'm') {
-      use_material(key);
+    } else if (key == 'u' || key == 'm' || (parts_.asks() && (key == 'o' || key == 'g'))) {
+      const std::string name = text_.rest_of_line();
+      if (parts_.asks()) use_name(key, name);
+      if (key == 'u' || key == 'm') use_material(key, name);
     } else if (key == 'f' && !passed_over_ && is_wanted()) {
       read_corners(corners);
       text_.next_line();
@@ -170,9 +170,8 @@ LinearColor ObjSource::corner_color(std::uint64_t i) {
   return material_;
 }
 
-void ObjSource::use_material(char key) {
+void ObjSource::use_material(char key, const std::string& name) {
   if (!vertex_colors_ && !walls_only_) return;
-  const std::string name = text_.rest_of_line();
   if (key == 'm') return materials_.load(file_->path(), name);
   material_name_ = name;
   if (textures_) texture_ = materials_.texture(name, *textures_, normals_.has_value());
@@ -184,14 +183,13 @@ void ObjSource::use_material(char key) {
 }
 
 // A line "g" may name several groups.
-void ObjSource::use_name(char key) {
-  const std::string name = text_.rest_of_line();
-  if (key == 'o') fits_.object = fits_pattern(name, parts_);
-  if (key == 'u') fits_.material = fits_pattern(name, parts_);
+void ObjSource::use_name(char key, const std::string& name) {
+  if (key == 'o') fits_.object = parts_.fits(name);
+  if (key == 'u') fits_.material = parts_.fits(name);
   if (key != 'g') return;
-  fits_.group = fits_pattern(name, parts_);
+  fits_.group = parts_.fits(name);
   std::istringstream words(name);
-  for (std::string word; words >> word;) fits_.group = fits_.group || fits_pattern(word, parts_);
+  for (std::string word; words >> word;) fits_.group = parts_.fits(word) || fits_.group;
 }
 
 // Corners are "v", "v/vt", "v//vn", "v/vt/vn", with any of the later numbers missing.

@@ -10,6 +10,7 @@
 #include "lib/core/triangle_source.h"
 
 namespace bp {
+struct PartNames;
 struct ScenePose;
 class TextureTable;
 }  // namespace bp
@@ -70,6 +71,7 @@ struct SceneOptions {
   /// Deliver only parts whose name fits (* and ? as in file names); empty: all. Names of OBJ: o, g, usemtl; of glTF: of
   /// nodes, with all below them, of meshes, of materials. Other formats are refused.
   std::string parts{};
+  std::shared_ptr<PartNames> part_names{};  ///< put all such names here that are met; null: none
 };
 
 /// Triangles of one file; "-" is stdin, which is spooled to a scratch file. The reader is chosen by the file's

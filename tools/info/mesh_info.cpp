@@ -56,6 +56,21 @@ std::string level_text(std::size_t level, std::size_t levels) {
                     : fmt::format("level {} of 0 to {}", level, levels - 1);
 }
 
+/// The first ones: --json has more.
+std::string names_text(const PartNames& all) {
+  constexpr std::size_t kMost = 8;
+  if (all.names.empty()) return "";
+  std::string text = fmt::format("names       {}{}", all.names.size(), all.complete ? ": " : " and more: ");
+  std::size_t n = 0;
+  for (const std::string& name : all.names) {
+    if (++n > kMost) return text + ", ...\n";
+    text += (n > 1 ? ", " : "") + name;
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return std::uint8_t(c) < ' ' || c == 0x7f; }, '?');
+  }
+  return text + "\n";
+}
+
 std::string mesh_text(const MeshInfo& info, const std::string& name) {
   const TriangleTotals& t = info.totals;
   const auto point = [](const Vec3d& p) { return fmt::format("{} {} {}", p[0], p[1], p[2]); };
@@ -74,6 +89,7 @@ std::string mesh_text(const MeshInfo& info, const std::string& name) {
                      t.bounds.diagonal());
     s += fmt::format("area        {:.6g}\nvolume      {}\n", t.area, volume_text(t.volume));
   }
+  s += names_text(info.names);
   if (info.extras.levels > 1)
     s += fmt::format("levels      {}, of which this is {}\n", info.extras.levels,
                      info.level == 0 ? "the finest" : fmt::format("level {}", info.level));
@@ -100,6 +116,7 @@ Json mesh_json(const MeshInfo& info) {
   j["level"] = info.level;
   j["origin"] = info.extras.origin ? Json(*info.extras.origin) : Json(nullptr);
   j["provenance"] = info.extras.provenance;
+  j["names"] = info.names.names;
   return j;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "io/scene/part_names.h"
 #include "lib/check/face_counts.h"
 #include "lib/core/triangle_source.h"
 #include "lib/geometry/triangle_totals.h"
@@ -22,6 +23,7 @@ struct MeshInfo {
   std::vector<std::uint8_t> inner_edges;  ///< of these, as TriangleSource::read_faces()
   MeshExtras extras;
   std::size_t level = 0;  ///< that was measured
+  PartNames names;        ///< as rules of bpscale name parts
 
   static constexpr std::size_t kMaxKept = 1000000;
 };

@@ -34,7 +34,7 @@ std::string coord(BrickCoord c) {
 
 std::string scale_text(const ScaleField& s) {
   if (s.constant()) return fmt::format("{}", s.base);
-  return fmt::format("{}, and {} rule{}", s.base, s.rules.size(), s.rules.size() == 1 ? "" : "s");
+  return fmt::format("{}, and {} place{} with a rule", s.base, s.rules.size(), s.rules.size() == 1 ? "" : "s");
 }
 
 /// How much smaller the file is than the bits of the voxels of its bricks.

@@ -3,9 +3,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <span>
 
+#include "io/files/file.h"
 #include "io/scene/scene_format.h"
 #include "lib/core/error.h"
 
@@ -50,6 +52,14 @@ std::string tileset_in(const std::string& path) {
   if (meshes.empty()) fail(ErrorCode::bad_argument, "{}: a folder with neither a tileset nor a mesh", path);
   fail(ErrorCode::bad_argument, "{}: a folder without a tileset; name one of its meshes: {}{}", path,
        fmt::join(std::span(meshes).first(std::min(kNamed, meshes.size())), " "), meshes.size() > kNamed ? " ..." : "");
+}
+
+bool begins_as_stream(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return false;
+  std::array<std::byte, 4> magic{};
+  (void)InputFile(path).read_at(0, magic);
+  return magic == std::array{std::byte(0x5b), std::byte(0x2a), std::byte(0x4d), std::byte(0x18)};
 }
 
 void check_stream_name(const std::string& output) {

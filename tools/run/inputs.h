@@ -13,6 +13,9 @@ void check_scene_format(const std::string& format, const std::vector<std::string
 /// meshes in it.
 [[nodiscard]] std::string tileset_in(const std::string& path);
 
+/// Whether a file that can be read again begins as streams of voxels do.
+[[nodiscard]] bool begins_as_stream(const std::string& path);
+
 /// What a tool that writes voxels is to write to. Throws bad_argument if its name is that of a mesh.
 void check_stream_name(const std::string& output);
 

@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "io/scene/part_names.h"
 #include "lib/core/error.h"
 #include "lib/geometry/triangle_parts.h"
 #include "lib/volume/cell_boxes.h"
+#include "tools/cli/help/nearest.h"
 #include "tools/run/read_again.h"
 
 namespace bp {
@@ -78,15 +80,24 @@ class TouchedCells {
   Bounds3d bounds_;  // of all triangles
 };
 
+[[noreturn]] void refuse(const std::string& pattern, const std::set<std::string>& names) {
+  std::string advice = "it names none";
+  if (!names.empty()) {
+    const std::string near = nearest_word(pattern, {names.begin(), names.end()});
+    advice = near.empty() ? "bpinfo lists its names" : fmt::format("did you mean '{}'?", near);
+  }
+  fail(ErrorCode::bad_input, "no part of the scene has a name or a material that fits '{}'; {}", pattern, advice);
+}
+
 }  // namespace
 
 std::vector<Bounds3d> part_boxes(const SceneFiles& scene, const Bounds3d& bounds, const std::string& pattern,
                                  SceneOptions options) {
   options.parts = pattern;
+  options.part_names = std::make_shared<PartNames>();
   TouchedCells cells(bounds, std::max(bounds.diagonal() / kCells, 1e-300));
   read_again(scene, bounds, options, [&](const TriangleD& t) { cells.add(t); });
-  if (cells.empty())
-    fail(ErrorCode::bad_input, "no part of the scene has a name or a material that fits '{}'", pattern);
+  if (cells.empty()) refuse(pattern, options.part_names->names);
   return cells.boxes();
 }
 

@@ -34,6 +34,9 @@ try bpscale names.json parts.bpv --explain 1,1,1
 # Where parts are.
 try bpinfo parts.obj --boxes 'lid_*'
 try bpinfo parts.obj --boxes nothing
+try bpinfo parts.obj --boxes lid_tap
+said 'bpinfo parts.obj | grep names'
+said 'bpinfo parts.obj --json | grep -A 9 \"names\"'
 try bpinfo parts.bpv --boxes steel
 try bpinfo parts.obj --boxes steel --json
 # By the shape: two boxes with a gap of 0.3, and a pole of 0.1 at 0.2 beside one of them.
@@ -68,6 +71,7 @@ done
 said 'bpvox shapes.obj --resolution 64 --fill inside | bpscale shape.json -o x.bpv'
 # What is refused.
 try bpscale
+try bpscale cube.bpv rules.json -o x.bpv
 try bpscale missing.json cube.bpv -o x.bpv
 try bpscale rules.json missing.bpv -o x.bpv
 try bpscale rules.json cube.bpv -o x.obj
