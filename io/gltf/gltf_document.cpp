@@ -60,6 +60,10 @@ ComponentType component_type(const GltfObject& o) {
 // --- GltfObject
 // --------------------------------------------------------------------------------------------------------
 
+void GltfObject::unfit(const std::string& what) const {
+  fail(ErrorCode::bad_input, "{}: {} {}", file_, place_.empty() ? "the document" : place_, what);
+}
+
 void GltfObject::broken(const std::string& what) const {
   fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: {} {}", file_, place_.empty() ? "the document" : place_, what);
 }
@@ -176,6 +180,7 @@ void GltfDocument::open_glb() {
 void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
   LeanJson lean = read_lean_json(file_, offset, size, temp_dir_, options_.textures != nullptr);
   lifted_ = std::move(lean.data);
+  json_bytes_ = bytes_to_parse(lean.text);
   json_ = parsed(std::move(lean.text), file_->name(), options_);
 }
 

@@ -46,10 +46,12 @@ std::vector<std::uint64_t> gltf_roots(const GltfObject& root) {
   return roots;
 }
 
-Affine gltf_transform(const GltfObject& node) {
+Affine gltf_transform(const GltfObject& node, const ScenePose::Node* pose) {
   if (node.has("matrix")) return gltf_matrix(node, "matrix");
-  return affine_of(node.numbers<3>("translation", {0, 0, 0}), node.numbers<4>("rotation", {0, 0, 0, 1}),
-                   node.numbers<3>("scale", {1, 1, 1}));
+  const ScenePose::Node rest, &moved = pose != nullptr ? *pose : rest;
+  return affine_of(moved.translation.value_or(node.numbers<3>("translation", {0, 0, 0})),
+                   moved.rotation.value_or(node.numbers<4>("rotation", {0, 0, 0, 1})),
+                   moved.scale.value_or(node.numbers<3>("scale", {1, 1, 1})));
 }
 
 }  // namespace bp

@@ -8,8 +8,8 @@
 
 namespace bp {
 
-/// Points that are known to lie inside of the content of a tile. It forgets: a table of 64 KiB in which the last comer
-/// stays.
+/// Points that are known to lie inside of the content of a tile. It forgets: a table of 64 KiB in which the
+/// last comer stays.
 class KnownInside {
  public:
   [[nodiscard]] bool has(std::size_t tile, const Vec3d& p) const {
@@ -19,8 +19,8 @@ class KnownInside {
   void add(std::size_t tile, const Vec3d& p) { entries_[place_of(tile, p)] = {tile, p}; }
 
  private:
-  static constexpr std::size_t kEntries = 2048;
   static constexpr std::size_t kNone = std::size_t(-1);
+  static constexpr std::size_t kEntries = 2048;
   struct Entry {
     std::size_t tile = kNone;
     Vec3d point{};
