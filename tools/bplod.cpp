@@ -7,7 +7,6 @@
 #include "tools/lod/choices.h"
 #include "tools/lod/explain.h"
 #include "tools/lod/lod_outputs.h"
-#include "tools/lod/obj_outputs.h"
 #include "tools/lod/occluder.h"
 #include "tools/lod/tile_build.h"
 

@@ -1,5 +1,3 @@
-#include "tools/lod/obj_outputs.h"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -9,6 +7,7 @@
 #include "io/image/texture_writer.h"
 #include "io/mesh/obj_level.h"
 #include "tools/lod/choices.h"
+#include "tools/lod/lod_outputs.h"
 
 namespace bp {
 
