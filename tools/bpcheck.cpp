@@ -61,7 +61,7 @@ void fill_report(bp::Report& report, const bp::CheckRun& o, const bp::Vec3d& ori
 void refuse_for_tileset(const bp::CheckRun& o) {
   for (const auto& [option, given] : {std::pair{"--inside", o.inside},
                                       {"--convex", o.convex},
-                                      {"--margin", o.margin > 0},
+                                      {"--margin", o.margin.value > 0},
                                       {"--origin", o.origin.has_value()}}) {
     if (given) bp::fail(bp::ErrorCode::bad_argument, "{}: is for meshes; leave it out for a tileset", option);
   }
@@ -115,12 +115,15 @@ std::vector<bp::CheckReport> check(const bp::CheckRun& o, const std::vector<bp::
   options.inside = o.inside;
   options.hidden = hidden;
   options.convex = o.convex;
-  options.margin_world = o.margin;
   options.scene_memory_bytes = scene_bytes;
   bp::Progress progress("bpcheck", o.common.progress);
-  progress.begin("check", 0, "triangles");
   std::unique_ptr<bp::WatchedSource> watched;
-  if (scene != nullptr) watched = std::make_unique<bp::WatchedSource>(*scene, progress);
+  if (scene != nullptr) {
+    watched = std::make_unique<bp::WatchedSource>(*scene, progress);
+    progress.begin("measure the scene", 0, "triangles");
+    options.margin_world = bp::margin_world(o.margin, *watched);
+  }
+  progress.begin("check", 0, "triangles");
   std::vector<bp::CheckReport> verdicts;
   for (const bp::IndexedMesh& level : levels) {
     verdicts.push_back(bp::check_proxy(level, watched.get(), options));

@@ -3,17 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <memory>
-#include <mutex>
 
 #include "lib/check/detail/leaf_proof.h"
-#include "lib/check/detail/surface.h"
+#include "lib/check/detail/tile_body.h"
 #include "lib/check/detail/triangle_part.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
-#include "lib/exact/triangle_intersection.h"
+#include "lib/geometry/triangle_totals.h"
 #include "lib/tileset/tile_tree.h"
 
 namespace bp {
@@ -22,48 +22,62 @@ namespace {
 
 constexpr double kLeafRounding = 16;        // rounding_of(): what is computed of a leaf and the scene
 constexpr double kMostLeafError = 0x1p-18;  // of the longest edge of the scene's box
+constexpr double kFlat = 0x1p-22;           // the same: what float32 rounds away in a tile four times as long
 
-enum class Verdict { fine, thin, touching, outside, undecided, missing };
+/// Of a triangle in the cell of a tile. The last two: where nothing is drawn, in the cell or an octant of it.
+enum class Verdict { fine, thin, flat, touching, outside, undecided, missing, bare, uncovered, count };
 
-/// The content of a tile as a surface, and the triangles of the scene that it fails.
-struct Body {
+/// The content of a leaf, which is the scene itself.
+struct LeafBody {
+  LeafBody(const IndexedMesh& content, const Bounds3d& cell, double flat)
+      : mesh(weld(content, 1, report)), surface(mesh), proof(surface.bvh(), cell, flat) {}
+  CheckReport report;
   WeldedMesh mesh;
-  std::unique_ptr<Surface> surface;
-  bool closed = false, sound = true;
-  std::unique_ptr<LeafProof> proof;  ///< of a leaf
-  void drop() {
-    proof.reset();
-    surface.reset();
-    mesh = {};
-  }
+  Surface surface;
+  LeafProof proof;
 };
 
 struct Counts {
-  std::atomic<std::uint64_t> touching{0}, outside{0}, undecided{0}, uncovered{0}, bare{0}, missing{0}, thin{0};
+  std::array<std::atomic<std::uint64_t>, std::size_t(Verdict::count)> triangles{};
+  [[nodiscard]] std::uint64_t of(Verdict verdict) const { return triangles[std::size_t(verdict)]; }
   std::uint64_t strays = 0;  ///< triangles of a leaf
 };
 
 class Checker {
  public:
   Checker(const std::vector<CoverTile>& tiles, const CoverContents& content_of)
-      : tiles_(tiles), content_of_(content_of), bodies_(tiles.size()), counts_(tiles.size()), below_(tiles.size()) {
+      : tiles_(tiles),
+        content_of_(content_of),
+        bodies_(tiles.size()),
+        leaves_(tiles.size()),
+        unsound_(tiles.size()),
+        counts_(tiles.size()),
+        below_(tiles.size()),
+        octants_(tiles.size()),
+        refused_(tiles.size()) {
     find_below(0);
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+      if (!tiles[i].cell) continue;
+      for (int k = 0; k < 8; ++k) octants_[i][std::size_t(k)] = octant(i, k);
+    }
   }
 
   CoverReport run(TriangleSource& scene, std::uint64_t memory_bytes) {
+    judge_errors(scene);
     for (begin_ = 0; begin_ < tiles_.size(); begin_ = end_) {
       end_ = end_of_share(memory_bytes);
       parallel_for(std::int64_t(end_ - begin_), [&](std::int64_t i) { load(begin_ + std::size_t(i)); });
       pass(scene);
       for (std::size_t i = begin_; i < end_; ++i) {
-        if (bodies_[i].proof) counts_[i].strays = bodies_[i].proof->strays();
-        bodies_[i].drop();
+        if (leaves_[i]) counts_[i].strays = leaves_[i]->proof.strays();
+        leaves_[i].reset();
+        bodies_[i].reset();
       }
     }
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
       say_of_tile(i);
-      if (tiles_[i].leaf_error && tiles_[i].triangles) say_of_error(i);
-      report_.thin += counts_[i].thin;
+      report_.thin += counts_[i].of(Verdict::thin);
+      report_.flat += counts_[i].of(Verdict::flat);
     }
     if (astray_ > 0)
       findings_.push_back(
@@ -78,6 +92,20 @@ class Checker {
     std::size_t first = 0, last = 0;   ///< the least and the largest
     std::optional<double> leaf_error;  ///< the largest, if those below show nothing but leaves
   };
+
+  /// An eighth of a tile's cell, and the child that it is the cell of, or 0.
+  struct Octant {
+    Bounds3d box;
+    std::size_t child = 0;
+  };
+
+  [[nodiscard]] Octant octant(std::size_t i, int k) const {
+    Octant out{octant_of(*tiles_[i].cell, k)};
+    for (const std::size_t child : tiles_[i].children) {
+      if (tiles_[child].cell == out.box) out.child = child;
+    }
+    return out;
+  }
 
   const Numbers& find_below(std::size_t i) {
     Numbers& all = below_[i] = {i, i, 0.0};
@@ -104,21 +132,13 @@ class Checker {
   }
 
   void load(std::size_t i) {
-    if (!tiles_[i].triangles) return;
-    Body& body = bodies_[i];
-    CheckReport report;
-    body.mesh = weld(content_of_(i), 1, report);
+    if (!tiles_[i].triangles || refused_[i]) return;
     if (tiles_[i].leaf_error) {
-      body.surface = std::make_unique<Surface>(body.mesh);
-      body.proof = std::make_unique<LeafProof>(body.surface->bvh(), *tiles_[i].cell);
-      return;
+      leaves_[i] = std::make_unique<LeafBody>(content_of_(i), *tiles_[i].cell, kFlat * scene_edge_);
+    } else {
+      bodies_[i] = std::make_unique<TileBody>(content_of_(i), i);
+      unsound_[i] = !bodies_[i]->sound();
     }
-    check_topology(body.mesh, 1, report);
-    body.surface = std::make_unique<Surface>(body.mesh);
-    report.self_intersections = body.surface->self_intersections(1);
-    body.closed = report.closed() && report.oriented();
-    if (body.closed) report.inverted_components = inverted_components(body.mesh, *body.surface, 1);
-    body.sound = report.holds();
   }
 
   void pass(TriangleSource& scene) {
@@ -126,10 +146,10 @@ class Checker {
     pipeline<std::vector<TriangleD>>(
         2 * thread_count(), [&](std::vector<TriangleD>& chunk) { return scene.read(chunk); },
         [&](std::vector<TriangleD>& chunk) {
-          if (begin_ == 0) add_bounds(chunk);
+          KnownInside known;
           for (const TriangleD& t : chunk) {
             if (in_root(t)) {
-              visit(0, t);
+              visit(0, t, bounds_of(t), known);
             } else if (begin_ == 0) {
               ++astray_;
             }
@@ -138,24 +158,11 @@ class Checker {
         [](std::vector<TriangleD>&) {});
   }
 
-  void add_bounds(const std::vector<TriangleD>& chunk) {
-    Bounds3d box;
-    for (const TriangleD& t : chunk)
-      for (const Vec3d& p : t) box.add(p);
-    if (chunk.empty()) return;
-    const std::lock_guard lock(bounds_mutex_);
-    bounds_.add(box.min);
-    bounds_.add(box.max);
-  }
-
   [[nodiscard]] bool fits(std::size_t parent, std::size_t child) const {
     const auto &p = tiles_[parent].cell, &c = tiles_[child].cell;
     if (p == c) return tiles_[parent].children.size() == 1;
     if (!p || !c) return false;
-    for (int k = 0; k < 8; ++k) {
-      if (octant_of(*p, k) == *c) return true;
-    }
-    return false;
+    return std::any_of(octants_[parent].begin(), octants_[parent].end(), [&](const Octant& o) { return o.box == *c; });
   }
 
   [[nodiscard]] bool in_root(const TriangleD& t) const {
@@ -169,61 +176,49 @@ class Checker {
     return true;
   }
 
-  /// True unless t surely avoids the closed cell.
-  [[nodiscard]] static bool meets(const TriangleD& t, const std::optional<Bounds3d>& cell) {
-    if (!cell) return true;
-    const Bounds3d box = grown(*cell, growth_for(*cell, t) / 2);
-    return overlap(bounds_of(t), box) && !TrianglePart(t, box).empty();
+  /// True unless t, whose box is `bounds`, surely avoids the closed cell.
+  [[nodiscard]] static bool meets(const TriangleD& t, const Bounds3d& bounds, const Bounds3d& cell) {
+    if (lies_in(bounds, cell)) return true;
+    const Bounds3d box = grown(cell, growth_for(cell, t) / 2);
+    return overlap(bounds, box) && !TrianglePart(t, box).empty();
   }
-
   /// t meets the cell of tile i. What counts are the tiles of this share.
-  void visit(std::size_t i, const TriangleD& t) {
+  void visit(std::size_t i, const TriangleD& t, const Bounds3d& bounds, KnownInside& known) {
     if (below_[i].first >= end_ || below_[i].last < begin_) return;
     const CoverTile& tile = tiles_[i];
     const bool mine = i >= begin_ && i < end_;
-    if (mine && !tile.triangles && tile.children.empty()) ++counts_[i].bare;
-    if (mine && tile.triangles) {
-      const Verdict verdict = tile.leaf_error ? compare(i, t) : examine(i, t);
-      counts_[i].thin += verdict == Verdict::thin;
-      counts_[i].missing += verdict == Verdict::missing;
-      counts_[i].touching += verdict == Verdict::touching;
-      counts_[i].outside += verdict == Verdict::outside;
-      counts_[i].undecided += verdict == Verdict::undecided;
-    }
+    if (mine && !tile.triangles && tile.children.empty()) count(i, Verdict::bare);
+    if (mine && tile.triangles && !refused_[i])
+      count(i, tile.leaf_error ? compare(i, t) : examine(i, t, bounds, known));
     if (tile.children.empty()) return;
-    if (tile.children.size() == 1 && tiles_[tile.children[0]].cell == tile.cell) return visit(tile.children[0], t);
+    if (tile.children.size() == 1 && tiles_[tile.children[0]].cell == tile.cell)
+      return visit(tile.children[0], t, bounds, known);
     if (!tile.cell) return;
-    for (int k = 0; k < 8; ++k) {
-      const Bounds3d box = octant_of(*tile.cell, k);
-      if (!meets(t, box)) continue;
-      const std::size_t child = child_at(tile, box);
-      if (child != 0) {
-        visit(child, t);
+    const Bounds3d near = grown(bounds, growth_for(*tile.cell, t));
+    for (const Octant& octant : octants_[i]) {
+      if (!overlap(near, octant.box) || !meets(t, bounds, octant.box)) continue;
+      if (octant.child != 0) {
+        visit(octant.child, t, bounds, known);
       } else if (mine) {
-        const Verdict verdict = without_child(i, box, t);
-        counts_[i].thin += verdict == Verdict::thin;
-        counts_[i].undecided += verdict == Verdict::undecided;
-        counts_[i].uncovered += verdict == Verdict::missing;
+        const Verdict verdict = without_child(i, octant.box, t);
+        count(i, verdict == Verdict::missing ? Verdict::uncovered : verdict);
       }
     }
   }
 
-  [[nodiscard]] std::size_t child_at(const CoverTile& tile, const Bounds3d& box) const {
-    for (const std::size_t child : tile.children) {
-      if (tiles_[child].cell == box) return child;
-    }
-    return 0;
+  void count(std::size_t i, Verdict verdict) {
+    if (verdict != Verdict::fine) ++counts_[i].triangles[std::size_t(verdict)];
   }
 
   /// Of a leaf.
   [[nodiscard]] Verdict compare(std::size_t i, const TriangleD& t) {
-    return compare(*bodies_[i].proof, *tiles_[i].cell, t, *tiles_[i].leaf_error);
+    return compare(leaves_[i]->proof, *tiles_[i].cell, t, *tiles_[i].leaf_error);
   }
   /// No leaf is made of what a neighbour's triangle has just beyond a face.
   [[nodiscard]] Verdict without_child(std::size_t i, const Bounds3d& octant, const TriangleD& t) const {
     if (!below_[i].leaf_error) return Verdict::missing;
     const TriangleBvh nothing({});
-    LeafProof proof(nothing, octant);
+    LeafProof proof(nothing, octant, kFlat * scene_edge_);
     return compare(proof, octant, t, *below_[i].leaf_error);
   }
   [[nodiscard]] static Verdict compare(LeafProof& proof, const Bounds3d& cell, const TriangleD& t, double error) {
@@ -234,6 +229,8 @@ class Checker {
         return Verdict::fine;
       case LeafProof::Cover::thin:
         return Verdict::thin;
+      case LeafProof::Cover::flat:
+        return Verdict::flat;
       case LeafProof::Cover::missing:
         return Verdict::missing;
       default:
@@ -245,53 +242,22 @@ class Checker {
     return error + kLeafRounding * rounding_of(cell, t);
   }
 
-  [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t) const {
-    const Body& body = bodies_[i];
-    if (!body.closed) return Verdict::undecided;
-    for (const Vec3d& p : t) {
-      if (!in_predicate_domain(p)) return Verdict::undecided;
+  [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t, const Bounds3d& bounds, KnownInside& known) const {
+    switch (bodies_[i]->side_of(t, bounds, tiles_[i].cell, known)) {
+      case TileBody::Side::inside:
+        return Verdict::fine;
+      case TileBody::Side::touching:
+        return Verdict::touching;
+      case TileBody::Side::outside:
+        return Verdict::outside;
+      default:
+        return Verdict::undecided;
     }
-    const std::optional<Bounds3d>& cell = tiles_[i].cell;
-    if (!cell) {
-      if (body.surface->touched_by(t) != Surface::kNone) return Verdict::touching;
-      return body.surface->winding(t[0]) < 1 ? Verdict::outside : Verdict::fine;
-    }
-    const double growth = growth_for(*cell, t);
-    const Bounds3d box = grown(*cell, growth);
-    if (touches_within(body, t, box)) return Verdict::touching;
-    // No face meets t in the grown cell, so all of t there lies on the side of any point of it.
-    for (const Vec3d& p : t) {
-      if (contains(*cell, p)) return body.surface->winding(p) < 1 ? Verdict::outside : Verdict::fine;
-    }
-    for (const Vec3d& p : TrianglePart(t, grown(*cell, growth / 2)).points_within()) {
-      const Verdict verdict = side_near(body, p, rounding_of(*cell, t));
-      if (verdict != Verdict::undecided) return verdict;
-    }
-    return Verdict::undecided;
-  }
-
-  [[nodiscard]] static bool contains(const Bounds3d& box, const Vec3d& p) { return overlap(box, Bounds3d{p, p}); }
-
-  [[nodiscard]] static bool touches_within(const Body& body, const TriangleD& t, const Bounds3d& box) {
-    Bounds3d reach = bounds_of(t);
-    for (std::size_t i = 0; i < 3; ++i) {
-      reach.min[i] = std::max(reach.min[i], box.min[i]);
-      reach.max[i] = std::min(reach.max[i], box.max[i]);
-    }
-    return body.surface->bvh().visit(reach, [&](const TriangleBvh::Item& face) {
-      return triangles_intersect(t.data(), face.corners.data()) && may_meet_within(t, face.corners, box);
-    });
-  }
-
-  /// The side of a point of the triangle that lies within `radius` of `p`: the same, if the surface is farther.
-  [[nodiscard]] static Verdict side_near(const Body& body, const Vec3d& p, double radius) {
-    if (body.surface->bvh().nearest(p).distance_squared <= 16 * radius * radius) return Verdict::undecided;
-    return body.surface->winding(p) < 1 ? Verdict::outside : Verdict::fine;
   }
 
   void say_of_tile(std::size_t i) {
     const CoverTile& tile = tiles_[i];
-    if (!bodies_[i].sound)
+    if (unsound_[i] != 0)
       findings_.push_back({fmt::format("{}: {} is no closed, oriented, embedded 2-manifold", tile.place, tile.uri)});
     for (const std::size_t child : tile.children) {
       if (!fits(i, child))
@@ -300,18 +266,29 @@ class Checker {
     }
   }
 
-  /// The file chose the error and the cells. What rounding is, only the scene tells.
-  void say_of_error(std::size_t i) {
-    if (!(bounds_.min[0] <= bounds_.max[0])) return;
-    double edge = 0, farthest = 0;
+  /// The file chose the errors of leaves and the cells. What rounding is, only the scene tells. Leaves with larger
+  /// errors are refused, and compared with nothing.
+  void judge_errors(TriangleSource& scene) {
+    const auto is_leaf = [](const CoverTile& tile) { return tile.leaf_error && tile.triangles; };
+    if (std::none_of(tiles_.begin(), tiles_.end(), is_leaf)) return;
+    const Bounds3d bounds = bounds_of(scene);
+    if (bounds.empty()) return;
+    double farthest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      edge = std::max(edge, bounds_.max[k] - bounds_.min[k]);
-      farthest = std::max({farthest, std::abs(bounds_.min[k]), std::abs(bounds_.max[k])});
+      scene_edge_ = std::max(scene_edge_, bounds.max[k] - bounds.min[k]);
+      farthest = std::max({farthest, std::abs(bounds.min[k]), std::abs(bounds.max[k])});
     }
-    const double error = leaf_error(*tiles_[i].cell, {bounds_.min, bounds_.max, bounds_.max}, *tiles_[i].leaf_error);
+    const double most = kMostLeafError * scene_edge_ + 2 * kLeafRounding * 0x1p-50 * farthest;
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      if (is_leaf(tiles_[i])) judge_error(i, {bounds.min, bounds.max, bounds.max}, most);
+    }
+  }
+
+  void judge_error(std::size_t i, const TriangleD& farthest, double most) {
+    const double error = leaf_error(*tiles_[i].cell, farthest, *tiles_[i].leaf_error);
     report_.leaf_error = std::max(report_.leaf_error, error);
-    const double most = kMostLeafError * edge + 2 * kLeafRounding * 0x1p-50 * farthest;
-    if (error > most)
+    refused_[i] = error > most;
+    if (refused_[i])
       findings_.push_back({fmt::format("{}: {} is compared to within {:.3g}; rounding of this scene is {:.3g} at most",
                                        tiles_[i].place, tiles_[i].uri, error, most)});
   }
@@ -319,30 +296,34 @@ class Checker {
   void say_of_scene(std::size_t i) {
     const CoverTile& tile = tiles_[i];
     const Counts& c = counts_[i];
-    const auto add = [&](std::uint64_t n, const char* what, Answer answer = Answer::refuted) {
+    const auto add = [&](Verdict verdict, const char* what, Answer answer = Answer::refuted) {
+      const std::uint64_t n = c.of(verdict);
       if (n == 0) return;
       findings_.push_back({fmt::format("{}: {} {} {} triangles of the scene", tile.place, tile.uri, what, n), answer});
     };
-    add(c.missing, "does not show");
+    add(Verdict::missing, "does not show");
     if (c.strays > 0)
       findings_.push_back(
           {fmt::format("{}: {} shows {} triangles that the scene does not have", tile.place, tile.uri, c.strays)});
-    add(c.touching, "is touched by");
-    add(c.outside, "leaves outside");
-    add(c.undecided, "cannot be decided for", Answer::undecided);
-    add(c.bare, "draws nothing for");
-    add(c.uncovered, "has no child where there are");
+    add(Verdict::touching, "is touched by");
+    add(Verdict::outside, "leaves outside");
+    add(Verdict::undecided, "cannot be decided for", Answer::undecided);
+    add(Verdict::bare, "draws nothing for");
+    add(Verdict::uncovered, "has no child where there are");
   }
 
   const std::vector<CoverTile>& tiles_;
   const CoverContents& content_of_;
-  std::vector<Body> bodies_;  ///< of the tiles of this share
+  std::vector<std::unique_ptr<TileBody>> bodies_;  ///< of the tiles of this share; null: a leaf, or nothing
+  std::vector<std::unique_ptr<LeafBody>> leaves_;
+  std::vector<std::uint8_t> unsound_;
   std::vector<Counts> counts_;
-  std::vector<Numbers> below_;       ///< of each tile, itself included
-  std::size_t begin_ = 0, end_ = 0;  ///< tiles of this share
+  std::vector<Numbers> below_;                  ///< of each tile, itself included
+  std::vector<std::array<Octant, 8>> octants_;  ///< of the cell of each tile
+  std::size_t begin_ = 0, end_ = 0;             ///< tiles of this share
   std::atomic<std::uint64_t> astray_{0};
-  Bounds3d bounds_;  ///< of the scene
-  std::mutex bounds_mutex_;
+  double scene_edge_ = 0;      ///< the longest of the scene's box, where there are leaves
+  std::vector<bool> refused_;  ///< leaves with too large an error
   CoverReport report_;
   std::vector<CoverFinding>& findings_ = report_.findings;
 };

@@ -22,9 +22,11 @@
 /// A leaf encloses nothing: it is the scene itself in its cell. Each of its triangles must lie within `leaf_error` of a
 /// t ∩ cell and face as t does. Each t ∩ cell must be covered by such triangles, so that its points lie within 3 errors
 /// of them; of what is thinner than six errors only the corners must lie within 3 errors of the leaf, or of one face of
-/// the cell (CoverReport::thin, detail/leaf_proof.h). In doubles, whose rounding is added to the error. The sum must
-/// not exceed 2^-18 of the longest edge of the scene's box, and the rounding of the scene's coordinates. Repeats are
-/// not compared. Whoever fills a CoverTile answers for it that a leaf is one (leaf_fault()).
+/// the cell (CoverReport::thin, detail/leaf_proof.h). What rounding flattens may be missing: its corners lie on a line
+/// once each moves by the error, or by 2^-22 of the longest edge of the scene's box if that is less
+/// (CoverReport::flat). In doubles, whose rounding is added to the error. The sum must not exceed 2^-18 of that edge,
+/// and the rounding of the scene's coordinates; a leaf with a larger one is refused, and not compared. Repeats are not
+/// compared. Whoever fills a CoverTile answers for it that a leaf is one (leaf_fault()).
 ///
 /// Decided exactly or on the safe side: cells are grown by 1e-9 of their edge, or 2^-46 of the largest coordinate where
 /// that is more, and t is cut by them in doubles, whose errors are far smaller; where t meets a face, bounds of the
@@ -54,12 +56,13 @@ struct CoverReport {
   std::vector<CoverFinding> findings;
   double leaf_error = 0;   ///< the largest that leaves were compared with, rounding included; scene units
   std::uint64_t thin = 0;  ///< parts thinner than six errors of which only the corners were found
+  std::uint64_t flat = 0;  ///< parts that rounding flattens and the leaf does not show
 };
 
 /// No findings if all holds; tiles[0] is the root. Besides, each content must hold as a mesh
 /// (check_proxy). Contents are read once, as many at a time, in the order of their numbers, as fit memory_bytes (one at
-/// least); for each such share of them the scene is read once, from its start. Parallel; the result depends neither on
-/// threads nor on memory. Passes on what the contents and the scene throw.
+/// least); for each such share of them the scene is read once, from its start, and once before if there are leaves.
+/// Parallel; the result depends neither on threads nor on memory. Passes on what the contents and the scene throw.
 [[nodiscard]] CoverReport check_cover(const std::vector<CoverTile>& tiles, const CoverContents& content_of,
                                       TriangleSource& scene, std::uint64_t memory_bytes = std::uint64_t(1) << 30);
 

@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "lib/closing/detail/closing_parts.h"
+#include "lib/closing/detail/ball_dilation.h"
+#include "lib/closing/detail/rows.h"
 
 namespace bp {
 
@@ -16,13 +17,10 @@ namespace {
 using detail::BallRule;
 using detail::BallScale;
 using detail::ColumnBits;
+using detail::for_each_row;
+using detail::occupied_bounds;
 using detail::ScaleRange;
-
-VoxelBox whole_words(VoxelBox box) {
-  box.min.x = floor_div(box.min.x, 64) * 64;
-  box.max.x = ceil_div(box.max.x, 64) * 64;
-  return box;
-}
+using detail::whole_words;
 
 /// Bits of the word at `x` that lie in [min, max).
 std::uint64_t bits_between(std::int32_t x, std::int32_t min, std::int32_t max) {
@@ -30,36 +28,9 @@ std::uint64_t bits_between(std::int32_t x, std::int32_t min, std::int32_t max) {
   return lo >= hi ? 0 : (~std::uint64_t(0) << lo) & (~std::uint64_t(0) >> (64 - hi));
 }
 
-/// Bounds of the occupied voxels of `bits` inside `box`, in x to whole words.
-VoxelBox occupied_bounds(const BitBox& bits, const VoxelBox& box) {
-  const VoxelBox in = intersect(bits.box(), whole_words(box));
-  VoxelBox found{in.max, in.min};
-  for (std::int32_t z = in.min.z; z < in.max.z; ++z) {
-    for (std::int32_t y = in.min.y; y < in.max.y; ++y) {
-      const std::uint64_t* row = bits.row(y, z) + (in.min.x - bits.box().min.x) / 64;
-      const std::int32_t words = (in.max.x - in.min.x) / 64;
-      std::int32_t first = 0, last = words;
-      while (first < last && row[first] == 0) ++first;
-      if (first == last) continue;
-      while (row[last - 1] == 0) --last;
-      found.min = {std::min(found.min.x, in.min.x + 64 * first), std::min(found.min.y, y), std::min(found.min.z, z)};
-      found.max = {std::max(found.max.x, in.min.x + 64 * last), std::max(found.max.y, y + 1), z + 1};
-    }
-  }
-  return found.empty() ? VoxelBox{} : found;
-}
-
 bool full(const BitBox& bits) {
   return std::all_of(bits.data(), bits.data() + bits.word_count(),
                      [](std::uint64_t w) { return w == ~std::uint64_t(0); });
-}
-
-/// body(words of the row, words per row, y, z) for the rows of `bits` in `box`, from the word at box.min.x on.
-template <class Body>
-void for_each_row(const VoxelBox& box, const Body& body) {
-  for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
-    for (std::int32_t y = box.min.y; y < box.max.y; ++y) body(y, z);
-  }
 }
 
 /// One closing of one tile.
@@ -73,7 +44,7 @@ class TileClosing {
 
   void dilate(const ClosingParams& params) {
     if (params.element == StructuringElement::ball) {
-      dilate_ball();
+      detail::dilate_by_balls(solid_, occupied_, rule(BallScale::at_target), ball_bound(range_.min), s_, s_.dilation);
     } else if (params.turned() && s_.oriented.turns(*params.orientation, s_.dilation.box())) {
       s_.oriented.run(solid_, scale_, *params.orientation, s_.dilation, params.cube_bytes);
     } else if (cube_radius(range_.min) == cube_radius(range_.max)) {
@@ -148,37 +119,6 @@ class TileClosing {
     const std::int32_t bound = ball_bound(range_.max);
     return ball_bound(range_.min) == bound ? BallRule{BallScale::uniform, bound, nullptr}
                                            : BallRule{varying, bound, &scale_};
-  }
-
-  /// The cube inscribed in the smallest ball is in D without any distance, what lies outside of the cube around the
-  /// largest is not; between them, the distance to the solid decides.
-  void dilate_ball() {
-    const std::int32_t reach = detail::ball_reach(ball_bound(range_.max)),
-                       inscribed = detail::ball_reach(std::max(1, (ball_bound(range_.min) + 2) / 3));
-    s_.cube.run(solid_, reach, s_.dilation);
-    s_.inner.reset(s_.dilation.box());
-    s_.cube.run(solid_, inscribed, s_.inner);
-    const VoxelBox& box = s_.dilation.box();
-    s_.band.reset(box);
-    for_each_row(box, [&](std::int32_t y, std::int32_t z) {
-      const std::uint64_t *outer = s_.dilation.row(y, z), *inner = s_.inner.row(y, z);
-      std::uint64_t* out = s_.band.slice(0, z) + (y - box.min.y);
-      for (std::int32_t i = 0; i < s_.band.columns(); ++i)
-        out[std::size_t(i) * s_.band.column_stride()] = outer[i] & ~inner[i];
-    });
-    s_.seeds.reset(intersect(occupied_, whole_words(box.grown(reach))));
-    for_each_row(s_.seeds.box(), [&](std::int32_t y, std::int32_t z) {
-      const std::uint64_t* g = solid_.row(y, z) + (s_.seeds.box().min.x - solid_.box().min.x) / 64;
-      std::uint64_t* out = s_.seeds.slice(0, z) + (y - s_.seeds.box().min.y);
-      for (std::int32_t i = 0; i < s_.seeds.columns(); ++i) out[std::size_t(i) * s_.seeds.column_stride()] = g[i];
-    });
-    s_.ball.run(s_.seeds, rule(BallScale::at_target), s_.band);
-    for_each_row(box, [&](std::int32_t y, std::int32_t z) {
-      std::uint64_t* d = s_.dilation.row(y, z);
-      const std::uint64_t *inner = s_.inner.row(y, z), *reached = s_.band.slice(0, z) + (y - box.min.y);
-      for (std::int32_t i = 0; i < s_.band.columns(); ++i)
-        d[i] = inner[i] | reached[std::size_t(i) * s_.band.column_stride()];
-    });
   }
 
   const BitBox& solid_;

@@ -45,4 +45,14 @@ std::string TriangleTotals::checksum() const {
   return hex_of(checksum_high, checksum_low);
 }
 
+Bounds3d bounds_of(TriangleSource& scene) {
+  Bounds3d bounds;
+  scene.rewind();
+  for (std::vector<TriangleD> chunk; scene.read(chunk);) {
+    for (const TriangleD& t : chunk)
+      for (const Vec3d& p : t) bounds.add(p);
+  }
+  return bounds;
+}
+
 }  // namespace bp

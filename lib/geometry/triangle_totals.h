@@ -6,6 +6,7 @@
 
 #include "lib/core/box.h"
 #include "lib/core/coords.h"
+#include "lib/core/triangle_source.h"
 #include "lib/geometry/signed_volume.h"
 
 /// Sums over a triangle soup: what a summary of a mesh tells.
@@ -27,5 +28,8 @@ struct TriangleTotals {
  private:
   SignedVolume sum_;  ///< from the first corner
 };
+
+/// Of all corners. Reads the scene once, from its start.
+[[nodiscard]] Bounds3d bounds_of(TriangleSource& scene);
 
 }  // namespace bp

@@ -70,6 +70,12 @@ bool is_coarser(const LodLevel& level, const LodLevel& before, double diagonal) 
 
 }  // namespace
 
+void put_solid(VoxelizedScene& scene, std::unique_ptr<BrickShelf> solid) {
+  scene.solid = std::move(solid);
+  for (const BrickCoord& c : scene.solid->coords())
+    scene.header.bricks = hull(scene.header.bricks, BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}});
+}
+
 LevelFacts facts_of(const LodLevel& level, const LodTarget& target) {
   const LevelCounts& counts = level.counts.levels.front();
   LevelFacts facts;

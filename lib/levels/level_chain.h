@@ -14,6 +14,8 @@ struct VoxelizedScene {
   std::unique_ptr<BrickShelf> solid;
   VoxelizeCounts counts;
 };
+/// Another solid, of which the header's box holds all bricks, besides those that it holds.
+void put_solid(VoxelizedScene& scene, std::unique_ptr<BrickShelf> solid);
 
 /// What is known of a level that was made: for lists, reports and notes.
 struct LevelFacts {

@@ -3,21 +3,21 @@
 #include <cmath>
 
 #include "lib/core/error.h"
-#include "lib/levels/symmetry.h"
 #include "lib/volume/dilate_ball.h"
 
 namespace bp {
 
-void add_margin(VoxelizedScene& scene, double margin_world, const ShelfFactory& make_shelf) {
+void add_margin(VoxelizedScene& scene, double margin_world, const PassContext& context) {
   constexpr double kRounding = 1 + 1e-12;  // of the quotient and of squares
   const double reach = margin_world / scene.header.frame.voxel * kRounding;
   if (!(reach <= kMostReach))
     fail(ErrorCode::bad_argument, {Remedy::larger_voxels}, "a margin of {} is {:.0f} voxels, more than {}",
          margin_world, reach, kMostReach);
-  auto grown = make_shelf();
-  dilate_ball(*scene.solid, reach, *grown);
-  scene.solid = std::move(grown);
-  widen_bricks(scene);
+  auto grown = context.make_shelf();
+  dilate_ball(*scene.solid, reach, *grown, context.memory, [&](std::uint64_t done, std::uint64_t total) {
+    context.report("growing by the margin", "tiles", done, total);
+  });
+  put_solid(scene, std::move(grown));
 }
 
 double farthest_of_margin(double margin_world, double voxel) {

@@ -12,12 +12,9 @@ namespace bp {
 
 /// The first of the axes x, y, z across which the scene is its own mirror image, to two voxels: one for the plane,
 /// which lies between voxels, and one for the voxels themselves.
-[[nodiscard]] std::optional<MirrorPlane> symmetry_of(const VoxelizedScene& scene, const ShelfFactory& make_shelf);
+[[nodiscard]] std::optional<MirrorPlane> symmetry_of(const VoxelizedScene& scene, const PassContext& context);
 
 /// Adds the mirror image of the solid.
 void add_image(VoxelizedScene& scene, const MirrorPlane& plane, const ShelfFactory& make_shelf);
-
-/// The header's box holds all bricks of the solid.
-void widen_bricks(VoxelizedScene& scene);
 
 }  // namespace bp

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <tuple>
 
+#include "lib/grid/brick_voxels.h"
 #include "lib/quads/detail/cells.h"
 
 namespace bp {
@@ -21,11 +21,7 @@ void for_each_voxel(const BrickShelf& shelf, const Visit& visit) {
   BrickBits bits;
   for (const BrickCoord& c : shelf.coords()) {
     (void)shelf.get(c, bits);
-    const VoxelCoord first = first_voxel(c);
-    for (std::int32_t i = 0; i < std::int32_t(bits.size()); ++i) {
-      for (std::uint64_t w = bits[std::size_t(i)]; w != 0; w &= w - 1)
-        visit(VoxelCoord{first.x + std::countr_zero(w), first.y + i % kBrickEdge, first.z + i / kBrickEdge});
-    }
+    for_each_voxel(bits, c, visit);
   }
 }
 

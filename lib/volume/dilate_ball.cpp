@@ -2,115 +2,116 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <set>
 
+#include "lib/closing/ball_dilation.h"
+#include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/grid/tile_grid.h"
+#include "lib/volume/dilate.h"
+
+// The space between cubes that are d apart along an axis is |d| - 1, or nothing: what the middle of one cube is from
+// the nearest of the middles around the other. So voxels are grown by one along each axis, and then by a ball.
 
 namespace bp {
 
 namespace {
 
-/// Of two voxels so many apart along an axis: the space between their cubes.
-std::int64_t gap(std::int32_t apart) {
-  return std::max(std::abs(apart) - 1, 0);
+constexpr double kAround = 3;       // boxes of what is in reach of a tile, at once
+constexpr double kTiles = 5;        // boxes of a tile
+constexpr double kFixed = 8 << 20;  // of the ball's transform
+constexpr double kBitsPerByte = 8;
+constexpr std::int32_t kMostHalos = 8;  // of the edge of a tile: larger ones are hardly faster
+
+VoxelBox box_of(const BrickCoord& c) {
+  return voxels_of(BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}});
 }
 
-/// How far along x the cubes are near enough, where they are dy and dz apart; -1: nowhere.
-std::int32_t reach_along_x(std::int32_t dy, std::int32_t dz, double squared, std::int32_t most) {
-  const std::int64_t across = gap(dy) * gap(dy) + gap(dz) * gap(dz);
-  std::int32_t dx = most;
-  while (dx >= 0 && double(across + gap(dx) * gap(dx)) >= squared) --dx;
-  return dx;
-}
+class BallDilater {
+ public:
+  BallDilater(const BrickShelf& voxels, double reach, const MemoryShare& memory)
+      : voxels_(voxels), bound_(std::int32_t(std::ceil(reach * reach))), halo_(std::int32_t(std::ceil(reach)) + 1) {
+    const std::vector<BrickCoord> bricks = voxels.coords();
+    for (const BrickCoord& c : bricks) solid_ = hull(solid_, box_of(c));
+    space_ = voxels_of(bricks_of(solid_.grown(halo_)));
+    lay_tiles(bricks, memory);
+  }
 
-/// The rows of a ball: row (y, z) of the result has what is within reach_x of row (y + dy, z + dz).
-struct Row {
-  std::int32_t dy, dz, reach_x;
+  void run(BrickShelf& out, const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+    struct Item {
+      VoxelBox tile;
+      BitBox grown;
+    };
+    std::size_t next = 0, done = 0;
+    pipeline<Item>(
+        at_once_,
+        [&](Item& item) { return next < reached_.size() && (item.tile = tiles_.box(reached_[next++]), true); },
+        [&](Item& item) { grow(item.tile, item.grown); },
+        [&](Item& item) {
+          store_voxels(item.grown, out);
+          if (progress) progress(++done, reached_.size());
+        });
+  }
+
+ private:
+  [[nodiscard]] double bytes_around(std::int32_t edge) const {
+    const auto side = [&](int axis) { return std::min(edge, space_.size()[axis]) + 2.0 * halo_; };
+    return (side(0) + 128) * side(1) * side(2) / kBitsPerByte;
+  }
+  [[nodiscard]] double bytes_of(std::int32_t edge) const {
+    return kAround * bytes_around(edge) + kTiles * std::pow(edge, 3) / kBitsPerByte + kFixed;
+  }
+
+  void lay_tiles(const std::vector<BrickCoord>& bricks, const MemoryShare& memory) {
+    double best = 0;
+    std::int32_t edge = kBrickEdge;
+    const VoxelCoord size = space_.size();
+    const std::int32_t most = std::min(2 * std::max({size.x, size.y, size.z}), std::max(kMostHalos * halo_, edge + 1));
+    for (std::int32_t e = edge; e < most; e *= 2) {
+      const double tiles = TileGrid(space_, e).total(), fit = std::floor(double(memory.bytes) / bytes_of(e));
+      const double speed = std::min({fit, double(thread_count()), tiles}) / (tiles * bytes_around(e));
+      if (speed > best) edge = e;
+      best = std::max(best, speed);
+    }
+    if (bytes_of(edge) > double(memory.bytes)) {
+      const auto needed = std::uint64_t(bytes_of(edge));
+      throw NeedsMemory(fmt::format("growing a tile of {} voxels by {}", edge, halo_), needed, memory.bytes,
+                        memory.limit_with(needed - memory.bytes), {Remedy::larger_voxels});
+    }
+    at_once_ = int(std::clamp(double(memory.bytes) / bytes_of(edge), 1.0, double(thread_count())));
+    tiles_ = TileGrid(space_, edge);
+    std::set<TileCoord> reached;
+    for (const BrickCoord& c : bricks)
+      for_each(tiles_.tiles_of(box_of(c).grown(halo_)), [&](const TileCoord& t) { reached.insert(t); });
+    reached_.assign(reached.begin(), reached.end());
+  }
+
+  void grow(const VoxelBox& tile, BitBox& grown) const {
+    BitBox around(intersect(tile.grown(halo_), solid_.grown(1)));
+    load_voxels(voxels_, around);
+    dilate(around, 1);
+    grown.reset(tile);
+    ClosingScratch scratch;
+    dilate_by_ball(around, bound_, grown, scratch);
+  }
+
+  const BrickShelf& voxels_;
+  const std::int32_t bound_;  ///< of squared distances
+  const std::int32_t halo_;
+  VoxelBox solid_, space_;
+  TileGrid tiles_;
+  std::vector<TileCoord> reached_;
+  int at_once_ = 1;
 };
-
-std::vector<Row> rows_of_ball(double reach) {
-  std::vector<Row> rows;
-  const auto most = std::int32_t(std::ceil(reach)) + 1;
-  for (std::int32_t dz = -most; dz <= most; ++dz) {
-    for (std::int32_t dy = -most; dy <= most; ++dy) {
-      const std::int32_t x = reach_along_x(dy, dz, reach * reach, most);
-      if (x >= 0 || (dy == 0 && dz == 0)) rows.push_back({dy, dz, std::max(x, 0)});
-    }
-  }
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.reach_x < b.reach_x; });
-  return rows;
-}
-
-/// Adds to each row what lies one voxel before and behind.
-void widen(BitBox& box, std::vector<std::uint64_t>& before) {
-  const VoxelBox& b = box.box();
-  const auto words = std::size_t(box.words_per_row());
-  for (std::int32_t z = b.min.z; z < b.max.z; ++z) {
-    for (std::int32_t y = b.min.y; y < b.max.y; ++y) {
-      std::uint64_t* const row = box.row(y, z);
-      before.assign(row, row + words);
-      for (std::size_t i = 0; i < words; ++i) {
-        row[i] |= before[i] << 1 | before[i] >> 1;
-        if (i > 0) row[i] |= before[i - 1] >> 63;
-        if (i + 1 < words) row[i] |= before[i + 1] << 63;
-      }
-    }
-  }
-}
-
-/// The brick of the result.
-void dilate_brick(BitBox& around, const std::vector<Row>& rows, BrickCoord brick, BrickBits& bits) {
-  const VoxelCoord first = first_voxel(brick);
-  const std::size_t word = std::size_t(first.x - around.box().min.x) / 64;
-  bits.fill(0);
-  std::vector<std::uint64_t> scratch;
-  std::int32_t widened = 0;
-  for (const Row& r : rows) {
-    for (; widened < r.reach_x; ++widened) widen(around, scratch);
-    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
-      for (std::int32_t y = 0; y < kBrickEdge; ++y)
-        bits[std::size_t(z * kBrickEdge + y)] |= around.row(first.y + y + r.dy, first.z + z + r.dz)[word];
-    }
-  }
-}
-
-/// Bricks that the ball around an occupied brick reaches, in order, each once.
-std::vector<BrickCoord> reached_bricks(const BrickShelf& voxels, std::int32_t most) {
-  std::vector<BrickCoord> reached;
-  for (const BrickCoord& c : voxels.coords()) {
-    const BrickBox box = bricks_of(VoxelBox{first_voxel(c), first_voxel({c.x + 1, c.y + 1, c.z + 1})}.grown(most));
-    for (BrickCoord b = box.min; b.x < box.max.x; ++b.x) {
-      for (b.y = box.min.y; b.y < box.max.y; ++b.y) {
-        for (b.z = box.min.z; b.z < box.max.z; ++b.z) reached.push_back(b);
-      }
-    }
-  }
-  const auto key = [](const BrickCoord& c) { return std::tuple(c.x, c.y, c.z); };
-  std::sort(reached.begin(), reached.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
-  return reached;
-}
 
 }  // namespace
 
-void dilate_ball(const BrickShelf& voxels, double reach, BrickShelf& out) {
-  const std::vector<Row> rows = rows_of_ball(reach);
-  const std::int32_t most = std::int32_t(std::ceil(reach)) + 1;
-  const std::vector<BrickCoord> bricks = reached_bricks(voxels, most);
-  struct Item {
-    BrickCoord brick;
-    BrickBits bits;
-  };
-  std::size_t next = 0;
-  pipeline<Item>(
-      2 * thread_count(), [&](Item& item) { return next < bricks.size() && (item.brick = bricks[next++], true); },
-      [&](Item& item) {
-        const BrickCoord& c = item.brick;
-        BitBox around(VoxelBox{first_voxel(c), first_voxel({c.x + 1, c.y + 1, c.z + 1})}.grown(most));
-        load_voxels(voxels, around);
-        dilate_brick(around, rows, c, item.bits);
-      },
-      [&](Item& item) { out.put(item.brick, classify(item.bits), item.bits); });
+void dilate_ball(const BrickShelf& voxels, double reach, BrickShelf& out, const MemoryShare& memory,
+                 const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+  if (voxels.coords().empty()) return;
+  if (reach > 0) return BallDilater(voxels, reach, memory).run(out, progress);
+  BrickBits bits;
+  for (const BrickCoord& c : voxels.coords()) out.put(c, voxels.get(c, bits), bits);
 }
 
 }  // namespace bp

@@ -1,8 +1,8 @@
 #include "lib/volume/mirror.h"
 
 #include <algorithm>
-#include <bit>
 
+#include "lib/grid/brick_voxels.h"
 #include "lib/volume/dilate_ball.h"
 
 namespace bp {
@@ -13,15 +13,12 @@ namespace {
 void add_part(const BrickBits& bits, BrickCoord from, const MirrorPlane& plane, BrickCoord to, BrickShelf& out) {
   BrickBits image;
   (void)out.get(to, image);
-  const VoxelCoord first = first_voxel(from), origin = first_voxel(to);
-  for (std::int32_t i = 0; i < std::int32_t(bits.size()); ++i) {
-    for (std::uint64_t w = bits[std::size_t(i)]; w != 0; w &= w - 1) {
-      const VoxelCoord p{first.x + std::countr_zero(w), first.y + i % kBrickEdge, first.z + i / kBrickEdge};
-      const VoxelCoord q = plane.mirrored(p) - origin;
-      if (q[plane.axis] < 0 || q[plane.axis] >= kBrickEdge) continue;
-      image[std::size_t(q.z * kBrickEdge + q.y)] |= std::uint64_t(1) << q.x;
-    }
-  }
+  const VoxelCoord origin = first_voxel(to);
+  for_each_voxel(bits, from, [&](const VoxelCoord& p) {
+    const VoxelCoord q = plane.mirrored(p) - origin;
+    if (q[plane.axis] < 0 || q[plane.axis] >= kBrickEdge) return;
+    image[std::size_t(q.z * kBrickEdge + q.y)] |= std::uint64_t(1) << q.x;
+  });
   out.put(to, classify(image), image);
 }
 
@@ -54,9 +51,10 @@ void add_mirrored(const BrickShelf& voxels, const MirrorPlane& plane, BrickShelf
   }
 }
 
-bool is_symmetric(const BrickShelf& voxels, const MirrorPlane& plane, double reach, const ShelfFactory& make_shelf) {
+bool is_symmetric(const BrickShelf& voxels, const MirrorPlane& plane, double reach, const ShelfFactory& make_shelf,
+                  const MemoryShare& memory) {
   const auto near = make_shelf(), image = make_shelf();
-  dilate_ball(voxels, reach, *near);
+  dilate_ball(voxels, reach, *near, memory);
   add_mirrored(voxels, plane, *image);
   return holds(*near, *image);
 }

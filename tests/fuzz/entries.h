@@ -18,4 +18,18 @@ void scene(const std::uint8_t* data, std::size_t size);
 /// A command line of any tool, with its own options and extreme values, on small sound inputs.
 void options(const std::uint8_t* data, std::size_t size);
 
+/// A stream of sound contents with any orientation, through bpinfo, bpclose, bpmesh and bpcheck, as stream_stages().
+void turned(const std::uint8_t* data, std::size_t size);
+
+/// glTF whose triangles are packed by Draco, with packed bytes and numbers that are damaged, through bpinfo and
+/// bpcheck.
+void draco(const std::uint8_t* data, std::size_t size);
+
+/// A file of weights with damaged contents whose hashes fit, through bpdeform apply.
+void weights(const std::uint8_t* data, std::size_t size);
+
+/// A tileset with leaves, through bpcheck and bpinfo: a sound one is proven, one whose leaf lacks a part of the scene
+/// is not.
+void tileset(const std::uint8_t* data, std::size_t size);
+
 }  // namespace fuzz

@@ -151,6 +151,32 @@ std::string hostile_field(Choices& c, double voxel) {
   return text + "}";
 }
 
+std::string hostile_orientation(Choices& c) {
+  std::string out;
+  const auto put = [&](auto sound) {
+    if (c.once_in(24)) sound = decltype(sound)(extreme_integer(c));
+    out.append(reinterpret_cast<const char*>(&sound), sizeof(sound));
+  };
+  put(std::uint32_t(8 << c.below(5)));
+  for (int i = 0; i < 3; ++i) put(std::int32_t(c.below(5)) - 2);
+  std::uint32_t cells = 1;
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t n = 1 + c.below(3);
+    cells *= n;
+    put(n);
+  }
+  const std::uint32_t rotations = 1 + c.below(4);
+  put(rotations);
+  for (std::uint32_t i = 0; i < rotations; ++i) {
+    const auto q = c.of<std::array<std::int16_t, 4>>(
+        {{16384, 0, 0, 0}, {15137, 0, 0, 6270}, {14189, 0, 8192, 0}, {8192, 8192, 8192, 8192}, {0, 0, 0, 0}});
+    for (const std::int16_t x : q) put(x);
+  }
+  for (std::uint32_t i = 0; i < cells; ++i) put(std::uint16_t(c.below(rotations)));
+  if (c.once_in(24)) out.resize(c.below(std::uint32_t(out.size()) + 8));
+  return out;
+}
+
 std::string hostile_rules(Choices& c, double voxel) {
   const auto length_text = [&](double unit) {
     if (!c.once_in(4)) return json_of(length(c, unit));

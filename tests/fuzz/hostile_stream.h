@@ -17,7 +17,7 @@ struct RawStream {
   std::array<std::int64_t, 3> origin{};
   std::array<double, 6> bounds{0, 0, 0, 2, 2, 2};
   std::array<std::int32_t, 6> box{0, 0, 0, 2, 2, 2};
-  std::string scale, provenance = "[]";
+  std::string scale, provenance = "[]", orientation;
   std::vector<bp::Brick> bricks;  ///< written in this order
 };
 
@@ -26,6 +26,9 @@ struct RawStream {
 /// A small stream: mostly sound, with a few fields at their limits or beyond, bricks anywhere in the box, layers that
 /// do not nest.
 [[nodiscard]] RawStream hostile_stream(Choices& choices);
+
+/// The bytes of an orientation: a small sound one, with a few numbers at their limits.
+[[nodiscard]] std::string hostile_orientation(Choices& choices);
 
 /// Rules of all shapes as JSON, for bpscale; lengths as below, or texts with units.
 [[nodiscard]] std::string hostile_rules(Choices& choices, double voxel);

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Long search of one fuzzer: searches RUNS inputs, in processes of at most 20,000, and prints one line at the end:
 #   date commit fuzzer: executions, crashes, hangs, leftovers
-# Usage: tests/fuzz/search.sh BUILD FOLDER FUZZER RUNS      FUZZER: stream_stages, scene, options, brick_stream
+# Usage: tests/fuzz/search.sh BUILD FOLDER FUZZER RUNS      FUZZER: stream_stages, turned, scene, draco, weights,
+#   tileset, options, brick_stream
 # BUILD is a build with fuzzers:
 #   CC=clang CXX=clang++ cmake -S . -B BUILD -G Ninja -DBP_FUZZ=ON -DBP_CUDA=OFF && ninja -C BUILD fuzzers
 # FOLDER keeps the corpus, so that a later search goes on from there, and the inputs of findings (FOLDER/FUZZER.found).

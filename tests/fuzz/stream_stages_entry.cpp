@@ -106,7 +106,40 @@ void scale_and_close(Choices& c, Workplace& place, RawStream stream, bool readab
   mesh(c, place, "y.bpv", true);
 }
 
+/// With an orientation: of a closing to come, or of one that is there.
+RawStream turned_stream(Choices& c) {
+  RawStream s = hostile_stream(c);
+  s.orientation = hostile_orientation(c);
+  s.flags |= 8;
+  if ((s.flags & 1) == 0) {
+    s.flags |= 4;
+    s.scale =
+        c.once_in(8) ? hostile_field(c, s.voxel) : "{\"base\":" + text_of(s.voxel * c.of({1.0, 2.0, 3.5, 6.0})) + "}";
+  } else if (!c.once_in(8)) {
+    s.element = 1;
+  }
+  return s;
+}
+
 }  // namespace
+
+void turned(const std::uint8_t* data, std::size_t size) {
+  Choices c(data, size);
+  const std::uint32_t way = roll(data, size, 16);
+  const RawStream stream = turned_stream(c);
+  Workplace place;
+  place.write("x.bpv", bytes_of(stream));
+  Words info{place.path("x.bpv")};
+  if (way == 0) add(info, {"--image", place.path("x.png"), "--image-size", "64"});
+  if (way < 4 && way > 0) add(info, {c.of<std::string>({"--json", "--dump"})});
+  const bool readable = place.run("bpinfo", info, {"x.png"}).done();
+  if (way < 4 || way > 8) return;
+  if ((stream.flags & 1) != 0) return mesh(c, place, "x.bpv", readable);
+  if (!place.run("bpclose", {place.path("x.bpv"), "-o", place.path("y.bpv")}, {"y.bpv"}).done()) return;
+  if (!readable) fail_fuzz("x.bpv", "bpclose reads what bpinfo refuses");
+  if (!place.run("bpinfo", {place.path("y.bpv")}).done()) fail_fuzz("y.bpv", "bpclose made what bpinfo refuses");
+  mesh(c, place, "y.bpv", true);
+}
 
 void stream_stages(const std::uint8_t* data, std::size_t size) {
   Choices c(data, size);

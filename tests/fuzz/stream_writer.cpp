@@ -28,6 +28,10 @@ std::vector<std::byte> header_of(const RawStream& s) {
   out.put(std::uint32_t(s.provenance.size()));
   out.put_text(s.scale);
   out.put_text(s.provenance);
+  if (!s.orientation.empty()) {
+    out.put_text(s.orientation);
+    out.put(std::uint32_t(s.orientation.size()));
+  }
   return frame_of(std::move(out.bytes()), true);
 }
 

@@ -55,6 +55,18 @@ TEST_CASE("streams of hostile contents are refused or end in a sound proxy", "[q
 TEST_CASE("scenes of extreme numbers are refused or end in a proxy around them", "[quick][fuzz]") {
   run(fuzz::scene, 300);
 }
+TEST_CASE("streams with any orientation are refused or end in a sound proxy", "[quick][fuzz]") {
+  run(fuzz::turned, 150);
+}
+TEST_CASE("damaged triangles of Draco are refused or read", "[quick][fuzz]") {
+  run(fuzz::draco, 300);
+}
+TEST_CASE("damaged weights are refused or applied", "[quick][fuzz]") {
+  run(fuzz::weights, 200);
+}
+TEST_CASE("a sound tileset with leaves is proven, one with a hole is not", "[quick][fuzz]") {
+  run(fuzz::tileset, 300);
+}
 TEST_CASE("options of extreme values are refused or obeyed", "[quick][fuzz]") {
   run(fuzz::options, 300);
 }

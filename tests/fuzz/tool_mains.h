@@ -8,3 +8,4 @@ int bpmesh_main(int argc, char** argv);
 int bpcheck_main(int argc, char** argv);
 int bplod_main(int argc, char** argv);
 int bpinfo_main(int argc, char** argv);
+int bpdeform_main(int argc, char** argv);

@@ -25,7 +25,7 @@ using Main = int (*)(int, char**);
 Main main_of(const std::string& tool) {
   static const std::map<std::string, Main> kMains{
       {"bpvox", bpvox_main},     {"bpscale", bpscale_main}, {"bpclose", bpclose_main}, {"bpmesh", bpmesh_main},
-      {"bpcheck", bpcheck_main}, {"bplod", bplod_main},     {"bpinfo", bpinfo_main}};
+      {"bpcheck", bpcheck_main}, {"bplod", bplod_main},     {"bpinfo", bpinfo_main},   {"bpdeform", bpdeform_main}};
   return kMains.at(tool);
 }
 

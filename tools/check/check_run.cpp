@@ -21,7 +21,9 @@ void declare(Args& args, CheckRun& o) {
   args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
   args.flag("--convex", o.convex,
             "prove that the parts of the proxy, which may overlap, are convex and enclose the scenes together");
-  args.option("--margin", "D", o.margin, "prove also that the proxy keeps this distance from the scenes, scene units");
+  args.option("--margin", "LENGTH", o.margin,
+              "prove also that the proxy keeps this distance from the scenes: scene units, or a percentage of the "
+              "scenes' diagonal");
   args.group("Files");
   add_scene_format(args, o.format);
   args.option(
@@ -52,12 +54,15 @@ CheckRun parse_check_run(Args& args) {
   args.excludes("--convex", "--inside");
   args.excludes("--margin", "--inside");
   args.excludes("--margin", "--convex");
-  if (!(o.margin >= 0)) fail(ErrorCode::bad_argument, "--margin {}: is below 0", o.margin);
+  if (o.margin.unit == Length::Unit::voxels)
+    fail(ErrorCode::bad_argument, "--margin {}: no voxels are known here; use scene units or percent", o.margin.text());
   check_scene_format(o.format, o.files);
   check_stdin_once(o.files);
   keep_inputs(o.files);
   if (o.inside && o.files.size() < 2)
     fail(ErrorCode::bad_argument, "--inside asks for a scene around the proxy; name it before the proxy");
+  if (o.margin.value > 0 && o.files.size() < 2)
+    fail(ErrorCode::bad_argument, "--margin asks for a scene in the proxy; name it before the proxy");
   return o;
 }
 

@@ -14,7 +14,7 @@ struct CheckRun {
   std::vector<std::string> files;  // scenes, then the proxy
   std::string format;
   bool json = false, inside = false, convex = false;
-  double margin = 0;  // scene units; 0: not asked
+  Length margin;  // 0: not asked
   std::optional<Vec3d> origin;
 };
 

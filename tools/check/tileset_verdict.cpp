@@ -155,9 +155,10 @@ std::string TilesetVerdict::text(const std::string& name) const {
   for (const std::string& finding : findings) lines += finding + "\n";
   if (scene && leaves > 0)
     lines += fmt::format("{}: {} of the contents enclose nothing: they must be the scene itself, to within {:.3g}\n",
-                         name, leaves, 3 * leaf_error);
+                         name, leaves, tolerance);
   if (thin > 0)
     lines += fmt::format("{}: of {} thin parts of the scene only the corners were looked for\n", name, thin);
+  if (flat > 0) lines += fmt::format("{}: {} parts of the scene that rounding flattens may be missing\n", name, flat);
   return lines + fmt::format("{}: {} tiles, {} contents, {} triangles{}: {}\n", name, tiles, contents, triangles,
                              scene ? ", checked against the scene" : "",
                              holds()                         ? "holds"
@@ -172,6 +173,9 @@ std::string TilesetVerdict::json(const std::string& name) const {
       {"tileset",
        {{"name", name}, {"tiles", tiles}, {"contents", contents}, {"leaves", leaves}, {"triangles", triangles}}},
       {"scene", scene},
+      {"tolerance", scene && leaves > 0 ? Json(tolerance) : Json(nullptr)},
+      {"thin", thin},
+      {"flat", flat},
       {"findings", findings}};
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -191,8 +195,9 @@ TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std
   const auto content = [&](std::size_t i) { return cover.content(i); };
   const CoverReport report = has_cells(tileset) ? check_cover(cover.tiles(), content, *scene, memory_bytes)
                                                 : CoverReport{check_whole(cover, *scene)};
-  verdict.leaf_error = report.leaf_error;
+  verdict.tolerance = 3 * report.leaf_error;
   verdict.thin = report.thin;
+  verdict.flat = report.flat;
   for (const CoverFinding& found : report.findings) {
     verdict.findings.push_back(found.text);
     verdict.undecided += found.answer == Answer::undecided;

@@ -11,8 +11,9 @@ struct TilesetVerdict {
   std::vector<std::string> findings;  ///< one line each; empty: all holds
   std::uint64_t tiles = 0, contents = 0, triangles = 0;
   std::uint64_t leaves = 0;     ///< of the contents: pieces of the scene itself
-  double leaf_error = 0;        ///< CoverReport::leaf_error
+  double tolerance = 0;         ///< how far the scene may be from its leaves: 3 * CoverReport::leaf_error
   std::uint64_t thin = 0;       ///< CoverReport::thin
+  std::uint64_t flat = 0;       ///< CoverReport::flat
   bool scene = false;           ///< the contents were checked against scenes
   std::uint64_t undecided = 0;  ///< of the findings: they prove nothing, and refute nothing
   [[nodiscard]] Answer answer() const {

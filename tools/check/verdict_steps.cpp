@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "lib/core/error.h"
+#include "lib/geometry/triangle_totals.h"
 
 namespace bp {
 
@@ -18,6 +19,11 @@ void add_origin(IndexedMesh& mesh, const Vec3d& by) {
       p[i] = sum;
     }
   }
+}
+
+double margin_world(const Length& margin, TriangleSource& scene) {
+  if (!(margin.value > 0)) return 0;
+  return margin.in_world(margin.unit == Length::Unit::percent ? bounds_of(scene).diagonal() : 0, 0);
 }
 
 Json counts_of(const CheckReport& verdict) {

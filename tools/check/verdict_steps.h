@@ -1,6 +1,8 @@
 #pragma once
 #include "lib/check/check_report.h"
 #include "lib/core/indexed_mesh.h"
+#include "lib/core/length.h"
+#include "lib/core/triangle_source.h"
 #include "tools/cli/report.h"
 
 /// Steps of bpcheck.
@@ -9,6 +11,9 @@ namespace bp {
 /// Undoes --origin of bpmesh and bplod. An answer for rounded vertices would be one for another proxy: throws
 /// bad_argument if a sum is not exact.
 void add_origin(IndexedMesh& mesh, const Vec3d& by);
+
+/// Scene units. A percentage takes a reading of the scene, from its start.
+[[nodiscard]] double margin_world(const Length& margin, TriangleSource& scene);
 
 /// For --report.
 [[nodiscard]] Json counts_of(const CheckReport& verdict);

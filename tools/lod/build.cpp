@@ -130,14 +130,14 @@ void Build::make_room(VoxelizedScene& scene) {
     case Symmetry::off:
       break;
     case Symmetry::automatic:
-      plane_ = symmetry_of(scene, make_shelf);
+      plane_ = symmetry_of(scene, context());
       if (plane_) note(fmt::format("symmetric across {}, as the scene is", name_of(Symmetry(plane_->axis))));
       break;
     default:
       plane_ = middle_plane(scene.header, int(options.symmetry));
   }
   if (plane_) add_image(scene, *plane_, make_shelf);
-  if (margin_ > 0) add_margin(scene, margin_, make_shelf);
+  if (margin_ > 0) add_margin(scene, margin_, context());
 }
 
 void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told) {

@@ -21,11 +21,11 @@ std::string finest_target(const BuildOptions& o) {
 /// Space around a cage: beyond a fifth of the scene no cage follows it, and making it takes long.
 void question_margin(const BuildOptions& o, const Bounds3d& scene, double voxel) {
   constexpr double kMost = 20;  // percent
-  const double share = 100 * margin_of(o, scene.diagonal(), voxel) / scene.diagonal();
-  if (share <= kMost) return;
+  const double diagonal = scene.diagonal(), margin = margin_of(o, diagonal, voxel);
+  if (margin <= Length{kMost, Length::Unit::percent}.in_world(diagonal, voxel)) return;
   const bool slip = o.margin.unit == Length::Unit::scene && o.margin.value <= kMost;
   fail(ErrorCode::bad_argument, "--margin {} is {:.3g} % of the scene's diagonal, and {:g}% is the most{}",
-       o.margin.text(), share, kMost, slip ? fmt::format(": did you mean {}%?", o.margin.text()) : "");
+       o.margin.text(), 100 * margin / diagonal, kMost, slip ? fmt::format(": did you mean {}%?", o.margin.text()) : "");
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "lib/core/error.h"
-#include "lib/core/vec3.h"
+#include "lib/geometry/triangle_parts.h"
 #include "lib/volume/cell_boxes.h"
 #include "tools/run/read_again.h"
 
@@ -48,14 +48,7 @@ class TouchedCells {
     Bounds3d b;
     for (const Vec3d& p : t) b.add(p);
     if (b.longest_side() > 2 * edge_) {
-      std::size_t k = 0;
-      const auto edge = [&](std::size_t i) { return length(t[(i + 1) % 3] - t[i]); };
-      for (std::size_t i = 1; i < 3; ++i) {
-        if (edge(i) > edge(k)) k = i;
-      }
-      const Vec3d middle = 0.5 * (t[k] + t[(k + 1) % 3]);
-      left.push_back({t[k], middle, t[(k + 2) % 3]});
-      left.push_back({middle, t[(k + 1) % 3], t[(k + 2) % 3]});
+      for (const TriangleD& half : halves(t)) left.push_back(half);
       return;
     }
     const VoxelCoord low = cell_of(b.min), high = cell_of(b.max);

@@ -199,6 +199,19 @@ bool is_along_face(const std::vector<Vec3d>& part, const Bounds3d& cell, double 
   return false;
 }
 
+/// Whether its corners may lie on a line once each has moved by `error`. Then all are within two errors of the line
+/// through the two that are farthest apart.
+bool may_be_line(const std::vector<Vec3d>& part, double error) {
+  Vec3d from = part[0], along{};
+  for (const Vec3d& p : part) {
+    for (const Vec3d& q : part) {
+      if (bp::dot(q - p, q - p) > bp::dot(along, along)) from = p, along = q - p;
+    }
+  }
+  const double most = 2 * error * length(along);
+  return std::all_of(part.begin(), part.end(), [&](const Vec3d& p) { return length(cross(p - from, along)) <= most; });
+}
+
 }  // namespace
 
 std::vector<Vec3d> part_within(const TriangleD& t, const Bounds3d& box) {
@@ -255,7 +268,7 @@ LeafProof::Cover LeafProof::add_thin(const std::vector<Vec3d>& part, double erro
     return !shown_.empty() && shown_.near_enough(p, most * most, 0).distance_squared <= most * most;
   };
   if (is_along_face(part, cell_, most) || std::all_of(part.begin(), part.end(), is_shown)) return Cover::thin;
-  return Cover::undecided;
+  return may_be_line(part, std::min(error, flat_)) ? Cover::flat : Cover::undecided;
 }
 
 LeafProof::Cover LeafProof::add(const std::vector<Vec3d>& part, double error) {

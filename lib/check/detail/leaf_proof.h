@@ -14,15 +14,17 @@ namespace bp {
 
 class LeafProof {
  public:
-  /// Keeps a reference to the leaf's triangles.
-  LeafProof(const TriangleBvh& shown, const Bounds3d& cell) : shown_(shown), cell_(cell), on_scene_(shown.size()) {}
+  /// Keeps a reference to the leaf's triangles. `flat`: no error beyond it excuses a part that is not shown.
+  LeafProof(const TriangleBvh& shown, const Bounds3d& cell, double flat)
+      : shown_(shown), cell_(cell), flat_(flat), on_scene_(shown.size()) {}
 
-  enum class Cover { whole, thin, missing, undecided };
+  enum class Cover { whole, thin, flat, missing, undecided };
   /// `part`: what a triangle of the scene has in the leaf's cell, a convex polygon. Notes the triangles of the leaf
   /// that lie within `error` of it and face as it does. Whole: each point of the part lies within 3 errors of one of
   /// these, or the part has no area. A part thinner than six errors is compared in another way: it is whole if one
   /// triangle of the leaf has all of its corners within 3 errors, thin if several have, or one face of the cell has;
-  /// else undecided. Thread-safe. O(n log n) for n triangles of the leaf near the part, in practice.
+  /// flat if its corners lie on a line once each moves by the error, as rounding moves them; else undecided.
+  /// Thread-safe. O(n log n) for n triangles of the leaf near the part, in practice.
   Cover add(const std::vector<Vec3d>& part, double error);
   /// Triangles of the leaf that lie on no part so far.
   [[nodiscard]] std::uint64_t strays() const;
@@ -33,6 +35,7 @@ class LeafProof {
 
   const TriangleBvh& shown_;
   const Bounds3d cell_;
+  const double flat_;
   std::vector<std::atomic<bool>> on_scene_;
 };
 

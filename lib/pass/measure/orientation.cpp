@@ -8,6 +8,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/geometry/triangle_parts.h"
 #include "lib/pass/measure/detail/frame_smoothing.h"
 
 namespace bp {
@@ -172,15 +173,9 @@ void OrientationMaker::add(const TriangleD& triangle) {
   while (!left.empty()) {
     const auto [t, weight] = left.back();
     left.pop_back();
-    std::size_t k = 0;
-    const auto side = [&](std::size_t i) { return length(t[(i + 1) % 3] - t[i]); };
-    for (std::size_t i = 1; i < 3; ++i) {
-      if (side(i) > side(k)) k = i;
-    }
-    if (side(k) > edge) {
-      const Vec3d middle = 0.5 * (t[k] + t[(k + 1) % 3]);
-      left.push_back({{t[k], middle, t[(k + 2) % 3]}, weight / 2});
-      left.push_back({{middle, t[(k + 1) % 3], t[(k + 2) % 3]}, weight / 2});
+    const std::size_t apex = apex_of(t);
+    if (length_squared(t[(apex + 1) % 3], t[(apex + 2) % 3]) > edge * edge) {
+      for (const TriangleD& half : halves(t)) left.push_back({half, weight / 2});
       continue;
     }
     const std::size_t cell = sums_->cell_of((1.0 / 3) * (t[0] + t[1] + t[2]));

@@ -25,6 +25,12 @@ diff -r legs legs1 && echo "the same bytes"
 small legs.obj -o wide --margin 1
 bpcheck --margin 1 legs.obj wide/legs_cage.obj | tail -1
 bpcheck --margin 3 legs.obj wide/legs_cage.obj | grep margin
+for margin in 0.5% 20%; do bpcheck --margin $margin legs.obj legs/legs_cage.obj | grep keeps; done
+
+# The most is taken, whatever is rounded.
+printf '%s\n' 'v 0 0 0' 'v 1 0 0' 'v 0 1 0' 'v 0 0 1' 'f 1 3 2' 'f 1 2 4' 'f 1 4 3' 'f 2 3 4' > corner.obj
+small corner.obj -o corner --margin 20%
+bpcheck --margin 20% corner.obj corner/corner_cage.obj | tail -1
 
 # What is no mirror image gets another cage, unless it is told to.
 small horn.obj -o horn
@@ -38,3 +44,5 @@ try bplod legs.obj --profile cage --faces 11 -o x
 try bplod legs.obj --profile cage --scale 2% -o x
 try bplod legs.obj --profile collision --margin 1% -o x
 try bpcheck --margin 1 --inside legs.obj legs/legs_cage.obj
+try bpcheck --margin 1vx legs.obj legs/legs_cage.obj
+try bpcheck --margin 1 legs/legs_cage.obj

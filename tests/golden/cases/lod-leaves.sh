@@ -16,6 +16,7 @@ done | sort | uniq
 bpinfo first | grep -o 'tile=.*leaves=[a-z]*'
 bpinfo first --level 3 --image x.png 2>&1 > list | sed 's/^/| /'
 bpcheck part*.obj first | sed 's/[0-9]* triangles/some triangles/'
+bpcheck --json part*.obj first | grep -e tolerance -e thin -e flat
 
 # A changed image is another file, and changes the leaves that show it.
 chequer blue

@@ -228,9 +228,21 @@ TEST_CASE("what rounding of a leaf is does not depend on its cell", "[quick][che
   const Bounds3d cell = bounds({-far, -far, -far}, {far, far, far});
   const std::vector<MeshTile> tiles{{"root", "r", box_mesh({-50, -50, -50}, {50, 50, 50}), cell, {1}},
                                     {"root.0", "a", other, cell, {}, error}};
-  const std::vector<std::string> found = findings(tiles, scene);
-  REQUIRE(!found.empty());
-  CHECK_THAT(found[0], ContainsSubstring("root.0: a is compared to within"));  // 1e-6: in doubles of such a cell
+  CHECK_THAT(only(findings(tiles, scene)),  // 1e-6: in doubles of such a cell
+             ContainsSubstring("root.0: a is compared to within"));
+}
+
+TEST_CASE("a leaf with too large an error is refused before it is read", "[quick][check][tileset]") {
+  MemorySource scene(bar(), 5);
+  const std::vector<CoverTile> tiles{{"root", "r", 12, bounds({0, 0, 0}, {16, 16, 16}), {1}},
+                                     {"root.0", "a", 1, bounds({0, 0, 0}, {16, 16, 16}), {}, 0.1}};
+  const auto content = [](std::size_t i) {
+    CHECK(i == 0);
+    return box_mesh({1, 1, 1}, {15, 4, 4});
+  };
+  const CoverReport report = check_cover(tiles, content, scene);
+  REQUIRE(report.findings.size() == 1);
+  CHECK_THAT(report.findings[0].text, ContainsSubstring("root.0: a is compared to within 0.1; rounding"));
 }
 
 TEST_CASE("a thin triangle of the scene must be near the leaf", "[quick][check][tileset]") {
@@ -249,6 +261,27 @@ TEST_CASE("a thin triangle of the scene must be near the leaf", "[quick][check][
   CHECK_THAT(only(found({Vec3d{1, 1, 3}, {9, 1, 3}, {5, 1 - error, 3}})),
              ContainsSubstring("root.0: a cannot be decided for 1 triangles"));
   CHECK(found({Vec3d{1, 1, 3}, {9, 1, 3}, {5, 1, 3}}).empty());  // draws nothing
+}
+
+TEST_CASE("a triangle that rounding flattens may be missing, a wider one may not", "[quick][check][tileset]") {
+  const TriangleD wide{Vec3d{1, 1, 1}, {9, 1, 1}, {1, 9, 1}};
+  const auto report = [&](double height, double error) {
+    MemorySource scene({wide, {Vec3d{1, 1, 3}, {9, 1, 3}, {5, 1 - height, 3}}}, 5);
+    const auto content = [&](std::size_t i) {
+      IndexedMesh leaf;
+      leaf.vertices.assign(wide.begin(), wide.end());
+      leaf.triangles = {{0, 1, 2}};
+      return i == 0 ? box_mesh({0, 0, 0}, {15, 15, 15}) : leaf;
+    };
+    return check_cover({{"root", "r", 12, bounds({0, 0, 0}, {16, 16, 16}), {1}},
+                        {"root.0", "a", 1, bounds({0, 0, 0}, {16, 16, 16}), {}, error}},
+                       content, scene);
+  };
+  CHECK(report(1e-6, 1e-6).findings.empty());
+  CHECK(report(1e-6, 1e-6).flat == 1);
+  REQUIRE(report(3e-6, 1e-6).findings.size() == 1);
+  CHECK(report(3e-6, 1e-6).findings[0].answer == Answer::undecided);
+  CHECK(report(1e-5, 2e-5).findings.size() == 1);  // of what the file calls rounding, the scene is too small
 }
 
 TEST_CASE("an octant that a triangle just touches needs no leaf", "[quick][check][tileset]") {

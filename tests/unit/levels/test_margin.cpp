@@ -20,6 +20,12 @@ Triangles legs() {
   return scene;
 }
 
+PassContext context() {
+  PassContext context;
+  context.make_shelf = memory_shelves();
+  return context;
+}
+
 CheckReport check_at(const IndexedMesh& mesh, const Triangles& scene, double margin) {
   MemorySource source(scene);
   CheckOptions options;
@@ -34,10 +40,10 @@ TEST_CASE("a cage keeps its margin from the scene, over either diagonal of its q
   const Triangles scene = legs();
   Voxelized voxels = voxelized(scene, 0.25);
   VoxelizedScene grown{voxels.header, std::move(voxels.shelf), {}};
-  add_margin(grown, margin, memory_shelves());
+  add_margin(grown, margin, context());
   Backends backends = plain_backends(2);
   LodOptions options;
-  options.context.make_shelf = memory_shelves();
+  options.context = context();
   options.cage.emplace();
   LodChain chain(grown.header, std::move(grown.solid), backends, options);
   LatticeMesh cage = chain.make({200, 0, {}, 1}).mesh;
@@ -55,5 +61,18 @@ TEST_CASE("a cage keeps its margin from the scene, over either diagonal of its q
 TEST_CASE("a margin beyond the reach of dilation is refused", "[quick][levels]") {
   Voxelized voxels = voxelized(legs(), 0.25);
   VoxelizedScene scene{voxels.header, std::move(voxels.shelf), {}};
-  CHECK_THROWS_AS(add_margin(scene, 0.25 * (kMostReach + 1), memory_shelves()), Error);
+  CHECK_THROWS_AS(add_margin(scene, 0.25 * (kMostReach + 1), context()), Error);
+}
+
+TEST_CASE("growing by a margin tells its progress, and what memory it takes", "[quick][levels]") {
+  Voxelized voxels = voxelized(legs(), 0.25);
+  VoxelizedScene scene{voxels.header, std::move(voxels.shelf), {}};
+  PassContext tells = context();
+  std::uint64_t done = 0, total = 1;
+  tells.progress = [&](const char*, const char*, std::uint64_t d, std::uint64_t t) { done = d, total = t; };
+  tells.memory.bytes = 1 << 20;
+  CHECK_THROWS_AS(add_margin(scene, 5, tells), NeedsMemory);
+  tells.memory.bytes = 64 << 20;
+  add_margin(scene, 5, tells);
+  CHECK(done == total);
 }

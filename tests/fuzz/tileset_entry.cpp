@@ -1,0 +1,201 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/fuzz/choices.h"
+#include "tests/fuzz/entries.h"
+#include "tests/fuzz/tool_runs.h"
+
+namespace fuzz {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Point = std::array<double, 3>;
+using Triangle = std::array<Point, 3>;
+using Soup = std::vector<Triangle>;
+using Cell = std::array<double, 6>;
+
+constexpr Cell kRoot{0, 0, 0, 16, 16, 16};
+constexpr double kError = 1e-6;
+
+/// Twelve triangles.
+Soup box(const Cell& b) {
+  const auto at = [&](int i) { return Point{b[i & 1 ? 3 : 0], b[i & 2 ? 4 : 1], b[i & 4 ? 5 : 2]}; };
+  constexpr int kCorners[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  Soup soup;
+  for (const auto& t : kCorners) soup.push_back({at(t[0]), at(t[1]), at(t[2])});
+  return soup;
+}
+
+/// What of the triangles lies in a cell.
+Soup cut(const Soup& soup, const Cell& cell) {
+  Soup out;
+  for (const Triangle& t : soup) {
+    std::vector<Point> polygon(t.begin(), t.end());
+    for (std::size_t face = 0; face < 6; ++face) {
+      const double way = face < 3 ? 1 : -1, at = cell[face];
+      std::vector<Point> kept;
+      for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Point &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
+        const double hp = way * (p[face % 3] - at), hq = way * (q[face % 3] - at);
+        if (hp >= 0) kept.push_back(p);
+        if ((hp >= 0) == (hq >= 0)) continue;
+        Point& middle = kept.emplace_back();
+        for (std::size_t i = 0; i < 3; ++i) middle[i] = p[i] + hp / (hp - hq) * (q[i] - p[i]);
+        middle[face % 3] = at;
+      }
+      polygon = std::move(kept);
+    }
+    for (std::size_t k = 1; k + 1 < polygon.size(); ++k) out.push_back({polygon[0], polygon[k], polygon[k + 1]});
+  }
+  return out;
+}
+
+/// As OBJ; a content is y-up, as glTF is.
+std::string obj_of(const Soup& soup, bool content) {
+  std::string text;
+  for (const Triangle& t : soup) {
+    for (const Point& p : t)
+      text +=
+          "v " + text_of(p[0]) + " " + text_of(content ? p[2] : p[1]) + " " + text_of(content ? -p[1] : p[2]) + "\n";
+  }
+  for (std::size_t i = 0; i < soup.size(); ++i)
+    text += "f " + std::to_string(3 * i + 1) + " " + std::to_string(3 * i + 2) + " " + std::to_string(3 * i + 3) + "\n";
+  return text;
+}
+
+/// What was done to a tileset.
+struct Damage {
+  bool any = false;   ///< it may not hold
+  bool hole = false;  ///< it cannot hold
+};
+
+class Maker {
+ public:
+  Maker(Choices& c, Workplace& place) : c_(c), place_(place) {}
+
+  /// A root, and leaves in the octants that hold a part of the scene, or one in its whole cell.
+  Damage make() {
+    scene_ = c_.once_in(3) ? Soup{{Point{2, 2, 2}, {14, 2.5, 2}, {3, 3, 3}}} : box({2, 2, 2}, c_);
+    place_.write("s.obj", obj_of(scene_, false));
+    Json root = tile("r.obj", box({1, 1, 1, 15, 15, 15}), kRoot, 8);
+    root["refine"] = "REPLACE";
+    if (c_.once_in(2)) {
+      add_leaf(root, kRoot);
+    } else {
+      for (int k = 0; k < 8; ++k) {
+        const double x = k & 1 ? 8 : 0, y = k & 2 ? 8 : 0, z = k & 4 ? 8 : 0;
+        add_leaf(root, {x, y, z, x + 8, y + 8, z + 8});
+      }
+    }
+    Json json = {{"asset", {{"version", "1.1"}, {"extras", {{"up", "z"}}}}}, {"geometricError", real(10)}};
+    json["root"] = std::move(root);
+    place_.write("tileset.json", raw_numbers(json.dump()));
+    return damage_;
+  }
+
+ private:
+  static Soup box(const Cell& b) { return fuzz::box(b); }
+  /// A bar along x, perhaps with what makes it thin.
+  static Soup box(const Point& low, Choices& c) {
+    const double y = c.of({1.0, 1.0, 0.5, 1e-6, 1e-7, 3e-6}), z = c.of({1.0, 1.0, 1e-6, 12.0});
+    return fuzz::box({low[0], low[1], low[2], low[0] + c.of({4.0, 12.0, 6.0}), low[1] + y, low[2] + z});
+  }
+  Json real(double sound) {
+    if (!c_.once_in(40)) return sound;
+    damage_.any = true;
+    return "@" + text_of(extreme_number(c_));
+  }
+  /// "@text" becomes text.
+  static std::string raw_numbers(std::string json) {
+    for (std::size_t at = 0; (at = json.find("\"@", at)) != std::string::npos;) {
+      json.erase(at, 2);
+      json.erase(json.find('"', at), 1);
+    }
+    return json;
+  }
+
+  Json tile(const std::string& uri, const Soup& content, const Cell& cell, double error) {
+    place_.write(uri, obj_of(content, true));
+    Json t = {{"boundingVolume", {{"box", {8, 8, 8, 9, 0, 0, 0, 9, 0, 0, 0, 9}}}}, {"geometricError", real(error)}};
+    t["content"]["uri"] = uri;
+    for (const double x : cell) t["extras"]["cell"].push_back(real(x));
+    return t;
+  }
+
+  void add_leaf(Json& root, const Cell& cell) {
+    Soup content = cut(scene_, cell);
+    if (content.empty()) return;
+    change(content);
+    if (content.empty()) content.push_back({});
+    const std::string uri = "l" + std::to_string(leaves_++) + ".obj";
+    Json leaf = tile(uri, content, cell, c_.once_in(12) ? wrong(c_.of({1.0, 1e-3, 1e-9, 4e-6})) : kError);
+    if (!c_.once_in(40)) leaf["extras"]["leaf"] = true;
+    damage_.any = damage_.any || !leaf["extras"].contains("leaf");
+    if (c_.once_in(40)) leaf["children"].push_back(tile("r.obj", box({1, 1, 1, 15, 15, 15}), cell, wrong(0)));
+    root["children"].push_back(std::move(leaf));
+  }
+  double wrong(double x) {
+    damage_.any = true;
+    return x;
+  }
+
+  void change(Soup& content) {
+    if (!c_.once_in(4)) return;
+    damage_.any = true;
+    Triangle& t = content[c_.below(std::uint32_t(content.size()))];
+    switch (c_.below(6)) {
+      case 0:
+        damage_.hole = damage_.hole || area(t) > 0.1;
+        t = content.back();
+        content.pop_back();
+        break;
+      case 1:
+        std::swap(t[0], t[1]);
+        break;
+      case 2:
+        t[c_.below(3)][c_.below(3)] = extreme_number(c_);
+        break;
+      case 3:
+        content.push_back(t);
+        break;
+      default:
+        t[c_.below(3)][c_.below(3)] += c_.of({1e-7, 1e-6, 3e-6, 1e-5, 1e-3, 1.0, -1.0});
+    }
+  }
+  static double area(const Triangle& t) {
+    Point u, v;
+    for (std::size_t i = 0; i < 3; ++i) u[i] = t[1][i] - t[0][i], v[i] = t[2][i] - t[0][i];
+    return std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
+  }
+
+  Choices& c_;
+  Workplace& place_;
+  Soup scene_;
+  Damage damage_;
+  int leaves_ = 0;
+};
+
+}  // namespace
+
+void tileset(const std::uint8_t* data, std::size_t size) {
+  Choices c(data, size);
+  const std::uint32_t way = roll(data, size, 16);
+  Workplace place;
+  const Damage damage = Maker(c, place).make();
+  const std::string tiles = place.path("tileset.json");
+  if (way == 0) {
+    (void)place.run("bpinfo", {tiles});
+  } else if (way == 1) {
+    (void)place.run("bpcheck", {tiles});
+  } else if (way == 2) {
+    (void)place.run("bpinfo", {tiles, "--image", place.path("x.png"), "--image-size", "48"}, {"x.png"});
+  } else {
+    const ToolResult verdict = place.run("bpcheck", {place.path("s.obj"), tiles});
+    if (!damage.any && !verdict.done()) fail_fuzz("a sound tileset", verdict.output + verdict.messages);
+    if (damage.hole && verdict.done()) fail_fuzz("a leaf with a hole", verdict.output + verdict.messages);
+  }
+}
+
+}  // namespace fuzz
