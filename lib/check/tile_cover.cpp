@@ -187,7 +187,7 @@ class Checker {
     if (below_[i].first >= end_ || below_[i].last < begin_) return;
     const CoverTile& tile = tiles_[i];
     const bool mine = i >= begin_ && i < end_;
-    if (mine && !tile.triangles && tile.children.empty()) count(i, Verdict::bare);
+    if (mine && !tile.triangles && tile.children.empty()) count(i, shown_by_nothing(i, t));
     if (mine && tile.triangles && !refused_[i])
       count(i, tile.leaf_error ? compare(i, t) : examine(i, t, bounds, known));
     if (tile.children.empty()) return;
@@ -216,10 +216,19 @@ class Checker {
   }
   /// No leaf is made of what a neighbour's triangle has just beyond a face.
   [[nodiscard]] Verdict without_child(std::size_t i, const Bounds3d& octant, const TriangleD& t) const {
-    if (!below_[i].leaf_error) return Verdict::missing;
+    return below_[i].leaf_error ? compare_with_nothing(octant, t, *below_[i].leaf_error) : Verdict::missing;
+  }
+  /// Of a tile without content and children: a leaf, or none.
+  [[nodiscard]] Verdict shown_by_nothing(std::size_t i, const TriangleD& t) const {
+    const CoverTile& tile = tiles_[i];
+    if (!tile.leaf_error || refused_[i]) return Verdict::bare;
+    const Verdict verdict = compare_with_nothing(*tile.cell, t, *tile.leaf_error);
+    return verdict == Verdict::missing ? Verdict::bare : verdict;
+  }
+  [[nodiscard]] Verdict compare_with_nothing(const Bounds3d& box, const TriangleD& t, double error) const {
     const TriangleBvh nothing({});
-    LeafProof proof(nothing, octant, kFlat * scene_edge_);
-    return compare(proof, octant, t, *below_[i].leaf_error);
+    LeafProof proof(nothing, box, kFlat * scene_edge_);
+    return compare(proof, box, t, error);
   }
   [[nodiscard]] static Verdict compare(LeafProof& proof, const Bounds3d& cell, const TriangleD& t, double error) {
     const std::vector<Vec3d> part = part_within(t, cell);
@@ -269,7 +278,7 @@ class Checker {
   /// The file chose the errors of leaves and the cells. What rounding is, only the scene tells. Leaves with larger
   /// errors are refused, and compared with nothing.
   void judge_errors(TriangleSource& scene) {
-    const auto is_leaf = [](const CoverTile& tile) { return tile.leaf_error && tile.triangles; };
+    const auto is_leaf = [](const CoverTile& tile) { return tile.leaf_error.has_value(); };
     if (std::none_of(tiles_.begin(), tiles_.end(), is_leaf)) return;
     const Bounds3d bounds = bounds_of(scene);
     if (bounds.empty()) return;
