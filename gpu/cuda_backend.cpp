@@ -6,6 +6,7 @@
 #include <cstring>
 #include <new>
 
+#include "gpu/cuda_devices.h"
 #include "gpu/device_closing.h"
 #include "gpu/device_weighing.h"
 #include "gpu/kernels/bit_kernels.h"
@@ -20,17 +21,11 @@ namespace bp {
 
 namespace {
 
-cudaDeviceProp properties(int device) {
-  cudaDeviceProp p{};
-  BP_CUDA_CHECK(cudaGetDeviceProperties(&p, device));
-  return p;
-}
-
 class CudaBackend final : public Backend {
  public:
   explicit CudaBackend(int device)
       : stream_(device),
-        properties_(properties(device)),
+        properties_(device_properties(device)),
         name_(fmt::format("cuda:{} {}", device, properties_.name)),
         staging_(stream_.get()),
         closing_({properties_.multiProcessorCount, std::min(kSlabBytes, properties_.totalGlobalMem / kSlabShare)}),
@@ -377,29 +372,6 @@ class CudaBackend final : public Backend {
 };
 
 }  // namespace
-
-std::vector<CudaDevice> cuda_devices() {
-  int count = 0, driver = 0;
-  const cudaError_t error = cudaGetDeviceCount(&count);
-  if (error == cudaErrorInsufficientDriver) {  // also said where there is none
-    (void)cudaGetLastError();
-    if (cudaDriverGetVersion(&driver) != cudaSuccess || driver == 0) return {};
-    throw DeviceError(
-        fmt::format("GPU: the driver is for CUDA {}.{}, older than this build needs, and is to be updated",
-                    driver / 1000, driver % 1000 / 10));
-  }
-  if (error == cudaErrorNoDevice) {
-    (void)cudaGetLastError();
-    return {};
-  }
-  check_cuda(error, "cudaGetDeviceCount");
-  std::vector<CudaDevice> devices;
-  for (int i = 0; i < count; ++i) {
-    const cudaDeviceProp p = properties(i);
-    devices.push_back({i, p.name, p.multiProcessorCount});
-  }
-  return devices;
-}
 
 std::unique_ptr<Backend> make_cuda_backend(int device) {
   return std::make_unique<CudaBackend>(device);

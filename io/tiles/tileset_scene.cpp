@@ -179,7 +179,7 @@ RawSourcePtr open_tileset(SceneFilePtr file, const SceneOptions& options) {
   GltfJson json = read_json(file, options);
   if (!json.is_object() || !json.contains("root")) return open_gltf(std::move(file), options);  // under another name
   if (file->path().empty())
-    fail(ErrorCode::bad_input, "{}: a tileset names files beside it; give it as a file", file->name());
+    fail(ErrorCode::bad_input, "{}: a tileset names files beside it, which a pipe does not have", file->name());
   return open_contents(contents_of(json, file->path(), options), options);
 }
 

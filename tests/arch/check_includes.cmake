@@ -44,7 +44,7 @@ set(rules
   "io/scene:lib/core lib/exact io/files io/stream io/image"
   "io/gltf:lib/core lib/grid io/files io/scene"
   "io/deform:lib/core lib/store lib/deform io/files io/store io/stream"
-  "io/mesh:lib/core lib/mesh lib/quads lib/pass/leaf io/files io/gltf"
+  "io/mesh:lib/core lib/mesh lib/atlas lib/quads lib/pass/leaf io/files io/gltf"
   "io/tiles:lib/core lib/grid lib/tileset io/files io/scene io/gltf"
   "io/image:lib/core lib/image io/files"
   "gpu:lib/core lib/deform lib/grid lib/voxel lib/closing lib/device"
