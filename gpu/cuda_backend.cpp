@@ -6,7 +6,9 @@
 #include <cstring>
 #include <new>
 
+#include "gpu/cuda_devices.h"
 #include "gpu/device_closing.h"
+#include "gpu/device_weighing.h"
 #include "gpu/kernels/bit_kernels.h"
 #include "gpu/kernels/device_error.h"
 #include "gpu/kernels/tuning.h"
@@ -14,23 +16,16 @@
 #include "gpu/kernels/winding_kernels.h"
 #include "gpu/staging.h"
 #include "gpu/stream.h"
-#include "lib/closing/closing_scratch.h"
 
 namespace bp {
 
 namespace {
 
-cudaDeviceProp properties(int device) {
-  cudaDeviceProp p{};
-  BP_CUDA_CHECK(cudaGetDeviceProperties(&p, device));
-  return p;
-}
-
 class CudaBackend final : public Backend {
  public:
   explicit CudaBackend(int device)
       : stream_(device),
-        properties_(properties(device)),
+        properties_(device_properties(device)),
         name_(fmt::format("cuda:{} {}", device, properties_.name)),
         staging_(stream_.get()),
         closing_({properties_.multiProcessorCount, std::min(kSlabBytes, properties_.totalGlobalMem / kSlabShare)}),
@@ -93,8 +88,6 @@ class CudaBackend final : public Backend {
 
   void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
              const VoxelBox& interior, BitBox& closed) override {
-    // Turned cubes are closed on the calling thread.
-    if (params.turned()) return close_tile(solid, scale, halo, params, interior, closed, scratch_);
     stream_.select();
     closed.reset(interior);
     if (interior.empty()) return;
@@ -108,7 +101,7 @@ class CudaBackend final : public Backend {
   void close_from_shelf(const BrickShelf& solid, const BrickBox& bricks, const ScaleLattice& scale, const Halo& halo,
                         const ClosingParams& params, const VoxelBox& interior, BitBox& closed) override {
     stream_.select();
-    if (whole_bricks(interior) && !params.turned()) {
+    if (whole_bricks(interior)) {
       try {
         return close_bricks(solid, bricks, scale, halo, params, interior, closed);
       } catch (const OutOfDeviceMemory&) {
@@ -116,6 +109,13 @@ class CudaBackend final : public Backend {
       }
     }
     Backend::close_from_shelf(solid, bricks, scale, halo, params, interior, closed);
+  }
+
+  void weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside, WeightBlock& out,
+             std::span<CoordinateRows::Place> places) override {
+    stream_.select();
+    weighing_.weigh(
+        coordinates, points, carry_outside, staging_, stream_.get(), [this] { make_room(); }, out, places);
   }
 
  private:
@@ -196,14 +196,30 @@ class CudaBackend final : public Backend {
     in_.grow(words_in);
     out_.grow(words_out);
     staging_.upload(in_.data(), solid.data(), words_in * 4);
-    upload_samples(scale);
-    closing_.enqueue(layout, in_.data(), scale, samples_.data(), params.element, out_.data(), stream_.get());
+    CubesOver cubes;
+    const TileField field = upload_field(scale, params, interior.grown(halo.erosion_vox), layout, cubes);
+    closing_.enqueue(layout, in_.data(), field, out_.data(), stream_.get());
     staging_.download(closed.data(), out_.data(), words_out * 4);
   }
 
-  void upload_samples(const ScaleLattice& scale) {
-    if (scale.constant()) return;
-    staging_.upload(samples_.grow(scale.samples.size()), scale.samples.data(), scale.samples.size() * sizeof(Scale));
+  /// `cubes` is set, and stays in use as the field does.
+  TileField upload_field(const ScaleLattice& scale, const ClosingParams& params, const VoxelBox& dilated,
+                         const TileLayout& layout, CubesOver& cubes) {
+    TileField field{scale, nullptr, params.element};
+    if (!scale.constant()) field.samples = upload(scale.samples, samples_);
+    if (params.turned()) cubes = cubes_over(*params.orientation, dilated);
+    if (!cubes.widest.turned) return field;
+    field.cubes = &cubes;
+    field.cubes_there = view_of(cubes, layout, scale);
+    field.cubes_there.rotations = upload(cubes.rotations, rotations_);
+    field.cubes_there.cells = upload(cubes.cells, rotation_of_cell_);
+    return field;
+  }
+
+  template <class T>
+  const T* upload(const std::vector<T>& from, DeviceBuffer<T>& to) {
+    staging_.upload(to.grow(from.size()), from.data(), from.size() * sizeof(T));
+    return to.data();
   }
 
   static bool whole_bricks(const VoxelBox& box) { return !box.empty() && voxels_of(bricks_of(box)) == box; }
@@ -215,12 +231,13 @@ class CudaBackend final : public Backend {
     if (seen.empty()) return closed.reset(interior);
     const TileLayout layout = lay_out(voxels_of(seen), scale, halo, interior);
     const BrickTable in = upload_bricks(solid, seen, layout.solid);
-    upload_samples(scale);
+    CubesOver cubes;
+    const TileField field = upload_field(scale, params, interior.grown(halo.erosion_vox), layout, cubes);
     const std::size_t n = volume(made);
     BrickTable out = table_of(made, layout.closed);
     out.bits = reinterpret_cast<std::uint64_t*>(out_.grow(n * kBrickWords * 2));
     out.slots = out_slots_.grow(n + 1);
-    closing_.enqueue(layout, in, scale, samples_.data(), params.element, out, out.slots + n, stream_.get());
+    closing_.enqueue(layout, in, field, out, out.slots + n, stream_.get());
     slots_.resize(n + 1);
     staging_.download(slots_.data(), out.slots, (n + 1) * sizeof(std::uint32_t));
     closed.reset(interior);
@@ -298,8 +315,9 @@ class CudaBackend final : public Backend {
     closing_.release();
     voxelizer_.release();
     winding_.release();
+    weighing_.release();
     for (auto* b : {&in_, &out_, &in_slots_, &out_slots_, &skip_, &count_}) b->release();
-    samples_.release();
+    samples_.release(), rotations_.release(), rotation_of_cell_.release();
     triangles_.release();
     crossings_.release();
     numbers_.release();
@@ -342,39 +360,18 @@ class CudaBackend final : public Backend {
   DeviceClosing closing_;
   DeviceVoxelizer voxelizer_;
   DeviceWinding winding_;
+  DeviceWeighing weighing_;
   DeviceBuffer<std::uint32_t> in_, out_, in_slots_, out_slots_, skip_, count_;
   std::vector<std::uint32_t> slots_;
   DeviceBuffer<Scale> samples_;
+  DeviceBuffer<Rotation> rotations_;
+  DeviceBuffer<std::uint16_t> rotation_of_cell_;
   DeviceBuffer<FixedTriangle> triangles_;
   DeviceBuffer<Crossing> crossings_;
   DeviceBuffer<std::int32_t> numbers_;
-  ClosingScratch scratch_;
 };
 
 }  // namespace
-
-std::vector<CudaDevice> cuda_devices() {
-  int count = 0, driver = 0;
-  const cudaError_t error = cudaGetDeviceCount(&count);
-  if (error == cudaErrorInsufficientDriver) {  // also said where there is none
-    (void)cudaGetLastError();
-    if (cudaDriverGetVersion(&driver) != cudaSuccess || driver == 0) return {};
-    throw DeviceError(
-        fmt::format("GPU: the driver is for CUDA {}.{}, older than this build needs, and is to be updated",
-                    driver / 1000, driver % 1000 / 10));
-  }
-  if (error == cudaErrorNoDevice) {
-    (void)cudaGetLastError();
-    return {};
-  }
-  check_cuda(error, "cudaGetDeviceCount");
-  std::vector<CudaDevice> devices;
-  for (int i = 0; i < count; ++i) {
-    const cudaDeviceProp p = properties(i);
-    devices.push_back({i, p.name, p.multiProcessorCount});
-  }
-  return devices;
-}
 
 std::unique_ptr<Backend> make_cuda_backend(int device) {
   return std::make_unique<CudaBackend>(device);

@@ -81,6 +81,20 @@ TileLayout lay_out(const VoxelBox& solid, const ScaleLattice& scale, const Halo&
   return t;
 }
 
+CubeView view_of(const CubesOver& cubes, const TileLayout& layout, const ScaleLattice& scale) {
+  CubeView view;
+  view.nx = cubes.size.x, view.ny = cubes.size.y, view.nz = cubes.size.z;
+  view.edge = cubes.edge / kCell;
+  // A field far away has one cell along the axis, which is the nearest one from anywhere.
+  const auto from_first = [&](std::int32_t domain, std::int32_t first) {
+    return std::int32_t(std::clamp<std::int64_t>(domain - std::int64_t(first) * view.edge, -(1 << 29), 1 << 29));
+  };
+  view.ox = from_first(layout.ox + scale.origin.x, cubes.origin.x);
+  view.oy = from_first(layout.oy + scale.origin.y, cubes.origin.y);
+  view.oz = from_first(layout.oz + scale.origin.z, cubes.origin.z);
+  return view;
+}
+
 void DeviceClosing::grow(const TileLayout& layout) {
   const std::size_t words = layout.shape.word_count(), quads = layout.shape.quad_count();
   solid_.grow(words);
@@ -92,23 +106,21 @@ void DeviceClosing::grow(const TileLayout& layout) {
   counts_.grow(1);
 }
 
-void DeviceClosing::enqueue(const TileLayout& layout, const std::uint32_t* solid, const ScaleLattice& scale,
-                            const Scale* samples, StructuringElement element, std::uint32_t* closed,
-                            cudaStream_t stream, const Mark& mark) {
+void DeviceClosing::enqueue(const TileLayout& layout, const std::uint32_t* solid, const TileField& field,
+                            std::uint32_t* closed, cudaStream_t stream, const Mark& mark) {
   start(layout, stream);
   pack_bits(solid, layout.solid, layout.shape, solid_.data(), flags_.data(), stream);
   if (mark) mark("pack");
-  const std::uint32_t* result = close(layout, scale, samples, element, stream, mark);
+  const std::uint32_t* result = close(layout, field, stream, mark);
   unpack_bits(result, layout.shape, layout.closed, layout.interior, closed, stream);
   if (mark) mark("unpack");
 }
 
-void DeviceClosing::enqueue(const TileLayout& layout, const BrickTable& solid, const ScaleLattice& scale,
-                            const Scale* samples, StructuringElement element, const BrickTable& closed,
-                            std::uint32_t* count, cudaStream_t stream) {
+void DeviceClosing::enqueue(const TileLayout& layout, const BrickTable& solid, const TileField& field,
+                            const BrickTable& closed, std::uint32_t* count, cudaStream_t stream) {
   start(layout, stream);
   pack_bricks(solid, layout.shape, solid_.data(), flags_.data(), stream);
-  const std::uint32_t* result = close(layout, scale, samples, element, stream, {});
+  const std::uint32_t* result = close(layout, field, stream, {});
   zero(count, sizeof(std::uint32_t), stream);
   unpack_bricks(result, layout.shape, closed, count, stream);
 }
@@ -120,8 +132,9 @@ void DeviceClosing::start(const TileLayout& layout, cudaStream_t stream) {
 }
 
 /// The closing of the voxels in solid_, whose cells are flagged.
-const std::uint32_t* DeviceClosing::close(const TileLayout& layout, const ScaleLattice& scale, const Scale* samples,
-                                          StructuringElement element, cudaStream_t stream, const Mark& mark) {
+const std::uint32_t* DeviceClosing::close(const TileLayout& layout, const TileField& field, cudaStream_t stream,
+                                          const Mark& mark) {
+  const ScaleLattice& scale = field.scale;
   const auto done = [&](const char* stage) {
     if (mark) mark(stage);
   };
@@ -129,25 +142,14 @@ const std::uint32_t* DeviceClosing::close(const TileLayout& layout, const ScaleL
   const std::size_t quads = shape.quad_count();
   std::uint32_t *solid_cells = flags_.data(), *contour_cells = solid_cells + quads;
   auto* wanted = reinterpret_cast<std::uint8_t*>(contour_cells + quads);  // one byte per quad, twice
-  const ScaleView view = view_of(scale, layout, samples);
+  const ScaleView view = view_of(scale, layout, field.samples);
   if (!scale.constant()) {
     bound_cells(view, shape, w_of_cells_.grow(4 * quads), stream);
     done("bounds of scale");
   }
 
   TransformBounds bounds = bounds_of(scale.max, tuning_.wide);
-  const bool cube = element == StructuringElement::cube;
-  const std::uint32_t* result = solid_.data();
-  if (cube && cube_radius(scale.max) > 0) {
-    dilate_by_cube(layout, scale, view, stream);
-    result = dilated_.data();
-  } else if (!cube && bounds.reach > 0) {
-    TransformBounds b = bounds;
-    b.bound_at_voxel = !scale.constant();
-    transform(layout, view, {false, b, solid_.data(), solid_cells, wanted, layout.dilated, dilated_.data()}, stream,
-              mark);
-    result = dilated_.data();
-  }
+  const std::uint32_t* result = dilate(layout, field, view, bounds, stream, mark);
   done("dilate");
   if (bounds.reach == 0) return result;  // no ball of the erosion leaves its centre, and E = D
   outer_contour(dilated_.data(), shape, contour_.data(), contour_cells, stream);
@@ -161,16 +163,32 @@ const std::uint32_t* DeviceClosing::close(const TileLayout& layout, const ScaleL
   return closed_.data();
 }
 
-void DeviceClosing::dilate_by_cube(const TileLayout& layout, const ScaleLattice& scale, const ScaleView& view,
-                                   cudaStream_t stream) {
-  const GridShape& shape = layout.shape;
-  const int most = cube_radius(scale.max), last = octave_of(most),
-            first = std::max(1, octave_of(cube_radius(scale.min)));
+/// Where D is.
+const std::uint32_t* DeviceClosing::dilate(const TileLayout& layout, const TileField& field, const ScaleView& view,
+                                           TransformBounds bounds, cudaStream_t stream, const Mark& mark) {
+  if (field.cubes != nullptr) {
+    dilate_by_turned_cubes(layout, field, view, stream, mark);
+  } else if (field.element == StructuringElement::cube && cube_radius(field.scale.max) > 0) {
+    dilate_by_cube(layout, field.scale, view, stream);
+  } else if (field.element == StructuringElement::ball && bounds.reach > 0) {
+    bounds.bound_at_voxel = !field.scale.constant();
+    auto* wanted = reinterpret_cast<std::uint8_t*>(flags_.data() + 2 * layout.shape.quad_count());
+    transform(layout, view, {false, bounds, solid_.data(), flags_.data(), wanted, layout.dilated, dilated_.data()},
+              stream, mark);
+  } else {
+    return solid_.data();
+  }
+  return dilated_.data();
+}
+
+/// Tables of windows for radii from `least` to `most`. The arrays of the contour and of E are free until later.
+WindowTables DeviceClosing::windows(const GridShape& shape, int least, int most, cudaStream_t stream) {
+  const int last = octave_of(most), first = std::max(1, octave_of(least));
   WindowTables tables{};
   tables.table[0] = solid_.data();
   const std::size_t words = shape.word_count();
   if (last > first) tables_.grow(std::size_t(last - first) * words);
-  for (int k = first; k <= last; ++k) {  // the arrays of the contour and of E are free until later
+  for (int k = first; k <= last; ++k) {
     std::uint32_t* table = k == first ? closed_.data() : tables_.data() + std::size_t(k - first - 1) * words;
     if (k == first) {
       window_table(solid_.data(), shape, 1 << k, contour_.data(), table, stream);
@@ -179,10 +197,42 @@ void DeviceClosing::dilate_by_cube(const TileLayout& layout, const ScaleLattice&
     }
     tables.table[k] = table;
   }
+  return tables;
+}
+
+void DeviceClosing::dilate_by_cube(const TileLayout& layout, const ScaleLattice& scale, const ScaleView& view,
+                                   cudaStream_t stream) {
+  const GridShape& shape = layout.shape;
+  const int most = cube_radius(scale.max);
+  const WindowTables tables = windows(shape, cube_radius(scale.min), most, stream);
   if (view.samples == nullptr) return dilate_cube(tables, shape, layout.dilated, most, dilated_.data(), stream);
   zero(counts_.data(), sizeof(WorkCounts), stream);
   dilate_cube_varying(tables, solid_.data(), shape, layout.dilated, view, most, tuning_.multiprocessors,
                       dilated_.data(), contour_.data(), &counts_.data()->rows, stream);
+}
+
+/// Cubes along the axes decide for most voxels: those around the turned ones for what is out, those in them for what is
+/// in.
+void DeviceClosing::dilate_by_turned_cubes(const TileLayout& layout, const TileField& field, const ScaleView& view,
+                                           cudaStream_t stream, const Mark& mark) {
+  const auto done = [&](const char* stage) {
+    if (mark) mark(stage);
+  };
+  const GridShape& shape = layout.shape;
+  const int inside = field.cubes->widest.inner(field.scale.min) / kScaleOne,
+            around = field.cubes->widest.reach(field.scale.max), longest = 2 * around + 1;
+  tables_.grow(std::size_t(turned_table_count(longest)) * shape.word_count());
+  lists_.grow(4 * shape.quad_count());
+  const WindowTables along = windows(shape, inside, around, stream);
+  dilate_cube(along, shape, layout.dilated, around, contour_.data(), stream);
+  dilate_cube(along, shape, layout.dilated, inside, dilated_.data(), stream);
+  done("dilate: bounds");
+  const TurnedTables rows = turned_tables(solid_.data(), shape, longest, tables_.data(), stream);
+  done("dilate: tables");
+  zero(counts_.data(), sizeof(WorkCounts), stream);
+  dilate_turned(
+      {rows, shape, field.cubes_there, view, contour_.data(), dilated_.data(), lists_.data(), &counts_.data()->rows},
+      tuning_.multiprocessors, stream);
 }
 
 int DeviceClosing::slab_words(const TileLayout& layout, const TransformBounds& bounds, int words) {

@@ -6,6 +6,7 @@
 #include "gpu/kernels/bit_kernels.h"
 #include "gpu/kernels/device_buffer.h"
 #include "gpu/kernels/distance_kernels.h"
+#include "gpu/kernels/turned_kernels.h"
 #include "lib/closing/closing.h"
 
 /// The closing of one tile whose voxels are on the device already: a fixed sequence of kernels on one stream, no
@@ -23,10 +24,22 @@ struct TileLayout {
 [[nodiscard]] TileLayout lay_out(const VoxelBox& solid, const ScaleLattice& scale, const Halo& halo,
                                  const VoxelBox& interior);
 
+/// Where the cubes of a tile lie in its domain; their numbers are to be put on the device.
+[[nodiscard]] CubeView view_of(const CubesOver& cubes, const TileLayout& layout, const ScaleLattice& scale);
+
 struct ClosingTuning {
   int multiprocessors = 1;
   std::size_t slab_bytes = 0;  ///< memory for distances; at least that of one word of columns is taken
   bool wide = false;           ///< 32-bit distances even where 16 bits suffice
+};
+
+/// What the closing goes by at each voxel of a tile.
+struct TileField {
+  const ScaleLattice& scale;  ///< bounds and shape
+  const Scale* samples;       ///< its samples on the device; unused where constant
+  StructuringElement element;
+  const CubesOver* cubes = nullptr;  ///< that are turned, over the dilation; null: none is
+  CubeView cubes_there{};            ///< they on the device
 };
 
 class DeviceClosing {
@@ -36,14 +49,13 @@ class DeviceClosing {
 
   explicit DeviceClosing(const ClosingTuning& tuning) : tuning_(tuning) {}
 
-  /// Enqueues the closing of a tile. `scale` gives bounds and shape; its samples are at `samples` on the device (unused
-  /// where constant). All pointers stay in use until the stream has passed.
-  void enqueue(const TileLayout& layout, const std::uint32_t* solid, const ScaleLattice& scale, const Scale* samples,
-               StructuringElement element, std::uint32_t* closed, cudaStream_t stream, const Mark& mark = {});
+  /// Enqueues the closing of a tile. All pointers to the device stay in use until the stream has passed.
+  void enqueue(const TileLayout& layout, const std::uint32_t* solid, const TileField& field, std::uint32_t* closed,
+               cudaStream_t stream, const Mark& mark = {});
   /// The same from bricks into bricks: `closed` has room for all of the interior, which is made of whole bricks.
   ///   count  out: bricks of `closed` that are neither empty nor full
-  void enqueue(const TileLayout& layout, const BrickTable& solid, const ScaleLattice& scale, const Scale* samples,
-               StructuringElement element, const BrickTable& closed, std::uint32_t* count, cudaStream_t stream);
+  void enqueue(const TileLayout& layout, const BrickTable& solid, const TileField& field, const BrickTable& closed,
+               std::uint32_t* count, cudaStream_t stream);
 
   /// Gives back all device memory.
   void release();
@@ -59,9 +71,14 @@ class DeviceClosing {
   };
   void grow(const TileLayout& layout);
   void start(const TileLayout& layout, cudaStream_t stream);
-  [[nodiscard]] const std::uint32_t* close(const TileLayout& layout, const ScaleLattice& scale, const Scale* samples,
-                                           StructuringElement element, cudaStream_t stream, const Mark& mark);
+  [[nodiscard]] const std::uint32_t* close(const TileLayout& layout, const TileField& field, cudaStream_t stream,
+                                           const Mark& mark);
+  [[nodiscard]] const std::uint32_t* dilate(const TileLayout& layout, const TileField& field, const ScaleView& view,
+                                            TransformBounds bounds, cudaStream_t stream, const Mark& mark);
+  [[nodiscard]] WindowTables windows(const GridShape& shape, int least, int most, cudaStream_t stream);
   void dilate_by_cube(const TileLayout& layout, const ScaleLattice& scale, const ScaleView& view, cudaStream_t stream);
+  void dilate_by_turned_cubes(const TileLayout& layout, const TileField& field, const ScaleView& view,
+                              cudaStream_t stream, const Mark& mark);
   void transform(const TileLayout& layout, const ScaleView& view, const Transform& t, cudaStream_t stream,
                  const Mark& mark);
   void transform_slabs(const TileLayout& layout, const ScaleView& view, const Transform& t, const CellAnswers& answers,

@@ -6,6 +6,7 @@
 #include "tools/cli/run_tool.h"
 #include "tools/deform/apply.h"
 #include "tools/deform/bind.h"
+#include "tools/run/make_backend.h"
 #include "tools/run/scene_budget.h"
 
 namespace {
@@ -36,7 +37,7 @@ void check(const Options& o, bp::Args& args) {
   if (args.given("--animate") && (o.command == "bind" || !(o.per_second > 0 && o.per_second <= kMostPerSecond)))
     fail(ErrorCode::bad_argument, "--animate belongs to apply, and takes a number above 0, up to {}", kMostPerSecond);
   if (o.out.empty()) fail(ErrorCode::bad_argument, "name the output with --output");
-  for (const char* option : {"--outside", "--coordinates"}) {
+  for (const char* option : {"--outside", "--coordinates", "--device"}) {
     if (o.command == "apply" && args.given(option)) fail(ErrorCode::bad_argument, "{} belongs to bind", option);
   }
   if (std::find(o.files.begin(), o.files.end(), "-") != o.files.end())
@@ -71,8 +72,8 @@ Options parse(bp::Args& args) {
   args.option("--animate", "NUMBER", o.per_second,
               "one glTF that moves from each cage to the next, so many cages a second");
   o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::memory_part |
-                            bp::CommonOptions::progress_part | bp::CommonOptions::report_part |
-                            bp::CommonOptions::overwrite_part);
+                            bp::CommonOptions::device_part | bp::CommonOptions::progress_part |
+                            bp::CommonOptions::report_part | bp::CommonOptions::overwrite_part);
   args.often({"--output", "--coordinates", "--outside", "--animate", "--overwrite"});
   args.parse();
   check(o, args);
@@ -87,18 +88,23 @@ bp::SceneOptions scene_options(const Options& o) {
   options.memory_bytes = o.common.memory_bytes / 4;
   options.keep_extremes = true;
   options.document = bp::document_budget(o.common.memory_bytes, bp::least_memory(o.common.threads), 1);
-  options.document.bytes /= 2;  // the JSON of glTF is also kept as it is to be written
-  options.document.share /= 2;
-  options.mesh = {options.document, kBytesPerFace, kBytesPerVertex, "reading the cage"};
+  bp::MemoryShare cage = options.document;
+  cage.bytes /= 2, cage.share /= 2;
+  options.mesh = {cage, kBytesPerFace, kBytesPerVertex, "reading the cage"};
   return options;
 }
 
 void bind(const Options& o, bp::Report& report, bp::Progress& progress) {
   const auto output = bp::open_output(o.out, o.common.overwrite);
+  bp::Backends backends;
+  const auto make_backends = [&](double core_seconds) -> const bp::Backends& {
+    return backends = bp::make_backends(o.common, core_seconds, &report);
+  };
   const bp::BindRequest request{
-      o.files[0], o.files[1], o.out, o.kind, o.outside == Outside::near, o.common.memory_bytes, scene_options(o)};
+      o.files[0],       o.files[1],   o.out, o.kind, o.outside == Outside::near, o.common.memory_bytes,
+      scene_options(o), make_backends};
   const bp::WeightTotals totals = bp::bind_scene(request, *output, progress);
-  report.counts = {{"vertices", totals.points}, {"outside", totals.outside}};
+  report.counts = {{"backends", bp::names_of(backends)}, {"vertices", totals.points}, {"outside", totals.outside}};
   if (totals.outside > 0)
     report.note(fmt::format("vertices outside the cage, which follow its nearest faces: {} of {}", totals.outside,
                             totals.points),
@@ -119,17 +125,23 @@ std::string numbered(const std::string& name, std::size_t i, std::size_t n) {
 void apply(const Options& o, bp::Report& report, bp::Progress& progress) {
   const std::string scene = bp::scene_of(bp::WeightReader(o.files[0]), o.files[0]);
   bp::keep_inputs({scene});
-  if (bp::scene_format_of(o.out) != bp::scene_format_of(scene))
-    fail(ErrorCode::bad_argument, "{}: the scene is written in its own format: name it .{}", o.out,
-         bp::scene_format_of(scene));
-  const std::span<const std::string> cages = std::span(o.files).subspan(1);
-  const std::size_t scenes = o.per_second > 0 ? 1 : cages.size();
+  const std::string format = bp::scene_format_of(scene);
+  if (o.per_second > 0 && format != "gltf" && format != "glb")
+    fail(ErrorCode::bad_argument,
+         "{}: only a glTF holds an animation: bind the scene as a glTF, or leave out --animate for a file of each cage",
+         scene);
+  if (bp::scene_format_of(o.out) != format)
+    fail(ErrorCode::bad_argument, "{}: the scene is written in its own format: name it .{}", o.out, format);
+  const bool animate = o.per_second > 0;
+  const std::vector<bp::MovedCage> cages = bp::moved_cages(std::span(o.files).subspan(1), scene_options(o),
+                                                           animate ? std::optional(o.per_second) : std::nullopt);
+  const std::size_t scenes = animate ? 1 : cages.size();
   const bp::ApplyRequest request{o.files[0], scene, o.common.memory_bytes, scene_options(o)};
   bp::Applied applied;
   for (std::size_t i = 0; i < scenes; ++i) {
     const auto output = bp::open_output(numbered(o.out, i, scenes), o.common.overwrite);
-    applied = o.per_second > 0 ? bp::animate_cages(request, cages, o.per_second, *output, progress)
-                               : bp::apply_cage(request, cages[i], *output, progress);
+    applied = animate ? bp::animate_cages(request, cages, o.per_second, *output, progress)
+                      : bp::apply_cage(request, cages[i], *output, progress);
     output->commit();
     report.bytes_out += output->bytes();
   }

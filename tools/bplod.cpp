@@ -25,19 +25,22 @@ bp::LevelRow row_of(const bp::WrittenFile& file, const std::vector<bp::LevelFact
 
 /// One mesh a level.
 void build_chain(const bp::BuildOptions& o) {
-  bp::OutputFolder out(o.out, bp::profile_files(o.profile, o.name, bp::level_count(request_of(o))), o.common.overwrite);
+  const std::size_t most = bp::level_count(request_of(o));
+  bp::OutputFolder out(o.out, o.obj ? bp::obj_files(o, most) : bp::profile_files(o.profile, o.name, most),
+                       o.common.overwrite);
   bp::Build build(o);
   auto [scene, made] = bp::make_chain(build);
   bp::bake_levels(build, made.levels);
   build.note_levels(made.facts, 0, made.left_out);
   const bp::Vec3d origin = bp::origin_of(o.proxy.origin, scene.header.frame, scene.header.bounds);
-  for (std::size_t i = made.levels.size(); i < bp::level_count(request_of(o)); ++i)  // as many as there may be
+  for (std::size_t i = made.levels.size(); i < most; ++i)  // as many as there may be
     out.leave_out(bp::level_name(o.name, i) + ".glb");
   build.progress.end();
   build.note(bp::heavier_note(made.facts.front(), scene.counts.scene.triangles));
   build.report.begin("write");
   const std::vector<bp::WrittenFile> files =
-      bp::write_profile(o, made.levels, scene.header.bounds.diagonal(), origin, out);
+      o.obj ? bp::write_obj_levels(o, made.levels, origin, out)
+            : bp::write_profile(o, made.levels, scene.header.bounds.diagonal(), origin, out);
   out.commit();
   std::vector<bp::LevelRow> rows;
   for (const bp::WrittenFile& file : files) {

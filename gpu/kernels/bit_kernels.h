@@ -50,7 +50,7 @@ void double_windows(const std::uint32_t* table, const GridShape& shape, int leng
 
 /// A radius r asks for windows of 2r + 1 rows, which two overlapping windows of the power of two below cover. Radii of
 /// an octave share a table: 0 | 1 | 2 3 | 4 .. 7 | ...
-constexpr int kOctaves = 13;
+constexpr int kOctaves = 14;  ///< 2^13 voxels: a cube around the largest that is turned
 [[nodiscard]] BP_HD inline int octave_of(int radius) {
   int k = 0;
   while ((2 << k) <= 2 * radius + 1) ++k;

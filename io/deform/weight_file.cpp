@@ -105,6 +105,17 @@ void pack_weights(const WeightBlock& block, PackedWeights& out) {
   compress(raw_of(block), kDefaultLevel, true, out.bytes);
 }
 
+const char* unpack_weights(const PackedWeights& packed, std::size_t columns, WeightBlock& out) {
+  out.points = packed.points;
+  out.columns = columns;
+  std::vector<std::byte> raw(out.points * (4 * out.columns + 1));
+  if (const char* fault = decompress(packed.bytes, raw)) return fault;
+  take_raw(raw, out);
+  const bool wrong =
+      std::any_of(out.bits.begin(), out.bits.end(), [](std::uint8_t b) { return b > WeightBlock::kBits; });
+  return wrong ? "has weights that cannot be" : nullptr;
+}
+
 struct WeightWriter::State {
   OutputFile& file;
   std::uint64_t points = 0, blocks = 0;
@@ -284,14 +295,8 @@ bool WeightReader::next(PackedWeights& out) {
 }
 
 void WeightReader::unpack(const PackedWeights& packed, WeightBlock& out) const {
-  out.points = packed.points;
-  out.columns = state_->columns;
-  std::vector<std::byte> raw(out.points * (4 * out.columns + 1));
-  if (const char* fault = decompress(packed.bytes, raw))
+  if (const char* fault = unpack_weights(packed, state_->columns, out))
     state_->refuse(packed.offset, fmt::format("a block {}", fault));
-  take_raw(raw, out);
-  if (std::any_of(out.bits.begin(), out.bits.end(), [](std::uint8_t b) { return b > WeightBlock::kBits; }))
-    state_->refuse(packed.offset, "a block has weights that cannot be");
 }
 
 }  // namespace bp

@@ -34,6 +34,8 @@ struct PackedWeights {
 };
 /// Thread-safe.
 void pack_weights(const WeightBlock& block, PackedWeights& out);
+/// What is wrong with the block; null: nothing. Thread-safe.
+[[nodiscard]] const char* unpack_weights(const PackedWeights& packed, std::size_t columns, WeightBlock& out);
 
 class WeightWriter {
  public:

@@ -34,7 +34,21 @@ GltfJson parse_json(std::string text) {
   return GltfJson::parse(text);
 }
 
+GltfJson parsed(std::string text, const std::string& name, const SceneOptions& options) {
+  check_document(options, name, "its JSON", text.size() + bytes_to_parse(text), options.document.bytes);
+  if (text.empty()) fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: is empty", name);
+  try {
+    return parse_json(std::move(text));
+  } catch (const GltfJson::exception& e) {
+    fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: broken JSON: {}", name, detail::json_fault(e));
+  }
+}
+
 }  // namespace
+
+GltfJson read_json(const SceneFilePtr& file, const SceneOptions& options) {
+  return parsed(read_lean_json(file, 0, file->size(), temp_dir_of(options), false).text, file->name(), options);
+}
 
 ComponentType component_type(const GltfObject& o) {
   const std::uint64_t type = o.number("componentType");
@@ -45,6 +59,10 @@ ComponentType component_type(const GltfObject& o) {
 
 // --- GltfObject
 // --------------------------------------------------------------------------------------------------------
+
+void GltfObject::unfit(const std::string& what) const {
+  fail(ErrorCode::bad_input, "{}: {} {}", file_, place_.empty() ? "the document" : place_, what);
+}
 
 void GltfObject::broken(const std::string& what) const {
   fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: {} {}", file_, place_.empty() ? "the document" : place_, what);
@@ -162,19 +180,13 @@ void GltfDocument::open_glb() {
 void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
   LeanJson lean = read_lean_json(file_, offset, size, temp_dir_, options_.textures != nullptr);
   lifted_ = std::move(lean.data);
-  check_document(options_, file_->name(), "its JSON", lean.text.size() + bytes_to_parse(lean.text),
-                 options_.document.bytes);
-  try {
-    json_ = parse_json(std::move(lean.text));
-  } catch (const GltfJson::exception& e) {
-    if (size == 0) fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: is empty", file_->name());
-    fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: broken JSON: {}", file_->name(), detail::json_fault(e));
-  }
+  json_bytes_ = bytes_to_parse(lean.text);
+  json_ = parsed(std::move(lean.text), file_->name(), options_);
 }
 
 void GltfDocument::check_version() const {
   if (root().has("geometricError") && root().has("root"))
-    fail(ErrorCode::bad_input, "{}: a tileset of 3D Tiles, not a scene or a mesh; bpcheck takes one as its last file",
+    fail(ErrorCode::bad_input, "{}: a tileset of 3D Tiles; it is read as a file whose name ends in .json",
          file_->name());
   const std::string version = root().object("asset").text("version");
   if (version.compare(0, 2, "2.") != 0)
@@ -205,7 +217,7 @@ ImagePlace GltfDocument::image(std::uint64_t i) {
   ImagePlace place{fmt::format("{}: images[{}]", file_->name(), i), nullptr, ""};
   if (object.has("bufferView")) {
     const View v = view(object.number("bufferView"));
-    place.bytes = part_of(bytes_, v.address, v.size);
+    place.bytes = bytes_->part(v.address, v.size);
   } else if (object.has("uri")) {
     const std::string uri = object.text("uri");
     place.bytes = lifted(uri);

@@ -49,6 +49,8 @@ class GltfObject {
   [[nodiscard]] std::string dump() const { return json_->dump(); }  ///< its JSON
   /// Throws bad_input "file: place what", with Remedy::repair_file.
   [[noreturn]] void broken(const std::string& what) const;
+  /// The same of what is right, but not for this: `what` says what to do.
+  [[noreturn]] void unfit(const std::string& what) const;
 
  private:
   const GltfJson& at(const char* key) const;
@@ -63,16 +65,23 @@ inline constexpr std::array kVectorTypes = {"SCALAR", "VEC2", "VEC3", "VEC4"};  
 /// The extension of views, and its later name: KHR adds codecs, which are not read.
 inline constexpr std::array kMeshoptNames = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
+/// The JSON of a file that is no glTF. Throws as GltfDocument does.
+[[nodiscard]] GltfJson read_json(const SceneFilePtr& file, const SceneOptions& options);
+
 class GltfDocument {
  public:
   GltfDocument(const SceneFilePtr& file, const SceneOptions& options);
 
   [[nodiscard]] GltfObject root() const { return GltfObject(json_, file_->name(), ""); }
+  /// Of its JSON.
+  [[nodiscard]] std::uint64_t memory_bytes() const { return json_bytes_; }
   /// Accessor i, checked against its views; `components` is what its type must have.
   Accessor accessor(std::uint64_t i, std::size_t components);
   /// Of a primitive with KHR_draco_mesh_compression, unpacks what its accessors say: they have data then. False if it
   /// is none.
   bool unpack(const GltfObject& primitive);
+  /// Positions of a primitive that has gone so far to each of its morph targets.
+  Accessor morphed(const GltfObject& primitive, const Accessor& positions, const std::vector<double>& weights);
   /// Where image i lies.
   ImagePlace image(std::uint64_t i);
   /// All buffers that accessors have named so far, in one file.
@@ -105,6 +114,7 @@ class GltfDocument {
   const SceneOptions& options_;
   std::string temp_dir_;
   GltfJson json_;
+  std::uint64_t json_bytes_ = 0;
   std::vector<SceneFilePtr> lifted_;  // embedded buffers
   SceneFilePtr glb_data_;             // the binary chunk
   std::shared_ptr<JoinedFile> bytes_ = std::make_shared<JoinedFile>();

@@ -12,10 +12,15 @@ std::optional<UpAxis> gltf_up(const GltfObject& root) {
 
 // Files of ours stand upright in glTF's y-up world: back to their own coordinates.
 Affine gltf_world(std::optional<UpAxis> up) {
+  return affine_of(to_y_up(up.value_or(UpAxis::y)).inverse());
+}
+
+Affine gltf_matrix(const GltfObject& object, const char* key) {
+  const auto m = object.numbers<16>(key, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
   Affine a;
-  const AxisTurn back = to_y_up(up.value_or(UpAxis::y)).inverse();
-  a.m = {};
-  for (std::size_t i = 0; i < 3; ++i) a.m[i][back.axis[i]] = back.negative[i] ? -1 : 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) a.m[i][j] = m[4 * j + i];
+  }
   return a;
 }
 
@@ -41,17 +46,12 @@ std::vector<std::uint64_t> gltf_roots(const GltfObject& root) {
   return roots;
 }
 
-Affine gltf_transform(const GltfObject& node) {
-  if (node.has("matrix")) {  // by columns
-    const auto m = node.numbers<16>("matrix", {});
-    Affine a;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 4; ++j) a.m[i][j] = m[4 * j + i];
-    }
-    return a;
-  }
-  return affine_of(node.numbers<3>("translation", {0, 0, 0}), node.numbers<4>("rotation", {0, 0, 0, 1}),
-                   node.numbers<3>("scale", {1, 1, 1}));
+Affine gltf_transform(const GltfObject& node, const ScenePose::Node* pose) {
+  if (node.has("matrix")) return gltf_matrix(node, "matrix");
+  const ScenePose::Node rest, &moved = pose != nullptr ? *pose : rest;
+  return affine_of(moved.translation.value_or(node.numbers<3>("translation", {0, 0, 0})),
+                   moved.rotation.value_or(node.numbers<4>("rotation", {0, 0, 0, 1})),
+                   moved.scale.value_or(node.numbers<3>("scale", {1, 1, 1})));
 }
 
 }  // namespace bp

@@ -4,6 +4,7 @@
 
 #include "io/gltf/gltf_document.h"
 #include "io/scene/affine.h"
+#include "io/scene/scene_pose.h"
 
 /// The nodes of a glTF document: where they begin, and where they stand.
 namespace bp {
@@ -14,7 +15,9 @@ namespace bp {
 [[nodiscard]] Affine gltf_world(std::optional<UpAxis> up);
 /// Nodes of the default scene, else of the first; without scenes every node that is no child.
 [[nodiscard]] std::vector<std::uint64_t> gltf_roots(const GltfObject& root);
-/// From a node to its parent.
-[[nodiscard]] Affine gltf_transform(const GltfObject& node);
+/// 16 numbers by columns; if they are not there, the points stay.
+[[nodiscard]] Affine gltf_matrix(const GltfObject& object, const char* key);
+/// From a node to its parent. `pose`: what moves it; null: nothing.
+[[nodiscard]] Affine gltf_transform(const GltfObject& node, const ScenePose::Node* pose = nullptr);
 
 }  // namespace bp

@@ -39,7 +39,7 @@ class GltfPoints final : public ScenePoints {
   GltfPoints(SceneFilePtr file, const SceneOptions& options)
       : file_(std::move(file)), options_(options), doc_(file_, options_) {
     detail::check_container(*file_);
-    plan_ = detail::plan_of_vertices(doc_);
+    plan_ = detail::plan_of_vertices(doc_, file_->name(), options_);
   }
   bool read(std::vector<Vec3d>& out) override {
     out.clear();
@@ -59,8 +59,13 @@ class GltfPoints final : public ScenePoints {
     for (const GltfVertices& v : plan_.vertices) sum += v.position.count;
     return sum;
   }
+  [[nodiscard]] std::uint64_t memory_bytes() const override {
+    return doc_.memory_bytes() + plan_.memory_bytes() + copy_bytes_;
+  }
   void write(const MovePoints& move, OutputFile& out) override {
     detail::GltfCopy copy = copy_of_file();
+    copy.plan_copies(plan_);
+    copy_bytes_ = copy.memory_bytes();
     const std::vector<GltfVertices> targets = targets_in(copy);
     for (const GltfVertices& v : targets) {
       Bounds3d bounds;
@@ -76,7 +81,8 @@ class GltfPoints final : public ScenePoints {
  private:
   [[nodiscard]] detail::GltfCopy copy_of_file() {
     const std::uint64_t bytes = plan_.vertices.empty() ? 0 : doc_.root().item("buffers", 0).number("byteLength");
-    return {file_, *doc_.bytes(), std::min(bytes, doc_.bytes()->size()), options_};
+    return {file_, *doc_.bytes(), std::min(bytes, doc_.bytes()->size()), doc_.memory_bytes() + plan_.memory_bytes(),
+            options_};
   }
   [[nodiscard]] std::vector<GltfVertices> targets_in(detail::GltfCopy& copy);
   void append(detail::GltfCopy& copy, Accessor& accessor, std::uint64_t& number);
@@ -114,7 +120,7 @@ class GltfPoints final : public ScenePoints {
   GltfDocument doc_;
   detail::GltfPlan plan_;
   std::size_t at_ = 0;
-  std::uint64_t first_ = 0;
+  std::uint64_t first_ = 0, copy_bytes_ = 0;
   std::vector<std::byte> bytes_;
   std::vector<Vec3d> scratch_;
 };
@@ -192,8 +198,10 @@ void GltfPoints::write_batch(const GltfVertices& v, std::uint64_t first, std::si
 /// The scene itself stays at rest.
 void GltfPoints::write_frames(std::size_t frames, double seconds, const MoveFrame& move, OutputFile& out) {
   detail::GltfCopy copy = copy_of_file();
+  copy.plan_copies(plan_);
   const std::vector<GltfVertices> targets = targets_in(copy);
-  copy.plan_targets(targets, frames, options_);
+  copy.plan_targets(targets, frames);
+  copy_bytes_ = copy.memory_bytes();
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const MovePoints here = [&](PointBatch& batch) { move(frame, batch); };
     copy.begin_frame();

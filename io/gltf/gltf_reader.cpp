@@ -15,7 +15,7 @@
 // triangles are is looked at: the default scene, nodes, POSITION and indices, sparse accessors, quantized positions
 // (KHR_mesh_quantization), what is compressed (KHR_draco_mesh_compression, EXT_meshopt_compression) and instance arrays
 // (EXT_mesh_gpu_instancing), and, if asked for, colours; of nodes with levels (MSFT_lod) one, the finest unless asked.
-// Skins and morph targets are left at rest.
+// Skins are left at rest, and morph targets but in a pose that is asked for (SceneOptions::pose).
 
 namespace bp {
 
@@ -23,7 +23,7 @@ namespace {
 
 class SceneBuilder {
  public:
-  SceneBuilder(const SceneFilePtr& file, const SceneOptions& options)
+  SceneBuilder(const SceneFilePtr& file, const SceneOptions& options, const std::optional<ContentPlace>& place)
       : doc_(file, options),
         root_(doc_.root()),
         file_(file),
@@ -32,14 +32,16 @@ class SceneBuilder {
         surface_(options.surface),
         materials_(doc_, file->name(), textures_, surface_),
         walls_only_(options.walls_only),
+        pose_(options.pose.get()),
         parts_(options.parts, options.part_names),
-        level_(options.level) {}
+        level_(options.level),
+        place_(place) {}
 
   InstancedScene build() {
     scene_.nodes.reserve(root_.array("nodes").size());
     visited_.resize(root_.array("nodes").size());
-    scene_.up = gltf_up(root_);
-    add_nodes(gltf_roots(root_), gltf_world(scene_.up));
+    if (!place_) scene_.up = gltf_up(root_);
+    add_nodes(gltf_roots(root_), place_ ? placed() : gltf_world(scene_.up));
     scene_.bytes = doc_.bytes();
     return std::move(scene_);
   }
@@ -53,14 +55,17 @@ class SceneBuilder {
     Affine parent;
     bool wanted;  // it is below a node whose name fits
   };
+  [[nodiscard]] Affine placed() const;
   void add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world);
   std::uint64_t level_of(std::uint64_t i);
   [[nodiscard]] std::set<std::uint64_t> coarser_nodes() const;
-  void add_mesh_node(const GltfObject& node, const Affine& transform, bool wanted);
-  Range mesh(std::uint64_t i, bool wanted);
+  [[nodiscard]] const ScenePose::Node* pose_of(std::uint64_t node) const;
+  [[nodiscard]] std::vector<double> weights_of(const GltfObject& node, const ScenePose::Node* pose) const;
+  void add_mesh_node(const GltfObject& node, const Affine& transform, bool wanted, const std::vector<double>& weights);
+  Range mesh(std::uint64_t i, bool wanted, const std::vector<double>& weights);
   [[nodiscard]] bool fits(const GltfObject& named) const;
   [[nodiscard]] bool has_material_that_fits(const GltfObject& primitive) const;
-  void add_primitive(const GltfObject& p);
+  void add_primitive(const GltfObject& p, const std::vector<double>& weights);
   void add_colors(const GltfObject& p, const GltfObject& attributes, Primitive& primitive);
   void try_texture(std::uint64_t material, const GltfObject& attributes, Primitive& primitive);
   std::optional<std::uint32_t> instance_array(const GltfObject& node);
@@ -73,12 +78,24 @@ class SceneBuilder {
   const bool surface_;
   GltfMaterials materials_;
   const bool walls_only_;
+  const ScenePose* const pose_;  // null: at rest
   const PartFilter parts_;
   const std::size_t level_;
+  const std::optional<ContentPlace> place_;
   InstancedScene scene_;
   std::unordered_map<std::uint64_t, Range> meshes_, wanted_meshes_;  // parts of them, and all
   std::vector<bool> visited_;
 };
+
+// Of a content. Tiles have z up. An extension of older files moves them there.
+Affine SceneBuilder::placed() const {
+  Affine centre;
+  if (root_.has("extensions") && root_.object("extensions").has("CESIUM_RTC")) {
+    const Vec3d at = root_.object("extensions").object("CESIUM_RTC").numbers<3>("center", {0, 0, 0});
+    for (std::size_t i = 0; i < 3; ++i) centre.m[i][3] = at[i];
+  }
+  return place_->tile * centre * affine_of(to_y_up(UpAxis::z).inverse()) * affine_of(to_y_up(place_->up));
+}
 
 // Depth first, without recursion: a chain of nodes may be as long as the file.
 void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world) {
@@ -94,9 +111,10 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
     const GltfObject node = root_.item("nodes", next.node);
     if (visited_[std::size_t(next.node)]) node.broken("is reached twice, and nodes must form trees");
     visited_[std::size_t(next.node)] = true;
-    const Affine transform = next.parent * gltf_transform(node);
+    const ScenePose::Node* const pose = pose_of(next.node);
+    const Affine transform = next.parent * gltf_transform(node, pose);
     const bool wanted = fits(node) || next.wanted;
-    if (node.has("mesh")) add_mesh_node(node, transform, wanted);
+    if (node.has("mesh")) add_mesh_node(node, transform, wanted, weights_of(node, pose));
     for (std::size_t k = node.array("children").size(); k-- > 0;)
       stack.push_back({node.index("children", k), transform, wanted});
   }
@@ -132,29 +150,51 @@ bool SceneBuilder::has_material_that_fits(const GltfObject& primitive) const {
   return primitive.has("material") && fits(root_.item("materials", primitive.number("material")));
 }
 
-void SceneBuilder::add_mesh_node(const GltfObject& node, const Affine& transform, bool wanted) {
-  const Range range = mesh(node.number("mesh"), wanted);
+const ScenePose::Node* SceneBuilder::pose_of(std::uint64_t node) const {
+  if (pose_ == nullptr) return nullptr;
+  const auto found = pose_->nodes.find(node);
+  return found == pose_->nodes.end() ? nullptr : &found->second;
+}
+
+// How far the mesh of a node has gone to its morph targets; empty: it is at rest.
+std::vector<double> SceneBuilder::weights_of(const GltfObject& node, const ScenePose::Node* pose) const {
+  std::vector<double> weights;
+  if (pose_ == nullptr) return weights;
+  if (pose != nullptr && pose->weights) return *pose->weights;
+  if (pose_->target) {
+    weights.resize(*pose_->target + 1);
+    weights.back() = 1;
+    return weights;
+  }
+  const GltfObject owner = node.has("weights") ? node : root_.item("meshes", node.number("mesh"));
+  for (const GltfJson& w : owner.array("weights")) weights.push_back(w.is_number() ? w.get<double>() : 0);
+  return weights;
+}
+
+void SceneBuilder::add_mesh_node(const GltfObject& node, const Affine& transform, bool wanted,
+                                 const std::vector<double>& weights) {
+  const Range range = mesh(node.number("mesh"), wanted, weights);
   if (range.first == range.end) return;
   scene_.nodes.push_back({transform, range.first, range.end, instance_array(node)});
 }
 
-SceneBuilder::Range SceneBuilder::mesh(std::uint64_t i, bool wanted) {
+SceneBuilder::Range SceneBuilder::mesh(std::uint64_t i, bool wanted, const std::vector<double>& weights) {
   auto& meshes = wanted ? wanted_meshes_ : meshes_;
   const auto known = meshes.find(i);
-  if (known != meshes.end()) return known->second;
+  if (known != meshes.end() && weights.empty()) return known->second;
   const GltfObject mesh = root_.item("meshes", i);
   wanted = fits(mesh) || wanted;
   Range range{std::uint32_t(scene_.primitives.size()), 0};
   for (std::size_t k = 0; k < mesh.array("primitives").size(); ++k) {
     const GltfObject primitive = mesh.item("primitives", k);
-    if (has_material_that_fits(primitive) || wanted) add_primitive(primitive);
+    if (has_material_that_fits(primitive) || wanted) add_primitive(primitive, weights);
   }
   range.end = std::uint32_t(scene_.primitives.size());
-  meshes.emplace(i, range);
+  if (weights.empty()) meshes.emplace(i, range);
   return range;
 }
 
-void SceneBuilder::add_primitive(const GltfObject& p) {
+void SceneBuilder::add_primitive(const GltfObject& p, const std::vector<double>& weights) {
   constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;
   const std::uint64_t mode = p.number("mode", kTriangles);
   if (mode > kFan) p.broken(fmt::format("has the unknown mode {}", mode));
@@ -168,6 +208,7 @@ void SceneBuilder::add_primitive(const GltfObject& p) {
                    : mode == kStrip ? Primitive::Mode::strip
                                     : Primitive::Mode::triangles;
   primitive.positions = doc_.accessor(attributes.number("POSITION"), 3);
+  if (!weights.empty() && p.has("targets")) primitive.positions = doc_.morphed(p, primitive.positions, weights);
   if (p.has("indices")) {
     primitive.indices = doc_.accessor(p.number("indices"), 1);
     const ComponentType type = primitive.indices->type;
@@ -230,8 +271,8 @@ std::optional<std::uint32_t> SceneBuilder::instance_array(const GltfObject& node
 
 }  // namespace
 
-RawSourcePtr open_gltf(SceneFilePtr file, const SceneOptions& options) {
-  InstancedScene scene = SceneBuilder(file, options).build();
+RawSourcePtr open_gltf(SceneFilePtr file, const SceneOptions& options, const std::optional<ContentPlace>& place) {
+  InstancedScene scene = SceneBuilder(file, options, place).build();
 #ifdef __GLIBC__
   ::malloc_trim(0);  // the document is gone, and what comes counts on its memory
 #endif

@@ -9,9 +9,9 @@
 #include "io/gltf/gltf_sampler.h"
 #include "io/mesh/detail/glb_data.h"
 #include "io/mesh/detail/mesh_writers.h"
+#include "lib/atlas/tangents.h"
 #include "lib/core/error.h"
 #include "lib/mesh/shaded_mesh.h"
-#include "lib/mesh/tangents.h"
 
 namespace bp {
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "lib/core/coords.h"
+#include "lib/core/up_axis.h"
 
 namespace bp {
 
@@ -42,6 +43,14 @@ struct Affine {
            0;
   }
 };
+
+/// Exact.
+[[nodiscard]] inline Affine affine_of(const AxisTurn& turn) {
+  Affine a;
+  a.m = {};
+  for (std::size_t i = 0; i < 3; ++i) a.m[i][turn.axis[i]] = turn.negative[i] ? -1 : 1;
+  return a;
+}
 
 /// Translation after rotation (a quaternion x y z w of any length but 0) after scale.
 [[nodiscard]] inline Affine affine_of(const Vec3d& t, const std::array<double, 4>& q, const Vec3d& s) {

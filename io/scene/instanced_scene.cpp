@@ -339,6 +339,21 @@ std::uint64_t InstancedScene::memory_bytes() const {
          nodes.size() * sizeof(MeshNode);
 }
 
+std::vector<double> read_numbers(const SceneFilePtr& bytes, const Accessor& accessor) {
+  constexpr std::uint64_t kCache = std::uint64_t(1) << 20;
+  ElementReader elements(bytes, kCache);
+  std::vector<double> out;
+  out.reserve(accessor.count * accessor.components);
+  const std::size_t step = bytes_of(accessor.type);
+  for (std::uint64_t i = 0; i < accessor.count; ++i) {
+    std::byte raw[4 * 8];
+    const bool there = elements.fetch(accessor, i, raw);
+    for (std::size_t k = 0; k < accessor.components; ++k)
+      out.push_back(there ? decode(raw + k * step, accessor.type, accessor.normalized) : 0);
+  }
+  return out;
+}
+
 RawSourcePtr stream_instances(InstancedScene scene, const SceneOptions& options) {
   return std::make_unique<InstancedSource>(std::move(scene), options);
 }

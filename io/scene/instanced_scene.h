@@ -34,6 +34,9 @@ struct Accessor {
   ComponentType number_type = ComponentType::u32;
 };
 
+/// All numbers of all elements.
+[[nodiscard]] std::vector<double> read_numbers(const SceneFilePtr& bytes, const Accessor& accessor);
+
 struct Primitive {
   enum class Mode { triangles, strip, fan };
   Mode mode = Mode::triangles;

@@ -1,4 +1,5 @@
 #pragma once
+#include "io/scene/affine.h"
 #include "io/scene/scene_file.h"
 #include "io/scene/scene_reader.h"
 
@@ -98,6 +99,9 @@ class PolygonSource : public RawSource {
   return std::uint8_t((i > 0 ? 1 : 0) | (i + 1 < n ? 4 : 0));
 }
 
+/// As open_scene().
+[[nodiscard]] std::unique_ptr<TriangleSource> filtered(std::string name, RawSourcePtr raw, const SceneOptions& options);
+
 /// A triangle with its corners as the rest of the suite wants them (scene_reader.h): tiny and negative zeros are 0.
 void normalize(TriangleD& t);
 /// The same, but nothing moves: only negative zeros are 0.
@@ -116,7 +120,20 @@ void check_document(const SceneOptions& options, const std::string& name, const 
 [[nodiscard]] RawSourcePtr open_stl(SceneFilePtr file, const SceneOptions& options);
 [[nodiscard]] RawSourcePtr open_obj(SceneFilePtr file, const SceneOptions& options);
 [[nodiscard]] RawSourcePtr open_off(SceneFilePtr file, const SceneOptions& options);
-[[nodiscard]] RawSourcePtr open_gltf(SceneFilePtr file, const SceneOptions& options);
+
+/// Where the content of a tile stands, and which of its axes is up.
+struct ContentPlace {
+  Affine tile;
+  UpAxis up = UpAxis::y;
+};
+/// `place`: what extras.up says is not asked then.
+[[nodiscard]] RawSourcePtr open_gltf(SceneFilePtr file, const SceneOptions& options,
+                                     const std::optional<ContentPlace>& place = {});
+/// A tileset of 3D Tiles: all contents of tiles that are added to, and of others those below which there are no tiles;
+/// of one of ours with leaves, these alone.
+/// z is up, as 3D Tiles has it, or what a tileset of ours says. One content is open at a time. Throws bad_input if
+/// contents are missing, or if tilesets name each other in a ring.
+[[nodiscard]] RawSourcePtr open_tileset(SceneFilePtr file, const SceneOptions& options);
 /// Any other format; `extension` (lower case) says which.
 [[nodiscard]] RawSourcePtr open_with_assimp(SceneFilePtr file, const std::string& extension,
                                             const SceneOptions& options);

@@ -93,6 +93,11 @@ std::uint64_t JoinedFile::add(SceneFilePtr file) {
   return begin;
 }
 
+SceneFilePtr JoinedFile::part(std::uint64_t address, std::uint64_t size) const {
+  const std::size_t i = part_at(address);
+  return part_of(parts_[i], address - begins_[i], size);
+}
+
 std::size_t JoinedFile::part_at(std::uint64_t offset) const {
   return std::size_t(std::upper_bound(begins_.begin(), begins_.end(), offset) - begins_.begin()) - 1;
 }

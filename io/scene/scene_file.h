@@ -38,6 +38,8 @@ class JoinedFile : public SceneFile {
  public:
   /// Returns the address of the part's first byte.
   std::uint64_t add(SceneFilePtr file);
+  /// Bytes within one part; the others may go.
+  [[nodiscard]] SceneFilePtr part(std::uint64_t address, std::uint64_t size) const;
   std::size_t read_at(std::uint64_t offset, std::span<std::byte> buffer) const override;
   [[nodiscard]] std::uint64_t size() const override { return size_; }
   [[nodiscard]] std::string name() const override;

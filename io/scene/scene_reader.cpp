@@ -9,6 +9,7 @@
 #include "io/scene/detail/position_index.h"
 #include "io/scene/raw_source.h"
 #include "io/scene/scene_format.h"
+#include "io/scene/scene_pose.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/exact/predicates.h"
@@ -315,8 +316,12 @@ class SceneRow final : public TriangleSource {
 
 }  // namespace
 
+std::unique_ptr<TriangleSource> filtered(std::string name, RawSourcePtr raw, const SceneOptions& options) {
+  return std::make_unique<FilteredScene>(std::move(name), std::move(raw), options);
+}
+
 std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneOptions& options) {
-  return std::make_unique<FilteredScene>(path == "-" ? "stdin" : path, open_raw(path, options), options);
+  return filtered(path == "-" ? "stdin" : path, open_raw(path, options), options);
 }
 
 void check_stdin_once(const std::vector<std::string>& paths) {
@@ -336,6 +341,13 @@ IndexedMesh read_mesh(const std::string& path, const SceneOptions& options, Scen
   IndexedMesh mesh = mesh_of(path, *open_raw(path, options), options, 0, met);
   if (counts != nullptr) *counts = met;
   return mesh;
+}
+
+std::vector<ScenePose> read_poses(const std::string& path, const SceneOptions& options,
+                                  std::optional<double> per_second) {
+  const std::string format = scene_format_of(path);
+  if (format != "gltf" && format != "glb") return std::vector<ScenePose>(1);
+  return gltf_poses(open_scene_file(path, temp_dir_of(options)), options, per_second);
 }
 
 std::vector<IndexedMesh> read_levels(const std::string& path, const SceneOptions& options) {

@@ -11,12 +11,15 @@
 
 namespace bp {
 struct PartNames;
+struct ScenePose;
 class TextureTable;
 }  // namespace bp
 
 /// Scenes and meshes from files. PLY, STL, OBJ, OFF and glTF/GLB are streamed by readers of our own: their memory is
 /// bounded by SceneOptions::memory_bytes, whatever the file holds. Every other format goes through Assimp, in a child
 /// process, so that a crash in an importer is an Error here.
+///
+/// A file NAME.json is a tileset of 3D Tiles, and read as its contents are (open_tileset(), raw_source.h).
 ///
 /// What all readers share:
 ///   - Coordinates are doubles from the file to the caller; node transforms are composed in double.
@@ -55,6 +58,7 @@ struct SceneOptions {
   bool colors = false;                                    ///< look for them; else all triangles are white
   std::shared_ptr<TextureTable> textures{};               ///< look for them, and name them here; null: there are none
   bool surface = false;                                   ///< with textures: normals, and how materials answer to light
+  std::shared_ptr<const ScenePose> pose{};                ///< of glTF; null: at rest
   std::size_t level = 0;                                  ///< of glTF's MSFT_lod; 0 is the finest
   bool keep_degenerate = false;                           ///< deliver triangles of no area, too; counted all the same
   bool walls_only = false;  ///< leave out what can be seen through, see below; not counted

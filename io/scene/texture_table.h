@@ -34,6 +34,7 @@ class TextureTable final : public TextureSet {
   /// Of all image files together; those that are missing have none.
   [[nodiscard]] std::uint64_t file_bytes() const;
   [[nodiscard]] const TextureMaterial& material(std::uint32_t i) const override { return materials_.at(i); }
+  [[nodiscard]] std::uint32_t image_count() const override { return std::uint32_t(images_.size()); }
   [[nodiscard]] std::array<int, 2> size(std::uint32_t i) const override;
   [[nodiscard]] std::vector<std::byte> file(std::uint32_t i) const override;
   [[nodiscard]] TextureImage image(std::uint32_t i, std::uint64_t most_bytes) const override;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "io/files/file.h"
+#include "io/tiles/tileset_contents.h"
 
 namespace bp {
 
@@ -61,77 +62,14 @@ class LevelFinder {
   TilesetLevel& out_;
 };
 
-/// Files in a row, each moved to its place.
-class ContentsSource final : public TriangleSource {
- public:
-  ContentsSource(UpAxis up, std::vector<PlacedContent> contents, std::string name, const SceneOptions& options)
-      : up_(up), contents_(std::move(contents)), name_(std::move(name)), options_(options) {}
-
-  bool read(std::vector<TriangleD>& out) override {
-    out.clear();
-    return read_next(out, [&](TriangleSource& content) { return content.read(out); });
+/// In the axes of the scene.
+Affine placed(const Transform& m, UpAxis up) {
+  Affine a;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) a.m[i][j] = m[4 * j + i];
   }
-  bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
-    out.clear();
-    colors.clear();
-    return read_next(out, [&](TriangleSource& content) { return content.read_colored(out, colors); });
-  }
-  bool read_textured(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
-                     std::vector<TriangleTexture>& textures) override {
-    out.clear();
-    colors.clear();
-    textures.clear();
-    return read_next(out, [&](TriangleSource& content) { return content.read_textured(out, colors, textures); });
-  }
-  [[nodiscard]] bool has_colors() const override { return has_colors_; }
-  [[nodiscard]] bool has_textures() const override { return has_textures_; }
-  void rewind() override {
-    content_.reset();
-    next_ = 0;
-    counts_ = finished_ = {};
-  }
-  [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
-  [[nodiscard]] std::string name() const override { return name_; }
-  [[nodiscard]] std::optional<UpAxis> up() const override { return up_; }
-
- private:
-  template <class Read>
-  bool read_next(std::vector<TriangleD>& out, const Read& read) {
-    for (; next_ < contents_.size(); ++next_) {
-      if (!content_) content_ = open_scene(contents_[next_].path, options_);
-      const bool more = read(*content_);
-      has_colors_ = has_colors_ || content_->has_colors();
-      has_textures_ = has_textures_ || content_->has_textures();
-      counts_ = finished_;
-      counts_.add(content_->counts());
-      if (more) {
-        place(out);
-        return true;
-      }
-      finished_ = counts_;
-      content_.reset();
-    }
-    return false;
-  }
-
-  /// glTF has y up, and 3D Tiles turns it to z up; a file of ours is delivered in the axes of its scene.
-  void place(std::vector<TriangleD>& triangles) const {
-    const UpAxis axes = content_->up().value_or(UpAxis::y);
-    for (TriangleD& t : triangles) {
-      for (Vec3d& p : t)
-        p = turned(transformed(contents_[next_].transform, turned(p, axes, UpAxis::z)), UpAxis::z, up_);
-    }
-  }
-
-  UpAxis up_;
-  std::vector<PlacedContent> contents_;
-  std::string name_;
-  SceneOptions options_;
-  std::unique_ptr<TriangleSource> content_;
-  std::size_t next_ = 0;
-  bool has_colors_ = false, has_textures_ = false;
-  SceneCounts finished_, counts_;
-};
+  return affine_of(to_y_up(up).inverse()) * affine_of(to_y_up(UpAxis::z)) * a;
+}
 
 }  // namespace
 
@@ -150,7 +88,10 @@ TilesetLevel tileset_level(const Tileset& tileset, const std::string& path, std:
 
 std::unique_ptr<TriangleSource> open_contents(const Tileset& tileset, std::vector<PlacedContent> contents,
                                               const std::string& path, const SceneOptions& options) {
-  return std::make_unique<ContentsSource>(tileset.up, std::move(contents), path, options);
+  TilesetContents all{tileset.up, {}};
+  for (PlacedContent& content : contents)
+    all.files.push_back({std::move(content.path), {placed(content.transform, tileset.up)}});
+  return filtered(path, open_contents(std::move(all), options), options);
 }
 
 }  // namespace bp

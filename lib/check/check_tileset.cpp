@@ -106,7 +106,6 @@ double edge_of(const Bounds3d& cell) {
 }  // namespace
 
 std::string leaf_fault(const Tile& leaf, const Tile* above) {
-  if (leaf.uri.empty()) return "it has no content";
   if (!leaf.children.empty()) return "it has children";
   if (above == nullptr || above->is_leaf || !above->cell) return "no proven tile lies above it";
   if (!(leaf.geometric_error < above->geometric_error))

@@ -7,15 +7,12 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
-#include <span>
 
-#include "lib/check/detail/known_inside.h"
 #include "lib/check/detail/leaf_proof.h"
-#include "lib/check/detail/surface.h"
+#include "lib/check/detail/tile_body.h"
 #include "lib/check/detail/triangle_part.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
-#include "lib/exact/triangle_intersection.h"
 #include "lib/geometry/triangle_totals.h"
 #include "lib/tileset/tile_tree.h"
 
@@ -30,17 +27,14 @@ constexpr double kFlat = 0x1p-22;           // the same: what float32 rounds awa
 /// Of a triangle in the cell of a tile. The last two: where nothing is drawn, in the cell or an octant of it.
 enum class Verdict { fine, thin, flat, touching, outside, undecided, missing, bare, uncovered, count };
 
-/// The content of a tile as a surface, and the triangles of the scene that it fails.
-struct Body {
+/// The content of a leaf, which is the scene itself.
+struct LeafBody {
+  LeafBody(const IndexedMesh& content, const Bounds3d& cell, double flat)
+      : mesh(weld(content, 1, report)), surface(mesh), proof(surface.bvh(), cell, flat) {}
+  CheckReport report;
   WeldedMesh mesh;
-  std::unique_ptr<Surface> surface;
-  bool closed = false, sound = true;
-  std::unique_ptr<LeafProof> proof;  ///< of a leaf
-  void drop() {
-    proof.reset();
-    surface.reset();
-    mesh = {};
-  }
+  Surface surface;
+  LeafProof proof;
 };
 
 struct Counts {
@@ -55,6 +49,8 @@ class Checker {
       : tiles_(tiles),
         content_of_(content_of),
         bodies_(tiles.size()),
+        leaves_(tiles.size()),
+        unsound_(tiles.size()),
         counts_(tiles.size()),
         below_(tiles.size()),
         octants_(tiles.size()),
@@ -73,8 +69,9 @@ class Checker {
       parallel_for(std::int64_t(end_ - begin_), [&](std::int64_t i) { load(begin_ + std::size_t(i)); });
       pass(scene);
       for (std::size_t i = begin_; i < end_; ++i) {
-        if (bodies_[i].proof) counts_[i].strays = bodies_[i].proof->strays();
-        bodies_[i].drop();
+        if (leaves_[i]) counts_[i].strays = leaves_[i]->proof.strays();
+        leaves_[i].reset();
+        bodies_[i].reset();
       }
     }
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
@@ -136,20 +133,12 @@ class Checker {
 
   void load(std::size_t i) {
     if (!tiles_[i].triangles || refused_[i]) return;
-    Body& body = bodies_[i];
-    CheckReport report;
-    body.mesh = weld(content_of_(i), 1, report);
     if (tiles_[i].leaf_error) {
-      body.surface = std::make_unique<Surface>(body.mesh);
-      body.proof = std::make_unique<LeafProof>(body.surface->bvh(), *tiles_[i].cell, kFlat * scene_edge_);
-      return;
+      leaves_[i] = std::make_unique<LeafBody>(content_of_(i), *tiles_[i].cell, kFlat * scene_edge_);
+    } else {
+      bodies_[i] = std::make_unique<TileBody>(content_of_(i), i);
+      unsound_[i] = !bodies_[i]->sound();
     }
-    check_topology(body.mesh, 1, report);
-    body.surface = std::make_unique<Surface>(body.mesh);
-    report.self_intersections = body.surface->self_intersections(1);
-    body.closed = report.closed() && report.oriented();
-    if (body.closed) report.inverted_components = inverted_components(body.mesh, *body.surface, 1);
-    body.sound = report.holds();
   }
 
   void pass(TriangleSource& scene) {
@@ -160,7 +149,7 @@ class Checker {
           KnownInside known;
           for (const TriangleD& t : chunk) {
             if (in_root(t)) {
-              visit(0, t, known);
+              visit(0, t, bounds_of(t), known);
             } else if (begin_ == 0) {
               ++astray_;
             }
@@ -193,28 +182,23 @@ class Checker {
     const Bounds3d box = grown(cell, growth_for(cell, t) / 2);
     return overlap(bounds, box) && !TrianglePart(t, box).empty();
   }
-  [[nodiscard]] static bool lies_in(const Bounds3d& inner, const Bounds3d& outer) {
-    bool in = true;
-    for (std::size_t i = 0; i < 3; ++i) in = in && inner.min[i] >= outer.min[i] && inner.max[i] <= outer.max[i];
-    return in;
-  }
-
   /// t meets the cell of tile i. What counts are the tiles of this share.
-  void visit(std::size_t i, const TriangleD& t, KnownInside& known) {
+  void visit(std::size_t i, const TriangleD& t, const Bounds3d& bounds, KnownInside& known) {
     if (below_[i].first >= end_ || below_[i].last < begin_) return;
     const CoverTile& tile = tiles_[i];
     const bool mine = i >= begin_ && i < end_;
-    if (mine && !tile.triangles && tile.children.empty()) count(i, Verdict::bare);
-    if (mine && tile.triangles && !refused_[i]) count(i, tile.leaf_error ? compare(i, t) : examine(i, t, known));
+    if (mine && !tile.triangles && tile.children.empty()) count(i, shown_by_nothing(i, t));
+    if (mine && tile.triangles && !refused_[i])
+      count(i, tile.leaf_error ? compare(i, t) : examine(i, t, bounds, known));
     if (tile.children.empty()) return;
     if (tile.children.size() == 1 && tiles_[tile.children[0]].cell == tile.cell)
-      return visit(tile.children[0], t, known);
+      return visit(tile.children[0], t, bounds, known);
     if (!tile.cell) return;
-    const Bounds3d bounds = bounds_of(t), near = grown(bounds, growth_for(*tile.cell, t));
+    const Bounds3d near = grown(bounds, growth_for(*tile.cell, t));
     for (const Octant& octant : octants_[i]) {
       if (!overlap(near, octant.box) || !meets(t, bounds, octant.box)) continue;
       if (octant.child != 0) {
-        visit(octant.child, t, known);
+        visit(octant.child, t, bounds, known);
       } else if (mine) {
         const Verdict verdict = without_child(i, octant.box, t);
         count(i, verdict == Verdict::missing ? Verdict::uncovered : verdict);
@@ -228,14 +212,23 @@ class Checker {
 
   /// Of a leaf.
   [[nodiscard]] Verdict compare(std::size_t i, const TriangleD& t) {
-    return compare(*bodies_[i].proof, *tiles_[i].cell, t, *tiles_[i].leaf_error);
+    return compare(leaves_[i]->proof, *tiles_[i].cell, t, *tiles_[i].leaf_error);
   }
   /// No leaf is made of what a neighbour's triangle has just beyond a face.
   [[nodiscard]] Verdict without_child(std::size_t i, const Bounds3d& octant, const TriangleD& t) const {
-    if (!below_[i].leaf_error) return Verdict::missing;
+    return below_[i].leaf_error ? compare_with_nothing(octant, t, *below_[i].leaf_error) : Verdict::missing;
+  }
+  /// Of a tile without content and children: a leaf, or none.
+  [[nodiscard]] Verdict shown_by_nothing(std::size_t i, const TriangleD& t) const {
+    const CoverTile& tile = tiles_[i];
+    if (!tile.leaf_error || refused_[i]) return Verdict::bare;
+    const Verdict verdict = compare_with_nothing(*tile.cell, t, *tile.leaf_error);
+    return verdict == Verdict::missing ? Verdict::bare : verdict;
+  }
+  [[nodiscard]] Verdict compare_with_nothing(const Bounds3d& box, const TriangleD& t, double error) const {
     const TriangleBvh nothing({});
-    LeafProof proof(nothing, octant, kFlat * scene_edge_);
-    return compare(proof, octant, t, *below_[i].leaf_error);
+    LeafProof proof(nothing, box, kFlat * scene_edge_);
+    return compare(proof, box, t, error);
   }
   [[nodiscard]] static Verdict compare(LeafProof& proof, const Bounds3d& cell, const TriangleD& t, double error) {
     const std::vector<Vec3d> part = part_within(t, cell);
@@ -258,65 +251,22 @@ class Checker {
     return error + kLeafRounding * rounding_of(cell, t);
   }
 
-  [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t, KnownInside& known) const {
-    const Body& body = bodies_[i];
-    if (!body.closed) return Verdict::undecided;
-    for (const Vec3d& p : t) {
-      if (!in_predicate_domain(p)) return Verdict::undecided;
+  [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t, const Bounds3d& bounds, KnownInside& known) const {
+    switch (bodies_[i]->side_of(t, bounds, tiles_[i].cell, known)) {
+      case TileBody::Side::inside:
+        return Verdict::fine;
+      case TileBody::Side::touching:
+        return Verdict::touching;
+      case TileBody::Side::outside:
+        return Verdict::outside;
+      default:
+        return Verdict::undecided;
     }
-    const std::optional<Bounds3d>& cell = tiles_[i].cell;
-    if (!cell) {
-      if (body.surface->touched_by(t) != Surface::kNone) return Verdict::touching;
-      return body.surface->winding(t[0]) < 1 ? Verdict::outside : Verdict::fine;
-    }
-    const double growth = growth_for(*cell, t);
-    const Bounds3d box = grown(*cell, growth);
-    if (touches_within(body, t, box)) return Verdict::touching;
-    // No face meets t in the grown cell, so all of t there lies on the side of any point of it.
-    std::array<Vec3d, 3> corners;
-    std::size_t n = 0;
-    for (const Vec3d& p : t) {
-      if (contains(*cell, p)) corners[n++] = p;
-    }
-    if (n > 0) return side_of(i, {corners.data(), n}, known);
-    for (const Vec3d& p : TrianglePart(t, grown(*cell, growth / 2)).points_within()) {
-      const Verdict verdict = side_near(body, p, rounding_of(*cell, t));
-      if (verdict != Verdict::undecided) return verdict;
-    }
-    return Verdict::undecided;
-  }
-
-  [[nodiscard]] static bool contains(const Bounds3d& box, const Vec3d& p) { return overlap(box, Bounds3d{p, p}); }
-
-  /// Of corners that all lie on one side. Corners that the scene's triangles share are asked for once.
-  [[nodiscard]] Verdict side_of(std::size_t i, std::span<const Vec3d> corners, KnownInside& known) const {
-    const auto is_known = [&](const Vec3d& p) { return known.has(i, p); };
-    if (std::none_of(corners.begin(), corners.end(), is_known) && bodies_[i].surface->winding(corners[0]) < 1)
-      return Verdict::outside;
-    for (const Vec3d& p : corners) known.add(i, p);
-    return Verdict::fine;
-  }
-
-  [[nodiscard]] static bool touches_within(const Body& body, const TriangleD& t, const Bounds3d& box) {
-    Bounds3d reach = bounds_of(t);
-    for (std::size_t i = 0; i < 3; ++i) {
-      reach.min[i] = std::max(reach.min[i], box.min[i]);
-      reach.max[i] = std::min(reach.max[i], box.max[i]);
-    }
-    return body.surface->bvh().visit(reach, [&](const TriangleBvh::Item& face) {
-      return triangles_intersect(t.data(), face.corners.data()) && may_meet_within(t, face.corners, box);
-    });
-  }
-
-  /// The side of a point of the triangle that lies within `radius` of `p`: the same, if the surface is farther.
-  [[nodiscard]] static Verdict side_near(const Body& body, const Vec3d& p, double radius) {
-    if (body.surface->bvh().nearest(p).distance_squared <= 16 * radius * radius) return Verdict::undecided;
-    return body.surface->winding(p) < 1 ? Verdict::outside : Verdict::fine;
   }
 
   void say_of_tile(std::size_t i) {
     const CoverTile& tile = tiles_[i];
-    if (!bodies_[i].sound)
+    if (unsound_[i] != 0)
       findings_.push_back({fmt::format("{}: {} is no closed, oriented, embedded 2-manifold", tile.place, tile.uri)});
     for (const std::size_t child : tile.children) {
       if (!fits(i, child))
@@ -328,7 +278,7 @@ class Checker {
   /// The file chose the errors of leaves and the cells. What rounding is, only the scene tells. Leaves with larger
   /// errors are refused, and compared with nothing.
   void judge_errors(TriangleSource& scene) {
-    const auto is_leaf = [](const CoverTile& tile) { return tile.leaf_error && tile.triangles; };
+    const auto is_leaf = [](const CoverTile& tile) { return tile.leaf_error.has_value(); };
     if (std::none_of(tiles_.begin(), tiles_.end(), is_leaf)) return;
     const Bounds3d bounds = bounds_of(scene);
     if (bounds.empty()) return;
@@ -373,7 +323,9 @@ class Checker {
 
   const std::vector<CoverTile>& tiles_;
   const CoverContents& content_of_;
-  std::vector<Body> bodies_;  ///< of the tiles of this share
+  std::vector<std::unique_ptr<TileBody>> bodies_;  ///< of the tiles of this share; null: a leaf, or nothing
+  std::vector<std::unique_ptr<LeafBody>> leaves_;
+  std::vector<std::uint8_t> unsound_;
   std::vector<Counts> counts_;
   std::vector<Numbers> below_;                  ///< of each tile, itself included
   std::vector<std::array<Octant, 8>> octants_;  ///< of the cell of each tile

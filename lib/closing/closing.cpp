@@ -46,7 +46,7 @@ class TileClosing {
     if (params.element == StructuringElement::ball) {
       detail::dilate_by_balls(solid_, occupied_, rule(BallScale::at_target), ball_bound(range_.min), s_, s_.dilation);
     } else if (params.turned() && s_.oriented.turns(*params.orientation, s_.dilation.box())) {
-      s_.oriented.run(solid_, scale_, *params.orientation, s_.dilation, params.cube_bytes);
+      s_.oriented.run(solid_, scale_, s_.dilation, params.cube_bytes);
     } else if (cube_radius(range_.min) == cube_radius(range_.max)) {
       s_.cube.run(solid_, cube_radius(range_.max), s_.dilation);
     } else {

@@ -23,12 +23,62 @@ namespace bp {
   return true;
 }
 
-/// Farthest that such a cube reaches along an axis: less than sqrt(3) S + 1, for rows of length 1 - 2^-12 or more.
+/// Farthest that such a cube of any rotation reaches along an axis: less than sqrt(3) S + 1, for rows of length 1 -
+/// 2^-12 or more.
 [[nodiscard]] BP_HD constexpr std::int32_t oriented_reach(Scale s) {
   return std::int32_t(s) * 1775 / 1024 / kScaleOne + 1;
 }
 
-/// The same of all cubes of a field: at most oriented_reach(), and cube_radius() where none is turned.
+/// Cubes along the axes of the grid that lie in, and that hold, a turned cube of any scale. Linear in the scale.
+struct CubeBounds {
+  bool turned = false;
+  std::int64_t row_sum = 1 << kRotationBits;     ///< largest sum of a row's absolute values
+  std::int64_t column_sum = 1 << kRotationBits;  ///< the same of a column
+
+  /// Radius of the cube inside, times 16: every voxel within floor(that / 16) along each axis is in the turned cube.
+  [[nodiscard]] std::int32_t inner(Scale s) const { return std::int32_t((std::int64_t(s) << kRotationBits) / row_sum); }
+  /// Radius of the cube around, times 16. The columns' sums are those of the inverse, but for the rounding of the rows,
+  /// which 1/512 and a voxel allow for.
+  [[nodiscard]] BP_HD std::int32_t outer(Scale s) const {
+    if (!turned) return s;
+    return std::int32_t((std::int64_t(s) * column_sum / 512 * 513 >> kRotationBits) + 1) + kScaleOne;
+  }
+  [[nodiscard]] BP_HD std::int32_t reach(Scale s) const {
+    if (!turned) return cube_radius(s);
+    const std::int32_t most = oriented_reach(s), own = outer(s) / kScaleOne;
+    return own < most ? own : most;
+  }
+};
+[[nodiscard]] BP_HD inline CubeBounds cube_bounds(const Rotation& canonical_rotation) {
+  CubeBounds b;
+  for (int i = 0; i < 3; ++i) {
+    std::int64_t row = 0, column = 0;
+    for (int j = 0; j < 3; ++j) {
+      const int along = canonical_rotation.row[i][j], down = canonical_rotation.row[j][i];
+      row += along < 0 ? -along : along;
+      column += down < 0 ? -down : down;
+      b.turned = b.turned || along != (i == j ? 1 << kRotationBits : 0);
+    }
+    if (row > b.row_sum) b.row_sum = row;
+    if (column > b.column_sum) b.column_sum = column;
+  }
+  return b;
+}
+
+/// The cubes of an orientation field over a region.
+struct CubesOver {
+  std::int32_t edge = 0;             ///< of a cell of the field, voxels
+  OrientationCell origin, size;      ///< cells of the field in the region
+  std::vector<std::uint16_t> cells;  ///< which of `rotations`; x fastest
+  std::vector<Rotation> rotations;   ///< canonical
+  CubeBounds widest;                 ///< of all of them
+
+  /// Which of `rotations` holds at a voxel of the region.
+  [[nodiscard]] std::uint16_t at(VoxelCoord p) const;
+};
+[[nodiscard]] CubesOver cubes_over(const OrientationField& field, const VoxelBox& region);
+
+/// Reach of all cubes of a field: at most oriented_reach(), and cube_radius() where none is turned.
 [[nodiscard]] std::int32_t oriented_reach(const OrientationField& field, Scale s);
 
 /// One rotation for each cell of 8^3 voxels, cells as those of ScaleLattice.

@@ -1,73 +1,79 @@
 #pragma once
+#include <algorithm>
+#include <atomic>
 #include <cstdint>
-#include <list>
 #include <memory>
 #include <mutex>
-#include <unordered_map>
+#include <vector>
 
 namespace bp {
 
-/// Values that are made when they are first wanted; those that were wanted longest ago make room. Thread-safe.
+/// Values that are made when they are first wanted; those that were wanted longest ago make room. Thread-safe; threads
+/// that want what is there do not wait for each other.
 template <class T>
 class LruCache {
  public:
   /// Values in the cache take at most `most_bytes`, or are one; those that someone holds come on top.
-  explicit LruCache(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+  /// `keys`: how many there can be, 0 to keys - 1; each takes about 80 bytes, whatever is in the cache.
+  LruCache(std::uint64_t most_bytes, std::size_t keys) : most_bytes_(most_bytes), slots_(keys) {}
 
   /// make(), if the value is not there: a shared_ptr<const T>, maybe null, which is kept, too. Others that want the
   /// same value wait for it: make() must not begin loops in parallel.
   template <class Make>
   [[nodiscard]] std::shared_ptr<const T> get(std::uint32_t key, const Make& make) {
-    const std::shared_ptr<Slot> slot = slot_of(key);
-    const std::lock_guard lock(slot->mutex);
-    if (!slot->is_made) {
-      slot->value = make();
-      slot->is_made = true;
-      if (slot->value != nullptr) make_room(key, *slot);
-    }
-    return slot->value;
+    Slot& slot = slots_.at(key);
+    const std::uint32_t now = makes_.load(std::memory_order_relaxed);
+    if (slot.last_wanted.load(std::memory_order_relaxed) != now) slot.last_wanted.store(now, std::memory_order_relaxed);
+    if (auto made = slot.made.load()) return value_of(std::move(made));
+    const std::lock_guard lock(slot.mutex);
+    if (auto made = slot.made.load()) return value_of(std::move(made));
+    const auto made = std::make_shared<const Made>(make());
+    slot.made.store(made);
+    if (made->value != nullptr) make_room(key, made->value->bytes());
+    return made->value;
   }
 
  private:
-  struct Slot {
-    std::mutex mutex;
-    bool is_made = false;
+  struct Made {
+    explicit Made(std::shared_ptr<const T> v) : value(std::move(v)) {}
     std::shared_ptr<const T> value;
-    std::uint64_t bytes = 0;  // in the cache
-    std::list<std::uint32_t>::iterator place;
+  };
+  struct Slot {
+    std::atomic<std::shared_ptr<const Made>> made;
+    std::atomic<std::uint32_t> last_wanted{0};  // a time: how many values had been made
+    std::mutex mutex;                           // of who makes it
+  };
+  struct Kept {
+    std::uint32_t key;
+    std::uint64_t bytes;
   };
 
-  std::shared_ptr<Slot> slot_of(std::uint32_t key) {
-    const std::lock_guard lock(mutex_);
-    std::shared_ptr<Slot>& slot = slots_[key];
-    if (slot != nullptr) {
-      last_wanted_.splice(last_wanted_.begin(), last_wanted_, slot->place);
-      return slot;
-    }
-    last_wanted_.push_front(key);
-    slot = std::make_shared<Slot>();
-    slot->place = last_wanted_.begin();
-    return slot;
+  [[nodiscard]] static std::shared_ptr<const T> value_of(std::shared_ptr<const Made> made) {
+    const T* const value = made->value.get();
+    return value == nullptr ? nullptr : std::shared_ptr<const T>(std::move(made), value);
   }
 
-  /// For a value that was made just now. It may have left the cache meanwhile.
-  void make_room(std::uint32_t key, Slot& made) {
+  /// For a value that was made just now.
+  void make_room(std::uint32_t key, std::uint64_t bytes) {
     const std::lock_guard lock(mutex_);
-    const auto found = slots_.find(key);
-    if (found == slots_.end() || found->second.get() != &made) return;
-    bytes_ += made.bytes = made.value->bytes();
-    while (bytes_ > most_bytes_ && last_wanted_.size() > 1) {
-      const auto oldest = slots_.find(last_wanted_.back());
-      bytes_ -= oldest->second->bytes;
-      slots_.erase(oldest);
-      last_wanted_.pop_back();
+    makes_.fetch_add(1, std::memory_order_relaxed);
+    bytes_ += bytes;
+    while (bytes_ > most_bytes_ && !kept_.empty()) {
+      const auto oldest = std::min_element(kept_.begin(), kept_.end(), [&](const Kept& a, const Kept& b) {
+        return slots_[a.key].last_wanted < slots_[b.key].last_wanted;
+      });
+      slots_[oldest->key].made.store(nullptr);
+      bytes_ -= oldest->bytes;
+      kept_.erase(oldest);
     }
+    kept_.push_back({key, bytes});
   }
 
   const std::uint64_t most_bytes_;
-  std::mutex mutex_;
-  std::unordered_map<std::uint32_t, std::shared_ptr<Slot>> slots_;
-  std::list<std::uint32_t> last_wanted_;  // the latest first
+  std::vector<Slot> slots_;
+  std::atomic<std::uint32_t> makes_{0};
+  std::mutex mutex_;  // of what follows
+  std::vector<Kept> kept_;
   std::uint64_t bytes_ = 0;
 };
 

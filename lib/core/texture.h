@@ -76,6 +76,8 @@ class TextureSet {
   virtual ~TextureSet() = default;
   /// Thread-safe while no scene is read. `i` is one of TriangleTexture::material.
   [[nodiscard]] virtual const TextureMaterial& material(std::uint32_t i) const = 0;
+  /// How many there are in what was read of the scene so far.
+  [[nodiscard]] virtual std::uint32_t image_count() const = 0;
   /// Texels of an image, {0, 0} if it is missing or broken; quick. Thread-safe.
   [[nodiscard]] virtual std::array<int, 2> size(std::uint32_t i) const = 0;
   /// The file of an image, undecoded; empty if it is missing. Thread-safe.

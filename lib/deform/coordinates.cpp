@@ -7,6 +7,7 @@
 #include "lib/deform/detail/green.h"
 #include "lib/deform/detail/likelihood.h"
 #include "lib/deform/detail/mean_value.h"
+#include "lib/deform/formulas/weights.h"
 
 namespace bp {
 
@@ -15,7 +16,6 @@ namespace {
 using detail::Wide;
 constexpr std::size_t kWide = detail::kWide;
 constexpr double kOnCage = 1e-9;  // of the diagonal: nearer points are taken for points of the cage
-constexpr double kFarAway = 8;    // diagonals: such points are outside, and their weights have few digits
 
 std::vector<TriangleD> triangles_of(const Cage& cage) {
   std::vector<TriangleD> triangles;
@@ -58,6 +58,12 @@ CageCoordinates::CageCoordinates(Cage cage, CoordinateKind kind)
 }
 CageCoordinates::~CageCoordinates() = default;
 
+detail::CageView CageCoordinates::view() const {
+  detail::CageView out = detail::view_of(cage_);
+  if (green_) out.green = green_->faces.data(), out.edge_lengths = green_->lengths.data();
+  return out;
+}
+
 std::size_t CageCoordinates::columns() const {
   return cage_.vertices.size() + (green_ ? cage_.faces.size() : 0);
 }
@@ -68,12 +74,11 @@ std::size_t CageCoordinates::points_at_once() const {
 }
 
 std::uint64_t CageCoordinates::bytes_at_once() const {
-  using Scratch = detail::CoordinateScratch;
-  using Green = detail::GreenScratch<Wide>;
   constexpr std::size_t kSlow = 5;  // numbers in extended precision for each vertex, less for others
-  const std::size_t vertex = green_ ? sizeof(Green::Vertex) : sizeof(Scratch::Vertex),
-                    edge = green_ ? sizeof(Green::Edge) : sizeof(Scratch::Edge),
-                    face = green_ ? sizeof(Wide) : sizeof(Scratch::Face);
+  using namespace detail;
+  const std::size_t vertex = (green_ ? sizeof(GreenVertex<Wide>) : sizeof(MeanVertex<Wide>)) + sizeof(Wide),
+                    edge = green_ ? sizeof(GreenEdge<Wide>) : sizeof(MeanEdge<Wide>),
+                    face = green_ ? sizeof(Wide) : sizeof(MeanFace<Wide>);
   return points_at_once() * columns() * sizeof(double) +
          cage_.vertices.size() * (vertex + kSlow * sizeof(long double)) +
          cage_.edges.size() * (edge + 2 * sizeof(long double)) + cage_.faces.size() * (face + sizeof(long double));
@@ -81,6 +86,7 @@ std::uint64_t CageCoordinates::bytes_at_once() const {
 
 void CageCoordinates::evaluate(std::span<const Vec3d> points, CoordinateRows& out) const {
   if (!out.scratch) out.scratch = std::make_unique<detail::CoordinateScratch>();
+  out.scratch->resize(cage_, green_ != nullptr);
   out.columns = columns();
   out.weights.resize(points.size() * out.columns);
   out.places.resize(points.size());
@@ -98,17 +104,18 @@ void CageCoordinates::take_group(std::span<const Vec3d> points, std::size_t firs
     local[k] = is_finite(p) ? cage_.to_cage(p) : Vec3d{};
     group.x[k] = local[k][0], group.y[k] = local[k][1], group.z[k] = local[k][2];
   }
-  Wide total{};
-  const unsigned doubtful = green_ ? detail::green_weights(cage_, *green_, group, scratch, total)
-                                   : detail::mean_value_weights(cage_, group, scratch, total);
+  alignas(sizeof(Wide)) Wide total{};
+  const detail::CageView seen = view();
+  const unsigned doubtful = green_ ? detail::green_weights(seen, group, scratch, total)
+                                   : detail::mean_value_weights(seen, group, scratch, total);
   if (kind_ == CoordinateKind::maximum_likelihood) detail::likelihood_weights(cage_, group, doubtful, total, scratch);
   for (std::size_t k = 0; k < count; ++k) {
     const std::span<double> weights = out.row(first + k);
     CoordinateRows::Place& place = out.places[first + k];
     if (is_finite(points[first + k])) {
-      for (std::size_t v = 0; v < vertices; ++v)
-        weights[v] = green_ ? scratch.green.vertices[v].sum[k] : scratch.vertices[v].sum[k];
-      for (std::size_t f = vertices; f < weights.size(); ++f) weights[f] = scratch.green.faces[f - vertices].weight[k];
+      const auto& sums = green_ ? scratch.green.sums : scratch.sums;
+      for (std::size_t v = 0; v < vertices; ++v) weights[v] = sums[v][k];
+      for (std::size_t f = vertices; f < weights.size(); ++f) weights[f] = scratch.green.face_weights[f - vertices][k];
       place = finish(local[k], weights, total[k], (doubtful >> k & 1) == 0);
     } else {
       std::fill(weights.begin(), weights.end(), 0.0);
@@ -123,26 +130,26 @@ void CageCoordinates::take_group(std::span<const Vec3d> points, std::size_t firs
 CoordinateRows::Place CageCoordinates::finish(const Vec3d& point, std::span<double> weights, double total,
                                               bool trusted) const {
   auto place = CoordinateRows::Place::inside;
+  const detail::RowOfWeights row{weights.data()};
   const Nearest near = trusted ? Nearest{} : nearest(point);
   if (!trusted && near.distance > kOnCage) total = slowly(point, weights);
   if (!trusted && near.distance <= kOnCage) {
     take_surface(point, near, weights);
-  } else if (!(total > (green_ ? 0.5 : 0.0)) || length(point) > kFarAway) {
+  } else if (!(total > (green_ ? 0.5 : 0.0)) || length(point) > detail::kFarAway) {
     place = CoordinateRows::Place::outside;
     const Nearest from = nearest(point);
     take_surface(from.place, from, weights);
   } else {
-    const double scale = 1 / sum_of(weights.first(cage_.vertices.size()));
-    for (double& w : weights) w *= scale;
+    detail::divide_by_sum(view(), row);
   }
-  reproduce(point, weights);
+  detail::reproduce_point(view(), {point[0], point[1], point[2]}, row);
   return place;
 }
 
 /// Replaces the weights but those of maximum likelihood; returns their total.
 double CageCoordinates::slowly(const Vec3d& point, std::span<double> weights) const {
   if (green_) {
-    detail::green_weights_slowly(cage_, *green_, point, weights);
+    detail::green_weights_slowly(cage_, view(), point, weights);
     return sum_of(weights.first(cage_.vertices.size()));
   }
   if (kind_ == CoordinateKind::mean_value) {
@@ -171,18 +178,6 @@ void CageCoordinates::take_surface(const Vec3d& point, const Nearest& near, std:
     std::fill(weights.begin(), weights.end(), 0.0);
   }
   for (std::size_t i = 0; i < 3; ++i) weights[cage_.faces[near.face].corner[i]] += missing * near.share[i];
-}
-
-/// The least change of the vertices' weights, by squares, after which all give the point exactly: what rounding left,
-/// or the offset of a point outside. The origin is the mean of the vertices, so that the sum stays.
-void CageCoordinates::reproduce(const Vec3d& point, std::span<double> weights) const {
-  const std::size_t vertices = cage_.vertices.size();
-  Vec3d missing = point;
-  for (std::size_t v = 0; v < vertices; ++v) missing = missing - weights[v] * cage_.vertices[v];
-  for (std::size_t f = vertices; f < weights.size(); ++f)
-    missing = missing - weights[f] * green_->faces[f - vertices].normal;
-  const Vec3d slope{dot(cage_.spread[0], missing), dot(cage_.spread[1], missing), dot(cage_.spread[2], missing)};
-  for (std::size_t v = 0; v < vertices; ++v) weights[v] += dot(slope, cage_.vertices[v]);
 }
 
 std::vector<Vec3d> CageCoordinates::moves_of_columns(std::span<const Vec3d> vertex_moves) const {

@@ -10,6 +10,7 @@
 namespace bp {
 
 namespace detail {
+struct CageView;
 struct CoordinateScratch;
 struct GreenCage;
 }  // namespace detail
@@ -49,6 +50,9 @@ class CageCoordinates {
   ~CageCoordinates();
 
   [[nodiscard]] const Cage& cage() const { return cage_; }
+  [[nodiscard]] CoordinateKind kind() const { return kind_; }
+  /// For formulas; valid as long as this is.
+  [[nodiscard]] detail::CageView view() const;
   [[nodiscard]] std::size_t columns() const;
   /// Points whose rows stay in the cache.
   [[nodiscard]] std::size_t points_at_once() const;
@@ -77,7 +81,6 @@ class CageCoordinates {
   [[nodiscard]] double slowly(const Vec3d& point, std::span<double> weights) const;
   [[nodiscard]] Nearest nearest(const Vec3d& point) const;
   void take_surface(const Vec3d& point, const Nearest& near, std::span<double> weights) const;
-  void reproduce(const Vec3d& point, std::span<double> weights) const;
 
   Cage cage_;
   CoordinateKind kind_;

@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "lib/core/error.h"
+#include "lib/deform/formulas/weights.h"
 
 namespace bp {
 
 namespace {
 
-constexpr double kMostUnits = double(1u << 31) - 2;
+using detail::kMostUnits;
 
 int bits_for(double largest) {
   int bits = WeightBlock::kBits;
@@ -19,22 +20,17 @@ int bits_for(double largest) {
   return bits;
 }
 
-/// The sum so far is rounded, not the weight: what rounding takes from one column it gives to the next. `units` are
-/// `stride` apart. Returns the bits.
+/// `units` are `stride` apart. Returns the bits.
 int round_row(std::span<const double> weights, std::int32_t* units, std::size_t stride) {
-  double largest = 0, all = 0, sum = 0;
-  for (const double w : weights) largest = std::max(largest, std::abs(w)), all += w;
+  const detail::RowOfWeights row{weights.data()};
+  const auto columns = std::uint32_t(weights.size());
+  double largest, all;
+  detail::sizes_of(columns, row, largest, all);
   if (!std::isfinite(all))
     fail(ErrorCode::bad_input, "a point has weights that are not finite: the cage is degenerate");
   const int bits = bits_for(largest);
-  const double scale = std::ldexp(1.0, bits);
-  std::int64_t before = 0;
-  for (std::size_t c = 0; c < weights.size(); ++c) {
-    sum += weights[c];
-    const auto rounded = std::int64_t(std::nearbyint(sum * scale));
-    units[c * stride] = std::int32_t(rounded - before);
-    before = rounded;
-  }
+  detail::round_to_units(columns, row, std::ldexp(1.0, bits),
+                         [&](std::uint32_t c, std::int32_t unit) { units[c * stride] = unit; });
   return bits;
 }
 
@@ -52,6 +48,38 @@ void round_weights(const CoordinateRows& rows, std::size_t first, WeightBlock& o
       out.bits[first + at + i] = std::uint8_t(round_row(rows.row(at + i), tile.data() + i, kTile));
     for (std::size_t c = 0; c < rows.columns; ++c)
       std::copy_n(tile.data() + c * kTile, count, out.units.data() + c * out.points + first + at);
+  }
+}
+
+void weigh_points(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside,
+                  CoordinateRows& rows, WeightBlock& out, std::span<CoordinateRows::Place> places) {
+  const std::size_t step = coordinates.points_at_once();
+  for (std::size_t first = 0; first < points.size(); first += step) {
+    const std::size_t count = std::min(step, points.size() - first);
+    coordinates.evaluate(points.subspan(first, count), rows);
+    std::copy_n(rows.places.begin(), count, places.begin() + std::ptrdiff_t(first));
+    const bool none_outside =
+        std::find(rows.places.begin(), rows.places.end(), CoordinateRows::Place::outside) == rows.places.end();
+    if (none_outside || carry_outside) round_weights(rows, first, out);
+  }
+}
+
+void weigh_some(const CageCoordinates& coordinates, std::span<const Vec3d> points,
+                std::span<const std::uint32_t> numbers, bool carry_outside, CoordinateRows& rows, WeightBlock& out,
+                std::span<CoordinateRows::Place> places) {
+  const std::size_t step = coordinates.points_at_once();
+  for (std::size_t first = 0; first < numbers.size(); first += step) {
+    const std::span<const std::uint32_t> some = numbers.subspan(first, std::min(step, numbers.size() - first));
+    std::vector<Vec3d> there;
+    for (const std::uint32_t i : some) there.push_back(points[i]);
+    WeightBlock block(some.size(), out.columns);
+    std::vector<CoordinateRows::Place> places_there(some.size());
+    weigh_points(coordinates, there, carry_outside, rows, block, places_there);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      out.bits[some[i]] = block.bits[i], places[some[i]] = places_there[i];
+      for (std::size_t c = 0; c < out.columns; ++c)
+        out.units[c * out.points + some[i]] = block.units[c * block.points + i];
+    }
   }
 }
 

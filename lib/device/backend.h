@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "lib/closing/closing.h"
+#include "lib/deform/weight_block.h"
 #include "lib/grid/stream.h"
 #include "lib/voxel/fixed_triangle.h"
 #include "lib/voxel/winding.h"
 
-/// The tile operations, behind which CpuBackend and CudaBackend stand. One Backend per worker thread: it owns its
-/// scratch (on a GPU: its stream and buffers), allocated on the first call and kept. Results do not depend on threads,
-/// tile size or backend. What fails on a device is a DeviceError; what a call should have changed is then undefined.
+/// The tile operations, and the coordinates of cages, behind which CpuBackend and CudaBackend stand. One Backend per
+/// worker thread: it owns its scratch (on a GPU: its stream and buffers), allocated on the first call and kept. Results
+/// do not depend on threads, tile size or backend. What fails on a device is a DeviceError; what a call should have
+/// changed is then undefined.
 namespace bp {
 
 class Backend {
@@ -41,6 +43,10 @@ class Backend {
   virtual void close_from_shelf(const BrickShelf& solid, const BrickBox& bricks, const ScaleLattice& scale,
                                 const Halo& halo, const ClosingParams& params, const VoxelBox& interior,
                                 BitBox& closed);
+
+  /// weigh_points() in lib/deform/weight_block.h. A GPU leaves points on the cage and outside to the calling thread.
+  virtual void weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside,
+                     WeightBlock& out, std::span<CoordinateRows::Place> places) = 0;
 
  private:
   BitBox loaded_;  ///< of close_from_shelf; kept

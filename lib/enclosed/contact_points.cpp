@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "lib/core/parallel.h"
+#include "lib/enclosed/detail/nearest_faces.h"
 
 namespace bp {
 
 namespace {
 
-constexpr std::int64_t kPointsAtOnce = 1024, kFacesAtOnce = 64;
+constexpr std::int64_t kFacesAtOnce = 64;
 constexpr std::size_t kPointsPerFace = 64;  // that are kept in any case
 constexpr std::size_t kBinsPerEdge = 12;    // of a face with more
 constexpr double kTilt = 1;                 // how far a face may turn, as a slope
@@ -67,33 +68,6 @@ LatticeBox grown(const LatticeBox& box, std::int64_t by) {
 
 }  // namespace
 
-// Regions of the plane around the triangle, one corner or edge after the other ([Eri04] 5.1.5).
-double squared_distance(const Vec3d& p, const std::array<Vec3d, 3>& t) {
-  const Vec3d ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
-  const auto from = [&](const Vec3d& q) {
-    const Vec3d d = p - q;
-    return dot(d, d);
-  };
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return dot(ap, ap);
-  const Vec3d bp = p - t[1];
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return dot(bp, bp);
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return from(t[0] + (d1 / (d1 - d3)) * ab);
-  const Vec3d cp = p - t[2];
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return dot(cp, cp);
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return from(t[0] + (d2 / (d2 - d6)) * ac);
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-    return from(t[1] + ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (t[2] - t[1]));
-  const Vec3d n = cross(ab, ac);
-  const double s = dot(n, ap), nn = dot(n, n);
-  return nn > 0 ? s * s / nn : dot(ap, ap);
-}
-
 ContactPoints::ContactPoints(const Enclosed& enclosed, const HalfEdgeMesh& mesh, const FaceTree& tree)
     : mesh_(mesh), of_face_(mesh.face_capacity()) {
   VertexId first = 0;
@@ -105,10 +79,7 @@ ContactPoints::ContactPoints(const Enclosed& enclosed, const HalfEdgeMesh& mesh,
   }
   const double reach = edges / double(mesh.face_count());
   points_ = enclosed.contact_points(origin_, grown(mesh.cell(), std::int64_t(2 * reach) + 1));
-  std::vector<FaceId> nearest_to(points_.size());
-  parallel_ranges(std::int64_t(points_.size()), kPointsAtOnce, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) nearest_to[i] = nearest(points_[i], tree, reach);
-  });
+  const std::vector<FaceId> nearest_to = nearest_faces(points_, origin_, mesh, tree, reach);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (nearest_to[i] != kNoId) of_face_[nearest_to[i]].push_back(std::uint32_t(i));  // else deep inside
   }
@@ -149,55 +120,6 @@ std::array<Vec3d, 3> ContactPoints::corners(FaceId f) const {
           to_double(mesh_.corner(f, 2) - origin_)};
 }
 
-FaceId ContactPoints::nearest(const Vec3d& p, const FaceTree& tree, double reach) const {
-  const LatticeCoord at = origin_ + rounded(p);
-  FaceId best = kNoId;
-  double least = 1e300;
-  for (double r = reach / 16; r <= 2 * reach && best == kNoId; r *= 4) {
-    const auto d = std::int64_t(r) + 1;
-    tree.query({at - LatticeCoord{d, d, d}, at + LatticeCoord{d, d, d}}, [&](FaceId f) {
-      const double distance = squared_distance(p, corners(f));
-      if (distance <= r * r && (distance < least || (distance == least && f < best))) {
-        least = distance;
-        best = f;
-      }
-      return true;
-    });
-  }
-  return best;
-}
-
-ContactPoints::Target ContactPoints::target(FaceId f) const {
-  Target t{corners(f), {}};
-  const auto plane = [](const Vec3d& n, const Vec3d& through) -> Target::Plane {
-    const double size = length(n);
-    if (!(size > 0)) return {};
-    const Vec3d unit = (1 / size) * n;
-    return {unit, dot(unit, through)};
-  };
-  const Vec3d normal = cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
-  t.planes[3] = plane(normal, t.corners[0]);
-  for (std::size_t k = 0; k < 3; ++k)
-    t.planes[k] = plane(cross(t.corners[(k + 1) % 3] - t.corners[k], normal), t.corners[k]);
-  return t;
-}
-
-bool ContactPoints::Target::is_farther(const Vec3d& p, double squared) const {
-  const double above = planes[3].height(p), rest = squared - above * above;
-  if (rest <= 0) return true;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double beside = planes[k].height(p);
-    if (beside > 0 && beside * beside >= rest) return true;
-  }
-  return false;
-}
-
-double ContactPoints::Target::squared_distance(const Vec3d& p) const {
-  const bool over = planes[0].height(p) <= 0 && planes[1].height(p) <= 0 && planes[2].height(p) <= 0;
-  const double above = planes[3].height(p);
-  return over ? above * above : bp::squared_distance(p, corners);
-}
-
 /// `first`: the one that is asked first; the nearer it is, the fewer others are.
 std::size_t ContactPoints::nearest_target(const Vec3d& p, std::size_t first) const {
   std::size_t best = first;
@@ -221,14 +143,14 @@ void ContactPoints::hand_over(std::span<const FaceId> from, std::span<const Face
     of_face_[f].clear();
   }
   targets_.clear();
-  for (const FaceId f : to) targets_.push_back(target(f));
+  for (const FaceId f : to) targets_.emplace_back(corners(f));
   for (const auto& [i, first] : moving_) of_face_[to[nearest_target(points_[i], first)]].push_back(i);
 }
 
 void ContactPoints::add(const Vec3d& p, std::span<const FaceId> near) {
   if (!added_.insert(rounded(p)).second) return;
   targets_.clear();
-  for (const FaceId f : near) targets_.push_back(target(f));
+  for (const FaceId f : near) targets_.emplace_back(corners(f));
   of_face_[near[nearest_target(p, 0)]].push_back(std::uint32_t(points_.size()));
   points_.push_back(p);
 }

@@ -5,6 +5,7 @@
 
 #include "lib/core/vec3.h"
 #include "lib/enclosed/enclosed.h"
+#include "lib/enclosed/face_target.h"
 
 /// Points of what must stay inside, each listed with the face of the proxy that it is nearest to. They guide where
 /// vertices go; nothing is proved by them. Of many with one face, those are kept that it meets first: at most 720.
@@ -27,24 +28,8 @@ class ContactPoints {
   void add(const Vec3d& p, std::span<const FaceId> near);
 
  private:
-  /// A face that points may be nearest to: its plane, and upright on it those along its edges, outwards positive. Their
-  /// distances bound that of the face from below.
-  struct Target {
-    std::array<Vec3d, 3> corners;
-    struct Plane {
-      Vec3d normal;
-      double offset;
-      [[nodiscard]] double height(const Vec3d& p) const { return dot(normal, p) - offset; }
-    };
-    std::array<Plane, 4> planes;  ///< along the edges, then its own
-    [[nodiscard]] double squared_distance(const Vec3d& p) const;
-    /// As far or farther, surely but for rounding; false: it may be.
-    [[nodiscard]] bool is_farther(const Vec3d& p, double squared) const;
-  };
   [[nodiscard]] std::array<Vec3d, 3> corners(FaceId f) const;
-  [[nodiscard]] Target target(FaceId f) const;
   [[nodiscard]] std::size_t nearest_target(const Vec3d& p, std::size_t first) const;
-  [[nodiscard]] FaceId nearest(const Vec3d& p, const FaceTree& tree, double reach) const;
   void keep_outermost(FaceId f);
   void drop_unlisted();
 
@@ -53,11 +38,8 @@ class ContactPoints {
   std::vector<Vec3d> points_;
   std::vector<std::vector<std::uint32_t>> of_face_;
   std::vector<std::pair<std::uint32_t, std::size_t>> moving_;  // points, each with the face it had, as a target
-  std::vector<Target> targets_;
+  std::vector<FaceTarget> targets_;
   std::set<LatticeCoord> added_;
 };
-
-/// Squared distance of p from the triangle.
-[[nodiscard]] double squared_distance(const Vec3d& p, const std::array<Vec3d, 3>& t);
 
 }  // namespace bp

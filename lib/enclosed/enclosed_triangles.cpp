@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/exact/triangle_intersection.h"
 
@@ -250,6 +251,37 @@ void add_samples(const TriangleD& t, double voxel, std::vector<Vec3d>& points) {
   }
 }
 
+/// Sorted, each once. By slabs of the first coordinate: few points each, and all threads have some.
+std::vector<Vec3d> each_once(const std::vector<Vec3d>& points) {
+  constexpr std::size_t kPointsPerSlab = 64;
+  if (points.empty()) return {};
+  const auto [low, high] =
+      std::minmax_element(points.begin(), points.end(), [](const Vec3d& a, const Vec3d& b) { return a[0] < b[0]; });
+  const double first = (*low)[0], extent = (*high)[0] - first;
+  const std::size_t slabs = extent > 0 && std::isfinite(extent) ? points.size() / kPointsPerSlab + 1 : 1;
+  const auto slab_of = [&](const Vec3d& p) {
+    return slabs > 1 ? std::min(std::size_t((p[0] - first) / extent * double(slabs)), slabs - 1) : 0;
+  };
+  std::vector<std::size_t> begin(slabs + 1, 0);
+  for (const Vec3d& p : points) ++begin[slab_of(p) + 1];
+  for (std::size_t i = 0; i < slabs; ++i) begin[i + 1] += begin[i];
+  std::vector<Vec3d> sorted(points.size());
+  std::vector<std::size_t> end(begin.begin(), begin.end() - 1);
+  for (const Vec3d& p : points) sorted[end[slab_of(p)]++] = p;
+  const auto at = [&](std::size_t i) { return sorted.begin() + std::ptrdiff_t(i); };
+  parallel_ranges(std::int64_t(slabs), std::int64_t(kPointsPerSlab), [&](std::int64_t from, std::int64_t to) {
+    for (auto i = std::size_t(from); i < std::size_t(to); ++i) {
+      std::sort(at(begin[i]), at(begin[i + 1]));
+      end[i] = std::size_t(std::unique(at(begin[i]), at(begin[i + 1])) - sorted.begin());
+    }
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < slabs; ++i)
+    kept = std::size_t(std::copy(at(begin[i]), at(end[i]), at(kept)) - sorted.begin());
+  sorted.resize(kept);
+  return sorted;
+}
+
 }  // namespace
 
 void EnclosedTriangles::report(const TriangleD& triangle, Blocker& blocker) const {
@@ -265,8 +297,7 @@ std::uint64_t EnclosedTriangles::bytes() const {
 }
 
 std::vector<Vec3d> EnclosedTriangles::samples_of(std::vector<Vec3d> points) const {
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+  points = each_once(points);
   for (Vec3d& p : points) p = kLatticePerVoxel * frame_.to_voxels(p);
   return points;
 }

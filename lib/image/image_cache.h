@@ -13,9 +13,12 @@ namespace bp {
 /// Images that are decoded when they are first wanted. Thread-safe.
 class ImageCache {
  public:
-  /// Images in the cache take at most `memory`; those that someone holds come on top.
+  /// Of all images of a scene that was read; null: it has none. Those in the cache take at most `memory`; those that
+  /// someone holds come on top.
   ImageCache(std::shared_ptr<const TextureSet> images, const MemoryShare& memory)
-      : images_(std::move(images)), memory_(memory), kept_(memory.bytes) {}
+      : images_(std::move(images)),
+        memory_(memory),
+        kept_(memory.bytes, images_ == nullptr ? 0 : 2 * images_->image_count()) {}
 
   [[nodiscard]] const TextureMaterial& material(std::uint32_t i) const { return images_->material(i); }
   /// Null if the image is missing or broken. Throws NeedsMemory if it alone is too large.

@@ -3,37 +3,9 @@
 #include <cmath>
 
 #include "lib/core/vec3.h"
+#include "lib/mesh/space_order.h"
 
 namespace bp {
-
-namespace {
-
-constexpr int kCodeBits = 10;  // per axis
-
-/// Bit i of a 10-bit number becomes bit 3 i.
-std::uint32_t spread(std::uint32_t v) {
-  v = (v | (v << 16)) & 0x030000ff;
-  v = (v | (v << 8)) & 0x0300f00f;
-  v = (v | (v << 4)) & 0x030c30c3;
-  return (v | (v << 2)) & 0x09249249;
-}
-
-/// A Morton code and, in the low 32 bits, its item.
-using Key = std::uint64_t;
-
-/// By code; equal codes stay in order. Counting sort by bytes, the least first.
-void sort_by_code(std::vector<Key>& keys) {
-  std::vector<Key> sorted(keys.size());
-  for (int shift = 32; shift < 32 + 3 * kCodeBits; shift += 8) {
-    std::array<std::uint32_t, 257> start{};
-    for (const Key k : keys) ++start[((k >> shift) & 255) + 1];
-    for (std::size_t i = 0; i < 256; ++i) start[i + 1] += start[i];
-    for (const Key k : keys) sorted[start[(k >> shift) & 255]++] = k;
-    keys.swap(sorted);
-  }
-}
-
-}  // namespace
 
 void BoxTree::build(std::span<const LatticeBox> boxes, std::vector<std::uint32_t> items) {
   order_ = std::move(items);
@@ -55,23 +27,15 @@ void BoxTree::build(std::span<const LatticeBox> boxes, std::vector<std::uint32_t
   build_levels();
 }
 
-/// Along a Morton curve through the centres of the boxes.
+/// By the centres of the boxes.
 void BoxTree::sort_in_space(std::span<const LatticeBox> boxes) {
-  const auto twice_centre = [](const LatticeBox& b) { return b.min + b.max; };
-  LatticeBox all{twice_centre(boxes[order_[0]]), twice_centre(boxes[order_[0]])};
-  for (const std::uint32_t item : order_) all.add(twice_centre(boxes[item]));
-  const LatticeCoord size = all.max - all.min;
-  const int shift = std::max(0, int(std::bit_width(std::uint64_t(std::max({size.x, size.y, size.z})))) - kCodeBits);
-  std::vector<Key> keys;
-  keys.reserve(order_.size());
-  for (const std::uint32_t item : order_) {
-    const LatticeCoord c = twice_centre(boxes[item]) - all.min;
-    const std::uint32_t code = spread(std::uint32_t(c.x >> shift)) | spread(std::uint32_t(c.y >> shift)) << 1 |
-                               spread(std::uint32_t(c.z >> shift)) << 2;
-    keys.push_back(Key(code) << 32 | item);
-  }
-  sort_by_code(keys);
-  std::transform(keys.begin(), keys.end(), order_.begin(), [](Key k) { return std::uint32_t(k); });
+  const auto twice_centre = [&](std::uint32_t item) { return boxes[item].min + boxes[item].max; };
+  LatticeBox all{twice_centre(order_[0]), twice_centre(order_[0])};
+  for (const std::uint32_t item : order_) all.add(twice_centre(item));
+  SpaceOrder order(all);
+  order.reserve(order_.size());
+  for (const std::uint32_t item : order_) order.add(item, twice_centre(item));
+  order_ = order.take();
 }
 
 /// From the groups of items up to one root.

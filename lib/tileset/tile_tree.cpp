@@ -69,6 +69,7 @@ void TileTree::add_leaf(const GridFrame& frame, CellCoord cell, TileLeaf leaf) {
   end.tile = std::move(leaf.tile);
   end.cell = leaf.cell;
   end.is_leaf = true;
+  leaf_error_ = std::max(leaf_error_.value_or(0), end.tile.error_world);
   if (leaf.path.empty()) {
     node->children.push_back(std::move(end));
   } else {
@@ -143,6 +144,13 @@ Tile TileTree::tile_of(const Node& node, const Vec3d& parent, double above) cons
   tile.is_leaf = node.is_leaf;
   for (const Node& child : node.children)
     tile.children.push_back(tile_of(child, node.tile.origin, tile.geometric_error));
+  if (leaf_error_ && node.children.empty() && !node.is_leaf) {
+    Tile& nothing = tile.children.emplace_back();
+    nothing.box = tile.box;
+    nothing.cell = tile.cell;
+    nothing.geometric_error = *leaf_error_;
+    nothing.is_leaf = true;
+  }
   return tile;
 }
 

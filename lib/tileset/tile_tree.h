@@ -32,7 +32,8 @@ class TileTree {
 
   /// A tile of level `level`, which is cut; `frame`: of the level. Levels come finest first.
   void add(std::size_t level, const GridFrame& frame, CellCoord cell, TreeTile tile);
-  /// Below the tile of a cell of the finest level, which is there already if that level is cut.
+  /// Below the tile of a cell of the finest level, which is there already if that level is cut. A tile of that level
+  /// without any leaf gets one without content: the scene has nothing there, and close up nothing is drawn.
   void add_leaf(const GridFrame& frame, CellCoord cell, TileLeaf leaf);
   /// A level in one mesh, after all that are cut; coarser ones follow.
   void add_whole(TreeTile tile);
@@ -63,6 +64,7 @@ class TileTree {
   GridFrame frame_;
   std::optional<Node> root_;
   std::vector<double> errors_;
+  std::optional<double> leaf_error_;  ///< of leaves, if there are any
 };
 
 /// Octant k of a box: bit i of k says which half along axis i.

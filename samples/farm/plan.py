@@ -34,7 +34,10 @@ def ranges(plan, machines):
     counts = plan["counts"]
     work = counts["area"] / counts["voxel"] ** 2 * FACES_PER_SQUARE * SECONDS_PER_FACE
     worth = work / (5 * SECONDS_PER_TRIANGLE * counts["triangles"])
-    number = min(math.ceil(work / SECONDS), max(machines, min(int(worth), RANGES_PER_MACHINE * machines)), counts["jobs"])
+    number = min(math.ceil(work / SECONDS), max(machines, min(int(worth), RANGES_PER_MACHINE * machines)))
+    if number > machines:
+        number = math.ceil(number / machines) * machines  # else some machines wait for the last ranges of others
+    number = min(number, counts["jobs"])
     if number < 2:
         return []
     edges = cut(counts, number)

@@ -16,13 +16,29 @@ GpuTile::GpuTile(const BitBox& solid, const ScaleLattice& scale, const Halo& hal
 
 void GpuTile::close(DeviceClosing& closing, StructuringElement element, cudaStream_t stream,
                     const DeviceClosing::Mark& mark) {
-  closing.enqueue(layout_, solid_.data(), scale_, samples_.data(), element, closed_.data(), stream, mark);
+  closing.enqueue(layout_, solid_.data(),
+                  {scale_, samples_.data(), element, cubes_there_.cells ? &cubes_ : nullptr, cubes_there_},
+                  closed_.data(), stream, mark);
 }
 
 void GpuTile::close(HierarchicalClosing& closing, StructuringElement element, HierarchicalVariant variant,
                     cudaStream_t stream, const DeviceClosing::Mark& mark) {
   closing.enqueue(layout_, solid_.data(), scale_, samples_.data(), element, variant, closed_.data(), stream, mark,
                   rotations_.cells != nullptr ? &rotations_ : nullptr);
+}
+
+void GpuTile::orient(const OrientationField& field, const VoxelBox& region) {
+  orient(sample(field, region));
+  cubes_ = cubes_over(field, region);
+  if (!cubes_.widest.turned) return;
+  cubes_there_ = view_of(cubes_, layout_, scale_);
+  cubes_there_.rotations = cube_rotations_.grow(cubes_.rotations.size());
+  cubes_there_.cells = cube_cells_.grow(cubes_.cells.size());
+  BP_CUDA_CHECK(cudaMemcpyAsync(cube_rotations_.data(), cubes_.rotations.data(),
+                                cubes_.rotations.size() * sizeof(Rotation), cudaMemcpyHostToDevice, nullptr));
+  BP_CUDA_CHECK(cudaMemcpyAsync(cube_cells_.data(), cubes_.cells.data(), cubes_.cells.size() * sizeof(std::uint16_t),
+                                cudaMemcpyHostToDevice, nullptr));
+  BP_CUDA_CHECK(cudaDeviceSynchronize());
 }
 
 void GpuTile::orient(const RotationLattice& rotations) {

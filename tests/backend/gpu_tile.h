@@ -12,7 +12,9 @@ class GpuTile {
              const DeviceClosing::Mark& mark = {});
   void close(HierarchicalClosing& closing, StructuringElement element, HierarchicalVariant variant, cudaStream_t stream,
              const DeviceClosing::Mark& mark = {});
-  /// From now on the hierarchical path dilates by cubes of these orientations.
+  /// From now on both paths dilate by cubes of these orientations; `region` holds the dilation.
+  void orient(const OrientationField& field, const VoxelBox& region);
+  /// The same, of the hierarchical path alone.
   void orient(const RotationLattice& rotations);
   /// Overwrites the device's result with garbage, so that a stale one cannot pass for a new one.
   void poison(cudaStream_t stream);
@@ -25,8 +27,11 @@ class GpuTile {
   TileLayout layout_;
   DeviceBuffer<std::uint32_t> solid_, closed_;
   DeviceBuffer<Scale> samples_;
-  DeviceBuffer<Rotation> rotation_cells_;
+  DeviceBuffer<Rotation> rotation_cells_, cube_rotations_;
   RotationView rotations_;
+  CubesOver cubes_;
+  DeviceBuffer<std::uint16_t> cube_cells_;
+  CubeView cubes_there_;
 };
 
 }  // namespace bp

@@ -4,12 +4,15 @@
 
 #include "gpu/cuda_backend.h"
 #include "gpu/kernels/device_error.h"
+#include "lib/closing/rotation.h"
+#include "lib/device/cpu/cpu_backend.h"
 #include "lib/device/cpu/fallback_backend.h"
 #include "lib/voxel/voxelize.h"
 #include "lib/voxel/winding.h"
 #include "tests/catch.h"
 #include "tests/reference/closing.h"
 #include "tests/reference/random_closing.h"
+#include "tests/support/cages.h"
 
 using namespace bp;
 
@@ -85,6 +88,31 @@ TEST_CASE("a tile that does not fit in device memory is closed or voxelized in p
   emulator::set_memory_limit(std::size_t(-1));
   backend->close(tile.solid, tile.scale, tile.halo, {StructuringElement::ball}, tile.interior, got);
   CHECK(got == tile.want);
+}
+
+TEST_CASE("turned cubes that do not fit in device memory close in parts, in any order of threads",
+          "[quick][emulated]") {
+  const Tile tile;
+  reference::Random random{17};
+  const OrientationField field = reference::random_orientation(random, tile.interior.grown(tile.halo.erosion_vox));
+  const Halo halo{tile.halo.erosion_vox, oriented_reach(field, tile.scale.max)};
+  const ClosingParams params{StructuringElement::cube, &field};
+  BitBox want, got;
+  CpuBackend().close(tile.solid, tile.scale, halo, params, tile.interior, want);
+  std::size_t whole = 0;
+  for (const unsigned order : {0u, 1u, 77u}) {
+    CAPTURE(order);
+    emulator::set_thread_order(order);
+    const auto backend = make_cuda_backend(0);
+    backend->close(tile.solid, tile.scale, halo, params, tile.interior, got);
+    whole = emulator::memory_in_use();
+    CHECK(got == want);
+  }
+  emulator::set_thread_order(0);
+  emulator::set_memory_limit(whole / 3);
+  make_cuda_backend(0)->close(tile.solid, tile.scale, halo, params, tile.interior, got);
+  emulator::set_memory_limit(std::size_t(-1));
+  CHECK(got == want);
 }
 
 TEST_CASE("crossings and the fill by winding on a device with little memory are the same", "[quick][emulated]") {
@@ -182,4 +210,39 @@ TEST_CASE("a GPU whose launches fail says which it is, and the CPU takes over wh
   emulator::faults = {};
   CHECK(warning == said);
   CHECK(got == tile.want);
+}
+
+TEST_CASE("points whose numbers do not fit in device memory are weighed in parts, to the same bits",
+          "[quick][emulated]") {
+  const CageCoordinates coordinates(make_cage(test::sphere_cage(6, 7, 0.2), "sphere"));
+  std::vector<Vec3d> points;
+  for (int i = 0; i < 301; ++i) points.push_back({0.001 * i, 0.002 * i - 0.3, 0.1});
+  const auto weigh = [&](Backend& backend) {
+    WeightBlock block(points.size(), coordinates.columns());
+    std::vector<CoordinateRows::Place> places(points.size());
+    backend.weigh(coordinates, points, true, block, places);
+    return block.units;
+  };
+  CpuBackend cpu;
+  const auto gpu = make_cuda_backend(0);
+  emulator::set_memory_limit(std::size_t(600) << 10);
+  const std::vector<std::int32_t> got = weigh(*gpu);
+  CHECK(emulator::memory_in_use() > std::size_t(100) << 10);
+  emulator::set_memory_limit(std::size_t(-1));
+  CHECK(got == weigh(cpu));
+}
+
+TEST_CASE("a device that fails at coordinates leaves them to the CPU, with a warning", "[quick][emulated]") {
+  const CageCoordinates coordinates(make_cage(test::sphere_cage(5, 6), "sphere"));
+  int warnings = 0;
+  FallbackBackend backend(make_cuda_backend(0), [&](const DeviceError&) { ++warnings; });
+  emulator::faults.launch = cudaErrorLaunchFailure;
+  const std::vector<Vec3d> points{{0.1, 0.2, 0.3}};
+  WeightBlock got(1, coordinates.columns()), want = got;
+  std::vector<CoordinateRows::Place> places(1);
+  backend.weigh(coordinates, points, true, got, places);
+  emulator::faults = {};
+  CpuBackend().weigh(coordinates, points, true, want, places);
+  CHECK(got.units == want.units);
+  CHECK(warnings == 1);
 }

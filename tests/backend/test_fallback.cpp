@@ -40,6 +40,12 @@ class FailingBackend final : public Backend {
     closed.reset(interior);
     spoil(closed);
   }
+  void weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside, WeightBlock& out,
+             std::span<CoordinateRows::Place> places) override {
+    if (good_-- > 0) return cpu_.weigh(coordinates, points, carry_outside, out, places);
+    for (std::int32_t& unit : out.units) unit = 99;
+    throw DeviceError("fake:0: on fire");
+  }
 
  private:
   [[noreturn]] static void spoil(BitBox& bits) {
@@ -118,6 +124,8 @@ TEST_CASE("an error that is not the device's is not hidden", "[quick][backend]")
                       BitBox&) override {}
     void close(const BitBox&, const ScaleLattice&, const Halo&, const ClosingParams&, const VoxelBox&,
                BitBox&) override {}
+    void weigh(const CageCoordinates&, std::span<const Vec3d>, bool, WeightBlock&,
+               std::span<CoordinateRows::Place>) override {}
   };
   bool warned = false;
   FallbackBackend backend(std::make_unique<Refusing>(), [&](const DeviceError&) { warned = true; });

@@ -1,4 +1,6 @@
 // Paths through gpu/ that the Backend chooses by itself, each forced here. Runs on a GPU, or emulated.
+#include <algorithm>
+
 #include "gpu/cuda_backend.h"
 #include "gpu/kernels/device_error.h"
 #include "lib/device/cpu/cpu_backend.h"
@@ -158,26 +160,67 @@ TEST_CASE("the paper's hierarchical collision gives the same voxels", "[quick][g
   }
 }
 
-TEST_CASE("oriented cubes close as their definition says", "[quick][gpu]") {
+TEST_CASE("turned cubes close as their definition says, by rows and by the paper's walk", "[quick][gpu][oriented]") {
   if (gpus_or_skip().empty()) return;
-  const int seed = GENERATE(range(0, 16));
+  const int seed = GENERATE(range(0, 24));
   reference::Random random{std::uint64_t(seed) + 5000};
   const Scale largest = Scale(random.between(8, 5 * kScaleOne));
   const VoxelBox interior = reference::random_box(random, 32);
   const Halo halo{largest / kScaleOne + 2, oriented_reach(largest) + 1};
-  const VoxelBox box = interior.grown(halo.total_vox());
+  const VoxelBox box = interior.grown(halo.total_vox()), seen = interior.grown(halo.erosion_vox);
   const BitBox solid = reference::random_solid(random, box);
   const ScaleLattice scale = reference::random_lattice(random, box, largest);
-  const RotationLattice rotations = reference::random_rotations(random, box);
-  const BitBox want = reference::close_oriented(solid, scale, rotations, interior);
+  const OrientationField field = reference::random_orientation(random, seen);
+  const BitBox want = reference::close_oriented(solid, scale, sample(field, seen), interior);
   GpuTile tile(solid, scale, halo, interior);
-  tile.orient(rotations);
+  tile.orient(field, seen);
+  CAPTURE(seed, scale.constant());
+  DeviceClosing rows({4, std::size_t(1) << 28, false});
+  tile.poison(nullptr);
+  tile.close(rows, StructuringElement::cube, nullptr);
+  CHECK(tile.result(nullptr) == want);
   for (const auto variant : {HierarchicalVariant::plain, HierarchicalVariant::half_resolution}) {
-    CAPTURE(seed, int(variant), scale.constant());
     HierarchicalClosing closing(4);
     tile.poison(nullptr);
     tile.close(closing, StructuringElement::cube, variant, nullptr);
     CHECK(tile.result(nullptr) == want);
+  }
+}
+
+TEST_CASE("large turned cubes close on a GPU as on the CPU, whole and in two parts", "[quick][gpu][oriented]") {
+  const std::vector<int> gpus = gpus_or_skip();
+  const int seed = GENERATE(range(0, 4));
+  reference::Random random{std::uint64_t(seed) + 6000};
+  const Scale largest = Scale(random.between(10 * kScaleOne, 36 * kScaleOne));
+  const VoxelBox interior{{-20, 5, -9}, {44, 17 + seed, 4}};
+  const Halo halo{largest / kScaleOne + 2, oriented_reach(largest) + 1};
+  const VoxelBox box = interior.grown(halo.total_vox());
+  BitBox solid(box);
+  for (int i = 0; i < 12; ++i)
+    solid.set({random.between(box.min.x, box.max.x - 1), random.between(box.min.y, box.max.y - 1),
+               random.between(box.min.z, box.max.z - 1)});
+  ScaleLattice scale = reference::random_lattice(random, box, largest);
+  for (Scale& s : scale.samples) s = Scale(seed % 2 == 0 ? largest : random.between(largest * 7 / 8, largest));
+  scale.min = *std::min_element(scale.samples.begin(), scale.samples.end());
+  scale.max = *std::max_element(scale.samples.begin(), scale.samples.end());
+  const OrientationField field = reference::random_orientation(random, interior.grown(halo.erosion_vox));
+  const ClosingParams params{StructuringElement::cube, &field};
+  BitBox want;
+  CpuBackend().close(solid, scale, halo, params, interior, want);
+  for (const int device : gpus) {
+    const auto gpu = make_cuda_backend(device);
+    CAPTURE(seed, largest, scale.constant(), field.rotations.size());
+    BitBox got;
+    gpu->close(solid, scale, halo, params, interior, got);
+    CHECK(got == want);
+    VoxelBox lower = interior, upper = interior;
+    lower.max.x = upper.min.x = 0;
+    for (const VoxelBox& part : {lower, upper}) {
+      gpu->close(solid, scale, halo, params, part, got);
+      BitBox same(part);
+      copy_voxels(want, same);
+      CHECK(got == same);
+    }
   }
 }
 

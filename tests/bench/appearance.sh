@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # How much levels look like their scene, beside gltfpack's simplification (meshoptimizer) at the same triangles or bytes: PSNR and
 # SSIM over 24 views, at the size at which the level would be shown: its error is a pixel there (at most 512 pixels).
-# usage: [LEVELS=FACES,...] [MODE=fit] [SAME=bytes] appearance.sh TOOLS OUT SCENE...      SCENE: OBJ or glTF
+# usage: [LEVELS=FACES,...] [MODE=fit] [SAME=bytes] [PACKED=1] appearance.sh TOOLS OUT SCENE...      SCENE: OBJ or glTF
+# PACKED: as for the web, contents of tiles of ours beside gltfpack -cc; else files that every reader takes, beside gltfpack -noq.
 # NODE_PATH: folder of the packages that tests/viewers/run.sh installs, and gltfpack.
 set -euo pipefail
 tools=$(cd "$1" && pwd)
@@ -9,10 +10,25 @@ here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$2" && out=$(cd "$2" && pwd)
 shift 2
 gltfpack() { node "$NODE_PATH/gltfpack/cli.js" "$@"; }
-mode=(--mode "${MODE:-bounding}")
+mode=(--mode "${MODE:-bounding}") kind=(-noq) profile=()
+[ -z "${PACKED:-}" ] || { kind=(-cc) profile=(--profile 3dtiles --tile 65536); }
 
 # pack RATIO SCENE OUT [OPTION...]: leaves such a share of the triangles.
-pack() { gltfpack -noq -se 1 -si "$1" -i "$2" -o "$3" "${@:4}" > /dev/null; }
+pack() { gltfpack "${kind[@]}" -se 1 -si "$1" -i "$2" -o "$3" "${@:4}" > /dev/null; }
+
+# place CONTENT OUT: of a tile, at its place.
+place() {
+  python3 -c '
+import json, struct, sys
+data = open(sys.argv[1], "rb").read()
+size = struct.unpack_from("<I", data, 12)[0]
+doc = json.loads(data[20:20 + size])
+doc["nodes"][0]["translation"] = doc["asset"]["extras"]["tile_origin"]
+text = json.dumps(doc, separators=(",", ":")).encode()
+text += b" " * (-len(text) % 4)
+rest = data[20 + size:]
+open(sys.argv[2], "wb").write(struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest)' "$@"
+}
 
 # pack_into BYTES SCENE OUT [OPTION...]: as many triangles as fit.
 pack_into() {
@@ -35,7 +51,7 @@ for scene in "$@"; do
   triangles=$("$tools/bpinfo" "$work/scene.glb" --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["triangles"])')
   faces=()
   [ -z "${LEVELS:-}" ] || faces=(--faces "$LEVELS")
-  "$tools/bplod" "$scene" "${faces[@]}" "${mode[@]}" -o "$work/levels" --name level --report "$work/report.json" -q > /dev/null
+  "$tools/bplod" "$scene" "${faces[@]}" "${mode[@]}" "${profile[@]}" -o "$work/levels" --name level --report "$work/report.json" -q > /dev/null
   "$tools/bplod" "$scene" "${faces[@]}" "${mode[@]}" -o "$work/colors" --name level --appearance color -q > /dev/null
   python3 -c '
 import json, sys
@@ -44,7 +60,8 @@ for i, level in enumerate(report["counts"]["levels"]): print(i, level["faces"], 
   while read -r i count error; do
     diagonal=$("$tools/bpinfo" "$work/scene.glb" --json | python3 -c 'import json,math,sys; b=json.load(sys.stdin)["bounds"]; print(math.dist(b["min"],b["max"]))')
     pixels=$(python3 -c "print(int(max(48, min(512, $diagonal / $error))))")
-    size=$(stat -c %s "$work/levels/level_LOD$i.glb") packs=()
+    level=$work/levels/level_LOD$i.glb size=$(stat -c %s "$work/levels/level_LOD$i.glb") packs=()
+    [ -z "${PACKED:-}" ] || { level=$work/placed$i.glb && place "$work/levels/level_LOD$i.glb" "$level"; }
     for option in "" -sa; do # that keep all parts, or may drop some: the better one that fits counts
       pack=$work/pack$i$option.glb
       if [ "${SAME:-triangles}" = bytes ]; then
@@ -56,7 +73,7 @@ for i, level in enumerate(report["counts"]["levels"]): print(i, level["faces"], 
       fi
     done
     [ ${#packs[@]} -gt 0 ] || packs=("$pack")
-    mapfile -t seen < <(node "$here/appearance.cjs" "$pixels" "$work/scene.glb" "$work/levels/level_LOD$i.glb" "$work/colors/level_LOD$i.glb" "${packs[@]}")
+    mapfile -t seen < <(node "$here/appearance.cjs" "$pixels" "$work/scene.glb" "$level" "$work/colors/level_LOD$i.glb" "${packs[@]}")
     best=2
     for ((k = 3; k < ${#seen[@]}; ++k)); do
       [ "$(python3 -c "print(${seen[k]% *} > ${seen[best]% *})")" = False ] || best=$k

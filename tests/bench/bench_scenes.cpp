@@ -6,6 +6,7 @@
 #include <random>
 #include <sstream>
 
+#include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
 #include "lib/volume/outside.h"
 #include "lib/voxel/voxelize.h"
@@ -81,6 +82,22 @@ BenchSolid from_obj(const std::string& path, int resolution) {
   return s;
 }
 
+BenchSolid from_stream(const std::string& path) {
+  BrickReader source(path);
+  BenchSolid s;
+  s.name = path.substr(path.find_last_of('/') + 1);
+  s.tight = voxels_of(source.header().bricks);
+  s.orientation = source.header().orientation;
+  s.bits.reset(s.tight);
+  for (Brick brick; source.read(brick);) {
+    const VoxelCoord first = first_voxel(brick.coord);
+    for (std::int32_t i = 0; i < std::int32_t(kBrickWords); ++i)
+      s.bits.row(first.y + i % kBrickEdge, first.z + i / kBrickEdge)[(first.x - s.tight.min.x) / 64] =
+          brick.bits[std::size_t(i)];
+  }
+  return s;
+}
+
 /// Sets the voxels of `box` where inside(p), p in [0,1]^3 of the longest side.
 template <class Inside>
 void set_where(BitBox& bits, double n, const Vec3d& low, const Vec3d& high, const Inside& inside) {
@@ -148,6 +165,7 @@ std::int32_t wave(std::int32_t i, std::int32_t period) {
 }  // namespace
 
 BenchSolid load_bench_solid(const std::string& what, int resolution) {
+  if (what.ends_with(".bpv")) return from_stream(what);
   return what == "plant" ? plant(resolution) : from_obj(what, resolution);
 }
 
@@ -192,21 +210,13 @@ ScaleLattice bench_scale(const VoxelBox& box, Scale least, Scale most) {
   return s;
 }
 
-RotationLattice bench_rotations(const VoxelBox& box) {
-  RotationLattice r;
-  for (int axis = 0; axis < 3; ++axis) {
-    r.origin[axis] = floor_div(box.min[axis], kScaleStep);
-    r.size[axis] = floor_div(box.max[axis], kScaleStep) + 1 - r.origin[axis];
-  }
-  for (std::int32_t z = 0; z < r.size.z; ++z) {
-    for (std::int32_t y = 0; y < r.size.y; ++y) {
-      for (std::int32_t x = 0; x < r.size.x; ++x) {
-        r.cells.push_back(
-            rotation_of(256, wave(x + r.origin.x, 38), wave(y + r.origin.y, 30), wave(z + r.origin.z, 26)));
-      }
-    }
-  }
-  return r;
+OrientationField bench_orientation(const std::string& name) {
+  const double angle = (name == "turned" ? 30 : 35) * M_PI / 360, length = std::sqrt(14.0);
+  const Vec3d axis = name == "turned" ? Vec3d{0, 0, 1} : Vec3d{1 / length, 2 / length, 3 / length};
+  const auto part = [](double v) { return std::int16_t(std::lround(v * (1 << kRotationBits))); };
+  const FixedQuaternion q{part(std::cos(angle)), part(axis[0] * std::sin(angle)), part(axis[1] * std::sin(angle)),
+                          part(axis[2] * std::sin(angle))};
+  return {64, {}, {1, 1, 1}, {q}, {0}};
 }
 
 std::uint64_t bits_hash(const BitBox& bits) {

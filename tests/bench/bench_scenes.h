@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "lib/closing/rotation.h"
 #include "lib/grid/bit_box.h"
+#include "lib/grid/orientation_field.h"
 #include "lib/grid/scale_field.h"
 #include "lib/voxel/fixed_triangle.h"
 
@@ -13,11 +13,13 @@ namespace bp {
 
 struct BenchSolid {
   std::string name;
-  BitBox bits;     ///< filled
-  VoxelBox tight;  ///< voxels of the model, one of margin
+  BitBox bits;                   ///< filled
+  VoxelBox tight;                ///< voxels of the model, one of margin
+  OrientationField orientation;  ///< of a stream that has one
 };
 
-/// `what`: an OBJ file, or "plant": generated tanks, pipes and plates. `resolution`: voxels along the longest side.
+/// `what`: an OBJ file, or "plant": generated tanks, pipes and plates, or a brick stream (FILE.bpv, of its own
+/// resolution). `resolution`: voxels along the longest side.
 [[nodiscard]] BenchSolid load_bench_solid(const std::string& what, int resolution);
 
 /// Triangles of a model in voxels, each cut into pieces^2 equal ones; `box` becomes the voxels they may touch.
@@ -27,8 +29,8 @@ struct BenchSolid {
 /// S over `box`: constant, or smooth bumps between `least` and `most`. Sixteenths of a voxel.
 [[nodiscard]] ScaleLattice bench_scale(const VoxelBox& box, Scale least, Scale most);
 
-/// Rotations over `box` that turn smoothly from cell to cell.
-[[nodiscard]] RotationLattice bench_rotations(const VoxelBox& box);
+/// One rotation for all voxels: "turned" by 30 degrees about z, or "skew" by 35 about (1, 2, 3).
+[[nodiscard]] OrientationField bench_orientation(const std::string& name);
 
 /// FNV-1a of the words: to compare results between machines.
 [[nodiscard]] std::uint64_t bits_hash(const BitBox& bits);

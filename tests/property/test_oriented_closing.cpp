@@ -123,7 +123,7 @@ int compare_large(std::uint64_t seed) {
   const OrientationField field = orientation_of(random, box, seed % 4 == 0 ? 8 : 64, seed % 5 == 0);
   detail::OrientedDilation dilation;
   if (!dilation.turns(field, box)) return 0;
-  dilation.run(solid, scale, field, out);
+  dilation.run(solid, scale, out);
   int wrong = 0;
   for_each(region, [&](VoxelCoord p) {
     const Rotation r = canonical(rotation_of(field.rotations[field.index_at(p)]));
@@ -209,7 +209,7 @@ TEST_CASE("boxes around and inside a turned cube hold for every rotation and sca
     const auto part = [&] { return std::int16_t(random.between(-16000, 16000)); };
     const Rotation r = canonical(rotation_of(FixedQuaternion{12000, part(), part(), part()}));
     const auto s = Scale(random.between(0, 12 * kScaleOne));
-    const detail::CubeBounds bounds = detail::cube_bounds(r);
+    const CubeBounds bounds = cube_bounds(r);
     const detail::CubeRows rows(r, s);
     const std::int32_t inner = bounds.inner(s) / kScaleOne, outer = bounds.reach(s), far = oriented_reach(s) + 1;
     CHECK(outer <= oriented_reach(s));

@@ -14,6 +14,7 @@ class MemoryTextures final : public TextureSet {
   mutable int decoded = 0;
 
   [[nodiscard]] const TextureMaterial& material(std::uint32_t i) const override { return materials.at(i); }
+  [[nodiscard]] std::uint32_t image_count() const override { return std::uint32_t(images.size()); }
   [[nodiscard]] std::array<int, 2> size(std::uint32_t i) const override {
     return {images.at(i).width, images.at(i).height};
   }

@@ -50,7 +50,7 @@ CheckRun parse_check_run(Args& args) {
   declare(args, o);
   args.example("bpcheck scene.glb proxy.glb");
   args.parse();
-  if (!o.files.empty()) o.files.back() = tileset_in(o.files.back());
+  for (std::string& file : o.files) file = tileset_in(file);
   args.excludes("--convex", "--inside");
   args.excludes("--margin", "--inside");
   args.excludes("--margin", "--convex");

@@ -59,8 +59,9 @@ class MoveStream {
 };
 
 /// Also those that are not finite, which moves_of_cage() names.
-std::vector<TriangleD> faces_of(const std::string& path, const SceneOptions& options) {
-  const IndexedMesh mesh = read_mesh(path, options);
+std::vector<TriangleD> faces_of(const MovedCage& cage, SceneOptions options) {
+  options.pose = cage.pose;
+  const IndexedMesh mesh = read_mesh(cage.path, options);
   std::vector<TriangleD> faces;
   for (const auto& t : mesh.triangles) faces.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
   return faces;
@@ -81,14 +82,13 @@ void turn(const CageCoordinates& coordinates, const std::vector<Vec3d>& moves, i
 /// What one moved cage does to the scene.
 class CageMover {
  public:
-  CageMover(const ApplyRequest& request, const std::string& cage)
+  CageMover(const ApplyRequest& request, const MovedCage& cage, const ScenePoints& scene)
       : request_(request),
+        scene_(scene),
         weights_(request.weights),
         coordinates_(make_cage(weights_.header().cage, request.weights), weights_.header().kind),
         moves_(coordinates_.moves_of_columns(
-            moves_of_cage(weights_.header().cage, faces_of(cage, request.scene_options), cage))),
-        at_work_(blocks_at_work(request.memory_bytes, coordinates_)),
-        stream_(weights_, moves_, at_work_) {
+            moves_of_cage(weights_.header().cage, faces_of(cage, request.scene_options), cage.path))) {
     const std::uint64_t bytes = size_of_files({request.scene}), expected = weights_.header().scene_bytes;
     if (bytes != expected)
       fail(ErrorCode::bad_input, "{}: has {} bytes, and had {} when {} was made of it; bind it again", request.scene,
@@ -97,26 +97,36 @@ class CageMover {
   [[nodiscard]] std::uint64_t expected() const { return weights_.points_declared(); }
   void move(PointBatch& batch) {
     hash_.add(std::as_bytes(std::span(batch.positions)));
+    begin();
     turn(coordinates_, moves_, at_work_, batch);
-    const std::vector<Vec3d> shifts = stream_.take(batch.positions.size());
+    const std::vector<Vec3d> shifts = stream_->take(batch.positions.size());
     for (std::size_t i = 0; i < shifts.size(); ++i) batch.positions[i] = batch.positions[i] + shifts[i];
     points_ += shifts.size();
   }
   /// Throws bad_input if the scene was another; returns its vertices.
   std::uint64_t finish() {
-    if (!stream_.take(1).empty() || weights_.totals().points != points_ || weights_.totals().hash != hash_.value())
+    begin();
+    if (!stream_->take(1).empty() || weights_.totals().points != points_ || weights_.totals().hash != hash_.value())
       fail(ErrorCode::bad_input, "{}: its vertices are not those that {} was made of; bind it again", request_.scene,
            request_.weights);
     return points_;
   }
 
  private:
+  /// Once the scene is being written: only then it is known what that takes.
+  void begin() {
+    if (stream_) return;
+    at_work_ = blocks_at_work(request_.memory_bytes, scene_.memory_bytes(), coordinates_);
+    stream_.emplace(weights_, moves_, at_work_);
+  }
+
   const ApplyRequest& request_;
+  const ScenePoints& scene_;
   WeightReader weights_;
   const CageCoordinates coordinates_;
   const std::vector<Vec3d> moves_;
-  const int at_work_;
-  MoveStream stream_;
+  int at_work_ = 0;
+  std::optional<MoveStream> stream_;
   ContentHash hash_;
   std::uint64_t points_ = 0;
 };
@@ -132,9 +142,19 @@ std::string scene_of(const WeightReader& weights, const std::string& path) {
        beside.string());
 }
 
-Applied apply_cage(const ApplyRequest& request, const std::string& cage, OutputFile& out, Progress& progress) {
+std::vector<MovedCage> moved_cages(std::span<const std::string> paths, const SceneOptions& options,
+                                   std::optional<double> per_second) {
+  std::vector<MovedCage> cages;
+  for (const std::string& path : paths) {
+    for (ScenePose& pose : read_poses(path, options, per_second))
+      cages.push_back({path, std::make_shared<const ScenePose>(std::move(pose))});
+  }
+  return cages;
+}
+
+Applied apply_cage(const ApplyRequest& request, const MovedCage& cage, OutputFile& out, Progress& progress) {
   const std::unique_ptr<ScenePoints> scene = open_points(request.scene, request.scene_options);
-  CageMover mover(request, cage);
+  CageMover mover(request, cage, *scene);
   progress.begin("apply", mover.expected(), "vertices");
   scene->write(
       [&](PointBatch& batch) {
@@ -146,10 +166,10 @@ Applied apply_cage(const ApplyRequest& request, const std::string& cage, OutputF
   return {mover.finish(), scene->left_behind()};
 }
 
-Applied animate_cages(const ApplyRequest& request, std::span<const std::string> cages, double per_second,
-                      OutputFile& out, Progress& progress) {
+Applied animate_cages(const ApplyRequest& request, std::span<const MovedCage> cages, double per_second, OutputFile& out,
+                      Progress& progress) {
   const std::unique_ptr<ScenePoints> scene = open_points(request.scene, request.scene_options);
-  auto mover = std::make_unique<CageMover>(request, cages[0]);
+  auto mover = std::make_unique<CageMover>(request, cages[0], *scene);
   progress.begin("apply", mover->expected() * cages.size(), "vertices");
   std::size_t at = 0;
   scene->write_frames(
@@ -157,7 +177,7 @@ Applied animate_cages(const ApplyRequest& request, std::span<const std::string> 
       [&](std::size_t frame, PointBatch& batch) {
         if (frame != at) {
           (void)mover->finish();
-          mover = std::make_unique<CageMover>(request, cages[at = frame]);
+          mover = std::make_unique<CageMover>(request, cages[at = frame], *scene);
         }
         mover->move(batch);
         progress.add(batch.positions.size());

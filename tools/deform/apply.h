@@ -1,10 +1,13 @@
 #pragma once
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/deform/weight_file.h"
-#include "io/scene/scene_reader.h"
+#include "io/scene/scene_pose.h"
 #include "tools/cli/progress.h"
 
 namespace bp {
@@ -14,6 +17,15 @@ struct ApplyRequest {
   std::uint64_t memory_bytes = 0;
   SceneOptions scene_options;
 };
+
+/// A file, in one of its poses.
+struct MovedCage {
+  std::string path;
+  std::shared_ptr<const ScenePose> pose;
+};
+/// All poses of files, one file after the other (read_poses()).
+[[nodiscard]] std::vector<MovedCage> moved_cages(std::span<const std::string> paths, const SceneOptions& options,
+                                                 std::optional<double> per_second);
 
 struct Applied {
   std::uint64_t points = 0;
@@ -26,10 +38,10 @@ struct Applied {
 
 /// Writes the scene of the weights as a moved cage carries it. Throws bad_input if the scene has changed since, or if
 /// the cage has other faces.
-[[nodiscard]] Applied apply_cage(const ApplyRequest& request, const std::string& cage, OutputFile& out,
+[[nodiscard]] Applied apply_cage(const ApplyRequest& request, const MovedCage& cage, OutputFile& out,
                                  Progress& progress);
 /// The same for several cages: one glTF whose scene goes from each to the next, so many in a second.
-[[nodiscard]] Applied animate_cages(const ApplyRequest& request, std::span<const std::string> cages, double per_second,
+[[nodiscard]] Applied animate_cages(const ApplyRequest& request, std::span<const MovedCage> cages, double per_second,
                                     OutputFile& out, Progress& progress);
 
 }  // namespace bp

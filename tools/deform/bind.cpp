@@ -7,9 +7,12 @@
 #include "io/scene/points/scene_points.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/core/pool.h"
 #include "lib/store/content_hash.h"
 #include "tools/cli/common_options.h"
 #include "tools/cli/report.h"
+#include "tools/run/make_backend.h"
+#include "tools/run/memory_shares.h"
 
 namespace bp {
 
@@ -56,21 +59,29 @@ class BlockCutter {
   ContentHash hash_;
 };
 
-void work_on(const CageCoordinates& coordinates, bool carry_outside, Block& block) {
-  const std::size_t step = coordinates.points_at_once();
-  CoordinateRows rows;
-  WeightBlock rounded(block.points.size(), coordinates.columns());
-  for (std::size_t first = 0; first < block.points.size(); first += step) {
-    const std::size_t count = std::min(step, block.points.size() - first);
-    coordinates.evaluate(std::span(block.points).subspan(first, count), rows);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (rows.places[i] != CoordinateRows::Place::outside || block.outside++ > 0) continue;
-      block.first_outside = first + i;
-      block.place = block.points[first + i];
-    }
-    if (block.outside == 0 || carry_outside) round_weights(rows, first, rounded);
+void work_on(Pool<Backend*>& backends, const CageCoordinates& coordinates, bool carry_outside, Block& block) {
+  const std::size_t n = block.points.size();
+  WeightBlock weights(n, coordinates.columns());
+  std::vector<CoordinateRows::Place> places(n);
+  {
+    const Pool<Backend*>::Lease backend(backends);
+    backend->weigh(coordinates, block.points, carry_outside, weights, places);
   }
-  if (block.outside == 0 || carry_outside) pack_weights(rounded, block.packed);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (places[i] != CoordinateRows::Place::outside || block.outside++ > 0) continue;
+    block.first_outside = i;
+    block.place = block.points[i];
+  }
+  if (block.outside == 0 || carry_outside) pack_weights(weights, block.packed);
+}
+
+/// Seconds of a core for the coordinates of a scene, about: 0 if blocks have too few points for a GPU.
+double core_seconds(const CageCoordinates& coordinates, std::uint64_t points) {
+  constexpr double kPerFace = 1e-8;
+  constexpr std::size_t kFewPoints = 256;
+  const double kind = coordinates.kind() == CoordinateKind::mean_value ? 1 : 2;
+  if (points_of_block(coordinates.columns()) < kFewPoints) return 0;
+  return kPerFace * kind * double(coordinates.cage().faces.size()) * double(points);
 }
 
 /// Counts, and remembers the first point outside.
@@ -86,6 +97,37 @@ struct Tally {
   }
 };
 
+std::vector<Backend*> pointers_to(const Backends& backends) {
+  std::vector<Backend*> out;
+  for (const auto& backend : backends) out.push_back(backend.get());
+  return out;
+}
+
+constexpr const char* kSceneFirst = "bind takes the scene first, and then the cage";
+
+/// Larger than the scene, which no cage is.
+bool seems_swapped(const BindRequest& request) {
+  return size_of_files({request.cage}) > size_of_files({request.scene});
+}
+
+IndexedMesh read_cage(const BindRequest& request) {
+  try {
+    IndexedMesh mesh = read_mesh(request.cage, request.scene_options);
+    (void)make_cage(mesh, request.cage);
+    return mesh;
+  } catch (const Error& e) {
+    if (!seems_swapped(request)) throw;
+    fail(ErrorCode::bad_input, "{}; {}, and {} is larger than {}", e.what(), kSceneFirst, request.cage, request.scene);
+  }
+}
+
+[[noreturn]] void refuse_outside(const BindRequest& request, const Tally& tally) {
+  const bool swapped = tally.totals.outside == tally.totals.points && seems_swapped(request);
+  fail(ErrorCode::bad_input, "{}: vertices outside {}: {} of {}, the first is number {} at {:.6g},{:.6g},{:.6g}; {}",
+       request.scene, request.cage, tally.totals.outside, tally.totals.points, tally.first + 1, tally.place[0],
+       tally.place[1], tally.place[2], swapped ? kSceneFirst : "use a larger cage, or --outside near");
+}
+
 /// The name of a file from the folder of another; one that begins at the root stays.
 std::string name_from(const std::string& from, const std::string& file) {
   const std::filesystem::path folder = std::filesystem::absolute(from).parent_path();
@@ -95,40 +137,40 @@ std::string name_from(const std::string& from, const std::string& file) {
 
 }  // namespace
 
-int blocks_at_work(std::uint64_t memory_bytes, const CageCoordinates& coordinates) {
+int blocks_at_work(std::uint64_t memory_bytes, std::uint64_t held, const CageCoordinates& coordinates) {
   constexpr std::uint64_t kPerFace = 512;  // of the cage: its vertices, edges, tables and hierarchy
   const std::size_t columns = coordinates.columns();
   const std::uint64_t block = 24 * points_of_block(columns) * columns + coordinates.bytes_at_once();
-  const std::uint64_t fixed = least_memory(0) + kPerFace * coordinates.cage().faces.size();
+  const std::uint64_t fixed = least_memory(0) + held + kPerFace * coordinates.cage().faces.size();
   const std::uint64_t left = memory_bytes > fixed ? memory_bytes - fixed : 0;
   if (left < block) throw NeedsMemory("a block of weights", block, left, fixed + block);
   return int(std::clamp<std::uint64_t>(left / block, 1, 2 * std::uint64_t(thread_count())));
 }
 
 WeightTotals bind_scene(const BindRequest& request, OutputFile& out, Progress& progress) {
+  constexpr std::uint64_t kBytesPerPoint = 100;  // of an OBJ, which does not tell its vertices
   const WeightHeader header{name_from(request.weights, request.scene), size_of_files({request.scene}),
-                            read_mesh(request.cage, request.scene_options), request.kind};
+                            read_cage(request), request.kind};
   const CageCoordinates coordinates(make_cage(header.cage, request.cage), request.kind);
   const std::unique_ptr<ScenePoints> points = open_points(request.scene, request.scene_options);
+  const std::uint64_t expected = points->count() > 0 ? points->count() : header.scene_bytes / kBytesPerPoint;
+  const Backends& backends = request.backends(core_seconds(coordinates, expected));
+  Pool<Backend*> pool(pointers_to(backends));
   BlockCutter cutter(*points, points_of_block(coordinates.columns()));
   WeightWriter writer(out, header);
   Tally tally;
   progress.begin("bind", 0, "vertices");
   pipeline<Block>(
-      blocks_at_work(request.memory_bytes, coordinates), [&](Block& block) { return cutter.next(block); },
-      [&](Block& block) { work_on(coordinates, request.carry_outside, block); },
+      blocks_at_work(unpinned(request.memory_bytes, pinned_bytes(backends)), points->memory_bytes(), coordinates),
+      [&](Block& block) { return cutter.next(block); },
+      [&](Block& block) { work_on(pool, coordinates, request.carry_outside, block); },
       [&](Block& block) {
         tally.add(block);
         if (tally.totals.outside == 0 || request.carry_outside) writer.write(block.packed);
         progress.set(tally.totals.points, std::max(block.expected, tally.totals.points));
       });
   progress.end();
-  if (tally.totals.outside > 0 && !request.carry_outside)
-    fail(ErrorCode::bad_input,
-         "{}: vertices outside {}: {} of {}, the first is number {} at {:.6g},{:.6g},{:.6g}; use a larger cage, or "
-         "--outside near",
-         request.scene, request.cage, tally.totals.outside, tally.totals.points, tally.first + 1, tally.place[0],
-         tally.place[1], tally.place[2]);
+  if (tally.totals.outside > 0 && !request.carry_outside) refuse_outside(request, tally);
   tally.totals.hash = cutter.hash();
   writer.finish(tally.totals);
   return tally.totals;

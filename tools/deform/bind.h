@@ -1,17 +1,18 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "io/deform/weight_file.h"
 #include "io/scene/scene_reader.h"
-#include "lib/core/box.h"
+#include "lib/device/backend.h"
 #include "tools/cli/progress.h"
 
 namespace bp {
 
 /// Blocks of weights at work at the same time, each with coordinates at work: as many as memory and threads allow, at
-/// most two for each thread. Throws NeedsMemory if not even one fits.
-[[nodiscard]] int blocks_at_work(std::uint64_t memory_bytes, const CageCoordinates& coordinates);
+/// most two for each thread. `held`: bytes of it that are in use. Throws NeedsMemory if not even one fits.
+[[nodiscard]] int blocks_at_work(std::uint64_t memory_bytes, std::uint64_t held, const CageCoordinates& coordinates);
 
 struct BindRequest {
   std::string scene, cage, weights;  ///< weights: the name of `out`
@@ -19,6 +20,9 @@ struct BindRequest {
   bool carry_outside = false;  ///< points outside follow the nearest face; else they are refused
   std::uint64_t memory_bytes = 0;
   SceneOptions scene_options;
+  /// What computes coordinates. Gets the seconds that they would take on one core, about. Their pinned memory is taken
+  /// off memory_bytes.
+  std::function<const Backends&(double core_seconds)> backends;
 };
 
 /// Binds a scene: streams its vertices through the coordinates of the cage into `out`. Throws bad_input if points lie

@@ -44,7 +44,7 @@ void print_list(const std::string& text, const std::string& made) {
 /// The file that stands for all levels, or this one.
 std::string name_of_all(const BuildOptions& o, const std::string& file) {
   if (o.is_tileset()) return "tileset.json";
-  return o.profile == LodProfile::gltf ? o.name + ".glb" : file;
+  return o.profile == LodProfile::gltf && !o.obj ? o.name + ".glb" : file;
 }
 
 }  // namespace
@@ -290,7 +290,7 @@ void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& row
   if (options.common.progress == ProgressMode::quiet) return;
   std::string proof;
   for (const LevelRow& row : rows) {
-    if (!proof.empty() && options.profile != LodProfile::collision) break;  // of the others, one file stands for all
+    if (!proof.empty() && options.profile != LodProfile::collision && !options.obj) break;  // one file stands for all
     const std::string one = proof_command(options, name_of_all(options, row.file), row.more.contains("hulls"), margin_);
     if (!one.empty()) proof += (proof.empty() ? "" : " && ") + one;
   }

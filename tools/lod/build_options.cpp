@@ -66,6 +66,21 @@ Json faces_json(const LevelOptions& levels) {
   return all;
 }
 
+/// -o DIR/foo.obj: levels as OBJ, called foo.
+void take_obj_name(const Args& args, BuildOptions& o) {
+  const std::filesystem::path out(o.out);
+  std::error_code none;
+  if (o.profile != LodProfile::gltf || scene_format_of(o.out) != "obj" || out.stem().empty() ||
+      out.stem().string().starts_with('.') || std::filesystem::is_directory(out, none))
+    return;
+  if (args.given("--name")) fail(ErrorCode::bad_argument, "--name: -o {} names the files already", o.out);
+  o.obj = true;
+  o.name = out.stem().string();
+  o.out = out.has_parent_path() ? out.parent_path().string() : ".";
+  if (o.appearance == Appearance::automatic)
+    o.appearance = Appearance::texture;  // colours of vertices are no part of OBJ
+}
+
 /// -o foo.glb: who writes that wants a file, and there are several.
 void check_folder_name(const BuildOptions& o) {
   if (o.out.empty() && !o.tiles && !o.explain) fail(ErrorCode::bad_argument, "name the folder of the levels with -o");
@@ -207,7 +222,7 @@ void declare_tileset(Args& args, BuildOptions& o) {
 void declare(Args& args, BuildOptions& o) {
   args.about("Makes levels of detail of scenes: coarser and coarser proxies around them.");
   o.voxels.add_scenes(args, "scenes");
-  args.option("-o,--output", "DIR", o.out, "folder of the levels, made if missing");
+  args.option("-o,--output", "DIR", o.out, "folder of the levels, made if missing; or NAME.obj: levels as OBJ");
   args.option("--name", "NAME", o.name, "first part of the names of files and nodes (default: the first scene's)");
   declare_profile(args, o);
   o.levels.add_of_scene(args, "as many as are listed; else 4, or fewer where a level would have less than 12 faces",
@@ -274,6 +289,7 @@ BuildOptions parse_build_options(Args& args) {
   if (o.proxy.mode == MeshMode::fit) o.closing.element = StructuringElement::ball;
   set_one_level(o);
   check_levels(o);
+  take_obj_name(args, o);
   check_folder_name(o);
   check_jobs(o);
   check_name(o);

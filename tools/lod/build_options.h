@@ -40,6 +40,7 @@ struct BuildOptions {
   LevelOptions levels;
   ProxyOptions proxy;
   std::string out, name;
+  bool obj = false;  ///< levels as OBJ with materials; then they have the name that -o gave
   LodProfile profile = LodProfile::gltf;
   std::int32_t tile_vox = 512;                        ///< edge of a cell of a tileset
   Symmetry symmetry = Symmetry::automatic;            ///< of a cage

@@ -53,4 +53,11 @@ struct WrittenFile {
 std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::vector<LodLevel>& levels,
                                        double diameter, const Vec3d& origin, OutputFolder& out);
 
+/// Levels as OBJ (BuildOptions::obj), each with a material and images beside it. Files that there may be: an image is
+/// JPEG, or PNG where it has holes.
+[[nodiscard]] std::vector<std::string> obj_files(const BuildOptions& options, std::size_t levels);
+/// As write_profile(); what is not needed of obj_files() is left out.
+std::vector<WrittenFile> write_obj_levels(const BuildOptions& options, const std::vector<LodLevel>& levels,
+                                          const Vec3d& origin, OutputFolder& out);
+
 }  // namespace bp

@@ -25,7 +25,8 @@ void question_margin(const BuildOptions& o, const Bounds3d& scene, double voxel)
   if (margin <= Length{kMost, Length::Unit::percent}.in_world(diagonal, voxel)) return;
   const bool slip = o.margin.unit == Length::Unit::scene && o.margin.value <= kMost;
   fail(ErrorCode::bad_argument, "--margin {} is {:.3g} % of the scene's diagonal, and {:g}% is the most{}",
-       o.margin.text(), 100 * margin / diagonal, kMost, slip ? fmt::format(": did you mean {}%?", o.margin.text()) : "");
+       o.margin.text(), 100 * margin / diagonal, kMost,
+       slip ? fmt::format(": did you mean {}%?", o.margin.text()) : "");
 }
 
 }  // namespace

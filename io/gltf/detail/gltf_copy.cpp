@@ -1,5 +1,6 @@
 #include "io/gltf/detail/gltf_copy.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -15,6 +16,7 @@ namespace {
 constexpr std::uint32_t kJson = 0x4E4F534A, kBin = 0x004E4942;
 constexpr std::uint64_t kFirst = 12;
 constexpr int kVertexData = 34962;
+constexpr std::uint64_t kPerByte = 12;  // of JSON: memory of what it becomes, values and text
 
 struct Chunk {
   std::uint64_t begin = 0, size = 0;  ///< of its content
@@ -54,12 +56,14 @@ void check_container(const SceneFile& file) {
     fail(ErrorCode::bad_input, "{}: is no GLB of JSON and one binary chunk", file.name());
 }
 
-GltfCopy::GltfCopy(SceneFilePtr file, const SceneFile& buffer, std::uint64_t bytes, const SceneOptions& options)
-    : file_(std::move(file)), data_(std::make_unique<ScratchFile>(temp_dir_of(options))) {
-  constexpr std::uint64_t kPerByte = 12;  // of JSON: memory of what it becomes
+GltfCopy::GltfCopy(SceneFilePtr file, const SceneFile& buffer, std::uint64_t bytes, std::uint64_t held,
+                   const SceneOptions& options)
+    : file_(std::move(file)),
+      data_(std::make_unique<ScratchFile>(temp_dir_of(options))),
+      options_(options),
+      held_(held) {
   const Chunk json = is_glb(*file_) ? chunk_at(*file_, kFirst) : Chunk{0, file_->size(), kJson};
-  json_bytes_ = kPerByte * json.size;
-  check_document(options, file_->name(), "its JSON", json_bytes_, options.document.bytes);
+  add_memory(kPerByte * json.size, "its JSON, read and written");
   std::string text(json.size, ' ');
   file_->read_at(json.begin, std::as_writable_bytes(std::span(text)));
   try {
@@ -69,6 +73,31 @@ GltfCopy::GltfCopy(SceneFilePtr file, const SceneFile& buffer, std::uint64_t byt
   }
   each_block(buffer, bytes, [&](std::span<const std::byte> b) { data_->append(b); });
   data_->append(std::vector<std::byte>(std::size_t((4 - bytes % 4) % 4)));
+}
+
+void GltfCopy::add_memory(std::uint64_t bytes, const char* what) {
+  json_bytes_ += bytes;
+  check_document(options_, file_->name(), what, json_bytes_,
+                 options_.document.bytes - std::min(options_.document.bytes, held_));
+}
+
+void GltfCopy::plan_copies(const GltfPlan& plan) {
+  constexpr std::uint64_t kView = 900, kPositions = 1900, kOthers = 1000, kMesh = 500;
+  std::uint64_t sum = 0;
+  for (const GltfVertices& v : plan.vertices) {
+    for (std::size_t i = 0; i < v.numbers.size() && v.is_copy; ++i)
+      sum += v.numbers[i] == 0 ? 0 : kView + (i == 0 ? kPositions : kOthers);
+  }
+  std::map<std::uint64_t, std::uint64_t> mesh_bytes;
+  std::uint64_t node = ~std::uint64_t(0);  // edits of a node follow each other
+  for (const GltfEdit& e : plan.edits) {
+    if (!e.own_mesh || e.node == node) continue;
+    node = e.node;
+    const auto [bytes, is_new] = mesh_bytes.try_emplace(e.mesh);
+    if (is_new) bytes->second = kMesh + kPerByte * json_["meshes"][e.mesh].dump().size();
+    sum += bytes->second;
+  }
+  add_memory(sum, "its JSON with a mesh for each place");
 }
 
 std::uint64_t GltfCopy::add_accessor(std::uint64_t like, std::uint64_t offset, std::uint64_t bytes) {
@@ -116,7 +145,7 @@ std::size_t GltfCopy::add_scalars(std::uint64_t offset) {
   return add_floats(json_["bufferViews"].size() - 1, 0, bytes / sizeof(float), "SCALAR");
 }
 
-void GltfCopy::plan_targets(const std::vector<GltfVertices>& parts, std::size_t targets, const SceneOptions& options) {
+void GltfCopy::plan_targets(const std::vector<GltfVertices>& parts, std::size_t targets) {
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> known;
   for (const GltfVertices& v : parts) {
     known.emplace(std::pair(v.numbers[0], v.numbers[1]), parts_.size());
@@ -129,11 +158,11 @@ void GltfCopy::plan_targets(const std::vector<GltfVertices>& parts, std::size_t 
       if (part != known.end()) parts_[part->second].primitives.push_back(&primitive);
     }
   }
-  check_targets(targets, options);
+  add_memory(targets * bytes_of_targets(), "its JSON with a morph target of each part for each cage");
 }
 
-/// Bytes of JSON as values, and as the text that is made of them.
-void GltfCopy::check_targets(std::size_t targets, const SceneOptions& options) const {
+/// Of all parts, for one cage.
+std::uint64_t GltfCopy::bytes_of_targets() const {
   constexpr std::uint64_t kView = 1200, kPositions = 2600, kNormals = 1300, kPrimitive = 800;
   std::uint64_t of_each = 0, stride = 0;
   for (const Part& part : parts_) {
@@ -141,8 +170,7 @@ void GltfCopy::check_targets(std::size_t targets, const SceneOptions& options) c
     stride = part.stride();
     of_each += kPositions + (part.has_normals ? kNormals : 0) + part.primitives.size() * kPrimitive;
   }
-  check_document(options, file_->name(), "its JSON with a morph target of each part for each cage",
-                 json_bytes_ + targets * of_each, options.document.bytes);
+  return of_each;
 }
 
 std::size_t GltfCopy::view_of_targets(std::uint64_t bytes, std::uint64_t stride) {

@@ -22,14 +22,20 @@ void check_container(const SceneFile& file);
 /// A glTF document whose first buffer is changed in a scratch file.
 class GltfCopy {
  public:
-  /// buffer: the first one, of so many bytes.
-  GltfCopy(SceneFilePtr file, const SceneFile& buffer, std::uint64_t bytes, const SceneOptions& options);
+  /// buffer: the first one, of so many bytes. held: bytes of SceneOptions::document that are in use beside this.
+  GltfCopy(SceneFilePtr file, const SceneFile& buffer, std::uint64_t bytes, std::uint64_t held,
+           const SceneOptions& options);
 
   void read_at(std::uint64_t offset, std::span<std::byte> bytes) const { data_->read_at(offset, bytes); }
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes) { data_->write_at(offset, bytes); }
   /// Bytes so far; a multiple of 4, as append() leaves it.
   [[nodiscard]] std::uint64_t size() const { return data_->size(); }
   void append(std::span<const std::byte> bytes) { data_->append(bytes); }
+  /// Before the calls below: so much of the JSON will be new. Throws NeedsMemory if the document takes more than
+  /// SceneOptions::document leaves.
+  void plan_copies(const GltfPlan& plan);
+  /// Of the JSON, as it was planned.
+  [[nodiscard]] std::uint64_t memory_bytes() const { return json_bytes_; }
   /// The number of a new accessor for these bytes, which is otherwise like another one.
   [[nodiscard]] std::uint64_t add_accessor(std::uint64_t like, std::uint64_t offset, std::uint64_t bytes);
   /// The number of the copy of `mesh` that this node has from now on.
@@ -40,7 +46,7 @@ class GltfCopy {
   void set_bounds(std::uint64_t accessor, const Bounds3d& bounds);
   /// Before add_target(): so many morph targets for the primitives of each of these vertices. Throws NeedsMemory if the
   /// document would take more than SceneOptions::document leaves.
-  void plan_targets(const std::vector<GltfVertices>& parts, std::size_t targets, const SceneOptions& options);
+  void plan_targets(const std::vector<GltfVertices>& parts, std::size_t targets);
   /// The next targets lie in a view of their own.
   void begin_frame() { targets_view_.reset(); }
   /// A morph target of the part of this number. It is what was appended last: changes of POSITION, with those of NORMAL
@@ -59,7 +65,8 @@ class GltfCopy {
     [[nodiscard]] std::uint64_t stride() const { return has_normals ? 24 : 12; }
   };
   void write_json(OutputFile& out);
-  void check_targets(std::size_t targets, const SceneOptions& options) const;
+  void add_memory(std::uint64_t bytes, const char* what);
+  [[nodiscard]] std::uint64_t bytes_of_targets() const;
   /// The view that ends with what was appended last, `bytes` of a part.
   std::size_t view_of_targets(std::uint64_t bytes, std::uint64_t stride);
   /// The number of a new accessor.
@@ -69,6 +76,8 @@ class GltfCopy {
   SceneFilePtr file_;
   GltfOutJson json_;
   std::unique_ptr<ScratchFile> data_;
+  const SceneOptions& options_;
+  const std::uint64_t held_;
   std::uint64_t json_bytes_ = 0;                       // of memory
   std::map<std::uint64_t, std::uint64_t> own_meshes_;  // by node
   std::vector<Part> parts_;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "io/gltf/gltf_nodes.h"
+#include "io/scene/raw_source.h"
 #include "lib/core/vec3.h"
 
 namespace bp::detail {
@@ -30,9 +31,11 @@ std::optional<Affine> inverse_of(const Affine& a) {
 /// Finds all vertices that can move, or says why some cannot.
 class VertexFinder {
  public:
-  explicit VertexFinder(GltfDocument& doc) : doc_(doc), root_(doc.root()) {}
+  VertexFinder(GltfDocument& doc, const std::string& name, const SceneOptions& options)
+      : doc_(doc), root_(doc.root()), name_(name), options_(options) {}
 
   GltfPlan find() {
+    reserve();
     for (const std::uint64_t node : gltf_roots(root_)) open_.push_back({node, gltf_world(gltf_up(root_))});
     std::reverse(open_.begin(), open_.end());
     while (!open_.empty()) {
@@ -49,6 +52,7 @@ class VertexFinder {
     std::uint64_t node;
     Affine parent;
   };
+  void reserve();
   void add_node(const Open& next);
   void add_primitive(GltfEdit place, const GltfObject& primitive, const Affine& transform);
   [[nodiscard]] GltfVertices vertices_of(const GltfObject& attributes, const Affine& transform);
@@ -57,12 +61,29 @@ class VertexFinder {
 
   GltfDocument& doc_;
   GltfObject root_;
+  const std::string& name_;
+  const SceneOptions& options_;
   std::vector<Open> open_;
   std::set<std::uint64_t> seen_, meshes_;
   std::set<std::uint64_t> taken_;  // accessors that are written in their place
   std::map<std::pair<std::array<std::uint64_t, 3>, std::array<std::array<double, 4>, 3>>, std::size_t> known_;
   GltfPlan plan_;
 };
+
+/// A copy of the vertices, and what tells known places.
+constexpr std::uint64_t kPlace = 2 * sizeof(GltfVertices) + 250, kEdit = sizeof(GltfEdit);
+
+/// As if all primitives of all nodes were places.
+void VertexFinder::reserve() {
+  std::uint64_t places = 0;
+  for (std::size_t n = 0; n < root_.array("nodes").size(); ++n) {
+    const GltfObject node = root_.item("nodes", n);
+    if (node.has("mesh")) places += root_.item("meshes", node.number("mesh")).array("primitives").size();
+  }
+  check_document(options_, name_, "its JSON and the list of its places",
+                 doc_.memory_bytes() + places * (kPlace + kEdit), options_.document.bytes);
+  plan_.vertices.reserve(places), plan_.edits.reserve(places);
+}
 
 /// Coarser levels (MSFT_lod) stand where their node stands.
 void VertexFinder::add_node(const Open& next) {
@@ -72,14 +93,16 @@ void VertexFinder::add_node(const Open& next) {
   if (node.has("extensions")) {
     const GltfObject extensions = node.object("extensions");
     if (extensions.has("EXT_mesh_gpu_instancing"))
-      node.broken("stands in many places, and each would bend another way");
+      node.unfit(
+          "stands in many places, and each would bend another way: write a node for each, without "
+          "EXT_mesh_gpu_instancing");
     if (extensions.has("MSFT_lod")) {
       const GltfObject lod = extensions.object("MSFT_lod");
       for (std::size_t k = lod.array("ids").size(); k-- > 0;) open_.push_back({lod.index("ids", k), next.parent});
     }
   }
   if (!node.has("mesh")) return;
-  if (node.has("skin")) node.broken("has a skin, whose joints would move it again; export it without");
+  if (node.has("skin")) node.unfit("has a skin, whose joints would move it again; export it without");
   const std::uint64_t number = node.number("mesh");
   const GltfObject mesh = root_.item("meshes", number);
   const bool again = !meshes_.insert(number).second;
@@ -89,25 +112,26 @@ void VertexFinder::add_node(const Open& next) {
 
 Accessor VertexFinder::floats(std::uint64_t number, std::size_t components) {
   const GltfObject object = root_.item("accessors", number);
-  if (object.has("sparse") || !object.has("bufferView")) object.broken("is sparse, and vertices that move must not be");
+  if (object.has("sparse") || !object.has("bufferView"))
+    object.unfit("is sparse, and vertices that move must not be: export it without sparse accessors");
   const GltfObject view = root_.item("bufferViews", object.number("bufferView"));
   const auto packs = [&](const char* name) { return view.has("extensions") && view.object("extensions").has(name); };
   if (std::any_of(kMeshoptNames.begin(), kMeshoptNames.end(), packs))
-    view.broken("is compressed, and vertices that move must not be: unpack it, for instance with gltf-transform");
-  if (view.number("buffer") != 0) view.broken("lies in a second buffer; pack all buffers into one");
+    view.unfit("is compressed, and vertices that move must not be: unpack it, for instance with gltf-transform");
+  if (view.number("buffer") != 0) view.unfit("lies in a second buffer; pack all buffers into one");
   const Accessor accessor = doc_.accessor(number, components);
   if (accessor.type != ComponentType::f32)
-    object.broken("is quantized, and would be rounded: write floats, for instance with gltf-transform dequantize");
+    object.unfit("is quantized, and would be rounded: write floats, for instance with gltf-transform dequantize");
   return accessor;
 }
 
 /// The first place of an accessor keeps its bytes, and every other place gets its own.
 void VertexFinder::add_primitive(GltfEdit place, const GltfObject& primitive, const Affine& transform) {
   if (primitive.has("extensions") && primitive.object("extensions").has("KHR_draco_mesh_compression"))
-    primitive.broken("is compressed (KHR_draco_mesh_compression): unpack it, for instance with gltf-transform");
+    primitive.unfit("is compressed (KHR_draco_mesh_compression): unpack it, for instance with gltf-transform");
   const GltfObject attributes = primitive.object("attributes");
   if (!attributes.has("POSITION")) return;
-  if (primitive.has("targets")) primitive.broken("has morph targets, which would not fit any more; export it without");
+  if (primitive.has("targets")) primitive.unfit("has morph targets, which would not fit any more; export it without");
   GltfVertices v = vertices_of(attributes, transform);
   const auto [known, is_new] = known_.try_emplace({v.numbers, v.to_world.m}, plan_.vertices.size());
   place.vertices = known->second;
@@ -165,8 +189,12 @@ void VertexFinder::check_shared_bytes() const {
 
 }  // namespace
 
-GltfPlan plan_of_vertices(GltfDocument& doc) {
-  return VertexFinder(doc).find();
+std::uint64_t GltfPlan::memory_bytes() const {
+  return vertices.size() * kPlace + edits.size() * kEdit;
+}
+
+GltfPlan plan_of_vertices(GltfDocument& doc, const std::string& name, const SceneOptions& options) {
+  return VertexFinder(doc, name, options).find();
 }
 
 }  // namespace bp::detail

@@ -27,9 +27,12 @@ struct GltfEdit {
 struct GltfPlan {
   std::vector<GltfVertices> vertices;  ///< in the order in which nodes reach them
   std::vector<GltfEdit> edits;
+  /// Of memory, also while it is made and used.
+  [[nodiscard]] std::uint64_t memory_bytes() const;
 };
 
-/// All vertices that the nodes of the document show. Throws bad_input if some cannot move.
-[[nodiscard]] GltfPlan plan_of_vertices(GltfDocument& doc);
+/// All vertices that the nodes of the document show. Throws bad_input if some cannot move, out_of_resource if the plan
+/// takes more than options.document. `name`: of the file.
+[[nodiscard]] GltfPlan plan_of_vertices(GltfDocument& doc, const std::string& name, const SceneOptions& options);
 
 }  // namespace bp::detail

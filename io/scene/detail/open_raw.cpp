@@ -12,7 +12,7 @@ namespace bp {
 
 namespace {
 
-enum class Reader { ply, stl, obj, off, gltf, other, unknown };
+enum class Reader { ply, stl, obj, off, gltf, tileset, other, unknown };
 
 Reader reader_of(const std::string& extension) {
   if (extension == "ply") return Reader::ply;
@@ -73,7 +73,8 @@ RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const S
     fail(ErrorCode::bad_input, "{}: is empty; did the tool before it fail?", file->name());
   if (reader == Reader::unknown) refuse_foreign(file->name(), start_of(*file));
   if (reader == Reader::unknown) reader = reader_by_content(*file, extension);
-  if (!options.parts.empty() && reader != Reader::obj && reader != Reader::gltf)
+  if (reader == Reader::gltf && lower(path).ends_with(".json")) reader = Reader::tileset;
+  if (!options.parts.empty() && reader != Reader::obj && reader != Reader::gltf && reader != Reader::tileset)
     fail(ErrorCode::bad_input, "{}: names of parts are known of OBJ and glTF, and this is neither", file->name());
   switch (reader) {
     case Reader::ply:
@@ -86,6 +87,8 @@ RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const S
       return open_off(file, options);
     case Reader::gltf:
       return open_gltf(file, options);
+    case Reader::tileset:
+      return open_tileset(file, options);
     case Reader::other:
       return open_with_assimp(file, extension, options);
     case Reader::unknown:

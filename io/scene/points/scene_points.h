@@ -31,6 +31,8 @@ class ScenePoints {
   virtual bool read(std::vector<Vec3d>& out) = 0;
   /// Vertices in all; of an OBJ a guess from what read() took so far, 0 before that.
   [[nodiscard]] virtual std::uint64_t count() const = 0;
+  /// Memory of what describes the scene: also of what it becomes, once write() or write_frames() calls `move`.
+  [[nodiscard]] virtual std::uint64_t memory_bytes() const { return 0; }
   /// Writes the scene, from its beginning. `move` gets all vertices in the order of read(). A number whose value stays
   /// keeps its bytes.
   virtual void write(const MovePoints& move, OutputFile& out) = 0;

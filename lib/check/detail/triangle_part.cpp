@@ -135,6 +135,12 @@ Bounds3d grown(const Bounds3d& box, double by) {
   return out;
 }
 
+bool lies_in(const Bounds3d& inner, const Bounds3d& outer) {
+  bool in = true;
+  for (std::size_t i = 0; i < 3; ++i) in = in && inner.min[i] >= outer.min[i] && inner.max[i] <= outer.max[i];
+  return in;
+}
+
 template <class Height>
 void TrianglePart::cut(const Height& height) {
   std::vector<Vec3d> kept;

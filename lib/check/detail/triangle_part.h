@@ -16,6 +16,7 @@ namespace bp {
 /// By how much a cell is grown where the triangle is looked at: far more than rounding, wherever the origin is.
 [[nodiscard]] double growth_for(const Bounds3d& cell, const TriangleD& t);
 [[nodiscard]] Bounds3d grown(const Bounds3d& box, double by);
+[[nodiscard]] bool lies_in(const Bounds3d& inner, const Bounds3d& outer);
 
 /// Triangle ∩ box, a convex polygon; in doubles, relative to the box's corner, so that errors are small beside it.
 class TrianglePart {

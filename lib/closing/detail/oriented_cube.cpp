@@ -1,11 +1,14 @@
 #include "lib/closing/detail/oriented_cube.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace bp::detail {
 
 namespace {
 
-/// The x with |a x + c| <= limit, cut to [first, last].
-void cut(std::int64_t a, std::int64_t c, std::int64_t limit, std::int64_t& first, std::int64_t& last) {
+/// The x with |a x + c| <= limit, cut to [first, last]. All are below 2^29: rows of 2^14 times a reach of 2^13, twice.
+void cut(std::int32_t a, std::int32_t c, std::int32_t limit, std::int32_t& first, std::int32_t& last) {
   if (a < 0) a = -a, c = -c;
   if (a == 0) {
     if (c > limit || c < -limit) last = first - 1;
@@ -16,18 +19,6 @@ void cut(std::int64_t a, std::int64_t c, std::int64_t limit, std::int64_t& first
 }
 
 }  // namespace
-
-CubeBounds cube_bounds(const Rotation& r) {
-  CubeBounds b;
-  b.turned = !(r == Rotation{});
-  for (int i = 0; i < 3; ++i) {
-    std::int64_t row = 0, column = 0;
-    for (int j = 0; j < 3; ++j) row += std::abs(r.row[i][j]), column += std::abs(r.row[j][i]);
-    b.row_sum = std::max(b.row_sum, row);
-    b.column_sum = std::max(b.column_sum, column);
-  }
-  return b;
-}
 
 bool keeps_axis(const Rotation& r, int axis) {
   int across = 0;
@@ -43,18 +34,22 @@ bool keeps_axis(const Rotation& r, int axis) {
 }
 
 CubeRows::CubeRows(const Rotation& r, Scale s, int flat) : reach_(cube_bounds(canonical(r)).reach(s)) {
-  const std::int64_t limit = std::int64_t(s) * ((1 << kRotationBits) / kScaleOne);
-  for (std::int32_t dz = -reach_; dz <= reach_; ++dz) {
+  const std::int32_t limit = s * ((1 << kRotationBits) / kScaleOne);
+  for (std::int32_t dz = -reach_; dz <= 0; ++dz) {
     slices_.push_back(std::uint32_t(rows_.size()));
     for (std::int32_t dy = -reach_; dy <= reach_; ++dy) {
       if ((flat == 1 && dy != 0) || (flat == 2 && dz != 0)) continue;
-      std::int64_t first = -reach_, last = reach_;
-      for (const auto& row : r.row)
-        cut(row[0], std::int64_t(row[1]) * dy + std::int64_t(row[2]) * dz, limit, first, last);
+      std::int32_t first = -reach_, last = reach_;
+      for (const auto& row : r.row) cut(row[0], row[1] * dy + row[2] * dz, limit, first, last);
       if (first > last) continue;
-      rows_.push_back({dy, std::int32_t(first), std::int32_t(last)});
-      longest_ = std::max(longest_, std::int32_t(last - first) + 1);
+      rows_.push_back({dy, first, last});
+      longest_ = std::max(longest_, last - first + 1);
     }
+  }
+  for (std::int32_t dz = 1; dz <= reach_; ++dz) {  // the cube is its own image through its centre
+    slices_.push_back(std::uint32_t(rows_.size()));
+    const std::size_t begin = slices_[std::size_t(reach_ - dz)], end = slices_[std::size_t(reach_ - dz) + 1];
+    for (std::size_t i = end; i-- > begin;) rows_.push_back({-rows_[i].dy, -rows_[i].last, -rows_[i].first});
   }
   slices_.push_back(std::uint32_t(rows_.size()));
   rows_.shrink_to_fit();

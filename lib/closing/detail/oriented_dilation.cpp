@@ -85,43 +85,19 @@ void dilate_along(const BitBox& solid, int axis, std::int32_t r, VoxelBox box, B
 }  // namespace
 
 bool OrientedDilation::turns(const OrientationField& field, const VoxelBox& region) {
-  constexpr std::uint16_t kUnknown = OrientationField::kMostRotations;
-  rotations_.clear();
-  of_palette_.assign(field.rotations.size(), kUnknown);
-  widest_ = CubeBounds{};
-  const std::int32_t edge = field.cell_vox;
-  VoxelCoord first, end, c;  // in cells
-  for (int axis = 0; axis < 3; ++axis) {
-    first[axis] = floor_div(region.min[axis], edge);
-    end[axis] = ceil_div(region.max[axis], edge);
-  }
-  for (c.z = first.z; c.z < end.z; ++c.z) {
-    for (c.y = first.y; c.y < end.y; ++c.y) {
-      for (c.x = first.x; c.x < end.x; ++c.x) {
-        const std::size_t index = field.index_at(c * edge);
-        if (of_palette_[index] != kUnknown) continue;
-        const Rotation r = canonical(rotation_of(field.rotations[index]));
-        of_palette_[index] = std::uint16_t(rotations_.size());
-        rotations_.push_back(r);
-        const CubeBounds b = cube_bounds(r);
-        widest_ = {widest_.turned || b.turned, std::max(widest_.row_sum, b.row_sum),
-                   std::max(widest_.column_sum, b.column_sum)};
-      }
-    }
-  }
-  return widest_.turned;
+  cubes_ = cubes_over(field, region);
+  return cubes_.widest.turned;
 }
 
-void OrientedDilation::run(const BitBox& solid, const ScaleLattice& scale, const OrientationField& field, BitBox& out,
-                           std::size_t most_bytes) {
+void OrientedDilation::run(const BitBox& solid, const ScaleLattice& scale, BitBox& out, std::size_t most_bytes) {
   bound(solid, scale, out);
   const ScaleRange range = scale_range(scale, out.box());
-  reach_ = widest_.reach(Scale(std::min(range.max + kStep, 0xffff)));
+  reach_ = cubes_.widest.reach(Scale(std::min(range.max + kStep, 0xffff)));
   longest_ = 2 * reach_ + 1;
   most_bytes_ = std::max(most_bytes, turned_cubes_bytes(reach_));
   tables_.lay(out.box(), reach_, longest_);
   find_kept_axis(solid, range, out.box());
-  list_blocks(scale, field, out);
+  list_blocks(scale, out);
   decide_blocks(solid, scale, out);
 }
 
@@ -129,8 +105,8 @@ void OrientedDilation::run(const BitBox& solid, const ScaleLattice& scale, const
 void OrientedDilation::find_kept_axis(const BitBox& solid, const ScaleRange& range, const VoxelBox& region) {
   kept_ = -1;
   for (const int axis : {1, 2}) {
-    if (range.min == range.max &&
-        std::all_of(rotations_.begin(), rotations_.end(), [&](const Rotation& r) { return keeps_axis(r, axis); }))
+    if (range.min == range.max && std::all_of(cubes_.rotations.begin(), cubes_.rotations.end(),
+                                              [&](const Rotation& r) { return keeps_axis(r, axis); }))
       kept_ = axis;
   }
   if (kept_ >= 0)
@@ -142,23 +118,23 @@ void OrientedDilation::bound(const BitBox& solid, const ScaleLattice& scale, Bit
   const ScaleRange range = scale_range(scale, out.box());
   outer_.reset(out.box());
   if (cube_radius(range.min) == cube_radius(range.max)) {
-    cube_.run(solid, widest_.inner(range.min) / kScaleOne, out);
-    cube_.run(solid, widest_.reach(range.max), outer_);
+    cube_.run(solid, cubes_.widest.inner(range.min) / kScaleOne, out);
+    cube_.run(solid, cubes_.widest.reach(range.max), outer_);
     return;
   }
   ScaleLattice bounds;
   changed(
-      scale, [&](Scale s) { return widest_.inner(s); }, bounds);
+      scale, [&](Scale s) { return cubes_.widest.inner(s); }, bounds);
   varying_.run(solid, bounds, out.box(), out);
   if (changed(
-          scale, [&](Scale s) { return widest_.outer(s); }, bounds)) {
+          scale, [&](Scale s) { return cubes_.widest.outer(s); }, bounds)) {
     varying_.run(solid, bounds, out.box(), outer_);
   } else {
-    cube_.run(solid, widest_.reach(range.max), outer_);
+    cube_.run(solid, cubes_.widest.reach(range.max), outer_);
   }
 }
 
-void OrientedDilation::list_blocks(const ScaleLattice& scale, const OrientationField& field, const BitBox& out) {
+void OrientedDilation::list_blocks(const ScaleLattice& scale, const BitBox& out) {
   const VoxelBox& box = out.box();
   parts_.clear();
   blocks_.clear();
@@ -169,7 +145,7 @@ void OrientedDilation::list_blocks(const ScaleLattice& scale, const OrientationF
       for (std::int32_t x = box.min.x; x < box.max.x; x += 64) {
         Block block{{x, y, z}, parts_.size(), 0, open_.size(), maybe_.size()};
         if (!take_open(block, out)) continue;
-        add_parts(block, scale, field);
+        add_parts(block, scale);
         if (block.varies) maybe_.resize(maybe_.size() + std::size_t(kEdge * kEdge));
         blocks_.push_back(block);
       }
@@ -198,7 +174,7 @@ bool OrientedDilation::take_open(Block& block, const BitBox& out) {
 }
 
 /// Cells with open voxels that are alike become one part.
-void OrientedDilation::add_parts(Block& block, const ScaleLattice& scale, const OrientationField& field) {
+void OrientedDilation::add_parts(Block& block, const ScaleLattice& scale) {
   std::uint64_t open = 0;
   for (std::size_t i = 0; i < std::size_t(kEdge * kEdge); ++i) open |= open_[block.open + i];
   for (std::int32_t i = 0; i < 64 / kEdge; ++i) {
@@ -208,7 +184,7 @@ void OrientedDilation::add_parts(Block& block, const ScaleLattice& scale, const 
     ScaleRange s = scale_range(scale, {first, first + VoxelCoord{kEdge, kEdge, kEdge}});
     if (s.min != s.max)
       s = {Scale(s.min / kStep * kStep), Scale(std::min(ceil_div(int(s.max), kStep) * kStep, 0xffff))};
-    const std::uint16_t rotation = of_palette_[field.index_at(first)];
+    const std::uint16_t rotation = cubes_.at(first);
     block.varies = block.varies || s.min != s.max;
     const auto same = std::find_if(parts_.begin() + std::ptrdiff_t(block.part), parts_.end(), [&](const Part& p) {
       return p.rotation == rotation && p.min == s.min && p.max == s.max;
@@ -238,7 +214,6 @@ void OrientedDilation::decide_blocks(const BitBox& solid, const ScaleLattice& sc
         prepare(parts_[i]);
       }
       ++some.parts;
-      some.reach = std::max(some.reach, parts_[i].most->most_dz);
     }
     group_.push_back(some);
   }
@@ -266,7 +241,7 @@ bool OrientedDilation::prepare(Part& part) {
 const RowTables::Element* OrientedDilation::element(std::uint16_t rotation, Scale s) {
   auto& found = elements_[{rotation, s}];
   if (!found) {
-    found = std::make_unique<RowTables::Element>(tables_.prepare(CubeRows(rotations_[rotation], s, kept_)));
+    found = std::make_unique<RowTables::Element>(tables_.prepare(CubeRows(cubes_.rotations[rotation], s, kept_)));
     element_bytes_ += found->bytes();
   }
   return found.get();
@@ -274,45 +249,62 @@ const RowTables::Element* OrientedDilation::element(std::uint16_t rotation, Scal
 
 void OrientedDilation::sweep(const BitBox& solid) {
   if (group_.empty()) return;
-  std::size_t first = 0, last = 0;  // blocks in reach of the slice
-  for (std::int32_t z = group_.front().first.z - reach_; z < group_.back().first.z + kEdge + reach_; ++z) {
+  const std::int32_t before = ceil_div(reach_, kEdge) * kEdge;  // where the first of its blocks of slices may begin
+  std::size_t first = 0, last = 0;                              // blocks in reach of the slice
+  for (std::int32_t z = group_.front().first.z - before; z < group_.back().first.z + kEdge + reach_; ++z) {
     while (first < group_.size() && group_[first].first.z + kEdge - 1 + reach_ < z) ++first;
-    while (last < group_.size() && group_[last].first.z - reach_ <= z) ++last;
-    if (first == last || !tables_.load(solid, z)) continue;
-    for (std::size_t i = first; i < last; ++i) ask(group_[i], z - group_[i].first.z);
+    while (last < group_.size() && group_[last].first.z - before <= z) ++last;
+    if (first == last) continue;
+    const bool any = tables_.load(solid, z);
+    for (std::size_t i = first; i < last; ++i) ask(group_[i], z - group_[i].first.z, any);
   }
 }
 
-void OrientedDilation::ask(Block& block, std::int32_t dz_of_first) {
+/// `any`: the slice or one of the next seven holds something.
+void OrientedDilation::ask(Block& block, std::int32_t dz_of_first, bool any) {
+  tables_.place(block.first.x, block.first.y);
+  const std::int32_t begins = floor_div(dz_of_first, kEdge) * kEdge;  // of the slice that begins blocks of slices
+  const std::int32_t k = dz_of_first - begins;
+  for (std::size_t i = block.part; i < block.part + block.parts; ++i) {
+    Part& part = parts_[i];
+    if ((block.slices >> k & 1) != 0) look(block, part, k, begins, any);
+    for (std::uint32_t left = part.asks; left != 0; left &= left - 1) {
+      const int slice = std::countr_zero(left);
+      ask(block, part, slice, dz_of_first - slice);
+    }
+  }
+}
+
+/// The part's voxels that are open in a slice of the block. False if there is none.
+bool OrientedDilation::still_open(const Block& block, const Part& part, int slice, std::uint64_t* open) const {
   std::uint64_t any = 0;
-  for (std::size_t i = 0; i < std::size_t(kEdge * kEdge); ++i) any |= open_[block.open + i];
-  if (any == 0 ||
-      !tables_.look({block.first.x, block.first.y, std::countr_zero(any), 63 - std::countl_zero(any), block.reach}))
-    return;
-  for (std::uint32_t slices = block.slices; slices != 0; slices &= slices - 1) {
-    const int k = std::countr_zero(slices);
-    std::uint64_t left = 0;
-    for (std::size_t i = block.part; i < block.part + block.parts; ++i)
-      left |= ask(block, parts_[i], k, dz_of_first - k);
-    if (left == 0) block.slices &= ~(1U << k);
-  }
+  for (std::int32_t j = 0; j < kEdge; ++j)
+    any |= open[j] = open_[block.open + std::size_t(slice * kEdge + j)] & part.mask;
+  return any != 0;
 }
 
-/// Of one slice of the block. 0 if none of the part's voxels there is open any more.
-std::uint64_t OrientedDilation::ask(const Block& block, const Part& part, int slice, std::int32_t dz) {
+void OrientedDilation::look(const Block& block, Part& part, int slice, std::int32_t dz, bool any) const {
+  const RowTables::Element& most = *part.most;
+  std::uint64_t open[kEdge];
+  any = any && dz <= most.most_dz && dz >= kEdge * most.first && still_open(block, part, slice, open);
+  part.near[slice] = any ? tables_.near(most, dz, open) : 0;
+  part.asks = (part.asks & ~(1U << slice)) | (part.near[slice] != 0 ? 1U << slice : 0);
+}
+
+/// Of one slice of the block.
+void OrientedDilation::ask(const Block& block, Part& part, int slice, std::int32_t dz) {
+  std::uint64_t asking[kEdge];
+  if (!still_open(block, part, slice, asking)) {
+    part.asks &= ~(1U << slice);
+    return;
+  }
   std::uint64_t* open = &open_[block.open + std::size_t(slice * kEdge)];
-  std::uint64_t left = 0;
-  for (std::int32_t j = 0; j < kEdge; ++j) left |= open[j] & part.mask;
-  if (left == 0 || std::abs(dz) > part.most->most_dz) return left;
-  std::uint64_t met[kEdge] = {};
-  if (std::abs(dz) <= part.least->most_dz) tables_.ask(*part.least, dz, met);
-  left = 0;
-  for (std::int32_t j = 0; j < kEdge; ++j) left |= (open[j] &= ~(met[j] & part.mask)) & part.mask;
-  if (part.least == part.most) return left;
-  tables_.ask(*part.most, dz, met);
+  tables_.ask(*part.least, dz, part.near[slice], asking);
+  for (std::int32_t j = 0; j < kEdge; ++j) open[j] &= asking[j] | ~part.mask;
+  if (part.least == part.most) return;
   std::uint64_t* maybe = &maybe_[block.maybe + std::size_t(slice * kEdge)];
-  for (std::int32_t j = 0; j < kEdge; ++j) maybe[j] |= met[j] & part.mask;
-  return left;
+  tables_.ask(*part.most, dz, part.near[slice], asking);
+  for (std::int32_t j = 0; j < kEdge; ++j) maybe[j] |= open[j] & part.mask & ~asking[j];
 }
 
 void OrientedDilation::finish(const BitBox& solid, const ScaleLattice& scale, BitBox& out) {
@@ -348,7 +340,7 @@ void OrientedDilation::decide(const Block& block, const BitBox& solid, const Sca
 
 bool OrientedDilation::holds(const Part& part, const BitBox& solid, VoxelCoord p, Scale s) const {
   const VoxelBox& box = solid.box();
-  const Rotation& r = rotations_[part.rotation];
+  const Rotation& r = cubes_.rotations[part.rotation];
   const CubeRows& rows = part.most->rows;
   for (std::int32_t dz = std::max(-rows.reach(), box.min.z - p.z); dz <= std::min(rows.reach(), box.max.z - 1 - p.z);
        ++dz) {

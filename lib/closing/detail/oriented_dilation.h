@@ -15,16 +15,15 @@ namespace bp::detail {
 
 class OrientedDilation {
  public:
-  /// Looks up the rotations over `region`. False if no cube is turned there: then this is a cube's dilation.
+  /// Looks up the cubes over `region`, for run(). False if no cube is turned there: then this is a cube's dilation.
   bool turns(const OrientationField& field, const VoxelBox& region);
   /// Sets `out` (its box is kept, within the region) to the voxels whose turned cube holds a voxel of `solid`.
   /// The largest cube along the axes that lies in the turned one decides for most voxels that are in, and the smallest
-  /// around it for those that are out. Between, rows of the turned cube are asked for, 64 x 8 voxels at once: some 10
-  /// cycles for each row of the cube in whose slice something lies. Where the scale varies in a cell, the least and the
-  /// largest are asked for, and voxels on which they disagree one by one. The solid is swept once for as many cubes as
-  /// most_bytes hold, or turned_cubes_bytes().
-  void run(const BitBox& solid, const ScaleLattice& scale, const OrientationField& field, BitBox& out,
-           std::size_t most_bytes = 0);
+  /// around it for those that are out. Between, rows of the turned cube are asked for, 64 x 8 voxels at once, and
+  /// blocks of 8 x 8 rows before them: some 5 cycles for each row and block that is asked. Where the scale varies in a
+  /// cell, the least and the largest are asked for, and voxels on which they disagree one by one. The solid is swept
+  /// once for as many cubes as most_bytes hold, or turned_cubes_bytes().
+  void run(const BitBox& solid, const ScaleLattice& scale, BitBox& out, std::size_t most_bytes = 0);
 
  private:
   static constexpr std::int32_t kEdge = RowTables::kRows;  ///< of a block: the cells of the lattice
@@ -35,6 +34,8 @@ class OrientedDilation {
     std::uint16_t rotation;
     Scale min, max;
     const RowTables::Element *least = nullptr, *most = nullptr;  ///< while it is asked for
+    std::uint64_t near[kEdge] = {};  ///< for each slice: what of the elements' next slices is asked for
+    std::uint32_t asks = 0;          ///< slices of which something is
   };
   /// 64 x 8 x 8 voxels, a cell high and wide.
   struct Block {
@@ -43,29 +44,28 @@ class OrientedDilation {
     std::size_t open;          ///< of its kEdge^2 words in open_: y fastest
     std::size_t maybe;         ///< of words in maybe_, if the scale varies
     std::uint32_t slices = 0;  ///< that have open voxels
-    std::int32_t reach = 0;    ///< of its elements
     bool varies = false;
   };
 
   void find_kept_axis(const BitBox& solid, const ScaleRange& range, const VoxelBox& region);
   void bound(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
-  void list_blocks(const ScaleLattice& scale, const OrientationField& field, const BitBox& out);
+  void list_blocks(const ScaleLattice& scale, const BitBox& out);
   bool take_open(Block& block, const BitBox& out);
-  void add_parts(Block& block, const ScaleLattice& scale, const OrientationField& field);
+  void add_parts(Block& block, const ScaleLattice& scale);
   bool prepare(Part& part);
   const RowTables::Element* element(std::uint16_t rotation, Scale s);
   void decide_blocks(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
   void decide_group(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
   void sweep(const BitBox& solid);
-  void ask(Block& block, std::int32_t dz_of_first);
-  std::uint64_t ask(const Block& block, const Part& part, int slice, std::int32_t dz);
+  void ask(Block& block, std::int32_t dz_of_first, bool any);
+  void ask(const Block& block, Part& part, int slice, std::int32_t dz);
+  [[nodiscard]] bool still_open(const Block& block, const Part& part, int slice, std::uint64_t* open) const;
+  void look(const Block& block, Part& part, int slice, std::int32_t dz, bool any) const;
   void finish(const BitBox& solid, const ScaleLattice& scale, BitBox& out);
   void decide(const Block& block, const BitBox& solid, const ScaleLattice& scale);
   [[nodiscard]] bool holds(const Part& part, const BitBox& solid, VoxelCoord p, Scale s) const;
 
-  std::vector<Rotation> rotations_;        ///< different ones of the region
-  std::vector<std::uint16_t> of_palette_;  ///< which of them a rotation of the field is
-  CubeBounds widest_;
+  CubesOver cubes_;  ///< of the region
   BitBox outer_;
   int kept_ = -1;  ///< an axis about which all cubes are turned: y, z, or none
   BitBox along_;   ///< solid, dilated along it

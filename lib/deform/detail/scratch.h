@@ -2,48 +2,55 @@
 #include <vector>
 
 #include "lib/deform/detail/wide.h"
+#include "lib/deform/formulas/green.h"
+#include "lib/deform/formulas/mean_value.h"
 
 namespace bp::detail {
 
-/// Of Green coordinates.
+/// Numbers of the formulas in memory of the CPU, aligned as Vec.
+template <class Real, class T = Real>
+class Shelf {
+ public:
+  void resize(std::size_t n) { slots_.resize(n); }
+  [[nodiscard]] std::size_t size() const { return slots_.size(); }
+  [[nodiscard]] BP_INLINE const T& get(std::size_t i) const { return slots_[i].item; }
+  BP_INLINE void put(std::size_t i, const T& item) { slots_[i].item = item; }
+  [[nodiscard]] T& operator[](std::size_t i) { return slots_[i].item; }
+  [[nodiscard]] const T& operator[](std::size_t i) const { return slots_[i].item; }
+
+ private:
+  struct alignas(sizeof(Real)) Slot {
+    T item;
+  };
+  std::vector<Slot> slots_;
+};
+
 template <class Real>
 struct GreenScratch {
-  struct alignas(sizeof(Real)) Vertex {
-    Real x, y, z, distance;  ///< from the point
-    Real sum;                ///< the weight
-  };
-  struct alignas(sizeof(Real)) Edge {
-    Real inner;     ///< product of the vectors to its ends
-    Real integral;  ///< of one over the distance along it
-  };
-  struct alignas(sizeof(Real)) Face {
-    Real weight;
-  };
-  std::vector<Vertex> vertices;
-  std::vector<Edge> edges;
-  std::vector<Face> faces;
+  Shelf<Real, GreenVertex<Real>> vertices;
+  Shelf<Real, GreenEdge<Real>> edges;
+  Shelf<Real> sums, face_weights;
+
+  void resize(const Cage& cage) {
+    vertices.resize(cage.vertices.size()), sums.resize(cage.vertices.size());
+    edges.resize(cage.edges.size());
+    face_weights.resize(cage.faces.size());
+  }
 };
 
 /// Memory of the coordinates of kWide points, kept from call to call.
 struct CoordinateScratch {
-  struct alignas(8 * kWide) Vertex {
-    WideVec toward;   ///< the unit vector from the point
-    Wide per_length;  ///< one over the distance
-    Wide sum;         ///< the weight
-  };
-  struct alignas(8 * kWide) Edge {
-    WideVec across;  ///< cross product of its ends' unit vectors
-    WideVec mean;    ///< its part of mean vectors
-  };
-  struct alignas(8 * kWide) Face {
-    WideVec middle;  ///< between its corners on the unit sphere
-    Wide share[3];   ///< of the corners in it: they sum to 1
-    Wide prior;
-  };
-  std::vector<Vertex> vertices;
-  std::vector<Edge> edges;
-  std::vector<Face> faces;
+  Shelf<Wide, MeanVertex<Wide>> vertices;
+  Shelf<Wide, MeanEdge<Wide>> edges;
+  Shelf<Wide, MeanFace<Wide>> faces;
+  Shelf<Wide> sums;
   GreenScratch<Wide> green;
+
+  void resize(const Cage& cage, bool for_green) {
+    if (for_green) return green.resize(cage);
+    vertices.resize(cage.vertices.size()), sums.resize(cage.vertices.size());
+    edges.resize(cage.edges.size());
+  }
 };
 
 }  // namespace bp::detail

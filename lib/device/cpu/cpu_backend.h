@@ -15,9 +15,12 @@ class CpuBackend final : public Backend {
                     std::span<std::int32_t> numbers, BitBox& bits) override;
   void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
              const VoxelBox& interior, BitBox& closed) override;
+  void weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside, WeightBlock& out,
+             std::span<CoordinateRows::Place> places) override;
 
  private:
   ClosingScratch scratch_;
+  CoordinateRows rows_;
 };
 
 }  // namespace bp

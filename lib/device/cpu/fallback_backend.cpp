@@ -61,4 +61,10 @@ void FallbackBackend::close_from_shelf(const BrickShelf& solid, const BrickBox& 
   cpu_.close_from_shelf(solid, bricks, scale, halo, params, interior, closed);
 }
 
+void FallbackBackend::weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside,
+                            WeightBlock& out, std::span<CoordinateRows::Place> places) {
+  if (device_does([&](Backend& device) { device.weigh(coordinates, points, carry_outside, out, places); })) return;
+  cpu_.weigh(coordinates, points, carry_outside, out, places);
+}
+
 }  // namespace bp

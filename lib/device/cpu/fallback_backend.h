@@ -26,6 +26,8 @@ class FallbackBackend final : public Backend {
              const VoxelBox& interior, BitBox& closed) override;
   void close_from_shelf(const BrickShelf& solid, const BrickBox& bricks, const ScaleLattice& scale, const Halo& halo,
                         const ClosingParams& params, const VoxelBox& interior, BitBox& closed) override;
+  void weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside, WeightBlock& out,
+             std::span<CoordinateRows::Place> places) override;
 
  private:
   /// True if the device did it.

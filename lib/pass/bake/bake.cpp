@@ -4,12 +4,12 @@
 #include <cmath>
 #include <map>
 
+#include "lib/atlas/tangents.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/image/mip_image.h"
 #include "lib/mesh/shaded_mesh.h"
-#include "lib/mesh/tangents.h"
 #include "lib/pass/bake/detail/push_pull.h"
 #include "lib/pass/bake/detail/scene_eye.h"
 

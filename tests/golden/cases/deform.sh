@@ -50,7 +50,22 @@ for kind in glb ply; do
   try bpdeform apply kind.bpw cage.obj affine.obj -o moving.$kind --animate 24
 done
 try bpdeform apply kind.bpw cage.obj -o moving.ply --animate 0
+try bpdeform apply scene.bpw cage.obj affine.obj -o moving.glb --animate 24
 try bpdeform bind scene.ply cage.obj -o x.bpw --animate 24
+# A glTF whose cage moves: a scene for each key of its animation, or an animation of so many cages a second.
+said 'bpvox cage.obj --resolution 10 -q | bpclose -q > box.bpv; bpmesh box.bpv --faces 12 -q -o box.glb; bpmesh box.bpv --faces 12 -q -o box.obj'
+awk '/^v/ { $2 = 2 * $2 } { print }' box.obj > wide.obj
+try bpdeform bind box.glb box.obj -o box.bpw --outside near -q
+try bpdeform apply box.bpw box.obj wide.obj -o moving_box.glb --animate 2 -q
+try bpdeform bind scene.obj box.glb -o boxed.bpw
+try bpdeform apply boxed.bpw moving_box.glb -o boxed.obj -q
+said "cmp boxed.0.obj scene.obj && awk '/^v / { printf \"%.4f %.4f %.4f\\n\", \$2 + 1e-6, \$3, \$4 }' boxed.1.obj"
+try bpdeform bind scene.glb box.glb -o boxed.bpw --overwrite --outside near -q
+try bpdeform apply boxed.bpw moving_box.glb -o moving_scene.glb --animate 8
+# The same bytes on any device; and where it does not belong.
+try bpdeform bind scene.obj cage.obj -o again.bpw --overwrite --device cpu
+said 'cmp scene.bpw again.bpw && echo same'
+try bpdeform apply scene.bpw cage.obj -o x.obj --device cpu
 # Vertices outside.
 write_octahedron large.obj 5
 try bpdeform bind large.obj cage.obj -o large.bpw
@@ -66,6 +81,9 @@ try bpdeform bind - cage.obj -o x.bpw
 try bpdeform bind missing.obj cage.obj -o x.bpw
 try bpdeform bind scene.obj cage.obj -o scene.bpw
 try bpdeform bind scene.obj scene.obj -o scene.obj --overwrite
+# Scene and cage in the wrong order.
+try bpdeform bind cage.obj large.obj -o x.bpw
+try bpdeform bind cage.obj scene.obj -o x.bpw
 grep -v '^f 1 4' cage.obj > open.obj
 try bpdeform bind scene.obj open.obj -o x.bpw
 try bpdeform apply scene.bpw open.obj -o x.obj

@@ -23,5 +23,18 @@ grep -c "^rule tiles" "o {ut}/.farm/log/snakemake"
 write_cube "{scenes}/part {2}.obj" 4
 farm "${options[@]}"
 grep -o '([-+][0-9,]*)' "o {ut}/report.html" | head -1 # what changed
+# Each job has GPUs of its own.
+mkdir bin
+printf '#!/bin/sh\necho "GPU 0: one"\necho "GPU 1: two"\n' > bin/nvidia-smi && chmod +x bin/nvidia-smi
+on_gpus() { XDG_RUNTIME_DIR=$PWD PATH=$PWD/bin:$PATH "$BP_ROOT/samples/farm/on_gpus" "$@"; }
+unset CUDA_VISIBLE_DEVICES
+for i in 1 2 3 4 5; do
+  on_gpus 1 sh -c 'mkdir "gpu $CUDA_VISIBLE_DEVICES" && sleep 0.2 && rmdir "gpu $CUDA_VISIBLE_DEVICES" && echo one' >> gpus &
+done
+on_gpus 2 sh -c 'mkdir "gpu 0" "gpu 1" && echo "$CUDA_VISIBLE_DEVICES" && rmdir "gpu 0" "gpu 1"' >> gpus &
+wait
+sort gpus
+CUDA_VISIBLE_DEVICES=5 on_gpus 1 sh -c 'echo $CUDA_VISIBLE_DEVICES'
+try on_gpus 3 true
 try env MACHINES=many "$BP_ROOT/samples/farm/night" "{scenes}" "o {ut}" | sed "s|$BP_ROOT/||"
 try "$BP_ROOT/samples/farm/night" nowhere out | sed "s|$BP_ROOT/||"

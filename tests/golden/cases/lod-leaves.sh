@@ -49,3 +49,6 @@ bpinfo small | grep -o 'leaves=[a-z]*'
 bpcheck part0.obj small | tail -1
 try bplod part0.obj -o x --leaves scene
 try bplod - --format obj --profile 3dtiles -o x --leaves scene
+# Nothing is asked of images that are not wanted.
+bplod part0.obj --resolution 30 --profile 3dtiles --leaves scene --appearance off -o bare -q | cut -f 1,2
+bpcheck part0.obj bare | tail -1

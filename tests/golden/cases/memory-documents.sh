@@ -55,8 +55,12 @@ write_cube cage.obj 4
 bpdeform bind parts.gltf cage.obj -o parts.bpw --outside near -q
 limit=80M
 named bpdeform apply parts.bpw $(yes cage.obj | head -20) --animate 24 -o moving.gltf
+# A mesh in many places: each gets a mesh of its own.
+limit=200M
+named bpdeform bind nodes.gltf cage.obj -o nodes.bpw --outside near
+named bpdeform apply nodes.bpw cage.obj -o moved.gltf
 limit=64M
-rm parts.gltf parts.bpw cage.obj moving.gltf
+rm parts.gltf parts.bpw cage.obj moving.gltf nodes.bpw moved.gltf
 awk -v n=300 'BEGIN {
   print "OFF\n" n * n, 2 * n * n, 0
   for (i = 0; i < n; ++i) for (j = 0; j < n; ++j) {

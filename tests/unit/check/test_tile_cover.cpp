@@ -218,6 +218,33 @@ TEST_CASE("a leaf must show the scene in its cell, and nothing else", "[quick][c
   CHECK_THAT(only(findings(with_leaf(scene), both)), ContainsSubstring("root.0: a does not show 1 triangles"));
 }
 
+TEST_CASE("a leaf without content stands where the scene has nothing", "[quick][check][tileset]") {
+  Triangles scene;
+  add_box(scene, {2, 2, 2}, {7, 3, 3});
+  scene.push_back({Vec3d{7, 2, 2}, {8, 2, 2}, {8, 3, 2}});  // ends in the face of the other cell
+  IndexedMesh shown;
+  for (const TriangleD& t : scene) {
+    const auto n = std::uint32_t(shown.vertices.size());
+    shown.vertices.insert(shown.vertices.end(), t.begin(), t.end());
+    shown.triangles.push_back({n, n + 1, n + 2});
+  }
+  const Bounds3d a = bounds({0, 0, 0}, {8, 8, 8}), b = bounds({8, 0, 0}, {16, 8, 8});
+  std::vector<MeshTile> tiles{{"root", "r", {}, bounds({0, 0, 0}, {16, 16, 16}), {1, 2}},
+                              {"root.0", "a", box_mesh({1, 1, 1}, {9, 4, 4}), a, {3}},
+                              {"root.1", "b", box_mesh({7, 1, 1}, {9, 4, 4}), b, {4}},
+                              {"root.0.0", "c", shown, a, {}, 1e-5},
+                              {"root.1.0", "", {}, b, {}, 1e-5}};
+  CHECK(findings(tiles, scene).empty());
+  tiles[4].leaf_error.reset();
+  CHECK_THAT(only(findings(tiles, scene)), ContainsSubstring("root.1.0:  draws nothing for"));
+  tiles[4].leaf_error = 1;
+  CHECK_THAT(findings(tiles, scene)[0], ContainsSubstring("root.1.0:  is compared to within 1; rounding"));
+  tiles[4].leaf_error = 1e-5;
+  Triangles more = scene;
+  more.push_back({Vec3d{8.2, 2, 2}, {8.4, 2, 2}, {8.2, 2.2, 2}});
+  CHECK_THAT(only(findings(tiles, more)), ContainsSubstring("root.1.0:  draws nothing for 1 triangles"));
+}
+
 TEST_CASE("what rounding of a leaf is does not depend on its cell", "[quick][check][tileset]") {
   const Triangles scene{{Vec3d{1, 1, 1}, {9, 1, 1}, {1, 9, 1}}, {Vec3d{1, 1, 5}, {9, 1, 5}, {1, 9, 5}}};
   const double error = GENERATE(60.0, 1e-3, 1e-6);

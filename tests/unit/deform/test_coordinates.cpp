@@ -89,33 +89,35 @@ Vec3d affine(const Vec3d& p) {
 
 /// Coordinates before they are made to sum to 1 and to reproduce the point; empty next to a face. `slow`: how many
 /// needed extended precision.
-std::vector<double> raw_row(const Cage& cage, const detail::GreenCage& green, CoordinateKind kind, const Vec3d& p,
-                            std::size_t& slow) {
+std::vector<double> raw_row(const CageCoordinates& coordinates, const Vec3d& p, std::size_t& slow) {
   static detail::CoordinateScratch scratch;
+  const Cage& cage = coordinates.cage();
+  const detail::CageView view = coordinates.view();
   detail::WideVec four{};
-  detail::Wide total{};
+  alignas(sizeof(detail::Wide)) detail::Wide total{};
   for (int k = 0; k < detail::kWide; ++k) four.x[k] = p[0], four.y[k] = p[1], four.z[k] = p[2];
-  std::vector<double> row(cage.vertices.size());
-  if (kind == CoordinateKind::green) {
-    row.resize(cage.vertices.size() + cage.faces.size());
-    if (detail::green_weights(cage, green, four, scratch, total) != 0) {
+  std::vector<double> row(coordinates.columns());
+  scratch.resize(cage, coordinates.kind() == CoordinateKind::green);
+  if (coordinates.kind() == CoordinateKind::green) {
+    if (detail::green_weights(view, four, scratch, total) != 0) {
       ++slow;
-      detail::green_weights_slowly(cage, green, p, row);
+      detail::green_weights_slowly(cage, view, p, row);
       return row;
     }
-    for (std::size_t v = 0; v < cage.vertices.size(); ++v) row[v] = scratch.green.vertices[v].sum[0];
+    for (std::size_t v = 0; v < cage.vertices.size(); ++v) row[v] = scratch.green.sums[v][0];
     for (std::size_t f = 0; f < cage.faces.size(); ++f)
-      row[cage.vertices.size() + f] = scratch.green.faces[f].weight[0];
+      row[cage.vertices.size() + f] = scratch.green.face_weights[f][0];
     return row;
   }
-  const unsigned doubtful = detail::mean_value_weights(cage, four, scratch, total);
-  if (kind == CoordinateKind::mean_value && doubtful != 0) {
+  const unsigned doubtful = detail::mean_value_weights(view, four, scratch, total);
+  if (coordinates.kind() == CoordinateKind::mean_value && doubtful != 0) {
     ++slow;
     detail::mean_value_weights_slowly(cage, p, row);
     return row;
   }
-  if (kind == CoordinateKind::maximum_likelihood) detail::likelihood_weights(cage, four, doubtful, total, scratch);
-  for (std::size_t v = 0; v < row.size(); ++v) row[v] = scratch.vertices[v].sum[0];
+  if (coordinates.kind() == CoordinateKind::maximum_likelihood)
+    detail::likelihood_weights(cage, four, doubtful, total, scratch);
+  for (std::size_t v = 0; v < row.size(); ++v) row[v] = scratch.sums[v][0];
   return row;
 }
 
@@ -159,8 +161,8 @@ TEST_CASE("the weights reproduce a point to 1e-6 before that is enforced", "[def
   for (const CoordinateKind kind : kKinds) {
     for (const NamedCage& named : hostile_cages()) {
       INFO(named.name << " " << int(kind));
-      const Cage cage = make_cage(named.mesh, named.name);
-      const detail::GreenCage green = detail::green_cage(cage);
+      const CageCoordinates coordinates(make_cage(named.mesh, named.name), kind);
+      const Cage& cage = coordinates.cage();
       std::vector<Vec3d> points = points_near_faces(named.mesh);
       for (const Vec3d& p : random_points(named.mesh, 500)) points.push_back(p);
       std::size_t slow = 0, checked = 0;
@@ -168,13 +170,13 @@ TEST_CASE("the weights reproduce a point to 1e-6 before that is enforced", "[def
       for (const Vec3d& scene_point : points) {
         const Vec3d p = cage.to_cage(scene_point);
         if (winding(named.mesh, scene_point) != 1 || is_near_a_face(cage, p)) continue;
-        const std::vector<double> weights = raw_row(cage, green, kind, p, slow);
+        const std::vector<double> weights = raw_row(coordinates, p, slow);
         double sum = 0;
         Vec3d moment{};
         for (std::size_t v = 0; v < cage.vertices.size(); ++v)
           sum += weights[v], moment = moment + weights[v] * cage.vertices[v];
         for (std::size_t f = cage.vertices.size(); f < weights.size(); ++f)
-          moment = moment + weights[f] * green.faces[f - cage.vertices.size()].normal;
+          moment = moment + weights[f] * coordinates.view().green[f - cage.vertices.size()].normal;
         INFO(scene_point[0] << " " << scene_point[1] << " " << scene_point[2]);
         if (kind == CoordinateKind::green) CHECK(std::abs(sum - 1) < 1e-6);
         worst = std::max(worst, length((1 / sum) * moment - p));

@@ -117,3 +117,9 @@ TEST_CASE("images beyond the memory are decoded again, broken ones are named onc
     CHECK(e.code() == ErrorCode::out_of_resource);
   }
 }
+
+TEST_CASE("a scene without images has none", "[quick][bake]") {
+  ImageCache cache(nullptr, MemoryShare{1000});
+  CHECK(cache.get(TextureMaterial::kNoImage) == nullptr);
+  CHECK(cache.faults().empty());
+}

@@ -23,7 +23,7 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--cache", "bplod"},
     {"--convex", "bpcheck"},
     {"--coordinates", "bpdeform"},
-    {"--device", "bpclose"},
+    {"--device", "bpclose and bpdeform"},
     {"--dump", "bpinfo"},
     {"--element", "bpclose"},
     {"--enclose", "bpmesh and bplod"},

@@ -58,7 +58,8 @@ void VoxelOptions::add_with_inside(Args& args, const std::string& resolution_def
   add_up(*this, args);
 }
 
-void VoxelOptions::check() const {
+void VoxelOptions::check() {
+  for (std::string& scene : scenes) scene = tileset_in(scene);
   check_scene_format(format, scenes);
   keep_inputs(scenes);
   if (voxel && resolution) fail(ErrorCode::bad_argument, "--voxel and --resolution exclude each other");

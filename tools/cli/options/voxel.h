@@ -28,8 +28,9 @@ struct VoxelOptions {
   void add_to(Args& args, const std::string& resolution_default);
   /// The same with `--fill inside`, which takes a tool that works on the inside of the scene.
   void add_with_inside(Args& args, const std::string& resolution_default);
-  /// After args.parse(). Throws bad_argument if options contradict each other. Keeps the scenes from being overwritten.
-  void check() const;
+  /// After args.parse(). Throws bad_argument if options contradict each other. A folder becomes the tileset in it.
+  /// Keeps the scenes from being overwritten.
+  void check();
 };
 
 }  // namespace bp

@@ -39,7 +39,7 @@ void LookBlocks::close(std::uint64_t memory_bytes) {
   boxes.reserve(boxes_.size());
   for (const Bounds3d& b : boxes_) boxes.push_back({b.min, b.max, b.max});
   tree_ = std::make_unique<TriangleBvh>(boxes);
-  at_work_ = std::make_unique<LruCache<LookBlock>>(memory_bytes);
+  at_work_ = std::make_unique<LruCache<LookBlock>>(memory_bytes, boxes_.size());
 }
 
 std::shared_ptr<const LookBlock> LookBlocks::get(std::uint32_t block) const {

@@ -231,3 +231,16 @@ TEST_CASE("a GLB that cannot keep what it has is refused", "[io][deform][quick]"
   refused("sparse", [](Json& j) { j["accessors"][0].erase("bufferView"); });
   refused("share bytes", [](Json& j) { j["accessors"][2]["bufferView"] = j["accessors"][0]["bufferView"]; });
 }
+
+TEST_CASE("what does not fit the moving of points is refused with one remedy, its own", "[io][deform][quick]") {
+  const TempDir dir;
+  Document d = two_parts();
+  d.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = Json::object();
+  try {
+    (void)points_of(dir.file("a.glb", d.glb()));
+    FAIL("read");
+  } catch (const Error& e) {
+    CHECK_THAT(e.what(), Contains("unpack it"));
+    CHECK(e.remedies().empty());
+  }
+}

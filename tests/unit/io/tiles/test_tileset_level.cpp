@@ -1,5 +1,5 @@
 #include "io/tiles/tileset_level.h"
-#include "tests/unit/io/scene/scene_files.h"
+#include "tests/unit/io/scene/gltf_document.h"
 
 using namespace bp;
 using namespace bp::test;
@@ -70,9 +70,13 @@ TEST_CASE("contents that are not there are named", "[quick][io][lod]") {
 
 TEST_CASE("contents of a tileset stand in the axes of its scene", "[quick][io][lod]") {
   const TempDir dir;
-  (void)dir.file("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 2 0 1 0 0\nf 1 2 3\n");
+  Document d;
+  const int colors_of = d.floats({{1, 0, 0}, {1, 0, 0}, {1, 0, 0}});
+  d.node({{"mesh", d.mesh(d.floats({{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}))}});
+  d.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors_of;
+  (void)dir.file("a.glb", d.glb());
   Tileset t;
-  t.root = tile("a.obj");
+  t.root = tile("a.glb");
   t.root.transform[12] = 100, t.root.transform[14] = 50;  // 50 up
   t.up = UpAxis(GENERATE(range(0, 6)));
   SceneOptions options;

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/atlas/tangents.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/image/mip_image.h"
-#include "lib/mesh/tangents.h"
 #include "lib/pass/bake/bake.h"
 #include "lib/store/memory_scratch.h"
 #include "tests/catch.h"

@@ -1,4 +1,4 @@
-#include "lib/mesh/tangents.h"
+#include "lib/atlas/tangents.h"
 
 #include <cmath>
 

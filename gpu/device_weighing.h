@@ -1,0 +1,30 @@
+#pragma once
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "gpu/kernels/coordinate_kernels.h"
+#include "lib/deform/weight_block.h"
+
+namespace bp {
+
+/// Backend::weigh() on a GPU: points that the kernel leaves are weighed on the calling thread.
+class DeviceWeighing {
+ public:
+  /// Where the points do not fit in device memory, calls make_room(), and takes them in parts.
+  void weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside, Staging& staging,
+             cudaStream_t stream, const std::function<void()>& make_room, WeightBlock& out,
+             std::span<CoordinateRows::Place> places);
+  void release() { weigher_.release(); }
+
+ private:
+  /// `first`: number of the first point in `out`.
+  void weigh_part(const CageCoordinates& coordinates, std::span<const Vec3d> points, std::size_t first,
+                  Staging& staging, cudaStream_t stream, WeightBlock& out, std::span<CoordinateRows::Place> places);
+
+  DeviceWeigher weigher_;
+  std::vector<std::uint32_t> left_;  ///< points for the calling thread
+  CoordinateRows rows_;
+};
+
+}  // namespace bp

@@ -1,0 +1,186 @@
+#include <array>
+#include <cstring>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "io/gltf/gltf_document.h"
+#include "io/tiles/tileset_contents.h"
+#include "lib/core/error.h"
+
+// A tileset of 3D Tiles (OGC 22-025r4; b3dm: OGC 18-053r2) as a scene.
+
+namespace bp {
+
+namespace {
+
+/// A file that need not be open: a tileset has thousands, and their images may be wanted at any time.
+class RestingFile final : public SceneFile {
+ public:
+  RestingFile(std::string path, std::string temp_dir)
+      : path_(std::move(path)), temp_dir_(std::move(temp_dir)), file_(open()), size_(file_->size()) {}
+
+  std::size_t read_at(std::uint64_t offset, std::span<std::byte> buffer) const override {
+    return file()->read_at(offset, buffer);
+  }
+  [[nodiscard]] std::uint64_t size() const override { return size_; }
+  [[nodiscard]] std::string name() const override { return path_; }
+  [[nodiscard]] std::string path() const override { return path_; }
+
+  /// From now on it is opened for each reading.
+  void rest() {
+    const std::lock_guard lock(mutex_);
+    file_.reset();
+  }
+
+ private:
+  [[nodiscard]] SceneFilePtr open() const { return open_scene_file(path_, temp_dir_); }
+  [[nodiscard]] SceneFilePtr file() const {
+    const std::lock_guard lock(mutex_);
+    return file_ ? file_ : open();
+  }
+
+  const std::string path_, temp_dir_;
+  mutable std::mutex mutex_;
+  SceneFilePtr file_;
+  const std::uint64_t size_;
+};
+
+/// What a b3dm holds behind its head and tables. Files beside the tile are those of its glTF.
+class TilePart final : public SceneFile {
+ public:
+  TilePart(SceneFilePtr file, std::uint64_t begin, std::uint64_t end)
+      : file_(std::move(file)), begin_(begin), end_(end) {}
+  std::size_t read_at(std::uint64_t offset, std::span<std::byte> buffer) const override {
+    if (offset >= size()) return 0;
+    return file_->read_at(begin_ + offset,
+                          buffer.first(std::size_t(std::min<std::uint64_t>(buffer.size(), size() - offset))));
+  }
+  [[nodiscard]] std::uint64_t size() const override { return end_ - begin_; }
+  [[nodiscard]] std::string name() const override { return file_->name(); }
+  [[nodiscard]] std::string path() const override { return file_->path(); }
+
+ private:
+  SceneFilePtr file_;
+  std::uint64_t begin_, end_;
+};
+
+/// The glTF in a b3dm; `place` is moved by RTC_CENTER.
+SceneFilePtr opened_b3dm(const SceneFilePtr& file, const SceneOptions& options, Affine& place) {
+  struct {
+    char magic[4];
+    std::uint32_t version, bytes, features, feature_bytes, batches, batch_bytes;
+  } head{};
+  const std::size_t got = file->read_at(0, std::as_writable_bytes(std::span(&head, 1)));
+  const std::uint64_t features = sizeof head,
+                      begin = features + head.features + head.feature_bytes + head.batches + head.batch_bytes;
+  if (got < sizeof head || head.bytes > file->size() || begin > head.bytes)
+    fail(ErrorCode::bad_input, "{}: promises more bytes than it has; the file is truncated", file->name());
+  if (head.features > 0) {
+    const GltfJson json = read_json(part_of(file, features, head.features), options);
+    const GltfObject table(json, file->name(), "");
+    std::array<double, 3> centre{};
+    if (table.has("RTC_CENTER") && json["RTC_CENTER"].is_array()) {
+      centre = table.numbers<3>("RTC_CENTER", {0, 0, 0});
+    } else if (table.has("RTC_CENTER")) {
+      std::array<float, 3> floats{};
+      const std::uint64_t at = table.object("RTC_CENTER").number("byteOffset");
+      if (at + sizeof floats > head.feature_bytes) table.broken("has no bytes for its RTC_CENTER");
+      file->read_at(features + head.features + at, std::as_writable_bytes(std::span(floats)));
+      std::copy(floats.begin(), floats.end(), centre.begin());
+    }
+    Affine moved;
+    for (std::size_t i = 0; i < 3; ++i) moved.m[i][3] = centre[i];
+    place = place * moved;
+  }
+  return std::make_shared<TilePart>(file, begin, head.bytes);
+}
+
+RawSourcePtr open_content(const SceneFilePtr& file, const SceneOptions& options, ContentPlace place) {
+  std::string magic(4, '\0');
+  magic.resize(file->read_at(0, std::as_writable_bytes(std::span(magic))));
+  if (magic == "b3dm") {
+    const SceneFilePtr inner = opened_b3dm(file, options, place.tile);
+    return open_gltf(inner, options, place);
+  }
+  if (magic != "glTF" && !magic.starts_with('{'))
+    fail(ErrorCode::bad_input, "{}: a content that is neither glTF nor b3dm, and no other is read", file->name());
+  return open_gltf(file, options, place);
+}
+
+class TilesetSource final : public RawSource {
+ public:
+  TilesetSource(TilesetContents contents, const SceneOptions& options)
+      : contents_(std::move(contents)), options_(options) {}
+
+  bool read(std::vector<TriangleD>& out) override {
+    RawBatch batch;
+    const bool more = next(batch);
+    out.swap(batch.triangles);
+    return more;
+  }
+  /// The batch is complete then: the content may be closed when its triangles are wanted.
+  bool next(RawBatch& batch) override {
+    for (; at_ < contents_.files.size(); leave()) {
+      if (!content_) enter();
+      if (!content_->next(batch)) continue;
+      content_->complete(batch);
+      bad_faces_ += batch.bad_faces;
+      batch.bad_faces = 0;
+      return true;
+    }
+    batch.triangles.clear();
+    return false;
+  }
+  void rewind() override {
+    rest();
+    at_ = 0;
+    bad_faces_ = instances_ = 0;
+  }
+  [[nodiscard]] bool has_colors() const override { return has_colors_; }
+  [[nodiscard]] bool has_textures() const override { return has_textures_; }
+  [[nodiscard]] std::uint64_t instances() const override { return instances_; }
+  [[nodiscard]] std::optional<UpAxis> up() const override { return contents_.up; }
+
+ private:
+  void enter() {
+    file_ = std::make_shared<RestingFile>(contents_.files[at_].path, temp_dir_of(options_));
+    content_ = open_content(file_, options_, contents_.files[at_].place);
+    has_colors_ = has_colors_ || content_->has_colors();
+    has_textures_ = has_textures_ || content_->has_textures();
+  }
+  void leave() {
+    bad_faces_ += content_->bad_faces();
+    instances_ += content_->instances();
+    rest();
+    ++at_;
+  }
+  void rest() {
+    content_.reset();
+    if (file_) file_->rest();
+    file_.reset();
+  }
+
+  const TilesetContents contents_;
+  const SceneOptions options_;
+  std::size_t at_ = 0;
+  std::shared_ptr<RestingFile> file_;
+  RawSourcePtr content_;
+  bool has_colors_ = false, has_textures_ = false;
+  std::uint64_t instances_ = 0;
+};
+
+}  // namespace
+
+RawSourcePtr open_contents(TilesetContents contents, const SceneOptions& options) {
+  return std::make_unique<TilesetSource>(std::move(contents), options);
+}
+
+RawSourcePtr open_tileset(SceneFilePtr file, const SceneOptions& options) {
+  GltfJson json = read_json(file, options);
+  if (!json.is_object() || !json.contains("root")) return open_gltf(std::move(file), options);  // under another name
+  if (file->path().empty())
+    fail(ErrorCode::bad_input, "{}: a tileset names files beside it, which a pipe does not have", file->name());
+  return open_contents(contents_of(json, file->path(), options), options);
+}
+
+}  // namespace bp

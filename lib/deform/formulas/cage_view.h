@@ -1,0 +1,44 @@
+#pragma once
+#include "lib/deform/cage.h"
+
+namespace bp::detail {
+
+/// What the formulas of Green coordinates need of a face, in the unit of the cage.
+struct GreenFace {
+  Vec3d normal{};                   ///< unit; 0 if it has no area: then all its coordinates are 0
+  std::array<Vec3d, 3> out{};       ///< unit vectors in its plane, out of it across edge i
+  std::array<double, 3> per{};      ///< one over the height of corner i
+  std::array<double, 3> angle{};    ///< product of `out` of the other two edges
+  double twice_area = 0, part = 0;  ///< part: 1 / 4 pi, or 0
+};
+
+/// A cage as the formulas see it, on the CPU or on a device.
+struct CageView {
+  const Vec3d* vertices = nullptr;
+  const Cage::Edge* edges = nullptr;
+  const Cage::Face* faces = nullptr;
+  const GreenFace* green = nullptr;      ///< by face; null: other coordinates
+  const double* edge_lengths = nullptr;  ///< of Green coordinates
+  std::uint32_t vertex_count = 0, edge_count = 0, face_count = 0;
+  Vec3d origin{};
+  double diagonal = 1;
+  std::array<Vec3d, 3> spread{};
+
+  [[nodiscard]] BP_HD std::uint32_t columns() const { return vertex_count + (green != nullptr ? face_count : 0); }
+};
+
+[[nodiscard]] inline CageView view_of(const Cage& cage) {
+  return {cage.vertices.data(),
+          cage.edges.data(),
+          cage.faces.data(),
+          nullptr,
+          nullptr,
+          std::uint32_t(cage.vertices.size()),
+          std::uint32_t(cage.edges.size()),
+          std::uint32_t(cage.faces.size()),
+          cage.origin,
+          cage.diagonal,
+          cage.spread};
+}
+
+}  // namespace bp::detail

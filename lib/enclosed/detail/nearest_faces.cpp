@@ -1,0 +1,129 @@
+#include "lib/enclosed/detail/nearest_faces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/parallel.h"
+#include "lib/enclosed/face_target.h"
+#include "lib/mesh/lattice_geometry.h"
+#include "lib/mesh/space_order.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::int64_t kPointsAtOnce = 1024;
+constexpr double kGroup = 0.25;     // of the reach: radius of points that share a search
+constexpr double kFirstReach = 16;  // the first search reaches as far as one of so many parts, the next four times
+constexpr double kSlack = 1e-6;     // lattice units, or squared ones: more than all rounding
+
+/// The search for some of the points.
+class NearestFaces {
+ public:
+  NearestFaces(std::span<const Vec3d> points, const LatticeCoord& origin, const HalfEdgeMesh& mesh,
+               const FaceTree& tree, double reach, std::vector<FaceId>& found)
+      : points_(points), origin_(origin), mesh_(mesh), tree_(tree), reach_(reach), found_(found) {}
+
+  /// Numbers of points, those near in space near each other.
+  void find(std::span<const std::uint32_t> numbers) {
+    const Ball ball = around(numbers);
+    if (numbers.size() > 1 && ball.radius > kGroup * reach_) {
+      find(numbers.first(numbers.size() / 2));
+      find(numbers.subspan(numbers.size() / 2));
+      return;
+    }
+    gather(ball);
+    for (const std::uint32_t i : numbers) found_[i] = nearest(points_[i], ball);
+  }
+
+ private:
+  struct Ball {
+    Vec3d middle;
+    double radius;
+  };
+  struct Candidate {
+    double distance;  // from the ball's middle
+    FaceId face;
+    std::array<Vec3d, 3> corners;
+  };
+
+  [[nodiscard]] Ball around(std::span<const std::uint32_t> numbers) const {
+    Vec3d low = points_[numbers[0]], high = low;
+    for (const std::uint32_t i : numbers) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], points_[i][axis]);
+        high[axis] = std::max(high[axis], points_[i][axis]);
+      }
+    }
+    return {0.5 * (low + high), 0.5 * length(high - low)};
+  }
+
+  /// All faces that may be the nearest of a point in the ball, the nearest to its middle first.
+  void gather(const Ball& ball) {
+    const LatticeCoord at = origin_ + rounded(ball.middle);
+    const double most = reach_ + ball.radius + kSlack;
+    for (double r = reach_ / kFirstReach + 2 * ball.radius;; r *= 4) {
+      const double within = std::min(r, most);
+      const auto d = std::int64_t(within) + 2;
+      candidates_.clear();
+      double least = within;
+      tree_.query({at - LatticeCoord{d, d, d}, at + LatticeCoord{d, d, d}}, [&](FaceId f) {
+        Candidate c{0, f, corners(f)};
+        c.distance = std::sqrt(squared_distance(ball.middle, c.corners));
+        if (c.distance > least + 2 * ball.radius + kSlack) return true;
+        least = std::min(least, c.distance);
+        candidates_.push_back(c);
+        return true;
+      });
+      if (least + 2 * ball.radius + kSlack > within && within < most) continue;
+      std::erase_if(candidates_, [&](const Candidate& c) { return c.distance > least + 2 * ball.radius + kSlack; });
+      break;
+    }
+    std::sort(candidates_.begin(), candidates_.end(),
+              [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+  }
+
+  [[nodiscard]] FaceId nearest(const Vec3d& p, const Ball& ball) const {
+    const double off = length(p - ball.middle) + kSlack;
+    double least = reach_ * reach_, least_distance = reach_;
+    FaceId best = kNoId;
+    for (const Candidate& c : candidates_) {
+      if (c.distance - off > least_distance) break;
+      const double squared = squared_distance(p, c.corners);
+      if (squared > least || (squared == least && c.face > best)) continue;
+      least = squared;
+      least_distance = std::sqrt(squared);
+      best = c.face;
+    }
+    return best;
+  }
+
+  [[nodiscard]] std::array<Vec3d, 3> corners(FaceId f) const {
+    return {to_double(mesh_.corner(f, 0) - origin_), to_double(mesh_.corner(f, 1) - origin_),
+            to_double(mesh_.corner(f, 2) - origin_)};
+  }
+
+  std::span<const Vec3d> points_;
+  const LatticeCoord origin_;
+  const HalfEdgeMesh& mesh_;
+  const FaceTree& tree_;
+  const double reach_;
+  std::vector<FaceId>& found_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+std::vector<FaceId> nearest_faces(std::span<const Vec3d> points, const LatticeCoord& origin, const HalfEdgeMesh& mesh,
+                                  const FaceTree& tree, double reach) {
+  std::vector<FaceId> found(points.size(), kNoId);
+  const std::vector<std::uint32_t> order =
+      space_order(points.size(), [&](std::uint32_t i) { return rounded(points[i]); });
+  parallel_ranges(std::int64_t(order.size()), kPointsAtOnce, [&](std::int64_t begin, std::int64_t end) {
+    NearestFaces(points, origin, mesh, tree, reach, found)
+        .find(std::span(order).subspan(std::size_t(begin), std::size_t(end - begin)));
+  });
+  return found;
+}
+
+}  // namespace bp

@@ -1,0 +1,41 @@
+#include "lib/mesh/space_order.h"
+
+#include <array>
+
+namespace bp {
+
+namespace {
+
+/// Bit i of a 10-bit number becomes bit 3 i.
+std::uint32_t spread(std::uint32_t v) {
+  v = (v | (v << 16)) & 0x030000ff;
+  v = (v | (v << 8)) & 0x0300f00f;
+  v = (v | (v << 4)) & 0x030c30c3;
+  return (v | (v << 2)) & 0x09249249;
+}
+
+}  // namespace
+
+void SpaceOrder::add(std::uint32_t item, const LatticeCoord& place) {
+  const LatticeCoord c = place - low_;
+  const std::uint32_t code = spread(std::uint32_t(c.x >> shift_)) | spread(std::uint32_t(c.y >> shift_)) << 1 |
+                             spread(std::uint32_t(c.z >> shift_)) << 2;
+  keys_.push_back(std::uint64_t(code) << 32 | item);
+}
+
+/// By code; equal codes stay in order. Counting sort by bytes, the least first.
+std::vector<std::uint32_t> SpaceOrder::take() {
+  std::vector<std::uint64_t> sorted(keys_.size());
+  for (int shift = 32; shift < 32 + 3 * kBits; shift += 8) {
+    std::array<std::uint32_t, 257> start{};
+    for (const std::uint64_t k : keys_) ++start[((k >> shift) & 255) + 1];
+    for (std::size_t i = 0; i < 256; ++i) start[i + 1] += start[i];
+    for (const std::uint64_t k : keys_) sorted[start[(k >> shift) & 255]++] = k;
+    keys_.swap(sorted);
+  }
+  std::vector<std::uint32_t> items(keys_.size());
+  std::transform(keys_.begin(), keys_.end(), items.begin(), [](std::uint64_t k) { return std::uint32_t(k); });
+  return items;
+}
+
+}  // namespace bp

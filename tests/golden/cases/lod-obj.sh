@@ -1,0 +1,25 @@
+# Levels as OBJ, with a material and an image beside each. Two cubes in a row, one with a chequered image.
+write_painted_cubes
+options=(part*.obj --resolution 60 -q)
+bplod "${options[@]}" --levels 2 -o out/cubes.obj | cut -f 1
+bplod "${options[@]}" --levels 2 -o again/cubes.obj -j 1 --memory 300M > list
+same out again
+ls out
+cat out/cubes_LOD1.mtl
+grep -v '^[v#f]' out/cubes_LOD1.obj
+bplod "${options[@]}" --levels 2 --name cubes -o glb > list
+for f in cubes_LOD0 cubes_LOD1; do
+  [ "$(bpinfo out/$f.obj | checksum)" = "$(bpinfo glb/$f.glb | checksum)" ] && echo "$f: the same triangles"
+done
+bpcheck part*.obj out/cubes_LOD0.obj | tail -1
+
+# A level by itself has the name as it is. What answers to light is in images of its own; colours may lie on the vertices.
+bplod "${options[@]}" --levels 1 --appearance full -o one/cube.obj > list && ls one && cat one/cube.mtl
+bplod "${options[@]}" --levels 1 --appearance color -o one/cube.obj --overwrite > list && ls one
+grep -m 1 '^v ' one/cube.obj | wc -w
+bplod "${options[@]}" --levels 1 --appearance off -o off.OBJ > list && ls off*
+said 'bplod part0.obj --levels 1 --resolution 30 -o plain.obj 2>&1 | tail -1'
+try bplod part0.obj --levels 1 --resolution 30 -o plain.obj -q
+try bplod part0.obj --levels 1 --resolution 30 -o part0.obj -q --overwrite
+try bplod part0.obj --name x -o x.obj
+try bplod part0.obj --profile collision -o x.obj

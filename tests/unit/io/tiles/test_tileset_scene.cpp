@@ -1,0 +1,134 @@
+#include "lib/core/error.h"
+#include "tests/catch.h"
+#include "tests/unit/io/scene/gltf_document.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+constexpr const char* kEnd = "/tileset.json";
+
+/// A triangle in the corner of the axes of glTF.
+std::string content(const Json& extensions = nullptr) {
+  Document d;
+  d.node({{"mesh", d.mesh(d.floats({{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}))}});
+  if (!extensions.is_null()) d.json["extensions"] = extensions;
+  return d.glb();
+}
+
+Json at(double x, double y = 0, double z = 0) {
+  return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1};
+}
+
+/// A tile without volumes: a scene does not ask for them.
+Json tile(const std::string& uri, double x = 0, const Json& children = Json::array()) {
+  Json t{{"transform", at(x)}, {"geometricError", 1}};
+  if (!uri.empty()) t["content"]["uri"] = uri;
+  if (!children.empty()) t["children"] = children;
+  return t;
+}
+
+std::string tileset(const Json& root, const Json& asset = {{"version", "1.1"}}) {
+  return Json{{"asset", asset}, {"geometricError", 9}, {"root", root}}.dump();
+}
+
+/// Tiles as they are met: where the corner of each stands along x.
+std::string drawn(const std::string& path) {
+  std::string all;
+  for (const TriangleD& t : read_all(path)) all += fmt::format("{} ", t[0][0]);
+  return all;
+}
+
+/// The triangle of content(), moved, where y or z is up.
+TriangleD upright(const Vec3d& p) {
+  return {{p, {p[0] + 1, p[1], p[2]}, {p[0], p[1], p[2] + 2}}};
+}
+
+std::string b3dm(const std::string& features, const std::string& binary = "") {
+  const std::string glb = content();
+  const auto size = std::uint32_t(28 + features.size() + binary.size() + glb.size());
+  return "b3dm" + raw(1U) + raw(size) + raw(std::uint32_t(features.size())) + raw(std::uint32_t(binary.size())) +
+         raw(0U) + raw(0U) + features + binary + glb;
+}
+
+}  // namespace
+
+TEST_CASE("a tileset is a scene of its leaves, and of all tiles that are added to", "[quick][io]") {
+  const TempDir dir;
+  for (const char* name : {"a.glb", "b.glb", "c d.glb"}) (void)dir.file(name, content());
+  Json root = tile("a.glb", 1000, {tile("b.glb", 10, {tile("c%20d.glb", 1), tile("", 2)}), tile("b.glb", 20)});
+  root["refine"] = "REPLACE";
+  CHECK(drawn(dir.file("t.json", tileset(root))) == "1011 1020 ");
+  root["children"][0]["refine"] = "ADD";
+  CHECK(drawn(dir.file("t.json", tileset(root))) == "1010 1011 1020 ");
+  root["refine"] = "add";  // as version 1.0 allows
+  root["children"][0]["refine"] = "REPLACE";
+  CHECK(drawn(dir.file("t.json", tileset(root))) == "1000 1011 1020 ");
+  root = tile("a.glb", 0, {tile("a.glb", 1), tile("b.glb", 2)});
+  root["children"][1]["extras"]["leaf"] = true;  // of ours: beside it stands no scene
+  CHECK(drawn(dir.file("t.json", tileset(root))) == "2 ");
+  root = tile("");
+  root["contents"] = {{{"uri", "a.glb"}}, {{"url", "b.glb?v=1"}}};
+  CHECK(drawn(dir.file("t.json", tileset(root))) == "0 0 ");
+}
+
+TEST_CASE("contents stand where their tiles and tables say, with z up", "[quick][io]") {
+  const TempDir dir;
+  (void)dir.file("a.glb", content());
+  (void)dir.file("rtc.glb", content({{"CESIUM_RTC", {{"center", {5, 6, 7}}}}}));
+  (void)dir.file("b.b3dm", b3dm(R"({"RTC_CENTER":[100000000.25,2,3] })"));
+  (void)dir.file("c.b3dm", b3dm(R"({"RTC_CENTER":{"byteOffset":4}})", raw(0.0F) + raw(1.5F) + raw(2.0F) + raw(3.0F)));
+  const auto only = [&](const Json& root, const Json& asset = {{"version", "1.1"}}) {
+    const auto triangles = read_all(dir.file("t.json", tileset(root, asset)));
+    REQUIRE(triangles.size() == 1);
+    return triangles[0];
+  };
+  CHECK(only(tile("a.glb", 4)) == upright({4, 0, 0}));
+  CHECK(only(tile("rtc.glb", 1)) == upright({6, 6, 7}));
+  CHECK(only(tile("b.b3dm", 0.25)) == upright({100000000.5, 2, 3}));  // in double
+  CHECK(only(tile("c.b3dm", 1)) == upright({2.5, 2, 3}));
+  const TriangleD lying{{{1, 0, 0}, {2, 0, 0}, {1, 2, 0}}};
+  CHECK(only(tile("a.glb", 1), {{"version", "1.0"}, {"gltfUpAxis", "Z"}}) == lying);
+  CHECK(only(tile("a.glb", 1), {{"version", "1.1"}, {"extras", {{"up", "y"}}}}) == lying);  // ours: the scene's axes
+  CHECK(open_scene(dir.path("t.json"))->up() == UpAxis::y);
+}
+
+TEST_CASE("tilesets within tilesets are read; a ring of them and a flood of them are refused", "[quick][io]") {
+  const TempDir dir;
+  std::filesystem::create_directories(dir.path("sub"));
+  (void)dir.file("sub/a.glb", content());
+  (void)dir.file(std::string("sub") + kEnd, tileset(tile("a.glb", 1)));
+  Json root = tile("sub/tileset.json", 10);
+  CHECK(drawn(dir.file("t.json", tileset(root))) == "11 ");
+  (void)dir.file(std::string("sub") + kEnd, tileset(tile("../t.json")));
+  CHECK_THAT(complaint_of(dir.path("t.json")), Contains("is a content of itself"));
+  for (int i = 0; i < 20; ++i)
+    (void)dir.file(fmt::format("{}.json", i),
+                   tileset(tile("", 0, {tile(fmt::format("{}.json", i + 1)), tile(fmt::format("{}.json", i + 1))})));
+  CHECK_THAT(complaint_of(dir.path("0.json")), Contains("16 deep"));
+  root = tile("sub/a.glb");
+  for (int i = 0; i < 70; ++i) root = tile("", 0, Json::array({root}));
+  CHECK_THAT(complaint_of(dir.file("t.json", tileset(root))), Contains("lies below 64 tiles"));
+}
+
+TEST_CASE("a tileset that is not whole is no scene", "[quick][io]") {
+  const TempDir dir;
+  (void)dir.file("a.glb", content());
+  const auto complaint = [&](const Json& root) { return complaint_of(dir.file("t.json", tileset(root))); };
+  CHECK_THAT(complaint(tile("", 0, {tile("a.glb"), tile("b.glb"), tile("c.glb")})),
+             Contains("2 of 3 contents are missing") && Contains("b.glb"));
+  (void)dir.file("points", "pnts" + raw(1U));
+  CHECK_THAT(complaint(tile("points")), Contains("neither glTF nor b3dm"));
+  (void)dir.file("cut.b3dm", b3dm("").substr(0, 40));
+  CHECK_THAT(complaint(tile("cut.b3dm")), Contains("truncated"));
+  (void)dir.file("far.b3dm", b3dm(R"({"RTC_CENTER":{"byteOffset":4}})"));
+  CHECK_THAT(complaint(tile("far.b3dm")), Contains("RTC_CENTER"));
+  CHECK_THAT(complaint(tile("https://x/a.glb")), Contains("network"));
+  Json implicit = tile("a.glb");
+  implicit["implicitTiling"] = Json::object();
+  CHECK_THAT(complaint(implicit), Contains("implicitly"));
+  SceneOptions tight;
+  tight.document.bytes = 100;
+  CHECK_THROWS_AS(open_scene(dir.file("t.json", tileset(tile("a.glb"))), tight), Error);
+}
