@@ -130,7 +130,7 @@ void CageCoordinates::take_group(std::span<const Vec3d> points, std::size_t firs
 CoordinateRows::Place CageCoordinates::finish(const Vec3d& point, std::span<double> weights, double total,
                                               bool trusted) const {
   auto place = CoordinateRows::Place::inside;
-  const detail::RowOfWeights row{weights.data()};
+  const detail::RowOfWeights<double> row{weights.data()};
   const Nearest near = trusted ? Nearest{} : nearest(point);
   if (!trusted && near.distance > kOnCage) total = slowly(point, weights);
   if (!trusted && near.distance <= kOnCage) {

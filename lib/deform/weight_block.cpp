@@ -22,7 +22,7 @@ int bits_for(double largest) {
 
 /// `units` are `stride` apart. Returns the bits.
 int round_row(std::span<const double> weights, std::int32_t* units, std::size_t stride) {
-  const detail::RowOfWeights row{weights.data()};
+  const detail::RowOfWeights<const double> row{weights.data()};
   const auto columns = std::uint32_t(weights.size());
   double largest, all;
   detail::sizes_of(columns, row, largest, all);
