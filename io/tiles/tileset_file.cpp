@@ -44,6 +44,9 @@ class Reader {
 
   Tileset run() {
     const GltfObject root(json_, name_, "");
+    for (const GltfJson& name : root.array("extensionsRequired")) {
+      if (name != "3DTILES_content_gltf") root.broken(fmt::format("requires {}, which is not read", name.dump()));
+    }
     Tileset tileset;
     tileset.version = root.object("asset").text("version");
     for (const char* const name : kUpNames) {
@@ -58,7 +61,7 @@ class Reader {
  private:
   Tile tile(const GltfObject& object, const GltfJson& json, int depth) const {
     if (depth > kMostDeep) object.broken(fmt::format("lies below {} tiles", kMostDeep));
-    if (object.has("implicitTiling")) object.broken("is tiled implicitly, which is not read");
+    refuse_unread(object);
     Tile tile;
     const GltfObject volume = object.object("boundingVolume");
     if (volume.has("box")) {
@@ -79,6 +82,17 @@ class Reader {
     for (std::size_t i = 0; i < object.array("children").size(); ++i)
       tile.children.push_back(this->tile(object.item("children", i), json["children"][i], depth + 1));
     return tile;
+  }
+
+  /// What a viewer draws, and this does not know.
+  static void refuse_unread(const GltfObject& tile) {
+    const auto has = [&](const char* extension) {
+      return tile.has("extensions") && tile.object("extensions").has(extension);
+    };
+    if (tile.has("implicitTiling") || has("3DTILES_implicit_tiling"))
+      tile.broken("is tiled implicitly, which is not read");
+    if (tile.has("contents") || has("3DTILES_multiple_contents"))
+      tile.broken("has several contents, which are not read");
   }
 
   /// Of a tileset of ours; anything else there is someone else's business.

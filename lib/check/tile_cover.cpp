@@ -272,6 +272,11 @@ class Checker {
       if (!fits(i, child))
         findings_.push_back(
             {fmt::format("{}: its cell is neither its parent's nor an octant of it", tiles_[child].place)});
+      const auto is_twin = [&](std::size_t other) {
+        return other != child && tiles_[other].cell == tiles_[child].cell;
+      };
+      if (std::any_of(tile.children.begin(), tile.children.end(), is_twin))
+        findings_.push_back({fmt::format("{}: another child of its parent has the same cell", tiles_[child].place)});
     }
   }
 

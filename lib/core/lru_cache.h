@@ -4,12 +4,13 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 namespace bp {
 
-/// Values that are made when they are first wanted; those that were wanted longest ago make room. Thread-safe; threads
-/// that want what is there do not wait for each other.
+/// Values that are made when they are first wanted; those that were wanted longest ago make room. Thread-safe. Threads
+/// that want what is there wait for a few instructions of those that want the same.
 template <class T>
 class LruCache {
  public:
@@ -24,11 +25,11 @@ class LruCache {
     Slot& slot = slots_.at(key);
     const std::uint32_t now = makes_.load(std::memory_order_relaxed);
     if (slot.last_wanted.load(std::memory_order_relaxed) != now) slot.last_wanted.store(now, std::memory_order_relaxed);
-    if (auto made = slot.made.load()) return value_of(std::move(made));
+    if (auto made = slot.get()) return value_of(std::move(made));
     const std::lock_guard lock(slot.mutex);
-    if (auto made = slot.made.load()) return value_of(std::move(made));
+    if (auto made = slot.get()) return value_of(std::move(made));
     const auto made = std::make_shared<const Made>(make());
-    slot.made.store(made);
+    slot.set(made);
     if (made->value != nullptr) make_room(key, made->value->bytes());
     return made->value;
   }
@@ -38,10 +39,32 @@ class LruCache {
     explicit Made(std::shared_ptr<const T> v) : value(std::move(v)) {}
     std::shared_ptr<const T> value;
   };
-  struct Slot {
-    std::atomic<std::shared_ptr<const Made>> made;
+  /// As std::atomic<std::shared_ptr>, whose order of memory is too weak in GCC 12.
+  class Slot {
+   public:
     std::atomic<std::uint32_t> last_wanted{0};  // a time: how many values had been made
     std::mutex mutex;                           // of who makes it
+
+    [[nodiscard]] std::shared_ptr<const Made> get() {
+      lock();
+      std::shared_ptr<const Made> made = made_;
+      unlock();
+      return made;
+    }
+    void set(std::shared_ptr<const Made> made) {
+      lock();
+      made_.swap(made);
+      unlock();
+    }
+
+   private:
+    void lock() {
+      while (taken_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
+    }
+    void unlock() { taken_.clear(std::memory_order_release); }
+
+    std::atomic_flag taken_;
+    std::shared_ptr<const Made> made_;
   };
   struct Kept {
     std::uint32_t key;
@@ -62,7 +85,7 @@ class LruCache {
       const auto oldest = std::min_element(kept_.begin(), kept_.end(), [&](const Kept& a, const Kept& b) {
         return slots_[a.key].last_wanted < slots_[b.key].last_wanted;
       });
-      slots_[oldest->key].made.store(nullptr);
+      slots_[oldest->key].set(nullptr);
       bytes_ -= oldest->bytes;
       kept_.erase(oldest);
     }

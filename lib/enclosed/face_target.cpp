@@ -32,7 +32,7 @@ double squared_distance(const Vec3d& p, const std::array<Vec3d, 3>& t) {
 FaceTarget::FaceTarget(const std::array<Vec3d, 3>& corners) : corners_(corners) {
   const auto plane = [](const Vec3d& n, const Vec3d& through) -> Plane {
     const double size = length(n);
-    if (!(size > 0)) return {};
+    if (!(size > 0)) return {{}, -1};  // all points lie beyond
     const Vec3d unit = (1 / size) * n;
     return {unit, dot(unit, through)};
   };

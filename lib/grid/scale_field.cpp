@@ -96,6 +96,11 @@ Range applied(const ScaleField& field, const ScaleRule& rule, const Range& t, co
 
 /// Nowhere in the ball does the rule change a scale of this range.
 bool is_idle(const ScaleField& field, const ScaleRule& rule, const Range& t, const Range& s) {
+  if (rule.shape != ScaleShape::view && rule.support == ScaleRule::kNoSupport) {  // the farther, the less it asks
+    const double goal = rule.mode == ScaleMode::erase ? field.base : rule.scale;
+    const double give = field.slope * std::max(t.least - rule.radius, 0.0);
+    if (goal - give <= s.least && goal + give >= s.most) return true;
+  }
   for (const double distance : {t.least, t.most}) {
     for (const double before : {s.least, s.most}) {
       if (applied(field, rule, distance, before) != before) return false;

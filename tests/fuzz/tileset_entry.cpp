@@ -126,7 +126,7 @@ class Maker {
 
   void add_leaf(Json& root, const Cell& cell) {
     Soup content = cut(scene_, cell);
-    if (content.empty()) return;
+    if (content.empty()) return add_empty_leaf(root, cell);
     change(content);
     if (content.empty()) content.push_back({});
     const std::string uri = "l" + std::to_string(leaves_++) + ".obj";
@@ -134,6 +134,23 @@ class Maker {
     if (!c_.once_in(40)) leaf["extras"]["leaf"] = true;
     damage_.any = damage_.any || !leaf["extras"].contains("leaf");
     if (c_.once_in(40)) leaf["children"].push_back(tile("r.obj", box({1, 1, 1, 15, 15, 15}), cell, wrong(0)));
+    if (c_.once_in(40)) {
+      damage_.any = true;
+      for (const Triangle& t : content) damage_.hole = damage_.hole || area(t) > 0.1;
+      leaf.erase("content");
+    }
+    if (c_.once_in(40)) {
+      damage_.any = true;
+      root["children"].push_back(leaf);
+    }
+    root["children"].push_back(std::move(leaf));
+  }
+  /// As where the scene has nothing; or none.
+  void add_empty_leaf(Json& root, const Cell& cell) {
+    if (c_.once_in(2)) return;
+    Json leaf = tile("none.obj", {}, cell, kError);
+    leaf.erase("content");
+    leaf["extras"]["leaf"] = true;
     root["children"].push_back(std::move(leaf));
   }
   double wrong(double x) {

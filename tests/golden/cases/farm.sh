@@ -26,7 +26,7 @@ grep -o '([-+][0-9,]*)' "o {ut}/report.html" | head -1 # what changed
 # Each job has GPUs of its own.
 mkdir bin
 printf '#!/bin/sh\necho "GPU 0: one"\necho "GPU 1: two"\n' > bin/nvidia-smi && chmod +x bin/nvidia-smi
-on_gpus() { XDG_RUNTIME_DIR=$PWD PATH=$PWD/bin:$PATH "$BP_ROOT/samples/farm/on_gpus" "$@"; }
+on_gpus() { PATH=$PWD/bin:$PATH "$BP_ROOT/samples/farm/on_gpus" "$@"; }
 unset CUDA_VISIBLE_DEVICES
 for i in 1 2 3 4 5; do
   on_gpus 1 sh -c 'mkdir "gpu $CUDA_VISIBLE_DEVICES" && sleep 0.2 && rmdir "gpu $CUDA_VISIBLE_DEVICES" && echo one' >> gpus &

@@ -3,6 +3,8 @@
 
 #include "lib/check/check_proxy.h"
 #include "lib/check/detail/gap.h"
+#include "lib/core/vec3.h"
+#include "lib/exact/triangle_intersection.h"
 #include "tests/catch.h"
 #include "tests/unit/check/meshes.h"
 
@@ -11,18 +13,28 @@ using namespace bp::test;
 
 namespace {
 
-constexpr int kSteps = 60;
-
-/// Upper bound of the distance: from points of `a` to `b`.
-double sampled_distance(const TriangleD& a, const TriangleD& b) {
+/// Between the segments from p to p + u and from q to q + v.
+double segment_distance(const Vec3d& p, const Vec3d& u, const Vec3d& q, const Vec3d& v) {
+  const Vec3d w = p - q;
+  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w), det = uu * vv - uv * uv;
   double least = HUGE_VAL;
-  for (int i = 0; i <= kSteps; ++i) {
-    for (int j = 0; i + j <= kSteps; ++j) {
-      Vec3d p;
-      const double s = double(i) / kSteps, t = double(j) / kSteps;
-      for (std::size_t k = 0; k < 3; ++k) p[k] = a[0][k] + s * (a[1][k] - a[0][k]) + t * (a[2][k] - a[0][k]);
-      least = std::min(least, std::sqrt(distance_squared(p, b)));
-    }
+  const auto try_at = [&](double s) {  // and the nearest point of the other segment
+    s = std::clamp(s, 0.0, 1.0);
+    const double t = std::clamp((uv * s + vw) / vv, 0.0, 1.0);
+    s = std::clamp((uv * t - uw) / uu, 0.0, 1.0);
+    least = std::min(least, length(w + s * u - t * v));
+  };
+  for (const double s : {0.0, 1.0, det > 0 ? (uv * vw - vv * uw) / det : 0.5}) try_at(s);
+  return least;
+}
+
+/// Of triangles that do not meet: between edges, or from a corner.
+double distance_between(const TriangleD& a, const TriangleD& b) {
+  double least = HUGE_VAL;
+  for (std::size_t i = 0; i < 3; ++i) {
+    least = std::min({least, std::sqrt(distance_squared(a[i], b)), std::sqrt(distance_squared(b[i], a))});
+    for (std::size_t k = 0; k < 3; ++k)
+      least = std::min(least, segment_distance(a[i], a[(i + 1) % 3] - a[i], b[k], b[(k + 1) % 3] - b[k]));
   }
   return least;
 }
@@ -43,13 +55,15 @@ TEST_CASE("the gap between two triangles is decided on either side of their dist
       }
     }
     if (round % 5 == 0) b = {{{a[0][0], a[0][1], a[0][2] + 1}, {a[1][0], a[1][1], a[1][2] + 1}, b[2]}};  // parallel
-    const double most = sampled_distance(a, b), least = most - 4.0 / kSteps;
-    CAPTURE(round, most);
-    CHECK(keeps_gap(a, b, most + 1e-7) == Answer::refuted);
-    if (least <= 0) continue;
+    const double rounding = far > 0 ? 1e-5 : 1e-9;
+    const bool meet = triangles_intersect(a.data(), b.data());
+    const double distance = meet ? 0 : distance_between(a, b);
+    CAPTURE(round, distance);
+    CHECK(keeps_gap(a, b, distance + rounding) == Answer::refuted);
+    if (distance <= rounding) continue;
     ++apart;
-    CHECK(keeps_gap(a, b, least) == Answer::proven);
-    CHECK(keeps_gap(b, a, least) == Answer::proven);
+    CHECK(keeps_gap(a, b, distance - rounding) == Answer::proven);
+    CHECK(keeps_gap(b, a, distance - rounding) == Answer::proven);
   }
   CHECK(apart > 100);
 }

@@ -172,6 +172,10 @@ TEST_CASE("missing and misplaced tiles are found", "[quick][check][tileset]") {
   tiles[2].cell->max[0] = 15;
   CHECK_THAT(findings(tiles)[0], ContainsSubstring("root.1: its cell is neither"));
   tiles = good();
+  tiles.push_back(tiles[2]);
+  tiles[0].children = {1, 2, 3};
+  CHECK_THAT(findings(tiles)[0], ContainsSubstring("root.1: another child of its parent has the same cell"));
+  tiles = good();
   tiles[2].content.reset();
   CHECK_THAT(only(findings(tiles)), ContainsSubstring("root.1: b draws nothing for 10 triangles"));
   tiles = good();

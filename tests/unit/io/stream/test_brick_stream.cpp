@@ -187,13 +187,23 @@ TEST_CASE("a brick is stored as what it holds, whatever it is called", "[quick][
   CHECK(read_back(written(header, bricks)).totals.checksum() == content.totals.checksum());
 }
 
-TEST_CASE("a scale field for a closing to come survives the stream, and needs its flag", "[quick][io]") {
+namespace {
+
+/// Of a closing to come, by cubes of one scale.
+StreamHeader header_with_field() {
   StreamHeader header = random_header(5);
   header.has_closing = false;
   header.element = StructuringElement::cube;
   header.has_field = true;
   header.scale = {};
   header.scale.base = 3 * header.frame.voxel;
+  return header;
+}
+
+}  // namespace
+
+TEST_CASE("a scale field for a closing to come survives the stream, and needs its flag", "[quick][io]") {
+  StreamHeader header = header_with_field();
   header.scale.rules = {box_rule({0, 0, 0}, {1, 2, 3}, header.frame.voxel)};
   CHECK(read_back(written(header, {})).header == header);
   header.has_field = false;
@@ -203,12 +213,7 @@ TEST_CASE("a scale field for a closing to come survives the stream, and needs it
 }
 
 TEST_CASE("an orientation survives the stream, and needs a closing by cubes", "[quick][io][oriented]") {
-  StreamHeader header = random_header(5);
-  header.has_closing = false;
-  header.element = StructuringElement::cube;
-  header.has_field = true;
-  header.scale = {};
-  header.scale.base = 3 * header.frame.voxel;
+  StreamHeader header = header_with_field();
   header.orientation = {16, {-1, 0, 2}, {2, 1, 3}, {{}, {16000, 3000, -1, 200}}, {0, 1, 1, 0, 0, 1}};
   CHECK(read_back(written(header, {})).header == header);
   CHECK(reference::read_stream(written(header, {})).bricks.empty());

@@ -91,6 +91,15 @@ TEST_CASE("a broken tileset is refused with the place", "[quick][io][lod]") {
   CHECK_THAT(complaint(dir, tileset(kBox + R"(, "geometricError": 3, "children": [])")), Contains("children"));
   CHECK_THAT(complaint(dir, tileset(kBox + R"(, "geometricError": 3, "children": [7])")), Contains("root.children[0]"));
   CHECK_THAT(complaint(dir, tileset(kBox + R"(, "geometricError": 3, "implicitTiling": {})")), Contains("implicit"));
+  for (const char* const name : {"implicit_tiling", "multiple_contents"}) {
+    const std::string extension =
+        std::string(R"(, "geometricError": 3, "extensions": {"3DTILES_)") + name + R"(": {}})";
+    CHECK_THAT(complaint(dir, tileset(kBox + extension)), Contains("not read"));
+  }
+  CHECK_THAT(complaint(dir, tileset(kBox + R"(, "geometricError": 3, "contents": [])")), Contains("several contents"));
+  CHECK_THAT(
+      complaint(dir, R"({"asset": {"version": "1.1"}, "geometricError": 3, "extensionsRequired": ["3DTILES_foo"]})"),
+      Contains("requires \"3DTILES_foo\""));
   CHECK_THAT(complaint(dir, tileset(kBox + R"(, "geometricError": 3, "content": {"uri": "a.json"})")),
              Contains("tileset of its own"));
   std::string deep = kBox + R"(, "geometricError": 0)";
