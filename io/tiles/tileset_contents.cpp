@@ -53,7 +53,7 @@ void check_extensions(const GltfObject& root) {
   constexpr std::array kKnown = {"3DTILES_content_gltf", "3DTILES_metadata", "3DTILES_bounding_volume_S2"};
   for (const GltfJson& name : root.array("extensionsRequired")) {
     if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end())
-      root.unfit(fmt::format("needs the extension {}, which is not read", name.dump()));
+      root.unfit(fmt::format("requires {}, which is not read", name.dump()));
   }
 }
 
@@ -100,8 +100,10 @@ class ContentFinder {
 
   /// adds: tiles are drawn beside those below them, as the tile above says.
   void add_tile(const GltfObject& tile, const Around& around, const Affine& parent, bool adds) {
-    const bool implicit = tile.has("extensions") && tile.object("extensions").has("3DTILES_implicit_tiling");
-    if (implicit || tile.has("implicitTiling")) tile.broken("is tiled implicitly, which is not read");
+    const auto has = [&](const char* name) { return tile.has("extensions") && tile.object("extensions").has(name); };
+    if (tile.has("implicitTiling") || has("3DTILES_implicit_tiling"))
+      tile.broken("is tiled implicitly, which is not read");
+    if (has("3DTILES_multiple_contents")) tile.broken("has contents in an extension, which are not read");
     const Affine place = parent * gltf_matrix(tile, "transform");
     if (tile.has("refine")) adds = lower(tile.text("refine")) == "add";
     const std::size_t below = tile.array("children").size();

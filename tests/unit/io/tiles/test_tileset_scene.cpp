@@ -143,8 +143,7 @@ TEST_CASE("a tileset that needs an extension is read if that is known", "[quick]
   json["extensionsRequired"] = {"3DTILES_content_gltf", "3DTILES_bounding_volume_S2", "3DTILES_metadata"};
   CHECK(drawn(dir.file("known.json", json.dump())) == "0 ");
   json["extensionsRequired"].push_back("VENDOR_unknown");
-  CHECK_THAT(complaint_of(dir.file("t.json", json.dump())),
-             Contains("needs the extension \"VENDOR_unknown\", which is not read"));
+  CHECK_THAT(complaint_of(dir.file("t.json", json.dump())), Contains("requires \"VENDOR_unknown\", which is not read"));
   CHECK_THAT(complaint_of(dir.file("outer.json", tileset(tile("t.json")))), Contains("VENDOR_unknown"));
 }
 
@@ -164,6 +163,9 @@ TEST_CASE("a tileset that is not whole is no scene", "[quick][io]") {
   Json implicit = tile("a.glb");
   implicit["implicitTiling"] = Json::object();
   CHECK_THAT(complaint(implicit), Contains("implicitly"));
+  Json several = tile("a.glb");
+  several["extensions"]["3DTILES_multiple_contents"]["contents"] = {{{"uri", "a.glb"}}};
+  CHECK_THAT(complaint(several), Contains("contents in an extension"));
   SceneOptions tight;
   tight.document.bytes = 100;
   CHECK_THROWS_AS(open_scene(dir.file("t.json", tileset(tile("a.glb"))), tight), Error);
