@@ -1,5 +1,6 @@
 #include "io/gltf/gltf_document.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -34,11 +35,12 @@ GltfJson parse_json(std::string text) {
   return GltfJson::parse(text);
 }
 
-GltfJson parsed(std::string text, const std::string& name, const SceneOptions& options) {
-  check_document(options, name, "its JSON", text.size() + bytes_to_parse(text), options.document.bytes);
+CountedJson parsed(std::string text, const std::string& name, const SceneOptions& options, std::uint64_t held) {
+  const std::uint64_t bytes = bytes_to_parse(text), all = options.document.bytes;
+  check_document(options, name, "its JSON", text.size() + bytes, all - std::min(all, held));
   if (text.empty()) fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: is empty", name);
   try {
-    return parse_json(std::move(text));
+    return {parse_json(std::move(text)), bytes};
   } catch (const GltfJson::exception& e) {
     fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: broken JSON: {}", name, detail::json_fault(e));
   }
@@ -46,8 +48,8 @@ GltfJson parsed(std::string text, const std::string& name, const SceneOptions& o
 
 }  // namespace
 
-GltfJson read_json(const SceneFilePtr& file, const SceneOptions& options) {
-  return parsed(read_lean_json(file, 0, file->size(), temp_dir_of(options), false).text, file->name(), options);
+CountedJson read_json(const SceneFilePtr& file, const SceneOptions& options, std::uint64_t held) {
+  return parsed(read_lean_json(file, 0, file->size(), temp_dir_of(options), false).text, file->name(), options, held);
 }
 
 ComponentType component_type(const GltfObject& o) {
@@ -180,8 +182,9 @@ void GltfDocument::open_glb() {
 void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
   LeanJson lean = read_lean_json(file_, offset, size, temp_dir_, options_.textures != nullptr);
   lifted_ = std::move(lean.data);
-  json_bytes_ = bytes_to_parse(lean.text);
-  json_ = parsed(std::move(lean.text), file_->name(), options_);
+  CountedJson all = parsed(std::move(lean.text), file_->name(), options_, 0);
+  json_ = std::move(all.json);
+  json_bytes_ = all.bytes;
 }
 
 void GltfDocument::check_version() const {

@@ -65,8 +65,13 @@ inline constexpr std::array kVectorTypes = {"SCALAR", "VEC2", "VEC3", "VEC4"};  
 /// The extension of views, and its later name: KHR adds codecs, which are not read.
 inline constexpr std::array kMeshoptNames = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
-/// The JSON of a file that is no glTF. Throws as GltfDocument does.
-[[nodiscard]] GltfJson read_json(const SceneFilePtr& file, const SceneOptions& options);
+struct CountedJson {
+  GltfJson json;
+  std::uint64_t bytes = 0;  ///< of memory that it takes
+};
+/// The JSON of a file that is no glTF. `held`: bytes of SceneOptions::document that are taken already. Throws as
+/// GltfDocument does.
+[[nodiscard]] CountedJson read_json(const SceneFilePtr& file, const SceneOptions& options, std::uint64_t held = 0);
 
 class GltfDocument {
  public:

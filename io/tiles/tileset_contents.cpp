@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "io/files/file.h"
@@ -38,13 +39,22 @@ bool is_leaf(const GltfObject& tile) {
   return tile.has("extras") && tile.object("extras").has("leaf") && tile.object("extras").flag("leaf");
 }
 
+/// Looks at all tiles: none is too deep for those who come after.
 bool has_leaves(const GltfObject& tile, int depth) {
   if (depth > kMostDeep) tile.broken(fmt::format("lies below {} tiles", kMostDeep));
-  if (is_leaf(tile)) return true;
-  for (std::size_t i = 0; i < tile.array("children").size(); ++i) {
-    if (has_leaves(tile.item("children", i), depth + 1)) return true;
+  bool has = is_leaf(tile);
+  for (std::size_t i = 0; i < tile.array("children").size(); ++i)
+    has = has_leaves(tile.item("children", i), depth + 1) || has;
+  return has;
+}
+
+/// The last two change nothing of what is drawn.
+void check_extensions(const GltfObject& root) {
+  constexpr std::array kKnown = {"3DTILES_content_gltf", "3DTILES_metadata", "3DTILES_bounding_volume_S2"};
+  for (const GltfJson& name : root.array("extensionsRequired")) {
+    if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end())
+      root.unfit(fmt::format("requires {}, which is not read", name.dump()));
   }
-  return false;
 }
 
 /// Of older tilesets; glTF has y up.
@@ -59,8 +69,9 @@ class ContentFinder {
  public:
   explicit ContentFinder(const SceneOptions& options) : options_(options) {}
 
-  TilesetContents run(const GltfJson& json, const std::string& path) {
-    const GltfObject root(json, path, "");
+  TilesetContents run(const CountedJson& tileset, const std::string& path) {
+    held_ = tileset.bytes;
+    const GltfObject root(tileset.json, path, "");
     for (const char* const name : kUpNames) {
       if (root.has("asset") && root.object("asset").holds_text("extras", "up", name)) out_.up = *up_axis_named(name);
     }
@@ -80,6 +91,7 @@ class ContentFinder {
     if (open_.size() == kMostNested || ++tilesets_ > kMostTilesets)
       fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: tilesets within tilesets are read {} deep, and {} of them",
            path, kMostNested, kMostTilesets);
+    check_extensions(root);
     open_.push_back(real);
     const GltfObject tile = root.object("root");
     add_tile(tile, {folder_of(path), content_up(root), has_leaves(tile, 0)}, place, false);
@@ -88,8 +100,10 @@ class ContentFinder {
 
   /// adds: tiles are drawn beside those below them, as the tile above says.
   void add_tile(const GltfObject& tile, const Around& around, const Affine& parent, bool adds) {
-    const bool implicit = tile.has("extensions") && tile.object("extensions").has("3DTILES_implicit_tiling");
-    if (implicit || tile.has("implicitTiling")) tile.broken("is tiled implicitly, which is not read");
+    const auto has = [&](const char* name) { return tile.has("extensions") && tile.object("extensions").has(name); };
+    if (tile.has("implicitTiling") || has("3DTILES_implicit_tiling"))
+      tile.broken("is tiled implicitly, which is not read");
+    if (has("3DTILES_multiple_contents")) tile.broken("has contents in an extension, which are not read");
     const Affine place = parent * gltf_matrix(tile, "transform");
     if (tile.has("refine")) adds = lower(tile.text("refine")) == "add";
     const std::size_t below = tile.array("children").size();
@@ -112,16 +126,18 @@ class ContentFinder {
     if (!is_file(path)) {
       if (missing_++ == 0) first_missing_ = path;
     } else if (is_tileset) {
-      const GltfJson json = read_json(open_scene_file(path, temp_dir_of(options_)), options_);
-      add_tileset(GltfObject(json, path, ""), path, place);
+      const CountedJson tileset = read_json(open_scene_file(path, temp_dir_of(options_)), options_, held_);
+      held_ += tileset.bytes;
+      add_tileset(GltfObject(tileset.json, path, ""), path, place);
+      held_ -= tileset.bytes;
     } else {
       add_file({std::move(path), {place, around.up}});
     }
   }
 
   void add_file(ContentFile file) {
-    bytes_ += sizeof(ContentFile) + file.path.size();
-    check_document(options_, open_.front(), "the list of its contents", bytes_, options_.document.bytes);
+    held_ += sizeof(ContentFile) + file.path.size();
+    check_document(options_, open_.front(), "its JSON and the list of its contents", held_, options_.document.bytes);
     keep_file(file.path);
     out_.files.push_back(std::move(file));
   }
@@ -130,13 +146,13 @@ class ContentFinder {
   TilesetContents out_;
   std::vector<std::string> open_;  // tilesets around the place
   std::size_t tilesets_ = 0, missing_ = 0;
-  std::uint64_t bytes_ = 0;
+  std::uint64_t held_ = 0;  // of the tilesets around the place, and of the list
   std::string first_missing_;
 };
 
 }  // namespace
 
-TilesetContents contents_of(const nlohmann::json& json, const std::string& path, const SceneOptions& options) {
+TilesetContents contents_of(const CountedJson& json, const std::string& path, const SceneOptions& options) {
   return ContentFinder(options).run(json, path);
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -7,6 +6,8 @@
 
 /// The contents that show a tileset as fine as it is.
 namespace bp {
+
+struct CountedJson;
 
 /// A file with a glTF, and where it stands.
 struct ContentFile {
@@ -21,7 +22,7 @@ struct TilesetContents {
 
 /// As open_tileset(), whose tileset's JSON is `json`.
 ///   path  of the tileset; other files lie beside it
-[[nodiscard]] TilesetContents contents_of(const nlohmann::json& json, const std::string& path,
+[[nodiscard]] TilesetContents contents_of(const CountedJson& json, const std::string& path,
                                           const SceneOptions& options);
 
 /// Their triangles, one file after the other. Throws as open_tileset().

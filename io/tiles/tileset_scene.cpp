@@ -76,7 +76,7 @@ SceneFilePtr opened_b3dm(const SceneFilePtr& file, const SceneOptions& options, 
   if (got < sizeof head || head.bytes > file->size() || begin > head.bytes)
     fail(ErrorCode::bad_input, "{}: promises more bytes than it has; the file is truncated", file->name());
   if (head.features > 0) {
-    const GltfJson json = read_json(part_of(file, features, head.features), options);
+    const GltfJson json = read_json(part_of(file, features, head.features), options).json;
     const GltfObject table(json, file->name(), "");
     std::array<double, 3> centre{};
     if (table.has("RTC_CENTER") && json["RTC_CENTER"].is_array()) {
@@ -176,11 +176,12 @@ RawSourcePtr open_contents(TilesetContents contents, const SceneOptions& options
 }
 
 RawSourcePtr open_tileset(SceneFilePtr file, const SceneOptions& options) {
-  GltfJson json = read_json(file, options);
-  if (!json.is_object() || !json.contains("root")) return open_gltf(std::move(file), options);  // under another name
+  const CountedJson tileset = read_json(file, options);
+  if (!tileset.json.is_object() || !tileset.json.contains("root"))
+    return open_gltf(std::move(file), options);  // under another name
   if (file->path().empty())
     fail(ErrorCode::bad_input, "{}: a tileset names files beside it, which a pipe does not have", file->name());
-  return open_contents(contents_of(json, file->path(), options), options);
+  return open_contents(contents_of(tileset, file->path(), options), options);
 }
 
 }  // namespace bp

@@ -21,6 +21,8 @@ class OutputFolder {
   [[nodiscard]] OutputFile& file(const std::string& name);
   /// A file that nothing was written to. What --overwrite finds under its name, of an earlier set, goes with commit().
   void leave_out(const std::string& name);
+  /// A file of an earlier set that was not opened goes with commit(), if --overwrite is given.
+  void take_away(const std::string& name) { left_out_.push_back(name); }
   void commit();
   [[nodiscard]] std::uint64_t bytes() const;
   [[nodiscard]] std::uint64_t bytes(const std::string& name) const;

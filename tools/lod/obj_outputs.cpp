@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <fstream>
 #include <set>
 
 #include "io/image/image_reader.h"
@@ -18,6 +20,50 @@ constexpr std::array kImages = {"color", "alpha", "normal", "roughness", "metal"
 /// A level by itself has the name that was asked for.
 std::string name_of_level(const BuildOptions& o, std::size_t level) {
   return level_count(request_of(o)) == 1 ? o.name : level_name(o.name, level);
+}
+
+/// Of the level's material and the files beside it: readers of OBJ part names at blanks.
+std::string material_name(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == ' ' || c == '\t'; }, '_');
+  return name;
+}
+
+/// Files that there may be beside a level, with so many kinds of images.
+std::vector<std::string> files_beside(const std::string& material, std::size_t kinds) {
+  std::vector<std::string> files;
+  for (std::size_t k = 0; k < kinds; ++k) {
+    for (const char* const ending : {"jpg", "png"})
+      files.push_back(fmt::format("{}_{}.{}", material, kImages[k], ending));
+  }
+  files.push_back(material + ".mtl");
+  return files;
+}
+
+std::string head_of(const std::string& path) {
+  std::string text(std::size_t(1) << 16, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(text.data(), std::streamsize(text.size()));
+  text.resize(std::size_t(in.gcount()));
+  return text;
+}
+
+/// The MTL of a level of ours that is there, behind the line that names it; empty if there is none.
+std::string material_before(const std::string& obj, const std::string& folder, const std::string& mtl) {
+  const std::string head = head_of(obj), line = "mtllib " + mtl + "\n";
+  const bool ours = head.starts_with("# made by bplod ") && head.find("\n" + line) != std::string::npos;
+  return ours ? line + head_of(folder + "/" + mtl) : "";
+}
+
+/// What an earlier level named, and nothing that is written: --overwrite takes it away.
+void leave_out_earlier(const BuildOptions& o, const std::set<std::string>& written, OutputFolder& out) {
+  for (std::size_t i = 0; i < level_count(request_of(o)); ++i) {
+    const std::string name = name_of_level(o, i), material = material_name(name);
+    const std::string before = material_before(o.out + "/" + name + ".obj", o.out, material + ".mtl");
+    for (const std::string& file : files_beside(material, kImages.size())) {
+      if (!written.contains(file) && before.find(" " + file + "\n") != std::string::npos) out.take_away(file);
+    }
+  }
 }
 
 /// Writes an image beside a level; returns its file's name, empty if there is none.
@@ -72,12 +118,8 @@ std::vector<std::string> obj_files(const BuildOptions& o, std::size_t levels) {
   for (std::size_t i = 0; i < levels; ++i) {
     const std::string name = name_of_level(o, i);
     if (o.may_have_textures()) {
-      const std::size_t kinds = o.full() ? kImages.size() : 2;
-      for (std::size_t k = 0; k < kinds; ++k) {
-        for (const char* const ending : {"jpg", "png"})
-          files.push_back(fmt::format("{}_{}.{}", name, kImages[k], ending));
-      }
-      files.push_back(name + ".mtl");
+      for (std::string& file : files_beside(material_name(name), o.full() ? kImages.size() : 2))
+        files.push_back(std::move(file));
     }
     files.push_back(name + ".obj");
   }
@@ -89,21 +131,22 @@ std::vector<WrittenFile> write_obj_levels(const BuildOptions& o, const std::vect
   std::vector<WrittenFile> files;
   std::set<std::string> written;
   for (const LodLevel& level : levels) {
-    const std::string name = name_of_level(o, files.size());
+    const std::string name = name_of_level(o, files.size()), material = material_name(name);
     std::string materials;
     if (const auto& texture = level.mesh.texture) {
-      const MtlImages images = write_images(*texture, ImageWriter(name, out, written));
-      materials = name + ".mtl";
-      out.file(materials).write(mtl_text(name, *texture, images));
+      const MtlImages images = write_images(*texture, ImageWriter(material, out, written));
+      materials = material + ".mtl";
+      out.file(materials).write(mtl_text(material, *texture, images));
       written.insert(materials);
     }
-    write_obj_level(level.mesh, name, materials, out.file(name + ".obj"), origin);
+    write_obj_level(level.mesh, material, materials, out.file(name + ".obj"), origin);
     written.insert(name + ".obj");
     files.push_back({name + ".obj", files.size(), level.mesh.triangles.size()});
   }
   for (const std::string& file : obj_files(o, level_count(request_of(o)))) {
     if (!written.contains(file)) out.leave_out(file);
   }
+  leave_out_earlier(o, written, out);
   return files;
 }
 

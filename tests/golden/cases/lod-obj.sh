@@ -18,6 +18,15 @@ bplod "${options[@]}" --levels 1 --appearance full -o one/cube.obj > list && ls 
 bplod "${options[@]}" --levels 1 --appearance color -o one/cube.obj --overwrite > list && ls one
 grep -m 1 '^v ' one/cube.obj | wc -w
 bplod "${options[@]}" --levels 1 --appearance off -o off.OBJ > list && ls off*
+# Names of materials and images have no blanks: many readers part them there.
+bplod "${options[@]}" --levels 1 -o 'blank/a cube.obj' > list && ls blank && grep -h 'mtl \|_color\|^mtllib' blank/a*.{obj,mtl}
+bplod 'blank/a cube.obj' --resolution 30 --levels 1 -q -o read/level.obj > list && ls read
+bpcheck part*.obj 'blank/a cube.obj' | tail -1
+# What only an earlier level of ours named goes with it.
+touch blank/a_cube_normal.png blank/other_color.jpg
+bplod "${options[@]}" --levels 1 --appearance off -o 'blank/a cube.obj' --overwrite > list && ls blank
+echo 'mtllib part0.mtl' > 'blank/part0.obj' && touch blank/part0.mtl
+bplod "${options[@]}" --levels 1 --appearance off -o blank/part0.obj --overwrite > list && ls blank/part0*
 said 'bplod part0.obj --levels 1 --resolution 30 -o plain.obj 2>&1 | tail -1'
 try bplod part0.obj --levels 1 --resolution 30 -o plain.obj -q
 try bplod part0.obj --levels 1 --resolution 30 -o part0.obj -q --overwrite

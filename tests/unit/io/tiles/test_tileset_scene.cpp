@@ -110,6 +110,41 @@ TEST_CASE("tilesets within tilesets are read; a ring of them and a flood of them
   root = tile("sub/a.glb");
   for (int i = 0; i < 70; ++i) root = tile("", 0, Json::array({root}));
   CHECK_THAT(complaint_of(dir.file("t.json", tileset(root))), Contains("lies below 64 tiles"));
+  Json leaf = tile("sub/a.glb");
+  leaf["extras"]["leaf"] = true;
+  CHECK_THAT(complaint_of(dir.file("t.json", tileset(tile("", 0, {leaf, root})))), Contains("lies below 64 tiles"));
+}
+
+TEST_CASE("tilesets that are open together share the memory for documents", "[quick][io]") {
+  const TempDir dir;
+  (void)dir.file("a.glb", content());
+  const auto with_many = [](const std::string& uri) {
+    Json children = Json::array({tile(uri)});
+    for (int i = 0; i < 700; ++i) children.push_back(tile(""));
+    return tileset(tile("", 0, children));
+  };
+  const std::string inner = dir.file("inner.json", with_many("a.glb")), outer = dir.file("t.json", with_many(inner));
+  SceneOptions options;
+  options.document.bytes = std::uint64_t(1) << 20;
+  CHECK(read_all(inner, options).size() == 1);
+  CHECK_THAT(complaint_of(outer, options), Contains("wrong code") && Contains("inner.json: its JSON takes"));
+  options.document.bytes *= 2;
+  CHECK(read_all(outer, options).size() == 1);
+  const std::string twice = dir.file("t.json", tileset(tile("", 0, {tile(inner), tile(inner)})));
+  options.document.bytes /= 2;
+  CHECK(read_all(twice, options).size() == 2);  // one after the other
+}
+
+TEST_CASE("a tileset that needs an extension is read if that is known", "[quick][io]") {
+  const TempDir dir;
+  (void)dir.file("a.glb", content());
+  Json json = Json::parse(tileset(tile("a.glb")));
+  json["extensionsUsed"] = {"VENDOR_unknown"};
+  json["extensionsRequired"] = {"3DTILES_content_gltf", "3DTILES_bounding_volume_S2", "3DTILES_metadata"};
+  CHECK(drawn(dir.file("known.json", json.dump())) == "0 ");
+  json["extensionsRequired"].push_back("VENDOR_unknown");
+  CHECK_THAT(complaint_of(dir.file("t.json", json.dump())), Contains("requires \"VENDOR_unknown\", which is not read"));
+  CHECK_THAT(complaint_of(dir.file("outer.json", tileset(tile("t.json")))), Contains("VENDOR_unknown"));
 }
 
 TEST_CASE("a tileset that is not whole is no scene", "[quick][io]") {
@@ -128,6 +163,9 @@ TEST_CASE("a tileset that is not whole is no scene", "[quick][io]") {
   Json implicit = tile("a.glb");
   implicit["implicitTiling"] = Json::object();
   CHECK_THAT(complaint(implicit), Contains("implicitly"));
+  Json several = tile("a.glb");
+  several["extensions"]["3DTILES_multiple_contents"]["contents"] = {{{"uri", "a.glb"}}};
+  CHECK_THAT(complaint(several), Contains("contents in an extension"));
   SceneOptions tight;
   tight.document.bytes = 100;
   CHECK_THROWS_AS(open_scene(dir.file("t.json", tileset(tile("a.glb"))), tight), Error);
