@@ -45,7 +45,8 @@ class Reader {
   Tileset run() {
     const GltfObject root(json_, name_, "");
     for (const GltfJson& name : root.array("extensionsRequired")) {
-      if (name != "3DTILES_content_gltf") root.broken(fmt::format("requires {}, which is not read", name.dump()));
+      if (name != "3DTILES_content_gltf" && name != "3DTILES_metadata")
+        root.broken(fmt::format("requires {}, which is not read", name.dump()));
     }
     Tileset tileset;
     tileset.version = root.object("asset").text("version");
