@@ -265,8 +265,7 @@ const GltfDocument::Data& GltfDocument::buffer(std::uint64_t i) {
 GltfDocument::View GltfDocument::view(std::uint64_t i) {
   const GltfObject object = root().item("bufferViews", i);
   for (const char* name : kMeshoptNames) {
-    if (object.has("extensions") && object.object("extensions").has(name))
-      return unpacked(i, object.object("extensions").object(name));
+    if (object.has_extension(name)) return unpacked(i, object.object("extensions").object(name));
   }
   return part_of_buffer(object);
 }

@@ -21,6 +21,10 @@ class GltfObject {
     if (!json.is_object()) broken("is not an object");
   }
   [[nodiscard]] bool has(const char* key) const { return json_->contains(key); }
+  /// In its "extensions".
+  [[nodiscard]] bool has_extension(const char* name) const {
+    return has("extensions") && object("extensions").has(name);
+  }
   /// True if `key` is an object that holds this text; anything else there is someone else's business.
   [[nodiscard]] bool holds_text(const char* key, const char* inner_key, const char* value) const;
   /// A whole number up to 2^53, or `otherwise` if it is not there.

@@ -90,7 +90,7 @@ class SceneBuilder {
 // Of a content. Tiles have z up. An extension of older files moves them there.
 Affine SceneBuilder::placed() const {
   Affine centre;
-  if (root_.has("extensions") && root_.object("extensions").has("CESIUM_RTC")) {
+  if (root_.has_extension("CESIUM_RTC")) {
     const Vec3d at = root_.object("extensions").object("CESIUM_RTC").numbers<3>("center", {0, 0, 0});
     for (std::size_t i = 0; i < 3; ++i) centre.m[i][3] = at[i];
   }
@@ -125,7 +125,7 @@ std::set<std::uint64_t> SceneBuilder::coarser_nodes() const {
   std::set<std::uint64_t> nodes;
   for (std::size_t i = 0; i < root_.array("nodes").size(); ++i) {
     const GltfObject node = root_.item("nodes", i);
-    if (!node.has("extensions") || !node.object("extensions").has("MSFT_lod")) continue;
+    if (!node.has_extension("MSFT_lod")) continue;
     const GltfObject lod = node.object("extensions").object("MSFT_lod");
     for (std::size_t k = 0; k < lod.array("ids").size(); ++k) nodes.insert(lod.index("ids", k));
   }
@@ -135,7 +135,7 @@ std::set<std::uint64_t> SceneBuilder::coarser_nodes() const {
 // The node that stands for node i at the level asked for: its last one, if it has fewer.
 std::uint64_t SceneBuilder::level_of(std::uint64_t i) {
   const GltfObject node = root_.item("nodes", i);
-  if (!node.has("extensions") || !node.object("extensions").has("MSFT_lod")) return i;
+  if (!node.has_extension("MSFT_lod")) return i;
   const GltfObject lod = node.object("extensions").object("MSFT_lod");
   const std::size_t coarser = lod.array("ids").size();
   scene_.levels = std::max(scene_.levels, 1 + coarser);
@@ -253,7 +253,7 @@ void SceneBuilder::try_texture(std::uint64_t material, const GltfObject& attribu
 }
 
 std::optional<std::uint32_t> SceneBuilder::instance_array(const GltfObject& node) {
-  if (!node.has("extensions") || !node.object("extensions").has("EXT_mesh_gpu_instancing")) return {};
+  if (!node.has_extension("EXT_mesh_gpu_instancing")) return {};
   const GltfObject attributes = node.object("extensions").object("EXT_mesh_gpu_instancing").object("attributes");
   InstanceArray array;
   const auto take = [&](const char* name, std::size_t components, Accessor& a) {

@@ -100,10 +100,10 @@ class ContentFinder {
 
   /// adds: tiles are drawn beside those below them, as the tile above says.
   void add_tile(const GltfObject& tile, const Around& around, const Affine& parent, bool adds) {
-    const auto has = [&](const char* name) { return tile.has("extensions") && tile.object("extensions").has(name); };
-    if (tile.has("implicitTiling") || has("3DTILES_implicit_tiling"))
+    if (tile.has("implicitTiling") || tile.has_extension("3DTILES_implicit_tiling"))
       tile.broken("is tiled implicitly, which is not read");
-    if (has("3DTILES_multiple_contents")) tile.broken("has contents in an extension, which are not read");
+    if (tile.has_extension("3DTILES_multiple_contents"))
+      tile.broken("has contents in an extension, which are not read");
     const Affine place = parent * gltf_matrix(tile, "transform");
     if (tile.has("refine")) adds = lower(tile.text("refine")) == "add";
     const std::size_t below = tile.array("children").size();

@@ -87,12 +87,9 @@ class Reader {
 
   /// What a viewer draws, and this does not know.
   static void refuse_unread(const GltfObject& tile) {
-    const auto has = [&](const char* extension) {
-      return tile.has("extensions") && tile.object("extensions").has(extension);
-    };
-    if (tile.has("implicitTiling") || has("3DTILES_implicit_tiling"))
+    if (tile.has("implicitTiling") || tile.has_extension("3DTILES_implicit_tiling"))
       tile.broken("is tiled implicitly, which is not read");
-    if (tile.has("contents") || has("3DTILES_multiple_contents"))
+    if (tile.has("contents") || tile.has_extension("3DTILES_multiple_contents"))
       tile.broken("has several contents, which are not read");
   }
 

@@ -14,7 +14,7 @@ namespace {
 bool same_places(const GltfObject& a, const GltfObject& b) {
   const auto transform = [](const GltfObject& info) -> std::string {
     constexpr const char* kName = "KHR_texture_transform";
-    if (!info.has("extensions") || !info.object("extensions").has(kName)) return "";
+    if (!info.has_extension(kName)) return "";
     return info.object("extensions").object(kName).dump();
   };
   return a.number("texCoord", 0) == b.number("texCoord", 0) && transform(a) == transform(b);
@@ -48,7 +48,7 @@ void GltfMaterials::add_texture(std::uint64_t i, const GltfObject& attributes, P
 /// Where images lie, with KHR_texture_transform.
 void GltfMaterials::add_places(const GltfObject& info, const GltfObject& attributes, Primitive& primitive) {
   std::uint64_t set = info.number("texCoord", 0);
-  if (info.has("extensions") && info.object("extensions").has("KHR_texture_transform")) {
+  if (info.has_extension("KHR_texture_transform")) {
     const GltfObject moved = info.object("extensions").object("KHR_texture_transform");
     const auto offset = moved.numbers<2>("offset", {0, 0}), scale = moved.numbers<2>("scale", {1, 1});
     const double turn = moved.has("rotation") ? moved.real("rotation") : 0, c = std::cos(turn), s = std::sin(turn);
@@ -65,7 +65,7 @@ void GltfMaterials::add_places(const GltfObject& info, const GltfObject& attribu
 
 std::optional<GltfObject> GltfMaterials::base_texture(const GltfObject& material) const {
   constexpr const char* kOlder = "KHR_materials_pbrSpecularGlossiness";
-  if (material.has("extensions") && material.object("extensions").has(kOlder)) {
+  if (material.has_extension(kOlder)) {
     const GltfObject older = material.object("extensions").object(kOlder);
     if (older.has("diffuseTexture")) return older.object("diffuseTexture");
   }
@@ -108,7 +108,7 @@ TextureSurface GltfMaterials::surface_of(const GltfObject& material, const std::
     if (pbr.has("roughnessFactor")) s.roughness_factor = float(pbr.real("roughnessFactor"));
     if (pbr.has("metallicFactor")) s.metal_factor = float(pbr.real("metallicFactor"));
     if (pbr.has("metallicRoughnessTexture")) s.roughness = map_of(pbr.object("metallicRoughnessTexture"), places);
-  } else if (material.has("extensions") && material.object("extensions").has("KHR_materials_pbrSpecularGlossiness")) {
+  } else if (material.has_extension("KHR_materials_pbrSpecularGlossiness")) {
     s.metal_factor = 0;
   }
   const auto emission = material.numbers<3>("emissiveFactor", {0, 0, 0});
@@ -135,7 +135,7 @@ TextureMap GltfMaterials::map_of(const GltfObject& info, const std::optional<Glt
 std::uint32_t GltfMaterials::image_of(const GltfObject& texture) {
   std::optional<std::uint64_t> source;
   if (texture.has("source")) source = texture.number("source");
-  if (texture.has("extensions") && texture.object("extensions").has("EXT_texture_webp"))
+  if (texture.has_extension("EXT_texture_webp"))
     source = texture.object("extensions").object("EXT_texture_webp").number("source");
   if (!source) return TextureMaterial::kNoImage;
   return textures_->add_image(fmt::format("{}: images[{}]", file_, *source), doc_.image(*source));
@@ -147,7 +147,7 @@ std::array<double, 4> GltfMaterials::base_color(std::uint64_t i) const {
   if (material.has("pbrMetallicRoughness"))
     rgba = material.object("pbrMetallicRoughness").numbers<4>("baseColorFactor", rgba);
   constexpr const char* kOlder = "KHR_materials_pbrSpecularGlossiness";
-  if (material.has("extensions") && material.object("extensions").has(kOlder))
+  if (material.has_extension(kOlder))
     rgba = material.object("extensions").object(kOlder).numbers<4>("diffuseFactor", rgba);
   return rgba;
 }

@@ -89,7 +89,7 @@ GltfDocument::View GltfDocument::unpacked(std::uint64_t i, const GltfObject& pac
 }
 
 bool GltfDocument::unpack(const GltfObject& primitive) {
-  if (!primitive.has("extensions") || !primitive.object("extensions").has(kDraco)) return false;
+  if (!primitive.has_extension(kDraco)) return false;
   const GltfObject packed = primitive.object("extensions").object(kDraco), ids = packed.object("attributes");
   const GltfObject attributes = primitive.object("attributes");
   const std::uint64_t numbers = primitive.number("indices");

@@ -115,7 +115,7 @@ Accessor VertexFinder::floats(std::uint64_t number, std::size_t components) {
   if (object.has("sparse") || !object.has("bufferView"))
     object.unfit("is sparse, and vertices that move must not be: export it without sparse accessors");
   const GltfObject view = root_.item("bufferViews", object.number("bufferView"));
-  const auto packs = [&](const char* name) { return view.has("extensions") && view.object("extensions").has(name); };
+  const auto packs = [&](const char* name) { return view.has_extension(name); };
   if (std::any_of(kMeshoptNames.begin(), kMeshoptNames.end(), packs))
     view.unfit("is compressed, and vertices that move must not be: unpack it, for instance with gltf-transform");
   if (view.number("buffer") != 0) view.unfit("lies in a second buffer; pack all buffers into one");
@@ -127,7 +127,7 @@ Accessor VertexFinder::floats(std::uint64_t number, std::size_t components) {
 
 /// The first place of an accessor keeps its bytes, and every other place gets its own.
 void VertexFinder::add_primitive(GltfEdit place, const GltfObject& primitive, const Affine& transform) {
-  if (primitive.has("extensions") && primitive.object("extensions").has("KHR_draco_mesh_compression"))
+  if (primitive.has_extension("KHR_draco_mesh_compression"))
     primitive.unfit("is compressed (KHR_draco_mesh_compression): unpack it, for instance with gltf-transform");
   const GltfObject attributes = primitive.object("attributes");
   if (!attributes.has("POSITION")) return;
