@@ -73,7 +73,7 @@ for i, level in enumerate(report["counts"]["levels"]): print(i, level["faces"], 
       fi
     done
     [ ${#packs[@]} -gt 0 ] || packs=("$pack")
-    mapfile -t seen < <(node "$here/appearance.cjs" "$pixels" "$work/scene.glb" "$level" "$work/colors/level_LOD$i.glb" "${packs[@]}")
+    mapfile -t seen < <(node "$here/appearance/appearance.cjs" "$pixels" "$work/scene.glb" "$level" "$work/colors/level_LOD$i.glb" "${packs[@]}")
     best=2
     for ((k = 3; k < ${#seen[@]}; ++k)); do
       [ "$(python3 -c "print(${seen[k]%% *} > ${seen[best]%% *})")" = False ] || best=$k
