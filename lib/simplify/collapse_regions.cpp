@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "lib/core/parallel.h"
+#include "lib/simplify/detail/bulk_order.h"
 #include "lib/simplify/detail/collapse_order.h"
 #include "lib/simplify/regions.h"
 
@@ -143,10 +144,9 @@ bool has_bulk_regions(std::uint64_t faces, const SimplifyParams& params) {
   return params.faces > 0 && has_regions(faces / kBulkPerRegion, params);
 }
 
-void collapse_bulk_in_regions(Piece& whole, BulkRange range, std::uint64_t enough, const SimplifyParams& params,
-                              SimplifyCounts& counts) {
+void collapse_bulk_in_regions(Piece& whole, const BulkEnd& end, const SimplifyParams& params, SimplifyCounts& counts) {
   const SimplifyParams own = params_of_regions(whole, params);
-  const double from = double(whole.triangles.size()), share = double(enough) / from;
+  const double from = double(whole.triangles.size()), share = double(end.faces) / from;
   for (int number = 1; number <= kBulkTurns; ++number) {
     const auto wanted = std::uint64_t(from * std::pow(share, double(number) / kBulkTurns));
     if (whole.triangles.size() <= wanted) continue;
@@ -155,7 +155,7 @@ void collapse_bulk_in_regions(Piece& whole, BulkRange range, std::uint64_t enoug
                     [&](std::span<BulkOrder* const> orders) {
                       std::uint64_t faces = 0;  // along sides several regions know the same
                       for (const BulkOrder* order : orders) faces += order->face_count();
-                      collapse_bulk(orders, range, faces - std::min(faces, excess));
+                      collapse_bulk(orders, {kFirstBound, end.cost}, faces - std::min(faces, excess));
                     });
   }
 }

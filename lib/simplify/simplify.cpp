@@ -122,8 +122,7 @@ std::variant<LatticeMesh, Piece> simplify_mesh(Piece whole, const GridFrame& fra
 LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyParams& params, SimplifyCounts& counts) {
   if (params.dense && has_bulk_regions(whole.triangles.size(), params)) {
     if (counts.faces_flat == 0) counts.faces_flat = whole.triangles.size();
-    const BulkEnd end = end_of_bulk(params);
-    collapse_bulk_in_regions(whole, {kFirstBound, end.cost}, end.faces, params, counts);
+    collapse_bulk_in_regions(whole, end_of_bulk(params), params, counts);
   } else if (params.dense || params.faces == 0 || !has_regions(whole.triangles.size(), params)) {
     auto result = simplify_mesh(std::move(whole), frame, params, counts);
     if (auto* mesh = std::get_if<LatticeMesh>(&result)) return std::move(*mesh);

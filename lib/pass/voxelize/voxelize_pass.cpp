@@ -75,7 +75,7 @@ class SceneVoxelizer {
   using NextPortion = ScenePasses::NextPortion;
   void sort_triangles();
   void bin(const NextPortion& next);
-  void bin(std::span<const TriangleBatch> batches);
+  void bin(TriangleBatch&& batch);
   [[nodiscard]] std::vector<FixedTriangle> to_fixed(std::span<const TriangleD> triangles) const;
   void look_up_chunks();
   [[nodiscard]] std::vector<std::uint64_t> tiles_with_triangles() const;
@@ -166,7 +166,7 @@ void SceneVoxelizer::look_up_chunks() {
   scene_.again([&](const NextPortion& next) {
     const std::uint64_t memory = options_.context.memory.bytes;
     chunks_->add_missing(next, memory / 10, memory / 5 * 3, [&](std::uint64_t n, std::vector<TriangleD>&& large) {
-      if (!large.empty()) bin(std::array{bins_->sort(to_fixed(large))});
+      if (!large.empty()) bin(bins_->sort(to_fixed(large)));
       steps.add(n);
     });
   });
@@ -180,8 +180,8 @@ std::vector<FixedTriangle> SceneVoxelizer::to_fixed(std::span<const TriangleD> t
   return fixed;
 }
 
-void SceneVoxelizer::bin(std::span<const TriangleBatch> batches) {
-  bins_->add(batches);
+void SceneVoxelizer::bin(TriangleBatch&& batch) {
+  bins_->add(std::move(batch));
   if (waiting_bytes() > options_.context.memory.bytes) make_room();
 }
 
@@ -192,7 +192,6 @@ void SceneVoxelizer::bin(const NextPortion& next) {
     TriangleBatch batch;
   };
   PassSteps steps(options_.context.progress, "sorting", "triangles", counts_.scene.triangles);
-  std::vector<TriangleBatch> sorted;  // on the way to their bins: one for each thread
   pipeline<Item>(
       thread_count() + 2, [&](Item& item) { return next(item.portion); },
       [&](Item& item) {
@@ -201,14 +200,9 @@ void SceneVoxelizer::bin(const NextPortion& next) {
         item.batch = bins_->sort(fixed);
       },
       [&](Item& item) {
-        sorted.push_back(std::move(item.batch));
-        if (sorted.size() >= std::size_t(thread_count())) {
-          bin(sorted);
-          sorted.clear();
-        }
+        bin(std::move(item.batch));
         steps.add(item.portion.count);
       });
-  bin(sorted);
 }
 
 /// What fills memory_bytes. Were more than half of it put aside, the bins would have nothing to grow in.

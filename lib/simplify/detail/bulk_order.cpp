@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "lib/core/parallel.h"
+#include "lib/simplify/cost_order.h"
 
 namespace bp {
 
@@ -94,6 +95,7 @@ void collapse_bulk(std::span<BulkOrder* const> parts, BulkRange range, std::uint
   };
   for (double bound = range.first; faces() > enough && bound <= range.last;) {
     const std::uint64_t excess = faces() - enough;
+    const std::vector<std::uint64_t> shares = shares_by_faces(excess, parts);
     std::vector<std::uint64_t> taken(parts.size(), 0);
     parallel_for(std::int64_t(parts.size()), [&](std::int64_t k) {
       BulkOrder& part = *parts[std::size_t(k)];
@@ -102,7 +104,9 @@ void collapse_bulk(std::span<BulkOrder* const> parts, BulkRange range, std::uint
     const std::uint64_t all = std::accumulate(taken.begin(), taken.end(), std::uint64_t(0));
     if (all == 0 && std::none_of(parts.begin(), parts.end(), [](const BulkOrder* part) { return part->some_wait(); }))
       return;
-    if (all * kLittle < faces()) bound *= 4;
+    bool some_have_much = false;  // for this bound, where not much is left to take
+    for (std::size_t i = 0; i < parts.size(); ++i) some_have_much |= taken[i] > 0 && 2 * taken[i] >= shares[i];
+    if (all * kLittle < faces() && !some_have_much) bound *= 4;
   }
 }
 

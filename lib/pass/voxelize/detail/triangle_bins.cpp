@@ -108,32 +108,15 @@ TriangleBatch TriangleBins::sort(std::span<const FixedTriangle> triangles) const
   return batch;
 }
 
-void TriangleBins::add(std::span<const TriangleBatch> batches) {
-  struct Addition {
-    Bin* to;
-    std::vector<const TriangleBatch::Bin*> from;
-  };
-  std::vector<Addition> additions;
-  std::unordered_map<std::uint64_t, std::size_t> index;  // tiles: in additions
-  for (const TriangleBatch& batch : batches) {
-    for (const TriangleBatch::Bin& from : batch.bins) {
-      const auto [at, fresh] = index.try_emplace(from.tile, additions.size());
-      if (fresh) {
-        additions.push_back({&bins_[from.tile], {}});
-        memory_bytes_ -= additions.back().to->bytes();
-      }
-      additions[at->second].from.push_back(&from);
-      records_ += from.narrow.size() + from.wide.size();
-    }
+void TriangleBins::add(TriangleBatch&& batch) {
+  for (TriangleBatch::Bin& from : batch.bins) {
+    Bin& to = bins_[from.tile];
+    const std::uint64_t before = to.bytes();
+    to.narrow.append(from.narrow);
+    to.wide.append(from.wide);
+    records_ += from.narrow.size() + from.wide.size();
+    memory_bytes_ += to.bytes() - before;
   }
-  parallel_for(std::int64_t(additions.size()), [&](std::int64_t i) {
-    const Addition& addition = additions[std::size_t(i)];
-    for (const TriangleBatch::Bin* from : addition.from) {
-      addition.to->narrow.append(from->narrow);
-      addition.to->wide.append(from->wide);
-    }
-  });
-  for (const Addition& addition : additions) memory_bytes_ += addition.to->bytes();
 }
 
 std::uint64_t TriangleBins::table_bytes() const {

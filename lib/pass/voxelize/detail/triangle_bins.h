@@ -72,8 +72,8 @@ class TriangleBins {
 
   /// Thread-safe. A triangle goes into each tile that it meets (lib/voxel/voxelize.h, for_each_tile).
   [[nodiscard]] TriangleBatch sort(std::span<const FixedTriangle> triangles) const;
-  /// Of several batches, in their order; tiles in parallel.
-  void add(std::span<const TriangleBatch> batches);
+  /// On one thread.
+  void add(TriangleBatch&& batch);
 
   [[nodiscard]] std::uint64_t memory_bytes() const { return memory_bytes_; }  ///< of the triangles held
   /// Of what is kept of each tile ever added to, and of each chunk in the store, with the map around it.
