@@ -207,8 +207,9 @@ Way least_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams&
   if (!by_volume(params) || fewer.faces >= params.faces || fewer.faces < kFewFaces) return way;
   Way other = tight_from(grown, enclosed, fewer);
   if (other.tightened.volume_after >= way.tightened.volume_after) return way;
-  const bool was_there = way.simplified.stop == StopReason::faces && !is_above_target(way.proxy, params);
-  other.simplified.stop = was_there ? StopReason::least_volume : way.simplified.stop;
+  const std::uint64_t had = way.proxy.triangles.size();
+  const bool were_there = had + 2 > params.faces && had <= params.faces;  // a collapse takes two at a time
+  other.simplified.stop = were_there ? StopReason::least_volume : way.simplified.stop;
   return other;
 }
 
