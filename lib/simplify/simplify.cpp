@@ -24,6 +24,8 @@ std::string to_string(StopReason reason) {
       return "limits";
     case StopReason::edge_length:
       return "edge-length";
+    case StopReason::least_volume:
+      return "least-volume";
     case StopReason::nothing_left:
       return "no collapse left that keeps the guarantee";
   }
