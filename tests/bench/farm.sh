@@ -2,7 +2,7 @@
 # How much faster several nodes make one tileset than one node does. Nodes are simulated: each is bound to cores of its own on this host,
 # and does one job at a time. The jobs are those of samples/farm, handed out by a plain loop, so that no Snakemake is needed.
 #   tests/bench/farm.sh [TRIANGLES [NODES [OPTION...]]]    (10000000 3 --voxel 0.25 --tile 128); tools and samples on PATH
-# Prints seconds of one node without parts, of one node, and of NODES nodes, then a table of the jobs, which samples/farm/simulate.py
+# Prints seconds of one node, which makes the scene in one job, and of NODES nodes, then a table of the jobs, which samples/farm/simulate.py
 # reads. Fails if the bytes differ.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -29,50 +29,64 @@ on_node() { # NODE COMMAND...
   taskset -c "$first-$((first + cores - 1))" "$@"
 }
 
-# The next range of $1/queue, for one node after the other.
-work_off() { # NODE OUT
-  local range begin
-  while range=$(flock "$2.lock" sh -c 'head -1 "$1" && sed -i 1d "$1"' sh "$2.queue") && [ -n "$range" ]; do
+# $2.queue for one node after the other: each line is a part of the step.
+work_off() { # NODE OUT STEP
+  local part begin name
+  while part=$(flock "$2.lock" sh -c 'head -1 "$1" && sed -i 1d "$1"' sh "$2.queue") && [ -n "$part" ]; do
     begin=$(now)
-    { time on_node "$1" "$nightly" --part "$range" plant.glb "$2" "${options[@]}" --report "$2.$range.json" 2>&3; } \
-      3>&2 2> "$2.$range.cpu"
-    echo "  node $1: $range in $(since "$begin") s" >> "$2.jobs"
+    name=$2$3.${part%/*}
+    { time on_node "$1" "$nightly" "$3" "$part" plant.glb "$2" "${options[@]}" --report "$name.json" 2>&3; } 3>&2 2> "$name.cpu"
+    echo "  node $1: $3 $part in $(since "$begin") s, $(spent "$name.cpu")" >> "$2.jobs"
   done
 }
 
-farm() { # NODES OUT
-  local begin step node pids=()
-  begin=$(now)
-  on_node 0 "$nightly" --plan "$nodes" plant.glb "$2" "${options[@]}" > "$2.plan"
-  python3 -c 'import json, sys; print(*json.load(sys.stdin)["ranges"], sep="\n")' < "$2.plan" > "$2.queue"
-  echo "plan $(since "$begin") s: $(wc -l < "$2.queue") jobs"
+all_nodes() { # NODES OUT STEP PART...
+  local step node pids=()
   step=$(now)
-  for ((node = 0; node < $1; ++node)); do work_off $node "$2" & pids+=($!); done
+  printf '%s\n' "${@:4}" > "$2.queue"
+  for ((node = 0; node < $1; ++node)); do work_off $node "$2" "$3" & pids+=($!); done
   for node in "${pids[@]}"; do wait "$node"; done
-  cat "$2.jobs"
-  echo "tiles $(since "$step") s"
+  cat "$2.jobs" && rm "$2.jobs"
+  echo "$3 $(since "$step") s"
+}
+
+alone() { # OUT STEP...
+  local step
   step=$(now)
-  { time on_node 0 "$nightly" --one plant.glb "$2" "${options[@]}" 2> /dev/null; } 2> "$2.cpu"
-  echo "put together and checked $(since "$step") s, $(spent "$2.cpu")"
+  { time on_node 0 "$nightly" "${@:2}" plant.glb "$1" "${options[@]}" 2> /dev/null; } 2> "$1.cpu"
+  echo "$2 $(since "$step") s, $(spent "$1.cpu")"
+}
+
+farm() { # NODES OUT
+  local begin ranges checks
+  begin=$(now)
+  THREADS=$cores on_node 0 "$nightly" --plan "$1" plant.glb "$2" "${options[@]}" > "$2.plan"
+  mapfile -t ranges < <(python3 -c 'import json, sys; print(*json.load(sys.stdin)["ranges"], sep="\n")' < "$2.plan")
+  mapfile -t checks < <(python3 -c 'import json, sys; n = json.load(sys.stdin)["checks"]; print(*(f"{k + 1}/{n}" for k in range(n)), sep="\n")' < "$2.plan")
+  echo "--plan $(since "$begin") s"
+  if [ -z "${ranges[0]}" ]; then
+    alone "$2" --one
+  else
+    all_nodes "$1" "$2" --part "${ranges[@]}"
+    alone "$2" --make
+    all_nodes "$1" "$2" --check "${checks[@]}"
+    alone "$2" --take ${#checks[@]}
+  fi
   echo "$1 nodes of $cores cores: $(since "$begin") s"
 }
 
-begin=$(now)
-on_node 0 "$nightly" --one plant.glb plain "${options[@]}" 2> /dev/null
 echo "$triangles triangles, ${options[*]}"
-echo "one node of $cores cores, without parts: $(since "$begin") s"
-begin=$(now)
-on_node 0 bpcheck plant.glb plain/plant.glb/tileset.json > /dev/null
-echo "of this, the check: $(since "$begin") s"
 farm 1 one
+begin=$(now)
+{ time on_node 0 bpcheck -j "$cores" plant.glb one/plant.glb/tileset.json > /dev/null; } 2> check.cpu
+echo "of this, the check: $(since "$begin") s, $(spent check.cpu)"
 farm "$nodes" many
-diff -r -x levels.tsv plain/plant.glb one/plant.glb
-diff -r -x levels.tsv plain/plant.glb many/plant.glb
+diff -r -x levels.tsv one/plant.glb many/plant.glb
 echo "same bytes"
 { time bplod plant.glb "${options[@]}" --explain -q > /dev/null; } 2> plan.cpu
 echo "of the plan, bplod: $(spent plan.cpu)"
 du -sb many/.cache many/plant.glb plant.glb | awk '{ print $2 "\t" $1 " bytes" }'
-python3 - many.*..*.json << 'PYTHON'
+python3 - many--part.*.json << 'PYTHON'
 import json, sys
 print("job", "chunks_kept", "chunks", "processor", "voxelize", "measure", "close", "tiles", sep="\t")
 for path in sys.argv[1:]:
