@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # How much faster several nodes make one tileset than one node does. Nodes are simulated: each is bound to cores of its own on this host,
-# and does one job at a time. The jobs are those of samples/farm, handed out by a plain loop, so that no Snakemake is needed.
+# none of which another node has a thread of, and does one job at a time. The jobs are those of samples/farm, handed out by a plain loop, so that no Snakemake is needed.
 #   tests/bench/farm.sh [TRIANGLES [NODES [OPTION...]]]    (10000000 3 --voxel 0.25 --tile 128); tools and samples on PATH
 # Prints seconds of one node, which makes the scene in one job, and of NODES nodes, then a table of the jobs, which samples/farm/simulate.py
 # reads. Fails if the bytes differ.
@@ -10,8 +10,18 @@ triangles=${1:-10000000} nodes=${2:-3}
 shift $(($# < 2 ? $# : 2))
 options=(--profile 3dtiles --appearance off "$@")
 [ $# -gt 0 ] || options+=(--voxel 0.25 --tile 128)
-cores=$(($(nproc) / nodes))
-[ $cores -gt 0 ] || { echo "farm: $nodes nodes need as many cores" >&2 && exit 2; }
+mapfile -t of_nodes < <(lscpu -p=CPU,CORE | python3 -c '
+import sys
+cores = {}
+for line in sys.stdin:
+    if line[0] != "#":
+        cpu, core = line.strip().split(",")
+        cores.setdefault(core, []).append(cpu)
+cores, nodes = list(cores.values()), int(sys.argv[1])
+each = len(cores) // nodes
+print(*(",".join(sum(cores[n * each:(n + 1) * each], [])) for n in range(nodes)), sep="\n")' "$nodes")
+[ -n "${of_nodes[0]}" ] || { echo "farm: $nodes nodes need as many cores" >&2 && exit 2; }
+cores=$(tr ',' '\n' <<< "${of_nodes[0]}" | wc -l) # as the system counts them
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -24,9 +34,7 @@ now() { date +%s.%N; }
 spent() { awk '{ printf "%.2f s of the processor", $1 + $2 }' "$1"; }
 since() { awk -v a="$1" -v b="$(now)" 'BEGIN { printf "%.1f", b - a }'; }
 on_node() { # NODE COMMAND...
-  local first=$(($1 * cores))
-  shift
-  taskset -c "$first-$((first + cores - 1))" "$@"
+  taskset -c "${of_nodes[$1]}" "${@:2}"
 }
 
 # $2.queue for one node after the other: each line is a part of the step.
@@ -76,6 +84,7 @@ farm() { # NODES OUT
 }
 
 echo "$triangles triangles, ${options[*]}"
+echo "nodes of cores ${of_nodes[*]}"
 farm 1 one
 begin=$(now)
 { time on_node 0 bpcheck -j "$cores" plant.glb one/plant.glb/tileset.json > /dev/null; } 2> check.cpu

@@ -63,7 +63,8 @@ Scene read_scene(const Build& build) {
   }
   const auto source = open_scenes(o.voxels.scenes, options);
   SurfaceMap surface = surface_of(*source);
-  const auto [bounds, area] = surface.all();
+  const Bounds3d bounds = surface.all().bounds;
+  const double area = surface.all().area;
   if (bounds.empty()) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());
   Scene scene{source->counts(), std::move(surface),
               bounds,           area,
