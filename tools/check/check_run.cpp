@@ -2,6 +2,7 @@
 
 #include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
+#include "lib/core/length.h"
 #include "tools/cli/length.h"
 #include "tools/cli/options/voxel.h"
 #include "tools/run/inputs.h"
@@ -17,6 +18,15 @@ TilePart parse_part(const std::string& text) {
   return {std::uint64_t(parse_integer(std::string_view(text).substr(0, slash), 1, of)) - 1, std::uint64_t(of)};
 }
 
+/// Nothing here tells the size of a voxel.
+Length parse_margin(const std::string& text) {
+  constexpr const char* kWhat = "a length such as 0.5 or 2%; no voxels are known here";
+  double value = 0;
+  const std::string_view unit = take_number(text, value, kWhat);
+  if (!unit.empty() && unit != "%") fail(ErrorCode::bad_argument, "'{}' is not {}", text, kWhat);
+  return parse_length(text);
+}
+
 void declare(Args& args, CheckRun& o) {
   args.about(
       "Proves that a proxy is closed, oriented, 2-manifold, free of self-intersections, and strictly encloses its "
@@ -29,9 +39,10 @@ void declare(Args& args, CheckRun& o) {
   args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
   args.flag("--convex", o.convex,
             "prove that the parts of the proxy, which may overlap, are convex and enclose the scenes together");
-  args.option("--margin", "LENGTH", o.margin,
-              "prove also that the proxy keeps this distance from the scenes: scene units, or a percentage of the "
-              "scenes' diagonal");
+  args.option(
+      "--margin", "LENGTH", [&o](const std::string& text) { o.margin = parse_margin(text); },
+      "prove also that the proxy keeps this distance from the scenes: scene units, or a percentage of the "
+      "scenes' diagonal");
   args.option(
       "--part", "K/N", [&o](const std::string& text) { o.part = parse_part(text); },
       "check part K of N parts of a tileset, each on a machine of its own; if all N hold, the tileset holds");
@@ -65,8 +76,6 @@ CheckRun parse_check_run(Args& args) {
   args.excludes("--convex", "--inside");
   args.excludes("--margin", "--inside");
   args.excludes("--margin", "--convex");
-  if (o.margin.unit == Length::Unit::voxels)
-    fail(ErrorCode::bad_argument, "--margin {}: no voxels are known here; use scene units or percent", o.margin.text());
   if (args.given("--part") && !is_tileset(o.files.back()))
     fail(ErrorCode::bad_argument, "--part: is for tilesets; leave it out for a mesh");
   check_scene_format(o.format, o.files);
