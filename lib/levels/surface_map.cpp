@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kTriangles = 64, kMostRuns = std::size_t(1) << 16;
 constexpr std::uint64_t kMostCells = 4096;  // of one run; a larger one counts evenly in all cells
-constexpr double kLeft = 0.9;               // of the surface, in each level: details vanish. Measured on a plant
+constexpr double kLeft = 0.8;               // of the surface, in each level: details vanish. Measured on a plant
 
 void merge(SurfaceRun& run, const SurfaceRun& other) {
   run.bounds.merge(other.bounds);

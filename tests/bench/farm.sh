@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # How much faster several nodes make one tileset than one node does. Nodes are simulated: each is bound to cores of its own on this host,
-# none of which another node has a thread of, and does one job at a time. The jobs are those of samples/farm, handed out by a plain loop, so that no Snakemake is needed.
+# and does one job at a time. They share its memory, so one node is timed while the others are as busy: each makes the scene by itself.
+# The jobs are those of samples/farm, handed out by a plain loop, so that no Snakemake is needed.
 #   tests/bench/farm.sh [TRIANGLES [NODES [OPTION...]]]    (10000000 3 --voxel 0.25 --tile 128); tools and samples on PATH
-# Prints seconds of one node, which makes the scene in one job, and of NODES nodes, then a table of the jobs, which samples/farm/simulate.py
-# reads. Fails if the bytes differ.
+# Prints seconds of each node by itself, and of all nodes together, then a table of the jobs, which samples/farm/simulate.py reads. Fails if
+# the bytes differ.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 triangles=${1:-10000000} nodes=${2:-3}
@@ -37,7 +38,7 @@ on_node() { # NODE COMMAND...
   taskset -c "${of_nodes[$1]}" "${@:2}"
 }
 
-# $2.queue for one node after the other: each line is a part of the step.
+# $2.queue, whose lines are parts of the step, for one node.
 work_off() { # NODE OUT STEP
   local part begin name
   while part=$(flock "$2.lock" sh -c 'head -1 "$1" && sed -i 1d "$1"' sh "$2.queue") && [ -n "$part" ]; do
@@ -48,14 +49,14 @@ work_off() { # NODE OUT STEP
   done
 }
 
-all_nodes() { # NODES OUT STEP PART...
+all_nodes() { # OUT STEP PART...
   local step node pids=()
   step=$(now)
-  printf '%s\n' "${@:4}" > "$2.queue"
-  for ((node = 0; node < $1; ++node)); do work_off $node "$2" "$3" & pids+=($!); done
+  printf '%s\n' "${@:3}" > "$1.queue"
+  for ((node = 0; node < nodes; ++node)); do work_off $node "$1" "$2" & pids+=($!); done
   for node in "${pids[@]}"; do wait "$node"; done
-  cat "$2.jobs" && rm "$2.jobs"
-  echo "$3 $(since "$step") s"
+  cat "$1.jobs" && rm "$1.jobs"
+  echo "$2 $(since "$step") s"
 }
 
 alone() { # OUT STEP...
@@ -65,32 +66,42 @@ alone() { # OUT STEP...
   echo "$2 $(since "$step") s, $(spent "$1.cpu")"
 }
 
-farm() { # NODES OUT
+# A farm of one machine.
+by_itself() { # NODE
+  local begin
+  begin=$(now)
+  on_node "$1" "$nightly" --plan 1 plant.glb "one$1" "${options[@]}" > /dev/null
+  on_node "$1" "$nightly" --one plant.glb "one$1" "${options[@]}" 2> /dev/null
+  echo "node $1 by itself: $(since "$begin") s"
+}
+
+listed() { python3 -c "import json, sys; plan = json.load(open(sys.argv[1])); print(*($2), sep='\n')" "$1"; }
+
+farm() { # OUT
   local begin ranges checks
   begin=$(now)
-  THREADS=$cores on_node 0 "$nightly" --plan "$1" plant.glb "$2" "${options[@]}" > "$2.plan"
-  mapfile -t ranges < <(python3 -c 'import json, sys; print(*json.load(sys.stdin)["ranges"], sep="\n")' < "$2.plan")
-  mapfile -t checks < <(python3 -c 'import json, sys; n = json.load(sys.stdin)["checks"]; print(*(f"{k + 1}/{n}" for k in range(n)), sep="\n")' < "$2.plan")
+  THREADS=$cores on_node 0 "$nightly" --plan "$nodes" plant.glb "$1" "${options[@]}" > "$1.plan"
   echo "--plan $(since "$begin") s"
-  if [ -z "${ranges[0]}" ]; then
-    alone "$2" --one
-  else
-    all_nodes "$1" "$2" --part "${ranges[@]}"
-    alone "$2" --make
-    all_nodes "$1" "$2" --check "${checks[@]}"
-    alone "$2" --take ${#checks[@]}
-  fi
-  echo "$1 nodes of $cores cores: $(since "$begin") s"
+  mapfile -t ranges < <(listed "$1.plan" 'plan["ranges"]')
+  mapfile -t checks < <(listed "$1.plan" 'str(k + 1) + "/" + str(plan["checks"]) for k in range(plan["checks"])')
+  [ -n "${ranges[0]}" ] || { echo "farm: a scene so small is made by one machine" >&2 && exit 2; }
+  all_nodes "$1" --part "${ranges[@]}"
+  alone "$1" --make
+  all_nodes "$1" --check "${checks[@]}"
+  alone "$1" --take ${#checks[@]}
+  echo "$nodes nodes of $cores cores: $(since "$begin") s"
 }
 
 echo "$triangles triangles, ${options[*]}"
 echo "nodes of cores ${of_nodes[*]}"
-farm 1 one
+for ((node = 1; node < nodes; ++node)); do by_itself $node & done
+by_itself 0
+wait
 begin=$(now)
-{ time on_node 0 bpcheck -j "$cores" plant.glb one/plant.glb/tileset.json > /dev/null; } 2> check.cpu
+{ time on_node 0 bpcheck -j "$cores" plant.glb one0/plant.glb/tileset.json > /dev/null; } 2> check.cpu
 echo "of this, the check: $(since "$begin") s, $(spent check.cpu)"
-farm "$nodes" many
-diff -r -x levels.tsv one/plant.glb many/plant.glb
+farm many
+for ((node = 0; node < nodes; ++node)); do diff -r -x levels.tsv one$node/plant.glb many/plant.glb; done
 echo "same bytes"
 { time bplod plant.glb "${options[@]}" --explain -q > /dev/null; } 2> plan.cpu
 echo "of the plan, bplod: $(spent plan.cpu)"

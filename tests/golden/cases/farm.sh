@@ -41,6 +41,15 @@ grep -c "Error in rule check" "o {ut}/.farm/log/snakemake"
 diff -r old "o {ut}/part {2}.obj" && echo "the old levels"
 touch "o {ut}/.farm/mended"
 PATH=$PWD/bin:$PATH farm "${options[@]}"
+# What nobody checked replaces nothing.
+nightly() { "$BP_ROOT/samples/nightly" "$@" --name cubes --voxel 0.022 --tile 128 --levels 2 --profile 3dtiles; }
+write_cube one.obj 3
+nightly --make one.obj steps
+nightly --check 1/2 one.obj steps
+nightly --take 0 one.obj steps
+ls steps
+nightly --take 2 one.obj steps 2> /dev/null || echo "= $?"
+ls steps
 # Each job has GPUs of its own.
 printf '#!/bin/sh\necho "GPU 0: one"\necho "GPU 1: two"\n' > bin/nvidia-smi && chmod +x bin/nvidia-smi
 on_gpus() { PATH=$PWD/bin:$PATH "$BP_ROOT/samples/farm/on_gpus" "$@"; }

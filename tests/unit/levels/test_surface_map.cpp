@@ -62,7 +62,7 @@ TEST_CASE("the work of tiles is where the scene's surface is", "[quick][levels]"
         }
       }
     }
-    CHECK(all == Approx(m.map.all().area / std::pow(level.frame.voxel, 2) * std::pow(0.9, i)));
+    CHECK(all == Approx(m.map.all().area / std::pow(level.frame.voxel, 2) * std::pow(0.8, i)));
     CHECK(left == Approx(all / 2).epsilon(0.02));
   }
   CHECK(work.size() == m.plan.jobs());
