@@ -11,7 +11,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/levels/level_plan.h"
-#include "lib/levels/surface_map.h"
+#include "lib/levels/tile_plan.h"
 #include "tools/lod/bake_levels.h"
 #include "tools/lod/build.h"
 #include "tools/lod/choices.h"

@@ -1,10 +1,9 @@
-#include "lib/levels/surface_map.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "lib/core/vec3.h"
+#include "lib/levels/tile_plan.h"
 
 namespace bp {
 
