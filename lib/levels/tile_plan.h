@@ -62,7 +62,8 @@ struct TilesetPlan {
 /// Neighbours in the scene's order.
 struct SurfaceRun {
   Bounds3d bounds;
-  double area = 0;  ///< of all triangles, scene units squared
+  double area = 0;    ///< of all triangles, scene units squared
+  double extent = 0;  ///< the sides of their boxes, scene units
 };
 
 /// Of at most 64 triangles each.

@@ -18,6 +18,7 @@
 #include "tools/lod/kept_results.h"
 #include "tools/lod/proportions.h"
 #include "tools/lod/tile_build.h"
+#include "tools/notes/estimate.h"
 #include "tools/notes/up_note.h"
 
 namespace bp {
@@ -35,7 +36,7 @@ struct Scene {
   SceneCounts counts;
   SurfaceMap surface;
   Bounds3d bounds;
-  double area = 0;
+  double area = 0, extent = 0;  ///< as VoxelizeCounts
   std::optional<UpAxis> up_told;
   UpAxis up = UpAxis::y;
   bool textured = false;
@@ -63,12 +64,15 @@ Scene read_scene(const Build& build) {
   }
   const auto source = open_scenes(o.voxels.scenes, options);
   SurfaceMap surface = surface_of(*source);
-  const Bounds3d bounds = surface.all().bounds;
-  const double area = surface.all().area;
+  const auto [bounds, area, extent] = surface.all();
   if (bounds.empty()) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());
-  Scene scene{source->counts(), std::move(surface),
-              bounds,           area,
-              source->up(),     o.voxels.up.value_or(source->up().value_or(UpAxis::y))};
+  Scene scene{source->counts(),
+              std::move(surface),
+              bounds,
+              area,
+              extent,
+              source->up(),
+              o.voxels.up.value_or(source->up().value_or(UpAxis::y))};
   if (options.textures) scene.image_bytes = options.textures->file_bytes();
   const bool from_colors = o.appearance == Appearance::texture && source->has_colors();
   scene.textured = options.textures && can_read_again(o) &&
@@ -86,6 +90,7 @@ struct Plan {
   std::vector<FoundJobs> kept;
   double leaf_bytes = 0;  ///< with their images; 0: none are wanted
   double file_bytes = 0, scratch_bytes = 0;
+  Estimate work;  ///< from nothing, and without textures
 };
 
 /// Of all levels and leaves, about.
@@ -134,6 +139,11 @@ Plan plan_of(const Build& build, const Scene& scene) {
     plan.levels = planned_chain(request, plan.header, scene.area);
     plan.jobs = plan.levels.size();
   }
+  VoxelizeCounts counts;
+  counts.scene = scene.counts;
+  counts.area = scene.area;
+  counts.extent = scene.extent;
+  plan.work = estimate_build(o, plan.header.bounds, counts, plan.header.frame.voxel);
   plan.origin = origin_of(o.proxy.origin, plan.header.frame, plan.header.bounds);
   const double triangles = double(scene.counts.triangles);
   if (o.leaves)
@@ -182,7 +192,9 @@ Json json_of(const Build& build, const Scene& scene, const Plan& plan) {
             {"levels", Json::array()},
             {"jobs", plan.jobs},
             {"file_bytes_about", std::uint64_t(plan.file_bytes)},
-            {"scratch_bytes_about", std::uint64_t(plan.scratch_bytes)}};
+            {"scratch_bytes_about", std::uint64_t(plan.scratch_bytes)},
+            {"seconds_about", wall_seconds(plan.work, names_of(build.backends))},
+            {"peak_bytes_about", std::min(std::uint64_t(plan.work.bytes), build.options.common.memory_bytes)}};
   for (const PlannedLevel& level : plan.levels) json["levels"].push_back(json_of(level));
   if (plan.leaf_bytes > 0) json["leaf_bytes_about"] = std::uint64_t(plan.leaf_bytes);
   if (plan.origin != Vec3d{}) json["origin"] = plan.origin;
@@ -210,6 +222,8 @@ std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
   out += fmt::format("memory\t{}: reading with {}, {} for what waits; then {} for voxels, {} for surfaces\n",
                      size_text(build.options.common.memory_bytes), size_text(b.reader), size_text(b.waiting),
                      size_text(b.shelf), size_text(b.work.bytes));
+  out += fmt::format("time\t{}{}\n", work_text(plan.work, build.options.common.memory_bytes, names_of(build.backends)),
+                     scene.textured ? "; textures come on top" : "");
   out += fmt::format("disk\tabout {} of files, about {} of scratch\n", size_text(std::uint64_t(plan.file_bytes)),
                      size_text(std::uint64_t(plan.scratch_bytes)));
   if (plan.leaf_bytes > 0)

@@ -22,11 +22,11 @@ std::string name_of_level(const BuildOptions& o, std::size_t level) {
   return level_count(request_of(o)) == 1 ? o.name : level_name(o.name, level);
 }
 
-/// Of the level's material and the files beside it: readers of OBJ part names at blanks.
-std::string material_name(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == ' ' || c == '\t'; }, '_');
-  return name;
+/// Of the level's material and the files beside it: readers of OBJ part names at blanks. No two levels share one.
+std::string material_name(const std::string& name) {
+  std::string out;
+  for (const char c : name) out += c == ' ' ? "~_" : c == '\t' ? "~t" : c == '~' ? "~~" : std::string(1, c);
+  return out;
 }
 
 /// Files that there may be beside a level, with so many kinds of images.

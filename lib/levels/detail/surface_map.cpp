@@ -16,6 +16,7 @@ constexpr double kLeft = 0.8;               // of the surface, in each level: de
 void merge(SurfaceRun& run, const SurfaceRun& other) {
   run.bounds.merge(other.bounds);
   run.area += other.area;
+  run.extent += other.extent;
 }
 
 /// A run in units of cells, within the span.
@@ -70,8 +71,11 @@ std::vector<SurfaceRun> surface_runs(std::span<const TriangleD> triangles) {
   std::vector<SurfaceRun> runs((triangles.size() + kTriangles - 1) / kTriangles);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const TriangleD& t = triangles[i];
-    for (const Vec3d& p : t) runs[i / kTriangles].bounds.add(p);
-    runs[i / kTriangles].area += length(cross(t[1] - t[0], t[2] - t[0])) / 2;
+    SurfaceRun one;
+    for (const Vec3d& p : t) one.bounds.add(p);
+    for (std::size_t k = 0; k < 3; ++k) one.extent += one.bounds.max[k] - one.bounds.min[k];
+    one.area = length(cross(t[1] - t[0], t[2] - t[0])) / 2;
+    merge(runs[i / kTriangles], one);
   }
   return runs;
 }
