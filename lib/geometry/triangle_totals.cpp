@@ -34,10 +34,7 @@ void TriangleTotals::add(std::span<const TriangleD> batch) {
     const double twice_area = std::sqrt(dot(normal, normal));
     if (!std::isfinite(twice_area)) continue;
     if (bounds.empty()) sum_ = SignedVolume(t[0]);
-    Bounds3d box;
-    for (const Vec3d& p : t) box.add(p);
-    bounds.merge(box);
-    for (std::size_t i = 0; i < 3; ++i) extent += box.max[i] - box.min[i];
+    for (const Vec3d& p : t) bounds.add(p);
     area += twice_area / 2;
     sum_.add(t);
   }

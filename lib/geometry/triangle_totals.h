@@ -16,7 +16,6 @@ struct TriangleTotals {
   std::uint64_t triangles = 0;
   Bounds3d bounds;                     ///< of the finite corners
   double area = 0;                     ///< scene units squared
-  double extent = 0;                   ///< sum of the sides of the boxes of all triangles
   std::optional<double> volume = 0.0;  ///< enclosed; none if it is open (SignedVolume)
   std::uint64_t checksum_low = 0, checksum_high = 0;
 

@@ -5,6 +5,7 @@ bplod "${options[@]}" --levels 2 -o out/cubes.obj | cut -f 1
 bplod "${options[@]}" --levels 2 -o again/cubes.obj -j 1 --memory 300M > list
 same out again
 ls out
+awk -F '\t' 'NR > 1 { n += $6 } END { print n }' list | diff - <(cat again/* | wc -c) && echo "all bytes are listed"
 cat out/cubes_LOD1.mtl
 grep -v '^[v#f]' out/cubes_LOD1.obj
 bplod "${options[@]}" --levels 2 --name cubes -o glb > list
