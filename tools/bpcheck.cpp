@@ -94,7 +94,9 @@ int run_tileset(const bp::CheckRun& o) {
   if (!verdict.holds() && verdict.scene && !contents.empty()) note_hint(report, o, bp::fit_hint(contents.front().path));
   report.counts = {{"holds", verdict.holds()},
                    {"answer", to_string(verdict.answer())},
+                   {"part", verdict.part_json()},
                    {"tiles", verdict.tiles},
+                   {"contents", verdict.contents},
                    {"findings", verdict.findings}};
   report.write(o.common);
   return status_of(verdict.answer());

@@ -9,11 +9,10 @@ namespace {
 
 constexpr double kWorthwhile = 1.25;  // times the faces, for a quarter of the voxels' area: else there are no more
 
-/// Whether the level has clearly fewer faces than its budget: its voxels, or its scale, show no more. Not if more would
-/// leave more volume.
+/// Whether there were clearly fewer faces than the level's budget: its voxels, or its scale, show no more.
 bool falls_short(const LodLevel& level, const LodTarget& target) {
-  return clearly_fewer(level.mesh.triangles.size(), target.faces) &&
-         level.counts.levels.front().simplify.stop != StopReason::least_volume;
+  const std::uint64_t tried = level.counts.levels.front().simplify.faces_tried;
+  return clearly_fewer(std::max<std::uint64_t>(level.mesh.triangles.size(), tried), target.faces);
 }
 
 /// Budget and scale of a level that follow from a first one which fell short.

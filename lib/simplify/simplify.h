@@ -45,8 +45,7 @@ struct SimplifyParams : ShapeLimits {
 };
 
 /// Why simplification ended: the target is reached, or no collapse is left that keeps the guarantee and, beside it, the
-/// error, the limits or the edge length. least_volume: the target was there to be had, and fewer faces leave less
-/// volume.
+/// error, the limits or the edge length. least_volume: fewer faces than there were to be had leave less volume.
 enum class StopReason { faces, error, limits, edge_length, least_volume, nothing_left };
 [[nodiscard]] std::string to_string(StopReason reason);
 
@@ -57,6 +56,7 @@ struct SimplifyCounts {
   /// failed. By volume (thin.h): tries refused, an edge's several included.
   Refusals refused;
   StopReason stop = StopReason::nothing_left;
+  std::uint64_t faces_tried = 0;                ///< if least_volume: so many, or up to so many, leave more
   std::string limit;                            ///< if the limits stopped it: the one that refused last
   void add(const SimplifyCounts& next);         ///< of a run that took over where this one ended
   void add_beside(const SimplifyCounts& part);  ///< work and refusals on another part of the same mesh

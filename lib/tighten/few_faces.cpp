@@ -15,7 +15,7 @@ namespace {
 constexpr double kHopeless = 1.25;         // times the least volume so far: fewer faces will not come below it
 constexpr double kPromising = 1.5;         // the same of a hull that is not tightened yet
 constexpr std::uint64_t kFewForHull = 32;  // more faces than that are better used than for a convex proxy
-constexpr std::array<std::uint64_t, 3> kFresh{48, 32, 24};  // where a new way from the first surface is tried, too
+constexpr std::array<std::uint64_t, 6> kFresh{48, 32, 24, 20, 8, 6};  // where a new way from the first surface is tried, too
 
 /// The next number of faces on the way.
 std::uint64_t fewer(std::uint64_t n) {
@@ -112,8 +112,10 @@ LatticeMesh tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclo
   if (!best) return tight_proxy(dense, enclosed, params, simplified, tightened);
   simplified = best->simplified;
   simplified.faces_out = best->mesh.triangles.size();
-  simplified.stop =
-      simplified.faces_out + 2 < std::min(params.faces, first) ? StopReason::least_volume : StopReason::faces;
+  const std::uint64_t tried = std::min(params.faces, first);
+  const bool fewer = simplified.faces_out + 2 < tried;
+  simplified.stop = fewer ? StopReason::least_volume : StopReason::faces;
+  simplified.faces_tried = fewer ? tried : 0;
   tightened = best->tightened;
   return std::move(best->mesh);
 }

@@ -207,9 +207,8 @@ Way least_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams&
   if (!by_volume(params) || fewer.faces >= params.faces || fewer.faces < kFewFaces) return way;
   Way other = tight_from(grown, enclosed, fewer);
   if (other.tightened.volume_after >= way.tightened.volume_after) return way;
-  const std::uint64_t had = way.proxy.triangles.size();
-  const bool were_there = had + 2 > params.faces && had <= params.faces;  // a collapse takes two at a time
-  other.simplified.stop = were_there ? StopReason::least_volume : way.simplified.stop;
+  other.simplified.stop = StopReason::least_volume;
+  other.simplified.faces_tried = way.proxy.triangles.size();
   return other;
 }
 
@@ -279,7 +278,7 @@ LatticeMesh tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const
                         SimplifyCounts& simplified, TightenCounts& tightened) {
   Way grown;
   grown.proxy = simplify(mesh, growing_part_of(params), grown.simplified);
-  LatticeMesh proxy = take(least_from(grown, enclosed, params), simplified, tightened);
+  LatticeMesh proxy = take(tight_from(grown, enclosed, params), simplified, tightened);
   proxy.provenance = mesh.provenance;
   return proxy;
 }

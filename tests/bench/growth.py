@@ -2,7 +2,7 @@
 """How time and memory grow with triangles, voxels and faces: `bpvox | bpclose | bpmesh` of generated plants.
   growth.py BIN_DIR [--triangles 1e5,1e6] [--voxels 256,512,1024] [--faces 1000,5000,20000] [--memory 1G] [--table FILE] [--svg FILE]
   growth.py --draw TABLE --svg FILE
-BIN_DIR holds the tools and bp-plant. One of the three varies, the others stay at 10^6 triangles, 1024 voxels along the longest side and
+BIN_DIR (build/release) holds tools/ and samples/. One of the three varies, the others stay at 10^6 triangles, 1024 voxels along the longest side and
 5000 faces; the scale is 5 voxels. Prints a line for each run: seconds from file to file, those of the processor, and the largest peak of
 the three in MiB; then the slopes between the first and the last of each row, on logarithmic axes."""
 import argparse
@@ -18,7 +18,7 @@ COLUMNS = ("varies", *FIXED, "seconds", "processor", "mib")
 
 
 def run(folder, bin_dir, scene, o, memory):
-    tool = lambda name, *args: [os.path.join(bin_dir, name), *map(str, args), "--memory", memory, "--temp", folder, "-q", "--overwrite"]
+    tool = lambda name, *args: [os.path.join(bin_dir, "tools", name), *map(str, args), "--memory", memory, "--temp", folder, "-q", "--overwrite"]
     begin = time.monotonic()
     vox = subprocess.Popen(tool("bpvox", scene, "--resolution", o["voxels"]), stdout=subprocess.PIPE)
     close = subprocess.Popen(tool("bpclose", "--scale", "5vx"), stdin=vox.stdout, stdout=subprocess.PIPE)
@@ -43,7 +43,7 @@ def measure(o):
                 key = tuple(one.values())
                 if made != one["triangles"]:
                     made = one["triangles"]
-                    subprocess.run([os.path.join(o.bin_dir, "bp-plant"), "--triangles", str(made), "--seed", "7", "-o",
+                    subprocess.run([os.path.join(o.bin_dir, "samples", "bp-plant"), "--triangles", str(made), "--seed", "7", "-o",
                                     f"{folder}/plant.ply", "--overwrite"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
                 if key not in known:
                     known[key] = [float(f"{x:.4g}") for x in run(folder, o.bin_dir, f"{folder}/plant.ply", one, o.memory)]

@@ -45,7 +45,7 @@ void declare(Args& args, CheckRun& o) {
       "scenes' diagonal");
   args.option(
       "--part", "K/N", [&o](const std::string& text) { o.part = parse_part(text); },
-      "check part K of N parts of a tileset, each on a machine of its own; if all N hold, the tileset holds");
+      "check part K of N parts of a tileset, for machines that share the work; if all N hold, the tileset holds");
   args.group("Files");
   add_scene_format(args, o.format);
   args.option(

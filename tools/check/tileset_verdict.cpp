@@ -153,16 +153,15 @@ std::vector<CoverFinding> check_whole(const CoverTiles& cover, TriangleSource& s
   return findings;
 }
 
-/// Of one check: null.
-Json part_json(const TilesetVerdict& v) {
-  if (v.part.of == 1) return nullptr;
-  return {{"number", v.part.number + 1}, {"of", v.part.of}};
-}
-
 }  // namespace
 
 bool is_tileset(const std::string& path) {
   return path.size() > 5 && path.compare(path.size() - 5, 5, ".json") == 0;
+}
+
+Json TilesetVerdict::part_json() const {
+  if (part.of == 1) return nullptr;
+  return {{"number", part.number + 1}, {"of", part.of}};
 }
 
 std::string TilesetVerdict::text(const std::string& name) const {
@@ -188,7 +187,7 @@ std::string TilesetVerdict::json(const std::string& name) const {
       {"answer", to_string(answer())},
       {"tileset",
        {{"name", name}, {"tiles", tiles}, {"contents", contents}, {"leaves", leaves}, {"triangles", triangles}}},
-      {"part", part_json(*this)},
+      {"part", part_json()},
       {"scene", scene},
       {"tolerance", scene && leaves > 0 ? Json(tolerance) : Json(nullptr)},
       {"thin", thin},

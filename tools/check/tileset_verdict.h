@@ -5,6 +5,7 @@
 #include "io/scene/scene_reader.h"
 #include "lib/check/check_report.h"
 #include "lib/check/tile_part.h"
+#include "tools/cli/report.h"
 
 namespace bp {
 
@@ -24,6 +25,8 @@ struct TilesetVerdict {
   }
   [[nodiscard]] bool holds() const { return answer() == Answer::proven; }
   [[nodiscard]] std::string text(const std::string& name) const;  ///< the findings, then one line of summary
+  /// {"number", "of"}; null of a whole check.
+  [[nodiscard]] Json part_json() const;
   /// One JSON object, indented. Keys and their order are part of the interface.
   [[nodiscard]] std::string json(const std::string& name) const;
 };

@@ -112,11 +112,10 @@ double area_world(const LatticeMesh& mesh) {
 /// Edge of the voxels around a level: the stream's, or as large as gives a dense surface of enough faces for the next
 /// and takes no more than half of its share of the error.
 double level_voxel(const LatticeMesh& inner, double voxel, std::uint64_t faces, double error_share) {
-  constexpr double kFacesPerFace = 200;
   constexpr double kFacesPerVoxelFace = 2 * kSlantedSteps;
   constexpr double kVoxelsPerShare = 4;  // a voxel that is touched reaches as far as its diagonal
   const double most = error_share > 0 ? error_share / kVoxelsPerShare : HUGE_VAL;
-  const double enough = std::sqrt(kFacesPerVoxelFace * area_world(inner) / (kFacesPerFace * double(faces)));
+  const double enough = std::sqrt(kFacesPerVoxelFace * area_world(inner) / (double(kFacesPerFace) * double(faces)));
   return std::max(voxel, std::min(enough, most));
 }
 

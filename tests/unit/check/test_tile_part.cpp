@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <random>
 
 #include "lib/check/tile_cover.h"
@@ -7,6 +8,27 @@
 using namespace bp;
 
 namespace {
+
+/// How many of one depth, with or without a content, each part has: differences of two at most.
+void check_shares(const std::vector<CoverTile>& tiles, std::uint64_t count) {
+  std::vector<int> depths(tiles.size());
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    for (const std::size_t child : tiles[i].children) depths[child] = depths[i] + 1;
+  }
+  std::map<std::pair<bool, int>, std::vector<int>> shares;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const std::vector<bool> mine = tiles_of({k, count}, tiles);
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+      auto& of_depth = shares[{tiles[i].uri.empty(), depths[i]}];
+      of_depth.resize(count);
+      of_depth[k] += mine[i];
+    }
+  }
+  for (const auto& [kind, share] : shares) {
+    const auto [least, most] = std::minmax_element(share.begin(), share.end());
+    CHECK(*most - *least <= 2);
+  }
+}
 
 /// A tile and those below it, depth first, each with a content or not.
 void grow(std::vector<CoverTile>& tiles, int depth, std::mt19937& chance) {
@@ -35,5 +57,6 @@ TEST_CASE("each tile lies in one part of a check, and each part has its share of
     CHECK(std::all_of(times.begin(), times.end(), [](int n) { return n == 1; }));
     const auto [least, most] = std::minmax_element(sizes.begin(), sizes.end());
     CHECK(*most - *least <= 1);
+    check_shares(tiles, count);
   }
 }

@@ -91,7 +91,7 @@ TEST_CASE("the sides of a thin plate come as near as those of a block", "[quick]
   CHECK(volume < 1.05 * least);
 }
 
-TEST_CASE("faces enough for all steps of a roof leave no more volume than few do", "[quick][meshing]") {
+TEST_CASE("faces enough for all steps of a roof leave no more volume than a good number of few", "[quick][meshing]") {
   StopReason few_stop{}, stop{};
   const VoxelBox box{{-2, -2, -2}, {kHouses * kPitch + 2, 54, 24}};
   const double few = volume_around(in_houses, box, houses(), 160, few_stop);
@@ -99,6 +99,6 @@ TEST_CASE("faces enough for all steps of a roof leave no more volume than few do
   for (const std::uint64_t faces : {600, 3000}) {
     CAPTURE(faces);
     CHECK(volume_around(in_houses, box, houses(), faces, stop) < 1.001 * few);
-    CHECK((stop == StopReason::least_volume) == (faces == 600));  // as many as 3000 the voxels do not show
+    CHECK(stop == StopReason::least_volume);
   }
 }
