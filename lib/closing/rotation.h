@@ -65,6 +65,18 @@ struct CubeBounds {
   return b;
 }
 
+/// Voxels `edge` times as large hold edge^3 voxels each. Two of them, D apart, hold only voxels that are within the
+/// turned cube of scale `s` of each other if |row . D| is within the first of these limits for each row, and none beyond
+/// the second one. In 1/16 of the large voxels; the first may be negative: then there are no such two.
+struct CoarseScale {
+  std::int32_t sure, possible;
+};
+[[nodiscard]] BP_HD inline CoarseScale coarse_scale(std::int64_t row_sum, Scale s, std::int32_t edge) {
+  const std::int32_t one = (1 << kRotationBits) / kScaleOne, unit = one * edge;
+  const std::int32_t limit = s * one, between = (edge - 1) * std::int32_t(row_sum);
+  return {floor_div(limit - between, unit), ceil_div(limit + between, unit)};
+}
+
 /// The cubes of an orientation field over a region.
 struct CubesOver {
   std::int32_t edge = 0;             ///< of a cell of the field, voxels

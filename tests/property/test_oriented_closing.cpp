@@ -224,8 +224,13 @@ TEST_CASE("boxes around and inside a turned cube hold for every rotation and sca
         }
       }
     }
-    for (const auto* row = rows.begin(-rows.reach()); row < rows.begin(rows.reach() + 1); ++row)
-      in_rows += row->last - row->first + 1;
+    for (std::int32_t dz = -rows.reach(); dz <= rows.reach(); ++dz) {
+      const auto slice = rows.rows(dz, -rows.reach(), rows.reach() + 1);
+      for (std::int32_t dy = slice.begin; dy < slice.end; ++dy) {
+        const detail::CubeRow row = slice.rows[dy - slice.begin];
+        in_rows += std::max(row.last - row.first + 1, 0);
+      }
+    }
     CHECK(held == in_rows);
   }
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "lib/closing/rotation.h"
@@ -6,30 +7,57 @@
 /// A turned cube as a set of voxels: its rows.
 namespace bp::detail {
 
-/// The cube is turned about this axis alone, and is its own slice across it from -cube_radius() to cube_radius().
-[[nodiscard]] bool keeps_axis(const Rotation& r, int axis);
-
-/// The voxels (x, dy, dz) of a turned cube around (0, 0, 0): x from `first` to `last`.
+/// The voxels x of a row: from `first` to `last`; none if last < first.
 struct CubeRow {
-  std::int32_t dy, first, last;
+  std::int16_t first, last;
 };
 
-/// All rows of a turned cube, slice by slice, dy ascending.
+/// All rows of the voxels (x, dy, dz) of a turned cube around (0, 0, 0). Those of a slice are made when they are first
+/// asked for.
 class CubeRows {
  public:
-  /// Cost: a few divisions for each (dy, dz) within reach. `flat`: only the rows with dy = 0 (1) or with dz = 0 (2), if
-  /// it is one of these.
-  CubeRows(const Rotation& rotation, Scale s, int flat = -1);
+  static constexpr std::int32_t kEdge = 8;  ///< rows [8 i, 8 i + 8) of slices [8 j, 8 j + 8) are a block
+
+  /// `rotation` is canonical. Cost: that of the blocks, a few divisions each.
+  CubeRows(const Rotation& rotation, Scale s);
 
   [[nodiscard]] std::int32_t reach() const { return reach_; }
-  [[nodiscard]] std::int32_t longest() const { return longest_; }  ///< voxels of the longest row
-  /// Rows of slice dz, |dz| <= reach(): from begin(dz) to begin(dz + 1).
-  [[nodiscard]] const CubeRow* begin(std::int32_t dz) const { return rows_.data() + slices_[std::size_t(dz + reach_)]; }
+
+  /// Consecutive rows, the first of which is number `begin`.
+  struct Stretch {
+    std::int32_t begin = 0, end = 0;
+    const CubeRow* rows = nullptr;
+  };
+  /// Those rows dy in [begin, end) of slice dz, |dz| <= reach(), that have voxels.
+  [[nodiscard]] Stretch rows(std::int32_t dz, std::int32_t begin, std::int32_t end) const;
+  /// Blocks i of slices [8 j, 8 j + 8), from the first to the last with voxels: what any of a block's rows holds, and
+  /// perhaps some more.
+  [[nodiscard]] Stretch blocks(std::int32_t j) const;
+
+  [[nodiscard]] std::size_t bytes() const {
+    return (rows_.size() + blocks_.size()) * sizeof(CubeRow) + (slices_.size() + layers_.size()) * sizeof(Filled);
+  }
+  /// The most for any cube of this reach.
+  static constexpr std::size_t most_bytes(std::int32_t reach) {
+    const auto side = std::size_t(2 * reach + 1), across = side / kEdge + 2;
+    return (side * side + across * across) * sizeof(CubeRow) + (side + across) * sizeof(Filled);
+  }
 
  private:
-  std::int32_t reach_ = 0, longest_ = 0;
-  std::vector<CubeRow> rows_;
-  std::vector<std::uint32_t> slices_;
+  /// Rows or blocks with voxels. None are made yet if end < begin.
+  struct Filled {
+    std::int16_t begin = 1, end = 0;
+  };
+  void make_slice(std::int32_t dz) const;
+  [[nodiscard]] CubeRow block(std::int32_t i, std::int32_t j) const;
+
+  Rotation rotation_;
+  std::int32_t limit_, reach_;
+  std::int32_t first_block_, across_;  ///< least i and j, and how many there are
+  mutable std::vector<CubeRow> rows_;  ///< by slice, then dy: all within reach
+  mutable std::vector<Filled> slices_;
+  std::vector<CubeRow> blocks_;  ///< by j, then i
+  std::vector<Filled> layers_;
 };
 
 }  // namespace bp::detail

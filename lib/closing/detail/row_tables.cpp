@@ -54,44 +54,69 @@ BP_INLINE bool any(const Words& words) {
   return (w[0] | w[1]) != 0;
 }
 
-/// sum |= what the window meets from each row.
-BP_INLINE void add_window(const RowTables::Window& w, const std::uint64_t* at, Words& sum) {
-  const WordsInMemory* a = reinterpret_cast<const WordsInMemory*>(at + w.word[0]);
-  const WordsInMemory* b = reinterpret_cast<const WordsInMemory*>(at + w.word[1]);
-  const WordsInMemory* c = reinterpret_cast<const WordsInMemory*>(at + w.word[2]);
-  const WordsInMemory* d = reinterpret_cast<const WordsInMemory*>(at + w.word[3]);
-  sum |= *a >> w.down[0] | *b << w.up[0] | *c >> w.down[1] | *d << w.up[1];
+/// Where rows are looked up: level k of the tables begins k `level` words further.
+struct Levels {
+  const std::uint64_t* first;  ///< of who asks
+  std::size_t level, height;   ///< words
+};
+
+/// sum |= what 2^k voxels from `start` on hold.
+BP_INLINE void add_window(const Levels& at, int k, std::int32_t start, std::int32_t dy, Words& sum) {
+  const std::uint64_t* table = at.first + std::size_t(k) * at.level + (start >> 6) * std::ptrdiff_t(at.height) + dy;
+  const int down = start & 63, up = -start & 63;
+  const WordsInMemory* here = reinterpret_cast<const WordsInMemory*>(table);
+  const WordsInMemory* next = reinterpret_cast<const WordsInMemory*>(table + (down != 0 ? at.height : 0));
+  sum |= *here >> down | *next << up;
 }
 
-/// Flags of the windows, number `first` of the bits and on, that meet something from one of the voxels `left`; 2^shared
-/// windows share a bit.
-BP_WIDE_CLONES std::uint64_t find_windows(const RowTables::Window* windows, std::int32_t n, const std::uint64_t* at,
-                                          const std::uint64_t* left, std::int32_t first, std::int32_t shared) {
+/// sum |= what row dy meets.
+BP_INLINE void add_row(const Levels& at, const CubeRow& row, std::int32_t dy, Words& sum) {
+  const std::int32_t length = row.last - row.first + 1;
+  if (length <= 0) return;
+  const int k = 31 - __builtin_clz(unsigned(length));
+  add_window(at, k, row.first, dy, sum);
+  add_window(at, k, row.last + 1 - (1 << k), dy, sum);
+}
+
+/// Flags of the n blocks, number `first` of the bits and on, that meet something from one of the voxels `left`;
+/// 2^shared blocks share a bit.
+BP_WIDE_CLONES std::uint64_t find_blocks(const Levels& at, const CubeRow* blocks, std::int32_t n, std::int32_t dy,
+                                         const std::uint64_t* left, std::int32_t first, std::int32_t shared) {
   const Words open = *reinterpret_cast<const WordsInMemory*>(left);
   std::uint64_t bits = 0;
   for (std::int32_t k = 0; k < n; ++k) {
     Words met = {};
-    add_window(windows[k], at, met);
+    add_row(at, blocks[k], dy + k * RowTables::kRows, met);
     met &= open;
     bits |= std::uint64_t(any(met)) << ((first + k) >> shared);
   }
   return bits;
 }
 
-/// Takes from `left` what meets something of the windows.
-BP_WIDE_CLONES void ask_windows(const RowTables::Window* first, const RowTables::Window* last, const std::uint64_t* at,
-                                std::uint64_t* left) {
+/// Takes from `left` what meets something of n rows from dy on.
+BP_WIDE_CLONES void ask_rows(const Levels& at, const CubeRow* rows, std::int32_t n, std::int32_t dy,
+                             std::uint64_t* left) {
   Words met = {};
-  for (const RowTables::Window* w = first; w < last; ++w) add_window(*w, at, met);
+  for (std::int32_t i = 0; i < n; ++i) add_row(at, rows[i], dy + i, met);
   *reinterpret_cast<WordsInMemory*>(left) &= ~met;
+}
+
+/// met := those of `left` that meet something of the row. False if there are none.
+BP_WIDE_CLONES bool meet_row(const Levels& at, const CubeRow& row, std::int32_t dy, const std::uint64_t* left,
+                             std::uint64_t* met) {
+  Words sum = {};
+  add_row(at, row, dy, sum);
+  sum &= *reinterpret_cast<const WordsInMemory*>(left);
+  *reinterpret_cast<WordsInMemory*>(met) = sum;
+  return any(sum);
 }
 
 }  // namespace
 
-void RowTables::lay(const VoxelBox& region, std::int32_t reach, std::int32_t longest) {
+void RowTables::lay(const VoxelBox& region, std::int32_t reach) {
   region_ = region;
   pad_ = ceil_div(reach, 64) + 1;
-  levels_ = std::int32_t(std::bit_width(std::uint32_t(std::max(longest, 1))));
+  levels_ = std::int32_t(std::bit_width(std::uint32_t(2 * reach + 1)));
   first_y_ = floor_div(region.min.y - reach, kRows) * kRows - kRows;
   height_ = ceil_div(region.max.y + kRows + reach, kRows) * kRows + kRows - first_y_;
   columns_ = (region.max.x - region.min.x) / 64 + 2 * pad_ + 1;
@@ -100,65 +125,6 @@ void RowTables::lay(const VoxelBox& region, std::int32_t reach, std::int32_t lon
   tables_.assign(2 * level_words() * std::size_t(levels_));
   slices_.assign(level_words() * std::size_t(kRows));
   loaded_ = false;
-}
-
-/// Of the voxels [first, last] of row dy, or of a block that begins there.
-RowTables::Window RowTables::window(std::int32_t first, std::int32_t last, std::int32_t dy, Tables of) const {
-  Window w;
-  const int k = std::bit_width(std::uint32_t(last - first + 1)) - 1;
-  const std::int32_t starts[2] = {first, last - (1 << k) + 1};
-  for (int i = 0; i < 2; ++i) {
-    const std::int32_t column = floor_div(starts[i], 64), shift = starts[i] - 64 * column;
-    const auto base = std::int32_t(level(of, k)) + dy;
-    w.word[2 * i] = base + column * height_;
-    w.word[2 * i + 1] = shift == 0 ? w.word[2 * i] : w.word[2 * i] + height_;
-    w.down[i] = std::uint8_t(shift);
-    w.up[i] = std::uint8_t(shift == 0 ? 0 : 64 - shift);
-  }
-  return w;
-}
-
-RowTables::Element RowTables::prepare(CubeRows rows) const {
-  Element e{std::move(rows), {}, {}, {}, {}, 0, 0, 0};
-  e.most_dz = e.rows.reach();
-  const CubeRow *first = e.rows.begin(-e.most_dz), *last = e.rows.begin(e.most_dz + 1);
-  e.windows.reserve(std::size_t(last - first));
-  for (const CubeRow* row = first; row < last; ++row)
-    e.windows.push_back(window(row->first, row->last, row->dy, kSlice));
-  add_blocks(e);
-  return e;
-}
-
-void RowTables::add_blocks(Element& e) const {
-  e.first = floor_div(-e.most_dz, kRows);
-  e.across = floor_div(e.most_dz, kRows) + 1 - e.first;
-  struct Hull {
-    std::int32_t first = std::int32_t(1) << 30, last = -first;
-    [[nodiscard]] bool empty() const { return first > last; }
-    void add(const Hull& h) { first = std::min(first, h.first), last = std::max(last, h.last); }
-  };
-  std::vector<Hull> blocks(std::size_t(e.across) * std::size_t(e.across));
-  const CubeRow* all = e.rows.begin(-e.most_dz);
-  for (std::int32_t dz = -e.most_dz; dz <= e.most_dz; ++dz) {
-    const CubeRow* row = e.rows.begin(dz);
-    Hull* block = &blocks[std::size_t(floor_div(dz, kRows) - e.first) * std::size_t(e.across)];
-    for (std::int32_t i = e.first; i < e.first + e.across; ++i, ++block) {
-      e.starts.push_back(std::uint32_t(row - all));
-      for (; row < e.rows.begin(dz + 1) && row->dy < kRows * (i + 1); ++row) block->add({row->first, row->last});
-    }
-  }
-  e.starts.push_back(std::uint32_t(e.windows.size()));
-  for (std::size_t j = 0; j < std::size_t(e.across); ++j) {
-    const Hull* hulls = blocks.data() + j * std::size_t(e.across);
-    std::int32_t first = 0, end = e.across;
-    while (first < end && hulls[first].empty()) ++first;
-    while (first < end && hulls[end - 1].empty()) --end;
-    e.layers.push_back({e.first + first, end - first, e.blocks.size()});
-    for (std::int32_t i = first; i < end; ++i) {  // one without rows between others stands for a voxel
-      const Hull hull = hulls[i].empty() ? Hull{0, 0} : hulls[i];
-      e.blocks.push_back(window(hull.first, hull.last, kRows * (e.first + i), kBlocks));
-    }
-  }
 }
 
 bool RowTables::load_slice(const BitBox& solid, std::int32_t z, std::uint64_t* to) const {
@@ -217,23 +183,21 @@ void RowTables::place(std::int32_t x, std::int32_t y) {
   at_ = std::size_t((x - region_.min.x) / 64 + pad_) * std::size_t(height_) + std::size_t(y - first_y_);
 }
 
-std::uint64_t RowTables::near(const Element& e, std::int32_t dz, const std::uint64_t* left) const {
-  const Layer& layer = e.layers[std::size_t(dz / kRows - e.first)];
-  return find_windows(e.blocks.data() + layer.block, layer.count, tables_.data() + at_, left,
-                      layer.first + most_blocks_, shared_bits_);
+std::uint64_t RowTables::near(const CubeRows& cube, std::int32_t dz, const std::uint64_t* left) const {
+  const CubeRows::Stretch blocks = cube.blocks(dz / kRows);
+  return find_blocks({tables_.data() + level(kBlocks, 0) + at_, level_words(), std::size_t(height_)}, blocks.rows,
+                     blocks.end - blocks.begin, kRows * blocks.begin, left, blocks.begin + most_blocks_, shared_bits_);
 }
 
-void RowTables::ask(const Element& e, std::int32_t dz, std::uint64_t near, std::uint64_t* left) const {
-  if (!here_ || std::abs(dz) > e.most_dz) return;
-  const std::uint32_t* starts = e.starts.data() + std::size_t(dz + e.most_dz) * std::size_t(e.across);
-  while (near != 0) {  // run by run
-    const std::int32_t from = std::countr_zero(near), to = from + std::countr_one(near >> from);
-    near = to < 64 ? near >> to << to : 0;
-    const std::int32_t first = std::max((from << shared_bits_) - most_blocks_ - e.first, 0),
-                       last = std::min((to << shared_bits_) - most_blocks_ - e.first, e.across);
-    if (first < last)
-      ask_windows(e.windows.data() + starts[first], e.windows.data() + starts[last], tables_.data() + at_, left);
-  }
+void RowTables::ask(const CubeRows& cube, std::int32_t dz, std::uint64_t near, std::uint64_t* left) const {
+  for_runs(cube, dz, near, [&](const CubeRows::Stretch& run) {
+    ask_rows({tables_.data() + at_, level_words(), std::size_t(height_)}, run.rows, run.end - run.begin, run.begin,
+             left);
+  });
+}
+
+bool RowTables::meet(const CubeRow& row, std::int32_t dy, const std::uint64_t* left, std::uint64_t* met) const {
+  return meet_row({tables_.data() + at_, level_words(), std::size_t(height_)}, row, dy, left, met);
 }
 
 }  // namespace bp::detail

@@ -1,66 +1,57 @@
 #pragma once
+#include <bit>
 #include <vector>
 
 #include "lib/closing/detail/oriented_cube.h"
 #include "lib/grid/bit_box.h"
 
 /// One slice of a box of voxels, made ready for the question: where does a row of voxels, moved along with 64 x 8
-/// voxels at once, meet something? And the same for blocks of 8 x 8 rows, from 8 slices on.
+/// voxels at once, meet something? And the same for blocks of 8 x 8 rows, from 8 slices on. A row is two windows, each
+/// a power of two wide, and each window is read from two words.
 namespace bp::detail {
 
 class RowTables {
  public:
-  static constexpr std::int32_t kRows = 8;
+  static constexpr std::int32_t kRows = CubeRows::kEdge;
 
-  /// A stretch of x: two windows, each a power of two wide, that cover it. Each window is read from two words.
-  struct Window {
-    std::int32_t word[4] = {};              ///< from that of the asking voxels in the finest table
-    std::uint8_t down[2] = {}, up[2] = {};  ///< shifts
-  };
-  /// Blocks of one j, from the first to the last with rows: i from `first` on.
-  struct Layer {
-    std::int32_t first = 0, count = 0;
-    std::size_t block = 0;
-  };
-  /// Rows [8 i, 8 i + 8) of slices [8 j, 8 j + 8) are a block.
-  struct Element {
-    CubeRows rows;
-    std::vector<Window> windows;        ///< one for each of its rows
-    std::vector<std::uint32_t> starts;  ///< for each slice and i: number of its first row
-    std::vector<Layer> layers;          ///< for each j
-    std::vector<Window> blocks;         ///< those of the layers, one after the other: what any of a block's rows holds
-    std::int32_t most_dz = 0;
-    std::int32_t first = 0, across = 0;  ///< least i and j, and how many there are
-    [[nodiscard]] std::size_t bytes() const {
-      return windows.size() * (sizeof(Window) + sizeof(CubeRow)) + starts.size() * sizeof(std::uint32_t) +
-             blocks.size() * sizeof(Window) + layers.size() * sizeof(Layer);
-    }
-  };
-  /// Of an element of this reach.
-  static constexpr std::size_t most_bytes(std::int32_t reach) {
-    const auto side = std::size_t(2 * reach + 1), across = side / kRows + 2;
-    return side * side * (sizeof(Window) + sizeof(CubeRow)) + side * across * sizeof(std::uint32_t) +
-           across * (across * sizeof(Window) + sizeof(Layer));
-  }
-
-  /// Lays tables for questions from voxels of `region` by elements of this reach.
-  void lay(const VoxelBox& region, std::int32_t reach, std::int32_t longest);
-  [[nodiscard]] Element prepare(CubeRows rows) const;
+  /// Lays tables for questions from voxels of `region` by cubes of this reach.
+  void lay(const VoxelBox& region, std::int32_t reach);
 
   /// Loads slice z of `solid`, and the 7 behind it. False if nothing of them is in reach.
   bool load(const BitBox& solid, std::int32_t z);
   /// 64 x kRows voxels from (x, y) on ask from now on. x: of whole words.
   void place(std::int32_t x, std::int32_t y);
   /// The blocks from slice dz on, a multiple of 8, in which some of the `left` voxels may meet something. For ask().
-  [[nodiscard]] std::uint64_t near(const Element& element, std::int32_t dz, const std::uint64_t* left) const;
-  /// Takes from left[i] the voxels of row y + i that slice dz of the element, in the blocks `near`, meets something
-  /// from.
-  void ask(const Element& element, std::int32_t dz, std::uint64_t near, std::uint64_t* left) const;
+  [[nodiscard]] std::uint64_t near(const CubeRows& cube, std::int32_t dz, const std::uint64_t* left) const;
+  /// Takes from left[i] the voxels of row y + i that slice dz of the cube, in the blocks `near`, meets something from.
+  void ask(const CubeRows& cube, std::int32_t dz, std::uint64_t near, std::uint64_t* left) const;
+  /// The same, row by row: take(dy, row, met) for each row that some of `left` meet something of; it may change them.
+  template <class Take>
+  void ask_each(const CubeRows& cube, std::int32_t dz, std::uint64_t near, const std::uint64_t* left,
+                const Take& take) const {
+    for_runs(cube, dz, near, [&](const CubeRows::Stretch& run) {
+      for (std::int32_t dy = run.begin; dy < run.end; ++dy) {
+        std::uint64_t met[kRows];
+        if (meet(run.rows[dy - run.begin], dy, left, met)) take(dy, run.rows[dy - run.begin], met);
+      }
+    });
+  }
 
  private:
   enum Tables { kSlice, kBlocks };
-  [[nodiscard]] Window window(std::int32_t first, std::int32_t last, std::int32_t dy, Tables of) const;
-  void add_blocks(Element& element) const;
+  /// f(rows) for those of slice dz in runs of the blocks `near`.
+  template <class F>
+  void for_runs(const CubeRows& cube, std::int32_t dz, std::uint64_t near, const F& f) const {
+    if (!here_ || dz > cube.reach() || dz < -cube.reach()) return;
+    while (near != 0) {
+      const std::int32_t from = std::countr_zero(near), to = from + std::countr_one(near >> from);
+      near = to < 64 ? near >> to << to : 0;
+      const CubeRows::Stretch run = cube.rows(dz, kRows * ((from << shared_bits_) - most_blocks_),
+                                              kRows * ((to << shared_bits_) - most_blocks_));
+      if (run.begin < run.end) f(run);
+    }
+  }
+  [[nodiscard]] bool meet(const CubeRow& row, std::int32_t dy, const std::uint64_t* left, std::uint64_t* met) const;
   bool load_slice(const BitBox& solid, std::int32_t z, std::uint64_t* to) const;
   /// Level k of tables: x to x + 2^k - 1 together; by columns, y fastest.
   [[nodiscard]] std::size_t level(Tables of, std::int32_t k) const {

@@ -1,0 +1,16 @@
+#pragma once
+#include "lib/grid/bit_box.h"
+
+/// Boxes of voxels twice as large: voxel p there is the voxels 2 p to 2 p + (1, 1, 1) here.
+namespace bp::detail {
+
+/// The large voxels that hold a voxel of `box`.
+[[nodiscard]] VoxelBox halved(const VoxelBox& box);
+
+/// Sets `to` (its box is kept) to the large voxels that hold something. Cost: some 20 operations for 512 voxels.
+void halve(const BitBox& from, BitBox& to);
+
+/// Sets `to` (its box is kept) to what the large voxels hold.
+void double_up(const BitBox& from, BitBox& to);
+
+}  // namespace bp::detail
