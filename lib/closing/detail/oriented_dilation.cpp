@@ -6,6 +6,7 @@
 
 #include "lib/closing/closing.h"
 #include "lib/closing/detail/halves.h"
+#include "lib/closing/detail/rows.h"
 
 namespace bp {
 
@@ -70,7 +71,7 @@ void OrientedDilation::run(const BitBox& solid, const ScaleLattice& scale, BitBo
 int OrientedDilation::coarsest(const ScaleRange& range) const {
   int level = 0;
   while (cube_radius(range.max) >> (level + 1) >= kLeastRadius &&
-         (cubes_.rotations.size() == 1 || cubes_.edge % (kEdge << (level + 1)) == 0))
+         (cubes_.rotations.size() == 1 || cubes_.edge % (kCell << (level + 1)) == 0))
     ++level;
   return level;
 }
@@ -115,67 +116,71 @@ void OrientedDilation::list_blocks(const Level& level, const ScaleLattice& scale
   parts_.clear();
   blocks_.clear();
   open_.clear();
-  for (std::int32_t z = floor_div(box.min.z, kEdge) * kEdge; z < box.max.z; z += kEdge) {
-    for (std::int32_t y = floor_div(box.min.y, kEdge) * kEdge; y < box.max.y; y += kEdge) {
-      for (std::int32_t x = box.min.x; x < box.max.x; x += 64) {
-        Block block{{x, y, z}, parts_.size(), 0, open_.size()};
-        if (!take_open(block, level)) continue;
-        add_parts(block, scale);
-        blocks_.push_back(block);
-      }
+  for (std::int32_t z = floor_div(box.min.z, kSlices) * kSlices; z < box.max.z; z += kSlices) {
+    for (std::int32_t y = floor_div(box.min.y, kAcross) * kAcross; y < box.max.y; y += kAcross) {
+      for (std::int32_t x = box.min.x; x < box.max.x; x += 64) list_blocks({x, y, z}, level, scale);
     }
   }
   maybe_.assign(edge_ > 1 ? open_.size() : 0, 0);
 }
 
-/// False, and nothing taken, if it is known of all voxels of the block whether they are in.
-bool OrientedDilation::take_open(Block& block, const Level& level) {
-  const VoxelBox& box = level.in.box();
-  std::uint64_t words[kEdge * kEdge] = {};
-  const std::int32_t column = (block.first.x - box.min.x) / 64;
-  for (std::int32_t k = 0; k < kEdge; ++k) {
-    const std::int32_t z = block.first.z + k;
-    if (z < box.min.z || z >= box.max.z) continue;
-    std::uint64_t any = 0;
-    for (std::int32_t j = 0; j < kEdge; ++j) {
-      const std::int32_t y = block.first.y + j;
-      if (y < box.min.y || y >= box.max.y) continue;
-      any |= words[k * kEdge + j] = level.may.row(y, z)[column] & ~level.in.row(y, z)[column];
+/// Those of a word's width, where it is not known of all voxels whether they are in.
+void OrientedDilation::list_blocks(VoxelCoord first, const Level& level, const ScaleLattice& scale) {
+  const VoxelBox rows = intersect(level.in.box(), {first, first + VoxelCoord{64, kAcross, kSlices}});
+  const std::int32_t column = (first.x - level.in.box().min.x) / 64;
+  std::uint64_t words[kSlices * kAcross] = {}, any = 0;
+  for_each_row(rows, [&](std::int32_t y, std::int32_t z) {
+    std::uint64_t& word = words[(z - first.z) * kAcross + y - first.y];
+    any |= word = level.may.row(y, z)[column] & ~level.in.row(y, z)[column];
+  });
+  for (std::int32_t i = 0; any != 0; ++i, any >>= kAcross) {
+    constexpr Word kAll = (1U << kAcross) - 1;
+    if ((any & kAll) == 0) continue;
+    Block block{first + VoxelCoord{kAcross * i, 0, 0}, parts_.size(), 0, open_.size()};
+    for (std::int32_t k = 0; k < kSlices; ++k) {
+      for (std::int32_t j = 0; j < kAcross; ++j) {
+        open_.push_back(Word(words[k * kAcross + j] >> (kAcross * i)) & kAll);
+        if (open_.back() != 0) block.slices |= 1U << k;
+      }
     }
-    if (any != 0) block.slices |= 1U << k;
+    add_parts(block, scale);
+    blocks_.push_back(block);
   }
-  if (block.slices != 0) open_.insert(open_.end(), std::begin(words), std::end(words));
-  return block.slices != 0;
 }
 
 /// Cells with open voxels that are alike become one part.
 void OrientedDilation::add_parts(Block& block, const ScaleLattice& scale) {
-  std::uint64_t open = 0;
-  for (std::size_t i = 0; i < std::size_t(kEdge * kEdge); ++i) open |= open_[block.open + i];
-  for (std::int32_t i = 0; i < 64 / kEdge; ++i) {
-    const std::uint64_t mask = (open >> (kEdge * i) & 0xff) << (kEdge * i);
-    if (mask == 0) continue;
-    const VoxelCoord first = VoxelCoord{block.first.x + kEdge * i, block.first.y, block.first.z} * edge_;
-    const std::uint16_t rotation = cubes_.at(first);
-    const std::int32_t size = kEdge * edge_;
-    const ScaleRange s = scale_range(scale, {first, first + VoxelCoord{size, size, size}});
-    std::int32_t least = coarse_scale(row_sums_[rotation], s.min, edge_).sure,
-                 most = coarse_scale(row_sums_[rotation], s.max, edge_).possible;
-    if (s.min != s.max) {
-      least = floor_div(least, kStep) * kStep;
-      most = ceil_div(most, kStep) * kStep;
+  for (std::int32_t y = 0; y < kAcross / kCell; ++y) {
+    Word open = 0;
+    for (std::int32_t i = 0; i < kSlices * kAcross; ++i) {
+      if (i % kAcross / kCell == y) open |= open_[block.open + std::size_t(i)];
     }
-    most = std::min(most, kMostScale);
-    const auto same = std::find_if(parts_.begin() + std::ptrdiff_t(block.part), parts_.end(), [&](const Part& p) {
-      return p.rotation == rotation && p.min == least && p.max == most;
-    });
-    if (same != parts_.end()) {
-      same->mask |= mask;
-    } else {
-      parts_.push_back({mask, rotation, least, most});
+    for (std::int32_t x = 0; x < kAcross / kCell; ++x) {
+      const Word mask = (open >> (kCell * x) & 0xff) << (kCell * x);
+      if (mask == 0) continue;
+      const Part part = part_of(block.first + VoxelCoord{kCell * x, kCell * y, 0}, scale);
+      const auto same = std::find_if(
+          parts_.begin() + std::ptrdiff_t(block.part), parts_.end(),
+          [&](const Part& p) { return p.rotation == part.rotation && p.min == part.min && p.max == part.max; });
+      (same == parts_.end() ? parts_.emplace_back(part) : *same).mask[y] |= mask;
     }
   }
   block.parts = parts_.size() - block.part;
+}
+
+/// Of the cell that begins at a voxel.
+OrientedDilation::Part OrientedDilation::part_of(VoxelCoord cell, const ScaleLattice& scale) const {
+  const VoxelCoord first = cell * edge_;
+  const std::uint16_t rotation = cubes_.at(first);
+  const std::int32_t size = kCell * edge_;
+  const ScaleRange s = scale_range(scale, {first, first + VoxelCoord{size, size, size}});
+  std::int32_t least = coarse_scale(row_sums_[rotation], s.min, edge_).sure,
+               most = coarse_scale(row_sums_[rotation], s.max, edge_).possible;
+  if (s.min != s.max) {
+    least = floor_div(least, kStep) * kStep;
+    most = ceil_div(most, kStep) * kStep;
+  }
+  return {{}, rotation, least, std::min(most, kMostScale)};
 }
 
 /// Group by group: a block whose cubes do not fit goes on in the next one.
@@ -227,10 +232,10 @@ void OrientedDilation::sweep(const BitBox& solid, const ScaleLattice& scale) {
   if (group_.empty()) return;
   solid_ = &solid;
   scale_ = &scale;
-  const std::int32_t before = ceil_div(reach_, kEdge) * kEdge;  // where the first of its blocks of slices may begin
+  const std::int32_t before = ceil_div(reach_, kSlices) * kSlices;  // where the first of its blocks of slices may begin
   std::size_t first = 0, last = 0;                              // blocks in reach of the slice
-  for (std::int32_t z = group_.front().first.z - before; z < group_.back().first.z + kEdge + reach_; ++z) {
-    while (first < group_.size() && group_[first].first.z + kEdge - 1 + reach_ < z) ++first;
+  for (std::int32_t z = group_.front().first.z - before; z < group_.back().first.z + kSlices + reach_; ++z) {
+    while (first < group_.size() && group_[first].first.z + kSlices - 1 + reach_ < z) ++first;
     while (last < group_.size() && group_[last].first.z - before <= z) ++last;
     if (first == last) continue;
     const bool any = tables_.load(solid, z);
@@ -242,7 +247,7 @@ void OrientedDilation::sweep(const BitBox& solid, const ScaleLattice& scale) {
 /// `any`: the slice or one of the next seven holds something.
 void OrientedDilation::ask_slice(Block& block, std::int32_t dz_of_first, bool any) {
   tables_.place(block.first.x, block.first.y);
-  const std::int32_t begins = floor_div(dz_of_first, kEdge) * kEdge;  // of the slice that begins blocks of slices
+  const std::int32_t begins = floor_div(dz_of_first, kSlices) * kSlices;  // of the slice that begins blocks of slices
   const std::int32_t k = dz_of_first - begins;
   for (std::size_t i = block.part; i < block.part + block.parts; ++i) {
     Part& part = parts_[i];
@@ -255,15 +260,15 @@ void OrientedDilation::ask_slice(Block& block, std::int32_t dz_of_first, bool an
 }
 
 /// The part's voxels that are open in a slice of the block. False if there is none.
-bool OrientedDilation::still_open(const Block& block, const Part& part, int slice, std::uint64_t* open) const {
-  std::uint64_t any = 0;
-  for (std::int32_t j = 0; j < kEdge; ++j)
-    any |= open[j] = open_[block.open + std::size_t(slice * kEdge + j)] & part.mask;
+bool OrientedDilation::still_open(const Block& block, const Part& part, int slice, Word* open) const {
+  const Word* all = &open_[block.open + std::size_t(slice * kAcross)];
+  Word any = 0;
+  for (std::int32_t j = 0; j < kAcross; ++j) any |= open[j] = all[j] & part.mask[j / kCell];
   return any != 0;
 }
 
 void OrientedDilation::look(const Block& block, Part& part, int slice, std::int32_t dz, bool any) const {
-  std::uint64_t open[kEdge];
+  Word open[kAcross];
   any = any && dz <= part.most->reach() && still_open(block, part, slice, open);
   part.near[slice] = any ? tables_.near(*part.most, dz, open) : 0;
   part.asks = (part.asks & ~(1U << slice)) | (part.near[slice] != 0 ? 1U << slice : 0);
@@ -271,42 +276,45 @@ void OrientedDilation::look(const Block& block, Part& part, int slice, std::int3
 
 /// Of one slice of the block.
 void OrientedDilation::ask_part(const Block& block, Part& part, int slice, std::int32_t dz) {
-  std::uint64_t asking[kEdge];
+  Word asking[kAcross];
   if (!still_open(block, part, slice, asking)) {
     part.asks &= ~(1U << slice);
     return;
   }
-  std::uint64_t* open = &open_[block.open + std::size_t(slice * kEdge)];
+  Word* open = &open_[block.open + std::size_t(slice * kAcross)];
   if (part.least != nullptr) {
-    tables_.ask(*part.least, dz, part.near[slice], asking);
-    for (std::int32_t j = 0; j < kEdge; ++j) open[j] &= asking[j] | ~part.mask;
+    Word still[kAcross];
+    std::copy_n(asking, kAcross, still);
+    tables_.ask(*part.least, dz, part.near[slice], still);
+    for (std::int32_t j = 0; j < kAcross; ++j) open[j] ^= asking[j] ^ still[j];
     if (part.least == part.most) return;
+    std::copy_n(still, kAcross, asking);
   }
   if (edge_ == 1) return ask_each(block, part, slice, dz, asking);
-  std::uint64_t* maybe = &maybe_[block.open + std::size_t(slice * kEdge)];
-  for (std::int32_t j = 0; j < kEdge; ++j) asking[j] &= ~maybe[j];
-  tables_.ask(*part.most, dz, part.near[slice], asking);
-  for (std::int32_t j = 0; j < kEdge; ++j) maybe[j] |= open[j] & part.mask & ~asking[j];
+  Word* maybe = &maybe_[block.open + std::size_t(slice * kAcross)];
+  Word left[kAcross];
+  for (std::int32_t j = 0; j < kAcross; ++j) left[j] = asking[j] &= ~maybe[j];
+  tables_.ask(*part.most, dz, part.near[slice], left);
+  for (std::int32_t j = 0; j < kAcross; ++j) maybe[j] |= asking[j] ^ left[j];
 }
 
 /// Of the voxels that are `asking`, each by its own scale: they meet nothing of the least cube.
-void OrientedDilation::ask_each(const Block& block, const Part& part, int slice, std::int32_t dz,
-                                const std::uint64_t* asking) {
+void OrientedDilation::ask_each(const Block& block, const Part& part, int slice, std::int32_t dz, const Word* asking) {
   const Rotation& rotation = cubes_.rotations[part.rotation];
   const VoxelBox& box = solid_->box();
-  std::uint64_t* open = &open_[block.open + std::size_t(slice * kEdge)];
+  Word* open = &open_[block.open + std::size_t(slice * kAcross)];
   const VoxelCoord first = block.first + VoxelCoord{0, 0, slice};
-  tables_.ask_each(*part.most, dz, part.near[slice], asking, [&](std::int32_t dy, CubeRow row, const std::uint64_t* met) {
-    for (std::int32_t j = 0; j < kEdge; ++j) {
+  tables_.ask_each(*part.most, dz, part.near[slice], asking, [&](std::int32_t dy, CubeRow row, const Word* met) {
+    for (std::int32_t j = 0; j < kAcross; ++j) {
       if (first.y + j + dy < box.min.y || first.y + j + dy >= box.max.y) continue;
       const std::uint64_t* bits = solid_->row(first.y + j + dy, first.z + dz);
-      for (std::uint64_t left = met[j] & open[j]; left != 0; left &= left - 1) {
+      for (Word left = met[j] & open[j]; left != 0; left &= left - 1) {
         const int i = std::countr_zero(left);
         const Scale s = scale_->at(first + VoxelCoord{i, j, 0});
         const std::int32_t x = first.x + i - box.min.x;
         if (any_bit(bits, box.max.x - box.min.x, x + row.first, x + row.last,
                     [&](std::int32_t at) { return in_oriented_cube(rotation, s, at - x, dy, dz); }))
-          open[j] &= ~(std::uint64_t(1) << i);
+          open[j] &= ~(Word(1) << i);
       }
     }
   });
@@ -316,16 +324,15 @@ void OrientedDilation::ask_each(const Block& block, const Part& part, int slice,
 void OrientedDilation::finish(Level& level) const {
   const VoxelBox& box = level.in.box();
   for (const Block& block : blocks_) {
-    const std::int32_t column = (block.first.x - box.min.x) / 64;
-    const VoxelBox rows = intersect(box, {block.first, block.first + VoxelCoord{64, kEdge, kEdge}});
-    for (std::int32_t z = rows.min.z; z < rows.max.z; ++z) {
-      for (std::int32_t y = rows.min.y; y < rows.max.y; ++y) {
-        const std::size_t word = block.open + std::size_t((z - block.first.z) * kEdge + y - block.first.y);
-        std::uint64_t &in = level.in.row(y, z)[column], &may = level.may.row(y, z)[column];
-        in |= may & ~open_[word];
-        if (edge_ > 1) may = in | maybe_[word];
-      }
-    }
+    const std::int32_t column = (block.first.x - box.min.x) / 64, shift = block.first.x & 63;
+    for_each_row(intersect(box, {block.first, block.first + VoxelCoord{kAcross, kAcross, kSlices}}),
+                 [&](std::int32_t y, std::int32_t z) {
+                   const std::size_t word = block.open + std::size_t((z - block.first.z) * kAcross + y - block.first.y);
+                   const std::uint64_t all = std::uint64_t((1U << kAcross) - 1) << shift;
+                   std::uint64_t &in = level.in.row(y, z)[column], &may = level.may.row(y, z)[column];
+                   in |= may & all & ~(std::uint64_t(open_[word]) << shift);
+                   if (edge_ > 1) may &= in | ~all | std::uint64_t(maybe_[word]) << shift;
+                 });
   }
 }
 

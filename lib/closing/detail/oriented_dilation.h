@@ -18,14 +18,16 @@ class OrientedDilation {
   /// Sets `out` (its box is kept, within the region) to the voxels whose turned cube holds a voxel of `solid`.
   /// From large voxels to small ones: at each level the cubes of some that are in for sure and of some that may be are
   /// asked for, and what they leave open is asked for at the next one. At first the largest cube along the axes that lies
-  /// in all turned ones decides, and the smallest around them. Rows of a turned cube are asked for by 64 x 8 voxels at
+  /// in all turned ones decides, and the smallest around them. Rows of a turned cube are asked for by 16 x 16 voxels at
   /// once, and blocks of 8 x 8 rows before them: some 5 cycles for each row and block that is asked. Where the scale
   /// varies in a cell, the least and the largest are asked for, and each voxel for the rows on which they disagree. The
   /// solid is swept once for as many cubes as most_bytes hold, or turned_cubes_bytes(); they are kept for the next call.
   void run(const BitBox& solid, const ScaleLattice& scale, BitBox& out, std::size_t most_bytes = 0);
 
  private:
-  static constexpr std::int32_t kEdge = RowTables::kRows;  ///< of a block: the cells of the lattice
+  static constexpr std::int32_t kCell = kScaleStep, kAcross = RowTables::kAcross;
+  static constexpr std::int32_t kSlices = RowTables::kSlices;  ///< of a block: a cell
+  using Word = RowTables::Word;
 
   /// Voxels of 2^level voxels a side.
   struct Level {
@@ -34,18 +36,18 @@ class OrientedDilation {
   };
   /// Voxels of a block whose cubes are alike, by the least and the largest that any of them has.
   struct Part {
-    std::uint64_t mask;  ///< of x
+    Word mask[kAcross / kCell];  ///< of x, for the rows of each cell
     std::uint16_t rotation;
     std::int32_t min, max;  ///< scales, in 1/16 of the level's voxels; min < 0: none is in for sure
     const CubeRows *least = nullptr, *most = nullptr;  ///< while it is asked for
-    std::uint64_t near[kEdge] = {};                    ///< for each slice: what of the cubes' next slices is asked for
+    std::uint64_t near[kSlices] = {};                    ///< for each slice: what of the cubes' next slices is asked for
     std::uint32_t asks = 0;                            ///< slices of which something is
   };
-  /// 64 x 8 x 8 voxels.
+  /// kAcross x kAcross x kSlices voxels: four cells.
   struct Block {
     VoxelCoord first;
     std::size_t part, parts;
-    std::size_t open;          ///< of its kEdge^2 words in open_ and maybe_: y fastest
+    std::size_t open;          ///< of its words in open_ and maybe_: y fastest
     std::uint32_t slices = 0;  ///< that have open voxels
   };
 
@@ -53,7 +55,8 @@ class OrientedDilation {
   void lay_levels(const BitBox& solid, const ScaleRange& range, const VoxelBox& region, int coarsest);
   void decide_level(int level, const BitBox& solid, const ScaleLattice& scale);
   void list_blocks(const Level& level, const ScaleLattice& scale);
-  bool take_open(Block& block, const Level& level);
+  void list_blocks(VoxelCoord first, const Level& level, const ScaleLattice& scale);
+  [[nodiscard]] Part part_of(VoxelCoord cell, const ScaleLattice& scale) const;
   void add_parts(Block& block, const ScaleLattice& scale);
   void decide_blocks(const BitBox& solid, const ScaleLattice& scale);
   bool prepare(Part& part);
@@ -61,9 +64,9 @@ class OrientedDilation {
   void sweep(const BitBox& solid, const ScaleLattice& scale);
   void ask_slice(Block& block, std::int32_t dz_of_first, bool any);
   void ask_part(const Block& block, Part& part, int slice, std::int32_t dz);
-  [[nodiscard]] bool still_open(const Block& block, const Part& part, int slice, std::uint64_t* open) const;
+  [[nodiscard]] bool still_open(const Block& block, const Part& part, int slice, Word* open) const;
   void look(const Block& block, Part& part, int slice, std::int32_t dz, bool any) const;
-  void ask_each(const Block& block, const Part& part, int slice, std::int32_t dz, const std::uint64_t* asking);
+  void ask_each(const Block& block, const Part& part, int slice, std::int32_t dz, const Word* asking);
   void finish(Level& level) const;
 
   CubesOver cubes_;                    ///< of the region
@@ -78,7 +81,7 @@ class OrientedDilation {
   std::vector<Part> parts_;
   std::vector<Block> blocks_;  ///< by z, then y, then x
   std::vector<Block> group_;   ///< some of them, of some of their parts: those whose cubes are there
-  std::vector<std::uint64_t> open_, maybe_;
+  std::vector<Word> open_, maybe_;
   CubeDilation cube_;
 };
 

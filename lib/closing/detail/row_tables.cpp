@@ -9,31 +9,32 @@ namespace bp::detail {
 
 namespace {
 
-/// to[i] = from[i] | voxels `shift` further, of which the next column holds the rest.
-BP_CLONES void widen(const std::uint64_t* from, const std::uint64_t* near, const std::uint64_t* far, std::int32_t shift,
-                     std::size_t n, std::uint64_t* to) {
-  if (shift == 0) {
-    for (std::size_t i = 0; i < n; ++i) to[i] = from[i] | near[i];
-  } else {
-    for (std::size_t i = 0; i < n; ++i) to[i] = from[i] | near[i] >> shift | far[i] << (64 - shift);
-  }
+using Word = RowTables::Word;
+constexpr std::int32_t kAcross = RowTables::kAcross;
+
+/// to[i] = from[i] | voxels `shift` further, of which the next column has the rest. shift < kAcross.
+BP_CLONES void widen(const Word* from, const Word* next, std::int32_t shift, std::size_t n, Word* to) {
+  for (std::size_t i = 0; i < n; ++i) to[i] = from[i] | from[i] >> shift | next[i] << (kAcross - shift);
+}
+BP_CLONES void unite(const Word* a, const Word* b, std::size_t n, Word* to) {
+  for (std::size_t i = 0; i < n; ++i) to[i] = a[i] | b[i];
 }
 
-/// to[i] := words i of `count` slices of n, one after the other.
-BP_CLONES void join_slices(const std::uint64_t* slices, std::size_t n, std::uint64_t* to) {
+/// to[i] := words i of kSlices slices of n, one after the other.
+BP_CLONES void join_slices(const Word* slices, std::size_t n, Word* to) {
   for (std::size_t i = 0; i < n; ++i) {
-    std::uint64_t any = 0;
-    for (std::size_t k = 0; k < std::size_t(RowTables::kRows); ++k) any |= slices[k * n + i];
+    Word any = 0;
+    for (std::size_t k = 0; k < std::size_t(RowTables::kSlices); ++k) any |= slices[k * n + i];
     to[i] = any;
   }
 }
 
-/// to[i] := words i to i + kRows - 1 of n; of the last ones, no more than there are.
-BP_CLONES void join_rows(const std::uint64_t* from, std::size_t n, std::uint64_t* to) {
-  constexpr auto rows = std::size_t(RowTables::kRows);
+/// to[i] := words i to i + kEdge - 1 of n; of the last ones, no more than there are.
+BP_CLONES void join_rows(const Word* from, std::size_t n, Word* to) {
+  constexpr auto rows = std::size_t(CubeRows::kEdge);
   std::size_t i = 0;
   for (; i + rows <= n; ++i) {
-    std::uint64_t any = 0;
+    Word any = 0;
     for (std::size_t k = 0; k < rows; ++k) any |= from[i + k];
     to[i] = any;
   }
@@ -43,12 +44,14 @@ BP_CLONES void join_rows(const std::uint64_t* from, std::size_t n, std::uint64_t
   }
 }
 
-/// A word of each of kRows rows. Vectors of GCC and Clang: loops over them are not always made into such.
-typedef std::uint64_t Words __attribute__((vector_size(8 * RowTables::kRows)));
-typedef std::uint64_t WordsInMemory __attribute__((vector_size(8 * RowTables::kRows), aligned(8), may_alias));
+/// A word of each of kAcross rows. Vectors of GCC and Clang: loops over them are not always made into such.
+constexpr std::size_t kVector = sizeof(Word) * kAcross;
+typedef Word Words __attribute__((vector_size(kVector)));
+typedef Word WordsInMemory __attribute__((vector_size(kVector), aligned(sizeof(Word)), may_alias));
+typedef std::uint64_t LongWords __attribute__((vector_size(kVector)));
 
 BP_INLINE bool any(const Words& words) {
-  Words w = words;
+  LongWords w = (LongWords)words;
   w |= __builtin_shufflevector(w, w, 4, 5, 6, 7, 0, 1, 2, 3);
   w |= __builtin_shufflevector(w, w, 2, 3, 0, 1, 6, 7, 4, 5);
   return (w[0] | w[1]) != 0;
@@ -56,17 +59,15 @@ BP_INLINE bool any(const Words& words) {
 
 /// Where rows are looked up: level k of the tables begins k `level` words further.
 struct Levels {
-  const std::uint64_t* first;  ///< of who asks
-  std::size_t level, height;   ///< words
+  const Word* first;          ///< of who asks
+  std::size_t level, height;  ///< words
 };
 
 /// sum |= what 2^k voxels from `start` on hold.
 BP_INLINE void add_window(const Levels& at, int k, std::int32_t start, std::int32_t dy, Words& sum) {
-  const std::uint64_t* table = at.first + std::size_t(k) * at.level + (start >> 6) * std::ptrdiff_t(at.height) + dy;
-  const int down = start & 63, up = -start & 63;
-  const WordsInMemory* here = reinterpret_cast<const WordsInMemory*>(table);
-  const WordsInMemory* next = reinterpret_cast<const WordsInMemory*>(table + (down != 0 ? at.height : 0));
-  sum |= *here >> down | *next << up;
+  const std::ptrdiff_t column = start >> 4;
+  const Word* table = at.first + std::size_t(k) * at.level + column * std::ptrdiff_t(at.height) + dy;
+  sum |= *reinterpret_cast<const WordsInMemory*>(table) >> (start & (kAcross - 1));
 }
 
 /// sum |= what row dy meets.
@@ -81,12 +82,12 @@ BP_INLINE void add_row(const Levels& at, const CubeRow& row, std::int32_t dy, Wo
 /// Flags of the n blocks, number `first` of the bits and on, that meet something from one of the voxels `left`;
 /// 2^shared blocks share a bit.
 BP_WIDE_CLONES std::uint64_t find_blocks(const Levels& at, const CubeRow* blocks, std::int32_t n, std::int32_t dy,
-                                         const std::uint64_t* left, std::int32_t first, std::int32_t shared) {
+                                         const Word* left, std::int32_t first, std::int32_t shared) {
   const Words open = *reinterpret_cast<const WordsInMemory*>(left);
   std::uint64_t bits = 0;
   for (std::int32_t k = 0; k < n; ++k) {
     Words met = {};
-    add_row(at, blocks[k], dy + k * RowTables::kRows, met);
+    add_row(at, blocks[k], dy + k * CubeRows::kEdge, met);
     met &= open;
     bits |= std::uint64_t(any(met)) << ((first + k) >> shared);
   }
@@ -95,15 +96,15 @@ BP_WIDE_CLONES std::uint64_t find_blocks(const Levels& at, const CubeRow* blocks
 
 /// Takes from `left` what meets something of n rows from dy on.
 BP_WIDE_CLONES void ask_rows(const Levels& at, const CubeRow* rows, std::int32_t n, std::int32_t dy,
-                             std::uint64_t* left) {
+                             Word* left) {
   Words met = {};
   for (std::int32_t i = 0; i < n; ++i) add_row(at, rows[i], dy + i, met);
   *reinterpret_cast<WordsInMemory*>(left) &= ~met;
 }
 
 /// met := those of `left` that meet something of the row. False if there are none.
-BP_WIDE_CLONES bool meet_row(const Levels& at, const CubeRow& row, std::int32_t dy, const std::uint64_t* left,
-                             std::uint64_t* met) {
+BP_WIDE_CLONES bool meet_row(const Levels& at, const CubeRow& row, std::int32_t dy, const Word* left,
+                             Word* met) {
   Words sum = {};
   add_row(at, row, dy, sum);
   sum &= *reinterpret_cast<const WordsInMemory*>(left);
@@ -115,32 +116,36 @@ BP_WIDE_CLONES bool meet_row(const Levels& at, const CubeRow& row, std::int32_t 
 
 void RowTables::lay(const VoxelBox& region, std::int32_t reach) {
   region_ = region;
-  pad_ = ceil_div(reach, 64) + 1;
+  pad_ = ceil_div(reach, kAcross) + 1;
   levels_ = std::int32_t(std::bit_width(std::uint32_t(2 * reach + 1)));
-  first_y_ = floor_div(region.min.y - reach, kRows) * kRows - kRows;
-  height_ = ceil_div(region.max.y + kRows + reach, kRows) * kRows + kRows - first_y_;
-  columns_ = (region.max.x - region.min.x) / 64 + 2 * pad_ + 1;
-  most_blocks_ = ceil_div(reach, kRows);
+  first_y_ = floor_div(region.min.y, kAcross) * kAcross - ceil_div(reach, kAcross) * kAcross;
+  height_ = (ceil_div(region.max.y, kAcross) + ceil_div(reach, kAcross)) * kAcross + kAcross - first_y_;
+  columns_ = (region.max.x - region.min.x) / kAcross + 2 * pad_;
+  most_blocks_ = ceil_div(reach, CubeRows::kEdge);
   for (shared_bits_ = 0; (2 * most_blocks_) >> shared_bits_ >= 64;) ++shared_bits_;
-  tables_.assign(2 * level_words() * std::size_t(levels_));
-  slices_.assign(level_words() * std::size_t(kRows));
+  tables_.assign(2 * level_words() * std::size_t(levels_), 0);
+  slices_.assign(level_words() * std::size_t(kSlices), 0);
   loaded_ = false;
 }
 
-bool RowTables::load_slice(const BitBox& solid, std::int32_t z, std::uint64_t* to) const {
+bool RowTables::load_slice(const BitBox& solid, std::int32_t z, Word* to) const {
   const VoxelBox& box = solid.box();
   std::fill_n(to, level_words(), 0);
   if (z < box.min.z || z >= box.max.z) return false;
   const std::int32_t y0 = std::max(box.min.y, first_y_), y1 = std::min(box.max.y, first_y_ + height_);
-  const std::int32_t left = region_.min.x - 64 * pad_;
-  const std::int32_t c0 = std::max(0, (box.min.x - left) / 64), c1 = std::min(columns_, (box.max.x - left) / 64);
+  const std::int32_t first = (box.min.x - region_.min.x) / kAcross + pad_;  // column of the solid's first word
   bool any = false;
   for (std::int32_t y = y0; y < y1; ++y) {
-    const std::uint64_t* row = solid.row(y, z) - (box.min.x - left) / 64;
-    for (std::int32_t c = c0; c < c1; ++c) {
-      if (row[c] == 0) continue;
-      to[std::size_t(c) * std::size_t(height_) + std::size_t(y - first_y_)] = row[c];
+    const std::uint64_t* row = solid.row(y, z);
+    for (std::int32_t w = 0; w < solid.words_per_row(); ++w) {
+      if (row[w] == 0) continue;
       any = true;
+      for (int part = -1; part < 64 / kAcross; ++part) {
+        const std::int32_t column = first + w * (64 / kAcross) + part;
+        if (column < 0 || column >= columns_) continue;
+        to[std::size_t(column) * std::size_t(height_) + std::size_t(y - first_y_)] |=
+            Word(part < 0 ? row[w] << kAcross : row[w] >> (kAcross * part));
+      }
     }
   }
   return any;
@@ -150,25 +155,29 @@ void RowTables::double_along(Tables of) {
   const auto h = std::size_t(height_);
   for (std::int32_t k = 1; k < levels_; ++k) {
     const std::int32_t shift = 1 << (k - 1);
-    const std::uint64_t* from = tables_.data() + level(of, k - 1);
-    std::uint64_t* to = tables_.data() + level(of, k);
+    const Word* from = tables_.data() + level(of, k - 1);
+    Word* to = tables_.data() + level(of, k);
     for (std::int32_t c = 0; c < columns_; ++c) {
-      // What lies beyond the last column is out of every element's reach.
-      const std::int32_t near = std::min(c + shift / 64, columns_ - 1), far = std::min(near + 1, columns_ - 1);
-      widen(from + std::size_t(c) * h, from + std::size_t(near) * h, from + std::size_t(far) * h, shift % 64, h,
-            to + std::size_t(c) * h);
+      // What lies beyond the last column is out of every cube's reach.
+      const std::int32_t next = std::min(c + std::max(shift / kAcross, 1), columns_ - 1);
+      const Word *here = from + std::size_t(c) * h, *there = from + std::size_t(next) * h;
+      if (shift < kAcross) {
+        widen(here, there, shift, h, to + std::size_t(c) * h);
+      } else {
+        unite(here, there, h, to + std::size_t(c) * h);
+      }
     }
   }
 }
 
 bool RowTables::load(const BitBox& solid, std::int32_t z) {
-  const auto number = [](std::int32_t slice) { return std::size_t(slice & (kRows - 1)); };
-  if (!loaded_ || next_ < z || next_ > z + kRows) next_ = z;
-  for (; next_ < z + kRows; ++next_)
+  const auto number = [](std::int32_t slice) { return std::size_t(slice & (kSlices - 1)); };
+  if (!loaded_ || next_ < z || next_ > z + kSlices) next_ = z;
+  for (; next_ < z + kSlices; ++next_)
     held_[number(next_)] = load_slice(solid, next_, slices_.data() + number(next_) * level_words());
   loaded_ = true;
   here_ = held_[number(z)];
-  if (std::none_of(held_, held_ + kRows, [](bool held) { return held; })) return false;
+  if (std::none_of(held_, held_ + kSlices, [](bool held) { return held; })) return false;
   // What 8 slices hold, in the place of the slice's own until it comes itself.
   join_slices(slices_.data(), level_words(), tables_.data());
   join_rows(tables_.data(), level_words(), tables_.data() + level(kBlocks, 0));
@@ -180,23 +189,23 @@ bool RowTables::load(const BitBox& solid, std::int32_t z) {
 }
 
 void RowTables::place(std::int32_t x, std::int32_t y) {
-  at_ = std::size_t((x - region_.min.x) / 64 + pad_) * std::size_t(height_) + std::size_t(y - first_y_);
+  at_ = std::size_t((x - region_.min.x) / kAcross + pad_) * std::size_t(height_) + std::size_t(y - first_y_);
 }
 
-std::uint64_t RowTables::near(const CubeRows& cube, std::int32_t dz, const std::uint64_t* left) const {
-  const CubeRows::Stretch blocks = cube.blocks(dz / kRows);
+std::uint64_t RowTables::near(const CubeRows& cube, std::int32_t dz, const Word* left) const {
+  const CubeRows::Stretch blocks = cube.blocks(dz / CubeRows::kEdge);
   return find_blocks({tables_.data() + level(kBlocks, 0) + at_, level_words(), std::size_t(height_)}, blocks.rows,
-                     blocks.end - blocks.begin, kRows * blocks.begin, left, blocks.begin + most_blocks_, shared_bits_);
+                     blocks.end - blocks.begin, CubeRows::kEdge * blocks.begin, left, blocks.begin + most_blocks_, shared_bits_);
 }
 
-void RowTables::ask(const CubeRows& cube, std::int32_t dz, std::uint64_t near, std::uint64_t* left) const {
+void RowTables::ask(const CubeRows& cube, std::int32_t dz, std::uint64_t near, Word* left) const {
   for_runs(cube, dz, near, [&](const CubeRows::Stretch& run) {
     ask_rows({tables_.data() + at_, level_words(), std::size_t(height_)}, run.rows, run.end - run.begin, run.begin,
              left);
   });
 }
 
-bool RowTables::meet(const CubeRow& row, std::int32_t dy, const std::uint64_t* left, std::uint64_t* met) const {
+bool RowTables::meet(const CubeRow& row, std::int32_t dy, const Word* left, Word* met) const {
   return meet_row({tables_.data() + at_, level_words(), std::size_t(height_)}, row, dy, left, met);
 }
 
