@@ -16,7 +16,7 @@ struct CubeRow {
 /// asked for.
 class CubeRows {
  public:
-  static constexpr std::int32_t kEdge = 8;  ///< rows [8 i, 8 i + 8) of slices [8 j, 8 j + 8) are a block
+  static constexpr std::int32_t kEdge = 4;  ///< rows [4 i, 4 i + 4) of slices [4 j, 4 j + 4) are a block
 
   /// `rotation` is canonical. Cost: that of the blocks, a few divisions each.
   CubeRows(const Rotation& rotation, Scale s);
@@ -30,7 +30,7 @@ class CubeRows {
   };
   /// Those rows dy in [begin, end) of slice dz, |dz| <= reach(), that have voxels.
   [[nodiscard]] Stretch rows(std::int32_t dz, std::int32_t begin, std::int32_t end) const;
-  /// Blocks i of slices [8 j, 8 j + 8), from the first to the last with voxels: what any of a block's rows holds, and
+  /// Blocks i of slices [4 j, 4 j + 4), from the first to the last with voxels: what any of a block's rows holds, and
   /// perhaps some more.
   [[nodiscard]] Stretch blocks(std::int32_t j) const;
 

@@ -232,7 +232,7 @@ void OrientedDilation::sweep(const BitBox& solid, const ScaleLattice& scale) {
   if (group_.empty()) return;
   solid_ = &solid;
   scale_ = &scale;
-  const std::int32_t before = ceil_div(reach_, kSlices) * kSlices;  // where the first of its blocks of slices may begin
+  const std::int32_t before = ceil_div(reach_, CubeRows::kEdge) * CubeRows::kEdge;  // where the first of its blocks of slices may begin
   std::size_t first = 0, last = 0;                              // blocks in reach of the slice
   for (std::int32_t z = group_.front().first.z - before; z < group_.back().first.z + kSlices + reach_; ++z) {
     while (first < group_.size() && group_[first].first.z + kSlices - 1 + reach_ < z) ++first;
@@ -247,11 +247,13 @@ void OrientedDilation::sweep(const BitBox& solid, const ScaleLattice& scale) {
 /// `any`: the slice or one of the next seven holds something.
 void OrientedDilation::ask_slice(Block& block, std::int32_t dz_of_first, bool any) {
   tables_.place(block.first.x, block.first.y);
-  const std::int32_t begins = floor_div(dz_of_first, kSlices) * kSlices;  // of the slice that begins blocks of slices
-  const std::int32_t k = dz_of_first - begins;
+  constexpr std::int32_t edge = CubeRows::kEdge;
+  const std::int32_t begins = dz_of_first - floor_div(dz_of_first, edge) * edge;
   for (std::size_t i = block.part; i < block.part + block.parts; ++i) {
     Part& part = parts_[i];
-    if ((block.slices >> k & 1) != 0) look(block, part, k, begins, any);
+    for (std::int32_t k = begins; k < kSlices; k += edge) {
+      if ((block.slices >> k & 1) != 0) look(block, part, k, dz_of_first - k, any);
+    }
     for (std::uint32_t left = part.asks; left != 0; left &= left - 1) {
       const int slice = std::countr_zero(left);
       ask_part(block, part, slice, dz_of_first - slice);

@@ -26,7 +26,7 @@ class OrientedDilation {
 
  private:
   static constexpr std::int32_t kCell = kScaleStep, kAcross = RowTables::kAcross;
-  static constexpr std::int32_t kSlices = RowTables::kSlices;  ///< of a block: a cell
+  static constexpr std::int32_t kSlices = kCell;  ///< of a block
   using Word = RowTables::Word;
 
   /// Voxels of 2^level voxels a side.

@@ -57,31 +57,41 @@ BP_INLINE bool any(const Words& words) {
   return (w[0] | w[1]) != 0;
 }
 
-/// Where rows are looked up: level k of the tables begins k `level` words further.
-struct Levels {
-  const Word* first;          ///< of who asks
-  std::size_t level, height;  ///< words
+}  // namespace
+
+/// Who asks: words are looked up from here on.
+struct RowTables::Asker {
+  const Word* here;
+  const Windows* of_length;
+  const std::int32_t* of_start;  ///< [0]: of start 0
 };
 
-/// sum |= what 2^k voxels from `start` on hold.
-BP_INLINE void add_window(const Levels& at, int k, std::int32_t start, std::int32_t dy, Words& sum) {
-  const std::ptrdiff_t column = start >> 4;
-  const Word* table = at.first + std::size_t(k) * at.level + column * std::ptrdiff_t(at.height) + dy;
-  sum |= *reinterpret_cast<const WordsInMemory*>(table) >> (start & (kAcross - 1));
+RowTables::Asker RowTables::asker(Tables of) const {
+  return {tables_.data() + level(of, 0) + at_, windows_.data(), columns_of_.data() + reach_};
+}
+
+namespace {
+
+/// sum |= what the window from `start` on holds.
+template <class Asker>
+BP_INLINE void add_window(const Asker& a, const Word* table, std::int32_t start, Words& sum) {
+  sum |= *reinterpret_cast<const WordsInMemory*>(table + a.of_start[start]) >> (start & (kAcross - 1));
 }
 
 /// sum |= what row dy meets.
-BP_INLINE void add_row(const Levels& at, const CubeRow& row, std::int32_t dy, Words& sum) {
+template <class Asker>
+BP_INLINE void add_row(const Asker& a, const CubeRow& row, std::int32_t dy, Words& sum) {
   const std::int32_t length = row.last - row.first + 1;
   if (length <= 0) return;
-  const int k = 31 - __builtin_clz(unsigned(length));
-  add_window(at, k, row.first, dy, sum);
-  add_window(at, k, row.last + 1 - (1 << k), dy, sum);
+  const auto [begin, voxels] = a.of_length[length];
+  const Word* table = a.here + (begin + dy);
+  add_window(a, table, row.first, sum);
+  add_window(a, table, row.last + 1 - voxels, sum);
 }
 
 /// Flags of the n blocks, number `first` of the bits and on, that meet something from one of the voxels `left`;
 /// 2^shared blocks share a bit.
-BP_WIDE_CLONES std::uint64_t find_blocks(const Levels& at, const CubeRow* blocks, std::int32_t n, std::int32_t dy,
+BP_WIDE_CLONES std::uint64_t find_blocks(const RowTables::Asker& at, const CubeRow* blocks, std::int32_t n, std::int32_t dy,
                                          const Word* left, std::int32_t first, std::int32_t shared) {
   const Words open = *reinterpret_cast<const WordsInMemory*>(left);
   std::uint64_t bits = 0;
@@ -95,7 +105,7 @@ BP_WIDE_CLONES std::uint64_t find_blocks(const Levels& at, const CubeRow* blocks
 }
 
 /// Takes from `left` what meets something of n rows from dy on.
-BP_WIDE_CLONES void ask_rows(const Levels& at, const CubeRow* rows, std::int32_t n, std::int32_t dy,
+BP_WIDE_CLONES void ask_rows(const RowTables::Asker& at, const CubeRow* rows, std::int32_t n, std::int32_t dy,
                              Word* left) {
   Words met = {};
   for (std::int32_t i = 0; i < n; ++i) add_row(at, rows[i], dy + i, met);
@@ -103,7 +113,7 @@ BP_WIDE_CLONES void ask_rows(const Levels& at, const CubeRow* rows, std::int32_t
 }
 
 /// met := those of `left` that meet something of the row. False if there are none.
-BP_WIDE_CLONES bool meet_row(const Levels& at, const CubeRow& row, std::int32_t dy, const Word* left,
+BP_WIDE_CLONES bool meet_row(const RowTables::Asker& at, const CubeRow& row, std::int32_t dy, const Word* left,
                              Word* met) {
   Words sum = {};
   add_row(at, row, dy, sum);
@@ -121,6 +131,14 @@ void RowTables::lay(const VoxelBox& region, std::int32_t reach) {
   first_y_ = floor_div(region.min.y, kAcross) * kAcross - ceil_div(reach, kAcross) * kAcross;
   height_ = (ceil_div(region.max.y, kAcross) + ceil_div(reach, kAcross)) * kAcross + kAcross - first_y_;
   columns_ = (region.max.x - region.min.x) / kAcross + 2 * pad_;
+  reach_ = reach;
+  windows_.assign(1, {});
+  for (std::int32_t n = 1; n <= 2 * reach + 1; ++n) {
+    const int k = std::bit_width(std::uint32_t(n)) - 1;
+    windows_.push_back({std::int32_t(level(kSlice, k)), 1 << k});
+  }
+  columns_of_.clear();
+  for (std::int32_t x = -reach; x <= reach; ++x) columns_of_.push_back(floor_div(x, kAcross) * height_);
   most_blocks_ = ceil_div(reach, CubeRows::kEdge);
   for (shared_bits_ = 0; (2 * most_blocks_) >> shared_bits_ >= 64;) ++shared_bits_;
   tables_.assign(2 * level_words() * std::size_t(levels_), 0);
@@ -194,19 +212,19 @@ void RowTables::place(std::int32_t x, std::int32_t y) {
 
 std::uint64_t RowTables::near(const CubeRows& cube, std::int32_t dz, const Word* left) const {
   const CubeRows::Stretch blocks = cube.blocks(dz / CubeRows::kEdge);
-  return find_blocks({tables_.data() + level(kBlocks, 0) + at_, level_words(), std::size_t(height_)}, blocks.rows,
+  return find_blocks(asker(kBlocks), blocks.rows,
                      blocks.end - blocks.begin, CubeRows::kEdge * blocks.begin, left, blocks.begin + most_blocks_, shared_bits_);
 }
 
 void RowTables::ask(const CubeRows& cube, std::int32_t dz, std::uint64_t near, Word* left) const {
   for_runs(cube, dz, near, [&](const CubeRows::Stretch& run) {
-    ask_rows({tables_.data() + at_, level_words(), std::size_t(height_)}, run.rows, run.end - run.begin, run.begin,
+    ask_rows(asker(kSlice), run.rows, run.end - run.begin, run.begin,
              left);
   });
 }
 
 bool RowTables::meet(const CubeRow& row, std::int32_t dy, const Word* left, Word* met) const {
-  return meet_row({tables_.data() + at_, level_words(), std::size_t(height_)}, row, dy, left, met);
+  return meet_row(asker(kSlice), row, dy, left, met);
 }
 
 }  // namespace bp::detail

@@ -6,7 +6,7 @@
 #include "lib/grid/bit_box.h"
 
 /// One slice of a box of voxels, made ready for the question: where does a row of voxels, moved along with 16 x 16
-/// voxels at once, meet something? And the same for blocks of 8 x 8 rows, from 8 slices on. A row is two windows, each
+/// voxels at once, meet something? And the same for blocks of 4 x 4 rows, from 4 slices on. A row is two windows, each
 /// a power of two wide. The tables have 32 voxels from every 16th on, so that a window is read from one word of each of
 /// the 16 rows.
 namespace bp::detail {
@@ -15,16 +15,21 @@ class RowTables {
  public:
   static constexpr std::int32_t kAcross = 16;              ///< voxels that ask, in a row and rows
   static constexpr std::int32_t kSlices = CubeRows::kEdge;  ///< that are joined
+  /// Of a row of some length: where the tables of windows of 2^k voxels begin, the longest that fit in it; and 2^k.
+  struct Windows {
+    std::int32_t begin, voxels;
+  };
+  struct Asker;
   using Word = std::uint32_t;                               ///< who asks uses the lower half
 
   /// Lays tables for questions from voxels of `region` by cubes of this reach.
   void lay(const VoxelBox& region, std::int32_t reach);
 
-  /// Loads slice z of `solid`, and the 7 behind it. False if nothing of them is in reach.
+  /// Loads slice z of `solid`, and the 3 behind it. False if nothing of them is in reach.
   bool load(const BitBox& solid, std::int32_t z);
   /// kAcross x kAcross voxels from (x, y) on ask from now on. x and y: multiples of kAcross.
   void place(std::int32_t x, std::int32_t y);
-  /// The blocks from slice dz on, a multiple of 8, in which some of the `left` voxels may meet something. For ask().
+  /// The blocks from slice dz on, a multiple of 4, in which some of the `left` voxels may meet something. For ask().
   [[nodiscard]] std::uint64_t near(const CubeRows& cube, std::int32_t dz, const Word* left) const;
   /// Takes from left[i] the voxels of row y + i that slice dz of the cube, in the blocks `near`, meets something from.
   void ask(const CubeRows& cube, std::int32_t dz, std::uint64_t near, Word* left) const;
@@ -62,13 +67,18 @@ class RowTables {
   }
   void double_along(Tables of);
   [[nodiscard]] std::size_t level_words() const { return std::size_t(columns_) * std::size_t(height_); }
+  [[nodiscard]] Asker asker(Tables of) const;
+
   VoxelBox region_;
   std::int32_t pad_ = 0;      ///< columns of kAcross voxels left and right of the region
   std::int32_t first_y_ = 0;  ///< of the tables
   std::int32_t columns_ = 0, height_ = 0, levels_ = 0;
   std::int32_t most_blocks_ = 0, shared_bits_ = 0;  ///< bit of blocks i in near(): (i + most_blocks_) >> shared_bits_
+  std::vector<Windows> windows_;        ///< for each length
+  std::vector<std::int32_t> columns_of_;  ///< where the column of a start begins, from -reach on
+  std::int32_t reach_ = 0;
   std::vector<Word> tables_;                        ///< of the slice; of 8 rows of 8 slices together
-  std::vector<Word> slices_;                        ///< slice z is number z modulo 8
+  std::vector<Word> slices_;                        ///< slice z is number z modulo 4
   std::int32_t next_ = 0;                           ///< slice that is not in them yet
   bool held_[kSlices] = {}, loaded_ = false;        ///< what of them holds something
   bool here_ = false;                               ///< the slice itself does
