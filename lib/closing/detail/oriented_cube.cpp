@@ -28,19 +28,22 @@ class SteppedQuotient {
   std::int32_t a_, step_, step_rest_, quotient_, rest_;
 };
 
-/// Cuts rows dy = -reach and on to the x with |a x + b dy + c| <= limit, a >= 0.
-void cut(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t limit, std::int32_t reach, CubeRow* rows) {
-  const std::int32_t count = 2 * reach + 1, t = c - b * reach;
+constexpr std::int32_t kFar = 1 << 14;  ///< beyond any reach
+
+/// Cuts rows dy in [begin, end) to the x with |a x + b dy + c| <= limit, a >= 0. `rows` is row 0.
+void cut(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t limit, std::int32_t begin, std::int32_t end,
+         CubeRow* rows) {
+  const std::int32_t t = c + b * begin;
   if (a == 0) {
-    for (std::int32_t i = 0; i < count; ++i) {
-      if (t + b * i > limit || t + b * i < -limit) rows[i] = {0, -1};
+    for (std::int32_t i = begin; i < end; ++i) {
+      if (std::abs(c + b * i) > limit) rows[i] = {0, -1};
     }
     return;
   }
   SteppedQuotient down(limit + t, b, a), up(limit - t, -b, a);
-  for (std::int32_t i = 0; i < count; ++i, down.next(), up.next()) {
-    if (-down.get() > rows[i].first) rows[i].first = std::int16_t(std::min(-down.get(), reach + 1));
-    if (up.get() < rows[i].last) rows[i].last = std::int16_t(std::max(up.get(), -reach - 1));
+  for (std::int32_t i = begin; i < end; ++i, down.next(), up.next()) {
+    rows[i].first = std::int16_t(std::max<std::int32_t>(rows[i].first, std::min(-down.get(), kFar)));
+    rows[i].last = std::int16_t(std::min<std::int32_t>(rows[i].last, std::max(up.get(), -kFar)));
   }
 }
 
@@ -88,26 +91,24 @@ CubeRow CubeRows::block(std::int32_t i, std::int32_t j) const {
 }
 
 void CubeRows::make_slice(std::int32_t dz) const {
-  const std::int32_t side = 2 * reach_ + 1;
-  CubeRow* rows = rows_.data() + std::size_t(dz + reach_) * std::size_t(side);
-  std::fill_n(rows, side, CubeRow{std::int16_t(-reach_), std::int16_t(reach_)});
-  for (const auto& [a, b, c] : rotation_.row) cut(a, b, c * dz, limit_, reach_, rows);
-  slices_[std::size_t(dz + reach_)] = filled<Filled>(rows, side);
-}
-
-CubeRows::Stretch CubeRows::rows(std::int32_t dz, std::int32_t begin, std::int32_t end) const {
-  Filled& slice = slices_[std::size_t(dz + reach_)];
-  if (slice.end < slice.begin) make_slice(dz);
-  begin = std::max(begin, slice.begin - reach_);
-  end = std::min(end, slice.end - reach_);
-  return {begin, end, rows_.data() + (dz + reach_) * (2 * reach_ + 1) + begin + reach_};
-}
-
-CubeRows::Stretch CubeRows::blocks(std::int32_t j) const {
-  const std::int32_t layer = j - first_block_;
-  if (layer < 0 || layer >= across_) return {};
-  const Filled& f = layers_[std::size_t(layer)];
-  return {first_block_ + f.begin, first_block_ + f.end, blocks_.data() + layer * across_ + f.begin};
+  Filled &slice = slices_[std::size_t(dz + reach_)], &mirrored = slices_[std::size_t(reach_ - dz)];
+  CubeRow* to = row(dz);
+  if (mirrored.begin <= mirrored.end) {  // the cube is its own image through its centre
+    slice = {std::int16_t(2 * reach_ + 1 - mirrored.end), std::int16_t(2 * reach_ + 1 - mirrored.begin)};
+    const CubeRow* from = row(-dz);
+    for (std::int32_t i = slice.begin - reach_; i < slice.end - reach_; ++i)
+      to[i] = {std::int16_t(-from[-i].last), std::int16_t(-from[-i].first)};
+    return;
+  }
+  const Stretch in = blocks(floor_div(dz, kEdge));
+  const std::int32_t begin = std::max(kEdge * in.begin, -reach_), end = std::min(kEdge * in.end, reach_ + 1);
+  if (begin < end) {
+    std::fill(to + begin, to + end, CubeRow{std::int16_t(-reach_), std::int16_t(reach_)});
+    for (const auto& [a, b, c] : rotation_.row) cut(a, b, c * dz, limit_, begin, end, to);
+  }
+  const auto count = std::max(end - begin, 0), before = begin < end ? begin + reach_ : 0;
+  slice = filled<Filled>(to - reach_ + before, count);
+  slice = {std::int16_t(slice.begin + before), std::int16_t(slice.end + before)};
 }
 
 }  // namespace bp::detail

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -29,10 +30,21 @@ class CubeRows {
     const CubeRow* rows = nullptr;
   };
   /// Those rows dy in [begin, end) of slice dz, |dz| <= reach(), that have voxels.
-  [[nodiscard]] Stretch rows(std::int32_t dz, std::int32_t begin, std::int32_t end) const;
+  [[nodiscard]] Stretch rows(std::int32_t dz, std::int32_t begin, std::int32_t end) const {
+    const Filled& slice = slices_[std::size_t(dz + reach_)];
+    if (slice.end < slice.begin) make_slice(dz);
+    begin = std::max(begin, slice.begin - reach_);
+    end = std::min(end, slice.end - reach_);
+    return {begin, end, row(dz) + begin};
+  }
   /// Blocks i of slices [4 j, 4 j + 4), from the first to the last with voxels: what any of a block's rows holds, and
   /// perhaps some more.
-  [[nodiscard]] Stretch blocks(std::int32_t j) const;
+  [[nodiscard]] Stretch blocks(std::int32_t j) const {
+    const std::int32_t layer = j - first_block_;
+    if (layer < 0 || layer >= across_) return {};
+    const Filled& f = layers_[std::size_t(layer)];
+    return {first_block_ + f.begin, first_block_ + f.end, blocks_.data() + layer * across_ + f.begin};
+  }
 
   [[nodiscard]] std::size_t bytes() const {
     return (rows_.size() + blocks_.size()) * sizeof(CubeRow) + (slices_.size() + layers_.size()) * sizeof(Filled);
@@ -48,6 +60,10 @@ class CubeRows {
   struct Filled {
     std::int16_t begin = 1, end = 0;
   };
+  /// Row 0 of a slice.
+  [[nodiscard]] CubeRow* row(std::int32_t dz) const {
+    return rows_.data() + (dz + reach_) * (2 * reach_ + 1) + reach_;
+  }
   void make_slice(std::int32_t dz) const;
   [[nodiscard]] CubeRow block(std::int32_t i, std::int32_t j) const;
 

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::int32_t kStep = kScaleOne / 2;  ///< scales that differ in a cell are rounded to it: cells share cubes
 constexpr std::int32_t kMostScale = std::numeric_limits<Scale>::max();
-constexpr std::int32_t kLeastRadius = 5;  ///< of cubes of large voxels: smaller ones decide too little
+constexpr std::int32_t kLeastRadius = 8;  ///< of cubes of large voxels: smaller ones decide too little
 
 /// Any of the bits [first, last] of a row that begins at bit 0, `bits` long.
 template <class Test>
@@ -162,7 +162,8 @@ void OrientedDilation::add_parts(Block& block, const ScaleLattice& scale) {
       const auto same = std::find_if(
           parts_.begin() + std::ptrdiff_t(block.part), parts_.end(),
           [&](const Part& p) { return p.rotation == part.rotation && p.min == part.min && p.max == part.max; });
-      (same == parts_.end() ? parts_.emplace_back(part) : *same).mask[y] |= mask;
+      Word* rows = (same == parts_.end() ? parts_.emplace_back(part) : *same).mask + kCell * y;
+      for (std::int32_t j = 0; j < kCell; ++j) rows[j] |= mask;
     }
   }
   block.parts = parts_.size() - block.part;
@@ -261,52 +262,37 @@ void OrientedDilation::ask_slice(Block& block, std::int32_t dz_of_first, bool an
   }
 }
 
-/// The part's voxels that are open in a slice of the block. False if there is none.
-bool OrientedDilation::still_open(const Block& block, const Part& part, int slice, Word* open) const {
-  const Word* all = &open_[block.open + std::size_t(slice * kAcross)];
-  Word any = 0;
-  for (std::int32_t j = 0; j < kAcross; ++j) any |= open[j] = all[j] & part.mask[j / kCell];
-  return any != 0;
-}
-
 void OrientedDilation::look(const Block& block, Part& part, int slice, std::int32_t dz, bool any) const {
-  Word open[kAcross];
-  any = any && dz <= part.most->reach() && still_open(block, part, slice, open);
-  part.near[slice] = any ? tables_.near(*part.most, dz, open) : 0;
+  const Word* open = &open_[block.open + std::size_t(slice * kAcross)];
+  part.near[slice] = any && dz <= part.most->reach() ? tables_.near(*part.most, dz, part.mask, open) : 0;
   part.asks = (part.asks & ~(1U << slice)) | (part.near[slice] != 0 ? 1U << slice : 0);
 }
 
 /// Of one slice of the block.
 void OrientedDilation::ask_part(const Block& block, Part& part, int slice, std::int32_t dz) {
-  Word asking[kAcross];
-  if (!still_open(block, part, slice, asking)) {
-    part.asks &= ~(1U << slice);
-    return;
-  }
+  const std::uint64_t near = part.near[slice];
   Word* open = &open_[block.open + std::size_t(slice * kAcross)];
-  if (part.least != nullptr) {
-    Word still[kAcross];
-    std::copy_n(asking, kAcross, still);
-    tables_.ask(*part.least, dz, part.near[slice], still);
-    for (std::int32_t j = 0; j < kAcross; ++j) open[j] ^= asking[j] ^ still[j];
-    if (part.least == part.most) return;
-    std::copy_n(still, kAcross, asking);
+  if (part.least != nullptr && tables_.ask(*part.least, dz, near, part.mask, open)) {
+    Word left = 0;
+    for (std::int32_t j = 0; j < kAcross; ++j) left |= open[j] & part.mask[j];
+    if (left == 0) part.asks &= ~(1U << slice);
   }
-  if (edge_ == 1) return ask_each(block, part, slice, dz, asking);
+  if (part.least == part.most) return;
+  if (edge_ == 1) return ask_each(block, part, slice, dz);
   Word* maybe = &maybe_[block.open + std::size_t(slice * kAcross)];
-  Word left[kAcross];
-  for (std::int32_t j = 0; j < kAcross; ++j) left[j] = asking[j] &= ~maybe[j];
-  tables_.ask(*part.most, dz, part.near[slice], left);
+  Word asking[kAcross], left[kAcross];
+  for (std::int32_t j = 0; j < kAcross; ++j) left[j] = asking[j] = open[j] & ~maybe[j] & part.mask[j];
+  if (!tables_.ask(*part.most, dz, near, part.mask, left)) return;
   for (std::int32_t j = 0; j < kAcross; ++j) maybe[j] |= asking[j] ^ left[j];
 }
 
-/// Of the voxels that are `asking`, each by its own scale: they meet nothing of the least cube.
-void OrientedDilation::ask_each(const Block& block, const Part& part, int slice, std::int32_t dz, const Word* asking) {
+/// Of voxels that meet nothing of the least cube, each by its own scale.
+void OrientedDilation::ask_each(const Block& block, const Part& part, int slice, std::int32_t dz) {
   const Rotation& rotation = cubes_.rotations[part.rotation];
   const VoxelBox& box = solid_->box();
   Word* open = &open_[block.open + std::size_t(slice * kAcross)];
   const VoxelCoord first = block.first + VoxelCoord{0, 0, slice};
-  tables_.ask_each(*part.most, dz, part.near[slice], asking, [&](std::int32_t dy, CubeRow row, const Word* met) {
+  tables_.ask_each(*part.most, dz, part.near[slice], part.mask, open, [&](std::int32_t dy, CubeRow row, const Word* met) {
     for (std::int32_t j = 0; j < kAcross; ++j) {
       if (first.y + j + dy < box.min.y || first.y + j + dy >= box.max.y) continue;
       const std::uint64_t* bits = solid_->row(first.y + j + dy, first.z + dz);

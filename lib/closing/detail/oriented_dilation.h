@@ -36,7 +36,7 @@ class OrientedDilation {
   };
   /// Voxels of a block whose cubes are alike, by the least and the largest that any of them has.
   struct Part {
-    Word mask[kAcross / kCell];  ///< of x, for the rows of each cell
+    Word mask[kAcross];
     std::uint16_t rotation;
     std::int32_t min, max;  ///< scales, in 1/16 of the level's voxels; min < 0: none is in for sure
     const CubeRows *least = nullptr, *most = nullptr;  ///< while it is asked for
@@ -64,9 +64,8 @@ class OrientedDilation {
   void sweep(const BitBox& solid, const ScaleLattice& scale);
   void ask_slice(Block& block, std::int32_t dz_of_first, bool any);
   void ask_part(const Block& block, Part& part, int slice, std::int32_t dz);
-  [[nodiscard]] bool still_open(const Block& block, const Part& part, int slice, Word* open) const;
   void look(const Block& block, Part& part, int slice, std::int32_t dz, bool any) const;
-  void ask_each(const Block& block, const Part& part, int slice, std::int32_t dz, const Word* asking);
+  void ask_each(const Block& block, const Part& part, int slice, std::int32_t dz);
   void finish(Level& level) const;
 
   CubesOver cubes_;                    ///< of the region

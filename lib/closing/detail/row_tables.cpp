@@ -89,35 +89,43 @@ BP_INLINE void add_row(const Asker& a, const CubeRow& row, std::int32_t dy, Word
   add_window(a, table, row.last + 1 - voxels, sum);
 }
 
-/// Flags of the n blocks, number `first` of the bits and on, that meet something from one of the voxels `left`;
-/// 2^shared blocks share a bit.
-BP_WIDE_CLONES std::uint64_t find_blocks(const RowTables::Asker& at, const CubeRow* blocks, std::int32_t n, std::int32_t dy,
-                                         const Word* left, std::int32_t first, std::int32_t shared) {
-  const Words open = *reinterpret_cast<const WordsInMemory*>(left);
+BP_INLINE Words load(const Word* words) {
+  return *reinterpret_cast<const WordsInMemory*>(words);
+}
+
+/// Flags of the n blocks, number `first` of the bits and on, that meet something from one of the `open` voxels of the
+/// mask; 2^shared blocks share a bit.
+BP_WIDE_CLONES std::uint64_t find_blocks(const RowTables::Asker& at, const CubeRow* blocks, std::int32_t n,
+                                         std::int32_t dy, const Word* mask, const Word* open, std::int32_t first,
+                                         std::int32_t shared) {
+  const Words asking = load(mask) & load(open);
+  if (!any(asking)) return 0;
   std::uint64_t bits = 0;
   for (std::int32_t k = 0; k < n; ++k) {
     Words met = {};
     add_row(at, blocks[k], dy + k * CubeRows::kEdge, met);
-    met &= open;
-    bits |= std::uint64_t(any(met)) << ((first + k) >> shared);
+    bits |= std::uint64_t(any(met & asking)) << ((first + k) >> shared);
   }
   return bits;
 }
 
-/// Takes from `left` what meets something of n rows from dy on.
-BP_WIDE_CLONES void ask_rows(const RowTables::Asker& at, const CubeRow* rows, std::int32_t n, std::int32_t dy,
-                             Word* left) {
+/// Takes from `open`, of the mask, what meets something of n rows from dy on. False if nothing does.
+BP_WIDE_CLONES bool ask_rows(const RowTables::Asker& at, const CubeRow* rows, std::int32_t n, std::int32_t dy,
+                             const Word* mask, Word* open) {
   Words met = {};
   for (std::int32_t i = 0; i < n; ++i) add_row(at, rows[i], dy + i, met);
-  *reinterpret_cast<WordsInMemory*>(left) &= ~met;
+  met &= load(mask) & load(open);
+  if (!any(met)) return false;
+  *reinterpret_cast<WordsInMemory*>(open) ^= met;
+  return true;
 }
 
-/// met := those of `left` that meet something of the row. False if there are none.
-BP_WIDE_CLONES bool meet_row(const RowTables::Asker& at, const CubeRow& row, std::int32_t dy, const Word* left,
-                             Word* met) {
+/// met := what of `open`, of the mask, meets something of the row. False if nothing does.
+BP_WIDE_CLONES bool meet_row(const RowTables::Asker& at, const CubeRow& row, std::int32_t dy, const Word* mask,
+                             const Word* open, Word* met) {
   Words sum = {};
   add_row(at, row, dy, sum);
-  sum &= *reinterpret_cast<const WordsInMemory*>(left);
+  sum &= load(mask) & load(open);
   *reinterpret_cast<WordsInMemory*>(met) = sum;
   return any(sum);
 }
@@ -210,21 +218,23 @@ void RowTables::place(std::int32_t x, std::int32_t y) {
   at_ = std::size_t((x - region_.min.x) / kAcross + pad_) * std::size_t(height_) + std::size_t(y - first_y_);
 }
 
-std::uint64_t RowTables::near(const CubeRows& cube, std::int32_t dz, const Word* left) const {
+std::uint64_t RowTables::near(const CubeRows& cube, std::int32_t dz, const Word* mask, const Word* open) const {
   const CubeRows::Stretch blocks = cube.blocks(dz / CubeRows::kEdge);
-  return find_blocks(asker(kBlocks), blocks.rows,
-                     blocks.end - blocks.begin, CubeRows::kEdge * blocks.begin, left, blocks.begin + most_blocks_, shared_bits_);
+  return find_blocks(asker(kBlocks), blocks.rows, blocks.end - blocks.begin, CubeRows::kEdge * blocks.begin, mask, open,
+                     blocks.begin + most_blocks_, shared_bits_);
 }
 
-void RowTables::ask(const CubeRows& cube, std::int32_t dz, std::uint64_t near, Word* left) const {
+bool RowTables::ask(const CubeRows& cube, std::int32_t dz, std::uint64_t near, const Word* mask, Word* open) const {
+  bool met = false;
+  const Asker at = asker(kSlice);
   for_runs(cube, dz, near, [&](const CubeRows::Stretch& run) {
-    ask_rows(asker(kSlice), run.rows, run.end - run.begin, run.begin,
-             left);
+    met |= ask_rows(at, run.rows, run.end - run.begin, run.begin, mask, open);
   });
+  return met;
 }
 
-bool RowTables::meet(const CubeRow& row, std::int32_t dy, const Word* left, Word* met) const {
-  return meet_row(asker(kSlice), row, dy, left, met);
+bool RowTables::meet(const CubeRow& row, std::int32_t dy, const Word* mask, const Word* open, Word* met) const {
+  return meet_row(asker(kSlice), row, dy, mask, open, met);
 }
 
 }  // namespace bp::detail

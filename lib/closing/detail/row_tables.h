@@ -29,18 +29,20 @@ class RowTables {
   bool load(const BitBox& solid, std::int32_t z);
   /// kAcross x kAcross voxels from (x, y) on ask from now on. x and y: multiples of kAcross.
   void place(std::int32_t x, std::int32_t y);
-  /// The blocks from slice dz on, a multiple of 4, in which some of the `left` voxels may meet something. For ask().
-  [[nodiscard]] std::uint64_t near(const CubeRows& cube, std::int32_t dz, const Word* left) const;
-  /// Takes from left[i] the voxels of row y + i that slice dz of the cube, in the blocks `near`, meets something from.
-  void ask(const CubeRows& cube, std::int32_t dz, std::uint64_t near, Word* left) const;
-  /// The same, row by row: take(dy, row, met) for each row that some of `left` meet something of; it may change them.
+  /// The blocks from slice dz on, a multiple of 4, in which some of the voxels that are `open`, of the `mask`, may meet
+  /// something. For ask().
+  [[nodiscard]] std::uint64_t near(const CubeRows& cube, std::int32_t dz, const Word* mask, const Word* open) const;
+  /// Takes from open[i], of the `mask`, the voxels of row y + i that slice dz of the cube, in the blocks `near`, meets
+  /// something from. False if there are none.
+  bool ask(const CubeRows& cube, std::int32_t dz, std::uint64_t near, const Word* mask, Word* open) const;
+  /// The same, row by row: take(dy, row, met) for each row that some meet something of; it may change what is open.
   template <class Take>
-  void ask_each(const CubeRows& cube, std::int32_t dz, std::uint64_t near, const Word* left,
+  void ask_each(const CubeRows& cube, std::int32_t dz, std::uint64_t near, const Word* mask, const Word* open,
                 const Take& take) const {
     for_runs(cube, dz, near, [&](const CubeRows::Stretch& run) {
       for (std::int32_t dy = run.begin; dy < run.end; ++dy) {
         Word met[kAcross];
-        if (meet(run.rows[dy - run.begin], dy, left, met)) take(dy, run.rows[dy - run.begin], met);
+        if (meet(run.rows[dy - run.begin], dy, mask, open, met)) take(dy, run.rows[dy - run.begin], met);
       }
     });
   }
@@ -59,7 +61,7 @@ class RowTables {
       if (run.begin < run.end) f(run);
     }
   }
-  [[nodiscard]] bool meet(const CubeRow& row, std::int32_t dy, const Word* left, Word* met) const;
+  [[nodiscard]] bool meet(const CubeRow& row, std::int32_t dy, const Word* mask, const Word* open, Word* met) const;
   bool load_slice(const BitBox& solid, std::int32_t z, Word* to) const;
   /// Level k of tables: x to x + 2^k - 1 together; by columns, y fastest.
   [[nodiscard]] std::size_t level(Tables of, std::int32_t k) const {
