@@ -1,6 +1,7 @@
 #include "lib/closing/detail/oriented_cube.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace bp::detail {
 
@@ -59,10 +60,24 @@ Filled filled(const CubeRow* rows, std::int32_t count) {
 
 }  // namespace
 
-CubeRows::CubeRows(const Rotation& rotation, Scale s)
+bool keeps_axis(const Rotation& r, int axis) {
+  int across = 0;
+  for (const auto& row : r.row) {
+    const bool along = row[axis] != 0;
+    if (along && std::abs(row[axis]) != 1 << kRotationBits) return false;
+    for (int k = 0; along && k < 3; ++k) {
+      if (k != axis && row[k] != 0) return false;
+    }
+    across += along ? 0 : 1;
+  }
+  return across == 2;
+}
+
+CubeRows::CubeRows(const Rotation& rotation, Scale s, int flat)
     : rotation_(rotation),
       limit_(s * ((1 << kRotationBits) / kScaleOne)),
       reach_(cube_bounds(rotation).reach(s)),
+      flat_(flat),
       first_block_(floor_div(-reach_, kEdge)),
       across_(floor_div(reach_, kEdge) + 1 - first_block_) {
   const auto side = std::size_t(2 * reach_ + 1);
@@ -87,6 +102,7 @@ CubeRow CubeRows::block(std::int32_t i, std::int32_t j) const {
     first = std::max(first, -floor_div(limit_ + high, std::int32_t(a)));
     last = std::min(last, floor_div(limit_ - low, std::int32_t(a)));
   }
+  if ((flat_ == 1 && i != 0) || (flat_ == 2 && j != 0)) last = first - 1;
   return first > last ? CubeRow{0, -1} : CubeRow{std::int16_t(first), std::int16_t(last)};
 }
 
@@ -101,7 +117,8 @@ void CubeRows::make_slice(std::int32_t dz) const {
     return;
   }
   const Stretch in = blocks(floor_div(dz, kEdge));
-  const std::int32_t begin = std::max(kEdge * in.begin, -reach_), end = std::min(kEdge * in.end, reach_ + 1);
+  const std::int32_t begin = std::max(kEdge * in.begin, flat_ == 1 ? 0 : -reach_);
+  const std::int32_t end = flat_ == 2 && dz != 0 ? begin : std::min(kEdge * in.end, flat_ == 1 ? 1 : reach_ + 1);
   if (begin < end) {
     std::fill(to + begin, to + end, CubeRow{std::int16_t(-reach_), std::int16_t(reach_)});
     for (const auto& [a, b, c] : rotation_.row) cut(a, b, c * dz, limit_, begin, end, to);

@@ -8,6 +8,9 @@
 /// A turned cube as a set of voxels: its rows.
 namespace bp::detail {
 
+/// The cube is turned about this axis alone, and is its own slice across it from -cube_radius() to cube_radius().
+[[nodiscard]] bool keeps_axis(const Rotation& r, int axis);
+
 /// The voxels x of a row: from `first` to `last`; none if last < first.
 struct CubeRow {
   std::int16_t first, last;
@@ -19,8 +22,9 @@ class CubeRows {
  public:
   static constexpr std::int32_t kEdge = 4;  ///< rows [4 i, 4 i + 4) of slices [4 j, 4 j + 4) are a block
 
-  /// `rotation` is canonical. Cost: that of the blocks, a few divisions each.
-  CubeRows(const Rotation& rotation, Scale s);
+  /// `rotation` is canonical. `flat`: only the rows with dy = 0 (1) or with dz = 0 (2), if it is one of these. Cost:
+  /// that of the blocks, a few divisions each.
+  CubeRows(const Rotation& rotation, Scale s, int flat = -1);
 
   [[nodiscard]] std::int32_t reach() const { return reach_; }
 
@@ -69,6 +73,7 @@ class CubeRows {
 
   Rotation rotation_;
   std::int32_t limit_, reach_;
+  int flat_;
   std::int32_t first_block_, across_;  ///< least i and j, and how many there are
   mutable std::vector<CubeRow> rows_;  ///< by slice, then dy: all within reach
   mutable std::vector<Filled> slices_;

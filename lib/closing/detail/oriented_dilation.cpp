@@ -42,6 +42,37 @@ bool any_bit(const std::uint64_t* row, std::int32_t bits, std::int32_t first, st
   return false;
 }
 
+/// out := voxels of `box`, grown by `r` along y or z, within r of one of `solid` along that axis. `box` is in that of
+/// `solid`.
+void dilate_along(const BitBox& solid, int axis, std::int32_t r, VoxelBox box, BitBox& out) {
+  box.min[axis] -= r;
+  box.max[axis] += r;
+  out.reset(box);
+  copy_voxels(solid, out);
+  const VoxelBox& all = out.box();
+  const std::int32_t rows = all.max[axis] - all.min[axis], others = all.max[3 - axis] - all.min[3 - axis];
+  const auto words = std::size_t(out.words_per_row());
+  // Row t takes the `width` rows that end, or begin, with it.
+  const auto widen = [&](std::int32_t step, std::int32_t width) {
+    const auto row = [&](std::int32_t t, std::int32_t k) {
+      const std::int32_t at = all.min[axis] + (step > 0 ? rows - 1 - t : t), other = all.min[3 - axis] + k;
+      return axis == 2 ? out.row(other, at) : out.row(at, other);
+    };
+    for (std::int32_t has = 1; has < width;) {
+      const std::int32_t shift = std::min(has, width - has);
+      for (std::int32_t t = 0; t + shift < rows; ++t) {
+        for (std::int32_t k = 0; k < others; ++k) {
+          std::uint64_t *to = row(t, k), *from = row(t + shift, k);
+          for (std::size_t i = 0; i < words; ++i) to[i] |= from[i];
+        }
+      }
+      has += shift;
+    }
+  };
+  widen(1, r + 1);
+  widen(-1, r + 1);
+}
+
 }  // namespace
 
 bool OrientedDilation::turns(const OrientationField& field, const VoxelBox& region) {
@@ -57,14 +88,28 @@ void OrientedDilation::run(const BitBox& solid, const ScaleLattice& scale, BitBo
   most_bytes_ = std::max(most_bytes, turned_cubes_bytes(cubes_.widest.reach(Scale(std::min(range.max + kStep, kMostScale)))));
   levels_.resize(std::max(levels_.size(), std::size_t(coarse) + 1));
   std::swap(levels_[0].in, out);
+  find_kept_axis(solid, range, levels_[0].in.box());
   lay_levels(solid, range, levels_[0].in.box(), coarse);
   for (int k = coarse; k >= 0; --k) {
     edge_ = 1 << k;
     reach_ = cubes_.widest.reach(
         Scale(std::min(coarse_scale(cubes_.widest.row_sum, range.max, edge_).possible + kStep, kMostScale)));
-    decide_level(k, k == 0 ? solid : levels_[std::size_t(k)].solid, scale);
+    decide_level(k, k > 0 ? levels_[std::size_t(k)].solid : flat_ >= 0 ? along_ : solid, scale);
   }
   std::swap(levels_[0].in, out);
+}
+
+/// Cubes of one size that are turned about y or z are dilated along that axis first; then one slice of them is left.
+void OrientedDilation::find_kept_axis(const BitBox& solid, const ScaleRange& range, const VoxelBox& region) {
+  flat_ = -1;
+  for (const int axis : {1, 2}) {
+    if (range.min == range.max && std::all_of(cubes_.rotations.begin(), cubes_.rotations.end(),
+                                              [&](const Rotation& r) { return keeps_axis(r, axis); }))
+      flat_ = axis;
+  }
+  if (flat_ >= 0)
+    dilate_along(solid, flat_, cube_radius(range.max),
+                 intersect(solid.box(), region.grown(cubes_.widest.reach(range.max))), along_);
 }
 
 /// The level of the largest voxels, each of them in one cell of the field.
@@ -211,7 +256,7 @@ void OrientedDilation::decide_blocks(const BitBox& solid, const ScaleLattice& sc
 /// False if the part's cubes may not fit beside those that are there.
 bool OrientedDilation::prepare(Part& part) {
   const Rotation& rotation = cubes_.rotations[part.rotation];
-  const auto there = [&](std::int32_t s) { return s < 0 || kept_.count({rotation, Scale(s)}) != 0; };
+  const auto there = [&](std::int32_t s) { return s < 0 || kept_.count(key(rotation, s)) != 0; };
   if (!kept_.empty() && kept_bytes_ + 2 * CubeRows::most_bytes(reach_) > most_bytes_ &&
       !(there(part.min) && there(part.max)))
     return false;
@@ -221,9 +266,9 @@ bool OrientedDilation::prepare(Part& part) {
 }
 
 const CubeRows* OrientedDilation::cube(const Rotation& rotation, std::int32_t s) {
-  auto& found = kept_[{rotation, Scale(s)}];
+  auto& found = kept_[key(rotation, s)];
   if (!found) {
-    found = std::make_unique<CubeRows>(rotation, Scale(s));
+    found = std::make_unique<CubeRows>(rotation, Scale(s), flat());
     kept_bytes_ += found->bytes();
   }
   return found.get();

@@ -51,6 +51,7 @@ class OrientedDilation {
     std::uint32_t slices = 0;  ///< that have open voxels
   };
 
+  void find_kept_axis(const BitBox& solid, const ScaleRange& range, const VoxelBox& region);
   [[nodiscard]] int coarsest(const ScaleRange& range) const;
   void lay_levels(const BitBox& solid, const ScaleRange& range, const VoxelBox& region, int coarsest);
   void decide_level(int level, const BitBox& solid, const ScaleLattice& scale);
@@ -60,6 +61,9 @@ class OrientedDilation {
   void add_parts(Block& block, const ScaleLattice& scale);
   void decide_blocks(const BitBox& solid, const ScaleLattice& scale);
   bool prepare(Part& part);
+  /// Of the smallest voxels, one slice across a kept axis is enough.
+  [[nodiscard]] int flat() const { return edge_ == 1 ? flat_ : -1; }
+  [[nodiscard]] auto key(const Rotation& rotation, std::int32_t s) const { return std::pair(rotation, 4 * s + flat()); }
   const CubeRows* cube(const Rotation& rotation, std::int32_t s);
   void sweep(const BitBox& solid, const ScaleLattice& scale);
   void ask_slice(Block& block, std::int32_t dz_of_first, bool any);
@@ -74,8 +78,10 @@ class OrientedDilation {
   std::int32_t edge_ = 1, reach_ = 0;  ///< of the level: its voxels; the farthest cube in them
   const BitBox* solid_ = nullptr;      ///< while it is swept
   const ScaleLattice* scale_ = nullptr;
+  int flat_ = -1;  ///< an axis about which all cubes are turned: y, z, or none
+  BitBox along_;   ///< solid, dilated along it
   RowTables tables_;
-  std::map<std::pair<Rotation, Scale>, std::unique_ptr<CubeRows>> kept_;
+  std::map<std::pair<Rotation, std::int32_t>, std::unique_ptr<CubeRows>> kept_;
   std::size_t kept_bytes_ = 0, most_bytes_ = 0;
   std::vector<Part> parts_;
   std::vector<Block> blocks_;  ///< by z, then y, then x

@@ -89,7 +89,7 @@ BP_INLINE void add_row(const Asker& a, const CubeRow& row, std::int32_t dy, Word
   add_window(a, table, row.last + 1 - voxels, sum);
 }
 
-BP_INLINE Words load(const Word* words) {
+BP_INLINE const WordsInMemory& vector(const Word* words) {
   return *reinterpret_cast<const WordsInMemory*>(words);
 }
 
@@ -98,7 +98,7 @@ BP_INLINE Words load(const Word* words) {
 BP_WIDE_CLONES std::uint64_t find_blocks(const RowTables::Asker& at, const CubeRow* blocks, std::int32_t n,
                                          std::int32_t dy, const Word* mask, const Word* open, std::int32_t first,
                                          std::int32_t shared) {
-  const Words asking = load(mask) & load(open);
+  const Words asking = vector(mask) & vector(open);
   if (!any(asking)) return 0;
   std::uint64_t bits = 0;
   for (std::int32_t k = 0; k < n; ++k) {
@@ -114,7 +114,7 @@ BP_WIDE_CLONES bool ask_rows(const RowTables::Asker& at, const CubeRow* rows, st
                              const Word* mask, Word* open) {
   Words met = {};
   for (std::int32_t i = 0; i < n; ++i) add_row(at, rows[i], dy + i, met);
-  met &= load(mask) & load(open);
+  met &= vector(mask) & vector(open);
   if (!any(met)) return false;
   *reinterpret_cast<WordsInMemory*>(open) ^= met;
   return true;
@@ -125,7 +125,7 @@ BP_WIDE_CLONES bool meet_row(const RowTables::Asker& at, const CubeRow& row, std
                              const Word* open, Word* met) {
   Words sum = {};
   add_row(at, row, dy, sum);
-  sum &= load(mask) & load(open);
+  sum &= vector(mask) & vector(open);
   *reinterpret_cast<WordsInMemory*>(met) = sum;
   return any(sum);
 }
