@@ -11,7 +11,7 @@
 namespace bp {
 
 std::size_t turned_cubes_bytes(std::int32_t reach) {
-  constexpr std::size_t kEnough = 8 << 20;
+  constexpr std::size_t kEnough = 4 << 20;
   return std::max(kEnough, 2 * detail::CubeRows::most_bytes(reach));
 }
 

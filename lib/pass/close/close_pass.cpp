@@ -39,7 +39,7 @@ double tile_bytes(const VoxelCoord& grid, std::int32_t tile, const Halo& halo, b
   constexpr double kTransform = 8 << 20;                   // a block of rows of the ball transform
   // Of turned cubes: what is open, and two sets of tables with 4 slices, whose rows are as long as two reaches more.
   const double levels = std::bit_width(std::uint32_t(2 * halo.dilation_vox + 1));
-  const double rows = turned ? 4 * dilation + (4 * levels + 8) / 8 * (side + 320) * (side + 24) : 0;
+  const double rows = turned ? 3 * dilation + (4 * levels + 8) / 8 * (side + 320) * (side + 24) : 0;
   const double cubes = turned ? double(turned_cubes_bytes(halo.dilation_vox)) : 0;
   return 3 * solid + 4 * dilation + 4 * core + distances + kTransform + rows + cubes;
 }
