@@ -66,8 +66,8 @@ struct CubeBounds {
 }
 
 /// Voxels `edge` times as large hold edge^3 voxels each. Two of them, D apart, hold only voxels that are within the
-/// turned cube of scale `s` of each other if |row . D| is within the first of these limits for each row, and none beyond
-/// the second one. In 1/16 of the large voxels; the first may be negative: then there are no such two.
+/// turned cube of scale `s` of each other if |row . D| is within the first of these limits for each row, and none
+/// beyond the second one. In 1/16 of the large voxels; the first may be negative: then there are no such two.
 struct CoarseScale {
   std::int32_t sure, possible;
 };

@@ -55,7 +55,8 @@ void halve(const BitBox& from, BitBox& to) {
   const VoxelBox &small = from.box(), &large = to.box();
   const auto words = std::size_t(to.words_per_row());
   std::vector<std::uint64_t> line(2 * words);
-  const std::int32_t x0 = 2 * large.min.x, first = std::max(small.min.x, x0), last = std::min(small.max.x, 2 * large.max.x);
+  const std::int32_t x0 = 2 * large.min.x, first = std::max(small.min.x, x0),
+                     last = std::min(small.max.x, 2 * large.max.x);
   const auto place = std::ptrdiff_t(first - x0) / 64, skipped = std::ptrdiff_t(first - small.min.x) / 64,
              count = std::ptrdiff_t(last - first) / 64;
   for_each_row(large, [&](std::int32_t y, std::int32_t z) {

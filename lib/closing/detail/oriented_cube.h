@@ -65,9 +65,7 @@ class CubeRows {
     std::int16_t begin = 1, end = 0;
   };
   /// Row 0 of a slice.
-  [[nodiscard]] CubeRow* row(std::int32_t dz) const {
-    return rows_.data() + (dz + reach_) * (2 * reach_ + 1) + reach_;
-  }
+  [[nodiscard]] CubeRow* row(std::int32_t dz) const { return rows_.data() + (dz + reach_) * (2 * reach_ + 1) + reach_; }
   void make_slice(std::int32_t dz) const;
   [[nodiscard]] CubeRow block(std::int32_t i, std::int32_t j) const;
 

@@ -85,7 +85,8 @@ bool OrientedDilation::turns(const OrientationField& field, const VoxelBox& regi
 void OrientedDilation::run(const BitBox& solid, const ScaleLattice& scale, BitBox& out, std::size_t most_bytes) {
   const ScaleRange range = scale_range(scale, out.box());
   const int coarse = coarsest(range);
-  most_bytes_ = std::max(most_bytes, turned_cubes_bytes(cubes_.widest.reach(Scale(std::min(range.max + kStep, kMostScale)))));
+  most_bytes_ =
+      std::max(most_bytes, turned_cubes_bytes(cubes_.widest.reach(Scale(std::min(range.max + kStep, kMostScale)))));
   levels_.resize(std::max(levels_.size(), std::size_t(coarse) + 1));
   std::swap(levels_[0].in, out);
   find_kept_axis(solid, range, levels_[0].in.box());
@@ -204,9 +205,9 @@ void OrientedDilation::add_parts(Block& block, const ScaleLattice& scale) {
       const Word mask = (open >> (kCell * x) & 0xff) << (kCell * x);
       if (mask == 0) continue;
       const Part part = part_of(block.first + VoxelCoord{kCell * x, kCell * y, 0}, scale);
-      const auto same = std::find_if(
-          parts_.begin() + std::ptrdiff_t(block.part), parts_.end(),
-          [&](const Part& p) { return p.rotation == part.rotation && p.min == part.min && p.max == part.max; });
+      const auto same = std::find_if(parts_.begin() + std::ptrdiff_t(block.part), parts_.end(), [&](const Part& p) {
+        return p.rotation == part.rotation && p.min == part.min && p.max == part.max;
+      });
       Word* rows = (same == parts_.end() ? parts_.emplace_back(part) : *same).mask + kCell * y;
       for (std::int32_t j = 0; j < kCell; ++j) rows[j] |= mask;
     }
@@ -278,8 +279,9 @@ void OrientedDilation::sweep(const BitBox& solid, const ScaleLattice& scale) {
   if (group_.empty()) return;
   solid_ = &solid;
   scale_ = &scale;
-  const std::int32_t before = ceil_div(reach_, CubeRows::kEdge) * CubeRows::kEdge;  // where the first of its blocks of slices may begin
-  std::size_t first = 0, last = 0;                              // blocks in reach of the slice
+  const std::int32_t before =
+      ceil_div(reach_, CubeRows::kEdge) * CubeRows::kEdge;  // where the first of its blocks of slices may begin
+  std::size_t first = 0, last = 0;                          // blocks in reach of the slice
   for (std::int32_t z = group_.front().first.z - before; z < group_.back().first.z + kSlices + reach_; ++z) {
     while (first < group_.size() && group_[first].first.z + kSlices - 1 + reach_ < z) ++first;
     while (last < group_.size() && group_[last].first.z - before <= z) ++last;
@@ -337,20 +339,21 @@ void OrientedDilation::ask_each(const Block& block, const Part& part, int slice,
   const VoxelBox& box = solid_->box();
   Word* open = &open_[block.open + std::size_t(slice * kAcross)];
   const VoxelCoord first = block.first + VoxelCoord{0, 0, slice};
-  tables_.ask_each(*part.most, dz, part.near[slice], part.mask, open, [&](std::int32_t dy, CubeRow row, const Word* met) {
-    for (std::int32_t j = 0; j < kAcross; ++j) {
-      if (first.y + j + dy < box.min.y || first.y + j + dy >= box.max.y) continue;
-      const std::uint64_t* bits = solid_->row(first.y + j + dy, first.z + dz);
-      for (Word left = met[j] & open[j]; left != 0; left &= left - 1) {
-        const int i = std::countr_zero(left);
-        const Scale s = scale_->at(first + VoxelCoord{i, j, 0});
-        const std::int32_t x = first.x + i - box.min.x;
-        if (any_bit(bits, box.max.x - box.min.x, x + row.first, x + row.last,
-                    [&](std::int32_t at) { return in_oriented_cube(rotation, s, at - x, dy, dz); }))
-          open[j] &= ~(Word(1) << i);
-      }
-    }
-  });
+  tables_.ask_each(*part.most, dz, part.near[slice], part.mask, open,
+                   [&](std::int32_t dy, CubeRow row, const Word* met) {
+                     for (std::int32_t j = 0; j < kAcross; ++j) {
+                       if (first.y + j + dy < box.min.y || first.y + j + dy >= box.max.y) continue;
+                       const std::uint64_t* bits = solid_->row(first.y + j + dy, first.z + dz);
+                       for (Word left = met[j] & open[j]; left != 0; left &= left - 1) {
+                         const int i = std::countr_zero(left);
+                         const Scale s = scale_->at(first + VoxelCoord{i, j, 0});
+                         const std::int32_t x = first.x + i - box.min.x;
+                         if (any_bit(bits, box.max.x - box.min.x, x + row.first, x + row.last,
+                                     [&](std::int32_t at) { return in_oriented_cube(rotation, s, at - x, dy, dz); }))
+                           open[j] &= ~(Word(1) << i);
+                       }
+                     }
+                   });
 }
 
 /// Large voxels: some are left that may be in. The others: what is not open is in.

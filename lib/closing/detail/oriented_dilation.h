@@ -17,11 +17,12 @@ class OrientedDilation {
   bool turns(const OrientationField& field, const VoxelBox& region);
   /// Sets `out` (its box is kept, within the region) to the voxels whose turned cube holds a voxel of `solid`.
   /// From large voxels to small ones: at each level the cubes of some that are in for sure and of some that may be are
-  /// asked for, and what they leave open is asked for at the next one. At first the largest cube along the axes that lies
-  /// in all turned ones decides, and the smallest around them. Rows of a turned cube are asked for by 16 x 16 voxels at
-  /// once, and blocks of 8 x 8 rows before them: some 5 cycles for each row and block that is asked. Where the scale
-  /// varies in a cell, the least and the largest are asked for, and each voxel for the rows on which they disagree. The
-  /// solid is swept once for as many cubes as most_bytes hold, or turned_cubes_bytes(); they are kept for the next call.
+  /// asked for, and what they leave open is asked for at the next one. At first the largest cube along the axes that
+  /// lies in all turned ones decides, and the smallest around them. Rows of a turned cube are asked for by 16 x 16
+  /// voxels at once, and blocks of 8 x 8 rows before them: some 5 cycles for each row and block that is asked. Where
+  /// the scale varies in a cell, the least and the largest are asked for, and each voxel for the rows on which they
+  /// disagree. The solid is swept once for as many cubes as most_bytes hold, or turned_cubes_bytes(); they are kept for
+  /// the next call.
   void run(const BitBox& solid, const ScaleLattice& scale, BitBox& out, std::size_t most_bytes = 0);
 
  private:
@@ -40,7 +41,7 @@ class OrientedDilation {
     std::uint16_t rotation;
     std::int32_t min, max;  ///< scales, in 1/16 of the level's voxels; min < 0: none is in for sure
     const CubeRows *least = nullptr, *most = nullptr;  ///< while it is asked for
-    std::uint64_t near[kSlices] = {};                    ///< for each slice: what of the cubes' next slices is asked for
+    std::uint64_t near[kSlices] = {};                  ///< for each slice: what of the cubes' next slices is asked for
     std::uint32_t asks = 0;                            ///< slices of which something is
   };
   /// kAcross x kAcross x kSlices voxels: four cells.
@@ -72,7 +73,7 @@ class OrientedDilation {
   void ask_each(const Block& block, const Part& part, int slice, std::int32_t dz);
   void finish(Level& level) const;
 
-  CubesOver cubes_;                    ///< of the region
+  CubesOver cubes_;                     ///< of the region
   std::vector<std::int64_t> row_sums_;  ///< of its rotations
   std::vector<Level> levels_;
   std::int32_t edge_ = 1, reach_ = 0;  ///< of the level: its voxels; the farthest cube in them

@@ -20,27 +20,21 @@ BP_CLONES void unite(const Word* a, const Word* b, std::size_t n, Word* to) {
   for (std::size_t i = 0; i < n; ++i) to[i] = a[i] | b[i];
 }
 
-/// to[i] := words i of kSlices slices of n, one after the other.
-BP_CLONES void join_slices(const Word* slices, std::size_t n, Word* to) {
+/// to[i] := words i of kSlices slices of `slice` words, one after the other.
+BP_CLONES void join_slices(const Word* slices, std::size_t slice, std::size_t n, Word* to) {
   for (std::size_t i = 0; i < n; ++i) {
     Word any = 0;
-    for (std::size_t k = 0; k < std::size_t(RowTables::kSlices); ++k) any |= slices[k * n + i];
+    for (std::size_t k = 0; k < std::size_t(RowTables::kSlices); ++k) any |= slices[k * slice + i];
     to[i] = any;
   }
 }
 
-/// to[i] := words i to i + kEdge - 1 of n; of the last ones, no more than there are.
+/// to[i] := words i to i + kEdge - 1.
 BP_CLONES void join_rows(const Word* from, std::size_t n, Word* to) {
-  constexpr auto rows = std::size_t(CubeRows::kEdge);
-  std::size_t i = 0;
-  for (; i + rows <= n; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     Word any = 0;
-    for (std::size_t k = 0; k < rows; ++k) any |= from[i + k];
+    for (std::size_t k = 0; k < std::size_t(CubeRows::kEdge); ++k) any |= from[i + k];
     to[i] = any;
-  }
-  for (; i < n; ++i) {
-    to[i] = 0;
-    for (std::size_t k = i; k < n; ++k) to[i] |= from[k];
   }
 }
 
@@ -151,66 +145,105 @@ void RowTables::lay(const VoxelBox& region, std::int32_t reach) {
   for (shared_bits_ = 0; (2 * most_blocks_) >> shared_bits_ >= 64;) ++shared_bits_;
   tables_.assign(2 * level_words() * std::size_t(levels_), 0);
   slices_.assign(level_words() * std::size_t(kSlices), 0);
+  joined_.assign(level_words() + std::size_t(CubeRows::kEdge), 0);
+  std::fill(std::begin(held_), std::end(held_), Extent{});
+  std::fill(std::begin(full_), std::end(full_), Extent{});
   loaded_ = false;
 }
 
-bool RowTables::load_slice(const BitBox& solid, std::int32_t z, Word* to) const {
+void RowTables::Extent::add(const Extent& other) {
+  if (other.empty()) return;
+  if (empty()) {
+    *this = other;
+    return;
+  }
+  first_column = std::min(first_column, other.first_column);
+  last_column = std::max(last_column, other.last_column);
+  first_row = std::min(first_row, other.first_row);
+  last_row = std::max(last_row, other.last_row);
+}
+
+void RowTables::load_slice(const BitBox& solid, std::int32_t z) {
   const VoxelBox& box = solid.box();
-  std::fill_n(to, level_words(), 0);
-  if (z < box.min.z || z >= box.max.z) return false;
+  Word* to = slices_.data() + std::size_t(z & (kSlices - 1)) * level_words();
+  Extent& held = held_[z & (kSlices - 1)];
+  for_columns(held, [&](std::size_t first, std::size_t n) { std::fill_n(to + first, n, 0); });
+  held = {};
+  if (z < box.min.z || z >= box.max.z) return;
   const std::int32_t y0 = std::max(box.min.y, first_y_), y1 = std::min(box.max.y, first_y_ + height_);
   const std::int32_t first = (box.min.x - region_.min.x) / kAcross + pad_;  // column of the solid's first word
-  bool any = false;
   for (std::int32_t y = y0; y < y1; ++y) {
     const std::uint64_t* row = solid.row(y, z);
     for (std::int32_t w = 0; w < solid.words_per_row(); ++w) {
       if (row[w] == 0) continue;
-      any = true;
       for (int part = -1; part < 64 / kAcross; ++part) {
         const std::int32_t column = first + w * (64 / kAcross) + part;
         if (column < 0 || column >= columns_) continue;
         to[std::size_t(column) * std::size_t(height_) + std::size_t(y - first_y_)] |=
             Word(part < 0 ? row[w] << kAcross : row[w] >> (kAcross * part));
+        held.add({column, column + 1, y - first_y_, y - first_y_ + 1});
       }
     }
   }
-  return any;
 }
 
-void RowTables::double_along(Tables of) {
+/// `now`: of the finest level. What was there before is overwritten, too.
+void RowTables::double_along(Tables of, const Extent& now) {
   const auto h = std::size_t(height_);
+  Extent all = full_[of];
+  all.add(now);
+  full_[of] = now;
+  const std::int32_t first = all.first_column;
   for (std::int32_t k = 1; k < levels_; ++k) {
     const std::int32_t shift = 1 << (k - 1);
     const Word* from = tables_.data() + level(of, k - 1);
     Word* to = tables_.data() + level(of, k);
-    for (std::int32_t c = 0; c < columns_; ++c) {
+    all.first_column = std::max(first - ceil_div(2 * shift, kAcross), 0);
+    for_columns(all, [&](std::size_t word, std::size_t n) {
       // What lies beyond the last column is out of every cube's reach.
-      const std::int32_t next = std::min(c + std::max(shift / kAcross, 1), columns_ - 1);
-      const Word *here = from + std::size_t(c) * h, *there = from + std::size_t(next) * h;
+      const std::size_t step = std::size_t(std::max(shift / kAcross, 1)) * h, last = level_words() - h + word % h;
+      const Word *here = from + word, *there = from + std::min(word + step, last);
       if (shift < kAcross) {
-        widen(here, there, shift, h, to + std::size_t(c) * h);
+        widen(here, there, shift, n, to + word);
       } else {
-        unite(here, there, h, to + std::size_t(c) * h);
+        unite(here, there, n, to + word);
       }
-    }
+    });
   }
 }
 
+/// What 4 slices hold; `now` is their extent.
+void RowTables::join(const Extent& now) {
+  constexpr std::int32_t more = CubeRows::kEdge - 1;
+  Extent blocks = now, all = full_[kBlocks];
+  blocks.first_row = std::max(now.first_row - more, 0);
+  all.add(blocks);
+  for_columns(all, [&](std::size_t first, std::size_t n) {
+    join_slices(slices_.data() + first, level_words(), n, joined_.data() + first);
+  });
+  for_columns(all, [&](std::size_t first, std::size_t n) {
+    join_rows(joined_.data() + first, n, tables_.data() + level(kBlocks, 0) + first);
+  });
+  double_along(kBlocks, blocks);
+}
+
 bool RowTables::load(const BitBox& solid, std::int32_t z) {
-  const auto number = [](std::int32_t slice) { return std::size_t(slice & (kSlices - 1)); };
   if (!loaded_ || next_ < z || next_ > z + kSlices) next_ = z;
-  for (; next_ < z + kSlices; ++next_)
-    held_[number(next_)] = load_slice(solid, next_, slices_.data() + number(next_) * level_words());
+  for (; next_ < z + kSlices; ++next_) load_slice(solid, next_);
   loaded_ = true;
-  here_ = held_[number(z)];
-  if (std::none_of(held_, held_ + kSlices, [](bool held) { return held; })) return false;
-  // What 8 slices hold, in the place of the slice's own until it comes itself.
-  join_slices(slices_.data(), level_words(), tables_.data());
-  join_rows(tables_.data(), level_words(), tables_.data() + level(kBlocks, 0));
-  double_along(kBlocks);
+  const Extent& here = held_[z & (kSlices - 1)];
+  here_ = !here.empty();
+  Extent any;
+  for (const Extent& held : held_) any.add(held);
+  if (any.empty()) return false;
+  join(any);
   if (!here_) return true;
-  std::copy_n(slices_.data() + number(z) * level_words(), level_words(), tables_.data());
-  double_along(kSlice);
+  Extent all = full_[kSlice];
+  all.add(here);
+  for_columns(all, [&](std::size_t first, std::size_t n) {
+    std::copy_n(slices_.data() + std::size_t(z & (kSlices - 1)) * level_words() + first, n, tables_.data() + first);
+  });
+  double_along(kSlice, here);
   return true;
 }
 

@@ -13,14 +13,14 @@ namespace bp::detail {
 
 class RowTables {
  public:
-  static constexpr std::int32_t kAcross = 16;              ///< voxels that ask, in a row and rows
+  static constexpr std::int32_t kAcross = 16;               ///< voxels that ask, in a row and rows
   static constexpr std::int32_t kSlices = CubeRows::kEdge;  ///< that are joined
   /// Of a row of some length: where the tables of windows of 2^k voxels begin, the longest that fit in it; and 2^k.
   struct Windows {
     std::int32_t begin, voxels;
   };
   struct Asker;
-  using Word = std::uint32_t;                               ///< who asks uses the lower half
+  using Word = std::uint32_t;  ///< who asks uses the lower half
 
   /// Lays tables for questions from voxels of `region` by cubes of this reach.
   void lay(const VoxelBox& region, std::int32_t reach);
@@ -62,12 +62,25 @@ class RowTables {
     }
   }
   [[nodiscard]] bool meet(const CubeRow& row, std::int32_t dy, const Word* mask, const Word* open, Word* met) const;
-  bool load_slice(const BitBox& solid, std::int32_t z, Word* to) const;
+  /// Words of a table that are not all 0: columns and rows.
+  struct Extent {
+    std::int32_t first_column = 0, last_column = 0, first_row = 0, last_row = 0;  ///< the last ones are not in it
+    [[nodiscard]] bool empty() const { return first_column >= last_column; }
+    void add(const Extent& other);
+  };
+  /// f(first word, count) for the columns of an extent.
+  template <class F>
+  void for_columns(const Extent& e, const F& f) const {
+    for (std::int32_t c = e.first_column; c < e.last_column; ++c)
+      f(std::size_t(c) * std::size_t(height_) + std::size_t(e.first_row), std::size_t(e.last_row - e.first_row));
+  }
+  void load_slice(const BitBox& solid, std::int32_t z);
+  void join(const Extent& now);
   /// Level k of tables: x to x + 2^k - 1 together; by columns, y fastest.
   [[nodiscard]] std::size_t level(Tables of, std::int32_t k) const {
     return std::size_t(of * levels_ + k) * level_words();
   }
-  void double_along(Tables of);
+  void double_along(Tables of, const Extent& now);
   [[nodiscard]] std::size_t level_words() const { return std::size_t(columns_) * std::size_t(height_); }
   [[nodiscard]] Asker asker(Tables of) const;
 
@@ -76,15 +89,18 @@ class RowTables {
   std::int32_t first_y_ = 0;  ///< of the tables
   std::int32_t columns_ = 0, height_ = 0, levels_ = 0;
   std::int32_t most_blocks_ = 0, shared_bits_ = 0;  ///< bit of blocks i in near(): (i + most_blocks_) >> shared_bits_
-  std::vector<Windows> windows_;        ///< for each length
-  std::vector<std::int32_t> columns_of_;  ///< where the column of a start begins, from -reach on
+  std::vector<Windows> windows_;                    ///< for each length
+  std::vector<std::int32_t> columns_of_;            ///< where the column of a start begins, from -reach on
   std::int32_t reach_ = 0;
-  std::vector<Word> tables_;                        ///< of the slice; of 8 rows of 8 slices together
-  std::vector<Word> slices_;                        ///< slice z is number z modulo 4
-  std::int32_t next_ = 0;                           ///< slice that is not in them yet
-  bool held_[kSlices] = {}, loaded_ = false;        ///< what of them holds something
-  bool here_ = false;                               ///< the slice itself does
-  std::size_t at_ = 0;                              ///< of who asks, in the finest table
+  std::vector<Word> tables_;  ///< by Tables, then level
+  Extent full_[2];            ///< of their finest levels
+  std::vector<Word> slices_;  ///< slice z is number z modulo 4
+  Extent held_[kSlices];      ///< of each
+  std::vector<Word> joined_;  ///< the slices together
+  std::int32_t next_ = 0;     ///< slice that is not in them yet
+  bool loaded_ = false;
+  bool here_ = false;   ///< the slice itself holds something
+  std::size_t at_ = 0;  ///< of who asks, in the finest table
 };
 
 }  // namespace bp::detail
