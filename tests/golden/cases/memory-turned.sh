@@ -8,9 +8,9 @@ awk -v n=80 'BEGIN {
   for (i = 0; i < n; ++i) for (j = 0; j < n; ++j)
     print "f", i * n + j + 1, (i + 1) % n * n + j + 1, (i + 1) % n * n + (j + 1) % n + 1, i * n + (j + 1) % n + 1
 }' > torus.obj
-bpvox torus.obj --resolution 150 -q -o torus.bpv
-echo '{"base": "3%", "orientation": "auto"}' > even.json
-echo '{"base": "4%", "rules": [{"box": [[-5, -5, -5], [0, 0, 5]], "scale": "2%"}], "orientation": "auto"}' > varying.json
+bpvox torus.obj --resolution 300 -q -o torus.bpv
+echo '{"base": "5%", "orientation": "auto"}' > even.json
+echo '{"base": "6%", "rules": [{"box": [[-5, -5, -5], [0, 0, 5]], "scale": "3%"}], "orientation": "auto"}' > varying.json
 for field in even varying; do
   bpscale $field.json torus.bpv -q -o turned.bpv --overwrite
   [ "$(bpinfo turned.bpv | sed -n 's/^orientation \([0-9]*\) rotations.*/\1/p')" -gt 200 ] && echo "$field: hundreds of rotations"
