@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "lib/closing/closing_scratch.h"
+#include "lib/closing/detail/halves.h"
 #include "lib/closing/detail/oriented_dilation.h"
 #include "lib/closing/rotation.h"
 #include "tests/catch.h"
@@ -232,5 +233,56 @@ TEST_CASE("boxes around and inside a turned cube hold for every rotation and sca
       }
     }
     CHECK(held == in_rows);
+  }
+}
+
+TEST_CASE("voxels twice as large hold what the eight in them hold", "[quick][closing][oriented]") {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    const VoxelBox box = reference::random_box(random, 90);
+    const BitBox solid = reference::random_solid(random, box);
+    BitBox large(detail::halved(box).grown(random.between(-2, 3))), small(box);
+    detail::halve(solid, large);
+    int wrong = 0;
+    for_each(large.box(), [&](VoxelCoord p) {
+      bool any = false;
+      for (int i = 0; i < 8; ++i) any = any || solid.test(p * 2 + VoxelCoord{i % 2, i / 2 % 2, i / 4});
+      wrong += any == large.test(p) ? 0 : 1;
+    });
+    BitBox all(detail::halved(small.box()));
+    detail::halve(solid, all);
+    detail::double_up(all, small);
+    for_each(small.box(), [&](VoxelCoord p) {
+      const VoxelCoord in{floor_div(p.x, 2), floor_div(p.y, 2), floor_div(p.z, 2)};
+      wrong += small.test(p) == all.test(in) ? 0 : 1;
+    });
+    CAPTURE(seed);
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("what turned cubes of large voxels decide holds for every voxel in them", "[quick][closing][oriented]") {
+  Random random(11);
+  for (int i = 0; i < 60; ++i) {
+    const auto part = [&] { return std::int16_t(random.between(-16000, 16000)); };
+    const Rotation r = canonical(rotation_of(FixedQuaternion{12000, part(), part(), part()}));
+    const auto s = Scale(random.between(0, 12 * kScaleOne));
+    const std::int32_t edge = random.between(1, 2) * 2, far = s / kScaleOne + 2;
+    const CoarseScale coarse = coarse_scale(cube_bounds(r).row_sum, s, edge);
+    int wrong = 0;
+    for_each(VoxelBox{{-far, -far, -far}, {far, far, far}}, [&](VoxelCoord d) {
+      bool all = true, any = false;
+      for_each(VoxelBox{{1 - edge, 1 - edge, 1 - edge}, {edge, edge, edge}}, [&](VoxelCoord between) {
+        const VoxelCoord apart = d * edge + between;
+        const bool in = in_oriented_cube(r, s, apart.x, apart.y, apart.z);
+        all = all && in;
+        any = any || in;
+      });
+      const bool sure = coarse.sure >= 0 && in_oriented_cube(r, Scale(coarse.sure), d.x, d.y, d.z),
+                 possible = in_oriented_cube(r, Scale(coarse.possible), d.x, d.y, d.z);
+      wrong += (sure && !all) || (any && !possible) ? 1 : 0;
+    });
+    CAPTURE(i, s, edge);
+    CHECK(wrong == 0);
   }
 }

@@ -19,7 +19,7 @@ class OrientedDilation {
   /// From large voxels to small ones: at each level the cubes of some that are in for sure and of some that may be are
   /// asked for, and what they leave open is asked for at the next one. At first the largest cube along the axes that
   /// lies in all turned ones decides, and the smallest around them. Rows of a turned cube are asked for by 16 x 16
-  /// voxels at once, and blocks of 8 x 8 rows before them: some 5 cycles for each row and block that is asked. Where
+  /// voxels at once, and blocks of 4 x 4 rows before them: some 5 cycles for each row and block that is asked. Where
   /// the scale varies in a cell, the least and the largest are asked for, and each voxel for the rows on which they
   /// disagree. The solid is swept once for as many cubes as most_bytes hold, or turned_cubes_bytes(); they are kept for
   /// the next call.
