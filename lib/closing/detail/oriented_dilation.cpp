@@ -335,25 +335,31 @@ void OrientedDilation::ask_part(const Block& block, Part& part, int slice, std::
 
 /// Of voxels that meet nothing of the least cube, each by its own scale.
 void OrientedDilation::ask_each(const Block& block, const Part& part, int slice, std::int32_t dz) {
-  const Rotation& rotation = cubes_.rotations[part.rotation];
-  const VoxelBox& box = solid_->box();
+  Scale scales[kAcross * kAcross] = {};  // 0: not known yet
   Word* open = &open_[block.open + std::size_t(slice * kAcross)];
   const VoxelCoord first = block.first + VoxelCoord{0, 0, slice};
   tables_.ask_each(*part.most, dz, part.near[slice], part.mask, open,
                    [&](std::int32_t dy, CubeRow row, const Word* met) {
                      for (std::int32_t j = 0; j < kAcross; ++j) {
-                       if (first.y + j + dy < box.min.y || first.y + j + dy >= box.max.y) continue;
-                       const std::uint64_t* bits = solid_->row(first.y + j + dy, first.z + dz);
                        for (Word left = met[j] & open[j]; left != 0; left &= left - 1) {
                          const int i = std::countr_zero(left);
-                         const Scale s = scale_->at(first + VoxelCoord{i, j, 0});
-                         const std::int32_t x = first.x + i - box.min.x;
-                         if (any_bit(bits, box.max.x - box.min.x, x + row.first, x + row.last,
-                                     [&](std::int32_t at) { return in_oriented_cube(rotation, s, at - x, dy, dz); }))
-                           open[j] &= ~(Word(1) << i);
+                         const VoxelCoord p = first + VoxelCoord{i, j, 0};
+                         Scale& s = scales[j * kAcross + i];
+                         if (s == 0) s = scale_->at(p);
+                         if (holds(cubes_.rotations[part.rotation], s, p, row, dy, dz)) open[j] &= ~(Word(1) << i);
                        }
                      }
                    });
+}
+
+/// The cube of scale `s` around p holds a solid voxel of the row.
+bool OrientedDilation::holds(const Rotation& rotation, Scale s, VoxelCoord p, CubeRow row, std::int32_t dy,
+                             std::int32_t dz) const {
+  const VoxelBox& box = solid_->box();
+  if (p.y + dy < box.min.y || p.y + dy >= box.max.y) return false;
+  const std::int32_t x = p.x - box.min.x;
+  return any_bit(solid_->row(p.y + dy, p.z + dz), box.max.x - box.min.x, x + row.first, x + row.last,
+                 [&](std::int32_t at) { return in_oriented_cube(rotation, s, at - x, dy, dz); });
 }
 
 /// Large voxels: some are left that may be in. The others: what is not open is in.

@@ -71,6 +71,8 @@ class OrientedDilation {
   void ask_part(const Block& block, Part& part, int slice, std::int32_t dz);
   void look(const Block& block, Part& part, int slice, std::int32_t dz, bool any) const;
   void ask_each(const Block& block, const Part& part, int slice, std::int32_t dz);
+  [[nodiscard]] bool holds(const Rotation& rotation, Scale s, VoxelCoord p, CubeRow row, std::int32_t dy,
+                           std::int32_t dz) const;
   void finish(Level& level) const;
 
   CubesOver cubes_;                     ///< of the region
