@@ -86,7 +86,8 @@ int run_tileset(const bp::CheckRun& o) {
   options.keep_extremes = true;
   options.document = bp::document_budget(o.common.memory_bytes, bp::kMeshProgram, 2);
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
-  const bp::TilesetVerdict verdict = bp::check_tileset_file(o.files.back(), scenes, options, o.common.memory_bytes / 2);
+  const bp::TilesetVerdict verdict =
+      bp::check_tileset_file(o.files.back(), scenes, options, o.common.memory_bytes / 2, o.part);
   const std::string name = bp::file_name(o.files.back());
   bp::print(o.json ? verdict.json(name) : verdict.text(name));
   const auto contents = bp::tileset_level(bp::read_tileset(o.files.back()), o.files.back(), 0).contents;

@@ -146,7 +146,12 @@ void apply(const Options& o, bp::Report& report, bp::Progress& progress) {
     report.bytes_out += output->bytes();
   }
   report.counts = {{"vertices", applied.points}, {"scenes", scenes}};
-  if (!applied.left_behind.empty()) report.note(fmt::format("{}: {}", o.out, applied.left_behind), o.common);
+  std::string written = numbered(o.out, 0, scenes);
+  if (scenes > 1) {
+    written += " to " + numbered(o.out, scenes - 1, scenes);
+    report.note(fmt::format("{} scenes are written: {}", scenes, written), o.common);
+  }
+  if (!applied.left_behind.empty()) report.note(fmt::format("{}: {}", written, applied.left_behind), o.common);
   report.bytes_in = bp::size_of_files({scene});
 }
 

@@ -15,7 +15,9 @@ namespace {
 /// The row of a file. How far hulls are from the scene is not measured.
 bp::LevelRow row_of(const bp::WrittenFile& file, const std::vector<bp::LevelFacts>& levels,
                     const bp::OutputFolder& out) {
-  bp::LevelRow row = bp::row_of(levels[file.level], file.name, out.bytes(file.name));
+  std::uint64_t bytes = out.bytes(file.name);
+  for (const std::string& name : file.beside) bytes += out.bytes(name);
+  bp::LevelRow row = bp::row_of(levels[file.level], file.name, bytes);
   if (file.is_level) return row;
   row.faces = file.faces;
   row.error_world = std::nan("");

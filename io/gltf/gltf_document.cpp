@@ -148,7 +148,7 @@ GltfDocument::GltfDocument(const SceneFilePtr& file, const SceneOptions& options
   } else {
     parse(0, file->size());
   }
-  check_version();
+  check_root();
   buffers_.resize(root().array("buffers").size());
 }
 
@@ -187,13 +187,14 @@ void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
   json_bytes_ = all.bytes;
 }
 
-void GltfDocument::check_version() const {
+void GltfDocument::check_root() const {
   if (root().has("geometricError") && root().has("root"))
     fail(ErrorCode::bad_input, "{}: a tileset of 3D Tiles; it is read as a file whose name ends in .json",
          file_->name());
   const std::string version = root().object("asset").text("version");
   if (version.compare(0, 2, "2.") != 0)
     fail(ErrorCode::bad_input, "{}: is glTF version {}, and only version 2 is read", file_->name(), version);
+  check_required_extensions(root());
 }
 
 // --- GltfDocument: buffers and accessors

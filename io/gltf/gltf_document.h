@@ -62,6 +62,9 @@ class GltfObject {
   std::string file_, place_;
 };
 
+/// Of a glTF, or of a tileset. Throws bad_input, with the name, if it requires an extension that is not known.
+void check_required_extensions(const GltfObject& root);
+
 /// The componentType of an accessor, one that glTF knows.
 [[nodiscard]] ComponentType component_type(const GltfObject& accessor);
 
@@ -105,7 +108,7 @@ class GltfDocument {
   };
   void open_glb();
   void parse(std::uint64_t offset, std::uint64_t size);
-  void check_version() const;
+  void check_root() const;
   const Data& buffer(std::uint64_t i);
   SceneFilePtr open_buffer(std::uint64_t i);
   [[nodiscard]] SceneFilePtr lifted(const std::string& uri) const;

@@ -3,6 +3,7 @@
 namespace bp {
 
 std::optional<UpAxis> gltf_up(const GltfObject& root) {
+  if (!root.has("asset")) return {};
   const GltfObject asset = root.object("asset");
   for (const char* const name : kUpNames) {
     if (asset.holds_text("extras", "up", name)) return up_axis_named(name);

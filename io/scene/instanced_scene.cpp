@@ -86,6 +86,10 @@ class ElementReader {
     std::byte raw[N * 8];
     std::array<double, N> v{};
     if (!fetch(a, i, raw)) return v;
+    if (a.type == ComponentType::f32) {  // nearly all
+      for (std::size_t k = 0; k < N; ++k) v[k] = double(load<float>(raw + 4 * k));
+      return v;
+    }
     const std::size_t step = bytes_of(a.type);
     for (std::size_t k = 0; k < N; ++k) v[k] = decode(raw + k * step, a.type, a.normalized);
     return v;

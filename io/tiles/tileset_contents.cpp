@@ -3,15 +3,13 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 
 #include "io/files/file.h"
 #include "io/files/kept_files.h"
 #include "io/files/lower.h"
-#include "io/files/uri.h"
-#include "io/gltf/gltf_document.h"
 #include "io/gltf/gltf_nodes.h"
+#include "io/tiles/tileset_rules.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -19,7 +17,6 @@ namespace bp {
 namespace {
 
 // What real tilesets stay far below; beyond it a file asks for more than it can hold.
-constexpr int kMostDeep = 64;            // tiles below tiles of one file
 constexpr std::size_t kMostNested = 16;  // tilesets below tilesets
 constexpr std::size_t kMostTilesets = 1 << 16;
 
@@ -35,26 +32,13 @@ struct Around {
   bool has_leaves;  ///< ours: they are the scene (extras.leaf), and what stands beside them is not
 };
 
-bool is_leaf(const GltfObject& tile) {
-  return tile.has("extras") && tile.object("extras").has("leaf") && tile.object("extras").flag("leaf");
-}
-
-/// Looks at all tiles: none is too deep for those who come after.
+/// Looks at all tiles, so that those who come after need not.
 bool has_leaves(const GltfObject& tile, int depth) {
-  if (depth > kMostDeep) tile.broken(fmt::format("lies below {} tiles", kMostDeep));
+  check_tile(tile, depth);
   bool has = is_leaf(tile);
   for (std::size_t i = 0; i < tile.array("children").size(); ++i)
     has = has_leaves(tile.item("children", i), depth + 1) || has;
   return has;
-}
-
-/// The last two change nothing of what is drawn.
-void check_extensions(const GltfObject& root) {
-  constexpr std::array kKnown = {"3DTILES_content_gltf", "3DTILES_metadata", "3DTILES_bounding_volume_S2"};
-  for (const GltfJson& name : root.array("extensionsRequired")) {
-    if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end())
-      root.unfit(fmt::format("requires {}, which is not read", name.dump()));
-  }
 }
 
 /// Of older tilesets; glTF has y up.
@@ -72,9 +56,7 @@ class ContentFinder {
   TilesetContents run(const CountedJson& tileset, const std::string& path) {
     held_ = tileset.bytes;
     const GltfObject root(tileset.json, path, "");
-    for (const char* const name : kUpNames) {
-      if (root.has("asset") && root.object("asset").holds_text("extras", "up", name)) out_.up = *up_axis_named(name);
-    }
+    out_.up = gltf_up(root).value_or(UpAxis::z);
     add_tileset(root, path, affine_of(to_y_up(out_.up).inverse()) * affine_of(to_y_up(UpAxis::z)));
     if (missing_ > 0)
       fail(ErrorCode::bad_input,
@@ -91,7 +73,7 @@ class ContentFinder {
     if (open_.size() == kMostNested || ++tilesets_ > kMostTilesets)
       fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: tilesets within tilesets are read {} deep, and {} of them",
            path, kMostNested, kMostTilesets);
-    check_extensions(root);
+    check_required_extensions(root);
     open_.push_back(real);
     const GltfObject tile = root.object("root");
     add_tile(tile, {folder_of(path), content_up(root), has_leaves(tile, 0)}, place, false);
@@ -100,12 +82,8 @@ class ContentFinder {
 
   /// adds: tiles are drawn beside those below them, as the tile above says.
   void add_tile(const GltfObject& tile, const Around& around, const Affine& parent, bool adds) {
-    if (tile.has("implicitTiling") || tile.has_extension("3DTILES_implicit_tiling"))
-      tile.broken("is tiled implicitly, which is not read");
-    if (tile.has_extension("3DTILES_multiple_contents"))
-      tile.broken("has contents in an extension, which are not read");
     const Affine place = parent * gltf_matrix(tile, "transform");
-    if (tile.has("refine")) adds = lower(tile.text("refine")) == "add";
+    if (tile.has("refine")) adds = bp::adds(tile.text("refine"));
     const std::size_t below = tile.array("children").size();
     const bool drawn = around.has_leaves ? is_leaf(tile) : adds || below == 0;
     if (tile.has("content")) add_content(tile.object("content"), around, place, drawn);
@@ -115,13 +93,12 @@ class ContentFinder {
   }
 
   void add_content(const GltfObject& content, const Around& around, const Affine& place, bool drawn) {
-    const std::string uri = content.text(content.has("uri") ? "uri" : "url");
-    if (uri.find("://") != std::string::npos) content.broken("lies on the network; download it");
-    if (uri.starts_with("data:")) content.broken("is embedded, which is not read");
-    std::string path = detail::percent_decoded(uri);
+    std::string path = content_uri(content);
+    if (path.find("://") != std::string::npos) content.unfit("lies on the network; download it");
+    if (path.starts_with("data:")) content.unfit("is embedded, which is not read");
     if (!path.starts_with('/')) path.insert(0, around.folder + "/");
     if (!is_file(path)) path.resize(std::min(path.size(), path.find('?')));
-    const bool is_tileset = path.ends_with(".json");  // stands for the tiles below
+    const bool is_tileset = names_tileset(path);  // stands for the tiles below
     if (!drawn && !is_tileset) return;
     if (!is_file(path)) {
       if (missing_++ == 0) first_missing_ = path;

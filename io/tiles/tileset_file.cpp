@@ -4,8 +4,9 @@
 
 #include "io/files/uri.h"
 #include "io/gltf/glb_file.h"
-#include "io/gltf/gltf_document.h"
+#include "io/gltf/gltf_nodes.h"
 #include "io/gltf/json_fault.h"
+#include "io/tiles/tileset_rules.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -15,7 +16,6 @@ namespace {
 using Json = GltfOutJson;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 32;  // some millions of tiles
-constexpr int kMostDeep = 64;  // tiles below tiles: deeper ones are a mistake or an attack on the stack
 
 double number_of(const GltfJson& json, const GltfObject& object, const char* key) {
   const auto found = json.find(key);
@@ -44,15 +44,10 @@ class Reader {
 
   Tileset run() {
     const GltfObject root(json_, name_, "");
-    for (const GltfJson& name : root.array("extensionsRequired")) {
-      if (name != "3DTILES_content_gltf" && name != "3DTILES_metadata")
-        root.broken(fmt::format("requires {}, which is not read", name.dump()));
-    }
+    check_required_extensions(root);
     Tileset tileset;
     tileset.version = root.object("asset").text("version");
-    for (const char* const name : kUpNames) {
-      if (root.object("asset").holds_text("extras", "up", name)) tileset.up = *up_axis_named(name);
-    }
+    tileset.up = gltf_up(root).value_or(UpAxis::z);
     tileset.geometric_error = number_of(json_, root, "geometricError");
     tileset.images = images(root.object("asset"));
     tileset.root = tile(root.object("root"), json_["root"], 0);
@@ -61,13 +56,13 @@ class Reader {
 
  private:
   Tile tile(const GltfObject& object, const GltfJson& json, int depth) const {
-    if (depth > kMostDeep) object.broken(fmt::format("lies below {} tiles", kMostDeep));
-    refuse_unread(object);
+    check_tile(object, depth);
+    if (object.has("contents")) object.unfit("has several contents, which are not read");
     Tile tile;
     const GltfObject volume = object.object("boundingVolume");
     if (volume.has("box")) {
       tile.box = box_from(volume.numbers<12>("box", {}));
-    } else if (!volume.has("sphere") && !volume.has("region")) {
+    } else if (!volume.has("sphere") && !volume.has("region") && !volume.has_extension("3DTILES_bounding_volume_S2")) {
       volume.broken("has neither a box nor a sphere nor a region");
     }
     tile.transform = object.numbers<16>("transform", kNoTransform);
@@ -77,20 +72,12 @@ class Reader {
     if (object.has("extras") && object.object("extras").has("cell")) {
       const auto cell = object.object("extras").numbers<6>("cell", {});
       tile.cell = Bounds3d{{cell[0], cell[1], cell[2]}, {cell[3], cell[4], cell[5]}};
-      tile.is_leaf = object.object("extras").has("leaf") && object.object("extras").flag("leaf");
+      tile.is_leaf = is_leaf(object);
     }
     if (object.has("children") && object.array("children").empty()) object.broken("has 'children', and none in it");
     for (std::size_t i = 0; i < object.array("children").size(); ++i)
       tile.children.push_back(this->tile(object.item("children", i), json["children"][i], depth + 1));
     return tile;
-  }
-
-  /// What a viewer draws, and this does not know.
-  static void refuse_unread(const GltfObject& tile) {
-    if (tile.has("implicitTiling") || tile.has_extension("3DTILES_implicit_tiling"))
-      tile.broken("is tiled implicitly, which is not read");
-    if (tile.has("contents") || tile.has_extension("3DTILES_multiple_contents"))
-      tile.broken("has several contents, which are not read");
   }
 
   /// Of a tileset of ours; anything else there is someone else's business.
@@ -104,9 +91,8 @@ class Reader {
   }
 
   static std::string content(const GltfObject& object) {
-    const std::string uri = detail::percent_decoded(object.text("uri"));
-    if (uri.size() > 5 && uri.compare(uri.size() - 5, 5, ".json") == 0)
-      object.broken("is a tileset of its own: check it by itself");
+    const std::string uri = content_uri(object);
+    if (names_tileset(uri)) object.unfit("is a tileset of its own: check it by itself");
     return uri;
   }
 

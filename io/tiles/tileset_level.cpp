@@ -7,6 +7,7 @@
 
 #include "io/files/file.h"
 #include "io/tiles/tileset_contents.h"
+#include "io/tiles/tileset_rules.h"
 
 namespace bp {
 
@@ -39,7 +40,7 @@ class LevelFinder {
   /// adds: as the tile above is refined.
   void find(const Tile& tile, std::size_t depth, const Transform& parent, bool adds) {
     const Transform transform = product(parent, tile.transform);
-    if (!tile.refine.empty()) adds = tile.refine == "ADD";
+    if (!tile.refine.empty()) adds = bp::adds(tile.refine);
     const bool ends = depth >= depth_ || tile.children.empty();
     if (!tile.uri.empty() && (ends || adds)) take(tile.uri, transform);
     if (ends && !tile.uri.empty()) return;

@@ -102,6 +102,7 @@ void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource&
   report.scene_triangles = e.triangles;
   report.touching = e.touching, report.outside = e.outside, report.undecidable_scene = e.undecidable;
   report.margin = options.margin_world;
+  if (report.margin > 0 && std::isfinite(e.least_gap)) report.least_gap = e.least_gap;
   report.too_near = e.too_near, report.perhaps_near = e.perhaps_near;
   report.scene_volume = e.volume;
   measure_distances(surface, memory, options, report);

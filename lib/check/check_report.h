@@ -87,9 +87,10 @@ struct CheckReport {
   Finding undecidable_scene;          ///< index: scene triangle outside the domain of exact predicates
 
   // The least distance between both (gap.h).
-  double margin = 0;     ///< asked for, scene units; 0: not asked
-  Finding too_near;      ///< index: scene triangle, other: proxy triangle that is nearer to it
-  Finding perhaps_near;  ///< the same, where doubles do not decide
+  double margin = 0;                ///< asked for, scene units; 0: not asked
+  std::optional<double> least_gap;  ///< between scene and proxy, if a margin is asked for; in doubles
+  Finding too_near;                 ///< index: scene triangle, other: proxy triangle that is nearer to it
+  Finding perhaps_near;             ///< the same, where doubles do not decide
 
   // The proxy inside the scene (inside.h).
   bool wants_inside = false;  ///< asked for, instead of enclosure

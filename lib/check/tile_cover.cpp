@@ -45,9 +45,10 @@ struct Counts {
 
 class Checker {
  public:
-  Checker(const std::vector<CoverTile>& tiles, const CoverContents& content_of)
+  Checker(const std::vector<CoverTile>& tiles, const CoverContents& content_of, TilePart part)
       : tiles_(tiles),
         content_of_(content_of),
+        mine_(tiles_of(part, tiles)),
         bodies_(tiles.size()),
         leaves_(tiles.size()),
         unsound_(tiles.size()),
@@ -75,21 +76,24 @@ class Checker {
       }
     }
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      if (!mine_[i]) continue;
       say_of_tile(i);
       report_.thin += counts_[i].of(Verdict::thin);
       report_.flat += counts_[i].of(Verdict::flat);
     }
-    if (astray_ > 0)
+    if (mine_[0] && astray_ > 0)
       findings_.push_back(
           {fmt::format("{}: {} triangles of the scene leave its cell", tiles_[0].place, astray_.load())});
-    for (std::size_t i = 0; i < tiles_.size(); ++i) say_of_scene(i);
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      if (mine_[i]) say_of_scene(i);
+    }
     return std::move(report_);
   }
 
  private:
   /// A tile and those below.
   struct Numbers {
-    std::size_t first = 0, last = 0;   ///< the least and the largest
+    std::size_t first = 0, last = 0;   ///< of this part: the least and the largest; none: the first is above the last
     std::optional<double> leaf_error;  ///< the largest, if those below show nothing but leaves
   };
 
@@ -108,7 +112,7 @@ class Checker {
   }
 
   const Numbers& find_below(std::size_t i) {
-    Numbers& all = below_[i] = {i, i, 0.0};
+    Numbers& all = below_[i] = {mine_[i] ? i : SIZE_MAX, mine_[i] ? i : 0, 0.0};
     for (const std::size_t child : tiles_[i].children) {
       const Numbers& some = find_below(child);
       all.first = std::min(all.first, some.first), all.last = std::max(all.last, some.last);
@@ -124,7 +128,7 @@ class Checker {
     std::uint64_t bytes = 0;
     std::size_t end = begin_;
     while (end < tiles_.size()) {
-      bytes += tiles_[end].triangles.value_or(0) * kCoverBytesPerTriangle;
+      bytes += mine_[end] ? tiles_[end].triangles.value_or(0) * kCoverBytesPerTriangle : 0;
       if (bytes > memory_bytes && end > begin_) break;
       ++end;
     }
@@ -132,7 +136,7 @@ class Checker {
   }
 
   void load(std::size_t i) {
-    if (!tiles_[i].triangles || refused_[i]) return;
+    if (!mine_[i] || !tiles_[i].triangles || refused_[i]) return;
     if (tiles_[i].leaf_error) {
       leaves_[i] = std::make_unique<LeafBody>(content_of_(i), *tiles_[i].cell, kFlat * scene_edge_);
     } else {
@@ -186,7 +190,7 @@ class Checker {
   void visit(std::size_t i, const TriangleD& t, const Bounds3d& bounds, KnownInside& known) {
     if (below_[i].first >= end_ || below_[i].last < begin_) return;
     const CoverTile& tile = tiles_[i];
-    const bool mine = i >= begin_ && i < end_;
+    const bool mine = mine_[i] && i >= begin_ && i < end_;
     if (mine && !tile.triangles && tile.children.empty()) count(i, shown_by_nothing(i, t));
     if (mine && tile.triangles && !refused_[i])
       count(i, tile.leaf_error ? compare(i, t) : examine(i, t, bounds, known));
@@ -302,7 +306,7 @@ class Checker {
     const double error = leaf_error(*tiles_[i].cell, farthest, *tiles_[i].leaf_error);
     report_.leaf_error = std::max(report_.leaf_error, error);
     refused_[i] = error > most;
-    if (refused_[i])
+    if (refused_[i] && mine_[i])
       findings_.push_back({fmt::format("{}: {} is compared to within {:.3g}; rounding of this scene is {:.3g} at most",
                                        tiles_[i].place, tiles_[i].uri, error, most)});
   }
@@ -328,6 +332,7 @@ class Checker {
 
   const std::vector<CoverTile>& tiles_;
   const CoverContents& content_of_;
+  const std::vector<bool> mine_;
   std::vector<std::unique_ptr<TileBody>> bodies_;  ///< of the tiles of this share; null: a leaf, or nothing
   std::vector<std::unique_ptr<LeafBody>> leaves_;
   std::vector<std::uint8_t> unsound_;
@@ -345,8 +350,8 @@ class Checker {
 }  // namespace
 
 CoverReport check_cover(const std::vector<CoverTile>& tiles, const CoverContents& content_of, TriangleSource& scene,
-                        std::uint64_t memory_bytes) {
-  return Checker(tiles, content_of).run(scene, memory_bytes);
+                        std::uint64_t memory_bytes, TilePart part) {
+  return Checker(tiles, content_of, part).run(scene, memory_bytes);
 }
 
 }  // namespace bp

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/check/check_report.h"
+#include "lib/check/tile_part.h"
 #include "lib/core/box.h"
 #include "lib/core/indexed_mesh.h"
 #include "lib/core/triangle_source.h"
@@ -32,6 +33,11 @@
 /// that is more, and t is cut by them in doubles, whose errors are far smaller; where t meets a face, bounds of the
 /// common segment (exact predicates say which edges meet which triangle, intervals where) must miss the grown cell. So
 /// "holds" is a proof, and a tile is blamed unjustly only if a triangle and a face nearly coincide where the cell ends.
+///
+/// Each statement is about one tile: the scene in its cell, its content, the cells of its children, and whether
+/// children have contents. That t leaves the root's cell is a statement about the root. So a check may be done in parts
+/// (tile_part.h), each of which sees all tiles and the whole scene: the findings of the parts together are those of one
+/// check, and no pair of tiles falls between two parts.
 namespace bp {
 
 struct CoverTile {
@@ -59,11 +65,13 @@ struct CoverReport {
   std::uint64_t flat = 0;  ///< parts that rounding flattens and the leaf does not show
 };
 
-/// No findings if all holds; tiles[0] is the root. Besides, each content must hold as a mesh
+/// No findings if all holds; tiles[0] is the root. Of a part, the findings about its tiles; of the content of others it
+/// counts only whether they have one. Besides, each content must hold as a mesh
 /// (check_proxy). Contents are read once, as many at a time, in the order of their numbers, as fit memory_bytes (one at
 /// least); for each such share of them the scene is read once, from its start, and once before if there are leaves.
 /// Parallel; the result depends neither on threads nor on memory. Passes on what the contents and the scene throw.
 [[nodiscard]] CoverReport check_cover(const std::vector<CoverTile>& tiles, const CoverContents& content_of,
-                                      TriangleSource& scene, std::uint64_t memory_bytes = std::uint64_t(1) << 30);
+                                      TriangleSource& scene, std::uint64_t memory_bytes = std::uint64_t(1) << 30,
+                                      TilePart part = {});
 
 }  // namespace bp

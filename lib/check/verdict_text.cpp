@@ -208,6 +208,7 @@ std::string measure_lines(const CheckReport& r) {
   text +=
       fmt::format("  {:<28}{:.6g} to {:.6g}, {:.6g} on average\n", "edge lengths", r.edge_min, r.edge_max, r.edge_mean);
   text += fmt::format("  {:<28}{:.4g} degrees\n", "least angle", r.angle_min_degrees);
+  if (r.least_gap) text += fmt::format("  {:<28}{:.6g}\n", "least distance to the scene", *r.least_gap);
   text += distance_line("distance scene to proxy", r.scene_to_proxy);
   text += distance_line("distance proxy to scene", r.proxy_to_scene);
   if (!r.distance_note.empty()) text += fmt::format("  {}\n", r.distance_note);
@@ -287,7 +288,7 @@ Json json_of(const CheckReport& r, const std::string& proxy_name) {
   measures["angle_min_degrees"] = r.angle_min_degrees;
   measures["scene_to_proxy"] = json_of(r.scene_to_proxy);
   measures["proxy_to_scene"] = json_of(r.proxy_to_scene);
-  if (r.margin > 0) measures["margin"] = r.margin;
+  if (r.margin > 0) measures["margin"] = r.margin, measures["least_distance"] = json_or_null(r.least_gap);
   measures["note"] = r.distance_note;
   Json all = {{"holds", r.holds()}, {"answer", to_string(r.answer())}};
   all["why"] = r.answer() == Answer::undecided ? Json(doubt_of(r)) : Json(nullptr);

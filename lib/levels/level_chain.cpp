@@ -9,9 +9,11 @@ namespace {
 
 constexpr double kWorthwhile = 1.25;  // times the faces, for a quarter of the voxels' area: else there are no more
 
-/// Whether the level has clearly fewer faces than its budget: its voxels, or its scale, show no more.
+/// Whether the level has clearly fewer faces than its budget: its voxels, or its scale, show no more. Not if more would
+/// leave more volume.
 bool falls_short(const LodLevel& level, const LodTarget& target) {
-  return clearly_fewer(level.mesh.triangles.size(), target.faces);
+  return clearly_fewer(level.mesh.triangles.size(), target.faces) &&
+         level.counts.levels.front().simplify.stop != StopReason::least_volume;
 }
 
 /// Budget and scale of a level that follow from a first one which fell short.

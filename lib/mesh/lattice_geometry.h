@@ -46,7 +46,7 @@ constexpr double kPerTwiceArea = 3.4641016151377544;  ///< 2 sqrt(3): triangle_q
 }
 
 /// Floors of triangle_quality(). A step that leaves a worse face is refused, since needles jam the steps that follow;
-/// but not where faces are bad already, or they would never go.
+/// but not where faces are bad already, or they would never go. The sides of a thin plate get worse as it gets thinner.
 struct QualityFloor {
   static constexpr double kFlat = 0.02;  ///< merging flat regions; these faces go soon
   static constexpr double kCollapse =
@@ -54,7 +54,7 @@ struct QualityFloor {
   static constexpr double kDraw =
       0.05;  ///< vertices that move to a surface: the same, or that of the worst face replaced
   static constexpr double kEdit =
-      0.08;  ///< shrinking a proxy: lowest quality accepted, or that of the worst face replaced
+      0.08;  ///< shrinking a proxy: lowest quality accepted, or half of that of the worst face replaced
 };
 
 }  // namespace bp

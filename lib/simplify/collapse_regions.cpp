@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "lib/core/parallel.h"
+#include "lib/simplify/detail/bulk_order.h"
 #include "lib/simplify/detail/collapse_order.h"
 #include "lib/simplify/regions.h"
 
@@ -20,8 +21,17 @@ constexpr double kJam = 1e-3;    // of the faces: a turn that takes less is the 
 // Regions with few faces are mostly sides, which stay fine while the middles are collapsed to spikes: with so many
 // times the faces of one, the rest is for the whole.
 constexpr std::uint64_t kLeast = 2;
+// The bulk is left to few regions, and each has three turns: what lies along sides stays fine until its turn.
+constexpr std::uint64_t kBulkPerRegion = 32;  // times the faces of one of the strict order
+constexpr int kBulkTurns = 3;
+
+void count_left(const StrictOrder& order, SimplifyCounts& counts) {
+  order.count(counts);
+}
+void count_left(const BulkOrder&, SimplifyCounts&) {}
 
 /// A region at work.
+template <class Order>
 struct Part {
   Part(const Piece& whole, const Region& r, std::vector<Quadric> quadrics, const SimplifyParams& p)
       : region(r),
@@ -33,7 +43,7 @@ struct Part {
   void put_back(Piece& whole) {
     if (collapser.sense() != nullptr) erase_turned_shells(mesh, *collapser.sense());
     bp::put_back(mesh, region, whole);
-    order.count(counts);
+    count_left(order, counts);
   }
 
   const Region& region;
@@ -41,7 +51,7 @@ struct Part {
   SimplifyCounts counts;
   HalfEdgeMesh mesh;
   Collapser collapser;
-  StrictOrder order;
+  Order order;
 };
 
 /// The quadrics of a whole that is cut into regions: none is held twice.
@@ -49,14 +59,15 @@ class QuadricsApart {
  public:
   /// Takes them from the whole.
   QuadricsApart(Piece& whole, std::span<const Region> regions) : of_region_(regions.size()) {
-    std::vector<char> free(whole.vertices.size(), 0);
-    for (std::size_t r = 0; r < regions.size(); ++r) {
-      for (std::size_t i = 0; i < regions[r].free.size(); ++i) {
-        if (!regions[r].free[i]) continue;
-        free[regions[r].vertices[i]] = 1;
-        of_region_[r].emplace_back(VertexId(i), whole.quadrics[regions[r].vertices[i]]);
+    std::vector<char> free(whole.vertices.size(), 0);  // each in one region at most
+    parallel_for(std::int64_t(regions.size()), [&](std::int64_t k) {
+      const Region& region = regions[std::size_t(k)];
+      for (std::size_t i = 0; i < region.free.size(); ++i) {
+        if (!region.free[i]) continue;
+        free[region.vertices[i]] = 1;
+        of_region_[std::size_t(k)].emplace_back(VertexId(i), whole.quadrics[region.vertices[i]]);
       }
-    }
+    });
     for (VertexId v = 0; v < free.size(); ++v) {
       if (!free[v]) fixed_.emplace_back(v, whole.quadrics[v]);
     }
@@ -69,7 +80,8 @@ class QuadricsApart {
     List().swap(of_region_[number]);
     return quadrics;
   }
-  void take(std::size_t number, const Part& part) {
+  template <class Order>
+  void take(std::size_t number, const Part<Order>& part) {
     for (VertexId v = 0; v < part.region.free.size(); ++v) {
       if (part.region.free[v] && part.mesh.vertex_alive(v))
         of_region_[number].emplace_back(part.region.vertices[v], part.collapser.quadric(v));
@@ -78,9 +90,9 @@ class QuadricsApart {
   void put_back(Piece& whole) const {
     whole.quadrics.resize(whole.vertices.size());
     for (const auto& [v, q] : fixed_) whole.quadrics[v] = q;
-    for (const List& some : of_region_) {
-      for (const auto& [v, q] : some) whole.quadrics[v] = q;
-    }
+    parallel_for(std::int64_t(of_region_.size()), [&](std::int64_t k) {
+      for (const auto& [v, q] : of_region_[std::size_t(k)]) whole.quadrics[v] = q;
+    });
   }
 
  private:
@@ -89,19 +101,22 @@ class QuadricsApart {
   std::vector<List> of_region_;
 };
 
-void turn(Piece& whole, int number, std::uint64_t enough, const SimplifyParams& params, SimplifyCounts& counts) {
-  const std::vector<Region> regions = regions_of(whole, params.faces_per_region, number);
+/// Regions of so many faces, each with its order; work(orders) on all of them, then all are put back.
+template <class Order, class Work>
+void turn(Piece& whole, std::uint64_t per_region, int number, const SimplifyParams& params, SimplifyCounts& counts,
+          const Work& work) {
+  const std::vector<Region> regions = regions_of(whole, per_region, number);
   QuadricsApart quadrics(whole, regions);
-  std::vector<std::unique_ptr<Part>> parts(regions.size());
+  std::vector<std::unique_ptr<Part<Order>>> parts(regions.size());
   parallel_for(std::int64_t(regions.size()), [&](std::int64_t k) {
     const auto i = std::size_t(k);
     SimplifyParams own = params;
     own.whole.faces_elsewhere = whole.triangles.size() - regions[i].faces.size();
-    parts[i] = std::make_unique<Part>(whole, regions[i], quadrics.give(i, regions[i]), own);
+    parts[i] = std::make_unique<Part<Order>>(whole, regions[i], quadrics.give(i, regions[i]), own);
   });
-  std::vector<CostOrder*> orders;
+  std::vector<Order*> orders;
   for (const auto& part : parts) orders.push_back(&part->order);
-  take_cheapest(orders, whole.triangles.size() - enough);
+  work(orders);
   std::vector<SimplifyCounts> told(parts.size());
   parallel_for(std::int64_t(parts.size()), [&](std::int64_t k) {
     const auto i = std::size_t(k);
@@ -116,7 +131,34 @@ void turn(Piece& whole, int number, std::uint64_t enough, const SimplifyParams& 
   drop_removed(whole);
 }
 
+SimplifyParams params_of_regions(Piece& whole, const SimplifyParams& params) {
+  SimplifyParams own = params;
+  own.whole.volume6 = std::abs(double(volume6_of(whole.vertices, whole.triangles)));
+  if (whole.quadrics.empty()) whole.quadrics = quadrics_of(whole);
+  return own;
+}
+
 }  // namespace
+
+bool has_bulk_regions(std::uint64_t faces, const SimplifyParams& params) {
+  return params.faces > 0 && has_regions(faces / kBulkPerRegion, params);
+}
+
+void collapse_bulk_in_regions(Piece& whole, const BulkEnd& end, const SimplifyParams& params, SimplifyCounts& counts) {
+  const SimplifyParams own = params_of_regions(whole, params);
+  const double from = double(whole.triangles.size()), share = double(end.faces) / from;
+  for (int number = 1; number <= kBulkTurns; ++number) {
+    const auto wanted = std::uint64_t(from * std::pow(share, double(number) / kBulkTurns));
+    if (whole.triangles.size() <= wanted) continue;
+    const std::uint64_t excess = whole.triangles.size() - wanted;
+    turn<BulkOrder>(whole, kBulkPerRegion * params.faces_per_region, number, own, counts,
+                    [&](std::span<BulkOrder* const> orders) {
+                      std::uint64_t faces = 0;  // along sides several regions know the same
+                      for (const BulkOrder* order : orders) faces += order->face_count();
+                      collapse_bulk(orders, {kFirstBound, end.cost}, faces - std::min(faces, excess));
+                    });
+  }
+}
 
 bool has_regions(std::uint64_t faces, const SimplifyParams& params) {
   constexpr std::uint64_t kFew = 4;
@@ -124,9 +166,7 @@ bool has_regions(std::uint64_t faces, const SimplifyParams& params) {
 }
 
 void collapse_in_regions(Piece& whole, const SimplifyParams& params, SimplifyCounts& counts) {
-  SimplifyParams own = params;
-  own.whole.volume6 = std::abs(double(volume6_of(whole.vertices, whole.triangles)));
-  if (whole.quadrics.empty()) whole.quadrics = quadrics_of(HalfEdgeMesh(whole.vertices, whole.triangles, kEverywhere));
+  const SimplifyParams own = params_of_regions(whole, params);
   const std::uint64_t least = std::max(params.faces, kLeast * params.faces_per_region);
   const auto wanted = double(least);
   const double halfway = std::sqrt(double(whole.triangles.size()) * wanted);
@@ -134,7 +174,9 @@ void collapse_in_regions(Piece& whole, const SimplifyParams& params, SimplifyCou
     const double enough = number == 0 ? std::max(halfway, wanted) : number == 1 ? kNearly * wanted : wanted;
     const std::size_t before = whole.triangles.size();
     if (double(before) <= enough) continue;
-    turn(whole, number, std::uint64_t(enough), own, counts);
+    turn<StrictOrder>(whole, params.faces_per_region, number, own, counts, [&](std::span<StrictOrder* const> orders) {
+      take_cheapest(std::vector<CostOrder*>(orders.begin(), orders.end()), before - std::uint64_t(enough));
+    });
     if (number + 1 >= kSets && double(before - whole.triangles.size()) < kJam * double(before)) return;
   }
 }

@@ -41,20 +41,6 @@ std::vector<double> steps_for(std::span<CostOrder* const> parts) {
   return steps;
 }
 
-/// Shares of the excess by faces, whole collapses as far as it goes; they add up to it.
-std::vector<std::uint64_t> shares_of(std::uint64_t excess, std::span<CostOrder* const> parts) {
-  const std::uint64_t all = std::max<std::uint64_t>(faces_of(parts), 1), pairs = (excess + 1) / 2;
-  std::vector<std::uint64_t> shares;
-  std::uint64_t faces = 0, given = 0;
-  for (const CostOrder* part : parts) {
-    faces += part->face_count();
-    const std::uint64_t until_here = pairs * faces / all;  // faces and pairs are below 2^32
-    shares.push_back(2 * (until_here - given));
-    given = until_here;
-  }
-  return shares;
-}
-
 }  // namespace
 
 void take_cheapest(std::span<CostOrder* const> parts, std::uint64_t excess) {
@@ -64,7 +50,7 @@ void take_cheapest(std::span<CostOrder* const> parts, std::uint64_t excess) {
     while (!waiting.empty()) {
       const std::uint64_t left = faces_of(parts);
       if (left <= enough) return;
-      const std::vector<std::uint64_t> shares = shares_of(left - enough, waiting);
+      const std::vector<std::uint64_t> shares = shares_by_faces<CostOrder>(left - enough, waiting);
       std::vector<char> waits(waiting.size(), 1);
       parallel_for(std::int64_t(waiting.size()), [&](std::int64_t k) {
         const auto i = std::size_t(k);

@@ -1,6 +1,7 @@
 #include "lib/simplify/regions.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "lib/core/parallel.h"
 
@@ -10,28 +11,47 @@ namespace {
 
 constexpr std::array<double, 3> kShares = {0.5, 0.35, 0.65};  // of the faces on the lower side, by turn
 constexpr std::size_t kSample = 1024;                         // faces that tell along which axis to cut
+constexpr std::int64_t kFacesAtOnce = 1 << 14;
 
 class Splitter {
  public:
   Splitter(const Piece& whole, std::uint64_t most, double share)
       : whole_(whole), most_(most), share_(share), faces_(whole.triangles.size()) {
     for (FaceId f = 0; f < faces_.size(); ++f) faces_[f] = f;
-    split(0, faces_.size(), kEverywhere);
+    nodes_.push_back({0, faces_.size(), kEverywhere});
+    for (std::size_t done = 0; done < nodes_.size();) {  // a level of the tree at a time
+      const std::size_t level = done;
+      done = nodes_.size();
+      parallel_for(std::int64_t(done - level), [&](std::int64_t i) { cut(nodes_[level + std::size_t(i)]); });
+      for (std::size_t i = level; i < done; ++i) add_halves(i);
+    }
+    add_leaves(0);
   }
 
   std::vector<Region> gather() {
-    for (FaceId f = 0; f < whole_.triangles.size(); ++f) {
-      const auto& [a, b, c] = whole_.triangles[f];
-      reach_into(0, f, box_of(whole_.vertices[a], whole_.vertices[b], whole_.vertices[c]));
+    std::vector<std::vector<std::pair<std::size_t, FaceId>>> found(whole_.triangles.size() / kFacesAtOnce + 1);
+    parallel_ranges(std::int64_t(whole_.triangles.size()), kFacesAtOnce, [&](std::int64_t begin, std::int64_t end) {
+      for (auto f = FaceId(begin); f < FaceId(end); ++f) {
+        const auto& [a, b, c] = whole_.triangles[f];
+        const LatticeBox box = box_of(whole_.vertices[a], whole_.vertices[b], whole_.vertices[c]);
+        reach_into(0, f, box, found[std::size_t(begin / kFacesAtOnce)]);
+      }
+    });
+    for (const auto& some : found) {
+      for (const auto& [leaf, f] : some) leaves_[leaf].faces.push_back(f);
     }
     return std::move(leaves_);
   }
 
  private:
-  /// Inner: `axis` and `plane` divide its cell; below[0] has what is not beyond the plane. Leaf: axis is -1.
+  /// Of faces_[begin, end). Inner: `axis` and `plane` divide its cell; below[0] has what is not beyond the plane, up to
+  /// `middle`. Leaf: axis is -1.
   struct Node {
+    std::size_t begin, end;
+    LatticeBox cell;
     int axis = -1;
     std::int64_t plane = 0;
+    std::size_t middle = 0;
     std::array<std::size_t, 2> below{};  // nodes; of a leaf the first one is its number
   };
 
@@ -40,27 +60,41 @@ class Splitter {
     return whole_.vertices[a] + whole_.vertices[b] + whole_.vertices[c];
   }
 
-  /// The node of faces_[begin, end).
-  std::size_t split(std::size_t begin, std::size_t end, const LatticeBox& cell) {
-    const std::size_t number = nodes_.size();
-    nodes_.emplace_back();
-    for (const int axis : end - begin > most_ ? axes(begin, end) : std::vector<int>{}) {
-      const std::int64_t plane = plane_across(axis, begin, end);
-      if (plane <= cell.min[axis] || plane >= cell.max[axis]) continue;
-      const auto first = faces_.begin() + std::ptrdiff_t(begin), last = faces_.begin() + std::ptrdiff_t(end);
-      const std::size_t middle = std::size_t(
+  /// Decides where, and sorts its faces.
+  void cut(Node& node) {
+    if (node.end - node.begin <= most_) return;
+    for (const int axis : axes(node.begin, node.end)) {
+      const std::int64_t plane = plane_across(axis, node.begin, node.end);
+      if (plane <= node.cell.min[axis] || plane >= node.cell.max[axis]) continue;
+      const auto first = faces_.begin() + std::ptrdiff_t(node.begin), last = faces_.begin() + std::ptrdiff_t(node.end);
+      node.middle = std::size_t(
           std::stable_partition(first, last, [&](FaceId f) { return thrice_middle(f)[axis] <= 3 * plane; }) -
           faces_.begin());
-      if (middle == begin || middle == end) continue;
-      LatticeBox low = cell, high = cell;
-      low.max[axis] = high.min[axis] = plane;
-      const std::size_t lower = split(begin, middle, low), upper = split(middle, end, high);
-      nodes_[number] = {axis, plane, {lower, upper}};
-      return number;
+      if (node.middle == node.begin || node.middle == node.end) continue;
+      node.axis = axis;
+      node.plane = plane;
+      return;
+    }
+  }
+
+  void add_halves(std::size_t number) {
+    const Node node = nodes_[number];
+    if (node.axis < 0) return;
+    LatticeBox low = node.cell, high = node.cell;
+    low.max[node.axis] = high.min[node.axis] = node.plane;
+    nodes_[number].below = {nodes_.size(), nodes_.size() + 1};
+    nodes_.push_back({node.begin, node.middle, low});
+    nodes_.push_back({node.middle, node.end, high});
+  }
+
+  /// Those below a node, the lower ones first.
+  void add_leaves(std::size_t number) {
+    if (nodes_[number].axis >= 0) {
+      for (const std::size_t below : nodes_[number].below) add_leaves(below);
+      return;
     }
     nodes_[number].below[0] = leaves_.size();
-    leaves_.push_back({cell, {}, {}, {}, 0});
-    return number;
+    leaves_.push_back({nodes_[number].cell, {}, {}, {}, 0, {}});
   }
 
   /// Those along which the middle half of a sample spreads most first: a rod on a wall is no reason to cut the wall's
@@ -92,14 +126,15 @@ class Splitter {
   }
 
   /// The face is noted wherever its box meets a closed cell.
-  void reach_into(std::size_t number, FaceId f, const LatticeBox& box) {
+  void reach_into(std::size_t number, FaceId f, const LatticeBox& box,
+                  std::vector<std::pair<std::size_t, FaceId>>& found) const {
     const Node& node = nodes_[number];
     if (node.axis < 0) {
-      leaves_[node.below[0]].faces.push_back(f);
+      found.emplace_back(node.below[0], f);
       return;
     }
-    if (box.min[node.axis] <= node.plane) reach_into(node.below[0], f, box);
-    if (box.max[node.axis] >= node.plane) reach_into(node.below[1], f, box);
+    if (box.min[node.axis] <= node.plane) reach_into(node.below[0], f, box, found);
+    if (box.max[node.axis] >= node.plane) reach_into(node.below[1], f, box, found);
   }
 
   const Piece& whole_;
@@ -110,29 +145,54 @@ class Splitter {
   std::vector<Region> leaves_;
 };
 
-std::size_t number_of(const Region& region, VertexId v) {
-  return std::size_t(std::lower_bound(region.vertices.begin(), region.vertices.end(), v) - region.vertices.begin());
-}
+/// Numbers of some vertices of the whole: a table of hashes.
+class Numbers {
+ public:
+  explicit Numbers(std::size_t most) : slots_(std::bit_ceil(most + 1), {kNoId, 0}) {}
+  /// Of v; `fresh` if it is new.
+  std::uint32_t& of(VertexId v, std::uint32_t fresh) {
+    std::size_t i = v * std::size_t(0x9e3779b1u);
+    for (;; ++i) {
+      auto& [key, number] = slots_[i & (slots_.size() - 1)];
+      if (key == v) return number;
+      if (key != kNoId) continue;
+      key = v;
+      return number = fresh;
+    }
+  }
+
+ private:
+  std::vector<std::pair<VertexId, std::uint32_t>> slots_;
+};
 
 /// Given its cell and faces: its vertices, which of them are free, and so which faces stay.
 void settle(const Piece& whole, Region& region) {
+  Numbers numbers(3 * region.faces.size());
   for (const FaceId f : region.faces) {
-    for (const VertexId v : whole.triangles[f]) region.vertices.push_back(v);
+    for (const VertexId v : whole.triangles[f]) {
+      if (numbers.of(v, std::uint32_t(region.vertices.size())) == region.vertices.size()) region.vertices.push_back(v);
+    }
   }
   std::sort(region.vertices.begin(), region.vertices.end());
-  region.vertices.erase(std::unique(region.vertices.begin(), region.vertices.end()), region.vertices.end());
+  for (std::uint32_t i = 0; i < region.vertices.size(); ++i) numbers.of(region.vertices[i], i) = i;
+  const auto local = [&](FaceId f) {
+    Triangle t = whole.triangles[f];
+    for (VertexId& v : t) v = numbers.of(v, 0);
+    return t;
+  };
   for (const VertexId v : region.vertices) region.free.push_back(region.cell.holds_inside(whole.vertices[v]));
   for (const FaceId f : region.faces) {
     const auto& [a, b, c] = whole.triangles[f];
     if (region.cell.holds(box_of(whole.vertices[a], whole.vertices[b], whole.vertices[c]))) continue;
-    for (const VertexId v : {a, b, c}) region.free[number_of(region, v)] = 0;
+    for (const VertexId v : local(f)) region.free[v] = 0;
   }
   const auto stays = [&](FaceId f) {
-    const Triangle& t = whole.triangles[f];
-    return std::none_of(t.begin(), t.end(), [&](VertexId v) { return region.free[number_of(region, v)] != 0; });
+    const Triangle t = local(f);
+    return std::none_of(t.begin(), t.end(), [&](VertexId v) { return region.free[v] != 0; });
   };
   const auto first = std::stable_partition(region.faces.begin(), region.faces.end(), stays);
   region.fixed = std::size_t(first - region.faces.begin());
+  for (const FaceId f : region.faces) region.triangles.push_back(local(f));
 }
 
 }  // namespace
@@ -147,12 +207,7 @@ std::vector<Region> regions_of(const Piece& whole, std::uint64_t faces_per_regio
 HalfEdgeMesh mesh_of(const Piece& whole, const Region& region) {
   std::vector<LatticeCoord> vertices;
   for (const VertexId v : region.vertices) vertices.push_back(whole.vertices[v]);
-  std::vector<Triangle> triangles;
-  for (const FaceId f : region.faces) {
-    Triangle& t = triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) t[k] = VertexId(number_of(region, whole.triangles[f][k]));
-  }
-  HalfEdgeMesh mesh(std::move(vertices), triangles, region.cell);
+  HalfEdgeMesh mesh(std::move(vertices), region.triangles, region.cell);
   for (VertexId v = 0; v < region.free.size(); ++v) {
     if (!region.free[v]) mesh.lock(v);
   }

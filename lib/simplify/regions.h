@@ -12,11 +12,12 @@ namespace bp {
 constexpr std::uint64_t kFacesPerRegion = 2048;  ///< if nobody says
 
 struct Region {
-  LatticeBox cell;                 ///< closed; those of different regions have no inner point in common
-  std::vector<VertexId> vertices;  ///< of the whole, rising; their numbers here
-  std::vector<char> free;          ///< of each of these
-  std::vector<FaceId> faces;       ///< of the whole; first those that stay as they are
-  std::size_t fixed = 0;           ///< how many of these
+  LatticeBox cell;                  ///< closed; those of different regions have no inner point in common
+  std::vector<VertexId> vertices;   ///< of the whole, rising; their numbers here
+  std::vector<char> free;           ///< of each of these
+  std::vector<FaceId> faces;        ///< of the whole; first those that stay as they are
+  std::size_t fixed = 0;            ///< how many of these
+  std::vector<Triangle> triangles;  ///< these faces, by the numbers of their vertices here
 };
 
 /// Cells by halving along the axis along which faces spread most, until at most so many faces, 3 or more, have their

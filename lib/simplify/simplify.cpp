@@ -7,6 +7,7 @@
 
 #include "lib/mesh/shells.h"
 #include "lib/simplify/collapse_regions.h"
+#include "lib/simplify/detail/bulk_order.h"
 #include "lib/simplify/detail/collapse_order.h"
 #include "lib/simplify/flatten.h"
 #include "lib/simplify/surface_tree.h"
@@ -23,6 +24,8 @@ std::string to_string(StopReason reason) {
       return "limits";
     case StopReason::edge_length:
       return "edge-length";
+    case StopReason::least_volume:
+      return "least-volume";
     case StopReason::nothing_left:
       return "no collapse left that keeps the guarantee";
   }
@@ -78,7 +81,7 @@ void collapse_strict(Collapser& collapser, SimplifyCounts& counts) {
 LatticeMesh simplify_regions(Piece whole, const GridFrame& frame, const SimplifyParams& params,
                              SimplifyCounts& counts) {
   const bool inwards = volume6_of(whole.vertices, whole.triangles) < 0;
-  collapse_in_regions(whole, params, counts);
+  if (has_regions(whole.triangles.size(), params)) collapse_in_regions(whole, params, counts);
   HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
   counts.stop = StopReason::faces;
   if (mesh.face_count() <= params.faces) return finished(mesh, frame, inwards, nullptr, counts);
@@ -119,7 +122,10 @@ std::variant<LatticeMesh, Piece> simplify_mesh(Piece whole, const GridFrame& fra
 
 /// All of the surface, with quadrics or not, to the end.
 LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyParams& params, SimplifyCounts& counts) {
-  if (params.dense || params.faces == 0 || !has_regions(whole.triangles.size(), params)) {
+  if (params.dense && has_bulk_regions(whole.triangles.size(), params)) {
+    if (counts.faces_flat == 0) counts.faces_flat = whole.triangles.size();
+    collapse_bulk_in_regions(whole, end_of_bulk(params), params, counts);
+  } else if (params.dense || params.faces == 0 || !has_regions(whole.triangles.size(), params)) {
     auto result = simplify_mesh(std::move(whole), frame, params, counts);
     if (auto* mesh = std::get_if<LatticeMesh>(&result)) return std::move(*mesh);
     whole = std::get<Piece>(std::move(result));

@@ -45,8 +45,9 @@ struct SimplifyParams : ShapeLimits {
 };
 
 /// Why simplification ended: the target is reached, or no collapse is left that keeps the guarantee and, beside it, the
-/// error, the limits or the edge length.
-enum class StopReason { faces, error, limits, edge_length, nothing_left };
+/// error, the limits or the edge length. least_volume: the target was there to be had, and fewer faces leave less
+/// volume.
+enum class StopReason { faces, error, limits, edge_length, least_volume, nothing_left };
 [[nodiscard]] std::string to_string(StopReason reason);
 
 struct SimplifyCounts {

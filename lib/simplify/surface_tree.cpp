@@ -8,7 +8,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
-#include "lib/simplify/detail/collapse_order.h"
+#include "lib/simplify/detail/bulk_order.h"
 #include "lib/simplify/flatten.h"
 
 namespace bp {

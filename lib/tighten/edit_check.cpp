@@ -54,7 +54,7 @@ void EditCheck::add_old_face(const LatticeCoord& a, const LatticeCoord& b, const
 
 /// New edges run from the first to the second corner of each new face.
 bool EditCheck::shape_is_fine() {
-  const double floor = std::min(QualityFloor::kEdit, least_quality_);
+  const double floor = std::min(QualityFloor::kEdit, least_quality_ / 2);
   for (const NewFace& f : faces_) {
     const double quality = triangle_quality(f.corners[0], f.corners[1], f.corners[2]);
     if (quality == 0 || quality < floor) {

@@ -112,11 +112,8 @@ LatticeMesh tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclo
   if (!best) return tight_proxy(dense, enclosed, params, simplified, tightened);
   simplified = best->simplified;
   simplified.faces_out = best->mesh.triangles.size();
-  simplified.stop = StopReason::faces;
-  if (simplified.faces_out + 2 < std::min(params.faces, first)) {
-    simplified.stop = StopReason::limits;
-    simplified.limit = kLeastVolume;
-  }
+  simplified.stop =
+      simplified.faces_out + 2 < std::min(params.faces, first) ? StopReason::least_volume : StopReason::faces;
   tightened = best->tightened;
   return std::move(best->mesh);
 }

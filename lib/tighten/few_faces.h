@@ -6,8 +6,6 @@ namespace bp {
 
 /// Proxies of fewer faces come from one sequence.
 constexpr std::uint64_t kFewFaces = 64;
-/// SimplifyCounts::limit where clearly fewer faces than were wanted have least volume.
-constexpr const char* kLeastVolume = "least-volume";
 
 /// Removes faces one by one from kFewFaces to 4 and keeps each proxy on the way. Returns the one of least volume with
 /// at most params.faces faces, fewer than kFewFaces. The sequence does not depend on params.faces, so more faces never

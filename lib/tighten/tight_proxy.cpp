@@ -6,6 +6,7 @@
 #include "lib/simplify/collapse_regions.h"
 #include "lib/tighten/detail/thin.h"
 #include "lib/tighten/detail/tighten_regions.h"
+#include "lib/tighten/few_faces.h"
 
 namespace bp {
 
@@ -197,6 +198,21 @@ Way tight_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams&
   return way;
 }
 
+/// Where the surface of the voxels has few faces for each that is wanted, many of the proxy's would be steps of voxels.
+/// Fewer faces take the steps away, and are used if they leave less volume.
+Way least_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams& params) {
+  Way way = tight_from(grown, enclosed, params);
+  SimplifyParams fewer = params;
+  fewer.faces = std::uint64_t(double(grown.proxy.triangles.size()) / kEarlyFactor);
+  if (!by_volume(params) || fewer.faces >= params.faces || fewer.faces < kFewFaces) return way;
+  Way other = tight_from(grown, enclosed, fewer);
+  if (other.tightened.volume_after >= way.tightened.volume_after) return way;
+  const std::uint64_t had = way.proxy.triangles.size();
+  const bool were_there = had + 2 > params.faces && had <= params.faces;  // a collapse takes two at a time
+  other.simplified.stop = were_there ? StopReason::least_volume : way.simplified.stop;
+  return other;
+}
+
 /// From the lattice of a frame to that of another, whose voxels are a whole number of times smaller. Exact.
 class Refining {
  public:
@@ -256,14 +272,14 @@ LatticeMesh tight_proxy(const SurfaceSource& dense, const GridFrame& frame, cons
   grown.proxy = simplify(dense, growing, grown.simplified);
   grown.proxy.frame = frame;
   for (LatticeCoord& p : grown.proxy.vertices) p = refining.after(p);
-  return take(tight_from(grown, enclosed, params), simplified, tightened);
+  return take(least_from(grown, enclosed, params), simplified, tightened);
 }
 
 LatticeMesh tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params,
                         SimplifyCounts& simplified, TightenCounts& tightened) {
   Way grown;
   grown.proxy = simplify(mesh, growing_part_of(params), grown.simplified);
-  LatticeMesh proxy = take(tight_from(grown, enclosed, params), simplified, tightened);
+  LatticeMesh proxy = take(least_from(grown, enclosed, params), simplified, tightened);
   proxy.provenance = mesh.provenance;
   return proxy;
 }

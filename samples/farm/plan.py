@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Prints the jobs of a scene's tileset as JSON, from what bplod --explain says.
   plan.py SCENE MACHINES [--memory SIZE] [OPTION...]    OPTIONs go to bplod
-memory: bytes that each job keeps to; 0: not known. ranges: of tiles, as for --tiles; about 30 s of work (BATCH) each or more, and at most
-eight for each machine. Scenes that bplod cannot read, and levels that are no tiles, have none."""
+memory: bytes that each job keeps to; 0: not known. ranges: of tiles, as for --tiles, of about the same work: one for each machine, or as
+many as take BATCH (30) seconds with THREADS (1), but at most eight for each. checks: parts of the check (bpcheck --part). One machine has none of both: it makes
+the scene in one job. So are scenes that bplod cannot read, and levels that are no tiles."""
 import json
 import math
 import os
@@ -10,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 
-SECONDS = float(os.environ.get("BATCH", 30))
+SECONDS, THREADS = float(os.environ.get("BATCH", 30)), int(os.environ.get("THREADS", 1))
 RANGES_PER_MACHINE = 8
 SECONDS_PER_FACE = 1.1e-5     # of the voxels' surface in all tiles, on one core
 FACES_PER_SQUARE = 3.6        # of all levels, for each square of a voxel's size in the scene's area
@@ -25,38 +26,22 @@ def main():
         if told.returncode not in (0, 2, 3):  # of the machine, not of the scene: to be tried again
             sys.exit(told.stderr)
         plan = json.load(open(report.name)) if told.returncode == 0 else None
-    print(json.dumps({"memory": plan["options"]["memory"] if plan else 0, "ranges": ranges(plan, int(machines))}))
+    parts = ranges(plan, int(machines))
+    print(json.dumps({"memory": plan["options"]["memory"] if plan else 0, "ranges": parts, "checks": int(machines) if parts else 0}))
 
 
 def ranges(plan, machines):
-    if plan is None or plan["options"]["profile"] != "3dtiles":
+    if plan is None or plan["options"]["profile"] != "3dtiles" or machines < 2:
         return []
     counts = plan["counts"]
     work = counts["area"] / counts["voxel"] ** 2 * FACES_PER_SQUARE * SECONDS_PER_FACE
     worth = work / (5 * SECONDS_PER_TRIANGLE * counts["triangles"])
-    number = min(math.ceil(work / SECONDS), max(machines, min(int(worth), RANGES_PER_MACHINE * machines)))
-    if number > machines:
-        number = math.ceil(number / machines) * machines  # else some machines wait for the last ranges of others
-    number = min(number, counts["jobs"])
-    if number < 2:
+    most = min(counts["jobs"], int(worth), RANGES_PER_MACHINE * machines, 1000)
+    if most < 2 or work < SECONDS:
         return []
-    edges = cut(counts, number)
-    return [f"{a}..{b}" for a, b in zip(edges, edges[1:])]
-
-
-def cut(counts, number):
-    """Edges of ranges of about the same work: a level has a quarter of the surface of the level before."""
-    weights = [0] * counts["jobs"]
-    for i, level in enumerate(counts["levels"]):
-        tiles = level.get("tiles_at_most", 1)
-        for n in range(tiles):
-            weights[level["first_number"] + n] += 4**-i / tiles
-    edges, done, all_ = [0], 0, sum(weights)
-    for n, weight in enumerate(weights):
-        done += weight
-        if done >= all_ * len(edges) / number:
-            edges.append(n + 1)
-    return sorted({*edges[:number], len(weights)})
+    number = min(most, math.ceil(work / THREADS / SECONDS / machines) * machines)  # each machine gets as many as the others
+    edges = [counts["thousandths"][1000 * i // number] for i in range(number)] + [counts["jobs"]]
+    return [f"{a}..{b}" for a, b in zip(edges, edges[1:]) if a < b]
 
 
 main()

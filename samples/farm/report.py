@@ -22,11 +22,16 @@ def table(path):
 
 
 def times(out, scene):
-    seconds = []
+    """How many jobs, and their seconds in words, by what they do."""
+    jobs, seconds = 0, {"tiles": 0, "levels": 0, "check": 0}
     for path in glob.glob(os.path.join(glob.escape(os.path.join(out, ".farm", quote(scene, safe=""))), "*.time")):
+        kind = os.path.basename(path).split("-")[0].split(".")[0]
         with open(path) as file:
-            seconds += [float(row["s"]) for row in csv.DictReader(file, delimiter="\t")]
-    return len(seconds), round(sum(seconds))
+            for row in csv.DictReader(file, delimiter="\t"):
+                jobs += 1
+                seconds[kind if kind in seconds else "tiles"] += float(row["s"])
+    each = ", ".join(f"{kind} {round(s)}" for kind, s in seconds.items()) if seconds["tiles"] else ""
+    return jobs, f"{round(sum(seconds.values()))}" + (f" ({each})" if each else "")
 
 
 def picture(out, scene):
@@ -53,7 +58,7 @@ def line(out, row, before):
     scene, status = row["scene"], row["status"]
     jobs, seconds = times(out, scene)
     cells = [html.escape(scene), picture(out, scene), html.escape(status)]
-    cells += [number(row[what], before.get(what)) for what in ("levels", "faces", "bytes")] + [str(jobs), str(seconds)]
+    cells += [number(row[what], before.get(what)) for what in ("levels", "faces", "bytes")] + [str(jobs), seconds]
     kind = ' class="failed"' if status.startswith("failed") else ""
     return f"<tr{kind}>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
 

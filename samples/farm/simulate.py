@@ -9,7 +9,7 @@ import math
 import random
 import re
 
-PARTS = (("tiles", "#4477aa"), ("repeated by each job", "#ee8866"), ("plan, last step", "#bbbbbb"), ("waiting for the store", "#aa3377"))
+PARTS = (("tiles", "#4477aa"), ("repeated by each job", "#ee8866"), ("plan, put together", "#bbbbbb"), ("check", "#ccbb44"), ("waiting for the store", "#aa3377"))
 
 
 def measured(path):
@@ -24,7 +24,8 @@ def measured(path):
     most = max(again)[0]
     again = sorted(seconds for kept, seconds in again if kept == most)  # what is repeated where others made most
     return {"triangles": number(r"^(\d+) triangles,"), "tiles": tiles, "again": again[len(again) // 2],
-            "plan": number(r"^of the plan, bplod: ([\d.]+) s"), "last": number(r"^put together .*s, ([\d.]+) s"),
+            "plan": number(r"^of the plan, bplod: ([\d.]+) s"), "make": number(r"^--make .*s, ([\d.]+) s"),
+            "check": number(r"^of this, the check: .*s, ([\d.]+) s"),
             "scene_bytes": number(r"^plant.glb\t(\d+)"), "cache_bytes": number(r"^many/.cache\t(\d+)")}
 
 
@@ -43,8 +44,10 @@ def simulate(m, triangles, nodes, cores, link):
         begin = heapq.heappop(free)
         heapq.heappush(free, begin + load + again + each() / cores)
     most = -(-ranges // nodes)  # jobs of a node
-    spent = [max(free) - most * (again + load), most * again, (m["plan"] + m["last"] / cores) * grow, most * load]
-    return spent, moved * ranges
+    read = m["scene_bytes"] * grow * nodes / link
+    check = m["check"] * grow / cores / nodes + again  # a part of it for each node
+    spent = [max(free) - most * (again + load), most * again, (m["plan"] + m["make"] / cores) * grow, check, most * load + read]
+    return spent, moved * ranges + m["scene_bytes"] * grow * nodes
 
 
 def svg(columns, title):
@@ -62,7 +65,7 @@ def svg(columns, title):
             out.append(f'<rect x="{65 + i * step:.0f}" y="{y:.1f}" width="{step * .7:.0f}" height="{seconds / 3600 * scale:.1f}" fill="{color}"/>')
         out.append(f'<text x="{65 + (i + .35) * step:.0f}" y="{height - 22}" text-anchor="middle">{nodes}</text>')
     for i, (name, color) in enumerate(PARTS):
-        x = 60 + 165 * i
+        x = 40 + 140 * i
         out.append(f'<rect x="{x}" y="36" width="12" height="12" fill="{color}"/><text x="{x + 18}" y="47">{name}</text>')
     return "\n".join(out + [f'<text x="{width / 2:.0f}" y="{height - 5}" text-anchor="middle">nodes</text></svg>', ""])
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# How much levels look like their scene, beside gltfpack's simplification (meshoptimizer) at the same triangles or bytes: PSNR and
-# SSIM over 24 views, at the size at which the level would be shown: its error is a pixel there (at most 512 pixels).
+# How much levels look like their scene, beside gltfpack's simplification (meshoptimizer) at the same triangles or bytes: PSNR,
+# SSIM and FLIP (0: the same) over 24 views, at the size at which the level would be shown: its error is a pixel there (at most 512 pixels).
 # usage: [LEVELS=FACES,...] [MODE=fit] [SAME=bytes] [PACKED=1] appearance.sh TOOLS OUT SCENE...      SCENE: OBJ or glTF
 # PACKED: as for the web, contents of tiles of ours beside gltfpack -cc; else files that every reader takes, beside gltfpack -noq.
 # NODE_PATH: folder of the packages that tests/viewers/run.sh installs, and gltfpack.
@@ -41,8 +41,8 @@ pack_into() {
   pack "$(python3 -c "import math; print(math.exp($low))")" "${@:2}"
 }
 
-echo "| scene | level | faces | bytes | pixels | PSNR | SSIM | gltfpack: faces | bytes | PSNR | SSIM | colours only: PSNR | SSIM |"
-echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+echo "| scene | level | faces | bytes | pixels | PSNR | SSIM | FLIP | gltfpack: faces | bytes | PSNR | SSIM | FLIP | colours only: PSNR | SSIM | FLIP |"
+echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
 for scene in "$@"; do
   name=$(basename "${scene%.*}") work=$out/$(basename "${scene%.*}")
   rm -rf "$work" && mkdir -p "$work"
@@ -73,14 +73,14 @@ for i, level in enumerate(report["counts"]["levels"]): print(i, level["faces"], 
       fi
     done
     [ ${#packs[@]} -gt 0 ] || packs=("$pack")
-    mapfile -t seen < <(node "$here/appearance.cjs" "$pixels" "$work/scene.glb" "$level" "$work/colors/level_LOD$i.glb" "${packs[@]}")
+    mapfile -t seen < <(node "$here/appearance/appearance.cjs" "$pixels" "$work/scene.glb" "$level" "$work/colors/level_LOD$i.glb" "${packs[@]}")
     best=2
     for ((k = 3; k < ${#seen[@]}; ++k)); do
-      [ "$(python3 -c "print(${seen[k]% *} > ${seen[best]% *})")" = False ] || best=$k
+      [ "$(python3 -c "print(${seen[k]%% *} > ${seen[best]%% *})")" = False ] || best=$k
     done
     pack=${packs[best - 2]}
     packed=$("$tools/bpinfo" "$pack" --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["triangles"])')
-    cell() { echo "${1/ / | }"; }
+    cell() { echo "${1// / | }"; }
     echo "| $name | $i | $count | $size | $pixels | $(cell "${seen[0]}") | $packed | $(stat -c %s "$pack") | $(cell "${seen[best]}") | $(cell "${seen[1]}") |"
   done
 done

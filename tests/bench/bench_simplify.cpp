@@ -11,6 +11,7 @@
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/simplify/detail/bulk_order.h"
 #include "lib/simplify/detail/collapse_order.h"
 #include "lib/simplify/surface_tree.h"
 #include "lib/surface/repair.h"

@@ -74,11 +74,11 @@ void mesh(Choices& c, Workplace& place, const std::string& stream, bool readable
   }
 }
 
-void close_and_mesh(Choices& c, Workplace& place, double voxel, bool readable) {
-  Words words = close_options(c, place, voxel);
-  add(words, {place.path("x.bpv"), "-o", place.path("y.bpv")});
-  if (!place.run("bpclose", words, {"y.bpv"}).done()) return;
-  if (!readable) fail_fuzz("x.bpv", "bpclose reads what bpinfo refuses");
+/// What bpclose makes of a stream that bpinfo can read, or not.
+void close_and_mesh(Choices& c, Workplace& place, const std::string& stream, Words options, bool readable) {
+  add(options, {place.path(stream), "-o", place.path("y.bpv")});
+  if (!place.run("bpclose", options, {"y.bpv"}).done()) return;
+  if (!readable) fail_fuzz(stream, "bpclose reads what bpinfo refuses");
   if (!place.run("bpinfo", {place.path("y.bpv")}).done()) fail_fuzz("y.bpv", "bpclose made what bpinfo refuses");
   mesh(c, place, "y.bpv", true);
 }
@@ -100,10 +100,7 @@ void scale_and_close(Choices& c, Workplace& place, RawStream stream, bool readab
     if (!readable) fail_fuzz("x.bpv", "bpscale reads what bpinfo refuses");
     if (!place.run("bpinfo", {place.path("s.bpv")}).done()) fail_fuzz("s.bpv", "bpscale made what bpinfo refuses");
   }
-  const std::string from = place.has("s.bpv") ? "s.bpv" : "x.bpv";
-  if (!place.run("bpclose", {place.path(from), "-o", place.path("y.bpv")}, {"y.bpv"}).done()) return;
-  if (!readable) fail_fuzz(from, "bpclose reads what bpinfo refuses");
-  mesh(c, place, "y.bpv", true);
+  close_and_mesh(c, place, place.has("s.bpv") ? "s.bpv" : "x.bpv", {}, readable);
 }
 
 /// With an orientation: of a closing to come, or of one that is there.
@@ -121,6 +118,16 @@ RawStream turned_stream(Choices& c) {
   return s;
 }
 
+/// Writes a stream, and has bpinfo look at it in one of four ways, or plainly. True if it can be read.
+bool look_at(Choices& c, Workplace& place, const RawStream& stream, std::uint32_t way,
+             std::initializer_list<std::string> texts) {
+  place.write("x.bpv", bytes_of(stream));
+  Words info{place.path("x.bpv")};
+  if (way == 0) add(info, {"--image", place.path("x.png"), "--image-size", "64"});
+  if (way > 0 && way < 4) add(info, {c.of(texts)});
+  return place.run("bpinfo", info, {"x.png"}).done();
+}
+
 }  // namespace
 
 void turned(const std::uint8_t* data, std::size_t size) {
@@ -128,17 +135,10 @@ void turned(const std::uint8_t* data, std::size_t size) {
   const std::uint32_t way = roll(data, size, 16);
   const RawStream stream = turned_stream(c);
   Workplace place;
-  place.write("x.bpv", bytes_of(stream));
-  Words info{place.path("x.bpv")};
-  if (way == 0) add(info, {"--image", place.path("x.png"), "--image-size", "64"});
-  if (way < 4 && way > 0) add(info, {c.of<std::string>({"--json", "--dump"})});
-  const bool readable = place.run("bpinfo", info, {"x.png"}).done();
+  const bool readable = look_at(c, place, stream, way, {"--json", "--dump"});
   if (way < 4 || way > 8) return;
   if ((stream.flags & 1) != 0) return mesh(c, place, "x.bpv", readable);
-  if (!place.run("bpclose", {place.path("x.bpv"), "-o", place.path("y.bpv")}, {"y.bpv"}).done()) return;
-  if (!readable) fail_fuzz("x.bpv", "bpclose reads what bpinfo refuses");
-  if (!place.run("bpinfo", {place.path("y.bpv")}).done()) fail_fuzz("y.bpv", "bpclose made what bpinfo refuses");
-  mesh(c, place, "y.bpv", true);
+  close_and_mesh(c, place, "x.bpv", {}, readable);
 }
 
 void stream_stages(const std::uint8_t* data, std::size_t size) {
@@ -146,13 +146,9 @@ void stream_stages(const std::uint8_t* data, std::size_t size) {
   const std::uint32_t way = roll(data, size, 64);
   const RawStream stream = hostile_stream(c);
   Workplace place;
-  place.write("x.bpv", bytes_of(stream));
-  Words info{place.path("x.bpv")};
-  if (way == 0) add(info, {"--image", place.path("x.png"), "--image-size", "64"});
-  if (way < 4 && way > 0) add(info, {c.of<std::string>({"--json", "--dump", "--dump"})});
-  const bool readable = place.run("bpinfo", info, {"x.png"}).done();
+  const bool readable = look_at(c, place, stream, way, {"--json", "--dump", "--dump"});
   if (way > 4 && way < 14) mesh(c, place, "x.bpv", readable);
-  if (way >= 14 && way < 18) close_and_mesh(c, place, stream.voxel, readable);
+  if (way >= 14 && way < 18) close_and_mesh(c, place, "x.bpv", close_options(c, place, stream.voxel), readable);
   if (way >= 18 && way < 22) scale_and_close(c, place, stream, readable);
 }
 

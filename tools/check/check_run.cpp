@@ -2,12 +2,30 @@
 
 #include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
+#include "lib/core/length.h"
+#include "tools/cli/length.h"
 #include "tools/cli/options/voxel.h"
 #include "tools/run/inputs.h"
 
 namespace bp {
 
 namespace {
+
+TilePart parse_part(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) fail(ErrorCode::bad_argument, "{}: is not of the form K/N, as 1/3", text);
+  const std::int64_t of = parse_integer(std::string_view(text).substr(slash + 1), 1, std::int64_t(kMostTileParts));
+  return {std::uint64_t(parse_integer(std::string_view(text).substr(0, slash), 1, of)) - 1, std::uint64_t(of)};
+}
+
+/// Nothing here tells the size of a voxel.
+Length parse_margin(const std::string& text) {
+  constexpr const char* kWhat = "a length such as 0.5 or 2%; no voxels are known here";
+  double value = 0;
+  const std::string_view unit = take_number(text, value, kWhat);
+  if (!unit.empty() && unit != "%") fail(ErrorCode::bad_argument, "'{}' is not {}", text, kWhat);
+  return parse_length(text);
+}
 
 void declare(Args& args, CheckRun& o) {
   args.about(
@@ -21,9 +39,13 @@ void declare(Args& args, CheckRun& o) {
   args.flag("--inside", o.inside, "prove that the proxy lies strictly inside the scenes, not around them");
   args.flag("--convex", o.convex,
             "prove that the parts of the proxy, which may overlap, are convex and enclose the scenes together");
-  args.option("--margin", "LENGTH", o.margin,
-              "prove also that the proxy keeps this distance from the scenes: scene units, or a percentage of the "
-              "scenes' diagonal");
+  args.option(
+      "--margin", "LENGTH", [&o](const std::string& text) { o.margin = parse_margin(text); },
+      "prove also that the proxy keeps this distance from the scenes: scene units, or a percentage of the "
+      "scenes' diagonal");
+  args.option(
+      "--part", "K/N", [&o](const std::string& text) { o.part = parse_part(text); },
+      "check part K of N parts of a tileset, each on a machine of its own; if all N hold, the tileset holds");
   args.group("Files");
   add_scene_format(args, o.format);
   args.option(
@@ -54,8 +76,8 @@ CheckRun parse_check_run(Args& args) {
   args.excludes("--convex", "--inside");
   args.excludes("--margin", "--inside");
   args.excludes("--margin", "--convex");
-  if (o.margin.unit == Length::Unit::voxels)
-    fail(ErrorCode::bad_argument, "--margin {}: no voxels are known here; use scene units or percent", o.margin.text());
+  if (args.given("--part") && !is_tileset(o.files.back()))
+    fail(ErrorCode::bad_argument, "--part: is for tilesets; leave it out for a mesh");
   check_scene_format(o.format, o.files);
   check_stdin_once(o.files);
   keep_inputs(o.files);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/check/tileset_verdict.h"
 #include "tools/cli/common_options.h"
 
 /// The command line of bpcheck.
@@ -15,6 +16,7 @@ struct CheckRun {
   std::string format;
   bool json = false, inside = false, convex = false;
   Length margin;  // 0: not asked
+  TilePart part;
   std::optional<Vec3d> origin;
 };
 

@@ -49,18 +49,26 @@ bool has_cells(const Tileset& tileset) {
 /// The tileset as check_cover() wants it, and where its contents lie.
 class CoverTiles {
  public:
-  CoverTiles(const Tileset& tileset, std::string folder, const SceneOptions& options)
+  CoverTiles(const Tileset& tileset, std::string folder, const SceneOptions& options, TilePart part)
       : up_(tileset.up), folder_(std::move(folder)), options_(options) {
     for_each_tile(tileset, [&](const Tile& tile, const std::string& place, const Transform& transform) {
       add(tile, place, transform);
     });
+    mine_ = tiles_of(part, tiles_);
   }
 
   [[nodiscard]] const std::vector<CoverTile>& tiles() const { return tiles_; }
-  /// For each tile with a uri, in their order: what is known of it. The number of triangles is noted, and counted.
+  [[nodiscard]] bool mine(std::size_t i) const { return mine_[i]; }
+  /// For each tile with a uri, in their order: what is known of it. The number of triangles is noted, and counted. Of
+  /// another part's tile, it is taken to be there: that part tells.
   [[nodiscard]] TileContent look_at(const Tile& tile, TilesetVerdict& verdict) {
     while (tiles_[next_].uri.empty()) ++next_;
+    const bool mine = mine_[next_];
     CoverTile& noted = tiles_[next_++];
+    if (!mine) {
+      noted.triangles = 0;
+      return {true, "", {}};
+    }
     ++verdict.contents;
     verdict.leaves += noted.leaf_error.has_value();
     TileContent known;
@@ -119,6 +127,7 @@ class CoverTiles {
   const std::string folder_;
   const SceneOptions& options_;
   std::vector<CoverTile> tiles_;
+  std::vector<bool> mine_;  ///< tiles of this part
   std::vector<Transform> transforms_;
   struct Place {
     std::size_t number = 0;
@@ -133,7 +142,7 @@ std::vector<CoverFinding> check_whole(const CoverTiles& cover, TriangleSource& s
   std::vector<CoverFinding> findings;
   for (std::size_t i = 0; i < cover.tiles().size(); ++i) {
     const CoverTile& tile = cover.tiles()[i];
-    if (!tile.triangles) continue;
+    if (!tile.triangles || !cover.mine(i)) continue;
     CheckOptions check;
     check.distances = false;
     scene.rewind();
@@ -142,6 +151,12 @@ std::vector<CoverFinding> check_whole(const CoverTiles& cover, TriangleSource& s
     findings.push_back({fmt::format("{}: {} {}", tile.place, tile.uri, complaint_of(report)), report.answer()});
   }
   return findings;
+}
+
+/// Of one check: null.
+Json part_json(const TilesetVerdict& v) {
+  if (v.part.of == 1) return nullptr;
+  return {{"number", v.part.number + 1}, {"of", v.part.of}};
 }
 
 }  // namespace
@@ -159,8 +174,9 @@ std::string TilesetVerdict::text(const std::string& name) const {
   if (thin > 0)
     lines += fmt::format("{}: of {} thin parts of the scene only the corners were looked for\n", name, thin);
   if (flat > 0) lines += fmt::format("{}: {} parts of the scene that rounding flattens may be missing\n", name, flat);
-  return lines + fmt::format("{}: {} tiles, {} contents, {} triangles{}: {}\n", name, tiles, contents, triangles,
-                             scene ? ", checked against the scene" : "",
+  const std::string which = part.of == 1 ? "" : fmt::format("part {} of {}: ", part.number + 1, part.of);
+  return lines + fmt::format("{}: {}{} tiles, {} contents, {} triangles{}: {}\n", name, which, tiles, contents,
+                             triangles, scene ? ", checked against the scene" : "",
                              holds()                         ? "holds"
                              : answer() == Answer::undecided ? fmt::format("not decided: {} findings", undecided)
                                                              : fmt::format("{} findings", findings.size()));
@@ -172,6 +188,7 @@ std::string TilesetVerdict::json(const std::string& name) const {
       {"answer", to_string(answer())},
       {"tileset",
        {{"name", name}, {"tiles", tiles}, {"contents", contents}, {"leaves", leaves}, {"triangles", triangles}}},
+      {"part", part_json(*this)},
       {"scene", scene},
       {"tolerance", scene && leaves > 0 ? Json(tolerance) : Json(nullptr)},
       {"thin", thin},
@@ -181,19 +198,20 @@ std::string TilesetVerdict::json(const std::string& name) const {
 }
 
 TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std::string>& scenes,
-                                  const SceneOptions& options, std::uint64_t memory_bytes) {
+                                  const SceneOptions& options, std::uint64_t memory_bytes, TilePart part) {
   const Tileset tileset = read_tileset(path);
   const std::string folder = path.find('/') == std::string::npos ? "" : path.substr(0, path.rfind('/') + 1);
   TilesetVerdict verdict;
   verdict.scene = !scenes.empty();
   std::unique_ptr<TriangleSource> scene;
   if (verdict.scene) scene = open_scenes(scenes, options);
-  CoverTiles cover(tileset, folder, options);
+  CoverTiles cover(tileset, folder, options, part);
   verdict.tiles = cover.tiles().size();
+  verdict.part = part;
   verdict.findings = check_tileset(tileset, [&](const Tile& tile) { return cover.look_at(tile, verdict); });
   if (!scene) return verdict;
   const auto content = [&](std::size_t i) { return cover.content(i); };
-  const CoverReport report = has_cells(tileset) ? check_cover(cover.tiles(), content, *scene, memory_bytes)
+  const CoverReport report = has_cells(tileset) ? check_cover(cover.tiles(), content, *scene, memory_bytes, part)
                                                 : CoverReport{check_whole(cover, *scene)};
   verdict.tolerance = 3 * report.leaf_error;
   verdict.thin = report.thin;

@@ -4,6 +4,7 @@
 
 #include "io/scene/scene_reader.h"
 #include "lib/check/check_report.h"
+#include "lib/check/tile_part.h"
 
 namespace bp {
 
@@ -16,6 +17,7 @@ struct TilesetVerdict {
   std::uint64_t flat = 0;       ///< CoverReport::flat
   bool scene = false;           ///< the contents were checked against scenes
   std::uint64_t undecided = 0;  ///< of the findings: they prove nothing, and refute nothing
+  TilePart part;
   [[nodiscard]] Answer answer() const {
     if (findings.size() > undecided) return Answer::refuted;
     return undecided > 0 ? Answer::undecided : Answer::proven;
@@ -31,9 +33,12 @@ struct TilesetVerdict {
 /// transforms put it. The scenes are in their own axes, the tileset says which one is up. Throws bad_input if the
 /// tileset or a scene cannot be read; a content that cannot is a finding. Contents are read when they are needed, with
 /// scenes twice, and take memory_bytes at a time (one at least); the scenes are read once for each share of them
-/// (check_cover()), or for each content where tiles have no cells.
+/// (check_cover()), or for each content where tiles have no cells. Every part checks what the tileset itself says; the
+/// contents of its tiles are its own (tiles_of()), so that a finding of one check is one of a part, and all holds if
+/// all parts hold.
 [[nodiscard]] TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std::string>& scenes,
-                                                const SceneOptions& options, std::uint64_t memory_bytes);
+                                                const SceneOptions& options, std::uint64_t memory_bytes,
+                                                TilePart part = {});
 
 [[nodiscard]] bool is_tileset(const std::string& path);  ///< by its name: *.json
 

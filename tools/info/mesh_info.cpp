@@ -71,6 +71,14 @@ std::string names_text(const PartNames& all) {
   return text + "\n";
 }
 
+std::string moves_text(const MeshExtras& extras) {
+  const auto some = [](std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
+  std::string text;
+  if (extras.animations > 0) text = some(extras.animations, "animation");
+  if (extras.morph_targets > 0) text += (text.empty() ? "" : ", ") + some(extras.morph_targets, "morph target");
+  return text.empty() ? "" : "moves       " + text + "; this is the scene at rest\n";
+}
+
 std::string mesh_text(const MeshInfo& info, const std::string& name) {
   const TriangleTotals& t = info.totals;
   const auto point = [](const Vec3d& p) { return fmt::format("{} {} {}", p[0], p[1], p[2]); };
@@ -93,6 +101,7 @@ std::string mesh_text(const MeshInfo& info, const std::string& name) {
   if (info.extras.levels > 1)
     s += fmt::format("levels      {}, of which this is {}\n", info.extras.levels,
                      info.level == 0 ? "the finest" : fmt::format("level {}", info.level));
+  s += moves_text(info.extras);
   if (info.extras.origin)
     s += fmt::format("origin      {} was subtracted from all coordinates\n", point(*info.extras.origin));
   for (const std::string& step : info.extras.provenance) s += fmt::format("made by     {}\n", step);
@@ -114,6 +123,8 @@ Json mesh_json(const MeshInfo& info) {
   }
   j["levels"] = info.extras.levels;
   j["level"] = info.level;
+  j["animations"] = info.extras.animations;
+  j["morph_targets"] = info.extras.morph_targets;
   j["origin"] = info.extras.origin ? Json(*info.extras.origin) : Json(nullptr);
   j["provenance"] = info.extras.provenance;
   j["names"] = info.names.names;

@@ -3,20 +3,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <numeric>
 #include <optional>
 
 #include "io/files/file.h"
 #include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
-#include "lib/geometry/triangle_totals.h"
 #include "lib/levels/level_plan.h"
+#include "lib/levels/tile_plan.h"
 #include "tools/lod/bake_levels.h"
 #include "tools/lod/build.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/kept_results.h"
 #include "tools/lod/proportions.h"
 #include "tools/lod/tile_build.h"
+#include "tools/notes/estimate.h"
 #include "tools/notes/up_note.h"
 
 namespace bp {
@@ -32,13 +34,26 @@ constexpr double kScratchPerTriangle = 20, kScratchPerTexturedTriangle = 60;  //
 
 struct Scene {
   SceneCounts counts;
+  SurfaceMap surface;
   Bounds3d bounds;
-  double area = 0;
+  double area = 0, extent = 0;  ///< as VoxelizeCounts
   std::optional<UpAxis> up_told;
   UpAxis up = UpAxis::y;
   bool textured = false;
   std::uint64_t image_bytes = 0;  ///< of files
 };
+
+SurfaceMap surface_of(TriangleSource& scene) {
+  struct Item {
+    std::vector<TriangleD> triangles;
+    std::vector<SurfaceRun> runs;
+  };
+  SurfaceMap surface;
+  pipeline<Item>(
+      thread_count() + 2, [&](Item& item) { return scene.read(item.triangles); },
+      [](Item& item) { item.runs = surface_runs(item.triangles); }, [&](Item& item) { surface.add(item.runs); });
+  return surface;
+}
 
 Scene read_scene(const Build& build) {
   const BuildOptions& o = build.options;
@@ -48,10 +63,15 @@ Scene read_scene(const Build& build) {
     options.textures = std::make_shared<TextureTable>();
   }
   const auto source = open_scenes(o.voxels.scenes, options);
-  TriangleTotals totals;
-  for (std::vector<TriangleD> chunk; source->read(chunk);) totals.add(chunk);
-  if (totals.triangles == 0) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());
-  Scene scene{source->counts(), totals.bounds, totals.area, source->up(),
+  SurfaceMap surface = surface_of(*source);
+  const auto [bounds, area, extent] = surface.all();
+  if (bounds.empty()) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());
+  Scene scene{source->counts(),
+              std::move(surface),
+              bounds,
+              area,
+              extent,
+              source->up(),
               o.voxels.up.value_or(source->up().value_or(UpAxis::y))};
   if (options.textures) scene.image_bytes = options.textures->file_bytes();
   const bool from_colors = o.appearance == Appearance::texture && source->has_colors();
@@ -64,11 +84,13 @@ Scene read_scene(const Build& build) {
 struct Plan {
   StreamHeader header;
   std::uint64_t jobs = 0;
+  std::vector<std::uint64_t> thousandths;  ///< of a tileset: the number of the job at which each begins
   std::vector<PlannedLevel> levels;
   Vec3d origin{};
   std::vector<FoundJobs> kept;
   double leaf_bytes = 0;  ///< with their images; 0: none are wanted
   double file_bytes = 0, scratch_bytes = 0;
+  Estimate work;  ///< from nothing, and without textures
 };
 
 /// Of all levels and leaves, about.
@@ -85,6 +107,18 @@ double file_bytes(const Plan& plan, bool tileset, const Scene& scene) {
   return sum;
 }
 
+/// Numbers that cut the work of all jobs into a thousand parts of about the same size.
+std::vector<std::uint64_t> thousandths_of(const std::vector<double>& work) {
+  const double all = std::accumulate(work.begin(), work.end(), 0.0);
+  std::vector<std::uint64_t> cuts;
+  double before = 0;
+  for (std::size_t i = 0; i < work.size(); before += work[i++]) {
+    while (cuts.size() < 1000 && before + work[i] / 2 >= all * double(cuts.size()) / 1000) cuts.push_back(i);
+  }
+  cuts.resize(1000, work.size());
+  return cuts;
+}
+
 Plan plan_of(const Build& build, const Scene& scene) {
   const BuildOptions& o = build.options;
   const bool tileset = o.is_tileset();
@@ -99,11 +133,17 @@ Plan plan_of(const Build& build, const Scene& scene) {
     const TilesetPlan tiles = plan_tileset(request, Cells{o.tile_vox}, plan.header);
     plan.levels = planned_tileset(tiles, request, plan.header, scene.area);
     plan.jobs = tiles.jobs();
+    plan.thousandths = thousandths_of(scene.surface.work(tiles, Cells{o.tile_vox}));
     if (!o.cache.empty()) plan.kept = look_up_tileset(o);
   } else {
     plan.levels = planned_chain(request, plan.header, scene.area);
     plan.jobs = plan.levels.size();
   }
+  VoxelizeCounts counts;
+  counts.scene = scene.counts;
+  counts.area = scene.area;
+  counts.extent = scene.extent;
+  plan.work = estimate_build(o, plan.header.bounds, counts, plan.header.frame.voxel);
   plan.origin = origin_of(o.proxy.origin, plan.header.frame, plan.header.bounds);
   const double triangles = double(scene.counts.triangles);
   if (o.leaves)
@@ -152,11 +192,14 @@ Json json_of(const Build& build, const Scene& scene, const Plan& plan) {
             {"levels", Json::array()},
             {"jobs", plan.jobs},
             {"file_bytes_about", std::uint64_t(plan.file_bytes)},
-            {"scratch_bytes_about", std::uint64_t(plan.scratch_bytes)}};
+            {"scratch_bytes_about", std::uint64_t(plan.scratch_bytes)},
+            {"seconds_about", wall_seconds(plan.work, names_of(build.backends))},
+            {"peak_bytes_about", std::min(std::uint64_t(plan.work.bytes), build.options.common.memory_bytes)}};
   for (const PlannedLevel& level : plan.levels) json["levels"].push_back(json_of(level));
   if (plan.leaf_bytes > 0) json["leaf_bytes_about"] = std::uint64_t(plan.leaf_bytes);
   if (plan.origin != Vec3d{}) json["origin"] = plan.origin;
   for (const FoundJobs& f : plan.kept) json["kept"].push_back(json_of(f));
+  if (!plan.thousandths.empty()) json["thousandths"] = plan.thousandths;
   return json;
 }
 
@@ -179,6 +222,8 @@ std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
   out += fmt::format("memory\t{}: reading with {}, {} for what waits; then {} for voxels, {} for surfaces\n",
                      size_text(build.options.common.memory_bytes), size_text(b.reader), size_text(b.waiting),
                      size_text(b.shelf), size_text(b.work.bytes));
+  out += fmt::format("time\t{}{}\n", work_text(plan.work, build.options.common.memory_bytes, names_of(build.backends)),
+                     scene.textured ? "; textures come on top" : "");
   out += fmt::format("disk\tabout {} of files, about {} of scratch\n", size_text(std::uint64_t(plan.file_bytes)),
                      size_text(std::uint64_t(plan.scratch_bytes)));
   if (plan.leaf_bytes > 0)

@@ -28,6 +28,7 @@ std::string faces_note(const LevelFacts& level, bool asked) {
   if (!level.reached)
     return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", level.faces,
                        budget, level.scale_world);
+  if (asked && level.stopped_by == to_string(StopReason::least_volume)) return least_volume_note(level.faces, budget);
   const std::string few = asked ? too_few_note(level.faces, budget) : "";
   if (few.empty() && asked && level.attempts > 1)
     return fmt::format(

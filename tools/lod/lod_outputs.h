@@ -46,8 +46,9 @@ struct WrittenFile {
   std::uint64_t faces = 0;
   bool is_level = true;  ///< the level itself; else convex hulls around it
   std::uint64_t hulls = 0;
-  double hull_volume = 0;  ///< of all of them, over the level's own
-  std::string note = "";   ///< what a user should know of it
+  double hull_volume = 0;                ///< of all of them, over the level's own
+  std::string note = "";                 ///< what a user should know of it
+  std::vector<std::string> beside = {};  ///< further files of the level: material and images of OBJ
 };
 /// Writes them; returns those that hold one level. `levels`: finest first; errors must not fall towards coarser ones;
 /// collision: one. diameter: of the scene; origin: subtracted from all vertices; scene units. Of the options: profile,

@@ -22,11 +22,11 @@ std::string name_of_level(const BuildOptions& o, std::size_t level) {
   return level_count(request_of(o)) == 1 ? o.name : level_name(o.name, level);
 }
 
-/// Of the level's material and the files beside it: readers of OBJ part names at blanks.
-std::string material_name(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == ' ' || c == '\t'; }, '_');
-  return name;
+/// Of the level's material and the files beside it: readers of OBJ part names at blanks. No two levels share one.
+std::string material_name(const std::string& name) {
+  std::string out;
+  for (const char c : name) out += c == ' ' ? "~_" : c == '\t' ? "~t" : c == '~' ? "~~" : std::string(1, c);
+  return out;
 }
 
 /// Files that there may be beside a level, with so many kinds of images.
@@ -69,21 +69,21 @@ void leave_out_earlier(const BuildOptions& o, const std::set<std::string>& writt
 /// Writes an image beside a level; returns its file's name, empty if there is none.
 class ImageWriter {
  public:
-  ImageWriter(std::string name, OutputFolder& out, std::set<std::string>& written)
+  ImageWriter(std::string name, OutputFolder& out, std::vector<std::string>& written)
       : name_(std::move(name)), out_(out), written_(written) {}
 
   std::string operator()(const char* kind, const ImageFile& image) const {
     if (!image.is_there()) return "";
     const std::string file = fmt::format("{}_{}.{}", name_, kind, image.type == "image/png" ? "png" : "jpg");
     out_.file(file).write(image.bytes);
-    written_.insert(file);
+    written_.push_back(file);
     return file;
   }
 
  private:
   std::string name_;
   OutputFolder& out_;
-  std::set<std::string>& written_;
+  std::vector<std::string>& written_;
 };
 
 /// A channel of an image as one of its own, in grey, as MTL has them; none if it is about 0 everywhere.
@@ -133,15 +133,18 @@ std::vector<WrittenFile> write_obj_levels(const BuildOptions& o, const std::vect
   for (const LodLevel& level : levels) {
     const std::string name = name_of_level(o, files.size()), material = material_name(name);
     std::string materials;
+    std::vector<std::string> beside;
     if (const auto& texture = level.mesh.texture) {
-      const MtlImages images = write_images(*texture, ImageWriter(material, out, written));
+      const MtlImages images = write_images(*texture, ImageWriter(material, out, beside));
       materials = material + ".mtl";
       out.file(materials).write(mtl_text(material, *texture, images));
-      written.insert(materials);
+      beside.push_back(materials);
     }
     write_obj_level(level.mesh, material, materials, out.file(name + ".obj"), origin);
     written.insert(name + ".obj");
+    written.insert(beside.begin(), beside.end());
     files.push_back({name + ".obj", files.size(), level.mesh.triangles.size()});
+    files.back().beside = std::move(beside);
   }
   for (const std::string& file : obj_files(o, level_count(request_of(o)))) {
     if (!written.contains(file)) out.leave_out(file);

@@ -2,7 +2,6 @@
 
 #include <fmt/ranges.h>
 
-#include "lib/tighten/few_faces.h"
 #include "tools/notes/face_notes.h"
 
 namespace bp {
@@ -86,14 +85,10 @@ void note_faces(Report& report, const MeshOptions& o, const MeshCounts& c, std::
   const LevelCounts& level = c.levels[i];
   const std::uint64_t faces = level.simplify.faces_out;
   if (i >= o.levels.faces.size()) return;
-  if (level.stopped_by == kLeastVolume) {
-    report.note(fmt::format("{}{} faces instead of {}: with so few, more would not hold less volume", level_text(c, i),
-                            faces, o.levels.faces[i]),
-                o.common);
-    return;
-  }
-  if (const std::string few = too_few_note(faces, o.levels.faces[i], o.proxy.mode); !few.empty())
-    report.note(level_text(c, i) + few, o.common);
+  const std::string few = level.simplify.stop == StopReason::least_volume
+                              ? least_volume_note(faces, o.levels.faces[i])
+                              : too_few_note(faces, o.levels.faces[i], o.proxy.mode);
+  if (!few.empty()) report.note(level_text(c, i) + few, o.common);
   if (faces <= o.levels.faces[i]) return;
   const bool coarser = i == 0 || faces < c.levels[i - 1].simplify.faces_out;
   const std::string refusals = refusals_text(o, level.simplify);

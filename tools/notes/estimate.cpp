@@ -13,7 +13,7 @@ namespace bp {
 namespace {
 
 // Measured as user seconds and peak memory, at 256 to 2048 voxels: docs/performance.md, "The estimate of a long run".
-constexpr double kNoteSeconds = 10;               ///< shorter runs say nothing
+constexpr double kNoteSeconds = 10;               ///< shorter runs say nothing: they were not measured
 constexpr double kSurfacePerArea = 0.6;           ///< voxels that triangles touch, for each voxel face of the bounds
 constexpr double kFacesPerArea = 1;               ///< triangles of the dense surface, the same
 constexpr double kMostFacesPerVoxel = 4;          ///< two triangles on either side of a sheet
@@ -101,17 +101,27 @@ Estimate estimate_levels(const Bounds3d& scene, const VoxelizeCounts& counts, do
   return all;
 }
 
-std::string estimate_note(const Estimate& e, std::uint64_t memory, const std::vector<std::string>& backends) {
+double wall_seconds(const Estimate& e, const std::vector<std::string>& backends) {
   const int threads = thread_count();
   const bool gpu = std::any_of(backends.begin(), backends.end(), [](const std::string& b) { return b != "cpu"; });
   const double cores = gpu ? std::max<double>(threads, kCoresPerGpu) : threads;
-  const double seconds = e.serial_seconds + (e.core_seconds - e.serial_seconds) / cores;
-  if (!(seconds > kNoteSeconds)) return "";
-  const double limit = double(memory);
-  return fmt::format("a grid of {} x {} x {} voxels: about {} on {} thread{}, with {} of memory{}", e.grid[0],
-                     e.grid[1], e.grid[2], duration_text(seconds), threads, threads == 1 ? "" : "s",
-                     size_text(std::uint64_t(std::min(e.bytes, limit))),
-                     e.bytes > limit ? "; what does not fit goes to files in --temp" : "");
+  return e.serial_seconds + (e.core_seconds - e.serial_seconds) / cores;
+}
+
+std::string work_text(const Estimate& e, std::uint64_t memory, const std::vector<std::string>& backends) {
+  const int threads = thread_count();
+  const double seconds = wall_seconds(e, backends), limit = double(memory);
+  return fmt::format(
+      "{} on {} thread{}, with {} of memory{}",
+      seconds > kNoteSeconds ? "about " + duration_text(seconds) : fmt::format("{:.0f} s or less", kNoteSeconds),
+      threads, threads == 1 ? "" : "s", size_text(std::uint64_t(std::min(e.bytes, limit))),
+      e.bytes > limit ? "; what does not fit goes to files in --temp" : "");
+}
+
+std::string estimate_note(const Estimate& e, std::uint64_t memory, const std::vector<std::string>& backends) {
+  if (!(wall_seconds(e, backends) > kNoteSeconds)) return "";
+  return fmt::format("a grid of {} x {} x {} voxels: {}", e.grid[0], e.grid[1], e.grid[2],
+                     work_text(e, memory, backends));
 }
 
 void note_estimate(const Estimate& estimate, const CommonOptions& common, Progress& progress, Report& report,

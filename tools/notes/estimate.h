@@ -41,10 +41,14 @@ struct Estimate {
 constexpr double kErrorEffort = 5;  ///< --error: each new face is measured
 constexpr double kSceneEffort = 4;  ///< --enclose SCENE: the scene's own triangles stay inside
 
+/// Of a run with these devices (names_of(backends)): a GPU takes over work.
+[[nodiscard]] double wall_seconds(const Estimate& estimate, const std::vector<std::string>& backends);
+/// "about 4 min on 2 threads, with 550 MiB of memory", or "10 s or less ...". memory: --memory: what does not fit is
+/// spilled.
+[[nodiscard]] std::string work_text(const Estimate& estimate, std::uint64_t memory,
+                                    const std::vector<std::string>& backends);
 /// The note for the user, if it takes more than ten seconds; else empty: "a grid of 2048 x 900 x 700 voxels: about 4
 /// min on 2 threads, with 550 MiB of memory".
-///   memory    --memory: what does not fit is spilled
-///   backends  names_of(backends), of work that a GPU takes over
 [[nodiscard]] std::string estimate_note(const Estimate& estimate, std::uint64_t memory,
                                         const std::vector<std::string>& backends = {});
 /// Says it, on a line of its own.

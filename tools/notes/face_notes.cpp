@@ -33,6 +33,11 @@ std::string too_few_note(std::uint64_t faces, std::uint64_t asked, MeshMode mode
       faces, asked, mode == MeshMode::inside ? "keep more of the inside" : "show more of the scene");
 }
 
+std::string least_volume_note(std::uint64_t faces, std::uint64_t asked) {
+  if (!clearly_fewer(faces, asked)) return "";
+  return fmt::format("{} faces instead of {}: more would not hold less volume", faces, asked);
+}
+
 std::string merged_note(std::uint64_t faces, std::uint64_t shells, std::uint64_t handles, MeshMode mode,
                         const std::optional<std::string>& scale) {
   const bool inside = mode == MeshMode::inside;

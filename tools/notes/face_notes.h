@@ -12,6 +12,9 @@ namespace bp {
 /// Empty if there are about as many, or more. One line.
 [[nodiscard]] std::string too_few_note(std::uint64_t faces, std::uint64_t asked, MeshMode mode = MeshMode::bounding);
 
+/// Of a mesh with clearly fewer faces than were asked for, because more would leave more volume. Empty as above.
+[[nodiscard]] std::string least_volume_note(std::uint64_t faces, std::uint64_t asked);
+
 /// Why merging ended by itself, and what there is to be done: parts (shells) and handles are kept, if there are any to
 /// speak of, and a larger scale does to an opening what is the opposite of what it does to a closing.
 /// `scale`: a --scale that was found to leave few enough; "": none was; without a value: none was looked for.

@@ -82,6 +82,23 @@ std::optional<Vec3d> gltf_origin(const Json& document) {
   return p;
 }
 
+std::size_t gltf_animations(const Json& document) {
+  return document.is_object() && document.contains("animations") ? document.at("animations").size() : 0;
+}
+
+/// The most that a primitive has.
+std::size_t gltf_morph_targets(const Json& document) {
+  std::size_t most = 0;
+  if (!document.is_object() || !document.contains("meshes")) return most;
+  for (const Json& mesh : document.at("meshes")) {
+    if (!mesh.is_object() || !mesh.contains("primitives")) continue;
+    for (const Json& primitive : mesh.at("primitives")) {
+      if (primitive.is_object() && primitive.contains("targets")) most = std::max(most, primitive.at("targets").size());
+    }
+  }
+  return most;
+}
+
 bool has_hulls(const Json& document) {
   if (!document.is_object() || !document.contains("nodes") || !document.at("nodes").is_array()) return false;
   return std::any_of(document.at("nodes").begin(), document.at("nodes").end(), [](const Json& node) {
@@ -91,14 +108,15 @@ bool has_hulls(const Json& document) {
 }
 
 MeshExtras from_gltf(const std::string& text) {
-  const char* const keys[] = {"\"extras\"", "\"MSFT_lod\"", "\"UCX_"};
+  const char* const keys[] = {"\"extras\"", "\"MSFT_lod\"", "\"UCX_", "\"animations\"", "\"targets\""};
   if (std::none_of(std::begin(keys), std::end(keys),
                    [&](const char* key) { return text.find(key) != std::string::npos; }))
     return {};
   const Json document = Json::parse(text, nullptr, false);
   static const Json::json_pointer tile("/asset/extras/tile_origin");
-  return {gltf_provenance(document), gltf_origin(document), document.is_object() && document.contains(tile),
-          gltf_levels(document), has_hulls(document)};
+  return {gltf_provenance(document),   gltf_origin(document), document.is_object() && document.contains(tile),
+          gltf_levels(document),       has_hulls(document),   gltf_animations(document),
+          gltf_morph_targets(document)};
 }
 
 }  // namespace

@@ -14,6 +14,8 @@ struct MeshExtras {
   bool tile = false;                    ///< the content of a tile, which its transform puts into its place
   std::size_t levels = 1;               ///< of detail; MSFT_lod of glTF
   bool hulls = false;                   ///< nodes of glTF are named UCX_*, as convex hulls for Unreal
+  std::size_t animations = 0;           ///< of glTF
+  std::size_t morph_targets = 0;        ///< of glTF: the most that a mesh has
 };
 [[nodiscard]] MeshExtras mesh_extras(const std::string& path);
 

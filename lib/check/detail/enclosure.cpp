@@ -99,7 +99,8 @@ bool is_finite(const TriangleD& t) {
 
 void check_gap(const WeldedMesh& mesh, const Surface& surface, const EnclosureQuestion& question, std::uint64_t number,
                const TriangleD& t, EnclosureReport& e) {
-  if (question.margin == 0) return;
+  if (question.margin == 0 || surface.bvh().empty()) return;
+  e.least_gap = gap_within(t, surface.bvh(), e.least_gap);
   const GapAnswer gap = keeps_gap(t, surface.bvh(), question.margin);
   if (gap.answer == Answer::proven) return;
   const std::uint64_t other = mesh.number[surface.triangle(gap.item)];
@@ -121,10 +122,12 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, const Enclosure
     }
     batch.volume.add(t);
     const std::int64_t touched = surface.touched_by(t);
-    if (touched != Surface::kNone)
+    if (touched != Surface::kNone) {
       e.touching.add({number, mesh.number[std::size_t(touched)], centre(t)}, max_examples);
-    else if (question.decide_sides && winding_of(t, surface, cache) < 1)
+      e.least_gap = 0;
+    } else if (question.decide_sides && winding_of(t, surface, cache) < 1) {
       e.outside.add({number, 0, centre(t)}, max_examples);
+    }
     check_gap(mesh, surface, question, number, t, e);
   }
   e.triangles = batch.triangles.size();
@@ -153,6 +156,7 @@ EnclosureReport check_enclosure(const WeldedMesh& mesh, const Surface& surface, 
         all.undecidable.append(batch.result.undecidable, max_examples);
         all.too_near.append(batch.result.too_near, max_examples);
         all.perhaps_near.append(batch.result.perhaps_near, max_examples);
+        all.least_gap = std::min(all.least_gap, batch.result.least_gap);
         volume.add(batch.volume);
       });
   all.volume = volume.value();

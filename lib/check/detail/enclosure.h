@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -12,6 +13,7 @@ struct EnclosureReport {
   std::uint64_t triangles = 0;
   Finding touching, outside, undecidable;  ///< as in CheckReport
   Finding too_near, perhaps_near;          ///< as in CheckReport
+  double least_gap = HUGE_VAL;             ///< as in CheckReport
   std::optional<double> volume;            ///< of the scene; none if it is open (SignedVolume)
 };
 

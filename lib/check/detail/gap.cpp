@@ -67,6 +67,16 @@ double size_around(const Vec3d& p, const TriangleD& a, const TriangleD& b) {
   return size;
 }
 
+/// All that is as near as `by`.
+Bounds3d box_around(const TriangleD& t, double by) {
+  Bounds3d box = bounds_of(t);
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.min[i] = std::nextafter(box.min[i] - by, -HUGE_VAL);
+    box.max[i] = std::nextafter(box.max[i] + by, HUGE_VAL);
+  }
+  return box;
+}
+
 }  // namespace
 
 Answer keeps_gap(const TriangleD& a, const TriangleD& b, double margin) {
@@ -87,20 +97,24 @@ Answer keeps_gap(const TriangleD& a, const TriangleD& b, double margin) {
 }
 
 GapAnswer keeps_gap(const TriangleD& t, const TriangleBvh& surface, double margin) {
-  Bounds3d box = bounds_of(t);
-  for (std::size_t i = 0; i < 3; ++i) {
-    box.min[i] = std::nextafter(box.min[i] - margin, -HUGE_VAL);
-    box.max[i] = std::nextafter(box.max[i] + margin, HUGE_VAL);
-  }
   GapAnswer all;
-  surface.visit(box, [&](const TriangleBvh::Item& item) {
+  surface.visit(box_around(t, margin), [&](const TriangleBvh::Item& item) {
     const Answer answer = keeps_gap(t, item.corners, margin);
-    if (answer == Answer::proven) return false;
-    const bool first = all.answer == Answer::proven || (all.answer == Answer::undecided && answer == Answer::refuted);
-    if (first || (answer == all.answer && item.id < all.item)) all = {answer, item.id};
-    return false;
+    if (answer == Answer::refuted ||
+        (answer == Answer::undecided && (all.answer == Answer::proven || item.id < all.item)))
+      all = {answer, item.id};
+    return answer == Answer::refuted;  // the next one would not change the answer
   });
   return all;
+}
+
+double gap_within(const TriangleD& t, const TriangleBvh& surface, double most) {
+  double least = std::min(most, std::sqrt(surface.nearest(t[0]).distance_squared));
+  surface.visit(box_around(t, least), [&](const TriangleBvh::Item& item) {
+    least = std::min(least, nearest_of(t, item.corners).distance);
+    return false;
+  });
+  return least;
 }
 
 }  // namespace bp

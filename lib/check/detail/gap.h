@@ -12,9 +12,12 @@ namespace bp {
 
 struct GapAnswer {
   Answer answer = Answer::proven;
-  std::uint32_t item = 0;  ///< Item::id of a triangle that is too near, or perhaps; the lowest of those
+  std::uint32_t item = 0;  ///< Item::id of a triangle that is too near; else, the lowest of those that perhaps are
 };
 /// The same of all triangles of `surface`.
 [[nodiscard]] GapAnswer keeps_gap(const TriangleD& t, const TriangleBvh& surface, double margin);
+
+/// The distance between t and the surface, which is not empty, or `most` if that is less. In floating point.
+[[nodiscard]] double gap_within(const TriangleD& t, const TriangleBvh& surface, double most);
 
 }  // namespace bp

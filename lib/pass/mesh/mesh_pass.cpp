@@ -161,7 +161,7 @@ class LevelMaker {
     const bool by_faces = !inside() && ground_.enclosed && faces[0] >= kFewFaces && params_.error_world == 0 &&
                           params_.volume_ratio == 0 && params_.edge_factor == 0;
     CoarseStart coarse;
-    if (by_faces) coarse = coarse_start(*shelves.meshed, header_, faces[0], make_shelf_);
+    if (by_faces) coarse = coarse_start(*shelves.meshed, header_, kFacesPerFace * faces[0], make_shelf_);
     std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed.get(), faces[0], coarse.surface.get())};
     ground_.enclosed.reset();
     coarse = {};

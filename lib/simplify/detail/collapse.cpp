@@ -14,17 +14,32 @@ namespace {
 constexpr double kLeastTurn = 0.1;  // cosine between a face's normal before and after
 constexpr int kShares = 4;          // places tried between the free minimum and the growing one
 
+/// About each corner itself, where the plane's offset is zero.
+Quadric quadric_of_face(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
+  const Vec3d n = to_double(normal_of(a, b, c));
+  const double size = length(n);
+  Quadric q;
+  q.add_plane({n[0] / size, n[1] / size, n[2] / size}, 0, size / 2);
+  return q;
+}
+
 }  // namespace
 
 std::vector<Quadric> quadrics_of(const HalfEdgeMesh& mesh) {
   std::vector<Quadric> quadrics(mesh.vertex_capacity());
   for (FaceId f = 0; f < mesh.face_capacity(); ++f) {
     if (!mesh.alive(f)) continue;
-    const Vec3d n = to_double(normal_of(mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2)));
-    const double size = length(n);
-    Quadric q;  // about each corner itself, where the plane's offset is zero
-    q.add_plane({n[0] / size, n[1] / size, n[2] / size}, 0, size / 2);
+    const Quadric q = quadric_of_face(mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2));
     for (HalfEdgeId h = 3 * f; h < 3 * f + 3; ++h) quadrics[mesh.from(h)].add(q);
+  }
+  return quadrics;
+}
+
+std::vector<Quadric> quadrics_of(const Piece& piece) {
+  std::vector<Quadric> quadrics(piece.vertices.size());
+  for (const auto& [a, b, c] : piece.triangles) {
+    const Quadric q = quadric_of_face(piece.vertices[a], piece.vertices[b], piece.vertices[c]);
+    for (const VertexId v : {a, b, c}) quadrics[v].add(q);
   }
   return quadrics;
 }

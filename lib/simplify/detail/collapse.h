@@ -9,7 +9,7 @@
 #include "lib/simplify/simplify.h"
 
 /// Single edge collapses: what one costs, where its vertex goes, whether it may be taken. The orders in which they are
-/// taken are in collapse_order.h.
+/// taken are in bulk_order.h and collapse_order.h.
 namespace bp {
 
 /// A collapse that passed every test but the guard.
@@ -21,6 +21,7 @@ struct Candidate {
 
 /// Per vertex and about it: the planes of its faces, weighted by their areas.
 [[nodiscard]] std::vector<Quadric> quadrics_of(const HalfEdgeMesh& mesh);
+[[nodiscard]] std::vector<Quadric> quadrics_of(const Piece& piece);
 
 class Collapser {
  public:

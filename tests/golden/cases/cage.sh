@@ -25,7 +25,7 @@ diff -r legs legs1 && echo "the same bytes"
 small legs.obj -o wide --margin 1
 bpcheck --margin 1 legs.obj wide/legs_cage.obj | tail -1
 bpcheck --margin 3 legs.obj wide/legs_cage.obj | grep margin
-for margin in 0.5% 20%; do bpcheck --margin $margin legs.obj legs/legs_cage.obj | grep keeps; done
+for margin in 0.5% 20% 100%; do bpcheck --margin $margin legs.obj legs/legs_cage.obj | grep -e keeps -e least.dist; done
 
 # The most is taken, whatever is rounded.
 printf '%s\n' 'v 0 0 0' 'v 1 0 0' 'v 0 1 0' 'v 0 0 1' 'f 1 3 2' 'f 1 2 4' 'f 1 4 3' 'f 2 3 4' > corner.obj

@@ -16,7 +16,7 @@ awk '/^v/ && $2 == 4 { $4 += 1 } { print }' cage.obj > bent.obj
 try bpdeform apply scene.bpw bent.obj -o bent_scene.obj -q
 said 'grep "^v " bent_scene.obj'
 # A sequence of cages gives a sequence of scenes.
-try bpdeform apply scene.bpw cage.obj bent.obj affine.obj -o frame.obj -q
+try bpdeform apply scene.bpw cage.obj bent.obj affine.obj -o frame.obj
 said 'cmp frame.0.obj scene.obj && cmp frame.1.obj bent_scene.obj && cmp frame.2.obj affine_scene.obj && echo same'
 try bpdeform apply scene.bpw
 # The same bytes for any number of threads and limit on memory.
@@ -57,6 +57,8 @@ said 'bpvox cage.obj --resolution 10 -q | bpclose -q > box.bpv; bpmesh box.bpv -
 awk '/^v/ { $2 = 2 * $2 } { print }' box.obj > wide.obj
 try bpdeform bind box.glb box.obj -o box.bpw --outside near -q
 try bpdeform apply box.bpw box.obj wide.obj -o moving_box.glb --animate 2 -q
+said "bpinfo moving_box.glb | grep moves"
+said "bpinfo moving_box.glb --json | grep -E 'animations|morph'"
 try bpdeform bind scene.obj box.glb -o boxed.bpw
 try bpdeform apply boxed.bpw moving_box.glb -o boxed.obj -q
 said "cmp boxed.0.obj scene.obj && awk '/^v / { printf \"%.4f %.4f %.4f\\n\", \$2 + 1e-6, \$3, \$4 }' boxed.1.obj"

@@ -5,6 +5,7 @@ bplod "${options[@]}" --levels 2 -o out/cubes.obj | cut -f 1
 bplod "${options[@]}" --levels 2 -o again/cubes.obj -j 1 --memory 300M > list
 same out again
 ls out
+awk -F '\t' 'NR > 1 { n += $6 } END { print n }' list | diff - <(cat again/* | wc -c) && echo "all bytes are listed"
 cat out/cubes_LOD1.mtl
 grep -v '^[v#f]' out/cubes_LOD1.obj
 bplod "${options[@]}" --levels 2 --name cubes -o glb > list
@@ -22,8 +23,11 @@ bplod "${options[@]}" --levels 1 --appearance off -o off.OBJ > list && ls off*
 bplod "${options[@]}" --levels 1 -o 'blank/a cube.obj' > list && ls blank && grep -h 'mtl \|_color\|^mtllib' blank/a*.{obj,mtl}
 bplod 'blank/a cube.obj' --resolution 30 --levels 1 -q -o read/level.obj > list && ls read
 bpcheck part*.obj 'blank/a cube.obj' | tail -1
+# A level of the other name has files of its own.
+bplod "${options[@]}" --levels 1 -o blank/a_cube.obj > list && ls blank && grep -h '^mtllib' blank/*.obj
+rm blank/a_cube*
 # What only an earlier level of ours named goes with it.
-touch blank/a_cube_normal.png blank/other_color.jpg
+touch blank/a~_cube_normal.png blank/other_color.jpg
 bplod "${options[@]}" --levels 1 --appearance off -o 'blank/a cube.obj' --overwrite > list && ls blank
 echo 'mtllib part0.mtl' > 'blank/part0.obj' && touch blank/part0.mtl
 bplod "${options[@]}" --levels 1 --appearance off -o blank/part0.obj --overwrite > list && ls blank/part0*

@@ -83,3 +83,26 @@ TEST_CASE("a proxy keeps a margin up to its least distance from the scene", "[qu
   options.margin_world = 0;
   CHECK(check(proxy, scene, options).too_near.count == 0);
 }
+
+TEST_CASE("the least distance is found, and a wide margin is refuted by the first face", "[quick][check]") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-1, 1);
+  const auto triangle = [&](double x) {
+    TriangleD t;
+    for (Vec3d& p : t) p = {x + place(random) / 4, place(random), place(random)};
+    return t;
+  };
+  std::vector<TriangleD> faces;
+  for (int i = 0; i < 200; ++i) faces.push_back(triangle(2 + i % 7));
+  const TriangleBvh surface(faces);
+  for (int round = 0; round < 50; ++round) {
+    const TriangleD t = triangle(0);
+    double least = HUGE_VAL;
+    for (const TriangleD& face : faces) least = std::min(least, distance_between(t, face));
+    CHECK(gap_within(t, surface, HUGE_VAL) == Approx(least));
+    CHECK(gap_within(t, surface, least / 2) == least / 2);
+    CHECK(keeps_gap(t, surface, least * 0.999).answer == Answer::proven);
+    CHECK(keeps_gap(t, surface, least * 1.001).answer == Answer::refuted);
+    CHECK(keeps_gap(t, surface, 1e6).answer == Answer::refuted);
+  }
+}

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 
 #include "lib/check/tile_cover.h"
@@ -46,7 +47,31 @@ Triangles bar() {
   return scene;
 }
 
-/// The same, whether all contents are looked at together or one after the other.
+std::vector<std::string> texts(const CoverReport& report) {
+  std::vector<std::string> lines;
+  for (const CoverFinding& f : report.findings) lines.push_back(f.text);
+  return lines;
+}
+
+/// What `count` parts find, each of which knows nothing of the contents of the others' tiles, sorted.
+std::vector<std::string> findings_of_parts(const std::vector<CoverTile>& tiles, const CoverContents& content,
+                                           TriangleSource& scene, std::uint64_t count) {
+  std::vector<std::string> lines;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const std::vector<bool> mine = tiles_of({k, count}, tiles);
+    std::vector<CoverTile> known = tiles;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+      if (tiles[i].triangles && !mine[i]) known[i].triangles = 0;
+    }
+    const auto read = [&](std::size_t i) { return mine[i] ? content(i) : throw std::logic_error("another part's"); };
+    for (std::string& line : texts(check_cover(known, read, scene, 1 << 20, {k, count})))
+      lines.push_back(std::move(line));
+  }
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+/// The same, whether all contents are looked at together, one after the other, or in parts.
 std::vector<std::string> findings(const std::vector<MeshTile>& tiles, const Triangles& scene = bar()) {
   std::vector<CoverTile> cover;
   for (const MeshTile& t : tiles) {
@@ -56,15 +81,12 @@ std::vector<std::string> findings(const std::vector<MeshTile>& tiles, const Tria
   std::atomic<int> reads{0};
   const auto read = [&](std::size_t i) { return ++reads, *tiles[i].content; };
   MemorySource source(scene, 5);
-  const auto texts = [](const std::vector<CoverFinding>& all) {
-    std::vector<std::string> lines;
-    for (const CoverFinding& f : all) lines.push_back(f.text);
-    return lines;
-  };
-  std::vector<std::string> together = texts(check_cover(cover, read, source).findings);
+  std::vector<std::string> together = texts(check_cover(cover, read, source));
   const int contents = reads;
-  CHECK(texts(check_cover(cover, read, source, 1).findings) == together);
+  CHECK(texts(check_cover(cover, read, source, 1)) == together);
   CHECK(reads == 2 * contents);
+  for (std::uint64_t count = 2; count <= cover.size() + 1; ++count)
+    CHECK(findings_of_parts(cover, read, source, count) == findings_of_parts(cover, read, source, 1));
   return together;
 }
 

@@ -1,6 +1,7 @@
 #include "lib/check/detail/surface.h"
 #include "lib/core/parallel.h"
 #include "lib/enclosed/enclosed_voxels.h"
+#include "lib/simplify/collapse_regions.h"
 #include "lib/simplify/cost_order.h"
 #include "lib/simplify/regions.h"
 #include "lib/surface/repair.h"
@@ -240,4 +241,31 @@ TEST_CASE("a large proxy made by regions that need nothing but grow, or fit, is 
   const LatticeMesh proxy = simplify(towers.surface(), params, counts);
   CHECK(proxy.triangles.size() == params.faces);
   check_large_proxy(proxy, params.free ? Solid([](VoxelCoord) { return false; }) : towers.solid);
+}
+
+TEST_CASE("a bulk that is taken by regions leaves a proxy that holds, the same for any number of threads",
+          "[meshing]") {
+  const Towers towers;
+  const LatticeMesh dense = towers.surface();
+  SimplifyParams params;
+  params.faces = 20000;
+  params.strict_from = 30000;
+  params.faces_per_region = 150;
+  REQUIRE(has_bulk_regions(params.strict_from, params));
+  const auto make = [&](int threads) {
+    const ThreadLimit limit(threads);
+    SimplifyCounts counts;
+    return simplify(dense, params, counts);
+  };
+  const LatticeMesh proxy = make(1), same = make(3);
+  CHECK(proxy.triangles.size() == params.faces);
+  check_large_proxy(proxy, towers.solid);
+  CHECK(same.vertices == proxy.vertices);
+  CHECK(same.triangles == proxy.triangles);
+  Piece whole = whole_piece(MeshSurface(dense));
+  const std::uint64_t enough = whole.triangles.size() / 2;
+  SimplifyCounts counts;
+  collapse_bulk_in_regions(whole, {enough, 1e300}, params, counts);
+  CHECK(whole.triangles.size() <= enough);
+  CHECK(whole.triangles.size() > enough - enough / 10);
 }

@@ -4,7 +4,7 @@
 #include "lib/check/check_proxy.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
-#include "lib/simplify/detail/collapse_order.h"
+#include "lib/simplify/detail/bulk_order.h"
 #include "lib/simplify/flatten.h"
 #include "lib/simplify/simplify.h"
 #include "lib/simplify/surface_tree.h"

@@ -51,6 +51,7 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--output", "bpvox, bpscale, bpclose, bpmesh, bpdeform and bplod"},
     {"--outside", "bpdeform"},
     {"--overwrite", "bpvox, bpscale, bpclose, bpmesh, bpdeform, bplod and bpinfo"},
+    {"--part", "bpcheck"},
     {"--pick", "bpinfo"},
     {"--profile", "bplod"},
     {"--progress", "bpvox, bpscale, bpclose, bpmesh, bpcheck, bpdeform and bplod"},

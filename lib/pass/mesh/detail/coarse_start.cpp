@@ -7,12 +7,11 @@ namespace bp {
 
 namespace {
 
-constexpr double kVoxelsPerScale = 2;         // a ball of radius S holds the voxel around its middle: at least root 3
-constexpr std::uint64_t kFacesPerFace = 200;  // dense faces; with 50 of them volumes are 0.5 % larger
+constexpr double kVoxelsPerScale = 2;  // a ball of radius S holds the voxel around its middle: at least root 3
 
 }  // namespace
 
-CoarseStart coarse_start(const BrickShelf& meshed, const StreamHeader& header, std::uint64_t faces,
+CoarseStart coarse_start(const BrickShelf& meshed, const StreamHeader& header, std::uint64_t dense_faces,
                          const ShelfFactory& make_shelf) {
   CoarseStart start;
   GridFrame frame = header.frame;
@@ -22,7 +21,7 @@ CoarseStart coarse_start(const BrickShelf& meshed, const StreamHeader& header, s
     reduce(start.voxels ? *start.voxels : meshed, frame, *coarse);
     repair_contacts(*coarse);
     const GridFrame larger = reduced(frame);
-    if (count_faces(ShelfSurface(*coarse, larger)) < kFacesPerFace * faces) break;
+    if (count_faces(ShelfSurface(*coarse, larger)) < dense_faces) break;
     frame = larger;
     start.voxels = std::move(coarse);
   }

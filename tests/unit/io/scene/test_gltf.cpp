@@ -257,6 +257,19 @@ TEST_CASE("broken glTF is refused with the place that is wrong", "[quick][io]") 
   CHECK_THAT(glb_complaint(without), Contains("no data"));
 }
 
+TEST_CASE("glTF that needs an extension is read if that is known, or only changes what it looks like", "[quick][io]") {
+  const TempDir dir;
+  Document d;
+  d.node({{"mesh", d.quad_mesh()}});
+  d.json["extensionsUsed"] = {"VENDOR_curves"};
+  d.json["extensionsRequired"] = {"KHR_mesh_quantization", "KHR_materials_unlit", "KHR_texture_basisu"};
+  CHECK(read_all(dir.file("known.glb", d.glb())).size() == 2);
+  d.json["extensionsRequired"].push_back("VENDOR_curves");
+  CHECK_THAT(complaint_of(dir.file("other.glb", d.glb())), Contains("requires \"VENDOR_curves\", which is not read"));
+  d.json["extensionsRequired"] = {7};
+  CHECK_THAT(complaint_of(dir.file("broken.glb", d.glb())), Contains("requires 7"));
+}
+
 TEST_CASE("elements without data are held against the bytes of the file", "[quick][io]") {
   Document d;
   d.node({{"mesh", d.quad_mesh()}});

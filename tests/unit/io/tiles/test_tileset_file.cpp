@@ -107,3 +107,13 @@ TEST_CASE("a broken tileset is refused with the place", "[quick][io][lod]") {
   CHECK_THAT(complaint(dir, tileset(deep)), Contains("below 64"));
   CHECK(complaint(dir, tileset(kBox + R"(, "geometricError": 3)")).empty());
 }
+
+TEST_CASE("a tileset may be of version 1.0, and have volumes that are not looked at", "[quick][io][lod]") {
+  const TempDir dir;
+  const std::string s2 = R"("boundingVolume": {"extensions": {"3DTILES_bounding_volume_S2": {}}}, "geometricError": 3)";
+  const std::string root = tileset(s2 + R"(, "content": {"url": "a%20b.b3dm"})");
+  const Tileset t =
+      read_tileset(dir.file("t.json", R"({"extensionsRequired": ["3DTILES_bounding_volume_S2"], )" + root.substr(1)));
+  CHECK(!t.root.box);
+  CHECK(t.root.uri == "a b.b3dm");
+}

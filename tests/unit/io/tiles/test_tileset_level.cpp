@@ -43,6 +43,8 @@ TEST_CASE("a level of a tileset is as far above its deepest tile, or what stands
   CHECK(drawn(dir, t, 3).empty());
   t.root.refine = "ADD";
   CHECK(drawn(dir, t, 1) == "a 1000, c 1001, d 1011, b 1000, ");
+  t.root.refine = "add";  // as version 1.0 allows
+  CHECK(drawn(dir, t, 1) == "a 1000, c 1001, d 1011, b 1000, ");
   t.root.children[0].children[0].refine = "REPLACE";
   CHECK(drawn(dir, t, 0) == "a 1000, c 1001, e 1111, b 1000, ");
   CHECK(tileset_level(Tileset{}, "tileset.json", 0).levels == 0);

@@ -1,11 +1,11 @@
-// node appearance.cjs PIXELS SCENE.glb FILE.glb...: prints PSNR and SSIM of each FILE against SCENE, over 24 views in which the
+// node appearance.cjs PIXELS SCENE.glb FILE.glb...: prints PSNR, SSIM and FLIP of each FILE against SCENE, over 24 views in which the
 // scene's bounding sphere spans PIXELS. All files lie in one folder. MATERIALS=own: as their materials answer to light; form: in one grey; else
 // colours only. Packages are those of tests/viewers/run.sh (NODE_PATH).
 const fs = require('fs'), http = require('http'), path = require('path');
 const { chromium } = require('playwright-core');
 const [pixels, ...files] = process.argv.slice(2);
 const folders = { node_modules: process.env.NODE_PATH, pages: __dirname, data: path.dirname(path.resolve(files[0])) };
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm' };
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm' };
 const server = http.createServer((request, response) => {
   const [, top, ...rest] = decodeURIComponent(new URL(request.url, 'http://x').pathname).split('/');
   fs.readFile(path.join(folders[top] || '/nowhere', ...rest), (error, data) => {
@@ -26,7 +26,7 @@ async function main() {
     await page.goto(`http://127.0.0.1:${server.address().port}/pages/appearance.html#${process.env.MATERIALS || ''}`);
     await page.waitForFunction(() => document.title === 'ready');
     const found = await page.evaluate(([names, n]) => window.view(names, n), [files.map((f) => `/data/${path.relative(folders.data, f)}`), +pixels]);
-    found.forEach((f) => console.log(`${f.psnr.toFixed(2)} ${f.ssim.toFixed(4)}`));
+    found.forEach((f) => console.log(`${f.psnr.toFixed(2)} ${f.ssim.toFixed(4)} ${f.flip.toFixed(4)}`));
   } finally {
     await browser.close();
     server.close();
