@@ -66,6 +66,20 @@ LatticeBox grown(const LatticeBox& box, std::int64_t by) {
   return {box.min - d, box.max + d};
 }
 
+/// `first`: the one that is asked first; the nearer it is, the fewer others are.
+std::size_t nearest_of(std::span<const FaceTarget> targets, const Vec3d& p, std::size_t first) {
+  std::size_t best = first;
+  double least = targets[first].squared_distance(p);
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    if (k == first || targets[k].is_farther(p, least)) continue;
+    const double d = targets[k].squared_distance(p);
+    if (d >= least) continue;
+    least = d;
+    best = k;
+  }
+  return best;
+}
+
 }  // namespace
 
 ContactPoints::ContactPoints(const Enclosed& enclosed, const HalfEdgeMesh& mesh, const FaceTree& tree)
@@ -120,39 +134,29 @@ std::array<Vec3d, 3> ContactPoints::corners(FaceId f) const {
           to_double(mesh_.corner(f, 2) - origin_)};
 }
 
-/// `first`: the one that is asked first; the nearer it is, the fewer others are.
-std::size_t ContactPoints::nearest_target(const Vec3d& p, std::size_t first) const {
-  std::size_t best = first;
-  double least = targets_[first].squared_distance(p);
-  for (std::size_t k = 0; k < targets_.size(); ++k) {
-    if (k == first || targets_[k].is_farther(p, least)) continue;
-    const double d = targets_[k].squared_distance(p);
-    if (d >= least) continue;
-    least = d;
-    best = k;
-  }
-  return best;
-}
-
-void ContactPoints::hand_over(std::span<const FaceId> from, std::span<const FaceId> to) {
-  moving_.clear();
+void ContactPoints::hand_over(std::span<const FaceId> from, std::span<const FaceId> to, Scratch& scratch) {
+  scratch.moving.clear();
   for (const FaceId f : from) {
     const auto same = std::find(to.begin(), to.end(), f);
     const auto first = same == to.end() ? 0 : std::size_t(same - to.begin());
-    for (const std::uint32_t i : of_face_[f]) moving_.emplace_back(i, first);
+    for (const std::uint32_t i : of_face_[f]) scratch.moving.emplace_back(i, first);
     of_face_[f].clear();
   }
-  targets_.clear();
-  for (const FaceId f : to) targets_.emplace_back(corners(f));
-  for (const auto& [i, first] : moving_) of_face_[to[nearest_target(points_[i], first)]].push_back(i);
+  scratch.targets.clear();
+  for (const FaceId f : to) scratch.targets.emplace_back(corners(f));
+  for (const auto& [i, first] : scratch.moving)
+    of_face_[to[nearest_of(scratch.targets, points_[i], first)]].push_back(i);
 }
 
-void ContactPoints::add(const Vec3d& p, std::span<const FaceId> near) {
-  if (!added_.insert(rounded(p)).second) return;
-  targets_.clear();
-  for (const FaceId f : near) targets_.emplace_back(corners(f));
-  of_face_[near[nearest_target(p, 0)]].push_back(std::uint32_t(points_.size()));
-  points_.push_back(p);
+void ContactPoints::add(std::span<const Vec3d> points, const Vec3d& shift, std::span<const FaceId> near) {
+  scratch_.targets.clear();
+  for (const FaceId f : near) scratch_.targets.emplace_back(corners(f));
+  for (const Vec3d& point : points) {
+    const Vec3d p = point + shift;
+    if (!added_.insert(rounded(p)).second) continue;
+    of_face_[near[nearest_of(scratch_.targets, p, 0)]].push_back(std::uint32_t(points_.size()));
+    points_.push_back(p);
+  }
 }
 
 }  // namespace bp

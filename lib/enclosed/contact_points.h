@@ -20,16 +20,21 @@ class ContactPoints {
   [[nodiscard]] const Vec3d& operator[](std::uint32_t i) const { return points_[i]; }  ///< relative to origin()
   [[nodiscard]] const LatticeCoord& origin() const { return origin_; }
 
+  /// What handing over needs meanwhile.
+  struct Scratch {
+    std::vector<std::pair<std::uint32_t, std::size_t>> moving;  // points, each with the face it had, as a target
+    std::vector<FaceTarget> targets;
+  };
   /// Lists the points of the faces `from` with the nearest of the faces `to`, which are as they are in the mesh now.
-  void hand_over(std::span<const FaceId> from, std::span<const FaceId> to);
+  /// At the same time for different faces.
+  void hand_over(std::span<const FaceId> from, std::span<const FaceId> to, Scratch& scratch);
 
-  /// A point more, relative to origin(), for the nearest of the faces `near`; nothing if it is there already, to a
-  /// unit.
-  void add(const Vec3d& p, std::span<const FaceId> near);
+  /// More points, relative to origin() + `shift`, each for the nearest of the faces `near`; not those that are there
+  /// already, to a unit.
+  void add(std::span<const Vec3d> points, const Vec3d& shift, std::span<const FaceId> near);
 
  private:
   [[nodiscard]] std::array<Vec3d, 3> corners(FaceId f) const;
-  [[nodiscard]] std::size_t nearest_target(const Vec3d& p, std::size_t first) const;
   void keep_outermost(FaceId f);
   void drop_unlisted();
 
@@ -37,8 +42,7 @@ class ContactPoints {
   LatticeCoord origin_{};
   std::vector<Vec3d> points_;
   std::vector<std::vector<std::uint32_t>> of_face_;
-  std::vector<std::pair<std::uint32_t, std::size_t>> moving_;  // points, each with the face it had, as a target
-  std::vector<FaceTarget> targets_;
+  Scratch scratch_;
   std::set<LatticeCoord> added_;
 };
 

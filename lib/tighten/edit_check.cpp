@@ -44,12 +44,13 @@ void EditCheck::add_old_face(const LatticeCoord& a, const LatticeCoord& b, const
                              const LatticeCoord& to) {
   least_quality_ = std::min(least_quality_, triangle_quality(a, b, c));
   if (replaced_.size() == 1) star_ = {a, a};
-  for (const LatticeCoord& p : {a, b, c}) {
-    star_.add(p);
-    seen.add(p);
-  }
-  seen.add(to);
+  for (const LatticeCoord& p : {a, b, c}) star_.add(p);
   if (orient3d(a, b, c, to) < 0) swept_.push_back({a, b, c, to});
+}
+
+void EditCheck::put_boxes(EditBoxes& boxes) const {
+  boxes.clear();
+  for (const NewFace& f : faces_) boxes.add(box_of(f.corners[0], f.corners[1], f.corners[2]));
 }
 
 /// New edges run from the first to the second corner of each new face.

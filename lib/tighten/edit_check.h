@@ -4,6 +4,7 @@
 #include "lib/mesh/guard.h"
 #include "lib/simplify/refusal.h"
 #include "lib/simplify/shape_limits.h"
+#include "lib/simplify/waves.h"
 
 namespace bp {
 
@@ -48,9 +49,9 @@ class EditCheck {
   /// What must stay inside and stood in the way, in the coordinates of the contact points; null if something else did.
   [[nodiscard]] const Blocker* blocker() const { return blocked_ ? &blocker_ : nullptr; }
 
+  void put_boxes(EditBoxes& boxes) const;  ///< of faces()
+
   EditCounts counts;  ///< of all questions
-  LatticeBox seen;    ///< around the faces, old and new, of the questions since begin_seeing()
-  void begin_seeing(const LatticeCoord& p) { seen = {p, p}; }
 
  private:
   void begin();

@@ -18,7 +18,8 @@ ProxyEditor::ProxyEditor(HalfEdgeMesh& mesh, const Enclosed& enclosed, const Sha
       contacts_(enclosed, mesh, tree_),
       proxy_{mesh_, tree_, enclosed, contacts_, edge_limit_, limits.limits, intersect(mesh.room(), limits.room),
              reach_},
-      check_(proxy_) {
+      check_(proxy_),
+      settlers_([] { return std::make_unique<Settler>(); }) {
   if (limits.limits != nullptr) limits.limits->begin(mesh.volume6());
 }
 
@@ -30,45 +31,87 @@ bool ProxyEditor::loosen() {
 }
 
 bool ProxyEditor::move(VertexId v, const LatticeCoord& to) {
-  const bool allowed = check_.allows_move(v, to);
-  if (allowed) make_move(v, to);
-  return allowed;
+  if (!check_.allows_move(v, to)) return false;
+  make_move(v, to);
+  settle_points();
+  return true;
+}
+
+bool ProxyEditor::collapse(HalfEdgeId h, const LatticeCoord& to) {
+  if (!check_.allows_collapse(h, to)) return false;
+  make_collapse(h, to);
+  settle_points();
+  return true;
+}
+
+bool ProxyEditor::flip(HalfEdgeId h) {
+  if (!check_.allows_flip(h)) return false;
+  make_flip(h);
+  settle_points();
+  return true;
+}
+
+/// Notes that faces give way to a fan around `apex`.
+ProxyEditor::Unsettled& ProxyEditor::replace(std::span<const FaceId> faces, const LatticeCoord& apex) {
+  sense_.add(faces.front(), fan_gain6(mesh_, faces, apex));
+  if (unsettled_count_ == unsettled_.size()) unsettled_.emplace_back();
+  Unsettled& some = unsettled_[unsettled_count_++];
+  some.from.assign(faces.begin(), faces.end());
+  some.apex = kNoId;
+  return some;
 }
 
 void ProxyEditor::make_move(VertexId v, const LatticeCoord& to) {
   replaced_.clear();
   mesh_.for_each_outgoing(v, [&](HalfEdgeId h) { replaced_.push_back(HalfEdgeMesh::face(h)); });
-  sense_.add(replaced_.front(), fan_gain6(mesh_, replaced_, to));
+  replace(replaced_, to).apex = v;
   mesh_.move(v, to);
-  update_around(v);
+  for (const FaceId f : replaced_) tree_.update(f);
 }
 
-bool ProxyEditor::collapse(HalfEdgeId h, const LatticeCoord& to) {
-  if (!check_.allows_collapse(h, to)) return false;
-  replaced_ = check_.replaced();
-  sense_.add(replaced_.front(), fan_gain6(mesh_, replaced_, to));
-  const VertexId u = mesh_.from(h);
+void ProxyEditor::make_collapse(HalfEdgeId h, const LatticeCoord& to) {
+  const VertexId u = mesh_.from(h), w = mesh_.to(h);
+  replaced_.clear();
+  mesh_.for_each_outgoing(u, [&](HalfEdgeId g) { replaced_.push_back(HalfEdgeMesh::face(g)); });
+  mesh_.for_each_outgoing(w, [&](HalfEdgeId g) {
+    if (mesh_.to(g) != u && mesh_.opposite(g) != u) replaced_.push_back(HalfEdgeMesh::face(g));
+  });
+  replace(replaced_, to).apex = u;
   for (const HalfEdgeId g : {h, mesh_.twin(h)}) tree_.remove(HalfEdgeMesh::face(g));
   mesh_.collapse(h, to);
-  update_around(u);
+  mesh_.for_each_outgoing(u, [&](HalfEdgeId g) { tree_.update(HalfEdgeMesh::face(g)); });
   tree_.maintain();
-  return true;
-}
-
-bool ProxyEditor::flip(HalfEdgeId h) {
-  const bool allowed = check_.allows_flip(h);
-  if (allowed) make_flip(h);
-  return allowed;
 }
 
 /// The new faces are a fan around one end of the new edge, if flat faces count.
 void ProxyEditor::make_flip(HalfEdgeId h) {
   const HalfEdgeId t = mesh_.twin(h);
-  replaced_ = {HalfEdgeMesh::face(h), HalfEdgeMesh::face(t)};
-  sense_.add(replaced_.front(), fan_gain6(mesh_, replaced_, mesh_.position(mesh_.opposite(t))));
+  const std::array<FaceId, 2> faces{HalfEdgeMesh::face(h), HalfEdgeMesh::face(t)};
+  replace(faces, mesh_.position(mesh_.opposite(t)));
   mesh_.flip(h);
-  for (const FaceId f : replaced_) tree_.update(f);
-  contacts_.hand_over(replaced_, replaced_);
+  for (const FaceId f : faces) tree_.update(f);
+}
+
+void ProxyEditor::settle_points() {
+  constexpr std::size_t kPerThread = 4;
+  settlers_.for_each(unsettled_count_, kPerThread,
+                     [&](Settler& settler, std::size_t i) { settle(unsettled_[i], settler); });
+  unsettled_count_ = 0;
+}
+
+/// Around a star faces beyond the rim may be nearer now.
+void ProxyEditor::settle(const Unsettled& some, Settler& settler) {
+  if (some.apex == kNoId) return contacts_.hand_over(some.from, some.from, settler.scratch);
+  std::vector<FaceId>& around = settler.around;
+  around.clear();
+  mesh_.for_each_outgoing(some.apex, [&](HalfEdgeId h) { around.push_back(HalfEdgeMesh::face(h)); });
+  mesh_.for_each_outgoing(some.apex, [&](HalfEdgeId h) {
+    const HalfEdgeId across = mesh_.twin(HalfEdgeMesh::next(h));
+    if (across == kNoId) return;
+    const FaceId beyond = HalfEdgeMesh::face(across);
+    if (std::find(around.begin(), around.end(), beyond) == around.end()) around.push_back(beyond);
+  });
+  contacts_.hand_over(some.from, around, settler.scratch);
 }
 
 bool ProxyEditor::is_convex(HalfEdgeId h) const {
@@ -79,8 +122,7 @@ bool ProxyEditor::is_convex(HalfEdgeId h) const {
 void ProxyEditor::learn(VertexId v, std::span<const Vec3d> points) {
   around_.clear();
   mesh_.for_each_outgoing(v, [&](HalfEdgeId g) { around_.push_back(HalfEdgeMesh::face(g)); });
-  const Vec3d shift = to_double(mesh_.position(v) - contacts_.origin());
-  for (const Vec3d& p : points) contacts_.add(p + shift, around_);
+  contacts_.add(points, to_double(mesh_.position(v) - contacts_.origin()), around_);
 }
 
 void ProxyEditor::erase_turned_shells() {
@@ -89,22 +131,6 @@ void ProxyEditor::erase_turned_shells() {
 
 void ProxyEditor::erase_inner_shells() {
   bp::erase_inner_shells(mesh_, inwards_, &sense_);
-}
-
-/// Boxes of the star's faces, and their points: faces beyond the rim may be nearer now.
-void ProxyEditor::update_around(VertexId apex) {
-  around_.clear();
-  mesh_.for_each_outgoing(apex, [&](HalfEdgeId h) {
-    tree_.update(HalfEdgeMesh::face(h));
-    around_.push_back(HalfEdgeMesh::face(h));
-  });
-  mesh_.for_each_outgoing(apex, [&](HalfEdgeId h) {
-    const HalfEdgeId across = mesh_.twin(HalfEdgeMesh::next(h));
-    if (across == kNoId) return;
-    const FaceId beyond = HalfEdgeMesh::face(across);
-    if (std::find(around_.begin(), around_.end(), beyond) == around_.end()) around_.push_back(beyond);
-  });
-  contacts_.hand_over(replaced_, around_);
 }
 
 }  // namespace bp

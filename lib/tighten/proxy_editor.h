@@ -1,5 +1,6 @@
 #pragma once
 #include "lib/mesh/shells.h"
+#include "lib/simplify/waves.h"
 #include "lib/tighten/edit_check.h"
 
 /// Changes of a proxy, each taken only if the proxy stays embedded and keeps inside what must stay inside, both decided
@@ -25,11 +26,16 @@ class ProxyEditor {
   /// As EditCheck::blocker(), of the change refused last.
   [[nodiscard]] const Blocker* blocker() const { return check_.blocker(); }
 
+  /// Changes may be made in waves.
+  [[nodiscard]] bool has_waves() const { return bp::has_waves(mesh_, proxy_.limits != nullptr); }
   /// Checks on other threads: of this proxy, while it does not change. What they allow can be made later, if nothing
-  /// has changed that they have seen. Not for a proxy with limits.
+  /// has changed in its way (waves.h). Not for a proxy with limits.
   [[nodiscard]] EditCheck new_check() const { return EditCheck(proxy_); }
   void make_move(VertexId v, const LatticeCoord& to);
+  void make_collapse(HalfEdgeId h, const LatticeCoord& to);
   void make_flip(HalfEdgeId h);
+  /// Lists contact points with the faces that are nearest now; due after every wave of changes. Parallel.
+  void settle_points();
   void add(const EditCounts& counts) { check_.counts += counts; }  ///< of another check
 
   /// More contact points, relative to v, near its faces.
@@ -51,7 +57,17 @@ class ProxyEditor {
   void refresh() { tree_.rebuild(); }  ///< boxes only grow with the changes; after many of them fresh ones pay
 
  private:
-  void update_around(VertexId apex);
+  /// Faces whose points are to be listed anew: with those of a star and beyond its rim, or with each other.
+  struct Unsettled {
+    std::vector<FaceId> from;
+    VertexId apex = kNoId;
+  };
+  struct Settler {
+    ContactPoints::Scratch scratch;
+    std::vector<FaceId> around;
+  };
+  Unsettled& replace(std::span<const FaceId> faces, const LatticeCoord& apex);
+  void settle(const Unsettled& some, Settler& settler);
 
   HalfEdgeMesh& mesh_;
   EdgeLimit edge_limit_;
@@ -65,6 +81,9 @@ class ProxyEditor {
   EditCheck check_;
   std::uint64_t beyond_reach_before_ = 0;  // by the reach before
   std::vector<FaceId> replaced_, around_;  // of the change at hand
+  std::vector<Unsettled> unsettled_;       // the first of them, by changes since points were settled last
+  std::size_t unsettled_count_ = 0;
+  WaveWorkers<Settler> settlers_;
 };
 
 }  // namespace bp

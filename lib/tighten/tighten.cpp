@@ -6,33 +6,22 @@
 #include <cmath>
 #include <memory>
 
-#include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/exact/predicates.h"
 #include "lib/mesh/shells.h"
 #include "lib/tighten/detail/joint_fit.h"
 #include "lib/tighten/detail/step_planner.h"
-#include "lib/tighten/detail/steps_ahead.h"
 
 namespace bp {
 
 namespace {
 
 constexpr double kJointReach = 0.25;  // of the mean spoke: how far a vertex may move at once with its neighbours
-constexpr std::size_t kVerticesPerPlan = 128;  // with fewer, steps are in each other's way
-constexpr std::size_t kPlansPerThread = 2;
+constexpr std::size_t kMovesPerThread = 2, kFlipsPerThread = 64;
 constexpr int kSweepsPerRefresh = 8;
 
 double volume_of(const HalfEdgeMesh& mesh) {
   return double(mesh.volume6()) / 6;
-}
-
-/// Regions have their threads already, and limits count steps one by one.
-std::size_t plans_at_once(const ProxyEditor& editor, const TightenParams& params) {
-  const HalfEdgeMesh& mesh = editor.mesh();
-  if (thread_count() == 1 || params.limits != nullptr || !mesh.cell().holds(kEverywhere)) return 1;
-  return std::clamp<std::size_t>(mesh.face_count() / 2 / kVerticesPerPlan, 1,
-                                 kPlansPerThread * std::size_t(thread_count()));
 }
 
 class Tightener {
@@ -43,13 +32,11 @@ class Tightener {
         params_(params),
         counts_(counts),
         joint_(mesh_, editor.contacts()),
-        ahead_(plans_at_once(editor, params)),
+        waves_(editor.has_waves()),
+        claims_(mesh_),
+        planners_([&editor, &params] { return std::make_unique<StepPlanner>(editor, params.limits != nullptr); }),
         changed_at_(mesh_.vertex_capacity(), 1),
-        stuck_at_(mesh_.vertex_capacity(), 0) {
-    const auto new_planner = [&] { return std::make_unique<StepPlanner>(editor, params.limits != nullptr); };
-    own_ = new_planner();
-    for (std::size_t i = 0; i < ahead_.workers(); ++i) planners_.push_back(new_planner());
-  }
+        stuck_at_(mesh_.vertex_capacity(), 0) {}
 
   void run() {
     sweep_while_it_gains(params_.sweeps, [this] { move_together(); });
@@ -75,14 +62,47 @@ class Tightener {
   void flip_edges() {
     const std::uint64_t since = flipped_at_;
     flipped_at_ = changes_;
-    LatticeBox box;
-    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {  // a flip takes less than waking another thread
-      if (!mesh_.alive(HalfEdgeMesh::face(h)) || mesh_.edge(h) != h || mesh_.twin(h) == kNoId) continue;
-      const std::array<VertexId, 4> corners = corners_of(h);
-      if (std::none_of(corners.begin(), corners.end(), [&](VertexId v) { return changed_at_[v] > since; })) continue;
-      own_->flip(h);
-      static_cast<void>(make(*own_, box));
+    if (waves_) return flip_in_waves(since);
+    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
+      if (is_new_edge(h, since)) plan_and_make([&](StepPlanner& planner, StepPlan& plan) { planner.flip(h, plan); });
     }
+    finish_run();
+  }
+
+  /// Nearly all are refused: so all are planned at once, and those that are in the way of others again.
+  void flip_in_waves(std::uint64_t since) {
+    waiting_.clear();
+    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
+      if (is_new_edge(h, since)) waiting_.push_back(h);
+    }
+    while (!waiting_.empty()) {
+      steps_.swap(waiting_);
+      plan_all(kFlipsPerThread,
+               [](StepPlanner& planner, std::size_t h, StepPlan& plan) { planner.flip(HalfEdgeId(h), plan); });
+      make_flips();
+    }
+    finish_run();
+  }
+
+  void make_flips() {
+    begin_wave();
+    waiting_.clear();
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+      if (!plans_[k].flips) continue;
+      if (claims_.faces_are_free(HalfEdgeId(steps_[k])) && boxes_.add(plans_[k].boxes)) {
+        claims_.claim();
+        make(plans_[k]);
+      } else {
+        waiting_.push_back(steps_[k]);
+      }
+    }
+    editor_.settle_points();
+  }
+
+  [[nodiscard]] bool is_new_edge(HalfEdgeId h, std::uint64_t since) const {
+    if (!mesh_.alive(HalfEdgeMesh::face(h)) || mesh_.edge(h) != h || mesh_.twin(h) == kNoId) return false;
+    const std::array<VertexId, 4> corners = corners_of(h);
+    return std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return changed_at_[v] > since; });
   }
 
   /// Those that go outwards first: the others then have the room that the joint fit counts on.
@@ -100,62 +120,126 @@ class Tightener {
       if (growth > 0) went_out_.emplace_back(v, mesh_.position(v));
     }
     const int128 before = mesh_.volume6();
-    run(order_.size(), always, [&](StepPlanner& planner, std::size_t i) {
-      const VertexId v = order_[i].second;
-      planner.approach(v, joint_.shift(v));
-    });
+    run(
+        order_.size(), [&](std::size_t i) { return order_[i].second; }, always,
+        [&](StepPlanner& planner, std::size_t i, StepPlan& plan) {
+          const VertexId v = order_[i].second;
+          planner.approach(v, joint_.shift(v), plan);
+        });
     if (mesh_.volume6() > before) take_back();
   }
 
   /// Some made room that the others could not take: back where they were.
   void take_back() {
-    run(went_out_.size(), always, [&](StepPlanner& planner, std::size_t i) {
-      const auto& [v, p] = went_out_[i];
-      planner.go_back(v, to_double(p - mesh_.position(v)));
-    });
+    run(
+        went_out_.size(), [&](std::size_t i) { return went_out_[i].first; }, always,
+        [&](StepPlanner& planner, std::size_t i, StepPlan& plan) {
+          const auto& [v, p] = went_out_[i];
+          planner.go_back(v, to_double(p - mesh_.position(v)), plan);
+        });
   }
 
   /// A vertex that could not move waits until its star has changed.
   void move_each() {
     waits_ = true;
     run(
-        mesh_.vertex_capacity(), [&](std::size_t v) { return is_free(VertexId(v)) && star_changed(VertexId(v)); },
-        [](StepPlanner& planner, std::size_t v) { planner.find_place(VertexId(v)); });
+        mesh_.vertex_capacity(), [](std::size_t v) { return VertexId(v); },
+        [&](std::size_t v) { return is_free(VertexId(v)) && star_changed(VertexId(v)); },
+        [](StepPlanner& planner, std::size_t v, StepPlan& plan) { planner.find_place(VertexId(v), plan); });
     waits_ = false;
   }
 
   static bool always(std::size_t) { return true; }
 
-  /// The steps that are wanted, each planned by plan(planner, i).
-  template <class Wants, class Plan>
-  void run(std::size_t n, const Wants& wants, const Plan& plan) {
-    ahead_.run(
-        n, wants,
-        [&](std::size_t i, std::size_t worker) {
-          plan(*planners_[worker], i);
-          return planners_[worker]->seen();
-        },
-        [&](std::size_t worker, LatticeBox& box) { return make(*planners_[worker], box); },
-        [&](std::size_t i, LatticeBox& box) {
-          if (!wants(i)) return false;
-          plan(*own_, i);
-          return make(*own_, box);
-        });
+  /// Steps 0 to n - 1, of vertex_of(i), which are free, or else not wanted. Those that are wanted are planned by
+  /// plan(planner, i, plan): one after the other, or each in a wave with all after it that leave it alone.
+  template <class VertexOf, class Wants, class Plan>
+  void run(std::size_t n, const VertexOf& vertex_of, const Wants& wants, const Plan& plan) {
+    if (!waves_) {
+      for (std::size_t i = 0; i < n; ++i) {
+        if (wants(i)) plan_and_make([&](StepPlanner& planner, StepPlan& p) { plan(planner, i, p); });
+      }
+      return finish_run();
+    }
+    waiting_.clear();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (is_free(vertex_of(i))) waiting_.push_back(i);
+    }
+    while (!waiting_.empty()) {
+      choose(vertex_of, wants);
+      plan_all(kMovesPerThread, plan);
+      make_wave();
+    }
+    finish_run();
   }
 
-  bool make(StepPlanner& planner, LatticeBox& box) {
-    const bool flip = planner.edge() != kNoId;
-    if (waits_) stuck_at_[planner.vertex()] = changes_;
-    const bool changed = planner.make(editor_, box);
-    if (!planner.changes_mesh()) return changed;
-    ++changes_;
-    ++(flip ? counts_.flips : counts_.moves);
-    if (!flip) {
-      changed_at_[planner.vertex()] = changes_;
-    } else {
-      for (const VertexId v : corners_of(planner.edge())) changed_at_[v] = changes_;
+  /// Moves what can be in a wave from waiting_ to steps_, and leaves out what is not wanted.
+  template <class VertexOf, class Wants>
+  void choose(const VertexOf& vertex_of, const Wants& wants) {
+    begin_wave();
+    steps_.clear();
+    later_.clear();
+    for (const std::size_t i : waiting_) {
+      if (!claims_.star_is_free(vertex_of(i))) {
+        later_.push_back(i);
+      } else if (wants(i)) {
+        claims_.claim();
+        steps_.push_back(i);
+      }
     }
-    return changed;
+    waiting_.swap(later_);
+  }
+
+  void begin_wave() {
+    claims_.begin();
+    boxes_.begin();
+  }
+
+  template <class Plan>
+  void plan_all(std::size_t per_thread, const Plan& plan) {
+    if (plans_.size() < steps_.size()) plans_.resize(steps_.size());
+    planners_.for_each(steps_.size(), per_thread,
+                       [&](StepPlanner& planner, std::size_t k) { plan(planner, steps_[k], plans_[k]); });
+  }
+
+  /// What is in the way of another one waits for the next wave.
+  void make_wave() {
+    later_.clear();
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+      if (plans_[k].changes_mesh() && !boxes_.add(plans_[k].boxes)) {
+        later_.push_back(steps_[k]);
+      } else {
+        make(plans_[k]);
+      }
+    }
+    editor_.settle_points();
+    const auto middle = std::ptrdiff_t(waiting_.size());
+    waiting_.insert(waiting_.end(), later_.begin(), later_.end());
+    std::inplace_merge(waiting_.begin(), waiting_.begin() + middle, waiting_.end());
+  }
+
+  template <class Plan>
+  void plan_and_make(const Plan& plan) {
+    plan(planners_.first(), plan_);
+    make(plan_);
+    editor_.settle_points();
+  }
+
+  void finish_run() {
+    planners_.visit([&](StepPlanner& planner) { planner.count(editor_); });
+  }
+
+  void make(const StepPlan& plan) {
+    if (waits_) stuck_at_[plan.vertex] = changes_;
+    plan.make(editor_);
+    if (!plan.changes_mesh()) return;
+    ++changes_;
+    ++(plan.flips ? counts_.flips : counts_.moves);
+    if (plan.flips) {
+      for (const VertexId v : corners_of(plan.edge)) changed_at_[v] = changes_;
+    } else {
+      changed_at_[plan.vertex] = changes_;
+    }
   }
 
   /// Of the two faces beside it.
@@ -177,9 +261,13 @@ class Tightener {
   TightenCounts& counts_;
   JointFit joint_;
   bool waits_ = false;  // a vertex that could not move, until its star has changed
-  StepsAhead ahead_;
-  std::vector<std::unique_ptr<StepPlanner>> planners_;  // a worker's each
-  std::unique_ptr<StepPlanner> own_;
+  const bool waves_;
+  WaveClaims claims_;
+  WaveBoxes boxes_;
+  WaveWorkers<StepPlanner> planners_;
+  std::vector<std::size_t> waiting_, later_, steps_;  // numbers of steps; those of the wave
+  std::vector<StepPlan> plans_;                       // of the steps of the wave
+  StepPlan plan_;
   std::vector<std::pair<double, VertexId>> order_;           // by growth
   std::vector<std::pair<VertexId, LatticeCoord>> went_out_;  // each with its place before
   std::uint64_t changes_ = 1, flipped_at_ = 0;               // moves and flips made so far; before the last flips

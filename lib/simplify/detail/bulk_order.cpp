@@ -25,6 +25,7 @@ float rounded_down(double cost) {
 BulkOrder::BulkOrder(Collapser& collapser)
     : collapser_(collapser),
       mesh_(collapser.mesh()),
+      planner_(collapser.ground()),
       worth_(3 * mesh_.face_capacity(), kUnknown),
       merged_in_(mesh_.vertex_capacity(), 0) {
   for (FaceId f = 0; f < mesh_.face_capacity(); ++f) {
@@ -44,6 +45,7 @@ std::uint64_t BulkOrder::sweep(double bound, std::uint64_t enough) {
     if (mesh_.alive(f)) faces_[kept++] = f;
   }
   faces_.resize(kept);
+  collapser_.count_solved(planner_);
   return taken;
 }
 
@@ -52,15 +54,15 @@ bool BulkOrder::try_edge(HalfEdgeId h, double bound) {
   const VertexId u = mesh_.from(h), w = mesh_.to(h);
   if (merged_in_[u] == sweep_ || merged_in_[w] == sweep_ || mesh_.locked(u) || mesh_.locked(w)) return false;
   if (worth_[h] == kUnknown) {
-    worth_[h] = rounded_down(collapser_.lower_bound(h));
+    worth_[h] = rounded_down(planner_.lower_bound(h));
     if (double(worth_[h]) > bound) return wait(h);
   }
-  const std::optional<Candidate> candidate = collapser_.solve(h);
-  if (candidate && candidate->cost > bound) {
-    worth_[h] = rounded_down(candidate->cost);
+  planner_.plan(h, bound, plan_);
+  if (plan_.outcome == CollapsePlan::Outcome::too_dear) {
+    worth_[h] = rounded_down(plan_.cost);
     return wait(h);
   }
-  if (!collapser_.take(h, candidate)) {
+  if (plan_.outcome == CollapsePlan::Outcome::refused || !collapser_.take(plan_)) {
     worth_[h] = kNever;
     return false;
   }

@@ -32,6 +32,8 @@ class BulkOrder {
 
   Collapser& collapser_;
   HalfEdgeMesh& mesh_;
+  CollapsePlanner planner_;
+  CollapsePlan plan_;
   std::vector<FaceId> faces_;             // those to sweep over
   std::vector<float> worth_;              // per edge: below this bound no try is worth it
   std::vector<std::uint32_t> merged_in_;  // per vertex: sweep

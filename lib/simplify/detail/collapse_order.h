@@ -1,6 +1,7 @@
 #pragma once
 #include "lib/simplify/cost_order.h"
 #include "lib/simplify/detail/collapse.h"
+#include "lib/simplify/waves.h"
 
 namespace bp {
 
@@ -8,7 +9,8 @@ constexpr std::uint64_t kBulkFactor = 8;  ///< the strict order begins at this m
 
 /// The strict order: least cost first. Candidates are solved lazily, from a lower bound (the unconstrained minimum of
 /// the summed quadrics), not eagerly for the two-ring as in [CB17]. Shells that others have swallowed are erased on the
-/// way (shells.h).
+/// way (shells.h). A whole mesh is worked on in waves (waves.h): of what costs least, a small share of all edges,
+/// those that leave each other alone are planned on all threads, and then taken in this order.
 class StrictOrder : public CostOrder {
  public:
   explicit StrictOrder(Collapser& collapser);
@@ -20,16 +22,32 @@ class StrictOrder : public CostOrder {
   void count(SimplifyCounts& counts) const;
 
  private:
+  struct Renewal {
+    HalfEdgeId edge;
+    std::uint32_t serial;
+  };
   [[nodiscard]] bool is_edge(HalfEdgeId h) const { return mesh_.alive(HalfEdgeMesh::face(h)) && mesh_.edge(h) == h; }
-  void push(HalfEdgeId h);
-  void try_entry(const CostEntry& top, double most);
+  [[nodiscard]] double choose(double most, std::uint64_t enough);
+  void plan_wave(double next);
+  void take_wave();
+  void take(const CostEntry& entry, const CollapsePlan& plan);
+  void renew(HalfEdgeId h);
   void renew_around(VertexId u);
+  void push_renewed();
 
   Collapser& collapser_;
   HalfEdgeMesh& mesh_;
+  WaveWorkers<CollapsePlanner> planners_;
+  WaveClaims claims_;
+  WaveBoxes boxes_;
   std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
   std::vector<Refusal> refusal_;       // per half-edge: why its edge must wait until its neighbourhood changes
   CostQueue queue_;
+  // Of the wave:
+  std::vector<CostEntry> members_, later_;
+  std::vector<CollapsePlan> plans_;  // of the members
+  std::vector<Renewal> renewed_;     // edges that cost something else now
+  std::vector<double> costs_;        // of these
 };
 
 }  // namespace bp

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 
+#include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/mesh/lattice_geometry.h"
+#include "lib/mesh/space_order.h"
+#include "lib/simplify/waves.h"
 
 namespace bp {
 
@@ -18,7 +21,9 @@ constexpr double kDeepest = 2;   // lattice units: a point that much above its f
 constexpr double kRim = 8;       // lattice units: a point so near to the rim of its face is under those beside it, too
 constexpr double kLongest = 2;   // times the unhindered step: how far forces may push
 constexpr int kRounds = 8;       // over all rows
-constexpr int kPressingRounds = 8;  // after each, over those with a force
+constexpr int kPressingRounds = 8;   // after each, over those with a force
+constexpr std::size_t kBlocks = 16;  // of a phase
+constexpr std::int64_t kFacesAtOnce = 128;
 
 }  // namespace
 
@@ -26,25 +31,80 @@ double JointFit::growth(VertexId v) const {
   return dot(gradient_[v], shift_[v]);
 }
 
+JointFit::JointFit(const HalfEdgeMesh& mesh, const ContactPoints& contacts)
+    : mesh_(mesh), contacts_(contacts), whole_(has_waves(mesh, false)) {}
+
 void JointFit::solve(double reach) {
   set_free_shifts(reach);
-  rows_.clear();
-  for (FaceId f = 0; f < mesh_.face_capacity(); ++f) {
-    if (mesh_.alive(f)) add_rows(f);
-  }
+  set_places();
+  gather_rows();
+  const auto relax_some = [&](std::size_t first, std::size_t n) {
+    parallel_for(std::int64_t(n), [&](std::int64_t i) { relax(blocks_[first + std::size_t(i)]); });
+  };
   for (int round = 0; round < kRounds; ++round) {
-    pressing_.clear();
-    for (std::uint32_t i = 0; i < rows_.size(); ++i) {
-      relax(rows_[i]);
-      if (rows_[i].force > 0) pressing_.push_back(i);
-    }
-    for (int i = 0; i < kPressingRounds; ++i) {
-      for (const std::uint32_t r : pressing_) relax(rows_[r]);
-    }
+    if (whole_) relax_some(0, kBlocks);
+    if (whole_) relax_some(kBlocks, kBlocks);
+    relax(blocks_.back());
   }
   for (std::size_t v = 0; v < shift_.size(); ++v) {
+    shift_[v] = moving_[place_[v]].shift;
     const double size = length(shift_[v]), most = kLongest * reach_[v];
     if (size > most) shift_[v] = (most / size) * shift_[v];
+  }
+}
+
+/// Along a curve through space, so that the vertices of a block are neighbours in memory, too.
+void JointFit::set_places() {
+  const auto n = std::uint32_t(shift_.size());
+  place_.resize(n);
+  moving_.resize(n);
+  if (whole_) {
+    const std::vector<std::uint32_t> order = space_order(n, [&](VertexId v) { return mesh_.position(v); });
+    for (std::uint32_t i = 0; i < n; ++i) place_[order[i]] = i;
+  } else {
+    for (std::uint32_t i = 0; i < n; ++i) place_[i] = i;
+  }
+  for (VertexId v = 0; v < n; ++v) moving_[place_[v]] = {shift_[v], softness_[v]};
+}
+
+void JointFit::gather_rows() {
+  const auto faces = std::int64_t(mesh_.face_capacity());
+  const std::int64_t at_once = whole_ ? kFacesAtOnce : faces;
+  parts_.resize(std::size_t((faces + at_once - 1) / at_once));
+  parallel_ranges(faces, at_once, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<Row>& rows = parts_[std::size_t(begin / at_once)];
+    rows.clear();
+    for (auto f = FaceId(begin); f < FaceId(end); ++f) {
+      if (mesh_.alive(f)) add_rows(f, rows);
+    }
+  });
+  blocks_.resize(whole_ ? 2 * kBlocks + 1 : 1);
+  for (Block& block : blocks_) block.rows.clear();
+  for (const std::vector<Row>& rows : parts_) {
+    for (const Row& row : rows) blocks_[block_of(row)].rows.push_back(row);
+  }
+}
+
+/// Runs of places, and runs from the middle of one to that of the next.
+std::size_t JointFit::block_of(const Row& row) const {
+  if (!whole_) return 0;
+  const std::size_t run = (place_.size() + kBlocks - 2) / (kBlocks - 1);  // the second ones are one more
+  const auto same = [&](std::size_t offset) {
+    const std::size_t a = (row.places[0] + offset) / run;
+    return a == (row.places[1] + offset) / run && a == (row.places[2] + offset) / run;
+  };
+  if (same(0)) return row.places[0] / run;
+  return same(run / 2) ? kBlocks + (row.places[0] + run / 2) / run : 2 * kBlocks;
+}
+
+void JointFit::relax(Block& block) {
+  block.pressing.clear();
+  for (std::uint32_t i = 0; i < block.rows.size(); ++i) {
+    relax(block.rows[i]);
+    if (block.rows[i].force > 0) block.pressing.push_back(i);
+  }
+  for (int i = 0; i < kPressingRounds; ++i) {
+    for (const std::uint32_t r : block.pressing) relax(block.rows[r]);
   }
 }
 
@@ -75,10 +135,11 @@ void JointFit::set_free_shifts(double reach) {
 }
 
 JointFit::Facet JointFit::facet(FaceId f) const {
-  Facet facet{f, {}, {}, 0, false, 0};
+  Facet facet{f, {}, {}, {}, 0, false, 0};
   for (std::size_t k = 0; k < 3; ++k) {
     const VertexId v = mesh_.from(3 * f + HalfEdgeId(k));
     facet.corners[k] = to_double(mesh_.position(v) - contacts_.origin());
+    facet.places[k] = place_[v];
     facet.softness[k] = softness_[v];
     facet.reach = std::max(facet.reach, reach_[v]);
     facet.held = facet.held || mesh_.locked(v);
@@ -88,16 +149,16 @@ JointFit::Facet JointFit::facet(FaceId f) const {
   return facet;
 }
 
-void JointFit::add_rows(FaceId f) {
+void JointFit::add_rows(FaceId f, std::vector<Row>& rows) const {
   const Facet here = facet(f);
   for (const std::uint32_t i : contacts_.of(f)) {
-    add_row(here, contacts_[i]);
-    add_rows_beside(here, contacts_[i]);
+    add_row(here, contacts_[i], rows);
+    add_rows_beside(here, contacts_[i], rows);
   }
 }
 
 /// A point at a corner or an edge of its face lies under the others there, too: a convex edge is held from both sides.
-void JointFit::add_rows_beside(const Facet& facet, const Vec3d& p) {
+void JointFit::add_rows_beside(const Facet& facet, const Vec3d& p, std::vector<Row>& rows) const {
   const auto is_at = [](const Vec3d& off, double scale) { return dot(off, off) <= kRim * kRim * scale; };
   const HalfEdgeId first = 3 * facet.id;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -105,7 +166,7 @@ void JointFit::add_rows_beside(const Facet& facet, const Vec3d& p) {
     const VertexId v = mesh_.from(first + HalfEdgeId(k));
     if (mesh_.locked(v)) return;
     mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
-      if (HalfEdgeMesh::face(h) != facet.id) add_row(this->facet(HalfEdgeMesh::face(h)), p);
+      if (HalfEdgeMesh::face(h) != facet.id) add_row(this->facet(HalfEdgeMesh::face(h)), p, rows);
     });
     return;
   }
@@ -114,11 +175,11 @@ void JointFit::add_rows_beside(const Facet& facet, const Vec3d& p) {
     const Vec3d edge = facet.corners[(k + 1) % 3] - a;
     const HalfEdgeId beside = mesh_.twin(first + HalfEdgeId(k));
     if (beside != kNoId && is_at(cross(edge, p - a), dot(edge, edge)))
-      add_row(this->facet(HalfEdgeMesh::face(beside)), p);
+      add_row(this->facet(HalfEdgeMesh::face(beside)), p, rows);
   }
 }
 
-void JointFit::add_row(const Facet& facet, const Vec3d& p) {
+void JointFit::add_row(const Facet& facet, const Vec3d& p, std::vector<Row>& rows) const {
   if (facet.reach == 0 || !(facet.area > 0)) return;
   const Vec3d u = facet.corners[0] - p, v = facet.corners[1] - p, w = facet.corners[2] - p;
   const std::array<Vec3d, 3> gradient = {cross(v, w), cross(w, u), cross(u, v)};
@@ -126,7 +187,7 @@ void JointFit::add_row(const Facet& facet, const Vec3d& p) {
   if (height < -kDeepest || height > kLongest * facet.reach) return;
   double least = kMargin - height;
   if (facet.held) least = std::min(least, 0.0);  // near a corner that stays, others would have to go far for a margin
-  Row row{facet.id, {}, float(least), 0, 0};
+  Row row{facet.places, {}, float(least), 0, 0};
   double give = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3d g = (1 / facet.area) * gradient[k];
@@ -135,16 +196,14 @@ void JointFit::add_row(const Facet& facet, const Vec3d& p) {
   }
   if (!(give > 0)) return;
   row.give = float(give);
-  rows_.push_back(row);
+  rows.push_back(row);
 }
 
 void JointFit::relax(Row& row) {
-  const HalfEdgeId h = 3 * row.face;
-  const std::array<VertexId, 3> v = {mesh_.from(h), mesh_.from(h + 1), mesh_.from(h + 2)};
   double rise = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3f& g = row.gradient[k];
-    const Vec3d& s = shift_[v[k]];
+    const Vec3d& s = moving_[row.places[k]].shift;
     rise += double(g[0]) * s[0] + double(g[1]) * s[1] + double(g[2]) * s[2];
   }
   const float force = std::max(0.0F, row.force + float((double(row.least) - rise) / double(row.give)));
@@ -153,8 +212,9 @@ void JointFit::relax(Row& row) {
   row.force = force;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3f& g = row.gradient[k];
-    const double by = change * softness_[v[k]];
-    shift_[v[k]] = shift_[v[k]] + Vec3d{by * double(g[0]), by * double(g[1]), by * double(g[2])};
+    Moving& corner = moving_[row.places[k]];
+    const double by = change * corner.softness;
+    corner.shift = corner.shift + Vec3d{by * double(g[0]), by * double(g[1]), by * double(g[2])};
   }
 }
 

@@ -13,10 +13,11 @@ namespace bp {
 class JointFit {
  public:
   /// Keeps references. Locked vertices stay where they are.
-  JointFit(const HalfEdgeMesh& mesh, const ContactPoints& contacts) : mesh_(mesh), contacts_(contacts) {}
+  JointFit(const HalfEdgeMesh& mesh, const ContactPoints& contacts);
 
   /// For the mesh as it is: with nothing in its way a vertex would go `reach` times its mean spoke. Cost: linear in
-  /// faces and in points, of which those at corners count for each face there; 56 bytes for each of these.
+  /// faces and in points, of which those at corners count for each face there; 64 bytes for each of these. Parallel
+  /// for a large mesh that is whole; the result does not depend on the number of threads.
   void solve(double reach);
 
   [[nodiscard]] const Vec3d& shift(VertexId v) const { return shift_[v]; }  ///< where v should go, lattice units
@@ -27,14 +28,25 @@ class JointFit {
   using Vec3f = std::array<float, 3>;
   /// The height of a face over a point: the sum of gradient . shift over the corners must be `least` or more.
   struct Row {
-    FaceId face;
+    std::array<std::uint32_t, 3> places;  // of the corners, in moving_
     std::array<Vec3f, 3> gradient;
     float least;
     float give;   // how much the height rises by a unit of force
     float force;  // multiplier, 0 or more
   };
+  /// A vertex, at a place of its own: those near in space near each other.
+  struct Moving {
+    Vec3d shift;
+    double softness;  // shift by a unit of force
+  };
+  /// Rows that no other block's rows of the same phase share a vertex with.
+  struct Block {
+    std::vector<Row> rows;
+    std::vector<std::uint32_t> pressing;  // those with a force
+  };
   struct Facet {
     FaceId id;
+    std::array<std::uint32_t, 3> places;
     std::array<Vec3d, 3> corners;
     std::array<double, 3> softness;
     double reach;  // of its corners, the largest
@@ -42,18 +54,25 @@ class JointFit {
     double area;   // twice
   };
   void set_free_shifts(double reach);
+  void set_places();
   [[nodiscard]] Facet facet(FaceId f) const;
-  void add_rows(FaceId f);
-  void add_rows_beside(const Facet& facet, const Vec3d& p);
-  void add_row(const Facet& facet, const Vec3d& p);
+  void gather_rows();
+  [[nodiscard]] std::size_t block_of(const Row& row) const;
+  void add_rows(FaceId f, std::vector<Row>& rows) const;
+  void add_rows_beside(const Facet& facet, const Vec3d& p, std::vector<Row>& rows) const;
+  void add_row(const Facet& facet, const Vec3d& p, std::vector<Row>& rows) const;
+  void relax(Block& block);
   void relax(Row& row);
 
   const HalfEdgeMesh& mesh_;
   const ContactPoints& contacts_;
+  const bool whole_;                      // and large: rows are relaxed in several blocks at once
   std::vector<Vec3d> shift_, gradient_;   // per vertex; gradient of the volume
   std::vector<double> reach_, softness_;  // per vertex: unhindered step; shift by a unit of force
-  std::vector<Row> rows_;
-  std::vector<std::uint32_t> pressing_;  // rows with a force
+  std::vector<std::uint32_t> place_;      // per vertex
+  std::vector<Moving> moving_;            // by place
+  std::vector<Block> blocks_;             // of the first phase, of the second, and one of all other rows
+  std::vector<std::vector<Row>> parts_;   // of the rows, by faces
 };
 
 }  // namespace bp

@@ -14,24 +14,25 @@ constexpr int kAvoidRounds = 4;
 StepPlanner::StepPlanner(const ProxyEditor& editor, bool any_limits)
     : editor_(editor), mesh_(editor.mesh()), any_limits_(any_limits), check_(editor.new_check()) {}
 
-void StepPlanner::begin(VertexId v) {
-  vertex_ = v;
-  edge_ = kNoId;
-  to_.reset();
-  flips_ = false;
-  learned_.clear();
-  check_.begin_seeing(mesh_.position(v));
+void StepPlan::make(ProxyEditor& editor) const {
+  if (!learned.empty()) editor.learn(vertex, learned);
+  if (to) editor.make_move(vertex, *to);
+  if (flips) editor.make_flip(edge);
 }
 
-/// Not of a vertex at the rim of a region: its star is open.
-void StepPlanner::begin_star(VertexId v) {
-  begin(v);
-  mesh_.for_each_outgoing(v, [&](HalfEdgeId h) { check_.seen.add(mesh_.position(mesh_.to(h))); });
+void StepPlanner::begin(VertexId v, StepPlan& plan) {
+  vertex_ = v;
+  plan_ = &plan;
+  plan.vertex = v;
+  plan.edge = kNoId;
+  plan.to.reset();
+  plan.flips = false;
+  plan.learned.clear();
 }
 
 /// What is in the way becomes contact points for the next joint fit; this time the vertex goes a part of its way.
-void StepPlanner::approach(VertexId v, const Vec3d& x) {
-  begin_star(v);
+void StepPlanner::approach(VertexId v, const Vec3d& x, StepPlan& plan) {
+  begin(v, plan);
   if (rounded(x) == LatticeCoord{} || try_move(x)) return;
   if (check_.blocker() != nullptr) {
     gather_rim();
@@ -40,8 +41,8 @@ void StepPlanner::approach(VertexId v, const Vec3d& x) {
   if (!try_move(0.5 * x)) static_cast<void>(try_move(0.25 * x));
 }
 
-void StepPlanner::find_place(VertexId v) {
-  begin_star(v);
+void StepPlanner::find_place(VertexId v, StepPlan& plan) {
+  begin(v, plan);
   const double reach = kReach * gather_rim();
   if (!fit_.close()) return;
   gather_points();
@@ -53,28 +54,22 @@ void StepPlanner::find_place(VertexId v) {
   }
 }
 
-void StepPlanner::go_back(VertexId v, const Vec3d& x) {
-  begin_star(v);
+void StepPlanner::go_back(VertexId v, const Vec3d& x, StepPlan& plan) {
+  begin(v, plan);
   gather_rim();
   if (fit_.close() && worth_trying(x)) static_cast<void>(try_move(x));
 }
 
-void StepPlanner::flip(HalfEdgeId h) {
-  begin(mesh_.from(h));
-  edge_ = h;
-  for (const VertexId v : {mesh_.to(h), mesh_.opposite(h), mesh_.opposite(mesh_.twin(h))})
-    check_.seen.add(mesh_.position(v));
-  flips_ = editor_.is_convex(h) && check_.allows_flip(h);
+void StepPlanner::flip(HalfEdgeId h, StepPlan& plan) {
+  begin(mesh_.from(h), plan);
+  plan.edge = h;
+  plan.flips = editor_.is_convex(h) && check_.allows_flip(h);
+  if (plan.flips) check_.put_boxes(plan.boxes);
 }
 
-bool StepPlanner::make(ProxyEditor& editor, LatticeBox& box) {
+void StepPlanner::count(ProxyEditor& editor) {
   editor.add(check_.counts);
   check_.counts = {};
-  box = check_.seen;
-  if (!learned_.empty()) editor.learn(vertex_, learned_);
-  if (to_) editor.make_move(vertex_, *to_);
-  if (flips_) editor.make_flip(edge_);
-  return changes_mesh() || !learned_.empty();
 }
 
 /// Less of the way; and where limits may mind a step aside, straight inwards.
@@ -96,14 +91,16 @@ bool StepPlanner::worth_trying(const Vec3d& x) const {
 
 bool StepPlanner::try_move(const Vec3d& x) {
   const LatticeCoord to = mesh_.position(vertex_) + rounded(x);
-  if (check_.allows_move(vertex_, to)) to_ = to;
-  return to_.has_value();
+  if (!check_.allows_move(vertex_, to)) return false;
+  plan_->to = to;
+  check_.put_boxes(plan_->boxes);
+  return true;
 }
 
 /// From what stood in the way of a move by x; false if the fit knows no way around it.
 bool StepPlanner::learns(const Vec3d& x) {
   if (!fit_.avoid(x, *check_.blocker(), place())) return false;
-  learned_.insert(learned_.end(), fit_.obstacles().begin(), fit_.obstacles().end());
+  plan_->learned.insert(plan_->learned.end(), fit_.obstacles().begin(), fit_.obstacles().end());
   return true;
 }
 

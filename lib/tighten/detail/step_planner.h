@@ -7,6 +7,19 @@
 
 namespace bp {
 
+/// What was found for a vertex, or an edge.
+struct StepPlan {
+  VertexId vertex = kNoId;
+  HalfEdgeId edge = kNoId;
+  std::optional<LatticeCoord> to;  ///< where the vertex goes
+  bool flips = false;              ///< the edge
+  std::vector<Vec3d> learned;      ///< contact points, relative to the vertex
+  EditBoxes boxes;                 ///< of the new faces, if there are any
+
+  [[nodiscard]] bool changes_mesh() const { return to.has_value() || flips; }
+  void make(ProxyEditor& editor) const;
+};
+
 /// Finds where a vertex can go, or whether an edge can be flipped, and changes nothing. Planners of one editor may work
 /// at the same time.
 class StepPlanner {
@@ -15,24 +28,18 @@ class StepPlanner {
   StepPlanner(const ProxyEditor& editor, bool any_limits);
 
   /// As far along x as is allowed of the whole way, a half, a quarter.
-  void approach(VertexId v, const Vec3d& x);
+  void approach(VertexId v, const Vec3d& x, StepPlan& plan);
   /// To where the star has the least volume over its contact points, or a part of the way.
-  void find_place(VertexId v);
+  void find_place(VertexId v, StepPlan& plan);
   /// Along x, if that lowers the volume.
-  void go_back(VertexId v, const Vec3d& x);
-  void flip(HalfEdgeId h);
+  void go_back(VertexId v, const Vec3d& x, StepPlan& plan);
+  void flip(HalfEdgeId h, StepPlan& plan);
 
-  // What was planned last:
-  [[nodiscard]] const LatticeBox& seen() const { return check_.seen; }  ///< around all that was read
-  /// Makes it. True if the mesh or its contact points changed: then `box` is around what did.
-  [[nodiscard]] bool make(ProxyEditor& editor, LatticeBox& box);
-  [[nodiscard]] bool changes_mesh() const { return to_.has_value() || flips_; }
-  [[nodiscard]] VertexId vertex() const { return vertex_; }
-  [[nodiscard]] HalfEdgeId edge() const { return edge_; }
+  /// Tells the editor what its checks counted.
+  void count(ProxyEditor& editor);
 
  private:
-  void begin(VertexId v);
-  void begin_star(VertexId v);
+  void begin(VertexId v, StepPlan& plan);
   double gather_rim();
   void gather_points();
   [[nodiscard]] bool try_move(const Vec3d& x);
@@ -47,10 +54,7 @@ class StepPlanner {
   EditCheck check_;
   FanFit fit_;
   VertexId vertex_ = kNoId;
-  HalfEdgeId edge_ = kNoId;
-  std::optional<LatticeCoord> to_;  // where the vertex goes
-  bool flips_ = false;              // the edge
-  std::vector<Vec3d> learned_;      // contact points, relative to the vertex
+  StepPlan* plan_ = nullptr;
 };
 
 }  // namespace bp

@@ -14,107 +14,99 @@ namespace {
 
 constexpr double kReach = 0.5;  // of the mean spoke: how far the merged vertex may leave the edge's middle
 constexpr int kAvoidRounds = 4;
+constexpr double kWaveShare = 0.05;  // of all edges: so many of those that cost least are looked at for a wave
+constexpr std::size_t kCostsPerThread = 8;
 
 struct Candidate {
   Vec3d offset;  // from the position of from(h)
   double cost;   // volume added
 };
 
-class Thinner final : public ThinOrder {
+/// What was found for an edge.
+struct ThinPlan {
+  enum class Outcome { refused, too_dear, allowed };
+  Outcome outcome = Outcome::refused;
+  double cost = 0;  // if it is too dear; then this is only an estimate, or not
+  bool stale = false;
+  LatticeCoord to;  // if it is allowed: where its vertex goes
+  EditBoxes boxes;  // and where the new faces lie
+};
+
+/// What a collapse may cost: more than both is to wait for its turn.
+struct Turn {
+  double own;   // cost expected
+  double next;  // of the cheapest of those that wait; none: infinite
+  double most;
+};
+
+/// Plans collapses, and changes nothing. Planners of one editor may work at the same time.
+class ThinPlanner {
  public:
-  Thinner(ProxyEditor& editor, SimplifyCounts& counts)
-      : editor_(editor),
-        mesh_(editor.mesh()),
-        counts_(counts),
-        serial_(3 * mesh_.face_capacity(), 0),
-        stale_(3 * mesh_.face_capacity(), 0),
-        queued_(3 * mesh_.face_capacity(), 0) {}
+  explicit ThinPlanner(const ProxyEditor& editor) : editor_(editor), mesh_(editor.mesh()), check_(editor.new_check()) {}
 
-  void renew() override {
-    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
-      if (!mesh_.alive(HalfEdgeMesh::face(h)) || mesh_.edge(h) != h) continue;
-      if (queued_[h]) {
-        stale_[h] = 1;
-      } else {
-        push(h);
-      }
+  [[nodiscard]] std::optional<double> cost(HalfEdgeId h) {
+    const std::optional<Candidate> c = solve(h);
+    return c ? std::optional(c->cost) : std::nullopt;
+  }
+
+  /// `stale`: the cost expected is an estimate, which may be too low.
+  void plan(HalfEdgeId h, bool stale, const Turn& turn, ThinPlan& plan) {
+    plan.outcome = ThinPlan::Outcome::refused;
+    plan.stale = stale;
+    const std::optional<Candidate> candidate = solve(h);
+    if (!candidate) return;
+    const double next = std::min(std::isinf(turn.next) ? candidate->cost : turn.next, turn.most);
+    if (stale && candidate->cost > std::max(turn.own, next)) {
+      plan.outcome = ThinPlan::Outcome::too_dear;
+      plan.cost = candidate->cost;
+      plan.stale = false;
+    } else {
+      find_place(h, *candidate, std::max({turn.own, candidate->cost, next}), plan);
     }
   }
 
-  [[nodiscard]] std::uint64_t face_count() const override { return mesh_.face_count(); }
-
-  void add_costs(std::vector<double>& costs) const override {
-    for (const CostEntry& entry : queue_.entries()) costs.push_back(entry.cost);
-  }
-
-  bool run(double most, std::uint64_t enough) override {
-    while (mesh_.face_count() > enough) {
-      if (queue_.empty() || queue_.top().cost > most) return false;
-      const CostEntry top = queue_.top();
-      queue_.pop();
-      const HalfEdgeId e = top.edge;
-      if (!mesh_.alive(HalfEdgeMesh::face(e)) || mesh_.edge(e) != e || serial_[e] != top.serial) continue;
-      queued_[e] = 0;
-      const std::optional<Candidate> candidate = solve(e);
-      if (!candidate) continue;
-      const double next = std::min(queue_.empty() ? candidate->cost : queue_.top().cost, most);
-      if (stale_[e] && candidate->cost > std::max(top.cost, next)) {
-        stale_[e] = 0;
-        enqueue({candidate->cost, e, top.serial});
-        continue;
-      }
-      const VertexId u = mesh_.from(e);
-      const double dearer = take(e, *candidate, std::max({top.cost, candidate->cost, next}));
-      if (dearer > 0) enqueue({dearer, e, top.serial});
-      if (dearer == 0) renew_around(u);
-    }
-    return true;
+  /// Adds what it counted, and clears that.
+  void count(ProxyEditor& editor, SimplifyCounts& counts) {
+    counts.solved += counts_.solved;
+    counts.refused += counts_.refused;
+    counts.refused += check_.counts.refused;
+    editor.add(check_.counts);
+    counts_ = {};
+    check_.counts = {};
   }
 
  private:
-  void push(HalfEdgeId h) {
-    const HalfEdgeId e = mesh_.edge(h);
-    if (mesh_.locked(mesh_.from(e)) || mesh_.locked(mesh_.to(e))) return;
-    stale_[e] = 0;
-    ++serial_[e];
-    queued_[e] = 0;
-    if (const auto c = solve(e)) enqueue({c->cost, e, serial_[e]});
-  }
-
-  void enqueue(const CostEntry& entry) {
-    queue_.push(entry);
-    queued_[entry.edge] = 1;
-  }
-
-  /// Collapses for at most `most`: 0 if done, the cost if it is dearer than that, negative if it cannot be.
-  double take(HalfEdgeId h, Candidate c, double most) {
+  /// For at most `most`.
+  void find_place(HalfEdgeId h, Candidate c, double most, ThinPlan& plan) {
     const LatticeCoord p = mesh_.position(mesh_.from(h));
     const Vec3d shift = to_double(p - editor_.contacts().origin());
     const double before = fit_.volume(c.offset) - c.cost;
+    const auto is_too_dear = [&](double cost) {
+      if (cost <= most) return false;
+      plan.outcome = ThinPlan::Outcome::too_dear;
+      plan.cost = cost;
+      return true;
+    };
     for (int round = 0; round < kAvoidRounds; ++round) {
-      if (try_at(h, p, c.offset)) return 0;
-      if (editor_.blocker() == nullptr || !fit_.avoid(c.offset, *editor_.blocker(), shift)) break;
+      if (try_at(h, p + rounded(c.offset), plan)) return;
+      if (check_.blocker() == nullptr || !fit_.avoid(c.offset, *check_.blocker(), shift)) break;
       const auto x = fit_.least_volume(middle_, kReach * size_);
-      if (!x) return -1;
+      if (!x) return;
       c = {*x, fit_.volume(*x) - before};
-      if (c.cost > most) return c.cost;
+      if (is_too_dear(c.cost)) return;
     }
     for (const double lift : {0.004, 0.016, 0.064}) {
       const Vec3d x = c.offset + (lift * size_) * fit_.outward();
-      const double cost = fit_.volume(x) - before;
-      if (cost > most) return cost;
-      if (try_at(h, p, x)) return 0;
+      if (is_too_dear(fit_.volume(x) - before) || try_at(h, p + rounded(x), plan)) return;
     }
-    return -1;
   }
 
-  bool try_at(HalfEdgeId h, const LatticeCoord& p, const Vec3d& x) {
-    const Refusals before = editor_.counts().refused;
-    const bool taken = editor_.collapse(h, p + rounded(x));
-    counts_.collapses += taken;
-    counts_.refused += editor_.counts().refused;
-    counts_.refused -= before;
-    return taken;
+  bool try_at(HalfEdgeId h, const LatticeCoord& to, ThinPlan& plan) {
+    if (!check_.allows_collapse(h, to)) return false;
+    plan.outcome = ThinPlan::Outcome::allowed;
+    plan.to = to;
+    check_.put_boxes(plan.boxes);
+    return true;
   }
 
   std::optional<Candidate> solve(HalfEdgeId h) {
@@ -164,10 +156,140 @@ class Thinner final : public ThinOrder {
     for (const std::uint32_t i : editor_.contacts().of(f)) fit_.add_point(editor_.contacts()[i] - shift, sector);
   }
 
+  const ProxyEditor& editor_;
+  const HalfEdgeMesh& mesh_;
+  EditCheck check_;
+  SimplifyCounts counts_;
+  FanFit fit_;
+  Vec3d middle_{};   // of the edge solved last, from its start
+  double size_ = 0;  // mean spoke of its fan
+};
+
+class Thinner final : public ThinOrder {
+ public:
+  Thinner(ProxyEditor& editor, SimplifyCounts& counts)
+      : editor_(editor),
+        mesh_(editor.mesh()),
+        counts_(counts),
+        planners_([&editor] { return std::make_unique<ThinPlanner>(editor); }),
+        claims_(mesh_),
+        serial_(3 * mesh_.face_capacity(), 0),
+        stale_(3 * mesh_.face_capacity(), 0),
+        queued_(3 * mesh_.face_capacity(), 0) {}
+
+  void renew() override {
+    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
+      if (!is_edge(h)) continue;
+      if (queued_[h]) {
+        stale_[h] = 1;
+      } else {
+        renew(h);
+      }
+    }
+    push_renewed();
+    count();
+  }
+
+  [[nodiscard]] std::uint64_t face_count() const override { return mesh_.face_count(); }
+
+  void add_costs(std::vector<double>& costs) const override {
+    for (const CostEntry& entry : queue_.entries()) costs.push_back(entry.cost);
+  }
+
+  bool run(double most, std::uint64_t enough) override {
+    bool some_left = true;
+    while (some_left && mesh_.face_count() > enough) {
+      const double next = choose(most, enough);
+      some_left = !members_.empty();
+      plan_wave(next, most);
+      take_wave();
+      push_renewed();
+    }
+    count();
+    return some_left;
+  }
+
+ private:
+  struct Renewal {
+    HalfEdgeId edge;
+    std::uint32_t serial;
+  };
+  [[nodiscard]] bool is_edge(HalfEdgeId h) const { return mesh_.alive(HalfEdgeMesh::face(h)) && mesh_.edge(h) == h; }
+
+  void count() {
+    planners_.visit([&](ThinPlanner& planner) { planner.count(editor_, counts_); });
+  }
+
+  /// The members of a wave, one or more if anything is left for `most`; what the cheapest of the others costs.
+  double choose(double most, std::uint64_t enough) {
+    const std::size_t room = editor_.has_waves() ? (mesh_.face_count() - enough + 1) / 2 : 1;
+    std::size_t looked_at = editor_.has_waves() ? std::size_t(kWaveShare * 1.5 * double(mesh_.face_count())) : 1;
+    members_.clear();
+    later_.clear();
+    claims_.begin();
+    while (looked_at > 0 && members_.size() < room && !queue_.empty() && queue_.top().cost <= most) {
+      const CostEntry top = queue_.top();
+      queue_.pop();
+      if (!is_edge(top.edge) || serial_[top.edge] != top.serial) continue;
+      --looked_at;
+      const bool joins = claims_.stars_are_free(top.edge);
+      if (joins) claims_.claim();
+      (joins ? members_ : later_).push_back(top);
+    }
+    const double next = queue_.empty() ? std::numeric_limits<double>::infinity() : queue_.top().cost;
+    for (const CostEntry& entry : later_) queue_.push(entry);
+    return next;
+  }
+
+  void plan_wave(double next, double most) {
+    if (plans_.size() < members_.size()) plans_.resize(members_.size());
+    planners_.for_each(members_.size(), 1, [&](ThinPlanner& planner, std::size_t i) {
+      const auto [cost, edge, serial] = members_[i];
+      planner.plan(edge, stale_[edge] != 0, {cost, next, most}, plans_[i]);
+    });
+  }
+
+  void take_wave() {
+    boxes_.begin();
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      queued_[members_[i].edge] = 0;
+      take(members_[i], plans_[i]);
+    }
+    editor_.settle_points();
+  }
+
+  void take(const CostEntry& entry, const ThinPlan& plan) {
+    if (plan.outcome == ThinPlan::Outcome::refused) return;
+    if (plan.outcome == ThinPlan::Outcome::too_dear) {
+      stale_[entry.edge] = plan.stale;
+      enqueue({plan.cost, entry.edge, entry.serial});
+    } else if (!boxes_.add(plan.boxes)) {
+      enqueue(entry);  // for the next wave
+    } else {
+      const VertexId u = mesh_.from(entry.edge);
+      editor_.make_collapse(entry.edge, plan.to);
+      ++counts_.collapses;
+      renew_around(u);
+    }
+  }
+
+  void enqueue(const CostEntry& entry) {
+    queue_.push(entry);
+    queued_[entry.edge] = 1;
+  }
+
+  void renew(HalfEdgeId h) {
+    const HalfEdgeId e = mesh_.edge(h);
+    if (mesh_.locked(mesh_.from(e)) || mesh_.locked(mesh_.to(e))) return;
+    stale_[e] = 0;
+    queued_[e] = 0;
+    renewed_.push_back({e, ++serial_[e]});
+  }
+
   /// New entries for the edges at u; those one step further out keep theirs as an estimate.
   void renew_around(VertexId u) {
     mesh_.for_each_outgoing(u, [&](HalfEdgeId g) {
-      push(g);
+      renew(g);
       if (mesh_.locked(mesh_.to(g))) return;
       mesh_.for_each_outgoing(mesh_.to(g), [&](HalfEdgeId k) {
         if (mesh_.to(k) != u) stale_[mesh_.edge(k)] = 1;
@@ -175,16 +297,33 @@ class Thinner final : public ThinOrder {
     });
   }
 
+  void push_renewed() {
+    costs_.resize(renewed_.size());
+    const std::size_t grain = editor_.has_waves() ? kCostsPerThread : renewed_.size() + 1;
+    planners_.for_each(renewed_.size(), grain,
+                       [&](ThinPlanner& planner, std::size_t i) { costs_[i] = planner.cost(renewed_[i].edge); });
+    for (std::size_t i = 0; i < renewed_.size(); ++i) {
+      const auto [edge, serial] = renewed_[i];
+      if (costs_[i]) enqueue({*costs_[i], edge, serial});
+    }
+    renewed_.clear();
+  }
+
   ProxyEditor& editor_;
   const HalfEdgeMesh& mesh_;
   SimplifyCounts& counts_;
-  FanFit fit_;
-  Vec3d middle_{};                     // of the edge solved last, from its start
-  double size_ = 0;                    // mean spoke of its fan
+  WaveWorkers<ThinPlanner> planners_;
+  WaveClaims claims_;
+  WaveBoxes boxes_;
   std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
   std::vector<char> stale_;            // its entry's cost is an estimate
   std::vector<char> queued_;           // it has a valid entry
   CostQueue queue_;
+  // Of the wave:
+  std::vector<CostEntry> members_, later_;
+  std::vector<ThinPlan> plans_;               // of the members
+  std::vector<Renewal> renewed_;              // edges that cost something else now
+  std::vector<std::optional<double>> costs_;  // of these
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <random>
 
+#include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/enclosed/enclosed_triangles.h"
 #include "lib/exact/triangle_intersection.h"
@@ -107,6 +108,28 @@ TEST_CASE("a tight proxy of a ball of triangles touches neither it nor itself an
   CHECK(volume(proxy) > volume(scene));
   // Measured; the growing collapses alone end far above.
   CHECK(volume(proxy) < 1.14 * volume(scene));
+}
+
+TEST_CASE("a proxy made in waves touches neither the scene nor itself, and is the same for every number of threads",
+          "[quick][meshing]") {
+  const LatticeMesh scene = ball(20 * 64, 4), dense = ball(24 * 64, 5);
+  const EnclosedTriangles enclosed(scene_of(scene), dense.frame);
+  SimplifyParams params;
+  params.faces = 600;
+  params.dense = false;
+  std::vector<LatticeMesh> proxies;
+  for (const int threads : {1, 2, 5}) {
+    const ThreadLimit limit(threads);
+    SimplifyCounts simplified;
+    TightenCounts tightened;
+    proxies.push_back(tight_proxy(dense, enclosed, params, simplified, tightened));
+    CHECK(proxies.back().vertices == proxies.front().vertices);
+    CHECK(proxies.back().triangles == proxies.front().triangles);
+  }
+  CHECK(proxies.front().triangles.size() == 600);
+  CHECK(embedded(proxies.front()));
+  CHECK_FALSE(touches(proxies.front(), scene));
+  CHECK(volume(proxies.front()) < 1.08 * volume(scene));
 }
 
 TEST_CASE("what tightening may not sweep over is found wherever it lies", "[quick][meshing]") {
