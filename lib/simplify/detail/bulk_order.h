@@ -42,8 +42,9 @@ class BulkOrder {
 };
 
 /// Sweeps over the parts of a surface, in parallel, with one bound for all: until they have `enough` faces together or
-/// fewer (a part may take all that is left to take in one sweep: 3 to 30 % fewer were seen), or until a sweep with the last bound takes little. Near the end the bound stays as long as a part finds
-/// its share of what is left to take. The result does not depend on the threads.
+/// fewer (a part may take all that is left to take in one sweep: 3 to 30 % fewer were seen), or until a sweep with the
+/// last bound takes little. Near the end the bound stays as long as a part finds its share of what is left to take. The
+/// result does not depend on the threads.
 void collapse_bulk(std::span<BulkOrder* const> parts, BulkRange range, std::uint64_t enough);
 
 /// The same of a surface as a whole.
