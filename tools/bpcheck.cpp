@@ -92,12 +92,8 @@ int run_tileset(const bp::CheckRun& o) {
   bp::print(o.json ? verdict.json(name) : verdict.text(name));
   const auto contents = bp::tileset_level(bp::read_tileset(o.files.back()), o.files.back(), 0).contents;
   if (!verdict.holds() && verdict.scene && !contents.empty()) note_hint(report, o, bp::fit_hint(contents.front().path));
-  report.counts = {{"holds", verdict.holds()},
-                   {"answer", to_string(verdict.answer())},
-                   {"part", verdict.part_json()},
-                   {"tiles", verdict.tiles},
-                   {"contents", verdict.contents},
-                   {"findings", verdict.findings}};
+  report.counts = {{"holds", verdict.holds()}, {"answer", to_string(verdict.answer())}, {"part", verdict.part_json()},
+                   {"tiles", verdict.tiles},   {"contents", verdict.contents},          {"findings", verdict.findings}};
   report.write(o.common);
   return status_of(verdict.answer());
 }

@@ -15,7 +15,8 @@ namespace {
 constexpr double kHopeless = 1.25;         // times the least volume so far: fewer faces will not come below it
 constexpr double kPromising = 1.5;         // the same of a hull that is not tightened yet
 constexpr std::uint64_t kFewForHull = 32;  // more faces than that are better used than for a convex proxy
-constexpr std::array<std::uint64_t, 6> kFresh{48, 32, 24, 20, 8, 6};  // where a new way from the first surface is tried, too
+/// Where a new way from the first surface is tried, too.
+constexpr std::array<std::uint64_t, 6> kFresh{48, 32, 24, 20, 8, 6};
 
 /// The next number of faces on the way.
 std::uint64_t fewer(std::uint64_t n) {

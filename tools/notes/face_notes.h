@@ -12,7 +12,8 @@ namespace bp {
 /// Empty if there are about as many, or more. One line.
 [[nodiscard]] std::string too_few_note(std::uint64_t faces, std::uint64_t asked, MeshMode mode = MeshMode::bounding);
 
-/// Of a mesh with clearly fewer faces than were asked for, because those tried with more leave more volume. Empty as above.
+/// Of a mesh with clearly fewer faces than were asked for, because those tried with more leave more volume. Empty as
+/// above.
 [[nodiscard]] std::string least_volume_note(std::uint64_t faces, std::uint64_t asked);
 
 /// Why merging ended by itself, and what there is to be done: parts (shells) and handles are kept, if there are any to
