@@ -43,13 +43,10 @@ class EditCheck {
   [[nodiscard]] bool allows_collapse(HalfEdgeId h, const LatticeCoord& to);
   [[nodiscard]] bool allows_flip(HalfEdgeId h);
 
-  /// Of the last question: the faces of now, and those that would be there instead.
-  [[nodiscard]] const std::vector<FaceId>& replaced() const { return replaced_; }
-  [[nodiscard]] const std::vector<NewFace>& faces() const { return faces_; }
   /// What must stay inside and stood in the way, in the coordinates of the contact points; null if something else did.
   [[nodiscard]] const Blocker* blocker() const { return blocked_ ? &blocker_ : nullptr; }
 
-  void put_boxes(EditBoxes& boxes) const;  ///< of faces()
+  void put_boxes(EditBoxes& boxes) const;  ///< of the faces that would be there after the last question
 
   EditCounts counts;  ///< of all questions
 

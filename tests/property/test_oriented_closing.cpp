@@ -136,6 +136,11 @@ int compare_large(std::uint64_t seed) {
   return wrong;
 }
 
+Rotation random_rotation(Random& random) {
+  const auto part = [&] { return std::int16_t(random.between(-16000, 16000)); };
+  return canonical(rotation_of(FixedQuaternion{12000, part(), part(), part()}));
+}
+
 }  // namespace
 
 TEST_CASE("the closing by turned cubes equals its definition on small grids", "[quick][closing][oriented]") {
@@ -207,8 +212,7 @@ TEST_CASE("the 24 turns of a cube onto itself close like the cube", "[quick][clo
 TEST_CASE("boxes around and inside a turned cube hold for every rotation and scale", "[quick][closing][oriented]") {
   Random random(9);
   for (int i = 0; i < 300; ++i) {
-    const auto part = [&] { return std::int16_t(random.between(-16000, 16000)); };
-    const Rotation r = canonical(rotation_of(FixedQuaternion{12000, part(), part(), part()}));
+    const Rotation r = random_rotation(random);
     const auto s = Scale(random.between(0, 12 * kScaleOne));
     const CubeBounds bounds = cube_bounds(r);
     const detail::CubeRows rows(r, s);
@@ -264,8 +268,7 @@ TEST_CASE("voxels twice as large hold what the eight in them hold", "[quick][clo
 TEST_CASE("what turned cubes of large voxels decide holds for every voxel in them", "[quick][closing][oriented]") {
   Random random(11);
   for (int i = 0; i < 60; ++i) {
-    const auto part = [&] { return std::int16_t(random.between(-16000, 16000)); };
-    const Rotation r = canonical(rotation_of(FixedQuaternion{12000, part(), part(), part()}));
+    const Rotation r = random_rotation(random);
     const auto s = Scale(random.between(0, 12 * kScaleOne));
     const std::int32_t edge = random.between(1, 2) * 2, far = s / kScaleOne + 2;
     const CoarseScale coarse = coarse_scale(cube_bounds(r).row_sum, s, edge);

@@ -6,7 +6,6 @@ namespace bp {
 
 namespace {
 
-constexpr double kWaveShare = 0.05;  // of all edges: so many of those that cost least are looked at for a wave
 constexpr std::size_t kPlansPerThread = 2, kCostsPerThread = 128;
 
 }  // namespace
@@ -15,7 +14,7 @@ StrictOrder::StrictOrder(Collapser& collapser)
     : collapser_(collapser),
       mesh_(collapser.mesh()),
       planners_([&collapser] { return std::make_unique<CollapsePlanner>(collapser.ground()); }),
-      claims_(mesh_),
+      wave_(mesh_),
       serial_(3 * mesh_.face_capacity(), 0),
       refusal_(3 * mesh_.face_capacity(), Refusal::none) {
   for (HalfEdgeId h = 0; h < serial_.size(); ++h) {
@@ -31,9 +30,11 @@ void StrictOrder::add_costs(std::vector<double>& costs) const {
 bool StrictOrder::run(double most, std::uint64_t enough) {
   bool some_left = true;
   while (some_left && mesh_.face_count() > enough) {
-    const double next = choose(most, enough);
-    some_left = !members_.empty();
-    plan_wave(next);
+    const double next =
+        wave_.choose(queue_, has_waves(mesh_, collapser_.params().limits != nullptr), most, enough,
+                     [&](const CostEntry& e) { return is_edge(e.edge) && serial_[e.edge] == e.serial; });
+    some_left = !wave_.members().empty();
+    plan_wave(std::min(next, most));
     take_wave();
     push_renewed();
   }
@@ -48,42 +49,22 @@ void StrictOrder::count(SimplifyCounts& counts) const {
   }
 }
 
-/// The members of a wave, one or more if anything is left for `most`; what the cheapest of the others costs, or `most`.
-double StrictOrder::choose(double most, std::uint64_t enough) {
-  const bool waves = has_waves(mesh_, collapser_.params().limits != nullptr);
-  const std::size_t room = waves ? (mesh_.face_count() - enough + 1) / 2 : 1;
-  std::size_t looked_at = waves ? std::size_t(kWaveShare * 1.5 * double(mesh_.face_count())) : 1;
-  members_.clear();
-  later_.clear();
-  claims_.begin();
-  while (looked_at > 0 && members_.size() < room && !queue_.empty() && queue_.top().cost <= most) {
-    const CostEntry top = queue_.top();
-    queue_.pop();
-    if (!is_edge(top.edge) || serial_[top.edge] != top.serial) continue;
-    --looked_at;
-    const bool joins = !waves || claims_.stars_are_free(top.edge);
-    if (joins && waves) claims_.claim();
-    (joins ? members_ : later_).push_back(top);
-  }
-  const double next = queue_.empty() ? most : std::min(queue_.top().cost, most);
-  for (const CostEntry& entry : later_) queue_.push(entry);
-  return next;
-}
-
 void StrictOrder::plan_wave(double next) {
-  if (plans_.size() < members_.size()) plans_.resize(members_.size());
-  planners_.for_each(members_.size(), kPlansPerThread, [&](CollapsePlanner& planner, std::size_t i) {
-    planner.plan(members_[i].edge, std::max(members_[i].cost, next), plans_[i]);
+  const std::vector<CostEntry>& members = wave_.members();
+  if (plans_.size() < members.size()) plans_.resize(members.size());
+  planners_.for_each(members.size(), kPlansPerThread, [&](CollapsePlanner& planner, std::size_t i) {
+    planner.plan(members[i].edge, std::max(members[i].cost, next), plans_[i]);
   });
 }
 
 /// Refusals first: what changes beside an edge gives it another chance.
 void StrictOrder::take_wave() {
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (plans_[i].outcome == CollapsePlan::Outcome::refused) refusal_[members_[i].edge] = plans_[i].refusal;
+  const std::vector<CostEntry>& members = wave_.members();
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (plans_[i].outcome == CollapsePlan::Outcome::refused) refusal_[members[i].edge] = plans_[i].refusal;
   }
   boxes_.begin();
-  for (std::size_t i = 0; i < members_.size(); ++i) take(members_[i], plans_[i]);
+  for (std::size_t i = 0; i < members.size(); ++i) take(members[i], plans_[i]);
 }
 
 void StrictOrder::take(const CostEntry& entry, const CollapsePlan& plan) {

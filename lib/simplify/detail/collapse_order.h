@@ -1,7 +1,6 @@
 #pragma once
-#include "lib/simplify/cost_order.h"
+#include "lib/simplify/cost_wave.h"
 #include "lib/simplify/detail/collapse.h"
-#include "lib/simplify/waves.h"
 
 namespace bp {
 
@@ -27,7 +26,6 @@ class StrictOrder : public CostOrder {
     std::uint32_t serial;
   };
   [[nodiscard]] bool is_edge(HalfEdgeId h) const { return mesh_.alive(HalfEdgeMesh::face(h)) && mesh_.edge(h) == h; }
-  [[nodiscard]] double choose(double most, std::uint64_t enough);
   void plan_wave(double next);
   void take_wave();
   void take(const CostEntry& entry, const CollapsePlan& plan);
@@ -38,13 +36,12 @@ class StrictOrder : public CostOrder {
   Collapser& collapser_;
   HalfEdgeMesh& mesh_;
   WaveWorkers<CollapsePlanner> planners_;
-  WaveClaims claims_;
+  CostWave wave_;
   WaveBoxes boxes_;
   std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
   std::vector<Refusal> refusal_;       // per half-edge: why its edge must wait until its neighbourhood changes
   CostQueue queue_;
   // Of the wave:
-  std::vector<CostEntry> members_, later_;
   std::vector<CollapsePlan> plans_;  // of the members
   std::vector<Renewal> renewed_;     // edges that cost something else now
   std::vector<double> costs_;        // of these

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "lib/core/vec3.h"
+#include "lib/simplify/cost_wave.h"
 #include "lib/tighten/fan_fit.h"
 
 namespace bp {
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double kReach = 0.5;  // of the mean spoke: how far the merged vertex may leave the edge's middle
 constexpr int kAvoidRounds = 4;
-constexpr double kWaveShare = 0.05;  // of all edges: so many of those that cost least are looked at for a wave
 constexpr std::size_t kCostsPerThread = 8;
 
 struct Candidate {
@@ -172,7 +172,7 @@ class Thinner final : public ThinOrder {
         mesh_(editor.mesh()),
         counts_(counts),
         planners_([&editor] { return std::make_unique<ThinPlanner>(editor); }),
-        claims_(mesh_),
+        wave_(mesh_),
         serial_(3 * mesh_.face_capacity(), 0),
         stale_(3 * mesh_.face_capacity(), 0),
         queued_(3 * mesh_.face_capacity(), 0) {}
@@ -199,8 +199,10 @@ class Thinner final : public ThinOrder {
   bool run(double most, std::uint64_t enough) override {
     bool some_left = true;
     while (some_left && mesh_.face_count() > enough) {
-      const double next = choose(most, enough);
-      some_left = !members_.empty();
+      const double next = wave_.choose(queue_, editor_.has_waves(), most, enough, [&](const CostEntry& e) {
+        return is_edge(e.edge) && serial_[e.edge] == e.serial;
+      });
+      some_left = !wave_.members().empty();
       plan_wave(next, most);
       take_wave();
       push_renewed();
@@ -220,40 +222,21 @@ class Thinner final : public ThinOrder {
     planners_.visit([&](ThinPlanner& planner) { planner.count(editor_, counts_); });
   }
 
-  /// The members of a wave, one or more if anything is left for `most`; what the cheapest of the others costs.
-  double choose(double most, std::uint64_t enough) {
-    const std::size_t room = editor_.has_waves() ? (mesh_.face_count() - enough + 1) / 2 : 1;
-    std::size_t looked_at = editor_.has_waves() ? std::size_t(kWaveShare * 1.5 * double(mesh_.face_count())) : 1;
-    members_.clear();
-    later_.clear();
-    claims_.begin();
-    while (looked_at > 0 && members_.size() < room && !queue_.empty() && queue_.top().cost <= most) {
-      const CostEntry top = queue_.top();
-      queue_.pop();
-      if (!is_edge(top.edge) || serial_[top.edge] != top.serial) continue;
-      --looked_at;
-      const bool joins = claims_.stars_are_free(top.edge);
-      if (joins) claims_.claim();
-      (joins ? members_ : later_).push_back(top);
-    }
-    const double next = queue_.empty() ? std::numeric_limits<double>::infinity() : queue_.top().cost;
-    for (const CostEntry& entry : later_) queue_.push(entry);
-    return next;
-  }
-
   void plan_wave(double next, double most) {
-    if (plans_.size() < members_.size()) plans_.resize(members_.size());
-    planners_.for_each(members_.size(), 1, [&](ThinPlanner& planner, std::size_t i) {
-      const auto [cost, edge, serial] = members_[i];
+    const std::vector<CostEntry>& members = wave_.members();
+    if (plans_.size() < members.size()) plans_.resize(members.size());
+    planners_.for_each(members.size(), 1, [&](ThinPlanner& planner, std::size_t i) {
+      const auto [cost, edge, serial] = members[i];
       planner.plan(edge, stale_[edge] != 0, {cost, next, most}, plans_[i]);
     });
   }
 
   void take_wave() {
+    const std::vector<CostEntry>& members = wave_.members();
     boxes_.begin();
-    for (std::size_t i = 0; i < members_.size(); ++i) {
-      queued_[members_[i].edge] = 0;
-      take(members_[i], plans_[i]);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      queued_[members[i].edge] = 0;
+      take(members[i], plans_[i]);
     }
     editor_.settle_points();
   }
@@ -313,14 +296,13 @@ class Thinner final : public ThinOrder {
   const HalfEdgeMesh& mesh_;
   SimplifyCounts& counts_;
   WaveWorkers<ThinPlanner> planners_;
-  WaveClaims claims_;
+  CostWave wave_;
   WaveBoxes boxes_;
   std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
   std::vector<char> stale_;            // its entry's cost is an estimate
   std::vector<char> queued_;           // it has a valid entry
   CostQueue queue_;
   // Of the wave:
-  std::vector<CostEntry> members_, later_;
   std::vector<ThinPlan> plans_;               // of the members
   std::vector<Renewal> renewed_;              // edges that cost something else now
   std::vector<std::optional<double>> costs_;  // of these
