@@ -285,7 +285,7 @@ GltfDocument::View GltfDocument::part_of_buffer(const GltfObject& object) {
 Accessor GltfDocument::accessor(std::uint64_t i, std::size_t components) {
   const GltfObject object = root().item("accessors", i);
   const std::string type = object.text("type");
-  const char* const expected = kVectorTypes[components - 1];
+  const char* const expected = components == kMatrixNumbers ? "MAT4" : kVectorTypes[components - 1];
   if (type != expected) object.broken(fmt::format("has the type {} where {} is needed", type, expected));
   Accessor a;
   a.count = object.number("count");
@@ -316,6 +316,16 @@ Accessor GltfDocument::accessor(std::uint64_t i, std::size_t components) {
                               a.replaced_count, there));
   }
   return a;
+}
+
+std::vector<double> GltfDocument::numbers(std::uint64_t i, std::size_t components, const char* what) {
+  return numbers(accessor(i, components), what);
+}
+
+std::vector<double> GltfDocument::numbers(const Accessor& accessor, const char* what) const {
+  check_document(options_, file_->name(), what, accessor.count * accessor.components * sizeof(double),
+                 options_.document.bytes);
+  return read_numbers(bytes_, accessor);
 }
 
 void GltfDocument::read_sparse(const GltfObject& sparse, Accessor& a) {

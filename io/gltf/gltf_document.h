@@ -69,6 +69,7 @@ void check_required_extensions(const GltfObject& root);
 [[nodiscard]] ComponentType component_type(const GltfObject& accessor);
 
 inline constexpr std::array kVectorTypes = {"SCALAR", "VEC2", "VEC3", "VEC4"};  ///< by components
+inline constexpr std::size_t kMatrixNumbers = 16;                               ///< of MAT4, by columns
 /// The extension of views, and its later name: KHR adds codecs, which are not read.
 inline constexpr std::array kMeshoptNames = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
@@ -87,13 +88,20 @@ class GltfDocument {
   [[nodiscard]] GltfObject root() const { return GltfObject(json_, file_->name(), ""); }
   /// Of its JSON.
   [[nodiscard]] std::uint64_t memory_bytes() const { return json_bytes_; }
-  /// Accessor i, checked against its views; `components` is what its type must have.
+  /// Accessor i, checked against its views; `components` is what its type must have: 1 to 4, or kMatrixNumbers.
   Accessor accessor(std::uint64_t i, std::size_t components);
+  /// All numbers of accessor i, called `what` if they take more than SceneOptions::document.
+  std::vector<double> numbers(std::uint64_t i, std::size_t components, const char* what);
+  [[nodiscard]] std::vector<double> numbers(const Accessor& accessor, const char* what) const;
   /// Of a primitive with KHR_draco_mesh_compression, unpacks what its accessors say: they have data then. False if it
   /// is none.
   bool unpack(const GltfObject& primitive);
-  /// Positions of a primitive that has gone so far to each of its morph targets.
-  Accessor morphed(const GltfObject& primitive, const Accessor& positions, const std::vector<double>& weights);
+  /// The positions or normals of a primitive, called `name` in its morph targets, if it has gone so far to each of
+  /// these.
+  Accessor morphed(const GltfObject& primitive, const char* name, const Accessor& vectors,
+                   const std::vector<double>& weights);
+  /// An accessor of vectors that were computed, kept in scratch.
+  Accessor keep_vectors(const std::vector<double>& numbers);
   /// Where image i lies.
   ImagePlace image(std::uint64_t i);
   /// All buffers that accessors have named so far, in one file.

@@ -156,10 +156,6 @@ std::vector<Curve> PoseFinder::curves_of(const GltfObject& animation) {
     read_keys(animation.item("samplers", channel.number("sampler")), vector ? 3 : turn ? 4 : 1, curve);
     curves.push_back(std::move(curve));
   }
-  for (std::size_t n = 0; n < root_.array("nodes").size() && !curves.empty(); ++n) {
-    if (root_.item("nodes", n).has("skin"))
-      root_.item("nodes", n).unfit("has a skin, whose joints are not followed: export the movement as morph targets");
-  }
   return curves;
 }
 
@@ -221,28 +217,23 @@ std::vector<ScenePose> gltf_poses(const SceneFilePtr& file, const SceneOptions& 
   return PoseFinder(file, options).find(per_second);
 }
 
-Accessor GltfDocument::morphed(const GltfObject& primitive, const Accessor& positions,
+Accessor GltfDocument::morphed(const GltfObject& primitive, const char* name, const Accessor& vectors,
                                const std::vector<double>& weights) {
   const std::size_t targets = std::min(primitive.array("targets").size(), weights.size());
-  check_document(options_, file_->name(), "the vertices of a morph target", positions.count * 3 * 3 * sizeof(double),
+  if (targets == 0) return vectors;
+  check_document(options_, file_->name(), "the vertices of a morph target", vectors.count * 3 * 3 * sizeof(double),
                  options_.document.bytes);
-  std::vector<double> places = read_numbers(bytes_, positions);
+  std::vector<double> sums = read_numbers(bytes_, vectors);
   for (std::size_t t = 0; t < targets; ++t) {
     const GltfObject target = primitive.item("targets", t);
-    if (weights[t] == 0 || !target.has("POSITION")) continue;
-    const Accessor changes = accessor(target.number("POSITION"), 3);
-    if (changes.count != positions.count)
-      target.broken(fmt::format("moves {} of {} vertices", changes.count, positions.count));
+    if (weights[t] == 0 || !target.has(name)) continue;
+    const Accessor changes = accessor(target.number(name), 3);
+    if (changes.count != vectors.count)
+      target.broken(fmt::format("moves {} of {} vertices", changes.count, vectors.count));
     const std::vector<double> by = read_numbers(bytes_, changes);
-    for (std::size_t i = 0; i < places.size(); ++i) places[i] += weights[t] * by[i];
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += weights[t] * by[i];
   }
-  Accessor out;
-  out.count = positions.count;
-  out.type = ComponentType::f64;
-  out.components = 3;
-  out.stride = 3 * sizeof(double);
-  out.address = keep(std::as_bytes(std::span(places)));
-  return out;
+  return keep_vectors(sums);
 }
 
 }  // namespace bp

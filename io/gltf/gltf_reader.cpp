@@ -2,11 +2,13 @@
 #include <malloc.h>
 #endif
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <unordered_map>
 
 #include "io/gltf/detail/gltf_materials.h"
+#include "io/gltf/detail/gltf_skin.h"
 #include "io/gltf/gltf_document.h"
 #include "io/gltf/gltf_nodes.h"
 #include "io/scene/part_names.h"
@@ -15,7 +17,8 @@
 // triangles are is looked at: the default scene, nodes, POSITION and indices, sparse accessors, quantized positions
 // (KHR_mesh_quantization), what is compressed (KHR_draco_mesh_compression, EXT_meshopt_compression) and instance arrays
 // (EXT_mesh_gpu_instancing), and, if asked for, colours; of nodes with levels (MSFT_lod) one, the finest unless asked.
-// Skins are left at rest, and morph targets but in a pose that is asked for (SceneOptions::pose).
+// Vertices stand where a viewer shows them before it plays an animation: the file's weights move morph targets
+// (section 3.7.2.2), and joints a skin (3.7.3.3), or a pose does that is asked for (SceneOptions::pose).
 
 namespace bp {
 
@@ -39,9 +42,11 @@ class SceneBuilder {
 
   InstancedScene build() {
     scene_.nodes.reserve(root_.array("nodes").size());
-    visited_.resize(root_.array("nodes").size());
+    places_.resize(root_.array("nodes").size());
     if (!place_) scene_.up = gltf_up(root_);
     add_nodes(gltf_roots(root_), place_ ? placed() : gltf_world(scene_.up));
+    for (const Skinned& skinned : skinned_) add_skinned(skinned);
+    scene_.animations = root_.array("animations").size();
     scene_.bytes = doc_.bytes();
     return std::move(scene_);
   }
@@ -55,17 +60,30 @@ class SceneBuilder {
     Affine parent;
     bool wanted;  // it is below a node whose name fits
   };
+  /// What moves a mesh before its node places it.
+  struct Moved {
+    std::vector<double> weights;  // how far it has gone to its morph targets; empty: it has not
+    const GltfSkin* skin = nullptr;
+    [[nodiscard]] bool any() const { return !weights.empty() || skin != nullptr; }
+  };
+  struct Skinned {
+    std::uint64_t node;
+    bool wanted;
+    std::vector<double> weights;
+  };
   [[nodiscard]] Affine placed() const;
   void add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world);
   std::uint64_t level_of(std::uint64_t i);
   [[nodiscard]] std::set<std::uint64_t> coarser_nodes() const;
   [[nodiscard]] const ScenePose::Node* pose_of(std::uint64_t node) const;
   [[nodiscard]] std::vector<double> weights_of(const GltfObject& node, const ScenePose::Node* pose) const;
-  void add_mesh_node(const GltfObject& node, const Affine& transform, bool wanted, const std::vector<double>& weights);
-  Range mesh(std::uint64_t i, bool wanted, const std::vector<double>& weights);
+  void add_mesh_node(const GltfObject& node, const Affine& transform, bool wanted, const Moved& moved);
+  void add_skinned(const Skinned& skinned);
+  Range mesh(std::uint64_t i, bool wanted, const Moved& moved);
   [[nodiscard]] bool fits(const GltfObject& named) const;
   [[nodiscard]] bool has_material_that_fits(const GltfObject& primitive) const;
-  void add_primitive(const GltfObject& p, const std::vector<double>& weights);
+  void add_primitive(const GltfObject& p, const Moved& moved);
+  void add_normals(const GltfObject& p, const Moved& moved, Primitive& primitive);
   void add_colors(const GltfObject& p, const GltfObject& attributes, Primitive& primitive);
   void try_texture(std::uint64_t material, const GltfObject& attributes, Primitive& primitive);
   std::optional<std::uint32_t> instance_array(const GltfObject& node);
@@ -78,13 +96,14 @@ class SceneBuilder {
   const bool surface_;
   GltfMaterials materials_;
   const bool walls_only_;
-  const ScenePose* const pose_;  // null: at rest
+  const ScenePose* const pose_;  // null: as the file shows it
   const PartFilter parts_;
   const std::size_t level_;
   const std::optional<ContentPlace> place_;
   InstancedScene scene_;
   std::unordered_map<std::uint64_t, Range> meshes_, wanted_meshes_;  // parts of them, and all
-  std::vector<bool> visited_;
+  std::vector<std::optional<Affine>> places_;                        // of the nodes that were reached
+  std::vector<Skinned> skinned_;                                     // nodes that wait until all joints are placed
 };
 
 // Of a content. Tiles have z up. An extension of older files moves them there.
@@ -109,12 +128,17 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
     stack.pop_back();
     next.node = level_of(next.node);
     const GltfObject node = root_.item("nodes", next.node);
-    if (visited_[std::size_t(next.node)]) node.broken("is reached twice, and nodes must form trees");
-    visited_[std::size_t(next.node)] = true;
+    std::optional<Affine>& place = places_[std::size_t(next.node)];
+    if (place) node.broken("is reached twice, and nodes must form trees");
     const ScenePose::Node* const pose = pose_of(next.node);
     const Affine transform = next.parent * gltf_transform(node, pose);
+    place = transform;
     const bool wanted = fits(node) || next.wanted;
-    if (node.has("mesh")) add_mesh_node(node, transform, wanted, weights_of(node, pose));
+    if (node.has("mesh") && node.has("skin")) {
+      skinned_.push_back({next.node, wanted, weights_of(node, pose)});
+    } else if (node.has("mesh")) {
+      add_mesh_node(node, transform, wanted, {weights_of(node, pose)});
+    }
     for (std::size_t k = node.array("children").size(); k-- > 0;)
       stack.push_back({node.index("children", k), transform, wanted});
   }
@@ -156,45 +180,52 @@ const ScenePose::Node* SceneBuilder::pose_of(std::uint64_t node) const {
   return found == pose_->nodes.end() ? nullptr : &found->second;
 }
 
-// How far the mesh of a node has gone to its morph targets; empty: it is at rest.
+// How far the mesh of a node has gone to its morph targets; empty: it has not.
 std::vector<double> SceneBuilder::weights_of(const GltfObject& node, const ScenePose::Node* pose) const {
   std::vector<double> weights;
-  if (pose_ == nullptr) return weights;
+  if (pose_ != nullptr && pose_->base) return weights;
   if (pose != nullptr && pose->weights) return *pose->weights;
-  if (pose_->target) {
+  if (pose_ != nullptr && pose_->target) {
     weights.resize(*pose_->target + 1);
     weights.back() = 1;
     return weights;
   }
   const GltfObject owner = node.has("weights") ? node : root_.item("meshes", node.number("mesh"));
   for (const GltfJson& w : owner.array("weights")) weights.push_back(w.is_number() ? w.get<double>() : 0);
+  if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; })) weights.clear();
   return weights;
 }
 
-void SceneBuilder::add_mesh_node(const GltfObject& node, const Affine& transform, bool wanted,
-                                 const std::vector<double>& weights) {
-  const Range range = mesh(node.number("mesh"), wanted, weights);
+void SceneBuilder::add_mesh_node(const GltfObject& node, const Affine& transform, bool wanted, const Moved& moved) {
+  const Range range = mesh(node.number("mesh"), wanted, moved);
   if (range.first == range.end) return;
   scene_.nodes.push_back({transform, range.first, range.end, instance_array(node)});
 }
 
-SceneBuilder::Range SceneBuilder::mesh(std::uint64_t i, bool wanted, const std::vector<double>& weights) {
+// Its joints alone say where it is.
+void SceneBuilder::add_skinned(const Skinned& skinned) {
+  const GltfObject node = root_.item("nodes", skinned.node);
+  const GltfSkin skin(doc_, root_.item("skins", node.number("skin")), places_);
+  add_mesh_node(node, {}, skinned.wanted, {skinned.weights, &skin});
+}
+
+SceneBuilder::Range SceneBuilder::mesh(std::uint64_t i, bool wanted, const Moved& moved) {
   auto& meshes = wanted ? wanted_meshes_ : meshes_;
   const auto known = meshes.find(i);
-  if (known != meshes.end() && weights.empty()) return known->second;
+  if (known != meshes.end() && !moved.any()) return known->second;
   const GltfObject mesh = root_.item("meshes", i);
   wanted = fits(mesh) || wanted;
   Range range{std::uint32_t(scene_.primitives.size()), 0};
   for (std::size_t k = 0; k < mesh.array("primitives").size(); ++k) {
     const GltfObject primitive = mesh.item("primitives", k);
-    if (has_material_that_fits(primitive) || wanted) add_primitive(primitive, weights);
+    if (has_material_that_fits(primitive) || wanted) add_primitive(primitive, moved);
   }
   range.end = std::uint32_t(scene_.primitives.size());
-  if (weights.empty()) meshes.emplace(i, range);
+  if (!moved.any()) meshes.emplace(i, range);
   return range;
 }
 
-void SceneBuilder::add_primitive(const GltfObject& p, const std::vector<double>& weights) {
+void SceneBuilder::add_primitive(const GltfObject& p, const Moved& moved) {
   constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;
   const std::uint64_t mode = p.number("mode", kTriangles);
   if (mode > kFan) p.broken(fmt::format("has the unknown mode {}", mode));
@@ -208,7 +239,8 @@ void SceneBuilder::add_primitive(const GltfObject& p, const std::vector<double>&
                    : mode == kStrip ? Primitive::Mode::strip
                                     : Primitive::Mode::triangles;
   primitive.positions = doc_.accessor(attributes.number("POSITION"), 3);
-  if (!weights.empty() && p.has("targets")) primitive.positions = doc_.morphed(p, primitive.positions, weights);
+  primitive.positions = doc_.morphed(p, "POSITION", primitive.positions, moved.weights);
+  if (moved.skin != nullptr) primitive.positions = moved.skin->points(attributes, primitive.positions);
   if (p.has("indices")) {
     primitive.indices = doc_.accessor(p.number("indices"), 1);
     const ComponentType type = primitive.indices->type;
@@ -217,11 +249,16 @@ void SceneBuilder::add_primitive(const GltfObject& p, const std::vector<double>&
   }
   if (colors_) add_colors(p, attributes, primitive);
   if (textures_ != nullptr && p.has("material")) try_texture(p.number("material"), attributes, primitive);
-  if (surface_ && attributes.has("NORMAL")) {
-    primitive.normals = doc_.accessor(attributes.number("NORMAL"), 3);
-    if (primitive.normals->count != primitive.positions.count) primitive.normals.reset();
-  }
+  if (surface_ && attributes.has("NORMAL")) add_normals(p, moved, primitive);
   scene_.primitives.push_back(primitive);
+}
+
+void SceneBuilder::add_normals(const GltfObject& p, const Moved& moved, Primitive& primitive) {
+  const GltfObject attributes = p.object("attributes");
+  const Accessor normals = doc_.accessor(attributes.number("NORMAL"), 3);
+  if (normals.count != primitive.positions.count) return;
+  primitive.normals = doc_.morphed(p, "NORMAL", normals, moved.weights);
+  if (moved.skin != nullptr) primitive.normals = moved.skin->normals(attributes, *primitive.normals);
 }
 
 // Section 3.9.2: the factor times the colours of the vertices, in linear light.

@@ -165,6 +165,7 @@ class InstancedSource final : public RawSource {
   [[nodiscard]] std::uint64_t instances() const override { return instances_; }
   [[nodiscard]] std::optional<UpAxis> up() const override { return scene_.up; }
   [[nodiscard]] std::size_t levels() const override { return scene_.levels; }
+  [[nodiscard]] std::size_t animations() const override { return scene_.animations; }
 
  private:
   static constexpr std::size_t kWindow = 3 * 1024;  // indices at a time: whole triangles, within a cache block
@@ -350,7 +351,7 @@ std::vector<double> read_numbers(const SceneFilePtr& bytes, const Accessor& acce
   out.reserve(accessor.count * accessor.components);
   const std::size_t step = bytes_of(accessor.type);
   for (std::uint64_t i = 0; i < accessor.count; ++i) {
-    std::byte raw[4 * 8];
+    std::byte raw[16 * 8];
     const bool there = elements.fetch(accessor, i, raw);
     for (std::size_t k = 0; k < accessor.components; ++k)
       out.push_back(there ? decode(raw + k * step, accessor.type, accessor.normalized) : 0);

@@ -73,6 +73,7 @@ struct InstancedScene {
   std::vector<MeshNode> nodes;
   std::optional<UpAxis> up;     ///< if the file tells
   std::size_t levels = 1;       ///< that the file has, of which this is one
+  std::size_t animations = 0;   ///< that the file has; none is followed
   std::uint64_t bad_faces = 0;  ///< met before, while the scene was put together
 
   [[nodiscard]] std::uint64_t memory_bytes() const;  ///< of the description

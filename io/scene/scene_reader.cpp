@@ -145,6 +145,7 @@ class FilteredScene final : public TriangleSource {
     }
     counts_.bad_faces = raw_->bad_faces() + bad_faces_;
     counts_.instances = raw_->instances();
+    counts_.animations = raw_->animations();
     const SceneCounts& c = counts_;  // at the end; whoever names a file of points wants them enclosed
     if (!some_parts_ && batch_->triangles.empty() && c.triangles + c.degenerate + c.non_finite + c.bad_faces == 0 &&
         raw_->points() > 0)

@@ -58,7 +58,7 @@ struct SceneOptions {
   bool colors = false;                                    ///< look for them; else all triangles are white
   std::shared_ptr<TextureTable> textures{};               ///< look for them, and name them here; null: there are none
   bool surface = false;                                   ///< with textures: normals, and how materials answer to light
-  std::shared_ptr<const ScenePose> pose{};                ///< of glTF; null: at rest
+  std::shared_ptr<const ScenePose> pose{};                ///< of glTF; null: as the file shows it
   std::size_t level = 0;                                  ///< of glTF's MSFT_lod; 0 is the finest
   bool keep_degenerate = false;                           ///< deliver triangles of no area, too; counted all the same
   bool walls_only = false;  ///< leave out what can be seen through, see below; not counted

@@ -191,6 +191,9 @@ std::string scene_lines(const CheckReport& r) {
   if (c.non_finite + c.degenerate + c.bad_faces != 0)
     text += fmt::format("  left out: {} without area{}, {} not finite, {} faces without corners\n", c.degenerate,
                         r.wants_inside ? " (but for whether the scene is closed)" : "", c.non_finite, c.bad_faces);
+  if (c.animations > 0)
+    text += fmt::format("  {} animation{} not followed: the scene is at rest\n", c.animations,
+                        c.animations == 1 ? "" : "s");
   return text;
 }
 
@@ -237,7 +240,8 @@ Json scene_json(const CheckReport& r) {
   return {{"name", r.scene_name},
           {"triangles", r.scene_triangles},
           {"skipped", {{"degenerate", c.degenerate}, {"non_finite", c.non_finite}, {"bad_faces", c.bad_faces}}},
-          {"instances", c.instances}};
+          {"instances", c.instances},
+          {"animations", c.animations}};
 }
 
 Json verdict_of(const CheckReport& r) {

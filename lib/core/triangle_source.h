@@ -20,10 +20,11 @@ struct SceneCounts {
   std::uint64_t degenerate = 0;  ///< skipped, or met: exactly zero area (two equal corners, or exactly collinear)
   std::uint64_t bad_faces =
       0;  ///< skipped: a face that names a vertex that does not exist, or has fewer than 3 corners
-  std::uint64_t instances = 0;  ///< mesh instances met (1 for formats without a scene graph)
+  std::uint64_t instances = 0;   ///< mesh instances met (1 for formats without a scene graph)
+  std::uint64_t animations = 0;  ///< that the files have; none is followed
   void add(const SceneCounts& c) {
     triangles += c.triangles, non_finite += c.non_finite, degenerate += c.degenerate;
-    bad_faces += c.bad_faces, instances += c.instances;
+    bad_faces += c.bad_faces, instances += c.instances, animations += c.animations;
   }
 };
 

@@ -24,6 +24,7 @@ Length parse_margin(const std::string& text) {
   double value = 0;
   const std::string_view unit = take_number(text, value, kWhat);
   if (!unit.empty() && unit != "%") fail(ErrorCode::bad_argument, "'{}' is not {}", text, kWhat);
+  if (value == 0) fail(ErrorCode::bad_argument, "'{}': every proxy that holds keeps some distance; leave it out", text);
   return parse_length(text);
 }
 

@@ -175,7 +175,10 @@ std::string TilesetVerdict::text(const std::string& name) const {
   if (flat > 0) lines += fmt::format("{}: {} parts of the scene that rounding flattens may be missing\n", name, flat);
   const std::string which = part.of == 1 ? "" : fmt::format("part {} of {}: ", part.number + 1, part.of);
   return lines + fmt::format("{}: {}{} tiles, {} contents, {} triangles{}: {}\n", name, which, tiles, contents,
-                             triangles, scene ? ", checked against the scene" : "",
+                             triangles,
+                             contents == 0 && part.of > 1 ? ", none of the contents is in this part"
+                             : scene                      ? ", checked against the scene"
+                                                          : "",
                              holds()                         ? "holds"
                              : answer() == Answer::undecided ? fmt::format("not decided: {} findings", undecided)
                                                              : fmt::format("{} findings", findings.size()));

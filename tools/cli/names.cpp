@@ -32,6 +32,7 @@ std::string skipped(const SceneCounts& c) {
   add(c.degenerate, "degenerate triangle");
   add(c.non_finite, "non-finite triangle");
   add(c.bad_faces, "bad face");
+  add(c.animations, "animation");
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "io/scene/points/scene_points.h"
+#include "io/scene/scene_pose.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/core/pool.h"
@@ -112,7 +113,11 @@ bool seems_swapped(const BindRequest& request) {
 
 IndexedMesh read_cage(const BindRequest& request) {
   try {
-    IndexedMesh mesh = read_mesh(request.cage, request.scene_options);
+    SceneOptions options = request.scene_options;
+    ScenePose pose;
+    pose.base = true;  // its morph targets are poses for apply
+    options.pose = std::make_shared<const ScenePose>(std::move(pose));
+    IndexedMesh mesh = read_mesh(request.cage, options);
     (void)make_cage(mesh, request.cage);
     return mesh;
   } catch (const Error& e) {

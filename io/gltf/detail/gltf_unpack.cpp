@@ -73,6 +73,16 @@ std::uint64_t GltfDocument::keep(std::span<const std::byte> plain) {
   return bytes_->add(part_of(view_of(scratch_, file_->name(), begin + plain.size()), begin, plain.size()));
 }
 
+Accessor GltfDocument::keep_vectors(const std::vector<double>& numbers) {
+  Accessor out;
+  out.components = 3;
+  out.count = numbers.size() / out.components;
+  out.type = ComponentType::f64;
+  out.stride = out.components * sizeof(double);
+  out.address = keep(std::as_bytes(std::span(numbers)));
+  return out;
+}
+
 GltfDocument::View GltfDocument::unpacked(std::uint64_t i, const GltfObject& packed) {
   const auto known = unpacked_.find(i);
   if (known != unpacked_.end()) return known->second;

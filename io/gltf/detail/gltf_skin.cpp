@@ -1,0 +1,94 @@
+#include "io/gltf/detail/gltf_skin.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::size_t kEach = 4;  // joints of a vertex in one pair of attributes
+
+void add(Affine& sum, double weight, const Affine& joint) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) sum.m[i][j] += weight * joint.m[i][j];
+  }
+}
+
+}  // namespace
+
+GltfSkin::GltfSkin(GltfDocument& doc, const GltfObject& skin, const std::vector<std::optional<Affine>>& places)
+    : doc_(doc) {
+  const std::size_t count = skin.array("joints").size();
+  if (count == 0) skin.broken("has no joints");
+  std::vector<double> inverses;  // sixteen a joint, by columns
+  if (skin.has("inverseBindMatrices")) {
+    inverses = doc.numbers(skin.number("inverseBindMatrices"), kMatrixNumbers, "the joints of a skin");
+    if (inverses.size() < count * kMatrixNumbers)
+      skin.broken(fmt::format("has {} joints and {} matrices", count, inverses.size() / kMatrixNumbers));
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint64_t node = skin.index("joints", k);
+    if (node >= places.size() || !places[node]) skin.broken(fmt::format("has the joint {} outside the scene", node));
+    Affine bound;
+    for (std::size_t i = 0; i < 3 && !inverses.empty(); ++i) {
+      for (std::size_t j = 0; j < 4; ++j) bound.m[i][j] = inverses[k * kMatrixNumbers + 4 * j + i];
+    }
+    joints_.push_back(*places[node] * bound);
+  }
+}
+
+std::vector<GltfSkin::Shares> GltfSkin::shares_of(const GltfObject& attributes, std::uint64_t vertices) const {
+  std::vector<Shares> all;
+  for (int set = 0;; ++set) {
+    const std::string joints = fmt::format("JOINTS_{}", set), weights = fmt::format("WEIGHTS_{}", set);
+    if (!attributes.has(joints.c_str()) || !attributes.has(weights.c_str())) break;
+    Shares& shares = all.emplace_back();
+    shares.joints = doc_.numbers(attributes.number(joints.c_str()), kEach, "the joints of vertices");
+    shares.weights = doc_.numbers(attributes.number(weights.c_str()), kEach, "the weights of vertices");
+    if (shares.joints.size() != kEach * vertices || shares.weights.size() != kEach * vertices)
+      attributes.broken("have different counts");
+    for (const double joint : shares.joints) {
+      if (joint < 0 || joint >= double(joints_.size())) attributes.broken(fmt::format("name the joint {}", joint));
+    }
+  }
+  if (all.empty()) attributes.broken("belong to a skin, and name no joints");
+  return all;
+}
+
+Affine GltfSkin::blend(const std::vector<Shares>& shares, std::uint64_t vertex) const {
+  Affine sum;
+  sum.m = {};
+  double all = 0;
+  for (const Shares& s : shares) {
+    for (std::uint64_t i = kEach * vertex; i < kEach * (vertex + 1); ++i) {
+      if (s.weights[i] == 0) continue;
+      add(sum, s.weights[i], joints_[std::size_t(s.joints[i])]);
+      all += s.weights[i];
+    }
+  }
+  if (all == 0) return joints_[std::size_t(shares[0].joints[kEach * vertex])];
+  for (auto& row : sum.m) {
+    for (double& x : row) x /= all;
+  }
+  return sum;
+}
+
+template <class Move>
+Accessor GltfSkin::moved(const GltfObject& attributes, const Accessor& vectors, const Move& move) const {
+  const std::vector<Shares> shares = shares_of(attributes, vectors.count);
+  std::vector<double> numbers = doc_.numbers(vectors, "the vertices of a skin");
+  for (std::uint64_t v = 0; v < vectors.count; ++v) {
+    double* const p = &numbers[3 * v];
+    const Vec3d to = move(blend(shares, v), Vec3d{p[0], p[1], p[2]});
+    std::copy(to.begin(), to.end(), p);
+  }
+  return doc_.keep_vectors(numbers);
+}
+
+Accessor GltfSkin::points(const GltfObject& attributes, const Accessor& positions) const {
+  return moved(attributes, positions, [](const Affine& joints, const Vec3d& p) { return joints(p); });
+}
+
+Accessor GltfSkin::normals(const GltfObject& attributes, const Accessor& normals) const {
+  return moved(attributes, normals, [](const Affine& joints, const Vec3d& n) { return joints.normal(n); });
+}
+
+}  // namespace bp

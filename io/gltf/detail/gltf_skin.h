@@ -1,0 +1,37 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "io/gltf/gltf_document.h"
+#include "io/scene/affine.h"
+
+/// Joints that move the vertices of a mesh (glTF 2.0, section 3.7.3).
+namespace bp {
+
+class GltfSkin {
+ public:
+  /// `skin`: an item of the document's "skins". `places`: of all nodes, as far as the scene reaches them; joints are
+  /// nodes. Throws bad_input if a joint is none, or is not reached.
+  GltfSkin(GltfDocument& doc, const GltfObject& skin, const std::vector<std::optional<Affine>>& places);
+
+  /// Where the vertices of a primitive come to stand, in the coordinates of `places`. Each joint has its share of a
+  /// vertex: JOINTS_n and WEIGHTS_n, which need not sum to 1. A vertex of no weight is its first joint's. In double.
+  /// Throws out_of_resource if a primitive takes more than SceneOptions::document.
+  [[nodiscard]] Accessor points(const GltfObject& attributes, const Accessor& positions) const;
+  /// The same of normals, of any length.
+  [[nodiscard]] Accessor normals(const GltfObject& attributes, const Accessor& normals) const;
+
+ private:
+  struct Shares {
+    std::vector<double> joints, weights;  ///< four of each a vertex
+  };
+  [[nodiscard]] std::vector<Shares> shares_of(const GltfObject& attributes, std::uint64_t vertices) const;
+  [[nodiscard]] Affine blend(const std::vector<Shares>& shares, std::uint64_t vertex) const;
+  template <class Move>
+  [[nodiscard]] Accessor moved(const GltfObject& attributes, const Accessor& vectors, const Move& move) const;
+
+  GltfDocument& doc_;
+  std::vector<Affine> joints_;  // from where a vertex was bound to where it is
+};
+
+}  // namespace bp
