@@ -32,7 +32,7 @@ void build_chain(const bp::BuildOptions& o) {
                        o.common.overwrite);
   bp::Build build(o);
   auto [scene, made] = bp::make_chain(build);
-  bp::bake_levels(build, made.levels);
+  bp::bake_levels(build, made);
   build.note_levels(made.facts, 0, made.left_out);
   const bp::Vec3d origin = bp::origin_of(o.proxy.origin, scene.header.frame, scene.header.bounds);
   for (std::size_t i = made.levels.size(); i < most; ++i)  // as many as there may be

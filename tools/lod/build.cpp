@@ -256,8 +256,8 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
     color_vertices(level.mesh, colors_->all(level.mesh.frame));
   }
   if (looks() != nullptr)
-    level.mesh.texture =
-        level_texture(*this, level.mesh, level.error_world, level.scale_world, *looks_, texture_memory());
+    level.mesh.texture = level_texture(*this, level.mesh, {level.error_world, target.error_world, level.scale_world},
+                                       *looks_, texture_memory());
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
   if (margin_ > 0) text.add("margin", margin_);
