@@ -38,7 +38,7 @@ void build_chain(const bp::BuildOptions& o) {
   for (std::size_t i = made.levels.size(); i < most; ++i)  // as many as there may be
     out.leave_out(bp::level_name(o.name, i) + ".glb");
   build.progress.end();
-  build.note(bp::heavier_note(made.facts.front(), scene.counts.scene.triangles));
+  build.note(bp::heavier_note(made.facts.front(), asks_for_faces(request_of(o)), scene.counts.scene.triangles));
   build.report.begin("write");
   const std::vector<bp::WrittenFile> files =
       o.obj ? bp::write_obj_levels(o, made.levels, origin, out)

@@ -45,6 +45,7 @@ double first_scale(const LodGround& ground, const LodTarget& target, double last
 }
 
 int reductions_for(const LodGround& ground, const LodTarget& target, double scale, int before) {
+  if (target.keep_voxels) return before;
   double coarsest = std::min(scale / kLeastScaleVox, double(ground.longest_side_vox) / kLeastSideVox * ground.voxel);
   if (target.faces > 0) {
     const double per_face = double(ground.dense_faces) / double(target.faces);

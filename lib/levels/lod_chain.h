@@ -22,6 +22,7 @@ struct LodTarget {
   std::optional<double> scale_world;  ///< closing radius to begin with, scene units; never below the level before's
   /// Of `faces`: scale and voxels are so many times finer than for equilateral triangles. Flat regions take few.
   double detail = 1;
+  bool keep_voxels = false;  ///< they are not doubled for this level: somebody named them
 };
 
 /// Triangles of the dense surface below which voxels are not doubled, nor chosen, for a budget: they take a second or

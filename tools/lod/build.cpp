@@ -279,7 +279,8 @@ void Build::note(const std::string& text) {
 }
 
 void Build::note_levels(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out) {
-  for (const std::string& text : level_notes(levels, first, left_out, asks_for_faces(request_of(options)))) note(text);
+  const bool asked = asks_for_faces(request_of(options));
+  for (const std::string& text : level_notes(levels, first, left_out, asked, size_.triangles)) note(text);
 }
 
 void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out) {

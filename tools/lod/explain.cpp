@@ -137,7 +137,7 @@ Plan plan_of(const Build& build, const Scene& scene) {
     plan.thousandths = thousandths_of(scene.surface.work(tiles, Cells{o.tile_vox}));
     if (!o.cache.empty()) plan.kept = look_up_tileset(o);
   } else {
-    plan.levels = planned_chain(request, plan.header, scene.area);
+    plan.levels = planned_chain(request, plan.header, scene.area, is_named(voxel_request(o, diagonal)));
     plan.jobs = plan.levels.size();
   }
   VoxelizeCounts counts;
