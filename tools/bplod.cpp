@@ -32,13 +32,13 @@ void build_chain(const bp::BuildOptions& o) {
                        o.common.overwrite);
   bp::Build build(o);
   auto [scene, made] = bp::make_chain(build);
-  bp::bake_levels(build, made.levels);
+  bp::bake_levels(build, made);
   build.note_levels(made.facts, 0, made.left_out);
   const bp::Vec3d origin = bp::origin_of(o.proxy.origin, scene.header.frame, scene.header.bounds);
   for (std::size_t i = made.levels.size(); i < most; ++i)  // as many as there may be
     out.leave_out(bp::level_name(o.name, i) + ".glb");
   build.progress.end();
-  build.note(bp::heavier_note(made.facts.front(), scene.counts.scene.triangles));
+  build.note(bp::heavier_note(made.facts.front(), asks_for_faces(request_of(o)), scene.counts.scene.triangles));
   build.report.begin("write");
   const std::vector<bp::WrittenFile> files =
       o.obj ? bp::write_obj_levels(o, made.levels, origin, out)

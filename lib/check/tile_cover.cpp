@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 
+#include "lib/check/counted.h"
 #include "lib/check/detail/leaf_proof.h"
 #include "lib/check/detail/tile_body.h"
 #include "lib/check/detail/triangle_part.h"
@@ -317,12 +318,13 @@ class Checker {
     const auto add = [&](Verdict verdict, const char* what, Answer answer = Answer::refuted) {
       const std::uint64_t n = c.of(verdict);
       if (n == 0) return;
-      findings_.push_back({fmt::format("{}: {} {} {} triangles of the scene", tile.place, tile.uri, what, n), answer});
+      findings_.push_back(
+          {fmt::format("{}: {} {} {} of the scene", tile.place, tile.uri, what, counted(n, "triangle")), answer});
     };
     add(Verdict::missing, "does not show");
     if (c.strays > 0)
-      findings_.push_back(
-          {fmt::format("{}: {} shows {} triangles that the scene does not have", tile.place, tile.uri, c.strays)});
+      findings_.push_back({fmt::format("{}: {} shows {} that the scene does not have", tile.place, tile.uri,
+                                       counted(c.strays, "triangle"))});
     add(Verdict::touching, "is touched by");
     add(Verdict::outside, "leaves outside");
     add(Verdict::undecided, "cannot be decided for", Answer::undecided);

@@ -109,6 +109,7 @@ struct Chunk {
   double integral = 0, area = 0;
 };
 
+/// `step`: of the integrals; 0: none.
 std::vector<Chunk> examine_all(const std::vector<TriangleD>& from, const TriangleBvh& to, double step) {
   const auto n = std::int64_t(from.size());
   std::vector<Chunk> chunks(std::size_t((n + kGrain - 1) / kGrain));
@@ -119,8 +120,10 @@ std::vector<Chunk> examine_all(const std::vector<TriangleD>& from, const Triangl
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
       Part part = examine(from[i], to, guess, at_least);
       guess = part.nearest;
-      chunk.integral += integral(from[i], to, step, guess_mean);
-      chunk.area += area_of(from[i]);
+      if (step > 0) {
+        chunk.integral += integral(from[i], to, step, guess_mean);
+        chunk.area += area_of(from[i]);
+      }
       if (part.at_most <= at_least) continue;  // cannot hold the largest
       at_least = std::max(at_least, part.at_least);
       chunk.parts.push_back(std::move(part));
@@ -202,13 +205,12 @@ class Search {
   std::vector<Part> open_;         // a heap
 };
 
-}  // namespace
-
-SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance) {
+SurfaceDistance measured(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance, bool mean) {
   Bounds3d bounds;
   for (const TriangleD& t : from) bounds.merge(bounds_of(t));
   const double least = least_length(bounds);
-  const std::vector<Chunk> chunks = examine_all(from, to, std::max(bounds.diagonal() / kMeanPieces, least));
+  const double step = mean ? std::max(bounds.diagonal() / kMeanPieces, least) : 0;
+  const std::vector<Chunk> chunks = examine_all(from, to, step);
   SurfaceDistance result;
   result.where = from.front()[0];
   double area = 0;
@@ -221,6 +223,16 @@ SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const Trian
   if (area > 0) result.mean /= area;
   search.run();
   return result;
+}
+
+}  // namespace
+
+SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance) {
+  return measured(from, to, tolerance, true);
+}
+
+SurfaceDistance largest_distance(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance) {
+  return measured(from, to, tolerance, false);
 }
 
 }  // namespace bp

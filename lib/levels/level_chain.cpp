@@ -41,13 +41,17 @@ struct Attempt {
     request = source.request(scene.header, size.triangles);
     target = level_target(request, 0, 0, chain->dense_faces());
     const VoxelRequest voxels = source.voxels(size.bounds);
+    target.keep_voxels = is_named(voxels);
     const auto voxel = [&](int times) { return chosen_voxel(voxels, request, size, times); };
     target.detail = voxel(0) / voxel(halvings);
     finest_voxel = voxel(halvings + 1) >= voxel(halvings);
     finest = chain->make(target);
   }
   [[nodiscard]] std::uint64_t faces() const { return finest.mesh.triangles.size(); }
-  [[nodiscard]] bool may_be_halved() const { return !finest_voxel && falls_short(finest, target); }
+  /// As many faces as the scene has triangles are enough: further ones would show the steps of smaller voxels.
+  [[nodiscard]] bool may_be_halved() const {
+    return !finest_voxel && faces() < scene.counts.scene.triangles && falls_short(finest, target);
+  }
 };
 
 /// The last attempt that was worthwhile, or the one after it. What does not fit in memory fails: a smaller memory must

@@ -74,9 +74,10 @@ struct MadeChain {
   MadeLevels made;
 };
 
-/// All levels, in one mesh each. If the finest has clearly fewer faces than its budget, and source.may_refine, voxels
-/// and scale are halved, as long as that gives a quarter more faces, and kMostResolution allows it; the last one that
-/// was tried is taken. Throws out_of_resource where the memory does not suffice: it must not decide what is made.
+/// All levels, in one mesh each. If the finest has clearly fewer faces than its budget, and fewer than the scene has
+/// triangles, and source.may_refine, voxels and scale are halved, as long as that gives a quarter more faces, and
+/// kMostResolution allows it; the last one that was tried is taken. Throws out_of_resource where the memory does not
+/// suffice: it must not decide what is made.
 [[nodiscard]] MadeChain make_chain(const ChainSource& source, Backends& backends, const LevelSteps& steps);
 
 }  // namespace bp

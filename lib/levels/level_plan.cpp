@@ -26,7 +26,7 @@ PlannedLevel planned(const CutLevel& cut, double area, const Bounds3d& bounds) {
 
 /// Levels in one mesh: `count` from `levels.size()` on, as LodChain begins. `header`: of their solid.
 void add_whole(std::vector<PlannedLevel>& levels, const LevelRequest& request, const StreamHeader& header,
-               std::size_t count, double area) {
+               std::size_t count, double area, bool keep_voxels) {
   const VoxelCoord side = voxel_bounds(header.frame, header.bounds).size();
   const LodGround ground{header.frame.voxel, header.bounds.diagonal(),
                          std::uint64_t(dense_faces(area, header.bounds, header.frame.voxel)),
@@ -35,7 +35,8 @@ void add_whole(std::vector<PlannedLevel>& levels, const LevelRequest& request, c
   double scale = since > 0 ? TilesetPlan::kScaleVox * header.frame.voxel : 0;
   int reductions = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const LodTarget target = level_target(request, since + i, since, ground.dense_faces);
+    LodTarget target = level_target(request, since + i, since, ground.dense_faces);
+    target.keep_voxels = keep_voxels && i == 0;
     if (i >= request.faces.size() && i > 0 && target.faces > 0 && target.faces >= levels.back().faces) continue;
     scale = first_scale(ground, target, scale);
     reductions = reductions_for(ground, target, scale, reductions);
@@ -51,9 +52,10 @@ std::uint64_t planned_dense_faces(double area, const Bounds3d& bounds, double vo
   return std::uint64_t(dense_faces(area, bounds, voxel));
 }
 
-std::vector<PlannedLevel> planned_chain(const LevelRequest& request, const StreamHeader& header, double area) {
+std::vector<PlannedLevel> planned_chain(const LevelRequest& request, const StreamHeader& header, double area,
+                                        bool keep_voxels) {
   std::vector<PlannedLevel> levels;
-  add_whole(levels, request, header, level_count(request), area);
+  add_whole(levels, request, header, level_count(request), area, keep_voxels);
   return levels;
 }
 
@@ -61,7 +63,7 @@ std::vector<PlannedLevel> planned_tileset(const TilesetPlan& plan, const LevelRe
                                           const StreamHeader& header, double area) {
   std::vector<PlannedLevel> levels;
   for (const CutLevel& cut : plan.cut) levels.push_back(planned(cut, area, header.bounds));
-  add_whole(levels, request, plan.uncut, plan.whole, area);
+  add_whole(levels, request, plan.uncut, plan.whole, area, false);
   for (PlannedLevel& level : levels)
     if (!level.cut) level.number = plan.whole_number();
   return levels;

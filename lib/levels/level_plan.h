@@ -18,9 +18,9 @@ struct PlannedLevel {
 /// however much lies within. `area`: of all triangles.
 [[nodiscard]] std::uint64_t planned_dense_faces(double area, const Bounds3d& bounds, double voxel);
 
-/// The levels of a chain; `area`: of the scene's triangles.
+/// The levels of a chain; `area`: of the scene's triangles. keep_voxels: as in LodTarget, of the first.
 [[nodiscard]] std::vector<PlannedLevel> planned_chain(const LevelRequest& request, const StreamHeader& header,
-                                                      double area);
+                                                      double area, bool keep_voxels);
 /// The levels of a tileset; `header`: of the first level.
 [[nodiscard]] std::vector<PlannedLevel> planned_tileset(const TilesetPlan& plan, const LevelRequest& request,
                                                         const StreamHeader& header, double area);

@@ -6,11 +6,9 @@
 #include "lib/closing/closing.h"
 #include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
-#include "lib/levels/detail/voxel_distance.h"
+#include "lib/levels/detail/outside.h"
 #include "lib/pass/measure/shape_rules.h"
-#include "lib/pass/mesh/surface_around.h"
 #include "lib/surface/repair.h"
-#include "lib/volume/boundary_runs.h"
 #include "lib/volume/reduce.h"
 #include "lib/volume/topology.h"
 
@@ -28,68 +26,6 @@ constexpr double kVoxelsPerLength = 8;                  // of a rule by shape, w
 constexpr double kLeastSideVox = 48;                    // of a reduced grid
 // Faces that a part or a hole of a closing at half of the scale should leave to show its shape.
 constexpr std::uint64_t kFacesPerPart = 100;
-
-/// What the solid shows to the outside. With the inside filled, every boundary voxel is touched by the scene. While
-/// levels are meshed, it is but the runs of its voxels; what distances are measured with is made when they are, unless
-/// it is small.
-class Outside {
- public:
-  const std::uint64_t dense_faces;
-  const VoxelBox box;
-
-  /// Throws out_of_resource, before it takes anything, if it takes more than `memory`.
-  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, const MemoryShare& memory)
-      : Outside(solid, surface, frame, boundary_size(solid), memory) {}
-
-  [[nodiscard]] double voxel() const { return frame_.voxel; }
-  /// Of the memory, from the beginning to the end.
-  [[nodiscard]] std::uint64_t bytes() const {
-    return runs_.capacity() * sizeof(VoxelRun) + (kept_ ? measuring_bytes(runs_.size()) : 0);
-  }
-
-  /// error_world and distance_world of a level.
-  void measure(LodLevel& level, MeshMode mode) const {
-    kept_ ? kept_->measure(level, mode) : Ruler(runs_, frame_).measure(level, mode);
-  }
-
- private:
-  struct Ruler {
-    double voxel;
-    std::vector<TriangleD> segments;
-    TriangleBvh tree;
-    Ruler(const std::vector<VoxelRun>& runs, const GridFrame& frame)
-        : voxel(frame.voxel), segments(segments_of(runs, frame)), tree(segments) {}
-    void measure(LodLevel& level, MeshMode mode) const {
-      const std::vector<TriangleD> triangles = world_triangles(level.mesh);
-      const TriangleBvh mesh(triangles);
-      const double there = distance_from_mesh(triangles, tree, voxel);
-      level.error_world = mode == MeshMode::fit ? distance_beyond_mesh(segments, mesh, voxel, there) : there;
-      level.distance_world = std::max(there, distance_to_mesh(segments, mesh, voxel));
-    }
-  };
-
-  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, const BoundarySize& size,
-          const MemoryShare& memory)
-      : dense_faces(2 * size.faces), box(size.box), frame_(frame) {
-    const std::uint64_t runs = surface != nullptr ? count_runs(*surface, box) : size.runs;
-    const std::uint64_t bytes = runs * sizeof(VoxelRun) + measuring_bytes(runs);
-    if (bytes > memory.bytes)
-      throw NeedsMemory("measuring distances to the outside of the scene", bytes, memory.bytes,
-                        memory.limit_with(bytes - memory.bytes), {Remedy::larger_voxels});
-    runs_ = surface != nullptr ? runs_of(*surface, box) : boundary_of(solid).runs;
-    runs_.shrink_to_fit();
-    if (measuring_bytes(runs) <= memory.bytes / 16) kept_ = std::make_unique<Ruler>(runs_, frame_);
-  }
-
-  /// That distance() takes for a moment.
-  static std::uint64_t measuring_bytes(std::uint64_t runs) {
-    return runs * sizeof(TriangleD) + TriangleBvh::bytes_needed(runs);
-  }
-
-  GridFrame frame_;
-  std::vector<VoxelRun> runs_;
-  std::unique_ptr<Ruler> kept_;
-};
 
 /// Length of an edge of `faces` equilateral triangles over the scene's surface.
 double edge_of(const LodGround& ground, std::uint64_t faces) {
@@ -109,6 +45,7 @@ double first_scale(const LodGround& ground, const LodTarget& target, double last
 }
 
 int reductions_for(const LodGround& ground, const LodTarget& target, double scale, int before) {
+  if (target.keep_voxels) return before;
   double coarsest = std::min(scale / kLeastScaleVox, double(ground.longest_side_vox) / kLeastSideVox * ground.voxel);
   if (target.faces > 0) {
     const double per_face = double(ground.dense_faces) / double(target.faces);
@@ -140,7 +77,9 @@ struct LodChain::State {
   LodLevel make(const LodTarget& target) {
     LodLevel level = options.cage ? cage(target) : closed(target);
     context.report("measuring", "levels", 0, 1);
-    outside->measure(level, options.mode);
+    const bool triangles =
+        options.mode == MeshMode::bounding && options.enclose == Enclose::scene && !options.scene.empty();
+    outside->measure(level, options.mode, triangles ? &options.scene : nullptr);
     return level;
   }
 

@@ -22,6 +22,7 @@ struct LodTarget {
   std::optional<double> scale_world;  ///< closing radius to begin with, scene units; never below the level before's
   /// Of `faces`: scale and voxels are so many times finer than for equilateral triangles. Flat regions take few.
   double detail = 1;
+  bool keep_voxels = false;  ///< they are not doubled for this level: somebody named them
 };
 
 /// Triangles of the dense surface below which voxels are not doubled, nor chosen, for a budget: they take a second or
@@ -68,9 +69,9 @@ struct LodLevel {
   int attempts = 0;        ///< scales that were tried
   bool reached = true;     ///< it has at most the faces asked for
   /// Upper bound of the distances that a viewer can see, scene units: from a point of the level to the outer surface of
-  /// the scene (what its solid shows to the outside), and from a point of that surface which lies outside the level to
-  /// the level. No such point lies outside a bounding level. As a rule the bound is at most three voxels of the solid
-  /// and 4 % above the largest distance.
+  /// the scene, and from a point of that surface which lies outside the level (only of fits) to the level. Around
+  /// triangles (Enclose::scene) the bound is too large by a 16th of a voxel of the solid or 0.1 % at most, else as a
+  /// rule by three voxels and 4 %.
   double error_world = 0;
   /// Upper bound of the symmetric Hausdorff distance: of all points, those that nobody sees included. It is large where
   /// a level closes a cavity.

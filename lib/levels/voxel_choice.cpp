@@ -11,6 +11,8 @@ namespace bp {
 namespace {
 
 constexpr std::uint64_t kDensePerFaceAsked = 190;  // as kDensePerFace, where faces choose the voxels
+// A level has no use for more faces than so many times the scene's triangles: they would show the steps of voxels.
+constexpr std::uint64_t kFacesPerTriangle = 4;
 
 /// Of the cube of the same volume: a flat scene shows what is in it along its thickness, too.
 double area_of_cube_like(const Bounds3d& b) {
@@ -48,7 +50,8 @@ double chosen_voxel(const VoxelRequest& voxels, const LevelRequest& levels, cons
                      halvings);
   }
   if (levels.faces.empty()) return voxel_size_of(bounds, kDefaultResolution);
-  const double dense = std::max(double(kDensePerFaceAsked) * double(levels.faces.front()), kLeastDenseFaces);
+  const double faces = std::min(double(levels.faces.front()), double(kFacesPerTriangle) * double(scene.triangles));
+  const double dense = std::max(double(kDensePerFaceAsked) * faces, kLeastDenseFaces);
   return voxel_for(dense, area_of(bounds), bounds, kMostResolution, halvings);
 }
 

@@ -23,14 +23,18 @@ struct VoxelRequest {
   std::int64_t resolution = 0;  ///< voxels along the longest side; 0: not given
   VoxelUse use = VoxelUse::meshes;
 };
+[[nodiscard]] inline bool is_named(const VoxelRequest& r) {
+  return r.voxel > 0 || r.resolution > 0;
+}
 
 /// The edge of a voxel, scene units. `levels` comes from with_defaults(), but for tiles. The first of these that is
 /// there decides:
 ///   - the voxel or the resolution that is asked for;
 ///   - an eighth of the finest error;
 ///   - kOccluderResolution, of an occluder;
-///   - the faces of the finest level: a surface as large as that of the bounds has 190 triangles for each, and at least
-///     kLeastDenseFaces. The edge is halved `halvings` times, within kDefaultResolution and kMostResolution;
+///   - the faces of the finest level, at most four for each triangle of the scene: a surface as large as that of the
+///     bounds has 190 triangles for each, and at least kLeastDenseFaces. The edge is halved `halvings` times, within
+///     kDefaultResolution and kMostResolution;
 ///   - for tiles without a budget: the triangles of the scene, at most kTilesetFaces. The cube as large as the bounds
 ///     has kDensePerFace triangles for each. The most is kMostTilesetResolution;
 ///   - kDefaultResolution.

@@ -7,6 +7,7 @@
 #include "io/tiles/tileset_file.h"
 #include "lib/check/check_proxy.h"
 #include "lib/check/check_tileset.h"
+#include "lib/check/counted.h"
 #include "lib/check/tile_cover.h"
 #include "lib/core/error.h"
 #include "tools/cli/advice.h"
@@ -33,9 +34,9 @@ std::string complaint_of(const CheckReport& r) {
   add(!r.oriented() || !r.outward(), "is not oriented outwards");
   add(!r.manifold(), "is not 2-manifold");
   add(!r.sound(), "has degenerate or repeated triangles");
-  add(!r.embedded(), fmt::format("meets itself in {} places", r.self_intersections.count));
-  add(r.touching.count > 0, fmt::format("is touched by {} triangles of the scene", r.touching.count));
-  add(r.outside.count > 0, fmt::format("leaves {} triangles of the scene outside", r.outside.count));
+  add(!r.embedded(), "meets itself in " + counted(r.self_intersections.count, "place"));
+  add(r.touching.count > 0, "is touched by " + counted(r.touching.count, "triangle") + " of the scene");
+  add(r.outside.count > 0, "leaves " + counted(r.outside.count, "triangle") + " of the scene outside");
   add(r.undecidable_scene.count > 0, "cannot be decided: coordinates are too large");
   return text.empty() ? "does not hold" : text;
 }
@@ -174,14 +175,14 @@ std::string TilesetVerdict::text(const std::string& name) const {
     lines += fmt::format("{}: of {} thin parts of the scene only the corners were looked for\n", name, thin);
   if (flat > 0) lines += fmt::format("{}: {} parts of the scene that rounding flattens may be missing\n", name, flat);
   const std::string which = part.of == 1 ? "" : fmt::format("part {} of {}: ", part.number + 1, part.of);
-  return lines + fmt::format("{}: {}{} tiles, {} contents, {} triangles{}: {}\n", name, which, tiles, contents,
-                             triangles,
+  return lines + fmt::format("{}: {}{}, {}, {}{}: {}\n", name, which, counted(tiles, "tile"),
+                             counted(contents, "content"), counted(triangles, "triangle"),
                              contents == 0 && part.of > 1 ? ", none of the contents is in this part"
                              : scene                      ? ", checked against the scene"
                                                           : "",
                              holds()                         ? "holds"
-                             : answer() == Answer::undecided ? fmt::format("not decided: {} findings", undecided)
-                                                             : fmt::format("{} findings", findings.size()));
+                             : answer() == Answer::undecided ? "not decided: " + counted(undecided, "finding")
+                                                             : counted(findings.size(), "finding"));
 }
 
 std::string TilesetVerdict::json(const std::string& name) const {

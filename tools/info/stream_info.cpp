@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include "lib/check/counted.h"
 #include "lib/grid/count_bits.h"
 #include "tools/cli/length.h"
 #include "tools/cli/names.h"
@@ -45,8 +46,9 @@ double ratio(const StreamTotals& t) {
 
 std::string layer_text(const StreamHeader& h, const StreamTotals& t, int layer) {
   const LayerTotals& l = t.layers[std::size_t(layer)];
-  return fmt::format("{:<11} {} voxels, volume {:.6g}, {} bricks ({} full, {} mixed)\n", kLayerNames[layer], l.voxels,
-                     volume_world(h, l.voxels), l.bricks, l.full, l.bricks - l.full);
+  return fmt::format("{:<11} {}, volume {:.6g}, {} ({} full, {} mixed)\n", kLayerNames[layer],
+                     counted(l.voxels, "voxel"), volume_world(h, l.voxels), counted(l.bricks, "brick"), l.full,
+                     l.bricks - l.full);
 }
 
 Json scene_json(const SceneFiles& scene) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "io/files/file.h"
+#include "lib/check/counted.h"
 #include "tools/info/mesh_info.h"
 
 namespace bp {
@@ -64,13 +65,13 @@ std::string tileset_text(const TilesetInfo& info, const std::string& name) {
   std::string s = fmt::format("{}: tileset of 3D Tiles {}\n", name, info.version);
   s += fmt::format("tiles       {}, {} with a content, {}\n", all.tiles, all.contents, size_text(all.bytes));
   if (!info.missing.empty())
-    s += fmt::format("missing     {} contents, the first is {}\n", info.missing.size(), info.missing[0]);
+    s += fmt::format("missing     {}, the first is {}\n", counted(info.missing.size(), "content"), info.missing[0]);
   s += fmt::format("error       {:.4g} if nothing is drawn\n", info.geometric_error);
   for (std::size_t i = 0; i < info.depths.size(); ++i) {
     const TileDepth& d = info.depths[i];
     const std::string errors = d.error_min == d.error_max ? fmt::format("{:.4g}", d.error_max)
                                                           : fmt::format("{:.4g} to {:.4g}", d.error_min, d.error_max);
-    s += fmt::format("depth {:<5} {} tiles, {} with a content, {}, error {}\n", i, d.tiles, d.contents,
+    s += fmt::format("depth {:<5} {}, {} with a content, {}, error {}\n", i, counted(d.tiles, "tile"), d.contents,
                      size_text(d.bytes), errors);
   }
   if (info.bounds) {

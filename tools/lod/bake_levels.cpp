@@ -110,15 +110,15 @@ std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& me
   return std::make_unique<SceneLooks>(read, make_scratch(build.budget.tiles, build.options.common.temp), memory);
 }
 
-std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LatticeMesh& mesh, double error_world,
-                                                 double scale_world, const SceneLooks& looks,
-                                                 const MemoryShare& memory) {
+std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LatticeMesh& mesh, const LevelLengths& level,
+                                                 const SceneLooks& looks, const MemoryShare& memory) {
   const double voxel = mesh.frame.voxel;
   AtlasParams atlas_params;
-  atlas_params.texel = texel_of(mesh, error_or(error_world, scale_world, voxel), looks) / voxel * kLatticePerVoxel;
+  const double error = std::max({error_or(level.error, level.scale, voxel), level.asked_error, voxel});
+  atlas_params.texel = texel_of(mesh, error, looks) / voxel * kLatticePerVoxel;
   const Atlas atlas = unwrap(mesh, atlas_params);
   BakeParams params;
-  params.reach_world = texture_reach(error_world, scale_world, voxel);
+  params.reach_world = texture_reach(level.error, level.scale, voxel);
   params.memory = memory;
   params.both_ways = build.options.proxy.mode == MeshMode::fit;
   MeshTexture texture = with_places(atlas);
@@ -132,13 +132,15 @@ std::shared_ptr<const MeshTexture> level_texture(const Build& build, const Latti
   return std::make_shared<const MeshTexture>(std::move(texture));
 }
 
-void bake_levels(Build& build, std::vector<LodLevel>& levels) {
+void bake_levels(Build& build, MadeLevels& made) {
   if (!build.textured()) return;
   build.report.begin("textures");
   const std::unique_ptr<SceneLooks> looks = read_looks(build, part_of(build.budget.work, 0.6));
-  for (LodLevel& level : levels)
-    level.mesh.texture =
-        level_texture(build, level.mesh, level.error_world, level.scale_world, *looks, part_of(build.budget.work, 0.4));
+  for (std::size_t i = 0; i < made.levels.size(); ++i) {
+    LodLevel& level = made.levels[i];
+    const LevelLengths lengths{level.error_world, made.facts[i].target.error_world, level.scale_world};
+    level.mesh.texture = level_texture(build, level.mesh, lengths, *looks, part_of(build.budget.work, 0.4));
+  }
   for (const std::string& fault : looks->faults()) build.note(fault + "; its material's colour is used");
 }
 

@@ -20,12 +20,19 @@ namespace bp {
 /// So far from a level lies what decides its texture; `error_world` as below.
 [[nodiscard]] double texture_reach(double error_world, double scale_world, double voxel);
 
-/// The texture of a level whose largest distance to the scene is `error_world` (0: not known). `memory`: for the image.
+/// Lengths of a level, scene units.
+struct LevelLengths {
+  double error = 0;        ///< largest distance to the scene; 0: not known
+  double asked_error = 0;  ///< 0: none
+  double scale = 0;
+};
+/// The texture of a level. Of its error, its voxels and the error that was asked for, the largest decides how fine it
+/// is: a level whose faces happen to lie on the scene is not meant for nearer views. `memory`: for the image.
 [[nodiscard]] std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LatticeMesh& mesh,
-                                                               double error_world, double scale_world,
-                                                               const SceneLooks& looks, const MemoryShare& memory);
+                                                               const LevelLengths& level, const SceneLooks& looks,
+                                                               const MemoryShare& memory);
 
 /// Gives each level its texture, if the scene has any (Build::textured()). Notes tell of images that cannot be used.
-void bake_levels(Build& build, std::vector<LodLevel>& levels);
+void bake_levels(Build& build, MadeLevels& made);
 
 }  // namespace bp

@@ -256,8 +256,8 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
     color_vertices(level.mesh, colors_->all(level.mesh.frame));
   }
   if (looks() != nullptr)
-    level.mesh.texture =
-        level_texture(*this, level.mesh, level.error_world, level.scale_world, *looks_, texture_memory());
+    level.mesh.texture = level_texture(*this, level.mesh, {level.error_world, target.error_world, level.scale_world},
+                                       *looks_, texture_memory());
   OptionText text = option_text(options, enclosed_, target, i, level.scale_world, level.mesh.frame);
   if (colors_ != nullptr) text.add("colors", "auto");
   if (margin_ > 0) text.add("margin", margin_);
@@ -279,7 +279,8 @@ void Build::note(const std::string& text) {
 }
 
 void Build::note_levels(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out) {
-  for (const std::string& text : level_notes(levels, first, left_out, asks_for_faces(request_of(options)))) note(text);
+  const bool asked = asks_for_faces(request_of(options));
+  for (const std::string& text : level_notes(levels, first, left_out, asked, size_.triangles)) note(text);
 }
 
 void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out) {

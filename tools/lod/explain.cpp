@@ -8,6 +8,7 @@
 
 #include "io/files/file.h"
 #include "io/scene/scene_reader.h"
+#include "lib/check/counted.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/levels/level_plan.h"
@@ -136,7 +137,7 @@ Plan plan_of(const Build& build, const Scene& scene) {
     plan.thousandths = thousandths_of(scene.surface.work(tiles, Cells{o.tile_vox}));
     if (!o.cache.empty()) plan.kept = look_up_tileset(o);
   } else {
-    plan.levels = planned_chain(request, plan.header, scene.area);
+    plan.levels = planned_chain(request, plan.header, scene.area, is_named(voxel_request(o, diagonal)));
     plan.jobs = plan.levels.size();
   }
   VoxelizeCounts counts;
@@ -212,12 +213,13 @@ std::string row_of(const PlannedLevel& l, std::size_t i) {
 
 std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
   const Vec3d &lo = scene.bounds.min, &hi = scene.bounds.max;
-  std::string out = fmt::format("scene\t{} triangles from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n",
-                                scene.counts.triangles, lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]);
+  std::string out = fmt::format("scene\t{} from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n",
+                                counted(scene.counts.triangles, "triangle"), lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]);
   const std::array<std::int32_t, 3> size = grid_of(plan.header);
   out += fmt::format("grid\t{} x {} x {} voxels of {:.6g}\n", size[0], size[1], size[2], plan.header.frame.voxel);
   if (plan.origin != Vec3d{}) out += fmt::format("origin\t{}\n", origin_text(plan.origin));
-  out += fmt::format("device\t{}, {} threads\n", fmt::join(names_of(build.backends), ", "), thread_count());
+  out += fmt::format("device\t{}, {}\n", fmt::join(names_of(build.backends), ", "),
+                     counted(std::uint64_t(thread_count()), "thread"));
   const BuildBudget& b = build.budget;
   out += fmt::format("memory\t{}: reading with {}, {} for what waits; then {} for voxels, {} for surfaces\n",
                      size_text(build.options.common.memory_bytes), size_text(b.reader), size_text(b.waiting),

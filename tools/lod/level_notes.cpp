@@ -23,8 +23,14 @@ std::string quoted(const std::string& word) {
 
 }  // namespace
 
-std::string faces_note(const LevelFacts& level, bool asked) {
+std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triangles) {
   const std::uint64_t budget = level.target.faces;
+  if (asked && level.reached && level.faces >= triangles && clearly_fewer(level.faces, budget))
+    return fmt::format(
+        "{} faces instead of {}: the scene has {} triangles, and more faces would show steps of voxels; smaller "
+        "voxels, "
+        "or a smaller --scale, come nearer",
+        level.faces, budget, triangles);
   if (!level.reached)
     return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", level.faces,
                        budget, level.scale_world);
@@ -48,11 +54,11 @@ std::string error_note(std::size_t level, double error_world, double asked_world
 }
 
 std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out,
-                                     bool asked) {
+                                     bool asked, std::uint64_t triangles) {
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const LevelFacts& level = levels[i];
-    if (const std::string missed = faces_note(level, asked); !missed.empty())
+    if (const std::string missed = faces_note(level, asked, triangles); !missed.empty())
       notes.push_back(fmt::format("level {}: {}", first + i, missed));
     if (const double error = level.target.error_world; error > 0 && level.error_world > error)
       notes.push_back(error_note(first + i, level.error_world, error));
@@ -87,10 +93,11 @@ std::string enclose_note(const BuildOptions& o, std::uint64_t triangles) {
                      file ? "--enclose scene takes them all the same" : "give it as a file");
 }
 
-std::string heavier_note(const LevelFacts& finest, std::uint64_t triangles) {
+std::string heavier_note(const LevelFacts& finest, bool asked, std::uint64_t triangles) {
   if (finest.faces <= std::max(triangles, kLeastFaces)) return "";
-  return fmt::format("level 0 has {} faces, and the scene {} triangles; --faces 50% makes half as many", finest.faces,
-                     triangles);
+  if (asked && clearly_fewer(finest.faces, finest.target.faces)) return "";  // faces_note() says it
+  return fmt::format("level 0 has {} faces, more than the scene's {} triangles{}", finest.faces, triangles,
+                     asked ? "; --faces 50% asks for half of those" : "");
 }
 
 std::string proof_command(const BuildOptions& o, const std::string& file, bool hulls, double margin) {

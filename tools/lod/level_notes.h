@@ -5,15 +5,15 @@
 /// What a person should know of what bplod made. Each is one line, or empty.
 namespace bp {
 
-/// A level that has not its faces: why. `asked`: faces were asked for.
-[[nodiscard]] std::string faces_note(const LevelFacts& level, bool asked);
+/// A level that has not its faces: why. `asked`: faces were asked for. `triangles`: of the scene.
+[[nodiscard]] std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triangles);
 
 /// A level whose error exceeds the one asked for; scene units.
 [[nodiscard]] std::string error_note(std::size_t level, double error_world, double asked_world);
 
 /// Notes of levels in one mesh, the first of which is level `first`.
 [[nodiscard]] std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std::size_t first,
-                                                   std::size_t left_out, bool asked);
+                                                   std::size_t left_out, bool asked, std::uint64_t triangles);
 
 /// As of OriginOption, but of tilesets, which hold coordinates in double. Throws bad_argument if --origin would round.
 [[nodiscard]] std::string origin_note(const BuildOptions& options, const StreamHeader& header);
@@ -24,8 +24,8 @@ namespace bp {
 /// Levels that do not enclose the triangles of a scene although such levels could, and nobody asked for it.
 [[nodiscard]] std::string enclose_note(const BuildOptions& options, std::uint64_t triangles);
 
-/// Levels with more faces than the scene has triangles.
-[[nodiscard]] std::string heavier_note(const LevelFacts& finest, std::uint64_t triangles);
+/// Levels with more faces than the scene has triangles. `asked`: faces were asked for.
+[[nodiscard]] std::string heavier_note(const LevelFacts& finest, bool asked, std::uint64_t triangles);
 
 /// The command that proves `file`, one of those in the folder of the levels: "bpcheck SCENE OUT/FILE". Empty of fits,
 /// which enclose nothing, and of a scene from a pipe. hulls: the file holds convex hulls. margin: scene units; 0: none.

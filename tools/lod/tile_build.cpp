@@ -101,7 +101,7 @@ CutFiles cut_files(const Build& build, const CutLevel& cut, std::size_t level) {
                                                                        LatticeCoord at) {
     mesh.provenance = {provenance};
     if (build.looks() != nullptr)
-      mesh.texture = level_texture(build, mesh, 0, scale, *build.looks(), build.texture_memory());
+      mesh.texture = level_texture(build, mesh, {0, 0, scale}, *build.looks(), build.texture_memory());
     return tile_glb({folder + "_" + name_of(cell), &mesh}, at);
   };
   if (build.looks() != nullptr) {

@@ -6,6 +6,7 @@
 #include "lib/core/parallel.h"
 #include "lib/geometry/crossing.h"
 #include "lib/geometry/near_surface.h"
+#include "lib/geometry/triangle_parts.h"
 
 namespace bp {
 
@@ -15,8 +16,28 @@ const double kSegmentToPoint = std::sqrt(1.5);  // from a point of the segment t
 const double kPointToSegment = std::sqrt(0.5);
 const double kPointToCentre = std::sqrt(0.75);
 constexpr double kTolerance = 0.5;  // of the search, in voxels
+// Of a piece of the mesh. The proof that a triangle is near takes as many parts as its area over the limit squared, and
+// ends after some thousands of them.
+constexpr double kPieceArea = 256;  // voxels squared
 constexpr std::int64_t kGrain = 256;
 constexpr std::size_t kPlaces = 512;  // of a grain
+
+/// The same surface, in triangles of at most `most` area.
+std::vector<TriangleD> pieces_of(const std::vector<TriangleD>& triangles, double most) {
+  std::vector<TriangleD> pieces, open;
+  for (const TriangleD& t : triangles) {
+    for (open.assign(1, t); !open.empty();) {
+      const TriangleD piece = open.back();
+      open.pop_back();
+      if (!(area_of(piece) > most)) {
+        pieces.push_back(piece);
+        continue;
+      }
+      for (const TriangleD& half : halves(piece)) open.push_back(half);
+    }
+  }
+  return pieces;
+}
 
 /// Largest distance of a point of `from` to `to` that is known without a search: of the middles.
 double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh& to) {
@@ -102,7 +123,8 @@ std::vector<TriangleD> segments_of(std::span<const VoxelRun> runs, const GridFra
 }
 
 double distance_from_mesh(const std::vector<TriangleD>& mesh, const TriangleBvh& segments, double voxel) {
-  return upper_bound(mesh, segments, kTolerance * voxel) + kSegmentToPoint * voxel;
+  const std::vector<TriangleD> pieces = pieces_of(mesh, kPieceArea * voxel * voxel);
+  return upper_bound(pieces, segments, kTolerance * voxel) + kSegmentToPoint * voxel;
 }
 
 double distance_to_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel) {

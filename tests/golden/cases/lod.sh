@@ -112,14 +112,18 @@ falls 0.035 < list
 for n in 13 4; do said "bplod part*.obj --name cubes --faces $n --levels 1 --resolution 60 -o closed$n > list" | some; done
 said 'bplod cube.obj --faces 12,6,5,4 --resolution 40 -o chosen3 | cut -f 1,2'
 # Budgets that follow are quarters, on voxels that suffice for them; what an earlier set had more of goes.
-awk 'function box(x, y, z, w, h,  i) {
+# Voxels are halved only while a level has fewer faces than the scene has triangles: of studs that are there ten times.
+studs() { awk -v n="$1" 'function box(x, y, z, w, h,  i) {
   for (i = 0; i < 8; ++i) print "v", x + (i % 2) * w, y + (int(i / 2) % 2) * w, z + int(i / 4) * h
   split("0 2 3 1 4 5 7 6 0 1 5 4 2 6 7 3 0 4 6 2 1 3 7 5", c)
-  for (i = 1; i <= 24; i += 4) print "f", n + c[i] + 1, n + c[i + 1] + 1, n + c[i + 2] + 1, n + c[i + 3] + 1
-  n += 8
+  for (i = 1; i <= 24; i += 4) print "f", at + c[i] + 1, at + c[i + 1] + 1, at + c[i + 2] + 1, at + c[i + 3] + 1
+  at += 8
 }
-BEGIN { box(0, 0, 0, 200, 4); for (k = 0; k < 25; ++k) box(17 + 40 * (k % 5), 17 + 40 * int(k / 5), 4, 6, 10) }' > studs.obj
+BEGIN { box(0, 0, 0, 200, 4); for (k = 0; k < n; ++k) box(17 + 40 * (k % 5), 17 + 40 * int(k % 25 / 5), 4, 6, 10) }'; }
+studs 250 > studs.obj
 said 'bplod studs.obj --up z --faces 2400 --levels 3 -o studs | cut -f 1,2,5' | some
+studs 25 > studs.obj
+said 'bplod studs.obj --up z --faces 2400 --levels 3 -o studs --overwrite | cut -f 1,2,5' | some
 said 'bplod studs.obj --up z --faces 40 --levels 3 --resolution 64 -o studs --overwrite | cut -f 1,2' | some
 ls studs
 rm -r studs studs.obj

@@ -22,6 +22,10 @@ TEST_CASE("the distance between two squares, one above the other and twice as la
   CHECK(down.at_most - down.at_least <= 1.001e-3 * 1.5);
   CHECK(down.mean > 0.5);
   CHECK(down.mean < 1.5);
+  const SurfaceDistance largest = largest_distance(large, TriangleBvh(small));
+  CHECK(largest.at_most == down.at_most);
+  CHECK(largest.at_least == down.at_least);
+  CHECK(largest.mean == 0);
 }
 
 TEST_CASE("far from the origin the search for a distance ends where coordinates are rounded", "[quick][check]") {

@@ -183,6 +183,10 @@ TEST_CASE("a budget takes no voxels so large that few are left", "[quick][pass][
   CHECK(reductions_for(ground, {100, 0, {}}, 64, 0) == 2);
   CHECK(reductions_for(ground, {100000, 0, {}}, 64, 0) == 0);
   CHECK(reductions_for(ground, {0, 64, {}}, 64, 0) == 3);  // of an error, eight to it
+  LodTarget named{100, 0, {}};
+  named.keep_voxels = true;
+  CHECK(reductions_for(ground, named, 64, 0) == 0);
+  CHECK(reductions_for(ground, named, 64, 1) == 1);
 }
 
 TEST_CASE("the scale is halved where that leaves few parts and holes, not where they take the faces",

@@ -26,6 +26,20 @@ TEST_CASE("voxels that are asked for are taken, then an eighth of the error, the
   CHECK(chosen_voxel({}, levels, kCube) == chosen_voxel({0, kDefaultResolution}, levels, kCube));
 }
 
+TEST_CASE("a scene of few triangles has no voxels for more faces than it can use", "[quick][levels]") {
+  LevelRequest levels;
+  levels.faces = {20000};
+  SceneSize few = kCube;
+  few.triangles = 20000;  // at four faces each, enough
+  const double voxel = chosen_voxel({}, levels, few);
+  CHECK(voxel == chosen_voxel({}, levels, kCube));
+  few.triangles = 1000;
+  LevelRequest fewer;
+  fewer.faces = {4000};
+  CHECK(chosen_voxel({}, levels, few) == chosen_voxel({}, fewer, kCube));
+  CHECK(chosen_voxel({}, levels, few) > voxel);
+}
+
 TEST_CASE("voxels of a tileset follow from the triangles, up to a number", "[quick][levels]") {
   const VoxelRequest tiles{0, 0, VoxelUse::tiles};
   SceneSize more = kCube;

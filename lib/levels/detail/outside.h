@@ -1,0 +1,40 @@
+#pragma once
+#include <optional>
+
+#include "lib/levels/lod_chain.h"
+#include "lib/volume/boundary_runs.h"
+
+namespace bp {
+
+/// What the solid of a scene shows to the outside, and how far levels are from it. With the inside filled, every
+/// boundary voxel is touched by the scene. While levels are meshed, it is but the runs of its voxels; what distances
+/// are measured with is made when they are, unless it is small.
+class Outside {
+ public:
+  const std::uint64_t dense_faces;  ///< triangles of the dense surface of the solid
+  const VoxelBox box;               ///< around the boundary voxels
+
+  /// `surface`: as LodOptions has it. Throws out_of_resource, before it takes anything, if it takes more than `memory`.
+  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, const MemoryShare& memory);
+  ~Outside();
+
+  [[nodiscard]] double voxel() const { return frame_.voxel; }
+  /// Of the memory, from the beginning to the end.
+  [[nodiscard]] std::uint64_t bytes() const;
+
+  /// Sets error_world and distance_world of a level. `enclosed`: the triangles of the scene, if they lie inside the
+  /// level, which is a bounding one; else null. Takes TriangleBvh::bytes_needed() of them for a moment.
+  void measure(LodLevel& level, MeshMode mode, const std::vector<TriangleD>* enclosed) const;
+
+ private:
+  struct Ruler;
+
+  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, const BoundarySize& size,
+          const MemoryShare& memory);
+
+  GridFrame frame_;
+  std::vector<VoxelRun> runs_;
+  std::unique_ptr<Ruler> kept_;
+};
+
+}  // namespace bp
