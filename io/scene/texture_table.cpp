@@ -1,9 +1,12 @@
 #include "io/scene/texture_table.h"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 
 #include "io/image/image_reader.h"
+#include "io/image/relief.h"
+#include "io/image/texture_writer.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -71,14 +74,22 @@ std::array<int, 2> TextureTable::size(std::uint32_t i) const {
 
 std::vector<std::byte> TextureTable::file(std::uint32_t i) const {
   try {
-    return bytes_of(images_.at(i), kMostBytes);
+    std::vector<std::byte> bytes = bytes_of(images_.at(i), kMostBytes);
+    if (!images_.at(i).relief) return bytes;
+    const TextureImage image = decode_image(bytes, images_.at(i).name, kMostRelief * sizeof(TextureImage::Texel));
+    if (!is_grey(image)) return bytes;
+    const std::string made = encode_texture(directions_of(image)).bytes;
+    bytes.resize(made.size());
+    std::memcpy(bytes.data(), made.data(), made.size());
+    return bytes;
   } catch (const Error&) {
     return {};
   }
 }
 
 TextureImage TextureTable::image(std::uint32_t i, std::uint64_t most_bytes) const {
-  return decode_image(bytes_of(images_.at(i), kMostBytes), images_.at(i).name, most_bytes);
+  TextureImage image = decode_image(bytes_of(images_.at(i), kMostBytes), images_.at(i).name, most_bytes);
+  return images_.at(i).relief && is_grey(image) ? directions_of(image) : image;
 }
 
 }  // namespace bp

@@ -14,10 +14,13 @@ namespace bp {
 
 /// Bytes of a scene's own, or a file; neither: the image is missing.
 struct ImagePlace {
-  std::string name;    ///< for messages
-  SceneFilePtr bytes;  ///< may be null
-  std::string path;    ///< may be empty
+  std::string name;     ///< for messages
+  SceneFilePtr bytes;   ///< may be null
+  std::string path;     ///< may be empty
+  bool relief = false;  ///< a grey image is heights, and is given as directions; of at most kMostRelief texels
 };
+
+constexpr std::uint64_t kMostRelief = std::uint64_t(1) << 24;
 
 class TextureTable final : public TextureSet {
  public:

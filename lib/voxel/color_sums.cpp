@@ -15,11 +15,26 @@ std::uint64_t channel(const TriangleColors& c, std::uint16_t LinearColor::*of, c
 
 }  // namespace
 
+std::uint16_t color_side_of(const Vec3d& normal) {
+  std::uint16_t best = 0;
+  double most = 0;
+  for (std::uint16_t side = 0; side < kColorSides.size(); ++side) {
+    const auto& [x, y, z] = kColorSides[side];
+    const double along = x * normal[0] + y * normal[1] + z * normal[2];
+    const double squared = along * along / (x * x + y * y + z * z);
+    if (!(squared > most)) continue;  // of equals the first
+    most = squared;
+    best = side;
+  }
+  return best;
+}
+
 void add_colors(const TriangleD& triangle_vox, const TriangleColors& colors, std::vector<ColorCellSum>& out) {
   TriangleD t = triangle_vox;
   for (Vec3d& p : t)
     for (double& x : p) x /= kColorCellVox;
   const double area = area_of(t) * kUnitArea;
+  const std::uint16_t side = color_side_of(cross(t[1] - t[0], t[2] - t[0]));
   const std::size_t first = out.size();
   for_each_sample(t, kSpacing, 1, [&](const std::array<double, 3>& w, double share) {
     const Vec3d p = point_of(t, w);
@@ -31,7 +46,7 @@ void add_colors(const TriangleD& triangle_vox, const TriangleColors& colors, std
     if (out.size() > first && out.back().cell == cell) {  // of a row, most follow one of the same cell
       out.back().sum.add(sum);
     } else {
-      out.push_back({cell, sum});
+      out.push_back({cell, side, sum});
     }
   });
 }

@@ -1,16 +1,35 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "lib/core/color.h"
 #include "lib/core/coords.h"
 
-/// What colour the surface has in each part of a grid: means by area, kept as sums of integers, so that neither the
-/// order of the triangles nor who added them matters.
+/// What colour the surface has in each part of a grid, for each direction it looks to: means by area, kept as sums of
+/// integers, so that neither the order of the triangles nor who added them matters.
 namespace bp {
 
 constexpr int kColorCellVox = 4;  ///< voxels along a side of a cell: about half an edge of a level's triangles
 
 using ColorCell = Coord3<struct ColorCellSpace, std::int32_t>;  ///< voxels [4 c, 4 c + 4) of its level
+
+/// Directions that a surface may look to, both ways: along axes, between two of them, between three.
+constexpr std::array<std::array<int, 3>, 13> kColorSides{{{1, 0, 0},
+                                                          {0, 1, 0},
+                                                          {0, 0, 1},
+                                                          {1, 1, 0},
+                                                          {1, -1, 0},
+                                                          {0, 1, 1},
+                                                          {0, 1, -1},
+                                                          {1, 0, 1},
+                                                          {-1, 0, 1},
+                                                          {1, 1, 1},
+                                                          {-1, 1, 1},
+                                                          {1, -1, 1},
+                                                          {1, 1, -1}}};
+/// The one of kColorSides that is nearest to a normal of any length; 0 if it has none. Broken scenes have inverted
+/// triangles, so both sides of a thin wall look to one direction.
+[[nodiscard]] std::uint16_t color_side_of(const Vec3d& normal);
 
 struct ColorSum {
   std::uint64_t weight = 0;           ///< area; 2^20 is that of a side of a cell
@@ -25,12 +44,16 @@ struct ColorSum {
 
 struct ColorCellSum {
   ColorCell cell;
+  std::uint16_t side = 0;  ///< of kColorSides
   ColorSum sum;
 };
 
+/// What looks to one side in a cell.
 struct CellColor {
   ColorCell cell;
   LinearColor color;
+  std::uint16_t side = 0;    ///< of kColorSides
+  std::uint32_t weight = 0;  ///< area, as in ColorSum; at most what fits
   friend bool operator==(const CellColor&, const CellColor&) = default;
 };
 

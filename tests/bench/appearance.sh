@@ -13,6 +13,24 @@ gltfpack() { node "$NODE_PATH/gltfpack/cli.js" "$@"; }
 mode=(--mode "${MODE:-bounding}") kind=(-noq) profile=()
 [ -z "${PACKED:-}" ] || { kind=(-cc) profile=(--profile 3dtiles --tile 65536); }
 
+# for_gltfpack SCENE FOLDER: prints the scene for gltfpack, which takes colours of MTL for linear light. We and three.js take them for sRGB, so
+# it gets a copy with linear numbers.
+for_gltfpack() {
+  case $1 in *.obj) ;; *) echo "$1" && return ;; esac
+  cp "$1" "$(dirname "$1")"/*.mtl "$2"/ 2> /dev/null || true
+  python3 - "$2"/*.mtl << 'P'
+import os, sys
+linear = lambda s: s / 12.92 if s <= 0.04045 else ((s + 0.055) / 1.055) ** 2.4
+for path in filter(os.path.exists, sys.argv[1:]):
+    lines = open(path, errors="replace").read().split("\n")
+    for i, line in enumerate(lines):
+        words = line.split()
+        if words[:1] == ["Kd"] and len(words) == 4: lines[i] = "Kd %.6f %.6f %.6f" % tuple(linear(float(x)) for x in words[1:])
+    open(path, "w").write("\n".join(lines))
+P
+  echo "$2/$(basename "$1")"
+}
+
 # pack RATIO SCENE OUT [OPTION...]: leaves such a share of the triangles.
 pack() { gltfpack "${kind[@]}" -se 1 -si "$1" -i "$2" -o "$3" "${@:4}" > /dev/null; }
 
@@ -47,7 +65,8 @@ for scene in "$@"; do
   name=$(basename "${scene%.*}") work=$out/$(basename "${scene%.*}")
   rm -rf "$work" && mkdir -p "$work"
   cp "$(dirname "$scene")"/*.{png,jpg,jpeg} "$work"/ 2> /dev/null || true
-  gltfpack -noq -kn -i "$scene" -o "$work/scene.glb" > /dev/null
+  given=$(for_gltfpack "$scene" "$work")
+  gltfpack -noq -kn -i "$given" -o "$work/scene.glb" > /dev/null
   triangles=$("$tools/bpinfo" "$work/scene.glb" --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["triangles"])')
   faces=()
   [ -z "${LEVELS:-}" ] || faces=(--faces "$LEVELS")
@@ -65,10 +84,10 @@ for i, level in enumerate(report["counts"]["levels"]): print(i, level["faces"], 
     for option in "" -sa; do # that keep all parts, or may drop some: the better one that fits counts
       pack=$work/pack$i$option.glb
       if [ "${SAME:-triangles}" = bytes ]; then
-        pack_into "$size" "$scene" "$pack" $option
+        pack_into "$size" "$given" "$pack" $option
         [ "$(stat -c %s "$pack")" -gt "$size" ] || packs+=("$pack")
       else
-        pack "$(python3 -c "print(min(1, $count / $triangles))")" "$scene" "$pack" $option
+        pack "$(python3 -c "print(min(1, $count / $triangles))")" "$given" "$pack" $option
         packs+=("$pack")
       fi
     done

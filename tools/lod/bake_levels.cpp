@@ -70,9 +70,8 @@ void add_surface(const BakedSurface& baked, MeshTexture& texture) {
     EncodedImage file = encode_texture(image);
     return ImageFile{std::move(file.bytes), std::move(file.type)};
   };
-  const TextureImage::Texel normal = baked.normal.texels.front(), light = baked.emission.texels.front();
-  const bool flat = is_plain(baked.normal) && normal[2] > 250;
-  if (!flat) texture.normal = file_of(baked.normal);
+  if (!says_nothing(baked.normal)) texture.normal = file_of(baked.normal);
+  const TextureImage::Texel light = baked.emission.texels.front();
   const bool dark = is_plain(baked.emission) && std::max({light[0], light[1], light[2]}) < 4;
   if (!dark) texture.emission = file_of(baked.emission);
   if (is_plain(baked.roughness)) {

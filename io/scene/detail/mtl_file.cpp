@@ -66,14 +66,11 @@ void MtlMaterials::read_line(TextScanner& text, const std::string& key, const st
     material.alpha = key == "d" ? x[0] : 1 - x[0];
   } else if (key == "map_d") {
     material.see_through = true;
-  } else if (key == "map_Bump" || key == "map_bump" || key == "bump") {
-    material.has_heights = true;
   } else {
-    const std::map<std::string, Map*> maps{{"map_Kd", &material.color_map},
-                                           {"norm", &material.normal_map},
-                                           {"map_Pr", &material.roughness_map},
-                                           {"map_Pm", &material.metal_map},
-                                           {"map_Ke", &material.emission_map}};
+    const std::map<std::string, Map*> maps{{"map_Kd", &material.color_map},  {"norm", &material.normal_map},
+                                           {"map_Bump", &material.bump_map}, {"map_bump", &material.bump_map},
+                                           {"bump", &material.bump_map},     {"map_Pr", &material.roughness_map},
+                                           {"map_Pm", &material.metal_map},  {"map_Ke", &material.emission_map}};
     if (const auto found = maps.find(key); found != maps.end()) read_map(text, folder, *found->second);
   }
 }
@@ -106,22 +103,29 @@ void MtlMaterials::read_map(TextScanner& text, const std::string& folder, Map& m
 }
 
 const MtlMaterials::Map& MtlMaterials::Material::first_map() const {
-  for (const Map* map : {&color_map, &normal_map, &roughness_map, &metal_map, &emission_map})
+  for (const Map* map : {&color_map, &normal_map, &bump_map, &roughness_map, &metal_map, &emission_map})
     if (!map->image.empty()) return *map;
   return color_map;
 }
 
 /// None if it is not there, or lies elsewhere than the material's first one: that is told.
-TextureMap MtlMaterials::map_of(const Map& map, const Material& material, TextureTable& textures) {
+TextureMap MtlMaterials::map_of(const Map& map, const Material& material, TextureTable& textures, bool relief) {
   if (map.image.empty()) return {};
   if (map.uv != material.first_map().uv) {
     textures.add_fault(
         fmt::format("{}: lies at other places than its material's first image; it is left out", map.image));
     return {};
   }
-  const std::uint32_t image = textures.add_image(map.image, {map.image, nullptr, map.image});
-  if (textures.size(image)[0] == 0) {
+  const std::uint32_t image =
+      textures.add_image((relief ? "relief " : "") + map.image, {map.image, nullptr, map.image, relief});
+  const std::array<int, 2> size = textures.size(image);
+  if (size[0] == 0) {
     textures.add_fault(fmt::format("{}: is not there, or cannot be read; it is left out", map.image));
+    return {};
+  }
+  if (relief && std::uint64_t(size[0]) * std::uint64_t(size[1]) > kMostRelief) {
+    textures.add_fault(
+        fmt::format("{}: map_Bump has more than 4096 x 4096 texels, and is left out; norm may have more", map.image));
     return {};
   }
   const TextureWrap wrap = map.clamp ? TextureWrap::clamp : TextureWrap::repeat;
@@ -135,8 +139,10 @@ TextureSurface MtlMaterials::surface_of(const Material& material, TextureTable& 
   s.metal_factor = float(material.metal);
   s.emission_factor = {float(material.emission.r) / 65535, float(material.emission.g) / 65535,
                        float(material.emission.b) / 65535};
-  s.normal = map_of(material.normal_map, material, textures);
-  s.normal_scale = float(material.normal_map.strength);
+  const bool relief = material.normal_map.image.empty();
+  const Map& normal_map = relief ? material.bump_map : material.normal_map;
+  s.normal = map_of(normal_map, material, textures, relief);
+  s.normal_scale = s.normal.is_there() ? float(normal_map.strength) : 1;
   s.emission = map_of(material.emission_map, material, textures);
   if (s.emission.is_there()) s.emission_factor = {1, 1, 1};
   const bool both = material.roughness_map == material.metal_map;
@@ -149,9 +155,6 @@ TextureSurface MtlMaterials::surface_of(const Material& material, TextureTable& 
         "{}: roughness and metal come from one image for both, or from map_Pr where Pm is 0; numbers are used",
         material.file));
   }
-  if (material.has_heights && !s.normal.is_there())
-    textures.add_fault(
-        fmt::format("{}: map_Bump is taken for heights and left out; norm names a normal map", material.file));
   return s;
 }
 

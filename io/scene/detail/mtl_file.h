@@ -10,7 +10,7 @@
 /// Wavefront MTL: of the materials the diffuse colour, Kd, taken as sRGB, as programs show it; and whether they can be
 /// seen through: d below 1, Tr (which is 1 - d; some write 1 for opaque) between 0 and 1, or map_d; and
 /// the image of map_Kd, which replaces Kd, as most programs have it. If surfaces are asked for, also Pr, Pm, Ke, their
-/// images, which replace them, and the normal map of norm. map_Bump is a height, and left out.
+/// images, which replace them, and the normal map of norm, or else of map_Bump or bump, which is heights if it is grey.
 namespace bp {
 
 class MtlMaterials {
@@ -43,8 +43,7 @@ class MtlMaterials {
     LinearColor color, emission{0, 0, 0};
     bool see_through = false;
     double alpha = 1, roughness = 1, metal = 0;
-    Map color_map, normal_map, roughness_map, metal_map, emission_map;
-    bool has_heights = false;             // map_Bump
+    Map color_map, normal_map, bump_map, roughness_map, metal_map, emission_map;
     std::optional<std::uint32_t> number;  // in the table of textures
     /// That says where all of them lie.
     [[nodiscard]] const Map& first_map() const;
@@ -53,7 +52,8 @@ class MtlMaterials {
   static void read_line(TextScanner& text, const std::string& key, const std::string& folder, Material& material);
   static void read_map(TextScanner& text, const std::string& folder, Map& map);
   [[nodiscard]] static TextureSurface surface_of(const Material& material, TextureTable& textures);
-  [[nodiscard]] static TextureMap map_of(const Map& map, const Material& material, TextureTable& textures);
+  [[nodiscard]] static TextureMap map_of(const Map& map, const Material& material, TextureTable& textures,
+                                         bool relief = false);
   std::map<std::string, Material> materials_;
 };
 

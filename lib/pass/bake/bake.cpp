@@ -312,4 +312,14 @@ BakedSurface bake_surface(const LatticeMesh& mesh, const Atlas& atlas, const Sce
   return baked;
 }
 
+bool says_nothing(const TextureImage& normals) {
+  constexpr int kLean = 18;  // of 255
+  constexpr std::size_t kOneIn = 100;
+  const auto leaning = std::count_if(normals.texels.begin(), normals.texels.end(), [](const TextureImage::Texel& t) {
+    const int x = 2 * int(t[0]) - 255, y = 2 * int(t[1]) - 255;
+    return x * x + y * y > kLean * kLean;
+  });
+  return std::size_t(leaning) * kOneIn <= normals.texels.size();
+}
+
 }  // namespace bp

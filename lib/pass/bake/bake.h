@@ -33,4 +33,8 @@ struct BakedSurface {
 [[nodiscard]] BakedSurface bake_surface(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks,
                                         const BakeParams& params);
 
+/// Whether an image of normals says hardly more than the mesh's own: one texel in a hundred at most leans by more than
+/// 4 degrees. At the edge of a roof a texel may see the wall, also where the mesh lies on the scene. O(texels).
+[[nodiscard]] bool says_nothing(const TextureImage& normals);
+
 }  // namespace bp

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 #include "lib/pass/color/detail/color_grid.h"
 #include "lib/volume/boundary_runs.h"
 
@@ -14,6 +18,7 @@ namespace bp {
 namespace {
 
 constexpr std::int64_t kCellLattice = std::int64_t(kColorCellVox) * kLatticePerVoxel;
+constexpr double kEnough = 1.0 / 16;          // of a cell's area; of a ball's surface a ninth looks any one way
 constexpr std::size_t kSumsInHand = 1 << 16;  // a large triangle alone may cover millions of cells
 
 static_assert(ColorGrid::kEdge * kColorCellVox == kBrickEdge, "a brick of cells is a brick of voxels");
@@ -56,34 +61,94 @@ std::pair<ColorCell, ColorCell> cells_of(const VoxelBox& box, std::int32_t margi
   return {lo, hi};
 }
 
-}  // namespace
-
-NearbyColors::NearbyColors(std::vector<CellColor> cells, ColorCell min, const Vec3d& origin)
-    : cells_(std::move(cells)), min_(min), origin_(origin) {
-  if (cells_.empty()) return;
-  coarser_.emplace_back();
-  for (const CellColor& c : cells_) coarser_[0][c.cell - min_] = {1, c.color.r, c.color.g, c.color.b};
-  while (coarser_.back().size() > 1) {
-    Cells next;
-    for (const auto& [cell, sum] : coarser_.back()) next[ColorGrid::half_of(cell)].add(sum);
-    coarser_.push_back(std::move(next));
-  }
+std::uint32_t weight_of(const ColorSum& sum) {
+  return std::uint32_t(std::min<std::uint64_t>(sum.weight, std::numeric_limits<std::uint32_t>::max()));
 }
 
-const ColorSum* NearbyColors::nearest(const Cells& cells, const Vec3d& p) {
+/// Of the sides of a cell, by their shares; by area alone if none has one.
+template <class Shares>
+LinearColor mean_of(std::span<const CellColor> sides, const Shares& shares) {
+  std::array<double, 4> sum{}, plain{};
+  for (const CellColor& c : sides) {
+    const std::array<double, 4> one{double(c.color.r), double(c.color.g), double(c.color.b), 1};
+    for (std::size_t i = 0; i < 4; ++i) {
+      sum[i] += shares[c.side] * c.weight * one[i];
+      plain[i] += c.weight * one[i];
+    }
+  }
+  const std::array<double, 4>& s = sum[3] > 0 ? sum : plain;
+  return {std::uint16_t(s[0] / s[3] + 0.5), std::uint16_t(s[1] / s[3] + 0.5), std::uint16_t(s[2] / s[3] + 0.5)};
+}
+
+}  // namespace
+
+NearbyColors::Cells::Cells(std::vector<CellColor> all) : sides(std::move(all)) {
+  std::sort(sides.begin(), sides.end(),
+            [](const CellColor& a, const CellColor& b) { return std::tie(a.cell, a.side) < std::tie(b.cell, b.side); });
+  for (std::size_t i = 0; i < sides.size(); ++i) first.try_emplace(sides[i].cell, std::uint32_t(i));
+}
+
+NearbyColors::Cells NearbyColors::Cells::halved() const {
+  std::map<std::pair<ColorCell, std::uint16_t>, ColorSum> sums;
+  for (const CellColor& c : sides) {
+    const std::uint64_t w = c.weight;
+    sums[{ColorGrid::half_of(c.cell), c.side}].add({w, w * c.color.r, w * c.color.g, w * c.color.b});
+  }
+  std::vector<CellColor> all;
+  for (const auto& [key, sum] : sums) all.push_back({key.first, sum.mean(), key.second, weight_of(sum)});
+  return Cells(std::move(all));
+}
+
+std::span<const CellColor> NearbyColors::Cells::at(ColorCell cell) const {
+  const auto found = first.find(cell);
+  if (found == first.end()) return {};
+  std::size_t end = found->second;
+  while (end < sides.size() && sides[end].cell == cell) ++end;
+  return std::span(sides).subspan(found->second, end - found->second);
+}
+
+NearbyColors::NearbyColors(std::vector<CellColor> cells, ColorCell min, const Vec3d& origin)
+    : min_(min), origin_(origin) {
+  if (cells.empty()) return;
+  for (CellColor& c : cells) c.cell = c.cell - min_;
+  levels_.emplace_back(std::move(cells));
+  while (levels_.back().first.size() > 1) levels_.push_back(levels_.back().halved());
+}
+
+/// How much a side counts for a normal: 1 along it, 0 across it, little where they differ by 60 degrees.
+NearbyColors::Shares NearbyColors::shares_along(const Vec3d& normal) {
+  Shares shares{};
+  const double squared = dot(normal, normal);
+  for (std::size_t i = 0; i < shares.size() && squared > 0; ++i) {
+    const auto& [x, y, z] = kColorSides[i];
+    const double along = x * normal[0] + y * normal[1] + z * normal[2];
+    const double cosine = along * along / (squared * (x * x + y * y + z * z));  // squared
+    shares[i] = cosine * cosine * cosine * cosine;
+  }
+  return shares;
+}
+
+/// Of those with enough area that looks the right way, else of all.
+std::span<const CellColor> NearbyColors::nearest(const Cells& cells, const Vec3d& p, const Shares& shares) {
   const ColorCell own{std::int32_t(std::floor(p[0])), std::int32_t(std::floor(p[1])), std::int32_t(std::floor(p[2]))};
-  if (const auto at = cells.find(own); at != cells.end()) return &at->second;
-  const ColorSum* best = nullptr;
-  double least = 0;
+  const auto looks_there = [&](std::span<const CellColor> cell) {
+    double area = 0, all = 0;
+    for (const CellColor& c : cell) area += shares[c.side] * c.weight, all += c.weight;
+    return area >= kEnough * all;
+  };
+  const std::span<const CellColor> here = cells.at(own);
+  if (!here.empty() && looks_there(here)) return here;
+  std::span<const CellColor> best = here;
+  std::pair<bool, double> least{true, here.empty() ? std::numeric_limits<double>::max() : 0};
   for (std::int32_t z = own.z - 1; z <= own.z + 1; ++z) {
     for (std::int32_t y = own.y - 1; y <= own.y + 1; ++y) {
       for (std::int32_t x = own.x - 1; x <= own.x + 1; ++x) {
-        const auto at = cells.find({x, y, z});
-        if (at == cells.end()) continue;
+        const std::span<const CellColor> cell = cells.at({x, y, z});
+        if (cell.empty()) continue;
         const Vec3d d{x + 0.5 - p[0], y + 0.5 - p[1], z + 0.5 - p[2]};
-        const double distance = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-        if (best != nullptr && distance >= least) continue;  // among equals the first
-        best = &at->second;
+        const std::pair<bool, double> distance{!looks_there(cell), dot(d, d)};
+        if (distance >= least) continue;  // among equals the first
+        best = cell;
         least = distance;
       }
     }
@@ -91,20 +156,20 @@ const ColorSum* NearbyColors::nearest(const Cells& cells, const Vec3d& p) {
   return best;
 }
 
-LinearColor NearbyColors::at(const Vec3d& lattice) const {
-  if (cells_.empty()) return kWhite;
+LinearColor NearbyColors::at(const Vec3d& lattice, const Vec3d& normal) const {
+  if (levels_.empty()) return kWhite;
+  const Shares shares = shares_along(normal);
   Vec3d p;
   for (std::size_t i = 0; i < 3; ++i) p[i] = (lattice[i] - origin_[i]) / double(kCellLattice) - min_[int(i)];
-  for (const Cells& cells : coarser_) {
-    if (const ColorSum* found = nearest(cells, p)) return found->mean();
+  for (const Cells& cells : levels_) {
+    if (const auto found = nearest(cells, p, shares); !found.empty()) return mean_of(found, shares);
     for (double& x : p) x /= 2;
   }
-  return coarser_.back().begin()->second.mean();
+  return mean_of(levels_.back().sides, shares);
 }
 
 void NearbyColors::add_to(KeyHash& hash) const {
-  hash.add(cells_.size());
-  for (const CellColor& c : cells_) hash.add(CellColor{c.cell - min_, c.color});
+  hash.add(levels_.empty() ? std::vector<CellColor>{} : levels_.front().sides);
 }
 
 SceneColors::SceneColors(const GridFrame& frame, std::unique_ptr<ColorGrid> finest) : frame_(frame) {

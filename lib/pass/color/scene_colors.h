@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -14,26 +15,35 @@
 /// are four of its voxels wide; those of the finest gather the scene's triangles, coarser ones are their sums.
 namespace bp {
 
-/// Colours around a part of a level, in memory: some 150 bytes a cell.
+/// Colours around a part of a level, in memory: some 100 bytes for each side that a cell has.
 class NearbyColors {
  public:
   /// `cells` in [min, max); `origin`: of the cells' frame, in lattice units of the level they belong to.
   NearbyColors(std::vector<CellColor> cells, ColorCell min, const Vec3d& origin);
 
-  [[nodiscard]] bool empty() const { return cells_.empty(); }
+  [[nodiscard]] bool empty() const { return levels_.empty(); }
   /// At a point in lattice units of the level's frame: of the cell it lies in; else of the nearest of the 26 around it;
-  /// else the same among cells twice as large, and so on. White if there is no cell.
-  [[nodiscard]] LinearColor at(const Vec3d& lattice) const;
+  /// else the same among cells twice as large, and so on. White if there is no cell. What looks along `normal`, of any
+  /// length, counts, and cells that have it come first: at the edge of a roof the walls do not tint it. All of a cell
+  /// counts if hardly anything of it, and of those around it, looks that way, or if the normal is 0.
+  [[nodiscard]] LinearColor at(const Vec3d& lattice, const Vec3d& normal) const;
   void add_to(KeyHash& hash) const;
 
  private:
-  using Cells = std::unordered_map<ColorCell, ColorSum, CoordHash>;
-  [[nodiscard]] static const ColorSum* nearest(const Cells& cells, const Vec3d& p);
+  struct Cells {
+    std::vector<CellColor> sides;  ///< of a cell together
+    std::unordered_map<ColorCell, std::uint32_t, CoordHash> first;
+    explicit Cells(std::vector<CellColor> all);
+    [[nodiscard]] Cells halved() const;
+    [[nodiscard]] std::span<const CellColor> at(ColorCell cell) const;
+  };
+  using Shares = std::array<double, kColorSides.size()>;
+  [[nodiscard]] static Shares shares_along(const Vec3d& normal);
+  [[nodiscard]] static std::span<const CellColor> nearest(const Cells& cells, const Vec3d& p, const Shares& shares);
 
-  std::vector<CellColor> cells_;
   ColorCell min_;
   Vec3d origin_;
-  std::vector<Cells> coarser_;  ///< [n]: 2^n of the level's cells wide, counted from min_
+  std::vector<Cells> levels_;  ///< [n]: 2^n of the level's cells wide, counted from min_
 };
 
 class ColorGrid;

@@ -69,7 +69,7 @@ class Baker {
       group.diagonal += face.products[k];
       const LatticeCoord v = mesh_.vertices[mesh_.triangles[f][k]];
       const bool has_area = face.area() > 0;
-      const LinearColor here = has_area ? LinearColor{} : colors_.at({double(v.x), double(v.y), double(v.z)});
+      const LinearColor here = has_area ? LinearColor{} : colors_.at({double(v.x), double(v.y), double(v.z)}, {});
       const Rgb own{double(here.r), double(here.g), double(here.b)};
       for (std::size_t i = 0; i < 3; ++i) {
         group.mean[i] += face.sums[k][i];

@@ -48,3 +48,11 @@ files
 rm cubes.mtl
 said 'bplod part0.obj --name cubes --resolution 30 --levels 1 -o colourless | cut -f 1'
 said 'bplod part0.obj --name cubes --resolution 30 --levels 1 --appearance off -o colourless-too | cut -f 1'
+
+# Where a red side meets a white one, each vertex has one of the two colours.
+printf 'newmtl red\nKd 1 0 0\nnewmtl white\nKd 1 1 1\n' > cubes.mtl
+awk 'NR == 1 { print "mtllib cubes.mtl" } /^f / { if (++n < 3) print "usemtl " (n == 1 ? "red" : "white") } { print }' cube.obj > two.obj
+for mode in bounding fit; do
+  bplod two.obj --resolution 90 --levels 1 --mode $mode --appearance color -q -o $mode.obj > list
+  grep '^v ' $mode.obj | cut -d ' ' -f 5- | sort -u | sed "s/^/$mode: /"
+done

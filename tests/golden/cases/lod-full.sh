@@ -45,7 +45,7 @@ write_octahedron ball.obj
 bplod ball.obj --resolution 30 --faces 40 --levels 1 --appearance full -o ball -q | cut -f 1
 shown ball/ball_LOD0.glb
 
-# The same of MTL. A height is no normal map, and two images for roughness and metal would have to be mixed.
+# The same of MTL. Where map_Bump is not grey, it is a normal map; two images for roughness and metal would have to be mixed.
 write_painted_cubes
 cp chequered.png other.png
 cat > cubes.mtl << 'MTL'

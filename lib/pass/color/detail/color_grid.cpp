@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <optional>
+#include <tuple>
 #include <type_traits>
 
 #include "lib/core/parallel.h"
@@ -16,9 +18,12 @@ ColorBrick brick_of(ColorCell c) {
   return {floor_div(c.x, e), floor_div(c.y, e), floor_div(c.z, e)};
 }
 
+constexpr std::uint64_t kSides = 16;  // numbers for kColorSides
+static_assert(kColorSides.size() <= kSides);
+
 ColorCell cell_of(ColorBrick brick, std::uint64_t index) {
   constexpr std::int32_t e = ColorGrid::kEdge;
-  const auto i = std::int32_t(index);
+  const auto i = std::int32_t(index / kSides);
   return {brick.x * e + i % e, brick.y * e + i / e % e, brick.z * e + i / (e * e)};
 }
 
@@ -48,7 +53,7 @@ void ColorGrid::merge(std::vector<Entry>& entries) {
 void ColorGrid::add(std::vector<ColorCellSum>& sums) {
   std::sort(sums.begin(), sums.end(), [](const ColorCellSum& a, const ColorCellSum& b) {
     const ColorBrick p = brick_of(a.cell), q = brick_of(b.cell);
-    return p != q ? p < q : a.cell < b.cell;
+    return p != q ? p < q : std::tie(a.cell, a.side) < std::tie(b.cell, b.side);
   });
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < sums.size();) {
@@ -57,8 +62,9 @@ void ColorGrid::add(std::vector<ColorCellSum>& sums) {
     const std::size_t before = brick.entries.capacity();
     while (i < sums.size() && brick_of(sums[i].cell) == coord) {
       ColorCellSum merged = sums[i++];
-      for (; i < sums.size() && sums[i].cell == merged.cell; ++i) merged.sum.add(sums[i].sum);
-      brick.entries.push_back({index_in(coord, merged.cell), merged.sum});
+      for (; i < sums.size() && sums[i].cell == merged.cell && sums[i].side == merged.side; ++i)
+        merged.sum.add(sums[i].sum);
+      brick.entries.push_back({index_in(coord, merged.cell) * kSides + merged.side, merged.sum});
     }
     if (brick.entries.size() > 2 * brick.merged + 256) {
       merge(brick.entries);
@@ -114,8 +120,10 @@ void ColorGrid::finish(const std::function<Mask(ColorBrick)>& keep) {
     const Mask kept = keep(coord);
     std::erase_if(entries, [&](const Entry& e) { return !kept(cell_of(coord, e.index)); });
     Done& d = done[std::size_t(i)];
-    d.cells = entries.size();
-    for (const Entry& e : entries) d.white = d.white && e.sum.mean() == kWhite;
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      d.cells += k == 0 || entries[k].index / kSides != entries[k - 1].index / kSides;
+      d.white = d.white && entries[k].sum.mean() == kWhite;
+    }
     if (!entries.empty()) d.chunk = store_->put(std::as_bytes(std::span(entries)));
   });
   gathering_.clear();
@@ -127,13 +135,13 @@ void ColorGrid::finish(const std::function<Mask(ColorBrick)>& keep) {
   }
 }
 
-void ColorGrid::each_cell(ColorBrick coord, const std::function<void(ColorCell, const ColorSum&)>& body) const {
+void ColorGrid::each_sum(ColorBrick coord, const std::function<void(const ColorCellSum&)>& body) const {
   const auto at = std::lower_bound(bricks_.begin(), bricks_.end(), coord,
                                    [](const auto& brick, ColorBrick c) { return brick.first < c; });
   if (at == bricks_.end() || at->first != coord) return;
   Brick brick;
   brick.chunks = {at->second};
-  for (const Entry& e : all_of(brick)) body(cell_of(coord, e.index), e.sum);
+  for (const Entry& e : all_of(brick)) body({cell_of(coord, e.index), std::uint16_t(e.index % kSides), e.sum});
 }
 
 std::vector<CellColor> ColorGrid::load(ColorCell min, ColorCell max) const {
@@ -148,12 +156,13 @@ std::vector<CellColor> ColorGrid::load(ColorCell min, ColorCell max) const {
     bool meets = true;
     for (int i = 0; i < 3; ++i) meets = meets && coord[i] >= first[i] && coord[i] <= last[i];
     if (!meets) continue;
-    each_cell(coord, [&](ColorCell c, const ColorSum& s) {
-      if (inside(c)) cells.push_back({c, s.mean()});
+    each_sum(coord, [&](const ColorCellSum& s) {
+      constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+      if (inside(s.cell)) cells.push_back({s.cell, s.sum.mean(), s.side, std::uint32_t(std::min(kMost, s.sum.weight))});
     });
   }
   std::sort(cells.begin(), cells.end(), [](const CellColor& a, const CellColor& b) {
-    return std::tuple(a.cell.z, a.cell.y, a.cell.x) < std::tuple(b.cell.z, b.cell.y, b.cell.x);
+    return std::tuple(a.cell.z, a.cell.y, a.cell.x, a.side) < std::tuple(b.cell.z, b.cell.y, b.cell.x, b.side);
   });
   return cells;
 }
@@ -162,7 +171,9 @@ std::unique_ptr<ColorGrid> ColorGrid::reduced() const {
   auto coarse = std::make_unique<ColorGrid>(store_, memory_bytes_);
   parallel_for(std::int64_t(bricks_.size()), [&](std::int64_t i) {
     std::vector<ColorCellSum> sums;
-    each_cell(bricks_[std::size_t(i)].first, [&](ColorCell c, const ColorSum& s) { sums.push_back({half_of(c), s}); });
+    each_sum(bricks_[std::size_t(i)].first, [&](const ColorCellSum& s) {
+      sums.push_back({half_of(s.cell), s.side, s.sum});
+    });
     coarse->add(sums);
   });
   coarse->finish([](ColorBrick) { return [](ColorCell) { return true; }; });

@@ -43,7 +43,7 @@ class ColorGrid {
   [[nodiscard]] bool empty() const { return bricks_.empty(); }
   [[nodiscard]] bool all_white() const { return all_white_; }
   [[nodiscard]] std::uint64_t cells() const { return cells_; }
-  /// Cells [min, max), in order of (z, y, x).
+  /// Cells [min, max), in order of (z, y, x, side).
   [[nodiscard]] std::vector<CellColor> load(ColorCell min, ColorCell max) const;
   /// Cells twice as large: cell c of this grid lies in half_of(c).
   [[nodiscard]] std::unique_ptr<ColorGrid> reduced() const;
@@ -52,7 +52,7 @@ class ColorGrid {
 
  private:
   struct Entry {
-    std::uint64_t index = 0;  ///< index_in()
+    std::uint64_t index = 0;  ///< 16 index_in() + side
     ColorSum sum;
   };
   struct Brick {
@@ -63,7 +63,7 @@ class ColorGrid {
   static void merge(std::vector<Entry>& entries);
   void spill();
   [[nodiscard]] std::vector<Entry> all_of(const Brick& brick) const;
-  void each_cell(ColorBrick brick, const std::function<void(ColorCell, const ColorSum&)>& body) const;
+  void each_sum(ColorBrick brick, const std::function<void(const ColorCellSum&)>& body) const;
 
   std::shared_ptr<Scratch> store_;
   std::uint64_t memory_bytes_, used_bytes_ = 0;

@@ -32,8 +32,9 @@ TriangleD corners_of(const LatticeMesh& mesh, std::size_t f) {
 FaceColors sampled(const TriangleD& corners, const NearbyColors& colors) {
   FaceColors face;
   const double area = area_of(corners);
+  const Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
   for_each_sample(corners, kSpacing, kLeastRows, [&](const std::array<double, 3>& w, double share) {
-    const Rgb c = rgb_of(colors.at(point_of(corners, w)));
+    const Rgb c = rgb_of(colors.at(point_of(corners, w), normal));
     for (std::size_t k = 0; k < 3; ++k) {
       const double weight = area * share * w[k];
       face.products[k] += weight * w[k];

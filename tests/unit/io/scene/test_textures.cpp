@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/gltf/base64.h"
+#include "io/image/image_reader.h"
 #include "io/image/texture_writer.h"
 #include "io/scene/texture_table.h"
 #include "tests/catch.h"
@@ -265,7 +266,7 @@ TEST_CASE("MTL: how a material answers to light, if that is asked for", "[quick]
                  "newmtl images\nnorm n.png\nmap_Pr -clamp on pr.png\nPr 0.5\nKe 0 0 1\nmap_Ke ke.png\n"
                  "newmtl packed\nmap_Pr pr.png\nmap_Pm pr.png\nnewmtl two\nmap_Pr pr.png\nmap_Pm ke.png\nPm 0.5\n"
                  "newmtl astray\nmap_Kd base.png\nnorm -o 0.5 n.png\nnewmtl gone\nKe 0 1 0\nmap_Ke gone.png\n"
-                 "newmtl high\nmap_Bump -bm 1 n.png\nnewmtl plain\nKd 1 0 0\n");
+                 "newmtl high\nmap_Bump -bm 0.25 n.png\nnewmtl plain\nKd 1 0 0\n");
   const std::vector<std::string> names{"all", "images", "packed", "two", "astray", "gone", "high", "plain"};
   std::string obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n";
   for (const std::string& name : names) obj += "usemtl " + name + "\nf 1/1 2/2 3/3\n";
@@ -288,15 +289,54 @@ TEST_CASE("MTL: how a material answers to light, if that is asked for", "[quick]
   CHECK_FALSE(surface(3).roughness.is_there());
   CHECK(surface(4) == TextureSurface{});
   CHECK(surface(5).emission_factor == std::array<float, 3>{0, 1, 0});
-  CHECK(r.textures[6].material == TriangleTexture::kNoMaterial);
+  CHECK(surface(6).normal.is_there());
+  CHECK(surface(6).normal_scale == 0.25F);
+  CHECK(surface(6).normal.image != surface(1).normal.image);  // one of them may be heights
   CHECK(r.textures[7].material == TriangleTexture::kNoMaterial);
   std::string faults;
   for (const std::string& fault : r.table->faults()) faults += fault + "\n";
-  for (const char* part : {"n.png: lies at other places", "m.mtl: map_Bump is taken for heights",
-                           "gone.png: is not there", "m.mtl: roughness and metal come from one image"})
+  for (const char* part :
+       {"n.png: lies at other places", "gone.png: is not there", "m.mtl: roughness and metal come from one image"})
     CHECK_THAT(faults, ContainsSubstring(part));
   const TexturedRead colors = read_textured({path});
   CHECK(colors.textures[1].material == TriangleTexture::kNoMaterial);
   CHECK(colors.table->material(colors.textures[0].material).surface == TextureSurface{});
   CHECK(colors.table->faults().empty());
+}
+
+TEST_CASE("MTL: map_Bump is heights where it is grey, and directions where it is not", "[quick][io]") {
+  const TempDir dir;
+  TextureImage ramp(8, 8), tint(8, 8, {128, 140, 250, 255});
+  const bool down = GENERATE(false, true);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      const auto h = std::uint8_t(32 * (down ? y : x));
+      ramp.at(x, y) = {h, h, h, 200};  // a PNG
+    }
+  }
+  tint.at(0, 0)[3] = 254;
+  (void)dir.file("ramp.png", encode_texture(ramp).bytes);
+  (void)dir.file("tint.png", encode_texture(tint).bytes);
+  (void)dir.file("m.mtl", "newmtl high\nbump ramp.png\nnewmtl bent\nmap_bump tint.png\nnewmtl said\nnorm ramp.png\n");
+  const std::string path =
+      dir.file("a.obj",
+               "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl high\nf 1/1 2/2 3/3\n"
+               "usemtl bent\nf 1/1 2/2 3/3\nusemtl said\nf 1/1 2/2 3/3\n");
+  const TexturedRead r = read_textured({path}, true);
+  const auto image_of = [&](std::size_t i) {
+    return r.table->material(r.textures.at(i).material).surface.normal.image;
+  };
+  const TextureImage high = r.table->image(image_of(0), 1 << 20);
+  const double slope = 32.0 / 255, lean = slope / std::sqrt(1 + slope * slope);
+  for (const TextureImage::Texel& t : high.texels) {  // uphill is right, or down: it leans left, or up
+    CHECK(std::abs(t[0] / 127.5 - 1 - (down ? 0 : -lean)) < 0.01);
+    CHECK(std::abs(t[1] / 127.5 - 1 - (down ? lean : 0)) < 0.01);
+    CHECK(t[2] > 250);
+  }
+  const auto file = r.table->file(image_of(0));  // as leaves of tilesets have it: a JPEG
+  const TextureImage copy = decode_image(file, "copy", 1 << 20);
+  for (std::size_t i = 0; i < copy.texels.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(int(copy.texels[i][k]) - int(high.texels[i][k])) <= 4);
+  CHECK(r.table->image(image_of(1), 1 << 20).texels == tint.texels);
+  CHECK(r.table->image(image_of(2), 1 << 20).texels == ramp.texels);
 }

@@ -163,6 +163,18 @@ TEST_CASE("a scene without materials is rough, no metal, and dark", "[quick][bak
   CHECK(baked.emission.texels[0] == TextureImage::Texel{0, 0, 0, 255});
 }
 
+TEST_CASE("an image of directions says nothing if hardly a texel leans", "[quick][bake]") {
+  TextureImage image(20, 10, {128, 128, 255, 255});
+  CHECK(says_nothing(image));
+  image.at(3, 7) = {255, 128, 128, 255};
+  image.at(4, 7) = {128, 0, 128, 255};
+  CHECK(says_nothing(image));  // one in a hundred
+  image.at(5, 7) = {std::uint8_t(GENERATE(115, 140)), 128, 254, 255};
+  CHECK_FALSE(says_nothing(image));
+  image.at(5, 7) = {133, 125, 255, 255};  // less than 4 degrees
+  CHECK(says_nothing(image));
+}
+
 TEST_CASE("packed normals are within a hundredth of a degree", "[quick][bake]") {
   for (int x = -3; x <= 3; ++x) {
     for (int y = -3; y <= 3; ++y) {
