@@ -122,7 +122,7 @@ std::variant<LatticeMesh, Piece> simplify_mesh(Piece whole, const GridFrame& fra
 
 /// All of the surface, with quadrics or not, to the end.
 LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyParams& params, SimplifyCounts& counts) {
-  if (params.dense && has_bulk_regions(whole.triangles.size(), params)) {
+  if (params.dense && has_bulk_regions(whole.triangles.size(), end_of_bulk(params), params)) {
     if (counts.faces_flat == 0) counts.faces_flat = whole.triangles.size();
     collapse_bulk_in_regions(whole, end_of_bulk(params), params, counts);
   } else if (params.dense || params.faces == 0 || !has_regions(whole.triangles.size(), params)) {
