@@ -21,9 +21,11 @@ constexpr double kJam = 1e-3;    // of the faces: a turn that takes less is the 
 // Regions with few faces are mostly sides, which stay fine while the middles are collapsed to spikes: with so many
 // times the faces of one, the rest is for the whole.
 constexpr std::uint64_t kLeast = 2;
-// The bulk is left to few regions, and each has three turns: what lies along sides stays fine until its turn.
-constexpr std::uint64_t kBulkPerRegion = 32;  // times the faces of one of the strict order
-constexpr int kBulkTurns = 3;
+// The bulk has some regions for every thread, of at most so many times the faces of one of the strict order, and in
+// each at least a share of these is left. What lies along sides stays fine until its turn: many faces have three turns.
+constexpr std::uint64_t kBulkRegions = 32, kBulkMost = 32, kBulkLeft = 4;
+constexpr int kBulkTurns = 2, kBulkTurnsOfMany = 3;
+constexpr std::uint64_t kMany = 128;  // times the faces of a region of the strict order
 
 void count_left(const StrictOrder& order, SimplifyCounts& counts) {
   order.count(counts);
@@ -138,20 +140,29 @@ SimplifyParams params_of_regions(Piece& whole, const SimplifyParams& params) {
   return own;
 }
 
+/// Faces of a region of the bulk, which has so many now.
+std::uint64_t bulk_per_region(std::uint64_t faces, const BulkEnd& end, std::uint64_t per_region) {
+  const double left = double(per_region) / kBulkLeft, share = double(end.faces) / double(faces);
+  const auto least = std::max(per_region, std::uint64_t(left / share));
+  return std::max(least, std::min(faces / kBulkRegions, kBulkMost * per_region));
+}
+
 }  // namespace
 
-bool has_bulk_regions(std::uint64_t faces, const SimplifyParams& params) {
-  return params.faces > 0 && has_regions(faces / kBulkPerRegion, params);
+bool has_bulk_regions(std::uint64_t faces, const BulkEnd& end, const SimplifyParams& params) {
+  return params.faces > 0 && faces > end.faces && has_regions(faces / 2, params) &&
+         has_regions(kBulkLeft * end.faces, params);
 }
 
 void collapse_bulk_in_regions(Piece& whole, const BulkEnd& end, const SimplifyParams& params, SimplifyCounts& counts) {
   const SimplifyParams own = params_of_regions(whole, params);
   const double from = double(whole.triangles.size()), share = double(end.faces) / from;
-  for (int number = 1; number <= kBulkTurns; ++number) {
-    const auto wanted = std::uint64_t(from * std::pow(share, double(number) / kBulkTurns));
+  const int turns = whole.triangles.size() > kMany * params.faces_per_region ? kBulkTurnsOfMany : kBulkTurns;
+  for (int number = 1; number <= turns; ++number) {
+    const auto wanted = std::uint64_t(from * std::pow(share, double(number) / turns));
     if (whole.triangles.size() <= wanted) continue;
     const std::uint64_t excess = whole.triangles.size() - wanted;
-    turn<BulkOrder>(whole, kBulkPerRegion * params.faces_per_region, number, own, counts,
+    turn<BulkOrder>(whole, bulk_per_region(whole.triangles.size(), end, params.faces_per_region), number, own, counts,
                     [&](std::span<BulkOrder* const> orders) {
                       std::uint64_t faces = 0;  // along sides several regions know the same
                       for (const BulkOrder* order : orders) faces += order->face_count();

@@ -13,7 +13,7 @@ namespace bp {
 void collapse_in_regions(Piece& whole, const SimplifyParams& params, SimplifyCounts& counts);
 
 /// A surface of so many faces has regions for its bulk, too.
-[[nodiscard]] bool has_bulk_regions(std::uint64_t faces, const SimplifyParams& params);
+[[nodiscard]] bool has_bulk_regions(std::uint64_t faces, const BulkEnd& end, const SimplifyParams& params);
 
 /// The bulk (bulk_order.h) on the regions of a closed surface, at the same time, down to end.faces or a bit less, or as
 /// far as it goes. Otherwise as above.

@@ -8,6 +8,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/simplify/collapse_regions.h"
 #include "lib/simplify/detail/bulk_order.h"
 #include "lib/simplify/flatten.h"
 
@@ -16,8 +17,9 @@ namespace bp {
 namespace {
 
 // Cells stop where the next round might pass the wanted number of faces: at kMargin times as many, or, where so many
-// are better not held at once, at fewer.
-constexpr std::uint64_t kMargin = 3, kMarginOfMany = 2, kMany = std::uint64_t(1) << 20;
+// are better not held at once, at fewer. At kFew they stop for regions (collapse_regions.h): the last rounds have fewer
+// cells than there are threads, and regions are as large as each other.
+constexpr std::uint64_t kMargin = 3, kMarginOfMany = 2, kMany = std::uint64_t(1) << 20, kFew = 100000;
 constexpr double kBoundPerLevel = 16;  // of the last bound: a round leaves about 40 % of the faces
 constexpr std::int64_t kBrickLattice = std::int64_t(kBrickEdge) * kLatticePerVoxel;
 constexpr std::uint64_t kWorkPerFace = 256;  // bytes: the piece, its half-edges, quadrics, boxes and their tree
@@ -200,8 +202,9 @@ void check_work(std::uint64_t faces, const PieceMemory& memory, bool others_wait
 
 namespace {
 
-bool needs_round(std::uint64_t faces, std::uint64_t enough) {
-  return faces > kMargin * enough || (faces > kMany && faces > kMarginOfMany * enough);
+bool needs_round(std::uint64_t faces, const BulkEnd& end, const SimplifyParams& params) {
+  if (end.cost <= 0 || (faces <= kFew && has_bulk_regions(faces, end, params))) return false;
+  return faces > kMargin * end.faces || (faces > kMany && faces > kMarginOfMany * end.faces);
 }
 
 }  // namespace
@@ -211,7 +214,7 @@ Piece simplified_surface(const SurfaceSource& surface, const SimplifyParams& par
   SurfaceTree tree(surface, params);
   counts.faces_in = tree.begin();
   counts.faces_flat = tree.faces();
-  for (double last = 4 * kFirstBound; end.cost > 0 && needs_round(tree.faces(), end.faces); last *= kBoundPerLevel) {
+  for (double last = 4 * kFirstBound; needs_round(tree.faces(), end, params); last *= kBoundPerLevel) {
     tree.collapse({kFirstBound, std::min(last, end.cost)});
     if (tree.whole() || last >= end.cost) break;
     tree.join_cells();

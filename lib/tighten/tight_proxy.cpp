@@ -65,9 +65,11 @@ bool tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyP
 
 /// (3) After much room: sweeps on half of the faces gain as much as on all of them.
 void tighten_middle(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params) {
+  constexpr std::size_t kQuick = 512;  // faces: fewer are worth more sweeps
+  const bool quick = proxy.triangles.size() < kQuick;
   TightenParams few = one_sweep(params);
-  few.sweeps = 3;
-  few.final_sweeps = 2;
+  few.sweeps = quick ? 3 : 2;
+  few.final_sweeps = quick ? 2 : 1;
   sweep_early(proxy, enclosed, params, few);
 }
 

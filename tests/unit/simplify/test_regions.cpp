@@ -251,7 +251,9 @@ TEST_CASE("a bulk that is taken by regions leaves a proxy that holds, the same f
   params.faces = 20000;
   params.strict_from = 30000;
   params.faces_per_region = 150;
-  REQUIRE(has_bulk_regions(params.strict_from, params));
+  REQUIRE(has_bulk_regions(dense.triangles.size(), {params.strict_from, 1e300}, params));
+  CHECK_FALSE(has_bulk_regions(dense.triangles.size(), {params.faces_per_region, 1e300}, params));  // too few are left
+  CHECK_FALSE(has_bulk_regions(params.strict_from, {params.strict_from, 1e300}, params));  // nothing is left to take
   const auto make = [&](int threads) {
     const ThreadLimit limit(threads);
     SimplifyCounts counts;
