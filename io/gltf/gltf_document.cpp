@@ -323,9 +323,12 @@ std::vector<double> GltfDocument::numbers(std::uint64_t i, std::size_t component
 }
 
 std::vector<double> GltfDocument::numbers(const Accessor& accessor, const char* what) const {
-  check_document(options_, file_->name(), what, accessor.count * accessor.components * sizeof(double),
-                 options_.document.bytes);
+  check_memory(what, accessor.count * accessor.components * sizeof(double));
   return read_numbers(bytes_, accessor);
+}
+
+void GltfDocument::check_memory(const char* what, std::uint64_t bytes) const {
+  check_document(options_, file_->name(), what, bytes, options_.document.bytes);
 }
 
 void GltfDocument::read_sparse(const GltfObject& sparse, Accessor& a) {

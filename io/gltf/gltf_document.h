@@ -93,6 +93,8 @@ class GltfDocument {
   /// All numbers of accessor i, called `what` if they take more than SceneOptions::document.
   std::vector<double> numbers(std::uint64_t i, std::size_t components, const char* what);
   [[nodiscard]] std::vector<double> numbers(const Accessor& accessor, const char* what) const;
+  /// Throws out_of_resource if `what` takes more than SceneOptions::document.
+  void check_memory(const char* what, std::uint64_t bytes) const;
   /// Of a primitive with KHR_draco_mesh_compression, unpacks what its accessors say: they have data then. False if it
   /// is none.
   bool unpack(const GltfObject& primitive);

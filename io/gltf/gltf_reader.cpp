@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
+#include <map>
 #include <set>
-#include <unordered_map>
+#include <tuple>
 
 #include "io/gltf/detail/gltf_materials.h"
 #include "io/gltf/detail/gltf_skin.h"
@@ -55,6 +57,7 @@ class SceneBuilder {
   struct Range {
     std::uint32_t first, end;
   };
+  static constexpr std::uint64_t kNoSkin = ~std::uint64_t(0);
   struct Pending {
     std::uint64_t node;
     Affine parent;
@@ -63,14 +66,16 @@ class SceneBuilder {
   /// What moves a mesh before its node places it.
   struct Moved {
     std::vector<double> weights;  // how far it has gone to its morph targets; empty: it has not
-    const GltfSkin* skin = nullptr;
-    [[nodiscard]] bool any() const { return !weights.empty() || skin != nullptr; }
+    std::uint64_t skin = kNoSkin;
+    auto operator<=>(const Moved&) const = default;
   };
   struct Skinned {
     std::uint64_t node;
     bool wanted;
-    std::vector<double> weights;
+    Moved moved;
   };
+  /// Of a mesh once it has moved; all of its parts, or those whose names fit.
+  using MovedMesh = std::tuple<std::uint64_t, bool, Moved>;
   [[nodiscard]] Affine placed() const;
   void add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world);
   std::uint64_t level_of(std::uint64_t i);
@@ -79,6 +84,7 @@ class SceneBuilder {
   [[nodiscard]] std::vector<double> weights_of(const GltfObject& node, const ScenePose::Node* pose) const;
   void add_mesh_node(const GltfObject& node, const Affine& transform, bool wanted, const Moved& moved);
   void add_skinned(const Skinned& skinned);
+  const GltfSkin& skin(std::uint64_t i);
   Range mesh(std::uint64_t i, bool wanted, const Moved& moved);
   [[nodiscard]] bool fits(const GltfObject& named) const;
   [[nodiscard]] bool has_material_that_fits(const GltfObject& primitive) const;
@@ -101,9 +107,10 @@ class SceneBuilder {
   const std::size_t level_;
   const std::optional<ContentPlace> place_;
   InstancedScene scene_;
-  std::unordered_map<std::uint64_t, Range> meshes_, wanted_meshes_;  // parts of them, and all
-  std::vector<std::optional<Affine>> places_;                        // of the nodes that were reached
-  std::vector<Skinned> skinned_;                                     // nodes that wait until all joints are placed
+  std::map<MovedMesh, Range> meshes_;
+  std::vector<std::optional<Affine>> places_;  // of the nodes that were reached
+  std::vector<Skinned> skinned_;               // nodes that wait until all joints are placed
+  std::map<std::uint64_t, GltfSkin> skins_;
 };
 
 // Of a content. Tiles have z up. An extension of older files moves them there.
@@ -135,7 +142,7 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
     place = transform;
     const bool wanted = fits(node) || next.wanted;
     if (node.has("mesh") && node.has("skin")) {
-      skinned_.push_back({next.node, wanted, weights_of(node, pose)});
+      skinned_.push_back({next.node, wanted, {weights_of(node, pose), node.number("skin")}});
     } else if (node.has("mesh")) {
       add_mesh_node(node, transform, wanted, {weights_of(node, pose)});
     }
@@ -205,14 +212,21 @@ void SceneBuilder::add_mesh_node(const GltfObject& node, const Affine& transform
 // Its joints alone say where it is.
 void SceneBuilder::add_skinned(const Skinned& skinned) {
   const GltfObject node = root_.item("nodes", skinned.node);
-  const GltfSkin skin(doc_, root_.item("skins", node.number("skin")), places_);
-  add_mesh_node(node, {}, skinned.wanted, {skinned.weights, &skin});
+  if (node.has_extension("EXT_mesh_gpu_instancing"))
+    node.unfit("has a skin and stands in many places: write a node for each, without EXT_mesh_gpu_instancing");
+  add_mesh_node(node, {}, skinned.wanted, skinned.moved);
+}
+
+const GltfSkin& SceneBuilder::skin(std::uint64_t i) {
+  const auto known = skins_.find(i);
+  if (known != skins_.end()) return known->second;
+  return skins_.emplace(i, GltfSkin(doc_, root_.item("skins", i), places_)).first->second;
 }
 
 SceneBuilder::Range SceneBuilder::mesh(std::uint64_t i, bool wanted, const Moved& moved) {
-  auto& meshes = wanted ? wanted_meshes_ : meshes_;
-  const auto known = meshes.find(i);
-  if (known != meshes.end() && !moved.any()) return known->second;
+  const MovedMesh key{i, wanted, moved};
+  const auto known = meshes_.find(key);
+  if (known != meshes_.end()) return known->second;
   const GltfObject mesh = root_.item("meshes", i);
   wanted = fits(mesh) || wanted;
   Range range{std::uint32_t(scene_.primitives.size()), 0};
@@ -221,7 +235,7 @@ SceneBuilder::Range SceneBuilder::mesh(std::uint64_t i, bool wanted, const Moved
     if (has_material_that_fits(primitive) || wanted) add_primitive(primitive, moved);
   }
   range.end = std::uint32_t(scene_.primitives.size());
-  if (!moved.any()) meshes.emplace(i, range);
+  meshes_.emplace(key, range);
   return range;
 }
 
@@ -240,7 +254,7 @@ void SceneBuilder::add_primitive(const GltfObject& p, const Moved& moved) {
                                     : Primitive::Mode::triangles;
   primitive.positions = doc_.accessor(attributes.number("POSITION"), 3);
   primitive.positions = doc_.morphed(p, "POSITION", primitive.positions, moved.weights);
-  if (moved.skin != nullptr) primitive.positions = moved.skin->points(attributes, primitive.positions);
+  if (moved.skin != kNoSkin) primitive.positions = skin(moved.skin).points(attributes, primitive.positions);
   if (p.has("indices")) {
     primitive.indices = doc_.accessor(p.number("indices"), 1);
     const ComponentType type = primitive.indices->type;
@@ -258,7 +272,7 @@ void SceneBuilder::add_normals(const GltfObject& p, const Moved& moved, Primitiv
   const Accessor normals = doc_.accessor(attributes.number("NORMAL"), 3);
   if (normals.count != primitive.positions.count) return;
   primitive.normals = doc_.morphed(p, "NORMAL", normals, moved.weights);
-  if (moved.skin != nullptr) primitive.normals = moved.skin->normals(attributes, *primitive.normals);
+  if (moved.skin != kNoSkin) primitive.normals = skin(moved.skin).normals(attributes, *primitive.normals);
 }
 
 // Section 3.9.2: the factor times the colours of the vertices, in linear light.

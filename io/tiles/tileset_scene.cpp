@@ -134,11 +134,12 @@ class TilesetSource final : public RawSource {
   void rewind() override {
     rest();
     at_ = 0;
-    bad_faces_ = instances_ = 0;
+    bad_faces_ = instances_ = animations_ = 0;
   }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
   [[nodiscard]] bool has_textures() const override { return has_textures_; }
   [[nodiscard]] std::uint64_t instances() const override { return instances_; }
+  [[nodiscard]] std::size_t animations() const override { return animations_; }
   [[nodiscard]] std::optional<UpAxis> up() const override { return contents_.up; }
 
  private:
@@ -151,6 +152,7 @@ class TilesetSource final : public RawSource {
   void leave() {
     bad_faces_ += content_->bad_faces();
     instances_ += content_->instances();
+    animations_ += content_->animations();
     rest();
     ++at_;
   }
@@ -166,7 +168,7 @@ class TilesetSource final : public RawSource {
   std::shared_ptr<RestingFile> file_;
   RawSourcePtr content_;
   bool has_colors_ = false, has_textures_ = false;
-  std::uint64_t instances_ = 0;
+  std::uint64_t instances_ = 0, animations_ = 0;
 };
 
 }  // namespace

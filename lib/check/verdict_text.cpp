@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lib/core/counted.h"
 #include "lib/geometry/signed_volume.h"
 
 namespace bp {
@@ -192,8 +193,7 @@ std::string scene_lines(const CheckReport& r) {
     text += fmt::format("  left out: {} without area{}, {} not finite, {} faces without corners\n", c.degenerate,
                         r.wants_inside ? " (but for whether the scene is closed)" : "", c.non_finite, c.bad_faces);
   if (c.animations > 0)
-    text += fmt::format("  {} animation{} not followed: the scene is at rest\n", c.animations,
-                        c.animations == 1 ? "" : "s");
+    text += "  " + bp::counted(c.animations, "animation") + " not followed: this is the scene before it moves\n";
   return text;
 }
 

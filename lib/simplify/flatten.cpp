@@ -151,4 +151,11 @@ std::uint64_t merge_flat_regions(HalfEdgeMesh& mesh, const EdgeLimit& edge_limit
   return Flattener(mesh, edge_limit).run();
 }
 
+void merge_flat_regions(Piece& piece, const EdgeLimit& edge_limit) {
+  HalfEdgeMesh mesh(std::move(piece.vertices), piece.triangles, piece.cell);
+  merge_flat_regions(mesh, edge_limit);
+  piece.vertices = {};
+  piece.triangles = mesh.live_faces([&](VertexId v, VertexId) { piece.vertices.push_back(mesh.position(v)); });
+}
+
 }  // namespace bp

@@ -1,6 +1,7 @@
 #pragma once
 #include "lib/mesh/edge_limit.h"
 #include "lib/mesh/half_edge_mesh.h"
+#include "lib/surface/piece.h"
 
 /// Merges the flat regions of a voxel surface without changing its shape: a vertex inside a flat region, or on a
 /// straight crease between two, is collapsed into a neighbour in the same plane (on the same crease). The surface as a
@@ -10,5 +11,8 @@ namespace bp {
 
 /// Needs axis-aligned faces. Locked vertices stay. Returns the number of collapses.
 std::uint64_t merge_flat_regions(HalfEdgeMesh& mesh, const EdgeLimit& edge_limit = {});
+
+/// The same of a piece without quadrics, with what lies along its cell's sides locked.
+void merge_flat_regions(Piece& piece, const EdgeLimit& edge_limit);
 
 }  // namespace bp

@@ -120,20 +120,13 @@ std::variant<LatticeMesh, Piece> simplify_mesh(Piece whole, const GridFrame& fra
   return finished(mesh, frame, inwards, collapser.sense(), counts);
 }
 
-/// What pieces have merged each for itself, across their sides.
-void merge_flat(Piece& whole, const SimplifyParams& params) {
-  HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
-  merge_flat_regions(mesh, params.edge_limit);
-  whole.vertices = {};
-  whole.triangles = mesh.live_faces([&](VertexId v, VertexId) { whole.vertices.push_back(mesh.position(v)); });
-}
-
 /// All of the surface, with quadrics or not, to the end.
 LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyParams& params, SimplifyCounts& counts) {
   const auto has_bulk = [&] {
     return params.dense && has_bulk_regions(whole.triangles.size(), end_of_bulk(params), params);
   };
-  if (whole.quadrics.empty() && has_bulk()) merge_flat(whole, params);
+  // Bricks have merged theirs each for itself; this goes on across their sides.
+  if (whole.quadrics.empty() && has_bulk()) merge_flat_regions(whole, params.edge_limit);
   if (has_bulk()) {
     if (counts.faces_flat == 0) counts.faces_flat = whole.triangles.size();
     collapse_bulk_in_regions(whole, end_of_bulk(params), params, counts);

@@ -62,7 +62,7 @@ class SurfaceTree {
       Piece piece = surface_.piece(bricks[std::size_t(i)]);
       if (piece.triangles.empty()) return;
       faces += piece.triangles.size();
-      merge_flat(piece);
+      merge_flat_regions(piece, params_.edge_limit);
       Node& node = nodes_[std::size_t(i)];
       node.coord = bricks[std::size_t(i)] - origin_;
       node.parts.push_back(store_.put(std::move(piece)));
@@ -134,13 +134,6 @@ class SurfaceTree {
   }
 
  private:
-  void merge_flat(Piece& piece) const {
-    HalfEdgeMesh mesh(std::move(piece.vertices), piece.triangles, piece.cell);
-    merge_flat_regions(mesh, params_.edge_limit);
-    piece.vertices = {};
-    piece.triangles = mesh.live_faces([&](VertexId v, VertexId) { piece.vertices.push_back(mesh.position(v)); });
-  }
-
   /// How many nodes may be in work, each as large as the largest.
   [[nodiscard]] std::size_t nodes_in_hand() const {
     std::uint64_t largest = 1;

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "lib/core/counted.h"
+
 namespace bp {
 
 const char* name_of(FillMode fill) {
@@ -27,12 +29,12 @@ std::string file_name(const std::string& path) {
 std::string skipped(const SceneCounts& c) {
   std::string text;
   const auto add = [&](std::uint64_t n, const char* what) {
-    if (n > 0) text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", n, what, n == 1 ? "" : "s");
+    if (n > 0) text += (text.empty() ? "skipped " : ", ") + counted(n, what);
   };
   add(c.degenerate, "degenerate triangle");
   add(c.non_finite, "non-finite triangle");
   add(c.bad_faces, "bad face");
-  add(c.animations, "animation");
+  if (c.animations > 0) text += (text.empty() ? "" : "; ") + counted(c.animations, "animation") + " not followed";
   return text;
 }
 

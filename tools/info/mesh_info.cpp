@@ -76,7 +76,7 @@ std::string moves_text(const MeshExtras& extras) {
   std::string text;
   if (extras.animations > 0) text = some(extras.animations, "animation");
   if (extras.morph_targets > 0) text += (text.empty() ? "" : ", ") + some(extras.morph_targets, "morph target");
-  return text.empty() ? "" : "moves       " + text + "; this is the scene at rest\n";
+  return text.empty() ? "" : "moves       " + text + "; this is the scene before it moves\n";
 }
 
 std::string mesh_text(const MeshInfo& info, const std::string& name) {

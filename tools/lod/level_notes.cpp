@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lib/core/counted.h"
 #include "tools/lod/choices.h"
 #include "tools/notes/face_notes.h"
 #include "tools/run/enclosed_triangles_limit.h"
@@ -27,10 +28,9 @@ std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triang
   const std::uint64_t budget = level.target.faces;
   if (asked && level.reached && level.faces >= triangles && clearly_fewer(level.faces, budget))
     return fmt::format(
-        "{} faces instead of {}: the scene has {} triangles, and more faces would show steps of voxels; smaller "
-        "voxels, "
-        "or a smaller --scale, come nearer",
-        level.faces, budget, triangles);
+        "{} faces instead of {}: the scene has {}, and more faces would show steps of voxels; smaller voxels, or a "
+        "smaller --scale, come nearer",
+        level.faces, budget, counted(triangles, "triangle"));
   if (!level.reached)
     return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", level.faces,
                        budget, level.scale_world);

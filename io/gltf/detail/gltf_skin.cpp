@@ -36,21 +36,32 @@ GltfSkin::GltfSkin(GltfDocument& doc, const GltfObject& skin, const std::vector<
 }
 
 std::vector<GltfSkin::Shares> GltfSkin::shares_of(const GltfObject& attributes, std::uint64_t vertices) const {
-  std::vector<Shares> all;
-  for (int set = 0;; ++set) {
-    const std::string joints = fmt::format("JOINTS_{}", set), weights = fmt::format("WEIGHTS_{}", set);
-    if (!attributes.has(joints.c_str()) || !attributes.has(weights.c_str())) break;
-    Shares& shares = all.emplace_back();
-    shares.joints = doc_.numbers(attributes.number(joints.c_str()), kEach, "the joints of vertices");
-    shares.weights = doc_.numbers(attributes.number(weights.c_str()), kEach, "the weights of vertices");
-    if (shares.joints.size() != kEach * vertices || shares.weights.size() != kEach * vertices)
-      attributes.broken("have different counts");
-    for (const double joint : shares.joints) {
-      if (joint < 0 || joint >= double(joints_.size())) attributes.broken(fmt::format("name the joint {}", joint));
-    }
+  std::vector<std::pair<std::string, std::string>> sets;
+  for (;;) {
+    std::pair names(fmt::format("JOINTS_{}", sets.size()), fmt::format("WEIGHTS_{}", sets.size()));
+    if (!attributes.has(names.first.c_str()) || !attributes.has(names.second.c_str())) break;
+    sets.push_back(std::move(names));
   }
-  if (all.empty()) attributes.broken("belong to a skin, and name no joints");
+  if (sets.empty()) attributes.broken("belong to a skin, and name no joints");
+  doc_.check_memory("the joints and weights of vertices",
+                    vertices * (2 * kEach * sets.size() + 2 * 3) * sizeof(double));
+  std::vector<Shares> all;
+  for (const auto& [joints, weights] : sets) all.push_back(read_shares(attributes, joints, weights, vertices));
   return all;
+}
+
+GltfSkin::Shares GltfSkin::read_shares(const GltfObject& attributes, const std::string& joints,
+                                       const std::string& weights, std::uint64_t vertices) const {
+  const Accessor numbers = doc_.accessor(attributes.number(joints.c_str()), kEach),
+                 parts = doc_.accessor(attributes.number(weights.c_str()), kEach);
+  if (numbers.type != ComponentType::u8 && numbers.type != ComponentType::u16)
+    attributes.broken(fmt::format("have {} that are not unsigned integers of 8 or 16 bits", joints));
+  if (numbers.count != vertices || parts.count != vertices) attributes.broken("have different counts");
+  Shares shares{doc_.numbers(numbers, "the joints of vertices"), doc_.numbers(parts, "the weights of vertices")};
+  for (const double joint : shares.joints) {
+    if (joint >= double(joints_.size())) attributes.broken(fmt::format("name the joint {}", joint));
+  }
+  return shares;
 }
 
 Affine GltfSkin::blend(const std::vector<Shares>& shares, std::uint64_t vertex) const {

@@ -26,6 +26,8 @@ class GltfSkin {
     std::vector<double> joints, weights;  ///< four of each a vertex
   };
   [[nodiscard]] std::vector<Shares> shares_of(const GltfObject& attributes, std::uint64_t vertices) const;
+  [[nodiscard]] Shares read_shares(const GltfObject& attributes, const std::string& joints, const std::string& weights,
+                                   std::uint64_t vertices) const;
   [[nodiscard]] Affine blend(const std::vector<Shares>& shares, std::uint64_t vertex) const;
   template <class Move>
   [[nodiscard]] Accessor moved(const GltfObject& attributes, const Accessor& vectors, const Move& move) const;

@@ -36,7 +36,7 @@ std::uint64_t unpacked_bytes(const MeshoptView& view) {
 }
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
-constexpr int kSets = 8;  // of texture coordinates, at most
+constexpr int kSets = 8;  // of texture coordinates and of joints, at most
 
 DracoAttribute attribute_of(const GltfObject& accessor, std::uint64_t id) {
   const std::string type = accessor.text("type");
@@ -47,7 +47,9 @@ DracoAttribute attribute_of(const GltfObject& accessor, std::uint64_t id) {
 
 std::vector<std::string> attribute_names() {
   std::vector<std::string> names{"POSITION", "NORMAL", "TANGENT", "COLOR_0"};
-  for (int i = 0; i < kSets; ++i) names.push_back("TEXCOORD_" + std::to_string(i));
+  for (int i = 0; i < kSets; ++i) {
+    for (const char* const name : {"TEXCOORD_", "JOINTS_", "WEIGHTS_"}) names.push_back(name + std::to_string(i));
+  }
   return names;
 }
 

@@ -158,6 +158,37 @@ TEST_CASE("broken skins are refused by name", "[quick][io]") {
                d.json["skins"][0]["inverseBindMatrices"] = d.array(std::vector<float>(16, 1), kF32, "MAT4", 1);
              }),
              Contains("has 2 joints and 1 matrices"));
+  CHECK_THAT(complaint([](Document& d) {
+               d.json["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] =
+                   d.array(std::vector<float>(16, std::nanf("")), kF32, "VEC4", 4);
+             }),
+             Contains("JOINTS_0 that are not unsigned integers"));
+  CHECK_THAT(complaint([](Document& d) {
+               d.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = d.quad();
+             }),
+             Contains("has a skin and stands in many places"));
   CHECK_THAT(complaint([](Document& d) { d.json["meshes"][0]["primitives"][0]["attributes"].erase("WEIGHTS_0"); }),
              Contains("name no joints"));
+}
+
+TEST_CASE("many sets of joints count together against the memory for documents", "[quick][io]") {
+  Document d = skinned_quad(halves(), {});
+  Json& attributes = d.json["meshes"][0]["primitives"][0]["attributes"];
+  for (int set = 1; set < 2000; ++set) {
+    attributes["JOINTS_" + std::to_string(set)] = attributes["JOINTS_0"];
+    attributes["WEIGHTS_" + std::to_string(set)] = attributes["WEIGHTS_0"];
+  }
+  SceneOptions options;
+  options.document = MemoryShare{std::uint64_t(64) << 20};
+  CHECK(corners_of(d, options).size() == 4);
+  options.document = MemoryShare{std::uint64_t(2000) * 8 * 8 * 4 - 1};
+  CHECK_THROWS_AS(corners_of(d, options), Error);
+}
+
+TEST_CASE("meshes that have moved the same way are kept once", "[quick][io]") {
+  Document d = skinned_quad(halves(), {});
+  for (int i = 0; i < 5000; ++i) d.json["scenes"][0]["nodes"].push_back(d.node({{"mesh", 0}, {"skin", 0}}));
+  const TempDir dir;
+  const IndexedMesh mesh = read_mesh(dir.file("skinned.glb", d.glb()));
+  CHECK(mesh.triangles.size() == 2 * 5001);
 }
