@@ -8,10 +8,10 @@
 #include <cmath>
 #include <memory>
 
+#include "lib/check/counted.h"
 #include "lib/check/detail/leaf_proof.h"
 #include "lib/check/detail/tile_body.h"
 #include "lib/check/detail/triangle_part.h"
-#include "lib/core/counted.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/geometry/triangle_totals.h"

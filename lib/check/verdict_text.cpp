@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "lib/core/counted.h"
+#include "lib/check/counted.h"
 #include "lib/geometry/signed_volume.h"
 
 namespace bp {

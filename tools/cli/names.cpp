@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "lib/core/counted.h"
+#include "lib/check/counted.h"
 
 namespace bp {
 

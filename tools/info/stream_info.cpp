@@ -2,7 +2,7 @@
 
 #include <fmt/ranges.h>
 
-#include "lib/core/counted.h"
+#include "lib/check/counted.h"
 #include "lib/grid/count_bits.h"
 #include "tools/cli/length.h"
 #include "tools/cli/names.h"

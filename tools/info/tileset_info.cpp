@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "io/files/file.h"
-#include "lib/core/counted.h"
+#include "lib/check/counted.h"
 #include "tools/info/mesh_info.h"
 
 namespace bp {

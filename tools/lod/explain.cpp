@@ -8,7 +8,7 @@
 
 #include "io/files/file.h"
 #include "io/scene/scene_reader.h"
-#include "lib/core/counted.h"
+#include "lib/check/counted.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/levels/level_plan.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "lib/core/counted.h"
+#include "lib/check/counted.h"
 #include "tools/lod/choices.h"
 #include "tools/notes/face_notes.h"
 #include "tools/run/enclosed_triangles_limit.h"
