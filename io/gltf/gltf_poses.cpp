@@ -221,8 +221,7 @@ Accessor GltfDocument::morphed(const GltfObject& primitive, const char* name, co
                                const std::vector<double>& weights) {
   const std::size_t targets = std::min(primitive.array("targets").size(), weights.size());
   if (targets == 0) return vectors;
-  check_document(options_, file_->name(), "the vertices of a morph target", vectors.count * 3 * 3 * sizeof(double),
-                 options_.document.bytes);
+  check_memory("the vertices of a morph target", vectors.count * 3 * 3 * sizeof(double));
   std::vector<double> sums = read_numbers(bytes_, vectors);
   for (std::size_t t = 0; t < targets; ++t) {
     const GltfObject target = primitive.item("targets", t);

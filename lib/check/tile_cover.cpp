@@ -329,7 +329,7 @@ class Checker {
     add(Verdict::outside, "leaves outside");
     add(Verdict::undecided, "cannot be decided for", Answer::undecided);
     add(Verdict::bare, "draws nothing for");
-    add(Verdict::uncovered, "has no child where there are");
+    add(Verdict::uncovered, "has no child for");
   }
 
   const std::vector<CoverTile>& tiles_;

@@ -187,8 +187,7 @@ std::string enclosure_row(const CheckReport& r) {
 std::string scene_lines(const CheckReport& r) {
   if (!r.has_scene) return "";
   const SceneCounts& c = r.scene_counts;
-  std::string text =
-      fmt::format("scene {}: {} triangle{}\n", r.scene_name, r.scene_triangles, r.scene_triangles == 1 ? "" : "s");
+  std::string text = fmt::format("scene {}: {}\n", r.scene_name, bp::counted(r.scene_triangles, "triangle"));
   if (c.non_finite + c.degenerate + c.bad_faces != 0)
     text += fmt::format("  left out: {} without area{}, {} not finite, {} faces without corners\n", c.degenerate,
                         r.wants_inside ? " (but for whether the scene is closed)" : "", c.non_finite, c.bad_faces);

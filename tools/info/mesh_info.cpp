@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/files/file.h"
+#include "lib/check/counted.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 
@@ -72,10 +73,9 @@ std::string names_text(const PartNames& all) {
 }
 
 std::string moves_text(const MeshExtras& extras) {
-  const auto some = [](std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
   std::string text;
-  if (extras.animations > 0) text = some(extras.animations, "animation");
-  if (extras.morph_targets > 0) text += (text.empty() ? "" : ", ") + some(extras.morph_targets, "morph target");
+  if (extras.animations > 0) text = counted(extras.animations, "animation");
+  if (extras.morph_targets > 0) text += (text.empty() ? "" : ", ") + counted(extras.morph_targets, "morph target");
   return text.empty() ? "" : "moves       " + text + "; this is the scene before it moves\n";
 }
 

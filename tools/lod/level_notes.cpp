@@ -96,7 +96,7 @@ std::string enclose_note(const BuildOptions& o, std::uint64_t triangles) {
 std::string heavier_note(const LevelFacts& finest, bool asked, std::uint64_t triangles) {
   if (finest.faces <= std::max(triangles, kLeastFaces)) return "";
   if (asked && clearly_fewer(finest.faces, finest.target.faces)) return "";  // faces_note() says it
-  return fmt::format("level 0 has {} faces, more than the scene's {} triangles{}", finest.faces, triangles,
+  return fmt::format("level 0 has {} faces, more than the scene's {}{}", finest.faces, counted(triangles, "triangle"),
                      asked ? "; --faces 50% asks for half of those" : "");
 }
 

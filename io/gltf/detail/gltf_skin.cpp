@@ -1,5 +1,7 @@
 #include "io/gltf/detail/gltf_skin.h"
 
+#include <algorithm>
+
 namespace bp {
 
 namespace {

@@ -141,7 +141,7 @@ TEST_CASE("a triangle without a corner in the cell is placed by what is in the c
   scene[0] = {Vec3d{2, 2, 2}, Vec3d{30, 2, 2}, Vec3d{30, 3, 2}};  // no corner in the cell of b
   CHECK(findings(tiles, scene).empty());
   tiles[2].content = box_mesh({7.5, 5, 1}, {16.5, 6, 4});
-  CHECK_THAT(only(findings(tiles, scene)), ContainsSubstring("root.0.0: b leaves outside 1 triangle"));
+  CHECK_THAT(only(findings(tiles, scene)), ContainsSubstring("root.0.0: b leaves outside 1 triangle of the scene"));
 }
 
 TEST_CASE("tiles far from the origin are decided", "[quick][check][tileset]") {
@@ -157,7 +157,7 @@ TEST_CASE("tiles far from the origin are decided", "[quick][check][tileset]") {
   const Triangles scene{{moved({2, 2, 2}), moved({30, 2, 2}), moved({30, 3, 2})}};  // no corner in the cell of b
   CHECK(findings(tiles, scene).empty());
   tiles[2].content = box({7.5, 5, 1}, {16.5, 6, 4});
-  CHECK_THAT(only(findings(tiles, scene)), ContainsSubstring("root.0.0: b leaves outside 1 triangle"));
+  CHECK_THAT(only(findings(tiles, scene)), ContainsSubstring("root.0.0: b leaves outside 1 triangle of the scene"));
 }
 
 TEST_CASE("a face that meets a triangle beyond the cell does no harm, a near one does", "[quick][check][tileset]") {
@@ -189,7 +189,7 @@ TEST_CASE("a face that meets a triangle beyond an edge of the cell does no harm"
 TEST_CASE("missing and misplaced tiles are found", "[quick][check][tileset]") {
   std::vector<MeshTile> tiles = good();
   tiles[0].children = {1};
-  CHECK_THAT(only(findings(tiles)), ContainsSubstring("root: r has no child where there are 10 triangles"));
+  CHECK_THAT(only(findings(tiles)), ContainsSubstring("root: r has no child for 10 triangles"));
   tiles = good();
   tiles[2].cell->max[0] = 15;
   CHECK_THAT(findings(tiles)[0], ContainsSubstring("root.1: its cell is neither"));
@@ -229,7 +229,7 @@ TEST_CASE("a leaf must show the scene in its cell, and nothing else", "[quick][c
   for (Vec3d& p : moved[0]) p = {p[0] + 0.01, p[1] + 0.01, p[2] + 0.01};
   const std::vector<std::string> astray = findings(with_leaf(moved), scene);
   REQUIRE(astray.size() == 2);
-  CHECK_THAT(astray[0], ContainsSubstring("root.0: a does not show 1 triangle"));
+  CHECK_THAT(astray[0], ContainsSubstring("root.0: a does not show 1 triangle of"));
   CHECK_THAT(astray[1], ContainsSubstring("root.0: a shows 1 triangle that the scene does not have"));
   Triangles more = scene;
   more.push_back({Vec3d{2, 5, 5}, {3, 5, 5}, {3, 6, 5}});
@@ -241,7 +241,7 @@ TEST_CASE("a leaf must show the scene in its cell, and nothing else", "[quick][c
   Triangles both = scene;  // seen from both sides
   both.push_back(turned[0]);
   CHECK(findings(with_leaf(both), both).empty());
-  CHECK_THAT(only(findings(with_leaf(scene), both)), ContainsSubstring("root.0: a does not show 1 triangle"));
+  CHECK_THAT(only(findings(with_leaf(scene), both)), ContainsSubstring("root.0: a does not show 1 triangle of"));
 }
 
 TEST_CASE("a leaf without content stands where the scene has nothing", "[quick][check][tileset]") {
@@ -268,7 +268,7 @@ TEST_CASE("a leaf without content stands where the scene has nothing", "[quick][
   tiles[4].leaf_error = 1e-5;
   Triangles more = scene;
   more.push_back({Vec3d{8.2, 2, 2}, {8.4, 2, 2}, {8.2, 2.2, 2}});
-  CHECK_THAT(only(findings(tiles, more)), ContainsSubstring("root.1.0:  draws nothing for 1 triangle"));
+  CHECK_THAT(only(findings(tiles, more)), ContainsSubstring("root.1.0:  draws nothing for 1 triangle of the scene"));
 }
 
 TEST_CASE("what rounding of a leaf is does not depend on its cell", "[quick][check][tileset]") {
@@ -312,7 +312,7 @@ TEST_CASE("a thin triangle of the scene must be near the leaf", "[quick][check][
   CHECK(found({Vec3d{1, 1, 1}, {9, 1, 1}, {5, 1 - error, 1}}).empty());
   CHECK(found({Vec3d{1, 1, 1}, {9, 1, 1}, {5, 1, 1 + error}}).empty());
   CHECK_THAT(only(found({Vec3d{1, 1, 3}, {9, 1, 3}, {5, 1 - error, 3}})),
-             ContainsSubstring("root.0: a cannot be decided for 1 triangle"));
+             ContainsSubstring("root.0: a cannot be decided for 1 triangle of the scene"));
   CHECK(found({Vec3d{1, 1, 3}, {9, 1, 3}, {5, 1, 3}}).empty());  // draws nothing
 }
 
@@ -349,7 +349,7 @@ TEST_CASE("an octant that a triangle just touches needs no leaf", "[quick][check
   CHECK(found.empty() == (beyond < 1e-5));
   tiles[1].leaf_error.reset();  // a proxy
   tiles[1].content = box_mesh({0.5, 0.5, 0.5}, {10, 8, 2});
-  CHECK_THAT(only(findings(tiles, scene)), ContainsSubstring("root: r has no child where there are 1 triangle"));
+  CHECK_THAT(only(findings(tiles, scene)), ContainsSubstring("root: r has no child for 1 triangle of the scene"));
 }
 
 TEST_CASE("a leaf may cut the scene's triangles, and leaves no hole in them", "[quick][check][tileset]") {
@@ -379,7 +379,7 @@ TEST_CASE("a leaf may cut the scene's triangles, and leaves no hole in them", "[
   }
   CHECK(findings(tiles, {whole}).empty());
   leaf.triangles[GENERATE(57, 123, 301)] = leaf.triangles[3];  // one is there twice, and another is missing
-  CHECK_THAT(only(findings(tiles, {whole})), ContainsSubstring("root.0: a does not show 1 triangle"));
+  CHECK_THAT(only(findings(tiles, {whole})), ContainsSubstring("root.0: a does not show 1 triangle of"));
 }
 
 TEST_CASE("a triangle just beyond a face belongs to the neighbour's leaf", "[quick][check][tileset]") {
