@@ -135,8 +135,8 @@ std::vector<Chunk> examine_all(const std::vector<TriangleD>& from, const Triangl
 /// Best first, in rounds: the parts of a round are split in parallel. Rounds do not depend on the number of threads.
 class Search {
  public:
-  Search(const TriangleBvh& to, SurfaceDistance& result, double smallest)
-      : to_(to), result_(result), smallest_(smallest) {}
+  Search(const TriangleBvh& to, SurfaceDistance& result, double smallest, std::size_t patience)
+      : to_(to), result_(result), smallest_(smallest), patience_(patience) {}
 
   void see(Part part) {
     if (part.at_least > result_.at_least) result_.at_least = part.at_least, result_.where = part.where;
@@ -152,6 +152,7 @@ class Search {
     constexpr std::size_t kRound = 2048, kGrainOfRound = 16;
     std::vector<Part> round;
     std::vector<Found> found;
+    std::size_t seen = 0;
     while (!done()) {
       round.clear();
       while (!done() && round.size() < kRound) round.push_back(pop());
@@ -176,7 +177,9 @@ class Search {
       for (const Found& of : found) {
         settled_ = std::max(settled_, of.settled);
         for (const Part& part : of.parts) see(part);
+        seen += of.parts.size();
       }
+      for (; seen >= patience_; seen -= patience_) smallest_ *= 2;
     }
     result_.at_most = std::max(settled_, result_.at_least);
     if (!open_.empty()) result_.at_most = std::max(result_.at_most, open_.front().at_most);
@@ -202,10 +205,12 @@ class Search {
   const TriangleBvh& to_;
   SurfaceDistance& result_;
   double smallest_, settled_ = 0;  // least error of interest; bound of all parts that are not open
-  std::vector<Part> open_;         // a heap
+  const std::size_t patience_;
+  std::vector<Part> open_;  // a heap
 };
 
-SurfaceDistance measured(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance, bool mean) {
+SurfaceDistance measured(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance,
+                         std::size_t patience, bool mean) {
   Bounds3d bounds;
   for (const TriangleD& t : from) bounds.merge(bounds_of(t));
   const double least = least_length(bounds);
@@ -214,7 +219,7 @@ SurfaceDistance measured(const std::vector<TriangleD>& from, const TriangleBvh& 
   SurfaceDistance result;
   result.where = from.front()[0];
   double area = 0;
-  Search search(to, result, std::max({tolerance, kSmallestError * bounds.diagonal(), least}));
+  Search search(to, result, std::max({tolerance, kSmallestError * bounds.diagonal(), least}), patience);
   for (const Chunk& chunk : chunks) {
     result.mean += chunk.integral;
     area += chunk.area;
@@ -228,11 +233,12 @@ SurfaceDistance measured(const std::vector<TriangleD>& from, const TriangleBvh& 
 }  // namespace
 
 SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance) {
-  return measured(from, to, tolerance, true);
+  return measured(from, to, tolerance, std::numeric_limits<std::size_t>::max(), true);
 }
 
-SurfaceDistance largest_distance(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance) {
-  return measured(from, to, tolerance, false);
+SurfaceDistance largest_distance(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance,
+                                 std::size_t patience) {
+  return measured(from, to, tolerance, patience, false);
 }
 
 }  // namespace bp

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <vector>
 
 #include "lib/geometry/triangle_bvh.h"
@@ -23,8 +24,10 @@ struct SurfaceDistance {
 [[nodiscard]] SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to,
                                                double tolerance = 0);
 
-/// The same without the mean, which is 0 then, and without its cost: few searches per triangle.
+/// The same without the mean, which is 0 then, and without its cost: few searches per triangle. `tolerance` doubles
+/// each time that `patience` parts of triangles have been looked at, beside the triangles themselves.
 [[nodiscard]] SurfaceDistance largest_distance(const std::vector<TriangleD>& from, const TriangleBvh& to,
-                                               double tolerance = 0);
+                                               double tolerance = 0,
+                                               std::size_t patience = std::numeric_limits<std::size_t>::max());
 
 }  // namespace bp

@@ -14,7 +14,8 @@ namespace bp {
 
 namespace {
 
-constexpr double kTolerance = 1.0 / 16;  // of the distance to triangles, in voxels
+constexpr double kTolerance = 1.0 / 16;     // of the distance to triangles, in voxels
+constexpr std::size_t kPatience = 1 << 17;  // with it: a face of the level may be as far from all of a fine scene
 
 /// That measuring takes for a moment.
 std::uint64_t measuring_bytes(std::uint64_t runs) {
@@ -31,12 +32,11 @@ struct Outside::Ruler {
   Ruler(const std::vector<VoxelRun>& runs, const GridFrame& frame)
       : voxel(frame.voxel), segments(segments_of(runs, frame)), tree(segments) {}
 
-  void measure(LodLevel& level, MeshMode mode, const std::vector<TriangleD>* enclosed) const {
+  /// `known`: no point of the level is farther from the scene.
+  void measure(LodLevel& level, MeshMode mode, std::optional<double> known) const {
     const std::vector<TriangleD> triangles = world_triangles(level.mesh);
     const TriangleBvh mesh(triangles);
-    const double there = enclosed == nullptr
-                             ? distance_from_mesh(triangles, tree, voxel)
-                             : largest_distance(triangles, TriangleBvh(*enclosed), kTolerance * voxel).at_most;
+    const double there = known ? *known : distance_from_mesh(triangles, tree, voxel);
     level.error_world = mode == MeshMode::fit ? distance_beyond_mesh(segments, mesh, voxel, there) : there;
     level.distance_world = std::max(there, distance_to_mesh(segments, mesh, voxel));
   }
@@ -65,7 +65,11 @@ std::uint64_t Outside::bytes() const {
 }
 
 void Outside::measure(LodLevel& level, MeshMode mode, const std::vector<TriangleD>* enclosed) const {
-  kept_ ? kept_->measure(level, mode, enclosed) : Ruler(runs_, frame_).measure(level, mode, enclosed);
+  std::optional<double> known;  // before the ruler is made: memory holds one of both
+  if (enclosed != nullptr)
+    known =
+        largest_distance(world_triangles(level.mesh), TriangleBvh(*enclosed), kTolerance * voxel(), kPatience).at_most;
+  kept_ ? kept_->measure(level, mode, known) : Ruler(runs_, frame_).measure(level, mode, known);
 }
 
 }  // namespace bp

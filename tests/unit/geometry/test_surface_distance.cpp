@@ -66,6 +66,27 @@ TEST_CASE(
   CHECK(d.at_most <= 0.01 + 120 * 1e-7);  // of the diagonal
 }
 
+TEST_CASE("the search for the largest distance gives up exactness for speed, and never the bound", "[quick][check]") {
+  std::vector<TriangleD> hills;  // no part of a plane above is nearest to one triangle for long
+  constexpr int kCells = 64;
+  const auto at = [](int i, int j) {
+    return Vec3d{double(i), double(j), 0.05 * std::sin(i * 1.7) * std::cos(j * 2.3)};
+  };
+  for (int i = 0; i < kCells; ++i) {
+    for (int j = 0; j < kCells; ++j) {
+      hills.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      hills.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  const std::vector<TriangleD> above{{Vec3d{0, 0, 9}, {kCells, 0, 9}, {0, kCells, 9}}};
+  const TriangleBvh tree(hills);
+  const SurfaceDistance exact = largest_distance(above, tree, 1e-4), quick = largest_distance(above, tree, 1e-4, 64);
+  CHECK(quick.at_most >= exact.at_least);
+  CHECK(quick.at_most > exact.at_most);
+  CHECK(quick.at_most < 1.2 * exact.at_least);
+  CHECK(quick.at_least <= exact.at_most);
+}
+
 TEST_CASE("needles and triangles without area are measured too", "[quick][check]") {
   std::vector<TriangleD> to;
   for (int i = 0; i < 40; ++i) {
