@@ -53,6 +53,7 @@ struct Document {
   Choices& c;
   Json json;
   std::string data = {};
+  std::vector<std::size_t> vertices = {};  // of each primitive
 
   template <class T>
   std::uint64_t view(const std::vector<T>& values) {
@@ -87,6 +88,9 @@ struct Document {
                    {"values", {{"bufferView", number(c, values)}}}};
   }
   void add_instances(Json& node);
+  void add_targets(Json& primitive, std::size_t vertices);
+  void add_joints(Json& attributes, std::size_t vertices);
+  void add_skin();
   Json primitive();
   Json node(std::uint64_t nodes);
   void build();
@@ -119,11 +123,53 @@ Json Document::primitive() {
   }
   Json positions = accessor_of(view(points), 5126, "VEC3", s.points.size());
   if (c.once_in(8)) add_sparse(positions);
+  vertices.push_back(s.points.size());
   Json p = {{"attributes", {{"POSITION", number(c, accessor(positions))}}}};
   if (!c.once_in(12)) p["indices"] = number(c, accessor(accessor_of(view(indices), 5123, "SCALAR", indices.size())));
   if (c.once_in(8)) p["mode"] = number(c, c.below(7));
   if (c.once_in(12)) p["attributes"]["COLOR_0"] = number(c, p["attributes"]["POSITION"].is_number() ? 0 : 1);
   return p;
+}
+
+void Document::add_targets(Json& primitive, std::size_t vertices) {
+  for (std::uint32_t i = c.below(3); i > 0; --i) {
+    Json positions = accessor_of(view(std::vector<float>(3 * vertices, float(c.below(4)))), 5126, "VEC3", vertices);
+    if (c.once_in(4)) add_sparse(positions);
+    primitive["targets"].push_back({{"POSITION", number(c, accessor(positions))}});
+  }
+}
+
+void Document::add_joints(Json& attributes, std::size_t vertices) {
+  std::vector<std::uint8_t> joints;
+  std::vector<float> weights;
+  for (std::size_t i = 0; i < 4 * vertices; ++i) {
+    joints.push_back(c.once_in(64) ? std::uint8_t(extreme_integer(c)) : std::uint8_t(c.below(2)));
+    weights.push_back(c.once_in(24) ? float(extreme_number(c)) : float(c.below(3)));
+  }
+  attributes["JOINTS_0"] = number(c, accessor(accessor_of(view(joints), 5121, "VEC4", vertices)));
+  attributes["WEIGHTS_0"] = number(c, accessor(accessor_of(view(weights), 5126, "VEC4", vertices)));
+}
+
+/// Joints and morph targets for what is there.
+void Document::add_skin() {
+  const std::uint32_t nodes = std::uint32_t(json["nodes"].size());
+  const bool skin = c.once_in(2);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    Json& p = json["meshes"][0]["primitives"][i];
+    if (skin) add_joints(p["attributes"], vertices[i]);
+    add_targets(p, vertices[i]);
+  }
+  if (c.once_in(2)) json["meshes"][0]["weights"] = reals(c, {0.5, double(c.below(3))});
+  if (c.once_in(4)) json["nodes"][0]["weights"] = reals(c, {-1, 2});
+  if (!skin) return;
+  json["skins"] = Json::array({{{"joints", {number(c, c.below(nodes)), number(c, c.below(nodes))}}}});
+  if (c.once_in(2)) {
+    std::vector<float> matrices(32);
+    for (std::size_t i = 0; i < 32; i += 5) matrices[i] = c.once_in(8) ? float(extreme_number(c)) : 1;
+    json["skins"][0]["inverseBindMatrices"] = number(c, accessor(accessor_of(view(matrices), 5126, "MAT4", 2)));
+  }
+  for (Json& node : json["nodes"])
+    if (!c.once_in(4)) node["skin"] = number(c, 0);
 }
 
 Json Document::node(std::uint64_t nodes) {
@@ -151,6 +197,7 @@ void Document::build() {
   json["meshes"] = Json::array({mesh});
   const std::uint64_t nodes = 1 + c.below(4);
   for (std::uint64_t i = 0; i < nodes; ++i) json["nodes"].push_back(node(nodes));
+  if (c.once_in(3)) add_skin();
 }
 
 std::string text_of(const Json& json) {

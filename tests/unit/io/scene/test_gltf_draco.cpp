@@ -27,24 +27,34 @@ std::vector<TriangleD> sheet() {
   return triangles;
 }
 
-/// `more`: components of an attribute of the exporter's own, all zero; 0: there is none.
-std::string packed(const std::vector<TriangleD>& triangles, int method, std::size_t more = 0) {
+/// An attribute that is the same at all vertices. T has the type of `type`.
+template <class T>
+struct Same {
+  std::vector<T> value;
+  draco::DataType type;
+
+  void add_to(draco::TriangleSoupMeshBuilder& builder, std::size_t triangles) const {
+    const int id = builder.AddAttribute(draco::GeometryAttribute::GENERIC, std::int8_t(value.size()), type);
+    for (std::size_t i = 0; i < triangles; ++i)
+      builder.SetAttributeValuesForFace(id, draco::FaceIndex(std::uint32_t(i)), value.data(), value.data(),
+                                        value.data());
+  }
+};
+
+/// `more`: attributes of the exporter's own.
+template <class... T>
+std::string packed(const std::vector<TriangleD>& triangles, int method, const Same<T>&... more) {
   draco::TriangleSoupMeshBuilder builder;
   builder.Start(int(triangles.size()));
   const int id = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
-  const std::vector<double> zeros(more);
-  const int own =
-      more > 0 ? builder.AddAttribute(draco::GeometryAttribute::GENERIC, std::int8_t(more), draco::DT_FLOAT64) : 0;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     std::array<std::array<float, 3>, 3> corners{};
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t axis = 0; axis < 3; ++axis) corners[k][axis] = float(triangles[i][k][axis]);
     builder.SetAttributeValuesForFace(id, draco::FaceIndex(std::uint32_t(i)), corners[0].data(), corners[1].data(),
                                       corners[2].data());
-    if (more > 0)
-      builder.SetAttributeValuesForFace(own, draco::FaceIndex(std::uint32_t(i)), zeros.data(), zeros.data(),
-                                        zeros.data());
   }
+  (more.add_to(builder, triangles.size()), ...);
   const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
   draco::Encoder encoder;
   encoder.SetEncodingMethod(method);
@@ -99,10 +109,37 @@ TEST_CASE("Draco's bytes are held against what the file says of them", "[quick][
   CHECK_THAT(complaint(d), Contains("shares some of its accessors"));
 }
 
+TEST_CASE("joints and weights that Draco packed move the vertices of their skin", "[quick][io]") {
+  std::vector<TriangleD> triangles = sheet();
+  Document d =
+      document_of(packed(triangles, draco::MESH_EDGEBREAKER_ENCODING, Same<std::uint8_t>{{1, 0, 0, 0}, draco::DT_UINT8},
+                         Same<float>{{0.75, 0.25, 0, 0}, draco::DT_FLOAT32}),
+                  triangles.size());
+  Json& primitive = d.json["meshes"][0]["primitives"][0];
+  const auto unpacked = [&](int type) {
+    return d.accessor({{"componentType", type}, {"count", 3 * triangles.size()}, {"type", "VEC4"}});
+  };
+  primitive["attributes"]["JOINTS_0"] = unpacked(kU8);
+  primitive["attributes"]["WEIGHTS_0"] = unpacked(kF32);
+  Json& ids = primitive["extensions"]["KHR_draco_mesh_compression"]["attributes"];
+  ids["JOINTS_0"] = 1;
+  ids["WEIGHTS_0"] = 2;
+  d.json["nodes"][0]["skin"] = 0;
+  d.json["skins"] = Json::array({{{"joints", {1, 2}}}});
+  d.node({{"translation", {4, 0, 0}}});
+  d.node({{"translation", {0, 8, 0}}});
+  d.json["scenes"][0]["nodes"] = {0, 1, 2};
+  const TempDir dir;
+  for (TriangleD& t : triangles)
+    for (Vec3d& p : t) p = {p[0] + 1, p[1] + 6, p[2]};
+  CHECK(sorted(read_all(dir.file("a.glb", d.glb()))) == sorted(triangles));
+}
+
 TEST_CASE("attributes of Draco that take memory without end are refused before there is room", "[quick][io]") {
   const std::size_t components = GENERATE(4, 127);
   const std::vector<TriangleD> triangles = sheet();
-  const std::string bytes = packed(triangles, draco::MESH_EDGEBREAKER_ENCODING, components);
+  const Same<double> more{std::vector<double>(components), draco::DT_FLOAT64};
+  const std::string bytes = packed(triangles, draco::MESH_EDGEBREAKER_ENCODING, more);
   const TempDir dir;
   const std::string file = dir.file("a.glb", document_of(bytes, triangles.size()).glb());
   if (components == 4) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "io/scene/scene_pose.h"
+#include "io/scene/texture_table.h"
 #include "tests/catch.h"
 #include "tests/reference/random_closing.h"
 #include "tests/unit/io/scene/gltf_document.h"
@@ -107,6 +108,33 @@ TEST_CASE("a skin of any matrices moves its vertices as the formula of the speci
     }
     for (std::size_t i = 0; i < 3; ++i) CHECK(std::abs(corners[v][i] - sum[i] / all) < 1e-12);
   }
+}
+
+TEST_CASE("joints turn the normals of a skin, and stretching tilts them", "[quick][io]") {
+  Document d = skinned_quad(
+      {{0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}}, {});
+  const float h = std::sqrt(0.5F);
+  d.json["nodes"][1] = {{"rotation", {0, h, 0, h}}};  // z goes to x
+  d.json["nodes"][2] = {{"scale", {2, 1, 1}}};
+  d.json["scenes"][0]["nodes"] = {0, 1, 2};
+  d.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = d.floats(Places(4, Vec3d{0.6, 0, 0.8}));
+  const TempDir dir;
+  SceneOptions options;
+  options.surface = true;
+  options.textures = std::make_shared<TextureTable>();
+  const auto source = open_scenes({dir.file("skinned.glb", d.glb())}, options);
+  std::vector<TriangleD> triangles;
+  std::vector<TriangleColors> colors;
+  std::vector<TriangleTexture> textures;
+  REQUIRE(source->read_textured(triangles, colors, textures));
+  REQUIRE(textures.size() == 2);
+  const auto near = [](std::uint32_t packed, const Vec3d& n) {
+    const auto u = unpack_normal(packed);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(std::abs(double(u[i]) - n[i]) < 1e-3);
+  };
+  near(textures[0].normals[0], {0.8, 0, -0.6});
+  const double l = std::hypot(0.3, 0.8);
+  near(textures[0].normals[1], {0.3 / l, 0, 0.8 / l});
 }
 
 TEST_CASE("animated joints move the vertices of their skin", "[quick][io]") {

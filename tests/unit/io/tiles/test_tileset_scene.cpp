@@ -73,6 +73,23 @@ TEST_CASE("a tileset is a scene of its leaves, and of all tiles that are added t
   CHECK(drawn(dir.file("t.json", tileset(root))) == "0 0 ");
 }
 
+TEST_CASE("a content with a skin stands where its joints are, in its tile", "[quick][io]") {
+  Document d;
+  const int mesh = d.mesh(d.floats({{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}));
+  Json& attributes = d.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["JOINTS_0"] = d.array(std::vector<std::uint8_t>(12), kU8, "VEC4", 3);
+  attributes["WEIGHTS_0"] = d.array<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kF32, "VEC4", 3);
+  d.node({{"mesh", mesh}, {"skin", 0}, {"translation", {100, 0, 0}}});  // which does not count
+  d.node({{"translation", {0, 3, 0}}});
+  d.json["scenes"][0]["nodes"] = {0, 1};
+  d.json["skins"] = Json::array({{{"joints", {1}}}});
+  const TempDir dir;
+  (void)dir.file("a.glb", d.glb());
+  const auto triangles = read_all(dir.file("t.json", tileset(tile("a.glb", 4))));
+  REQUIRE(triangles.size() == 1);
+  CHECK(triangles[0] == upright({4, 0, 3}));
+}
+
 TEST_CASE("contents stand where their tiles and tables say, with z up", "[quick][io]") {
   const TempDir dir;
   (void)dir.file("a.glb", content());
