@@ -13,6 +13,8 @@ namespace bp {
 
 namespace {
 
+constexpr std::int64_t kTrianglesAtOnce = 4096, kPointsAtOnce = 1 << 14;
+
 /// Lattice box that surely holds a triangle: to_voxels errs by less than 2^-20 voxel.
 LatticeBox box_around(const GridFrame& frame, const TriangleD& t) {
   LatticeBox box;
@@ -73,32 +75,45 @@ bool closes(const NewFace& f, const Tetrahedron& t) {
 EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame) : frame_(frame) {
   std::vector<LatticeBox> boxes(triangles.size());
   std::vector<std::uint32_t> items(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    boxes[i] = box_around(frame_, triangles[i]);
-    if (i == 0) bounds_ = boxes[i];
-    bounds_.add(boxes[i].min);
-    bounds_.add(boxes[i].max);
-    items[i] = std::uint32_t(i);
+  parallel_ranges(std::int64_t(triangles.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+      boxes[i] = box_around(frame_, triangles[i]);
+      items[i] = std::uint32_t(i);
+    }
+  });
+  if (!boxes.empty()) bounds_ = boxes[0];
+  for (const LatticeBox& box : boxes) {
+    bounds_.add(box.min);
+    bounds_.add(box.max);
   }
   tree_.build(boxes, std::move(items));
-  triangles_.reserve(triangles.size());
-  for (const std::uint32_t i : tree_.order()) triangles_.push_back(triangles[i]);
-  gather_corners();
+  triangles_.resize(triangles.size());
+  eights_.assign((triangles.size() + 7) / 8, {});
+  std::vector<double> reach(triangles.size() / kTrianglesAtOnce + 1, 0);
+  static_assert(kTrianglesAtOnce % 8 == 0);
+  parallel_ranges(std::int64_t(triangles.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {
+    double& farthest = reach[std::size_t(begin / kTrianglesAtOnce)];
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+      triangles_[i] = triangles[tree_.order()[i]];
+      farthest = std::max(farthest, set_corners(i));
+    }
+  });
+  reach_ = *std::max_element(reach.begin(), reach.end());
 }
 
-void EnclosedTriangles::gather_corners() {
-  eights_.assign((triangles_.size() + 7) / 8, {});
+/// The largest coordinate.
+double EnclosedTriangles::set_corners(std::size_t i) {
   const Vec3d base = to_double(tree_.base());
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d v = frame_.to_voxels(triangles_[i][k]);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double at = v[axis] * kLatticePerVoxel - base[axis];
-        reach_ = std::max(reach_, std::abs(at));
-        eights_[i / 8].corners[k][axis][i % 8 / 4][i % 4] = float(at);
-      }
+  double farthest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d v = frame_.to_voxels(triangles_[i][k]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double at = v[axis] * kLatticePerVoxel - base[axis];
+      farthest = std::max(farthest, std::abs(at));
+      eights_[i / 8].corners[k][axis][i % 8 / 4][i % 4] = float(at);
     }
   }
+  return farthest;
 }
 
 namespace {
@@ -259,15 +274,17 @@ std::vector<Vec3d> each_once(const std::vector<Vec3d>& points) {
       std::minmax_element(points.begin(), points.end(), [](const Vec3d& a, const Vec3d& b) { return a[0] < b[0]; });
   const double first = (*low)[0], extent = (*high)[0] - first;
   const std::size_t slabs = extent > 0 && std::isfinite(extent) ? points.size() / kPointsPerSlab + 1 : 1;
-  const auto slab_of = [&](const Vec3d& p) {
-    return slabs > 1 ? std::min(std::size_t((p[0] - first) / extent * double(slabs)), slabs - 1) : 0;
-  };
+  std::vector<std::uint32_t> slab_of(points.size(), 0);
+  parallel_ranges(std::int64_t(points.size()), kPointsAtOnce, [&](std::int64_t from, std::int64_t to) {
+    for (auto i = std::size_t(from); slabs > 1 && i < std::size_t(to); ++i)
+      slab_of[i] = std::uint32_t(std::min(std::size_t((points[i][0] - first) / extent * double(slabs)), slabs - 1));
+  });
   std::vector<std::size_t> begin(slabs + 1, 0);
-  for (const Vec3d& p : points) ++begin[slab_of(p) + 1];
+  for (const std::uint32_t s : slab_of) ++begin[s + 1];
   for (std::size_t i = 0; i < slabs; ++i) begin[i + 1] += begin[i];
   std::vector<Vec3d> sorted(points.size());
   std::vector<std::size_t> end(begin.begin(), begin.end() - 1);
-  for (const Vec3d& p : points) sorted[end[slab_of(p)]++] = p;
+  for (std::size_t i = 0; i < points.size(); ++i) sorted[end[slab_of[i]]++] = points[i];
   const auto at = [&](std::size_t i) { return sorted.begin() + std::ptrdiff_t(i); };
   parallel_ranges(std::int64_t(slabs), std::int64_t(kPointsPerSlab), [&](std::int64_t from, std::int64_t to) {
     for (auto i = std::size_t(from); i < std::size_t(to); ++i) {
@@ -298,14 +315,25 @@ std::uint64_t EnclosedTriangles::bytes() const {
 
 std::vector<Vec3d> EnclosedTriangles::samples_of(std::vector<Vec3d> points) const {
   points = each_once(points);
-  for (Vec3d& p : points) p = kLatticePerVoxel * frame_.to_voxels(p);
+  parallel_ranges(std::int64_t(points.size()), kPointsAtOnce, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+      points[i] = kLatticePerVoxel * frame_.to_voxels(points[i]);
+  });
   return points;
 }
 
 const std::vector<Vec3d>& EnclosedTriangles::all_samples() const {
   std::call_once(sampled_, [this] {
+    std::vector<std::vector<Vec3d>> parts(triangles_.size() / kTrianglesAtOnce + 1);
+    parallel_ranges(std::int64_t(triangles_.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i)
+        add_samples(triangles_[std::size_t(i)], frame_.voxel, parts[std::size_t(begin / kTrianglesAtOnce)]);
+    });
     std::vector<Vec3d> points;
-    for (const TriangleD& t : triangles_) add_samples(t, frame_.voxel, points);
+    for (std::vector<Vec3d>& part : parts) {
+      points.insert(points.end(), part.begin(), part.end());
+      std::vector<Vec3d>().swap(part);
+    }
     samples_ = samples_of(std::move(points));
   });
   return samples_;
@@ -323,7 +351,10 @@ std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin,
     points = samples_of(std::move(points));
     std::erase_if(points, [&](const Vec3d& v) { return !within.holds({rounded(v), rounded(v)}); });
   }
-  for (Vec3d& v : points) v = v - to_double(origin);
+  const Vec3d shift = to_double(origin);
+  parallel_ranges(std::int64_t(points.size()), kPointsAtOnce, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) points[i] = points[i] - shift;
+  });
   return points;
 }
 

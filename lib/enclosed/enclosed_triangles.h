@@ -28,7 +28,7 @@ class EnclosedTriangles : public Enclosed {
 
  private:
   class Swept;
-  void gather_corners();
+  double set_corners(std::size_t triangle);
   /// The samples of triangles, in lattice units, each once.
   [[nodiscard]] std::vector<Vec3d> samples_of(std::vector<Vec3d> world_points) const;
   [[nodiscard]] const std::vector<Vec3d>& all_samples() const;

@@ -8,7 +8,7 @@ namespace bp {
 
 /// True if every voxel that voxelization would set for `triangles` is in `shelf`, so that each of them lies strictly
 /// inside the voxels (docs/bounding.md, section 2). False if one is not, wherever it is. Cost: that of voxelizing their
-/// surface, one brick at a time.
+/// surface, some triangles at a time in each brick that they meet.
 [[nodiscard]] bool lies_within(std::span<const TriangleD> triangles, const GridFrame& frame, const BrickShelf& shelf);
 
 }  // namespace bp
