@@ -19,6 +19,8 @@ constexpr double kMiddleFactor = 3;        // where sweeps are made again if the
 constexpr double kLateFactor = 1.5;        // where the order of collapses changes from quadric error to volume
 constexpr double kMostGrowth = 6;          // of one collapse: some times a face's share of the volume
 constexpr double kMuchRoom = 0.04;         // share of the volume: a first sweep that gains more is worth others
+constexpr int kJamRounds = 4;              // of a sweep and collapses, where these jam above the target
+constexpr std::uint64_t kWhole = 16;       // regions: up to so many faces are finished as one mesh, which is tighter
 
 /// A proxy on the way, and what led to it.
 struct Way {
@@ -140,15 +142,22 @@ void finish_whole(Way& way, const Enclosed& enclosed, const SimplifyParams& para
   if (is_above_target(way.proxy, params)) {
     SimplifyCounts now;
     TightenCounts ignored;
-    thin(
-        editor, params.faces, [&] { tighten_on(editor, one_sweep(params), ignored); }, now);
+    const auto settle = [&] { tighten_on(editor, one_sweep(params), ignored); };
+    thin(editor, params.faces, settle, now);
     way.simplified.add(now);
+    for (int round = 0; round < kJamRounds && mesh.face_count() > params.faces; ++round) {
+      settle();
+      thin(editor, params.faces, [] {}, now, kThinStages);
+      way.simplified.add(now);
+      if (now.collapses == 0) break;
+    }
   }
   way.proxy = tighten(editor, way.proxy.frame, tightening_of(params), way.tightened);
 }
 
 void finish(Way& way, const Enclosed& enclosed, const SimplifyParams& params) {
-  if (has_regions(way.proxy.triangles.size(), params)) {
+  const std::uint64_t faces = way.proxy.triangles.size();
+  if (has_regions(faces, params) && faces > kWhole * params.faces_per_region) {
     finish_regions(way, enclosed, params);
   } else {
     finish_whole(way, enclosed, params);

@@ -207,8 +207,8 @@ TEST_CASE("a large proxy that is made by regions holds, and is the same for any 
   const Towers towers;
   const EnclosedVoxels enclosed(towers.shelf);
   SimplifyParams params;
-  params.faces = 5000;
-  params.faces_per_region = kPerRegion;  // so every step goes by regions
+  params.faces = GENERATE(5000, 7000);
+  params.faces_per_region = kPerRegion;  // so every step goes by regions, of the larger one the last ones, too
   const auto make = [&](int threads, SimplifyCounts& simplified, TightenCounts& tightened) {
     const ThreadLimit limit(threads);
     return tight_proxy(towers.surface(), enclosed, params, simplified, tightened);
@@ -228,7 +228,7 @@ TEST_CASE("a large proxy that is made by regions holds, and is the same for any 
   SimplifyCounts of_whole;
   TightenCounts whole_tightened;
   static_cast<void>(make(3, of_whole, whole_tightened));
-  CHECK(tightened.volume_after < 1.02 * whole_tightened.volume_after);
+  CHECK(tightened.volume_after < (params.faces == 5000 ? 1.02 : 1.06) * whole_tightened.volume_after);
 }
 
 TEST_CASE("a large proxy made by regions that need nothing but grow, or fit, is embedded", "[meshing]") {
