@@ -253,6 +253,32 @@ TEST_CASE("a surface has one direction, whichever way its triangles are wound", 
   CHECK(color_side_of({NAN, 0, 0}) == 0);
 }
 
+TEST_CASE("all of a cell counts where nothing of it looks along the normal, also but for rounding",
+          "[quick][pass][colors]") {
+  const auto side = [](const Vec3d& along) { return color_side_of(along); };
+  const std::vector<CellColor> cells{{{0, 0, 0}, kRed, side({1, 0, 0}), 1000},
+                                     {{0, 0, 0}, kBlue, side({0, 0, 1}), 3000}};
+  const NearbyColors colors(cells, {0, 0, 0}, {0, 0, 0});
+  const Vec3d middle{2.0 * kLatticePerVoxel, 2.0 * kLatticePerVoxel, 2.0 * kLatticePerVoxel};
+  for (const Vec3d& normal : {Vec3d{0, 1, 0}, Vec3d{1e-3, 1, 0}, Vec3d{0.05, 1, 1e-17}, Vec3d{0, 1, -0.1}}) {
+    const LinearColor c = colors.at(middle, normal);
+    CAPTURE(normal[0], normal[2], c.r, c.b);
+    CHECK(std::abs(int(c.r) - 65535 / 4) < 10);
+    CHECK(std::abs(int(c.b) - 65535 * 3 / 4) < 10);
+  }
+  CHECK(colors.at(middle, {1, 0, 0}) == kRed);  // a quarter of it looks there
+  // There is no step where a side begins to be enough.
+  LinearColor before = colors.at(middle, {0, 1, 0});
+  for (int degrees = 1; degrees <= 90; ++degrees) {
+    const double angle = degrees * 3.14159265358979 / 180;
+    const LinearColor now = colors.at(middle, {std::sin(angle), std::cos(angle), 0});
+    CAPTURE(degrees, before.r, now.r);
+    CHECK(now.r >= before.r);
+    CHECK(now.r - before.r < 65535 / 12);
+    before = now;
+  }
+}
+
 TEST_CASE("no vertex of a box of two colours has a mixed one, however it is turned", "[quick][pass][colors]") {
   const double angle = GENERATE(0.0, 0.3, 0.54, 0.9);
   LatticeMesh box;
