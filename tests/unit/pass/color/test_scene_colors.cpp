@@ -311,6 +311,35 @@ TEST_CASE("no vertex of a box of two colours has a mixed one, however it is turn
   }
 }
 
+TEST_CASE("a narrow band of another colour does not fade over a large face", "[quick][pass][colors]") {
+  // A wall of 20 x 20 x 20 with a foot of 1.5, and a level that has one face for both.
+  ColoredScene scene;
+  add_box(scene.triangles, {0, 0, 0}, {20, 1.5, 20});
+  scene.paint(kBlue);
+  add_box(scene.triangles, {0, 1.5, 0}, {20, 20, 20});
+  scene.paint(kRed);
+  const Voxelized voxels = voxelized(scene.triangles, 0.125);
+  const GridFrame& frame = voxels.header.frame;
+  LatticeMesh mesh;
+  mesh.frame = frame;
+  const Vec3d lo = frame.to_voxels({0, 0, 0}), hi = frame.to_voxels({20, 20, 20});
+  const auto lattice = [](const Vec3d& p) {
+    return LatticeCoord{std::lround(p[0] * 64), std::lround(p[1] * 64), std::lround(p[2] * 64)};
+  };
+  add_box(mesh, {lattice(lo), lattice(hi)});
+  color_vertices(mesh, gathered(scene, voxels, 1 << 20)->all(frame));
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const auto& t = mesh.triangles[f];
+    const auto at_foot = [&](std::uint32_t v) { return mesh.vertices[v].y == lattice(lo).y; };
+    const bool is_bottom = at_foot(t[0]) && at_foot(t[1]) && at_foot(t[2]);
+    for (const LinearColor& c : mesh.colors[f]) {
+      CAPTURE(f, c.r, c.b);
+      CHECK((is_bottom ? c.b : c.r) > 62000);
+      CHECK((is_bottom ? c.r : c.b) < 3500);
+    }
+  }
+}
+
 TEST_CASE("colours do not bleed over edges of the scene, and go on where it is smooth", "[quick][pass][colors]") {
   // A box with a red top; the sides are blue below and fade to green above.
   ColoredScene scene;
