@@ -100,6 +100,7 @@ draw guide-levels.png 280 figure.obj figure-lod/figure_LOD{0,1,2}.glb
 bplod city.obj --up z --profile 3dtiles -q -o city-tiles > /dev/null
 if [ -n "${NODE_PATH:-}" ]; then
   node "$root/tests/viewers/shot.cjs" cesium city-tiles/tileset.json guide-tileset.png 'width=520&radii=1.3&pixels=4' > /dev/null
+  "$root/tests/viewers/run.sh" viewers > /dev/null && cp viewers/all.png guide-viewers.png
   "$root/samples/town.py" town > /dev/null
   bplod town/town.obj --profile 3dtiles --leaves scene --resolution 512 --tile 128 -q -o town-tiles > /dev/null
   node "$root/tests/viewers/shot.cjs" cesium town-tiles/tileset.json guide-leaves.png 'width=520&radii=0.35' > /dev/null

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Small sample scenes for the guides, as OBJ with materials.
-    samples/scenes.py FOLDER [house|truck|figure|city|office]...       all of them by default
+    samples/scenes.py FOLDER [house|truck|figure|engine|city|office]...       all of them by default
 house:   12 m wide, with rooms, furniture, an open door, windows of glass; y up
 truck:   8 m long, of separate parts; y up
 figure:  an animal on two legs, of overlapping parts; y up
+engine:  two cylinders with fins, of separate parts; y up
 city:    24 blocks of houses, towers and trees, in map coordinates; z up
 office:  a block with a wing, at an angle of 30 degrees to the axes; y up
 The same bytes on every machine."""
@@ -178,6 +179,27 @@ def figure(s):
         body(bend[k], bend[k + 1], .15 - .03 * k, .12 - .03 * k)
 
 
+def engine(s):
+    s.box((-.6, 0, -.8), (.6, 1.2, .8), "metal")
+    s.box((-.75, -.3, -1), (.75, 0, 1), "tower")
+    for k in range(8):
+        s.tube(((-.68 + .194 * k, -.02, .93), (-.68 + .194 * k, .06, .93)), (.05, .05), "tyre", 6, 0)
+    for side in (-1, 1):
+        along = lambda x, y=.6, z=0: (side * x, y, z)
+        s.tube((along(.55), along(2.1)), (.42, .42), "metal", 32, 0)
+        for k in range(11):
+            s.tube((along(.75 + .115 * k), along(.79 + .115 * k)), (.68, .68), "floor", 40, 0)
+        s.box((min(side * 2, side * 2.5), -.05, -.65), (max(side * 2, side * 2.5), 1.25, .65), "paint")
+        for y, z in ((.1, -.5), (.1, .5), (1.1, -.5), (1.1, .5)):
+            s.tube((along(2.45, y, z), along(2.6, y, z)), (.09, .09), "metal", 6, 0)
+        s.tube((along(2.25, 1.2), along(2.25, 1.75)), (.13, .13), "horn", 16, 0)
+        s.tube((along(2.25, .0, .2), along(2.25, -.45, .2)), (.16, .2), "roof", 16, 0)
+        s.tube((along(2.25, 1.65), along(.1, 1.65)), (.1, .1), "roof", 16, 2)
+    s.tube(((0, .6, .8), (0, .6, 1.5)), (.16, .16), "floor", 24, 0)
+    s.tube(((0, .6, 1.2), (0, .6, 1.35)), (.75, .75), "tower", 48, 0)
+    s.tube(((0, 1.2, 0), (0, 1.95, 0)), (.2, .26), "leaf", 24, 3)
+
+
 def city(s):
     rand = random.Random(7)
     x0, y0 = 84900.0, 447600.0
@@ -216,7 +238,7 @@ def tower(s, rand, x, y):
 
 
 def main():
-    scenes = {"house": house, "truck": truck, "figure": figure, "city": city, "office": office}
+    scenes = {"house": house, "truck": truck, "figure": figure, "engine": engine, "city": city, "office": office}
     names = sys.argv[2:] or list(scenes)
     if len(sys.argv) < 2 or sys.argv[1].startswith("-") or not set(names) <= set(scenes):
         sys.exit(__doc__)

@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "io/image/image_reader.h"
-#include "io/image/relief.h"
 #include "io/image/texture_writer.h"
 #include "lib/core/error.h"
 
@@ -35,6 +34,18 @@ std::vector<std::byte> bytes_of(const ImagePlace& place, std::uint64_t most) {
   std::vector<std::byte> bytes(std::size_t(std::min(most, file->size())));
   bytes.resize(file->read_at(0, bytes));
   return bytes;
+}
+
+/// Whether the image is other than in its file.
+bool make_directions(TextureImage& image, const Relief& relief) {
+  if (is_grey(image)) {
+    turn_into_directions(image, relief);
+  } else if (relief.strength != 1) {
+    strengthen(image, relief.strength);
+  } else {
+    return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -76,9 +87,9 @@ std::vector<std::byte> TextureTable::file(std::uint32_t i) const {
   try {
     std::vector<std::byte> bytes = bytes_of(images_.at(i), kMostBytes);
     if (!images_.at(i).relief) return bytes;
-    const TextureImage image = decode_image(bytes, images_.at(i).name, kMostRelief * sizeof(TextureImage::Texel));
-    if (!is_grey(image)) return bytes;
-    const std::string made = encode_texture(directions_of(image)).bytes;
+    TextureImage image = decode_image(bytes, images_.at(i).name, kMostRelief * sizeof(TextureImage::Texel));
+    if (!make_directions(image, *images_.at(i).relief)) return bytes;
+    const std::string made = encode_texture(image).bytes;
     bytes.resize(made.size());
     std::memcpy(bytes.data(), made.data(), made.size());
     return bytes;
@@ -89,7 +100,8 @@ std::vector<std::byte> TextureTable::file(std::uint32_t i) const {
 
 TextureImage TextureTable::image(std::uint32_t i, std::uint64_t most_bytes) const {
   TextureImage image = decode_image(bytes_of(images_.at(i), kMostBytes), images_.at(i).name, most_bytes);
-  return images_.at(i).relief && is_grey(image) ? directions_of(image) : image;
+  if (images_.at(i).relief) (void)make_directions(image, *images_.at(i).relief);
+  return image;
 }
 
 }  // namespace bp

@@ -1,10 +1,12 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "io/image/relief.h"
 #include "io/scene/scene_file.h"
 #include "lib/core/texture.h"
 
@@ -14,10 +16,11 @@ namespace bp {
 
 /// Bytes of a scene's own, or a file; neither: the image is missing.
 struct ImagePlace {
-  std::string name;     ///< for messages
-  SceneFilePtr bytes;   ///< may be null
-  std::string path;     ///< may be empty
-  bool relief = false;  ///< a grey image is heights, and is given as directions; of at most kMostRelief texels
+  std::string name;                   ///< for messages
+  SceneFilePtr bytes;                 ///< may be null
+  std::string path;                   ///< may be empty
+  std::optional<Relief> relief = {};  ///< heights if it is grey, else directions: it is given as directions, with its
+                                      ///< strength; of at most kMostRelief texels
 };
 
 constexpr std::uint64_t kMostRelief = std::uint64_t(1) << 24;

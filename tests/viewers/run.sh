@@ -19,8 +19,8 @@ export NODE_PATH=$PWD/node_modules
 rm -rf data
 bp-plant --triangles 100000 -o plant.ply --overwrite > /dev/null
 mkdir -p data
-bplod plant.ply --faces 2000 --resolution 160 -o data/gltf > /dev/null
-bplod plant.ply --levels 3 --resolution 192 --tile 64 --profile 3dtiles -o data/tiles > /dev/null
+bplod plant.ply --faces 2000 --resolution 160 -o data/plant > /dev/null
+bplod plant.ply --levels 3 --resolution 192 --tile 64 --profile 3dtiles -o data/plant-tiles > /dev/null
 bpvox plant.ply --resolution 128 | bpclose --scale 1% | bpmesh --faces 1000 -o data/bpmesh.glb
 "$here/../../samples/town.py" town 16 > /dev/null
 bplod town/town.obj --faces 3000 --resolution 160 -o data/town > /dev/null
@@ -29,30 +29,38 @@ bplod town/town.obj --resolution 256 --tile 64 --profile 3dtiles --leaves scene 
 "$here/../../samples/scenes.py" scenes > /dev/null
 bplod scenes/figure.obj --faces 1000 --levels 1 --resolution 160 --appearance full -o data/figure > /dev/null
 bplod scenes/truck.obj --faces 3000 --levels 1 --resolution 160 -o data/truck > /dev/null
+bplod scenes/city.obj --up z --faces 4000 --levels 1 --appearance texture -o data/city > /dev/null
+bplod scenes/engine.obj --faces 3000 --levels 1 -o data/engine > /dev/null
+bplod scenes/city.obj --up z --profile 3dtiles --appearance texture -o data/city-tiles > /dev/null
+for scene in engine figure; do bplod scenes/$scene.obj --resolution 192 --profile 3dtiles -o data/$scene-tiles > /dev/null; done
 
 failed=0
-# picture VIEWER FILE NAME
+# picture VIEWER FILE NAME [QUERY]
 picture() {
   local greys
   if [ "$1" = blender ]; then
     command -v blender > /dev/null || { echo "$3: blender is not installed"; return; }
     greys=$(blender -b --factory-startup --python "$here/blender.py" -- "$2" "$PWD/$3.png" 2> /dev/null | sed -n 's/^greys //p')
   else
-    greys=$(node "$here/shot.cjs" "$1" "$2" "$3.png")
+    greys=$(node "$here/shot.cjs" "$1" "$2" "$3.png" "${4:-}")
   fi
   echo "$3: $greys grey values"
   [ "${greys:-0}" -ge 20 ] || failed=1
 }
-picture three data/gltf/plant_LOD0.glb three-level
 picture three data/bpmesh.glb three-bpmesh
-picture three data/town/town_LOD0.glb three-town
-picture three data/figure/figure_LOD0.glb three-figure
-picture three data/truck/truck_LOD0.glb three-truck
-picture cesium data/tiles/tileset.json cesium-tiles
 picture cesium data/leaves/tileset.json cesium-leaves
-for level in gltf/plant town/town figure/figure truck/truck; do
-  picture blender data/${level}_LOD0.glb blender-${level#*/}
+for scene in plant town figure truck city engine; do
+  picture three data/$scene/${scene}_LOD0.glb three-$scene radii=0.75
+  picture blender data/$scene/${scene}_LOD0.glb blender-$scene
 done
+shown=()
+for viewer in three cesium blender; do
+  for scene in city plant engine figure; do
+    [ $viewer != cesium ] || picture cesium data/$scene-tiles/tileset.json cesium-$scene 'radii=2&pixels=4'
+    [ ! -f $viewer-$scene.png ] || shown+=($viewer-$scene.png)
+  done
+done
+node "$here/grid.cjs" 4 320 all.png "${shown[@]}" # one row for each viewer
 
 # An animated scene: at the time of a cage three.js sees it where `apply` of that cage writes it.
 awk 'BEGIN { for (i = 0; i < 8; ++i) print "v", (i % 2 ? 2 : -2), (int(i / 2) % 2 ? 4 : -1), (i > 3 ? 2 : -2)

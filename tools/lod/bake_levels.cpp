@@ -44,14 +44,6 @@ MeshTexture with_places(const Atlas& atlas) {
   return texture;
 }
 
-void add_color(const TextureImage& image, MeshTexture& texture) {
-  texture.has_holes =
-      std::any_of(image.texels.begin(), image.texels.end(), [](const TextureImage::Texel& t) { return t[3] < 255; });
-  EncodedImage file = encode_texture(image);
-  texture.image = std::move(file.bytes);
-  texture.type = std::move(file.type);
-}
-
 /// Whether all texels are about the first one.
 bool is_plain(const TextureImage& image) {
   constexpr int kSame = 2;
@@ -64,12 +56,24 @@ bool is_plain(const TextureImage& image) {
   });
 }
 
-/// What is the same everywhere needs no image.
+/// What is the same everywhere needs four texels: a place in an image is a share of its size.
+ImageFile file_of(const TextureImage& image) {
+  constexpr int kPlainSide = 2;
+  EncodedImage file =
+      encode_texture(is_plain(image) ? TextureImage(kPlainSide, kPlainSide, image.texels.front()) : image);
+  return {std::move(file.bytes), std::move(file.type)};
+}
+
+void add_color(const TextureImage& image, MeshTexture& texture) {
+  texture.has_holes =
+      std::any_of(image.texels.begin(), image.texels.end(), [](const TextureImage::Texel& t) { return t[3] < 255; });
+  ImageFile file = file_of(image);
+  texture.image = std::move(file.bytes);
+  texture.type = std::move(file.type);
+}
+
+/// Only what differs from place to place needs an image.
 void add_surface(const BakedSurface& baked, MeshTexture& texture) {
-  const auto file_of = [](const TextureImage& image) {
-    EncodedImage file = encode_texture(image);
-    return ImageFile{std::move(file.bytes), std::move(file.type)};
-  };
   if (!says_nothing(baked.normal)) texture.normal = file_of(baked.normal);
   const TextureImage::Texel light = baked.emission.texels.front();
   const bool dark = is_plain(baked.emission) && std::max({light[0], light[1], light[2]}) < 4;

@@ -109,15 +109,16 @@ const MtlMaterials::Map& MtlMaterials::Material::first_map() const {
 }
 
 /// None if it is not there, or lies elsewhere than the material's first one: that is told.
-TextureMap MtlMaterials::map_of(const Map& map, const Material& material, TextureTable& textures, bool relief) {
+TextureMap MtlMaterials::map_of(const Map& map, const Material& material, TextureTable& textures,
+                                const std::optional<Relief>& relief) {
   if (map.image.empty()) return {};
   if (map.uv != material.first_map().uv) {
     textures.add_fault(
         fmt::format("{}: lies at other places than its material's first image; it is left out", map.image));
     return {};
   }
-  const std::uint32_t image =
-      textures.add_image((relief ? "relief " : "") + map.image, {map.image, nullptr, map.image, relief});
+  const std::string kind = relief ? fmt::format("relief {} {} ", relief->strength, relief->repeats) : "";
+  const std::uint32_t image = textures.add_image(kind + map.image, {map.image, nullptr, map.image, relief});
   const std::array<int, 2> size = textures.size(image);
   if (size[0] == 0) {
     textures.add_fault(fmt::format("{}: is not there, or cannot be read; it is left out", map.image));
@@ -139,10 +140,13 @@ TextureSurface MtlMaterials::surface_of(const Material& material, TextureTable& 
   s.metal_factor = float(material.metal);
   s.emission_factor = {float(material.emission.r) / 65535, float(material.emission.g) / 65535,
                        float(material.emission.b) / 65535};
-  const bool relief = material.normal_map.image.empty();
-  const Map& normal_map = relief ? material.bump_map : material.normal_map;
-  s.normal = map_of(normal_map, material, textures, relief);
-  s.normal_scale = s.normal.is_there() ? float(normal_map.strength) : 1;
+  const Map &directions = material.normal_map, &bump = material.bump_map;
+  if (directions.image.empty()) {
+    s.normal = map_of(bump, material, textures, Relief{bump.strength, !bump.clamp});
+  } else {
+    s.normal = map_of(directions, material, textures);
+    if (s.normal.is_there()) s.normal_scale = float(directions.strength);
+  }
   s.emission = map_of(material.emission_map, material, textures);
   if (s.emission.is_there()) s.emission_factor = {1, 1, 1};
   const bool both = material.roughness_map == material.metal_map;

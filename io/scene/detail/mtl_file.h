@@ -53,7 +53,7 @@ class MtlMaterials {
   static void read_map(TextScanner& text, const std::string& folder, Map& map);
   [[nodiscard]] static TextureSurface surface_of(const Material& material, TextureTable& textures);
   [[nodiscard]] static TextureMap map_of(const Map& map, const Material& material, TextureTable& textures,
-                                         bool relief = false);
+                                         const std::optional<Relief>& relief = {});
   std::map<std::string, Material> materials_;
 };
 

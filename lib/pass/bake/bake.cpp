@@ -315,11 +315,22 @@ BakedSurface bake_surface(const LatticeMesh& mesh, const Atlas& atlas, const Sce
 bool says_nothing(const TextureImage& normals) {
   constexpr int kLean = 18;  // of 255
   constexpr std::size_t kOneIn = 100;
-  const auto leaning = std::count_if(normals.texels.begin(), normals.texels.end(), [](const TextureImage::Texel& t) {
+  constexpr int kDetail = 8;  // texels along a side: two pixels where the level's error is one
+  const auto leans = [](const TextureImage::Texel& t) {
     const int x = 2 * int(t[0]) - 255, y = 2 * int(t[1]) - 255;
     return x * x + y * y > kLean * kLean;
-  });
-  return std::size_t(leaning) * kOneIn <= normals.texels.size();
+  };
+  std::size_t all = 0;
+  for (int top = 0; top < normals.height; top += kDetail) {
+    for (int left = 0; left < normals.width; left += kDetail) {
+      std::size_t here = 0;
+      for (int y = top; y < std::min(normals.height, top + kDetail); ++y)
+        for (int x = left; x < std::min(normals.width, left + kDetail); ++x) here += leans(normals.at(x, y)) ? 1 : 0;
+      if (2 * here > kDetail * kDetail) return false;
+      all += here;
+    }
+  }
+  return all * kOneIn <= normals.texels.size();
 }
 
 }  // namespace bp

@@ -33,8 +33,10 @@ struct BakedSurface {
 [[nodiscard]] BakedSurface bake_surface(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks,
                                         const BakeParams& params);
 
-/// Whether an image of normals says hardly more than the mesh's own: one texel in a hundred at most leans by more than
-/// 4 degrees. At the edge of a roof a texel may see the wall, also where the mesh lies on the scene. O(texels).
+/// Whether an image of normals says hardly more than the mesh's own. At the edge of a roof a texel may see the wall,
+/// also where the mesh lies on the scene. So one texel in a hundred may lean by more than 4 degrees, but no square of
+/// 8 x 8 texels may have more than half of its texels lean: that is a detail, however small its share of the image.
+/// O(texels).
 [[nodiscard]] bool says_nothing(const TextureImage& normals);
 
 }  // namespace bp

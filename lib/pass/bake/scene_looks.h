@@ -76,7 +76,7 @@ class SceneLooks {
   double finest_texel_ = 0;
   struct Material {
     bool is_known = false;
-    std::array<int, 2> size{};  // of its image; 0: none
+    std::array<int, 2> size{};  // of the one of its images that has the most texels; 0: none
     ResultKey key;              // of all that decides how it looks
   };
   std::vector<Material> materials_;

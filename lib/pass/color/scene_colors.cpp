@@ -65,7 +65,8 @@ std::uint32_t weight_of(const ColorSum& sum) {
   return std::uint32_t(std::min<std::uint64_t>(sum.weight, std::numeric_limits<std::uint32_t>::max()));
 }
 
-/// Of the sides of a cell, by their shares; by area alone if none has one.
+/// Of the sides of a cell, by their shares. What lacks of enough area is made up by all of the cell: shares that are
+/// nearly 0 would choose one side by rounding, or by a tree's twig.
 template <class Shares>
 LinearColor mean_of(std::span<const CellColor> sides, const Shares& shares) {
   std::array<double, 4> sum{}, plain{};
@@ -76,8 +77,10 @@ LinearColor mean_of(std::span<const CellColor> sides, const Shares& shares) {
       plain[i] += c.weight * one[i];
     }
   }
-  const std::array<double, 4>& s = sum[3] > 0 ? sum : plain;
-  return {std::uint16_t(s[0] / s[3] + 0.5), std::uint16_t(s[1] / s[3] + 0.5), std::uint16_t(s[2] / s[3] + 0.5)};
+  const double lack = plain[3] > 0 ? std::max(0.0, kEnough - sum[3] / plain[3]) : 0;
+  for (std::size_t i = 0; i < 4; ++i) sum[i] += lack * plain[i];
+  return {std::uint16_t(sum[0] / sum[3] + 0.5), std::uint16_t(sum[1] / sum[3] + 0.5),
+          std::uint16_t(sum[2] / sum[3] + 0.5)};
 }
 
 }  // namespace

@@ -24,8 +24,9 @@ class NearbyColors {
   [[nodiscard]] bool empty() const { return levels_.empty(); }
   /// At a point in lattice units of the level's frame: of the cell it lies in; else of the nearest of the 26 around it;
   /// else the same among cells twice as large, and so on. White if there is no cell. What looks along `normal`, of any
-  /// length, counts, and cells that have it come first: at the edge of a roof the walls do not tint it. All of a cell
-  /// counts if hardly anything of it, and of those around it, looks that way, or if the normal is 0.
+  /// length, counts, and cells that have it come first: at the edge of a roof the walls do not tint it. Where hardly
+  /// anything looks that way, in a cell and in those around it, all of the cell counts, the more the less does; all of
+  /// it alone if the normal is 0.
   [[nodiscard]] LinearColor at(const Vec3d& lattice, const Vec3d& normal) const;
   void add_to(KeyHash& hash) const;
 

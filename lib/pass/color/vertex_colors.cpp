@@ -7,10 +7,11 @@
 
 // [KBS11] Kavan, Bargteil and Sloan, Least squares vertex baking, 2011: minimises the squared difference between what
 // is interpolated over the faces and what was sampled there. We differ in the regularization: not towards smoothness
-// across edges but, weakly, towards each vertex's own weighted mean, which also decides where samples are too few, and
-// a vertex has a colour for each group of faces whose colours go on from one to the next. The
-// matrix is then bounded by its diagonal whatever the mesh is, and ten rounds of conjugate gradients are far below a
-// step of 8 bits.
+// across edges but, weakly, towards each vertex's own weighted mean, which also decides where samples are too few;
+// samples far from what fits a face are outliers and count little (face_colors.cpp), because a least squares fit of a
+// step is a slope over all of the face; and a vertex has a colour for each group of faces whose colours go on from one
+// to the next. The matrix is then bounded by its diagonal whatever the mesh is, and ten rounds of conjugate gradients
+// are far below a step of 8 bits.
 
 namespace bp {
 

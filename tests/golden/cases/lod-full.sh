@@ -60,3 +60,9 @@ shown painted/part0_LOD0.glb
 sed -i 's/norm/map_Bump -bm 1/; s/map_Pr/map_Pm other.png\n&/' cubes.mtl
 said 'bplod part0.obj --resolution 30 --levels 1 --appearance full -o mixed | cut -f 1'
 shown mixed/part0_LOD0.glb
+
+# A plain material with a normal map: no texel is smaller than the map's, and an image of one colour is small.
+sed -i '/map_\|norm/d' cubes.mtl && echo 'norm chequered.png' >> cubes.mtl
+bplod part0.obj --resolution 256 --levels 1 --appearance full -o mapped -q > list
+shown mapped/part0_LOD0.glb
+[ $(stat -c %s mapped/part0_LOD0.glb) -lt 12000 ] && echo "small"

@@ -12,7 +12,10 @@ namespace {
 
 constexpr double kSpacing = kColorCellVox * kLatticePerVoxel / 2;  // lattice units: as the scene was sampled
 constexpr int kLeastRows = 2;
+constexpr double kMostSamples = 1 << 14;  // of a face, about: they are in memory together
 constexpr double kTowardsMean = 0.05;
+constexpr int kRounds = 3;
+constexpr double kNear = 0.05 * 65535;  // of a colour and the fit: it counts half there
 /// Colours that differ: by so much of the range of what is seen, and by so many standard deviations within the faces.
 constexpr double kLeastStep = 0.1, kLeastDeviations = 1;
 
@@ -29,25 +32,29 @@ TriangleD corners_of(const LatticeMesh& mesh, std::size_t f) {
   return t;
 }
 
-FaceColors sampled(const TriangleD& corners, const NearbyColors& colors) {
+/// Of a face: how much each corner counts there, the area it stands for, and the colour.
+struct Sample {
+  std::array<double, 3> w;
+  double area;
+  Rgb color;
+};
+
+FaceColors sum_of(const std::vector<Sample>& samples) {
   FaceColors face;
-  const double area = area_of(corners);
-  const Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
-  for_each_sample(corners, kSpacing, kLeastRows, [&](const std::array<double, 3>& w, double share) {
-    const Rgb c = rgb_of(colors.at(point_of(corners, w), normal));
+  for (const Sample& s : samples) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const double weight = area * share * w[k];
-      face.products[k] += weight * w[k];
-      face.products[3 + k] += weight * w[(k + 1) % 3];
+      const double weight = s.area * s.w[k];
+      face.products[k] += weight * s.w[k];
+      face.products[3 + k] += weight * s.w[(k + 1) % 3];
       face.mass[k] += weight;
-      for (std::size_t i = 0; i < 3; ++i) face.sums[k][i] += weight * c[i];
+      for (std::size_t i = 0; i < 3; ++i) face.sums[k][i] += weight * s.color[i];
     }
     for (std::size_t i = 0; i < 3; ++i) {
-      face.squares[i] += area * share * c[i] * c[i];
-      face.low[i] = std::min(face.low[i], c[i]);
-      face.high[i] = std::max(face.high[i], c[i]);
+      face.squares[i] += s.area * s.color[i] * s.color[i];
+      face.low[i] = std::min(face.low[i], s.color[i]);
+      face.high[i] = std::max(face.high[i], s.color[i]);
     }
-  });
+  }
   return face;
 }
 
@@ -77,6 +84,38 @@ FaceFit fit_of(const FaceColors& face) {
     fit.variance += std::max(0.0, face.squares[i] - 2 * dot(sums, x) + dot(product, x)) / area;
   }
   return fit;
+}
+
+/// What is far from the face's fit counts less, in three rounds: a narrow band of another colour, as the foot of a
+/// wall, would tint all of the face. What fades fits, and all of it counts.
+FaceColors sampled(const TriangleD& corners, const NearbyColors& colors) {
+  const double area = area_of(corners);
+  const Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double spacing = std::max(kSpacing, std::sqrt(2 * area / kMostSamples));
+  std::vector<Sample> samples;
+  for_each_sample(corners, spacing, kLeastRows, [&](const std::array<double, 3>& w, double share) {
+    samples.push_back({w, area * share, rgb_of(colors.at(point_of(corners, w), normal))});
+  });
+  FaceColors face = sum_of(samples);
+  std::vector<double> areas;
+  for (const Sample& s : samples) areas.push_back(s.area);
+  for (int round = 0; round < kRounds && area > 0; ++round) {
+    const FaceFit fit = fit_of(face);
+    if (fit.variance < kNear * kNear / 100) break;
+    for (std::size_t n = 0; n < samples.size(); ++n) {
+      double far = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        double here = 0;
+        for (std::size_t k = 0; k < 3; ++k) here += samples[n].w[k] * fit.corners[i][k];
+        far += (samples[n].color[i] - here) * (samples[n].color[i] - here);
+      }
+      samples[n].area = areas[n] / (1 + far / (kNear * kNear));
+    }
+    const double all = face.area();
+    face = sum_of(samples);
+    face.scale(all / face.area());
+  }
+  return face;
 }
 
 /// Of the two faces' colours, in the middle of the edge that begins at these places in them.

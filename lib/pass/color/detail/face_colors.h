@@ -16,6 +16,14 @@ struct FaceColors {
   Rgb low{65535, 65535, 65535}, high{};
 
   [[nodiscard]] double area() const { return mass[0] + mass[1] + mass[2]; }
+  /// Lets all samples count so many times as much.
+  void scale(double times) {
+    for (double& x : products) x *= times;
+    for (double& x : mass) x *= times;
+    for (Rgb& sum : sums)
+      for (double& x : sum) x *= times;
+    for (double& x : squares) x *= times;
+  }
 };
 
 [[nodiscard]] std::vector<FaceColors> face_colors(const LatticeMesh& mesh, const NearbyColors& colors);

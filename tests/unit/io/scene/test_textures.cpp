@@ -266,8 +266,10 @@ TEST_CASE("MTL: how a material answers to light, if that is asked for", "[quick]
                  "newmtl images\nnorm n.png\nmap_Pr -clamp on pr.png\nPr 0.5\nKe 0 0 1\nmap_Ke ke.png\n"
                  "newmtl packed\nmap_Pr pr.png\nmap_Pm pr.png\nnewmtl two\nmap_Pr pr.png\nmap_Pm ke.png\nPm 0.5\n"
                  "newmtl astray\nmap_Kd base.png\nnorm -o 0.5 n.png\nnewmtl gone\nKe 0 1 0\nmap_Ke gone.png\n"
-                 "newmtl high\nmap_Bump -bm 0.25 n.png\nnewmtl plain\nKd 1 0 0\n");
-  const std::vector<std::string> names{"all", "images", "packed", "two", "astray", "gone", "high", "plain"};
+                 "newmtl high\nmap_Bump -bm 0.25 n.png\nnewmtl plain\nKd 1 0 0\n"
+                 "newmtl higher\nmap_Bump -bm 4 n.png\nnewmtl same\nbump -bm 0.25 n.png\n");
+  const std::vector<std::string> names{"all",  "images", "packed", "two",    "astray",
+                                       "gone", "high",   "plain",  "higher", "same"};
   std::string obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n";
   for (const std::string& name : names) obj += "usemtl " + name + "\nf 1/1 2/2 3/3\n";
   const std::string path = dir.file("a.obj", obj);
@@ -290,7 +292,9 @@ TEST_CASE("MTL: how a material answers to light, if that is asked for", "[quick]
   CHECK(surface(4) == TextureSurface{});
   CHECK(surface(5).emission_factor == std::array<float, 3>{0, 1, 0});
   CHECK(surface(6).normal.is_there());
-  CHECK(surface(6).normal_scale == 0.25F);
+  CHECK(surface(6).normal_scale == 1);  // the image has its strength
+  CHECK(surface(8).normal.image != surface(6).normal.image);
+  CHECK(surface(9).normal.image == surface(6).normal.image);
   CHECK(surface(6).normal.image != surface(1).normal.image);  // one of them may be heights
   CHECK(r.textures[7].material == TriangleTexture::kNoMaterial);
   std::string faults;
@@ -317,7 +321,9 @@ TEST_CASE("MTL: map_Bump is heights where it is grey, and directions where it is
   tint.at(0, 0)[3] = 254;
   (void)dir.file("ramp.png", encode_texture(ramp).bytes);
   (void)dir.file("tint.png", encode_texture(tint).bytes);
-  (void)dir.file("m.mtl", "newmtl high\nbump ramp.png\nnewmtl bent\nmap_bump tint.png\nnewmtl said\nnorm ramp.png\n");
+  (void)dir.file(
+      "m.mtl",
+      "newmtl high\nbump -clamp on -bm 1.5 ramp.png\nnewmtl bent\nmap_bump tint.png\nnewmtl said\nnorm ramp.png\n");
   const std::string path =
       dir.file("a.obj",
                "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl high\nf 1/1 2/2 3/3\n"
@@ -327,7 +333,7 @@ TEST_CASE("MTL: map_Bump is heights where it is grey, and directions where it is
     return r.table->material(r.textures.at(i).material).surface.normal.image;
   };
   const TextureImage high = r.table->image(image_of(0), 1 << 20);
-  const double slope = 32.0 / 255, lean = slope / std::sqrt(1 + slope * slope);
+  const double slope = 1.5 * 32.0 / 255, lean = slope / std::sqrt(1 + slope * slope);
   for (const TextureImage::Texel& t : high.texels) {  // uphill is right, or down: it leans left, or up
     CHECK(std::abs(t[0] / 127.5 - 1 - (down ? 0 : -lean)) < 0.01);
     CHECK(std::abs(t[1] / 127.5 - 1 - (down ? lean : 0)) < 0.01);

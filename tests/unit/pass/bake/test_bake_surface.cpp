@@ -175,6 +175,39 @@ TEST_CASE("an image of directions says nothing if hardly a texel leans", "[quick
   CHECK(says_nothing(image));
 }
 
+TEST_CASE("a small detail of a large image of directions says something, a line of texels does not", "[quick][bake]") {
+  TextureImage image(400, 300, {128, 128, 255, 255});
+  for (int x = 0; x < 300; ++x) image.at(x, 17 + x / 2) = {255, 128, 128, 255};
+  CHECK(says_nothing(image));
+  for (int y = 200; y < 216; ++y)
+    for (int x = 300; x < 316; ++x) image.at(x, y) = {150, 128, 254, 255};  // with the line, less than 1 %
+  CHECK_FALSE(says_nothing(image));
+}
+
+TEST_CASE("any of a material's images tells how small texels are worth it", "[quick][bake]") {
+  Fixture f;
+  const auto finest = [&] {
+    TexturedSource source(f.scene);
+    Bounds3d bounds;
+    for (const TriangleD& t : f.scene.triangles) bounds.merge(bounds_of(t));
+    return SceneLooks({source, bounds, f.scene.triangles.size(), f.textures}, std::make_unique<MemoryScratch>(), {})
+        .finest_texel();
+  };
+  CHECK(finest() == 0);
+  const int which = GENERATE(0, 1, 2);
+  TextureSurface& surface = f.surface();
+  TextureMap& map = which == 0 ? surface.normal : which == 1 ? surface.roughness : surface.emission;
+  f.textures->images.emplace_back(48, 48, TextureImage::Texel{});
+  map.image = std::uint32_t(f.textures->images.size() - 1);
+  // A side of half a unit has a sixth of the image: 8 x 48 texels.
+  const double texel = 0.5 / std::sqrt(8.0 * 48);
+  CHECK(finest() <= texel);
+  CHECK(finest() > 0.8 * texel);
+  f.textures->materials[0].image = f.add({9, 9, 9, 255});  // 4 x 4 texels
+  CHECK(finest() > 0.8 * texel);
+  CHECK(finest() <= texel);
+}
+
 TEST_CASE("packed normals are within a hundredth of a degree", "[quick][bake]") {
   for (int x = -3; x <= 3; ++x) {
     for (int y = -3; y <= 3; ++y) {

@@ -253,6 +253,32 @@ TEST_CASE("a surface has one direction, whichever way its triangles are wound", 
   CHECK(color_side_of({NAN, 0, 0}) == 0);
 }
 
+TEST_CASE("all of a cell counts where nothing of it looks along the normal, also but for rounding",
+          "[quick][pass][colors]") {
+  const auto side = [](const Vec3d& along) { return color_side_of(along); };
+  const std::vector<CellColor> cells{{{0, 0, 0}, kRed, side({1, 0, 0}), 1000},
+                                     {{0, 0, 0}, kBlue, side({0, 0, 1}), 3000}};
+  const NearbyColors colors(cells, {0, 0, 0}, {0, 0, 0});
+  const Vec3d middle{2.0 * kLatticePerVoxel, 2.0 * kLatticePerVoxel, 2.0 * kLatticePerVoxel};
+  for (const Vec3d& normal : {Vec3d{0, 1, 0}, Vec3d{1e-3, 1, 0}, Vec3d{0.05, 1, 1e-17}, Vec3d{0, 1, -0.1}}) {
+    const LinearColor c = colors.at(middle, normal);
+    CAPTURE(normal[0], normal[2], c.r, c.b);
+    CHECK(std::abs(int(c.r) - 65535 / 4) < 10);
+    CHECK(std::abs(int(c.b) - 65535 * 3 / 4) < 10);
+  }
+  CHECK(colors.at(middle, {1, 0, 0}) == kRed);  // a quarter of it looks there
+  // There is no step where a side begins to be enough.
+  LinearColor before = colors.at(middle, {0, 1, 0});
+  for (int degrees = 1; degrees <= 90; ++degrees) {
+    const double angle = degrees * 3.14159265358979 / 180;
+    const LinearColor now = colors.at(middle, {std::sin(angle), std::cos(angle), 0});
+    CAPTURE(degrees, before.r, now.r);
+    CHECK(now.r >= before.r);
+    CHECK(now.r - before.r < 65535 / 12);
+    before = now;
+  }
+}
+
 TEST_CASE("no vertex of a box of two colours has a mixed one, however it is turned", "[quick][pass][colors]") {
   const double angle = GENERATE(0.0, 0.3, 0.54, 0.9);
   LatticeMesh box;
@@ -282,6 +308,35 @@ TEST_CASE("no vertex of a box of two colours has a mixed one, however it is turn
     CAPTURE(angle, f);
     for (const LinearColor& c : mesh.colors[f])
       CHECK(linear_bytes(c) == linear_bytes(is_top(box.triangles[f]) ? kRed : kBlue));
+  }
+}
+
+TEST_CASE("a narrow band of another colour does not fade over a large face", "[quick][pass][colors]") {
+  // A wall of 20 x 20 x 20 with a foot of 1.5, and a level that has one face for both.
+  ColoredScene scene;
+  add_box(scene.triangles, {0, 0, 0}, {20, 1.5, 20});
+  scene.paint(kBlue);
+  add_box(scene.triangles, {0, 1.5, 0}, {20, 20, 20});
+  scene.paint(kRed);
+  const Voxelized voxels = voxelized(scene.triangles, 0.125);
+  const GridFrame& frame = voxels.header.frame;
+  LatticeMesh mesh;
+  mesh.frame = frame;
+  const Vec3d lo = frame.to_voxels({0, 0, 0}), hi = frame.to_voxels({20, 20, 20});
+  const auto lattice = [](const Vec3d& p) {
+    return LatticeCoord{std::lround(p[0] * 64), std::lround(p[1] * 64), std::lround(p[2] * 64)};
+  };
+  add_box(mesh, {lattice(lo), lattice(hi)});
+  color_vertices(mesh, gathered(scene, voxels, 1 << 20)->all(frame));
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const auto& t = mesh.triangles[f];
+    const auto at_foot = [&](std::uint32_t v) { return mesh.vertices[v].y == lattice(lo).y; };
+    const bool is_bottom = at_foot(t[0]) && at_foot(t[1]) && at_foot(t[2]);
+    for (const LinearColor& c : mesh.colors[f]) {
+      CAPTURE(f, c.r, c.b);
+      CHECK((is_bottom ? c.b : c.r) > 62000);
+      CHECK((is_bottom ? c.r : c.b) < 3500);
+    }
   }
 }
 
