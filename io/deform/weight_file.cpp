@@ -190,8 +190,7 @@ struct WeightReader::State {
 
 bool begins_as_weights(const InputFile& file) {
   std::array<std::byte, kFrameHeadBytes + kWeightMagic.size()> start{};
-  return file.seekable() && file.read_at(0, start) == start.size() &&
-         std::memcmp(start.data(), &kFrameMagic, 4) == 0 &&
+  return file.seekable() && file.read_at(0, start) == start.size() && std::memcmp(start.data(), &kFrameMagic, 4) == 0 &&
          std::memcmp(start.data() + kFrameHeadBytes, kWeightMagic.data(), kWeightMagic.size()) == 0;
 }
 
