@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "io/deform/weight_file.h"
 #include "io/scene/scene_format.h"
 #include "io/scene/scene_parts.h"
 #include "io/scene/scene_reader.h"
@@ -18,6 +19,7 @@
 #include "tools/info/picture.h"
 #include "tools/info/stream_info.h"
 #include "tools/info/tileset_info.h"
+#include "tools/info/weight_info.h"
 #include "tools/run/inputs.h"
 
 namespace {
@@ -85,6 +87,11 @@ bool is_stream(const Options& o, const std::string& in) {
 /// By its name, as bpcheck does.
 bool is_tileset(const Options& o, const std::string& in) {
   return o.format.empty() && in.ends_with(".json");
+}
+
+/// By its first bytes, which are those of a stream of voxels but for its own magic.
+bool is_weights(const Options& o, const std::string& in) {
+  return o.format.empty() && in != "-" && bp::begins_as_weights(bp::InputFile(in));
 }
 
 void note(const Options& o, const std::string& text) {
@@ -203,9 +210,17 @@ void show_tileset(const Options& o, const std::string& in, bp::Picture& picture)
   if (picture.wanted()) draw_tileset(o, tileset, in, picture);
 }
 
+void show_weights(const Options& o, const std::string& in, bp::Picture& picture) {
+  if (o.dump || picture.wanted())
+    bp::fail(bp::ErrorCode::bad_argument, "{}: weights are described only; name their scene or their cage", in);
+  const bp::WeightInfo info = bp::weight_info(in);
+  bp::print(o.json ? bp::weight_json(info).dump(2) + "\n" : bp::weight_text(info, in));
+}
+
 /// The scene that a stream was made of, or one in a file.
 std::string part_places(const Options& o, const std::string& in) {
   if (is_tileset(o, in)) bp::fail(bp::ErrorCode::bad_argument, "{}: --boxes is for scenes; tiles have no parts", in);
+  if (is_weights(o, in)) bp::fail(bp::ErrorCode::bad_argument, "{}: --boxes is for scenes; weights have no parts", in);
   if (is_stream(o, in)) {
     const bp::BrickReader stream(in);
     return bp::part_places(stream.header().scene, stream.header().bounds, o.boxes);
@@ -230,7 +245,10 @@ void run(const Options& o) {
   if (!o.boxes.empty()) return bp::print(part_places(o, o.in[0]));
   bp::Picture picture(o.picture);
   for (const std::string& in : o.in)
-    (is_tileset(o, in) ? show_tileset : is_stream(o, in) ? show_stream : show_mesh)(o, in, picture);
+    (is_tileset(o, in)   ? show_tileset
+     : is_weights(o, in) ? show_weights
+     : is_stream(o, in)  ? show_stream
+                         : show_mesh)(o, in, picture);
   if (!picture.wanted()) return;
   for (const std::string& text : picture.write()) note(o, text);
   if (o.picture.image.pick) bp::print(picture.picked() + "\n");

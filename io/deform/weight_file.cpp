@@ -188,11 +188,14 @@ struct WeightReader::State {
   void read_end(std::span<const std::byte> payload);
 };
 
-void WeightReader::State::check_start() {
+bool begins_as_weights(const InputFile& file) {
   std::array<std::byte, kFrameHeadBytes + kWeightMagic.size()> start{};
-  const std::size_t n = file.read_at(0, start);
-  if (n < start.size() || std::memcmp(start.data(), &kFrameMagic, 4) != 0 ||
-      std::memcmp(start.data() + kFrameHeadBytes, kWeightMagic.data(), kWeightMagic.size()) != 0)
+  return file.seekable() && file.read_at(0, start) == start.size() && std::memcmp(start.data(), &kFrameMagic, 4) == 0 &&
+         std::memcmp(start.data() + kFrameHeadBytes, kWeightMagic.data(), kWeightMagic.size()) == 0;
+}
+
+void WeightReader::State::check_start() {
+  if (!begins_as_weights(file))
     fail(ErrorCode::bad_input, "{}: is no file of weights; bpdeform bind makes one", file.name());
 }
 

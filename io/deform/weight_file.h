@@ -50,6 +50,9 @@ class WeightWriter {
   std::unique_ptr<State> state_;
 };
 
+/// Whether a file that can be read again begins as files of weights do.
+[[nodiscard]] bool begins_as_weights(const InputFile& file);
+
 /// Throws bad_input, with the offset, if the file is truncated, damaged or something else: here, or while reading.
 class WeightReader {
  public:

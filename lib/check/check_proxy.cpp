@@ -78,6 +78,7 @@ void measure_distances(const Surface& surface, const SceneMemory& scene, const C
     return;
   }
   report.scene_to_proxy = there;
+  if (scene.keep && scene.all.size() <= kMostBounded) bound_largest(scene.all, surface.bvh(), *report.scene_to_proxy);
   if (!scene.keep) {
     report.distance_note =
         fmt::format("no distance from the proxy to the scene: {} triangles do not fit the {} MiB set aside for them",
@@ -85,9 +86,15 @@ void measure_distances(const Surface& surface, const SceneMemory& scene, const C
     return;
   }
   TriangleSample proxy(options.distance_samples);
-  for (std::size_t i = 0; i < surface.bvh().size(); ++i)  // in an order of neighbours
-    proxy.see(surface.bvh().item(i).id, surface.bvh().item(i).corners);
-  report.proxy_to_scene = distances(proxy.points(), TriangleBvh(scene.all));
+  std::vector<TriangleD> all;
+  for (std::size_t i = 0; i < surface.bvh().size(); ++i) {  // in an order of neighbours
+    const TriangleBvh::Item& item = surface.bvh().item(i);
+    proxy.see(item.id, item.corners);
+    if (surface.bvh().size() <= kMostBounded) all.push_back(item.corners);
+  }
+  const TriangleBvh tree(scene.all);
+  report.proxy_to_scene = distances(proxy.points(), tree);
+  if (!all.empty()) bound_largest(all, tree, *report.proxy_to_scene);
 }
 
 void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, const CheckOptions& options,

@@ -35,11 +35,12 @@ struct Finding {
   }
 };
 
-/// A distance estimated from samples: `max` is a lower bound of the one-sided Hausdorff distance.
+/// From all points of one surface to the nearest of another: the one-sided Hausdorff distance, and the mean of samples.
 struct SampledDistance {
   std::uint64_t samples = 0;
-  double max = 0, mean = 0;  ///< scene units
-  Vec3d where{};             ///< the sample that is farthest
+  double max = 0, mean = 0;       ///< scene units; max: of the points looked at, a lower bound
+  Vec3d where{};                  ///< the point that is farthest
+  std::optional<double> at_most;  ///< no point is farther, but for rounding; none: only samples were looked at
 };
 
 /// Of a question: yes and no are exact.

@@ -198,7 +198,11 @@ std::string scene_lines(const CheckReport& r) {
 
 std::string distance_line(const char* name, const std::optional<SampledDistance>& d) {
   if (!d) return "";
-  return fmt::format("  {:<28}{:.6g} largest, {:.6g} mean, of {} sampled points\n", name, d->max, d->mean, d->samples);
+  if (!d->at_most)
+    return fmt::format("  {:<28}{:.6g} largest, {:.6g} mean, of {} sampled points\n", name, d->max, d->mean,
+                       d->samples);
+  return fmt::format("  {:<28}{:.6g} largest (at most {:.6g}), {:.6g} mean of {} sampled points\n", name, d->max,
+                     *d->at_most, d->mean, d->samples);
 }
 
 std::string measure_lines(const CheckReport& r) {
@@ -230,7 +234,9 @@ Json json_of(const Finding& f, const FindingText& t) {
 
 Json json_of(const std::optional<SampledDistance>& d) {
   if (!d) return nullptr;
-  return {{"sampled", true}, {"samples", d->samples}, {"max", d->max}, {"mean", d->mean}, {"where", d->where}};
+  Json j{{"sampled", true}, {"samples", d->samples}, {"max", d->max}, {"mean", d->mean}, {"where", d->where}};
+  j["at_most"] = d->at_most ? Json(*d->at_most) : Json(nullptr);
+  return j;
 }
 
 Json scene_json(const CheckReport& r) {

@@ -41,6 +41,8 @@ struct SimplifyParams : ShapeLimits {
   } whole;
   /// A surface of several times so many faces is cut into regions, which are worked on at the same time (regions.h).
   std::uint64_t faces_per_region = kFacesPerRegion;
+  /// Whether tight_proxy() tries half of a surface's faces where many are wanted, for less volume.
+  bool try_half = false;
   PieceMemory memory;  ///< of a surface that is simplified by cells; does not change the result
 };
 

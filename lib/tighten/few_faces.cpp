@@ -15,10 +15,10 @@ namespace {
 constexpr double kHopeless = 1.25;         // times the least volume so far: fewer faces will not come below it
 constexpr double kPromising = 1.5;         // the same of a hull that is not tightened yet
 constexpr std::uint64_t kFewForHull = 32;  // more faces than that are better used than for a convex proxy
-/// Where a new way from the first surface is tried, too.
+/// Where a new way from the first surface is tried, too. It is also tried where the way is stuck.
 constexpr std::array<std::uint64_t, 6> kFresh{48, 32, 24, 20, 8, 6};
 
-/// The next number of faces on the way.
+/// The next number of faces on the way; fewer(n + 1): the first one up to n.
 std::uint64_t fewer(std::uint64_t n) {
   return n > 40 ? (n - 1) / 4 * 4 : (n - 1) / 2 * 2;
 }
@@ -33,7 +33,7 @@ struct Stop {
 class Way {
  public:
   Way(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params)
-      : enclosed_(enclosed), params_(params), box_(dense.box()) {
+      : dense_(dense), enclosed_(enclosed), params_(params), box_(dense.box()) {
     SimplifyParams growing = growing_part_of(params_for(kFewFaces));
     growing.room = room_around(box_, growing.faces);
     grown_.mesh = simplify(dense, growing, grown_.simplified);
@@ -48,6 +48,15 @@ class Way {
   /// The first proxy has few faces.
   [[nodiscard]] bool is_there() const { return faces() > 0 && faces() <= kFewFaces; }
 
+  /// On to the next number of faces that there is a way to, as long as parts and handles leave one; false at the end.
+  bool go() {
+    const std::uint64_t least = least_faces();
+    for (std::uint64_t n = fewer(faces()); n >= least; n = fewer(n))
+      if (go(n)) return true;
+    return false;
+  }
+
+ private:
   /// On to at most `n` faces; false if there is no way.
   bool go(std::uint64_t n) {
     std::optional<Stop> best;
@@ -56,7 +65,9 @@ class Way {
       if (!best || volume6_of(stop.mesh) < volume6_of(best->mesh)) best = std::move(stop);
     };
     offer(tight(at_, n));
-    if (std::find(kFresh.begin(), kFresh.end(), n) != kFresh.end()) offer(tight(grown_, n));
+    const bool stuck = !best;
+    if (stuck || std::find(kFresh.begin(), kFresh.end(), n) != kFresh.end()) offer(tight(grown_, n));
+    if (stuck) offer(from_dense(n));
     if (std::optional<Stop> hull = convex(n)) {
       const double now6 = best ? double(volume6_of(best->mesh)) : HUGE_VAL;
       if (double(volume6_of(hull->mesh)) < kPromising * now6) offer(tight(*hull, n));
@@ -65,7 +76,13 @@ class Way {
     return best.has_value();
   }
 
- private:
+  /// Four for each part and each handle: no closed surface has fewer.
+  [[nodiscard]] std::uint64_t least_faces() const {
+    const std::size_t parts = components_of(at_.mesh).size();
+    const std::size_t handles = (4 * parts + faces() - 2 * at_.mesh.vertices.size()) / 4;  // by Euler's formula
+    return 4 * (parts + handles);
+  }
+
   [[nodiscard]] SimplifyParams params_for(std::uint64_t n) const {
     SimplifyParams params = params_;
     params.faces = n;
@@ -80,6 +97,14 @@ class Way {
     return stop;
   }
 
+  [[nodiscard]] Stop from_dense(std::uint64_t n) const {
+    Stop stop;
+    SimplifyParams params = params_for(n);
+    params.dense = true;
+    stop.mesh = tight_proxy(dense_, enclosed_, params, stop.simplified, stop.tightened);
+    return stop;
+  }
+
   /// A hull of at most n faces around the hull of the first proxy.
   [[nodiscard]] std::optional<Stop> convex(std::uint64_t n) {
     if (hull_.empty() || n > kFewForHull) return {};
@@ -90,6 +115,7 @@ class Way {
     return stop;
   }
 
+  const SurfaceSource& dense_;
   const Enclosed& enclosed_;
   SimplifyParams params_;
   LatticeBox box_;
@@ -104,19 +130,30 @@ LatticeMesh tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclo
   Way way(dense, enclosed, params);
   const std::uint64_t first = way.faces();
   std::optional<Stop> best;
-  for (std::uint64_t n = way.faces(); way.is_there();) {
-    if (n <= params.faces && (!best || volume6_of(way.at().mesh) < volume6_of(best->mesh))) best = way.at();
+  const auto offer = [&](const Stop& stop) {
+    if (stop.mesh.triangles.size() > params.faces) return;
+    if (!best || volume6_of(stop.mesh) < volume6_of(best->mesh)) best = stop;
+  };
+  while (way.is_there()) {
+    offer(way.at());
     if (best && double(volume6_of(way.at().mesh)) > kHopeless * double(volume6_of(best->mesh))) break;
-    if (n <= 4 || !way.go(fewer(n))) break;
-    n = way.faces();
+    if (!way.go()) break;
   }
-  if (!best) return tight_proxy(dense, enclosed, params, simplified, tightened);
+  if (!best) {  // parts take more
+    LatticeMesh proxy = tight_proxy(dense, enclosed, params, simplified, tightened);
+    const std::uint64_t faces = proxy.triangles.size();
+    if (faces <= params.faces || !way.is_there() || way.faces() > faces) return proxy;
+    if (way.faces() == faces && volume6_of(way.at().mesh) >= volume6_of(proxy)) return proxy;
+    best = way.at();
+    best->simplified.refused = simplified.refused;
+    best->simplified.stop = simplified.stop;
+  }
   simplified = best->simplified;
   simplified.faces_out = best->mesh.triangles.size();
   const std::uint64_t tried = std::min(params.faces, first);
-  const bool fewer = simplified.faces_out + 2 < tried;
-  simplified.stop = fewer ? StopReason::least_volume : StopReason::faces;
-  simplified.faces_tried = fewer ? tried : 0;
+  const bool least = simplified.faces_out < fewer(tried + 1);
+  if (simplified.faces_out <= params.faces) simplified.stop = least ? StopReason::least_volume : StopReason::faces;
+  simplified.faces_tried = least ? tried : 0;
   tightened = best->tightened;
   return std::move(best->mesh);
 }

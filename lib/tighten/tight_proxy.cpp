@@ -14,13 +14,14 @@ namespace {
 
 // Growing collapses turn to strict order at a multiple of the wanted faces; at least at so many: these are quick.
 constexpr std::uint64_t kEarlyStrict = 16, kEarlyStrictLeast = 10000;
-constexpr std::uint64_t kEarlyFactor = 6;  // of the wanted faces: where growing collapses end
-constexpr double kMiddleFactor = 3;        // where sweeps are made again if the first found much room
-constexpr double kLateFactor = 1.5;        // where the order of collapses changes from quadric error to volume
-constexpr double kMostGrowth = 6;          // of one collapse: some times a face's share of the volume
-constexpr double kMuchRoom = 0.04;         // share of the volume: a first sweep that gains more is worth others
-constexpr int kJamRounds = 4;              // of a sweep and collapses, where these jam above the target
-constexpr std::uint64_t kWhole = 16;       // regions: up to so many faces are finished as one mesh, which is tighter
+constexpr std::uint64_t kEarlyFactor = 6;   // of the wanted faces: where growing collapses end
+constexpr double kMiddleFactor = 3;         // where sweeps are made again if the first found much room
+constexpr double kLateFactor = 1.5;         // where the order of collapses changes from quadric error to volume
+constexpr double kMostGrowth = 6;           // of one collapse: some times a face's share of the volume
+constexpr std::uint64_t kFewForHalf = 512;  // faces: half of the surface's are tried if they are as many
+constexpr double kMuchRoom = 0.04;          // share of the volume: a first sweep that gains more is worth others
+constexpr int kJamRounds = 4;               // of a sweep and collapses, where these jam above the target
+constexpr std::uint64_t kWhole = 16;        // regions: up to so many faces are finished as one mesh, which is tighter
 
 /// A proxy on the way, and what led to it.
 struct Way {
@@ -213,14 +214,22 @@ Way tight_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams&
 /// Fewer faces take the steps away, and are used if they leave less volume.
 Way least_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams& params) {
   Way way = tight_from(grown, enclosed, params);
-  SimplifyParams fewer = params;
-  fewer.faces = std::uint64_t(double(grown.proxy.triangles.size()) / kEarlyFactor);
-  if (!by_volume(params) || fewer.faces >= params.faces || fewer.faces < kFewFaces) return way;
-  Way other = tight_from(grown, enclosed, fewer);
-  if (other.tightened.volume_after >= way.tightened.volume_after) return way;
-  other.simplified.stop = StopReason::least_volume;
-  other.simplified.faces_tried = way.proxy.triangles.size();
-  return other;
+  if (!by_volume(params)) return way;
+  const std::uint64_t wanted = way.proxy.triangles.size();
+  const auto try_fewer = [&](std::uint64_t faces) {
+    SimplifyParams fewer = params;
+    fewer.faces = faces;
+    Way other = tight_from(grown, enclosed, fewer);
+    if (other.tightened.volume_after >= way.tightened.volume_after) return;
+    other.simplified.stop = StopReason::least_volume;
+    other.simplified.faces_tried = wanted;
+    way = std::move(other);
+  };
+  const std::uint64_t steps = grown.proxy.triangles.size();
+  const std::uint64_t sixth = std::uint64_t(double(steps) / kEarlyFactor), half = steps / 2;
+  if (sixth < params.faces && sixth >= kFewFaces) try_fewer(sixth);
+  if (params.try_half && half < params.faces && half >= kFewForHalf) try_fewer(half);
+  return way;
 }
 
 /// From the lattice of a frame to that of another, whose voxels are a whole number of times smaller. Exact.

@@ -74,8 +74,11 @@ std::string names_text(const PartNames& all) {
 
 std::string moves_text(const MeshExtras& extras) {
   std::string text;
-  if (extras.animations > 0) text = counted(extras.animations, "animation");
-  if (extras.morph_targets > 0) text += (text.empty() ? "" : ", ") + counted(extras.morph_targets, "morph target");
+  const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+  if (extras.animations > 0) add(counted(extras.animations, "animation"));
+  if (extras.morph_targets > 0) add(counted(extras.morph_targets, "morph target"));
+  if (extras.skins > 0)
+    add(counted(extras.skins, "skin") + (extras.skins > 1 ? " of up to " : " of ") + counted(extras.joints, "joint"));
   return text.empty() ? "" : "moves       " + text + "; this is the scene before it moves\n";
 }
 
@@ -125,6 +128,8 @@ Json mesh_json(const MeshInfo& info) {
   j["level"] = info.level;
   j["animations"] = info.extras.animations;
   j["morph_targets"] = info.extras.morph_targets;
+  j["skins"] = info.extras.skins;
+  j["joints"] = info.extras.joints;
   j["origin"] = info.extras.origin ? Json(*info.extras.origin) : Json(nullptr);
   j["provenance"] = info.extras.provenance;
   j["names"] = info.names.names;

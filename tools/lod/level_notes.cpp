@@ -49,8 +49,9 @@ std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triang
 
 std::string error_note(std::size_t level, double error_world, double asked_world) {
   return fmt::format(
-      "level {}: its error is at most {:.4g} instead of {:.4g}: its voxels or its scale are too large for less", level,
-      error_world, asked_world);
+      "level {}: its error is at most {:.4g} instead of {:.4g}: its voxels or its scale are too large for less; a "
+      "smaller --voxel or --scale comes nearer",
+      level, error_world, asked_world);
 }
 
 std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out,

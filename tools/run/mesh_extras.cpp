@@ -99,6 +99,19 @@ std::size_t gltf_morph_targets(const Json& document) {
   return most;
 }
 
+std::size_t gltf_skins(const Json& document) {
+  return document.is_object() && document.contains("skins") ? document.at("skins").size() : 0;
+}
+
+/// The most that a skin has.
+std::size_t gltf_joints(const Json& document) {
+  std::size_t most = 0;
+  if (gltf_skins(document) == 0) return most;
+  for (const Json& skin : document.at("skins"))
+    if (skin.is_object() && skin.contains("joints")) most = std::max(most, skin.at("joints").size());
+  return most;
+}
+
 bool has_hulls(const Json& document) {
   if (!document.is_object() || !document.contains("nodes") || !document.at("nodes").is_array()) return false;
   return std::any_of(document.at("nodes").begin(), document.at("nodes").end(), [](const Json& node) {
@@ -108,15 +121,23 @@ bool has_hulls(const Json& document) {
 }
 
 MeshExtras from_gltf(const std::string& text) {
-  const char* const keys[] = {"\"extras\"", "\"MSFT_lod\"", "\"UCX_", "\"animations\"", "\"targets\""};
+  const char* const keys[] = {"\"extras\"", "\"MSFT_lod\"", "\"UCX_", "\"animations\"", "\"targets\"", "\"skins\""};
   if (std::none_of(std::begin(keys), std::end(keys),
                    [&](const char* key) { return text.find(key) != std::string::npos; }))
     return {};
   const Json document = Json::parse(text, nullptr, false);
   static const Json::json_pointer tile("/asset/extras/tile_origin");
-  return {gltf_provenance(document),   gltf_origin(document), document.is_object() && document.contains(tile),
-          gltf_levels(document),       has_hulls(document),   gltf_animations(document),
-          gltf_morph_targets(document)};
+  MeshExtras extras;
+  extras.provenance = gltf_provenance(document);
+  extras.origin = gltf_origin(document);
+  extras.tile = document.is_object() && document.contains(tile);
+  extras.levels = gltf_levels(document);
+  extras.hulls = has_hulls(document);
+  extras.animations = gltf_animations(document);
+  extras.morph_targets = gltf_morph_targets(document);
+  extras.skins = gltf_skins(document);
+  extras.joints = gltf_joints(document);
+  return extras;
 }
 
 }  // namespace

@@ -16,6 +16,8 @@ struct MeshExtras {
   bool hulls = false;                   ///< nodes of glTF are named UCX_*, as convex hulls for Unreal
   std::size_t animations = 0;           ///< of glTF
   std::size_t morph_targets = 0;        ///< of glTF: the most that a mesh has
+  std::size_t skins = 0;                ///< of glTF
+  std::size_t joints = 0;               ///< of glTF: the most that a skin has
 };
 [[nodiscard]] MeshExtras mesh_extras(const std::string& path);
 

@@ -52,6 +52,18 @@ bpinfo cube.obj turned.obj --image again.png --image-size 200 --threads 1 > said
 cmp marks.png again.png
 [ $((16#$(od -An -tx1 -j 20 -N 4 marks.png | tr -d ' '))) -gt 240 ] || echo 'nothing is below the panels'
 rm faces.obj part.png whole.png marks.png again.png said
+# What moves a scene of glTF is counted.
+bytes=$(printf '%b' '\0\0\0\0\0\0\0\0\0\0\0\0\0\0\200\77\0\0\0\0\0\0\0\0\0\0\0\0\0\0\200\77\0\0\0\0' | base64 -w 0)
+cat > skin.gltf <<END
+{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}], "skins": [{"joints": [1, 2]}, {"joints": [1]}],
+ "nodes": [{"mesh": 0}, {"children": [2]}, {}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,$bytes"}]}
+END
+said 'bpinfo skin.gltf | grep moves'
+said 'bpinfo skin.gltf --json | grep -E "skins|joints"'
+rm skin.gltf
 # Materials that are not there are named where colours would be seen.
 (echo 'mtllib gone.mtl'; cat cube.obj) > plain.obj
 said 'bpinfo plain.obj | checksum'

@@ -8,6 +8,14 @@ sed -i 's/^v .*/& 0.5 0.25 1/' scene.obj
 try bpdeform bind scene.obj cage.obj -o scene.bpw
 try bpdeform apply scene.bpw cage.obj -o rest.obj
 said 'cmp rest.obj scene.obj && echo same'
+# What is in the file of weights; it is read to its end.
+try bpinfo scene.bpw
+try bpinfo scene.bpw --json
+try bpinfo scene.bpw --image weights.png
+try bpinfo scene.bpw --dump
+try bpinfo scene.bpw --boxes part
+head -c -100 scene.bpw > cut.bpw
+try bpinfo cut.bpw
 # The whole cage moves: so does the scene. One side of it moves: the scene is stretched.
 awk '/^v/ { $2 += 10; $3 *= 2 } { print }' cage.obj > affine.obj
 try bpdeform apply scene.bpw affine.obj -o affine_scene.obj
@@ -26,6 +34,7 @@ said 'cmp scene.bpw again.bpw && echo same'
 awk '/^v/ { x = $2; $2 = 9 - 2 * $3; $3 = 2 * x; $4 *= 2 } { print }' cage.obj > similar.obj
 for kind in green maximum-likelihood; do
   try bpdeform bind scene.obj cage.obj -o kind.bpw --coordinates $kind --overwrite
+  said "bpinfo kind.bpw | grep -E '^(coordinates|vertices)'"
   try bpdeform apply kind.bpw cage.obj -o kind.obj -q --overwrite
   said 'cmp kind.obj scene.obj && echo same'
   try bpdeform apply kind.bpw similar.obj -o kind.obj -q --overwrite

@@ -50,3 +50,30 @@ ratio = level["volume"] / counts["volume_of_voxels"]
 print(f"{sys.argv[1]} wanted: volume " + ("below" if ratio < 2 else f"{ratio:.2f} instead of below") + " twice that of the voxels")
 P
 done
+# Two far parts: no smaller number of faces holds less than a larger one, and eight are reached.
+printf 'v %s\n' '0 0 0' '1 0 0' '0 1 0' '10 10 10' '11 10 10' '10 11 10' > far.obj
+printf 'f 1 2 3\nf 4 5 6\n' >> far.obj
+bpvox far.obj --resolution 256 -q -o far.bpv
+for faces in 8 10 12 14 16 24; do
+  bpmesh far.bpv --faces $faces -q -o far.ply --overwrite
+  bpinfo far.ply --json | python3 -c 'import json, sys; j = json.load(sys.stdin); print(j["triangles"], j["volume"])'
+done > far.txt
+python3 - << 'P'
+rows = [line.split() for line in open("far.txt")]
+volumes = [float(volume) for _, volume in rows]
+print("eight faces:", rows[0][0], "; volumes fall" if volumes == sorted(volumes, reverse=True) else f"; volumes rise: {volumes}")
+P
+# Where voxels are few for the faces, more faces asked hold no more: steps of voxels are not kept for their number.
+python3 "$BP_ROOT/samples/scenes.py" . > /dev/null
+bpvox city.obj --resolution 200 -q | bpclose -q -o city.bpv
+for faces in 3000 20000; do
+  bpmesh city.bpv --faces $faces -q -o city.ply --overwrite
+  bpinfo city.ply --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["volume"])'
+done > city.txt
+awk 'NR == 1 { few = $1 } END { print "20000 faces asked:", ($1 < 1.01 * few ? "no" : $1 / few " times"), "more volume than 3000" }' city.txt
+rm city.* house.* truck.* figure.* office.*
+# Fewer faces than asked hold less: the voxels would give more, and the note does not deny it.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' > one.obj
+bpvox one.obj --resolution 256 -q -o one.bpv
+try bpmesh one.bpv --faces 8 -o one.ply
+rm far.* one.*

@@ -269,6 +269,29 @@ TEST_CASE("sampling caps the number of triangles and finds about the same distan
   CHECK(std::abs(r.scene_to_proxy->mean - 1) < 0.01);
 }
 
+TEST_CASE("the largest distance is within its bounds where no corner and no middle of a face has it",
+          "[quick][check]") {
+  // Two posts below the roof of a long box: farthest from them is a place between, where the roof has no corner.
+  std::vector<TriangleD> scene;
+  for (const double x : {0.0, 30.0, 96.0}) {
+    for (TriangleD t : triangles_of(cube(1))) {
+      for (Vec3d& p : t) p[0] += x;
+      scene.push_back(t);
+    }
+  }
+  IndexedMesh proxy = cube(1);
+  for (Vec3d& p : proxy.vertices) p = {p[0] < 0 ? -1.5 : 97.5, 1.5 * p[1], 1.5 * p[2]};
+  const CheckReport r = check(proxy, scene);
+  CHECK(r.holds());
+  CHECK(r.scene_to_proxy->at_most == r.scene_to_proxy->max);
+  const double farthest = std::sqrt(32 * 32 + 2 * 0.5 * 0.5);  // from x = 63: 32 from both posts
+  CHECK(r.proxy_to_scene->max <= farthest * (1 + 1e-12));
+  CHECK(r.proxy_to_scene->max >= farthest * 0.998);
+  CHECK(*r.proxy_to_scene->at_most >= farthest * (1 - 1e-12));
+  CHECK(*r.proxy_to_scene->at_most <= farthest * 1.002);
+  CHECK(std::abs(r.proxy_to_scene->where[0] - 63) < 1);
+}
+
 TEST_CASE("the nearest triangle equals a search of all", "[quick][check]") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> c(-2, 2), d(-0.3, 0.3);

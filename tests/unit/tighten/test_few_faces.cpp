@@ -25,6 +25,12 @@ bool pair(VoxelCoord v) {
   return v.y >= 0 && v.y < 8 && v.z >= 0 && v.z < 8 && v.x >= 0 && v.x < 40 && (v.x < 8 || v.x >= 30);
 }
 
+/// Two plates of one voxel that slant, far apart, without a convex hull of their own.
+bool plates(VoxelCoord v) {
+  const std::int32_t x = v.x - (v.x < 20 ? 0 : 28), y = v.y, z = v.z - (v.x < 20 ? 0 : 30);
+  return x >= 0 && y >= 0 && z >= 0 && x + y + z == 11;
+}
+
 struct Ground {
   MemoryShelf shelf;
   GridFrame frame;
@@ -81,5 +87,19 @@ TEST_CASE("few faces keep parts apart, also where they do not suffice for them",
     const LatticeMesh mesh = ground.proxy(faces);
     CHECK(components_of(mesh).size() == 2);
     CHECK(mesh.triangles.size() == 24);
+  }
+}
+
+TEST_CASE("more faces never hold more volume where two parts are far apart", "[quick][meshing]") {
+  const Ground ground(plates);
+  double before = HUGE_VAL;
+  for (std::uint64_t faces = 8; faces <= 32; faces += 2) {
+    CAPTURE(faces);
+    const LatticeMesh mesh = ground.proxy(faces);
+    CHECK(mesh.triangles.size() <= faces);
+    CHECK(double(volume6_of(mesh)) <= before);
+    CHECK(self_intersections(mesh) == 0);
+    CHECK(holds(mesh, plates));
+    before = double(volume6_of(mesh));
   }
 }
