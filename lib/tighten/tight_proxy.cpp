@@ -148,7 +148,8 @@ void finish_whole(Way& way, const Enclosed& enclosed, const SimplifyParams& para
     way.simplified.add(now);
     for (int round = 0; round < kJamRounds && mesh.face_count() > params.faces; ++round) {
       settle();
-      thin(editor, params.faces, [] {}, now, kThinStages);
+      thin(
+          editor, params.faces, [] {}, now, kThinStages);
       way.simplified.add(now);
       if (now.collapses == 0) break;
     }

@@ -10,7 +10,8 @@
 #include <random>
 
 #include "io/stream/brick_stream.h"
-#include "lib/closing/closing_scratch.h"
+#include "lib/closing/closing.h"
+#include "lib/closing/detail/closing_parts.h"
 #include "lib/core/error.h"
 
 namespace {
@@ -127,7 +128,7 @@ void run(const Input& in, double scale_vox, int runs) {
           [&] { close_tile(in.solid, lattice, halo, {element}, in.solid.box(), closed, scratch); },
           [&] {
             return fmt::format(", \"solid\": {}, \"dilation\": {}, \"closing\": {}", in.solid.count(),
-                               scratch.dilation.count(), closed.count());
+                               scratch.parts().dilation.count(), closed.count());
           });
     }
     BitBox dilation(in.solid.box().grown(halo.erosion_vox));
@@ -135,9 +136,9 @@ void run(const Input& in, double scale_vox, int runs) {
         "dilation", "cube",
         [&] {
           if (varying) {
-            scratch.varying.run(in.solid, lattice, dilation.box(), dilation);
+            scratch.parts().varying.run(in.solid, lattice, dilation.box(), dilation);
           } else {
-            scratch.cube.run(in.solid, cube_radius(lattice.max), dilation);
+            scratch.parts().cube.run(in.solid, cube_radius(lattice.max), dilation);
           }
         },
         nothing);
