@@ -21,7 +21,7 @@ constexpr double kMostGrowth = 6;           // of one collapse: some times a fac
 constexpr std::uint64_t kFewForHalf = 512;  // faces: half of the surface's are tried if they are as many
 constexpr double kMuchRoom = 0.04;          // share of the volume: a first sweep that gains more is worth others
 constexpr int kJamRounds = 4;               // of a sweep and collapses, where these jam above the target
-constexpr std::uint64_t kWhole = 16;        // regions: up to so many faces are finished as one mesh, which is tighter
+constexpr std::uint64_t kWhole = 16;        // regions: up to so many faces are collapsed by volume as one mesh
 
 /// A proxy on the way, and what led to it.
 struct Way {
@@ -111,6 +111,14 @@ void collapse_by_error(LatticeMesh& proxy, const Enclosed& enclosed, const Simpl
   }
 }
 
+/// The last step of an editor.
+void take(ProxyEditor& editor, LatticeMesh& proxy) {
+  editor.erase_inner_shells();
+  LatticeMesh out = editor.mesh().compact(proxy.frame);
+  proxy.vertices = std::move(out.vertices);
+  proxy.triangles = std::move(out.triangles);
+}
+
 /// (4) What regions could not collapse, on one mesh.
 void collapse_rest(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, SimplifyCounts& counts) {
   HalfEdgeMesh mesh(proxy);
@@ -119,10 +127,7 @@ void collapse_rest(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyP
   thin(
       editor, params.faces, [] {}, now, kThinStages);
   counts.add(now);
-  editor.erase_inner_shells();
-  const LatticeMesh out = mesh.compact(proxy.frame);
-  proxy.vertices = out.vertices;
-  proxy.triangles = out.triangles;
+  take(editor, proxy);
 }
 
 /// (4), (5) In order of volume, then tightening, on the regions of a large proxy.
@@ -136,30 +141,39 @@ void finish_regions(Way& way, const Enclosed& enclosed, const SimplifyParams& pa
   tighten_regions(way.proxy, enclosed, tightening_of(params), way.tightened);
 }
 
-/// (4), (5) The same on one mesh, by one editor: what it learns in (4) it knows in (5).
+/// (4) Where collapses jam, sweeps and collapses take turns.
+void thin_whole(ProxyEditor& editor, const SimplifyParams& params, SimplifyCounts& counts) {
+  SimplifyCounts now;
+  TightenCounts ignored;
+  const auto settle = [&] { tighten_on(editor, one_sweep(params), ignored); };
+  thin(editor, params.faces, settle, now);
+  counts.add(now);
+  for (int round = 0; round < kJamRounds && editor.mesh().face_count() > params.faces; ++round) {
+    settle();
+    thin(
+        editor, params.faces, [] {}, now, kThinStages);
+    counts.add(now);
+    if (now.collapses == 0) return;
+  }
+}
+
+/// (4), (5) The same on one mesh, by one editor: what it learns in (4) it knows in (5). Many faces are tightened by
+/// regions all the same: that is faster, and next to as tight.
 void finish_whole(Way& way, const Enclosed& enclosed, const SimplifyParams& params) {
   HalfEdgeMesh mesh(way.proxy);
   ProxyEditor editor(mesh, enclosed, params);
-  if (is_above_target(way.proxy, params)) {
-    SimplifyCounts now;
-    TightenCounts ignored;
-    const auto settle = [&] { tighten_on(editor, one_sweep(params), ignored); };
-    thin(editor, params.faces, settle, now);
-    way.simplified.add(now);
-    for (int round = 0; round < kJamRounds && mesh.face_count() > params.faces; ++round) {
-      settle();
-      thin(
-          editor, params.faces, [] {}, now, kThinStages);
-      way.simplified.add(now);
-      if (now.collapses == 0) break;
-    }
+  if (is_above_target(way.proxy, params)) thin_whole(editor, params, way.simplified);
+  if (has_regions(mesh.face_count(), params)) {
+    take(editor, way.proxy);
+    tighten_regions(way.proxy, enclosed, tightening_of(params), way.tightened);
+  } else {
+    way.proxy = tighten(editor, way.proxy.frame, tightening_of(params), way.tightened);
   }
-  way.proxy = tighten(editor, way.proxy.frame, tightening_of(params), way.tightened);
 }
 
 void finish(Way& way, const Enclosed& enclosed, const SimplifyParams& params) {
-  const std::uint64_t faces = way.proxy.triangles.size();
-  if (has_regions(faces, params) && faces > kWhole * params.faces_per_region) {
+  const std::uint64_t faces = way.proxy.triangles.size(), most = kWhole * params.faces_per_region;
+  if (has_regions(faces, params) && (faces > most || !is_above_target(way.proxy, params))) {
     finish_regions(way, enclosed, params);
   } else {
     finish_whole(way, enclosed, params);
