@@ -98,10 +98,14 @@ draw guide-streets.png 400 no-streets.glb streets.bpv streets.glb --view 30,45
 bplod figure.obj --faces 4000,1000,250 -q -o figure-lod > /dev/null
 draw guide-levels.png 280 figure.obj figure-lod/figure_LOD{0,1,2}.glb
 bplod city.obj --up z --profile 3dtiles -q -o city-tiles > /dev/null
+"$root/samples/town.py" town 64 > /dev/null
+bplod town/town.obj --faces 2000 -q -o town-2000 > /dev/null
+draw gallery-textures.png 440 town/town.obj town-2000/town_LOD0.glb --zoom 1.4
+bplod truck.obj --appearance texture --faces 1500 -q -o truck-textured > /dev/null
+draw gallery-colours.png 440 truck.obj truck-textured/truck_LOD0.glb --zoom 1.2
 if [ -n "${NODE_PATH:-}" ]; then
   node "$root/tests/viewers/shot.cjs" cesium city-tiles/tileset.json guide-tileset.png 'width=520&radii=1.3&pixels=4' > /dev/null
   "$root/tests/viewers/run.sh" viewers > /dev/null && cp viewers/all.png guide-viewers.png
-  "$root/samples/town.py" town > /dev/null
   bplod town/town.obj --profile 3dtiles --leaves scene --resolution 512 --tile 128 -q -o town-tiles > /dev/null
   node "$root/tests/viewers/shot.cjs" cesium town-tiles/tileset.json guide-leaves.png 'width=520&radii=0.35' > /dev/null
   bplod town/town.obj --faces 6000,1500,400 -q -o town-lod > /dev/null
