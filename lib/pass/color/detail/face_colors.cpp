@@ -15,6 +15,7 @@ constexpr int kLeastRows = 2;
 constexpr double kMostSamples = 1 << 14;  // of a face, about: they are in memory together
 constexpr double kTowardsMean = 0.05;
 constexpr int kRounds = 3;
+constexpr double kMostFar = 0.2;        // of a face: more is no outlier
 constexpr double kNear = 0.05 * 65535;  // of a colour and the fit: it counts half there
 /// Colours that differ: by so much of the range of what is seen, and by so many standard deviations within the faces.
 constexpr double kLeastStep = 0.1, kLeastDeviations = 1;
@@ -86,8 +87,19 @@ FaceFit fit_of(const FaceColors& face) {
   return fit;
 }
 
+double squared_distance(const Sample& sample, const FaceFit& fit) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double here = 0;
+    for (std::size_t k = 0; k < 3; ++k) here += sample.w[k] * fit.corners[i][k];
+    sum += (sample.color[i] - here) * (sample.color[i] - here);
+  }
+  return sum;
+}
+
 /// What is far from the face's fit counts less, in three rounds: a narrow band of another colour, as the foot of a
-/// wall, would tint all of the face. What fades fits, and all of it counts.
+/// wall, would tint all of the face. What fades fits, and all of it counts. So does all of a face where more than a
+/// fifth of it is far, as stripes are: its mean is what is seen from afar.
 FaceColors sampled(const TriangleD& corners, const NearbyColors& colors) {
   const double area = area_of(corners);
   const Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -96,26 +108,25 @@ FaceColors sampled(const TriangleD& corners, const NearbyColors& colors) {
   for_each_sample(corners, spacing, kLeastRows, [&](const std::array<double, 3>& w, double share) {
     samples.push_back({w, area * share, rgb_of(colors.at(point_of(corners, w), normal))});
   });
-  FaceColors face = sum_of(samples);
+  const FaceColors plain = sum_of(samples);
+  FaceColors face = plain;
   std::vector<double> areas;
   for (const Sample& s : samples) areas.push_back(s.area);
   for (int round = 0; round < kRounds && area > 0; ++round) {
     const FaceFit fit = fit_of(face);
     if (fit.variance < kNear * kNear / 100) break;
-    for (std::size_t n = 0; n < samples.size(); ++n) {
-      double far = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        double here = 0;
-        for (std::size_t k = 0; k < 3; ++k) here += samples[n].w[k] * fit.corners[i][k];
-        far += (samples[n].color[i] - here) * (samples[n].color[i] - here);
-      }
-      samples[n].area = areas[n] / (1 + far / (kNear * kNear));
-    }
+    for (std::size_t n = 0; n < samples.size(); ++n)
+      samples[n].area = areas[n] / (1 + squared_distance(samples[n], fit) / (kNear * kNear));
     const double all = face.area();
     face = sum_of(samples);
     face.scale(all / face.area());
   }
-  return face;
+  if (!(area > 0)) return plain;
+  const FaceFit fit = fit_of(face);
+  double far = 0;
+  for (std::size_t n = 0; n < samples.size(); ++n)
+    if (squared_distance(samples[n], fit) > kNear * kNear) far += areas[n];
+  return far > kMostFar * plain.area() ? plain : face;
 }
 
 /// Of the two faces' colours, in the middle of the edge that begins at these places in them.

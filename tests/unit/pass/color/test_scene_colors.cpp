@@ -79,6 +79,20 @@ LinearColor at_world(const NearbyColors& colors, const GridFrame& frame, const V
   return colors.at(v, {});
 }
 
+/// A level of one box around [0, side]^3, with the colours of the scene.
+LatticeMesh wall_of(const ColoredScene& scene, double side) {
+  const Voxelized voxels = voxelized(scene.triangles, 0.125);
+  LatticeMesh mesh;
+  mesh.frame = voxels.header.frame;
+  const auto corner = [&](double x) {
+    const Vec3d p = 64.0 * mesh.frame.to_voxels({x, x, x});
+    return LatticeCoord{std::lround(p[0]), std::lround(p[1]), std::lround(p[2])};
+  };
+  add_box(mesh, {corner(0), corner(side)});
+  color_vertices(mesh, gathered(scene, voxels, 1 << 20)->all(mesh.frame));
+  return mesh;
+}
+
 }  // namespace
 
 TEST_CASE("samples of a triangle are shares of its area, near enough to each other", "[quick][pass][colors]") {
@@ -312,37 +326,39 @@ TEST_CASE("no vertex of a box of two colours has a mixed one, however it is turn
 }
 
 TEST_CASE("a narrow band of another colour does not fade over a large face", "[quick][pass][colors]") {
-  // A wall of 20 x 20 x 20 with a foot of 1.5, and a level that has one face for both.
-  ColoredScene scene;
+  ColoredScene scene;  // a wall of 20 x 20 x 20 with a foot of 1.5, and a level that has one face for both
   add_box(scene.triangles, {0, 0, 0}, {20, 1.5, 20});
   scene.paint(kBlue);
   add_box(scene.triangles, {0, 1.5, 0}, {20, 20, 20});
   scene.paint(kRed);
-  const Voxelized voxels = voxelized(scene.triangles, 0.125);
-  const GridFrame& frame = voxels.header.frame;
-  LatticeMesh mesh;
-  mesh.frame = frame;
-  const Vec3d lo = frame.to_voxels({0, 0, 0}), hi = frame.to_voxels({20, 20, 20});
-  const auto lattice = [](const Vec3d& p) {
-    return LatticeCoord{std::lround(p[0] * 64), std::lround(p[1] * 64), std::lround(p[2] * 64)};
-  };
-  add_box(mesh, {lattice(lo), lattice(hi)});
-  color_vertices(mesh, gathered(scene, voxels, 1 << 20)->all(frame));
+  const LatticeMesh mesh = wall_of(scene, 20);
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const auto& t = mesh.triangles[f];
-    const auto at_foot = [&](std::uint32_t v) { return mesh.vertices[v].y == lattice(lo).y; };
+    const auto at_foot = [&](std::uint32_t v) { return mesh.vertices[v].y == box_of(mesh.vertices).min.y; };
     const bool is_bottom = at_foot(t[0]) && at_foot(t[1]) && at_foot(t[2]);
+    CAPTURE(f);
     for (const LinearColor& c : mesh.colors[f]) {
-      CAPTURE(f, c.r, c.b);
       CHECK((is_bottom ? c.b : c.r) > 62000);
       CHECK((is_bottom ? c.r : c.b) < 3500);
     }
   }
 }
 
+TEST_CASE("a face of which a third has another colour keeps both", "[quick][pass][colors]") {
+  ColoredScene scene;  // stripes, one blue for two red ones; top and bottom are red
+  for (int i = 0; i < 24; ++i) {
+    add_box(scene.triangles, {0, double(i), 0}, {24, double(i + 1), 24});
+    scene.paint(i % 3 == 1 ? kBlue : kRed);
+  }
+  double red = 0, blue = 0;
+  const LatticeMesh mesh = wall_of(scene, 24);
+  for (const auto& corners : mesh.colors)
+    for (const LinearColor& c : corners) red += c.r, blue += c.b;
+  CHECK(blue > 0.1 * (red + blue));
+}
+
 TEST_CASE("colours do not bleed over edges of the scene, and go on where it is smooth", "[quick][pass][colors]") {
-  // A box with a red top; the sides are blue below and fade to green above.
-  ColoredScene scene;
+  ColoredScene scene;  // a box with a red top; the sides are blue below and fade to green above
   const auto add = [&](const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d, const TriangleColors& abc,
                        const LinearColor& of_d) {
     scene.triangles.push_back({a, b, c});
