@@ -27,7 +27,7 @@ class ThreadLimit {
 /// body(i) for i in [0, n), in any order, in parallel. The first exception is rethrown.
 void parallel_for(std::int64_t n, const std::function<void(std::int64_t)>& body);
 
-/// body(begin, end) over consecutive chunks of at most `grain` items.
+/// body(begin, end) over consecutive chunks of `grain` items; the last one may have fewer.
 void parallel_ranges(std::int64_t n, std::int64_t grain, const std::function<void(std::int64_t, std::int64_t)>& body);
 
 /// A pipeline with at most `in_flight` items: produce() in order on one thread at a time until it returns false, work()

@@ -59,6 +59,10 @@ struct TextureMaterial {
   float alpha = 1, cutoff = 0.5F;  ///< multiplies the image's alpha; of AlphaMode::mask
   bool replaces_color = false;     ///< true: use the triangle's colour, because the image is missing; else multiply
   TextureSurface surface{};        ///< if SceneOptions::surface asked for it
+  /// All that it shows; kNoImage where there is none.
+  [[nodiscard]] std::array<std::uint32_t, 4> images() const {
+    return {image, surface.normal.image, surface.roughness.image, surface.emission.image};
+  }
 };
 
 /// What lies on a triangle beside its colours.

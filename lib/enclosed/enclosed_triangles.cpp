@@ -92,11 +92,12 @@ EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const Gri
   std::vector<double> reach(triangles.size() / kTrianglesAtOnce + 1, 0);
   static_assert(kTrianglesAtOnce % 8 == 0);
   parallel_ranges(std::int64_t(triangles.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {
-    double& farthest = reach[std::size_t(begin / kTrianglesAtOnce)];
+    double farthest = 0;
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
       triangles_[i] = triangles[tree_.order()[i]];
       farthest = std::max(farthest, set_corners(i));
     }
+    reach[std::size_t(begin / kTrianglesAtOnce)] = farthest;
   });
   reach_ = *std::max_element(reach.begin(), reach.end());
 }
@@ -329,7 +330,10 @@ const std::vector<Vec3d>& EnclosedTriangles::all_samples() const {
       for (std::int64_t i = begin; i < end; ++i)
         add_samples(triangles_[std::size_t(i)], frame_.voxel, parts[std::size_t(begin / kTrianglesAtOnce)]);
     });
+    std::size_t count = 0;
+    for (const std::vector<Vec3d>& part : parts) count += part.size();
     std::vector<Vec3d> points;
+    points.reserve(count);
     for (std::vector<Vec3d>& part : parts) {
       points.insert(points.end(), part.begin(), part.end());
       std::vector<Vec3d>().swap(part);

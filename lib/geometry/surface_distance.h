@@ -1,5 +1,4 @@
 #pragma once
-#include <limits>
 #include <vector>
 
 #include "lib/geometry/triangle_bvh.h"
@@ -24,10 +23,12 @@ struct SurfaceDistance {
 [[nodiscard]] SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to,
                                                double tolerance = 0);
 
+constexpr std::size_t kPatience = 1 << 17;
+
 /// The same without the mean, which is 0 then, and without its cost: few searches per triangle. `tolerance` doubles
-/// each time that `patience` parts of triangles have been looked at, beside the triangles themselves.
+/// each time that `patience` parts of triangles, at least 1, have been looked at, in addition to the triangles
+/// themselves: a large face may be as far from all of a fine surface.
 [[nodiscard]] SurfaceDistance largest_distance(const std::vector<TriangleD>& from, const TriangleBvh& to,
-                                               double tolerance = 0,
-                                               std::size_t patience = std::numeric_limits<std::size_t>::max());
+                                               double tolerance = 0, std::size_t patience = kPatience);
 
 }  // namespace bp

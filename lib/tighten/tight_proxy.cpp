@@ -112,7 +112,7 @@ void collapse_by_error(LatticeMesh& proxy, const Enclosed& enclosed, const Simpl
 }
 
 /// The last step of an editor.
-void take(ProxyEditor& editor, LatticeMesh& proxy) {
+void put_back(ProxyEditor& editor, LatticeMesh& proxy) {
   editor.erase_inner_shells();
   LatticeMesh out = editor.mesh().compact(proxy.frame);
   proxy.vertices = std::move(out.vertices);
@@ -127,7 +127,7 @@ void collapse_rest(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyP
   thin(
       editor, params.faces, [] {}, now, kThinStages);
   counts.add(now);
-  take(editor, proxy);
+  put_back(editor, proxy);
 }
 
 /// (4), (5) In order of volume, then tightening, on the regions of a large proxy.
@@ -160,15 +160,17 @@ void thin_whole(ProxyEditor& editor, const SimplifyParams& params, SimplifyCount
 /// (4), (5) The same on one mesh, by one editor: what it learns in (4) it knows in (5). Many faces are tightened by
 /// regions all the same: that is faster, and next to as tight.
 void finish_whole(Way& way, const Enclosed& enclosed, const SimplifyParams& params) {
-  HalfEdgeMesh mesh(way.proxy);
-  ProxyEditor editor(mesh, enclosed, params);
-  if (is_above_target(way.proxy, params)) thin_whole(editor, params, way.simplified);
-  if (has_regions(mesh.face_count(), params)) {
-    take(editor, way.proxy);
-    tighten_regions(way.proxy, enclosed, tightening_of(params), way.tightened);
-  } else {
-    way.proxy = tighten(editor, way.proxy.frame, tightening_of(params), way.tightened);
-  }
+  {
+    HalfEdgeMesh mesh(way.proxy);
+    ProxyEditor editor(mesh, enclosed, params);
+    if (is_above_target(way.proxy, params)) thin_whole(editor, params, way.simplified);
+    if (!has_regions(mesh.face_count(), params)) {
+      way.proxy = tighten(editor, way.proxy.frame, tightening_of(params), way.tightened);
+      return;
+    }
+    put_back(editor, way.proxy);
+  }  // regions have editors of their own
+  tighten_regions(way.proxy, enclosed, tightening_of(params), way.tightened);
 }
 
 void finish(Way& way, const Enclosed& enclosed, const SimplifyParams& params) {

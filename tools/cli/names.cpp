@@ -22,6 +22,11 @@ const char* name_of(MeshMode mode) {
   return kNames[std::size_t(mode)];
 }
 
+const char* name_of(CoordinateKind kind) {
+  constexpr const char* kNames[] = {"mean-value", "green", "maximum-likelihood"};
+  return kNames[std::size_t(kind)];
+}
+
 std::string file_name(const std::string& path) {
   return path.substr(path.rfind('/') + 1);
 }

@@ -3,6 +3,7 @@
 
 #include "lib/core/grid_frame.h"
 #include "lib/core/triangle_source.h"
+#include "lib/deform/coordinates.h"
 #include "lib/grid/stream.h"
 #include "lib/pass/mesh/mesh_pass.h"
 
@@ -12,6 +13,7 @@ namespace bp {
 [[nodiscard]] const char* name_of(FillMode fill);
 [[nodiscard]] const char* name_of(StructuringElement element);
 [[nodiscard]] const char* name_of(MeshMode mode);
+[[nodiscard]] const char* name_of(CoordinateKind kind);
 /// A path without its folders.
 [[nodiscard]] std::string file_name(const std::string& path);
 /// "12 degenerate triangles, 1 bad face"; empty if nothing was skipped.

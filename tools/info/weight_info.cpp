@@ -5,17 +5,13 @@
 #include "lib/check/counted.h"
 #include "lib/core/box.h"
 #include "lib/deform/coordinates.h"
+#include "lib/store/hex.h"
 #include "tools/cli/length.h"
+#include "tools/cli/names.h"
 
 namespace bp {
 
 namespace {
-
-/// As bpdeform --coordinates has them.
-const char* name_of(CoordinateKind kind) {
-  constexpr const char* kNames[] = {"mean-value", "green", "maximum-likelihood"};
-  return kNames[std::size_t(kind)];
-}
 
 Bounds3d bounds_of(const IndexedMesh& mesh) {
   Bounds3d bounds;
@@ -24,9 +20,8 @@ Bounds3d bounds_of(const IndexedMesh& mesh) {
 }
 
 std::string hash_text(const WeightTotals& totals) {
-  std::string text;
-  for (const std::uint64_t word : totals.hash.words) text += fmt::format("{:016x}", word);
-  return text;
+  const auto [high, low] = totals.hash.words;
+  return hex_of(high, low);
 }
 
 }  // namespace

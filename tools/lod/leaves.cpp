@@ -170,9 +170,7 @@ class LeafMaker {
       if (t.texture.material != TriangleTexture::kNoMaterial) materials.insert(t.texture.material);
     });
     for (const std::uint32_t material : materials) {
-      const TextureMaterial& m = looks_.images()->material(material);
-      for (const std::uint32_t image :
-           {m.image, m.surface.normal.image, m.surface.roughness.image, m.surface.emission.image}) {
+      for (const std::uint32_t image : looks_.images()->material(material).images()) {
         const std::string name = image == TextureMaterial::kNoImage ? "" : names_(image);
         const std::lock_guard lock(mutex_);
         if (!name.empty()) used_.insert(name);

@@ -75,8 +75,7 @@ SampledDistance distances(const std::vector<Vec3d>& points, const TriangleBvh& t
 }
 
 void bound_largest(const std::vector<TriangleD>& from, const TriangleBvh& to, SampledDistance& distance) {
-  constexpr std::size_t kPatience = 1 << 17;  // parts of triangles: with it, tolerance grows
-  const SurfaceDistance all = largest_distance(from, to, 0, kPatience);
+  const SurfaceDistance all = largest_distance(from, to);
   if (!std::isfinite(all.at_most)) return;
   if (all.at_least > distance.max) distance.max = all.at_least, distance.where = all.where;
   distance.at_most = std::max(all.at_most, distance.max);

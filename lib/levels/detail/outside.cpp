@@ -14,8 +14,7 @@ namespace bp {
 
 namespace {
 
-constexpr double kTolerance = 1.0 / 16;     // of the distance to triangles, in voxels
-constexpr std::size_t kPatience = 1 << 17;  // with it: a face of the level may be as far from all of a fine scene
+constexpr double kTolerance = 1.0 / 16;  // of the distance to triangles, in voxels
 
 /// That measuring takes for a moment.
 std::uint64_t measuring_bytes(std::uint64_t runs) {
@@ -33,8 +32,8 @@ struct Outside::Ruler {
       : voxel(frame.voxel), segments(segments_of(runs, frame)), tree(segments) {}
 
   /// `known`: no point of the level is farther from the scene.
-  void measure(LodLevel& level, MeshMode mode, std::optional<double> known) const {
-    const std::vector<TriangleD> triangles = world_triangles(level.mesh);
+  void measure(LodLevel& level, const std::vector<TriangleD>& triangles, MeshMode mode,
+               std::optional<double> known) const {
     const TriangleBvh mesh(triangles);
     const double there = known ? *known : distance_from_mesh(triangles, tree, voxel);
     level.error_world = mode == MeshMode::fit ? distance_beyond_mesh(segments, mesh, voxel, there) : there;
@@ -65,11 +64,10 @@ std::uint64_t Outside::bytes() const {
 }
 
 void Outside::measure(LodLevel& level, MeshMode mode, const std::vector<TriangleD>* enclosed) const {
-  std::optional<double> known;  // before the ruler is made: memory holds one of both
-  if (enclosed != nullptr)
-    known =
-        largest_distance(world_triangles(level.mesh), TriangleBvh(*enclosed), kTolerance * voxel(), kPatience).at_most;
-  kept_ ? kept_->measure(level, mode, known) : Ruler(runs_, frame_).measure(level, mode, known);
+  const std::vector<TriangleD> triangles = world_triangles(level.mesh);
+  std::optional<double> known;  // before a ruler is made: the tree of the enclosed triangles is gone by then
+  if (enclosed != nullptr) known = largest_distance(triangles, TriangleBvh(*enclosed), kTolerance * voxel()).at_most;
+  kept_ ? kept_->measure(level, triangles, mode, known) : Ruler(runs_, frame_).measure(level, triangles, mode, known);
 }
 
 }  // namespace bp

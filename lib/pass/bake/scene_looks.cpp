@@ -109,8 +109,7 @@ void SceneLooks::note_image(std::uint32_t material) {
   pack(all, m.cutoff);
   pack(all, m.replaces_color);
   if (m.surface != TextureSurface{}) pack_surface(all, m.surface, *images_);
-  for (const std::uint32_t image :
-       {m.image, m.surface.normal.image, m.surface.roughness.image, m.surface.emission.image}) {
+  for (const std::uint32_t image : m.images()) {
     if (image == TextureMaterial::kNoImage) continue;
     const std::array<int, 2> size = images_->size(image);
     if (std::int64_t(size[0]) * size[1] > std::int64_t(noted.size[0]) * noted.size[1]) noted.size = size;

@@ -15,8 +15,9 @@ constexpr int kLeastRows = 2;
 constexpr double kMostSamples = 1 << 14;  // of a face, about: they are in memory together
 constexpr double kTowardsMean = 0.05;
 constexpr int kRounds = 3;
-constexpr double kMostFar = 0.2;        // of a face: more is no outlier
-constexpr double kNear = 0.05 * 65535;  // of a colour and the fit: it counts half there
+constexpr double kMostFar = 0.2;                 // of a face: more is no outlier
+constexpr double kNear = 0.05 * 65535;           // of a colour and the fit: it counts half there
+constexpr double kLittle = kNear * kNear / 100;  // variance: all is near
 /// Colours that differ: by so much of the range of what is seen, and by so many standard deviations within the faces.
 constexpr double kLeastStep = 0.1, kLeastDeviations = 1;
 
@@ -109,20 +110,20 @@ FaceColors sampled(const TriangleD& corners, const NearbyColors& colors) {
     samples.push_back({w, area * share, rgb_of(colors.at(point_of(corners, w), normal))});
   });
   const FaceColors plain = sum_of(samples);
+  if (!(area > 0)) return plain;
+  FaceFit fit = fit_of(plain);
+  if (fit.variance < kLittle) return plain;
   FaceColors face = plain;
   std::vector<double> areas;
   for (const Sample& s : samples) areas.push_back(s.area);
-  for (int round = 0; round < kRounds && area > 0; ++round) {
-    const FaceFit fit = fit_of(face);
-    if (fit.variance < kNear * kNear / 100) break;
+  for (int round = 0; round < kRounds && fit.variance >= kLittle; ++round) {
     for (std::size_t n = 0; n < samples.size(); ++n)
       samples[n].area = areas[n] / (1 + squared_distance(samples[n], fit) / (kNear * kNear));
     const double all = face.area();
     face = sum_of(samples);
     face.scale(all / face.area());
+    fit = fit_of(face);
   }
-  if (!(area > 0)) return plain;
-  const FaceFit fit = fit_of(face);
   double far = 0;
   for (std::size_t n = 0; n < samples.size(); ++n)
     if (squared_distance(samples[n], fit) > kNear * kNear) far += areas[n];

@@ -27,8 +27,7 @@ Bricks box_around(std::span<const BrickCoord> coords) {
   return all;
 }
 
-/// False for a point outside the box of bricks, or so near to their outside that a voxel there would be
-/// set.
+/// False for a point outside the box of bricks, or so near to its outside that a voxel there would be set.
 bool is_among(const GridFrame& frame, const Vec3d& p, const Bricks& all) {
   const Vec3d v = frame.to_voxels(p);
   for (int i = 0; i < 3; ++i) {
