@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <utility>
 
 #include "lib/enclosed/enclosed_triangles.h"
@@ -6,20 +7,44 @@
 
 namespace bp {
 
+/// Of a scene, what lies in a closed box, scene units; and voxels that stay inside, too.
+struct ScenePart {
+  Bounds3d box;
+  const BrickShelf* voxels = nullptr;  ///< may be empty
+};
+
 /// The triangles of a scene, and its voxels: the triangles stay inside, exactly; the voxels tell what is near, which is
 /// quick and needs no more than a guess.
 class EnclosedScene final : public EnclosedTriangles {
  public:
-  /// `voxels`: of the scene, in the voxels of `frame`.
-  EnclosedScene(std::vector<TriangleD> triangles, const GridFrame& frame, const BrickShelf& voxels)
-      : EnclosedTriangles(std::move(triangles), frame), voxels_(voxels) {}
+  /// `voxels`: of the scene, in the voxels of `frame`. `part`: of the scene, if not all of it stays inside.
+  EnclosedScene(std::vector<TriangleD> triangles, const GridFrame& frame, const BrickShelf& voxels,
+                const std::optional<ScenePart>& part = {})
+      : EnclosedTriangles(std::move(triangles), frame, part ? std::optional(part->box) : std::nullopt),
+        voxels_(voxels) {
+    if (part && !part->voxels->coords().empty()) held_.emplace(*part->voxels);
+  }
+  [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
+                            Blocker* blocker) const override {
+    return EnclosedTriangles::allows(star, swept, blocker) && (!held_ || held_->allows(star, swept, blocker));
+  }
+  [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override {
+    std::vector<Vec3d> points = EnclosedTriangles::contact_points(origin, within);
+    if (!held_) return points;
+    const std::vector<Vec3d> more = held_->contact_points(origin, within);
+    points.insert(points.end(), more.begin(), more.end());
+    return points;
+  }
   [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const override {
     return voxels_.is_near(faces, distance);
   }
-  [[nodiscard]] std::uint64_t bytes() const override { return EnclosedTriangles::bytes() + voxels_.bytes(); }
+  [[nodiscard]] std::uint64_t bytes() const override {
+    return EnclosedTriangles::bytes() + voxels_.bytes() + (held_ ? held_->bytes() : 0);
+  }
 
  private:
   EnclosedVoxels voxels_;
+  std::optional<EnclosedVoxels> held_;
 };
 
 }  // namespace bp

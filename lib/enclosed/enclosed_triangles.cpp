@@ -7,13 +7,15 @@
 
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/enclosed/detail/triangle_samples.h"
 #include "lib/exact/triangle_intersection.h"
+#include "lib/exact/triangle_part.h"
 
 namespace bp {
 
 namespace {
 
-constexpr std::int64_t kTrianglesAtOnce = 4096, kPointsAtOnce = 1 << 14;
+constexpr std::int64_t kTrianglesAtOnce = 4096;
 
 /// Lattice box that surely holds a triangle: to_voxels errs by less than 2^-20 voxel.
 LatticeBox box_around(const GridFrame& frame, const TriangleD& t) {
@@ -51,6 +53,19 @@ class Solid {
     return orient3d(a, b, c, p) <= 0 && orient3d(a, d, b, p) <= 0 && orient3d(b, d, c, p) <= 0 &&
            orient3d(c, d, a, p) <= 0;
   }
+  /// True unless every point within 1/64 of a lattice unit of `p`, lattice units, is surely outside.
+  [[nodiscard]] bool may_hold(const Vec3d& p) const {
+    constexpr double kSlack = 1.0 / 64;
+    const Vec3d base = to_double(lattice_[0]);
+    std::array<Vec3d, 4> c;
+    for (std::size_t i = 0; i < 4; ++i) c[i] = to_double(lattice_[i]) - base;
+    const Vec3d point = p - base;
+    const auto beyond = [&](std::size_t i, std::size_t j, std::size_t k) {
+      const Vec3d n = cross(c[j] - c[i], c[k] - c[i]);
+      return dot(n, point - c[i]) > kSlack * (std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]));
+    };
+    return !beyond(0, 1, 2) && !beyond(0, 3, 1) && !beyond(1, 3, 2) && !beyond(2, 3, 0);
+  }
 
  private:
   Tetrahedron lattice_;
@@ -72,7 +87,10 @@ bool closes(const NewFace& f, const Tetrahedron& t) {
 
 }  // namespace
 
-EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame) : frame_(frame) {
+EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame,
+                                     const std::optional<Bounds3d>& within)
+    : frame_(frame), within_(within) {
+  if (within) cut_to(*within, triangles);
   std::vector<LatticeBox> boxes(triangles.size());
   std::vector<std::uint32_t> items(triangles.size());
   parallel_ranges(std::int64_t(triangles.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {
@@ -88,6 +106,7 @@ EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const Gri
   }
   tree_.build(boxes, std::move(items));
   triangles_.resize(triangles.size());
+  if (within_) middles_.resize(triangles.size());
   eights_.assign((triangles.size() + 7) / 8, {});
   std::vector<double> reach(triangles.size() / kTrianglesAtOnce + 1, 0);
   static_assert(kTrianglesAtOnce % 8 == 0);
@@ -95,11 +114,17 @@ EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const Gri
     double farthest = 0;
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
       triangles_[i] = triangles[tree_.order()[i]];
+      if (within_) middles_[i] = kLatticePerVoxel * frame_.to_voxels(TrianglePart(triangles_[i], *within_).middle());
       farthest = std::max(farthest, set_corners(i));
     }
     reach[std::size_t(begin / kTrianglesAtOnce)] = farthest;
   });
   reach_ = *std::max_element(reach.begin(), reach.end());
+}
+
+/// Keeps the triangles that have a part in the box.
+void EnclosedTriangles::cut_to(const Bounds3d& within, std::vector<TriangleD>& triangles) {
+  std::erase_if(triangles, [&](const TriangleD& t) { return TrianglePart(t, within).empty(); });
 }
 
 /// The largest coordinate.
@@ -179,17 +204,21 @@ class EnclosedTriangles::Swept {
     std::uint32_t clear = inwards_.holds(eight, 2);
     if ((asked & ~clear) == 0) return clear;
     if (!complete_) add_sides();
+    const std::size_t last = all_.within_ ? 2 : 0;  // the first corner need not be of the part
     std::uint32_t of_face = has_face_ ? 0 : ~0u, of_solid = solid_ ? 0 : ~0u;
     for (std::size_t k = 0; k < 3; ++k) {
       if (has_face_) of_face |= beside_face_[k].holds(eight, 2);
-      if (solid_) of_solid |= beside_solid_[k].holds(eight, 0);
+      if (solid_) of_solid |= beside_solid_[k].holds(eight, last);
     }
     return clear | (of_face & of_solid);
   }
 
-  /// Exact.
-  [[nodiscard]] bool meets(const TriangleD& t) const {
-    return (has_face_ && triangles_intersect(t.data(), world_.data())) || (solid_ && solid_->holds(t[0]));
+  /// Exact, or of a part on the safe side.
+  [[nodiscard]] bool meets(std::size_t i) const {
+    const TriangleD& t = all_.triangles_[i];
+    const bool cut = has_face_ && triangles_intersect(t.data(), world_.data());
+    if (!all_.within_) return cut || (solid_ && solid_->holds(t[0]));
+    return (cut && may_meet_within(t, world_, *all_.within_)) || (solid_ && solid_->may_hold(all_.middles_[i]));
   }
 
  private:
@@ -222,18 +251,19 @@ bool EnclosedTriangles::is_free(Swept swept, Blocker* blocker) const {
   return tree_.query_groups(swept.box(), swept.plane(), [&](std::uint32_t first, std::uint32_t hits) {
     hits &= ~swept.clear(eights_[first / 8], hits);
     for (; hits != 0; hits &= hits - 1) {
-      const TriangleD& triangle = triangles_[first + std::uint32_t(std::countr_zero(hits))];
-      if (!swept.meets(triangle)) continue;
-      if (blocker != nullptr) report(triangle, *blocker);
+      const std::size_t i = first + std::uint32_t(std::countr_zero(hits));
+      if (!swept.meets(i)) continue;
+      if (blocker != nullptr) report(i, *blocker);
       return false;
     }
     return true;
   });
 }
 
-// A triangle meets neither the old faces (it was enclosed) nor, once tested, the new ones. So it lies wholly in one
-// part of space that they bound together, and one of its corners tells whether a tetrahedron that leaves the solid
-// holds it. Nearly all triangles near a face lie wholly on its inner side: eight are left out at once.
+// A triangle, or its part, which is convex too, meets neither the old faces (it was enclosed) nor, once tested, the new
+// ones. So it lies wholly in one part of space that they bound together, and one of its points tells whether a
+// tetrahedron that leaves the solid holds it. Nearly all triangles near a face lie wholly on its inner side: eight are
+// left out at once.
 bool EnclosedTriangles::allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                                Blocker* blocker) const {
   for (const NewFace& f : star) {
@@ -249,64 +279,24 @@ bool EnclosedTriangles::allows(std::span<const NewFace> star, std::span<const Te
   return true;
 }
 
-namespace {
-
-/// The corners, and inside a large triangle a grid of points.
-void add_samples(const TriangleD& t, double voxel, std::vector<Vec3d>& points) {
-  constexpr double kSpacingVox = 8;
-  constexpr int kMostPerEdge = 16;
-  double longest = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3d e = t[(k + 1) % 3] - t[k];
-    longest = std::max(longest, dot(e, e));
-  }
-  const int n = int(std::clamp(std::sqrt(longest) / (kSpacingVox * voxel), 1.0, double(kMostPerEdge)));
-  for (int i = 0; i <= n; ++i) {
-    for (int j = 0; i + j <= n; ++j)
-      points.push_back(t[0] + (double(i) / n) * (t[1] - t[0]) + (double(j) / n) * (t[2] - t[0]));
-  }
+void EnclosedTriangles::add_samples_of(std::size_t i, std::vector<Vec3d>& points) const {
+  if (!within_) return add_samples(triangles_[i], frame_.voxel, points);
+  const std::vector<Vec3d> corners = TrianglePart(triangles_[i], *within_).corners();
+  for (std::size_t k = 2; k < corners.size(); ++k)
+    add_samples({corners[0], corners[k - 1], corners[k]}, frame_.voxel, points);
 }
 
-/// Sorted, each once. By slabs of the first coordinate: few points each, and all threads have some.
-std::vector<Vec3d> each_once(const std::vector<Vec3d>& points) {
-  constexpr std::size_t kPointsPerSlab = 64;
-  if (points.empty()) return {};
-  const auto [low, high] =
-      std::minmax_element(points.begin(), points.end(), [](const Vec3d& a, const Vec3d& b) { return a[0] < b[0]; });
-  const double first = (*low)[0], extent = (*high)[0] - first;
-  const std::size_t slabs = extent > 0 && std::isfinite(extent) ? points.size() / kPointsPerSlab + 1 : 1;
-  std::vector<std::uint32_t> slab_of(points.size(), 0);
-  parallel_ranges(std::int64_t(points.size()), kPointsAtOnce, [&](std::int64_t from, std::int64_t to) {
-    for (auto i = std::size_t(from); slabs > 1 && i < std::size_t(to); ++i)
-      slab_of[i] = std::uint32_t(std::min(std::size_t((points[i][0] - first) / extent * double(slabs)), slabs - 1));
-  });
-  std::vector<std::size_t> begin(slabs + 1, 0);
-  for (const std::uint32_t s : slab_of) ++begin[s + 1];
-  for (std::size_t i = 0; i < slabs; ++i) begin[i + 1] += begin[i];
-  std::vector<Vec3d> sorted(points.size());
-  std::vector<std::size_t> end(begin.begin(), begin.end() - 1);
-  for (std::size_t i = 0; i < points.size(); ++i) sorted[end[slab_of[i]]++] = points[i];
-  const auto at = [&](std::size_t i) { return sorted.begin() + std::ptrdiff_t(i); };
-  parallel_ranges(std::int64_t(slabs), std::int64_t(kPointsPerSlab), [&](std::int64_t from, std::int64_t to) {
-    for (auto i = std::size_t(from); i < std::size_t(to); ++i) {
-      std::sort(at(begin[i]), at(begin[i + 1]));
-      end[i] = std::size_t(std::unique(at(begin[i]), at(begin[i + 1])) - sorted.begin());
-    }
-  });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < slabs; ++i)
-    kept = std::size_t(std::copy(at(begin[i]), at(end[i]), at(kept)) - sorted.begin());
-  sorted.resize(kept);
-  return sorted;
-}
-
-}  // namespace
-
-void EnclosedTriangles::report(const TriangleD& triangle, Blocker& blocker) const {
+/// Of a part, three of its corners.
+void EnclosedTriangles::report(std::size_t i, Blocker& blocker) const {
+  TriangleD triangle = triangles_[i];
+  if (within_) {
+    const std::vector<Vec3d> corners = TrianglePart(triangle, *within_).corners();
+    triangle = {corners[0], corners[corners.size() / 3], corners[corners.size() * 2 / 3]};
+  }
   blocker.count = 3;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3d v = frame_.to_voxels(triangle[k]);
-    for (std::size_t i = 0; i < 3; ++i) blocker.points[k][i] = v[i] * kLatticePerVoxel;
+    for (std::size_t axis = 0; axis < 3; ++axis) blocker.points[k][axis] = v[axis] * kLatticePerVoxel;
   }
 }
 
@@ -316,7 +306,7 @@ std::uint64_t EnclosedTriangles::bytes() const {
 
 std::vector<Vec3d> EnclosedTriangles::samples_of(std::vector<Vec3d> points) const {
   points = each_once(points);
-  parallel_ranges(std::int64_t(points.size()), kPointsAtOnce, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(points.size()), kSamplesAtOnce, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
       points[i] = kLatticePerVoxel * frame_.to_voxels(points[i]);
   });
@@ -328,7 +318,7 @@ const std::vector<Vec3d>& EnclosedTriangles::all_samples() const {
     std::vector<std::vector<Vec3d>> parts(triangles_.size() / kTrianglesAtOnce + 1);
     parallel_ranges(std::int64_t(triangles_.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i)
-        add_samples(triangles_[std::size_t(i)], frame_.voxel, parts[std::size_t(begin / kTrianglesAtOnce)]);
+        add_samples_of(std::size_t(i), parts[std::size_t(begin / kTrianglesAtOnce)]);
     });
     std::size_t count = 0;
     for (const std::vector<Vec3d>& part : parts) count += part.size();
@@ -349,14 +339,14 @@ std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin,
     points = all_samples();
   } else {
     tree_.query_places(within, [&](std::uint32_t i) {
-      add_samples(triangles_[i], frame_.voxel, points);
+      add_samples_of(i, points);
       return true;
     });
     points = samples_of(std::move(points));
     std::erase_if(points, [&](const Vec3d& v) { return !within.holds({rounded(v), rounded(v)}); });
   }
   const Vec3d shift = to_double(origin);
-  parallel_ranges(std::int64_t(points.size()), kPointsAtOnce, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(points.size()), kSamplesAtOnce, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) points[i] = points[i] - shift;
   });
   return points;

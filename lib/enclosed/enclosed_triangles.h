@@ -1,7 +1,9 @@
 #pragma once
 #include <mutex>
+#include <optional>
 #include <vector>
 
+#include "lib/core/box.h"
 #include "lib/core/grid_frame.h"
 #include "lib/enclosed/enclosed.h"
 
@@ -15,9 +17,13 @@ struct EightTriangles {
 /// The triangles of a scene, in scene units and exactly as read: the proxy must not even touch them. All in memory: 108
 /// bytes each and about 40 for the tree. `frame` is the proxy's; its vertices are exact doubles, so the predicates on
 /// doubles are exact too.
+///
+/// `within`, scene units: only what the triangles have in this closed box must stay inside; elsewhere a face may cut
+/// them. Whether a part is met is then decided on the safe side (triangle_part.h).
 class EnclosedTriangles : public Enclosed {
  public:
-  EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame);
+  EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame,
+                    const std::optional<Bounds3d>& within = {});
   [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                             Blocker* blocker) const override;
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override;
@@ -28,15 +34,19 @@ class EnclosedTriangles : public Enclosed {
 
  private:
   class Swept;
+  void cut_to(const Bounds3d& within, std::vector<TriangleD>& triangles);
   double set_corners(std::size_t triangle);
+  void add_samples_of(std::size_t triangle, std::vector<Vec3d>& points) const;
   /// The samples of triangles, in lattice units, each once.
   [[nodiscard]] std::vector<Vec3d> samples_of(std::vector<Vec3d> world_points) const;
   [[nodiscard]] const std::vector<Vec3d>& all_samples() const;
   [[nodiscard]] bool is_free(Swept swept, Blocker* blocker) const;
-  void report(const TriangleD& triangle, Blocker& blocker) const;
+  void report(std::size_t triangle, Blocker& blocker) const;
 
   std::vector<TriangleD> triangles_;  // in the order of the tree
   GridFrame frame_;
+  std::optional<Bounds3d> within_;
+  std::vector<Vec3d> middles_;  // with within_: of each triangle's part, about; lattice units
   BoxTree tree_;
   LatticeBox bounds_;
   std::vector<EightTriangles> eights_;  // relative to the tree's base

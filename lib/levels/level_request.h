@@ -8,6 +8,10 @@
 /// Which levels of detail are wanted, in numbers and scene units, and the target of each.
 namespace bp {
 
+/// A level has no use for more faces than so many times the scene's triangles: they would show the steps of voxels.
+constexpr std::uint64_t kFacesPerTriangle = 4;
+constexpr std::uint64_t kLeastFirstFaces = 200;  ///< of a finest level that is not asked for
+
 constexpr std::uint64_t kDensePerFace = 100;  ///< triangles of the dense surface for one of a finest level
 constexpr std::uint64_t kMostLevels = 32;
 constexpr std::uint64_t kLeastFaces = kFacesOfBox;  ///< of a level whose faces are chosen

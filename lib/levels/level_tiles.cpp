@@ -15,6 +15,7 @@ namespace {
 
 // The surface while it is simplified, what it encloses, distances.
 constexpr std::uint64_t kBytesPerDenseFace = 320, kBytesPerTile = std::uint64_t(4) << 20;
+constexpr std::uint64_t kBytesPerTriangle = 2 * sizeof(TriangleD) + EnclosedTriangles::kBytesEach;
 
 /// As the store keeps it.
 std::string packed(const LevelTile& tile) {
@@ -125,8 +126,12 @@ class TileMaking {
   /// The largest job is the first.
   [[nodiscard]] int in_flight() const {
     if (jobs_.empty()) return 1;
-    std::uint64_t largest = jobs_.front().job.dense_faces * kBytesPerDenseFace + kBytesPerTile;
-    for (const TileTask& task : tasks_) largest = std::max(largest, voxel_bytes(task.level.cells));
+    std::uint64_t largest = jobs_.front().job.dense_faces * kBytesPerDenseFace + kBytesPerTile, triangles = 0;
+    for (const TileTask& task : tasks_) {
+      largest = std::max(largest, voxel_bytes(task.level.cells));
+      if (task.params.scene != nullptr) triangles = std::max(triangles, std::uint64_t(task.params.scene->size()));
+    }
+    largest += std::min(triangles, std::uint64_t(TileParams::kMostTriangles)) * kBytesPerTriangle;
     return int(std::clamp<std::uint64_t>(context_.memory.bytes / largest, 1, std::uint64_t(thread_count())));
   }
 

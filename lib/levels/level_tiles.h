@@ -12,8 +12,9 @@
 /// A tile is the proxy of (closing ∩ its cell grown by one voxel), less what the closing has there for other cells'
 /// voxels only, closed by walls where the cell ends. By section 2 of docs/bounding.md the scene's part in the closed
 /// cell lies in the open interior of the solid's voxels in the grown cell, so each tile strictly encloses its part by
-/// itself: neighbours overlap by two voxels, and no crack can open, whichever levels are drawn side by side. A job
-/// reads nothing but the voxels of its cell and the parameters: same voxels, same bytes.
+/// itself: neighbours overlap by two voxels, and no crack can open, whichever levels are drawn side by side. What stays
+/// inside while it is tightened is the closing, the solid, or that part of the scene's triangles, exactly. A job reads
+/// nothing but the voxels and triangles around its cell and the parameters: same input, same bytes.
 namespace bp {
 
 /// The voxels of one level, on whole bricks; cells are aligned to them.
@@ -28,7 +29,7 @@ struct TileLevel {
 /// What decides a tile, besides the voxels, the scene and the cell. Its key has all of it.
 struct TileShape {
   MeshMode mode = MeshMode::bounding;  ///< bounding or fit
-  Enclose enclose = Enclose::input;    ///< of bounding tiles: closing or input
+  Enclose enclose = Enclose::input;    ///< of bounding tiles; scene: of a tile with many triangles nearby, the input
   double scale_world = 0;              ///< that the closing was made with
   StructuringElement element = StructuringElement::cube;
   std::uint64_t faces = 0;  ///< of each tile; 0: kDenseFacesPerFace
@@ -39,7 +40,8 @@ struct TileShape {
 
 /// How tiles are made and kept.
 struct TileParams : TileShape {
-  const TriangleBvh* scene = nullptr;     ///< surface that vertices of a fit move to; null: the closing
+  /// What vertices of a fit move to; null: the closing. Of Enclose::scene, what stays inside; null: the solid.
+  const TriangleBvh* scene = nullptr;
   std::function<bool(CellCoord)> wanted;  ///< other tiles are passed over; empty: all are wanted
   bool make = true;                       ///< false: what is not kept comes without measures and content
   std::function<void(CellCoord, KeyHash&)>
@@ -50,8 +52,9 @@ struct TileParams : TileShape {
   /// parts that lie apart in one tile have few faces of their voxels' surface, and none to spare. Only where the
   /// surface is small enough to be whole in memory (16 MiB): a limit on distances wants that, and larger ones have
   /// many.
-  static constexpr double kErrorVox = 8;
+  static constexpr double kErrorVox = 3;
   static constexpr std::uint64_t kMostFacesForError = std::uint64_t(1) << 16;
+  static constexpr std::size_t kMostTriangles = std::size_t(1) << 16;  ///< that a tile encloses; else voxels
 };
 
 struct TileMeasures {

@@ -11,8 +11,6 @@ namespace bp {
 namespace {
 
 constexpr std::uint64_t kDensePerFaceAsked = 190;  // as kDensePerFace, where faces choose the voxels
-// A level has no use for more faces than so many times the scene's triangles: they would show the steps of voxels.
-constexpr std::uint64_t kFacesPerTriangle = 4;
 
 /// Of the cube of the same volume: a flat scene shows what is in it along its thickness, too.
 double area_of_cube_like(const Bounds3d& b) {

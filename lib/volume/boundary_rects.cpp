@@ -83,6 +83,18 @@ class BrickFaces {
 
 }  // namespace
 
+std::array<TriangleD, 2> triangles_of(const FaceRect& rect, const GridFrame& frame) {
+  const int across = rect.min.x == rect.max.x ? 0 : rect.min.y == rect.max.y ? 1 : 2, u = across == 0 ? 1 : 0;
+  VoxelCoord b = rect.min, d = rect.max;
+  b[u] = rect.max[u];
+  d[u] = rect.min[u];
+  const auto world = [&](const VoxelCoord& c) {
+    return frame.world({std::int64_t(c.x) * kLatticePerVoxel, std::int64_t(c.y) * kLatticePerVoxel,
+                        std::int64_t(c.z) * kLatticePerVoxel});
+  };
+  return {TriangleD{world(rect.min), world(b), world(rect.max)}, TriangleD{world(rect.min), world(rect.max), world(d)}};
+}
+
 std::vector<FaceRect> boundary_rects(const BrickShelf& solid) {
   const std::vector<BrickCoord> bricks = solid.coords();
   std::vector<std::vector<FaceRect>> parts(bricks.size());

@@ -186,7 +186,7 @@ std::vector<TriangleD> Build::scene_triangles() const {
   if (std::count(options.voxels.scenes.begin(), options.voxels.scenes.end(), "-") > 0)
     return all;  // stdin cannot be read again
   if (fit && size_.triangles > kMost) return all;
-  // Fits: twice, and a hierarchy over them. Else here, and in what is enclosed.
+  // Fits: twice, and a hierarchy over them. Else here, and in what is enclosed, or a hierarchy that is measured with.
   const std::uint64_t bytes = size_.triangles * (fit ? 400 : sizeof(TriangleD) + EnclosedTriangles::kBytesEach);
   const MemoryShare memory{budget.work.bytes / (fit ? 2 : 1), budget.work.share / (fit ? 2 : 1), budget.work.limit};
   if (bytes > memory.bytes)

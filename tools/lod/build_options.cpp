@@ -125,8 +125,6 @@ void check_profile(const Args& args, const BuildOptions& o) {
   if (o.leaves && !can_read_again(o))
     fail(ErrorCode::bad_argument, "--leaves scene: a scene from a pipe cannot be read again; give it as a file");
   const bool scene = o.proxy.enclose.kind == EncloseOption::Kind::scene;
-  if (scene && o.is_tileset())
-    fail(ErrorCode::bad_argument, "--enclose scene: tiles enclose voxels; leave it out, or take another --profile");
   if (scene && !can_read_again(o))
     fail(ErrorCode::bad_argument, "--enclose scene: a scene from a pipe cannot be read again; give it as a file");
 }

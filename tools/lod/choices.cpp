@@ -21,7 +21,9 @@ LevelRequest request_of(const BuildOptions& o, double diagonal, double voxel) {
 LevelRequest request_for(const BuildOptions& o, std::uint64_t triangles, double diagonal, double voxel) {
   constexpr double kPerCollisionFace = 8,
                    kPerCageFace = 0.05;  // triangles of the scene; a box needs a cage to bend, too
-  const LevelRequest request = request_of(o, diagonal, voxel);
+  LevelRequest request = request_of(o, diagonal, voxel);
+  if (o.is_tileset() && enclosed_by(o, triangles) == Enclose::scene)
+    request.most_faces = std::max(kFacesPerTriangle * triangles, kLeastFirstFaces);
   if (o.is_tileset() || o.profile == LodProfile::occluder) return request;
   LevelDefaults defaults;
   if (o.profile == LodProfile::collision) defaults = {kPerCollisionFace, kMostCollisionFaces};
@@ -61,7 +63,7 @@ bool may_refine(const BuildOptions& o) {
 }
 
 bool may_enclose_scene(const BuildOptions& o) {
-  return !o.is_tileset() && !o.is_cage() && o.proxy.mode == MeshMode::bounding;
+  return !o.is_cage() && o.proxy.mode == MeshMode::bounding;
 }
 
 double margin_of(const BuildOptions& o, double diagonal, double voxel) {

@@ -174,7 +174,7 @@ void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<Triangle
   CutOptions cut;
   cut.cells = shop.cells();
   cut.mode = o.proxy.mode;
-  cut.enclose = o.proxy.enclose.what().value_or(Enclose::input);
+  cut.enclose = shop.build.enclosed();
   cut.colors = shop.build.colors();
   cut.scene = tree.get();
   if (shop.task == Task::some_jobs) cut.jobs = o.tiles;
@@ -249,11 +249,14 @@ void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const Le
   if (cut == 0) made.provenance = whole.levels.front().provenance;
 }
 
-PyramidOptions pyramid_options(const Shop& shop) {
+/// `held`: bytes that the scene takes meanwhile.
+PyramidOptions pyramid_options(const Shop& shop, std::uint64_t held) {
   PyramidOptions options;
   options.cells = shop.cells();
   options.closing.element = shop.options().closing.element;
   options.context = shop.build.context(shop.results);
+  options.context.memory.bytes -= std::min(options.context.memory.bytes, held);
+  options.context.pieces = options.context.pieces.without(held);
   return options;
 }
 
@@ -263,15 +266,18 @@ MadeTileset make_tileset(const Shop& shop) {
   made.scene = shop.build.voxelize(o.tile_vox, shop.results);
   shop.build.hold_looks();
   const StreamHeader& header = made.scene.header;
-  const LevelRequest request = request_of(o, header.bounds.diagonal(), header.frame.voxel);
+  const LevelRequest request =
+      request_for(o, made.scene.counts.scene.triangles, header.bounds.diagonal(), header.frame.voxel);
   made.plan = plan_tileset(request, shop.cells(), header);
   made.tree.emplace(header.frame.up, shop.cells());
   if (shop.task == Task::some_jobs && o.tiles->begin >= made.plan.jobs())
     shop.build.note(fmt::format("--tiles {}..{}: there are {} jobs, numbered from 0: nothing is done", o.tiles->begin,
                                 o.tiles->end, made.plan.jobs()));
   shop.build.report.begin("measure the scene");
-  TilePyramid pyramid(header, std::move(made.scene.solid), shop.build.backends, pyramid_options(shop));
   LodOptions lod = shop.build.lod_options();
+  const std::uint64_t triangles = lod.scene.size();
+  TilePyramid pyramid(header, std::move(made.scene.solid), shop.build.backends,
+                      pyramid_options(shop, triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles)));
   make_cut(shop, pyramid, lod.scene, made);
   if (made.plan.whole == 0 && shop.task == Task::tileset)
     shop.build.note(

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "lib/check/detail/triangle_part.h"
+#include "lib/exact/triangle_part.h"
 #include "lib/exact/triangle_intersection.h"
 
 namespace bp {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/geometry/surface_distance.h"
 #include "lib/grid/clip.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/detail/voxel_distance.h"
 #include "lib/pass/mesh/surface_around.h"
+#include "lib/volume/boundary_rects.h"
 #include "lib/volume/dilate.h"
 #include "lib/volume/reach.h"
 
@@ -15,6 +17,8 @@ namespace bp {
 namespace {
 
 constexpr const char* kJobName = "tile";
+constexpr std::int64_t kLatticeAround = 1;  // far more than a check grows the cell by, far less than a voxel
+constexpr double kTolerance = 1.0 / 16;     // of the distance to triangles, in voxels
 
 }  // namespace
 
@@ -26,7 +30,7 @@ ResultKey TileMaker::key() const {
   add_voxels(hash, level_.closing, grown_, origin);
   add_voxels(hash, level_.solid, grown_, origin);
   add_voxels(hash, level_.surface, reach(), origin);
-  if (params_.mode == MeshMode::fit) {
+  if (params_.scene != nullptr) {
     const std::vector<TriangleD> scene = scene_nearby();
     hash.add(std::as_bytes(std::span(scene)));
   }
@@ -38,11 +42,25 @@ bool TileMaker::begin() {
   solid_ = clipped(level_.solid, grown_, context_.make_shelf);
   closing_ = clipped(level_.closing, grown_, context_.make_shelf);
   if (solid_->coords().empty() && is_full(*closing_, cell_)) return false;
-  if (params_.mode == MeshMode::bounding && params_.enclose == Enclose::input) leave_out_fringes();
+  if (params_.mode == MeshMode::bounding && params_.enclose != Enclose::closing) leave_out_fringes();
   if (closing_->coords().empty()) return false;
   boundary_ = boundary_of(*solid_);
-  hold_stray_parts();
+  take_scene();
+  params_.mode == MeshMode::bounding && !scene_.empty() ? hold_beside_triangles() : hold_stray_parts();
   return true;
+}
+
+/// The number decides, and not the memory: it must not change what is made.
+void TileMaker::take_scene() {
+  if (params_.scene == nullptr) return;
+  const bool fit = params_.mode == MeshMode::fit;
+  if (!fit && params_.enclose != Enclose::scene) return;
+  scene_ = scene_nearby();
+  if (fit) return;
+  const Bounds3d cell = world(cell_, kLatticeAround);
+  const bool here =
+      std::any_of(scene_.begin(), scene_.end(), [&](const TriangleD& t) { return overlap(bounds_of(t), cell); });
+  if (!here || scene_.size() > TileParams::kMostTriangles) scene_.clear();
 }
 
 LatticeMesh TileMaker::make(TileMeasures& measures) {
@@ -126,6 +144,37 @@ void TileMaker::hold_stray_parts() {
   });
 }
 
+/// What must stay inside besides the triangles: parts of the closing that hold none of them here, for the same reason;
+/// and of a filled solid what the cell cuts through, or a tile would be hollowed out from there.
+void TileMaker::hold_beside_triangles() {
+  constexpr std::int32_t kBesideTriangles = 2;  // these hold what is so near
+  BitBox closing(grown_), solid(grown_), reached(grown_), near(grown_);
+  load_voxels(*closing_, closing);
+  load_voxels(*solid_, solid);
+  load_voxels(*clipped(level_.surface, cell_, context_.make_shelf), reached);
+  load_voxels(level_.surface, near);
+  grow_within(closing, reached);
+  dilate(near, kBesideTriangles);
+  held_ = context_.make_shelf();
+  BrickBits bits;
+  for_each_brick(grown_, [&](BrickCoord c) {
+    const VoxelCoord first = first_voxel(c);
+    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+        const VoxelCoord p = first + VoxelCoord{0, y, z};
+        std::uint64_t& word = bits[std::size_t(z * kBrickEdge + y)];
+        word = 0;
+        if (row_within(c, y, z, grown_) == 0) continue;
+        const std::int32_t i = (p.x - closing.box().min.x) / kBrickEdge;
+        const std::uint64_t here = row_within(c, y, z, cell_), inner = row_within(c, y, z, cell_.grown(-1));
+        word = closing.row(p.y, p.z)[i] & ~reached.row(p.y, p.z)[i];
+        word |= solid.row(p.y, p.z)[i] & ~near.row(p.y, p.z)[i] & here & ~inner;
+      }
+    }
+    if (classify(bits) != BrickFill::empty) held_->put(c, classify(bits), bits);
+  });
+}
+
 MeshParams TileMaker::mesh_params(TileMeasures& measures) const {
   MeshParams mesh;
   mesh.mode = params_.mode;
@@ -142,9 +191,13 @@ MeshParams TileMaker::mesh_params(TileMeasures& measures) const {
     if (params_.faces == 0 && params_.mode == MeshMode::bounding && solid_faces <= TileParams::kMostFacesForError)
       mesh.error_world = TileParams::kErrorVox * level_.header.frame.voxel;
   }
+  mesh.scene = scene_;
   if (params_.mode == MeshMode::fit) {
-    mesh.scene = scene_nearby();
-    mesh.enclose = mesh.scene.empty() ? Enclose::closing : Enclose::scene;
+    mesh.enclose = scene_.empty() ? Enclose::closing : Enclose::scene;
+  } else if (params_.enclose == Enclose::scene) {
+    mesh.enclose = scene_.empty() ? Enclose::input : Enclose::scene;
+    mesh.distances_to = Enclose::input;
+    if (!scene_.empty()) mesh.part = ScenePart{world(cell_, kLatticeAround), held_.get()};
   }
   return mesh;
 }
@@ -165,29 +218,45 @@ StreamHeader TileMaker::header() const {
   return header;
 }
 
-/// Triangles that a fit may be drawn to.
+/// `by`: lattice units that the box is grown by.
+Bounds3d TileMaker::world(const VoxelBox& box, std::int64_t by) const {
+  Bounds3d bounds;
+  for (const auto& [p, more] : {std::pair{box.min, -by}, std::pair{box.max, by}})
+    bounds.add(level_.header.frame.world({p.x * std::int64_t(kLatticePerVoxel) + more,
+                                          p.y * std::int64_t(kLatticePerVoxel) + more,
+                                          p.z * std::int64_t(kLatticePerVoxel) + more}));
+  return bounds;
+}
+
+/// In the order of the scene.
 std::vector<TriangleD> TileMaker::scene_nearby() const {
   std::vector<std::pair<std::uint32_t, TriangleD>> found;
-  if (params_.scene == nullptr) return {};
-  const VoxelBox reach = grown_.grown(4);
-  Bounds3d bounds;
-  for (const VoxelCoord p : {reach.min, reach.max}) {
-    bounds.add(level_.header.frame.world({std::int64_t(p.x) * kLatticePerVoxel, std::int64_t(p.y) * kLatticePerVoxel,
-                                          std::int64_t(p.z) * kLatticePerVoxel}));
-  }
-  params_.scene->visit(bounds, [&](const TriangleBvh::Item& item) {
+  params_.scene->visit(world(reach()), [&](const TriangleBvh::Item& item) {
     found.emplace_back(item.id, item.corners);
     return false;
   });
-  std::sort(found.begin(), found.end());
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<TriangleD> triangles;
   for (const auto& [id, corners] : found) triangles.push_back(corners);
   return triangles;
 }
 
-/// Where every voxel of the closing in the cell finds one of the scene.
+/// The triangles, and where the solid goes on beyond the cell.
+std::vector<TriangleD> TileMaker::shown() const {
+  std::vector<TriangleD> shown = scene_;
+  for (const FaceRect& rect : boundary_rects(*solid_)) {
+    bool wall = false;
+    for (int i = 0; i < 3; ++i)
+      wall = wall || (rect.min[i] == rect.max[i] && (rect.min[i] == grown_.min[i] || rect.max[i] == grown_.max[i]));
+    if (!wall) continue;
+    for (const TriangleD& t : triangles_of(rect, level_.header.frame)) shown.push_back(t);
+  }
+  return shown;
+}
+
+/// Where every voxel of the closing in the cell finds one of the scene, and a fit what it is drawn to.
 VoxelBox TileMaker::reach() const {
-  return grown_.grown(std::int32_t(std::ceil(params_.scale_world / level_.header.frame.voxel)) + 2);
+  return grown_.grown(std::max(std::int32_t(std::ceil(params_.scale_world / level_.header.frame.voxel)) + 2, 4));
 }
 
 void TileMaker::measure(const LatticeMesh& mesh, TileMeasures& measures) const {
@@ -201,6 +270,10 @@ void TileMaker::measure(const LatticeMesh& mesh, TileMeasures& measures) const {
   }
   const GridFrame& frame = mesh.frame;
   const std::vector<TriangleD> triangles = world_triangles(mesh);
+  if (params_.mode == MeshMode::bounding && !scene_.empty()) {
+    measures.error_world = largest_distance(triangles, TriangleBvh(shown()), frame.voxel * kTolerance).at_most;
+    return;
+  }
   std::vector<VoxelRun> near = runs_of(level_.surface, reach());
   near.insert(near.end(), boundary_.runs.begin(), boundary_.runs.end());  // walls
   measures.error_world = distance_from_mesh(triangles, TriangleBvh(segments_of(near, frame)), frame.voxel);

@@ -24,12 +24,16 @@ class TileMaker {
   [[nodiscard]] LatticeMesh make(TileMeasures& measures);
 
  private:
+  void take_scene();
   void leave_out_fringes();
   void hold_stray_parts();
+  void hold_beside_triangles();
   [[nodiscard]] LatticeMesh mesh_cell(TileMeasures& measures, MeshCounts& counts) const;
   [[nodiscard]] MeshParams mesh_params(TileMeasures& measures) const;
   [[nodiscard]] StreamHeader header() const;
+  [[nodiscard]] Bounds3d world(const VoxelBox& box, std::int64_t by = 0) const;
   [[nodiscard]] std::vector<TriangleD> scene_nearby() const;
+  [[nodiscard]] std::vector<TriangleD> shown() const;
   [[nodiscard]] VoxelBox reach() const;
   void measure(const LatticeMesh& mesh, TileMeasures& measures) const;
 
@@ -38,8 +42,10 @@ class TileMaker {
   const PassContext& context_;
   const CellCoord coord_;
   const VoxelBox cell_, grown_;
-  std::unique_ptr<BrickShelf> solid_, closing_;  // solid_: what must stay inside
-  Boundary boundary_;                            // of the solid
+  std::unique_ptr<BrickShelf> solid_, closing_;
+  std::vector<TriangleD> scene_;      // whose parts in the cell stay inside, or that a fit is drawn to
+  std::unique_ptr<BrickShelf> held_;  // what stays inside besides those; without any the solid does
+  Boundary boundary_;                 // of the solid
 };
 
 }  // namespace bp

@@ -2,6 +2,7 @@
 #include <array>
 #include <optional>
 
+#include "lib/enclosed/enclosed_scene.h"
 #include "lib/grid/mirror_plane.h"
 #include "lib/grid/stream.h"
 #include "lib/pass/context.h"
@@ -45,6 +46,8 @@ struct MeshParams {
   bool edges_yield = false;  ///< where so few faces are not to be had otherwise, the factor grows
   Enclose enclose = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
+  /// Of bounding proxies of a part of the scene, with `near`: the rest of it may lie outside the voxels.
+  std::optional<ScenePart> part;
   /// What distances count from, if not from what is enclosed; closing: the surface of what is meshed.
   std::optional<Enclose> distances_to;
   bool tighten = true;  ///< afterwards, lower the volume while what is enclosed stays inside

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "lib/core/vec3.h"
 #include "lib/enclosed/enclosed_triangles.h"
 #include "lib/exact/triangle_intersection.h"
 #include "tests/catch.h"
@@ -31,7 +32,81 @@ bool allowed(const std::vector<TriangleD>& triangles, const GridFrame& frame, co
   return true;
 }
 
+/// Where edges of one triangle pass through the other one, about.
+std::vector<Vec3d> crossings(const TriangleD& a, const TriangleD& b) {
+  std::vector<Vec3d> all;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d &p = a[k], &q = a[(k + 1) % 3];
+    if (!segment_meets_triangle(p, q, b.data())) continue;
+    const Vec3d n = cross(b[1] - b[0], b[2] - b[0]);
+    const double from = dot(n, p - b[0]), to = dot(n, q - b[0]);
+    if (from != to) all.push_back(p + from / (from - to) * (q - p));
+  }
+  return all;
+}
+
+bool is_in(const Vec3d& p, double half_edge) {
+  return std::all_of(p.begin(), p.end(), [&](double x) { return std::abs(x) < half_edge; });
+}
+
 }  // namespace
+
+TEST_CASE("of triangles of which a part is enclosed, faces may cut the rest", "[quick][meshing]") {
+  GridFrame frame;
+  frame.voxel = 64;  // a lattice unit is a unit
+  RandomLattice random(3);
+  const Bounds3d box{{-20, -20, -20}, {20, 20, 20}};
+  int inside = 0, outside = 0;
+  for (int i = 0; i < 4000; ++i) {
+    TriangleD t;
+    NewFace face{{0, 1, 2}, {random.point(-60, 60), random.point(-60, 60), random.point(-60, 60)}};
+    for (Vec3d& p : t) p = to_double(random.point(-60, 60));
+    TriangleD world;
+    for (std::size_t k = 0; k < 3; ++k) world[k] = to_double(face.corners[k]);
+    std::vector<Vec3d> common = crossings(t, world);
+    for (const Vec3d& p : crossings(world, t)) common.push_back(p);
+    if (common.size() != 2) continue;
+    const EnclosedTriangles part({t}, frame, box), whole({t}, frame);
+    CHECK_FALSE(whole.allows(std::span(&face, 1), {}, nullptr));
+    bool meets = false, near = false;  // the box, by points of the common segment
+    for (int n = 0; n <= 64; ++n) {
+      const Vec3d p = common[0] + n / 64.0 * (common[1] - common[0]);
+      meets = meets || is_in(p, 20);
+      near = near || is_in(p, 23);
+    }
+    if (meets) CHECK_FALSE(part.allows(std::span(&face, 1), {}, nullptr));
+    if (!near) CHECK(part.allows(std::span(&face, 1), {}, nullptr));
+    inside += meets;
+    outside += !near;
+  }
+  CHECK(inside > 50);
+  CHECK(outside > 50);
+}
+
+TEST_CASE("a part of a triangle stays out of what is swept, wherever the rest of it lies", "[quick][meshing]") {
+  GridFrame frame;
+  frame.voxel = 64;
+  const EnclosedTriangles part({{Vec3d{-90, 1, 0}, {90, 1, 0}, {0, 90, 1}}}, frame, Bounds3d{{-5, -5, -5}, {5, 5, 5}});
+  const auto swept_at = [](std::int64_t x, std::int64_t size) {  // (a, b, c, q): the face abc with q on its inner side
+    return Tetrahedron{{{x - size, -size, -size}, {x + size, -size, -size}, {x, size, 0}, {x, 0, size}}};
+  };
+  const Tetrahedron around = swept_at(0, 40), beside = swept_at(60, 20);
+  CHECK_FALSE(part.allows({}, std::span(&around, 1), nullptr));
+  CHECK(part.allows({}, std::span(&beside, 1), nullptr));
+  const LatticeBox all{{-1000, -1000, -1000}, {1000, 1000, 1000}};
+  const std::vector<Vec3d> points = part.contact_points({}, all);
+  CHECK(points.size() >= 3);
+  for (const Vec3d& p : points) CHECK(is_in(p, 5.001));
+}
+
+TEST_CASE("no triangle with a part in the box leaves nothing to enclose", "[quick][meshing]") {
+  GridFrame frame;
+  frame.voxel = 64;
+  const EnclosedTriangles none({{Vec3d{9, 9, 9}, {20, 9, 9}, {9, 20, 9}}}, frame, Bounds3d{{0, 0, 0}, {5, 5, 5}});
+  const NewFace face{{0, 1, 2}, {{{-50, -50, 1}, {50, -50, 1}, {0, 80, 20}}}};
+  CHECK(none.allows(std::span(&face, 1), {}, nullptr));
+  CHECK(none.contact_points({}, LatticeBox{{-100, -100, -100}, {100, 100, 100}}).empty());
+}
 
 TEST_CASE("the contact points of a part of the scene are those of the whole that lie there", "[quick][meshing]") {
   RandomLattice random(11);

@@ -60,6 +60,17 @@ Level make(TilePyramid& pyramid, const TileParams& params, double scale = 0) {
   return level;
 }
 
+void enclose(const TriangleBvh& scene, TileParams& params) {
+  params.scene = &scene;
+  params.enclose = Enclose::scene;
+}
+
+double volume_of(const Level& level) {
+  double volume = 0;
+  for (const auto& [cell, made] : level) volume += made.measures.volume;
+  return volume;
+}
+
 Bounds3d bounds_of(const VoxelBox& box, const GridFrame& frame) {
   Bounds3d bounds;
   for (const VoxelCoord p : {box.min, box.max})
@@ -112,13 +123,16 @@ Backends cpu_backends() {
 TEST_CASE("the tiles of all levels cover the scene together", "[quick][pass][lod]") {
   Backends backends = cpu_backends();
   const Cells cells{GENERATE(kBrickEdge, kEdge)};
-  TilePyramid levels = pyramid(scene(), backends, cells);
+  const Triangles triangles = scene();
+  const TriangleBvh tree(triangles);
+  TilePyramid levels = pyramid(triangles, backends, cells);
   REQUIRE_FALSE(in_one_cell(levels, cells));
   std::vector<CoverTile> tiles(1);
   std::vector<IndexedMesh> contents(1);
   std::map<CellCoord, std::size_t> below;
   TileParams params;
   params.faces = GENERATE(0, 100);
+  if (GENERATE(false, true)) enclose(tree, params);
   for (int level = 0; !in_one_cell(levels, cells); ++level, levels.reduce()) {
     std::map<CellCoord, std::size_t> numbers;
     for (const auto& [cell, made] : make(levels, params)) {
@@ -162,6 +176,43 @@ TEST_CASE("tiles do not depend on threads or on memory", "[quick][pass][lod]") {
     CHECK(made.mesh.triangles == other.at(cell).mesh.triangles);
     CHECK(made.measures.error_world == other.at(cell).measures.error_world);
   }
+}
+
+TEST_CASE("tiles that enclose triangles are tighter, and nearer to the scene", "[quick][pass][lod]") {
+  Backends backends = cpu_backends();
+  Triangles roof;  // slanted: its voxels are steps
+  for (const double x : {20.0, 100.0}) {
+    add_box(roof, {x, 20, 3}, {x + 60, 80, 20});
+    const Vec3d a{x, 20, 20}, b{x + 60, 20, 20}, c{x + 60, 80, 20}, d{x, 80, 20}, e{x, 50, 47.3}, f{x + 60, 50, 47.3};
+    for (const TriangleD& t : {TriangleD{a, b, f}, TriangleD{a, f, e}, TriangleD{c, d, e}, TriangleD{c, e, f},
+                               TriangleD{a, e, d}, TriangleD{b, c, f}})
+      roof.push_back(t);
+  }
+  TilePyramid levels = pyramid(roof, backends);
+  const Level voxels = make(levels, {});
+  const TriangleBvh tree(roof);
+  TileParams params;
+  enclose(tree, params);
+  TilePyramid again = pyramid(roof, backends);
+  const Level triangles = make(again, params);
+  CHECK(volume_of(triangles) < 0.97 * volume_of(voxels));
+  CHECK(largest_error(triangles) < largest_error(voxels));
+}
+
+// Where a cell cuts a filled solid, its walls are no triangles of the scene.
+TEST_CASE("a tile that encloses triangles is not hollowed out from where its cell ends", "[quick][pass][lod]") {
+  Backends backends = cpu_backends();
+  Triangles block;
+  add_box(block, {10, 10, 10}, {200, 110, 110});
+  const TriangleBvh tree(block);
+  TileParams params;
+  enclose(tree, params);
+  params.faces = 400;
+  TilePyramid levels = pyramid(block, backends);
+  const Level level = make(levels, params);
+  REQUIRE(level.size() > 1);
+  for (const double x : {20.0, 100.0, 115.0, 140.0, 190.0}) CHECK(tiles_around(level, {x, 60, 60}) >= 1);
+  CHECK(volume_of(level) > 190.0 * 100 * 100);
 }
 
 TEST_CASE("a tile far from a change stays the same", "[quick][pass][lod]") {
@@ -246,7 +297,10 @@ TEST_CASE("a tile without a voxel of the scene is made of the closing alone", "[
   add_box(scene, {296, 0, 0}, {300, 20, 184});
   Backends backends = cpu_backends();
   TilePyramid levels = pyramid(scene, backends);
-  const Level level = make(levels, {}, 110);
+  const TriangleBvh tree(scene);
+  TileParams params;
+  if (GENERATE(false, true)) enclose(tree, params);
+  const Level level = make(levels, params, 110);
   for (const auto& [cell, made] : level) {
     CAPTURE(cell.x, cell.y, cell.z);
     CHECK(check_proxy(indexed(made.mesh), nullptr).holds());

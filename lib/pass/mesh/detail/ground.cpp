@@ -37,16 +37,7 @@ std::vector<TriangleD> rect_triangles(const BrickShelf& shelf, const GridFrame& 
   std::vector<TriangleD> triangles;
   triangles.reserve(n);
   for (const FaceRect& r : rects) {
-    const int across = r.min.x == r.max.x ? 0 : r.min.y == r.max.y ? 1 : 2, u = across == 0 ? 1 : 0;
-    VoxelCoord b = r.min, d = r.max;
-    b[u] = r.max[u];
-    d[u] = r.min[u];
-    const auto world = [&](const VoxelCoord& c) {
-      return frame.world({std::int64_t(c.x) * kLatticePerVoxel, std::int64_t(c.y) * kLatticePerVoxel,
-                          std::int64_t(c.z) * kLatticePerVoxel});
-    };
-    triangles.push_back({world(r.min), world(b), world(r.max)});
-    triangles.push_back({world(r.min), world(r.max), world(d)});
+    for (const TriangleD& t : triangles_of(r, frame)) triangles.push_back(t);
   }
   return triangles;
 }
@@ -55,13 +46,13 @@ std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& para
                                         const ShelfFactory& make_shelf) {
   if (params.enclose == Enclose::scene) {
     const GridFrame& frame = start.surface->frame();
-    if (params.mode == MeshMode::bounding && !lies_within(params.scene, frame, *shelves.meshed)) {
+    if (params.mode == MeshMode::bounding && !params.part && !lies_within(params.scene, frame, *shelves.meshed)) {
       fail(ErrorCode::bad_input, {Remedy::enclose_own_scene},
            "the scene to be enclosed does not lie inside the voxels of the stream: the stream was made from another "
            "scene");
     }
     if (params.near && params.mode == MeshMode::bounding)
-      return std::make_unique<EnclosedScene>(std::move(params.scene), frame, *shelves.input);
+      return std::make_unique<EnclosedScene>(std::move(params.scene), frame, *shelves.input, params.part);
     return std::make_unique<EnclosedTriangles>(std::move(params.scene), frame);
   }
   if (params.enclose == Enclose::closing)

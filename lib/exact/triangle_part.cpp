@@ -1,4 +1,4 @@
-#include "lib/check/detail/triangle_part.h"
+#include "lib/exact/triangle_part.h"
 
 #include <algorithm>
 #include <array>
@@ -166,11 +166,26 @@ TrianglePart::TrianglePart(const TriangleD& t, const Bounds3d& box) {
   origin_ = box.min;
 }
 
-std::vector<Vec3d> TrianglePart::points_within() const {
-  if (empty()) return {};
+std::vector<Vec3d> TrianglePart::corners() const {
+  std::vector<Vec3d> all;
+  for (const Vec3d& p : points_) all.push_back(at(p));
+  return all;
+}
+
+Vec3d TrianglePart::relative_middle() const {
   Vec3d middle{};
   for (const Vec3d& p : points_)
     for (std::size_t i = 0; i < 3; ++i) middle[i] += p[i] / double(points_.size());
+  return middle;
+}
+
+Vec3d TrianglePart::middle() const {
+  return at(relative_middle());
+}
+
+std::vector<Vec3d> TrianglePart::points_within() const {
+  if (empty()) return {};
+  const Vec3d middle = relative_middle();
   std::vector<Vec3d> all{at(middle)};
   for (const Vec3d& p : points_)
     all.push_back(at({(p[0] + middle[0]) / 2, (p[1] + middle[1]) / 2, (p[2] + middle[2]) / 2}));

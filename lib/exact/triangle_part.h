@@ -4,7 +4,7 @@
 #include "lib/core/box.h"
 #include "lib/core/indexed_mesh.h"
 
-/// What a triangle of a scene and a tile have in common inside a cell. In doubles, with bounds of their errors: answers
+/// What a triangle of a scene and a proxy have in common inside a box. In doubles, with bounds of their errors: answers
 /// are sure one way.
 namespace bp {
 
@@ -23,10 +23,13 @@ class TrianglePart {
  public:
   TrianglePart(const TriangleD& t, const Bounds3d& box);
   [[nodiscard]] bool empty() const { return points_.empty(); }
+  [[nodiscard]] std::vector<Vec3d> corners() const;  ///< in order, 3 to 9; none if it is empty
+  [[nodiscard]] Vec3d middle() const;                ///< of the corners; not empty
   /// The middle, and points between it and the corners.
   [[nodiscard]] std::vector<Vec3d> points_within() const;
 
  private:
+  [[nodiscard]] Vec3d relative_middle() const;
   [[nodiscard]] Vec3d at(const Vec3d& p) const { return {origin_[0] + p[0], origin_[1] + p[1], origin_[2] + p[2]}; }
   /// Keeps where height() is not negative (Sutherland and Hodgman).
   template <class Height>
