@@ -77,7 +77,7 @@ int status_of(bp::Answer answer) {
   return answer == bp::Answer::proven ? kProven : answer == bp::Answer::refuted ? kRefuted : kUndecided;
 }
 
-/// What may be behind the failure of a tileset.
+/// What may be behind the failure of a tileset; reads the scenes once more.
 std::string tileset_hint(const std::vector<std::string>& scenes, const std::string& tileset,
                          const bp::SceneOptions& options) {
   const std::string other = bp::other_scene_hint(scenes, tileset, options);
@@ -98,7 +98,8 @@ int run_tileset(const bp::CheckRun& o) {
       bp::check_tileset_file(o.files.back(), scenes, options, o.common.memory_bytes / 2, o.part);
   const std::string name = bp::file_name(o.files.back());
   bp::print(o.json ? verdict.json(name) : verdict.text(name));
-  if (!verdict.holds() && verdict.scene) note_hint(report, o, tileset_hint(scenes, o.files.back(), options));
+  if (verdict.answer() == bp::Answer::refuted && verdict.scene)
+    note_hint(report, o, tileset_hint(scenes, o.files.back(), options));
   report.counts = {{"holds", verdict.holds()}, {"answer", to_string(verdict.answer())}, {"part", verdict.part_json()},
                    {"tiles", verdict.tiles},   {"contents", verdict.contents},          {"findings", verdict.findings}};
   report.write(o.common);
@@ -203,7 +204,7 @@ int run(const bp::CheckRun& o) {
   note_hint(report, o, bp::memory_hint(verdicts, budget.of_scene()));
   std::string hint;
   if (!answers_hold(o, verdicts)) {
-    hint = bp::other_scene_hint(scenes, o.files.back(), scene_options);
+    if (answer_of(verdicts) == bp::Answer::refuted) hint = bp::other_scene_hint(scenes, o.files.back(), scene_options);
     if (hint.empty()) hint = bp::enclosure_hint(o.files.front(), o.files.back(), o.inside);
   }
   note_hint(report, o, hint.empty() ? bp::look_hint(o.files, o.format, origin, verdicts) : hint);
