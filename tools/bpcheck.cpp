@@ -77,6 +77,14 @@ int status_of(bp::Answer answer) {
   return answer == bp::Answer::proven ? kProven : answer == bp::Answer::refuted ? kRefuted : kUndecided;
 }
 
+/// What may be behind the failure of a tileset; reads the scenes once more.
+std::string tileset_hint(const std::vector<std::string>& scenes, const std::string& tileset,
+                         const bp::SceneOptions& options) {
+  const std::string other = bp::other_scene_hint(scenes, tileset, options);
+  const auto contents = bp::tileset_level(bp::read_tileset(tileset), tileset, 0).contents;
+  return !other.empty() || contents.empty() ? other : bp::fit_hint(contents.front().path);
+}
+
 /// A tileset is many proxies and what holds them together.
 int run_tileset(const bp::CheckRun& o) {
   refuse_for_tileset(o);
@@ -90,8 +98,8 @@ int run_tileset(const bp::CheckRun& o) {
       bp::check_tileset_file(o.files.back(), scenes, options, o.common.memory_bytes / 2, o.part);
   const std::string name = bp::file_name(o.files.back());
   bp::print(o.json ? verdict.json(name) : verdict.text(name));
-  const auto contents = bp::tileset_level(bp::read_tileset(o.files.back()), o.files.back(), 0).contents;
-  if (!verdict.holds() && verdict.scene && !contents.empty()) note_hint(report, o, bp::fit_hint(contents.front().path));
+  if (verdict.answer() == bp::Answer::refuted && verdict.scene)
+    note_hint(report, o, tileset_hint(scenes, o.files.back(), options));
   report.counts = {{"holds", verdict.holds()}, {"answer", to_string(verdict.answer())}, {"part", verdict.part_json()},
                    {"tiles", verdict.tiles},   {"contents", verdict.contents},          {"findings", verdict.findings}};
   report.write(o.common);
@@ -195,7 +203,10 @@ int run(const bp::CheckRun& o) {
   if (parts_meet(o, verdicts)) note_hint(report, o, bp::convex_hint(o.files.back(), has_convex_parts(levels)));
   note_hint(report, o, bp::memory_hint(verdicts, budget.of_scene()));
   std::string hint;
-  if (!answers_hold(o, verdicts)) hint = bp::enclosure_hint(o.files.front(), o.files.back(), o.inside);
+  if (!answers_hold(o, verdicts)) {
+    if (answer_of(verdicts) == bp::Answer::refuted) hint = bp::other_scene_hint(scenes, o.files.back(), scene_options);
+    if (hint.empty()) hint = bp::enclosure_hint(o.files.front(), o.files.back(), o.inside);
+  }
   note_hint(report, o, hint.empty() ? bp::look_hint(o.files, o.format, origin, verdicts) : hint);
   report.write(o.common);
   return status_of(answer_of(verdicts));

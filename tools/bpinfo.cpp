@@ -12,6 +12,7 @@
 #include "io/tiles/tileset_file.h"
 #include "io/tiles/tileset_level.h"
 #include "lib/core/error.h"
+#include "lib/pass/voxelize/empty_scene.h"
 #include "tools/cli/options/voxel.h"
 #include "tools/cli/run_tool.h"
 #include "tools/info/mesh_info.h"
@@ -168,6 +169,7 @@ void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
   check_level(in, scene.level, extras.levels);
   auto source = bp::open_scene(in, scene);
   bp::MeshInfo info = bp::measure(*source);
+  if (info.totals.triangles == 0) bp::refuse_empty_scene(source->name(), info.counts);
   info.extras = extras;
   info.level = scene.level;
   info.names = *scene.part_names;

@@ -2,6 +2,7 @@
 #include "io/deform/weight_file.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "io/store/brick_codec.h"
 #include "io/stream/stream_format.h"
@@ -13,7 +14,6 @@ using namespace detail;
 
 namespace {
 
-constexpr std::array<unsigned char, 8> kWeightMagic{'B', 'P', 'W', 'T', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint16_t kVersion = 1;
 constexpr auto kLastKind = std::uint32_t(CoordinateKind::maximum_likelihood);
 constexpr char kBlockTag[] = "BLCK";
@@ -187,6 +187,13 @@ struct WeightReader::State {
   void read_cage(ByteSource& in, const Sizes& sizes);
   void read_end(std::span<const std::byte> payload);
 };
+
+std::string find_scene(const WeightHeader& header, const std::string& path) {
+  const std::filesystem::path name = header.scene, beside = std::filesystem::path(path).parent_path() / name;
+  std::error_code unknown;
+  if (std::filesystem::exists(beside, unknown)) return beside.string();
+  return std::filesystem::exists(name, unknown) ? header.scene : "";  // as a file before this rule has it
+}
 
 bool begins_as_weights(const InputFile& file) {
   std::array<std::byte, kFrameHeadBytes + kWeightMagic.size()> start{};

@@ -53,6 +53,10 @@ class WeightWriter {
 /// Whether a file that can be read again begins as files of weights do.
 [[nodiscard]] bool begins_as_weights(const InputFile& file);
 
+/// Where the scene of the weights in the file `path` lies: a relative name counts from their folder, or else from the
+/// working folder. Empty: in neither.
+[[nodiscard]] std::string find_scene(const WeightHeader& header, const std::string& path);
+
 /// Throws bad_input, with the offset, if the file is truncated, damaged or something else: here, or while reading.
 class WeightReader {
  public:

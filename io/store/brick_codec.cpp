@@ -80,7 +80,7 @@ const char* decompress(std::span<const std::byte> in, std::span<std::byte> out) 
   if (ZSTD_getFrameContentSize(in.data(), in.size()) != out.size())
     return "holds another number of bytes than declared";
   const std::size_t n = ZSTD_decompressDCtx(context.get(), out.data(), out.size(), in.data(), in.size());
-  if (ZSTD_isError(n)) return ZSTD_getErrorName(n);
+  if (ZSTD_isError(n)) return "cannot be decompressed";
   return n == out.size() ? nullptr : "holds another number of bytes than declared";
 }
 

@@ -43,12 +43,16 @@ std::string describe(std::span<const std::byte> head) {
       {"BPVS", "a stream of voxels without its frame"},
       {"\x28\xb5\x2f\xfd", "a zstd file of something else"},
   };
+  constexpr std::size_t kWord = 4;  // fewer characters may be chance
   for (const Kind& kind : kinds) {
     if (starts_with(head, kind.start)) return fmt::format("looks like {}, not a stream of voxels", kind.what);
   }
-  std::string hex;
-  for (const std::byte b : head.first(std::min<std::size_t>(head.size(), 8))) hex += fmt::format(" {:02x}", int(b));
-  return fmt::format("is not a stream of voxels; it begins with{}", hex);
+  std::string text;
+  for (const std::byte b : head) {
+    if (char(b) < ' ' || char(b) > '~') break;
+    text += char(b);
+  }
+  return "is not a stream of voxels" + (text.size() < kWord ? "" : fmt::format("; it begins with '{}'", text));
 }
 
 /// A batch on its way in.
@@ -118,7 +122,7 @@ void decode(const StreamHeader& header, InBatch& batch) {
   if ((std::uint8_t(batch.packed.size() > 4 ? batch.packed[4] : std::byte(0)) & 4) == 0) {
     batch.fault = "the zstd frame has no checksum";
   } else if (const char* fault = decompress(batch.packed, batch.raw)) {
-    batch.fault = fmt::format("the zstd frame cannot be read ({})", fault);
+    batch.fault = fmt::format("it {}", fault);
   } else {
     batch.fault = read_records(header, batch);
     if (batch.fault.empty()) batch.fault = read_voxels(batch);
@@ -186,6 +190,10 @@ void BrickReader::State::check_magic(std::span<const std::byte> head) {
     if (begins(kFrameHeadBytes, kStreamMagic.data(), 4))
       refuse(kFrameHeadBytes + 4,
              "the magic is damaged, as by a transfer in text mode; copy the stream in binary mode");
+    if (begins(kFrameHeadBytes, kWeightMagic.data(), kWeightMagic.size()))
+      fail(ErrorCode::bad_input,
+           "{}: holds weights, not a stream of voxels; bpinfo and bpdeform read them, by the name of their file",
+           file.name());
     fail(ErrorCode::bad_input, "{}: is a zstd file of something else, not a stream of voxels; bpvox makes one",
          file.name());
   }

@@ -152,7 +152,7 @@ StreamHeader decode_header(std::span<const std::byte> payload, const std::string
   StreamHeader h;
   const auto flags = in.get<std::uint16_t>();
   if ((flags & ~(kFlagClosing | kFlagScene | kFlagField | kFlagOrientation)) != 0)
-    fail(ErrorCode::bad_input, "{}: header: unknown flags {:#x}; update this tool", name, flags);
+    fail(ErrorCode::bad_input, "{}: header: has flags of a later version; update this tool", name);
   h.has_closing = (flags & kFlagClosing) != 0;
   h.has_field = (flags & kFlagField) != 0;
   if (h.has_closing && h.has_field)

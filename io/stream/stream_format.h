@@ -14,6 +14,7 @@ namespace bp::detail {
 
 constexpr std::uint32_t kFrameMagic = 0x184D2A5B;  ///< a skippable zstd frame, of ours
 constexpr std::array<unsigned char, 8> kStreamMagic{'B', 'P', 'V', 'S', '\r', '\n', 0x1a, '\n'};
+constexpr std::array<unsigned char, 8> kWeightMagic{'B', 'P', 'W', 'T', '\r', '\n', 0x1a, '\n'};  ///< io/deform
 constexpr std::uint16_t kStreamVersion = 1;
 constexpr std::uint16_t kFlagClosing = 1, kFlagScene = 2, kFlagField = 4, kFlagOrientation = 8;
 

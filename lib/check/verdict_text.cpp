@@ -196,13 +196,12 @@ std::string scene_lines(const CheckReport& r) {
   return text;
 }
 
-std::string distance_line(const char* name, const std::optional<SampledDistance>& d) {
+/// `what`: of the points that are measured from.
+std::string distance_line(const char* name, const std::optional<SampledDistance>& d, const char* what) {
   if (!d) return "";
-  if (!d->at_most)
-    return fmt::format("  {:<28}{:.6g} largest, {:.6g} mean, of {} sampled points\n", name, d->max, d->mean,
-                       d->samples);
-  return fmt::format("  {:<28}{:.6g} largest (at most {:.6g}), {:.6g} mean of {} sampled points\n", name, d->max,
-                     *d->at_most, d->mean, d->samples);
+  const std::string bound = d->at_most ? fmt::format(" (at most {:.6g}), {:.6g} mean of", *d->at_most, d->mean)
+                                       : fmt::format(", {:.6g} mean, of", d->mean);
+  return fmt::format("  {:<28}{:.6g} largest{} {} sampled points{}\n", name, d->max, bound, d->samples, what);
 }
 
 std::string measure_lines(const CheckReport& r) {
@@ -215,8 +214,8 @@ std::string measure_lines(const CheckReport& r) {
       fmt::format("  {:<28}{:.6g} to {:.6g}, {:.6g} on average\n", "edge lengths", r.edge_min, r.edge_max, r.edge_mean);
   text += fmt::format("  {:<28}{:.4g} degrees\n", "least angle", r.angle_min_degrees);
   if (r.least_gap) text += fmt::format("  {:<28}{:.6g}\n", "least distance to the scene", *r.least_gap);
-  text += distance_line("distance scene to proxy", r.scene_to_proxy);
-  text += distance_line("distance proxy to scene", r.proxy_to_scene);
+  text += distance_line("distance scene to proxy", r.scene_to_proxy, "; inner parts of the scene count");
+  text += distance_line("distance proxy to scene", r.proxy_to_scene, "");
   if (!r.distance_note.empty()) text += fmt::format("  {}\n", r.distance_note);
   return text;
 }
@@ -234,7 +233,7 @@ Json json_of(const Finding& f, const FindingText& t) {
 
 Json json_of(const std::optional<SampledDistance>& d) {
   if (!d) return nullptr;
-  Json j{{"sampled", true}, {"samples", d->samples}, {"max", d->max}, {"mean", d->mean}, {"where", d->where}};
+  Json j{{"sampled", !d->at_most}, {"samples", d->samples}, {"max", d->max}, {"mean", d->mean}, {"where", d->where}};
   j["at_most"] = d->at_most ? Json(*d->at_most) : Json(nullptr);
   return j;
 }

@@ -1,5 +1,6 @@
 #include "lib/core/length.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -19,7 +20,7 @@ Length length_of(std::string_view text, std::string_view what, bool may_be_pixel
   } else if (unit == "px" && may_be_pixels) {
     length.unit = Length::Unit::pixels;
   } else if (!unit.empty()) {
-    fail(ErrorCode::bad_argument, "'{}' is not {}", text, what);
+    refuse_unit(text, unit, what);
   }
   if (length.value < 0) fail(ErrorCode::bad_argument, "'{}' is negative; a length is at least 0", text);
   length.value += 0.0;  // -0 is 0, also as text
@@ -32,6 +33,14 @@ std::string_view take_number(std::string_view text, double& value, std::string_v
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || !std::isfinite(value)) fail(ErrorCode::bad_argument, "'{}' is not {}", text, what);
   return text.substr(std::size_t(end - text.data()));
+}
+
+void refuse_unit(std::string_view text, std::string_view unit, std::string_view what) {
+  const bool is_name = unit != "vx" && unit != "px" && std::all_of(unit.begin(), unit.end(), [](char c) {
+                         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+                       });
+  fail(ErrorCode::bad_argument, "'{}' is not {}{}", text, what,
+       is_name ? "; a scene does not name its unit, so give a number without one" : "");
 }
 
 double parse_number(std::string_view text) {

@@ -12,6 +12,10 @@ namespace bp {
 /// The number that `text` spells, whole: decimal or scientific, finite. Throws bad_argument otherwise.
 [[nodiscard]] double parse_number(std::string_view text);
 
+/// Throws bad_argument: "'TEXT' is not WHAT". If `unit`, which follows the number, is a name such as cm: that scenes do
+/// not name theirs.
+[[noreturn]] void refuse_unit(std::string_view text, std::string_view unit, std::string_view what);
+
 /// A LENGTH: `0.5` scene units, `2%` of the diagonal of the scene's bounding box, or `20vx` voxels. Never negative. As
 /// a bound on errors also `800px`: a pixel, where the diagonal is 800 pixels on screen.
 struct Length {

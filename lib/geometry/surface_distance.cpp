@@ -136,8 +136,8 @@ std::vector<Chunk> examine_all(const std::vector<TriangleD>& from, const Triangl
 /// Best first, in rounds: the parts of a round are split in parallel. Rounds do not depend on the number of threads.
 class Search {
  public:
-  Search(const TriangleBvh& to, SurfaceDistance& result, double smallest, std::size_t patience)
-      : to_(to), result_(result), smallest_(smallest), patience_(patience) {}
+  Search(const TriangleBvh& to, SurfaceDistance& result, double smallest, const SearchEffort& effort)
+      : to_(to), result_(result), smallest_(smallest), effort_(effort) {}
 
   void see(Part part) {
     if (part.at_least > result_.at_least) result_.at_least = part.at_least, result_.where = part.where;
@@ -154,6 +154,7 @@ class Search {
     std::vector<Part> round;
     std::vector<Found> found;
     std::size_t seen = 0;
+    const std::size_t most = open_.size() + effort_.more_parts;
     while (!done()) {
       round.clear();
       while (!done() && round.size() < kRound) round.push_back(pop());
@@ -180,7 +181,8 @@ class Search {
         for (const Part& part : of.parts) see(part);
         seen += of.parts.size();
       }
-      for (; seen >= patience_; seen -= patience_) smallest_ *= 2;
+      for (; seen >= effort_.patience; seen -= effort_.patience) smallest_ *= 2;
+      if (open_.size() > most) let_go();
     }
     result_.at_most = std::max(settled_, result_.at_least);
     if (!open_.empty()) result_.at_most = std::max(result_.at_most, open_.front().at_most);
@@ -196,6 +198,15 @@ class Search {
 
   [[nodiscard]] double bar() const { return result_.at_least + std::max(smallest_, kRelativeError * result_.at_least); }
   [[nodiscard]] bool done() const { return open_.empty() || !(open_.front().at_most > bar()); }
+  /// Of half the open parts, those that are bounded best. The answer will be no sharper than their bound.
+  void let_go() {
+    const auto half = open_.begin() + std::ptrdiff_t(open_.size() / 2);
+    std::nth_element(open_.begin(), half, open_.end(), [](const Part& a, const Part& b) { return kLess(b, a); });
+    settled_ = std::max(settled_, half->at_most);
+    smallest_ = std::max(smallest_, half->at_most - result_.at_least);
+    open_.erase(half, open_.end());
+    std::make_heap(open_.begin(), open_.end(), kLess);
+  }
   Part pop() {
     std::pop_heap(open_.begin(), open_.end(), kLess);
     Part part = std::move(open_.back());
@@ -206,12 +217,12 @@ class Search {
   const TriangleBvh& to_;
   SurfaceDistance& result_;
   double smallest_, settled_ = 0;  // least error of interest; bound of all parts that are not open
-  const std::size_t patience_;
+  const SearchEffort effort_;
   std::vector<Part> open_;  // a heap
 };
 
 SurfaceDistance measured(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance,
-                         std::size_t patience, bool mean) {
+                         const SearchEffort& effort, bool mean) {
   Bounds3d bounds;
   for (const TriangleD& t : from) bounds.merge(bounds_of(t));
   const double least = least_length(bounds);
@@ -220,7 +231,7 @@ SurfaceDistance measured(const std::vector<TriangleD>& from, const TriangleBvh& 
   SurfaceDistance result;
   result.where = from.front()[0];
   double area = 0;
-  Search search(to, result, std::max({tolerance, kSmallestError * bounds.diagonal(), least}), patience);
+  Search search(to, result, std::max({tolerance, kSmallestError * bounds.diagonal(), least}), effort);
   for (const Chunk& chunk : chunks) {
     result.mean += chunk.integral;
     area += chunk.area;
@@ -234,12 +245,14 @@ SurfaceDistance measured(const std::vector<TriangleD>& from, const TriangleBvh& 
 }  // namespace
 
 SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance) {
-  return measured(from, to, tolerance, std::numeric_limits<std::size_t>::max(), true);
+  SearchEffort effort;
+  effort.patience = std::numeric_limits<std::size_t>::max();
+  return measured(from, to, tolerance, effort, true);
 }
 
 SurfaceDistance largest_distance(const std::vector<TriangleD>& from, const TriangleBvh& to, double tolerance,
-                                 std::size_t patience) {
-  return measured(from, to, tolerance, patience, false);
+                                 const SearchEffort& effort) {
+  return measured(from, to, tolerance, effort, false);
 }
 
 }  // namespace bp

@@ -16,19 +16,23 @@ struct SurfaceDistance {
   Vec3d where{};                     ///< a point as far as at_least
 };
 
+/// When a search gives up sharpness. at_most stays a bound.
+struct SearchEffort {
+  /// The tolerance doubles each time that so many parts of triangles, at least 1, have been looked at.
+  std::size_t patience = 1 << 17;
+  std::size_t more_parts = 1 << 18;  ///< kept at a time, in addition to the triangles; 120 bytes each
+};
+
 /// Neither may be empty. at_most exceeds at_least by at most 0.1 % of it, 1e-7 of the bounds of `from`, or `tolerance`
-/// (scene units), whatever is most: where many places are equally far, a little tolerance saves much. Parallel;
-/// the result does not depend on the number of threads. Cost: some 10^5 searches for the mean, few per triangle for the
-/// rest.
+/// (scene units), whatever is most: where many places are equally far, a little tolerance saves much. Where
+/// SearchEffort::more_parts do not do, it exceeds it by more. Parallel; the result does not depend on the number of
+/// threads. Cost: some 10^5 searches for the mean, few per triangle for the rest.
 [[nodiscard]] SurfaceDistance surface_distance(const std::vector<TriangleD>& from, const TriangleBvh& to,
                                                double tolerance = 0);
 
-constexpr std::size_t kPatience = 1 << 17;
-
-/// The same without the mean, which is 0 then, and without its cost: few searches per triangle. `tolerance` doubles
-/// each time that `patience` parts of triangles, at least 1, have been looked at, in addition to the triangles
-/// themselves: a large face may be as far from all of a fine surface.
+/// The same without the mean, which is 0 then, and without its cost: few searches per triangle. A large face may be as
+/// far from all of a fine surface; `effort` bounds what that takes.
 [[nodiscard]] SurfaceDistance largest_distance(const std::vector<TriangleD>& from, const TriangleBvh& to,
-                                               double tolerance = 0, std::size_t patience = kPatience);
+                                               double tolerance = 0, const SearchEffort& effort = {});
 
 }  // namespace bp

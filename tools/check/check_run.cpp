@@ -23,7 +23,7 @@ Length parse_margin(const std::string& text) {
   constexpr const char* kWhat = "a length such as 0.5 or 2%; no voxels are known here";
   double value = 0;
   const std::string_view unit = take_number(text, value, kWhat);
-  if (!unit.empty() && unit != "%") fail(ErrorCode::bad_argument, "'{}' is not {}", text, kWhat);
+  if (!unit.empty() && unit != "%") refuse_unit(text, unit, kWhat);
   if (value == 0) fail(ErrorCode::bad_argument, "'{}': every proxy that holds keeps some distance; leave it out", text);
   return parse_length(text);
 }

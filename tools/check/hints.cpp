@@ -10,6 +10,10 @@
 
 #include "lib/check/verdict_text.h"
 #include "lib/core/error.h"
+#include "lib/store/content_hash.h"
+#include "lib/store/hex.h"
+#include "tools/run/grounded_source.h"
+#include "tools/run/hiding_recipe.h"
 
 namespace bp {
 
@@ -17,6 +21,28 @@ namespace {
 
 bool all_finite(const Vec3d& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
+bool is_file(const std::string& path) {
+  std::error_code unknown;
+  return std::filesystem::is_regular_file(path, unknown);
+}
+
+/// VoxelizeCounts::input_hash of these scenes, read as the tool that made a proxy did; empty if they cannot be read.
+std::string hash_of(const std::vector<std::string>& scenes, SceneOptions options,
+                    const std::optional<OccluderRecipe>& recipe) {
+  options.walls_only = recipe && recipe->opaque_only;
+  options.keep_degenerate = options.keep_extremes = false;
+  ContentHash hash;
+  try {
+    std::unique_ptr<TriangleSource> scene = open_scenes(scenes, options);
+    if (recipe && recipe->ground) scene = std::make_unique<GroundedSource>(std::move(scene), recipe->up);
+    for (std::vector<TriangleD> chunk; scene->read(chunk);) hash.add(std::as_bytes(std::span(chunk)));
+  } catch (const Error&) {
+    return "";
+  }
+  const auto [high, low] = hash.value().words;
+  return hex_of(high, low);
 }
 
 /// A word of a command line.
@@ -33,8 +59,7 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 MeshExtras extras_of(const std::string& path) {
-  std::error_code unknown;
-  if (!std::filesystem::is_regular_file(path, unknown)) return {};
+  if (!is_file(path)) return {};
   try {
     return mesh_extras(path);
   } catch (const Error&) {
@@ -49,6 +74,20 @@ std::optional<Vec3d> told_origin(const std::vector<std::string>& scenes, const s
     if (extras_of(scene).origin == origin) return {};
   }
   return origin;
+}
+
+std::string other_scene_hint(const std::vector<std::string>& scenes, const std::string& proxy,
+                             const SceneOptions& options) {
+  const MeshExtras extras = extras_of(proxy);
+  const std::string told = hash_of_scene(extras);
+  if (told.empty() || !std::all_of(scenes.begin(), scenes.end(), is_file)) return "";
+  for (const std::string& scene : scenes) {
+    if (hash_of_scene(extras_of(scene)) == told) return "";  // a level within or around another
+  }
+  const std::string found = hash_of(scenes, options, hiding_recipe(extras));
+  if (found.empty() || found == told) return "";
+  return fmt::format("{} was made from another scene than {}, or from an earlier version of it", proxy,
+                     scenes.size() == 1 ? scenes[0] : "these");
 }
 
 std::string enclosure_hint(const std::string& scene, const std::string& proxy, bool inside) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "io/scene/scene_reader.h"
 #include "lib/check/check_report.h"
 #include "lib/core/coords.h"
 #include "lib/core/memory_share.h"
@@ -17,6 +18,11 @@ namespace bp {
 /// Empty: nothing, there is no scene, or a scene says the same of itself.
 [[nodiscard]] std::optional<Vec3d> told_origin(const std::vector<std::string>& scenes, const std::string& proxy);
 
+/// Of a proxy that fails: that it was made from other triangles than those of `scenes`, by what its file says. Reads
+/// the scenes once more. Empty: it was made from them, or from the scene that one of them was made from, or
+/// its file does not say, or they cannot be read again.
+[[nodiscard]] std::string other_scene_hint(const std::vector<std::string>& scenes, const std::string& proxy,
+                                           const SceneOptions& options);
 /// What may be behind the failure of the file `proxy` to enclose the file `scene` (or with `inside` to lie within it):
 /// one sentence from what the files say of their making. Empty: they say nothing of it.
 [[nodiscard]] std::string enclosure_hint(const std::string& scene, const std::string& proxy, bool inside);

@@ -4,6 +4,7 @@
 
 #include "lib/core/error.h"
 #include "lib/geometry/triangle_totals.h"
+#include "lib/pass/voxelize/empty_scene.h"
 
 namespace bp {
 
@@ -37,11 +38,8 @@ Json counts_of(const CheckReport& verdict) {
 }
 
 void refuse_empty_scene(const CheckReport& verdict) {
-  const SceneCounts& c = verdict.scene_counts;
-  if (verdict.scene_name.empty() || verdict.scene_triangles > 0) return;
-  fail(ErrorCode::bad_input,
-       "{}: no triangles ({} degenerate, {} non-finite, {} bad faces skipped); a scene needs at least one with an area",
-       verdict.scene_name, c.degenerate, c.non_finite, c.bad_faces);
+  if (!verdict.scene_name.empty() && verdict.scene_triangles == 0)
+    refuse_empty_scene(verdict.scene_name, verdict.scene_counts);
 }
 
 }  // namespace bp

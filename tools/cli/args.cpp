@@ -6,7 +6,6 @@
 #include <map>
 
 #include "io/files/file.h"
-#include "io/files/lower.h"
 #include "lib/core/error.h"
 #include "lib/store/source_digest.h"
 #include "tools/cli/help/completion.h"
@@ -155,7 +154,7 @@ std::string Args::shown(UpAxis value) {
 }
 
 void Args::parse_into(const std::string& text, UpAxis& value) {
-  const std::optional<UpAxis> up = up_axis_named(lower(text));
+  const std::optional<UpAxis> up = up_axis_named(text);
   if (!up) refuse_word(text, "x|y|z|-x|-y|-z");
   value = *up;
 }

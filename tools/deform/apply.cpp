@@ -134,12 +134,10 @@ class CageMover {
 }  // namespace
 
 std::string scene_of(const WeightReader& weights, const std::string& path) {
-  const std::filesystem::path name = weights.header().scene;
-  const std::filesystem::path beside = std::filesystem::path(path).parent_path() / name;
-  if (std::filesystem::exists(beside)) return beside.string();
-  if (std::filesystem::exists(name)) return name.string();  // as a file of weights before this rule has it
+  std::string scene = find_scene(weights.header(), path);
+  if (!scene.empty()) return scene;
   fail(ErrorCode::bad_input, "{}: its scene is {}, which is not there; put it there, or bind it again", path,
-       beside.string());
+       (std::filesystem::path(path).parent_path() / weights.header().scene).string());
 }
 
 std::vector<MovedCage> moved_cages(std::span<const std::string> paths, const SceneOptions& options,

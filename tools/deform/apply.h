@@ -32,8 +32,7 @@ struct Applied {
   std::string left_behind;  ///< ScenePoints::left_behind()
 };
 
-/// The scene of weights: a relative name counts from their folder, or else from the working folder. Throws bad_input if
-/// it is in neither. `path`: of the weights.
+/// As find_scene(), but throws bad_input if there is none. `path`: of the weights.
 [[nodiscard]] std::string scene_of(const WeightReader& weights, const std::string& path);
 
 /// Writes the scene of the weights as a moved cage carries it. Throws bad_input if the scene has changed since, or if

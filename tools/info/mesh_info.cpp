@@ -107,7 +107,8 @@ std::string mesh_text(const MeshInfo& info, const std::string& name) {
   s += moves_text(info.extras);
   if (info.extras.origin)
     s += fmt::format("origin      {} was subtracted from all coordinates\n", point(*info.extras.origin));
-  for (const std::string& step : info.extras.provenance) s += fmt::format("made by     {}\n", step);
+  for (const std::string& step : info.extras.provenance)
+    s += fmt::format("made by     {}{}\n", step, info.level > 0 ? "; level 0" : "");
   return s + fmt::format("checksum    {}\n", t.checksum());
 }
 
@@ -132,6 +133,7 @@ Json mesh_json(const MeshInfo& info) {
   j["joints"] = info.extras.joints;
   j["origin"] = info.extras.origin ? Json(*info.extras.origin) : Json(nullptr);
   j["provenance"] = info.extras.provenance;
+  j["provenance_level"] = 0;
   j["names"] = info.names.names;
   return j;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "io/deform/weight_file.h"
@@ -11,7 +12,8 @@ struct WeightInfo {
   WeightHeader header;
   WeightTotals totals;
   std::uint64_t blocks = 0, bytes = 0;
-  std::size_t columns = 0;  ///< weights of a vertex
+  std::size_t columns = 0;                   ///< weights of a vertex
+  std::optional<std::uint64_t> scene_bytes;  ///< of the scene's file now; none: it is not there
 };
 
 /// Reads the file to its end, and checks each block. Throws as WeightReader does.

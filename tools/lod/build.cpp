@@ -14,6 +14,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/enclosed/enclosed_triangles.h"
+#include "lib/geometry/triangle_bvh.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/margin.h"
 #include "lib/levels/symmetry.h"
@@ -186,8 +187,9 @@ std::vector<TriangleD> Build::scene_triangles() const {
   if (std::count(options.voxels.scenes.begin(), options.voxels.scenes.end(), "-") > 0)
     return all;  // stdin cannot be read again
   if (fit && size_.triangles > kMost) return all;
-  // Fits: twice, and a hierarchy over them. Else here, and in what is enclosed, or a hierarchy that is measured with.
-  const std::uint64_t bytes = size_.triangles * (fit ? 400 : sizeof(TriangleD) + EnclosedTriangles::kBytesEach);
+  // Fits: twice, and a hierarchy over them. Else here, and in what is enclosed, or then in what measures distances.
+  const std::uint64_t others = std::max(EnclosedTriangles::kBytesEach, TriangleBvh::bytes_needed(1));
+  const std::uint64_t bytes = size_.triangles * (fit ? 400 : sizeof(TriangleD) + others);
   const MemoryShare memory{budget.work.bytes / (fit ? 2 : 1), budget.work.share / (fit ? 2 : 1), budget.work.limit};
   if (bytes > memory.bytes)
     throw NeedsMemory(fmt::format("{} {} triangles", fit ? "fitting to" : "enclosing", size_.triangles), bytes,

@@ -158,6 +158,18 @@ MeshExtras mesh_extras(const std::string& path) {
   return from_comments(head);
 }
 
+std::string hash_of_scene(const MeshExtras& extras) {
+  constexpr std::size_t kDigits = 32;
+  static const std::string key = " input ";
+  if (extras.provenance.empty()) return "";
+  const std::string& first = extras.provenance.front();
+  const std::string tool = first.substr(0, first.find(' '));
+  const std::size_t at = first.rfind(key);
+  if ((tool != "bpvox" && tool != "bplod") || at == std::string::npos) return "";
+  const std::string hash = first.substr(at + key.size());
+  return hash.size() == kDigits && hash.find_first_not_of("0123456789abcdef") == std::string::npos ? hash : "";
+}
+
 std::string made_by(const MeshExtras& extras) {
   if (extras.provenance.empty()) return "";
   const std::string& last = extras.provenance.back();

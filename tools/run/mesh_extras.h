@@ -21,6 +21,8 @@ struct MeshExtras {
 };
 [[nodiscard]] MeshExtras mesh_extras(const std::string& path);
 
+/// The hash that its first step says of the scene's triangles, as VoxelizeCounts::input_hash; empty: it does not say.
+[[nodiscard]] std::string hash_of_scene(const MeshExtras& extras);
 /// The tool that made the mesh, bpmesh or bplod; empty: another, or it does not say.
 [[nodiscard]] std::string made_by(const MeshExtras& extras);
 /// Its --mode, as the option is written; empty: it does not say.

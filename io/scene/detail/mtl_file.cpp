@@ -75,6 +75,9 @@ void MtlMaterials::read_line(TextScanner& text, const std::string& key, const st
   }
 }
 
+/// Of -bm: more than images are wide. Slopes beyond it are cliffs all the same.
+constexpr double kMostStrength = 65536;
+
 // "map_Kd -s 2 2 1 -clamp on some name.png": options have words or numbers after them, and the name may have blanks.
 void MtlMaterials::read_map(TextScanner& text, const std::string& folder, Map& map) {
   while (text.word_on_line() && text.peek() == '-') {
@@ -90,7 +93,8 @@ void MtlMaterials::read_map(TextScanner& text, const std::string& folder, Map& m
       map.uv[at + 2] = numbers[1];
     } else if (option == "-bm") {
       double strength = 1;
-      if (text.word_on_line() && text.real(strength) && std::isfinite(strength)) map.strength = strength;
+      if (text.word_on_line() && text.real(strength) && std::isfinite(strength))
+        map.strength = std::clamp(strength, -kMostStrength, kMostStrength);
     } else {
       const std::string value = text.word_on_line() ? std::string(text.word()) : "";
       if (option == "-clamp") map.clamp = value == "on";

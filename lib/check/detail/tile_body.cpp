@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "lib/exact/triangle_part.h"
 #include "lib/exact/triangle_intersection.h"
+#include "lib/exact/triangle_part.h"
 
 namespace bp {
 

@@ -321,13 +321,15 @@ bool says_nothing(const TextureImage& normals) {
     return x * x + y * y > kLean * kLean;
   };
   std::size_t all = 0;
-  for (int top = 0; top < normals.height; top += kDetail) {
-    for (int left = 0; left < normals.width; left += kDetail) {
-      std::size_t here = 0;
-      for (int y = top; y < std::min(normals.height, top + kDetail); ++y)
-        for (int x = left; x < std::min(normals.width, left + kDetail); ++x) here += leans(normals.at(x, y)) ? 1 : 0;
-      if (2 * here > kDetail * kDetail) return false;
-      all += here;
+  std::vector<int> columns(std::size_t(normals.width));  // leaning texels of the last rows
+  for (int y = 0; y < normals.height; ++y) {
+    int square = 0;  // of the last columns
+    for (int x = 0; x < normals.width; ++x) {
+      const bool here = leans(normals.at(x, y));
+      columns[std::size_t(x)] += int(here) - int(y >= kDetail && leans(normals.at(x, y - kDetail)));
+      square += columns[std::size_t(x)] - (x >= kDetail ? columns[std::size_t(x - kDetail)] : 0);
+      if (2 * square > kDetail * kDetail) return false;
+      all += here ? 1 : 0;
     }
   }
   return all * kOneIn <= normals.texels.size();

@@ -65,8 +65,8 @@ std::uint32_t weight_of(const ColorSum& sum) {
   return std::uint32_t(std::min<std::uint64_t>(sum.weight, std::numeric_limits<std::uint32_t>::max()));
 }
 
-/// Of the sides of a cell, by their shares. What lacks of enough area is made up by all of the cell: shares that are
-/// nearly 0 would choose one side by rounding, or by a tree's twig.
+/// Of the sides of a cell, by their shares. If that is less area than kEnough of the cell's, all sides count for the
+/// rest: shares that are nearly 0 would choose one side by rounding, or by a tree's twig.
 template <class Shares>
 LinearColor mean_of(std::span<const CellColor> sides, const Shares& shares) {
   std::array<double, 4> sum{}, plain{};

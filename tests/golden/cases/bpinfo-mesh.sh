@@ -18,6 +18,8 @@ bplod round.obj --name cube --faces 200,20 --resolution 24 -q -o lods > list
 rm round.obj
 bpmesh <(bpvox cube.obj --resolution 12 | bpclose --scale 2vx) --faces 12 -q -o proxy.glb 2> /dev/null
 said 'bpinfo lods/cube.glb | grep -E "levels|triangles"'
+for level in 0 1; do said "bpinfo lods/cube.glb --level $level | grep -o '; level 0$'"; done
+said 'bpinfo lods/cube.glb --level 1 --json | grep provenance_level'
 said 'bpinfo proxy.glb | grep "made by.*bpvox" | grep -c "input [0-9a-f]\{32\}$"'
 rm -r lods list proxy.glb
 files
@@ -33,6 +35,11 @@ try bpinfo cube.obj turned.obj --image near.png --image-size 64 | grep far
 said 'bpinfo cube.obj turned.obj | checksum'
 try bpinfo cube.obj turned.obj --json
 try bpinfo cube.obj --up w
+# What has no triangles is an error, as for other tools.
+: > empty.obj
+printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' > flat.obj
+for scene in empty.obj flat.obj; do try bpinfo $scene; done
+rm empty.obj flat.obj
 # Quads and other polygons are counted.
 (cat cube.obj; echo 'f 1 2 3'; echo 'f 5 6 7 8 1') > faces.obj
 said 'bpinfo cube.obj | head -3'

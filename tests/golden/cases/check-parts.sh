@@ -10,10 +10,10 @@ broken() {
   local status=0 part one=0 k
   rm -rf bad && cp -r good bad
   (cd bad && "${@:2}")
-  bpcheck "${scene[@]}" bad | grep -v '^tileset.json: ' | sort -u > whole; status=${PIPESTATUS[0]}
+  bpcheck -q "${scene[@]}" bad | grep -v '^tileset.json: ' | sort -u > whole; status=${PIPESTATUS[0]}
   : > parts
   for k in {1..5}; do
-    bpcheck "${scene[@]}" bad --part $k/5 > part || { part=$?; [ $one = 1 ] || one=$part; }
+    bpcheck -q "${scene[@]}" bad --part $k/5 > part || { part=$?; [ $one = 1 ] || one=$part; }
     grep -v '^tileset.json: ' part >> parts
   done
   diff whole <(sort -u parts) && echo "$1: $(wc -l < whole) findings, $status and $one"

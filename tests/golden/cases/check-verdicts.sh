@@ -18,6 +18,15 @@ for files in 'bounding.obj inner.obj' 'inner.obj fit.obj' 'inner.obj inside.obj'
   'inner.obj bounding.obj' 'bounding.obj fit.obj' 'bounding.obj outer.obj' 'fit.obj'; do said "bpcheck $files | tail -1"; done
 rm bounding.obj fit.obj inside.obj
 
+# So does the hash of the scene that a proxy was made from. It is asked for where the proxy fails only.
+bpvox inner.obj --resolution 20 | bpclose --scale 2vx | bpmesh --faces 12 -q -o made.ply
+bplod inner.obj --resolution 20 --levels 1 --faces 12 --mode fit -q -o fit > list
+bplod inner.obj outer.obj --resolution 20 --levels 1 --faces 12 --profile 3dtiles -q -o tiles > list
+sed 's/^v 0 0 0/v -9 0 0/' inner.obj > changed.obj
+for files in 'inner.obj made.ply' 'changed.obj made.ply' 'outer.obj made.ply' '--inside outer.obj made.ply' 'inner.obj fit/inner_LOD0.glb' 'outer.obj fit/inner_LOD0.glb' \
+  'inner.obj outer.obj made.ply' 'inner.obj outer.obj tiles' 'changed.obj outer.obj tiles'; do said "bpcheck $files | tail -1"; done
+rm -r made.ply fit tiles list changed.obj
+
 # A file with levels (MSFT_lod): each is a proxy of its own, and all must hold.
 # write_levels FILE SIZE...: a glTF whose levels are cubes from -SIZE to SIZE.
 write_levels() {

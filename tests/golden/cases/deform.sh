@@ -16,6 +16,15 @@ try bpinfo scene.bpw --dump
 try bpinfo scene.bpw --boxes part
 head -c -100 scene.bpw > cut.bpw
 try bpinfo cut.bpw
+stdin=scene.bpw try bpinfo
+try bpclose scene.bpw --scale 1 -o x.bpv
+# A scene that is missing or has changed.
+mv scene.obj away.obj
+said 'bpinfo scene.bpw | grep scene.file'
+said 'bpinfo scene.bpw --json | grep bytes_now'
+(cat away.obj; echo) > scene.obj
+said 'bpinfo scene.bpw | grep scene.file'
+mv away.obj scene.obj
 # The whole cage moves: so does the scene. One side of it moves: the scene is stretched.
 awk '/^v/ { $2 += 10; $3 *= 2 } { print }' cage.obj > affine.obj
 try bpdeform apply scene.bpw affine.obj -o affine_scene.obj

@@ -5,6 +5,9 @@ try bpclose cube.bpv --scale 2 -o out.bpv
 try bpclose cube.bpv --scale 40 -o out.bpv
 try bpclose cube.bpv --scale 1e100 -o out.bpv
 try bpclose cube.bpv --scale 50% -o insisted.bpv
+try bpclose cube.bpv --scale 10cm -o out.bpv
+try bpcheck cube.obj cube.obj --margin 10cm
+try bpcheck cube.obj cube.obj --margin 2vx
 try bpvox cube.obj --voxel 0.00001 -o out.bpv
 try bpvox cube.obj --voxel 10 -o out.bpv
 try bpvox cube.obj --voxel 64 -o out.bpv

@@ -1,7 +1,7 @@
 # A proxy of a z-up scene says so, and every tool that reads it believes it unless told otherwise.
 write_cube cube.obj 3
 sed -i 's/^v 3 3 3/v 3 3 9/' cube.obj
-bpvox cube.obj --resolution 30 --up Z | bpmesh --faces 30 -q -o z.glb
+bpvox cube.obj --resolution 30 --up z | bpmesh --faces 30 -q -o z.glb
 bpvox cube.obj --resolution 30 | bpmesh --faces 30 -q -o y.glb
 for proxy in z.glb y.glb cube.obj; do bpvox $proxy --resolution 20 | bpinfo | grep -o '. is up'; done
 bpvox z.glb --resolution 20 --up y | bpinfo | grep -oE '. is up|up=.*'
@@ -44,7 +44,7 @@ for up in x -x -y -z; do
     rm up.$format plain.$format
   done
 done
-try bpvox cube.obj --up w -o w.bpv
+for up in w Z; do try bpvox cube.obj --up $up -o w.bpv; done
 # glTF of a map is made with y up, and stands on edge, only with a note; nobody else is bothered.
 awk '/^v/ { print "v", 20 * $2, 20 * $3, $4; next } { print }' cube.obj > map.obj
 said 'bplod map.obj --resolution 30 --levels 1 --profile 3dtiles -o map > list'

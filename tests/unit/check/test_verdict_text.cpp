@@ -30,6 +30,13 @@ TEST_CASE("the text of a failure names what, how often and where", "[quick][chec
   CHECK(failures(check(cube(1))).empty());
 }
 
+TEST_CASE("the text says that inner parts count in the distance of the scene", "[quick][check]") {
+  const IndexedMesh scene = join(cube(1), cube(0.5));
+  const std::string text = verdict_text(check(cube(2), triangles_of(scene)), "p");
+  CHECK(text.find("sampled points; inner parts of the scene count\n  distance proxy to scene") != std::string::npos);
+  CHECK(text.find("sampled points\nholds") != std::string::npos);
+}
+
 TEST_CASE("the text says why a proxy around a scene may have less volume", "[quick][check]") {
   const auto text_of = [](const IndexedMesh& scene) {
     return verdict_text(check(cube(1.1), triangles_of(scene)), "p");
@@ -59,6 +66,12 @@ TEST_CASE("the JSON holds each answer, each finding and null for what was not me
   CHECK(both["findings"]["outside"]["examples"].size() == 5);
   CHECK(both["findings"]["outside"]["examples"][0]["scene_triangle"] == 0);
   CHECK(both["measures"]["volume"] == 8);
-  CHECK(both["measures"]["scene_to_proxy"]["sampled"] == true);
+  for (const char* way : {"scene_to_proxy", "proxy_to_scene"}) {
+    CHECK(both["measures"][way]["at_most"].is_number());
+    CHECK(both["measures"][way]["sampled"] == false);
+  }
+  CheckReport large = check(cube(1), triangles_of(cube(0.5)));
+  large.scene_to_proxy->at_most.reset();  // as of a large scene
+  CHECK(nlohmann::json::parse(verdict_json(large, ""))["measures"]["scene_to_proxy"]["sampled"] == true);
   CHECK(nlohmann::json::parse(verdict_json(check(IndexedMesh{}), ""))["proxy"]["genus"].is_null());
 }

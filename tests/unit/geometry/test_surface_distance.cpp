@@ -80,7 +80,9 @@ TEST_CASE("the search for the largest distance gives up exactness for speed, and
   }
   const std::vector<TriangleD> above{{Vec3d{0, 0, 9}, {kCells, 0, 9}, {0, kCells, 9}}};
   const TriangleBvh tree(hills);
-  const SurfaceDistance exact = largest_distance(above, tree, 1e-4), quick = largest_distance(above, tree, 1e-4, 64);
+  const SurfaceDistance exact = largest_distance(above, tree, 1e-4);
+  const SearchEffort less = GENERATE(SearchEffort{64, 1 << 18}, SearchEffort{std::size_t(1) << 62, 64});
+  const SurfaceDistance quick = largest_distance(above, tree, 1e-4, less);
   CHECK(quick.at_most >= exact.at_least);
   CHECK(quick.at_most > exact.at_most);
   CHECK(quick.at_most < 1.2 * exact.at_least);

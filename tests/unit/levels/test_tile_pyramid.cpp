@@ -331,11 +331,11 @@ TEST_CASE("a room that two tiles close is filled in both, and its contents are n
   CHECK(largest_error(level) < 20);  // the wall between them is about 16 from the room's walls, floor, roof and post
 }
 
-// Where both tiles are drawn, nothing is seen of the wall between them.
-TEST_CASE("the wall between two tiles that close a room is no error of them", "[quick][pass][lod][!shouldfail]") {
+TEST_CASE("the wall between two tiles that close a room counts in their errors, though both may hide it",
+          "[quick][pass][lod]") {
   Backends backends = cpu_backends();
   TilePyramid levels = pyramid(room(kAcross, 3), backends);
-  CHECK(largest_error(make(levels, {})) < 10);
+  CHECK(largest_error(make(levels, {})) > 10);  // a viewer may draw another level beside a tile
 }
 
 TEST_CASE("a tile leaves out what only the cell below closes", "[quick][pass][lod]") {

@@ -32,8 +32,8 @@ void LevelOptions::add_of_stream(Args& args) {
     faces = parse_face_list(text);
   };
   args.option("--faces", "N[,N...]", set_faces,
-              "largest number of triangles; several falling numbers make as many levels, finest first, each of which "
-              "encloses the one before");
+              "largest number of triangles, as 5000 or 5k; several falling numbers make as many levels, finest first, "
+              "each of which encloses the one before");
   args.option(
       "--error", "LENGTH", [this](const std::string& text) { errors = {parse_error_length(text)}; },
       "largest distance from any point of the proxy to the closing, or to what --enclose names");
@@ -49,7 +49,7 @@ void LevelOptions::add_of_scene(Args& args, const std::string& levels_default, c
   args.option("--levels", "N", levels, "number of levels (default: " + levels_default + ")");
   args.option(
       "--faces", "N[,N...]|P%[,P%...]", set_faces,
-      "largest number of triangles of each level, finest first, or a percentage of the scene's triangles; after "
+      "largest number of triangles of each level, as 5k, finest first, or a percentage of the scene's triangles; after "
       "a single number each further level has a quarter (default: " +
           faces_default + ")");
   args.option(

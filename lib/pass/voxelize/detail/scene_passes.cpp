@@ -3,6 +3,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/pass/voxelize/empty_scene.h"
 #include "lib/store/content_hash.h"
 #include "lib/store/hex.h"
 
@@ -50,13 +51,7 @@ void ScenePasses::measure(const PassProgress& progress) {
         if (!reads_twice_) keep(std::move(item));
       });
   input_hash_ = text_of(hash);
-  if (bounds_.empty()) {
-    const SceneCounts& c = source_.counts();
-    fail(ErrorCode::bad_input,
-         "{}: no triangles ({} degenerate, {} non-finite, {} bad faces skipped); a scene needs at least one with an "
-         "area",
-         source_.name(), c.degenerate, c.non_finite, c.bad_faces);
-  }
+  if (bounds_.empty()) refuse_empty_scene(source_.name(), source_.counts());
 }
 
 void ScenePasses::keep(Item&& item) {

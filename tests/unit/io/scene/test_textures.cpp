@@ -323,11 +323,12 @@ TEST_CASE("MTL: map_Bump is heights where it is grey, and directions where it is
   (void)dir.file("tint.png", encode_texture(tint).bytes);
   (void)dir.file(
       "m.mtl",
-      "newmtl high\nbump -clamp on -bm 1.5 ramp.png\nnewmtl bent\nmap_bump tint.png\nnewmtl said\nnorm ramp.png\n");
+      "newmtl high\nbump -clamp on -bm 1.5 ramp.png\nnewmtl bent\nmap_bump tint.png\nnewmtl said\nnorm ramp.png\n"
+      "newmtl steep\nmap_Bump -bm 1e200 ramp.png\n");
   const std::string path =
       dir.file("a.obj",
                "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl high\nf 1/1 2/2 3/3\n"
-               "usemtl bent\nf 1/1 2/2 3/3\nusemtl said\nf 1/1 2/2 3/3\n");
+               "usemtl bent\nf 1/1 2/2 3/3\nusemtl said\nf 1/1 2/2 3/3\nusemtl steep\nf 1/1 2/2 3/3\n");
   const TexturedRead r = read_textured({path}, true);
   const auto image_of = [&](std::size_t i) {
     return r.table->material(r.textures.at(i).material).surface.normal.image;
@@ -345,4 +346,6 @@ TEST_CASE("MTL: map_Bump is heights where it is grey, and directions where it is
     for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(int(copy.texels[i][k]) - int(high.texels[i][k])) <= 4);
   CHECK(r.table->image(image_of(1), 1 << 20).texels == tint.texels);
   CHECK(r.table->image(image_of(2), 1 << 20).texels == ramp.texels);
+  const TextureImage::Texel cliff = r.table->image(image_of(3), 1 << 20).at(4, 4);
+  CHECK(int(cliff[down ? 1 : 0]) == (down ? 255 : 0));
 }

@@ -25,6 +25,16 @@ TEST_CASE("what is not a length is refused", "[quick][tools]") {
   CHECK_THROWS_AS(parse_length(text), Error);
 }
 
+TEST_CASE("who names a unit of length is told that scenes do not", "[quick][tools]") {
+  const std::string text = GENERATE("10cm", "1m", "0.5MM", "3ft");
+  CAPTURE(text);
+  CHECK_THROWS_WITH(parse_length(text), ContainsSubstring("'" + text +
+                                                          "' is not a length such as 0.5, 2% or 20vx; "
+                                                          "a scene does not name its unit"));
+  CHECK_THROWS_WITH(parse_length("3px"), "'3px' is not a length such as 0.5, 2% or 20vx");
+  CHECK_THROWS_WITH(parse_length("3 %"), "'3 %' is not a length such as 0.5, 2% or 20vx");
+}
+
 TEST_CASE("a point is three numbers", "[quick][tools]") {
   CHECK(parse_point("1,-2.5,3e6") == Vec3d{1, -2.5, 3e6});
   const std::string text = GENERATE("", "1", "1,2", "1,2,", "1,2,3,", "1,2,3,4", "1, 2,3", "a,b,c", ",,", "1;2;3");
