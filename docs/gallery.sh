@@ -110,8 +110,8 @@ draw gallery-colours.png 440 truck.obj truck-textured/truck_LOD0.glb --zoom 1.2
 textured() {
   local out=$1 size=$2 up=$3 scene=$4 faces=$5
   shift 5
-  bplod "$scene" --up "$up" --faces "$faces" --levels 1 -q -o "level-$out" --name level --overwrite > /dev/null
-  draw "$out" "$size" "$scene" --up "$up" "level-$out"/level_LOD0.glb "$@"
+  bplod "$scene" --up "$up" --faces "$faces" --levels 1 -q -o "$out-level" --name level --overwrite > /dev/null
+  draw "$out" "$size" "$scene" --up "$up" "$out-level"/level_LOD0.glb "$@"
 }
 # only NAME IN.glb OUT.glb: the nodes with this name
 only() {
@@ -130,11 +130,12 @@ P
 if [ -n "${MODELS:-}" ]; then
   morse=$MODELS/usr/share/morse/data
   assimp export "$morse/environments/land-1/rosace_1.blend" land.glb -f glb2 > /dev/null
+  mkdir -p models
   only City.1 land.glb houses.glb
-  textured gallery-houses.png 380 z houses.glb 800
-  textured gallery-vehicle.png 340 z "$morse/robots/hummer.blend" 1200
-  textured gallery-person.png 400 z "$morse/robots/victim.blend" 1000 --zoom 1.1 --view 60,10
-  textured gallery-avocado.png 400 y "$MODELS/Avocado/glTF/Avocado.gltf" 400
+  textured models/houses.png 380 z houses.glb 800
+  textured models/vehicle.png 340 z "$morse/robots/hummer.blend" 1200
+  textured models/person.png 400 z "$morse/robots/victim.blend" 1000 --zoom 1.1 --view 60,10
+  textured models/avocado.png 400 y "$MODELS/Avocado/glTF/Avocado.gltf" 400
 fi
 if [ -n "${NODE_PATH:-}" ]; then
   node "$root/tests/viewers/shot.cjs" cesium city-tiles/tileset.json guide-tileset.png 'width=520&radii=1.3&pixels=4' > /dev/null
