@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # Makes the pictures of docs/gallery.md and docs/guides, and prints the numbers beside those of the gallery.
-# usage: gallery.sh BUILD_DIR OUT_DIR
+# usage: [MODELS=FOLDER] gallery.sh BUILD_DIR OUT_DIR
+# MODELS: a folder as docs/gallery.md describes it, for the pictures of other people's models; assimp-utils reads their houses.
 # The picture of CesiumJS needs the packages that tests/viewers/run.sh installs: NODE_PATH names their folder.
 set -euo pipefail
 build=$(cd "$1" && pwd)
 root=$(cd "$(dirname "$0")/.." && pwd)
+[ -z "${MODELS:-}" ] || MODELS=$(cd "$MODELS" && pwd)
 mkdir -p "$2" && cd "$2"
 export PATH="$build/tools:$build/samples:$PATH"
 
@@ -103,6 +105,38 @@ bplod town/town.obj --faces 2000 -q -o town-2000 > /dev/null
 draw gallery-textures.png 440 town/town.obj town-2000/town_LOD0.glb --zoom 1.4
 bplod truck.obj --appearance texture --faces 1500 -q -o truck-textured > /dev/null
 draw gallery-colours.png 440 truck.obj truck-textured/truck_LOD0.glb --zoom 1.2
+
+# textured OUT SIZE UP SCENE FACES PICTURE_OPTION...: a scene beside a level of it
+textured() {
+  local out=$1 size=$2 up=$3 scene=$4 faces=$5
+  shift 5
+  bplod "$scene" --up "$up" --faces "$faces" --levels 1 -q -o "$out-level" --name level --overwrite > /dev/null
+  draw "$out" "$size" "$scene" --up "$up" "$out-level"/level_LOD0.glb "$@"
+}
+# only NAME IN.glb OUT.glb: the nodes with this name
+only() {
+  python3 - "$@" << 'P'
+import json, struct, sys
+data = open(sys.argv[2], "rb").read()
+size = struct.unpack_from("<I", data, 12)[0]
+doc, rest = json.loads(data[20:20 + size]), data[20 + size:]
+doc["scenes"][0]["nodes"] = [i for i, node in enumerate(doc["nodes"]) if node.get("name") == sys.argv[1]]
+for node in doc["nodes"]: node.pop("children", None)
+text = json.dumps(doc).encode()
+text += b" " * (-len(text) % 4)
+open(sys.argv[3], "wb").write(struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest)
+P
+}
+if [ -n "${MODELS:-}" ]; then
+  morse=$MODELS/usr/share/morse/data
+  assimp export "$morse/environments/land-1/rosace_1.blend" land.glb -f glb2 > /dev/null
+  mkdir -p models
+  only City.1 land.glb houses.glb
+  textured models/houses.png 380 z houses.glb 800
+  textured models/vehicle.png 340 z "$morse/robots/hummer.blend" 1200
+  textured models/person.png 400 z "$morse/robots/victim.blend" 1000 --zoom 1.1 --view 60,10
+  textured models/avocado.png 400 y "$MODELS/Avocado/glTF/Avocado.gltf" 400
+fi
 if [ -n "${NODE_PATH:-}" ]; then
   node "$root/tests/viewers/shot.cjs" cesium city-tiles/tileset.json guide-tileset.png 'width=520&radii=1.3&pixels=4' > /dev/null
   "$root/tests/viewers/run.sh" viewers > /dev/null && cp viewers/all.png guide-viewers.png

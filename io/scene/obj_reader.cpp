@@ -178,7 +178,7 @@ void ObjSource::use_material(char key, const std::string& name) {
   has_textures_ = has_textures_ || (textures_ && materials_.has_image(name));
   passed_over_ = walls_only_ && materials_.see_through(name);
   if (!vertex_colors_) return;
-  material_ = materials_.color(name);
+  material_ = materials_.color(name, normals_.has_value());
   has_colors_ = has_colors_ || material_ != kWhite;
 }
 

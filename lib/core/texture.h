@@ -58,7 +58,7 @@ struct TextureMaterial {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha = 1, cutoff = 0.5F;  ///< multiplies the image's alpha; of AlphaMode::mask
   bool replaces_color = false;     ///< true: use the triangle's colour, because the image is missing; else multiply
-  TextureSurface surface{};        ///< if SceneOptions::surface asked for it
+  TextureSurface surface{};        ///< if SceneOptions::surface asked for it; else its light of its own only
   /// All that it shows; kNoImage where there is none.
   [[nodiscard]] std::array<std::uint32_t, 4> images() const {
     return {image, surface.normal.image, surface.roughness.image, surface.emission.image};

@@ -169,32 +169,46 @@ class Canvas::Painter {
     Coat(const Painter& painter, const Shaded& t) : t_(t) {
       if (t.material == TriangleTexture::kNoMaterial) return;
       material_ = &painter.images_->material(t.material);
+      area_ = std::abs(t.duv_dx[0] * t.duv_dy[1] - t.duv_dx[1] * t.duv_dy[0]);
       image_ = painter.images_->get(material_->image);
-      if (image_ == nullptr) return;
-      const double area = std::abs(t.duv_dx[0] * t.duv_dy[1] - t.duv_dx[1] * t.duv_dy[0]);
-      texels_ = std::sqrt(area * image_->width() * image_->height());
+      const TextureSurface& surface = material_->surface;
+      glow_ = painter.images_->get(surface.emission.image);
+      glows_ = surface.emission_factor != std::array<float, 3>{} && (glow_ != nullptr || !surface.emission.is_there());
     }
     /// False at a hole; alpha in between is one from a half on.
     bool color_at(int x, int y, Color& color) const {
-      if (image_ == nullptr) {
+      if (image_ == nullptr && !glows_) {
         color = t_.color_at(x, y);
         return true;
       }
-      const auto place = [&](std::size_t i) { return t_.uv[i] + x * t_.duv_dx[i] + y * t_.duv_dy[i]; };
-      const LinearTexel texel = image_->at(place(0), place(1), texels_, material_->wrap);
+      const LinearTexel texel = texel_at(image_.get(), x, y, material_->wrap);
       const float least = material_->alpha_mode == AlphaMode::mask ? material_->cutoff : 0.5F;
       if (material_->alpha_mode != AlphaMode::opaque && texel[3] * material_->alpha < least) return false;
       std::array<double, 3> light{65535, 65535, 65535};
-      if (!material_->replaces_color) light = t_.light_at(x, y);
-      color = scaled(shown(light[0] * texel[0], light[1] * texel[1], light[2] * texel[2]), t_.s);
+      if (!material_->replaces_color || image_ == nullptr) light = t_.light_at(x, y);
+      for (std::size_t i = 0; i < 3; ++i) light[i] *= double(texel[i]);
+      if (glows_) add_glow(light, x, y);
+      color = scaled(shown(light[0], light[1], light[2]), t_.s);
       return true;
     }
 
    private:
+    [[nodiscard]] LinearTexel texel_at(const MipImage* image, int x, int y,
+                                       const std::array<TextureWrap, 2>& wrap) const {
+      if (image == nullptr) return {1, 1, 1, 1};
+      const auto place = [&](std::size_t i) { return t_.uv[i] + x * t_.duv_dx[i] + y * t_.duv_dy[i]; };
+      return image->at(place(0), place(1), std::sqrt(area_ * image->width() * image->height()), wrap);
+    }
+    void add_glow(std::array<double, 3>& light, int x, int y) const {
+      const LinearTexel texel = texel_at(glow_.get(), x, y, material_->surface.emission.wrap);
+      for (std::size_t i = 0; i < 3; ++i)
+        light[i] = std::min(65535.0, light[i] + 65535 * double(material_->surface.emission_factor[i] * texel[i]));
+    }
     const Shaded& t_;
     const TextureMaterial* material_ = nullptr;
-    std::shared_ptr<const MipImage> image_;
-    double texels_ = 0;
+    std::shared_ptr<const MipImage> image_, glow_;
+    bool glows_ = false;
+    double area_ = 0;  // of a pixel, in the image
   };
 
  private:

@@ -1,5 +1,6 @@
 #include "io/gltf/detail/gltf_materials.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/gltf/gltf_sampler.h"
@@ -20,6 +21,15 @@ bool same_places(const GltfObject& a, const GltfObject& b) {
   return a.number("texCoord", 0) == b.number("texCoord", 0) && transform(a) == transform(b);
 }
 
+std::array<float, 3> light_of(const GltfObject& material) {
+  const auto light = material.numbers<3>("emissiveFactor", {0, 0, 0});
+  return {float(light[0]), float(light[1]), float(light[2])};
+}
+
+bool has_light_image(const GltfObject& material) {
+  return material.has("emissiveTexture") && light_of(material) != std::array<float, 3>{};
+}
+
 /// The first image that a material has besides its colours: it says where all of them lie.
 std::optional<GltfObject> first_map(const GltfObject& material) {
   for (const char* const name : {"normalTexture", "emissiveTexture"}) {
@@ -33,16 +43,22 @@ std::optional<GltfObject> first_map(const GltfObject& material) {
 
 }  // namespace
 
-// Section 3.9.2 again: the image that multiplies the colours, and, if asked for, what else the material says.
+// Section 3.9.2 again: the image that multiplies the colours, that of light (section 3.9.3), and, if asked for, what
+// else the material says.
 void GltfMaterials::add_texture(std::uint64_t i, const GltfObject& attributes, Primitive& primitive) {
   const GltfObject material = doc_.root().item("materials", i);
   const std::optional<GltfObject> base = base_texture(material);
-  if (!base && !surface_) return;
-  if (const std::optional<GltfObject> places = base ? base : first_map(material))
+  if (!base && !surface_ && !has_light_image(material)) return;
+  if (const std::optional<GltfObject> places = base ? base : first_other(material))
     add_places(*places, attributes, primitive);
   if (!primitive.uv && !surface_) return;
-  primitive.has_image = base && primitive.uv;
   primitive.material = texture_material(i, material, primitive.uv ? base : std::nullopt);
+  primitive.has_image = primitive.uv && (base || textures_->material(primitive.material).surface.emission.is_there());
+}
+
+std::optional<GltfObject> GltfMaterials::first_other(const GltfObject& material) const {
+  if (surface_) return first_map(material);
+  return material.object("emissiveTexture");
 }
 
 /// Where images lie, with KHR_texture_transform.
@@ -96,6 +112,7 @@ std::uint32_t GltfMaterials::texture_material(std::uint64_t i, const GltfObject&
   m.alpha = float(base_color(i)[3]);
   if (material.has("alphaCutoff")) m.cutoff = float(material.real("alphaCutoff"));
   if (surface_) m.surface = surface_of(material, base ? base : first_map(material));
+  if (!surface_) add_light(material, base, m.surface);
   return textures_->add_material(fmt::format("{}: materials[{}]{}", file_, i, base ? "" : " alone"), m);
 }
 
@@ -111,14 +128,17 @@ TextureSurface GltfMaterials::surface_of(const GltfObject& material, const std::
   } else if (material.has_extension("KHR_materials_pbrSpecularGlossiness")) {
     s.metal_factor = 0;
   }
-  const auto emission = material.numbers<3>("emissiveFactor", {0, 0, 0});
-  for (std::size_t k = 0; k < 3; ++k) s.emission_factor[k] = float(emission[k]);
-  if (material.has("emissiveTexture")) s.emission = map_of(material.object("emissiveTexture"), places);
+  add_light(material, places, s);
   if (!material.has("normalTexture")) return s;
   const GltfObject normal = material.object("normalTexture");
   s.normal = map_of(normal, places);
   if (normal.has("scale")) s.normal_scale = float(normal.real("scale"));
   return s;
+}
+
+void GltfMaterials::add_light(const GltfObject& material, const std::optional<GltfObject>& places, TextureSurface& s) {
+  s.emission_factor = light_of(material);
+  if (has_light_image(material)) s.emission = map_of(material.object("emissiveTexture"), places);
 }
 
 /// None if it lies elsewhere than the image of colours, which is told.
@@ -149,6 +169,9 @@ std::array<double, 4> GltfMaterials::base_color(std::uint64_t i) const {
   constexpr const char* kOlder = "KHR_materials_pbrSpecularGlossiness";
   if (material.has_extension(kOlder))
     rgba = material.object("extensions").object(kOlder).numbers<4>("diffuseFactor", rgba);
+  if (surface_ || base_texture(material) || has_light_image(material)) return rgba;
+  const std::array<float, 3> light = light_of(material);
+  for (std::size_t k = 0; k < 3; ++k) rgba[k] = std::min(1.0, rgba[k] + double(light[k]));
   return rgba;
 }
 

@@ -10,7 +10,8 @@ class GltfMaterials {
   GltfMaterials(GltfDocument& doc, std::string file, TextureTable* textures, bool surface)
       : doc_(doc), file_(std::move(file)), textures_(textures), surface_(surface) {}
 
-  /// Linear red, green, blue and alpha that multiply image and vertex colours.
+  /// Linear red, green, blue and alpha that multiply image and vertex colours. With the light that a material without
+  /// images gives, unless surfaces are asked for.
   [[nodiscard]] std::array<double, 4> base_color(std::uint64_t material) const;
   [[nodiscard]] bool see_through(std::uint64_t material) const;
   /// What lies on a primitive with this material, and where.
@@ -21,6 +22,9 @@ class GltfMaterials {
   void add_places(const GltfObject& info, const GltfObject& attributes, Primitive& primitive);
   std::uint32_t texture_material(std::uint64_t i, const GltfObject& material, const std::optional<GltfObject>& base);
   [[nodiscard]] TextureSurface surface_of(const GltfObject& material, const std::optional<GltfObject>& places);
+  /// That says where all of a material's images lie, if it has none of colours.
+  [[nodiscard]] std::optional<GltfObject> first_other(const GltfObject& material) const;
+  void add_light(const GltfObject& material, const std::optional<GltfObject>& places, TextureSurface& s);
   TextureMap map_of(const GltfObject& info, const std::optional<GltfObject>& places);
   [[nodiscard]] std::array<TextureWrap, 2> wrap_of(const GltfObject& texture) const;
   std::uint32_t image_of(const GltfObject& texture);

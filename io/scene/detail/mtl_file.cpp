@@ -137,13 +137,19 @@ TextureMap MtlMaterials::map_of(const Map& map, const Material& material, Textur
   return {image, {wrap, wrap}};
 }
 
+void MtlMaterials::add_light(const Material& material, TextureTable& textures, TextureSurface& s) {
+  s.emission_factor = {float(material.emission.r) / 65535, float(material.emission.g) / 65535,
+                       float(material.emission.b) / 65535};
+  s.emission = map_of(material.emission_map, material, textures);
+  if (s.emission.is_there()) s.emission_factor = {1, 1, 1};
+}
+
 /// Roughness and metal come from one image (TextureSurface): two would have to be mixed.
 TextureSurface MtlMaterials::surface_of(const Material& material, TextureTable& textures) {
   TextureSurface s;
   s.roughness_factor = float(material.roughness);
   s.metal_factor = float(material.metal);
-  s.emission_factor = {float(material.emission.r) / 65535, float(material.emission.g) / 65535,
-                       float(material.emission.b) / 65535};
+  add_light(material, textures, s);
   const Map &directions = material.normal_map, &bump = material.bump_map;
   if (directions.image.empty()) {
     s.normal = map_of(bump, material, textures, Relief{bump.strength, !bump.clamp});
@@ -151,8 +157,6 @@ TextureSurface MtlMaterials::surface_of(const Material& material, TextureTable& 
     s.normal = map_of(directions, material, textures);
     if (s.normal.is_there()) s.normal_scale = float(directions.strength);
   }
-  s.emission = map_of(material.emission_map, material, textures);
-  if (s.emission.is_there()) s.emission_factor = {1, 1, 1};
   const bool both = material.roughness_map == material.metal_map;
   if (both || (material.metal_map.image.empty() && material.metal == 0)) {
     s.roughness = map_of(material.roughness_map, material, textures);
@@ -173,6 +177,7 @@ std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& t
   if (m.number) return *m.number;
   TextureMaterial t;
   if (surface) t.surface = surface_of(m, textures);
+  if (!surface && m.has_image()) add_light(m, textures, t.surface);
   if (m.color_map.image.empty() && t.surface == TextureSurface{}) {
     m.number = TriangleTexture::kNoMaterial;
     return *m.number;
@@ -191,7 +196,7 @@ std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& t
 
 bool MtlMaterials::has_image(const std::string& material) const {
   const auto found = materials_.find(material);
-  return found != materials_.end() && !found->second.color_map.image.empty();
+  return found != materials_.end() && found->second.has_image();
 }
 
 std::array<float, 2> MtlMaterials::place(const std::string& material, double u, double v) const {
@@ -201,9 +206,13 @@ std::array<float, 2> MtlMaterials::place(const std::string& material, double u, 
   return {float(by[0] * u + by[1]), float(1 - (by[2] * v + by[3]))};
 }
 
-LinearColor MtlMaterials::color(const std::string& material) const {
+LinearColor MtlMaterials::color(const std::string& material, bool surface) const {
   const auto found = materials_.find(material);
-  return found == materials_.end() ? kWhite : found->second.color;
+  if (found == materials_.end()) return kWhite;
+  const Material& m = found->second;
+  if (surface || m.has_image()) return m.color;
+  const auto sum = [](std::uint16_t a, std::uint16_t b) { return std::uint16_t(std::min(65535, int(a) + int(b))); };
+  return {sum(m.color.r, m.emission.r), sum(m.color.g, m.emission.g), sum(m.color.b, m.emission.b)};
 }
 
 bool MtlMaterials::see_through(const std::string& material) const {

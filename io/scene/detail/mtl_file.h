@@ -18,13 +18,14 @@ class MtlMaterials {
   /// Adds those of a file that lies beside the file `beside`; one of the same name replaces. A file that is not there
   /// or cannot be understood adds none: a scene without colours is still a scene. An OBJ without a path has none.
   void load(const std::string& beside, const std::string& name);
-  /// White if there is no such material.
-  [[nodiscard]] LinearColor color(const std::string& material) const;
+  /// White if there is no such material. With the light (Ke) that a material without images gives, unless surfaces are
+  /// asked for.
+  [[nodiscard]] LinearColor color(const std::string& material, bool surface) const;
   /// Of a place that a face gives (vt): the place in the image.
   [[nodiscard]] std::array<float, 2> place(const std::string& material, double u, double v) const;
   /// What lies on its triangles, added to `textures`, faults too; TriangleTexture::kNoMaterial if nothing does.
   [[nodiscard]] std::uint32_t texture(const std::string& material, TextureTable& textures, bool surface);
-  /// Whether it has an image of colours (map_Kd).
+  /// Whether it has an image of colours or light (map_Kd, map_Ke).
   [[nodiscard]] bool has_image(const std::string& material) const;
   /// False if there is no such material.
   [[nodiscard]] bool see_through(const std::string& material) const;
@@ -47,11 +48,13 @@ class MtlMaterials {
     std::optional<std::uint32_t> number;  // in the table of textures
     /// That says where all of them lie.
     [[nodiscard]] const Map& first_map() const;
+    [[nodiscard]] bool has_image() const { return !color_map.image.empty() || !emission_map.image.empty(); }
   };
   void read(const std::string& path);
   static void read_line(TextScanner& text, const std::string& key, const std::string& folder, Material& material);
   static void read_map(TextScanner& text, const std::string& folder, Map& map);
   [[nodiscard]] static TextureSurface surface_of(const Material& material, TextureTable& textures);
+  static void add_light(const Material& material, TextureTable& textures, TextureSurface& s);
   [[nodiscard]] static TextureMap map_of(const Map& map, const Material& material, TextureTable& textures,
                                          const std::optional<Relief>& relief = {});
   std::map<std::string, Material> materials_;

@@ -19,7 +19,8 @@ class LookBlock;
 class LookBlocks;
 struct TexturedTriangle;
 
-/// Red, green and blue in linear light, from 0 to 1, and how much of what is behind is covered.
+/// Red, green and blue in linear light, from 0 to 1, with the surface's own light unless that is asked for apart, and
+/// how much of what is behind is covered.
 struct Look {
   std::array<float, 3> color{};
   float alpha = 1;

@@ -174,8 +174,11 @@ Look SceneEye::at(const LookBlock& block, std::uint32_t item, const Vec3d& p, do
     const double texels = size * texels_per_unit(corners, texture, {seen->width(), seen->height()});
     texel = seen->at(spot.uv[0], spot.uv[1], texels, material.wrap);
     for (std::size_t i = 0; i < 3; ++i) look.color[i] = material.replaces_color ? texel[i] : look.color[i] * texel[i];
-  } else if (!surfaces_) {
-    return look;
+  }
+  if (!surfaces_) {
+    const std::array<float, 3> light = light_at(material.surface, corners, texture, spot);
+    for (std::size_t i = 0; i < 3; ++i) look.color[i] = std::min(1.0F, look.color[i] + light[i]);
+    if (image(material.image) == nullptr) return look;
   }
   if (material.alpha_mode != AlphaMode::opaque) look.alpha = std::clamp(texel[3] * material.alpha, 0.0F, 1.0F);
   return look;
@@ -189,6 +192,17 @@ LinearTexel SceneEye::numbers_at(const TextureMap& map, const TriangleD& t, cons
   return seen->at(spot.uv[0], spot.uv[1], texels, map.wrap);
 }
 
+/// None if its image is broken.
+std::array<float, 3> SceneEye::light_at(const TextureSurface& surface, const TriangleD& t,
+                                        const TriangleTexture& texture, const Spot& spot) {
+  if (surface.emission_factor == std::array<float, 3>{}) return {};
+  if (surface.emission.is_there() && image(surface.emission.image) == nullptr) return {};
+  const LinearTexel texel = numbers_at(surface.emission, t, texture, spot, MipImage::Kind::color);
+  std::array<float, 3> light{};
+  for (std::size_t i = 0; i < 3; ++i) light[i] = std::clamp(surface.emission_factor[i] * texel[i], 0.0F, 1.0F);
+  return light;
+}
+
 /// Normals of corners, else of the triangle; then the image of directions, in a tangent space that follows from the
 /// triangle's places in it, as viewers have it that know no tangents.
 void SceneEye::add_surface(const LookBlock& block, std::uint32_t item, const Spot& spot, Look& look) {
@@ -200,12 +214,10 @@ void SceneEye::add_surface(const LookBlock& block, std::uint32_t item, const Spo
   normal = dot(normal, flat) > 0 ? unit(normal) : flat;
   if (texture.material != TriangleTexture::kNoMaterial) {
     const TextureSurface& surface = looks_.images_->material(texture.material).surface;
-    const LinearTexel rough = numbers_at(surface.roughness, t, texture, spot, MipImage::Kind::numbers),
-                      light = numbers_at(surface.emission, t, texture, spot, MipImage::Kind::color);
+    const LinearTexel rough = numbers_at(surface.roughness, t, texture, spot, MipImage::Kind::numbers);
     look.roughness = std::clamp(surface.roughness_factor * rough[1], 0.0F, 1.0F);
     look.metal = std::clamp(surface.metal_factor * rough[2], 0.0F, 1.0F);
-    for (std::size_t i = 0; i < 3; ++i)
-      look.emission[i] = std::clamp(surface.emission_factor[i] * light[i], 0.0F, 1.0F);
+    look.emission = light_at(surface, t, texture, spot);
     if (image(surface.normal.image, MipImage::Kind::numbers) != nullptr)
       normal = bent(normal, t, texture, numbers_at(surface.normal, t, texture, spot, MipImage::Kind::numbers),
                     double(surface.normal_scale));

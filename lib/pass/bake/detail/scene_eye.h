@@ -52,6 +52,8 @@ class SceneEye {
   void add_surface(const LookBlock& block, std::uint32_t item, const Spot& spot, Look& look);
   [[nodiscard]] LinearTexel numbers_at(const TextureMap& map, const TriangleD& t, const TriangleTexture& texture,
                                        const Spot& spot, MipImage::Kind kind);
+  [[nodiscard]] std::array<float, 3> light_at(const TextureSurface& surface, const TriangleD& t,
+                                              const TriangleTexture& texture, const Spot& spot);
   [[nodiscard]] bool covers(const LookBlock& block, std::uint32_t item, const Vec3d& p, double size, float threshold);
   /// Of two triangles at one place, which is seen.
   [[nodiscard]] bool before(const LookBlock& a, std::uint32_t item_a, const LookBlock& b, std::uint32_t item_b) const;

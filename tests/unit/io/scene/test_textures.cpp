@@ -303,9 +303,43 @@ TEST_CASE("MTL: how a material answers to light, if that is asked for", "[quick]
        {"n.png: lies at other places", "gone.png: is not there", "m.mtl: roughness and metal come from one image"})
     CHECK_THAT(faults, ContainsSubstring(part));
   const TexturedRead colors = read_textured({path});
-  CHECK(colors.textures[1].material == TriangleTexture::kNoMaterial);
-  CHECK(colors.table->material(colors.textures[0].material).surface == TextureSurface{});
-  CHECK(colors.table->faults().empty());
+  CHECK(colors.textures[2].material == TriangleTexture::kNoMaterial);
+  TextureSurface light;  // alone
+  light.emission_factor = {1, 0, 0};
+  CHECK(colors.table->material(colors.textures[0].material).surface == light);
+  const TextureSurface& lamp = colors.table->material(colors.textures[1].material).surface;
+  CHECK(lamp.emission.is_there());
+  CHECK_FALSE(lamp.normal.is_there());
+  CHECK(colors.table->faults().size() == 1);  // gone.png
+}
+
+TEST_CASE("light of materials is read where surfaces are not asked for", "[quick][io]") {
+  const TempDir dir;
+  (void)dir.file("a.png", image_file(1));
+  Json doc{{"textures", {{{"source", 0}}}}, {"images", {{{"uri", "a.png"}}}}};
+  doc["materials"] = {{{"emissiveTexture", {{"index", 0}}},
+                       {"emissiveFactor", {1, 0.5, 0}},
+                       {"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}}}}};
+  const TexturedRead lamp = read_textured({dir.file("lamp.gltf", gltf_of(doc))});
+  CHECK(lamp.has_textures);
+  CHECK(lamp.textures[0].uv == kPlaces);
+  CHECK(lamp.colors[0][0] == LinearColor{0, 0, 0});
+  const TextureMaterial& material = lamp.table->material(lamp.textures[0].material);
+  CHECK(material.image == TextureMaterial::kNoImage);
+  CHECK(material.surface.emission.is_there());
+  CHECK(material.surface.emission_factor == std::array{1.0F, 0.5F, 0.0F});
+  // Without an image it is a colour; an image without light says nothing.
+  doc["materials"][0].erase("emissiveTexture");
+  const std::string plain = dir.file("plain.gltf", gltf_of(doc));
+  CHECK(read_textured({plain}).colors[0][0] == LinearColor{65535, 32768, 0});
+  CHECK(read_textured({plain}, true).colors[0][0] == LinearColor{0, 0, 0});
+  doc["materials"][0]["emissiveTexture"] = {{"index", 0}};
+  doc["materials"][0]["emissiveFactor"] = {0, 0, 0};
+  CHECK_FALSE(read_textured({dir.file("dark.gltf", gltf_of(doc))}).has_textures);
+  (void)dir.file("m.mtl", "newmtl lamp\nKd 0 0 0\nKe 1 0 0\n");
+  const std::string obj = dir.file("a.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl lamp\nf 1 2 3\n");
+  CHECK(read_textured({obj}).colors[0][0] == LinearColor{65535, 0, 0});
+  CHECK(read_textured({obj}, true).colors[0][0] == LinearColor{0, 0, 0});
 }
 
 TEST_CASE("MTL: map_Bump is heights where it is grey, and directions where it is not", "[quick][io]") {

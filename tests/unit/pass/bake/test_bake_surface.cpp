@@ -37,15 +37,18 @@ struct Fixture {
     return std::uint32_t(textures->images.size() - 1);
   }
   TextureSurface& surface() { return textures->materials[0].surface; }
-  [[nodiscard]] BakedSurface bake() const {
+  template <class Bake>
+  [[nodiscard]] auto bake_with(const Bake& bake) const {
     TexturedSource source(scene);
     Bounds3d bounds;
     for (const TriangleD& t : scene.triangles) bounds.merge(bounds_of(t));
     const SceneLooks looks({source, bounds, scene.triangles.size(), textures}, std::make_unique<MemoryScratch>(), {});
     BakeParams params;
     params.reach_world = 0.3;
-    return bake_surface(mesh, atlas, looks, params);
+    return bake(mesh, atlas, looks, params);
   }
+  [[nodiscard]] BakedSurface bake() const { return bake_with(bake_surface); }
+  [[nodiscard]] TextureImage bake_color() const { return bake_with(bp::bake); }
   /// Of each face: the direction in the scene that the image says at the middle of the face, as a viewer reads it.
   [[nodiscard]] std::vector<Vec3d> directions(const TextureImage& image) const {
     LatticeMesh placed = mesh;
@@ -153,6 +156,24 @@ TEST_CASE("roughness, metal and light are the material's images times its factor
   CHECK(int(light[0]) == 255);
   CHECK(int(light[1]) == int(byte_of_linear(linear_of_byte(128) / 2)));
   CHECK(int(light[2]) == 0);
+}
+
+TEST_CASE("an image of colours alone shows colours and light together", "[quick][bake]") {
+  Fixture f;
+  f.textures->materials[0].image = f.add({128, 128, 128, 255});
+  f.scene.color = {kWhite, kWhite, kWhite};
+  f.surface().emission.image = f.add({255, 128, 0, 255});
+  f.surface().emission_factor = {1, 0.5F, 1};
+  const TextureImage::Texel sum = f.bake_color().texels[0];
+  CHECK(int(sum[0]) == 255);
+  CHECK(int(sum[1]) == int(byte_of_linear(linear_of_byte(128) * 1.5F)));
+  CHECK(int(sum[2]) == 128);
+  f.textures->materials[0].image = TextureMaterial::kNoImage;
+  f.scene.color = {LinearColor{0, 0, 0}, LinearColor{0, 0, 0}, LinearColor{0, 0, 0}};
+  CHECK(int(f.bake_color().texels[0][1]) == int(byte_of_linear(linear_of_byte(128) / 2)));
+  f.textures->images[1] = {};  // broken: no light
+  CHECK(f.bake_color().texels[0] == TextureImage::Texel{0, 0, 0, 255});
+  CHECK(f.bake().emission.texels[0] == TextureImage::Texel{0, 0, 0, 255});
 }
 
 TEST_CASE("a scene without materials is rough, no metal, and dark", "[quick][bake]") {

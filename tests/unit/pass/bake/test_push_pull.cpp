@@ -41,3 +41,19 @@ TEST_CASE("a texel beside a colour has that colour", "[quick][bake]") {
   CHECK(image.texels[1] == TextureImage::Texel{255, 0, 0, 0});
   CHECK(image.texels[62] == TextureImage::Texel{0, 0, 255, 0});
 }
+
+TEST_CASE("a texel beside a colour has that colour, wherever squares of texels begin", "[quick][bake]") {
+  for (int dark = 1; dark < 14; ++dark) {
+    TextureImage image(16, 16);
+    std::vector<std::uint8_t> known(image.texels.size());
+    for (int y = 0; y < 16; ++y) {
+      for (int x = dark; x < 16; ++x) {
+        image.at(x, y) = x < dark + 2 ? TextureImage::Texel{20, 20, 20, 255} : TextureImage::Texel{220, 180, 160, 255};
+        known[std::size_t(16 * y + x)] = 1;
+      }
+    }
+    fill_gaps(image, known);
+    CAPTURE(dark);
+    CHECK(image.at(dark - 1, 7) == TextureImage::Texel{20, 20, 20, 0});
+  }
+}
