@@ -78,10 +78,25 @@ void move_to_targets(std::vector<FitPlace>& points, const HalfEdgeMesh& surface,
   });
 }
 
+/// Where faces jam by their reach, collapses go on with a longer one, which is in `params` then.
+LatticeMesh collapsed(const FineFit& fine, SimplifyParams& params, SimplifyCounts& counts) {
+  const double first = params.reach;
+  LatticeMesh level = simplify(fine.surface, fine.quadrics, params, counts);
+  while (params.reach > 0 && counts.stop != StopReason::faces && counts.refused[Refusal::growth] > 0) {
+    params.reach = loosened(params.reach, first);
+    SimplifyCounts now;
+    level = simplify(level, quadrics_of_points(HalfEdgeMesh(level), fine.points, fine.point_area), params, now);
+    counts.add(now);
+  }
+  return level;
+}
+
 }  // namespace
 
 std::uint64_t draw_to_targets(HalfEdgeMesh& mesh, const FitTarget& target, const EdgeLimit& edge_limit, int sweeps) {
-  VertexMover mover(mesh, edge_limit, nullptr);
+  ShapeLimits shape;
+  shape.edge_limit = edge_limit;
+  VertexMover mover(mesh, shape, nullptr);
   std::vector<LatticeCoord> targets(mesh.vertex_capacity());
   for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {  // all from where the surface is now: no drift
     if (mesh.vertex_alive(v)) targets[v] = rounded(target(to_double(mesh.position(v)), vertex_normal(mesh, v)).at);
@@ -113,11 +128,12 @@ FineFit fine_fit(const SurfaceSource& dense, std::uint64_t faces, const FitTarge
   HalfEdgeMesh mesh(simplify(dense, params, counts));
   FineFit fine;
   fine.points = spread_points(dense, double(std::max(kPointsPerFace * faces, kLeastPoints)) / dense_faces);
+  fine.point_area = kAreaOfFace * dense_faces / double(std::max<std::size_t>(fine.points.size(), 1));
   move_to_targets(fine.points, mesh, target);
   draw_to_targets(mesh, target, edge_limit, kSweeps);
   erase_inner_shells(mesh);
   fine.surface = mesh.compact(dense.frame());
-  fine.quadrics = quadrics_of_points(HalfEdgeMesh(fine.surface), fine.points);
+  fine.quadrics = quadrics_of_points(HalfEdgeMesh(fine.surface), fine.points, fine.point_area);
   return fine;
 }
 
@@ -125,9 +141,9 @@ LatticeMesh fit_level(const FineFit& fine, const SimplifyParams& params, Simplif
   SimplifyParams free = params;
   free.free = true;
   free.dense = false;
-  const LatticeMesh level = simplify(fine.surface, fine.quadrics, free, counts);
+  const LatticeMesh level = collapsed(fine, free, counts);
   HalfEdgeMesh mesh(level);
-  settle(mesh, fine.points, params.edge_limit, params.limits, kRounds);
+  settle(mesh, fine.points, free, kRounds);
   erase_inner_shells(mesh);  // what has moved over what it does not touch
   counts.faces_out = mesh.face_count();
   LatticeMesh out = mesh.compact(level.frame);

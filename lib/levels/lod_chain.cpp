@@ -198,7 +198,7 @@ struct LodChain::State {
   Closed half_scale(const LodTarget& target, double& scale) {
     const double half = std::max(scale / 2, last_scale);
     const bool by_budget = target.faces > 0 && target.error_world == 0 && !target.scale_world;
-    if (!by_budget || options.mode != MeshMode::bounding || half >= scale) return {};
+    if (!by_budget || half >= scale) return {};
     const int n = reductions_for(ground(), target, finest(half), reductions);
     if (half < kLeastScaleVox * outside->voxel() * std::ldexp(1.0, n)) return {};
     reduce_to(n);

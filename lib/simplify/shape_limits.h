@@ -11,7 +11,8 @@ struct ShapeLimits {
   EdgeLimit edge_limit;          ///< of every edge that a step makes, the paper's c * S; empty: none
   StepLimits* limits = nullptr;  ///< null: none
   /// How far from what must stay inside, where that is given, a step may take a face, lattice units; 0: no matter how
-  /// far. Where faces jam, it is loosened.
+  /// far. Where faces jam, it is loosened. A collapse that keeps nothing inside (SimplifyParams::free) leaves neither
+  /// end of its edge farther behind, either.
   double reach = 0;
   static constexpr double kLoosened = 1.25;   ///< each time
   static constexpr double kMostLoosened = 8;  ///< times as far; then there is no bound

@@ -28,6 +28,7 @@ struct SimplifyParams : ShapeLimits {
   /// If given, a collapse need not grow the solid: it must only keep this inside. Tighter by far; slower per collapse.
   const Enclosed* enclosed = nullptr;
   /// A collapse need neither grow the solid nor keep anything inside: it takes the least error, and stays embedded.
+  /// `enclosed` is what its faces stay near, then.
   bool free = false;
   /// The most that one collapse may add to the volume, as a multiple of the volume at the beginning over the faces that
   /// are left; 0: no limit. Quadrics do not mind how far out planes meet: where nothing else is left to collapse,

@@ -41,7 +41,7 @@ void FacePoints::assign(const HalfEdgeMesh& mesh) {
   for (std::uint32_t i = 0; i < pulls_.size(); ++i) order_[next[pulls_[i].face]++] = i;
 }
 
-std::vector<Quadric> quadrics_of_points(const HalfEdgeMesh& mesh, std::span<const FitPlace> points) {
+std::vector<Quadric> quadrics_of_points(const HalfEdgeMesh& mesh, std::span<const FitPlace> points, double point_area) {
   FacePoints of_faces(points);
   of_faces.assign(mesh);
   std::vector<Quadric> quadrics(mesh.vertex_capacity());
@@ -59,6 +59,10 @@ std::vector<Quadric> quadrics_of_points(const HalfEdgeMesh& mesh, std::span<cons
       for (const FitPlace& p : planes)
         q.add_plane(p.normal, dot(p.normal, t[k] - p.at), size / 2 / double(planes.size()));
       if (planes.empty()) q.add_plane({n[0] / size, n[1] / size, n[2] / size}, 0, size / 2);
+      for (const std::uint32_t i : of_faces.of(f)) {
+        const FitPlace& p = of_faces[i];
+        if (dot(p.end, p.end) > 0) q.add_plane(p.end, dot(p.end, t[k] - p.at), of_faces.shares(i)[k] * point_area);
+      }
     }
   }
   return quadrics;

@@ -43,7 +43,9 @@ class FacePoints {
 
 /// Per vertex of the mesh and about it: the planes that its faces stand for, weighted by the areas of the faces. These
 /// are the planes at the points of a face; its own where it has none with a normal. So a face that cuts off an edge of
-/// the scene stands for the two sides of that edge.
-[[nodiscard]] std::vector<Quadric> quadrics_of_points(const HalfEdgeMesh& mesh, std::span<const FitPlace> points);
+/// the scene stands for the two sides of that edge. Where the scene ends, a face has no area of its own left: there a
+/// plane across the end counts with `point_area`, of the dense surface for each point. So plates keep their extent.
+[[nodiscard]] std::vector<Quadric> quadrics_of_points(const HalfEdgeMesh& mesh, std::span<const FitPlace> points,
+                                                      double point_area);
 
 }  // namespace bp

@@ -24,8 +24,8 @@ constexpr int kRoundsPerFlips = 3;
 
 class Settler {
  public:
-  Settler(HalfEdgeMesh& mesh, std::span<const FitPlace> points, const EdgeLimit& edge_limit, StepLimits* limits)
-      : mesh_(mesh), mover_(mesh, edge_limit, limits), points_(points) {}
+  Settler(HalfEdgeMesh& mesh, std::span<const FitPlace> points, const SimplifyParams& params)
+      : mesh_(mesh), mover_(mesh, params, params.enclosed), points_(points) {}
 
   std::uint64_t round() {
     points_.assign(mesh_);
@@ -129,10 +129,14 @@ class Settler {
     n = 1 / length(n) * n;
     for (const std::uint32_t i : points_.of(f)) {
       const bool flat = planes_[f].has_value();
-      if (flat && !is_in(points_[i], *planes_[f])) continue;
+      const Vec3d& end = points_[i].end;
+      const bool ends = dot(end, end) > 0;
+      if (flat && !ends && !is_in(points_[i], *planes_[f])) continue;
       const std::array<double, 3>& s = points_.shares(i);
       const double own = s[std::size_t(corner)];
       const Vec3d off = points_[i].at - (s[0] * t[0] + s[1] * t[1] + s[2] * t[2]);
+      if (ends) q.add_plane(own * end, -dot(end, off), 1);
+      if (ends && flat) continue;
       if (!flat) q.add_plane(own * n, -dot(n, off), 1);
       for (std::size_t k = 0; k < 3; ++k) q.add_plane(own * kAxes[k], -off[k], kSlide);
     }
@@ -149,9 +153,8 @@ class Settler {
 
 }  // namespace
 
-std::uint64_t settle(HalfEdgeMesh& mesh, std::span<const FitPlace> points, const EdgeLimit& edge_limit,
-                     StepLimits* limits, int rounds) {
-  Settler settler(mesh, points, edge_limit, limits);
+std::uint64_t settle(HalfEdgeMesh& mesh, std::span<const FitPlace> points, const SimplifyParams& params, int rounds) {
+  Settler settler(mesh, points, params);
   std::uint64_t moves = 0;
   for (int i = 0; i < rounds; ++i) moves += settler.round();
   return moves;

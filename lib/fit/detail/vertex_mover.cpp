@@ -55,7 +55,7 @@ bool VertexMover::flip(HalfEdgeId h) {
     const double after = triangle_quality(f.corners[0], f.corners[1], f.corners[2]);
     if (!(dot(n, before) > 0) || after < std::min(QualityFloor::kDraw, quality)) return false;
   }
-  if ((edge_limit_ && !edge_limit_(pa, pb)) || !guard_.faces_are_free(star_, replaced_)) return false;
+  if ((edge_limit_ && !edge_limit_(pa, pb)) || !stays_near() || !guard_.faces_are_free(star_, replaced_)) return false;
   const int128 gain6 = fan_gain6(mesh_, replaced_, pb);
   if (sense_.turns(replaced_.front(), gain6) || !within_limits(limits_, mesh_, replaced_, star_)) return false;
   sense_.add(replaced_.front(), gain6);
@@ -82,7 +82,8 @@ bool VertexMover::try_move(VertexId v, const LatticeCoord& q) {
     star_.push_back({{v, mesh_.to(h), mesh_.opposite(h)}, {q, a, b}});
     replaced_.push_back(HalfEdgeMesh::face(h));
   });
-  if (!fine || after < std::min(QualityFloor::kDraw, before) || !guard_.star_is_free(star_, replaced_)) return false;
+  if (!fine || after < std::min(QualityFloor::kDraw, before) || !stays_near()) return false;
+  if (!guard_.star_is_free(star_, replaced_)) return false;
   const int128 gain6 = fan_gain6(mesh_, replaced_, q);
   if (sense_.turns(replaced_.front(), gain6) || !within_limits(limits_, mesh_, replaced_, star_)) return false;
   sense_.add(replaced_.front(), gain6);

@@ -1,10 +1,10 @@
 #pragma once
 #include <vector>
 
-#include "lib/mesh/edge_limit.h"
+#include "lib/enclosed/enclosed.h"
 #include "lib/mesh/face_tree.h"
 #include "lib/mesh/shells.h"
-#include "lib/mesh/step_limits.h"
+#include "lib/simplify/shape_limits.h"
 
 /// Vertices that move freely, neither out nor in, while the mesh stays embedded and every shell of it the right way
 /// round.
@@ -12,15 +12,17 @@ namespace bp {
 
 class VertexMover {
  public:
-  /// `edge_limit`, `limits`: kept by every move; may be empty or null.
-  VertexMover(HalfEdgeMesh& mesh, EdgeLimit edge_limit, StepLimits* limits)
+  /// `shape`: kept by every move; its reach is from `near`, which may be null.
+  VertexMover(HalfEdgeMesh& mesh, const ShapeLimits& shape, const Enclosed* near)
       : mesh_(mesh),
         tree_(mesh),
         guard_(mesh, tree_),
         sense_(mesh),
-        room_(mesh.room()),
-        edge_limit_(std::move(edge_limit)),
-        limits_(limits) {}
+        room_(intersect(mesh.room(), shape.room)),
+        edge_limit_(shape.edge_limit),
+        limits_(shape.limits),
+        near_(shape.reach > 0 ? near : nullptr),
+        reach_(shape.reach) {}
 
   /// Moves v to q, or half or a quarter of the way. A move that would let faces meet, turn over or become needles, or
   /// turn a shell inside out, is not made. True if v has moved.
@@ -31,6 +33,7 @@ class VertexMover {
 
  private:
   bool try_move(VertexId v, const LatticeCoord& q);
+  [[nodiscard]] bool stays_near() const { return near_ == nullptr || near_->is_near(star_, reach_); }
 
   HalfEdgeMesh& mesh_;
   FaceTree tree_;
@@ -39,6 +42,8 @@ class VertexMover {
   LatticeBox room_;
   EdgeLimit edge_limit_;
   StepLimits* limits_;
+  const Enclosed* near_;
+  double reach_;
   std::vector<NewFace> star_;
   std::vector<FaceId> replaced_;
 };

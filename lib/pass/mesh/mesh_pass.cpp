@@ -5,6 +5,7 @@
 
 #include "lib/core/error.h"
 #include "lib/enclosed/enclosed_triangles.h"
+#include "lib/enclosed/enclosed_voxels.h"
 #include "lib/grid/count_bits.h"
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/pass/mesh/detail/coarse_start.h"
@@ -32,6 +33,8 @@ namespace {
 /// How far inside the surface of the voxels a fit takes the surface of what they stand for to lie, in extents of a
 /// voxel along the normal: on average half of one, for the voxels that a surface touches and for their closing.
 constexpr double kInset = 0.5;
+/// How far from the voxels' surface a fit may go at first: so many scales and a voxel.
+constexpr double kReachOfScale = 0.25;
 
 [[noreturn]] void fail_empty(const StreamHeader& header) {
   if (header.fill != FillMode::inside)
@@ -155,7 +158,7 @@ class LevelMaker {
     const bool fit = params_.mode == MeshMode::fit;
     const double error_share = params_.error_world / double(fit ? 1 : faces.size());
     bounds_.error_world = error_share;
-    if (fit) return fits(*start.surface, faces);
+    if (fit) return fits(shelves, *start.surface, faces);
     if (params_.cage) return cage(shelves, faces[0]);
     const bool by_faces = !inside() && ground_.enclosed && faces[0] >= kFewFaces && params_.error_world == 0 &&
                           params_.volume_ratio == 0 && params_.edge_factor == 0;
@@ -227,7 +230,10 @@ class LevelMaker {
   }
 
   /// Levels of detail that do not enclose: each of the same fine surface.
-  std::vector<LatticeMesh> fits(const SurfaceSource& dense, const std::vector<std::uint64_t>& faces) {
+  std::vector<LatticeMesh> fits(const Shelves& shelves, const SurfaceSource& dense,
+                                const std::vector<std::uint64_t>& faces) {
+    const EnclosedVoxels near(*shelves.meshed);
+    memory_ = memory_.without(near.bytes());
     const FitTarget target =
         params_.enclose == Enclose::scene ? scene_target(*ground_.tree, dense.frame(), kInset) : inset_target(kInset);
     const double factor = params_.edge_factor;
@@ -235,7 +241,10 @@ class LevelMaker {
     const FineFit fine = fine_fit(dense, faces[0], target, edges, memory_);
     std::vector<LatticeMesh> levels;
     for (const std::uint64_t n : faces) {
-      levels.push_back(finish(dense.frame(), n, [&](const SimplifyParams& params, LevelCounts& counts) {
+      levels.push_back(finish(dense.frame(), n, [&](SimplifyParams params, LevelCounts& counts) {
+        params.enclosed = &near;
+        if (n > 0 && params.limits == nullptr)
+          params.reach = (kReachOfScale * header_.scale.base / dense.frame().voxel + 1) * kLatticePerVoxel;
         LatticeMesh level = fit_level(fine, params, counts.simplify);
         if (params_.quads) level.quads = pair_triangles(level, QuadKeeps::nothing, nullptr);
         return level;

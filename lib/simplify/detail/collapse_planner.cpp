@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/geometry/triangle_bvh.h"
+
 namespace bp {
 
 namespace {
@@ -154,7 +156,19 @@ void CollapsePlanner::fill(const Candidate& candidate, CollapsePlan& plan) const
 
 /// Asked only of what is about to be taken: faces are long, and what is enclosed has many voxels.
 bool CollapsePlanner::stays_near() const {
-  return params_.enclosed == nullptr || params_.reach == 0 || params_.enclosed->is_near(new_faces_, params_.reach);
+  if (params_.enclosed == nullptr || params_.reach == 0) return true;
+  return (!params_.free || leaves_near()) && params_.enclosed->is_near(new_faces_, params_.reach);
+}
+
+/// What keeps nothing inside keeps both ends of the edge within its reach.
+bool CollapsePlanner::leaves_near() const {
+  const auto is_near = [&](const LatticeCoord& end) {
+    return std::any_of(new_faces_.begin(), new_faces_.end(), [&](const NewFace& f) {
+      const auto at = [&](std::size_t k) { return to_double(f.corners[k] - end); };
+      return distance_squared(Vec3d{}, TriangleD{at(0), at(1), at(2)}) <= params_.reach * params_.reach;
+    });
+  };
+  return is_near(origin_) && is_near(origin_ + star_.back().apex);
 }
 
 /// The guard. Where other parts of the surface end up between the old faces and the new ones, they go (as in shells.h),

@@ -91,6 +91,7 @@ class CollapsePlanner {
   [[nodiscard]] bool too_far(double cost) const;
   void gather_new_faces(const LatticeCoord& p);
   [[nodiscard]] bool stays_near() const;
+  [[nodiscard]] bool leaves_near() const;
   [[nodiscard]] bool is_free(const LatticeCoord& p);
   [[nodiscard]] bool turns_over(const LatticeCoord& p) const;
   [[nodiscard]] bool swallows(FaceId f, const LatticeCoord& p) const;

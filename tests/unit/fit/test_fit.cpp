@@ -4,10 +4,12 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/fit/detail/face_points.h"
 #include "lib/fit/detail/settle.h"
 #include "lib/fit/detail/vertex_mover.h"
 #include "lib/fit/fit.h"
 #include "lib/geometry/surface_distance.h"
+#include "lib/pass/mesh/detail/fit_target.h"
 #include "lib/pass/mesh/mesh_pass.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "tests/catch.h"
@@ -120,14 +122,14 @@ TEST_CASE("vertices settle where the surface is nearest to given points, on any 
   const TriangleBvh tree(sphere);
   const auto distance = [&](const LatticeMesh& mesh) { return surface_distance(world_triangles(mesh), tree).mean; };
   HalfEdgeMesh mesh(start);
-  CHECK(settle(mesh, points, {}, nullptr, 8) > 60);
+  CHECK(settle(mesh, points, {}, 8) > 60);
   const LatticeMesh settled = mesh.compact(start.frame);
   CHECK(check_proxy(indexed(settled), nullptr).holds());
   CHECK(distance(start) > 0.7);
   CHECK(distance(settled) < 0.35);
   const ThreadLimit one(1);
   HalfEdgeMesh twin(start);
-  settle(twin, points, {}, nullptr, 8);
+  settle(twin, points, {}, 8);
   CHECK(twin.compact(start.frame).vertices == settled.vertices);
 }
 
@@ -177,6 +179,31 @@ TEST_CASE("faces settle on the planes of the scene, and edges run where these me
     if (along > std::cos(0.0349) * length(n)) flat += length(n);
   }
   CHECK(flat > 0.999 * area);
+}
+
+TEST_CASE("where a scene ends, a fit knows which way, and leaving the end costs", "[quick][meshing]") {
+  const std::vector<TriangleD> plate{{Vec3d{0, 0, 0}, Vec3d{8, 0, 0}, Vec3d{8, 8, 0}},
+                                     {Vec3d{0, 0, 0}, Vec3d{8, 8, 0}, Vec3d{0, 8, 0}}};
+  const TriangleBvh tree(plate);
+  const FitTarget target = scene_target(tree, GridFrame{1, {}}, 0.5);
+  const FitPlace rim = target({8.5 * kLatticePerVoxel, 4 * kLatticePerVoxel, 0}, {1, 0, 0});
+  CHECK(rim.at == Vec3d{8 * kLatticePerVoxel, 4 * kLatticePerVoxel, 0});
+  CHECK(rim.normal == Vec3d{});
+  CHECK(rim.end == Vec3d{1, 0, 0});
+  CHECK(target({4 * kLatticePerVoxel, 4 * kLatticePerVoxel, 20}, {0, 0, 1}).end == Vec3d{});
+
+  LatticeMesh thin;  // as plates are once their sides are drawn to the scene: the rim has no area to speak of
+  add_box(thin, {{0, 0, -1}, {8 * kLatticePerVoxel, 8 * kLatticePerVoxel, 1}});
+  const std::vector<FitPlace> points{rim};
+  constexpr double kArea = 5000, kBack = 100;
+  double cost = 0;
+  for (const double area : {0.0, kArea}) {
+    const std::vector<Quadric> quadrics = quadrics_of_points(HalfEdgeMesh(thin), points, area);
+    double sum = 0;
+    for (const Quadric& q : quadrics) sum += q.value({-kBack, 0, 0});
+    cost = sum - cost;
+  }
+  CHECK(cost > 0.99 * kArea * kBack * kBack);
 }
 
 TEST_CASE("vertices are drawn to their targets only as far as the surface stays embedded", "[quick][meshing]") {

@@ -321,6 +321,28 @@ TEST_CASE("fitted levels keep their budgets and lie nearer to the scene than bou
   CHECK(error[1] < error[0]);
 }
 
+TEST_CASE("a fit of too few faces for its houses has no spires, and loses no house", "[quick][pass][lod]") {
+  constexpr double kGround = 96;
+  Triangles scene{{Vec3d{0, 0, 0}, Vec3d{kGround, 0, 0}, Vec3d{kGround, kGround, 0}},
+                  {Vec3d{0, 0, 0}, Vec3d{kGround, kGround, 0}, Vec3d{0, kGround, 0}}};
+  for (int i = 0; i < 16; ++i) {
+    const double x = 7.2 + 23.3 * (i % 4), y = 6.1 + 22.7 * (i / 4);
+    add_box(scene, {x, y, 0}, {x + 9 + i % 3, y + 12 - i % 5, 6.3 + 1.3 * (i % 7)});
+  }
+  const std::uint64_t faces = GENERATE(240, 120);
+  Backends backends = plain_backends(2);
+  LodOptions options = lod_options();
+  options.closing.element = StructuringElement::ball;
+  options.mode = MeshMode::fit;
+  options.scene = scene;
+  Voxelized solid = voxelized(scene, 0.7);
+  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+  const std::vector<TriangleD> fit = world_triangles(chain.make({faces, 0, {}}).mesh);
+  CAPTURE(faces);
+  CHECK(sampled_distance(fit, scene, 60) < 6);  // 6.3 and 12.2 without a reach
+  CHECK(sampled_distance_beyond(scene, fit, 200) < 6.5);
+}
+
 TEST_CASE("levels keep to their memory, and are the same", "[quick][pass][lod]") {
   Triangles scene;
   add_sphere(scene, {3, 4, 5}, 20, 24);

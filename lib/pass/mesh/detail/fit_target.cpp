@@ -17,11 +17,13 @@ Vec3d inset(const Vec3d& p, const Vec3d& normal, double extents) {
   return p - extents * extent * kLatticePerVoxel * normal;
 }
 
-/// Of a triangle that the surface runs along; zero where the two do not go together, as at the edge of a plate.
-Vec3d normal_like(const TriangleD& t, const Vec3d& normal) {
+/// A place on a triangle that the surface runs along, or ends at, as at the edge of a plate.
+FitPlace place_on(const TriangleD& t, const Vec3d& at, const Vec3d& normal) {
   const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
   const double size = length(n);
-  return size > 0 && std::abs(dot(n, normal)) > kAlong * size ? 1 / size * n : Vec3d{};
+  if (!(size > 0)) return {at};
+  if (std::abs(dot(n, normal)) > kAlong * size) return {at, 1 / size * n};
+  return {at, {}, normal};
 }
 
 }  // namespace
@@ -36,7 +38,7 @@ FitTarget scene_target(const TriangleBvh& scene, const GridFrame& frame, double 
     const TriangleBvh::Nearest found = scene.nearest(at);
     if (found.distance_squared > kReach * kReach * frame.voxel * frame.voxel) return {inset(p, normal, extents)};
     const TriangleD& t = scene.item(found.item).corners;
-    return {kLatticePerVoxel * frame.to_voxels(nearest_point(at, t)), normal_like(t, normal)};
+    return place_on(t, kLatticePerVoxel * frame.to_voxels(nearest_point(at, t)), normal);
   };
 }
 
