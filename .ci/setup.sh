@@ -22,9 +22,10 @@ install_packages() {
 
 packages() { sed -e 's/#.*//' "$root/.ci/packages.txt" | tr '\n' ' '; }
 
-# build_release [-DNAME=VALUE...]: the arguments go to the configuration.
+# build_release [-DNAME=VALUE...]: the arguments go to the configuration. From nothing, rooms are compiled as one.
 build_release() {
   local log=$root/build/configure.log
+  [ -e "$build/CMakeCache.txt" ] || set -- -DBP_UNITY=ON "$@"
   mkdir -p "$root/build"
   cmake -S "$root" --preset release "$@" > "$log" 2>&1 || {
     cat "$log" >&2

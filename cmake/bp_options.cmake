@@ -31,8 +31,9 @@ endif()
 set(CMAKE_CXX_EXTENSIONS ON)  # __int128 is an extension; -Wpedantic stays on, uses are marked __extension__
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
+# Rooms as one are for builds from nothing, where a cache only costs.
 find_program(BP_CCACHE ccache)
-if(BP_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+if(BP_CCACHE AND NOT BP_UNITY AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${BP_CCACHE}")
   set(CMAKE_CUDA_COMPILER_LAUNCHER "${BP_CCACHE}")
 endif()

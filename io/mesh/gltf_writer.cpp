@@ -5,6 +5,7 @@
 
 #include "io/gltf/base64.h"
 #include "io/gltf/glb_file.h"
+#include "io/mesh/detail/glb_data.h"
 #include "io/mesh/detail/mesh_writers.h"
 #include "lib/core/box.h"
 #include "lib/core/error.h"
@@ -21,8 +22,6 @@ namespace bp {
 namespace {
 
 using Json = GltfOutJson;
-
-constexpr std::int64_t kFloatInteger = std::int64_t(1) << 24;  // float32 holds integers up to this
 
 LatticeCoord centre_of(const LatticeMesh& mesh, const std::string& name) {
   LatticeCoord lo = mesh.vertices.front(), hi = lo, centre;
@@ -100,23 +99,21 @@ Json nodes_of(const LatticeMesh& mesh, LatticeCoord centre, const MeshWriteOptio
 }
 
 Json accessors_of(const Buffer& buffer) {
-  constexpr int kFloat = 5126, kUint32 = 5125;
-  const Json positions{{"bufferView", 0}, {"componentType", kFloat}, {"count", buffer.vertices},
-                       {"type", "VEC3"},  {"min", buffer.min},       {"max", buffer.max}};
-  const Json normals{{"bufferView", 1}, {"componentType", kFloat}, {"count", buffer.vertices}, {"type", "VEC3"}};
-  const Json indices{{"bufferView", 2}, {"componentType", kUint32}, {"count", buffer.indices}, {"type", "SCALAR"}};
+  const Json positions{{"bufferView", 0}, {"componentType", kGltfFloat}, {"count", buffer.vertices},
+                       {"type", "VEC3"},  {"min", buffer.min},           {"max", buffer.max}};
+  const Json normals{{"bufferView", 1}, {"componentType", kGltfFloat}, {"count", buffer.vertices}, {"type", "VEC3"}};
+  const Json indices{{"bufferView", 2}, {"componentType", kGltfUint32}, {"count", buffer.indices}, {"type", "SCALAR"}};
   return Json::array({positions, normals, indices});
 }
 
 Json views_of(const Buffer& buffer) {
-  constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
   const std::size_t each = buffer.normal_offset();
-  const Json positions{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", each}, {"target", kArrayBuffer}};
-  const Json normals{{"buffer", 0}, {"byteOffset", each}, {"byteLength", each}, {"target", kArrayBuffer}};
+  const Json positions{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", each}, {"target", kGltfArrayBuffer}};
+  const Json normals{{"buffer", 0}, {"byteOffset", each}, {"byteLength", each}, {"target", kGltfArrayBuffer}};
   const Json indices{{"buffer", 0},
                      {"byteOffset", buffer.index_offset()},
                      {"byteLength", 4 * buffer.indices},
-                     {"target", kElementArrayBuffer}};
+                     {"target", kGltfElementArrayBuffer}};
   return Json::array({positions, normals, indices});
 }
 

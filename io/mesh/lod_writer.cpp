@@ -19,7 +19,6 @@ namespace {
 
 using Json = GltfOutJson;
 
-constexpr std::int64_t kFloatInteger = std::int64_t(1) << 24;  // float32 holds integers up to this
 constexpr std::int64_t kShortInteger = 32767;
 
 struct Extent {

@@ -13,14 +13,9 @@ Vec3d direction(LatticeCoord from, LatticeCoord to) {
   return {double(d.x), double(d.y), double(d.z)};
 }
 
-Vec3d unit(const Vec3d& v) {
-  const double l = length(v);
-  return l > 0 ? (1 / l) * v : Vec3d{};
-}
-
 /// Orthogonal to the unit vector n, of length 1.
 Vec3d in_plane(const Vec3d& v, const Vec3d& n) {
-  return unit(v - dot(n, v) * n);
+  return unit(v - dot(n, v) * n, {});
 }
 
 Vec3d any_in_plane(const Vec3d& n) {

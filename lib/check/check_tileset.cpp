@@ -99,10 +99,6 @@ class Checker {
   std::vector<std::string> findings_;
 };
 
-double edge_of(const Bounds3d& cell) {
-  return std::max({cell.max[0] - cell.min[0], cell.max[1] - cell.min[1], cell.max[2] - cell.min[2]});
-}
-
 }  // namespace
 
 std::string leaf_fault(const Tile& leaf, const Tile* above) {
@@ -111,7 +107,7 @@ std::string leaf_fault(const Tile& leaf, const Tile* above) {
   if (!(leaf.geometric_error < above->geometric_error))
     return fmt::format("its geometricError {} is not below the {} of the proven tile above it", leaf.geometric_error,
                        above->geometric_error);
-  const double most = kLeafError * edge_of(*above->cell);
+  const double most = kLeafError * above->cell->longest_side();
   if (leaf.geometric_error > most)
     return fmt::format("its geometricError {} is more than rounding, {:.3g}", leaf.geometric_error, most);
   return "";

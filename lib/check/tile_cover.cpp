@@ -44,9 +44,9 @@ struct Counts {
   std::uint64_t strays = 0;  ///< triangles of a leaf
 };
 
-class Checker {
+class CoverChecker {
  public:
-  Checker(const std::vector<CoverTile>& tiles, const CoverContents& content_of, TilePart part)
+  CoverChecker(const std::vector<CoverTile>& tiles, const CoverContents& content_of, TilePart part)
       : tiles_(tiles),
         content_of_(content_of),
         mine_(tiles_of(part, tiles)),
@@ -353,7 +353,7 @@ class Checker {
 
 CoverReport check_cover(const std::vector<CoverTile>& tiles, const CoverContents& content_of, TriangleSource& scene,
                         std::uint64_t memory_bytes, TilePart part) {
-  return Checker(tiles, content_of, part).run(scene, memory_bytes);
+  return CoverChecker(tiles, content_of, part).run(scene, memory_bytes);
 }
 
 }  // namespace bp

@@ -24,5 +24,13 @@ namespace bp {
 [[nodiscard]] inline double length(const Vec3d& v) {
   return std::sqrt(dot(v, v));
 }
+/// `v` at length 1; `otherwise` if it has no direction.
+[[nodiscard]] inline Vec3d unit(const Vec3d& v, const Vec3d& otherwise) {
+  const double l = length(v);
+  return l > 0 ? (1 / l) * v : otherwise;
+}
+[[nodiscard]] inline bool is_finite(const Vec3d& p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
 
 }  // namespace bp

@@ -24,10 +24,6 @@ std::vector<TriangleD> triangles_of(const Cage& cage) {
   return triangles;
 }
 
-bool is_finite(const Vec3d& p) {
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
-
 double sum_of(std::span<const double> numbers) {
   double sum = 0;
   for (const double x : numbers) sum += x;

@@ -61,7 +61,7 @@ std::uint64_t columns_of(const BrickBits& bits, std::size_t b) {
 }
 
 /// Of a point and a cube.
-inline double squared_distance(const LatticeCoord& p, const LatticeCoord& low, std::int64_t edge) {
+inline double squared_to_box(const LatticeCoord& p, const LatticeCoord& low, std::int64_t edge) {
   const auto away = [edge](std::int64_t at, std::int64_t from) {
     return double(std::max({std::int64_t(0), from - at, at - from - edge}));
   };
@@ -154,14 +154,14 @@ class EnclosedVoxels::Nearest {
     return {middle_ - around, middle_ + around};
   }
   [[nodiscard]] bool may_hold(const LatticeCoord& low, std::int64_t edge) const {
-    return squared_distance(middle_, low, edge) <= squared_;
+    return squared_to_box(middle_, low, edge) <= squared_;
   }
   [[nodiscard]] bool may_hold_layer(std::int64_t low_z) const {
     const auto away = double(std::max({std::int64_t(0), low_z - middle_.z, middle_.z - low_z - kLatticePerVoxel}));
     return away * away <= squared_;
   }
   void show(const LatticeCoord& low) {
-    const double squared = squared_distance(middle_, low, kLatticePerVoxel);
+    const double squared = squared_to_box(middle_, low, kLatticePerVoxel);
     if (squared > squared_ || (found_ && squared == squared_)) return;
     squared_ = squared;
     found_ = low;
@@ -208,7 +208,7 @@ bool EnclosedVoxels::is_near(const std::array<LatticeCoord, 3>& t, double distan
   if (!nearest.found()) return false;
   hint = nearest.found();
   const auto is_reached = [&](const LatticeCoord& p) {
-    return squared_distance(p, *nearest.found(), kLatticePerVoxel) <= distance * distance;
+    return squared_to_box(p, *nearest.found(), kLatticePerVoxel) <= distance * distance;
   };
   if (std::all_of(t.begin(), t.end(), is_reached)) return true;
   const LatticeBox box = box_of(t[0], t[1], t[2]);

@@ -10,9 +10,9 @@ namespace bp {
 
 namespace {
 
-constexpr double kGrowth = 1e-9;       // of a cell, in its edges
-constexpr double kRounding = 0x1p-50;  // of a point in doubles beside one of the triangle, in its coordinates
-constexpr double kNear = 1e-12;        // the same, in edges of the cell
+constexpr double kCellGrowth = 1e-9;        // of a cell, in its edges
+constexpr double kPointRounding = 0x1p-50;  // of a point in doubles beside one of the triangle, in its coordinates
+constexpr double kNear = 1e-12;             // the same, in edges of the cell
 
 /// The determinant of orient3d and a bound of its error (lib/exact/predicates.h, "Filter").
 struct Side {
@@ -100,10 +100,6 @@ bool may_meet(const Hull& hull, const Bounds3d& box) {
   return true;
 }
 
-double edge_of(const Bounds3d& box) {
-  return std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
-}
-
 double largest(const Vec3d& p) {
   return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
 }
@@ -122,11 +118,11 @@ bool may_meet_within(const TriangleD& a, const TriangleD& b, const Bounds3d& box
 double rounding_of(const Bounds3d& cell, const TriangleD& t) {
   double most = std::max(largest(cell.min), largest(cell.max));
   for (const Vec3d& p : t) most = std::max(most, largest(p));
-  return std::max(kNear * edge_of(cell), kRounding * most);
+  return std::max(kNear * cell.longest_side(), kPointRounding * most);
 }
 
 double growth_for(const Bounds3d& cell, const TriangleD& t) {
-  return std::max(kGrowth * edge_of(cell), 16 * rounding_of(cell, t));
+  return std::max(kCellGrowth * cell.longest_side(), 16 * rounding_of(cell, t));
 }
 
 Bounds3d grown(const Bounds3d& box, double by) {

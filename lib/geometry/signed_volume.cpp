@@ -8,7 +8,7 @@ namespace bp {
 
 namespace {
 
-constexpr double kRounding = 1e-9;   // of the area: what is left over of a closed surface, at most
+constexpr double kLeftOver = 1e-9;   // of the area: what is left over of a closed surface, at most
 constexpr double kOfNormal = 2e-15;  // of its edges' product, beside which a thin triangle's area may be nothing
 
 }  // namespace
@@ -29,7 +29,7 @@ void SignedVolume::add(const SignedVolume& v) {
 }
 
 std::optional<double> SignedVolume::value() const {
-  if (!(length(two_areas_) <= kRounding * two_area_ + rounding_)) return {};
+  if (!(length(two_areas_) <= kLeftOver * two_area_ + rounding_)) return {};
   return six_volumes_ / 6;
 }
 

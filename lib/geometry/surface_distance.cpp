@@ -64,8 +64,8 @@ Part examine(const TriangleD& t, const TriangleBvh& to, std::uint32_t guess, dou
 /// little, or the part so thin that rounding would decide.
 std::optional<double> cut_out(const TriangleD& part, const TriangleD& nearest, double bar,
                               std::vector<TriangleD>& out) {
-  constexpr double kThin = 1e-6;            // area over the longest edge squared
-  constexpr double kWorthwhile = 1.0 / 16;  // of the area
+  constexpr double kThin = 1e-6;                  // area over the longest edge squared
+  constexpr double kWorthwhileInside = 1.0 / 16;  // of the area
   const std::size_t apex = apex_of(part);
   const double whole = area_of(part);
   if (whole <= kThin * length_squared(part[(apex + 1) % 3], part[(apex + 2) % 3])) return std::nullopt;
@@ -81,7 +81,7 @@ std::optional<double> cut_out(const TriangleD& part, const TriangleD& nearest, d
   for (std::size_t i = 0; i < inside.count; ++i)
     farthest = std::max(farthest, distance_squared(inside.corners[i], nearest));
   farthest = std::sqrt(farthest);
-  if (inside.area() >= kWorthwhile * whole && farthest <= bar) return farthest;
+  if (inside.area() >= kWorthwhileInside * whole && farthest <= bar) return farthest;
   out.resize(before);
   return std::nullopt;
 }

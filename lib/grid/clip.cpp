@@ -11,25 +11,25 @@ VoxelBox voxels_of(BrickCoord c) {
 }
 
 /// Places along an axis of a brick, [begin, end), not empty or [0, 0).
-struct Range {
+struct BrickRange {
   std::int32_t begin = 0, end = 0;
   [[nodiscard]] bool holds(std::int32_t i) const { return i >= begin && i < end; }
 };
 
-Range within(std::int32_t first, std::int32_t min, std::int32_t max) {
-  const Range range{std::max(min - first, 0), std::min(max - first, kBrickEdge)};
-  return range.begin < range.end ? range : Range{};
+BrickRange within(std::int32_t first, std::int32_t min, std::int32_t max) {
+  const BrickRange range{std::max(min - first, 0), std::min(max - first, kBrickEdge)};
+  return range.begin < range.end ? range : BrickRange{};
 }
 
 /// Rows of a brick that meet a box, and their voxels in it.
 struct Rows {
-  Range y, z;
+  BrickRange y, z;
   std::uint64_t mask = 0;
 };
 
 Rows rows_within(BrickCoord brick, const VoxelBox& box) {
   const VoxelCoord first = first_voxel(brick);
-  const Range x = within(first.x, box.min.x, box.max.x);
+  const BrickRange x = within(first.x, box.min.x, box.max.x);
   const std::uint64_t mask =
       x.begin < x.end ? ~std::uint64_t(0) << x.begin & ~std::uint64_t(0) >> (kBrickEdge - x.end) : 0;
   return {within(first.y, box.min.y, box.max.y), within(first.z, box.min.z, box.max.z), mask};

@@ -7,11 +7,11 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kBlock = 128;
+constexpr std::size_t kBlockBytes = 128;
 
 /// Of at most a block: a loop that vectorizes.
 std::uint64_t count_block(const std::byte* bytes, std::size_t n) {
-  std::array<std::uint64_t, kBlock / 8> words{};
+  std::array<std::uint64_t, kBlockBytes / 8> words{};
   std::memcpy(words.data(), bytes, n);
   std::uint64_t counts = 0;  // eight counts of a byte, each at most 16 * 8
   for (std::uint64_t w : words) {
@@ -27,7 +27,8 @@ std::uint64_t count_block(const std::byte* bytes, std::size_t n) {
 
 std::uint64_t count_bits(std::span<const std::byte> bytes) {
   std::uint64_t total = 0;
-  for (; bytes.size() >= kBlock; bytes = bytes.subspan(kBlock)) total += count_block(bytes.data(), kBlock);
+  for (; bytes.size() >= kBlockBytes; bytes = bytes.subspan(kBlockBytes))
+    total += count_block(bytes.data(), kBlockBytes);
   return bytes.empty() ? total : total + count_block(bytes.data(), bytes.size());
 }
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "lib/core/vec3.h"
+
 namespace bp {
 
 namespace {
@@ -19,9 +21,6 @@ struct Side {
 };
 constexpr Side kSides[] = {{0, -1}, {0, 1}, {1, -1}, {1, 1}};
 
-bool finite(const Vec3d& p) {
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
 bool inside(const Vec3d& p, Side side, double limit) {
   return side.sign * p[side.axis] <= limit;
 }
@@ -59,7 +58,7 @@ LinearColor color_of(const Corner& c) {
 std::vector<ClippedTriangle> clip(const TriangleD& t, const TriangleColors& colors, double limit) {
   std::vector<Corner> polygon;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (!finite(t[k])) return {};
+    if (!is_finite(t[k])) return {};
     polygon.push_back({t[k], {double(colors[k].r), double(colors[k].g), double(colors[k].b)}});
   }
   for (const Side side : kSides) polygon = clip(polygon, side, limit);
@@ -72,7 +71,7 @@ std::vector<ClippedTriangle> clip(const TriangleD& t, const TriangleColors& colo
 }
 
 bool clip(std::array<Vec3d, 2>& line, double limit) {
-  if (!finite(line[0]) || !finite(line[1])) return false;
+  if (!is_finite(line[0]) || !is_finite(line[1])) return false;
   for (const Side side : kSides) {
     const bool first = inside(line[0], side, limit), second = inside(line[1], side, limit);
     if (!first && !second) return false;

@@ -4,6 +4,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 #include "lib/image/camera.h"
 #include "lib/image/canvas.h"
 #include "lib/image/legend.h"
@@ -14,10 +15,6 @@ namespace {
 
 constexpr int kSamples = 2;  // per pixel and direction
 constexpr std::size_t kBatch = 1 << 15;
-
-bool finite(const Vec3d& p) {
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
 
 /// Triangle t of the mesh; false if it names a vertex that does not exist.
 bool corners_of(const IndexedMesh& mesh, std::size_t t, TriangleD& corners) {
@@ -35,7 +32,7 @@ void for_each_corner(std::span<const View> views, const F& f) {
   std::vector<TriangleD> batch;
   const auto visit = [&](const TriangleD& t) {
     for (const Vec3d& p : t)
-      if (finite(p)) f(p);
+      if (is_finite(p)) f(p);
   };
   for (const View& v : views) {
     for (std::size_t t = 0; v.mesh != nullptr && t < v.mesh->triangles.size(); ++t)
@@ -161,7 +158,7 @@ std::vector<std::array<Vec3d, 2>> edges_of(const View& view, const Camera& camer
     for (std::size_t e = 0; e < 3; ++e) {
       if (i < inner_edges.size() && (inner_edges[i] >> e & 1) != 0) continue;
       const Vec3d p = camera.project(t[e]), q = camera.project(t[(e + 1) % 3]);
-      if (finite(p) && finite(q)) edges.push_back(p < q ? std::array{p, q} : std::array{q, p});
+      if (is_finite(p) && is_finite(q)) edges.push_back(p < q ? std::array{p, q} : std::array{q, p});
     }
   };
   for (std::size_t t = 0; view.mesh != nullptr && t < view.mesh->triangles.size(); ++t)

@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kAsMuch = 0.95;                                 // of what the best scale hides
 constexpr double kGroundGains = 1.25;                            // times what is hidden without
-constexpr double kLeastScaleVox = 2;                             // that is tried
+constexpr double kLeastTriedVox = 2;                             // that is tried
 constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;  // of the scene's diagonal
 constexpr double kLeastPart = 1e-3, kMostLeastPart = 0.3;        // of the largest one, by volume
-constexpr std::uint64_t kFaces = 100, kFacesPerPart = 24, kMostFaces = 2400;
+constexpr std::uint64_t kFaces = 100, kFacesOfPart = 24, kMostFaces = 2400;
 constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;  // with fewer, parts are left out
 
 /// What a scene hides at a scale.
@@ -48,7 +48,7 @@ Hidden best_hidden(const OccluderSource& source, VoxelizedScene& scene, bool gro
   }
   std::uint64_t most = 0;
   for (double scale = 0; scale <= diagonal * kMostScale;
-       scale = scale == 0 ? (kLeastScaleVox + kBeyondWholeVox) * voxel : scale * std::sqrt(2.0)) {
+       scale = scale == 0 ? (kLeastTriedVox + kBeyondWholeVox) * voxel : scale * std::sqrt(2.0)) {
     best.voxels = {};  // one at a time
     best.voxels = hide(scale);
     best.scale = scale;
@@ -94,7 +94,7 @@ class OccluderMesh {
       if (!mesh_at(scale, least, level)) break;
       const std::uint64_t parts = level.counts.levels.front().measures.shells;
       if (attempts_++ == 0 && faces_ == 0) {
-        faces_ = std::min(std::max(kFaces, parts * kFacesPerPart), kMostFaces);
+        faces_ = std::min(std::max(kFaces, parts * kFacesOfPart), kMostFaces);
         if (faces_ > kFaces && !mesh_at(scale, least, level)) break;
       }
       level.reached = level.mesh.triangles.size() <= faces_;

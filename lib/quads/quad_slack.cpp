@@ -18,8 +18,8 @@ namespace bp {
 
 namespace {
 
-constexpr double kReach = 0.5;  // of the mean spoke: how far a vertex is lifted at most
-constexpr int kAvoidRounds = 4;
+constexpr double kLift = 0.5;  // of the mean spoke: how far a vertex is lifted at most
+constexpr int kLiftRounds = 4;
 constexpr int kRounds = 2;  // the second finds some pairs more on the way back in, and costs next to no volume
 
 /// Draws pairs over the diagonal nearer to what is enclosed.
@@ -58,7 +58,7 @@ class Lifter {
   }
 
   std::optional<Lift> solve(HalfEdgeId h) {
-    const double reach = kReach * gather(h);
+    const double reach = kLift * gather(h);
     if (!fit_.close()) return std::nullopt;
     const auto x = fit_.least_volume({}, reach);
     if (!x) return std::nullopt;
@@ -70,9 +70,9 @@ class Lifter {
     const VertexId v = mesh_.opposite(h);
     const LatticeCoord p = mesh_.position(v);
     const Vec3d shift = to_double(p - editor_.contacts().origin());
-    const double reach = kReach * gather(h);
+    const double reach = kLift * gather(h);
     if (!fit_.close()) return false;
-    for (int round = 0; round < kAvoidRounds; ++round) {
+    for (int round = 0; round < kLiftRounds; ++round) {
       const LatticeCoord to = p + rounded(lift.offset);
       const bool moved = to == p || editor_.move(v, to);
       if (moved && flip(h)) return true;

@@ -19,7 +19,7 @@ namespace {
 // Cells stop where the next round might pass the wanted number of faces: at kMargin times as many, or, where so many
 // are better not held at once, at fewer. At kFew they stop for regions (collapse_regions.h): the last rounds have fewer
 // cells than there are threads, and regions are as large as each other.
-constexpr std::uint64_t kMargin = 3, kMarginOfMany = 2, kMany = std::uint64_t(1) << 20, kFew = 100000;
+constexpr std::uint64_t kMargin = 3, kMarginOfMany = 2, kManyFaces = std::uint64_t(1) << 20, kFew = 100000;
 constexpr double kBoundPerLevel = 16;  // of the last bound: a round leaves about 40 % of the faces
 constexpr std::int64_t kBrickLattice = std::int64_t(kBrickEdge) * kLatticePerVoxel;
 constexpr std::uint64_t kWorkPerFace = 256;  // bytes: the piece, its half-edges, quadrics, boxes and their tree
@@ -197,7 +197,7 @@ namespace {
 
 bool needs_round(std::uint64_t faces, const BulkEnd& end, const SimplifyParams& params) {
   if (end.cost <= 0 || (faces <= kFew && has_bulk_regions(faces, end, params))) return false;
-  return faces > kMargin * end.faces || (faces > kMany && faces > kMarginOfMany * end.faces);
+  return faces > kMargin * end.faces || (faces > kManyFaces && faces > kMarginOfMany * end.faces);
 }
 
 }  // namespace

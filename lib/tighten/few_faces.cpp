@@ -30,9 +30,9 @@ struct Stop {
   TightenCounts tightened;
 };
 
-class Way {
+class HullsWay {
  public:
-  Way(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params)
+  HullsWay(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params)
       : dense_(dense), enclosed_(enclosed), params_(params), box_(dense.box()) {
     SimplifyParams growing = growing_part_of(params_for(kFewFaces));
     growing.room = room_around(box_, growing.faces);
@@ -127,7 +127,7 @@ class Way {
 
 LatticeMesh tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params,
                                SimplifyCounts& simplified, TightenCounts& tightened) {
-  Way way(dense, enclosed, params);
+  HullsWay way(dense, enclosed, params);
   const std::uint64_t first = way.faces();
   std::optional<Stop> best;
   const auto offer = [&](const Stop& stop) {

@@ -60,7 +60,7 @@ void damage(Choices& c, std::string& bytes) {
   if (c.once_in(12)) bytes.insert(c.below(size()), std::string(1 + c.below(9), char(c.byte())));
 }
 
-std::uint64_t number(Choices& c, std::uint64_t sound) {
+std::uint64_t whole_number(Choices& c, std::uint64_t sound) {
   return c.once_in(24) ? std::uint64_t(extreme_integer(c)) : sound;
 }
 
@@ -72,16 +72,16 @@ std::string document(Choices& c, const std::string& bytes, std::size_t triangles
   json["scene"] = 0;
   json["scenes"] = {{{"nodes", {0}}}};
   json["nodes"] = {{{"mesh", 0}}};
-  const std::uint64_t count = number(c, 3 * triangles);
+  const std::uint64_t count = whole_number(c, 3 * triangles);
   json["accessors"] = {
       {{"componentType", c.once_in(12) ? 5120 + c.below(8) : 5126u}, {"count", count}, {"type", "VEC3"}},
-      {{"componentType", c.of({5125, 5123, 5121})}, {"count", number(c, count)}, {"type", "SCALAR"}},
+      {{"componentType", c.of({5125, 5123, 5121})}, {"count", whole_number(c, count)}, {"type", "SCALAR"}},
       {{"componentType", 5121}, {"normalized", true}, {"count", count}, {"type", c.once_in(2) ? "VEC4" : "VEC3"}}};
   Json primitive = {{"attributes", {{"POSITION", 0}}}, {"indices", 1}};
-  Json extension = {{"bufferView", 0}, {"attributes", {{"POSITION", number(c, 0)}}}};
+  Json extension = {{"bufferView", 0}, {"attributes", {{"POSITION", whole_number(c, 0)}}}};
   if (c.once_in(3)) {
     primitive["attributes"]["COLOR_0"] = 2;
-    extension["attributes"]["COLOR_0"] = number(c, 1);
+    extension["attributes"]["COLOR_0"] = whole_number(c, 1);
   }
   primitive["extensions"]["KHR_draco_mesh_compression"] = extension;
   json["meshes"] = {{{"primitives", {primitive}}}};

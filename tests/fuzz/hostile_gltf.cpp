@@ -131,23 +131,23 @@ Json Document::primitive() {
   return p;
 }
 
-void Document::add_targets(Json& primitive, std::size_t vertices) {
+void Document::add_targets(Json& primitive, std::size_t corners) {
   for (std::uint32_t i = c.below(3); i > 0; --i) {
-    Json positions = accessor_of(view(std::vector<float>(3 * vertices, float(c.below(4)))), 5126, "VEC3", vertices);
+    Json positions = accessor_of(view(std::vector<float>(3 * corners, float(c.below(4)))), 5126, "VEC3", corners);
     if (c.once_in(4)) add_sparse(positions);
     primitive["targets"].push_back({{"POSITION", number(c, accessor(positions))}});
   }
 }
 
-void Document::add_joints(Json& attributes, std::size_t vertices) {
+void Document::add_joints(Json& attributes, std::size_t corners) {
   std::vector<std::uint8_t> joints;
   std::vector<float> weights;
-  for (std::size_t i = 0; i < 4 * vertices; ++i) {
+  for (std::size_t i = 0; i < 4 * corners; ++i) {
     joints.push_back(c.once_in(64) ? std::uint8_t(extreme_integer(c)) : std::uint8_t(c.below(2)));
     weights.push_back(c.once_in(24) ? float(extreme_number(c)) : float(c.below(3)));
   }
-  attributes["JOINTS_0"] = number(c, accessor(accessor_of(view(joints), 5121, "VEC4", vertices)));
-  attributes["WEIGHTS_0"] = number(c, accessor(accessor_of(view(weights), 5126, "VEC4", vertices)));
+  attributes["JOINTS_0"] = number(c, accessor(accessor_of(view(joints), 5121, "VEC4", corners)));
+  attributes["WEIGHTS_0"] = number(c, accessor(accessor_of(view(weights), 5126, "VEC4", corners)));
 }
 
 /// Joints and morph targets for what is there.

@@ -27,20 +27,6 @@ BitBox close_box(const BitBox& solid, const ScaleLattice& scale, const Halo& hal
   return closed;
 }
 
-/// `solid` without what lies outside of `box`.
-BitBox cut(const BitBox& solid, const VoxelBox& box) {
-  BitBox out(box);
-  const VoxelBox both = intersect(solid.box(), box);
-  for (std::int32_t z = both.min.z; z < both.max.z; ++z) {
-    for (std::int32_t y = both.min.y; y < both.max.y; ++y) {
-      for (std::int32_t x = both.min.x; x < both.max.x; ++x) {
-        if (solid.test({x, y, z})) out.set({x, y, z});
-      }
-    }
-  }
-  return out;
-}
-
 /// Occupied voxels of `tile` in which `a` and `b` differ.
 std::int64_t differences(const BitBox& a, const BitBox& b, const VoxelBox& tile) {
   std::int64_t n = 0;
@@ -77,7 +63,7 @@ void compare_with_definition(std::uint64_t seed, std::int32_t longest, std::int3
   const BitBox expected = reference::close(solid, scale, element, box);
   CHECK(closed.box() == expected.box());
   CHECK(differences(closed, expected, closed.box()) == 0);
-  CHECK(subset(cut(solid, box), closed));
+  CHECK(subset(reference::cut(solid, box), closed));
   CHECK(subset(closed, reference::dilate(solid, scale, element, box)));
 }
 
@@ -102,7 +88,7 @@ std::int64_t compare_tiles(std::uint64_t seed) {
         const Halo halo = halo_of(tile, field, frame);
         CHECK(halo.erosion_vox <= all.erosion_vox);
         CHECK(halo.dilation_vox <= all.dilation_vox);
-        const BitBox part = cut(solid, tile.grown(halo.total_vox()));
+        const BitBox part = reference::cut(solid, tile.grown(halo.total_vox()));
         const ScaleLattice scale = field.sample(frame, part.box());
         wrong += differences(whole, close_box(part, scale, halo, element, tile), tile);
       }
@@ -163,7 +149,7 @@ TEST_CASE("a halo one voxel short is noticed", "[quick][closing]") {
   solid.set(g);
   const ScaleLattice scale = field.sample(frame, tile.grown(halo.total_vox()));
   const auto closed_p = [&](std::int32_t missing) {
-    const BitBox part = cut(solid, tile.grown(halo.total_vox() - missing));
+    const BitBox part = reference::cut(solid, tile.grown(halo.total_vox() - missing));
     return close_box(part, scale, halo, StructuringElement::cube, tile).test(p);
   };
   CHECK_FALSE(closed_p(0));

@@ -13,33 +13,19 @@ using reference::Random;
 
 namespace {
 
-Halo ample(Scale largest) {
+Halo ample_turned(Scale largest) {
   return {largest / kScaleOne + 2, oriented_reach(largest) + 1};
 }
 
-BitBox close_box(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const OrientationField& orientation,
-                 const VoxelBox& box) {
+BitBox close_turned(const BitBox& solid, const ScaleLattice& scale, const Halo& halo,
+                    const OrientationField& orientation, const VoxelBox& box) {
   static ClosingScratch scratch;  // kept on purpose: what a call leaves behind must not matter to the next
   BitBox closed;
   close_tile(solid, scale, halo, {StructuringElement::cube, &orientation}, box, closed, scratch);
   return closed;
 }
 
-BitBox cut(const BitBox& solid, const VoxelBox& box) {
-  BitBox out(box);
-  copy_voxels(solid, out);
-  for (std::int32_t z = out.box().min.z; z < out.box().max.z; ++z) {
-    for (std::int32_t y = out.box().min.y; y < out.box().max.y; ++y) {
-      for (std::int32_t x = out.box().min.x; x < out.box().max.x; ++x) {
-        const std::int32_t i = x - out.box().min.x;
-        if (!box.contains(VoxelCoord{x, y, z})) out.row(y, z)[i >> 6] &= ~(std::uint64_t(1) << (i & 63));
-      }
-    }
-  }
-  return out;
-}
-
-void compare_with_definition(std::uint64_t seed, std::int32_t longest, std::int32_t largest_vox) {
+void compare_turned(std::uint64_t seed, std::int32_t longest, std::int32_t largest_vox) {
   Random random(seed);
   const VoxelBox grid = reference::random_box(random, longest);
   const BitBox solid = reference::random_solid(random, grid);
@@ -49,13 +35,13 @@ void compare_with_definition(std::uint64_t seed, std::int32_t longest, std::int3
   const OrientationField orientation = reference::random_orientation(random, seen);
   REQUIRE(orientation_fault(orientation) == nullptr);
   CAPTURE(seed, largest, scale.constant(), orientation.rotations.size());
-  CHECK(close_box(solid, scale, ample(largest), orientation, box) ==
+  CHECK(close_turned(solid, scale, ample_turned(largest), orientation, box) ==
         reference::close_oriented(solid, scale, sample(orientation, seen), box));
 }
 
 /// One random field, closed whole and in tiles of one random size, each with its own halo and nothing else. Returns the
 /// tiles that differ.
-int compare_tiles(std::uint64_t seed) {
+int compare_turned_tiles(std::uint64_t seed) {
   Random random(seed);
   const VoxelBox grid = reference::random_box(random, 80);
   const BitBox solid = reference::random_solid(random, grid);
@@ -63,8 +49,8 @@ int compare_tiles(std::uint64_t seed) {
   const ScaleField field = reference::random_field(random, grid, 9);
   const VoxelBox box = grid.grown(10);
   const OrientationField orientation = reference::random_orientation(random, box);
-  const Halo all = ample(field.upper_bound(frame));
-  const BitBox whole = close_box(solid, field.sample(frame, box.grown(all.total_vox())), all, orientation, box);
+  const Halo all = ample_turned(field.upper_bound(frame));
+  const BitBox whole = close_turned(solid, field.sample(frame, box.grown(all.total_vox())), all, orientation, box);
   const VoxelCoord side{random.between(5, 70), random.between(5, 40), random.between(5, 40)};
   int wrong = 0;
   for (std::int32_t z = box.min.z; z < box.max.z; z += side.z) {
@@ -73,9 +59,9 @@ int compare_tiles(std::uint64_t seed) {
         const VoxelBox tile = intersect({{x, y, z}, VoxelCoord{x, y, z} + side}, box);
         const Halo halo = halo_of(tile, field, frame, {StructuringElement::cube, &orientation});
         CHECK(halo.dilation_vox <= all.dilation_vox);
-        const BitBox part = cut(solid, tile.grown(halo.total_vox()));
-        const BitBox closed = close_box(part, field.sample(frame, part.box()), halo, orientation, tile);
-        wrong += cut(closed, tile) == cut(whole, tile) ? 0 : 1;
+        const BitBox part = reference::cut(solid, tile.grown(halo.total_vox()));
+        const BitBox closed = close_turned(part, field.sample(frame, part.box()), halo, orientation, tile);
+        wrong += reference::cut(closed, tile) == reference::cut(whole, tile) ? 0 : 1;
       }
     }
   }
@@ -144,12 +130,12 @@ Rotation random_rotation(Random& random) {
 }  // namespace
 
 TEST_CASE("the closing by turned cubes equals its definition on small grids", "[quick][closing][oriented]") {
-  for (std::uint64_t seed = 0; seed < 100; ++seed) compare_with_definition(seed, 9, 3);
+  for (std::uint64_t seed = 0; seed < 100; ++seed) compare_turned(seed, 9, 3);
 }
 
 TEST_CASE("the closing by turned cubes equals its definition on many random grids", "[property][closing][oriented]") {
-  for (std::uint64_t seed = 1000; seed < 1600; ++seed) compare_with_definition(seed, 15, 4);
-  for (std::uint64_t seed = 3000; seed < 3030; ++seed) compare_with_definition(seed, 6, 9);
+  for (std::uint64_t seed = 1000; seed < 1600; ++seed) compare_turned(seed, 15, 4);
+  for (std::uint64_t seed = 3000; seed < 3030; ++seed) compare_turned(seed, 6, 9);
 }
 
 TEST_CASE("large turned cubes hold what their definition says", "[quick][closing][oriented]") {
@@ -180,14 +166,14 @@ TEST_CASE("a field of very many rotations is closed at once, and as by each cube
 TEST_CASE("turned cubes close tile by tile as on the whole grid", "[quick][closing][oriented]") {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     CAPTURE(seed);
-    CHECK(compare_tiles(seed) == 0);
+    CHECK(compare_turned_tiles(seed) == 0);
   }
 }
 
 TEST_CASE("turned cubes close tile by tile as on the whole grid for many fields", "[property][closing][oriented]") {
   for (std::uint64_t seed = 100; seed < 250; ++seed) {
     CAPTURE(seed);
-    CHECK(compare_tiles(seed) == 0);
+    CHECK(compare_turned_tiles(seed) == 0);
   }
 }
 
@@ -199,13 +185,13 @@ TEST_CASE("the 24 turns of a cube onto itself close like the cube", "[quick][clo
   const ScaleLattice scale = reference::random_lattice(random, box.grown(12), 6 * kScaleOne);
   ClosingScratch scratch;
   BitBox cube;
-  close_tile(solid, scale, ample(scale.max), {}, box, cube, scratch);
+  close_tile(solid, scale, ample_turned(scale.max), {}, box, cube, scratch);
   for (const FixedQuaternion q : {FixedQuaternion{}, FixedQuaternion{0, k, 0, 0}, FixedQuaternion{k, 0, 0, k},
                                   FixedQuaternion{h, h, -h, h}, FixedQuaternion{0, k, -k, 0}}) {
     const OrientationField field = one_rotation(q);
     CHECK(canonical(rotation_of(q)) == Rotation{});
     CHECK(oriented_reach(field, 100) == cube_radius(100));
-    CHECK(close_box(solid, scale, ample(scale.max), field, box) == cube);
+    CHECK(close_turned(solid, scale, ample_turned(scale.max), field, box) == cube);
   }
 }
 

@@ -46,6 +46,19 @@ bool in_contour(const BitBox& dilation, VoxelCoord q) {
 
 }  // namespace
 
+BitBox cut(const BitBox& solid, const VoxelBox& box) {
+  BitBox out(box);
+  const VoxelBox both = intersect(solid.box(), box);
+  for (std::int32_t z = both.min.z; z < both.max.z; ++z) {
+    for (std::int32_t y = both.min.y; y < both.max.y; ++y) {
+      for (std::int32_t x = both.min.x; x < both.max.x; ++x) {
+        if (solid.test({x, y, z})) out.set({x, y, z});
+      }
+    }
+  }
+  return out;
+}
+
 BitBox dilate(const BitBox& solid, const ScaleLattice& scale, StructuringElement element, const VoxelBox& box) {
   BitBox out(box);
   for_each_voxel(box, [&](VoxelCoord p) {

@@ -6,6 +6,9 @@
 /// cleverness. For small grids only.
 namespace bp::reference {
 
+/// `solid` without what lies outside of `box`.
+[[nodiscard]] BitBox cut(const BitBox& solid, const VoxelBox& box);
+
 /// D over `box`: the dilation of `solid`, outside of which everything is empty. `scale` covers `box`.
 [[nodiscard]] BitBox dilate(const BitBox& solid, const ScaleLattice& scale, StructuringElement element,
                             const VoxelBox& box);

@@ -14,8 +14,8 @@ std::string level_text(const MeshCounts& c, std::size_t level) {
 
 /// Whether --error and the measures are distances to the closing: nobody asked for the scene or its voxels.
 bool counts_from_closing(const MeshOptions& o) {
-  using Kind = EncloseOption::Kind;
-  return o.proxy.enclose.kind == Kind::closing || (o.error() && o.proxy.enclose.kind == Kind::automatic);
+  using Enclose = EncloseOption::Kind;
+  return o.proxy.enclose.kind == Enclose::closing || (o.error() && o.proxy.enclose.kind == Enclose::automatic);
 }
 
 /// What distances of the proxy are measured to.

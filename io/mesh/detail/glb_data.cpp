@@ -6,8 +6,6 @@ namespace {
 
 using Json = GltfOutJson;
 
-constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
-
 }  // namespace
 
 void GlbData::use(const std::string& extension, bool required) {
@@ -37,7 +35,7 @@ std::size_t GlbData::add_attributes(const std::string& bytes, std::size_t stride
   Json view = add_view(bytes, stride, "ATTRIBUTES", compressed_ ? encode_attributes(bytes, stride) : bytes);
   if (compressed_) view["byteStride"] = stride;
   if (filter != nullptr) view["extensions"]["EXT_meshopt_compression"]["filter"] = filter;
-  view["target"] = kArrayBuffer;
+  view["target"] = kGltfArrayBuffer;
   doc_["bufferViews"].push_back(view);
   Json placed{{"bufferView", doc_["bufferViews"].size() - 1}};
   placed.update(accessor);
@@ -72,7 +70,7 @@ std::size_t GlbData::add_indices(const TriangleIndices& triangles, std::size_t v
     for (const std::uint32_t v : t) bytes.append(reinterpret_cast<const char*>(&v), narrow ? 2 : 4);
   }
   Json view = add_view(bytes, narrow ? 2 : 4, "TRIANGLES", compressed_ ? encode_triangles(triangles, vertices) : bytes);
-  view["target"] = kElementArrayBuffer;
+  view["target"] = kGltfElementArrayBuffer;
   doc_["bufferViews"].push_back(view);
   return add_accessor({{"bufferView", doc_["bufferViews"].size() - 1},
                        {"componentType", narrow ? kGltfUint16 : kGltfUint32},

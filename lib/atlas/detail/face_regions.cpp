@@ -17,11 +17,6 @@ constexpr double kFirstCosine = 0.77;  // 40 degrees: what a large part looks li
 constexpr double kLeastCosine = 0.5;   // 60 degrees
 constexpr double kLargePart = 0.002;   // of the whole area
 
-Vec3d unit(const Vec3d& v) {
-  const double l = length(v);
-  return l > 0 ? (1 / l) * v : Vec3d{0, 0, 1};
-}
-
 }  // namespace
 
 FaceRegions::FaceRegions(const LatticeMesh& mesh) {
@@ -51,7 +46,7 @@ void FaceRegions::join(const LatticeMesh& mesh) {
 Vec3d FaceRegions::direction(const std::vector<std::uint32_t>& faces) const {
   Vec3d sum{};
   for (const std::uint32_t f : faces) sum = sum + areas_[f] * normals_[f];
-  return unit(sum);
+  return unit(sum, {0, 0, 1});
 }
 
 /// All seeds at once; a face goes to the part whose direction is nearest to its own, of those that come to it.

@@ -13,7 +13,7 @@ namespace {
 using Point = std::array<double, 2>;
 using Flat = std::array<Point, 3>;
 
-constexpr double kLeastCosine = 0.25;  // of a face and the plane's normal
+constexpr double kFacingCosine = 0.25;  // of a face and the plane's normal
 
 double cross2(const Point& o, const Point& a, const Point& b) {
   return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
@@ -171,7 +171,7 @@ Chart flat_chart(const LatticeMesh& mesh, const FaceRegions& regions, std::vecto
   Chart chart;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Vec3d& n = regions.normal(faces[i]);
-    const bool faces_up = dot(n, direction) >= kLeastCosine || n == Vec3d{};
+    const bool faces_up = dot(n, direction) >= kFacingCosine || n == Vec3d{};
     if (!chart.faces.empty() && (!faces_up || !laid.add(flat[i]))) {
       left.push_back(faces[i]);
       continue;

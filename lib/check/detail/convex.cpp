@@ -62,7 +62,7 @@ bool holds(const WeldedMesh& mesh, const Part& part, const TriangleD& t) {
   });
 }
 
-struct Batch {
+struct ConvexBatch {
   std::uint64_t first = 0;
   std::vector<TriangleD> triangles;
   ConvexReport result;
@@ -78,7 +78,7 @@ std::vector<std::vector<TriangleD>> corners_of(const WeldedMesh& mesh, const std
 }
 
 void check_batch(const WeldedMesh& mesh, const std::vector<Part>& parts, const ConvexCover& cover,
-                 std::size_t max_examples, Batch& batch) {
+                 std::size_t max_examples, ConvexBatch& batch) {
   std::uint32_t last = 0;  // neighbours in the scene mostly lie in the same part
   for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
     const TriangleD& t = batch.triangles[i];
@@ -118,16 +118,16 @@ ConvexReport check_convex(const WeldedMesh& mesh, TriangleSource& scene, std::si
   ConvexReport report;
   scene.rewind();
   std::uint64_t read = 0;
-  pipeline<Batch>(
+  pipeline<ConvexBatch>(
       4 * thread_count(),
-      [&](Batch& batch) {
+      [&](ConvexBatch& batch) {
         batch.first = read;
         if (!scene.read(batch.triangles)) return false;
         read += batch.triangles.size();
         return true;
       },
-      [&](Batch& batch) { check_batch(mesh, parts, cover, max_examples, batch); },
-      [&](Batch& batch) {
+      [&](ConvexBatch& batch) { check_batch(mesh, parts, cover, max_examples, batch); },
+      [&](ConvexBatch& batch) {
         report.triangles += batch.triangles.size();
         report.not_held.append(batch.result.not_held, max_examples);
         report.undecidable.append(batch.result.undecidable, max_examples);

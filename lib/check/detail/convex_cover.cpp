@@ -14,8 +14,8 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint32_t kNone = ~std::uint32_t(0);
-constexpr double kUnit = 0x1p-53;
+constexpr std::uint32_t kNoPart = ~std::uint32_t(0);
+constexpr double kUnitRoundoff = 0x1p-53;
 // In units of a height's error: how deep a cut lies within a part, and a corner of which it is to hold more.
 constexpr double kCutDepth = 4, kCornerDepth = 16;
 
@@ -35,7 +35,7 @@ Vec3d absolute(const Vec3d& v) {
   return {std::abs(v[0]), std::abs(v[1]), std::abs(v[2])};
 }
 
-Bounds3d bounds_of(const std::vector<Vec3d>& corners) {
+Bounds3d bounds_of_corners(const std::vector<Vec3d>& corners) {
   Bounds3d box;
   for (const Vec3d& p : corners) box.add(p);
   return box;
@@ -57,8 +57,9 @@ ConvexCover::ConvexCover(const std::vector<std::vector<TriangleD>>& parts) : box
 
 /// Each term of the value is rounded at most 8 times (lib/exact/predicates.h), and `size` bounds what n is made of.
 ConvexCover::Plane::Height ConvexCover::Plane::height(const Vec3d& p, double off) const {
-  const Vec3d d = p - a, steepest = absolute(n) + 16 * kUnit * size;
-  return {dot(n, d), 16 * kUnit * dot(size, absolute(d)) + 1.01 * off * (steepest[0] + steepest[1] + steepest[2])};
+  const Vec3d d = p - a, steepest = absolute(n) + 16 * kUnitRoundoff * size;
+  return {dot(n, d),
+          16 * kUnitRoundoff * dot(size, absolute(d)) + 1.01 * off * (steepest[0] + steepest[1] + steepest[2])};
 }
 
 bool ConvexCover::holds(std::uint32_t part, const Vec3d& p, double off, double slack) const {
@@ -70,10 +71,10 @@ bool ConvexCover::holds(std::uint32_t part, const Vec3d& p, double off, double s
 
 /// Of those that hold the first corner well, one that holds most others.
 std::uint32_t ConvexCover::best_part(const Piece& piece, double off) const {
-  std::uint32_t best = kNone;
+  std::uint32_t best = kNoPart;
   std::size_t most = 0;
   const Vec3d& first = piece.corners[0];
-  visit(bounds_of(std::vector<Vec3d>{first}), [&](std::uint32_t part) {
+  visit(bounds_of_corners(std::vector<Vec3d>{first}), [&](std::uint32_t part) {
     if (!holds(part, first, off, kCornerDepth)) return false;
     std::size_t held = 1;
     for (std::size_t k = 1; k < piece.corners.size(); ++k) held += holds(part, piece.corners[k], off, 1) ? 1 : 0;
@@ -120,14 +121,14 @@ bool ConvexCover::take_from(std::vector<Piece>& pieces, std::uint32_t part, doub
 bool ConvexCover::covers(const TriangleD& t) const {
   double far = 0;
   for (const Vec3d& p : t) far = std::max({far, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-  const double off = kMostCuts * 8 * kUnit * far;  // along an axis: each cut may add 8 roundings
+  const double off = kMostCuts * 8 * kUnitRoundoff * far;  // along an axis: each cut may add 8 roundings
   std::vector<Piece> pieces(1);
   pieces[0].corners.assign(t.begin(), t.end());
   for (std::size_t taken = 0; !pieces.empty(); ++taken) {
     const Piece& piece = pieces.back();
     if (taken == kMostPieces || piece.cuts > kMostCuts) return false;
     const std::uint32_t part = best_part(piece, off);
-    if (part == kNone || !take_from(pieces, part, off)) return false;
+    if (part == kNoPart || !take_from(pieces, part, off)) return false;
   }
   return true;
 }

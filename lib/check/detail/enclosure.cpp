@@ -6,6 +6,7 @@
 
 #include "lib/check/detail/gap.h"
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 #include "lib/geometry/signed_volume.h"
 
 namespace bp {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::size_t kBatch = 8192;  // triangles per work item
 
-struct Batch {
+struct EnclosureBatch {
   std::uint64_t first = 0;
   std::vector<TriangleD> triangles;
   EnclosureReport result;
@@ -25,7 +26,7 @@ struct Batch {
 class Batcher {
  public:
   explicit Batcher(TriangleSource& source) : source_(source) {}
-  bool next(Batch& batch) {
+  bool next(EnclosureBatch& batch) {
     batch.first = count_;
     while (batch.triangles.size() < kBatch && refill()) {
       const std::size_t n = std::min(kBatch - batch.triangles.size(), read_.size() - used_);
@@ -92,9 +93,8 @@ Vec3d centre(const TriangleD& t) {
   return c;
 }
 
-bool is_finite(const TriangleD& t) {
-  return std::all_of(t.begin(), t.end(),
-                     [](const Vec3d& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); });
+bool all_finite(const TriangleD& t) {
+  return std::all_of(t.begin(), t.end(), [](const Vec3d& p) { return is_finite(p); });
 }
 
 void check_gap(const WeldedMesh& mesh, const Surface& surface, const EnclosureQuestion& question, std::uint64_t number,
@@ -108,7 +108,7 @@ void check_gap(const WeldedMesh& mesh, const Surface& surface, const EnclosureQu
 }
 
 void check_batch(const WeldedMesh& mesh, const Surface& surface, const EnclosureQuestion& question, const Vec3d& origin,
-                 Batch& batch) {
+                 EnclosureBatch& batch) {
   const std::size_t max_examples = question.max_examples;
   SideCache cache;
   EnclosureReport& e = batch.result;
@@ -116,7 +116,7 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, const Enclosure
   for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
     const TriangleD& t = batch.triangles[i];
     const std::uint64_t number = batch.first + i;
-    if (!is_finite(t)) {
+    if (!all_finite(t)) {
       e.undecidable.add({number, 0, t[0]}, max_examples);
       continue;
     }
@@ -144,10 +144,10 @@ EnclosureReport check_enclosure(const WeldedMesh& mesh, const Surface& surface, 
   SignedVolume volume(origin);
   scene.rewind();
   Batcher batcher(scene);
-  pipeline<Batch>(
-      4 * thread_count(), [&](Batch& batch) { return batcher.next(batch); },
-      [&](Batch& batch) { check_batch(mesh, surface, question, origin, batch); },
-      [&](Batch& batch) {
+  pipeline<EnclosureBatch>(
+      4 * thread_count(), [&](EnclosureBatch& batch) { return batcher.next(batch); },
+      [&](EnclosureBatch& batch) { check_batch(mesh, surface, question, origin, batch); },
+      [&](EnclosureBatch& batch) {
         see(batch.first, batch.triangles);
         const std::size_t max_examples = question.max_examples;
         all.triangles += batch.result.triangles;

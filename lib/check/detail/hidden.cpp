@@ -265,10 +265,10 @@ class HiddenCheck {
 
 using Wide = int128;
 
-Wide dot(const LatticeCoord& a, const LatticeCoord& b) {
+Wide lattice_dot(const LatticeCoord& a, const LatticeCoord& b) {
   return Wide(a.x) * b.x + Wide(a.y) * b.y + Wide(a.z) * b.z;
 }
-LatticeCoord cross(const LatticeCoord& a, const LatticeCoord& b) {
+LatticeCoord lattice_cross(const LatticeCoord& a, const LatticeCoord& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
@@ -277,7 +277,7 @@ bool parts(const Corners& t, const LatticeCoord& axis) {
   constexpr int kHalf = kLatticePerVoxel;  // in halves of a lattice unit
   const Wide reach = kHalf * (Wide(std::abs(axis.x)) + std::abs(axis.y) + std::abs(axis.z));
   if (reach == 0) return false;
-  const Wide a = dot(t[0], axis), b = dot(t[1], axis), c = dot(t[2], axis);
+  const Wide a = lattice_dot(t[0], axis), b = lattice_dot(t[1], axis), c = lattice_dot(t[2], axis);
   return std::min({a, b, c}) >= reach || std::max({a, b, c}) <= -reach;
 }
 
@@ -292,10 +292,10 @@ bool meets_open_voxel(const Corners& triangle, VoxelCoord voxel) {
   for (const LatticeCoord& unit : units)
     if (parts(t, unit)) return false;
   const LatticeCoord edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
-  if (parts(t, cross(edges[0], edges[1]))) return false;
+  if (parts(t, lattice_cross(edges[0], edges[1]))) return false;
   for (const LatticeCoord& edge : edges) {
     for (const LatticeCoord& unit : units)
-      if (parts(t, cross(edge, unit))) return false;
+      if (parts(t, lattice_cross(edge, unit))) return false;
   }
   return true;
 }

@@ -25,7 +25,7 @@ std::vector<Probe> probes_of(const WeldedMesh& mesh) {
   return probes;
 }
 
-struct Batch {
+struct InsideBatch {
   std::vector<TriangleD> triangles;
   InsideReport result;
   std::vector<std::int64_t> windings;
@@ -35,7 +35,7 @@ struct Batch {
 
 /// Numbers of triangles count from 0 in each batch.
 void check_batch(const WeldedMesh& mesh, const Surface& surface, const std::vector<Probe>& probes,
-                 std::size_t max_examples, Batch& batch) {
+                 std::size_t max_examples, InsideBatch& batch) {
   batch.windings.assign(probes.size(), 0);
   for (const TriangleD& t : batch.triangles) {
     const std::uint64_t number = batch.result.triangles;
@@ -89,10 +89,10 @@ InsideReport check_inside(const WeldedMesh& mesh, const Surface& surface, Triang
     all.append(found, max_examples);
   };
   scene.rewind();
-  pipeline<Batch>(
-      4 * thread_count(), [&](Batch& batch) { return scene.read(batch.triangles); },
-      [&](Batch& batch) { check_batch(mesh, surface, probes, max_examples, batch); },
-      [&](Batch& batch) {
+  pipeline<InsideBatch>(
+      4 * thread_count(), [&](InsideBatch& batch) { return scene.read(batch.triangles); },
+      [&](InsideBatch& batch) { check_batch(mesh, surface, probes, max_examples, batch); },
+      [&](InsideBatch& batch) {
         append(report.touching, batch.result.touching);
         append(report.swallowed, batch.result.swallowed);
         append(report.undecidable, batch.result.undecidable);

@@ -36,7 +36,7 @@ Flat unit(const Flat& a) {
 }
 
 /// The side of a line: normal · p <= most.
-struct Side {
+struct HalfPlane {
   Flat normal;
   double most;
   [[nodiscard]] double beyond(const Flat& p) const { return dot(normal, p) - most; }
@@ -79,12 +79,12 @@ bool is_turned_over(const FlatTriangle& t, double error) {
 }
 
 /// Between them lies what a triangle covers; nothing if it is a line there.
-std::vector<Side> sides_of(FlatTriangle t, double growth) {
+std::vector<HalfPlane> sides_of(FlatTriangle t, double growth) {
   const Flat a = minus(t[1], t[0]), b = minus(t[2], t[0]);
   const double area = doubled_area(t);
   if (!(std::abs(area) > kLine * std::max(dot(a, a), dot(b, b)))) return {};
   if (area < 0) std::swap(t[1], t[2]);
-  std::vector<Side> sides;
+  std::vector<HalfPlane> sides;
   for (std::size_t k = 0; k < 3; ++k) {
     const Flat along = unit(minus(t[(k + 1) % 3], t[k])), outwards{along[1], -along[0]};
     sides.push_back({outwards, dot(outwards, t[k]) + growth});
@@ -97,7 +97,7 @@ std::vector<Side> sides_of(FlatTriangle t, double growth) {
 }
 
 /// What of a convex polygon lies on one side of a line, or strictly on the other.
-Polygon cut(const Polygon& polygon, const Side& side, bool inside) {
+Polygon cut(const Polygon& polygon, const HalfPlane& side, bool inside) {
   Polygon kept;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Flat &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
@@ -112,10 +112,10 @@ Polygon cut(const Polygon& polygon, const Side& side, bool inside) {
 }
 
 /// Takes what lies between the sides out of a polygon; the rest goes to `rest`, in pieces.
-void take_out(const std::vector<Side>& sides, const Polygon& polygon, std::vector<Polygon>& rest) {
+void take_out(const std::vector<HalfPlane>& sides, const Polygon& polygon, std::vector<Polygon>& rest) {
   std::vector<Polygon> pieces;
   Polygon within = polygon;
-  for (const Side& side : sides) {
+  for (const HalfPlane& side : sides) {
     if (Polygon beyond = cut(within, side, false); !beyond.empty()) pieces.push_back(std::move(beyond));
     within = cut(within, side, true);
     if (within.empty()) return rest.push_back(polygon);
@@ -132,7 +132,7 @@ using Cover = LeafProof::Cover;
 Cover cover_at_once(const Polygon& polygon, const std::vector<FlatTriangle>& covers, double growth) {
   std::vector<Polygon> left{polygon}, rest;
   for (const FlatTriangle& t : covers) {
-    const std::vector<Side> sides = sides_of(t, growth);
+    const std::vector<HalfPlane> sides = sides_of(t, growth);
     if (sides.empty()) continue;
     rest.clear();
     for (const Polygon& piece : left) take_out(sides, piece, rest);
@@ -181,7 +181,7 @@ Size size_of(const std::vector<Vec3d>& part) {
   return size;
 }
 
-Bounds3d box_around(const std::vector<Vec3d>& part, double by) {
+Bounds3d bounds_around(const std::vector<Vec3d>& part, double by) {
   Bounds3d box;
   for (const Vec3d& p : part) box.add(p);
   for (std::size_t i = 0; i < 3; ++i) box.min[i] -= by, box.max[i] += by;
@@ -236,7 +236,7 @@ std::vector<Vec3d> part_within(const TriangleD& t, const Bounds3d& box) {
 
 /// The largest first: they leave the fewest pieces.
 std::vector<const TriangleBvh::Item*> LeafProof::near(const std::vector<Vec3d>& part, double error) const {
-  const Bounds3d box = box_around(part, error);
+  const Bounds3d box = bounds_around(part, error);
   const auto is_near = [&](const Vec3d& p) {
     for (std::size_t k = 1; k + 1 < part.size(); ++k)
       if (distance_squared(p, TriangleD{part[0], part[k], part[k + 1]}) <= error * error) return true;
@@ -259,7 +259,7 @@ std::vector<const TriangleBvh::Item*> LeafProof::near(const std::vector<Vec3d>& 
 LeafProof::Cover LeafProof::add_thin(const std::vector<Vec3d>& part, double error) {
   for (const TriangleBvh::Item* item : near(part, error)) on_scene_[item->id] = true;
   const double most = kThinReach * error;
-  const bool by_one = shown_.visit(box_around(part, most), [&](const TriangleBvh::Item& item) {
+  const bool by_one = shown_.visit(bounds_around(part, most), [&](const TriangleBvh::Item& item) {
     return std::all_of(part.begin(), part.end(),
                        [&](const Vec3d& p) { return distance_squared(p, item.corners) <= most * most; });
   });

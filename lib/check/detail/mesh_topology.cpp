@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "lib/core/disjoint_sets.h"
+#include "lib/core/vec3.h"
 #include "lib/exact/predicates.h"
 
 namespace bp {
@@ -13,16 +14,12 @@ namespace {
 
 using Index = std::uint32_t;
 
-bool finite(const Vec3d& p) {
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
-
 /// For each vertex of the input, the number of its position among the distinct ones, in the order of first appearance;
 /// -0 equals 0.
 std::vector<Index> merge_positions(const IndexedMesh& mesh, WeldedMesh& welded, CheckReport& report) {
   std::vector<Index> order;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-    if (finite(mesh.vertices[i])) order.push_back(Index(i));
+    if (is_finite(mesh.vertices[i])) order.push_back(Index(i));
   std::sort(order.begin(), order.end(), [&](Index a, Index b) {
     const Vec3d &p = mesh.vertices[a], &q = mesh.vertices[b];
     return p < q || (!(q < p) && a < b);
@@ -202,7 +199,7 @@ WeldedMesh weld(const IndexedMesh& mesh, std::size_t max_examples, CheckReport& 
   report.faces.add(mesh.inner_edges, mesh.triangles.size() - mesh.inner_edges.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3d& p = mesh.vertices[v];
-    if (!finite(p))
+    if (!is_finite(p))
       report.non_finite_vertices.add({v, 0, p}, max_examples);
     else if (!in_predicate_domain(p))
       report.undecidable_vertices.add({v, 0, p}, max_examples);

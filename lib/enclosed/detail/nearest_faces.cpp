@@ -12,7 +12,7 @@ namespace bp {
 
 namespace {
 
-constexpr std::int64_t kPointsAtOnce = 1024;
+constexpr std::int64_t kSortedAtOnce = 1024;
 constexpr double kGroup = 0.25;     // of the reach: radius of points that share a search
 constexpr double kFirstReach = 16;  // the first search reaches as far as one of so many parts, the next four times
 constexpr double kSlack = 1e-6;     // lattice units, or squared ones: more than all rounding
@@ -119,7 +119,7 @@ std::vector<FaceId> nearest_faces(std::span<const Vec3d> points, const LatticeCo
   std::vector<FaceId> found(points.size(), kNoId);
   const std::vector<std::uint32_t> order =
       space_order(points.size(), [&](std::uint32_t i) { return rounded(points[i]); });
-  parallel_ranges(std::int64_t(order.size()), kPointsAtOnce, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(order.size()), kSortedAtOnce, [&](std::int64_t begin, std::int64_t end) {
     NearestFaces(points, origin, mesh, tree, reach, found)
         .find(std::span(order).subspan(std::size_t(begin), std::size_t(end - begin)));
   });

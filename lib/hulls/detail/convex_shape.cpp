@@ -13,9 +13,9 @@ namespace bp {
 
 namespace {
 
-constexpr double kOfWidth = 0.9;    // of the width of a plate, which its own sides are as narrow as
-constexpr std::size_t kTried = 16;  // steps beside slivers, of which the best is taken
-constexpr double kNone = 1e-9;      // rounding of shares
+constexpr double kOfWidth = 0.9;          // of the width of a plate, which its own sides are as narrow as
+constexpr std::size_t kSliverSteps = 16;  // steps beside slivers, of which the best is taken
+constexpr double kNegligible = 1e-9;      // rounding of shares
 
 using Corners = std::array<LatticeCoord, 3>;
 
@@ -79,7 +79,7 @@ double slivers_of(const ConvexHull& hull, const Bounds& bounds) {
 std::vector<char> near_slivers(const ConvexHull& hull, const Bounds& bounds) {
   std::vector<char> bad(hull.vertices.size(), 0);
   for (std::size_t f = 0; f < hull.triangles.size(); ++f) {
-    if (bounds.lack_of(corners_of(hull, f)) <= kNone) continue;
+    if (bounds.lack_of(corners_of(hull, f)) <= kNegligible) continue;
     for (const std::uint32_t v : hull.triangles[f]) bad[v] = 1;
   }
   return bad;
@@ -97,10 +97,10 @@ std::optional<ConvexHull> best_step(const ConvexHull& hull, const Bounds& bounds
     if (next.vertices.size() >= hull.vertices.size()) continue;
     draw_diagonals(next);
     const double left = slivers_of(next);
-    const double price = (step.cost6 + 1) / std::max(slivers - left, kNone);
+    const double price = (step.cost6 + 1) / std::max(slivers - left, kNegligible);
     if (left < slivers && price < least) least = price, best = next;
     if (!any) any = std::move(next);
-    if (++tried >= kTried) break;
+    if (++tried >= kSliverSteps) break;
   }
   return best ? best : any;
 }
@@ -164,7 +164,7 @@ ConvexHull simple_hull_around(const ConvexHull& hull, std::size_t corners) {
 
 double slivers_of(const ConvexHull& hull) {
   const double sum = slivers_of(hull, Bounds(hull));
-  return sum > kNone ? sum : 0;
+  return sum > kNegligible ? sum : 0;
 }
 
 void draw_diagonals(ConvexHull& hull) {
@@ -197,7 +197,7 @@ ConvexHull without_slivers(ConvexHull hull) {
   for (;;) {
     const Bounds bounds(hull);
     const double slivers = slivers_of(hull, bounds);
-    if (slivers <= kNone) return hull;
+    if (slivers <= kNegligible) return hull;
     std::optional<ConvexHull> next = best_step(hull, bounds, slivers);
     if (!next) break;
     hull = std::move(*next);

@@ -114,11 +114,11 @@ bool meets_seen_along(const LatticeBox& a, const LatticeBox& b, int axis) {
 }
 
 /// A convex polygon while it is cut, in floating point.
-using Corners = std::vector<Vec3d>;
+using Polygon = std::vector<Vec3d>;
 
 /// The part with sign * p[axis] <= sign * at.
-Corners cut(const Corners& polygon, std::size_t axis, double at, double sign) {
-  Corners kept;
+Polygon cut(const Polygon& polygon, std::size_t axis, double at, double sign) {
+  Polygon kept;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Vec3d &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
     const double dp = sign * (at - p[axis]), dq = sign * (at - q[axis]);
@@ -130,7 +130,7 @@ Corners cut(const Corners& polygon, std::size_t axis, double at, double sign) {
 
 /// Integral of x - low, x clamped to [low, high], over the polygon seen along x, times six: what the faces bound is
 /// then the volume between low and high.
-double volume6_under(const Corners& polygon, double low, double high) {
+double volume6_under(const Polygon& polygon, double low, double high) {
   double sum = 0;
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
     const Vec3d &a = polygon[0], &b = polygon[k], &c = polygon[k + 1];
@@ -243,7 +243,7 @@ void SolidCell::add_side_points(Rounding rounding, std::vector<LatticeCoord>& ou
 double SolidCell::volume6() const {
   const Vec3d half{0.5, 0.5, 0.5}, low = to_double(cell_.min) - half, high = to_double(cell_.max) + half;
   double sum = 0;
-  Corners polygon;
+  Polygon polygon;
   for (const std::uint32_t f : tubes_[0]) {
     polygon.clear();
     for (const std::uint32_t v : surface_->mesh.triangles[f]) polygon.push_back(to_double(surface_->mesh.vertices[v]));

@@ -15,7 +15,7 @@ namespace {
 const double kSegmentToPoint = std::sqrt(1.5);  // from a point of the segment to any point of its voxel, in voxels
 const double kPointToSegment = std::sqrt(0.5);
 const double kPointToCentre = std::sqrt(0.75);
-constexpr double kTolerance = 0.5;  // of the search, in voxels
+constexpr double kSearchTolerance = 0.5;  // of the search, in voxels
 // Of a piece of the mesh. The proof that a triangle is near takes as many parts as its area over the limit squared, and
 // ends after some thousands of them.
 constexpr double kPieceArea = 256;  // voxels squared
@@ -124,12 +124,12 @@ std::vector<TriangleD> segments_of(std::span<const VoxelRun> runs, const GridFra
 
 double distance_from_mesh(const std::vector<TriangleD>& mesh, const TriangleBvh& segments, double voxel) {
   const std::vector<TriangleD> pieces = pieces_of(mesh, kPieceArea * voxel * voxel);
-  return upper_bound(pieces, segments, kTolerance * voxel) + kSegmentToPoint * voxel;
+  return upper_bound(pieces, segments, kSearchTolerance * voxel) + kSegmentToPoint * voxel;
 }
 
 double distance_to_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel) {
   if (segments.empty()) return 0;
-  return upper_bound(segments, mesh, kTolerance * voxel) + kPointToSegment * voxel;
+  return upper_bound(segments, mesh, kSearchTolerance * voxel) + kPointToSegment * voxel;
 }
 
 // A point outside is within kPointToCentre of the centre of its voxel; if that is not outside, the mesh is as near.

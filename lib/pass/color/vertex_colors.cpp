@@ -17,7 +17,6 @@ namespace bp {
 
 namespace {
 
-constexpr double kTowardsMean = 0.05;
 constexpr int kRounds = 10;
 
 class Baker {

@@ -19,7 +19,7 @@ using detail::Frame;
 using detail::FrameLattice;
 using detail::FrameTensor;
 
-constexpr std::int32_t kMostCells = 32;              ///< along an axis
+constexpr std::int32_t kMostCellsAlong = 32;         ///< along an axis
 constexpr double kPlaceWeight = 1000;                ///< of a frame at a place; 1: a cell's side full of surface
 constexpr double kUpright = 0.99984769515639123915;  ///< cosine of a degree
 constexpr double kMerged = 0.99939082701909573001;   ///< cosine of 2 degrees: a cube turned by them looks the same
@@ -29,7 +29,7 @@ std::int32_t cell_edge(const VoxelBox& voxels, double scale_vox) {
   std::int32_t edge = kScaleStep;
   const auto too_many = [&] {
     for (int axis = 0; axis < 3; ++axis) {
-      if (ceil_div(voxels.max[axis], edge) - floor_div(voxels.min[axis], edge) > kMostCells) return true;
+      if (ceil_div(voxels.max[axis], edge) - floor_div(voxels.min[axis], edge) > kMostCellsAlong) return true;
     }
     return false;
   };

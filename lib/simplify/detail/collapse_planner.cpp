@@ -14,7 +14,7 @@ namespace bp {
 namespace {
 
 constexpr double kLeastTurn = 0.1;  // cosine between a face's normal before and after
-constexpr int kShares = 4;          // places tried between the free minimum and the growing one
+constexpr int kPlaces = 4;          // places tried between the free minimum and the growing one
 
 }  // namespace
 
@@ -52,7 +52,7 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::solve(HalfEdgeId h, i
   const Vec3d prior = midpoint(h);
   weight_ = q.weight;
   if (params_.free) return place_free(q, prior);
-  if (params_.enclosed != nullptr && first_attempt < kShares) {
+  if (params_.enclosed != nullptr && first_attempt < kPlaces) {
     if (const auto candidate = place_enclosing(q, prior, first_attempt)) return candidate;
   }
   return place_growing(q, prior);
@@ -62,7 +62,7 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_free(const Quad
   const LatticeCoord p = rounded(minimum(q, prior));
   const double cost = q.value(to_double(p));
   if (!acceptable(p, cost)) return std::nullopt;
-  return Candidate{origin_ + p, cost, kShares};
+  return Candidate{origin_ + p, cost, kPlaces};
 }
 
 /// The best place that keeps all constraints.
@@ -75,7 +75,7 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_growing(const Q
     if (!p) continue;
     const double cost = q.value(to_double(*p));
     if (!acceptable(*p, cost)) return std::nullopt;
-    return Candidate{origin_ + *p, cost, kShares};
+    return Candidate{origin_ + *p, cost, kPlaces};
   }
   refuse(Refusal::constraints);
   return std::nullopt;
@@ -87,9 +87,9 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_enclosing(const
                                                                            int first_attempt) {
   const Vec3d free = minimum(q, prior);
   const Vec3d grown = constrained_minimum(q, prior, constraints_).value_or(pushed_out(free));
-  for (int attempt = first_attempt; attempt < kShares; ++attempt) {
+  for (int attempt = first_attempt; attempt < kPlaces; ++attempt) {
     Vec3d x;
-    for (std::size_t i = 0; i < 3; ++i) x[i] = free[i] + double(attempt) / kShares * (grown[i] - free[i]);
+    for (std::size_t i = 0; i < 3; ++i) x[i] = free[i] + double(attempt) / kPlaces * (grown[i] - free[i]);
     const LatticeCoord p = rounded(x);
     const double cost = q.value(to_double(p));
     if (acceptable(p, cost) && keeps_inside(p)) return Candidate{origin_ + p, cost, attempt};
@@ -125,7 +125,7 @@ void CollapsePlanner::plan(HalfEdgeId h, double most, CollapsePlan& plan) {
     return;
   }
   while (candidate && !may_be_taken(candidate->position - origin_))
-    candidate = candidate->attempt == kShares ? std::nullopt : solve(h, candidate->attempt + 1);
+    candidate = candidate->attempt == kPlaces ? std::nullopt : solve(h, candidate->attempt + 1);
   plan.refusal = refusal_;
   if (candidate) fill(*candidate, plan);
 }

@@ -16,11 +16,11 @@ namespace bp {
 
 namespace {
 
-constexpr double kMargin = 0.6;  // lattice units over a point: rounding a corner moves it by up to 0.87
-constexpr double kDeepest = 2;   // lattice units: a point that much above its face is under another one
-constexpr double kRim = 8;       // lattice units: a point so near to the rim of its face is under those beside it, too
-constexpr double kLongest = 2;   // times the unhindered step: how far forces may push
-constexpr int kRounds = 8;       // over all rows
+constexpr double kJointMargin = 0.6;  // lattice units over a point: rounding a corner moves it by up to 0.87
+constexpr double kDeepest = 2;        // lattice units: a point that much above its face is under another one
+constexpr double kRim = 8;      // lattice units: a point so near to the rim of its face is under those beside it, too
+constexpr double kLongest = 2;  // times the unhindered step: how far forces may push
+constexpr int kRounds = 8;      // over all rows
 constexpr int kPressingRounds = 8;   // after each, over those with a force
 constexpr std::size_t kBlocks = 16;  // of a phase
 constexpr std::int64_t kFacesAtOnce = 128;
@@ -185,7 +185,7 @@ void JointFit::add_row(const Facet& facet, const Vec3d& p, std::vector<Row>& row
   const std::array<Vec3d, 3> gradient = {cross(v, w), cross(w, u), cross(u, v)};
   const double height = dot(u, gradient[0]) / facet.area;
   if (height < -kDeepest || height > kLongest * facet.reach) return;
-  double least = kMargin - height;
+  double least = kJointMargin - height;
   if (facet.held) least = std::min(least, 0.0);  // near a corner that stays, others would have to go far for a margin
   Row row{facet.places, {}, float(least), 0, 0};
   double give = 0;

@@ -13,8 +13,8 @@ namespace bp {
 
 namespace {
 
-constexpr double kReach = 0.5;  // of the mean spoke: how far the merged vertex may leave the edge's middle
-constexpr int kAvoidRounds = 4;
+constexpr double kMergeReach = 0.5;  // of the mean spoke: how far the merged vertex may leave the edge's middle
+constexpr int kMergeRounds = 4;
 constexpr std::size_t kCostsPerThread = 8;
 
 struct Candidate {
@@ -87,10 +87,10 @@ class ThinPlanner {
       plan.cost = cost;
       return true;
     };
-    for (int round = 0; round < kAvoidRounds; ++round) {
+    for (int round = 0; round < kMergeRounds; ++round) {
       if (try_at(h, p + rounded(c.offset), plan)) return;
       if (check_.blocker() == nullptr || !fit_.avoid(c.offset, *check_.blocker(), shift)) break;
-      const auto x = fit_.least_volume(middle_, kReach * size_);
+      const auto x = fit_.least_volume(middle_, kMergeReach * size_);
       if (!x) return;
       c = {*x, fit_.volume(*x) - before};
       if (is_too_dear(c.cost)) return;
@@ -117,7 +117,7 @@ class ThinPlanner {
     ++counts_.solved;
     const double before = gather(h);
     if (!fit_.close()) return std::nullopt;
-    const auto x = fit_.least_volume(middle_, kReach * size_);
+    const auto x = fit_.least_volume(middle_, kMergeReach * size_);
     if (!x) {
       ++counts_.refused[Refusal::constraints];
       return std::nullopt;

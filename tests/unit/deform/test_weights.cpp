@@ -26,7 +26,7 @@ std::vector<TriangleD> faces_of(const IndexedMesh& m) {
   return faces;
 }
 
-Vec3d affine(const Vec3d& p) {
+Vec3d sheared(const Vec3d& p) {
   return {2 * p[0] - p[1] + 7, p[1] + 0.5 * p[2] - 3, 0.25 * p[0] - 3 * p[2] + 1000};
 }
 
@@ -53,9 +53,9 @@ TEST_CASE("rounded weights add up to 1, and keep affine maps to 1e-6", "[deform]
     REQUIRE(sum == std::int64_t(1) << block.bits[i]);
   }
   std::vector<Vec3d> moved(points.size());
-  add_moves(block, moves_by(mesh, affine), moved);
+  add_moves(block, moves_by(mesh, sheared), moved);
   for (std::size_t i = 0; i < points.size(); ++i)
-    CHECK(length(points[i] + moved[i] - affine(points[i])) < 1e-6 * 2 * std::sqrt(3.0));
+    CHECK(length(points[i] + moved[i] - sheared(points[i])) < 1e-6 * 2 * std::sqrt(3.0));
   const std::vector<Vec3d> still(mesh.vertices.size());
   add_moves(block, still, moved);
   for (const Vec3d& m : moved) REQUIRE(m == Vec3d{});
@@ -72,8 +72,8 @@ TEST_CASE("a point far outside keeps a rounded weight, and one too far is refuse
     round_weights(rows, 0, block);
     CHECK(int(block.bits[1]) == WeightBlock::kBits);
     std::vector<Vec3d> moved(2);
-    add_moves(block, moves_by(mesh, affine), moved);
-    return length(points[0] + moved[0] - affine(points[0])) / distance;
+    add_moves(block, moves_by(mesh, sheared), moved);
+    return length(points[0] + moved[0] - sheared(points[0])) / distance;
   };
   CHECK(error_at(2) < 1e-6);
   CHECK(error_at(1e3) < 1e-6);
@@ -124,8 +124,8 @@ TEST_CASE("normals and tangents turn as the cage does", "[deform][quick]") {
   const std::vector<Vec3d> points = points_inside(64);
   const Vec3d normal = (1 / std::sqrt(14.0)) * Vec3d{1, 2, 3}, tangent = (1 / std::sqrt(5.0)) * Vec3d{2, -1, 0};
   std::vector<Vec3d> normals(points.size(), normal), tangents(points.size(), tangent);
-  turn_directions(coordinates, moves_by(mesh, affine), points, normals, tangents);
-  const Vec3d along = affine(tangent) - affine({}), other = affine(cross(normal, tangent)) - affine({});
+  turn_directions(coordinates, moves_by(mesh, sheared), points, normals, tangents);
+  const Vec3d along = sheared(tangent) - sheared({}), other = sheared(cross(normal, tangent)) - sheared({});
   const Vec3d expected = cross(along, other);
   for (std::size_t i = 0; i < points.size(); ++i) {
     CHECK(length(normals[i] - (1 / length(expected)) * expected) < 1e-5);

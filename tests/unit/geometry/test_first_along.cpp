@@ -47,7 +47,7 @@ TEST_CASE("the first triangle along a ray is the one that a look at all of them 
       }
       const auto hit = tree.first_along(
           start, direction, 1, [&](std::uint32_t item, double) { return taken(tree.item(item).id); },
-          [&](std::uint32_t a, std::uint32_t b) { return tree.item(a).id < tree.item(b).id; });
+          [&](std::uint32_t one, std::uint32_t other) { return tree.item(one).id < tree.item(other).id; });
       REQUIRE(hit.has_value() == (first < HUGE_VAL));
       if (!hit) continue;
       CHECK(hit->along == first);

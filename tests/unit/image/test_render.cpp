@@ -15,7 +15,7 @@ using namespace bp::test;
 
 namespace {
 
-const Color kPaper{255, 255, 255};
+const Color kBlank{255, 255, 255};
 
 Image picture(const std::vector<View>& views, RenderOptions options = {}) {
   options.panel_width = options.panel_height = 64;
@@ -171,7 +171,7 @@ TEST_CASE("the picture does not depend on threads or on how triangles arrive", "
     return picture({v}).pixels;
   };
   const auto expected = drawn(1, meshes);
-  CHECK(count_other(picture({meshes}), kPaper) > 1000);
+  CHECK(count_other(picture({meshes}), kBlank) > 1000);
   CHECK(drawn(2, meshes) == expected);
   CHECK(drawn(2, spans) == expected);
   streamed.source = &source;
@@ -194,7 +194,7 @@ TEST_CASE("azimuth, elevation and up axis choose what is seen", "[quick][image]"
     int x0 = 99, x1 = -1, y0 = 99, y1 = -1;
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x)
-        if (image.at(x, y) != kPaper)
+        if (image.at(x, y) != kBlank)
           x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
     return double(x1 - x0 + 1) / (y1 - y0 + 1);
   };
@@ -211,15 +211,15 @@ TEST_CASE("what cannot be drawn leaves an empty panel and no crash", "[quick][im
   m.triangles.push_back({0, 1, 99});
   View v = view_of(m);
   v.edges = true;
-  CHECK(count_other(picture({v}), kPaper) == 0);
-  CHECK(count_other(picture({View{}}), kPaper) == 0);
+  CHECK(count_other(picture({v}), kBlank) == 0);
+  CHECK(count_other(picture({View{}}), kBlank) == 0);
   CHECK(render({}).width == 720);
   m = cube(1);
   m.vertices[7] = {HUGE_VAL, 1e300, -1e300};
   CHECK(picture({view_of(m)}).width == 64);
   m.vertices[7] = m.vertices[6];
   for (Vec3d& p : m.vertices) p = {3, 3, 3};  // no extent
-  CHECK(count_other(picture({view_of(m)}), kPaper) == 0);
+  CHECK(count_other(picture({view_of(m)}), kBlank) == 0);
   RenderOptions tiny;
   tiny.panel_width = 3;
   CHECK_THROWS_AS(render({}, tiny), Error);
@@ -241,7 +241,7 @@ TEST_CASE("panels stand side by side at one scale, labels below", "[quick][image
   std::size_t left = 0, right = 0, text = 0;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
-      if (image.at(x, y) == kPaper) continue;
+      if (image.at(x, y) == kBlank) continue;
       ++(y >= 64 ? text : x < 64 ? left : right);
     }
   CHECK(std::abs(double(left) / double(right) - 4) < 0.4);
@@ -262,7 +262,7 @@ TEST_CASE("a panel with bounds of its own is drawn as if alone", "[quick][image]
   for (int y = 0; y < alone.height; ++y) {
     for (int x = 0; x < alone.width; ++x) {
       same = same && image.at(x + alone.width, y) == alone.at(x, y);
-      something = something || image.at(x, y) != kPaper;
+      something = something || image.at(x, y) != kBlank;
     }
   }
   CHECK(same);
@@ -274,7 +274,7 @@ TEST_CASE("zoom enlarges about the middle or the point looked at", "[quick][imag
   const auto area = [&](double zoom) {
     RenderOptions options;
     options.zoom = zoom;
-    return double(count_other(picture({view_of(m)}, options), kPaper));
+    return double(count_other(picture({view_of(m)}, options), kBlank));
   };
   const double whole = area(1);
   CHECK(area(0.5) / whole == Approx(0.25).margin(0.02));
@@ -290,9 +290,9 @@ TEST_CASE("zoom enlarges about the middle or the point looked at", "[quick][imag
     corner.zoom = zoom;
     const Image image = picture({view_of(b)}, corner);
     CAPTURE(zoom);
-    CHECK(std::abs(double(count_other(image, kPaper)) - 32 * 32) <= 40);
-    CHECK(image.at(40, 20) != kPaper);
-    CHECK(image.at(20, 40) == kPaper);
+    CHECK(std::abs(double(count_other(image, kBlank)) - 32 * 32) <= 40);
+    CHECK(image.at(40, 20) != kBlank);
+    CHECK(image.at(20, 40) == kBlank);
     VectorSource source(triangles_of(b), 3);  // drawn in parts
     View streamed;
     streamed.source = &source;
@@ -353,7 +353,7 @@ TEST_CASE("the point behind a pixel is the one that the picture shows there", "[
   for (int y = 0; y < 64; y += 3) {
     for (int x = 0; x < 128; x += 3) {
       const std::optional<Vec3d> p = point_behind(views, options, x, y);
-      CHECK(p.has_value() == (image.at(x, y) != kPaper));
+      CHECK(p.has_value() == (image.at(x, y) != kBlank));
       if (!p) continue;
       ++found;
       // A picture around that point shows it in the middle, and nothing lies before it.

@@ -16,7 +16,7 @@ namespace bp::test {
 namespace {
 
 constexpr std::int32_t kEdge = 128;
-const Cells kCells{kEdge};
+const Cells kTileCells{kEdge};
 
 /// Boxes along a diagonal, some of them across the borders of cells, and a plate through all.
 Triangles scene() {
@@ -32,7 +32,7 @@ struct Made {
 };
 using Level = std::map<CellCoord, Made>;
 
-TilePyramid pyramid(const Triangles& scene, Backends& backends, const Cells& cells = kCells) {
+TilePyramid pyramid(const Triangles& scene, Backends& backends, const Cells& cells = kTileCells) {
   Voxelized solid = voxelized(scene, 1, cells.edge_vox);
   PyramidOptions options;
   options.cells = cells;
@@ -165,7 +165,7 @@ TEST_CASE("tiles do not depend on threads or on memory", "[quick][pass][lod]") {
   const ThreadLimit one(1);
   PyramidOptions options;
   Voxelized solid = voxelized(scene(), 1, kEdge);
-  options.cells = kCells;
+  options.cells = kTileCells;
   options.context.make_shelf = memory_shelves();
   options.context.memory.bytes = std::uint64_t(16) << 20;  // one tile at a time
   TilePyramid again(solid.header, std::move(solid.shelf), backends, options);
@@ -225,7 +225,7 @@ TEST_CASE("a tile far from a change stays the same", "[quick][pass][lod]") {
   REQUIRE(a.size() == b.size());
   std::size_t same = 0;
   for (const auto& [cell, made] : a) {
-    Bounds3d reach = bounds_of(kCells.box(cell), levels.header().frame);
+    Bounds3d reach = bounds_of(kTileCells.box(cell), levels.header().frame);
     for (std::size_t i = 0; i < 3; ++i) reach.min[i] -= 8, reach.max[i] += 8;  // closing and rim
     if (overlap(reach, Bounds3d{{0, 0, 3}, {13, 9, 30}})) continue;
     CHECK(made.mesh.vertices == b.at(cell).mesh.vertices);
@@ -248,7 +248,7 @@ TEST_CASE("a tile's key depends on all that decides the tile", "[quick][pass][lo
   Triangles scene;
   add_box(scene, {3, 3, 3}, {40, 30, 20});
   Backends backends = cpu_backends();
-  const auto keys = [&](const TileShape& shape, double scale = 2, const Cells& cells = kCells) {
+  const auto keys = [&](const TileShape& shape, double scale = 2, const Cells& cells = kTileCells) {
     Keys store;
     TileParams params;
     static_cast<TileShape&>(params) = shape;

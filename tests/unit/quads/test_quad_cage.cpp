@@ -15,11 +15,11 @@ using namespace bp::test;
 
 namespace {
 
-const VoxelBox kBox{{0, 0, 0}, {48, 40, 60}};
+const VoxelBox kBodyBox{{0, 0, 0}, {48, 40, 60}};
 const MirrorPlane kPlane{0, 24};
 
 /// A body on two slanted legs, and a ball for a head.
-bool shape(VoxelCoord p) {
+bool body(VoxelCoord p) {
   const double x = std::abs(p.x + 0.5 - 24), y = p.y - 20.0, z = p.z;
   if (z < 30) return std::hypot(x - 16 + z / 4, y) < 4;
   return std::hypot(x, y) < 13 - std::abs(z - 38) / 2 || x * x + y * y + (z - 51) * (z - 51) < 40;
@@ -54,18 +54,18 @@ TEST_CASE("a shrunk cage encloses over any diagonal, and is tighter than its box
   const std::uint64_t faces = GENERATE(120, 400);
   const std::optional<MirrorPlane> plane = GENERATE(std::optional<MirrorPlane>(), std::optional<MirrorPlane>(kPlane));
   MemoryShelf shelf;
-  fill_shelf(shelf, kBox, shape);
+  fill_shelf(shelf, kBodyBox, body);
   const CellQuads boxes = cell_quads(shelf, {}, faces, plane);
   const LatticeMesh cage = shrunk_cage(boxes, EnclosedVoxels(shelf), plane);
   CHECK(cage.triangles.size() == boxes.mesh.triangles.size());
   CHECK(double(volume6_of(cage)) < 0.8 * double(volume6_of(boxes.mesh)));
   CHECK(10 * cage.quads.size() >= 9 * boxes.mesh.quads.size());
-  for (const LatticeMesh& mesh : {cage, turned(cage)}) test::check_proxy(mesh, kBox, shape);
+  for (const LatticeMesh& mesh : {cage, turned(cage)}) test::check_proxy(mesh, kBodyBox, body);
 }
 
 TEST_CASE("a symmetric cage is its own mirror image, to the last bit", "[quick][quads]") {
   MemoryShelf shelf;
-  fill_shelf(shelf, kBox, shape);
+  fill_shelf(shelf, kBodyBox, body);
   const LatticeMesh cage = shrunk_cage(cell_quads(shelf, {}, 300, kPlane), EnclosedVoxels(shelf), kPlane);
   std::set<Corners> quads, images;
   for (const Quad& q : polygon_faces(cage).quads) {

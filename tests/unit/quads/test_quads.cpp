@@ -16,10 +16,10 @@ using namespace bp::test;
 
 namespace {
 
-const VoxelBox kBox{{0, 0, 0}, {40, 40, 40}};
+const VoxelBox kPipeBox{{0, 0, 0}, {40, 40, 40}};
 
 /// A bent pipe through a slab: curved, flat, concave.
-bool shape(VoxelCoord p) {
+bool bent_pipe(VoxelCoord p) {
   const double ring = std::hypot(p.x - 20.0, p.y - 20.0) - 13;
   return ring * ring + (p.z - 18.0) * (p.z - 18.0) < 20 || (p.z >= 8 && p.z < 12 && p.x > 4 && p.x < 30 && p.y > 9);
 }
@@ -40,11 +40,11 @@ IndexedMesh with_diagonals(const LatticeMesh& mesh, const std::function<bool(std
 
 std::vector<TriangleD> scene_of_voxels() {
   std::vector<TriangleD> all;
-  for (VoxelCoord p = kBox.min; p.z < kBox.max.z; ++p.z) {
+  for (VoxelCoord p = kPipeBox.min; p.z < kPipeBox.max.z; ++p.z) {
     for (p.y = 0; p.y < 40; ++p.y) {
       for (p.x = 0; p.x < 40; ++p.x) {
         const double l = 1.0 / 128, h = 1 - l, x = p.x, y = p.y, z = p.z;
-        if (shape(p)) add_box(all, {x + l, y + l, z + l}, {x + h, y + h, z + h});
+        if (bent_pipe(p)) add_box(all, {x + l, y + l, z + l}, {x + h, y + h, z + h});
       }
     }
   }
@@ -68,7 +68,7 @@ bool holds(const IndexedMesh& mesh, const std::vector<TriangleD>& scene, bool in
 }  // namespace
 
 TEST_CASE("however the quads are split, the proxy encloses and does not meet itself", "[quick][meshing]") {
-  VoxelSource source(kBox, shape);
+  VoxelSource source(kPipeBox, bent_pipe);
   MeshParams params;
   params.faces = {GENERATE(1200u, 300u, 100u)};
   params.quads = true;
@@ -95,7 +95,7 @@ TEST_CASE("however the quads are split, the proxy encloses and does not meet its
 }
 
 TEST_CASE("levels of quads enclose each other, however each is split", "[quick][meshing]") {
-  VoxelSource source(kBox, shape);
+  VoxelSource source(kPipeBox, bent_pipe);
   MeshParams params;
   params.faces = {400, 280, 100};
   params.quads = true;
@@ -121,12 +121,12 @@ TEST_CASE("levels of quads enclose each other, however each is split", "[quick][
 }
 
 TEST_CASE("room for quads joins half of the triangles, for little volume", "[quick][meshing]") {
-  VoxelSource source(kBox, shape);
+  VoxelSource source(kPipeBox, bent_pipe);
   MeshParams params;
   params.faces = {300};
   MeshCounts counts;
   const LatticeMesh tight = mesh_stream(source, memory_context(), params, counts)[0];
-  VoxelSource again(kBox, shape);
+  VoxelSource again(kPipeBox, bent_pipe);
   params.quads = true;
   MeshCounts with_quads;
   const LatticeMesh proxy = mesh_stream(again, memory_context(), params, with_quads)[0];
@@ -144,7 +144,7 @@ TEST_CASE("room for quads joins half of the triangles, for little volume", "[qui
 }
 
 TEST_CASE("a box of twelve triangles becomes six squares", "[quick][meshing]") {
-  VoxelSource source(kBox, [](VoxelCoord p) { return p.x < 9 && p.y > 3 && p.y < 20 && p.z == 5; });
+  VoxelSource source(kPipeBox, [](VoxelCoord p) { return p.x < 9 && p.y > 3 && p.y < 20 && p.z == 5; });
   MeshParams params;
   params.faces = {12};
   params.quads = true;

@@ -12,7 +12,7 @@ using namespace bp::test;
 namespace {
 
 /// The voxels of a box, inside of four bricks.
-void add_box(MemoryShelf& shelf, const VoxelBox& box) {
+void fill_box(MemoryShelf& shelf, const VoxelBox& box) {
   BitBox bits({{0, 0, 0}, {128, 64, 128}});
   load_voxels(shelf, bits);
   for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
@@ -25,11 +25,11 @@ void add_box(MemoryShelf& shelf, const VoxelBox& box) {
 
 /// A slab of two voxels with a column on it: large faces with no corner of a voxel under their middle.
 void add_slab(MemoryShelf& shelf) {
-  add_box(shelf, {{3, 3, 3}, {120, 5, 117}});
-  add_box(shelf, {{40, 5, 3}, {61, 30, 31}});
+  fill_box(shelf, {{3, 3, 3}, {120, 5, 117}});
+  fill_box(shelf, {{40, 5, 3}, {61, 30, 31}});
 }
 
-GridFrame unit_frame() {
+GridFrame unit_voxels() {
   GridFrame frame;
   frame.voxel = 1;
   return frame;
@@ -40,7 +40,7 @@ GridFrame unit_frame() {
 TEST_CASE("a proxy that lies on flat sides everywhere is asked to stay", "[quick][meshing]") {
   MemoryShelf shelf;
   add_slab(shelf);
-  HalfEdgeMesh mesh(dense_surface(shelf, unit_frame()));
+  HalfEdgeMesh mesh(dense_surface(shelf, unit_voxels()));
   merge_flat_regions(mesh);
   const EnclosedVoxels enclosed(shelf);
   const ContactPoints contacts(enclosed, mesh, FaceTree(mesh));
@@ -60,7 +60,7 @@ TEST_CASE("a proxy that lies on flat sides everywhere is asked to stay", "[quick
 TEST_CASE("contact points of voxels lie on their boundary: all convex corners, samples of edges and sides",
           "[quick][meshing]") {
   MemoryShelf shelf;
-  add_box(shelf, {{3, 3, 3}, {30, 12, 20}});
+  fill_box(shelf, {{3, 3, 3}, {30, 12, 20}});
   std::size_t corners = 0, on_edges = 0, on_sides = 0;
   for (const Vec3d& p : EnclosedVoxels(shelf).contact_points({}, kEverywhere)) {
     const Vec3d low{3 * 64.0, 3 * 64.0, 3 * 64.0}, high{30 * 64.0, 12 * 64.0, 20 * 64.0};
@@ -82,7 +82,7 @@ TEST_CASE("contact points of voxels lie on their boundary: all convex corners, s
 TEST_CASE("beside corners that stay no vertex is asked to go far for a margin", "[quick][meshing]") {
   MemoryShelf shelf;
   add_slab(shelf);
-  HalfEdgeMesh mesh(dense_surface(shelf, unit_frame()));
+  HalfEdgeMesh mesh(dense_surface(shelf, unit_voxels()));
   merge_flat_regions(mesh);
   VertexId free = kNoId;
   for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {

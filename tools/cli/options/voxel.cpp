@@ -13,9 +13,10 @@ constexpr Args::Choice<FillMode> kFlood = {"flood", FillMode::flood, "all that t
 constexpr Args::Choice<FillMode> kWinding = {"winding", FillMode::winding,
                                              "where the winding number is not 0; cavities stay empty"};
 constexpr Args::Choice<FillMode> kNone = {"none", FillMode::none, "nothing"};
-constexpr Args::Choice<FillMode> kInside = {"inside", FillMode::inside,
-                                            "as flood, but without the voxels that the surface touches: for a proxy "
-                                            "inside the scene"};
+constexpr Args::Choice<FillMode> kInsideFill = {
+    "inside", FillMode::inside,
+    "as flood, but without the voxels that the surface touches: for a proxy "
+    "inside the scene"};
 
 void add_size(VoxelOptions& o, Args& args, const std::string& resolution_default) {
   args.group("Voxels");
@@ -54,7 +55,7 @@ void VoxelOptions::add_to(Args& args, const std::string& resolution_default) {
 
 void VoxelOptions::add_with_inside(Args& args, const std::string& resolution_default) {
   add_size(*this, args, resolution_default);
-  args.option("--fill", {kFlood, kWinding, kNone, kInside}, fill, kFillHelp);
+  args.option("--fill", {kFlood, kWinding, kNone, kInsideFill}, fill, kFillHelp);
   add_up(*this, args);
 }
 

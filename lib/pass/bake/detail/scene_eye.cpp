@@ -30,10 +30,7 @@ std::array<std::array<std::uint32_t, 2>, 3> bits_of(const TriangleTexture& t) {
   return std::bit_cast<std::array<std::array<std::uint32_t, 2>, 3>>(t.uv);
 }
 
-Vec3d unit(const Vec3d& v) {
-  const double l = length(v);
-  return l > 0 ? (1 / l) * v : Vec3d{0, 0, 1};
-}
+constexpr Vec3d kUp = {0, 0, 1};  // of what has no direction
 
 /// The unit normal of a place by what its image of directions says there; the same one where the triangle has no area
 /// in the image.
@@ -51,7 +48,7 @@ Vec3d bent(const Vec3d& normal, const TriangleD& t, const TriangleTexture& textu
   const Vec3d up = (area < 0 ? 1.0 : -1.0) * cross(normal, tangent);
   const double x = scale * (2 * double(said[0]) - 1), y = scale * (2 * double(said[1]) - 1),
                z = 2 * double(said[2]) - 1;
-  return unit(x * tangent + y * up + z * normal);
+  return unit(x * tangent + y * up + z * normal, kUp);
 }
 
 }  // namespace
@@ -208,10 +205,10 @@ std::array<float, 3> SceneEye::light_at(const TextureSurface& surface, const Tri
 void SceneEye::add_surface(const LookBlock& block, std::uint32_t item, const Spot& spot, Look& look) {
   const TriangleD& t = block.triangles().item(item).corners;
   const TriangleTexture& texture = block.texture(item);
-  const Vec3d flat = unit(cross(t[1] - t[0], t[2] - t[0]));
+  const Vec3d flat = unit(cross(t[1] - t[0], t[2] - t[0]), kUp);
   Vec3d normal{};
   for (std::size_t k = 0; k < 3; ++k) normal = normal + spot.part[k] * unpack_normal(texture.normals[k]);
-  normal = dot(normal, flat) > 0 ? unit(normal) : flat;
+  normal = dot(normal, flat) > 0 ? unit(normal, kUp) : flat;
   if (texture.material != TriangleTexture::kNoMaterial) {
     const TextureSurface& surface = looks_.images_->material(texture.material).surface;
     const LinearTexel rough = numbers_at(surface.roughness, t, texture, spot, MipImage::Kind::numbers);

@@ -13,8 +13,7 @@ namespace {
 constexpr double kSpacing = kColorCellVox * kLatticePerVoxel / 2;  // lattice units: as the scene was sampled
 constexpr int kLeastRows = 2;
 constexpr double kMostSamples = 1 << 14;  // of a face, about: they are in memory together
-constexpr double kTowardsMean = 0.05;
-constexpr int kRounds = 3;
+constexpr int kFitRounds = 3;
 constexpr double kMostFar = 0.2;                 // of a face: more is no outlier
 constexpr double kNear = 0.05 * 65535;           // of a colour and the fit: it counts half there
 constexpr double kLittle = kNear * kNear / 100;  // variance: all is near
@@ -116,7 +115,7 @@ FaceColors sampled(const TriangleD& corners, const NearbyColors& colors) {
   FaceColors face = plain;
   std::vector<double> areas;
   for (const Sample& s : samples) areas.push_back(s.area);
-  for (int round = 0; round < kRounds && fit.variance >= kLittle; ++round) {
+  for (int round = 0; round < kFitRounds && fit.variance >= kLittle; ++round) {
     for (std::size_t n = 0; n < samples.size(); ++n)
       samples[n].area = areas[n] / (1 + squared_distance(samples[n], fit) / (kNear * kNear));
     const double all = face.area();

@@ -7,6 +7,9 @@ namespace bp {
 
 using Rgb = std::array<double, 3>;  ///< as LinearColor
 
+/// How much a fit is drawn to the mean, in shares of its weights: where few samples tell, it stays bounded.
+constexpr double kTowardsMean = 0.05;
+
 /// The colours over a face, summed up over samples.
 struct FaceColors {
   std::array<double, 6> products{};  ///< of the corners' weights: 00 11 22 01 12 20

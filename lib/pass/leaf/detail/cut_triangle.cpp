@@ -17,7 +17,7 @@ struct Segment {
 };
 
 /// A corner of the polygon, and the segment that the edge from here to the next corner is a piece of.
-struct Corner {
+struct CutCorner {
   CutPoint point;
   std::size_t segment;
 };
@@ -53,10 +53,10 @@ class TriangleCutter {
   /// Keeps what lies on the upper side of a face, or on the lower one.
   void cut(std::size_t axis, double face, bool upper) {
     const auto is_in = [&](const CutPoint& p) { return upper ? p.at[axis] >= face : p.at[axis] <= face; };
-    std::vector<Corner> kept;
+    std::vector<CutCorner> kept;
     std::size_t in_face = kNone;
     for (std::size_t i = 0; i < polygon_.size(); ++i) {
-      const Corner &p = polygon_[i], &next = polygon_[(i + 1) % polygon_.size()];
+      const CutCorner &p = polygon_[i], &next = polygon_[(i + 1) % polygon_.size()];
       if (is_in(p.point)) kept.push_back(p);
       if (is_in(p.point) == is_in(next.point)) continue;
       if (p.point.at[axis] != face && next.point.at[axis] != face)
@@ -72,7 +72,7 @@ class TriangleCutter {
   [[nodiscard]] std::vector<CutPoint> points() const {
     std::vector<CutPoint> all;
     if (polygon_.size() < 3) return all;
-    for (const Corner& c : polygon_) all.push_back(c.point);
+    for (const CutCorner& c : polygon_) all.push_back(c.point);
     return all;
   }
 
@@ -95,7 +95,7 @@ class TriangleCutter {
 
   const std::array<CutPoint, 3>& triangle_;
   std::vector<Segment> segments_;  ///< the first three: edges of the triangle
-  std::vector<Corner> polygon_;
+  std::vector<CutCorner> polygon_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "io/gltf/meshopt_codec.h"
 #include "io/mesh/lod_writer.h"
 #include "tests/catch.h"
+#include "tests/unit/io/mesh/soup.h"
 #include "tests/unit/io/scene/scene_files.h"
 
 using namespace bp;
@@ -23,7 +24,7 @@ GridFrame frame_at(const Vec3d& place, double voxel, UpAxis up) {
   return make_frame(bounds, voxel, up);
 }
 
-LatticeMesh random_mesh(const GridFrame& frame, std::int64_t reach, unsigned seed) {
+LatticeMesh random_level(const GridFrame& frame, std::int64_t reach, unsigned seed) {
   LatticeMesh mesh;
   mesh.frame = frame;
   mesh.provenance = {{"bplod", "0.1.0", "levels=3", "00ff"}};
@@ -38,25 +39,6 @@ LatticeMesh random_mesh(const GridFrame& frame, std::int64_t reach, unsigned see
 std::vector<TriangleD> canonical(std::vector<TriangleD> all) {
   for (TriangleD& t : all) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   std::sort(all.begin(), all.end());
-  return all;
-}
-
-std::vector<TriangleD> soup(const LatticeMesh& mesh, const Vec3d& origin = {}) {
-  std::vector<TriangleD> all;
-  for (const auto& t : mesh.triangles) {
-    TriangleD d;
-    for (std::size_t i = 0; i < 3; ++i) {
-      d[i] = mesh.frame.world(mesh.vertices[t[i]]);
-      for (std::size_t k = 0; k < 3; ++k) d[i][k] -= origin[k];
-    }
-    all.push_back(d);
-  }
-  return all;
-}
-
-std::vector<TriangleD> soup(const IndexedMesh& mesh) {
-  std::vector<TriangleD> all;
-  for (const auto& t : mesh.triangles) all.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
   return all;
 }
 
@@ -79,7 +61,7 @@ std::string written(const TempDir& dir, const Write& write) {
 
 TEST_CASE("levels read back are the meshes less their origin, which the file tells", "[quick][io][lod]") {
   const UpAxis up = GENERATE(UpAxis::y, UpAxis::z);
-  const LatticeMesh mesh = random_mesh(frame_at({6801760.25, -455564.7, 31.3}, 0.37, up), 64 * 100, 5);
+  const LatticeMesh mesh = random_level(frame_at({6801760.25, -455564.7, 31.3}, 0.37, up), 64 * 100, 5);
   const Vec3d origin{6801760, -455500, 0};
   const TempDir dir;
   const NamedMesh named{"far", &mesh};
@@ -102,7 +84,7 @@ TEST_CASE("a tile read back is the mesh, to the bit, relative to its origin", "[
   const std::int64_t reach = GENERATE(100, 32767, 40000, 1 << 23);
   const Vec3d place = GENERATE(Vec3d{0, 0, 0}, Vec3d{4.9e5, 5.4e6, 12.5});
   CAPTURE(reach, place[0]);
-  const LatticeMesh mesh = random_mesh(frame_at(place, 0.3, up), reach, 5);
+  const LatticeMesh mesh = random_level(frame_at(place, 0.3, up), reach, 5);
   const Vec3d origin = mesh.frame.world({0, 0, 0});
   const TempDir dir;
   const std::string path = written(dir, [&](OutputFile& out) {
@@ -126,7 +108,7 @@ TEST_CASE("colours and normals of vertices come back, turned with the mesh, and 
   const UpAxis up = UpAxis(GENERATE(range(0, 6)));
   const bool compressed = GENERATE(false, true);
   const TempDir dir;
-  LatticeMesh mesh = random_mesh(frame_at({0, 0, 0}, 0.5, up), 100000, 3);
+  LatticeMesh mesh = random_level(frame_at({0, 0, 0}, 0.5, up), 100000, 3);
   const auto write = [&] {
     const NamedMesh named{"a", &mesh};
     return written(dir, [&](OutputFile& out) {
@@ -200,7 +182,7 @@ TEST_CASE("octahedral normals come back within 1.1 degrees", "[quick][io][lod]")
 
 TEST_CASE("a tile away from its lattice, or too wide for floats, is refused", "[quick][io][lod]") {
   const TempDir dir;
-  LatticeMesh mesh = random_mesh(frame_at({0, 0, 0}, 0.5, UpAxis::y), 100, 1);
+  LatticeMesh mesh = random_level(frame_at({0, 0, 0}, 0.5, UpAxis::y), 100, 1);
   const auto write = [&](const Vec3d& origin) {
     return written(dir, [&](OutputFile& out) {
       out.write(tile_glb({"tile", &mesh}, lattice_point(mesh.frame, origin)));
@@ -215,8 +197,8 @@ TEST_CASE("a tile away from its lattice, or too wide for floats, is refused", "[
 TEST_CASE("a file of levels shows the finest, and names the others", "[quick][io][lod]") {
   const UpAxis up = UpAxis(GENERATE(range(0, 6)));
   const TempDir dir;
-  const LatticeMesh fine = random_mesh(frame_at({7e5, -3, 12}, 0.3, up), 3000, 5);
-  const LatticeMesh coarse = random_mesh(frame_at({7e5, -3, 12}, 0.6, up), 700, 6);
+  const LatticeMesh fine = random_level(frame_at({7e5, -3, 12}, 0.3, up), 3000, 5);
+  const LatticeMesh coarse = random_level(frame_at({7e5, -3, 12}, 0.6, up), 700, 6);
   const std::vector<NamedMesh> levels{{"a_LOD0", &fine}, {"a_LOD1", &coarse}};
   const std::vector<double> coverage{0.25, 0};
   const std::string path = written(dir, [&](OutputFile& out) { write_lod_glb(levels, coverage, out); });
@@ -236,7 +218,7 @@ TEST_CASE("a file of levels shows the finest, and names the others", "[quick][io
 
 TEST_CASE("parts of a file are all in its scene", "[quick][io][lod]") {
   const TempDir dir;
-  const LatticeMesh a = random_mesh(frame_at({0, 0, 0}, 0.5, UpAxis::z), 3000, 5), b = random_mesh(a.frame, 50, 6);
+  const LatticeMesh a = random_level(frame_at({0, 0, 0}, 0.5, UpAxis::z), 3000, 5), b = random_level(a.frame, 50, 6);
   const std::vector<NamedMesh> parts{{"UCX_a_00", &a}, {"UCX_a_01", &b}};
   const std::string path = written(dir, [&](OutputFile& out) { write_parts_glb(parts, out); });
   std::vector<TriangleD> both = soup(a);
@@ -246,7 +228,7 @@ TEST_CASE("parts of a file are all in its scene", "[quick][io][lod]") {
 
 TEST_CASE("a damaged compressed view is an error or other numbers, never a crash", "[quick][io][lod]") {
   const TempDir dir;
-  const LatticeMesh mesh = random_mesh(frame_at({0, 0, 0}, 0.5, UpAxis::y), 3000, 9);
+  const LatticeMesh mesh = random_level(frame_at({0, 0, 0}, 0.5, UpAxis::y), 3000, 9);
   const std::string path = written(dir, [&](OutputFile& out) { out.write(tile_glb({"tile", &mesh}, {})); });
   const std::string good = bytes_of_file(path);
   const std::size_t data = good.find("BIN") + 4;
@@ -296,7 +278,7 @@ TEST_CASE("the screen coverage of a level is where its error is a pixel", "[quic
 
 TEST_CASE("a texture splits vertices by charts and moves none", "[quick][io]") {
   const TempDir dir;
-  LatticeMesh mesh = random_mesh(frame_at({100, 200, 300}, 0.5, UpAxis::z), 20000, 6);
+  LatticeMesh mesh = random_level(frame_at({100, 200, 300}, 0.5, UpAxis::z), 20000, 6);
   const std::vector<TriangleD> before = canonical(soup(mesh));
   auto texture = std::make_shared<MeshTexture>();
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {

@@ -3,6 +3,7 @@
 #include "io/mesh/detail/mesh_writers.h"
 #include "io/mesh/mesh_writer.h"
 #include "tests/catch.h"
+#include "tests/unit/io/mesh/soup.h"
 #include "tests/unit/io/scene/scene_files.h"
 
 using namespace bp;
@@ -34,22 +35,6 @@ std::string write(const TempDir& dir, const LatticeMesh& mesh, const std::string
   write_mesh(mesh, out, mesh_format_of(name), options);
   out.commit();
   return dir.path(name);
-}
-
-/// Corners of each triangle, read back and as they must be.
-std::vector<TriangleD> soup(const IndexedMesh& mesh) {
-  std::vector<TriangleD> all;
-  for (const auto& t : mesh.triangles) all.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
-  return all;
-}
-std::vector<TriangleD> soup(const LatticeMesh& mesh) {
-  std::vector<TriangleD> all;
-  for (const auto& t : mesh.triangles) {
-    TriangleD d;
-    for (std::size_t i = 0; i < 3; ++i) d[i] = mesh.frame.world(mesh.vertices[t[i]]);
-    all.push_back(d);
-  }
-  return all;
 }
 
 std::string refusal(const LatticeMesh& mesh, const std::string& name, const MeshWriteOptions& options = {}) {

@@ -11,7 +11,6 @@ namespace bp::test {
 using Json = nlohmann::ordered_json;
 
 constexpr int kI8 = 5120, kU8 = 5121, kI16 = 5122, kU16 = 5123, kU32 = 5125, kF32 = 5126;
-inline const Vec3d kQuad[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
 /// A document that grows: each array gets its own view and accessor.
 struct Document {

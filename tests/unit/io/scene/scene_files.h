@@ -13,6 +13,10 @@
 /// Small files for the tests of readers and writers.
 namespace bp::test {
 
+/// Corners of a square, and its triangles from the first corner on.
+inline const Vec3d kQuad[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+inline const std::vector<TriangleD> kQuadFan{{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}}, {{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}}};
+
 #if __has_include(<catch2/catch_all.hpp>)
 inline auto Contains(const std::string& part) {
   return Catch::Matchers::ContainsSubstring(part);

@@ -8,9 +8,6 @@ using namespace bp::test;
 
 namespace {
 
-const std::vector<TriangleD> kQuadFan{{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}}, {{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}}};
-const Vec3d kQuad[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-
 template <class T>
 std::string vec(const Vec3d& p, bool big = false) {
   return raw(T(p[0]), big) + raw(T(p[1]), big) + raw(T(p[2]), big);

@@ -9,8 +9,6 @@ using namespace bp::test;
 
 namespace {
 
-const std::vector<TriangleD> kQuadFan{{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}}, {{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}}};
-
 std::vector<TriangleD> moved(const std::vector<TriangleD>& triangles, const Vec3d& by) {
   std::vector<TriangleD> all = triangles;
   for (TriangleD& t : all)

@@ -17,7 +17,7 @@ const std::string kObj =
     "\xEF\xBB\xBFmtllib a.mtl\r\no part\n  v 1.50 0 -0.0 1.0 # x\nvt 0.5 0.5\nvn 0 0 1\nv\t1e1 2 3 0.1 0.2 0.3\n"
     "v 4 \\\n 5 6\nusemtl m\nf 1/1/1 2 3\n#v 1 2 3\nvp 1 2\nf 1 2 4\nv 0.1234567890123 0 0";
 
-std::string ascii_ply() {
+std::string ascii_points() {
   return "ply\nformat ascii 1.0\nelement thing 2\nproperty int a\nelement vertex 2\nproperty float x\nproperty uchar "
          "red\n"
          "property float y\nproperty double z\nproperty float nx\nproperty float ny\nproperty float nz\n"
@@ -52,7 +52,7 @@ std::string binary_ply(bool big) {
 TEST_CASE("points that stay keep every byte of an OBJ and a PLY", "[io][deform][quick]") {
   const TempDir dir;
   for (const auto& [name, bytes] : {std::pair<std::string, std::string>{"a.obj", kObj},
-                                    {"b.ply", ascii_ply()},
+                                    {"b.ply", ascii_points()},
                                     {"c.ply", binary_ply(false)},
                                     {"d.ply", binary_ply(true)}}) {
     INFO(name);
@@ -96,9 +96,9 @@ TEST_CASE("points of an OBJ far from the origin move as exactly as they are writ
 
 TEST_CASE("the points and normals of a PLY move, and the rest stays", "[io][deform][quick]") {
   const TempDir dir;
-  const std::string path = dir.file("b.ply", ascii_ply());
+  const std::string path = dir.file("b.ply", ascii_points());
   CHECK(points_of(path) == std::vector<Vec3d>{{1.5, 2, 3}, {-4, 5, 0.1234567890123}});
-  std::string text = ascii_ply();
+  std::string text = ascii_points();
   text.replace(text.find("1.50 255 2 3 1 0 0"), 18, "3 255 2 3 0 0 1");
   text.replace(text.find("-4 1 5 0.1234567890123 0 1.0 0"), 30, "-8 1 5 0.1234567890123 0 0 1");
   CHECK(moved(dir, path, double_x) == text);

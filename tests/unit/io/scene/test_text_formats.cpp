@@ -6,12 +6,6 @@
 using namespace bp;
 using namespace bp::test;
 
-namespace {
-
-const std::vector<TriangleD> kQuadFan{{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}}, {{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}}};
-
-}  // namespace
-
 TEST_CASE("an OBJ face may name its corners in every form", "[quick][io]") {
   const std::string face = GENERATE(as<std::string>(), "f 1 2 3 4", "f 1/1 2/2 3/3 4/4", "f 1//1 2//1 3//1 4//1",
                                     "f 1/1/1 2/2/1 3/3/1 4/4/1", "f -4 -3 -2 -1", "f 1// 2/ 3 4//1", "f 1 2 3 4 # quad",

@@ -14,7 +14,7 @@ using namespace bp::test;
 
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 
 struct TexturedRead {
   std::vector<TriangleD> triangles;
@@ -58,7 +58,7 @@ std::uint8_t number_of(const TexturedRead& r, std::size_t triangle) {
 }
 
 /// A triangle with places in images, as glTF; `doc` has textures, images and materials.
-std::string gltf_of(Json doc) {
+std::string gltf_of(SortedJson doc) {
   const float data[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25F, 0.5F, 1, 0.5F, 0.25F, 0.75F};
   const auto* const bytes = reinterpret_cast<const char*>(data);
   doc["asset"]["version"] = "2.0";
@@ -67,13 +67,13 @@ std::string gltf_of(Json doc) {
   doc["bufferViews"] = {{{"buffer", 0}, {"byteLength", 36}}, {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 24}}};
   doc["accessors"] = {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
                       {{"bufferView", 1}, {"componentType", 5126}, {"count", 3}, {"type", "VEC2"}}};
-  const Json all{{"POSITION", 0}, {"TEXCOORD_0", 1}};
+  const SortedJson all{{"POSITION", 0}, {"TEXCOORD_0", 1}};
   doc["meshes"] = {{{"primitives", {{{"attributes", all}, {"material", 0}}}}}};
   doc["nodes"] = {{{"mesh", 0}}};
   return doc.dump();
 }
 
-Json base_color(const Json& info) {
+SortedJson base_color(const SortedJson& info) {
   return {{{"pbrMetallicRoughness", {{"baseColorTexture", info}}}}};
 }
 
@@ -84,7 +84,7 @@ constexpr std::array<std::array<float, 2>, 3> kPlaces{{{0.25F, 0.5F}, {1, 0.5F},
 TEST_CASE("glTF: images beside the file, within it, and as text", "[quick][io]") {
   const TempDir dir;
   (void)dir.file("a b.png", image_file(7));
-  Json doc{
+  SortedJson doc{
       {"materials", base_color({{"index", 0}})}, {"textures", {{{"source", 0}}}}, {"images", {{{"uri", "a%20b.png"}}}}};
   const TexturedRead beside = read_textured({dir.file("beside.gltf", gltf_of(doc))});
   CHECK(beside.has_textures);
@@ -102,11 +102,11 @@ TEST_CASE("glTF: images beside the file, within it, and as text", "[quick][io]")
 
 TEST_CASE("glTF: wrap modes, alpha and KHR_texture_transform", "[quick][io]") {
   const TempDir dir;
-  const Json moved{{"offset", {0.5, 0.25}}, {"rotation", 1.5707963267948966}, {"scale", {2, 4}}};
-  Json doc{{"materials", base_color({{"index", 0}, {"extensions", {{"KHR_texture_transform", moved}}}})},
-           {"textures", {{{"source", 0}, {"sampler", 0}}}},
-           {"samplers", {{{"wrapS", 33071}, {"wrapT", 33648}}}},
-           {"images", {{{"uri", "none.png"}}}}};
+  const SortedJson moved{{"offset", {0.5, 0.25}}, {"rotation", 1.5707963267948966}, {"scale", {2, 4}}};
+  SortedJson doc{{"materials", base_color({{"index", 0}, {"extensions", {{"KHR_texture_transform", moved}}}})},
+                 {"textures", {{{"source", 0}, {"sampler", 0}}}},
+                 {"samplers", {{{"wrapS", 33071}, {"wrapT", 33648}}}},
+                 {"images", {{{"uri", "none.png"}}}}};
   doc["materials"][0]["alphaMode"] = "MASK";
   doc["materials"][0]["alphaCutoff"] = 0.25;
   doc["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {1, 0, 0, 0.5};
@@ -131,7 +131,8 @@ TEST_CASE("glTF: wrap modes, alpha and KHR_texture_transform", "[quick][io]") {
 
 TEST_CASE("glTF: how a material answers to light, if that is asked for", "[quick][io]") {
   const TempDir dir;
-  Json doc{{"textures", {{{"source", 0}}, {{"source", 1}}}}, {"images", {{{"uri", "a.png"}}, {{"uri", "b.png"}}}}};
+  SortedJson doc{{"textures", {{{"source", 0}}, {{"source", 1}}}},
+                 {"images", {{{"uri", "a.png"}}, {{"uri", "b.png"}}}}};
   doc["materials"] = {
       {{"normalTexture", {{"index", 1}, {"scale", 0.5}}},
        {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}},
@@ -173,7 +174,7 @@ TEST_CASE("OBJ: normals of corners, if they are asked for", "[quick][io]") {
 
 TEST_CASE("glTF: textures that name what does not exist", "[quick][io]") {
   const TempDir dir;
-  const Json info = base_color({{"index", 0}}), textures{{{"source", 0}}}, images{{{"uri", "x.png"}}};
+  const SortedJson info = base_color({{"index", 0}}), textures{{{"source", 0}}}, images{{{"uri", "x.png"}}};
   // The triangles are there all the same, and the fault is told.
   const auto fault_of = [&](const std::string& file) {
     const TexturedRead r = read_textured({dir.file("x.gltf", file)});
@@ -199,7 +200,7 @@ TEST_CASE("glTF: textures that name what does not exist", "[quick][io]") {
   CHECK_FALSE(none.has_textures);
   CHECK(none.textures[0].material == TriangleTexture::kNoMaterial);
   const TexturedRead empty =
-      read_textured({dir.file("d.gltf", gltf_of({{"materials", info}, {"textures", {Json::object()}}}))});
+      read_textured({dir.file("d.gltf", gltf_of({{"materials", info}, {"textures", {SortedJson::object()}}}))});
   CHECK(empty.table->material(empty.textures[0].material).image == TextureMaterial::kNoImage);
 }
 

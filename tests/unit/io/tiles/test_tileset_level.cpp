@@ -6,7 +6,7 @@ using namespace bp::test;
 
 namespace {
 
-Tile tile(const std::string& uri, std::vector<Tile> children = {}, double x = 0) {
+Tile node(const std::string& uri, std::vector<Tile> children = {}, double x = 0) {
   Tile t;
   t.uri = uri;
   t.transform[12] = x;
@@ -17,13 +17,13 @@ Tile tile(const std::string& uri, std::vector<Tile> children = {}, double x = 0)
 /// A root without content above two branches, of which one is shorter; in the longer one a tile without content.
 Tileset example() {
   Tileset t;
-  t.root = tile("", {tile("a", {tile("", {tile("c"), tile("d", {tile("e", {}, 100)}, 10)}, 1)}), tile("b")}, 1000);
+  t.root = node("", {node("a", {node("", {node("c"), node("d", {node("e", {}, 100)}, 10)}, 1)}), node("b")}, 1000);
   t.root.refine = "REPLACE";
   return t;
 }
 
 /// Names of the files beside a tileset, and their offsets along x.
-std::string drawn(const TempDir& dir, const Tileset& tileset, std::size_t level) {
+std::string met(const TempDir& dir, const Tileset& tileset, std::size_t level) {
   std::string all;
   for (const PlacedContent& c : tileset_level(tileset, dir.path("tileset.json"), level).contents)
     all += fmt::format("{} {}, ", std::filesystem::path(c.path).filename().string(), c.transform[12]);
@@ -37,29 +37,29 @@ TEST_CASE("a level of a tileset is as far above its deepest tile, or what stands
   for (const char* name : {"a", "b", "c", "d", "e"}) (void)dir.file(name, "");
   Tileset t = example();
   CHECK(tileset_level(t, dir.path("tileset.json"), 0).levels == 3);  // at one depth there are none
-  CHECK(drawn(dir, t, 0) == "c 1001, e 1111, b 1000, ");
-  CHECK(drawn(dir, t, 1) == "c 1001, d 1011, b 1000, ");
-  CHECK(drawn(dir, t, 2) == "a 1000, b 1000, ");
-  CHECK(drawn(dir, t, 3).empty());
+  CHECK(met(dir, t, 0) == "c 1001, e 1111, b 1000, ");
+  CHECK(met(dir, t, 1) == "c 1001, d 1011, b 1000, ");
+  CHECK(met(dir, t, 2) == "a 1000, b 1000, ");
+  CHECK(met(dir, t, 3).empty());
   t.root.refine = "ADD";
-  CHECK(drawn(dir, t, 1) == "a 1000, c 1001, d 1011, b 1000, ");
+  CHECK(met(dir, t, 1) == "a 1000, c 1001, d 1011, b 1000, ");
   t.root.refine = "add";  // as version 1.0 allows
-  CHECK(drawn(dir, t, 1) == "a 1000, c 1001, d 1011, b 1000, ");
+  CHECK(met(dir, t, 1) == "a 1000, c 1001, d 1011, b 1000, ");
   t.root.children[0].children[0].refine = "REPLACE";
-  CHECK(drawn(dir, t, 0) == "a 1000, c 1001, e 1111, b 1000, ");
+  CHECK(met(dir, t, 0) == "a 1000, c 1001, e 1111, b 1000, ");
   CHECK(tileset_level(Tileset{}, "tileset.json", 0).levels == 0);
 }
 
 TEST_CASE("leaves are no level, nor is what leads to them", "[quick][io][lod]") {
   const TempDir dir;
   for (const char* name : {"a", "b", "leaf"}) (void)dir.file(name, "");
-  Tile leaf = tile("leaf");
+  Tile leaf = node("leaf");
   leaf.is_leaf = true;
   Tileset t;
-  t.root = tile("a", {tile("b", {tile("", {leaf, leaf}), leaf}), leaf});
+  t.root = node("a", {node("b", {node("", {leaf, leaf}), leaf}), leaf});
   CHECK(tileset_level(t, dir.path("tileset.json"), 0).levels == 2);
-  CHECK(drawn(dir, t, 0) == "b 0, ");
-  CHECK(drawn(dir, t, 1) == "a 0, ");
+  CHECK(met(dir, t, 0) == "b 0, ");
+  CHECK(met(dir, t, 1) == "a 0, ");
 }
 
 TEST_CASE("contents that are not there are named", "[quick][io][lod]") {
@@ -78,7 +78,7 @@ TEST_CASE("contents of a tileset stand in the axes of its scene", "[quick][io][l
   d.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors_of;
   (void)dir.file("a.glb", d.glb());
   Tileset t;
-  t.root = tile("a.glb");
+  t.root = node("a.glb");
   t.root.transform[12] = 100, t.root.transform[14] = 50;  // 50 up
   t.up = UpAxis(GENERATE(range(0, 6)));
   SceneOptions options;

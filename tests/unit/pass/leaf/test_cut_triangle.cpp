@@ -29,7 +29,7 @@ Points in_plane(const std::array<CutPoint, 3>& t, const Bounds3d& box, std::size
   return points;
 }
 
-const Bounds3d kBox{{0, 0, 0}, {0.7, 0.8, 0.9}};
+const Bounds3d kUnevenBox{{0, 0, 0}, {0.7, 0.8, 0.9}};
 
 /// compared(strip, i) for many strips; returns the sum of the numbers of points that it compared.
 template <class Compared>
@@ -55,11 +55,11 @@ std::size_t for_each_triangle(unsigned seed, const Compared& compared) {
 
 TEST_CASE("boxes on both sides of a face cut a triangle at the same points, bit for bit", "[quick][leaf]") {
   const std::size_t points = for_each_triangle(3, [](const std::array<CutPoint, 3>& t, int i, std::size_t axis) {
-    Bounds3d beside = kBox;
-    beside.min[axis] = kBox.max[axis];
-    beside.max[axis] = kBox.max[axis] + (i % 2 == 0 ? 0.3 : 2.0);
-    const Points here = in_plane(t, kBox, axis, kBox.max[axis]);
-    CHECK(here == in_plane({t[2], t[1], t[0]}, beside, axis, kBox.max[axis]));
+    Bounds3d beside = kUnevenBox;
+    beside.min[axis] = kUnevenBox.max[axis];
+    beside.max[axis] = kUnevenBox.max[axis] + (i % 2 == 0 ? 0.3 : 2.0);
+    const Points here = in_plane(t, kUnevenBox, axis, kUnevenBox.max[axis]);
+    CHECK(here == in_plane({t[2], t[1], t[0]}, beside, axis, kUnevenBox.max[axis]));
     return here.size();
   });
   CHECK(points > 1000);
@@ -69,16 +69,16 @@ TEST_CASE("a box and its smaller neighbours have the same points where their edg
   const std::size_t points = for_each_triangle(5, [](const std::array<CutPoint, 3>& t, int, std::size_t axis) {
     Points small;
     for (int k = 0; k < 4; ++k) {
-      Bounds3d beside = kBox;
-      beside.min[axis] = kBox.max[axis];
-      beside.max[axis] = kBox.max[axis] + 0.4;
+      Bounds3d beside = kUnevenBox;
+      beside.min[axis] = kUnevenBox.max[axis];
+      beside.max[axis] = kUnevenBox.max[axis] + 0.4;
       for (std::size_t j = 0; j < 2; ++j) {
         const std::size_t a = (axis + 1 + j) % 3;
-        ((k >> j & 1) != 0 ? beside.min[a] : beside.max[a]) = kBox.max[a] / 2;
+        ((k >> j & 1) != 0 ? beside.min[a] : beside.max[a]) = kUnevenBox.max[a] / 2;
       }
-      small.merge(in_plane(t, beside, axis, kBox.max[axis]));
+      small.merge(in_plane(t, beside, axis, kUnevenBox.max[axis]));
     }
-    const Points here = in_plane(t, kBox, axis, kBox.max[axis]);
+    const Points here = in_plane(t, kUnevenBox, axis, kUnevenBox.max[axis]);
     CHECK(std::includes(small.begin(), small.end(), here.begin(), here.end()));
     return here.size();
   });
@@ -88,7 +88,7 @@ TEST_CASE("a box and its smaller neighbours have the same points where their edg
 TEST_CASE("triangles with a common edge are cut at the same points of it", "[quick][leaf]") {
   const auto cut = [](const std::array<CutPoint, 3>& t) {
     Points all;
-    for (const CutPoint& q : cut_triangle(t, kBox)) all.insert({q.at, q.uv});
+    for (const CutPoint& q : cut_triangle(t, kUnevenBox)) all.insert({q.at, q.uv});
     return all;
   };
   const std::size_t common = for_each_strip(4, [&](const std::array<CutPoint, 4>& p, int) {

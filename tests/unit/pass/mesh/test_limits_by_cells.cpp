@@ -14,7 +14,7 @@ using namespace bp::test;
 
 namespace {
 
-const VoxelBox kBox{{-70, -40, -20}, {80, 70, 75}};  // 3 x 3 x 3 bricks, around the origin
+const VoxelBox kManyBricks{{-70, -40, -20}, {80, 70, 75}};  // 3 x 3 x 3 bricks, around the origin
 constexpr double kError = 3;
 
 const Solid kSolids[] = {
@@ -39,7 +39,7 @@ LatticeMesh by_cells(const SurfaceSource& surface, ProxyLimits& limits, Simplify
 TEST_CASE("cells that are simplified at the same time keep a bound on distances", "[quick][pass]") {
   const int shape = GENERATE(range(0, 4));
   MemoryShelf shelf;
-  fill_shelf(shelf, kBox, kSolids[shape]);
+  fill_shelf(shelf, kManyBricks, kSolids[shape]);
   repair_contacts(shelf);
   const ShelfSurface surface(shelf, {});
   const TriangleBvh tree(world_triangles(dense_surface(shelf, {})));
@@ -57,7 +57,7 @@ TEST_CASE("cells that are simplified at the same time keep a bound on distances"
   CHECK(one.triangles == three.triangles);
   NearSurface near(tree, 1, 1 << 12);
   for (const TriangleD& t : world_triangles(one)) REQUIRE(near.holds(t, 1.02 * kError));
-  check_proxy(one, kBox, [&](VoxelCoord p) { return (p.x + 2 * p.y + 3 * p.z) % 7 == 0 && kSolids[shape](p); });
+  check_proxy(one, kManyBricks, [&](VoxelCoord p) { return (p.x + 2 * p.y + 3 * p.z) % 7 == 0 && kSolids[shape](p); });
 }
 
 TEST_CASE("a bound on the volume is of the surface as a whole", "[quick][pass]") {

@@ -12,7 +12,7 @@ using namespace bp::test;
 
 namespace {
 
-const VoxelBox kBox{{0, 0, 0}, {40, 40, 40}}, kBlock{{12, 14, 16}, {25, 26, 27}};
+const VoxelBox kSpace{{0, 0, 0}, {40, 40, 40}}, kBlock{{12, 14, 16}, {25, 26, 27}};
 
 /// Boxes of a few voxels, some joined, away from the block.
 std::vector<VoxelBox> strays(unsigned seed) {
@@ -36,7 +36,7 @@ TEST_CASE("parts that hold nothing may vanish, but never come out inside out", "
   const auto closing = [&](VoxelCoord p) {
     return solid(p) || std::any_of(boxes.begin(), boxes.end(), [&](const VoxelBox& b) { return b.contains(p); });
   };
-  VoxelSource source(kBox, solid, closing);
+  VoxelSource source(kSpace, solid, closing);
   MeshParams params;
   params.enclose = Enclose::input;
   params.faces = {GENERATE(600u, 150u, 60u)};
@@ -61,7 +61,7 @@ TEST_CASE("pockets that a proxy inside may fill never come out inside out", "[qu
   const auto opening = [&](VoxelCoord p) {
     return solid(p) && std::none_of(boxes.begin(), boxes.end(), [&](const VoxelBox& b) { return b.contains(p); });
   };
-  VoxelSource source(kBox, solid, opening);
+  VoxelSource source(kSpace, solid, opening);
   source.header().fill = FillMode::inside;
   MeshParams params;
   params.mode = MeshMode::inside;

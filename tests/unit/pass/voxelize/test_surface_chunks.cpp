@@ -46,13 +46,13 @@ std::vector<ChunkCutter::Chunk> cut(const Triangles& triangles, std::size_t batc
   return cutter.finish();
 }
 
-struct Result {
+struct Chunked {
   VoxelizeCounts counts;
   StreamHeader header;
   BitBox bits;
 };
 
-Result run(const Triangles& scene, VoxelizeOptions o, ResultStore* results) {
+Chunked run_chunked(const Triangles& scene, VoxelizeOptions o, ResultStore* results) {
   o.context.make_shelf = [] { return std::make_unique<test::MemoryShelf>(); };
   o.context.make_scratch = [] { return make_scratch(1000, "."); };
   if (!o.voxel_size) o.voxel_size = [](const Bounds3d&) { return 0.75; };
@@ -60,7 +60,7 @@ Result run(const Triangles& scene, VoxelizeOptions o, ResultStore* results) {
   test::MemorySource source(scene);
   test::MemorySink sink;
   Backends none;
-  Result r;
+  Chunked r;
   r.counts = voxelize_stream(
       source,
       [&](const StreamHeader& h, const VoxelizeCounts&) -> BrickSink& {
@@ -186,7 +186,7 @@ TEST_CASE("a scene from kept chunks has the voxels of one from nothing, after an
   test::MemoryResults results;
   for (int round = 0; round < 4; ++round) {
     CAPTURE(round);
-    const Result clean = run(scene, o, nullptr), cached = run(scene, o, &results);
+    const Chunked clean = run_chunked(scene, o, nullptr), cached = run_chunked(scene, o, &results);
     CHECK((cached.bits == clean.bits));
     CHECK((cached.header == clean.header));
     CHECK(cached.counts.input_hash == clean.counts.input_hash);
@@ -196,7 +196,7 @@ TEST_CASE("a scene from kept chunks has the voxels of one from nothing, after an
       CHECK(cached.counts.chunks_kept < cached.counts.chunks);
       CHECK(cached.counts.chunks_kept > 0);
     }
-    const Result again = run(scene, o, &results);
+    const Chunked again = run_chunked(scene, o, &results);
     CHECK((again.bits == clean.bits));
     CHECK(again.counts.chunks_kept == again.counts.chunks);
     edit(scene, random);
@@ -212,9 +212,9 @@ TEST_CASE("triangles too large for a chunk are voxelized in every build", "[quic
   o.voxel_size = [](const Bounds3d&) { return 0.25; };
   o.context.memory.bytes = GENERATE(std::uint64_t(1) << 30, std::uint64_t(100000));
   test::MemoryResults results;
-  const Result clean = run(scene, o, nullptr);
-  CHECK((run(scene, o, &results).bits == clean.bits));
-  const Result again = run(scene, o, &results);
+  const Chunked clean = run_chunked(scene, o, nullptr);
+  CHECK((run_chunked(scene, o, &results).bits == clean.bits));
+  const Chunked again = run_chunked(scene, o, &results);
   CHECK((again.bits == clean.bits));
   CHECK(again.counts.chunks_kept == again.counts.chunks - 1);
   for (const auto& [key, bytes] : results.results) CHECK(bytes.size() <= kChunkBytes);
@@ -224,22 +224,23 @@ TEST_CASE("chunks of other voxels, of another frame, or damaged ones are not tak
   const Triangles scene = strand(8, 30000);
   test::MemoryResults results;
   VoxelizeOptions o;
-  (void)run(scene, o, &results);
-  CHECK(run(scene, o, &results).counts.chunks_kept > 0);
+  (void)run_chunked(scene, o, &results);
+  CHECK(run_chunked(scene, o, &results).counts.chunks_kept > 0);
   VoxelizeOptions finer = o;
   finer.voxel_size = [](const Bounds3d&) { return 0.5; };
-  const Result smaller = run(scene, finer, &results);  // its triangles were met, and not kept: they are read again
+  const Chunked smaller =
+      run_chunked(scene, finer, &results);  // its triangles were met, and not kept: they are read again
   CHECK(smaller.counts.chunks_kept == 0);
   CHECK(smaller.counts.read_twice);
-  CHECK((smaller.bits == run(scene, finer, nullptr).bits));
+  CHECK((smaller.bits == run_chunked(scene, finer, nullptr).bits));
   Triangles more = scene;
   more.push_back({{{-500, 0, 0}, {-499, 0, 0}, {-499, 1, 0}}});  // the origin moves
-  CHECK(run(more, o, &results).counts.chunks_kept == 0);
+  CHECK(run_chunked(more, o, &results).counts.chunks_kept == 0);
   for (auto& [key, bytes] : results.results) bytes.resize(bytes.size() / 2);
-  const Result damaged = run(scene, o, &results);
+  const Chunked damaged = run_chunked(scene, o, &results);
   CHECK(damaged.counts.chunks_kept == 0);
-  CHECK((damaged.bits == run(scene, o, nullptr).bits));
-  CHECK(run(scene, o, &results).counts.chunks_kept == damaged.counts.chunks);
+  CHECK((damaged.bits == run_chunked(scene, o, nullptr).bits));
+  CHECK(run_chunked(scene, o, &results).counts.chunks_kept == damaged.counts.chunks);
 }
 
 namespace {
@@ -270,12 +271,12 @@ TEST_CASE("jobs at work at the same time share the chunks of their scene", "[qui
   // One chunk at work at a time; the latter: read twice.
   o.context.memory.bytes = GENERATE(std::uint64_t(1) << 26, std::uint64_t(100000));
   test::MemoryResults other;
-  const Result clean = run(scene, o, nullptr);
-  REQUIRE(run(scene, o, &other).counts.chunks > 4);
+  const Chunked clean = run_chunked(scene, o, nullptr);
+  REQUIRE(run_chunked(scene, o, &other).counts.chunks > 4);
   for (const std::uint64_t turn : {1, 2}) {
     SharedResults shared(other);
     o.context.turn = turn;
-    const Result found = run(scene, o, &shared);
+    const Chunked found = run_chunked(scene, o, &shared);
     CHECK((found.bits == clean.bits));
     CHECK(found.counts.surface_voxels == clean.counts.surface_voxels);
     CHECK(found.counts.input_hash == clean.counts.input_hash);

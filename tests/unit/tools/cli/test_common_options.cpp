@@ -16,7 +16,7 @@ using namespace bp;
 
 namespace {
 
-CommonOptions parse(std::vector<const char*> words) {
+CommonOptions parse_common(std::vector<const char*> words) {
   words.insert(words.begin(), "bptest");
   CommonOptions o;
   Args args("bptest", int(words.size()), words.data());
@@ -40,23 +40,23 @@ TEST_CASE("devices are auto, cpu, cuda or a list", "[quick][tools]") {
 }
 
 TEST_CASE("common options mean the same in every tool", "[quick][tools]") {
-  const CommonOptions o = parse({"-j2", "--memory", "1G", "--device=cpu", "--progress", "json", "--overwrite"});
+  const CommonOptions o = parse_common({"-j2", "--memory", "1G", "--device=cpu", "--progress", "json", "--overwrite"});
   CHECK(o.threads == 2);
   CHECK(o.memory_bytes == std::uint64_t(1) << 30);
   CHECK(o.device.kind == DeviceChoice::Kind::cpu);
   CHECK(o.progress == ProgressMode::json);
   CHECK(o.overwrite);
-  CHECK(parse({"-q"}).progress == ProgressMode::quiet);
+  CHECK(parse_common({"-q"}).progress == ProgressMode::quiet);
 }
 
 TEST_CASE("a scratch directory that cannot be used is noticed before the work", "[quick][tools]") {
-  CommonOptions missing = parse({"--temp", "/nonexistent/directory"});
+  CommonOptions missing = parse_common({"--temp", "/nonexistent/directory"});
   CHECK_THROWS_AS(missing.prepare(), Error);
-  CommonOptions file = parse({"--temp", "/dev/null"});
+  CommonOptions file = parse_common({"--temp", "/dev/null"});
   CHECK_THROWS_AS(file.prepare(), Error);
-  CommonOptions small = parse({"--memory", "1K"});
+  CommonOptions small = parse_common({"--memory", "1K"});
   CHECK_THROWS_AS(small.prepare(), Error);
-  CommonOptions good = parse({});
+  CommonOptions good = parse_common({});
   good.prepare();
   CHECK_FALSE(good.temp.empty());
   CHECK(good.memory_bytes == default_memory());
@@ -65,7 +65,7 @@ TEST_CASE("a scratch directory that cannot be used is noticed before the work", 
 TEST_CASE("a file in the place of the report is noticed before the work", "[quick][tools]") {
   const auto path = std::filesystem::temp_directory_path() / "bp-test-report-exists.json";
   std::ofstream(path) << "kept";
-  CommonOptions o = parse({"--report", path.c_str()});
+  CommonOptions o = parse_common({"--report", path.c_str()});
   CHECK_THROWS_AS(o.prepare(), Error);
   o.overwrite = true;
   CHECK_NOTHROW(o.prepare());
@@ -76,16 +76,16 @@ TEST_CASE("a report replaces an earlier one, and nothing else", "[quick][tools]"
   const test::TempDir dir;
   Report report("bpvox");
   const std::string earlier = dir.file("r.json", report.text()), empty = dir.file("empty", "");
-  CHECK_NOTHROW(parse({"--report", earlier.c_str()}).prepare());
-  CHECK_NOTHROW(parse({"--report", empty.c_str()}).prepare());
+  CHECK_NOTHROW(parse_common({"--report", earlier.c_str()}).prepare());
+  CHECK_NOTHROW(parse_common({"--report", empty.c_str()}).prepare());
   for (const char* text : {"{\"tool\": 1}", "{\n  \"tool\": \"ot", "v 0 0 0\n"})
-    CHECK_THROWS_AS(parse({"--report", dir.file("other", text).c_str()}).prepare(), Error);
+    CHECK_THROWS_AS(parse_common({"--report", dir.file("other", text).c_str()}).prepare(), Error);
 }
 
 TEST_CASE("a GPU that a CPU build is asked for is a missing resource", "[quick][tools]") {
 #ifndef BP_HAVE_CUDA
   try {
-    (void)make_backends(parse({"--device", "cuda"}), 0);
+    (void)make_backends(parse_common({"--device", "cuda"}), 0);
     FAIL("no error");
   } catch (const Error& e) {
     CHECK(e.code() == ErrorCode::out_of_resource);
@@ -97,7 +97,7 @@ TEST_CASE("a GPU that BP_BACKEND asks for and that is not there is an error that
           "[quick][tools]") {
   ::setenv("BP_BACKEND", "cuda:999", 1);
   try {
-    (void)make_backends(parse({}), 0);
+    (void)make_backends(parse_common({}), 0);
     FAIL("no error");
   } catch (const Error& e) {
     CHECK(e.code() == ErrorCode::out_of_resource);
@@ -109,14 +109,14 @@ TEST_CASE("a GPU that BP_BACKEND asks for and that is not there is an error that
 TEST_CASE("a BP_BACKEND that names no device is a usage error that names the variable", "[quick][tools]") {
   ::setenv("BP_BACKEND", "gpu", 1);
   try {
-    (void)make_backends(parse({}), 0);
+    (void)make_backends(parse_common({}), 0);
     FAIL("no error");
   } catch (const Error& e) {
     CHECK(e.code() == ErrorCode::bad_argument);
     CHECK(std::string(e.what()).find("BP_BACKEND") != std::string::npos);
   }
   ::setenv("BP_BACKEND", "cpu", 1);
-  CHECK(names_of(make_backends(parse({"-j2"}), 0)) == std::vector<std::string>{"cpu"});
+  CHECK(names_of(make_backends(parse_common({"-j2"}), 0)) == std::vector<std::string>{"cpu"});
   ::unsetenv("BP_BACKEND");
 }
 
