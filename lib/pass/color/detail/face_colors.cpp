@@ -14,7 +14,7 @@ constexpr double kSpacing = kColorCellVox * kLatticePerVoxel / 2;  // lattice un
 constexpr int kLeastRows = 2;
 constexpr double kMostSamples = 1 << 14;  // of a face, about: they are in memory together
 constexpr int kFitRounds = 3;
-constexpr double kMostFar = 0.2;                 // of a face: more is no outlier
+constexpr double kMostFar = 0.25;                // of a face: more is no outlier
 constexpr double kNear = 0.05 * 65535;           // of a colour and the fit: it counts half there
 constexpr double kLittle = kNear * kNear / 100;  // variance: all is near
 /// Colours that differ: by so much of the range of what is seen, and by so many standard deviations within the faces.
@@ -99,7 +99,7 @@ double squared_distance(const Sample& sample, const FaceFit& fit) {
 
 /// What is far from the face's fit counts less, in three rounds: a narrow band of another colour, as the foot of a
 /// wall, would tint all of the face. What fades fits, and all of it counts. So does all of a face where more than a
-/// fifth of it is far, as stripes are: its mean is what is seen from afar.
+/// quarter of it is far, as stripes are: its mean is what is seen from afar.
 FaceColors sampled(const TriangleD& corners, const NearbyColors& colors) {
   const double area = area_of(corners);
   const Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
