@@ -317,7 +317,7 @@ TEST_CASE("MTL: how a material answers to light, if that is asked for", "[quick]
 TEST_CASE("light of materials is read where surfaces are not asked for", "[quick][io]") {
   const TempDir dir;
   (void)dir.file("a.png", image_file(1));
-  Json doc{{"textures", {{{"source", 0}}}}, {"images", {{{"uri", "a.png"}}}}};
+  SortedJson doc{{"textures", {{{"source", 0}}}}, {"images", {{{"uri", "a.png"}}}}};
   doc["materials"] = {{{"emissiveTexture", {{"index", 0}}},
                        {"emissiveFactor", {1, 0.5, 0}},
                        {"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}}}}};
