@@ -54,7 +54,7 @@ struct TileParams : TileShape {
   /// many.
   static constexpr double kErrorVox = 3;
   static constexpr std::uint64_t kMostFacesForError = std::uint64_t(1) << 16;
-  static constexpr std::size_t kMostTriangles = std::size_t(1) << 16;  ///< that a tile encloses; else voxels
+  static constexpr std::size_t kMostTriangles = std::size_t(1) << 18;  ///< that a tile encloses; else voxels
 };
 
 struct TileMeasures {

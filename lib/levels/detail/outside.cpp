@@ -14,8 +14,6 @@ namespace bp {
 
 namespace {
 
-constexpr double kTolerance = 1.0 / 16;  // of the distance to triangles, in voxels
-
 /// That measuring takes for a moment.
 std::uint64_t measuring_bytes(std::uint64_t runs) {
   return runs * sizeof(TriangleD) + TriangleBvh::bytes_needed(runs);
@@ -66,7 +64,8 @@ std::uint64_t Outside::bytes() const {
 void Outside::measure(LodLevel& level, MeshMode mode, const std::vector<TriangleD>* enclosed) const {
   const std::vector<TriangleD> triangles = world_triangles(level.mesh);
   std::optional<double> known;  // before a ruler is made: the tree of the enclosed triangles is gone by then
-  if (enclosed != nullptr) known = largest_distance(triangles, TriangleBvh(*enclosed), kTolerance * voxel()).at_most;
+  if (enclosed != nullptr)
+    known = largest_distance(triangles, TriangleBvh(*enclosed), kTriangleTolerance * voxel()).at_most;
   kept_ ? kept_->measure(level, triangles, mode, known) : Ruler(runs_, frame_).measure(level, triangles, mode, known);
 }
 

@@ -18,7 +18,6 @@ namespace {
 
 constexpr const char* kJobName = "tile";
 constexpr std::int64_t kLatticeAround = 1;  // far more than a check grows the cell by, far less than a voxel
-constexpr double kTolerance = 1.0 / 16;     // of the distance to triangles, in voxels
 
 }  // namespace
 
@@ -271,7 +270,7 @@ void TileMaker::measure(const LatticeMesh& mesh, TileMeasures& measures) const {
   const GridFrame& frame = mesh.frame;
   const std::vector<TriangleD> triangles = world_triangles(mesh);
   if (params_.mode == MeshMode::bounding && !scene_.empty()) {
-    measures.error_world = largest_distance(triangles, TriangleBvh(shown()), frame.voxel * kTolerance).at_most;
+    measures.error_world = largest_distance(triangles, TriangleBvh(shown()), frame.voxel * kTriangleTolerance).at_most;
     return;
   }
   std::vector<VoxelRun> near = runs_of(level_.surface, reach());

@@ -8,6 +8,8 @@
 /// bounds, up to the rounding of doubles.
 namespace bp {
 
+constexpr double kTriangleTolerance = 1.0 / 16;  ///< of distances to triangles of the scene, in voxels
+
 /// Runs as segments through the middles of their voxels, scene units (triangles of no width).
 [[nodiscard]] std::vector<TriangleD> segments_of(std::span<const VoxelRun> runs, const GridFrame& frame);
 
