@@ -160,8 +160,12 @@ TEST_CASE("the tiles of all levels cover the scene together", "[quick][pass][lod
 
 TEST_CASE("tiles do not depend on threads or on memory", "[quick][pass][lod]") {
   Backends backends = cpu_backends();
-  TilePyramid levels = pyramid(scene(), backends);
-  const Level level = make(levels, {});
+  const Triangles triangles = scene();
+  const TriangleBvh tree(triangles);
+  TileParams params;
+  if (GENERATE(false, true)) enclose(tree, params);
+  TilePyramid levels = pyramid(triangles, backends);
+  const Level level = make(levels, params);
   const ThreadLimit one(1);
   PyramidOptions options;
   Voxelized solid = voxelized(scene(), 1, kEdge);
@@ -169,7 +173,7 @@ TEST_CASE("tiles do not depend on threads or on memory", "[quick][pass][lod]") {
   options.context.make_shelf = memory_shelves();
   options.context.memory.bytes = std::uint64_t(16) << 20;  // one tile at a time
   TilePyramid again(solid.header, std::move(solid.shelf), backends, options);
-  const Level other = make(again, {});
+  const Level other = make(again, params);
   REQUIRE(level.size() == other.size());
   for (const auto& [cell, made] : level) {
     CHECK(made.mesh.vertices == other.at(cell).mesh.vertices);
@@ -277,15 +281,24 @@ TEST_CASE("a tile's key depends on all that decides the tile", "[quick][pass][lo
   });
   all.push_back(keys(shape, 3));
   all.push_back(keys(shape, 2, Cells{2 * kEdge}));
+  const Triangles before = scene;
   scene[0][0][0] += 2;
   all.push_back(keys(shape));
+  Triangles moved = before;  // within its voxel
+  moved[0][0][0] += 0.125;
+  for (const Triangles* triangles : std::initializer_list<const Triangles*>{&before, &moved}) {
+    scene = before;
+    const TriangleBvh tree(*triangles);
+    enclosed = &tree;
+    all.push_back(keys(shape));
+  }
   std::size_t sum = 0;
   std::set<ResultKey> distinct;
   for (const std::set<ResultKey>& some : all) {
     sum += some.size();
     distinct.insert(some.begin(), some.end());
   }
-  CHECK(all.size() == 1 + (kFieldCount<TileShape> - 1) + 3);
+  CHECK(all.size() == 1 + (kFieldCount<TileShape> - 1) + 5);
   CHECK(distinct.size() == sum);
 }
 
