@@ -252,9 +252,11 @@ TEST_CASE("a tile's key depends on all that decides the tile", "[quick][pass][lo
   Triangles scene;
   add_box(scene, {3, 3, 3}, {40, 30, 20});
   Backends backends = cpu_backends();
+  const TriangleBvh* triangles = nullptr;
   const auto keys = [&](const TileShape& shape, double scale = 2, const Cells& cells = kTileCells) {
     Keys store;
     TileParams params;
+    params.scene = triangles;
     static_cast<TileShape&>(params) = shape;
     params.make = false;
     Voxelized solid = voxelized(scene, 1, cells.edge_vox);
@@ -281,17 +283,17 @@ TEST_CASE("a tile's key depends on all that decides the tile", "[quick][pass][lo
   });
   all.push_back(keys(shape, 3));
   all.push_back(keys(shape, 2, Cells{2 * kEdge}));
-  const Triangles before = scene;
-  scene[0][0][0] += 2;
-  all.push_back(keys(shape));
-  Triangles moved = before;  // within its voxel
+  const TriangleBvh tree(scene);
+  Triangles moved = scene;  // within a voxel
   moved[0][0][0] += 0.125;
-  for (const Triangles* triangles : std::initializer_list<const Triangles*>{&before, &moved}) {
-    scene = before;
-    const TriangleBvh tree(*triangles);
-    enclosed = &tree;
+  const TriangleBvh tree_of_moved(moved);
+  for (const TriangleBvh* some : {&tree, &tree_of_moved}) {
+    triangles = some;
     all.push_back(keys(shape));
   }
+  triangles = nullptr;
+  scene[0][0][0] += 2;
+  all.push_back(keys(shape));
   std::size_t sum = 0;
   std::set<ResultKey> distinct;
   for (const std::set<ResultKey>& some : all) {
