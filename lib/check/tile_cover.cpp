@@ -11,9 +11,9 @@
 #include "lib/check/counted.h"
 #include "lib/check/detail/leaf_proof.h"
 #include "lib/check/detail/tile_body.h"
-#include "lib/exact/triangle_part.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/exact/triangle_part.h"
 #include "lib/geometry/triangle_totals.h"
 #include "lib/tileset/tile_tree.h"
 

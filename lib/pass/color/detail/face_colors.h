@@ -7,7 +7,7 @@ namespace bp {
 
 using Rgb = std::array<double, 3>;  ///< as LinearColor
 
-/// How much a fit is drawn to the mean, in shares of its weights: where few samples tell, it stays bounded.
+/// The pull of a fit towards the mean, in shares of its weights: where few samples tell, it stays bounded.
 constexpr double kTowardsMean = 0.05;
 
 /// The colours over a face, summed up over samples.
