@@ -80,9 +80,9 @@ int status_of(bp::Answer answer) {
 /// What may be behind the failure of a tileset; reads the scenes once more.
 std::string tileset_hint(const std::vector<std::string>& scenes, const std::string& tileset,
                          const bp::SceneOptions& options) {
-  const std::string other = bp::other_scene_hint(scenes, tileset, options);
+  if (std::string other = bp::other_scene_hint(scenes, tileset, options); !other.empty()) return other;
   const auto contents = bp::tileset_level(bp::read_tileset(tileset), tileset, 0).contents;
-  return !other.empty() || contents.empty() ? other : bp::fit_hint(contents.front().path);
+  return contents.empty() ? "" : bp::fit_hint(contents.front().path);
 }
 
 /// A tileset is many proxies and what holds them together.

@@ -90,7 +90,7 @@ bool closes(const NewFace& f, const Tetrahedron& t) {
 EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame,
                                      const std::optional<Bounds3d>& within)
     : frame_(frame), within_(within) {
-  if (within) cut_to(*within, triangles);
+  const std::vector<Vec3d> middles = within ? cut_to(*within, triangles) : std::vector<Vec3d>{};
   std::vector<LatticeBox> boxes(triangles.size());
   std::vector<std::uint32_t> items(triangles.size());
   parallel_ranges(std::int64_t(triangles.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {
@@ -106,7 +106,7 @@ EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const Gri
   }
   tree_.build(boxes, std::move(items));
   triangles_.resize(triangles.size());
-  if (within_) middles_.resize(triangles.size());
+  middles_.resize(middles.size());
   eights_.assign((triangles.size() + 7) / 8, {});
   std::vector<double> reach(triangles.size() / kTrianglesAtOnce + 1, 0);
   static_assert(kTrianglesAtOnce % 8 == 0);
@@ -114,7 +114,7 @@ EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const Gri
     double farthest = 0;
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
       triangles_[i] = triangles[tree_.order()[i]];
-      if (within_) middles_[i] = kLatticePerVoxel * frame_.to_voxels(TrianglePart(triangles_[i], *within_).middle());
+      if (within_) middles_[i] = middles[tree_.order()[i]];
       farthest = std::max(farthest, set_corners(i));
     }
     reach[std::size_t(begin / kTrianglesAtOnce)] = farthest;
@@ -122,9 +122,15 @@ EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const Gri
   reach_ = *std::max_element(reach.begin(), reach.end());
 }
 
-/// Keeps the triangles that have a part in the box.
-void EnclosedTriangles::cut_to(const Bounds3d& within, std::vector<TriangleD>& triangles) {
-  std::erase_if(triangles, [&](const TriangleD& t) { return TrianglePart(t, within).empty(); });
+/// Keeps the triangles that have a part in the box; returns middles of the parts, lattice units.
+std::vector<Vec3d> EnclosedTriangles::cut_to(const Bounds3d& within, std::vector<TriangleD>& triangles) const {
+  std::vector<Vec3d> middles;
+  std::erase_if(triangles, [&](const TriangleD& t) {
+    const TrianglePart part(t, within);
+    if (!part.empty()) middles.push_back(kLatticePerVoxel * frame_.to_voxels(part.middle()));
+    return part.empty();
+  });
+  return middles;
 }
 
 /// The largest coordinate.

@@ -34,7 +34,7 @@ class EnclosedTriangles : public Enclosed {
 
  private:
   class Swept;
-  void cut_to(const Bounds3d& within, std::vector<TriangleD>& triangles);
+  std::vector<Vec3d> cut_to(const Bounds3d& within, std::vector<TriangleD>& triangles) const;
   double set_corners(std::size_t triangle);
   void add_samples_of(std::size_t triangle, std::vector<Vec3d>& points) const;
   /// The samples of triangles, in lattice units, each once.

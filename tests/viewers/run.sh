@@ -33,7 +33,7 @@ bplod scenes/city.obj --up z --faces 4000 --levels 1 --appearance texture -o dat
 bplod scenes/engine.obj --faces 3000 --levels 1 -o data/engine > /dev/null
 bplod scenes/city.obj --up z --profile 3dtiles --appearance texture -o data/city-tiles > /dev/null
 bplod scenes/figure.obj --resolution 192 --profile 3dtiles -o data/figure-tiles > /dev/null
-bplod scenes/engine.obj --profile 3dtiles -o data/engine-tiles > /dev/null # tiles enclose voxels: of few, they show as stripes
+bplod scenes/engine.obj --profile 3dtiles -o data/engine-tiles > /dev/null
 
 failed=0
 # picture VIEWER FILE NAME [QUERY]

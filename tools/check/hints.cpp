@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 
 #include "lib/check/verdict_text.h"
 #include "lib/core/error.h"
+#include "lib/core/vec3.h"
 #include "lib/store/content_hash.h"
 #include "lib/store/hex.h"
 #include "tools/run/grounded_source.h"
@@ -18,10 +18,6 @@
 namespace bp {
 
 namespace {
-
-bool all_finite(const Vec3d& p) {
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
 
 bool is_file(const std::string& path) {
   std::error_code unknown;
@@ -69,7 +65,7 @@ MeshExtras extras_of(const std::string& path) {
 
 std::optional<Vec3d> told_origin(const std::vector<std::string>& scenes, const std::string& proxy) {
   const std::optional<Vec3d> origin = extras_of(proxy).origin;
-  if (scenes.empty() || !origin || !all_finite(*origin)) return {};
+  if (scenes.empty() || !origin || !is_finite(*origin)) return {};
   for (const std::string& scene : scenes) {
     if (extras_of(scene).origin == origin) return {};
   }

@@ -19,6 +19,25 @@ namespace {
 constexpr const char* kJobName = "tile";
 constexpr std::int64_t kLatticeAround = 1;  // far more than a check grows the cell by, far less than a voxel
 
+/// Voxels of `box` by rows of a brick: word(c, y, z, p, i) is row (y, z) of brick c, which begins at voxel p, and which
+/// bit boxes over `box` have as word i.
+template <class Word>
+std::unique_ptr<BrickShelf> shelf_of_rows(const VoxelBox& box, const ShelfFactory& make_shelf, const Word& word) {
+  auto shelf = make_shelf();
+  const std::int32_t first_x = bricks_of(box).min.x;
+  for_each_brick(box, [&](BrickCoord c) {
+    BrickBits bits{};
+    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+        if (row_within(c, y, z, box) == 0) continue;
+        bits[std::size_t(z * kBrickEdge + y)] = word(c, y, z, first_voxel(c) + VoxelCoord{0, y, z}, c.x - first_x);
+      }
+    }
+    if (classify(bits) != BrickFill::empty) shelf->put(c, classify(bits), bits);
+  });
+  return shelf;
+}
+
 }  // namespace
 
 ResultKey TileMaker::key() const {
@@ -101,18 +120,9 @@ void TileMaker::leave_out_fringes() {
   if (far == 0) return;
   grow_within(kept, outside);
   for_each_word([&](std::uint64_t& c, std::uint64_t, std::uint64_t out, std::uint64_t) { c &= ~out; });
-  closing_ = context_.make_shelf();
-  for_each_brick(grown_, [&](BrickCoord c) {
-    BrickBits bits{};
-    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
-      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
-        const VoxelCoord p = first_voxel(c) + VoxelCoord{0, y, z};
-        if (row_within(c, y, z, grown_) == 0) continue;
-        bits[std::size_t(z * kBrickEdge + y)] = closing.row(p.y, p.z)[(p.x - box.min.x) / kBrickEdge];
-      }
-    }
-    if (classify(bits) != BrickFill::empty) closing_->put(c, classify(bits), bits);
-  });
+  closing_ = shelf_of_rows(
+      grown_, context_.make_shelf,
+      [&](BrickCoord, std::int32_t, std::int32_t, VoxelCoord p, std::int32_t i) { return closing.row(p.y, p.z)[i]; });
 }
 
 /// Where a part of the closing holds no voxel of the solid in this cell, nothing would stop it as it is tightened: it
@@ -154,24 +164,12 @@ void TileMaker::hold_beside_triangles() {
   load_voxels(level_.surface, near);
   grow_within(closing, reached);
   dilate(near, kBesideTriangles);
-  held_ = context_.make_shelf();
-  BrickBits bits;
-  for_each_brick(grown_, [&](BrickCoord c) {
-    const VoxelCoord first = first_voxel(c);
-    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
-      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
-        const VoxelCoord p = first + VoxelCoord{0, y, z};
-        std::uint64_t& word = bits[std::size_t(z * kBrickEdge + y)];
-        word = 0;
-        if (row_within(c, y, z, grown_) == 0) continue;
-        const std::int32_t i = (p.x - closing.box().min.x) / kBrickEdge;
-        const std::uint64_t here = row_within(c, y, z, cell_), inner = row_within(c, y, z, cell_.grown(-1));
-        word = closing.row(p.y, p.z)[i] & ~reached.row(p.y, p.z)[i];
-        word |= solid.row(p.y, p.z)[i] & ~near.row(p.y, p.z)[i] & here & ~inner;
-      }
-    }
-    if (classify(bits) != BrickFill::empty) held_->put(c, classify(bits), bits);
-  });
+  held_ = shelf_of_rows(grown_, context_.make_shelf,
+                        [&](BrickCoord c, std::int32_t y, std::int32_t z, VoxelCoord p, std::int32_t i) {
+                          const std::uint64_t stray = closing.row(p.y, p.z)[i] & ~reached.row(p.y, p.z)[i];
+                          const std::uint64_t inside = solid.row(p.y, p.z)[i] & ~near.row(p.y, p.z)[i];
+                          return stray | (inside & row_within(c, y, z, cell_) & ~row_within(c, y, z, cell_.grown(-1)));
+                        });
 }
 
 MeshParams TileMaker::mesh_params(TileMeasures& measures) const {
