@@ -14,9 +14,11 @@ constexpr double kSpacing = kColorCellVox * kLatticePerVoxel / 2;  // lattice un
 constexpr int kLeastRows = 2;
 constexpr double kMostSamples = 1 << 14;  // of a face, about: they are in memory together
 constexpr int kFitRounds = 3;
-constexpr double kMostFar = 0.25;                // of a face: more is no outlier
-constexpr double kNear = 0.05 * 65535;           // of a colour and the fit: it counts half there
-constexpr double kLittle = kNear * kNear / 100;  // variance: all is near
+constexpr std::size_t kColorsTried = 16;
+constexpr double kPatternFar = 0.25, kMostFar = 0.5;  // of a face: may be a pattern; is no outlier
+constexpr double kOneSide = 0.3;                      // of a pattern's variance, most that a slope may explain
+constexpr double kNear = 0.05 * 65535;                // of a colour and the fit: it counts half there
+constexpr double kLittle = kNear * kNear / 100;       // variance: all is near
 /// Colours that differ: by so much of the range of what is seen, and by so many standard deviations within the faces.
 constexpr double kLeastStep = 0.1, kLeastDeviations = 1;
 
@@ -40,18 +42,21 @@ struct Sample {
   Rgb color;
 };
 
-FaceColors sum_of(const std::vector<Sample>& samples) {
+/// area_of(sample): as how much area it counts.
+template <class Area>
+FaceColors sum_of(const std::vector<Sample>& samples, const Area& area_of) {
   FaceColors face;
   for (const Sample& s : samples) {
+    const double area = area_of(s);
     for (std::size_t k = 0; k < 3; ++k) {
-      const double weight = s.area * s.w[k];
+      const double weight = area * s.w[k];
       face.products[k] += weight * s.w[k];
       face.products[3 + k] += weight * s.w[(k + 1) % 3];
       face.mass[k] += weight;
       for (std::size_t i = 0; i < 3; ++i) face.sums[k][i] += weight * s.color[i];
     }
     for (std::size_t i = 0; i < 3; ++i) {
-      face.squares[i] += s.area * s.color[i] * s.color[i];
+      face.squares[i] += area * s.color[i] * s.color[i];
       face.low[i] = std::min(face.low[i], s.color[i]);
       face.high[i] = std::max(face.high[i], s.color[i]);
     }
@@ -97,9 +102,68 @@ double squared_distance(const Sample& sample, const FaceFit& fit) {
   return sum;
 }
 
-/// What is far from the face's fit counts less, in three rounds: a narrow band of another colour, as the foot of a
-/// wall, would tint all of the face. What fades fits, and all of it counts. So does all of a face where more than a
-/// quarter of it is far, as stripes are: its mean is what is seen from afar.
+/// What is far from a fit counts less.
+double near_area(const Sample& sample, const FaceFit& fit) {
+  return sample.area / (1 + squared_distance(sample, fit) / (kNear * kNear));
+}
+
+double near_area(const std::vector<Sample>& samples, const FaceFit& fit) {
+  double sum = 0;
+  for (const Sample& s : samples) sum += near_area(s, fit);
+  return sum;
+}
+
+/// The same colour everywhere: of those tried, the one that most of the face is near to.
+FaceFit most_frequent(const std::vector<Sample>& samples) {
+  FaceFit best;
+  double most = -1;
+  const std::size_t step = samples.size() / kColorsTried + 1;
+  for (std::size_t n = step / 2; n < samples.size(); n += step) {
+    FaceFit tried;
+    for (std::size_t i = 0; i < 3; ++i) tried.corners[i].fill(samples[n].color[i]);
+    const double near = near_area(samples, tried);
+    if (near <= most) continue;
+    most = near;
+    best = tried;
+  }
+  return best;
+}
+
+struct Refined {
+  FaceColors face;  // its area is that of all samples
+  FaceFit fit;
+};
+
+/// Rounds in which what is far from the fit of the round before counts less.
+Refined refined(const std::vector<Sample>& samples, const FaceFit& start, double area) {
+  Refined r{{}, start};
+  for (int round = 0; round < kFitRounds; ++round) {
+    r.face = sum_of(samples, [&](const Sample& s) { return near_area(s, r.fit); });
+    r.face.scale(area / r.face.area());
+    r.fit = fit_of(r.face);
+  }
+  return r;
+}
+
+/// True if what is far from the fit is half of the face, or a quarter that lies all over it, as stripes do. Another
+/// surface's colour lies at one side of it. The measure is the share of the variance of "far: 1, near: 0" that a linear
+/// function over the triangle explains: with moments of a triangle, 12 p / (1 - p) times the squared distance of what
+/// is far, p of the area, from the centre, in weights of the corners. It is above 0.5 for a band along an edge, and at
+/// most 0.2 for stripes.
+bool is_pattern(const std::vector<Sample>& samples, const FaceFit& fit, double area) {
+  Vec3d far{};  // by corner
+  for (const Sample& s : samples)
+    if (squared_distance(s, fit) > kNear * kNear) far = far + s.area / area * Vec3d(s.w);
+  const double p = far[0] + far[1] + far[2];
+  if (p <= kPatternFar || p > kMostFar) return p > kMostFar;
+  const Vec3d off = far - p / 3 * Vec3d{1, 1, 1};
+  return 12 * dot(off, off) < kOneSide * p * (1 - p);
+}
+
+/// What is far from a fit counts less: a band of another colour, as the foot of a wall, would tint all of the face.
+/// What fades fits, and all of it counts. Of two starts, the nearest fit to all and the most frequent colour, the one
+/// counts that ends nearer to more of the face: the first stays between two colours. All of a face with a pattern
+/// counts: its mean is what is seen from afar.
 FaceColors sampled(const TriangleD& corners, const NearbyColors& colors) {
   const double area = area_of(corners);
   const Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -108,25 +172,14 @@ FaceColors sampled(const TriangleD& corners, const NearbyColors& colors) {
   for_each_sample(corners, spacing, kLeastRows, [&](const std::array<double, 3>& w, double share) {
     samples.push_back({w, area * share, rgb_of(colors.at(point_of(corners, w), normal))});
   });
-  const FaceColors plain = sum_of(samples);
+  const FaceColors plain = sum_of(samples, [](const Sample& s) { return s.area; });
   if (!(area > 0)) return plain;
-  FaceFit fit = fit_of(plain);
+  const FaceFit fit = fit_of(plain);
   if (fit.variance < kLittle) return plain;
-  FaceColors face = plain;
-  std::vector<double> areas;
-  for (const Sample& s : samples) areas.push_back(s.area);
-  for (int round = 0; round < kFitRounds && fit.variance >= kLittle; ++round) {
-    for (std::size_t n = 0; n < samples.size(); ++n)
-      samples[n].area = areas[n] / (1 + squared_distance(samples[n], fit) / (kNear * kNear));
-    const double all = face.area();
-    face = sum_of(samples);
-    face.scale(all / face.area());
-    fit = fit_of(face);
-  }
-  double far = 0;
-  for (std::size_t n = 0; n < samples.size(); ++n)
-    if (squared_distance(samples[n], fit) > kNear * kNear) far += areas[n];
-  return far > kMostFar * plain.area() ? plain : face;
+  const Refined sloped = refined(samples, fit, plain.area());
+  const Refined even = refined(samples, most_frequent(samples), plain.area());
+  const Refined& best = near_area(samples, even.fit) > near_area(samples, sloped.fit) ? even : sloped;
+  return is_pattern(samples, best.fit, plain.area()) ? plain : best.face;
 }
 
 /// Of the two faces' colours, in the middle of the edge that begins at these places in them.

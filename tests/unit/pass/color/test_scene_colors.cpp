@@ -8,43 +8,13 @@
 #include "lib/volume/reduce.h"
 #include "lib/voxel/color_samples.h"
 #include "tests/catch.h"
+#include "tests/support/colored_scene.h"
 #include "tests/support/lattice_boxes.h"
-#include "tests/support/memory_store.h"
-#include "tests/support/voxelized.h"
 
 using namespace bp;
 using namespace bp::test;
 
 namespace {
-
-constexpr LinearColor kRed{65535, 0, 0}, kBlue{0, 0, 65535};
-
-class ColoredSource final : public TriangleSource {
- public:
-  ColoredSource(Triangles triangles, std::vector<TriangleColors> colors)
-      : plain_(std::move(triangles)), colors_(std::move(colors)) {}
-  bool read(std::vector<TriangleD>& out) override { return plain_.read(out); }
-  bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
-    const auto first = std::ptrdiff_t(plain_.counts().triangles);
-    const bool more = plain_.read(out);
-    colors.assign(colors_.begin() + first, colors_.begin() + first + std::ptrdiff_t(out.size()));
-    return more;
-  }
-  [[nodiscard]] bool has_colors() const override { return true; }
-  void rewind() override { plain_.rewind(); }
-  [[nodiscard]] const SceneCounts& counts() const override { return plain_.counts(); }
-  [[nodiscard]] std::string name() const override { return "memory"; }
-
- private:
-  MemorySource plain_;
-  std::vector<TriangleColors> colors_;
-};
-
-struct ColoredScene {
-  Triangles triangles;
-  std::vector<TriangleColors> colors;
-  void paint(LinearColor c) { colors.resize(triangles.size(), {c, c, c}); }
-};
 
 /// Two boxes side by side, red and blue.
 ColoredScene two_boxes() {
@@ -54,17 +24,6 @@ ColoredScene two_boxes() {
   add_box(s.triangles, {10, 0, 0}, {20, 10, 10});
   s.paint(kBlue);
   return s;
-}
-
-std::unique_ptr<SceneColors> gathered(const ColoredScene& scene, const Voxelized& voxels, std::uint64_t memory,
-                                      std::uint64_t* put = nullptr) {
-  static std::uint64_t ignored = 0, held = 0;
-  ColoredSource source(scene.triangles, scene.colors);
-  PassContext options;
-  options.memory.bytes = memory;
-  options.make_shelf = memory_shelves();
-  options.make_scratch = [put] { return std::make_unique<MemoryStore>(put != nullptr ? *put : ignored, held); };
-  return gather_colors(source, voxels.header.frame, *voxels.shelf, options);
 }
 
 ResultKey key_of(const NearbyColors& colors) {
@@ -77,20 +36,6 @@ LinearColor at_world(const NearbyColors& colors, const GridFrame& frame, const V
   Vec3d v = frame.to_voxels(p);
   for (double& x : v) x *= kLatticePerVoxel;
   return colors.at(v, {});
-}
-
-/// A level of one box around [0, side]^3, with the colours of the scene.
-LatticeMesh wall_of(const ColoredScene& scene, double side) {
-  const Voxelized voxels = voxelized(scene.triangles, 0.125);
-  LatticeMesh mesh;
-  mesh.frame = voxels.header.frame;
-  const auto corner = [&](double x) {
-    const Vec3d p = 64.0 * mesh.frame.to_voxels({x, x, x});
-    return LatticeCoord{std::lround(p[0]), std::lround(p[1]), std::lround(p[2])};
-  };
-  add_box(mesh, {corner(0), corner(side)});
-  color_vertices(mesh, gathered(scene, voxels, 1 << 20)->all(mesh.frame));
-  return mesh;
 }
 
 }  // namespace
@@ -323,38 +268,6 @@ TEST_CASE("no vertex of a box of two colours has a mixed one, however it is turn
     for (const LinearColor& c : mesh.colors[f])
       CHECK(linear_bytes(c) == linear_bytes(is_top(box.triangles[f]) ? kRed : kBlue));
   }
-}
-
-TEST_CASE("a narrow band of another colour does not fade over a large face", "[quick][pass][colors]") {
-  ColoredScene scene;  // a wall of 20 x 20 x 20 with a foot of 1.5, and a level that has one face for both
-  add_box(scene.triangles, {0, 0, 0}, {20, 1.5, 20});
-  scene.paint(kBlue);
-  add_box(scene.triangles, {0, 1.5, 0}, {20, 20, 20});
-  scene.paint(kRed);
-  const LatticeMesh mesh = wall_of(scene, 20);
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const auto& t = mesh.triangles[f];
-    const auto at_foot = [&](std::uint32_t v) { return mesh.vertices[v].y == box_of(mesh.vertices).min.y; };
-    const bool is_bottom = at_foot(t[0]) && at_foot(t[1]) && at_foot(t[2]);
-    CAPTURE(f);
-    for (const LinearColor& c : mesh.colors[f]) {
-      CHECK((is_bottom ? c.b : c.r) > 62000);
-      CHECK((is_bottom ? c.r : c.b) < 3500);
-    }
-  }
-}
-
-TEST_CASE("a face of which a third has another colour keeps both", "[quick][pass][colors]") {
-  ColoredScene scene;  // stripes, one blue for two red ones; top and bottom are red
-  for (int i = 0; i < 24; ++i) {
-    add_box(scene.triangles, {0, double(i), 0}, {24, double(i + 1), 24});
-    scene.paint(i % 3 == 1 ? kBlue : kRed);
-  }
-  double red = 0, blue = 0;
-  const LatticeMesh mesh = wall_of(scene, 24);
-  for (const auto& corners : mesh.colors)
-    for (const LinearColor& c : corners) red += c.r, blue += c.b;
-  CHECK(blue > 0.1 * (red + blue));
 }
 
 TEST_CASE("colours do not bleed over edges of the scene, and go on where it is smooth", "[quick][pass][colors]") {
