@@ -43,10 +43,12 @@ void add_colors(const TriangleD& triangle_vox, const TriangleColors& colors, std
     const std::uint64_t weight = std::max<std::uint64_t>(1, std::uint64_t(area * share + 0.5));
     const ColorSum sum{weight, weight * channel(colors, &LinearColor::r, w),
                        weight * channel(colors, &LinearColor::g, w), weight * channel(colors, &LinearColor::b, w)};
-    if (out.size() > first && out.back().cell == cell) {  // of a row, most follow one of the same cell
+    const auto layer = std::uint16_t(side < kColorAxes ? (p[side] - cell[side]) * kColorCellVox : 0);
+    if (out.size() > first && out.back().cell == cell &&
+        out.back().layer == layer) {  // of a row, most follow one of the same cell
       out.back().sum.add(sum);
     } else {
-      out.push_back({cell, side, sum});
+      out.push_back({cell, side, layer, sum});
     }
   });
 }

@@ -27,6 +27,7 @@ constexpr std::array<std::array<int, 3>, 13> kColorSides{{{1, 0, 0},
                                                           {-1, 1, 1},
                                                           {1, -1, 1},
                                                           {1, 1, -1}}};
+constexpr std::uint16_t kColorAxes = 3;  ///< the first of kColorSides
 /// The one of kColorSides that is nearest to a normal of any length; 0 if it has none. Broken scenes have inverted
 /// triangles, so both sides of a thin wall look to one direction.
 [[nodiscard]] std::uint16_t color_side_of(const Vec3d& normal);
@@ -44,7 +45,8 @@ struct ColorSum {
 
 struct ColorCellSum {
   ColorCell cell;
-  std::uint16_t side = 0;  ///< of kColorSides
+  std::uint16_t side = 0;   ///< of kColorSides
+  std::uint16_t layer = 0;  ///< of the cell's voxels along an axis, if the side is one of kColorAxes
   ColorSum sum;
 };
 

@@ -1,7 +1,6 @@
 #include "lib/pass/color/scene_colors.h"
 
 #include <algorithm>
-#include <bitset>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -23,31 +22,37 @@ constexpr std::size_t kSumsInHand = 1 << 16;  // a large triangle alone may cove
 
 static_assert(ColorGrid::kEdge * kColorCellVox == kBrickEdge, "a brick of cells is a brick of voxels");
 
-/// Cells of a brick that hold a voxel of `shelf`, or have one right below them along some axes: a face that lies
-/// between two layers of voxels fills both, its samples fall into the upper one, and the lower one may be all that is
-/// outermost.
+/// What is seen of cells of a brick, if `shelf` has the voxels that are outermost. A face that lies between two layers
+/// of voxels fills both, and its samples fall into the upper one. The lower one may be all that is outermost. So a cell
+/// is seen that holds a voxel, or has one right below it along some axes.
 ColorGrid::Mask mask_of(const BrickShelf& shelf, ColorBrick coord) {
-  constexpr std::int32_t e = ColorGrid::kEdge;
+  constexpr std::int32_t e = ColorGrid::kEdge, n = kColorCellVox;
   const VoxelCoord first = first_voxel(BrickCoord{coord.x, coord.y, coord.z}), one{1, 1, 1};
   BitBox bits(VoxelBox{first - one, first + VoxelCoord{kBrickEdge, kBrickEdge, kBrickEdge}});
   load_voxels(shelf, bits);
-  auto mask = std::make_shared<std::bitset<std::size_t(e) * e * e>>();
-  const auto mark = [&](std::int32_t y, std::int32_t z, std::uint64_t row) {
-    for (std::int32_t x = 0; y < e && z < e && x < e; ++x)
-      if ((row >> (kColorCellVox * x) & ((1 << kColorCellVox) - 1)) != 0) mask->set(std::size_t(x + e * (y + e * z)));
+  auto mask = std::make_shared<std::vector<std::uint32_t>>(std::size_t(e) * e * e);
+  // Cells at the voxels (y, z) that have one of the row get `seen`, and so many times the row's voxels in them.
+  const auto mark = [&](std::int32_t y, std::int32_t z, std::uint64_t row, std::uint32_t seen, std::uint32_t times) {
+    if (y < 0 || z < 0 || y >= kBrickEdge || z >= kBrickEdge) return;
+    for (std::int32_t x = 0; x < e; ++x)
+      if (const auto here = std::uint32_t(row >> (n * x) & ((1 << n) - 1)); here != 0)
+        (*mask)[std::size_t(x + e * (y / n + e * (z / n)))] |= seen | times * here;
   };
+  const auto layer = [](int axis, std::int32_t i) { return std::uint32_t(1) << (n * axis + (i + n) % n); };
   for (std::int32_t z = -1; z < kBrickEdge; ++z) {
     for (std::int32_t y = -1; y < kBrickEdge; ++y) {
       const std::uint64_t* const words = bits.row(first.y + y, first.z + z);
-      const std::uint64_t row = words[1] | words[1] << 1 | words[0] >> 63;
+      const std::uint64_t above = words[1] << 1 | words[0] >> 63, row = words[1] | above;
       if (row == 0) continue;
-      const std::int32_t y0 = floor_div(y, kColorCellVox), z0 = floor_div(z, kColorCellVox);
-      const std::int32_t y1 = floor_div(y + 1, kColorCellVox), z1 = floor_div(z + 1, kColorCellVox);
-      for (std::int32_t cz = std::max(0, z0); cz <= z1; ++cz)
-        for (std::int32_t cy = std::max(0, y0); cy <= y1; ++cy) mark(cy, cz, row);
+      for (const auto& [dy, dz] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}})
+        mark(y + dy, z + dz, row, ColorGrid::kSeen, 0);
+      mark(y, z, words[1], layer(1, y) | layer(2, z), 1);
+      mark(y, z, above, 0, ColorGrid::kAbove);
+      mark(y + 1, z, words[1], ColorGrid::kAbove * layer(1, y + 1), 0);
+      mark(y, z + 1, words[1], ColorGrid::kAbove * layer(2, z + 1), 0);
     }
   }
-  return [mask, coord](ColorCell c) { return mask->test(ColorGrid::index_in(coord, c)); };
+  return [mask, coord](ColorCell c) { return (*mask)[ColorGrid::index_in(coord, c)]; };
 }
 
 /// Cells that belong to one of a box of voxels grown by a margin.

@@ -1,6 +1,7 @@
 #include "lib/pass/color/detail/color_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -18,12 +19,13 @@ ColorBrick brick_of(ColorCell c) {
   return {floor_div(c.x, e), floor_div(c.y, e), floor_div(c.z, e)};
 }
 
-constexpr std::uint64_t kSides = 16;  // numbers for kColorSides
+constexpr std::uint64_t kLayers = kColorCellVox, kSides = 16, kOfCell = kSides * kLayers;  // numbers in an index
 static_assert(kColorSides.size() <= kSides);
+constexpr std::uint64_t kFewest = 16;  // of what looks along an axis in a cell, the part that is enough
 
 ColorCell cell_of(ColorBrick brick, std::uint64_t index) {
   constexpr std::int32_t e = ColorGrid::kEdge;
-  const auto i = std::int32_t(index / kSides);
+  const auto i = std::int32_t(index / kOfCell);
   return {brick.x * e + i % e, brick.y * e + i / e % e, brick.z * e + i / (e * e)};
 }
 
@@ -53,7 +55,7 @@ void ColorGrid::merge(std::vector<Entry>& entries) {
 void ColorGrid::add(std::vector<ColorCellSum>& sums) {
   std::sort(sums.begin(), sums.end(), [](const ColorCellSum& a, const ColorCellSum& b) {
     const ColorBrick p = brick_of(a.cell), q = brick_of(b.cell);
-    return p != q ? p < q : std::tie(a.cell, a.side) < std::tie(b.cell, b.side);
+    return p != q ? p < q : std::tie(a.cell, a.side, a.layer) < std::tie(b.cell, b.side, b.layer);
   });
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < sums.size();) {
@@ -62,9 +64,12 @@ void ColorGrid::add(std::vector<ColorCellSum>& sums) {
     const std::size_t before = brick.entries.capacity();
     while (i < sums.size() && brick_of(sums[i].cell) == coord) {
       ColorCellSum merged = sums[i++];
-      for (; i < sums.size() && sums[i].cell == merged.cell && sums[i].side == merged.side; ++i)
-        merged.sum.add(sums[i].sum);
-      brick.entries.push_back({index_in(coord, merged.cell) * kSides + merged.side, merged.sum});
+      const auto is_same = [&](const ColorCellSum& s) {
+        return s.cell == merged.cell && s.side == merged.side && s.layer == merged.layer;
+      };
+      for (; i < sums.size() && is_same(sums[i]); ++i) merged.sum.add(sums[i].sum);
+      brick.entries.push_back(
+          {index_in(coord, merged.cell) * kOfCell + merged.side * kLayers + merged.layer, merged.sum});
     }
     if (brick.entries.size() > 2 * brick.merged + 256) {
       merge(brick.entries);
@@ -101,7 +106,28 @@ std::vector<ColorGrid::Entry> ColorGrid::all_of(const Brick& brick) const {
   return entries;
 }
 
-void ColorGrid::finish(const std::function<Mask(ColorBrick)>& keep) {
+/// `entries`: sorted. Layers become one: those that are seen, else those above one that is, else all.
+void ColorGrid::keep_seen(std::vector<Entry>& entries, ColorBrick coord, const Mask& seen) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0, end = 0; i < entries.size(); i = end) {
+    const std::uint64_t side = entries[i].index / kLayers;
+    const std::uint32_t mask = seen(cell_of(coord, entries[i].index));
+    const std::uint32_t layers = mask >> (kLayers * std::min<std::uint64_t>(side % kSides, kColorAxes));
+    std::array<ColorSum, 3> sums;
+    for (end = i; end < entries.size() && entries[end].index / kLayers == side; ++end) {
+      const std::uint32_t here = layers >> entries[end].index % kLayers;
+      if ((here & 1) != 0) sums[0].add(entries[end].sum);
+      if ((here & ColorGrid::kAbove) != 0) sums[1].add(entries[end].sum);
+      sums[2].add(entries[end].sum);
+    }
+    std::size_t n = 0;
+    while (sums[n].weight * kFewest < sums[2].weight) ++n;
+    if (mask != 0) entries[kept++] = {side * kLayers, sums[n]};
+  }
+  entries.resize(kept);
+}
+
+void ColorGrid::finish(const std::function<Mask(ColorBrick)>& seen) {
   struct Done {
     std::optional<Scratch::Handle> chunk;
     std::uint64_t cells = 0;
@@ -117,11 +143,10 @@ void ColorGrid::finish(const std::function<Mask(ColorBrick)>& keep) {
     std::vector<Entry> entries = all_of(brick);
     for (const Scratch::Handle h : brick.chunks) store_->drop(h);
     std::vector<Entry>().swap(brick.entries);
-    const Mask kept = keep(coord);
-    std::erase_if(entries, [&](const Entry& e) { return !kept(cell_of(coord, e.index)); });
+    keep_seen(entries, coord, seen(coord));
     Done& d = done[std::size_t(i)];
     for (std::size_t k = 0; k < entries.size(); ++k) {
-      d.cells += k == 0 || entries[k].index / kSides != entries[k - 1].index / kSides;
+      d.cells += k == 0 || entries[k].index / kOfCell != entries[k - 1].index / kOfCell;
       d.white = d.white && entries[k].sum.mean() == kWhite;
     }
     if (!entries.empty()) d.chunk = store_->put(std::as_bytes(std::span(entries)));
@@ -141,7 +166,8 @@ void ColorGrid::each_sum(ColorBrick coord, const std::function<void(const ColorC
   if (at == bricks_.end() || at->first != coord) return;
   Brick brick;
   brick.chunks = {at->second};
-  for (const Entry& e : all_of(brick)) body({cell_of(coord, e.index), std::uint16_t(e.index % kSides), e.sum});
+  for (const Entry& e : all_of(brick))
+    body({cell_of(coord, e.index), std::uint16_t(e.index / kLayers % kSides), 0, e.sum});
 }
 
 std::vector<CellColor> ColorGrid::load(ColorCell min, ColorCell max) const {
@@ -172,11 +198,11 @@ std::unique_ptr<ColorGrid> ColorGrid::reduced() const {
   parallel_for(std::int64_t(bricks_.size()), [&](std::int64_t i) {
     std::vector<ColorCellSum> sums;
     each_sum(bricks_[std::size_t(i)].first, [&](const ColorCellSum& s) {
-      sums.push_back({half_of(s.cell), s.side, s.sum});
+      sums.push_back({half_of(s.cell), s.side, 0, s.sum});
     });
     coarse->add(sums);
   });
-  coarse->finish([](ColorBrick) { return [](ColorCell) { return true; }; });
+  coarse->finish([](ColorBrick) { return [](ColorCell) { return ~std::uint32_t(0); }; });
   return coarse;
 }
 

@@ -17,7 +17,10 @@ using ColorBrick = Coord3<struct ColorBrickSpace, std::int32_t>;  ///< cells [16
 class ColorGrid {
  public:
   static constexpr std::int32_t kEdge = 16;  ///< cells along a side of a brick
-  using Mask = std::function<bool(ColorCell)>;
+  /// Of a cell: 0 if nothing of it is seen from outside, else kSeen, and a bit for each layer of it that is: 4 bits for
+  /// each of kColorAxes. kAbove times that: layers above one that is.
+  using Mask = std::function<std::uint32_t(ColorCell)>;
+  static constexpr std::uint32_t kSeen = 1U << 31, kAbove = 1U << 12;
 
   /// x + 16 (y + 16 z) in the brick.
   [[nodiscard]] static std::uint64_t index_in(ColorBrick brick, ColorCell c) {
@@ -36,8 +39,9 @@ class ColorGrid {
 
   /// Adds to what is there, and leaves `sums` empty; on any thread.
   void add(std::vector<ColorCellSum>& sums);
-  /// After the last add(): cells for which keep(brick) is false go. keep() makes the mask of a brick, on any thread.
-  void finish(const std::function<Mask(ColorBrick)>& keep);
+  /// After the last add(): cells of which nothing is seen go. So does what looks along an axis in layers that are not
+  /// seen, if the cell has more that looks there. seen() makes the mask of a brick, on any thread.
+  void finish(const std::function<Mask(ColorBrick)>& seen);
 
   // After finish(), on any thread:
   [[nodiscard]] bool empty() const { return bricks_.empty(); }
@@ -52,7 +56,7 @@ class ColorGrid {
 
  private:
   struct Entry {
-    std::uint64_t index = 0;  ///< 16 index_in() + side
+    std::uint64_t index = 0;  ///< (16 index_in() + side) 4 + layer
     ColorSum sum;
   };
   struct Brick {
@@ -61,6 +65,7 @@ class ColorGrid {
     std::vector<Scratch::Handle> chunks;
   };
   static void merge(std::vector<Entry>& entries);
+  static void keep_seen(std::vector<Entry>& entries, ColorBrick coord, const Mask& seen);
   void spill();
   [[nodiscard]] std::vector<Entry> all_of(const Brick& brick) const;
   void each_sum(ColorBrick brick, const std::function<void(const ColorCellSum&)>& body) const;

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 #include "lib/pass/color/scene_colors.h"
 #include "lib/pass/color/vertex_colors.h"
 #include "lib/volume/reduce.h"
@@ -108,6 +109,30 @@ TEST_CASE("what lies inside has no colour", "[quick][pass][colors]") {
   const Voxelized voxels = voxelized(scene.triangles, 0.125);
   const NearbyColors near = gathered(scene, voxels, 1 << 20)->all(voxels.header.frame);
   CHECK(at_world(near, voxels.header.frame, {5, 5, 7}).g == 0);
+}
+
+TEST_CASE("what lies a voxel or more below the surface does not tint it", "[quick][pass][colors]") {
+  const double thickness = GENERATE(0.15, 0.2, 0.3);  // voxels of 0.125, cells of 0.5
+  ColoredScene scene;                                 // a room that is red outside, and a blue house on a red plate
+  add_box(scene.triangles, {0, 0, 0}, {10, 10, 10});
+  add_box(scene.triangles, {20, 0, 0}, {30, thickness, 10});
+  scene.paint(kRed);
+  add_box(scene.triangles, {thickness, thickness, thickness}, {10 - thickness, 10 - thickness, 10 - thickness});
+  add_box(scene.triangles, {22, thickness, 2}, {28, 8, 8});
+  scene.paint(kBlue);
+  const Voxelized voxels = voxelized(scene.triangles, 0.125);
+  const GridFrame& frame = voxels.header.frame;
+  const NearbyColors near = gathered(scene, voxels, 1 << 20)->all(frame);
+  const auto seen = [&](const Vec3d& p, const Vec3d& normal) {
+    return near.at(double(kLatticePerVoxel) * frame.to_voxels(p), normal);
+  };
+  CAPTURE(thickness);
+  CHECK(seen({0, 5, 5}, {-1, 0, 0}) == kRed);
+  CHECK(seen({10, 5, 5}, {1, 0, 0}) == kRed);
+  CHECK(seen({5, 0, 5}, {0, -1, 0}) == kRed);
+  CHECK(seen({5, 5, 10}, {0, 0, 1}) == kRed);
+  CHECK(seen({25, 0, 5}, {0, -1, 0}) == kRed);
+  CHECK(seen({25, 8, 5}, {0, 1, 0}) == kBlue);
 }
 
 TEST_CASE("a white scene has no colours", "[quick][pass][colors]") {
