@@ -142,7 +142,7 @@ if [ -n "${NODE_PATH:-}" ]; then
   "$root/tests/viewers/run.sh" viewers > /dev/null && cp viewers/all.png guide-viewers.png
   bplod town/town.obj --profile 3dtiles --leaves scene --resolution 512 --tile 128 -q -o town-tiles > /dev/null
   node "$root/tests/viewers/shot.cjs" cesium town-tiles/tileset.json guide-leaves.png 'width=520&radii=0.35' > /dev/null
-  bplod town/town.obj --faces 6000,1500,400 -q -o town-lod > /dev/null
+  bplod town/town.obj --faces 6000,1000,300 -q -o town-lod > /dev/null
   node "$root/tests/viewers/shot.cjs" three town-lod/town_LOD0.glb guide-textures.png 'width=420&radii=0.33' > /dev/null
 fi
 mkdir night && cp house.obj house.mtl truck.obj truck.mtl night

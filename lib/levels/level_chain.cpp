@@ -7,12 +7,13 @@ namespace bp {
 
 namespace {
 
-constexpr double kWorthwhile = 1.25;  // times the faces, for a quarter of the voxels' area: else there are no more
+// Where a level takes less than kUnspent of its budget, and its error is above kNearVox voxels, smaller ones are worth
+// four times the time; again, if they lowered the error to less than kNearer of it.
+constexpr double kUnspent = 2.0 / 3, kNearVox = 1.5, kNearer = 0.8;
 
-/// Whether there were clearly fewer faces than the level's budget: its voxels, or its scale, show no more.
+/// Whether there are clearly fewer faces than the level's budget: its voxels, or its scale, show no more.
 bool falls_short(const LodLevel& level, const LodTarget& target) {
-  const std::uint64_t tried = level.counts.levels.front().simplify.faces_tried;
-  return clearly_fewer(std::max<std::uint64_t>(level.mesh.triangles.size(), tried), target.faces);
+  return clearly_fewer(level.mesh.triangles.size(), target.faces);
 }
 
 /// Budget and scale of a level that follow from a first one which fell short.
@@ -47,22 +48,25 @@ struct Attempt {
     finest_voxel = voxel(halvings + 1) >= voxel(halvings);
     finest = chain->make(target);
   }
-  [[nodiscard]] std::uint64_t faces() const { return finest.mesh.triangles.size(); }
+  [[nodiscard]] double error() const { return finest.error_world; }
   /// As many faces as the scene has triangles are enough: further ones would show the steps of smaller voxels.
   [[nodiscard]] bool may_be_halved() const {
-    return !finest_voxel && faces() < scene.counts.scene.triangles && falls_short(finest, target);
+    return !finest_voxel && finest.mesh.triangles.size() < scene.counts.scene.triangles &&
+           double(finest.mesh.triangles.size()) < kUnspent * double(target.faces) &&
+           error() > kNearVox * finest.mesh.frame.voxel;
   }
 };
 
-/// The last attempt that was worthwhile, or the one after it. What does not fit in memory fails: a smaller memory must
-/// not make something else.
+/// The nearest attempt of those with ever smaller voxels, as long as these come nearer. What does not fit in memory
+/// fails: a smaller memory must not make something else.
 std::unique_ptr<Attempt> best_attempt(const ChainSource& source, Backends& backends, const LevelSteps& steps) {
   auto attempt = std::make_unique<Attempt>(source, backends, steps, 0);
   for (int halvings = 1; source.may_refine && attempt->may_be_halved(); ++halvings) {
-    const auto enough = std::uint64_t(kWorthwhile * double(attempt->faces()));
+    const double before = attempt->error();
     attempt.reset();  // its memory is wanted
     attempt = std::make_unique<Attempt>(source, backends, steps, halvings);
-    if (attempt->faces() < enough) break;
+    if (attempt->error() > before) return std::make_unique<Attempt>(source, backends, steps, halvings - 1);
+    if (attempt->error() > kNearer * before) break;
   }
   return attempt;
 }

@@ -42,13 +42,12 @@ struct SimplifyParams : ShapeLimits {
   } whole;
   /// A surface of several times so many faces is cut into regions, which are worked on at the same time (regions.h).
   std::uint64_t faces_per_region = kFacesPerRegion;
-  /// Whether tight_proxy() tries half of a surface's faces where many are wanted, for less volume.
-  bool try_half = false;
   PieceMemory memory;  ///< of a surface that is simplified by cells; does not change the result
 };
 
 /// Why simplification ended: the target is reached, or no collapse is left that keeps the guarantee and, beside it, the
-/// error, the limits or the edge length. least_volume: fewer faces than there were to be had leave less volume.
+/// error, the limits or the edge length. least_volume: further faces would take next to nothing off the volume, or add
+/// to it.
 enum class StopReason { faces, error, limits, edge_length, least_volume, nothing_left };
 [[nodiscard]] std::string to_string(StopReason reason);
 
@@ -59,7 +58,6 @@ struct SimplifyCounts {
   /// failed. By volume (thin.h): tries refused, an edge's several included.
   Refusals refused;
   StopReason stop = StopReason::nothing_left;
-  std::uint64_t faces_tried = 0;                ///< if least_volume: so many, or up to so many, leave more
   std::string limit;                            ///< if the limits stopped it: the one that refused last
   void add(const SimplifyCounts& next);         ///< of a run that took over where this one ended
   void add_beside(const SimplifyCounts& part);  ///< work and refusals on another part of the same mesh

@@ -4,13 +4,17 @@
 
 namespace bp {
 
+// The vertices asked about come first: of an edge at a vertex of thousands of faces, next to nothing else is read.
+
 bool WaveClaims::star_is_free(VertexId v) {
+  if (!is_free(v)) return false;
   vertices_.clear();
   gather(v);
   return are_free();
 }
 
 bool WaveClaims::stars_are_free(HalfEdgeId h) {
+  if (!is_free(mesh_.from(h)) || !is_free(mesh_.to(h))) return false;
   vertices_.clear();
   gather(mesh_.from(h));
   gather(mesh_.to(h));
@@ -28,7 +32,7 @@ void WaveClaims::gather(VertexId v) {
 }
 
 bool WaveClaims::are_free() const {
-  return std::none_of(vertices_.begin(), vertices_.end(), [&](VertexId v) { return wave_of_[v] == wave_; });
+  return std::all_of(vertices_.begin(), vertices_.end(), [&](VertexId v) { return is_free(v); });
 }
 
 void EditBoxes::add(const LatticeBox& face) {

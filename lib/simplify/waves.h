@@ -42,6 +42,7 @@ class WaveClaims {
 
  private:
   void gather(VertexId v);
+  [[nodiscard]] bool is_free(VertexId v) const { return wave_of_[v] != wave_; }
   [[nodiscard]] bool are_free() const;
 
   const HalfEdgeMesh& mesh_;

@@ -171,4 +171,25 @@ bool EditCheck::allows_flip(HalfEdgeId h) {
          is_free(guard_.faces_are_free(faces_, replaced_));
 }
 
+bool EditCheck::allows_cut(HalfEdgeId h) {
+  const HalfEdgeId t = mesh_.twin(h);
+  const VertexId v = mesh_.opposite(h), a = mesh_.from(h), b = mesh_.to(h);
+  const HalfEdgeId to_b = mesh_.twin(HalfEdgeMesh::next(h));
+  const VertexId w = mesh_.opposite(to_b), x = mesh_.opposite(t);
+  const bool any_locked = mesh_.locked(a) || mesh_.locked(b) || mesh_.locked(w) || mesh_.locked(x);
+  if (any_locked || x == w || mesh_.valence(a) < 5 || mesh_.valence(b) < 5) return false;
+  bool joined = false;
+  mesh_.for_each_outgoing(w, [&](HalfEdgeId g) { joined |= mesh_.to(g) == x; });
+  if (joined) return false;
+  begin();
+  const LatticeCoord &pv = mesh_.position(v), &pa = mesh_.position(a), &pb = mesh_.position(b), &pw = mesh_.position(w),
+                     &px = mesh_.position(x);
+  faces_ = {{{w, a, x}, {pw, pa, px}}, {{w, x, b}, {pw, px, pb}}};
+  mesh_.for_each_outgoing(v, [&](HalfEdgeId g) { replaced_.push_back(HalfEdgeMesh::face(g)); });
+  replaced_.push_back(HalfEdgeMesh::face(t));
+  add_old_face(pv, pa, pb, pw);
+  add_old_face(pb, pa, px, pw);
+  return shape_is_fine() && keeps_enclosed() && stays_near() && is_free(guard_.faces_are_free(faces_, replaced_));
+}
+
 }  // namespace bp

@@ -42,6 +42,8 @@ class EditCheck {
   [[nodiscard]] bool allows_move(VertexId v, const LatticeCoord& to);
   [[nodiscard]] bool allows_collapse(HalfEdgeId h, const LatticeCoord& to);
   [[nodiscard]] bool allows_flip(HalfEdgeId h);
+  /// As ProxyEditor::cut(). opposite(h) has three faces.
+  [[nodiscard]] bool allows_cut(HalfEdgeId h);
 
   /// What must stay inside and stood in the way, in the coordinates of the contact points; null if something else did.
   [[nodiscard]] const Blocker* blocker() const { return blocked_ ? &blocker_ : nullptr; }

@@ -153,7 +153,6 @@ LatticeMesh tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclo
   const std::uint64_t tried = std::min(params.faces, first);
   const bool least = simplified.faces_out < fewer(tried + 1);
   if (simplified.faces_out <= params.faces) simplified.stop = least ? StopReason::least_volume : StopReason::faces;
-  simplified.faces_tried = least ? tried : 0;
   tightened = best->tightened;
   return std::move(best->mesh);
 }

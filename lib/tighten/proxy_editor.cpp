@@ -51,6 +51,17 @@ bool ProxyEditor::flip(HalfEdgeId h) {
   return true;
 }
 
+bool ProxyEditor::cut(HalfEdgeId h) {
+  if (!check_.allows_cut(h)) return false;
+  const HalfEdgeId beyond = mesh_.twin(h);
+  const HalfEdgeId out = mesh_.rotate(mesh_.twin(HalfEdgeMesh::next(h)));  // from the vertex to the third neighbour
+  const HalfEdgeId in = mesh_.twin(out);
+  make_collapse(in, mesh_.position(mesh_.from(in)));
+  make_flip(beyond);
+  settle_points();
+  return true;
+}
+
 /// Notes that faces give way to a fan around `apex`.
 ProxyEditor::Unsettled& ProxyEditor::replace(std::span<const FaceId> faces, const LatticeCoord& apex) {
   sense_.add(faces.front(), fan_gain6(mesh_, faces, apex));

@@ -22,6 +22,9 @@ class ProxyEditor {
   [[nodiscard]] bool move(VertexId v, const LatticeCoord& to);
   [[nodiscard]] bool collapse(HalfEdgeId h, const LatticeCoord& to);  ///< the merged vertex keeps the id from(h)
   [[nodiscard]] bool flip(HalfEdgeId h);
+  /// Takes the vertex opposite(h) out, which has three faces, and flips the edge of h, which is left: its two faces
+  /// meet in an edge from the vertex's third neighbour.
+  [[nodiscard]] bool cut(HalfEdgeId h);
 
   /// As EditCheck::blocker(), of the change refused last.
   [[nodiscard]] const Blocker* blocker() const { return check_.blocker(); }

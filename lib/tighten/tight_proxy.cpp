@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/simplify/collapse_regions.h"
+#include "lib/tighten/detail/spikes.h"
 #include "lib/tighten/detail/thin.h"
 #include "lib/tighten/detail/tighten_regions.h"
 #include "lib/tighten/few_faces.h"
@@ -18,10 +19,13 @@ constexpr std::uint64_t kEarlyFactor = 6;   // of the wanted faces: where growin
 constexpr double kMiddleFactor = 3;         // where sweeps are made again if the first found much room
 constexpr double kLateFactor = 1.5;         // where the order of collapses changes from quadric error to volume
 constexpr double kMostGrowth = 6;           // of one collapse: some times a face's share of the volume
-constexpr std::uint64_t kFewForHalf = 512;  // faces: half of the surface's are tried if that is so many or more
+constexpr std::uint64_t kStepsPerFace = 3;  // faces of the surface: fewer for a face of the proxy may be steps
 constexpr double kMuchRoom = 0.04;          // share of the volume: a first sweep that gains more is worth others
 constexpr int kJamRounds = 4;               // of a sweep and collapses, where these jam above the target
 constexpr std::uint64_t kWhole = 16;        // regions: up to so many faces are collapsed by volume as one mesh
+constexpr double kNeedless = 2;             // volumes over faces squared: a collapse around a ball adds 7 in the mean
+constexpr double kFewDropped = 0.95;        // times the faces: where more are left, the next round would drop few
+constexpr int kNeedlessRounds = 8;
 
 /// A proxy on the way, and what led to it.
 struct Way {
@@ -157,6 +161,26 @@ void thin_whole(ProxyEditor& editor, const SimplifyParams& params, SimplifyCount
   }
 }
 
+/// (5) Collapses that add next to nothing, in turns with sweeps where there are many: what is flat needs no face in its
+/// middle, and one that it has there sticks out.
+void drop_needless(ProxyEditor& editor, const SimplifyParams& params, SimplifyCounts& counts) {
+  const HalfEdgeMesh& mesh = editor.mesh();
+  const std::uint64_t faces = mesh.face_count();
+  for (int round = 0; round < kNeedlessRounds; ++round) {
+    const std::uint64_t before = mesh.face_count();
+    TightenCounts ignored;
+    tighten_on(editor, one_sweep(params), ignored);
+    SimplifyCounts now;
+    thin_free(editor, kNeedless * std::abs(volume_of(mesh)) / std::pow(double(before), 2), now);
+    counts.collapses += now.collapses + cut_spikes(editor);
+    counts.solved += now.solved;
+    if (double(mesh.face_count()) > kFewDropped * double(before)) break;
+  }
+  if (mesh.face_count() == faces) return;
+  counts.faces_out = mesh.face_count();
+  counts.stop = StopReason::least_volume;
+}
+
 /// (4), (5) The same on one mesh, by one editor: what it learns in (4) it knows in (5). Many faces are tightened by
 /// regions all the same: that is faster, and next to as tight.
 void finish_whole(Way& way, const Enclosed& enclosed, const SimplifyParams& params) {
@@ -164,6 +188,7 @@ void finish_whole(Way& way, const Enclosed& enclosed, const SimplifyParams& para
     HalfEdgeMesh mesh(way.proxy);
     ProxyEditor editor(mesh, enclosed, params);
     if (is_above_target(way.proxy, params)) thin_whole(editor, params, way.simplified);
+    if (by_volume(params) && mesh.face_count() <= params.faces) drop_needless(editor, params, way.simplified);
     if (!has_regions(mesh.face_count(), params)) {
       way.proxy = tighten(editor, way.proxy.frame, tightening_of(params), way.tightened);
       return;
@@ -227,26 +252,17 @@ Way tight_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams&
   return way;
 }
 
-/// Where the surface of the voxels has few faces for each that is wanted, many of the proxy's would be steps of voxels.
-/// Fewer faces take the steps away, and are used if they leave less volume.
+/// Where the surface of the voxels has few faces for each that is wanted, many of the proxy's may be steps of voxels,
+/// which tightening does not take away. Fewer faces do, and are used if they leave less volume.
 Way least_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams& params) {
   Way way = tight_from(grown, enclosed, params);
-  if (!by_volume(params)) return way;
-  const std::uint64_t wanted = way.proxy.triangles.size();
-  const auto try_fewer = [&](std::uint64_t faces) {
-    SimplifyParams fewer = params;
-    fewer.faces = faces;
-    Way other = tight_from(grown, enclosed, fewer);
-    if (other.tightened.volume_after >= way.tightened.volume_after) return;
-    other.simplified.stop = StopReason::least_volume;
-    other.simplified.faces_tried = wanted;
-    way = std::move(other);
-  };
-  const std::uint64_t steps = grown.proxy.triangles.size();
-  const std::uint64_t sixth = std::uint64_t(double(steps) / kEarlyFactor), half = steps / 2;
-  if (sixth < params.faces && sixth >= kFewFaces) try_fewer(sixth);
-  if (params.try_half && half < params.faces && half >= kFewForHalf) try_fewer(half);
-  return way;
+  SimplifyParams fewer = params;
+  fewer.faces = grown.proxy.triangles.size() / kStepsPerFace;
+  if (!by_volume(params) || fewer.faces >= params.faces || fewer.faces < kFewFaces) return way;
+  Way other = tight_from(grown, enclosed, fewer);
+  if (other.tightened.volume_after >= way.tightened.volume_after) return way;
+  other.simplified.stop = StopReason::least_volume;
+  return other;
 }
 
 /// From the lattice of a frame to that of another, whose voxels are a whole number of times smaller. Exact.

@@ -20,10 +20,6 @@ constexpr double kJointReach = 0.25;  // of the mean spoke: how far a vertex may
 constexpr std::size_t kMovesPerThread = 2, kFlipsPerThread = 64;
 constexpr int kSweepsPerRefresh = 8;
 
-double volume_of(const HalfEdgeMesh& mesh) {
-  return double(mesh.volume6()) / 6;
-}
-
 class Tightener {
  public:
   Tightener(ProxyEditor& editor, const TightenParams& params, TightenCounts& counts)
@@ -275,6 +271,10 @@ class Tightener {
 };
 
 }  // namespace
+
+double volume_of(const HalfEdgeMesh& mesh) {
+  return double(mesh.volume6()) / 6;
+}
 
 void tighten_on(ProxyEditor& editor, const TightenParams& params, TightenCounts& counts) {
   counts = {};

@@ -22,6 +22,9 @@ struct TightenCounts {
   double volume_before = 0, volume_after = 0;  ///< lattice units cubed
 };
 
+/// Lattice units cubed.
+[[nodiscard]] double volume_of(const HalfEdgeMesh& mesh);
+
 /// Tightens the mesh of the editor on the way to something else: it may come out larger, where vertices made room that
 /// others could not take and cannot go back themselves.
 void tighten_on(ProxyEditor& editor, const TightenParams& params, TightenCounts& counts);

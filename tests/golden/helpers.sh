@@ -26,7 +26,26 @@ files() { echo "files: $(LC_ALL=C ls -A | tr '\n' ' ')"; }
 # bpinfo FILE | checksum: of its voxels or triangles.
 checksum() { sed -n 's/^checksum *//p'; }
 
-# write_octahedron FILE.obj [SIZE]: its slanted sides have as many faces as a level may want.
+# write_ball FILE.obj [SIZE]: 224 triangles; each level of it has fewer faces than the one before.
+write_ball() {
+  awk -v s="${2:-1}" 'BEGIN {
+    pi = atan2(0, -1); n = 16; rings = 7; h = s / 2
+    print "v " h, h, 0
+    for (r = 1; r <= rings; ++r) for (i = 0; i < n; ++i) {
+      a = pi * r / (rings + 1); b = 2 * pi * i / n
+      printf "v %.4f %.4f %.4f\n", h + h * sin(a) * cos(b), h + h * sin(a) * sin(b), h - h * cos(a)
+    }
+    print "v " h, h, s
+    for (i = 0; i < n; ++i) {
+      j = (i + 1) % n; top = 2 + (rings - 1) * n
+      print "f 1", 2 + j, 2 + i
+      for (r = 0; r < rings - 1; ++r) print "f", 2 + r * n + i, 2 + r * n + j, 2 + (r + 1) * n + j, 2 + (r + 1) * n + i
+      print "f", top + i, top + j, top + n
+    }
+  }' > "$1"
+}
+
+# write_octahedron FILE.obj [SIZE]
 write_octahedron() {
   awk -v s="${2:-1}" 'BEGIN {
     h = s / 2

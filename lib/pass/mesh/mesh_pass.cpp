@@ -268,7 +268,6 @@ class LevelMaker {
       if (faces >= kLeastFacesWithRoom) params.room = room_around(dense.box(), faces);  // the box reads all voxels
       if (params_.near && params.limits == nullptr && faces > 0)
         params.reach = (header_.scale.base / dense.frame().voxel + 1) * kLatticePerVoxel;
-      params.try_half = !params_.tile;
       const bool few = faces > 0 && faces < kFewFaces && params.limits == nullptr && !params.edge_limit &&
                        !params_.near && !inside();
       LatticeMesh proxy = make_level(dense, coarse, enclosed, params, few, counts);

@@ -339,4 +339,13 @@ void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>&
   counts.faces_out = editor.mesh().face_count();
 }
 
+void thin_free(ProxyEditor& editor, double most, SimplifyCounts& counts) {
+  counts = {};
+  counts.faces_in = counts.faces_flat = editor.mesh().face_count();
+  Thinner order(editor, counts);
+  order.renew();
+  order.run(most, 0);
+  counts.faces_out = editor.mesh().face_count();
+}
+
 }  // namespace bp

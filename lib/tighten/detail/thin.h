@@ -31,4 +31,7 @@ constexpr int kThinStages = 4;
 void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle, SimplifyCounts& counts,
           int first_stage = 1);
 
+/// Collapses each edge that adds `most` or less, until none is left.
+void thin_free(ProxyEditor& editor, double most, SimplifyCounts& counts);
+
 }  // namespace bp

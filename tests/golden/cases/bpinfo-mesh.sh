@@ -13,7 +13,7 @@ stdin=cube.obj try bpinfo
 (echo '# provenance: bpvox 0.1.0 voxel=1'; echo '# provenance: bpmesh 0.1.0 faces=12'; cat cube.obj) > made.obj
 said 'bpinfo made.obj | grep made'
 # Of a chain in one file the finest level is shown; steps are those of other formats.
-write_octahedron round.obj
+write_ball round.obj
 bplod round.obj --name cube --faces 200,20 --resolution 24 -q -o lods > list
 rm round.obj
 bpmesh <(bpvox cube.obj --resolution 12 | bpclose --scale 2vx) --faces 12 -q -o proxy.glb 2> /dev/null

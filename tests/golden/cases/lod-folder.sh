@@ -1,5 +1,5 @@
 # The folder of the levels: nothing in it is lost unasked.
-write_octahedron cube.obj 3  # each level has fewer faces
+write_ball cube.obj 3  # each level has fewer faces
 options=(cube.obj --name m --resolution 24 --faces 200 --levels 3 -q)
 tileset=("${options[@]}" --profile 3dtiles)
 

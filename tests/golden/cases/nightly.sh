@@ -1,7 +1,7 @@
 # The nightly sample: only what changed is made again, a broken scene does not stop the others, what is gone goes.
 mkdir scenes
-write_octahedron scenes/a.obj 3
-write_octahedron "scenes/b c.obj" 2
+write_ball scenes/a.obj 3
+write_ball "scenes/b c.obj" 2
 echo "v 1 2" > scenes/broken.obj
 echo "no scene" > scenes/notes.txt
 nightly() { "$BP_ROOT/samples/nightly" "$@" 2> as-it-goes; }
@@ -13,7 +13,7 @@ nightly scenes out "${options[@]}" | table
 nightly scenes out -j 1 --memory=1G "${options[@]}" --temp . --progress json | table  # no byte differs
 nightly scenes out "${options[@]}" --enclose input | table
 nightly scenes out "${options[@]}" -q | table
-write_octahedron scenes/a.obj 4
+write_ball scenes/a.obj 4
 rm "scenes/b c.obj" scenes/broken.obj
 sed -i '1i mtllib paints.mtl' scenes/a.obj  # what a scene names counts, whatever it is called
 for red in 0.1 0.9 0.9; do

@@ -2,6 +2,7 @@
 #include "lib/levels/lod_chain.h"
 #include "lib/levels/margin.h"
 #include "lib/quads/quads.h"
+#include "lib/volume/dilate_ball.h"
 #include "tests/catch.h"
 #include "tests/support/voxelized.h"
 

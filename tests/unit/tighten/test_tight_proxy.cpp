@@ -115,7 +115,7 @@ TEST_CASE("a proxy made in waves touches neither the scene nor itself, and is th
   const LatticeMesh scene = ball(20 * 64, 4), dense = ball(24 * 64, 5);
   const EnclosedTriangles enclosed(scene_of(scene), dense.frame);
   SimplifyParams params;
-  params.faces = 600;
+  params.faces = 800;
   params.dense = false;
   std::vector<LatticeMesh> proxies;
   for (const int threads : {1, 2, 5}) {
@@ -126,7 +126,7 @@ TEST_CASE("a proxy made in waves touches neither the scene nor itself, and is th
     CHECK(proxies.back().vertices == proxies.front().vertices);
     CHECK(proxies.back().triangles == proxies.front().triangles);
   }
-  CHECK(proxies.front().triangles.size() == 600);
+  CHECK(has_waves(HalfEdgeMesh(proxies.front()), false));
   CHECK(embedded(proxies.front()));
   CHECK_FALSE(touches(proxies.front(), scene));
   CHECK(volume(proxies.front()) < 1.08 * volume(scene));

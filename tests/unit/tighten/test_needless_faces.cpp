@@ -1,0 +1,84 @@
+#include "lib/enclosed/enclosed_triangles.h"
+#include "lib/tighten/detail/spikes.h"
+#include "lib/tighten/tight_proxy.h"
+#include "tests/support/proxy_checks.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+constexpr int kRadius = 128;  // voxels
+constexpr std::int64_t kTip = std::int64_t(kRadius) * kLatticePerVoxel + 1;
+
+/// |x| + |y| + |z| <= kRadius, in voxels.
+std::vector<TriangleD> octahedron() {
+  std::vector<TriangleD> out;
+  for (int i = 0; i < 8; ++i) {
+    const double x = i & 1 ? kRadius : -kRadius, y = i & 2 ? kRadius : -kRadius, z = i & 4 ? kRadius : -kRadius;
+    const bool even = x * y * z > 0;
+    out.push_back({Vec3d{x, 0, 0}, even ? Vec3d{0, y, 0} : Vec3d{0, 0, z}, even ? Vec3d{0, 0, z} : Vec3d{0, y, 0}});
+  }
+  return out;
+}
+
+/// The same in voxels, which touch it.
+bool in_octahedron(VoxelCoord v) {
+  const auto near = [](int c) { return c >= 0 ? c : -c - 1; };
+  return near(v.x) + near(v.y) + near(v.z) <= kRadius;
+}
+
+/// How far it leaves the octahedron, in voxels.
+double farthest(const LatticeMesh& mesh) {
+  std::int64_t most = 0;
+  for (const LatticeCoord& p : mesh.vertices) most = std::max(most, std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
+  return (double(most) / kLatticePerVoxel - kRadius) / std::sqrt(3.0);
+}
+
+/// Around the octahedron; a vertex near the middle of an edge, and one of three faces above it that stands far out.
+LatticeMesh octahedron_with_spike() {
+  LatticeMesh mesh;
+  mesh.vertices = {{-kTip, 0, 0}, {0, -kTip, 0},    {0, 0, -kTip},    {0, 0, kTip},
+                   {0, kTip, 0},  {5009, 77, 3526}, {5096, -1, 3098}, {kTip, 0, 0}};
+  mesh.triangles = {{4, 0, 3}, {1, 0, 2}, {1, 3, 0}, {2, 0, 4}, {7, 1, 2}, {1, 7, 6},
+                    {6, 3, 1}, {5, 6, 7}, {5, 3, 6}, {3, 5, 7}, {2, 4, 7}, {3, 7, 4}};
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a vertex of three faces far out beside an edge is cut off", "[quick][meshing]") {
+  const LatticeMesh proxy = octahedron_with_spike();
+  const EnclosedTriangles enclosed(octahedron(), GridFrame{});
+  HalfEdgeMesh mesh(proxy);
+  ProxyEditor editor(mesh, enclosed, {});
+  const int128 before = mesh.volume6();
+  REQUIRE(farthest(proxy) > 3);
+  CHECK(cut_spikes(editor) == 1);
+  CHECK(mesh.volume6() < before);
+  const LatticeMesh after = mesh.compact(proxy.frame);
+  CHECK(after.triangles.size() == 10);
+  CHECK(self_intersections(after) == 0);
+  CHECK(farthest(after) < 0.1);
+}
+
+TEST_CASE("flat sides take few faces however many are wanted, and none sticks out", "[meshing]") {
+  MemoryShelf shelf;
+  fill_shelf(shelf, {{-132, -132, -132}, {132, 132, 132}}, in_octahedron);
+  const EnclosedTriangles enclosed(octahedron(), GridFrame{});
+  const double least = 4.0 / 3 * std::pow(kRadius, 3);
+  for (const std::uint64_t faces : {100, 1000}) {
+    CAPTURE(faces);
+    SimplifyParams params;
+    params.faces = faces;
+    SimplifyCounts simplified;
+    TightenCounts tightened;
+    const LatticeMesh proxy = tight_proxy(ShelfSurface(shelf, GridFrame{}), enclosed, params, simplified, tightened);
+    CHECK(proxy.triangles.size() < 50);
+    CHECK(simplified.stop == StopReason::least_volume);
+    CHECK(simplified.faces_out == proxy.triangles.size());
+    CHECK(double(volume6_of(proxy)) / 6 / std::pow(double(kLatticePerVoxel), 3) < 1.001 * least);
+    CHECK(self_intersections(proxy) == 0);
+    CHECK(farthest(proxy) < 1);
+  }
+}
