@@ -329,7 +329,7 @@ TEST_CASE("a fit of too few faces for its houses has no spires, and loses no hou
     const double x = 7.2 + 23.3 * (i % 4), y = 6.1 + 22.7 * (i / 4);
     add_box(scene, {x, y, 0}, {x + 9 + i % 3, y + 12 - i % 5, 6.3 + 1.3 * (i % 7)});
   }
-  const std::uint64_t faces = GENERATE(240, 120);
+  const std::uint64_t faces = GENERATE(240, 180, 120);
   Backends backends = plain_backends(2);
   LodOptions options = lod_options();
   options.closing.element = StructuringElement::ball;
@@ -340,7 +340,8 @@ TEST_CASE("a fit of too few faces for its houses has no spires, and loses no hou
   const std::vector<TriangleD> fit = world_triangles(chain.make({faces, 0, {}}).mesh);
   CAPTURE(faces);
   CHECK(sampled_distance(fit, scene, 60) < 6);  // 6.3 and 12.2 without a reach
-  CHECK(sampled_distance_beyond(scene, fit, 200) < 6.5);
+  // 6.1, 5.9 and 5.3 where collapses know one place
+  CHECK(sampled_distance_beyond(scene, fit, 200) < 5);
 }
 
 TEST_CASE("levels keep to their memory, and are the same", "[quick][pass][lod]") {
