@@ -24,8 +24,9 @@ constexpr double kScalesPerEdge = 4;
 constexpr double kLeastScaleVox = 1 + kBeyondWholeVox;  // below 1, closing is the identity
 constexpr double kVoxelsPerLength = 8;                  // of a rule by shape, which is measured to within two
 constexpr double kLeastSideVox = 48;                    // of a reduced grid
-// Faces that a part or a hole of a closing at half of the scale should leave to show its shape.
-constexpr std::uint64_t kFacesPerPart = 100;
+// Faces that a part or a hole of a closing at half of the scale should leave to show its shape. Balls leave more holes
+// than cubes, and what a fit has of a hole need not lie around anything.
+constexpr std::uint64_t kFacesPerPart = 100, kFacesPerPartOfFit = 50;
 
 /// Length of an edge of `faces` equilateral triangles over the scene's surface.
 double edge_of(const LodGround& ground, std::uint64_t faces) {
@@ -206,9 +207,13 @@ struct LodChain::State {
     repair_contacts(*closing.voxels);  // as meshing would: it closes the tiniest holes
     check_memory_for_topology(*closing.voxels);
     const SolidTopology topology = topology_of(*closing.voxels);
-    if ((topology.parts + topology.handles) * kFacesPerPart > target.faces) return {};
+    if ((topology.parts + topology.handles) * faces_per_part() > target.faces) return {};
     scale = half;
     return closing;
+  }
+
+  [[nodiscard]] std::uint64_t faces_per_part() const {
+    return options.mode == MeshMode::fit ? kFacesPerPartOfFit : kFacesPerPart;
   }
 
   /// Against what the surface is to be meshed in, of which nothing is taken yet.

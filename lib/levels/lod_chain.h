@@ -15,7 +15,7 @@ namespace bp {
 
 /// What a level is asked to be. With no scale, faces decide it: a quarter of the edge that `faces` equilateral
 /// triangles over the scene's surface would have, or half of that where the closing leaves few parts and holes
-/// then; and an error: a quarter of it.
+/// then, twice as many for a fit; and an error: a quarter of it.
 struct LodTarget {
   std::uint64_t faces = 0;            ///< 0: none
   double error_world = 0;             ///< largest distance of a point of the level to the scene, scene units; 0: none

@@ -191,15 +191,17 @@ TEST_CASE("a budget takes no voxels so large that few are left", "[quick][pass][
 
 TEST_CASE("the scale is halved where that leaves few parts and holes, not where they take the faces",
           "[quick][pass][lod]") {
-  const bool apart = GENERATE(false, true);
-  CAPTURE(apart);
+  const bool apart = GENERATE(false, true), fit = GENERATE(false, true);
+  CAPTURE(apart, fit);
   Triangles scene = boxes();
   if (!apart) add_box(scene, {-1, -1, -1}, {27, 28, 14});
   Backends backends = plain_backends(2);
   Voxelized solid = voxelized(scene, 0.125);
   const double diagonal = solid.header.bounds.diagonal();
-  LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
-  const LodTarget target{apart ? 1700u : 500u, 0, {}};
+  LodOptions options = lod_options();
+  if (fit) options.mode = MeshMode::fit;  // half as many faces for a part
+  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+  const LodTarget target{apart ? (fit ? 850u : 1700u) : (fit ? 50u : 500u), 0, {}};
   const double scale = first_scale({0.125, diagonal, chain.dense_faces(), chain.longest_side_vox()}, target, 0);
   REQUIRE(scale / 2 > 1.07 * 0.125);
   CHECK(chain.make(target).scale_world == (apart ? scale : scale / 2));
