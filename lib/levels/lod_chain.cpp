@@ -69,7 +69,8 @@ struct LodChain::State {
         diagonal(h.bounds.diagonal()) {
     if (solid->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
     take_off(options.scene.size() * sizeof(TriangleD));
-    outside = std::make_unique<Outside>(*solid, options.surface.get(), header.frame, context.memory);
+    outside = std::make_unique<Outside>(*solid, options.surface.get(), options.mode == MeshMode::fit && has_triangles(),
+                                        header.frame, context.memory);
     options.surface.reset();
     take_off(outside->bytes());
     last_scale = options.least_scale_world;
@@ -78,10 +79,13 @@ struct LodChain::State {
   LodLevel make(const LodTarget& target) {
     LodLevel level = options.cage ? cage(target) : closed(target);
     context.report("measuring", "levels", 0, 1);
-    const bool triangles =
-        options.mode == MeshMode::bounding && options.enclose == Enclose::scene && !options.scene.empty();
-    outside->measure(level, options.mode, triangles ? &options.scene : nullptr);
+    outside->measure(level, options.mode, has_triangles() ? &options.scene : nullptr);
     return level;
+  }
+
+  /// That a level lies around, or follows.
+  [[nodiscard]] bool has_triangles() const {
+    return (options.mode == MeshMode::fit || options.enclose == Enclose::scene) && !options.scene.empty();
   }
 
   /// Around the voxels as they are.

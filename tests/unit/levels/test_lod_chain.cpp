@@ -296,7 +296,7 @@ TEST_CASE("what sticks out of a fitted level is an error of it, what lies inside
     const double there = sampled_distance(fit, scene, 500), beyond = sampled_distance_beyond(scene, fit, 200);
     CAPTURE(faces, level.mesh.triangles.size(), there, beyond, level.distance_world);
     CHECK(level.error_world >= std::max(there, beyond));
-    CHECK(level.error_world <= 1.04 * std::max(there, beyond) + 3);
+    CHECK(level.error_world <= 1.01 * std::max(there, beyond) + 1);  // 3 without the triangles
     if (beyond > there) largest = std::max(largest, beyond);
   }
   CHECK(largest > 5);  // of the mast, somewhere
