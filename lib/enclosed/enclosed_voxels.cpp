@@ -147,6 +147,8 @@ class EnclosedVoxels::Nearest {
     double radius = 0;
     for (const LatticeCoord& p : t) radius = std::max(radius, length(to_double(p - middle_)));
     enough_ = radius < distance ? (distance - radius) * (distance - radius) : -1;
+    // Two corners are at least 1.5 radii apart.
+    is_large_ = 1.5 * radius > 2 * distance + 1.75 * kLatticePerVoxel;
   }
 
   [[nodiscard]] LatticeBox window() const {
@@ -167,12 +169,15 @@ class EnclosedVoxels::Nearest {
     found_ = low;
   }
   [[nodiscard]] bool is_enough() const { return found_ && squared_ <= enough_; }
+  /// Whether others need not be shown: no single voxel is near all of a large triangle, and any tells of its middle.
+  [[nodiscard]] bool is_settled() const { return found_ && (is_large_ || squared_ <= enough_); }
   [[nodiscard]] const std::optional<LatticeCoord>& found() const { return found_; }
 
  private:
   LatticeCoord middle_;
   std::int64_t reach_;
   double squared_, enough_;
+  bool is_large_;
   std::optional<LatticeCoord> found_;
 };
 
@@ -197,16 +202,14 @@ bool EnclosedVoxels::is_near(const std::array<LatticeCoord, 3>& t, double distan
   }
   for (std::int32_t z = low.z; z <= high.z; ++z) {
     for (std::int32_t y = low.y; y <= high.y; ++y) {
-      for (std::int32_t x = low.x; x <= high.x; ++x) {
+      for (std::int32_t x = low.x; x <= high.x && !nearest.is_settled(); ++x) {
         if (const auto it = bricks_.find({x, y, z}); it != bricks_.end()) look({x, y, z}, it->second, nearest);
-        if (!nearest.is_enough()) continue;
-        hint = nearest.found();
-        return true;
       }
     }
   }
   if (!nearest.found()) return false;
   hint = nearest.found();
+  if (nearest.is_enough()) return true;
   const auto is_reached = [&](const LatticeCoord& p) {
     return squared_to_box(p, *nearest.found(), kLatticePerVoxel) <= distance * distance;
   };
@@ -241,7 +244,7 @@ void EnclosedVoxels::look(BrickCoord coord, const BoundaryBrick& brick, Nearest&
         for (std::uint64_t left = block[std::size_t(i)] & voxels.word(); left != 0; left &= left - 1) {
           const int b = std::countr_zero(left);
           nearest.show(low_corner({voxel.x + b % 8, voxel.y + b / 8, voxel.z + std::int32_t(i)}));
-          if (nearest.is_enough()) return;
+          if (nearest.is_settled()) return;
         }
       }
     }

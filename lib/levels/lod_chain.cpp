@@ -24,8 +24,9 @@ constexpr double kScalesPerEdge = 4;
 constexpr double kLeastScaleVox = 1 + kBeyondWholeVox;  // below 1, closing is the identity
 constexpr double kVoxelsPerLength = 8;                  // of a rule by shape, which is measured to within two
 constexpr double kLeastSideVox = 48;                    // of a reduced grid
-// Faces that a part or a hole of a closing at half of the scale should leave to show its shape.
-constexpr std::uint64_t kFacesPerPart = 100;
+// Faces that a part or a hole of a closing at half of the scale should leave to show its shape. Balls leave more holes
+// than cubes, and what a fit has of a hole need not lie around anything.
+constexpr std::uint64_t kFacesPerPart = 100, kFacesPerPartOfFit = 50;
 
 /// Length of an edge of `faces` equilateral triangles over the scene's surface.
 double edge_of(const LodGround& ground, std::uint64_t faces) {
@@ -68,7 +69,8 @@ struct LodChain::State {
         diagonal(h.bounds.diagonal()) {
     if (solid->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
     take_off(options.scene.size() * sizeof(TriangleD));
-    outside = std::make_unique<Outside>(*solid, options.surface.get(), header.frame, context.memory);
+    outside = std::make_unique<Outside>(*solid, options.surface.get(), options.mode == MeshMode::fit && has_triangles(),
+                                        header.frame, context.memory);
     options.surface.reset();
     take_off(outside->bytes());
     last_scale = options.least_scale_world;
@@ -77,10 +79,13 @@ struct LodChain::State {
   LodLevel make(const LodTarget& target) {
     LodLevel level = options.cage ? cage(target) : closed(target);
     context.report("measuring", "levels", 0, 1);
-    const bool triangles =
-        options.mode == MeshMode::bounding && options.enclose == Enclose::scene && !options.scene.empty();
-    outside->measure(level, options.mode, triangles ? &options.scene : nullptr);
+    outside->measure(level, options.mode, has_triangles() ? &options.scene : nullptr);
     return level;
+  }
+
+  /// That a level lies around, or follows.
+  [[nodiscard]] bool has_triangles() const {
+    return (options.mode == MeshMode::fit || options.enclose == Enclose::scene) && !options.scene.empty();
   }
 
   /// Around the voxels as they are.
@@ -206,9 +211,13 @@ struct LodChain::State {
     repair_contacts(*closing.voxels);  // as meshing would: it closes the tiniest holes
     check_memory_for_topology(*closing.voxels);
     const SolidTopology topology = topology_of(*closing.voxels);
-    if ((topology.parts + topology.handles) * kFacesPerPart > target.faces) return {};
+    if ((topology.parts + topology.handles) * faces_per_part() > target.faces) return {};
     scale = half;
     return closing;
+  }
+
+  [[nodiscard]] std::uint64_t faces_per_part() const {
+    return options.mode == MeshMode::fit ? kFacesPerPartOfFit : kFacesPerPart;
   }
 
   /// Against what the surface is to be meshed in, of which nothing is taken yet.

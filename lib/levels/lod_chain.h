@@ -15,7 +15,7 @@ namespace bp {
 
 /// What a level is asked to be. With no scale, faces decide it: a quarter of the edge that `faces` equilateral
 /// triangles over the scene's surface would have, or half of that where the closing leaves few parts and holes
-/// then; and an error: a quarter of it.
+/// then, twice as many for a fit; and an error: a quarter of it.
 struct LodTarget {
   std::uint64_t faces = 0;            ///< 0: none
   double error_world = 0;             ///< largest distance of a point of the level to the scene, scene units; 0: none
@@ -70,8 +70,8 @@ struct LodLevel {
   bool reached = true;     ///< it has at most the faces asked for
   /// Upper bound of the distances that a viewer can see, scene units: from a point of the level to the outer surface of
   /// the scene, and from a point of that surface which lies outside the level (only of fits) to the level. Around
-  /// triangles (Enclose::scene) the bound is too large by a 16th of a voxel of the solid or 0.1 % at most, else as a
-  /// rule by three voxels and 4 %.
+  /// triangles (Enclose::scene) the bound is too large by a 16th of a voxel of the solid or 0.1 % at most, of a fit to
+  /// triangles as a rule by a voxel, else by three voxels and 4 %.
   double error_world = 0;
   /// Upper bound of the symmetric Hausdorff distance to the surface of the scene's solid, what nobody sees included. It
   /// is large where a level closes a cavity. Where parts of the scene overlap or touch, what they hide is no surface.

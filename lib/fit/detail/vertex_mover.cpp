@@ -55,9 +55,10 @@ bool VertexMover::flip(HalfEdgeId h) {
     const double after = triangle_quality(f.corners[0], f.corners[1], f.corners[2]);
     if (!(dot(n, before) > 0) || after < std::min(QualityFloor::kDraw, quality)) return false;
   }
-  if ((edge_limit_ && !edge_limit_(pa, pb)) || !stays_near() || !guard_.faces_are_free(star_, replaced_)) return false;
+  if ((edge_limit_ && !edge_limit_(pa, pb)) || !guard_.faces_are_free(star_, replaced_)) return false;
   const int128 gain6 = fan_gain6(mesh_, replaced_, pb);
-  if (sense_.turns(replaced_.front(), gain6) || !within_limits(limits_, mesh_, replaced_, star_)) return false;
+  if (sense_.turns(replaced_.front(), gain6) || !stays_near()) return false;
+  if (!within_limits(limits_, mesh_, replaced_, star_)) return false;
   sense_.add(replaced_.front(), gain6);
   mesh_.flip(h);
   for (const FaceId f : replaced_) tree_.update(f);
@@ -82,10 +83,11 @@ bool VertexMover::try_move(VertexId v, const LatticeCoord& q) {
     star_.push_back({{v, mesh_.to(h), mesh_.opposite(h)}, {q, a, b}});
     replaced_.push_back(HalfEdgeMesh::face(h));
   });
-  if (!fine || after < std::min(QualityFloor::kDraw, before) || !stays_near()) return false;
+  if (!fine || after < std::min(QualityFloor::kDraw, before)) return false;
   if (!guard_.star_is_free(star_, replaced_)) return false;
   const int128 gain6 = fan_gain6(mesh_, replaced_, q);
-  if (sense_.turns(replaced_.front(), gain6) || !within_limits(limits_, mesh_, replaced_, star_)) return false;
+  if (sense_.turns(replaced_.front(), gain6) || !stays_near()) return false;
+  if (!within_limits(limits_, mesh_, replaced_, star_)) return false;
   sense_.add(replaced_.front(), gain6);
   mesh_.move(v, q);
   for (const FaceId f : replaced_) tree_.update(f);

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "lib/levels/lod_chain.h"
+#include "lib/volume/boundary_rects.h"
 #include "lib/volume/boundary_runs.h"
 
 namespace bp {
@@ -14,26 +15,34 @@ class Outside {
   const std::uint64_t dense_faces;  ///< triangles of the dense surface of the solid
   const VoxelBox box;               ///< around the boundary voxels
 
-  /// `surface`: as LodOptions has it. Throws out_of_resource, before it takes anything, if it takes more than `memory`.
-  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, const MemoryShare& memory);
+  /// `surface`: as LodOptions has it. `of_triangles`: fits are measured against triangles. Throws out_of_resource,
+  /// before it takes anything, if it takes more than `memory`.
+  Outside(const BrickShelf& solid, const BrickShelf* surface, bool of_triangles, const GridFrame& frame,
+          const MemoryShare& memory);
   ~Outside();
 
   [[nodiscard]] double voxel() const { return frame_.voxel; }
   /// Of the memory, from the beginning to the end.
   [[nodiscard]] std::uint64_t bytes() const;
 
-  /// Sets error_world and distance_world of a level. `enclosed`: the triangles of the scene, if they lie inside the
-  /// level, which is a bounding one; else null. Takes TriangleBvh::bytes_needed() of them for a moment.
-  void measure(LodLevel& level, MeshMode mode, const std::vector<TriangleD>* enclosed) const;
+  /// Sets error_world and distance_world of a level. `scene`: its triangles, if a bounding level has them inside, or a
+  /// fit follows them; else null. Takes TriangleBvh::bytes_needed() of them for a moment.
+  void measure(LodLevel& level, MeshMode mode, const std::vector<TriangleD>* scene) const;
 
  private:
   struct Ruler;
 
-  Outside(const BrickShelf& solid, const BrickShelf* surface, const GridFrame& frame, const BoundarySize& size,
-          const MemoryShare& memory);
+  Outside(const BrickShelf& solid, const BrickShelf* surface, bool of_triangles, const GridFrame& frame,
+          const BoundarySize& size, const MemoryShare& memory);
+  void measure_bounding(LodLevel& level, const std::vector<TriangleD>* enclosed) const;
+  /// False, and nothing, if the triangles are not those of the voxels.
+  [[nodiscard]] bool measure_fit(LodLevel& level, const std::vector<TriangleD>& scene) const;
+  template <class Use>
+  void with_ruler(Use&& use) const;
 
   GridFrame frame_;
   std::vector<VoxelRun> runs_;
+  std::vector<FaceRect> faces_;  // between its voxels and empty ones, if fits are measured against triangles
   std::unique_ptr<Ruler> kept_;
 };
 

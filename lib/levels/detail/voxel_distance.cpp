@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "lib/core/parallel.h"
 #include "lib/geometry/crossing.h"
@@ -18,7 +19,8 @@ const double kPointToCentre = std::sqrt(0.75);
 constexpr double kSearchTolerance = 0.5;  // of the search, in voxels
 // Of a piece of the mesh. The proof that a triangle is near takes as many parts as its area over the limit squared, and
 // ends after some thousands of them.
-constexpr double kPieceArea = 256;  // voxels squared
+constexpr double kPieceArea = 256;    // voxels squared
+constexpr double kLeastLimit = 0.25;  // in voxels, of a question that is worth asking
 constexpr std::int64_t kGrain = 256;
 constexpr std::size_t kPlaces = 512;  // of a grain
 
@@ -57,16 +59,22 @@ double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh
   return std::sqrt(*std::max_element(largest.begin(), largest.end()));
 }
 
-/// Those of `from` that are not surely within `limit`, in their order.
-std::vector<TriangleD> farther_than(double limit, const std::vector<TriangleD>& from, const TriangleBvh& to) {
+/// Which of `from` are not surely within `limit`, in their order.
+std::vector<std::uint32_t> which_are_farther(double limit, const std::vector<TriangleD>& from, const TriangleBvh& to) {
   std::vector<char> far(from.size());
   parallel_ranges(std::int64_t(from.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
     NearSurface near(to, limit / 2, kPlaces);
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) far[i] = !near.holds(from[i], limit);
   });
-  std::vector<TriangleD> left;
+  std::vector<std::uint32_t> left;
   for (std::size_t i = 0; i < from.size(); ++i)
-    if (far[i] != 0) left.push_back(from[i]);
+    if (far[i] != 0) left.push_back(std::uint32_t(i));
+  return left;
+}
+
+std::vector<TriangleD> farther_than(double limit, const std::vector<TriangleD>& from, const TriangleBvh& to) {
+  std::vector<TriangleD> left;
+  for (const std::uint32_t i : which_are_farther(limit, from, to)) left.push_back(from[i]);
   return left;
 }
 
@@ -77,12 +85,6 @@ double upper_bound(const std::vector<TriangleD>& from, const TriangleBvh& to, do
   for (std::vector<TriangleD> left = farther_than(limit, from, to); !left.empty(); left = farther_than(limit, left, to))
     limit = limit * 1.02 + step;
   return limit;
-}
-
-int winding_number(const TriangleBvh& mesh, const Vec3d& p) {
-  int winding = 0;
-  mesh.visit_above(p, [&](const TriangleBvh::Item& item) { winding += crossing_above(item.corners, p); });
-  return winding;
 }
 
 /// Largest distance of a centre of a voxel behind `segments` to the mesh, of those outside; at least `known`.
@@ -107,6 +109,12 @@ double distance_of_centres(const std::vector<TriangleD>& segments, const Triangl
 }
 
 }  // namespace
+
+int winding_number(const TriangleBvh& mesh, const Vec3d& p) {
+  int winding = 0;
+  mesh.visit_above(p, [&](const TriangleBvh::Item& item) { winding += crossing_above(item.corners, p); });
+  return winding;
+}
 
 std::vector<TriangleD> segments_of(std::span<const VoxelRun> runs, const GridFrame& frame) {
   constexpr std::int64_t kHalf = kLatticePerVoxel / 2;
@@ -138,6 +146,15 @@ double distance_beyond_mesh(const std::vector<TriangleD>& segments, const Triang
   const double known = at_least - kPointToCentre * voxel;
   const double found = distance_of_centres(farther_than(known, segments, mesh), mesh, voxel, known);
   return std::max(found + kPointToCentre * voxel, at_least);
+}
+
+std::vector<std::uint32_t> far_segments(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel,
+                                        double limit) {
+  const double near = limit - kPointToSegment * voxel;
+  if (near > kLeastLimit * voxel) return which_are_farther(near, segments, mesh);
+  std::vector<std::uint32_t> all(segments.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
 }
 
 }  // namespace bp

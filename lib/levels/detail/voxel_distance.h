@@ -26,4 +26,11 @@ constexpr double kTriangleTolerance = 1.0 / 16;  ///< of distances to triangles 
 [[nodiscard]] double distance_beyond_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel,
                                           double at_least);
 
+/// Which of the segments have a point in their voxels that may be farther from the mesh than `limit`, in their order.
+[[nodiscard]] std::vector<std::uint32_t> far_segments(const std::vector<TriangleD>& segments, const TriangleBvh& mesh,
+                                                      double voxel, double limit);
+
+/// Of a closed mesh around p.
+[[nodiscard]] int winding_number(const TriangleBvh& mesh, const Vec3d& p);
+
 }  // namespace bp

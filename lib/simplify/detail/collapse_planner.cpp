@@ -5,6 +5,7 @@
 #include "lib/simplify/detail/collapse_planner.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lib/geometry/triangle_bvh.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double kLeastTurn = 0.1;  // cosine between a face's normal before and after
 constexpr int kPlaces = 4;          // places tried between the free minimum and the growing one
+constexpr int kFreePlaces = 4;      // of what keeps nothing inside
 
 }  // namespace
 
@@ -51,18 +53,23 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::solve(HalfEdgeId h, i
   const Quadric q = summed(h);
   const Vec3d prior = midpoint(h);
   weight_ = q.weight;
-  if (params_.free) return place_free(q, prior);
+  if (params_.free) return place_free(q, prior, first_attempt);
   if (params_.enclosed != nullptr && first_attempt < kPlaces) {
     if (const auto candidate = place_enclosing(q, prior, first_attempt)) return candidate;
   }
   return place_growing(q, prior);
 }
 
-std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_free(const Quadric& q, const Vec3d& prior) {
-  const LatticeCoord p = rounded(minimum(q, prior));
-  const double cost = q.value(to_double(p));
-  if (!acceptable(p, cost)) return std::nullopt;
-  return Candidate{origin_ + p, cost, kPlaces};
+/// At the free minimum; where that does not do, at an end of the edge or in its middle.
+std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_free(const Quadric& q, const Vec3d& prior,
+                                                                      int first_attempt) {
+  const std::array<Vec3d, kFreePlaces> places{minimum(q, prior), Vec3d{}, prior, 2.0 * prior};
+  for (int attempt = first_attempt; attempt < kFreePlaces; ++attempt) {
+    const LatticeCoord p = rounded(places[std::size_t(attempt)]);
+    const double cost = q.value(to_double(p));
+    if (acceptable(p, cost)) return Candidate{origin_ + p, cost, attempt + 1 < kFreePlaces ? attempt : kPlaces};
+  }
+  return std::nullopt;
 }
 
 /// The best place that keeps all constraints.

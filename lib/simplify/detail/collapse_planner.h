@@ -78,7 +78,7 @@ class CollapsePlanner {
   [[nodiscard]] bool link_holds() const;
   void gather_constraints();
   [[nodiscard]] std::optional<Candidate> place_growing(const Quadric& q, const Vec3d& prior);
-  [[nodiscard]] std::optional<Candidate> place_free(const Quadric& q, const Vec3d& prior);
+  [[nodiscard]] std::optional<Candidate> place_free(const Quadric& q, const Vec3d& prior, int first_attempt);
   [[nodiscard]] std::optional<Candidate> place_enclosing(const Quadric& q, const Vec3d& prior, int first_attempt);
   [[nodiscard]] Vec3d pushed_out(const Vec3d& x) const;
   [[nodiscard]] std::optional<LatticeCoord> round_inside(const Vec3d& x, const Quadric& q) const;

@@ -191,15 +191,17 @@ TEST_CASE("a budget takes no voxels so large that few are left", "[quick][pass][
 
 TEST_CASE("the scale is halved where that leaves few parts and holes, not where they take the faces",
           "[quick][pass][lod]") {
-  const bool apart = GENERATE(false, true);
-  CAPTURE(apart);
+  const bool apart = GENERATE(false, true), fit = GENERATE(false, true);
+  CAPTURE(apart, fit);
   Triangles scene = boxes();
   if (!apart) add_box(scene, {-1, -1, -1}, {27, 28, 14});
   Backends backends = plain_backends(2);
   Voxelized solid = voxelized(scene, 0.125);
   const double diagonal = solid.header.bounds.diagonal();
-  LodChain chain(solid.header, std::move(solid.shelf), backends, lod_options());
-  const LodTarget target{apart ? 1700u : 500u, 0, {}};
+  LodOptions options = lod_options();
+  if (fit) options.mode = MeshMode::fit;  // half as many faces for a part
+  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+  const LodTarget target{apart ? (fit ? 850u : 1700u) : (fit ? 50u : 500u), 0, {}};
   const double scale = first_scale({0.125, diagonal, chain.dense_faces(), chain.longest_side_vox()}, target, 0);
   REQUIRE(scale / 2 > 1.07 * 0.125);
   CHECK(chain.make(target).scale_world == (apart ? scale : scale / 2));
@@ -294,7 +296,7 @@ TEST_CASE("what sticks out of a fitted level is an error of it, what lies inside
     const double there = sampled_distance(fit, scene, 500), beyond = sampled_distance_beyond(scene, fit, 200);
     CAPTURE(faces, level.mesh.triangles.size(), there, beyond, level.distance_world);
     CHECK(level.error_world >= std::max(there, beyond));
-    CHECK(level.error_world <= 1.04 * std::max(there, beyond) + 3);
+    CHECK(level.error_world <= 1.01 * std::max(there, beyond) + 1);  // 3 without the triangles
     if (beyond > there) largest = std::max(largest, beyond);
   }
   CHECK(largest > 5);  // of the mast, somewhere
@@ -329,7 +331,7 @@ TEST_CASE("a fit of too few faces for its houses has no spires, and loses no hou
     const double x = 7.2 + 23.3 * (i % 4), y = 6.1 + 22.7 * (i / 4);
     add_box(scene, {x, y, 0}, {x + 9 + i % 3, y + 12 - i % 5, 6.3 + 1.3 * (i % 7)});
   }
-  const std::uint64_t faces = GENERATE(240, 120);
+  const std::uint64_t faces = GENERATE(240, 180, 120);
   Backends backends = plain_backends(2);
   LodOptions options = lod_options();
   options.closing.element = StructuringElement::ball;
@@ -340,7 +342,8 @@ TEST_CASE("a fit of too few faces for its houses has no spires, and loses no hou
   const std::vector<TriangleD> fit = world_triangles(chain.make({faces, 0, {}}).mesh);
   CAPTURE(faces);
   CHECK(sampled_distance(fit, scene, 60) < 6);  // 6.3 and 12.2 without a reach
-  CHECK(sampled_distance_beyond(scene, fit, 200) < 6.5);
+  // 6.1, 5.9 and 5.3 where collapses know one place
+  CHECK(sampled_distance_beyond(scene, fit, 200) < 5);
 }
 
 TEST_CASE("levels keep to their memory, and are the same", "[quick][pass][lod]") {
