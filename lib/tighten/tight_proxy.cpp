@@ -19,7 +19,6 @@ constexpr std::uint64_t kEarlyFactor = 6;   // of the wanted faces: where growin
 constexpr double kMiddleFactor = 3;         // where sweeps are made again if the first found much room
 constexpr double kLateFactor = 1.5;         // where the order of collapses changes from quadric error to volume
 constexpr double kMostGrowth = 6;           // of one collapse: some times a face's share of the volume
-constexpr std::uint64_t kStepsPerFace = 3;  // faces of the surface: fewer for a face of the proxy may be steps
 constexpr double kMuchRoom = 0.04;          // share of the volume: a first sweep that gains more is worth others
 constexpr int kJamRounds = 4;               // of a sweep and collapses, where these jam above the target
 constexpr std::uint64_t kWhole = 16;        // regions: up to so many faces are collapsed by volume as one mesh
@@ -253,16 +252,19 @@ Way tight_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams&
 }
 
 /// Where the surface of the voxels has few faces for each that is wanted, many of the proxy's may be steps of voxels,
-/// which tightening does not take away. Fewer faces do, and are used if they leave less volume.
+/// which tightening does not take away. Fewer faces do: half of the surface's, or a third if that leaves less volume.
 Way least_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams& params) {
-  Way way = tight_from(grown, enclosed, params);
+  const std::uint64_t half = grown.proxy.triangles.size() / 2, third = grown.proxy.triangles.size() / 3;
+  if (!by_volume(params) || third >= params.faces || third < kFewFaces) return tight_from(grown, enclosed, params);
   SimplifyParams fewer = params;
-  fewer.faces = grown.proxy.triangles.size() / kStepsPerFace;
-  if (!by_volume(params) || fewer.faces >= params.faces || fewer.faces < kFewFaces) return way;
+  fewer.faces = std::min(half, params.faces);
+  Way way = tight_from(grown, enclosed, fewer);
+  fewer.faces = third;
   Way other = tight_from(grown, enclosed, fewer);
-  if (other.tightened.volume_after >= way.tightened.volume_after) return way;
-  other.simplified.stop = StopReason::least_volume;
-  return other;
+  if (other.tightened.volume_after < way.tightened.volume_after) way = std::move(other);
+  if (way.simplified.stop == StopReason::faces && way.proxy.triangles.size() < params.faces)
+    way.simplified.stop = StopReason::least_volume;
+  return way;
 }
 
 /// From the lattice of a frame to that of another, whose voxels are a whole number of times smaller. Exact.
