@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kMostTimes = 64;
 constexpr std::uint64_t kFacesOfTetrahedron = 4;  // the least of a part; a handle adds as many
-constexpr std::uint64_t kPlenty = 50;             // for each: collapses jam at 18 to 23
 constexpr std::uint64_t kFacesPerWanted = 50;     // dense ones: how tight it is does not matter here
 
 StreamHeader closed_at(const StreamHeader& header, double scale) {
@@ -34,15 +33,11 @@ std::unique_ptr<BrickShelf> closing_of(const StreamHeader& closed, BrickShelf& s
   return close_shelf(input, solid, backends, closed.scale, {closed.element}, options);
 }
 
-enum class Chance { none, some, sure };
-
-/// By parts and handles alone, whatever is merged.
-Chance chance_of(const BrickShelf& closing, const ScaleSearch& search) {
-  if (topology_bytes(closing) > search.context.pieces.bytes()) return Chance::some;  // not known
+/// False if parts and handles alone take more faces, whatever is merged.
+bool may_have(const BrickShelf& closing, const ScaleSearch& search) {
+  if (topology_bytes(closing) > search.context.pieces.bytes()) return true;  // not known
   const SolidTopology topology = topology_of(closing);
-  const std::uint64_t kept = topology.parts + topology.handles;
-  if (kept * kFacesOfTetrahedron > search.faces) return Chance::none;
-  return kept * kPlenty <= search.faces ? Chance::sure : Chance::some;
+  return (topology.parts + topology.handles) * kFacesOfTetrahedron <= search.faces;
 }
 
 /// By growing alone, and from larger voxels as meshing does: what that gets to, tightening gets to as well.
@@ -67,9 +62,7 @@ std::optional<int> enough_scales(const StreamHeader& header, BrickShelf& solid, 
     const std::unique_ptr<BrickShelf> closing = closing_of(closed, solid, backends, search);
     if (search.context.progress) search.context.progress("mesh", "scales", tried++, 0);
     repair_contacts(*closing);  // as meshing does: it closes the tiniest holes
-    const Chance chance = chance_of(*closing, search);
-    if (chance == Chance::sure) return times;
-    if (chance == Chance::some && has_faces(closed, *closing, search)) return times;
+    if (may_have(*closing, search) && has_faces(closed, *closing, search)) return times;
   }
   return std::nullopt;
 }

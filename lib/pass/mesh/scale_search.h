@@ -16,8 +16,8 @@ struct ScaleSearch {
 };
 
 /// How many times the scale of `header`, a closing by one scale, is enough: 2, 4, 8, ... Each is tried, closed and
-/// meshed without tightening, until one has the faces. What cannot have them, since each part and each handle takes
-/// four, is not meshed, nor what has fifty for each. Empty if none has up to half the scene's diagonal. `solid`: the solid layer of the stream.
+/// meshed without tightening, until one has the faces; what cannot have them, since each part and each handle takes
+/// four, is not meshed. Empty if none has up to half the scene's diagonal. `solid`: the solid layer of the stream.
 /// Cost: of a closing and a simplification for each scale. Throws as close_stream() and mesh_stream().
 [[nodiscard]] std::optional<int> enough_scales(const StreamHeader& header, BrickShelf& solid, Backends& backends,
                                                const ScaleSearch& search);
