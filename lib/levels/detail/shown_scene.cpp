@@ -13,11 +13,11 @@ namespace bp {
 
 namespace {
 
-constexpr std::int64_t kGrain = 256;
+constexpr std::int64_t kShownGrain = 256;
 constexpr double kCentreToCorner = 0.87;
 constexpr double kFaceToVoxel = 1.25;  // from the middle of a face to any point of its voxel, and rounding; in voxels
 
-std::uint64_t area_of(const FaceRect& r) {
+std::uint64_t faces_in(const FaceRect& r) {
   std::uint64_t area = 1;
   for (int i = 0; i < 3; ++i) area *= std::uint64_t(std::max(r.max[i] - r.min[i], 1));
   return area;
@@ -103,15 +103,15 @@ class Beyond {
 
 std::vector<TriangleD> shown_points(std::span<const FaceRect> faces, const TriangleBvh& scene, const GridFrame& frame) {
   std::uint64_t area = 0;
-  for (const FaceRect& r : faces) area += area_of(r);
+  for (const FaceRect& r : faces) area += faces_in(r);
   const double share = double(kMostShownPoints) / double(std::max<std::uint64_t>(area, 1));
   const double most = std::pow(kFaceToVoxel * frame.voxel, 2);
   const auto n = std::int64_t(faces.size());
-  std::vector<std::vector<TriangleD>> found(std::size_t((n + kGrain - 1) / kGrain));
+  std::vector<std::vector<TriangleD>> found(std::size_t((n + kShownGrain - 1) / kShownGrain));
   std::vector<char> misses(found.size(), 0);
-  parallel_ranges(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(n, kShownGrain, [&](std::int64_t begin, std::int64_t end) {
     std::uint32_t guess = 0;
-    const auto grain = std::size_t(begin / kGrain);
+    const auto grain = std::size_t(begin / kShownGrain);
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
       for_each_face(faces[i], [&](const LatticeCoord& middle) {
         if (share < 1 && !is_chosen(middle, share)) return;
@@ -140,8 +140,8 @@ double distance_beyond_mesh(std::span<const VoxelRun> runs, const std::vector<Tr
                             double at_least) {
   const std::vector<std::uint32_t> left = far_segments(segments, mesh, frame.voxel, at_least);
   const auto n = std::int64_t(left.size());
-  std::vector<double> largest(std::size_t((n + kGrain - 1) / kGrain), at_least);
-  parallel_ranges(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+  std::vector<double> largest(std::size_t((n + kShownGrain - 1) / kShownGrain), at_least);
+  parallel_ranges(n, kShownGrain, [&](std::int64_t begin, std::int64_t end) {
     Beyond beyond(mesh, at_least);
     std::vector<Polygon> parts;
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
@@ -159,7 +159,7 @@ double distance_beyond_mesh(std::span<const VoxelRun> runs, const std::vector<Tr
         for (const Polygon& part : parts) beyond.meet(part);
       }
     }
-    largest[std::size_t(begin / kGrain)] = beyond.largest();
+    largest[std::size_t(begin / kShownGrain)] = beyond.largest();
   });
   return largest.empty() ? at_least : *std::max_element(largest.begin(), largest.end());
 }
