@@ -18,9 +18,9 @@ constexpr double kCentreToCorner = 0.87;
 constexpr double kFaceToVoxel = 1.25;  // from the middle of a face to any point of its voxel, and rounding; in voxels
 
 std::uint64_t faces_in(const FaceRect& r) {
-  std::uint64_t area = 1;
-  for (int i = 0; i < 3; ++i) area *= std::uint64_t(std::max(r.max[i] - r.min[i], 1));
-  return area;
+  std::uint64_t n = 1;
+  for (int i = 0; i < 3; ++i) n *= std::uint64_t(std::max(r.max[i] - r.min[i], 1));
+  return n;
 }
 
 /// Whether a face is among about `share` of all, by a hash of where it is.

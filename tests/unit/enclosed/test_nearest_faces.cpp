@@ -9,7 +9,7 @@ using namespace bp;
 
 namespace {
 
-constexpr std::int64_t kEdge = 640;
+constexpr std::int64_t kCubeEdge = 640;
 
 /// Cubes of several sizes in a row of places.
 LatticeMesh cubes(int number) {
@@ -19,8 +19,8 @@ LatticeMesh cubes(int number) {
   mesh.frame.voxel = 1;
   for (int n = 0; n < number; ++n) {
     const auto first = VertexId(mesh.vertices.size());
-    const std::int64_t edge = kEdge / (1 + n % 4);
-    const LatticeCoord low = LatticeCoord{n % 3, n / 3 % 3, n / 9} * (kEdge + 100);
+    const std::int64_t edge = kCubeEdge / (1 + n % 4);
+    const LatticeCoord low = LatticeCoord{n % 3, n / 3 % 3, n / 9} * (kCubeEdge + 100);
     for (int i = 0; i < 8; ++i)
       mesh.vertices.push_back(low + LatticeCoord{(i & 1) * edge, (i >> 1 & 1) * edge, (i >> 2) * edge});
     for (const auto& f : kFaces) {
