@@ -12,7 +12,7 @@ namespace bp {
 
 struct MeshOptions {
   CommonOptions common;
-  std::string in = "-", out = "-";
+  std::string in = "-", out;
   ProxyOptions proxy;
   LevelOptions levels;
   double volume = 0;
