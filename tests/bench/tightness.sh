@@ -22,8 +22,9 @@ bounds = json.load(open(work + "/info.json"))["bounds"]
 diagonal = math.dist(bounds["min"], bounds["max"])
 check = json.load(open(work + "/check.json"))
 m = check["measures"]
+ratio = "-" if m["volume_ratio"] is None else f'{abs(m["volume_ratio"]):.4f}'
 outward, inward = (m[k]["max"] / diagonal for k in ("proxy_to_scene", "scene_to_proxy"))
-print(f'{model:28} {faces:>7} {check["proxy"]["triangles"]:7} {abs(m["volume_ratio"]):8.4f} {outward:9.4f} {max(outward, inward):9.4f} '
+print(f'{model:28} {faces:>7} {check["proxy"]["triangles"]:7} {ratio:>8} {outward:9.4f} {max(outward, inward):9.4f} '
       f'{float(open(work + "/seconds").read()):7.2f}  {verdict}')
 P
   done
