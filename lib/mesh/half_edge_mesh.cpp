@@ -138,16 +138,19 @@ void HalfEdgeMesh::collapse(HalfEdgeId h, const LatticeCoord& p) {
   position_[u] = p;
 }
 
+bool HalfEdgeMesh::are_joined(VertexId v, VertexId w) const {
+  bool joined = false;
+  for_each_outgoing(v, [&](HalfEdgeId h) { joined |= to(h) == w; });
+  return joined;
+}
+
 bool HalfEdgeMesh::can_flip(HalfEdgeId h) const {
   if (twin(h) == kNoId) return false;
   const VertexId a = opposite(h), b = opposite(twin(h));
   for (const VertexId v : {from(h), to(h), a, b}) {
     if (locked(v)) return false;
   }
-  if (a == b || valence(from(h)) <= 3 || valence(to(h)) <= 3) return false;
-  bool exists = false;
-  for_each_outgoing(a, [&](HalfEdgeId g) { exists |= to(g) == b; });
-  return !exists;
+  return a != b && valence(from(h)) > 3 && valence(to(h)) > 3 && !are_joined(a, b);
 }
 
 void HalfEdgeMesh::flip(HalfEdgeId h) {

@@ -78,6 +78,7 @@ class HalfEdgeMesh {
     } while (h != first);
   }
   [[nodiscard]] int valence(VertexId v) const;
+  [[nodiscard]] bool are_joined(VertexId v, VertexId w) const;  ///< by an edge; v is not locked
 
   /// Six times the enclosed volume, lattice units cubed; exact. Of a cell's part, that of the cones from some fixed
   /// point to its faces: changes in the cell change it by what they add. O(faces).

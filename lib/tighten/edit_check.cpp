@@ -178,9 +178,7 @@ bool EditCheck::allows_cut(HalfEdgeId h) {
   const VertexId w = mesh_.opposite(to_b), x = mesh_.opposite(t);
   const bool any_locked = mesh_.locked(a) || mesh_.locked(b) || mesh_.locked(w) || mesh_.locked(x);
   if (any_locked || x == w || mesh_.valence(a) < 5 || mesh_.valence(b) < 5) return false;
-  bool joined = false;
-  mesh_.for_each_outgoing(w, [&](HalfEdgeId g) { joined |= mesh_.to(g) == x; });
-  if (joined) return false;
+  if (mesh_.are_joined(w, x)) return false;
   begin();
   const LatticeCoord &pv = mesh_.position(v), &pa = mesh_.position(a), &pb = mesh_.position(b), &pw = mesh_.position(w),
                      &px = mesh_.position(x);

@@ -1,6 +1,7 @@
 #include "lib/tighten/proxy_editor.h"
 
 #include <algorithm>
+#include <array>
 
 #include "lib/core/vec3.h"
 #include "lib/exact/predicates.h"
@@ -56,6 +57,9 @@ bool ProxyEditor::cut(HalfEdgeId h) {
   const HalfEdgeId beyond = mesh_.twin(h);
   const HalfEdgeId out = mesh_.rotate(mesh_.twin(HalfEdgeMesh::next(h)));  // from the vertex to the third neighbour
   const HalfEdgeId in = mesh_.twin(out);
+  // It is made in two steps, and between them no shell may turn that does not turn in the end.
+  const std::array<FaceId, 1> spike{HalfEdgeMesh::face(h)};
+  if (sense_.turns(spike[0], fan_gain6(mesh_, spike, mesh_.position(mesh_.from(in))))) return false;
   make_collapse(in, mesh_.position(mesh_.from(in)));
   make_flip(beyond);
   settle_points();

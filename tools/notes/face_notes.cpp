@@ -36,9 +36,8 @@ std::string too_few_note(std::uint64_t faces, std::uint64_t asked, MeshMode mode
 std::string least_volume_note(std::uint64_t faces, std::uint64_t asked) {
   if (!clearly_fewer(faces, asked)) return "";
   return fmt::format(
-      "{} faces instead of {}: further ones would take next to nothing off the volume, or add to it; smaller voxels, "
-      "or "
-      "a smaller --scale, show more of the scene",
+      "{} faces instead of {}: further ones would take next to nothing off the volume, or add to it; "
+      "smaller voxels, or a smaller --scale, show more of the scene",
       faces, asked);
 }
 

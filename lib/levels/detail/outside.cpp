@@ -29,12 +29,11 @@ std::uint64_t shown_bytes(std::uint64_t faces) {
 }  // namespace
 
 struct Outside::Ruler {
-  double voxel;
   std::vector<TriangleD> segments;
   TriangleBvh tree;
 
   Ruler(const std::vector<VoxelRun>& runs, const GridFrame& frame)
-      : voxel(frame.voxel), segments(segments_of(runs, frame)), tree(segments) {}
+      : segments(segments_of(runs, frame)), tree(segments) {}
 };
 
 Outside::Outside(const BrickShelf& solid, const BrickShelf* surface, bool of_triangles, const GridFrame& frame,

@@ -1,20 +1,18 @@
 #include "lib/tighten/detail/spikes.h"
 
-#include "lib/core/vec3.h"
+#include <array>
+
+#include "lib/mesh/shells.h"
 
 namespace bp {
 
 namespace {
 
-/// Six times what cutting by `h`, the edge of a face across from the spike, adds to the volume: cones from the third
-/// neighbour to the faces that go.
-double cost6(const HalfEdgeMesh& mesh, HalfEdgeId h) {
-  const HalfEdgeId t = mesh.twin(h);
-  const LatticeCoord& apex = mesh.position(mesh.opposite(mesh.twin(HalfEdgeMesh::next(h))));
-  const Vec3d a = to_double(mesh.position(mesh.from(h)) - apex), b = to_double(mesh.position(mesh.to(h)) - apex);
-  const Vec3d spike = to_double(mesh.position(mesh.opposite(h)) - apex);
-  const Vec3d beyond = to_double(mesh.position(mesh.opposite(t)) - apex);
-  return dot(cross(a, b), beyond - spike);
+/// Six times what cutting by `h`, the edge of a face across from the spike, adds to the volume: the faces that go make
+/// room for a fan around the third neighbour.
+int128 cost6(const HalfEdgeMesh& mesh, HalfEdgeId h) {
+  const std::array<FaceId, 2> faces{HalfEdgeMesh::face(h), HalfEdgeMesh::face(mesh.twin(h))};  // the others meet it
+  return fan_gain6(mesh, faces, mesh.position(mesh.opposite(mesh.twin(HalfEdgeMesh::next(h)))));
 }
 
 bool cut(ProxyEditor& editor, VertexId v) {

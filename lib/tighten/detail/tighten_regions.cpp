@@ -96,7 +96,7 @@ double take(Piece&& whole, bool inwards, LatticeMesh& proxy) {
   LatticeMesh out = mesh.compact(proxy.frame);
   proxy.vertices = std::move(out.vertices);
   proxy.triangles = std::move(out.triangles);
-  return double(mesh.volume6()) / 6;
+  return volume_of(mesh);
 }
 
 /// With the cells of one turn. Adds to the counts of work; volume_after is new.
