@@ -339,22 +339,19 @@ const std::vector<Vec3d>& EnclosedTriangles::all_samples() const {
   return samples_;
 }
 
+/// Samples are sorted by their first coordinate, as it was before rounding.
 std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin, const LatticeBox& within) const {
+  const std::vector<Vec3d>& all = all_samples();
+  const auto before = [](const Vec3d& v, double x) { return v[0] < x; };
+  const auto begin = std::lower_bound(all.begin(), all.end(), double(within.min.x) - 1, before);
+  const auto end = std::lower_bound(begin, all.end(), double(within.max.x) + 1, before);
   std::vector<Vec3d> points;
-  if (within.holds(bounds_)) {
-    points = all_samples();
-  } else {
-    tree_.query_places(within, [&](std::uint32_t i) {
-      add_samples_of(i, points);
-      return true;
-    });
-    points = samples_of(std::move(points));
-    std::erase_if(points, [&](const Vec3d& v) { return !within.holds({rounded(v), rounded(v)}); });
-  }
-  const Vec3d shift = to_double(origin);
-  parallel_ranges(std::int64_t(points.size()), kSamplesAtOnce, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) points[i] = points[i] - shift;
+  std::copy_if(begin, end, std::back_inserter(points), [&](const Vec3d& v) {
+    const LatticeCoord p = rounded(v);
+    return within.holds({p, p});
   });
+  const Vec3d shift = to_double(origin);
+  for (Vec3d& p : points) p = p - shift;
   return points;
 }
 

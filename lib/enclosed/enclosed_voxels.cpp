@@ -112,6 +112,7 @@ EnclosedVoxels::EnclosedVoxels(const BrickShelf& shelf) {
       first += std::uint32_t(std::popcount(f.brick.blocks[z]));
     }
     if (!f.blocks.empty()) bricks_.emplace(coords[i], f.brick);
+    if (!f.points.empty()) points_of_.push_back({coords[i], points_.size()});
     blocks_.insert(blocks_.end(), f.blocks.begin(), f.blocks.end());
     points_.insert(points_.end(), f.points.begin(), f.points.end());
     f = {};
@@ -130,9 +131,15 @@ std::uint64_t EnclosedVoxels::bytes() const {
 
 std::vector<Vec3d> EnclosedVoxels::contact_points(const LatticeCoord& origin, const LatticeBox& within) const {
   std::vector<Vec3d> points;
-  for (const VoxelCoord& c : points_) {
-    const LatticeCoord p = LatticeCoord{c.x, c.y, c.z} * kLatticePerVoxel;
-    if (within.meets({p, p})) points.push_back(to_double(p - origin));
+  for (std::size_t i = 0; i < points_of_.size(); ++i) {
+    const LatticeCoord low = low_corner(first_voxel(points_of_[i].coord));
+    constexpr std::int64_t edge = std::int64_t(kBrickEdge) * kLatticePerVoxel;
+    if (!within.meets({low, low + LatticeCoord{edge, edge, edge}})) continue;
+    const std::size_t end = i + 1 < points_of_.size() ? points_of_[i + 1].first : points_.size();
+    for (std::size_t k = points_of_[i].first; k < end; ++k) {
+      const LatticeCoord p = low_corner(points_[k]);
+      if (within.meets({p, p})) points.push_back(to_double(p - origin));
+    }
   }
   return points;
 }

@@ -48,6 +48,11 @@ class EnclosedVoxels : public Enclosed {
   /// Corners with one occupied voxel around them, and of straight edges and flat sides those 8 voxels apart; some on
   /// brick borders are left out.
   std::vector<VoxelCoord> points_;
+  struct PointsOf {
+    BrickCoord coord;
+    std::size_t first;  // in points_
+  };
+  std::vector<PointsOf> points_of_;  // of bricks that have any
 };
 
 }  // namespace bp
