@@ -13,9 +13,8 @@ namespace bp {
 namespace {
 
 constexpr std::int64_t kSortedAtOnce = 1024;
-constexpr double kGroup = 0.25;     // of the reach: radius of points that share a search
-constexpr double kFirstReach = 16;  // the first search reaches as far as one of so many parts, the next four times
-constexpr double kSlack = 1e-6;     // lattice units, or squared ones: more than all rounding
+constexpr double kGroup = 0.25;  // of the reach: radius of points that share a search
+constexpr double kSlack = 1e-6;  // lattice units, or squared ones: more than all rounding
 
 /// The search for some of the points.
 class NearestFaces {
@@ -60,27 +59,24 @@ class NearestFaces {
 
   /// All faces that may be the nearest of a point in the ball, the nearest to its middle first.
   void gather(const Ball& ball) {
+    const double more = 2 * ball.radius + kSlack;
+    double least = reach_ + ball.radius;
+    if (last_ != kNoId) least = std::min(least, distance(ball.middle, corners(last_)));
     const LatticeCoord at = origin_ + rounded(ball.middle);
-    const double most = reach_ + ball.radius + kSlack;
-    for (double r = reach_ / kFirstReach + 2 * ball.radius;; r *= 4) {
-      const double within = std::min(r, most);
-      const auto d = std::int64_t(within) + 2;
-      candidates_.clear();
-      double least = within;
-      tree_.query({at - LatticeCoord{d, d, d}, at + LatticeCoord{d, d, d}}, [&](FaceId f) {
-        Candidate c{0, f, corners(f)};
-        c.distance = std::sqrt(squared_distance(ball.middle, c.corners));
-        if (c.distance > least + 2 * ball.radius + kSlack) return true;
-        least = std::min(least, c.distance);
-        candidates_.push_back(c);
-        return true;
-      });
-      if (least + 2 * ball.radius + kSlack > within && within < most) continue;
-      std::erase_if(candidates_, [&](const Candidate& c) { return c.distance > least + 2 * ball.radius + kSlack; });
-      break;
-    }
+    const auto d = std::int64_t(least + more) + 2;
+    candidates_.clear();
+    tree_.query({at - LatticeCoord{d, d, d}, at + LatticeCoord{d, d, d}}, [&](FaceId f) {
+      Candidate c{0, f, corners(f)};
+      c.distance = distance(ball.middle, c.corners);
+      if (c.distance > least + more) return true;
+      least = std::min(least, c.distance);
+      candidates_.push_back(c);
+      return true;
+    });
+    std::erase_if(candidates_, [&](const Candidate& c) { return c.distance > least + more; });
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+    if (!candidates_.empty()) last_ = candidates_.front().face;
   }
 
   [[nodiscard]] FaceId nearest(const Vec3d& p, const Ball& ball) const {
@@ -98,6 +94,9 @@ class NearestFaces {
     return best;
   }
 
+  static double distance(const Vec3d& p, const std::array<Vec3d, 3>& corners) {
+    return std::sqrt(squared_distance(p, corners));
+  }
   [[nodiscard]] std::array<Vec3d, 3> corners(FaceId f) const {
     return {to_double(mesh_.corner(f, 0) - origin_), to_double(mesh_.corner(f, 1) - origin_),
             to_double(mesh_.corner(f, 2) - origin_)};
@@ -110,6 +109,7 @@ class NearestFaces {
   const double reach_;
   std::vector<FaceId>& found_;
   std::vector<Candidate> candidates_;
+  FaceId last_ = kNoId;  // the nearest to the middle of the last ball that had any: few are nearer to the next one
 };
 
 }  // namespace
