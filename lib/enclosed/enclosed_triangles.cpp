@@ -346,12 +346,18 @@ std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin,
   const auto begin = std::lower_bound(all.begin(), all.end(), double(within.min.x) - 1, before);
   const auto end = std::lower_bound(begin, all.end(), double(within.max.x) + 1, before);
   std::vector<Vec3d> points;
-  std::copy_if(begin, end, std::back_inserter(points), [&](const Vec3d& v) {
-    const LatticeCoord p = rounded(v);
-    return within.holds({p, p});
-  });
+  if (within.holds(bounds_)) {
+    points = all;
+  } else {
+    std::copy_if(begin, end, std::back_inserter(points), [&](const Vec3d& v) {
+      const LatticeCoord p = rounded(v);
+      return within.holds({p, p});
+    });
+  }
   const Vec3d shift = to_double(origin);
-  for (Vec3d& p : points) p = p - shift;
+  parallel_ranges(std::int64_t(points.size()), kSamplesAtOnce, [&](std::int64_t from, std::int64_t to) {
+    for (auto i = std::size_t(from); i < std::size_t(to); ++i) points[i] = points[i] - shift;
+  });
   return points;
 }
 

@@ -29,13 +29,9 @@ void BoxTree::build(std::span<const LatticeBox> boxes, std::vector<std::uint32_t
 
 /// By the centres of the boxes.
 void BoxTree::sort_in_space(std::span<const LatticeBox> boxes) {
-  const auto twice_centre = [&](std::uint32_t item) { return boxes[item].min + boxes[item].max; };
-  LatticeBox all{twice_centre(order_[0]), twice_centre(order_[0])};
-  for (const std::uint32_t item : order_) all.add(twice_centre(item));
-  SpaceOrder order(all);
-  order.reserve(order_.size());
-  for (const std::uint32_t item : order_) order.add(item, twice_centre(item));
-  order_ = order.take();
+  order_ = space_order(
+      order_.size(), [this](std::size_t i) { return order_[i]; },
+      [&](std::uint32_t item) { return boxes[item].min + boxes[item].max; });
 }
 
 /// From the groups of items up to one root.

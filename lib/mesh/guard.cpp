@@ -64,7 +64,7 @@ class MeanDirection {
     for (const LatticeCoord& n : normals) add(n);
   }
   [[nodiscard]] LatticeCoord rounded() const {
-    return {std::llround(256 * sum_[0]), std::llround(256 * sum_[1]), std::llround(256 * sum_[2])};
+    return {nearest_integer(256 * sum_[0]), nearest_integer(256 * sum_[1]), nearest_integer(256 * sum_[2])};
   }
 
  private:

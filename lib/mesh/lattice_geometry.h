@@ -11,11 +11,18 @@ namespace bp {
   return {double(d.x), double(d.y), double(d.z)};
 }
 
+/// The nearest integer, halves away from zero; |x| below 2^63.
+[[nodiscard]] inline std::int64_t nearest_integer(double x) {
+  const auto whole = std::int64_t(x);
+  const double rest = x - double(whole);  // exact
+  return whole + (rest >= 0.5) - (rest <= -0.5);
+}
+
 /// The nearest lattice point; one at 2^39 for what is farther away or no number, as solutions of nearly singular
 /// systems are: still within the range of the predicates when it is added to a vertex.
 [[nodiscard]] inline LatticeCoord rounded(const Vec3d& x) {
   constexpr double kFar = double(std::int64_t(1) << 39);
-  const auto round = [](double v) { return std::llround(v > -kFar ? (v < kFar ? v : kFar) : -kFar); };
+  const auto round = [](double v) { return nearest_integer(v > -kFar ? (v < kFar ? v : kFar) : -kFar); };
   return {round(x[0]), round(x[1]), round(x[2])};
 }
 

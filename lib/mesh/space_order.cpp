@@ -16,21 +16,23 @@ std::uint32_t spread(std::uint32_t v) {
 
 }  // namespace
 
-void SpaceOrder::add(std::uint32_t item, const LatticeCoord& place) {
+void SpaceOrder::set(std::size_t i, std::uint32_t item, const LatticeCoord& place) {
   const LatticeCoord c = place - low_;
   const std::uint32_t code = spread(std::uint32_t(c.x >> shift_)) | spread(std::uint32_t(c.y >> shift_)) << 1 |
                              spread(std::uint32_t(c.z >> shift_)) << 2;
-  keys_.push_back(std::uint64_t(code) << 32 | item);
+  keys_[i] = std::uint64_t(code) << 32 | item;
 }
 
-/// By code; equal codes stay in order. Counting sort by bytes, the least first.
+/// By code; equal codes stay in order. Counting sort by the bits of an axis, the least first.
 std::vector<std::uint32_t> SpaceOrder::take() {
+  constexpr std::size_t kDigits = 1 << kBits;
   std::vector<std::uint64_t> sorted(keys_.size());
-  for (int shift = 32; shift < 32 + 3 * kBits; shift += 8) {
-    std::array<std::uint32_t, 257> start{};
-    for (const std::uint64_t k : keys_) ++start[((k >> shift) & 255) + 1];
-    for (std::size_t i = 0; i < 256; ++i) start[i + 1] += start[i];
-    for (const std::uint64_t k : keys_) sorted[start[(k >> shift) & 255]++] = k;
+  for (int shift = 32; shift < 32 + 3 * kBits; shift += kBits) {
+    const auto digit = [shift](std::uint64_t key) { return key >> shift & (kDigits - 1); };
+    std::array<std::uint32_t, kDigits + 1> start{};
+    for (const std::uint64_t k : keys_) ++start[digit(k) + 1];
+    for (std::size_t i = 0; i < kDigits; ++i) start[i + 1] += start[i];
+    for (const std::uint64_t k : keys_) sorted[start[digit(k)]++] = k;
     keys_.swap(sorted);
   }
   std::vector<std::uint32_t> items(keys_.size());

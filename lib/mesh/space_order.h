@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lib/core/parallel.h"
 #include "lib/mesh/box_group.h"
 
 /// Things in the order of a space-filling curve: those near in space are near each other.
@@ -12,13 +13,13 @@ namespace bp {
 /// Along a Morton curve of 2^10 steps an axis; what lies in one step keeps its order.
 class SpaceOrder {
  public:
-  /// `all`: around all places.
-  explicit SpaceOrder(const LatticeBox& all) : low_(all.min) {
+  /// For n things; `all`: around all places.
+  SpaceOrder(std::size_t n, const LatticeBox& all) : low_(all.min), keys_(n) {
     const LatticeCoord size = all.max - all.min;
     shift_ = std::max(0, int(std::bit_width(std::uint64_t(std::max({size.x, size.y, size.z})))) - kBits);
   }
-  void reserve(std::size_t n) { keys_.reserve(n); }
-  void add(std::uint32_t item, const LatticeCoord& place);
+  /// The i-th of them. At the same time for different ones.
+  void set(std::size_t i, std::uint32_t item, const LatticeCoord& place);
   /// The items. Linear.
   [[nodiscard]] std::vector<std::uint32_t> take();
 
@@ -29,16 +30,36 @@ class SpaceOrder {
   std::vector<std::uint64_t> keys_;  // codes and, in the low 32 bits, their items
 };
 
+/// Of the items item(i) for i in [0, n). Parallel: places are asked for at the same time.
+template <class Item, class Place>
+[[nodiscard]] std::vector<std::uint32_t> space_order(std::size_t n, const Item& item, const Place& place) {
+  constexpr std::int64_t kAtOnce = 1 << 14;
+  if (n == 0) return {};
+  std::vector<LatticeBox> boxes(n / std::size_t(kAtOnce) + 1, {place(item(0)), place(item(0))});
+  const auto for_each_part = [&](const auto& body) {
+    parallel_ranges(std::int64_t(n), kAtOnce, [&](std::int64_t begin, std::int64_t end) {
+      body(boxes[std::size_t(begin / kAtOnce)], std::size_t(begin), std::size_t(end));
+    });
+  };
+  for_each_part([&](LatticeBox& box, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) box.add(place(item(i)));
+  });
+  for (const LatticeBox& box : boxes) {
+    boxes[0].add(box.min);
+    boxes[0].add(box.max);
+  }
+  SpaceOrder order(n, boxes[0]);
+  for_each_part([&](const LatticeBox&, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) order.set(i, item(i), place(item(i)));
+  });
+  return order.take();
+}
+
 /// Of place(i) for i in [0, n).
 template <class Place>
 [[nodiscard]] std::vector<std::uint32_t> space_order(std::size_t n, const Place& place) {
-  if (n == 0) return {};
-  LatticeBox all{place(0), place(0)};
-  for (std::uint32_t i = 0; i < n; ++i) all.add(place(i));
-  SpaceOrder order(all);
-  order.reserve(n);
-  for (std::uint32_t i = 0; i < n; ++i) order.add(i, place(i));
-  return order.take();
+  return space_order(
+      n, [](std::size_t i) { return std::uint32_t(i); }, place);
 }
 
 }  // namespace bp
