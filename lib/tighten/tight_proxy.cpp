@@ -20,7 +20,7 @@ constexpr double kMiddleFactor = 3;        // where sweeps are made again if the
 constexpr double kLateFactor = 1.5;        // where the order of collapses changes from quadric error to volume
 constexpr double kMostGrowth = 6;          // of one collapse: some times a face's share of the volume
 constexpr double kMuchRoom = 0.04;         // share of the volume: a first sweep that gains more is worth others
-constexpr int kJamRounds = 4;              // of a sweep and collapses, where these jam above the target
+constexpr int kJamRounds = 4;              // of a sweep and collapses, where these jam above the target; at most
 constexpr std::uint64_t kWhole = 16;       // regions: up to so many faces are collapsed by volume as one mesh
 constexpr double kNeedless = 2;            // volumes over faces squared: a collapse around a ball adds 7 in the mean
 constexpr double kFewDropped = 0.95;       // times the faces: where more are left, the next round would drop few
@@ -144,7 +144,8 @@ void finish_regions(Way& way, const Enclosed& enclosed, const SimplifyParams& pa
   tighten_regions(way.proxy, enclosed, tightening_of(params), way.tightened);
 }
 
-/// (4) Where collapses jam, sweeps and collapses take turns.
+/// (4) Where collapses jam, sweeps and collapses take turns, as long as they may reach the target at the pace of the last
+/// turn.
 void thin_whole(ProxyEditor& editor, const SimplifyParams& params, SimplifyCounts& counts) {
   SimplifyCounts now;
   TightenCounts ignored;
@@ -156,7 +157,8 @@ void thin_whole(ProxyEditor& editor, const SimplifyParams& params, SimplifyCount
     thin(
         editor, params.faces, [] {}, now, kThinStages);
     counts.add(now);
-    if (now.collapses == 0) return;
+    const std::uint64_t left = editor.mesh().face_count(), turns = std::uint64_t(kJamRounds - 1 - round);
+    if (left > params.faces + turns * (now.faces_in - now.faces_out)) return;
   }
 }
 
