@@ -71,10 +71,14 @@ class SurfaceTree {
     return faces;
   }
 
+  /// The largest first: else one of them may be begun when all others are done.
   void collapse(BulkRange range) {
     const std::size_t in_flight = nodes_in_hand();
+    std::vector<std::pair<std::uint64_t, Node*>> order;
+    for (Node& node : nodes_) order.emplace_back(node.face_count(), &node);
+    std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     parallel_few(nodes_.size(), in_flight, [&](std::size_t i) {
-      Node& node = nodes_[i];
+      Node& node = *order[i].second;
       Piece piece = welded(node);
       HalfEdgeMesh mesh(std::move(piece.vertices), piece.triangles, piece.cell);
       SimplifyParams own = params_;
