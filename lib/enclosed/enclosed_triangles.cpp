@@ -120,6 +120,7 @@ EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const Gri
     reach[std::size_t(begin / kTrianglesAtOnce)] = farthest;
   });
   reach_ = *std::max_element(reach.begin(), reach.end());
+  samples_ = all_samples();
 }
 
 /// Keeps the triangles that have a part in the box; returns middles of the parts, lattice units.
@@ -310,7 +311,21 @@ std::uint64_t EnclosedTriangles::bytes() const {
   return triangles_.size() * kBytesEach;
 }
 
-std::vector<Vec3d> EnclosedTriangles::samples_of(std::vector<Vec3d> points) const {
+/// In lattice units, each once.
+std::vector<Vec3d> EnclosedTriangles::all_samples() const {
+  std::vector<std::vector<Vec3d>> parts(triangles_.size() / kTrianglesAtOnce + 1);
+  parallel_ranges(std::int64_t(triangles_.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+      add_samples_of(std::size_t(i), parts[std::size_t(begin / kTrianglesAtOnce)]);
+  });
+  std::size_t count = 0;
+  for (const std::vector<Vec3d>& part : parts) count += part.size();
+  std::vector<Vec3d> points;
+  points.reserve(count);
+  for (std::vector<Vec3d>& part : parts) {
+    points.insert(points.end(), part.begin(), part.end());
+    std::vector<Vec3d>().swap(part);
+  }
   points = each_once(points);
   parallel_ranges(std::int64_t(points.size()), kSamplesAtOnce, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
@@ -319,35 +334,13 @@ std::vector<Vec3d> EnclosedTriangles::samples_of(std::vector<Vec3d> points) cons
   return points;
 }
 
-const std::vector<Vec3d>& EnclosedTriangles::all_samples() const {
-  std::call_once(sampled_, [this] {
-    std::vector<std::vector<Vec3d>> parts(triangles_.size() / kTrianglesAtOnce + 1);
-    parallel_ranges(std::int64_t(triangles_.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i)
-        add_samples_of(std::size_t(i), parts[std::size_t(begin / kTrianglesAtOnce)]);
-    });
-    std::size_t count = 0;
-    for (const std::vector<Vec3d>& part : parts) count += part.size();
-    std::vector<Vec3d> points;
-    points.reserve(count);
-    for (std::vector<Vec3d>& part : parts) {
-      points.insert(points.end(), part.begin(), part.end());
-      std::vector<Vec3d>().swap(part);
-    }
-    samples_ = samples_of(std::move(points));
-  });
-  return samples_;
-}
-
-/// Samples are sorted by their first coordinate, as it was before rounding.
 std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin, const LatticeBox& within) const {
-  const std::vector<Vec3d>& all = all_samples();
   const auto before = [](const Vec3d& v, double x) { return v[0] < x; };
-  const auto begin = std::lower_bound(all.begin(), all.end(), double(within.min.x) - 1, before);
-  const auto end = std::lower_bound(begin, all.end(), double(within.max.x) + 1, before);
+  const auto begin = std::lower_bound(samples_.begin(), samples_.end(), double(within.min.x) - 1, before);
+  const auto end = std::lower_bound(begin, samples_.end(), double(within.max.x) + 1, before);
   std::vector<Vec3d> points;
   if (within.holds(bounds_)) {
-    points = all;
+    points = samples_;
   } else {
     std::copy_if(begin, end, std::back_inserter(points), [&](const Vec3d& v) {
       const LatticeCoord p = rounded(v);

@@ -1,5 +1,4 @@
 #pragma once
-#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -37,9 +36,7 @@ class EnclosedTriangles : public Enclosed {
   std::vector<Vec3d> cut_to(const Bounds3d& within, std::vector<TriangleD>& triangles) const;
   double set_corners(std::size_t triangle);
   void add_samples_of(std::size_t triangle, std::vector<Vec3d>& points) const;
-  /// The samples of triangles, in lattice units, each once.
-  [[nodiscard]] std::vector<Vec3d> samples_of(std::vector<Vec3d> world_points) const;
-  [[nodiscard]] const std::vector<Vec3d>& all_samples() const;
+  [[nodiscard]] std::vector<Vec3d> all_samples() const;
   [[nodiscard]] bool is_free(Swept swept, Blocker* blocker) const;
   void report(std::size_t triangle, Blocker& blocker) const;
 
@@ -51,8 +48,7 @@ class EnclosedTriangles : public Enclosed {
   LatticeBox bounds_;
   std::vector<EightTriangles> eights_;  // relative to the tree's base
   double reach_ = 0;                    // largest coordinate in eights_
-  mutable std::once_flag sampled_;
-  mutable std::vector<Vec3d> samples_;  // all_samples(), once they are asked for
+  std::vector<Vec3d> samples_;          // by their first coordinate
 };
 
 }  // namespace bp

@@ -21,6 +21,7 @@ constexpr double kLateFactor = 1.5;        // where the order of collapses chang
 constexpr double kMostGrowth = 6;          // of one collapse: some times a face's share of the volume
 constexpr double kMuchRoom = 0.04;         // share of the volume: a first sweep that gains more is worth others
 constexpr int kJamRounds = 4;              // of a sweep and collapses, where these jam above the target; at most
+constexpr std::uint64_t kGrown = 512;      // faces of a jam: among more, growing alone was never seen to lead further
 constexpr std::uint64_t kWhole = 16;       // regions: up to so many faces are collapsed by volume as one mesh
 constexpr double kNeedless = 2;            // volumes over faces squared: a collapse around a ball adds 7 in the mean
 constexpr double kFewDropped = 0.95;       // times the faces: where more are left, the next round would drop few
@@ -144,8 +145,8 @@ void finish_regions(Way& way, const Enclosed& enclosed, const SimplifyParams& pa
   tighten_regions(way.proxy, enclosed, tightening_of(params), way.tightened);
 }
 
-/// (4) Where collapses jam, sweeps and collapses take turns, as long as they may reach the target at the pace of the last
-/// turn.
+/// (4) Where collapses jam, sweeps and collapses take turns, as long as they may reach the target at the pace of the
+/// last turn.
 void thin_whole(ProxyEditor& editor, const SimplifyParams& params, SimplifyCounts& counts) {
   SimplifyCounts now;
   TightenCounts ignored;
@@ -224,8 +225,8 @@ double price(const Way& way) {
   return volume > 0 ? faces * volume : faces / std::max(-volume, 1.0);
 }
 
-/// Tight faces jam in a few places where growing goes on. That way is taken if it leads further, and to the end or for
-/// a lower price.
+/// Few tight faces may jam where growing goes on. That way is taken if it leads further, and to the end or for a lower
+/// price.
 void try_growing(Way other, Way& way, const Enclosed& enclosed, const SimplifyParams& params) {
   grow_on(other.proxy, params, other.simplified);
   if (other.proxy.triangles.size() >= way.proxy.triangles.size()) return;
@@ -249,7 +250,8 @@ Way tight_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams&
   if (params.faces > 0 || params.limits != nullptr)
     collapse_by_error(way.proxy, enclosed, params, by_volume(params) ? kLateFactor : 1, way.simplified);
   finish(way, enclosed, params);
-  if (is_above_target(way.proxy, params)) try_growing(grown, way, enclosed, params);
+  if (is_above_target(way.proxy, params) && way.proxy.triangles.size() <= kGrown)
+    try_growing(grown, way, enclosed, params);
   return way;
 }
 
