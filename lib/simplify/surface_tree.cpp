@@ -20,7 +20,8 @@ namespace {
 // are better not held at once, at fewer. At kFew they stop for regions (collapse_regions.h): the last rounds have fewer
 // cells than there are threads, and regions are as large as each other.
 constexpr std::uint64_t kMargin = 3, kMarginOfMany = 2, kManyFaces = std::uint64_t(1) << 20, kFew = 100000;
-constexpr double kBoundPerLevel = 16;  // of the last bound: a round leaves about 40 % of the faces
+constexpr std::uint64_t kFewCells = 32, kMarginOfFew = 5;  // so few cells leave threads without one: they stop earlier
+constexpr double kBoundPerLevel = 16;                      // of the last bound: a round leaves about 40 % of the faces
 constexpr std::int64_t kBrickLattice = std::int64_t(kBrickEdge) * kLatticePerVoxel;
 constexpr std::uint64_t kWorkPerFace = 256;  // bytes: the piece, its half-edges, quadrics, boxes and their tree
 
@@ -130,6 +131,7 @@ class SurfaceTree {
     return weld(pieces);
   }
 
+  [[nodiscard]] std::size_t cells() const { return nodes_.size(); }
   [[nodiscard]] bool whole() const { return nodes_.size() < 2; }
   [[nodiscard]] std::uint64_t faces() const {
     std::uint64_t n = 0;
@@ -199,9 +201,11 @@ void check_work(std::uint64_t faces, const PieceMemory& memory, bool others_wait
 
 namespace {
 
-bool needs_round(std::uint64_t faces, const BulkEnd& end, const SimplifyParams& params) {
+bool needs_round(const SurfaceTree& tree, const BulkEnd& end, const SimplifyParams& params) {
+  const std::uint64_t faces = tree.faces();
   if (end.cost <= 0 || (faces <= kFew && has_bulk_regions(faces, end, params))) return false;
-  return faces > kMargin * end.faces || (faces > kManyFaces && faces > kMarginOfMany * end.faces);
+  const std::uint64_t margin = tree.cells() < kFewCells ? kMarginOfFew : kMargin;
+  return faces > margin * end.faces || (faces > kManyFaces && faces > kMarginOfMany * end.faces);
 }
 
 }  // namespace
@@ -211,7 +215,7 @@ Piece simplified_surface(const SurfaceSource& surface, const SimplifyParams& par
   SurfaceTree tree(surface, params);
   counts.faces_in = tree.begin();
   counts.faces_flat = tree.faces();
-  for (double last = 4 * kFirstBound; needs_round(tree.faces(), end, params); last *= kBoundPerLevel) {
+  for (double last = 4 * kFirstBound; needs_round(tree, end, params); last *= kBoundPerLevel) {
     tree.collapse({kFirstBound, std::min(last, end.cost)});
     if (tree.whole() || last >= end.cost) break;
     tree.join_cells();
