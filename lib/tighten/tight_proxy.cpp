@@ -174,7 +174,7 @@ void drop_needless(ProxyEditor& editor, const SimplifyParams& params, SimplifyCo
     tighten_on(editor, one_sweep(params), ignored);
     SimplifyCounts now;
     thin_free(editor, kNeedless * std::abs(volume_of(mesh)) / std::pow(double(before), 2), now);
-    counts.collapses += now.collapses + cut_spikes(editor);
+    counts.collapses += now.collapses + drop_spikes(editor);
     counts.solved += now.solved;
     if (double(mesh.face_count()) > kFewDropped * double(before)) break;
   }

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # How much levels look like their scene, beside gltfpack's simplification (meshoptimizer) at the same triangles or bytes: PSNR,
 # SSIM and FLIP (0: the same) over 24 views, at the size at which the level would be shown: its error is a pixel there (at most 512 pixels).
-# usage: [LEVELS=FACES,...] [MODE=fit] [SAME=bytes] [PACKED=1] appearance.sh TOOLS OUT SCENE...      SCENE: OBJ or glTF
+# usage: [LEVELS=FACES,...] [MODE=fit] [SAME=bytes] [PACKED=1] [UP=z] appearance.sh TOOLS OUT SCENE...      SCENE: OBJ or glTF
+# UP: the axis of an OBJ that points up, which its file does not tell (default: y). Files keep its coordinates, and the views turn.
 # PACKED: as for the web, contents of tiles of ours beside gltfpack -cc; else files that every reader takes, beside gltfpack -noq.
 # NODE_PATH: folder of the packages that tests/viewers/run.sh installs, and gltfpack.
 set -euo pipefail

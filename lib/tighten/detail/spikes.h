@@ -3,9 +3,11 @@
 
 namespace bp {
 
-/// Cuts off vertices of three faces, where that lowers the volume. Such a vertex may stand far out with next to no
-/// volume, and jams: a move inwards, or a collapse, would leave needles beside an edge. Returns how many were cut.
-/// Deterministic. Cost: O(vertices), and three exact tests for a vertex of three faces.
-std::uint64_t cut_spikes(ProxyEditor& editor);
+/// Takes out vertices that stand far out with next to no volume, as the steps of voxels leave them on what is slanted.
+/// Fits of the volume jam there.
+///   falls  a vertex goes to the place of a neighbour, where that lowers the volume of the proxy in a thin skin
+///   cuts   a vertex of three faces beside an edge is cut off, where that lowers the volume; a fall would leave needles
+/// Returns how many vertices went. Deterministic. Cost: O(vertices), and some exact tests for each that stands out.
+std::uint64_t drop_spikes(ProxyEditor& editor);
 
 }  // namespace bp

@@ -1,6 +1,6 @@
 // node appearance.cjs PIXELS SCENE.glb FILE.glb...: prints PSNR, SSIM and FLIP of each FILE against SCENE, over 24 views in which the
 // scene's bounding sphere spans PIXELS. All files lie in one folder. MATERIALS=own: as their materials answer to light; form: in one grey; else
-// colours only. Packages are those of tests/viewers/run.sh (NODE_PATH).
+// colours only. UP=z: this axis of the files points up (default: y). Packages are those of tests/viewers/run.sh (NODE_PATH).
 const fs = require('fs'), http = require('http'), path = require('path');
 const { chromium } = require('playwright-core');
 const [pixels, ...files] = process.argv.slice(2);
@@ -23,7 +23,7 @@ async function main() {
     const page = await browser.newPage();
     page.setDefaultTimeout(600000);
     page.on('pageerror', (error) => console.error(error.message));
-    await page.goto(`http://127.0.0.1:${server.address().port}/pages/appearance.html#${process.env.MATERIALS || ''}`);
+    await page.goto(`http://127.0.0.1:${server.address().port}/pages/appearance.html#${process.env.MATERIALS || ''},${process.env.UP || 'y'}`);
     await page.waitForFunction(() => document.title === 'ready');
     const found = await page.evaluate(([names, n]) => window.view(names, n), [files.map((f) => `/data/${path.relative(folders.data, f)}`), +pixels]);
     found.forEach((f) => console.log(`${f.psnr.toFixed(2)} ${f.ssim.toFixed(4)} ${f.flip.toFixed(4)}`));

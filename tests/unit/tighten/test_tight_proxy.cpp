@@ -112,7 +112,7 @@ TEST_CASE("a tight proxy of a ball of triangles touches neither it nor itself an
 
 TEST_CASE("a proxy made in waves touches neither the scene nor itself, and is the same for every number of threads",
           "[quick][meshing]") {
-  const LatticeMesh scene = ball(20 * 64, 4), dense = ball(24 * 64, 5);
+  const LatticeMesh scene = ball(40 * 64, 4), dense = ball(44 * 64, 5);
   const EnclosedTriangles enclosed(scene_of(scene), dense.frame);
   SimplifyParams params;
   params.faces = 800;
