@@ -8,6 +8,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(PNG REQUIRED)
 find_package(Freetype REQUIRED)
 find_package(JPEG REQUIRED)
+find_path(BP_STB_INCLUDE stb_image.h PATH_SUFFIXES stb REQUIRED)  # headers only
 
 # zstd, xxHash, WebP and Draco ship pkg-config files everywhere, CMake packages only here and there.
 find_package(PkgConfig REQUIRED)

@@ -8,6 +8,7 @@
 #include <png.h>
 #include <webp/decode.h>
 
+#include "io/image/old_images.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -120,7 +121,15 @@ TextureImage decode_webp(std::span<const std::byte> bytes, const std::string& na
   return image;
 }
 
-enum class ImageKind { png, jpeg, webp };
+TextureImage decode_old(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most_bytes) {
+  const auto [width, height] = *old_image_size(bytes);
+  static_cast<void>(sized(std::uint64_t(width), std::uint64_t(height), name, most_bytes / 2));
+  std::optional<TextureImage> image = decode_old_image(bytes);
+  if (!image) broken(name, "broken TGA or BMP data");
+  return std::move(*image);
+}
+
+enum class ImageKind { png, jpeg, webp, old };
 
 ImageKind kind_of(std::span<const std::byte> bytes, const std::string& name) {
   const auto begins = [&](std::size_t at, std::string_view magic) {
@@ -129,7 +138,8 @@ ImageKind kind_of(std::span<const std::byte> bytes, const std::string& name) {
   if (begins(0, "\x89PNG")) return ImageKind::png;
   if (begins(0, "\xFF\xD8")) return ImageKind::jpeg;
   if (begins(0, "RIFF") && begins(8, "WEBP")) return ImageKind::webp;
-  broken(name, "it is no PNG, JPEG or WebP");
+  if (old_image_size(bytes)) return ImageKind::old;
+  broken(name, "it is no PNG, JPEG, WebP, TGA or BMP");
 }
 
 }  // namespace
@@ -140,10 +150,16 @@ TextureImage decode_image(std::span<const std::byte> bytes, const std::string& n
       return decode_png(bytes, name, most_bytes);
     case ImageKind::jpeg:
       return decode_jpeg(bytes, name, most_bytes);
+    case ImageKind::old:
+      return decode_old(bytes, name, most_bytes);
     case ImageKind::webp:
       break;
   }
   return decode_webp(bytes, name, most_bytes);
+}
+
+bool is_web_image(std::span<const std::byte> bytes, const std::string& name) {
+  return kind_of(bytes, name) != ImageKind::old;
 }
 
 std::array<int, 2> image_size(std::span<const std::byte> head, const std::string& name) {
@@ -157,6 +173,8 @@ std::array<int, 2> image_size(std::span<const std::byte> head, const std::string
       if (!reader.begin(raw(head), head.size())) broken(name, reader.fault.message);
       return {int(reader.codec.image_width), int(reader.codec.image_height)};
     }
+    case ImageKind::old:
+      return *old_image_size(head);
     case ImageKind::webp:
       break;
   }

@@ -86,9 +86,12 @@ std::array<int, 2> TextureTable::size(std::uint32_t i) const {
 std::vector<std::byte> TextureTable::file(std::uint32_t i) const {
   try {
     std::vector<std::byte> bytes = bytes_of(images_.at(i), kMostBytes);
-    if (!images_.at(i).relief) return bytes;
-    TextureImage image = decode_image(bytes, images_.at(i).name, kMostRelief * sizeof(TextureImage::Texel));
-    if (!make_directions(image, *images_.at(i).relief)) return bytes;
+    const ImagePlace& place = images_.at(i);
+    const bool web = is_web_image(bytes, place.name);
+    if (!place.relief && web) return bytes;
+    TextureImage image =
+        decode_image(bytes, place.name, place.relief ? kMostRelief * sizeof(TextureImage::Texel) : kMostBytes);
+    if ((!place.relief || !make_directions(image, *place.relief)) && web) return bytes;
     const std::string made = encode_texture(image).bytes;
     bytes.resize(made.size());
     std::memcpy(bytes.data(), made.data(), made.size());

@@ -84,7 +84,8 @@ class TextureSet {
   [[nodiscard]] virtual std::uint32_t image_count() const = 0;
   /// Texels of an image, {0, 0} if it is missing or broken; quick. Thread-safe.
   [[nodiscard]] virtual std::array<int, 2> size(std::uint32_t i) const = 0;
-  /// The file of an image, undecoded; empty if it is missing. Thread-safe.
+  /// The file of an image as PNG, JPEG or WebP, undecoded where it is one of these; empty if it is missing.
+  /// Thread-safe.
   [[nodiscard]] virtual std::vector<std::byte> file(std::uint32_t i) const = 0;
   /// Decoded at each call; thread-safe. Throws bad_input if the image is missing or broken, out_of_resource if it takes
   /// more than `most_bytes` decoded.

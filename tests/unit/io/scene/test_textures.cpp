@@ -228,6 +228,11 @@ TEST_CASE("what Assimp reads: an image beside the scene, wherever its path once 
     CHECK(places[{1, 1, 0}] == std::array{0.0F, 0.0F});
     CHECK(r.table->material(r.textures[0].material).replaces_color);
   }
+  (void)dir.file("wall.tga", std::string("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18\0\1\2\3", 21));
+  const TexturedRead old = read_textured({dir.file("z.ac", ac3d("wall.tga"))});
+  CHECK(old.table->size(0) == std::array{1, 1});
+  CHECK(old.table->image(0, 1 << 20).at(0, 0) == TextureImage::Texel{3, 2, 1, 255});
+  CHECK(old.table->file(0).at(0) == std::byte{0xFF});  // a JPEG now, as viewers want it
   const TexturedRead missing = read_textured({dir.file("y.ac", ac3d("none.png"))});
   CHECK(missing.has_textures);
   CHECK_FALSE(missing.table->has_images());
