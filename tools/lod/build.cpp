@@ -280,9 +280,16 @@ void Build::note(const std::string& text) {
   if (!text.empty()) report.note(text, options.common);
 }
 
-void Build::note_levels(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out) {
+void Build::note_levels(const std::vector<LevelFacts>& levels, std::size_t first,
+                        const std::vector<LeftOut>& left_out) {
   const bool asked = asks_for_faces(request_of(options));
-  for (const std::string& text : level_notes(levels, first, left_out, asked, size_.triangles)) note(text);
+  for (const std::string& text : level_notes(levels, first, asked, size_)) note(text);
+  std::string before;
+  for (const LeftOut& level : left_out) {
+    const std::string text = left_out_note(level, size_.bounds.diagonal());
+    if (text != before) note(text);
+    before = text;
+  }
 }
 
 void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out) {

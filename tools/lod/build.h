@@ -65,7 +65,7 @@ class Build {
   [[nodiscard]] LevelSteps level_steps(std::function<std::string()> input_hash);
 
   void note(const std::string& text);
-  void note_levels(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out);
+  void note_levels(const std::vector<LevelFacts>& levels, std::size_t first, const std::vector<LeftOut>& left_out);
 
   /// Writes the report and prints the list; then, on stderr, where the files are, and what proves them.
   void finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out);
