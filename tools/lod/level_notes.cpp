@@ -13,6 +13,8 @@ namespace bp {
 
 namespace {
 
+constexpr double kExactVox = 1.0 / 16;  // of error: vertices lie on a lattice, and the scene need not
+
 /// As a shell takes it for one word.
 std::string quoted(const std::string& word) {
   constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-,:@%=";
@@ -26,16 +28,20 @@ std::string quoted(const std::string& word) {
 
 std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triangles) {
   const std::uint64_t budget = level.target.faces;
+  FaceAdvice advice;
+  advice.exact = level.error_world < kExactVox * level.voxel;
   if (asked && level.reached && level.faces >= triangles && clearly_fewer(level.faces, budget))
     return fmt::format(
-        "{} faces instead of {}: the scene has {}, and more faces would show steps of voxels; smaller voxels, or a "
-        "smaller --scale, come nearer",
-        level.faces, budget, counted(triangles, "triangle"));
+        "{} faces instead of {}: the scene has {}{}", level.faces, budget, counted(triangles, "triangle"),
+        advice.exact
+            ? ""
+            : ", and more faces would show steps of voxels; smaller voxels, or a smaller --scale, come nearer");
   if (!level.reached)
     return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", level.faces,
                        budget, level.scale_world);
-  if (asked && level.stopped_by == to_string(StopReason::least_volume)) return least_volume_note(level.faces, budget);
-  const std::string few = asked ? too_few_note(level.faces, budget) : "";
+  if (asked && level.stopped_by == to_string(StopReason::least_volume))
+    return least_volume_note(level.faces, budget, advice);
+  const std::string few = asked ? too_few_note(level.faces, budget, advice) : "";
   if (few.empty() && asked && level.attempts > 1)
     return fmt::format(
         "closed at {:.4g}, {} times the scale that was tried first: at less, parts and holes take more than {} faces",
