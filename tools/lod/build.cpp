@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "io/files/file.h"
 #include "io/scene/scene_parts.h"
@@ -96,6 +97,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
     out.header = header;
     const Estimate estimate = estimate_build(options, header.bounds, counts, header.frame.voxel);
     if (halvings == 0) note_estimate(estimate, options.common, progress, report);
+    note_attempt(header.frame.voxel);
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
@@ -106,6 +108,17 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   choose_textures(*source, halvings == 0);
   if (colored_ && !textured_) gather(*source, out);
   return out;
+}
+
+void Build::note_attempt(double voxel) {
+  using Clock = std::chrono::steady_clock;
+  const Attempt before = std::exchange(attempt_, {Clock::now(), voxel});
+  if (before.voxel == 0 || before.voxel == voxel) return;
+  const double seconds = std::chrono::duration<double>(attempt_.begin - before.begin).count();
+  const std::string text = attempt_note(seconds, before.voxel, voxel);
+  if (text.empty()) return;
+  progress.end();
+  note(text);
 }
 
 /// Levels have scales of their own: the rules say how much finer or coarser a place is.

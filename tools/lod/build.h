@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -85,9 +86,17 @@ class Build {
   /// The report, then the list; a failure says that what was `made` is there.
   void tell(const VoxelizedScene& scene, const std::string& list, const std::string& made);
   void write_report(const VoxelizedScene& scene);
+  /// What the time of the next attempt follows from.
+  struct Attempt {
+    std::chrono::steady_clock::time_point begin;
+    double voxel = 0;
+  };
+  /// Voxels of another size are tried.
+  void note_attempt(double voxel);
   SceneSize size_;
   std::optional<MirrorPlane> plane_;  // of a cage
   double voxel_ = 0, margin_ = 0;     // of the scene, scene units
+  Attempt attempt_;
   Enclose enclosed_ = Enclose::input;
   std::optional<ScalePlan> field_;  // of --field
   std::unique_ptr<SceneColors> colors_;
