@@ -95,9 +95,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   };
   const auto open = [&](const StreamHeader& header, const VoxelizeCounts& counts) -> BrickSink& {
     out.header = header;
-    const Estimate estimate = estimate_build(options, header.bounds, counts, header.frame.voxel);
-    if (halvings == 0) note_estimate(estimate, options.common, progress, report);
-    note_attempt(header.frame.voxel);
+    note_time(header, counts);
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
@@ -110,10 +108,13 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   return out;
 }
 
-void Build::note_attempt(double voxel) {
+void Build::note_time(const StreamHeader& header, const VoxelizeCounts& counts) {
   using Clock = std::chrono::steady_clock;
+  const double voxel = header.frame.voxel;
   const Attempt before = std::exchange(attempt_, {Clock::now(), voxel});
-  if (before.voxel == 0 || before.voxel == voxel) return;
+  if (before.voxel == 0)
+    return note_estimate(estimate_build(options, header.bounds, counts, voxel), options.common, progress, report);
+  if (before.voxel == voxel) return;
   const double seconds = std::chrono::duration<double>(attempt_.begin - before.begin).count();
   const std::string text = attempt_note(seconds, before.voxel, voxel);
   if (text.empty()) return;

@@ -91,8 +91,8 @@ class Build {
     std::chrono::steady_clock::time_point begin;
     double voxel = 0;
   };
-  /// Voxels of another size are tried.
-  void note_attempt(double voxel);
+  /// Of the first attempt, and of each with voxels of another size.
+  void note_time(const StreamHeader& header, const VoxelizeCounts& counts);
   SceneSize size_;
   std::optional<MirrorPlane> plane_;  // of a cage
   double voxel_ = 0, margin_ = 0;     // of the scene, scene units
