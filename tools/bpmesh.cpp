@@ -6,6 +6,7 @@
 #include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
+#include "lib/geometry/signed_volume.h"
 #include "lib/pass/mesh/mesh_pass.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
@@ -68,6 +69,13 @@ std::string set_enclosure(const bp::MeshOptions& o, const bp::StreamHeader& head
   return o.proxy.enclose.kind == bp::EncloseOption::Kind::files ? o.proxy.enclose.text() : name_of(enclosure.what);
 }
 
+std::optional<double> volume_of(const std::vector<bp::TriangleD>& scene) {
+  if (scene.empty()) return {};
+  bp::SignedVolume volume(scene.front().front());
+  for (const bp::TriangleD& t : scene) volume.add(t);
+  return volume.value();
+}
+
 /// What the stream tells and the mesh will not: a field that nobody closed by; and of formats that say where up is, the
 /// axis.
 void note_stream(bp::Report& report, const bp::MeshOptions& o, const bp::StreamHeader& header, bp::MeshFormat format) {
@@ -128,7 +136,7 @@ void run(bp::MeshOptions o) {
   const std::string enclosed = set_enclosure(o, source.header(), params, context.pieces, report);
   note_estimate(report, o, source.header(), params.enclose);
   note_stream(report, o, source.header(), format);
-  const double error_world = params.error_world;
+  bp::ShortfallFacts facts{params.error_world, bp::is_closed_by_scale(source.header()), {}, volume_of(params.scene)};
   bp::MeshCounts counts;
   bp::SolidKeeper keeper(source, context.make_shelf());
   const bool may_raise =
@@ -144,13 +152,13 @@ void run(bp::MeshOptions o) {
   if (origin != bp::Vec3d{}) report.counts["origin"] = origin;
   note_origin(report, o, source.header(), format);
   report.counts["enclosed"] = enclosed;
-  std::optional<std::string> scale;
   if (may_raise && bp::wants_scale(o, counts)) {
     report.begin("try scales");
     levels.clear();  // they are written, and their memory is counted on
-    scale = bp::enough_scale(source.header(), keeper.shelf(), o.levels.faces.front(), context.make_shelf, o.common);
+    facts.enough_scale =
+        bp::enough_scale(source.header(), keeper.shelf(), o.levels.faces.front(), context.make_shelf, o.common);
   }
-  bp::note_shortfalls(report, o, counts, error_world, scale);
+  bp::note_shortfalls(report, o, counts, facts);
   report.write(o.common);
 }
 

@@ -185,7 +185,8 @@ void BrickReader::State::check_magic(std::span<const std::byte> head) {
   const auto begins = [&](std::size_t at, const void* bytes, std::size_t n) {
     return at >= head.size() || std::memcmp(head.data() + at, bytes, std::min(n, head.size() - at)) == 0;
   };
-  if (!begins(0, &kFrameMagic, 4)) fail(ErrorCode::bad_input, "{}: {}; bpvox makes one", file.name(), describe(head));
+  if (!begins(0, &kFrameMagic, 4))
+    fail(ErrorCode::bad_input, {Remedy::name_scene_format}, "{}: {}; bpvox makes one", file.name(), describe(head));
   if (!begins(kFrameHeadBytes, kStreamMagic.data(), kStreamMagic.size())) {
     if (begins(kFrameHeadBytes, kStreamMagic.data(), 4))
       refuse(kFrameHeadBytes + 4,

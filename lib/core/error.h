@@ -66,6 +66,7 @@ enum class Remedy {
   other_output,
   overwrite,
   name_format,
+  name_scene_format,  ///< where a stream of voxels is expected, but a scene will do
   set_origin,
   double_format,  ///< one that holds doubles
   ply_format,     ///< the one without a limit on what it holds

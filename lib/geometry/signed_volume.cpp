@@ -34,7 +34,8 @@ std::optional<double> SignedVolume::value() const {
 }
 
 std::string volume_text(const std::optional<double>& volume) {
-  return volume ? fmt::format("{:.9g}", *volume) : "none: the surface is open, or faces both ways";
+  if (!volume) return "none: the surface is open, or faces both ways";
+  return fmt::format("{:.9g}{}", *volume, *volume < 0 ? ", for its faces point inwards" : "");
 }
 
 }  // namespace bp

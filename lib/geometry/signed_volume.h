@@ -26,7 +26,7 @@ class SignedVolume {
   double six_volumes_ = 0;  ///< undivided: exact for small integers
 };
 
-/// "27", or why there is none: what bpinfo and bpcheck say.
+/// "27", or why it is below 0, or why there is none: what bpinfo and bpcheck say.
 [[nodiscard]] std::string volume_text(const std::optional<double>& volume);
 
 }  // namespace bp

@@ -115,7 +115,10 @@ MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelStep
     target.detail = range.detail;
     const bool follows = target.error_world == 0 && range.first + i >= request.faces.size() && i > 0;
     if (follows && short_of_faces) target = following(target, request, levels.front(), i);
-    if (follows && target.faces >= levels.back().mesh.triangles.size()) continue;
+    if (follows && target.faces >= levels.back().mesh.triangles.size()) {
+      made.left_out.push_back({target, levels.back().mesh.triangles.size()});
+      continue;
+    }
     LodLevel level;
     if (i == 0 && finest) {
       level = std::move(*finest);
@@ -124,13 +127,16 @@ MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelStep
       level = chain.make(target);
     }
     if (i == 0) short_of_faces = falls_short(level, target);
-    if (!levels.empty() && !is_coarser(level, levels.back(), range.diagonal)) continue;
+    if (!levels.empty() && !is_coarser(level, levels.back(), range.diagonal)) {
+      made.left_out.push_back(
+          {target, levels.back().mesh.triangles.size(), level.mesh.triangles.size(), level.error_world});
+      continue;
+    }
     if (!levels.empty()) level.error_world = std::max(level.error_world, levels.back().error_world);
     steps.complete(level, number, target);
     made.facts.push_back(facts_of(level, target));
     levels.push_back(std::move(level));
   }
-  made.left_out = range.count - levels.size();
   return made;
 }
 

@@ -47,10 +47,18 @@ struct ChainRange {
   double detail = 1;                 ///< LodTarget::detail of all of them
 };
 
+/// A level of a request that is not there, and why.
+struct LeftOut {
+  LodTarget target;
+  std::uint64_t faces_before = 0;  ///< of the level before
+  std::uint64_t faces = 0;         ///< it would have; 0: it was not made, for the level before has its budget
+  double error_world = 0;          ///< it would have
+};
+
 struct MadeLevels {
   std::vector<LodLevel> levels;   ///< finest first
   std::vector<LevelFacts> facts;  ///< of each
-  std::size_t left_out = 0;
+  std::vector<LeftOut> left_out;
 };
 
 /// At most range.count levels, finest first. A level that has no fewer faces than the one before, or an error above the
@@ -74,10 +82,10 @@ struct MadeChain {
   MadeLevels made;
 };
 
-/// All levels, in one mesh each. If the finest has clearly fewer faces than its budget, and fewer than the scene has
-/// triangles, and source.may_refine, voxels and scale are halved, as long as that gives a quarter more faces, and
-/// kMostResolution allows it; the last one that was tried is taken. Throws out_of_resource where the memory does not
-/// suffice: it must not decide what is made.
+/// All levels, in one mesh each. If the finest takes less than two thirds of its budget, has fewer faces than the scene
+/// has triangles, and an error above one and a half voxels, and source.may_refine, voxels and scale are halved, as long
+/// as that takes a fifth off the error, and kMostResolution allows it; the nearest one is taken. Throws out_of_resource
+/// where the memory does not suffice: it must not decide what is made.
 [[nodiscard]] MadeChain make_chain(const ChainSource& source, Backends& backends, const LevelSteps& steps);
 
 }  // namespace bp

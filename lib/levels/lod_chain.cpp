@@ -6,6 +6,7 @@
 #include "lib/closing/closing.h"
 #include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
+#include "lib/levels/detail/few_faces_level.h"
 #include "lib/levels/detail/outside.h"
 #include "lib/pass/measure/shape_rules.h"
 #include "lib/surface/repair.h"
@@ -78,9 +79,13 @@ struct LodChain::State {
 
   LodLevel make(const LodTarget& target) {
     LodLevel level = options.cage ? cage(target) : closed(target);
+    if (options.cage || !has_ways(target)) measure(level);
+    return level;
+  }
+
+  void measure(LodLevel& level) {
     context.report("measuring", "levels", 0, 1);
     outside->measure(level, options.mode, has_triangles() ? &options.scene : nullptr);
-    return level;
   }
 
   /// That a level lies around, or follows.
@@ -101,6 +106,12 @@ struct LodChain::State {
     return level;
   }
 
+  using Keep = ShelfSource::Keep;
+  struct Closed {
+    ScaleField field;
+    std::unique_ptr<BrickShelf> voxels;
+  };
+
   LodLevel closed(const LodTarget& target) {
     double scale = first_scale(ground(), target, last_scale);
     Closed closing = half_scale(target, scale);
@@ -109,16 +120,41 @@ struct LodChain::State {
         reduce_to(reductions_for(ground(), target, finest(scale), reductions));
         closing = closing_at(scale);
       }
-      LodLevel level = mesh(target, scale, std::move(closing));
+      LodLevel level = has_ways(target) ? nearest(target, scale, closing) : mesh(mesh_params(target), scale, closing);
       level.attempts = attempt;
       level.reached = target.faces == 0 || level.mesh.triangles.size() <= target.faces;
       if (!level.reached && 2 * scale <= diagonal / 2 && attempt < kMostAttempts) {
         scale *= 2;
+        closing = {};
         continue;
       }
       last_scale = scale;
-      return level;
+      if (!has_ways(target) || target.faces < kFacesOfBox || options.enclose == Enclose::closing) return level;
+      return box_or(std::move(level), target.faces);
     }
+  }
+
+  /// Whether several ways lead to the level, which is measured then, and the nearest one is taken.
+  [[nodiscard]] bool has_ways(const LodTarget& target) const {
+    return options.mode == MeshMode::bounding && is_of_few_faces(target);
+  }
+
+  LodLevel nearest(const LodTarget& target, double scale, const Closed& closing) {
+    MeshParams params = mesh_params(target);
+    LodLevel level = mesh(params, scale, closing, Keep::all);
+    measure(level);
+    if (!may_have_faces(level.counts.levels.front().measures, target.faces)) return level;
+    params.near = false;
+    LodLevel by_volume = mesh(std::move(params), scale, closing);
+    measure(by_volume);
+    return is_better(by_volume, level, target.faces) ? by_volume : level;
+  }
+
+  /// Around all that is enclosed.
+  LodLevel box_or(LodLevel level, std::uint64_t faces) {
+    LodLevel box = box_level(level, options.enclose == Enclose::scene ? header.bounds : outside->bounds());
+    measure(box);
+    return is_better_box(box, level, faces) ? box : level;
   }
 
   [[nodiscard]] std::int64_t longest_side() const {
@@ -186,10 +222,6 @@ struct LodChain::State {
     return least;
   }
 
-  struct Closed {
-    ScaleField field;
-    std::unique_ptr<BrickShelf> voxels;
-  };
   Closed closing_at(double scale) {
     CloseOptions o;
     o.context = context;
@@ -228,13 +260,14 @@ struct LodChain::State {
                         context.pieces.limit_with(bytes - most));
   }
 
-  LodLevel mesh(const LodTarget& target, double scale, Closed closing) {
+  /// keep: whether the closing is wanted again.
+  LodLevel mesh(MeshParams params, double scale, const Closed& closing, Keep keep = Keep::solid) {
     LodLevel level;
     level.scale_world = scale;
     level.reductions = reductions;
     context.report("meshing", "levels", 0, 1);
-    ShelfSource source(closed_header(closing.field), *solid, closing.voxels.get(), ShelfSource::Keep::solid);
-    level.mesh = std::move(mesh_stream(source, context, mesh_params(target), level.counts).front());
+    ShelfSource source(closed_header(closing.field), *solid, closing.voxels.get(), keep);
+    level.mesh = std::move(mesh_stream(source, context, std::move(params), level.counts).front());
     return level;
   }
 

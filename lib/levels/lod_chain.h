@@ -95,7 +95,8 @@ class LodChain {
 
   /// The next level; targets come finest first. A face budget that cannot be met, because parts stay apart or keep
   /// holes, is tried again at twice the scale, on coarser voxels where the budget allows, until it is met or the scale
-  /// is half the scene; LodLevel says at what. Throws as close_stream() and mesh_stream().
+  /// is half the scene; LodLevel says at what. Bounding levels of few faces are the nearest of several
+  /// (detail/few_faces_level.h). Throws as close_stream() and mesh_stream().
   [[nodiscard]] LodLevel make(const LodTarget& target);
 
  private:

@@ -17,7 +17,7 @@ struct WholeLevel {
 struct WholeLevels {
   Vec3d origin{};  ///< that all contents are relative to
   std::vector<WholeLevel> levels;
-  std::uint64_t left_out = 0;
+  std::vector<LeftOut> left_out;
   bool kept = false;  ///< found in the store
 };
 

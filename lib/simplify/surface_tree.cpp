@@ -23,6 +23,7 @@ constexpr std::uint64_t kMargin = 3, kMarginOfMany = 2, kManyFaces = std::uint64
 constexpr std::uint64_t kFewCells = 32, kMarginOfFew = 5;  // so few cells leave threads without one: they stop earlier
 constexpr double kBoundPerLevel = 16;                      // of the last bound: a round leaves about 40 % of the faces
 constexpr std::int64_t kBrickLattice = std::int64_t(kBrickEdge) * kLatticePerVoxel;
+constexpr std::uint64_t kLargeCell = std::uint64_t(1) << 17;  // faces: few cells grow beyond that
 constexpr std::uint64_t kWorkPerFace = 256;  // bytes: the piece, its half-edges, quadrics, boxes and their tree
 
 /// body(i) for i in [0, n), with at most `in_flight` of them begun and not ended.
@@ -146,7 +147,7 @@ class SurfaceTree {
     for (const Node& node : nodes_) largest = std::max(largest, node.face_count());
     const std::uint64_t bytes = params_.memory.work_bytes;
     const std::uint64_t limits = params_.limits != nullptr ? params_.limits->bytes_of_part() : 0;
-    check_work(largest, params_.memory, true);
+    check_work(largest, params_.memory, true, std::min(faces(), kLargeCell));
     return std::size_t(std::clamp<std::uint64_t>(bytes / (largest * kWorkPerFace + limits), 1, thread_count()));
   }
 
@@ -192,11 +193,12 @@ class SurfaceTree {
 
 }  // namespace
 
-void check_work(std::uint64_t faces, const PieceMemory& memory, bool others_wait) {
+void check_work(std::uint64_t faces, const PieceMemory& memory, bool others_wait, std::uint64_t later) {
   const std::uint64_t needed = faces * kWorkPerFace, left = others_wait ? memory.work_bytes : memory.bytes();
   if (needed <= left) return;
   throw NeedsMemory(fmt::format("simplifying {} triangles at once", faces), needed, left,
-                    memory.limit_with(needed - left, others_wait), {Remedy::larger_voxels, Remedy::fewer_faces});
+                    memory.limit_with(std::max(faces, later) * kWorkPerFace - left, others_wait),
+                    {Remedy::larger_voxels, Remedy::fewer_faces});
 }
 
 namespace {

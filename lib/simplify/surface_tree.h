@@ -24,7 +24,7 @@ struct BulkEnd {
                                        SimplifyCounts& counts);
 
 /// Throws out_of_resource if `memory` does not suffice to simplify `faces` triangles at once: all of it, or, while
-/// other pieces wait, its work_bytes.
-void check_work(std::uint64_t faces, const PieceMemory& memory, bool others_wait = false);
+/// other pieces wait, its work_bytes. The limit that is named suffices for `later` triangles at once, too.
+void check_work(std::uint64_t faces, const PieceMemory& memory, bool others_wait = false, std::uint64_t later = 0);
 
 }  // namespace bp

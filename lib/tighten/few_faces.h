@@ -7,11 +7,14 @@ namespace bp {
 /// Proxies of fewer faces come from one sequence.
 constexpr std::uint64_t kFewFaces = 64;
 
-/// Removes faces one by one from kFewFaces to 4 and keeps each proxy on the way. Returns the one of least volume with
-/// at most params.faces faces, fewer than kFewFaces. The sequence does not depend on params.faces, so more faces never
-/// make the result larger. Each proxy follows from the one before, or, of a scene in one piece, from its convex hull if
-/// that leaves less. If the sequence ends above params.faces, since parts are kept, the result has more. Cost: up to
-/// fifty times tight_proxy(), on a surface of some hundred faces.
+/// Returns the proxy of least volume with at most params.faces faces, which are fewer than kFewFaces. It comes from one
+/// sequence of proxies, which begins at kFewFaces whatever params.faces is: the next one has four faces fewer, or two
+/// below 40. So more faces do not make the result larger, as a rule: the sequence ends where proxies hold clearly more
+/// than the least that params.faces allow, or where parts and handles leave no fewer faces. The next proxy is the least
+/// of what follows from the one before, at a few numbers of faces or in a jam from the first surface, and, of a scene
+/// in one piece, from the convex hull of the first proxy. Where the sequence ends above params.faces, the result is its
+/// last proxy or that of tight_proxy(): the one with fewer faces, or the smaller one. Cost: some fifty times
+/// tight_proxy() on a surface of some hundred faces.
 [[nodiscard]] LatticeMesh tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclosed,
                                              const SimplifyParams& params, SimplifyCounts& simplified,
                                              TightenCounts& tightened);

@@ -62,6 +62,8 @@ const char* text_of(Remedy remedy) {
       return "add --overwrite to replace it";
     case Remedy::name_format:
       return "name it with --format";
+    case Remedy::name_scene_format:
+      return "name the format of a scene with --format";
     case Remedy::no_textures:
       return "use --appearance color";
     case Remedy::set_origin:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "io/files/file.h"
 #include "io/scene/scene_parts.h"
@@ -94,8 +95,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   };
   const auto open = [&](const StreamHeader& header, const VoxelizeCounts& counts) -> BrickSink& {
     out.header = header;
-    const Estimate estimate = estimate_build(options, header.bounds, counts, header.frame.voxel);
-    if (halvings == 0) note_estimate(estimate, options.common, progress, report);
+    note_time(header, counts);
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
@@ -106,6 +106,20 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   choose_textures(*source, halvings == 0);
   if (colored_ && !textured_) gather(*source, out);
   return out;
+}
+
+void Build::note_time(const StreamHeader& header, const VoxelizeCounts& counts) {
+  using Clock = std::chrono::steady_clock;
+  const double voxel = header.frame.voxel;
+  const Attempt before = std::exchange(attempt_, {Clock::now(), voxel});
+  if (before.voxel == 0)
+    return note_estimate(estimate_build(options, header.bounds, counts, voxel), options.common, progress, report);
+  if (before.voxel == voxel) return;
+  const double seconds = std::chrono::duration<double>(attempt_.begin - before.begin).count();
+  const std::string text = attempt_note(seconds, before.voxel, voxel);
+  if (text.empty()) return;
+  progress.end();
+  note(text);
 }
 
 /// Levels have scales of their own: the rules say how much finer or coarser a place is.
@@ -280,9 +294,16 @@ void Build::note(const std::string& text) {
   if (!text.empty()) report.note(text, options.common);
 }
 
-void Build::note_levels(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out) {
+void Build::note_levels(const std::vector<LevelFacts>& levels, std::size_t first,
+                        const std::vector<LeftOut>& left_out) {
   const bool asked = asks_for_faces(request_of(options));
-  for (const std::string& text : level_notes(levels, first, left_out, asked, size_.triangles)) note(text);
+  for (const std::string& text : level_notes(levels, first, asked, size_)) note(text);
+  std::string before;
+  for (const LeftOut& level : left_out) {
+    const std::string text = left_out_note(level, size_.bounds.diagonal());
+    if (text != before) note(text);
+    before = text;
+  }
 }
 
 void Build::finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out) {

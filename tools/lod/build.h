@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -65,7 +66,7 @@ class Build {
   [[nodiscard]] LevelSteps level_steps(std::function<std::string()> input_hash);
 
   void note(const std::string& text);
-  void note_levels(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out);
+  void note_levels(const std::vector<LevelFacts>& levels, std::size_t first, const std::vector<LeftOut>& left_out);
 
   /// Writes the report and prints the list; then, on stderr, where the files are, and what proves them.
   void finish(const VoxelizedScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out);
@@ -85,9 +86,17 @@ class Build {
   /// The report, then the list; a failure says that what was `made` is there.
   void tell(const VoxelizedScene& scene, const std::string& list, const std::string& made);
   void write_report(const VoxelizedScene& scene);
+  /// What the time of the next attempt follows from.
+  struct Attempt {
+    std::chrono::steady_clock::time_point begin;
+    double voxel = 0;
+  };
+  /// Of the first attempt, and of each with voxels of another size.
+  void note_time(const StreamHeader& header, const VoxelizeCounts& counts);
   SceneSize size_;
   std::optional<MirrorPlane> plane_;  // of a cage
   double voxel_ = 0, margin_ = 0;     // of the scene, scene units
+  Attempt attempt_;
   Enclose enclosed_ = Enclose::input;
   std::optional<ScalePlan> field_;  // of --field
   std::unique_ptr<SceneColors> colors_;

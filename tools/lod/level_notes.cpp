@@ -13,6 +13,8 @@ namespace bp {
 
 namespace {
 
+constexpr double kExactVox = 1.0 / 16;  // of error: vertices lie on a lattice, and the scene need not
+
 /// As a shell takes it for one word.
 std::string quoted(const std::string& word) {
   constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-,:@%=";
@@ -26,16 +28,20 @@ std::string quoted(const std::string& word) {
 
 std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triangles) {
   const std::uint64_t budget = level.target.faces;
+  FaceAdvice advice;
+  advice.exact = level.error_world < kExactVox * level.voxel;
   if (asked && level.reached && level.faces >= triangles && clearly_fewer(level.faces, budget))
     return fmt::format(
-        "{} faces instead of {}: the scene has {}, and more faces would show steps of voxels; smaller voxels, or a "
-        "smaller --scale, come nearer",
-        level.faces, budget, counted(triangles, "triangle"));
+        "{} faces instead of {}: the scene has {}{}", level.faces, budget, counted(triangles, "triangle"),
+        advice.exact
+            ? ""
+            : ", and more faces would show steps of voxels; smaller voxels, or a smaller --scale, come nearer");
   if (!level.reached)
     return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", level.faces,
                        budget, level.scale_world);
-  if (asked && level.stopped_by == to_string(StopReason::least_volume)) return least_volume_note(level.faces, budget);
-  const std::string few = asked ? too_few_note(level.faces, budget) : "";
+  if (asked && level.stopped_by == to_string(StopReason::least_volume))
+    return least_volume_note(level.faces, budget, advice);
+  const std::string few = asked ? too_few_note(level.faces, budget, advice) : "";
   if (few.empty() && asked && level.attempts > 1)
     return fmt::format(
         "closed at {:.4g}, {} times the scale that was tried first: at less, parts and holes take more than {} faces",
@@ -54,22 +60,37 @@ std::string error_note(std::size_t level, double error_world, double asked_world
       level, error_world, asked_world);
 }
 
-std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std::size_t first, std::size_t left_out,
-                                     bool asked, std::uint64_t triangles) {
+std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std::size_t first, bool asked,
+                                     const SceneSize& scene) {
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const LevelFacts& level = levels[i];
-    if (const std::string missed = faces_note(level, asked, triangles); !missed.empty())
+    if (const std::string missed = faces_note(level, asked, scene.triangles); !missed.empty())
       notes.push_back(fmt::format("level {}: {}", first + i, missed));
     if (const double error = level.target.error_world; error > 0 && level.error_world > error)
       notes.push_back(error_note(first + i, level.error_world, error));
+    if (level.error_world > scene.bounds.diagonal() && level.target.faces < kLeastFaces)
+      notes.push_back(
+          fmt::format("level {}: its error is {:.4g}, more than the diagonal of the scene, {:.4g}; {} faces, "
+                      "as a box has, come nearer",
+                      first + i, level.error_world, scene.bounds.diagonal(), kLeastFaces));
   }
-  if (left_out > 0)
-    notes.push_back(
-        fmt::format("{} of {} levels {} left out: no fewer faces than the one before, or an error beyond the "
-                    "scene's size",
-                    left_out, levels.size() + left_out, left_out == 1 ? "is" : "are"));
   return notes;
+}
+
+std::string left_out_note(const LeftOut& level, double diagonal) {
+  const std::string name = level.target.faces > 0 ? counted(level.target.faces, "face")
+                                                  : fmt::format("an error of {:.4g}", level.target.error_world);
+  std::string why;
+  if (level.faces == 0) {
+    why = fmt::format("the one before it has {} already", level.faces_before);
+  } else if (level.faces >= level.faces_before) {
+    why = fmt::format("it would have {} faces, and the one before it has {}", level.faces, level.faces_before);
+  } else {
+    why = fmt::format("its error would be {:.4g}, more than the diagonal of the scene, {:.4g}", level.error_world,
+                      diagonal);
+  }
+  return fmt::format("the level of {} is left out: {}", name, why);
 }
 
 std::string origin_note(const BuildOptions& o, const StreamHeader& header) {

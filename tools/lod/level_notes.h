@@ -12,8 +12,11 @@ namespace bp {
 [[nodiscard]] std::string error_note(std::size_t level, double error_world, double asked_world);
 
 /// Notes of levels in one mesh, the first of which is level `first`.
-[[nodiscard]] std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std::size_t first,
-                                                   std::size_t left_out, bool asked, std::uint64_t triangles);
+[[nodiscard]] std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std::size_t first, bool asked,
+                                                   const SceneSize& scene);
+
+/// Which level is not there, and why. diagonal: of the scene.
+[[nodiscard]] std::string left_out_note(const LeftOut& level, double diagonal);
 
 /// As of OriginOption, but of tilesets, which hold coordinates in double. Throws bad_argument if --origin would round.
 [[nodiscard]] std::string origin_note(const BuildOptions& options, const StreamHeader& header);

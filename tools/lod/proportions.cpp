@@ -43,8 +43,9 @@ void question_proportions(const BuildOptions& o, const SceneSize& scene) {
 }
 
 Estimate estimate_build(const BuildOptions& o, const Bounds3d& scene, const VoxelizeCounts& counts, double voxel) {
+  const bool tiles_of_scene = o.is_tileset() && enclosed_by(o, counts.scene.triangles) == Enclose::scene;
   return estimate_levels(scene, counts, voxel, level_count(request_of(o)), o.is_tileset(),
-                         o.levels.errors.empty() ? 1 : kErrorEffort);
+                         (o.levels.errors.empty() ? 1 : kErrorEffort) * (tiles_of_scene ? kTilesOfSceneEffort : 1));
 }
 
 }  // namespace bp

@@ -33,7 +33,9 @@ std::uint64_t bytes_of(std::uint64_t triangles, const EnclosureInput& in) {
 void check_memory(const std::string& name, std::uint64_t triangles, const EnclosureInput& in) {
   const std::uint64_t bytes = bytes_of(triangles, in), most = in.memory.bytes();
   if (bytes <= most) return;
-  throw NeedsMemory(fmt::format("{}: enclosing its triangles", name), bytes, most, in.memory.limit_with(bytes - most),
+  constexpr std::uint64_t kSurfaceBytes = std::uint64_t(32) << 20;  // at work, beside them: enough as a rule
+  throw NeedsMemory(fmt::format("{}: enclosing its triangles", name), bytes, most,
+                    in.memory.limit_with(bytes + kSurfaceBytes - most),
                     {in.mode == MeshMode::fit ? Remedy::enclose_closing : Remedy::enclose_input});
 }
 

@@ -30,8 +30,12 @@ Backends cpu_backends() {
 
 }  // namespace
 
+bool is_closed_by_scale(const StreamHeader& header) {
+  return header.has_closing && header.scale.constant();
+}
+
 bool has_scale_to_raise(const StreamHeader& header) {
-  return header.has_closing && header.fill != FillMode::inside && header.scale.constant() && header.scale.base > 0 &&
+  return is_closed_by_scale(header) && header.fill != FillMode::inside && header.scale.base > 0 &&
          !option_of_bpclose(header, "scale").empty();
 }
 

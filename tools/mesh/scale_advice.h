@@ -27,6 +27,9 @@ class SolidKeeper final : public BrickSource {
   std::unique_ptr<BrickShelf> shelf_;
 };
 
+/// Whether bpclose --scale, and no field, closed or opened the stream.
+[[nodiscard]] bool is_closed_by_scale(const StreamHeader& header);
+
 /// Whether a larger scale can be named: the stream was closed by bpclose --scale.
 [[nodiscard]] bool has_scale_to_raise(const StreamHeader& header);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "tools/notes/face_notes.h"
 
 namespace bp {
@@ -26,7 +28,9 @@ std::string measured_to(const MeshOptions& o) {
 }
 
 /// Of a level that no step has taken beyond --error and --volume, but that was beyond from its beginning.
-void note_bounds(Report& report, const MeshOptions& o, const MeshCounts& c, std::size_t i, double error_world) {
+void note_bounds(Report& report, const MeshOptions& o, const MeshCounts& c, std::size_t i,
+                 const ShortfallFacts& facts) {
+  const double error_world = facts.error_world;
   const LevelCounts& level = c.levels[i];
   const std::string which = level_text(c, i);
   const auto& distance = level.measures.proxy_to_enclosed;
@@ -35,8 +39,9 @@ void note_bounds(Report& report, const MeshOptions& o, const MeshCounts& c, std:
         i > 0 && o.proxy.mode != MeshMode::fit
             ? "the voxels at the level before are as far; use smaller voxels, fewer levels or a larger --error"
             : fmt::format(
-                  "the voxels {} as far; use a smaller --scale or smaller voxels{}",
+                  "the voxels {} as far; use {}smaller voxels{}",
                   o.proxy.mode == MeshMode::inside ? "themselves are" : "around it are",
+                  facts.has_scale ? "a smaller bpclose --scale or " : "",
                   counts_from_closing(o) ? "" : ", or leave --enclose out: distances then count from the closing");
     report.note(fmt::format("{}the proxy is up to {:.4g} from {} instead of {:.4g}: {}", which, distance->at_least,
                             measured_to(o), error_world, why),
@@ -71,40 +76,55 @@ std::string refusals_text(const MeshOptions& o, const SimplifyCounts& s) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// What kept a level from its faces. `scale`: one that would do (enough_scale()).
-std::string obstacle_text(const MeshOptions& o, const LevelCounts& level, const std::optional<std::string>& scale) {
+/// The finest proxy is the scene, if that is a solid, but for rounding.
+bool is_exact(const MeshOptions& o, const MeshCounts& c, std::size_t i, const ShortfallFacts& facts) {
+  constexpr double kRounding = 1e-3;
+  if (i > 0 || o.proxy.mode != MeshMode::bounding || !facts.scene_volume) return false;
+  const double solid = std::abs(*facts.scene_volume);
+  return std::abs(c.levels[i].measures.volume - solid) < kRounding * solid;
+}
+
+FaceAdvice advice_of(const MeshOptions& o, const ShortfallFacts& facts) {
+  return {o.proxy.mode, facts.has_scale ? "bpclose --scale" : ""};
+}
+
+/// What kept a level from its faces.
+std::string obstacle_text(const MeshOptions& o, const MeshCounts& c, std::size_t i, const ShortfallFacts& facts) {
+  const LevelCounts& level = c.levels[i];
   const std::string& by = level.stopped_by;
   if (by == "error" && o.error()) return fmt::format("--error {} was reached first", o.error()->text());
   if (by == "volume") return fmt::format("--volume {} was reached first", o.volume);
-  return merged_note(level.simplify.faces_out, level.measures.shells, level.measures.handles, o.proxy.mode, scale);
+  return merged_note(level.simplify.faces_out, level.measures.shells, level.measures.handles, advice_of(o, facts),
+                     i == 0 ? facts.enough_scale : std::nullopt);
 }
 
 /// Of a level that has not the faces that were asked for.
-void note_faces(Report& report, const MeshOptions& o, const MeshCounts& c, std::size_t i,
-                const std::optional<std::string>& scale) {
+void note_faces(Report& report, const MeshOptions& o, const MeshCounts& c, std::size_t i, const ShortfallFacts& facts) {
   const LevelCounts& level = c.levels[i];
   const std::uint64_t faces = level.simplify.faces_out;
   if (i >= o.levels.faces.size()) return;
+  FaceAdvice advice = advice_of(o, facts);
+  advice.exact = is_exact(o, c, i, facts);
   const std::string few = level.simplify.stop == StopReason::least_volume
-                              ? least_volume_note(faces, o.levels.faces[i])
-                              : too_few_note(faces, o.levels.faces[i], o.proxy.mode);
+                              ? least_volume_note(faces, o.levels.faces[i], advice)
+                              : too_few_note(faces, o.levels.faces[i], advice);
   if (!few.empty()) report.note(level_text(c, i) + few, o.common);
   if (faces <= o.levels.faces[i]) return;
   const bool coarser = i == 0 || faces < c.levels[i - 1].simplify.faces_out;
   const std::string refusals = refusals_text(o, level.simplify);
   report.note(fmt::format("{}{} faces instead of {}{}: {}{}", level_text(c, i), faces, o.levels.faces[i],
                           coarser ? "" : fmt::format(", no fewer than level {} has", i - 1),
-                          obstacle_text(o, level, i == 0 ? scale : std::nullopt),
-                          refusals.empty() ? "" : " (tries refused: " + refusals + ")"),
+                          obstacle_text(o, c, i, facts), refusals.empty() ? "" : " (tries refused: " + refusals + ")"),
               o.common);
 }
 
 /// Of a level that has its faces at the price of its volume.
-void note_volume(Report& report, const MeshOptions& o, const MeshCounts& c, std::size_t i) {
+void note_volume(Report& report, const MeshOptions& o, const MeshCounts& c, std::size_t i,
+                 const ShortfallFacts& facts) {
   if (i >= o.levels.faces.size() || o.volume > 0) return;
   const LevelCounts& level = c.levels[i];
   const std::string loose = loose_note(level.simplify.faces_out, level.measures.volume / c.solid_volume_world,
-                                       level.measures.shells, level.measures.handles, o.proxy.mode);
+                                       level.measures.shells, level.measures.handles, advice_of(o, facts));
   if (!loose.empty()) report.note(level_text(c, i) + loose, o.common);
 }
 
@@ -117,17 +137,16 @@ bool wants_scale(const MeshOptions& o, const MeshCounts& c) {
          by != "volume" && (level.measures.shells > 1 || level.measures.handles > 0);
 }
 
-void note_shortfalls(Report& report, const MeshOptions& o, const MeshCounts& c, double error_world,
-                     const std::optional<std::string>& scale) {
+void note_shortfalls(Report& report, const MeshOptions& o, const MeshCounts& c, const ShortfallFacts& facts) {
   if (c.dropped_parts > 0) {
     report.note(
         fmt::format("small parts left out: {}, with {} of {} voxels", c.dropped_parts, c.dropped_voxels, c.voxels),
         o.common);
   }
   for (std::size_t i = 0; i < c.levels.size(); ++i) {
-    note_faces(report, o, c, i, scale);
-    note_bounds(report, o, c, i, error_world);
-    note_volume(report, o, c, i);
+    note_faces(report, o, c, i, facts);
+    note_bounds(report, o, c, i, facts);
+    note_volume(report, o, c, i, facts);
   }
 }
 

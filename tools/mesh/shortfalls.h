@@ -12,8 +12,14 @@ namespace bp {
 /// Whether parts and handles may keep the finest level from its faces: a larger scale can help.
 [[nodiscard]] bool wants_scale(const MeshOptions& options, const MeshCounts& counts);
 
-/// One note for each target. error_world: bound of --error; 0: none. scale: one that would do (enough_scale()).
-void note_shortfalls(Report& report, const MeshOptions& options, const MeshCounts& counts, double error_world,
-                     const std::optional<std::string>& scale);
+/// What is known beside the counts.
+struct ShortfallFacts {
+  double error_world = 0;                   ///< bound of --error; 0: none
+  bool has_scale = false;                   ///< bpclose --scale closed the stream
+  std::optional<std::string> enough_scale;  ///< one that would do (enough_scale())
+  std::optional<double> scene_volume;       ///< of triangles that are enclosed, if they are closed; scene units cubed
+};
+/// One note for each target.
+void note_shortfalls(Report& report, const MeshOptions& options, const MeshCounts& counts, const ShortfallFacts& facts);
 
 }  // namespace bp

@@ -38,8 +38,9 @@ struct Estimate {
 /// of estimate_mesh().
 [[nodiscard]] Estimate estimate_levels(const Bounds3d& scene, const VoxelizeCounts& counts, double voxel,
                                        std::size_t levels, bool tiles, double effort = 1);
-constexpr double kErrorEffort = 5;  ///< --error: each new face is measured
-constexpr double kSceneEffort = 4;  ///< --enclose SCENE: the scene's own triangles stay inside
+constexpr double kErrorEffort = 5;         ///< --error: each new face is measured
+constexpr double kSceneEffort = 4;         ///< --enclose SCENE: the scene's own triangles stay inside
+constexpr double kTilesOfSceneEffort = 2;  ///< tilesets, the same
 
 /// Of a run with these devices (names_of(backends)): a GPU takes over work.
 [[nodiscard]] double wall_seconds(const Estimate& estimate, const std::vector<std::string>& backends);
@@ -51,6 +52,10 @@ constexpr double kSceneEffort = 4;  ///< --enclose SCENE: the scene's own triang
 /// min on 2 threads, with 550 MiB of memory".
 [[nodiscard]] std::string estimate_note(const Estimate& estimate, std::uint64_t memory,
                                         const std::vector<std::string>& backends = {});
+/// Of an attempt that follows another one with voxels of another size, if it takes more than ten seconds: "voxels of
+/// 0.1 instead of 0.2 are tried, since faces are left over: about 40 s". seconds: of the attempt before. Its surface
+/// grows with the square.
+[[nodiscard]] std::string attempt_note(double seconds, double voxel_before, double voxel);
 /// Says it, on a line of its own.
 void note_estimate(const Estimate& estimate, const CommonOptions& common, Progress& progress, Report& report,
                    const std::vector<std::string>& backends = {});

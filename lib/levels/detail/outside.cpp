@@ -57,6 +57,13 @@ Outside::Outside(const BrickShelf& solid, const BrickShelf* surface, bool of_tri
 
 Outside::~Outside() = default;
 
+Bounds3d Outside::bounds() const {
+  Bounds3d bounds;
+  for (const VoxelCoord& v : {box.min, box.max})
+    bounds.add(frame_.world(LatticeCoord{v.x, v.y, v.z} * kLatticePerVoxel));
+  return bounds;
+}
+
 std::uint64_t Outside::bytes() const {
   return runs_.capacity() * sizeof(VoxelRun) + faces_.capacity() * sizeof(FaceRect) +
          (kept_ ? measuring_bytes(runs_.size()) : 0);

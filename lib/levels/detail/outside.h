@@ -22,6 +22,8 @@ class Outside {
   ~Outside();
 
   [[nodiscard]] double voxel() const { return frame_.voxel; }
+  /// Around all of the solid's voxels, scene units.
+  [[nodiscard]] Bounds3d bounds() const;
   /// Of the memory, from the beginning to the end.
   [[nodiscard]] std::uint64_t bytes() const;
 

@@ -6,6 +6,9 @@ try bpinfo cube.obj --json
 (grep ^v cube.obj; echo 'f 3 2 1 4'; grep ^f cube.obj | tail -n +2 | tac) > turned.obj
 (grep ^v cube.obj; echo 'f 1 2 3 4'; grep ^f cube.obj | tail -n +2) > flipped.obj
 for file in cube turned flipped; do said "bpinfo $file.obj | checksum"; done
+(grep ^v cube.obj; awk '/^f/ { print "f", $5, $4, $3, $2 }' cube.obj) > inverted.obj
+said 'bpinfo inverted.obj | grep volume'
+said 'bpcheck inverted.obj cube.obj | grep "volume of"'
 said 'bpinfo --format obj < cube.obj | checksum'
 said 'bpinfo cube.obj --image cube.png | checksum'
 try bpinfo cube.obj --dump

@@ -57,6 +57,8 @@ TEST_CASE("a surface that is open or faces both ways has no volume, whatever its
   t.erase(t.begin() + 1);
   CHECK_FALSE(totals_of(t).volume);
   CHECK(volume_text({}).find("none") == 0);
+  CHECK(volume_text(27) == "27");
+  CHECK(volume_text(-27) == "-27, for its faces point inwards");
 }
 
 TEST_CASE("the checksum of a mesh is that of its triangles as a set", "[quick][core]") {

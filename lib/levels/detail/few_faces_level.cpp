@@ -1,0 +1,61 @@
+#include "lib/levels/detail/few_faces_level.h"
+
+#include <cmath>
+
+namespace bp {
+
+namespace {
+
+constexpr std::uint64_t kFew = 32;  // with more, the way that keeps near the scene is nearest as a rule
+constexpr double kClearlyNearer = 0.9;
+
+double volume_of(const LodLevel& level) {
+  return level.counts.levels.front().measures.volume;
+}
+
+}  // namespace
+
+bool is_of_few_faces(const LodTarget& target) {
+  return target.faces > 0 && target.faces < kFew && target.error_world == 0;
+}
+
+bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces) {
+  return 4 * (measures.shells + measures.handles) <= faces;
+}
+
+LodLevel box_level(const LodLevel& level, const Bounds3d& bounds) {
+  LodLevel box = level;
+  const GridFrame& frame = level.mesh.frame;
+  const Vec3d lo = frame.to_voxels(bounds.min), hi = frame.to_voxels(bounds.max);
+  std::array<LatticeCoord, 2> ends;
+  for (int i = 0; i < 3; ++i) {
+    ends[0][i] = std::int64_t(std::floor(lo[std::size_t(i)] * kLatticePerVoxel)) - 1;
+    ends[1][i] = std::int64_t(std::ceil(hi[std::size_t(i)] * kLatticePerVoxel)) + 1;
+  }
+  box.mesh.vertices.clear();
+  for (std::size_t i = 0; i < 8; ++i) box.mesh.vertices.push_back({ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z});
+  box.mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                        {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  LevelCounts& counts = box.counts.levels.front();
+  counts.measures = {};
+  counts.measures.shells = 1;
+  counts.measures.volume = double(volume6_of(box.mesh)) / 6 * std::pow(frame.voxel / kLatticePerVoxel, 3);
+  counts.stopped_by = to_string(StopReason::least_volume);
+  box.reached = true;
+  counts.simplify.faces_out = box.mesh.triangles.size();
+  return box;
+}
+
+bool is_better(const LodLevel& level, const LodLevel& other, std::uint64_t faces) {
+  const bool reached = level.mesh.triangles.size() <= faces;
+  if (reached != (other.mesh.triangles.size() <= faces)) return reached;
+  return level.error_world < other.error_world;
+}
+
+bool is_better_box(const LodLevel& box, const LodLevel& other, std::uint64_t faces) {
+  if (!is_better(box, other, faces)) return false;
+  return other.mesh.triangles.size() > faces || volume_of(box) <= volume_of(other) ||
+         box.error_world < kClearlyNearer * other.error_world;
+}
+
+}  // namespace bp

@@ -1,0 +1,23 @@
+#pragma once
+#include "lib/levels/lod_chain.h"
+
+/// Bounding levels of so few faces that one way to them may lead anywhere: several are tried, and the nearest is taken.
+namespace bp {
+
+/// Whether the target is nothing but a number of faces below 32.
+[[nodiscard]] bool is_of_few_faces(const LodTarget& target);
+
+/// Whether few enough faces are possible while all parts and handles of a closed mesh are kept: each takes four.
+[[nodiscard]] bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces);
+
+/// The box that lies around `bounds`, scene units, by a lattice unit or two: a level in the place of `level`, with its
+/// frame, scale and counts. Not measured.
+[[nodiscard]] LodLevel box_level(const LodLevel& level, const Bounds3d& bounds);
+
+/// Which of two measured levels is better for a target of few faces: one that has no more than these, or else the
+/// nearer one.
+[[nodiscard]] bool is_better(const LodLevel& level, const LodLevel& other, std::uint64_t faces);
+/// The same of a box, which has to be clearly nearer if it holds more.
+[[nodiscard]] bool is_better_box(const LodLevel& box, const LodLevel& other, std::uint64_t faces);
+
+}  // namespace bp

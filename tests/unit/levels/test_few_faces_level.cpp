@@ -1,0 +1,38 @@
+#include "lib/check/check_proxy.h"
+#include "lib/geometry/surface_distance.h"
+#include "lib/levels/lod_chain.h"
+#include "tests/catch.h"
+#include "tests/support/memory_store.h"
+#include "tests/support/voxelized.h"
+
+namespace bp::test {
+
+TEST_CASE("levels of few faces are about as near as the scene's box, and no needles", "[quick][pass][lod]") {
+  Triangles scene;  // an animal: a body on four legs, a neck, a head
+  add_box(scene, {0, 10, 0}, {20, 18, 7});
+  for (const double x : {0., 17.}) {
+    for (const double z : {0., 5.}) add_box(scene, {x, 0, z}, {x + 3, 10, z + 2});
+  }
+  add_box(scene, {18, 15, 2}, {22, 26, 5});
+  add_box(scene, {18, 24, 2}, {29, 28, 5});
+  const std::uint64_t faces = GENERATE(6, 8, 12, 16, 20);
+  const bool triangles = GENERATE(false, true);
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 0.25);
+  const double diagonal = solid.header.bounds.diagonal();
+  Triangles box;
+  add_box(box, solid.header.bounds.min, solid.header.bounds.max);
+  LodOptions options;
+  options.context.make_shelf = memory_shelves();
+  if (triangles) options.enclose = Enclose::scene, options.scene = scene;
+  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+  const LodLevel level = chain.make({faces, 0, {}});
+  const double far = largest_distance(box, TriangleBvh(scene), 0.01).at_most;
+  CHECK(level.reached);
+  CHECK(level.mesh.triangles.size() <= faces);
+  MemorySource source(scene);
+  CHECK(check_proxy(indexed(level.mesh), &source).holds());
+  CHECK(level.error_world < (faces < 12 ? 0.6 * diagonal : 1.15 * far));  // 1.01 and 1.8 where one way is tried
+}
+
+}  // namespace bp::test
