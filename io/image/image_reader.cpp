@@ -8,7 +8,7 @@
 #include <png.h>
 #include <webp/decode.h>
 
-#include "io/image/old_images.h"
+#include "io/image/tga_reader.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -19,13 +19,18 @@ const unsigned char* raw(std::span<const std::byte> bytes) {
   return reinterpret_cast<const unsigned char*>(bytes.data());
 }
 
-/// An image of this size, if it may be so large.
-TextureImage sized(std::uint64_t width, std::uint64_t height, const std::string& name, std::uint64_t most_bytes) {
+void check_size(std::uint64_t width, std::uint64_t height, const std::string& name, int copies,
+                std::uint64_t most_bytes) {
   constexpr std::uint64_t kMostPixels = std::uint64_t(1) << 28, kMostSide = 1 << 16;
   if (width == 0 || height == 0 || width > kMostSide || height > kMostSide || width * height > kMostPixels)
     fail(ErrorCode::bad_input, "{}: an image of {} x {} pixels; at most 2^28 are read", name, width, height);
-  const std::uint64_t bytes = width * height * sizeof(TextureImage::Texel);
+  const std::uint64_t bytes = std::uint64_t(copies) * width * height * sizeof(TextureImage::Texel);
   if (bytes > most_bytes) throw NeedsMemory(fmt::format("{}: the image", name), bytes, most_bytes, 0);
+}
+
+/// An image of this size, if it may be so large.
+TextureImage sized(std::uint64_t width, std::uint64_t height, const std::string& name, std::uint64_t most_bytes) {
+  check_size(width, height, name, 1, most_bytes);
   return {int(width), int(height)};
 }
 
@@ -121,15 +126,15 @@ TextureImage decode_webp(std::span<const std::byte> bytes, const std::string& na
   return image;
 }
 
-TextureImage decode_old(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most_bytes) {
-  const auto [width, height] = *old_image_size(bytes);
-  static_cast<void>(sized(std::uint64_t(width), std::uint64_t(height), name, most_bytes / 2));
-  std::optional<TextureImage> image = decode_old_image(bytes);
-  if (!image) broken(name, "broken TGA or BMP data");
+TextureImage decode_tga(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most_bytes) {
+  const auto [width, height] = *tga_size(bytes);
+  check_size(std::uint64_t(width), std::uint64_t(height), name, 2, most_bytes);
+  std::optional<TextureImage> image = decode_tga_bytes(bytes);
+  if (!image) broken(name, "broken TGA data");
   return std::move(*image);
 }
 
-enum class ImageKind { png, jpeg, webp, old };
+enum class ImageKind { png, jpeg, webp, tga };
 
 ImageKind kind_of(std::span<const std::byte> bytes, const std::string& name) {
   const auto begins = [&](std::size_t at, std::string_view magic) {
@@ -138,8 +143,8 @@ ImageKind kind_of(std::span<const std::byte> bytes, const std::string& name) {
   if (begins(0, "\x89PNG")) return ImageKind::png;
   if (begins(0, "\xFF\xD8")) return ImageKind::jpeg;
   if (begins(0, "RIFF") && begins(8, "WEBP")) return ImageKind::webp;
-  if (old_image_size(bytes)) return ImageKind::old;
-  broken(name, "it is no PNG, JPEG, WebP, TGA or BMP");
+  if (tga_size(bytes)) return ImageKind::tga;
+  broken(name, "it is no PNG, JPEG, WebP or TGA");
 }
 
 }  // namespace
@@ -150,8 +155,8 @@ TextureImage decode_image(std::span<const std::byte> bytes, const std::string& n
       return decode_png(bytes, name, most_bytes);
     case ImageKind::jpeg:
       return decode_jpeg(bytes, name, most_bytes);
-    case ImageKind::old:
-      return decode_old(bytes, name, most_bytes);
+    case ImageKind::tga:
+      return decode_tga(bytes, name, most_bytes);
     case ImageKind::webp:
       break;
   }
@@ -159,7 +164,7 @@ TextureImage decode_image(std::span<const std::byte> bytes, const std::string& n
 }
 
 bool is_web_image(std::span<const std::byte> bytes, const std::string& name) {
-  return kind_of(bytes, name) != ImageKind::old;
+  return kind_of(bytes, name) != ImageKind::tga;
 }
 
 std::array<int, 2> image_size(std::span<const std::byte> head, const std::string& name) {
@@ -173,8 +178,8 @@ std::array<int, 2> image_size(std::span<const std::byte> head, const std::string
       if (!reader.begin(raw(head), head.size())) broken(name, reader.fault.message);
       return {int(reader.codec.image_width), int(reader.codec.image_height)};
     }
-    case ImageKind::old:
-      return *old_image_size(head);
+    case ImageKind::tga:
+      return *tga_size(head);
     case ImageKind::webp:
       break;
   }

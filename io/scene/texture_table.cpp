@@ -89,8 +89,8 @@ std::vector<std::byte> TextureTable::file(std::uint32_t i) const {
     const ImagePlace& place = images_.at(i);
     const bool web = is_web_image(bytes, place.name);
     if (!place.relief && web) return bytes;
-    TextureImage image =
-        decode_image(bytes, place.name, place.relief ? kMostRelief * sizeof(TextureImage::Texel) : kMostBytes);
+    const std::uint64_t copies = web ? 1 : 2;
+    TextureImage image = decode_image(bytes, place.name, copies * kMostRelief * sizeof(TextureImage::Texel));
     if ((!place.relief || !make_directions(image, *place.relief)) && web) return bytes;
     const std::string made = encode_texture(image).bytes;
     bytes.resize(made.size());

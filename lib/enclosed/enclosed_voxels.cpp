@@ -126,7 +126,8 @@ bool EnclosedVoxels::allows(std::span<const NewFace>, std::span<const Tetrahedro
 std::uint64_t EnclosedVoxels::bytes() const {
   constexpr std::uint64_t kBytesPerBrick = sizeof(BoundaryBrick) + 48;  // of a hash table
   return blocks_.capacity() * sizeof(Block) + bricks_.size() * kBytesPerBrick +
-         points_.capacity() * sizeof(VoxelCoord) + points_.size() * kBytesPerContactPoint;
+         points_.capacity() * sizeof(VoxelCoord) + points_of_.capacity() * sizeof(PointsOf) +
+         points_.size() * kBytesPerContactPoint;
 }
 
 std::vector<Vec3d> EnclosedVoxels::contact_points(const LatticeCoord& origin, const LatticeBox& within) const {

@@ -35,7 +35,7 @@ std::optional<double> SignedVolume::value() const {
 
 std::string volume_text(const std::optional<double>& volume) {
   if (!volume) return "none: the surface is open, or faces both ways";
-  return fmt::format("{:.9g}{}", *volume, *volume < 0 ? ", for its faces point inwards" : "");
+  return fmt::format("{:.9g}{}", *volume, *volume < 0 ? ": the faces point inwards" : "");
 }
 
 }  // namespace bp

@@ -140,10 +140,10 @@ struct LodChain::State {
   }
 
   LodLevel nearest(const LodTarget& target, double scale, const Closed& closing) {
-    MeshParams params = mesh_params(target);
-    LodLevel level = mesh(params, scale, closing, Keep::all);
+    LodLevel level = mesh(mesh_params(target), scale, closing, Keep::all);
     measure(level);
     if (!may_have_faces(level.counts.levels.front().measures, target.faces)) return level;
+    MeshParams params = mesh_params(target);  // anew: they hold the scene's triangles
     params.near = false;
     LodLevel by_volume = mesh(std::move(params), scale, closing);
     measure(by_volume);

@@ -11,10 +11,10 @@ constexpr std::uint64_t kFewFaces = 64;
 /// sequence of proxies, which begins at kFewFaces whatever params.faces is: the next one has four faces fewer, or two
 /// below 40. So more faces do not make the result larger, as a rule: the sequence ends where proxies hold clearly more
 /// than the least that params.faces allow, or where parts and handles leave no fewer faces. The next proxy is the least
-/// of what follows from the one before, at a few numbers of faces or in a jam from the first surface, and, of a scene
-/// in one piece, from the convex hull of the first proxy. Where the sequence ends above params.faces, the result is its
-/// last proxy or that of tight_proxy(): the one with fewer faces, or the smaller one. Cost: some fifty times
-/// tight_proxy() on a surface of some hundred faces.
+/// of several. Some follow from the one before. At a few numbers of faces, and in a jam, one follows from the first
+/// surface. Of a scene in one piece, one follows from the convex hull of the first proxy. Where the sequence ends above
+/// params.faces, the result is its last proxy or that of tight_proxy(): the one with fewer faces, or the smaller one.
+/// Cost: some fifty times tight_proxy() on a surface of some hundred faces.
 [[nodiscard]] LatticeMesh tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclosed,
                                              const SimplifyParams& params, SimplifyCounts& simplified,
                                              TightenCounts& tightened);

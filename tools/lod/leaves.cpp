@@ -36,6 +36,7 @@ class ImageNames {
     const auto [found, is_new] = names_.try_emplace(image);
     if (is_new && images_->size(image)[0] > 0) {
       const std::vector<std::byte> file = images_->file(image);
+      if (file.empty()) return found->second;
       const ResultKey hash = content_hash(file);
       found->second = hex_of(hash.words[0], hash.words[1]) + "." + extension_of(file);
       number_.try_emplace(found->second, image);

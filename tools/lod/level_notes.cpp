@@ -69,7 +69,7 @@ std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std:
       notes.push_back(fmt::format("level {}: {}", first + i, missed));
     if (const double error = level.target.error_world; error > 0 && level.error_world > error)
       notes.push_back(error_note(first + i, level.error_world, error));
-    if (level.error_world > scene.bounds.diagonal() && level.target.faces < kLeastFaces)
+    if (level.error_world > scene.bounds.diagonal() && level.target.faces > 0 && level.target.faces < kLeastFaces)
       notes.push_back(
           fmt::format("level {}: its error is {:.4g}, more than the diagonal of the scene, {:.4g}; {} faces, "
                       "as a box has, come nearer",

@@ -1,6 +1,6 @@
 # Parts of a check find what one check finds, for any way to break a tileset; they hold if it holds.
 write_painted_cubes
-bplod part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles --leaves scene -o good -q > list
+bplod part*.obj --name cubes --voxel 0.1 --tile 128 --profile 3dtiles --levels 3 --leaves scene -o good -q > list
 bpcheck part*.obj good
 for k in 1 2 3; do bpcheck part*.obj good --part $k/3; done
 bpcheck good --part 2/2 --json | grep -A 3 '"part"'

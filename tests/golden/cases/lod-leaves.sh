@@ -14,7 +14,7 @@ for f in first/cubes_leaves/*.glb; do
   echo "$f: $(grep -ao '"attributes":{[^}]*}' $f | tr '\n' ' ')$(grep -ao '"images":[^]]*\]' $f) $(grep -ao '"baseColorFactor":[^]]*\]' $f | tr '\n' ' ')"
 done | sort | uniq
 bpinfo first | grep -o 'tile=.*leaves=[a-z]*'
-bpinfo first --level 3 --image x.png 2>&1 > list | sed 's/^/| /'
+bpinfo first --level 4 --image x.png 2>&1 > list | sed 's/^/| /'
 bpcheck part*.obj first | sed 's/[0-9]* triangles/some triangles/'
 bpcheck --json part*.obj first | grep -e tolerance -e thin -e flat
 

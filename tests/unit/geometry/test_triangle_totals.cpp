@@ -58,7 +58,7 @@ TEST_CASE("a surface that is open or faces both ways has no volume, whatever its
   CHECK_FALSE(totals_of(t).volume);
   CHECK(volume_text({}).find("none") == 0);
   CHECK(volume_text(27) == "27");
-  CHECK(volume_text(-27) == "-27, for its faces point inwards");
+  CHECK(volume_text(-27) == "-27: the faces point inwards");
 }
 
 TEST_CASE("the checksum of a mesh is that of its triangles as a set", "[quick][core]") {

@@ -1,12 +1,11 @@
-#include "io/image/old_images.h"
+#include "io/image/tga_reader.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <memory>
-// Only what is needed of it: less code that meets broken files.
+// Nothing else of it: less code that meets broken files. Its BMP reader shows memory that was never set.
 #define STBI_ONLY_TGA
-#define STBI_ONLY_BMP
 #define STBI_NO_STDIO
 #define STBI_NO_LINEAR
 #define STBI_MAX_DIMENSIONS (1 << 16)
@@ -18,7 +17,7 @@ namespace bp {
 
 namespace {
 
-/// A file that tells whether more of it was asked for than there is: the decoder takes zeros then.
+/// A file that notes whether the decoder asked for more of it than there is. The decoder takes zeros then.
 struct Reading {
   std::span<const std::byte> left;
   bool ended = false;
@@ -42,8 +41,8 @@ struct Reading {
 bool lacks_rows(std::span<const std::byte> bytes, std::uint64_t texels) {
   const auto at = [&](std::size_t i) { return std::to_integer<std::uint64_t>(bytes[i]); };
   const bool packed = at(2) > 3;
-  if (packed || (at(0) == 'B' && at(1) == 'M')) return false;
-  const std::uint64_t colors = (at(5) | at(6) << 8) * ((at(7) + 7) / 8);
+  if (packed) return false;
+  const std::uint64_t colors = at(1) == 1 ? (at(5) | at(6) << 8) * ((at(7) + 7) / 8) : 0;
   return bytes.size() < 18 + at(0) + colors + texels * ((at(16) + 7) / 8);
 }
 
@@ -51,7 +50,7 @@ constexpr stbi_io_callbacks kCallbacks = {Reading::read, Reading::skip, Reading:
 
 }  // namespace
 
-std::optional<std::array<int, 2>> old_image_size(std::span<const std::byte> head) {
+std::optional<std::array<int, 2>> tga_size(std::span<const std::byte> head) {
   Reading reading{head};
   std::array<int, 2> size{};
   int channels = 0;
@@ -59,7 +58,7 @@ std::optional<std::array<int, 2>> old_image_size(std::span<const std::byte> head
   return size;
 }
 
-std::optional<TextureImage> decode_old_image(std::span<const std::byte> bytes) {
+std::optional<TextureImage> decode_tga_bytes(std::span<const std::byte> bytes) {
   Reading reading{bytes};
   int width = 0, height = 0, channels = 0;
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(
