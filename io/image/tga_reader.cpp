@@ -40,8 +40,7 @@ struct Reading {
 /// Whether a TGA that is not packed has fewer texels than it says: its rows are taken as they come.
 bool lacks_rows(std::span<const std::byte> bytes, std::uint64_t texels) {
   const auto at = [&](std::size_t i) { return std::to_integer<std::uint64_t>(bytes[i]); };
-  const bool packed = at(2) > 3;
-  if (packed) return false;
+  if (at(2) > 3) return false;  // packed
   const std::uint64_t colors = at(1) == 1 ? (at(5) | at(6) << 8) * ((at(7) + 7) / 8) : 0;
   return bytes.size() < 18 + at(0) + colors + texels * ((at(16) + 7) / 8);
 }

@@ -91,7 +91,8 @@ std::vector<std::byte> TextureTable::file(std::uint32_t i) const {
     if (!place.relief && web) return bytes;
     const std::uint64_t copies = web ? 1 : 2;
     TextureImage image = decode_image(bytes, place.name, copies * kMostRelief * sizeof(TextureImage::Texel));
-    if ((!place.relief || !make_directions(image, *place.relief)) && web) return bytes;
+    const bool turned = place.relief && make_directions(image, *place.relief);
+    if (web && !turned) return bytes;
     const std::string made = encode_texture(image).bytes;
     bytes.resize(made.size());
     std::memcpy(bytes.data(), made.data(), made.size());

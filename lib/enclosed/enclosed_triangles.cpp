@@ -335,13 +335,13 @@ std::vector<Vec3d> EnclosedTriangles::all_samples() const {
 }
 
 std::vector<Vec3d> EnclosedTriangles::contact_points(const LatticeCoord& origin, const LatticeBox& within) const {
-  const auto before = [](const Vec3d& v, double x) { return v[0] < x; };
-  const auto begin = std::lower_bound(samples_.begin(), samples_.end(), double(within.min.x) - 1, before);
-  const auto end = std::lower_bound(begin, samples_.end(), double(within.max.x) + 1, before);
   std::vector<Vec3d> points;
   if (within.holds(bounds_)) {
     points = samples_;
   } else {
+    const auto before = [](const Vec3d& v, double x) { return v[0] < x; };
+    const auto begin = std::lower_bound(samples_.begin(), samples_.end(), double(within.min.x) - 1, before);
+    const auto end = std::lower_bound(begin, samples_.end(), double(within.max.x) + 1, before);
     std::copy_if(begin, end, std::back_inserter(points), [&](const Vec3d& v) {
       const LatticeCoord p = rounded(v);
       return within.holds({p, p});

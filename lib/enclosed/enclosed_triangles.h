@@ -14,8 +14,8 @@ struct EightTriangles {
 };
 
 /// The triangles of a scene, in scene units and exactly as read: the proxy must not even touch them. All in memory: 108
-/// bytes each and about 40 for the tree. `frame` is the proxy's; its vertices are exact doubles, so the predicates on
-/// doubles are exact too.
+/// bytes each and about 40 for the tree, and contact points. `frame` is the proxy's; its vertices are exact doubles, so
+/// the predicates on doubles are exact too.
 ///
 /// `within`, scene units: only what the triangles have in this closed box must stay inside; elsewhere a face may cut
 /// them. Whether a part is met is then decided on the safe side (triangle_part.h).

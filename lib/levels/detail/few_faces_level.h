@@ -11,7 +11,7 @@ namespace bp {
 [[nodiscard]] bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces);
 
 /// The box that lies around `bounds`, scene units, by a lattice unit or two: a level in the place of `level`, with its
-/// frame, scale and counts. Not measured.
+/// frame and scale. Its distances are not measured.
 [[nodiscard]] LodLevel box_level(const LodLevel& level, const Bounds3d& bounds);
 
 /// Which of two measured levels is better for a target of few faces: one that has no more than these, or else the

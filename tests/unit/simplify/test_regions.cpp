@@ -216,9 +216,14 @@ TEST_CASE("a large proxy that is made by regions holds, and is the same for any 
   SimplifyCounts simplified, again;
   TightenCounts tightened, tightened_again;
   const LatticeMesh proxy = make(1, simplified, tightened);
-  CHECK((simplified.stop == StopReason::faces || simplified.stop == StopReason::least_volume));
-  CHECK(proxy.triangles.size() <= params.faces);
-  CHECK(double(proxy.triangles.size()) > 0.95 * double(params.faces));  // a few may be needless
+  if (params.faces == 7000) {
+    CHECK(simplified.stop == StopReason::faces);
+    CHECK(proxy.triangles.size() == params.faces);
+  } else {  // the last steps are on one mesh: some faces are needless
+    CHECK(simplified.stop == StopReason::least_volume);
+    CHECK(proxy.triangles.size() <= params.faces);
+    CHECK(double(proxy.triangles.size()) > 0.96 * double(params.faces));
+  }
   CHECK(tightened.volume_after < tightened.volume_before);
   CHECK(tightened.volume_after == Approx(std::abs(double(volume6_of(proxy))) / 6));
   check_large_proxy(proxy, towers.solid);
