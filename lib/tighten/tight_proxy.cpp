@@ -17,14 +17,16 @@ namespace {
 constexpr std::uint64_t kEarlyStrict = 16, kEarlyStrictLeast = 10000;
 constexpr std::uint64_t kEarlyFactor = 6;  // of the wanted faces: where growing collapses end
 constexpr double kMiddleFactor = 3;        // where sweeps are made again if the first found much room
-constexpr double kLateFactor = 1.5;        // where the order of collapses changes from quadric error to volume
-constexpr double kMostGrowth = 6;          // of one collapse: some times a face's share of the volume
-constexpr double kMuchRoom = 0.04;         // share of the volume: a first sweep that gains more is worth others
-constexpr int kJamRounds = 4;              // of a sweep and collapses, where these jam above the target; at most
-constexpr std::uint64_t kGrown = 512;      // faces of a jam: among more, growing alone was never seen to lead further
-constexpr std::uint64_t kWhole = 16;       // regions: up to so many faces are collapsed by volume as one mesh
-constexpr double kNeedless = 2;            // volumes over faces squared: a collapse around a ball adds 7 in the mean
-constexpr double kFewDropped = 0.95;       // times the faces: where more are left, the next round would drop few
+constexpr double kLateFactor = 1.25;       // where the order of collapses changes from quadric error to volume
+constexpr double kEarlierFactor = 1.5;     // the same in regions, where fewer edges may collapse, and for few faces
+constexpr std::uint64_t kFewForLate = 64;
+constexpr double kMostGrowth = 6;      // of one collapse: some times a face's share of the volume
+constexpr double kMuchRoom = 0.04;     // share of the volume: a first sweep that gains more is worth others
+constexpr int kJamRounds = 4;          // of a sweep and collapses, where these jam above the target; at most
+constexpr std::uint64_t kGrown = 512;  // faces of a jam: among more, growing alone was never seen to lead further
+constexpr std::uint64_t kWhole = 16;   // regions: up to so many faces are collapsed by volume as one mesh
+constexpr double kNeedless = 2;        // volumes over faces squared: a collapse around a ball adds 7 in the mean
+constexpr double kFewDropped = 0.95;   // times the faces: where more are left, the next round would drop few
 constexpr int kNeedlessRounds = 8;
 
 /// A proxy on the way, and what led to it.
@@ -113,6 +115,12 @@ void collapse_by_error(LatticeMesh& proxy, const Enclosed& enclosed, const Simpl
     const SimplifyCounts now = simplify_on(proxy, late, counts);
     if (late.reach <= 0 || now.stop == StopReason::faces || now.refused[Refusal::growth] == 0) return;
   }
+}
+
+double late_factor(const SimplifyParams& params) {
+  if (!by_volume(params)) return 1;
+  const bool whole = kLateFactor * double(params.faces) <= double(kWhole * params.faces_per_region);
+  return whole && params.faces >= kFewForLate ? kLateFactor : kEarlierFactor;
 }
 
 /// The last step of an editor.
@@ -248,7 +256,7 @@ Way tight_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams&
     tighten_middle(way.proxy, enclosed, params);
   }
   if (params.faces > 0 || params.limits != nullptr)
-    collapse_by_error(way.proxy, enclosed, params, by_volume(params) ? kLateFactor : 1, way.simplified);
+    collapse_by_error(way.proxy, enclosed, params, late_factor(params), way.simplified);
   finish(way, enclosed, params);
   if (is_above_target(way.proxy, params) && way.proxy.triangles.size() <= kGrown)
     try_growing(grown, way, enclosed, params);

@@ -116,9 +116,10 @@ double area_world(const LatticeMesh& mesh) {
 /// and takes no more than half of its share of the error.
 double level_voxel(const LatticeMesh& inner, double voxel, std::uint64_t faces, double error_share) {
   constexpr double kFacesPerVoxelFace = 2 * kSlantedSteps;
+  constexpr double kFacesPerFace = 200;
   constexpr double kVoxelsPerShare = 4;  // a voxel that is touched reaches as far as its diagonal
   const double most = error_share > 0 ? error_share / kVoxelsPerShare : HUGE_VAL;
-  const double enough = std::sqrt(kFacesPerVoxelFace * area_world(inner) / (double(kFacesPerFace) * double(faces)));
+  const double enough = std::sqrt(kFacesPerVoxelFace * area_world(inner) / (kFacesPerFace * double(faces)));
   return std::max(voxel, std::min(enough, most));
 }
 
@@ -163,7 +164,7 @@ class LevelMaker {
     const bool by_faces = !inside() && ground_.enclosed && faces[0] >= kFewFaces && params_.error_world == 0 &&
                           params_.volume_ratio == 0 && params_.edge_factor == 0;
     CoarseStart coarse;
-    if (by_faces) coarse = coarse_start(*shelves.meshed, header_, kFacesPerFace * faces[0], make_shelf_);
+    if (by_faces) coarse = coarse_start(*shelves.meshed, header_, kDensePerFace * faces[0], make_shelf_);
     std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed.get(), faces[0], coarse.surface.get())};
     ground_.enclosed.reset();
     coarse = {};

@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kMostTimes = 64;
 constexpr std::uint64_t kFacesOfTetrahedron = 4;  // the least of a part; a handle adds as many
-constexpr std::uint64_t kFacesPerWanted = 50;     // dense ones: how tight it is does not matter here
 
 StreamHeader closed_at(const StreamHeader& header, double scale) {
   StreamHeader closed = header;
@@ -42,7 +41,7 @@ bool may_have(const BrickShelf& closing, const ScaleSearch& search) {
 
 /// By growing alone, and from larger voxels as meshing does: what that gets to, tightening gets to as well.
 bool has_faces(const StreamHeader& closed, const BrickShelf& closing, const ScaleSearch& search) {
-  const CoarseStart coarse = coarse_start(closing, closed, kFacesPerWanted * search.faces, search.context.make_shelf);
+  const CoarseStart coarse = coarse_start(closing, closed, kDensePerFace * search.faces, search.context.make_shelf);
   const ShelfSurface dense(closing, closed.frame);
   SimplifyParams params;
   params.faces = search.faces;

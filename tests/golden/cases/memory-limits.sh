@@ -32,7 +32,7 @@ bp-plant --triangles 90000 -o plant2.ply > /dev/null
 bpvox plant2.ply --resolution 500 -j 1 -q | bpclose --scale 1% -o closed2.bp -j 1 -q
 enough bpmesh closed2.bp --faces 2000 -o x.glb
 rm x.glb
-enough bpmesh closed2.bp --enclose input --faces 2000 -o x.glb
+enough bpmesh closed2.bp --enclose input --faces 10000 -o x.glb
 rm x.glb plant2.ply closed2.bp
 enough bplod plant.ply --resolution 600 --tile 384 --levels 1 --profile 3dtiles -o x
 rm -r x said

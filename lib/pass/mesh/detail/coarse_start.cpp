@@ -7,7 +7,14 @@ namespace bp {
 
 namespace {
 
-constexpr double kVoxelsPerScale = 2;  // a ball of radius S holds the voxel around its middle: at least root 3
+/// Scene units. All of a voxel with its middle in it lies within a ball of radius S, or a cube: at a whole S between
+/// cubes the proxy would have no room to tighten in.
+double largest_voxel(const StreamHeader& header) {
+  constexpr double kPerCube = 1.25, kPerBall = 1.7320508075688772;
+  if (!header.has_closing || !header.scale.constant()) return 0;
+  const bool straight = header.element == StructuringElement::cube && header.orientation.empty();
+  return header.scale.base / (straight ? kPerCube : kPerBall);
+}
 
 }  // namespace
 
@@ -15,7 +22,7 @@ CoarseStart coarse_start(const BrickShelf& meshed, const StreamHeader& header, s
                          const ShelfFactory& make_shelf) {
   CoarseStart start;
   GridFrame frame = header.frame;
-  const double most = header.has_closing && header.scale.constant() ? header.scale.base / kVoxelsPerScale : 0;
+  const double most = largest_voxel(header);
   while (2 * frame.voxel <= most) {
     auto coarse = make_shelf();
     reduce(start.voxels ? *start.voxels : meshed, frame, *coarse);

@@ -12,11 +12,12 @@ struct CoarseStart {
   std::unique_ptr<SurfaceSource> surface;  ///< null: the stream's voxels are large enough
 };
 
-constexpr std::uint64_t kFacesPerFace = 200;  ///< dense faces for each of a proxy; with 50 its volume is 0.5 % larger
+constexpr std::uint64_t kDensePerFace = 40;  ///< dense faces for each of a proxy: with more it is as tight, but slower
 
 /// What grows in place of the surface of `meshed`: a quarter of the dense faces or less, but at least so many. What
-/// that adds is taken back by tightening. Outside of a closing every point lies in a ball of radius S that is outside,
-/// so voxels of S / 2 close no gap but a neck between two such balls. Cost: reading the voxels.
+/// that adds is taken back by tightening. Outside of a closing every point lies in a ball of radius S, or a cube, that
+/// is outside. It holds any voxel of S / root 3, or S, with its middle in it. So such voxels close no gap but a neck
+/// between two of them. Cost: reading the voxels.
 [[nodiscard]] CoarseStart coarse_start(const BrickShelf& meshed, const StreamHeader& header, std::uint64_t dense_faces,
                                        const ShelfFactory& make_shelf);
 
