@@ -99,7 +99,7 @@ for i, level in enumerate(report["counts"]["levels"]): print(i, level["faces"], 
       [ "$(python3 -c "print(${seen[k]%% *} > ${seen[best]%% *})")" = False ] || best=$k
     done
     pack=${packs[best - 2]}
-    packed=$("$tools/bpinfo" "$pack" --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["triangles"])')
+    packed=$({ "$tools/bpinfo" "$pack" --json 2> /dev/null || echo '{"triangles": 0}'; } | python3 -c 'import json,sys; print(json.load(sys.stdin)["triangles"])')
     cell() { echo "${1// / | }"; }
     echo "| $name | $i | $count | $size | $pixels | $(cell "${seen[0]}") | $packed | $(stat -c %s "$pack") | $(cell "${seen[best]}") | $(cell "${seen[1]}") |"
   done
