@@ -77,13 +77,13 @@ std::vector<std::array<float, 3>> normals_of(const ShadedMesh& mesh, const std::
   return normals;
 }
 
-std::vector<std::array<float, 4>> tangents_for(const LatticeMesh& mesh, const ShadedMesh& drawn,
-                                               const std::vector<std::uint32_t>& order) {
-  const std::vector<std::array<float, 4>> all = tangents_of(mesh, drawn);
+/// Of the copies in `order`.
+std::vector<std::array<float, 4>> in_order(const std::vector<std::array<float, 4>>& all,
+                                           const std::vector<std::uint32_t>& order, UpAxis up) {
   std::vector<std::array<float, 4>> tangents;
   tangents.reserve(order.size());
   for (const std::uint32_t i : order) {
-    const std::array<float, 3> t = to_y_up(mesh.frame.up)(std::array<float, 3>{all[i][0], all[i][1], all[i][2]});
+    const std::array<float, 3> t = to_y_up(up)(std::array<float, 3>{all[i][0], all[i][1], all[i][2]});
     tangents.push_back({t[0], t[1], t[2], all[i][3]});
   }
   return tangents;
@@ -147,11 +147,12 @@ class GlbBuilder {
   void add_mesh(const NamedMesh& named, const Extent& extent, LatticeCoord centre) {
     const LatticeMesh& mesh = *named.mesh;
     ShadedMesh drawn = shaded(mesh);
+    std::vector<std::array<float, 4>> tangents;
+    if (mesh.texture && mesh.texture->normal.is_there()) tangents = tangents_of(mesh, drawn);
     std::vector<std::uint32_t> order = optimize_order(drawn.triangles, drawn.vertex.size());
     const std::vector<std::array<float, 3>> normals = normals_of(drawn, order, mesh.frame.up);
     const std::string uv = uv_bytes(drawn, order), colors = mesh.colors.empty() ? "" : color_bytes(drawn, order);
-    std::vector<std::array<float, 4>> tangents;
-    if (mesh.texture && mesh.texture->normal.is_there()) tangents = tangents_for(mesh, drawn, order);
+    if (!tangents.empty()) tangents = in_order(tangents, order, mesh.frame.up);
     for (std::uint32_t& i : order) i = drawn.vertex[i];
     std::size_t positions = 0;
     if (data_.is_compressed() && extent.within(centre, -kShortInteger, kShortInteger)) {

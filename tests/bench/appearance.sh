@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # How much levels look like their scene, beside gltfpack's simplification (meshoptimizer) at the same triangles or bytes: PSNR,
 # SSIM and FLIP (0: the same) over 24 views, at the size at which the level would be shown: its error is a pixel there (at most 512 pixels).
-# usage: [LEVELS=FACES,...] [MODE=fit] [SAME=bytes] [PACKED=1] [UP=z] appearance.sh TOOLS OUT SCENE...      SCENE: OBJ or glTF
+# usage: [LEVELS=FACES,...] [MODE=fit] [APPEARANCE=full] [SAME=bytes] [PACKED=1] [UP=z] appearance.sh TOOLS OUT SCENE...      SCENE: OBJ or glTF
 # UP: the axis of an OBJ that points up, which its file does not tell (default: y). Files keep its coordinates, and the views turn.
 # PACKED: as for the web, contents of tiles of ours beside gltfpack -cc; else files that every reader takes, beside gltfpack -noq.
 # NODE_PATH: folder of the packages that tests/viewers/run.sh installs, and gltfpack.
@@ -11,7 +11,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$2" && out=$(cd "$2" && pwd)
 shift 2
 gltfpack() { node "$NODE_PATH/gltfpack/cli.js" "$@"; }
-mode=(--mode "${MODE:-bounding}") kind=(-noq) profile=()
+mode=(--mode "${MODE:-bounding}") kind=(-noq) profile=() looks=(--appearance "${APPEARANCE:-auto}")
 [ -z "${PACKED:-}" ] || { kind=(-cc) profile=(--profile 3dtiles --tile 65536); }
 
 # for_gltfpack SCENE FOLDER: prints the scene for gltfpack, which takes colours of MTL for linear light. We and three.js take them for sRGB, so
@@ -71,7 +71,7 @@ for scene in "$@"; do
   triangles=$("$tools/bpinfo" "$work/scene.glb" --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["triangles"])')
   faces=()
   [ -z "${LEVELS:-}" ] || faces=(--faces "$LEVELS")
-  "$tools/bplod" "$scene" "${faces[@]}" "${mode[@]}" "${profile[@]}" -o "$work/levels" --name level --report "$work/report.json" -q > /dev/null
+  "$tools/bplod" "$scene" "${faces[@]}" "${mode[@]}" "${profile[@]}" "${looks[@]}" -o "$work/levels" --name level --report "$work/report.json" -q > /dev/null
   "$tools/bplod" "$scene" "${faces[@]}" "${mode[@]}" -o "$work/colors" --name level --appearance color -q > /dev/null
   python3 -c '
 import json, sys
@@ -99,7 +99,7 @@ for i, level in enumerate(report["counts"]["levels"]): print(i, level["faces"], 
       [ "$(python3 -c "print(${seen[k]%% *} > ${seen[best]%% *})")" = False ] || best=$k
     done
     pack=${packs[best - 2]}
-    packed=$("$tools/bpinfo" "$pack" --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["triangles"])')
+    packed=$({ "$tools/bpinfo" "$pack" --json 2> /dev/null || echo '{"triangles": 0}'; } | python3 -c 'import json,sys; print(json.load(sys.stdin)["triangles"])')
     cell() { echo "${1// / | }"; }
     echo "| $name | $i | $count | $size | $pixels | $(cell "${seen[0]}") | $packed | $(stat -c %s "$pack") | $(cell "${seen[best]}") | $(cell "${seen[1]}") |"
   done

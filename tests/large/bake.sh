@@ -13,7 +13,7 @@ bake() { # THREADS NAME OPTION...
 }
 echo "cores $all; $(grep -m1 'model name' /proc/cpuinfo | cut -d: -f2)"
 for n in ${threads//,/ }; do
-  bake "$n" few --resolution 512 --faces 1000
+  bake "$n" few --resolution 32 --faces 1000
   bake "$n" many --resolution "${FINE:-768}" --faces 12000
   python3 - "$work" "$n" <<'PY'
 import hashlib, json, struct, sys

@@ -1,6 +1,7 @@
 // node appearance.cjs PIXELS SCENE.glb FILE.glb...: prints PSNR, SSIM and FLIP of each FILE against SCENE, over 24 views in which the
-// scene's bounding sphere spans PIXELS. All files lie in one folder. MATERIALS=own: as their materials answer to light; form: in one grey; else
-// colours only. UP=z: this axis of the files points up (default: y). Packages are those of tests/viewers/run.sh (NODE_PATH).
+// scene's bounding sphere spans PIXELS. All files lie in one folder. MATERIALS=own: as their materials answer to light; form: in one grey;
+// flat: the same, by the normals of faces, not by those of files; else colours only. UP=z: this axis of the files points up (default: y).
+// Packages are those of tests/viewers/run.sh (NODE_PATH).
 const fs = require('fs'), http = require('http'), path = require('path');
 const { chromium } = require('playwright-core');
 const [pixels, ...files] = process.argv.slice(2);

@@ -6,6 +6,7 @@
 
 #include "io/gltf/meshopt_codec.h"
 #include "io/mesh/lod_writer.h"
+#include "lib/core/vec3.h"
 #include "tests/catch.h"
 #include "tests/unit/io/mesh/soup.h"
 #include "tests/unit/io/scene/scene_files.h"
@@ -47,6 +48,20 @@ Json json_of(const std::string& path) {
   std::uint32_t size = 0;
   std::memcpy(&size, bytes.data() + 12, 4);
   return Json::parse(bytes.substr(20, size));
+}
+
+/// Of an accessor of a file without compression.
+template <class Number>
+std::vector<Number> numbers(const std::string& path, std::size_t accessor) {
+  const Json doc = json_of(path), &a = doc["accessors"][accessor],
+             &view = doc["bufferViews"][a["bufferView"].get<int>()];
+  const std::map<std::string, std::size_t> sizes{{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
+  std::vector<Number> all(a["count"].get<std::size_t>() * sizes.at(a["type"].get<std::string>()));
+  const std::string bytes = bytes_of_file(path);
+  std::uint32_t json_size = 0;
+  std::memcpy(&json_size, bytes.data() + 12, 4);
+  std::memcpy(all.data(), bytes.data() + 28 + json_size + view.value("byteOffset", 0), all.size() * sizeof all[0]);
+  return all;
 }
 
 template <class Write>
@@ -317,4 +332,52 @@ TEST_CASE("a texture splits vertices by charts and moves none", "[quick][io]") {
   const std::string tile = tile_glb({"tile", &mesh}, origin), plain_tile = tile_glb({"tile", &plain}, origin);
   CHECK(canonical(soup(read_mesh(dir.file("t.glb", tile)))) ==
         canonical(soup(read_mesh(dir.file("p.glb", plain_tile)))));
+}
+
+TEST_CASE("tangents in a file point where u rises on the triangles that have them", "[quick][io]") {
+  constexpr std::uint32_t kSide = 20;
+  const TempDir dir;
+  LatticeMesh mesh;
+  mesh.frame = frame_at({100, 200, 300}, 0.5, UpAxis::y);
+  auto texture = std::make_shared<MeshTexture>();
+  for (std::uint32_t i = 0; i < kSide * kSide; ++i) mesh.vertices.push_back({64 * (i % kSide), 64 * (i / kSide), 0});
+  for (std::uint32_t i = 0; i + kSide < kSide * kSide; ++i) {
+    if (i % kSide + 1 == kSide) continue;
+    mesh.triangles.push_back({i, i + 1, i + kSide});
+    mesh.triangles.push_back({i + 1, i + kSide + 1, i + kSide});
+  }
+  std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), std::mt19937(7));
+  for (const auto& t : mesh.triangles) {
+    const std::uint32_t chart = 2 * (t[0] % kSide / 10) + t[0] / kSide / 10;  // each turned or mirrored in its way
+    texture->chart.push_back(chart);
+    MeshTexture::Corners& uv = texture->uv.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float x = float(t[k] % kSide) / kSide, y = float(t[k] / kSide) / kSide;
+      const std::array<std::array<float, 2>, 4> ways{{{x, y}, {y, x}, {1 - x, y}, {x, 1 - y}}};
+      uv[k] = ways[chart];
+    }
+  }
+  texture->image = texture->normal.bytes = "an image";
+  texture->type = texture->normal.type = "image/jpeg";
+  mesh.texture = texture;
+  const NamedMesh named{"level", &mesh};
+  const std::string path = written(dir, [&](OutputFile& out) { write_lod_glb({&named, 1}, {}, out); });
+  const Json primitive = json_of(path)["meshes"][0]["primitives"][0], &has = primitive["attributes"];
+  const auto triangles = numbers<std::uint16_t>(path, primitive["indices"]);
+  const auto places = numbers<float>(path, has["POSITION"]), tangents = numbers<float>(path, has["TANGENT"]),
+             uv = numbers<float>(path, has["TEXCOORD_0"]);
+  for (std::size_t i = 0; i < triangles.size(); i += 3) {
+    const std::size_t a = triangles[i];
+    const auto edge = [&](std::size_t k) {  // in the plane, and in the image
+      const std::size_t b = triangles[i + k];
+      return std::array<float, 4>{places[3 * b] - places[3 * a], places[3 * b + 1] - places[3 * a + 1],
+                                  uv[2 * b] - uv[2 * a], uv[2 * b + 1] - uv[2 * a + 1]};
+    };
+    const auto e = edge(1), f = edge(2);
+    const float area = e[2] * f[3] - e[3] * f[2];
+    Vec3d rises{double(f[3] * e[0] - e[3] * f[0]) / double(area), double(f[3] * e[1] - e[3] * f[1]) / double(area), 0};
+    rises = (1 / length(rises)) * rises;
+    CHECK(rises[0] * double(tangents[4 * a]) + rises[1] * double(tangents[4 * a + 1]) > 0.999);
+    CHECK(tangents[4 * a + 3] == (area > 0 ? -1 : 1));  // v goes down
+  }
 }
