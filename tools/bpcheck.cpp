@@ -46,6 +46,7 @@ bp::Vec3d origin_of(const bp::CheckRun& o, bp::Report& report) {
 
 void fill_report(bp::Report& report, const bp::CheckRun& o, const bp::Vec3d& origin,
                  const std::vector<bp::CheckReport>& verdicts) {
+  report.bytes_in = bp::size_of_files(o.files);
   report.options = {{"inside", o.inside}, {"convex", o.convex}, {"origin", origin}};
   report.counts = bp::counts_of(verdicts[0]);
   if (verdicts.size() > 1) {
@@ -100,6 +101,7 @@ int run_tileset(const bp::CheckRun& o) {
   bp::print(o.json ? verdict.json(name) : verdict.text(name));
   if (verdict.answer() == bp::Answer::refuted && verdict.scene)
     note_hint(report, o, tileset_hint(scenes, o.files.back(), options));
+  report.bytes_in = bp::size_of_files(o.files);
   report.counts = {{"holds", verdict.holds()}, {"answer", to_string(verdict.answer())}, {"part", verdict.part_json()},
                    {"tiles", verdict.tiles},   {"contents", verdict.contents},          {"findings", verdict.findings}};
   report.write(o.common);

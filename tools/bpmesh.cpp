@@ -51,7 +51,8 @@ bp::MeshParams mesh_params(const bp::MeshOptions& o, const bp::StreamHeader& hea
 void note_origin(bp::Report& report, const bp::MeshOptions& o, const bp::StreamHeader& header, bp::MeshFormat format) {
   const bool gltf = format == bp::MeshFormat::glb || format == bp::MeshFormat::gltf;
   if (!gltf && o.proxy.origin.kind != bp::OriginOption::Kind::automatic) return;
-  if (const std::string text = origin_note(o.proxy.origin, header.frame, header.bounds); !text.empty())
+  const bool tells = format != bp::MeshFormat::stl;
+  if (const std::string text = origin_note(o.proxy.origin, header.frame, header.bounds, tells); !text.empty())
     report.note(text, o.common);
 }
 

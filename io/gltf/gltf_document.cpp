@@ -188,7 +188,7 @@ void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
 }
 
 void GltfDocument::check_root() const {
-  if (root().has("geometricError") && root().has("root"))
+  if (root().has("geometricError"))
     fail(ErrorCode::bad_input, "{}: a tileset of 3D Tiles; it is read as a file whose name ends in .json",
          file_->name());
   const std::string version = root().object("asset").text("version");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -60,6 +61,7 @@ class ObjSource final : public PolygonSource {
   void use_material(char key, const std::string& name);
   void use_name(char key, const std::string& name);
   void read_corners(std::vector<std::uint64_t>& corners);
+  void check_last_line(const std::vector<std::uint64_t>& corners);
   void read_corner_place();
   [[nodiscard]] static std::uint64_t number_before(std::int64_t index, std::uint64_t seen);
   std::uint64_t resolve(std::int64_t index);
@@ -107,6 +109,7 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
       if (key == 'u' || key == 'm') use_material(key, name);
     } else if (key == 'f' && !passed_over_ && is_wanted()) {
       read_corners(corners);
+      check_last_line(corners);
       text_.next_line();
       return true;
     }
@@ -208,6 +211,13 @@ void ObjSource::read_corners(std::vector<std::uint64_t>& corners) {
       text_.fail_here("a face of more than {} corners; is the file intact?", kMaxCorners);
     corners.push_back(resolve(index));
   }
+}
+
+/// Many good files lack the last line's end: only with a face that cannot be whole does it tell that more is missing.
+void ObjSource::check_last_line(const std::vector<std::uint64_t>& corners) {
+  if (!text_.at_end()) return;
+  const bool whole = std::all_of(corners.begin(), corners.end(), [&](std::uint64_t i) { return i < pool_.size(); });
+  if (corners.size() < 3 || !whole) text_.fail_here("the file ends in the middle of its data; it is truncated");
 }
 
 /// Of a number in a line "f" that counts lines so far, from 1, or backwards; kNoVertex: none.

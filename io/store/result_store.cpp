@@ -58,8 +58,7 @@ class Descriptor {
 [[noreturn]] void fail_with(const std::string& name, const char* what, int error) {
   const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
   if (full)
-    fail(ErrorCode::out_of_resource, {Remedy::free_space, Remedy::no_cache}, "{}: cannot {}: {}", name, what,
-         std::strerror(error));
+    fail(ErrorCode::out_of_resource, {Remedy::free_space}, "{}: cannot {}: {}", name, what, std::strerror(error));
   fail(ErrorCode::failed, "{}: cannot {}: {}", name, what, std::strerror(error));
 }
 
@@ -79,8 +78,8 @@ bool read_all(int fd, std::span<std::byte> bytes) {
 
 class FolderStore final : public ResultStore {
  public:
-  FolderStore(std::string folder, std::function<void(const std::string&)> on_read_only)
-      : folder_(std::move(folder)), on_read_only_(std::move(on_read_only)), made_(folder_) {}
+  FolderStore(std::string folder, std::function<void(const std::string&)> on_failure)
+      : folder_(std::move(folder)), on_failure_(std::move(on_failure)), made_(folder_) {}
 
   bool get(const ResultKey& key, std::string& out) override {
     const Descriptor file(::open(name_of(key).c_str(), O_RDONLY | O_CLOEXEC));
@@ -100,14 +99,24 @@ class FolderStore final : public ResultStore {
   }
 
   void put(const ResultKey& key, std::string_view bytes) override {
-    if (read_only_) return;
+    if (failed_) return;
+    try {
+      keep(key, bytes);
+    } catch (const Error& e) {
+      if (!on_failure_) throw;
+      if (!failed_.exchange(true)) on_failure_(e.what());
+    }
+  }
+
+ private:
+  void keep(const ResultKey& key, std::string_view bytes) {
     std::call_once(first_put_, [this] { made_.keep(); });
     const std::string name = name_of(key), place = name.substr(0, name.rfind('/'));
-    if (::mkdir(place.c_str(), 0777) != 0 && errno != EEXIST) return give_up(place, "make this folder", errno);
+    if (::mkdir(place.c_str(), 0777) != 0 && errno != EEXIST) fail_with(place, "make this folder", errno);
     if (::access(place.c_str(), W_OK | X_OK) != 0) {
       const int error = errno;
       if (std::string kept; get(key, kept) && kept == bytes) return;
-      return give_up(place, "write there", error);
+      fail_with(place, "write there", error);
     }
     std::vector<std::byte> packed;
     detail::compress(std::as_bytes(std::span(bytes.data(), bytes.size())), detail::kDefaultLevel, false, packed);
@@ -118,12 +127,6 @@ class FolderStore final : public ResultStore {
     if (put_unnamed(place, name, head, packed)) return;
     if (std::string kept; get(key, kept) && kept == bytes) return;  // another thread or process was faster
     put_beside(name, head, packed);
-  }
-
- private:
-  void give_up(const std::string& place, const char* what, int error) {
-    if (!on_read_only_ || (error != EACCES && error != EPERM && error != EROFS)) fail_with(place, what, error);
-    if (!read_only_.exchange(true)) on_read_only_(fmt::format("{}: cannot {}: {}", place, what, std::strerror(error)));
   }
 
   [[nodiscard]] std::string name_of(const ResultKey& key) const {
@@ -153,8 +156,8 @@ class FolderStore final : public ResultStore {
   }
 
   const std::string folder_;
-  const std::function<void(const std::string&)> on_read_only_;
-  std::atomic<bool> read_only_{false};
+  const std::function<void(const std::string&)> on_failure_;
+  std::atomic<bool> failed_{false};
   std::once_flag first_put_;
   MadeFolder made_;  ///< a run that fails before its first result leaves no folder
 };
@@ -162,8 +165,8 @@ class FolderStore final : public ResultStore {
 }  // namespace
 
 std::unique_ptr<ResultStore> open_result_store(const std::string& folder,
-                                               std::function<void(const std::string&)> on_read_only) {
-  return std::make_unique<FolderStore>(folder, std::move(on_read_only));
+                                               std::function<void(const std::string&)> on_failure) {
+  return std::make_unique<FolderStore>(folder, std::move(on_failure));
 }
 
 }  // namespace bp

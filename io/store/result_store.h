@@ -12,9 +12,10 @@ namespace bp {
 /// bytes as one zstd frame; it has no name before it is complete. One that is damaged, truncated, or another's is
 /// passed over by get() and replaced by put(). Throws `failed` if the folder cannot be made, out_of_resource if it is
 /// full.
-///   on_read_only  called once, by put() on any thread, with the reason if nothing may be written there: what is put is
-///                 not kept from then on, unless it is there already. Without it put() throws `failed`.
+///   on_failure  called once, by put() on any thread, with the reason if a result cannot be written there: what is put
+///   is
+///               not kept from then on, unless it is there already. Without it put() throws.
 [[nodiscard]] std::unique_ptr<ResultStore> open_result_store(
-    const std::string& folder, std::function<void(const std::string& why)> on_read_only = {});
+    const std::string& folder, std::function<void(const std::string& why)> on_failure = {});
 
 }  // namespace bp

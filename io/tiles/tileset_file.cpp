@@ -50,7 +50,8 @@ class Reader {
     tileset.up = gltf_up(root).value_or(UpAxis::z);
     tileset.geometric_error = number_of(json_, root, "geometricError");
     tileset.images = images(root.object("asset"));
-    tileset.root = tile(root.object("root"), json_["root"], 0);
+    const GltfObject top = root.object("root");  // says if there is none
+    tileset.root = tile(top, json_["root"], 0);
     return tileset;
   }
 

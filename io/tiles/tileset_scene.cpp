@@ -179,7 +179,8 @@ RawSourcePtr open_contents(TilesetContents contents, const SceneOptions& options
 
 RawSourcePtr open_tileset(SceneFilePtr file, const SceneOptions& options) {
   const CountedJson tileset = read_json(file, options);
-  if (!tileset.json.is_object() || !tileset.json.contains("root"))
+  const GltfJson& json = tileset.json;
+  if (!json.is_object() || !(json.contains("root") || json.contains("geometricError")))
     return open_gltf(std::move(file), options);  // under another name
   if (file->path().empty())
     fail(ErrorCode::bad_input, "{}: a tileset names files beside it, which a pipe does not have", file->name());

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "lib/check/counted.h"
+
 namespace bp {
 
 namespace {
@@ -31,11 +33,11 @@ void FaceCounts::add(std::span<const std::uint8_t> inner_edges, std::uint64_t pl
 }
 
 std::string FaceCounts::text() const {
-  const std::string all = fmt::format("{} triangles", cut);
+  const std::string all = counted(cut, "triangle");
   if (quads + polygons == 0) return all;
   std::string faces;
   const auto say = [&](std::uint64_t n, const char* what) {
-    if (n > 0) faces += fmt::format("{}{} {}{}", faces.empty() ? "" : " and ", n, what, n == 1 ? "" : "s");
+    if (n > 0) faces += (faces.empty() ? "" : " and ") + counted(n, what);
   };
   say(polygons, "larger polygon");
   say(quads, "quad");

@@ -71,7 +71,6 @@ enum class Remedy {
   double_format,  ///< one that holds doubles
   ply_format,     ///< the one without a limit on what it holds
   free_space,     ///< on the disk of what is written
-  no_cache,
 };
 using Remedies = std::vector<Remedy>;
 

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cstring>
 #include <filesystem>
 
 #include "lib/check/verdict_text.h"
@@ -12,6 +10,7 @@
 #include "lib/core/vec3.h"
 #include "lib/store/content_hash.h"
 #include "lib/store/hex.h"
+#include "tools/notes/shell_word.h"
 #include "tools/run/grounded_source.h"
 #include "tools/run/hiding_recipe.h"
 
@@ -39,17 +38,6 @@ std::string hash_of(const std::vector<std::string>& scenes, SceneOptions options
   }
   const auto [high, low] = hash.value().words;
   return hex_of(high, low);
-}
-
-/// A word of a command line.
-std::string quoted(const std::string& text) {
-  const bool plain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c > 127 || std::strchr("_./+-,:@%", c) != nullptr;
-  });
-  if (plain) return text;
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 }  // namespace
@@ -121,8 +109,8 @@ std::string look_hint(const std::vector<std::string>& files, const std::string& 
   const std::size_t drawn = files.size() - (origin == Vec3d{} ? 0 : 1);
   if (!place || drawn == 0 || std::count(files.begin(), files.end(), "-") > 0) return "";
   std::string command = "bpinfo";
-  for (std::size_t i = 0; i < drawn; ++i) command += " " + quoted(files[i]);
-  if (!format.empty()) command += " --format " + quoted(format);
+  for (std::size_t i = 0; i < drawn; ++i) command += " " + shell_word(files[i]);
+  if (!format.empty()) command += " --format " + shell_word(format);
   return fmt::format("to see the first place: {} --image place.png --zoom 8 --look-at={:.9g},{:.9g},{:.9g}", command,
                      (*place)[0], (*place)[1], (*place)[2]);
 }

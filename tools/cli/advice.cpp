@@ -74,8 +74,6 @@ const char* text_of(Remedy remedy) {
       return "write PLY";
     case Remedy::free_space:
       return "free some space";
-    case Remedy::no_cache:
-      return "leave out --cache";
   }
   return "";
 }

@@ -45,11 +45,11 @@ bool is_of_others(const std::string& folder, bool leave) {
 
 }  // namespace
 
-std::unique_ptr<ResultStore> open_kept_results(const BuildOptions& o, std::string& read_only) {
+std::unique_ptr<ResultStore> open_kept_results(const BuildOptions& o, std::string& fault) {
   if (o.cache.empty()) return nullptr;
-  std::function<void(const std::string&)> when_read_only;
-  if (!o.tiles) when_read_only = [&read_only](const std::string& why) { read_only = why; };
-  std::unique_ptr<ResultStore> results = open_result_store(o.cache, when_read_only);
+  std::function<void(const std::string&)> on_failure;
+  if (!o.tiles) on_failure = [&fault](const std::string& why) { fault = why; };
+  std::unique_ptr<ResultStore> results = open_result_store(o.cache, on_failure);
   static_cast<void>(is_of_others(o.cache, true));
   return results;
 }

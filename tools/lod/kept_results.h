@@ -7,9 +7,9 @@
 /// The folder of --cache.
 namespace bp {
 
-/// Null without --cache. A cache that others fill may be read-only: then `read_only` says why, later. A run of --tiles
+/// Null without --cache. A cache may be read-only, or its disk full: then `fault` says why, later. A run of --tiles
 /// must be able to fill it.
-[[nodiscard]] std::unique_ptr<ResultStore> open_kept_results(const BuildOptions& options, std::string& read_only);
+[[nodiscard]] std::unique_ptr<ResultStore> open_kept_results(const BuildOptions& options, std::string& fault);
 
 /// What is there; nothing is added. The folder need not be there.
 [[nodiscard]] std::unique_ptr<ResultStore> look_up_kept_results(const std::string& path);

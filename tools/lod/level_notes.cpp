@@ -7,6 +7,7 @@
 #include "lib/check/counted.h"
 #include "tools/lod/choices.h"
 #include "tools/notes/face_notes.h"
+#include "tools/notes/shell_word.h"
 #include "tools/run/enclosed_triangles_limit.h"
 
 namespace bp {
@@ -14,15 +15,6 @@ namespace bp {
 namespace {
 
 constexpr double kExactVox = 1.0 / 16;  // of error: vertices lie on a lattice, and the scene need not
-
-/// As a shell takes it for one word.
-std::string quoted(const std::string& word) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-,:@%=";
-  if (word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-  return text + "'";
-}
 
 }  // namespace
 
@@ -127,8 +119,8 @@ std::string proof_command(const BuildOptions& o, const std::string& file, bool h
   std::string command = o.profile == LodProfile::occluder ? "bpcheck --inside" : hulls ? "bpcheck --convex" : "bpcheck";
   if (margin > 0) command += fmt::format(" --margin {}", margin);
   if (!o.voxels.format.empty()) command += " --format " + o.voxels.format;
-  for (const std::string& scene : o.voxels.scenes) command += " " + quoted(scene);
-  return command + " " + quoted(o.out + (o.out.ends_with('/') ? "" : "/") + file);
+  for (const std::string& scene : o.voxels.scenes) command += " " + shell_word(scene);
+  return command + " " + shell_word(o.out + (o.out.ends_with('/') ? "" : "/") + file);
 }
 
 }  // namespace bp

@@ -346,12 +346,12 @@ void build_tileset(const BuildOptions& o) {
   Build build(o);
   const std::unique_ptr<Scratch> files = make_scratch(build.budget.store, o.common.temp);
   build.note(cache_note(o));
-  std::string read_only;  // why the cache keeps nothing: known once the levels are made
-  const std::unique_ptr<ResultStore> results = open_kept_results(o, read_only);
+  std::string fault;  // why the cache keeps nothing: known once the levels are made
+  const std::unique_ptr<ResultStore> results = open_kept_results(o, fault);
   const Shop shop{build, task, results.get(), files.get()};
   MadeTileset made = make_tileset(shop);
   build.progress.end();
-  if (!read_only.empty()) build.note(read_only + "; what is not in the cache was made, and is not kept");
+  if (!fault.empty()) build.note(fault + "; what is not in the cache was made, and is not kept");
   if (folder) return write_tileset(shop, made, *folder);
   build.finish_jobs(made.scene, *o.tiles, made.plan.jobs(), made.found);
 }

@@ -82,12 +82,14 @@ Vec3d origin_of(const OriginOption& option, const GridFrame& frame, const Bounds
   return origin;
 }
 
-std::string origin_note(const OriginOption& option, const GridFrame& frame, const Bounds3d& bounds) {
+std::string origin_note(const OriginOption& option, const GridFrame& frame, const Bounds3d& bounds, bool file_tells) {
   const Vec3d origin = origin_of(option, frame, bounds);
   const double reach = reach_of(bounds, origin);
   const double step = std::ldexp(power_of_two_below(reach), 1 - std::numeric_limits<float>::digits);
   if (option.kind == OriginOption::Kind::automatic && origin != Vec3d{})
-    return fmt::format("--origin auto subtracts {} from all coordinates; bpcheck adds it back", origin_text(origin));
+    return fmt::format("--origin auto subtracts {} from all coordinates{}", origin_text(origin),
+                       file_tells ? "; bpcheck adds it back"
+                                  : ", and the file cannot tell it: give bpcheck --origin=" + origin_text(origin));
   if (option.kind == OriginOption::Kind::off || step <= frame.voxel / kLatticePerVoxel) return "";
   return fmt::format(
       "coordinates of up to {:.6g} have steps of {:.2g} in programs that compute with 32-bit floats, as most engines "

@@ -26,8 +26,10 @@ struct OriginOption {
 [[nodiscard]] Vec3d origin_of(const OriginOption& option, const GridFrame& frame, const Bounds3d& bounds);
 
 /// What is to be said of it; else empty: which point --origin auto has chosen; or that 32-bit floats do not tell
-/// neighbouring lattice points apart, where the option was not given or its point does not help.
-[[nodiscard]] std::string origin_note(const OriginOption& option, const GridFrame& frame, const Bounds3d& bounds);
+/// neighbouring lattice points apart, where the option was not given or its point does not help. file_tells: which
+/// point was subtracted.
+[[nodiscard]] std::string origin_note(const OriginOption& option, const GridFrame& frame, const Bounds3d& bounds,
+                                      bool file_tells = true);
 
 /// "84900,447600,0": as --origin takes it.
 [[nodiscard]] std::string origin_text(const Vec3d& origin);

@@ -120,3 +120,10 @@ stat -c %s cube.obj
 bp-plant --triangles 10000 -o small.ply > list
 bplod small.ply --profile 3dtiles --resolution 300 --tile 64 -q -o deep > list
 bpinfo deep/tileset.json | awk '/^depth/ { if ($5 == 0) print "no content:", $NF == error ? "refined with what is above" : "a hole"; error = $NF }'
+# What is printed as the proof can be run as it is.
+cp cube.obj -- "-d it's.obj"
+bplod --faces 12 --resolution 24 -o "-out" -- "-d it's.obj" 2> said > list
+sed -n 's/.*prove it: //p' said
+eval "$(sed -n 's/.*prove it: //p' said)" | tail -1
+bpcheck cube.obj cube.obj -q --report report.json > said
+sed -n '/"bytes_in"/p' report.json

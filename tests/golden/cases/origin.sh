@@ -4,6 +4,9 @@ sed 's/^v \(.*\) \(.*\) \(.*\)$/echo v $((\1 + 6000000)) $((\2 + 6000000)) \3/e'
 bpvox far.obj --resolution 40 | bpclose --scale 2vx -o far.bpv
 try bpmesh far.bpv --faces 12 -o far.stl
 try bpmesh far.bpv --faces 12 --origin 6000000,6000000,0 -o far.stl
+try bpmesh far.bpv --faces 12 --origin auto -o auto.stl
+said 'bpcheck far.obj auto.stl --origin=6000002,6000002,2 -q | tail -1'
+rm auto.stl
 try bpcheck far.obj far.stl
 try bpcheck far.obj far.stl --origin 6000000,6000000,0
 try bpcheck far.obj far.stl --origin 6000000.1,6000000,1e-9

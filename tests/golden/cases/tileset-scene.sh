@@ -18,7 +18,11 @@ echo '{"asset":{"version":"1.1"},"geometricError":9,"root":{"refine":"ADD","geom
   "transform":[1,0,0,0,0,1,0,0,0,0,1,0,1000,0,0,1],"content":{"uri":"tiles/tileset.json"}}}' > far.json
 bpvox far.json --voxel 0.1 -o far.bpv
 bpinfo far.bpv | grep '^scene '
-# A scene that is not whole is refused.
+# A scene that is not whole is refused, by all tools in the same words.
+echo '{"asset":{"version":"1.1"},"geometricError":1}' > rootless.json
+try bpcheck rootless.json
+try bplod rootless.json -o x
+said 'bplod - --format gltf -o x < rootless.json'
 rm "$(ls tiles/cubes_leaves/*.glb | head -1)"
 try bpvox tiles --voxel 0.1 -o broken.bpv 2>&1 | sed 's/cubes_leaves.*/.../'
 sed -i 's|tiles/tileset.json|far.json|' far.json

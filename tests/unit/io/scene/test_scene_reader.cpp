@@ -157,7 +157,7 @@ TEST_CASE("stdin is spooled and read again after rewind", "[quick][io]") {
 
 TEST_CASE("several scenes come one after the other", "[quick][io]") {
   const TempDir dir;
-  const std::string a = dir.file("a.obj", kTetrahedron), empty = dir.file("empty.obj", ""),
+  const std::string a = dir.file("a.obj", kTetrahedron), empty = dir.file("empty.obj", "# no faces\n"),
                     b = dir.file("b.obj", "v 0 0 9\nv 1 0 9\nv 0 1 9\nf 1 2 3\nf 1 2 2\nf 1 2 7\n");
   const StdinFrom redirected(a);
   const auto source = open_scenes({empty, a, "-", empty, b});

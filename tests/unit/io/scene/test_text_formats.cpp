@@ -93,6 +93,24 @@ TEST_CASE("text keeps every digit of a georeferenced coordinate", "[quick][io]")
   CHECK(read[0][0] == far);
 }
 
+TEST_CASE("an OBJ that breaks off within a face is truncated, and one without a last line end is not", "[quick][io]") {
+  const TempDir dir;
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n";
+  for (const char* const end : {"f", "f ", "f 1 2", "f 1/", "f 1 2 5", "f 1 2 -9", "f 1 2 0"}) {
+    CAPTURE(end);
+    CHECK_THAT(complaint_of(dir.file("cut.obj", vertices + end)),
+               Contains("line 6: the file ends") && Contains("truncated"));
+  }
+  for (const char* const end : {"f 1 2 4", "f 1 2 4 ", "f 1/ 2/ 4/", "f -1 -2 -3", "f 1 2 4 # f 1", "g", "# f 1"}) {
+    CAPTURE(end);
+    CHECK(counts_of(dir.file("whole.obj", vertices + end)).bad_faces == 0);
+  }
+  for (const char* const end : {"f 1 2\n", "f 1 2 5\n", "f 1 2\n# end", "f 1 2\r\n"}) {
+    CAPTURE(end);
+    CHECK(counts_of(dir.file("bad.obj", vertices + end)).bad_faces == 1);
+  }
+}
+
 TEST_CASE("OFF headers come in many shapes", "[quick][io]") {
   const std::string header =
       GENERATE(as<std::string>(), "OFF\n4 1 0\n", "OFF 4 1 0\n", "  OFF4 1 0 # glued\n", "4 1 0\n",

@@ -1,6 +1,8 @@
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -46,6 +48,26 @@ class Unprivileged {
 
  private:
   bool root_;
+};
+
+/// No file may grow meanwhile, which tools take for a full disk.
+class FullDisk {
+ public:
+  FullDisk() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit none{0, before_.rlim_max};
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &none) == 0);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    (void)std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
 };
 
 }  // namespace
@@ -145,6 +167,22 @@ TEST_CASE("where nothing may be written, results are read, and that is said once
     CHECK_THROWS_AS(open_result_store(folder)->put(key(2), "y"), Error);
   }
   allow(fs::perms::owner_all);
+}
+
+TEST_CASE("where a disk is full, that is said once, and nothing is kept", "[quick][io][cache]") {
+  const TempDir dir;
+  const std::string folder = dir.path("store");
+  std::vector<std::string> said;
+  const auto store = open_result_store(folder, [&](const std::string& why) { said.push_back(why); });
+  {
+    const FullDisk full;
+    for (int i = 1; i < 4; ++i) store->put(key(i), "y");
+    CHECK_THROWS_AS(open_result_store(folder)->put(key(1), "y"), Error);
+  }
+  REQUIRE(said.size() == 1);
+  CHECK_THAT(said[0], Contains("cannot write"));
+  store->put(key(1), "y");
+  CHECK(files_of(folder).empty());
 }
 
 TEST_CASE("threads may put the same results at once, and none is ever missing", "[quick][io][cache]") {

@@ -67,8 +67,7 @@ TEST_CASE("every remedy has its words, and is told only by tools that have the o
                {Remedy::set_origin, "set --origin", "bpmesh", "bpvox"},
                {Remedy::double_format, "write GLB, PLY or OBJ", "bpmesh", nullptr},
                {Remedy::ply_format, "write PLY", "bpmesh", nullptr},
-               {Remedy::free_space, "free some space", "bpvox", nullptr},
-               {Remedy::no_cache, "leave out --cache", "bplod", "bpmesh"}};
+               {Remedy::free_space, "free some space", "bpvox", nullptr}};
   for (const auto& row : table) {
     CAPTURE(row.words);
     CHECK(advice_on(row.remedy, row.with) == std::string("; ") + row.words);
