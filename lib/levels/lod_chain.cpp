@@ -80,7 +80,7 @@ struct LodChain::State {
   LodLevel make(const LodTarget& target) {
     LodLevel level = options.cage ? cage(target) : closed(target);
     if (options.cage || !has_ways(target)) measure(level);
-    return level;
+    return may_be_box(target) ? box_or(std::move(level), target) : level;
   }
 
   void measure(LodLevel& level) {
@@ -129,8 +129,7 @@ struct LodChain::State {
         continue;
       }
       last_scale = scale;
-      if (!has_ways(target) || target.faces < kFacesOfBox || options.enclose == Enclose::closing) return level;
-      return box_or(std::move(level), target.faces);
+      return level;
     }
   }
 
@@ -150,11 +149,17 @@ struct LodChain::State {
     return is_better(by_volume, level, target.faces) ? by_volume : level;
   }
 
-  /// Around all that is enclosed.
-  LodLevel box_or(LodLevel level, std::uint64_t faces) {
+  [[nodiscard]] bool may_be_box(const LodTarget& target) const {
+    return !options.cage && options.mode == MeshMode::bounding && options.enclose != Enclose::closing &&
+           target.faces >= kFacesOfBox && target.error_world == 0;
+  }
+
+  /// Around all that is enclosed. Measured only where it may be better.
+  LodLevel box_or(LodLevel level, const LodTarget& target) {
     LodLevel box = box_level(level, options.enclose == Enclose::scene ? header.bounds : outside->bounds());
+    if (!has_ways(target) && !has_few_faces(level) && !holds_no_more(box, level)) return level;
     measure(box);
-    return is_better_box(box, level, faces) ? box : level;
+    return is_better_box(box, level, target.faces) ? box : level;
   }
 
   [[nodiscard]] std::int64_t longest_side() const {

@@ -10,7 +10,7 @@
 #include "lib/core/vec3.h"
 #include "lib/store/content_hash.h"
 #include "lib/store/hex.h"
-#include "tools/notes/shell_word.h"
+#include "tools/cli/shell_word.h"
 #include "tools/run/grounded_source.h"
 #include "tools/run/hiding_recipe.h"
 

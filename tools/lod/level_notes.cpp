@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "lib/check/counted.h"
+#include "tools/cli/shell_word.h"
 #include "tools/lod/choices.h"
 #include "tools/notes/face_notes.h"
-#include "tools/notes/shell_word.h"
 #include "tools/run/enclosed_triangles_limit.h"
 
 namespace bp {

@@ -19,6 +19,10 @@ bool is_of_few_faces(const LodTarget& target) {
   return target.faces > 0 && target.faces < kFew && target.error_world == 0;
 }
 
+bool has_few_faces(const LodLevel& level) {
+  return level.mesh.triangles.size() < kFew;
+}
+
 bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces) {
   return 4 * (measures.shells + measures.handles) <= faces;
 }
@@ -46,6 +50,10 @@ LodLevel box_level(const LodLevel& level, const Bounds3d& bounds) {
   return box;
 }
 
+bool holds_no_more(const LodLevel& level, const LodLevel& other) {
+  return volume_of(level) <= volume_of(other);
+}
+
 bool is_better(const LodLevel& level, const LodLevel& other, std::uint64_t faces) {
   const bool reached = level.mesh.triangles.size() <= faces;
   if (reached != (other.mesh.triangles.size() <= faces)) return reached;
@@ -54,7 +62,7 @@ bool is_better(const LodLevel& level, const LodLevel& other, std::uint64_t faces
 
 bool is_better_box(const LodLevel& box, const LodLevel& other, std::uint64_t faces) {
   if (!is_better(box, other, faces)) return false;
-  return other.mesh.triangles.size() > faces || volume_of(box) <= volume_of(other) ||
+  return other.mesh.triangles.size() > faces || holds_no_more(box, other) ||
          box.error_world < kClearlyNearer * other.error_world;
 }
 

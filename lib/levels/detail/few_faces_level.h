@@ -2,10 +2,14 @@
 #include "lib/levels/lod_chain.h"
 
 /// Bounding levels of so few faces that one way to them may lead anywhere: several are tried, and the nearest is taken.
+/// A box is tried for all that come out with few faces, or hold more than it.
 namespace bp {
 
 /// Whether the target is nothing but a number of faces below 32.
 [[nodiscard]] bool is_of_few_faces(const LodTarget& target);
+
+/// Whether it has fewer than 32.
+[[nodiscard]] bool has_few_faces(const LodLevel& level);
 
 /// Whether few enough faces are possible while all parts and handles of a closed mesh are kept: each takes four.
 [[nodiscard]] bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces);
@@ -13,6 +17,9 @@ namespace bp {
 /// The box that lies around `bounds`, scene units, by a lattice unit or two: a level in the place of `level`, with its
 /// frame and scale. Its distances are not measured.
 [[nodiscard]] LodLevel box_level(const LodLevel& level, const Bounds3d& bounds);
+
+/// By volume.
+[[nodiscard]] bool holds_no_more(const LodLevel& level, const LodLevel& other);
 
 /// Which of two measured levels is better for a target of few faces: one that has no more than these, or else the
 /// nearer one.

@@ -35,4 +35,19 @@ TEST_CASE("levels of few faces are about as near as the scene's box, and no need
   CHECK(level.error_world < (faces < 12 ? 0.6 * diagonal : 1.15 * far));  // 1.01 and 1.8 where one way is tried
 }
 
+TEST_CASE("a flat scene is as near with more faces as its box", "[quick][pass][lod]") {
+  const Triangles scene = {{Vec3d{0, 0, 0}, {10, 0, 0}, {10, 10, 0}}, {Vec3d{0, 0, 0}, {10, 10, 0}, {0, 10, 0}}};
+  const std::uint64_t faces = GENERATE(12, 40, 100, 400);
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 0.05);
+  LodOptions options;
+  options.context.make_shelf = memory_shelves();
+  options.enclose = Enclose::scene, options.scene = scene;
+  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+  const LodLevel level = chain.make({faces, 0, {}});
+  CHECK(level.error_world < 0.01);  // 0.13 and more where no box is tried
+  MemorySource source(scene);
+  CHECK(check_proxy(indexed(level.mesh), &source).holds());
+}
+
 }  // namespace bp::test

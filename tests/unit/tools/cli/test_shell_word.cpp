@@ -1,5 +1,5 @@
 #include "tests/catch.h"
-#include "tools/notes/shell_word.h"
+#include "tools/cli/shell_word.h"
 
 namespace bp::test {
 

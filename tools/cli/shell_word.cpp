@@ -1,4 +1,4 @@
-#include "tools/notes/shell_word.h"
+#include "tools/cli/shell_word.h"
 
 #include <algorithm>
 #include <cctype>
