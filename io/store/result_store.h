@@ -13,8 +13,7 @@ namespace bp {
 /// passed over by get() and replaced by put(). Throws `failed` if the folder cannot be made, out_of_resource if it is
 /// full.
 ///   on_failure  called once, by put() on any thread, with the reason if a result cannot be written there: what is put
-///   is
-///               not kept from then on, unless it is there already. Without it put() throws.
+///               is not kept from then on. Without it put() throws.
 [[nodiscard]] std::unique_ptr<ResultStore> open_result_store(
     const std::string& folder, std::function<void(const std::string& why)> on_failure = {});
 

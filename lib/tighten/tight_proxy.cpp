@@ -19,14 +19,14 @@ constexpr std::uint64_t kEarlyFactor = 6;  // of the wanted faces: where growing
 constexpr double kMiddleFactor = 3;        // where sweeps are made again if the first found much room
 constexpr double kLateFactor = 1.25;       // where the order of collapses changes from quadric error to volume
 constexpr double kEarlierFactor = 1.5;     // the same in regions, where fewer edges may collapse, and for few faces
-constexpr std::uint64_t kFewForLate = 64;
-constexpr double kMostGrowth = 6;      // of one collapse: some times a face's share of the volume
-constexpr double kMuchRoom = 0.04;     // share of the volume: a first sweep that gains more is worth others
-constexpr int kJamRounds = 4;          // of a sweep and collapses, where these jam above the target; at most
-constexpr std::uint64_t kGrown = 512;  // faces of a jam: among more, growing alone was never seen to lead further
-constexpr std::uint64_t kWhole = 16;   // regions: up to so many faces are collapsed by volume as one mesh
-constexpr double kNeedless = 2;        // volumes over faces squared: a collapse around a ball adds 7 in the mean
-constexpr double kFewDropped = 0.95;   // times the faces: where more are left, the next round would drop few
+constexpr std::uint64_t kFewForLate = 64;  // an octahedron of fewer keeps needless ones
+constexpr double kMostGrowth = 6;          // of one collapse: some times a face's share of the volume
+constexpr double kMuchRoom = 0.04;         // share of the volume: a first sweep that gains more is worth others
+constexpr int kJamRounds = 4;              // of a sweep and collapses, where these jam above the target; at most
+constexpr std::uint64_t kGrown = 512;      // faces of a jam: among more, growing alone was never seen to lead further
+constexpr std::uint64_t kWhole = 16;       // regions: up to so many faces are collapsed by volume as one mesh
+constexpr double kNeedless = 2;            // volumes over faces squared: a collapse around a ball adds 7 in the mean
+constexpr double kFewDropped = 0.95;       // times the faces: where more are left, the next round would drop few
 constexpr int kNeedlessRounds = 8;
 
 /// A proxy on the way, and what led to it.

@@ -116,7 +116,7 @@ double area_world(const LatticeMesh& mesh) {
 /// and takes no more than half of its share of the error.
 double level_voxel(const LatticeMesh& inner, double voxel, std::uint64_t faces, double error_share) {
   constexpr double kFacesPerVoxelFace = 2 * kSlantedSteps;
-  constexpr double kFacesPerFace = 200;
+  constexpr double kFacesPerFace = 200;  // dense ones: there is no finer surface to tighten against
   constexpr double kVoxelsPerShare = 4;  // a voxel that is touched reaches as far as its diagonal
   const double most = error_share > 0 ? error_share / kVoxelsPerShare : HUGE_VAL;
   const double enough = std::sqrt(kFacesPerVoxelFace * area_world(inner) / (kFacesPerFace * double(faces)));

@@ -7,8 +7,8 @@ namespace bp {
 
 namespace {
 
-/// Scene units. All of a voxel with its middle in it lies within a ball of radius S, or a cube: at a whole S between
-/// cubes the proxy would have no room to tighten in.
+/// Scene units. A ball of radius S, or a cube, holds all of such a voxel if its own middle lies in it. With a whole S
+/// between cubes the proxy would have no room to tighten in.
 double largest_voxel(const StreamHeader& header) {
   constexpr double kPerCube = 1.25, kPerBall = 1.7320508075688772;
   if (!header.has_closing || !header.scale.constant()) return 0;

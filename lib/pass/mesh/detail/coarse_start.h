@@ -16,8 +16,8 @@ constexpr std::uint64_t kDensePerFace = 40;  ///< dense faces for each of a prox
 
 /// What grows in place of the surface of `meshed`: a quarter of the dense faces or less, but at least so many. What
 /// that adds is taken back by tightening. Outside of a closing every point lies in a ball of radius S, or a cube, that
-/// is outside. It holds any voxel of S / root 3, or S, with its middle in it. So such voxels close no gap but a neck
-/// between two of them. Cost: reading the voxels.
+/// is outside. It holds any voxel of S / root 3, or of S, in which the ball's middle lies. So such voxels close no gap
+/// but a neck between two balls. Cost: reading the voxels.
 [[nodiscard]] CoarseStart coarse_start(const BrickShelf& meshed, const StreamHeader& header, std::uint64_t dense_faces,
                                        const ShelfFactory& make_shelf);
 
