@@ -14,9 +14,9 @@ touch scenes/a.fbm/image.png && after "a file in it"
 mv scenes/chequered.png "scenes/chequered 2.png"
 sed -i 's/map_Kd .*/\tmap_Kd -s 1 1 1 -clamp on .\\chequered 2.png/' scenes/cubes.mtl && after "the materials"
 (cd scenes && chequer red && mv chequered.png "chequered 2.png") && after "an image with a blank and options"
-truncate -s -1 scenes/cubes.mtl && after "a last line without an end" # with an option that nobody knows
-sed -i 's/-clamp on/-colorspace sRGB/' scenes/cubes.mtl && after "an option"
-(cd scenes && chequer blue && mv chequered.png "chequered 2.png") && after "the image of that line"
+sed -i '/map_Kd/d' scenes/cubes.mtl && printf 'newmtl last\nmap_Kd -colorspace sRGB chequered 2.png' >> scenes/cubes.mtl
+after "a last line without an end, an option that nobody knows"
+(cd scenes && chequer green && mv chequered.png "chequered 2.png") && after "the image of that line"
 echo '{"base": "4%", "rules": []}' > rules.json && after "rules" --field rules.json
 echo '{"base": "5%", "rules": []}' > rules.json && after "other rules" --field=rules.json
 # Other formats name images, too: as in addresses, or by a path of another machine.
