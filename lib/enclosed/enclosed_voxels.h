@@ -12,8 +12,7 @@ namespace bp {
 /// A set of voxels, as closed cubes. Touching is allowed: the proxy may lie on their boundary, as the dense surface
 /// does. Exact by separating axes in integers: a tetrahedron is clear if its interior meets no cube's interior. Memory:
 /// 64 bytes per block of 8^3 voxels with a boundary in it; cost of a query: the blocks, and the voxels of some, that
-/// the box around the tetrahedron meets; of contact_points(), the points of all bricks that
-/// `within` meets.
+/// the box around the tetrahedron meets; of contact_points(), the points of all bricks that `within` meets.
 class EnclosedVoxels : public Enclosed {
  public:
   explicit EnclosedVoxels(const BrickShelf& shelf);

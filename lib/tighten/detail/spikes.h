@@ -5,9 +5,8 @@ namespace bp {
 
 /// Takes out vertices that stand far out with next to no volume, as the steps of voxels leave them on what is slanted.
 /// Fits of the volume jam there.
-///   falls  a vertex goes to the place of a neighbour, where that lowers the volume of the proxy with a thin skin
-///   around it cuts   a vertex of three faces beside an edge is cut off, where that lowers the volume; a fall would
-///   leave needles
+///   falls  a vertex goes to the place of a neighbour, where that lowers the volume of the proxy and a thin skin
+///   cuts   a vertex of three faces beside an edge is cut off, where that lowers the volume; a fall would leave needles
 /// Returns how many vertices went. Deterministic. Cost: O(vertices), and some exact tests for each that stands out.
 std::uint64_t drop_spikes(ProxyEditor& editor);
 
