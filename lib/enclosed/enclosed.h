@@ -15,7 +15,7 @@ using Tetrahedron = std::array<LatticeCoord, 4>;
 /// Lattice units, rounded: for the search, not for proofs.
 struct Blocker {
   std::array<Vec3d, 8> points;
-  std::size_t count = 0;
+  std::size_t count = 0;  ///< 0: none
 };
 
 class Enclosed {
@@ -23,7 +23,8 @@ class Enclosed {
   virtual ~Enclosed() = default;
   /// True if the star may shrink: no tetrahedron of `swept` holds any of what must stay inside, given that the old
   /// faces enclosed it. `star` are the faces after the change. Exact; false is always safe.
-  /// `blocker`, if not null: what stood in the way.
+  /// `blocker`, if not null: what stood in the way. What it has before, if its count is not 0, is asked first: what
+  /// stood in the way of a change stands in that of most that are like it.
   [[nodiscard]] virtual bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                                     Blocker* blocker = nullptr) const = 0;
   /// Points of it in the closed box `within` that tell where a proxy must stay outside, relative to `origin`, lattice

@@ -20,6 +20,8 @@ using namespace detail;
 
 namespace {
 
+constexpr std::size_t kCubeCorners = 8;  // of a blocker that is a voxel
+
 /// Occupied voxels of a brick with an empty one across one of their 6 faces.
 BrickBits boundary_of(const BrickShelf& shelf, BrickCoord coord) {
   const VoxelCoord first = first_voxel(coord);
@@ -75,10 +77,19 @@ LatticeCoord low_corner(VoxelCoord v) {
 
 Blocker cube(const LatticeCoord& low, std::int64_t edge) {
   Blocker b;
-  b.count = 8;
-  for (int i = 0; i < 8; ++i)
+  b.count = kCubeCorners;
+  for (int i = 0; i < int(kCubeCorners); ++i)
     b.points[std::size_t(i)] = to_double(low + LatticeCoord{i & 1, (i >> 1) & 1, i >> 2} * edge);
   return b;
+}
+
+/// Whether they are disjoint, for an open voxel and an open tetrahedron. `low`: the voxel's low corner.
+bool is_clear_of(const LatticeCoord& low, const Tetrahedron& t) {
+  Separator separator(t);
+  for (int i = 0; i < 3; ++i) {
+    if (low[i] >= separator.box().max[i] || low[i] + kLatticePerVoxel <= separator.box().min[i]) return true;
+  }
+  return separator.separates(low, kLatticePerVoxel);
 }
 
 }  // namespace
@@ -120,7 +131,12 @@ EnclosedVoxels::EnclosedVoxels(const BrickShelf& shelf) {
 }
 
 bool EnclosedVoxels::allows(std::span<const NewFace>, std::span<const Tetrahedron> swept, Blocker* blocker) const {
-  return std::all_of(swept.begin(), swept.end(), [&](const Tetrahedron& t) { return clear(t, blocker); });
+  const auto all_clear_of = [&](const auto& what) { return std::all_of(swept.begin(), swept.end(), what); };
+  if (blocker != nullptr && blocker->count == kCubeCorners) {
+    const LatticeCoord voxel = rounded(blocker->points[0]);
+    if (!all_clear_of([&](const Tetrahedron& t) { return is_clear_of(voxel, t); })) return false;
+  }
+  return all_clear_of([&](const Tetrahedron& t) { return clear(t, blocker); });
 }
 
 std::uint64_t EnclosedVoxels::bytes() const {

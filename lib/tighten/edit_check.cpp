@@ -71,6 +71,7 @@ bool EditCheck::shape_is_fine() {
 }
 
 bool EditCheck::keeps_enclosed() {
+  blocker_.count = 0;  // what a check has seen before depends on the thread
   if (proxy_.enclosed.allows(faces_, swept_, &blocker_)) return true;
   ++counts.refused[Refusal::enclosed];
   blocked_ = true;

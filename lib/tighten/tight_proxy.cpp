@@ -16,12 +16,12 @@ namespace {
 // Growing collapses turn to strict order at a multiple of the wanted faces; at least at so many: these are quick.
 constexpr std::uint64_t kEarlyStrict = 16, kEarlyStrictLeast = 10000;
 constexpr std::uint64_t kEarlyFactor = 6;  // of the wanted faces: where growing collapses end
-constexpr double kMiddleFactor = 3;        // where sweeps are made again if the first found much room
+constexpr double kMiddleFactor = 3;        // where collapses without growth pause for tightening
 constexpr double kLateFactor = 1.25;       // where the order of collapses changes from quadric error to volume
 constexpr double kEarlierFactor = 1.5;     // the same in regions, where fewer edges may collapse, and for few faces
 constexpr std::uint64_t kFewForLate = 64;  // an octahedron of fewer keeps needless ones
 constexpr double kMostGrowth = 6;          // of one collapse: some times a face's share of the volume
-constexpr double kMuchRoom = 0.04;         // share of the volume: a first sweep that gains more is worth others
+constexpr double kMuchRoom = 0.02;         // share of the volume: sweeps of the pause that gain more are worth others
 constexpr int kJamRounds = 4;              // of a sweep and collapses, where these jam above the target; at most
 constexpr std::uint64_t kGrown = 512;      // faces of a jam: among more, growing alone was never seen to lead further
 constexpr std::uint64_t kWhole = 16;       // regions: up to so many faces are collapsed by volume as one mesh
@@ -55,31 +55,20 @@ TightenParams one_sweep(const SimplifyParams& params) {
 
 // --- The steps of docs/decisions/0003-order-of-steps.md, with its numbers ---
 
-TightenCounts sweep_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params,
-                          const TightenParams& sweeps) {
-  TightenCounts counts;
-  if (has_regions(proxy.triangles.size(), params)) {
-    tighten_regions_on(proxy, enclosed, sweeps, counts);
-  } else {
-    proxy = tighten(proxy, enclosed, sweeps, counts);
-  }
-  return counts;
-}
-
-/// (2) One sweep. True if it found much room.
-bool tighten_early(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params) {
-  const TightenCounts counts = sweep_early(proxy, enclosed, params, one_sweep(params));
-  return counts.volume_before - counts.volume_after > kMuchRoom * std::abs(counts.volume_after);
-}
-
-/// (3) After much room: sweeps on half of the faces gain as much as on all of them.
+/// (2) In the pause. Much of the growth is left there, and half of the faces.
 void tighten_middle(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params) {
   constexpr std::size_t kQuick = 512;  // faces: fewer are worth more sweeps
-  const bool quick = proxy.triangles.size() < kQuick;
-  TightenParams few = one_sweep(params);
-  few.sweeps = quick ? 3 : 2;
-  few.final_sweeps = quick ? 2 : 1;
-  sweep_early(proxy, enclosed, params, few);
+  TightenParams some = tightening_of(params);
+  some.sweeps = 3;
+  some.final_sweeps = proxy.triangles.size() < kQuick ? 2 : 1;
+  some.least_gain = kMuchRoom;
+  some.stops_early = true;
+  TightenCounts counts;
+  if (has_regions(proxy.triangles.size(), params)) {
+    tighten_regions_on(proxy, enclosed, some, counts);
+  } else {
+    proxy = tighten(proxy, enclosed, some, counts);
+  }
 }
 
 /// (2) under limits. A surface of voxels may lie beyond them, and single steps within them would not lead back. They
@@ -102,8 +91,8 @@ SimplifyCounts simplify_on(LatticeMesh& proxy, const SimplifyParams& params, Sim
   return now;
 }
 
-/// (3) In order of quadric error, to `factor` times the faces. Where faces jam by their reach, collapses go on with a
-/// longer one.
+/// (2), (3) In order of quadric error, to `factor` times the faces. Where faces jam by their reach, collapses go on
+/// with a longer one.
 void collapse_by_error(LatticeMesh& proxy, const Enclosed& enclosed, const SimplifyParams& params, double factor,
                        SimplifyCounts& counts) {
   SimplifyParams late = params;
@@ -191,6 +180,16 @@ void drop_needless(ProxyEditor& editor, const SimplifyParams& params, SimplifyCo
   counts.stop = StopReason::least_volume;
 }
 
+/// (5) Of one mesh. The sweeps of regions, which have a gain each, end earlier.
+TightenParams last_sweeps(const SimplifyParams& params) {
+  TightenParams last = tightening_of(params);
+  if (params.limits != nullptr) return last;
+  last.sweeps = 6;
+  last.final_sweeps = 4;
+  last.least_gain = 2e-4;
+  return last;
+}
+
 /// (4), (5) The same on one mesh, by one editor: what it learns in (4) it knows in (5). Many faces are tightened by
 /// regions all the same: that is faster, and next to as tight.
 void finish_whole(Way& way, const Enclosed& enclosed, const SimplifyParams& params) {
@@ -200,7 +199,7 @@ void finish_whole(Way& way, const Enclosed& enclosed, const SimplifyParams& para
     if (is_above_target(way.proxy, params)) thin_whole(editor, params, way.simplified);
     if (by_volume(params) && mesh.face_count() <= params.faces) drop_needless(editor, params, way.simplified);
     if (!has_regions(mesh.face_count(), params)) {
-      way.proxy = tighten(editor, way.proxy.frame, tightening_of(params), way.tightened);
+      way.proxy = tighten(editor, way.proxy.frame, last_sweeps(params), way.tightened);
       return;
     }
     put_back(editor, way.proxy);
@@ -251,7 +250,7 @@ Way tight_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams&
   Way way = grown;
   if (params.limits != nullptr) {
     tighten_to_limits(way.proxy, enclosed, params);
-  } else if (params.faces > 0 && tighten_early(way.proxy, enclosed, params)) {
+  } else if (params.faces > 0) {
     collapse_by_error(way.proxy, enclosed, params, kMiddleFactor, way.simplified);
     tighten_middle(way.proxy, enclosed, params);
   }

@@ -35,13 +35,15 @@ class Tightener {
         stuck_at_(mesh_.vertex_capacity(), 0) {}
 
   void run() {
-    sweep_while_it_gains(params_.sweeps, [this] { move_together(); });
+    const bool gains = sweep_while_it_gains(params_.sweeps, [this] { move_together(); });
+    if (!gains && params_.stops_early) return;
     sweep_while_it_gains(params_.final_sweeps, [this] { move_each(); });
   }
 
  private:
+  /// False if the last one gained too little.
   template <class Move>
-  void sweep_while_it_gains(int most, const Move& move) {
+  bool sweep_while_it_gains(int most, const Move& move) {
     double last = volume_of(mesh_);
     const double least_gain = params_.least_gain * (params_.volume > 0 ? params_.volume : std::abs(last));
     for (int i = 0; i < most; ++i) {
@@ -49,9 +51,10 @@ class Tightener {
       flip_edges();
       if (++counts_.sweeps % kSweepsPerRefresh == 0) editor_.refresh();
       const double now = volume_of(mesh_);
-      if (last - now < least_gain) break;
+      if (last - now < least_gain) return false;
       last = now;
     }
+    return true;
   }
 
   /// Those of faces that have changed since the last time.

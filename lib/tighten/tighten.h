@@ -13,6 +13,7 @@ struct TightenParams : ShapeLimits {
   int sweeps = 4;            ///< at most, that move all vertices together
   int final_sweeps = 3;      ///< then, at most, that move each vertex as far as it goes alone
   double least_gain = 5e-4;  ///< sweeps of a kind end when one gains less than this share of the volume
+  bool stops_early = false;  ///< no single vertices, where the last of the first sweeps gained less than that
   double volume = 0;         ///< the volume for that, lattice units cubed; 0: of the mesh, which is whole then
   std::uint64_t faces_per_region = kFacesPerRegion;  ///< as in SimplifyParams
 };

@@ -15,8 +15,9 @@ namespace bp {
 namespace {
 
 constexpr double kLeastTurn = 0.1;  // cosine between a face's normal before and after
-constexpr int kPlaces = 4;          // places tried between the free minimum and the growing one
+constexpr int kPlaces = 2;          // places tried before the growing one: the free minimum, and halfway between them
 constexpr int kFreePlaces = 4;      // of what keeps nothing inside
+constexpr int kNoOther = 4;         // the attempt after which there are no others
 
 }  // namespace
 
@@ -67,7 +68,7 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_free(const Quad
   for (int attempt = first_attempt; attempt < kFreePlaces; ++attempt) {
     const LatticeCoord p = rounded(places[std::size_t(attempt)]);
     const double cost = q.value(to_double(p));
-    if (acceptable(p, cost)) return Candidate{origin_ + p, cost, attempt + 1 < kFreePlaces ? attempt : kPlaces};
+    if (acceptable(p, cost)) return Candidate{origin_ + p, cost, attempt + 1 < kFreePlaces ? attempt : kNoOther};
   }
   return std::nullopt;
 }
@@ -82,7 +83,7 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_growing(const Q
     if (!p) continue;
     const double cost = q.value(to_double(*p));
     if (!acceptable(*p, cost)) return std::nullopt;
-    return Candidate{origin_ + *p, cost, kPlaces};
+    return Candidate{origin_ + *p, cost, kNoOther};
   }
   refuse(Refusal::constraints);
   return std::nullopt;
@@ -94,6 +95,7 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_enclosing(const
                                                                            int first_attempt) {
   const Vec3d free = minimum(q, prior);
   const Vec3d grown = constrained_minimum(q, prior, constraints_).value_or(pushed_out(free));
+  blocker_.count = 0;
   for (int attempt = first_attempt; attempt < kPlaces; ++attempt) {
     Vec3d x;
     for (std::size_t i = 0; i < 3; ++i) x[i] = free[i] + double(attempt) / kPlaces * (grown[i] - free[i]);
@@ -132,7 +134,7 @@ void CollapsePlanner::plan(HalfEdgeId h, double most, CollapsePlan& plan) {
     return;
   }
   while (candidate && !may_be_taken(candidate->position - origin_))
-    candidate = candidate->attempt == kPlaces ? std::nullopt : solve(h, candidate->attempt + 1);
+    candidate = candidate->attempt == kNoOther ? std::nullopt : solve(h, candidate->attempt + 1);
   plan.refusal = refusal_;
   if (candidate) fill(*candidate, plan);
 }
@@ -345,7 +347,7 @@ bool CollapsePlanner::keeps_inside(const LatticeCoord& p) {
     if (side_along(f.normal, p - f.apex) < 0)
       swept_.push_back({origin_ + f.apex, origin_ + f.pa, origin_ + f.pb, origin_ + p});
   }
-  return params_.enclosed->allows(new_faces_, swept_) || refuse(Refusal::enclosed);
+  return params_.enclosed->allows(new_faces_, swept_, &blocker_) || refuse(Refusal::enclosed);
 }
 
 /// The fan that replaces the star if the edge collapses to p.

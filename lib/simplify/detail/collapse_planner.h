@@ -117,6 +117,7 @@ class CollapsePlanner {
   std::vector<NewFace> new_faces_;
   std::vector<FaceId> replaced_;
   std::vector<Tetrahedron> swept_;
+  Blocker blocker_;  // of the last place for the edge
   std::vector<LatticeCoord> normals_before_;
   std::vector<FaceId> swallowed_;  // faces between the old star and the new one, then their connected parts
 };
