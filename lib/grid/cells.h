@@ -44,8 +44,10 @@ struct CellSpan {
 
 /// The frame with its origin moved down so that cells of all levels fall on voxels and on each other: to a multiple of
 /// 2^n steps from the scene's own origin, at least 2^(n+1) voxels below the bounds, where a step is 64 voxels, or half
-/// of a smaller cell, and n is the least number of reductions that bring the scene into one cell. So a scene that grows
-/// a little keeps its cells.
+/// of a smaller cell, and n is the least number of reductions that bring the scene into one cell. Upright, to a
+/// multiple of 2^n voxels, at most half a cell and half a voxel of level n below the ground, which is on top where up
+/// is a negative axis: no level is cut closely above it, unless 2^n is more than half a cell. So a scene that grows a
+/// little keeps its cells.
 [[nodiscard]] GridFrame aligned_to_cells(const GridFrame& frame, const Bounds3d& bounds, std::int32_t edge_vox);
 
 }  // namespace bp

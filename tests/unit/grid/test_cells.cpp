@@ -31,28 +31,93 @@ void for_each_voxel(const VoxelBox& box, const F& f) {
 
 }  // namespace
 
+namespace {
+
+/// The voxels of the next level.
+VoxelBox reduced(const VoxelBox& box) {
+  VoxelBox out;
+  for (int i = 0; i < 3; ++i) {
+    out.min[i] = floor_div(box.min[i], 2);
+    out.max[i] = ceil_div(box.max[i], 2);
+  }
+  return out;
+}
+
+Bounds3d bounds_at(const Vec3d& low, const Vec3d& size) {
+  Bounds3d bounds;
+  bounds.add(low);
+  bounds.add({low[0] + size[0], low[1] + size[1], low[2] + size[2]});
+  return bounds;
+}
+
+/// Of a scene with voxels of 0.5.
+GridFrame frame_of(const Bounds3d& bounds, std::int32_t edge, UpAxis up = UpAxis::z) {
+  return aligned_to_cells(make_frame(bounds, 0.5, up), bounds, edge);
+}
+
+/// How far above a cut plane of a level a point lies, in cells.
+double above_plane(const GridFrame& frame, int axis, double at, std::int32_t edge, int level) {
+  const double cells = (at / frame.voxel - double(frame.origin[std::size_t(axis)])) / std::ldexp(edge, level);
+  return cells - std::floor(cells);
+}
+
+}  // namespace
+
 TEST_CASE("frames aligned to cells stay so through all reductions, until the scene is in one cell",
           "[quick][grid][lod]") {
   const double reach = GENERATE(10.0, 440.0, 450.0, 5000.0, 100000.0);
   const Vec3d place = GENERATE(Vec3d{0, 0, 0}, Vec3d{-1e5 + 0.3, 7.7e6, -513.25});
-  const std::int32_t edge = GENERATE(64, 128, 512);
-  Bounds3d bounds;
-  bounds.add(place);
-  bounds.add({place[0] + reach, place[1] + reach / 3, place[2] + reach});
+  const std::int32_t edge = GENERATE(64, 128, 192, 512, 2048);
+  const UpAxis up = GENERATE(UpAxis::y, UpAxis::z, UpAxis::minus_x, UpAxis::minus_z);
+  const Bounds3d bounds = bounds_at(place, {reach, reach / 3, reach});
   const Cells cells{edge};
-  GridFrame frame = aligned_to_cells(make_frame(bounds, 0.9), bounds, edge);
+  GridFrame frame = aligned_to_cells(make_frame(bounds, 0.9, up), bounds, edge);
+  for (const std::int64_t o : frame.origin)
+    CHECK(o % 2 == 0);  // also of a scene in one cell: the tree has one above it
+  VoxelBox box = voxel_bounds(frame, bounds);
   for (int level = 0; level < 40; ++level) {
-    const VoxelBox box = voxel_bounds(frame, bounds);
-    CAPTURE(reach, edge, level, box.min.x, box.max.x);
-    for (const std::int64_t o : frame.origin) CHECK(o % std::min(kBrickEdge, edge / 2) == 0);
-    for (int i = 0; i < 3; ++i) CHECK(box.min[i] >= 1);
+    CAPTURE(reach, edge, int(up), level, box.min.x, box.max.x);
     const CellSpan span = cells_spanned(cells, box);
     if (span.count() == 1 && span.first == CellCoord{}) return;  // fine cells may hold it, too, by chance
+    const CellSpan closing = cells_spanned(cells, box.grown(1));
+    for (int i = 0; i < 3; ++i) CHECK(closing.first[i] >= 0);
     const GridFrame coarse = reduced(frame);
     for (std::size_t i = 0; i < 3; ++i) CHECK(2 * coarse.origin[i] == frame.origin[i]);
     frame = coarse;
+    box = reduced(box);
   }
   FAIL("never in the first cell");
+}
+
+TEST_CASE("wherever the ground lies, no level is cut closely above it", "[quick][grid][lod]") {
+  const double ground = GENERATE(-0.01, 0.0, 1.0, 127.99, -64.01, 4711.3);
+  const std::int32_t edge = GENERATE(64, 128, 256, 512);
+  const double side =
+      edge == 64 ? 300 : GENERATE(300.0, 524.0, 704.0);  // else all of its planes lie at multiples of it
+  const UpAxis up = GENERATE(UpAxis::x, UpAxis::y, UpAxis::z, UpAxis::minus_x, UpAxis::minus_y, UpAxis::minus_z);
+  const AxisTurn turn = to_y_up(up);
+  const std::size_t axis = turn.axis[1];
+  const double sign = turn.negative[1] ? -1 : 1;
+  Vec3d low{-411.7, 52.1, 8047.3}, size{side, side, side};
+  size[axis] = 15;
+  low[axis] = sign > 0 ? ground : -ground - size[axis];
+  const GridFrame frame = frame_of(bounds_at(low, size), edge, up);
+  for (int level = 0; edge * 0.5 * std::ldexp(1, level) < side; ++level) {
+    const double above = above_plane(frame, int(axis), sign * ground, edge, level);
+    CAPTURE(ground, edge, side, int(up), level, above);
+    CHECK(std::ldexp(edge, level) * (sign > 0 ? above : 1 - above) > 1);
+    CHECK((sign > 0 ? 1 - above : above) > 0.2);
+  }
+}
+
+TEST_CASE("a scene that changes a little keeps its cells", "[quick][grid][lod]") {
+  const std::int32_t edge = GENERATE(128, 256, 512);
+  const GridFrame frame = frame_of(bounds_at({-0.01, -300, -0.01}, {524, 500, 40}), edge);
+  CHECK(frame == frame_of(bounds_at({0, -300, 0}, {524, 500, 40}), edge));
+  CHECK(frame == frame_of(bounds_at({-0.01, -300, -0.02}, {524, 500, 40.01}), edge));
+  CHECK(frame == frame_of(bounds_at({-5.25, -305, -0.41}, {529.24, 505, 40.4}), edge));  // by 1 % of each side
+  CHECK(frame == frame_of(bounds_at({-0.01, -300, -0.01}, {529, 505, 90}), edge));
+  CHECK(frame == frame_of(bounds_at({3, -296, 1}, {500, 470, 30}), edge));
 }
 
 TEST_CASE("division rounds down and up over the whole range of an integer", "[quick][grid]") {
