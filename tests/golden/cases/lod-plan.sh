@@ -15,10 +15,10 @@ numbers 'voxel|tiles_at_most|tiles|scale' plan.json
 numbers 'voxel|tiles|scale' whole.json
 
 # Three parts, two at a time, then all: nothing is left to do but to write.
-bplod "${options[@]}" --cache cache --tiles 0..7 > list & bplod "${options[@]}" --cache cache --tiles 7..14 > list2 & wait
+bplod "${options[@]}" --cache cache --tiles 0..4 > list & bplod "${options[@]}" --cache cache --tiles 4..7 > list2 & wait
 cat list list2
 bplod "${options[@]}" --cache cache --explain | grep kept
-bplod "${options[@]}" --cache cache --tiles 14..19 --report part.json
+bplod "${options[@]}" --cache cache --tiles 7..11 --report part.json
 bplod "${options[@]}" --cache cache --explain | grep kept
 numbers 'begin|end|of' part.json
 ls
