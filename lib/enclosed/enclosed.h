@@ -23,8 +23,8 @@ class Enclosed {
   virtual ~Enclosed() = default;
   /// True if the star may shrink: no tetrahedron of `swept` holds any of what must stay inside, given that the old
   /// faces enclosed it. `star` are the faces after the change. Exact; false is always safe.
-  /// `blocker`, if not null: what stood in the way. What it has before, if its count is not 0, is asked first: what
-  /// stood in the way of a change stands in that of most that are like it.
+  /// `blocker`, if not null: what stood in the way. What it holds before, from this set and a change like this
+  /// one, may be asked first; count 0: nothing.
   [[nodiscard]] virtual bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                                     Blocker* blocker = nullptr) const = 0;
   /// Points of it in the closed box `within` that tell where a proxy must stay outside, relative to `origin`, lattice

@@ -7,8 +7,8 @@ namespace {
 // A closing reaches one voxel beyond what it closes, and reductions round outwards.
 constexpr std::int64_t kMarginVox = 2;
 
-/// Where cells may begin below the ground: at places half a cell of level 0 apart, if all levels have whole voxels
-/// there, and the scene's own ground, which is next to 0 as a rule, a quarter of a cell above one. `n`, `step`: of
+/// Where cells may begin below the ground: at places half a cell of level 0 apart at most, where all levels have whole
+/// voxels. Next to 0, where the ground lies as a rule, it is half of that above one. `n`, `step`: of
 /// aligned_to_cells().
 std::int64_t place_below(std::int64_t ground, std::int32_t edge_vox, int n, std::int64_t step) {
   const std::int64_t unit = std::int64_t(1) << n, half = edge_vox / 2;

@@ -42,12 +42,12 @@ struct CellSpan {
 [[nodiscard]] CellSpan cells_spanned(const Cells& cells, const VoxelBox& box);
 [[nodiscard]] CellSpan cells_spanned(const Cells& cells, const BrickBox& bricks);
 
-/// The frame with its origin moved down so that cells of all levels fall on voxels and on each other: to a multiple of
-/// 2^n steps from the scene's own origin, at least 2^(n+1) voxels below the bounds, where a step is 64 voxels, or half
-/// of a smaller cell, and n is the least number of reductions that bring the scene into one cell. Upright, to a
-/// multiple of 2^n voxels, at most half a cell and half a voxel of level n below the ground, which is on top where up
-/// is a negative axis: no level is cut closely above it, unless 2^n is more than half a cell. So a scene that grows a
-/// little keeps its cells.
+/// The frame with its origin moved down so that cells of all levels fall on voxels and on each other. n is the least
+/// number of reductions that bring the scene into one cell, and a step 64 voxels, or half of a smaller cell. The origin
+/// is a multiple of 2^n steps from the scene's own origin, at least 2^(n+1) voxels below the bounds: a scene that grows
+/// a little keeps its cells. If n > 0, it is a multiple of 2^n voxels upright, at most half a cell and half of 2^n
+/// below the ground, which is on top where up is a negative axis. So no level is cut closely above the ground, unless
+/// 2^n is more than half a cell.
 [[nodiscard]] GridFrame aligned_to_cells(const GridFrame& frame, const Bounds3d& bounds, std::int32_t edge_vox);
 
 }  // namespace bp

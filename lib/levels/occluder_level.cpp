@@ -6,7 +6,6 @@
 #include "lib/closing/closing.h"
 #include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
-#include "lib/levels/detail/convex_voxels.h"
 #include "lib/pass/mesh/complement.h"
 
 namespace bp {
@@ -14,8 +13,6 @@ namespace bp {
 namespace {
 
 constexpr double kAsMuch = 0.95;                                 // of what the best scale hides
-constexpr double kAll = 0.999;                                   // of what is hidden: no mesh holds more
-constexpr double kPromising = 0.9;                               // of the volume of the best mesh, in opened voxels
 constexpr double kGroundGains = 1.25;                            // times what is hidden without
 constexpr double kLeastTriedVox = 2;                             // that is tried
 constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;  // of the scene's diagonal
@@ -27,7 +24,6 @@ constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;  // with fewer, parts ar
 struct Hidden {
   double scale = 0;
   bool ground = false;
-  bool is_convex = false;  ///< nearly: all scales would hide the same
   HiddenVoxels voxels;
   std::vector<MadeOccluder::Tried> tried;
 };
@@ -37,85 +33,36 @@ HiddenOptions at_scale(HiddenOptions options, double scale_world) {
   return options;
 }
 
-double volume_of(const LodLevel& level) {
-  return level.counts.levels.front().measures.volume;
-}
-
-/// The scales that are tried, from 0.
-std::vector<double> tried_scales(const StreamHeader& header) {
-  std::vector<double> scales{0};
-  const double most = header.bounds.diagonal() * kMostScale;
-  for (double s = (kLeastTriedVox + kBeyondWholeVox) * header.frame.voxel; s <= most; s *= std::sqrt(2.0))
-    scales.push_back(s);
-  return scales;
-}
-
-/// What a scene hides, at the scale that is asked for or the best one.
-class HiddenSearch {
- public:
-  HiddenSearch(const OccluderSource& source, VoxelizedScene& scene, Backends& backends)
-      : source_(source), scene_(scene), backends_(backends), options_(source.hidden) {
-    options_.context.progress = {};  // of each closing
-  }
-
-  /// `done`: tries before this search, of `total`.
-  Hidden run(std::size_t done, std::size_t total) {
-    if (const std::optional<double> asked = source_.request(scene_.header).scale_world) {
-      Hidden one;
-      one.scale = *asked;
-      one.voxels = hidden_voxels(scene_.header, *scene_.solid, backends_, at_scale(source_.hidden, one.scale));
-      return one;
-    }
-    enclosed_ = enclosed_voxels(scene_.header, *scene_.solid, backends_, options_);
-    Hidden best = at(0);
-    const std::uint64_t open = best.voxels.count;
-    best.is_convex = open > 0 && voxels_beside_hull(*enclosed_) <= (1 / kAsMuch - 1) * double(open);
-    best.tried.push_back({0, open});
-    for (const double scale : tried_scales(scene_.header)) {
-      source_.hidden.context.report("closing openings", "scales", done++, total);
-      if (scale == 0) continue;
-      if (best.is_convex) break;
-      Hidden next = at(scale);
-      best.tried.push_back({scale, next.voxels.voxels ? next.voxels.count : open});
-      if (next.voxels.voxels == nullptr) continue;
-      best.voxels = std::move(next.voxels);
-      best.scale = scale;
-    }
-    return chosen(std::move(best));
-  }
-
- private:
-  /// No voxels if there are as many as without a scale, in the same places.
-  Hidden at(double scale) const {
-    Hidden hidden;
-    hidden.scale = scale;
-    const HiddenOptions o = at_scale(options_, scale);
-    if (scale == 0) hidden.voxels = unseen_voxels(*enclosed_, *scene_.solid, o);
-    if (scale == 0) return hidden;
-    const auto unreached = unreached_voxels(scene_.header, *scene_.solid, enclosed_.get(), backends_, o);
-    if (unreached) hidden.voxels = unseen_voxels(*unreached, *scene_.solid, o);
-    return hidden;
-  }
-
-  /// `best` holds the voxels of one of the scales that were tried.
-  Hidden chosen(Hidden best) const {
-    std::uint64_t most = 0;
-    for (const auto& tried : best.tried) most = std::max(most, tried.hidden_voxels);
-    for (const auto& [scale, count] : best.tried) {
-      if (double(count) < kAsMuch * double(most)) continue;
-      if (scale != best.scale) best.voxels = at(scale).voxels;
-      best.scale = scale;
-      break;
-    }
+/// At the scale that is asked for, or the best one.
+Hidden best_hidden(const OccluderSource& source, VoxelizedScene& scene, bool ground, Backends& backends) {
+  const double voxel = scene.header.frame.voxel, diagonal = scene.header.bounds.diagonal();
+  const auto hide = [&](double scale) {
+    return hidden_voxels(scene.header, *scene.solid, backends, at_scale(source.hidden, scale));
+  };
+  Hidden best;
+  best.ground = ground;
+  if (const std::optional<double> asked = source.request(scene.header).scale_world) {
+    best.scale = *asked;
+    best.voxels = hide(best.scale);
     return best;
   }
-
-  const OccluderSource& source_;
-  VoxelizedScene& scene_;
-  Backends& backends_;
-  HiddenOptions options_;
-  std::unique_ptr<BrickShelf> enclosed_;
-};
+  std::uint64_t most = 0;
+  for (double scale = 0; scale <= diagonal * kMostScale;
+       scale = scale == 0 ? (kLeastTriedVox + kBeyondWholeVox) * voxel : scale * std::sqrt(2.0)) {
+    best.voxels = {};  // one at a time
+    best.voxels = hide(scale);
+    best.scale = scale;
+    best.tried.push_back({scale, best.voxels.count});
+    most = std::max(most, best.voxels.count);
+  }
+  for (const auto& [scale, count] : best.tried) {
+    if (double(count) < kAsMuch * double(most)) continue;
+    if (scale != best.scale) best.voxels = hide(scale);
+    best.scale = scale;
+    break;
+  }
+  return best;
+}
 
 /// The mesh within hidden voxels.
 class OccluderMesh {
@@ -129,7 +76,7 @@ class OccluderMesh {
   LodLevel run() {
     const double most = scene_.header.bounds.diagonal() * kMostOpening, voxel = scene_.header.frame.voxel;
     for (double scale = 0; scale <= most; scale = scale == 0 ? 2 * voxel : 2 * scale) {
-      const bool is_better = open_by(scale) && attempt(scale);
+      const bool is_better = attempt(scale);
       if (best_.reached && !is_better) break;
     }
     best_.attempts = attempts_;
@@ -158,39 +105,26 @@ class OccluderMesh {
   }
 
   bool keep_better(LodLevel level, double scale) {
+    const auto volume = [](const LodLevel& l) { return l.counts.levels.front().measures.volume; };
     const bool better = best_.mesh.triangles.empty() || (level.reached && !best_.reached) ||
-                        (level.reached == best_.reached && volume_of(level) > volume_of(best_));
+                        (level.reached == best_.reached && volume(level) > volume(best_));
     if (!better) return false;
     best_ = std::move(level);
     opening_ = scale;
     return true;
   }
 
-  [[nodiscard]] StreamHeader header_at(double scale) const {
+  /// False if nothing is left of it.
+  bool mesh_at(double scale, double least_part, LodLevel& level) {
     StreamHeader header = scene_.header;
     header.bricks = bricks_around(*hidden_.voxels.voxels);
     header.fill = FillMode::inside;
     header.has_closing = scale > 0;
     header.scale.base = scale;
-    return header;
-  }
-
-  /// Makes the voxels that are meshed. False if they are too few for a better mesh than the best one: tightening goes
-  /// beyond them, to what is hidden, but seldom far.
-  bool open_by(double scale) {
-    opened_.reset();
-    if (scale == 0) return true;
-    const double voxel_volume = std::pow(scene_.header.frame.voxel, 3);
-    if (best_.reached && volume_of(best_) > kAll * double(hidden_.voxels.count) * voxel_volume) return false;
-    opened_ = bp::opening(header_at(scale), *hidden_.voxels.voxels, backends_, at_scale(source_.hidden, scale));
-    if (opened_ == nullptr) return false;
-    return !best_.reached || double(count_voxels(*opened_)) * voxel_volume > kPromising * volume_of(best_);
-  }
-
-  /// False if nothing is left of it.
-  bool mesh_at(double scale, double least_part, LodLevel& level) {
-    ShelfSource shelf(header_at(scale), *hidden_.voxels.voxels, opened_.get(), ShelfSource::Keep::all);
-    source_.hidden.context.report("meshing", "tries", std::uint64_t(attempts_), 0);
+    std::unique_ptr<BrickShelf> opened;
+    if (scale > 0) opened = bp::opening(header, *hidden_.voxels.voxels, backends_, at_scale(source_.hidden, scale));
+    if (scale > 0 && opened == nullptr) return false;
+    ShelfSource shelf(header, *hidden_.voxels.voxels, opened.get(), ShelfSource::Keep::all);
     MeshParams params;
     params.mode = MeshMode::inside;
     params.faces = {faces_ > 0 ? faces_ : kFaces};
@@ -209,8 +143,7 @@ class OccluderMesh {
   const VoxelizedScene& scene_;
   const Hidden& hidden_;
   Backends& backends_;
-  std::unique_ptr<BrickShelf> opened_;  // null: nothing is
-  std::uint64_t faces_ = 0;             // 0: not known
+  std::uint64_t faces_ = 0;  // 0: not known
   LodLevel best_;
   double opening_ = 0;
   int attempts_ = 0;
@@ -222,12 +155,10 @@ MadeOccluder make_occluder(const OccluderSource& source, Backends& backends, con
   MadeOccluder made;
   made.scene = source.voxelize(false);
   steps.begin("close openings");
-  const std::size_t scales = tried_scales(made.scene.header).size(), total = scales * (source.may_ground ? 2 : 1);
-  Hidden hidden = HiddenSearch(source, made.scene, backends).run(0, total);
-  if (source.may_ground && !hidden.is_convex) {
+  Hidden hidden = best_hidden(source, made.scene, false, backends);
+  if (source.may_ground) {
     VoxelizedScene grounded = source.voxelize(true);
-    Hidden with = HiddenSearch(source, grounded, backends).run(scales, total);
-    with.ground = true;
+    Hidden with = best_hidden(source, grounded, true, backends);
     if (double(with.voxels.count) > kGroundGains * double(hidden.voxels.count)) hidden = std::move(with);
   }
   made.scale_world = hidden.scale;

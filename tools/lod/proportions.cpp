@@ -43,7 +43,6 @@ void question_proportions(const BuildOptions& o, const SceneSize& scene) {
 }
 
 Estimate estimate_build(const BuildOptions& o, const Bounds3d& scene, const VoxelizeCounts& counts, double voxel) {
-  if (o.profile == LodProfile::occluder) return estimate_occluder(scene, counts, voxel, !o.closing.scale);
   const bool tiles_of_scene = o.is_tileset() && enclosed_by(o, counts.scene.triangles) == Enclose::scene;
   return estimate_levels(scene, counts, voxel, level_count(request_of(o)), o.is_tileset(),
                          (o.levels.errors.empty() ? 1 : kErrorEffort) * (tiles_of_scene ? kTilesOfSceneEffort : 1));

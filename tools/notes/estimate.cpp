@@ -22,8 +22,6 @@ constexpr double kSecondsPerScaledVoxel = 4e-11;  ///< bpclose, a voxel of the g
 constexpr double kSecondsPerFace = 1.3e-6;        ///< bpmesh, a triangle of the dense surface: 1.1 to 3.7e-6
 constexpr double kLodEffort = 2.5;                ///< a level of bplod, over bpmesh
 constexpr double kTilesEffort = 6.5;              ///< a level of a tileset, over bpmesh: 2.5 to 17
-constexpr double kOccluderEffort = 6;             ///< the meshes of an occluder, 1 to 6, over bpmesh
-constexpr double kSecondsPerHiddenVoxel = 1e-7;   ///< of a search, of all scales: a voxel of the grid
 constexpr double kTilesBytes = 150e6;             ///< tiles at work: 130e6 to 260e6
 constexpr double kCoresPerGpu = 64;               ///< bpclose as a whole: 2 to 5 times as fast as 16 cores
 constexpr double kSerialShare = 0.5;              ///< of bpmesh
@@ -100,15 +98,6 @@ Estimate estimate_levels(const Bounds3d& scene, const VoxelizeCounts& counts, do
         estimate_mesh(scene, edge, effort * (tiles ? kTilesEffort : kLodEffort), most_touched_voxels(counts, edge)));
   }
   if (tiles) all.bytes += kTilesBytes;
-  return all;
-}
-
-Estimate estimate_occluder(const Bounds3d& scene, const VoxelizeCounts& counts, double voxel, bool search) {
-  const double touched = most_touched_voxels(counts, voxel);
-  Estimate all = estimate_voxelize(scene, voxel, touched);
-  all.then(estimate_mesh(scene, voxel, kOccluderEffort, touched));
-  if (search)
-    all.core_seconds += kSecondsPerHiddenVoxel * double(all.grid[0]) * double(all.grid[1]) * double(all.grid[2]);
   return all;
 }
 

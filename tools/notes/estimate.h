@@ -38,9 +38,6 @@ struct Estimate {
 /// of estimate_mesh().
 [[nodiscard]] Estimate estimate_levels(const Bounds3d& scene, const VoxelizeCounts& counts, double voxel,
                                        std::size_t levels, bool tiles, double effort = 1);
-/// Of an occluder: its scales, with and without the ground, and its meshes. search: the scale is not given.
-[[nodiscard]] Estimate estimate_occluder(const Bounds3d& scene, const VoxelizeCounts& counts, double voxel,
-                                         bool search);
 constexpr double kErrorEffort = 5;         ///< --error: each new face is measured
 constexpr double kSceneEffort = 4;         ///< --enclose SCENE: the scene's own triangles stay inside
 constexpr double kTilesOfSceneEffort = 2;  ///< tilesets, the same

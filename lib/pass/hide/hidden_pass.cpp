@@ -40,23 +40,6 @@ Shelf filled(const StreamHeader& header, BrickShelf& solid, Backends& backends, 
   return closing(around, solid, 0, false, backends, o);
 }
 
-/// Whether C holds voxels that are not enclosed without a closing.
-bool has_rooms(const BrickShelf& closed, const BrickShelf& closed_filled, const BrickShelf& enclosed) {
-  const std::vector<BrickCoord> coords = closed_filled.coords();
-  std::atomic<bool> found{false};
-  parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
-    const BrickCoord at = coords[std::size_t(i)];
-    if (found || enclosed.fill(at) == BrickFill::full) return;
-    BrickBits e, f, known;
-    closed.get(at, e);
-    closed_filled.get(at, f);
-    enclosed.get(at, known);
-    for (std::size_t k = 0; k < kBrickWords; ++k)
-      if ((f[k] & ~e[k] & ~known[k]) != 0) found = true;
-  });
-  return found;
-}
-
 /// G and C.
 Shelf walls(const BrickShelf& touched, const BrickShelf& closed, const BrickShelf& closed_filled,
             const HiddenOptions& o) {
@@ -98,37 +81,25 @@ BitBox unseen_brick(const BrickShelf& unreached, const BrickShelf& touched, Bric
 
 }  // namespace
 
-Shelf enclosed_voxels(const StreamHeader& header, BrickShelf& touched, Backends& backends, const HiddenOptions& o) {
-  return filled(header, touched, backends, o);
-}
-
-Shelf unreached_voxels(const StreamHeader& header, BrickShelf& touched, const BrickShelf* enclosed, Backends& backends,
-                       const HiddenOptions& o) {
-  Shelf closed = closing(header, touched, o.scale_world, true, backends, o);
-  Shelf closed_filled = filled(header, *closed, backends, o);
-  if (enclosed != nullptr && !has_rooms(*closed, *closed_filled, *enclosed)) return nullptr;
-  const Shelf both = walls(touched, *closed, *closed_filled, o);
-  closed.reset();
-  closed_filled.reset();
-  return filled(header, *both, backends, o);
-}
-
-HiddenVoxels unseen_voxels(const BrickShelf& unreached, const BrickShelf& touched, const HiddenOptions& o) {
+HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Backends& backends,
+                           const HiddenOptions& o) {
+  Shelf unreached;
+  {
+    Shelf closed = closing(header, touched, o.scale_world, true, backends, o);
+    const Shelf both = walls(touched, *closed, *filled(header, *closed, backends, o), o);
+    closed.reset();
+    unreached = filled(header, *both, backends, o);
+  }
   HiddenVoxels out{o.context.make_shelf()};
   std::atomic<std::uint64_t> count{0};
-  const std::vector<BrickCoord> coords = unreached.coords();
+  const std::vector<BrickCoord> coords = unreached->coords();
   parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
-    const BitBox bits = unseen_brick(unreached, touched, coords[std::size_t(i)]);
+    const BitBox bits = unseen_brick(*unreached, touched, coords[std::size_t(i)]);
     count += bits.count();
     store_voxels(bits, *out.voxels);
   });
   out.count = count;
   return out;
-}
-
-HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Backends& backends,
-                           const HiddenOptions& o) {
-  return unseen_voxels(*unreached_voxels(header, touched, nullptr, backends, o), touched, o);
 }
 
 std::unique_ptr<BrickShelf> opening(const StreamHeader& header, BrickShelf& solid, Backends& backends,

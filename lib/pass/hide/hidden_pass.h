@@ -25,22 +25,8 @@ struct HiddenVoxels {
   std::uint64_t count = 0;
 };
 
-/// What no outside reaches without a closing: O' of scale 0 is all the rest. `touched`: as below.
-[[nodiscard]] std::unique_ptr<BrickShelf> enclosed_voxels(const StreamHeader& header, BrickShelf& touched,
-                                                          Backends& backends, const HiddenOptions& options);
-
-/// What is not in O'. `enclosed`: enclosed_voxels(), or null. Null if the scale closes no room beyond these: then it
-/// would be the same.
-[[nodiscard]] std::unique_ptr<BrickShelf> unreached_voxels(const StreamHeader& header, BrickShelf& touched,
-                                                           const BrickShelf* enclosed, Backends& backends,
-                                                           const HiddenOptions& options);
-
-/// Those of `unreached` that are not in T.
-[[nodiscard]] HiddenVoxels unseen_voxels(const BrickShelf& unreached, const BrickShelf& touched,
-                                         const HiddenOptions& options);
-
-/// All of that at once. `touched`: the bricks of `header`, FillMode::none. The result lies in the bricks of `header`.
-/// Out of core; three closings, two of them of scale 0. Throws as close_stream().
+/// `touched`: the bricks of `header`, FillMode::none. The result lies in the bricks of `header`. Out of core; three
+/// closings, two of them of scale 0. Throws as close_stream().
 [[nodiscard]] HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Backends& backends,
                                          const HiddenOptions& options);
 

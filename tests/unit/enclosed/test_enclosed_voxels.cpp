@@ -52,6 +52,7 @@ TEST_CASE("a set of voxels allows what each of its voxels allows, and says which
   }
   const EnclosedVoxels all(shelf);
   int refused = 0;
+  Blocker last;  // of another tetrahedron
   for (int i = 0; i < 4000; ++i) {
     const Tetrahedron t = any_tetrahedron(random);
     const auto allowed = [&](const EnclosedVoxels& e) { return e.allows({}, {{t}}, nullptr); };
@@ -60,6 +61,10 @@ TEST_CASE("a set of voxels allows what each of its voxels allows, and says which
     CAPTURE(i);
     REQUIRE(free == std::all_of(alone.begin(), alone.end(), allowed));
     REQUIRE((blocker.count == 8) == !free);
+    Blocker hint = last, own = blocker;
+    REQUIRE(all.allows({}, {{t}}, &hint) == free);
+    REQUIRE(all.allows({}, {{t}}, &own) == free);
+    if (!free) last = blocker;
     refused += !free;
   }
   CHECK(refused > 200);

@@ -29,10 +29,6 @@ void for_each_voxel(const VoxelBox& box, const F& f) {
       for (p.x = box.min.x; p.x < box.max.x; ++p.x) f(p);
 }
 
-}  // namespace
-
-namespace {
-
 /// The voxels of the next level.
 VoxelBox reduced(const VoxelBox& box) {
   VoxelBox out;
@@ -74,9 +70,14 @@ TEST_CASE("frames aligned to cells stay so through all reductions, until the sce
   GridFrame frame = aligned_to_cells(make_frame(bounds, 0.9, up), bounds, edge);
   for (const std::int64_t o : frame.origin)
     CHECK(o % 2 == 0);  // also of a scene in one cell: the tree has one above it
+  const std::size_t upright = to_y_up(up).axis[1];
   VoxelBox box = voxel_bounds(frame, bounds);
   for (int level = 0; level < 40; ++level) {
     CAPTURE(reach, edge, int(up), level, box.min.x, box.max.x);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (i != upright) CHECK(frame.origin[i] % std::min(kBrickEdge, edge / 2) == 0);
+      if (i != upright) CHECK(box.min[int(i)] >= 1);
+    }
     const CellSpan span = cells_spanned(cells, box);
     if (span.count() == 1 && span.first == CellCoord{}) return;  // fine cells may hold it, too, by chance
     const CellSpan closing = cells_spanned(cells, box.grown(1));

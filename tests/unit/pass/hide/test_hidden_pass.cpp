@@ -20,28 +20,19 @@ struct Made {
   std::uint64_t count = 0;
 };
 
-/// What hidden voxels are made from.
-struct Scene {
-  MemoryShelf shelf;
-  StreamHeader header;
-  Backends backends;
-  HiddenOptions options;
-
-  Scene(const Solid& touched, double scale, StructuringElement element, std::int32_t threads = 2)
-      : backends(plain_backends(threads)) {
-    VoxelSource source(kBox, touched);
-    for (Brick brick; source.read(brick);) shelf.put(brick.coord, brick.fill, brick.bits);
-    header = source.header();
-    header.slab_axis = longest_axis(header.bricks);
-    options.scale_world = scale;
-    options.element = element;
-    options.context.make_shelf = memory_shelves();
-  }
-};
-
 Made made(const Solid& touched, double scale, StructuringElement element, std::int32_t threads = 2) {
-  Scene scene(touched, scale, element, threads);
-  const HiddenVoxels hidden = hidden_voxels(scene.header, scene.shelf, scene.backends, scene.options);
+  VoxelSource source(kBox, touched);
+  MemoryShelf shelf;
+  Brick brick;
+  while (source.read(brick)) shelf.put(brick.coord, brick.fill, brick.bits);
+  StreamHeader header = source.header();
+  header.slab_axis = longest_axis(header.bricks);
+  Backends backends = plain_backends(threads);
+  HiddenOptions options;
+  options.scale_world = scale;
+  options.element = element;
+  options.context.make_shelf = memory_shelves();
+  const HiddenVoxels hidden = hidden_voxels(header, shelf, backends, options);
   Made out{BitBox(voxels_of(bricks_of(kBox))), hidden.count};
   load_voxels(*hidden.voxels, out.bits);
   return out;
@@ -146,23 +137,6 @@ TEST_CASE("an alley that the closing fills is not hidden", "[quick][pass][occlud
   const Made alley = made(houses, 4, StructuringElement::cube);
   CHECK(alley.bits.test({20, 20, 20}));
   CHECK_FALSE(alley.bits.test({32, 20, 20}));
-}
-
-TEST_CASE("a scale that closes no further room is known to hide what is hidden without", "[quick][pass][occluder]") {
-  const auto door = [](double scale, const Solid& touched) {
-    Scene scene(touched, scale, StructuringElement::cube);
-    const auto enclosed = enclosed_voxels(scene.header, scene.shelf, scene.backends, scene.options);
-    return unreached_voxels(scene.header, scene.shelf, enclosed.get(), scene.backends, scene.options) != nullptr;
-  };
-  constexpr VoxelBox outer{{8, 8, 8}, {40, 32, 32}};
-  const Solid closed = [&](VoxelCoord p) { return outer.contains(p) && !outer.grown(-3).contains(p); };
-  for (const double scale : {2.0, 4.0, 6.0}) {
-    CAPTURE(scale);
-    CHECK(door(scale, room) == (scale >= 4));
-    CHECK_FALSE(door(scale, closed));
-    if (scale < 4)
-      CHECK(made(room, scale, StructuringElement::cube).bits == made(room, 0, StructuringElement::cube).bits);
-  }
 }
 
 TEST_CASE("an opening leaves what is wider than twice the scale", "[quick][pass][occluder]") {

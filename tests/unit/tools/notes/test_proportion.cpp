@@ -111,18 +111,3 @@ TEST_CASE("the estimate of a tileset is within a factor of 3 of what runs took",
   CHECK(std::abs(std::log(e.core_seconds / run.seconds)) < std::log(3.0));
   CHECK(std::abs(std::log(e.bytes / run.bytes)) < std::log(3.0));
 }
-
-TEST_CASE("the estimate of an occluder is within a factor of 2 of what runs took", "[quick][tools]") {
-  // Sides of the grid in voxels; user seconds of bplod --profile occluder with its defaults, and with --scale 0.
-  struct Run {
-    double x, y, z, seconds, without_search;
-  };
-  const Run run = GENERATE(Run{513, 365, 353, 26.4, 8.3}, Run{513, 478, 358, 13.5, 9.1}, Run{180, 159, 512, 2.9, 1.6},
-                           Run{236, 513, 428, 8.6, 7.1}, Run{432, 318, 513, 11.1, 7.0}, Run{497, 510, 156, 9.5, 7.8});
-  VoxelizeCounts many;
-  many.area = 1e12;
-  const Bounds3d scene = box(run.x, run.y, run.z);
-  CAPTURE(run.seconds);
-  CHECK(std::abs(std::log(estimate_occluder(scene, many, 1, true).core_seconds / run.seconds)) < std::log(2.0));
-  CHECK(std::abs(std::log(estimate_occluder(scene, many, 1, false).core_seconds / run.without_search)) < std::log(2.0));
-}
