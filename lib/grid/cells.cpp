@@ -7,15 +7,23 @@ namespace {
 // A closing reaches one voxel beyond what it closes, and reductions round outwards.
 constexpr std::int64_t kMarginVox = 2;
 
-/// Where cells may begin below the ground: at places half a cell of level 0 apart at most, where all levels have whole
-/// voxels. Next to 0, where the ground lies as a rule, it is half of that above one. `n`, `step`: of
-/// aligned_to_cells().
-std::int64_t place_below(std::int64_t ground, std::int32_t edge_vox, int n, std::int64_t step) {
+/// Where cells may begin along an axis: `zero` voxels below the scene's own origin, and every `apart` voxels from
+/// there.
+struct Places {
+  std::int64_t margin, apart, zero;
+  /// The last one that leaves the margin to what begins at `low`.
+  [[nodiscard]] std::int64_t below(std::int64_t low) const {
+    return floor_div(low - margin + zero, apart) * apart - zero;
+  }
+};
+
+/// At most half a cell of level 0 apart, where all levels have whole voxels, so that the ground lies in the lower part
+/// of a cell. 0, next to which it lies as a rule, is between two of them. `n`, `step`: of aligned_to_cells().
+Places places_upright(std::int32_t edge_vox, int n, std::int64_t step) {
   const std::int64_t unit = std::int64_t(1) << n, half = edge_vox / 2;
   const std::int64_t apart = std::clamp(half / unit * unit, unit, step << n);
   const std::int64_t zero = ceil_div(std::min(half, apart) / 2, unit) * unit;
-  const std::int64_t margin = unit / 2 + 1;  // the coarsest level that is cut has voxels of half a unit
-  return floor_div(ground - margin + zero, apart) * apart - zero;
+  return {unit / 2 + 1, apart, zero};  // the coarsest level that is cut has voxels of half a unit
 }
 
 }  // namespace
@@ -35,16 +43,15 @@ GridFrame aligned_to_cells(const GridFrame& frame, const Bounds3d& bounds, std::
   int n = 0;
   while ((edge_vox - step - 2 * kMarginVox) << n < longest) ++n;
   const AxisTurn turn = to_y_up(frame.up);
-  const auto up = turn.axis[1];
   GridFrame aligned = frame;
-  for (std::size_t i = 0; i < 3; ++i) {
-    std::int64_t& origin = aligned.origin[i];
-    if (i != std::size_t(up) || n == 0) {
-      origin = floor_div(origin - (kMarginVox << n), step << n) * (step << n);
-    } else if (turn.negative[1]) {
-      origin = -place_below(-(origin + box.max[up] - 1), edge_vox, n, step) - (std::int64_t(edge_vox) << n);
+  for (int i = 0; i < 3; ++i) {
+    std::int64_t& origin = aligned.origin[std::size_t(i)];
+    const bool upright = i == turn.axis[1] && n > 0;
+    const Places places = upright ? places_upright(edge_vox, n, step) : Places{kMarginVox << n, step << n, 0};
+    if (upright && turn.negative[1]) {
+      origin = -places.below(-(origin + box.max[i] - 1)) - (std::int64_t(edge_vox) << n);
     } else {
-      origin = place_below(origin, edge_vox, n, step);
+      origin = places.below(origin);
     }
   }
   return aligned;

@@ -24,6 +24,16 @@ struct Cells {
   return {floor_div(c.x, 2), floor_div(c.y, 2), floor_div(c.z, 2)};
 }
 
+/// The voxels of twice the size that hold a voxel of `box`; their grid has the same origin.
+[[nodiscard]] inline VoxelBox halved(const VoxelBox& box) {
+  VoxelBox half;
+  for (int axis = 0; axis < 3; ++axis) {
+    half.min[axis] = floor_div(box.min[axis], 2);
+    half.max[axis] = ceil_div(box.max[axis], 2);
+  }
+  return half;
+}
+
 /// Cells from `first` to `last`.
 struct CellSpan {
   CellCoord first{}, last{};

@@ -53,10 +53,7 @@ TilesetPlan plan_tileset(const LevelRequest& request, Cells cells, const StreamH
     plan.cut.push_back({target, frame, scale, halo_at(scale, frame), span, number});
     number += span.count();
     plan.uncut = reduced(plan.uncut);
-    for (int i = 0; i < 3; ++i) {  // the origins of frames that are aligned to cells are even
-      solid.min[i] = floor_div(solid.min[i], 2);
-      solid.max[i] = ceil_div(solid.max[i], 2);
-    }
+    solid = halved(solid);  // the origins of frames that are aligned to cells are even
   }
   plan.whole = level_count_with(request, level) - level;
   return plan;

@@ -231,7 +231,7 @@ TEST_CASE("voxels twice as large hold what the eight in them hold", "[quick][clo
     Random random(seed);
     const VoxelBox box = reference::random_box(random, 90);
     const BitBox solid = reference::random_solid(random, box);
-    BitBox large(detail::halved(box).grown(random.between(-2, 3))), small(box);
+    BitBox large(halved(box).grown(random.between(-2, 3))), small(box);
     detail::halve(solid, large);
     int wrong = 0;
     for_each(large.box(), [&](VoxelCoord p) {
@@ -239,7 +239,7 @@ TEST_CASE("voxels twice as large hold what the eight in them hold", "[quick][clo
       for (int i = 0; i < 8; ++i) any = any || solid.test(p * 2 + VoxelCoord{i % 2, i / 2 % 2, i / 4});
       wrong += any == large.test(p) ? 0 : 1;
     });
-    BitBox all(detail::halved(small.box()));
+    BitBox all(halved(small.box()));
     detail::halve(solid, all);
     detail::double_up(all, small);
     for_each(small.box(), [&](VoxelCoord p) {

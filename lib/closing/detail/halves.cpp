@@ -42,15 +42,6 @@ BP_CLONES void split_pairs(const std::uint64_t* words, std::size_t n, std::uint6
 
 }  // namespace
 
-VoxelBox halved(const VoxelBox& box) {
-  VoxelBox half;
-  for (int axis = 0; axis < 3; ++axis) {
-    half.min[axis] = floor_div(box.min[axis], 2);
-    half.max[axis] = ceil_div(box.max[axis], 2);
-  }
-  return half;
-}
-
 void halve(const BitBox& from, BitBox& to) {
   const VoxelBox &small = from.box(), &large = to.box();
   const auto words = std::size_t(to.words_per_row());

@@ -1,11 +1,9 @@
 #pragma once
 #include "lib/grid/bit_box.h"
+#include "lib/grid/cells.h"
 
 /// Boxes of voxels twice as large: voxel p there is the voxels 2 p to 2 p + (1, 1, 1) here.
 namespace bp::detail {
-
-/// The large voxels that hold a voxel of `box`.
-[[nodiscard]] VoxelBox halved(const VoxelBox& box);
 
 /// Sets `to` (its box is kept) to the large voxels that hold something. Cost: some 20 operations for 512 voxels.
 void halve(const BitBox& from, BitBox& to);
