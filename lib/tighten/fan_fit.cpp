@@ -20,7 +20,6 @@ constexpr double kMargin = 0.6;  // lattice units: rounding an apex moves it by 
 void FanFit::clear() {
   rim_.clear();
   points_.clear();
-  sector_.clear();
   avoided_.clear();
 }
 
@@ -38,10 +37,11 @@ double FanFit::volume(const Vec3d& x) const {
   return dot(gradient_, x);
 }
 
-/// Of the plane through the point and the rim's edge of its sector: the apex must be above.
-Vec3d FanFit::normal_over(std::size_t point) const {
-  const std::uint32_t s = sector_[point];
-  return cross(rim_[s] - points_[point], rim_[s + 1 == rim_.size() ? 0 : s + 1] - points_[point]);
+void FanFit::set_plane(Point& point) const {
+  const std::uint32_t s = point.sector;
+  point.plane_of = s;
+  point.normal = cross(rim_[s] - point.at, rim_[s + 1 == rim_.size() ? 0 : s + 1] - point.at);
+  point.margin = kMargin / 2 * length(point.normal);
 }
 
 /// Walks each point to the face that it lies under, at most once around.
@@ -49,9 +49,9 @@ void FanFit::bind(const Vec3d& apex) {
   const auto n = std::uint32_t(rim_.size());
   spokes_.clear();
   for (const Vec3d& r : rim_) spokes_.push_back(cross(outward_, r - apex));
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Vec3d p = points_[i] - apex;
-    std::uint32_t s = sector_[i];
+  for (Point& point : points_) {
+    const Vec3d p = point.at - apex;
+    std::uint32_t& s = point.sector;
     int turned = 0;
     for (std::uint32_t step = 0; step < n; ++step) {
       const std::uint32_t next = s + 1 == n ? 0 : s + 1;
@@ -65,7 +65,6 @@ void FanFit::bind(const Vec3d& apex) {
         break;
       }
     }
-    sector_[i] = s;
   }
 }
 
@@ -74,19 +73,20 @@ bool FanFit::cut(const Vec3d& apex) {
   deepest_.assign(rim_.size(), 0);
   deepest_point_.assign(rim_.size(), 0);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Vec3d n = normal_over(i);
-    const double height = dot(n, apex - points_[i]) - kMargin / 2 * length(n);
-    if (height < deepest_[sector_[i]]) {
-      deepest_[sector_[i]] = height;
-      deepest_point_[sector_[i]] = i;
+    Point& point = points_[i];
+    if (point.plane_of != point.sector) set_plane(point);
+    const double height = dot(point.normal, apex - point.at) - point.margin;
+    if (height < deepest_[point.sector]) {
+      deepest_[point.sector] = height;
+      deepest_point_[point.sector] = i;
     }
   }
   const std::size_t before = cuts_.size();
   for (std::size_t s = 0; s < rim_.size(); ++s) {
     if (deepest_[s] >= 0) continue;
-    const std::size_t i = deepest_point_[s];
-    const Vec3d normal = normal_over(i), n = (1 / length(normal)) * normal;
-    cuts_.push_back({n, dot(n, points_[i]) + kMargin});
+    const Point& point = points_[deepest_point_[s]];
+    const Vec3d n = (1 / length(point.normal)) * point.normal;
+    cuts_.push_back({n, dot(n, point.at) + kMargin});
   }
   return cuts_.size() > before;
 }

@@ -18,10 +18,7 @@ class FanFit {
   void clear();                                        ///< starts a new fan
   void add_rim(const Vec3d& p) { rim_.push_back(p); }  ///< counter-clockwise seen from outside
   /// A point that must stay under the fan; `sector`: index of the rim corner that begins the face it is likely under.
-  void add_point(const Vec3d& p, std::uint32_t sector) {
-    points_.push_back(p);
-    sector_.push_back(sector);
-  }
+  void add_point(const Vec3d& p, std::uint32_t sector) { points_.push_back({p, sector}); }
   /// Call when the rim is complete. False if the rim has no area vector, so that there is no way in.
   [[nodiscard]] bool close();
 
@@ -42,7 +39,16 @@ class FanFit {
   [[nodiscard]] std::optional<Vec3d> least_volume(const Vec3d& start, double reach);
 
  private:
-  [[nodiscard]] Vec3d normal_over(std::size_t point) const;
+  static constexpr std::uint32_t kNone = ~std::uint32_t(0);
+  /// A point under face (apex, rim[sector], rim[sector + 1]), and the plane through it and that edge of the rim.
+  struct Point {
+    Vec3d at;
+    std::uint32_t sector;
+    std::uint32_t plane_of = kNone;  // the sector that the plane is of
+    Vec3d normal{};                  // the apex must be above
+    double margin = 0;               // times the normal's length
+  };
+  void set_plane(Point& point) const;
   void bind(const Vec3d& apex);
   [[nodiscard]] bool cut(const Vec3d& apex);
   void add_plane(const Vec3d& normal, const Vec3d& through, const Vec3d& obstacle);
@@ -50,8 +56,8 @@ class FanFit {
   void avoid_edge(const Vec3d& apex, const Vec3d& p, const Vec3d& q);
   void avoid_face(const Vec3d& apex, const Vec3d& p, const Vec3d& q, const Vec3d& r);
 
-  std::vector<Vec3d> rim_, points_;
-  std::vector<std::uint32_t> sector_;       // per point: under face (apex, rim[sector], rim[sector + 1])
+  std::vector<Vec3d> rim_;
+  std::vector<Point> points_;
   Vec3d gradient_{}, outward_{};            // of the volume
   std::vector<PlaneConstraint> avoided_;    // from avoid()
   std::vector<Vec3d> obstacles_;            // from the last avoid()

@@ -25,6 +25,10 @@ constexpr int kPressingRounds = 8;   // after each, over those with a force
 constexpr std::size_t kBlocks = 16;  // of a phase
 constexpr std::int64_t kFacesAtOnce = 128;
 
+FourFloats lanes_of(const Vec3d& v, double fourth) {
+  return FourFloats{float(v[0]), float(v[1]), float(v[2]), float(fourth)};
+}
+
 }  // namespace
 
 double JointFit::growth(VertexId v) const {
@@ -47,7 +51,8 @@ void JointFit::solve(double reach) {
     relax(blocks_.back());
   }
   for (std::size_t v = 0; v < shift_.size(); ++v) {
-    shift_[v] = moving_[place_[v]].shift;
+    const FourFloats& moved = moving_[place_[v]].shift;
+    shift_[v] = {double(moved[0]), double(moved[1]), double(moved[2])};
     const double size = length(shift_[v]), most = kLongest * reach_[v];
     if (size > most) shift_[v] = (most / size) * shift_[v];
   }
@@ -64,7 +69,10 @@ void JointFit::set_places() {
   } else {
     for (std::uint32_t i = 0; i < n; ++i) place_[i] = i;
   }
-  for (VertexId v = 0; v < n; ++v) moving_[place_[v]] = {shift_[v], softness_[v]};
+  for (VertexId v = 0; v < n; ++v) {
+    const auto soft = float(softness_[v]);
+    moving_[place_[v]] = {lanes_of(shift_[v], 0), FourFloats{soft, soft, soft, 0}};
+  }
 }
 
 void JointFit::gather_rows() {
@@ -187,35 +195,27 @@ void JointFit::add_row(const Facet& facet, const Vec3d& p, std::vector<Row>& row
   if (height < -kDeepest || height > kLongest * facet.reach) return;
   double least = kJointMargin - height;
   if (facet.held) least = std::min(least, 0.0);  // near a corner that stays, others would have to go far for a margin
-  Row row{facet.places, {}, float(least), 0, 0};
-  double give = 0;
+  std::array<Vec3d, 3> g;
+  double give = 0;  // how much the height rises by a unit of force
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3d g = (1 / facet.area) * gradient[k];
-    give += facet.softness[k] * dot(g, g);
-    row.gradient[k] = {float(g[0]), float(g[1]), float(g[2])};
+    g[k] = (1 / facet.area) * gradient[k];
+    give += facet.softness[k] * dot(g[k], g[k]);
   }
-  if (!(give > 0)) return;
-  row.give = float(give);
-  rows.push_back(row);
+  if (give > 0) rows.push_back({{lanes_of(g[0], least), lanes_of(g[1], 1 / give), lanes_of(g[2], 0)}, facet.places, 0});
 }
 
 void JointFit::relax(Row& row) {
-  double rise = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3f& g = row.gradient[k];
-    const Vec3d& s = moving_[row.places[k]].shift;
-    rise += double(g[0]) * s[0] + double(g[1]) * s[1] + double(g[2]) * s[2];
-  }
-  const float force = std::max(0.0F, row.force + float((double(row.least) - rise) / double(row.give)));
-  const double change = double(force) - double(row.force);
+  const std::array<FourFloats, 3>& g = row.gradient;
+  Moving &a = moving_[row.places[0]], &b = moving_[row.places[1]], &c = moving_[row.places[2]];
+  const FourFloats rises = g[0] * a.shift + g[1] * b.shift + g[2] * c.shift;
+  const float rise = rises[0] + rises[1] + rises[2];
+  const float force = std::max(0.0F, row.force + (row.least() - rise) * row.ease());
+  const float change = force - row.force;
   if (change == 0) return;
   row.force = force;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3f& g = row.gradient[k];
-    Moving& corner = moving_[row.places[k]];
-    const double by = change * corner.softness;
-    corner.shift = corner.shift + Vec3d{by * double(g[0]), by * double(g[1]), by * double(g[2])};
-  }
+  a.shift += change * a.softness * g[0];
+  b.shift += change * b.softness * g[1];
+  c.shift += change * c.softness * g[2];
 }
 
 }  // namespace bp

@@ -3,11 +3,12 @@
 #include <vector>
 
 #include "lib/enclosed/contact_points.h"
+#include "lib/mesh/lanes.h"
 
 /// Where all vertices of a proxy should go at once, so that it encloses less and still lies over its contact points.
 /// Moved one at a time, vertices jam: a face that rests on three points holds its corners. The volume and the heights
 /// of the faces over the points are linearised in all coordinates together; a stiffness per vertex bounds the step:
-/// a convex quadratic program. All in doubles: a proposal, which the caller checks exactly.
+/// a convex quadratic program. In doubles, and its forces in floats: a proposal, which the caller checks exactly.
 namespace bp {
 
 class JointFit {
@@ -25,19 +26,18 @@ class JointFit {
   [[nodiscard]] double growth(VertexId v) const;
 
  private:
-  using Vec3f = std::array<float, 3>;
   /// The height of a face over a point: the sum of gradient . shift over the corners must be `least` or more.
   struct Row {
+    std::array<FourFloats, 3> gradient;   // of each corner; in the fourth lanes: `least`, `ease`, nothing
     std::array<std::uint32_t, 3> places;  // of the corners, in moving_
-    std::array<Vec3f, 3> gradient;
-    float least;
-    float give;   // how much the height rises by a unit of force
-    float force;  // multiplier, 0 or more
+    float force;                          // multiplier, 0 or more
+    [[nodiscard]] float least() const { return gradient[0][3]; }
+    [[nodiscard]] float ease() const { return gradient[1][3]; }  ///< force that raises the height by a unit
   };
-  /// A vertex, at a place of its own: those near in space near each other.
+  /// A vertex, at a place of its own: those near in space near each other. The fourth lanes are 0.
   struct Moving {
-    Vec3d shift;
-    double softness;  // shift by a unit of force
+    FourFloats shift;
+    FourFloats softness;  // shift by a unit of force
   };
   /// Rows that no other block's rows of the same phase share a vertex with.
   struct Block {
