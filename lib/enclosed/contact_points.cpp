@@ -66,18 +66,36 @@ LatticeBox grown(const LatticeBox& box, std::int64_t by) {
   return {box.min - d, box.max + d};
 }
 
-/// `first`: the one that is asked first; the nearer it is, the fewer others are.
-std::size_t nearest_of(std::span<const FaceTarget> targets, const Vec3d& p, std::size_t first) {
+/// Of n targets; `first`: the one that is asked first; the nearer it is, the fewer others are.
+template <class TargetAt>
+std::size_t nearest_of(std::size_t n, const TargetAt& target_at, const Vec3d& p, std::size_t first) {
   std::size_t best = first;
-  double least = targets[first].squared_distance(p);
-  for (std::size_t k = 0; k < targets.size(); ++k) {
-    if (k == first || targets[k].is_farther(p, least)) continue;
-    const double d = targets[k].squared_distance(p);
+  double least = target_at(first).squared_distance(p);
+  for (std::size_t k = 0; k < n; ++k) {
+    const FaceTarget& target = target_at(k);
+    if (k == first || target.is_farther(p, least)) continue;
+    const double d = target.squared_distance(p);
     if (d >= least) continue;
     least = d;
     best = k;
   }
   return best;
+}
+
+std::size_t nearest_of(std::span<const FaceTarget> targets, const Vec3d& p, std::size_t first) {
+  return nearest_of(
+      targets.size(), [&](std::size_t k) -> const FaceTarget& { return targets[k]; }, p, first);
+}
+
+/// The face and those that have a corner with it in common, each once.
+void gather_around(const HalfEdgeMesh& mesh, FaceId f, std::vector<FaceId>& around) {
+  around.assign(1, f);
+  for (HalfEdgeId h = 3 * f; h < 3 * f + 3; ++h) {
+    mesh.for_each_outgoing(mesh.from(h), [&](HalfEdgeId g) {
+      const FaceId other = HalfEdgeMesh::face(g);
+      if (std::find(around.begin(), around.end(), other) == around.end()) around.push_back(other);
+    });
+  }
 }
 
 }  // namespace
@@ -146,6 +164,42 @@ void ContactPoints::hand_over(std::span<const FaceId> from, std::span<const Face
   for (const FaceId f : to) scratch.targets.emplace_back(corners(f));
   for (const auto& [i, first] : scratch.moving)
     of_face_[to[nearest_of(scratch.targets, points_[i], first)]].push_back(i);
+}
+
+void ContactPoints::set_targets() {
+  targets_.resize(mesh_.face_capacity());
+  parallel_ranges(std::int64_t(targets_.size()), kFacesAtOnce, [&](std::int64_t begin, std::int64_t end) {
+    for (auto f = FaceId(begin); f < FaceId(end); ++f) {
+      if (mesh_.alive(f)) targets_[f] = FaceTarget(corners(f));
+    }
+  });
+}
+
+/// All but those that it keeps.
+void ContactPoints::give_away(FaceId from, std::vector<FaceId>& around, std::vector<Move>& moves) {
+  gather_around(mesh_, from, around);
+  std::erase_if(of_face_[from], [&](std::uint32_t i) {
+    const FaceId to = around[nearest_of(
+        around.size(), [&](std::size_t k) -> const FaceTarget& { return targets_[around[k]]; }, points_[i], 0)];
+    if (to != from) moves.push_back({i, to});
+    return to != from;
+  });
+}
+
+void ContactPoints::hand_over_around(std::span<const FaceId> faces) {
+  if (faces.empty()) return;
+  set_targets();
+  std::vector<std::vector<Move>> moves(faces.size() / kFacesAtOnce + 1);
+  parallel_ranges(std::int64_t(faces.size()), kFacesAtOnce, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<FaceId> around;
+    for (std::int64_t k = begin; k < end; ++k) {
+      const FaceId f = faces[std::size_t(k)];
+      if (!of_face_[f].empty()) give_away(f, around, moves[std::size_t(begin / kFacesAtOnce)]);
+    }
+  });
+  for (const std::vector<Move>& some : moves) {
+    for (const auto& [point, to] : some) of_face_[to].push_back(point);
+  }
 }
 
 void ContactPoints::add(std::span<const Vec3d> points, const Vec3d& shift, std::span<const FaceId> near) {

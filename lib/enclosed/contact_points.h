@@ -29,12 +29,23 @@ class ContactPoints {
   /// At the same time for different faces.
   void hand_over(std::span<const FaceId> from, std::span<const FaceId> to, Scratch& scratch);
 
+  /// Lists the points of `faces`, each once, with the nearest of the faces at their corners: after many changes around
+  /// them. Parallel; builds a target for each face of the mesh.
+  void hand_over_around(std::span<const FaceId> faces);
+
   /// More points, relative to origin() + `shift`, each for the nearest of the faces `near`; not those that are there
   /// already, to a unit.
   void add(std::span<const Vec3d> points, const Vec3d& shift, std::span<const FaceId> near);
 
  private:
   [[nodiscard]] std::array<Vec3d, 3> corners(FaceId f) const;
+  /// A point that a face gives to another one.
+  struct Move {
+    std::uint32_t point;
+    FaceId to;
+  };
+  void set_targets();
+  void give_away(FaceId from, std::vector<FaceId>& around, std::vector<Move>& moves);
   void keep_outermost(FaceId f);
   void drop_unlisted();
 
@@ -43,6 +54,7 @@ class ContactPoints {
   std::vector<Vec3d> points_;
   std::vector<std::vector<std::uint32_t>> of_face_;
   Scratch scratch_;
+  std::vector<FaceTarget> targets_;  // of hand_over_around(), by face
   std::set<LatticeCoord> added_;
 };
 

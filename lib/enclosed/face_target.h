@@ -12,6 +12,7 @@ namespace bp {
 /// distances bound that of the face from below.
 class FaceTarget {
  public:
+  FaceTarget() = default;
   explicit FaceTarget(const std::array<Vec3d, 3>& corners);
   [[nodiscard]] double squared_distance(const Vec3d& p) const;
   /// As far or farther, surely but for rounding; false: it may be.

@@ -49,6 +49,7 @@ class Tightener {
     for (int i = 0; i < most; ++i) {
       move();
       flip_edges();
+      editor_.settle_points_of_many();
       if (++counts_.sweeps % kSweepsPerRefresh == 0) editor_.refresh();
       const double now = volume_of(mesh_);
       if (last - now < least_gain) return false;
@@ -95,7 +96,6 @@ class Tightener {
         waiting_.push_back(steps_[k]);
       }
     }
-    editor_.settle_points();
   }
 
   [[nodiscard]] bool is_new_edge(HalfEdgeId h, std::uint64_t since) const {
@@ -140,12 +140,12 @@ class Tightener {
 
   /// A vertex that could not move waits until its star has changed.
   void move_each() {
-    waits_ = true;
+    alone_ = true;
     run(
         mesh_.vertex_capacity(), [](std::size_t v) { return VertexId(v); },
         [&](std::size_t v) { return is_free(VertexId(v)) && star_changed(VertexId(v)); },
         [](StepPlanner& planner, std::size_t v, StepPlan& plan) { planner.find_place(VertexId(v), plan); });
-    waits_ = false;
+    alone_ = false;
   }
 
   static bool always(std::size_t) { return true; }
@@ -211,7 +211,7 @@ class Tightener {
         make(plans_[k]);
       }
     }
-    editor_.settle_points();
+    if (alone_) editor_.settle_points();
     const auto middle = std::ptrdiff_t(waiting_.size());
     waiting_.insert(waiting_.end(), later_.begin(), later_.end());
     std::inplace_merge(waiting_.begin(), waiting_.begin() + middle, waiting_.end());
@@ -221,7 +221,7 @@ class Tightener {
   void plan_and_make(const Plan& plan) {
     plan(planners_.first(), plan_);
     make(plan_);
-    editor_.settle_points();
+    if (alone_) editor_.settle_points();
   }
 
   void finish_run() {
@@ -229,7 +229,7 @@ class Tightener {
   }
 
   void make(const StepPlan& plan) {
-    if (waits_) stuck_at_[plan.vertex] = changes_;
+    if (alone_) stuck_at_[plan.vertex] = changes_;
     plan.make(editor_);
     if (!plan.changes_mesh()) return;
     ++changes_;
@@ -259,7 +259,7 @@ class Tightener {
   const TightenParams& params_;
   TightenCounts& counts_;
   JointFit joint_;
-  bool waits_ = false;  // a vertex that could not move, until its star has changed
+  bool alone_ = false;  // vertices move alone: they ask for contact points, and one that could not move waits
   const bool waves_;
   WaveClaims claims_;
   WaveBoxes boxes_;
