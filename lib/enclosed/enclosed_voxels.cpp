@@ -288,7 +288,7 @@ bool EnclosedVoxels::clear(const Tetrahedron& t, Blocker* blocker) const {
     for (std::int32_t y = low.y; y <= high.y; ++y) {
       for (std::int32_t x = low.x; x <= high.x; ++x) {
         const auto it = bricks_.find({x, y, z});
-        if (it == bricks_.end() || separator.separates({x * edge, y * edge, z * edge}, edge)) continue;
+        if (it == bricks_.end() || separator.left(1, {x * edge, y * edge, z * edge}, edge) == 0) continue;
         if (!brick_clear(separator, {x, y, z}, it->second, blocker)) return false;
       }
     }
@@ -308,7 +308,6 @@ bool EnclosedVoxels::brick_clear(Separator& separator, BrickCoord coord, const B
          rest &= rest - 1) {
       const int bit = std::countr_zero(rest);
       const VoxelCoord voxel{layer.x + bit % 8 * 8, layer.y + bit / 8 * 8, layer.z};
-      if (separator.separates(low_corner(voxel), edge)) continue;
       const auto before = std::uint32_t(std::popcount(word & ((std::uint64_t(1) << bit) - 1)));
       if (!block_clear(separator, voxel, blocks_[brick.first[std::size_t(z)] + before], blocker)) return false;
     }

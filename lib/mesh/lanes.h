@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstdint>
 
-/// Eight numbers side by side, as two vectors of four of GCC and Clang: one instruction each on all that we build for.
+/// Numbers side by side, as vectors of four of GCC and Clang: one instruction each on all that we build for.
 namespace bp {
 
 typedef std::int32_t FourInts __attribute__((vector_size(16)));
@@ -16,6 +16,12 @@ typedef float FourFloats __attribute__((vector_size(16)));
   const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(hits);
   const std::uint64_t both = halves[0] | halves[1];
   return std::uint32_t(both | both >> 32);
+}
+
+/// Whether a comparison holds in any lane.
+[[nodiscard]] inline bool any(FourInts lanes) {
+  const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(lanes);
+  return (halves[0] | halves[1]) != 0;
 }
 
 }  // namespace bp

@@ -5,28 +5,92 @@
 
 #include "lib/enclosed/enclosed.h"
 #include "lib/grid/stream.h"
+#include "lib/mesh/lanes.h"
 #include "lib/mesh/lattice_geometry.h"
 
 namespace bp {
+
+/// Four axes side by side along which a tetrahedron is told from cubes, in floats: what they tell apart is apart.
+/// Coordinates are relative to the low corner of the tetrahedron's box.
+class FourAxes {
+ public:
+  /// `normals`: one that is 0 tells nothing apart. `sides`: the sum of the sides of the tetrahedron's box.
+  FourAxes(const std::array<LatticeCoord, 4>& normals, const Tetrahedron& corners, double sides) : sides_(sides) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const LatticeCoord& n = normals[k];
+      n_[0][k] = float(n.x);
+      n_[1][k] = float(n.y);
+      n_[2][k] = float(n.z);
+    }
+    for (const FourFloats& n : n_) {
+      positive_ += n > 0 ? n : FourFloats{};
+      negative_ += n > 0 ? FourFloats{} : n;
+    }
+    slack_ = 0x1p-19F * (positive_ - negative_);  // 32 roundings
+    min_ = max_ = along(corners[0]);
+    for (std::size_t i = 1; i < 4; ++i) {
+      const FourFloats at = along(corners[i]);
+      min_ = at < min_ ? at : min_;
+      max_ = at > max_ ? at : max_;
+    }
+  }
+
+  /// Of a layer of cubes that meet the box, bit 8 y + x the one at corner + (x, y, 0) edge, those that are not told
+  /// apart.
+  [[nodiscard]] std::uint64_t left(std::uint64_t layer, const LatticeCoord& corner, std::int64_t edge) const {
+    const auto e = float(edge);
+    // No coordinate is larger than this. Products with the cube's corner, with its steps from that, and with a corner
+    // of the tetrahedron have at most 8 roundings each: 24 of 2^-24 of the size of n times the reach.
+    const FourFloats slack = slack_ * float(sides_ + 8 * double(edge));
+    const FourFloats from = max_ - negative_ * e + slack, to = min_ - positive_ * e - slack;
+    const FourFloats at = along(corner), step_x = n_[0] * e, step_y = n_[1] * e;
+    std::uint64_t left = 0;
+    for (std::uint64_t rest = layer; rest != 0; rest &= rest - 1) {
+      const int bit = std::countr_zero(rest);
+      const FourFloats there = at + step_x * float(bit % 8) + step_y * float(bit / 8);
+      left |= std::uint64_t(!any((there > from) | (there < to))) << bit;
+    }
+    return left;
+  }
+
+ private:
+  [[nodiscard]] FourFloats along(const LatticeCoord& p) const {
+    return n_[0] * float(p.x) + n_[1] * float(p.y) + n_[2] * float(p.z);
+  }
+
+  std::array<FourFloats, 3> n_{};
+  FourFloats positive_{}, negative_{};  // sums of the components of either sign: extent of a unit cube
+  FourFloats min_, max_;                // of the tetrahedron
+  FourFloats slack_;                    // for a unit of reach
+  double sides_;
+};
 
 /// Separating axes of one tetrahedron against axis-aligned cubes: the cube's 3 face normals (its bounding box), the 4
 /// face normals, and the 6 x 3 cross products of edges. Two convex bodies have disjoint interiors iff one of these axes
 /// separates them weakly.
 class Separator {
  public:
-  explicit Separator(const Tetrahedron& t) : box_{t[0], t[0]} {
-    for (const LatticeCoord& p : t) box_.add(p);
-    for (std::size_t i = 0; i < 4; ++i) corners_[i] = t[i] - box_.min;
-    const LatticeCoord side = box_.max - box_.min;
-    reach_ = 2 * double(side.x + side.y + side.z) + 4 * double(kLargestCube);
-    for (std::size_t skip = 0; skip < 4; ++skip)
-      add_axis(normal_of(t[(skip + 1) % 4], t[(skip + 2) % 4], t[(skip + 3) % 4]));
-  }
+  explicit Separator(const Tetrahedron& t)
+      : box_(box_of(t)),
+        corners_{t[0] - box_.min, t[1] - box_.min, t[2] - box_.min, t[3] - box_.min},
+        sides_(sum_of_sides(box_)),
+        normals_{normal_of(t[1], t[2], t[3]), normal_of(t[2], t[3], t[0]), normal_of(t[3], t[0], t[1]),
+                 normal_of(t[0], t[1], t[2])},
+        faces_(normals_, corners_, sides_) {}
 
   [[nodiscard]] const LatticeBox& box() const { return box_; }
 
+  /// Of a layer of cubes that meet the box, bit 8 y + x the one at corner + (x, y, 0) edge, those that the
+  /// tetrahedron's faces do not surely tell from it: few.
+  [[nodiscard]] std::uint64_t left(std::uint64_t layer, const LatticeCoord& corner, std::int64_t edge) const {
+    return layer == 0 ? 0 : faces_.left(layer, corner - box_.min, edge);
+  }
+
   /// True if the open cube [corner, corner + edge]^3, which meets the open box, and the open tetrahedron are disjoint.
   [[nodiscard]] bool separates(const LatticeCoord& corner, std::int64_t edge) {
+    if (count_ == 0) {
+      for (const LatticeCoord& n : normals_) add_axis(n);
+    }
     const LatticeCoord c = corner - box_.min;
     for (std::size_t a = 0; a < axes_.size(); ++a) {
       if (a == count_) {
@@ -34,34 +98,16 @@ class Separator {
         add_edge_axes();
         if (a == count_) return false;
       }
-      if (!separates_along(axes_[a], c, edge)) continue;
-      last_ = a;
-      return true;
+      if (separates_along(axes_[a], c, edge)) return true;
     }
     return false;
   }
 
-  /// Of a layer of cubes, bit 8 y + x the one at corner + (x, y, 0) edge, those that the axis that told the last cube
-  /// apart leaves: few.
-  [[nodiscard]] std::uint64_t left(std::uint64_t layer, const LatticeCoord& corner, std::int64_t edge) const {
-    if (count_ == 0) return layer;
-    const Axis& axis = axes_[last_];
-    const LatticeCoord c = corner - box_.min;
-    const double e = double(edge), step_x = axis.x * e, step_y = axis.y * e;
-    const double at = axis.x * double(c.x) + axis.y * double(c.y) + axis.z * double(c.z);
-    const double from = axis.max - axis.negative * e + 2 * axis.slack,
-                 to = axis.min - axis.positive * e - 2 * axis.slack;
-    std::uint64_t left = 0;
-    for (std::uint64_t rest = layer; rest != 0; rest &= rest - 1) {
-      const int bit = std::countr_zero(rest);
-      const double there = at + step_x * (bit % 8) + step_y * (bit / 8);
-      left |= std::uint64_t((there < from) & (there > to)) << bit;
-    }
-    return left;
-  }
-
  private:
-  static constexpr std::int64_t kLargestCube = std::int64_t(kBrickEdge) * kLatticePerVoxel;
+  static double sum_of_sides(const LatticeBox& box) {
+    const LatticeCoord side = box.max - box.min;
+    return double(side.x + side.y + side.z);
+  }
 
   /// Coordinates are relative to the low corner of the tetrahedron's box. The doubles decide unless they are within
   /// rounding, which those of all but huge tetrahedra are free of.
@@ -114,17 +160,21 @@ class Separator {
       axis.min = i == 0 ? at : std::min(axis.min, at);
       axis.max = i == 0 ? at : std::max(axis.max, at);
     }
-    const double bound = (axis.positive - axis.negative) * reach_;
+    constexpr std::int64_t kLargestCube = std::int64_t(kBrickEdge) * kLatticePerVoxel;
+    // Above the sum of sizes of the coordinates of a corner, of either body.
+    const double bound = (axis.positive - axis.negative) * (2 * sides_ + 4 * double(kLargestCube));
     axis.slack = bound < 0x1p52 ? 0 : 0x1p-49 * bound;
     axes_[count_++] = axis;
   }
 
-  Tetrahedron corners_;  // relative to box_.min
-  double reach_;         // bounds the sum of sizes of the coordinates of a corner, of either body
   LatticeBox box_;
+  Tetrahedron corners_;  // relative to box_.min
+  double sides_;
+  std::array<LatticeCoord, 4> normals_;  // of the faces
+  FourAxes faces_;
   std::array<Axis, 22> axes_;
-  std::size_t count_ = 0, last_ = 0;  // the one that told the last cube apart often does the next
-  bool complete_ = false;             // the edges' axes are there
+  std::size_t count_ = 0;
+  bool complete_ = false;  // the edges' axes are there
 };
 
 }  // namespace bp
