@@ -20,7 +20,8 @@ struct Next {
   double price = HUGE_VAL;  // volume for a corner
 };
 
-Next next_of(const ConvexHull& hull) {
+/// `leaves`: out of the room, where there is no other way.
+Next next_of(const ConvexHull& hull, const LatticeBox& room, bool leaves) {
   Next next;
   if (hull.vertices.size() <= 4) return next;
   std::optional<ConvexHull> rough;  // the cheapest with a sliver
@@ -29,7 +30,7 @@ Next next_of(const ConvexHull& hull) {
     return (volume6_of(made) - volume6) / double(hull.vertices.size() - made.vertices.size());
   };
   std::size_t tried = 0;
-  for (const HullStep& step : HullSteps(hull).all()) {
+  for (const HullStep& step : HullSteps(hull, room).all()) {
     if (next.hull && (tried++ >= kTried || step.cost6 / 2 > next.price)) break;
     ConvexHull made = with_point(hull, step.point);
     if (made.vertices.size() >= hull.vertices.size()) continue;
@@ -43,7 +44,8 @@ Next next_of(const ConvexHull& hull) {
   }
   if (next.hull) return next;
   if (!rough) rough = simple_hull_around(hull, hull.vertices.size() - 1);
-  ConvexHull made = without_slivers(*rough);
+  if (!leaves && !room.holds(box_of(rough->vertices))) return next;
+  ConvexHull made = without_slivers(*rough, room);
   if (made.vertices.size() >= hull.vertices.size()) made = std::move(*rough);
   return {made, price_of(made)};
 }
@@ -56,20 +58,23 @@ std::uint64_t face_count(const std::vector<ConvexHull>& hulls) {
   return sum;
 }
 
-void keep_to_faces(std::vector<ConvexHull>& hulls, std::uint64_t faces) {
+void keep_to_faces(std::vector<ConvexHull>& hulls, std::uint64_t faces, double share) {
   std::uint64_t left = face_count(hulls);
   if (left <= faces) return;
+  std::vector<LatticeBox> rooms;
+  for (const ConvexHull& hull : hulls) rooms.push_back(room_around(hull, share));
   std::vector<Next> next(hulls.size());
-  parallel_for(std::int64_t(hulls.size()),
-               [&](std::int64_t i) { next[std::size_t(i)] = next_of(hulls[std::size_t(i)]); });
+  const auto find_next = [&](std::size_t i) { next[i] = next_of(hulls[i], rooms[i], share >= kFarOut); };
+  parallel_for(std::int64_t(hulls.size()), [&](std::int64_t i) { find_next(std::size_t(i)); });
   while (left > faces) {
     const auto cheapest =
         std::min_element(next.begin(), next.end(), [](const Next& x, const Next& y) { return x.price < y.price; });
     if (cheapest == next.end() || !cheapest->hull) return;
-    ConvexHull& hull = hulls[std::size_t(cheapest - next.begin())];
+    const auto i = std::size_t(cheapest - next.begin());
+    ConvexHull& hull = hulls[i];
     left -= hull.triangles.size() - cheapest->hull->triangles.size();
     hull = std::move(*cheapest->hull);
-    *cheapest = next_of(hull);
+    find_next(i);
   }
 }
 

@@ -40,7 +40,8 @@ LatticeMesh part_of(const LatticeMesh& mesh, const std::vector<Face>& faces) {
 constexpr double kSmall = 2e-3;            // of the volume: what a hull may have above the solid in it
 constexpr double kGrowth = 0.01;           // of a hull's volume, for fewer corners
 constexpr std::uint64_t kFewestFaces = 4;  // of a closed surface
-constexpr std::size_t kCellsPerHull = 4;   // what is joined again knows more than what was cut first
+constexpr std::size_t kFacesOfBox = 12;
+constexpr std::size_t kCellsPerHull = 4;  // what is joined again knows more than what was cut first
 
 LatticeMesh mesh_of(const LatticeMesh& mesh, ConvexHull hull) {
   LatticeMesh made;
@@ -96,7 +97,8 @@ void set_apart(std::vector<ConvexHull>& hulls) {
   set_corners_apart(hulls);
 }
 
-/// Hulls around `hulls` with no more faces than are wanted.
+/// Hulls around `hulls` with no more faces than are wanted, as far as they can without reaching out of their boxes; a
+/// single one in any case.
 std::vector<ConvexHull> simplified(const std::vector<ConvexHull>& hulls, std::uint64_t faces, bool& short_of_faces) {
   std::vector<ConvexHull> fewer = hulls;
   parallel_for(std::int64_t(fewer.size()), [&](std::int64_t i) {
@@ -105,7 +107,8 @@ std::vector<ConvexHull> simplified(const std::vector<ConvexHull>& hulls, std::ui
   });
   if (faces > 0 && face_count(fewer) > faces) {
     short_of_faces = true;
-    keep_to_faces(fewer, faces);
+    keep_to_faces(fewer, faces, kNearBox);
+    if (fewer.size() == 1) keep_to_faces(fewer, faces, kFarOut);
   }
   parallel_for(std::int64_t(fewer.size()), [&](std::int64_t i) {
     ConvexHull& hull = fewer[std::size_t(i)];
@@ -120,15 +123,19 @@ std::vector<ConvexHull> few_hulls(const std::vector<Wrapped>& wrapped, std::size
   constexpr double kWorse = 1.03;  // volume at which fewer hulls are not tried any more
   std::vector<ConvexHull> best;
   double least6 = std::numeric_limits<double>::infinity();
-  for (std::size_t count = most; count > 0; count = count * 3 / 4) {
+  for (std::size_t count = most; count > 0;) {
     const std::vector<ConvexHull> joined = merge_hulls(wrapped, count, small6);
     count = std::min(count, joined.size());
     std::vector<ConvexHull> hulls = simplified(joined, faces, short_of_faces);
     if (!short_of_faces) return hulls;
-    if (face_count(hulls) > faces && count > 1) continue;  // four for each are too many
+    if (face_count(hulls) > faces && count > 1) {  // there are too few for each, unless all are boxes
+      count = std::max(count * 3 / 4, std::min(count - 1, std::size_t(faces) / kFacesOfBox));
+      continue;
+    }
     const double now6 = volume6_of(hulls);
     if (now6 > kWorse * least6) break;
     if (now6 < least6) least6 = now6, best = std::move(hulls);
+    count = count * 3 / 4;
   }
   return best;
 }

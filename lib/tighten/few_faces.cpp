@@ -108,7 +108,7 @@ class HullsWay {
   /// A hull of at most n faces around the hull of the first proxy.
   [[nodiscard]] std::optional<Stop> convex(std::uint64_t n) {
     if (hull_.empty() || n > kFewForHull) return {};
-    keep_to_faces(hull_, n);
+    keep_to_faces(hull_, n, kFarOut);
     Stop stop = at_;
     stop.mesh.vertices = hull_[0].vertices;
     stop.mesh.triangles = hull_[0].triangles;

@@ -86,12 +86,13 @@ std::vector<char> near_slivers(const ConvexHull& hull, const Bounds& bounds) {
 }
 
 /// The step beside slivers that takes most of them for the volume that it adds; or the first one that takes a corner.
-std::optional<ConvexHull> best_step(const ConvexHull& hull, const Bounds& bounds, double slivers) {
+std::optional<ConvexHull> best_step(const ConvexHull& hull, const LatticeBox& room, const Bounds& bounds,
+                                    double slivers) {
   const std::vector<char> near = near_slivers(hull, bounds);
   std::optional<ConvexHull> best, any;
   double least = HUGE_VAL;
   std::size_t tried = 0;
-  for (const HullStep& step : HullSteps(hull).all()) {
+  for (const HullStep& step : HullSteps(hull, room).all()) {
     if (near[step.a] == 0 && near[step.b] == 0) continue;
     ConvexHull next = with_point(hull, step.point);
     if (next.vertices.size() >= hull.vertices.size()) continue;
@@ -192,13 +193,18 @@ void draw_diagonals(ConvexHull& hull) {
 }
 
 ConvexHull without_slivers(ConvexHull hull) {
+  const LatticeBox room = room_around(hull, kNearBox);
+  return without_slivers(std::move(hull), room);
+}
+
+ConvexHull without_slivers(ConvexHull hull, const LatticeBox& room) {
   const std::size_t corners = hull.vertices.size();
   draw_diagonals(hull);
   for (;;) {
     const Bounds bounds(hull);
     const double slivers = slivers_of(hull, bounds);
     if (slivers <= kNegligible) return hull;
-    std::optional<ConvexHull> next = best_step(hull, bounds, slivers);
+    std::optional<ConvexHull> next = best_step(hull, room, bounds, slivers);
     if (!next) break;
     hull = std::move(*next);
   }

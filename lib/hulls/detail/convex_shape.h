@@ -1,5 +1,6 @@
 #pragma once
 #include "lib/hulls/convex_hull.h"
+#include "lib/mesh/box_group.h"
 
 /// Slivers of convex hulls: what physics engines and modellers stumble over.
 namespace bp {
@@ -18,6 +19,7 @@ void draw_diagonals(ConvexHull& hull);
 /// A hull around `hull` without slivers, and with no more corners: edges beside slivers are replaced by points beyond
 /// the planes around them, the cheapest first. A few may stay where nothing takes them. Cost: milliseconds a sliver.
 [[nodiscard]] ConvexHull without_slivers(ConvexHull hull);
+[[nodiscard]] ConvexHull without_slivers(ConvexHull hull, const LatticeBox& room);  ///< within it, as far as it was
 
 /// The box of the axes around a hull, with 8 corners; or, for fewer, a tetrahedron around that, of 4.5 times its
 /// volume: for what has no better way.

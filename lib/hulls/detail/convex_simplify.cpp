@@ -57,8 +57,9 @@ bool is_corner(const ConvexHull& hull, const LatticeCoord& v) {
 
 ConvexHull with_fewer_corners(ConvexHull hull, std::size_t most, double growth) {
   double left6 = growth * volume6_of(hull);
+  const LatticeBox room = room_around(hull, kNearBox);
   while (hull.vertices.size() > 4) {
-    const HullSteps steps(hull);
+    const HullSteps steps(hull, room);
     std::vector<LatticeCoord> points = hull.vertices;
     std::vector<char> taken(hull.vertices.size(), 0);
     const std::size_t before = hull.vertices.size();
@@ -91,7 +92,8 @@ void set_corners_apart(std::vector<ConvexHull>& hulls) {
                                        [&](const LatticeCoord& v) { return taken.count(v) != 0; });
       if (shared == hull.vertices.end()) break;
       const LatticeCoord corner = *shared;
-      const auto beyond = HullSteps(hull).point_beyond(std::uint32_t(shared - hull.vertices.begin()));
+      const auto beyond =
+          HullSteps(hull, room_around(hull, kNearBox)).point_beyond(std::uint32_t(shared - hull.vertices.begin()));
       ConvexHull next = with_point(hull, beyond ? *beyond : point_behind(hull, corner));
       if (is_corner(next, corner)) next = with_point(hull, point_behind(hull, corner));
       hull = std::move(next);

@@ -1,15 +1,14 @@
 #include "lib/hulls/detail/convex_steps.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lib/mesh/lattice_geometry.h"
 
 namespace bp {
 
-HullSteps::HullSteps(const ConvexHull& hull)
-    : hull_(hull), near_(box_of(hull.vertices)), around_(hull.vertices.size()) {
-  const LatticeCoord size = near_.max - near_.min;
-  near_ = {near_.min - size, near_.max + size};
+HullSteps::HullSteps(const ConvexHull& hull, const LatticeBox& room)
+    : hull_(hull), room_(room), around_(hull.vertices.size()) {
   for (std::uint32_t f = 0; f < hull.triangles.size(); ++f) {
     const auto& t = hull.triangles[f];
     normals_.push_back(to_double(normal_of(hull.vertices[t[0]], hull.vertices[t[1]], hull.vertices[t[2]])));
@@ -49,12 +48,12 @@ std::optional<LatticeCoord> HullSteps::point_for(const Quadric& quadric, const s
   const std::optional<Vec3d> x = constrained_minimum(quadric, middle, planes);
   if (!x) return {};
   const LatticeCoord point = base + rounded(*x);
-  if (!near_.holds({point, point})) return {};
+  if (!room_.holds({point, point})) return {};
   return point;
 }
 
-/// Beyond the planes of all faces around the edge, and near them: by the squares of distances, or by the volume, which
-/// is linear. Rounding makes either the better.
+/// Beyond the planes of all faces around the edge, within the room, and near them: by the squares of distances, or by
+/// the volume, which is linear. Rounding makes either the better.
 std::optional<LatticeCoord> HullSteps::point_beyond(std::uint32_t a, std::uint32_t b) const {
   constexpr double kToLattice = 0.9;  // rounding to the lattice moves a point by half the diagonal of a cube, 0.87
   constexpr double kSquares = 1e-6;   // of volume: squares decide only where the volume leaves it open
@@ -71,6 +70,12 @@ std::optional<LatticeCoord> HullSteps::point_beyond(std::uint32_t a, std::uint32
       planes.push_back({n, d + kToLattice});
       for (std::size_t i = 0; i < 3; ++i) area[i] += normals_[f][i];
     }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec3d up{}, down{};
+    up[i] = 1, down[i] = -1;
+    planes.push_back({up, double(room_.min[int(i)] - base[int(i)]) + 0.5});
+    planes.push_back({down, double(base[int(i)] - room_.max[int(i)]) + 0.5});
   }
   const std::optional<LatticeCoord> near = point_for(squares, planes, base, other);
   if (a == b) return near;
@@ -89,6 +94,14 @@ double HullSteps::volume6_to(const LatticeCoord& p) const {
   for (std::size_t f = 0; f < normals_.size(); ++f)
     sum += std::max(0.0, dot(normals_[f], to_double(p - hull_.vertices[hull_.triangles[f][0]])));
   return sum;
+}
+
+LatticeBox room_around(const ConvexHull& hull, double share) {
+  const LatticeBox box = box_of(hull.vertices);
+  const LatticeCoord size = box.max - box.min;
+  const auto by = std::int64_t(std::ceil(share * double(std::max({size.x, size.y, size.z}))));
+  const LatticeCoord around{by, by, by};
+  return {box.min - around, box.max + around};
 }
 
 ConvexHull with_point(const ConvexHull& hull, const LatticeCoord& point) {

@@ -18,8 +18,8 @@ struct HullStep {
 
 class HullSteps {
  public:
-  /// Keeps a reference. Linear.
-  explicit HullSteps(const ConvexHull& hull);
+  /// Keeps a reference. No point lies outside of `room`. Linear.
+  HullSteps(const ConvexHull& hull, const LatticeBox& room);
 
   /// One for each edge that has one, cheapest first. Cost: two small quadratic programs an edge.
   [[nodiscard]] std::vector<HullStep> all() const;
@@ -36,10 +36,15 @@ class HullSteps {
   [[nodiscard]] double volume6_to(const LatticeCoord& p) const;
 
   const ConvexHull& hull_;
-  LatticeBox near_;  // beyond it lie solutions of nearly singular systems
+  LatticeBox room_;
   std::vector<Vec3d> normals_;
   std::vector<std::vector<std::uint32_t>> around_;  // per vertex: its faces
 };
+
+/// The box around a hull, grown on each side by a share of its longest one: where corners may go. A point beyond the
+/// planes around a sharp edge adds next to nothing to the volume, and may lie far out. `share`: at most 1, since beyond
+/// that lie solutions of nearly singular systems.
+[[nodiscard]] LatticeBox room_around(const ConvexHull& hull, double share);
 
 /// The hull of `hull` and a point.
 [[nodiscard]] ConvexHull with_point(const ConvexHull& hull, const LatticeCoord& point);

@@ -2,6 +2,7 @@
 
 #include "lib/hulls/convex_budget.h"
 #include "lib/hulls/detail/convex_shape.h"
+#include "lib/hulls/detail/convex_steps.h"
 #include "lib/hulls/detail/convex_tighten.h"
 #include "lib/mesh/lattice_geometry.h"
 #include "tests/catch.h"
@@ -102,7 +103,7 @@ TEST_CASE("faces go from where they cost least, in all hulls together", "[quick]
   CAPTURE(faces);
   const std::vector<ConvexHull> before{ball(2, 3000), ball(2, 300)};
   std::vector<ConvexHull> hulls = before;
-  keep_to_faces(hulls, faces);
+  keep_to_faces(hulls, faces, kFarOut);
   CHECK(face_count(hulls) <= faces);
   CHECK(face_count(hulls) + 6 >= faces);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -110,14 +111,28 @@ TEST_CASE("faces go from where they cost least, in all hulls together", "[quick]
     CHECK(slivers_of(hulls[i]) == 0);
   }
   if (faces > 8) CHECK(hulls[0].triangles.size() > hulls[1].triangles.size());
-  keep_to_faces(hulls, 3);  // no hull has so few
+  keep_to_faces(hulls, 3, kFarOut);  // no hull has so few
   CHECK(face_count(hulls) == 8);
+}
+
+TEST_CASE("a lens with few faces stays near its box, until it has twelve or fewer", "[quick][meshing][lod]") {
+  const std::uint64_t faces = GENERATE(std::uint64_t(4), std::uint64_t(12), std::uint64_t(16), std::uint64_t(40));
+  CAPTURE(faces);
+  std::vector<LatticeCoord> points;  // its rim is sharp: what lies beyond the planes there lies far out
+  for (const LatticeCoord& p : ball(3, 3000).vertices)
+    points.push_back({p.x + p.z / 2, p.y, (p.z > 0 ? 1 : -1) * p.z * p.z / 30000});
+  const ConvexHull lens = *hull_of(points);
+  std::vector<ConvexHull> hulls{lens};
+  keep_to_faces(hulls, faces, kNearBox);
+  CHECK(face_count(hulls) <= std::max<std::uint64_t>(faces, 12));
+  CHECK(room_around(lens, kNearBox).holds(box_of(hulls[0].vertices)));
+  CHECK(holds_all(hulls[0], lens.vertices));
 }
 
 TEST_CASE("corners are drawn to what the hull is around", "[quick][meshing][lod]") {
   const ConvexHull inner = ball(3, 3000);
   std::vector<ConvexHull> outer{inner};
-  keep_to_faces(outer, 30);
+  keep_to_faces(outer, 30, kFarOut);
   const ConvexHull tight = tightened(outer[0], inner.vertices);
   CHECK(holds_all(tight, inner.vertices));
   CHECK(volume6_of(tight) < 0.995 * volume6_of(outer[0]));
