@@ -22,7 +22,7 @@ struct ConvexHull {
 
 constexpr double kNearlyConvex = 0.02;  ///< of a solid's volume: a hull with no more than that above it is as good
 /// How far corners of simplified hulls may lie beyond the box of what they are around, in shares of its longest side.
-constexpr double kNearBox = 0.02;  ///< nobody sees it
+constexpr double kNearBox = 0.03;  ///< nobody sees it
 constexpr double kFarOut = 1;      ///< and farther, where there is no other way
 
 /// Six times its volume, rounded. Linear.
