@@ -66,11 +66,13 @@ LatticeBox grown(const LatticeBox& box, std::int64_t by) {
   return {box.min - d, box.max + d};
 }
 
-/// Of n targets; `first`: the one that is asked first; the nearer it is, the fewer others are.
+/// Of n targets; `first`: the one that is asked first. The nearer it is, the fewer others are: none where all beyond its
+/// edges is farther, though one that folds back over it may be nearer.
 template <class TargetAt>
 std::size_t nearest_of(std::size_t n, const TargetAt& target_at, const Vec3d& p, std::size_t first) {
   std::size_t best = first;
   double least = target_at(first).squared_distance(p);
+  if (target_at(first).is_inner(p, least)) return first;
   for (std::size_t k = 0; k < n; ++k) {
     const FaceTarget& target = target_at(k);
     if (k == first || target.is_farther(p, least)) continue;

@@ -25,6 +25,14 @@ class FaceTarget {
     }
     return false;
   }
+  /// Whether all that lies beyond the planes along its edges is farther from p, which is at the squared distance given.
+  [[nodiscard]] bool is_inner(const Vec3d& p, double squared) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double beside = planes_[k].height(p);
+      if (beside > 0 || beside * beside < squared) return false;
+    }
+    return true;
+  }
 
  private:
   struct Plane {
