@@ -1,6 +1,7 @@
 #pragma once
 #include "lib/mesh/shells.h"
 #include "lib/simplify/waves.h"
+#include "lib/tighten/contact_forces.h"
 #include "lib/tighten/edit_check.h"
 
 /// Changes of a proxy, each taken only if the proxy stays embedded and keeps inside what must stay inside, both decided
@@ -16,6 +17,7 @@ class ProxyEditor {
 
   [[nodiscard]] const HalfEdgeMesh& mesh() const { return mesh_; }
   [[nodiscard]] const ContactPoints& contacts() const { return contacts_; }
+  [[nodiscard]] ContactForces& forces() { return forces_; }  ///< of contacts() on the mesh
   [[nodiscard]] const EditCounts& counts() const { return check_.counts; }
 
   /// Each returns true if the change was taken.
@@ -82,6 +84,7 @@ class ProxyEditor {
   FaceTree tree_;
   ShellSense sense_;
   ContactPoints contacts_;
+  ContactForces forces_;
   EditedProxy proxy_;
   EditCheck check_;
   std::uint64_t beyond_reach_before_ = 0;  // by the reach before

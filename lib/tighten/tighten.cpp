@@ -27,7 +27,7 @@ class Tightener {
         mesh_(editor.mesh()),
         params_(params),
         counts_(counts),
-        joint_(mesh_, editor.contacts()),
+        joint_(mesh_, editor.contacts(), editor.forces()),
         waves_(editor.has_waves()),
         claims_(mesh_),
         planners_([&editor, &params] { return std::make_unique<StepPlanner>(editor, params.limits != nullptr); }),

@@ -21,9 +21,9 @@ constexpr double kDeepest = 2;        // lattice units: a point that much above 
 constexpr double kRim = 8;      // lattice units: a point so near to the rim of its face is under those beside it, too
 constexpr double kLongest = 2;  // times the unhindered step: how far forces may push
 constexpr int kRounds = 8;      // over all rows
-constexpr int kPressingRounds = 8;   // after each, over those with a force
-constexpr std::size_t kBlocks = 16;  // of a phase
-constexpr std::int64_t kFacesAtOnce = 128;
+constexpr int kRoundsOn = 4;    // where it begins with the forces of another one
+constexpr int kPressingRounds = 8;  // after each, over those with a force
+constexpr std::int64_t kFacesAtOnce = 128, kVerticesAtOnce = 512;
 
 FourFloats lanes_of(const Vec3d& v, double fourth) {
   return FourFloats{float(v[0]), float(v[1]), float(v[2]), float(fourth)};
@@ -35,23 +35,21 @@ double JointFit::growth(VertexId v) const {
   return dot(gradient_[v], shift_[v]);
 }
 
-JointFit::JointFit(const HalfEdgeMesh& mesh, const ContactPoints& contacts)
-    : mesh_(mesh), contacts_(contacts), whole_(has_waves(mesh, false)) {}
+JointFit::JointFit(const HalfEdgeMesh& mesh, const ContactPoints& contacts, ContactForces& forces)
+    : mesh_(mesh), contacts_(contacts), forces_(forces), whole_(has_waves(mesh, false)), at_(mesh) {}
 
 void JointFit::solve(double reach) {
   set_free_shifts(reach);
   set_places();
+  if (whole_ && !at_.built()) at_.build(living_);
   gather_rows();
-  const auto relax_some = [&](std::size_t first, std::size_t n) {
-    parallel_for(std::int64_t(n), [&](std::int64_t i) { relax(blocks_[first + std::size_t(i)]); });
-  };
-  for (int round = 0; round < kRounds; ++round) {
-    if (whole_) relax_some(0, kBlocks);
-    if (whole_) relax_some(kBlocks, kBlocks);
-    relax(blocks_.back());
-  }
-  for (std::size_t v = 0; v < shift_.size(); ++v) {
-    const FourFloats& moved = moving_[place_[v]].shift;
+  at_.for_each([this](std::size_t block) { press(blocks_[block]); });
+  const int rounds = forces_.empty() ? kRounds : kRoundsOn;
+  for (int round = 0; round < rounds; ++round) at_.for_each([this](std::size_t block) { relax(blocks_[block]); });
+  keep_forces();
+  for (std::size_t i = 0; i < living_.size(); ++i) {
+    const VertexId v = living_[i];
+    const FourFloats& moved = moving_[i].shift;
     shift_[v] = {double(moved[0]), double(moved[1]), double(moved[2])};
     const double size = length(shift_[v]), most = kLongest * reach_[v];
     if (size > most) shift_[v] = (most / size) * shift_[v];
@@ -60,49 +58,73 @@ void JointFit::solve(double reach) {
 
 /// Along a curve through space, so that the vertices of a block are neighbours in memory, too.
 void JointFit::set_places() {
-  const auto n = std::uint32_t(shift_.size());
-  place_.resize(n);
-  moving_.resize(n);
+  place_.assign(shift_.size(), 0);
+  living_.clear();
+  for (VertexId v = 0; v < shift_.size(); ++v) {
+    if (mesh_.vertex_alive(v)) living_.push_back(v);
+  }
   if (whole_) {
-    const std::vector<std::uint32_t> order = space_order(n, [&](VertexId v) { return mesh_.position(v); });
-    for (std::uint32_t i = 0; i < n; ++i) place_[order[i]] = i;
-  } else {
-    for (std::uint32_t i = 0; i < n; ++i) place_[i] = i;
+    living_ = space_order(
+        living_.size(), [&](std::size_t i) { return living_[i]; }, [&](VertexId v) { return mesh_.position(v); });
   }
-  for (VertexId v = 0; v < n; ++v) {
+  moving_.resize(living_.size());
+  for (std::uint32_t i = 0; i < living_.size(); ++i) {
+    const VertexId v = living_[i];
+    place_[v] = i;
     const auto soft = float(softness_[v]);
-    moving_[place_[v]] = {lanes_of(shift_[v], 0), FourFloats{soft, soft, soft, 0}};
+    moving_[i] = {lanes_of(shift_[v], 0), FourFloats{soft, soft, soft, 0}};
   }
+}
+
+void JointFit::Block::clear() {
+  rows.clear();
+  keys.clear();
+}
+
+void JointFit::Block::append(const Block& other) {
+  rows.insert(rows.end(), other.rows.begin(), other.rows.end());
+  keys.insert(keys.end(), other.keys.begin(), other.keys.end());
 }
 
 void JointFit::gather_rows() {
   const auto faces = std::int64_t(mesh_.face_capacity());
   const std::int64_t at_once = whole_ ? kFacesAtOnce : faces;
-  parts_.resize(std::size_t((faces + at_once - 1) / at_once));
+  blocks_.resize(at_.count());
+  parts_.resize(std::size_t((faces + at_once - 1) / at_once), std::vector<Block>(blocks_.size()));
   parallel_ranges(faces, at_once, [&](std::int64_t begin, std::int64_t end) {
-    std::vector<Row>& rows = parts_[std::size_t(begin / at_once)];
-    rows.clear();
+    std::vector<Block>& to = parts_[std::size_t(begin / at_once)];
+    for (Block& block : to) block.clear();
     for (auto f = FaceId(begin); f < FaceId(end); ++f) {
-      if (mesh_.alive(f)) add_rows(f, rows);
+      if (mesh_.alive(f)) add_rows(f, to);
     }
   });
-  blocks_.resize(whole_ ? 2 * kBlocks + 1 : 1);
-  for (Block& block : blocks_) block.rows.clear();
-  for (const std::vector<Row>& rows : parts_) {
-    for (const Row& row : rows) blocks_[block_of(row)].rows.push_back(row);
-  }
+  parallel_for(std::int64_t(blocks_.size()), [&](std::int64_t i) {
+    Block& block = blocks_[std::size_t(i)];
+    block.clear();
+    for (const std::vector<Block>& part : parts_) block.append(part[std::size_t(i)]);
+  });
 }
 
-/// Runs of places, and runs from the middle of one to that of the next.
-std::size_t JointFit::block_of(const Row& row) const {
-  if (!whole_) return 0;
-  const std::size_t run = (place_.size() + kBlocks - 2) / (kBlocks - 1);  // the second ones are one more
-  const auto same = [&](std::size_t offset) {
-    const std::size_t a = (row.places[0] + offset) / run;
-    return a == (row.places[1] + offset) / run && a == (row.places[2] + offset) / run;
-  };
-  if (same(0)) return row.places[0] / run;
-  return same(run / 2) ? kBlocks + (row.places[0] + run / 2) / run : 2 * kBlocks;
+void JointFit::keep_forces() {
+  std::vector<ContactForces::Force> forces;
+  for (const Block& block : blocks_) {
+    for (const std::uint32_t i : block.pressing) {
+      const auto& [face, point] = block.keys[i];
+      if (block.rows[i].force > 0) forces.push_back({face, point, block.rows[i].force});
+    }
+  }
+  forces_.set(forces, mesh_.face_capacity());
+}
+
+/// With the forces that rows begin with.
+void JointFit::press(Block& block) {
+  for (const Row& row : block.rows) {
+    if (row.force == 0) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Moving& corner = moving_[row.places[k]];
+      corner.shift += row.force * corner.softness * row.gradient[k];
+    }
+  }
 }
 
 void JointFit::relax(Block& block) {
@@ -123,27 +145,32 @@ void JointFit::set_free_shifts(double reach) {
   gradient_.assign(n, {});
   reach_.assign(n, 0);
   softness_.assign(n, 0);
-  for (VertexId v = 0; v < n; ++v) {
-    if (!mesh_.vertex_alive(v) || mesh_.locked(v)) continue;
-    const LatticeCoord& p = mesh_.position(v);
-    double spokes = 0;
-    int count = 0;
-    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
-      const Vec3d a = to_double(mesh_.position(mesh_.to(h)) - p), b = to_double(mesh_.position(mesh_.opposite(h)) - p);
-      gradient_[v] = gradient_[v] + (1.0 / 6) * cross(a, b);
-      spokes += length(a);
-      ++count;
-    });
-    const double size = length(gradient_[v]);
-    if (!(size > 0)) continue;  // no way in
-    reach_[v] = reach * spokes / count;
-    softness_[v] = reach_[v] / size;
-    shift_[v] = -softness_[v] * gradient_[v];
-  }
+  parallel_ranges(std::int64_t(n), kVerticesAtOnce, [&](std::int64_t begin, std::int64_t end) {
+    for (auto v = VertexId(begin); v < VertexId(end); ++v) {
+      if (mesh_.vertex_alive(v) && !mesh_.locked(v)) set_free_shift(v, reach);
+    }
+  });
+}
+
+void JointFit::set_free_shift(VertexId v, double reach) {
+  const LatticeCoord& p = mesh_.position(v);
+  double spokes = 0;
+  int count = 0;
+  mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
+    const Vec3d a = to_double(mesh_.position(mesh_.to(h)) - p), b = to_double(mesh_.position(mesh_.opposite(h)) - p);
+    gradient_[v] = gradient_[v] + (1.0 / 6) * cross(a, b);
+    spokes += length(a);
+    ++count;
+  });
+  const double size = length(gradient_[v]);
+  if (!(size > 0)) return;  // no way in
+  reach_[v] = reach * spokes / count;
+  softness_[v] = reach_[v] / size;
+  shift_[v] = -softness_[v] * gradient_[v];
 }
 
 JointFit::Facet JointFit::facet(FaceId f) const {
-  Facet facet{f, {}, {}, {}, 0, false, 0};
+  Facet facet{f, at_.of(f), {}, {}, {}, 0, false, 0};
   for (std::size_t k = 0; k < 3; ++k) {
     const VertexId v = mesh_.from(3 * f + HalfEdgeId(k));
     facet.corners[k] = to_double(mesh_.position(v) - contacts_.origin());
@@ -157,16 +184,17 @@ JointFit::Facet JointFit::facet(FaceId f) const {
   return facet;
 }
 
-void JointFit::add_rows(FaceId f, std::vector<Row>& rows) const {
+void JointFit::add_rows(FaceId f, std::vector<Block>& to) const {
   const Facet here = facet(f);
   for (const std::uint32_t i : contacts_.of(f)) {
-    add_row(here, contacts_[i], rows);
-    add_rows_beside(here, contacts_[i], rows);
+    add_row(here, i, to);
+    add_rows_beside(here, i, to);
   }
 }
 
 /// A point at a corner or an edge of its face lies under the others there, too: a convex edge is held from both sides.
-void JointFit::add_rows_beside(const Facet& facet, const Vec3d& p, std::vector<Row>& rows) const {
+void JointFit::add_rows_beside(const Facet& facet, std::uint32_t point, std::vector<Block>& to) const {
+  const Vec3d& p = contacts_[point];
   const auto is_at = [](const Vec3d& off, double scale) { return dot(off, off) <= kRim * kRim * scale; };
   const HalfEdgeId first = 3 * facet.id;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -174,7 +202,7 @@ void JointFit::add_rows_beside(const Facet& facet, const Vec3d& p, std::vector<R
     const VertexId v = mesh_.from(first + HalfEdgeId(k));
     if (mesh_.locked(v)) return;
     mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
-      if (HalfEdgeMesh::face(h) != facet.id) add_row(this->facet(HalfEdgeMesh::face(h)), p, rows);
+      if (HalfEdgeMesh::face(h) != facet.id) add_row(this->facet(HalfEdgeMesh::face(h)), point, to);
     });
     return;
   }
@@ -183,11 +211,12 @@ void JointFit::add_rows_beside(const Facet& facet, const Vec3d& p, std::vector<R
     const Vec3d edge = facet.corners[(k + 1) % 3] - a;
     const HalfEdgeId beside = mesh_.twin(first + HalfEdgeId(k));
     if (beside != kNoId && is_at(cross(edge, p - a), dot(edge, edge)))
-      add_row(this->facet(HalfEdgeMesh::face(beside)), p, rows);
+      add_row(this->facet(HalfEdgeMesh::face(beside)), point, to);
   }
 }
 
-void JointFit::add_row(const Facet& facet, const Vec3d& p, std::vector<Row>& rows) const {
+void JointFit::add_row(const Facet& facet, std::uint32_t point, std::vector<Block>& to) const {
+  const Vec3d& p = contacts_[point];
   if (facet.reach == 0 || !(facet.area > 0)) return;
   const Vec3d u = facet.corners[0] - p, v = facet.corners[1] - p, w = facet.corners[2] - p;
   const std::array<Vec3d, 3> gradient = {cross(v, w), cross(w, u), cross(u, v)};
@@ -201,7 +230,11 @@ void JointFit::add_row(const Facet& facet, const Vec3d& p, std::vector<Row>& row
     g[k] = (1 / facet.area) * gradient[k];
     give += facet.softness[k] * dot(g[k], g[k]);
   }
-  if (give > 0) rows.push_back({{lanes_of(g[0], least), lanes_of(g[1], 1 / give), lanes_of(g[2], 0)}, facet.places, 0});
+  if (!(give > 0)) return;
+  to[facet.block].rows.push_back({{lanes_of(g[0], least), lanes_of(g[1], 1 / give), lanes_of(g[2], 0)},
+                                  facet.places,
+                                  forces_.of(facet.id, point)});
+  to[facet.block].keys.push_back({facet.id, point});
 }
 
 void JointFit::relax(Row& row) {

@@ -4,6 +4,8 @@
 
 #include "lib/enclosed/contact_points.h"
 #include "lib/mesh/lanes.h"
+#include "lib/tighten/contact_forces.h"
+#include "lib/tighten/detail/face_blocks.h"
 
 /// Where all vertices of a proxy should go at once, so that it encloses less and still lies over its contact points.
 /// Moved one at a time, vertices jam: a face that rests on three points holds its corners. The volume and the heights
@@ -13,8 +15,9 @@ namespace bp {
 
 class JointFit {
  public:
-  /// Keeps references. Locked vertices stay where they are.
-  JointFit(const HalfEdgeMesh& mesh, const ContactPoints& contacts);
+  /// Keeps references. Locked vertices stay where they are. `forces`: of this mesh and these points, also before it
+  /// changed; none at first.
+  JointFit(const HalfEdgeMesh& mesh, const ContactPoints& contacts, ContactForces& forces);
 
   /// For the mesh as it is: with nothing in its way a vertex would go `reach` times its mean spoke. Cost: linear in
   /// faces and in points, of which those at corners count for each face there; 64 bytes for each of these. Parallel
@@ -34,6 +37,11 @@ class JointFit {
     [[nodiscard]] float least() const { return gradient[0][3]; }
     [[nodiscard]] float ease() const { return gradient[1][3]; }  ///< force that raises the height by a unit
   };
+  /// What a row is of.
+  struct RowKey {
+    FaceId face;
+    std::uint32_t point;
+  };
   /// A vertex, at a place of its own: those near in space near each other. The fourth lanes are 0.
   struct Moving {
     FourFloats shift;
@@ -42,10 +50,14 @@ class JointFit {
   /// Rows that no other block's rows of the same phase share a vertex with.
   struct Block {
     std::vector<Row> rows;
+    std::vector<RowKey> keys;             // of the rows
     std::vector<std::uint32_t> pressing;  // those with a force
+    void clear();
+    void append(const Block& other);
   };
   struct Facet {
     FaceId id;
+    std::size_t block;
     std::array<std::uint32_t, 3> places;
     std::array<Vec3d, 3> corners;
     std::array<double, 3> softness;
@@ -54,25 +66,30 @@ class JointFit {
     double area;   // twice
   };
   void set_free_shifts(double reach);
+  void set_free_shift(VertexId v, double reach);
   void set_places();
   [[nodiscard]] Facet facet(FaceId f) const;
   void gather_rows();
-  [[nodiscard]] std::size_t block_of(const Row& row) const;
-  void add_rows(FaceId f, std::vector<Row>& rows) const;
-  void add_rows_beside(const Facet& facet, const Vec3d& p, std::vector<Row>& rows) const;
-  void add_row(const Facet& facet, const Vec3d& p, std::vector<Row>& rows) const;
+  void add_rows(FaceId f, std::vector<Block>& to) const;
+  void add_rows_beside(const Facet& facet, std::uint32_t point, std::vector<Block>& to) const;
+  void add_row(const Facet& facet, std::uint32_t point, std::vector<Block>& to) const;
+  void press(Block& block);
   void relax(Block& block);
+  void keep_forces();
   void relax(Row& row);
 
   const HalfEdgeMesh& mesh_;
   const ContactPoints& contacts_;
-  const bool whole_;                      // and large: rows are relaxed in several blocks at once
-  std::vector<Vec3d> shift_, gradient_;   // per vertex; gradient of the volume
-  std::vector<double> reach_, softness_;  // per vertex: unhindered step; shift by a unit of force
-  std::vector<std::uint32_t> place_;      // per vertex
-  std::vector<Moving> moving_;            // by place
-  std::vector<Block> blocks_;             // of the first phase, of the second, and one of all other rows
-  std::vector<std::vector<Row>> parts_;   // of the rows, by faces
+  ContactForces& forces_;
+  const bool whole_;                       // and large: rows are relaxed in several blocks at once
+  std::vector<Vec3d> shift_, gradient_;    // per vertex; gradient of the volume
+  std::vector<double> reach_, softness_;   // per vertex: unhindered step; shift by a unit of force
+  std::vector<VertexId> living_;           // by place
+  std::vector<std::uint32_t> place_;       // per vertex
+  std::vector<Moving> moving_;             // by place
+  FaceBlocks at_;                          // where rows go
+  std::vector<Block> blocks_;              // of each phase, and one of all other rows
+  std::vector<std::vector<Block>> parts_;  // of each block, by faces
 };
 
 }  // namespace bp

@@ -44,7 +44,8 @@ TEST_CASE("a proxy that lies on flat sides everywhere is asked to stay", "[quick
   merge_flat_regions(mesh);
   const EnclosedVoxels enclosed(shelf);
   const ContactPoints contacts(enclosed, mesh, FaceTree(mesh));
-  JointFit fit(mesh, contacts);
+  ContactForces forces;
+  JointFit fit(mesh, contacts, forces);
   fit.solve(0.25);  // with nothing in its way a corner would go some thousand units
   double farthest = 0, growth = 0;
   for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {
@@ -95,7 +96,8 @@ TEST_CASE("beside corners that stay no vertex is asked to go far for a margin", 
   }
   const EnclosedVoxels enclosed(shelf);
   const ContactPoints contacts(enclosed, mesh, FaceTree(mesh));
-  JointFit fit(mesh, contacts);
+  ContactForces forces;
+  JointFit fit(mesh, contacts, forces);
   fit.solve(0.25);
   CAPTURE(fit.shift(free));
   CHECK(length(fit.shift(free)) < 1);  // it lies on voxels
