@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "lib/closing/closing.h"
 #include "lib/core/error.h"
@@ -33,35 +34,67 @@ HiddenOptions at_scale(HiddenOptions options, double scale_world) {
   return options;
 }
 
-/// At the scale that is asked for, or the best one.
-Hidden best_hidden(const OccluderSource& source, VoxelizedScene& scene, bool ground, Backends& backends) {
-  const double voxel = scene.header.frame.voxel, diagonal = scene.header.bounds.diagonal();
-  const auto hide = [&](double scale) {
-    return hidden_voxels(scene.header, *scene.solid, backends, at_scale(source.hidden, scale));
-  };
-  Hidden best;
-  best.ground = ground;
-  if (const std::optional<double> asked = source.request(scene.header).scale_world) {
-    best.scale = *asked;
-    best.voxels = hide(best.scale);
+/// The scales that are tried, from 0.
+std::vector<double> tried_scales(const StreamHeader& header) {
+  std::vector<double> scales{0};
+  const double most = header.bounds.diagonal() * kMostScale;
+  for (double s = (kLeastTriedVox + kBeyondWholeVox) * header.frame.voxel; s <= most; s *= std::sqrt(2.0))
+    scales.push_back(s);
+  return scales;
+}
+
+/// What a scene hides at the scale that is asked for, or at the best one.
+class HiddenSearch {
+ public:
+  HiddenSearch(const OccluderSource& source, VoxelizedScene& scene, Backends& backends)
+      : source_(source),
+        scene_(scene),
+        backends_(backends),
+        enclosed_(enclosed_voxels(scene.header, *scene.solid, backends, source.hidden)) {}
+
+  Hidden run() {
+    const std::optional<double> asked = source_.request(scene_.header).scale_world;
+    for (const double scale : asked ? std::vector<double>{*asked} : tried_scales(scene_.header)) attempt(scale);
+    Hidden best = std::move(promising_.front());
+    if (!asked) best.tried = std::move(tried_);
     return best;
   }
-  std::uint64_t most = 0;
-  for (double scale = 0; scale <= diagonal * kMostScale;
-       scale = scale == 0 ? (kLeastTriedVox + kBeyondWholeVox) * voxel : scale * std::sqrt(2.0)) {
-    best.voxels = {};  // one at a time
-    best.voxels = hide(scale);
-    best.scale = scale;
-    best.tried.push_back({scale, best.voxels.count});
-    most = std::max(most, best.voxels.count);
+
+ private:
+  /// Scales that hide less than one before them are never the least that hides enough: their voxels are not kept.
+  void attempt(double scale) {
+    const bool first = tried_.empty();
+    const auto unreached = unreached_voxels(scene_.header, *enclosed_, backends_, at_scale(source_.hidden, scale));
+    tried_.push_back({scale, first ? 0 : tried_.front().hidden_voxels});
+    if (!unreached && !first) return;  // as much as without a scale
+    Hidden hidden;
+    hidden.scale = scale;
+    hidden.voxels = unseen_voxels(unreached ? *unreached : *enclosed_, *scene_.solid, source_.hidden);
+    const std::uint64_t count = tried_.back().hidden_voxels = hidden.voxels.count;
+    if (count <= most_ && !first) return;
+    most_ = count;
+    std::erase_if(promising_, [&](const Hidden& h) { return double(h.voxels.count) < kAsMuch * double(most_); });
+    promising_.push_back(std::move(hidden));
   }
-  for (const auto& [scale, count] : best.tried) {
-    if (double(count) < kAsMuch * double(most)) continue;
-    if (scale != best.scale) best.voxels = hide(scale);
-    best.scale = scale;
-    break;
-  }
-  return best;
+
+  const OccluderSource& source_;
+  VoxelizedScene& scene_;
+  Backends& backends_;
+  const std::unique_ptr<BrickShelf> enclosed_;
+  std::vector<MadeOccluder::Tried> tried_;
+  std::vector<Hidden> promising_;  // each with more voxels than the one before
+  std::uint64_t most_ = 0;
+};
+
+/// Whether a scene on the ground hides enough more.
+bool gains(double on_ground, double without) {
+  return on_ground > kGroundGains * without;
+}
+
+/// False if no more can be hidden on the ground than is without: at most all voxels of the scene's bounds.
+bool may_gain(const StreamHeader& header, double hidden) {
+  const VoxelCoord size = voxel_bounds(header.frame, header.bounds).size();
+  return gains(double(size.x) * size.y * size.z, hidden);
 }
 
 /// The mesh within hidden voxels.
@@ -76,8 +109,8 @@ class OccluderMesh {
   LodLevel run() {
     const double most = scene_.header.bounds.diagonal() * kMostOpening, voxel = scene_.header.frame.voxel;
     for (double scale = 0; scale <= most; scale = scale == 0 ? 2 * voxel : 2 * scale) {
-      const bool is_better = attempt(scale);
-      if (best_.reached && !is_better) break;
+      const bool is_better = open_by(scale) && attempt(scale);
+      if (best_.reached && (!is_better || holds_all())) break;
     }
     best_.attempts = attempts_;
     return std::move(best_);
@@ -114,17 +147,32 @@ class OccluderMesh {
     return true;
   }
 
-  /// False if nothing is left of it.
-  bool mesh_at(double scale, double least_part, LodLevel& level) {
+  /// Of the best mesh: all that is hidden. No other one holds more, since each lies in hidden voxels.
+  [[nodiscard]] bool holds_all() const {
+    constexpr int kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
+    return volume6_of(best_.mesh) >= int128(hidden_.voxels.count) * kVolume6OfVoxel;
+  }
+
+  [[nodiscard]] StreamHeader header_at(double scale) const {
     StreamHeader header = scene_.header;
     header.bricks = bricks_around(*hidden_.voxels.voxels);
     header.fill = FillMode::inside;
     header.has_closing = scale > 0;
     header.scale.base = scale;
-    std::unique_ptr<BrickShelf> opened;
-    if (scale > 0) opened = bp::opening(header, *hidden_.voxels.voxels, backends_, at_scale(source_.hidden, scale));
-    if (scale > 0 && opened == nullptr) return false;
-    ShelfSource shelf(header, *hidden_.voxels.voxels, opened.get(), ShelfSource::Keep::all);
+    return header;
+  }
+
+  /// False if nothing is left of what is hidden.
+  bool open_by(double scale) {
+    opened_.reset();
+    if (scale == 0) return true;
+    opened_ = bp::opening(header_at(scale), *hidden_.voxels.voxels, backends_, at_scale(source_.hidden, scale));
+    return opened_ != nullptr;
+  }
+
+  /// False if it is too thin to be meshed.
+  bool mesh_at(double scale, double least_part, LodLevel& level) {
+    ShelfSource shelf(header_at(scale), *hidden_.voxels.voxels, opened_.get(), ShelfSource::Keep::all);
     MeshParams params;
     params.mode = MeshMode::inside;
     params.faces = {faces_ > 0 ? faces_ : kFaces};
@@ -134,7 +182,7 @@ class OccluderMesh {
       level.mesh = std::move(mesh_stream(shelf, source_.hidden.context, std::move(params), level.counts).front());
     } catch (const Error& e) {
       if (scale == 0 || e.code() != ErrorCode::bad_input) throw;
-      return false;  // too thin to be meshed
+      return false;
     }
     return true;
   }
@@ -143,7 +191,8 @@ class OccluderMesh {
   const VoxelizedScene& scene_;
   const Hidden& hidden_;
   Backends& backends_;
-  std::uint64_t faces_ = 0;  // 0: not known
+  std::unique_ptr<BrickShelf> opened_;  // of what is hidden; null: all of it
+  std::uint64_t faces_ = 0;             // 0: not known
   LodLevel best_;
   double opening_ = 0;
   int attempts_ = 0;
@@ -155,11 +204,13 @@ MadeOccluder make_occluder(const OccluderSource& source, Backends& backends, con
   MadeOccluder made;
   made.scene = source.voxelize(false);
   steps.begin("close openings");
-  Hidden hidden = best_hidden(source, made.scene, false, backends);
-  if (source.may_ground) {
+  Hidden hidden = HiddenSearch(source, made.scene, backends).run();
+  if (source.may_ground && may_gain(made.scene.header, double(hidden.voxels.count))) {
     VoxelizedScene grounded = source.voxelize(true);
-    Hidden with = best_hidden(source, grounded, true, backends);
-    if (double(with.voxels.count) > kGroundGains * double(hidden.voxels.count)) hidden = std::move(with);
+    steps.begin("close openings");
+    Hidden with = HiddenSearch(source, grounded, backends).run();
+    with.ground = true;
+    if (gains(double(with.voxels.count), double(hidden.voxels.count))) hidden = std::move(with);
   }
   made.scale_world = hidden.scale;
   made.ground = hidden.ground;
