@@ -43,20 +43,46 @@ std::vector<double> tried_scales(const StreamHeader& header) {
   return scales;
 }
 
+/// Shows steps done of those that may come; passes within a step draw the same line again.
+class ShownSteps {
+ public:
+  ShownSteps(const PassContext& context, const char* pass, const char* unit, std::size_t total)
+      : context_(context), pass_(pass), unit_(unit), total_(total) {}
+  void show() const { context_.report(pass_, unit_, done_, total_); }
+  void step() {
+    ++done_;
+    show();
+  }
+  [[nodiscard]] HiddenOptions within(HiddenOptions options) const {
+    options.context.progress = [this](const char*, const char*, std::uint64_t, std::uint64_t) { show(); };
+    return options;
+  }
+
+ private:
+  const PassContext& context_;
+  const char *pass_, *unit_;
+  std::size_t done_ = 0, total_;
+};
+
 /// What a scene hides at the scale that is asked for, or at the best one.
 class HiddenSearch {
  public:
-  HiddenSearch(const OccluderSource& source, VoxelizedScene& scene, Backends& backends)
-      : source_(source),
-        scene_(scene),
+  HiddenSearch(const OccluderSource& source, VoxelizedScene& scene, Backends& backends, const char* pass)
+      : scene_(scene),
         backends_(backends),
-        enclosed_(enclosed_voxels(scene.header, *scene.solid, backends, source.hidden)) {}
+        asked_(source.request(scene.header).scale_world),
+        scales_(asked_ ? std::vector<double>{*asked_} : tried_scales(scene.header)),
+        steps_(source.hidden.context, pass, "scales", scales_.size()),
+        options_(steps_.within(source.hidden)),
+        enclosed_(enclosed_voxels(scene.header, *scene.solid, backends, options_)) {}
 
   Hidden run() {
-    const std::optional<double> asked = source_.request(scene_.header).scale_world;
-    for (const double scale : asked ? std::vector<double>{*asked} : tried_scales(scene_.header)) attempt(scale);
+    for (const double scale : scales_) {
+      attempt(scale);
+      steps_.step();
+    }
     Hidden best = std::move(promising_.front());
-    if (!asked) best.tried = std::move(tried_);
+    if (!asked_) best.tried = std::move(tried_);
     return best;
   }
 
@@ -64,12 +90,12 @@ class HiddenSearch {
   /// Scales that hide less than one before them are never the least that hides enough: their voxels are not kept.
   void attempt(double scale) {
     const bool first = tried_.empty();
-    const auto unreached = unreached_voxels(scene_.header, *enclosed_, backends_, at_scale(source_.hidden, scale));
+    const auto unreached = unreached_voxels(scene_.header, *enclosed_, backends_, at_scale(options_, scale));
     tried_.push_back({scale, first ? 0 : tried_.front().hidden_voxels});
     if (!unreached && !first) return;  // as much as without a scale
     Hidden hidden;
     hidden.scale = scale;
-    hidden.voxels = unseen_voxels(unreached ? *unreached : *enclosed_, *scene_.solid, source_.hidden);
+    hidden.voxels = unseen_voxels(unreached ? *unreached : *enclosed_, *scene_.solid, options_);
     const std::uint64_t count = tried_.back().hidden_voxels = hidden.voxels.count;
     if (count <= most_ && !first) return;
     most_ = count;
@@ -77,14 +103,25 @@ class HiddenSearch {
     promising_.push_back(std::move(hidden));
   }
 
-  const OccluderSource& source_;
   VoxelizedScene& scene_;
   Backends& backends_;
+  const std::optional<double> asked_;
+  const std::vector<double> scales_;
+  ShownSteps steps_;
+  const HiddenOptions options_;
   const std::unique_ptr<BrickShelf> enclosed_;
   std::vector<MadeOccluder::Tried> tried_;
   std::vector<Hidden> promising_;  // each with more voxels than the one before
   std::uint64_t most_ = 0;
 };
+
+/// The scales of openings that are tried, from 0.
+std::vector<double> tried_openings(const StreamHeader& header) {
+  std::vector<double> scales{0};
+  const double most = header.bounds.diagonal() * kMostOpening;
+  for (double s = 2 * header.frame.voxel; s <= most; s *= 2) scales.push_back(s);
+  return scales;
+}
 
 /// Whether a scene on the ground hides enough more.
 bool gains(double on_ground, double without) {
@@ -101,21 +138,27 @@ bool may_gain(const StreamHeader& header, double hidden) {
 class OccluderMesh {
  public:
   OccluderMesh(const OccluderSource& source, const VoxelizedScene& scene, const Hidden& hidden, Backends& backends)
-      : source_(source), scene_(scene), hidden_(hidden), backends_(backends) {
+      : source_(source),
+        scene_(scene),
+        hidden_(hidden),
+        backends_(backends),
+        openings_(tried_openings(scene.header)),
+        steps_(source.hidden.context, "meshing", "openings", openings_.size()) {
     const LevelRequest request = source.request(scene.header);
     if (!request.faces.empty()) faces_ = request.faces.front();
   }
 
   LodLevel run() {
-    const double most = scene_.header.bounds.diagonal() * kMostOpening, voxel = scene_.header.frame.voxel;
-    for (double scale = 0; scale <= most; scale = scale == 0 ? 2 * voxel : 2 * scale) {
+    steps_.show();
+    for (const double scale : openings_) {
       const bool is_better = open_by(scale) && attempt(scale);
+      steps_.step();
       if (best_.reached && (!is_better || holds_all())) break;
     }
     best_.attempts = attempts_;
     return std::move(best_);
   }
-  [[nodiscard]] double opening() const { return opening_; }
+  [[nodiscard]] double opening_world() const { return opening_; }
   [[nodiscard]] std::uint64_t faces() const { return faces_; }
 
  private:
@@ -166,7 +209,8 @@ class OccluderMesh {
   bool open_by(double scale) {
     opened_.reset();
     if (scale == 0) return true;
-    opened_ = bp::opening(header_at(scale), *hidden_.voxels.voxels, backends_, at_scale(source_.hidden, scale));
+    opened_ =
+        opening(header_at(scale), *hidden_.voxels.voxels, backends_, at_scale(steps_.within(source_.hidden), scale));
     return opened_ != nullptr;
   }
 
@@ -191,6 +235,8 @@ class OccluderMesh {
   const VoxelizedScene& scene_;
   const Hidden& hidden_;
   Backends& backends_;
+  const std::vector<double> openings_;
+  ShownSteps steps_;
   std::unique_ptr<BrickShelf> opened_;  // of what is hidden; null: all of it
   std::uint64_t faces_ = 0;             // 0: not known
   LodLevel best_;
@@ -204,11 +250,11 @@ MadeOccluder make_occluder(const OccluderSource& source, Backends& backends, con
   MadeOccluder made;
   made.scene = source.voxelize(false);
   steps.begin("close openings");
-  Hidden hidden = HiddenSearch(source, made.scene, backends).run();
+  Hidden hidden = HiddenSearch(source, made.scene, backends, "closing openings").run();
   if (source.may_ground && may_gain(made.scene.header, double(hidden.voxels.count))) {
     VoxelizedScene grounded = source.voxelize(true);
     steps.begin("close openings");
-    Hidden with = HiddenSearch(source, grounded, backends).run();
+    Hidden with = HiddenSearch(source, grounded, backends, "closing openings above the ground").run();
     with.ground = true;
     if (gains(double(with.voxels.count), double(hidden.voxels.count))) hidden = std::move(with);
   }
@@ -222,7 +268,7 @@ MadeOccluder make_occluder(const OccluderSource& source, Backends& backends, con
   made.level = mesh.run();
   made.level.scale_world = hidden.scale;
   made.level.error_world = made.level.distance_world = std::nan("");
-  made.opening_world = mesh.opening();
+  made.opening_world = mesh.opening_world();
   made.faces_asked = mesh.faces();
   return made;
 }

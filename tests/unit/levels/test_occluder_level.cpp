@@ -21,10 +21,15 @@ VoxelizedScene voxels(const Solid& touched) {
   return scene;
 }
 
-/// An occluder, and how often the scene was put on the ground for it.
+/// An occluder, how often the scene was put on the ground for it, and what was shown meanwhile.
 struct Run {
   MadeOccluder made;
   int grounded = 0;
+  struct Step {
+    std::string pass;
+    std::uint64_t done = 0, total = 0;
+  };
+  std::vector<Step> steps;
 };
 
 Run run(const Solid& touched, bool may_ground = true) {
@@ -37,6 +42,9 @@ Run run(const Solid& touched, bool may_ground = true) {
   source.request = [](const StreamHeader&) { return LevelRequest{}; };
   source.may_ground = may_ground;
   source.hidden.context = memory_context();
+  source.hidden.context.progress = [&](const char* pass, const char*, std::uint64_t done, std::uint64_t total) {
+    out.steps.push_back({pass, done, total});
+  };
   Backends backends = plain_backends(2);
   out.made = make_occluder(source, backends, {[](const std::string&) {}, {}});
   return out;
@@ -117,4 +125,21 @@ TEST_CASE("openings of what an occluder hides are tried until a mesh holds all o
   CHECK(volume < double(less.hidden_voxels));
   CHECK(volume > 0.999 * double(less.hidden_voxels));
   CHECK(less.level.attempts == 3);  // the second holds 0.9998 of it, and the third might hold more
+}
+
+TEST_CASE("an occluder shows the scales and openings that are done, of those that may come",
+          "[quick][levels][occluder]") {
+  const Run open = run([](VoxelCoord p) { return wall(kBox, p) && p.y >= 3; });
+  std::vector<std::string> passes;
+  std::uint64_t done = 0;
+  for (const Run::Step& step : open.steps) {
+    const bool begins = passes.empty() || passes.back() != step.pass;
+    if (begins) passes.push_back(step.pass);
+    CHECK(step.done >= (begins ? 0 : done));
+    CHECK(step.done <= step.total);
+    done = step.done;
+  }
+  CHECK(passes == std::vector<std::string>{"closing openings", "closing openings above the ground", "meshing"});
+  CHECK(open.steps.back().done == std::uint64_t(open.made.level.attempts));
+  CHECK(open.steps.back().total == 5);  // 0, 2, 4, 8 and 16 voxels of 209
 }
