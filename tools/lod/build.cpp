@@ -361,6 +361,7 @@ MadeChain make_chain(Build& build) {
   ChainSource source;
   source.voxelize = [&](int halvings) {
     VoxelizedScene scene = build.voxelize(0, nullptr, halvings);
+    build.scene_parts = parts_of(scene, o, build.budget.work.bytes);
     if (o.is_cage()) build.make_room(scene);
     input_hash = scene.counts.input_hash;
     return scene;
