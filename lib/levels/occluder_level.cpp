@@ -18,8 +18,7 @@ constexpr double kGroundGains = 1.25;                            // times what i
 constexpr double kLeastTriedVox = 2;                             // that is tried
 constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;  // of the scene's diagonal
 constexpr double kLeastPart = 1e-3, kMostLeastPart = 0.3;        // of the largest one, by volume
-constexpr std::uint64_t kFaces = 100, kFacesOfPart = 24, kMostFaces = 2400;
-constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;  // with fewer, parts are left out
+constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;          // with fewer, parts are left out
 
 /// What a scene hides at a scale.
 struct Hidden {
@@ -32,15 +31,6 @@ struct Hidden {
 HiddenOptions at_scale(HiddenOptions options, double scale_world) {
   options.scale_world = scale_world;
   return options;
-}
-
-/// The scales that are tried, from 0.
-std::vector<double> tried_scales(const StreamHeader& header) {
-  std::vector<double> scales{0};
-  const double most = header.bounds.diagonal() * kMostScale;
-  for (double s = (kLeastTriedVox + kBeyondWholeVox) * header.frame.voxel; s <= most; s *= std::sqrt(2.0))
-    scales.push_back(s);
-  return scales;
 }
 
 /// Shows steps done of those that may come; passes within a step draw the same line again.
@@ -71,7 +61,7 @@ class HiddenSearch {
       : scene_(scene),
         backends_(backends),
         asked_(source.request(scene.header).scale_world),
-        scales_(asked_ ? std::vector<double>{*asked_} : tried_scales(scene.header)),
+        scales_(asked_ ? std::vector<double>{*asked_} : occluder_scales(scene.header)),
         steps_(source.hidden.context, pass, "scales", scales_.size()),
         options_(steps_.within(source.hidden)),
         enclosed_(enclosed_voxels(scene.header, *scene.solid, backends, options_)) {}
@@ -115,14 +105,6 @@ class HiddenSearch {
   std::uint64_t most_ = 0;
 };
 
-/// The scales of openings that are tried, from 0.
-std::vector<double> tried_openings(const StreamHeader& header) {
-  std::vector<double> scales{0};
-  const double most = header.bounds.diagonal() * kMostOpening;
-  for (double s = 2 * header.frame.voxel; s <= most; s *= 2) scales.push_back(s);
-  return scales;
-}
-
 /// Whether a scene on the ground hides enough more.
 bool gains(double on_ground, double without) {
   return on_ground > kGroundGains * without;
@@ -142,7 +124,7 @@ class OccluderMesh {
         scene_(scene),
         hidden_(hidden),
         backends_(backends),
-        openings_(tried_openings(scene.header)),
+        openings_(occluder_openings(scene.header)),
         steps_(source.hidden.context, "meshing", "openings", openings_.size()) {
     const LevelRequest request = source.request(scene.header);
     if (!request.faces.empty()) faces_ = request.faces.front();
@@ -170,8 +152,8 @@ class OccluderMesh {
       if (!mesh_at(scale, least, level)) break;
       const std::uint64_t parts = level.counts.levels.front().measures.shells;
       if (attempts_++ == 0 && faces_ == 0) {
-        faces_ = std::min(std::max(kFaces, parts * kFacesOfPart), kMostFaces);
-        if (faces_ > kFaces && !mesh_at(scale, least, level)) break;
+        faces_ = std::min(std::max(kOccluderFaces, parts * kOccluderFacesOfPart), kMostOccluderFaces);
+        if (faces_ > kOccluderFaces && !mesh_at(scale, least, level)) break;
       }
       level.reached = level.mesh.triangles.size() <= faces_;
       any |= keep_better(std::move(level), scale);
@@ -219,7 +201,7 @@ class OccluderMesh {
     ShelfSource shelf(header_at(scale), *hidden_.voxels.voxels, opened_.get(), ShelfSource::Keep::all);
     MeshParams params;
     params.mode = MeshMode::inside;
-    params.faces = {faces_ > 0 ? faces_ : kFaces};
+    params.faces = {faces_ > 0 ? faces_ : kOccluderFaces};
     params.enclose = Enclose::input;
     params.least_part = least_part;
     try {
@@ -245,6 +227,21 @@ class OccluderMesh {
 };
 
 }  // namespace
+
+std::vector<double> occluder_scales(const StreamHeader& header) {
+  std::vector<double> scales{0};
+  const double most = header.bounds.diagonal() * kMostScale;
+  for (double s = (kLeastTriedVox + kBeyondWholeVox) * header.frame.voxel; s <= most; s *= std::sqrt(2.0))
+    scales.push_back(s);
+  return scales;
+}
+
+std::vector<double> occluder_openings(const StreamHeader& header) {
+  std::vector<double> scales{0};
+  const double most = header.bounds.diagonal() * kMostOpening;
+  for (double s = 2 * header.frame.voxel; s <= most; s *= 2) scales.push_back(s);
+  return scales;
+}
 
 MadeOccluder make_occluder(const OccluderSource& source, Backends& backends, const LevelSteps& steps) {
   MadeOccluder made;
