@@ -39,6 +39,8 @@ void build_chain(const bp::BuildOptions& o) {
     out.leave_out(bp::level_name(o.name, i) + ".glb");
   build.progress.end();
   build.note(bp::heavier_note(made.facts.front(), asks_for_faces(request_of(o)), scene.counts.scene.triangles));
+  build.note(bp::joined_note(made.facts.front(), made.levels.front().counts.levels.front().measures.shells,
+                             build.scene_parts));
   build.report.begin("write");
   const std::vector<bp::WrittenFile> files =
       o.obj ? bp::write_obj_levels(o, made.levels, origin, out)

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "lib/closing/closing.h"
 #include "lib/core/error.h"
@@ -17,8 +18,7 @@ constexpr double kGroundGains = 1.25;                            // times what i
 constexpr double kLeastTriedVox = 2;                             // that is tried
 constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;  // of the scene's diagonal
 constexpr double kLeastPart = 1e-3, kMostLeastPart = 0.3;        // of the largest one, by volume
-constexpr std::uint64_t kFaces = 100, kFacesOfPart = 24, kMostFaces = 2400;
-constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;  // with fewer, parts are left out
+constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;          // with fewer, parts are left out
 
 /// What a scene hides at a scale.
 struct Hidden {
@@ -33,56 +33,114 @@ HiddenOptions at_scale(HiddenOptions options, double scale_world) {
   return options;
 }
 
-/// At the scale that is asked for, or the best one.
-Hidden best_hidden(const OccluderSource& source, VoxelizedScene& scene, bool ground, Backends& backends) {
-  const double voxel = scene.header.frame.voxel, diagonal = scene.header.bounds.diagonal();
-  const auto hide = [&](double scale) {
-    return hidden_voxels(scene.header, *scene.solid, backends, at_scale(source.hidden, scale));
-  };
-  Hidden best;
-  best.ground = ground;
-  if (const std::optional<double> asked = source.request(scene.header).scale_world) {
-    best.scale = *asked;
-    best.voxels = hide(best.scale);
+/// Shows steps done of those that may come; passes within a step draw the same line again.
+class ShownSteps {
+ public:
+  ShownSteps(const PassContext& context, const char* pass, const char* unit, std::size_t total)
+      : context_(context), pass_(pass), unit_(unit), total_(total) {}
+  void show() const { context_.report(pass_, unit_, done_, total_); }
+  void step() {
+    ++done_;
+    show();
+  }
+  [[nodiscard]] HiddenOptions within(HiddenOptions options) const {
+    options.context.progress = [this](const char*, const char*, std::uint64_t, std::uint64_t) { show(); };
+    return options;
+  }
+
+ private:
+  const PassContext& context_;
+  const char *pass_, *unit_;
+  std::size_t done_ = 0, total_;
+};
+
+/// What a scene hides at the scale that is asked for, or at the best one.
+class HiddenSearch {
+ public:
+  HiddenSearch(const OccluderSource& source, VoxelizedScene& scene, Backends& backends, const char* pass)
+      : scene_(scene),
+        backends_(backends),
+        asked_(source.request(scene.header).scale_world),
+        scales_(asked_ ? std::vector<double>{*asked_} : occluder_scales(scene.header)),
+        steps_(source.hidden.context, pass, "scales", scales_.size()),
+        options_(steps_.within(source.hidden)),
+        enclosed_(enclosed_voxels(scene.header, *scene.solid, backends, options_)) {}
+
+  Hidden run() {
+    for (const double scale : scales_) {
+      attempt(scale);
+      steps_.step();
+    }
+    Hidden best = std::move(promising_.front());
+    if (!asked_) best.tried = std::move(tried_);
     return best;
   }
-  std::uint64_t most = 0;
-  for (double scale = 0; scale <= diagonal * kMostScale;
-       scale = scale == 0 ? (kLeastTriedVox + kBeyondWholeVox) * voxel : scale * std::sqrt(2.0)) {
-    best.voxels = {};  // one at a time
-    best.voxels = hide(scale);
-    best.scale = scale;
-    best.tried.push_back({scale, best.voxels.count});
-    most = std::max(most, best.voxels.count);
+
+ private:
+  /// Scales that hide less than one before them are never the least that hides enough: their voxels are not kept.
+  void attempt(double scale) {
+    const bool first = tried_.empty();
+    const auto unreached = unreached_voxels(scene_.header, *enclosed_, backends_, at_scale(options_, scale));
+    tried_.push_back({scale, first ? 0 : tried_.front().hidden_voxels});
+    if (!unreached && !first) return;  // as much as without a scale
+    Hidden hidden;
+    hidden.scale = scale;
+    hidden.voxels = unseen_voxels(unreached ? *unreached : *enclosed_, *scene_.solid, options_);
+    const std::uint64_t count = tried_.back().hidden_voxels = hidden.voxels.count;
+    if (count <= most_ && !first) return;
+    most_ = count;
+    std::erase_if(promising_, [&](const Hidden& h) { return double(h.voxels.count) < kAsMuch * double(most_); });
+    promising_.push_back(std::move(hidden));
   }
-  for (const auto& [scale, count] : best.tried) {
-    if (double(count) < kAsMuch * double(most)) continue;
-    if (scale != best.scale) best.voxels = hide(scale);
-    best.scale = scale;
-    break;
-  }
-  return best;
+
+  VoxelizedScene& scene_;
+  Backends& backends_;
+  const std::optional<double> asked_;
+  const std::vector<double> scales_;
+  ShownSteps steps_;
+  const HiddenOptions options_;
+  const std::unique_ptr<BrickShelf> enclosed_;
+  std::vector<MadeOccluder::Tried> tried_;
+  std::vector<Hidden> promising_;  // each with more voxels than the one before
+  std::uint64_t most_ = 0;
+};
+
+/// Whether a scene on the ground hides enough more.
+bool gains(double on_ground, double without) {
+  return on_ground > kGroundGains * without;
+}
+
+/// False if no more can be hidden on the ground than is without: at most all voxels of the scene's bounds.
+bool may_gain(const StreamHeader& header, double hidden) {
+  const VoxelCoord size = voxel_bounds(header.frame, header.bounds).size();
+  return gains(double(size.x) * size.y * size.z, hidden);
 }
 
 /// The mesh within hidden voxels.
 class OccluderMesh {
  public:
   OccluderMesh(const OccluderSource& source, const VoxelizedScene& scene, const Hidden& hidden, Backends& backends)
-      : source_(source), scene_(scene), hidden_(hidden), backends_(backends) {
+      : source_(source),
+        scene_(scene),
+        hidden_(hidden),
+        backends_(backends),
+        openings_(occluder_openings(scene.header)),
+        steps_(source.hidden.context, "meshing", "openings", openings_.size()) {
     const LevelRequest request = source.request(scene.header);
     if (!request.faces.empty()) faces_ = request.faces.front();
   }
 
   LodLevel run() {
-    const double most = scene_.header.bounds.diagonal() * kMostOpening, voxel = scene_.header.frame.voxel;
-    for (double scale = 0; scale <= most; scale = scale == 0 ? 2 * voxel : 2 * scale) {
-      const bool is_better = attempt(scale);
-      if (best_.reached && !is_better) break;
+    steps_.show();
+    for (const double scale : openings_) {
+      const bool is_better = open_by(scale) && attempt(scale);
+      steps_.step();
+      if (best_.reached && (!is_better || holds_all())) break;
     }
     best_.attempts = attempts_;
     return std::move(best_);
   }
-  [[nodiscard]] double opening() const { return opening_; }
+  [[nodiscard]] double opening_world() const { return opening_; }
   [[nodiscard]] std::uint64_t faces() const { return faces_; }
 
  private:
@@ -94,8 +152,8 @@ class OccluderMesh {
       if (!mesh_at(scale, least, level)) break;
       const std::uint64_t parts = level.counts.levels.front().measures.shells;
       if (attempts_++ == 0 && faces_ == 0) {
-        faces_ = std::min(std::max(kFaces, parts * kFacesOfPart), kMostFaces);
-        if (faces_ > kFaces && !mesh_at(scale, least, level)) break;
+        faces_ = std::min(std::max(kOccluderFaces, parts * kOccluderFacesOfPart), kMostOccluderFaces);
+        if (faces_ > kOccluderFaces && !mesh_at(scale, least, level)) break;
       }
       level.reached = level.mesh.triangles.size() <= faces_;
       any |= keep_better(std::move(level), scale);
@@ -114,27 +172,43 @@ class OccluderMesh {
     return true;
   }
 
-  /// False if nothing is left of it.
-  bool mesh_at(double scale, double least_part, LodLevel& level) {
+  /// Of the best mesh: all that is hidden. No other one holds more, since each lies in hidden voxels.
+  [[nodiscard]] bool holds_all() const {
+    constexpr int kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
+    return volume6_of(best_.mesh) >= int128(hidden_.voxels.count) * kVolume6OfVoxel;
+  }
+
+  [[nodiscard]] StreamHeader header_at(double scale) const {
     StreamHeader header = scene_.header;
     header.bricks = bricks_around(*hidden_.voxels.voxels);
     header.fill = FillMode::inside;
     header.has_closing = scale > 0;
     header.scale.base = scale;
-    std::unique_ptr<BrickShelf> opened;
-    if (scale > 0) opened = bp::opening(header, *hidden_.voxels.voxels, backends_, at_scale(source_.hidden, scale));
-    if (scale > 0 && opened == nullptr) return false;
-    ShelfSource shelf(header, *hidden_.voxels.voxels, opened.get(), ShelfSource::Keep::all);
+    return header;
+  }
+
+  /// False if nothing is left of what is hidden.
+  bool open_by(double scale) {
+    opened_.reset();
+    if (scale == 0) return true;
+    opened_ =
+        opening(header_at(scale), *hidden_.voxels.voxels, backends_, at_scale(steps_.within(source_.hidden), scale));
+    return opened_ != nullptr;
+  }
+
+  /// False if it is too thin to be meshed.
+  bool mesh_at(double scale, double least_part, LodLevel& level) {
+    ShelfSource shelf(header_at(scale), *hidden_.voxels.voxels, opened_.get(), ShelfSource::Keep::all);
     MeshParams params;
     params.mode = MeshMode::inside;
-    params.faces = {faces_ > 0 ? faces_ : kFaces};
+    params.faces = {faces_ > 0 ? faces_ : kOccluderFaces};
     params.enclose = Enclose::input;
     params.least_part = least_part;
     try {
       level.mesh = std::move(mesh_stream(shelf, source_.hidden.context, std::move(params), level.counts).front());
     } catch (const Error& e) {
       if (scale == 0 || e.code() != ErrorCode::bad_input) throw;
-      return false;  // too thin to be meshed
+      return false;
     }
     return true;
   }
@@ -143,7 +217,10 @@ class OccluderMesh {
   const VoxelizedScene& scene_;
   const Hidden& hidden_;
   Backends& backends_;
-  std::uint64_t faces_ = 0;  // 0: not known
+  const std::vector<double> openings_;
+  ShownSteps steps_;
+  std::unique_ptr<BrickShelf> opened_;  // of what is hidden; null: all of it
+  std::uint64_t faces_ = 0;             // 0: not known
   LodLevel best_;
   double opening_ = 0;
   int attempts_ = 0;
@@ -151,15 +228,32 @@ class OccluderMesh {
 
 }  // namespace
 
+std::vector<double> occluder_scales(const StreamHeader& header) {
+  std::vector<double> scales{0};
+  const double most = header.bounds.diagonal() * kMostScale;
+  for (double s = (kLeastTriedVox + kBeyondWholeVox) * header.frame.voxel; s <= most; s *= std::sqrt(2.0))
+    scales.push_back(s);
+  return scales;
+}
+
+std::vector<double> occluder_openings(const StreamHeader& header) {
+  std::vector<double> scales{0};
+  const double most = header.bounds.diagonal() * kMostOpening;
+  for (double s = 2 * header.frame.voxel; s <= most; s *= 2) scales.push_back(s);
+  return scales;
+}
+
 MadeOccluder make_occluder(const OccluderSource& source, Backends& backends, const LevelSteps& steps) {
   MadeOccluder made;
   made.scene = source.voxelize(false);
   steps.begin("close openings");
-  Hidden hidden = best_hidden(source, made.scene, false, backends);
-  if (source.may_ground) {
+  Hidden hidden = HiddenSearch(source, made.scene, backends, "closing openings").run();
+  if (source.may_ground && may_gain(made.scene.header, double(hidden.voxels.count))) {
     VoxelizedScene grounded = source.voxelize(true);
-    Hidden with = best_hidden(source, grounded, true, backends);
-    if (double(with.voxels.count) > kGroundGains * double(hidden.voxels.count)) hidden = std::move(with);
+    steps.begin("close openings");
+    Hidden with = HiddenSearch(source, grounded, backends, "closing openings above the ground").run();
+    with.ground = true;
+    if (gains(double(with.voxels.count), double(hidden.voxels.count))) hidden = std::move(with);
   }
   made.scale_world = hidden.scale;
   made.ground = hidden.ground;
@@ -171,7 +265,7 @@ MadeOccluder make_occluder(const OccluderSource& source, Backends& backends, con
   made.level = mesh.run();
   made.level.scale_world = hidden.scale;
   made.level.error_world = made.level.distance_world = std::nan("");
-  made.opening_world = mesh.opening();
+  made.opening_world = mesh.opening_world();
   made.faces_asked = mesh.faces();
   return made;
 }

@@ -14,6 +14,14 @@ struct OccluderSource {
   HiddenOptions hidden;                                      ///< all but the scale
 };
 
+/// Faces where none are asked for: these, or so many for each part where that is more, up to the most.
+constexpr std::uint64_t kOccluderFaces = 100, kOccluderFacesOfPart = 24, kMostOccluderFaces = 2400;
+
+/// The scales that are tried where none is asked for, scene units, from 0. `header`: of the scene's voxels.
+[[nodiscard]] std::vector<double> occluder_scales(const StreamHeader& header);
+/// The scales of openings that may be tried of what is hidden, from 0: the search ends where a larger one holds less.
+[[nodiscard]] std::vector<double> occluder_openings(const StreamHeader& header);
+
 struct MadeOccluder {
   VoxelizedScene scene;             ///< without its voxels
   LodLevel level;                   ///< error_world: NaN, not measured; no triangle if the scene hides nothing
@@ -31,8 +39,7 @@ struct MadeOccluder {
 
 /// Without a scale, openings are closed at the least scale, up to a sixteenth of the scene's diagonal, that hides 0.95
 /// of what the best one does. A scene that hides a quarter more if it stands on the ground does so: many buildings have
-/// no floor. Without faces there are 100, or 24 for each part where that is more, at most 2400. Where the faces show
-/// more without small and narrow parts, these are left out.
+/// no floor. Where the faces show more without small and narrow parts, these are left out.
 [[nodiscard]] MadeOccluder make_occluder(const OccluderSource& source, Backends& backends, const LevelSteps& steps);
 
 }  // namespace bp

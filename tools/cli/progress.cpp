@@ -11,9 +11,10 @@ namespace bp {
 
 namespace {
 
-constexpr std::int64_t kLongWorkMs = 1000;  ///< work shorter than this shows nothing
+constexpr std::int64_t kLongWorkMs = 1000;  ///< runs shorter than this show nothing
 constexpr std::int64_t kBarMs = 100, kJsonMs = 1000;
 constexpr int kBarWidth = 24;
+constexpr double kFewSteps = 100;  ///< fewer are counted: their rate says nothing
 
 /// The last tool of a pipe draws: two lines on one terminal would overwrite each other.
 bool may_draw() {
@@ -61,7 +62,10 @@ void Progress::begin(const std::string& pass, std::uint64_t total, const std::st
   done_ = 0;
   total_ = total;
   begin_ = Clock::now();
-  next_ms_ = mode_ == ProgressMode::automatic ? kLongWorkMs : kBarMs;
+  // Of a long run each pass is shown from its first step: the next one may take long.
+  const auto before = std::chrono::duration_cast<std::chrono::milliseconds>(begin_ - start_).count();
+  const std::int64_t least = mode_ == ProgressMode::automatic ? kLongWorkMs : kBarMs;
+  next_ms_ = mode_ == ProgressMode::json ? kBarMs : std::max<std::int64_t>(0, least - before);
 }
 
 void Progress::add(std::uint64_t steps) {
@@ -106,14 +110,16 @@ void Progress::show(bool last) {
 }
 
 std::string Progress::bar_line(double seconds) const {
-  const auto done = double(done_), total = double(total_), rate = seconds > 0 ? done / seconds : 0;
-  const std::string speed = fmt::format("{} {}/s", short_count(rate), unit_);
-  if (total <= 0) return fmt::format("{}: {} {} {} {}", tool_, pass_, short_count(done), unit_, speed);
+  const auto done = double(done_), total = double(total_);
+  const double rate = seconds * 1000 > kBarMs ? done / seconds : 0;  // 0: not known
+  const std::string speed = rate > 0 ? fmt::format(" {} {}/s", short_count(rate), unit_) : "";
+  if (total <= 0) return fmt::format("{}: {} {} {}{}", tool_, pass_, short_count(done), unit_, speed);
   const double share = std::min(done / total, 1.0);
   const auto full = std::size_t(share * kBarWidth);
-  const std::string left = rate > 0 ? clock_text((total - done) / rate) + " left" : "";
-  return fmt::format("{}: {} [{}{}] {:3.0f}% {} {}", tool_, pass_, std::string(full, '#'),
-                     std::string(kBarWidth - full, '.'), 100 * share, speed, left);
+  const std::string left = rate > 0 ? " " + clock_text((total - done) / rate) + " left" : "";
+  return fmt::format("{}: {} [{}{}] {:3.0f}%{}{}", tool_, pass_, std::string(full, '#'),
+                     std::string(kBarWidth - full, '.'), 100 * share,
+                     total < kFewSteps ? fmt::format(" {:.0f} of {:.0f} {}", done, total, unit_) : speed, left);
 }
 
 std::string Progress::json_line(double seconds) const {

@@ -7,7 +7,7 @@
 
 #include "lib/pass/pass_progress.h"
 
-/// One line on stderr: bar, share, rate and time left. Silent unless stderr is a terminal and the work is long; in a
+/// One line on stderr: bar, share, rate and time left. Silent unless stderr is a terminal and the run is long; in a
 /// pipe of tools only the last one draws. stdout is never touched.
 namespace bp {
 
@@ -47,8 +47,9 @@ class Progress {
   std::mutex mutex_;  ///< guards the output and the strings
   std::string pass_, unit_;
   std::atomic<std::uint64_t> done_{0}, total_{0};
-  Clock::time_point begin_;
-  std::atomic<std::int64_t> next_ms_{0};  ///< since begin_: when the line is due again
+  const Clock::time_point start_ = Clock::now();  ///< of the run
+  Clock::time_point begin_;                       ///< of the pass
+  std::atomic<std::int64_t> next_ms_{0};          ///< since begin_: when the line is due again
   bool drawn_ = false;
 };
 

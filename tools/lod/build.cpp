@@ -112,6 +112,7 @@ void Build::note_time(const StreamHeader& header, const VoxelizeCounts& counts) 
   using Clock = std::chrono::steady_clock;
   const double voxel = header.frame.voxel;
   const Attempt before = std::exchange(attempt_, {Clock::now(), voxel});
+  if (options.profile == LodProfile::occluder) return;  // nothing that is known here tells: up to 11 times as long
   if (before.voxel == 0)
     return note_estimate(estimate_build(options, header.bounds, counts, voxel), options.common, progress, report);
   if (before.voxel == voxel) return;
@@ -361,6 +362,7 @@ MadeChain make_chain(Build& build) {
   ChainSource source;
   source.voxelize = [&](int halvings) {
     VoxelizedScene scene = build.voxelize(0, nullptr, halvings);
+    build.scene_parts = parts_of(scene, o, build.budget.work.bytes);
     if (o.is_cage()) build.make_room(scene);
     input_hash = scene.counts.input_hash;
     return scene;

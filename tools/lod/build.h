@@ -27,7 +27,8 @@ class Build {
   Backends backends;
   const BuildBudget budget;
   const ShelfFactory make_shelf;
-  PassProgress show;  ///< progress of passes
+  PassProgress show;       ///< progress of passes
+  SceneParts scene_parts;  ///< of levels in one mesh, when they are made
 
   explicit Build(const BuildOptions& options);
   Build(const Build&) = delete;

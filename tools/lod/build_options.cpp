@@ -115,7 +115,7 @@ void check_profile(const Args& args, const BuildOptions& o) {
   if (o.profile == LodProfile::collision && args.given("--appearance") && o.colors())
     fail(ErrorCode::bad_argument, "--profile collision has no colours; leave --appearance out");
   if (o.profile == LodProfile::occluder)
-    refuse({"--mode", "--enclose", "--fill", "--error", "--appearance", "--explain", "--field"});
+    refuse({"--mode", "--enclose", "--fill", "--error", "--appearance", "--field"});
   if (o.is_tileset()) refuse({"--field"});
   if (o.is_cage()) refuse({"--mode", "--appearance", "--enclose", "--error", "--scale", "--field"});
   if (o.profile == LodProfile::collision && o.proxy.mode != MeshMode::bounding)

@@ -12,6 +12,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/levels/level_plan.h"
+#include "lib/levels/occluder_level.h"
 #include "lib/levels/tile_plan.h"
 #include "tools/lod/bake_levels.h"
 #include "tools/lod/build.h"
@@ -89,7 +90,8 @@ struct Plan {
   std::vector<PlannedLevel> levels;
   Vec3d origin{};
   std::vector<FoundJobs> kept;
-  double leaf_bytes = 0;  ///< with their images; 0: none are wanted
+  std::vector<double> scales, openings;  ///< of an occluder, which has no planned levels: those that may be tried
+  double leaf_bytes = 0;                 ///< with their images; 0: none are wanted
   double file_bytes = 0, scratch_bytes = 0;
   Estimate work;  ///< from nothing, and without textures
 };
@@ -136,6 +138,9 @@ Plan plan_of(const Build& build, const Scene& scene) {
     plan.jobs = tiles.jobs();
     plan.thousandths = thousandths_of(scene.surface.work(tiles, Cells{o.tile_vox}));
     if (!o.cache.empty()) plan.kept = look_up_tileset(o);
+  } else if (o.profile == LodProfile::occluder) {
+    plan.scales = request.scale_world ? std::vector<double>{*request.scale_world} : occluder_scales(plan.header);
+    plan.openings = occluder_openings(plan.header);
   } else {
     plan.levels = planned_chain(request, plan.header, scene.area, is_named(voxel_request(o, diagonal)));
     plan.jobs = plan.levels.size();
@@ -192,11 +197,15 @@ Json json_of(const Build& build, const Scene& scene, const Plan& plan) {
             {"threads", thread_count()},
             {"levels", Json::array()},
             {"jobs", plan.jobs},
-            {"file_bytes_about", std::uint64_t(plan.file_bytes)},
-            {"scratch_bytes_about", std::uint64_t(plan.scratch_bytes)},
-            {"seconds_about", wall_seconds(plan.work, names_of(build.backends))},
-            {"peak_bytes_about", std::min(std::uint64_t(plan.work.bytes), build.options.common.memory_bytes)}};
+            {"scratch_bytes_about", std::uint64_t(plan.scratch_bytes)}};
   for (const PlannedLevel& level : plan.levels) json["levels"].push_back(json_of(level));
+  if (!plan.scales.empty()) {
+    json["scales"] = plan.scales, json["openings"] = plan.openings;
+  } else {
+    json["file_bytes_about"] = std::uint64_t(plan.file_bytes);
+    json["seconds_about"] = wall_seconds(plan.work, names_of(build.backends));
+    json["peak_bytes_about"] = std::min(std::uint64_t(plan.work.bytes), build.options.common.memory_bytes);
+  }
   if (plan.leaf_bytes > 0) json["leaf_bytes_about"] = std::uint64_t(plan.leaf_bytes);
   if (plan.origin != Vec3d{}) json["origin"] = plan.origin;
   for (const FoundJobs& f : plan.kept) json["kept"].push_back(json_of(f));
@@ -209,6 +218,20 @@ std::string row_of(const PlannedLevel& l, std::size_t i) {
   return fmt::format("{}\t{}{:.4g}\t{}{:.4g}\t{}\t{}\t{}..{}\t{}\n", i, about, l.voxel, about, l.scale_world,
                      l.halo_vox, l.cut ? fmt::format("at most {}", l.tiles) : "1", l.number, l.number + l.tiles,
                      l.faces > 0 ? fmt::format("about {}", l.faces) : "as the error takes");
+}
+
+/// What an occluder takes depends on what its scene hides: time and memory are not known before.
+/// "scales    10, from 0 to 0.0911, and again above the ground"
+std::string occluder_text(const BuildOptions& o, const Plan& plan) {
+  const std::string scales = o.closing.scale
+                                 ? fmt::format("{:.4g}", plan.scales.front())
+                                 : fmt::format("{}, from 0 to {:.4g}", plan.scales.size(), plan.scales.back());
+  std::string out = fmt::format("scales\t{}{}\n", scales,
+                                can_read_again(o) ? ", and again above the ground if that may hide more" : "");
+  out += fmt::format("openings\t{} at most, from 0 to {:.4g}\n", plan.openings.size(), plan.openings.back());
+  if (!o.levels.faces.empty()) return out + fmt::format("faces\t{}\n", o.levels.faces.front());
+  return out + fmt::format("faces\t{}, or {} for each part, at most {}\n", kOccluderFaces, kOccluderFacesOfPart,
+                           kMostOccluderFaces);
 }
 
 std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
@@ -224,6 +247,7 @@ std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
   out += fmt::format("memory\t{}: reading with {}, {} for what waits; then {} for voxels, {} for surfaces\n",
                      size_text(build.options.common.memory_bytes), size_text(b.reader), size_text(b.waiting),
                      size_text(b.shelf), size_text(b.work.bytes));
+  if (!plan.scales.empty()) return out + occluder_text(build.options, plan);
   out += fmt::format("time\t{}{}\n", work_text(plan.work, build.options.common.memory_bytes, names_of(build.backends)),
                      scene.textured ? "; textures come on top" : "");
   out += fmt::format("disk\tabout {} of files, about {} of scratch\n", size_text(std::uint64_t(plan.file_bytes)),

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "lib/check/counted.h"
+#include "lib/volume/topology.h"
 #include "tools/cli/shell_word.h"
 #include "tools/lod/choices.h"
 #include "tools/notes/face_notes.h"
@@ -14,6 +16,7 @@ namespace bp {
 
 namespace {
 
+constexpr double kMuchFuller = 2;       // times the volume of the scene's voxels
 constexpr double kExactVox = 1.0 / 16;  // of error: vertices lie on a lattice, and the scene need not
 
 }  // namespace
@@ -112,6 +115,24 @@ std::string heavier_note(const LevelFacts& finest, bool asked, std::uint64_t tri
   if (asked && clearly_fewer(finest.faces, finest.target.faces)) return "";  // faces_note() says it
   return fmt::format("level 0 has {} faces, more than the scene's {}{}", finest.faces, counted(triangles, "triangle"),
                      asked ? "; --faces 50% asks for half of those" : "");
+}
+
+SceneParts parts_of(const VoxelizedScene& scene, const BuildOptions& o, std::uint64_t memory_bytes) {
+  const bool told = o.profile != LodProfile::collision && asks_for_faces(request_of(o));  // by faces_note()
+  const bool chosen = !o.closing.scale && o.levels.errors.empty() && o.proxy.mode == MeshMode::bounding;
+  if (told || !chosen || o.is_cage() || topology_bytes(*scene.solid) > memory_bytes) return {};
+  return {topology_of(*scene.solid).parts, double(scene.counts.solid_voxels) * std::pow(scene.header.frame.voxel, 3)};
+}
+
+std::string joined_note(const LevelFacts& finest, std::uint64_t parts, const SceneParts& scene) {
+  if (parts >= scene.count || finest.volume < kMuchFuller * scene.volume) return "";
+  const std::uint64_t enough = scene.count * kFacesOfBox, faces = finest.target.faces;
+  return fmt::format("{} of the scene become {}: gaps narrower than {:.4g} are filled{}", counted(scene.count, "part"),
+                     parts, 2 * finest.scale_world,
+                     faces < enough
+                         ? fmt::format(", since {} faces are too few for all; --faces {} has {} for each part", faces,
+                                       enough, kFacesOfBox)
+                         : "; a smaller --scale keeps them apart");
 }
 
 std::string proof_command(const BuildOptions& o, const std::string& file, bool hulls, double margin) {

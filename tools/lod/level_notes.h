@@ -30,6 +30,18 @@ namespace bp {
 /// Levels with more faces than the scene has triangles. `asked`: faces were asked for.
 [[nodiscard]] std::string heavier_note(const LevelFacts& finest, bool asked, std::uint64_t triangles);
 
+/// What is connected in the voxels of a scene.
+struct SceneParts {
+  std::uint64_t count = 0;  ///< 0: not known
+  double volume = 0;        ///< scene units cubed
+};
+/// Not known of a scene whose parts take more memory to be counted, or if `options` leave no scale to be chosen.
+[[nodiscard]] SceneParts parts_of(const VoxelizedScene& scene, const BuildOptions& options, std::uint64_t memory_bytes);
+
+/// A finest level of so many parts that joins those of the scene and fills the room between them, at a scale that
+/// nobody named.
+[[nodiscard]] std::string joined_note(const LevelFacts& finest, std::uint64_t parts, const SceneParts& scene);
+
 /// The command that proves `file`, one of those in the folder of the levels: "bpcheck SCENE OUT/FILE". Empty of fits,
 /// which enclose nothing, and of a scene from a pipe. hulls: the file holds convex hulls. margin: scene units; 0: none.
 [[nodiscard]] std::string proof_command(const BuildOptions& options, const std::string& file, bool hulls,

@@ -28,31 +28,29 @@ ScaleField uniform(double scale) {
   return field;
 }
 
-Shelf closing(const StreamHeader& header, BrickShelf& solid, double scale, bool keep_cavities, Backends& backends,
-              const HiddenOptions& o) {
-  return close_shelf(header, solid, backends, uniform(scale), {o.element}, close_options(o, keep_cavities));
-}
-
-/// The voxels that solid ones enclose, and these.
-Shelf filled(const StreamHeader& header, BrickShelf& solid, Backends& backends, const HiddenOptions& o) {
+/// Puts solid voxels on a shelf, and those that they enclose. Returns the number of these.
+std::uint64_t fill(const StreamHeader& header, BrickShelf& solid, Backends& backends, const HiddenOptions& o,
+                   BrickShelf& filled) {
   StreamHeader around = header;
   around.bricks = bricks_around(solid);
-  return closing(around, solid, 0, false, backends, o);
+  ShelfSource source(around, solid, nullptr, ShelfSource::Keep::all);
+  ShelfSink sink(nullptr, &filled);
+  return close_stream(source, sink, backends, uniform(0), {o.element}, close_options(o, false)).cavity_voxels;
 }
 
-/// G and C.
-Shelf walls(const BrickShelf& touched, const BrickShelf& closed, const BrickShelf& closed_filled,
+/// What is enclosed, and C.
+Shelf walls(const BrickShelf& enclosed, const BrickShelf& closed, const BrickShelf& closed_filled,
             const HiddenOptions& o) {
   Shelf out = o.context.make_shelf();
   const std::vector<BrickCoord> coords = closed_filled.coords();
   parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
     const BrickCoord at = coords[std::size_t(i)];
-    BrickBits g, e, f;
-    touched.get(at, g);
+    BrickBits u, e, f;
+    enclosed.get(at, u);
     closed.get(at, e);
     closed_filled.get(at, f);
-    for (std::size_t k = 0; k < kBrickWords; ++k) g[k] |= f[k] & ~e[k];
-    out->put(at, classify(g), g);
+    for (std::size_t k = 0; k < kBrickWords; ++k) u[k] |= f[k] & ~e[k];
+    out->put(at, classify(u), u);
   });
   return out;
 }
@@ -81,25 +79,47 @@ BitBox unseen_brick(const BrickShelf& unreached, const BrickShelf& touched, Bric
 
 }  // namespace
 
-HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Backends& backends,
-                           const HiddenOptions& o) {
-  Shelf unreached;
-  {
-    Shelf closed = closing(header, touched, o.scale_world, true, backends, o);
-    const Shelf both = walls(touched, *closed, *filled(header, *closed, backends, o), o);
-    closed.reset();
-    unreached = filled(header, *both, backends, o);
-  }
+Shelf enclosed_voxels(const StreamHeader& header, BrickShelf& touched, Backends& backends, const HiddenOptions& o) {
+  Shelf out = o.context.make_shelf();
+  fill(header, touched, backends, o, *out);
+  return out;
+}
+
+// Closed is U, what G encloses and G, and not G itself: that has less of a boundary, and the same O'. A path by faces
+// from a voxel outside U to one in U crosses G no farther away, along each axis, so it is as near to U as to G. So both
+// have the same dilation outside U, and the same erosion: a voxel that takes something away there is not in U, for G
+// would be in reach of it. O cannot enter U in either case. So C of U is C of G without U. What G and C enclose holds
+// U anyway; without C it is U.
+Shelf unreached_voxels(const StreamHeader& header, BrickShelf& enclosed, Backends& backends, const HiddenOptions& o) {
+  Shelf closed = close_shelf(header, enclosed, backends, uniform(o.scale_world), {o.element}, close_options(o, true));
+  Shelf closed_filled = o.context.make_shelf();
+  if (fill(header, *closed, backends, o, *closed_filled) == 0) return nullptr;
+  const Shelf both = walls(enclosed, *closed, *closed_filled, o);
+  closed.reset();
+  closed_filled.reset();
+  Shelf out = o.context.make_shelf();
+  fill(header, *both, backends, o, *out);
+  return out;
+}
+
+HiddenVoxels unseen_voxels(const BrickShelf& unreached, const BrickShelf& touched, const HiddenOptions& o) {
   HiddenVoxels out{o.context.make_shelf()};
   std::atomic<std::uint64_t> count{0};
-  const std::vector<BrickCoord> coords = unreached->coords();
+  const std::vector<BrickCoord> coords = unreached.coords();
   parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
-    const BitBox bits = unseen_brick(*unreached, touched, coords[std::size_t(i)]);
+    const BitBox bits = unseen_brick(unreached, touched, coords[std::size_t(i)]);
     count += bits.count();
     store_voxels(bits, *out.voxels);
   });
   out.count = count;
   return out;
+}
+
+HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Backends& backends,
+                           const HiddenOptions& o) {
+  const Shelf enclosed = enclosed_voxels(header, touched, backends, o);
+  const Shelf unreached = unreached_voxels(header, *enclosed, backends, o);
+  return unseen_voxels(unreached ? *unreached : *enclosed, touched, o);
 }
 
 std::unique_ptr<BrickShelf> opening(const StreamHeader& header, BrickShelf& solid, Backends& backends,

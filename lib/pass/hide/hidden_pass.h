@@ -25,8 +25,20 @@ struct HiddenVoxels {
   std::uint64_t count = 0;
 };
 
-/// `touched`: the bricks of `header`, FillMode::none. The result lies in the bricks of `header`. Out of core; three
-/// closings, two of them of scale 0. Throws as close_stream().
+/// G and what it encloses: all that is not in O' of scale 0. `touched`: the bricks of `header`, FillMode::none.
+[[nodiscard]] std::unique_ptr<BrickShelf> enclosed_voxels(const StreamHeader& header, BrickShelf& touched,
+                                                          Backends& backends, const HiddenOptions& options);
+
+/// All that is not in O'. `enclosed`: enclosed_voxels(). Null if the closing makes no room: then it is `enclosed`.
+[[nodiscard]] std::unique_ptr<BrickShelf> unreached_voxels(const StreamHeader& header, BrickShelf& enclosed,
+                                                           Backends& backends, const HiddenOptions& options);
+
+/// `unreached` without T.
+[[nodiscard]] HiddenVoxels unseen_voxels(const BrickShelf& unreached, const BrickShelf& touched,
+                                         const HiddenOptions& options);
+
+/// All of that, one after the other. The result lies in the bricks of `header`. Out of core; at most four closings,
+/// three of them of scale 0. Throws as close_stream().
 [[nodiscard]] HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Backends& backends,
                                          const HiddenOptions& options);
 

@@ -42,3 +42,14 @@ for profile in gltf 3dtiles; do
   [ $((2 * about)) -gt $real ] && [ $about -lt $((2 * real)) ] || echo "$profile: about $about bytes, and $real were written"
   rm -r disk listed explained explained.json
 done
+
+# A profile that joins separate parts says so, and how they stay apart.
+write_cube cube1.obj 1
+awk '/^v/ { v[++n] = $0 } /^f/ { f[++m] = $0 } END {
+  for (k = 0; k < 64; ++k) {
+    for (i = 1; i <= n; ++i) { split(v[i], p); print "v", p[2] + k % 4 * 2, p[3] + int(k / 4) % 4 * 2, p[4] + int(k / 16) * 2 }
+    for (i = 1; i <= m; ++i) { c = split(f[i], q); t = "f"; for (j = 2; j <= c; ++j) t = t " " q[j] + k * n; print t }
+  }
+}' cube1.obj > blocks.obj
+said 'bplod blocks.obj --profile collision -o blocks | cut -f 1,2'
+said 'bplod blocks.obj --profile collision --faces 768 -o blocks --overwrite | cut -f 1,2'

@@ -78,3 +78,8 @@ said 'bpcheck --inside lid.obj small.obj | tail -1'
 write_octahedron near.obj 3
 awk '$1 == "v" { printf "v %.7f %.7f %.7f\n", $2 + 4099998.8939953, $3 - 629999.1995152, $4 + 4800000.7473774; next } { print }' near.obj > far.obj
 said 'bplod far.obj --profile 3dtiles --tile 64 --resolution 150 --up z -o far -q > /dev/null && bpcheck far.obj far/tileset.json'
+
+# What would be tried, without a run, and what is shown while it is.
+try bplod house.obj --profile occluder --resolution 128 --up z --explain -j 1 --memory 1G
+try bplod house.obj --profile occluder --scale 0.5 --faces 60 --explain -q -j 1 --memory 1G
+said 'bplod house.obj --profile occluder --resolution 64 --up z -o shown --progress json 2>&1 > /dev/null | grep -o "\"pass\":\"closing.*\"done\":.*,\"unit\":\"[a-z]*\"" | sort -t : -k 3n | tail -1'

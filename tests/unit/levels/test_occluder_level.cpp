@@ -1,0 +1,145 @@
+#include "lib/levels/occluder_level.h"
+#include "tests/catch.h"
+#include "tests/support/memory_scene.h"
+#include "tests/support/voxel_source.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+constexpr VoxelBox kBox{{0, 0, 0}, {128, 112, 120}};
+
+VoxelizedScene voxels(const Solid& touched) {
+  VoxelSource source(kBox, touched);
+  VoxelizedScene scene;
+  scene.header = source.header();
+  scene.header.fill = FillMode::none;
+  scene.header.slab_axis = longest_axis(scene.header.bricks);
+  scene.solid = std::make_unique<MemoryShelf>();
+  for (Brick brick; source.read(brick);) scene.solid->put(brick.coord, brick.fill, brick.bits);
+  return scene;
+}
+
+/// An occluder, how often the scene was put on the ground for it, and what was shown meanwhile.
+struct Run {
+  MadeOccluder made;
+  int grounded = 0;
+  struct Step {
+    std::string pass;
+    std::uint64_t done = 0, total = 0;
+  };
+  std::vector<Step> steps;
+};
+
+Run run(const Solid& touched, bool may_ground = true) {
+  Run out;
+  OccluderSource source;
+  source.voxelize = [&](bool ground) {
+    out.grounded += ground ? 1 : 0;
+    return voxels([&](VoxelCoord p) { return touched(p) || (ground && p.y == 0); });
+  };
+  source.request = [](const StreamHeader&) { return LevelRequest{}; };
+  source.may_ground = may_ground;
+  source.hidden.context = memory_context();
+  source.hidden.context.progress = [&](const char* pass, const char*, std::uint64_t done, std::uint64_t total) {
+    out.steps.push_back({pass, done, total});
+  };
+  Backends backends = plain_backends(2);
+  out.made = make_occluder(source, backends, {[](const std::string&) {}, {}});
+  return out;
+}
+
+/// A wall of 3 voxels around a box.
+bool wall(const VoxelBox& box, VoxelCoord p) {
+  return box.contains(p) && !box.grown(-3).contains(p);
+}
+
+/// A plate of ten voxels over all of the box, open on no side.
+bool plate(VoxelCoord p) {
+  return wall({{0, 0, 0}, {128, 10, 120}}, p);
+}
+
+/// On the plate, behind a door of 7 voxels.
+bool hut(VoxelCoord p) {
+  const bool door = p.x >= 27 && p.x < 30 && p.y < 25 && p.z >= 16 && p.z < 23;
+  return plate(p) || (wall({{6, 7, 6}, {30, 30, 30}}, p) && !door);
+}
+
+/// A box with one corner cut off: little of it, in steps that no few faces follow.
+bool cut_box(VoxelCoord p) {
+  return p.x + p.y + p.z >= 8;
+}
+
+/// The count that the definition gives at a scale.
+std::uint64_t hidden_at(const Solid& touched, double scale) {
+  VoxelizedScene scene = voxels(touched);
+  HiddenOptions options;
+  options.scale_world = scale;
+  options.context = memory_context();
+  Backends backends = plain_backends(2);
+  return hidden_voxels(scene.header, *scene.solid, backends, options).count;
+}
+
+}  // namespace
+
+TEST_CASE("each scale of an occluder is tried, and the least that hides enough is taken", "[quick][levels][occluder]") {
+  const Solid scene = GENERATE(Solid(plate), Solid(hut));
+  const MadeOccluder made = run(scene, false).made;
+  std::uint64_t most = 0;
+  for (const auto& [scale, count] : made.tried) {
+    CAPTURE(scale);
+    CHECK(count == hidden_at(scene, scale));
+    most = std::max(most, count);
+  }
+  const auto enough = std::find_if(made.tried.begin(), made.tried.end(),
+                                   [&](const auto& t) { return double(t.hidden_voxels) >= 0.95 * double(most); });
+  REQUIRE(enough != made.tried.end());
+  CHECK(made.scale_world == enough->scale_world);
+  CHECK(made.hidden_voxels == enough->hidden_voxels);
+}
+
+TEST_CASE("a plate does not hide the hut on it, and a closing does", "[quick][levels][occluder]") {
+  CHECK(run(plate, false).made.scale_world == 0);
+  const MadeOccluder made = run(hut, false).made;
+  CHECK(made.scale_world > 0);
+  CHECK(made.hidden_voxels > made.tried.front().hidden_voxels);
+}
+
+TEST_CASE("a scene that fills its bounds is not put on the ground, one that is open below is",
+          "[quick][levels][occluder]") {
+  const Run full = run([](VoxelCoord p) { return wall(kBox, p); });
+  CHECK(full.grounded == 0);
+  CHECK_FALSE(full.made.ground);
+  const Run open = run([](VoxelCoord p) { return (wall(kBox, p) && p.y >= 3) || (kBox.contains(p) && p.y >= 100); });
+  CHECK(open.grounded == 1);
+  CHECK(open.made.ground);
+}
+
+TEST_CASE("openings of what an occluder hides are tried until a mesh holds all of it", "[quick][levels][occluder]") {
+  const MadeOccluder all = run([](VoxelCoord p) { return wall(kBox, p); }).made;
+  CHECK(all.level.attempts == 1);
+  CHECK(all.level.counts.levels.front().measures.volume == double(all.hidden_voxels));
+  const MadeOccluder less = run(cut_box).made;
+  const double volume = less.level.counts.levels.front().measures.volume;
+  CHECK(volume < double(less.hidden_voxels));
+  CHECK(volume > 0.999 * double(less.hidden_voxels));
+  CHECK(less.level.attempts == 3);  // the second holds 0.9998 of it, and the third might hold more
+}
+
+TEST_CASE("an occluder shows the scales and openings that are done, of those that may come",
+          "[quick][levels][occluder]") {
+  const Run open = run([](VoxelCoord p) { return wall(kBox, p) && p.y >= 3; });
+  std::vector<std::string> passes;
+  std::uint64_t done = 0;
+  for (const Run::Step& step : open.steps) {
+    const bool begins = passes.empty() || passes.back() != step.pass;
+    if (begins) passes.push_back(step.pass);
+    CHECK(step.done >= (begins ? 0 : done));
+    CHECK(step.done <= step.total);
+    done = step.done;
+  }
+  CHECK(passes == std::vector<std::string>{"closing openings", "closing openings above the ground", "meshing"});
+  CHECK(open.steps.back().done == std::uint64_t(open.made.level.attempts));
+  CHECK(open.steps.back().total == 5);  // 0, 2, 4, 8 and 16 voxels of 209
+}
