@@ -8,6 +8,8 @@ build=$(cd "$1" && pwd)
 root=$(cd "$(dirname "$0")/.." && pwd)
 [ -z "${MODELS:-}" ] || MODELS=$(cd "$MODELS" && pwd)
 mkdir -p "$2" && cd "$2"
+[ -e .gallery ] || [ -z "$(ls -A)" ] || { echo "gallery.sh: $2: is not empty, and files there are replaced; give an empty folder" >&2 && exit 2; }
+touch .gallery
 export PATH="$build/tools:$build/samples:$PATH"
 
 # mesh OUT QUESTION INPUT OPTION...: lines of the tables: level, faces, volume over that of the voxels, and of QUESTION "scene"

@@ -146,8 +146,8 @@ void run(const Options& o) {
     const bp::Estimate estimate =
         bp::estimate_voxelize(h.bounds, h.frame.voxel, bp::most_touched_voxels(counts, h.frame.voxel));
     bp::note_estimate(estimate, o.common, progress, report);
-    header.provenance.push_back(
-        bp::make_provenance("bpvox", option_text(o, h.frame.up, o.voxels.up || source->up()), counts.input_hash));
+    header.provenance.push_back(bp::make_provenance(
+        "bpvox", option_text(o, h.frame.up, o.voxels.tell_up() || source->up()), counts.input_hash));
     header.scene = scene_files(o, counts);
     return writer.emplace(*file, header);
   };

@@ -13,6 +13,7 @@
 
 #include "io/files/final_names.h"
 #include "io/files/kept_files.h"
+#include "io/files/made_folders.h"
 #include "io/files/write_all.h"
 #include "lib/core/error.h"
 
@@ -27,7 +28,7 @@ constexpr std::size_t kBufferBytes = std::size_t(1) << 20;
   if (e == EPIPE) fail(ErrorCode::closed_pipe, "{}: the reader closed the pipe", name);
   if (e == ENOSPC || e == EDQUOT || e == EFBIG)
     fail(ErrorCode::out_of_resource, {Remedy::free_space, Remedy::other_output}, "{}: {}", name, std::strerror(e));
-  if (e == ENOENT) fail(ErrorCode::failed, {Remedy::other_output}, "{}: cannot write: its folder is not there", name);
+  if (e == ENOENT) fail_for_folder(name);
   fail(ErrorCode::failed, "{}: cannot write: {}", name, std::strerror(e));
 }
 

@@ -31,12 +31,16 @@ int why_none(const std::string& folder, int error) {
 [[noreturn]] void fail_to_make(const std::string& path, int error) {
   std::string name = path;
   while (name.size() > 1 && name.ends_with('/')) name.pop_back();
-  if (error == ENOENT)
-    fail(ErrorCode::bad_argument, "{}: cannot be made, for there is no folder {}", path, folder_of(name));
+  if (error == ENOENT) fail_for_folder(name);
   fail(ErrorCode::failed, "{}: cannot make this folder: {}", path, std::strerror(error));
 }
 
 }  // namespace
+
+void fail_for_folder(const std::string& path) {
+  const std::string folder = folder_of(path);
+  fail(ErrorCode::bad_argument, "{}: there is no folder {}; make it (mkdir -p), or name another output", path, folder);
+}
 
 void make_folder(const std::string& path) {
   int error = make(path, nullptr);

@@ -5,6 +5,9 @@
 
 namespace bp {
 
+/// Of an output whose folder is not there: throws bad_argument.
+[[noreturn]] void fail_for_folder(const std::string& path);
+
 /// Makes a folder if it is not there; the folder above it must be there. Throws `failed`, or bad_argument if there is
 /// none above it. Of several threads.
 void make_folder(const std::string& path);

@@ -31,7 +31,7 @@ struct Attempt {
   LodTarget target;
   std::unique_ptr<LodChain> chain;
   LodLevel finest;
-  bool finest_voxel = false;  // halving makes them no smaller
+  bool finest_voxel = false;  // halving makes them hardly smaller
 
   Attempt(const ChainSource& source, Backends& backends, const LevelSteps& steps, int halvings)
       : scene(source.voxelize(halvings)) {
@@ -45,7 +45,7 @@ struct Attempt {
     target.keep_voxels = is_named(voxels);
     const auto voxel = [&](int times) { return chosen_voxel(voxels, request, size, times); };
     target.detail = voxel(0) / voxel(halvings);
-    finest_voxel = voxel(halvings + 1) >= voxel(halvings);
+    finest_voxel = !halving_helps(voxels, request, size, halvings);
     finest = chain->make(target);
   }
   [[nodiscard]] double error() const { return finest.error_world; }

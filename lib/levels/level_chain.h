@@ -84,8 +84,8 @@ struct MadeChain {
 
 /// All levels, in one mesh each. If the finest takes less than two thirds of its budget, has fewer faces than the scene
 /// has triangles, and an error above one and a half voxels, and source.may_refine, voxels and scale are halved, as long
-/// as that takes a fifth off the error, and kMostResolution allows it; the nearest one is taken. Throws out_of_resource
-/// where the memory does not suffice: it must not decide what is made.
+/// as that takes a fifth off the error, and kMostResolution lets them get clearly smaller; the nearest one is taken.
+/// Throws out_of_resource where the memory does not suffice: it must not decide what is made.
 [[nodiscard]] MadeChain make_chain(const ChainSource& source, Backends& backends, const LevelSteps& steps);
 
 }  // namespace bp

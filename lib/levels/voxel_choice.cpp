@@ -53,4 +53,10 @@ double chosen_voxel(const VoxelRequest& voxels, const LevelRequest& levels, cons
   return voxel_for(dense, area_of(bounds), bounds, kMostResolution, halvings);
 }
 
+bool halving_helps(const VoxelRequest& voxels, const LevelRequest& levels, const SceneSize& scene, int halvings) {
+  constexpr double kClearly = 1.25;
+  const auto edge = [&](int times) { return chosen_voxel(voxels, levels, scene, times); };
+  return edge(halvings) >= kClearly * edge(halvings + 1);
+}
+
 }  // namespace bp

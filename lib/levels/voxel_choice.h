@@ -41,6 +41,10 @@ struct VoxelRequest {
 [[nodiscard]] double chosen_voxel(const VoxelRequest& voxels, const LevelRequest& levels, const SceneSize& scene,
                                   int halvings = 0);
 
+/// Whether one more halving makes that edge clearly smaller: the limit on the resolution may leave next to nothing.
+[[nodiscard]] bool halving_helps(const VoxelRequest& voxels, const LevelRequest& levels, const SceneSize& scene,
+                                 int halvings);
+
 /// Of the six sides of a box.
 [[nodiscard]] double area_of(const Bounds3d& bounds);
 

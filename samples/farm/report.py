@@ -39,7 +39,7 @@ def picture(out, scene):
     folder = os.path.join(out, scene)
     files = sorted(glob.glob(os.path.join(glob.escape(folder), "tileset.json")) or
                    glob.glob(os.path.join(glob.escape(folder), "*.glb")))
-    if not files:
+    if not files or not os.path.exists(os.path.join(folder, ".key")):  # not made here
         return ""
     image = os.path.join(folder, "picture.png")
     if not os.path.exists(image):

@@ -4,6 +4,7 @@
 #include <deque>
 #include <filesystem>
 #include <map>
+#include <span>
 
 #include "io/files/file.h"
 #include "lib/core/error.h"
@@ -36,12 +37,15 @@ std::string help_of(const std::string& word, const ToolDeclaration& tool) {
   return word.empty() ? short_help(tool) : completion(tool, word);
 }
 
+bool is_there(const std::string& path) {
+  std::error_code none;
+  return std::filesystem::exists(path, none);
+}
+
 /// The name of a stream or a folder that is not there.
 bool is_like_output(const std::string& path) {
-  std::error_code none;
   const std::filesystem::path name = std::filesystem::path(path).filename();
-  return path != "-" && (name.extension().empty() || name.extension() == ".bpv") &&
-         !std::filesystem::exists(path, none);
+  return path != "-" && (name.extension().empty() || name.extension() == ".bpv") && !is_there(path);
 }
 
 }  // namespace
@@ -49,6 +53,7 @@ bool is_like_output(const std::string& path) {
 struct Args::State {
   std::string tool, about, example;
   std::deque<std::string> words;  ///< of the command line, those not parsed yet
+  std::string current;            ///< that is parsed now
   std::vector<Option> options, positionals;
   std::map<std::string, std::string> removed;  ///< and what replaces them
   std::string group;                           ///< of the options that are declared next
@@ -61,6 +66,7 @@ struct Args::State {
   void parse_long(const std::string& word);
   void parse_short(const std::string& word);
   void parse_value(Option& option, const std::string& name);
+  void check_names(std::span<const std::string> names);
   void parse_positionals(const std::vector<std::string>& texts);
 };
 
@@ -182,7 +188,8 @@ Args::Option& Args::State::find(const std::string& name, const std::string& word
     names.insert(names.end(), own.begin(), own.end());
   }
   const std::string slip = word.empty() ? name : "-" + word;
-  std::string hint = owner_of(tool, slip, false);
+  std::string hint = is_there(current) ? "; did you mean the file ./" + current + "?" : "";
+  if (hint.empty()) hint = owner_of(tool, slip, false);
   if (hint.empty()) hint = did_you_mean(slip, names);
   if (hint.empty()) hint = owner_of(tool, slip, true);
   fail(ErrorCode::bad_argument, "there is no option {}{}", name, hint);
@@ -243,6 +250,14 @@ void Args::State::parse_short(const std::string& word) {
   }
 }
 
+/// What follows `--`: one name alone may be that of an option; among others, it is one that was put too late.
+void Args::State::check_names(std::span<const std::string> names) {
+  for (const std::string& name : names) {
+    if (names.size() > 1 && look_up(name.substr(0, name.find('='))) != nullptr && !is_there(name))
+      fail(ErrorCode::bad_argument, "{0}: what follows -- is taken for names of files; put {0} before --", name);
+  }
+}
+
 void Args::State::parse_positionals(const std::vector<std::string>& texts) {
   if (std::find(texts.begin(), texts.end(), "") != texts.end())
     fail(ErrorCode::bad_argument, "an argument is empty; was a variable not set?");
@@ -274,8 +289,11 @@ void Args::parse() {
     while (!state_->words.empty() && !state_->help) {
       const std::string word = state_->words.front();
       state_->words.pop_front();
+      state_->current = word;
       if (word == "--") {
-        texts.insert(texts.end(), state_->words.begin(), state_->words.end());
+        const std::vector<std::string> names(state_->words.begin(), state_->words.end());
+        state_->check_names(names);
+        texts.insert(texts.end(), names.begin(), names.end());
         break;
       }
       if (word.size() < 2 || word[0] != '-') {

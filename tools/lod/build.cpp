@@ -158,7 +158,7 @@ void Build::make_room(VoxelizedScene& scene) {
 
 void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told) {
   if (const std::string text = skipped(scene.counts.scene); !text.empty()) note(text);
-  note(up_note(size_.bounds, options.voxels.up || up_told));
+  note(up_note(size_.bounds, options.voxels.tell_up() || up_told));
   for (const std::string& path : options.voxels.scenes) {
     const bool occluder = options.profile == LodProfile::occluder;
     if (!options.colors() && !occluder) break;

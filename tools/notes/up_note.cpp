@@ -9,9 +9,10 @@ namespace bp {
 
 namespace {
 
-/// Whether the scene begins about where the axis has 0, as what stands on the ground does along its height.
-bool stands_on(const Bounds3d& scene, std::size_t axis) {
-  return std::abs(scene.min[axis]) <= 0.1 * (scene.max[axis] - scene.min[axis]);
+/// Whether the scene begins about where the axis has 0, as what stands on the ground does along its height: within a
+/// tenth of that.
+bool stands_on(const Bounds3d& scene, std::size_t axis, double share = 0.1) {
+  return std::abs(scene.min[axis]) <= share * (scene.max[axis] - scene.min[axis]);
 }
 
 /// Whether it ends about there.
@@ -25,14 +26,17 @@ std::string up_note(const Bounds3d& scene, bool told) {
   constexpr double kFlat = 0.25;  // of the shorter side: rooms and most buildings are not
   if (told || scene.empty()) return "";
   const double x = scene.max[0] - scene.min[0], y = scene.max[1] - scene.min[1], z = scene.max[2] - scene.min[2];
-  const auto note = [&](const char* what, const char* consequence, const char* up) {
+  const auto note = [&](const std::string& what, const char* consequence, const char* up) {
     return fmt::format(
         "the scene is {:.4g} x {:.4g} x {:.4g}, {}, and y is taken for up: if {}; say --up {}, or --up y to be sure", x,
         y, z, what, consequence, up);
   };
   if (z < kFlat * std::min(x, y)) return note("flat along z", "it is a map, it will stand on edge", "z");
   if (stands_on(scene, 1) || y < kFlat * std::min(x, z)) return "";
-  if (stands_on(scene, 2)) return note("stands on z = 0", "z is up, it will lie on its side", "z");
+  constexpr double kExactly = 0.02;
+  const std::string where =
+      stands_on(scene, 2, kExactly) ? "stands on z = 0" : fmt::format("begins near z = 0 (at {:.4g})", scene.min[2]);
+  if (stands_on(scene, 2)) return note(where, "z is up, it will lie on its side", "z");
   if (hangs_from(scene, 1)) return note("hangs below y = 0", "-y is up, as in LDraw, it will stand on its head", "-y");
   return "";
 }

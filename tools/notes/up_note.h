@@ -4,8 +4,8 @@
 #include "lib/core/box.h"
 #include "lib/grid/stream.h"
 
-/// The note about a scene that lies flat in x and y, as maps do, or stands on z = 0 and not on y = 0, or hangs below
-/// y = 0, if nobody told which axis is up and glTF is written, which has y up; else empty.
+/// The note about a scene that lies flat in x and y, as maps do, or begins near z = 0 and not near y = 0, or hangs
+/// below y = 0, if nobody told which axis is up and glTF is written, which has y up; else empty.
 namespace bp {
 
 [[nodiscard]] std::string up_note(const Bounds3d& scene, bool told);

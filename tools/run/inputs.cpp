@@ -43,6 +43,14 @@ void check_scene_format(const std::string& format, const std::vector<std::string
        format, inputs.front());
 }
 
+bool are_gltf(const std::string& format, const std::vector<std::string>& inputs) {
+  const std::string otherwise = format.empty() ? "" : scene_format_named(format);
+  return std::all_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
+    const std::string told = scene_format_of(input), name = told.empty() ? otherwise : told;
+    return name == "gltf" || name == "glb";
+  });
+}
+
 std::string tileset_in(const std::string& path) {
   std::error_code none;
   const std::filesystem::path tileset = std::filesystem::path(path) / "tileset.json";

@@ -53,6 +53,22 @@ try bpmesh cube.bpv out.glb
 try bplod cube.obj -o tiles.json --profile 3dtiles
 try bpvox cube.obj --memory 4 -j 1 -o out.bpv
 
+# Names that begin as options do, and options where names are.
+cp cube.obj ./-dash.obj
+try bpvox -dash.obj -o out.bpv
+try bpvox -- -dash.obj -o out.bpv
+try bpvox -- cube.obj --resolution=10
+try bpvox -q --resolution 10 -o dash.bpv -- -dash.obj && rm dash.bpv ./-dash.obj
+try bpvox -dash.obj -o out.bpv
+
+# Outputs whose folders are not there.
+try bpvox cube.obj -o nosuch/out.bpv
+try bplod cube.obj -o nosuch/out
+
+# The first bytes of most formats tell them.
+stdin=cube.obj try bpvox - --resolution 10 -q -o piped.bpv && rm piped.bpv
+echo nothing > nothing && stdin=nothing try bpvox - --resolution 10 -q -o piped.bpv; rm nothing
+
 # Files that are no scenes.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' > points.obj
 printf 'ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n1 1 1\n' > points.ply

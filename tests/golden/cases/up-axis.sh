@@ -55,6 +55,13 @@ for up in '' '--up y' '--up z'; do said "bpvox map.obj --resolution 60 $up | bpm
 said 'bpvox map.obj --resolution 60 | bpmesh --faces 30 -o flat.ply'
 said 'bplod cube.obj --resolution 30 --levels 1 --profile 3dtiles -o upright > list'
 said 'bplod z.glb --resolution 30 --levels 1 --profile 3dtiles -o told > list'
+# glTF has y up by definition, whoever wrote it.
+bpvox map.obj --resolution 60 | bpmesh --faces 30 -q -o map.gltf
+sed -i 's/"up": *"y"/"by": "me"/' map.gltf
+said 'bplod map.gltf --resolution 30 --levels 1 -o gltf-map > list'
+cp map.gltf map && said 'bpvox map --format gltf --resolution 60 | bpmesh --faces 12 -o named.glb'
+said 'bpvox map.gltf map.obj --resolution 60 | bpmesh --faces 12 -o both.glb'
+said 'bpvox map.gltf --resolution 60 | bpmesh --faces 30 -o flat.glb --overwrite'
 # A picture believes what a file tells, and says where --up differs.
 for up in z y; do
   [ $up = z ] && other=y || other=z

@@ -42,7 +42,7 @@ void add_scene_format(Args& args, std::string& format, const std::string& before
 }
 
 void VoxelOptions::add_scenes(Args& args, const std::string& scenes_help) {
-  args.positional("SCENE", scenes, scenes_help + "; - is stdin and needs --format");
+  args.positional("SCENE", scenes, scenes_help + "; - is stdin, where some formats need --format");
   args.group("Files");
   add_scene_format(args, format);
 }
@@ -57,6 +57,10 @@ void VoxelOptions::add_with_inside(Args& args, const std::string& resolution_def
   add_size(*this, args, resolution_default);
   args.option("--fill", {kFlood, kWinding, kNone, kInsideFill}, fill, kFillHelp);
   add_up(*this, args);
+}
+
+bool VoxelOptions::tell_up() const {
+  return up || are_gltf(format, scenes);
 }
 
 void VoxelOptions::check() {

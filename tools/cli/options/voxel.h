@@ -31,6 +31,8 @@ struct VoxelOptions {
   /// After args.parse(). Throws bad_argument if options contradict each other. A folder becomes the tileset in it.
   /// Keeps the scenes from being overwritten.
   void check();
+  /// Whether --up says which axis is up, or all scenes are glTF, which has y up; not known of stdin without --format.
+  [[nodiscard]] bool tell_up() const;
 };
 
 }  // namespace bp

@@ -16,7 +16,8 @@ std::string note_on(const Vec3d& min, const Vec3d& max) {
 
 TEST_CASE("a scene that may have z up is noted", "[quick][tools]") {
   CHECK_THAT(note_on({0, 0, 0}, {100, 100, 10}), ContainsSubstring("flat along z"));
-  CHECK_THAT(note_on({-100, -76, -11}, {105, 77, 158}), ContainsSubstring("stands on z = 0"));  // a tower
+  CHECK_THAT(note_on({-100, -76, -11}, {105, 77, 158}), ContainsSubstring("begins near z = 0 (at -11),"));  // a tower
+  CHECK(note_on({-100, -76, -31}, {105, 77, 158}).empty());
   CHECK_THAT(note_on({8, 19, 0}, {237, 159, 76}), ContainsSubstring("stands on z = 0"));
 }
 
