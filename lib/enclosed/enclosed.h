@@ -37,10 +37,13 @@ class Enclosed {
     static_cast<void>(faces), static_cast<void>(distance);
     return true;
   }
+  /// True if it is the thing itself, false if it stands around it, as voxels do: then the last shares of a volume say
+  /// nothing.
+  [[nodiscard]] virtual bool is_exact() const { return false; }
   /// Memory of this, and of its contact points while a proxy is tightened; about.
   [[nodiscard]] virtual std::uint64_t bytes() const = 0;
   static constexpr std::uint64_t kBytesPerContactPoint =
-      112;  ///< the point, its place in the list of a face, its row in joint_fit.h
+      136;  ///< the point, its place in the list of a face, its row in joint_fit.h
 };
 
 }  // namespace bp

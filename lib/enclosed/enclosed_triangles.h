@@ -26,6 +26,7 @@ class EnclosedTriangles : public Enclosed {
   [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                             Blocker* blocker) const override;
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override;
+  [[nodiscard]] bool is_exact() const override { return true; }
   [[nodiscard]] std::uint64_t bytes() const override;
   /// The triangle, its corners in floats, about 40 for the tree, and a contact point.
   static constexpr std::uint64_t kBytesEach =

@@ -181,12 +181,12 @@ void drop_needless(ProxyEditor& editor, const SimplifyParams& params, SimplifyCo
 }
 
 /// (5) Of one mesh. The sweeps of regions, which have a gain each, end earlier.
-TightenParams last_sweeps(const SimplifyParams& params) {
+TightenParams last_sweeps(const Enclosed& enclosed, const SimplifyParams& params) {
   TightenParams last = tightening_of(params);
   if (params.limits != nullptr) return last;
-  last.sweeps = 6;
-  last.final_sweeps = 4;
-  last.least_gain = 2e-4;
+  last.sweeps = enclosed.is_exact() ? 12 : 6;
+  last.final_sweeps = enclosed.is_exact() ? 8 : 4;
+  last.least_gain = enclosed.is_exact() ? 5e-5 : 2e-4;
   return last;
 }
 
@@ -199,7 +199,7 @@ void finish_whole(Way& way, const Enclosed& enclosed, const SimplifyParams& para
     if (is_above_target(way.proxy, params)) thin_whole(editor, params, way.simplified);
     if (by_volume(params) && mesh.face_count() <= params.faces) drop_needless(editor, params, way.simplified);
     if (!has_regions(mesh.face_count(), params)) {
-      way.proxy = tighten(editor, way.proxy.frame, last_sweeps(params), way.tightened);
+      way.proxy = tighten(editor, way.proxy.frame, last_sweeps(enclosed, params), way.tightened);
       return;
     }
     put_back(editor, way.proxy);

@@ -267,7 +267,7 @@ void explain(const BuildOptions& options) {
   Build build(options);
   build.report.begin("read");
   const Scene scene = read_scene(build);
-  build.note(up_note(scene.bounds, options.voxels.up || scene.up_told));
+  build.note(up_note(scene.bounds, options.voxels.tell_up() || scene.up_told));
   const SceneSize size{scene.bounds, scene.counts.triangles};
   question_proportions(options, size);
   build.note(voxel_note(options, size));
