@@ -93,6 +93,7 @@ std::size_t nearest_of(std::span<const FaceTarget> targets, const Vec3d& p, std:
 void gather_around(const HalfEdgeMesh& mesh, FaceId f, std::vector<FaceId>& around) {
   around.assign(1, f);
   for (HalfEdgeId h = 3 * f; h < 3 * f + 3; ++h) {
+    if (mesh.locked(mesh.from(h))) continue;  // its faces may be of other parts
     mesh.for_each_outgoing(mesh.from(h), [&](HalfEdgeId g) {
       const FaceId other = HalfEdgeMesh::face(g);
       if (std::find(around.begin(), around.end(), other) == around.end()) around.push_back(other);

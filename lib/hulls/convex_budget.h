@@ -9,9 +9,9 @@ namespace bp {
 
 /// Takes corners from hulls, always where that adds the least volume for a corner, until they have at most `faces`
 /// faces together, or none has a corner left to take. Each then encloses what it was, has no slivers if it had none,
-/// and lies in the box around what it was, grown by a share of its longest side. With a share of kFarOut no more
-/// than four faces of each are left; with kNearBox some keep twelve. Parallel; the same for any number of threads.
-/// Cost: a millisecond or two for each corner taken.
+/// and lies in the box around what it was, grown by a share of its longest side: kNearBox, which leaves some with
+/// twelve faces, or kFarOut, which leaves four of each, where it must by going farther. Parallel; the same for any
+/// number of threads. Cost: a millisecond or two for each corner taken.
 void keep_to_faces(std::vector<ConvexHull>& hulls, std::uint64_t faces, double share);
 
 [[nodiscard]] std::uint64_t face_count(const std::vector<ConvexHull>& hulls);

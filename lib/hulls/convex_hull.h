@@ -21,7 +21,8 @@ struct ConvexHull {
 [[nodiscard]] std::optional<ConvexHull> hull_of(std::span<const LatticeCoord> points);
 
 constexpr double kNearlyConvex = 0.02;  ///< of a solid's volume: a hull with no more than that above it is as good
-/// How far corners of simplified hulls may lie beyond the box of what they are around, in shares of its longest side.
+/// How far a step that simplifies a hull may move corners out of the box of what it begins with, in shares of the box's
+/// longest side.
 constexpr double kNearBox = 0.03;  ///< nobody sees it
 constexpr double kFarOut = 1;      ///< and farther, where there is no other way
 

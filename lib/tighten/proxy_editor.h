@@ -39,8 +39,8 @@ class ProxyEditor {
   void make_move(VertexId v, const LatticeCoord& to);
   void make_collapse(HalfEdgeId h, const LatticeCoord& to);
   void make_flip(HalfEdgeId h);
-  /// Lists contact points with the faces that are nearest now; due after every wave of changes, or, where nothing asks
-  /// for them meanwhile, once after many. Parallel.
+  /// Lists contact points with the faces that are nearest now; due after every wave of changes, or, where only flips
+  /// ask for them meanwhile, which old ones may refuse, once after many. Parallel.
   void settle_points();
   void settle_points_of_many();  ///< the same, after changes that made and took no faces
   void add(const EditCounts& counts) { check_.counts += counts; }  ///< of another check

@@ -116,7 +116,7 @@ std::string Progress::bar_line(double seconds) const {
   if (total <= 0) return fmt::format("{}: {} {} {}{}", tool_, pass_, short_count(done), unit_, speed);
   const double share = std::min(done / total, 1.0);
   const auto full = std::size_t(share * kBarWidth);
-  const std::string left = rate > 0 ? " " + clock_text((total - done) / rate) + " left" : "";
+  const std::string left = rate > 0 && total >= kFewSteps ? " " + clock_text((total - done) / rate) + " left" : "";
   return fmt::format("{}: {} [{}{}] {:3.0f}%{}{}", tool_, pass_, std::string(full, '#'),
                      std::string(kBarWidth - full, '.'), 100 * share,
                      total < kFewSteps ? fmt::format(" {:.0f} of {:.0f} {}", done, total, unit_) : speed, left);

@@ -119,20 +119,24 @@ std::string heavier_note(const LevelFacts& finest, bool asked, std::uint64_t tri
 
 SceneParts parts_of(const VoxelizedScene& scene, const BuildOptions& o, std::uint64_t memory_bytes) {
   const bool told = o.profile != LodProfile::collision && asks_for_faces(request_of(o));  // by faces_note()
-  const bool chosen = !o.closing.scale && o.levels.errors.empty() && o.proxy.mode == MeshMode::bounding;
-  if (told || !chosen || o.is_cage() || topology_bytes(*scene.solid) > memory_bytes) return {};
-  return {topology_of(*scene.solid).parts, double(scene.counts.solid_voxels) * std::pow(scene.header.frame.voxel, 3)};
+  const bool by_faces = o.levels.errors.empty() && o.proxy.mode == MeshMode::bounding;
+  if (told || !by_faces || o.is_cage() || topology_bytes(*scene.solid) > memory_bytes) return {};
+  const double voxel = scene.header.frame.voxel;
+  return {topology_of(*scene.solid).parts, double(scene.counts.solid_voxels) * std::pow(voxel, 3),
+          o.closing.scale ? o.closing.scale->in_world(scene.header.bounds.diagonal(), voxel) : 0};
 }
 
 std::string joined_note(const LevelFacts& finest, std::uint64_t parts, const SceneParts& scene) {
+  constexpr double kSame = 1.001;
   if (parts >= scene.count || finest.volume < kMuchFuller * scene.volume) return "";
+  if (finest.scale_world <= kSame * scene.named_scale) return "";  // as asked
   const std::uint64_t enough = scene.count * kFacesOfBox, faces = finest.target.faces;
-  return fmt::format("{} of the scene become {}: gaps narrower than {:.4g} are filled{}", counted(scene.count, "part"),
-                     parts, 2 * finest.scale_world,
-                     faces < enough
-                         ? fmt::format(", since {} faces are too few for all; --faces {} has {} for each part", faces,
-                                       enough, kFacesOfBox)
-                         : "; a smaller --scale keeps them apart");
+  return fmt::format(
+      "{} of the scene become {}: gaps narrower than {:.4g} are filled{}", counted(scene.count, "part"), parts,
+      2 * finest.scale_world,
+      faces < enough
+          ? fmt::format(", since {} faces are too few for all; from --faces {} on they may stay apart", faces, enough)
+          : "; more --faces may keep them apart");
 }
 
 std::string proof_command(const BuildOptions& o, const std::string& file, bool hulls, double margin) {

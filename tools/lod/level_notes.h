@@ -34,12 +34,13 @@ namespace bp {
 struct SceneParts {
   std::uint64_t count = 0;  ///< 0: not known
   double volume = 0;        ///< scene units cubed
+  double named_scale = 0;   ///< scene units; 0: none
 };
-/// Not known of a scene whose parts take more memory to be counted, or if `options` leave no scale to be chosen.
+/// Not known of a scene whose parts take more memory to be counted, or if `options` ask for no number of faces.
 [[nodiscard]] SceneParts parts_of(const VoxelizedScene& scene, const BuildOptions& options, std::uint64_t memory_bytes);
 
 /// A finest level of so many parts that joins those of the scene and fills the room between them, at a scale that
-/// nobody named.
+/// nobody named, or beyond the one named.
 [[nodiscard]] std::string joined_note(const LevelFacts& finest, std::uint64_t parts, const SceneParts& scene);
 
 /// The command that proves `file`, one of those in the folder of the levels: "bpcheck SCENE OUT/FILE". Empty of fits,

@@ -39,8 +39,8 @@ class FourAxes {
   /// apart.
   [[nodiscard]] std::uint64_t left(std::uint64_t layer, const LatticeCoord& corner, std::int64_t edge) const {
     const auto e = float(edge);
-    // No coordinate is larger than this. Products with the cube's corner, with its steps from that, and with a corner
-    // of the tetrahedron have at most 8 roundings each: 24 of 2^-24 of the size of n times the reach.
+    // No coordinate is larger than this reach R. Each term of the cube's side of a comparison passes through at most 10
+    // roundings, of the tetrahedron's through 7, and the terms of a side sum to |n|_1 R at most: 17 of the 32 above.
     const FourFloats slack = slack_ * float(sides_ + 8 * double(edge));
     const FourFloats from = max_ - negative_ * e + slack, to = min_ - positive_ * e - slack;
     const FourFloats at = along(corner), step_x = n_[0] * e, step_y = n_[1] * e;

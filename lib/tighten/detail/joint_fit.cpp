@@ -22,7 +22,8 @@ constexpr double kRim = 8;      // lattice units: a point so near to the rim of 
 constexpr double kLongest = 2;  // times the unhindered step: how far forces may push
 constexpr int kRounds = 8;      // over all rows
 constexpr int kRoundsOn = 4;    // where it begins with the forces of another one
-constexpr int kPressingRounds = 8;  // after each, over those with a force
+constexpr int kPressingRounds = 8;    // after each, over those with a force
+constexpr double kLeastGive = 1e-30;  // so that its inverse is a float
 constexpr std::int64_t kFacesAtOnce = 128, kVerticesAtOnce = 512;
 
 FourFloats lanes_of(const Vec3d& v, double fourth) {
@@ -230,7 +231,7 @@ void JointFit::add_row(const Facet& facet, std::uint32_t point, std::vector<Bloc
     g[k] = (1 / facet.area) * gradient[k];
     give += facet.softness[k] * dot(g[k], g[k]);
   }
-  if (!(give > 0)) return;
+  if (!(give > kLeastGive)) return;
   to[facet.block].rows.push_back({{lanes_of(g[0], least), lanes_of(g[1], 1 / give), lanes_of(g[2], 0)},
                                   facet.places,
                                   forces_.of(facet.id, point)});

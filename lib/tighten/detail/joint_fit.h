@@ -20,7 +20,7 @@ class JointFit {
   JointFit(const HalfEdgeMesh& mesh, const ContactPoints& contacts, ContactForces& forces);
 
   /// For the mesh as it is: with nothing in its way a vertex would go `reach` times its mean spoke. Cost: linear in
-  /// faces and in points, of which those at corners count for each face there; 64 bytes for each of these. Parallel
+  /// faces and in points, of which those at corners count for each face there; 150 bytes for each of these. Parallel
   /// for a large mesh that is whole; the result does not depend on the number of threads.
   void solve(double reach);
 

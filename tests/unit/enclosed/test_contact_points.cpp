@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "lib/core/vec3.h"
 #include "lib/enclosed/contact_points.h"
 #include "tests/catch.h"
@@ -70,6 +72,46 @@ TEST_CASE("of many contact points with a face those are kept that it meets first
   CHECK(found == 1);
   CHECK(deep == 0);
   CHECK(kept > 2 * 144);  // one for each part of both faces of the top
+}
+
+TEST_CASE("after many changes at once each contact point is with the nearest face", "[quick][meshing]") {
+  HalfEdgeMesh mesh(cube());
+  const PointsInside enclosed(layers(20, {90, 400}, {1501, 2203, double(kEdge) - 1}));
+  ContactPoints contacts(enclosed, mesh, FaceTree(mesh));
+  std::vector<FaceId> faces;
+  for (FaceId f = 0; f < mesh.face_capacity(); ++f) faces.push_back(f);
+  const auto corners = [&](FaceId f) {
+    return std::array<Vec3d, 3>{to_double(mesh.corner(f, 0) - contacts.origin()),
+                                to_double(mesh.corner(f, 1) - contacts.origin()),
+                                to_double(mesh.corner(f, 2) - contacts.origin())};
+  };
+  const auto wrong = [&] {
+    std::size_t sum = 0;
+    for (const FaceId f : faces) {
+      for (const std::uint32_t i : contacts.of(f)) {
+        const double own = squared_distance(contacts[i], corners(f));
+        sum += std::any_of(faces.begin(), faces.end(), [&](FaceId other) {
+          return squared_distance(contacts[i], corners(other)) < 0.999 * own - 1e-6;
+        });
+      }
+    }
+    return sum;
+  };
+  const auto count = [&] {
+    std::size_t sum = 0;
+    for (const FaceId f : faces) sum += contacts.of(f).size();
+    return sum;
+  };
+  const std::size_t before = count();
+  CHECK(wrong() == 0);
+  for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {  // turned, and no face folds over another
+    const LatticeCoord p = mesh.position(v);
+    mesh.move(v, {p.x, (24 * p.y - 7 * p.z) / 25, (7 * p.y + 24 * p.z) / 25});
+  }
+  CHECK(wrong() > 20);
+  contacts.hand_over_around(faces);
+  CHECK(wrong() == 0);
+  CHECK(count() == before);
 }
 
 TEST_CASE("few contact points are all kept", "[quick][meshing]") {

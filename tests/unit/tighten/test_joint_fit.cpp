@@ -58,6 +58,37 @@ TEST_CASE("a proxy that lies on flat sides everywhere is asked to stay", "[quick
   CHECK(growth > -0.01 * double(mesh.volume6()) / 6);
 }
 
+TEST_CASE("a second joint program begins with the forces of the first, and changes little", "[quick][meshing]") {
+  MemoryShelf shelf;
+  add_slab(shelf);
+  HalfEdgeMesh mesh(dense_surface(shelf, unit_voxels()));
+  merge_flat_regions(mesh);
+  const EnclosedVoxels enclosed(shelf);
+  const ContactPoints contacts(enclosed, mesh, FaceTree(mesh));
+  ContactForces forces;
+  JointFit fit(mesh, contacts, forces);
+  const auto farthest = [&] {
+    double far = 0;
+    for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {
+      if (mesh.vertex_alive(v)) far = std::max(far, length(fit.shift(v)));
+    }
+    return far;
+  };
+  fit.solve(0.25);
+  const double first = farthest();
+  CHECK_FALSE(forces.empty());
+  fit.solve(0.25);  // four rounds more
+  CHECK(farthest() < 1.01 * first);
+  JointFit other(mesh, contacts, forces);
+  other.solve(0.25);
+  double apart = 0;
+  for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {
+    if (mesh.vertex_alive(v)) apart = std::max(apart, length(other.shift(v) - fit.shift(v)));
+  }
+  CAPTURE(first, farthest(), apart);
+  CHECK(apart < 0.1 * kLatticePerVoxel);
+}
+
 TEST_CASE("contact points of voxels lie on their boundary: all convex corners, samples of edges and sides",
           "[quick][meshing]") {
   MemoryShelf shelf;
