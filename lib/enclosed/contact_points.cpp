@@ -66,13 +66,11 @@ LatticeBox grown(const LatticeBox& box, std::int64_t by) {
   return {box.min - d, box.max + d};
 }
 
-/// Of n targets; `first`: the one that is asked first. The nearer it is, the fewer others are: none where all beyond its
-/// edges is farther, though one that folds back over it may be nearer.
+/// Of n targets; `first`: the one that is asked first; the nearer it is, the fewer others are.
 template <class TargetAt>
 std::size_t nearest_of(std::size_t n, const TargetAt& target_at, const Vec3d& p, std::size_t first) {
   std::size_t best = first;
   double least = target_at(first).squared_distance(p);
-  if (target_at(first).is_inner(p, least)) return first;
   for (std::size_t k = 0; k < n; ++k) {
     const FaceTarget& target = target_at(k);
     if (k == first || target.is_farther(p, least)) continue;
@@ -178,10 +176,13 @@ void ContactPoints::set_targets() {
   });
 }
 
-/// All but those that it keeps.
+/// All but those that it keeps. One that is nearer to it than to its edges stays, though a face that folds back over it
+/// may be nearer.
 void ContactPoints::give_away(FaceId from, std::vector<FaceId>& around, std::vector<Move>& moves) {
   gather_around(mesh_, from, around);
+  const FaceTarget& own = targets_[from];
   std::erase_if(of_face_[from], [&](std::uint32_t i) {
+    if (own.is_inner(points_[i], own.squared_distance(points_[i]))) return false;
     const FaceId to = around[nearest_of(
         around.size(), [&](std::size_t k) -> const FaceTarget& { return targets_[around[k]]; }, points_[i], 0)];
     if (to != from) moves.push_back({i, to});

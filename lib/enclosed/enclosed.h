@@ -43,7 +43,7 @@ class Enclosed {
   /// Memory of this, and of its contact points while a proxy is tightened; about.
   [[nodiscard]] virtual std::uint64_t bytes() const = 0;
   static constexpr std::uint64_t kBytesPerContactPoint =
-      200;  ///< the point, its place in the list of a face, its row in joint_fit.h
+      136;  ///< the point, its place in the list of a face, its row in joint_fit.h
 };
 
 }  // namespace bp

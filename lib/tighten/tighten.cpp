@@ -29,6 +29,7 @@ class Tightener {
         counts_(counts),
         joint_(mesh_, editor.contacts(), editor.forces()),
         waves_(editor.has_waves()),
+        settles_(params.limits != nullptr),
         claims_(mesh_),
         planners_([&editor, &params] { return std::make_unique<StepPlanner>(editor, params.limits != nullptr); }),
         changed_at_(mesh_.vertex_capacity(), 1),
@@ -211,7 +212,7 @@ class Tightener {
         make(plans_[k]);
       }
     }
-    if (alone_) editor_.settle_points();
+    if (alone_ || settles_) editor_.settle_points();
     const auto middle = std::ptrdiff_t(waiting_.size());
     waiting_.insert(waiting_.end(), later_.begin(), later_.end());
     std::inplace_merge(waiting_.begin(), waiting_.begin() + middle, waiting_.end());
@@ -221,7 +222,7 @@ class Tightener {
   void plan_and_make(const Plan& plan) {
     plan(planners_.first(), plan_);
     make(plan_);
-    if (alone_) editor_.settle_points();
+    if (alone_ || settles_) editor_.settle_points();
   }
 
   void finish_run() {
@@ -261,6 +262,7 @@ class Tightener {
   JointFit joint_;
   bool alone_ = false;  // vertices move alone: they ask for contact points, and one that could not move waits
   const bool waves_;
+  const bool settles_;  // contact points after each step: limits mind where the least of them are listed
   WaveClaims claims_;
   WaveBoxes boxes_;
   WaveWorkers<StepPlanner> planners_;

@@ -14,6 +14,7 @@ namespace bp {
 namespace {
 
 constexpr double kLittle = 5e-3;  // of the volume of the bounds
+constexpr double kHalf = 0.5;     ///< of what is hidden
 
 double hidden_volume(const MadeOccluder& made) {
   return double(made.hidden_voxels) * std::pow(made.scene.header.frame.voxel, 3);
@@ -44,13 +45,16 @@ Json json_of(const MadeOccluder& made) {
           {"parts_dropped", made.level.counts.dropped_parts}};
 }
 
-void note(Build& build, const MadeOccluder& made) {
-  const double share = hidden_volume(made) / volume_of(made.scene.header.bounds);
+void note(Build& build, const MadeOccluder& made, double volume) {
+  const double hidden = hidden_volume(made), share = hidden / volume_of(made.scene.header.bounds);
   if (share < kLittle)
-    build.note(
-        fmt::format("the scene hides {:.2g} % of its bounding box only: walls are missing, or wider open than is "
-                    "closed; try a larger --scale",
-                    100 * share));
+    build.note(fmt::format(
+        "the scene hides {:.2g} % of its bounding box only: walls are missing, or wider open than {}", 100 * share,
+        build.options.closing.scale ? "is closed; without --scale bplod looks for the one that hides enough"
+                                    : "any scale closes that hides more"));
+  if (volume < kHalf * hidden)
+    build.note(fmt::format("{} faces hold {:.2g} % of the volume that the scene hides; more --faces hold more",
+                           made.level.mesh.triangles.size(), 100 * volume / hidden));
   if (made.ground) build.note("the scene is open below: it is taken to stand on the ground, and eyes to be above it");
   if (made.scale_world > 0)
     build.note(
@@ -69,11 +73,11 @@ void build_occluder(const BuildOptions& o) {
   Build build(o);
   MadeOccluder made = make_occluder(build);
   made.level.mesh.provenance = {make_provenance("bplod", option_text(o, made), made.scene.counts.input_hash)};
-  note(build, made);
+  const LevelFacts facts = facts_of(made.level, {});
+  note(build, made, facts.volume);
   build.progress.end();
   build.report.begin("write");
   const Json more = json_of(made);
-  const LevelFacts facts = facts_of(made.level, {});
   std::vector<LodLevel> levels;
   levels.push_back(std::move(made.level));
   const StreamHeader& header = made.scene.header;
