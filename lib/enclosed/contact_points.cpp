@@ -60,12 +60,6 @@ class Outermost {
   std::array<Best, kBinsPerEdge * kBinsPerEdge * 5> best_{};
 };
 
-/// What lies under faces along a cell's side may lie beyond it.
-LatticeBox grown(const LatticeBox& box, std::int64_t by) {
-  const LatticeCoord d{by, by, by};
-  return {box.min - d, box.max + d};
-}
-
 /// Of n targets; `first`: the one that is asked first; the nearer it is, the fewer others are.
 template <class TargetAt>
 std::size_t nearest_of(std::size_t n, const TargetAt& target_at, const Vec3d& p, std::size_t first) {
@@ -111,7 +105,8 @@ ContactPoints::ContactPoints(const Enclosed& enclosed, const HalfEdgeMesh& mesh,
     if (mesh.alive(f)) edges += length(to_double(mesh.corner(f, 1) - mesh.corner(f, 0)));
   }
   const double reach = edges / double(mesh.face_count());
-  points_ = enclosed.contact_points(origin_, grown(mesh.cell(), std::int64_t(2 * reach) + 1));
+  // What lies under faces along a cell's side may lie beyond it.
+  points_ = enclosed.contact_points(origin_, mesh.cell().grown(std::int64_t(2 * reach) + 1));
   const std::vector<FaceId> nearest_to = nearest_faces(points_, origin_, mesh, tree, reach);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (nearest_to[i] != kNoId) of_face_[nearest_to[i]].push_back(std::uint32_t(i));  // else deep inside

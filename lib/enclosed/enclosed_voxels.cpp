@@ -175,10 +175,7 @@ class EnclosedVoxels::Nearest {
     is_large_ = 1.5 * radius > 2 * distance + 1.75 * kLatticePerVoxel;
   }
 
-  [[nodiscard]] LatticeBox window() const {
-    const LatticeCoord around{reach_, reach_, reach_};
-    return {middle_ - around, middle_ + around};
-  }
+  [[nodiscard]] LatticeBox window() const { return LatticeBox{middle_, middle_}.grown(reach_); }
   [[nodiscard]] bool may_hold(const LatticeCoord& low, std::int64_t edge) const {
     return squared_to_box(middle_, low, edge) <= squared_;
   }

@@ -174,7 +174,6 @@ class OccluderMesh {
 
   /// Of the best mesh: all that is hidden. No other one holds more, since each lies in hidden voxels.
   [[nodiscard]] bool holds_all() const {
-    constexpr int kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
     return volume6_of(best_.mesh) >= int128(hidden_.voxels.count) * kVolume6OfVoxel;
   }
 

@@ -25,6 +25,10 @@ struct LatticeBox {
     return min.x <= b.min.x && b.max.x <= max.x && min.y <= b.min.y && b.max.y <= max.y && min.z <= b.min.z &&
            b.max.z <= max.z;
   }
+  [[nodiscard]] LatticeBox grown(std::int64_t by) const {
+    const LatticeCoord around{by, by, by};
+    return {min - around, max + around};
+  }
   void add(const LatticeCoord& p) {
     min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
     max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};

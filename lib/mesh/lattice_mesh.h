@@ -44,6 +44,8 @@ struct LatticeMesh {
   std::shared_ptr<const MeshTexture> texture;  ///< null: none
 };
 
+/// Six times the volume of a voxel, lattice units cubed.
+constexpr std::int64_t kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
 /// Six times the volume that a closed surface encloses, lattice units cubed; exact.
 [[nodiscard]] int128 volume6_of(std::span<const LatticeCoord> vertices,
                                 std::span<const std::array<std::uint32_t, 3>> triangles);

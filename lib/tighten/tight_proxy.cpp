@@ -184,9 +184,10 @@ void drop_needless(ProxyEditor& editor, const SimplifyParams& params, SimplifyCo
 TightenParams last_sweeps(const Enclosed& enclosed, const SimplifyParams& params) {
   TightenParams last = tightening_of(params);
   if (params.limits != nullptr) return last;
-  last.sweeps = enclosed.is_exact() ? 12 : 6;
-  last.final_sweeps = enclosed.is_exact() ? 8 : 4;
-  last.least_gain = enclosed.is_exact() ? 5e-5 : 2e-4;
+  const bool exact = enclosed.is_exact();
+  last.sweeps = exact ? 12 : 6;
+  last.final_sweeps = exact ? 8 : 4;
+  last.least_gain = exact ? 5e-5 : 2e-4;
   return last;
 }
 

@@ -99,9 +99,7 @@ double HullSteps::volume6_to(const LatticeCoord& p) const {
 LatticeBox room_around(const ConvexHull& hull, double share) {
   const LatticeBox box = box_of(hull.vertices);
   const LatticeCoord size = box.max - box.min;
-  const auto by = std::int64_t(std::ceil(share * double(std::max({size.x, size.y, size.z}))));
-  const LatticeCoord around{by, by, by};
-  return {box.min - around, box.max + around};
+  return box.grown(std::int64_t(std::ceil(share * double(std::max({size.x, size.y, size.z})))));
 }
 
 ConvexHull with_point(const ConvexHull& hull, const LatticeCoord& point) {

@@ -137,8 +137,6 @@ PieceMemory beside_limits(const PieceMemory& memory, std::uint64_t bytes) {
                     memory.limit_with(bytes - memory.bytes()));
 }
 
-constexpr int kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
-
 /// All levels, one after the other.
 class LevelMaker {
  public:

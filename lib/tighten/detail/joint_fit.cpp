@@ -44,7 +44,11 @@ void JointFit::solve(double reach) {
   set_places();
   if (whole_ && !at_.built()) at_.build(living_);
   gather_rows();
-  at_.for_each([this](std::size_t block) { press(blocks_[block]); });
+  at_.for_each([this](std::size_t block) {
+    for (const Row& row : blocks_[block].rows) {
+      if (row.force > 0) push(row, row.force);
+    }
+  });
   const int rounds = forces_.empty() ? kRounds : kRoundsOn;
   for (int round = 0; round < rounds; ++round) at_.for_each([this](std::size_t block) { relax(blocks_[block]); });
   keep_forces();
@@ -115,17 +119,6 @@ void JointFit::keep_forces() {
     }
   }
   forces_.set(forces, mesh_.face_capacity());
-}
-
-/// With the forces that rows begin with.
-void JointFit::press(Block& block) {
-  for (const Row& row : block.rows) {
-    if (row.force == 0) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      Moving& corner = moving_[row.places[k]];
-      corner.shift += row.force * corner.softness * row.gradient[k];
-    }
-  }
 }
 
 void JointFit::relax(Block& block) {
@@ -240,16 +233,21 @@ void JointFit::add_row(const Facet& facet, std::uint32_t point, std::vector<Bloc
 
 void JointFit::relax(Row& row) {
   const std::array<FourFloats, 3>& g = row.gradient;
-  Moving &a = moving_[row.places[0]], &b = moving_[row.places[1]], &c = moving_[row.places[2]];
-  const FourFloats rises = g[0] * a.shift + g[1] * b.shift + g[2] * c.shift;
+  const auto& [a, b, c] = row.places;
+  const FourFloats rises = g[0] * moving_[a].shift + g[1] * moving_[b].shift + g[2] * moving_[c].shift;
   const float rise = rises[0] + rises[1] + rises[2];
   const float force = std::max(0.0F, row.force + (row.least() - rise) * row.ease());
   const float change = force - row.force;
   if (change == 0) return;
   row.force = force;
-  a.shift += change * a.softness * g[0];
-  b.shift += change * b.softness * g[1];
-  c.shift += change * c.softness * g[2];
+  push(row, change);
+}
+
+void JointFit::push(const Row& row, float force) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    Moving& corner = moving_[row.places[k]];
+    corner.shift += force * corner.softness * row.gradient[k];
+  }
 }
 
 }  // namespace bp

@@ -73,10 +73,10 @@ class JointFit {
   void add_rows(FaceId f, std::vector<Block>& to) const;
   void add_rows_beside(const Facet& facet, std::uint32_t point, std::vector<Block>& to) const;
   void add_row(const Facet& facet, std::uint32_t point, std::vector<Block>& to) const;
-  void press(Block& block);
   void relax(Block& block);
-  void keep_forces();
   void relax(Row& row);
+  void push(const Row& row, float force);
+  void keep_forces();
 
   const HalfEdgeMesh& mesh_;
   const ContactPoints& contacts_;

@@ -24,10 +24,12 @@ void fill_box(MemoryShelf& shelf, const VoxelBox& box) {
 }
 
 /// A slab of two voxels with a column on it: large faces with no corner of a voxel under their middle.
-void add_slab(MemoryShelf& shelf) {
-  fill_box(shelf, {{3, 3, 3}, {120, 5, 117}});
-  fill_box(shelf, {{40, 5, 3}, {61, 30, 31}});
-}
+struct Slab : MemoryShelf {
+  Slab() {
+    fill_box(*this, {{3, 3, 3}, {120, 5, 117}});
+    fill_box(*this, {{40, 5, 3}, {61, 30, 31}});
+  }
+};
 
 GridFrame unit_voxels() {
   GridFrame frame;
@@ -35,23 +37,40 @@ GridFrame unit_voxels() {
   return frame;
 }
 
+HalfEdgeMesh merged_surface(const BrickShelf& shelf) {
+  HalfEdgeMesh mesh(dense_surface(shelf, unit_voxels()));
+  merge_flat_regions(mesh);
+  return mesh;
+}
+
+/// A fit of a slab's surface.
+struct OnSlab {
+  Slab shelf;
+  HalfEdgeMesh mesh = merged_surface(shelf);
+  EnclosedVoxels enclosed{shelf};
+  ContactPoints contacts{enclosed, mesh, FaceTree(mesh)};
+  ContactForces forces;
+  JointFit fit{mesh, contacts, forces};
+
+  [[nodiscard]] double farthest() const {
+    double far = 0;
+    for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {
+      if (mesh.vertex_alive(v)) far = std::max(far, length(fit.shift(v)));
+    }
+    return far;
+  }
+};
+
 }  // namespace
 
 TEST_CASE("a proxy that lies on flat sides everywhere is asked to stay", "[quick][meshing]") {
-  MemoryShelf shelf;
-  add_slab(shelf);
-  HalfEdgeMesh mesh(dense_surface(shelf, unit_voxels()));
-  merge_flat_regions(mesh);
-  const EnclosedVoxels enclosed(shelf);
-  const ContactPoints contacts(enclosed, mesh, FaceTree(mesh));
-  ContactForces forces;
-  JointFit fit(mesh, contacts, forces);
-  fit.solve(0.25);  // with nothing in its way a corner would go some thousand units
-  double farthest = 0, growth = 0;
+  OnSlab slab;
+  const HalfEdgeMesh& mesh = slab.mesh;
+  slab.fit.solve(0.25);  // with nothing in its way a corner would go some thousand units
+  const double farthest = slab.farthest();
+  double growth = 0;
   for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {
-    if (!mesh.vertex_alive(v)) continue;
-    farthest = std::max(farthest, length(fit.shift(v)));
-    growth += fit.growth(v);
+    if (mesh.vertex_alive(v)) growth += slab.fit.growth(v);
   }
   CAPTURE(farthest, growth, mesh.face_count());
   CHECK(farthest < kLatticePerVoxel);
@@ -59,33 +78,20 @@ TEST_CASE("a proxy that lies on flat sides everywhere is asked to stay", "[quick
 }
 
 TEST_CASE("a second joint program begins with the forces of the first, and changes little", "[quick][meshing]") {
-  MemoryShelf shelf;
-  add_slab(shelf);
-  HalfEdgeMesh mesh(dense_surface(shelf, unit_voxels()));
-  merge_flat_regions(mesh);
-  const EnclosedVoxels enclosed(shelf);
-  const ContactPoints contacts(enclosed, mesh, FaceTree(mesh));
-  ContactForces forces;
-  JointFit fit(mesh, contacts, forces);
-  const auto farthest = [&] {
-    double far = 0;
-    for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {
-      if (mesh.vertex_alive(v)) far = std::max(far, length(fit.shift(v)));
-    }
-    return far;
-  };
-  fit.solve(0.25);
-  const double first = farthest();
-  CHECK_FALSE(forces.empty());
-  fit.solve(0.25);  // four rounds more
-  CHECK(farthest() < 1.01 * first);
-  JointFit other(mesh, contacts, forces);
+  OnSlab slab;
+  const HalfEdgeMesh& mesh = slab.mesh;
+  slab.fit.solve(0.25);
+  const double first = slab.farthest();
+  CHECK_FALSE(slab.forces.empty());
+  slab.fit.solve(0.25);  // four rounds more
+  CHECK(slab.farthest() < 1.01 * first);
+  JointFit other(mesh, slab.contacts, slab.forces);
   other.solve(0.25);
   double apart = 0;
   for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {
-    if (mesh.vertex_alive(v)) apart = std::max(apart, length(other.shift(v) - fit.shift(v)));
+    if (mesh.vertex_alive(v)) apart = std::max(apart, length(other.shift(v) - slab.fit.shift(v)));
   }
-  CAPTURE(first, farthest(), apart);
+  CAPTURE(first, slab.farthest(), apart);
   CHECK(apart < 0.1 * kLatticePerVoxel);
 }
 
@@ -112,10 +118,8 @@ TEST_CASE("contact points of voxels lie on their boundary: all convex corners, s
 }
 
 TEST_CASE("beside corners that stay no vertex is asked to go far for a margin", "[quick][meshing]") {
-  MemoryShelf shelf;
-  add_slab(shelf);
-  HalfEdgeMesh mesh(dense_surface(shelf, unit_voxels()));
-  merge_flat_regions(mesh);
+  OnSlab slab;
+  HalfEdgeMesh& mesh = slab.mesh;
   VertexId free = kNoId;
   for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {
     if (!mesh.vertex_alive(v)) continue;
@@ -125,11 +129,7 @@ TEST_CASE("beside corners that stay no vertex is asked to go far for a margin", 
       mesh.lock(v);
     }
   }
-  const EnclosedVoxels enclosed(shelf);
-  const ContactPoints contacts(enclosed, mesh, FaceTree(mesh));
-  ContactForces forces;
-  JointFit fit(mesh, contacts, forces);
-  fit.solve(0.25);
-  CAPTURE(fit.shift(free));
-  CHECK(length(fit.shift(free)) < 1);  // it lies on voxels
+  slab.fit.solve(0.25);
+  CAPTURE(slab.fit.shift(free));
+  CHECK(length(slab.fit.shift(free)) < 1);  // it lies on voxels
 }

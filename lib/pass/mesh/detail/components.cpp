@@ -80,7 +80,6 @@ void drop(LatticeMesh& mesh, const std::vector<Shell>& shells, const std::vector
 }  // namespace
 
 DroppedComponents drop_small_components(LatticeMesh& mesh, double share) {
-  constexpr double kVolume6OfVoxel = 6.0 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
   const std::vector<Shell> shells = shells_of(mesh);
   double largest = 0;  // in magnitude; an outer shell, since a cavity is smaller than the shell around it
   for (const Shell& s : shells) {
@@ -105,7 +104,7 @@ DroppedComponents drop_small_components(LatticeMesh& mesh, double share) {
     if (!marked[s]) continue;
     const bool outer = (shells[s].volume6 > 0) == (largest > 0);
     dropped.parts += outer ? 1 : 0;
-    dropped.volume_vox += (largest > 0 ? 1 : -1) * double(shells[s].volume6) / kVolume6OfVoxel;
+    dropped.volume_vox += (largest > 0 ? 1 : -1) * double(shells[s].volume6) / double(kVolume6OfVoxel);
   }
   if (dropped.parts > 0) drop(mesh, shells, marked);
   return dropped;

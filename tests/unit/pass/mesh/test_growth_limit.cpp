@@ -14,8 +14,6 @@ using namespace bp::test;
 
 namespace {
 
-constexpr double kVolume6OfVoxel = 6.0 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
-
 /// A ball with an arm, where far planes meet.
 bool lollipop(VoxelCoord p) {
   const std::int32_t x = p.x - 12, y = p.y - 12, z = p.z - 12;
@@ -52,7 +50,7 @@ TEST_CASE("collapses add no more to a proxy, and take no more from one inside, t
   const bool inside = GENERATE(false, true);
   const Start start = start_of(inside);
   const EnclosedVoxels enclosed(*start.enclosed);
-  const double before = double(volume6_of(start.mesh)) / kVolume6OfVoxel, most_growth = 0.2;
+  const double before = double(volume6_of(start.mesh)) / double(kVolume6OfVoxel), most_growth = 0.2;
   REQUIRE((before < 0) == inside);
   struct Outcome {
     double growth;  // inside: of what surrounds
@@ -67,7 +65,7 @@ TEST_CASE("collapses add no more to a proxy, and take no more from one inside, t
     params.faces = 8;
     SimplifyCounts counts;
     const LatticeMesh mesh = simplify(start.mesh, params, counts);
-    Outcome out{double(volume6_of(mesh)) / kVolume6OfVoxel - before, 0, counts.refused[Refusal::growth]};
+    Outcome out{double(volume6_of(mesh)) / double(kVolume6OfVoxel) - before, 0, counts.refused[Refusal::growth]};
     for (std::size_t f = start.mesh.triangles.size(); f > mesh.triangles.size(); f -= 2)
       out.bound += most_growth * std::abs(before) / double(f);
     return out;
