@@ -21,6 +21,7 @@ namespace {
 // cells than there are threads, and regions are as large as each other.
 constexpr std::uint64_t kMargin = 3, kMarginOfMany = 2, kManyFaces = std::uint64_t(1) << 20, kFew = 100000;
 constexpr std::uint64_t kFewCells = 32, kMarginOfFew = 5;  // so few cells leave threads without one: they stop earlier
+constexpr double kNearlyAll = 0.95;                        // and join only after a round that left so many of the faces
 constexpr double kBoundPerLevel = 16;                      // of the last bound: a round leaves about 40 % of the faces
 constexpr std::int64_t kBrickLattice = std::int64_t(kBrickEdge) * kLatticePerVoxel;
 constexpr std::uint64_t kLargeCell = std::uint64_t(1) << 17;  // faces: few cells grow beyond that
@@ -218,9 +219,10 @@ Piece simplified_surface(const SurfaceSource& surface, const SimplifyParams& par
   counts.faces_in = tree.begin();
   counts.faces_flat = tree.faces();
   for (double last = 4 * kFirstBound; needs_round(tree, end, params); last *= kBoundPerLevel) {
+    const std::uint64_t before = tree.faces();
     tree.collapse({kFirstBound, std::min(last, end.cost)});
     if (tree.whole() || last >= end.cost) break;
-    tree.join_cells();
+    if (tree.cells() >= kFewCells || double(tree.faces()) > kNearlyAll * double(before)) tree.join_cells();
   }
   Piece root = tree.weld_all(counts);
   root.cell = kEverywhere;

@@ -185,9 +185,9 @@ TightenParams last_sweeps(const Enclosed& enclosed, const SimplifyParams& params
   TightenParams last = tightening_of(params);
   if (params.limits != nullptr) return last;
   const bool exact = enclosed.is_exact();
-  last.sweeps = exact ? 12 : 6;
-  last.final_sweeps = exact ? 8 : 4;
-  last.least_gain = exact ? 5e-5 : 2e-4;
+  last.sweeps = exact ? 10 : 4;
+  last.final_sweeps = exact ? 4 : 2;
+  last.least_gain = exact ? 1e-4 : 3e-4;
   return last;
 }
 

@@ -16,7 +16,7 @@ namespace bp {
 
 namespace {
 
-constexpr double kJointReach = 0.25;  // of the mean spoke: how far a vertex may move at once with its neighbours
+constexpr double kJointReach = 1;  // of the mean spoke: how far a vertex would go with nothing in its way
 constexpr std::size_t kMovesPerThread = 2, kFlipsPerThread = 64;
 constexpr int kSweepsPerRefresh = 8;
 

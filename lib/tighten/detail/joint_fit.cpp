@@ -21,7 +21,7 @@ constexpr double kDeepest = 2;        // lattice units: a point that much above 
 constexpr double kRim = 8;      // lattice units: a point so near to the rim of its face is under those beside it, too
 constexpr double kLongest = 2;  // times the unhindered step: how far forces may push
 constexpr int kRounds = 8;      // over all rows
-constexpr int kRoundsOn = 4;    // where it begins with the forces of another one
+constexpr int kRoundsOn = 6;    // where it begins with the forces of another one
 constexpr int kPressingRounds = 8;    // after each, over those with a force
 constexpr double kLeastGive = 1e-30;  // so that its inverse is a float
 constexpr std::int64_t kFacesAtOnce = 128, kVerticesAtOnce = 512;
