@@ -95,6 +95,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   };
   const auto open = [&](const StreamHeader& header, const VoxelizeCounts& counts) -> BrickSink& {
     out.header = header;
+    out.header.scene.triangles = counts.scene.triangles;
     note_time(header, counts);
     return sink;
   };

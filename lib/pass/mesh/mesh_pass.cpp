@@ -94,14 +94,44 @@ LatticeMesh use_room(LatticeMesh proxy, const Enclosed& enclosed, SimplifyParams
   return proxy;
 }
 
+/// From a coarse start. Tightening may leave folds of it where sides are flat. Many faces are needless there. So where
+/// clearly fewer than wanted are left, another one follows from a finer start: the one of less volume, or of fewer
+/// faces where that is the same.
+LatticeMesh proxy_of(const CoarseStarts& starts, const SurfaceSource& dense, const Enclosed& enclosed,
+                     const SimplifyParams& params, LevelCounts& counts) {
+  constexpr double kClearly = 0.9, kSame = 1e-3;
+  constexpr std::size_t kQuick = 512;  // faces of flat sides
+  const auto make = [&](const CoarseStart& start, LevelCounts& to) {
+    return tight_proxy(start.surface ? *start.surface : dense, dense.frame(), enclosed, params, to.simplify,
+                       to.tighten);
+  };
+  CoarseStart start = starts.first(params.faces);
+  const double voxel = start.voxel;
+  LatticeMesh proxy = make(start, counts);
+  const std::size_t faces = proxy.triangles.size();
+  if (faces >= kQuick || double(faces) >= kClearly * double(params.faces)) return proxy;
+  start = {};
+  start = starts.finer(params.faces);
+  if (start.voxel == voxel) return proxy;
+  LevelCounts counts_of_finer;
+  LatticeMesh finer = make(start, counts_of_finer);
+  if (finer.triangles.size() > params.faces) return proxy;
+  const double volume = counts.tighten.volume_after, now = counts_of_finer.tighten.volume_after;
+  const bool same = std::abs(now - volume) <= kSame * std::abs(volume);
+  if (same ? finer.triangles.size() >= faces : now > volume) return proxy;
+  counts.simplify = std::move(counts_of_finer.simplify);
+  counts.tighten = counts_of_finer.tighten;
+  return finer;
+}
+
 /// One level, from the surface of all that it must enclose, or a coarse one around it. `few`: nothing but a number of
 /// faces below kFewFaces matters.
-LatticeMesh make_level(const SurfaceSource& dense, const SurfaceSource* coarse, const Enclosed* enclosed,
+LatticeMesh make_level(const SurfaceSource& dense, const CoarseStarts* starts, const Enclosed* enclosed,
                        const SimplifyParams& params, bool few, LevelCounts& counts) {
   if (enclosed == nullptr) return simplify(dense, params, counts.simplify);
   if (few) return tight_proxy_of_few(dense, *enclosed, params, counts.simplify, counts.tighten);
-  LatticeMesh proxy = tight_proxy(coarse != nullptr ? *coarse : dense, dense.frame(), *enclosed, params,
-                                  counts.simplify, counts.tighten);
+  if (starts != nullptr) return proxy_of(*starts, dense, *enclosed, params, counts);
+  LatticeMesh proxy = tight_proxy(dense, *enclosed, params, counts.simplify, counts.tighten);
   return params.limits == nullptr ? proxy : use_room(std::move(proxy), *enclosed, params, counts);
 }
 
@@ -151,6 +181,7 @@ class LevelMaker {
   std::vector<LatticeMesh> run(const Shelves& shelves) {
     const std::vector<std::uint64_t> faces = params_.faces.empty() ? std::vector<std::uint64_t>{0} : params_.faces;
     Start start = make_start(shelves);
+    const std::uint64_t triangles = params_.scene.empty() ? header_.scene.triangles : params_.scene.size();
     bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
     ground_ = make_ground(shelves, params_, start, context_);
     memory_ = context_.pieces.without(ground_.bytes());
@@ -161,11 +192,10 @@ class LevelMaker {
     if (params_.cage) return cage(shelves, faces[0]);
     const bool by_faces = !inside() && ground_.enclosed && faces[0] >= kFewFaces && params_.error_world == 0 &&
                           params_.volume_ratio == 0 && params_.edge_factor == 0;
-    CoarseStart coarse;
-    if (by_faces) coarse = coarse_start(*shelves.meshed, header_, kDensePerFace * faces[0], make_shelf_);
-    std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed.get(), faces[0], coarse.surface.get())};
+    const CoarseStarts starts{*shelves.meshed, header_, make_shelf_, triangles};
+    std::vector<LatticeMesh> levels{
+        finish(*start.surface, ground_.enclosed.get(), faces[0], by_faces ? &starts : nullptr)};
     ground_.enclosed.reset();
-    coarse = {};
     start = {};
     for (std::size_t i = 1; i < faces.size(); ++i) {
       bounds_.error_world = error_share * double(i + 1);
@@ -262,14 +292,14 @@ class LevelMaker {
   }
 
   LatticeMesh finish(const SurfaceSource& dense, const Enclosed* enclosed, std::uint64_t faces,
-                     const SurfaceSource* coarse = nullptr) {
+                     const CoarseStarts* starts = nullptr) {
     return finish(dense.frame(), faces, [&](SimplifyParams params, LevelCounts& counts) {
       if (faces >= kLeastFacesWithRoom) params.room = room_around(dense.box(), faces);  // the box reads all voxels
       if (params_.near && params.limits == nullptr && faces > 0)
         params.reach = (header_.scale.base / dense.frame().voxel + 1) * kLatticePerVoxel;
       const bool few = faces > 0 && faces < kFewFaces && params.limits == nullptr && !params.edge_limit &&
                        !params_.near && !inside();
-      LatticeMesh proxy = make_level(dense, coarse, enclosed, params, few, counts);
+      LatticeMesh proxy = make_level(dense, starts, enclosed, params, few, counts);
       if (!params_.quads) return proxy;
       if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);
       proxy.quads = pair_triangles(proxy, QuadKeeps::enclosed, enclosed);

@@ -41,7 +41,8 @@ bool may_have(const BrickShelf& closing, const ScaleSearch& search) {
 
 /// By growing alone, and from larger voxels as meshing does: what that gets to, tightening gets to as well.
 bool has_faces(const StreamHeader& closed, const BrickShelf& closing, const ScaleSearch& search) {
-  const CoarseStart coarse = coarse_start(closing, closed, kDensePerFace * search.faces, search.context.make_shelf);
+  const CoarseStarts starts{closing, closed, search.context.make_shelf, closed.scene.triangles};
+  const CoarseStart coarse = starts.first(search.faces);
   const ShelfSurface dense(closing, closed.frame);
   SimplifyParams params;
   params.faces = search.faces;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "lib/core/vec3.h"
@@ -17,22 +18,35 @@ constexpr double kMostLeft = 0.9;                 // of the area: what is flat o
 constexpr std::size_t kMostFaces = 32;            // at a spike
 constexpr int kFallRounds = 4;
 
-/// Six times what cutting by `h`, the edge of a face across from the spike, adds to the volume: the faces that go make
-/// room for a fan around the third neighbour.
-int128 cost6(const HalfEdgeMesh& mesh, HalfEdgeId h) {
-  const std::array<FaceId, 2> faces{HalfEdgeMesh::face(h), HalfEdgeMesh::face(mesh.twin(h))};  // the others meet it
-  return fan_gain6(mesh, faces, mesh.position(mesh.opposite(mesh.twin(HalfEdgeMesh::next(h)))));
+double area_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
+  return length(to_double(normal_of(a, b, c))) / 2;
 }
 
+/// Volume that the proxy in its skin loses by a cut along `h`, the edge of a face across from the spike. The faces that
+/// go make room for a fan around the third neighbour.
+double gain_of_cut(const HalfEdgeMesh& mesh, HalfEdgeId h) {
+  const HalfEdgeId t = mesh.twin(h);
+  const std::array<FaceId, 2> faces{HalfEdgeMesh::face(h), HalfEdgeMesh::face(t)};  // the others meet the neighbour
+  const LatticeCoord &a = mesh.position(mesh.from(h)), &b = mesh.position(mesh.to(h)),
+                     &spike = mesh.position(mesh.opposite(h)), &beyond = mesh.position(mesh.opposite(t)),
+                     &third = mesh.position(mesh.opposite(mesh.twin(HalfEdgeMesh::next(h))));
+  const double before =
+      area_of(spike, a, b) + area_of(spike, b, third) + area_of(spike, third, a) + area_of(b, a, beyond);
+  const double after = area_of(third, a, beyond) + area_of(third, beyond, b);
+  return kSkin * (before - after) - double(fan_gain6(mesh, faces, third)) / 6;
+}
+
+/// Best first.
 bool cut(ProxyEditor& editor, VertexId v) {
   const HalfEdgeMesh& mesh = editor.mesh();
-  std::array<HalfEdgeId, 3> rim{};
+  std::array<std::pair<double, HalfEdgeId>, 3> rim{};
   std::size_t n = 0;
-  mesh.for_each_outgoing(v, [&](HalfEdgeId h) { rim[n++] = HalfEdgeMesh::next(h); });
-  for (const HalfEdgeId h : rim) {
-    if (cost6(mesh, h) < 0 && editor.cut(h)) return true;
-  }
-  return false;
+  mesh.for_each_outgoing(v, [&](HalfEdgeId h) {
+    const HalfEdgeId across = HalfEdgeMesh::next(h);
+    rim[n++] = {-gain_of_cut(mesh, across), across};
+  });
+  std::sort(rim.begin(), rim.end());
+  return std::any_of(rim.begin(), rim.end(), [&](const auto& c) { return c.first < 0 && editor.cut(c.second); });
 }
 
 /// Vertices that go to the place of a neighbour. A fin has no volume, but two sides: a skin around it has.
@@ -85,11 +99,10 @@ class Falls {
 
   /// Of the faces of v, if it were at `p`.
   [[nodiscard]] double area(VertexId v, const LatticeCoord& p) const {
-    double twice = 0;
-    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
-      twice += length(to_double(normal_of(p, mesh_.position(mesh_.to(h)), mesh_.position(mesh_.opposite(h)))));
-    });
-    return twice / 2;
+    double sum = 0;
+    mesh_.for_each_outgoing(
+        v, [&](HalfEdgeId h) { sum += area_of(p, mesh_.position(mesh_.to(h)), mesh_.position(mesh_.opposite(h))); });
+    return sum;
   }
 
   ProxyEditor& editor_;

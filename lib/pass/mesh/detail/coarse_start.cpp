@@ -1,5 +1,7 @@
 #include "lib/pass/mesh/detail/coarse_start.h"
 
+#include <algorithm>
+
 #include "lib/surface/repair.h"
 #include "lib/volume/reduce.h"
 
@@ -33,7 +35,19 @@ CoarseStart coarse_start(const BrickShelf& meshed, const StreamHeader& header, s
     start.voxels = std::move(coarse);
   }
   if (start.voxels) start.surface = std::make_unique<ShelfSurface>(*start.voxels, frame);
+  start.voxel = frame.voxel;
   return start;
+}
+
+CoarseStart CoarseStarts::first(std::uint64_t faces) const {
+  constexpr std::uint64_t kFewPerFace = 16;
+  const bool few = scene_triangles > 0 && scene_triangles <= kFewPerFace * faces;
+  return few ? finer(faces) : coarse_start(meshed, header, kDensePerFace * faces, make_shelf);
+}
+
+CoarseStart CoarseStarts::finer(std::uint64_t faces) const {
+  constexpr std::uint64_t kDenseOfFlat = 200000;
+  return coarse_start(meshed, header, std::max(kDensePerFace * faces, kDenseOfFlat), make_shelf);
 }
 
 }  // namespace bp

@@ -10,6 +10,7 @@ namespace bp {
 struct CoarseStart {
   std::unique_ptr<BrickShelf> voxels;
   std::unique_ptr<SurfaceSource> surface;  ///< null: the stream's voxels are large enough
+  double voxel = 0;                        ///< edge, scene units
 };
 
 constexpr std::uint64_t kDensePerFace = 40;  ///< dense faces for each of a proxy: with more it is as tight, but slower
@@ -20,5 +21,18 @@ constexpr std::uint64_t kDensePerFace = 40;  ///< dense faces for each of a prox
 /// but a neck between two balls. Cost: reading the voxels.
 [[nodiscard]] CoarseStart coarse_start(const BrickShelf& meshed, const StreamHeader& header, std::uint64_t dense_faces,
                                        const ShelfFactory& make_shelf);
+
+/// The starts of a proxy of `faces` triangles. All must outlive it.
+struct CoarseStarts {
+  const BrickShelf& meshed;
+  const StreamHeader& header;
+  const ShelfFactory& make_shelf;
+  std::uint64_t scene_triangles = 0;  ///< 0: not known
+
+  /// The coarse one, or the finer one where the scene has few triangles: it is of flat sides, as a rule.
+  [[nodiscard]] CoarseStart first(std::uint64_t faces) const;
+  /// From flat sides tightening does not take all back. What it has of 200,000 dense faces it does, nearly always.
+  [[nodiscard]] CoarseStart finer(std::uint64_t faces) const;
+};
 
 }  // namespace bp
