@@ -12,6 +12,10 @@ namespace {
 
 using Flat = std::array<double, 2>;
 
+constexpr std::size_t kMostCorners = 4096;     // of an outline
+constexpr std::uint64_t kFacesOfTriangle = 8;  // of its prism
+constexpr double kFlat = 8;  // of a corner, lattice units: with less, rounding tilts the ends of a prism
+
 /// What a flat scene lies in; lattice units.
 struct Slab {
   Vec3d origin{}, a{}, b{}, up{};  // a, b, up: of length 1, at right angles
@@ -67,17 +71,43 @@ std::vector<Flat> hull_of_flat(std::vector<Flat> points) {
   return hull;
 }
 
-/// Without corners that lie as good as on the line of their neighbours.
-std::vector<Flat> without_straight(std::vector<Flat> outline) {
-  constexpr double kStraight = 0.25;
-  for (std::size_t i = 0; i < outline.size() && outline.size() > 3;) {
+/// How far the flattest corner lies out of the line of its neighbours.
+double flattest(const std::vector<Flat>& outline) {
+  double least = HUGE_VAL;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Flat &p = outline[i], &r = outline[(i + 2) % outline.size()];
+    least = std::min(least, turn(p, outline[(i + 1) % outline.size()], r) / std::hypot(r[0] - p[0], r[1] - p[1]));
+  }
+  return least;
+}
+
+/// Where the line from p to q meets the one from r to s; nothing if they do not meet beyond q and before r.
+std::optional<Flat> corner_of(const Flat& p, const Flat& q, const Flat& r, const Flat& s) {
+  const Flat d{q[0] - p[0], q[1] - p[1]}, e{s[0] - r[0], s[1] - r[1]};
+  const double sine = d[0] * e[1] - d[1] * e[0];
+  const double along = ((r[0] - p[0]) * e[1] - (r[1] - p[1]) * e[0]) / sine;
+  if (!(sine > 0) || !std::isfinite(along)) return {};
+  return Flat{p[0] + along * d[0], p[1] + along * d[1]};
+}
+
+/// Around the outline, with at most so many corners, and none that is nearly straight: edges go, whose neighbours then
+/// meet, those first that add the least area. Nothing if there is no way. O(corners^2).
+std::vector<Flat> with_fewer(std::vector<Flat> outline, std::size_t most) {
+  while (outline.size() > most || flattest(outline) < 2 * kFlat) {
     const std::size_t n = outline.size();
-    const Flat &p = outline[(i + n - 1) % n], &r = outline[(i + 1) % n];
-    if (turn(p, outline[i], r) > kStraight * std::hypot(r[0] - p[0], r[1] - p[1])) {
-      ++i;
-    } else {
-      outline.erase(outline.begin() + std::ptrdiff_t(i));
+    std::size_t edge = n;
+    Flat corner{};
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Flat &q = outline[i], &r = outline[(i + 1) % n];
+      const auto found = corner_of(outline[(i + n - 1) % n], q, r, outline[(i + 2) % n]);
+      if (!found) continue;
+      const double added = turn(q, *found, r);
+      if (std::abs(added) < least) least = std::abs(added), edge = i, corner = *found;
     }
+    if (edge == n) return {};
+    outline[edge] = corner;
+    outline.erase(outline.begin() + std::ptrdiff_t((edge + 1) % n));
   }
   return outline;
 }
@@ -121,19 +151,29 @@ LatticeMesh prism(const Slab& slab, const std::vector<Flat>& outline, double roo
   return mesh;
 }
 
-/// Whether each of these points lies inside of each face's plane. Then the mesh is a sphere around them, and all that
-/// lies between them is inside.
+/// Whether rounding has left it a prism around the outline: the ends are above and below all of it, and hardly tilted,
+/// and the outline lies inside of each side's plane.
 bool holds(const LatticeMesh& mesh, const Slab& slab, const std::vector<Flat>& outline) {
-  constexpr double kLeast = 0.5;  // far more than what is lost by rounding
-  const auto at = [&](std::uint32_t v) {
-    const LatticeCoord& p = mesh.vertices[v];
-    return Vec3d{double(p.x), double(p.y), double(p.z)} - slab.origin;
-  };
+  constexpr double kLeast = 0.5;  // far more than what is lost by computing
+  const std::size_t n = mesh.vertices.size() / 2;
+  std::vector<Vec3d> at;
+  for (const LatticeCoord& p : mesh.vertices) at.push_back(Vec3d{double(p.x), double(p.y), double(p.z)} - slab.origin);
+  const auto corner = [&](std::size_t v) { return Flat{dot(at[v], slab.a), dot(at[v], slab.b)}; };
+  for (std::size_t v = 0; v < n; ++v) {
+    if (dot(at[v], slab.up) > slab.low - kLeast || dot(at[v + n], slab.up) < slab.high + kLeast) return false;
+  }
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    for (const std::size_t end : {std::size_t(0), n}) {
+      if (flattest({corner(end), corner(end + i), corner(end + i + 1)}) < kFlat) return false;
+    }
+  }
   return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
-    const Vec3d p = at(t[0]), normal = cross(at(t[1]) - p, at(t[2]) - p);
-    return std::all_of(outline.begin(), outline.end(), [&](const Flat& corner) {
-      return std::max(dot(slab.point(corner, slab.low) - slab.origin - p, normal),
-                      dot(slab.point(corner, slab.high) - slab.origin - p, normal)) <= -kLeast * length(normal);
+    const auto above = std::count_if(t.begin(), t.end(), [&](std::uint32_t v) { return v >= n; });
+    if (above == 0 || above == 3) return true;
+    const Vec3d p = at[t[0]], normal = cross(at[t[1]] - p, at[t[2]] - p);
+    return std::all_of(outline.begin(), outline.end(), [&](const Flat& c) {
+      return std::max(dot(slab.point(c, slab.low) - slab.origin - p, normal),
+                      dot(slab.point(c, slab.high) - slab.origin - p, normal)) <= -kLeast * length(normal);
     });
   });
 }
@@ -150,8 +190,10 @@ std::optional<LodLevel> prism_level(const LodLevel& level, std::span<const Trian
   if (!slab) return {};
   std::vector<Flat> flat(points.size());
   std::transform(points.begin(), points.end(), flat.begin(), [&](const Vec3d& p) { return slab->flat(p); });
-  const std::vector<Flat> hull = hull_of_flat(std::move(flat)), outline = without_straight(hull);
-  if (hull.size() < 3 || 4 * outline.size() - 4 > faces) return {};
+  const std::vector<Flat> hull = hull_of_flat(std::move(flat));
+  if (hull.size() < 3 || hull.size() > kMostCorners || faces < kFacesOfTriangle) return {};
+  const std::vector<Flat> outline = with_fewer(hull, std::size_t((faces + 4) / 4));
+  if (outline.empty()) return {};
   for (double room = 2; room <= 8; room *= 2) {
     const std::vector<Flat> corners = grown(outline, room);
     if (corners.empty()) return {};
