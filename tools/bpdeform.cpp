@@ -152,6 +152,8 @@ void apply(const Options& o, bp::Report& report, bp::Progress& progress) {
     report.note(fmt::format("{} scenes are written: {}", scenes, written), o.common);
   }
   if (!applied.left_behind.empty()) report.note(fmt::format("{}: {}", written, applied.left_behind), o.common);
+  if (const std::string text = bp::files_left(scene, numbered(o.out, 0, scenes)); !text.empty())
+    report.note(written + ": " + text, o.common);
   report.bytes_in = bp::size_of_files({scene});
 }
 

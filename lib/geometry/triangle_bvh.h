@@ -63,10 +63,11 @@ class TriangleBvh {
   template <class Accept, class Before>
   [[nodiscard]] std::optional<Hit> first_along(const Vec3d& start, const Vec3d& direction, double most,
                                                const Accept& accept, const Before& before) const;
-  /// The nearest triangle whose squared distance is at most `most`; of several the one that is before(item, item) the
-  /// others. In floating point.
-  template <class Before>
-  [[nodiscard]] std::optional<Nearest> nearest_within(const Vec3d& p, double most, const Before& before) const;
+  /// The nearest triangle whose squared distance is at most `most`, and that accept(item) takes; of several the one
+  /// that is before(item, item) the others. In floating point.
+  template <class Accept, class Before>
+  [[nodiscard]] std::optional<Nearest> nearest_within(const Vec3d& p, double most, const Accept& accept,
+                                                      const Before& before) const;
   /// The nearest triangle (one of them), in floating point. `guess` is where the search starts: the answer for a point
   /// close by makes it fast. The distance does not depend on it. Must not be empty.
   [[nodiscard]] Nearest nearest(const Vec3d& p, std::uint32_t guess = 0) const { return near_enough(p, -1, guess); }
@@ -165,8 +166,8 @@ std::optional<TriangleBvh::Hit> TriangleBvh::first_along(const Vec3d& start, con
   return found ? std::optional(best) : std::nullopt;
 }
 
-template <class Before>
-std::optional<TriangleBvh::Nearest> TriangleBvh::nearest_within(const Vec3d& p, double most,
+template <class Accept, class Before>
+std::optional<TriangleBvh::Nearest> TriangleBvh::nearest_within(const Vec3d& p, double most, const Accept& accept,
                                                                 const Before& before) const {
   constexpr double kRounding = 1 - 1e-12;  // boxes of flat triangles are not farther away than these
   struct Entry {
@@ -185,7 +186,9 @@ std::optional<TriangleBvh::Nearest> TriangleBvh::nearest_within(const Vec3d& p, 
     for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
       const double d = distance_squared(p, items_[i].corners);
       const bool is_none = best.item == ~std::uint32_t(0);
-      if (d < best.distance_squared || (d == best.distance_squared && (is_none || before(i, best.item)))) best = {d, i};
+      const bool is_nearer =
+          d < best.distance_squared || (d == best.distance_squared && (is_none || before(i, best.item)));
+      if (is_nearer && accept(i)) best = {d, i};
     }
     if (n.count != 0) continue;
     Entry near{distance_to(n.first), n.first}, far{distance_to(n.first + 1), n.first + 1};

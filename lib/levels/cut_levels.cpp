@@ -70,7 +70,7 @@ void make_cut_levels(TilePyramid& pyramid, const TilesetPlan& plan, const CutOpt
     pyramid.reduce();
   }
   steps.begin("make tiles");
-  pyramid.make_tiles();
+  pyramid.make_tiles(steps.left);
 }
 
 TreeTile tree_tile(const LevelTile& tile, const Cells& cells, const GridFrame& frame, std::string uri) {

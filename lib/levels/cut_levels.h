@@ -33,6 +33,7 @@ struct CutSteps {
   std::function<void(const std::string&)> begin;
   std::function<CutFiles(std::size_t level, const GridFrame& frame)> files;
   std::function<void(std::size_t level, LevelTile&&)> take;
+  std::function<void(double)> left;  ///< which share of all is not kept; may be empty
 };
 
 /// Makes all tiles of plan.cut. Then `pyramid` is at the first level that is not cut.

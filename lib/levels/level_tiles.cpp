@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -70,8 +71,10 @@ class TileMaking {
     }
   }
 
-  void operator()() {
+  void operator()(const std::function<void(double)>& left) {
+    const double all = surface();
     take_kept();
+    if (left && all > 0) left(surface() / all);
     std::stable_sort(jobs_.begin(), jobs_.end(),
                      [](const TileJob& a, const TileJob& b) { return a.job.dense_faces > b.job.dense_faces; });
     const int n = in_flight();
@@ -99,6 +102,12 @@ class TileMaking {
     if (bytes > memory.bytes)
       throw NeedsMemory(fmt::format("a tile of {} voxels", cells.edge_vox), bytes, memory.bytes,
                         memory.limit_with(bytes - memory.bytes), {Remedy::smaller_tiles});
+  }
+
+  /// Of the jobs of the list.
+  [[nodiscard]] double surface() const {
+    return std::accumulate(jobs_.begin(), jobs_.end(), 0.0,
+                           [](double sum, const TileJob& job) { return sum + double(job.job.dense_faces); });
   }
 
   /// Jobs whose results are there leave the list. A hidden tile is kept as no bytes.
@@ -163,13 +172,13 @@ class TileMaking {
 
 }  // namespace
 
-void make_tiles(std::span<const TileTask> tasks, const PassContext& context) {
+void make_tiles(std::span<const TileTask> tasks, const PassContext& context, const std::function<void(double)>& left) {
   for (const TileTask& task : tasks) {
     const std::int32_t edge = task.level.cells.edge_vox;
     if (edge < kBrickEdge || edge % kBrickEdge != 0)
       fail(ErrorCode::bad_argument, "a cell of {} voxels a side: must be a multiple of 64", edge);
   }
-  TileMaking(tasks, context)();
+  TileMaking(tasks, context)(left);
 }
 
 }  // namespace bp

@@ -88,8 +88,10 @@ struct TileTask {
 };
 
 /// All tiles of all levels: those whose cell holds voxels of the closing, but for cavities that the closing fills.
-/// First those that are kept among the results, then the others, large ones first; none waits for another. Memory: 320
-/// bytes for each triangle of the dense surface of a tile at work. Throws out_of_resource if not even one tile fits.
-void make_tiles(std::span<const TileTask> tasks, const PassContext& context);
+/// First those that are kept among the results, then the others, large ones first; none waits for another. `left`, if
+/// given, is told between the two which share of all is to be made, by their surfaces. Memory: 320 bytes for each
+/// triangle of the dense surface of a tile at work. Throws out_of_resource if not even one tile fits.
+void make_tiles(std::span<const TileTask> tasks, const PassContext& context,
+                const std::function<void(double)>& left = {});
 
 }  // namespace bp

@@ -8,6 +8,7 @@
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/detail/few_faces_level.h"
 #include "lib/levels/detail/outside.h"
+#include "lib/levels/detail/prism_level.h"
 #include "lib/pass/measure/shape_rules.h"
 #include "lib/surface/repair.h"
 #include "lib/volume/reduce.h"
@@ -80,7 +81,7 @@ struct LodChain::State {
   LodLevel make(const LodTarget& target) {
     LodLevel level = options.cage ? cage(target) : closed(target);
     if (options.cage || !has_ways(target)) measure(level);
-    return may_be_box(target) ? box_or(std::move(level), target) : level;
+    return may_be_convex(target) ? convex_or(std::move(level), target) : level;
   }
 
   void measure(LodLevel& level) {
@@ -149,17 +150,23 @@ struct LodChain::State {
     return is_better(by_volume, level, target.faces) ? by_volume : level;
   }
 
-  [[nodiscard]] bool may_be_box(const LodTarget& target) const {
+  [[nodiscard]] bool may_be_convex(const LodTarget& target) const {
     return !options.cage && options.mode == MeshMode::bounding && options.enclose != Enclose::closing &&
-           target.faces >= kFacesOfBox && target.error_world == 0;
+           target.faces > 0 && target.error_world == 0;
   }
 
-  /// Around all that is enclosed. Measured only where it may be better.
-  LodLevel box_or(LodLevel level, const LodTarget& target) {
-    LodLevel box = box_level(level, options.enclose == Enclose::scene ? header.bounds : outside->bounds());
-    if (!has_ways(target) && !has_few_faces(level) && !holds_no_more(box, level)) return level;
-    measure(box);
-    return is_better_box(box, level, target.faces) ? box : level;
+  /// A box or a prism around all that is enclosed. A box is measured only where it may be better.
+  LodLevel convex_or(LodLevel level, const LodTarget& target) {
+    const auto take = [&](LodLevel other, bool flat) {
+      if (!flat && !has_ways(target) && !has_few_faces(level) && !holds_no_more(other, level)) return;
+      measure(other);
+      if (is_better_box(other, level, target.faces)) level = std::move(other);
+    };
+    if (target.faces >= kFacesOfBox)
+      take(box_level(level, options.enclose == Enclose::scene ? header.bounds : outside->bounds()), false);
+    if (options.enclose != Enclose::scene) return level;
+    if (auto prism = prism_level(level, options.scene, target.faces)) take(std::move(*prism), true);
+    return level;
   }
 
   [[nodiscard]] std::int64_t longest_side() const {

@@ -36,8 +36,8 @@ void TilePyramid::add_level(double scale_world, TileParams params, TileEncoder e
   added_ = true;
 }
 
-void TilePyramid::make_tiles() {
-  bp::make_tiles(tasks_, options_.context);
+void TilePyramid::make_tiles(const std::function<void(double)>& left) {
+  bp::make_tiles(tasks_, options_.context, left);
   tasks_.clear();
   waiting_.clear();
   added_ = false;

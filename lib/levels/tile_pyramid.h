@@ -27,8 +27,8 @@ class TilePyramid {
   /// Closes the level, and has its tiles made along with those of other levels; sets scale and element of
   /// `params`. Each level at most once. As close_cells().
   void add_level(double scale_world, TileParams params, TileEncoder encode, std::function<void(LevelTile&&)> consume);
-  /// Of the levels that were added, whose voxels go then.
-  void make_tiles();
+  /// Of the levels that were added, whose voxels go then. `left`: as of bp::make_tiles().
+  void make_tiles(const std::function<void(double)>& left = {});
   void reduce();  ///< to the next level
 
   /// What a LodChain goes on with; ends this pyramid.

@@ -1,9 +1,14 @@
 #include "tools/deform/apply.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <filesystem>
 
+#include "io/files/file.h"
 #include "io/scene/points/scene_points.h"
+#include "io/scene/scene_format.h"
+#include "io/scene/scene_parts.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
@@ -183,6 +188,25 @@ Applied animate_cages(const ApplyRequest& request, std::span<const MovedCage> ca
       out);
   progress.end();
   return {mover->finish(), ""};
+}
+
+std::string files_left(const std::string& scene, const std::string& written) {
+  const std::string from = folder_of(scene) + "/", to = folder_of(written) + "/";
+  std::vector<std::string> named;  // a buffer lies in the written glTF, and materials that are not there name nothing
+  if (scene_format_of(scene) != "obj") named = parts_of_scene(written);
+  std::vector<std::string> left;
+  std::error_code unknown;
+  for (const std::string& part : parts_of_scene(scene)) {
+    if (!part.starts_with(from) || !std::filesystem::exists(part, unknown)) continue;
+    const std::string name = part.substr(from.size());
+    if (std::filesystem::exists(to + name, unknown) || std::find(left.begin(), left.end(), name) != left.end())
+      continue;
+    if (scene_format_of(scene) == "obj" || std::find(named.begin(), named.end(), to + name) != named.end())
+      left.push_back(name);
+  }
+  if (left.empty()) return "";
+  return fmt::format("names files that are not in its folder; copy them there from {}: {}", folder_of(scene),
+                     fmt::join(left, ", "));
 }
 
 }  // namespace bp

@@ -43,4 +43,8 @@ struct Applied {
 [[nodiscard]] Applied animate_cages(const ApplyRequest& request, std::span<const MovedCage> cages, double per_second,
                                     OutputFile& out, Progress& progress);
 
+/// What `written`, a scene as it was moved, names and does not find in its folder, though `scene` does: images and
+/// materials. "names files that are not in its folder; copy them there from town: town.mtl, wall.png"; else empty.
+[[nodiscard]] std::string files_left(const std::string& scene, const std::string& written);
+
 }  // namespace bp

@@ -114,6 +114,7 @@ void Build::note_time(const StreamHeader& header, const VoxelizeCounts& counts) 
   const double voxel = header.frame.voxel;
   const Attempt before = std::exchange(attempt_, {Clock::now(), voxel});
   if (options.profile == LodProfile::occluder) return;  // nothing that is known here tells: up to 11 times as long
+  if (!tells_time) return;
   if (before.voxel == 0)
     return note_estimate(estimate_build(options, header.bounds, counts, voxel), options.common, progress, report);
   if (before.voxel == voxel) return;

@@ -29,6 +29,7 @@ class Build {
   const ShelfFactory make_shelf;
   PassProgress show;       ///< progress of passes
   SceneParts scene_parts;  ///< of levels in one mesh, when they are made
+  bool tells_time = true;  ///< before the work; false: it is not known how much of it was done before
 
   explicit Build(const BuildOptions& options);
   Build(const Build&) = delete;

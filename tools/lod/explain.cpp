@@ -195,13 +195,12 @@ Json json_of(const Build& build, const Scene& scene, const Plan& plan) {
             {"work_bytes", build.budget.work.bytes},
             {"devices", names_of(build.backends)},
             {"threads", thread_count()},
-            {"levels", Json::array()},
-            {"jobs", plan.jobs},
             {"scratch_bytes_about", std::uint64_t(plan.scratch_bytes)}};
-  for (const PlannedLevel& level : plan.levels) json["levels"].push_back(json_of(level));
   if (!plan.scales.empty()) {
     json["scales"] = plan.scales, json["openings"] = plan.openings;
   } else {
+    json["jobs"] = plan.jobs;
+    for (const PlannedLevel& level : plan.levels) json["levels"].push_back(json_of(level));
     json["file_bytes_about"] = std::uint64_t(plan.file_bytes);
     json["seconds_about"] = wall_seconds(plan.work, names_of(build.backends));
     json["peak_bytes_about"] = std::min(std::uint64_t(plan.work.bytes), build.options.common.memory_bytes);

@@ -23,9 +23,14 @@ class LookUpStore final : public ResultStore {
   std::unique_ptr<ResultStore> results_;
 };
 
-/// What a cache holds belongs to the sources of a program: a file of their name tells which ones were here. True if
-/// only others were. `leave`: this one's name, too, if that can be, and as of now: what is old may be deleted.
-bool is_of_others(const std::string& folder, bool leave) {
+/// Whose results a cache holds.
+struct Owners {
+  bool mine = false, others = false;
+};
+
+/// What a cache holds belongs to the sources of a program: a file of their name tells which ones were here. `leave`:
+/// this one's name, too, if that can be, and as of now: what is old may be deleted.
+Owners owners_of(const std::string& folder, bool leave) {
   constexpr std::string_view kName = "made-by-";
   std::error_code error;
   bool mine = false, others = false;
@@ -40,7 +45,7 @@ bool is_of_others(const std::string& folder, bool leave) {
     if (!mine) std::ofstream{file};
     std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), error);
   }
-  return others && !mine;
+  return {mine, others};
 }
 
 }  // namespace
@@ -50,7 +55,7 @@ std::unique_ptr<ResultStore> open_kept_results(const BuildOptions& o, std::strin
   std::function<void(const std::string&)> on_failure;
   if (!o.tiles) on_failure = [&fault](const std::string& why) { fault = why; };
   std::unique_ptr<ResultStore> results = open_result_store(o.cache, on_failure);
-  static_cast<void>(is_of_others(o.cache, true));
+  static_cast<void>(owners_of(o.cache, true));
   return results;
 }
 
@@ -58,8 +63,14 @@ std::unique_ptr<ResultStore> look_up_kept_results(const std::string& path) {
   return std::make_unique<LookUpStore>(path);
 }
 
+bool has_own_results(const BuildOptions& options) {
+  return !options.cache.empty() && owners_of(options.cache, false).mine;
+}
+
 std::string cache_note(const BuildOptions& options) {
-  if (options.cache.empty() || !is_of_others(options.cache, false)) return "";
+  if (options.cache.empty()) return "";
+  const Owners owners = owners_of(options.cache, false);
+  if (owners.mine || !owners.others) return "";
   return options.cache + ": holds results of other builds of bplod, and none of this one: all is made anew";
 }
 

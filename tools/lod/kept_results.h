@@ -14,6 +14,9 @@ namespace bp {
 /// What is there; nothing is added. The folder need not be there.
 [[nodiscard]] std::unique_ptr<ResultStore> look_up_kept_results(const std::string& path);
 
+/// Whether there is a cache that this build has filled before.
+[[nodiscard]] bool has_own_results(const BuildOptions& options);
+
 /// The note for a cache filled only by other builds; empty if none is needed.
 [[nodiscard]] std::string cache_note(const BuildOptions& options);
 

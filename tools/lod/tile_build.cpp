@@ -21,6 +21,8 @@
 #include "tools/lod/kept_results.h"
 #include "tools/lod/leaves.h"
 #include "tools/lod/lod_outputs.h"
+#include "tools/lod/proportions.h"
+#include "tools/notes/estimate.h"
 
 namespace bp {
 
@@ -160,6 +162,15 @@ void add_leaves(const Shop& shop, const std::vector<CellCoord>& cells, const Gri
   made.leaves = std::move(row);
 }
 
+/// Of what is left to be made, if nothing was told at the begin: a share of all.
+void tell_time(const Shop& shop, const VoxelizedScene& scene, double share) {
+  if (shop.build.tells_time || shop.task == Task::look_up) return;
+  Estimate work = estimate_build(shop.options(), scene.header.bounds, scene.counts, scene.header.frame.voxel);
+  work.core_seconds *= share;
+  work.serial_seconds *= share;
+  note_estimate(work, shop.options().common, shop.build.progress, shop.build.report);
+}
+
 /// The levels of more than one cell.
 void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<TriangleD>& scene, MadeTileset& made) {
   const BuildOptions& o = shop.options();
@@ -183,7 +194,8 @@ void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<Triangle
                        [&](std::size_t i, const GridFrame&) { return cut_files(shop.build, made.plan.cut[i], i); },
                        [&](std::size_t i, LevelTile&& tile) {
                          take(shop, std::move(tile), made.plan.cut[i], level_name(o.name, i), levels[i], made.files);
-                       }};
+                       },
+                       [&](double share) { tell_time(shop, made.scene, share); }};
   make_cut_levels(pyramid, made.plan, cut, steps);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     finish(shop, i, made.plan.cut[i], levels[i], made);
@@ -230,6 +242,7 @@ void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const Le
     found.kept = are_kept(input, *shop.results) ? 1 : 0;
     return;
   }
+  if (cut == 0 && !build.tells_time && !are_kept(input, *shop.results)) tell_time(shop, made.scene, 1);
   const auto encode = [&](std::size_t number, const LatticeMesh& mesh, const Vec3d& origin) {
     return tile_glb({level_name(build.options.name, number), &mesh}, lattice_point(mesh.frame, origin));
   };
@@ -346,6 +359,7 @@ void build_tileset(const BuildOptions& o) {
   Build build(o);
   const std::unique_ptr<Scratch> files = make_scratch(build.budget.store, o.common.temp);
   build.note(cache_note(o));
+  build.tells_time = !has_own_results(o);
   std::string fault;  // why the cache keeps nothing: known once the levels are made
   const std::unique_ptr<ResultStore> results = open_kept_results(o, fault);
   const Shop shop{build, task, results.get(), files.get()};
@@ -358,6 +372,7 @@ void build_tileset(const BuildOptions& o) {
 
 std::vector<FoundJobs> look_up_tileset(const BuildOptions& o) {
   Build build(o);
+  build.tells_time = false;
   const std::unique_ptr<ResultStore> results = look_up_kept_results(o.cache);
   return make_tileset({build, Task::look_up, results.get(), nullptr}).found;
 }

@@ -27,31 +27,38 @@ bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces) {
   return 4 * (measures.shells + measures.handles) <= faces;
 }
 
+LodLevel convex_level(const LodLevel& level, const LatticeMesh& mesh) {
+  LodLevel out;
+  out.mesh.frame = level.mesh.frame;
+  out.mesh.provenance = level.mesh.provenance;
+  out.mesh.vertices = mesh.vertices;
+  out.mesh.triangles = mesh.triangles;
+  out.scale_world = level.scale_world;
+  out.reductions = level.reductions;
+  out.attempts = level.attempts;
+  out.counts = level.counts;
+  LevelCounts& counts = out.counts.levels.front();
+  counts.measures = {};
+  counts.measures.shells = 1;
+  counts.measures.volume = double(volume6_of(out.mesh)) / 6 * std::pow(out.mesh.frame.voxel / kLatticePerVoxel, 3);
+  counts.stopped_by = to_string(StopReason::least_volume);
+  counts.simplify.faces_out = out.mesh.triangles.size();
+  return out;
+}
+
 LodLevel box_level(const LodLevel& level, const Bounds3d& bounds) {
   const GridFrame& frame = level.mesh.frame;
-  LodLevel box;
-  box.mesh.frame = frame;
-  box.mesh.provenance = level.mesh.provenance;
-  box.scale_world = level.scale_world;
-  box.reductions = level.reductions;
-  box.attempts = level.attempts;
-  box.counts = level.counts;
+  LatticeMesh box;
   const Vec3d lo = frame.to_voxels(bounds.min), hi = frame.to_voxels(bounds.max);
   std::array<LatticeCoord, 2> ends;
   for (int i = 0; i < 3; ++i) {
     ends[0][i] = std::int64_t(std::floor(lo[std::size_t(i)] * kLatticePerVoxel)) - 1;
     ends[1][i] = std::int64_t(std::ceil(hi[std::size_t(i)] * kLatticePerVoxel)) + 1;
   }
-  for (std::size_t i = 0; i < 8; ++i) box.mesh.vertices.push_back({ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z});
-  box.mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                        {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  LevelCounts& counts = box.counts.levels.front();
-  counts.measures = {};
-  counts.measures.shells = 1;
-  counts.measures.volume = double(volume6_of(box.mesh)) / 6 * std::pow(frame.voxel / kLatticePerVoxel, 3);
-  counts.stopped_by = to_string(StopReason::least_volume);
-  counts.simplify.faces_out = box.mesh.triangles.size();
-  return box;
+  for (std::size_t i = 0; i < 8; ++i) box.vertices.push_back({ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z});
+  box.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                   {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return convex_level(level, box);
 }
 
 bool holds_no_more(const LodLevel& level, const LodLevel& other) {

@@ -2,7 +2,7 @@
 #include "lib/levels/lod_chain.h"
 
 /// Bounding levels of so few faces that one way to them may lead anywhere: several are tried, and the nearest is taken.
-/// A box is tried for all that come out with few faces, or hold more than it.
+/// A box is tried for all that come out with few faces, or hold more than it; of a flat scene its prism, too.
 namespace bp {
 
 /// Whether the target is nothing but a number of faces below 32.
@@ -14,8 +14,11 @@ namespace bp {
 /// Whether few enough faces are possible while all parts and handles of a closed mesh are kept: each takes four.
 [[nodiscard]] bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces);
 
-/// The box that lies around `bounds`, scene units, by a lattice unit or two: a level in the place of `level`, with its
-/// frame and scale. Its distances are not measured.
+/// A convex mesh around all that is enclosed, of which only vertices and triangles count: a level in the place of
+/// `level`, with its frame and scale. Its distances are not measured.
+[[nodiscard]] LodLevel convex_level(const LodLevel& level, const LatticeMesh& mesh);
+
+/// The box that lies around `bounds`, scene units, by a lattice unit or two: a level as of convex_level().
 [[nodiscard]] LodLevel box_level(const LodLevel& level, const Bounds3d& bounds);
 
 /// By volume.
@@ -24,7 +27,7 @@ namespace bp {
 /// Which of two measured levels is better for a target of few faces: one that has no more than these, or else the
 /// nearer one.
 [[nodiscard]] bool is_better(const LodLevel& level, const LodLevel& other, std::uint64_t faces);
-/// The same of a box, which has to be clearly nearer if it holds more.
+/// The same of a box or a prism, which has to be clearly nearer if it holds more.
 [[nodiscard]] bool is_better_box(const LodLevel& box, const LodLevel& other, std::uint64_t faces);
 
 }  // namespace bp

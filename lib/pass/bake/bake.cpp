@@ -99,8 +99,8 @@ class PlotBaker {
     add_middle(face);
   }
 
-  /// Means; `known`: which texels have a colour.
-  void write(const Canvas& to, std::vector<std::uint8_t>& known) const {
+  /// Means, and what is known then.
+  void write(const Canvas& to, std::vector<BakedTexel>& known) const {
     TextureImage& image = *to.color;
     for (int y = begin_[1]; y < end_[1]; ++y) {
       for (int x = begin_[0]; x < end_[0]; ++x) {
@@ -112,7 +112,8 @@ class PlotBaker {
         for (std::size_t k = 0; k < 3 && alpha > 0; ++k) texel[k] = byte_of_linear(sum[k] / alpha);
         texel[3] = std::uint8_t(alpha / float(samples) * 255 + 0.5F);
         if (!surfaces_.empty() && alpha > 0) surfaces_[at(x, y)].write(to, x, y, alpha);
-        known[std::size_t(y) * std::size_t(image.width) + std::size_t(x)] = alpha > 0;
+        known[std::size_t(y) * std::size_t(image.width) + std::size_t(x)] =
+            alpha > 0 ? BakedTexel::color : BakedTexel::hole;
       }
     }
   }
@@ -179,8 +180,8 @@ class PlotBaker {
       const auto outwards = eye_.first_along(p + kBefore * in, out, size_, threshold, through);
       if (outwards && (!found || outwards->along < found->along)) found = outwards;
     }
-    std::optional<Look> look = found ? found->look : eye_.nearest(p, params_.reach_world, size_);
-    if (look) look->alpha = found || !through ? 1 : 0;
+    std::optional<Look> look = found ? found->look : eye_.nearest(p, params_.reach_world, size_, threshold);
+    if (look) look->alpha = found || (!through && look->alpha > 0) ? 1 : 0;
     return look;
   }
 
@@ -284,7 +285,7 @@ void bake_into(const Canvas& to, const LatticeMesh& mesh, const Atlas& atlas, co
   for (TextureImage* const image : {to.color, to.normal, to.roughness, to.emission}) {
     if (image != nullptr) *image = TextureImage(atlas.width, atlas.height, {0, 0, 0, 255});
   }
-  std::vector<std::uint8_t> known(to.color->texels.size());
+  std::vector<BakedTexel> known(to.color->texels.size());
   const double texel = atlas.texel * mesh.frame.voxel / kLatticePerVoxel;
   parallel_for(std::int64_t(plots.size()), [&](std::int64_t i) {
     const Plot& plot = plots[std::size_t(i)];
@@ -295,6 +296,7 @@ void bake_into(const Canvas& to, const LatticeMesh& mesh, const Atlas& atlas, co
   for (TextureImage* const image : {to.color, to.normal, to.roughness, to.emission}) {
     if (image != nullptr) fill_gaps(*image, known);
   }
+  fill_alpha(*to.color, known);
 }
 
 }  // namespace

@@ -56,6 +56,27 @@ try bpdeform bind scene.obj cage.obj -o elsewhere/weights/scene.bpw
 said '(cd elsewhere && bpdeform apply weights/scene.bpw ../cage.obj -o rest.obj -q) && cmp elsewhere/rest.obj scene.obj && echo same'
 mkdir alone && cp scene.bpw alone
 said '(cd alone && bpdeform apply scene.bpw ../cage.obj -o rest.obj)'
+# In another folder it lacks what it names: that is said, once.
+mkdir images
+echo 'newmtl red
+map_Kd -s 1 1 1 images/red.png' > scene.mtl
+touch images/red.png
+try bpdeform apply scene.bpw cage.obj -o elsewhere/moved.obj
+try bpdeform apply scene.bpw cage.obj cage.obj -o elsewhere/frame.obj
+cp -r scene.mtl images elsewhere
+try bpdeform apply scene.bpw cage.obj -o elsewhere/moved.obj --overwrite
+printf '\0\0\0\0\0\0\0\0\0\0\0\0\0\0\200\077\0\0\0\0\0\0\0\0\0\0\0\0\0\0\200\077\0\0\0\0' > one.bin
+echo '{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+  "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], "textures": [{"source": 0}],
+  "images": [{"uri": "images/dark%20red.png"}], "buffers": [{"uri": "one.bin", "byteLength": 36}],
+  "bufferViews": [{"buffer": 0, "byteLength": 36}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}]}' > one.gltf
+touch 'images/dark red.png'
+try bpdeform bind one.gltf cage.obj -o one.bpw
+try bpdeform apply one.bpw cage.obj -o moved_one.gltf
+try bpdeform apply one.bpw cage.obj -o elsewhere/one.gltf
+rm -r images scene.mtl one.gltf one.bin one.bpw moved_one.gltf
 rm -r elsewhere alone
 # PLY and GLB keep their format; the cage may come in any.
 said 'bpvox scene.obj --resolution 20 -q | bpclose -q | bpmesh --faces 20 -q -o scene.glb'

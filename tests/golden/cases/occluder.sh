@@ -81,5 +81,6 @@ said 'bplod far.obj --profile 3dtiles --tile 64 --resolution 150 --up z -o far -
 
 # What would be tried, without a run, and what is shown while it is.
 try bplod house.obj --profile occluder --resolution 128 --up z --explain -j 1 --memory 1G
-try bplod house.obj --profile occluder --scale 0.5 --faces 60 --explain -q -j 1 --memory 1G
+try bplod house.obj --profile occluder --scale 0.5 --faces 60 --explain -q -j 1 --memory 1G --report explained.json
+said 'sed -n "/\"counts\"/,\$p" explained.json | grep -oE "\"(levels|jobs|scales|openings)\""'
 said 'bplod house.obj --profile occluder --resolution 64 --up z -o shown --progress json 2>&1 > /dev/null | grep -o "\"pass\":\"closing.*\"done\":.*,\"unit\":\"[a-z]*\"" | sort -t : -k 3n | tail -1'

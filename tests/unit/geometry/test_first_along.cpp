@@ -67,5 +67,20 @@ TEST_CASE("a ray meets a triangle from both sides, and as far as it goes", "[qui
   CHECK(std::isnan(along_segment({1, 1, 0}, {1, 0, 0}, t)));
   const auto any = [](std::uint32_t, double) { return true; };
   CHECK_FALSE(TriangleBvh({}).first_along({0, 0, 0}, {1, 1, 1}, 1, any, any));
-  CHECK_FALSE(TriangleBvh({}).nearest_within({0, 0, 0}, 1, any));
+  const auto each = [](std::uint32_t) { return true; };
+  CHECK_FALSE(TriangleBvh({}).nearest_within({0, 0, 0}, 1, each, any));
+}
+
+TEST_CASE("the nearest triangle is one that is accepted", "[quick][geometry]") {
+  const auto at_height = [](double z) { return TriangleD{Vec3d{0, 0, z}, Vec3d{4, 0, z}, Vec3d{0, 4, z}}; };
+  const TriangleBvh tree({at_height(1), at_height(2), at_height(3)});
+  const auto nearest = [&](double most, std::uint32_t least_id) {
+    const auto accept = [&](std::uint32_t item) { return tree.item(item).id >= least_id; };
+    const auto found = tree.nearest_within({1, 1, 0}, most, accept, std::less<std::uint32_t>());
+    return found ? int(tree.item(found->item).id) : -1;
+  };
+  CHECK(nearest(100, 0) == 0);
+  CHECK(nearest(100, 1) == 1);
+  CHECK(nearest(9, 2) == 2);
+  CHECK(nearest(8, 2) == -1);
 }

@@ -80,7 +80,9 @@ void ProxyOptions::add_of_stream(Args& args) {
   args.option("--mode", {kBounding, kInside, kFit}, mode, kModeHelp);
   args.option("--enclose", "WORD|FILE", enclose_words_,
               std::string(kEncloseHelp) + "; repeat it for several FILEs (default: auto)");
-  args.words(enclose_words());
+  std::vector<Word> words = enclose_words();
+  words[0].help += "; an --error counts from the closing";
+  args.words(words);
   add_origin(*this, args);
 }
 

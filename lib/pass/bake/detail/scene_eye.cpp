@@ -122,9 +122,9 @@ std::optional<SceneEye::Seen> SceneEye::first_along(const Vec3d& start, const Ve
   return Seen{along, at(*best.block, best.item, start + along * direction, size)};
 }
 
-std::optional<Look> SceneEye::nearest(const Vec3d& p, double reach, double size) {
-  double most = reach * reach;
-  if (near_.block) most = std::min(most, distance_squared(p, near_.block->triangles().item(near_.item).corners));
+/// Of those that accept(block, item) takes, at most the root of `most` away; none: no block.
+template <class Accept>
+SceneEye::Place SceneEye::nearest_place(const Vec3d& p, double most, const Accept& accept) {
   Bounds3d box;
   const double side = std::sqrt(most) * (1 + 1e-9);
   box.add({p[0] - side, p[1] - side, p[2] - side});
@@ -136,16 +136,38 @@ std::optional<Look> SceneEye::nearest(const Vec3d& p, double reach, double size)
     if (c.distance > most) break;
     const Block here = block(c.block);
     const auto found = here->triangles().nearest_within(
-        p, most, [&](std::uint32_t a, std::uint32_t b) { return before(*here, a, *here, b); });
+        p, most, [&](std::uint32_t item) { return accept(*here, item); },
+        [&](std::uint32_t a, std::uint32_t b) { return before(*here, a, *here, b); });
     if (!found) continue;
     if (best.block && found->distance_squared == most && !before(*here, found->item, *best.block, best.item)) continue;
     best = {here, found->item};
     most = found->distance_squared;
   }
-  if (!best.block) return {};
-  near_ = best;
-  const TriangleD& corners = best.block->triangles().item(best.item).corners;
-  return at(*best.block, best.item, nearest_point(p, corners), size);
+  return best;
+}
+
+Vec3d SceneEye::nearest_of(const Place& place, const Vec3d& p) const {
+  return nearest_point(p, place.block->triangles().item(place.item).corners);
+}
+
+std::optional<Look> SceneEye::nearest(const Vec3d& p, double reach, double size, float threshold) {
+  double most = reach * reach;
+  if (near_.block) most = std::min(most, distance_squared(p, near_.block->triangles().item(near_.item).corners));
+  const Place first = nearest_place(p, most, [](const LookBlock&, std::uint32_t) { return true; });
+  if (!first.block) return {};
+  near_ = first;
+  const Vec3d q = nearest_of(first, p);
+  Look look = at(*first.block, first.item, q, size);
+  look.alpha = 1;
+  if (covers(*first.block, first.item, q, size, threshold)) return look;
+  const double away = length(q - p), farther = std::min(reach, away + std::max(away, 2 * size));
+  const auto accept = [&](const LookBlock& block, std::uint32_t item) {
+    return covers(block, item, nearest_point(p, block.triangles().item(item).corners), size, threshold);
+  };
+  const Place other = nearest_place(p, farther * farther, accept);
+  if (other.block) look = at(*other.block, other.item, nearest_of(other, p), size);
+  look.alpha = other.block ? 1 : 0;
+  return look;
 }
 
 Look SceneEye::at(const LookBlock& block, std::uint32_t item, const Vec3d& p, double size) {

@@ -23,8 +23,10 @@ class SceneEye {
   /// in the way that covers less.
   [[nodiscard]] std::optional<Seen> first_along(const Vec3d& start, const Vec3d& direction, double size,
                                                 float threshold, bool& through);
-  /// The nearest place within `reach`.
-  [[nodiscard]] std::optional<Look> nearest(const Vec3d& p, double reach, double size);
+  /// The nearest place within `reach`, with an alpha of 1, or of 0 if it is a hole: it covers less than `threshold`. An
+  /// edge of holes may lie on a wall, so another place counts that covers, up to twice as far away, or two sizes
+  /// farther.
+  [[nodiscard]] std::optional<Look> nearest(const Vec3d& p, double reach, double size, float threshold);
 
  private:
   using Block = std::shared_ptr<const LookBlock>;
@@ -55,6 +57,9 @@ class SceneEye {
   [[nodiscard]] std::array<float, 3> light_at(const TextureSurface& surface, const TriangleD& t,
                                               const TriangleTexture& texture, const Spot& spot);
   [[nodiscard]] bool covers(const LookBlock& block, std::uint32_t item, const Vec3d& p, double size, float threshold);
+  [[nodiscard]] Vec3d nearest_of(const Place& place, const Vec3d& p) const;
+  template <class Accept>
+  [[nodiscard]] Place nearest_place(const Vec3d& p, double most, const Accept& accept);
   /// Of two triangles at one place, which is seen.
   [[nodiscard]] bool before(const LookBlock& a, std::uint32_t item_a, const LookBlock& b, std::uint32_t item_b) const;
   template <class Distance>

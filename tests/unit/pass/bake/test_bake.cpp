@@ -227,6 +227,35 @@ TEST_CASE("holes in images are looked through, and are holes where nothing is be
                  });
 }
 
+TEST_CASE("the sides of what stands for a card are holes where the card's edge is one", "[quick][bake]") {
+  TextureImage leaf(64, 64, {255, 255, 255, 0});
+  for (int y = 0; y < 64; ++y)
+    for (int x = 12; x < 64; ++x)  // it ends at x = 1, and 12 texels before the other edges
+      if (y >= 12 && y < 52) leaf.at(x, y) = {30, 120, 40, 255};
+  TextureMaterial masked;
+  masked.alpha_mode = AlphaMode::mask;
+  masked.wrap = {TextureWrap::clamp, TextureWrap::clamp};
+  TexturedScene scene;
+  scene.add({0, 0, 0.5}, {1, 0, 0}, {0, 1, 0}, 0);
+  const LatticeMesh mesh = box_mesh({{-40, -40, 1960}, {4136, 4136, 2136}});
+  const BakeParams params{0.3, false, {}};
+  const Baked alone = bake_box(mesh, scene, textures_of(leaf, masked), params, 16);
+  int holes = 0, edges = 0;
+  for_each_texel(mesh, alone.atlas, alone.image, [&](const TextureImage::Texel& t, const Vec3d& p, const Vec3d& n) {
+    if (std::abs(n[2]) > 0.5) return;
+    const bool at_leaf = n[0] > 0.5 && p[1] > 0.22 && p[1] < 0.78;
+    if (n[0] > 0.5 && !at_leaf && p[1] > 0.16 && p[1] < 0.84) return;  // between
+    ++(at_leaf ? edges : holes);
+    CHECK(int(t[3]) == (at_leaf ? 255 : 0));
+  });
+  CHECK(holes > 1000);
+  CHECK(edges > 500);
+
+  scene.add({0, 0, 0.499}, {1, 0, 0}, {0, 1, 0}, TriangleTexture::kNoMaterial);  // a wall that it lies on
+  const Baked on_wall = bake_box(mesh, scene, textures_of(leaf, masked), params, 16);
+  for (const TextureImage::Texel& t : on_wall.image.texels) CHECK(int(t[3]) == 255);
+}
+
 TEST_CASE("an image that is not there leaves the colour of its triangles, and is named", "[quick][bake]") {
   TexturedScene scene;
   scene.add_cube({0.25, 0.25, 0.25}, 0.5, 0);

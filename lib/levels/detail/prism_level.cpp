@@ -1,0 +1,206 @@
+#include "lib/levels/detail/prism_level.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/vec3.h"
+#include "lib/levels/detail/few_faces_level.h"
+
+namespace bp {
+
+namespace {
+
+using Flat = std::array<double, 2>;
+
+constexpr std::size_t kMostCorners = 4096;     // of an outline
+constexpr std::uint64_t kFacesOfTriangle = 8;  // of its prism
+constexpr double kFlat = 8;  // of a corner, lattice units: with less, rounding tilts the ends of a prism
+
+/// What a flat scene lies in; lattice units.
+struct Slab {
+  Vec3d origin{}, a{}, b{}, up{};  // a, b, up: of length 1, at right angles
+  double low = 0, high = 0;        // along `up`
+  [[nodiscard]] Flat flat(const Vec3d& p) const { return {dot(p - origin, a), dot(p - origin, b)}; }
+  [[nodiscard]] Vec3d point(const Flat& p, double height) const { return origin + p[0] * a + p[1] * b + height * up; }
+};
+
+/// The one for which f is largest.
+template <class F>
+Vec3d farthest(const std::vector<Vec3d>& points, const F& f) {
+  return *std::max_element(points.begin(), points.end(), [&](const Vec3d& p, const Vec3d& q) { return f(p) < f(q); });
+}
+
+/// Through three points that lie far apart.
+std::optional<Slab> slab_of(const std::vector<Vec3d>& points) {
+  Slab slab;
+  slab.origin = farthest(points, [&](const Vec3d& p) { return length(p - points.front()); });
+  const Vec3d along = farthest(points, [&](const Vec3d& p) { return length(p - slab.origin); }) - slab.origin;
+  const auto off = [&](const Vec3d& p) { return length(cross(along, p - slab.origin)); };
+  const Vec3d normal = cross(along, farthest(points, off) - slab.origin);
+  if (!(length(normal) > length(along))) return {};  // all in a line
+  slab.a = (1 / length(along)) * along;
+  slab.up = (1 / length(normal)) * normal;
+  slab.b = cross(slab.up, slab.a);
+  for (const Vec3d& p : points) {
+    const double height = dot(p - slab.origin, slab.up);
+    slab.low = std::min(slab.low, height);
+    slab.high = std::max(slab.high, height);
+  }
+  if (slab.high - slab.low > kLatticePerVoxel) return {};
+  return slab;
+}
+
+/// Twice the area of a triangle; above 0: counterclockwise.
+double turn(const Flat& p, const Flat& q, const Flat& r) {
+  return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+}
+
+/// Corners of the convex hull, counterclockwise.
+std::vector<Flat> hull_of_flat(std::vector<Flat> points) {
+  std::sort(points.begin(), points.end());
+  std::vector<Flat> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t first = hull.size();
+    for (const Flat& p : points) {
+      while (hull.size() >= first + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+/// How far the flattest corner lies out of the line of its neighbours.
+double flattest(const std::vector<Flat>& outline) {
+  double least = HUGE_VAL;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Flat &p = outline[i], &r = outline[(i + 2) % outline.size()];
+    least = std::min(least, turn(p, outline[(i + 1) % outline.size()], r) / std::hypot(r[0] - p[0], r[1] - p[1]));
+  }
+  return least;
+}
+
+/// Where the line from p to q meets the one from r to s; nothing if they do not meet beyond q and before r.
+std::optional<Flat> corner_of(const Flat& p, const Flat& q, const Flat& r, const Flat& s) {
+  const Flat d{q[0] - p[0], q[1] - p[1]}, e{s[0] - r[0], s[1] - r[1]};
+  const double sine = d[0] * e[1] - d[1] * e[0];
+  const double along = ((r[0] - p[0]) * e[1] - (r[1] - p[1]) * e[0]) / sine;
+  if (!(sine > 0) || !std::isfinite(along)) return {};
+  return Flat{p[0] + along * d[0], p[1] + along * d[1]};
+}
+
+/// Around the outline, with at most so many corners, and none that is nearly straight: edges go, whose neighbours then
+/// meet, those first that add the least area. Nothing if there is no way. O(corners^2).
+std::vector<Flat> with_fewer(std::vector<Flat> outline, std::size_t most) {
+  while (outline.size() > most || flattest(outline) < 2 * kFlat) {
+    const std::size_t n = outline.size();
+    std::size_t edge = n;
+    Flat corner{};
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Flat &q = outline[i], &r = outline[(i + 1) % n];
+      const auto found = corner_of(outline[(i + n - 1) % n], q, r, outline[(i + 2) % n]);
+      if (!found) continue;
+      const double added = turn(q, *found, r);
+      if (std::abs(added) < least) least = std::abs(added), edge = i, corner = *found;
+    }
+    if (edge == n) return {};
+    outline[edge] = corner;
+    outline.erase(outline.begin() + std::ptrdiff_t((edge + 1) % n));
+  }
+  return outline;
+}
+
+/// Every edge moved outwards by `room`; nothing of a needle.
+std::vector<Flat> grown(const std::vector<Flat>& outline, double room) {
+  constexpr double kNeedle = 1e-3;  // a corner of 3.6 degrees moves 32 times as far
+  const std::size_t n = outline.size();
+  const auto outward = [&](std::size_t i) {
+    const Flat &p = outline[i % n], &q = outline[(i + 1) % n];
+    const double l = std::hypot(q[0] - p[0], q[1] - p[1]);
+    return Flat{(q[1] - p[1]) / l, (p[0] - q[0]) / l};
+  };
+  std::vector<Flat> out(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Flat before = outward(i + n - 1), after = outward(i);
+    const double along = 1 + before[0] * after[0] + before[1] * after[1];
+    if (!(along > kNeedle)) return {};
+    for (std::size_t k = 0; k < 2; ++k) out[i][k] = outline[i][k] + room / along * (before[k] + after[k]);
+  }
+  return out;
+}
+
+LatticeMesh prism(const Slab& slab, const std::vector<Flat>& outline, double room) {
+  LatticeMesh mesh;
+  const auto n = std::uint32_t(outline.size());
+  for (const double height : {slab.low - room, slab.high + room}) {
+    for (const Flat& p : outline) {
+      const Vec3d q = slab.point(p, height);
+      mesh.vertices.push_back({std::llround(q[0]), std::llround(q[1]), std::llround(q[2])});
+    }
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t j = (i + 1) % n;
+    mesh.triangles.push_back({i, j, j + n});
+    mesh.triangles.push_back({i, j + n, i + n});
+    if (i == 0 || j == 0) continue;
+    mesh.triangles.push_back({0, j, i});
+    mesh.triangles.push_back({n, i + n, j + n});
+  }
+  return mesh;
+}
+
+/// Whether rounding has left it a prism around the outline: the ends are above and below all of it, and hardly tilted,
+/// and the outline lies inside of each side's plane.
+bool holds(const LatticeMesh& mesh, const Slab& slab, const std::vector<Flat>& outline) {
+  constexpr double kLeast = 0.5;  // far more than what is lost by computing
+  const std::size_t n = mesh.vertices.size() / 2;
+  std::vector<Vec3d> at;
+  for (const LatticeCoord& p : mesh.vertices) at.push_back(Vec3d{double(p.x), double(p.y), double(p.z)} - slab.origin);
+  const auto corner = [&](std::size_t v) { return Flat{dot(at[v], slab.a), dot(at[v], slab.b)}; };
+  for (std::size_t v = 0; v < n; ++v) {
+    if (dot(at[v], slab.up) > slab.low - kLeast || dot(at[v + n], slab.up) < slab.high + kLeast) return false;
+  }
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    for (const std::size_t end : {std::size_t(0), n}) {
+      if (flattest({corner(end), corner(end + i), corner(end + i + 1)}) < kFlat) return false;
+    }
+  }
+  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+    const auto above = std::count_if(t.begin(), t.end(), [&](std::uint32_t v) { return v >= n; });
+    if (above == 0 || above == 3) return true;
+    const Vec3d p = at[t[0]], normal = cross(at[t[1]] - p, at[t[2]] - p);
+    return std::all_of(outline.begin(), outline.end(), [&](const Flat& c) {
+      return std::max(dot(slab.point(c, slab.low) - slab.origin - p, normal),
+                      dot(slab.point(c, slab.high) - slab.origin - p, normal)) <= -kLeast * length(normal);
+    });
+  });
+}
+
+}  // namespace
+
+std::optional<LodLevel> prism_level(const LodLevel& level, std::span<const TriangleD> scene, std::uint64_t faces) {
+  std::vector<Vec3d> points;
+  for (const TriangleD& t : scene) {
+    for (const Vec3d& p : t) points.push_back(double(kLatticePerVoxel) * level.mesh.frame.to_voxels(p));
+  }
+  if (points.empty()) return {};
+  const std::optional<Slab> slab = slab_of(points);
+  if (!slab) return {};
+  std::vector<Flat> flat(points.size());
+  std::transform(points.begin(), points.end(), flat.begin(), [&](const Vec3d& p) { return slab->flat(p); });
+  const std::vector<Flat> hull = hull_of_flat(std::move(flat));
+  if (hull.size() < 3 || hull.size() > kMostCorners || faces < kFacesOfTriangle) return {};
+  const std::vector<Flat> outline = with_fewer(hull, std::size_t((faces + 4) / 4));
+  if (outline.empty()) return {};
+  for (double room = 2; room <= 8; room *= 2) {
+    const std::vector<Flat> corners = grown(outline, room);
+    if (corners.empty()) return {};
+    const LatticeMesh mesh = prism(*slab, corners, room);
+    if (holds(mesh, *slab, hull)) return convex_level(level, mesh);
+  }
+  return {};
+}
+
+}  // namespace bp

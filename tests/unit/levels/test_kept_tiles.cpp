@@ -1,0 +1,34 @@
+#include "lib/device/cpu/cpu_backend.h"
+#include "lib/levels/tile_pyramid.h"
+#include "tests/catch.h"
+#include "tests/support/memory_results.h"
+#include "tests/support/voxelized.h"
+
+using namespace bp;
+using namespace bp::test;
+
+TEST_CASE("before tiles are made, it is told how much of them is not kept", "[quick][pass][lod][cache]") {
+  MemoryResults results;
+  Backends backends;
+  backends.push_back(std::make_unique<CpuBackend>());
+  const auto left = [&](double height) {  // of the last of three boxes, each in a cell of its own
+    Triangles scene;
+    for (int i = 0; i < 3; ++i) add_box(scene, {128.0 * i + 40, 40, 3}, {128.0 * i + 80, 80, i == 2 ? height : 40});
+    Voxelized solid = voxelized(scene, 1, 128);
+    PyramidOptions options;
+    options.cells = Cells{128};
+    options.context.make_shelf = memory_shelves();
+    options.context.results = &results;
+    TilePyramid pyramid(solid.header, std::move(solid.shelf), backends, options);
+    pyramid.add_level(
+        2, {}, [](CellCoord, const LatticeMesh&) { return ""; }, [](LevelTile&&) {});
+    double share = -1;
+    pyramid.make_tiles([&](double s) { share = s; });
+    return share;
+  };
+  CHECK(left(40) == 1);
+  CHECK(left(40) == 0);
+  const double changed = left(30);
+  CHECK(changed > 0.2);
+  CHECK(changed < 0.4);
+}
