@@ -40,7 +40,7 @@ ResultKey key_of(const WholeInput& input) {
   const auto& [closing, mode, enclose, scene, surface, least_scale_world, field, quads, context] = lod;
   const GridFrame& frame = header.frame;
   KeyHash hash(kJob);
-  hash.add(encoding, first, count, frame, header.bounds, request.faces.size());
+  hash.add(encoding, first, count, frame, header.bounds, header.scene.triangles, request.faces.size());
   hash.add(closing, mode, enclose, std::as_bytes(std::span(scene)), least_scale_world, quads,
            field ? to_json(*field) : "");
   for (std::size_t i = 0; i < count; ++i) {  // dense faces are of the solid

@@ -28,8 +28,8 @@ namespace bp {
 namespace {
 
 // What is estimated, from plants and scanned models: docs/tilesets.md says that it is.
-constexpr double kBytesPerFace = 9, kBytesPerTile = 2500;  // of compressed GLB, and of a tile with its place
-constexpr double kBytesPerPlainFace = 30;                  // of GLB
+constexpr double kBytesPerFace = 8, kBytesPerTile = 2500;  // of compressed GLB, and of a tile with its place
+constexpr double kBytesPerPlainFace = 26;                  // of GLB
 constexpr double kBytesPerTexel = 1;
 constexpr double kBytesPerLeafTriangle = 20;                                  // of the scene: some are cut
 constexpr double kScratchPerTriangle = 20, kScratchPerTexturedTriangle = 60;  // that waits on disk

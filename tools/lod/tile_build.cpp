@@ -162,9 +162,9 @@ void add_leaves(const Shop& shop, const std::vector<CellCoord>& cells, const Gri
   made.leaves = std::move(row);
 }
 
-/// Of what is left to be made, if nothing was told at the begin: a share of all.
+/// Of what is left to be made of a whole tileset, if nothing was told at the begin: a share of all.
 void tell_time(const Shop& shop, const VoxelizedScene& scene, double share) {
-  if (shop.build.tells_time || shop.task == Task::look_up) return;
+  if (shop.build.tells_time || shop.task != Task::tileset) return;
   Estimate work = estimate_build(shop.options(), scene.header.bounds, scene.counts, scene.header.frame.voxel);
   work.core_seconds *= share;
   work.serial_seconds *= share;

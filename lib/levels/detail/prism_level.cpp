@@ -114,7 +114,7 @@ std::vector<Flat> with_fewer(std::vector<Flat> outline, std::size_t most) {
 
 /// Every edge moved outwards by `room`; nothing of a needle.
 std::vector<Flat> grown(const std::vector<Flat>& outline, double room) {
-  constexpr double kNeedle = 1e-3;  // a corner of 3.6 degrees moves 32 times as far
+  constexpr double kNeedle = 1e-3;  // a corner of 2.6 degrees moves 45 times as far
   const std::size_t n = outline.size();
   const auto outward = [&](std::size_t i) {
     const Flat &p = outline[i % n], &q = outline[(i + 1) % n];

@@ -23,7 +23,8 @@ struct BakedSurface {
 
 /// Colours are means over a texel, in linear light. A texel whose line meets nothing within the reach shows the nearest
 /// place of the scene within it, which may be a hole; one whose line goes only through holes of the scene's textures is
-/// a hole (alpha). Texels outside the charts have colours of those beside them, and are holes where those are. The
+/// a hole (alpha). Texels outside the charts, and those without a place, have colours of those beside
+/// them, and are holes where those are. The
 /// result does not depend on threads. Cost: four lines through the scene for each texel; 9 bytes a texel. Throws
 /// NeedsMemory.
 [[nodiscard]] TextureImage bake(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks,

@@ -109,7 +109,8 @@ LatticeMesh proxy_of(const CoarseStarts& starts, const SurfaceSource& dense, con
   const double voxel = start.voxel;
   LatticeMesh proxy = make(start, counts);
   const std::size_t faces = proxy.triangles.size();
-  if (faces >= kQuick || double(faces) >= kClearly * double(params.faces)) return proxy;
+  if (starts.has_flat_sides(params.faces) || faces >= kQuick || double(faces) >= kClearly * double(params.faces))
+    return proxy;
   start = {};
   start = starts.finer(params.faces);
   if (start.voxel == voxel) return proxy;
@@ -181,7 +182,6 @@ class LevelMaker {
   std::vector<LatticeMesh> run(const Shelves& shelves) {
     const std::vector<std::uint64_t> faces = params_.faces.empty() ? std::vector<std::uint64_t>{0} : params_.faces;
     Start start = make_start(shelves);
-    const std::uint64_t triangles = params_.scene.empty() ? header_.scene.triangles : params_.scene.size();
     bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
     ground_ = make_ground(shelves, params_, start, context_);
     memory_ = context_.pieces.without(ground_.bytes());
@@ -192,7 +192,7 @@ class LevelMaker {
     if (params_.cage) return cage(shelves, faces[0]);
     const bool by_faces = !inside() && ground_.enclosed && faces[0] >= kFewFaces && params_.error_world == 0 &&
                           params_.volume_ratio == 0 && params_.edge_factor == 0;
-    const CoarseStarts starts{*shelves.meshed, header_, make_shelf_, triangles};
+    const CoarseStarts starts{*shelves.meshed, header_, make_shelf_};
     std::vector<LatticeMesh> levels{
         finish(*start.surface, ground_.enclosed.get(), faces[0], by_faces ? &starts : nullptr)};
     ground_.enclosed.reset();

@@ -41,7 +41,7 @@ bool may_have(const BrickShelf& closing, const ScaleSearch& search) {
 
 /// By growing alone, and from larger voxels as meshing does: what that gets to, tightening gets to as well.
 bool has_faces(const StreamHeader& closed, const BrickShelf& closing, const ScaleSearch& search) {
-  const CoarseStarts starts{closing, closed, search.context.make_shelf, closed.scene.triangles};
+  const CoarseStarts starts{closing, closed, search.context.make_shelf};
   const CoarseStart coarse = starts.first(search.faces);
   const ShelfSurface dense(closing, closed.frame);
   SimplifyParams params;

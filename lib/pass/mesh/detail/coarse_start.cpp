@@ -39,10 +39,13 @@ CoarseStart coarse_start(const BrickShelf& meshed, const StreamHeader& header, s
   return start;
 }
 
-CoarseStart CoarseStarts::first(std::uint64_t faces) const {
+bool CoarseStarts::has_flat_sides(std::uint64_t faces) const {
   constexpr std::uint64_t kFewPerFace = 16;
-  const bool few = scene_triangles > 0 && scene_triangles <= kFewPerFace * faces;
-  return few ? finer(faces) : coarse_start(meshed, header, kDensePerFace * faces, make_shelf);
+  return header.scene.triangles > 0 && header.scene.triangles <= kFewPerFace * faces;
+}
+
+CoarseStart CoarseStarts::first(std::uint64_t faces) const {
+  return has_flat_sides(faces) ? finer(faces) : coarse_start(meshed, header, kDensePerFace * faces, make_shelf);
 }
 
 CoarseStart CoarseStarts::finer(std::uint64_t faces) const {

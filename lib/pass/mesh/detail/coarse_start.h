@@ -27,9 +27,10 @@ struct CoarseStarts {
   const BrickShelf& meshed;
   const StreamHeader& header;
   const ShelfFactory& make_shelf;
-  std::uint64_t scene_triangles = 0;  ///< 0: not known
 
-  /// The coarse one, or the finer one where the scene has few triangles: it is of flat sides, as a rule.
+  /// Whether the scene is known to have few triangles for so many faces: it is of flat sides, as a rule.
+  [[nodiscard]] bool has_flat_sides(std::uint64_t faces) const;
+  /// The coarse one, or the finer one for flat sides.
   [[nodiscard]] CoarseStart first(std::uint64_t faces) const;
   /// From flat sides tightening does not take all back. What it has of 200,000 dense faces it does, nearly always.
   [[nodiscard]] CoarseStart finer(std::uint64_t faces) const;
