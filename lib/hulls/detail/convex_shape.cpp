@@ -198,18 +198,24 @@ ConvexHull without_slivers(ConvexHull hull) {
 }
 
 ConvexHull without_slivers(ConvexHull hull, const LatticeBox& room) {
-  const std::size_t corners = hull.vertices.size();
+  constexpr double kMuchMore = 2;  // times the volume: slivers are better
   draw_diagonals(hull);
+  const ConvexHull before = hull;
+  const auto unless_much_more = [&](ConvexHull made) {
+    return volume6_of(made) <= kMuchMore * volume6_of(before) ? std::move(made) : before;
+  };
   for (;;) {
     const Bounds bounds(hull);
     const double slivers = slivers_of(hull, bounds);
-    if (slivers <= kNegligible) return hull;
+    if (slivers <= kNegligible) return unless_much_more(std::move(hull));
     std::optional<ConvexHull> next = best_step(hull, room, bounds, slivers);
     if (!next) break;
     hull = std::move(*next);
   }
   ConvexHull box = simple_hull_around(hull, 8);
-  return box.vertices.size() <= corners ? box : hull;
+  const bool is_box =
+      box.vertices.size() <= before.vertices.size() && volume6_of(box) <= kMuchMore * volume6_of(before);
+  return is_box ? box : unless_much_more(std::move(hull));
 }
 
 }  // namespace bp

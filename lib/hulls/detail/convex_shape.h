@@ -17,7 +17,8 @@ constexpr double kSliverEdge = 1e-3;                   ///< of the diagonal of t
 void draw_diagonals(ConvexHull& hull);
 
 /// A hull around `hull` without slivers, and with no more corners: edges beside slivers are replaced by points beyond
-/// the planes around them, the cheapest first. A few may stay where nothing takes them. Cost: milliseconds a sliver.
+/// the planes around them, the cheapest first. Some stay where nothing takes them, or only what holds more than twice
+/// as much. Cost: milliseconds a sliver.
 [[nodiscard]] ConvexHull without_slivers(ConvexHull hull);
 [[nodiscard]] ConvexHull without_slivers(ConvexHull hull, const LatticeBox& room);  ///< within it, as far as it was
 

@@ -59,6 +59,19 @@ for high in 5 5 6; do
   grep -o 'a grid of .* about' long.json || echo "no time is told"
 done
 rm -r long long.obj long-tiles long.json
+# The same voxels of more triangles: a level begins elsewhere, and is none of those that are kept.
+for times in 1 400; do
+  awk -v times=$times 'BEGIN {
+    split("-3.588 -6.375 -1.744 5.224 1.047 -5.308 -7.263 -0.244 1.938 1.550 7.178 -1.626 -1.550 -7.178 1.626 7.263 0.244 -1.938 -5.224 -1.047 5.308 3.588 6.375 1.744", p)
+    for (k = 1; k < 25; k += 3) print "v", p[k], p[k + 1], p[k + 2]
+    split("1 3 4 2 5 6 8 7 1 2 6 5 3 7 8 4 1 5 7 3 2 4 8 6", f)
+    for (i = 0; i < times; ++i) for (k = 1; k < 25; k += 4) print "f", f[k], f[k + 1], f[k + 2], f[k + 3] }' > turned.obj
+  bplod turned.obj --enclose input --profile 3dtiles --voxel 0.05 --tile 128 --faces 2000,500,80 --cache turned -q -o turned-$times > list
+done
+bplod turned.obj --enclose input --profile 3dtiles --voxel 0.05 --tile 128 --faces 2000,500,80 -q -o turned-new > list
+diff -r turned-400 turned-new && echo "the same bytes"
+diff -rq turned-1 turned-new > list || echo "others than of fewer triangles"
+rm -r turned turned.obj turned-1 turned-400 turned-new
 try bplod part0.obj -o x --cache cache
 try bplod part0.obj -o x --resume --profile 3dtiles
 try bplod part0.obj -o x --profile 3dtiles --cache part0.obj/cache

@@ -83,6 +83,26 @@ TEST_CASE("a plate and a needle stay what they are", "[quick][meshing][lod]") {
   CHECK(volume6_of(without_slivers(hull)) == volume6_of(hull));
 }
 
+TEST_CASE("a slanted sheet keeps slivers rather than become its box", "[quick][meshing][lod]") {
+  std::mt19937 random(7);
+  int with_slivers = 0;
+  for (int i = 0; i < 50; ++i) {
+    std::vector<LatticeCoord> points;
+    for (const Vec3d& p : {Vec3d{0, 0, 0}, {14560, 3640, 1092}, {16380, 10920, 10920}, {1820, 7280, 9828}}) {
+      for (const double side : {-2.0, 2.0}) {
+        points.push_back(rounded(p + side * Vec3d{0.160, -0.744, 0.649}));
+        for (int k = 0; k < 3; ++k) points.back()[k] += std::int64_t(random() % 3) - 1;
+      }
+    }
+    const ConvexHull hull = *hull_of(points);
+    with_slivers += slivers_of(hull) > 0;
+    const ConvexHull made = without_slivers(hull);
+    CHECK(holds_all(made, hull.vertices));
+    CHECK(volume6_of(made) < 2 * volume6_of(hull));
+  }
+  CHECK(with_slivers > 10);
+}
+
 TEST_CASE("diagonals of flat facets have the larger angles, and the solid is the same", "[quick][meshing][lod]") {
   std::vector<LatticeCoord> points;
   for (int i = 0; i < 24; ++i) {  // a prism of 24 sides, which a fan of its ends would make slivers of
