@@ -6,7 +6,9 @@
 #include "lib/closing/closing.h"
 #include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
+#include "lib/hulls/convex_hull.h"
 #include "lib/levels/detail/few_faces_level.h"
+#include "lib/levels/detail/hull_level.h"
 #include "lib/levels/detail/outside.h"
 #include "lib/levels/detail/prism_level.h"
 #include "lib/pass/measure/shape_rules.h"
@@ -155,17 +157,20 @@ struct LodChain::State {
            target.faces > 0 && target.error_world == 0;
   }
 
-  /// A box or a prism around all that is enclosed. A box is measured only where it may be better.
+  /// A box, a prism or a hull around all that is enclosed. Boxes and hulls are measured only where they may be better.
   LodLevel convex_or(LodLevel level, const LodTarget& target) {
-    const auto take = [&](LodLevel other, bool flat) {
-      if (!flat && !has_ways(target) && !has_few_faces(level) && !holds_no_more(other, level)) return;
+    const auto take = [&](LodLevel other) {
       measure(other);
       if (is_better_box(other, level, target.faces)) level = std::move(other);
     };
-    if (target.faces >= kFacesOfBox)
-      take(box_level(level, options.enclose == Enclose::scene ? header.bounds : outside->bounds()), false);
+    if (target.faces >= kFacesOfBox) {
+      LodLevel box = box_level(level, options.enclose == Enclose::scene ? header.bounds : outside->bounds());
+      if (has_ways(target) || has_few_faces(level) || holds_no_more(box, level)) take(std::move(box));
+    }
     if (options.enclose != Enclose::scene) return level;
-    if (auto prism = prism_level(level, options.scene, target.faces)) take(std::move(*prism), true);
+    if (auto prism = prism_level(level, options.scene, target.faces)) take(std::move(*prism));
+    auto hull = hull_level(level, options.scene, target.faces);
+    if (hull && holds_no_more(*hull, level, kNearlyConvex)) take(std::move(*hull));
     return level;
   }
 

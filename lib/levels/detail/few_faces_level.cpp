@@ -61,8 +61,8 @@ LodLevel box_level(const LodLevel& level, const Bounds3d& bounds) {
   return convex_level(level, box);
 }
 
-bool holds_no_more(const LodLevel& level, const LodLevel& other) {
-  return volume_of(level) <= volume_of(other);
+bool holds_no_more(const LodLevel& level, const LodLevel& other, double share) {
+  return volume_of(level) <= (1 + share) * volume_of(other);
 }
 
 bool is_better(const LodLevel& level, const LodLevel& other, std::uint64_t faces) {

@@ -22,7 +22,7 @@ namespace bp {
 [[nodiscard]] LodLevel box_level(const LodLevel& level, const Bounds3d& bounds);
 
 /// By volume.
-[[nodiscard]] bool holds_no_more(const LodLevel& level, const LodLevel& other);
+[[nodiscard]] bool holds_no_more(const LodLevel& level, const LodLevel& other, double share = 0);
 
 /// Which of two measured levels is better for a target of few faces: one that has no more than these, or else the
 /// nearer one.

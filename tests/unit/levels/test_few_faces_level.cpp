@@ -2,6 +2,7 @@
 
 #include "lib/check/check_proxy.h"
 #include "lib/geometry/surface_distance.h"
+#include "lib/levels/detail/hull_level.h"
 #include "lib/levels/detail/prism_level.h"
 #include "lib/levels/lod_chain.h"
 #include "tests/catch.h"
@@ -122,6 +123,62 @@ TEST_CASE("prisms of flat scenes hold them, however they lie", "[quick][pass][lo
     MemorySource source(scene);
     CHECK(check_proxy(indexed(prism->mesh), &source).holds());
     CHECK(prism->mesh.triangles.size() <= faces);
+  }
+  CHECK(made > 200);
+}
+
+TEST_CASE("a convex scene is its hull, whatever number of faces it may have", "[quick][pass][lod]") {
+  Triangles scene;  // a slanted cone
+  const auto corner = [](int i) {
+    const double a = i * 2 * 3.14159265358979 / 10, x = std::cos(a), y = std::sin(a);
+    return Vec3d{x, 0.6 * y + 0.2 * x, 0.8 * y - 0.1 * x};
+  };
+  const Vec3d tip{0.1, -2, 1.5};
+  for (int i = 0; i < 10; ++i) {
+    scene.push_back({tip, corner(i), corner(i + 1)});
+    if (i > 0 && i < 9) scene.push_back({corner(0), corner(i + 1), corner(i)});
+  }
+  const std::uint64_t faces = GENERATE(18, 20, 100, 1000);
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 0.03125);
+  LodOptions options;
+  options.context.make_shelf = memory_shelves();
+  options.enclose = Enclose::scene, options.scene = scene;
+  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+  const LodLevel level = chain.make({faces, 0, {}});
+  MemorySource source(scene);
+  CHECK(check_proxy(indexed(level.mesh), &source).holds());
+  CHECK(level.mesh.triangles.size() == 18);
+  CHECK(level.error_world < 0.01);
+}
+
+TEST_CASE("hulls of scenes hold them, however they lie", "[quick][pass][lod]") {
+  int made = 0;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    RandomLattice random(seed);
+    const auto real = [&](double least, double most) {
+      return least + (most - least) * double(random.between(0, 1 << 20)) / (1 << 20);
+    };
+    const double far = seed % 3 == 0 ? 1e5 : 9;
+    const Vec3d middle{real(-far, far), real(-far, far), real(-far, far)},
+        size{real(0.1, 3), real(0.1, 3), real(0.1, 3)};
+    Triangles scene;
+    const auto point = [&] {
+      return middle + Vec3d{real(-1, 1) * size[0], real(-1, 1) * size[1], real(-1, 1) * size[2]};
+    };
+    for (int i = int(random.between(2, 12)); i > 0; --i) scene.push_back({point(), point(), point()});
+    Bounds3d bounds;
+    for (const TriangleD& t : scene) bounds.merge(bp::bounds_of(t));
+    LodLevel level;
+    level.mesh.frame = make_frame(bounds, bounds.diagonal() / double(random.between(8, 300)));
+    level.counts.levels.resize(1);
+    const std::optional<LodLevel> hull = hull_level(level, scene, 60);
+    if (!hull) continue;
+    ++made;
+    CAPTURE(seed);
+    MemorySource source(scene);
+    CHECK(check_proxy(indexed(hull->mesh), &source).holds());
+    CHECK(hull->mesh.triangles.size() <= 60);
   }
   CHECK(made > 200);
 }

@@ -1,0 +1,14 @@
+#pragma once
+#include <span>
+
+#include "lib/levels/lod_chain.h"
+
+namespace bp {
+
+/// The scene's convex hull, grown by a few lattice units, as a level in the place of `level`. Nothing if it has more
+/// than `faces`, if it is flat or so thin that its corners would move by half a voxel, or if the scene has more than
+/// 65,536 triangles. Its distances are not measured. O(n log n).
+[[nodiscard]] std::optional<LodLevel> hull_level(const LodLevel& level, std::span<const TriangleD> scene,
+                                                 std::uint64_t faces);
+
+}  // namespace bp
