@@ -168,8 +168,9 @@ struct LodChain::State {
       if (has_ways(target) || has_few_faces(level) || holds_no_more(box, level)) take(std::move(box));
     }
     if (options.enclose != Enclose::scene) return level;
-    if (auto prism = prism_level(level, options.scene, target.faces)) take(std::move(*prism));
-    auto hull = hull_level(level, options.scene, target.faces);
+    const std::vector<Vec3d> corners = scene_corners(level.mesh.frame, options.scene);
+    if (auto prism = prism_level(level, corners, target.faces)) take(std::move(*prism));
+    auto hull = hull_level(level, corners, target.faces);
     if (hull && holds_no_more(*hull, level, kNearlyConvex)) take(std::move(*hull));
     return level;
   }

@@ -27,6 +27,15 @@ bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces) {
   return 4 * (measures.shells + measures.handles) <= faces;
 }
 
+std::vector<Vec3d> scene_corners(const GridFrame& frame, std::span<const TriangleD> scene) {
+  std::vector<Vec3d> corners;
+  corners.reserve(3 * scene.size());
+  for (const TriangleD& t : scene) {
+    for (const Vec3d& p : t) corners.push_back(double(kLatticePerVoxel) * frame.to_voxels(p));
+  }
+  return corners;
+}
+
 LodLevel convex_level(const LodLevel& level, const LatticeMesh& mesh) {
   LodLevel out;
   out.mesh.frame = level.mesh.frame;

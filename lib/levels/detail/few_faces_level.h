@@ -2,7 +2,8 @@
 #include "lib/levels/lod_chain.h"
 
 /// Bounding levels of so few faces that one way to them may lead anywhere: several are tried, and the nearest is taken.
-/// A box is tried for all that come out with few faces, or hold more than it; of a flat scene its prism, too.
+/// A box is tried for all that come out with few faces, or hold more than it; of a flat scene its prism, too,
+/// and of a convex one its hull.
 namespace bp {
 
 /// Whether the target is nothing but a number of faces below 32.
@@ -13,6 +14,9 @@ namespace bp {
 
 /// Whether few enough faces are possible while all parts and handles of a closed mesh are kept: each takes four.
 [[nodiscard]] bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces);
+
+/// Of all triangles, in lattice units of the frame.
+[[nodiscard]] std::vector<Vec3d> scene_corners(const GridFrame& frame, std::span<const TriangleD> scene);
 
 /// A convex mesh around all that is enclosed, of which only vertices and triangles count: a level in the place of
 /// `level`, with its frame and scale. Its distances are not measured.
@@ -27,7 +31,7 @@ namespace bp {
 /// Which of two measured levels is better for a target of few faces: one that has no more than these, or else the
 /// nearer one.
 [[nodiscard]] bool is_better(const LodLevel& level, const LodLevel& other, std::uint64_t faces);
-/// The same of a box or a prism, which has to be clearly nearer if it holds more.
+/// The same of a box, a prism or a hull, which has to be clearly nearer if it holds more.
 [[nodiscard]] bool is_better_box(const LodLevel& box, const LodLevel& other, std::uint64_t faces);
 
 }  // namespace bp

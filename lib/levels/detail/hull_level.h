@@ -5,10 +5,10 @@
 
 namespace bp {
 
-/// The scene's convex hull, grown by a few lattice units, as a level in the place of `level`. Nothing if it has more
-/// than `faces`, if it is flat or so thin that its corners would move by half a voxel, or if the scene has more than
-/// 65,536 triangles. Its distances are not measured. O(n log n).
-[[nodiscard]] std::optional<LodLevel> hull_level(const LodLevel& level, std::span<const TriangleD> scene,
+/// The convex hull of `corners` (scene_corners()), grown by a few lattice units, as a level in the place of `level`.
+/// Nothing if it has more than `faces`, if it is flat or so thin that its corners would move by half a voxel, or if the
+/// scene has more than 65,536 triangles. Its distances are not measured. O(n log n), and n times the hull's faces.
+[[nodiscard]] std::optional<LodLevel> hull_level(const LodLevel& level, std::span<const Vec3d> corners,
                                                  std::uint64_t faces);
 
 }  // namespace bp

@@ -5,6 +5,7 @@
 
 #include "lib/core/vec3.h"
 #include "lib/levels/detail/few_faces_level.h"
+#include "lib/mesh/lattice_geometry.h"
 
 namespace bp {
 
@@ -26,12 +27,12 @@ struct Slab {
 
 /// The one for which f is largest.
 template <class F>
-Vec3d farthest(const std::vector<Vec3d>& points, const F& f) {
+Vec3d farthest(std::span<const Vec3d> points, const F& f) {
   return *std::max_element(points.begin(), points.end(), [&](const Vec3d& p, const Vec3d& q) { return f(p) < f(q); });
 }
 
 /// Through three points that lie far apart.
-std::optional<Slab> slab_of(const std::vector<Vec3d>& points) {
+std::optional<Slab> slab_of(std::span<const Vec3d> points) {
   Slab slab;
   slab.origin = farthest(points, [&](const Vec3d& p) { return length(p - points.front()); });
   const Vec3d along = farthest(points, [&](const Vec3d& p) { return length(p - slab.origin); }) - slab.origin;
@@ -135,10 +136,7 @@ LatticeMesh prism(const Slab& slab, const std::vector<Flat>& outline, double roo
   LatticeMesh mesh;
   const auto n = std::uint32_t(outline.size());
   for (const double height : {slab.low - room, slab.high + room}) {
-    for (const Flat& p : outline) {
-      const Vec3d q = slab.point(p, height);
-      mesh.vertices.push_back({std::llround(q[0]), std::llround(q[1]), std::llround(q[2])});
-    }
+    for (const Flat& p : outline) mesh.vertices.push_back(rounded(slab.point(p, height)));
   }
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t j = (i + 1) % n;
@@ -157,7 +155,7 @@ bool holds(const LatticeMesh& mesh, const Slab& slab, const std::vector<Flat>& o
   constexpr double kLeast = 0.5;  // far more than what is lost by computing
   const std::size_t n = mesh.vertices.size() / 2;
   std::vector<Vec3d> at;
-  for (const LatticeCoord& p : mesh.vertices) at.push_back(Vec3d{double(p.x), double(p.y), double(p.z)} - slab.origin);
+  for (const LatticeCoord& p : mesh.vertices) at.push_back(to_double(p) - slab.origin);
   const auto corner = [&](std::size_t v) { return Flat{dot(at[v], slab.a), dot(at[v], slab.b)}; };
   for (std::size_t v = 0; v < n; ++v) {
     if (dot(at[v], slab.up) > slab.low - kLeast || dot(at[v + n], slab.up) < slab.high + kLeast) return false;
@@ -180,24 +178,20 @@ bool holds(const LatticeMesh& mesh, const Slab& slab, const std::vector<Flat>& o
 
 }  // namespace
 
-std::optional<LodLevel> prism_level(const LodLevel& level, std::span<const TriangleD> scene, std::uint64_t faces) {
-  std::vector<Vec3d> points;
-  for (const TriangleD& t : scene) {
-    for (const Vec3d& p : t) points.push_back(double(kLatticePerVoxel) * level.mesh.frame.to_voxels(p));
-  }
-  if (points.empty()) return {};
-  const std::optional<Slab> slab = slab_of(points);
+std::optional<LodLevel> prism_level(const LodLevel& level, std::span<const Vec3d> corners, std::uint64_t faces) {
+  if (corners.empty()) return {};
+  const std::optional<Slab> slab = slab_of(corners);
   if (!slab) return {};
-  std::vector<Flat> flat(points.size());
-  std::transform(points.begin(), points.end(), flat.begin(), [&](const Vec3d& p) { return slab->flat(p); });
+  std::vector<Flat> flat(corners.size());
+  std::transform(corners.begin(), corners.end(), flat.begin(), [&](const Vec3d& p) { return slab->flat(p); });
   const std::vector<Flat> hull = hull_of_flat(std::move(flat));
   if (hull.size() < 3 || hull.size() > kMostCorners || faces < kFacesOfTriangle) return {};
   const std::vector<Flat> outline = with_fewer(hull, std::size_t((faces + 4) / 4));
   if (outline.empty()) return {};
   for (double room = 2; room <= 8; room *= 2) {
-    const std::vector<Flat> corners = grown(outline, room);
-    if (corners.empty()) return {};
-    const LatticeMesh mesh = prism(*slab, corners, room);
+    const std::vector<Flat> around = grown(outline, room);
+    if (around.empty()) return {};
+    const LatticeMesh mesh = prism(*slab, around, room);
     if (holds(mesh, *slab, hull)) return convex_level(level, mesh);
   }
   return {};

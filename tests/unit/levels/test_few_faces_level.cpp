@@ -2,6 +2,7 @@
 
 #include "lib/check/check_proxy.h"
 #include "lib/geometry/surface_distance.h"
+#include "lib/levels/detail/few_faces_level.h"
 #include "lib/levels/detail/hull_level.h"
 #include "lib/levels/detail/prism_level.h"
 #include "lib/levels/lod_chain.h"
@@ -11,6 +12,40 @@
 #include "tests/support/voxelized.h"
 
 namespace bp::test {
+
+namespace {
+
+/// Of so many faces at most, around the scene's triangles.
+LodLevel level_around(const Triangles& scene, double voxel, std::uint64_t faces) {
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, voxel);
+  LodOptions options;
+  options.context.make_shelf = memory_shelves();
+  options.enclose = Enclose::scene, options.scene = scene;
+  return LodChain(solid.header, std::move(solid.shelf), backends, options).make({faces, 0, {}});
+}
+
+double real_between(RandomLattice& random, double least, double most) {
+  return least + (most - least) * double(random.between(0, 1 << 20)) / (1 << 20);
+}
+
+/// Without a mesh, on voxels of a size by chance.
+LodLevel level_to_replace(const Triangles& scene, RandomLattice& random) {
+  Bounds3d bounds;
+  for (const TriangleD& t : scene) bounds.merge(bp::bounds_of(t));
+  LodLevel level;
+  level.mesh.frame = make_frame(bounds, bounds.diagonal() / double(random.between(8, 300)));
+  level.counts.levels.resize(1);
+  return level;
+}
+
+/// A point of a slanted ellipse.
+Vec3d on_slanted_ellipse(double turn, double a, double b) {
+  const double x = a * std::cos(turn), y = b * std::sin(turn);
+  return {x, 0.6 * y + 0.2 * x, 0.8 * y - 0.1 * x};
+}
+
+}  // namespace
 
 TEST_CASE("levels of few faces are about as near as the scene's box, and no needles", "[quick][pass][lod]") {
   Triangles scene;  // an animal: a body on four legs, a neck, a head
@@ -43,13 +78,7 @@ TEST_CASE("levels of few faces are about as near as the scene's box, and no need
 TEST_CASE("a flat scene is as near with more faces as its box", "[quick][pass][lod]") {
   const Triangles scene = {{Vec3d{0, 0, 0}, {10, 0, 0}, {10, 10, 0}}, {Vec3d{0, 0, 0}, {10, 10, 0}, {0, 10, 0}}};
   const std::uint64_t faces = GENERATE(12, 40, 100, 400);
-  Backends backends = plain_backends(2);
-  Voxelized solid = voxelized(scene, 0.05);
-  LodOptions options;
-  options.context.make_shelf = memory_shelves();
-  options.enclose = Enclose::scene, options.scene = scene;
-  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
-  const LodLevel level = chain.make({faces, 0, {}});
+  const LodLevel level = level_around(scene, 0.05, faces);
   CHECK(level.error_world < 0.01);  // 0.13 and more where no box is tried
   MemorySource source(scene);
   CHECK(check_proxy(indexed(level.mesh), &source).holds());
@@ -61,13 +90,7 @@ TEST_CASE("a flat scene that lies across the axes is the prism of its outline", 
   Triangles scene = {{a, b, c}};
   if (corners == 4) scene.push_back({b, d, c});
   const std::uint64_t faces = GENERATE(8, 12, 20, 100);
-  Backends backends = plain_backends(2);
-  Voxelized solid = voxelized(scene, 0.0625);
-  LodOptions options;
-  options.context.make_shelf = memory_shelves();
-  options.enclose = Enclose::scene, options.scene = scene;
-  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
-  const LodLevel level = chain.make({faces, 0, {}});
+  const LodLevel level = level_around(scene, 0.0625, faces);
   MemorySource source(scene);
   CHECK(check_proxy(indexed(level.mesh), &source).holds());
   CHECK(level.reached);
@@ -78,18 +101,9 @@ TEST_CASE("a flat scene that lies across the axes is the prism of its outline", 
 
 TEST_CASE("a flat scene of many corners is a prism of fewer", "[quick][pass][lod]") {
   Triangles scene;
-  const auto corner = [](int i) {
-    const double a = i * 2 * 3.14159265358979 / 90, x = 5 * std::cos(a), y = 4 * std::sin(a);
-    return Vec3d{x, 0.6 * y + 0.2 * x, 0.8 * y - 0.1 * x};
-  };
+  const auto corner = [](int i) { return on_slanted_ellipse(i * 2 * 3.14159265358979 / 90, 5, 4); };
   for (int i = 1; i < 89; ++i) scene.push_back({corner(0), corner(i), corner(i + 1)});
-  Backends backends = plain_backends(2);
-  Voxelized solid = voxelized(scene, 0.0625);
-  LodOptions options;
-  options.context.make_shelf = memory_shelves();
-  options.enclose = Enclose::scene, options.scene = scene;
-  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
-  const LodLevel level = chain.make({100, 0, {}});
+  const LodLevel level = level_around(scene, 0.0625, 100);
   MemorySource source(scene);
   CHECK(check_proxy(indexed(level.mesh), &source).holds());
   CHECK(level.mesh.triangles.size() == 100);
@@ -100,9 +114,7 @@ TEST_CASE("prisms of flat scenes hold them, however they lie", "[quick][pass][lo
   int made = 0;
   for (unsigned seed = 0; seed < 300; ++seed) {
     RandomLattice random(seed);
-    const auto real = [&](double least, double most) {
-      return least + (most - least) * double(random.between(0, 1 << 20)) / (1 << 20);
-    };
+    const auto real = [&](double least, double most) { return real_between(random, least, most); };
     const Vec3d a{real(-1, 1), real(-1, 1), real(-1, 1)}, b{real(-1, 1), real(-1, 1), real(-1, 1)};
     const Vec3d middle{real(-9, 9), real(-9, 9), real(-9, 9)};
     const int n = int(random.between(3, 40));
@@ -110,13 +122,9 @@ TEST_CASE("prisms of flat scenes hold them, however they lie", "[quick][pass][lo
     Triangles scene;
     const auto point = [&] { return middle + real(-size, size) * a + real(-size, size) * b; };
     for (int i = 0; i < n; ++i) scene.push_back({point(), point(), point()});
-    Bounds3d bounds;
-    for (const TriangleD& t : scene) bounds.merge(bp::bounds_of(t));
-    LodLevel level;
-    level.mesh.frame = make_frame(bounds, bounds.diagonal() / double(random.between(8, 300)));
-    level.counts.levels.resize(1);
+    const LodLevel level = level_to_replace(scene, random);
     const std::uint64_t faces = random.between(8, 200);
-    const std::optional<LodLevel> prism = prism_level(level, scene, faces);
+    const std::optional<LodLevel> prism = prism_level(level, scene_corners(level.mesh.frame, scene), faces);
     if (!prism) continue;
     ++made;
     CAPTURE(seed);
@@ -129,23 +137,14 @@ TEST_CASE("prisms of flat scenes hold them, however they lie", "[quick][pass][lo
 
 TEST_CASE("a convex scene is its hull, whatever number of faces it may have", "[quick][pass][lod]") {
   Triangles scene;  // a slanted cone
-  const auto corner = [](int i) {
-    const double a = i * 2 * 3.14159265358979 / 10, x = std::cos(a), y = std::sin(a);
-    return Vec3d{x, 0.6 * y + 0.2 * x, 0.8 * y - 0.1 * x};
-  };
+  const auto corner = [](int i) { return on_slanted_ellipse(i * 2 * 3.14159265358979 / 10, 1, 1); };
   const Vec3d tip{0.1, -2, 1.5};
   for (int i = 0; i < 10; ++i) {
     scene.push_back({tip, corner(i), corner(i + 1)});
     if (i > 0 && i < 9) scene.push_back({corner(0), corner(i + 1), corner(i)});
   }
   const std::uint64_t faces = GENERATE(18, 20, 100, 1000);
-  Backends backends = plain_backends(2);
-  Voxelized solid = voxelized(scene, 0.03125);
-  LodOptions options;
-  options.context.make_shelf = memory_shelves();
-  options.enclose = Enclose::scene, options.scene = scene;
-  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
-  const LodLevel level = chain.make({faces, 0, {}});
+  const LodLevel level = level_around(scene, 0.03125, faces);
   MemorySource source(scene);
   CHECK(check_proxy(indexed(level.mesh), &source).holds());
   CHECK(level.mesh.triangles.size() == 18);
@@ -156,9 +155,7 @@ TEST_CASE("hulls of scenes hold them, however they lie", "[quick][pass][lod]") {
   int made = 0;
   for (unsigned seed = 0; seed < 300; ++seed) {
     RandomLattice random(seed);
-    const auto real = [&](double least, double most) {
-      return least + (most - least) * double(random.between(0, 1 << 20)) / (1 << 20);
-    };
+    const auto real = [&](double least, double most) { return real_between(random, least, most); };
     const double far = seed % 3 == 0 ? 1e5 : 9;
     const Vec3d middle{real(-far, far), real(-far, far), real(-far, far)},
         size{real(0.1, 3), real(0.1, 3), real(0.1, 3)};
@@ -167,12 +164,8 @@ TEST_CASE("hulls of scenes hold them, however they lie", "[quick][pass][lod]") {
       return middle + Vec3d{real(-1, 1) * size[0], real(-1, 1) * size[1], real(-1, 1) * size[2]};
     };
     for (int i = int(random.between(2, 12)); i > 0; --i) scene.push_back({point(), point(), point()});
-    Bounds3d bounds;
-    for (const TriangleD& t : scene) bounds.merge(bp::bounds_of(t));
-    LodLevel level;
-    level.mesh.frame = make_frame(bounds, bounds.diagonal() / double(random.between(8, 300)));
-    level.counts.levels.resize(1);
-    const std::optional<LodLevel> hull = hull_level(level, scene, 60);
+    const LodLevel level = level_to_replace(scene, random);
+    const std::optional<LodLevel> hull = hull_level(level, scene_corners(level.mesh.frame, scene), 60);
     if (!hull) continue;
     ++made;
     CAPTURE(seed);
