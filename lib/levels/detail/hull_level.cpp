@@ -12,7 +12,7 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kMostCorners = 3 * 65536;  // of the scene's triangles
+constexpr std::size_t kMostOfScene = 3 * 65536;  // corners of its triangles
 constexpr double kFar = kLatticePerVoxel / 2.0;
 constexpr double kReach = double(std::int64_t(1) << 28);  // what hull_of() takes
 
@@ -70,7 +70,7 @@ std::optional<ConvexHull> grown(const ConvexHull& hull, double room) {
 
 std::optional<LodLevel> hull_level(const LodLevel& level, std::span<const Vec3d> corners, std::uint64_t faces) {
   constexpr double kLeast = 0.5;  // far more than what is lost by computing
-  if (corners.empty() || corners.size() > kMostCorners) return {};
+  if (corners.empty() || corners.size() > kMostOfScene) return {};
   std::vector<LatticeCoord> near;
   for (const Vec3d& p : corners) {
     if (!(length(p) < kReach)) return {};

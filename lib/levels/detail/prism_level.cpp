@@ -13,7 +13,7 @@ namespace {
 
 using Flat = std::array<double, 2>;
 
-constexpr std::size_t kMostCorners = 4096;     // of an outline
+constexpr std::size_t kMostOfOutline = 4096;   // corners
 constexpr std::uint64_t kFacesOfTriangle = 8;  // of its prism
 constexpr double kFlat = 8;  // of a corner, lattice units: with less, rounding tilts the ends of a prism
 
@@ -185,7 +185,7 @@ std::optional<LodLevel> prism_level(const LodLevel& level, std::span<const Vec3d
   std::vector<Flat> flat(corners.size());
   std::transform(corners.begin(), corners.end(), flat.begin(), [&](const Vec3d& p) { return slab->flat(p); });
   const std::vector<Flat> hull = hull_of_flat(std::move(flat));
-  if (hull.size() < 3 || hull.size() > kMostCorners || faces < kFacesOfTriangle) return {};
+  if (hull.size() < 3 || hull.size() > kMostOfOutline || faces < kFacesOfTriangle) return {};
   const std::vector<Flat> outline = with_fewer(hull, std::size_t((faces + 4) / 4));
   if (outline.empty()) return {};
   for (double room = 2; room <= 8; room *= 2) {
