@@ -35,7 +35,7 @@ bool slab_order(int slab_axis, const Brick& a, const Brick& b) {
 void load_voxels(const BrickShelf& shelf, BitBox& box) {
   BrickBits bits;
   for_each_brick(box.box(), [&](BrickCoord c) {
-    if (shelf.get(c, bits) == BrickFill::empty) return;
+    if (shelf.fill(c) == BrickFill::empty || shelf.get(c, bits) == BrickFill::empty) return;
     const VoxelCoord first = first_voxel(c);
     const VoxelBox both = intersect({first, first_voxel({c.x + 1, c.y + 1, c.z + 1})}, box.box());
     for (std::int32_t z = both.min.z; z < both.max.z; ++z) {

@@ -58,7 +58,9 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
   const NamedMesh godot{name + "-colonly", &mesh}, unity{name + "_Collider", &mesh};
   write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"), origin);
   write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"), origin);
-  const std::uint64_t faces = o.levels.faces.empty() ? mesh.triangles.size() : o.levels.faces.front();
+  constexpr std::uint64_t kEnough = 64;  // a body of few faces may need more as convex parts
+  const std::uint64_t faces =
+      o.levels.faces.empty() ? std::max<std::uint64_t>(mesh.triangles.size(), kEnough) : o.levels.faces.front();
   const ConvexParts parts = convex_parts(mesh, std::size_t(o.hulls), faces);
   std::vector<NamedMesh> unreal;
   const auto volume6 = double(volume6_of(mesh));

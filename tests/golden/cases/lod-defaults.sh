@@ -53,3 +53,12 @@ awk '/^v/ { v[++n] = $0 } /^f/ { f[++m] = $0 } END {
 }' cube1.obj > blocks.obj
 said 'bplod blocks.obj --profile collision -o blocks | cut -f 1,2'
 said 'bplod blocks.obj --profile collision --faces 768 -o blocks --overwrite | cut -f 1,2'
+
+# The hulls of a body of few faces may have more faces than it: those of an L are two boxes.
+awk '/^v/ { v[++n] = $0 } /^f/ { f[++m] = $0 } END {
+  for (k = 0; k < 2; ++k) {
+    for (i = 1; i <= n; ++i) { split(v[i], p); print "v", p[2] * (k ? 1 : 6), k + p[3] * (k ? 4 : 1), p[4] }
+    for (i = 1; i <= m; ++i) { c = split(f[i], q); t = "f"; for (j = 2; j <= c; ++j) t = t " " q[j] + k * n; print t }
+  }
+}' cube1.obj > L.obj
+said 'bplod L.obj --profile collision -o L | cut -f 1,2'
