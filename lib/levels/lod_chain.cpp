@@ -20,7 +20,8 @@ namespace bp {
 
 namespace {
 
-constexpr int kMostAttempts = 12;  // scales for one level
+constexpr int kMostAttempts = 12;    // scales for one level
+constexpr double kExactVox = 0.125;  // of error: a level of so little is not tried to come nearer
 
 // What a level needs of its voxels. Fewer dense triangles per face than this, and the steps of the voxels show.
 constexpr double kDenseFacesPerFace = 100;
@@ -81,6 +82,7 @@ struct LodChain::State {
   }
 
   LodLevel make(const LodTarget& target) {
+    if (std::optional<LodLevel> level = exact(target)) return std::move(*level);
     LodLevel level = options.cage ? cage(target) : closed(target);
     if (options.cage || !has_ways(target)) measure(level);
     return may_be_convex(target) ? convex_or(std::move(level), target) : level;
@@ -157,15 +159,38 @@ struct LodChain::State {
            target.faces > 0 && target.error_world == 0;
   }
 
+  /// A scene that is a box, flat or convex as its box, prism or hull. Nothing has to be closed or meshed then.
+  std::optional<LodLevel> exact(const LodTarget& target) {
+    if (!may_be_convex(target) || options.enclose != Enclose::scene) return {};
+    LodLevel place;
+    place.mesh.frame = header.frame;
+    place.mesh.provenance = header.provenance;
+    place.scale_world = first_scale(ground(), target, last_scale);
+    place.reductions = reductions;
+    place.attempts = 1;
+    place.counts.levels.resize(1);
+    const std::vector<Vec3d> corners = scene_corners(place.mesh.frame, options.scene);
+    if (corners.empty()) return {};
+    for (auto& level : {box_for(target, place), prism_level(place, corners, target.faces),
+                        hull_level(place, corners, target.faces)}) {
+      if (!level || !may_be_near(*level, corners, kExactVox * kLatticePerVoxel)) continue;
+      LodLevel measured = *level;
+      measure(measured);
+      if (measured.error_world > kExactVox * header.frame.voxel) continue;
+      last_scale = place.scale_world;
+      return measured;
+    }
+    return {};
+  }
+
   /// A box, a prism or a hull around all that is enclosed. Boxes and hulls are measured only where they may be better.
   LodLevel convex_or(LodLevel level, const LodTarget& target) {
     const auto take = [&](LodLevel other) {
       measure(other);
       if (is_better_box(other, level, target.faces)) level = std::move(other);
     };
-    if (target.faces >= kFacesOfBox) {
-      LodLevel box = box_level(level, options.enclose == Enclose::scene ? header.bounds : outside->bounds());
-      if (has_ways(target) || has_few_faces(level) || holds_no_more(box, level)) take(std::move(box));
+    if (auto box = box_for(target, level)) {
+      if (has_ways(target) || has_few_faces(level) || holds_no_more(*box, level)) take(std::move(*box));
     }
     if (options.enclose != Enclose::scene) return level;
     const std::vector<Vec3d> corners = scene_corners(level.mesh.frame, options.scene);
@@ -173,6 +198,11 @@ struct LodChain::State {
     auto hull = hull_level(level, corners, target.faces);
     if (hull && holds_no_more(*hull, level, kNearlyConvex)) take(std::move(*hull));
     return level;
+  }
+
+  [[nodiscard]] std::optional<LodLevel> box_for(const LodTarget& target, const LodLevel& level) const {
+    if (target.faces < kFacesOfBox) return {};
+    return box_level(level, options.enclose == Enclose::scene ? header.bounds : outside->bounds());
   }
 
   [[nodiscard]] std::int64_t longest_side() const {

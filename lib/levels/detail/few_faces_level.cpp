@@ -1,6 +1,10 @@
 #include "lib/levels/detail/few_faces_level.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "lib/core/vec3.h"
+#include "lib/geometry/triangle_bvh.h"
 
 namespace bp {
 
@@ -28,7 +32,9 @@ bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces) {
 }
 
 std::vector<Vec3d> scene_corners(const GridFrame& frame, std::span<const TriangleD> scene) {
+  constexpr std::size_t kMost = 65536;
   std::vector<Vec3d> corners;
+  if (scene.size() > kMost) return corners;
   corners.reserve(3 * scene.size());
   for (const TriangleD& t : scene) {
     for (const Vec3d& p : t) corners.push_back(double(kLatticePerVoxel) * frame.to_voxels(p));
@@ -68,6 +74,21 @@ LodLevel box_level(const LodLevel& level, const Bounds3d& bounds) {
   box.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return convex_level(level, box);
+}
+
+bool may_be_near(const LodLevel& convex, std::span<const Vec3d> corners, double near) {
+  double largest = 0;
+  Vec3d middle{};
+  for (const auto& [i, j, k] : convex.mesh.triangles) {
+    const auto& v = convex.mesh.vertices;
+    const Vec3d a = to_double(v[i]), b = to_double(v[j]), c = to_double(v[k]);
+    const double area = length(cross(b - a, c - a));
+    if (area > largest) largest = area, middle = (1.0 / 3) * (a + b + c);
+  }
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    if (distance_squared(middle, {corners[i], corners[i + 1], corners[i + 2]}) <= near * near) return true;
+  }
+  return false;
 }
 
 bool holds_no_more(const LodLevel& level, const LodLevel& other, double share) {

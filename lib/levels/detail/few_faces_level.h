@@ -15,7 +15,7 @@ namespace bp {
 /// Whether few enough faces are possible while all parts and handles of a closed mesh are kept: each takes four.
 [[nodiscard]] bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces);
 
-/// Of all triangles, in lattice units of the frame.
+/// Of all triangles, in lattice units of the frame. None if there are more than 65,536: convex scenes have few.
 [[nodiscard]] std::vector<Vec3d> scene_corners(const GridFrame& frame, std::span<const TriangleD> scene);
 
 /// A convex mesh around all that is enclosed, of which only vertices and triangles count: a level in the place of
@@ -24,6 +24,10 @@ namespace bp {
 
 /// The box that lies around `bounds`, scene units, by a lattice unit or two: a level as of convex_level().
 [[nodiscard]] LodLevel box_level(const LodLevel& level, const Bounds3d& bounds);
+
+/// Whether a convex level may lie within `near` lattice units of the scene of `corners`: the middle of its largest face
+/// does. O(n).
+[[nodiscard]] bool may_be_near(const LodLevel& convex, std::span<const Vec3d> corners, double near);
 
 /// By volume.
 [[nodiscard]] bool holds_no_more(const LodLevel& level, const LodLevel& other, double share = 0);

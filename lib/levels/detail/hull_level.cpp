@@ -12,7 +12,7 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kMostOfScene = 3 * 65536;  // corners of its triangles
+constexpr std::uint64_t kMostPairs = std::uint64_t(1) << 26;  // of corners and faces: 0.2 s
 constexpr double kFar = kLatticePerVoxel / 2.0;
 constexpr double kReach = double(std::int64_t(1) << 28);  // what hull_of() takes
 
@@ -70,15 +70,15 @@ std::optional<ConvexHull> grown(const ConvexHull& hull, double room) {
 
 std::optional<LodLevel> hull_level(const LodLevel& level, std::span<const Vec3d> corners, std::uint64_t faces) {
   constexpr double kLeast = 0.5;  // far more than what is lost by computing
-  if (corners.empty() || corners.size() > kMostOfScene) return {};
+  if (corners.empty()) return {};
   std::vector<LatticeCoord> near;
   for (const Vec3d& p : corners) {
     if (!(length(p) < kReach)) return {};
     near.push_back(rounded(p));
   }
   const std::optional<ConvexHull> hull = hull_of(near);
-  if (!hull || hull->triangles.size() > faces) return {};
-  for (double room = 2; room <= 8; room *= 2) {
+  if (!hull || hull->triangles.size() > std::min(faces, kMostPairs / corners.size())) return {};
+  for (double room = 1; room <= 8; room *= 1.5) {
     const std::optional<ConvexHull> around = grown(*hull, room);
     if (!around || around->triangles.size() > faces) return {};
     const std::vector<Side> sides = sides_of(*around);

@@ -149,6 +149,17 @@ TEST_CASE("a convex scene is its hull, whatever number of faces it may have", "[
   CHECK(check_proxy(indexed(level.mesh), &source).holds());
   CHECK(level.mesh.triangles.size() == 18);
   CHECK(level.error_world < 0.01);
+  CHECK(level.counts.voxels == 0);  // none was closed or meshed
+}
+
+TEST_CASE("a box is no hull of a scene that lacks one of its sides", "[quick][pass][lod]") {
+  Triangles scene;
+  add_box(scene, {0, 0, 0}, {4, 3, 2});
+  const bool open = GENERATE(false, true);
+  if (open) scene.resize(scene.size() - 2);
+  const LodLevel level = level_around(scene, 0.0625, 100);
+  CHECK((level.counts.voxels > 0) == open);
+  if (!open) CHECK(level.error_world < 0.01);
 }
 
 TEST_CASE("hulls of scenes hold them, however they lie", "[quick][pass][lod]") {
