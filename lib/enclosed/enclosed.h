@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,11 @@ class Enclosed {
   /// True if it is the thing itself, false if it stands around it, as voxels do: then the last shares of a volume say
   /// nothing.
   [[nodiscard]] virtual bool is_exact() const { return false; }
+  /// Boxes whose convex hull holds all of it, as a proxy must: some at a time, neighbours after each other, until `use`
+  /// returns false. The first are about 512 from everywhere. None if they are not known, as of a part of a scene.
+  using UseBoxes = std::function<bool(std::span<const LatticeBox>)>;
+  virtual void outer_boxes(const UseBoxes& use) const { static_cast<void>(use); }
+  static constexpr std::size_t kFirstBoxes = 512;
   /// Memory of this, and of its contact points while a proxy is tightened; about.
   [[nodiscard]] virtual std::uint64_t bytes() const = 0;
   static constexpr std::uint64_t kBytesPerContactPoint =

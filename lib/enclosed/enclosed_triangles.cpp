@@ -34,6 +34,19 @@ LatticeBox box_around(const GridFrame& frame, const TriangleD& t) {
   return box;
 }
 
+/// The smallest lattice box that surely has a point strictly inside.
+LatticeBox box_around(const GridFrame& frame, const Vec3d& p) {
+  constexpr double kSlack = 0x1p-13;  // to_voxels errs by less than 2^-20 voxel
+  const Vec3d v = frame.to_voxels(p);
+  LatticeBox box;
+  for (int i = 0; i < 3; ++i) {
+    const double at = v[std::size_t(i)] * kLatticePerVoxel;
+    box.min[i] = std::int64_t(std::floor(at - kSlack));
+    box.max[i] = std::int64_t(std::ceil(at + kSlack));
+  }
+  return box;
+}
+
 /// Boxes that lie strictly on the inner side of a face neither meet it nor a tetrahedron that it closes towards the
 /// inside.
 BoxTree::Plane plane_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
@@ -304,6 +317,22 @@ void EnclosedTriangles::report(std::size_t i, Blocker& blocker) const {
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3d v = frame_.to_voxels(triangle[k]);
     for (std::size_t axis = 0; axis < 3; ++axis) blocker.points[k][axis] = v[axis] * kLatticePerVoxel;
+  }
+}
+
+void EnclosedTriangles::outer_boxes(const UseBoxes& use) const {
+  constexpr std::size_t kAtOnce = 512;  // triangles
+  if (within_ || triangles_.empty()) return;
+  std::vector<LatticeBox> boxes;
+  const std::size_t step = triangles_.size() / kFirstBoxes + 1;
+  for (std::size_t i = 0; i < triangles_.size(); i += step) boxes.push_back(box_around(frame_, triangles_[i][0]));
+  if (!use(boxes)) return;
+  for (std::size_t begin = 0; begin < triangles_.size(); begin += kAtOnce) {
+    boxes.clear();
+    for (std::size_t i = begin; i < std::min(begin + kAtOnce, triangles_.size()); ++i) {
+      for (const Vec3d& p : triangles_[i]) boxes.push_back(box_around(frame_, p));
+    }
+    if (!use(boxes)) return;
   }
 }
 

@@ -27,6 +27,7 @@ class EnclosedTriangles : public Enclosed {
                             Blocker* blocker) const override;
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override;
   [[nodiscard]] bool is_exact() const override { return true; }
+  void outer_boxes(const UseBoxes& use) const override;
   [[nodiscard]] std::uint64_t bytes() const override;
   /// The triangle, its corners in floats, about 40 for the tree, and a contact point.
   static constexpr std::uint64_t kBytesEach =

@@ -4,10 +4,12 @@
 #include <bit>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/enclosed/detail/cell_window.h"
+#include "lib/enclosed/detail/outlines.h"
 #include "lib/enclosed/detail/resting_points.h"
 #include "lib/enclosed/detail/separator.h"
 
@@ -159,6 +161,56 @@ std::vector<Vec3d> EnclosedVoxels::contact_points(const LatticeCoord& origin, co
     }
   }
   return points;
+}
+
+template <class Use>
+void EnclosedVoxels::for_each_block(BrickCoord coord, const Use& use) const {
+  const BoundaryBrick& brick = bricks_.at(coord);
+  for (std::int32_t z = 0; z < 8; ++z) {
+    std::uint32_t next = brick.first[std::size_t(z)];
+    for (std::uint64_t left = brick.blocks[std::size_t(z)]; left != 0; left &= left - 1) {
+      const std::int32_t b = std::countr_zero(left);
+      use(first_voxel(coord) + VoxelCoord{b % 8, b / 8, z} * 8, blocks_[next++]);
+    }
+  }
+}
+
+void EnclosedVoxels::outer_boxes(const UseBoxes& use) const {
+  std::vector<BrickCoord> coords;
+  for (const auto& [coord, brick] : bricks_) coords.push_back(coord);
+  std::sort(coords.begin(), coords.end(),
+            [](BrickCoord a, BrickCoord b) { return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x); });
+  std::vector<LatticeBox> boxes;
+  const std::size_t step = blocks_.size() / kFirstBoxes + 1;
+  std::size_t count = 0;
+  for (const BrickCoord& coord : coords) {
+    for_each_block(coord, [&](VoxelCoord first, const Block& block) {
+      if (count++ % step != 0) return;
+      const auto z =
+          std::int32_t(std::find_if(block.begin(), block.end(), [](auto bits) { return bits != 0; }) - block.begin());
+      const std::int32_t b = std::countr_zero(block[std::size_t(z)]);
+      const LatticeCoord p = low_corner(first + VoxelCoord{b % 8, b / 8, z});
+      boxes.push_back({p, p});
+    });
+  }
+  if (!use(boxes)) return;
+  for (auto begin = coords.begin(); begin != coords.end();) {
+    const auto end = std::find_if(begin, coords.end(), [&](BrickCoord c) { return c.z != begin->z; });
+    Outlines outlines(first_voxel(*begin), ((end - 1)->y - begin->y + 1) * kBrickEdge, kBrickEdge);
+    for (; begin != end; ++begin) {
+      for_each_block(*begin, [&](VoxelCoord first, const Block& block) {
+        for (std::int32_t row = 0; row < 64; ++row) {
+          const auto bits = std::uint8_t(block[std::size_t(row / 8)] >> (8 * (row % 8)));
+          if (bits == 0) continue;
+          outlines.add(first.x + std::countr_zero(bits), first.x + 8 - std::countl_zero(bits), first.y + row % 8,
+                       first.z + row / 8);
+        }
+      });
+    }
+    boxes.clear();
+    outlines.add_corners_to(boxes);
+    if (!use(boxes)) return;
+  }
 }
 
 /// The nearest voxel to the middle of a triangle, of those that are shown; or one that is near enough to all of it.

@@ -20,6 +20,7 @@ class EnclosedVoxels : public Enclosed {
                             Blocker* blocker) const override;
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override;
   [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const override;
+  void outer_boxes(const UseBoxes& use) const override;
   [[nodiscard]] std::uint64_t bytes() const override;
 
  private:
@@ -29,6 +30,9 @@ class EnclosedVoxels : public Enclosed {
     std::array<std::uint64_t, 8> blocks;  ///< those with any voxel: word z, bit 8 y + x
     std::array<std::uint32_t, 8> first;   ///< in blocks_: the first one of each word
   };
+  /// use(first voxel, block) for the blocks of a brick.
+  template <class Use>
+  void for_each_block(BrickCoord coord, const Use& use) const;
   [[nodiscard]] bool clear(const Tetrahedron& t, Blocker* blocker) const;
   [[nodiscard]] bool brick_clear(class Separator& separator, BrickCoord coord, const BoundaryBrick& brick,
                                  Blocker* blocker) const;
