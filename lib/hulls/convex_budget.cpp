@@ -6,13 +6,17 @@
 
 #include "lib/core/parallel.h"
 #include "lib/hulls/detail/convex_shape.h"
+#include "lib/hulls/detail/convex_simplify.h"
 #include "lib/hulls/detail/convex_steps.h"
+#include "lib/hulls/detail/convex_tighten.h"
 
 namespace bp {
 
 namespace {
 
-constexpr std::size_t kTried = 6;  // steps of a hull, of which the cheapest for a corner is taken
+constexpr std::size_t kFewestOfBulk = 8;  // corners
+constexpr double kNextToNothing = 0.001;  // of the volume, for fewer corners
+constexpr std::size_t kTried = 6;         // steps of a hull, of which the cheapest for a corner is taken
 
 /// A hull with fewer corners around another one.
 struct Next {
@@ -76,6 +80,15 @@ void keep_to_faces(std::vector<ConvexHull>& hulls, std::uint64_t faces, double s
     hull = std::move(*cheapest->hull);
     find_next(i);
   }
+}
+
+ConvexHull with_fewer_faces(const ConvexHull& hull, std::uint64_t faces) {
+  const std::size_t most = std::size_t(faces) / 2 + 2;  // corners
+  std::vector<ConvexHull> fewer{with_fewer_corners(hull, std::max(most, kFewestOfBulk), kNextToNothing)};
+  fewer[0] = without_slivers(std::move(fewer[0]));
+  keep_to_faces(fewer, faces, kNearBox);
+  keep_to_faces(fewer, faces, kFarOut);
+  return tightened(std::move(fewer[0]), hull.vertices);
 }
 
 }  // namespace bp

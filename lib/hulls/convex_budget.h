@@ -14,6 +14,10 @@ namespace bp {
 /// number of threads. Cost: a millisecond or two for each corner taken.
 void keep_to_faces(std::vector<ConvexHull>& hulls, std::uint64_t faces, double share);
 
+/// A tight hull around `hull` with at most `faces` faces, 4 at least. Corners that hold next to nothing go even where
+/// faces are left. Cost: as above; 0.1 s for a hull of 500 faces.
+[[nodiscard]] ConvexHull with_fewer_faces(const ConvexHull& hull, std::uint64_t faces);
+
 [[nodiscard]] std::uint64_t face_count(const std::vector<ConvexHull>& hulls);
 
 }  // namespace bp

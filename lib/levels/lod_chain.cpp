@@ -149,6 +149,7 @@ struct LodChain::State {
     if (!may_have_faces(level.counts.levels.front().measures, target.faces)) return level;
     MeshParams params = mesh_params(target);  // anew: they hold the scene's triangles
     params.near = false;
+    params.convex = false;  // convex_or() chooses by distance
     LodLevel by_volume = mesh(std::move(params), scale, closing);
     measure(by_volume);
     return is_better(by_volume, level, target.faces) ? by_volume : level;

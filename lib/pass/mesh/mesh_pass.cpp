@@ -10,6 +10,7 @@
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/pass/mesh/detail/coarse_start.h"
 #include "lib/pass/mesh/detail/components.h"
+#include "lib/pass/mesh/detail/convex_proxy.h"
 #include "lib/pass/mesh/detail/fit_target.h"
 #include "lib/pass/mesh/detail/ground.h"
 #include "lib/pass/mesh/detail/mesh_measures.h"
@@ -134,6 +135,15 @@ LatticeMesh make_level(const SurfaceSource& dense, const CoarseStarts* starts, c
   if (starts != nullptr) return proxy_of(*starts, dense, *enclosed, params, counts);
   LatticeMesh proxy = tight_proxy(dense, *enclosed, params, counts.simplify, counts.tighten);
   return params.limits == nullptr ? proxy : use_room(std::move(proxy), *enclosed, params, counts);
+}
+
+/// A convex one in its place where that is better.
+void take_convex(LatticeMesh& proxy, const Enclosed& enclosed, std::uint64_t faces, LevelCounts& counts) {
+  LatticeMesh convex = convex_proxy(enclosed, proxy, faces);
+  if (convex.triangles.empty()) return;
+  proxy = std::move(convex);
+  counts.simplify.faces_out = proxy.triangles.size();
+  counts.simplify.stop = proxy.triangles.size() < faces ? StopReason::least_volume : StopReason::faces;
 }
 
 double area_world(const LatticeMesh& mesh) {
@@ -297,9 +307,10 @@ class LevelMaker {
       if (faces >= kLeastFacesWithRoom) params.room = room_around(dense.box(), faces);  // the box reads all voxels
       if (params_.near && params.limits == nullptr && faces > 0)
         params.reach = (header_.scale.base / dense.frame().voxel + 1) * kLatticePerVoxel;
-      const bool few = faces > 0 && faces < kFewFaces && params.limits == nullptr && !params.edge_limit &&
-                       !params_.near && !inside();
+      const bool only_faces = faces > 0 && params.limits == nullptr && !params.edge_limit && !params_.near && !inside();
+      const bool few = only_faces && faces < kFewFaces;
       LatticeMesh proxy = make_level(dense, starts, enclosed, params, few, counts);
+      if (only_faces && params_.convex && enclosed != nullptr) take_convex(proxy, *enclosed, faces, counts);
       if (!params_.quads) return proxy;
       if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);
       proxy.quads = pair_triangles(proxy, QuadKeeps::enclosed, enclosed);

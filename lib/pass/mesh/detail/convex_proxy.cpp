@@ -1,0 +1,149 @@
+#include "lib/pass/mesh/detail/convex_proxy.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lib/hulls/convex_budget.h"
+#include "lib/mesh/box_group.h"
+#include "lib/mesh/lattice_geometry.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kSkin = 0.3 * kLatticePerVoxel;  // as of spikes: what is thin has no volume, but two sides
+constexpr double kClearly = 0.97;                 // of what the proxy holds in the skin
+constexpr double kJammed = 1.1;                   // the same of a proxy with more faces than are wanted
+constexpr std::size_t kMostFaces = 512;           // of a hull; more are round, and a proxy is as good there
+
+struct Rating {
+  std::size_t faces;
+  double volume, in_skin;  // lattice units cubed
+};
+
+template <class Mesh>
+Rating rate(const Mesh& mesh) {
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    area += length(to_double(normal_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]))) / 2;
+  const double volume = double(volume6_of(mesh.vertices, mesh.triangles)) / 6;
+  return {mesh.triangles.size(), volume, volume + kSkin * area};
+}
+
+/// The planes of a hull.
+class Sides {
+ public:
+  explicit Sides(const ConvexHull& hull) {
+    for (const auto& t : hull.triangles) {
+      const LatticeCoord a = hull.vertices[t[0]];
+      sides_.push_back({a, normal_of(a, hull.vertices[t[1]], hull.vertices[t[2]])});
+    }
+  }
+  /// Whether all of the box is in the hull.
+  [[nodiscard]] bool hold(const LatticeBox& box) const {
+    return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
+      LatticeCoord farthest;
+      for (int k = 0; k < 3; ++k) farthest[k] = side.normal[k] > 0 ? box.max[k] : box.min[k];
+      return side_along(side.normal, farthest - side.point) <= 0;
+    });
+  }
+
+ private:
+  struct Side {
+    LatticeCoord point, normal;
+  };
+  std::vector<Side> sides_;
+};
+
+void add_corners(const LatticeBox& box, std::vector<LatticeCoord>& points) {
+  if (box.min == box.max) return points.push_back(box.min);
+  for (int i = 0; i < 8; ++i) {
+    LatticeCoord& p = points.emplace_back();
+    for (int k = 0; k < 3; ++k) p[k] = (i >> k & 1) != 0 ? box.max[k] : box.min[k];
+  }
+}
+
+/// The hull of `hull` and the boxes.
+void add_outer(std::span<const LatticeBox> boxes, ConvexHull& hull) {
+  constexpr std::size_t kAtOnce = 32;
+  const Sides sides(hull);
+  std::vector<LatticeCoord> points = hull.vertices;
+  while (!boxes.empty()) {
+    const auto some = boxes.first(std::min(kAtOnce, boxes.size()));
+    boxes = boxes.subspan(some.size());
+    LatticeBox around = some[0];
+    for (const LatticeBox& box : some) around.add(box.min), around.add(box.max);
+    if (sides.hold(around)) continue;
+    for (const LatticeBox& box : some) {
+      if (!sides.hold(box)) add_corners(box, points);
+    }
+  }
+  if (points.size() > hull.vertices.size()) hull = *hull_of(points);
+}
+
+/// Of a box so long, the outlines of voxels would take more than 17 MB.
+bool is_too_long(const LatticeBox& box) {
+  constexpr std::int64_t kMost = std::int64_t(1) << 21;
+  const LatticeCoord size = box.max - box.min;
+  return std::max({size.x, size.y, size.z}) > kMost;
+}
+
+/// Nothing if it holds `most` or more in the skin, as any hull around it would; or if it has many faces. The first
+/// boxes are there once more among the others.
+std::optional<ConvexHull> hull_around(const Enclosed& enclosed, double most) {
+  std::optional<ConvexHull> hull;
+  bool first = true, fits = true;
+  enclosed.outer_boxes([&](std::span<const LatticeBox> boxes) {
+    if (hull) {
+      add_outer(boxes, *hull);
+    } else {
+      std::vector<LatticeCoord> points;
+      for (const LatticeBox& box : boxes) add_corners(box, points);
+      hull = hull_of(points);
+    }
+    fits = !hull || (rate(*hull).in_skin < most && (first || hull->triangles.size() <= kMostFaces));
+    first = false;
+    return fits;
+  });
+  if (!fits) return {};
+  return hull;
+}
+
+ConvexHull box_around(const ConvexHull& hull) {
+  std::vector<LatticeCoord> corners;
+  add_corners(box_of(hull.vertices), corners);
+  return *hull_of(corners);
+}
+
+/// With few enough faces: less, and fewer faces; or clearly less in the skin.
+bool is_better(const Rating& one, const Rating& other, std::uint64_t wanted) {
+  if (one.faces > wanted) return false;
+  if (other.faces > wanted) return one.in_skin < kJammed * other.in_skin;
+  if (one.in_skin < kClearly * other.in_skin) return true;
+  return one.faces < other.faces && one.volume < other.volume && one.in_skin < other.in_skin;
+}
+
+}  // namespace
+
+LatticeMesh convex_proxy(const Enclosed& enclosed, const LatticeMesh& proxy, std::uint64_t faces) {
+  LatticeMesh out;
+  out.frame = proxy.frame;
+  if (is_too_long(box_of(proxy.vertices))) return out;
+  Rating best = rate(proxy);
+  const std::optional<ConvexHull> hull = hull_around(enclosed, best.in_skin * (best.faces > faces ? kJammed : 1));
+  if (!hull) return out;
+  std::array found{box_around(*hull), with_fewer_faces(*hull, faces), *hull};
+  for (ConvexHull& other : found) {
+    const Rating rating = rate(other);
+    if (!is_better(rating, best, faces)) continue;
+    best = rating;
+    out.vertices = std::move(other.vertices);
+    out.triangles = std::move(other.triangles);
+  }
+  return out;
+}
+
+}  // namespace bp
