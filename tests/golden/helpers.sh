@@ -5,7 +5,7 @@ try() {
   echo "\$ $*"
   local status=0
   "$@" 2> .stderr < "${stdin:-/dev/null}" || status=$?
-  sed 's/^/| /' .stderr
+  sed '/ are \(tried\|taken\).*: about /d; s/^/| /' .stderr  # told where the machine is slow
   rm -f .stderr
   [ $status = 0 ] || echo "= $status"
 }
