@@ -5,9 +5,14 @@ try() {
   echo "\$ $*"
   local status=0
   "$@" 2> .stderr < "${stdin:-/dev/null}" || status=$?
-  sed '/ are \(tried\|taken\).*: about /d; s/^/| /' .stderr  # told where the machine is slow
+  outcome $status
+}
+
+# outcome STATUS: what try and said print of a command; without what is told of slow machines alone.
+outcome() {
+  sed '/ are \(tried\|taken\).*: about /d; s/^/| /' .stderr
   rm -f .stderr
-  [ $status = 0 ] || echo "= $status"
+  [ "$1" = 0 ] || echo "= $1"
 }
 
 # said COMMAND...: as try, for a whole pipe in a string.
@@ -15,9 +20,7 @@ said() {
   echo "\$ $1"
   local status=0
   (set -o pipefail; eval "$1") 2> .stderr < /dev/null || status=$?
-  sed 's/^/| /' .stderr
-  rm -f .stderr
-  [ $status = 0 ] || echo "= $status"
+  outcome $status
 }
 
 # files: what lies in the folder now, hidden and partial files too.
