@@ -174,10 +174,11 @@ struct LodChain::State {
     if (corners.empty()) return {};
     for (auto& level : {box_for(target, place), prism_level(place, corners, target.faces),
                         hull_level(place, corners, target.faces)}) {
-      if (!level || !may_be_near(*level, corners, kExactVox * kLatticePerVoxel)) continue;
+      if (!level || !may_be_near(*level, corners, kExactVox * kLatticePerVoxel * outside->voxel() / header.frame.voxel))
+        continue;
       LodLevel measured = *level;
       measure(measured);
-      if (measured.error_world > kExactVox * header.frame.voxel) continue;
+      if (measured.error_world > kExactVox * outside->voxel()) continue;
       last_scale = place.scale_world;
       return measured;
     }

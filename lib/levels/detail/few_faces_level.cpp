@@ -32,7 +32,7 @@ bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces) {
 }
 
 std::vector<Vec3d> scene_corners(const GridFrame& frame, std::span<const TriangleD> scene) {
-  constexpr std::size_t kMost = 65536;
+  constexpr std::size_t kMost = std::size_t(1) << 20;
   std::vector<Vec3d> corners;
   if (scene.size() > kMost) return corners;
   corners.reserve(3 * scene.size());

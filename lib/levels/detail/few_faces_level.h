@@ -15,7 +15,7 @@ namespace bp {
 /// Whether few enough faces are possible while all parts and handles of a closed mesh are kept: each takes four.
 [[nodiscard]] bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces);
 
-/// Of all triangles, in lattice units of the frame. None if there are more than 65,536: convex scenes have few.
+/// Of all triangles, in lattice units of the frame. None if there are more than 2^20, which take 72 MiB.
 [[nodiscard]] std::vector<Vec3d> scene_corners(const GridFrame& frame, std::span<const TriangleD> scene);
 
 /// A convex mesh around all that is enclosed, of which only vertices and triangles count: a level in the place of

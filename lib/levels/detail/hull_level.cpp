@@ -12,7 +12,8 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kMostPairs = std::uint64_t(1) << 26;  // of corners and faces: 0.2 s
+constexpr std::size_t kMostOfScene = 3 * 65536;  // corners of its triangles
+constexpr std::size_t kMostFaces = 16384;        // each is compared with each corner: 0.4 s
 constexpr double kFar = kLatticePerVoxel / 2.0;
 constexpr double kReach = double(std::int64_t(1) << 28);  // what hull_of() takes
 
@@ -70,19 +71,23 @@ std::optional<ConvexHull> grown(const ConvexHull& hull, double room) {
 
 std::optional<LodLevel> hull_level(const LodLevel& level, std::span<const Vec3d> corners, std::uint64_t faces) {
   constexpr double kLeast = 0.5;  // far more than what is lost by computing
-  if (corners.empty()) return {};
+  if (corners.empty() || corners.size() > kMostOfScene) return {};
   std::vector<LatticeCoord> near;
+  double rounding = 0;
   for (const Vec3d& p : corners) {
     if (!(length(p) < kReach)) return {};
     near.push_back(rounded(p));
+    rounding = std::max(rounding, length(p - to_double(near.back())));
   }
   const std::optional<ConvexHull> hull = hull_of(near);
-  if (!hull || hull->triangles.size() > std::min(faces, kMostPairs / corners.size())) return {};
+  if (!hull || hull->triangles.size() > std::min<std::uint64_t>(faces, kMostFaces)) return {};
   for (double room = 1; room <= 8; room *= 1.5) {
     const std::optional<ConvexHull> around = grown(*hull, room);
     if (!around || around->triangles.size() > faces) return {};
     const std::vector<Side> sides = sides_of(*around);
-    if (std::any_of(corners.begin(), corners.end(), [&](const Vec3d& p) { return depth(sides, p) < kLeast; })) continue;
+    // What was rounded lies in the hull, and so as deep as its corners or deeper.
+    const auto is_deep = [&](const LatticeCoord& p) { return depth(sides, to_double(p)) >= kLeast + rounding; };
+    if (!std::all_of(hull->vertices.begin(), hull->vertices.end(), is_deep)) continue;
     LatticeMesh mesh;
     mesh.vertices = around->vertices;
     mesh.triangles = around->triangles;

@@ -41,7 +41,7 @@ struct MeshParams {
   /// scale and a voxel, as far as so few faces allow it. Volume alone does not mind a face far out.
   bool near = false;
   /// With nothing but `faces` wanted, in bounding mode, and not near: a hull or a box takes the place of a proxy that
-  /// holds more (convex_proxy.h).
+  /// holds more, or has spikes (convex_proxy.h).
   bool convex = true;
   double volume_ratio = 0;   ///< largest volume, in volumes of the meshed voxels, at least 1; inside: least, at most 1
   double edge_factor = 0;    ///< edges at most edge_factor * S long, S the scale field there; 0: no limit

@@ -16,12 +16,13 @@ namespace {
 
 constexpr double kSkin = 0.3 * kLatticePerVoxel;  // as of spikes: what is thin has no volume, but two sides
 constexpr double kClearly = 0.97;                 // of what the proxy holds in the skin
-constexpr double kJammed = 1.1;                   // the same of a proxy with more faces than are wanted
+constexpr double kNearer = 0.95;                  // of how long the proxy's box is: without spikes
 constexpr std::size_t kMostFaces = 512;           // of a hull; more are round, and a proxy is as good there
 
 struct Rating {
   std::size_t faces;
   double volume, in_skin;  // lattice units cubed
+  double diagonal;         // of its box
 };
 
 template <class Mesh>
@@ -30,7 +31,8 @@ Rating rate(const Mesh& mesh) {
   for (const auto& [a, b, c] : mesh.triangles)
     area += length(to_double(normal_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]))) / 2;
   const double volume = double(volume6_of(mesh.vertices, mesh.triangles)) / 6;
-  return {mesh.triangles.size(), volume, volume + kSkin * area};
+  const LatticeBox box = box_of(mesh.vertices);
+  return {mesh.triangles.size(), volume, volume + kSkin * area, length(to_double(box.max - box.min))};
 }
 
 /// The planes of a hull.
@@ -118,12 +120,11 @@ ConvexHull box_around(const ConvexHull& hull) {
   return *hull_of(corners);
 }
 
-/// With few enough faces: less, and fewer faces; or clearly less in the skin.
-bool is_better(const Rating& one, const Rating& other, std::uint64_t wanted) {
-  if (one.faces > wanted) return false;
-  if (other.faces > wanted) return one.in_skin < kJammed * other.in_skin;
-  if (one.in_skin < kClearly * other.in_skin) return true;
-  return one.faces < other.faces && one.volume < other.volume && one.in_skin < other.in_skin;
+/// Of two with few enough faces: one holds less, and has fewer faces, or clearly less in the skin; or it has no spikes.
+bool is_better(const Rating& one, const Rating& other) {
+  const bool less = one.volume < other.volume, nearer = one.diagonal < kNearer * other.diagonal;
+  if (one.in_skin < kClearly * other.in_skin && (less || nearer)) return true;
+  return less && one.faces < other.faces && one.in_skin < other.in_skin;
 }
 
 }  // namespace
@@ -131,14 +132,14 @@ bool is_better(const Rating& one, const Rating& other, std::uint64_t wanted) {
 LatticeMesh convex_proxy(const Enclosed& enclosed, const LatticeMesh& proxy, std::uint64_t faces) {
   LatticeMesh out;
   out.frame = proxy.frame;
-  if (is_too_long(box_of(proxy.vertices))) return out;
+  if (proxy.triangles.size() > faces || is_too_long(box_of(proxy.vertices))) return out;
   Rating best = rate(proxy);
-  const std::optional<ConvexHull> hull = hull_around(enclosed, best.in_skin * (best.faces > faces ? kJammed : 1));
+  const std::optional<ConvexHull> hull = hull_around(enclosed, best.in_skin);
   if (!hull) return out;
   std::array found{box_around(*hull), with_fewer_faces(*hull, faces), *hull};
   for (ConvexHull& other : found) {
     const Rating rating = rate(other);
-    if (!is_better(rating, best, faces)) continue;
+    if (rating.faces > faces || !is_better(rating, best)) continue;
     best = rating;
     out.vertices = std::move(other.vertices);
     out.triangles = std::move(other.triangles);

@@ -110,17 +110,13 @@ TEST_CASE("a hull takes the place of what holds more", "[quick][meshing]") {
   CHECK(volume6_of(hull) == int128(8000) * kVolume6OfVoxel);
   check_proxy(hull, kCubeBox, kCube);
   CHECK(convex_proxy(cube, box_mesh({-10, 0, 0}, {1280, 1280, 1280}), 12).triangles.empty());  // hardly more
-  CHECK(volume6_of(convex_proxy(cube, box_mesh({-9999, 0, 0}, {1280, 1280, 1280}), 8)) > volume6_of(hull));
 }
 
-TEST_CASE("a proxy with too many faces gives way to a box that holds hardly more", "[quick][meshing]") {
-  const int missing = GENERATE(2, 12);
-  const auto dented = [&](VoxelCoord v) { return kCube(v) && !(v.x >= 20 - missing && v.y >= 10); };
+TEST_CASE("no hull takes the place of a proxy whose handles take more faces than are wanted", "[quick][meshing]") {
+  const auto pierced = [](VoxelCoord v) { return kCube(v) && !(v.x % 5 == 2 && v.y % 5 == 2); };
   MemoryShelf shelf;
-  fill_shelf(shelf, kCubeBox, dented);
-  const LatticeMesh dense = mesh_of(kCubeBox, dented);
-  CHECK(convex_proxy(EnclosedVoxels(shelf), dense, 12).triangles.size() == (missing == 2 ? 12 : 0));
-  CHECK(convex_proxy(EnclosedVoxels(shelf), dense, 100000).triangles.empty());
+  fill_shelf(shelf, kCubeBox, pierced);
+  CHECK(convex_proxy(EnclosedVoxels(shelf), mesh_of(kCubeBox, pierced), 12).triangles.empty());
 }
 
 TEST_CASE("no hull takes the place of a proxy in a corner, or of a round one", "[quick][meshing]") {
