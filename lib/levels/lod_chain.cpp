@@ -172,17 +172,18 @@ struct LodChain::State {
     place.counts.levels.resize(1);
     const std::vector<Vec3d> corners = scene_corners(place.mesh.frame, options.scene);
     if (corners.empty()) return {};
-    for (auto& level : {box_for(target, place), prism_level(place, corners, target.faces),
-                        hull_level(place, corners, target.faces)}) {
-      if (!level || !may_be_near(*level, corners, kExactVox * kLatticePerVoxel * outside->voxel() / header.frame.voxel))
-        continue;
-      LodLevel measured = *level;
-      measure(measured);
-      if (measured.error_world > kExactVox * outside->voxel()) continue;
+    const double near = kExactVox * outside->voxel();
+    std::optional<LodLevel> found;
+    const auto take = [&](std::optional<LodLevel> level) {
+      if (!level || !may_be_near(*level, corners, near / header.frame.voxel * kLatticePerVoxel)) return false;
+      measure(*level);
+      if (level->error_world <= near) found = std::move(level);
+      return found.has_value();
+    };
+    if (take(box_for(target, place)) || take(prism_level(place, corners, target.faces)) ||
+        take(hull_level(place, corners, target.faces)))
       last_scale = place.scale_world;
-      return measured;
-    }
-    return {};
+    return found;
   }
 
   /// A box, a prism or a hull around all that is enclosed. Boxes and hulls are measured only where they may be better.

@@ -33,6 +33,14 @@ namespace bp {
   return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
 }
 
+/// Of a face, lattice units squared; in floating point.
+[[nodiscard]] inline double area_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
+  return length(to_double(normal_of(a, b, c))) / 2;
+}
+/// Lattice units around a proxy that count as its volume, too, where a thin spike shall count: less than what voxels
+/// leave between a proxy and its scene.
+constexpr double kSkin = 0.3 * kLatticePerVoxel;
+
 /// Sign of n . d, exact for components below 2^62 in magnitude: with n the normal of a face and d from one of its
 /// corners to a point, the point's side of the face.
 [[nodiscard]] inline int side_along(const LatticeCoord& n, const LatticeCoord& d) {

@@ -148,8 +148,7 @@ void take_convex(LatticeMesh& proxy, const Enclosed& enclosed, std::uint64_t fac
 
 double area_world(const LatticeMesh& mesh) {
   double sum = 0;
-  for (const auto& t : mesh.triangles)
-    sum += length(to_double(normal_of(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]))) / 2;
+  for (const auto& [a, b, c] : mesh.triangles) sum += area_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
   return sum * std::pow(mesh.frame.voxel / kLatticePerVoxel, 2);
 }
 

@@ -7,20 +7,16 @@
 #include <vector>
 
 #include "lib/core/vec3.h"
+#include "lib/mesh/lattice_geometry.h"
 #include "lib/mesh/shells.h"
 
 namespace bp {
 
 namespace {
 
-constexpr double kSkin = 0.3 * kLatticePerVoxel;  // less than what voxels leave between a proxy and its scene
-constexpr double kMostLeft = 0.9;                 // of the area: what is flat or round keeps more
-constexpr std::size_t kMostFaces = 32;            // at a spike
+constexpr double kMostLeft = 0.9;       // of the area: what is flat or round keeps more
+constexpr std::size_t kMostFaces = 32;  // at a spike
 constexpr int kFallRounds = 4;
-
-double area_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
-  return length(to_double(normal_of(a, b, c))) / 2;
-}
 
 /// Volume that the proxy in its skin loses by a cut along `h`, the edge of a face across from the spike. The faces that
 /// go make room for a fan around the third neighbour.

@@ -14,10 +14,9 @@ namespace bp {
 
 namespace {
 
-constexpr double kSkin = 0.3 * kLatticePerVoxel;  // as of spikes: what is thin has no volume, but two sides
-constexpr double kClearly = 0.97;                 // of what the proxy holds in the skin
-constexpr double kNearer = 0.95;                  // of how long the proxy's box is: without spikes
-constexpr std::size_t kMostFaces = 512;           // of a hull; more are round, and a proxy is as good there
+constexpr double kClearly = 0.97;        // of what the proxy holds in the skin
+constexpr double kNearer = 0.95;         // of how long the proxy's box is: without spikes
+constexpr std::size_t kMostFaces = 512;  // of a hull; more are round, and a proxy is as good there
 
 struct Rating {
   std::size_t faces;
@@ -28,8 +27,7 @@ struct Rating {
 template <class Mesh>
 Rating rate(const Mesh& mesh) {
   double area = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    area += length(to_double(normal_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]))) / 2;
+  for (const auto& [a, b, c] : mesh.triangles) area += area_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
   const double volume = double(volume6_of(mesh.vertices, mesh.triangles)) / 6;
   const LatticeBox box = box_of(mesh.vertices);
   return {mesh.triangles.size(), volume, volume + kSkin * area, length(to_double(box.max - box.min))};
