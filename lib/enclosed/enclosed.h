@@ -33,11 +33,12 @@ class Enclosed {
   [[nodiscard]] virtual std::vector<Vec3d> contact_points(const LatticeCoord& origin,
                                                           const LatticeBox& within) const = 0;
   /// True if every point of the faces is within `distance`, lattice units, of the enclosed set. May also return true up
-  /// to 1.35 times that distance (and lattice units of rounding), or if unknown.
+  /// to kUpTo times that distance (and lattice units of rounding), or if unknown.
   [[nodiscard]] virtual bool is_near(std::span<const NewFace> faces, double distance) const {
     static_cast<void>(faces), static_cast<void>(distance);
     return true;
   }
+  static constexpr double kUpTo = 1.35;
   /// True if it is the thing itself, false if it stands around it, as voxels do: then the last shares of a volume say
   /// nothing.
   [[nodiscard]] virtual bool is_exact() const { return false; }

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -20,10 +21,7 @@ class EnclosedScene final : public EnclosedTriangles {
   /// `voxels`: of the scene, in the voxels of `frame`. `part`: of the scene, if not all of it stays inside.
   EnclosedScene(std::vector<TriangleD> triangles, const GridFrame& frame, const BrickShelf& voxels,
                 const std::optional<ScenePart>& part = {})
-      : EnclosedTriangles(std::move(triangles), frame, part ? std::optional(part->box) : std::nullopt),
-        voxels_(voxels) {
-    if (part && !part->voxels->coords().empty()) held_.emplace(*part->voxels);
-  }
+      : EnclosedScene(near_of(triangles, frame, part), std::move(triangles), frame, voxels, part) {}
   [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                             Blocker* blocker) const override {
     return EnclosedTriangles::allows(star, swept, blocker) && (!held_ || held_->allows(star, swept, blocker));
@@ -36,13 +34,28 @@ class EnclosedScene final : public EnclosedTriangles {
     return points;
   }
   [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const override {
-    return voxels_.is_near(faces, distance);
+    return voxels_.is_near(faces, distance, near_.get());
   }
   [[nodiscard]] std::uint64_t bytes() const override {
-    return EnclosedTriangles::bytes() + voxels_.bytes() + (held_ ? held_->bytes() : 0);
+    return EnclosedTriangles::bytes() + voxels_.bytes() + (held_ ? held_->bytes() : 0) + (near_ ? near_->bytes() : 0);
   }
 
  private:
+  EnclosedScene(std::unique_ptr<NearTriangles> near, std::vector<TriangleD>&& triangles, const GridFrame& frame,
+                const BrickShelf& voxels, const std::optional<ScenePart>& part)
+      : EnclosedTriangles(std::move(triangles), frame, part ? std::optional(part->box) : std::nullopt),
+        near_(std::move(near)),
+        voxels_(voxels) {
+    if (part && !part->voxels->coords().empty()) held_.emplace(*part->voxels);
+  }
+  /// Of a part, the rest of the scene may lie outside the voxels.
+  static std::unique_ptr<NearTriangles> near_of(const std::vector<TriangleD>& triangles, const GridFrame& frame,
+                                                const std::optional<ScenePart>& part) {
+    if (part || triangles.empty() || triangles.size() > NearTriangles::kMost) return nullptr;
+    return std::make_unique<NearTriangles>(triangles, frame);
+  }
+
+  std::unique_ptr<const NearTriangles> near_;  // of a simple scene
   EnclosedVoxels voxels_;
   std::optional<EnclosedVoxels> held_;
 };

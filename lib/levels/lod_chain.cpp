@@ -1,6 +1,7 @@
 #include "lib/levels/lod_chain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lib/closing/closing.h"
@@ -23,46 +24,19 @@ namespace {
 constexpr int kMostAttempts = 12;    // scales for one level
 constexpr double kExactVox = 0.125;  // of error: a level of so little is not tried to come nearer
 
-// What a level needs of its voxels. Fewer dense triangles per face than this, and the steps of the voxels show.
-constexpr double kDenseFacesPerFace = 100;
-constexpr double kScalesPerEdge = 4;
-constexpr double kLeastScaleVox = 1 + kBeyondWholeVox;  // below 1, closing is the identity
-constexpr double kVoxelsPerLength = 8;                  // of a rule by shape, which is measured to within two
-constexpr double kLeastSideVox = 48;                    // of a reduced grid
 // Faces that a part or a hole of a closing at half of the scale should leave to show its shape. Balls leave more holes
 // than cubes, and what a fit has of a hole need not lie around anything.
 constexpr std::uint64_t kFacesPerPart = 100, kFacesPerPartOfFit = 50;
 
-/// Length of an edge of `faces` equilateral triangles over the scene's surface.
-double edge_of(const LodGround& ground, std::uint64_t faces) {
-  const double area = double(ground.dense_faces) / 2 / kSlantedSteps * ground.voxel * ground.voxel;
-  return std::sqrt(4 / std::sqrt(3.0) * area / double(faces));
-}
+// Of a simple scene: triangles for each face of a level, and its faces, at most. Such a level is closed at parts of its
+// scale, too, as long as each part or hole has so many faces, and until its error is as small as that.
+constexpr std::uint64_t kTrianglesOfSimple = 4, kFacesOfSimple = 1024;
+constexpr std::array kPartsOfScale{0.25, 0.125};
+constexpr std::uint64_t kLeastFacesPerPart = 8;
+constexpr double kNearVox = 0.5;
+constexpr double kVoxelsPerLength = 8;  // of a rule by shape, which is measured to within two
 
 }  // namespace
-
-double first_scale(const LodGround& ground, const LodTarget& target, double last) {
-  if (target.scale_world) return std::max(*target.scale_world, last);
-  double scale = ground.diagonal;
-  if (target.faces > 0) scale = std::min(scale, edge_of(ground, target.faces) / (kScalesPerEdge * target.detail));
-  if (target.error_world > 0) scale = std::min(scale, target.error_world / kScalesPerError);
-  // Never below the level before: a coarser level closes at least as much.
-  return std::max({scale, last, kLeastScaleVox * ground.voxel});
-}
-
-int reductions_for(const LodGround& ground, const LodTarget& target, double scale, int before) {
-  if (target.keep_voxels) return before;
-  double coarsest = std::min(scale / kLeastScaleVox, double(ground.longest_side_vox) / kLeastSideVox * ground.voxel);
-  if (target.faces > 0) {
-    const double per_face = double(ground.dense_faces) / double(target.faces);
-    coarsest = std::min(coarsest, std::sqrt(per_face / kDenseFacesPerFace) / target.detail * ground.voxel);
-    coarsest = std::min(coarsest, std::sqrt(double(ground.dense_faces) / kLeastDenseFaces) * ground.voxel);
-  }
-  if (target.error_world > 0) coarsest = std::min(coarsest, target.error_world / kVoxelsPerError);
-  int n = before;
-  while (ground.voxel * std::ldexp(1.0, n + 1) <= coarsest) ++n;
-  return n;
-}
 
 struct LodChain::State {
   State(const StreamHeader& h, std::unique_ptr<BrickShelf> s, Backends& b, LodOptions o)
@@ -82,9 +56,11 @@ struct LodChain::State {
   }
 
   LodLevel make(const LodTarget& target) {
+    last_before = last_scale;
     if (std::optional<LodLevel> level = exact(target)) return std::move(*level);
     LodLevel level = options.cage ? cage(target) : closed(target);
     if (options.cage || !has_ways(target)) measure(level);
+    if (is_simple(target)) level = closed_less(std::move(level), target);
     return may_be_convex(target) ? convex_or(std::move(level), target) : level;
   }
 
@@ -138,6 +114,35 @@ struct LodChain::State {
     }
   }
 
+  /// Whether nothing is asked but a number of faces, and the scene has few triangles for each.
+  [[nodiscard]] bool is_simple(const LodTarget& target) const {
+    const std::uint64_t triangles = header.scene.triangles;
+    return options.mode == MeshMode::bounding && options.enclose == Enclose::scene && !options.cage && !options.field &&
+           target.error_world == 0 && !target.scale_world && target.faces <= kFacesOfSimple && triangles > 0 &&
+           triangles <= kTrianglesOfSimple * target.faces;
+  }
+
+  /// The nearest of a measured level and those at parts of its scale. A smaller one keeps a level nearer, and rounds
+  /// less. Budgets decide scales by the area alone, as if all of it were curved.
+  LodLevel closed_less(LodLevel level, const LodTarget& target) {
+    if (!level.reached || level.attempts > 1) return level;
+    const double whole = level.scale_world;
+    for (const double part : kPartsOfScale) {
+      const double scale = std::max(part * whole, last_before);
+      if (level.error_world <= kNearVox * outside->voxel() || scale >= level.scale_world) break;
+      const Closed closing = closing_at(scale);
+      if (!has_faces_for_parts(*closing.voxels, target.faces, kLeastFacesPerPart)) break;
+      LodLevel other = mesh(mesh_params(target), scale, closing);
+      if (other.mesh.triangles.size() > target.faces) break;
+      measure(other);
+      if (other.error_world >= level.error_world) break;
+      level = std::move(other);
+      level.attempts = 1;
+    }
+    last_scale = level.scale_world;
+    return level;
+  }
+
   /// Whether several ways lead to the level, which is measured then, and the nearest one is taken.
   [[nodiscard]] bool has_ways(const LodTarget& target) const {
     return options.mode == MeshMode::bounding && is_of_few_faces(target);
@@ -146,7 +151,7 @@ struct LodChain::State {
   LodLevel nearest(const LodTarget& target, double scale, const Closed& closing) {
     LodLevel level = mesh(mesh_params(target), scale, closing, Keep::all);
     measure(level);
-    if (!may_have_faces(level.counts.levels.front().measures, target.faces)) return level;
+    if (!may_have_faces(level, target.faces)) return level;
     MeshParams params = mesh_params(target);  // anew: they hold the scene's triangles
     params.near = false;
     params.convex = false;  // convex_or() chooses by distance
@@ -222,6 +227,7 @@ struct LodChain::State {
   std::unique_ptr<Outside> outside;
   int reductions = 0;
   double last_scale = 0;
+  double last_before = 0;  // before the level that is made
 
  private:
   void take_off(std::uint64_t bytes) {
@@ -291,12 +297,17 @@ struct LodChain::State {
     if (half < kLeastScaleVox * outside->voxel() * std::ldexp(1.0, n)) return {};
     reduce_to(n);
     Closed closing = closing_at(half);
-    repair_contacts(*closing.voxels);  // as meshing would: it closes the tiniest holes
-    check_memory_for_topology(*closing.voxels);
-    const SolidTopology topology = topology_of(*closing.voxels);
-    if ((topology.parts + topology.handles) * faces_per_part() > target.faces) return {};
+    if (!has_faces_for_parts(*closing.voxels, target.faces, faces_per_part())) return {};
     scale = half;
     return closing;
+  }
+
+  /// Of a closing: whether so many faces are enough for each of its parts and holes.
+  [[nodiscard]] bool has_faces_for_parts(BrickShelf& closing, std::uint64_t faces, std::uint64_t per_part) const {
+    repair_contacts(closing);  // as meshing would: it closes the tiniest holes
+    check_memory_for_topology(closing);
+    const SolidTopology topology = topology_of(closing);
+    return (topology.parts + topology.handles) * per_part <= faces;
   }
 
   [[nodiscard]] std::uint64_t faces_per_part() const {

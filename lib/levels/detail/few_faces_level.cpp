@@ -27,8 +27,11 @@ bool has_few_faces(const LodLevel& level) {
   return level.mesh.triangles.size() < kFew;
 }
 
-bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces) {
-  return 4 * (measures.shells + measures.handles) <= faces;
+bool may_have_faces(const LodLevel& level, std::uint64_t faces) {
+  constexpr std::uint64_t kFewMore = 8;
+  const MeshMeasures& measures = level.counts.levels.front().measures;
+  const std::uint64_t parts = measures.shells + measures.handles;
+  return 4 * parts <= faces && (parts == 1 || level.mesh.triangles.size() <= 2 * faces + kFewMore);
 }
 
 std::vector<Vec3d> scene_corners(const GridFrame& frame, std::span<const TriangleD> scene) {

@@ -12,8 +12,9 @@ namespace bp {
 /// Whether it has fewer than 32.
 [[nodiscard]] bool has_few_faces(const LodLevel& level);
 
-/// Whether few enough faces are possible while all parts and handles of a closed mesh are kept: each takes four.
-[[nodiscard]] bool may_have_faces(const MeshMeasures& measures, std::uint64_t faces);
+/// Whether another way may lead to few enough faces: all parts and handles are kept, and each takes four. Where there
+/// are several, none was seen to lead from more than twice as many.
+[[nodiscard]] bool may_have_faces(const LodLevel& level, std::uint64_t faces);
 
 /// Of all triangles, in lattice units of the frame. None if there are more than 2^20, which take 72 MiB.
 [[nodiscard]] std::vector<Vec3d> scene_corners(const GridFrame& frame, std::span<const TriangleD> scene);

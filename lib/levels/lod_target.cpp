@@ -1,0 +1,48 @@
+#include "lib/levels/lod_target.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/volume/boundary_runs.h"
+
+namespace bp {
+
+namespace {
+
+// What a level needs of its voxels. Fewer dense triangles per face than this, and the steps of the voxels show.
+constexpr double kDenseFacesPerFace = 100;
+constexpr double kScalesPerEdge = 4;
+constexpr double kLeastSideVox = 48;  // of a reduced grid
+
+/// Length of an edge of `faces` equilateral triangles over the scene's surface.
+double edge_of(const LodGround& ground, std::uint64_t faces) {
+  const double area = double(ground.dense_faces) / 2 / kSlantedSteps * ground.voxel * ground.voxel;
+  return std::sqrt(4 / std::sqrt(3.0) * area / double(faces));
+}
+
+}  // namespace
+
+double first_scale(const LodGround& ground, const LodTarget& target, double last) {
+  if (target.scale_world) return std::max(*target.scale_world, last);
+  double scale = ground.diagonal;
+  if (target.faces > 0) scale = std::min(scale, edge_of(ground, target.faces) / (kScalesPerEdge * target.detail));
+  if (target.error_world > 0) scale = std::min(scale, target.error_world / kScalesPerError);
+  // Never below the level before: a coarser level closes at least as much.
+  return std::max({scale, last, kLeastScaleVox * ground.voxel});
+}
+
+int reductions_for(const LodGround& ground, const LodTarget& target, double scale, int before) {
+  if (target.keep_voxels) return before;
+  double coarsest = std::min(scale / kLeastScaleVox, double(ground.longest_side_vox) / kLeastSideVox * ground.voxel);
+  if (target.faces > 0) {
+    const double per_face = double(ground.dense_faces) / double(target.faces);
+    coarsest = std::min(coarsest, std::sqrt(per_face / kDenseFacesPerFace) / target.detail * ground.voxel);
+    coarsest = std::min(coarsest, std::sqrt(double(ground.dense_faces) / kLeastDenseFaces) * ground.voxel);
+  }
+  if (target.error_world > 0) coarsest = std::min(coarsest, target.error_world / kVoxelsPerError);
+  int n = before;
+  while (ground.voxel * std::ldexp(1.0, n + 1) <= coarsest) ++n;
+  return n;
+}
+
+}  // namespace bp

@@ -1,0 +1,57 @@
+#include "lib/check/check_proxy.h"
+#include "lib/levels/lod_chain.h"
+#include "lib/pass/mesh/surface_around.h"
+#include "tests/catch.h"
+#include "tests/support/voxelized.h"
+
+namespace bp::test {
+
+namespace {
+
+/// A house of 16 triangles, whose roof juts out.
+Triangles house() {
+  Triangles scene;
+  add_box(scene, {0, 0, 0}, {4, 3, 2});
+  const Vec3d low{-0.2, -0.2, 2}, low_far{4.2, -0.2, 2}, top{-0.2, 1.5, 3.2}, top_far{4.2, 1.5, 3.2};
+  const Vec3d back{-0.2, 3.2, 2}, back_far{4.2, 3.2, 2};
+  scene.push_back({low, low_far, top_far});
+  scene.push_back({low, top_far, top});
+  scene.push_back({back_far, back, top});
+  scene.push_back({back_far, top, top_far});
+  return scene;
+}
+
+struct Made {
+  LodLevel level;
+  double first;  ///< the scale that is tried first
+};
+
+Made level_of(const Triangles& scene, const LodTarget& target) {
+  constexpr double kVoxel = 0.02;
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, kVoxel);
+  solid.header.scene.triangles = scene.size();
+  const double diagonal = solid.header.bounds.diagonal();
+  LodOptions options;
+  options.context.make_shelf = memory_shelves();
+  options.enclose = Enclose::scene, options.scene = scene;
+  LodChain chain(solid.header, std::move(solid.shelf), backends, options);
+  const double first = first_scale({kVoxel, diagonal, chain.dense_faces(), chain.longest_side_vox()}, target, 0);
+  return {chain.make(target), first};
+}
+
+}  // namespace
+
+TEST_CASE("a level of a simple scene is closed at a smaller scale where it lies nearer then", "[quick][pass][lod]") {
+  const Triangles scene = house();
+  const Made made = level_of(scene, {100, 0, {}});
+  const LodLevel at_first = level_of(scene, {100, 0, made.first}).level;  // a scale that is named is taken as it is
+  CHECK(at_first.scale_world == made.first);
+  CHECK(made.level.scale_world < 0.3 * made.first);
+  CHECK(made.level.error_world < 0.5 * at_first.error_world);
+  CHECK(made.level.mesh.triangles.size() <= 100);
+  MemorySource source(scene);
+  CHECK(check_proxy(indexed(made.level.mesh), &source).holds());
+}
+
+}  // namespace bp::test
