@@ -14,6 +14,7 @@
 #include "lib/levels/detail/prism_level.h"
 #include "lib/pass/measure/shape_rules.h"
 #include "lib/surface/repair.h"
+#include "lib/surface/surface.h"
 #include "lib/volume/reduce.h"
 #include "lib/volume/topology.h"
 
@@ -29,11 +30,11 @@ constexpr double kExactVox = 0.125;  // of error: a level of so little is not tr
 constexpr std::uint64_t kFacesPerPart = 100, kFacesPerPartOfFit = 50;
 
 // Of a simple scene: triangles for each face of a level, and its faces, at most. Such a level is closed at parts of its
-// scale, too, as long as each part or hole has so many faces, and until its error is as small as that.
+// scale, too, until its error is so small; as long as each part or hole has so many faces, and no more surface opens.
 constexpr std::uint64_t kTrianglesOfSimple = 4, kFacesOfSimple = 1024;
 constexpr std::array kPartsOfScale{0.25, 0.125};
 constexpr std::uint64_t kLeastFacesPerPart = 8;
-constexpr double kNearVox = 0.5;
+constexpr double kNearVox = 0.5, kOpens = 1.5;
 constexpr double kVoxelsPerLength = 8;  // of a rule by shape, which is measured to within two
 
 }  // namespace
@@ -123,21 +124,26 @@ struct LodChain::State {
   }
 
   /// The nearest of a measured level and those at parts of its scale. A smaller one keeps a level nearer, and rounds
-  /// less. Budgets decide scales by the area alone, as if all of it were curved.
+  /// less. Budgets decide scales by the area alone, as if all of it were curved. Where a room opens, its walls would
+  /// take as many faces again.
   LodLevel closed_less(LodLevel level, const LodTarget& target) {
     if (!level.reached || level.attempts > 1) return level;
     const double whole = level.scale_world;
+    const auto surface_of = [&](const Closed& closing) {
+      return double(count_faces(ShelfSurface(*closing.voxels, header.frame)));
+    };
+    const double most_surface = kOpens * surface_of(closing_at(whole));
     for (const double part : kPartsOfScale) {
       const double scale = std::max(part * whole, last_before);
       if (level.error_world <= kNearVox * outside->voxel() || scale >= level.scale_world) break;
       const Closed closing = closing_at(scale);
       if (!has_faces_for_parts(*closing.voxels, target.faces, kLeastFacesPerPart)) break;
+      if (surface_of(closing) > most_surface) break;
       LodLevel other = mesh(mesh_params(target), scale, closing);
       if (other.mesh.triangles.size() > target.faces) break;
       measure(other);
-      if (other.error_world >= level.error_world) break;
-      level = std::move(other);
-      level.attempts = 1;
+      other.attempts = 1;
+      if (other.error_world < level.error_world) level = std::move(other);
     }
     last_scale = level.scale_world;
     return level;

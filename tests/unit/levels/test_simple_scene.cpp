@@ -21,12 +21,12 @@ Triangles house() {
   return scene;
 }
 
-struct Made {
+struct LevelAndScale {
   LodLevel level;
   double first;  ///< the scale that is tried first
 };
 
-Made level_of(const Triangles& scene, const LodTarget& target) {
+LevelAndScale level_of(const Triangles& scene, const LodTarget& target) {
   constexpr double kVoxel = 0.02;
   Backends backends = plain_backends(2);
   Voxelized solid = voxelized(scene, kVoxel);
@@ -44,7 +44,7 @@ Made level_of(const Triangles& scene, const LodTarget& target) {
 
 TEST_CASE("a level of a simple scene is closed at a smaller scale where it lies nearer then", "[quick][pass][lod]") {
   const Triangles scene = house();
-  const Made made = level_of(scene, {100, 0, {}});
+  const LevelAndScale made = level_of(scene, {100, 0, {}});
   const LodLevel at_first = level_of(scene, {100, 0, made.first}).level;  // a scale that is named is taken as it is
   CHECK(at_first.scale_world == made.first);
   CHECK(made.level.scale_world < 0.3 * made.first);

@@ -1,8 +1,8 @@
-#include "lib/levels/lod_target.h"
-
+// The scale of a level, and its voxels, from what it is asked to be.
 #include <algorithm>
 #include <cmath>
 
+#include "lib/levels/lod_chain.h"
 #include "lib/volume/boundary_runs.h"
 
 namespace bp {
