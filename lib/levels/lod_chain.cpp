@@ -34,7 +34,7 @@ constexpr std::uint64_t kFacesPerPart = 100, kFacesPerPartOfFit = 50;
 constexpr std::uint64_t kTrianglesOfSimple = 4, kFacesOfSimple = 1024;
 constexpr std::array kPartsOfScale{0.25, 0.125};
 constexpr std::uint64_t kLeastFacesPerPart = 8;
-constexpr double kNearVox = 0.5, kOpens = 1.5;
+constexpr double kNearEnoughVox = 0.5, kOpens = 1.5;
 constexpr double kVoxelsPerLength = 8;  // of a rule by shape, which is measured to within two
 
 }  // namespace
@@ -135,7 +135,7 @@ struct LodChain::State {
     const double most_surface = kOpens * surface_of(closing_at(whole));
     for (const double part : kPartsOfScale) {
       const double scale = std::max(part * whole, last_before);
-      if (level.error_world <= kNearVox * outside->voxel() || scale >= level.scale_world) break;
+      if (level.error_world <= kNearEnoughVox * outside->voxel() || scale >= level.scale_world) break;
       const Closed closing = closing_at(scale);
       if (!has_faces_for_parts(*closing.voxels, target.faces, kLeastFacesPerPart)) break;
       if (surface_of(closing) > most_surface) break;
