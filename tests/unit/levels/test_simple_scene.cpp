@@ -27,16 +27,16 @@ struct LevelAndScale {
 };
 
 LevelAndScale level_of(const Triangles& scene, const LodTarget& target) {
-  constexpr double kVoxel = 0.02;
+  constexpr double voxel = 0.02;
   Backends backends = plain_backends(2);
-  Voxelized solid = voxelized(scene, kVoxel);
+  Voxelized solid = voxelized(scene, voxel);
   solid.header.scene.triangles = scene.size();
   const double diagonal = solid.header.bounds.diagonal();
   LodOptions options;
   options.context.make_shelf = memory_shelves();
   options.enclose = Enclose::scene, options.scene = scene;
   LodChain chain(solid.header, std::move(solid.shelf), backends, options);
-  const double first = first_scale({kVoxel, diagonal, chain.dense_faces(), chain.longest_side_vox()}, target, 0);
+  const double first = first_scale({voxel, diagonal, chain.dense_faces(), chain.longest_side_vox()}, target, 0);
   return {chain.make(target), first};
 }
 
