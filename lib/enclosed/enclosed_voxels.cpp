@@ -22,7 +22,8 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t kCubeCorners = 8;  // of a blocker that is a voxel
+constexpr std::size_t kCubeCorners = 8;                // of a blocker that is a voxel
+constexpr double kDiagonal = 1.75 * kLatticePerVoxel;  // of a voxel, or a bit more
 
 /// Occupied voxels of a brick with an empty one across one of their 6 faces.
 BrickBits boundary_of(const BrickShelf& shelf, BrickCoord coord) {
@@ -224,7 +225,7 @@ class EnclosedVoxels::Nearest {
     for (const LatticeCoord& p : t) radius = std::max(radius, length(to_double(p - middle_)));
     enough_ = radius < distance ? (distance - radius) * (distance - radius) : -1;
     // Two corners are at least 1.5 radii apart.
-    is_large_ = 1.5 * radius > 2 * distance + 1.75 * kLatticePerVoxel;
+    is_large_ = 1.5 * radius > 2 * distance + kDiagonal;
   }
 
   [[nodiscard]] LatticeBox window() const { return LatticeBox{middle_, middle_}.grown(reach_); }
@@ -266,7 +267,7 @@ struct EnclosedVoxels::Search {
 bool EnclosedVoxels::is_near(std::span<const NewFace> faces, double distance, const NearTriangles* triangles) const {
   Search search{distance, triangles, {}};
   // Beyond what is_near() may take for near, and the diagonal of a voxel, which holds a point of a triangle.
-  const double far = kUpTo * distance + 1.75 * kLatticePerVoxel;
+  const double far = kUpTo * distance + kDiagonal;
   const auto is_far = [&](const NewFace& f) { return triangles->is_far(f.corners, far, search.triangle); };
   if (triangles != nullptr && std::any_of(faces.begin(), faces.end(), is_far)) return false;
   return std::all_of(faces.begin(), faces.end(), [&](const NewFace& f) { return is_near(f.corners, search); });

@@ -57,11 +57,11 @@ struct LodChain::State {
   }
 
   LodLevel make(const LodTarget& target) {
-    last_before = last_scale;
+    const double before = last_scale;
     if (std::optional<LodLevel> level = exact(target)) return std::move(*level);
     LodLevel level = options.cage ? cage(target) : closed(target);
     if (options.cage || !has_ways(target)) measure(level);
-    if (is_simple(target)) level = closed_less(std::move(level), target);
+    if (is_simple(target)) level = closed_less(std::move(level), target, before);
     return may_be_convex(target) ? convex_or(std::move(level), target) : level;
   }
 
@@ -126,16 +126,18 @@ struct LodChain::State {
   /// The nearest of a measured level and those at parts of its scale. A smaller one keeps a level nearer, and rounds
   /// less. Budgets decide scales by the area alone, as if all of it were curved. Where a room opens, its walls would
   /// take as many faces again.
-  LodLevel closed_less(LodLevel level, const LodTarget& target) {
-    if (!level.reached || level.attempts > 1) return level;
+  /// `least`: no scale is smaller.
+  LodLevel closed_less(LodLevel level, const LodTarget& target, double least) {
+    const auto is_near = [&] { return level.error_world <= kNearEnoughVox * outside->voxel(); };
+    if (!level.reached || level.attempts > 1 || is_near()) return level;
     const double whole = level.scale_world;
     const auto surface_of = [&](const Closed& closing) {
       return double(count_faces(ShelfSurface(*closing.voxels, header.frame)));
     };
     const double most_surface = kOpens * surface_of(closing_at(whole));
     for (const double part : kPartsOfScale) {
-      const double scale = std::max(part * whole, last_before);
-      if (level.error_world <= kNearEnoughVox * outside->voxel() || scale >= level.scale_world) break;
+      const double scale = std::max(part * whole, least);
+      if (is_near() || scale >= level.scale_world) break;
       const Closed closing = closing_at(scale);
       if (!has_faces_for_parts(*closing.voxels, target.faces, kLeastFacesPerPart)) break;
       if (surface_of(closing) > most_surface) break;
@@ -233,7 +235,6 @@ struct LodChain::State {
   std::unique_ptr<Outside> outside;
   int reductions = 0;
   double last_scale = 0;
-  double last_before = 0;  // before the level that is made
 
  private:
   void take_off(std::uint64_t bytes) {

@@ -11,7 +11,7 @@ TEST_CASE("a scene's triangles change no answer of its voxels to what is near ou
   RandomLattice random(11);
   const auto point = [&](double least, double most) {
     Vec3d p;
-    for (double& x : p) x = least + (most - least) * double(random.between(0, 1 << 20)) / (1 << 20);
+    for (double& x : p) x = random.real(least, most);
     return p;
   };
   int near = 0, large = 0, asked = 0;

@@ -25,10 +25,6 @@ LodLevel level_around(const Triangles& scene, double voxel, std::uint64_t faces)
   return LodChain(solid.header, std::move(solid.shelf), backends, options).make({faces, 0, {}});
 }
 
-double real_between(RandomLattice& random, double least, double most) {
-  return least + (most - least) * double(random.between(0, 1 << 20)) / (1 << 20);
-}
-
 /// Without a mesh, on voxels of a size by chance.
 LodLevel level_to_replace(const Triangles& scene, RandomLattice& random) {
   Bounds3d bounds;
@@ -114,7 +110,7 @@ TEST_CASE("prisms of flat scenes hold them, however they lie", "[quick][pass][lo
   int made = 0;
   for (unsigned seed = 0; seed < 300; ++seed) {
     RandomLattice random(seed);
-    const auto real = [&](double least, double most) { return real_between(random, least, most); };
+    const auto real = [&](double least, double most) { return random.real(least, most); };
     const Vec3d a{real(-1, 1), real(-1, 1), real(-1, 1)}, b{real(-1, 1), real(-1, 1), real(-1, 1)};
     const Vec3d middle{real(-9, 9), real(-9, 9), real(-9, 9)};
     const int n = int(random.between(3, 40));
@@ -166,7 +162,7 @@ TEST_CASE("hulls of scenes hold them, however they lie", "[quick][pass][lod]") {
   int made = 0;
   for (unsigned seed = 0; seed < 300; ++seed) {
     RandomLattice random(seed);
-    const auto real = [&](double least, double most) { return real_between(random, least, most); };
+    const auto real = [&](double least, double most) { return random.real(least, most); };
     const double far = seed % 3 == 0 ? 1e5 : 9;
     const Vec3d middle{real(-far, far), real(-far, far), real(-far, far)},
         size{real(0.1, 3), real(0.1, 3), real(0.1, 3)};

@@ -109,6 +109,13 @@ TEST_CASE("a hull takes the place of what holds more", "[quick][meshing]") {
   CHECK(hull.triangles.size() == 12);
   CHECK(volume6_of(hull) == int128(8000) * kVolume6OfVoxel);
   check_proxy(hull, kCubeBox, kCube);
+  LatticeMesh pyramid;  // as a proxy of few faces may be
+  pyramid.vertices = {{-1, -1, -1}, {19999, -1, -1}, {-1, 19999, -1}, {-1, -1, 19999}};
+  pyramid.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  const LatticeMesh fewer = convex_proxy(cube, pyramid, 8);
+  CHECK(fewer.triangles.size() <= 8);
+  CHECK(volume6_of(fewer) > volume6_of(hull));
+  check_proxy(fewer, kCubeBox, kCube);
   CHECK(convex_proxy(cube, box_mesh({-10, 0, 0}, {1280, 1280, 1280}), 12).triangles.empty());  // hardly more
 }
 
