@@ -36,10 +36,9 @@ std::string start_of(const SceneFile& file) {
   return start;
 }
 
-/// What the first bytes of a file tell; `extension` is set for a format that goes to Assimp.
-Reader reader_by_content(const SceneFile& file, std::string& extension) {
-  const std::string start = start_of(file);
-  if (is_binary_stl(start, file.size())) return Reader::stl;
+/// What the first bytes of a file tell; else what its name tells. `extension` is set for a format that goes to Assimp.
+Reader reader_by_content(const std::string& start, std::uint64_t size, std::string& extension) {
+  if (is_binary_stl(start, size)) return Reader::stl;
   const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   const std::string text = first == std::string::npos ? std::string() : start.substr(first);
   const auto begins = [&](const char* word) { return text.compare(0, std::strlen(word), word) == 0; };
@@ -53,7 +52,8 @@ Reader reader_by_content(const SceneFile& file, std::string& extension) {
     if (("\n" + text).find(line) != std::string::npos) return Reader::obj;
   }
   if (begins("AC3D")) extension = "ac";
-  return extension.empty() ? Reader::unknown : Reader::other;
+  if (begins("<?xml") && text.find("<COLLADA") != std::string::npos) extension = "dae";
+  return reader_of(extension);
 }
 
 void refuse_brick_stream(const SceneFile& file) {
@@ -71,8 +71,11 @@ RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const S
   Reader reader = reader_of(extension);
   if (file->size() == 0 && reader != Reader::obj)  // of OBJ it is a mesh without faces
     fail(ErrorCode::bad_input, "{}: is empty; did the tool before it fail?", file->name());
-  if (reader == Reader::unknown) refuse_foreign(file->name(), start_of(*file));
-  if (reader == Reader::unknown) reader = reader_by_content(*file, extension);
+  if (reader != Reader::other) {
+    const std::string start = start_of(*file);
+    refuse_foreign(file->name(), start);
+    reader = reader_by_content(start, file->size(), extension);
+  }
   if (reader == Reader::gltf && lower(path).ends_with(".json")) reader = Reader::tileset;
   if (!options.parts.empty() && reader != Reader::obj && reader != Reader::gltf && reader != Reader::tileset)
     fail(ErrorCode::bad_input, "{}: names of parts are known of OBJ and glTF, and this is neither", file->name());

@@ -125,7 +125,7 @@ TEST_CASE("memory for vertices changes no triangle", "[quick][io]") {
   CHECK(read_all(path, tiny) == expected);
 }
 
-TEST_CASE("the reader follows the name, and the first bytes where the name says nothing", "[quick][io]") {
+TEST_CASE("the first bytes of a file tell its format, and its name where they do not", "[quick][io]") {
   const TempDir dir;
   CHECK(read_all(dir.file("A.OBJ", kTetrahedron)).size() == 4);
   CHECK(read_all(dir.file("noname", "# something\n" + kTetrahedron)).size() == 4);
@@ -134,6 +134,9 @@ TEST_CASE("the reader follows the name, and the first bytes where the name says 
                           "solid x\nfacet normal 0 0 0 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop "
                           "endfacet endsolid x\n"))
             .size() == 1);
+  CHECK(read_all(dir.file("off.ply", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).size() == 1);
+  CHECK(read_all(dir.file("obj.stl", kTetrahedron)).size() == 4);
+  CHECK_THAT(complaint_of(dir.file("las.ply", "LASF")), Contains("point cloud"));
   CHECK_THAT(complaint_of(dir.file("what", "hello")), Contains("tell its format"));
   SceneOptions options;
   options.format = "OBJ";
