@@ -5,6 +5,7 @@
 
 #include "lib/enclosed/enclosed_triangles.h"
 #include "lib/enclosed/enclosed_voxels.h"
+#include "lib/enclosed/near_triangles.h"
 
 namespace bp {
 
@@ -18,10 +19,15 @@ struct ScenePart {
 /// quick and needs no more than a guess.
 class EnclosedScene final : public EnclosedTriangles {
  public:
-  /// `voxels`: of the scene, in the voxels of `frame`. `part`: of the scene, if not all of it stays inside.
+  /// `voxels`: of the scene, in the voxels of `frame`. `part`: of the scene, if not all of it stays inside. `near`:
+  /// tells what is near in place of the voxels; may be null.
   EnclosedScene(std::vector<TriangleD> triangles, const GridFrame& frame, const BrickShelf& voxels,
-                const std::optional<ScenePart>& part = {})
-      : EnclosedScene(near_of(triangles, frame, part), std::move(triangles), frame, voxels, part) {}
+                const std::optional<ScenePart>& part, std::unique_ptr<const NearTriangles> near)
+      : EnclosedTriangles(std::move(triangles), frame, part ? std::optional(part->box) : std::nullopt),
+        near_(std::move(near)),
+        voxels_(voxels) {
+    if (part && !part->voxels->coords().empty()) held_.emplace(*part->voxels);
+  }
   [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                             Blocker* blocker) const override {
     return EnclosedTriangles::allows(star, swept, blocker) && (!held_ || held_->allows(star, swept, blocker));
@@ -34,28 +40,14 @@ class EnclosedScene final : public EnclosedTriangles {
     return points;
   }
   [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const override {
-    return voxels_.is_near(faces, distance, near_.get());
+    return near_ ? near_->is_near(faces, distance) : voxels_.is_near(faces, distance);
   }
   [[nodiscard]] std::uint64_t bytes() const override {
     return EnclosedTriangles::bytes() + voxels_.bytes() + (held_ ? held_->bytes() : 0) + (near_ ? near_->bytes() : 0);
   }
 
  private:
-  EnclosedScene(std::unique_ptr<NearTriangles> near, std::vector<TriangleD>&& triangles, const GridFrame& frame,
-                const BrickShelf& voxels, const std::optional<ScenePart>& part)
-      : EnclosedTriangles(std::move(triangles), frame, part ? std::optional(part->box) : std::nullopt),
-        near_(std::move(near)),
-        voxels_(voxels) {
-    if (part && !part->voxels->coords().empty()) held_.emplace(*part->voxels);
-  }
-  /// Of a part, the rest of the scene may lie outside the voxels.
-  static std::unique_ptr<NearTriangles> near_of(const std::vector<TriangleD>& triangles, const GridFrame& frame,
-                                                const std::optional<ScenePart>& part) {
-    if (part || triangles.empty() || triangles.size() > NearTriangles::kMost) return nullptr;
-    return std::make_unique<NearTriangles>(triangles, frame);
-  }
-
-  std::unique_ptr<const NearTriangles> near_;  // of a simple scene
+  std::unique_ptr<const NearTriangles> near_;
   EnclosedVoxels voxels_;
   std::optional<EnclosedVoxels> held_;
 };

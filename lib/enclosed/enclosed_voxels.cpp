@@ -22,8 +22,7 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t kCubeCorners = 8;                // of a blocker that is a voxel
-constexpr double kDiagonal = 1.75 * kLatticePerVoxel;  // of a voxel, or a bit more
+constexpr std::size_t kCubeCorners = 8;  // of a blocker that is a voxel
 
 /// Occupied voxels of a brick with an empty one across one of their 6 faces.
 BrickBits boundary_of(const BrickShelf& shelf, BrickCoord coord) {
@@ -225,7 +224,7 @@ class EnclosedVoxels::Nearest {
     for (const LatticeCoord& p : t) radius = std::max(radius, length(to_double(p - middle_)));
     enough_ = radius < distance ? (distance - radius) * (distance - radius) : -1;
     // Two corners are at least 1.5 radii apart.
-    is_large_ = 1.5 * radius > 2 * distance + kDiagonal;
+    is_large_ = 1.5 * radius > 2 * distance + 1.75 * kLatticePerVoxel;
   }
 
   [[nodiscard]] LatticeBox window() const { return LatticeBox{middle_, middle_}.grown(reach_); }
@@ -242,7 +241,6 @@ class EnclosedVoxels::Nearest {
     squared_ = squared;
     found_ = low;
   }
-  [[nodiscard]] bool is_large() const { return is_large_; }  ///< no single voxel is near all of it
   [[nodiscard]] bool is_enough() const { return found_ && squared_ <= enough_; }
   /// Whether others need not be shown: no single voxel is near all of a large triangle, and any tells of its middle.
   [[nodiscard]] bool is_settled() const { return found_ && (is_large_ || squared_ <= enough_); }
@@ -256,33 +254,20 @@ class EnclosedVoxels::Nearest {
   std::optional<LatticeCoord> found_;
 };
 
-/// What faces that lie beside each other share.
-struct EnclosedVoxels::Search {
-  double distance;
-  const NearTriangles* triangles;
-  std::optional<LatticeCoord> voxel;  ///< not far from the last face that was looked for
-  std::uint32_t triangle = 0;         ///< the same
-};
-
-bool EnclosedVoxels::is_near(std::span<const NewFace> faces, double distance, const NearTriangles* triangles) const {
-  Search search{distance, triangles, {}};
-  // Beyond what is_near() may take for near, and the diagonal of a voxel, which holds a point of a triangle.
-  const double far = kUpTo * distance + kDiagonal;
-  const auto is_far = [&](const NewFace& f) { return triangles->is_far(f.corners, far, search.triangle); };
-  if (triangles != nullptr && std::any_of(faces.begin(), faces.end(), is_far)) return false;
-  return std::all_of(faces.begin(), faces.end(), [&](const NewFace& f) { return is_near(f.corners, search); });
+bool EnclosedVoxels::is_near(std::span<const NewFace> faces, double distance) const {
+  std::optional<LatticeCoord> hint;
+  return std::all_of(faces.begin(), faces.end(), [&](const NewFace& f) { return is_near(f.corners, distance, hint); });
 }
 
-/// Distances from one voxel, which is convex, are largest at corners.
-bool EnclosedVoxels::is_near(const std::array<LatticeCoord, 3>& t, Search& search) const {
+/// Distances from one voxel, which is convex, are largest at corners. `hint`: a voxel not far from here, if one is
+/// known; afterwards, too.
+bool EnclosedVoxels::is_near(const std::array<LatticeCoord, 3>& t, double distance,
+                             std::optional<LatticeCoord>& hint) const {
   constexpr std::int64_t edge = std::int64_t(kBrickEdge) * kLatticePerVoxel;
   constexpr double kUnsure = 0.3;  // of the distance: what is that small is not halved
-  const double distance = search.distance;
   Nearest nearest(t, distance);
-  if (search.voxel) nearest.show(*search.voxel);
+  if (hint) nearest.show(*hint);
   if (nearest.is_enough()) return true;
-  if (search.triangles != nullptr && nearest.is_large() && search.triangles->is_near(t, distance, search.triangle))
-    return true;
   BrickCoord low, high;
   for (int i = 0; i < 3; ++i) {
     low[i] = std::int32_t(floor_div(nearest.window().min[i], edge));
@@ -296,7 +281,7 @@ bool EnclosedVoxels::is_near(const std::array<LatticeCoord, 3>& t, Search& searc
     }
   }
   if (!nearest.found()) return false;
-  search.voxel = nearest.found();
+  hint = nearest.found();
   if (nearest.is_enough()) return true;
   const auto is_reached = [&](const LatticeCoord& p) {
     return squared_to_box(p, *nearest.found(), kLatticePerVoxel) <= distance * distance;
@@ -309,8 +294,8 @@ bool EnclosedVoxels::is_near(const std::array<LatticeCoord, 3>& t, Search& searc
     return LatticeCoord{(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
   };
   const std::array<LatticeCoord, 3> m = {middle(t[0], t[1]), middle(t[1], t[2]), middle(t[2], t[0])};
-  return is_near(m, search) && is_near({t[0], m[0], m[2]}, search) && is_near({m[0], t[1], m[1]}, search) &&
-         is_near({m[2], m[1], t[2]}, search);
+  return is_near(m, distance, hint) && is_near({t[0], m[0], m[2]}, distance, hint) &&
+         is_near({m[0], t[1], m[1]}, distance, hint) && is_near({m[2], m[1], t[2]}, distance, hint);
 }
 
 void EnclosedVoxels::look(BrickCoord coord, const BoundaryBrick& brick, Nearest& nearest) const {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "lib/enclosed/enclosed.h"
-#include "lib/enclosed/near_triangles.h"
 #include "lib/grid/stream.h"
 
 namespace bp {
@@ -20,12 +19,7 @@ class EnclosedVoxels : public Enclosed {
   [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                             Blocker* blocker) const override;
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override;
-  [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const override {
-    return is_near(faces, distance, nullptr);
-  }
-  /// The same answer, sooner, for faces that do not go inside of the voxels, where only their boundary is known.
-  /// `triangles`: they lie in the voxels, and each voxel of the boundary holds a point of one; null: none.
-  [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance, const NearTriangles* triangles) const;
+  [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const override;
   void outer_boxes(const UseBoxes& use) const override;
   [[nodiscard]] std::uint64_t bytes() const override;
 
@@ -44,8 +38,8 @@ class EnclosedVoxels : public Enclosed {
                                  Blocker* blocker) const;
   [[nodiscard]] bool block_clear(Separator& separator, VoxelCoord first, const Block& block, Blocker* blocker) const;
   class Nearest;
-  struct Search;
-  [[nodiscard]] bool is_near(const std::array<LatticeCoord, 3>& t, Search& search) const;
+  [[nodiscard]] bool is_near(const std::array<LatticeCoord, 3>& t, double distance,
+                             std::optional<LatticeCoord>& hint) const;
   void look(BrickCoord coord, const BoundaryBrick& brick, Nearest& nearest) const;
   struct Hash {
     std::size_t operator()(const BrickCoord& c) const {

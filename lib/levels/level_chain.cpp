@@ -16,12 +16,10 @@ bool falls_short(const LodLevel& level, const LodTarget& target) {
   return clearly_fewer(level.mesh.triangles.size(), target.faces);
 }
 
-/// Budget and scale of a level that follow from a first one which fell short.
-LodTarget following(LodTarget target, const LevelRequest& request, const LodLevel& first, std::size_t steps) {
+/// Faces of a level that follow from a first one which fell short.
+std::uint64_t following(const LodLevel& first, std::size_t steps) {
   const std::uint64_t faces = first.mesh.triangles.size();
-  target.faces = std::max(steps < 32 ? faces >> (2 * steps) : 0, kLeastFaces);
-  if (!request.scale_world) target.scale_world = std::ldexp(first.scale_world, int(steps));
-  return target;
+  return std::max(steps < 32 ? faces >> (2 * steps) : 0, kLeastFaces);
 }
 
 /// Voxels of the scene, and the finest level that they give.
@@ -114,7 +112,7 @@ MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelStep
     LodTarget target = level_target(request, range.first + i, range.first, chain.dense_faces());
     target.detail = range.detail;
     const bool follows = target.error_world == 0 && range.first + i >= request.faces.size() && i > 0;
-    if (follows && short_of_faces) target = following(target, request, levels.front(), i);
+    if (follows && short_of_faces) target.faces = following(levels.front(), i);
     if (follows && target.faces >= levels.back().mesh.triangles.size()) {
       made.left_out.push_back({target, levels.back().mesh.triangles.size()});
       continue;

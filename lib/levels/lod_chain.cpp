@@ -13,6 +13,7 @@
 #include "lib/levels/detail/outside.h"
 #include "lib/levels/detail/prism_level.h"
 #include "lib/pass/measure/shape_rules.h"
+#include "lib/pass/mesh/scene_check.h"
 #include "lib/surface/repair.h"
 #include "lib/surface/surface.h"
 #include "lib/volume/reduce.h"
@@ -29,13 +30,16 @@ constexpr double kExactVox = 0.125;  // of error: a level of so little is not tr
 // than cubes, and what a fit has of a hole need not lie around anything.
 constexpr std::uint64_t kFacesPerPart = 100, kFacesPerPartOfFit = 50;
 
-// Of a simple scene: triangles for each face of a level, and its faces, at most. Such a level is closed at parts of its
-// scale, too, until its error is so small; as long as each part or hole has so many faces, and no more surface opens.
-constexpr std::uint64_t kTrianglesOfSimple = 4, kFacesOfSimple = 1024;
+// Of scenes of so few triangles, which tell quickly what is near, levels are tried at other scales, too. At twice the
+// scale where the error is so many scales: faces are too few for what is left open, and spikes bridge it. At these
+// parts where a level has a face for so many triangles; until its error is so small, as long as each part or hole has
+// so many faces, and no room opens.
+constexpr std::size_t kTrianglesOfSimple = 4096;
+constexpr double kSpikes = 2.3;
+constexpr std::uint64_t kTrianglesPerFace = 4;
 constexpr std::array kPartsOfScale{0.25, 0.125};
 constexpr std::uint64_t kLeastFacesPerPart = 8;
-constexpr double kNearEnoughVox = 0.5, kOpens = 1.5;
-constexpr double kVoxelsPerLength = 8;  // of a rule by shape, which is measured to within two
+constexpr double kNearEnoughVox = 0.5, kOpens = 1.5;  // opens: so many times the surface
 
 }  // namespace
 
@@ -49,6 +53,10 @@ struct LodChain::State {
         diagonal(h.bounds.diagonal()) {
     if (solid->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
     take_off(options.scene.size() * sizeof(TriangleD));
+    // Here, and not at each level: in voxels of twice the size a corner may lie so near to a side, as these are
+    // rounded, that the voxel beyond would have been set, too.
+    if (options.mode == MeshMode::bounding && options.enclose == Enclose::scene)
+      require_within(options.scene, header.frame, *solid);
     outside = std::make_unique<Outside>(*solid, options.surface.get(), options.mode == MeshMode::fit && has_triangles(),
                                         header.frame, context.memory);
     options.surface.reset();
@@ -61,7 +69,7 @@ struct LodChain::State {
     if (std::optional<LodLevel> level = exact(target)) return std::move(*level);
     LodLevel level = options.cage ? cage(target) : closed(target);
     if (options.cage || !has_ways(target)) measure(level);
-    if (is_simple(target)) level = closed_less(std::move(level), target, before);
+    if (is_simple(target)) level = nearest_scale(std::move(level), target, before);
     return may_be_convex(target) ? convex_or(std::move(level), target) : level;
   }
 
@@ -99,7 +107,7 @@ struct LodChain::State {
     Closed closing = half_scale(target, scale);
     for (int attempt = 1;; ++attempt) {
       if (closing.voxels == nullptr) {
-        reduce_to(reductions_for(ground(), target, finest(scale), reductions));
+        reduce_to(reductions_for(ground(), target, finest_scale(options.field, scale), reductions));
         closing = closing_at(scale);
       }
       LodLevel level = has_ways(target) ? nearest(target, scale, closing) : mesh(mesh_params(target), scale, closing);
@@ -115,40 +123,49 @@ struct LodChain::State {
     }
   }
 
-  /// Whether nothing is asked but a number of faces, and the scene has few triangles for each.
+  /// Whether nothing is asked but a number of faces, of a scene of few triangles: these tell quickly what is near.
   [[nodiscard]] bool is_simple(const LodTarget& target) const {
-    const std::uint64_t triangles = header.scene.triangles;
     return options.mode == MeshMode::bounding && options.enclose == Enclose::scene && !options.cage && !options.field &&
-           target.error_world == 0 && !target.scale_world && target.faces <= kFacesOfSimple && triangles > 0 &&
-           triangles <= kTrianglesOfSimple * target.faces;
+           target.error_world == 0 && !target.scale_world && options.scene.size() <= kTrianglesOfSimple;
   }
 
-  /// The nearest of a measured level and those at parts of its scale. A smaller one keeps a level nearer, and rounds
-  /// less. Budgets decide scales by the area alone, as if all of it were curved. Where a room opens, its walls would
-  /// take as many faces again.
-  /// `least`: no scale is smaller.
-  LodLevel closed_less(LodLevel level, const LodTarget& target, double least) {
+  /// The nearest of a measured level and those at other scales, `least` or more. Budgets decide scales by the area
+  /// alone, as if all of it were curved. A larger scale leaves less to show with the same faces. A smaller one keeps a
+  /// level nearer.
+  LodLevel nearest_scale(LodLevel level, const LodTarget& target, double least) {
     const auto is_near = [&] { return level.error_world <= kNearEnoughVox * outside->voxel(); };
     if (!level.reached || level.attempts > 1 || is_near()) return level;
     const double whole = level.scale_world;
-    const auto surface_of = [&](const Closed& closing) {
-      return double(count_faces(ShelfSurface(*closing.voxels, header.frame)));
-    };
-    const double most_surface = kOpens * surface_of(closing_at(whole));
-    for (const double part : kPartsOfScale) {
-      const double scale = std::max(part * whole, least);
-      if (is_near() || scale >= level.scale_world) break;
-      const Closed closing = closing_at(scale);
-      if (!has_faces_for_parts(*closing.voxels, target.faces, kLeastFacesPerPart)) break;
-      if (surface_of(closing) > most_surface) break;
+    const auto try_to_mesh = [&](double scale, const Closed& closing) {
       LodLevel other = mesh(mesh_params(target), scale, closing);
-      if (other.mesh.triangles.size() > target.faces) break;
+      if (other.mesh.triangles.size() > target.faces) return;
       measure(other);
       other.attempts = 1;
       if (other.error_world < level.error_world) level = std::move(other);
+    };
+    if (level.error_world > kSpikes * whole) try_to_mesh(2 * whole, closing_at(2 * whole));
+    if (options.scene.size() <= kTrianglesPerFace * target.faces) {
+      double last = whole;
+      for (const double part : kPartsOfScale) {
+        const double scale = std::max(part * whole, least);
+        if (is_near() || scale >= last) break;
+        const Closed closing = closing_at(scale);
+        if (!has_faces_for_parts(*closing.voxels, target.faces, kLeastFacesPerPart)) break;
+        if (opens_room(closing, whole, target)) break;
+        try_to_mesh(scale, closing);
+        last = scale;
+      }
     }
     last_scale = level.scale_world;
     return level;
+  }
+
+  /// Whether a room opens that is closed at the scale `whole`: its walls would take as many faces again. Where a level
+  /// may have all of the scene's triangles, they have enough.
+  [[nodiscard]] bool opens_room(const Closed& closing, double whole, const LodTarget& target) {
+    if (options.scene.size() <= target.faces) return false;
+    const auto surface_of = [&](const Closed& c) { return double(count_faces(ShelfSurface(*c.voxels, header.frame))); };
+    return surface_of(closing) > kOpens * surface_of(closing_at(whole));
   }
 
   /// Whether several ways lead to the level, which is measured then, and the nearest one is taken.
@@ -271,21 +288,6 @@ struct LodChain::State {
     return measured(plan, header, *solid, {0, context}).field;
   }
 
-  /// The finest scale that the voxels of a level of this one have to tell.
-  [[nodiscard]] double finest(double scale) const {
-    if (!options.field) return scale;
-    const ScaleField& field = options.field->field;
-    double least = field.base;
-    for (const ScaleRule& rule : field.rules) {
-      if (rule.shape != ScaleShape::view && rule.mode != ScaleMode::erase) least = std::min(least, rule.scale);
-    }
-    least *= scale / field.base;
-    for (const RuleEntry& entry : options.field->entries) {
-      if (entry.shape) least = std::min(least, entry.shape->length / kVoxelsPerLength);
-    }
-    return least;
-  }
-
   Closed closing_at(double scale) {
     CloseOptions o;
     o.context = context;
@@ -300,7 +302,7 @@ struct LodChain::State {
     const double half = std::max(scale / 2, last_scale);
     const bool by_budget = target.faces > 0 && target.error_world == 0 && !target.scale_world;
     if (!by_budget || half >= scale) return {};
-    const int n = reductions_for(ground(), target, finest(half), reductions);
+    const int n = reductions_for(ground(), target, finest_scale(options.field, half), reductions);
     if (half < kLeastScaleVox * outside->voxel() * std::ldexp(1.0, n)) return {};
     reduce_to(n);
     Closed closing = closing_at(half);
@@ -352,6 +354,7 @@ struct LodChain::State {
     params.enclose = options.enclose;
     if (options.enclose == Enclose::scene) {  // distances are to its voxels, as without
       params.scene = options.scene;
+      params.known_within = true;
       params.distances_to = Enclose::input;
     }
     if (options.mode == MeshMode::fit) {

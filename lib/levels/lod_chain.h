@@ -31,7 +31,8 @@ struct LodTarget {
 constexpr double kLeastDenseFaces = 500000;
 constexpr double kVoxelsPerError = 8;  ///< the error holds the voxels' diagonal, the closing and the simplification
 constexpr double kScalesPerError = 4;  ///< the cube's dilation reaches sqrt(3) scales
-constexpr double kLeastScaleVox = 1 + kBeyondWholeVox;  ///< that a budget leads to; below 1, closing is the identity
+constexpr double kLeastScaleVox =
+    1 + kBeyondWholeVox;  ///< that a budget leads to first; below 1, closing is the identity
 
 /// What decides at which scale, and on which voxels, a level is tried first.
 struct LodGround {
@@ -45,6 +46,8 @@ struct LodGround {
 /// How often the voxels are doubled: while the target leaves enough of them, and the scale is not below one. At least
 /// `before` times.
 [[nodiscard]] int reductions_for(const LodGround& ground, const LodTarget& target, double scale, int before);
+/// The finest scale that the voxels of a level of `scale` have to tell; `field`: as in LodOptions.
+[[nodiscard]] double finest_scale(const std::optional<ScalePlan>& field, double scale);
 
 struct LodOptions {
   ClosingParams closing;

@@ -12,7 +12,8 @@ namespace {
 // What a level needs of its voxels. Fewer dense triangles per face than this, and the steps of the voxels show.
 constexpr double kDenseFacesPerFace = 100;
 constexpr double kScalesPerEdge = 4;
-constexpr double kLeastSideVox = 48;  // of a reduced grid
+constexpr double kLeastSideVox = 48;    // of a reduced grid
+constexpr double kVoxelsPerLength = 8;  // of a rule by shape, which is measured to within two
 
 /// Length of an edge of `faces` equilateral triangles over the scene's surface.
 double edge_of(const LodGround& ground, std::uint64_t faces) {
@@ -43,6 +44,20 @@ int reductions_for(const LodGround& ground, const LodTarget& target, double scal
   int n = before;
   while (ground.voxel * std::ldexp(1.0, n + 1) <= coarsest) ++n;
   return n;
+}
+
+double finest_scale(const std::optional<ScalePlan>& plan, double scale) {
+  if (!plan) return scale;
+  const ScaleField& field = plan->field;
+  double least = field.base;
+  for (const ScaleRule& rule : field.rules) {
+    if (rule.shape != ScaleShape::view && rule.mode != ScaleMode::erase) least = std::min(least, rule.scale);
+  }
+  least *= scale / field.base;
+  for (const RuleEntry& entry : plan->entries) {
+    if (entry.shape) least = std::min(least, entry.shape->length / kVoxelsPerLength);
+  }
+  return least;
 }
 
 }  // namespace bp

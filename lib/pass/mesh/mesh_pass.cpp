@@ -192,7 +192,7 @@ class LevelMaker {
     const std::vector<std::uint64_t> faces = params_.faces.empty() ? std::vector<std::uint64_t>{0} : params_.faces;
     Start start = make_start(shelves);
     bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
-    ground_ = make_ground(shelves, params_, start, context_);
+    ground_ = make_ground(shelves, params_, start, header_.fill, context_);
     memory_ = context_.pieces.without(ground_.bytes());
     const bool fit = params_.mode == MeshMode::fit;
     const double error_share = params_.error_world / double(fit ? 1 : faces.size());

@@ -48,6 +48,7 @@ struct MeshParams {
   bool edges_yield = false;  ///< where so few faces are not to be had otherwise, the factor grows
   Enclose enclose = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
+  bool known_within = false;     ///< the scene was found to lie in the voxels that the stream's were reduced from
   /// Of bounding proxies of a part of the scene, with `near`: the rest of it may lie outside the voxels.
   std::optional<ScenePart> part;
   /// What distances count from, if not from what is enclosed; closing: the surface of what is meshed.

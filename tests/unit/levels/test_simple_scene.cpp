@@ -40,7 +40,39 @@ LevelAndScale level_of(const Triangles& scene, const LodTarget& target) {
   return {chain.make(target), first};
 }
 
+/// Two plates of 12 triangles, one over the other; few faces need not show the gap.
+Triangles plates() {
+  Triangles scene;
+  add_box(scene, {0, 0, 0}, {10, 10, 0.2});
+  add_box(scene, {0, 0, 0.6}, {10, 10, 0.8});
+  return scene;
+}
+
+/// `n` treads, one after the other and each higher, that lie apart.
+Triangles treads(int n) {
+  Triangles scene;
+  for (int k = 0; k < n; ++k) add_box(scene, {0.3 * k, 0, 0.2 * k}, {0.3 * k + 0.25, 1, 0.2 * k + 0.04});
+  return scene;
+}
+
 }  // namespace
+
+TEST_CASE("a level that may have all triangles of its scene may have more surface at a smaller scale",
+          "[quick][pass][lod]") {
+  const LodLevel level = level_of(plates(), {100, 0, {}}).level;
+  CHECK(level.mesh.triangles.size() == 24);
+  CHECK(level.error_world < 0.02);
+}
+
+TEST_CASE("a level whose spikes reach many scales is closed at twice the scale", "[quick][pass][lod]") {
+  const Triangles scene = treads(9);
+  const LevelAndScale made = level_of(scene, {107, 0, {}});
+  CHECK(made.level.scale_world == Approx(2 * made.first));
+  CHECK(made.level.attempts == 1);  // not for too many faces
+  const LodLevel at_first = level_of(scene, {107, 0, made.first}).level;
+  CHECK(at_first.scale_world == made.first);
+  CHECK(made.level.error_world < 0.8 * at_first.error_world);
+}
 
 TEST_CASE("a level of a simple scene is closed at a smaller scale where it lies nearer then", "[quick][pass][lod]") {
   const Triangles scene = house();

@@ -5,7 +5,7 @@
 #include "lib/enclosed/enclosed_triangles.h"
 #include "lib/enclosed/enclosed_voxels.h"
 #include "lib/pass/mesh/complement.h"
-#include "lib/pass/mesh/detail/scene_check.h"
+#include "lib/pass/mesh/scene_check.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "lib/simplify/flatten.h"
 #include "lib/simplify/surface_tree.h"
@@ -42,17 +42,24 @@ std::vector<TriangleD> rect_triangles(const BrickShelf& shelf, const GridFrame& 
   return triangles;
 }
 
-std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& params, const Start& start,
+/// Of a scene of few triangles, unless its voxels are filled where none are near, or it is cut.
+std::unique_ptr<NearTriangles> near_triangles(const MeshParams& params, const GridFrame& frame, FillMode fill) {
+  if (params.part || fill == FillMode::winding || params.scene.empty()) return nullptr;
+  if (params.scene.size() > NearTriangles::kMost) return nullptr;
+  return std::make_unique<NearTriangles>(params.scene, frame);
+}
+
+std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& params, const Start& start, FillMode fill,
                                         const ShelfFactory& make_shelf) {
   if (params.enclose == Enclose::scene) {
     const GridFrame& frame = start.surface->frame();
-    if (params.mode == MeshMode::bounding && !params.part && !lies_within(params.scene, frame, *shelves.meshed)) {
-      fail(ErrorCode::bad_input, {Remedy::enclose_own_scene},
-           "the scene to be enclosed does not lie inside the voxels of the stream: the stream was made from another "
-           "scene");
+    if (params.mode == MeshMode::bounding && !params.part && !params.known_within)
+      require_within(params.scene, frame, *shelves.meshed);
+    if (params.near && params.mode == MeshMode::bounding) {
+      auto near = near_triangles(params, frame, fill);
+      return std::make_unique<EnclosedScene>(std::move(params.scene), frame, *shelves.input, params.part,
+                                             std::move(near));
     }
-    if (params.near && params.mode == MeshMode::bounding)
-      return std::make_unique<EnclosedScene>(std::move(params.scene), frame, *shelves.input, params.part);
     return std::make_unique<EnclosedTriangles>(std::move(params.scene), frame);
   }
   if (params.enclose == Enclose::closing)
@@ -65,7 +72,8 @@ std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& para
 
 }  // namespace
 
-Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& start, const PassContext& context) {
+Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& start, FillMode fill,
+                   const PassContext& context) {
   Ground ground;
   const bool target = params.mode == MeshMode::fit && params.enclose == Enclose::scene;
   if (params.error_world > 0 || params.distances || target) {
@@ -76,7 +84,7 @@ Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& star
     ground.tree = std::make_unique<TriangleBvh>(ground.surface);
   }
   if (params.tighten && params.mode != MeshMode::fit)
-    ground.enclosed = make_enclosed(shelves, params, start, context.make_shelf);
+    ground.enclosed = make_enclosed(shelves, params, start, fill, context.make_shelf);
   return ground;
 }
 

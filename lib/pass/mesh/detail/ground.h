@@ -32,9 +32,9 @@ struct Ground {
   }
 };
 
-/// `params.scene` is moved out of it. Throws bad_input if the scene does not lie inside the voxels, out_of_resource if
-/// the surface that distances are measured to does not fit in context.pieces.
-[[nodiscard]] Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& start,
+/// `params.scene` is moved out of it. `fill`: of the stream. Throws bad_input if the scene does not lie inside the
+/// voxels, out_of_resource if the surface that distances are measured to does not fit in context.pieces.
+[[nodiscard]] Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& start, FillMode fill,
                                  const PassContext& context);
 
 }  // namespace bp

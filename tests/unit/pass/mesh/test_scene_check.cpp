@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "lib/pass/mesh/detail/scene_check.h"
+#include "lib/pass/mesh/scene_check.h"
 #include "lib/voxel/voxelize.h"
 #include "tests/catch.h"
 #include "tests/support/memory_shelf.h"

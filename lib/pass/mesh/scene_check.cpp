@@ -1,10 +1,11 @@
-#include "lib/pass/mesh/detail/scene_check.h"
+#include "lib/pass/mesh/scene_check.h"
 
 #include <algorithm>
 #include <atomic>
 #include <utility>
 #include <vector>
 
+#include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/voxel/voxelize.h"
 
@@ -100,6 +101,12 @@ bool lies_within(std::span<const TriangleD> triangles, const GridFrame& frame, c
       within = false;
   });
   return within;
+}
+
+void require_within(std::span<const TriangleD> triangles, const GridFrame& frame, const BrickShelf& shelf) {
+  if (lies_within(triangles, frame, shelf)) return;
+  fail(ErrorCode::bad_input, {Remedy::enclose_own_scene},
+       "the scene to be enclosed does not lie inside the voxels of the stream: the stream was made from another scene");
 }
 
 }  // namespace bp

@@ -10,5 +10,7 @@ namespace bp {
 /// inside the voxels (docs/bounding.md, section 2). False if one is not, wherever it is. Cost: that of voxelizing their
 /// surface, some triangles at a time in each brick that they meet.
 [[nodiscard]] bool lies_within(std::span<const TriangleD> triangles, const GridFrame& frame, const BrickShelf& shelf);
+/// Throws bad_input if they do not lie within.
+void require_within(std::span<const TriangleD> triangles, const GridFrame& frame, const BrickShelf& shelf);
 
 }  // namespace bp

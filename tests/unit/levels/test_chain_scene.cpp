@@ -1,0 +1,45 @@
+#include "lib/check/check_proxy.h"
+#include "lib/levels/lod_chain.h"
+#include "lib/pass/mesh/surface_around.h"
+#include "tests/catch.h"
+#include "tests/support/voxelized.h"
+
+namespace bp::test {
+
+namespace {
+
+LodOptions around(const Triangles& scene) {
+  LodOptions options;
+  options.context.make_shelf = memory_shelves();
+  options.enclose = Enclose::scene, options.scene = scene;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("a scene that ends close to a side of doubled voxels lies within them", "[quick][pass][lod]") {
+  constexpr double kBeside = 2.0 / 65536;  // of a voxel: more than voxels are grown by, less than doubled ones
+  Triangles scene;
+  add_box(scene, {0, 0, 0}, {40 - kBeside, 41 - kBeside, 42 - kBeside});
+  add_box(scene, {0, 0, 0}, {120, 10, 10});
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 1);
+  LodOptions options = around(scene);
+  LodChain chain(solid.header, std::move(solid.shelf), backends, std::move(options));
+  const LodLevel coarse = chain.make({0, 24, {}});
+  CHECK(coarse.reductions > 0);
+  MemorySource source(scene);
+  CHECK(check_proxy(indexed(coarse.mesh), &source).holds());
+}
+
+TEST_CASE("another scene than that of the voxels is refused", "[quick][pass][lod]") {
+  Triangles scene;
+  add_box(scene, {0, 0, 0}, {40, 41, 42});
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 1);
+  LodOptions options = around(scene);
+  options.scene[0][0] = {0, 0, 50};
+  CHECK_THROWS_AS(LodChain(solid.header, std::move(solid.shelf), backends, std::move(options)), Error);
+}
+
+}  // namespace bp::test
