@@ -39,6 +39,7 @@ int why_none(const std::string& folder, int error) {
 
 void fail_for_folder(const std::string& path) {
   const std::string folder = folder_of(path);
+  if (why_none(folder, ENOENT) == 0) fail(ErrorCode::failed, "{}: {} takes no files", path, folder);
   fail(ErrorCode::bad_argument, "{}: there is no folder {}; make it (mkdir -p), or name another output", path, folder);
 }
 

@@ -102,9 +102,10 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   out.counts = voxelize_stream(*source, open, backends, v);
   size_ = {out.header.bounds, out.counts.scene.triangles};
   enclosed_ = enclosed_by(options, size_.triangles);
-  if (!options.field.empty()) field_ = read_field(out, halvings == 0);
-  if (halvings == 0 && !ground) note_scene(out, source->up());  // later, the scene is the same
-  choose_textures(*source, halvings == 0);
+  const bool first = !std::exchange(scene_met_, true);  // later, the scene is the same
+  if (!options.field.empty()) field_ = read_field(out, first);
+  if (first && !ground) note_scene(out, source->up());
+  choose_textures(*source, first);
   if (colored_ && !textured_) gather(*source, out);
   return out;
 }

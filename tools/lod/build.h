@@ -96,6 +96,7 @@ class Build {
   /// Of the first attempt, and of each with voxels of another size.
   void note_time(const StreamHeader& header, const VoxelizeCounts& counts);
   SceneSize size_;
+  bool scene_met_ = false;            // by voxelize()
   std::optional<MirrorPlane> plane_;  // of a cage
   double voxel_ = 0, margin_ = 0;     // of the scene, scene units
   Attempt attempt_;

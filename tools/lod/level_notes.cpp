@@ -34,18 +34,18 @@ std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triang
   if (!level.reached)
     return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", level.faces,
                        budget, level.scale_world);
-  if (asked && level.stopped_by == to_string(StopReason::least_volume))
-    return least_volume_note(level.faces, budget, advice);
-  const std::string few = asked ? too_few_note(level.faces, budget, advice) : "";
-  if (few.empty() && asked && level.attempts > 1)
-    return fmt::format(
-        "closed at {:.4g}, {} times the scale that was tried first: at less, parts and holes take more than {} faces",
-        level.scale_world, std::uint64_t(1) << (level.attempts - 1), budget);
-  if (few.empty() || level.attempts == 1) return few;
+  if (!asked) return "";
+  if (level.attempts == 1) {
+    return level.stopped_by == to_string(StopReason::least_volume) ? least_volume_note(level.faces, budget, advice)
+                                                                   : too_few_note(level.faces, budget, advice);
+  }
+  const std::string fewer =
+      clearly_fewer(level.faces, budget) ? fmt::format("{} faces instead of {}: ", level.faces, budget) : "";
   if (level.scale_world == 0)  // a cage
-    return fmt::format("{} faces instead of {}: one step finer makes too many", level.faces, budget);
-  return fmt::format("{} faces instead of {}: at half of its scale of {:.4g}, parts and holes take too many",
-                     level.faces, budget, level.scale_world);
+    return fewer.empty() ? "" : fewer + "one step finer makes too many";
+  return fmt::format(
+      "{}closed at {:.4g}, {} times the scale that was tried first: at less, parts and holes take more than {} faces",
+      fewer, level.scale_world, std::uint64_t(1) << (level.attempts - 1), budget);
 }
 
 std::string error_note(std::size_t level, double error_world, double asked_world) {
@@ -60,7 +60,8 @@ std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std:
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const LevelFacts& level = levels[i];
-    if (const std::string missed = faces_note(level, asked, scene.triangles); !missed.empty())
+    const bool closes_more = first + i == 0 && level.attempts > 1;  // what few would expect of the finest
+    if (const std::string missed = faces_note(level, asked || closes_more, scene.triangles); !missed.empty())
       notes.push_back(fmt::format("level {}: {}", first + i, missed));
     if (const double error = level.target.error_world; error > 0 && level.error_world > error)
       notes.push_back(error_note(first + i, level.error_world, error));

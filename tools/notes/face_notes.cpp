@@ -41,8 +41,9 @@ std::string too_few_note(std::uint64_t faces, std::uint64_t asked, const FaceAdv
 
 std::string least_volume_note(std::uint64_t faces, std::uint64_t asked, const FaceAdvice& advice) {
   if (!clearly_fewer(faces, asked)) return "";
-  return fmt::format("{} faces instead of {}: further ones would take next to nothing off the volume, or add to it{}",
-                     faces, asked, finer_advice(advice));
+  return fmt::format("{} faces instead of {}: further ones would take next to nothing off {}, or add to it{}", faces,
+                     asked, advice.exact || advice.scale.empty() ? "the volume" : "the volume of the closed scene",
+                     finer_advice(advice));
 }
 
 std::string merged_note(std::uint64_t faces, std::uint64_t shells, std::uint64_t handles, const FaceAdvice& advice,
