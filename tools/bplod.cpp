@@ -38,9 +38,12 @@ void build_chain(const bp::BuildOptions& o) {
   for (std::size_t i = made.levels.size(); i < most; ++i)  // as many as there may be
     out.leave_out(bp::level_name(o.name, i) + ".glb");
   build.progress.end();
-  build.note(bp::heavier_note(made.facts.front(), asks_for_faces(request_of(o)), scene.counts.scene.triangles));
-  build.note(bp::joined_note(made.facts.front(), made.levels.front().counts.levels.front().measures.shells,
-                             build.scene_parts));
+  const bp::LevelFacts& finest = made.facts.front();
+  const bool asked = asks_for_faces(request_of(o));
+  build.note(bp::heavier_note(finest, asked, scene.counts.scene.triangles));
+  const std::string joined =
+      bp::joined_note(finest, made.levels.front().counts.levels.front().measures.shells, build.scene_parts);
+  build.note(joined.empty() && !asked ? bp::closed_note(finest) : joined);
   build.report.begin("write");
   const std::vector<bp::WrittenFile> files =
       o.obj ? bp::write_obj_levels(o, made.levels, origin, out)

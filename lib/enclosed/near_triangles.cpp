@@ -41,12 +41,19 @@ bool NearTriangles::is_near(std::span<const NewFace> faces, double distance) con
 /// Distances from a triangle, which is convex, are largest at corners. `guess`: a triangle not far from here.
 bool NearTriangles::is_near(const TriangleD& face, double distance, std::uint32_t& guess) const {
   constexpr double kUnsure = 0.3;  // of the distance: what has shorter edges is not halved
-  const auto [squared, item] = tree_.nearest((1.0 / 3) * (face[0] + face[1] + face[2]), guess);
+  const auto reaches = [&](std::uint32_t item) {
+    return std::all_of(face.begin(), face.end(), [&](const Vec3d& p) {
+      return distance_squared(p, tree_.item(item).corners) <= distance * distance;
+    });
+  };
+  if (reaches(guess)) return true;
+  const Vec3d middle = (1.0 / 3) * (face[0] + face[1] + face[2]);
+  const auto from_middle = [&](const Vec3d& p) { return length(p - middle); };
+  const double spare = distance - std::max({from_middle(face[0]), from_middle(face[1]), from_middle(face[2])});
+  const auto [squared, item] = tree_.near_enough(middle, spare > 0 ? spare * spare : -1, guess);
   guess = item;
   if (squared > distance * distance) return false;
-  const TriangleD& nearest = tree_.item(item).corners;
-  const auto is_reached = [&](const Vec3d& p) { return distance_squared(p, nearest) <= distance * distance; };
-  if (std::all_of(face.begin(), face.end(), is_reached)) return true;
+  if (reaches(item)) return true;
   const auto edge = [&](std::size_t k) { return length(face[(k + 1) % 3] - face[k]); };
   if (std::max({edge(0), edge(1), edge(2)}) < kUnsure * distance) return true;
   const std::array<Vec3d, 3> m = {0.5 * (face[0] + face[1]), 0.5 * (face[1] + face[2]), 0.5 * (face[2] + face[0])};

@@ -77,6 +77,8 @@ class Build {
                    const std::vector<FoundJobs>& found);
 
  private:
+  /// Each time that the scene was voxelized.
+  void meet(TriangleSource& source, VoxelizedScene& scene, bool ground);
   void note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told);
   [[nodiscard]] ScalePlan read_field(const VoxelizedScene& voxels, bool tell);
   void gather(TriangleSource& source, const VoxelizedScene& scene);

@@ -39,6 +39,12 @@ std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triang
     return level.stopped_by == to_string(StopReason::least_volume) ? least_volume_note(level.faces, budget, advice)
                                                                    : too_few_note(level.faces, budget, advice);
   }
+  return closed_note(level);
+}
+
+std::string closed_note(const LevelFacts& level) {
+  if (level.attempts == 1 || !level.reached) return "";
+  const std::uint64_t budget = level.target.faces;
   const std::string fewer =
       clearly_fewer(level.faces, budget) ? fmt::format("{} faces instead of {}: ", level.faces, budget) : "";
   if (level.scale_world == 0)  // a cage
@@ -60,8 +66,7 @@ std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std:
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const LevelFacts& level = levels[i];
-    const bool closes_more = first + i == 0 && level.attempts > 1;  // what few would expect of the finest
-    if (const std::string missed = faces_note(level, asked || closes_more, scene.triangles); !missed.empty())
+    if (const std::string missed = faces_note(level, asked, scene.triangles); !missed.empty())
       notes.push_back(fmt::format("level {}: {}", first + i, missed));
     if (const double error = level.target.error_world; error > 0 && level.error_world > error)
       notes.push_back(error_note(first + i, level.error_world, error));

@@ -39,6 +39,9 @@ struct SceneParts {
 /// Not known of a scene whose parts take more memory to be counted, or if `options` ask for no number of faces.
 [[nodiscard]] SceneParts parts_of(const VoxelizedScene& scene, const BuildOptions& options, std::uint64_t memory_bytes);
 
+/// A level that was closed at more than its scale, since parts and holes took too many faces.
+[[nodiscard]] std::string closed_note(const LevelFacts& level);
+
 /// A finest level of so many parts that joins those of the scene and fills the room between them, at a scale that
 /// nobody named, or beyond the one named.
 [[nodiscard]] std::string joined_note(const LevelFacts& finest, std::uint64_t parts, const SceneParts& scene);
