@@ -102,16 +102,11 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   out.counts = voxelize_stream(*source, open, backends, v);
   size_ = {out.header.bounds, out.counts.scene.triangles};
   enclosed_ = enclosed_by(options, size_.triangles);
-  meet(*source, out, ground);
+  if (!options.field.empty()) field_ = read_field(out, !scene_met_);
+  if (!scene_met_ && !ground) note_scene(out, source->up());
+  choose_textures(*source, !std::exchange(scene_met_, true));
+  if (colored_ && !textured_) gather(*source, out);
   return out;
-}
-
-void Build::meet(TriangleSource& source, VoxelizedScene& scene, bool ground) {
-  const bool first = !std::exchange(scene_met_, true);  // later, the scene is the same
-  if (!options.field.empty()) field_ = read_field(scene, first);
-  if (first && !ground) note_scene(scene, source.up());
-  choose_textures(source, first);
-  if (colored_ && !textured_) gather(source, scene);
 }
 
 void Build::note_time(const StreamHeader& header, const VoxelizeCounts& counts) {

@@ -77,8 +77,6 @@ class Build {
                    const std::vector<FoundJobs>& found);
 
  private:
-  /// Each time that the scene was voxelized.
-  void meet(TriangleSource& source, VoxelizedScene& scene, bool ground);
   void note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told);
   [[nodiscard]] ScalePlan read_field(const VoxelizedScene& voxels, bool tell);
   void gather(TriangleSource& source, const VoxelizedScene& scene);
@@ -98,7 +96,7 @@ class Build {
   /// Of the first attempt, and of each with voxels of another size.
   void note_time(const StreamHeader& header, const VoxelizeCounts& counts);
   SceneSize size_;
-  bool scene_met_ = false;            // by voxelize()
+  bool scene_met_ = false;            // by voxelize(), which tells of it once
   std::optional<MirrorPlane> plane_;  // of a cage
   double voxel_ = 0, margin_ = 0;     // of the scene, scene units
   Attempt attempt_;
