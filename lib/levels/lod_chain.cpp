@@ -125,8 +125,9 @@ struct LodChain::State {
 
   /// Whether nothing is asked but a number of faces, of a scene of few triangles: these tell quickly what is near.
   [[nodiscard]] bool is_simple(const LodTarget& target) const {
-    return options.mode == MeshMode::bounding && options.enclose == Enclose::scene && !options.cage && !options.field &&
-           target.error_world == 0 && !target.scale_world && options.scene.size() <= kTrianglesOfSimple;
+    return options.mode == MeshMode::bounding && has_triangles() && !options.cage && !options.field &&
+           target.faces > 0 && target.error_world == 0 && !target.scale_world &&
+           options.scene.size() <= kTrianglesOfSimple;
   }
 
   /// The nearest of a measured level and those at other scales, `least` or more. Budgets decide scales by the area

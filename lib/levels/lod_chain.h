@@ -31,8 +31,8 @@ struct LodTarget {
 constexpr double kLeastDenseFaces = 500000;
 constexpr double kVoxelsPerError = 8;  ///< the error holds the voxels' diagonal, the closing and the simplification
 constexpr double kScalesPerError = 4;  ///< the cube's dilation reaches sqrt(3) scales
-constexpr double kLeastScaleVox =
-    1 + kBeyondWholeVox;  ///< that a budget leads to first; below 1, closing is the identity
+/// That a budget leads to, before smaller scales are tried; below 1, closing is the identity.
+constexpr double kLeastScaleVox = 1 + kBeyondWholeVox;
 
 /// What decides at which scale, and on which voxels, a level is tried first.
 struct LodGround {

@@ -137,6 +137,7 @@ TEST_CASE("the first bytes of a file tell its format, and its name where they do
   CHECK(read_all(dir.file("off.ply", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).size() == 1);
   CHECK(read_all(dir.file("obj.stl", kTetrahedron)).size() == 4);
   CHECK_THAT(complaint_of(dir.file("las.ply", "LASF")), Contains("point cloud"));
+  CHECK_THAT(complaint_of(dir.file("zip.obj", "PK\x03\x04")), Contains("unpack"));
   CHECK_THAT(complaint_of(dir.file("what", "hello")), Contains("tell its format"));
   SceneOptions options;
   options.format = "OBJ";
