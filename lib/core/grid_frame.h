@@ -26,6 +26,11 @@ struct GridFrame {
     const Vec3d o = world_origin();
     return {(p[0] - o[0]) / voxel, (p[1] - o[1]) / voxel, (p[2] - o[2]) / voxel};
   }
+  /// The same in lattice units.
+  [[nodiscard]] Vec3d to_lattice(const Vec3d& p) const {
+    const Vec3d v = to_voxels(p);
+    return {v[0] * kLatticePerVoxel, v[1] * kLatticePerVoxel, v[2] * kLatticePerVoxel};
+  }
   friend bool operator==(const GridFrame&, const GridFrame&) = default;
 };
 

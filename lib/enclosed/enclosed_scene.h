@@ -15,8 +15,8 @@ struct ScenePart {
   const BrickShelf* voxels = nullptr;  ///< may be empty
 };
 
-/// The triangles of a scene, and its voxels: the triangles stay inside, exactly; the voxels tell what is near, which is
-/// quick and needs no more than a guess.
+/// The triangles of a scene: they stay inside, exactly. What is near is told by its voxels, which is quick and needs no
+/// more than a guess, or by few triangles.
 class EnclosedScene final : public EnclosedTriangles {
  public:
   /// `voxels`: of the scene, in the voxels of `frame`. `part`: of the scene, if not all of it stays inside. `near`:
@@ -24,8 +24,8 @@ class EnclosedScene final : public EnclosedTriangles {
   EnclosedScene(std::vector<TriangleD> triangles, const GridFrame& frame, const BrickShelf& voxels,
                 const std::optional<ScenePart>& part, std::unique_ptr<const NearTriangles> near)
       : EnclosedTriangles(std::move(triangles), frame, part ? std::optional(part->box) : std::nullopt),
-        near_(std::move(near)),
-        voxels_(voxels) {
+        near_(std::move(near)) {
+    if (!near_) voxels_.emplace(voxels);
     if (part && !part->voxels->coords().empty()) held_.emplace(*part->voxels);
   }
   [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
@@ -40,15 +40,16 @@ class EnclosedScene final : public EnclosedTriangles {
     return points;
   }
   [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const override {
-    return near_ ? near_->is_near(faces, distance) : voxels_.is_near(faces, distance);
+    return near_ ? near_->is_near(faces, distance) : voxels_->is_near(faces, distance);
   }
   [[nodiscard]] std::uint64_t bytes() const override {
-    return EnclosedTriangles::bytes() + voxels_.bytes() + (held_ ? held_->bytes() : 0) + (near_ ? near_->bytes() : 0);
+    const auto of = [](const auto& one) { return one ? one->bytes() : 0; };
+    return EnclosedTriangles::bytes() + of(near_) + of(voxels_) + of(held_);
   }
 
  private:
   std::unique_ptr<const NearTriangles> near_;
-  EnclosedVoxels voxels_;
+  std::optional<EnclosedVoxels> voxels_;  // where triangles do not tell what is near
   std::optional<EnclosedVoxels> held_;
 };
 

@@ -21,10 +21,10 @@ constexpr std::int64_t kTrianglesAtOnce = 4096;
 LatticeBox box_around(const GridFrame& frame, const TriangleD& t) {
   LatticeBox box;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3d v = frame.to_voxels(t[k]);
+    const Vec3d at = frame.to_lattice(t[k]);
     LatticeCoord low, high;
     for (int i = 0; i < 3; ++i) {
-      low[i] = std::int64_t(std::floor(v[std::size_t(i)] * kLatticePerVoxel)) - 1;
+      low[i] = std::int64_t(std::floor(at[std::size_t(i)])) - 1;
       high[i] = low[i] + 3;
     }
     if (k == 0) box = {low, high};
@@ -37,12 +37,11 @@ LatticeBox box_around(const GridFrame& frame, const TriangleD& t) {
 /// The smallest lattice box that surely has a point strictly inside.
 LatticeBox box_around(const GridFrame& frame, const Vec3d& p) {
   constexpr double kSlack = 0x1p-13;  // to_voxels errs by less than 2^-20 voxel
-  const Vec3d v = frame.to_voxels(p);
+  const Vec3d at = frame.to_lattice(p);
   LatticeBox box;
   for (int i = 0; i < 3; ++i) {
-    const double at = v[std::size_t(i)] * kLatticePerVoxel;
-    box.min[i] = std::int64_t(std::floor(at - kSlack));
-    box.max[i] = std::int64_t(std::ceil(at + kSlack));
+    box.min[i] = std::int64_t(std::floor(at[std::size_t(i)] - kSlack));
+    box.max[i] = std::int64_t(std::ceil(at[std::size_t(i)] + kSlack));
   }
   return box;
 }
@@ -141,7 +140,7 @@ std::vector<Vec3d> EnclosedTriangles::cut_to(const Bounds3d& within, std::vector
   std::vector<Vec3d> middles;
   std::erase_if(triangles, [&](const TriangleD& t) {
     const TrianglePart part(t, within);
-    if (!part.empty()) middles.push_back(kLatticePerVoxel * frame_.to_voxels(part.middle()));
+    if (!part.empty()) middles.push_back(frame_.to_lattice(part.middle()));
     return part.empty();
   });
   return middles;
@@ -152,9 +151,9 @@ double EnclosedTriangles::set_corners(std::size_t i) {
   const Vec3d base = to_double(tree_.base());
   double farthest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3d v = frame_.to_voxels(triangles_[i][k]);
+    const Vec3d p = frame_.to_lattice(triangles_[i][k]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double at = v[axis] * kLatticePerVoxel - base[axis];
+      const double at = p[axis] - base[axis];
       farthest = std::max(farthest, std::abs(at));
       eights_[i / 8].corners[k][axis][i % 8 / 4][i % 4] = float(at);
     }
@@ -314,10 +313,7 @@ void EnclosedTriangles::report(std::size_t i, Blocker& blocker) const {
     triangle = {corners[0], corners[corners.size() / 3], corners[corners.size() * 2 / 3]};
   }
   blocker.count = 3;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3d v = frame_.to_voxels(triangle[k]);
-    for (std::size_t axis = 0; axis < 3; ++axis) blocker.points[k][axis] = v[axis] * kLatticePerVoxel;
-  }
+  for (std::size_t k = 0; k < 3; ++k) blocker.points[k] = frame_.to_lattice(triangle[k]);
 }
 
 void EnclosedTriangles::outer_boxes(const UseBoxes& use) const {
@@ -357,8 +353,7 @@ std::vector<Vec3d> EnclosedTriangles::all_samples() const {
   }
   points = each_once(points);
   parallel_ranges(std::int64_t(points.size()), kSamplesAtOnce, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
-      points[i] = kLatticePerVoxel * frame_.to_voxels(points[i]);
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) points[i] = frame_.to_lattice(points[i]);
   });
   return points;
 }

@@ -13,7 +13,7 @@ constexpr double kBesideVoxels = 0.87 * kLatticePerVoxel;  // half of a diagonal
 
 std::vector<TriangleD> in_lattice(std::vector<TriangleD> triangles, const GridFrame& frame) {
   for (TriangleD& t : triangles) {
-    for (Vec3d& p : t) p = double(kLatticePerVoxel) * frame.to_voxels(p);
+    for (Vec3d& p : t) p = frame.to_lattice(p);
   }
   return triangles;
 }

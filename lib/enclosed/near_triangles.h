@@ -13,8 +13,6 @@ namespace bp {
 /// looked up for each piece of it.
 class NearTriangles {
  public:
-  static constexpr std::size_t kMost = 4096;  ///< triangles; of more, each is near a small part of a face
-
   /// In scene units; one or more. Copied, and kept in the lattice units of the frame.
   NearTriangles(const std::vector<TriangleD>& triangles, const GridFrame& frame);
 

@@ -30,11 +30,10 @@ constexpr double kExactVox = 0.125;  // of error: a level of so little is not tr
 // than cubes, and what a fit has of a hole need not lie around anything.
 constexpr std::uint64_t kFacesPerPart = 100, kFacesPerPartOfFit = 50;
 
-// Of scenes of so few triangles, which tell quickly what is near, levels are tried at other scales, too. At twice the
+// Of simple scenes, whose triangles tell quickly what is near, levels are tried at other scales, too. At twice the
 // scale where the error is so many scales: faces are too few for what is left open, and spikes bridge it. At these
 // parts where a level has a face for so many triangles; until its error is so small, as long as each part or hole has
 // so many faces, and no room opens.
-constexpr std::size_t kTrianglesOfSimple = 4096;
 constexpr double kSpikes = 2.3;
 constexpr std::uint64_t kTrianglesPerFace = 4;
 constexpr std::array kPartsOfScale{0.25, 0.125};
@@ -127,7 +126,7 @@ struct LodChain::State {
   [[nodiscard]] bool is_simple(const LodTarget& target) const {
     return options.mode == MeshMode::bounding && has_triangles() && !options.cage && !options.field &&
            target.faces > 0 && target.error_world == 0 && !target.scale_world &&
-           options.scene.size() <= kTrianglesOfSimple;
+           options.scene.size() <= MeshParams::kSimpleScene;
   }
 
   /// The nearest of a measured level and those at other scales, `least` or more. Budgets decide scales by the area
@@ -142,31 +141,28 @@ struct LodChain::State {
       if (other.mesh.triangles.size() > target.faces) return;
       measure(other);
       other.attempts = 1;
-      if (other.error_world < level.error_world) level = std::move(other);
+      if (other.error_world >= level.error_world) return;
+      level = std::move(other);
+      last_scale = scale;
     };
     if (level.error_world > kSpikes * whole) try_to_mesh(2 * whole, closing_at(2 * whole));
-    if (options.scene.size() <= kTrianglesPerFace * target.faces) {
-      double last = whole;
-      for (const double part : kPartsOfScale) {
-        const double scale = std::max(part * whole, least);
-        if (is_near() || scale >= last) break;
-        const Closed closing = closing_at(scale);
-        if (!has_faces_for_parts(*closing.voxels, target.faces, kLeastFacesPerPart)) break;
-        if (opens_room(closing, whole, target)) break;
-        try_to_mesh(scale, closing);
-        last = scale;
-      }
-    }
-    last_scale = level.scale_world;
-    return level;
-  }
-
-  /// Whether a room opens that is closed at the scale `whole`: its walls would take as many faces again. Where a level
-  /// may have all of the scene's triangles, they have enough.
-  [[nodiscard]] bool opens_room(const Closed& closing, double whole, const LodTarget& target) {
-    if (options.scene.size() <= target.faces) return false;
+    if (options.scene.size() > kTrianglesPerFace * target.faces) return level;
     const auto surface_of = [&](const Closed& c) { return double(count_faces(ShelfSurface(*c.voxels, header.frame))); };
-    return surface_of(closing) > kOpens * surface_of(closing_at(whole));
+    // Where a room opens that the whole scale closes, its walls would take as many faces again. All of the scene's
+    // triangles are enough for them.
+    const bool may_open = options.scene.size() <= target.faces;
+    const double most_surface = may_open ? 0 : kOpens * surface_of(closing_at(whole));
+    double last = whole;
+    for (const double part : kPartsOfScale) {
+      const double scale = std::max(part * whole, least);
+      if (is_near() || scale >= last) break;
+      const Closed closing = closing_at(scale);
+      if (!has_faces_for_parts(*closing.voxels, target.faces, kLeastFacesPerPart)) break;
+      if (!may_open && surface_of(closing) > most_surface) break;
+      try_to_mesh(scale, closing);
+      last = scale;
+    }
+    return level;
   }
 
   /// Whether several ways lead to the level, which is measured then, and the nearest one is taken.

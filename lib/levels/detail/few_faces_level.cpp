@@ -40,7 +40,7 @@ std::vector<Vec3d> scene_corners(const GridFrame& frame, std::span<const Triangl
   if (scene.size() > kMost) return corners;
   corners.reserve(3 * scene.size());
   for (const TriangleD& t : scene) {
-    for (const Vec3d& p : t) corners.push_back(double(kLatticePerVoxel) * frame.to_voxels(p));
+    for (const Vec3d& p : t) corners.push_back(frame.to_lattice(p));
   }
   return corners;
 }

@@ -40,6 +40,9 @@ struct MeshParams {
   /// With nothing but `faces` wanted, in bounding mode: no step takes a face farther from what is enclosed than the
   /// scale and a voxel, as far as so few faces allow it. Volume alone does not mind a face far out.
   bool near = false;
+  /// Triangles of a scene, at most, that tell what is near sooner than voxels: of more, each is near a small part of a
+  /// face.
+  static constexpr std::size_t kSimpleScene = 4096;
   /// With nothing but `faces` wanted, in bounding mode, and not near: a hull or a box takes the place of a proxy that
   /// holds more, or has spikes (convex_proxy.h).
   bool convex = true;

@@ -21,12 +21,12 @@ TEST_CASE("a scene that ends close to a side of doubled voxels lies within them"
   constexpr double kBeside = 2.0 / 65536;  // of a voxel: more than voxels are grown by, less than doubled ones
   Triangles scene;
   add_box(scene, {0, 0, 0}, {40 - kBeside, 41 - kBeside, 42 - kBeside});
-  add_box(scene, {0, 0, 0}, {120, 10, 10});
+  add_box(scene, {0, 0, 0}, {240, 10, 10});
   Backends backends = plain_backends(2);
   Voxelized solid = voxelized(scene, 1);
   LodOptions options = around(scene);
   LodChain chain(solid.header, std::move(solid.shelf), backends, std::move(options));
-  const LodLevel coarse = chain.make({0, 24, {}});
+  const LodLevel coarse = chain.make({0, 20, {}});
   CHECK(coarse.reductions > 0);
   MemorySource source(scene);
   CHECK(check_proxy(indexed(coarse.mesh), &source).holds());

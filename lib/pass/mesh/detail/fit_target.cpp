@@ -38,7 +38,7 @@ FitTarget scene_target(const TriangleBvh& scene, const GridFrame& frame, double 
     const TriangleBvh::Nearest found = scene.nearest(at);
     if (found.distance_squared > kReach * kReach * frame.voxel * frame.voxel) return {inset(p, normal, extents)};
     const TriangleD& t = scene.item(found.item).corners;
-    return place_on(t, kLatticePerVoxel * frame.to_voxels(nearest_point(at, t)), normal);
+    return place_on(t, frame.to_lattice(nearest_point(at, t)), normal);
   };
 }
 

@@ -45,7 +45,7 @@ std::vector<TriangleD> rect_triangles(const BrickShelf& shelf, const GridFrame& 
 /// Of a scene of few triangles, unless its voxels are filled where none are near, or it is cut.
 std::unique_ptr<NearTriangles> near_triangles(const MeshParams& params, const GridFrame& frame, FillMode fill) {
   if (params.part || fill == FillMode::winding || params.scene.empty()) return nullptr;
-  if (params.scene.size() > NearTriangles::kMost) return nullptr;
+  if (params.scene.size() > MeshParams::kSimpleScene) return nullptr;
   return std::make_unique<NearTriangles>(params.scene, frame);
 }
 

@@ -123,9 +123,7 @@ TEST_CASE("what lies a voxel or more below the surface does not tint it", "[quic
   const Voxelized voxels = voxelized(scene.triangles, 0.125);
   const GridFrame& frame = voxels.header.frame;
   const NearbyColors near = gathered(scene, voxels, 1 << 20)->all(frame);
-  const auto seen = [&](const Vec3d& p, const Vec3d& normal) {
-    return near.at(double(kLatticePerVoxel) * frame.to_voxels(p), normal);
-  };
+  const auto seen = [&](const Vec3d& p, const Vec3d& normal) { return near.at(frame.to_lattice(p), normal); };
   CAPTURE(thickness);
   CHECK(seen({0, 5, 5}, {-1, 0, 0}) == kRed);
   CHECK(seen({10, 5, 5}, {1, 0, 0}) == kRed);
