@@ -1,5 +1,5 @@
 #pragma once
-#include <bit>
+#include <array>
 #include <cstdint>
 
 #include "lib/core/coords.h"
@@ -7,33 +7,26 @@
 /// Is a set of triangles closed? Told without keeping it.
 namespace bp {
 
-namespace detail {
-inline std::uint64_t mix(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-  return x ^ (x >> 31);
-}
+/// A secret of 128 bits. Whoever knows the key can choose open sets of edges whose sum is zero, so that a key of one
+/// run must not be known when its scenes are made.
+struct EdgeKey {
+  std::uint64_t words[2];
+  [[nodiscard]] static EdgeKey drawn();  ///< from the system's source of random numbers
+};
 
-inline std::uint64_t hash(const Vec3d& p, std::uint64_t seed) {
-  for (const double x : p) seed = mix(seed + 0x9E3779B97F4A7C15u + std::bit_cast<std::uint64_t>(x + 0.0));
-  return seed;
-}
-}  // namespace detail
+/// The sum over all directed edges ab of h(a, b) - h(b, a), with h a keyed hash of 128 bits. It is zero if each edge is
+/// used as often as its reverse. For any other edges, chosen without the key, it is zero with a probability of about
+/// 2^-128.
+class EdgeSum {
+ public:
+  explicit EdgeSum(const EdgeKey& key) : key_(key) {}
+  void add(const TriangleD& t);
+  void add(const EdgeSum& s) { low_ += s.low_, high_ += s.high_; }  ///< of the same key
+  [[nodiscard]] bool zero() const { return low_ == 0 && high_ == 0; }
 
-/// The sum over all directed edges ab of h(a, b) - h(b, a): zero if each is used as often as its reverse, and for any
-/// other set of edges zero with a probability of 2^-128.
-struct EdgeSum {
-  std::uint64_t low = 0, high = 0;
-  void add(const TriangleD& t) {
-    using detail::hash;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d &a = t[k], &b = t[(k + 1) % 3];
-      low += hash(b, hash(a, 1)) - hash(a, hash(b, 1));
-      high += hash(b, hash(a, 2)) - hash(a, hash(b, 2));
-    }
-  }
-  void add(const EdgeSum& s) { low += s.low, high += s.high; }
-  [[nodiscard]] bool zero() const { return low == 0 && high == 0; }
+ private:
+  EdgeKey key_;
+  std::uint64_t low_ = 0, high_ = 0;
 };
 
 }  // namespace bp

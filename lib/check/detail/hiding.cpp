@@ -41,11 +41,12 @@ class Shells {
     WeldedMesh mesh = weld(soup, 0, unused);
     soup = {};
     check_topology(mesh, 0, unused);
+    const EdgeKey key = EdgeKey::drawn();
     std::vector<EdgeSum> edges;
     std::vector<std::uint32_t> shells = mesh.component;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       if (mesh.degenerate[t] != 0) continue;
-      edges.resize(std::max(edges.size(), std::size_t(shells[t]) + 1));
+      edges.resize(std::max(edges.size(), std::size_t(shells[t]) + 1), EdgeSum(key));
       edges[shells[t]].add(mesh.corners(t));
     }
     enclosed_.assign(points.size(), 0);

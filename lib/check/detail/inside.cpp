@@ -1,5 +1,7 @@
 #include "lib/check/detail/inside.h"
 
+#include <optional>
+
 #include "lib/check/detail/edge_sum.h"
 #include "lib/check/detail/hiding.h"
 #include "lib/core/parallel.h"
@@ -25,17 +27,30 @@ std::vector<Probe> probes_of(const WeldedMesh& mesh) {
   return probes;
 }
 
+/// Edges of the triangles that have an area, and of the others.
+struct SceneEdges {
+  explicit SceneEdges(const EdgeKey& key) : plain(key), degenerate(key) {}
+  EdgeSum plain, degenerate;
+  void add(const SceneEdges& e) { plain.add(e.plain), degenerate.add(e.degenerate); }
+  /// Either sum tells that the surface is closed as a set of points.
+  [[nodiscard]] bool closed() const {
+    EdgeSum all = plain;
+    all.add(degenerate);
+    return plain.zero() || all.zero();
+  }
+};
+
 struct InsideBatch {
   std::vector<TriangleD> triangles;
   InsideReport result;
   std::vector<std::int64_t> windings;
-  EdgeSum edges;             // of triangles that have an area
-  EdgeSum degenerate_edges;  // of the others
+  std::optional<SceneEdges> edges;
 };
 
 /// Numbers of triangles count from 0 in each batch.
-void check_batch(const WeldedMesh& mesh, const Surface& surface, const std::vector<Probe>& probes,
+void check_batch(const WeldedMesh& mesh, const Surface& surface, const std::vector<Probe>& probes, const EdgeKey& key,
                  std::size_t max_examples, InsideBatch& batch) {
+  batch.edges.emplace(key);
   batch.windings.assign(probes.size(), 0);
   for (const TriangleD& t : batch.triangles) {
     const std::uint64_t number = batch.result.triangles;
@@ -45,10 +60,10 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, const std::vect
       continue;
     }
     if (collinear(t[0], t[1], t[2])) {
-      batch.degenerate_edges.add(t);
+      batch.edges->degenerate.add(t);
       continue;
     }
-    batch.edges.add(t);
+    batch.edges->plain.add(t);
     ++batch.result.triangles;
     for (std::size_t p = 0; p < probes.size(); ++p) batch.windings[p] += crossing_above(t, probes[p].point);
     const std::int64_t touched = surface.touched_by(t);
@@ -83,7 +98,8 @@ InsideReport check_inside(const WeldedMesh& mesh, const Surface& surface, Triang
                           std::size_t max_examples, std::uint64_t memory_bytes) {
   InsideReport report;
   std::vector<Probe> probes = probes_of(mesh);
-  EdgeSum edges, degenerate_edges;
+  const EdgeKey key = EdgeKey::drawn();
+  SceneEdges edges(key);
   const auto append = [&](Finding& all, Finding& found) {
     for (Example& e : found.examples) e.index += report.triangles;
     all.append(found, max_examples);
@@ -91,19 +107,16 @@ InsideReport check_inside(const WeldedMesh& mesh, const Surface& surface, Triang
   scene.rewind();
   pipeline<InsideBatch>(
       4 * thread_count(), [&](InsideBatch& batch) { return scene.read(batch.triangles); },
-      [&](InsideBatch& batch) { check_batch(mesh, surface, probes, max_examples, batch); },
+      [&](InsideBatch& batch) { check_batch(mesh, surface, probes, key, max_examples, batch); },
       [&](InsideBatch& batch) {
         append(report.touching, batch.result.touching);
         append(report.swallowed, batch.result.swallowed);
         append(report.undecidable, batch.result.undecidable);
         report.triangles += batch.result.triangles;
-        edges.add(batch.edges);
-        degenerate_edges.add(batch.degenerate_edges);
+        edges.add(*batch.edges);
         for (std::size_t p = 0; p < probes.size(); ++p) probes[p].winding += batch.windings[p];
       });
-  EdgeSum all_edges = edges;
-  all_edges.add(degenerate_edges);
-  report.scene_closed = edges.zero() || all_edges.zero();  // either says so of the surface as a set of points
+  report.scene_closed = edges.closed();
   look_at(probes, scene, max_examples, memory_bytes, report);
   return report;
 }

@@ -22,8 +22,8 @@ struct InsideReport {
 };
 
 /// Reads the scene, which should have its triangles of no area, once from its start, and again where it does not wind
-/// around a part. `mesh` must be closed and oriented. Whether the scene is closed is told by sums of two independent
-/// 64-bit hashes of its edges. Memory does not grow with the scene, but for the second time: at most memory_bytes.
+/// around a part. `mesh` must be closed and oriented. Whether the scene is closed is told by a keyed
+/// sum of its edges (edge_sum.h). Memory does not grow with the scene, but for the second time: at most memory_bytes.
 [[nodiscard]] InsideReport check_inside(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
                                         std::size_t max_examples, std::uint64_t memory_bytes);
 
