@@ -124,11 +124,20 @@ class LeafCutter {
     const bool flat = u[1] * v[2] == u[2] * v[1] && u[2] * v[0] == u[0] * v[2] && u[0] * v[1] == u[1] * v[0];
     if (flat) return;
     growing.part.triangles.push_back({growing.number_of(a), growing.number_of(b), growing.number_of(c)});
-    for (const LeafVertex* p : {&a, &b, &c}) {
-      Vec3d at;
-      for (std::size_t i = 0; i < 3; ++i) at[i] = leaf_.origin[i] + leaf_.unit * p->at[i];
-      leaf_.bounds.add(at);
+    for (const LeafVertex* p : {&a, &b, &c}) add_to_bounds(*p);
+  }
+
+  /// The vertex is relative to the leaf's origin. Where the sum of both is rounded, the doubles around it are added.
+  void add_to_bounds(const LeafVertex& v) {
+    Vec3d low, high;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double origin = leaf_.origin[i], by = leaf_.unit * v.at[i], sum = origin + by, part = sum - origin;
+      const bool exact = origin - (sum - part) == 0 && by - part == 0;
+      low[i] = exact ? sum : std::nextafter(sum, -HUGE_VAL);
+      high[i] = exact ? sum : std::nextafter(sum, HUGE_VAL);
     }
+    leaf_.bounds.add(low);
+    leaf_.bounds.add(high);
   }
 
   [[nodiscard]] LeafVertex vertex_of(const CutPoint& p) const {
