@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "lib/closing/closing.h"
 #include "lib/closing/closing_scratch.h"
@@ -19,10 +20,11 @@ namespace bp {
 
 namespace {
 
-constexpr std::int64_t kSetsAtOnce = 8;  // of voxels, while the hidden ones are told
-constexpr std::int32_t kTile = 192;      // voxels, of the closing
-constexpr double kMostScaleVox = 4000;   // of any closing
-constexpr double kMostVoxels = 1 << 20;  // along a side
+constexpr std::int64_t kSetsAtOnce = 8;      // of voxels, while the hidden ones are told
+constexpr std::int32_t kTile = 192;          // voxels, of the closing
+constexpr double kMostScaleVox = 4000;       // of any closing
+constexpr double kMostVoxels = 1 << 20;      // along a side
+constexpr double kMostFineVoxels = 1 << 12;  // the same, where vertices are no lattice points: 2^28 units
 
 using Corners = std::array<LatticeCoord, 3>;
 
@@ -111,15 +113,26 @@ class HiddenCheck {
     const GridFrame& frame = recipe_.frame;
     if (!(frame.voxel > 0) || !(recipe_.scale_world >= 0) || recipe_.scale_world > kMostScaleVox * frame.voxel)
       return undecided("the voxel or the scale that the file names is out of range");
+    if (round_corners(kMostVoxels)) {
+      const bool exact = std::equal(corners_.begin(), corners_.end(), mesh_.points.begin(),
+                                    [&](const LatticeCoord& l, const Vec3d& p) { return frame.world(l) == p; });
+      if (exact) return true;
+      per_voxel_ = kFixedOne, slack_ = 1;
+      if (round_corners(kMostFineVoxels)) return true;
+    }
+    return undecided("the proxy lies far from the voxels that the file names");
+  }
+
+  /// To the nearest unit: by half of one, and by less than 2^-10 of one in the double arithmetic before.
+  bool round_corners(double most_voxels) {
+    corners_.clear();
     for (const Vec3d& p : mesh_.points) {
       LatticeCoord l;
       for (int i = 0; i < 3; ++i) {
-        const double x = p[std::size_t(i)] / frame.voxel - double(frame.origin[std::size_t(i)]);
-        if (!(std::abs(x) < kMostVoxels)) return undecided("the proxy lies far from the voxels that the file names");
-        l[i] = std::llround(x * kLatticePerVoxel);
+        const double x = p[std::size_t(i)] / recipe_.frame.voxel - double(recipe_.frame.origin[std::size_t(i)]);
+        if (!(std::abs(x) < most_voxels)) return false;
+        l[i] = std::llround(x * double(per_voxel_));
       }
-      if (frame.world(l) != p)
-        return undecided("the proxy's vertices are not where the voxels that the file names put them: it was changed");
       corners_.push_back(l);
     }
     return true;
@@ -169,24 +182,27 @@ class HiddenCheck {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       Corners corners;
       for (std::size_t k = 0; k < 3; ++k) corners[k] = corners_[mesh_.triangles[t][k]];
-      const VoxelCoord* met = nullptr;
-      VoxelCoord at;
+      std::optional<VoxelCoord> met;
       for_each_voxel(corners, [&](VoxelCoord v) {
-        if (met != nullptr || hidden.test(v) || !meets_open_voxel(corners, v)) return;
-        at = v;
-        met = &at;
+        if (met || hidden.test(v) || !meets_open_voxel(corners, v, per_voxel_, slack_)) return;
+        if (meets_open_voxel(corners, v, per_voxel_, -slack_))
+          met = v;
+        else
+          is_near_ = true;
       });
-      if (met != nullptr) report_.exposed.add({mesh_.number[t], 0, middle_of(at)}, max_examples_);
+      if (met) report_.exposed.add({mesh_.number[t], 0, middle_of(*met)}, max_examples_);
     }
+    if (is_near_ && report_.exposed.count == 0)
+      undecided("the proxy comes as near to a voxel that is not hidden as its vertices are rounded");
   }
 
   /// Those that the triangle may meet.
-  static void for_each_voxel(const Corners& t, const std::function<void(VoxelCoord)>& f) {
+  void for_each_voxel(const Corners& t, const std::function<void(VoxelCoord)>& f) const {
     VoxelBox box;
     for (int i = 0; i < 3; ++i) {
       const std::int64_t low = std::min({t[0][i], t[1][i], t[2][i]}), high = std::max({t[0][i], t[1][i], t[2][i]});
-      box.min[i] = std::int32_t(floor_div<std::int64_t>(low, kLatticePerVoxel)) - 1;
-      box.max[i] = std::int32_t(floor_div<std::int64_t>(high, kLatticePerVoxel)) + 2;
+      box.min[i] = std::int32_t(floor_div<std::int64_t>(low, per_voxel_)) - 1;
+      box.max[i] = std::int32_t(floor_div<std::int64_t>(high, per_voxel_)) + 2;
     }
     for (std::int32_t z = box.min.z; z < box.max.z; ++z) {  // layer by layer: a large triangle's box is large
       BitBox layer(VoxelBox{{box.min.x, box.min.y, z}, {box.max.x, box.max.y, z + 1}});
@@ -198,9 +214,9 @@ class HiddenCheck {
 
   /// No voxel that is not hidden lies within the proxy. The surface meets no open cube of one. So two of them that
   /// share a face lie on one side, unless a triangle lies in the plane of that face: such voxels are looked at one by
-  /// one.
+  /// one. Where vertices were rounded, the surface does not come near to such a face.
   void check_swallowed(const BitBox& hidden) {
-    if (report_.exposed.count > 0) return;  // the sides are not known
+    if (report_.exposed.count > 0 || is_near_) return;  // the sides are not known
     const BitBox others = inverse(hidden), along = beside_level_faces(others.box());
     BitBox open = others, outside(others.box());
     combine(open, along, less);
@@ -219,6 +235,7 @@ class HiddenCheck {
   /// Voxels that share a point with a triangle which lies in a plane between voxels.
   [[nodiscard]] BitBox beside_level_faces(const VoxelBox& box) const {
     BitBox beside(box);
+    if (slack_ > 0) return beside;
     for (const auto& triangle : mesh_.triangles) {
       const LatticeCoord &a = corners_[triangle[0]], &b = corners_[triangle[1]], &c = corners_[triangle[2]];
       for (int i = 0; i < 3; ++i) {
@@ -231,9 +248,9 @@ class HiddenCheck {
     return beside;
   }
 
-  static FixedPoint fixed(const LatticeCoord& p) {
-    constexpr std::int64_t kUnit = kFixedOne / kLatticePerVoxel;
-    return {p.x * kUnit, p.y * kUnit, p.z * kUnit};
+  [[nodiscard]] FixedPoint fixed(const LatticeCoord& p) const {
+    const std::int64_t unit = kFixedOne / per_voxel_;
+    return {p.x * unit, p.y * unit, p.z * unit};
   }
 
   static void for_each_set(const BitBox& voxels, const std::function<void(VoxelCoord)>& f) {
@@ -258,7 +275,10 @@ class HiddenCheck {
   TriangleSource& walls_;
   const HidingRecipe& recipe_;
   const std::size_t max_examples_;
-  std::vector<LatticeCoord> corners_;
+  std::vector<LatticeCoord> corners_;  // in units of which a voxel has per_voxel_
+  std::int64_t per_voxel_ = kLatticePerVoxel;
+  std::int64_t slack_ = 0;  // units: that corners may be off
+  bool is_near_ = false;    // a face may meet a voxel that is not hidden
   VoxelBox box_;
   HiddenReport report_;
 };
@@ -272,10 +292,9 @@ LatticeCoord lattice_cross(const LatticeCoord& a, const LatticeCoord& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Whether the axis has the triangle on one side of the open cube (-kHalf, kHalf)^3.
-bool parts(const Corners& t, const LatticeCoord& axis) {
-  constexpr int kHalf = kLatticePerVoxel;  // in halves of a lattice unit
-  const Wide reach = kHalf * (Wide(std::abs(axis.x)) + std::abs(axis.y) + std::abs(axis.z));
+/// Whether the axis has the triangle on one side of the open cube (-half, half)^3.
+bool parts(const Corners& t, const LatticeCoord& axis, std::int64_t half) {
+  const Wide reach = half * (Wide(std::abs(axis.x)) + std::abs(axis.y) + std::abs(axis.z));
   if (reach == 0) return false;
   const Wide a = lattice_dot(t[0], axis), b = lattice_dot(t[1], axis), c = lattice_dot(t[2], axis);
   return std::min({a, b, c}) >= reach || std::max({a, b, c}) <= -reach;
@@ -283,19 +302,20 @@ bool parts(const Corners& t, const LatticeCoord& axis) {
 
 }  // namespace
 
-bool meets_open_voxel(const Corners& triangle, VoxelCoord voxel) {
+bool meets_open_voxel(const Corners& triangle, VoxelCoord voxel, std::int64_t per_voxel, std::int64_t grow) {
+  const std::int64_t half = per_voxel + 2 * grow;  // in halves of a unit
   Corners t;
   for (std::size_t k = 0; k < 3; ++k) {
-    for (int i = 0; i < 3; ++i) t[k][i] = 2 * triangle[k][i] - (2 * std::int64_t(voxel[i]) + 1) * kLatticePerVoxel;
+    for (int i = 0; i < 3; ++i) t[k][i] = 2 * triangle[k][i] - (2 * std::int64_t(voxel[i]) + 1) * per_voxel;
   }
   const LatticeCoord units[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (const LatticeCoord& unit : units)
-    if (parts(t, unit)) return false;
+    if (parts(t, unit, half)) return false;
   const LatticeCoord edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
-  if (parts(t, lattice_cross(edges[0], edges[1]))) return false;
+  if (parts(t, lattice_cross(edges[0], edges[1]), half)) return false;
   for (const LatticeCoord& edge : edges) {
     for (const LatticeCoord& unit : units)
-      if (parts(t, lattice_cross(edge, unit))) return false;
+      if (parts(t, lattice_cross(edge, unit), half)) return false;
   }
   return true;
 }

@@ -19,16 +19,19 @@ struct HiddenReport {
   [[nodiscard]] bool holds() const { return undecided.empty() && exposed.count == 0; }
 };
 
-/// Whether the solid of the proxy, which must be closed and oriented, lies in the closed cubes of hidden voxels. Exact,
-/// of vertices that are lattice points of the recipe; of others it is not decided. `walls`: the scene without what can
-/// be seen through; read twice from its start. Shares with the tools the voxels that a triangle touches (lib/voxel),
-/// the closing of a tile (lib/closing) and how sets of voxels grow (lib/grid). Memory: some 8 bits for each voxel of
-/// the scene's bounds; where that is more than memory_bytes, it is not decided.
+/// Whether the solid of the proxy, which must be closed and oriented, lies in the closed cubes of hidden voxels. Exact
+/// if all vertices are lattice points of the recipe. Other vertices, as those of a coarser level, are rounded to 2^-16
+/// voxel, and the answer allows for that: it is not decided where a face comes so near to the side of a voxel. `walls`:
+/// the scene without what can be seen through; read twice from its start. Shares with the tools the voxels that a
+/// triangle touches (lib/voxel), the closing of a tile (lib/closing) and how sets of voxels grow (lib/grid). Memory:
+/// some 8 bits for each voxel of the scene's bounds; where that is more than memory_bytes, it is not decided.
 [[nodiscard]] HiddenReport check_hidden(const WeldedMesh& mesh, const Surface& surface, TriangleSource& walls,
                                         const HidingRecipe& recipe, std::size_t max_examples,
                                         std::uint64_t memory_bytes);
 
-/// Whether a triangle has a point in the open cube of a voxel. Exact, for lattice coordinates below 2^28.
-[[nodiscard]] bool meets_open_voxel(const std::array<LatticeCoord, 3>& triangle, VoxelCoord voxel);
+/// Whether a triangle has a point in the open cube of a voxel, grown by `grow` units on each side. Coordinates are in
+/// units of which a voxel's edge has `per_voxel`. Exact below 2^28.
+[[nodiscard]] bool meets_open_voxel(const std::array<LatticeCoord, 3>& triangle, VoxelCoord voxel,
+                                    std::int64_t per_voxel = kLatticePerVoxel, std::int64_t grow = 0);
 
 }  // namespace bp
