@@ -135,6 +135,7 @@ void run(const Options& o) {
   const bp::VoxelizeBudget budget(memory);
   bp::SceneOptions scene{o.voxels.format, budget.reader, o.common.temp};
   scene.document = bp::document_budget(memory, bp::kVoxelProgram, o.voxels.scenes.size());
+  scene.keep_degenerate = true;
   const auto source = bp::open_scenes(o.voxels.scenes, scene);
   const auto file = bp::open_output(o.out, o.common.overwrite);
   std::optional<bp::BrickWriter> writer;

@@ -13,6 +13,7 @@
 #include "lib/check/detail/tile_body.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/exact/predicates.h"
 #include "lib/exact/triangle_part.h"
 #include "lib/geometry/triangle_totals.h"
 #include "lib/tileset/tile_tree.h"
@@ -235,7 +236,11 @@ class CoverChecker {
     LeafProof proof(nothing, box, kFlat * scene_edge_);
     return compare(proof, box, t, error);
   }
+  /// What has no area shows nothing: no leaf has it.
   [[nodiscard]] static Verdict compare(LeafProof& proof, const Bounds3d& cell, const TriangleD& t, double error) {
+    if (in_predicate_domain(t[0]) && in_predicate_domain(t[1]) && in_predicate_domain(t[2]) &&
+        collinear(t[0], t[1], t[2]))
+      return Verdict::fine;
     const std::vector<Vec3d> part = part_within(t, cell);
     if (part.empty()) return Verdict::fine;
     switch (proof.add(part, leaf_error(cell, t, error))) {

@@ -120,6 +120,7 @@ EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const Gri
   triangles_.resize(triangles.size());
   middles_.resize(middles.size());
   eights_.assign((triangles.size() + 7) / 8, {});
+  no_area_.assign(eights_.size(), 0);
   std::vector<double> reach(triangles.size() / kTrianglesAtOnce + 1, 0);
   static_assert(kTrianglesAtOnce % 8 == 0);
   parallel_ranges(std::int64_t(triangles.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {
@@ -150,8 +151,10 @@ std::vector<Vec3d> EnclosedTriangles::cut_to(const Bounds3d& within, std::vector
 double EnclosedTriangles::set_corners(std::size_t i) {
   const Vec3d base = to_double(tree_.base());
   double farthest = 0;
+  const TriangleD& t = triangles_[i];
+  if (collinear(t[0], t[1], t[2])) no_area_[i / 8] |= std::uint8_t(1u << i % 8);
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3d p = frame_.to_lattice(triangles_[i][k]);
+    const Vec3d p = frame_.to_lattice(t[k]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double at = p[axis] - base[axis];
       farthest = std::max(farthest, std::abs(at));
@@ -235,7 +238,8 @@ class EnclosedTriangles::Swept {
   /// Exact, or of a part on the safe side.
   [[nodiscard]] bool meets(std::size_t i) const {
     const TriangleD& t = all_.triangles_[i];
-    const bool cut = has_face_ && triangles_intersect(t.data(), world_.data());
+    const bool cut = has_face_ && (all_.has_area(i) ? triangles_intersect(t.data(), world_.data())
+                                                    : degenerate_triangle_meets(t.data(), world_.data()));
     if (!all_.within_) return cut || (solid_ && solid_->holds(t[0]));
     return (cut && may_meet_within(t, world_, *all_.within_)) || (solid_ && solid_->may_hold(all_.middles_[i]));
   }

@@ -29,7 +29,7 @@ class EnclosedTriangles : public Enclosed {
   [[nodiscard]] bool is_exact() const override { return true; }
   void outer_boxes(const UseBoxes& use) const override;
   [[nodiscard]] std::uint64_t bytes() const override;
-  /// The triangle, its corners in floats, about 40 for the tree, and a contact point.
+  /// The triangle, its corners in floats, about 40 for the tree and a bit for its area, and a contact point.
   static constexpr std::uint64_t kBytesEach =
       sizeof(TriangleD) + sizeof(EightTriangles) / 8 + 40 + kBytesPerContactPoint;
 
@@ -37,6 +37,7 @@ class EnclosedTriangles : public Enclosed {
   class Swept;
   std::vector<Vec3d> cut_to(const Bounds3d& within, std::vector<TriangleD>& triangles) const;
   double set_corners(std::size_t triangle);
+  [[nodiscard]] bool has_area(std::size_t triangle) const { return (no_area_[triangle / 8] >> triangle % 8 & 1) == 0; }
   void add_samples_of(std::size_t triangle, std::vector<Vec3d>& points) const;
   [[nodiscard]] std::vector<Vec3d> all_samples() const;
   [[nodiscard]] bool is_free(Swept swept, Blocker* blocker) const;
@@ -49,6 +50,7 @@ class EnclosedTriangles : public Enclosed {
   BoxTree tree_;
   LatticeBox bounds_;
   std::vector<EightTriangles> eights_;  // relative to the tree's base
+  std::vector<std::uint8_t> no_area_;   // a bit each: a segment or a point
   double reach_ = 0;                    // largest coordinate in eights_
   std::vector<Vec3d> samples_;          // by their first coordinate
 };

@@ -108,8 +108,9 @@ std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& me
   SceneOptions scene = build.scene_options(true);
   scene.colors = build.options.colors();
   scene.textures = build.textures();
+  scene.keep_degenerate = false;  // they show nothing
   const auto source = open_scenes(build.options.voxels.scenes, scene);
-  const SceneLooks::Scene read{*source, build.scene_size().bounds, build.scene_size().triangles, build.textures()};
+  const SceneLooks::Scene read{*source, build.scene_size().bounds, build.triangles_with_area(), build.textures()};
   return std::make_unique<SceneLooks>(read, make_scratch(build.budget.tiles, build.options.common.temp), memory);
 }
 

@@ -15,6 +15,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/enclosed/enclosed_triangles.h"
+#include "lib/exact/predicates.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/margin.h"
@@ -63,6 +64,7 @@ SceneOptions Build::scene_options(bool beside) const {
   SceneOptions scene{options.voxels.format, budget.reader, options.common.temp};
   scene.surface = options.full() || options.leaves;
   scene.walls_only = options.profile == LodProfile::occluder;
+  scene.keep_degenerate = true;
   scene.document = document_budget(unpinned(options.common.memory_bytes, pinned_bytes(backends)), kVoxelProgram,
                                    beside ? 2 : options.voxels.scenes.size());
   return scene;
@@ -101,6 +103,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   };
   out.counts = voxelize_stream(*source, open, backends, v);
   size_ = {out.header.bounds, out.counts.scene.triangles};
+  without_area_ = out.counts.scene.kept_degenerate;
   enclosed_ = enclosed_by(options, size_.triangles);
   if (!options.field.empty()) field_ = read_field(out, !scene_met_);
   if (!scene_met_ && !ground) note_scene(out, source->up());
@@ -218,6 +221,7 @@ std::vector<TriangleD> Build::scene_triangles() const {
     all.insert(all.end(), chunk.begin(), chunk.end());
   if (all.size() != size_.triangles)
     fail(ErrorCode::bad_input, "{}: has changed while it was at work; run it again", source->name());
+  if (fit) std::erase_if(all, [](const TriangleD& t) { return collinear(t[0], t[1], t[2]); });
   return all;
 }
 

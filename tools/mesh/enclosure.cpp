@@ -7,6 +7,7 @@
 #include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/enclosed/enclosed_triangles.h"
+#include "lib/exact/predicates.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/store/content_hash.h"
 #include "lib/store/hex.h"
@@ -45,6 +46,7 @@ SceneOptions scene_options(const EnclosureInput& in, const std::string& format) 
   options.format = format;
   options.memory_bytes = in.memory.bytes() / 2;
   options.temp_dir = in.temp_dir;
+  options.keep_degenerate = true;
   options.document = document_budget(in.memory.limit.bytes, kMeshProgram, 2);
   return options;
 }
@@ -141,9 +143,7 @@ Enclosure automatic(const EnclosureInput& in) {
   return out;
 }
 
-}  // namespace
-
-Enclosure make_enclosure(const EncloseOption& option, const EnclosureInput& in) {
+Enclosure enclosure_of(const EncloseOption& option, const EnclosureInput& in) {
   Enclosure out;
   switch (option.kind) {
     case Kind::automatic:
@@ -162,6 +162,16 @@ Enclosure make_enclosure(const EncloseOption& option, const EnclosureInput& in) 
       if (const std::optional<Obstacle> obstacle = take_scene(in, true, out.scene))
         fail(ErrorCode::bad_input, "--enclose scene: {}; {}, or use --enclose input", obstacle->why, obstacle->remedy);
   }
+  return out;
+}
+
+}  // namespace
+
+/// A fit follows surfaces: segments and points are none.
+Enclosure make_enclosure(const EncloseOption& option, const EnclosureInput& in) {
+  Enclosure out = enclosure_of(option, in);
+  if (in.mode == MeshMode::fit)
+    std::erase_if(out.scene, [](const TriangleD& t) { return collinear(t[0], t[1], t[2]); });
   return out;
 }
 

@@ -39,8 +39,11 @@ TileBody::Side TileBody::side_of(const TriangleD& t, const Bounds3d& bounds, con
   if (!cell) return surface_->touched_by(t) != Surface::kNone ? Side::touching : side_of_point(t[0]);
   const double growth = growth_for(*cell, t);
   const Bounds3d box = grown(*cell, growth);
+  const bool segment = collinear(t[0], t[1], t[2]);
   const bool touches = surface_->bvh().visit(common(bounds, box), [&](const TriangleBvh::Item& face) {
-    return triangles_intersect(t.data(), face.corners.data()) && may_meet_within(t, face.corners, box);
+    const bool meets = segment ? degenerate_triangle_meets(t.data(), face.corners.data())
+                               : triangles_intersect(t.data(), face.corners.data());
+    return meets && may_meet_within(t, face.corners, box);
   });
   return touches ? Side::touching : side_of_part(t, *cell, growth, known);
 }

@@ -11,14 +11,17 @@ using bp::test::RandomLattice;
 
 namespace {
 
-/// The definition: the new faces meet no triangle, and no closed tetrahedron of positive volume holds a first corner.
+/// The definition: the new faces meet no triangle, be it a segment or a point, and no closed tetrahedron of positive
+/// volume holds a first corner.
 bool allowed(const std::vector<TriangleD>& triangles, const GridFrame& frame, const std::vector<NewFace>& star,
              const std::vector<Tetrahedron>& swept) {
   for (const TriangleD& t : triangles) {
     for (const NewFace& f : star) {
       const std::array<Vec3d, 3> face = {frame.world(f.corners[0]), frame.world(f.corners[1]),
                                          frame.world(f.corners[2])};
-      if (triangles_intersect(t.data(), face.data())) return false;
+      if (collinear(t[0], t[1], t[2]) ? degenerate_triangle_meets(t.data(), face.data())
+                                      : triangles_intersect(t.data(), face.data()))
+        return false;
     }
     for (const Tetrahedron& s : swept) {
       const Vec3d a = frame.world(s[0]), b = frame.world(s[1]), c = frame.world(s[2]), d = frame.world(s[3]);
@@ -141,7 +144,9 @@ TEST_CASE("a set of triangles allows what its definition allows, to the last bit
     const LatticeCoord at = random.point(-40, 40);
     std::array<LatticeCoord, 3> t;
     for (LatticeCoord& p : t) p = (at + random.point(-6, 6)) * unit;
-    if (!collinear(t[0], t[1], t[2])) triangles.push_back({frame.world(t[0]), frame.world(t[1]), frame.world(t[2])});
+    if (triangles.size() % 3 == 0) t[2] = t[1];  // a segment
+    if (triangles.size() % 12 == 0) t[1] = t[2] = t[0];
+    triangles.push_back({frame.world(t[0]), frame.world(t[1]), frame.world(t[2])});
   }
   const EnclosedTriangles enclosed(triangles, frame);
   int allowed_ones = 0, refused = 0;
