@@ -92,7 +92,7 @@ int run_tileset(const bp::CheckRun& o) {
   bp::Report report("bpcheck");
   report.begin("check");
   bp::SceneOptions options{o.format, o.common.memory_bytes / 4, o.common.temp};
-  options.keep_extremes = true;
+  options.keep_extremes = options.keep_degenerate = true;
   options.document = bp::document_budget(o.common.memory_bytes, bp::kMeshProgram, 2);
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
   const bp::TilesetVerdict verdict =
@@ -168,7 +168,6 @@ std::optional<bp::HidingQuestion> hiding_question(const bp::CheckRun& o, const s
   const std::optional<bp::OccluderRecipe> recipe = bp::hiding_recipe(bp::extras_of(o.files.back()));
   if (!recipe) return {};
   options.walls_only = recipe->opaque_only;
-  options.keep_degenerate = false;
   walls = bp::open_scenes(scenes, options);
   if (recipe->ground) walls = std::make_unique<bp::GroundedSource>(std::move(walls), recipe->up);
   return bp::HidingQuestion{recipe->hiding, walls.get(), !recipe->opaque_only};
@@ -189,7 +188,7 @@ int run(const bp::CheckRun& o) {
   const bp::Vec3d origin = origin_of(o, report);
   for (bp::IndexedMesh& level : levels) bp::add_origin(level, origin);
   std::unique_ptr<bp::TriangleSource> scene;
-  scene_options.keep_degenerate = o.inside;  // they may be what closes the scene
+  scene_options.keep_degenerate = true;  // they have a place, and may be what closes the scene
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
   if (!scenes.empty()) scene = bp::open_scenes(scenes, scene_options);
   std::unique_ptr<bp::TriangleSource> walls;

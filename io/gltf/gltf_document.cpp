@@ -345,6 +345,29 @@ void GltfDocument::read_sparse(const GltfObject& sparse, Accessor& a) {
   a.replaced_numbers = place(numbers, bytes_of(a.number_type));
   a.replaced_values = place(values, bytes_of(a.type) * a.components);
   a.replaced_count = count;
+  check_sparse_numbers(numbers, a);
+}
+
+/// They must rise and stay below the accessor's count (glTF 2.0, section 3.6.2.3). What breaks this rule, readers take
+/// in different ways.
+void GltfDocument::check_sparse_numbers(const GltfObject& numbers, const Accessor& a) const {
+  constexpr std::uint64_t kAtOnce = 4096;
+  const std::size_t size = bytes_of(a.number_type);
+  if (a.number_type != ComponentType::u8 && a.number_type != ComponentType::u16 && a.number_type != ComponentType::u32)
+    numbers.broken("are not unsigned integers");
+  std::vector<std::byte> some(kAtOnce * size);
+  std::uint64_t least = 0;
+  for (std::uint64_t first = 0; first < a.replaced_count; first += kAtOnce) {
+    const std::uint64_t n = std::min(kAtOnce, a.replaced_count - first);
+    bytes_->read_at(a.replaced_numbers + first * size, std::span(some).first(n * size));
+    for (std::uint64_t k = 0; k < n; ++k) {
+      std::uint64_t number = 0;
+      std::memcpy(&number, some.data() + k * size, size);
+      if (number < least || number >= a.count)
+        numbers.broken(fmt::format("hold {} where numbers from {} to {} must rise", number, least, a.count));
+      least = number + 1;
+    }
+  }
 }
 
 }  // namespace bp

@@ -108,6 +108,9 @@ class GltfDocument {
   ImagePlace image(std::uint64_t i);
   /// All buffers that accessors have named so far, in one file.
   [[nodiscard]] SceneFilePtr bytes() const { return bytes_; }
+  /// Views and primitives met so far that may be read without an extension, and then say something else: those with
+  /// EXT_meshopt_compression are compared, those with KHR_draco_mesh_compression cannot be.
+  [[nodiscard]] std::uint64_t differing() const { return differing_; }
 
  private:
   struct Data {
@@ -128,15 +131,18 @@ class GltfDocument {
   View part_of_buffer(const GltfObject& object);
   /// A view with EXT_meshopt_compression, or KHR_meshopt_compression.
   View unpacked(std::uint64_t i, const GltfObject& packed);
+  [[nodiscard]] bool requires_one_of(std::span<const char* const> extensions) const;
+  [[nodiscard]] std::optional<View> plain_view(std::uint64_t i);
   [[nodiscard]] std::vector<std::byte> packed_bytes(const View& view) const;
   [[nodiscard]] std::uint64_t keep(std::span<const std::byte> plain);  ///< in scratch; its address
   void read_sparse(const GltfObject& sparse, Accessor& a);
+  void check_sparse_numbers(const GltfObject& numbers, const Accessor& a) const;
 
   SceneFilePtr file_;
   const SceneOptions& options_;
   std::string temp_dir_;
   GltfJson json_;
-  std::uint64_t json_bytes_ = 0;
+  std::uint64_t json_bytes_ = 0, differing_ = 0;
   std::vector<SceneFilePtr> lifted_;  // embedded buffers
   SceneFilePtr glb_data_;             // the binary chunk
   std::shared_ptr<JoinedFile> bytes_ = std::make_shared<JoinedFile>();

@@ -50,6 +50,7 @@ class SceneBuilder {
     for (const Skinned& skinned : skinned_) add_skinned(skinned);
     scene_.animations = root_.array("animations").size();
     scene_.bytes = doc_.bytes();
+    scene_.differing = doc_.differing();
     return std::move(scene_);
   }
 

@@ -166,6 +166,7 @@ class InstancedSource final : public RawSource {
   [[nodiscard]] std::optional<UpAxis> up() const override { return scene_.up; }
   [[nodiscard]] std::size_t levels() const override { return scene_.levels; }
   [[nodiscard]] std::size_t animations() const override { return scene_.animations; }
+  [[nodiscard]] std::uint64_t differing() const override { return scene_.differing; }
 
  private:
   static constexpr std::size_t kWindow = 3 * 1024;  // indices at a time: whole triangles, within a cache block
@@ -258,7 +259,7 @@ void InstancedSource::count_triangles(const Primitive& p) {
   triangle_ = 0;
   window_.clear();
   if (triangles_ > 0) first_index_ = p.indices ? elements_.index(*p.indices, 0) : 0;
-  if (p.mode == Primitive::Mode::triangles && n % 3 != 0) ++bad_faces_;
+  if (p.mode == Primitive::Mode::triangles ? n % 3 != 0 : n == 1 || n == 2) ++bad_faces_;
 }
 
 std::uint64_t InstancedSource::index(std::uint64_t i) {

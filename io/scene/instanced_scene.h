@@ -75,6 +75,7 @@ struct InstancedScene {
   std::size_t levels = 1;       ///< that the file has, of which this is one
   std::size_t animations = 0;   ///< that the file has; none is followed
   std::uint64_t bad_faces = 0;  ///< met before, while the scene was put together
+  std::uint64_t differing = 0;  ///< SceneCounts::differing
 
   [[nodiscard]] std::uint64_t memory_bytes() const;  ///< of the description
 };

@@ -9,10 +9,11 @@
 #include "io/scene/part_names.h"
 #include "io/scene/raw_source.h"
 
-// Wavefront OBJ: the lines "v" and "f", everything else is passed over; if colours or walls are asked for, "usemtl" and
-// "mtllib" too, and the three numbers after a vertex' position (an extension of many programs). One pass streams faces
-// while the vertices before them collect in the pool. A face that names a vertex further down makes the rest of the
-// vertices load at once, so that "there is no such vertex" is never said too early.
+// Wavefront OBJ: the lines "v" and "f"; a free-form surface ("surf") counts as a face that cannot be read, and
+// everything else is passed over; if colours or walls are asked for, "usemtl" and "mtllib" too, and the three numbers
+// after a vertex' position (an extension of many programs). One pass streams faces while the vertices before them
+// collect in the pool. A face that names a vertex further down makes the rest of the vertices load at once, so that
+// "there is no such vertex" is never said too early.
 
 namespace bp {
 
@@ -51,8 +52,8 @@ class ObjSource final : public PolygonSource {
     fits_ = {};
   }
 
-  /// Consumes the keyword: 'v', 'f', 'o' or 'g' if that is all of it, 't' for "vt", 'n' for "vn", 'u' for "usemtl" and
-  /// 'm' for "mtllib", 0 for any other, comments included.
+  /// Consumes the keyword: 'v', 'f', 'o' or 'g' if that is all of it, 't' for "vt", 'n' for "vn", 's' for "surf", 'u'
+  /// for "usemtl" and 'm' for "mtllib", 0 for any other, comments included.
   static char keyword(TextScanner& text);
   [[nodiscard]] bool is_wanted() const { return parts_.takes_all() || fits_.object || fits_.group || fits_.material; }
   void read_vertex(TextScanner& text);
@@ -107,6 +108,10 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
       const std::string name = text_.rest_of_line();
       if (parts_.asks()) use_name(key, name);
       if (key == 'u' || key == 'm') use_material(key, name);
+    } else if (key == 's' && !passed_over_ && is_wanted()) {
+      corners.clear();  // a face without corners
+      text_.next_line();
+      return true;
     } else if (key == 'f' && !passed_over_ && is_wanted()) {
       read_corners(corners);
       check_last_line(corners);
@@ -120,10 +125,11 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
 
 char ObjSource::keyword(TextScanner& text) {
   const char first = text.peek();
-  if (std::string_view("vfumog").find(first) == std::string_view::npos) return 0;
+  if (std::string_view("vfumogs").find(first) == std::string_view::npos) return 0;
   const std::string_view word = text.word();
   if (word == "vt") return 't';
   if (word == "vn") return 'n';
+  if (first == 's') return word == "surf" ? 's' : 0;
   return word.size() == 1 || word == "usemtl" || word == "mtllib" ? first : 0;
 }
 

@@ -200,6 +200,7 @@ bool PlySource<Cursor>::next_face(std::vector<std::uint64_t>& corners) {
     if (record_ == 0 && strip_left_ == 0) cursor_.check_count(element);
     if (record_ == 0 && has_colors_) face_numbers_ = PlyColors::of(element);
     if (list == kNone) {
+      if (holds_faces(element)) this->bad_faces_ += element.count;  // of a kind that is not read
       skip_element(element);
     } else if (element.name == "face" && record_ < element.count) {
       ++record_;

@@ -64,8 +64,11 @@ IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions&
   }
   mesh.up = raw.up();
   met.triangles = mesh.triangles.size();
+  met.kept_degenerate = met.degenerate;
   met.bad_faces += raw.bad_faces();
+  met.differing = raw.differing();
   met.instances = raw.instances();
+  mesh.bad_faces = met.bad_faces, mesh.differing = met.differing;
   return mesh;
 }
 
@@ -146,6 +149,7 @@ class FilteredScene final : public TriangleSource {
     counts_.bad_faces = raw_->bad_faces() + bad_faces_;
     counts_.instances = raw_->instances();
     counts_.animations = raw_->animations();
+    counts_.differing = raw_->differing();
     const SceneCounts& c = counts_;  // at the end; whoever names a file of points wants them enclosed
     if (!some_parts_ && batch_->triangles.empty() && c.triangles + c.degenerate + c.non_finite + c.bad_faces == 0 &&
         raw_->points() > 0)
@@ -202,6 +206,7 @@ class FilteredScene final : public TriangleSource {
       const bool degenerate = (plain || in_predicate_domain(t)) && is_degenerate(t);
       if (degenerate) ++counts.degenerate;
       if (degenerate && !keep_degenerate_) continue;
+      if (degenerate) ++counts.kept_degenerate;
       if (batch.colored) batch.colors[kept] = batch.colors[i];
       if (batch.textured) batch.textures[kept] = batch.textures[i];
       if (!batch.inner_edges.empty()) batch.inner_edges[kept] = batch.inner_edges[i];
@@ -285,8 +290,18 @@ class SceneRow final : public TriangleSource {
       counts_ = finished_;
       counts_.add(scene.counts());
       if (more) return true;
+      check_not_empty(scene);
     }
     return false;
+  }
+  /// The other files do not make up for an export that failed. Where only some parts are asked for, a file may have
+  /// none.
+  void check_not_empty(const TriangleSource& scene) const {
+    if (!options_.parts.empty() || options_.walls_only || scene.counts().has_area()) return;
+    const SceneCounts& c = scene.counts();
+    fail(ErrorCode::bad_input,
+         "{}: no triangles ({} degenerate, {} non-finite, {} bad faces); each scene needs at least one with an area",
+         scene.name(), c.degenerate, c.non_finite, c.bad_faces);
   }
   TriangleSource& enter() {
     const bool piped = paths_[next_] == "-";

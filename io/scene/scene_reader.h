@@ -60,7 +60,9 @@ struct SceneOptions {
   bool surface = false;                                   ///< with textures: normals, and how materials answer to light
   std::shared_ptr<const ScenePose> pose{};                ///< of glTF; null: as the file shows it
   std::size_t level = 0;                                  ///< of glTF's MSFT_lod; 0 is the finest
-  bool keep_degenerate = false;                           ///< deliver triangles of no area, too; counted all the same
+  /// Deliver triangles of no area, too: segments and points, which take no part in a surface but have a place. Whatever
+  /// encloses a scene, or checks that, asks for them.
+  bool keep_degenerate = false;
   bool walls_only = false;  ///< leave out what can be seen through, see below; not counted
   /// Coordinates below the range of the exact predicates stay as they are: for proofs, which must not move a vertex.
   bool keep_extremes = false;

@@ -20,6 +20,10 @@ static_assert(std::endian::native == std::endian::little, "binary STL is decoded
 class BinaryStl final : public RawSource {
  public:
   BinaryStl(SceneFilePtr file, std::uint64_t triangles) : bytes_(std::move(file), kHeaderBytes), triangles_(triangles) {
+    if (triangles < bytes_.remaining() / kTriangleBytes) {  // other readers go by the size
+      fail(ErrorCode::bad_input, "{}: its header promises {} triangles, and it holds {}; the file is damaged",
+           bytes_.file().name(), triangles, bytes_.remaining() / kTriangleBytes);
+    }
     if (triangles > bytes_.remaining() / kTriangleBytes) {
       fail(ErrorCode::bad_input, "{}: promises {} triangles, but has room for {}; the file is truncated",
            bytes_.file().name(), triangles, bytes_.remaining() / kTriangleBytes);

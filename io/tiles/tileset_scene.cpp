@@ -134,12 +134,13 @@ class TilesetSource final : public RawSource {
   void rewind() override {
     rest();
     at_ = 0;
-    bad_faces_ = instances_ = animations_ = 0;
+    bad_faces_ = instances_ = animations_ = differing_ = 0;
   }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
   [[nodiscard]] bool has_textures() const override { return has_textures_; }
   [[nodiscard]] std::uint64_t instances() const override { return instances_; }
   [[nodiscard]] std::size_t animations() const override { return animations_; }
+  [[nodiscard]] std::uint64_t differing() const override { return differing_; }
   [[nodiscard]] std::optional<UpAxis> up() const override { return contents_.up; }
 
  private:
@@ -153,6 +154,7 @@ class TilesetSource final : public RawSource {
     bad_faces_ += content_->bad_faces();
     instances_ += content_->instances();
     animations_ += content_->animations();
+    differing_ += content_->differing();
     rest();
     ++at_;
   }
@@ -168,7 +170,7 @@ class TilesetSource final : public RawSource {
   std::shared_ptr<RestingFile> file_;
   RawSourcePtr content_;
   bool has_colors_ = false, has_textures_ = false;
-  std::uint64_t instances_ = 0, animations_ = 0;
+  std::uint64_t instances_ = 0, animations_ = 0, differing_ = 0;
 };
 
 }  // namespace

@@ -112,6 +112,7 @@ void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource&
   if (report.margin > 0 && std::isfinite(e.least_gap)) report.least_gap = e.least_gap;
   report.too_near = e.too_near, report.perhaps_near = e.perhaps_near;
   report.scene_volume = e.volume;
+  report.bent = e.bent, report.bent_open = e.bent_open;
   measure_distances(surface, memory, options, report);
 }
 
@@ -133,7 +134,7 @@ void check_scene_around(const WeldedMesh& mesh, const Surface& surface, Triangle
   const HiddenReport hidden =
       check_hidden(mesh, surface, *walls, recipe, options.max_examples, options.scene_memory_bytes);
   report.asks_hidden = true;
-  report.openings = 2 * recipe.scale_world;
+  report.recipe = recipe;
   report.hidden_unknown = hidden.undecided, report.hidden_bytes = hidden.memory_bytes;
   report.exposed = hidden.exposed;
 }
@@ -146,7 +147,8 @@ void check_scene_in_parts(const WeldedMesh& mesh, TriangleSource& scene, const C
   report.scene_name = scene.name();
   report.scene_counts = scene.counts();
   report.scene_triangles = convex.triangles;
-  report.not_held = convex.not_held, report.undecidable_scene = convex.undecidable;
+  report.not_held = convex.not_held, report.perhaps_not_held = convex.perhaps_not_held;
+  report.undecidable_scene = convex.undecidable;
 }
 
 }  // namespace

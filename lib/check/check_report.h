@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/check/face_counts.h"
+#include "lib/check/hiding_recipe.h"
 #include "lib/core/coords.h"
 #include "lib/core/triangle_source.h"
 
@@ -64,7 +65,9 @@ struct CheckReport {
   std::int64_t euler = 0;             ///< vertices - edges + triangles
   std::optional<std::int64_t> genus;  ///< sum over components; of a closed, oriented 2-manifold only
 
-  Finding bad_faces;             ///< index: triangle that names a vertex that does not exist
+  std::uint64_t differing = 0;  ///< IndexedMesh::differing
+  Finding bad_faces;  ///< index: triangle that names a vertex that does not exist. Those that a reader left out
+                      ///< (IndexedMesh::bad_faces) are counted, and no examples
   Finding non_finite_vertices;   ///< index: vertex with a NaN or infinite coordinate
   Finding undecidable_vertices;  ///< index: vertex outside the domain of exact predicates (1e-90 to 1e90, or 0)
   Finding degenerate_triangles;  ///< index: triangle of exactly zero area
@@ -86,6 +89,8 @@ struct CheckReport {
   Finding touching;                   ///< index: scene triangle, other: proxy triangle that it touches or crosses
   Finding outside;                    ///< index: scene triangle that touches nothing and has winding number < 1
   Finding undecidable_scene;          ///< index: scene triangle outside the domain of exact predicates
+  std::uint64_t bent = 0;             ///< polygons of the scene that are not flat, each tested as its fan
+  std::uint64_t bent_open = 0;        ///< those that are not proven to be enclosed over other diagonals, too
 
   // The least distance between both (gap.h).
   double margin = 0;                ///< asked for, scene units; 0: not asked
@@ -102,7 +107,7 @@ struct CheckReport {
 
   // The proxy hidden by the scene, once openings are closed (hidden.h).
   bool asks_hidden = false;        ///< its file says how; asked if the proxy is not proven to be strictly inside
-  double openings = 0;             ///< width below which they are closed, scene units
+  HidingRecipe recipe;             ///< that its file names
   std::string hidden_unknown;      ///< why the question is not decided; empty if it is decided
   std::uint64_t hidden_bytes = 0;  ///< of memory that deciding it takes, where memory is why it is not decided
   Finding exposed;                 ///< index: proxy triangle; position: middle of a voxel there that is not hidden
@@ -110,7 +115,8 @@ struct CheckReport {
   // The proxy as convex parts that may overlap (convex.h).
   bool wants_convex = false;  ///< asked for: then self-intersections are those within parts
   Finding nonconvex_parts;    ///< index: first triangle of a part, other: a vertex of it beyond one of its triangles
-  Finding not_held;           ///< index: scene triangle that open parts are not proved to cover
+  Finding not_held;           ///< index: scene triangle with a point in no open part
+  Finding perhaps_not_held;   ///< index: scene triangle of which that is not decided: parts overlap too little there
 
   // Measures, in doubles.
   std::optional<double> volume, scene_volume;  ///< cubed scene units; none if open, or not asked (SignedVolume)
@@ -133,12 +139,14 @@ struct CheckReport {
   [[nodiscard]] Answer enclosure() const {
     if (!has_scene || !sides_decided) return Answer::undecided;
     if (touching.count + outside.count + not_held.count > 0) return Answer::refuted;
-    return undecidable_scene.count > 0 ? Answer::undecided : Answer::proven;
+    return undecidable_scene.count + perhaps_not_held.count > 0 || scene_counts.is_partial() ? Answer::undecided
+                                                                                             : Answer::proven;
   }
   /// No point of the scene is nearer to the proxy's surface than `margin`.
   [[nodiscard]] Answer keeps_margin() const {
     if (too_near.count > 0) return Answer::refuted;
-    return perhaps_near.count + undecidable_scene.count > 0 ? Answer::undecided : Answer::proven;
+    return perhaps_near.count + undecidable_scene.count > 0 || scene_counts.is_partial() ? Answer::undecided
+                                                                                         : Answer::proven;
   }
   [[nodiscard]] bool encloses() const { return enclosure() == Answer::proven; }
   [[nodiscard]] bool convex() const { return sides_decided && nonconvex_parts.count == 0; }
@@ -146,7 +154,8 @@ struct CheckReport {
   [[nodiscard]] Answer insideness() const {
     if (!has_scene || !sides_decided) return Answer::undecided;
     if (touching.count + swallowed.count > 0) return Answer::refuted;
-    if (undecidable_scene.count > 0) return Answer::undecided;  // what is left out may be what hides a part
+    if (undecidable_scene.count > 0 || scene_counts.is_partial())
+      return Answer::undecided;  // what is left out may be what hides a part
     if (outside_parts.count > 0) return Answer::refuted;
     return unsettled_parts.count > 0 ? Answer::undecided : Answer::proven;
   }
@@ -154,14 +163,15 @@ struct CheckReport {
   /// Only if asks_hidden.
   [[nodiscard]] Answer hiddenness() const {
     if (!hidden_unknown.empty()) return Answer::undecided;
-    return exposed.count > 0 ? Answer::refuted : Answer::proven;
+    if (exposed.count > 0) return Answer::refuted;
+    return scene_counts.is_partial() ? Answer::undecided : Answer::proven;
   }
   /// As a mesh, without the scene.
   [[nodiscard]] Answer soundness() const {
     const bool fine = bad_faces.count + non_finite_vertices.count + boundary_edges.count == 0 && !empty() && sound() &&
                       oriented() && manifold() && embedded() && outward() && nonconvex_parts.count == 0;
     if (!fine) return Answer::refuted;
-    return undecidable_vertices.count > 0 ? Answer::undecided : Answer::proven;
+    return undecidable_vertices.count + differing > 0 ? Answer::undecided : Answer::proven;
   }
   /// Of all that was asked.
   [[nodiscard]] Answer answer() const {

@@ -6,12 +6,6 @@
 
 namespace bp {
 
-namespace {
-
-constexpr std::uint8_t kToPrevious = 1, kToNext = 4;  // the edges that a fan's triangles share
-
-}  // namespace
-
 void FaceCounts::count(std::uint64_t triangles_of_face, int by) {
   std::uint64_t& n = triangles_of_face == 1 ? triangles : triangles_of_face == 2 ? quads : polygons;
   n += std::uint64_t(std::int64_t(by));

@@ -6,6 +6,9 @@
 /// How many polygons a mesh's triangles were cut from.
 namespace bp {
 
+/// Bits of TriangleSource::read_faces(): the edges that the triangles of a polygon's fan share.
+inline constexpr std::uint8_t kToPrevious = 1, kToNext = 4;
+
 /// Fed with TriangleSource::read_faces(), batch after batch. Parts of a polygon that a reader skipped are not seen:
 /// what is left of it counts as a polygon of fewer corners.
 class FaceCounts {

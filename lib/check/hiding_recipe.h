@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "lib/core/grid_frame.h"
 #include "lib/grid/stream.h"
 
@@ -14,6 +16,15 @@ struct HidingRecipe {
   GridFrame frame;
   double scale_world = 0;
   StructuringElement element = StructuringElement::cube;
+  /// Gaps of the scene that are narrower may count as closed, scene units. Let a line keep a distance r from all
+  /// triangles, and let it pass a voxel p. A voxel of G holds a point of a triangle, so it is at least r - sqrt(3)
+  /// voxel away from p, centre to centre. If that is more than the element reaches, which is S for a ball and sqrt(3) S
+  /// for a cube, then p is not in E. So the line lies in O, and ends at nothing hidden. S is rounded up by a 16th of a
+  /// voxel.
+  [[nodiscard]] double closed_gap() const {
+    const double diagonal = std::sqrt(3.0), scale = scale_world > 0 ? scale_world + frame.voxel / 16 : 0;
+    return 2 * (diagonal * frame.voxel + (element == StructuringElement::cube ? diagonal : 1) * scale);
+  }
 };
 
 }  // namespace bp

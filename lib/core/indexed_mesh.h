@@ -15,6 +15,8 @@ struct IndexedMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint8_t> inner_edges;  ///< as TriangleSource::read_faces(), by triangle; fewer: the rest has none
   std::optional<UpAxis> up;               ///< if its file tells
+  std::uint64_t bad_faces = 0;            ///< faces of its file that are no triangles here: SceneCounts::bad_faces
+  std::uint64_t differing = 0;            ///< SceneCounts::differing
 };
 
 }  // namespace bp

@@ -15,17 +15,23 @@ namespace bp {
 
 /// What a source met on its way. Skipped triangles are counted, never silently lost.
 struct SceneCounts {
-  std::uint64_t triangles = 0;   ///< delivered
-  std::uint64_t non_finite = 0;  ///< skipped: a coordinate is NaN or infinite
-  std::uint64_t degenerate = 0;  ///< skipped, or met: exactly zero area (two equal corners, or exactly collinear)
-  std::uint64_t bad_faces =
-      0;  ///< skipped: a face that names a vertex that does not exist, or has fewer than 3 corners
+  std::uint64_t triangles = 0;        ///< delivered
+  std::uint64_t non_finite = 0;       ///< skipped: a coordinate is NaN or infinite
+  std::uint64_t degenerate = 0;       ///< met: exactly zero area (two equal corners, or exactly collinear)
+  std::uint64_t kept_degenerate = 0;  ///< the degenerate ones that were delivered; the others were skipped
+  std::uint64_t bad_faces = 0;   ///< skipped: a face that names a vertex that does not exist, has fewer than 3 corners,
+                                 ///< or is a surface of a kind that is not read
+  std::uint64_t differing = 0;   ///< meshes that a file holds twice, and not alike; the compressed one is delivered
   std::uint64_t instances = 0;   ///< mesh instances met (1 for formats without a scene graph)
   std::uint64_t animations = 0;  ///< that the files have; none is followed
   void add(const SceneCounts& c) {
-    triangles += c.triangles, non_finite += c.non_finite, degenerate += c.degenerate;
-    bad_faces += c.bad_faces, instances += c.instances, animations += c.animations;
+    triangles += c.triangles, non_finite += c.non_finite;
+    degenerate += c.degenerate, kept_degenerate += c.kept_degenerate;
+    bad_faces += c.bad_faces, differing += c.differing, instances += c.instances, animations += c.animations;
   }
+  [[nodiscard]] bool has_area() const { return triangles > kept_degenerate; }
+  /// Whether the files hold surfaces that were not delivered, or perhaps not as other programs read them.
+  [[nodiscard]] bool is_partial() const { return non_finite + bad_faces + differing > 0; }
 };
 
 class TriangleSource {

@@ -13,6 +13,7 @@ constexpr std::uint64_t kTilesetFaces = 40000;  ///< over the bounds, at most, t
 struct SceneSize {
   Bounds3d bounds;
   std::uint64_t triangles = 0;
+  std::uint64_t without_area = 0;  ///< of these
 };
 
 enum class VoxelUse { meshes, tiles, occluder };

@@ -27,7 +27,8 @@ bool is_file(const std::string& path) {
 std::string hash_of(const std::vector<std::string>& scenes, SceneOptions options,
                     const std::optional<OccluderRecipe>& recipe) {
   options.walls_only = recipe && recipe->opaque_only;
-  options.keep_degenerate = options.keep_extremes = false;
+  options.keep_degenerate = true;
+  options.keep_extremes = false;
   ContentHash hash;
   try {
     std::unique_ptr<TriangleSource> scene = open_scenes(scenes, options);

@@ -8,8 +8,10 @@
 #include "lib/check/check_proxy.h"
 #include "lib/check/check_tileset.h"
 #include "lib/check/counted.h"
+#include "lib/check/scene_words.h"
 #include "lib/check/tile_cover.h"
 #include "lib/core/error.h"
+#include "lib/pass/voxelize/empty_scene.h"
 #include "tools/cli/advice.h"
 #include "tools/cli/report.h"
 
@@ -30,6 +32,7 @@ std::string complaint_of(const CheckReport& r) {
   const auto add = [&](bool wrong, const std::string& what) {
     if (wrong) text += (text.empty() ? "" : ", ") + what;
   };
+  add(r.bad_faces.count > 0, "has " + counted(r.bad_faces.count, "face") + " that cannot be read");
   add(!r.closed(), "is not closed");
   add(!r.oriented() || !r.outward(), "is not oriented outwards");
   add(!r.manifold(), "is not 2-manifold");
@@ -38,6 +41,8 @@ std::string complaint_of(const CheckReport& r) {
   add(r.touching.count > 0, "is touched by " + counted(r.touching.count, "triangle") + " of the scene");
   add(r.outside.count > 0, "leaves " + counted(r.outside.count, "triangle") + " of the scene outside");
   add(r.undecidable_scene.count > 0, "cannot be decided: coordinates are too large");
+  add(r.differing > 0, "holds " + held_twice(r.differing));
+  add(r.scene_counts.is_partial(), "cannot be decided: " + partial_scene(r.scene_counts));
   return text.empty() ? "does not hold" : text;
 }
 
@@ -154,10 +159,24 @@ std::vector<CoverFinding> check_whole(const CoverTiles& cover, TriangleSource& s
   return findings;
 }
 
+/// Of a whole reading. Where nothing of the tileset is drawn, none was made.
+SceneCounts counts_of(TriangleSource& scene) {
+  if (!scene.counts().has_area()) {
+    scene.rewind();
+    for (std::vector<TriangleD> chunk; scene.read(chunk);) continue;
+  }
+  if (!scene.counts().has_area()) refuse_empty_scene(scene.name(), scene.counts());
+  return scene.counts();
+}
+
 }  // namespace
 
 bool is_tileset(const std::string& path) {
   return path.size() > 5 && path.compare(path.size() - 5, 5, ".json") == 0;
+}
+
+std::string TilesetVerdict::doubt() const {
+  return undecided > 0 ? counted(undecided, "finding") : partial_scene(scene_counts);
 }
 
 Json TilesetVerdict::part_json() const {
@@ -171,6 +190,7 @@ std::string TilesetVerdict::text(const std::string& name) const {
   if (scene && leaves > 0)
     lines += fmt::format("{}: {} of the contents enclose nothing: they must be the scene itself, to within {:.3g}\n",
                          name, leaves, tolerance);
+  if (scene) lines += left_out_lines(scene_counts, name + ": of the scene, ");
   if (thin > 0)
     lines += fmt::format("{}: of {} thin parts of the scene only the corners were looked for\n", name, thin);
   if (flat > 0) lines += fmt::format("{}: {} parts of the scene that rounding flattens may be missing\n", name, flat);
@@ -181,7 +201,7 @@ std::string TilesetVerdict::text(const std::string& name) const {
                              : scene                      ? ", checked against the scene"
                                                           : "",
                              holds()                         ? "holds"
-                             : answer() == Answer::undecided ? "not decided: " + counted(undecided, "finding")
+                             : answer() == Answer::undecided ? "not decided: " + doubt()
                                                              : counted(findings.size(), "finding"));
 }
 
@@ -193,6 +213,8 @@ std::string TilesetVerdict::json(const std::string& name) const {
        {{"name", name}, {"tiles", tiles}, {"contents", contents}, {"leaves", leaves}, {"triangles", triangles}}},
       {"part", part_json()},
       {"scene", scene},
+      {"skipped", {{"non_finite", scene_counts.non_finite}, {"bad_faces", scene_counts.bad_faces}}},
+      {"differing", scene_counts.differing},
       {"tolerance", scene && leaves > 0 ? Json(tolerance) : Json(nullptr)},
       {"thin", thin},
       {"flat", flat},
@@ -216,6 +238,7 @@ TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std
   const auto content = [&](std::size_t i) { return cover.content(i); };
   const CoverReport report = has_cells(tileset) ? check_cover(cover.tiles(), content, *scene, memory_bytes, part)
                                                 : CoverReport{check_whole(cover, *scene)};
+  verdict.scene_counts = counts_of(*scene);
   verdict.tolerance = 3 * report.leaf_error;
   verdict.thin = report.thin;
   verdict.flat = report.flat;

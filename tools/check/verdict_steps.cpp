@@ -38,7 +38,7 @@ Json counts_of(const CheckReport& verdict) {
 }
 
 void refuse_empty_scene(const CheckReport& verdict) {
-  if (!verdict.scene_name.empty() && verdict.scene_triangles == 0)
+  if (!verdict.scene_name.empty() && !verdict.scene_counts.has_area())
     refuse_empty_scene(verdict.scene_name, verdict.scene_counts);
 }
 

@@ -16,6 +16,12 @@ class WatchedSource : public TriangleSource {
     progress_.add(out.size());
     return more;
   }
+  bool read_faces(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
+                  std::vector<std::uint8_t>& inner_edges) override {
+    const bool more = source_.read_faces(out, colors, inner_edges);
+    progress_.add(out.size());
+    return more;
+  }
   void rewind() override { source_.rewind(); }
   [[nodiscard]] const SceneCounts& counts() const override { return source_.counts(); }
   [[nodiscard]] std::string name() const override { return source_.name(); }

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "lib/check/counted.h"
+#include "lib/check/scene_words.h"
 
 namespace bp {
 
@@ -36,9 +37,10 @@ std::string skipped(const SceneCounts& c) {
   const auto add = [&](std::uint64_t n, const char* what) {
     if (n > 0) text += (text.empty() ? "skipped " : ", ") + counted(n, what);
   };
-  add(c.degenerate, "degenerate triangle");
+  add(c.degenerate - c.kept_degenerate, "degenerate triangle");
   add(c.non_finite, "non-finite triangle");
   add(c.bad_faces, "bad face");
+  if (c.differing > 0) text += (text.empty() ? "" : "; ") + held_twice(c.differing);
   if (c.animations > 0) text += (text.empty() ? "" : "; ") + counted(c.animations, "animation") + " not followed";
   return text;
 }

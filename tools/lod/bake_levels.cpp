@@ -110,7 +110,8 @@ std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& me
   scene.textures = build.textures();
   scene.keep_degenerate = false;  // they show nothing
   const auto source = open_scenes(build.options.voxels.scenes, scene);
-  const SceneLooks::Scene read{*source, build.scene_size().bounds, build.triangles_with_area(), build.textures()};
+  const SceneLooks::Scene read{*source, build.scene_size().bounds,
+                               build.scene_size().triangles - build.scene_size().without_area, build.textures()};
   return std::make_unique<SceneLooks>(read, make_scratch(build.budget.tiles, build.options.common.temp), memory);
 }
 

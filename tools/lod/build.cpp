@@ -63,8 +63,7 @@ Build::Build(const BuildOptions& o)
 SceneOptions Build::scene_options(bool beside) const {
   SceneOptions scene{options.voxels.format, budget.reader, options.common.temp};
   scene.surface = options.full() || options.leaves;
-  scene.walls_only = options.profile == LodProfile::occluder;
-  scene.keep_degenerate = true;
+  scene.walls_only = options.profile == LodProfile::occluder, scene.keep_degenerate = true;
   scene.document = document_budget(unpinned(options.common.memory_bytes, pinned_bytes(backends)), kVoxelProgram,
                                    beside ? 2 : options.voxels.scenes.size());
   return scene;
@@ -102,8 +101,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
-  size_ = {out.header.bounds, out.counts.scene.triangles};
-  without_area_ = out.counts.scene.kept_degenerate;
+  size_ = {out.header.bounds, out.counts.scene.triangles, out.counts.scene.kept_degenerate};
   enclosed_ = enclosed_by(options, size_.triangles);
   if (!options.field.empty()) field_ = read_field(out, !scene_met_);
   if (!scene_met_ && !ground) note_scene(out, source->up());

@@ -58,7 +58,6 @@ class Build {
   [[nodiscard]] bool has_colors() const { return colored_ || (textures_ && textures_->has_images()); }
   [[nodiscard]] const std::shared_ptr<TextureTable>& textures() const { return textures_; }  ///< null: not wanted
   [[nodiscard]] const SceneSize& scene_size() const { return size_; }                        ///< after voxelize()
-  [[nodiscard]] std::uint64_t triangles_with_area() const { return size_.triangles - without_area_; }  ///< the same
   /// From now on levels get their textures as they are made, and half of the memory for work is for the scene's looks.
   /// Does nothing if neither levels nor leaves need them.
   void hold_looks();
@@ -97,7 +96,6 @@ class Build {
   /// Of the first attempt, and of each with voxels of another size.
   void note_time(const StreamHeader& header, const VoxelizeCounts& counts);
   SceneSize size_;
-  std::uint64_t without_area_ = 0;    ///< triangles of the scene
   bool scene_met_ = false;            // by voxelize(), which tells of it once
   std::optional<MirrorPlane> plane_;  // of a cage
   double voxel_ = 0, margin_ = 0;     // of the scene, scene units

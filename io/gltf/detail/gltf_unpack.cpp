@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstring>
 
 #include "io/gltf/draco_codec.h"
 #include "io/gltf/gltf_document.h"
@@ -53,6 +54,44 @@ std::vector<std::string> attribute_names() {
   return names;
 }
 
+/// The bytes of a view are read in pieces of this size: whole triangles of either type of index.
+constexpr std::size_t kPieceBytes = 12 << 12;
+
+std::uint32_t index_at(std::span<const std::byte> bytes, std::size_t size, std::size_t i) {
+  std::uint32_t index = 0;
+  std::memcpy(&index, bytes.data() + i * size, size);
+  return index;
+}
+
+/// Whether two lists hold the same triangles. Compression may turn the corners of one around.
+bool same_triangles(std::span<const std::byte> a, std::span<const std::byte> b, std::size_t size) {
+  for (std::size_t i = 0; i + 3 <= a.size() / size; i += 3) {
+    const auto turned_by = [&](std::size_t turn) {
+      return index_at(a, size, i) == index_at(b, size, i + turn) &&
+             index_at(a, size, i + 1) == index_at(b, size, i + (1 + turn) % 3) &&
+             index_at(a, size, i + 2) == index_at(b, size, i + (2 + turn) % 3);
+    };
+    if (!turned_by(0) && !turned_by(1) && !turned_by(2)) return false;
+  }
+  return true;
+}
+
+/// Whether `file`, from `address` on, holds what was unpacked. Filters of directions say nothing of places.
+bool same_data(const SceneFile& file, std::uint64_t address, const MeshoptView& what,
+               std::span<const std::byte> unpacked) {
+  if (what.filter == MeshoptFilter::octahedral || what.filter == MeshoptFilter::quaternion) return true;
+  const bool triangles = what.mode == MeshoptMode::triangles && (what.stride == 2 || what.stride == 4);
+  std::vector<std::byte> piece;
+  for (std::size_t at = 0; at < unpacked.size(); at += piece.size()) {
+    const std::span<const std::byte> here = unpacked.subspan(at, std::min(kPieceBytes, unpacked.size() - at));
+    piece.resize(here.size());
+    if (file.read_at(address + at, piece) != piece.size()) return false;
+    if (triangles ? !same_triangles(here, piece, what.stride) : !std::equal(here.begin(), here.end(), piece.begin()))
+      return false;
+  }
+  return true;
+}
+
 std::vector<std::byte> in_type(const std::vector<std::uint32_t>& indices, ComponentType type) {
   std::vector<std::byte> out(indices.size() * bytes_of(type));
   for (std::size_t i = 0; i < indices.size(); ++i)
@@ -85,6 +124,27 @@ Accessor GltfDocument::keep_vectors(const std::vector<double>& numbers) {
   return out;
 }
 
+bool GltfDocument::requires_one_of(std::span<const char* const> extensions) const {
+  const GltfJson& all = root().array("extensionsRequired");
+  return std::any_of(all.begin(), all.end(), [&](const GltfJson& name) {
+    return name.is_string() &&
+           std::find(extensions.begin(), extensions.end(), name.get<std::string>()) != extensions.end();
+  });
+}
+
+/// View i as a reader without the extension takes it; none where it holds no data, as a placeholder does.
+std::optional<GltfDocument::View> GltfDocument::plain_view(std::uint64_t i) {
+  const GltfObject object = root().item("bufferViews", i);
+  const std::uint64_t number = object.number("buffer");
+  if (!root().item("buffers", number).has("uri") && (number != 0 || !glb_data_)) return {};
+  try {
+    return part_of_buffer(object);
+  } catch (const Error& e) {
+    if (e.code() != ErrorCode::bad_input) throw;
+    return {};
+  }
+}
+
 GltfDocument::View GltfDocument::unpacked(std::uint64_t i, const GltfObject& packed) {
   const auto known = unpacked_.find(i);
   if (known != unpacked_.end()) return known->second;
@@ -95,6 +155,12 @@ GltfDocument::View GltfDocument::unpacked(std::uint64_t i, const GltfObject& pac
   std::vector<std::byte> plain;
   const std::string wrong = decode_meshopt(what, packed_bytes(bytes), plain);
   if (!wrong.empty()) packed.broken("holds data that " + wrong);
+  if (!requires_one_of(kMeshoptNames)) {
+    const std::optional<View> own = plain_view(i);
+    const bool same = !own || (own->size >= plain.size() && (own->stride == 0 || own->stride == what.stride) &&
+                               same_data(*bytes_, own->address, what, plain));
+    if (!same) ++differing_;
+  }
   const View view{keep(plain), plain.size(), what.stride};
   unpacked_.emplace(i, view);
   return view;
@@ -122,6 +188,7 @@ bool GltfDocument::unpack(const GltfObject& primitive) {
     values.push_back(attribute_of(root().item("accessors", accessors.back()), ids.number(name.c_str())));
   }
   if (known) return true;
+  if (!requires_one_of(std::array{kDraco}) && indices.has("bufferView")) ++differing_;
   DracoMesh mesh;
   const std::string wrong = decode_draco(packed_bytes(bytes), triangles, mesh, values);
   if (!wrong.empty()) packed.broken("holds data that " + wrong);

@@ -62,6 +62,15 @@ bool holds(const WeldedMesh& mesh, const Part& part, const TriangleD& t) {
   });
 }
 
+/// Exact.
+bool has_bare_corner(const WeldedMesh& mesh, const std::vector<Part>& parts, const ConvexCover& cover,
+                     const TriangleD& t) {
+  return std::any_of(t.begin(), t.end(), [&](const Vec3d& p) {
+    const TriangleD point{p, p, p};
+    return !cover.visit(bounds_of(point), [&](std::uint32_t part) { return holds(mesh, parts[part], point); });
+  });
+}
+
 struct ConvexBatch {
   std::uint64_t first = 0;
   std::vector<TriangleD> triangles;
@@ -92,8 +101,11 @@ void check_batch(const WeldedMesh& mesh, const std::vector<Part>& parts, const C
       last = part;
       return true;
     };
-    if (cover.visit(bounds_of(t), holds_it) || cover.covers(t)) continue;
-    batch.result.not_held.add({batch.first + i, 0, t[0]}, max_examples);
+    if (cover.visit(bounds_of(t), holds_it)) continue;
+    const Answer answer = has_bare_corner(mesh, parts, cover, t) ? Answer::refuted : cover.covers(t);
+    if (answer == Answer::proven) continue;
+    (answer == Answer::refuted ? batch.result.not_held : batch.result.perhaps_not_held)
+        .add({batch.first + i, 0, t[0]}, max_examples);
   }
 }
 
@@ -130,6 +142,7 @@ ConvexReport check_convex(const WeldedMesh& mesh, TriangleSource& scene, std::si
       [&](ConvexBatch& batch) {
         report.triangles += batch.triangles.size();
         report.not_held.append(batch.result.not_held, max_examples);
+        report.perhaps_not_held.append(batch.result.perhaps_not_held, max_examples);
         report.undecidable.append(batch.result.undecidable, max_examples);
       });
   return report;

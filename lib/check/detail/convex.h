@@ -13,14 +13,15 @@ namespace bp {
 /// Which triangles of a scene the open parts cover: each of their points lies strictly within a part.
 struct ConvexReport {
   std::uint64_t triangles = 0;  ///< of the scene, tested
-  Finding not_held;             ///< index: scene triangle that is not proved to be covered
+  Finding not_held;             ///< index: scene triangle with a point that no part holds
+  Finding perhaps_not_held;     ///< index: scene triangle that is neither proved to be covered nor to be bare
   Finding undecidable;          ///< index: scene triangle outside the domain of exact predicates
 };
 
 /// Reads the scene once from its start; memory does not grow with it. Whatever the parts are: what lies below the
-/// planes of all triangles of a closed part lies within it. Exact for triangles that lie within one part; those that
-/// several cover are proved with bounds of all rounding (convex_cover.h). Time: linear in the scene, times the
-/// triangles of the parts that one meets.
+/// planes of all triangles of a closed part lies within it. Exact for triangles that lie within one part, and for
+/// corners that lie in none; the others are decided with bounds of all rounding (convex_cover.h), or not. Time: linear
+/// in the scene, times the triangles of the parts that one meets.
 [[nodiscard]] ConvexReport check_convex(const WeldedMesh& mesh, TriangleSource& scene, std::size_t max_examples);
 
 }  // namespace bp

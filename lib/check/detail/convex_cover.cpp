@@ -3,6 +3,9 @@
 // it may be. Then m* = p* + s (q* - p*) is a point of the edge p*q* that p and q stand for, and all pieces with corners
 // m* cover the triangle exactly, wherever m* is. The computed m is off from m* by no more than p or q were, and a
 // rounding. So it suffices that all computed corners of a piece lie within a part, by more than they can be off.
+//
+// All of this is relative to the triangle's first corner. The differences to it are rounded once, so that they are off
+// by a share of themselves, and not of the distance from the origin.
 #include "lib/check/detail/convex_cover.h"
 
 #include <algorithm>
@@ -35,13 +38,26 @@ Vec3d absolute(const Vec3d& v) {
   return {std::abs(v[0]), std::abs(v[1]), std::abs(v[2])};
 }
 
-Bounds3d bounds_of_corners(const std::vector<Vec3d>& corners) {
-  Bounds3d box;
-  for (const Vec3d& p : corners) box.add(p);
-  return box;
+double largest(const Vec3d& v) {
+  return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
 }
 
 }  // namespace
+
+/// Each cut may add 8 roundings and a corner; the middle of a piece adds one rounding for each corner.
+ConvexCover::Local ConvexCover::Local::after(int cuts) const {
+  return {origin, far, 10 * (cuts + 1) * kUnitRoundoff * far};
+}
+
+/// Scene units: it holds the point that p stands for.
+Bounds3d ConvexCover::box_around(const Vec3d& p, const Local& local) {
+  Bounds3d box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double x = local.origin[i] + p[i], by = local.off + 2 * kUnitRoundoff * std::abs(x);
+    box.min[i] = x - by, box.max[i] = x + by;
+  }
+  return box;
+}
 
 ConvexCover::ConvexCover(const std::vector<std::vector<TriangleD>>& parts) : boxes_(boxes_of(parts)) {
   for (const std::vector<TriangleD>& part : parts) {
@@ -55,29 +71,62 @@ ConvexCover::ConvexCover(const std::vector<std::vector<TriangleD>>& parts) : box
   }
 }
 
-/// Each term of the value is rounded at most 8 times (lib/exact/predicates.h), and `size` bounds what n is made of.
-ConvexCover::Plane::Height ConvexCover::Plane::height(const Vec3d& p, double off) const {
-  const Vec3d d = p - a, steepest = absolute(n) + 16 * kUnitRoundoff * size;
+/// Each term of the value is rounded at most 8 times (lib/exact/predicates.h), and `size` bounds what n is made of. The
+/// plane's point is rounded once when it is made relative.
+ConvexCover::Plane::Height ConvexCover::Plane::height(const Vec3d& p, const Local& local) const {
+  const Vec3d from = a - local.origin, d = p - from, steepest = absolute(n) + 16 * kUnitRoundoff * size;
+  const double off = local.off + kUnitRoundoff * largest(from);
   return {dot(n, d),
           16 * kUnitRoundoff * dot(size, absolute(d)) + 1.01 * off * (steepest[0] + steepest[1] + steepest[2])};
 }
 
-bool ConvexCover::holds(std::uint32_t part, const Vec3d& p, double off, double slack) const {
+bool ConvexCover::holds(std::uint32_t part, const Vec3d& p, const Local& local, double slack) const {
   return !parts_[part].empty() && std::all_of(parts_[part].begin(), parts_[part].end(), [&](const Plane& plane) {
-    const Plane::Height height = plane.height(p, off);
+    const Plane::Height height = plane.height(p, local);
     return height.value < -slack * height.error;
   });
 }
 
+/// True only if the point that p stands for lies beyond a plane of the part.
+bool ConvexCover::misses(std::uint32_t part, const Vec3d& p, const Local& local) const {
+  return parts_[part].empty() || std::any_of(parts_[part].begin(), parts_[part].end(), [&](const Plane& plane) {
+           const Plane::Height height = plane.height(p, local);
+           return height.value > height.error;
+         });
+}
+
+/// True only if no part holds the point that p stands for.
+bool ConvexCover::is_bare(const Vec3d& p, const Local& local) const {
+  return !visit(box_around(p, local), [&](std::uint32_t part) { return !misses(part, p, local); });
+}
+
+/// True only if some point of the piece lies in no part: gaps are looked for at its corners, and from each of them
+/// towards its middle in steps that double.
+bool ConvexCover::shows_bare(const Piece& piece, const Local& frame) const {
+  constexpr int kMostHalvings = 48;
+  const Local local = frame.after(piece.cuts);
+  Vec3d middle{};
+  for (const Vec3d& p : piece.corners) middle = middle + (1.0 / double(piece.corners.size())) * p;
+  for (const Vec3d& p : piece.corners) {
+    if (is_bare(p, local)) return true;
+    double step = 1;
+    for (int i = 0; i < kMostHalvings; ++i, step /= 2) {
+      if (is_bare(p + step * (middle - p), local)) return true;
+    }
+  }
+  return false;
+}
+
 /// Of those that hold the first corner well, one that holds most others.
-std::uint32_t ConvexCover::best_part(const Piece& piece, double off) const {
+std::uint32_t ConvexCover::best_part(const Piece& piece, const Local& frame) const {
+  const Local local = frame.after(piece.cuts);
   std::uint32_t best = kNoPart;
   std::size_t most = 0;
   const Vec3d& first = piece.corners[0];
-  visit(bounds_of_corners(std::vector<Vec3d>{first}), [&](std::uint32_t part) {
-    if (!holds(part, first, off, kCornerDepth)) return false;
+  visit(box_around(first, local), [&](std::uint32_t part) {
+    if (!holds(part, first, local, kCornerDepth)) return false;
     std::size_t held = 1;
-    for (std::size_t k = 1; k < piece.corners.size(); ++k) held += holds(part, piece.corners[k], off, 1) ? 1 : 0;
+    for (std::size_t k = 1; k < piece.corners.size(); ++k) held += holds(part, piece.corners[k], local, 1) ? 1 : 0;
     if (held > most || (held == most && part < best)) most = held, best = part;
     return false;
   });
@@ -86,15 +135,16 @@ std::uint32_t ConvexCover::best_part(const Piece& piece, double off) const {
 
 /// Takes the last piece away and puts back what of it is not within the part. False if the part does not take its
 /// first corner.
-bool ConvexCover::take_from(std::vector<Piece>& pieces, std::uint32_t part, double off) const {
+bool ConvexCover::take_from(std::vector<Piece>& pieces, std::uint32_t part, const Local& frame) const {
   Piece piece = std::move(pieces.back());
   pieces.pop_back();
   std::vector<double> depth;
   for (const Plane& plane : parts_[part]) {
     depth.clear();
+    const Local local = frame.after(piece.cuts);
     bool whole = true;
     for (const Vec3d& p : piece.corners) {
-      const Plane::Height height = plane.height(p, off);
+      const Plane::Height height = plane.height(p, local);
       depth.push_back(-height.value - kCutDepth * height.error);
       whole = whole && -height.value > height.error;
     }
@@ -114,23 +164,27 @@ bool ConvexCover::take_from(std::vector<Piece>& pieces, std::uint32_t part, doub
     pieces.push_back(std::move(beyond));
     piece = std::move(within);
   }
-  return piece.cuts <= kMostCuts && std::all_of(piece.corners.begin(), piece.corners.end(),
-                                                [&](const Vec3d& p) { return holds(part, p, off, 1); });
+  return piece.cuts <= kMostCuts && std::all_of(piece.corners.begin(), piece.corners.end(), [&](const Vec3d& p) {
+           return holds(part, p, frame.after(piece.cuts), 1);
+         });
 }
 
-bool ConvexCover::covers(const TriangleD& t) const {
-  double far = 0;
-  for (const Vec3d& p : t) far = std::max({far, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-  const double off = kMostCuts * 8 * kUnitRoundoff * far;  // along an axis: each cut may add 8 roundings
+Answer ConvexCover::covers(const TriangleD& t) const {
   std::vector<Piece> pieces(1);
-  pieces[0].corners.assign(t.begin(), t.end());
+  double far = 0;
+  for (const Vec3d& p : t) {
+    pieces[0].corners.push_back(p - t[0]);
+    far = std::max(far, largest(pieces[0].corners.back()));
+  }
+  const Local local{t[0], far};
   for (std::size_t taken = 0; !pieces.empty(); ++taken) {
     const Piece& piece = pieces.back();
-    if (taken == kMostPieces || piece.cuts > kMostCuts) return false;
-    const std::uint32_t part = best_part(piece, off);
-    if (part == kNoPart || !take_from(pieces, part, off)) return false;
+    if (taken == kMostPieces || piece.cuts > kMostCuts) return Answer::undecided;
+    const std::uint32_t part = best_part(piece, local);
+    if (part == kNoPart) return shows_bare(piece, local) ? Answer::refuted : Answer::undecided;
+    if (!take_from(pieces, part, local)) return Answer::undecided;
   }
-  return true;
+  return Answer::proven;
 }
 
 }  // namespace bp

@@ -7,6 +7,7 @@
 #include "lib/check/detail/gap.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/exact/predicates.h"
 #include "lib/geometry/signed_volume.h"
 
 namespace bp {
@@ -18,20 +19,23 @@ constexpr std::size_t kBatch = 8192;  // triangles per work item
 struct EnclosureBatch {
   std::uint64_t first = 0;
   std::vector<TriangleD> triangles;
+  std::vector<std::uint8_t> inner_edges;  // TriangleSource::read_faces()
   EnclosureReport result;
   SignedVolume volume;
 };
 
-/// Pulls from a source whose reads are of any size, hands out batches of about one size.
+/// Pulls from a source whose reads are of any size, hands out batches of about one size and of whole polygons.
 class Batcher {
  public:
   explicit Batcher(TriangleSource& source) : source_(source) {}
   bool next(EnclosureBatch& batch) {
     batch.first = count_;
-    while (batch.triangles.size() < kBatch && refill()) {
-      const std::size_t n = std::min(kBatch - batch.triangles.size(), read_.size() - used_);
-      const auto from = read_.begin() + std::ptrdiff_t(used_);
-      batch.triangles.insert(batch.triangles.end(), from, from + std::ptrdiff_t(n));
+    while ((batch.triangles.size() < kBatch || (batch.inner_edges.back() & kToNext) != 0) && refill()) {
+      const std::size_t room = batch.triangles.size() < kBatch ? kBatch - batch.triangles.size() : 1;
+      const std::size_t n = std::min(room, read_.size() - used_);
+      const auto begin = std::ptrdiff_t(used_), end = begin + std::ptrdiff_t(n);
+      batch.triangles.insert(batch.triangles.end(), read_.begin() + begin, read_.begin() + end);
+      batch.inner_edges.insert(batch.inner_edges.end(), inner_edges_.begin() + begin, inner_edges_.begin() + end);
       used_ += n, count_ += n;
     }
     return !batch.triangles.empty();
@@ -41,13 +45,15 @@ class Batcher {
   bool refill() {
     while (used_ == read_.size() && !ended_) {
       used_ = 0;
-      ended_ = !source_.read(read_);
+      ended_ = !source_.read_faces(read_, colors_, inner_edges_);
       if (ended_) read_.clear();
     }
     return !ended_;
   }
   TriangleSource& source_;
   std::vector<TriangleD> read_;
+  std::vector<TriangleColors> colors_;  // not looked at
+  std::vector<std::uint8_t> inner_edges_;
   std::size_t used_ = 0;
   std::uint64_t count_ = 0;
   bool ended_ = false;
@@ -107,6 +113,31 @@ void check_gap(const WeldedMesh& mesh, const Surface& surface, const EnclosureQu
   (gap.answer == Answer::refuted ? e.too_near : e.perhaps_near).add({number, other, centre(t)}, question.max_examples);
 }
 
+/// Polygons that are not flat. A program may draw a quad over its other diagonal; of larger ones nothing is looked for.
+void check_polygons(const Surface& surface, const EnclosureQuestion& question, const EnclosureBatch& batch,
+                    EnclosureReport& e) {
+  SideCache cache;
+  const auto is_enclosed = [&](const TriangleD& t) {
+    return surface.touched_by(t) == Surface::kNone && question.decide_sides && winding_of(t, surface, cache) >= 1;
+  };
+  for (std::size_t begin = 0, end = 0; begin < batch.triangles.size(); begin = end) {
+    bool bent = false, finite = all_finite(batch.triangles[begin]);
+    for (end = begin + 1; end < batch.triangles.size() && (batch.inner_edges[end - 1] & kToNext) != 0 &&
+                          (batch.inner_edges[end] & kToPrevious) != 0;
+         ++end) {
+      const TriangleD &t = batch.triangles[end - 1], &next = batch.triangles[end];
+      finite = finite && all_finite(next);
+      bent = bent || !finite || orient3d(t[0], t[1], t[2], next[2]) != 0;
+    }
+    if (!bent) continue;
+    ++e.bent;
+    const TriangleD &t = batch.triangles[begin], &last = batch.triangles[end - 1];
+    const bool both =
+        finite && end - begin == 2 && is_enclosed({t[0], t[1], last[2]}) && is_enclosed({t[1], t[2], last[2]});
+    if (!both) ++e.bent_open;
+  }
+}
+
 void check_batch(const WeldedMesh& mesh, const Surface& surface, const EnclosureQuestion& question, const Vec3d& origin,
                  EnclosureBatch& batch) {
   const std::size_t max_examples = question.max_examples;
@@ -131,6 +162,7 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, const Enclosure
     check_gap(mesh, surface, question, number, t, e);
   }
   e.triangles = batch.triangles.size();
+  check_polygons(surface, question, batch, e);
 }
 
 }  // namespace
@@ -157,6 +189,7 @@ EnclosureReport check_enclosure(const WeldedMesh& mesh, const Surface& surface, 
         all.too_near.append(batch.result.too_near, max_examples);
         all.perhaps_near.append(batch.result.perhaps_near, max_examples);
         all.least_gap = std::min(all.least_gap, batch.result.least_gap);
+        all.bent += batch.result.bent, all.bent_open += batch.result.bent_open;
         volume.add(batch.volume);
       });
   all.volume = volume.value();

@@ -15,6 +15,7 @@ struct EnclosureReport {
   Finding too_near, perhaps_near;          ///< as in CheckReport
   double least_gap = HUGE_VAL;             ///< as in CheckReport
   std::optional<double> volume;            ///< of the scene; none if it is open (SignedVolume)
+  std::uint64_t bent = 0, bent_open = 0;   ///< as in CheckReport
 };
 
 struct EnclosureQuestion {

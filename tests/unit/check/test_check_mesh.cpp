@@ -256,6 +256,16 @@ TEST_CASE("coordinates that are not numbers, faces out of range and magnitudes o
   CHECK_FALSE(check(bad).holds());
 }
 
+TEST_CASE("faces that a reader had to leave out refute a proxy, and data that differ leave it undecided",
+          "[quick][check]") {
+  IndexedMesh m = cube(1);
+  m.bad_faces = 2;
+  CHECK(check(m).bad_faces.count == 2);
+  CHECK(check(m).answer() == Answer::refuted);
+  m.bad_faces = 0, m.differing = 1;
+  CHECK(check(m).answer() == Answer::undecided);
+}
+
 TEST_CASE("a cavity holds, a box within a box holds, an inverted box beside one does not", "[quick][check]") {
   CHECK(check(join(cube(3), inverted(cube(1)))).holds());
   CHECK(check(join(cube(3), cube(1))).holds());

@@ -54,7 +54,7 @@ TEST_CASE("the JSON holds each answer, each finding and null for what was not me
   CHECK(alone["scene"].is_null());
   CHECK(alone["verdict"]["encloses"].is_null());
   CHECK(alone["proxy"]["genus"] == 0);
-  CHECK(alone["findings"].size() == 20);
+  CHECK(alone["findings"].size() == 21);
   const auto both =
       nlohmann::json::parse(verdict_json(check(cube(1), triangles_of(cube(0.5, {4, 0, 0}))), "bad \xff name"));
   CHECK(both["holds"] == false);

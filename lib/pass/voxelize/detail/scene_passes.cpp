@@ -51,7 +51,7 @@ void ScenePasses::measure(const PassProgress& progress) {
         if (!reads_twice_) keep(std::move(item));
       });
   input_hash_ = text_of(hash);
-  if (bounds_.empty()) refuse_empty_scene(source_.name(), source_.counts());
+  if (!source_.counts().has_area()) refuse_empty_scene(source_.name(), source_.counts());
 }
 
 void ScenePasses::keep(Item&& item) {

@@ -171,10 +171,28 @@ TEST_CASE("binary STL is known by its size, also when it starts with the word so
   CHECK(read_all(dir.file("b.stl", stl_of("COLOR=", 2, kQuadFan))) == kQuadFan);
   CHECK(read_all(dir.file("c.stl", stl_of("solid with more behind", 2, kQuadFan) + "extra bytes")) == kQuadFan);
   CHECK(read_all(dir.file("d.stl", stl_of("", 0, {}))).empty());
+  CHECK_THAT(complaint_of(dir.file("g.stl", stl_of("", 1, kQuadFan))),
+             Contains("promises 1 triangles, and it holds 2"));
+  CHECK_THAT(complaint_of(dir.file("h.stl", stl_of("", 0, kQuadFan))),
+             Contains("promises 0 triangles, and it holds 2"));
   const std::string whole = stl_of("solid", 2, kQuadFan);
   for (std::size_t cut = 0; cut < whole.size(); ++cut)
     CHECK(!complaint_of(dir.file("e.stl", whole.substr(0, cut))).empty());
   CHECK_THAT(complaint_of(dir.file("f.stl", stl_of("", 4000000000u, kQuadFan))), Contains("truncated"));
+}
+
+TEST_CASE("triangles without area are delivered to those who ask for them", "[quick][io]") {
+  const TempDir dir;
+  const Vec3d a{0, 0, 0}, b{1, 2, 3}, c{2, 4, 6}, d{1, 0, 0};
+  SceneOptions options;
+  options.keep_degenerate = true;
+  const auto source = open_scene(dir.file("a.stl", stl_of("", 3, {{a, b, c}, {a, b, d}, {a, a, a}})), options);
+  CHECK(read_all(*source).size() == 3);
+  CHECK(source->counts().kept_degenerate == 2);
+  CHECK(source->counts().has_area());
+  const auto flat = open_scene(dir.file("b.stl", stl_of("", 1, {{a, b, c}})), options);
+  CHECK(read_all(*flat).size() == 1);
+  CHECK_FALSE(flat->counts().has_area());
 }
 
 TEST_CASE("triangles without area or place are counted and left out", "[quick][io]") {

@@ -161,10 +161,10 @@ TEST_CASE("stdin is spooled and read again after rewind", "[quick][io]") {
 
 TEST_CASE("several scenes come one after the other", "[quick][io]") {
   const TempDir dir;
-  const std::string a = dir.file("a.obj", kTetrahedron), empty = dir.file("empty.obj", "# no faces\n"),
+  const std::string a = dir.file("a.obj", kTetrahedron),
                     b = dir.file("b.obj", "v 0 0 9\nv 1 0 9\nv 0 1 9\nf 1 2 3\nf 1 2 2\nf 1 2 7\n");
   const StdinFrom redirected(a);
-  const auto source = open_scenes({empty, a, "-", empty, b});
+  const auto source = open_scenes({a, "-", b});
   for (int pass = 0; pass < 2; ++pass) {
     const auto all = read_all(*source);
     REQUIRE(all.size() == 9);
@@ -172,12 +172,30 @@ TEST_CASE("several scenes come one after the other", "[quick][io]") {
     CHECK(source->counts().triangles == 9);
     CHECK(source->counts().degenerate == 1);
     CHECK(source->counts().bad_faces == 1);
-    CHECK(source->counts().instances == 5);
+    CHECK(source->counts().instances == 3);
     source->rewind();
     CHECK(source->counts().triangles == 0);
   }
   CHECK_THROWS_AS(open_scenes({a, dir.path("missing.obj")}), Error);
   CHECK_THROWS_AS(open_scenes({}), Error);
+}
+
+TEST_CASE("a file of several without a triangle is refused by its name", "[quick][io]") {
+  const TempDir dir;
+  const std::string a = dir.file("a.obj", std::string("o a\n") + kTetrahedron);
+  for (const char* text : {"", "# no faces\n", "v 0 0 0\nv 1 0 0\nf 1 2 2\n", "v 0 0 0\nf 1 2 3\n"}) {
+    const std::string empty = dir.file("empty.obj", text);
+    SceneOptions options;
+    for (const bool keep : {false, true}) {
+      options.keep_degenerate = keep;
+      for (const auto& paths : {std::vector{empty, a}, {a, empty}}) {
+        const auto source = open_scenes(paths, options);
+        CHECK_THROWS_WITH(read_all(*source), ContainsSubstring("empty.obj: no triangles"));
+      }
+    }
+    options.parts = "*";  // a filter may leave nothing of a file
+    CHECK(read_all(*open_scenes({a, empty}, options)).size() == 4);
+  }
 }
 
 TEST_CASE("edges within a polygon are told from its own, whatever is skipped", "[quick][io]") {

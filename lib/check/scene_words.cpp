@@ -1,0 +1,29 @@
+#include "lib/check/scene_words.h"
+
+#include "lib/check/counted.h"
+
+namespace bp {
+
+std::string held_twice(std::uint64_t differing) {
+  return counted(differing, "mesh part") + " twice, plain and compressed, and not alike: programs may read either";
+}
+
+std::string left_out_lines(const SceneCounts& c, const std::string& indent) {
+  std::string text, all;
+  const auto add = [&](std::uint64_t n, const std::string& what) {
+    if (n > 0) all += (all.empty() ? "" : ", ") + what;
+  };
+  add(c.degenerate - c.kept_degenerate, counted(c.degenerate - c.kept_degenerate, "triangle") + " without area");
+  add(c.non_finite, counted(c.non_finite, "triangle") + " with a coordinate that is not finite");
+  add(c.bad_faces, counted(c.bad_faces, "face") + " that cannot be read");
+  if (!all.empty()) text = indent + "left out: " + all + "\n";
+  if (c.differing > 0) text += indent + "its files hold " + held_twice(c.differing) + "\n";
+  return text;
+}
+
+std::string partial_scene(const SceneCounts& c) {
+  return c.non_finite + c.bad_faces > 0 ? "surfaces of the scene were left out, and nothing is proven of them"
+                                        : "the scene's files hold " + held_twice(c.differing);
+}
+
+}  // namespace bp
