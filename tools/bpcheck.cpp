@@ -14,6 +14,7 @@
 #include "lib/core/error.h"
 #include "tools/check/check_budget.h"
 #include "tools/check/check_run.h"
+#include "tools/check/claim.h"
 #include "tools/check/hints.h"
 #include "tools/check/tileset_verdict.h"
 #include "tools/check/verdict_steps.h"
@@ -63,6 +64,7 @@ void refuse_for_tileset(const bp::CheckRun& o) {
   for (const auto& [option, given] : {std::pair{"--inside", o.inside},
                                       {"--convex", o.convex},
                                       {"--margin", o.margin.value > 0},
+                                      {"--claimed", o.claimed},
                                       {"--origin", o.origin.has_value()}}) {
     if (given) bp::fail(bp::ErrorCode::bad_argument, "{}: is for meshes; leave it out for a tileset", option);
   }
@@ -106,6 +108,13 @@ int run_tileset(const bp::CheckRun& o) {
                    {"tiles", verdict.tiles},   {"contents", verdict.contents},          {"findings", verdict.findings}};
   report.write(o.common);
   return status_of(verdict.answer());
+}
+
+std::string with_claim(const std::string& text, bp::Contract claim, bool json) {
+  if (!json) return bp::claim_line(claim) + text + bp::unclaimed_line(claim);
+  bp::Json verdict = bp::Json::parse(text);
+  verdict["contract"] = name_of(claim);
+  return verdict.dump(2) + "\n";
 }
 
 /// Of enclosure, or with --inside of its opposite.
@@ -173,8 +182,7 @@ std::optional<bp::HidingQuestion> hiding_question(const bp::CheckRun& o, const s
   return bp::HidingQuestion{recipe->hiding, walls.get(), !recipe->opaque_only};
 }
 
-int run(const bp::CheckRun& o) {
-  if (bp::is_tileset(o.files.back())) return run_tileset(o);
+int run_mesh(const bp::CheckRun& o, const std::optional<bp::Contract>& claim = {}) {
   bp::Report report("bpcheck");
   report.begin("read the proxy");
   bp::CheckBudget budget(o.common.memory_bytes, o.files.size() - 1);
@@ -197,7 +205,8 @@ int run(const bp::CheckRun& o) {
   report.begin("check");
   const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get(), hidden, budget.of_scene().bytes);
   const std::string name = bp::file_name(o.files.back());
-  const std::string text = o.json ? bp::verdict_json(verdicts, name) : bp::verdict_text(verdicts, name);
+  std::string text = o.json ? bp::verdict_json(verdicts, name) : bp::verdict_text(verdicts, name);
+  if (claim) text = with_claim(text, *claim, o.json);
   bp::print(text);
   report.bytes_out = text.size();
   fill_report(report, o, origin, verdicts);
@@ -211,6 +220,25 @@ int run(const bp::CheckRun& o) {
   note_hint(report, o, hint.empty() ? bp::look_hint(o.files, o.format, origin, verdicts) : hint);
   report.write(o.common);
   return status_of(answer_of(verdicts));
+}
+
+/// The file's own claim as the question.
+int run_claimed(const bp::CheckRun& o) {
+  const std::optional<bp::Contract> claim = bp::told_contract(o.files.back());
+  if (claim) return run_mesh(bp::asking_for(*claim, o), claim);
+  bp::Report report("bpcheck");
+  bp::print(
+      o.json ? bp::Json{{"holds", false}, {"answer", to_string(bp::Answer::undecided)}, {"contract", nullptr}}.dump(2) +
+                   "\n"
+             : bp::no_claim_line(o.files.back()));
+  report.counts = {{"holds", false}, {"answer", to_string(bp::Answer::undecided)}};
+  report.write(o.common);
+  return status_of(bp::Answer::undecided);
+}
+
+int run(const bp::CheckRun& o) {
+  if (bp::is_tileset(o.files.back())) return run_tileset(o);
+  return o.claimed ? run_claimed(o) : run_mesh(o);
 }
 
 }  // namespace

@@ -117,7 +117,11 @@ void write_levels(std::vector<bp::LatticeMesh>& levels, const bp::MeshOptions& o
                   const std::vector<std::unique_ptr<bp::OutputFile>>& outputs) {
   for (std::size_t i = 0; i < levels.size(); ++i) {
     levels[i].provenance.push_back(bp::mesh_provenance(o, made.header.frame, made.enclosed, made.checksum, i));
-    bp::write_mesh(levels[i], *outputs[i], made.format, {made.origin, o.proxy.mode == bp::MeshMode::fit});
+    const bp::MeshMode mode = o.proxy.mode;
+    const bp::Contract contract = mode == bp::MeshMode::fit      ? bp::Contract::fit
+                                  : mode == bp::MeshMode::inside ? bp::Contract::inside
+                                                                 : bp::Contract::encloses;
+    bp::write_mesh(levels[i], *outputs[i], made.format, {made.origin, mode == bp::MeshMode::fit, contract});
   }
   bp::OutputFile::commit_all(outputs);
 }

@@ -19,7 +19,7 @@ std::string little_endian(std::uint64_t x) {
 }  // namespace
 
 GltfOutJson gltf_asset(const std::string& tool, const std::vector<Provenance>& provenance, UpAxis up,
-                       const Vec3d& origin) {
+                       const Vec3d& origin, const std::string& contract) {
   GltfOutJson steps = GltfOutJson::array();
   for (const Provenance& p : provenance) {
     GltfOutJson step{{"tool", p.tool}, {"version", p.version}, {"options", p.options}};
@@ -28,6 +28,7 @@ GltfOutJson gltf_asset(const std::string& tool, const std::vector<Provenance>& p
   }
   GltfOutJson extras{{"up", name_of(up)}};
   if (origin != Vec3d{}) extras["origin"] = origin;
+  if (!contract.empty()) extras["contract"] = contract;
   extras["provenance"] = std::move(steps);
   return {{"version", "2.0"}, {"generator", tool + " " BP_VERSION}, {"extras", std::move(extras)}};
 }

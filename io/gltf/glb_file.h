@@ -15,9 +15,10 @@ namespace bp {
 using GltfOutJson = nlohmann::ordered_json;  ///< keys keep their order: same mesh, same bytes
 
 /// Member "asset": generator "TOOL VERSION", and in extras the chain of tools, the axis that is up in the scene
-/// (readers of ours go back to it, scene_reader.h) and the origin that was subtracted, if any.
+/// (readers of ours go back to it, scene_reader.h), the origin that was subtracted, if any, and the name of the
+/// contract (docs/contracts.md), if there is one.
 [[nodiscard]] GltfOutJson gltf_asset(const std::string& tool, const std::vector<Provenance>& provenance, UpAxis up,
-                                     const Vec3d& origin);
+                                     const Vec3d& origin, const std::string& contract = "");
 
 /// A matte material, so that viewers neither take glTF's default (metal, black where nothing is mirrored) nor draw
 /// without light. White under the colours of vertices, else grey.

@@ -120,7 +120,7 @@ Json views_of(const Buffer& buffer) {
 Json document_of(const LatticeMesh& mesh, const Buffer& buffer, LatticeCoord centre, const MeshWriteOptions& options) {
   const Json primitive{{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}, {"indices", 2}, {"material", 0}};
   Json doc;
-  doc["asset"] = gltf_asset("bpmesh", mesh.provenance, mesh.frame.up, options.origin);
+  doc["asset"] = gltf_asset("bpmesh", mesh.provenance, mesh.frame.up, options.origin, contract_name(options));
   doc["scene"] = 0;
   doc["scenes"] = Json::array({{{"nodes", Json::array({mesh.frame.up == UpAxis::y ? 0 : 1})}}});
   doc["nodes"] = nodes_of(mesh, centre, options);

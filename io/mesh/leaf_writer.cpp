@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "io/gltf/gltf_sampler.h"
+#include "io/mesh/contract.h"
 #include "io/mesh/detail/glb_data.h"
 
 namespace bp {
@@ -101,7 +102,7 @@ class LeafBuilder {
       doc["textures"] = textures_;
     }
     if (has_webp_) data_.use("EXT_texture_webp", true);
-    Json asset = gltf_asset("bplod", provenance, UpAxis::y, {});
+    Json asset = gltf_asset("bplod", provenance, UpAxis::y, {}, name_of(Contract::leaf));
     asset["extras"]["tile_origin"] = leaf_.origin;
     const std::string json = data_.document(std::move(asset), {0});
     return glb_head(json, data_.bytes().size(), name + ".glb") + data_.bytes();

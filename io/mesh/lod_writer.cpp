@@ -127,12 +127,14 @@ class GlbBuilder {
   Json& node(std::size_t i) { return json()["nodes"][i]; }
   void use(const char* extension) { data_.use(extension, false); }
 
-  void write(const LatticeMesh& first, const std::vector<std::size_t>& roots, OutputFile& out) {
-    write_glb(document(gltf_asset("bplod", first.provenance, first.frame.up, origin_), roots), data_.bytes(), out);
+  void write(const LatticeMesh& first, const std::vector<std::size_t>& roots, const std::string& contract,
+             OutputFile& out) {
+    write_glb(document(gltf_asset("bplod", first.provenance, first.frame.up, origin_, contract), roots), data_.bytes(),
+              out);
   }
   /// As the content of a tile: extras.up does not ask readers of ours to turn back to the axes of the scene.
   [[nodiscard]] std::string tile_bytes(const LatticeMesh& mesh, const Vec3d& tile_origin) {
-    Json asset = gltf_asset("bplod", mesh.provenance, UpAxis::y, {});
+    Json asset = gltf_asset("bplod", mesh.provenance, UpAxis::y, {}, name_of(Contract::tile));
     asset["extras"]["tile_origin"] = tile_origin;
     return glb_head(document(std::move(asset), {0}), data_.bytes().size(), file_) + data_.bytes();
   }
@@ -254,8 +256,8 @@ class GlbBuilder {
 }  // namespace
 
 void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out,
-                   const Vec3d& origin) {
-  GlbBuilder builder(out.name(), GlbBuilder::Data::plain, origin);
+                   const MeshWriteOptions& options) {
+  GlbBuilder builder(out.name(), GlbBuilder::Data::plain, options.origin);
   builder.add(levels.front(), nullptr);
   std::vector<std::size_t> coarser;
   for (const NamedMesh& level : levels.subspan(1)) coarser.push_back(builder.add(level, nullptr));
@@ -264,14 +266,14 @@ void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> co
     builder.node(0)["extensions"] = {{"MSFT_lod", {{"ids", coarser}}}};
     builder.node(0)["extras"] = {{"MSFT_screencoverage", std::vector<double>(coverage.begin(), coverage.end())}};
   }
-  builder.write(*levels.front().mesh, {0}, out);
+  builder.write(*levels.front().mesh, {0}, contract_name(options), out);
 }
 
-void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const Vec3d& origin) {
-  GlbBuilder builder(out.name(), GlbBuilder::Data::plain, origin);
+void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const MeshWriteOptions& options) {
+  GlbBuilder builder(out.name(), GlbBuilder::Data::plain, options.origin);
   std::vector<std::size_t> roots;
   for (const NamedMesh& part : parts) roots.push_back(builder.add(part, nullptr));
-  builder.write(*parts.front().mesh, roots, out);
+  builder.write(*parts.front().mesh, roots, contract_name(options), out);
 }
 
 std::string tile_glb(const NamedMesh& tile, LatticeCoord origin) {

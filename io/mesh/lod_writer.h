@@ -3,13 +3,15 @@
 #include <string>
 
 #include "io/files/file.h"
+#include "io/mesh/mesh_writer.h"
 #include "lib/mesh/lattice_mesh.h"
 
 /// Levels of detail as GLB, without loss: vertices are lattice integers, the node holds unit and offset, so a reader
 /// that works in double finds frame.world(v) exactly (mesh_writer.h). Same meshes, same bytes; the caller commits.
 /// Vertices have normals and are split at creases (shaded_mesh.h), and there is one matte material, so that viewers
 /// show the form without set-up. A mesh with colours gets them as COLOR_0: 8 bits a channel, normalized, linear light
-/// as glTF wants it. `origin`, scene units, is subtracted from every vertex and told in asset.extras.origin.
+/// as glTF wants it. The options' origin is subtracted from every vertex and told in asset.extras.origin; normals
+/// are always written.
 /// All throw bad_argument if a mesh has no triangle or spans more than float32 holds exactly (2^19 voxels), or if a
 /// difference to `origin` is no exact double.
 namespace bp {
@@ -26,10 +28,10 @@ struct NamedMesh {
 ///   which
 ///             it is drawn; falling
 void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out,
-                   const Vec3d& origin = {});
+                   const MeshWriteOptions& options = {});
 
 /// All meshes as nodes of one scene.
-void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const Vec3d& origin = {});
+void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const MeshWriteOptions& options = {});
 
 /// The content of a tile, as the bytes of a GLB: EXT_meshopt_compression and KHR_mesh_quantization, with 16-bit
 /// integers where they hold the mesh, else float32; normals are octahedral, 8 bits. The node has a scale and no offset:

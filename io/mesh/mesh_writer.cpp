@@ -198,6 +198,7 @@ std::vector<std::string> provenance_lines(const LatticeMesh& mesh, const MeshWri
     lines.push_back(one_line(line));
   }
   if (options.origin != Vec3d{}) lines.push_back("origin: " + text_of(options.origin));
+  if (options.contract) lines.push_back("contract: " + contract_name(options));
   return lines;
 }
 

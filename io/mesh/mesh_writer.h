@@ -2,6 +2,7 @@
 #include <string>
 
 #include "io/files/file.h"
+#include "io/mesh/contract.h"
 #include "lib/mesh/lattice_mesh.h"
 
 /// Meshes to files, without loss: read back, each vertex is exactly frame.world(v) - origin, or the write is refused.
@@ -19,7 +20,12 @@ enum class MeshFormat { glb, gltf, ply, obj, stl };
 struct MeshWriteOptions {
   Vec3d origin{};        ///< scene units, subtracted from each vertex; each difference must be an exact double
   bool normals = false;  ///< write unit vertex normals, weighted by angle; STL has none
+  std::optional<Contract> contract{};  ///< what the file is to claim of itself; STL has no place for it
 };
+/// The name of the contract; empty: none.
+[[nodiscard]] inline std::string contract_name(const MeshWriteOptions& options) {
+  return options.contract ? name_of(*options.contract) : "";
+}
 
 /// Format by extension, case ignored. Throws bad_argument for any other.
 [[nodiscard]] MeshFormat mesh_format_of(const std::string& path);

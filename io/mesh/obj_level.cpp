@@ -27,13 +27,13 @@ void write_vertices(const LatticeMesh& mesh, const ShadedMesh& drawn, OutputFile
 }  // namespace
 
 void write_obj_level(const LatticeMesh& mesh, const std::string& name, const std::string& materials, OutputFile& out,
-                     const Vec3d& origin) {
+                     const MeshWriteOptions& options) {
   if (mesh.triangles.empty()) fail(ErrorCode::bad_argument, "{}: the mesh has no triangle", name);
   const ShadedMesh drawn = shaded(mesh);
-  for (const std::string& line : provenance_lines(mesh, {origin})) out.write("# " + line + "\n");
+  for (const std::string& line : provenance_lines(mesh, options)) out.write("# " + line + "\n");
   if (!materials.empty()) out.write("mtllib " + materials + "\n");
   out.write("o " + name + "\n");
-  write_vertices(mesh, drawn, out, origin);
+  write_vertices(mesh, drawn, out, options.origin);
   for (const auto& p : drawn.uv) out.write(fmt::format("vt {:.7g} {:.7g}\n", p[0], 1 - double(p[1])));  // from below
   for (const auto& n : drawn.normals) out.write(fmt::format("vn {:.4f} {:.4f} {:.4f}\n", n[0], n[1], n[2]));
   if (!materials.empty()) out.write("usemtl " + name + "\n");

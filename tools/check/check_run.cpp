@@ -44,6 +44,8 @@ void declare(Args& args, CheckRun& o) {
       "--margin", "LENGTH", [&o](const std::string& text) { o.margin = parse_margin(text); },
       "prove also that the proxy keeps this distance from the scenes: scene units, or a percentage of the "
       "scenes' diagonal");
+  args.flag("--claimed", o.claimed,
+            "prove what the proxy's file claims of itself, and say what it does not claim (docs/contracts.md)");
   args.option(
       "--part", "K/N", [&o](const std::string& text) { o.part = parse_part(text); },
       "check part K of N parts of a tileset, for machines that share the work; if all N hold, the tileset holds");
@@ -77,6 +79,7 @@ CheckRun parse_check_run(Args& args) {
   args.excludes("--convex", "--inside");
   args.excludes("--margin", "--inside");
   args.excludes("--margin", "--convex");
+  for (const char* question : {"--inside", "--convex", "--margin", "--part"}) args.excludes("--claimed", question);
   if (args.given("--part") && !is_tileset(o.files.back()))
     fail(ErrorCode::bad_argument, "--part: is for tilesets; leave it out for a mesh");
   check_scene_format(o.format, o.files);

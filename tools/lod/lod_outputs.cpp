@@ -22,18 +22,18 @@ std::vector<NamedMesh> named(const std::string& name, const std::vector<LodLevel
 }
 
 std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::vector<LodLevel>& levels,
-                                            double diameter, const Vec3d& origin, OutputFolder& out) {
+                                            double diameter, const MeshWriteOptions& facts, OutputFolder& out) {
   std::vector<WrittenFile> files;
   const std::vector<NamedMesh> meshes = named(name, levels);
   for (const NamedMesh& level : meshes) {
-    write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"), origin);
+    write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"), facts);
     files.push_back({level.name + ".glb", files.size(), level.mesh->triangles.size()});
   }
   std::vector<double> coverage;  // a level is drawn until the next one's error is a pixel; the last one always
   for (std::size_t i = 1; i < levels.size(); ++i)
     coverage.push_back(coverage_at_one_pixel(diameter, levels[i].error_world));
   coverage.push_back(0);
-  write_lod_glb(meshes, coverage, out.file(name + ".glb"), origin);
+  write_lod_glb(meshes, coverage, out.file(name + ".glb"), facts);
   return files;
 }
 
@@ -56,8 +56,8 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
                                                  OutputFolder& out) {
   const std::string& name = o.name;
   const NamedMesh godot{name + "-colonly", &mesh}, unity{name + "_Collider", &mesh};
-  write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"), origin);
-  write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"), origin);
+  write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"), {origin, false, Contract::encloses});
+  write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"), {origin, false, Contract::encloses});
   constexpr std::uint64_t kEnough = 64;  // a body of few faces may need more as convex parts
   const std::uint64_t faces =
       o.levels.faces.empty() ? std::max<std::uint64_t>(mesh.triangles.size(), kEnough) : o.levels.faces.front();
@@ -70,7 +70,7 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
     hull_file.hull_volume += double(volume6_of(hull)) / volume6;
     unreal.push_back({fmt::format("UCX_{}_{:02}", name, unreal.size()), &hull});
   }
-  write_parts_glb(unreal, out.file(hull_file.name), origin);
+  write_parts_glb(unreal, out.file(hull_file.name), {origin, false, Contract::convex_parts});
   hull_file.note = hull_note(hull_file, parts, name + "_godot.glb");
   const std::uint64_t own = mesh.triangles.size();
   return {{name + "_godot.glb", 0, own}, hull_file, {name + "_unity.glb", 0, own}};
@@ -80,7 +80,7 @@ std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const La
 std::vector<WrittenFile> write_occluder_profile(const std::string& name, const LatticeMesh& mesh, const Vec3d& origin,
                                                 OutputFolder& out) {
   const NamedMesh godot{name + "-occonly", &mesh};
-  write_parts_glb({&godot, 1}, out.file(name + "_occluder.glb"), origin);
+  write_parts_glb({&godot, 1}, out.file(name + "_occluder.glb"), {origin, false, Contract::inside});
   return {{name + "_occluder.glb", 0, mesh.triangles.size()}};
 }
 
@@ -89,8 +89,8 @@ std::vector<WrittenFile> write_cage_profile(const std::string& name, const Latti
                                             OutputFolder& out) {
   const NamedMesh shown{name + "_Cage", &mesh};
   const std::uint64_t quads = mesh.quads.size();
-  write_mesh(mesh, out.file(name + "_cage.obj"), MeshFormat::obj, {origin});
-  write_parts_glb({&shown, 1}, out.file(name + "_cage.glb"), origin);
+  write_mesh(mesh, out.file(name + "_cage.obj"), MeshFormat::obj, {origin, false, Contract::margin});
+  write_parts_glb({&shown, 1}, out.file(name + "_cage.glb"), {origin, false, Contract::margin});
   const std::string note =
       fmt::format("{} has {} quads and {} triangles", name + "_cage.obj", quads, mesh.triangles.size() - 2 * quads);
   return {{name + "_cage.obj", 0, mesh.triangles.size(), true, 0, 0, note},
@@ -137,6 +137,10 @@ std::uint64_t OutputFolder::bytes(const std::string& name) const {
   return found == names_.end() ? 0 : files_[std::size_t(found - names_.begin())]->bytes();
 }
 
+Contract contract_of_levels(const BuildOptions& options) {
+  return options.proxy.mode == MeshMode::fit ? Contract::fit : Contract::encloses;
+}
+
 std::string level_name(const std::string& name, std::size_t level) {
   return name + "_LOD" + std::to_string(level);
 }
@@ -155,7 +159,7 @@ std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::v
                                        double diameter, const Vec3d& origin, OutputFolder& out) {
   switch (options.profile) {
     case LodProfile::gltf:
-      return write_gltf_profile(options.name, levels, diameter, origin, out);
+      return write_gltf_profile(options.name, levels, diameter, {origin, false, contract_of_levels(options)}, out);
     case LodProfile::tiles:
       break;  // tile_build.h
     case LodProfile::occluder:

@@ -5,6 +5,7 @@
 
 #include "io/files/file.h"
 #include "io/files/made_folders.h"
+#include "io/mesh/contract.h"
 #include "tools/lod/build_options.h"
 
 /// What bplod writes of a chain: the files of a profile other than tiles, in one folder.
@@ -35,6 +36,8 @@ class OutputFolder {
   std::vector<std::unique_ptr<OutputFile>> files_;
 };
 
+/// What levels claim (docs/contracts.md): a question of the mode alone.
+[[nodiscard]] Contract contract_of_levels(const BuildOptions& options);
 /// "NAME_LOD0": Unity's and others' convention.
 [[nodiscard]] std::string level_name(const std::string& name, std::size_t level);
 /// The files of a profile, in the order of their commit.

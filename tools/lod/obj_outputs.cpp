@@ -140,7 +140,7 @@ std::vector<WrittenFile> write_obj_levels(const BuildOptions& o, const std::vect
       out.file(materials).write(mtl_text(material, *texture, images));
       beside.push_back(materials);
     }
-    write_obj_level(level.mesh, material, materials, out.file(name + ".obj"), origin);
+    write_obj_level(level.mesh, material, materials, out.file(name + ".obj"), {origin, false, contract_of_levels(o)});
     written.insert(name + ".obj");
     written.insert(beside.begin(), beside.end());
     files.push_back({name + ".obj", files.size(), level.mesh.triangles.size()});

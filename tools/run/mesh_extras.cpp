@@ -28,6 +28,9 @@ MeshExtras from_comments(const std::string& head) {
     for (const std::string start : {"comment provenance: ", "# provenance: "}) {
       if (line.compare(0, start.size(), start) == 0) extras.provenance.push_back(line.substr(start.size()));
     }
+    for (const std::string start : {"comment contract: ", "# contract: "}) {
+      if (line.compare(0, start.size(), start) == 0) extras.contract = line.substr(start.size());
+    }
     for (const std::string start : {"comment origin: ", "# origin: "}) {
       Vec3d p;
       if (line.compare(0, start.size(), start) == 0 &&
@@ -82,6 +85,12 @@ std::optional<Vec3d> gltf_origin(const Json& document) {
   return p;
 }
 
+std::string gltf_contract(const Json& document) {
+  static const Json::json_pointer key("/asset/extras/contract");
+  if (!document.is_object() || !document.contains(key) || !document.at(key).is_string()) return "";
+  return document.at(key).get<std::string>();
+}
+
 std::size_t gltf_animations(const Json& document) {
   return document.is_object() && document.contains("animations") ? document.at("animations").size() : 0;
 }
@@ -130,6 +139,7 @@ MeshExtras from_gltf(const std::string& text) {
   MeshExtras extras;
   extras.provenance = gltf_provenance(document);
   extras.origin = gltf_origin(document);
+  extras.contract = gltf_contract(document);
   extras.tile = document.is_object() && document.contains(tile);
   extras.levels = gltf_levels(document);
   extras.hulls = has_hulls(document);

@@ -11,6 +11,7 @@ namespace bp {
 struct MeshExtras {
   std::vector<std::string> provenance;  ///< a line each step, as bpmesh wrote: comments of PLY and OBJ, extras of glTF
   std::optional<Vec3d> origin;          ///< that --origin subtracted from its vertices
+  std::string contract;                 ///< the name of what it claims (docs/contracts.md); empty: nothing
   bool tile = false;                    ///< the content of a tile, which its transform puts into its place
   std::size_t levels = 1;               ///< of detail; MSFT_lod of glTF
   bool hulls = false;                   ///< nodes of glTF are named UCX_*, as convex hulls for Unreal

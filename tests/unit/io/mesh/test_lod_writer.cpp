@@ -82,14 +82,14 @@ TEST_CASE("levels read back are the meshes less their origin, which the file tel
   const NamedMesh named{"far", &mesh};
   const bool parts = GENERATE(false, true);
   const std::string file = written(dir, [&](OutputFile& out) {
-    parts ? write_parts_glb({&named, 1}, out, origin) : write_lod_glb({&named, 1}, {}, out, origin);
+    parts ? write_parts_glb({&named, 1}, out, {origin}) : write_lod_glb({&named, 1}, {}, out, {origin});
   });
   CHECK(canonical(soup(read_mesh(file))) == canonical(soup(mesh, origin)));
   CHECK(json_of(file)["asset"]["extras"]["origin"] == Json{6801760.0, -455500.0, 0.0});
   const Json translation = json_of(file)["nodes"][0]["translation"];
   for (const Json& x : translation) CHECK(std::abs(x.get<double>()) < 500);
   const auto refuse = [&](const Vec3d& odd) {
-    CHECK_THROWS_AS(written(dir, [&](OutputFile& out) { write_lod_glb({&named, 1}, {}, out, odd); }), Error);
+    CHECK_THROWS_AS(written(dir, [&](OutputFile& out) { write_lod_glb({&named, 1}, {}, out, {odd}); }), Error);
   };
   refuse({6801760.1, -455564.7, 1e-9});
 }

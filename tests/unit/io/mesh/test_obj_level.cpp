@@ -19,7 +19,7 @@ LatticeMesh corner_mesh() {
 std::string written(const LatticeMesh& mesh, const std::string& materials) {
   const TempDir dir;
   OutputFile out(dir.path("a.obj"), false);
-  write_obj_level(mesh, "level", materials, out, {1, 0, 0});
+  write_obj_level(mesh, "level", materials, out, {{1, 0, 0}});
   out.commit();
   return bytes_of_file(dir.path("a.obj"));
 }

@@ -1,0 +1,32 @@
+# Each file tells what it claims (docs/contracts.md), and bpcheck proves that, and says what it does not claim.
+write_cube room.obj 4
+claims() {  # FILE SCENE...
+  try bpcheck --claimed "${@:2}" "$1" | grep -E '^([|=]|claims|does not claim|holds)|not decided|does not hold'
+}
+for mode in bounding fit; do
+  bplod room.obj --mode $mode --faces 12 --levels 1 --resolution 16 --name $mode -q -o levels > /dev/null
+  claims levels/$mode.glb room.obj
+done
+bplod room.obj --profile collision --resolution 16 -q -o levels > /dev/null
+claims levels/room_unreal.glb room.obj
+bplod room.obj --profile cage --resolution 16 -q -o levels > /dev/null
+claims levels/room_cage.obj room.obj
+bplod room.obj --profile occluder --resolution 16 -q -o levels > /dev/null
+claims levels/room_occluder.glb room.obj
+
+# Of the pipe, in each format. STL has no place for a claim.
+bpvox room.obj --resolution 16 -q | bpclose --scale 0 -q > closed.bpv
+for format in glb gltf ply obj stl; do
+  bpmesh closed.bpv --faces 12 -q -o proxy.$format
+  claims proxy.$format room.obj
+done
+
+# A file cannot choose an easier question than was asked: what claims to lie inside is asked to enclose.
+bpcheck room.obj levels/room_occluder.glb 2> /dev/null | tail -1
+# A claim that is false is refuted; one that needs a scene asks for it.
+sed 's/contract: encloses/contract: inside/' proxy.obj > liar.obj
+claims liar.obj room.obj
+sed 's/contract: encloses/contract: best of all/' proxy.obj > boast.obj
+claims boast.obj room.obj
+claims proxy.ply
+try bpcheck --claimed --inside room.obj proxy.ply
