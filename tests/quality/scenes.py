@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Scenes of 4 to 4,000 triangles for the table of quality, as OBJ; y is up. The same bytes on every machine.
-    scenes.py FOLDER [NAME...]
+"""Scenes of 4 to 4,000 triangles for the table of quality, as OBJ; y is up: scenes.py FOLDER [NAME...]. The same bytes on every machine.
 Each scene stands for a kind that levels are made of: plates, bars, shells, parts that touch, parts that are apart, curved bodies."""
 import math
 import random
@@ -90,12 +89,8 @@ def tetrahedron():
     return Mesh().add([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
 
 
-def cube():
-    return Mesh().box((0, 0, 0), (1, 1, 1))
-
-
-def turned_cube():
-    return cube().turned(27)
+def cube(degrees=0):
+    return Mesh().box((0, 0, 0), (1, 1, 1)).turned(degrees)
 
 
 def roof():
@@ -207,10 +202,6 @@ def fence(pickets=20):
     return mesh
 
 
-def long_fence():
-    return fence(60)
-
-
 def rods():
     mesh = Mesh()
     for i in range(5):
@@ -263,7 +254,7 @@ def sphere(n=16):
 
 
 def capsule():
-    half = [math.pi / 2 * i / 12 for i in range(13)]
+    half = [math.pi / 24 * i for i in range(13)]
     return Mesh().lathe([(.5 * math.sin(a) + .001, -1 - .5 * math.cos(a)) for a in half] + [(.5 * math.cos(a) + .001, 1 + .5 * math.sin(a)) for a in half], 40)
 
 
@@ -302,8 +293,7 @@ def wheel():
 
 
 def plate_with_holes():
-    mesh = Mesh()
-    edge, n = 1.0, 16
+    mesh, edge, n = Mesh(), 1.0, 16
     for i in range(5):
         for j in range(5):
             square = []
@@ -392,17 +382,18 @@ def lamp():
     return Mesh().lathe([(.3, 0), (.3, .04), (.03, .08), (.03, 2)], 24).lathe([(.4, 1.8), (.25, 2.2)], 32, False)
 
 
-SCENES = [tetrahedron, cube, turned_cube, roof, tent, crossed_sheets, l_shape, u_shape, house, houses, tower, stair, open_stair, spiral_stair, chair, table,
-          round_table, shelf, fence, long_fence, rods, slanted_rod, tripod, truss, ring, knot, chain, sphere, capsule, cylinder, cone, bowl, vase, gear, wheel,
-          plate_with_holes, ground_with_boxes, terrain, rubble, tree, letter, pipes, window_wall, clamp, animal, lamp]
+KINDS = [tetrahedron, cube, roof, tent, crossed_sheets, l_shape, u_shape, house, houses, tower, stair, open_stair, spiral_stair, chair, table, round_table,
+         shelf, fence, rods, slanted_rod, tripod, truss, ring, knot, chain, sphere, capsule, cylinder, cone, bowl, vase, gear, wheel, plate_with_holes,
+         ground_with_boxes, terrain, rubble, tree, letter, pipes, window_wall, clamp, animal, lamp]
+SCENES = {kind.__name__: kind for kind in KINDS} | {"turned_cube": lambda: cube(27), "long_fence": lambda: fence(60)}
 
 
 def main():
     folder, names = Path(sys.argv[1]), sys.argv[2:]
     folder.mkdir(parents=True, exist_ok=True)
-    for scene in SCENES:
-        if not names or scene.__name__ in names:
-            scene().write(folder / f"{scene.__name__}.obj")
+    for name, scene in SCENES.items():
+        if not names or name in names:
+            scene().write(folder / f"{name}.obj")
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--appearance", "bplod"},
     {"--boxes", "bpinfo"},
     {"--cache", "bplod"},
+    {"--claimed", "bpcheck"},
     {"--convex", "bpcheck"},
     {"--coordinates", "bpdeform"},
     {"--device", "bpclose and bpdeform"},
