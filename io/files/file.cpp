@@ -70,12 +70,16 @@ int take_partial(const std::string& name, const std::string& path) {
 
 }  // namespace
 
-InputFile::InputFile(const std::string& path) : name_(path == "-" ? "stdin" : path) {
-  fd_ = path == "-" ? ::dup(0) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+InputFile::InputFile(const std::string& path, NamedBy named_by)
+    : name_(path == "-" && named_by == NamedBy::user ? "stdin" : path) {
+  const bool waits = named_by == NamedBy::user;
+  fd_ = waits && path == "-" ? ::dup(0) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (waits ? 0 : O_NONBLOCK));
   if (fd_ < 0) fail(ErrorCode::bad_input, "{}: {}", name_, std::strerror(errno));
   struct stat info {};
   if (::fstat(fd_, &info) != 0) fail(ErrorCode::bad_input, "{}: {}", name_, std::strerror(errno));
   if (S_ISDIR(info.st_mode)) fail(ErrorCode::bad_input, "{}: is a directory, not a file", name_);
+  if (!waits && !S_ISREG(info.st_mode))
+    fail(ErrorCode::bad_input, "{}: is a pipe or a device, and a file may name regular files only", name_);
   seekable_ = S_ISREG(info.st_mode) && ::lseek(fd_, 0, SEEK_CUR) == 0;
   if (seekable_) size_ = std::uint64_t(info.st_size);
 }
@@ -291,8 +295,8 @@ std::uint64_t ScratchFile::size() const {
   return state_->size;
 }
 
-std::string read_text(const std::string& path, std::uint64_t limit) {
-  InputFile file(path);
+std::string read_text(const std::string& path, std::uint64_t limit, NamedBy named_by) {
+  InputFile file(path, named_by);
   std::string text;
   std::byte block[65536];
   while (const std::size_t n = file.read(block)) {

@@ -11,10 +11,14 @@
 /// missing or unreadable input bad_input, full disk out_of_resource, EPIPE closed_pipe, anything else failed.
 namespace bp {
 
-/// Sequential input. "-" is stdin.
+/// Who names a file that is read. What a file names, or a folder holds, must be a regular file: a named pipe would be
+/// waited for, and a device has no end.
+enum class NamedBy { user, file };
+
+/// Sequential input. "-" is stdin, if the user names it.
 class InputFile {
  public:
-  explicit InputFile(const std::string& path);
+  explicit InputFile(const std::string& path, NamedBy named_by = NamedBy::user);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
@@ -110,6 +114,7 @@ class ScratchFile {
 };
 
 /// Whole file as a string; bad_input if it is missing or larger than `limit` bytes.
-[[nodiscard]] std::string read_text(const std::string& path, std::uint64_t limit = std::uint64_t(1) << 26);
+[[nodiscard]] std::string read_text(const std::string& path, std::uint64_t limit = std::uint64_t(1) << 26,
+                                    NamedBy named_by = NamedBy::user);
 
 }  // namespace bp

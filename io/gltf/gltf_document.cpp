@@ -235,7 +235,7 @@ SceneFilePtr GltfDocument::open_beside(const GltfObject& buffer, const std::stri
   if (file_->path().empty()) buffer.broken("lies in another file, which stdin cannot name");
   if (uri.find("://") != std::string::npos) buffer.broken("lies on the network; download it");
   try {
-    return open_scene_file(path_beside(uri), temp_dir_);
+    return open_scene_file(path_beside(uri), temp_dir_, NamedBy::file);
   } catch (const Error& e) {
     fail_as(e, "{}: its data are missing: {}; put that file beside it", file_->name(), e.what());
   }

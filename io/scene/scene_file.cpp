@@ -68,8 +68,8 @@ SceneFilePtr spool(InputFile& pipe, const std::string& temp_dir) {
 
 }  // namespace
 
-SceneFilePtr open_scene_file(const std::string& path, const std::string& temp_dir) {
-  auto file = std::make_unique<InputFile>(path);
+SceneFilePtr open_scene_file(const std::string& path, const std::string& temp_dir, NamedBy named_by) {
+  auto file = std::make_unique<InputFile>(path, named_by);
   keep_file(path);  // also what no list of a scene's parts holds
   // A seekable stdin may stand anywhere in its file, so it is spooled from there as a pipe is.
   if (!file->seekable() || path == "-") return spool(*file, temp_dir);

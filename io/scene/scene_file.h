@@ -24,7 +24,8 @@ class SceneFile {
 using SceneFilePtr = std::shared_ptr<const SceneFile>;
 
 /// Opens a file; a pipe ("-" or a named one) is spooled to a scratch file first.
-[[nodiscard]] SceneFilePtr open_scene_file(const std::string& path, const std::string& temp_dir);
+[[nodiscard]] SceneFilePtr open_scene_file(const std::string& path, const std::string& temp_dir,
+                                           NamedBy named_by = NamedBy::user);
 
 /// Bytes of a scratch file that someone else appends to; `size` where another process did.
 [[nodiscard]] SceneFilePtr view_of(std::shared_ptr<const ScratchFile> scratch, const std::string& name,

@@ -27,7 +27,7 @@ std::vector<std::byte> bytes_of(const ImagePlace& place, std::uint64_t most) {
   std::error_code unknown;  // a pipe would wait for ever
   if (!file && (place.path.empty() || !std::filesystem::is_regular_file(place.path, unknown)))
     fail(ErrorCode::bad_input, "{}: the image is not there", place.name);
-  if (!file) file = open_scene_file(place.path, "");
+  if (!file) file = open_scene_file(place.path, "", NamedBy::file);
   if (most == kMostBytes && file->size() > kMostBytes)
     fail(ErrorCode::bad_input, "{}: an image of {} MiB; at most {} are read", place.name, file->size() >> 20,
          kMostBytes >> 20);

@@ -82,10 +82,10 @@ class FolderStore final : public ResultStore {
       : folder_(std::move(folder)), on_failure_(std::move(on_failure)), made_(folder_) {}
 
   bool get(const ResultKey& key, std::string& out) override {
-    const Descriptor file(::open(name_of(key).c_str(), O_RDONLY | O_CLOEXEC));
+    const Descriptor file(::open(name_of(key).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
     Head head{};
     struct stat info {};
-    if (file.get() < 0 || ::fstat(file.get(), &info) != 0) return false;
+    if (file.get() < 0 || ::fstat(file.get(), &info) != 0 || !S_ISREG(info.st_mode)) return false;
     if (!read_all(file.get(), std::as_writable_bytes(std::span(&head, 1)))) return false;
     if (std::memcmp(head.magic, kMagic, sizeof kMagic) != 0 || head.key[0] != key.words[0] ||
         head.key[1] != key.words[1] || std::uint64_t(info.st_size) != sizeof head + head.packed || head.size >> 40 != 0)

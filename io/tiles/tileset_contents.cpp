@@ -103,7 +103,7 @@ class ContentFinder {
     if (!is_file(path)) {
       if (missing_++ == 0) first_missing_ = path;
     } else if (is_tileset) {
-      const CountedJson tileset = read_json(open_scene_file(path, temp_dir_of(options_)), options_, held_);
+      const CountedJson tileset = read_json(open_scene_file(path, temp_dir_of(options_), NamedBy::file), options_, held_);
       held_ += tileset.bytes;
       add_tileset(GltfObject(tileset.json, path, ""), path, place);
       held_ -= tileset.bytes;

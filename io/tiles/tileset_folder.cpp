@@ -25,9 +25,28 @@ namespace fs = std::filesystem;
 constexpr const char* kTileset = "tileset.json";
 constexpr const char* kPartial = "/.partial";
 constexpr const char* kMoving = "/moving";
+constexpr const char* kImages[] = {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp", ".gif", ".ktx2"};
 
 bool is_inside(const std::string& name) {
   return !name.empty() && name.find("..") == std::string::npos && name[0] != '/';
+}
+
+/// Whether the provenance in a tileset or a GLB says that bplod made it.
+bool was_made_here(const std::string& path) {
+  constexpr std::size_t kHead = 65536;  // the asset comes first in all files of ours
+  try {
+    const InputFile file(path, NamedBy::file);
+    std::string head(kHead, '\0');
+    head.resize(file.read_at(0, std::as_writable_bytes(std::span(head))));
+    return head.find(R"("tool":"bplod")") != std::string::npos || head.find(R"("tool": "bplod")") != std::string::npos;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+bool names_image(const std::string& name) {
+  return std::any_of(std::begin(kImages), std::end(kImages),
+                     [&](const char* ending) { return name.ends_with(ending); });
 }
 
 std::vector<std::string> contents_of(const std::string& tileset) {
@@ -44,7 +63,7 @@ std::vector<std::string> contents_of(const std::string& tileset) {
 std::vector<std::string> names_from(const std::string& path) {
   std::vector<std::string> names;
   if (!fs::exists(path)) return names;
-  const std::string text = read_text(path, UINT32_MAX);
+  const std::string text = read_text(path, UINT32_MAX, NamedBy::file);
   for (std::size_t at = 0, end = 0; (end = text.find('\0', at)) != std::string::npos; at = end + 1) {
     names.push_back(text.substr(at, end - at));
     if (!is_inside(names.back())) names.pop_back();
@@ -57,7 +76,7 @@ bool holds(const std::string& path, const std::string& bytes) {
   std::error_code missing;
   if (fs::file_size(path, missing) != bytes.size() || missing) return false;
   try {
-    return read_text(path, bytes.size()) == bytes;
+    return read_text(path, bytes.size(), NamedBy::file) == bytes;
   } catch (const Error&) {  // not to be read: then it is written
     return false;
   }
@@ -154,7 +173,7 @@ void TilesetFolder::write(const std::string& name, const std::string& bytes) {
 std::vector<std::string> TilesetFolder::names_before() {
   std::vector<std::string> names = names_from(partial_ + kMoving);
   const std::string tileset = path_ + "/" + kTileset;
-  if (!fs::exists(tileset)) return names;
+  if (!was_made_here(tileset)) return names;  // what another tileset names is not ours to remove
   try {
     const std::vector<std::string> contents = contents_of(tileset);
     names.insert(names.end(), contents.begin(), contents.end());
@@ -224,7 +243,8 @@ void TilesetFolder::take_back(const std::vector<std::string>& moved_before) {
 void TilesetFolder::remove_others(const std::vector<std::string>& before) const {
   for (const std::string& name : before) {
     if (std::binary_search(names_.begin(), names_.end(), name)) continue;
-    (void)remove_file(path_ + "/" + name);
+    const std::string path = path_ + "/" + name;
+    if (names_image(name) || was_made_here(path)) (void)remove_file(path);
     std::error_code ignored;
     const fs::path folder = fs::path(name).parent_path();
     if (!folder.empty()) fs::remove(path_ / folder, ignored);  // if it is empty now

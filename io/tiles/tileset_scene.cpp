@@ -33,7 +33,7 @@ class RestingFile final : public SceneFile {
   }
 
  private:
-  [[nodiscard]] SceneFilePtr open() const { return open_scene_file(path_, temp_dir_); }
+  [[nodiscard]] SceneFilePtr open() const { return open_scene_file(path_, temp_dir_, NamedBy::file); }
   [[nodiscard]] SceneFilePtr file() const {
     const std::lock_guard lock(mutex_);
     return file_ ? file_ : open();

@@ -27,7 +27,7 @@ void MtlMaterials::load(const std::string& beside, const std::string& name) {
 }
 
 void MtlMaterials::read(const std::string& path) {
-  TextScanner text(open_scene_file(path, ""));
+  TextScanner text(open_scene_file(path, "", NamedBy::file));
   const std::string folder = path.substr(0, path.rfind('/') + 1);
   Material* current = nullptr;
   for (; !text.at_end(); text.next_line()) {

@@ -231,3 +231,16 @@ TEST_CASE("the other files of a glTF are found in any amount of JSON", "[quick][
   CHECK(names_in(R"([{"buffers":[{"uri":"no.bin"}]}])").empty());
   CHECK(names_in(std::string(100'000, '[')).empty());
 }
+
+TEST_CASE("what a file names must be a regular file, and is not waited for", "[quick][io]") {
+  const TempDir dir;
+  const std::string pipe = dir.path("pipe"), plain = dir.path("plain"), link = dir.path("link");
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);  // nobody writes: opened as a user's file, it would wait for ever
+  write_file(plain, "text");
+  std::filesystem::create_symlink(plain, link);
+  CHECK(InputFile(plain, NamedBy::file).size() == 4);
+  CHECK(read_text(link, 100, NamedBy::file) == "text");
+  for (const std::string& path : {pipe, std::string("/dev/zero"), std::string("/dev/null"), dir.path(".")})
+    CHECK_THROWS_AS(InputFile(path, NamedBy::file), Error);
+  CHECK_THROWS_AS(InputFile("-", NamedBy::file), Error);  // the name of no file here
+}
